@@ -1,0 +1,31 @@
+//! What a tilted drop does to a flat body.
+//!
+//! A rigid bar falls almost level, lands on one end, then the other, in a rapid train of impacts: the
+//! clatter. This crate computes that train and what follows from it.
+//!
+//! # The picture
+//!
+//! The bar has ends `a` and `b`; end `a` strikes first. Velocities are those of the ends, **upward
+//! positive**, so a falling bar starts from `[-1, -1]` in units of the drop speed `v0`. Times are in units
+//! of `h0/v0`, where `h0` is the height of end `b` at the moment end `a` touches. A position `s` on the
+//! bar runs from −1 (end `a`) through 0 (the center) to 1 (end `b`).
+//!
+//! Two numbers decide everything: the coefficient of restitution `e` and the inertia ratio
+//! `q = (L² − ρ²)/(L² + ρ²)` of half-length `L` and radius of gyration `ρ`.
+
+mod bar;
+mod error;
+mod map;
+pub mod reference;
+mod start;
+mod summary;
+mod train;
+mod zone;
+
+pub use bar::{Bar, Restitution};
+pub use error::Error;
+pub use map::{Axis, Map, Quantity};
+pub use start::{End, Start};
+pub use summary::{Count, Net, Peak, PeakImpact, Summary};
+pub use train::{Impact, Train};
+pub use zone::{Extent, Zone};

@@ -1,0 +1,74 @@
+//! How the bar arrives: the velocities of both ends at first contact and the height gap.
+
+use crate::Error;
+
+/// An end of the bar. End `a` strikes first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum End {
+    /// The end that strikes first, at position −1.
+    A,
+    /// The other end, at position 1.
+    B,
+}
+
+impl End {
+    /// The other end.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::A => Self::B,
+            Self::B => Self::A,
+        }
+    }
+    /// The end that impact `number` (from 1) falls on: odd numbers on `a`, even ones on `b`.
+    #[must_use]
+    pub fn of_impact(number: u64) -> Self {
+        if number % 2 == 1 { Self::A } else { Self::B }
+    }
+}
+
+/// State of the bar at the instant end `a` first touches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Start {
+    velocity: [f64; 2],
+    height_gap: f64,
+}
+
+impl Default for Start {
+    /// Pure translation at unit speed, unit height gap: velocities in v0, times in h0/v0.
+    fn default() -> Self {
+        Self { velocity: [-1.0, -1.0], height_gap: 1.0 }
+    }
+}
+
+impl Start {
+    /// Velocities of both ends (upward positive) and the height of end `b` above the ground.
+    ///
+    /// # Errors
+    /// [`Error::Velocity`] unless `velocity[0]` is in [−1e150, −1e−150] and `|velocity[1]| ≤ 1e150`;
+    /// [`Error::Quantity`] unless `height_gap` is 0 or in [1e−150, 1e150]. Within these bounds no result
+    /// overflows that is finite.
+    pub fn new(velocity: [f64; 2], height_gap: f64) -> Result<Self, Error> {
+        let [va, vb] = velocity;
+        if !(-1e150..=-1e-150).contains(&va) {
+            return Err(Error::Velocity(va, vb, "end a must approach the ground, with v_a in [-1e150, -1e-150]"));
+        }
+        if !(-1e150..=1e150).contains(&vb) {
+            return Err(Error::Velocity(va, vb, "v_b must be in [-1e150, 1e150]"));
+        }
+        if height_gap != 0.0 && !(1e-150..=1e150).contains(&height_gap) {
+            return Err(Error::Quantity { name: "height gap", value: height_gap, allowed: "0 or in [1e-150, 1e150]" });
+        }
+        Ok(Self { velocity: [va, vb + 0.0], height_gap: height_gap + 0.0 })
+    }
+    /// Velocities of ends `a` and `b`, upward positive.
+    #[must_use]
+    pub fn velocity(&self) -> [f64; 2] {
+        self.velocity
+    }
+    /// Height of end `b` above the ground when end `a` touches.
+    #[must_use]
+    pub fn height_gap(&self) -> f64 {
+        self.height_gap
+    }
+}

@@ -1,0 +1,1 @@
+//! Snapshots of numbers, figures and pages.
