@@ -44,7 +44,6 @@ pub(crate) fn two_prod(a: f64, b: f64) -> Dd {
 
 impl Dd {
     pub(crate) const ZERO: Self = Self { hi: 0.0, lo: 0.0 };
-    pub(crate) const ONE: Self = Self { hi: 1.0, lo: 0.0 };
 
     pub(crate) fn abs(self) -> Self {
         if self.hi < 0.0 { -self } else { self }
