@@ -32,4 +32,4 @@ pub use map::{Axis, Map, Quantity};
 pub use start::{End, Start};
 pub use summary::{Count, Net, Peak, PeakImpact, Summary};
 pub use train::{Impact, Train};
-pub use zone::{Extent, Zone};
+pub use zone::{EndPeaks, Extent, Zone};

@@ -78,7 +78,13 @@ fn every_case_of_the_oracle_is_within_the_allowed_errors() {
 
         let edge = name.starts_with("spun-out");
         let long = !short;
-        let allowed = if edge { &NEAR_ENDLESS } else if long { &DURATION_LONG } else { &DURATION };
+        let allowed = if edge {
+            &NEAR_ENDLESS
+        } else if long {
+            &DURATION_LONG
+        } else {
+            &DURATION
+        };
         let duration = number(&c.duration);
         worst.hold(name, allowed, s.duration, duration, duration.max(1.0));
 
