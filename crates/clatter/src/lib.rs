@@ -14,8 +14,11 @@
 //! `q = (L² − ρ²)/(L² + ρ²)` of half-length `L` and radius of gyration `ρ`.
 
 mod bar;
+pub mod contour;
 mod error;
 mod map;
+pub mod paper;
+mod quadrature;
 pub mod reference;
 mod start;
 mod summary;
@@ -25,6 +28,7 @@ mod zone;
 pub use bar::{Bar, Restitution};
 pub use error::Error;
 pub use map::{Axis, Map, Quantity};
+pub use quadrature::Integral;
 pub use start::{End, Start};
 pub use summary::{Count, Net, Peak, PeakImpact, Summary};
 pub use train::{Impact, Train};
