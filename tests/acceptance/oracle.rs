@@ -3,31 +3,16 @@
 //! Velocities are in v0, times in h0/v0. Every input is the exact value of its f64; results carry 24 digits and are
 //! rounded to f64 here, which costs 1e-16 of each, a thousandth of the tightest allowed error.
 
+use clatter::accuracy;
 use serde::Deserialize;
 use serde_json::Value;
 
 use crate::answer;
 
-/// Allowed errors: what the project promises, and nothing beyond.
-mod allowed {
-    /// Of the peak at the ends, relative.
-    pub(super) const PEAK: f64 = 1e-13;
-    /// Of the peaks derived from it, relative to it; of approach velocities and jumps, relative to the larger of
-    /// them and the start.
-    pub(super) const VELOCITY: f64 = 1e-12;
-    /// Of strike times, relative to the larger of the time and 1.
-    pub(super) const TIME: f64 = 1e-10;
-    /// Of final velocities, relative to the larger one, up to 10⁴ impacts.
-    pub(super) const FINAL: f64 = 1e-9;
-    /// Of the duration, relative to the larger of it and 1, up to 10⁴ impacts.
-    pub(super) const DURATION: f64 = 1e-9;
-    /// The same beyond 10⁴ impacts.
-    pub(super) const DURATION_LONG: f64 = 1e-6;
-    /// Of all times and final velocities for starts within 1e-9 of the edge of endless.
-    pub(super) const AT_THE_EDGE: f64 = 1e-5;
-    /// Of the safe zone, relative to the larger of it and 1.
-    pub(super) const ZONE: f64 = 1e-12;
-}
+/// Of the peaks derived from the one at the ends, relative to that: two roundings more than [`accuracy::PEAK`] allow.
+const DERIVED_PEAK: f64 = 1e-12;
+/// Of the safe zone, relative to the larger of it and 1: [`accuracy::PEAK`] over 1 + q, which is not small here.
+const ZONE: f64 = 1e-12;
 
 #[derive(Deserialize)]
 struct Oracle {
@@ -105,7 +90,7 @@ impl Case {
 
     /// Whether single impacts far along are held to what is promised up to 10⁴ impacts.
     fn is_short(&self) -> bool {
-        self.count().is_none_or(|n| n <= 10_000)
+        self.count().is_none_or(|n| n <= accuracy::SHORT)
     }
 
     fn is_at_the_edge(&self) -> bool {
@@ -162,9 +147,9 @@ fn the_peak_and_the_impact_that_holds_it_are_right() {
         } else {
             let q = case.q();
             vec![
-                off("peak.end", &got["end"], peak, allowed::PEAK, peak),
-                off("peak.center", &got["center"], 0.5 * (1.0 - q) * peak, allowed::VELOCITY, peak),
-                off("peak.angular", &got["angular"], 0.5 * (1.0 + q) * peak, allowed::VELOCITY, peak),
+                off("peak.end", &got["end"], peak, accuracy::PEAK.error, peak),
+                off("peak.center", &got["center"], 0.5 * (1.0 - q) * peak, DERIVED_PEAK, peak),
+                off("peak.angular", &got["angular"], 0.5 * (1.0 + q) * peak, DERIVED_PEAK, peak),
             ]
         };
         if case.is_short() {
@@ -179,9 +164,9 @@ fn the_duration_is_right_also_where_the_train_is_endless() {
     for_every_case(|case| {
         let (got, want) = (case.answer(), decimal(&case.duration));
         let allowed = match (case.is_at_the_edge(), case.is_short()) {
-            (true, _) => allowed::AT_THE_EDGE,
-            (false, true) => allowed::DURATION,
-            (false, false) => allowed::DURATION_LONG,
+            (true, _) => accuracy::NEAR_ENDLESS.error,
+            (false, true) => accuracy::DURATION.error,
+            (false, false) => accuracy::DURATION_LONG.error,
         };
         vec![if want.is_infinite() {
             differs("duration", &got["duration"], "infinite")
@@ -210,7 +195,7 @@ fn the_velocities_at_the_end_and_their_net_change_are_right() {
                 ];
             }
         };
-        let allowed = if case.is_at_the_edge() { allowed::AT_THE_EDGE } else { allowed::FINAL };
+        let allowed = if case.is_at_the_edge() { accuracy::NEAR_ENDLESS.error } else { accuracy::FINAL.error };
         let larger = last[0].abs().max(last[1].abs());
         let [da, db] = [last[0] - case.va, last[1] - case.vb];
         vec![
@@ -231,7 +216,7 @@ fn the_first_impacts_are_right_one_by_one() {
         let Value::Array(listed) = &answer["impacts"] else { return vec![Some("no list of impacts".to_owned())] };
         let expected = case.count().map_or(10, |n| n.min(10));
         let mut wrong = vec![differs("number of impacts listed", &Value::from(listed.len()), expected)];
-        let allowed_time = if case.is_at_the_edge() { allowed::AT_THE_EDGE } else { allowed::TIME };
+        let allowed_time = if case.is_at_the_edge() { accuracy::NEAR_ENDLESS.error } else { accuracy::TIME.error };
         for (i, (got, (approach, time))) in listed.iter().zip(case.approach.iter().zip(&case.times)).enumerate() {
             let (approach, time) = (decimal(approach), decimal(time));
             let scale = approach.abs().max(case.va.abs());
@@ -240,10 +225,10 @@ fn the_first_impacts_are_right_one_by_one() {
             wrong.extend([
                 differs("number", &got["number"], i + 1),
                 differs("end", &got["end"], end),
-                off("approach", &got["approach"], approach, allowed::VELOCITY, scale),
+                off("approach", &got["approach"], approach, accuracy::APPROACH.error, scale),
                 off("time", &got["time"], time, allowed_time, time.max(1.0)),
-                off("delta_v[0]", &got["delta_v"][0], a, allowed::VELOCITY, 2.0 * scale),
-                off("delta_v[1]", &got["delta_v"][1], b, allowed::VELOCITY, 2.0 * scale),
+                off("delta_v[0]", &got["delta_v"][0], a, accuracy::JUMP.error, 2.0 * scale),
+                off("delta_v[1]", &got["delta_v"][1], b, accuracy::JUMP.error, 2.0 * scale),
             ]);
         }
         wrong
@@ -268,7 +253,7 @@ fn the_safe_zone_is_right_and_says_what_it_means() {
             let (got, s) = (&got["zones"][i], (2.0 * threshold / peak + q - 1.0) / (1.0 + q));
             let extent = if s < 0.0 { "none" } else if s < 1.0 { "part" } else { "whole" };
             wrong.push(differs("threshold", &got["threshold"], threshold));
-            wrong.push(off("s", &got["s"], s, allowed::ZONE, s.abs().max(1.0)));
+            wrong.push(off("s", &got["s"], s, ZONE, s.abs().max(1.0)));
             // On the border itself a rounding decides between two right answers.
             if s.abs().min((s - 1.0).abs()) > 1e-9 {
                 wrong.push(differs("extent", &got["extent"], extent));
