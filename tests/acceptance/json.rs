@@ -28,9 +28,11 @@ fn impacts_has_the_fields_of_the_contract() {
     assert_eq!(got["count_exact"], json!(true));
     assert_eq!(got["peak"]["impact"], json!(2));
     assert_eq!(got["impacts"].as_array().unwrap().len(), 4);
-    // Shocks at end a itself and three quarters of the way to end b, from the jumps 1.3 and -0.65 of the ends.
+    // At end a itself, and three quarters of the way to end b, from the jumps 1.3 and -0.65 of the ends.
     assert_eq!(got["impacts"][0]["delta_v"], json!([1.3, -0.65]));
-    assert_eq!(got["impacts"][0]["delta_v_at"], json!([1.3, -0.1625]));
+    assert_eq!(got["impacts"][0]["delta_v_at"][0], json!(1.3));
+    let between = got["impacts"][0]["delta_v_at"][1].as_f64().unwrap();
+    assert!((between + 0.1625).abs() < 1e-15, "{between} is off by more than the roundings of numbers about 1");
 }
 
 #[test]
@@ -84,8 +86,17 @@ fn an_endless_train_ends_at_rest_exactly() {
 fn a_flat_drop_keeps_its_order_at_one_instant() {
     let got = answer(["impacts", "--q=0.5", "--e=0.3", "--height-gap=0"]);
     assert_eq!(got["duration"], json!(0.0));
-    let ends: Vec<_> = got["impacts"].as_array().unwrap().iter().map(|impact| (&impact["end"], &impact["time"])).collect();
-    assert_eq!(ends, [(&json!("a"), &json!(0.0)), (&json!("b"), &json!(0.0)), (&json!("a"), &json!(0.0)), (&json!("b"), &json!(0.0))]);
+    let ends: Vec<_> =
+        got["impacts"].as_array().unwrap().iter().map(|impact| (&impact["end"], &impact["time"])).collect();
+    assert_eq!(
+        ends,
+        [
+            (&json!("a"), &json!(0.0)),
+            (&json!("b"), &json!(0.0)),
+            (&json!("a"), &json!(0.0)),
+            (&json!("b"), &json!(0.0))
+        ]
+    );
 }
 
 #[test]

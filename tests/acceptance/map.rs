@@ -116,7 +116,7 @@ fn a_grid_of_one_point_is_a_grid() {
     let file = folder.path().join("one.csv");
     let outcome = clatter(["map", "impacts", "--q=0.5:0.5:1", "--e=0.3:0.3:1", "-o", file.to_str().unwrap()]);
     assert_eq!((outcome.exit, outcome.stderr.as_str()), (Exit::Done, ""));
-    assert_eq!(fs::read_to_string(&file).unwrap(), "q,e,impacts\n0.5,0.3,4.0\n");
+    assert_eq!(fs::read_to_string(&file).unwrap(), "q,e,impacts\n0.5,0.3,4\n");
 }
 
 #[test]
@@ -126,7 +126,10 @@ fn the_answer_says_what_was_written() {
     let name = file.to_str().unwrap();
     let arguments = ["map", "peak-end", "--q=0:1:3", "--e=0:1:4", "-o", name];
     let told = clatter(arguments).stdout;
-    assert_eq!(told, format!("{name}: peak-end over 3 values of q from 0 to 1.00000 and 4 values of e from 0 to 1.00000\n"));
+    assert_eq!(
+        told,
+        format!("{name}: peak-end over 3 values of q from 0 to 1.00000 and 4 values of e from 0 to 1.00000\n")
+    );
     assert_eq!(answer(arguments), json!({"file": name, "quantity": "peak-end", "points": [3, 4]}));
 }
 

@@ -251,7 +251,13 @@ fn the_safe_zone_is_right_and_says_what_it_means() {
         let mut wrong = Vec::new();
         for (i, threshold) in thresholds.into_iter().enumerate() {
             let (got, s) = (&got["zones"][i], (2.0 * threshold / peak + q - 1.0) / (1.0 + q));
-            let extent = if s < 0.0 { "none" } else if s < 1.0 { "part" } else { "whole" };
+            let extent = if s < 0.0 {
+                "none"
+            } else if s < 1.0 {
+                "part"
+            } else {
+                "whole"
+            };
             wrong.push(differs("threshold", &got["threshold"], threshold));
             wrong.push(off("s", &got["s"], s, ZONE, s.abs().max(1.0)));
             // On the border itself a rounding decides between two right answers.

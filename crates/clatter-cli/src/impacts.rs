@@ -81,6 +81,7 @@ impl Drop<'_> {
     fn cut_short(&self) -> Option<String> {
         let listed = self.limit;
         let of = match self.summary.count {
+            _ if listed == 0 => return None, // the summary alone was asked for
             Count::Finite(n) if u64::try_from(listed).is_ok_and(|listed| listed >= n) => return None,
             Count::Finite(n) => format!("{n} impacts"),
             Count::Huge(n) => format!("about {} impacts", figures(n)),
@@ -98,7 +99,11 @@ impl Drop<'_> {
             self.bar.e(),
             figures(self.bar.gyration_ratio())
         )?;
-        writeln!(out, "End a strikes first, at {va} v0; end b comes with {vb} v0 from {} h0\n", self.start.height_gap())?;
+        writeln!(
+            out,
+            "End a strikes first, at {va} v0; end b comes with {vb} v0 from {} h0\n",
+            self.start.height_gap()
+        )?;
 
         let impacts = match count {
             Count::Finite(n) => n.to_string(),
@@ -135,9 +140,13 @@ impl Drop<'_> {
         if self.limit == 0 {
             return Ok(());
         }
-        write!(out, "\n{:>9}  end {:>13} {:>13} {:>13} {:>13}", "impact", "time", "approach", "shock at a", "at b")?;
+        write!(
+            out,
+            "\n{:>9}  end {:>13} {:>13} {:>13} {:>13}",
+            "impact", "time", "approach", "shock at a", "shock at b"
+        )?;
         for s in self.at {
-            write!(out, " {:>13}", format!("at {s}"))?;
+            write!(out, " {:>13}", format!("shock at {s}"))?;
         }
         write!(out, "\n{:>9}      {:>13} {:>13} {:>13} {:>13}", "", "h0/v0", "v0", "v0", "v0")?;
         for _ in self.at {

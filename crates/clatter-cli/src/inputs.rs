@@ -105,7 +105,12 @@ fn number(text: &str) -> Result<f64, String> {
     text.parse().map_err(|_| format!("'{text}' is not a number such as 0.5"))
 }
 
-fn one_of_range(name: &'static str, text: &str, good: impl Fn(f64) -> bool, allowed: &'static str) -> Result<f64, String> {
+fn one_of_range(
+    name: &'static str,
+    text: &str,
+    good: impl Fn(f64) -> bool,
+    allowed: &'static str,
+) -> Result<f64, String> {
     let value = number(text)?;
     if good(value) { Ok(value) } else { Err(Error::Quantity { name, value, allowed }.to_string()) }
 }

@@ -86,7 +86,8 @@ struct Cli {
     command: Command,
 }
 
-const SHORT_HELP: &str = "Start with 'clatter impacts --q=0.5 --e=0.3'. 'clatter --help' tells what q, e and the units are.";
+const SHORT_HELP: &str =
+    "Start with 'clatter impacts --q=0.5 --e=0.3'. 'clatter --help' tells what q, e and the units are.";
 
 #[derive(Debug, Subcommand)]
 enum Command {

@@ -9,7 +9,7 @@ use clatter::{Axis, Map, Quantity};
 use serde::{Serialize, Serializer};
 
 use crate::inputs::{self, Format};
-use crate::numbers::{Json, digits, figures};
+use crate::numbers::{Json, JsonWhole, digits, figures, whole};
 use crate::{Failure, Streams, npy, output};
 
 /// Write a quantity over a grid of q and e to a file
@@ -23,12 +23,15 @@ use crate::{Failure, Streams, npy, output};
 ///
 /// An endless train counts as inf ("infinite" in JSON).
 #[derive(Debug, clap::Args)]
-#[command(verbatim_doc_comment, after_help = "\
+#[command(
+    verbatim_doc_comment,
+    after_help = "\
 Examples:
   clatter map peak-end --q=0:1:201 --e=0:1:201 -o peak.svg
   clatter map zone --threshold=0.5 --q=0:1:1000 --e=0:1:1000 -o zone.npy
 
-'clatter --help' tells what q, e and the units are.")]
+'clatter --help' tells what q, e and the units are."
+)]
 pub(crate) struct Args {
     #[arg(value_enum)]
     quantity: QuantityName,
@@ -146,7 +149,8 @@ impl Args {
                 figures(map.e.value(map.e.points() - 1)),
             ),
             Format::Json => {
-                let written = WrittenJson { file: path, quantity: name(quantity), points: [map.q.points(), map.e.points()] };
+                let written =
+                    WrittenJson { file: path, quantity: name(quantity), points: [map.q.points(), map.e.points()] };
                 serde_json::to_writer(&mut *streams.out, &written)?;
                 writeln!(streams.out)
             }
@@ -161,12 +165,17 @@ fn buffered(file: &mut File, write: impl FnOnce(&mut BufWriter<&mut File>) -> io
     out.flush()
 }
 
+/// Whether the values are whole numbers.
+fn counts(map: &Map) -> bool {
+    map.quantity == Quantity::Impacts
+}
+
 fn csv(map: &Map, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "q,e,{}", name(map.quantity))?;
     for (i, row) in map.values.chunks(map.e.points()).enumerate() {
         let q = digits(map.q.value(i));
         for (j, &value) in row.iter().enumerate() {
-            writeln!(out, "{q},{},{}", digits(map.e.value(j)), digits(value))?;
+            writeln!(out, "{q},{},{}", digits(map.e.value(j)), if counts(map) { whole(value) } else { digits(value) })?;
         }
     }
     Ok(())
@@ -199,13 +208,20 @@ impl<'a> MapJson<'a> {
 }
 
 fn rows<S: Serializer>(map: &&Map, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_seq(map.values.chunks(map.e.points()).map(Row))
+    serializer.collect_seq(map.values.chunks(map.e.points()).map(|values| Row { values, counts: counts(map) }))
 }
 
-struct Row<'a>(&'a [f64]);
+struct Row<'a> {
+    values: &'a [f64],
+    counts: bool,
+}
 
 impl Serialize for Row<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(self.0.iter().copied().map(Json))
+        if self.counts {
+            serializer.collect_seq(self.values.iter().copied().map(JsonWhole))
+        } else {
+            serializer.collect_seq(self.values.iter().copied().map(Json))
+        }
     }
 }

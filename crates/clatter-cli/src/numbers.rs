@@ -41,6 +41,28 @@ impl Serialize for Json {
     }
 }
 
+/// A count that is kept as a float, for csv: without a fraction as long as every whole number has its own float.
+pub(crate) fn whole(x: f64) -> String {
+    if x.abs() < TWO_TO_53 { format!("{x:.0}") } else { digits(x) }
+}
+
+const TWO_TO_53: f64 = 9_007_199_254_740_992.0;
+
+/// The same in JSON.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct JsonWhole(pub(crate) f64);
+
+impl Serialize for JsonWhole {
+    #[expect(clippy::cast_possible_truncation, reason = "whole and below 2^53")]
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        if self.0.abs() < TWO_TO_53 {
+            serializer.serialize_i64(self.0 as i64)
+        } else {
+            Json(self.0).serialize(serializer)
+        }
+    }
+}
+
 /// A count in JSON: an integer up to 2⁶⁴, a float beyond, `"endless"`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct JsonCount(pub(crate) Count);
@@ -108,5 +130,13 @@ mod tests {
         assert_eq!(json(Count::Finite(u64::MAX)), "18446744073709551615");
         assert_eq!(json(Count::Huge(36_893_488_147_419_103_232.0)), "3.6893488147419103e+19");
         assert_eq!(json(Count::Endless), "\"endless\"");
+        for (x, text, in_json) in [
+            (4.0, "4", "4"),
+            (9_007_199_254_740_991.0, "9007199254740991", "9007199254740991"),
+            (9_007_199_254_740_992.0, "9007199254740992.0", "9007199254740992.0"),
+            (f64::INFINITY, "inf", "\"infinite\""),
+        ] {
+            assert_eq!((whole(x).as_str(), serde_json::to_string(&JsonWhole(x)).unwrap().as_str()), (text, in_json));
+        }
     }
 }

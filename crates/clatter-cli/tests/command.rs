@@ -55,7 +55,12 @@ fn an_answer_that_cannot_be_written_is_an_error_even_if_it_is_short() {
 #[cfg(target_os = "linux")]
 fn map_on_a_full_disk(reaching_it: &str, file: &std::path::Path) -> std::process::Output {
     Command::new("sh")
-        .args(["-c", &format!("{reaching_it} ulimit -c 0; ulimit -f 8; exec \"$@\""), "sh", env!("CARGO_BIN_EXE_clatter")])
+        .args([
+            "-c",
+            &format!("{reaching_it} ulimit -c 0; ulimit -f 8; exec \"$@\""),
+            "sh",
+            env!("CARGO_BIN_EXE_clatter"),
+        ])
         .args(["map", "peak-end", "--q=0:0.5:100", "--e=0:0.1:100", "-o"])
         .arg(file)
         .output()
