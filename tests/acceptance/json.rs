@@ -52,6 +52,12 @@ fn negative_zero_is_taken_for_zero() {
 }
 
 #[test]
+fn a_negative_value_may_stand_apart_from_its_flag() {
+    let got = answer(["impacts", "--q", "-0.5", "--e", "0.3", "--velocity", "-2,-1", "--at", "-1"]);
+    assert_eq!((&got["q"], &got["velocity"], &got["at"]), (&json!(-0.5), &json!([-2.0, -1.0]), &json!([-1.0])));
+}
+
+#[test]
 fn velocities_that_never_settle_are_null_except_at_the_center() {
     // All mass at the center: nothing slows it, and the ends strike until half a time unit has passed.
     let got = answer(["impacts", "--q=1", "--e=0.5", "--limit=0"]);

@@ -30,10 +30,3 @@ impl Failure {
         }
     }
 }
-
-/// Only answers are written with serde: a file's errors carry its path.
-impl From<serde_json::Error> for Failure {
-    fn from(error: serde_json::Error) -> Self {
-        Self::Answer(error.into())
-    }
-}

@@ -6,7 +6,7 @@ use clatter::{Bar, Count, Impact, PeakImpact, Start, Summary};
 use serde::{Serialize, Serializer};
 
 use crate::inputs::{self, BarArgs, RowFormat, letter};
-use crate::numbers::{Json, JsonCount, digits, figures};
+use crate::numbers::{Json, JsonCount, digits, figures, given};
 use crate::{Failure, Streams};
 
 /// List the impacts of one drop and what they amount to
@@ -65,10 +65,7 @@ impl Args {
                 Ok(())
             }
             RowFormat::Csv => drop.csv(streams.out).map_err(Failure::Answer),
-            RowFormat::Json => {
-                serde_json::to_writer(&mut *streams.out, &drop.answer())?;
-                writeln!(streams.out).map_err(Failure::Answer)
-            }
+            RowFormat::Json => streams.json(&drop.answer()),
         }
     }
 }
@@ -92,18 +89,11 @@ impl Drop<'_> {
 
     fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         let (Summary { count, duration, peak, final_velocity, net }, [va, vb]) = (self.summary, self.start.velocity());
-        writeln!(
-            out,
-            "Bar with q = {}, e = {}; radius of gyration {} of the half-length",
-            self.bar.q(),
-            self.bar.e(),
-            figures(self.bar.gyration_ratio())
-        )?;
-        writeln!(
-            out,
-            "End a strikes first, at {va} v0; end b comes with {vb} v0 from {} h0\n",
-            self.start.height_gap()
-        )?;
+        let (q, e, gap) = (given(self.bar.q()), given(self.bar.e()), given(self.start.height_gap()));
+        let gyration = figures(self.bar.gyration_ratio());
+        writeln!(out, "Bar with q = {q}, e = {e}; radius of gyration {gyration} of the half-length")?;
+        let (a, b) = (given(va), given(vb));
+        writeln!(out, "End a strikes first, at {a} v0; end b comes with {b} v0 from {gap} h0\n")?;
 
         let impacts = match count {
             Count::Finite(n) => n.to_string(),
@@ -146,7 +136,7 @@ impl Drop<'_> {
             "impact", "time", "approach", "shock at a", "shock at b"
         )?;
         for s in self.at {
-            write!(out, " {:>13}", format!("shock at {s}"))?;
+            write!(out, " {:>13}", format!("shock at {}", given(*s)))?;
         }
         write!(out, "\n{:>9}      {:>13} {:>13} {:>13} {:>13}", "", "h0/v0", "v0", "v0", "v0")?;
         for _ in self.at {

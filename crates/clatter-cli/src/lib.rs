@@ -31,6 +31,7 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
+use serde::Serialize;
 
 use failure::Failure;
 
@@ -51,6 +52,12 @@ impl fmt::Debug for Streams<'_> {
 }
 
 impl Streams<'_> {
+    /// An answer for programs, on one line.
+    fn json(&mut self, answer: &impl Serialize) -> Result<(), Failure> {
+        serde_json::to_writer(&mut *self.out, answer).map_err(|error| Failure::Answer(error.into()))?;
+        writeln!(self.out).map_err(Failure::Answer)
+    }
+
     /// A line beside the answer. That it cannot be shown is no reason to fail.
     fn note(&mut self, kind: &str, what: impl fmt::Display) {
         let _ = writeln!(self.err, "{kind}: {what}");

@@ -4,12 +4,12 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use clap::ValueEnum;
+use clap::{ValueEnum, ValueHint};
 use clatter::{Axis, Map, Quantity};
 use serde::{Serialize, Serializer};
 
 use crate::inputs::{self, Format};
-use crate::numbers::{Json, JsonWhole, digits, figures, whole};
+use crate::numbers::{Json, JsonWhole, digits, given, whole};
 use crate::{Failure, Streams, npy, output};
 
 /// Write a quantity over a grid of q and e to a file
@@ -45,7 +45,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "X", allow_hyphen_values = true, value_parser = inputs::threshold, required_if_eq("quantity", "zone"))]
     threshold: Option<f64>,
     /// File to write, ending in .csv, .json, .npy or .svg; what was there is replaced once the new file is whole
-    #[arg(short, long, value_name = "FILE", value_parser = target)]
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = target)]
     output: Target,
     /// How to tell what was written
     #[arg(long, value_enum, default_value_t = Format::Table)]
@@ -136,26 +136,19 @@ impl Args {
             Kind::Svg => file.write_all(clatter_report::map_svg(&map).as_bytes()),
         })?;
         match self.format {
-            Format::Table => writeln!(
-                streams.out,
-                "{}: {} over {} values of q from {} to {} and {} values of e from {} to {}",
-                path.display(),
-                name(quantity),
-                map.q.points(),
-                figures(map.q.value(0)),
-                figures(map.q.value(map.q.points() - 1)),
-                map.e.points(),
-                figures(map.e.value(0)),
-                figures(map.e.value(map.e.points() - 1)),
-            ),
+            Format::Table => {
+                let axis = |name: &str, axis: Axis| {
+                    let (n, lo, hi) = (axis.points(), given(axis.value(0)), given(axis.value(axis.points() - 1)));
+                    format!("{n} values of {name} from {lo} to {hi}")
+                };
+                let (file, name, q, e) = (path.display(), name(quantity), axis("q", map.q), axis("e", map.e));
+                writeln!(streams.out, "{file}: {name} over {q} and {e}").map_err(Failure::Answer)
+            }
             Format::Json => {
-                let written =
-                    WrittenJson { file: path, quantity: name(quantity), points: [map.q.points(), map.e.points()] };
-                serde_json::to_writer(&mut *streams.out, &written)?;
-                writeln!(streams.out)
+                let points = [map.q.points(), map.e.points()];
+                streams.json(&WrittenJson { file: path, quantity: name(quantity), points })
             }
         }
-        .map_err(Failure::Answer)
     }
 }
 

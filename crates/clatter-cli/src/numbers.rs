@@ -21,6 +21,12 @@ pub(crate) fn figures(x: f64) -> String {
     }
 }
 
+/// An input as somebody would have written it: every digit, and no `.0`.
+pub(crate) fn given(x: f64) -> String {
+    let text = digits(x);
+    text.strip_suffix(".0").map_or_else(|| text.clone(), str::to_owned)
+}
+
 /// The shortest digits that read back as the same f64, for csv: `inf` is what readers of tables expect.
 pub(crate) fn digits(x: f64) -> String {
     format!("{:?}", x + 0.0)
@@ -117,6 +123,7 @@ mod tests {
         }
         assert_eq!(digits(f64::INFINITY), "inf");
         assert_eq!(digits(-0.0), "0.0");
+        assert_eq!([-1.0, 0.5, 1e-300, -0.0].map(given), ["-1", "0.5", "1e-300", "0"]);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::ValueEnum;
+use clap::{ValueEnum, ValueHint};
 use clatter_report::Report;
 use serde::Serialize;
 
@@ -23,7 +23,7 @@ pub(crate) struct Args {
     #[arg(value_enum, default_value_t = Which::All)]
     which: Which,
     /// Directory to write into; made if need be
-    #[arg(short, long, value_name = "DIR", default_value = "report")]
+    #[arg(short, long, value_name = "DIR", default_value = "report", value_hint = ValueHint::DirPath)]
     output: PathBuf,
     /// How to show the answer
     #[arg(long, value_enum, default_value_t = Format::Table)]
@@ -69,12 +69,10 @@ impl Args {
             answer.warnings.extend(written.warnings);
         }
         match self.format {
-            Format::Table => answer.files.iter().try_for_each(|file| writeln!(streams.out, "{file}")),
-            Format::Json => {
-                serde_json::to_writer(&mut *streams.out, &answer)?;
-                writeln!(streams.out)
+            Format::Table => {
+                answer.files.iter().try_for_each(|file| writeln!(streams.out, "{file}")).map_err(Failure::Answer)
             }
+            Format::Json => streams.json(&answer),
         }
-        .map_err(Failure::Answer)
     }
 }

@@ -6,7 +6,7 @@ use clatter::{Bar, Extent, Start, Zone};
 use serde::Serialize;
 
 use crate::inputs::{self, BarArgs, EndName, RowFormat};
-use crate::numbers::{Json, digits, figures};
+use crate::numbers::{Json, digits, figures, given};
 use crate::{Failure, Streams};
 
 /// Tell where on the bar no shock exceeds a threshold: the safe zone
@@ -55,13 +55,13 @@ impl Args {
         match self.format {
             RowFormat::Table => self.table(&bar, &start, &rows, streams.out).map_err(Failure::Answer),
             RowFormat::Csv => self.csv(&rows, streams.out).map_err(Failure::Answer),
-            RowFormat::Json => self.json(&bar, &rows, streams.out),
+            RowFormat::Json => streams.json(&self.answer(&bar, &rows)),
         }
     }
 
     fn table(&self, bar: &Bar, start: &Start, rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
-        let peak = figures(bar.summary(start).peak.end);
-        writeln!(out, "Safe zones of a bar with q = {}, e = {}; its ends see up to {peak} v0", bar.q(), bar.e())?;
+        let (q, e, peak) = (given(bar.q()), given(bar.e()), figures(bar.summary(start).peak.end));
+        writeln!(out, "Safe zones of a bar with q = {q}, e = {e}; its ends see up to {peak} v0")?;
         writeln!(out)?;
         let first = self.first.map(|end| format!("   safe interval if {} strikes first", inputs::letter(end.into())));
         let head = format!("{:>12} {:>14}   {:<36}{}", "threshold", "safe zone s", "", first.unwrap_or_default());
@@ -98,22 +98,20 @@ impl Args {
         Ok(())
     }
 
-    fn json(&self, bar: &Bar, rows: &[Row], out: &mut dyn Write) -> Result<(), Failure> {
+    fn answer(&self, bar: &Bar, rows: &[Row]) -> Answer {
         let zones = rows.iter().map(|Row { zone, interval }| ZoneJson {
             threshold: Json(zone.threshold),
             s: Json(zone.s),
             extent: extent(zone.extent),
             interval: interval.map(|interval| interval.map(|bounds| bounds.map(Json))),
         });
-        let answer = Answer {
+        Answer {
             q: Json(bar.q()),
             gyration_ratio: Json(bar.gyration_ratio()),
             e: Json(bar.e()),
             first: self.first.map(|end| inputs::letter(end.into())),
             zones: zones.collect(),
-        };
-        serde_json::to_writer(&mut *out, &answer)?;
-        writeln!(out).map_err(Failure::Answer)
+        }
     }
 }
 

@@ -93,3 +93,41 @@ fn a_run_killed_while_it_writes_leaves_what_was_there() {
     assert_eq!(done.status.code(), None, "killed by the signal");
     assert_eq!(std::fs::read_to_string(&file).unwrap(), "older");
 }
+
+/// A stand-in for typst that only fails.
+#[cfg(unix)]
+fn broken_typst(folder: &std::path::Path) -> std::path::PathBuf {
+    use std::os::unix::fs::PermissionsExt;
+    let program = folder.join("typst");
+    std::fs::write(&program, "#!/bin/sh\necho 'error: out of ink' >&2\nexit 1\n").unwrap();
+    std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755)).unwrap();
+    program
+}
+
+#[cfg(unix)]
+#[test]
+fn a_typst_that_fails_is_told_apart_and_leaves_no_pdf() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let typst = broken_typst(folder.path());
+    let done = clatter().args(["report", "paper", "-o"]).arg(&out).env("CLATTER_TYPST", typst).output().unwrap();
+    let stderr = String::from_utf8(done.stderr).unwrap();
+    assert_eq!((done.status.code(), done.stdout), (Some(3), vec![]), "{stderr}");
+    assert!(stderr.starts_with("error: ") && stderr.contains("typst"), "{stderr}");
+    let endings: Vec<_> = std::fs::read_dir(&out).unwrap().map(|file| file.unwrap().path()).collect();
+    assert!(endings.iter().all(|file| file.extension().is_none_or(|ending| ending != "pdf")), "{endings:?}");
+    assert!(endings.iter().any(|file| file.extension().is_some_and(|ending| ending == "json")), "{endings:?}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_report_that_has_nowhere_to_go_is_bad_input() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("file");
+    std::fs::write(&file, "").unwrap();
+    let typst = broken_typst(folder.path());
+    let done = clatter().args(["report", "-o"]).arg(&file).env("CLATTER_TYPST", typst).output().unwrap();
+    let stderr = String::from_utf8(done.stderr).unwrap();
+    assert_eq!(done.status.code(), Some(2), "{stderr}");
+    assert!(stderr.starts_with("error: ") && stderr.contains(file.to_str().unwrap()), "{stderr}");
+}
