@@ -3,6 +3,8 @@
 //! They run the command within the test process; what needs a process of its own (a closed pipe, a full disk) is
 //! tested beside the binary, in `crates/clatter-cli/tests`.
 
+#![cfg(test)]
+
 mod bad_input;
 mod json;
 mod map;

@@ -123,7 +123,9 @@ impl Drop<'_> {
         } else {
             line(out, "Net change,    center", "0", "v0      the velocities of the ends do not settle")?;
         }
-        if va == vb {
+        #[expect(clippy::float_cmp, reason = "without spin is what was asked for, not what was come near to")]
+        let without_spin = va == vb;
+        if without_spin {
             let flat = (1.0 + self.bar.e()) * -va;
             line(out, "Without clatter", &figures(flat), "v0      everywhere: the flat impact that standards assume")?;
         }
@@ -200,7 +202,7 @@ impl Drop<'_> {
                 angular: net.map(|net| Json(net.angular)),
             },
             final_velocity: final_velocity.map(|velocity| velocity.map(Json)),
-            impacts: self,
+            impacts: List(self),
         }
     }
 }
@@ -220,8 +222,7 @@ struct Answer<'a> {
     net: NetJson,
     #[serde(rename = "final")]
     final_velocity: Option<[Json; 2]>,
-    #[serde(serialize_with = "list")]
-    impacts: &'a Drop<'a>,
+    impacts: List<'a>,
 }
 
 #[derive(Serialize)]
@@ -251,7 +252,6 @@ struct ImpactJson {
     delta_v_at: Vec<Json>,
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands a reference")]
 fn peak_impact<S: Serializer>(impact: &PeakImpact, serializer: S) -> Result<S::Ok, S::Error> {
     match *impact {
         PeakImpact::Number(n) => serializer.serialize_u64(n),
@@ -260,13 +260,18 @@ fn peak_impact<S: Serializer>(impact: &PeakImpact, serializer: S) -> Result<S::O
     }
 }
 
-fn list<S: Serializer>(drop: &&Drop<'_>, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_seq(drop.impacts().map(|impact| ImpactJson {
-        number: impact.number,
-        end: letter(impact.end),
-        time: Json(impact.time),
-        approach: Json(impact.approach),
-        delta_v: impact.delta_v.map(Json),
-        delta_v_at: drop.shocks(&impact).map(Json).collect(),
-    }))
+/// The impacts of a drop, written as they come.
+struct List<'a>(&'a Drop<'a>);
+
+impl Serialize for List<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.0.impacts().map(|impact| ImpactJson {
+            number: impact.number,
+            end: letter(impact.end),
+            time: Json(impact.time),
+            approach: Json(impact.approach),
+            delta_v: impact.delta_v.map(Json),
+            delta_v_at: self.0.shocks(&impact).map(Json).collect(),
+        }))
+    }
 }

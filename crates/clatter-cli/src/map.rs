@@ -188,20 +188,25 @@ struct MapJson<'a> {
     threshold: Option<Json>,
     q: Vec<Json>,
     e: Vec<Json>,
-    #[serde(serialize_with = "rows")]
-    values: &'a Map,
+    values: Rows<'a>,
 }
 
 impl<'a> MapJson<'a> {
     fn new(map: &'a Map) -> Self {
         let threshold = if let Quantity::Zone(threshold) = map.quantity { Some(Json(threshold)) } else { None };
         let axis = |axis: Axis| (0..axis.points()).map(|i| Json(axis.value(i))).collect();
-        Self { quantity: name(map.quantity), threshold, q: axis(map.q), e: axis(map.e), values: map }
+        Self { quantity: name(map.quantity), threshold, q: axis(map.q), e: axis(map.e), values: Rows(map) }
     }
 }
 
-fn rows<S: Serializer>(map: &&Map, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_seq(map.values.chunks(map.e.points()).map(|values| Row { values, counts: counts(map) }))
+/// The values of a map, a row for each q.
+struct Rows<'a>(&'a Map);
+
+impl Serialize for Rows<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self(map) = *self;
+        serializer.collect_seq(map.values.chunks(map.e.points()).map(|values| Row { values, counts: counts(map) }))
+    }
 }
 
 struct Row<'a> {

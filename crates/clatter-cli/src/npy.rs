@@ -51,7 +51,8 @@ mod tests {
 
     #[test]
     fn values_follow_row_by_row_across_chunks() {
-        let values: Vec<f64> = (0..(2 * CHUNK as u32 + 3)).map(f64::from).chain([f64::INFINITY]).collect();
+        let values: Vec<f64> =
+            (0..u32::try_from(2 * CHUNK + 3).unwrap()).map(f64::from).chain([f64::INFINITY]).collect();
         let mut file = Vec::new();
         write(&mut file, 2, &values).unwrap();
         let read: Vec<f64> = file[128..].chunks_exact(8).map(|b| f64::from_le_bytes(b.try_into().unwrap())).collect();

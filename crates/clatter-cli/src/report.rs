@@ -10,11 +10,8 @@ use crate::inputs::Format;
 use crate::{Failure, Streams};
 
 /// Make the printed reports: figures, tables and the PDF
-///
-/// Needs typst for the PDF; figures, tables and JSON come out without it. typst is found by the variable
-/// CLATTER_TYPST, then on the PATH, then in the project's own cache, where it is built if it is nowhere else.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "\
+#[command(long_about = LONG_ABOUT, after_help = "\
 Examples:
   clatter report                   all reports, into ./report
   clatter report paper -o out")]
@@ -29,6 +26,12 @@ pub(crate) struct Args {
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 }
+
+const LONG_ABOUT: &str = "\
+Make the printed reports: figures, tables and the PDF
+
+The PDF needs typst; figures, tables and JSON come out without it. typst is found by the variable CLATTER_TYPST, \
+then on the PATH, then in the project's own cache, where it is built if it is nowhere else.";
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Which {

@@ -38,8 +38,12 @@ pub(crate) struct Args {
 /// A safe zone, and the interval of one first end if that was asked.
 struct Row {
     zone: Zone,
-    interval: Option<Option<[f64; 2]>>,
+    interval: Option<Interval>,
 }
+
+/// Between these positions; `None` where nothing is safe.
+#[derive(Clone, Copy)]
+struct Interval(Option<[f64; 2]>);
 
 impl Args {
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
@@ -49,7 +53,7 @@ impl Args {
             .iter()
             .map(|&threshold| Row {
                 zone: bar.safe_zone(&start, threshold),
-                interval: self.first.map(|first| bar.safe_interval(&start, threshold, first.into())),
+                interval: self.first.map(|first| Interval(bar.safe_interval(&start, threshold, first.into()))),
             })
             .collect();
         match self.format {
@@ -74,8 +78,8 @@ impl Args {
                 Extent::Whole => "the whole bar".to_owned(),
             };
             let interval = match interval {
-                Some(Some([lo, hi])) => format!("   from {} to {}", figures(*lo), figures(*hi)),
-                Some(None) => "   none".to_owned(),
+                Some(Interval(Some([lo, hi]))) => format!("   from {} to {}", figures(*lo), figures(*hi)),
+                Some(Interval(None)) => "   none".to_owned(),
                 None => String::new(),
             };
             let line = format!("{:>12} {:>14}   {meaning:<36}{interval}", figures(zone.threshold), figures(zone.s));
@@ -90,8 +94,8 @@ impl Args {
         for Row { zone, interval } in rows {
             write!(out, "{},{},{}", digits(zone.threshold), digits(zone.s), extent(zone.extent))?;
             match interval {
-                Some(Some([lo, hi])) => writeln!(out, ",{},{}", digits(*lo), digits(*hi))?,
-                Some(None) => writeln!(out, ",,")?,
+                Some(Interval(Some([lo, hi]))) => writeln!(out, ",{},{}", digits(*lo), digits(*hi))?,
+                Some(Interval(None)) => writeln!(out, ",,")?,
                 None => writeln!(out)?,
             }
         }
@@ -103,7 +107,7 @@ impl Args {
             threshold: Json(zone.threshold),
             s: Json(zone.s),
             extent: extent(zone.extent),
-            interval: interval.map(|interval| interval.map(|bounds| bounds.map(Json))),
+            interval: interval.map(|Interval(bounds)| IntervalJson(bounds.map(|bounds| bounds.map(Json)))),
         });
         Answer {
             q: Json(bar.q()),
@@ -140,5 +144,8 @@ struct ZoneJson {
     extent: &'static str,
     /// Left out unless a first end was given, null where nothing is safe.
     #[serde(skip_serializing_if = "Option::is_none")]
-    interval: Option<Option<[Json; 2]>>,
+    interval: Option<IntervalJson>,
 }
+
+#[derive(Serialize)]
+struct IntervalJson(Option<[Json; 2]>);

@@ -1,5 +1,7 @@
 //! What needs a process of its own: closed pipes, full disks, exit codes.
 
+#![cfg(test)]
+
 use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};
 
