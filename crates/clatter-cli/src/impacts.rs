@@ -11,8 +11,8 @@ use crate::{Failure, Streams};
 
 /// List the impacts of one drop and what they amount to
 ///
-/// The bar falls with velocities VA and VB of its ends; end a strikes first, at time 0. The summary is exact however
-/// long the train is: no impact has to be followed for it.
+/// The bar falls with velocities VA and VB of its ends; end a strikes first, at time 0. The number of impacts is exact
+/// however large it is, and like the rest of the summary it comes at once: no impact is followed for it.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

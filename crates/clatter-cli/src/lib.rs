@@ -58,8 +58,9 @@ impl Streams<'_> {
         writeln!(self.out).map_err(Failure::Answer)
     }
 
-    /// A line beside the answer. That it cannot be shown is no reason to fail.
+    /// A line beside the answer, below what there is of it. That it cannot be shown is no reason to fail.
     fn note(&mut self, kind: &str, what: impl fmt::Display) {
+        let _ = self.out.flush(); // whoever writes next sees the same failure, and tells
         let _ = writeln!(self.err, "{kind}: {what}");
     }
 }
