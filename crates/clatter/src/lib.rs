@@ -13,19 +13,23 @@
 //! Two numbers decide everything: the coefficient of restitution `e` and the inertia ratio
 //! `q = (L² − ρ²)/(L² + ρ²)` of half-length `L` and radius of gyration `ρ`.
 
+pub mod accuracy;
 mod bar;
 pub mod contour;
+mod dd;
 mod error;
+mod exact;
 mod map;
 pub mod paper;
 mod quadrature;
+mod motion;
 pub mod reference;
 mod start;
 mod summary;
 mod train;
 mod zone;
 
-pub use bar::{Bar, Restitution};
+pub use bar::{Bar, Mass, Restitution};
 pub use error::Error;
 pub use map::{Axis, Map, Quantity};
 pub use quadrature::Integral;

@@ -1,5 +1,6 @@
 //! What a train amounts to: count, peak, net change, final velocities, duration.
 
+use crate::motion::{Drive, Last, Steps, after_first, rises};
 use crate::{Bar, Start};
 
 /// How many impacts the train has.
@@ -59,44 +60,198 @@ pub struct Summary {
     pub duration: f64,
     /// Largest velocity shocks.
     pub peak: Peak,
-    /// Final velocities of ends a and b; `None` where they do not settle (q = 1).
+    /// Final velocities of ends a and b; `None` where they do not settle (q = 1) or where the count is beyond 2¹²⁰,
+    /// which leaves open whose turn the last strike was.
     pub final_velocity: Option<[f64; 2]>,
-    /// Sum of all velocity shocks; `None` where the velocities do not settle (the center's is 0 there).
+    /// Sum of all velocity shocks; `None` with `final_velocity`.
     pub net: Option<Net>,
 }
 
+/// The peak before it is spread over the bar: index n and value of the largest |a_n|.
+type Largest = (Steps, f64);
+
+/// Plain steps that are tried before the closed form.
+const PLAIN: usize = 16;
+/// A velocity that came out of a cancellation by more than this factor is left to the closed form: 16 steps
+/// accumulate some 300 roundings, so that the worst that is accepted is good to 300 · 2⁻⁵³ · 2⁸ ≈ 1e−11.
+const CLEAR: f64 = 1.0 / 256.0;
+/// Neighbors of the peak that differ by less are compared with more digits.
+const DISTINCT: f64 = 1e-12;
+/// No term may come near the subnormal floats.
+const NORMAL: f64 = 1e-280;
+
+/// What the plain steps found.
+struct Plain {
+    count: Option<(u128, Last)>,
+    peak: Option<Largest>,
+}
+
 impl Bar {
-    /// Count, peak, net change, final velocities and duration of the train.
+    /// Count, peak, net change, final velocities and duration of the train, in constant time.
+    ///
+    /// # Method
+    /// Up to 16 plain steps of the recurrence `a_{n+1} = T a_n − e a_{n−1}`, T = q(1 + e), where they leave nothing
+    /// in doubt; else its closed form, whose angles, discriminant and remainders are carried in as many digits as
+    /// it takes: f64, then double-double, then integers.
+    ///
+    /// # Accuracy
+    /// The count, the impact that holds the peak and whether the train is endless are exact for every input. The
+    /// errors of the rest are at most those of [`crate::accuracy`].
+    ///
+    /// # Cost
+    /// About 25 ns where a few plain steps do, 100–200 ns for a long train, up to 600 ns where double-double is
+    /// needed, and up to a millisecond for a start built to lie within 2⁻⁴⁰ of a tie.
     #[must_use]
     pub fn summary(&self, start: &Start) -> Summary {
-        let (t, e, q) = (self.q() * (1.0 + self.e()), self.e(), self.q());
-        let [va, vb] = start.velocity();
-        let (mut a, mut next, mut b, mut n) = (va, t * va + vb, 0.0, 1u64);
-        let (mut bn, mut big, mut at) = (1.0, -a, 1u64);
-        while next < 0.0 && n < 100_000 {
-            (a, next) = (next, t * next - e * a);
-            (b, bn) = (bn, t * bn - e * b);
-            n += 1;
-            if -a > big {
-                (big, at) = (-a, n);
-            }
+        let Plain { count, peak } = self.plain(start);
+        if let (Some((n, last)), Some(peak)) = (count, peak) {
+            return self.finish(start, Steps::Exactly(n), Some(last), peak);
         }
-        let end = (1.0 + e) * big;
-        let peak = Peak { end, impact: PeakImpact::Number(at), center: 0.5 * (1.0 - q) * end, angular: 0.5 * (1.0 + q) * end };
-        let last = if n % 2 == 1 { [-e * a, next] } else { [next, -e * a] };
-        let last = if n == 100_000 { [0.0, 0.0] } else { last };
-        let (da, db) = (last[0] - va, last[1] - vb);
-        Summary {
-            count: if n == 100_000 { Count::Endless } else { Count::Finite(n) },
-            duration: start.height_gap() * b / -a,
-            peak,
-            final_velocity: Some(last),
-            net: Some(Net { a: da, b: db, center: 0.5 * (da + db), angular: 0.5 * (db - da) }),
-        }
+        self.long_summary(start, count, peak)
     }
+
+    #[inline(never)]
+    fn long_summary(&self, start: &Start, count: Option<(u128, Last)>, peak: Option<Largest>) -> Summary {
+        if self.t <= 0.0 || self.e == 0.0 {
+            return self.special(start);
+        }
+        let drive = Drive::new(self, start);
+        let peak = peak.unwrap_or_else(|| drive.peak());
+        let (steps, last) = match count {
+            Some((n, last)) => (Steps::Exactly(n), Some(last)),
+            None => match drive.count() {
+                Steps::Exactly(n) => (Steps::Exactly(n), Some(drive.last(n))),
+                other => (other, None),
+            },
+        };
+        let mut summary = self.finish(start, steps, last, peak);
+        if last.is_none() {
+            summary.duration = drive.end();
+        }
+        summary
+    }
+
     /// Number of impacts alone.
     #[must_use]
     pub fn count(&self, start: &Start) -> Count {
-        self.summary(start).count
+        match self.plain(start).count {
+            Some((n, _)) => Steps::Exactly(n).into(),
+            None if self.t <= 0.0 || self.e == 0.0 => self.special(start).count,
+            None => Drive::new(self, start).count().into(),
+        }
     }
+
+    /// Largest velocity shocks alone.
+    #[must_use]
+    pub fn peak(&self, start: &Start) -> Peak {
+        match self.plain(start).peak {
+            Some(peak) => self.spread(peak),
+            None if self.t <= 0.0 || self.e == 0.0 => self.special(start).peak,
+            None => self.spread(Drive::new(self, start).peak()),
+        }
+    }
+
+    /// Up to 16 plain steps, for T > 0 and e > 0; what they leave in doubt is not said.
+    #[inline]
+    fn plain(&self, start: &Start) -> Plain {
+        let nothing = Plain { count: None, peak: None };
+        let (t, e) = (self.t, self.e);
+        let [va, vb] = start.velocity();
+        let first = t * va + vb;
+        // A start that has cancelled is left alone, and so are T ≤ 0 and e = 0.
+        if !(t * e > 0.0 && first.abs() > CLEAR * -va * t) {
+            return nothing;
+        }
+        let mut a = [0.0; PLAIN + 2];
+        (a[0], a[1]) = (va, first);
+        let mut b = [0.0, 1.0];
+        let (mut n, mut peak) = (1, 0);
+        while a[n] < 0.0 && n < PLAIN {
+            if a[n] < a[peak] {
+                peak = n;
+            }
+            a[n + 1] = t * a[n] - e * a[n - 1];
+            b = [b[1], t * b[1] - e * b[0]];
+            n += 1;
+        }
+        // The peak holds if it stands out from both neighbors, the last of which may be the rebound.
+        let stands_out = |i: usize| (a[i] - a[peak]) > DISTINCT * -a[peak];
+        let known = peak + 1 < n || a[n] >= 0.0;
+        let found = known && stands_out(peak + 1) && (peak == 0 || stands_out(peak - 1)) && -a[peak] > NORMAL;
+        let largest = found.then(|| (Steps::Exactly(peak as u128), -a[peak]));
+        let clear = a[n] >= 0.0
+            && match n {
+                1 => true,
+                2 => a[2] > CLEAR * e * -va,
+                _ => -a[n - 1] > CLEAR * t * -a[n - 2] && a[n] > CLEAR * e * -a[n - 2],
+            }
+            && a[n].min(-a[n - 1]) > NORMAL;
+        let time = if n == 1 { 0.0 } else { start.height_gap() * (b[0] / -a[n - 1]) };
+        let last = Last { a: a[n - 1], next: a[n], time };
+        Plain { count: clear.then_some((n as u128, last)), peak: largest }
+    }
+
+    /// T ≤ 0, where the second strike is the last, and e = 0, where all strikes from the second on happen at once.
+    fn special(&self, start: &Start) -> Summary {
+        let alpha = -start.velocity()[0];
+        let first = after_first(self, start);
+        let peak = if rises(self, start) { (Steps::Exactly(1), first) } else { (Steps::Exactly(0), alpha) };
+        if first <= 0.0 {
+            let last = Last { a: -alpha, next: -first, time: 0.0 };
+            return self.finish(start, Steps::Exactly(1), Some(last), peak);
+        }
+        let h0 = start.height_gap();
+        let time = if h0 == 0.0 { 0.0 } else { h0 / first };
+        if self.t <= 0.0 {
+            let last = Last { a: -first, next: self.e * alpha - self.t * first, time };
+            return self.finish(start, Steps::Exactly(2), Some(last), peak);
+        }
+        Summary { duration: time, ..self.finish(start, Steps::Endless, None, peak) }
+    }
+
+    fn spread(&self, (steps, largest): Largest) -> Peak {
+        let end = (1.0 + self.e) * largest;
+        let impact = match steps {
+            Steps::Exactly(n) => u64::try_from(n + 1).map_or_else(|_| PeakImpact::Huge(nearest(n)), PeakImpact::Number),
+            Steps::About(n) => PeakImpact::Huge(n),
+            Steps::Endless => PeakImpact::Limit,
+        };
+        let center = if self.less.hi == 0.0 { 0.0 } else { 0.5 * self.less.hi * end };
+        Peak { end, impact, center, angular: 0.5 * self.more.hi * end }
+    }
+
+    /// Final velocities and net change from the last step; all ends at rest after an endless train, unless the
+    /// ends have no mass (q = 1): then only a bar that turns about a still center comes to rest.
+    fn finish(&self, start: &Start, steps: Steps, last: Option<Last>, peak: Largest) -> Summary {
+        let [va, vb] = start.velocity();
+        let final_velocity = match (steps, last) {
+            (Steps::Exactly(n), Some(last)) => {
+                let struck = -self.e * last.a;
+                Some(if n % 2 == 1 { [struck, last.next] } else { [last.next, struck] })
+            }
+            (Steps::Endless, _) if self.less.hi > 0.0 || (va == -vb && self.e < 1.0) => Some([0.0, 0.0]),
+            _ => None,
+        };
+        let net = final_velocity.map(|[a, b]| {
+            let (a, b) = (a - va, b - vb);
+            Net { a, b, center: 0.5 * (a + b), angular: 0.5 * (b - a) }
+        });
+        let duration = last.map_or(f64::INFINITY, |last| last.time);
+        Summary { count: steps.into(), duration, peak: self.spread(peak), final_velocity, net }
+    }
+}
+
+impl From<Steps> for Count {
+    fn from(steps: Steps) -> Self {
+        match steps {
+            Steps::Exactly(n) => u64::try_from(n).map_or_else(|_| Self::Huge(nearest(n)), Self::Finite),
+            Steps::About(n) => Self::Huge(n),
+            Steps::Endless => Self::Endless,
+        }
+    }
+}
+
+#[expect(clippy::cast_precision_loss, reason = "the nearest float is what is asked for")]
+fn nearest(n: u128) -> f64 {
+    n as f64
 }

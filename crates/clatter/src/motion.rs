@@ -1,0 +1,544 @@
+//! The clatter in closed form: constant time for a train of any length.
+//!
+//! Let a_n < 0 be the velocity of the end about to make strike n + 1, b_n the companion solution:
+//!
+//! ```text
+//! a_{n+1} = T a_n − e a_{n−1},  T = q(1 + e),  a_0 = −α,  a_1 = −(αT + β)      (α = −v_a > 0, β = −v_b)
+//! b_{n+1} = T b_n − e b_{n−1},                 b_0 = 0,   b_1 = 1
+//! time of strike n+1 = h0 b_n/|a_n|,           N = first n ≥ 1 with a_n ≥ 0
+//! ```
+//!
+//! With D = 4e − T² and S = √|D| the solution is one of three:
+//!
+//! * D > 0, a **wave**: |a_n| = e^{n/2} A sin(δ_n)/S with A = hypot(αT + 2β, αS), δ_n = ψ − nθ,
+//!   θ = atan2(S, T), ψ = atan2(αS, −(αT + 2β)). It ends: N = ⌈ψ/θ⌉.
+//! * D < 0, a **decay**: |a_n| = (σ λ₊ⁿ − τ λ₋ⁿ)/S with λ± = (T ± S)/2, σ = αλ₊ + β, τ = αλ₋ + β. Endless iff
+//!   σ ≥ 0; else N = ⌈ln(τ/σ)/ln(λ₊/λ₋)⌉.
+//! * D = 0, the **edge** between them, where c = T/(2√e) = 1: only (1, 1) among floats.
+//!
+//! What decides is formed in double-double, or in integers where even those digits cancel: D, S, αT + 2β and
+//! σ τ = αβT + β² + α²e. Then f64 suffices, until a quotient lies within its error of an integer.
+
+use crate::dd::{self, Dd, ldexp, two_prod, two_sum};
+use crate::exact::{Dyadic, Recurrence};
+use crate::{Bar, Start};
+use std::cmp::Ordering;
+use std::f64::consts::LN_2;
+
+/// Roundings (units of 2⁻⁵³, relative) that a quotient of two f64 angles or logarithms may be off: two library
+/// functions of at most 2 each, their arguments of at most 4, a quotient, and a margin of 2.
+const QUOTIENT: f64 = 24.0 * UNIT;
+const UNIT: f64 = 0.5 * f64::EPSILON;
+
+/// The recurrence with its starting values, scaled by 2^m a step where T and e are so small that T² would underflow:
+/// a_n stands for 2^{mn} a_n, b_n for 2^{m(n−1)} b_n.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Drive {
+    pub(crate) bar: Bar,
+    pub(crate) start: Start,
+    pub(crate) m: i32,
+    pub(crate) t: Dd,
+    pub(crate) e: f64,
+    pub(crate) alpha: f64,
+    pub(crate) beta: f64,
+    /// ln e of the true e.
+    ln_e: f64,
+    pub(crate) kind: Kind,
+}
+
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Kind {
+    /// D > 0.
+    Wave(Wave),
+    /// D < 0.
+    Decay(Decay),
+    /// D = 0.
+    Edge,
+}
+
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Wave {
+    d: Dd,
+    /// √D.
+    pub(crate) s: f64,
+    /// αT + 2β.
+    x: Dd,
+    /// hypot(αT + 2β, αS).
+    pub(crate) amplitude: f64,
+    pub(crate) theta: f64,
+    psi: f64,
+}
+
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Decay {
+    /// √−D.
+    pub(crate) s: f64,
+    /// Larger and smaller root.
+    pub(crate) plus: f64,
+    /// αλ₊ + β, αλ₋ + β.
+    pub(crate) sigma: f64,
+    pub(crate) tau: f64,
+    /// ln(λ₊/λ₋).
+    pub(crate) rate: f64,
+    /// ln λ₊ of the true λ₊.
+    pub(crate) ln_plus: f64,
+}
+
+/// How many impacts, before it is put into a public type.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Steps {
+    Exactly(u128),
+    About(f64),
+    Endless,
+}
+
+/// a_{N−1}, a_N and the time of the last strike.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Last {
+    pub(crate) a: f64,
+    pub(crate) next: f64,
+    pub(crate) time: f64,
+}
+
+/// Which solution of the recurrence: that of the velocities, or that of their differences a_{n+1} − a_n, whose
+/// first sign change is where |a_n| is largest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Series {
+    Velocity,
+    Difference,
+}
+
+impl Drive {
+    /// For T > 0 and e > 0.
+    pub(crate) fn new(bar: &Bar, start: &Start) -> Self {
+        let [va, vb] = start.velocity();
+        let (alpha, beta) = (-va, -vb);
+        let e = bar.e;
+        let small = bar.q.hi.max(e.sqrt());
+        let m = if small < 1e-60 { -exponent(small) } else { 0 };
+        let (q, scaled_e) = (bar.q.scale(m), ldexp(e, 2 * m));
+        let t = q * two_sum(1.0, e);
+        let beta = ldexp(beta, m);
+        let ln_e = if e > 0.5 { (e - 1.0).ln_1p() } else { e.ln() };
+        let mut drive =
+            Self { bar: *bar, start: *start, m, t, e: scaled_e, alpha, beta, ln_e, kind: Kind::Edge };
+        let d = drive.discriminant();
+        drive.kind = if d.hi > 0.0 {
+            let x = drive.slope(d);
+            let s = d.hi.sqrt();
+            let (y, x_hi) = (alpha * s, x.hi);
+            let theta = s.atan2(t.hi);
+            Kind::Wave(Wave { d, s, x, amplitude: x_hi.hypot(y), theta, psi: y.atan2(-x_hi) })
+        } else if d.hi < 0.0 {
+            Kind::Decay(drive.decay(d))
+        } else {
+            Kind::Edge
+        };
+        drive
+    }
+
+    /// D = 4e − T², to a relative 2⁻²⁵ at the very least, its sign for certain.
+    fn discriminant(&self) -> Dd {
+        let e = self.bar.e;
+        // Of two equal forms the one with the smaller terms.
+        let (first, second) = if e > 0.17 {
+            (self.bar.less * self.bar.more * two_sum(1.0, e).sqr(), two_sum(1.0, -e).sqr())
+        } else {
+            (Dd::from(4.0 * self.e), self.t.sqr())
+        };
+        let d = first - second;
+        if d.abs().hi > first.hi * 2f64.powi(-75) {
+            return d;
+        }
+        let exact = self.exact(Series::Velocity);
+        let nu = self.bar.exact_q().1;
+        to_dd(&exact.discriminant(), &nu, &nu, 2 * self.m)
+    }
+
+    /// αT + 2β, to a relative 2⁻⁵² of the amplitude at the very least.
+    fn slope(&self, d: Dd) -> Dd {
+        let at = self.t * self.alpha;
+        let x = at + Dd::from(2.0 * self.beta);
+        let size = x.hi.abs().max(self.alpha * d.hi.abs().sqrt());
+        if size > at.hi * 2f64.powi(-40) {
+            return x;
+        }
+        let exact = self.exact(Series::Velocity);
+        let x = Dyadic::from(-2.0).mul(&exact.w).sub(&exact.p.mul(&exact.v));
+        to_dd(&x, &self.bar.exact_q().1, &Dyadic::from(1.0), self.m)
+    }
+
+    /// σ τ = αβT + β² + α²e, to a relative 2⁻⁵² at the very least, its sign for certain.
+    fn product(&self) -> f64 {
+        let (alpha, beta) = (self.alpha, self.beta);
+        let terms = [two_prod(alpha, beta) * self.t, two_prod(beta, beta), two_prod(alpha, alpha) * self.e];
+        let sum = terms[0] + terms[1] + terms[2];
+        if sum.hi.abs() > terms.iter().fold(0.0, |most: f64, t| most.max(t.hi.abs())) * 2f64.powi(-40) {
+            return sum.hi;
+        }
+        let nu = self.bar.exact_q().1;
+        to_dd(&self.exact(Series::Velocity).form(), &nu, &nu, 2 * self.m).hi
+    }
+
+    fn decay(&self, d: Dd) -> Decay {
+        let s = (-d).sqrt();
+        let plus = (self.t + s).scale(-1).hi;
+        let s = s.hi;
+        // σ and τ are (αT + 2β ± αS)/2: the larger by adding, the other from their product.
+        let (x, y, product) = (self.slope(d).hi, self.alpha * s, self.product());
+        let (sigma, tau) = if x >= 0.0 {
+            let sigma = 0.5 * (x + y);
+            (sigma, product / sigma)
+        } else {
+            let tau = 0.5 * (x - y);
+            (product / tau, tau)
+        };
+        let shift = f64::from(self.m) * LN_2;
+        let rate = if s < 0.5 * plus { -(-s / plus).ln_1p() } else { 2.0 * (plus.ln() - shift) - self.ln_e };
+        let ln_plus = if self.m == 0 {
+            let (u, w) = self.corner();
+            (-2.0 * w / (u + w + s)).ln_1p() // 1 − λ₊ = (1 − q)(1 + e)/(1 − λ₋)
+        } else {
+            plus.ln() - shift
+        };
+        Decay { s, plus, sigma, tau, rate, ln_plus }
+    }
+
+    /// 1 − e and (1 − q)(1 + e), without cancellation: u + w = 2 − T, u − w = T − 2e, w = 1 − T + e.
+    fn corner(&self) -> (f64, f64) {
+        (1.0 - self.bar.e, self.bar.less.hi * (1.0 + self.bar.e))
+    }
+
+    /// The number of impacts.
+    pub(crate) fn count(&self) -> Steps {
+        match self.kind {
+            Kind::Wave(wave) => {
+                let quotient = wave.psi / wave.theta;
+                self.settle(Series::Velocity, quotient, QUOTIENT * quotient)
+            }
+            Kind::Decay(Decay { sigma, .. }) if sigma >= 0.0 => Steps::Endless,
+            Kind::Decay(Decay { sigma, tau, rate, s, .. }) => {
+                // ln(τ/σ), with τ − σ = −αS.
+                let gap = self.alpha * s / -sigma;
+                let span = if gap < 1.0 { gap.ln_1p() } else { (tau / sigma).ln() };
+                let quotient = span / rate;
+                self.settle(Series::Velocity, quotient, QUOTIENT * (quotient + 1.0 / rate))
+            }
+            Kind::Edge => {
+                let exact = self.exact(Series::Velocity);
+                if exact.endless() {
+                    return Steps::Endless;
+                }
+                let x = self.slope(Dd::ZERO).hi;
+                let quotient = self.alpha * self.t.hi / -x;
+                self.settle(Series::Velocity, quotient, QUOTIENT * quotient)
+            }
+        }
+    }
+
+    /// ⌈quotient⌉, at least 1, where the quotient is off by no more than `error`: with more digits if need be.
+    fn settle(&self, series: Series, quotient: f64, error: f64) -> Steps {
+        if quotient >= 2f64.powi(120) {
+            return Steps::About(quotient);
+        }
+        if (quotient - quotient.round()).abs() > error {
+            return Steps::Exactly(ceil_to_int(quotient));
+        }
+        let (mut middle, mut error) = (Dd::from(quotient), error);
+        if let (Kind::Wave(wave), true) = (self.kind, series == Series::Velocity) {
+            let (theta, psi) = self.angles(&wave);
+            middle = psi / theta;
+            // Angles to 2⁻⁹⁹; D and αT + 2β as `discriminant` and `slope` guarantee.
+            let terms = (4.0 * self.e).max(self.t.hi * self.t.hi);
+            let slope = self.alpha * self.t.hi / wave.amplitude;
+            error = quotient * 2f64.powi(-95) * (1.0 + terms / wave.d.hi + slope);
+        }
+        let whole = Dd::from(middle.hi.round());
+        let whole = whole + Dd::from((middle - whole).hi.round());
+        let rest = (middle - whole).hi;
+        if rest.abs() > error {
+            let n = integer(whole);
+            return Steps::Exactly(if rest > 0.0 { n + 1 } else { n }.max(1));
+        }
+        // Integers: the first n in the bracket with a sign that is not negative.
+        let exact = self.exact(series);
+        let (mut low, mut high) = (integer(whole), integer(whole));
+        let mut width = ceil_to_int(error);
+        while low > 0 && exact.sign(low) != Ordering::Less {
+            low = low.saturating_sub(width);
+            width = width.saturating_mul(2);
+        }
+        while high <= low || exact.sign(high) == Ordering::Less {
+            high = high.saturating_add(width);
+            width = width.saturating_mul(2);
+        }
+        while high - low > 1 {
+            let middle = low + (high - low) / 2;
+            if exact.sign(middle) == Ordering::Less { low = middle } else { high = middle }
+        }
+        Steps::Exactly(high)
+    }
+
+    /// θ and ψ in double-double.
+    fn angles(&self, wave: &Wave) -> (Dd, Dd) {
+        let s = wave.d.sqrt();
+        (dd::atan2(s, self.t), dd::atan2(s * self.alpha, -wave.x))
+    }
+
+    /// δ_n = ψ − nθ, to a relative `error` or from double-double angles.
+    fn remainder(&self, wave: &Wave, n: u128, error: f64) -> f64 {
+        #[expect(clippy::cast_precision_loss, reason = "the error counted below includes this rounding")]
+        let delta = wave.psi - n as f64 * wave.theta;
+        if 8.0 * UNIT * wave.psi < error * delta {
+            return delta;
+        }
+        let (theta, psi) = self.angles(wave);
+        (psi - theta * wide(n)).hi
+    }
+
+    /// a_{N−1}, a_N and the time of strike N, for a train of N impacts.
+    pub(crate) fn last(&self, n: u128) -> Last {
+        if n == 1 {
+            return Last { a: -self.alpha, next: self.first(), time: 0.0 };
+        }
+        let h0 = self.start.height_gap();
+        match self.kind {
+            Kind::Wave(wave) => {
+                let delta = self.remainder(&wave, n - 1, 1e-11);
+                // Both parts of the last step must be known; else integers give them.
+                if delta > wave.psi * 2f64.powi(-60) {
+                    let amplitude = wave.amplitude / wave.s;
+                    let a = -self.decayed(n - 1) * amplitude * delta.sin();
+                    let next = self.decayed(n) * amplitude * (wave.theta - delta).sin().max(0.0);
+                    let sum = self.alpha * wave.s / delta.tan() + wave.x.hi;
+                    let time = ldexp(h0 / wave.amplitude * (2.0 * sum / wave.amplitude), self.m);
+                    return Last { a, next, time };
+                }
+            }
+            Kind::Decay(Decay { s, sigma, tau, rate, ln_plus, .. }) => {
+                let count = to_f64(n - 1);
+                let gap = self.alpha * s / -sigma;
+                let span = if gap < 1.0 { gap.ln_1p() } else { (tau / sigma).ln() };
+                let delta = span - count * rate;
+                if 8.0 * UNIT * (span + 1.0) < 1e-10 * delta {
+                    let over = delta.exp_m1();
+                    let a = sigma / s * (count * ln_plus).exp() * over;
+                    let next = sigma / s * ((count + 1.0) * ln_plus).exp() * (delta - rate).exp_m1();
+                    let time = ldexp(h0 * (-count * rate).exp_m1() / (sigma * over), self.m);
+                    return Last { a, next, time };
+                }
+            }
+            Kind::Edge => {}
+        }
+        let exact = self.exact(Series::Velocity);
+        let ((c, cx), (u, ux)) = exact.values(n - 1);
+        let ((next, nx), _) = exact.values(n);
+        // a_n = c_n/ν^n and b_n = U_n/ν^{n−1}, with q = μ/ν.
+        let (nu, nu_x) = self.bar.exact_q().1.to_float();
+        let ln_nu = if nu_x == 0 { ln_near_one(&self.bar) } else { nu.ln() + as_f64(nu_x) * LN_2 };
+        let power = |v: f64, x: i128, n: u128| {
+            if v == 0.0 { 0.0 } else { v.signum() * (v.abs().ln() + as_f64(x) * LN_2 - to_f64(n) * ln_nu).exp() }
+        };
+        let time = if h0 == 0.0 { 0.0 } else { h0 * ldexp(u * nu / -c, clamp(ux + nu_x - cx)) };
+        Last { a: power(c, cx, n - 1), next: power(next, nx, n), time }
+    }
+
+    /// The time an endless train tends to, h0/σ; NaN for a count beyond 2¹²⁰, whose remainder is unknown.
+    pub(crate) fn end(&self) -> f64 {
+        let h0 = self.start.height_gap();
+        let sigma = match self.kind {
+            Kind::Decay(decay) => decay.sigma,
+            _ => 0.5 * self.slope(Dd::ZERO).hi,
+        };
+        if h0 == 0.0 { 0.0 } else { ldexp(h0 / sigma.abs(), self.m) }
+    }
+
+    /// e^{n/2}.
+    fn decayed(&self, n: u128) -> f64 {
+        (0.5 * to_f64(n) * self.ln_e).exp()
+    }
+
+    /// −(αT + β), the next velocity after the first strike, true scale.
+    fn first(&self) -> f64 {
+        -after_first(&self.bar, &self.start)
+    }
+
+    /// Index n and value of the largest |a_n|, the first if several tie; `Endless` where it is a limit.
+    pub(crate) fn peak(&self) -> (Steps, f64) {
+        if !rises(&self.bar, &self.start) {
+            return (Steps::Exactly(0), self.alpha);
+        }
+        // T < ½ and e < ¼: |a_{n+1}| < |a_n| from n = 1 on.
+        if self.m != 0 || self.t.hi < 0.5 && self.e < 0.25 {
+            return (Steps::Exactly(1), -self.first());
+        }
+        let (alpha, beta) = (self.alpha, self.beta);
+        let (u, w) = self.corner();
+        match self.kind {
+            Kind::Wave(wave) => {
+                let x = alpha * wave.d.hi + alpha * (u - w) + beta * (u + w);
+                let y = alpha * (1.0 - (u + w)) + beta;
+                let quotient = (y.max(0.0) * wave.s).atan2(x) / wave.theta;
+                // The cancellation in x and y is of terms no larger than 4(α + |β|)(u + w + S).
+                let size = 4.0 * (alpha + beta.abs()) * (u + w + wave.s);
+                let error = QUOTIENT * (quotient + size / x.hypot(y * wave.s) / wave.theta);
+                let steps = self.settle(Series::Difference, quotient, error);
+                (steps, self.magnitude(steps))
+            }
+            Kind::Decay(Decay { s, plus, sigma, tau, rate, .. }) => {
+                if w == 0.0 {
+                    return (Steps::Endless, two_sum(alpha, beta).hi / u);
+                }
+                // (λ₊/λ₋)^n ≥ τ(1 − λ₋)/(σ(1 − λ₊)); it rises, hence σ > 0 and τ > 0.
+                let below = 0.5 * (u + w + s);
+                let quotient = (tau / sigma * (below * below / w)).ln() / rate;
+                let error = QUOTIENT * (quotient.abs() + (1.0 + alpha * plus / tau.abs()) / rate);
+                let steps = self.settle(Series::Difference, quotient.max(0.25), error);
+                (steps, self.magnitude(steps))
+            }
+            // (1, 1): |a_n| = α + n(α + β), which rises for ever or not at all.
+            Kind::Edge => (Steps::Endless, f64::INFINITY),
+        }
+    }
+
+    /// |a_n|, of true scale. Meant for n near the peak, where e^{n/2} is not small.
+    fn magnitude(&self, n: Steps) -> f64 {
+        let n = match n {
+            Steps::Exactly(0) => return self.alpha,
+            Steps::Exactly(1) => return -self.first(),
+            Steps::Exactly(n) => to_f64(n),
+            Steps::About(n) => n,
+            Steps::Endless => return f64::INFINITY,
+        };
+        match self.kind {
+            Kind::Wave(wave) => {
+                let phi = (self.alpha * wave.s).atan2(wave.x.hi);
+                (0.5 * n * self.ln_e).exp() * wave.amplitude * (n * wave.theta + phi).sin() / wave.s
+            }
+            // λ₊ⁿ (α ρⁿ + σ (1 − ρⁿ)/S) with ρ = λ₋/λ₊: no cancellation for σ ≥ 0.
+            Kind::Decay(Decay { s, sigma, rate, ln_plus, .. }) => {
+                (n * ln_plus).exp() * (self.alpha * (-n * rate).exp() - sigma * (-n * rate).exp_m1() / s)
+            }
+            Kind::Edge => self.alpha + n * (self.alpha + self.beta),
+        }
+    }
+
+    /// The same recurrence with whole numbers.
+    fn exact(&self, series: Series) -> Recurrence {
+        let exact = exact(&self.bar, &self.start);
+        match series {
+            Series::Velocity => exact,
+            Series::Difference => exact.differences(&self.bar),
+        }
+    }
+}
+
+/// With q = μ/ν: P = μ(1 + e), Q = eν², c_0 = v_a, w = ν v_b.
+pub(crate) fn exact(bar: &Bar, start: &Start) -> Recurrence {
+    let [va, vb] = start.velocity();
+    let (mu, nu) = bar.exact_q();
+    let e = Dyadic::from(bar.e);
+    Recurrence {
+        p: mu.mul(&Dyadic::from(1.0).add(&e)),
+        q: e.mul(&nu.mul(&nu)),
+        v: Dyadic::from(va),
+        w: nu.mul(&Dyadic::from(vb)),
+    }
+}
+
+impl Recurrence {
+    /// The differences a_{n+1} − a_n, times ν^{n+1}: they obey the same recurrence, from
+    /// (T − 1)v_a + v_b and −(v_b + e v_a).
+    fn differences(&self, bar: &Bar) -> Self {
+        let nu = bar.exact_q().1;
+        let v = self.p.sub(&nu).mul(&self.v).add(&self.w);
+        let w = nu.mul(&self.w.add(&Dyadic::from(bar.e).mul(&nu).mul(&self.v))).neg();
+        Self { v, w, ..self.clone() }
+    }
+}
+
+/// αT + β = −a_1, to a relative 4 ε, its sign for certain.
+pub(crate) fn after_first(bar: &Bar, start: &Start) -> f64 {
+    let [va, vb] = start.velocity();
+    let at = bar.q * two_sum(1.0, bar.e) * -va;
+    let sum = at + Dd::from(-vb);
+    if sum.hi.abs() > at.hi.abs() * 2f64.powi(-40) && (at.hi.abs() > 1e-200 || at.hi == 0.0) {
+        return sum.hi;
+    }
+    let exact = exact(bar, start);
+    let (sum, nu) = (exact.p.mul(&exact.v).add(&exact.w), bar.exact_q().1);
+    -to_dd(&sum, &nu, &Dyadic::from(1.0), 0).hi
+}
+
+/// Whether |a_1| > |a_0|, for certain: α(T − 1) + β > 0.
+pub(crate) fn rises(bar: &Bar, start: &Start) -> bool {
+    let [va, vb] = start.velocity();
+    // T − 1 = e − (1 − q)(1 + e), the smaller of two ways to cancel.
+    let (rise, size) = (-va * (bar.e - bar.less.hi * (1.0 + bar.e)) - vb, -va * (1.0 + bar.less.hi) + vb.abs());
+    if rise.abs() > 16.0 * UNIT * size {
+        return rise > 0.0;
+    }
+    exact(bar, start).differences(bar).sign(0) == Ordering::Less
+}
+
+/// `2^shift x/(d1 d2)` as a double-double.
+fn to_dd(x: &Dyadic, d1: &Dyadic, d2: &Dyadic, shift: i32) -> Dd {
+    let (hi, exponent) = x.to_float();
+    if hi == 0.0 {
+        return Dd::ZERO;
+    }
+    let normal = x.mul(&Dyadic::power_of_two(-exponent));
+    let value = |d: &Dyadic| {
+        let (hi, exponent) = d.to_float();
+        let lo = d.mul(&Dyadic::power_of_two(-exponent)).sub(&Dyadic::from(hi)).to_float();
+        (two_sum(hi, ldexp(lo.0, clamp(lo.1))), exponent)
+    };
+    let ((n, _), (a, ax), (b, bx)) = (value(&normal), value(d1), value(d2));
+    (n / a / b).scale(clamp(exponent - ax - bx + i128::from(shift)))
+}
+
+/// ln(1 + k²) for k < 1, from 1 + q = 2/(1 + k²) and 1 − q = 2k²/(1 + k²); 0 where q was given.
+fn ln_near_one(bar: &Bar) -> f64 {
+    if bar.exact_q().1 == Dyadic::from(1.0) { 0.0 } else { (bar.less.hi / bar.more.hi).ln_1p() }
+}
+
+/// The exponent of the leading bit.
+fn exponent(x: f64) -> i32 {
+    clamp(Dyadic::from(x).to_float().1)
+}
+
+fn clamp(x: i128) -> i32 {
+    #[expect(clippy::cast_possible_truncation, reason = "clamped to far beyond the exponents of floats")]
+    let small = x.clamp(-20_000, 20_000) as i32;
+    small
+}
+
+#[expect(clippy::cast_precision_loss, reason = "rounds to nearest, as every f64 operation does")]
+fn to_f64(n: u128) -> f64 {
+    n as f64
+}
+
+#[expect(clippy::cast_precision_loss, reason = "an exponent; its products carry a relative error of one rounding")]
+fn as_f64(x: i128) -> f64 {
+    x as f64
+}
+
+/// n as the sum of two floats, without error below 2¹⁰⁶.
+fn wide(n: u128) -> Dd {
+    let low = n & ((1 << 53) - 1);
+    two_sum(to_f64(n - low), to_f64(low))
+}
+
+/// ⌈x⌉, at least 1, for x < 2¹²⁷.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "in range, and saturating beyond")]
+fn ceil_to_int(x: f64) -> u128 {
+    x.ceil().max(1.0) as u128
+}
+
+/// An integral double-double in [0, 2¹²⁷).
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "in range, and saturating beyond")]
+fn integer(x: Dd) -> u128 {
+    ((x.hi as i128) + (x.lo as i128)).max(0) as u128
+}
+
+const _: fn(f64, f64) -> Dd = two_prod;
