@@ -32,36 +32,30 @@ pub struct Point {
 /// ```
 #[must_use]
 pub fn impacts(n: u32, segments: u32) -> Vec<Point> {
-    let steps = 0..=if n == 0 { 0 } else { segments };
-    let curve = |i| {
+    let at = |i| {
         let x = f64::from(i) / f64::from(segments.max(1));
-        if n == 1 {
-            return Point { q: -1.0 / (2.0 - x), e: 1.0 - x };
-        }
-        match i {
-            0 => Point { q: impacts_at(n, theta_range(n).0).q, e: 1.0 },
-            i if i == segments => Point { q: 0.0, e: 0.0 },
-            _ => {
-                let (from, to) = theta_range(n);
-                impacts_at(n, from + (to - from) * x)
-            }
+        match (n, i) {
+            (1, _) => Point { q: -1.0 / (2.0 - x), e: 1.0 - x },
+            (_, 0) => Point { e: 1.0, ..impacts_at(n, last_delta(n)) },
+            _ => impacts_at(n, last_delta(n) * (1.0 - x)),
         }
     };
-    if n == 0 { Vec::new() } else { steps.map(curve).collect() }
+    if n == 0 { Vec::new() } else { (0..=segments).map(at).collect() }
 }
 
-/// θ where the curve between n and n + 1 impacts has e = 1 and e = 0.
-fn theta_range(n: u32) -> (f64, f64) {
-    let n = f64::from(n);
-    (std::f64::consts::PI / (n + 0.5), std::f64::consts::PI / n)
+/// δ = π/n − θ where the curve between n and n + 1 impacts has e = 1, which is θ = π/(n + ½).
+fn last_delta(n: u32) -> f64 {
+    std::f64::consts::PI / (f64::from(n) * (2.0 * f64::from(n) + 1.0))
 }
 
-/// The point of the curve between n and n + 1 impacts at θ.
-fn impacts_at(n: u32, theta: f64) -> Point {
+/// The point of the curve between n and n + 1 impacts at θ = π/n − δ, where
+/// √e = sin nδ / sin(π/n − (n+1)δ) keeps its digits for large n.
+fn impacts_at(n: u32, delta: f64) -> Point {
     let n = f64::from(n);
-    let root = -(n * theta).sin() / ((n + 1.0) * theta).sin();
+    let corner = std::f64::consts::PI / n;
+    let root = (n * delta).sin() / (corner - (n + 1.0) * delta).sin();
     let e = root * root;
-    Point { q: 2.0 * root * theta.cos() / (1.0 + e), e }
+    Point { q: 2.0 * root * (corner - delta).cos() / (1.0 + e), e }
 }
 
 /// The bounding curve of the endless region, q = 2√e/(1 + e), in `segments` pieces from (0, 0) to (1, 1).
@@ -84,15 +78,15 @@ pub fn area_up_to(n: u32) -> Integral {
     if n < 2 {
         return Integral { value: 0.0, error: 0.0 };
     }
-    let (from, to) = theta_range(n);
     let m = f64::from(n);
-    let q_de = |theta: f64| {
-        let (a, b) = (m * theta, (m + 1.0) * theta);
-        let root = -a.sin() / b.sin();
-        let slope = 2.0 * root * ((m + 1.0) * b.cos() * a.sin() - m * a.cos() * b.sin()) / b.sin().powi(2);
-        -2.0 * root * theta.cos() / (1.0 + root * root) * slope
+    let corner = std::f64::consts::PI / m;
+    let q_de = |delta: f64| {
+        let (a, b) = (m * delta, corner - (m + 1.0) * delta);
+        let root = a.sin() / b.sin();
+        let de = 2.0 * root * (m * a.cos() * b.sin() + (m + 1.0) * b.cos() * a.sin()) / b.sin().powi(2);
+        2.0 * root * (corner - delta).cos() / (1.0 + root * root) * de
     };
-    integrate(q_de, &[from, to], 1e-14)
+    integrate(q_de, &[0.0, last_delta(n)], 1e-13)
 }
 
 /// Where on the line of constant q the peak at the ends puts the safe zone at `level`.
@@ -129,7 +123,7 @@ impl SafeZone {
         Self { threshold }
     }
 
-    /// The level s where e = 1 − x... of the line q: 1/peak at (q, e), finite at (1, 1) too.
+    /// 1/peak at the ends, which is finite at (1, 1) too.
     fn inverse_peak(q: f64, e: f64) -> f64 {
         Bar::new(q, e).map_or(f64::NAN, |bar| 1.0 / bar.summary(&Start::default()).peak.end)
     }
@@ -194,8 +188,9 @@ impl SafeZone {
         let mut pieces = Vec::new();
         for pair in self.breaks(level).windows(2) {
             let &[a, b] = pair else { continue };
-            if a < b && inside(a, b) {
-                let (start, end) = (at(a), at(b));
+            let (start, end) = (at(a), at(b));
+            // at (1, 1) every zone has s = 0, without a curve
+            if b - a > f64::EPSILON * 4.0 && inside(a, b) {
                 let mut piece = vec![start];
                 refine(&at, start, end, flatness, 0, &mut piece);
                 pieces.push(piece);
@@ -244,12 +239,13 @@ fn falling_root(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     0.5 * (a + b)
 }
 
-/// Adds points between `a` and `b`, and `b`, until the middle lies within `flatness` of the chord.
+/// Adds points between `a` and `b`, and `b`, until three probes between lie within `flatness` of the chord.
 fn refine(at: &impl Fn(f64) -> Point, a: Point, b: Point, flatness: f64, depth: u32, out: &mut Vec<Point>) {
     let m = at(0.5 * (a.q + b.q));
     let (dq, de) = (b.q - a.q, b.e - a.e);
-    let off = (dq * (m.e - a.e) - de * (m.q - a.q)).abs();
-    if depth < 4 || (depth < 16 && off > flatness * dq.hypot(de)) {
+    let off = |p: Point| (dq * (p.e - a.e) - de * (p.q - a.q)).abs() > flatness * dq.hypot(de);
+    let bent = || off(m) || off(at(0.75 * a.q + 0.25 * b.q)) || off(at(0.25 * a.q + 0.75 * b.q));
+    if depth < 3 || (depth < 24 && bent()) {
         refine(at, a, m, flatness, depth + 1, out);
         refine(at, m, b, flatness, depth + 1, out);
     } else {
@@ -260,18 +256,84 @@ fn refine(at: &impl Fn(f64) -> Point, a: Point, b: Point, flatness: f64, depth: 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Count, Restitution};
+
+    fn count(q: f64, e: f64) -> Count {
+        Bar::new(q.min(1.0), e).unwrap().count(&Start::default())
+    }
 
     #[test]
-    fn tmp() {
-        for n in 2..8 {
-            eprintln!("{n} {:?}", area_up_to(n));
+    fn the_count_turns_on_the_curve() {
+        for n in [1, 2, 3, 4, 7, 30] {
+            for point in impacts(n, 40).iter().filter(|p| p.e > 1e-6) {
+                let e = Restitution::new(point.e).unwrap().get();
+                assert_eq!(count(point.q - 1e-12, e), Count::Finite(n.into()), "below curve {n} at {point:?}");
+                assert_eq!(count(point.q + 1e-12, e), Count::Finite(u64::from(n) + 1), "above curve {n} at {point:?}");
+            }
         }
-        let t = std::time::Instant::now();
-        for (x, l) in [(0.5, 0.0), (0.5, 0.1), (1.0, 0.0), (1.0, 0.5), (2.0, 1.0), (2.0, 0.5)] {
-            let z = SafeZone::new(x);
-            let c = z.curve(l, 1e-4);
-            eprintln!("{x} {l}: {:?} {:?}", c.iter().map(|c| (c.len(), c[0], c[c.len() - 1])).collect::<Vec<_>>(), z.area(l));
-            eprintln!("{:?}", t.elapsed());
+        for point in &endless(40)[1..40] {
+            assert_eq!(count(point.q + 1e-12, point.e), Count::Endless, "above {point:?}");
+            assert_ne!(count(point.q - 1e-12, point.e), Count::Endless, "below {point:?}");
+        }
+    }
+
+    #[test]
+    fn curves_run_from_border_to_border() {
+        assert!(impacts(0, 8).is_empty(), "there is no train without an impact");
+        for n in 2..40 {
+            let curve = impacts(n, 16);
+            assert_eq!((curve.len(), curve[0].e), (17, 1.0), "curve {n}");
+            assert_eq!(curve[16], Point { q: 0.0, e: 0.0 }, "curve {n}");
+            assert!(curve.windows(2).all(|w| w[1].e < w[0].e && w[1].q < w[0].q), "curve {n} rises in both");
+        }
+    }
+
+    #[test]
+    fn areas_have_their_closed_forms() {
+        // n = 2: q = (√(1 + 4e) − 1)/(2(1 + e)), integrated with u = √(1 + 4e)
+        let two = 5f64.sqrt() - 1.0 - 3f64.sqrt() * ((5f64 / 3.0).sqrt().atan() - (1f64 / 3.0).sqrt().atan()) - 0.5 * 2f64.ln();
+        assert!((area_up_to(2).value - two).abs() < 1e-14, "{:?}, not {two}", area_up_to(2));
+        // all finite counts together fill 4 − π; what is left beyond n falls like 1/n²
+        let left = |n: u32| 4.0 - std::f64::consts::PI - area_up_to(n).value;
+        assert!((left(2000) * 4.0 / left(1000) - 1.0).abs() < 0.01, "{} {}", left(1000), left(2000));
+        // no zone within v0: between the roots of q²(1+e)² − q e (1+e) + 1 − e = 0
+        let from = 8f64.sqrt() - 2.0;
+        let width = |e: f64| (e * e + 4.0 * e - 4.0).max(0.0).sqrt() / (1.0 + e);
+        let bare = integrate(width, &[from, 1.0], 1e-12).value;
+        assert!((1.0 - SafeZone::new(1.0).area(0.0).value - bare).abs() < 1e-9, "{bare}");
+    }
+
+    #[test]
+    fn a_level_curve_has_its_level_and_ends_on_the_border() {
+        for (threshold, level) in [(0.5, 0.0), (0.5, 0.05), (0.5, 0.2), (1.0, 0.0), (1.0, 0.4), (2.0, 0.1), (2.0, 1.0)] {
+            let pieces = SafeZone::new(threshold).curve(level, 1e-4);
+            assert!(!pieces.is_empty(), "s({threshold}) = {level}");
+            for piece in pieces {
+                for p in &piece {
+                    let s = Bar::new(p.q, p.e).unwrap().safe_zone(&Start::default(), threshold).s;
+                    assert!((s - level).abs() < 1e-12, "s({threshold}) = {s} at {p:?}");
+                }
+                for p in [piece[0], piece[piece.len() - 1]] {
+                    let border = [p.q, p.e, 1.0 - p.q, 1.0 - p.e].into_iter().any(|d| d.abs() < 1e-12);
+                    assert!(border, "the curve {level} of {threshold} ends inside, at {p:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_curve_is_as_flat_as_asked() {
+        for flatness in [1e-2, 1e-3, 1e-4, 1e-5] {
+            let zone = SafeZone::new(0.5);
+            for w in zone.curve(0.02, flatness).concat().windows(2) {
+                for x in [0.25, 0.5, 0.75] {
+                    let q = w[0].q + (w[1].q - w[0].q) * x;
+                    let off = zone.restitution(0.02, q).unwrap() - (w[0].e + (w[1].e - w[0].e) * x);
+                    let (dq, de) = (w[1].q - w[0].q, w[1].e - w[0].e);
+                    let distance = (off * dq).abs() / dq.hypot(de);
+                    assert!(distance < 2.0 * flatness, "{distance} off between {w:?}, {flatness} allowed");
+                }
+            }
         }
     }
 }

@@ -23,12 +23,15 @@ const RULE: [(f64, f64, f64); 8] = [
 ];
 
 /// Integrates `f` over the intervals between ascending `breaks`, halving each until the two rules agree within
-/// its part of `tolerance` or its length is 2⁻³⁰ of the interval's.
+/// `tolerance` per interval of the size of all, or to rounding, or until 10 000 intervals are spent.
 pub(crate) fn integrate(f: impl Fn(f64) -> f64, breaks: &[f64], tolerance: f64) -> Integral {
     let mut total = Integral { value: 0.0, error: 0.0 };
+    let mut spent = 0;
+    let length = breaks.last().zip(breaks.first()).map_or(0.0, |(b, a)| b - a);
     for pair in breaks.windows(2) {
-        let mut open = vec![(pair[0], pair[1], 0)];
-        while let Some((a, b, depth)) = open.pop() {
+        let mut open = vec![(pair[0], pair[1])];
+        while let Some((a, b)) = open.pop() {
+            spent += 1;
             let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
             let (mut kronrod, mut gauss) = (0.0, 0.0);
             for (node, wk, wg) in RULE {
@@ -39,8 +42,9 @@ pub(crate) fn integrate(f: impl Fn(f64) -> f64, breaks: &[f64], tolerance: f64) 
                 (kronrod, gauss) = (kronrod + wk * y, gauss + wg * y);
             }
             let error = half * (kronrod - gauss).abs();
-            if error > tolerance * (b - a).max(f64::EPSILON) && depth < 30 {
-                open.extend([(middle, b, depth + 1), (a, middle, depth + 1)]);
+            let allowed = (tolerance * (b - a) / length).max(16.0 * f64::EPSILON * half * kronrod.abs());
+            if error > allowed && spent < 10_000 {
+                open.extend([(middle, b), (a, middle)]);
             } else {
                 total = Integral { value: total.value + half * kronrod, error: total.error + error };
             }
