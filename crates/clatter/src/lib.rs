@@ -15,11 +15,14 @@
 
 pub mod accuracy;
 mod bar;
+pub mod contour;
 mod dd;
 mod error;
 mod exact;
 mod map;
 mod motion;
+pub mod paper;
+mod quadrature;
 pub mod reference;
 mod start;
 mod summary;
@@ -29,6 +32,7 @@ mod zone;
 pub use bar::{Bar, Mass, Restitution};
 pub use error::Error;
 pub use map::{Axis, Map, Quantity};
+pub use quadrature::Integral;
 pub use start::{End, Start};
 pub use summary::{Count, Net, Peak, PeakImpact, Summary};
 pub use train::{Impact, Train};
