@@ -83,10 +83,17 @@ impl Data {
                 let quarter = at_distance(&end, 0.5, "*s* = 0.5", [0.0, 1.0], GREEN)?;
                 let center = at_distance(&end, 0.0, "*s* = 0", [0.0, 1.0], AMBER)?;
                 let angular = sheet(Quantity::PeakAngular, "", [0.0, 1.0], BLUE)?;
-                let view = |sheets, axis, title| Surface { sheets, cut: CUT, axis, title, azimuth: 35.0, elevation: 24.0 };
+                let view = |sheets, axis, title, [azimuth, elevation]: [f64; 2]| Surface {
+                    sheets,
+                    cut: CUT,
+                    axis,
+                    title,
+                    azimuth,
+                    elevation,
+                };
                 let surfaces = [
-                    view(vec![angular], "Δ*ω*_{max}  in *v*_0/*L*", "Largest change of angular velocity"),
-                    view(vec![center, quarter, end], "Δ*v*_{max}  in *v*_0", "Largest velocity shocks"),
+                    view(vec![angular], "Δ*ω*_{max}  in *v*_0/*L*", "Largest change of angular velocity", [38.0, 24.0]),
+                    view(vec![center, quarter, end], "Δ*v*_{max}  in *v*_0", "Largest velocity shocks", [128.0, 18.0]),
                 ];
                 let table1 = clatter::paper::table1()?;
                 Ok::<_, ReportError>((Impacts { curves, endless: contour::endless(160) }, surfaces, table1))

@@ -2,7 +2,7 @@
 
 use clatter::Map;
 
-use crate::svg::{Anchor, GRAY, INK, Ink, LABEL, Label, Pt, RUST, Svg};
+use crate::svg::{Anchor, INK, Ink, LABEL, Label, Pt, RUST, Svg};
 
 /// One sheet: its heights over the grid of a map, and its name.
 #[derive(Debug, Clone)]
@@ -35,6 +35,10 @@ pub(crate) struct Surface {
 /// A point (q, e, z).
 type P3 = [f64; 3];
 
+/// Where the middle of the box lies on the page, and the size of its floor, in pt.
+const CENTER: Pt = [122.0, 100.0];
+const SCALE: f64 = 136.0;
+
 /// Orthographic view.
 struct View {
     sin: f64,
@@ -55,7 +59,7 @@ impl View {
         let right = x * self.cos - y * self.sin;
         let back = x * self.sin + y * self.cos;
         let up = z / self.cut * 0.78;
-        ([190.0 + 205.0 * right, 152.0 - 205.0 * (back * self.lift + (up - 0.39) * self.lower)], -back)
+        ([CENTER[0] + SCALE * right, CENTER[1] - SCALE * (back * self.lift + (up - 0.39) * self.lower)], -back)
     }
     fn pt(&self, p: P3) -> Pt {
         self.at(p).0
@@ -82,7 +86,7 @@ fn below(polygon: &[P3], cut: f64) -> Vec<P3> {
 /// are functions of (q, e), seen from above.
 pub(crate) fn surface(data: &Surface) -> String {
     let view = View::new(data);
-    let mut svg = Svg::new(380.0, 300.0);
+    let mut svg = Svg::new(232.0, 216.0);
     box_back(&mut svg, &view, data);
     let Some(first) = data.sheets.first() else { return svg.finish(data.title) };
     let (nq, ne) = (first.map.q.points(), first.map.e.points());
@@ -101,7 +105,7 @@ pub(crate) fn surface(data: &Surface) -> String {
             let page: Vec<Pt> = shape.iter().map(|p| view.pt(*p)).collect();
             let bright = brightness(&shape, data.cut, light);
             let fill = mix(sheet.fill, bright);
-            let line = mix([sheet.fill[0].map(|c| c / 2), sheet.fill[1].map(|c| c / 2)], bright);
+            let line = mix([sheet.fill[0].map(|c| c / 4 * 3), sheet.fill[1].map(|c| c / 4 * 3)], bright);
             svg.facet(&page, &fill, &line);
             for w in 0..shape.len() {
                 let (a, b) = (shape[w], shape[(w + 1) % shape.len()]);
@@ -193,14 +197,14 @@ fn box_front(svg: &mut Svg, view: &View, data: &Surface) {
         for k in 0..=5u8 {
             let v = f64::from(k) / 5.0;
             svg.line(view.pt(p(v)), away(v, 3.0), Ink::line(INK, 0.6));
-            let [x, y] = away(v, 11.0);
+            let [x, y] = away(v, 10.0);
             let text = if k == 0 || k == 5 { format!("{v:.0}") } else { format!("{v:.1}") };
             svg.text([x, y + 2.6], &text, tick);
         }
         let (a, b) = (view.pt(p(0.0)), view.pt(p(1.0)));
         let (a, b) = if a[0] < b[0] { (a, b) } else { (b, a) };
         let turn = (b[1] - a[1]).atan2(b[0] - a[0]).to_degrees();
-        let [x, y] = away(0.5, 27.0);
+        let [x, y] = away(0.5, 25.0);
         svg.text([x, y], title, Label { turn, ..LABEL });
     };
     let step = 1e-3;
@@ -212,7 +216,7 @@ fn box_front(svg: &mut Svg, view: &View, data: &Surface) {
     let left = corners.into_iter().min_by(|a, b| view.pt([a[0], a[1], 0.0])[0].total_cmp(&view.pt([b[0], b[1], 0.0])[0]));
     let [q, e] = left.unwrap_or_default();
     svg.line(view.pt([q, e, 0.0]), view.pt([q, e, data.cut]), rule);
-    for k in 0..=4u8 {
+    for k in 1..=4u8 {
         let z = data.cut * f64::from(k) / 4.0;
         let [x, y] = view.pt([q, e, z]);
         svg.line([x, y], [x - 3.0, y], Ink::line(INK, 0.6));
@@ -222,5 +226,4 @@ fn box_front(svg: &mut Svg, view: &View, data: &Surface) {
     }
     let [x, y] = view.pt([q, e, 0.5 * data.cut]);
     svg.text([x - 24.0, y], data.axis, Label { turn: -90.0, ..LABEL });
-    let _ = GRAY;
 }
