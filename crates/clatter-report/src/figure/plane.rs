@@ -213,8 +213,8 @@ fn cut(line: &[Pt], from: f64, to: f64) -> [Vec<Pt>; 2] {
 
 /// Figs. 5 to 7: the safe zone of one threshold.
 pub(crate) fn zones(data: &Zones) -> String {
-    let frame = Frame { left: 38.0, top: 6.0, side: 178.0 };
-    let mut svg = Svg::new(222.0, 214.0);
+    let frame = Frame { left: 38.0, top: 6.0, side: 168.0 };
+    let mut svg = Svg::new(214.0, 204.0);
     let bare = data.levels.first().is_some_and(|(level, _)| *level == 0.0);
     svg.rect([frame.left, frame.top], [frame.side, frame.side], Ink::fill(if bare { SAND } else { BLUES[0] }));
     let shade = |i: usize| ((i + usize::from(!bare)) * 8 / (data.levels.len() - usize::from(bare))).min(7);
