@@ -58,14 +58,14 @@ pub(crate) fn scheme(percussion: f64) -> String {
         let [x, y] = at(0.5 * (from + to), off + 5.0);
         svg.text([x, y], text, Label { turn: -tilt.to_degrees(), ..LABEL });
     };
-    measure(&mut svg, 0.0, percussion, 26.0, "*p* = *J*/*mL*");
+    measure(&mut svg, 0.0, percussion, 26.0, "*p* = *J* / *mL*");
     measure(&mut svg, -1.0, 0.0, 48.0, "*L*");
     measure(&mut svg, 0.0, 1.0, 48.0, "*L*");
     // a point at l, below
-    let l = 0.68;
+    let l = 0.58;
     measure(&mut svg, 0.0, l, -14.0, "");
-    let [x, y] = at(0.5 * l, -24.0);
-    svg.text([x, y + 1.0], "*l* = *sL*", LABEL);
+    let [x, y] = at(l, -14.0);
+    svg.text([x + 4.0, y + 3.5], "*l* = *sL*", Label { anchor: Anchor::Start, ..LABEL });
     dot(&mut svg, l, "#98b8d6");
     // height gap
     let [x, y] = at(1.0, -4.0);

@@ -516,7 +516,7 @@ fn one(plane: &Plane) -> Vec<Claim> {
         Claim {
             place: "Fig. 6",
             statement: "In places q has no appreciable effect on it.",
-            measured: vec![part("steps where Δq = 0.1 moves s by less than 1 % of the bar", flat)],
+            measured: vec![part("steps at a rate of less than 1 % of the bar per 0.1 in q", flat)],
             verdict: Verdict::of(flat > 0.01, false),
             remark: "",
         },
