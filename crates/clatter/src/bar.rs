@@ -48,8 +48,8 @@ pub enum Mass {
 /// last word on a count is spoken in integers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Given {
-    /// The inertia ratio.
-    InertiaRatio(f64),
+    /// The inertia ratio itself.
+    InertiaRatio,
     /// k² = (ρ/L)² as a quotient of products.
     GyrationSquared { over: [f64; 2], under: [f64; 3] },
 }
@@ -71,16 +71,23 @@ enum Given {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bar {
+    /// q rounded.
+    q: f64,
     pub(crate) e: f64,
     /// q(1 + e) rounded.
     pub(crate) t: f64,
-    /// q, to about 2⁻¹⁰⁰.
-    pub(crate) q: Dd,
-    /// 1 − q, to a relative 2⁻¹⁰⁰.
-    pub(crate) less: Dd,
-    /// 1 + q, likewise.
-    pub(crate) more: Dd,
+    /// 1 − q and 1 + q rounded, but not from a rounded q.
+    pub(crate) less: f64,
+    pub(crate) more: f64,
     given: Given,
+}
+
+/// q, 1 − q and 1 + q, each to a relative 2⁻¹⁰⁰.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct WideQ {
+    pub(crate) q: Dd,
+    pub(crate) less: Dd,
+    pub(crate) more: Dd,
 }
 
 impl Bar {
@@ -94,14 +101,7 @@ impl Bar {
             return Err(Error::InertiaRatio(q));
         }
         let (q, e) = (q + 0.0, Restitution::new(e)?.get());
-        Ok(Self {
-            e,
-            t: q + q * e,
-            q: Dd::from(q),
-            less: two_sum(1.0, -q),
-            more: two_sum(1.0, q),
-            given: Given::InertiaRatio(q),
-        })
+        Ok(Self { q, e, t: q + q * e, less: 1.0 - q, more: 1.0 + q, given: Given::InertiaRatio })
     }
 
     /// From k = ρ/L, radius of gyration over half-length: q = (1 − k²)/(1 + k²). No digit is lost near q = 1.
@@ -212,23 +212,18 @@ impl Bar {
     /// k² = over/under, every product within the range of floats.
     fn from_gyration_squared(over: [f64; 2], under: [f64; 3], e: f64) -> Result<Self, Error> {
         let e = Restitution::new(e)?.get();
-        let (n, d) = (two_prod(over[0], over[1]), two_prod(under[0], under[1]) * under[2]);
-        let (q, two) = ((d - n) / (d + n), Dd::from(2.0));
-        Ok(Self {
-            e,
-            t: q.hi + q.hi * e,
-            q,
-            less: two * n / (d + n),
-            more: two * d / (d + n),
-            given: Given::GyrationSquared { over, under },
-        })
+        let given = Given::GyrationSquared { over, under };
+        let mut bar = Self { q: 0.0, e, t: 0.0, less: 0.0, more: 0.0, given };
+        let WideQ { q, less, more } = bar.wide_q();
+        (bar.q, bar.t, bar.less, bar.more) = (q.hi, q.hi + q.hi * e, less.hi, more.hi);
+        Ok(bar)
     }
 
     /// Inertia ratio `q = (L² − ρ²)/(L² + ρ²)`, the negative ratio of the velocity jumps of the free and the
     /// struck end.
     #[must_use]
     pub fn q(&self) -> f64 {
-        self.q.hi
+        self.q
     }
     /// Coefficient of restitution.
     #[must_use]
@@ -238,25 +233,38 @@ impl Bar {
     /// k = ρ/L, the radius of gyration over the half-length: `√((1 − q)/(1 + q))`, relative error below 1e−15.
     #[must_use]
     pub fn gyration_ratio(&self) -> f64 {
-        (self.less.hi / self.more.hi).sqrt()
+        (self.less / self.more).sqrt()
     }
     /// Distance p/L = k² from the center of mass to the center of percussion of the other side's end, over the
     /// half-length: the point that feels nothing of a strike at the other end (paper, section 3).
     #[must_use]
     pub fn percussion(&self) -> f64 {
-        self.less.hi / self.more.hi
+        self.less / self.more
     }
     /// Share of the shock at a struck end that reaches signed position `s` (the struck end is at s = 1):
     /// `((1 − q) + s (1 + q))/2` (Eq. 3).
     #[must_use]
     pub fn share(&self, s: f64) -> f64 {
-        0.5 * (self.less.hi + s * self.more.hi)
+        0.5 * (self.less + s * self.more)
+    }
+
+    pub(crate) fn wide_q(&self) -> WideQ {
+        match self.given {
+            Given::InertiaRatio => {
+                WideQ { q: Dd::from(self.q), less: two_sum(1.0, -self.q), more: two_sum(1.0, self.q) }
+            }
+            Given::GyrationSquared { over, under } => {
+                let (n, d) = (two_prod(over[0], over[1]), two_prod(under[0], under[1]) * under[2]);
+                let (both, two) = (d + n, Dd::from(2.0));
+                WideQ { q: (d - n) / both, less: two * n / both, more: two * d / both }
+            }
+        }
     }
 
     /// (μ, ν) with q = μ/ν, as integers.
     pub(crate) fn exact_q(&self) -> (Dyadic, Dyadic) {
         match self.given {
-            Given::InertiaRatio(q) => (Dyadic::from(q), Dyadic::from(1.0)),
+            Given::InertiaRatio => (Dyadic::from(self.q), Dyadic::from(1.0)),
             Given::GyrationSquared { over, under } => {
                 let product = |f: &[f64]| f.iter().fold(Dyadic::from(1.0), |p, &x| p.mul(&Dyadic::from(x)));
                 let (n, d) = (product(&over), product(&under));

@@ -44,7 +44,6 @@ pub(crate) fn two_prod(a: f64, b: f64) -> Dd {
 
 impl Dd {
     pub(crate) const ZERO: Self = Self { hi: 0.0, lo: 0.0 };
-    pub(crate) const ONE: Self = Self { hi: 1.0, lo: 0.0 };
 
     pub(crate) fn abs(self) -> Self {
         if self.hi < 0.0 { -self } else { self }
@@ -203,4 +202,84 @@ pub(crate) fn atan2(y: Dd, x: Dd) -> Dd {
     let angle = base + small;
     let angle = if steep { PI.scale(-1) - angle } else { angle };
     if half_turn { PI - angle } else { angle }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_bigint::BigInt;
+    use proptest::prelude::*;
+
+    /// 2^200 atan(n/d) by the alternating series, for 0 ≤ n/d ≤ 1/2, to a few units.
+    fn atan_fixed(n: i64, d: i64) -> BigInt {
+        let (n2, d2) = (BigInt::from(n * n), BigInt::from(d * d));
+        let mut power = (BigInt::from(n) << 200) / d;
+        let (mut sum, mut k) = (BigInt::from(0), 1);
+        while power != BigInt::from(0) {
+            sum += &power / k * if k % 4 == 1 { 1 } else { -1 };
+            power = power * &n2 / &d2;
+            k += 2;
+        }
+        sum
+    }
+
+    fn fixed(x: Dd) -> BigInt {
+        let part = |v: f64| {
+            let bits = v.abs().to_bits();
+            let (m, e) = ((bits & ((1 << 52) - 1)) | (1 << 52), i64::try_from(bits >> 52).unwrap() - 1075);
+            if v == 0.0 {
+                return BigInt::from(0);
+            }
+            let m = BigInt::from(m);
+            let m = if e + 200 >= 0 { m << (e + 200) } else { m >> (-e - 200) };
+            if v < 0.0 { -m } else { m }
+        };
+        part(x.hi) + part(x.lo)
+    }
+
+    /// |a − b| < 2^-bits, for numbers in units of 2^-200.
+    fn close(a: &BigInt, b: &BigInt, bits: u64) -> bool {
+        (a - b).magnitude().bits() < 200 - bits
+    }
+
+    #[test]
+    fn the_table_of_arcus_tangents_is_correct_to_106_bits() {
+        // Machin: π/4 = 4 atan 1/5 − atan 1/239; beyond 1/2: atan x = π/4 − atan((1 − x)/(1 + x)).
+        let quarter: BigInt = 4 * atan_fixed(1, 5) - atan_fixed(1, 239);
+        assert!(close(&fixed(PI.scale(-2)), &quarter, 107), "π");
+        for (k, &got) in (0..).zip(&ATAN) {
+            let want = if k <= 8 { atan_fixed(k, 16) } else { &quarter - atan_fixed(16 - k, 16 + k) };
+            assert!(close(&fixed(got), &want, 106), "atan({k}/16)");
+        }
+        for (&got, odd) in INVERSE_ODD.iter().zip([11, 9, 7, 5, 3]) {
+            assert!(close(&fixed(got), &((BigInt::from(1) << 200) / odd), 106), "1/{odd}");
+        }
+    }
+
+    proptest! {
+        /// Against the series, for every octant that is asked for, at the stated 2⁻⁹⁹.
+        #[test]
+        fn an_angle_has_99_good_bits(n in 1..1_000_000_i64, d in 1..1_000_000_i64) {
+            let quarter: BigInt = 4 * atan_fixed(1, 5) - atan_fixed(1, 239);
+            let (lo, hi) = (n.min(d), n.max(d));
+            let first = if 2 * lo <= hi { atan_fixed(lo, hi) } else { &quarter - atan_fixed(hi - lo, hi + lo) };
+            let angle = if n <= d { first } else { 2 * &quarter - first };
+            let (y, x) = (Dd::from(n as f64), Dd::from(d as f64));
+            let got = fixed(atan2(y, x));
+            // Relative: 99 bits below the leading bit of the angle.
+            let lead = 200 - angle.magnitude().bits();
+            prop_assert!(close(&got, &angle, 99 + lead), "atan2({n}, {d})");
+            let obtuse: BigInt = 4 * &quarter - angle;
+            prop_assert!(close(&fixed(atan2(y, -x)), &obtuse, 98), "atan2({n}, -{d})");
+        }
+
+        #[test]
+        fn products_quotients_and_roots_undo_each_other(a in 1e-3..1e3_f64, b in 1e-3..1e3_f64) {
+            let (x, y) = (Dd::from(a) / Dd::from(3.0), Dd::from(b) / Dd::from(7.0));
+            let tiny = 2f64.powi(-101);
+            prop_assert!(((x * y / y - x) / x).hi.abs() < tiny, "x y / y");
+            prop_assert!(((x.sqr().sqrt() - x) / x).hi.abs() < tiny, "√x²");
+            prop_assert!(((x + y - y - x) / (x + y)).hi.abs() < tiny, "x + y − y");
+        }
+    }
 }

@@ -158,3 +158,42 @@ impl Recurrence {
         (c.to_float(), u.to_float())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Doubling against the recurrence itself.
+    #[test]
+    fn terms_by_doubling_are_those_of_the_recurrence() {
+        let d = Dyadic::from;
+        for (p, q, v, w) in [(1.5, 0.7, -1.0, 0.3), (-0.3, 1.0, -1.0, -1.0), (2.0, 1.0, -2.5, 1e-20)] {
+            let r = Recurrence { p: d(p), q: d(q), v: d(v), w: d(w) };
+            let (mut c, mut next) = (r.v.clone(), r.p.mul(&r.v).add(&r.w));
+            for n in 0..60 {
+                assert_eq!(r.term(n).0.sub(&c).sign(), Ordering::Equal, "term {n} of ({p}, {q}, {v}, {w})");
+                (c, next) = (next.clone(), r.p.mul(&next).sub(&r.q.mul(&c)));
+            }
+        }
+    }
+
+    #[test]
+    fn cut_significands_agree_with_whole_ones() {
+        let d = Dyadic::from;
+        let r = Recurrence { p: d(1.7), q: d(0.8), v: d(-1.0), w: d(-1.0) };
+        let (low, _) = r.lucas(EXACT);
+        let (c, _) = r.lucas(EXACT - 1);
+        // One more step from whole numbers, against cut ones.
+        let next = r.p.mul(&low).sub(&r.q.mul(&c));
+        let (a, b) = (next.to_float(), r.lucas(EXACT + 1).0.to_float());
+        assert_eq!(a, b, "U_1025");
+    }
+
+    #[test]
+    fn a_float_survives_the_way_there_and_back() {
+        for v in [1.0, -0.1, 5e-324, f64::MAX, -2.2e-308, 0.0] {
+            let (m, x) = Dyadic::from(v).to_float();
+            assert_eq!(crate::dd::ldexp(m, i32::try_from(x).unwrap()).to_bits(), v.to_bits(), "{v:e}");
+        }
+    }
+}

@@ -21,7 +21,9 @@
 
 use crate::dd::{self, Dd, ldexp, two_prod, two_sum};
 use crate::exact::{Dyadic, Recurrence};
+use crate::bar::WideQ;
 use crate::{Bar, Start};
+use libm::{atan2, exp, expm1, log, log1p, sin, sincos};
 use std::cmp::Ordering;
 use std::f64::consts::LN_2;
 
@@ -114,21 +116,24 @@ impl Drive {
         let [va, vb] = start.velocity();
         let (alpha, beta) = (-va, -vb);
         let e = bar.e;
-        let small = bar.q.hi.max(e.sqrt());
+        let small = bar.q().max(e.sqrt());
         let m = if small < 1e-60 { -exponent(small) } else { 0 };
-        let (q, scaled_e) = (bar.q.scale(m), ldexp(e, 2 * m));
+        let wide = bar.wide_q();
+        let (q, scaled_e) = if m == 0 { (wide.q, e) } else { (wide.q.scale(m), ldexp(e, 2 * m)) };
         let t = q * two_sum(1.0, e);
-        let beta = ldexp(beta, m);
-        let ln_e = if e > 0.5 { (e - 1.0).ln_1p() } else { e.ln() };
+        let beta = if m == 0 { beta } else { ldexp(beta, m) };
+        let ln_e = if e > 0.5 { log1p(e - 1.0) } else { log(e) };
         let mut drive =
             Self { bar: *bar, start: *start, m, t, e: scaled_e, alpha, beta, ln_e, kind: Kind::Edge };
-        let d = drive.discriminant();
+        let d = drive.discriminant(&wide);
         drive.kind = if d.hi > 0.0 {
             let x = drive.slope(d);
             let s = d.hi.sqrt();
             let (y, x_hi) = (alpha * s, x.hi);
-            let theta = s.atan2(t.hi);
-            Kind::Wave(Wave { d, s, x, amplitude: x_hi.hypot(y), theta, psi: y.atan2(-x_hi) })
+            let theta = atan2(s, t.hi);
+            // Squares leave the range only where a scale has been brought in.
+            let amplitude = if m == 0 { (x_hi * x_hi + y * y).sqrt() } else { x_hi.hypot(y) };
+            Kind::Wave(Wave { d, s, x, amplitude, theta, psi: atan2(y, -x_hi) })
         } else if d.hi < 0.0 {
             Kind::Decay(drive.decay(d))
         } else {
@@ -138,11 +143,11 @@ impl Drive {
     }
 
     /// D = 4e − T², to a relative 2⁻²⁵ at the very least, its sign for certain.
-    fn discriminant(&self) -> Dd {
+    fn discriminant(&self, wide: &WideQ) -> Dd {
         let e = self.bar.e;
         // Of two equal forms the one with the smaller terms.
         let (first, second) = if e > 0.17 {
-            (self.bar.less * self.bar.more * two_sum(1.0, e).sqr(), two_sum(1.0, -e).sqr())
+            (wide.less * wide.more * two_sum(1.0, e).sqr(), two_sum(1.0, -e).sqr())
         } else {
             (Dd::from(4.0 * self.e), self.t.sqr())
         };
@@ -194,19 +199,19 @@ impl Drive {
             (product / tau, tau)
         };
         let shift = f64::from(self.m) * LN_2;
-        let rate = if s < 0.5 * plus { -(-s / plus).ln_1p() } else { 2.0 * (plus.ln() - shift) - self.ln_e };
+        let rate = if s < 0.5 * plus { -log1p(-s / plus) } else { 2.0 * (log(plus) - shift) - self.ln_e };
         let ln_plus = if self.m == 0 {
             let (u, w) = self.corner();
-            (-2.0 * w / (u + w + s)).ln_1p() // 1 − λ₊ = (1 − q)(1 + e)/(1 − λ₋)
+            log1p(-2.0 * w / (u + w + s)) // 1 − λ₊ = (1 − q)(1 + e)/(1 − λ₋)
         } else {
-            plus.ln() - shift
+            log(plus) - shift
         };
         Decay { s, plus, sigma, tau, rate, ln_plus }
     }
 
     /// 1 − e and (1 − q)(1 + e), without cancellation: u + w = 2 − T, u − w = T − 2e, w = 1 − T + e.
     fn corner(&self) -> (f64, f64) {
-        (1.0 - self.bar.e, self.bar.less.hi * (1.0 + self.bar.e))
+        (1.0 - self.bar.e, self.bar.less * (1.0 + self.bar.e))
     }
 
     /// The number of impacts.
@@ -218,10 +223,7 @@ impl Drive {
             }
             Kind::Decay(Decay { sigma, .. }) if sigma >= 0.0 => Steps::Endless,
             Kind::Decay(Decay { sigma, tau, rate, s, .. }) => {
-                // ln(τ/σ), with τ − σ = −αS.
-                let gap = self.alpha * s / -sigma;
-                let span = if gap < 1.0 { gap.ln_1p() } else { (tau / sigma).ln() };
-                let quotient = span / rate;
+                let quotient = self.span(s, sigma, tau) / rate;
                 self.settle(Series::Velocity, quotient, QUOTIENT * (quotient + 1.0 / rate))
             }
             Kind::Edge => {
@@ -234,6 +236,12 @@ impl Drive {
                 self.settle(Series::Velocity, quotient, QUOTIENT * quotient)
             }
         }
+    }
+
+    /// ln(τ/σ), with τ − σ = −αS, for σ < 0.
+    fn span(&self, s: f64, sigma: f64, tau: f64) -> f64 {
+        let gap = self.alpha * s / -sigma;
+        if gap < 1.0 { log1p(gap) } else { log(tau / sigma) }
     }
 
     /// ⌈quotient⌉, at least 1, where the quotient is off by no more than `error`: with more digits if need be.
@@ -296,11 +304,34 @@ impl Drive {
         (psi - theta * wide(n)).hi
     }
 
-    /// a_{N−1}, a_N and the time of strike N, for a train of N impacts.
-    pub(crate) fn last(&self, n: u128) -> Last {
-        if n == 1 {
-            return Last { a: -self.alpha, next: self.first(), time: 0.0 };
+    /// a_{N−1}, a_N and the time of the last strike; of an endless train, at rest, the time it tends to. NaN for a
+    /// count beyond 2¹²⁰, whose remainder is unknown.
+    pub(crate) fn last(&self, steps: Steps) -> Last {
+        match steps {
+            Steps::Exactly(1) => Last { a: -self.alpha, next: self.first(), time: 0.0 },
+            Steps::Exactly(n) => self.last_of(n),
+            Steps::Endless => Last { a: 0.0, next: 0.0, time: self.limit() },
+            Steps::About(_) => Last { a: f64::NAN, next: f64::NAN, time: f64::NAN },
         }
+    }
+
+    /// Approach velocity and time of strike n.
+    pub(crate) fn strike(&self, n: u128) -> (f64, f64) {
+        if n == 1 {
+            return (-self.alpha, 0.0);
+        }
+        if let Kind::Decay(Decay { s, plus, sigma, rate, ln_plus, .. }) = self.kind && sigma >= 0.0 {
+            let count = to_f64(n - 1);
+            let (p, g) = (exp(-count * rate), -expm1(-count * rate) * (plus / s));
+            let sum = self.alpha * plus * p + sigma * g;
+            return (-exp(count * ln_plus) * sum / plus, ldexp(self.start.height_gap() * g / sum, self.m));
+        }
+        let Last { a, time, .. } = self.last_of(n);
+        (a, time)
+    }
+
+    /// For n ≥ 2: a_{n−1}, a_n and the time of strike n.
+    fn last_of(&self, n: u128) -> Last {
         let h0 = self.start.height_gap();
         match self.kind {
             Kind::Wave(wave) => {
@@ -308,43 +339,55 @@ impl Drive {
                 // Both parts of the last step must be known; else integers give them.
                 if delta > wave.psi * 2f64.powi(-60) {
                     let amplitude = wave.amplitude / wave.s;
-                    let a = -self.decayed(n - 1) * amplitude * delta.sin();
-                    let next = self.decayed(n) * amplitude * (wave.theta - delta).sin().max(0.0);
-                    let sum = self.alpha * wave.s / delta.tan() + wave.x.hi;
+                    let (rise, run) = sincos(delta);
+                    let a = -self.decayed(n - 1) * amplitude * rise;
+                    let next = self.decayed(n) * amplitude * sin(wave.theta - delta).max(0.0);
+                    let sum = self.alpha * wave.s * (run / rise) + wave.x.hi;
                     let time = ldexp(h0 / wave.amplitude * (2.0 * sum / wave.amplitude), self.m);
                     return Last { a, next, time };
                 }
             }
             Kind::Decay(Decay { s, sigma, tau, rate, ln_plus, .. }) => {
                 let count = to_f64(n - 1);
-                let gap = self.alpha * s / -sigma;
-                let span = if gap < 1.0 { gap.ln_1p() } else { (tau / sigma).ln() };
+                let span = self.span(s, sigma, tau);
                 let delta = span - count * rate;
                 if 8.0 * UNIT * (span + 1.0) < 1e-10 * delta {
-                    let over = delta.exp_m1();
-                    let a = sigma / s * (count * ln_plus).exp() * over;
-                    let next = sigma / s * ((count + 1.0) * ln_plus).exp() * (delta - rate).exp_m1();
-                    let time = ldexp(h0 * (-count * rate).exp_m1() / (sigma * over), self.m);
+                    let over = expm1(delta);
+                    let a = sigma / s * exp(count * ln_plus) * over;
+                    let next = sigma / s * exp((count + 1.0) * ln_plus) * expm1(delta - rate);
+                    let time = ldexp(h0 * expm1(-count * rate) / (sigma * over), self.m);
                     return Last { a, next, time };
                 }
             }
-            Kind::Edge => {}
+            // |a_n| = λⁿ⁻¹(αλ + nσ) with λ = T/2, σ = αλ + β, and b_n = nλⁿ⁻¹.
+            Kind::Edge => {
+                let (lambda, sigma) = (0.5 * self.t.hi, 0.5 * self.slope(Dd::ZERO).hi);
+                let [count, start] = [to_f64(n - 1), self.alpha * lambda];
+                let sum = start + count * sigma;
+                if 2.0 * UNIT * start < 1e-11 * sum {
+                    let scale = exp((count - 1.0) * log(lambda));
+                    let time = ldexp(h0 * count / sum, self.m);
+                    return Last { a: -scale * sum, next: -scale * lambda * (sum + sigma), time };
+                }
+            }
         }
         let exact = self.exact(Series::Velocity);
         let ((c, cx), (u, ux)) = exact.values(n - 1);
         let ((next, nx), _) = exact.values(n);
         // a_n = c_n/ν^n and b_n = U_n/ν^{n−1}, with q = μ/ν.
-        let (nu, nu_x) = self.bar.exact_q().1.to_float();
-        let ln_nu = if nu_x == 0 { ln_near_one(&self.bar) } else { nu.ln() + as_f64(nu_x) * LN_2 };
+        let nu = self.bar.exact_q().1;
+        let above_one = nu.sub(&Dyadic::from(1.0)).to_float();
+        let (nu, nu_x) = nu.to_float();
+        let ln_nu = if nu_x == 0 { log1p(ldexp(above_one.0, clamp(above_one.1))) } else { log(nu) + as_f64(nu_x) * LN_2 };
         let power = |v: f64, x: i128, n: u128| {
-            if v == 0.0 { 0.0 } else { v.signum() * (v.abs().ln() + as_f64(x) * LN_2 - to_f64(n) * ln_nu).exp() }
+            if v == 0.0 { 0.0 } else { v.signum() * exp(log(v.abs()) + as_f64(x) * LN_2 - to_f64(n) * ln_nu) }
         };
         let time = if h0 == 0.0 { 0.0 } else { h0 * ldexp(u * nu / -c, clamp(ux + nu_x - cx)) };
         Last { a: power(c, cx, n - 1), next: power(next, nx, n), time }
     }
 
-    /// The time an endless train tends to, h0/σ; NaN for a count beyond 2¹²⁰, whose remainder is unknown.
-    pub(crate) fn end(&self) -> f64 {
+    /// The time an endless train tends to: h0/σ.
+    fn limit(&self) -> f64 {
         let h0 = self.start.height_gap();
         let sigma = match self.kind {
             Kind::Decay(decay) => decay.sigma,
@@ -355,7 +398,7 @@ impl Drive {
 
     /// e^{n/2}.
     fn decayed(&self, n: u128) -> f64 {
-        (0.5 * to_f64(n) * self.ln_e).exp()
+        exp(0.5 * to_f64(n) * self.ln_e)
     }
 
     /// −(αT + β), the next velocity after the first strike, true scale.
@@ -378,10 +421,10 @@ impl Drive {
             Kind::Wave(wave) => {
                 let x = alpha * wave.d.hi + alpha * (u - w) + beta * (u + w);
                 let y = alpha * (1.0 - (u + w)) + beta;
-                let quotient = (y.max(0.0) * wave.s).atan2(x) / wave.theta;
+                let quotient = atan2(y.max(0.0) * wave.s, x) / wave.theta;
                 // The cancellation in x and y is of terms no larger than 4(α + |β|)(u + w + S).
                 let size = 4.0 * (alpha + beta.abs()) * (u + w + wave.s);
-                let error = QUOTIENT * (quotient + size / x.hypot(y * wave.s) / wave.theta);
+                let error = QUOTIENT * (quotient + size / (x.abs() + y.abs() * wave.s) / wave.theta);
                 let steps = self.settle(Series::Difference, quotient, error);
                 (steps, self.magnitude(steps))
             }
@@ -391,7 +434,7 @@ impl Drive {
                 }
                 // (λ₊/λ₋)^n ≥ τ(1 − λ₋)/(σ(1 − λ₊)); it rises, hence σ > 0 and τ > 0.
                 let below = 0.5 * (u + w + s);
-                let quotient = (tau / sigma * (below * below / w)).ln() / rate;
+                let quotient = log(tau / sigma * (below * below / w)) / rate;
                 let error = QUOTIENT * (quotient.abs() + (1.0 + alpha * plus / tau.abs()) / rate);
                 let steps = self.settle(Series::Difference, quotient.max(0.25), error);
                 (steps, self.magnitude(steps))
@@ -412,12 +455,12 @@ impl Drive {
         };
         match self.kind {
             Kind::Wave(wave) => {
-                let phi = (self.alpha * wave.s).atan2(wave.x.hi);
-                (0.5 * n * self.ln_e).exp() * wave.amplitude * (n * wave.theta + phi).sin() / wave.s
+                let phi = atan2(self.alpha * wave.s, wave.x.hi);
+                exp(0.5 * n * self.ln_e) * wave.amplitude * sin(n * wave.theta + phi) / wave.s
             }
             // λ₊ⁿ (α ρⁿ + σ (1 − ρⁿ)/S) with ρ = λ₋/λ₊: no cancellation for σ ≥ 0.
             Kind::Decay(Decay { s, sigma, rate, ln_plus, .. }) => {
-                (n * ln_plus).exp() * (self.alpha * (-n * rate).exp() - sigma * (-n * rate).exp_m1() / s)
+                exp(n * ln_plus) * (self.alpha * exp(-n * rate) - sigma * expm1(-n * rate) / s)
             }
             Kind::Edge => self.alpha + n * (self.alpha + self.beta),
         }
@@ -430,6 +473,146 @@ impl Drive {
             Series::Velocity => exact,
             Series::Difference => exact.differences(&self.bar),
         }
+    }
+}
+
+/// Neighboring strikes that are carried on together.
+pub(crate) const LANES: usize = 4;
+/// Strikes from one anchor in the closed form to the next: 64 steps of the four lanes, which add some 64 roundings.
+const BLOCK: u128 = 256;
+
+/// Approach velocity and time of four neighboring strikes, ready to be carried on to the next four.
+///
+/// For a wave, x = sin δ_n and y = sin nθ turn by 4θ a step in the form `d ← d − κx, x ← x + d` with κ = 4 sin² 2θ
+/// (Reinsch), whose errors stay relative where δ_n or nθ are small; |a_n| = gx, time = cy/x. For an endless decay,
+/// x = ρⁿ and y = (1 − ρⁿ)/(1 − ρ) with ρ = λ₋/λ₊ add up positive terms; |a_n| = g(αλ₊x + σy), time = h0 y over that.
+#[derive(Debug, Clone)]
+pub(crate) struct Lanes {
+    /// Index n of the first lane.
+    n: u128,
+    x: [f64; LANES],
+    dx: [f64; LANES],
+    y: [f64; LANES],
+    dy: [f64; LANES],
+    g: [f64; LANES],
+    kappa: f64,
+    /// What g is multiplied by a step.
+    decay: f64,
+    /// 2 h0/A, or h0.
+    time: f64,
+    approach: [f64; LANES],
+    times: [f64; LANES],
+}
+
+impl Lanes {
+    /// With index `n` in the first lane.
+    pub(crate) fn new(drive: &Drive, n: u128) -> Self {
+        let zero = [0.0; LANES];
+        let mut lanes = Self {
+            n, x: zero, dx: zero, y: zero, dy: zero, g: zero, kappa: 0.0, decay: 0.0, time: 0.0,
+            approach: zero, times: zero,
+        };
+        lanes.anchor(drive);
+        lanes
+    }
+
+    /// Approach velocity and time of the strike of index `n`, which is asked for in order.
+    #[inline]
+    pub(crate) fn strike(&mut self, drive: &Drive, n: u128) -> (f64, f64) {
+        #[expect(clippy::cast_possible_truncation, reason = "asked for in order: at most one past the lanes")]
+        let lane = (n - self.n) as usize;
+        if lane < LANES {
+            return (self.approach[lane], self.times[lane]);
+        }
+        self.n = n;
+        if n % BLOCK < LANES as u128 { self.anchor(drive) } else { self.step(drive) }
+        (self.approach[0], self.times[0])
+    }
+
+    /// Carries all lanes on.
+    #[inline]
+    fn step(&mut self, drive: &Drive) {
+        for i in 0..LANES {
+            self.g[i] *= self.decay;
+        }
+        if let Kind::Wave(_) = drive.kind {
+            for i in 0..LANES {
+                self.x[i] += self.dx[i];
+                self.y[i] += self.dy[i];
+                self.dx[i] -= self.kappa * self.x[i];
+                self.dy[i] -= self.kappa * self.y[i];
+            }
+        } else {
+            for i in 0..LANES {
+                self.y[i] += self.dy[0] * self.x[i];
+                self.x[i] *= self.kappa;
+            }
+        }
+        self.output(drive);
+    }
+
+    #[inline]
+    fn output(&mut self, drive: &Drive) {
+        match drive.kind {
+            Kind::Decay(Decay { plus, sigma, .. }) => {
+                let start = drive.alpha * plus;
+                for i in 0..LANES {
+                    let sum = start * self.x[i] + sigma * self.y[i];
+                    self.approach[i] = -self.g[i] * sum;
+                    self.times[i] = self.time * (self.y[i] / sum);
+                }
+            }
+            _ => {
+                for i in 0..LANES {
+                    self.approach[i] = -self.g[i] * self.x[i];
+                    self.times[i] = self.time * (self.y[i] / self.x[i]);
+                }
+            }
+        }
+    }
+
+    /// All lanes from the closed form.
+    fn anchor(&mut self, drive: &Drive) {
+        let h0 = drive.start.height_gap();
+        match drive.kind {
+            Kind::Wave(wave) => {
+                let theta = wave.theta;
+                let (sin, cos) = sincos(2.0 * theta);
+                let phi = atan2(drive.alpha * wave.s, wave.x.hi);
+                // The angle at index n seen from the near end of its half turn; a turn by 2θ away from it first,
+                // so that one sine and cosine give both value and difference.
+                let lane = |angle: f64, sign: f64| {
+                    let (s, c) = sincos(angle + sign * 2.0 * theta);
+                    (s * cos - sign * c * sin, 2.0 * sign * c * sin)
+                };
+                for i in 0..LANES {
+                    let n = self.n + i as u128;
+                    let delta = drive.remainder(&wave, n, 1e-13);
+                    (self.x[i], self.dx[i]) = lane(delta, -1.0);
+                    let turned = to_f64(n) * theta;
+                    (self.y[i], self.dy[i]) =
+                        if turned < 1.0 { lane(turned, 1.0) } else { lane(phi + delta, -1.0) };
+                    self.g[i] = drive.decayed(n) * (wave.amplitude / wave.s);
+                }
+                self.kappa = 4.0 * sin * sin;
+                self.decay = drive.bar.e * drive.bar.e;
+                self.time = ldexp(2.0 * h0 / wave.amplitude, drive.m);
+            }
+            Kind::Decay(Decay { s, plus, rate, ln_plus, .. }) => {
+                for i in 0..LANES {
+                    let n = to_f64(self.n + i as u128);
+                    self.x[i] = exp(-n * rate);
+                    self.y[i] = -expm1(-n * rate) * (plus / s);
+                    self.g[i] = exp(n * ln_plus) / plus;
+                }
+                self.kappa = exp(-4.0 * rate);
+                self.dy[0] = -expm1(-4.0 * rate) * (plus / s);
+                self.decay = exp(4.0 * ln_plus);
+                self.time = ldexp(h0, drive.m);
+            }
+            Kind::Edge => {}
+        }
+        self.output(drive);
     }
 }
 
@@ -460,7 +643,7 @@ impl Recurrence {
 /// αT + β = −a_1, to a relative 4 ε, its sign for certain.
 pub(crate) fn after_first(bar: &Bar, start: &Start) -> f64 {
     let [va, vb] = start.velocity();
-    let at = bar.q * two_sum(1.0, bar.e) * -va;
+    let at = bar.wide_q().q * two_sum(1.0, bar.e) * -va;
     let sum = at + Dd::from(-vb);
     if sum.hi.abs() > at.hi.abs() * 2f64.powi(-40) && (at.hi.abs() > 1e-200 || at.hi == 0.0) {
         return sum.hi;
@@ -474,7 +657,7 @@ pub(crate) fn after_first(bar: &Bar, start: &Start) -> f64 {
 pub(crate) fn rises(bar: &Bar, start: &Start) -> bool {
     let [va, vb] = start.velocity();
     // T − 1 = e − (1 − q)(1 + e), the smaller of two ways to cancel.
-    let (rise, size) = (-va * (bar.e - bar.less.hi * (1.0 + bar.e)) - vb, -va * (1.0 + bar.less.hi) + vb.abs());
+    let (rise, size) = (-va * (bar.e - bar.less * (1.0 + bar.e)) - vb, -va * (1.0 + bar.less) + vb.abs());
     if rise.abs() > 16.0 * UNIT * size {
         return rise > 0.0;
     }
@@ -495,11 +678,6 @@ fn to_dd(x: &Dyadic, d1: &Dyadic, d2: &Dyadic, shift: i32) -> Dd {
     };
     let ((n, _), (a, ax), (b, bx)) = (value(&normal), value(d1), value(d2));
     (n / a / b).scale(clamp(exponent - ax - bx + i128::from(shift)))
-}
-
-/// ln(1 + k²) for k < 1, from 1 + q = 2/(1 + k²) and 1 − q = 2k²/(1 + k²); 0 where q was given.
-fn ln_near_one(bar: &Bar) -> f64 {
-    if bar.exact_q().1 == Dyadic::from(1.0) { 0.0 } else { (bar.less.hi / bar.more.hi).ln_1p() }
 }
 
 /// The exponent of the leading bit.

@@ -71,18 +71,21 @@ pub struct Summary {
 type Largest = (Steps, f64);
 
 /// Plain steps that are tried before the closed form.
-const PLAIN: usize = 16;
+const PLAIN: u128 = 16;
 /// A velocity that came out of a cancellation by more than this factor is left to the closed form: 16 steps
 /// accumulate some 300 roundings, so that the worst that is accepted is good to 300 · 2⁻⁵³ · 2⁸ ≈ 1e−11.
 const CLEAR: f64 = 1.0 / 256.0;
 /// Neighbors of the peak that differ by less are compared with more digits.
 const DISTINCT: f64 = 1e-12;
+/// 4e − T² in plain floats has this many digits to spare in its square root, and its sign, beyond this share of T².
+const DISCERNIBLE: f64 = 1e-6;
 /// No term may come near the subnormal floats.
 const NORMAL: f64 = 1e-280;
 
-/// What the plain steps found.
+/// What the plain steps found, as far as they leave nothing in doubt.
 struct Plain {
-    count: Option<(u128, Last)>,
+    /// Number of impacts and how the train ends: the last step, or the limit of the strike times.
+    end: Option<(Steps, Last)>,
     peak: Option<Largest>,
 }
 
@@ -103,39 +106,31 @@ impl Bar {
     /// needed, and up to a millisecond for a start built to lie within 2⁻⁴⁰ of a tie.
     #[must_use]
     pub fn summary(&self, start: &Start) -> Summary {
-        let Plain { count, peak } = self.plain(start);
-        if let (Some((n, last)), Some(peak)) = (count, peak) {
-            return self.finish(start, Steps::Exactly(n), Some(last), peak);
+        let plain = self.plain(start);
+        if let Plain { end: Some((steps, last)), peak: Some(peak) } = plain {
+            return self.finish(start, steps, last, peak);
         }
-        self.long_summary(start, count, peak)
+        self.long_summary(start, &plain)
     }
 
     #[inline(never)]
-    fn long_summary(&self, start: &Start, count: Option<(u128, Last)>, peak: Option<Largest>) -> Summary {
+    fn long_summary(&self, start: &Start, plain: &Plain) -> Summary {
         if self.t <= 0.0 || self.e == 0.0 {
             return self.special(start);
         }
         let drive = Drive::new(self, start);
-        let peak = peak.unwrap_or_else(|| drive.peak());
-        let (steps, last) = match count {
-            Some((n, last)) => (Steps::Exactly(n), Some(last)),
-            None => match drive.count() {
-                Steps::Exactly(n) => (Steps::Exactly(n), Some(drive.last(n))),
-                other => (other, None),
-            },
-        };
-        let mut summary = self.finish(start, steps, last, peak);
-        if last.is_none() {
-            summary.duration = drive.end();
-        }
-        summary
+        let (steps, last) = plain.end.unwrap_or_else(|| {
+            let steps = drive.count();
+            (steps, drive.last(steps))
+        });
+        self.finish(start, steps, last, plain.peak.unwrap_or_else(|| drive.peak()))
     }
 
-    /// Number of impacts alone.
+    /// Number of impacts alone: exact, at most 100 ns but where double-double or integers must decide.
     #[must_use]
     pub fn count(&self, start: &Start) -> Count {
-        match self.plain(start).count {
-            Some((n, _)) => Steps::Exactly(n).into(),
+        match self.plain(start).end {
+            Some((steps, _)) => steps.into(),
             None if self.t <= 0.0 || self.e == 0.0 => self.special(start).count,
             None => Drive::new(self, start).count().into(),
         }
@@ -151,44 +146,49 @@ impl Bar {
         }
     }
 
-    /// Up to 16 plain steps, for T > 0 and e > 0; what they leave in doubt is not said.
+    /// Up to 16 plain steps, for T > 0 and e > 0.
     #[inline]
     fn plain(&self, start: &Start) -> Plain {
-        let nothing = Plain { count: None, peak: None };
         let (t, e) = (self.t, self.e);
         let [va, vb] = start.velocity();
-        let first = t * va + vb;
+        let (mut before, mut a, mut next) = (0.0, va, t * va + vb);
         // A start that has cancelled is left alone, and so are T ≤ 0 and e = 0.
-        if !(t * e > 0.0 && first.abs() > CLEAR * -va * t) {
-            return nothing;
+        if !(t * e > NORMAL && (vb <= 0.0 || next.abs() > CLEAR * -va * t)) {
+            return Plain { end: None, peak: None };
         }
-        let mut a = [0.0; PLAIN + 2];
-        (a[0], a[1]) = (va, first);
-        let mut b = [0.0, 1.0];
-        let (mut n, mut peak) = (1, 0);
-        while a[n] < 0.0 && n < PLAIN {
-            if a[n] < a[peak] {
-                peak = n;
+        let d = 4.0 * e - t * t;
+        let endless = d < -DISCERNIBLE * t * t && vb <= 0.0;
+        let (mut b, mut b_next) = (0.0, 1.0);
+        let (mut n, mut at, mut largest) = (1, 0, -va);
+        let mut closest = f64::INFINITY;
+        let done = loop {
+            // |a_n| rises to its peak, then falls.
+            closest = (next - a).abs().min(closest);
+            if next < a {
+                (at, largest) = (n, -next);
+            } else if endless || next >= 0.0 {
+                break true;
             }
-            a[n + 1] = t * a[n] - e * a[n - 1];
-            b = [b[1], t * b[1] - e * b[0]];
+            if n == PLAIN {
+                break false;
+            }
+            (before, a, next) = (a, next, t * next - e * a);
+            (b, b_next) = (b_next, t * b_next - e * b);
             n += 1;
+        };
+        let found = done && closest > DISTINCT * largest;
+        let peak = found.then_some((Steps::Exactly(at), largest));
+        let h0 = start.height_gap();
+        if endless {
+            let limit = h0 / (0.5 * (t + (-d).sqrt()) * -va - vb);
+            return Plain { end: Some((Steps::Endless, Last { a: 0.0, next: 0.0, time: limit })), peak };
         }
-        // The peak holds if it stands out from both neighbors, the last of which may be the rebound.
-        let stands_out = |i: usize| (a[i] - a[peak]) > DISTINCT * -a[peak];
-        let known = peak + 1 < n || a[n] >= 0.0;
-        let found = known && stands_out(peak + 1) && (peak == 0 || stands_out(peak - 1)) && -a[peak] > NORMAL;
-        let largest = found.then(|| (Steps::Exactly(peak as u128), -a[peak]));
-        let clear = a[n] >= 0.0
-            && match n {
-                1 => true,
-                2 => a[2] > CLEAR * e * -va,
-                _ => -a[n - 1] > CLEAR * t * -a[n - 2] && a[n] > CLEAR * e * -a[n - 2],
-            }
-            && a[n].min(-a[n - 1]) > NORMAL;
-        let time = if n == 1 { 0.0 } else { start.height_gap() * (b[0] / -a[n - 1]) };
-        let last = Last { a: a[n - 1], next: a[n], time };
-        Plain { count: clear.then_some((n as u128, last)), peak: largest }
+        let clear = done
+            && (n < 2 || next > CLEAR * e * -before)
+            && (n < 3 || -a > CLEAR * t * -before)
+            && next.min(-a) > NORMAL;
+        let time = if n == 1 { 0.0 } else { h0 * (b / -a) };
+        Plain { end: clear.then_some((Steps::Exactly(n), Last { a, next, time })), peak }
     }
 
     /// T ≤ 0, where the second strike is the last, and e = 0, where all strikes from the second on happen at once.
@@ -198,15 +198,15 @@ impl Bar {
         let peak = if rises(self, start) { (Steps::Exactly(1), first) } else { (Steps::Exactly(0), alpha) };
         if first <= 0.0 {
             let last = Last { a: -alpha, next: -first, time: 0.0 };
-            return self.finish(start, Steps::Exactly(1), Some(last), peak);
+            return self.finish(start, Steps::Exactly(1), last, peak);
         }
         let h0 = start.height_gap();
         let time = if h0 == 0.0 { 0.0 } else { h0 / first };
         if self.t <= 0.0 {
             let last = Last { a: -first, next: self.e * alpha - self.t * first, time };
-            return self.finish(start, Steps::Exactly(2), Some(last), peak);
+            return self.finish(start, Steps::Exactly(2), last, peak);
         }
-        Summary { duration: time, ..self.finish(start, Steps::Endless, None, peak) }
+        self.finish(start, Steps::Endless, Last { a: 0.0, next: 0.0, time }, peak)
     }
 
     fn spread(&self, (steps, largest): Largest) -> Peak {
@@ -216,28 +216,27 @@ impl Bar {
             Steps::About(n) => PeakImpact::Huge(n),
             Steps::Endless => PeakImpact::Limit,
         };
-        let center = if self.less.hi == 0.0 { 0.0 } else { 0.5 * self.less.hi * end };
-        Peak { end, impact, center, angular: 0.5 * self.more.hi * end }
+        let center = if self.less == 0.0 { 0.0 } else { 0.5 * self.less * end };
+        Peak { end, impact, center, angular: 0.5 * self.more * end }
     }
 
     /// Final velocities and net change from the last step; all ends at rest after an endless train, unless the
     /// ends have no mass (q = 1): then only a bar that turns about a still center comes to rest.
-    fn finish(&self, start: &Start, steps: Steps, last: Option<Last>, peak: Largest) -> Summary {
+    fn finish(&self, start: &Start, steps: Steps, last: Last, peak: Largest) -> Summary {
         let [va, vb] = start.velocity();
-        let final_velocity = match (steps, last) {
-            (Steps::Exactly(n), Some(last)) => {
+        let final_velocity = match steps {
+            Steps::Exactly(n) => {
                 let struck = -self.e * last.a;
                 Some(if n % 2 == 1 { [struck, last.next] } else { [last.next, struck] })
             }
-            (Steps::Endless, _) if self.less.hi > 0.0 || (va == -vb && self.e < 1.0) => Some([0.0, 0.0]),
+            Steps::Endless if self.less > 0.0 || (va == -vb && self.e < 1.0) => Some([0.0, 0.0]),
             _ => None,
         };
         let net = final_velocity.map(|[a, b]| {
             let (a, b) = (a - va, b - vb);
             Net { a, b, center: 0.5 * (a + b), angular: 0.5 * (b - a) }
         });
-        let duration = last.map_or(f64::INFINITY, |last| last.time);
-        Summary { count: steps.into(), duration, peak: self.spread(peak), final_velocity, net }
+        Summary { count: steps.into(), duration: last.time, peak: self.spread(peak), final_velocity, net }
     }
 }
 
