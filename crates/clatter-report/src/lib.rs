@@ -125,3 +125,65 @@ fn place(dir: &Path, name: &str, content: &[u8]) -> Result<PathBuf, ReportError>
 pub fn map_svg(map: &clatter::Map) -> String {
     figure::heat::heat(map)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text(pdf: &Path) -> String {
+        let pdf = lopdf::Document::load(pdf).unwrap();
+        pdf.extract_text(&pdf.get_pages().into_keys().collect::<Vec<_>>()).unwrap()
+    }
+
+    #[test]
+    fn words_that_look_like_markup_print_as_they_are() {
+        let hostile = r##"#eval("x") $ *b* _c_ @d <e> \ `f` // g"##;
+        let mut files = paper::Data::compute().unwrap().files().unwrap();
+        for (name, content) in &mut files {
+            if *name == "claims.json" {
+                let quoted = serde_json::to_string(hostile).unwrap();
+                *content = content.replace("\"The region of three impacts dominates.\"", &quoted);
+            }
+        }
+        let dir = tempfile::tempdir().unwrap();
+        let source = ("paper.typ", include_str!("../../../reports/paper.typ"));
+        page("page.pdf", source, &files, &paper::page(), dir.path(), &mut |_| ()).unwrap();
+        let plain = |text: &str| text.chars().filter(|c| !c.is_whitespace()).collect::<String>();
+        let said = plain(&text(&dir.path().join("page.pdf")));
+        assert!(said.contains(&plain(hostile)), "{said}");
+    }
+
+    #[test]
+    fn the_page_is_the_same_from_run_to_run() {
+        let run = || {
+            let dir = tempfile::tempdir().unwrap();
+            let written = write(Report::Paper, dir.path(), &mut |_| ()).unwrap();
+            written.files.iter().map(|file| fs::read(file).unwrap()).collect::<Vec<_>>()
+        };
+        assert!(run() == run(), "two runs differ");
+    }
+
+    #[test]
+    fn a_failed_page_leaves_figures_tables_and_the_old_pdf() {
+        let dir = tempfile::tempdir().unwrap();
+        fs::write(dir.path().join("x.pdf"), "old").unwrap();
+        let files = [("figure.svg", "<svg/>".to_owned())];
+        let error = page("x.pdf", ("x.typ", "= One\n#panic(1)"), &files, "{}", dir.path(), &mut |_| ()).unwrap_err();
+        assert!(matches!(error, ReportError::Typst(_)), "{error:?}");
+        let said = error.to_string();
+        assert!(said.contains("x.typ:2:") && said.contains("still the one from before"), "{said}");
+        let mut names: Vec<_> = fs::read_dir(dir.path()).unwrap().map(|f| f.unwrap().file_name()).collect();
+        names.sort();
+        assert_eq!(names, ["figure.svg", "x.pdf"], "what is left");
+        assert_eq!(fs::read(dir.path().join("x.pdf")).unwrap(), b"old", "the old page");
+    }
+
+    #[test]
+    fn a_directory_that_cannot_be_made_is_named() {
+        let dir = tempfile::tempdir().unwrap();
+        let file = dir.path().join("file");
+        fs::write(&file, "").unwrap();
+        let error = write(Report::Paper, &file.join("in"), &mut |_| ()).unwrap_err();
+        assert!(matches!(&error, ReportError::Io { path, .. } if path.ends_with("file/in")), "{error:?}");
+    }
+}

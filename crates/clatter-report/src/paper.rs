@@ -79,14 +79,21 @@ impl Data {
         let (claims, (zones, rest)) = rayon::join(clatter::paper::claims, || {
             rayon::join(|| [zones_of(0.5), zones_of(1.0), zones_of(2.0)], || {
                 let curves = CURVES.map(|n| (n, contour::impacts(n, 160))).collect();
-                let end = sheet(Quantity::PeakEnd, "*s* = 1", [0.0, 1.0], BLUE)?;
-                let quarter = at_distance(&end, 0.5, "*s* = 0.5", [0.0, 1.0], GREEN)?;
-                let center = at_distance(&end, 0.0, "*s* = 0", [0.0, 1.0], AMBER)?;
+                let end = sheet(Quantity::PeakEnd, "*s* = 1", [0.45, 0.2], BLUE)?;
+                let quarter = at_distance(&end, 0.5, "*s* = 0.5", [0.93, 0.5], GREEN)?;
+                let center = at_distance(&end, 0.0, "*s* = 0", [0.85, 0.62], AMBER)?;
                 let angular = sheet(Quantity::PeakAngular, "", [0.0, 1.0], BLUE)?;
-                let view = |sheets, axis, title| Surface { sheets, cut: CUT, axis, title, azimuth: 35.0, elevation: 24.0 };
+                let view = |sheets, axis, title, [azimuth, elevation]: [f64; 2]| Surface {
+                    sheets,
+                    cut: CUT,
+                    axis,
+                    title,
+                    azimuth,
+                    elevation,
+                };
                 let surfaces = [
-                    view(vec![angular], "Δ*ω*_{max}  in *v*_0/*L*", "Largest change of angular velocity"),
-                    view(vec![center, quarter, end], "Δ*v*_{max}  in *v*_0", "Largest velocity shocks"),
+                    view(vec![angular], "Δ*ω*_{max}  in *v*_0/*L*", "Largest change of angular velocity", [38.0, 24.0]),
+                    view(vec![center, quarter, end], "Δ*v*_{max}  in *v*_0", "Largest velocity shocks", [150.0, 16.0]),
                 ];
                 let table1 = clatter::paper::table1()?;
                 Ok::<_, ReportError>((Impacts { curves, endless: contour::endless(160) }, surfaces, table1))

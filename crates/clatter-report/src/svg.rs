@@ -33,19 +33,14 @@ pub(crate) struct Ink {
     pub(crate) stroke: &'static str,
     /// Line width in pt.
     pub(crate) width: f64,
-    /// Dash pattern in pt, empty for a solid line.
-    pub(crate) dash: &'static str,
 }
 
 impl Ink {
     pub(crate) const fn line(stroke: &'static str, width: f64) -> Self {
-        Self { fill: "none", stroke, width, dash: "" }
+        Self { fill: "none", stroke, width }
     }
     pub(crate) const fn fill(fill: &'static str) -> Self {
-        Self { fill, stroke: "none", width: 0.0, dash: "" }
-    }
-    pub(crate) const fn dashed(self, dash: &'static str) -> Self {
-        Self { dash, ..self }
+        Self { fill, stroke: "none", width: 0.0 }
     }
 }
 
@@ -178,9 +173,6 @@ impl Svg {
         if ink.stroke != "none" {
             let _ = write!(self.body, " stroke=\"{}\" stroke-width=\"{}\"", ink.stroke, pt(ink.width));
         }
-        if !ink.dash.is_empty() {
-            let _ = write!(self.body, " stroke-dasharray=\"{}\"", ink.dash);
-        }
         self.body.push_str("/>\n");
     }
 
@@ -248,6 +240,6 @@ impl Svg {
     /// A facet of a surface: filled, with a hairline of its own.
     pub(crate) fn facet(&mut self, points: &[Pt], fill: &str, line: &str) {
         let d: String = points.iter().map(|[x, y]| format!("{} {}", pt(*x), pt(*y))).collect::<Vec<_>>().join("L");
-        let _ = writeln!(self.body, "<path d=\"M{d}Z\" fill=\"{fill}\" stroke=\"{line}\" stroke-width=\".22\"/>");
+        let _ = writeln!(self.body, "<path d=\"M{d}Z\" fill=\"{fill}\" stroke=\"{line}\" stroke-width=\".25\"/>");
     }
 }

@@ -100,7 +100,7 @@ pub(crate) fn heat(map: &Map) -> String {
     // a grid point is a pixel: the first and last lie half a pixel inside the frame
     #[expect(clippy::cast_precision_loss, reason = "a grid has far fewer than 2^53 points")]
     let inside = |i: usize, n: usize| side * (i as f64 + 0.5) / n.max(1) as f64;
-    let mut marks = |n: usize| {
+    let marks = |n: usize| {
         let mut marks: Vec<usize> = (0..=4).map(|k| k * n.saturating_sub(1) / 4).collect();
         marks.dedup();
         marks

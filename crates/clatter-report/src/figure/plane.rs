@@ -91,8 +91,8 @@ fn crossing(curve: &[Point], e: f64) -> Option<f64> {
 
 /// Fig. 2: the number of impacts.
 pub(crate) fn impacts(data: &Impacts) -> String {
-    let frame = Frame { left: 92.0, top: 8.0, side: 252.0 };
-    let mut svg = Svg::new(354.0, 292.0);
+    let frame = Frame { left: 88.0, top: 6.0, side: 206.0 };
+    let mut svg = Svg::new(300.0, 242.0);
     // from the top down: all of the square is endless, then each region covers the one above it
     svg.rect([frame.left, frame.top], [frame.side, frame.side], Ink::fill(SAND));
     let below = |svg: &mut Svg, curve: &[Point], fill| {
@@ -100,14 +100,11 @@ pub(crate) fn impacts(data: &Impacts) -> String {
         shape.extend([frame.corner(0.0, 1.0), frame.corner(0.0, 0.0)]);
         svg.path(&shape, true, Ink::fill(fill));
     };
-    let mut up = data.endless.clone();
-    up.reverse();
-    up.reverse();
-    below(&mut svg, &up, BLUES[7]);
+    below(&mut svg, &data.endless, BLUES[7]);
     for (i, (_, curve)) in data.curves.iter().enumerate().rev() {
         let mut curve = curve.clone();
         curve.reverse();
-        below(&mut svg, &curve, BLUES[(i).min(6)]);
+        below(&mut svg, &curve, BLUES[i.min(6)]);
     }
     for (_, curve) in &data.curves {
         svg.path(&frame.line(curve), false, Ink::line("#ffffff", 0.5));
@@ -122,24 +119,20 @@ pub(crate) fn impacts(data: &Impacts) -> String {
         if (upper - lower) * frame.side > 8.0 {
             let [x, y] = frame.corner(0.5 * (lower + upper), 0.86);
             let color = if *n > 5 { "#ffffff" } else { INK };
-            svg.text([x, y + 2.9], &n.to_string(), Label { size: 9.0, color, ..LABEL });
+            let text = if lower > 0.0 { n.to_string() } else { format!("{n} impacts") };
+            svg.text([x, y + 2.9], &text, Label { color, ..LABEL });
         }
         lower = upper;
     }
-    if let Some((n, _)) = data.curves.first() {
-        let _ = n;
-        let [x, y] = frame.corner(0.12, 0.5);
-        svg.text([x, y], "two impacts", Label { color: INK, ..LABEL });
-    }
-    let [x, y] = frame.corner(0.84, 0.165);
-    svg.text([x, y - 5.0], "endless", LABEL);
-    svg.text([x, y + 5.5], "*q* ≥ 2√*e*/(1 + *e*)", Label { size: 8.0, ..LABEL });
+    let [x, y] = frame.corner(0.93, 0.18);
+    svg.text([x, y], "endless", LABEL);
+    svg.text([x, y + 10.0], "*q* ≥ 2√*e*/(1 + *e*)", LABEL);
 
     // how the mass lies at q = 0, 0.5, 1, beside the axis
     for (q, name) in [(1.0, "at the center"), (0.5, "uniform"), (0.0, "at the ends")] {
         let [_, y] = frame.corner(q, 0.0);
         let y = if q == 1.0 { y + 4.0 } else if q == 0.0 { y - 10.0 } else { y };
-        let (a, b) = (8.0, 54.0);
+        let (a, b) = (5.0, 47.0);
         if (q - 0.5).abs() < 0.1 {
             svg.rect([a, y - 2.6], [b - a, 5.2], Ink::fill(GRAY));
         } else {
@@ -220,13 +213,15 @@ fn cut(line: &[Pt], from: f64, to: f64) -> [Vec<Pt>; 2] {
 
 /// Figs. 5 to 7: the safe zone of one threshold.
 pub(crate) fn zones(data: &Zones) -> String {
-    let frame = Frame { left: 42.0, top: 8.0, side: 226.0 };
-    let mut svg = Svg::new(278.0, 266.0);
-    svg.rect([frame.left, frame.top], [frame.side, frame.side], Ink::fill(SAND));
+    let frame = Frame { left: 38.0, top: 6.0, side: 168.0 };
+    let mut svg = Svg::new(214.0, 204.0);
+    let bare = data.levels.first().is_some_and(|(level, _)| *level == 0.0);
+    svg.rect([frame.left, frame.top], [frame.side, frame.side], Ink::fill(if bare { SAND } else { BLUES[0] }));
+    let shade = |i: usize| ((i + usize::from(!bare)) * 8 / (data.levels.len() - usize::from(bare))).min(7);
     for (i, (_, pieces)) in data.levels.iter().enumerate() {
         let mut shape = frame.line(&outline(pieces));
         shape.extend([frame.corner(1.0, 0.0), frame.corner(0.0, 0.0)]);
-        svg.path(&shape, true, Ink::fill(BLUES[(i * BLUES.len() / data.levels.len()).min(6)]));
+        svg.path(&shape, true, Ink::fill(BLUES[shade(i)]));
     }
     let lines: Vec<Vec<Vec<Pt>>> =
         data.levels.iter().map(|(_, pieces)| pieces.iter().map(|piece| frame.line(piece)).collect()).collect();
@@ -249,7 +244,7 @@ pub(crate) fn zones(data: &Zones) -> String {
             taken.push([x, y]);
             let turned = turn.to_radians();
             let base = [x - 2.5 * turned.sin(), y + 2.5 * turned.cos()];
-            svg.text(base, &text, Label { size: 7.5, turn, ..LABEL });
+            svg.text(base, &text, Label { size: 7.5, turn, color: if shade(i) > 6 { "#ffffff" } else { INK }, ..LABEL });
         }
     }
     for [q, e] in data.designs {
@@ -262,7 +257,7 @@ pub(crate) fn zones(data: &Zones) -> String {
         let [x, y] = frame.corner(0.28, 0.72);
         svg.text([x, y], "no safe zone", LABEL);
     } else if data.levels.iter().any(|(level, pieces)| *level == 0.0 && !pieces.is_empty()) {
-        let [x, y] = frame.corner(0.25, 0.925);
+        let [x, y] = frame.corner(0.24, 0.925);
         svg.text([x, y], "none", LABEL);
     }
     if data.levels.iter().any(|(level, pieces)| *level == 1.0 && !pieces.is_empty()) {

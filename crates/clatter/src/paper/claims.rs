@@ -29,7 +29,7 @@ impl Verdict {
 /// What a measured figure is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// A number, in v0, v0/L, h0/v0 or none of these, as `what` says.
+    /// A number, in v₀, v₀/L, h₀/v₀ or none of these, as `what` says.
     Number,
     /// A whole number.
     Count,
@@ -277,7 +277,7 @@ fn counts(plane: &Plane) -> Result<Vec<Claim>, Error> {
         Claim {
             place: "Fig. 2",
             statement: "Endless trains end within finite time and the bar stays down.",
-            measured: vec![number("longest, in h0/v0", longest)],
+            measured: vec![number("longest, in h₀/v₀", longest)],
             verdict: Verdict::of(longest.is_finite() && rest && !unsettled, longest.is_finite() && rest),
             remark: "At q = 1 alone the time is finite but the massless ends do not come to rest.",
         },
@@ -317,7 +317,7 @@ fn percussion() -> Result<Vec<Claim>, Error> {
             place: "Sect. 5",
             statement: "An impact leaves its center of percussion unshaken; one at the other end shakes it well.",
             measured: vec![
-                number("largest at R_a from end a, in v0", still),
+                number("largest at Rₐ from end a, in v₀", still),
                 number("from the other end, over the center's", moved),
             ],
             verdict: Verdict::of(still < 1e-14 && moved > 1.5, still < 1e-14),
@@ -326,7 +326,7 @@ fn percussion() -> Result<Vec<Claim>, Error> {
         Claim {
             place: "Sect. 5",
             statement: "Shocks are greatest at the ends, least at the center and linear between.",
-            measured: vec![number("largest departure of Eq. 4 from the trains, in v0", linear)],
+            measured: vec![number("largest departure of Eq. 4 from the trains, in v₀", linear)],
             verdict: Verdict::of(linear < 1e-13, false),
             remark: "If either end may strike first.",
         },
@@ -361,11 +361,11 @@ fn peaks(plane: &Plane) -> Result<Vec<Claim>, Error> {
     let (far, near) = (summary(0.9, 0.3)?.peak, summary(0.1, 0.3)?.peak);
     Ok(vec![
         Claim {
-            place: "Sect. 1",
+            place: "Sects. 1, 5",
             statement: "Clatter shakes parts more, and others less, than a clatter-free impact would.",
             measured: vec![
-                number("least at the ends, over (1 + e) v0", under_flat),
-                number("most at the center, over (1 + e) v0", over_flat),
+                number("least at the ends, over (1 + e) v₀", under_flat),
+                number("most at the center, over (1 + e) v₀", over_flat),
             ],
             verdict: Verdict::of(under_flat >= 1.0 && over_flat < 1.0, true),
             remark: "Everywhere: the ends never get less (equal at q = 0), the center never more than 9/16 of it.",
@@ -393,7 +393,7 @@ fn peaks(plane: &Plane) -> Result<Vec<Claim>, Error> {
             measured: vec![
                 part("steps in q that rise", mid_q.rises),
                 part("steps in q that fall", mid_q.falls),
-                number("largest, in v0", top),
+                number("largest, in v₀", top),
             ],
             verdict: Verdict::of(mid_q.rises > 0.0 && mid_q.falls > 0.0, false),
             remark: "It rises up to q = e/(2(1 + e)), area (1 − ln 2)/2 of the plane, and is largest at (0.25, 1).",
@@ -417,11 +417,11 @@ fn peaks(plane: &Plane) -> Result<Vec<Claim>, Error> {
         },
         Claim {
             place: "Fig. 4",
-            statement: "Single shocks lie well above and well below 2 v0.",
+            statement: "Single shocks lie well above and well below 2 v₀.",
             measured: vec![
                 part("plane with the ends above, ln 2", std::f64::consts::LN_2),
                 area("plane with the quarter points above", complement(SafeZone::new(2.0).area(0.5))),
-                number("largest at the center, in v0", top),
+                number("largest at the center, in v₀", top),
             ],
             verdict: Verdict::of(top < 2.0, true),
             remark: "The ends range from 1 to infinity, the center from 0 to 9/8.",
@@ -430,7 +430,7 @@ fn peaks(plane: &Plane) -> Result<Vec<Claim>, Error> {
             place: "Fig. 4",
             statement: "High q spares the center at the cost of the ends.",
             measured: vec![
-                number("center at (0.1, 0.3), in v0", near.center),
+                number("center at (0.1, 0.3), in v₀", near.center),
                 number("center at (0.9, 0.3)", far.center),
                 number("end at (0.1, 0.3)", near.end),
                 number("end at (0.9, 0.3)", far.end),
@@ -462,14 +462,14 @@ fn half(plane: &Plane) -> Vec<Claim> {
     vec![
         Claim {
             place: "Fig. 5",
-            statement: "About half of the plane has a zone within v0/2.",
+            statement: "About half of the plane has a zone within v₀/2.",
             measured: vec![area("plane with a zone", covered)],
             verdict: Verdict::of((covered.value - 0.5).abs() <= 0.05, (covered.value - 0.5).abs() <= 0.1),
             remark: "It is three eighths.",
         },
         Claim {
             place: "Fig. 5",
-            statement: "Where there is a v0/2 zone, a larger q only widens it.",
+            statement: "Where there is a v₀/2 zone, a larger q only widens it.",
             measured: vec![part("steps in q that narrow it", trend.falls), number("from q", q), number("from e", e)],
             verdict: Verdict::of(trend.falls == 0.0, trend.falls < 0.5),
             remark: "Not close to q = 1, where the peak at the ends grows faster than its share at the center falls.",
@@ -501,14 +501,14 @@ fn one(plane: &Plane) -> Vec<Claim> {
     vec![
         Claim {
             place: "Fig. 6",
-            statement: "All but a small region at low q and high e has a zone within v0.",
+            statement: "All but a small region at low q and high e has a zone within v₀.",
             measured: vec![area("plane without", bare), number("reaching up to q", highest), number("from e", lowest)],
             verdict: Verdict::of(bare.value < 0.1 && highest <= 0.5 && lowest >= 0.5, bare.value < 0.5),
             remark: "Bounded by q = (e ± √(e² + 4e − 4))/(2(1 + e)), from e = 2√2 − 2 on.",
         },
         Claim {
             place: "Fig. 6",
-            statement: "In q the v0 zone is not monotonic: it can grow either way.",
+            statement: "In q the v₀ zone is not monotonic: it can grow either way.",
             measured: vec![part("steps in q that widen it", trend.rises), part("that narrow it", trend.falls)],
             verdict: Verdict::of(trend.rises > 0.01 && trend.falls > 0.01, false),
             remark: "",
@@ -516,7 +516,7 @@ fn one(plane: &Plane) -> Vec<Claim> {
         Claim {
             place: "Fig. 6",
             statement: "In places q has no appreciable effect on it.",
-            measured: vec![part("steps where Δq = 0.1 moves s by less than 1 % of the bar", flat)],
+            measured: vec![part("steps at a rate of less than 1 % of the bar per 0.1 in q", flat)],
             verdict: Verdict::of(flat > 0.01, false),
             remark: "",
         },
@@ -532,7 +532,7 @@ fn two(plane: &Plane) -> Vec<Claim> {
     vec![
         Claim {
             place: "Fig. 7",
-            statement: "Every design has a zone within 2 v0.",
+            statement: "Every design has a zone within 2 v₀.",
             measured: vec![
                 number("least s", least),
                 number("least s elsewhere on the grid", inner),
@@ -543,7 +543,7 @@ fn two(plane: &Plane) -> Vec<Claim> {
         },
         Claim {
             place: "Fig. 7",
-            statement: "The 2 v0 zone widens as q falls.",
+            statement: "The 2 v₀ zone widens as q falls.",
             measured: vec![part("steps in q against it", trend.rises)],
             verdict: Verdict::of(trend.rises == 0.0, trend.rises < 0.5),
             remark: "",
@@ -569,34 +569,34 @@ fn designs(plane: &Plane) -> Result<Vec<Claim>, Error> {
     Ok(vec![
         Claim {
             place: "Table 1",
-            statement: "The uniform reference has no zone within v0/2.",
+            statement: "The uniform reference has no zone within v₀/2.",
             measured: vec![number("s", half[0])],
             verdict: Verdict::of(half[0] < 0.0, false),
             remark: "Printed as 0 %.",
         },
         Claim {
             place: "Sect. 6",
-            statement: "(0.73, 0.2) and (0.67, 0.15) give a zone of 10 % within v0/2.",
+            statement: "(0.73, 0.2) and (0.67, 0.15) give a zone of 10 % within v₀/2.",
             measured: vec![part("s, (0.73, 0.2)", half[1]), part("s, (0.67, 0.15)", half[2])],
             verdict: Verdict::of(half[1] >= 0.1 && half[2] >= 0.1, percent(half[1]) >= 10.0 && percent(half[2]) >= 10.0),
             remark: "The second only when rounded to whole per cent.",
         },
         Claim {
             place: "Sect. 6",
-            statement: "Their ends see only slightly more than 2 v0, on a small part of the bar.",
+            statement: "Their ends see only slightly more than 2 v₀, on a small part of the bar.",
             measured: vec![
-                number("end, (0.73, 0.2), in v0", ends[0]),
-                part("bar beyond 2 v0", 1.0 - two[1]),
-                number("end, (0.67, 0.15), in v0", ends[1]),
-                part("bar beyond 2 v0", 1.0 - two[2]),
+                number("end, (0.73, 0.2), in v₀", ends[0]),
+                part("bar beyond 2 v₀", 1.0 - two[1]),
+                number("end, (0.67, 0.15), in v₀", ends[1]),
+                part("bar beyond 2 v₀", 1.0 - two[2]),
             ],
             verdict: Verdict::of(ends[0] < 2.1 && ends[1] < 2.1, ends[1] < 2.1),
             remark: "Slight for the second; for the first one eighth more, on one eighth of the bar.",
         },
         Claim {
             place: "Sect. 6",
-            statement: "(0.57, 0.1) has a somewhat smaller zone and nowhere more than 2 v0.",
-            measured: vec![part("s", half[3]), number("end, in v0", ends[2])],
+            statement: "(0.57, 0.1) has a somewhat smaller zone and nowhere more than 2 v₀.",
+            measured: vec![part("s", half[3]), number("end, in v₀", ends[2])],
             verdict: Verdict::of(half[3] > 0.0 && half[3] < half[2].min(half[1]) && ends[2] <= 2.0, ends[2] <= 2.0),
             remark: "",
         },
@@ -621,7 +621,7 @@ fn designs(plane: &Plane) -> Result<Vec<Claim>, Error> {
         Claim {
             place: "Sect. 7",
             statement: "Low moment of inertia and low restitution make a significant safe zone at the center.",
-            measured: vec![part("widest within v0/2", widest), part("at q = 1, e = 0", corner)],
+            measured: vec![part("widest within v₀/2", widest), part("at q = 1, e = 0", corner)],
             verdict: Verdict::of(widest > 0.1 && (widest - corner).abs() < 1e-12, widest > 0.1),
             remark: "A quarter of the bar is the most that any design can have.",
         },
@@ -629,8 +629,8 @@ fn designs(plane: &Plane) -> Result<Vec<Claim>, Error> {
             place: "Sect. 7",
             statement: "Low moment of inertia makes a product more rugged.",
             measured: vec![
-                part("steps in q that narrow the 2 v0 zone", wide.falls),
-                part("plane with a v0/2 zone", SafeZone::new(0.5).area(0.0).value),
+                part("steps in q that narrow the 2 v₀ zone", wide.falls),
+                part("plane with a v₀/2 zone", SafeZone::new(0.5).area(0.0).value),
             ],
             verdict: Verdict::of(wide.falls == 0.0, true),
             remark: "For parts near the center. Every increase of q shakes the ends more.",
