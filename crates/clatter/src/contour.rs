@@ -53,9 +53,9 @@ fn last_delta(n: u32) -> f64 {
 fn impacts_at(n: u32, delta: f64) -> Point {
     let n = f64::from(n);
     let corner = std::f64::consts::PI / n;
-    let root = (n * delta).sin() / (corner - (n + 1.0) * delta).sin();
+    let root = libm::sin(n * delta) / libm::sin(corner - (n + 1.0) * delta);
     let e = root * root;
-    Point { q: 2.0 * root * (corner - delta).cos() / (1.0 + e), e }
+    Point { q: 2.0 * root * libm::cos(corner - delta) / (1.0 + e), e }
 }
 
 /// The bounding curve of the endless region, q = 2√e/(1 + e), in `segments` pieces from (0, 0) to (1, 1).
@@ -82,9 +82,10 @@ pub fn area_up_to(n: u32) -> Integral {
     let corner = std::f64::consts::PI / m;
     let q_de = |delta: f64| {
         let (a, b) = (m * delta, corner - (m + 1.0) * delta);
-        let root = a.sin() / b.sin();
-        let de = 2.0 * root * (m * a.cos() * b.sin() + (m + 1.0) * b.cos() * a.sin()) / b.sin().powi(2);
-        2.0 * root * (corner - delta).cos() / (1.0 + root * root) * de
+        let ((sin_a, cos_a), (sin_b, cos_b)) = (libm::sincos(a), libm::sincos(b));
+        let root = sin_a / sin_b;
+        let de = 2.0 * root * (m * cos_a * sin_b + (m + 1.0) * cos_b * sin_a) / (sin_b * sin_b);
+        2.0 * root * libm::cos(corner - delta) / (1.0 + root * root) * de
     };
     integrate(q_de, &[0.0, last_delta(n)], 1e-13)
 }
