@@ -89,7 +89,8 @@ fn the_levels_of_the_safe_zones() {
 #[test]
 fn coarse_maps() {
     let mut text = String::new();
-    for quantity in [Quantity::Impacts, Quantity::PeakEnd, Quantity::Duration, Quantity::NetCenter, Quantity::Zone(1.0)] {
+    for quantity in [Quantity::Impacts, Quantity::PeakEnd, Quantity::Duration, Quantity::NetCenter, Quantity::Zone(1.0)]
+    {
         let map = Map::compute(quantity, Axis::q(-0.5, 1.0, 7).unwrap(), Axis::e(0.0, 1.0, 6).unwrap()).unwrap();
         let _ = writeln!(text, "{quantity:?}: q down from -0.5 to 1, e across from 0 to 1");
         for line in map.values.chunks(6) {
@@ -128,7 +129,10 @@ fn the_page() {
         if dict.has(b"Parent") && dict.has(b"Dest") {
             titles.extend(string(b"Title"));
         }
-        assert!(dict.get(b"Subtype").and_then(lopdf::Object::as_name).ok() != Some(b"Image"), "an image that is not vector");
+        assert!(
+            dict.get(b"Subtype").and_then(lopdf::Object::as_name).ok() != Some(b"Image"),
+            "an image that is not vector"
+        );
     }
     let _ = writeln!(text, "fonts: {}", fonts.into_iter().collect::<Vec<_>>().join(", "));
     for (what, lines) in [("heading", titles), ("alt", alts)] {
