@@ -7,10 +7,10 @@
 //! c_{n+1} = P c_n − Q c_{n−1},   c_n = v U_{n+1} + w U_n,   U_0 = 0, U_1 = 1
 //! ```
 //!
-//! with the same signs as a_n, where `U_n(P, Q)` is the Lucas sequence. Doubling reaches any n in about
+//! with the same signs as `a_n`, where `U_n(P, Q)` is the Lucas sequence. Doubling reaches any n in about
 //! log₂ n steps. Up to n = [`EXACT`] the integers are kept whole, so that a sign, and a tie, is certain.
 //! Beyond, significands are cut at [`BITS`] bits: the relative error then stays below 2⁻³⁰⁰⁰ for n up to 2¹²⁰.
-//! No tie can hide there: a tie fixes the ratio of the starting velocities to that of two successive U_n,
+//! No tie can hide there: a tie fixes the ratio of the starting velocities to that of two successive `U_n`,
 //! whose reduced numerators grow by half a bit a step or more unless c is a multiple of 2, √2 or 1 over 2
 //! (where ties repeat and the first is found early), so that beyond a few hundred steps no ratio of floats can be it.
 
@@ -50,8 +50,7 @@ impl Dyadic {
         if shift > 1 << 22 {
             return high.clone();
         }
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked above")]
-        let m = (&high.m << shift as usize) + &low.m;
+        let m = (&high.m << shift) + &low.m;
         Self { m, x: low.x }
     }
     pub(crate) fn power_of_two(x: i128) -> Self {
@@ -101,9 +100,9 @@ impl Dyadic {
 pub(crate) struct Recurrence {
     pub(crate) p: Dyadic,
     pub(crate) q: Dyadic,
-    /// c_0.
+    /// `c_0`.
     pub(crate) v: Dyadic,
-    /// c_1 − P c_0.
+    /// `c_1` − P `c_0`.
     pub(crate) w: Dyadic,
 }
 
@@ -112,7 +111,7 @@ impl Recurrence {
     pub(crate) fn discriminant(&self) -> Dyadic {
         Dyadic::from(4.0).mul(&self.q).sub(&self.p.mul(&self.p))
     }
-    /// Whether c_n < 0 for ever, given 4Q ≤ P² and P > 0, Q > 0, v < 0: w ≤ λ₊ |v| for the larger root λ₊ of
+    /// Whether `c_n` < 0 for ever, given 4Q ≤ P² and P > 0, Q > 0, v < 0: w ≤ λ₊ |v| for the larger root λ₊ of
     /// λ² − Pλ + Q, without its root: w ≤ P|v|/2 or w² + P v w + Q v² ≤ 0.
     pub(crate) fn endless(&self) -> bool {
         let half = Dyadic::from(2.0).mul(&self.w).add(&self.p.mul(&self.v));
@@ -123,7 +122,7 @@ impl Recurrence {
         let pv = self.p.mul(&self.v);
         self.w.mul(&self.w).add(&pv.mul(&self.w)).add(&self.q.mul(&self.v.mul(&self.v)))
     }
-    /// (U_n, U_{n+1}).
+    /// (`U_n`, U_{n+1}).
     fn lucas(&self, n: u128) -> (Dyadic, Dyadic) {
         let keep = |d: Dyadic| if n <= EXACT { d } else { d.cut(BITS) };
         let two = Dyadic::from(2.0);
@@ -140,7 +139,7 @@ impl Recurrence {
         }
         (low, high)
     }
-    /// c_n, U_n; exactly 0 where the terms cancel to far below what was kept of them.
+    /// `c_n`, `U_n`; exactly 0 where the terms cancel to far below what was kept of them.
     fn term(&self, n: u128) -> (Dyadic, Dyadic) {
         let (low, high) = self.lucas(n);
         let (x, y) = (self.v.mul(&high), self.w.mul(&low));
@@ -148,11 +147,11 @@ impl Recurrence {
         let tie = n > EXACT && sum.top() < x.top().max(y.top()) - 2048;
         (if tie { Dyadic::from(0.0) } else { sum }, low)
     }
-    /// Sign of c_n.
+    /// Sign of `c_n`.
     pub(crate) fn sign(&self, n: u128) -> Ordering {
         self.term(n).0.sign()
     }
-    /// c_n and U_n as floats with exponents.
+    /// `c_n` and `U_n` as floats with exponents.
     pub(crate) fn values(&self, n: u128) -> ((f64, i128), (f64, i128)) {
         let (c, u) = self.term(n);
         (c.to_float(), u.to_float())

@@ -1,6 +1,6 @@
 //! The clatter in closed form: constant time for a train of any length.
 //!
-//! Let a_n < 0 be the velocity of the end about to make strike n + 1, b_n the companion solution:
+//! Let `a_n` < 0 be the velocity of the end about to make strike n + 1, `b_n` the companion solution:
 //!
 //! ```text
 //! a_{n+1} = T a_n − e a_{n−1},  T = q(1 + e),  a_0 = −α,  a_1 = −(αT + β)      (α = −v_a > 0, β = −v_b)
@@ -10,18 +10,18 @@
 //!
 //! With D = 4e − T² and S = √|D| the solution is one of three:
 //!
-//! * D > 0, a **wave**: |a_n| = e^{n/2} A sin(δ_n)/S with A = hypot(αT + 2β, αS), δ_n = ψ − nθ,
+//! * D > 0, a **wave**: |`a_n`| = e^{n/2} A `sin(δ_n)/S` with A = hypot(αT + 2β, αS), `δ_n` = ψ − nθ,
 //!   θ = atan2(S, T), ψ = atan2(αS, −(αT + 2β)). It ends: N = ⌈ψ/θ⌉.
-//! * D < 0, a **decay**: |a_n| = (σ λ₊ⁿ − τ λ₋ⁿ)/S with λ± = (T ± S)/2, σ = αλ₊ + β, τ = αλ₋ + β. Endless iff
+//! * D < 0, a **decay**: |`a_n`| = (σ λ₊ⁿ − τ λ₋ⁿ)/S with λ± = (T ± S)/2, σ = αλ₊ + β, τ = αλ₋ + β. Endless iff
 //!   σ ≥ 0; else N = ⌈ln(τ/σ)/ln(λ₊/λ₋)⌉.
 //! * D = 0, the **edge** between them, where c = T/(2√e) = 1: only (1, 1) among floats.
 //!
 //! What decides is formed in double-double, or in integers where even those digits cancel: D, S, αT + 2β and
 //! σ τ = αβT + β² + α²e. Then f64 suffices, until a quotient lies within its error of an integer.
 
+use crate::bar::WideQ;
 use crate::dd::{self, Dd, ldexp, two_prod, two_sum};
 use crate::exact::{Dyadic, Recurrence};
-use crate::bar::WideQ;
 use crate::{Bar, Start};
 use libm::{atan2, exp, expm1, log, log1p, sin, sincos};
 use std::cmp::Ordering;
@@ -33,7 +33,7 @@ const QUOTIENT: f64 = 24.0 * UNIT;
 const UNIT: f64 = 0.5 * f64::EPSILON;
 
 /// The recurrence with its starting values, scaled by 2^m a step where T and e are so small that T² would underflow:
-/// a_n stands for 2^{mn} a_n, b_n for 2^{m(n−1)} b_n.
+/// `a_n` stands for 2^{mn} `a_n`, `b_n` for 2^{m(n−1)} `b_n`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Drive {
     pub(crate) bar: Bar,
@@ -61,6 +61,7 @@ pub(crate) enum Kind {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Wave {
     d: Dd,
+    d_error: f64,
     /// √D.
     pub(crate) s: f64,
     /// αT + 2β.
@@ -94,7 +95,7 @@ pub(crate) enum Steps {
     Endless,
 }
 
-/// a_{N−1}, a_N and the time of the last strike.
+/// a_{N−1}, `a_N` and the time of the last strike.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Last {
     pub(crate) a: f64,
@@ -102,8 +103,8 @@ pub(crate) struct Last {
     pub(crate) time: f64,
 }
 
-/// Which solution of the recurrence: that of the velocities, or that of their differences a_{n+1} − a_n, whose
-/// first sign change is where |a_n| is largest.
+/// Which solution of the recurrence: that of the velocities, or that of their differences a_{n+1} − `a_n`, whose
+/// first sign change is where |`a_n`| is largest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Series {
     Velocity,
@@ -123,9 +124,8 @@ impl Drive {
         let t = q * two_sum(1.0, e);
         let beta = if m == 0 { beta } else { ldexp(beta, m) };
         let ln_e = if e > 0.5 { log1p(e - 1.0) } else { log(e) };
-        let mut drive =
-            Self { bar: *bar, start: *start, m, t, e: scaled_e, alpha, beta, ln_e, kind: Kind::Edge };
-        let d = drive.discriminant(&wide);
+        let mut drive = Self { bar: *bar, start: *start, m, t, e: scaled_e, alpha, beta, ln_e, kind: Kind::Edge };
+        let (d, d_error) = drive.discriminant(&wide);
         drive.kind = if d.hi > 0.0 {
             let x = drive.slope(d);
             let s = d.hi.sqrt();
@@ -133,7 +133,7 @@ impl Drive {
             let theta = atan2(s, t.hi);
             // Squares leave the range only where a scale has been brought in.
             let amplitude = if m == 0 { (x_hi * x_hi + y * y).sqrt() } else { x_hi.hypot(y) };
-            Kind::Wave(Wave { d, s, x, amplitude, theta, psi: atan2(y, -x_hi) })
+            Kind::Wave(Wave { d, d_error, s, x, amplitude, theta, psi: atan2(y, -x_hi) })
         } else if d.hi < 0.0 {
             Kind::Decay(drive.decay(d))
         } else {
@@ -142,8 +142,9 @@ impl Drive {
         drive
     }
 
-    /// D = 4e − T², to a relative 2⁻²⁵ at the very least, its sign for certain.
-    fn discriminant(&self, wide: &WideQ) -> Dd {
+    /// D = 4e − T² to a relative 2⁻⁸⁰ at the very worst, and that bound; its sign is certain. A last strike at a
+    /// relative 10⁻¹⁰ takes D at a relative 10⁻¹⁰/N and better, hence so many digits.
+    fn discriminant(&self, wide: &WideQ) -> (Dd, f64) {
         let e = self.bar.e;
         // Of two equal forms the one with the smaller terms.
         let (first, second) = if e > 0.17 {
@@ -152,20 +153,35 @@ impl Drive {
             (Dd::from(4.0 * self.e), self.t.sqr())
         };
         let d = first - second;
-        if d.abs().hi > first.hi * 2f64.powi(-75) {
-            return d;
+        let error = 2f64.powi(-100) * (first.hi / d.hi).abs();
+        if error < 2f64.powi(-80) {
+            return (d, error);
+        }
+        // 4e − q²(1 + 2e + e²), every product as the floats that make it up.
+        if wide.q.lo == 0.0 {
+            let q = wide.q.scale(self.m).hi;
+            let Dd { hi: h, lo: l } = two_prod(q, q);
+            let Dd { hi: g, lo: k } = two_prod(e, e);
+            let [a, b, c, d, f] =
+                [two_prod(-2.0 * e, h), two_prod(-2.0 * e, l), two_prod(-g, h), two_prod(-g, l), two_prod(-k, h)];
+            let tail = -k * l;
+            let d = dd::sum([tail, f.lo, d.lo, f.hi, d.hi, c.lo, b.lo, c.hi, b.hi, a.lo, -l, a.hi, -h, 4.0 * self.e]);
+            let error = 2f64.powi(-100) + 2f64.powi(-200) * (self.e / d.hi).abs();
+            if error < 2f64.powi(-80) {
+                return (d, error);
+            }
         }
         let exact = self.exact(Series::Velocity);
         let nu = self.bar.exact_q().1;
-        to_dd(&exact.discriminant(), &nu, &nu, 2 * self.m)
+        (to_dd(&exact.discriminant(), &nu, &nu, 2 * self.m), 2f64.powi(-100))
     }
 
-    /// αT + 2β, to a relative 2⁻⁵² of the amplitude at the very least.
+    /// αT + 2β, to a relative 2⁻⁹⁰ of the amplitude at the very least.
     fn slope(&self, d: Dd) -> Dd {
         let at = self.t * self.alpha;
         let x = at + Dd::from(2.0 * self.beta);
         let size = x.hi.abs().max(self.alpha * d.hi.abs().sqrt());
-        if size > at.hi * 2f64.powi(-40) {
+        if size > at.hi * 2f64.powi(-10) {
             return x;
         }
         let exact = self.exact(Series::Velocity);
@@ -200,7 +216,7 @@ impl Drive {
         };
         let shift = f64::from(self.m) * LN_2;
         let rate = if s < 0.5 * plus { -log1p(-s / plus) } else { 2.0 * (log(plus) - shift) - self.ln_e };
-        let ln_plus = if self.m == 0 {
+        let ln_plus = if plus > 0.5 && self.m == 0 {
             let (u, w) = self.corner();
             log1p(-2.0 * w / (u + w + s)) // 1 − λ₊ = (1 − q)(1 + e)/(1 − λ₋)
         } else {
@@ -257,9 +273,8 @@ impl Drive {
             let (theta, psi) = self.angles(&wave);
             middle = psi / theta;
             // Angles to 2⁻⁹⁹; D and αT + 2β as `discriminant` and `slope` guarantee.
-            let terms = (4.0 * self.e).max(self.t.hi * self.t.hi);
             let slope = self.alpha * self.t.hi / wave.amplitude;
-            error = quotient * 2f64.powi(-95) * (1.0 + terms / wave.d.hi + slope);
+            error = quotient * (wave.d_error + 2f64.powi(-95) * (1.0 + slope));
         }
         let whole = Dd::from(middle.hi.round());
         let whole = whole + Dd::from((middle - whole).hi.round());
@@ -293,23 +308,22 @@ impl Drive {
         (dd::atan2(s, self.t), dd::atan2(s * self.alpha, -wave.x))
     }
 
-    /// δ_n = ψ − nθ, to a relative `error` or from double-double angles.
-    fn remainder(&self, wave: &Wave, n: u128, error: f64) -> f64 {
-        #[expect(clippy::cast_precision_loss, reason = "the error counted below includes this rounding")]
-        let delta = wave.psi - n as f64 * wave.theta;
-        if 8.0 * UNIT * wave.psi < error * delta {
-            return delta;
+    /// |`δ_n`| = |ψ − nθ| for each n, to a relative `error` or from double-double angles.
+    fn remainders<const K: usize>(&self, wave: &Wave, n: [u128; K], error: f64) -> [f64; K] {
+        let deltas = n.map(|n| (wave.psi - to_f64(n) * wave.theta).abs());
+        if deltas.iter().all(|delta| 8.0 * UNIT * wave.psi < error * delta) {
+            return deltas;
         }
         let (theta, psi) = self.angles(wave);
-        (psi - theta * wide(n)).hi
+        n.map(|n| (psi - theta * wide(n)).abs().hi)
     }
 
-    /// a_{N−1}, a_N and the time of the last strike; of an endless train, at rest, the time it tends to. NaN for a
+    /// a_{N−1}, `a_N` and the time of the last strike; of an endless train, at rest, the time it tends to. NaN for a
     /// count beyond 2¹²⁰, whose remainder is unknown.
     pub(crate) fn last(&self, steps: Steps) -> Last {
         match steps {
             Steps::Exactly(1) => Last { a: -self.alpha, next: self.first(), time: 0.0 },
-            Steps::Exactly(n) => self.last_of(n),
+            Steps::Exactly(n) => self.last_of(n, 1e-11),
             Steps::Endless => Last { a: 0.0, next: 0.0, time: self.limit() },
             Steps::About(_) => Last { a: f64::NAN, next: f64::NAN, time: f64::NAN },
         }
@@ -320,28 +334,30 @@ impl Drive {
         if n == 1 {
             return (-self.alpha, 0.0);
         }
-        if let Kind::Decay(Decay { s, plus, sigma, rate, ln_plus, .. }) = self.kind && sigma >= 0.0 {
+        if let Kind::Decay(Decay { s, plus, sigma, rate, ln_plus, .. }) = self.kind
+            && sigma >= 0.0
+        {
             let count = to_f64(n - 1);
             let (p, g) = (exp(-count * rate), -expm1(-count * rate) * (plus / s));
             let sum = self.alpha * plus * p + sigma * g;
             return (-exp(count * ln_plus) * sum / plus, ldexp(self.start.height_gap() * g / sum, self.m));
         }
-        let Last { a, time, .. } = self.last_of(n);
+        let Last { a, time, .. } = self.last_of(n, 1e-13);
         (a, time)
     }
 
-    /// For n ≥ 2: a_{n−1}, a_n and the time of strike n.
-    fn last_of(&self, n: u128) -> Last {
+    /// For n ≥ 2: a_{n−1}, `a_n` and the time of strike n, of a wave from angles to a relative `error`.
+    fn last_of(&self, n: u128, error: f64) -> Last {
         let h0 = self.start.height_gap();
         match self.kind {
             Kind::Wave(wave) => {
-                let delta = self.remainder(&wave, n - 1, 1e-11);
-                // Both parts of the last step must be known; else integers give them.
-                if delta > wave.psi * 2f64.powi(-60) {
+                let [delta, beyond] = self.remainders(&wave, [n - 1, n], error);
+                // Next to a tie, integers.
+                if delta.min(beyond) > wave.psi * 2f64.powi(-60) {
                     let amplitude = wave.amplitude / wave.s;
                     let (rise, run) = sincos(delta);
                     let a = -self.decayed(n - 1) * amplitude * rise;
-                    let next = self.decayed(n) * amplitude * sin(wave.theta - delta).max(0.0);
+                    let next = self.decayed(n) * amplitude * sin(beyond);
                     let sum = self.alpha * wave.s * (run / rise) + wave.x.hi;
                     let time = ldexp(h0 / wave.amplitude * (2.0 * sum / wave.amplitude), self.m);
                     return Last { a, next, time };
@@ -351,7 +367,7 @@ impl Drive {
                 let count = to_f64(n - 1);
                 let span = self.span(s, sigma, tau);
                 let delta = span - count * rate;
-                if 8.0 * UNIT * (span + 1.0) < 1e-10 * delta {
+                if 8.0 * UNIT * (span + 1.0) < 1e-10 * delta.min(rate - delta) {
                     let over = expm1(delta);
                     let a = sigma / s * exp(count * ln_plus) * over;
                     let next = sigma / s * exp((count + 1.0) * ln_plus) * expm1(delta - rate);
@@ -378,7 +394,8 @@ impl Drive {
         let nu = self.bar.exact_q().1;
         let above_one = nu.sub(&Dyadic::from(1.0)).to_float();
         let (nu, nu_x) = nu.to_float();
-        let ln_nu = if nu_x == 0 { log1p(ldexp(above_one.0, clamp(above_one.1))) } else { log(nu) + as_f64(nu_x) * LN_2 };
+        let ln_nu =
+            if nu_x == 0 { log1p(ldexp(above_one.0, clamp(above_one.1))) } else { log(nu) + as_f64(nu_x) * LN_2 };
         let power = |v: f64, x: i128, n: u128| {
             if v == 0.0 { 0.0 } else { v.signum() * exp(log(v.abs()) + as_f64(x) * LN_2 - to_f64(n) * ln_nu) }
         };
@@ -406,7 +423,7 @@ impl Drive {
         -after_first(&self.bar, &self.start)
     }
 
-    /// Index n and value of the largest |a_n|, the first if several tie; `Endless` where it is a limit.
+    /// Index n and value of the largest |`a_n`|, the first if several tie; `Endless` where it is a limit.
     pub(crate) fn peak(&self) -> (Steps, f64) {
         if !rises(&self.bar, &self.start) {
             return (Steps::Exactly(0), self.alpha);
@@ -444,7 +461,7 @@ impl Drive {
         }
     }
 
-    /// |a_n|, of true scale. Meant for n near the peak, where e^{n/2} is not small.
+    /// |`a_n`|, of true scale. Meant for n near the peak, where e^{n/2} is not small.
     fn magnitude(&self, n: Steps) -> f64 {
         let n = match n {
             Steps::Exactly(0) => return self.alpha,
@@ -483,9 +500,9 @@ const BLOCK: u128 = 256;
 
 /// Approach velocity and time of four neighboring strikes, ready to be carried on to the next four.
 ///
-/// For a wave, x = sin δ_n and y = sin nθ turn by 4θ a step in the form `d ← d − κx, x ← x + d` with κ = 4 sin² 2θ
-/// (Reinsch), whose errors stay relative where δ_n or nθ are small; |a_n| = gx, time = cy/x. For an endless decay,
-/// x = ρⁿ and y = (1 − ρⁿ)/(1 − ρ) with ρ = λ₋/λ₊ add up positive terms; |a_n| = g(αλ₊x + σy), time = h0 y over that.
+/// For a wave, x = sin `δ_n` and y = sin nθ turn by 4θ a step in the form `d ← d − κx, x ← x + d` with κ = 4 sin² 2θ
+/// (Reinsch), whose errors stay relative where `δ_n` or nθ are small; |`a_n`| = gx, time = cy/x. For an endless decay,
+/// x = ρⁿ and y = (1 − ρⁿ)/(1 − ρ) with ρ = λ₋/λ₊ add up positive terms; |`a_n`| = g(αλ₊x + σy), time = h0 y over that.
 #[derive(Debug, Clone)]
 pub(crate) struct Lanes {
     /// Index n of the first lane.
@@ -509,8 +526,17 @@ impl Lanes {
     pub(crate) fn new(drive: &Drive, n: u128) -> Self {
         let zero = [0.0; LANES];
         let mut lanes = Self {
-            n, x: zero, dx: zero, y: zero, dy: zero, g: zero, kappa: 0.0, decay: 0.0, time: 0.0,
-            approach: zero, times: zero,
+            n,
+            x: zero,
+            dx: zero,
+            y: zero,
+            dy: zero,
+            g: zero,
+            kappa: 0.0,
+            decay: 0.0,
+            time: 0.0,
+            approach: zero,
+            times: zero,
         };
         lanes.anchor(drive);
         lanes
@@ -519,13 +545,16 @@ impl Lanes {
     /// Approach velocity and time of the strike of index `n`, which is asked for in order.
     #[inline]
     pub(crate) fn strike(&mut self, drive: &Drive, n: u128) -> (f64, f64) {
-        #[expect(clippy::cast_possible_truncation, reason = "asked for in order: at most one past the lanes")]
         let lane = (n - self.n) as usize;
         if lane < LANES {
             return (self.approach[lane], self.times[lane]);
         }
         self.n = n;
-        if n % BLOCK < LANES as u128 { self.anchor(drive) } else { self.step(drive) }
+        if n % BLOCK < LANES as u128 {
+            self.anchor(drive);
+        } else {
+            self.step(drive);
+        }
         (self.approach[0], self.times[0])
     }
 
@@ -585,13 +614,13 @@ impl Lanes {
                     let (s, c) = sincos(angle + sign * 2.0 * theta);
                     (s * cos - sign * c * sin, 2.0 * sign * c * sin)
                 };
-                for i in 0..LANES {
-                    let n = self.n + i as u128;
-                    let delta = drive.remainder(&wave, n, 1e-13);
-                    (self.x[i], self.dx[i]) = lane(delta, -1.0);
+                let n = [0, 1, 2, 3].map(|i| self.n + i);
+                let deltas = drive.remainders(&wave, n, 1e-13);
+                for (i, (n, delta)) in n.into_iter().zip(deltas).enumerate() {
                     let turned = to_f64(n) * theta;
-                    (self.y[i], self.dy[i]) =
-                        if turned < 1.0 { lane(turned, 1.0) } else { lane(phi + delta, -1.0) };
+                    let lead = phi + turned;
+                    (self.x[i], self.dx[i]) = if lead < 1.0 { lane(lead, 1.0) } else { lane(delta, -1.0) };
+                    (self.y[i], self.dy[i]) = if turned < 1.0 { lane(turned, 1.0) } else { lane(phi + delta, -1.0) };
                     self.g[i] = drive.decayed(n) * (wave.amplitude / wave.s);
                 }
                 self.kappa = 4.0 * sin * sin;
@@ -616,7 +645,7 @@ impl Lanes {
     }
 }
 
-/// With q = μ/ν: P = μ(1 + e), Q = eν², c_0 = v_a, w = ν v_b.
+/// With q = μ/ν: P = μ(1 + e), Q = eν², `c_0` = `v_a`, w = ν `v_b`.
 pub(crate) fn exact(bar: &Bar, start: &Start) -> Recurrence {
     let [va, vb] = start.velocity();
     let (mu, nu) = bar.exact_q();
@@ -630,8 +659,8 @@ pub(crate) fn exact(bar: &Bar, start: &Start) -> Recurrence {
 }
 
 impl Recurrence {
-    /// The differences a_{n+1} − a_n, times ν^{n+1}: they obey the same recurrence, from
-    /// (T − 1)v_a + v_b and −(v_b + e v_a).
+    /// The differences a_{n+1} − `a_n`, times ν^{n+1}: they obey the same recurrence, from
+    /// (T − `1)v_a` + `v_b` and −(`v_b` + e `v_a`).
     fn differences(&self, bar: &Bar) -> Self {
         let nu = bar.exact_q().1;
         let v = self.p.sub(&nu).mul(&self.v).add(&self.w);
@@ -640,7 +669,7 @@ impl Recurrence {
     }
 }
 
-/// αT + β = −a_1, to a relative 4 ε, its sign for certain.
+/// αT + β = −`a_1`, to a relative 4 ε, its sign for certain.
 pub(crate) fn after_first(bar: &Bar, start: &Start) -> f64 {
     let [va, vb] = start.velocity();
     let at = bar.wide_q().q * two_sum(1.0, bar.e) * -va;
@@ -653,7 +682,7 @@ pub(crate) fn after_first(bar: &Bar, start: &Start) -> f64 {
     -to_dd(&sum, &nu, &Dyadic::from(1.0), 0).hi
 }
 
-/// Whether |a_1| > |a_0|, for certain: α(T − 1) + β > 0.
+/// Whether |`a_1`| > |`a_0`|, for certain: α(T − 1) + β > 0.
 pub(crate) fn rises(bar: &Bar, start: &Start) -> bool {
     let [va, vb] = start.velocity();
     // T − 1 = e − (1 − q)(1 + e), the smaller of two ways to cancel.
@@ -720,3 +749,6 @@ fn integer(x: Dd) -> u128 {
 }
 
 const _: fn(f64, f64) -> Dd = two_prod;
+
+#[cfg(test)]
+mod tests;

@@ -28,7 +28,7 @@ pub enum PeakImpact {
 /// The largest velocity shocks of the train (Eq. 4 of the paper), all held by the same impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
-    /// Largest velocity shock at a struck end, (1 + e) max |a_n|; may be infinite (q = e = 1).
+    /// Largest velocity shock at a struck end, (1 + e) max |`a_n`|; may be infinite (q = e = 1).
     pub end: f64,
     /// The impact that holds it.
     pub impact: PeakImpact,
@@ -67,7 +67,7 @@ pub struct Summary {
     pub net: Option<Net>,
 }
 
-/// The peak before it is spread over the bar: index n and value of the largest |a_n|.
+/// The peak before it is spread over the bar: index n and value of the largest |`a_n`|.
 type Largest = (Steps, f64);
 
 /// Plain steps that are tried before the closed form.
@@ -152,12 +152,13 @@ impl Bar {
         let (t, e) = (self.t, self.e);
         let [va, vb] = start.velocity();
         let (mut before, mut a, mut next) = (0.0, va, t * va + vb);
-        // A start that has cancelled is left alone, and so are T ≤ 0 and e = 0.
-        if !(t * e > NORMAL && (vb <= 0.0 || next.abs() > CLEAR * -va * t)) {
+        // Left alone: T ≤ 0, e = 0, and a start that cancels, at once or, as a decay does, at every step.
+        let d = 4.0 * e - t * t;
+        let spun = vb > 0.0 && !(d > DISCERNIBLE * t * t && next.abs() > CLEAR * -va * t);
+        if t * e <= NORMAL || spun {
             return Plain { end: None, peak: None };
         }
-        let d = 4.0 * e - t * t;
-        let endless = d < -DISCERNIBLE * t * t && vb <= 0.0;
+        let endless = d < -DISCERNIBLE * t * t;
         let (mut b, mut b_next) = (0.0, 1.0);
         let (mut n, mut at, mut largest) = (1, 0, -va);
         let mut closest = f64::INFINITY;
@@ -229,7 +230,7 @@ impl Bar {
                 let struck = -self.e * last.a;
                 Some(if n % 2 == 1 { [struck, last.next] } else { [last.next, struck] })
             }
-            Steps::Endless if self.less > 0.0 || (va == -vb && self.e < 1.0) => Some([0.0, 0.0]),
+            Steps::Endless if self.less > 0.0 || (va + vb == 0.0 && self.e < 1.0) => Some([0.0, 0.0]),
             _ => None,
         };
         let net = final_velocity.map(|[a, b]| {

@@ -49,14 +49,30 @@ pub struct Train {
 /// Where the next impacts come from.
 #[derive(Debug, Clone)]
 enum Source {
-    /// The recurrence as it stands: a_{n−1}, a_n, a_{n+1} and b_n, b_{n+1}.
-    Plain { before: f64, a: f64, next: f64, b: f64, b_next: f64 },
+    /// The recurrence as it stands: a_{n−1}, `a_n`, a_{n+1} and `b_n`, b_{n+1}.
+    Plain {
+        before: f64,
+        a: f64,
+        next: f64,
+        b: f64,
+        b_next: f64,
+    },
     /// Four strikes at a time, from the closed form.
-    Lanes { drive: Box<Drive>, count: Option<u128>, lanes: Lanes },
+    Lanes {
+        drive: Box<Drive>,
+        count: Option<u128>,
+        lanes: Box<Lanes>,
+    },
     /// Each from the closed form.
-    Closed { drive: Box<Drive>, count: Option<u128> },
+    Closed {
+        drive: Box<Drive>,
+        count: Option<u128>,
+    },
     /// T ≤ 0: a second impact; e = 0: all further impacts at the instant of the second.
-    Instant { first: f64, a: f64 },
+    Instant {
+        first: f64,
+        a: f64,
+    },
     Done,
 }
 
@@ -100,6 +116,7 @@ impl Iterator for Train {
                 match *count {
                     Some(count) if n >= count => return None,
                     Some(count) if n + 1 == count => drive.strike(count),
+                    _ if n == 0 => drive.strike(1),
                     _ => lanes.strike(drive, n),
                 }
             }
@@ -143,7 +160,7 @@ impl Iterator for Train {
         match &mut self.source {
             Source::Lanes { drive, lanes, .. } => {
                 self.given = self.given.saturating_add(skip);
-                *lanes = Lanes::new(drive, u128::from(self.given));
+                **lanes = Lanes::new(drive, u128::from(self.given));
             }
             Source::Closed { .. } => self.given = self.given.saturating_add(skip),
             _ => {
@@ -173,7 +190,7 @@ impl Train {
         if closed {
             return Source::Closed { drive, count };
         }
-        let lanes = Lanes::new(&drive, u128::from(self.given));
+        let lanes = Box::new(Lanes::new(&drive, u128::from(self.given)));
         Source::Lanes { drive, count, lanes }
     }
 }
@@ -222,4 +239,3 @@ impl Bar {
         Impact { number, end, time, approach, delta_v: if end == End::A { [hit, far] } else { [far, hit] } }
     }
 }
-
