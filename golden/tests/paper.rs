@@ -16,14 +16,14 @@ fn golden(name: &str, text: &str) {
 }
 
 /// `digits` significant digits; what is only rounding is told as such.
-fn digits(value: f64, digits: usize) -> String {
+fn digits(value: f64, digits: u8) -> String {
     match value {
         v if v.is_infinite() => "inf".into(),
         0.0 => "0".into(),
         v if v.abs() < 1e-12 => "rounding".into(),
         v => {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 12 + digits")]
-            let decimals = (digits as f64 - 1.0 - v.abs().log10().floor()).max(0.0) as usize;
+            let decimals = (f64::from(digits) - 1.0 - v.abs().log10().floor()).max(0.0) as usize;
             format!("{v:.decimals$}")
         }
     }

@@ -146,7 +146,7 @@ mod tests {
 
     #[test]
     fn words_that_look_like_markup_print_as_they_are() {
-        let hostile = r##"#eval("x") $ *b* _c_ @d <e> \ `f` // g"##;
+        let hostile = r#"#eval("x") $ *b* _c_ @d <e> \ `f` // g"#;
         let quoted = serde_json::to_string(hostile).unwrap();
         let files = || {
             let mut files = paper::Data::compute()?.files()?;

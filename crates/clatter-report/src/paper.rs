@@ -41,7 +41,7 @@ const AMBER: [[u8; 3]; 2] = [[0xf6, 0xea, 0xcf], [0xb8, 0x8a, 0x3c]];
 /// Levels of a threshold's figure, as parts of the bar.
 fn levels(threshold: f64) -> Vec<f64> {
     let percent: &[f64] = if threshold < 1.0 {
-        &[0.0, 2.5, 5.0, 7.5, 10.0, 12.5, 15.0, 17.5, 20.0, 22.5]
+        &[0.0, 2.5, 5.0, 7.5, 10.0, 15.0, 20.0]
     } else if threshold < 2.0 {
         &[0.0, 10.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0]
     } else {

@@ -189,7 +189,8 @@ fn wait(child: &mut Child, limit: Duration) -> Result<Option<bool>, ReportError>
     }
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
+#[cfg(unix)]
 mod tests {
     use super::*;
     use std::os::unix::fs::PermissionsExt as _;

@@ -114,7 +114,7 @@ pub(crate) fn surface(data: &Surface) -> String {
             svg.facet(&page, &fill, &line);
             for w in 0..shape.len() {
                 let (a, b) = (shape[w], shape[(w + 1) % shape.len()]);
-                if a[2] == data.cut && b[2] == data.cut {
+                if a[2] >= data.cut && b[2] >= data.cut {
                     svg.line(view.pt(a), view.pt(b), Ink::line(RUST, 0.9));
                 }
             }
