@@ -251,3 +251,32 @@ impl Svg {
         let _ = writeln!(self.body, "<path d=\"M{d}Z\" fill=\"{fill}\" stroke=\"{line}\" stroke-width=\".25\"/>");
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_have_italics_and_subscripts_that_come_back_up() {
+        let plain = |text| markup(text, 10.0);
+        assert_eq!(
+            plain("*v*_0 < 1"),
+            concat!(
+                "<tspan font-style=\"italic\">v</tspan><tspan dy=\"2\" font-size=\"7.2\">0</tspan>",
+                "<tspan dy=\"-2\"> &lt; 1</tspan>"
+            )
+        );
+        assert_eq!(
+            plain("*v*_{max}*x*"),
+            concat!(
+                "<tspan font-style=\"italic\">v</tspan><tspan dy=\"2\" font-size=\"7.2\">max</tspan>",
+                "<tspan font-style=\"italic\" dy=\"-2\">x</tspan>"
+            )
+        );
+    }
+
+    #[test]
+    fn coordinates_are_short_and_have_no_negative_zero() {
+        assert_eq!([pt(-0.001), pt(1.0), pt(2.504)], ["0", "1", "2.5"]);
+    }
+}
