@@ -59,6 +59,13 @@ pub enum ReportError {
 /// Each file is written beside its place and renamed, so that none is ever half there. The PDF is the same, byte for
 /// byte, from run to run.
 ///
+/// ```no_run
+/// // typst may have to be built first
+/// let written = clatter_report::write(clatter_report::Report::Paper, "report".as_ref(), &mut |step| eprintln!("{step}"))?;
+/// assert!(written.files[0].ends_with("paper.pdf"));
+/// # Ok::<(), clatter_report::ReportError>(())
+/// ```
+///
 /// # Errors
 /// [`ReportError`]; with [`ReportError::Typst`] everything but the PDF has been written.
 pub fn write(report: Report, dir: &Path, progress: &mut dyn FnMut(&str)) -> Result<Written, ReportError> {
@@ -129,7 +136,15 @@ fn place(dir: &Path, name: &str, content: &[u8]) -> Result<PathBuf, ReportError>
     Ok(target)
 }
 
-/// A map as a heat map with a color bar; endless (+∞) is shown apart.
+/// A map as a heat map with a color bar, a cell a grid point; endless (+∞) is shown apart. The color bar is
+/// logarithmic where no value is negative and the positive ones span more than two decades.
+///
+/// ```
+/// use clatter::{Axis, Map, Quantity};
+/// let map = Map::compute(Quantity::Impacts, Axis::q(0.0, 1.0, 50)?, Axis::e(0.0, 1.0, 50)?)?;
+/// assert!(clatter_report::map_svg(&map).contains("endless"));
+/// # Ok::<(), clatter::Error>(())
+/// ```
 #[must_use]
 pub fn map_svg(map: &clatter::Map) -> String {
     figure::heat::heat(map)

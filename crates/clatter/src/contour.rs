@@ -60,7 +60,12 @@ fn impacts_at(n: u32, delta: f64) -> Point {
 
 /// The bounding curve of the endless region, q = 2√e/(1 + e), in `segments` pieces from (0, 0) to (1, 1).
 ///
-/// On it and above it the impacts never end (from pure translation).
+/// On it and above it the impacts never end (from pure translation). The area above it is π − 3.
+///
+/// ```
+/// let curve = clatter::contour::endless(2);
+/// assert_eq!((curve[1].q, curve[1].e), (0.8, 0.25)); // 2 · ½/(1 + ¼)
+/// ```
 #[must_use]
 pub fn endless(segments: u32) -> Vec<Point> {
     let at = |i| {
@@ -73,6 +78,11 @@ pub fn endless(segments: u32) -> Vec<Point> {
 /// Area of the design plane with at most n impacts, the integral of q de along [`impacts`].
 ///
 /// Accuracy: `error` bounds what the quadrature leaves, 1e-13 or better.
+///
+/// ```
+/// // all finite counts together fill 4 − π
+/// assert!((clatter::contour::area_up_to(10_000).value - (4.0 - std::f64::consts::PI)).abs() < 1e-6);
+/// ```
 #[must_use]
 pub fn area_up_to(n: u32) -> Integral {
     if n < 2 {

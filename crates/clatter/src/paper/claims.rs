@@ -188,6 +188,13 @@ fn turn(mut a: f64, mut b: f64, holds: impl Fn(f64) -> bool) -> f64 {
 /// Areas are exact where a closed form exists, else by quadrature along exact curves. Monotonicity is measured
 /// step by step on a 401 × 401 grid; there, "share" counts steps.
 ///
+/// ```
+/// use clatter::paper::{Verdict, claims};
+/// let fails: Vec<_> = claims()?.into_iter().filter(|claim| claim.verdict == Verdict::Fails).collect();
+/// assert_eq!(fails[0].place, "Fig. 5"); // three eighths of the plane, not half
+/// # Ok::<(), clatter::Error>(())
+/// ```
+///
 /// # Errors
 /// None in practice: all bars are valid. [`Error::TooLarge`] without memory for the grid.
 pub fn claims() -> Result<Vec<Claim>, Error> {
