@@ -137,7 +137,7 @@ fn place(dir: &Path, name: &str, content: &[u8]) -> Result<PathBuf, ReportError>
 }
 
 /// A map as a heat map with a color bar, a cell a grid point; endless (+∞) is shown apart. The color bar is
-/// logarithmic where no value is negative and the positive ones span more than two decades.
+/// logarithmic where no value is negative and the positive ones span more than a factor of 30.
 ///
 /// ```
 /// use clatter::{Axis, Map, Quantity};

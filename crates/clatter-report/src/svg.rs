@@ -210,7 +210,7 @@ impl Svg {
         let (x, y) = (pt(x), pt(y));
         let _ = write!(
             self.body,
-            "<text x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\" font-size=\"{}\" fill=\"{}\"",
+            "<text xml:space=\"preserve\" x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\" font-size=\"{}\" fill=\"{}\"",
             pt(label.size),
             label.color
         );

@@ -307,6 +307,9 @@ mod tests {
             - 3f64.sqrt() * ((5f64 / 3.0).sqrt().atan() - (1f64 / 3.0).sqrt().atan())
             - 0.5 * 2f64.ln();
         assert!((area_up_to(2).value - two).abs() < 1e-14, "{:?}, not {two}", area_up_to(2));
+        for n in 2..60 {
+            assert!(area_up_to(n).error <= 1e-13, "{n}: {:?}", area_up_to(n));
+        }
         // all finite counts together fill 4 − π; what is left beyond n falls like 1/n²
         let left = |n: u32| 4.0 - std::f64::consts::PI - area_up_to(n).value;
         assert!((left(2000) * 4.0 / left(1000) - 1.0).abs() < 0.01, "{} {}", left(1000), left(2000));

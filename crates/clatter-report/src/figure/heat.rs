@@ -26,7 +26,7 @@ struct Scale {
 }
 
 impl Scale {
-    /// Over the finite values. If none is negative and the positive ones span more than two decades, logarithmic from
+    /// Over the finite values. If none is negative and the positive ones span more than a factor of 30, logarithmic from
     /// the smallest positive one on.
     fn of(values: &[f64]) -> Self {
         let range = |from: f64| {
@@ -37,7 +37,7 @@ impl Scale {
         let (least, _) = range(f64::MIN_POSITIVE);
         if low > high {
             Self { low: 0.0, high: 1.0, log: false }
-        } else if low >= 0.0 && high > 100.0 * least {
+        } else if low >= 0.0 && high > 30.0 * least {
             Self { low: least, high, log: true }
         } else {
             Self { low, high, log: false }
