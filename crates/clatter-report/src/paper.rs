@@ -102,13 +102,13 @@ impl Data {
                     let surfaces = [
                         view(
                             vec![angular],
-                            "Δ*ω*_{max}  in *v*_0/*L*",
+                            "Δ*ω*_{max} in *v*_0/*L*",
                             "Largest change of angular velocity",
                             [38.0, 24.0],
                         ),
                         view(
                             vec![center, quarter, end],
-                            "Δ*v*_{max}  in *v*_0",
+                            "Δ*v*_{max} in *v*_0",
                             "Largest velocity shocks",
                             [150.0, 16.0],
                         ),

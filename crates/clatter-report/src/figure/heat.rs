@@ -167,8 +167,8 @@ pub(crate) fn heat(map: &Map) -> String {
         svg.line([left, y], [left - 3.0, y], Ink::line(INK, 0.6));
         svg.text([left - 5.0, y + 2.6], &text, Label { anchor: Anchor::End, ..small });
     }
-    svg.text([left + 0.5 * side, top + side + 24.0], "coefficient of restitution  *e*", LABEL);
-    svg.text([left - 30.0, top + 0.5 * side], "inertia ratio  *q*", Label { turn: -90.0, ..LABEL });
+    svg.text([left + 0.5 * side, top + side + 24.0], "coefficient of restitution *e*", LABEL);
+    svg.text([left - 30.0, top + 0.5 * side], "inertia ratio *q*", Label { turn: -90.0, ..LABEL });
     // the bar
     let bar = left + side + 18.0;
     let strip: Vec<u8> = (0..=255u8).rev().flat_map(|i| color(f64::from(i) / 255.0)).collect();

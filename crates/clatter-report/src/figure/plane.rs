@@ -58,9 +58,9 @@ impl Frame {
             svg.text([x - 5.0, y + 2.6], &text, Label { anchor: Anchor::End, ..tick });
         }
         let [x, y] = self.corner(0.0, 0.5);
-        svg.text([x, y + 24.0], "coefficient of restitution  *e*", LABEL);
+        svg.text([x, y + 24.0], "coefficient of restitution *e*", LABEL);
         let [x, y] = self.corner(0.5, 0.0);
-        svg.text([x - titles, y], "inertia ratio  *q*", Label { turn: -90.0, ..LABEL });
+        svg.text([x - titles, y], "inertia ratio *q*", Label { turn: -90.0, ..LABEL });
     }
 }
 

@@ -225,8 +225,8 @@ fn box_front(svg: &mut Svg, view: &View, data: &Surface) {
         let [x, y] = away(0.5, 22.0);
         svg.text([x, y], title, Label { turn, ..LABEL });
     };
-    floor(svg, &|v| [near_q, v, 0.0], "restitution  *e*");
-    floor(svg, &|v| [v, near_e, 0.0], "inertia ratio  *q*");
+    floor(svg, &|v| [near_q, v, 0.0], "restitution *e*");
+    floor(svg, &|v| [v, near_e, 0.0], "inertia ratio *q*");
     // the vertical axis stands at the leftmost corner
     let corners = [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]];
     let left =
