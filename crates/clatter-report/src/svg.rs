@@ -208,7 +208,12 @@ impl Svg {
             Anchor::End => "end",
         };
         let (x, y) = (pt(x), pt(y));
-        let _ = write!(self.body, "<text x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\" font-size=\"{}\" fill=\"{}\"", pt(label.size), label.color);
+        let _ = write!(
+            self.body,
+            "<text xml:space=\"preserve\" x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\" font-size=\"{}\" fill=\"{}\"",
+            pt(label.size),
+            label.color
+        );
         if label.turn != 0.0 {
             let _ = write!(self.body, " transform=\"rotate({} {x} {y})\"", pt(label.turn));
         }
@@ -220,7 +225,10 @@ impl Svg {
         let _ = writeln!(
             self.body,
             "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" image-rendering=\"optimizeSpeed\" style=\"image-rendering:pixelated\" href=\"data:image/png;base64,{png}\"/>",
-            pt(x), pt(y), pt(w), pt(h)
+            pt(x),
+            pt(y),
+            pt(w),
+            pt(h)
         );
     }
 
@@ -241,5 +249,34 @@ impl Svg {
     pub(crate) fn facet(&mut self, points: &[Pt], fill: &str, line: &str) {
         let d: String = points.iter().map(|[x, y]| format!("{} {}", pt(*x), pt(*y))).collect::<Vec<_>>().join("L");
         let _ = writeln!(self.body, "<path d=\"M{d}Z\" fill=\"{fill}\" stroke=\"{line}\" stroke-width=\".25\"/>");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_have_italics_and_subscripts_that_come_back_up() {
+        let plain = |text| markup(text, 10.0);
+        assert_eq!(
+            plain("*v*_0 < 1"),
+            concat!(
+                "<tspan font-style=\"italic\">v</tspan><tspan dy=\"2\" font-size=\"7.2\">0</tspan>",
+                "<tspan dy=\"-2\"> &lt; 1</tspan>"
+            )
+        );
+        assert_eq!(
+            plain("*v*_{max}*x*"),
+            concat!(
+                "<tspan font-style=\"italic\">v</tspan><tspan dy=\"2\" font-size=\"7.2\">max</tspan>",
+                "<tspan font-style=\"italic\" dy=\"-2\">x</tspan>"
+            )
+        );
+    }
+
+    #[test]
+    fn coordinates_are_short_and_have_no_negative_zero() {
+        assert_eq!([pt(-0.001), pt(1.0), pt(2.504)], ["0", "1", "2.5"]);
     }
 }

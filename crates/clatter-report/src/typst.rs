@@ -52,9 +52,8 @@ impl Typst {
         if !ended.success || !ended.stdout.starts_with("typst ") {
             return Err(failed(format!("{} is not typst: it does not tell its version", typst.program.display())));
         }
-        let warning = (version != VERSION).then(|| {
-            format!("typst {version} at {}: the pages are tested with {VERSION}", typst.program.display())
-        });
+        let warning = (version != VERSION)
+            .then(|| format!("typst {version} at {}: the pages are tested with {VERSION}", typst.program.display()));
         Ok((typst, warning))
     }
 
@@ -110,6 +109,13 @@ fn locate(env: Env<'_>, progress: &mut dyn FnMut(&str)) -> Result<PathBuf, Repor
             "no typst: set CLATTER_TYPST, put typst {VERSION} on PATH, or unset CLATTER_NO_INSTALL to have it built; \
              by hand: {build}"
         )));
+    }
+    // two commands, or two tests, must not build it twice
+    let lock = fs::create_dir_all(&root).and_then(|()| fs::File::create(root.join("lock")));
+    let lock = lock.and_then(|file| file.lock().map(|()| file));
+    let _lock = lock.map_err(|source| ReportError::Io { path: root.join("lock"), source })?;
+    if program.is_file() {
+        return Ok(program);
     }
     progress(&format!("no typst found: building {VERSION} into {}, 7 to 12 minutes, once", root.display()));
     let status = Command::new(env("CARGO").unwrap_or_else(|| "cargo".into()))
@@ -183,7 +189,8 @@ fn wait(child: &mut Child, limit: Duration) -> Result<Option<bool>, ReportError>
     }
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
+#[cfg(unix)]
 mod tests {
     use super::*;
     use std::os::unix::fs::PermissionsExt as _;

@@ -36,8 +36,10 @@ pub(crate) struct Surface {
 type P3 = [f64; 3];
 
 /// Where the middle of the box lies on the page, and the size of its floor, in pt.
-const CENTER: Pt = [130.0, 98.0];
+const CENTER: Pt = [128.0, 116.0];
 const SCALE: f64 = 130.0;
+/// Height of the box over the side of its floor.
+const TALL: f64 = 1.0;
 
 /// Orthographic view.
 struct View {
@@ -58,8 +60,8 @@ impl View {
         let (x, y) = (e - 0.5, q - 0.5);
         let right = x * self.cos - y * self.sin;
         let back = x * self.sin + y * self.cos;
-        let up = z / self.cut * 0.78;
-        ([CENTER[0] + SCALE * right, CENTER[1] - SCALE * (back * self.lift + (up - 0.39) * self.lower)], -back)
+        let up = TALL * (z / self.cut - 0.5);
+        ([CENTER[0] + SCALE * right, CENTER[1] - SCALE * (back * self.lift + up * self.lower)], -back)
     }
     fn pt(&self, p: P3) -> Pt {
         self.at(p).0
@@ -91,7 +93,7 @@ fn below(polygon: &[P3], cut: f64) -> Vec<P3> {
 /// are functions of (q, e), seen from above.
 pub(crate) fn surface(data: &Surface) -> String {
     let view = View::new(data);
-    let mut svg = Svg::new(236.0, 212.0);
+    let mut svg = Svg::new(226.0, 246.0);
     box_back(&mut svg, &view, data);
     let Some(first) = data.sheets.first() else { return svg.finish(data.title) };
     let (nq, ne) = (first.map.q.points(), first.map.e.points());
@@ -114,7 +116,7 @@ pub(crate) fn surface(data: &Surface) -> String {
             svg.facet(&page, &fill, &line);
             for w in 0..shape.len() {
                 let (a, b) = (shape[w], shape[(w + 1) % shape.len()]);
-                if a[2] == data.cut && b[2] == data.cut {
+                if a[2] >= data.cut && b[2] >= data.cut {
                     svg.line(view.pt(a), view.pt(b), Ink::line(RUST, 0.9));
                 }
             }
@@ -134,15 +136,20 @@ pub(crate) fn surface(data: &Surface) -> String {
     svg.finish(data.title)
 }
 
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "a small index")]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    reason = "a small index"
+)]
 fn nearest(points: usize, x: f64) -> usize {
     (x * (points - 1) as f64).round() as usize
 }
 
 /// Cosine between the normal and the light, 0 to 1, of a polygon in the box of the figure.
 fn brightness(shape: &[P3], cut: f64, light: P3) -> f64 {
-    let scaled = |p: P3| [p[0], p[1], p[2] / cut * 0.78];
-    let (mut n, mut norm) = ([0.0; 3], 0.0f64);
+    let scaled = |p: P3| [p[0], p[1], p[2] / cut * TALL];
+    let mut n = [0.0; 3];
     for k in 0..shape.len() {
         let (a, b) = (scaled(shape[k]), scaled(shape[(k + 1) % shape.len()]));
         for d in 0..3 {
@@ -151,13 +158,14 @@ fn brightness(shape: &[P3], cut: f64, light: P3) -> f64 {
     }
     let sign = if n[2] < 0.0 { -1.0 } else { 1.0 };
     let dot: f64 = n.iter().zip(light).map(|(a, b)| sign * a * b).sum();
-    norm += n.iter().map(|x| x * x).sum::<f64>();
+    let norm: f64 = n.iter().map(|x| x * x).sum();
     if norm > 0.0 { (dot / norm.sqrt()).clamp(0.0, 1.0) } else { 0.5 }
 }
 
 fn mix([light, dark]: [[u8; 3]; 2], x: f64) -> String {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between two bytes")]
-    let c: [u8; 3] = std::array::from_fn(|i| (f64::from(dark[i]) + x * (f64::from(light[i]) - f64::from(dark[i]))).round() as u8);
+    let c: [u8; 3] =
+        std::array::from_fn(|i| (f64::from(dark[i]) + x * (f64::from(light[i]) - f64::from(dark[i]))).round() as u8);
     format!("#{:02x}{:02x}{:02x}", c[0], c[1], c[2])
 }
 
@@ -217,11 +225,12 @@ fn box_front(svg: &mut Svg, view: &View, data: &Surface) {
         let [x, y] = away(0.5, 22.0);
         svg.text([x, y], title, Label { turn, ..LABEL });
     };
-    floor(svg, &|v| [near_q, v, 0.0], "restitution  *e*");
-    floor(svg, &|v| [v, near_e, 0.0], "inertia ratio  *q*");
+    floor(svg, &|v| [near_q, v, 0.0], "restitution *e*");
+    floor(svg, &|v| [v, near_e, 0.0], "inertia ratio *q*");
     // the vertical axis stands at the leftmost corner
     let corners = [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]];
-    let left = corners.into_iter().min_by(|a, b| view.pt([a[0], a[1], 0.0])[0].total_cmp(&view.pt([b[0], b[1], 0.0])[0]));
+    let left =
+        corners.into_iter().min_by(|a, b| view.pt([a[0], a[1], 0.0])[0].total_cmp(&view.pt([b[0], b[1], 0.0])[0]));
     let [q, e] = left.unwrap_or_default();
     svg.line(view.pt([q, e, 0.0]), view.pt([q, e, data.cut]), rule);
     for k in 1..=4u8 {
@@ -234,4 +243,17 @@ fn box_front(svg: &mut Svg, view: &View, data: &Surface) {
     }
     let [x, y] = view.pt([q, e, 0.5 * data.cut]);
     svg.text([x - 24.0, y], data.axis, Label { turn: -90.0, ..LABEL });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_facet_is_cut_at_the_height_and_beside_the_pole() {
+        let quad = [[0.0, 0.0, 1.0], [0.0, 1.0, 1.0], [1.0, 1.0, f64::INFINITY], [1.0, 0.0, f64::INFINITY]];
+        // 1/z falls linearly from 1 to 0 along the edges to the pole, so that z = 2 lies in the middle
+        assert_eq!(below(&quad, 2.0), [[0.0, 0.0, 1.0], [0.0, 1.0, 1.0], [0.5, 1.0, 2.0], [0.5, 0.0, 2.0],]);
+        assert_eq!(below(&quad, 0.5), Vec::<P3>::new(), "all above");
+    }
 }

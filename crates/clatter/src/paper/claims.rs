@@ -188,6 +188,13 @@ fn turn(mut a: f64, mut b: f64, holds: impl Fn(f64) -> bool) -> f64 {
 /// Areas are exact where a closed form exists, else by quadrature along exact curves. Monotonicity is measured
 /// step by step on a 401 × 401 grid; there, "share" counts steps.
 ///
+/// ```
+/// use clatter::paper::{Verdict, claims};
+/// let fails: Vec<_> = claims()?.into_iter().filter(|claim| claim.verdict == Verdict::Fails).collect();
+/// assert_eq!(fails[0].place, "Fig. 5"); // three eighths of the plane, not half
+/// # Ok::<(), clatter::Error>(())
+/// ```
+///
 /// # Errors
 /// None in practice: all bars are valid. [`Error::TooLarge`] without memory for the grid.
 pub fn claims() -> Result<Vec<Claim>, Error> {
@@ -295,7 +302,10 @@ fn counts(plane: &Plane) -> Result<Vec<Claim>, Error> {
 
 /// Sections 3 and 5: centers of percussion and the shocks along the bar.
 fn percussion() -> Result<Vec<Claim>, Error> {
-    let uniform = Bar::from_masses(1.0, &[Mass::Slab { mass_kg: 1.0, from_m: -0.5, to_m: 0.5 }], 0.3)?.q();
+    let q = |masses: &[Mass]| Bar::from_masses(1.0, masses, 0.3).map(|bar| bar.q());
+    let mass = |position_m| Mass::Point { mass_kg: 1.0, position_m };
+    let (ends, point) = (q(&[mass(-0.5), mass(0.5)])?, q(&[mass(0.0)])?);
+    let uniform = q(&[Mass::Slab { mass_kg: 1.0, from_m: -0.5, to_m: 0.5 }])?;
     let (mut still, mut moved, mut linear, mut safest) = (0.0f64, 0.0f64, 0.0f64, Vec::new());
     for [q, e] in DESIGNS {
         let bar = Bar::new(q, e)?;
@@ -317,9 +327,13 @@ fn percussion() -> Result<Vec<Claim>, Error> {
     Ok(vec![
         Claim {
             place: "Sect. 3",
-            statement: "A uniform bar has q = 0.5.",
-            measured: vec![number("q of a uniform slab", uniform)],
-            verdict: Verdict::of((uniform - 0.5).abs() <= f64::EPSILON, false),
+            statement: "Mass at the ends, a uniform bar and mass at the center have q = 0, 0.5 and 1.",
+            measured: vec![
+                number("q of equal masses at the ends", ends),
+                number("q of a uniform slab", uniform),
+                number("q of a mass at the center", point),
+            ],
+            verdict: Verdict::of(ends == 0.0 && (uniform - 0.5).abs() <= f64::EPSILON && point >= 1.0, false),
             remark: "",
         },
         Claim {
@@ -460,7 +474,9 @@ fn shrinking(plane: &Plane, zone: &[f64]) -> [f64; 2] {
 fn half(plane: &Plane) -> Vec<Claim> {
     let covered = SafeZone::new(0.5).area(0.0);
     let zone = plane.zone(0.5);
-    let (trend, in_e) = (Plane::along_q(&zone, |s| s > 0.0), Plane::along_e(&zone));
+    let trend = Plane::along_q(&zone, |s| s > 0.0);
+    let in_e = [0.5, 1.0, 2.0].map(|threshold| Plane::along_e(&plane.zone(threshold)).rises);
+    let in_q = [0.5, 1.0, 2.0].map(|threshold| Plane::along_q(&plane.zone(threshold), |s| s > 0.0).rises);
     let [q, e] = shrinking(plane, &zone);
     vec![
         Claim {
@@ -478,11 +494,18 @@ fn half(plane: &Plane) -> Vec<Claim> {
             remark: "Not close to q = 1, where the peak at the ends grows faster than its share at the center falls.",
         },
         Claim {
-            place: "Fig. 5",
-            statement: "At fixed q the zone widens as e falls.",
-            measured: vec![part("steps in e against it", in_e.rises)],
-            verdict: Verdict::of(in_e.rises == 0.0, in_e.rises < 0.5),
-            remark: "The same holds for every threshold: see Figs. 3 and 4.",
+            place: "Figs. 5–7",
+            statement: "At fixed q every zone widens as e falls.",
+            measured: vec![part("steps in e against it, v₀/2", in_e[0]), part("v₀", in_e[1]), part("2 v₀", in_e[2])],
+            verdict: Verdict::of(in_e.iter().all(|share| *share <= 0.0), in_e.iter().all(|share| *share < 0.5)),
+            remark: "It follows from the peak at the ends, which rises with e.",
+        },
+        Claim {
+            place: "Figs. 5–7",
+            statement: "The three thresholds differ in what q does to the zone.",
+            measured: vec![part("steps in q that widen it, v₀/2", in_q[0]), part("v₀", in_q[1]), part("2 v₀", in_q[2])],
+            verdict: Verdict::of(in_q[0] > 0.9 && in_q[1] > 0.1 && in_q[1] < 0.9 && in_q[2] < 0.1, in_q[0] > in_q[2]),
+            remark: "",
         },
     ]
 }
@@ -579,6 +602,20 @@ fn designs(plane: &Plane) -> Result<Vec<Claim>, Error> {
             remark: "Printed as 0 %.",
         },
         Claim {
+            place: "Table 1",
+            statement: "The suggested designs have a zone of roughly 10 % within v₀/2, and substantially all of the bar within 2 v₀.",
+            measured: vec![
+                part("least zone within v₀/2", smallest(half[1..].iter().copied())),
+                part("greatest", largest(half[1..].iter().copied())),
+                part("least zone within 2 v₀", smallest(two[1..].iter().copied())),
+            ],
+            verdict: Verdict::of(
+                half[1..].iter().all(|s| (0.075..0.125).contains(s)) && two[1..].iter().all(|s| *s > 0.85),
+                half[1..].iter().all(|s| *s > 0.0),
+            ),
+            remark: "",
+        },
+        Claim {
             place: "Sect. 6",
             statement: "(0.73, 0.2) and (0.67, 0.15) give a zone of 10 % within v₀/2.",
             measured: vec![part("s, (0.73, 0.2)", half[1]), part("s, (0.67, 0.15)", half[2])],
@@ -650,14 +687,54 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tmp() {
-        let t = std::time::Instant::now();
-        for c in claims().unwrap() {
-            eprintln!("{:?} {} | {}", c.verdict, c.place, c.statement);
-            for m in c.measured {
-                eprintln!("      {} {} ±{:e}", m.what, m.value, m.error);
+    fn every_claim_is_measured() {
+        let claims = claims().unwrap();
+        for claim in &claims {
+            assert!(!claim.measured.is_empty(), "{}", claim.statement);
+            for m in &claim.measured {
+                assert!(m.value.is_finite() && m.error.is_finite() && m.error < 1e-9, "{}: {m:?}", claim.statement);
+                assert!(m.kind != Kind::Share || (0.0..=1.0).contains(&m.value), "{}: {m:?}", claim.statement);
             }
+            assert!(claim.verdict == Verdict::Holds || !claim.remark.is_empty(), "where not: {}", claim.statement);
         }
-        eprintln!("{:?}", t.elapsed());
+        let mut statements: Vec<_> = claims.iter().map(|c| c.statement).collect();
+        statements.sort_unstable();
+        statements.dedup();
+        assert_eq!(statements.len(), claims.len(), "a statement stands twice");
+    }
+
+    #[test]
+    fn measured_figures_have_their_closed_forms() {
+        let claims = claims().unwrap();
+        let find = |what: &str| {
+            let mut all = claims.iter().flat_map(|c| &c.measured).filter(|m| m.what == what);
+            all.next().unwrap_or_else(|| panic!("nothing is called {what}")).value
+        };
+        // up to q = 1/√(1 + e) the second impact is the worst: peak (1 + e)(1 + q (1 + e))
+        let center = |q: f64, e: f64| 0.5 * (1.0 - q) * (1.0 + e) * (1.0 + q * (1.0 + e));
+        assert!((find("largest, in v₀") - center(0.25, 1.0)).abs() < 1e-15, "9/8");
+        assert!((find("slope beyond it over slope before") - (8f64.sqrt() + 1.0)).abs() < 1e-4, "2T + 1 at T = √2");
+        // three impacts from a_3 = T³ + T² − 2eT − e = 0 on, with T = (1 + e)/2
+        let a3 = |e: f64| {
+            let t = 0.5 * (1.0 + e);
+            t * t * t + t * t - 2.0 * e * t - e
+        };
+        assert!(a3(find("three from e")).abs() < 1e-14, "{}", find("three from e"));
+        // the plane is shared out
+        let shares: f64 = ["plane with two", "three", "four", "five", "endless"].into_iter().map(find).sum();
+        let more = 4.0 - std::f64::consts::PI - contour::area_up_to(5).value;
+        assert!((shares + more - 1.0).abs() < 1e-14, "{shares} and {more}");
+    }
+
+    #[test]
+    fn a_trend_counts_rises_and_falls_and_not_rounding() {
+        let trend = Trend::of([(1.0, 2.0), (2.0, 2.0 + 1e-13), (2.0, 1.0), (1.0, f64::INFINITY)].into_iter());
+        assert_eq!(format!("{:?}", [trend.rises, trend.falls]), "[0.5, 0.25]");
+    }
+
+    #[test]
+    fn a_turn_is_found_to_the_last_bit() {
+        let third = 1.0 / 3.0;
+        assert_eq!(turn(0.0, 1.0, |x| x >= third).to_bits(), third.to_bits());
     }
 }
