@@ -95,9 +95,17 @@ fn long_trains() {
     ] {
         let repeat = 500;
         let loops = || (0..repeat).for_each(|_| naive(bar.q(), bar.e()));
-        let summary = || (0..repeat).for_each(|_| drop(black_box(black_box(&bar).summary(black_box(&start)))));
+        let summary = || {
+            (0..repeat).for_each(|_| {
+                black_box(black_box(&bar).summary(black_box(&start)));
+            });
+        };
         row(&format!("summary, {name}"), repeat, "600 ns", summary, loops);
-        let count = || (0..repeat).for_each(|_| drop(black_box(black_box(&bar).count(black_box(&start)))));
+        let count = || {
+            (0..repeat).for_each(|_| {
+                black_box(black_box(&bar).count(black_box(&start)));
+            });
+        };
         row(&format!("count, {name}"), repeat, "100 ns", count, loops);
     }
 }
