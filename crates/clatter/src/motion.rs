@@ -82,11 +82,10 @@ pub(crate) struct Decay {
     pub(crate) ln_plus: f64,
 }
 
-/// How many steps until a sign changes.
+/// How many steps until a sign changes: below 2¹²⁰ for every bar and start that is let in.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Steps {
     Exactly(u128),
-    About(f64),
     Endless,
 }
 
@@ -266,12 +265,11 @@ impl Drive {
     pub(crate) fn count(&self) -> Count {
         match self.steps() {
             Steps::Exactly(n) => u64::try_from(n).map_or(Count::Huge(to_f64(n)), Count::Finite),
-            Steps::About(n) => Count::Huge(n),
             Steps::Endless => Count::Endless,
         }
     }
 
-    /// Count, time and final velocities. Of a count beyond 2¹²⁰ the remainder, hence all but the count, is unknown.
+    /// Count, time and final velocities.
     pub(crate) fn ending(&self) -> Ending {
         match self.steps() {
             Steps::Exactly(n) => {
@@ -283,7 +281,6 @@ impl Drive {
                 let (count, velocity) = (Count::Endless, rest(&self.bar, &self.start));
                 Ending { count, time: self.limit(), velocity }
             }
-            Steps::About(n) => Ending { count: Count::Huge(n), time: f64::NAN, velocity: None },
         }
     }
 
@@ -318,9 +315,6 @@ impl Drive {
 
     /// ⌈quotient⌉, at least 1, where the quotient is off by no more than `error`: with more digits if need be.
     fn settle(&self, series: Series, quotient: f64, error: f64) -> Steps {
-        if quotient >= 2f64.powi(120) {
-            return Steps::About(quotient);
-        }
         if (quotient - quotient.round()).abs() > error {
             return Steps::Exactly(ceil_to_int(quotient));
         }
@@ -483,7 +477,6 @@ impl Drive {
         let (steps, largest) = self.peak_steps();
         let impact = match steps {
             Steps::Exactly(n) => u64::try_from(n + 1).map_or(PeakImpact::Huge(to_f64(n)), PeakImpact::Number),
-            Steps::About(n) => PeakImpact::Huge(n),
             Steps::Endless => PeakImpact::Limit,
         };
         (impact, largest)
@@ -533,7 +526,6 @@ impl Drive {
             Steps::Exactly(0) => return self.alpha,
             Steps::Exactly(1) => return -self.first(),
             Steps::Exactly(n) => to_f64(n),
-            Steps::About(n) => n,
             Steps::Endless => return f64::INFINITY,
         };
         match self.kind {

@@ -60,8 +60,7 @@ pub struct Summary {
     pub duration: f64,
     /// Largest velocity shocks.
     pub peak: Peak,
-    /// Final velocities of ends a and b; `None` where they do not settle (q = 1) or where the count is beyond 2¹²⁰,
-    /// which leaves open whose turn the last strike was.
+    /// Final velocities of ends a and b; `None` where they do not settle (q = 1).
     pub final_velocity: Option<[f64; 2]>,
     /// Sum of all velocity shocks; `None` with `final_velocity`.
     pub net: Option<Net>,
