@@ -80,6 +80,8 @@ enum Source {
 const PLAIN: u64 = 16;
 /// A velocity that cancels by more than this is left to the closed form.
 const CLEAR: f64 = 1.0 / 256.0;
+/// So is one that comes near the subnormal floats.
+const NORMAL: f64 = 1e-280;
 
 impl Iterator for Train {
     type Item = Impact;
@@ -95,7 +97,7 @@ impl Iterator for Train {
                 let (t, e) = (self.bar.t, self.bar.e);
                 // In doubt where the terms of a_{n+1}, of like size, nearly cancel.
                 let terms = if n == 0 { t * *a } else { e * *before };
-                if next.abs() <= CLEAR * terms.abs() {
+                if next.abs() <= CLEAR * terms.abs() || next.abs().min(b_next.abs()) <= NORMAL {
                     self.source = self.long();
                     return self.next();
                 }
@@ -142,11 +144,11 @@ impl Iterator for Train {
             }
             Source::Done => return None,
         };
-        self.given = n + 1;
+        self.given = n.checked_add(1)?;
         Some(self.bar.impact(self.given, approach, time))
     }
 
-    /// Skips in constant time where the closed form has taken over.
+    /// Skips in constant time, but for the plain steps at the beginning.
     fn nth(&mut self, skip: usize) -> Option<Impact> {
         let mut skip = skip as u64;
         if skip > PLAIN && matches!(self.source, Source::Plain { .. }) {
@@ -163,6 +165,16 @@ impl Iterator for Train {
                 **lanes = Lanes::new(drive, u128::from(self.given));
             }
             Source::Closed { .. } => self.given = self.given.saturating_add(skip),
+            Source::Instant { a, first } if self.given > 0 && *first > 0.0 && self.bar.t > 0.0 => {
+                self.given = self.given.saturating_add(skip);
+                #[expect(clippy::cast_precision_loss, reason = "beyond 2^53 the power is 0, or 1 at q = 1")]
+                let steps = skip as f64;
+                *a *= libm::pow(self.bar.t, steps);
+            }
+            Source::Instant { .. } if skip > 2 => {
+                self.next()?;
+                return self.nth(usize::try_from(skip - 1).unwrap_or(usize::MAX));
+            }
             _ => {
                 for _ in 0..skip {
                     self.next()?;
@@ -222,7 +234,7 @@ impl Bar {
         let next = self.t * va + vb;
         train.source = if self.t <= 0.0 || self.e == 0.0 {
             Source::Instant { first: after_first(self, start), a: va }
-        } else if vb <= 0.0 && self.t * self.e > 1e-280 {
+        } else if vb <= 0.0 && self.t * self.e > NORMAL {
             Source::Plain { before: 0.0, a: va, next, b: 0.0, b_next: 1.0 }
         } else {
             train.long()
