@@ -154,13 +154,13 @@ impl Bar {
     /// From the masses along a bar of given length, whose center of mass must be the middle.
     ///
     /// # Accuracy
-    /// Sums and products are rounded as f64, after which the bar is that of
-    /// [`from_moment_of_inertia`](Self::from_moment_of_inertia). The center of mass counts as the middle where it
-    /// is off by no more than those roundings, 8 ε of Σ m|x|/Σ m a mass.
+    /// Sums and products are rounded as f64; k² of the sums then loses no more. The center of mass counts as the middle where it
+    /// is off by no more than roundings of the positions: 8 ε a mass, of the half-length or of where the mass reaches
+    /// beyond it.
     ///
     /// # Errors
     /// [`Error::NoMass`] for an empty list, [`Error::OffCenter`] where the center of mass is not the middle,
-    /// [`Error::Quantity`] where a length or mass is not in [1e−25, 1e25], a position is beyond ±1e25 or a slab
+    /// [`Error::Quantity`] where the length or a mass is not in [1e−25, 1e25], a position is beyond ±1e25 or a slab
     /// ends before it begins, [`Error::Restitution`] unless 0 ≤ e ≤ 1.
     ///
     /// # Examples
@@ -177,22 +177,23 @@ impl Bar {
         let length = positive("length (m)", length_m)?;
         let (mut mass, mut first, mut size, mut second) = (0.0, 0.0, 0.0, 0.0);
         for piece in masses {
-            // A slab is a point mass at its middle plus its own moment m w²/12.
-            let (m, x, width) = match *piece {
-                Mass::Point { mass_kg, position_m } => (mass_kg, place(position_m)?, 0.0),
+            let (m, from, to) = match *piece {
+                Mass::Point { mass_kg, position_m } => (mass_kg, place(position_m)?, position_m),
                 Mass::Slab { mass_kg, from_m, to_m } => {
                     let (from, to) = (place(from_m)?, place(to_m)?);
                     if to < from {
                         let allowed = "at or beyond where the slab begins";
                         return Err(Error::Quantity { name: "end of slab (m)", value: to, allowed });
                     }
-                    (mass_kg, 0.5 * from + 0.5 * to, to - from)
+                    (mass_kg, from, to)
                 }
             };
             let m = positive("mass (kg)", m)?;
+            // A slab is a point mass at its middle plus its own moment m w²/12.
+            let (x, width) = (0.5 * from + 0.5 * to, to - from);
             mass += m;
             first += m * x;
-            size += m * x.abs();
+            size += m * from.abs().max(to.abs()).max(0.5 * length);
             second += m * (x * x + width * width / 12.0);
         }
         if masses.is_empty() {
@@ -203,7 +204,9 @@ impl Bar {
         if first.abs() > roundings * size {
             return Err(Error::OffCenter { offset: 2.0 * first / (mass * length) });
         }
-        Self::from_moment_of_inertia(mass, length, second, e)
+        // Less than that only roundings of a position leave.
+        let second = if second < 1e-75 { 0.0 } else { second };
+        Self::from_gyration_squared([second, 4.0], [mass, length, length], e)
     }
 
     /// k² = over/under, every product within the range of floats.

@@ -9,10 +9,17 @@
 //!
 //! with the same signs as `a_n`, where `U_n(P, Q)` is the Lucas sequence. Doubling reaches any n in about
 //! log₂ n steps. Up to n = [`EXACT`] the integers are kept whole, so that a sign, and a tie, is certain.
-//! Beyond, significands are cut at [`BITS`] bits: the relative error then stays below 2⁻³⁰⁰⁰ for n up to 2¹²⁰.
-//! No tie can hide there: a tie fixes the ratio of the starting velocities to that of two successive `U_n`,
-//! whose reduced numerators grow by half a bit a step or more unless c is a multiple of 2, √2 or 1 over 2
-//! (where ties repeat and the first is found early), so that beyond a few hundred steps no ratio of floats can be it.
+//! Beyond, significands are cut at [`BITS`] bits: the relative error then stays below 2⁻³⁰⁰⁰ for n up to 2¹²⁰, and
+//! a `c_n` that cancels by more than 2²⁰⁴⁸ counts as a tie. No tie is known to be there: it fixes the ratio of the
+//! starting velocities to that of two successive `U_n`, whose reduced numerators grow by half a bit a step or more
+//! unless c is a multiple of 2, √2 or 1 over 2 (where ties repeat and the first is found early), so that beyond a few
+//! hundred steps no ratio of floats can be it.
+//!
+//! # Cost
+//! A sign takes about 4 log₂ n products of integers, whole ones of some 100 n bits. A count that is settled here costs
+//! about 2 µs for a tie at one impact, some 50 µs for one at a few hundred, and tens of milliseconds beyond
+//! 2⁹⁰ impacts, where the bracket is wide. It comes to that where double-double angles leave the count of a wave within
+//! its error of an integer, where f64 logarithms leave that of a decay so, and where f64 leaves the place of a peak so.
 
 use num_bigint::{BigInt, Sign};
 use std::cmp::Ordering;

@@ -32,12 +32,14 @@ const QUOTIENT: f64 = 24.0 * UNIT;
 const UNIT: f64 = 0.5 * f64::EPSILON;
 
 /// The recurrence with its starting values, scaled by 2^m a step where T and e are so small that T² would underflow:
-/// `a_n` stands for 2^{mn} `a_n`, `b_n` for 2^{m(n−1)} `b_n`.
+/// `a_n` stands for 2^{mn−u} `a_n`, `b_n` for 2^{m(n−1)} `b_n`. The unit 2^u of velocities differs from 1 where squares
+/// of velocities would leave the range of floats.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Drive {
     pub(crate) bar: Bar,
     pub(crate) start: Start,
     pub(crate) m: i32,
+    unit: i32,
     t: f64,
     pub(crate) e: f64,
     pub(crate) alpha: f64,
@@ -121,13 +123,19 @@ impl Drive {
     /// For T > 0 and e > 0.
     pub(crate) fn new(bar: &Bar, start: &Start) -> Self {
         let [va, vb] = start.velocity();
-        let (alpha, beta) = (-va, -vb);
         let e = bar.e;
         let small = bar.q().max(e.sqrt());
         let m = if small < 1e-60 { -exponent(small) } else { 0 };
         let (t, scaled_e) = if m == 0 { (bar.t, e) } else { (ldexp(bar.t, m), ldexp(e, 2 * m)) };
-        let beta = if m == 0 { beta } else { ldexp(beta, m) };
-        let mut drive = Self { bar: *bar, start: *start, m, t, e: scaled_e, alpha, beta, kind: Kind::Edge };
+        let unit = if m == 0 && (1e-60..1e60).contains(&vb.abs().max(-va)) {
+            0
+        } else if vb == 0.0 {
+            exponent(va)
+        } else {
+            exponent(va).max(exponent(vb) + m)
+        };
+        let (alpha, beta) = if unit == 0 && m == 0 { (-va, -vb) } else { (ldexp(-va, -unit), ldexp(-vb, m - unit)) };
+        let mut drive = Self { bar: *bar, start: *start, m, unit, t, e: scaled_e, alpha, beta, kind: Kind::Edge };
         let (d, d_error) = drive.discriminant(2f64.powi(-50));
         drive.kind = if d.hi > 0.0 {
             let s = d.hi.sqrt();
@@ -198,7 +206,7 @@ impl Drive {
         }
         let exact = self.exact(Series::Velocity);
         let x = Dyadic::from(-2.0).mul(&exact.w).sub(&exact.p.mul(&exact.v));
-        to_dd(&x, &self.bar.exact_q().1, &Dyadic::from(1.0), self.m)
+        to_dd(&x, &self.bar.exact_q().1, &Dyadic::from(1.0), self.m - self.unit)
     }
 
     /// σ τ = αβT + β² + α²e, to a relative 2⁻⁵² at the very least, its sign for certain.
@@ -206,11 +214,12 @@ impl Drive {
         let (alpha, beta) = (self.alpha, self.beta);
         let terms = [two_prod(alpha, beta) * self.wide_t(), two_prod(beta, beta), two_prod(alpha, alpha) * self.e];
         let sum = terms[0] + terms[1] + terms[2];
-        if sum.hi.abs() > terms.iter().fold(0.0, |most: f64, t| most.max(t.hi.abs())) * 2f64.powi(-40) {
+        // Below 1e−250 the low parts would be subnormal.
+        if sum.hi.abs() > terms.iter().fold(1e-250, |most: f64, t| most.max(t.hi.abs())) * 2f64.powi(-40) {
             return sum.hi;
         }
         let nu = self.bar.exact_q().1;
-        to_dd(&self.exact(Series::Velocity).form(), &nu, &nu, 2 * self.m).hi
+        to_dd(&self.exact(Series::Velocity).form(), &nu, &nu, 2 * (self.m - self.unit)).hi
     }
 
     fn decay(&self, d: Dd) -> Decay {
@@ -293,7 +302,8 @@ impl Drive {
             Kind::Decay(Decay { sigma, .. }) if sigma >= 0.0 => Steps::Endless,
             Kind::Decay(Decay { sigma, tau, rate, s, .. }) => {
                 let quotient = self.span(s, sigma, tau) / rate;
-                self.settle(Series::Velocity, quotient, QUOTIENT * (quotient + 1.0 / rate))
+                // A logarithm beyond ln 2 is off by roundings of its argument, which are no more than twice its own.
+                self.settle(Series::Velocity, quotient, 3.0 * QUOTIENT * quotient)
             }
             Kind::Edge => {
                 let exact = self.exact(Series::Velocity);
@@ -319,12 +329,11 @@ impl Drive {
             return Steps::Exactly(ceil_to_int(quotient));
         }
         let (mut middle, mut error) = (Dd::from(quotient), error);
-        if let (Kind::Wave(wave), Series::Velocity) = (self.kind, series) {
+        if let (Kind::Wave(_), Series::Velocity) = (self.kind, series) {
             let (theta, psi, angle_error) = self.angles();
             middle = psi / theta;
-            // αT + 2β as `slope` guarantees.
-            let slope = self.alpha * self.t / self.amplitude(&wave);
-            error = quotient * (angle_error + 2f64.powi(-95) * slope);
+            // αT + 2β as `slope` guarantees. A larger bound would let the search below leave the half turn.
+            error = quotient * (angle_error + 2f64.powi(-86));
         }
         let whole = Dd::from(middle.hi.round());
         let whole = whole + Dd::from((middle - whole).hi.round());
@@ -380,11 +389,14 @@ impl Drive {
             let count = to_f64(n - 1);
             let (p, g) = (exp(-count * rate), -expm1(-count * rate) * (plus / s));
             let sum = self.alpha * plus * p + sigma * g;
-            return (-exp(count * ln_plus) * sum / plus, ldexp(self.start.height_gap() * g / sum, self.m));
+            let time = ldexp(self.start.height_gap() * (g / sum), self.m - self.unit);
+            return (-self.power(count * ln_plus, sum / plus), time);
         }
         // Relative to |v_a| the error of the angle is spread by the amplitude.
         let spread = match self.kind {
-            Kind::Wave(wave) => 8.0 * UNIT * self.amplitude(&wave) / wave.s * self.decayed(n) / self.alpha,
+            Kind::Wave(wave) => {
+                8.0 * UNIT * self.decayed(n, self.amplitude(&wave) / wave.s) / -self.start.velocity()[0]
+            }
             _ => 0.0,
         };
         let Last { a, time, .. } = self.last(n, if spread < 5e-14 { 1e-11 } else { 1e-13 });
@@ -394,7 +406,7 @@ impl Drive {
     /// a_{n−1}, `a_n` and the time of strike n, of a wave from angles to a relative `error`.
     fn last(&self, n: u128, error: f64) -> Last {
         if n == 1 {
-            return Last { a: -self.alpha, next: self.first(), time: 0.0 };
+            return Last { a: self.start.velocity()[0], next: self.first(), time: 0.0 };
         }
         let h0 = self.start.height_gap();
         match self.kind {
@@ -405,10 +417,10 @@ impl Drive {
                     let height = self.amplitude(&wave);
                     let amplitude = height / wave.s;
                     let (rise, run) = sincos(delta);
-                    let a = -self.decayed(n - 1) * amplitude * rise;
-                    let next = self.decayed(n) * amplitude * sin(beyond);
+                    let a = -self.decayed(n - 1, amplitude * rise);
+                    let next = self.decayed(n, amplitude * sin(beyond));
                     let sum = self.alpha * wave.s * (run / rise) + wave.x;
-                    let time = ldexp(h0 / height * (2.0 * sum / height), self.m);
+                    let time = ldexp(h0 / height * (2.0 * sum / height), self.m - self.unit);
                     return Last { a, next, time };
                 }
             }
@@ -418,9 +430,9 @@ impl Drive {
                 let delta = span - count * rate;
                 if 8.0 * UNIT * (span + 1.0) < 1e-10 * delta.min(rate - delta) {
                     let over = expm1(delta);
-                    let a = sigma / s * exp(count * ln_plus) * over;
-                    let next = sigma / s * exp((count + 1.0) * ln_plus) * expm1(delta - rate);
-                    let time = ldexp(h0 * expm1(-count * rate) / (sigma * over), self.m);
+                    let a = self.power(count * ln_plus, sigma / s * over);
+                    let next = self.power((count + 1.0) * ln_plus, sigma / s * expm1(delta - rate));
+                    let time = ldexp(h0 * (expm1(-count * rate) / (sigma * over)), self.m - self.unit);
                     return Last { a, next, time };
                 }
             }
@@ -431,8 +443,9 @@ impl Drive {
                 let sum = start + count * sigma;
                 if 2.0 * UNIT * start < 1e-11 * sum {
                     let scale = exp((count - 1.0) * log(lambda));
-                    let time = ldexp(h0 * count / sum, self.m);
-                    return Last { a: -scale * sum, next: -scale * lambda * (sum + sigma), time };
+                    let time = ldexp(h0 * count / sum, self.m - self.unit);
+                    let [a, next] = [-scale * sum, -scale * lambda * (sum + sigma)].map(|v| ldexp(v, self.unit));
+                    return Last { a, next, time };
                 }
             }
         }
@@ -446,9 +459,15 @@ impl Drive {
         let ln_nu =
             if nu_x == 0 { log1p(ldexp(above_one.0, clamp(above_one.1))) } else { log(nu) + as_f64(nu_x) * LN_2 };
         let power = |v: f64, x: i128, n: u128| {
-            if v == 0.0 { 0.0 } else { v.signum() * exp(log(v.abs()) + as_f64(x) * LN_2 - to_f64(n) * ln_nu) }
+            if ln_nu == 0.0 {
+                ldexp(v, clamp(x))
+            } else if v == 0.0 {
+                0.0
+            } else {
+                v.signum() * exp(log(v.abs()) + as_f64(x) * LN_2 - to_f64(n) * ln_nu)
+            }
         };
-        let time = if h0 == 0.0 { 0.0 } else { h0 * ldexp(u * nu / -c, clamp(ux + nu_x - cx)) };
+        let time = if h0 == 0.0 { 0.0 } else { ldexp(h0 * (u * nu / -c), clamp(ux + nu_x - cx)) };
         Last { a: power(c, cx, n - 1), next: power(next, nx, n), time }
     }
 
@@ -459,12 +478,22 @@ impl Drive {
             Kind::Decay(decay) => decay.sigma,
             _ => 0.5 * self.slope(0.0).hi,
         };
-        if h0 == 0.0 { 0.0 } else { ldexp(h0 / sigma.abs(), self.m) }
+        if h0 == 0.0 { 0.0 } else { ldexp(h0 / sigma.abs(), self.m - self.unit) }
     }
 
-    /// e^{n/2}.
-    fn decayed(&self, n: u128) -> f64 {
-        exp(0.5 * to_f64(n) * self.ln_e())
+    /// e^{n/2} v, of true scale.
+    fn decayed(&self, n: u128, v: f64) -> f64 {
+        self.power(0.5 * to_f64(n) * self.ln_e(), v)
+    }
+
+    /// exp(x) v, of true scale.
+    fn power(&self, x: f64, v: f64) -> f64 {
+        if self.unit == 0 && x > -600.0 {
+            return exp(x) * v;
+        }
+        // By halves: a factor may leave the range of floats where the product does not.
+        let half = exp(0.5 * x);
+        ldexp(half * v, self.unit) * half
     }
 
     /// −(αT + β), the next velocity after the first strike, true scale.
@@ -485,7 +514,7 @@ impl Drive {
     /// Index n and value of the largest |`a_n`|, the first if several tie; `Endless` where it is a limit.
     fn peak_steps(&self) -> (Steps, f64) {
         if !rises(&self.bar, &self.start) {
-            return (Steps::Exactly(0), self.alpha);
+            return (Steps::Exactly(0), -self.start.velocity()[0]);
         }
         // T < ½ and e < ¼: |a_{n+1}| < |a_n| from n = 1 on.
         if self.m != 0 || self.t < 0.5 && self.e < 0.25 {
@@ -506,7 +535,7 @@ impl Drive {
             }
             Kind::Decay(Decay { s, plus, sigma, tau, rate, .. }) => {
                 if w == 0.0 {
-                    return (Steps::Endless, two_sum(alpha, beta).hi / u);
+                    return (Steps::Endless, ldexp(two_sum(alpha, beta).hi / u, self.unit));
                 }
                 // (λ₊/λ₋)^n ≥ τ(1 − λ₋)/(σ(1 − λ₊)); it rises, hence σ > 0 and τ > 0.
                 let below = 0.5 * (u + w + s);
@@ -523,7 +552,7 @@ impl Drive {
     /// |`a_n`|, of true scale. Meant for n near the peak, where e^{n/2} is not small.
     fn magnitude(&self, n: Steps) -> f64 {
         let n = match n {
-            Steps::Exactly(0) => return self.alpha,
+            Steps::Exactly(0) => return -self.start.velocity()[0],
             Steps::Exactly(1) => return -self.first(),
             Steps::Exactly(n) => to_f64(n),
             Steps::Endless => return f64::INFINITY,
@@ -531,13 +560,13 @@ impl Drive {
         match self.kind {
             Kind::Wave(wave) => {
                 let phi = angle(self.alpha * wave.s, wave.x);
-                exp(0.5 * n * self.ln_e()) * self.amplitude(&wave) * sin(n * wave.theta + phi) / wave.s
+                self.power(0.5 * n * self.ln_e(), self.amplitude(&wave) * sin(n * wave.theta + phi) / wave.s)
             }
             // λ₊ⁿ (α ρⁿ + σ (1 − ρⁿ)/S) with ρ = λ₋/λ₊: no cancellation for σ ≥ 0.
             Kind::Decay(Decay { s, sigma, rate, ln_plus, .. }) => {
-                exp(n * ln_plus) * (self.alpha * exp(-n * rate) - sigma * expm1(-n * rate) / s)
+                self.power(n * ln_plus, self.alpha * exp(-n * rate) - sigma * expm1(-n * rate) / s)
             }
-            Kind::Edge => self.alpha + n * (self.alpha + self.beta),
+            Kind::Edge => ldexp(self.alpha + n * (self.alpha + self.beta), self.unit),
         }
     }
 
@@ -589,7 +618,7 @@ impl Lanes {
     /// Approach velocities and times of the strikes of the lanes, which then carry on to the next four.
     pub(crate) fn take(&mut self, drive: &Drive, approach: &mut [f64], times: &mut [f64]) {
         self.output(drive, approach, times);
-        self.n += LANES as u64;
+        self.n = self.n.saturating_add(LANES as u64);
         if self.n % BLOCK < LANES as u64 { self.anchor(drive) } else { self.step(drive) }
     }
 
@@ -655,23 +684,23 @@ impl Lanes {
                     let lead = phi + turned;
                     (self.x[i], self.dx[i]) = if lead < 1.0 { lane(lead, 1.0) } else { lane(delta, -1.0) };
                     (self.y[i], self.dy[i]) = if turned < 1.0 { lane(turned, 1.0) } else { lane(phi + delta, -1.0) };
-                    self.g[i] = drive.decayed(n) * (height / wave.s);
+                    self.g[i] = drive.decayed(n, height / wave.s);
                 }
                 self.kappa = 4.0 * sin * sin;
                 self.decay = drive.bar.e * drive.bar.e;
-                self.time = ldexp(2.0 * h0 / height, drive.m);
+                self.time = ldexp(2.0 * h0 / height, drive.m - drive.unit);
             }
             Kind::Decay(Decay { s, plus, rate, ln_plus, .. }) => {
                 for i in 0..LANES {
                     let n = to_f64(u128::from(self.n) + i as u128);
                     self.x[i] = exp(-n * rate);
                     self.y[i] = -expm1(-n * rate) * (plus / s);
-                    self.g[i] = exp(n * ln_plus) / plus;
+                    self.g[i] = drive.power(n * ln_plus, 1.0 / plus);
                 }
                 self.kappa = exp(-4.0 * rate);
                 self.dy[0] = -expm1(-4.0 * rate) * (plus / s);
                 self.decay = exp(4.0 * ln_plus);
-                self.time = ldexp(h0, drive.m);
+                self.time = ldexp(h0, drive.m - drive.unit);
             }
             Kind::Edge => {}
         }
@@ -719,17 +748,24 @@ pub(crate) fn rest(bar: &Bar, start: &Start) -> Option<[f64; 2]> {
     (bar.less > 0.0 || (va + vb == 0.0 && bar.e < 1.0)).then_some([0.0, 0.0])
 }
 
-/// αT + β = −`a_1`, to a relative 4 ε, its sign for certain.
+/// αT + β = −`a_1`, to a relative 4 ε unless it is subnormal, its sign for certain.
 pub(crate) fn after_first(bar: &Bar, start: &Start) -> f64 {
     let [va, vb] = start.velocity();
     let at = bar.wide_q().q * two_sum(1.0, bar.e) * -va;
     let sum = at + Dd::from(-vb);
-    if sum.hi.abs() > at.hi.abs() * 2f64.powi(-40) && (at.hi.abs() > 1e-200 || at.hi == 0.0) {
+    // A product below 1e−200 may have lost its low part, or all of it.
+    if sum.hi.abs() > at.hi.abs() * 2f64.powi(-40) && (at.hi.abs() > 1e-200 || bar.q() == 0.0) {
         return sum.hi;
     }
     let exact = exact(bar, start);
     let (sum, nu) = (exact.p.mul(&exact.v).add(&exact.w), bar.exact_q().1);
-    -to_dd(&sum, &nu, &Dyadic::from(1.0), 0).hi
+    let size = to_dd(&sum, &nu, &Dyadic::from(1.0), 0).abs().hi;
+    // Below the range of floats it is the smallest one, to keep the sign.
+    match sum.sign() {
+        Ordering::Less => size.max(f64::from_bits(1)),
+        Ordering::Equal => 0.0,
+        Ordering::Greater => -size.max(f64::from_bits(1)),
+    }
 }
 
 /// Whether |`a_1`| > |`a_0`|, for certain: α(T − 1) + β > 0.

@@ -85,16 +85,21 @@ impl Bar {
     ///
     /// # Method
     /// Up to 16 plain steps of the recurrence `a_{n+1} = T a_n − e a_{n−1}`, T = q(1 + e), where they leave nothing
-    /// in doubt; else its closed form, whose angles, discriminant and remainders are carried in as many digits as
-    /// it takes: f64, then double-double, then integers.
+    /// in doubt; else its closed form. The sign of the discriminant is always certain: double-double with an error
+    /// bound, and integers where that bound is not met. A count is the quotient of two angles (or logarithms) rounded
+    /// up: taken from f64 where it is more than 24 roundings away from an integer, else from double-double angles
+    /// (about 85 bits) where it is clear of its error there, else from the signs of the recurrence in whole integers,
+    /// which also settle exact ties.
     ///
     /// # Accuracy
-    /// The count, the impact that holds the peak and whether the train is endless are exact for every input. The
-    /// errors of the rest are at most those of [`crate::accuracy`].
+    /// The count, the impact that holds the peak and whether the train is endless are exact for every input; beyond
+    /// 2⁶⁴ they are the nearest float. The errors of the rest are at most those of [`crate::accuracy`], as long as no
+    /// velocity is so small (2⁻¹⁰²² and below) that floats have no digits left for it.
     ///
     /// # Cost
     /// About 25 ns where a few plain steps do, 100–200 ns for a long train, up to 600 ns where double-double is
-    /// needed, and up to a millisecond for a start built to lie within 2⁻⁴⁰ of a tie.
+    /// needed, microseconds to a millisecond where integers decide (a start next to a tie), and tens of milliseconds
+    /// for a count beyond 2⁹⁰.
     #[must_use]
     pub fn summary(&self, start: &Start) -> Summary {
         match (self.plain_end(start), self.plain_peak(start)) {
@@ -165,7 +170,7 @@ impl Bar {
         // No short circuits: which impact is the last is what a branch predictor cannot know. For N = 1, b and
         // a_{N−2} are 0.
         let margin = (next + CLEAR * e * before).min(CLEAR * t * before - a).min(next - NORMAL).min(-a - NORMAL);
-        let clear = margin > 0.0;
+        let clear = margin > 0.0 && (n < 2 || b > NORMAL);
         let time = h0 * (b / -a);
         let velocity = Some(rebound(self, n % 2 == 1, a, next));
         clear.then_some(Ending { count: Count::Finite(u64::from(n)), time, velocity })

@@ -78,6 +78,8 @@ enum Source {
 const BUFFER: usize = 16;
 /// A velocity that cancels by more than this is left to the closed form.
 const CLEAR: f64 = 1.0 / 256.0;
+/// So is one that comes near the subnormal floats.
+const NORMAL: f64 = 1e-280;
 
 impl Iterator for Train {
     type Item = Impact;
@@ -96,7 +98,7 @@ impl Iterator for Train {
         Some(self.bar.impact(number, self.approach[i], self.times[i]))
     }
 
-    /// Skips in constant time where the closed form has taken over.
+    /// Skips in constant time, but for the plain steps at the beginning.
     fn nth(&mut self, mut skip: usize) -> Option<Impact> {
         while skip >= self.filled - self.next {
             skip -= self.filled - self.next;
@@ -109,6 +111,13 @@ impl Iterator for Train {
                 }
                 Source::Closed { .. } => {
                     self.ahead = self.ahead.saturating_add(skip as u64);
+                    skip = 0;
+                }
+                Source::Instant { first, a } if self.ahead > 0 && *first > 0.0 && self.bar.t > 0.0 => {
+                    self.ahead = self.ahead.saturating_add(skip as u64);
+                    #[expect(clippy::cast_precision_loss, reason = "beyond 2^53 the power is 0, or 1 at q = 1")]
+                    let steps = skip as f64;
+                    *a *= libm::pow(self.bar.t, steps);
                     skip = 0;
                 }
                 _ => {}
@@ -134,7 +143,8 @@ impl Train {
             }
         }
         let ahead = self.ahead;
-        let left = |count: Option<u64>| count.map_or(u64::MAX, |count| count.saturating_sub(ahead));
+        // Beyond 2^64 − 1 impacts there are no numbers left.
+        let left = |count: Option<u64>| count.unwrap_or(u64::MAX).saturating_sub(ahead);
         (self.next, self.filled) = (0, 0);
         match &mut self.source {
             Source::Lanes { drive, count, lanes } => {
@@ -162,7 +172,8 @@ impl Train {
             Source::Instant { first, a } => {
                 let h0 = self.start.height_gap();
                 let later = if h0 == 0.0 || *first <= 0.0 { 0.0 } else { h0 / *first };
-                (self.approach[0], self.times[0], self.filled) = (*a, if ahead == 0 { 0.0 } else { later }, 1);
+                (self.approach[0], self.times[0], self.filled) =
+                    (*a, if ahead == 0 { 0.0 } else { later }, usize::from(left(None) > 0));
                 *a = if ahead == 0 { -*first } else { *a * self.bar.t };
                 if *first <= 0.0 || (ahead > 0 && self.bar.t <= 0.0) {
                     self.source = Source::Done;
@@ -178,12 +189,12 @@ impl Train {
         let (t, e, h0) = (self.bar.t, self.bar.e, self.start.height_gap());
         let [va, vb] = self.start.velocity();
         let (mut before, mut a, mut next) = (0.0, va, t * va + vb);
-        let (mut b, mut b_next) = (0.0, 1.0);
+        let (mut b, mut b_next) = (0.0, 1.0_f64);
         let mut n = 0;
         while n < BUFFER && a < 0.0 {
             // In doubt where the terms of a_{n+1}, of like size, nearly cancel: from this strike on, more digits.
             let terms = if n == 0 { t * a } else { e * before };
-            if next.abs() <= CLEAR * terms.abs() {
+            if next.abs() <= CLEAR * terms.abs() || next.abs().min(b_next.abs()) <= NORMAL {
                 break;
             }
             (self.approach[n], self.times[n]) = (a, h0 * (b / -a));
@@ -244,7 +255,7 @@ impl Bar {
             Train { bar: *self, start: *start, ahead: 0, next: 0, filled: 0, approach, times, source: Source::Plain };
         if self.t <= 0.0 || self.e == 0.0 {
             train.source = Source::Instant { first: after_first(self, start), a: va };
-        } else if vb > 0.0 || self.t * self.e < 1e-280 {
+        } else if vb > 0.0 || self.t * self.e <= NORMAL {
             train.source = train.long();
         }
         train

@@ -48,7 +48,7 @@ impl Bar {
     /// `s = (2 threshold/peak + q − 1)/(1 + q)`.
     ///
     /// # Validity
-    /// Any threshold > 0; `s` may be negative or exceed 1, which [`Zone::extent`] says.
+    /// Any threshold ≥ 0; `s` may be negative or exceed 1, which [`Zone::extent`] says. NaN has no zone.
     ///
     /// # Accuracy
     /// 1e−12 of the larger of |s| and 1.
@@ -66,9 +66,9 @@ impl Bar {
     pub fn safe_zone(&self, start: &Start, threshold: f64) -> Zone {
         let s = self.zone_of(threshold, self.peak(start).end);
         let extent = match s {
-            s if s < 0.0 => Extent::None,
-            s if s < 1.0 => Extent::Part,
-            _ => Extent::Whole,
+            s if s >= 1.0 => Extent::Whole,
+            s if s >= 0.0 => Extent::Part,
+            _ => Extent::None,
         };
         Zone { threshold, s, extent }
     }
@@ -93,7 +93,7 @@ impl Bar {
     }
 
     /// The interval of signed positions in [−1, 1] where no shock exceeds `threshold` if end `first` strikes first;
-    /// `None` where there is none. A strike at end a reaches position s with `((1 − q) − (1 + q) s)/2` of its shock
+    /// `None` where there is none, as for a threshold of NaN. A strike at end a reaches position s with `((1 − q) − (1 + q) s)/2` of its shock
     /// (Eq. 3), one at end b with `((1 − q) + (1 + q) s)/2`, so each end bounds the interval on both sides.
     ///
     /// # Accuracy
@@ -109,6 +109,9 @@ impl Bar {
     /// ```
     #[must_use]
     pub fn safe_interval(&self, start: &Start, threshold: f64, first: End) -> Option<[f64; 2]> {
+        if threshold.is_nan() {
+            return None; // max and min would pass over it
+        }
         let EndPeaks { a, b } = self.end_peaks(start);
         // |(1 − q) ± (1 + q) s| ≤ 2 threshold/peak.
         let bounds = |peak: f64| {
