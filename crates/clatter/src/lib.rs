@@ -15,6 +15,7 @@
 
 mod bar;
 mod error;
+pub mod flight;
 mod map;
 pub mod reference;
 mod start;

@@ -51,7 +51,11 @@ impl Axis {
     #[must_use]
     #[expect(clippy::cast_precision_loss, reason = "a grid has far fewer than 2^53 points")]
     pub fn value(&self, i: usize) -> f64 {
-        if i + 1 == self.points { self.hi } else { self.lo + (self.hi - self.lo) * (i as f64 / (self.points - 1) as f64) }
+        if i + 1 == self.points {
+            self.hi
+        } else {
+            self.lo + (self.hi - self.lo) * (i as f64 / (self.points - 1) as f64)
+        }
     }
 }
 

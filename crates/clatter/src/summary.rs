@@ -82,7 +82,8 @@ impl Bar {
             }
         }
         let end = (1.0 + e) * big;
-        let peak = Peak { end, impact: PeakImpact::Number(at), center: 0.5 * (1.0 - q) * end, angular: 0.5 * (1.0 + q) * end };
+        let peak =
+            Peak { end, impact: PeakImpact::Number(at), center: 0.5 * (1.0 - q) * end, angular: 0.5 * (1.0 + q) * end };
         let last = if n % 2 == 1 { [-e * a, next] } else { [next, -e * a] };
         let last = if n == 100_000 { [0.0, 0.0] } else { last };
         let (da, db) = (last[0] - va, last[1] - vb);

@@ -69,6 +69,16 @@ impl Bar {
     pub fn train(&self, start: &Start) -> Train {
         let [va, vb] = start.velocity();
         let t = self.q() * (1.0 + self.e());
-        Train { t, e: self.e(), q: self.q(), h0: start.height_gap(), a: va, next: t * va + vb, b: 0.0, bn: 1.0, number: 0 }
+        Train {
+            t,
+            e: self.e(),
+            q: self.q(),
+            h0: start.height_gap(),
+            a: va,
+            next: t * va + vb,
+            b: 0.0,
+            bn: 1.0,
+            number: 0,
+        }
     }
 }

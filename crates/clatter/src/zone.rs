@@ -38,7 +38,13 @@ impl Bar {
     #[must_use]
     pub fn safe_zone(&self, start: &Start, threshold: f64) -> Zone {
         let s = (2.0 * threshold / self.summary(start).peak.end + self.q() - 1.0) / (1.0 + self.q());
-        let extent = if s < 0.0 { Extent::None } else if s < 1.0 { Extent::Part } else { Extent::Whole };
+        let extent = if s < 0.0 {
+            Extent::None
+        } else if s < 1.0 {
+            Extent::Part
+        } else {
+            Extent::Whole
+        };
         Zone { threshold, s, extent }
     }
 
