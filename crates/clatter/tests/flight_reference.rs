@@ -50,6 +50,11 @@ fn ballistic_agrees_with_the_reference() {
     hold("ballistic", Model::Ballistic);
 }
 
+#[test]
+fn finite_tilt_agrees_with_the_reference() {
+    hold("finite-tilt", Model::FiniteTilt);
+}
+
 /// A phone: half-length 70 mm, 4.43 m/s, in units of h0/v0.
 fn phone(q: f64, e: f64, model: Model) -> (Flight, f64) {
     let half = 0.07;
@@ -99,4 +104,15 @@ fn a_body_that_has_bounced_clear_comes_back() {
     let shock = |k: usize| flight.strikes[k].delta_v_m_s.map(f64::abs).into_iter().fold(0.0, f64::max) / 4.43;
     assert!((shock(3) - 0.40).abs() < 5e-3, "{}", shock(3));
     assert!((shock(4) - 0.76).abs() < 5e-3, "{}", shock(4));
+}
+
+#[test]
+fn finite_tilt_of_five_degrees_is_later_by_tenths() {
+    let wanted = [(End::B, 0.6058), (End::A, 0.8408), (End::B, 5.6352), (End::B, 9.5126), (End::B, 10.6722)];
+    hold_times(&phone(0.5, 0.3, Model::FiniteTilt), &wanted);
+    let back = [0.5712, 0.9227, 92.879, 128.80, 143.26];
+    let (flight, unit) = phone(0.5, 0.5, Model::FiniteTilt);
+    for (s, time) in flight.strikes[1..].iter().zip(back) {
+        assert!((s.time_s / unit - time).abs() <= 5.1e-5 * time.max(1.0), "strike {}: {}", s.number, s.time_s / unit);
+    }
 }

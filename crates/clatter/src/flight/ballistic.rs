@@ -17,12 +17,13 @@
 //! train of strikes at that one instant follows from the same rules with a fall of no time.
 
 use super::settling::Settling;
-use super::{Flight, Log, SHARE, Scene, State, index, short};
+use super::{After, Flight, Log, SHARE, Scene, State, index, short};
 use crate::End;
 
 pub(super) fn simulate(scene: &Scene) -> Flight {
     let (e, g) = (scene.e(), scene.gravity_m_s2());
     let q = scene.body().inertia_ratios();
+    let length = scene.body().length_m();
     let settling = Settling::new(&scene.body(), e, g, 0.0);
     let scale_s = scene.speed_m_s() / g;
     let mut log = Log::new(scene);
@@ -32,10 +33,7 @@ pub(super) fn simulate(scene: &Scene) -> Flight {
         let down = [still(&state, 0), still(&state, 1)];
         let (end, dt) = match down {
             [true, true] => {
-                // Without shocks left out, this is exact.
-                if !log.settled(time.now(), scale_s, 0.0, 0.0) {
-                    log.bounced_clear();
-                }
+                log.at_rest(time.now(), 0.0, 0.0);
                 break;
             }
             [true, false] => (End::B, fall(state.h[1], state.v[1], g * (1.0 + q[0]))),
@@ -66,7 +64,7 @@ pub(super) fn simulate(scene: &Scene) -> Flight {
         state.v[j] -= q[i] * jump;
         let mut delta_v = [0.0; 2];
         (delta_v[i], delta_v[j]) = (jump, -q[i] * jump);
-        if !log.strike(end, time.now(), u, delta_v, &state) {
+        if !log.strike(end, time.now(), u, delta_v, &After::small(&state, length)) {
             break;
         }
         if jump <= SHARE * log.largest_m_s {

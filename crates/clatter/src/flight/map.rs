@@ -3,7 +3,7 @@
 //! With `κ = √((L_a² + ρ²)/(L_b² + ρ²))` the approach velocities a_n (n even) and κ a_n (n odd) obey the recurrence of a
 //! symmetric bar with `q = ±√(q_a q_b)` (sign of q_a), started from (v_a, κ v_b) with the height gap κ h0.
 
-use super::{Flight, Log, SHARE, Scene, State, Stop, index};
+use super::{After, Flight, Log, SHARE, Scene, State, Stop, index};
 use crate::{Bar, Count, Start};
 
 pub(super) fn simulate(scene: &Scene) -> Flight {
@@ -41,7 +41,7 @@ pub(super) fn simulate(scene: &Scene) -> Flight {
         state.h[j] = height;
         (state.v[i], state.v[j]) = (-e * u, far + delta_v[j]);
         far = -e * u;
-        if !log.strike(impact.end, impact.time, u, delta_v, &state) {
+        if !log.strike(impact.end, impact.time, u, delta_v, &After::small(&state, a + b)) {
             return log.flight;
         }
         // The approach speeds of an endless train rise to one peak and fall for ever: what follows is slower.

@@ -37,7 +37,10 @@
 //! ```
 
 mod ballistic;
+mod finite_tilt;
 mod map;
+mod pivot;
+mod roots;
 mod scene;
 mod settling;
 
@@ -56,6 +59,8 @@ pub enum Model {
     Map,
     /// Small tilt, gravity.
     Ballistic,
+    /// Any tilt, gravity.
+    FiniteTilt,
 }
 
 /// One strike of an end.
@@ -75,6 +80,10 @@ pub struct Strike {
     pub height_m: [f64; 2],
     /// Vertical velocities of ends a and b just after.
     pub velocity_m_s: [f64; 2],
+    /// Tilt, in (−π, π]; positive where end b is higher.
+    pub tilt_rad: f64,
+    /// Angular velocity just after, end b upward.
+    pub spin_rad_s: f64,
 }
 
 impl Strike {
@@ -174,6 +183,7 @@ impl Scene {
             // Without gravity the small-tilt motion is the map, which has closed forms where iteration drifts.
             Model::Ballistic if self.gravity_m_s2() == 0.0 => map::simulate(self),
             Model::Ballistic => ballistic::simulate(self),
+            Model::FiniteTilt => finite_tilt::simulate(self),
         }
     }
 }
@@ -210,7 +220,7 @@ impl Log {
         }
     }
     /// Takes the strike down, or the stop that its time or number means; false ends the simulation.
-    fn strike(&mut self, end: End, time_s: f64, approach: f64, delta_v: [f64; 2], state: &State) -> bool {
+    fn strike(&mut self, end: End, time_s: f64, approach: f64, delta_v: [f64; 2], after: &After) -> bool {
         if time_s > self.time_limit_s {
             self.flight.stop = Stop::TimeLimit { time_s: self.time_limit_s };
             return false;
@@ -226,8 +236,10 @@ impl Log {
             time_s,
             approach_m_s: approach,
             delta_v_m_s: delta_v,
-            height_m: state.h,
-            velocity_m_s: state.v,
+            height_m: after.ends.h,
+            velocity_m_s: after.ends.v,
+            tilt_rad: after.tilt,
+            spin_rad_s: after.spin,
         });
         self.largest_m_s = self.largest_m_s.max(delta_v[0].abs()).max(delta_v[1].abs());
         true
@@ -244,16 +256,19 @@ impl Log {
     ///
     /// At time 0 (a flat drop whose strikes all fall on one instant) the ulp is that of the scene's own time, v0/g.
     fn settled(&mut self, time_s: f64, scale_s: f64, left_s: f64, shock: f64) -> bool {
-        let shock = shock.max(self.omitted_m_s);
         if shock > SHARE * self.largest_m_s || !short(left_s, time_s, scale_s) {
             return false;
         }
+        self.at_rest(time_s, left_s, shock);
+        true
+    }
+    fn at_rest(&mut self, time_s: f64, time_bound_s: f64, shock: f64) {
+        let shock_bound_m_s = shock.max(self.omitted_m_s);
         self.flight.stop = if time_s > self.time_limit_s {
             Stop::TimeLimit { time_s: self.time_limit_s }
         } else {
-            Stop::AtRest { time_s, time_bound_s: left_s, shock_bound_m_s: shock }
+            Stop::AtRest { time_s, time_bound_s, shock_bound_m_s }
         };
-        true
     }
 }
 
@@ -267,4 +282,18 @@ fn short(left_s: f64, time_s: f64, scale_s: f64) -> bool {
 struct State {
     h: [f64; 2],
     v: [f64; 2],
+}
+
+/// How a strike leaves the body.
+struct After {
+    ends: State,
+    tilt: f64,
+    spin: f64,
+}
+
+impl After {
+    /// At small tilt, of a body of this length.
+    fn small(ends: &State, length: f64) -> Self {
+        Self { ends: *ends, tilt: (ends.h[1] - ends.h[0]) / length, spin: (ends.v[1] - ends.v[0]) / length }
+    }
 }
