@@ -51,7 +51,7 @@ pub(super) fn simulate(scene: &Scene) -> Flight {
                 log.pivot(end.other(), from, time.now(), &state);
             }
             state.v[i] = landing(state.h[i], state.v[i], g * (1.0 + q[j]));
-        } else if dt > 0.0 {
+        } else {
             state.v[i] = landing(state.h[i], state.v[i], g);
             // An end that is not the first to land is above ground: below zero is rounding.
             state.h[j] = (state.h[j] + dt * (state.v[j] - 0.5 * g * dt)).max(0.0);

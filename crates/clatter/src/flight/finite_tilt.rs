@@ -121,9 +121,17 @@ impl Pose {
             // h ≥ ½ h″ t² − J t³/6 with J = L |ω|³; where h″ = 0, h ≥ h‴ t³/6 − L ω⁴ t⁴/24.
             let up = self.acceleration(i);
             let rate = -sigma(i) * arm * self.spin * w2 * self.cos;
-            if up > 0.0 { 2.0 * up / (arm * w2 * self.spin.abs()) } else { 2.0 * rate / (arm * w2 * w2) }
+            if up > 0.0 {
+                2.0 * up / (arm * w2 * self.spin.abs())
+            } else if rate > 0.0 {
+                2.0 * rate / (arm * w2 * w2)
+            } else {
+                return None; // level and turned downward: the other end strikes at once
+            }
+        } else if v == 0.0 {
+            return None; // lies still
         } else {
-            return Some(0.0);
+            return (cap > 0.0).then_some(0.0);
         };
         if first.is_nan() || first >= cap { None } else { first_zero(first, cap, |t| self.end(i, t), step) }
     }

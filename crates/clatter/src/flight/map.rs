@@ -36,7 +36,8 @@ pub(super) fn simulate(scene: &Scene) -> Flight {
         (delta_v[i], delta_v[j]) = (jump, -ratios[i] * jump);
         // The end that struck last has risen to h0 eⁿ |v_a|/|a_n|, in the symmetric bar's terms (the Casoratian).
         let n = i32::try_from(impact.number - 1).unwrap_or(i32::MAX);
-        let height = kappa * gap * e.powi(n) * (va / impact.approach) * if j == 0 { 1.0 } else { 1.0 / kappa };
+        let symmetric = kappa * gap * e.powi(n) * va / impact.approach;
+        let height = if j == 0 { symmetric } else { symmetric / kappa };
         let mut state = State { h: [0.0; 2], v: [0.0; 2] };
         state.h[j] = height;
         (state.v[i], state.v[j]) = (-e * u, far + delta_v[j]);

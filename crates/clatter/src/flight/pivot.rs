@@ -145,7 +145,7 @@ fn integral(f: &impl Fn(f64) -> f64, lo: f64, hi: f64) -> f64 {
     fn refine(f: &impl Fn(f64) -> f64, lo: f64, hi: f64, whole: f64, allowed: f64, depth: u32) -> f64 {
         let mid = 0.5 * (lo + hi);
         let (left, right) = (gauss(f, lo, mid), gauss(f, mid, hi));
-        if depth == 0 || (left + right - whole).abs() <= allowed {
+        if depth == 0 || (left + right - whole).abs() <= allowed || whole.is_nan() {
             return left + right;
         }
         refine(f, lo, mid, left, allowed, depth - 1) + refine(f, mid, hi, right, allowed, depth - 1)
