@@ -1,1 +1,139 @@
-//! TODO
+//! The `clatter` command: arguments in, tables, JSON, maps and reports out.
+//!
+//! [`run`] is the whole command. It writes to the streams it is handed and returns how the process should
+//! exit, so that tests call it as they would call the command.
+//!
+//! ```
+//! use clatter_cli::{Exit, Streams, run};
+//!
+//! let (mut out, mut err) = (Vec::new(), Vec::new());
+//! let mut streams = Streams { out: &mut out, err: &mut err, interactive: false };
+//! let exit = run(["clatter", "zone", "--q=0.5", "--e=0", "--threshold=1", "--format=csv"], &mut streams);
+//! assert_eq!(exit, Exit::Done);
+//! assert!(String::from_utf8(out)?.starts_with("threshold,s,extent\n1.0,"));
+//! # Ok::<(), std::string::FromUtf8Error>(())
+//! ```
+
+mod completions;
+mod failure;
+mod impacts;
+mod inputs;
+mod map;
+mod npy;
+mod numbers;
+mod output;
+mod report;
+mod zone;
+
+use std::ffi::OsString;
+use std::fmt;
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser, Subcommand};
+use serde::Serialize;
+
+use failure::Failure;
+
+/// Where a command writes.
+pub struct Streams<'a> {
+    /// The answer, and nothing else.
+    pub out: &'a mut dyn Write,
+    /// Warnings, progress and errors.
+    pub err: &'a mut dyn Write,
+    /// Whether somebody watches `err`: progress is shown to them alone.
+    pub interactive: bool,
+}
+
+impl fmt::Debug for Streams<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Streams").field("interactive", &self.interactive).finish_non_exhaustive()
+    }
+}
+
+impl Streams<'_> {
+    /// An answer for programs, on one line.
+    fn json(&mut self, answer: &impl Serialize) -> Result<(), Failure> {
+        serde_json::to_writer(&mut *self.out, answer).map_err(|error| Failure::Answer(error.into()))?;
+        writeln!(self.out).map_err(Failure::Answer)
+    }
+
+    /// A line beside the answer, below what there is of it. That it cannot be shown is no reason to fail.
+    fn note(&mut self, kind: &str, what: impl fmt::Display) {
+        let _ = self.out.flush(); // whoever writes next sees the same failure, and tells
+        let _ = writeln!(self.err, "{kind}: {what}");
+    }
+}
+
+/// How the process exits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Exit {
+    /// 0: done.
+    Done = 0,
+    /// 2: bad input or usage, or an output that cannot be written.
+    BadInput = 2,
+    /// 3: an outside program is missing or failed.
+    Outside = 3,
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        Self::from(exit as u8)
+    }
+}
+
+/// What a tilted drop does to the parts inside a flat product.
+///
+/// A flat body that falls almost level lands on one end, then on the other, in a rapid train of impacts: the
+/// clatter. Each impact changes the velocity of every part at once. These velocity shocks, not the drop alone,
+/// are what the parts have to survive.
+#[derive(Debug, Parser)]
+#[command(name = "clatter", version, after_help = SHORT_HELP, after_long_help = inputs::PRIMER, max_term_width = 100)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const SHORT_HELP: &str =
+    "Start with 'clatter impacts --q=0.5 --e=0.3'. 'clatter --help' tells what q, e and the units are.";
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Impacts(impacts::Args),
+    Zone(zone::Args),
+    Map(map::Args),
+    Report(report::Args),
+    Completions(completions::Args),
+}
+
+/// Runs the command with these arguments, the first of which is the name it was called by.
+///
+/// A reader that goes away early (`clatter impacts … | head`) is no error.
+pub fn run<I, T>(args: I, streams: &mut Streams<'_>) -> Exit
+where
+    I: IntoIterator<Item = T>,
+    T: Into<OsString> + Clone,
+{
+    let done = match Cli::try_parse_from(args) {
+        Ok(cli) => match cli.command {
+            Command::Impacts(args) => args.run(streams),
+            Command::Zone(args) => args.run(streams),
+            Command::Map(args) => args.run(streams),
+            Command::Report(args) => args.run(streams),
+            Command::Completions(args) => args.run(&mut Cli::command(), streams),
+        },
+        Err(help) if !help.use_stderr() => write!(streams.out, "{}", help.render()).map_err(Failure::Answer),
+        Err(usage) => {
+            let _ = write!(streams.err, "{}", usage.render());
+            return Exit::BadInput;
+        }
+    };
+    match done.and_then(|()| streams.out.flush().map_err(Failure::Answer)) {
+        Ok(()) => Exit::Done,
+        Err(Failure::Answer(gone)) if gone.kind() == io::ErrorKind::BrokenPipe => Exit::Done,
+        Err(failure) => {
+            streams.note("error", &failure);
+            failure.exit()
+        }
+    }
+}

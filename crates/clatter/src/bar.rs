@@ -1,12 +1,16 @@
 //! The bar: how its mass lies and how its ends rebound.
 
 use crate::Error;
+use crate::dd::{Dd, two_prod, two_sum};
+use crate::exact::Dyadic;
 
 /// Coefficient of restitution of an end, in [0, 1]: departure speed over approach speed.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 pub struct Restitution(f64);
 
 impl Restitution {
+    /// A coefficient of restitution.
+    ///
     /// # Errors
     /// [`Error::Restitution`] unless 0 ≤ e ≤ 1; −0 counts as 0.
     pub fn new(e: f64) -> Result<Self, Error> {
@@ -19,42 +23,264 @@ impl Restitution {
     }
 }
 
+/// A piece of mass on the bar, for [`Bar::from_masses`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Mass {
+    /// A point mass.
+    Point {
+        /// Mass in kg.
+        mass_kg: f64,
+        /// Distance from the middle of the bar, towards end b positive, in m; it may lie beyond an end.
+        position_m: f64,
+    },
+    /// A slab whose mass is spread evenly along the bar.
+    Slab {
+        /// Mass in kg.
+        mass_kg: f64,
+        /// Where it begins, from the middle of the bar, in m.
+        from_m: f64,
+        /// Where it ends; not before it begins.
+        to_m: f64,
+    },
+}
+
+/// What the inertia was given as: kept, because rounding it to a q would lose digits near q = 1, and because the
+/// last word on a count is spoken in integers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Given {
+    /// The inertia ratio itself.
+    InertiaRatio,
+    /// k² = (ρ/L)² as a quotient of products.
+    GyrationSquared { over: [f64; 2], under: [f64; 3] },
+}
+
 /// A rigid bar with symmetric mass that strikes the ground at its ends only.
+///
+/// Its whole behavior follows from the coefficient of restitution `e` and the inertia ratio
+/// `q = (L² − ρ²)/(L² + ρ²)` of half-length L and radius of gyration ρ (paper, section 3): q = 1 has all mass at
+/// the center, q = ½ is a uniform bar, q = 0 has all mass at the ends, q < 0 has mass beyond them.
+///
+/// # Examples
+/// The paper's reference bar, uniform with moderate damping:
+/// ```
+/// let bar = clatter::Bar::new(0.5, 0.3)?;
+/// let summary = bar.summary(&clatter::Start::default());
+/// assert_eq!(summary.count, clatter::Count::Finite(4));
+/// assert!((summary.peak.end - 2.145).abs() < 1e-12);
+/// # Ok::<(), clatter::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bar {
+    /// q rounded.
     q: f64,
-    e: Restitution,
+    pub(crate) e: f64,
+    /// q(1 + e) rounded.
+    pub(crate) t: f64,
+    /// 1 − q and 1 + q rounded, but not from a rounded q.
+    pub(crate) less: f64,
+    pub(crate) more: f64,
+    given: Given,
+}
+
+/// q, 1 − q and 1 + q, each to a relative 2⁻¹⁰⁰.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct WideQ {
+    pub(crate) q: Dd,
+    pub(crate) less: Dd,
+    pub(crate) more: Dd,
 }
 
 impl Bar {
     /// From inertia ratio q and restitution e.
+    ///
     /// # Errors
-    /// [`Error::InertiaRatio`] unless −1 < q ≤ 1, [`Error::Restitution`] unless 0 ≤ e ≤ 1.
+    /// [`Error::InertiaRatio`] unless −1 < q ≤ 1, [`Error::Restitution`] unless 0 ≤ e ≤ 1. NaN is neither.
+    #[inline]
     pub fn new(q: f64, e: f64) -> Result<Self, Error> {
         if !(q > -1.0 && q <= 1.0) {
             return Err(Error::InertiaRatio(q));
         }
-        Ok(Self { q: q + 0.0, e: Restitution::new(e)? })
+        let (q, e) = (q + 0.0, Restitution::new(e)?.get());
+        Ok(Self { q, e, t: q + q * e, less: 1.0 - q, more: 1.0 + q, given: Given::InertiaRatio })
     }
-    /// From k = ρ/L, the radius of gyration over the half-length; exact near q = 1.
+
+    /// From k = ρ/L, radius of gyration over half-length: q = (1 − k²)/(1 + k²). No digit is lost near q = 1.
+    ///
     /// # Errors
-    /// [`Error::Quantity`] unless 0 ≤ k ≤ 1e150, [`Error::Restitution`] unless 0 ≤ e ≤ 1.
+    /// [`Error::Quantity`] unless k is 0 or in [1e−75, 1e75], [`Error::Restitution`] unless 0 ≤ e ≤ 1.
+    ///
+    /// # Examples
+    /// So little mass at the ends that q rounds to 1, and yet the bar clatters a finite number of times:
+    /// ```
+    /// let bar = clatter::Bar::from_gyration_ratio(1e-9, 1.0)?;
+    /// assert_eq!(bar.q(), 1.0);
+    /// assert_eq!(bar.count(&clatter::Start::default()), clatter::Count::Finite(1_570_796_327));
+    /// # Ok::<(), clatter::Error>(())
+    /// ```
     pub fn from_gyration_ratio(k: f64, e: f64) -> Result<Self, Error> {
-        Self::new((1.0 - k * k) / (1.0 + k * k), e)
+        if k != 0.0 && !(1e-75..=1e75).contains(&k) {
+            return Err(Error::Quantity { name: "gyration ratio", value: k, allowed: "0 or in [1e-75, 1e75]" });
+        }
+        Self::from_gyration_squared([k, k], [1.0; 3], e)
     }
-    /// Inertia ratio `q = (L² − ρ²)/(L² + ρ²)`.
+
+    /// From half-length and radius of gyration, in the same unit.
+    ///
+    /// # Errors
+    /// [`Error::Quantity`] unless the half-length is in [1e−25, 1e25] and the radius is 0 or in that range,
+    /// [`Error::Restitution`] unless 0 ≤ e ≤ 1.
+    pub fn from_gyration_radius(half_length: f64, radius_of_gyration: f64, e: f64) -> Result<Self, Error> {
+        let l = positive("half-length", half_length)?;
+        let rho = if radius_of_gyration == 0.0 { 0.0 } else { positive("radius of gyration", radius_of_gyration)? };
+        Self::from_gyration_squared([rho, rho], [l, l, 1.0], e)
+    }
+
+    /// From mass, length from end to end and moment of inertia about the center: k² = 4J/(m (2L)²).
+    ///
+    /// # Errors
+    /// [`Error::Quantity`] unless mass and length are in [1e−25, 1e25] and the moment is 0 or in that range,
+    /// [`Error::Restitution`] unless 0 ≤ e ≤ 1.
+    ///
+    /// # Examples
+    /// A uniform bar has J = m (2L)²/12, hence q = ½:
+    /// ```
+    /// let bar = clatter::Bar::from_moment_of_inertia(1.2, 0.5, 1.2 * 0.25 / 12.0, 0.3)?;
+    /// assert!((bar.q() - 0.5).abs() < 1e-15);
+    /// # Ok::<(), clatter::Error>(())
+    /// ```
+    pub fn from_moment_of_inertia(mass_kg: f64, length_m: f64, moment_kg_m2: f64, e: f64) -> Result<Self, Error> {
+        let (m, l) = (positive("mass (kg)", mass_kg)?, positive("length (m)", length_m)?);
+        let j = if moment_kg_m2 == 0.0 { 0.0 } else { positive("moment of inertia (kg m²)", moment_kg_m2)? };
+        Self::from_gyration_squared([j, 4.0], [m, l, l], e)
+    }
+
+    /// From the masses along a bar of given length, whose center of mass must be the middle.
+    ///
+    /// # Accuracy
+    /// Sums and products are rounded as f64, after which the bar is that of
+    /// [`from_moment_of_inertia`](Self::from_moment_of_inertia). The center of mass counts as the middle where it
+    /// is off by no more than those roundings, 8 ε of Σ m|x|/Σ m a mass.
+    ///
+    /// # Errors
+    /// [`Error::NoMass`] for an empty list, [`Error::OffCenter`] where the center of mass is not the middle,
+    /// [`Error::Quantity`] where a length or mass is not in [1e−25, 1e25], a position is beyond ±1e25 or a slab
+    /// ends before it begins, [`Error::Restitution`] unless 0 ≤ e ≤ 1.
+    ///
+    /// # Examples
+    /// Half the mass spread evenly, half at the center: ρ² = L²/6, q = 5/7.
+    /// ```
+    /// use clatter::{Bar, Mass};
+    /// let slab = Mass::Slab { mass_kg: 0.1, from_m: -0.07, to_m: 0.07 };
+    /// let battery = Mass::Point { mass_kg: 0.1, position_m: 0.0 };
+    /// let bar = Bar::from_masses(0.14, &[slab, battery], 0.3)?;
+    /// assert!((bar.q() - 5.0 / 7.0).abs() < 1e-14);
+    /// # Ok::<(), clatter::Error>(())
+    /// ```
+    pub fn from_masses(length_m: f64, masses: &[Mass], e: f64) -> Result<Self, Error> {
+        let length = positive("length (m)", length_m)?;
+        let (mut mass, mut first, mut size, mut second) = (0.0, 0.0, 0.0, 0.0);
+        for piece in masses {
+            // A slab is a point mass at its middle plus its own moment m w²/12.
+            let (m, x, width) = match *piece {
+                Mass::Point { mass_kg, position_m } => (mass_kg, place(position_m)?, 0.0),
+                Mass::Slab { mass_kg, from_m, to_m } => {
+                    let (from, to) = (place(from_m)?, place(to_m)?);
+                    if to < from {
+                        let allowed = "at or beyond where the slab begins";
+                        return Err(Error::Quantity { name: "end of slab (m)", value: to, allowed });
+                    }
+                    (mass_kg, 0.5 * from + 0.5 * to, to - from)
+                }
+            };
+            let m = positive("mass (kg)", m)?;
+            mass += m;
+            first += m * x;
+            size += m * x.abs();
+            second += m * (x * x + width * width / 12.0);
+        }
+        if masses.is_empty() {
+            return Err(Error::NoMass);
+        }
+        #[expect(clippy::cast_precision_loss, reason = "a count of roundings")]
+        let roundings = 8.0 * f64::EPSILON * masses.len() as f64;
+        if first.abs() > roundings * size {
+            return Err(Error::OffCenter { offset: 2.0 * first / (mass * length) });
+        }
+        Self::from_moment_of_inertia(mass, length, second, e)
+    }
+
+    /// k² = over/under, every product within the range of floats.
+    fn from_gyration_squared(over: [f64; 2], under: [f64; 3], e: f64) -> Result<Self, Error> {
+        let e = Restitution::new(e)?.get();
+        let given = Given::GyrationSquared { over, under };
+        let mut bar = Self { q: 0.0, e, t: 0.0, less: 0.0, more: 0.0, given };
+        let WideQ { q, less, more } = bar.wide_q();
+        (bar.q, bar.t, bar.less, bar.more) = (q.hi, q.hi + q.hi * e, less.hi, more.hi);
+        Ok(bar)
+    }
+
+    /// Inertia ratio `q = (L² − ρ²)/(L² + ρ²)`, the negative ratio of the velocity jumps of the free and the
+    /// struck end.
     #[must_use]
     pub fn q(&self) -> f64 {
         self.q
     }
-    /// Restitution.
+    /// Coefficient of restitution.
     #[must_use]
     pub fn e(&self) -> f64 {
-        self.e.get()
+        self.e
     }
-    /// ρ/L, the radius of gyration over the half-length: `√((1 − q)/(1 + q))`.
+    /// k = ρ/L, the radius of gyration over the half-length: `√((1 − q)/(1 + q))`, relative error below 1e−15.
     #[must_use]
     pub fn gyration_ratio(&self) -> f64 {
-        ((1.0 - self.q) / (1.0 + self.q)).sqrt()
+        (self.less / self.more).sqrt()
     }
+    /// Distance p/L = k² from the center of mass to the center of percussion of the other side's end, over the
+    /// half-length: the point that feels nothing of a strike at the other end (paper, section 3).
+    #[must_use]
+    pub fn percussion(&self) -> f64 {
+        self.less / self.more
+    }
+    /// Share of the shock at a struck end that reaches signed position `s` (the struck end is at s = 1):
+    /// `((1 − q) + s (1 + q))/2` (Eq. 3).
+    #[must_use]
+    pub fn share(&self, s: f64) -> f64 {
+        0.5 * (self.less + s * self.more)
+    }
+
+    pub(crate) fn wide_q(&self) -> WideQ {
+        match self.given {
+            Given::InertiaRatio => {
+                WideQ { q: Dd::from(self.q), less: two_sum(1.0, -self.q), more: two_sum(1.0, self.q) }
+            }
+            Given::GyrationSquared { over, under } => {
+                let (n, d) = (two_prod(over[0], over[1]), two_prod(under[0], under[1]) * under[2]);
+                let (both, two) = (d + n, Dd::from(2.0));
+                WideQ { q: (d - n) / both, less: two * n / both, more: two * d / both }
+            }
+        }
+    }
+
+    /// (μ, ν) with q = μ/ν, as integers.
+    pub(crate) fn exact_q(&self) -> (Dyadic, Dyadic) {
+        match self.given {
+            Given::InertiaRatio => (Dyadic::from(self.q), Dyadic::from(1.0)),
+            Given::GyrationSquared { over, under } => {
+                let product = |f: &[f64]| f.iter().fold(Dyadic::from(1.0), |p, &x| p.mul(&Dyadic::from(x)));
+                let (n, d) = (product(&over), product(&under));
+                (d.sub(&n), d.add(&n))
+            }
+        }
+    }
+}
+
+/// A length or mass of a size whose products stay within the range of floats.
+fn positive(name: &'static str, value: f64) -> Result<f64, Error> {
+    let allowed = "in [1e-25, 1e25]";
+    if (1e-25..=1e25).contains(&value) { Ok(value) } else { Err(Error::Quantity { name, value, allowed }) }
+}
+
+fn place(value: f64) -> Result<f64, Error> {
+    let allowed = "in [-1e25, 1e25]";
+    if value.abs() <= 1e25 { Ok(value) } else { Err(Error::Quantity { name: "position (m)", value, allowed }) }
 }

@@ -46,7 +46,7 @@ pub enum Error {
         /// What is wrong and what is allowed.
         reason: &'static str,
     },
-    /// A map that does not fit in memory.
-    #[error("a map of {0} points needs more memory than can be had")]
+    /// A map of more points than memory is set aside for, or than there is memory for.
+    #[error("a map of {0} points takes more memory than is set aside: at most 268435456 points (2 GiB)")]
     TooLarge(usize),
 }

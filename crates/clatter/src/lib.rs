@@ -13,20 +13,28 @@
 //! Two numbers decide everything: the coefficient of restitution `e` and the inertia ratio
 //! `q = (L² − ρ²)/(L² + ρ²)` of half-length `L` and radius of gyration `ρ`.
 
+pub mod accuracy;
 mod bar;
+pub mod contour;
+mod dd;
 mod error;
+mod exact;
 pub mod flight;
 mod map;
+mod motion;
+pub mod paper;
+mod quadrature;
 pub mod reference;
 mod start;
 mod summary;
 mod train;
 mod zone;
 
-pub use bar::{Bar, Restitution};
+pub use bar::{Bar, Mass, Restitution};
 pub use error::Error;
 pub use map::{Axis, Map, Quantity};
+pub use quadrature::Integral;
 pub use start::{End, Start};
 pub use summary::{Count, Net, Peak, PeakImpact, Summary};
 pub use train::{Impact, Train};
-pub use zone::{Extent, Zone};
+pub use zone::{EndPeaks, Extent, Zone};

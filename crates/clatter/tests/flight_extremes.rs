@@ -15,8 +15,8 @@ fn sane(flight: &Flight, what: &str) {
     for (n, s) in flight.strikes.iter().enumerate() {
         let numbers = [s.time_s, s.approach_m_s, s.delta_v_m_s[0], s.delta_v_m_s[1], s.height_m[0], s.height_m[1]];
         assert!(numbers.iter().all(|x| x.is_finite()), "{what}: {s:?}");
-        // The map takes each time from its own closed form, to a rounding.
-        assert!(s.time_s >= last * (1.0 - 2.0 * f64::EPSILON), "{what}: back in time at {s:?}");
+        // The map takes each time from its own closed form, to a few roundings.
+        assert!(s.time_s >= last * (1.0 - 8.0 * f64::EPSILON), "{what}: back in time at {s:?}");
         assert!(s.approach_m_s <= 0.0 && s.height_m.iter().all(|&h| h >= 0.0), "{what}: {s:?}");
         assert_eq!(s.number, n as u64 + 1, "{what}");
         last = s.time_s;

@@ -48,7 +48,7 @@ pub(super) fn simulate(scene: &Scene) -> Flight {
         // The approach speeds of an endless train rise to one peak and fall for ever: what follows is slower.
         let left_s = summary.duration - impact.time;
         if settles && jump <= SHARE * log.largest_m_s && left_s <= f64::EPSILON * summary.duration {
-            let time_s = summary.duration;
+            let time_s = summary.duration.max(impact.time); // to a rounding the same
             log.flight.stop = Stop::AtRest { time_s, time_bound_s: left_s.abs(), shock_bound_m_s: jump };
             return log.flight;
         }

@@ -8,10 +8,14 @@
 //!   `g L² s² − 2 L E s + g (ρ² + L²) = 0`, s = sin ψ, if that is met on the way up;
 //! - turning point: `sin ψ = E/(g L)`; landing of the other end at ψ = 0 or π with `ψ′² = 2E/(ρ² + L²)`.
 //!
-//! The time is the integral of `√(I/2K)`, K the kinetic energy, by Gauss–Legendre quadrature on intervals halved until two
-//! answers agree; near a turning point ψ_m in x = √(ψ_m − ψ), where the integrand is smooth.
+//! The time is the integral of `√(I/2K)`, K the kinetic energy, by adaptive quadrature; near a turning point `ψ_m` in
+//! `x = √(ψ_m − ψ)`, where the integrand is smooth.
 
 use super::finite_tilt::Pose;
+use crate::quadrature::integrate;
+
+/// No error allowed beyond the quadrature's own rounding.
+const ROUNDING: f64 = 0.0;
 
 /// How a pivot ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,9 +62,9 @@ pub(super) fn run(pose: &Pose, i: usize) -> (Pose, f64, Event) {
     } else if energy < about.gl && (p0 > 0.0 || kinetic0 < 0.5 * energy) {
         let rise = about.rise(psi0, c0, kinetic0);
         let top = psi0 + rise;
-        let down = about.from_top(top, 0.0, top.sqrt());
-        let part = about.from_top(top, 0.0, rise.sqrt());
-        if p0 > 0.0 { down + part } else { about.from_top(top, rise.sqrt(), top.sqrt()) }
+        let down = about.below_top(top, 0.0, top.sqrt());
+        let part = about.below_top(top, 0.0, rise.sqrt());
+        if p0 > 0.0 { down + part } else { about.below_top(top, rise.sqrt(), top.sqrt()) }
     } else {
         about.direct(0.0, psi0, energy)
     };
@@ -111,45 +115,16 @@ impl Turn {
             let drop = 2.0 * self.gl * (0.5 * (lo + psi)).cos() * (0.5 * (psi - lo)).sin();
             (self.inertia(psi.cos()) / (2.0 * (k_lo - drop))).sqrt()
         };
-        integral(&f, lo, hi)
+        integrate(f, &[lo, hi], ROUNDING).value
     }
-    /// Time between x = √(ψ_m − ψ) of `x0 < x1`, ψ_m = `top`.
-    fn from_top(&self, top: f64, x0: f64, x1: f64) -> f64 {
+    /// Time between `x = √(ψ_m − ψ)` of `x0 < x1`, where the turning point `ψ_m` is `top`.
+    fn below_top(&self, top: f64, x0: f64, x1: f64) -> f64 {
         let f = |x: f64| {
             let d = 0.5 * x * x;
             let sinc = if d == 0.0 { 1.0 } else { d.sin() / d };
             // K = 2 g L cos(ψ_m − d) sin d and dψ = 2 x dx.
             (2.0 * self.inertia((top - x * x).cos()) / (self.gl * (top - d).cos() * sinc)).sqrt()
         };
-        integral(&f, x0, x1)
+        integrate(f, &[x0, x1], ROUNDING).value
     }
-}
-
-/// Nodes and weights of the ten-point Gauss–Legendre rule on [−1, 1], positive half (DLMF Table 3.5.2).
-const GAUSS: [(f64, f64); 5] = [
-    (0.148_874_338_981_631_2, 0.295_524_224_714_752_9),
-    (0.433_395_394_129_247_2, 0.269_266_719_309_996_36),
-    (0.679_409_568_299_024_4, 0.219_086_362_515_982_04),
-    (0.865_063_366_688_984_5, 0.149_451_349_150_580_6),
-    (0.973_906_528_517_171_7, 0.066_671_344_308_688_14),
-];
-
-fn gauss(f: &impl Fn(f64) -> f64, lo: f64, hi: f64) -> f64 {
-    let (mid, half) = (0.5 * (lo + hi), 0.5 * (hi - lo));
-    half * GAUSS.iter().map(|&(x, w)| w * (f(mid - half * x) + f(mid + half * x))).sum::<f64>()
-}
-
-/// Integral of a positive f, to about 1e-15 of itself: intervals are halved until two answers differ by less than that
-/// share of the whole, at most 40 times, where a logarithmic singularity is spent.
-fn integral(f: &impl Fn(f64) -> f64, lo: f64, hi: f64) -> f64 {
-    fn refine(f: &impl Fn(f64) -> f64, lo: f64, hi: f64, whole: f64, allowed: f64, depth: u32) -> f64 {
-        let mid = 0.5 * (lo + hi);
-        let (left, right) = (gauss(f, lo, mid), gauss(f, mid, hi));
-        if depth == 0 || (left + right - whole).abs() <= allowed || whole.is_nan() {
-            return left + right;
-        }
-        refine(f, lo, mid, left, allowed, depth - 1) + refine(f, mid, hi, right, allowed, depth - 1)
-    }
-    let whole = gauss(f, lo, hi);
-    refine(f, lo, hi, whole, 4.0 * f64::EPSILON * whole, 40)
 }

@@ -1,0 +1,277 @@
+//! `clatter impacts`: the train of impacts of one bar, its peak and what it amounts to.
+
+use std::io::{self, Write};
+
+use clatter::{Bar, Count, Impact, PeakImpact, Start, Summary};
+use serde::{Serialize, Serializer};
+
+use crate::inputs::{self, BarArgs, RowFormat, letter};
+use crate::numbers::{Json, JsonCount, digits, figures, given};
+use crate::{Failure, Streams};
+
+/// List the impacts of one drop and what they amount to
+///
+/// The bar falls with velocities VA and VB of its ends; end a strikes first, at time 0. The number of impacts is exact
+/// however large it is, and like the rest of the summary it comes at once: no impact is followed for it.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  clatter impacts --q=0.5 --e=0.3                        a uniform bar in a moderately damped casing
+  clatter impacts --q=0.5 --e=0.3 --at=0 --at=0.5        also the shocks of parts at these positions
+  clatter impacts --q=0.5 --e=0.3 --velocity=-1,0.5      it turns as it falls
+  clatter impacts --gyration-ratio=0.01 --e=0.3 --limit=20 --format=json
+
+'clatter --help' tells what q, e and the units are.")]
+pub(crate) struct Args {
+    #[command(flatten)]
+    bar: BarArgs,
+    /// Velocities of ends a and b at first contact, upward positive, in v0; VA is negative: end a strikes
+    #[arg(long, value_name = "VA,VB", default_value = "-1,-1", allow_hyphen_values = true, value_parser = inputs::velocity)]
+    velocity: [f64; 2],
+    /// Height of end b when end a first touches, in h0; 0 for a flat drop, whose impacts come all at once
+    #[arg(long, value_name = "H0", default_value = "1", allow_hyphen_values = true, value_parser = inputs::height_gap)]
+    height_gap: f64,
+    /// Also give the velocity shocks at this position, in [-1, 1]; may be given several times
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = inputs::position)]
+    at: Vec<f64>,
+    /// List at most so many impacts
+    #[arg(long, value_name = "N", default_value = "1000", allow_hyphen_values = true, value_parser = inputs::limit)]
+    limit: usize,
+    /// How to show the answer
+    #[arg(long, value_enum, default_value_t = RowFormat::Table)]
+    format: RowFormat,
+}
+
+/// Everything that is shown of one drop; the impacts are made while they are written, so no list is too long.
+struct Drop<'a> {
+    bar: Bar,
+    start: Start,
+    summary: Summary,
+    at: &'a [f64],
+    limit: usize,
+}
+
+impl Args {
+    pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        let bar = self.bar.bar()?;
+        let start = Start::new(self.velocity, self.height_gap)?;
+        let drop = Drop { bar, start, summary: bar.summary(&start), at: &self.at, limit: self.limit };
+        match self.format {
+            RowFormat::Table => {
+                drop.table(streams.out).map_err(Failure::Answer)?;
+                if let Some(warning) = drop.cut_short() {
+                    streams.note("warning", warning);
+                }
+                Ok(())
+            }
+            RowFormat::Csv => drop.csv(streams.out).map_err(Failure::Answer),
+            RowFormat::Json => streams.json(&drop.answer()),
+        }
+    }
+}
+
+impl Drop<'_> {
+    fn impacts(&self) -> impl Iterator<Item = Impact> {
+        self.bar.train(&self.start).take(self.limit)
+    }
+
+    fn cut_short(&self) -> Option<String> {
+        let listed = self.limit;
+        let of = match self.summary.count {
+            _ if listed == 0 => return None, // the summary alone was asked for
+            Count::Finite(n) if u64::try_from(listed).is_ok_and(|listed| listed >= n) => return None,
+            Count::Finite(n) => format!("{n} impacts"),
+            Count::Huge(n) => format!("about {} impacts", figures(n)),
+            Count::Endless => "endless impacts".to_owned(),
+        };
+        Some(format!("listed {listed} of {of}; --limit=N lists more"))
+    }
+
+    fn table(&self, out: &mut dyn Write) -> io::Result<()> {
+        let (Summary { count, duration, peak, final_velocity, net }, [va, vb]) = (self.summary, self.start.velocity());
+        let (q, e, gap) = (given(self.bar.q()), given(self.bar.e()), given(self.start.height_gap()));
+        let gyration = figures(self.bar.gyration_ratio());
+        writeln!(out, "Bar with q = {q}, e = {e}; radius of gyration {gyration} of the half-length")?;
+        let (a, b) = (given(va), given(vb));
+        writeln!(out, "End a strikes first, at {a} v0; end b comes with {b} v0 from {gap} h0\n")?;
+
+        let impacts = match count {
+            Count::Finite(n) => n.to_string(),
+            Count::Huge(n) => figures(n),
+            Count::Endless => "endless".to_owned(),
+        };
+        let line = |out: &mut dyn Write, name: &str, value: &str, unit: &str| {
+            writeln!(out, "{}", format!("{name:<24}{value:>12} {unit}").trim_end())
+        };
+        line(out, "Impacts", &impacts, "")?;
+        let last = if count == Count::Endless { "Impacts tend to" } else { "Last impact at" };
+        line(out, last, &figures(duration), "h0/v0")?;
+        let holder = match peak.impact {
+            PeakImpact::Number(1) => "v0      at impact 1, the first".to_owned(),
+            PeakImpact::Number(n) => format!("v0      at impact {n}"),
+            PeakImpact::Huge(n) => format!("v0      at about impact {}", figures(n)),
+            PeakImpact::Limit => "v0      not reached: the impacts tend to it".to_owned(),
+        };
+        line(out, "Largest shock, ends", &figures(peak.end), &holder)?;
+        line(out, "               center", &figures(peak.center), "v0")?;
+        line(out, "               turning", &figures(peak.angular), "v0/L")?;
+        if let (Some(net), Some([a, b])) = (net, final_velocity) {
+            line(out, "Net change,    end a", &figures(net.a), &format!("v0      leaving with {} v0", figures(a)))?;
+            line(out, "               end b", &figures(net.b), &format!("v0      leaving with {} v0", figures(b)))?;
+            line(out, "               center", &figures(net.center), "v0")?;
+            line(out, "               turning", &figures(net.angular), "v0/L")?;
+        } else {
+            line(out, "Net change,    center", "0", "v0      the velocities of the ends do not settle")?;
+        }
+        #[expect(clippy::float_cmp, reason = "without spin is what was asked for, not what was come near to")]
+        let without_spin = va == vb;
+        if without_spin {
+            let flat = (1.0 + self.bar.e()) * -va;
+            line(out, "Without clatter", &figures(flat), "v0      everywhere: the flat impact that standards assume")?;
+        }
+        if self.limit == 0 {
+            return Ok(());
+        }
+        write!(
+            out,
+            "\n{:>9}  end {:>13} {:>13} {:>13} {:>13}",
+            "impact", "time", "approach", "shock at a", "shock at b"
+        )?;
+        for s in self.at {
+            write!(out, " {:>13}", format!("shock at {}", given(*s)))?;
+        }
+        write!(out, "\n{:>9}      {:>13} {:>13} {:>13} {:>13}", "", "h0/v0", "v0", "v0", "v0")?;
+        for _ in self.at {
+            write!(out, " {:>13}", "v0")?;
+        }
+        writeln!(out)?;
+        for impact in self.impacts() {
+            let [a, b] = impact.delta_v;
+            write!(out, "{:>9}  {:<3}", impact.number, letter(impact.end))?;
+            for x in [impact.time, impact.approach, a, b].into_iter().chain(self.shocks(&impact)) {
+                write!(out, " {:>13}", figures(x))?;
+            }
+            writeln!(out)?;
+        }
+        Ok(())
+    }
+
+    fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
+        write!(out, "number,end,time,approach,delta_v_a,delta_v_b")?;
+        for s in self.at {
+            write!(out, ",delta_v_at_{}", digits(*s))?;
+        }
+        writeln!(out)?;
+        for impact in self.impacts() {
+            let [a, b] = impact.delta_v;
+            write!(out, "{},{}", impact.number, letter(impact.end))?;
+            for x in [impact.time, impact.approach, a, b].into_iter().chain(self.shocks(&impact)) {
+                write!(out, ",{}", digits(x))?;
+            }
+            writeln!(out)?;
+        }
+        Ok(())
+    }
+
+    fn shocks(&self, impact: &Impact) -> impl Iterator<Item = f64> {
+        self.at.iter().map(|&s| impact.delta_v_at(s))
+    }
+
+    fn answer(&self) -> Answer<'_> {
+        let Summary { count, duration, peak, final_velocity, net } = self.summary;
+        Answer {
+            q: Json(self.bar.q()),
+            gyration_ratio: Json(self.bar.gyration_ratio()),
+            e: Json(self.bar.e()),
+            velocity: self.start.velocity().map(Json),
+            height_gap: Json(self.start.height_gap()),
+            at: self.at.iter().copied().map(Json).collect(),
+            count: JsonCount(count),
+            count_exact: !matches!(count, Count::Huge(_)),
+            duration: Json(duration),
+            peak: PeakJson {
+                end: Json(peak.end),
+                impact: peak.impact,
+                center: Json(peak.center),
+                angular: Json(peak.angular),
+            },
+            net: NetJson {
+                a: net.map(|net| Json(net.a)),
+                b: net.map(|net| Json(net.b)),
+                center: Json(net.map_or(0.0, |net| net.center)),
+                angular: net.map(|net| Json(net.angular)),
+            },
+            final_velocity: final_velocity.map(|velocity| velocity.map(Json)),
+            impacts: List(self),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct Answer<'a> {
+    q: Json,
+    gyration_ratio: Json,
+    e: Json,
+    velocity: [Json; 2],
+    height_gap: Json,
+    at: Vec<Json>,
+    count: JsonCount,
+    count_exact: bool,
+    duration: Json,
+    peak: PeakJson,
+    net: NetJson,
+    #[serde(rename = "final")]
+    final_velocity: Option<[Json; 2]>,
+    impacts: List<'a>,
+}
+
+#[derive(Serialize)]
+struct PeakJson {
+    end: Json,
+    #[serde(serialize_with = "peak_impact")]
+    impact: PeakImpact,
+    center: Json,
+    angular: Json,
+}
+
+#[derive(Serialize)]
+struct NetJson {
+    a: Option<Json>,
+    b: Option<Json>,
+    center: Json,
+    angular: Option<Json>,
+}
+
+#[derive(Serialize)]
+struct ImpactJson {
+    number: u64,
+    end: &'static str,
+    time: Json,
+    approach: Json,
+    delta_v: [Json; 2],
+    delta_v_at: Vec<Json>,
+}
+
+fn peak_impact<S: Serializer>(impact: &PeakImpact, serializer: S) -> Result<S::Ok, S::Error> {
+    match *impact {
+        PeakImpact::Number(n) => serializer.serialize_u64(n),
+        PeakImpact::Huge(n) => serializer.serialize_f64(n),
+        PeakImpact::Limit => serializer.serialize_str("limit"),
+    }
+}
+
+/// The impacts of a drop, written as they come.
+struct List<'a>(&'a Drop<'a>);
+
+impl Serialize for List<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.0.impacts().map(|impact| ImpactJson {
+            number: impact.number,
+            end: letter(impact.end),
+            time: Json(impact.time),
+            approach: Json(impact.approach),
+            delta_v: impact.delta_v.map(Json),
+            delta_v_at: self.0.shocks(&impact).map(Json).collect(),
+        }))
+    }
+}

@@ -1,0 +1,225 @@
+//! `clatter map`: one quantity over a grid of (q, e), as a file.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use clap::{ValueEnum, ValueHint};
+use clatter::{Axis, Map, Quantity};
+use serde::{Serialize, Serializer};
+
+use crate::inputs::{self, Format};
+use crate::numbers::{Json, JsonWhole, digits, given, whole};
+use crate::{Failure, Streams, npy, output};
+
+/// Write a quantity over a grid of q and e to a file
+///
+/// A bar falls without spin at every point of the grid. The ending of the file decides what is written:
+///
+///   .csv   a line q,e,QUANTITY for every point, e fastest
+///   .json  {"quantity", "threshold", "q": [...], "e": [...], "values": [[...], ...]}, a row for each q
+///   .npy   the values as numpy loads them, a row for each q
+///   .svg   a picture
+///
+/// An endless train counts as inf ("infinite" in JSON).
+#[derive(Debug, clap::Args)]
+#[command(
+    verbatim_doc_comment,
+    after_help = "\
+Examples:
+  clatter map peak-end --q=0:1:201 --e=0:1:201 -o peak.svg
+  clatter map zone --threshold=0.5 --q=0:1:1000 --e=0:1:1000 -o zone.npy
+
+'clatter --help' tells what q, e and the units are."
+)]
+pub(crate) struct Args {
+    #[arg(value_enum)]
+    quantity: QuantityName,
+    /// Values of the inertia ratio q, in (-1, 1]: N values from LO to HI, both included
+    #[arg(long, value_name = "LO:HI:N", allow_hyphen_values = true, value_parser = inputs::q_axis)]
+    q: Axis,
+    /// Values of the coefficient of restitution e, in [0, 1]: N values from LO to HI, both included
+    #[arg(long, value_name = "LO:HI:N", allow_hyphen_values = true, value_parser = inputs::e_axis)]
+    e: Axis,
+    /// For zone: velocity shock that a part survives, in v0
+    #[arg(long, value_name = "X", allow_hyphen_values = true, value_parser = inputs::threshold, required_if_eq("quantity", "zone"))]
+    threshold: Option<f64>,
+    /// File to write, ending in .csv, .json, .npy or .svg; what was there is replaced once the new file is whole
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = target)]
+    output: Target,
+    /// How to tell what was written
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum QuantityName {
+    /// Number of impacts
+    Impacts,
+    /// Largest velocity shock at the ends, in v0
+    PeakEnd,
+    /// Largest velocity shock at the center, in v0
+    PeakCenter,
+    /// Largest change of angular velocity, in v0/L
+    PeakAngular,
+    /// Net change of velocity at the center, in v0
+    NetCenter,
+    /// Time of the last impact or the limit it tends to, in h0/v0
+    Duration,
+    /// Safe zone s of --threshold, in half-lengths, not clipped
+    Zone,
+}
+
+#[derive(Debug, Clone)]
+struct Target {
+    path: PathBuf,
+    kind: Kind,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Csv,
+    Json,
+    Npy,
+    Svg,
+}
+
+fn target(text: &str) -> Result<Target, &'static str> {
+    let path = PathBuf::from(text);
+    let kind = match path.extension().and_then(|ending| ending.to_str()) {
+        Some("csv") => Kind::Csv,
+        Some("json") => Kind::Json,
+        Some("npy") => Kind::Npy,
+        Some("svg") => Kind::Svg,
+        _ => return Err("the file must end in .csv, .json, .npy or .svg"),
+    };
+    Ok(Target { path, kind })
+}
+
+impl QuantityName {
+    fn quantity(self, threshold: Option<f64>) -> Result<Quantity, Failure> {
+        match (self, threshold) {
+            (Self::Zone, Some(threshold)) => Ok(Quantity::Zone(threshold)),
+            (Self::Zone, None) => Err(Failure::Usage("zone needs --threshold=X")),
+            (_, Some(_)) => Err(Failure::Usage("--threshold goes with the quantity zone alone")),
+            (Self::Impacts, None) => Ok(Quantity::Impacts),
+            (Self::PeakEnd, None) => Ok(Quantity::PeakEnd),
+            (Self::PeakCenter, None) => Ok(Quantity::PeakCenter),
+            (Self::PeakAngular, None) => Ok(Quantity::PeakAngular),
+            (Self::NetCenter, None) => Ok(Quantity::NetCenter),
+            (Self::Duration, None) => Ok(Quantity::Duration),
+        }
+    }
+}
+
+fn name(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Impacts => "impacts",
+        Quantity::PeakEnd => "peak-end",
+        Quantity::PeakCenter => "peak-center",
+        Quantity::PeakAngular => "peak-angular",
+        Quantity::NetCenter => "net-center",
+        Quantity::Duration => "duration",
+        Quantity::Zone(_) => "zone",
+    }
+}
+
+impl Args {
+    pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        let quantity = self.quantity.quantity(self.threshold)?;
+        let map = Map::compute(quantity, self.q, self.e)?;
+        let Target { path, kind } = &self.output;
+        output::replace(path, |file| match kind {
+            Kind::Npy => npy::write(file, map.q.points(), &map.values),
+            Kind::Csv => buffered(file, |out| csv(&map, out)),
+            Kind::Json => buffered(file, |out| Ok(serde_json::to_writer(out, &MapJson::new(&map))?)),
+            Kind::Svg => file.write_all(clatter_report::map_svg(&map).as_bytes()),
+        })?;
+        match self.format {
+            Format::Table => {
+                let axis = |name: &str, axis: Axis| {
+                    let (n, lo, hi) = (axis.points(), given(axis.value(0)), given(axis.value(axis.points() - 1)));
+                    format!("{n} values of {name} from {lo} to {hi}")
+                };
+                let (file, name, q, e) = (path.display(), name(quantity), axis("q", map.q), axis("e", map.e));
+                writeln!(streams.out, "{file}: {name} over {q} and {e}").map_err(Failure::Answer)
+            }
+            Format::Json => {
+                let points = [map.q.points(), map.e.points()];
+                streams.json(&WrittenJson { file: path, quantity: name(quantity), points })
+            }
+        }
+    }
+}
+
+fn buffered(file: &mut File, write: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>) -> io::Result<()> {
+    let mut out = BufWriter::with_capacity(1 << 16, file);
+    write(&mut out)?;
+    out.flush()
+}
+
+/// Whether the values are whole numbers.
+fn counts(map: &Map) -> bool {
+    map.quantity == Quantity::Impacts
+}
+
+fn csv(map: &Map, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "q,e,{}", name(map.quantity))?;
+    for (i, row) in map.values.chunks(map.e.points()).enumerate() {
+        let q = digits(map.q.value(i));
+        for (j, &value) in row.iter().enumerate() {
+            writeln!(out, "{q},{},{}", digits(map.e.value(j)), if counts(map) { whole(value) } else { digits(value) })?;
+        }
+    }
+    Ok(())
+}
+
+#[derive(Serialize)]
+struct WrittenJson<'a> {
+    file: &'a Path,
+    quantity: &'static str,
+    points: [usize; 2],
+}
+
+#[derive(Serialize)]
+struct MapJson<'a> {
+    quantity: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    threshold: Option<Json>,
+    q: Vec<Json>,
+    e: Vec<Json>,
+    values: Rows<'a>,
+}
+
+impl<'a> MapJson<'a> {
+    fn new(map: &'a Map) -> Self {
+        let threshold = if let Quantity::Zone(threshold) = map.quantity { Some(Json(threshold)) } else { None };
+        let axis = |axis: Axis| (0..axis.points()).map(|i| Json(axis.value(i))).collect();
+        Self { quantity: name(map.quantity), threshold, q: axis(map.q), e: axis(map.e), values: Rows(map) }
+    }
+}
+
+/// The values of a map, a row for each q.
+struct Rows<'a>(&'a Map);
+
+impl Serialize for Rows<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self(map) = *self;
+        serializer.collect_seq(map.values.chunks(map.e.points()).map(|values| Row { values, counts: counts(map) }))
+    }
+}
+
+struct Row<'a> {
+    values: &'a [f64],
+    counts: bool,
+}
+
+impl Serialize for Row<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        if self.counts {
+            serializer.collect_seq(self.values.iter().copied().map(JsonWhole))
+        } else {
+            serializer.collect_seq(self.values.iter().copied().map(Json))
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! `clatter report`: the printed reports.
+
+use std::path::PathBuf;
+
+use clap::{ValueEnum, ValueHint};
+use clatter_report::Report;
+use serde::Serialize;
+
+use crate::inputs::Format;
+use crate::{Failure, Streams};
+
+/// Make the printed reports: figures, tables and the PDF
+#[derive(Debug, clap::Args)]
+#[command(long_about = LONG_ABOUT, after_help = "\
+Examples:
+  clatter report                   all reports, into ./report
+  clatter report paper -o out")]
+pub(crate) struct Args {
+    /// Which report
+    #[arg(value_enum, default_value_t = Which::All)]
+    which: Which,
+    /// Directory to write into; made if need be
+    #[arg(short, long, value_name = "DIR", default_value = "report", value_hint = ValueHint::DirPath)]
+    output: PathBuf,
+    /// How to show the answer
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+}
+
+const LONG_ABOUT: &str = "\
+Make the printed reports: figures, tables and the PDF
+
+The PDF needs typst; figures, tables and JSON come out without it. typst is found by the variable CLATTER_TYPST, \
+then on the PATH, then in the project's own cache, where it is built if it is nowhere else.";
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Which {
+    /// The paper's figures, its table and its claims, computed anew
+    Paper,
+    /// Every report there is
+    All,
+}
+
+impl Which {
+    fn reports(self) -> &'static [Report] {
+        match self {
+            Self::Paper | Self::All => &[Report::Paper],
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct Answer {
+    files: Vec<String>,
+    warnings: Vec<String>,
+}
+
+impl Args {
+    pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        let mut answer = Answer { files: Vec::new(), warnings: Vec::new() };
+        for &report in self.which.reports() {
+            let mut progress = |step: &str| {
+                if streams.interactive {
+                    streams.note("clatter", step);
+                }
+            };
+            let written = clatter_report::write(report, &self.output, &mut progress)?;
+            for warning in &written.warnings {
+                streams.note("warning", warning);
+            }
+            answer.files.extend(written.files.iter().map(|file| file.display().to_string()));
+            answer.warnings.extend(written.warnings);
+        }
+        match self.format {
+            Format::Table => {
+                answer.files.iter().try_for_each(|file| writeln!(streams.out, "{file}")).map_err(Failure::Answer)
+            }
+            Format::Json => streams.json(&answer),
+        }
+    }
+}

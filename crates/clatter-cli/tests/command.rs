@@ -1,0 +1,135 @@
+//! What needs a process of its own: closed pipes, full disks, exit codes.
+
+#![cfg(test)]
+
+use std::io::{BufRead, BufReader};
+use std::process::{Command, Stdio};
+
+fn clatter() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_clatter"))
+}
+
+#[test]
+fn exit_codes_are_those_of_the_contract() {
+    let code = |arguments: &[&str]| clatter().args(arguments).output().unwrap().status.code();
+    assert_eq!(code(&["impacts", "--q=0.5", "--e=0.3"]), Some(0));
+    assert_eq!(code(&["--help"]), Some(0));
+    assert_eq!(code(&["impacts", "--q=0.5", "--e=3"]), Some(2));
+    assert_eq!(code(&[]), Some(2));
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_error() {
+    for format in ["table", "json", "csv"] {
+        let mut child = clatter()
+            .args(["impacts", "--q=0.9", "--e=0.3", "--limit=18446744073709551615", "--format", format])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut reader = BufReader::new(child.stdout.take().unwrap());
+        if format == "json" {
+            reader.read_until(b'}', &mut Vec::new()).unwrap();
+        } else {
+            reader.read_line(&mut String::new()).unwrap();
+        }
+        drop(reader);
+        let done = child.wait_with_output().unwrap();
+        assert_eq!((done.status.code(), String::from_utf8(done.stderr).unwrap()), (Some(0), String::new()), "{format}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_answer_that_cannot_be_written_is_an_error_even_if_it_is_short() {
+    for arguments in [&["impacts", "--q=0.5", "--e=0.3"][..], &["--version"], &["completions", "bash"]] {
+        let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
+        let done = clatter().args(arguments).stdout(full).output().unwrap();
+        let stderr = String::from_utf8(done.stderr).unwrap();
+        assert_eq!(done.status.code(), Some(2), "{stderr}");
+        assert!(stderr.starts_with("error: cannot write the answer: No space left on device"), "{stderr}");
+        assert_eq!(stderr.lines().count(), 1);
+    }
+}
+
+/// A limit on the size of files stands in for a full disk; the shell's `trap` decides whether reaching it is an error
+/// or kills the process on the spot.
+#[cfg(target_os = "linux")]
+fn map_on_a_full_disk(reaching_it: &str, file: &std::path::Path) -> std::process::Output {
+    Command::new("sh")
+        .args([
+            "-c",
+            &format!("{reaching_it} ulimit -c 0; ulimit -f 8; exec \"$@\""),
+            "sh",
+            env!("CARGO_BIN_EXE_clatter"),
+        ])
+        .args(["map", "peak-end", "--q=0:0.5:100", "--e=0:0.1:100", "-o"])
+        .arg(file)
+        .output()
+        .unwrap()
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_an_error_and_leaves_what_was_there() {
+    let folder = tempfile::tempdir().unwrap();
+    for ending in ["csv", "json", "npy"] {
+        let file = folder.path().join(format!("map.{ending}"));
+        std::fs::write(&file, "older").unwrap();
+        let done = map_on_a_full_disk("trap '' XFSZ;", &file);
+        let stderr = String::from_utf8(done.stderr).unwrap();
+        assert_eq!(done.status.code(), Some(2), "{stderr}");
+        assert!(stderr.starts_with(&format!("error: cannot write {}: ", file.display())), "{stderr}");
+        assert_eq!(std::fs::read_to_string(&file).unwrap(), "older");
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 3, "nothing is left beside the files");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_run_killed_while_it_writes_leaves_what_was_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("map.npy");
+    std::fs::write(&file, "older").unwrap();
+    let done = map_on_a_full_disk("", &file);
+    assert_eq!(done.status.code(), None, "killed by the signal");
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), "older");
+}
+
+/// A stand-in for typst that only fails.
+#[cfg(unix)]
+fn broken_typst(folder: &std::path::Path) -> std::path::PathBuf {
+    use std::os::unix::fs::PermissionsExt;
+    let program = folder.join("typst");
+    std::fs::write(&program, "#!/bin/sh\necho 'error: out of ink' >&2\nexit 1\n").unwrap();
+    std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755)).unwrap();
+    program
+}
+
+#[cfg(unix)]
+#[test]
+fn a_typst_that_fails_is_told_apart_and_leaves_no_pdf() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let typst = broken_typst(folder.path());
+    let done = clatter().args(["report", "paper", "-o"]).arg(&out).env("CLATTER_TYPST", typst).output().unwrap();
+    let stderr = String::from_utf8(done.stderr).unwrap();
+    assert_eq!((done.status.code(), done.stdout), (Some(3), vec![]), "{stderr}");
+    assert!(stderr.starts_with("error: ") && stderr.contains("typst"), "{stderr}");
+    let endings: Vec<_> = std::fs::read_dir(&out).unwrap().map(|file| file.unwrap().path()).collect();
+    assert!(endings.iter().all(|file| file.extension().is_none_or(|ending| ending != "pdf")), "{endings:?}");
+    assert!(endings.iter().any(|file| file.extension().is_some_and(|ending| ending == "json")), "{endings:?}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_report_that_has_nowhere_to_go_is_bad_input() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("file");
+    std::fs::write(&file, "").unwrap();
+    let typst = broken_typst(folder.path());
+    let done = clatter().args(["report", "-o"]).arg(&file).env("CLATTER_TYPST", typst).output().unwrap();
+    let stderr = String::from_utf8(done.stderr).unwrap();
+    assert_eq!(done.status.code(), Some(2), "{stderr}");
+    assert!(stderr.starts_with("error: ") && stderr.contains(file.to_str().unwrap()), "{stderr}");
+}

@@ -1,0 +1,132 @@
+//! The paper's figures, table and claims: the data, and what is made of them.
+
+use clatter::contour::{self, SafeZone};
+use clatter::paper::{Claim, DESIGNS, Row};
+use clatter::{Axis, Bar, Map, Quantity};
+use rayon::prelude::*;
+use serde_json::json;
+
+use crate::figure::plane::{Impacts, Zones, impacts, zones};
+use crate::figure::scheme::scheme;
+use crate::figure::surface::{Sheet, Surface, surface};
+use crate::{ReportError, table};
+
+/// Everything the report shows.
+#[derive(Debug)]
+pub(crate) struct Data {
+    percussion: f64,
+    impacts: Impacts,
+    zones: [Zones; 3],
+    surfaces: [Surface; 2],
+    table1: [Row; 7],
+    claims: Vec<Claim>,
+}
+
+/// A file of the report that needs no typst: its name and content.
+pub(crate) type File = (&'static str, String);
+
+/// Chords stay this close to the exact curves, in parts of the unit square: 0.02 pt in print.
+const FLATNESS: f64 = 1e-4;
+/// Points of a side of the surfaces' grids.
+const MESH: usize = 37;
+/// Curves of Fig. 2 that are drawn: beyond them they run closer than lines can.
+const CURVES: std::ops::RangeInclusive<u32> = 2..=12;
+/// Height at which the surfaces are cut.
+const CUT: f64 = 6.0;
+
+const BLUE: [[u8; 3]; 2] = [[0xd8, 0xe6, 0xf2], [0x2f, 0x62, 0x94]];
+const GREEN: [[u8; 3]; 2] = [[0xdd, 0xe8, 0xd8], [0x5f, 0x86, 0x5c]];
+const AMBER: [[u8; 3]; 2] = [[0xf6, 0xea, 0xcf], [0xb8, 0x8a, 0x3c]];
+
+/// Levels of a threshold's figure, as parts of the bar.
+fn levels(threshold: f64) -> Vec<f64> {
+    let percent: &[f64] = if threshold < 1.0 {
+        &[0.0, 2.5, 5.0, 7.5, 10.0, 12.5, 15.0, 17.5, 20.0, 22.5]
+    } else if threshold < 2.0 {
+        &[0.0, 10.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0]
+    } else {
+        &[10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0, 100.0]
+    };
+    percent.iter().map(|p| p / 100.0).collect()
+}
+
+fn zones_of(threshold: f64) -> Zones {
+    let zone = SafeZone::new(threshold);
+    let levels = levels(threshold).into_par_iter().map(|s| (s, zone.curve(s, FLATNESS))).collect();
+    Zones { threshold, levels, designs: DESIGNS }
+}
+
+fn sheet(quantity: Quantity, name: &'static str, at: [f64; 2], fill: [[u8; 3]; 2]) -> Result<Sheet, ReportError> {
+    let map = Map::compute(quantity, Axis::q(0.0, 1.0, MESH)?, Axis::e(0.0, 1.0, MESH)?)?;
+    Ok(Sheet { map, name, at, fill })
+}
+
+/// The sheet at distance `s` from the center (Eq. 4), from that of the ends.
+fn at_distance(end: &Sheet, s: f64, name: &'static str, at: [f64; 2], fill: [[u8; 3]; 2]) -> Result<Sheet, ReportError> {
+    let mut map = end.map.clone();
+    for (i, line) in map.values.chunks_mut(MESH).enumerate() {
+        let share = Bar::new(map.q.value(i), 0.0)?.share(s);
+        for value in line {
+            *value = if share == 0.0 { 0.0 } else { share * *value };
+        }
+    }
+    Ok(Sheet { map, name, at, fill })
+}
+
+impl Data {
+    /// Computes everything, in parallel.
+    pub(crate) fn compute() -> Result<Self, ReportError> {
+        let (claims, (zones, rest)) = rayon::join(clatter::paper::claims, || {
+            rayon::join(|| [zones_of(0.5), zones_of(1.0), zones_of(2.0)], || {
+                let curves = CURVES.map(|n| (n, contour::impacts(n, 160))).collect();
+                let end = sheet(Quantity::PeakEnd, "*s* = 1", [0.0, 1.0], BLUE)?;
+                let quarter = at_distance(&end, 0.5, "*s* = 0.5", [0.0, 1.0], GREEN)?;
+                let center = at_distance(&end, 0.0, "*s* = 0", [0.0, 1.0], AMBER)?;
+                let angular = sheet(Quantity::PeakAngular, "", [0.0, 1.0], BLUE)?;
+                let view = |sheets, axis, title| Surface { sheets, cut: CUT, axis, title, azimuth: 35.0, elevation: 24.0 };
+                let surfaces = [
+                    view(vec![angular], "Δ*ω*_{max}  in *v*_0/*L*", "Largest change of angular velocity"),
+                    view(vec![center, quarter, end], "Δ*v*_{max}  in *v*_0", "Largest velocity shocks"),
+                ];
+                let table1 = clatter::paper::table1()?;
+                Ok::<_, ReportError>((Impacts { curves, endless: contour::endless(160) }, surfaces, table1))
+            })
+        });
+        let (impacts, surfaces, table1) = rest?;
+        Ok(Self { percussion: Bar::new(0.5, 0.3)?.percussion(), impacts, zones, surfaces, table1, claims: claims? })
+    }
+
+    /// Figures as SVG, tables as JSON and CSV.
+    pub(crate) fn files(&self) -> Result<Vec<File>, ReportError> {
+        let figures: Vec<File> = (1..=7u8)
+            .into_par_iter()
+            .map(|n| match n {
+                1 => ("figure-1.svg", scheme(self.percussion)),
+                2 => ("figure-2.svg", impacts(&self.impacts)),
+                3 => ("figure-3.svg", surface(&self.surfaces[0])),
+                4 => ("figure-4.svg", surface(&self.surfaces[1])),
+                5 => ("figure-5.svg", zones(&self.zones[0])),
+                6 => ("figure-6.svg", zones(&self.zones[1])),
+                _ => ("figure-7.svg", zones(&self.zones[2])),
+            })
+            .collect();
+        let (table1, claims) = (table::table1(&self.table1), table::claims(&self.claims));
+        let tables = [
+            ("table-1.json", pretty(&table1)?),
+            ("table-1.csv", table1.csv()),
+            ("claims.json", pretty(&claims)?),
+            ("claims.csv", claims.csv()),
+        ];
+        Ok(figures.into_iter().chain(tables).collect())
+    }
+}
+
+fn pretty(value: &impl serde::Serialize) -> Result<String, ReportError> {
+    let text = serde_json::to_string_pretty(value).map_err(|error| ReportError::Data(error.to_string()))?;
+    Ok(text + "\n")
+}
+
+/// What only the page needs.
+pub(crate) fn page() -> String {
+    json!({ "version": env!("CARGO_PKG_VERSION") }).to_string()
+}

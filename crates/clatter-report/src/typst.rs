@@ -1,0 +1,180 @@
+//! The one place that starts typst.
+
+use std::ffi::OsString;
+use std::fs;
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use crate::ReportError;
+
+/// The version the pages are tested with.
+const VERSION: &str = "0.15.1";
+/// A compile of these pages takes well under a second; whatever takes so long hangs.
+const COMPILE_LIMIT: Duration = Duration::from_secs(120);
+/// Asking for the version takes milliseconds.
+const VERSION_LIMIT: Duration = Duration::from_secs(20);
+
+/// A typst to start.
+#[derive(Debug)]
+pub(crate) struct Typst {
+    program: PathBuf,
+}
+
+/// How a run ended, where it did not hang.
+struct Ended {
+    success: bool,
+    stdout: String,
+    stderr: String,
+}
+
+fn failed(message: impl Into<String>) -> ReportError {
+    ReportError::Typst(message.into())
+}
+
+impl Typst {
+    /// The typst that `CLATTER_TYPST` names, else the one on PATH, else the one in the project's cache, else a
+    /// new one there, built with cargo unless `CLATTER_NO_INSTALL` is set. A version other than the tested one
+    /// is a warning.
+    pub(crate) fn find(progress: &mut dyn FnMut(&str)) -> Result<(Self, Option<String>), ReportError> {
+        let typst = Self { program: locate(progress)? };
+        let ended = run(Command::new(&typst.program).arg("--version"), VERSION_LIMIT, &typst.program)?;
+        let version = ended.stdout.split_whitespace().nth(1).unwrap_or_default();
+        if !ended.success || !ended.stdout.starts_with("typst ") {
+            return Err(failed(format!("{} is not typst: it does not tell its version", typst.program.display())));
+        }
+        let warning = (version != VERSION).then(|| {
+            format!("typst {version} at {}: the pages are tested with {VERSION}", typst.program.display())
+        });
+        Ok((typst, warning))
+    }
+
+    /// Compiles `main`, a file in `root`, and gives the PDF. Whatever typst says is a failure: it warns of missing
+    /// fonts and goes on.
+    pub(crate) fn compile(&self, root: &Path, main: &str) -> Result<Vec<u8>, ReportError> {
+        let output = root.join("page.pdf");
+        let mut command = Command::new(&self.program);
+        command.args(["compile", "--ignore-system-fonts", "--pdf-standard", "ua-1", "--diagnostic-format", "short"]);
+        // the pages carry no date; this keeps typst from adding one
+        command.args(["--creation-timestamp", "0", "--root", "."]).arg(main).arg("page.pdf").current_dir(root);
+        for name in ["TYPST_FONT_PATHS", "TYPST_PACKAGE_PATH", "TYPST_ROOT", "TYPST_FEATURES", "SOURCE_DATE_EPOCH"] {
+            command.env_remove(name);
+        }
+        let ended = run(&mut command, COMPILE_LIMIT, &self.program)?;
+        let said = ended.stderr.trim();
+        if !ended.success || !said.is_empty() {
+            let said = if said.is_empty() { "it gave no reason" } else { said };
+            return Err(failed(format!("typst could not set the page: {said}")));
+        }
+        fs::read(&output).map_err(|source| ReportError::Io { path: output, source })
+    }
+}
+
+/// Finds or builds the program.
+fn locate(progress: &mut dyn FnMut(&str)) -> Result<PathBuf, ReportError> {
+    if let Some(named) = std::env::var_os("CLATTER_TYPST").filter(|name| !name.is_empty()) {
+        let path = PathBuf::from(named);
+        return if path.is_file() {
+            Ok(path)
+        } else {
+            Err(failed(format!("CLATTER_TYPST names {}, which is no file", path.display())))
+        };
+    }
+    let name = format!("typst{}", std::env::consts::EXE_SUFFIX);
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    if let Some(found) = std::env::split_paths(&path).map(|dir| dir.join(&name)).find(|file| file.is_file()) {
+        return Ok(found);
+    }
+    let Some(cache) = cache() else {
+        return Err(failed("no typst on PATH, and no home directory to keep one in; set CLATTER_TYPST"));
+    };
+    let root = cache.join("clatter").join(format!("typst-{VERSION}"));
+    let program = root.join("bin").join(&name);
+    if program.is_file() {
+        return Ok(program);
+    }
+    let build = format!(
+        "cargo install typst-cli --version {VERSION} --locked --no-default-features --features embedded-fonts,vendor-openssl"
+    );
+    if std::env::var_os("CLATTER_NO_INSTALL").is_some_and(|v| !v.is_empty() && v != "0") {
+        return Err(failed(format!(
+            "no typst: set CLATTER_TYPST, put typst {VERSION} on PATH, or unset CLATTER_NO_INSTALL to have it built; \
+             by hand: {build}"
+        )));
+    }
+    progress(&format!("no typst found: building {VERSION} into {}, 7 to 12 minutes, once", root.display()));
+    let mut words = build.split(' ');
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| OsString::from(words.next().unwrap_or("cargo")));
+    let words = build.split(' ').skip(1);
+    let status = Command::new(cargo)
+        .args(words)
+        .arg("--root")
+        .arg(&root)
+        .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1") // sets a page as fast and builds in half the time
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .status()
+        .map_err(|error| failed(format!("no typst, and cargo to build it cannot be started: {error}")))?;
+    if status.success() && program.is_file() {
+        Ok(program)
+    } else {
+        Err(failed(format!("typst could not be built ({status}); by hand: {build}")))
+    }
+}
+
+/// The user's cache directory.
+fn cache() -> Option<PathBuf> {
+    let dir = |name: &str| std::env::var_os(name).filter(|v| !v.is_empty()).map(PathBuf::from);
+    if let Some(xdg) = dir("XDG_CACHE_HOME").filter(|path| path.is_absolute()) {
+        return Some(xdg);
+    }
+    if cfg!(windows) {
+        dir("LOCALAPPDATA")
+    } else if cfg!(target_os = "macos") {
+        dir("HOME").map(|home| home.join("Library").join("Caches"))
+    } else {
+        dir("HOME").map(|home| home.join(".cache"))
+    }
+}
+
+/// Runs a command to its end, or kills it at the limit.
+fn run(command: &mut Command, limit: Duration, program: &Path) -> Result<Ended, ReportError> {
+    let child = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
+    let mut child = child.map_err(|error| failed(format!("{} cannot be started: {error}", program.display())))?;
+    let readers = (reader(child.stdout.take()), reader(child.stderr.take()));
+    let Some(success) = wait(&mut child, limit)? else {
+        return Err(failed(format!("{} was cut off after {} s without an end", program.display(), limit.as_secs())));
+    };
+    let text = |handle: thread::JoinHandle<String>| handle.join().unwrap_or_default();
+    Ok(Ended { success, stdout: text(readers.0), stderr: text(readers.1) })
+}
+
+/// Reads a pipe to its end beside the wait, so that a full pipe stops nobody.
+fn reader(pipe: Option<impl std::io::Read + Send + 'static>) -> thread::JoinHandle<String> {
+    thread::spawn(move || {
+        let mut bytes = Vec::new();
+        if let Some(mut pipe) = pipe {
+            let _ = pipe.read_to_end(&mut bytes); // what was read until then is still worth showing
+        }
+        String::from_utf8_lossy(&bytes).into_owned()
+    })
+}
+
+/// Whether the child succeeded; `None` if it had to be killed.
+fn wait(child: &mut Child, limit: Duration) -> Result<Option<bool>, ReportError> {
+    let end = Instant::now() + limit;
+    loop {
+        match child.try_wait() {
+            Ok(Some(status)) => return Ok(Some(status.success())),
+            Ok(None) if Instant::now() < end => thread::sleep(Duration::from_millis(2)),
+            Ok(None) => {
+                let _ = child.kill(); // it may have ended by itself in between
+                let _ = child.wait();
+                return Ok(None);
+            }
+            Err(error) => return Err(failed(format!("typst was lost: {error}"))),
+        }
+    }
+}

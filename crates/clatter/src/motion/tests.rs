@@ -1,0 +1,219 @@
+//! The closed form against integer arithmetic, where it is hardest: next to the endless curve, in the corner
+//! (1, 1), next to ties, for starts that hardly end.
+
+use super::*;
+use crate::accuracy;
+use crate::{Count, PeakImpact};
+use proptest::prelude::*;
+
+/// Bars on, next to and far from the endless curve q = 2√e/(1 + e), and in the corner (1, 1).
+fn bars() -> impl Strategy<Value = Bar> {
+    let anywhere = (-0.999..1.0_f64, 0.0..1.0_f64).prop_map(|(q, e)| Bar::new(q, e).unwrap());
+    // A relative distance of 10^-d to either side, down to neighboring floats.
+    let beside =
+        (prop_oneof![0.0..1.0_f64, (-300.0..0.0_f64).prop_map(|x| 10f64.powf(x))], 1.0..17.0_f64, prop::bool::ANY);
+    let beside = beside.prop_map(|(e, d, above)| {
+        let q = 2.0 * e.sqrt() / (1.0 + e);
+        let q = q * if above { 1.0 + 10f64.powf(-d) } else { 1.0 - 10f64.powf(-d) };
+        Bar::new(q.min(1.0), e).unwrap()
+    });
+    let ulps = (0.0..1.0_f64, -3..4_i64).prop_map(|(e, ulps)| {
+        let q = 2.0 * e.sqrt() / (1.0 + e);
+        let q = f64::from_bits(q.to_bits().wrapping_add_signed(ulps));
+        Bar::new(q.min(1.0), e).unwrap()
+    });
+    let corner = (0.0..16.5_f64, 0.0..16.5_f64)
+        .prop_map(|(x, y)| Bar::new(1.0 - 10f64.powf(-x) * 0.5, 1.0 - 10f64.powf(-y)).unwrap());
+    let gyration = (-12.0..0.5_f64, 0.0..16.5_f64)
+        .prop_map(|(k, y)| Bar::from_gyration_ratio(10f64.powf(k), 1.0 - 10f64.powf(-y)).unwrap());
+    // e = ((1 − k)/(1 + k))² puts a bar given by k next to the curve.
+    let gyration_beside = (-9.0..-0.5_f64, -2..3_i64).prop_map(|(k, ulps)| {
+        let k = 10f64.powf(k);
+        let root = (1.0 - k) / (1.0 + k);
+        Bar::from_gyration_ratio(k, f64::from_bits((root * root).to_bits().wrapping_add_signed(ulps)).min(1.0)).unwrap()
+    });
+    prop_oneof![anywhere, beside, ulps, corner, gyration, gyration_beside]
+}
+
+/// Starts that translate, spin, or hardly come back down; the last aims at a near tie at strike n.
+fn starts(bar: Bar) -> impl Strategy<Value = Start> {
+    let translation = Just(Start::default());
+    let spin = (-3.0..3.0_f64).prop_map(|vb| Start::new([-1.0, vb], 1.0).unwrap());
+    // v_b a relative 10^-d beside λ₊ or T/2, where the train hardly ends.
+    let edge = (0.0..17.0_f64, prop::bool::ANY, prop::bool::ANY).prop_map(move |(d, up, half)| {
+        let t = bar.q() * (1.0 + bar.e());
+        let root = 0.5 * (t + if half { 0.0 } else { (t * t - 4.0 * bar.e()).max(0.0).sqrt() });
+        let vb = root * if up { 1.0 + 10f64.powf(-d) } else { 1.0 - 10f64.powf(-d) };
+        Start::new([-1.0, vb], 1.0).unwrap()
+    });
+    let tie = (1..200_u64, 0.5..2.0_f64).prop_map(move |(n, va)| {
+        let (t, e) = (bar.q() * (1.0 + bar.e()), bar.e());
+        let (mut b, mut next) = (1.0, t);
+        for _ in 1..n {
+            let size = f64::max(next.abs(), 1e-100);
+            (b, next) = (next / size, (t * next - e * b) / size);
+        }
+        let vb = va * next / b;
+        Start::new([-va, if vb.abs() < 1e9 { vb } else { 0.0 }], 1.0).unwrap()
+    });
+    prop_oneof![2 => translation, 2 => spin, 1 => edge, 2 => tie]
+}
+
+fn drops() -> impl Strategy<Value = (Bar, Start)> {
+    bars().prop_flat_map(|bar| (Just(bar), starts(bar)))
+}
+
+/// The time of strike n + 1 from integers.
+fn exact_time(bar: &Bar, start: &Start, n: u128) -> f64 {
+    let ((c, cx), (u, ux)) = exact(bar, start).values(n);
+    let (nu, nx) = bar.exact_q().1.to_float();
+    start.height_gap() * ldexp(u * nu / -c, clamp(ux + nx - cx))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(3000))]
+
+    /// The train ends with the first velocity that is not negative, and is endless only where the integers say so.
+    #[test]
+    fn the_count_is_exact((bar, start) in drops()) {
+        let exact = exact(&bar, &start);
+        match bar.count(&start) {
+            Count::Finite(n) => {
+                let n = u128::from(n);
+                prop_assert!(exact.sign(n) != Ordering::Less, "a_{n} is still negative");
+                prop_assert_eq!(exact.sign(n - 1), Ordering::Less, "a_{} is not negative any more", n - 1);
+                for early in 0..n.min(40) {
+                    prop_assert_eq!(exact.sign(early), Ordering::Less, "a_{} of {}", early, n);
+                }
+            }
+            Count::Endless => {
+                prop_assert!(exact.discriminant().sign() != Ordering::Greater, "D > 0");
+                let at_once = bar.e() == 0.0 && exact.sign(1) == Ordering::Less;
+                prop_assert!(at_once || exact.endless(), "it ends");
+            }
+            Count::Huge(n) => prop_assert!(n > 1.8e19, "huge"),
+        }
+    }
+
+    #[test]
+    fn the_impact_of_the_peak_is_exact((bar, start) in drops()) {
+        let differences = exact(&bar, &start).differences(&bar);
+        match bar.summary(&start).peak.impact {
+            PeakImpact::Number(n) => {
+                let n = u128::from(n) - 1;
+                prop_assert!(differences.sign(n) != Ordering::Less, "it rises beyond");
+                prop_assert!(n == 0 || differences.sign(n - 1) == Ordering::Less, "it did not rise until then");
+            }
+            PeakImpact::Limit => {
+                prop_assert!(bar.less == 0.0 && differences.sign(1000) == Ordering::Less, "it does not rise for ever");
+            }
+            PeakImpact::Huge(n) => prop_assert!(n > 1.8e19, "huge"),
+        }
+    }
+
+    /// Of an endless train, 1000 strikes: their times against integers, at the allowed error.
+    #[test]
+    fn strikes_and_ends_hold_the_allowed_errors((bar, start) in drops(), pick in 0.0..1.0_f64) {
+        let s = bar.summary(&start);
+        let known = match s.count {
+            Count::Finite(n) => n,
+            Count::Endless => 1000,
+            Count::Huge(_) => return Ok(()),
+        };
+        if let Count::Finite(n) = s.count {
+            let want = exact_time(&bar, &start, u128::from(n) - 1);
+            let allowed = if n <= accuracy::SHORT { accuracy::DURATION } else { accuracy::DURATION_LONG };
+            let error = (s.duration - want).abs() / want.max(1.0);
+            prop_assert!(error <= allowed.error, "duration {} not {want}: {error:e}", s.duration);
+        }
+        // Some strike, and one of the last.
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "below N")]
+        let some = (known as f64 * pick.powi(3)) as u64;
+        for n in [some, known.saturating_sub(1 + (some & 7))] {
+            let impact = bar.train(&start).nth(usize::try_from(n).unwrap()).unwrap();
+            prop_assert_eq!(impact.number, n + 1);
+            let want = exact_time(&bar, &start, u128::from(n));
+            let error = (impact.time - want).abs() / want.max(1.0);
+            prop_assert!(error <= accuracy::TIME.error, "strike {} of {known}: {} not {want}: {error:e}", n + 1, impact.time);
+            if bar.exact_q().1 == Dyadic::from(1.0) {
+                let (c, x) = exact(&bar, &start).values(u128::from(n)).0;
+                let want = ldexp(c, clamp(x));
+                let error = (impact.approach - want).abs() / want.abs().max(-start.velocity()[0]);
+                prop_assert!(error <= accuracy::APPROACH.error, "approach {}: {error:e}", n + 1);
+            }
+        }
+        prop_assert!(s.count == Count::Endless || bar.train(&start).nth(usize::try_from(known).unwrap()).is_none(), "and no more");
+    }
+
+    /// The peak and the final velocities against integers.
+    #[test]
+    fn peaks_and_final_velocities_hold_the_allowed_errors((bar, start) in drops()) {
+        if bar.exact_q().1 != Dyadic::from(1.0) {
+            return Ok(()); // its terms are not those of the integers, but of ν^n
+        }
+        let s = bar.summary(&start);
+        let exact = exact(&bar, &start);
+        let value = |n: u128| { let (c, x) = exact.values(n).0; ldexp(c, clamp(x)) };
+        if let PeakImpact::Number(n) = s.peak.impact {
+            let want = (1.0 + bar.e()) * -value(u128::from(n) - 1);
+            let error = (s.peak.end - want).abs() / want;
+            prop_assert!(error <= accuracy::PEAK.error, "peak {} not {want}: {error:e}", s.peak.end);
+        }
+        if let (Count::Finite(n), Some([a, b])) = (s.count, s.final_velocity) && n <= accuracy::SHORT {
+            let (struck, free) = (-bar.e() * value(u128::from(n) - 1), value(u128::from(n)));
+            let want = if n % 2 == 1 { [struck, free] } else { [free, struck] };
+            let size = struck.max(free);
+            // Subnormal velocities have fewer digits to be right.
+            let error = (a - want[0]).abs().max((b - want[1]).abs()) / size.max(1e-300);
+            prop_assert!(error <= accuracy::FINAL.error, "final [{a:e}, {b:e}] not {want:?}: {error:e}");
+        }
+    }
+}
+
+/// With e = 1 and T = ½ the companion solution `b_n` has n bits, so that starts in its ratio tie at every n to 50.
+#[test]
+fn exact_ties_end_the_train_with_the_strike_before() {
+    let bar = Bar::new(0.25, 1.0).unwrap();
+    let (mut b, mut next) = (1.0, 0.5);
+    for n in 1..50_u64 {
+        // a_n = v_a b_{n+1} + v_b b_n = 0.
+        let (va, vb) = if b > 0.0 { (-b, next) } else { (b, -next) };
+        let start = Start::new([va, vb], 1.0).unwrap();
+        let exact = exact(&bar, &start);
+        assert_eq!(exact.sign(u128::from(n)), Ordering::Equal, "a tie at {n}");
+        let first = (1..=n).find(|&m| exact.sign(u128::from(m)) != Ordering::Less).unwrap();
+        assert_eq!(bar.count(&start), Count::Finite(first), "tie at {n}");
+        assert_eq!(bar.train(&start).count() as u64, first, "train of the tie at {n}");
+        (b, next) = (next, 0.5 * next - b);
+    }
+}
+
+/// The paper's own ties among pure translations: (−½, 1) after one impact, (0, 0) after two.
+#[test]
+fn the_two_ties_of_pure_translation() {
+    for (q, e, n) in [(-0.5, 1.0, 1), (0.0, 0.0, 2)] {
+        assert_eq!(Bar::new(q, e).unwrap().count(&Start::default()), Count::Finite(n), "({q}, {e})");
+    }
+}
+
+/// e = 4⁻ᵐ and q = 2·2⁻ᵐ/(1 + 4⁻ᵐ) is a float for m ≤ 26: the curve itself but for one rounding, N up to 10¹⁶.
+#[test]
+fn counts_beyond_the_integers_of_f64() {
+    let bar = Bar::new(2.0 * 2f64.powi(-26) / (1.0 + 2f64.powi(-52)), 2f64.powi(-52)).unwrap();
+    let Count::Finite(n) = bar.count(&Start::default()) else { panic!("it ends") };
+    assert!(n > 1 << 53, "{n}");
+    let exact = exact(&bar, &Start::default());
+    assert_eq!(exact.sign(u128::from(n) - 1), Ordering::Less, "one before");
+    assert_ne!(exact.sign(u128::from(n)), Ordering::Less, "the end");
+}
+
+/// Massless ends, almost: more than 2⁶⁴ impacts, said as a float; the duration is as good as ever.
+#[test]
+fn counts_beyond_2_to_the_64_are_floats() {
+    let bar = Bar::from_gyration_ratio(1e-25, 1.0).unwrap();
+    let s = bar.summary(&Start::default());
+    // N = π/θ − …, θ → 2k for k → 0.
+    let Count::Huge(n) = s.count else { panic!("{:?}", s.count) };
+    assert!((n * 2e-25 / std::f64::consts::PI - 1.0).abs() < 1e-15, "{n:e}");
+    assert!(s.duration > 0.5, "{}", s.duration);
+}

@@ -1,0 +1,25 @@
+# Every recipe is one line that runs as well without just.
+
+# All reports, into ./report
+report:
+    cargo run --release -- report
+
+# Every test of every crate
+test:
+    cargo test --release --workspace
+
+# Format, lints and docs
+check:
+    cargo fmt --all --check && cargo clippy --workspace --all-targets -- -D warnings && RUSTDOCFLAGS=-Dwarnings cargo doc --workspace --no-deps
+
+# The golden numbers: fails where one moved or is no longer used (then: cargo insta review)
+golden:
+    cargo insta test --release -p clatter-golden --check --unreferenced=reject
+
+# Times and instruction counts
+bench:
+    cargo bench --workspace
+
+# Everything that gates a change
+ci:
+    .ci/run

@@ -1,0 +1,40 @@
+//! Acceptance tests: the command as users and their scripts see it.
+//!
+//! They run the command within the test process; what needs a process of its own (a closed pipe, a full disk) is
+//! tested beside the binary, in `crates/clatter-cli/tests`.
+
+#![cfg(test)]
+
+mod bad_input;
+mod extremes;
+mod json;
+mod map;
+mod oracle;
+mod tables;
+
+use clatter_cli::{Exit, Streams, run};
+use serde_json::Value;
+
+/// What came of one call.
+struct Outcome {
+    exit: Exit,
+    stdout: String,
+    stderr: String,
+}
+
+/// Calls `clatter` with these arguments.
+fn clatter<S: AsRef<str>>(arguments: impl IntoIterator<Item = S>) -> Outcome {
+    let arguments: Vec<String> = arguments.into_iter().map(|argument| argument.as_ref().to_owned()).collect();
+    let (mut out, mut err) = (Vec::new(), Vec::new());
+    let mut streams = Streams { out: &mut out, err: &mut err, interactive: false };
+    let exit = run(std::iter::once("clatter".to_owned()).chain(arguments), &mut streams);
+    Outcome { exit, stdout: String::from_utf8(out).unwrap(), stderr: String::from_utf8(err).unwrap() }
+}
+
+/// Calls `clatter` for an answer in JSON, which must come alone.
+fn answer<S: AsRef<str>>(arguments: impl IntoIterator<Item = S>) -> Value {
+    let arguments = arguments.into_iter().map(|argument| argument.as_ref().to_owned());
+    let outcome = clatter(arguments.chain(["--format=json".to_owned()]));
+    assert_eq!((outcome.exit, outcome.stderr.as_str()), (Exit::Done, ""), "{}", outcome.stdout);
+    serde_json::from_str(&outcome.stdout).unwrap()
+}
