@@ -48,7 +48,7 @@ pub(super) struct Pose {
 }
 
 /// −1 for end a, +1 for end b.
-fn sigma(i: usize) -> f64 {
+pub(super) fn sigma(i: usize) -> f64 {
     if i == 0 { -1.0 } else { 1.0 }
 }
 
@@ -86,7 +86,7 @@ impl Pose {
         let turn = versine * self.cos + sin * self.sin;
         (h + (t * (v - 0.5 * self.gravity * t) - arm * bend), v - self.gravity * t - arm * self.spin * turn)
     }
-    fn after(&self) -> After {
+    pub(super) fn after(&self) -> After {
         After { ends: self.ends, tilt: self.sin.atan2(self.cos), spin: self.spin }
     }
     /// Free vertical acceleration of end i.
@@ -99,19 +99,18 @@ impl Pose {
         let State { h, v } = self.ends;
         ((b * h[0] + a * h[1]) / (a + b), (b * v[0] + a * v[1]) / (a + b))
     }
+    /// Time after t in which no angle lets end i touch: the center is higher than its arm.
+    pub(super) fn clear(&self, i: usize, t: f64) -> f64 {
+        let (y, v) = self.center();
+        let clear = y + t * (v - 0.5 * self.gravity * t) - self.arm(i);
+        if clear > 0.0 { safe_step(clear, v - self.gravity * t, self.gravity) } else { 0.0 }
+    }
     /// When end i touches the ground, if before `cap`. `leaving`: it starts on the ground without velocity, upward.
     pub(super) fn touch(&self, i: usize, cap: f64, leaving: bool) -> Option<f64> {
         let arm = self.arm(i);
         let w2 = self.spin * self.spin;
         let bound = self.gravity + arm * w2;
-        let (y, vy) = self.center();
-        let g = self.gravity;
-        let step = |t: f64, h: f64, v: f64| {
-            let near = safe_step(h, v, bound);
-            // No angle lets the end touch while the center is higher than its arm.
-            let clear = y + t * (vy - 0.5 * g * t) - arm;
-            if clear > 0.0 { near.max(safe_step(clear, vy - g * t, g)) } else { near }
-        };
+        let step = |t: f64, h: f64, v: f64| safe_step(h, v, bound).max(self.clear(i, t));
         let (h, v) = (self.ends.h[i], self.ends.v[i]);
         let first = if h > 0.0 {
             0.0
@@ -298,7 +297,7 @@ pub(super) fn simulate(scene: &Scene) -> Flight {
     log.flight
 }
 
-fn end_of(i: usize) -> End {
+pub(super) fn end_of(i: usize) -> End {
     if i == 0 { End::A } else { End::B }
 }
 

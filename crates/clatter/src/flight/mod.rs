@@ -37,6 +37,7 @@
 //! ```
 
 mod ballistic;
+mod compliant;
 mod finite_tilt;
 mod map;
 mod pivot;
@@ -44,9 +45,10 @@ mod roots;
 mod scene;
 mod settling;
 
+pub use compliant::{CompliantFlight, Contact, Pulse, Sample};
 pub use scene::{Body, Scene};
 
-use crate::End;
+use crate::{End, Error};
 
 /// Share of the largest velocity shock below which shocks may be left out of the list once a bound on all of
 /// them, and on the time they take, is proven: 2⁻⁵².
@@ -184,6 +186,25 @@ impl Scene {
             Model::Ballistic if self.gravity_m_s2() == 0.0 => map::simulate(self),
             Model::Ballistic => ballistic::simulate(self),
             Model::FiniteTilt => finite_tilt::simulate(self),
+        }
+    }
+}
+
+impl Scene {
+    /// The flight with a linear spring and dashpot at each end, fitted to the scene's restitution and to the time that a
+    /// lone contact takes.
+    ///
+    /// # Errors
+    /// [`Error::Quantity`] unless e is in [0.01, 1], the contact time in [1e−12, 1e3] s and the radius of gyration positive
+    /// (a massless end has no contact time).
+    pub fn simulate_compliant(&self, contact_time_s: f64) -> Result<CompliantFlight, Error> {
+        let contact = Contact::new(self.e(), contact_time_s)?;
+        let gyration_m = self.body().gyration_m();
+        if gyration_m > 0.0 {
+            Ok(compliant::simulate(self, contact))
+        } else {
+            let allowed = "positive for a compliant contact";
+            Err(Error::Quantity { name: "radius of gyration in m", value: gyration_m, allowed })
         }
     }
 }
