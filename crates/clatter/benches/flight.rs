@@ -37,3 +37,11 @@ fn elastic_ballistic(bencher: Bencher, strikes: usize) {
 fn elastic_finite_tilt(bencher: Bencher, strikes: usize) {
     bench(bencher, Model::FiniteTilt, scene(0.5, 1.0, strikes));
 }
+
+/// Contacts of 0.3 ms: the first four strikes, and all until rest.
+#[divan::bench(args = [4, 100_000])]
+fn compliant(bencher: Bencher, impacts: usize) {
+    let scene = scene(0.5, 0.3, impacts);
+    let strikes = scene.simulate_compliant(3e-4).expect("a contact").flight.strikes.len();
+    bencher.counter(ItemsCount::new(strikes)).bench(|| black_box(scene).simulate_compliant(3e-4));
+}

@@ -11,7 +11,8 @@ fn the_restitution_fitted_is_the_restitution_had() {
     for e in [0.01, 0.05, 0.13, (-2.0_f64).exp(), 0.14, 0.3, 0.7, 0.99, 1.0 - 1e-9, 1.0] {
         for (tilt, contact_time) in [(60.0, 1e-6), (60.0, 1e-3), (5.0, 1e-9)] {
             // Without gravity and with q < 0 the other end is far from the ground.
-            let scene = Scene::new(body(-0.3), e, 2.0, tilt, 0.0).unwrap().with_time_limit_s(2.0 * contact_time).unwrap();
+            let scene =
+                Scene::new(body(-0.3), e, 2.0, tilt, 0.0).unwrap().with_time_limit_s(2.0 * contact_time).unwrap();
             let flight = scene.simulate_compliant(contact_time).unwrap();
             let s = &flight.flight.strikes[0];
             let had = -(s.approach_m_s + s.delta_v_m_s[0]) / s.approach_m_s;

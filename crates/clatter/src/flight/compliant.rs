@@ -22,8 +22,8 @@
 //!
 //! # Phases
 //! With one end in contact its height is a damped oscillation, the other end a parabola plus a multiple of it. With both,
-//! `w = √κ h` obeys `w″ = −g √κ − S (w + θ w′)` with `S = ω² [[1, r], [r, 1]]`: the sum and the difference of w are modes of
-//! stiffness ω² (1 ± r) and damping in proportion. So every phase is a sum of known functions, evaluated and not stepped.
+//! `w = √κ h` obeys `w″ = −√κ g − S (w + θ w′)` with a symmetric S, whose two modes are damped in proportion to their
+//! stiffness. So every phase is a sum of known functions, evaluated and not stepped.
 //! Touching, parting and coming back into contact are first zeros found by [`roots`](super::roots): the energy
 //! `z′² + k z²` of a mode never grows and bounds every derivative from any moment on.
 //!
@@ -31,9 +31,9 @@
 //! from above, or, if it never gets there, when the force law pushes again; that belongs to the same strike.
 //!
 //! # Error of the kept lever arm
-//! A contact turns the body by ω τ: relative to exact geometry the lever arm is off by tan φ · ω τ, which goes to zero with
-//! the contact time. An end that lies on its spring while the body pivots keeps the angle of its touch: the error is
-//! then that of small tilt, 1 − cos φ.
+//! Lever arms, and the acceleration by turning, are those of the beginning of a phase; at its end the pose follows in exact
+//! geometry. A phase ends with any touch or parting, and after a turn of 1/50 rad (so that a body may
+//! pivot on its spring). The shock of a contact is off by tan φ · ω τ of itself at most, ω the spin it leaves.
 
 use super::ballistic::Clock;
 use super::finite_tilt::{Pose, end_of, sigma};
@@ -44,6 +44,7 @@ use crate::{End, Error};
 /// Natural frequency and damping ratio of a lone contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
+    time: f64,
     frequency: f64,
     damping: f64,
 }
@@ -86,7 +87,7 @@ impl Contact {
         }
         let (damping, sine) = if under { (hi.cos(), hi.sin()) } else { (hi.cosh(), hi.sinh()) };
         let damping = if loss > 0.0 { damping } else { 0.0 };
-        Ok(Self { frequency: 2.0 * hi / sine / contact_time_s, damping })
+        Ok(Self { time: contact_time_s, frequency: 2.0 * hi / sine / contact_time_s, damping })
     }
     /// Natural frequency ω of a lone contact, rad/s.
     #[must_use]
@@ -152,42 +153,60 @@ impl Mode {
     }
 }
 
-/// A phase with one or both ends in contact, at fixed lever arms.
+/// Share of a radian, and of the time √(L/g), after which the lever arms of a phase are renewed.
+const TURN: f64 = 0.02;
+
+/// Phases, beyond 16 a strike, after which a body that neither rests nor strikes is left at the time it has reached.
+const PHASES: usize = 100_000;
+
+/// A phase with one or both ends in contact, at fixed lever arms; with none it only holds the pose.
 #[derive(Debug, Clone, Copy)]
 struct Phase {
     start: Pose,
     on: [bool; 2],
-    contact: Contact,
+    delay: f64,
+    /// Downward acceleration of each end without contact: gravity, in a long contact also the turning at the start.
+    fall: [f64; 2],
     /// Lever arms with sign, 1 + x²/ρ², and 1 + x_a x_b/ρ².
     x: [f64; 2],
     mu: [f64; 2],
     cross: f64,
+    /// Stiffness over the mass of the body, from the angle of touch.
     kappa: [f64; 2],
     modes: [Mode; 2],
+    /// cos and sin of the angle that turns √κ h into modes.
+    mix: (f64, f64),
 }
 
 impl Phase {
-    fn new(start: Pose, on: [bool; 2], contact: Contact, cos: f64) -> Self {
+    fn new(start: Pose, on: [bool; 2], contact: Contact, kappa: [f64; 2], long: bool) -> Self {
         let rho2 = start.body.gyration_m().powi(2);
-        let arms = start.body.arms_m();
-        let x = [-arms[0] * cos, arms[1] * cos];
+        let x = start.levers();
         let mu = x.map(|x| 1.0 + x * x / rho2);
         let cross = 1.0 + x[0] * x[1] / rho2;
-        let (w2, delay, g) = (contact.frequency.powi(2), contact.delay(), start.gravity);
-        let kappa = mu.map(|mu| w2 / mu);
+        let fall = if long { [0, 1].map(|i| -start.acceleration(i)) } else { [start.gravity; 2] };
         let (h, v) = (start.ends.h, start.ends.v);
-        let modes = if on == [true; 2] {
-            let r = cross / (mu[0] * mu[1]).sqrt();
+        let delay = contact.delay();
+        let (modes, mix) = if on == [true; 2] {
             let root = kappa.map(f64::sqrt);
-            [1.0, -1.0].map(|sign| {
-                let mix = |u: [f64; 2]| (root[0] * u[0] + sign * root[1] * u[1]) / std::f64::consts::SQRT_2;
-                Mode::new(w2 * (1.0 + sign * r), delay, -g * mix([1.0; 2]), mix(h), mix(v))
-            })
+            // S = [[κ_a μ_a, off], [off, κ_b μ_b]], positive definite.
+            let (off, half) = (root[0] * root[1] * cross, 0.5 * (kappa[0] * mu[0] - kappa[1] * mu[1]));
+            let (sin, cos) = (0.5 * off.atan2(half)).sin_cos();
+            let large = 0.5 * (kappa[0] * mu[0] + kappa[1] * mu[1]) + half.hypot(off);
+            // The small eigenvalue by the determinant, κ_a κ_b (x_b − x_a)²/ρ².
+            let small = kappa[0] * kappa[1] * (x[1] - x[0]).powi(2) / rho2 / large;
+            let one = |u: [f64; 2]| cos * root[0] * u[0] + sin * root[1] * u[1];
+            let two = |u: [f64; 2]| cos * root[1] * u[1] - sin * root[0] * u[0];
+            let modes = [
+                Mode::new(large, delay, -one(fall), one(h), one(v)),
+                Mode::new(small, delay, -two(fall), two(h), two(v)),
+            ];
+            (modes, (cos, sin))
         } else {
             let i = usize::from(on[1]);
-            [Mode::new(w2, delay, -g, h[i], v[i]); 2]
+            ([Mode::new(kappa[i] * mu[i], delay, -fall[i], h[i], v[i]); 2], (1.0, 0.0))
         };
-        Self { start, on, contact, x, mu, cross, kappa, modes }
+        Self { start, on, delay, fall, x, mu, cross, kappa, modes, mix }
     }
     fn both(&self) -> bool {
         self.on == [true; 2]
@@ -197,8 +216,9 @@ impl Phase {
         if !self.both() {
             return [1.0, 0.0];
         }
-        let w = 1.0 / (2.0 * self.kappa[i]).sqrt();
-        [w, if i == 0 { w } else { -w }]
+        let (cos, sin) = self.mix;
+        let weights = if i == 0 { [cos, -sin] } else { [sin, cos] };
+        weights.map(|w| w / self.kappa[i].sqrt())
     }
     /// Height, velocity, acceleration of end i.
     fn end(&self, i: usize, t: f64) -> [f64; 3] {
@@ -217,17 +237,17 @@ impl Phase {
         let j = 1 - i;
         let share = self.cross / self.mu[j];
         let [h, v, a] = self.end(j, t);
-        let (h0, v0, g) = (self.start.ends.h, self.start.ends.v, self.start.gravity);
-        let fall = 0.5 * g * t * t;
+        let (h0, v0, g) = (self.start.ends.h, self.start.ends.v, self.fall);
+        let half = 0.5 * t * t;
         [
-            h0[i] + v0[i] * t - fall + share * (h - h0[j] - v0[j] * t + fall),
-            v0[i] - g * t + share * (v - v0[j] + g * t),
-            -g + share * (a + g),
+            h0[i] + v0[i] * t - half * g[i] + share * (h - h0[j] - v0[j] * t + half * g[j]),
+            v0[i] - g[i] * t + share * (v - v0[j] + g[j] * t),
+            -g[i] + share * (a + g[j]),
         ]
     }
     fn force(&self, i: usize, t: f64) -> f64 {
         let [h, v, _] = self.end(i, t);
-        if self.on[i] { (-self.kappa[i] * (h + self.contact.delay() * v)).max(0.0) } else { 0.0 }
+        if self.on[i] { (-self.kappa[i] * (h + self.delay * v)).max(0.0) } else { 0.0 }
     }
     /// Solves M (f_a, f_b) = r for the ends in contact.
     fn solve(&self, r: [f64; 2]) -> [f64; 2] {
@@ -243,26 +263,40 @@ impl Phase {
     }
     /// Impulses of both ends over the time t.
     fn impulses(&self, t: f64) -> [f64; 2] {
-        self.solve([0, 1].map(|i| self.end(i, t)[1] - self.start.ends.v[i] + self.start.gravity * t))
+        self.solve([0, 1].map(|i| self.end(i, t)[1] - self.start.ends.v[i] + self.fall[i] * t))
     }
-    /// The pose at time t; heights and velocities of the ends remain those of the kept lever arms.
-    fn pose(&self, t: f64) -> Pose {
+    /// The pose at time t: an end in contact is where its spring is, the angle and the spin are what the impulses give, and
+    /// the other end follows in exact geometry. `free`: so are the velocities, by the velocity of the center, which keeps
+    /// the energy; else the end in contact keeps its own, and lies still if it did.
+    fn pose(&self, t: f64, free: bool) -> Pose {
         let s = &self.start;
+        let length = s.body.length_m();
+        let ends = [0, 1].map(|i| self.end(i, t));
+        let mut next = *s;
+        (next.ends.h, next.ends.v) = (ends.map(|e| e[0]), ends.map(|e| e[1]));
+        if self.both() {
+            next.sin = (ends[1][0] - ends[0][0]) / length;
+            next.cos = ((1.0 - next.sin) * (1.0 + next.sin)).sqrt().copysign(s.cos);
+            next.spin = (ends[1][1] - ends[0][1]) / (length * next.cos);
+            return next;
+        }
         let rho2 = s.body.gyration_m().powi(2);
-        let turn = |f: [f64; 2]| (self.x[0] * f[0] + self.x[1] * f[1]) / rho2;
-        let fall = 0.5 * s.gravity * t * t;
-        let twice = self.solve([0, 1].map(|i| self.end(i, t)[0] - s.ends.h[i] - s.ends.v[i] * t + fall));
-        let mut next = s.turned(s.spin * t + turn(twice));
-        next.spin = s.spin + turn(self.impulses(t));
-        for i in 0..2 {
-            let [h, v, _] = self.end(i, t);
-            (next.ends.h[i], next.ends.v[i]) = (h, v);
+        let i = usize::from(self.on[1]);
+        let j = 1 - i;
+        let twice = (ends[i][0] - s.ends.h[i] - s.ends.v[i] * t + 0.5 * self.fall[i] * t * t) / self.mu[i];
+        next = next.turned(s.spin * t + self.x[i] * twice / rho2);
+        next.spin = s.spin + self.x[i] * self.impulses(t)[i] / rho2;
+        next.ends.h[j] = next.ends.h[i] + sigma(j) * length * next.sin;
+        next.ends.v[j] = next.ends.v[i] + sigma(j) * length * next.cos * next.spin;
+        if free {
+            let center = s.center().1 - s.gravity * t + self.impulses(t)[i];
+            next.ends.v = next.levers().map(|x| center + x * next.spin);
         }
         next
     }
     /// When end i in contact parts. `fresh`: it has just begun to press.
     fn parting(&self, i: usize, cap: f64, fresh: bool) -> Option<f64> {
-        let (c, delay) = (self.weights(i), self.contact.delay());
+        let (c, delay) = (self.weights(i), self.delay);
         let rest: f64 = c.iter().zip(&self.modes).map(|(c, m)| c * m.rest).sum();
         let press = |t: f64| {
             let [h, v, a] = self.end(i, t);
@@ -287,13 +321,12 @@ impl Phase {
         if first.is_nan() || first >= cap { None } else { first_zero(first, cap, press, step) }
     }
     /// When free end j comes into contact.
-    fn touching(&self, j: usize, cap: f64, fresh: bool) -> Option<f64> {
-        let delay = self.contact.delay();
+    fn touching(&self, j: usize, cap: f64, fresh: bool) -> Option<(f64, bool)> {
+        let delay = self.delay;
         let share = (self.cross / self.mu[1 - j]).abs();
-        let g = self.start.gravity;
         let bounds = |t: f64| {
             let (_, a) = self.modes[0].bounds(self.modes[0].at(t));
-            let fall = g * (1.0 + share) + share * a;
+            let fall = self.fall[j].abs() + share * (self.fall[1 - j].abs() + a);
             (fall, fall + delay * share * a * self.modes[0].k.sqrt())
         };
         next_contact(delay, cap, fresh, |t| self.end(j, t), bounds, |_| 0.0)
@@ -307,7 +340,7 @@ impl Phase {
 /// First time at which a free end comes into contact: at zero from above, or below zero when h + θ h′ falls to zero.
 ///
 /// `end` gives height, velocity and acceleration, `bounds` at least −h″ and −(h + θ h′)″ from a time on, `clear` a time
-/// known to be free from a time on.
+/// known to be free from a time on. Says whether it comes from above.
 fn next_contact(
     delay: f64,
     cap: f64,
@@ -315,7 +348,7 @@ fn next_contact(
     end: impl Fn(f64) -> [f64; 3],
     bounds: impl Fn(f64) -> (f64, f64),
     clear: impl Fn(f64) -> f64,
-) -> Option<f64> {
+) -> Option<(f64, bool)> {
     let mut t = 0.0;
     let mut first = fresh;
     loop {
@@ -325,14 +358,14 @@ fn next_contact(
         }
         let lift = h + delay * v;
         if lift <= 0.0 && !first {
-            return Some(t);
+            return Some((t, false));
         }
         let next = t + safe_step(lift.max(0.0), v + delay * a, bounds(t).1);
         if next.is_nan() || next >= cap {
             return None;
         }
         if next <= t {
-            return Some(t);
+            return Some((t, false));
         }
         (t, first) = (next, false);
     }
@@ -340,7 +373,8 @@ fn next_contact(
         let [h, v, _] = end(t);
         (h, v)
     };
-    first_zero(t, cap, height, |t, h, v| safe_step(h, v, bounds(t).0).max(clear(t)))
+    let step = |t: f64, h: f64, v: f64| safe_step(h, v, bounds(t).0).max(clear(t));
+    first_zero(t, cap, height, step).map(|t| (t, true))
 }
 
 /// Accelerations and forces at one moment.
@@ -408,55 +442,66 @@ pub(super) fn simulate(scene: &Scene, contact: Contact) -> CompliantFlight {
     let mut log = Log::new(scene);
     let mut time = Clock::default();
     let mut pose = Pose::start(scene);
+    let [a, b] = scene.body().arms_m();
+    let arm = a.min(b);
     let mut on = [true, false];
     // Ends whose last event is now: their force is zero by rounding only.
     let mut fresh = [true, false];
-    let mut cos = pose.cos;
+    let mut kappa = [pose.stiffness(0, contact), 0.0];
+    // Whether the contact has outlasted a phase.
+    let mut long = false;
     let mut phases = Vec::new();
     let mut pulses: Vec<Pulse> = Vec::new();
     let mut strike_of = [0_usize; 2];
+    let most = PHASES + 16 * scene.impact_limit();
     // The limit is at least one strike.
     log.strike(End::A, 0.0, pose.ends.v[0], [0.0; 2], &pose.after());
     pulses.push(Pulse { strike: 1, from_s: 0.0, until_s: f64::INFINITY });
     loop {
-        let phase = Phase::new(pose, on, contact, cos);
+        let phase = Phase::new(pose, on, contact, kappa, long);
         phases.push((time.now(), phase));
         let free = on == [false; 2];
-        let mut event: Option<(usize, f64)> = None;
+        let mut event: Option<(usize, f64, bool)> = None;
         for i in 0..2 {
-            let cap = event.map_or(f64::INFINITY, |(_, t)| t);
+            let cap = event.map_or(f64::INFINITY, |(_, t, _)| t);
             let t = if free {
                 pose.touching(i, contact.delay(), cap, fresh[i])
             } else if on[i] {
-                phase.parting(i, cap, fresh[i])
+                phase.parting(i, cap, fresh[i]).map(|t| (t, false))
             } else {
                 phase.touching(i, cap, fresh[i])
             };
-            event = t.map(|t| (i, t)).or(event);
+            event = t.map(|(t, above)| (i, t, above)).or(event);
         }
-        let Some((i, dt)) = event else {
-            if phase.both() {
-                // Neither end will ever part: proven by the energy of the vibration.
-                let time_bound_s = phase.ringing_s();
-                log.flight.stop = Stop::AtRest { time_s: time.now(), time_bound_s, shock_bound_m_s: 0.0 };
-            } else {
-                log.bounced_clear();
-            }
+        if event.is_none() && phase.both() {
+            // Neither end will ever part: proven by the energy of the vibration.
+            let time_bound_s = phase.ringing_s();
+            log.flight.stop = Stop::AtRest { time_s: time.now(), time_bound_s, shock_bound_m_s: 0.0 };
             break;
-        };
+        }
+        // A long phase with one end down is cut, and the lever arms renewed.
+        // A strike itself is never cut: its energy is exact while its lever arm is kept.
+        let turned = TURN / (pose.spin.abs() + (scene.gravity_m_s2() / arm).sqrt());
+        let longest = if free { f64::INFINITY } else { turned.max(2.0 * contact.time) };
+        let event = event.filter(|(_, t, _)| *t <= longest);
+        let dt = event.map_or(longest, |(_, t, _)| t);
+        if dt == f64::INFINITY {
+            log.bounced_clear();
+            break;
+        }
         time.add(dt);
         if dt > 0.0 {
             fresh = [false; 2];
         }
-        if time.now() > log.time_limit_s {
-            log.flight.stop = Stop::TimeLimit { time_s: log.time_limit_s };
+        if time.now() > log.time_limit_s || phases.len() >= most {
+            log.flight.stop = Stop::TimeLimit { time_s: time.now().min(log.time_limit_s) };
             break;
         }
         if free {
             pose = pose.flown(dt);
         } else {
             let impulses = phase.impulses(dt);
-            pose = phase.pose(dt);
+            pose = phase.pose(dt, event.is_some() && !long);
             for k in (0..2).filter(|&k| on[k]) {
                 let delta = if k == 0 { [phase.mu[0], phase.cross] } else { [phase.cross, phase.mu[1]] };
                 let strike = &mut log.flight.strikes[strike_of[k]];
@@ -465,28 +510,26 @@ pub(super) fn simulate(scene: &Scene, contact: Contact) -> CompliantFlight {
                 }
             }
         }
+        long = event.is_none();
+        let Some((i, _, above)) = event else { continue };
         fresh[i] = true;
         on[i] = !on[i];
         if on[i] {
-            if free {
-                cos = pose.cos;
-            }
             // Below zero it comes back into the contact that it has hardly left.
-            let again = pose.ends.h[i] < 0.0 && pose.ends.v[i] >= 0.0;
-            if again {
+            let again = !above && pose.ends.v[i] >= 0.0;
+            if again && kappa[i] > 0.0 {
                 pulses[strike_of[i]].until_s = f64::INFINITY;
             } else {
-                pose.ends.h[i] = pose.ends.h[i].min(0.0);
+                pose.ends.h[i] = if above { 0.0 } else { pose.ends.h[i].min(0.0) };
+                kappa[i] = pose.stiffness(i, contact);
                 strike_of[i] = log.flight.strikes.len();
-                if !log.strike(end_of(i), time.now(), pose.ends.v[i], [0.0; 2], &pose.after()) {
+                // A touch that grazes has no approach, whatever rounding says.
+                if !log.strike(end_of(i), time.now(), pose.ends.v[i].min(0.0), [0.0; 2], &pose.after()) {
                     break;
                 }
                 pulses.push(Pulse { strike: pulses.len() as u64 + 1, from_s: time.now(), until_s: f64::INFINITY });
             }
         } else {
-            if on == [false; 2] {
-                pose = pose.released(i);
-            }
             pulses[strike_of[i]].until_s = time.now();
             let strike = &mut log.flight.strikes[strike_of[i]];
             (strike.velocity_m_s, strike.spin_rad_s) = (pose.ends.v, pose.spin);
@@ -509,7 +552,7 @@ impl Pose {
         Self { sin: sin / norm, cos: cos / norm, ..*self }
     }
     /// When free end i comes into contact.
-    fn touching(&self, i: usize, delay: f64, cap: f64, fresh: bool) -> Option<f64> {
+    fn touching(&self, i: usize, delay: f64, cap: f64, fresh: bool) -> Option<(f64, bool)> {
         let arm = self.body.arms_m()[i];
         let w = self.spin.abs();
         let fall = self.gravity + arm * w * w;
@@ -524,15 +567,14 @@ impl Pose {
         }
         next
     }
-    /// The pose in exact geometry after the last contact, of end i, has ended.
-    fn released(&self, i: usize) -> Self {
-        let mut next = *self;
+    /// Lever arms of the ends, signed.
+    fn levers(&self) -> [f64; 2] {
         let [a, b] = self.body.arms_m();
-        let j = 1 - i;
-        next.ends.h[j] = self.ends.h[i] + sigma(j) * (a + b) * self.sin;
-        // The center's velocity does not know the lever arms that were kept.
-        let (_, v) = self.center();
-        next.ends.v = [v - a * self.cos * self.spin, v + b * self.cos * self.spin];
-        next
+        [-a * self.cos, b * self.cos]
+    }
+    /// Stiffness of the contact that gives a lone end its frequency at this angle, over the mass of the body.
+    fn stiffness(&self, i: usize, contact: Contact) -> f64 {
+        let x = self.levers()[i];
+        contact.frequency.powi(2) / (1.0 + (x / self.body.gyration_m()).powi(2))
     }
 }

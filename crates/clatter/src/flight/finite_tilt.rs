@@ -77,14 +77,19 @@ impl Pose {
     }
     /// Height and velocity of end i after a flight of time t.
     pub(super) fn end(&self, i: usize, t: f64) -> (f64, f64) {
-        let theta = self.spin * t;
+        let (h, v) = (self.ends.h[i], self.ends.v[i]);
+        let (bend, swing) = self.bend(i, self.spin * t);
+        (h + (t * (v - 0.5 * self.gravity * t) - bend), v - self.gravity * t - self.spin * swing)
+    }
+    /// What a turn by θ takes from the height of end i beyond its lever arm, `σ L [(θ − sin θ) cos φ + (1 − cos θ) sin φ]`,
+    /// and from the lever arm.
+    pub(super) fn bend(&self, i: usize, theta: f64) -> (f64, f64) {
         let (half_sin, half_cos) = (0.5 * theta).sin_cos();
         let sin = 2.0 * half_sin * half_cos;
         let versine = 2.0 * half_sin * half_sin;
-        let (h, v, arm) = (self.ends.h[i], self.ends.v[i], sigma(i) * self.arm(i));
+        let arm = sigma(i) * self.arm(i);
         let bend = theta_minus_sin(theta, sin) * self.cos + versine * self.sin;
-        let turn = versine * self.cos + sin * self.sin;
-        (h + (t * (v - 0.5 * self.gravity * t) - arm * bend), v - self.gravity * t - arm * self.spin * turn)
+        (arm * bend, arm * (versine * self.cos + sin * self.sin))
     }
     pub(super) fn after(&self) -> After {
         After { ends: self.ends, tilt: self.sin.atan2(self.cos), spin: self.spin }

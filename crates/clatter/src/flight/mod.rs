@@ -195,17 +195,25 @@ impl Scene {
     /// lone contact takes.
     ///
     /// # Errors
-    /// [`Error::Quantity`] unless e is in [0.01, 1], the contact time in [1e−12, 1e3] s and the radius of gyration positive
-    /// (a massless end has no contact time).
+    /// [`Error::Quantity`] unless e is in [0.01, 1], the radius of gyration at least 0.05 of the length (light ends
+    /// would whirl the body through large angles while they touch), and
+    /// the contact time in [1e−12, 1e3] s and so short that the ends sink in by a small part of the length: at most 0.1
+    /// length over the speed of either end, and 0.1 √(length/gravity).
     pub fn simulate_compliant(&self, contact_time_s: f64) -> Result<CompliantFlight, Error> {
         let contact = Contact::new(self.e(), contact_time_s)?;
         let gyration_m = self.body().gyration_m();
-        if gyration_m > 0.0 {
-            Ok(compliant::simulate(self, contact))
-        } else {
-            let allowed = "positive for a compliant contact";
-            Err(Error::Quantity { name: "radius of gyration in m", value: gyration_m, allowed })
+        let length = self.body().length_m();
+        if gyration_m < 0.05 * length {
+            let allowed = "at least 0.05 of the length for a compliant contact";
+            return Err(Error::Quantity { name: "radius of gyration in m", value: gyration_m, allowed });
         }
+        let fastest = self.end_velocities(1.0).into_iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        let sinks = contact_time_s * fastest > 0.1 * length;
+        if sinks || contact_time_s.powi(2) * self.gravity_m_s2() > 0.01 * length {
+            let allowed = "at most 0.1 length/speed and 0.1 sqrt(length/gravity), so that the ends sink in little";
+            return Err(Error::Quantity { name: "contact time in s", value: contact_time_s, allowed });
+        }
+        Ok(compliant::simulate(self, contact))
     }
 }
 
