@@ -32,7 +32,7 @@
 //!
 //! # Error of the kept lever arm
 //! Lever arms, and the acceleration by turning, are those of the beginning of a phase; at its end the pose follows in exact
-//! geometry. A phase ends with any touch or parting, and after a turn of 1/50 rad (so that a body may
+//! geometry. A phase ends with any touch or parting, and after a turn of 1/200 rad (so that a body may
 //! pivot on its spring). The shock of a contact is off by tan φ · ω τ of itself at most, ω the spin it leaves.
 
 use super::ballistic::Clock;
@@ -154,7 +154,7 @@ impl Mode {
 }
 
 /// Share of a radian, and of the time √(L/g), after which the lever arms of a phase are renewed.
-const TURN: f64 = 0.02;
+const TURN: f64 = 0.005;
 
 /// Phases, beyond 16 a strike, after which a body that neither rests nor strikes is left at the time it has reached.
 const PHASES: usize = 100_000;
