@@ -5,7 +5,7 @@ use clatter::flight::{Body, Contact, Model, Scene, Strike};
 use ode_solvers::{Dop853, System, Vector4};
 
 fn body(q: f64) -> Body {
-    Body::new(0.14, 0.07 * ((1.0 - q) / (1.0 + q)).sqrt()).unwrap()
+    Body::new(0.14, 0.07 * ((1.0 - q) / (1.0 + q)).sqrt()).expect("as the test has it")
 }
 
 #[test]
@@ -13,9 +13,11 @@ fn the_restitution_fitted_is_the_restitution_had() {
     for e in [0.01, 0.05, 0.13, (-2.0_f64).exp(), 0.14, 0.3, 0.7, 0.99, 1.0 - 1e-9, 1.0] {
         for (tilt, contact_time) in [(60.0, 1e-6), (60.0, 1e-3), (5.0, 1e-9)] {
             // Without gravity and with q < 0 the other end is far from the ground.
-            let scene =
-                Scene::new(body(-0.3), e, 2.0, tilt, 0.0).unwrap().with_time_limit_s(2.0 * contact_time).unwrap();
-            let flight = scene.simulate_compliant(contact_time).unwrap();
+            let scene = Scene::new(body(-0.3), e, 2.0, tilt, 0.0)
+                .expect("as the test has it")
+                .with_time_limit_s(2.0 * contact_time)
+                .expect("as the test has it");
+            let flight = scene.simulate_compliant(contact_time).expect("as the test has it");
             let s = &flight.flight.strikes[0];
             let had = -(s.approach_m_s + s.delta_v_m_s[0]) / s.approach_m_s;
             assert!((had + 0.0 - e).abs() < 1e-11, "e {e}, had {had}");
@@ -23,17 +25,17 @@ fn the_restitution_fitted_is_the_restitution_had() {
             assert!((duration / contact_time - 1.0).abs() < 1e-9, "e {e}: lasts {duration}, not {contact_time}");
         }
     }
-    assert!((Contact::new(0.4510, 1.0).unwrap().damping_ratio() - 0.3).abs() < 1e-4);
+    assert!((Contact::new(0.4510, 1.0).expect("as the test has it").damping_ratio() - 0.3).abs() < 1e-4);
 }
 
 /// Largest difference of the shocks of the scene's strikes from the map's, and of the second strike's time.
 fn off_the_map(scene: &Scene, contact_time: f64) -> (f64, f64) {
     let map = scene.simulate(Model::Map);
-    let flight = scene.simulate_compliant(contact_time).unwrap().flight;
-    assert_eq!(flight.strikes.len(), map.strikes.len());
+    let flight = scene.simulate_compliant(contact_time).expect("as the test has it").flight;
+    assert_eq!(flight.strikes.len(), map.strikes.len(), "strikes");
     let mut shock = 0.0_f64;
     for (c, m) in flight.strikes.iter().zip(&map.strikes) {
-        assert_eq!(c.end, m.end);
+        assert_eq!(c.end, m.end, "strike {}", m.number);
         for k in 0..2 {
             shock = shock.max((c.delta_v_m_s[k] - m.delta_v_m_s[k]).abs() / scene.speed_m_s());
         }
@@ -43,7 +45,7 @@ fn off_the_map(scene: &Scene, contact_time: f64) -> (f64, f64) {
 
 #[test]
 fn short_contacts_tend_to_the_map_in_proportion_to_their_time() {
-    let scene = Scene::new(body(0.5), 0.3, 4.43, 1e-3, 0.0).unwrap();
+    let scene = Scene::new(body(0.5), 0.3, 4.43, 1e-3, 0.0).expect("as the test has it");
     let unit = scene.height_gap_m() / scene.speed_m_s();
     let runs: Vec<_> = (2..6).map(|k| off_the_map(&scene, unit * 0.1_f64.powi(k))).collect();
     for pair in runs.windows(2) {
@@ -54,12 +56,12 @@ fn short_contacts_tend_to_the_map_in_proportion_to_their_time() {
         assert!((order - 1.0).abs() < 0.01, "order {order}: {runs:?}");
     }
     // Contacts that overlap are another matter: of four strikes, two are left.
-    assert_eq!(scene.simulate_compliant(unit).unwrap().flight.strikes.len(), 2);
+    assert_eq!(scene.simulate_compliant(unit).expect("as the test has it").flight.strikes.len(), 2);
 }
 
 type Pose = Vector4<f64>;
 
-/// One end in contact in exact geometry: y, v_y, φ, ω.
+/// One end in contact in exact geometry: `y, v_y, φ, ω`.
 struct Exact {
     gyration: f64,
     kappa: f64,
@@ -81,9 +83,12 @@ fn the_kept_lever_arm_costs_a_turn_of_the_contact() {
     let (body, e, speed) = (body(0.5), 0.3, 4.43);
     let mut errors = Vec::new();
     for contact_time in [4e-4, 2e-4, 1e-4, 5e-5] {
-        let scene = Scene::new(body, e, speed, 45.0, 0.0).unwrap().with_time_limit_s(3.0 * contact_time).unwrap();
-        let s = scene.simulate_compliant(contact_time).unwrap().flight.strikes[0];
-        let contact = Contact::new(e, contact_time).unwrap();
+        let scene = Scene::new(body, e, speed, 45.0, 0.0)
+            .expect("as the test has it")
+            .with_time_limit_s(3.0 * contact_time)
+            .expect("as the test has it");
+        let s = scene.simulate_compliant(contact_time).expect("as the test has it").flight.strikes[0];
+        let contact = Contact::new(e, contact_time).expect("as the test has it");
         let (w, phi) = (contact.frequency_rad_s(), scene.tilt_rad());
         let x = 0.07 * phi.cos();
         let exact = Exact {
@@ -94,8 +99,8 @@ fn the_kept_lever_arm_costs_a_turn_of_the_contact() {
         // To the kept arm's moment of parting: the force is zero there to first order.
         let start = Pose::new(0.07 * phi.sin(), -speed, phi, 0.0);
         let mut solver = Dop853::new(exact, 0.0, contact_time, contact_time * 1e-3, start, 1e-12, 1e-14);
-        solver.integrate().unwrap();
-        let last = solver.y_out().last().unwrap();
+        solver.integrate().expect("as the test has it");
+        let last = solver.y_out().last().expect("as the test has it");
         let spin_error = (s.spin_rad_s - last[3]).abs() / last[3].abs();
         let turned = last[3].abs() * contact_time * phi.tan();
         assert!(spin_error < turned, "spin off by {spin_error}, allowed {turned}");
@@ -111,8 +116,8 @@ fn the_kept_lever_arm_costs_a_turn_of_the_contact() {
 #[test]
 fn a_drop_comes_to_rest_on_its_springs() {
     for e in [0.05, 0.3, 0.6] {
-        let scene = Scene::new(body(0.5), e, 1.0, 5.0, 9.81).unwrap();
-        let flight = scene.simulate_compliant(3e-5).unwrap().flight;
+        let scene = Scene::new(body(0.5), e, 1.0, 5.0, 9.81).expect("as the test has it");
+        let flight = scene.simulate_compliant(3e-5).expect("as the test has it").flight;
         assert_eq!(flight.stop.reason(), "at-rest", "{:?}", flight.stop);
         let hard = scene.simulate(Model::FiniteTilt).stop.time_s();
         if e < 0.5 {
@@ -121,9 +126,12 @@ fn a_drop_comes_to_rest_on_its_springs() {
         // What the contacts themselves take.
         assert!((flight.stop.time_s() - hard).abs() < 0.05 * hard, "{} {hard}", flight.stop.time_s());
     }
-    let scene = Scene::new(body(-0.9), 0.05, 1.0, 80.0, 1000.0).unwrap().with_impact_limit(50).unwrap();
-    let land = |strikes: &[Strike]| *strikes.iter().find(|s| s.end == End::B).unwrap();
-    let soft = land(&scene.simulate_compliant(1e-6).unwrap().flight.strikes);
+    let scene = Scene::new(body(-0.9), 0.05, 1.0, 80.0, 1000.0)
+        .expect("as the test has it")
+        .with_impact_limit(50)
+        .expect("as the test has it");
+    let land = |strikes: &[Strike]| *strikes.iter().find(|s| s.end == End::B).expect("as the test has it");
+    let soft = land(&scene.simulate_compliant(1e-6).expect("as the test has it").flight.strikes);
     let hard = land(&scene.simulate(Model::FiniteTilt).strikes);
     // The lever arm is renewed every 1/200 rad of the 1.4: first order, 1e-3 of the time and speed.
     assert!((soft.time_s / hard.time_s - 1.0).abs() < 1e-3, "{} {}", soft.time_s, hard.time_s);
@@ -132,8 +140,8 @@ fn a_drop_comes_to_rest_on_its_springs() {
 
 #[test]
 fn the_history_adds_up_to_the_shocks() {
-    let scene = Scene::new(body(0.5), 0.4, 4.43, 5.0, 9.81).unwrap();
-    let flight = scene.simulate_compliant(3e-4).unwrap();
+    let scene = Scene::new(body(0.5), 0.4, 4.43, 5.0, 9.81).expect("as the test has it");
+    let flight = scene.simulate_compliant(3e-4).expect("as the test has it");
     let first = flight.pulses[0];
     let n = 200_000;
     let dt = (first.until_s - first.from_s) / f64::from(n);
@@ -157,13 +165,13 @@ fn the_history_adds_up_to_the_shocks() {
 
 #[test]
 fn bad_contacts_are_refused_with_the_value() {
-    let scene = Scene::new(body(0.5), 0.5, 4.43, 5.0, 9.81).unwrap();
+    let scene = Scene::new(body(0.5), 0.5, 4.43, 5.0, 9.81).expect("as the test has it");
     for bad in [0.0, -1e-3, 1e-13, f64::NAN, f64::INFINITY, 1.0] {
         let text = scene.simulate_compliant(bad).unwrap_err().to_string();
         assert!(text.contains("contact time") && text.contains(&format!("{bad:?}")), "{text}");
     }
-    let dead = Scene::new(body(0.5), 0.0, 4.43, 5.0, 9.81).unwrap();
+    let dead = Scene::new(body(0.5), 0.0, 4.43, 5.0, 9.81).expect("as the test has it");
     assert!(dead.simulate_compliant(1e-3).unwrap_err().to_string().contains("restitution"));
-    let massless = Scene::new(body(1.0), 0.5, 4.43, 5.0, 9.81).unwrap();
+    let massless = Scene::new(body(1.0), 0.5, 4.43, 5.0, 9.81).expect("as the test has it");
     assert!(massless.simulate_compliant(1e-3).unwrap_err().to_string().contains("gyration"));
 }

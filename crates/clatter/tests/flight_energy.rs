@@ -3,7 +3,7 @@
 use clatter::flight::{Body, Flight, Model, Scene, Strike};
 use proptest::prelude::*;
 
-/// Energy per unit mass, ½ v_y² + ½ ρ² ω² + g y, with the given velocities of the ends and angular velocity.
+/// Energy per unit mass, `½ v_y² + ½ ρ² ω² + g y`, with the given velocities of the ends and angular velocity.
 fn energy(body: &Body, g: f64, s: &Strike, v: [f64; 2], spin: f64) -> f64 {
     let [a, b] = body.arms_m();
     let center = |of: [f64; 2]| (b * of[0] + a * of[1]) / (a + b);
@@ -17,7 +17,8 @@ fn before(s: &Strike) -> [f64; 2] {
 fn scene(q: f64, e: f64, tilt: f64) -> Scene {
     let half = 0.07;
     let gyration = half * ((1.0 - q) / (1.0 + q)).sqrt();
-    Scene::new(Body::new(2.0 * half, gyration).unwrap(), e, 4.43, tilt, 9.81).unwrap()
+    Scene::new(Body::new(2.0 * half, gyration).expect("as the test has it"), e, 4.43, tilt, 9.81)
+        .expect("as the test has it")
 }
 
 /// Largest relative drift of the energy over the flight of an elastic body.
@@ -32,7 +33,7 @@ fn ten_thousand_elastic_strikes_keep_the_energy() {
     for model in [Model::Ballistic, Model::FiniteTilt] {
         for q in [-0.6, 0.0, 0.3, 0.5, 0.8, 0.95, 0.995, 0.9995] {
             for tilt in [1e-6, 1.0, 5.0, 30.0, 80.0] {
-                let scene = scene(q, 1.0, tilt).with_impact_limit(10_000).unwrap();
+                let scene = scene(q, 1.0, tilt).with_impact_limit(10_000).expect("as the test has it");
                 let flight = scene.simulate(model);
                 assert_eq!(flight.strikes.len(), 10_000);
                 let drift = drift(&flight, &scene);
@@ -49,7 +50,7 @@ proptest! {
     fn strikes_lose_what_the_theory_says(
         q in -0.8..0.95_f64, e in 0.0..=1.0_f64, tilt in 0.01..60.0_f64, model in prop_oneof![Just(Model::Ballistic), Just(Model::FiniteTilt)],
     ) {
-        let scene = scene(q, e, tilt).with_impact_limit(200).unwrap();
+        let scene = scene(q, e, tilt).with_impact_limit(200).expect("as the test has it");
         let (body, g, finite) = (scene.body(), scene.gravity_m_s2(), model == Model::FiniteTilt);
         let flight = scene.simulate(model);
         let rho2 = body.gyration_m().powi(2);

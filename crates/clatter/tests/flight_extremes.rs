@@ -6,7 +6,7 @@ use clatter::{End, Error};
 const MODELS: [Model; 3] = [Model::Map, Model::Ballistic, Model::FiniteTilt];
 
 fn body(q: f64) -> Body {
-    Body::new(0.14, 0.07 * ((1.0 - q) / (1.0 + q)).sqrt()).unwrap()
+    Body::new(0.14, 0.07 * ((1.0 - q) / (1.0 + q)).sqrt()).expect("as the test has it")
 }
 
 /// What holds for any flight whatever.
@@ -37,7 +37,10 @@ fn every_corner_gives_an_answer() {
                 for g in [0.0, 1e-3, 9.81, 1e6] {
                     for speed in [4.43e-3, 140.0] {
                         for model in MODELS {
-                            let scene = Scene::new(body(q), e, speed, tilt, g).unwrap().with_impact_limit(300).unwrap();
+                            let scene = Scene::new(body(q), e, speed, tilt, g)
+                                .expect("as the test has it")
+                                .with_impact_limit(300)
+                                .expect("as the test has it");
                             sane(&scene.simulate(model), &format!("{model:?} q {q} e {e} tilt {tilt} g {g} v {speed}"));
                         }
                     }
@@ -51,7 +54,7 @@ fn every_corner_gives_an_answer() {
 fn heights_from_a_micrometer_to_a_kilometer() {
     for height in [1e-6, 1e-3, 1.2, 1e3] {
         for model in [Model::Ballistic, Model::FiniteTilt] {
-            let scene = Scene::from_height(body(0.5), 0.5, height, 1.0, 9.81).unwrap();
+            let scene = Scene::from_height(body(0.5), 0.5, height, 1.0, 9.81).expect("as the test has it");
             let flight = scene.simulate(model);
             sane(&flight, &format!("{model:?} from {height} m"));
             assert!(matches!(flight.stop, Stop::AtRest { .. }), "{model:?} from {height} m: {:?}", flight.stop);
@@ -63,7 +66,7 @@ fn heights_from_a_micrometer_to_a_kilometer() {
 fn a_flat_drop_strikes_end_a_first_and_all_at_one_instant() {
     for model in MODELS {
         // c = T/(2√e) = 0.53: four strikes as the map has them, before anything can move.
-        let scene = Scene::new(body(0.5), 0.3, 1.0, 0.0, 9.81).unwrap();
+        let scene = Scene::new(body(0.5), 0.3, 1.0, 0.0, 9.81).expect("as the test has it");
         let flight = scene.simulate(model);
         let first: Vec<_> = flight.strikes.iter().take_while(|s| s.time_s == 0.0).collect();
         assert_eq!(first.len(), 4, "{model:?}");
@@ -80,7 +83,7 @@ fn a_flat_drop_strikes_end_a_first_and_all_at_one_instant() {
 fn an_endless_train_at_one_instant_is_rest() {
     for model in [Model::Ballistic, Model::FiniteTilt] {
         for g in [9.81, 0.0] {
-            let flight = Scene::new(body(0.9), 0.1, 1.0, 0.0, g).unwrap().simulate(model);
+            let flight = Scene::new(body(0.9), 0.1, 1.0, 0.0, g).expect("as the test has it").simulate(model);
             assert!(flight.strikes.len() > 10, "{model:?} g {g}");
             assert!(matches!(flight.stop, Stop::AtRest { time_s: 0.0, .. }), "{model:?} g {g}: {:?}", flight.stop);
         }
@@ -90,7 +93,10 @@ fn an_endless_train_at_one_instant_is_rest() {
 #[test]
 fn both_ends_at_one_instant_later_on() {
     // q = 0, e = 1: a strike leaves the other end alone, so from a level start both ends bounce together for ever.
-    let flight = Scene::new(body(0.0), 1.0, 1.0, 0.0, 10.0).unwrap().with_impact_limit(100).unwrap();
+    let flight = Scene::new(body(0.0), 1.0, 1.0, 0.0, 10.0)
+        .expect("as the test has it")
+        .with_impact_limit(100)
+        .expect("as the test has it");
     for model in [Model::Ballistic, Model::FiniteTilt] {
         let flight = flight.simulate(model);
         assert_eq!(flight.strikes.len(), 100);
@@ -106,7 +112,10 @@ fn both_ends_at_one_instant_later_on() {
 #[test]
 fn a_million_strikes() {
     for model in [Model::Ballistic, Model::FiniteTilt] {
-        let scene = Scene::new(body(0.5), 1.0, 1.0, 5.0, 9.81).unwrap().with_impact_limit(1_000_000).unwrap();
+        let scene = Scene::new(body(0.5), 1.0, 1.0, 5.0, 9.81)
+            .expect("as the test has it")
+            .with_impact_limit(1_000_000)
+            .expect("as the test has it");
         let flight = scene.simulate(model);
         assert_eq!(flight.strikes.len(), 1_000_000, "{model:?}");
         assert!(matches!(flight.stop, Stop::ImpactLimit { .. }), "{model:?}: {:?}", flight.stop);
@@ -116,24 +125,27 @@ fn a_million_strikes() {
 #[test]
 fn limits_are_kept_and_said() {
     for model in MODELS {
-        let scene = Scene::new(body(0.5), 0.5, 4.43, 5.0, 9.81).unwrap();
-        let two = scene.with_impact_limit(2).unwrap().simulate(model);
+        let scene = Scene::new(body(0.5), 0.5, 4.43, 5.0, 9.81).expect("as the test has it");
+        let two = scene.with_impact_limit(2).expect("as the test has it").simulate(model);
         assert_eq!((two.strikes.len(), two.stop.reason()), (2, "impact-limit"), "{model:?}");
-        let early = scene.with_time_limit_s(1e-3).unwrap().simulate(model);
+        let early = scene.with_time_limit_s(1e-3).expect("as the test has it").simulate(model);
         assert_eq!((early.strikes.len(), early.stop.reason()), (1, "time-limit"), "{model:?}");
         assert_eq!(early.stop.time_s().to_bits(), 1e-3_f64.to_bits(), "{model:?}");
     }
     // A train of three within a limit of three has bounced clear.
-    let scene = Scene::new(body(0.5), 0.5, 4.43, 5.0, 0.0).unwrap();
+    let scene = Scene::new(body(0.5), 0.5, 4.43, 5.0, 0.0).expect("as the test has it");
     for model in MODELS {
-        let flight = scene.with_impact_limit(3).unwrap().simulate(model);
+        let flight = scene.with_impact_limit(3).expect("as the test has it").simulate(model);
         assert_eq!((flight.strikes.len(), flight.stop.reason()), (3, "bounced-clear"), "{model:?}");
     }
 }
 
 #[test]
 fn a_spin_that_lifts_end_b_away_leaves_it_there_without_gravity() {
-    let scene = Scene::new(body(0.5), 0.5, 1.0, 5.0, 0.0).unwrap().with_spin(200.0).unwrap();
+    let scene = Scene::new(body(0.5), 0.5, 1.0, 5.0, 0.0)
+        .expect("as the test has it")
+        .with_spin(200.0)
+        .expect("as the test has it");
     for model in [Model::Map, Model::Ballistic] {
         let flight = scene.simulate(model);
         assert_eq!((flight.strikes.len(), flight.stop.reason()), (1, "bounced-clear"), "{model:?}");
@@ -143,8 +155,8 @@ fn a_spin_that_lifts_end_b_away_leaves_it_there_without_gravity() {
 #[test]
 fn an_off_center_mass_is_the_symmetric_map_in_disguise() {
     // Without gravity and at vanishing tilt the finite-tilt simulation knows nothing of that reduction.
-    let body = Body::off_center(0.05, 0.09, 0.03).unwrap();
-    let scene = Scene::new(body, 0.4, 1.0, 1e-9, 0.0).unwrap();
+    let body = Body::off_center(0.05, 0.09, 0.03).expect("as the test has it");
+    let scene = Scene::new(body, 0.4, 1.0, 1e-9, 0.0).expect("as the test has it");
     let (map, finite) = (scene.simulate(Model::Map), scene.simulate(Model::FiniteTilt));
     assert!(map.strikes.len() > 3, "{}", map.strikes.len());
     assert_eq!(map.strikes.len(), finite.strikes.len());
@@ -165,15 +177,15 @@ fn bad_scenes_are_refused_with_the_value() {
         let text = r.unwrap_err().to_string();
         assert!(words.iter().all(|w| text.contains(w)), "{text}");
     };
-    let good = Scene::new(body(0.5), 0.5, 1.0, 5.0, 9.81).unwrap();
+    let good = Scene::new(body(0.5), 0.5, 1.0, 5.0, 9.81).expect("as the test has it");
     for bad in [f64::NAN, -0.14, 0.0, f64::INFINITY] {
         assert!(Body::new(bad, 0.04).is_err() && Body::off_center(0.07, bad, 0.04).is_err());
     }
     for bad in [f64::NAN, -0.04, f64::INFINITY] {
         assert!(Body::new(0.14, bad).is_err());
     }
-    Body::new(0.14, 0.0).unwrap();
-    Body::new(0.14, 0.2).unwrap(); // beyond the half-length: q < 0
+    Body::new(0.14, 0.0).expect("as the test has it");
+    Body::new(0.14, 0.2).expect("as the test has it"); // beyond the half-length: q < 0
     refused(Scene::new(body(0.5), 1.2, 1.0, 5.0, 9.81), ["restitution", "1.2"]);
     refused(Scene::new(body(0.5), 0.5, -1.0, 5.0, 9.81), ["speed", "-1.0"]);
     refused(Scene::new(body(0.5), 0.5, 1.0, 90.0, 9.81), ["tilt", "90"]);
@@ -186,4 +198,24 @@ fn bad_scenes_are_refused_with_the_value() {
     refused(good.with_impact_limit(0), ["impact limit", "0"]);
     refused(good.with_spin(-15.0), ["spin", "-15"]);
     refused(good.with_spin(f64::NAN), ["spin", "NaN"]);
+}
+
+#[test]
+fn the_drawing_meets_the_ground_at_the_strikes() {
+    for model in MODELS {
+        let scene = Scene::new(body(0.5), 0.3, 4.43, 5.0, 9.81).expect("a scene");
+        let flight = scene.simulate(model);
+        for pair in flight.strikes.windows(2) {
+            let dt = pair[1].time_s - pair[0].time_s;
+            if dt < 1e-9 {
+                continue;
+            }
+            // Just before it strikes, the end is its approach times a moment high.
+            let moment = 1e-6 * dt;
+            let h = scene.heights_m(model, &flight, pair[1].time_s - moment)[usize::from(pair[1].end == End::B)];
+            let want = -pair[1].approach_m_s * moment;
+            // After a pivot at 5° the parabola lands half a percent off the pendulum's speed.
+            assert!((h - want).abs() <= 1e-2 * want + 1e-15, "{model:?}, strike {}: {h} not {want}", pair[1].number);
+        }
+    }
 }

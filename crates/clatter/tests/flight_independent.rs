@@ -109,7 +109,7 @@ impl Plain {
         *self = self.after(hi);
         // Where both are at the ground within rounding, the one that moves down.
         let key = |i: usize| if self.velocity(i) < 0.0 { self.height(i) } else { f64::INFINITY };
-        if key(0) <= key(1) { 0 } else { 1 }
+        usize::from(key(0) > key(1))
     }
     /// Angular acceleration with end p held at the ground, and the force on it.
     fn held(&self, p: usize) -> (f64, f64) {
@@ -179,14 +179,14 @@ fn any_scene(restitution: std::ops::Range<f64>) -> impl Strategy<Value = Scene> 
     let angle = prop_oneof![0.05..5.0_f64, 5.0..85.0_f64];
     (0.02..0.3_f64, 0.5..2.0_f64, 0.2..1.5_f64, restitution, 0.3..3.0_f64, angle, 1.6..30.0_f64, -0.5..3.0_f64)
         .prop_map(|(a, ratio, gyration, e, speed, tilt, g, spin)| {
-            let body = Body::off_center(a, a * ratio, gyration * a).unwrap();
-            let scene = Scene::new(body, e, speed, tilt, g).unwrap();
-            scene.with_spin(spin * speed / a).unwrap()
+            let body = Body::off_center(a, a * ratio, gyration * a).expect("as the test has it");
+            let scene = Scene::new(body, e, speed, tilt, g).expect("as the test has it");
+            scene.with_spin(spin * speed / a).expect("as the test has it")
         })
 }
 
 fn hold_strikes(scene: &Scene, model: Model) -> Result<(), TestCaseError> {
-    let flight = scene.with_impact_limit(8).unwrap().simulate(model);
+    let flight = scene.with_impact_limit(8).expect("as the test has it").simulate(model);
     let v0 = scene.speed_m_s();
     let plain = Plain::new(scene, model == Model::FiniteTilt);
     let hits = plain.run(flight.strikes.len(), false);

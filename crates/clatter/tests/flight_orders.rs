@@ -5,15 +5,15 @@ use clatter::flight::{Body, Flight, Model, Scene};
 /// Half-length 70 mm, q = ½, e = 0.3, 4.43 m/s: a train of four.
 fn scene(tilt_deg: f64, gravity: f64) -> Scene {
     let half = 0.07;
-    let body = Body::new(2.0 * half, half / 3.0_f64.sqrt()).unwrap();
-    Scene::new(body, 0.3, 4.43, tilt_deg, gravity).unwrap()
+    let body = Body::new(2.0 * half, half / 3.0_f64.sqrt()).expect("as the test has it");
+    Scene::new(body, 0.3, 4.43, tilt_deg, gravity).expect("as the test has it")
 }
 
 /// Largest relative difference of times and shocks over the first three strikes.
 fn distance(a: &Flight, b: &Flight) -> f64 {
     let mut worst = 0.0_f64;
     for (a, b) in a.strikes.iter().zip(&b.strikes).take(3) {
-        assert_eq!(a.end, b.end);
+        assert_eq!(a.end, b.end, "strike {}", a.number);
         worst = worst.max((a.time_s - b.time_s).abs() / b.time_s.max(f64::MIN_POSITIVE));
         for k in 0..2 {
             worst = worst.max((a.delta_v_m_s[k] - b.delta_v_m_s[k]).abs() / 4.43);
@@ -61,8 +61,13 @@ fn ballistic_and_finite_tilt_agree_at_vanishing_tilt_with_gravity() {
 fn weak_gravity_is_the_map_for_long_trains() {
     for (q, e) in [(0.73, 0.2), (0.5, 0.5), (0.9, 0.5), (0.95, 0.9), (-0.4, 0.7)] {
         let half = 0.07;
-        let body = Body::new(2.0 * half, half * ((1.0 - q) / (1.0_f64 + q)).sqrt()).unwrap();
-        let scene = |g: f64| Scene::new(body, e, 4.43, 5.0, g).unwrap().with_impact_limit(40).unwrap();
+        let body = Body::new(2.0 * half, half * ((1.0 - q) / (1.0_f64 + q)).sqrt()).expect("as the test has it");
+        let scene = |g: f64| {
+            Scene::new(body, e, 4.43, 5.0, g)
+                .expect("as the test has it")
+                .with_impact_limit(40)
+                .expect("as the test has it")
+        };
         let (map, weak) = (scene(0.0).simulate(Model::Map), scene(1e-40).simulate(Model::Ballistic));
         for (m, w) in map.strikes.iter().zip(&weak.strikes) {
             assert_eq!(m.end, w.end, "q {q} e {e}");

@@ -10,24 +10,24 @@ const ALLOWED: f64 = 1e-7;
 
 fn cases() -> Vec<Value> {
     let text = include_str!("data/flight.json");
-    let file: Value = serde_json::from_str(text).unwrap();
-    file["cases"].as_array().unwrap().clone()
+    let file: Value = serde_json::from_str(text).expect("as the test has it");
+    file["cases"].as_array().expect("as the test has it").clone()
 }
 
 fn hold(model_name: &str, model: Model) {
     let mut held = 0;
     for (n, case) in cases().iter().enumerate().filter(|(_, c)| c["model"] == model_name) {
-        let get = |name: &str| case[name].as_f64().unwrap();
-        let body = Body::new(get("length_m"), get("gyration_m")).unwrap();
+        let get = |name: &str| case[name].as_f64().expect("as the test has it");
+        let body = Body::new(get("length_m"), get("gyration_m")).expect("as the test has it");
         let v0 = get("speed_m_s");
-        let scene = Scene::new(body, get("e"), v0, get("tilt_deg"), get("gravity_m_s2")).unwrap();
+        let scene = Scene::new(body, get("e"), v0, get("tilt_deg"), get("gravity_m_s2")).expect("as the test has it");
         let flight = scene.simulate(model);
-        let wanted = case["impacts"].as_array().unwrap();
+        let wanted = case["impacts"].as_array().expect("as the test has it");
         assert!(flight.strikes.len() >= wanted.len(), "case {n}: {} strikes", flight.strikes.len());
         for (s, w) in flight.strikes.iter().zip(wanted) {
             let end = if w["end"] == "a" { End::A } else { End::B };
             assert_eq!(s.end, end, "case {n}, strike {}", s.number);
-            let t = w["time_s"].as_f64().unwrap();
+            let t = w["time_s"].as_f64().expect("as the test has it");
             assert!(
                 (s.time_s - t).abs() <= ALLOWED * t.max(1e-4),
                 "case {n}, strike {}: {} not {t}",
@@ -35,7 +35,7 @@ fn hold(model_name: &str, model: Model) {
                 s.time_s
             );
             for k in 0..2 {
-                let d = w["delta_v_m_s"][k].as_f64().unwrap();
+                let d = w["delta_v_m_s"][k].as_f64().expect("as the test has it");
                 let got = s.delta_v_m_s[k];
                 assert!((got - d).abs() <= ALLOWED * v0, "case {n}, strike {}: Δv {got} not {d}", s.number);
             }
@@ -59,7 +59,8 @@ fn finite_tilt_agrees_with_the_reference() {
 fn phone(q: f64, e: f64, model: Model) -> (Flight, f64) {
     let half = 0.07;
     let gyration = half * ((1.0 - q) / (1.0 + q)).sqrt();
-    let scene = Scene::new(Body::new(2.0 * half, gyration).unwrap(), e, 4.43, 5.0, 9.81).unwrap();
+    let scene = Scene::new(Body::new(2.0 * half, gyration).expect("as the test has it"), e, 4.43, 5.0, 9.81)
+        .expect("as the test has it");
     (scene.simulate(model), scene.height_gap_m() / scene.speed_m_s())
 }
 

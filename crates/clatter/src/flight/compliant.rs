@@ -167,7 +167,7 @@ struct Phase {
     delay: f64,
     /// Downward acceleration of each end without contact: gravity, in a long contact also the turning at the start.
     fall: [f64; 2],
-    /// Lever arms with sign, 1 + x²/ρ², and 1 + x_a x_b/ρ².
+    /// Lever arms with sign, 1 + x²/ρ², and `1 + x_a x_b/ρ²`.
     x: [f64; 2],
     mu: [f64; 2],
     cross: f64,
@@ -249,7 +249,7 @@ impl Phase {
         let [h, v, _] = self.end(i, t);
         if self.on[i] { (-self.kappa[i] * (h + self.delay * v)).max(0.0) } else { 0.0 }
     }
-    /// Solves M (f_a, f_b) = r for the ends in contact.
+    /// Solves `M (f_a, f_b) = r` for the ends in contact.
     fn solve(&self, r: [f64; 2]) -> [f64; 2] {
         if self.both() {
             let det = ((self.x[1] - self.x[0]) / self.start.body.gyration_m()).powi(2);

@@ -210,8 +210,8 @@ impl Ledger {
         let (y, _) = pose.center();
         let now = pose.energy();
         let share = 0.5 * (self.energy - now) / (now - pose.gravity * y);
-        // Beyond some roundings it is not rounding: the kinetic energy is a small difference there.
-        if share.abs() < 64.0 * f64::EPSILON {
+        // Beyond 10⁵ roundings it is not rounding: the kinetic energy is a small difference there.
+        if share.abs() < 1e5 * f64::EPSILON {
             pose.ends.v = pose.ends.v.map(|v| v + share * v);
             pose.spin += share * pose.spin;
         }

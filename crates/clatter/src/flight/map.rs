@@ -1,7 +1,7 @@
 //! Small tilt without gravity: the train of the map in SI, for a center of mass anywhere.
 //!
-//! With `κ = √((L_a² + ρ²)/(L_b² + ρ²))` the approach velocities a_n (n even) and κ a_n (n odd) obey the recurrence of a
-//! symmetric bar with `q = ±√(q_a q_b)` (sign of q_a), started from (v_a, κ v_b) with the height gap κ h0.
+//! With `κ = √((L_a² + ρ²)/(L_b² + ρ²))` the approach velocities `a_n` (n even) and `κ a_n` (n odd) obey the recurrence of a
+//! symmetric bar with `q = ±√(q_a q_b)` (sign of `q_a`), started from `(v_a, κ v_b)` with the height gap κ h0.
 
 use super::{After, Flight, Log, SHARE, Scene, State, Stop, index};
 use crate::{Bar, Count, Start};
@@ -15,7 +15,7 @@ pub(super) fn simulate(scene: &Scene) -> Flight {
     let kappa = (body.inertia(a) / body.inertia(b)).sqrt();
     let [va, vb] = scene.end_velocities(1.0);
     let gap = scene.height_gap_m();
-    let bar = if a == b {
+    let bar = if a - b == 0.0 {
         Bar::from_gyration_ratio(body.gyration_m() / a, e)
     } else {
         Bar::new((ratios[0] * ratios[1]).sqrt().copysign(ratios[0]), e)

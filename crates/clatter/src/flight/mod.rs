@@ -3,12 +3,12 @@
 //! Four models of one drop, each the cheapest that keeps its physics, all answering with the same kind of
 //! [`Flight`], so that they can be compared strike by strike:
 //!
-//! | [`Model`] | between strikes | a strike | cost |
-//! |---|---|---|---|
-//! | `Map` | straight lines, small tilt, no gravity | impulse | closed forms |
-//! | `Ballistic` | parabolas, small tilt | impulse | quadratics |
-//! | `FiniteTilt` | parabola of the center, uniform rotation, any angle | impulse, lever arm L cos φ | isolated roots |
-//! | `Compliant` | as `FiniteTilt` | linear spring and dashpot at each end | modes in closed form |
+//! | model | between strikes | a strike |
+//! |---|---|---|
+//! | [`Model::Map`] | straight lines, small tilt, no gravity | impulse |
+//! | [`Model::Ballistic`] | parabolas, small tilt | impulse |
+//! | [`Model::FiniteTilt`] | parabola of the center, uniform rotation, any angle | impulse, lever arm L cos φ |
+//! | [`Scene::simulate_compliant`] | as `FiniteTilt` | linear spring and dashpot at each end |
 //!
 //! # The picture
 //!
@@ -214,6 +214,37 @@ impl Scene {
             return Err(Error::Quantity { name: "contact time in s", value: contact_time_s, allowed });
         }
         Ok(compliant::simulate(self, contact))
+    }
+}
+
+impl Scene {
+    /// Heights of ends a and b at a time of a flight of instant impacts, for drawing.
+    ///
+    /// Exact in flight. While the body pivots at finite tilt it is the parabola with the height and velocity of the
+    /// beginning that lands when the pivot ends.
+    #[must_use]
+    pub fn heights_m(&self, model: Model, flight: &Flight, time_s: f64) -> [f64; 2] {
+        if matches!(flight.stop, Stop::AtRest { time_s: rest, .. } if time_s >= rest) {
+            return [0.0; 2];
+        }
+        let past = flight.pivots.partition_point(|p| p.from_s <= time_s);
+        if let Some(p) = flight.pivots[..past].last().filter(|p| time_s < p.until_s) {
+            let (t, whole) = (time_s - p.from_s, p.until_s - p.from_s);
+            let mut h = [0.0; 2];
+            h[index(p.end.other())] =
+                ((p.height_m * (1.0 + t / whole) + p.velocity_m_s * t) * (1.0 - t / whole)).max(0.0);
+            return h;
+        }
+        let past = flight.strikes.partition_point(|s| s.time_s <= time_s);
+        let Some(s) = flight.strikes[..past].last() else { return [0.0, self.height_gap_m()] };
+        let t = time_s - s.time_s;
+        let g = if model == Model::Map { 0.0 } else { self.gravity_m_s2() };
+        let ends = State { h: s.height_m, v: s.velocity_m_s };
+        let pose = (model == Model::FiniteTilt).then(|| {
+            let (sin, cos) = s.tilt_rad.sin_cos();
+            finite_tilt::Pose { body: self.body(), gravity: g, ends, sin, cos, spin: s.spin_rad_s }
+        });
+        [0, 1].map(|i| pose.map_or(ends.h[i] + t * (ends.v[i] - 0.5 * g * t), |p| p.end(i, t).0).max(0.0))
     }
 }
 

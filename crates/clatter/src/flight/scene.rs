@@ -60,10 +60,10 @@ impl Body {
         let product = self.product(1.0);
         [product / self.inertia(a), product / self.inertia(b)]
     }
-    /// x_a x_b − ρ² for lever arms `x = L cos φ`, `cos2` = cos² φ.
+    /// `x_a x_b − ρ²` for lever arms `x = L cos φ`, `cos2` = cos² φ.
     pub(super) fn product(&self, cos2: f64) -> f64 {
         let [a, b] = self.arm;
-        if a == b && cos2 == 1.0 {
+        if a - b == 0.0 && cos2 - 1.0 == 0.0 {
             (a - self.gyration) * (a + self.gyration)
         } else {
             a * b * cos2 - self.gyration * self.gyration
