@@ -65,14 +65,7 @@ pub fn write(report: Report, dir: &Path, progress: &mut dyn FnMut(&str)) -> Resu
         Report::Paper => {
             progress("computing figures and tables");
             let files = paper::Data::compute()?.files()?;
-            page(
-                "paper.pdf",
-                ("paper.typ", include_str!("../../../reports/paper.typ")),
-                &files,
-                &paper::page(),
-                dir,
-                progress,
-            )
+            page("paper.pdf", ("paper.typ", include_str!("../../../reports/paper.typ")), &files, &paper::page(), dir, progress)
         }
     }
 }

@@ -62,13 +62,7 @@ fn sheet(quantity: Quantity, name: &'static str, at: [f64; 2], fill: [[u8; 3]; 2
 }
 
 /// The sheet at distance `s` from the center (Eq. 4), from that of the ends.
-fn at_distance(
-    end: &Sheet,
-    s: f64,
-    name: &'static str,
-    at: [f64; 2],
-    fill: [[u8; 3]; 2],
-) -> Result<Sheet, ReportError> {
+fn at_distance(end: &Sheet, s: f64, name: &'static str, at: [f64; 2], fill: [[u8; 3]; 2]) -> Result<Sheet, ReportError> {
     let mut map = end.map.clone();
     for (i, line) in map.values.chunks_mut(MESH).enumerate() {
         let share = Bar::new(map.q.value(i), 0.0)?.share(s);
@@ -83,24 +77,20 @@ impl Data {
     /// Computes everything, in parallel.
     pub(crate) fn compute() -> Result<Self, ReportError> {
         let (claims, (zones, rest)) = rayon::join(clatter::paper::claims, || {
-            rayon::join(
-                || [zones_of(0.5), zones_of(1.0), zones_of(2.0)],
-                || {
-                    let curves = CURVES.map(|n| (n, contour::impacts(n, 160))).collect();
-                    let end = sheet(Quantity::PeakEnd, "*s* = 1", [0.0, 1.0], BLUE)?;
-                    let quarter = at_distance(&end, 0.5, "*s* = 0.5", [0.0, 1.0], GREEN)?;
-                    let center = at_distance(&end, 0.0, "*s* = 0", [0.0, 1.0], AMBER)?;
-                    let angular = sheet(Quantity::PeakAngular, "", [0.0, 1.0], BLUE)?;
-                    let view =
-                        |sheets, axis, title| Surface { sheets, cut: CUT, axis, title, azimuth: 35.0, elevation: 24.0 };
-                    let surfaces = [
-                        view(vec![angular], "Δ*ω*_{max}  in *v*_0/*L*", "Largest change of angular velocity"),
-                        view(vec![center, quarter, end], "Δ*v*_{max}  in *v*_0", "Largest velocity shocks"),
-                    ];
-                    let table1 = clatter::paper::table1()?;
-                    Ok::<_, ReportError>((Impacts { curves, endless: contour::endless(160) }, surfaces, table1))
-                },
-            )
+            rayon::join(|| [zones_of(0.5), zones_of(1.0), zones_of(2.0)], || {
+                let curves = CURVES.map(|n| (n, contour::impacts(n, 160))).collect();
+                let end = sheet(Quantity::PeakEnd, "*s* = 1", [0.0, 1.0], BLUE)?;
+                let quarter = at_distance(&end, 0.5, "*s* = 0.5", [0.0, 1.0], GREEN)?;
+                let center = at_distance(&end, 0.0, "*s* = 0", [0.0, 1.0], AMBER)?;
+                let angular = sheet(Quantity::PeakAngular, "", [0.0, 1.0], BLUE)?;
+                let view = |sheets, axis, title| Surface { sheets, cut: CUT, axis, title, azimuth: 35.0, elevation: 24.0 };
+                let surfaces = [
+                    view(vec![angular], "Δ*ω*_{max}  in *v*_0/*L*", "Largest change of angular velocity"),
+                    view(vec![center, quarter, end], "Δ*v*_{max}  in *v*_0", "Largest velocity shocks"),
+                ];
+                let table1 = clatter::paper::table1()?;
+                Ok::<_, ReportError>((Impacts { curves, endless: contour::endless(160) }, surfaces, table1))
+            })
         });
         let (impacts, surfaces, table1) = rest?;
         Ok(Self { percussion: Bar::new(0.5, 0.3)?.percussion(), impacts, zones, surfaces, table1, claims: claims? })

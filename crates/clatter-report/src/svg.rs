@@ -216,12 +216,7 @@ impl Svg {
             Anchor::End => "end",
         };
         let (x, y) = (pt(x), pt(y));
-        let _ = write!(
-            self.body,
-            "<text x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\" font-size=\"{}\" fill=\"{}\"",
-            pt(label.size),
-            label.color
-        );
+        let _ = write!(self.body, "<text x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\" font-size=\"{}\" fill=\"{}\"", pt(label.size), label.color);
         if label.turn != 0.0 {
             let _ = write!(self.body, " transform=\"rotate({} {x} {y})\"", pt(label.turn));
         }
@@ -233,10 +228,7 @@ impl Svg {
         let _ = writeln!(
             self.body,
             "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" image-rendering=\"optimizeSpeed\" style=\"image-rendering:pixelated\" href=\"data:image/png;base64,{png}\"/>",
-            pt(x),
-            pt(y),
-            pt(w),
-            pt(h)
+            pt(x), pt(y), pt(w), pt(h)
         );
     }
 

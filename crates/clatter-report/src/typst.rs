@@ -45,8 +45,9 @@ impl Typst {
         if !ended.success || !ended.stdout.starts_with("typst ") {
             return Err(failed(format!("{} is not typst: it does not tell its version", typst.program.display())));
         }
-        let warning = (version != VERSION)
-            .then(|| format!("typst {version} at {}: the pages are tested with {VERSION}", typst.program.display()));
+        let warning = (version != VERSION).then(|| {
+            format!("typst {version} at {}: the pages are tested with {VERSION}", typst.program.display())
+        });
         Ok((typst, warning))
     }
 

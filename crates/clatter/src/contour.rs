@@ -291,10 +291,7 @@ mod tests {
     #[test]
     fn areas_have_their_closed_forms() {
         // n = 2: q = (√(1 + 4e) − 1)/(2(1 + e)), integrated with u = √(1 + 4e)
-        let two = 5f64.sqrt()
-            - 1.0
-            - 3f64.sqrt() * ((5f64 / 3.0).sqrt().atan() - (1f64 / 3.0).sqrt().atan())
-            - 0.5 * 2f64.ln();
+        let two = 5f64.sqrt() - 1.0 - 3f64.sqrt() * ((5f64 / 3.0).sqrt().atan() - (1f64 / 3.0).sqrt().atan()) - 0.5 * 2f64.ln();
         assert!((area_up_to(2).value - two).abs() < 1e-14, "{:?}, not {two}", area_up_to(2));
         // all finite counts together fill 4 − π; what is left beyond n falls like 1/n²
         let left = |n: u32| 4.0 - std::f64::consts::PI - area_up_to(n).value;
@@ -308,8 +305,7 @@ mod tests {
 
     #[test]
     fn a_level_curve_has_its_level_and_ends_on_the_border() {
-        for (threshold, level) in [(0.5, 0.0), (0.5, 0.05), (0.5, 0.2), (1.0, 0.0), (1.0, 0.4), (2.0, 0.1), (2.0, 1.0)]
-        {
+        for (threshold, level) in [(0.5, 0.0), (0.5, 0.05), (0.5, 0.2), (1.0, 0.0), (1.0, 0.4), (2.0, 0.1), (2.0, 1.0)] {
             let pieces = SafeZone::new(threshold).curve(level, 1e-4);
             assert!(!pieces.is_empty(), "s({threshold}) = {level}");
             for piece in pieces {

@@ -44,18 +44,12 @@ impl Scale {
 
 /// The bytes of a palette color `#rrggbb`.
 fn rgb(color: &str) -> [u8; 3] {
-    let channel =
-        |i: usize| color.get(1 + 2 * i..3 + 2 * i).and_then(|hex| u8::from_str_radix(hex, 16).ok()).unwrap_or(0);
+    let channel = |i: usize| color.get(1 + 2 * i..3 + 2 * i).and_then(|hex| u8::from_str_radix(hex, 16).ok()).unwrap_or(0);
     [channel(0), channel(1), channel(2)]
 }
 
 /// The color at 0 ≤ x ≤ 1 of the palette.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    clippy::cast_precision_loss,
-    reason = "a small index, a byte"
-)]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "a small index, a byte")]
 fn color(x: f64) -> [u8; 3] {
     let x = x * (BLUES.len() - 1) as f64;
     let i = (x as usize).min(BLUES.len() - 2);

@@ -138,13 +138,7 @@ pub(crate) fn impacts(data: &Impacts) -> String {
     // how the mass lies at q = 0, 0.5, 1, beside the axis
     for (q, name) in [(1.0, "at the center"), (0.5, "uniform"), (0.0, "at the ends")] {
         let [_, y] = frame.corner(q, 0.0);
-        let y = if q == 1.0 {
-            y + 4.0
-        } else if q == 0.0 {
-            y - 10.0
-        } else {
-            y
-        };
+        let y = if q == 1.0 { y + 4.0 } else if q == 0.0 { y - 10.0 } else { y };
         let (a, b) = (8.0, 54.0);
         if (q - 0.5).abs() < 0.1 {
             svg.rect([a, y - 2.6], [b - a, 5.2], Ink::fill(GRAY));
@@ -263,8 +257,7 @@ pub(crate) fn zones(data: &Zones) -> String {
     }
     frame.draw(&mut svg, 25.0);
     let none = data.levels.iter().find(|(level, _)| *level == 0.0).map(|(_, pieces)| outline(pieces));
-    let area =
-        |line: &[Point]| line.windows(2).map(|w| (w[1].q - w[0].q) * (1.0 - 0.5 * (w[0].e + w[1].e))).sum::<f64>();
+    let area = |line: &[Point]| line.windows(2).map(|w| (w[1].q - w[0].q) * (1.0 - 0.5 * (w[0].e + w[1].e))).sum::<f64>();
     if none.is_some_and(|line| area(&line) > 0.2) {
         let [x, y] = frame.corner(0.28, 0.72);
         svg.text([x, y], "no safe zone", LABEL);

@@ -19,11 +19,11 @@ pub(crate) fn scheme(percussion: f64) -> String {
         svg.line([x, ground], [x - 5.0, ground + 5.0], Ink::line(GRAY, 0.4));
     }
     // bar
-    svg.path(
-        &[at(-1.0, 4.0), at(1.0, 4.0), at(1.0, -4.0), at(-1.0, -4.0)],
-        true,
-        Ink { stroke: INK, width: 0.8, ..Ink::fill("#cddeed") },
-    );
+    svg.path(&[at(-1.0, 4.0), at(1.0, 4.0), at(1.0, -4.0), at(-1.0, -4.0)], true, Ink {
+        stroke: INK,
+        width: 0.8,
+        ..Ink::fill("#cddeed")
+    });
     // arriving
     for s in [-0.92, 0.92] {
         let [x, y] = at(s, 34.0);
@@ -31,8 +31,7 @@ pub(crate) fn scheme(percussion: f64) -> String {
         svg.text([x + 5.0, y + 10.0], "*v*_0", Label { anchor: Anchor::Start, color: RUST, ..LABEL });
     }
     // points
-    let dot =
-        |svg: &mut Svg, s: f64, fill| svg.circle(at(s, 0.0), 2.5, Ink { stroke: INK, width: 0.8, ..Ink::fill(fill) });
+    let dot = |svg: &mut Svg, s: f64, fill| svg.circle(at(s, 0.0), 2.5, Ink { stroke: INK, width: 0.8, ..Ink::fill(fill) });
     dot(&mut svg, 0.0, INK);
     dot(&mut svg, percussion, "#ffffff");
     dot(&mut svg, -percussion, "#ffffff");

@@ -121,12 +121,7 @@ pub(crate) fn surface(data: &Surface) -> String {
     svg.finish(data.title)
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    clippy::cast_precision_loss,
-    reason = "a small index"
-)]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "a small index")]
 fn nearest(points: usize, x: f64) -> usize {
     (x * (points - 1) as f64).round() as usize
 }
@@ -149,8 +144,7 @@ fn brightness(shape: &[P3], cut: f64, light: P3) -> f64 {
 
 fn mix([light, dark]: [[u8; 3]; 2], x: f64) -> String {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between two bytes")]
-    let c: [u8; 3] =
-        std::array::from_fn(|i| (f64::from(dark[i]) + x * (f64::from(light[i]) - f64::from(dark[i]))).round() as u8);
+    let c: [u8; 3] = std::array::from_fn(|i| (f64::from(dark[i]) + x * (f64::from(light[i]) - f64::from(dark[i]))).round() as u8);
     format!("#{:02x}{:02x}{:02x}", c[0], c[1], c[2])
 }
 
@@ -215,8 +209,7 @@ fn box_front(svg: &mut Svg, view: &View, data: &Surface) {
     floor(svg, &|v| [v, near_e, 0.0], &|v| [v, near_e + de, 0.0], "inertia ratio  *q*");
     // the vertical axis stands at the leftmost corner
     let corners = [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]];
-    let left =
-        corners.into_iter().min_by(|a, b| view.pt([a[0], a[1], 0.0])[0].total_cmp(&view.pt([b[0], b[1], 0.0])[0]));
+    let left = corners.into_iter().min_by(|a, b| view.pt([a[0], a[1], 0.0])[0].total_cmp(&view.pt([b[0], b[1], 0.0])[0]));
     let [q, e] = left.unwrap_or_default();
     svg.line(view.pt([q, e, 0.0]), view.pt([q, e, data.cut]), rule);
     for k in 0..=4u8 {

@@ -106,13 +106,7 @@ impl Plane {
     fn compute() -> Result<Self, Error> {
         let (q, e) = (Axis::q(0.0, 1.0, GRID)?, Axis::e(0.0, 1.0, GRID)?);
         let map = |quantity| Ok::<_, Error>(Map::compute(quantity, q, e)?.values);
-        Ok(Self {
-            q,
-            e,
-            peak: map(Quantity::PeakEnd)?,
-            impacts: map(Quantity::Impacts)?,
-            duration: map(Quantity::Duration)?,
-        })
+        Ok(Self { q, e, peak: map(Quantity::PeakEnd)?, impacts: map(Quantity::Impacts)?, duration: map(Quantity::Duration)? })
     }
 
     /// All (q, e, peak at the ends), e fastest.
@@ -249,7 +243,10 @@ fn counts(plane: &Plane) -> Result<Vec<Claim>, Error> {
                 part("five", shares[3]),
                 part("endless", endless),
             ],
-            verdict: Verdict::of(shares[1] > 0.5, largest([shares[0], shares[2], shares[3], endless]) < shares[1]),
+            verdict: Verdict::of(
+                shares[1] > 0.5,
+                largest([shares[0], shares[2], shares[3], endless]) < shares[1],
+            ),
             remark: "It is the largest region but not the greater part of the plane.",
         },
         Claim {
@@ -258,13 +255,7 @@ fn counts(plane: &Plane) -> Result<Vec<Claim>, Error> {
             measured: vec![
                 part("line q = 0.5 with three", 1.0 - uniform_three),
                 number("three from e", uniform_three),
-                count(
-                    "at (0.5, 0.3)",
-                    match reference {
-                        Count::Finite(4) => 4.0,
-                        _ => f64::NAN,
-                    },
-                ),
+                count("at (0.5, 0.3)", match reference { Count::Finite(4) => 4.0, _ => f64::NAN }),
             ],
             verdict: Verdict::of(uniform_three <= 0.3, uniform_three < 1.0),
             remark: "For the bouncier ones only: the paper's own reference design has four impacts.",
@@ -389,7 +380,10 @@ fn peaks(plane: &Plane) -> Result<Vec<Claim>, Error> {
         Claim {
             place: "Fig. 4",
             statement: "At the ends the shock grows with q and with e.",
-            measured: vec![part("steps in q that fall", end_q.falls), part("steps in e that fall", end_e.falls)],
+            measured: vec![
+                part("steps in q that fall", end_q.falls),
+                part("steps in e that fall", end_e.falls),
+            ],
             verdict: Verdict::of(end_q.falls + end_e.falls == 0.0, true),
             remark: "In q it follows from the recurrence: each ratio of neighbors grows with T = q(1 + e).",
         },
@@ -407,7 +401,10 @@ fn peaks(plane: &Plane) -> Result<Vec<Claim>, Error> {
         Claim {
             place: "Figs. 3, 4",
             statement: "Ends, quarter points, center and rotation: every shock falls as e falls.",
-            measured: vec![part("steps of e against it, ends", end_e.falls), part("center", mid_e.falls)],
+            measured: vec![
+                part("steps of e against it, ends", end_e.falls),
+                part("center", mid_e.falls),
+            ],
             verdict: Verdict::of(end_e.falls + mid_e.falls == 0.0, end_e.falls < 0.5),
             remark: "One fact, not four: at fixed q they differ by constant factors.",
         },
@@ -563,8 +560,7 @@ fn designs(plane: &Plane) -> Result<Vec<Claim>, Error> {
     let ends = [peak(first)?, peak(second)?, peak(third)?];
     let percent = |s: f64| (100.0 * s).round();
     let shared = (0..4).flat_map(|i| (0..i).map(move |j| (DESIGNS[i], DESIGNS[j])));
-    let shared: f64 =
-        shared.map(|([q, e], [p, f])| f64::from(u8::from((q - p).abs() < 1e-9 || (e - f).abs() < 1e-9))).sum();
+    let shared: f64 = shared.map(|([q, e], [p, f])| f64::from(u8::from((q - p).abs() < 1e-9 || (e - f).abs() < 1e-9))).sum();
     // a uniform bar with a share m of its mass moved to the center has k² = (1 − m)/3
     let moved = |[q, _]: [f64; 2]| 1.0 - 3.0 * (1.0 - q) / (1.0 + q);
     let widest = largest(plane.zone(0.5));
@@ -582,10 +578,7 @@ fn designs(plane: &Plane) -> Result<Vec<Claim>, Error> {
             place: "Sect. 6",
             statement: "(0.73, 0.2) and (0.67, 0.15) give a zone of 10 % within v0/2.",
             measured: vec![part("s, (0.73, 0.2)", half[1]), part("s, (0.67, 0.15)", half[2])],
-            verdict: Verdict::of(
-                half[1] >= 0.1 && half[2] >= 0.1,
-                percent(half[1]) >= 10.0 && percent(half[2]) >= 10.0,
-            ),
+            verdict: Verdict::of(half[1] >= 0.1 && half[2] >= 0.1, percent(half[1]) >= 10.0 && percent(half[2]) >= 10.0),
             remark: "The second only when rounded to whole per cent.",
         },
         Claim {
