@@ -6,6 +6,7 @@
 #![cfg(test)]
 
 mod bad_input;
+mod docs;
 mod extremes;
 mod json;
 mod map;

@@ -41,7 +41,7 @@ const AMBER: [[u8; 3]; 2] = [[0xf6, 0xea, 0xcf], [0xb8, 0x8a, 0x3c]];
 /// Levels of a threshold's figure, as parts of the bar.
 fn levels(threshold: f64) -> Vec<f64> {
     let percent: &[f64] = if threshold < 1.0 {
-        &[0.0, 2.5, 5.0, 7.5, 10.0, 12.5, 15.0, 17.5, 20.0, 22.5]
+        &[0.0, 2.5, 5.0, 7.5, 10.0, 15.0, 20.0]
     } else if threshold < 2.0 {
         &[0.0, 10.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0]
     } else {
@@ -62,7 +62,13 @@ fn sheet(quantity: Quantity, name: &'static str, at: [f64; 2], fill: [[u8; 3]; 2
 }
 
 /// The sheet at distance `s` from the center (Eq. 4), from that of the ends.
-fn at_distance(end: &Sheet, s: f64, name: &'static str, at: [f64; 2], fill: [[u8; 3]; 2]) -> Result<Sheet, ReportError> {
+fn at_distance(
+    end: &Sheet,
+    s: f64,
+    name: &'static str,
+    at: [f64; 2],
+    fill: [[u8; 3]; 2],
+) -> Result<Sheet, ReportError> {
     let mut map = end.map.clone();
     for (i, line) in map.values.chunks_mut(MESH).enumerate() {
         let share = Bar::new(map.q.value(i), 0.0)?.share(s);
@@ -77,20 +83,40 @@ impl Data {
     /// Computes everything, in parallel.
     pub(crate) fn compute() -> Result<Self, ReportError> {
         let (claims, (zones, rest)) = rayon::join(clatter::paper::claims, || {
-            rayon::join(|| [zones_of(0.5), zones_of(1.0), zones_of(2.0)], || {
-                let curves = CURVES.map(|n| (n, contour::impacts(n, 160))).collect();
-                let end = sheet(Quantity::PeakEnd, "*s* = 1", [0.0, 1.0], BLUE)?;
-                let quarter = at_distance(&end, 0.5, "*s* = 0.5", [0.0, 1.0], GREEN)?;
-                let center = at_distance(&end, 0.0, "*s* = 0", [0.0, 1.0], AMBER)?;
-                let angular = sheet(Quantity::PeakAngular, "", [0.0, 1.0], BLUE)?;
-                let view = |sheets, axis, title| Surface { sheets, cut: CUT, axis, title, azimuth: 35.0, elevation: 24.0 };
-                let surfaces = [
-                    view(vec![angular], "Δ*ω*_{max}  in *v*_0/*L*", "Largest change of angular velocity"),
-                    view(vec![center, quarter, end], "Δ*v*_{max}  in *v*_0", "Largest velocity shocks"),
-                ];
-                let table1 = clatter::paper::table1()?;
-                Ok::<_, ReportError>((Impacts { curves, endless: contour::endless(160) }, surfaces, table1))
-            })
+            rayon::join(
+                || [zones_of(0.5), zones_of(1.0), zones_of(2.0)],
+                || {
+                    let curves = CURVES.map(|n| (n, contour::impacts(n, 160))).collect();
+                    let end = sheet(Quantity::PeakEnd, "*s* = 1", [0.45, 0.2], BLUE)?;
+                    let quarter = at_distance(&end, 0.5, "*s* = 0.5", [0.93, 0.5], GREEN)?;
+                    let center = at_distance(&end, 0.0, "*s* = 0", [0.85, 0.62], AMBER)?;
+                    let angular = sheet(Quantity::PeakAngular, "", [0.0, 1.0], BLUE)?;
+                    let view = |sheets, axis, title, [azimuth, elevation]: [f64; 2]| Surface {
+                        sheets,
+                        cut: CUT,
+                        axis,
+                        title,
+                        azimuth,
+                        elevation,
+                    };
+                    let surfaces = [
+                        view(
+                            vec![angular],
+                            "Δ*ω*_{max} in *v*_0/*L*",
+                            "Largest change of angular velocity",
+                            [38.0, 24.0],
+                        ),
+                        view(
+                            vec![center, quarter, end],
+                            "Δ*v*_{max} in *v*_0",
+                            "Largest velocity shocks",
+                            [150.0, 16.0],
+                        ),
+                    ];
+                    let table1 = clatter::paper::table1()?;
+                    Ok::<_, ReportError>((Impacts { curves, endless: contour::endless(160) }, surfaces, table1))
+                },
+            )
         });
         let (impacts, surfaces, table1) = rest?;
         Ok(Self { percussion: Bar::new(0.5, 0.3)?.percussion(), impacts, zones, surfaces, table1, claims: claims? })
@@ -129,4 +155,26 @@ fn pretty(value: &impl serde::Serialize) -> Result<String, ReportError> {
 /// What only the page needs.
 pub(crate) fn page() -> String {
     json!({ "version": env!("CARGO_PKG_VERSION") }).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_stay_within_their_frame() {
+        for (name, svg) in Data::compute().unwrap().files().unwrap().iter().filter(|(name, _)| name.ends_with("svg")) {
+            let size = svg.split("viewBox=\"0 0 ").nth(1).and_then(|rest| rest.split('"').next()).unwrap();
+            let size: Vec<f64> = size.split(' ').map(|v| v.parse().unwrap()).collect();
+            assert!(!svg.contains("NaN") && !svg.contains("inf"), "{name}");
+            for d in svg.split(" d=\"M").skip(1).filter_map(|rest| rest.split('"').next()).filter(|d| !d.contains('a'))
+            {
+                for point in d.trim_end_matches('Z').split('L') {
+                    let point: Vec<f64> = point.split(' ').map(|v| v.parse().unwrap()).collect();
+                    let inside = point.iter().zip(&size).all(|(x, w)| (0.0..=*w).contains(x));
+                    assert!(inside, "{name}: {point:?} is outside {size:?}");
+                }
+            }
+        }
+    }
 }

@@ -33,19 +33,14 @@ pub(crate) struct Ink {
     pub(crate) stroke: &'static str,
     /// Line width in pt.
     pub(crate) width: f64,
-    /// Dash pattern in pt, empty for a solid line.
-    pub(crate) dash: &'static str,
 }
 
 impl Ink {
     pub(crate) const fn line(stroke: &'static str, width: f64) -> Self {
-        Self { fill: "none", stroke, width, dash: "" }
+        Self { fill: "none", stroke, width }
     }
     pub(crate) const fn fill(fill: &'static str) -> Self {
-        Self { fill, stroke: "none", width: 0.0, dash: "" }
-    }
-    pub(crate) const fn dashed(self, dash: &'static str) -> Self {
-        Self { dash, ..self }
+        Self { fill, stroke: "none", width: 0.0 }
     }
 }
 
@@ -178,9 +173,6 @@ impl Svg {
         if ink.stroke != "none" {
             let _ = write!(self.body, " stroke=\"{}\" stroke-width=\"{}\"", ink.stroke, pt(ink.width));
         }
-        if !ink.dash.is_empty() {
-            let _ = write!(self.body, " stroke-dasharray=\"{}\"", ink.dash);
-        }
         self.body.push_str("/>\n");
     }
 
@@ -216,7 +208,12 @@ impl Svg {
             Anchor::End => "end",
         };
         let (x, y) = (pt(x), pt(y));
-        let _ = write!(self.body, "<text x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\" font-size=\"{}\" fill=\"{}\"", pt(label.size), label.color);
+        let _ = write!(
+            self.body,
+            "<text xml:space=\"preserve\" x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\" font-size=\"{}\" fill=\"{}\"",
+            pt(label.size),
+            label.color
+        );
         if label.turn != 0.0 {
             let _ = write!(self.body, " transform=\"rotate({} {x} {y})\"", pt(label.turn));
         }
@@ -228,7 +225,10 @@ impl Svg {
         let _ = writeln!(
             self.body,
             "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" image-rendering=\"optimizeSpeed\" style=\"image-rendering:pixelated\" href=\"data:image/png;base64,{png}\"/>",
-            pt(x), pt(y), pt(w), pt(h)
+            pt(x),
+            pt(y),
+            pt(w),
+            pt(h)
         );
     }
 
@@ -248,6 +248,35 @@ impl Svg {
     /// A facet of a surface: filled, with a hairline of its own.
     pub(crate) fn facet(&mut self, points: &[Pt], fill: &str, line: &str) {
         let d: String = points.iter().map(|[x, y]| format!("{} {}", pt(*x), pt(*y))).collect::<Vec<_>>().join("L");
-        let _ = writeln!(self.body, "<path d=\"M{d}Z\" fill=\"{fill}\" stroke=\"{line}\" stroke-width=\".22\"/>");
+        let _ = writeln!(self.body, "<path d=\"M{d}Z\" fill=\"{fill}\" stroke=\"{line}\" stroke-width=\".25\"/>");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_have_italics_and_subscripts_that_come_back_up() {
+        let plain = |text| markup(text, 10.0);
+        assert_eq!(
+            plain("*v*_0 < 1"),
+            concat!(
+                "<tspan font-style=\"italic\">v</tspan><tspan dy=\"2\" font-size=\"7.2\">0</tspan>",
+                "<tspan dy=\"-2\"> &lt; 1</tspan>"
+            )
+        );
+        assert_eq!(
+            plain("*v*_{max}*x*"),
+            concat!(
+                "<tspan font-style=\"italic\">v</tspan><tspan dy=\"2\" font-size=\"7.2\">max</tspan>",
+                "<tspan font-style=\"italic\" dy=\"-2\">x</tspan>"
+            )
+        );
+    }
+
+    #[test]
+    fn coordinates_are_short_and_have_no_negative_zero() {
+        assert_eq!([pt(-0.001), pt(1.0), pt(2.504)], ["0", "1", "2.5"]);
     }
 }

@@ -83,10 +83,10 @@ fn verdict(verdict: Verdict) -> &'static str {
 pub(crate) fn table1(rows: &[Row]) -> Table1 {
     let row = |row: &Row| {
         let (quantity, unit, digits) = match row.kind {
-            RowKind::SafeZone(x) => (format!("safe zone for shocks up to {x} v0"), "%", 3),
-            RowKind::PeakEnd => ("largest velocity shock at the ends".into(), "v0", 6),
-            RowKind::PeakAngular => ("largest change of angular velocity".into(), "v0/L", 6),
-            RowKind::NetCenter => ("net change of velocity at the center".into(), "v0", 6),
+            RowKind::SafeZone(x) => (format!("safe zone for shocks up to {x} v₀"), "%", 3),
+            RowKind::PeakEnd => ("largest velocity shock at the ends".into(), "v₀", 6),
+            RowKind::PeakAngular => ("largest change of angular velocity".into(), "v₀/L", 6),
+            RowKind::NetCenter => ("net change of velocity at the center".into(), "v₀", 6),
             RowKind::Impacts => ("number of impacts".into(), "", 0),
         };
         let cells = row.cells.iter().map(|cell| TableCell {
@@ -107,7 +107,7 @@ fn shown(m: &Measured) -> String {
         Kind::Share => {
             let percent = 100.0 * m.value;
             let whole = (percent - percent.round()).abs() < 1e-9;
-            format!("{} %", decimals(percent, if whole { 0 } else { 2 }))
+            format!("{}\u{a0}%", decimals(percent, if whole { 0 } else { 2 }))
         }
         Kind::Number if m.value != 0.0 && m.value.abs() < 1e-12 => "below 10⁻¹²".into(),
         Kind::Number => {

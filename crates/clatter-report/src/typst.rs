@@ -2,7 +2,6 @@
 
 use std::ffi::OsString;
 use std::fs;
-use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::thread;
@@ -21,7 +20,11 @@ const VERSION_LIMIT: Duration = Duration::from_secs(20);
 #[derive(Debug)]
 pub(crate) struct Typst {
     program: PathBuf,
+    limit: Duration,
 }
+
+/// Looks up an environment variable; what is empty counts as not set.
+type Env<'a> = &'a dyn Fn(&str) -> Option<OsString>;
 
 /// How a run ended, where it did not hang.
 struct Ended {
@@ -39,15 +42,18 @@ impl Typst {
     /// new one there, built with cargo unless `CLATTER_NO_INSTALL` is set. A version other than the tested one
     /// is a warning.
     pub(crate) fn find(progress: &mut dyn FnMut(&str)) -> Result<(Self, Option<String>), ReportError> {
-        let typst = Self { program: locate(progress)? };
+        Self::find_with(&|name| std::env::var_os(name).filter(|value| !value.is_empty()), progress)
+    }
+
+    fn find_with(env: Env<'_>, progress: &mut dyn FnMut(&str)) -> Result<(Self, Option<String>), ReportError> {
+        let typst = Self { program: locate(env, progress)?, limit: COMPILE_LIMIT };
         let ended = run(Command::new(&typst.program).arg("--version"), VERSION_LIMIT, &typst.program)?;
         let version = ended.stdout.split_whitespace().nth(1).unwrap_or_default();
         if !ended.success || !ended.stdout.starts_with("typst ") {
             return Err(failed(format!("{} is not typst: it does not tell its version", typst.program.display())));
         }
-        let warning = (version != VERSION).then(|| {
-            format!("typst {version} at {}: the pages are tested with {VERSION}", typst.program.display())
-        });
+        let warning = (version != VERSION)
+            .then(|| format!("typst {version} at {}: the pages are tested with {VERSION}", typst.program.display()));
         Ok((typst, warning))
     }
 
@@ -62,7 +68,7 @@ impl Typst {
         for name in ["TYPST_FONT_PATHS", "TYPST_PACKAGE_PATH", "TYPST_ROOT", "TYPST_FEATURES", "SOURCE_DATE_EPOCH"] {
             command.env_remove(name);
         }
-        let ended = run(&mut command, COMPILE_LIMIT, &self.program)?;
+        let ended = run(&mut command, self.limit, &self.program)?;
         let said = ended.stderr.trim();
         if !ended.success || !said.is_empty() {
             let said = if said.is_empty() { "it gave no reason" } else { said };
@@ -73,8 +79,8 @@ impl Typst {
 }
 
 /// Finds or builds the program.
-fn locate(progress: &mut dyn FnMut(&str)) -> Result<PathBuf, ReportError> {
-    if let Some(named) = std::env::var_os("CLATTER_TYPST").filter(|name| !name.is_empty()) {
+fn locate(env: Env<'_>, progress: &mut dyn FnMut(&str)) -> Result<PathBuf, ReportError> {
+    if let Some(named) = env("CLATTER_TYPST") {
         let path = PathBuf::from(named);
         return if path.is_file() {
             Ok(path)
@@ -83,11 +89,11 @@ fn locate(progress: &mut dyn FnMut(&str)) -> Result<PathBuf, ReportError> {
         };
     }
     let name = format!("typst{}", std::env::consts::EXE_SUFFIX);
-    let path = std::env::var_os("PATH").unwrap_or_default();
+    let path = env("PATH").unwrap_or_default();
     if let Some(found) = std::env::split_paths(&path).map(|dir| dir.join(&name)).find(|file| file.is_file()) {
         return Ok(found);
     }
-    let Some(cache) = cache() else {
+    let Some(cache) = cache(env) else {
         return Err(failed("no typst on PATH, and no home directory to keep one in; set CLATTER_TYPST"));
     };
     let root = cache.join("clatter").join(format!("typst-{VERSION}"));
@@ -98,18 +104,22 @@ fn locate(progress: &mut dyn FnMut(&str)) -> Result<PathBuf, ReportError> {
     let build = format!(
         "cargo install typst-cli --version {VERSION} --locked --no-default-features --features embedded-fonts,vendor-openssl"
     );
-    if std::env::var_os("CLATTER_NO_INSTALL").is_some_and(|v| !v.is_empty() && v != "0") {
+    if env("CLATTER_NO_INSTALL").is_some_and(|value| value != "0") {
         return Err(failed(format!(
             "no typst: set CLATTER_TYPST, put typst {VERSION} on PATH, or unset CLATTER_NO_INSTALL to have it built; \
              by hand: {build}"
         )));
     }
+    // two commands, or two tests, must not build it twice
+    let lock = fs::create_dir_all(&root).and_then(|()| fs::File::create(root.join("lock")));
+    let lock = lock.and_then(|file| file.lock().map(|()| file));
+    let _lock = lock.map_err(|source| ReportError::Io { path: root.join("lock"), source })?;
+    if program.is_file() {
+        return Ok(program);
+    }
     progress(&format!("no typst found: building {VERSION} into {}, 7 to 12 minutes, once", root.display()));
-    let mut words = build.split(' ');
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| OsString::from(words.next().unwrap_or("cargo")));
-    let words = build.split(' ').skip(1);
-    let status = Command::new(cargo)
-        .args(words)
+    let status = Command::new(env("CARGO").unwrap_or_else(|| "cargo".into()))
+        .args(build.split(' ').skip(1))
         .arg("--root")
         .arg(&root)
         .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1") // sets a page as fast and builds in half the time
@@ -125,8 +135,8 @@ fn locate(progress: &mut dyn FnMut(&str)) -> Result<PathBuf, ReportError> {
 }
 
 /// The user's cache directory.
-fn cache() -> Option<PathBuf> {
-    let dir = |name: &str| std::env::var_os(name).filter(|v| !v.is_empty()).map(PathBuf::from);
+fn cache(env: Env<'_>) -> Option<PathBuf> {
+    let dir = |name: &str| env(name).map(PathBuf::from);
     if let Some(xdg) = dir("XDG_CACHE_HOME").filter(|path| path.is_absolute()) {
         return Some(xdg);
     }
@@ -176,5 +186,87 @@ fn wait(child: &mut Child, limit: Duration) -> Result<Option<bool>, ReportError>
             }
             Err(error) => return Err(failed(format!("typst was lost: {error}"))),
         }
+    }
+}
+
+#[cfg(test)]
+#[cfg(unix)]
+mod tests {
+    use super::*;
+    use std::os::unix::fs::PermissionsExt as _;
+
+    /// A program in a directory of its own that stands in for typst.
+    fn stand_in(script: &str) -> (tempfile::TempDir, PathBuf) {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("typst");
+        fs::write(&path, format!("#!/bin/sh\n{script}\n")).unwrap();
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
+        (dir, path)
+    }
+
+    fn only(name: &'static str, value: &Path) -> impl Fn(&str) -> Option<OsString> {
+        let value = value.as_os_str().to_owned();
+        move |asked| match asked {
+            "CLATTER_NO_INSTALL" => Some("1".into()),
+            asked => (asked == name).then(|| value.clone()),
+        }
+    }
+
+    fn compile(script: &str, limit: Duration) -> String {
+        let (dir, program) = stand_in(script);
+        let done = Typst { program, limit }.compile(dir.path(), "page.typ");
+        done.expect_err("a stand-in sets no page").to_string()
+    }
+
+    #[test]
+    fn it_is_found_by_name_by_path_and_in_the_cache() {
+        let (dir, program) = stand_in("echo typst 0.15.1");
+        let cached = dir.path().join("clatter/typst-0.15.1/bin");
+        fs::create_dir_all(&cached).unwrap();
+        fs::copy(&program, cached.join("typst")).unwrap();
+        for (name, value, want) in [
+            ("CLATTER_TYPST", program.clone(), program.clone()),
+            ("PATH", dir.path().to_owned(), program.clone()),
+            ("XDG_CACHE_HOME", dir.path().to_owned(), cached.join("typst")),
+        ] {
+            let (typst, warning) = Typst::find_with(&only(name, &value), &mut |_| ()).unwrap();
+            assert_eq!((typst.program, warning), (want, None), "{name}");
+        }
+    }
+
+    #[test]
+    fn another_version_is_a_warning_and_another_program_an_error() {
+        let (_dir, program) = stand_in("echo typst 0.99.0");
+        let (_, warning) = Typst::find_with(&only("CLATTER_TYPST", &program), &mut |_| ()).unwrap();
+        assert!(warning.unwrap().contains("0.99.0"), "the warning tells the version");
+        let (_dir, program) = stand_in("echo hello");
+        let error = Typst::find_with(&only("CLATTER_TYPST", &program), &mut |_| ()).unwrap_err();
+        assert!(error.to_string().contains("is not typst"), "{error}");
+    }
+
+    #[test]
+    fn without_one_nothing_is_built_when_told_not_to() {
+        let empty = tempfile::tempdir().unwrap();
+        let error = Typst::find_with(&only("XDG_CACHE_HOME", empty.path()), &mut |_| ()).unwrap_err().to_string();
+        assert!(error.contains("CLATTER_NO_INSTALL") && error.contains("cargo install typst-cli"), "{error}");
+        let missing = empty.path().join("nowhere");
+        let error = Typst::find_with(&only("CLATTER_TYPST", &missing), &mut |_| ()).unwrap_err().to_string();
+        assert!(error.contains("nowhere"), "{error}");
+    }
+
+    #[test]
+    fn a_warning_and_a_silent_failure_are_failures() {
+        let warned = compile("echo 'page.typ:3:7: warning: unknown font' >&2; : > page.pdf", COMPILE_LIMIT);
+        assert!(warned.contains("page.typ:3:7"), "{warned}");
+        let silent = compile("exit 1", COMPILE_LIMIT);
+        assert!(silent.contains("no reason"), "{silent}");
+    }
+
+    #[test]
+    fn a_hang_is_cut_off() {
+        let started = Instant::now();
+        let error = compile("exec sleep 60", Duration::from_millis(100));
+        assert!(error.contains("cut off"), "{error}");
+        assert!(started.elapsed() < Duration::from_secs(50), "the child was waited for");
     }
 }

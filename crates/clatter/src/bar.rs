@@ -107,7 +107,7 @@ impl Bar {
     /// From k = ρ/L, radius of gyration over half-length: q = (1 − k²)/(1 + k²). No digit is lost near q = 1.
     ///
     /// # Errors
-    /// [`Error::Quantity`] unless k is 0 or in [1e−75, 1e75], [`Error::Restitution`] unless 0 ≤ e ≤ 1.
+    /// [`Error::Quantity`] unless k is 0 or in [1e−35, 1e35], [`Error::Restitution`] unless 0 ≤ e ≤ 1.
     ///
     /// # Examples
     /// So little mass at the ends that q rounds to 1, and yet the bar clatters a finite number of times:
@@ -118,16 +118,13 @@ impl Bar {
     /// # Ok::<(), clatter::Error>(())
     /// ```
     pub fn from_gyration_ratio(k: f64, e: f64) -> Result<Self, Error> {
-        if k != 0.0 && !(1e-75..=1e75).contains(&k) {
-            return Err(Error::Quantity { name: "gyration ratio", value: k, allowed: "0 or in [1e-75, 1e75]" });
-        }
         Self::from_gyration_squared([k, k], [1.0; 3], e)
     }
 
     /// From half-length and radius of gyration, in the same unit.
     ///
     /// # Errors
-    /// [`Error::Quantity`] unless the half-length is in [1e−25, 1e25] and the radius is 0 or in that range,
+    /// [`Error::Quantity`] unless the half-length is in [1e−25, 1e25], the radius is 0 or in that range and so is k in its own,
     /// [`Error::Restitution`] unless 0 ≤ e ≤ 1.
     pub fn from_gyration_radius(half_length: f64, radius_of_gyration: f64, e: f64) -> Result<Self, Error> {
         let l = positive("half-length", half_length)?;
@@ -138,7 +135,7 @@ impl Bar {
     /// From mass, length from end to end and moment of inertia about the center: k² = 4J/(m (2L)²).
     ///
     /// # Errors
-    /// [`Error::Quantity`] unless mass and length are in [1e−25, 1e25] and the moment is 0 or in that range,
+    /// [`Error::Quantity`] unless mass and length are in [1e−25, 1e25], the moment is 0 or in that range and k in its own,
     /// [`Error::Restitution`] unless 0 ≤ e ≤ 1.
     ///
     /// # Examples
@@ -212,6 +209,11 @@ impl Bar {
     /// k² = over/under, every product within the range of floats.
     fn from_gyration_squared(over: [f64; 2], under: [f64; 3], e: f64) -> Result<Self, Error> {
         let e = Restitution::new(e)?.get();
+        // Beyond, the count would exceed 2^120; nothing real comes near.
+        let k = (over[0] / under[0]).sqrt() * (over[1] / under[1] / under[2]).sqrt();
+        if k != 0.0 && !(1e-35..=1e35).contains(&k) {
+            return Err(Error::Quantity { name: "gyration ratio", value: k, allowed: "0 or in [1e-35, 1e35]" });
+        }
         let given = Given::GyrationSquared { over, under };
         let mut bar = Self { q: 0.0, e, t: 0.0, less: 0.0, more: 0.0, given };
         let WideQ { q, less, more } = bar.wide_q();

@@ -53,14 +53,19 @@ fn last_delta(n: u32) -> f64 {
 fn impacts_at(n: u32, delta: f64) -> Point {
     let n = f64::from(n);
     let corner = std::f64::consts::PI / n;
-    let root = (n * delta).sin() / (corner - (n + 1.0) * delta).sin();
+    let root = libm::sin(n * delta) / libm::sin(corner - (n + 1.0) * delta);
     let e = root * root;
-    Point { q: 2.0 * root * (corner - delta).cos() / (1.0 + e), e }
+    Point { q: 2.0 * root * libm::cos(corner - delta) / (1.0 + e), e }
 }
 
 /// The bounding curve of the endless region, q = 2√e/(1 + e), in `segments` pieces from (0, 0) to (1, 1).
 ///
-/// On it and above it the impacts never end (from pure translation).
+/// On it and above it the impacts never end (from pure translation). The area above it is π − 3.
+///
+/// ```
+/// let curve = clatter::contour::endless(2);
+/// assert_eq!((curve[1].q, curve[1].e), (0.8, 0.25)); // 2 · ½/(1 + ¼)
+/// ```
 #[must_use]
 pub fn endless(segments: u32) -> Vec<Point> {
     let at = |i| {
@@ -73,6 +78,11 @@ pub fn endless(segments: u32) -> Vec<Point> {
 /// Area of the design plane with at most n impacts, the integral of q de along [`impacts`].
 ///
 /// Accuracy: `error` bounds what the quadrature leaves, 1e-13 or better.
+///
+/// ```
+/// // all finite counts together fill 4 − π
+/// assert!((clatter::contour::area_up_to(10_000).value - (4.0 - std::f64::consts::PI)).abs() < 1e-6);
+/// ```
 #[must_use]
 pub fn area_up_to(n: u32) -> Integral {
     if n < 2 {
@@ -82,9 +92,10 @@ pub fn area_up_to(n: u32) -> Integral {
     let corner = std::f64::consts::PI / m;
     let q_de = |delta: f64| {
         let (a, b) = (m * delta, corner - (m + 1.0) * delta);
-        let root = a.sin() / b.sin();
-        let de = 2.0 * root * (m * a.cos() * b.sin() + (m + 1.0) * b.cos() * a.sin()) / b.sin().powi(2);
-        2.0 * root * (corner - delta).cos() / (1.0 + root * root) * de
+        let ((sin_a, cos_a), (sin_b, cos_b)) = (libm::sincos(a), libm::sincos(b));
+        let root = sin_a / sin_b;
+        let de = 2.0 * root * (m * cos_a * sin_b + (m + 1.0) * cos_b * sin_a) / (sin_b * sin_b);
+        2.0 * root * libm::cos(corner - delta) / (1.0 + root * root) * de
     };
     integrate(q_de, &[0.0, last_delta(n)], 1e-13)
 }
@@ -291,8 +302,14 @@ mod tests {
     #[test]
     fn areas_have_their_closed_forms() {
         // n = 2: q = (√(1 + 4e) − 1)/(2(1 + e)), integrated with u = √(1 + 4e)
-        let two = 5f64.sqrt() - 1.0 - 3f64.sqrt() * ((5f64 / 3.0).sqrt().atan() - (1f64 / 3.0).sqrt().atan()) - 0.5 * 2f64.ln();
+        let two = 5f64.sqrt()
+            - 1.0
+            - 3f64.sqrt() * ((5f64 / 3.0).sqrt().atan() - (1f64 / 3.0).sqrt().atan())
+            - 0.5 * 2f64.ln();
         assert!((area_up_to(2).value - two).abs() < 1e-14, "{:?}, not {two}", area_up_to(2));
+        for n in 2..60 {
+            assert!(area_up_to(n).error <= 1e-13, "{n}: {:?}", area_up_to(n));
+        }
         // all finite counts together fill 4 − π; what is left beyond n falls like 1/n²
         let left = |n: u32| 4.0 - std::f64::consts::PI - area_up_to(n).value;
         assert!((left(2000) * 4.0 / left(1000) - 1.0).abs() < 0.01, "{} {}", left(1000), left(2000));
@@ -305,7 +322,8 @@ mod tests {
 
     #[test]
     fn a_level_curve_has_its_level_and_ends_on_the_border() {
-        for (threshold, level) in [(0.5, 0.0), (0.5, 0.05), (0.5, 0.2), (1.0, 0.0), (1.0, 0.4), (2.0, 0.1), (2.0, 1.0)] {
+        for (threshold, level) in [(0.5, 0.0), (0.5, 0.05), (0.5, 0.2), (1.0, 0.0), (1.0, 0.4), (2.0, 0.1), (2.0, 1.0)]
+        {
             let pieces = SafeZone::new(threshold).curve(level, 1e-4);
             assert!(!pieces.is_empty(), "s({threshold}) = {level}");
             for piece in pieces {

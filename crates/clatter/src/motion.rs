@@ -19,13 +19,12 @@
 //! What decides is formed in double-double, or in integers where even those digits cancel: D, S, αT + 2β and
 //! σ τ = αβT + β² + α²e. Then f64 suffices, until a quotient lies within its error of an integer.
 
-use crate::bar::WideQ;
 use crate::dd::{self, Dd, ldexp, two_prod, two_sum};
 use crate::exact::{Dyadic, Recurrence};
-use crate::{Bar, Start};
-use libm::{atan2, exp, expm1, log, log1p, sin, sincos};
+use crate::{Bar, Count, PeakImpact, Start};
+use libm::{exp, expm1, log, log1p, sin, sincos};
 use std::cmp::Ordering;
-use std::f64::consts::LN_2;
+use std::f64::consts::{LN_2, PI};
 
 /// Roundings (units of 2⁻⁵³, relative) that a quotient of two f64 angles or logarithms may be off: two library
 /// functions of at most 2 each, their arguments of at most 4, a quotient, and a margin of 2.
@@ -39,12 +38,10 @@ pub(crate) struct Drive {
     pub(crate) bar: Bar,
     pub(crate) start: Start,
     pub(crate) m: i32,
-    pub(crate) t: Dd,
+    t: f64,
     pub(crate) e: f64,
     pub(crate) alpha: f64,
     pub(crate) beta: f64,
-    /// ln e of the true e.
-    ln_e: f64,
     pub(crate) kind: Kind,
 }
 
@@ -60,14 +57,12 @@ pub(crate) enum Kind {
 
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Wave {
-    d: Dd,
+    /// Bound on the relative error of D.
     d_error: f64,
     /// √D.
     pub(crate) s: f64,
     /// αT + 2β.
-    x: Dd,
-    /// hypot(αT + 2β, αS).
-    pub(crate) amplitude: f64,
+    x: f64,
     pub(crate) theta: f64,
     psi: f64,
 }
@@ -87,21 +82,32 @@ pub(crate) struct Decay {
     pub(crate) ln_plus: f64,
 }
 
-/// How many impacts, before it is put into a public type.
+/// How many steps until a sign changes: below 2¹²⁰ for every bar and start that is let in.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Steps {
+enum Steps {
     Exactly(u128),
-    About(f64),
     Endless,
 }
 
-/// a_{N−1}, `a_N` and the time of the last strike.
+/// a_{N−1}, `a_N` and the time of strike N.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Last {
-    pub(crate) a: f64,
-    pub(crate) next: f64,
-    pub(crate) time: f64,
+struct Last {
+    a: f64,
+    next: f64,
+    time: f64,
 }
+
+/// How a train ends.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ending {
+    pub(crate) count: Count,
+    /// Time of the last strike, or the limit.
+    pub(crate) time: f64,
+    pub(crate) velocity: Option<[f64; 2]>,
+}
+
+/// The impact with the largest |`a_n`|, and that value.
+pub(crate) type Largest = (PeakImpact, f64);
 
 /// Which solution of the recurrence: that of the velocities, or that of their differences a_{n+1} − `a_n`, whose
 /// first sign change is where |`a_n`| is largest.
@@ -119,22 +125,16 @@ impl Drive {
         let e = bar.e;
         let small = bar.q().max(e.sqrt());
         let m = if small < 1e-60 { -exponent(small) } else { 0 };
-        let wide = bar.wide_q();
-        let (q, scaled_e) = if m == 0 { (wide.q, e) } else { (wide.q.scale(m), ldexp(e, 2 * m)) };
-        let t = q * two_sum(1.0, e);
+        let (t, scaled_e) = if m == 0 { (bar.t, e) } else { (ldexp(bar.t, m), ldexp(e, 2 * m)) };
         let beta = if m == 0 { beta } else { ldexp(beta, m) };
-        let ln_e = if e > 0.5 { log1p(e - 1.0) } else { log(e) };
-        let mut drive = Self { bar: *bar, start: *start, m, t, e: scaled_e, alpha, beta, ln_e, kind: Kind::Edge };
-        let (d, d_error) = drive.discriminant(&wide);
+        let mut drive = Self { bar: *bar, start: *start, m, t, e: scaled_e, alpha, beta, kind: Kind::Edge };
+        let (d, d_error) = drive.discriminant(2f64.powi(-50));
         drive.kind = if d.hi > 0.0 {
-            let x = drive.slope(d);
             let s = d.hi.sqrt();
-            let (y, x_hi) = (alpha * s, x.hi);
-            let theta = atan2(s, t.hi);
-            // Squares leave the range only where a scale has been brought in.
-            let amplitude = if m == 0 { (x_hi * x_hi + y * y).sqrt() } else { x_hi.hypot(y) };
-            Kind::Wave(Wave { d, d_error, s, x, amplitude, theta, psi: atan2(y, -x_hi) })
+            let x = if beta >= 0.0 { alpha * t + 2.0 * beta } else { drive.slope(d.hi).hi };
+            Kind::Wave(Wave { d_error, s, x, theta: angle(s, t), psi: angle(alpha * s, -x) })
         } else if d.hi < 0.0 {
+            let d = if d_error > 2f64.powi(-80) { drive.discriminant(2f64.powi(-80)).0 } else { d };
             Kind::Decay(drive.decay(d))
         } else {
             Kind::Edge
@@ -142,19 +142,31 @@ impl Drive {
         drive
     }
 
-    /// D = 4e − T² to a relative 2⁻⁸⁰ at the very worst, and that bound; its sign is certain. A last strike at a
-    /// relative 10⁻¹⁰ takes D at a relative 10⁻¹⁰/N and better, hence so many digits.
-    fn discriminant(&self, wide: &WideQ) -> (Dd, f64) {
-        let e = self.bar.e;
-        // Of two equal forms the one with the smaller terms.
-        let (first, second) = if e > 0.17 {
+    /// D = 4e − T² and a bound on its relative error, at most `tolerance` ≥ 2⁻⁸⁰; its sign is certain. A last strike
+    /// at a relative 10⁻¹⁰ takes D at 10⁻¹⁰/N.
+    fn discriminant(&self, tolerance: f64) -> (Dd, f64) {
+        let Bar { e, less, more, .. } = self.bar;
+        // Of two equal forms the one with the smaller terms, (1 − q²)(1 + e)² − (1 − e)² for all but small e.
+        let corner = e > 0.17;
+        let (first, second) = if corner {
+            (less * more * ((1.0 + e) * (1.0 + e)), (1.0 - e) * (1.0 - e))
+        } else {
+            (4.0 * self.e, self.t * self.t)
+        };
+        let d = first - second;
+        let error = 8.0 * UNIT * (first / d).abs();
+        if error <= tolerance {
+            return (Dd::from(d), error);
+        }
+        let wide = self.bar.wide_q();
+        let (first, second) = if corner {
             (wide.less * wide.more * two_sum(1.0, e).sqr(), two_sum(1.0, -e).sqr())
         } else {
-            (Dd::from(4.0 * self.e), self.t.sqr())
+            (Dd::from(4.0 * self.e), self.wide_t().sqr())
         };
         let d = first - second;
         let error = 2f64.powi(-100) * (first.hi / d.hi).abs();
-        if error < 2f64.powi(-80) {
+        if error <= tolerance {
             return (d, error);
         }
         // 4e − q²(1 + 2e + e²), every product as the floats that make it up.
@@ -167,7 +179,7 @@ impl Drive {
             let tail = -k * l;
             let d = dd::sum([tail, f.lo, d.lo, f.hi, d.hi, c.lo, b.lo, c.hi, b.hi, a.lo, -l, a.hi, -h, 4.0 * self.e]);
             let error = 2f64.powi(-100) + 2f64.powi(-200) * (self.e / d.hi).abs();
-            if error < 2f64.powi(-80) {
+            if error <= tolerance {
                 return (d, error);
             }
         }
@@ -177,10 +189,10 @@ impl Drive {
     }
 
     /// αT + 2β, to a relative 2⁻⁹⁰ of the amplitude at the very least.
-    fn slope(&self, d: Dd) -> Dd {
-        let at = self.t * self.alpha;
+    fn slope(&self, d: f64) -> Dd {
+        let at = self.wide_t() * self.alpha;
         let x = at + Dd::from(2.0 * self.beta);
-        let size = x.hi.abs().max(self.alpha * d.hi.abs().sqrt());
+        let size = x.hi.abs().max(self.alpha * d.abs().sqrt());
         if size > at.hi * 2f64.powi(-10) {
             return x;
         }
@@ -192,7 +204,7 @@ impl Drive {
     /// σ τ = αβT + β² + α²e, to a relative 2⁻⁵² at the very least, its sign for certain.
     fn product(&self) -> f64 {
         let (alpha, beta) = (self.alpha, self.beta);
-        let terms = [two_prod(alpha, beta) * self.t, two_prod(beta, beta), two_prod(alpha, alpha) * self.e];
+        let terms = [two_prod(alpha, beta) * self.wide_t(), two_prod(beta, beta), two_prod(alpha, alpha) * self.e];
         let sum = terms[0] + terms[1] + terms[2];
         if sum.hi.abs() > terms.iter().fold(0.0, |most: f64, t| most.max(t.hi.abs())) * 2f64.powi(-40) {
             return sum.hi;
@@ -203,10 +215,10 @@ impl Drive {
 
     fn decay(&self, d: Dd) -> Decay {
         let s = (-d).sqrt();
-        let plus = (self.t + s).scale(-1).hi;
+        let plus = 0.5 * (self.wide_t() + s).hi;
         let s = s.hi;
         // σ and τ are (αT + 2β ± αS)/2: the larger by adding, the other from their product.
-        let (x, y, product) = (self.slope(d).hi, self.alpha * s, self.product());
+        let (x, y, product) = (self.slope(d.hi).hi, self.alpha * s, self.product());
         let (sigma, tau) = if x >= 0.0 {
             let sigma = 0.5 * (x + y);
             (sigma, product / sigma)
@@ -215,7 +227,7 @@ impl Drive {
             (product / tau, tau)
         };
         let shift = f64::from(self.m) * LN_2;
-        let rate = if s < 0.5 * plus { -log1p(-s / plus) } else { 2.0 * (log(plus) - shift) - self.ln_e };
+        let rate = if s < 0.5 * plus { -log1p(-s / plus) } else { 2.0 * (log(plus) - shift) - self.ln_e() };
         let ln_plus = if plus > 0.5 && self.m == 0 {
             let (u, w) = self.corner();
             log1p(-2.0 * w / (u + w + s)) // 1 − λ₊ = (1 − q)(1 + e)/(1 − λ₋)
@@ -225,17 +237,58 @@ impl Drive {
         Decay { s, plus, sigma, tau, rate, ln_plus }
     }
 
+    /// T to about 2⁻¹⁰⁰.
+    fn wide_t(&self) -> Dd {
+        let q = self.bar.wide_q().q;
+        (if self.m == 0 { q } else { q.scale(self.m) }) * two_sum(1.0, self.bar.e)
+    }
+
+    /// ln e of the true e.
+    fn ln_e(&self) -> f64 {
+        let e = self.bar.e;
+        if e > 0.5 { log1p(e - 1.0) } else { log(e) }
+    }
+
+    /// hypot(αT + 2β, αS) of a wave.
+    fn amplitude(&self, wave: &Wave) -> f64 {
+        let (x, y) = (wave.x, self.alpha * wave.s);
+        // Squares leave the range only where a scale has been brought in.
+        if self.m == 0 { (x * x + y * y).sqrt() } else { x.hypot(y) }
+    }
+
     /// 1 − e and (1 − q)(1 + e), without cancellation: u + w = 2 − T, u − w = T − 2e, w = 1 − T + e.
     fn corner(&self) -> (f64, f64) {
         (1.0 - self.bar.e, self.bar.less * (1.0 + self.bar.e))
     }
 
     /// The number of impacts.
-    pub(crate) fn count(&self) -> Steps {
+    pub(crate) fn count(&self) -> Count {
+        match self.steps() {
+            Steps::Exactly(n) => u64::try_from(n).map_or(Count::Huge(to_f64(n)), Count::Finite),
+            Steps::Endless => Count::Endless,
+        }
+    }
+
+    /// Count, time and final velocities.
+    pub(crate) fn ending(&self) -> Ending {
+        match self.steps() {
+            Steps::Exactly(n) => {
+                let Last { a, next, time } = self.last(n, 1e-11);
+                let count = u64::try_from(n).map_or(Count::Huge(to_f64(n)), Count::Finite);
+                Ending { count, time, velocity: Some(rebound(&self.bar, n % 2 == 1, a, next)) }
+            }
+            Steps::Endless => {
+                let (count, velocity) = (Count::Endless, rest(&self.bar, &self.start));
+                Ending { count, time: self.limit(), velocity }
+            }
+        }
+    }
+
+    fn steps(&self) -> Steps {
         match self.kind {
             Kind::Wave(wave) => {
                 let quotient = wave.psi / wave.theta;
-                self.settle(Series::Velocity, quotient, QUOTIENT * quotient)
+                self.settle(Series::Velocity, quotient, (QUOTIENT + wave.d_error) * quotient)
             }
             Kind::Decay(Decay { sigma, .. }) if sigma >= 0.0 => Steps::Endless,
             Kind::Decay(Decay { sigma, tau, rate, s, .. }) => {
@@ -247,8 +300,8 @@ impl Drive {
                 if exact.endless() {
                     return Steps::Endless;
                 }
-                let x = self.slope(Dd::ZERO).hi;
-                let quotient = self.alpha * self.t.hi / -x;
+                let x = self.slope(0.0).hi;
+                let quotient = self.alpha * self.t / -x;
                 self.settle(Series::Velocity, quotient, QUOTIENT * quotient)
             }
         }
@@ -262,19 +315,16 @@ impl Drive {
 
     /// ⌈quotient⌉, at least 1, where the quotient is off by no more than `error`: with more digits if need be.
     fn settle(&self, series: Series, quotient: f64, error: f64) -> Steps {
-        if quotient >= 2f64.powi(120) {
-            return Steps::About(quotient);
-        }
         if (quotient - quotient.round()).abs() > error {
             return Steps::Exactly(ceil_to_int(quotient));
         }
         let (mut middle, mut error) = (Dd::from(quotient), error);
-        if let (Kind::Wave(wave), true) = (self.kind, series == Series::Velocity) {
-            let (theta, psi) = self.angles(&wave);
+        if let (Kind::Wave(wave), Series::Velocity) = (self.kind, series) {
+            let (theta, psi, angle_error) = self.angles();
             middle = psi / theta;
-            // Angles to 2⁻⁹⁹; D and αT + 2β as `discriminant` and `slope` guarantee.
-            let slope = self.alpha * self.t.hi / wave.amplitude;
-            error = quotient * (wave.d_error + 2f64.powi(-95) * (1.0 + slope));
+            // αT + 2β as `slope` guarantees.
+            let slope = self.alpha * self.t / self.amplitude(&wave);
+            error = quotient * (angle_error + 2f64.powi(-95) * slope);
         }
         let whole = Dd::from(middle.hi.round());
         let whole = whole + Dd::from((middle - whole).hi.round());
@@ -302,38 +352,28 @@ impl Drive {
         Steps::Exactly(high)
     }
 
-    /// θ and ψ in double-double.
-    fn angles(&self, wave: &Wave) -> (Dd, Dd) {
-        let s = wave.d.sqrt();
-        (dd::atan2(s, self.t), dd::atan2(s * self.alpha, -wave.x))
+    /// θ and ψ of a wave in double-double, and a bound on the relative error that both share.
+    fn angles(&self) -> (Dd, Dd, f64) {
+        let (d, d_error) = self.discriminant(2f64.powi(-80));
+        let s = d.sqrt();
+        let (theta, psi) = (dd::atan2(s, self.wide_t()), dd::atan2(s * self.alpha, -self.slope(d.hi)));
+        (theta, psi, d_error + 2f64.powi(-95))
     }
 
-    /// |`δ_n`| = |ψ − nθ| for each n, to a relative `error` or from double-double angles.
+    /// |δ_n| = |ψ − nθ| for each n, to a relative `error` or from double-double angles.
     fn remainders<const K: usize>(&self, wave: &Wave, n: [u128; K], error: f64) -> [f64; K] {
         let deltas = n.map(|n| (wave.psi - to_f64(n) * wave.theta).abs());
-        if deltas.iter().all(|delta| 8.0 * UNIT * wave.psi < error * delta) {
+        let bound = (8.0 * UNIT + wave.d_error) * wave.psi;
+        if deltas.iter().all(|delta| bound < error * delta) {
             return deltas;
         }
-        let (theta, psi) = self.angles(wave);
+        let (theta, psi, _) = self.angles();
         n.map(|n| (psi - theta * wide(n)).abs().hi)
     }
 
-    /// a_{N−1}, `a_N` and the time of the last strike; of an endless train, at rest, the time it tends to. NaN for a
-    /// count beyond 2¹²⁰, whose remainder is unknown.
-    pub(crate) fn last(&self, steps: Steps) -> Last {
-        match steps {
-            Steps::Exactly(1) => Last { a: -self.alpha, next: self.first(), time: 0.0 },
-            Steps::Exactly(n) => self.last_of(n, 1e-11),
-            Steps::Endless => Last { a: 0.0, next: 0.0, time: self.limit() },
-            Steps::About(_) => Last { a: f64::NAN, next: f64::NAN, time: f64::NAN },
-        }
-    }
-
     /// Approach velocity and time of strike n.
-    pub(crate) fn strike(&self, n: u128) -> (f64, f64) {
-        if n == 1 {
-            return (-self.alpha, 0.0);
-        }
+    pub(crate) fn strike(&self, n: u64) -> (f64, f64) {
+        let n = u128::from(n);
         if let Kind::Decay(Decay { s, plus, sigma, rate, ln_plus, .. }) = self.kind
             && sigma >= 0.0
         {
@@ -342,24 +382,33 @@ impl Drive {
             let sum = self.alpha * plus * p + sigma * g;
             return (-exp(count * ln_plus) * sum / plus, ldexp(self.start.height_gap() * g / sum, self.m));
         }
-        let Last { a, time, .. } = self.last_of(n, 1e-13);
+        // Relative to |v_a| the error of the angle is spread by the amplitude.
+        let spread = match self.kind {
+            Kind::Wave(wave) => 8.0 * UNIT * self.amplitude(&wave) / wave.s * self.decayed(n) / self.alpha,
+            _ => 0.0,
+        };
+        let Last { a, time, .. } = self.last(n, if spread < 5e-14 { 1e-11 } else { 1e-13 });
         (a, time)
     }
 
-    /// For n ≥ 2: a_{n−1}, `a_n` and the time of strike n, of a wave from angles to a relative `error`.
-    fn last_of(&self, n: u128, error: f64) -> Last {
+    /// a_{n−1}, `a_n` and the time of strike n, of a wave from angles to a relative `error`.
+    fn last(&self, n: u128, error: f64) -> Last {
+        if n == 1 {
+            return Last { a: -self.alpha, next: self.first(), time: 0.0 };
+        }
         let h0 = self.start.height_gap();
         match self.kind {
             Kind::Wave(wave) => {
                 let [delta, beyond] = self.remainders(&wave, [n - 1, n], error);
                 // Next to a tie, integers.
                 if delta.min(beyond) > wave.psi * 2f64.powi(-60) {
-                    let amplitude = wave.amplitude / wave.s;
+                    let height = self.amplitude(&wave);
+                    let amplitude = height / wave.s;
                     let (rise, run) = sincos(delta);
                     let a = -self.decayed(n - 1) * amplitude * rise;
                     let next = self.decayed(n) * amplitude * sin(beyond);
-                    let sum = self.alpha * wave.s * (run / rise) + wave.x.hi;
-                    let time = ldexp(h0 / wave.amplitude * (2.0 * sum / wave.amplitude), self.m);
+                    let sum = self.alpha * wave.s * (run / rise) + wave.x;
+                    let time = ldexp(h0 / height * (2.0 * sum / height), self.m);
                     return Last { a, next, time };
                 }
             }
@@ -377,7 +426,7 @@ impl Drive {
             }
             // |a_n| = λⁿ⁻¹(αλ + nσ) with λ = T/2, σ = αλ + β, and b_n = nλⁿ⁻¹.
             Kind::Edge => {
-                let (lambda, sigma) = (0.5 * self.t.hi, 0.5 * self.slope(Dd::ZERO).hi);
+                let (lambda, sigma) = (0.5 * self.t, 0.5 * self.slope(0.0).hi);
                 let [count, start] = [to_f64(n - 1), self.alpha * lambda];
                 let sum = start + count * sigma;
                 if 2.0 * UNIT * start < 1e-11 * sum {
@@ -408,14 +457,14 @@ impl Drive {
         let h0 = self.start.height_gap();
         let sigma = match self.kind {
             Kind::Decay(decay) => decay.sigma,
-            _ => 0.5 * self.slope(Dd::ZERO).hi,
+            _ => 0.5 * self.slope(0.0).hi,
         };
         if h0 == 0.0 { 0.0 } else { ldexp(h0 / sigma.abs(), self.m) }
     }
 
     /// e^{n/2}.
     fn decayed(&self, n: u128) -> f64 {
-        exp(0.5 * to_f64(n) * self.ln_e)
+        exp(0.5 * to_f64(n) * self.ln_e())
     }
 
     /// −(αT + β), the next velocity after the first strike, true scale.
@@ -423,25 +472,35 @@ impl Drive {
         -after_first(&self.bar, &self.start)
     }
 
+    /// The impact of the largest |`a_n`|, the first if several tie, `Limit` where none attains it; and the value.
+    pub(crate) fn peak(&self) -> Largest {
+        let (steps, largest) = self.peak_steps();
+        let impact = match steps {
+            Steps::Exactly(n) => u64::try_from(n + 1).map_or(PeakImpact::Huge(to_f64(n)), PeakImpact::Number),
+            Steps::Endless => PeakImpact::Limit,
+        };
+        (impact, largest)
+    }
+
     /// Index n and value of the largest |`a_n`|, the first if several tie; `Endless` where it is a limit.
-    pub(crate) fn peak(&self) -> (Steps, f64) {
+    fn peak_steps(&self) -> (Steps, f64) {
         if !rises(&self.bar, &self.start) {
             return (Steps::Exactly(0), self.alpha);
         }
         // T < ½ and e < ¼: |a_{n+1}| < |a_n| from n = 1 on.
-        if self.m != 0 || self.t.hi < 0.5 && self.e < 0.25 {
+        if self.m != 0 || self.t < 0.5 && self.e < 0.25 {
             return (Steps::Exactly(1), -self.first());
         }
         let (alpha, beta) = (self.alpha, self.beta);
         let (u, w) = self.corner();
         match self.kind {
             Kind::Wave(wave) => {
-                let x = alpha * wave.d.hi + alpha * (u - w) + beta * (u + w);
+                let x = alpha * wave.s * wave.s + alpha * (u - w) + beta * (u + w);
                 let y = alpha * (1.0 - (u + w)) + beta;
-                let quotient = atan2(y.max(0.0) * wave.s, x) / wave.theta;
+                let quotient = angle(y.max(0.0) * wave.s, x) / wave.theta;
                 // The cancellation in x and y is of terms no larger than 4(α + |β|)(u + w + S).
                 let size = 4.0 * (alpha + beta.abs()) * (u + w + wave.s);
-                let error = QUOTIENT * (quotient + size / (x.abs() + y.abs() * wave.s) / wave.theta);
+                let error = (QUOTIENT + wave.d_error) * (quotient + size / (x.abs() + y.abs() * wave.s) / wave.theta);
                 let steps = self.settle(Series::Difference, quotient, error);
                 (steps, self.magnitude(steps))
             }
@@ -467,13 +526,12 @@ impl Drive {
             Steps::Exactly(0) => return self.alpha,
             Steps::Exactly(1) => return -self.first(),
             Steps::Exactly(n) => to_f64(n),
-            Steps::About(n) => n,
             Steps::Endless => return f64::INFINITY,
         };
         match self.kind {
             Kind::Wave(wave) => {
-                let phi = atan2(self.alpha * wave.s, wave.x.hi);
-                exp(0.5 * n * self.ln_e) * wave.amplitude * sin(n * wave.theta + phi) / wave.s
+                let phi = angle(self.alpha * wave.s, wave.x);
+                exp(0.5 * n * self.ln_e()) * self.amplitude(&wave) * sin(n * wave.theta + phi) / wave.s
             }
             // λ₊ⁿ (α ρⁿ + σ (1 − ρⁿ)/S) with ρ = λ₋/λ₊: no cancellation for σ ≥ 0.
             Kind::Decay(Decay { s, sigma, rate, ln_plus, .. }) => {
@@ -496,9 +554,9 @@ impl Drive {
 /// Neighboring strikes that are carried on together.
 pub(crate) const LANES: usize = 4;
 /// Strikes from one anchor in the closed form to the next: 64 steps of the four lanes, which add some 64 roundings.
-const BLOCK: u128 = 256;
+const BLOCK: u64 = 256;
 
-/// Approach velocity and time of four neighboring strikes, ready to be carried on to the next four.
+/// Four neighboring strikes, ready to be carried on to the next four.
 ///
 /// For a wave, x = sin `δ_n` and y = sin nθ turn by 4θ a step in the form `d ← d − κx, x ← x + d` with κ = 4 sin² 2θ
 /// (Reinsch), whose errors stay relative where `δ_n` or nθ are small; |`a_n`| = gx, time = cy/x. For an endless decay,
@@ -506,7 +564,7 @@ const BLOCK: u128 = 256;
 #[derive(Debug, Clone)]
 pub(crate) struct Lanes {
     /// Index n of the first lane.
-    n: u128,
+    n: u64,
     x: [f64; LANES],
     dx: [f64; LANES],
     y: [f64; LANES],
@@ -517,45 +575,22 @@ pub(crate) struct Lanes {
     decay: f64,
     /// 2 h0/A, or h0.
     time: f64,
-    approach: [f64; LANES],
-    times: [f64; LANES],
 }
 
 impl Lanes {
     /// With index `n` in the first lane.
-    pub(crate) fn new(drive: &Drive, n: u128) -> Self {
+    pub(crate) fn new(drive: &Drive, n: u64) -> Self {
         let zero = [0.0; LANES];
-        let mut lanes = Self {
-            n,
-            x: zero,
-            dx: zero,
-            y: zero,
-            dy: zero,
-            g: zero,
-            kappa: 0.0,
-            decay: 0.0,
-            time: 0.0,
-            approach: zero,
-            times: zero,
-        };
+        let mut lanes = Self { n, x: zero, dx: zero, y: zero, dy: zero, g: zero, kappa: 0.0, decay: 0.0, time: 0.0 };
         lanes.anchor(drive);
         lanes
     }
 
-    /// Approach velocity and time of the strike of index `n`, which is asked for in order.
-    #[inline]
-    pub(crate) fn strike(&mut self, drive: &Drive, n: u128) -> (f64, f64) {
-        let lane = (n - self.n) as usize;
-        if lane < LANES {
-            return (self.approach[lane], self.times[lane]);
-        }
-        self.n = n;
-        if n % BLOCK < LANES as u128 {
-            self.anchor(drive);
-        } else {
-            self.step(drive);
-        }
-        (self.approach[0], self.times[0])
+    /// Approach velocities and times of the strikes of the lanes, which then carry on to the next four.
+    pub(crate) fn take(&mut self, drive: &Drive, approach: &mut [f64], times: &mut [f64]) {
+        self.output(drive, approach, times);
+        self.n += LANES as u64;
+        if self.n % BLOCK < LANES as u64 { self.anchor(drive) } else { self.step(drive) }
     }
 
     /// Carries all lanes on.
@@ -577,24 +612,23 @@ impl Lanes {
                 self.x[i] *= self.kappa;
             }
         }
-        self.output(drive);
     }
 
     #[inline]
-    fn output(&mut self, drive: &Drive) {
+    fn output(&self, drive: &Drive, approach: &mut [f64], times: &mut [f64]) {
         match drive.kind {
             Kind::Decay(Decay { plus, sigma, .. }) => {
                 let start = drive.alpha * plus;
                 for i in 0..LANES {
                     let sum = start * self.x[i] + sigma * self.y[i];
-                    self.approach[i] = -self.g[i] * sum;
-                    self.times[i] = self.time * (self.y[i] / sum);
+                    approach[i] = -self.g[i] * sum;
+                    times[i] = self.time * (self.y[i] / sum);
                 }
             }
             _ => {
                 for i in 0..LANES {
-                    self.approach[i] = -self.g[i] * self.x[i];
-                    self.times[i] = self.time * (self.y[i] / self.x[i]);
+                    approach[i] = -self.g[i] * self.x[i];
+                    times[i] = self.time * (self.y[i] / self.x[i]);
                 }
             }
         }
@@ -607,29 +641,29 @@ impl Lanes {
             Kind::Wave(wave) => {
                 let theta = wave.theta;
                 let (sin, cos) = sincos(2.0 * theta);
-                let phi = atan2(drive.alpha * wave.s, wave.x.hi);
+                let (height, phi) = (drive.amplitude(&wave), angle(drive.alpha * wave.s, wave.x));
                 // The angle at index n seen from the near end of its half turn; a turn by 2θ away from it first,
                 // so that one sine and cosine give both value and difference.
                 let lane = |angle: f64, sign: f64| {
                     let (s, c) = sincos(angle + sign * 2.0 * theta);
                     (s * cos - sign * c * sin, 2.0 * sign * c * sin)
                 };
-                let n = [0, 1, 2, 3].map(|i| self.n + i);
+                let n = [0, 1, 2, 3].map(|i| u128::from(self.n) + i);
                 let deltas = drive.remainders(&wave, n, 1e-13);
                 for (i, (n, delta)) in n.into_iter().zip(deltas).enumerate() {
                     let turned = to_f64(n) * theta;
                     let lead = phi + turned;
                     (self.x[i], self.dx[i]) = if lead < 1.0 { lane(lead, 1.0) } else { lane(delta, -1.0) };
                     (self.y[i], self.dy[i]) = if turned < 1.0 { lane(turned, 1.0) } else { lane(phi + delta, -1.0) };
-                    self.g[i] = drive.decayed(n) * (wave.amplitude / wave.s);
+                    self.g[i] = drive.decayed(n) * (height / wave.s);
                 }
                 self.kappa = 4.0 * sin * sin;
                 self.decay = drive.bar.e * drive.bar.e;
-                self.time = ldexp(2.0 * h0 / wave.amplitude, drive.m);
+                self.time = ldexp(2.0 * h0 / height, drive.m);
             }
             Kind::Decay(Decay { s, plus, rate, ln_plus, .. }) => {
                 for i in 0..LANES {
-                    let n = to_f64(self.n + i as u128);
+                    let n = to_f64(u128::from(self.n) + i as u128);
                     self.x[i] = exp(-n * rate);
                     self.y[i] = -expm1(-n * rate) * (plus / s);
                     self.g[i] = exp(n * ln_plus) / plus;
@@ -641,7 +675,6 @@ impl Lanes {
             }
             Kind::Edge => {}
         }
-        self.output(drive);
     }
 }
 
@@ -667,6 +700,23 @@ impl Recurrence {
         let w = nu.mul(&self.w.add(&Dyadic::from(bar.e).mul(&nu).mul(&self.v))).neg();
         Self { v, w, ..self.clone() }
     }
+}
+
+/// Velocities after the last strike: of the end that struck, a for an odd count, and of the other.
+#[inline]
+pub(crate) fn rebound(bar: &Bar, odd: bool, a: f64, next: f64) -> [f64; 2] {
+    // By position: a branch on the parity would be mispredicted every other time.
+    let struck = -bar.e * a;
+    let turn = [next, struck, next];
+    let first = usize::from(odd);
+    [turn[first], turn[first + 1]]
+}
+
+/// Velocities an endless train tends to: rest, unless the ends have no mass (q = 1), where only a bar that turns about
+/// a still center comes to rest.
+pub(crate) fn rest(bar: &Bar, start: &Start) -> Option<[f64; 2]> {
+    let [va, vb] = start.velocity();
+    (bar.less > 0.0 || (va + vb == 0.0 && bar.e < 1.0)).then_some([0.0, 0.0])
 }
 
 /// αT + β = −`a_1`, to a relative 4 ε, its sign for certain.
@@ -709,6 +759,18 @@ fn to_dd(x: &Dyadic, d1: &Dyadic, d2: &Dyadic, shift: i32) -> Dd {
     (n / a / b).scale(clamp(exponent - ax - bx + i128::from(shift)))
 }
 
+/// Angle of the point (x, y) for y ≥ 0: a relative 2 ε. Where it is small, which it is for long trains, a short series.
+fn angle(y: f64, x: f64) -> f64 {
+    if y < 0.02 * x.abs() {
+        // Eight digits more than f64 has at 0.02.
+        let (r, z) = (y / x.abs(), (y / x) * (y / x));
+        let tail = (1.0 / 3.0 - z / 5.0) + z * z * ((1.0 / 7.0 - z / 9.0) + z * z / 11.0);
+        let small = r - r * (z * tail);
+        return if x < 0.0 { PI - small } else { small };
+    }
+    libm::atan2(y, x)
+}
+
 /// The exponent of the leading bit.
 fn exponent(x: f64) -> i32 {
     clamp(Dyadic::from(x).to_float().1)
@@ -722,7 +784,7 @@ fn clamp(x: i128) -> i32 {
 
 #[expect(clippy::cast_precision_loss, reason = "rounds to nearest, as every f64 operation does")]
 fn to_f64(n: u128) -> f64 {
-    n as f64
+    u64::try_from(n).map_or_else(|_| n as f64, |n| n as f64)
 }
 
 #[expect(clippy::cast_precision_loss, reason = "an exponent; its products carry a relative error of one rounding")]
@@ -739,7 +801,8 @@ fn wide(n: u128) -> Dd {
 /// ⌈x⌉, at least 1, for x < 2¹²⁷.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "in range, and saturating beyond")]
 fn ceil_to_int(x: f64) -> u128 {
-    x.ceil().max(1.0) as u128
+    let x = x.ceil().max(1.0);
+    if x < 1e18 { u128::from(x as u64) } else { x as u128 }
 }
 
 /// An integral double-double in [0, 2¹²⁷).
@@ -747,8 +810,6 @@ fn ceil_to_int(x: f64) -> u128 {
 fn integer(x: Dd) -> u128 {
     ((x.hi as i128) + (x.lo as i128)).max(0) as u128
 }
-
-const _: fn(f64, f64) -> Dd = two_prod;
 
 #[cfg(test)]
 mod tests;

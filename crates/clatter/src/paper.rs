@@ -92,6 +92,14 @@ pub struct Row {
 
 /// Table 1: what the paper prints, what is computed, and whether they agree.
 ///
+/// ```
+/// use clatter::paper::{Agreement, RowKind, table1};
+/// let table = table1()?;
+/// let zone = table.iter().find(|row| row.kind == RowKind::SafeZone(2.0)).unwrap().cells[0];
+/// assert_eq!((zone.printed, zone.agreement), ("90.9%", Agreement::Truncated)); // 2 · 2/2.145 − 0.5 over 1.5 is 0.90987
+/// # Ok::<(), clatter::Error>(())
+/// ```
+///
 /// # Errors
 /// None in practice: the designs are valid.
 pub fn table1() -> Result<[Row; 7], Error> {

@@ -1,6 +1,6 @@
 //! What a train amounts to: count, peak, net change, final velocities, duration.
 
-use crate::motion::{Drive, Last, Steps, after_first, rises};
+use crate::motion::{Drive, Ending, Largest, after_first, rebound, rest, rises};
 use crate::{Bar, Start};
 
 /// How many impacts the train has.
@@ -60,18 +60,14 @@ pub struct Summary {
     pub duration: f64,
     /// Largest velocity shocks.
     pub peak: Peak,
-    /// Final velocities of ends a and b; `None` where they do not settle (q = 1) or where the count is beyond 2¹²⁰,
-    /// which leaves open whose turn the last strike was.
+    /// Final velocities of ends a and b; `None` where they do not settle (q = 1).
     pub final_velocity: Option<[f64; 2]>,
     /// Sum of all velocity shocks; `None` with `final_velocity`.
     pub net: Option<Net>,
 }
 
-/// The peak before it is spread over the bar: index n and value of the largest |`a_n`|.
-type Largest = (Steps, f64);
-
 /// Plain steps that are tried before the closed form.
-const PLAIN: u128 = 16;
+const PLAIN: u32 = 16;
 /// A velocity that came out of a cancellation by more than this factor is left to the closed form: 16 steps
 /// accumulate some 300 roundings, so that the worst that is accepted is good to 300 · 2⁻⁵³ · 2⁸ ≈ 1e−11.
 const CLEAR: f64 = 1.0 / 256.0;
@@ -79,15 +75,10 @@ const CLEAR: f64 = 1.0 / 256.0;
 const DISTINCT: f64 = 1e-12;
 /// 4e − T² in plain floats has this many digits to spare in its square root, and its sign, beyond this share of T².
 const DISCERNIBLE: f64 = 1e-6;
+/// sin²(π/18): a wave that turns by less a strike, from a start that does not spin up, takes more than 16 strikes.
+const SLOW: f64 = 0.030_153;
 /// No term may come near the subnormal floats.
 const NORMAL: f64 = 1e-280;
-
-/// What the plain steps found, as far as they leave nothing in doubt.
-struct Plain {
-    /// Number of impacts and how the train ends: the last step, or the limit of the strike times.
-    end: Option<(Steps, Last)>,
-    peak: Option<Largest>,
-}
 
 impl Bar {
     /// Count, peak, net change, final velocities and duration of the train, in constant time.
@@ -106,152 +97,137 @@ impl Bar {
     /// needed, and up to a millisecond for a start built to lie within 2⁻⁴⁰ of a tie.
     #[must_use]
     pub fn summary(&self, start: &Start) -> Summary {
-        let plain = self.plain(start);
-        if let Plain { end: Some((steps, last)), peak: Some(peak) } = plain {
-            return self.finish(start, steps, last, peak);
+        match (self.plain_end(start), self.plain_peak(start)) {
+            (Some(end), Some(peak)) => self.put(start, end, peak),
+            (end, peak) => self.long_summary(start, end, peak),
         }
-        self.long_summary(start, &plain)
     }
 
     #[inline(never)]
-    fn long_summary(&self, start: &Start, plain: &Plain) -> Summary {
-        if self.t <= 0.0 || self.e == 0.0 {
-            return self.special(start);
-        }
-        let drive = Drive::new(self, start);
-        let (steps, last) = plain.end.unwrap_or_else(|| {
-            let steps = drive.count();
-            (steps, drive.last(steps))
-        });
-        self.finish(start, steps, last, plain.peak.unwrap_or_else(|| drive.peak()))
+    fn long_summary(&self, start: &Start, end: Option<Ending>, peak: Option<Largest>) -> Summary {
+        let (end, peak) = if self.t <= 0.0 || self.e == 0.0 {
+            let (end, special) = self.special(start);
+            (end, peak.unwrap_or(special))
+        } else {
+            let drive = Drive::new(self, start);
+            (end.unwrap_or_else(|| drive.ending()), peak.unwrap_or_else(|| drive.peak()))
+        };
+        self.put(start, end, peak)
     }
 
     /// Number of impacts alone: exact, at most 100 ns but where double-double or integers must decide.
     #[must_use]
     pub fn count(&self, start: &Start) -> Count {
-        match self.plain(start).end {
-            Some((steps, _)) => steps.into(),
-            None if self.t <= 0.0 || self.e == 0.0 => self.special(start).count,
-            None => Drive::new(self, start).count().into(),
+        match self.plain_end(start) {
+            Some(end) => end.count,
+            None if self.t <= 0.0 || self.e == 0.0 => self.special(start).0.count,
+            None => Drive::new(self, start).count(),
         }
     }
 
     /// Largest velocity shocks alone.
     #[must_use]
     pub fn peak(&self, start: &Start) -> Peak {
-        match self.plain(start).peak {
+        match self.plain_peak(start) {
             Some(peak) => self.spread(peak),
-            None if self.t <= 0.0 || self.e == 0.0 => self.special(start).peak,
+            None if self.t <= 0.0 || self.e == 0.0 => self.spread(self.special(start).1),
             None => self.spread(Drive::new(self, start).peak()),
         }
     }
 
-    /// Up to 16 plain steps, for T > 0 and e > 0.
-    #[inline]
-    fn plain(&self, start: &Start) -> Plain {
+    /// How the train ends, where at most 16 plain steps, or the limit of an endless one, leave nothing in doubt.
+    #[expect(clippy::inline_always, reason = "the whole summary of a short train takes 15 ns; calls would double it")]
+    #[inline(always)]
+    fn plain_end(&self, start: &Start) -> Option<Ending> {
         let (t, e) = (self.t, self.e);
         let [va, vb] = start.velocity();
         let (mut before, mut a, mut next) = (0.0, va, t * va + vb);
-        // Left alone: T ≤ 0, e = 0, and a start that cancels, at once or, as a decay does, at every step.
         let d = 4.0 * e - t * t;
-        let spun = vb > 0.0 && !(d > DISCERNIBLE * t * t && next.abs() > CLEAR * -va * t);
-        if t * e <= NORMAL || spun {
-            return Plain { end: None, peak: None };
+        // Left alone: T ≤ 0, e = 0, and a start that cancels, at once or, as a decay does, at every step.
+        if t * e <= NORMAL || (vb > 0.0 && (d < DISCERNIBLE * t * t || next.abs() < CLEAR * -va * t)) {
+            return None;
         }
-        let endless = d < -DISCERNIBLE * t * t;
-        let (mut b, mut b_next) = (0.0, 1.0);
-        let (mut n, mut at, mut largest) = (1, 0, -va);
-        let mut closest = f64::INFINITY;
-        let done = loop {
-            // |a_n| rises to its peak, then falls.
-            closest = (next - a).abs().min(closest);
-            if next < a {
-                (at, largest) = (n, -next);
-            } else if endless || next >= 0.0 {
-                break true;
-            }
+        let h0 = start.height_gap();
+        if d < 4.0 * SLOW * e && vb <= 0.0 {
+            let limit = || h0 / (0.5 * (t + (-d).sqrt()) * -va - vb);
+            let at_rest = || Ending { count: Count::Endless, time: limit(), velocity: rest(self, start) };
+            return (d < -DISCERNIBLE * t * t).then(at_rest);
+        }
+        let (mut b, mut b_next, mut n) = (0.0, 1.0, 1_u32);
+        while next < 0.0 {
             if n == PLAIN {
-                break false;
+                return None;
             }
             (before, a, next) = (a, next, t * next - e * a);
             (b, b_next) = (b_next, t * b_next - e * b);
             n += 1;
-        };
-        let found = done && closest > DISTINCT * largest;
-        let peak = found.then_some((Steps::Exactly(at), largest));
-        let h0 = start.height_gap();
-        if endless {
-            let limit = h0 / (0.5 * (t + (-d).sqrt()) * -va - vb);
-            return Plain { end: Some((Steps::Endless, Last { a: 0.0, next: 0.0, time: limit })), peak };
         }
-        let clear = done
-            && (n < 2 || next > CLEAR * e * -before)
-            && (n < 3 || -a > CLEAR * t * -before)
-            && next.min(-a) > NORMAL;
-        let time = if n == 1 { 0.0 } else { h0 * (b / -a) };
-        Plain { end: clear.then_some((Steps::Exactly(n), Last { a, next, time })), peak }
+        // No short circuits: which impact is the last is what a branch predictor cannot know. For N = 1, b and
+        // a_{N−2} are 0.
+        let margin = (next + CLEAR * e * before).min(CLEAR * t * before - a).min(next - NORMAL).min(-a - NORMAL);
+        let clear = margin > 0.0;
+        let time = h0 * (b / -a);
+        let velocity = Some(rebound(self, n % 2 == 1, a, next));
+        clear.then_some(Ending { count: Count::Finite(u64::from(n)), time, velocity })
+    }
+
+    /// The peak, where at most 16 plain steps leave nothing in doubt, by d = |a_{n+1}| − |a_n|, which obeys
+    /// `d ← e d − (1 − q)(1 + e) |a|` and falls below zero at the peak.
+    #[expect(clippy::inline_always, reason = "the whole summary of a short train takes 15 ns; calls would double it")]
+    #[inline(always)]
+    fn plain_peak(&self, start: &Start) -> Option<Largest> {
+        let [va, vb] = start.velocity();
+        let (e, w) = (self.e, self.less * (1.0 + self.e));
+        let (mut a, mut d) = (-va, -va * (e - w) - vb);
+        if d.abs() < DISTINCT * (vb.abs() - va) {
+            return None;
+        }
+        for n in 0..PLAIN {
+            if d.abs() < DISTINCT * a {
+                return None;
+            }
+            if d < 0.0 {
+                return Some((PeakImpact::Number(u64::from(n) + 1), a));
+            }
+            a += d;
+            d = e * d - w * a;
+        }
+        None
     }
 
     /// T ≤ 0, where the second strike is the last, and e = 0, where all strikes from the second on happen at once.
-    fn special(&self, start: &Start) -> Summary {
+    fn special(&self, start: &Start) -> (Ending, Largest) {
         let alpha = -start.velocity()[0];
         let first = after_first(self, start);
-        let peak = if rises(self, start) { (Steps::Exactly(1), first) } else { (Steps::Exactly(0), alpha) };
-        if first <= 0.0 {
-            let last = Last { a: -alpha, next: -first, time: 0.0 };
-            return self.finish(start, Steps::Exactly(1), last, peak);
-        }
+        let number = PeakImpact::Number;
+        let peak = if rises(self, start) { (number(2), first) } else { (number(1), alpha) };
         let h0 = start.height_gap();
-        let time = if h0 == 0.0 { 0.0 } else { h0 / first };
-        if self.t <= 0.0 {
-            let last = Last { a: -first, next: self.e * alpha - self.t * first, time };
-            return self.finish(start, Steps::Exactly(2), last, peak);
-        }
-        self.finish(start, Steps::Endless, Last { a: 0.0, next: 0.0, time }, peak)
+        let time = if h0 == 0.0 || first <= 0.0 { 0.0 } else { h0 / first };
+        let (count, velocity) = if first <= 0.0 {
+            (Count::Finite(1), Some(rebound(self, true, -alpha, -first)))
+        } else if self.t <= 0.0 {
+            (Count::Finite(2), Some(rebound(self, false, -first, self.e * alpha - self.t * first)))
+        } else {
+            (Count::Endless, rest(self, start))
+        };
+        (Ending { count, time, velocity }, peak)
     }
 
-    fn spread(&self, (steps, largest): Largest) -> Peak {
+    #[inline]
+    fn spread(&self, (impact, largest): Largest) -> Peak {
         let end = (1.0 + self.e) * largest;
-        let impact = match steps {
-            Steps::Exactly(n) => u64::try_from(n + 1).map_or_else(|_| PeakImpact::Huge(nearest(n)), PeakImpact::Number),
-            Steps::About(n) => PeakImpact::Huge(n),
-            Steps::Endless => PeakImpact::Limit,
-        };
         let center = if self.less == 0.0 { 0.0 } else { 0.5 * self.less * end };
         Peak { end, impact, center, angular: 0.5 * self.more * end }
     }
 
-    /// Final velocities and net change from the last step; all ends at rest after an endless train, unless the
-    /// ends have no mass (q = 1): then only a bar that turns about a still center comes to rest.
-    fn finish(&self, start: &Start, steps: Steps, last: Last, peak: Largest) -> Summary {
+    #[inline]
+    fn put(&self, start: &Start, end: Ending, peak: Largest) -> Summary {
         let [va, vb] = start.velocity();
-        let final_velocity = match steps {
-            Steps::Exactly(n) => {
-                let struck = -self.e * last.a;
-                Some(if n % 2 == 1 { [struck, last.next] } else { [last.next, struck] })
-            }
-            Steps::Endless if self.less > 0.0 || (va + vb == 0.0 && self.e < 1.0) => Some([0.0, 0.0]),
-            _ => None,
-        };
-        let net = final_velocity.map(|[a, b]| {
+        let net = end.velocity.map(|[a, b]| {
             let (a, b) = (a - va, b - vb);
             Net { a, b, center: 0.5 * (a + b), angular: 0.5 * (b - a) }
         });
-        Summary { count: steps.into(), duration: last.time, peak: self.spread(peak), final_velocity, net }
+        let (count, duration, final_velocity) = (end.count, end.time, end.velocity);
+        Summary { count, duration, peak: self.spread(peak), final_velocity, net }
     }
-}
-
-impl From<Steps> for Count {
-    fn from(steps: Steps) -> Self {
-        match steps {
-            Steps::Exactly(n) => u64::try_from(n).map_or_else(|_| Self::Huge(nearest(n)), Self::Finite),
-            Steps::About(n) => Self::Huge(n),
-            Steps::Endless => Self::Endless,
-        }
-    }
-}
-
-#[expect(clippy::cast_precision_loss, reason = "the nearest float is what is asked for")]
-fn nearest(n: u128) -> f64 {
-    n as f64
 }

@@ -1,7 +1,7 @@
 //! The train, impact by impact.
 
-use crate::motion::{Drive, Kind, Lanes, Steps, after_first};
-use crate::{Bar, End, Start};
+use crate::motion::{Drive, Kind, LANES, Lanes, after_first};
+use crate::{Bar, Count, End, Start};
 
 /// One impact of the train.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,32 +41,30 @@ impl Impact {
 pub struct Train {
     bar: Bar,
     start: Start,
-    /// Impacts given so far.
-    given: u64,
+    /// Impacts worked out so far; those from `next` on still wait in the buffers.
+    ahead: u64,
+    next: usize,
+    filled: usize,
+    approach: [f64; BUFFER],
+    times: [f64; BUFFER],
     source: Source,
 }
 
 /// Where the next impacts come from.
 #[derive(Debug, Clone)]
 enum Source {
-    /// The recurrence as it stands: a_{n−1}, `a_n`, a_{n+1} and `b_n`, b_{n+1}.
-    Plain {
-        before: f64,
-        a: f64,
-        next: f64,
-        b: f64,
-        b_next: f64,
-    },
+    /// The recurrence as it stands, for the first [`BUFFER`] impacts.
+    Plain,
     /// Four strikes at a time, from the closed form.
     Lanes {
         drive: Box<Drive>,
-        count: Option<u128>,
+        count: Option<u64>,
         lanes: Box<Lanes>,
     },
     /// Each from the closed form.
     Closed {
         drive: Box<Drive>,
-        count: Option<u128>,
+        count: Option<u64>,
     },
     /// T ≤ 0: a second impact; e = 0: all further impacts at the instant of the second.
     Instant {
@@ -76,8 +74,8 @@ enum Source {
     Done,
 }
 
-/// Plain steps that are taken before the closed form, which forgets no digit, takes over.
-const PLAIN: u64 = 16;
+/// Impacts worked out together, and plain steps taken before the closed form, which forgets no digit, takes over.
+const BUFFER: usize = 16;
 /// A velocity that cancels by more than this is left to the closed form.
 const CLEAR: f64 = 1.0 / 256.0;
 
@@ -86,101 +84,124 @@ impl Iterator for Train {
 
     #[inline]
     fn next(&mut self) -> Option<Impact> {
-        let n = self.given;
-        let (approach, time) = match &mut self.source {
-            Source::Plain { before, a, next, b, b_next } if n < PLAIN => {
-                if *a >= 0.0 {
-                    return None;
-                }
-                let (t, e) = (self.bar.t, self.bar.e);
-                // In doubt where the terms of a_{n+1}, of like size, nearly cancel.
-                let terms = if n == 0 { t * *a } else { e * *before };
-                if next.abs() <= CLEAR * terms.abs() {
-                    self.source = self.long();
-                    return self.next();
-                }
-                let strike = (*a, self.start.height_gap() * (*b / -*a));
-                (*before, *a, *next) = (*a, *next, t * *next - e * *a);
-                (*b, *b_next) = (*b_next, t * *b_next - e * *b);
-                strike
+        if self.next == self.filled {
+            self.fill();
+            if self.filled == 0 {
+                return None;
             }
-            Source::Plain { a, .. } => {
-                if *a >= 0.0 {
-                    return None;
-                }
-                self.source = self.long();
-                return self.next();
-            }
-            Source::Lanes { drive, count, lanes } => {
-                let n = u128::from(n);
-                match *count {
-                    Some(count) if n >= count => return None,
-                    Some(count) if n + 1 == count => drive.strike(count),
-                    _ if n == 0 => drive.strike(1),
-                    _ => lanes.strike(drive, n),
-                }
-            }
-            Source::Closed { drive, count } => {
-                if count.is_some_and(|count| u128::from(n) >= count) {
-                    return None;
-                }
-                drive.strike(u128::from(n) + 1)
-            }
-            Source::Instant { first, a } => {
-                let h0 = self.start.height_gap();
-                let time = if n == 0 || h0 == 0.0 { 0.0 } else { h0 / *first };
-                let strike = (*a, time);
-                if n > 0 {
-                    *a *= self.bar.t;
-                } else {
-                    *a = -*first;
-                }
-                if *first <= 0.0 || (n > 0 && self.bar.t <= 0.0) {
-                    self.source = Source::Done;
-                }
-                strike
-            }
-            Source::Done => return None,
-        };
-        self.given = n + 1;
-        Some(self.bar.impact(self.given, approach, time))
+        }
+        let i = self.next;
+        self.next += 1;
+        let number = self.ahead - (self.filled - self.next) as u64;
+        Some(self.bar.impact(number, self.approach[i], self.times[i]))
     }
 
     /// Skips in constant time where the closed form has taken over.
-    fn nth(&mut self, skip: usize) -> Option<Impact> {
-        let mut skip = skip as u64;
-        if skip > PLAIN && matches!(self.source, Source::Plain { .. }) {
-            // The plain steps end the train by themselves, or hand over.
-            for _ in self.given..PLAIN {
-                self.next()?;
-                skip -= 1;
-            }
-            self.source = self.long();
-        }
-        match &mut self.source {
-            Source::Lanes { drive, lanes, .. } => {
-                self.given = self.given.saturating_add(skip);
-                **lanes = Lanes::new(drive, u128::from(self.given));
-            }
-            Source::Closed { .. } => self.given = self.given.saturating_add(skip),
-            _ => {
-                for _ in 0..skip {
-                    self.next()?;
+    fn nth(&mut self, mut skip: usize) -> Option<Impact> {
+        while skip >= self.filled - self.next {
+            skip -= self.filled - self.next;
+            self.next = self.filled;
+            match &mut self.source {
+                Source::Lanes { drive, lanes, .. } => {
+                    self.ahead = self.ahead.saturating_add(skip as u64);
+                    **lanes = Lanes::new(drive, self.ahead);
+                    skip = 0;
                 }
+                Source::Closed { .. } => {
+                    self.ahead = self.ahead.saturating_add(skip as u64);
+                    skip = 0;
+                }
+                _ => {}
+            }
+            self.fill();
+            if self.filled == 0 {
+                return None;
             }
         }
+        self.next += skip;
         self.next()
     }
 }
 
 impl Train {
+    /// Works out the next impacts; none where the train has ended.
+    #[inline(never)]
+    fn fill(&mut self) {
+        if let Source::Plain = self.source {
+            self.plain();
+            if self.filled > 0 {
+                return;
+            }
+        }
+        let ahead = self.ahead;
+        let left = |count: Option<u64>| count.map_or(u64::MAX, |count| count.saturating_sub(ahead));
+        (self.next, self.filled) = (0, 0);
+        match &mut self.source {
+            Source::Lanes { drive, count, lanes } => {
+                let left = left(*count);
+                if left > 0 {
+                    for (approach, times) in self.approach.chunks_mut(LANES).zip(self.times.chunks_mut(LANES)) {
+                        lanes.take(drive, approach, times);
+                    }
+                }
+                self.filled = usize::try_from(left).map_or(BUFFER, |left| left.min(BUFFER));
+                // The first and the last strike by themselves: next to a tie, the last takes more digits.
+                if ahead == 0 {
+                    (self.approach[0], self.times[0]) = drive.strike(1);
+                }
+                if let (Some(count), 1..=16) = (*count, left) {
+                    (self.approach[self.filled - 1], self.times[self.filled - 1]) = drive.strike(count);
+                }
+            }
+            Source::Closed { drive, count } => {
+                self.filled = usize::from(left(*count) > 0);
+                if self.filled > 0 {
+                    (self.approach[0], self.times[0]) = drive.strike(ahead + 1);
+                }
+            }
+            Source::Instant { first, a } => {
+                let h0 = self.start.height_gap();
+                let later = if h0 == 0.0 || *first <= 0.0 { 0.0 } else { h0 / *first };
+                (self.approach[0], self.times[0], self.filled) = (*a, if ahead == 0 { 0.0 } else { later }, 1);
+                *a = if ahead == 0 { -*first } else { *a * self.bar.t };
+                if *first <= 0.0 || (ahead > 0 && self.bar.t <= 0.0) {
+                    self.source = Source::Done;
+                }
+            }
+            Source::Plain | Source::Done => {}
+        }
+        self.ahead += self.filled as u64;
+    }
+
+    /// The first impacts by the recurrence, up to the end, to a doubt, or until the buffer is full; then hands over.
+    fn plain(&mut self) {
+        let (t, e, h0) = (self.bar.t, self.bar.e, self.start.height_gap());
+        let [va, vb] = self.start.velocity();
+        let (mut before, mut a, mut next) = (0.0, va, t * va + vb);
+        let (mut b, mut b_next) = (0.0, 1.0);
+        let mut n = 0;
+        while n < BUFFER && a < 0.0 {
+            // In doubt where the terms of a_{n+1}, of like size, nearly cancel: from this strike on, more digits.
+            let terms = if n == 0 { t * a } else { e * before };
+            if next.abs() <= CLEAR * terms.abs() {
+                break;
+            }
+            (self.approach[n], self.times[n]) = (a, h0 * (b / -a));
+            n += 1;
+            (before, a, next) = (a, next, t * next - e * a);
+            (b, b_next) = (b_next, t * b_next - e * b);
+        }
+        (self.next, self.filled, self.ahead) = (0, n, n as u64);
+        self.source = if a < 0.0 { self.long() } else { Source::Done };
+    }
+
     /// The closed form that takes over.
     #[cold]
     fn long(&self) -> Source {
         let drive = Box::new(Drive::new(&self.bar, &self.start));
         let count = match drive.count() {
-            Steps::Exactly(n) => Some(n),
-            Steps::About(_) | Steps::Endless => None,
+            Count::Finite(n) => Some(n),
+            Count::Huge(_) | Count::Endless => None,
         };
         let closed = match drive.kind {
             Kind::Wave(_) => false,
@@ -190,7 +211,7 @@ impl Train {
         if closed {
             return Source::Closed { drive, count };
         }
-        let lanes = Box::new(Lanes::new(&drive, u128::from(self.given)));
+        let lanes = Box::new(Lanes::new(&drive, self.ahead));
         Source::Lanes { drive, count, lanes }
     }
 }
@@ -218,15 +239,14 @@ impl Bar {
     #[must_use]
     pub fn train(&self, start: &Start) -> Train {
         let [va, vb] = start.velocity();
-        let mut train = Train { bar: *self, start: *start, given: 0, source: Source::Done };
-        let next = self.t * va + vb;
-        train.source = if self.t <= 0.0 || self.e == 0.0 {
-            Source::Instant { first: after_first(self, start), a: va }
-        } else if vb <= 0.0 && self.t * self.e > 1e-280 {
-            Source::Plain { before: 0.0, a: va, next, b: 0.0, b_next: 1.0 }
-        } else {
-            train.long()
-        };
+        let (approach, times) = ([0.0; BUFFER], [0.0; BUFFER]);
+        let mut train =
+            Train { bar: *self, start: *start, ahead: 0, next: 0, filled: 0, approach, times, source: Source::Plain };
+        if self.t <= 0.0 || self.e == 0.0 {
+            train.source = Source::Instant { first: after_first(self, start), a: va };
+        } else if vb > 0.0 || self.t * self.e < 1e-280 {
+            train.source = train.long();
+        }
         train
     }
 

@@ -58,9 +58,9 @@ impl Frame {
             svg.text([x - 5.0, y + 2.6], &text, Label { anchor: Anchor::End, ..tick });
         }
         let [x, y] = self.corner(0.0, 0.5);
-        svg.text([x, y + 24.0], "coefficient of restitution  *e*", LABEL);
+        svg.text([x, y + 24.0], "coefficient of restitution *e*", LABEL);
         let [x, y] = self.corner(0.5, 0.0);
-        svg.text([x - titles, y], "inertia ratio  *q*", Label { turn: -90.0, ..LABEL });
+        svg.text([x - titles, y], "inertia ratio *q*", Label { turn: -90.0, ..LABEL });
     }
 }
 
@@ -68,13 +68,11 @@ impl Frame {
 fn outline(pieces: &[Vec<Point>]) -> Vec<Point> {
     let mut line: Vec<Point> = pieces.concat();
     if let (Some(first), Some(last)) = (line.first().copied(), line.last().copied()) {
-        line.insert(0, Point { q: 0.0, e: first.e.round() });
-        line.push(Point { q: 1.0, e: last.e.round() });
-        if first.q == 0.0 {
-            line.remove(0);
+        if first.q > 0.0 {
+            line.insert(0, Point { q: 0.0, e: first.e.round() });
         }
-        if last.q == 1.0 {
-            line.pop();
+        if last.q < 1.0 {
+            line.push(Point { q: 1.0, e: last.e.round() });
         }
     }
     line
@@ -84,15 +82,15 @@ fn outline(pieces: &[Vec<Point>]) -> Vec<Point> {
 fn crossing(curve: &[Point], e: f64) -> Option<f64> {
     curve.windows(2).find_map(|w| {
         let (a, b) = (w[0], w[1]);
-        let inside = (a.e - e) * (b.e - e) <= 0.0 && a.e != b.e;
+        let inside = (a.e - e) * (b.e - e) < 0.0;
         inside.then(|| a.q + (b.q - a.q) * (e - a.e) / (b.e - a.e))
     })
 }
 
 /// Fig. 2: the number of impacts.
 pub(crate) fn impacts(data: &Impacts) -> String {
-    let frame = Frame { left: 92.0, top: 8.0, side: 252.0 };
-    let mut svg = Svg::new(354.0, 292.0);
+    let frame = Frame { left: 88.0, top: 6.0, side: 206.0 };
+    let mut svg = Svg::new(300.0, 242.0);
     // from the top down: all of the square is endless, then each region covers the one above it
     svg.rect([frame.left, frame.top], [frame.side, frame.side], Ink::fill(SAND));
     let below = |svg: &mut Svg, curve: &[Point], fill| {
@@ -100,14 +98,11 @@ pub(crate) fn impacts(data: &Impacts) -> String {
         shape.extend([frame.corner(0.0, 1.0), frame.corner(0.0, 0.0)]);
         svg.path(&shape, true, Ink::fill(fill));
     };
-    let mut up = data.endless.clone();
-    up.reverse();
-    up.reverse();
-    below(&mut svg, &up, BLUES[7]);
+    below(&mut svg, &data.endless, BLUES[7]);
     for (i, (_, curve)) in data.curves.iter().enumerate().rev() {
         let mut curve = curve.clone();
         curve.reverse();
-        below(&mut svg, &curve, BLUES[(i).min(6)]);
+        below(&mut svg, &curve, BLUES[i.min(6)]);
     }
     for (_, curve) in &data.curves {
         svg.path(&frame.line(curve), false, Ink::line("#ffffff", 0.5));
@@ -122,34 +117,29 @@ pub(crate) fn impacts(data: &Impacts) -> String {
         if (upper - lower) * frame.side > 8.0 {
             let [x, y] = frame.corner(0.5 * (lower + upper), 0.86);
             let color = if *n > 5 { "#ffffff" } else { INK };
-            svg.text([x, y + 2.9], &n.to_string(), Label { size: 9.0, color, ..LABEL });
+            let text = if lower > 0.0 { n.to_string() } else { format!("{n} impacts") };
+            svg.text([x, y + 2.9], &text, Label { color, ..LABEL });
         }
         lower = upper;
     }
-    if let Some((n, _)) = data.curves.first() {
-        let _ = n;
-        let [x, y] = frame.corner(0.12, 0.5);
-        svg.text([x, y], "two impacts", Label { color: INK, ..LABEL });
-    }
-    let [x, y] = frame.corner(0.84, 0.165);
-    svg.text([x, y - 5.0], "endless", LABEL);
-    svg.text([x, y + 5.5], "*q* ≥ 2√*e*/(1 + *e*)", Label { size: 8.0, ..LABEL });
+    let [x, y] = frame.corner(0.93, 0.18);
+    svg.text([x, y], "endless", LABEL);
+    svg.text([x, y + 10.0], "*q* ≥ 2√*e*/(1 + *e*)", LABEL);
 
     // how the mass lies at q = 0, 0.5, 1, beside the axis
-    for (q, name) in [(1.0, "at the center"), (0.5, "uniform"), (0.0, "at the ends")] {
-        let [_, y] = frame.corner(q, 0.0);
-        let y = if q == 1.0 { y + 4.0 } else if q == 0.0 { y - 10.0 } else { y };
-        let (a, b) = (8.0, 54.0);
-        if (q - 0.5).abs() < 0.1 {
-            svg.rect([a, y - 2.6], [b - a, 5.2], Ink::fill(GRAY));
-        } else {
-            svg.line([a, y], [b, y], Ink::line(GRAY, 1.2));
-            let dots = if q > 0.5 { vec![0.5 * (a + b)] } else { vec![a + 2.0, b - 2.0] };
-            for x in dots {
-                svg.circle([x, y], 4.2, Ink::fill(INK));
-            }
+    let (a, b) = (5.0, 47.0);
+    let middle = 0.5 * (a + b);
+    for (q, shift, dots, name) in [
+        (1.0, 4.0, vec![middle], "at the center"),
+        (0.5, 0.0, vec![], "uniform"),
+        (0.0, -10.0, vec![a + 2.0, b - 2.0], "at the ends"),
+    ] {
+        let y = frame.corner(q, 0.0)[1] + shift;
+        svg.line([a, y], [b, y], Ink::line(GRAY, if dots.is_empty() { 5.2 } else { 1.2 }));
+        for x in dots {
+            svg.circle([x, y], 4.2, Ink::fill(INK));
         }
-        svg.text([0.5 * (a + b), y + 14.0], name, Label { size: 7.5, color: GRAY, ..LABEL });
+        svg.text([middle, y + 14.0], name, Label { size: 7.5, color: GRAY, ..LABEL });
     }
     svg.finish("Number of impacts over restitution and inertia ratio")
 }
@@ -220,19 +210,21 @@ fn cut(line: &[Pt], from: f64, to: f64) -> [Vec<Pt>; 2] {
 
 /// Figs. 5 to 7: the safe zone of one threshold.
 pub(crate) fn zones(data: &Zones) -> String {
-    let frame = Frame { left: 42.0, top: 8.0, side: 226.0 };
-    let mut svg = Svg::new(278.0, 266.0);
-    svg.rect([frame.left, frame.top], [frame.side, frame.side], Ink::fill(SAND));
+    let frame = Frame { left: 38.0, top: 6.0, side: 168.0 };
+    let mut svg = Svg::new(214.0, 204.0);
+    let bare = data.levels.first().is_some_and(|(level, _)| *level <= 0.0);
+    svg.rect([frame.left, frame.top], [frame.side, frame.side], Ink::fill(if bare { SAND } else { BLUES[0] }));
+    let shade = |i: usize| ((i + usize::from(!bare)) * 7 / (data.levels.len() - usize::from(bare)).max(1)).min(7);
     for (i, (_, pieces)) in data.levels.iter().enumerate() {
         let mut shape = frame.line(&outline(pieces));
         shape.extend([frame.corner(1.0, 0.0), frame.corner(0.0, 0.0)]);
-        svg.path(&shape, true, Ink::fill(BLUES[(i * BLUES.len() / data.levels.len()).min(6)]));
+        svg.path(&shape, true, Ink::fill(BLUES[shade(i)]));
     }
     let lines: Vec<Vec<Vec<Pt>>> =
         data.levels.iter().map(|(_, pieces)| pieces.iter().map(|piece| frame.line(piece)).collect()).collect();
     let mut taken: Vec<Pt> = data.designs.iter().map(|[q, e]| frame.corner(*q, *e)).collect();
     for (i, (level, _)) in data.levels.iter().enumerate() {
-        let bound = *level == 0.0 || *level == 1.0;
+        let bound = *level <= 0.0 || *level >= 1.0;
         let ink = if bound { Ink::line(INK, 1.1) } else { Ink::line("#2c5a86", 0.7) };
         let text = percent(*level);
         let half = 0.5 * width(&text, 7.5) + 1.8;
@@ -249,23 +241,28 @@ pub(crate) fn zones(data: &Zones) -> String {
             taken.push([x, y]);
             let turned = turn.to_radians();
             let base = [x - 2.5 * turned.sin(), y + 2.5 * turned.cos()];
-            svg.text(base, &text, Label { size: 7.5, turn, ..LABEL });
+            svg.text(
+                base,
+                &text,
+                Label { size: 7.5, turn, color: if shade(i) > 6 { "#ffffff" } else { INK }, ..LABEL },
+            );
         }
     }
     for [q, e] in data.designs {
         svg.circle(frame.corner(q, e), 2.0, Ink { stroke: INK, width: 0.8, ..Ink::fill("#ffffff") });
     }
     frame.draw(&mut svg, 25.0);
-    let none = data.levels.iter().find(|(level, _)| *level == 0.0).map(|(_, pieces)| outline(pieces));
-    let area = |line: &[Point]| line.windows(2).map(|w| (w[1].q - w[0].q) * (1.0 - 0.5 * (w[0].e + w[1].e))).sum::<f64>();
+    let none = data.levels.iter().find(|(level, _)| *level <= 0.0).map(|(_, pieces)| outline(pieces));
+    let area =
+        |line: &[Point]| line.windows(2).map(|w| (w[1].q - w[0].q) * (1.0 - 0.5 * (w[0].e + w[1].e))).sum::<f64>();
     if none.is_some_and(|line| area(&line) > 0.2) {
         let [x, y] = frame.corner(0.28, 0.72);
         svg.text([x, y], "no safe zone", LABEL);
-    } else if data.levels.iter().any(|(level, pieces)| *level == 0.0 && !pieces.is_empty()) {
-        let [x, y] = frame.corner(0.25, 0.925);
+    } else if data.levels.iter().any(|(level, pieces)| *level <= 0.0 && !pieces.is_empty()) {
+        let [x, y] = frame.corner(0.24, 0.925);
         svg.text([x, y], "none", LABEL);
     }
-    if data.levels.iter().any(|(level, pieces)| *level == 1.0 && !pieces.is_empty()) {
+    if data.levels.iter().any(|(level, pieces)| *level >= 1.0 && !pieces.is_empty()) {
         let [x, y] = frame.corner(0.2, 0.22);
         svg.text([x, y], "the whole bar", Label { color: "#ffffff", ..LABEL });
     }

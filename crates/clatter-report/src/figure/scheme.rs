@@ -4,39 +4,40 @@ use crate::svg::{Anchor, GRAY, INK, Ink, LABEL, Label, Pt, RUST, Svg};
 
 /// The bar at the moment end a touches, with both centers of percussion; `percussion` is p/L.
 pub(crate) fn scheme(percussion: f64) -> String {
-    let mut svg = Svg::new(400.0, 172.0);
-    let ground = 128.0;
-    let (tilt, half) = (7f64.to_radians(), 150.0);
-    let foot = [52.0, ground];
+    let mut svg = Svg::new(300.0, 122.0);
+    let ground = 108.0;
+    let (tilt, half) = (7f64.to_radians(), 118.0);
+    let foot = [30.0, ground];
     let center = [foot[0] + half * tilt.cos(), ground - half * tilt.sin() - 4.0];
     let at = |s: f64, off: f64| -> Pt {
         [center[0] + s * half * tilt.cos() - off * tilt.sin(), center[1] - s * half * tilt.sin() - off * tilt.cos()]
     };
     // ground
-    svg.line([20.0, ground], [384.0, ground], Ink::line(INK, 0.9));
-    for i in 0..45u8 {
-        let x = 24.0 + 8.0 * f64::from(i);
+    svg.line([8.0, ground], [294.0, ground], Ink::line(INK, 0.9));
+    for i in 0..36u8 {
+        let x = 13.0 + 8.0 * f64::from(i);
         svg.line([x, ground], [x - 5.0, ground + 5.0], Ink::line(GRAY, 0.4));
     }
     // bar
-    svg.path(&[at(-1.0, 4.0), at(1.0, 4.0), at(1.0, -4.0), at(-1.0, -4.0)], true, Ink {
-        stroke: INK,
-        width: 0.8,
-        ..Ink::fill("#cddeed")
-    });
+    svg.path(
+        &[at(-1.0, 4.0), at(1.0, 4.0), at(1.0, -4.0), at(-1.0, -4.0)],
+        true,
+        Ink { stroke: INK, width: 0.8, ..Ink::fill("#cddeed") },
+    );
     // arriving
-    for s in [-0.92, 0.92] {
-        let [x, y] = at(s, 34.0);
-        svg.arrow([x, y], [x, y + 25.0], RUST, 1.0);
+    for s in [-0.84, 0.84] {
+        let [x, y] = at(s, 37.0);
+        svg.arrow([x, y], [x, y + 26.0], RUST, 1.0);
         svg.text([x + 5.0, y + 10.0], "*v*_0", Label { anchor: Anchor::Start, color: RUST, ..LABEL });
     }
     // points
-    let dot = |svg: &mut Svg, s: f64, fill| svg.circle(at(s, 0.0), 2.5, Ink { stroke: INK, width: 0.8, ..Ink::fill(fill) });
+    let dot =
+        |svg: &mut Svg, s: f64, fill| svg.circle(at(s, 0.0), 2.5, Ink { stroke: INK, width: 0.8, ..Ink::fill(fill) });
     dot(&mut svg, 0.0, INK);
     dot(&mut svg, percussion, "#ffffff");
     dot(&mut svg, -percussion, "#ffffff");
     let over = |svg: &mut Svg, s: f64, text: &str| {
-        let [x, y] = at(s, 10.0);
+        let [x, y] = at(s, 9.0);
         svg.text([x, y], text, LABEL);
     };
     over(&mut svg, percussion, "*R*_a");
@@ -55,17 +56,17 @@ pub(crate) fn scheme(percussion: f64) -> String {
         for s in [from, to] {
             svg.line(at(s, off - 3.5), at(s, off + 3.5), Ink::line(GRAY, 0.4));
         }
-        let [x, y] = at(0.5 * (from + to), off + 4.0);
+        let [x, y] = at(0.5 * (from + to), off + 5.0);
         svg.text([x, y], text, Label { turn: -tilt.to_degrees(), ..LABEL });
     };
-    measure(&mut svg, 0.0, percussion, 24.0, "*p* = *J*/*mL*");
-    measure(&mut svg, -1.0, 0.0, 44.0, "*L*");
-    measure(&mut svg, 0.0, 1.0, 44.0, "*L*");
+    measure(&mut svg, 0.0, percussion, 26.0, "*p* = *J* / *mL*");
+    measure(&mut svg, -1.0, 0.0, 48.0, "*L*");
+    measure(&mut svg, 0.0, 1.0, 48.0, "*L*");
     // a point at l, below
-    let l = 0.68;
+    let l = 0.58;
     measure(&mut svg, 0.0, l, -14.0, "");
-    let [x, y] = at(0.5 * l, -24.0);
-    svg.text([x, y + 2.0], "*l* = *sL*", LABEL);
+    let [x, y] = at(l, -14.0);
+    svg.text([x + 4.0, y + 3.5], "*l* = *sL*", Label { anchor: Anchor::Start, ..LABEL });
     dot(&mut svg, l, "#98b8d6");
     // height gap
     let [x, y] = at(1.0, -4.0);

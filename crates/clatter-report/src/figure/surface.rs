@@ -2,7 +2,7 @@
 
 use clatter::Map;
 
-use crate::svg::{Anchor, GRAY, INK, Ink, LABEL, Label, Pt, RUST, Svg};
+use crate::svg::{Anchor, INK, Ink, LABEL, Label, Pt, RUST, Svg, width};
 
 /// One sheet: its heights over the grid of a map, and its name.
 #[derive(Debug, Clone)]
@@ -35,6 +35,12 @@ pub(crate) struct Surface {
 /// A point (q, e, z).
 type P3 = [f64; 3];
 
+/// Where the middle of the box lies on the page, and the size of its floor, in pt.
+const CENTER: Pt = [128.0, 116.0];
+const SCALE: f64 = 130.0;
+/// Height of the box over the side of its floor.
+const TALL: f64 = 1.0;
+
 /// Orthographic view.
 struct View {
     sin: f64,
@@ -54,11 +60,16 @@ impl View {
         let (x, y) = (e - 0.5, q - 0.5);
         let right = x * self.cos - y * self.sin;
         let back = x * self.sin + y * self.cos;
-        let up = z / self.cut * 0.78;
-        ([190.0 + 205.0 * right, 152.0 - 205.0 * (back * self.lift + (up - 0.39) * self.lower)], -back)
+        let up = TALL * (z / self.cut - 0.5);
+        ([CENTER[0] + SCALE * right, CENTER[1] - SCALE * (back * self.lift + up * self.lower)], -back)
     }
     fn pt(&self, p: P3) -> Pt {
         self.at(p).0
+    }
+    /// Towards the light, over the left shoulder of the eye, as (q, e, z).
+    fn light(&self) -> P3 {
+        let (right, back, up) = (-0.45, -0.4, 0.8);
+        [back * self.cos - right * self.sin, right * self.cos + back * self.sin, up]
     }
 }
 
@@ -82,14 +93,14 @@ fn below(polygon: &[P3], cut: f64) -> Vec<P3> {
 /// are functions of (q, e), seen from above.
 pub(crate) fn surface(data: &Surface) -> String {
     let view = View::new(data);
-    let mut svg = Svg::new(380.0, 300.0);
+    let mut svg = Svg::new(226.0, 246.0);
     box_back(&mut svg, &view, data);
     let Some(first) = data.sheets.first() else { return svg.finish(data.title) };
     let (nq, ne) = (first.map.q.points(), first.map.e.points());
     let mut columns: Vec<(usize, usize)> = (0..nq - 1).flat_map(|i| (0..ne - 1).map(move |j| (i, j))).collect();
     let near = |(i, j): (usize, usize)| view.at([first.map.q.value(i), first.map.e.value(j), 0.0]).1;
     columns.sort_by(|a, b| near(*a).total_cmp(&near(*b)));
-    let light = [-0.35, -0.45, 0.82];
+    let light = view.light();
     for (i, j) in columns {
         for sheet in &data.sheets {
             let point = |i: usize, j: usize| [sheet.map.q.value(i), sheet.map.e.value(j), sheet.map.values[i * ne + j]];
@@ -101,11 +112,11 @@ pub(crate) fn surface(data: &Surface) -> String {
             let page: Vec<Pt> = shape.iter().map(|p| view.pt(*p)).collect();
             let bright = brightness(&shape, data.cut, light);
             let fill = mix(sheet.fill, bright);
-            let line = mix([sheet.fill[0].map(|c| c / 2), sheet.fill[1].map(|c| c / 2)], bright);
+            let line = mix([sheet.fill[0].map(|c| c / 4 * 3), sheet.fill[1].map(|c| c / 4 * 3)], bright);
             svg.facet(&page, &fill, &line);
             for w in 0..shape.len() {
                 let (a, b) = (shape[w], shape[(w + 1) % shape.len()]);
-                if a[2] == data.cut && b[2] == data.cut {
+                if a[2] >= data.cut && b[2] >= data.cut {
                     svg.line(view.pt(a), view.pt(b), Ink::line(RUST, 0.9));
                 }
             }
@@ -115,21 +126,30 @@ pub(crate) fn surface(data: &Surface) -> String {
     for sheet in &data.sheets {
         let (i, j) = (nearest(nq, sheet.at[0]), nearest(ne, sheet.at[1]));
         let z = sheet.map.values[i * ne + j].min(data.cut);
-        let [x, y] = view.pt([sheet.at[0], sheet.at[1], z]);
-        svg.text([x + 5.0, y + 3.0], sheet.name, Label { anchor: Anchor::Start, ..LABEL });
+        let [x, y] = view.pt([sheet.map.q.value(i), sheet.map.e.value(j), z]);
+        if !sheet.name.is_empty() {
+            let half = 0.5 * width(sheet.name, LABEL.size) + 2.0;
+            svg.rect([x - half, y - 5.0], [2.0 * half, 10.0], Ink::fill("#ffffff"));
+            svg.text([x, y + 2.7], sheet.name, LABEL);
+        }
     }
     svg.finish(data.title)
 }
 
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "a small index")]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    reason = "a small index"
+)]
 fn nearest(points: usize, x: f64) -> usize {
     (x * (points - 1) as f64).round() as usize
 }
 
 /// Cosine between the normal and the light, 0 to 1, of a polygon in the box of the figure.
 fn brightness(shape: &[P3], cut: f64, light: P3) -> f64 {
-    let scaled = |p: P3| [p[0], p[1], p[2] / cut * 0.78];
-    let (mut n, mut norm) = ([0.0; 3], 0.0f64);
+    let scaled = |p: P3| [p[0], p[1], p[2] / cut * TALL];
+    let mut n = [0.0; 3];
     for k in 0..shape.len() {
         let (a, b) = (scaled(shape[k]), scaled(shape[(k + 1) % shape.len()]));
         for d in 0..3 {
@@ -138,13 +158,14 @@ fn brightness(shape: &[P3], cut: f64, light: P3) -> f64 {
     }
     let sign = if n[2] < 0.0 { -1.0 } else { 1.0 };
     let dot: f64 = n.iter().zip(light).map(|(a, b)| sign * a * b).sum();
-    norm += n.iter().map(|x| x * x).sum::<f64>();
+    let norm: f64 = n.iter().map(|x| x * x).sum();
     if norm > 0.0 { (dot / norm.sqrt()).clamp(0.0, 1.0) } else { 0.5 }
 }
 
 fn mix([light, dark]: [[u8; 3]; 2], x: f64) -> String {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between two bytes")]
-    let c: [u8; 3] = std::array::from_fn(|i| (f64::from(dark[i]) + x * (f64::from(light[i]) - f64::from(dark[i]))).round() as u8);
+    let c: [u8; 3] =
+        std::array::from_fn(|i| (f64::from(dark[i]) + x * (f64::from(light[i]) - f64::from(dark[i]))).round() as u8);
     format!("#{:02x}{:02x}{:02x}", c[0], c[1], c[2])
 }
 
@@ -183,36 +204,36 @@ fn box_front(svg: &mut Svg, view: &View, data: &Surface) {
     svg.line(view.pt([near_q, 0.0, 0.0]), view.pt([near_q, 1.0, 0.0]), rule);
     svg.line(view.pt([0.0, near_e, 0.0]), view.pt([1.0, near_e, 0.0]), rule);
     let tick = Label { size: 8.0, ..LABEL };
-    // an axis along the floor: its points, and the outward direction on the page
-    let floor = |svg: &mut Svg, p: &dyn Fn(f64) -> P3, out: &dyn Fn(f64) -> P3, title: &str| {
+    // an axis along the floor; ticks and title stand off square to it on the page
+    let floor = |svg: &mut Svg, p: &dyn Fn(f64) -> P3, title: &str| {
+        let (a, b) = (view.pt(p(0.0)), view.pt(p(1.0)));
+        let (a, b) = if a[0] < b[0] { (a, b) } else { (b, a) };
+        let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+        let length = dx.hypot(dy);
         let away = |v: f64, d: f64| {
-            let (a, b) = (view.pt(p(v)), view.pt(out(v)));
-            let l = (b[0] - a[0]).hypot(b[1] - a[1]);
-            [a[0] + d * (b[0] - a[0]) / l, a[1] + d * (b[1] - a[1]) / l]
+            let [x, y] = view.pt(p(v));
+            [x - d * dy / length, y + d * dx / length]
         };
         for k in 0..=5u8 {
             let v = f64::from(k) / 5.0;
             svg.line(view.pt(p(v)), away(v, 3.0), Ink::line(INK, 0.6));
-            let [x, y] = away(v, 11.0);
+            let [x, y] = away(v, 10.0);
             let text = if k == 0 || k == 5 { format!("{v:.0}") } else { format!("{v:.1}") };
             svg.text([x, y + 2.6], &text, tick);
         }
-        let (a, b) = (view.pt(p(0.0)), view.pt(p(1.0)));
-        let (a, b) = if a[0] < b[0] { (a, b) } else { (b, a) };
-        let turn = (b[1] - a[1]).atan2(b[0] - a[0]).to_degrees();
-        let [x, y] = away(0.5, 27.0);
+        let turn = dy.atan2(dx).to_degrees();
+        let [x, y] = away(0.5, 22.0);
         svg.text([x, y], title, Label { turn, ..LABEL });
     };
-    let step = 1e-3;
-    let (dq, de) = (if near_q > 0.5 { step } else { -step }, if near_e > 0.5 { step } else { -step });
-    floor(svg, &|v| [near_q, v, 0.0], &|v| [near_q + dq, v, 0.0], "restitution  *e*");
-    floor(svg, &|v| [v, near_e, 0.0], &|v| [v, near_e + de, 0.0], "inertia ratio  *q*");
+    floor(svg, &|v| [near_q, v, 0.0], "restitution *e*");
+    floor(svg, &|v| [v, near_e, 0.0], "inertia ratio *q*");
     // the vertical axis stands at the leftmost corner
     let corners = [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]];
-    let left = corners.into_iter().min_by(|a, b| view.pt([a[0], a[1], 0.0])[0].total_cmp(&view.pt([b[0], b[1], 0.0])[0]));
+    let left =
+        corners.into_iter().min_by(|a, b| view.pt([a[0], a[1], 0.0])[0].total_cmp(&view.pt([b[0], b[1], 0.0])[0]));
     let [q, e] = left.unwrap_or_default();
     svg.line(view.pt([q, e, 0.0]), view.pt([q, e, data.cut]), rule);
-    for k in 0..=4u8 {
+    for k in 1..=4u8 {
         let z = data.cut * f64::from(k) / 4.0;
         let [x, y] = view.pt([q, e, z]);
         svg.line([x, y], [x - 3.0, y], Ink::line(INK, 0.6));
@@ -222,5 +243,17 @@ fn box_front(svg: &mut Svg, view: &View, data: &Surface) {
     }
     let [x, y] = view.pt([q, e, 0.5 * data.cut]);
     svg.text([x - 24.0, y], data.axis, Label { turn: -90.0, ..LABEL });
-    let _ = GRAY;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_facet_is_cut_at_the_height_and_beside_the_pole() {
+        let quad = [[0.0, 0.0, 1.0], [0.0, 1.0, 1.0], [1.0, 1.0, f64::INFINITY], [1.0, 0.0, f64::INFINITY]];
+        // 1/z falls linearly from 1 to 0 along the edges to the pole, so that z = 2 lies in the middle
+        assert_eq!(below(&quad, 2.0), [[0.0, 0.0, 1.0], [0.0, 1.0, 1.0], [0.5, 1.0, 2.0], [0.5, 0.0, 2.0],]);
+        assert_eq!(below(&quad, 0.5), Vec::<P3>::new(), "all above");
+    }
 }

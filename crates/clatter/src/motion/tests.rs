@@ -214,6 +214,6 @@ fn counts_beyond_2_to_the_64_are_floats() {
     let s = bar.summary(&Start::default());
     // N = π/θ − …, θ → 2k for k → 0.
     let Count::Huge(n) = s.count else { panic!("{:?}", s.count) };
-    assert!((n * 2e-25 / std::f64::consts::PI - 1.0).abs() < 1e-15, "{n:e}");
+    assert!((n * 2e-25 / PI - 1.0).abs() < 1e-15, "{n:e}");
     assert!(s.duration > 0.5, "{}", s.duration);
 }

@@ -1,0 +1,163 @@
+//! Wall times, each beside a plain way to the same answer in the same run: `cargo bench -p clatter --bench speed`.
+//!
+//! Ours and the plain way take turns, so that a machine that slows down slows both; the table gives the least time of
+//! each and the median of the ratios round by round. The bench `instructions` counts instructions, which repeat exactly.
+#![expect(clippy::print_stdout, clippy::cast_precision_loss, reason = "a table of counts and times is what is wanted")]
+
+use clatter::{Axis, Bar, Count, Map, Quantity, Start};
+use std::hint::black_box;
+use std::time::Instant;
+
+/// Rounds of each pair.
+const ROUNDS: usize = 41;
+
+/// The loop anyone would write: count, peak, duration, final velocities in f64, cut off at 1000 impacts.
+fn plain(q: f64, e: f64) -> (f64, f64, f64, [f64; 2]) {
+    let t = q * (1.0 + e);
+    let (mut a, mut next, mut b, mut b_next, mut n, mut peak) = (-1.0, -t - 1.0, 0.0, 1.0, 1.0, 1.0_f64);
+    while next < 0.0 && n < 1000.0 {
+        (a, next) = (next, t * next - e * a);
+        (b, b_next) = (b_next, t * b_next - e * b);
+        n += 1.0;
+        peak = peak.max(-a);
+    }
+    (n, (1.0 + e) * peak, b / -a, [-e * a, next])
+}
+
+/// Times both, in turns, and prints a line; one call of each does `items`.
+fn row<A, B>(name: &str, items: usize, allowed: &str, mut ours: impl FnMut() -> A, mut plain: impl FnMut() -> B) {
+    let time = |f: &mut dyn FnMut()| {
+        let start = Instant::now();
+        f();
+        start.elapsed().as_nanos() as f64 / items as f64
+    };
+    let mut rounds: Vec<(f64, f64)> =
+        (0..ROUNDS).map(|_| (time(&mut || drop(black_box(ours()))), time(&mut || drop(black_box(plain()))))).collect();
+    let least = |f: fn(&(f64, f64)) -> f64| rounds.iter().map(f).fold(f64::INFINITY, f64::min);
+    let (a, b) = (least(|r| r.0), least(|r| r.1));
+    rounds.sort_by(|x, y| (x.0 / x.1).total_cmp(&(y.0 / y.1)));
+    let (x, y) = rounds[ROUNDS / 2];
+    println!("{name:44} {a:10.2} {b:10.2} {:7.2}   {allowed}", x / y);
+}
+
+/// A bar whose q and e are known to be in range.
+fn bar(q: f64, e: f64) -> Bar {
+    Bar::new(q, e).expect("q and e in range")
+}
+
+fn naive(q: f64, e: f64) {
+    black_box(plain(black_box(q), black_box(e)));
+}
+
+/// The unit square, evenly at random, always the same.
+fn square() -> Vec<(f64, f64)> {
+    let mut state = 1_u64;
+    let mut random = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    (0..20_000).map(|_| (random(), random())).collect()
+}
+
+/// Summaries of bars made on the spot.
+fn summaries() {
+    let start = Start::default();
+    let square = square();
+    let finite =
+        |most: u64| move |&&(q, e): &&(f64, f64)| matches!(bar(q, e).count(&start), Count::Finite(n) if n <= most);
+    for (name, points, allowed) in [
+        ("summary, unit square (plain: 1000 at most)", square.clone(), "40 ns"),
+        ("summary, where finite", square.iter().filter(finite(u64::MAX)).copied().collect(), ""),
+        ("summary, up to 4 impacts", square.iter().filter(finite(4)).copied().collect(), "1.5 times"),
+    ] {
+        let ours = || {
+            for &(q, e) in &points {
+                black_box(bar(black_box(q), black_box(e)).summary(black_box(&start)));
+            }
+        };
+        row(name, points.len(), allowed, ours, || points.iter().for_each(|&(q, e)| naive(q, e)));
+    }
+}
+
+/// Long and awkward trains in constant time; the plain loop gives up after 1000 impacts.
+fn long_trains() {
+    let start = Start::default();
+    for (name, bar) in [
+        ("N = 2·10^8, (1 − 2^-53, 1)", bar(1.0 - f64::EPSILON / 2.0, 1.0)),
+        ("N = 2·10^8, one float below endless", bar(0.799_999_999_999_999_9, 0.25)),
+        ("N = 2·10^9, k = 1e-9", Bar::from_gyration_ratio(1e-9, 1.0).expect("k in range")),
+        ("N = 2221, (0.999999, 1)", bar(0.999_999, 1.0)),
+        ("endless by one float, (0.8, 0.25)", bar(0.8, 0.25)),
+        ("Table 1, 4 impacts", bar(0.5, 0.3)),
+        ("Table 1, 16 impacts", bar(0.73, 0.2)),
+        ("Table 1, 31 impacts", bar(0.67, 0.15)),
+        ("Table 1, 24 impacts", bar(0.57, 0.1)),
+    ] {
+        let repeat = 500;
+        let loops = || (0..repeat).for_each(|_| naive(bar.q(), bar.e()));
+        let summary = || {
+            (0..repeat).for_each(|_| {
+                black_box(black_box(&bar).summary(black_box(&start)));
+            });
+        };
+        row(&format!("summary, {name}"), repeat, "600 ns", summary, loops);
+        let count = || {
+            (0..repeat).for_each(|_| {
+                black_box(black_box(&bar).count(black_box(&start)));
+            });
+        };
+        row(&format!("count, {name}"), repeat, "100 ns", count, loops);
+    }
+}
+
+/// Trains with times: the plain way is the recurrence, which drifts.
+fn trains() {
+    let start = Start::default();
+    let sum =
+        |bar: &Bar, most: usize| bar.train(&start).take(most).map(|i| i.time + i.approach + i.delta_v[0]).sum::<f64>();
+    let drifting = |bar: &Bar, most: usize| {
+        let (t, e) = (bar.q() * (1.0 + bar.e()), bar.e());
+        let (mut a, mut next, mut b, mut b_next, mut sum) = (-1.0, -t - 1.0, 0.0, 1.0, 0.0);
+        for _ in 0..most {
+            if a >= 0.0 {
+                break;
+            }
+            sum += b / -a + a - (1.0 + e) * a;
+            (a, next) = (next, t * next - e * a);
+            (b, b_next) = (b_next, t * b_next - e * b);
+        }
+        sum
+    };
+    for (name, q, e, most) in [
+        ("train of 4", 0.5, 0.3, 4),
+        ("train of 16", 0.73, 0.2, 16),
+        ("train of 31", 0.67, 0.15, 31),
+        ("train of 2221", 0.999_999, 1.0, 2221),
+        ("train of 2·10^8, its first 10^5", 1.0 - f64::EPSILON / 2.0, 1.0, 100_000),
+        ("endless train, its first 1000", 0.9, 0.2, 1000),
+    ] {
+        let (bar, repeat) = (bar(q, e), (20_000 / most).max(1));
+        let ours = || (0..repeat).map(|_| sum(black_box(&bar), most)).sum::<f64>();
+        let loops = || (0..repeat).map(|_| drifting(black_box(&bar), most)).sum::<f64>();
+        row(&format!("{name}, an impact"), repeat * most, "2.5 ns", ours, loops);
+    }
+}
+
+/// Maps on one thread, against a copy of their result.
+fn maps() {
+    let (q, e) = (Axis::q(0.0, 1.0, 1000).expect("an axis"), Axis::e(0.0, 1.0, 1000).expect("an axis"));
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
+    for (name, quantity, allowed) in [("peak", Quantity::PeakEnd, "3 times a copy"), ("count", Quantity::Impacts, "")] {
+        let map = Map::compute(quantity, q, e).expect("8 MB");
+        let compute = || one.install(|| Map::compute(quantity, q, e));
+        row(&format!("map of the {name}, 1000 × 1000, a point"), 1_000_000, allowed, compute, || map.values.clone());
+    }
+}
+
+fn main() {
+    println!("{:44} {:>10} {:>10} {:>7}   allowed", "", "ours [ns]", "plain [ns]", "ratio");
+    summaries();
+    long_trains();
+    trains();
+    maps();
+}
