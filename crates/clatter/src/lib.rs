@@ -19,6 +19,7 @@ pub mod contour;
 mod dd;
 mod error;
 mod exact;
+pub mod flight;
 mod map;
 mod motion;
 pub mod paper;

@@ -1,0 +1,580 @@
+//! Contact that takes time: a linear spring and dashpot at each end, never pulling.
+//!
+//! An end in contact at height h ≤ 0 feels the force per unit mass of the body
+//!
+//! ```text
+//! f = −κ (h + θ h′),   κ = ω²/μ,   θ = 2ζ/ω,   μ = 1 + x²/ρ²,   contact lost at f = 0
+//! ```
+//!
+//! where x = L cos φ is the lever arm at the angle of touch, kept until no end is in contact. The stiffness is that of the
+//! effective mass at that angle, so a lone contact has the same natural frequency ω and damping ratio ζ at any angle,
+//! and with it the restitution and the duration that were asked for.
+//!
+//! # Fit
+//! A lone contact without gravity loses contact when h + θ h′ = 0. With ζ = cos β (or cosh β beyond critical damping)
+//! this gives duration and restitution in closed form:
+//!
+//! ```text
+//! ω τ = 2β/sin β   (2β/sinh β),   e = exp(−ζ ω τ) = exp(−2β cot β)   (exp(−2β coth β))
+//! ```
+//!
+//! (At ζ = 0.3: e = 0.451.) Solved for β by bisection to the last digit; e² decreases with ζ throughout.
+//!
+//! # Phases
+//! With one end in contact its height is a damped oscillation, the other end a parabola plus a multiple of it. With both,
+//! `w = √κ h` obeys `w″ = −√κ g − S (w + θ w′)` with a symmetric S, whose two modes are damped in proportion to their
+//! stiffness. So every phase is a sum of known functions, evaluated and not stepped.
+//! Touching, parting and coming back into contact are first zeros found by [`roots`](super::roots): the energy
+//! `z′² + k z²` of a mode never grows and bounds every derivative from any moment on.
+//!
+//! After parting the end is still below zero by what the dashpot held back. It touches again when it comes back to zero
+//! from above, or, if it never gets there, when the force law pushes again; that belongs to the same strike.
+//!
+//! # Error of the kept lever arm
+//! Lever arms, and the acceleration by turning, are those of the beginning of a phase; at its end the pose follows in exact
+//! geometry. A phase ends with any touch or parting, and after a turn of 1/200 rad (so that a body may
+//! pivot on its spring). The shock of a contact is off by tan φ · ω τ of itself at most, ω the spin it leaves.
+
+use super::ballistic::Clock;
+use super::finite_tilt::{Pose, end_of, sigma};
+use super::roots::{first_zero, safe_step};
+use super::{Flight, Log, SHARE, Scene, Stop};
+use crate::{End, Error};
+
+/// Natural frequency and damping ratio of a lone contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    time: f64,
+    frequency: f64,
+    damping: f64,
+}
+
+impl Contact {
+    /// The contact with restitution `e` and duration `contact_time_s`.
+    ///
+    /// # Accuracy
+    /// A lone contact without gravity has this restitution and this duration to 1e−12.
+    ///
+    /// # Errors
+    /// [`Error::Quantity`] unless 0.01 ≤ e ≤ 1 and the contact time is in [1e−12, 1e3] s: shorter ones vanish beside the
+    /// times of flight.
+    ///
+    /// ```
+    /// let contact = clatter::flight::Contact::new(0.451, 1e-3)?;
+    /// assert!((contact.damping_ratio() - 0.3).abs() < 1e-3);
+    /// # Ok::<(), clatter::Error>(())
+    /// ```
+    pub fn new(e: f64, contact_time_s: f64) -> Result<Self, Error> {
+        if !(0.01..=1.0).contains(&e) {
+            let allowed = "in [0.01, 1] for a compliant contact";
+            return Err(Error::Quantity { name: "restitution e", value: e, allowed });
+        }
+        if !(1e-12..=1e3).contains(&contact_time_s) {
+            let allowed = "in [1e-12, 1000]";
+            return Err(Error::Quantity { name: "contact time in s", value: contact_time_s, allowed });
+        }
+        let loss = -e.ln(); // ζ ω τ
+        // 2β cot β falls from 2 to 0 on (0, π/2], 2β coth β rises from 2.
+        let under = loss < 2.0;
+        let excess = |b: f64| if under { loss - 2.0 * b / b.tan() } else { 2.0 * b / b.tanh() - loss };
+        let (mut lo, mut hi) = (0.0, if under { 0.5 * std::f64::consts::PI } else { 3.0 });
+        loop {
+            let mid = 0.5 * (lo + hi);
+            if mid <= lo || mid >= hi {
+                break;
+            }
+            if excess(mid) < 0.0 { lo = mid } else { hi = mid }
+        }
+        let (damping, sine) = if under { (hi.cos(), hi.sin()) } else { (hi.cosh(), hi.sinh()) };
+        let damping = if loss > 0.0 { damping } else { 0.0 };
+        Ok(Self { time: contact_time_s, frequency: 2.0 * hi / sine / contact_time_s, damping })
+    }
+    /// Natural frequency ω of a lone contact, rad/s.
+    #[must_use]
+    pub fn frequency_rad_s(&self) -> f64 {
+        self.frequency
+    }
+    /// Damping ratio ζ of a lone contact.
+    #[must_use]
+    pub fn damping_ratio(&self) -> f64 {
+        self.damping
+    }
+    fn delay(&self) -> f64 {
+        2.0 * self.damping / self.frequency
+    }
+}
+
+/// `y″ + 2 s y′ + k y = k rest`, from z = y − rest and z′ at time 0.
+#[derive(Debug, Clone, Copy)]
+struct Mode {
+    s: f64,
+    k: f64,
+    rest: f64,
+    z: f64,
+    dz: f64,
+}
+
+impl Mode {
+    fn new(k: f64, delay: f64, force: f64, y: f64, dy: f64) -> Self {
+        let rest = force / k;
+        Self { s: 0.5 * delay * k, k, rest, z: y - rest, dz: dy }
+    }
+    /// z and z′ at time t.
+    fn at(&self, t: f64) -> (f64, f64) {
+        let gap = self.k - self.s * self.s;
+        let nu = gap.abs().sqrt();
+        let (c, sn) = if gap > 0.0 {
+            let decay = (-self.s * t).exp();
+            let (sin, cos) = (nu * t).sin_cos();
+            (decay * cos, decay * sin / nu)
+        } else {
+            // The slow exponent by the product of both, without cancellation.
+            let decay = (-self.k / (self.s + nu) * t).exp();
+            let x = 2.0 * nu * t;
+            let sn = if x > 0.0 { -(-x).exp_m1() / x } else { 1.0 };
+            (0.5 * decay * (1.0 + (-x).exp()), decay * t * sn)
+        };
+        (self.z * c + (self.dz + self.s * self.z) * sn, self.dz * c - (self.k * self.z + self.s * self.dz) * sn)
+    }
+    fn second(&self, (z, dz): (f64, f64)) -> f64 {
+        -2.0 * self.s * dz - self.k * z
+    }
+    /// Bounds from the moment of (z, z′) on: of |z|, and of |z″|; the first derivatives are at most √k times these.
+    fn bounds(&self, now: (f64, f64)) -> (f64, f64) {
+        let root = self.k.sqrt();
+        let a = self.second(now);
+        let jerk = -2.0 * self.s * a - self.k * now.1;
+        (now.0.hypot(now.1 / root), a.hypot(jerk / root))
+    }
+    /// Slowest rate of decay.
+    fn decay(&self) -> f64 {
+        let gap = self.s * self.s - self.k;
+        if gap > 0.0 { self.k / (self.s + gap.sqrt()) } else { self.s }
+    }
+}
+
+/// Share of a radian, and of the time √(L/g), after which the lever arms of a phase are renewed.
+const TURN: f64 = 0.005;
+
+/// Phases, beyond 16 a strike, after which a body that neither rests nor strikes is left at the time it has reached.
+const PHASES: usize = 100_000;
+
+/// A phase with one or both ends in contact, at fixed lever arms; with none it only holds the pose.
+#[derive(Debug, Clone, Copy)]
+struct Phase {
+    start: Pose,
+    on: [bool; 2],
+    delay: f64,
+    /// Downward acceleration of each end without contact: gravity, in a long contact also the turning at the start.
+    fall: [f64; 2],
+    /// Lever arms with sign, 1 + x²/ρ², and `1 + x_a x_b/ρ²`.
+    x: [f64; 2],
+    mu: [f64; 2],
+    cross: f64,
+    /// Stiffness over the mass of the body, from the angle of touch.
+    kappa: [f64; 2],
+    modes: [Mode; 2],
+    /// cos and sin of the angle that turns √κ h into modes.
+    mix: (f64, f64),
+}
+
+impl Phase {
+    fn new(start: Pose, on: [bool; 2], contact: Contact, kappa: [f64; 2], long: bool) -> Self {
+        let rho2 = start.body.gyration_m().powi(2);
+        let x = start.levers();
+        let mu = x.map(|x| 1.0 + x * x / rho2);
+        let cross = 1.0 + x[0] * x[1] / rho2;
+        let fall = if long { [0, 1].map(|i| -start.acceleration(i)) } else { [start.gravity; 2] };
+        let (h, v) = (start.ends.h, start.ends.v);
+        let delay = contact.delay();
+        let (modes, mix) = if on == [true; 2] {
+            let root = kappa.map(f64::sqrt);
+            // S = [[κ_a μ_a, off], [off, κ_b μ_b]], positive definite.
+            let (off, half) = (root[0] * root[1] * cross, 0.5 * (kappa[0] * mu[0] - kappa[1] * mu[1]));
+            let (sin, cos) = (0.5 * off.atan2(half)).sin_cos();
+            let large = 0.5 * (kappa[0] * mu[0] + kappa[1] * mu[1]) + half.hypot(off);
+            // The small eigenvalue by the determinant, κ_a κ_b (x_b − x_a)²/ρ².
+            let small = kappa[0] * kappa[1] * (x[1] - x[0]).powi(2) / rho2 / large;
+            let one = |u: [f64; 2]| cos * root[0] * u[0] + sin * root[1] * u[1];
+            let two = |u: [f64; 2]| cos * root[1] * u[1] - sin * root[0] * u[0];
+            let modes = [
+                Mode::new(large, delay, -one(fall), one(h), one(v)),
+                Mode::new(small, delay, -two(fall), two(h), two(v)),
+            ];
+            (modes, (cos, sin))
+        } else {
+            let i = usize::from(on[1]);
+            ([Mode::new(kappa[i] * mu[i], delay, -fall[i], h[i], v[i]); 2], (1.0, 0.0))
+        };
+        Self { start, on, delay, fall, x, mu, cross, kappa, modes, mix }
+    }
+    fn both(&self) -> bool {
+        self.on == [true; 2]
+    }
+    /// Height of end i in contact as a sum of modes.
+    fn weights(&self, i: usize) -> [f64; 2] {
+        if !self.both() {
+            return [1.0, 0.0];
+        }
+        let (cos, sin) = self.mix;
+        let weights = if i == 0 { [cos, -sin] } else { [sin, cos] };
+        weights.map(|w| w / self.kappa[i].sqrt())
+    }
+    /// Height, velocity, acceleration of end i.
+    fn end(&self, i: usize, t: f64) -> [f64; 3] {
+        if self.on[i] {
+            let c = self.weights(i);
+            let mut sum = [0.0; 3];
+            for (c, mode) in c.iter().zip(&self.modes) {
+                let now = mode.at(t);
+                let terms = [mode.rest + now.0, now.1, mode.second(now)];
+                for (s, term) in sum.iter_mut().zip(terms) {
+                    *s += c * term;
+                }
+            }
+            return sum;
+        }
+        let j = 1 - i;
+        let share = self.cross / self.mu[j];
+        let [h, v, a] = self.end(j, t);
+        let (h0, v0, g) = (self.start.ends.h, self.start.ends.v, self.fall);
+        let half = 0.5 * t * t;
+        [
+            h0[i] + v0[i] * t - half * g[i] + share * (h - h0[j] - v0[j] * t + half * g[j]),
+            v0[i] - g[i] * t + share * (v - v0[j] + g[j] * t),
+            -g[i] + share * (a + g[j]),
+        ]
+    }
+    fn force(&self, i: usize, t: f64) -> f64 {
+        let [h, v, _] = self.end(i, t);
+        if self.on[i] { (-self.kappa[i] * (h + self.delay * v)).max(0.0) } else { 0.0 }
+    }
+    /// Solves `M (f_a, f_b) = r` for the ends in contact.
+    fn solve(&self, r: [f64; 2]) -> [f64; 2] {
+        if self.both() {
+            let det = ((self.x[1] - self.x[0]) / self.start.body.gyration_m()).powi(2);
+            [(self.mu[1] * r[0] - self.cross * r[1]) / det, (self.mu[0] * r[1] - self.cross * r[0]) / det]
+        } else {
+            let i = usize::from(self.on[1]);
+            let mut f = [0.0; 2];
+            f[i] = r[i] / self.mu[i];
+            f
+        }
+    }
+    /// Impulses of both ends over the time t.
+    fn impulses(&self, t: f64) -> [f64; 2] {
+        self.solve([0, 1].map(|i| self.end(i, t)[1] - self.start.ends.v[i] + self.fall[i] * t))
+    }
+    /// The pose at time t: an end in contact is where its spring is, the angle and the spin are what the impulses give, and
+    /// the other end follows in exact geometry. `free`: so are the velocities, by the velocity of the center, which keeps
+    /// the energy; else the end in contact keeps its own, and lies still if it did.
+    fn pose(&self, t: f64, free: bool) -> Pose {
+        let s = &self.start;
+        let length = s.body.length_m();
+        let ends = [0, 1].map(|i| self.end(i, t));
+        let mut next = *s;
+        (next.ends.h, next.ends.v) = (ends.map(|e| e[0]), ends.map(|e| e[1]));
+        if self.both() {
+            next.sin = (ends[1][0] - ends[0][0]) / length;
+            next.cos = ((1.0 - next.sin) * (1.0 + next.sin)).sqrt().copysign(s.cos);
+            next.spin = (ends[1][1] - ends[0][1]) / (length * next.cos);
+            return next;
+        }
+        let rho2 = s.body.gyration_m().powi(2);
+        let i = usize::from(self.on[1]);
+        let j = 1 - i;
+        let twice = (ends[i][0] - s.ends.h[i] - s.ends.v[i] * t + 0.5 * self.fall[i] * t * t) / self.mu[i];
+        next = next.turned(s.spin * t + self.x[i] * twice / rho2);
+        next.spin = s.spin + self.x[i] * self.impulses(t)[i] / rho2;
+        next.ends.h[j] = next.ends.h[i] + sigma(j) * length * next.sin;
+        next.ends.v[j] = next.ends.v[i] + sigma(j) * length * next.cos * next.spin;
+        if free {
+            let center = s.center().1 - s.gravity * t + self.impulses(t)[i];
+            next.ends.v = next.levers().map(|x| center + x * next.spin);
+        }
+        next
+    }
+    /// When end i in contact parts. `fresh`: it has just begun to press.
+    fn parting(&self, i: usize, cap: f64, fresh: bool) -> Option<f64> {
+        let (c, delay) = (self.weights(i), self.delay);
+        let rest: f64 = c.iter().zip(&self.modes).map(|(c, m)| c * m.rest).sum();
+        let press = |t: f64| {
+            let [h, v, a] = self.end(i, t);
+            (-(h + delay * v), -(v + delay * a))
+        };
+        let step = |t: f64, f: f64, slope: f64| {
+            let (mut swing, mut bound) = (0.0, 0.0);
+            for (c, mode) in c.iter().zip(&self.modes) {
+                let (z, a) = mode.bounds(mode.at(t));
+                let whole = c.abs() * (1.0 + delay * mode.k.sqrt());
+                swing += whole * z;
+                bound += whole * a;
+            }
+            if swing < -rest { f64::INFINITY } else { safe_step(f, slope, bound) }
+        };
+        let first = if fresh {
+            let (f, slope) = press(0.0);
+            step(0.0, f.max(0.0), slope)
+        } else {
+            0.0
+        };
+        if first.is_nan() || first >= cap { None } else { first_zero(first, cap, press, step) }
+    }
+    /// When free end j comes into contact.
+    fn touching(&self, j: usize, cap: f64, fresh: bool) -> Option<(f64, bool)> {
+        let delay = self.delay;
+        let share = (self.cross / self.mu[1 - j]).abs();
+        let bounds = |t: f64| {
+            let (_, a) = self.modes[0].bounds(self.modes[0].at(t));
+            let fall = self.fall[j].abs() + share * (self.fall[1 - j].abs() + a);
+            (fall, fall + delay * share * a * self.modes[0].k.sqrt())
+        };
+        next_contact(delay, cap, fresh, |t| self.end(j, t), bounds, |_| 0.0)
+    }
+    /// Time in which the vibration dies down to `SHARE`.
+    fn ringing_s(&self) -> f64 {
+        -SHARE.ln() / self.modes[0].decay().min(self.modes[1].decay())
+    }
+}
+
+/// First time at which a free end comes into contact: at zero from above, or below zero when h + θ h′ falls to zero.
+///
+/// `end` gives height, velocity and acceleration, `bounds` at least −h″ and −(h + θ h′)″ from a time on, `clear` a time
+/// known to be free from a time on. Says whether it comes from above.
+fn next_contact(
+    delay: f64,
+    cap: f64,
+    fresh: bool,
+    end: impl Fn(f64) -> [f64; 3],
+    bounds: impl Fn(f64) -> (f64, f64),
+    clear: impl Fn(f64) -> f64,
+) -> Option<(f64, bool)> {
+    let mut t = 0.0;
+    let mut first = fresh;
+    loop {
+        let [h, v, a] = end(t);
+        if h > 0.0 {
+            break;
+        }
+        let lift = h + delay * v;
+        if lift <= 0.0 && !first {
+            return Some((t, false));
+        }
+        let next = t + safe_step(lift.max(0.0), v + delay * a, bounds(t).1);
+        if next.is_nan() || next >= cap {
+            return None;
+        }
+        if next <= t {
+            return Some((t, false));
+        }
+        (t, first) = (next, false);
+    }
+    let height = |t: f64| {
+        let [h, v, _] = end(t);
+        (h, v)
+    };
+    let step = |t: f64, h: f64, v: f64| safe_step(h, v, bounds(t).0).max(clear(t));
+    first_zero(t, cap, height, step).map(|t| (t, true))
+}
+
+/// Accelerations and forces at one moment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Heights of ends a and b; negative where the contact is compressed.
+    pub height_m: [f64; 2],
+    /// Vertical velocities of ends a and b.
+    pub velocity_m_s: [f64; 2],
+    /// Vertical accelerations of ends a and b, gravity included.
+    pub acceleration_m_s2: [f64; 2],
+    /// Forces of the ground on ends a and b over the mass of the body.
+    pub force_per_mass_m_s2: [f64; 2],
+}
+
+impl Sample {
+    /// Vertical acceleration at position `s` in [−1, 1] along the body (−1 is end a).
+    #[must_use]
+    pub fn acceleration_at(&self, s: f64) -> f64 {
+        0.5 * ((1.0 - s) * self.acceleration_m_s2[0] + (1.0 + s) * self.acceleration_m_s2[1])
+    }
+}
+
+/// The time in which a strike presses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pulse {
+    /// Number of the strike it belongs to.
+    pub strike: u64,
+    /// First touch.
+    pub from_s: f64,
+    /// Last parting; infinite if the end stays down for good.
+    pub until_s: f64,
+}
+
+/// A flight with contacts that take time, and its whole history.
+#[derive(Debug, Clone)]
+pub struct CompliantFlight {
+    /// Strikes and stop; times are those of touching, Δv is what the force of that contact does in all.
+    pub flight: Flight,
+    /// Beginning and end of each strike's contact.
+    pub pulses: Vec<Pulse>,
+    phases: Vec<(f64, Phase)>,
+}
+
+impl CompliantFlight {
+    /// Heights, velocities, accelerations and forces at a time since the first touch.
+    #[must_use]
+    pub fn sample(&self, time_s: f64) -> Sample {
+        let n = self.phases.partition_point(|(from, _)| *from <= time_s);
+        let (from, phase) = &self.phases[n.saturating_sub(1)];
+        let t = (time_s - from).max(0.0);
+        let free = phase.on == [false; 2];
+        let ends = [0, 1].map(|i| if free { phase.start.free(i, t) } else { phase.end(i, t) });
+        Sample {
+            height_m: ends.map(|e| e[0]),
+            velocity_m_s: ends.map(|e| e[1]),
+            acceleration_m_s2: ends.map(|e| e[2]),
+            force_per_mass_m_s2: [0, 1].map(|i| if free { 0.0 } else { phase.force(i, t) }),
+        }
+    }
+}
+
+/// Simulates until rest (both ends press for good; the bound of the time is that of the vibration left), or a limit.
+pub(super) fn simulate(scene: &Scene, contact: Contact) -> CompliantFlight {
+    let mut log = Log::new(scene);
+    let mut time = Clock::default();
+    let mut pose = Pose::start(scene);
+    let [a, b] = scene.body().arms_m();
+    let arm = a.min(b);
+    let mut on = [true, false];
+    // Ends whose last event is now: their force is zero by rounding only.
+    let mut fresh = [true, false];
+    let mut kappa = [pose.stiffness(0, contact), 0.0];
+    // Whether the contact has outlasted a phase.
+    let mut long = false;
+    let mut phases = Vec::new();
+    let mut pulses: Vec<Pulse> = Vec::new();
+    let mut strike_of = [0_usize; 2];
+    let most = PHASES + 16 * scene.impact_limit();
+    // The limit is at least one strike.
+    log.strike(End::A, 0.0, pose.ends.v[0], [0.0; 2], &pose.after());
+    pulses.push(Pulse { strike: 1, from_s: 0.0, until_s: f64::INFINITY });
+    loop {
+        let phase = Phase::new(pose, on, contact, kappa, long);
+        phases.push((time.now(), phase));
+        let free = on == [false; 2];
+        let mut event: Option<(usize, f64, bool)> = None;
+        for i in 0..2 {
+            let cap = event.map_or(f64::INFINITY, |(_, t, _)| t);
+            let t = if free {
+                pose.touching(i, contact.delay(), cap, fresh[i])
+            } else if on[i] {
+                phase.parting(i, cap, fresh[i]).map(|t| (t, false))
+            } else {
+                phase.touching(i, cap, fresh[i])
+            };
+            event = t.map(|(t, above)| (i, t, above)).or(event);
+        }
+        if event.is_none() && phase.both() {
+            // Neither end will ever part: proven by the energy of the vibration.
+            let time_bound_s = phase.ringing_s();
+            log.flight.stop = Stop::AtRest { time_s: time.now(), time_bound_s, shock_bound_m_s: 0.0 };
+            break;
+        }
+        // A long phase with one end down is cut, and the lever arms renewed.
+        // A strike itself is never cut: its energy is exact while its lever arm is kept.
+        let turned = TURN / (pose.spin.abs() + (scene.gravity_m_s2() / arm).sqrt());
+        let longest = if free { f64::INFINITY } else { turned.max(2.0 * contact.time) };
+        let event = event.filter(|(_, t, _)| *t <= longest);
+        let dt = event.map_or(longest, |(_, t, _)| t);
+        if dt == f64::INFINITY {
+            log.bounced_clear();
+            break;
+        }
+        time.add(dt);
+        if dt > 0.0 {
+            fresh = [false; 2];
+        }
+        if time.now() > log.time_limit_s || phases.len() >= most {
+            log.flight.stop = Stop::TimeLimit { time_s: time.now().min(log.time_limit_s) };
+            break;
+        }
+        if free {
+            pose = pose.flown(dt);
+        } else {
+            let impulses = phase.impulses(dt);
+            pose = phase.pose(dt, event.is_some() && !long);
+            for k in (0..2).filter(|&k| on[k]) {
+                let delta = if k == 0 { [phase.mu[0], phase.cross] } else { [phase.cross, phase.mu[1]] };
+                let strike = &mut log.flight.strikes[strike_of[k]];
+                for (d, m) in strike.delta_v_m_s.iter_mut().zip(delta) {
+                    *d += m * impulses[k];
+                }
+            }
+        }
+        long = event.is_none();
+        let Some((i, _, above)) = event else { continue };
+        fresh[i] = true;
+        on[i] = !on[i];
+        if on[i] {
+            // Below zero it comes back into the contact that it has hardly left.
+            let again = !above && pose.ends.v[i] >= 0.0;
+            if again && kappa[i] > 0.0 {
+                pulses[strike_of[i]].until_s = f64::INFINITY;
+            } else {
+                pose.ends.h[i] = if above { 0.0 } else { pose.ends.h[i].min(0.0) };
+                kappa[i] = pose.stiffness(i, contact);
+                strike_of[i] = log.flight.strikes.len();
+                // A touch that grazes has no approach, whatever rounding says.
+                if !log.strike(end_of(i), time.now(), pose.ends.v[i].min(0.0), [0.0; 2], &pose.after()) {
+                    break;
+                }
+                pulses.push(Pulse { strike: pulses.len() as u64 + 1, from_s: time.now(), until_s: f64::INFINITY });
+            }
+        } else {
+            pulses[strike_of[i]].until_s = time.now();
+            let strike = &mut log.flight.strikes[strike_of[i]];
+            (strike.velocity_m_s, strike.spin_rad_s) = (pose.ends.v, pose.spin);
+        }
+    }
+    CompliantFlight { flight: log.flight, pulses, phases }
+}
+
+impl Pose {
+    /// Height, velocity and acceleration of end i in free flight.
+    fn free(&self, i: usize, t: f64) -> [f64; 3] {
+        let (h, v) = self.end(i, t);
+        [h, v, self.turned(self.spin * t).acceleration(i)]
+    }
+    /// The same body turned by an angle.
+    fn turned(&self, angle: f64) -> Self {
+        let (s, c) = angle.sin_cos();
+        let (sin, cos) = (self.sin * c + self.cos * s, self.cos * c - self.sin * s);
+        let norm = sin.hypot(cos);
+        Self { sin: sin / norm, cos: cos / norm, ..*self }
+    }
+    /// When free end i comes into contact.
+    fn touching(&self, i: usize, delay: f64, cap: f64, fresh: bool) -> Option<(f64, bool)> {
+        let arm = self.body.arms_m()[i];
+        let w = self.spin.abs();
+        let fall = self.gravity + arm * w * w;
+        let bounds = (fall, fall + delay * arm * w * w * w);
+        next_contact(delay, cap, fresh, |t| self.free(i, t), |_| bounds, |t| self.clear(i, t))
+    }
+    /// The pose after a flight of time t.
+    fn flown(&self, t: f64) -> Self {
+        let mut next = self.turned(self.spin * t);
+        for i in 0..2 {
+            (next.ends.h[i], next.ends.v[i]) = self.end(i, t);
+        }
+        next
+    }
+    /// Lever arms of the ends, signed.
+    fn levers(&self) -> [f64; 2] {
+        let [a, b] = self.body.arms_m();
+        [-a * self.cos, b * self.cos]
+    }
+    /// Stiffness of the contact that gives a lone end its frequency at this angle, over the mass of the body.
+    fn stiffness(&self, i: usize, contact: Contact) -> f64 {
+        let x = self.levers()[i];
+        contact.frequency.powi(2) / (1.0 + (x / self.body.gyration_m()).powi(2))
+    }
+}

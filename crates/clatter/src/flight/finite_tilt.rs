@@ -1,0 +1,401 @@
+//! Exact planar geometry at any angle.
+//!
+//! In flight the center follows a parabola and the body turns uniformly, θ = ω t. With σ = −1 at end a, +1 at b,
+//!
+//! ```text
+//! h(t) = h + v t − ½ g t² − σ L [(θ − sin θ) cos φ + (1 − cos θ) sin φ]
+//! h″(t) = −g − σ L ω² sin φ(t)
+//! ```
+//!
+//! written from the state after the last strike, so that a small gap is a sum of terms of its own size. A strike at end i
+//! acts at the lever arm x = L cos φ: `Δv_i = −(1 + e) u`, `Δv_j = −q(φ) Δv_i`, `q_i(φ) = (x_a x_b − ρ²)/(x_i² + ρ²)`.
+//!
+//! # No strike is missed, none taken twice
+//! `h″ ≥ −(g + L ω²)` bounds the motion from below: [`roots`](super::roots) advances by steps that are proven free of zeros,
+//! so the first touch of either end is the first touch. While the center is higher than L no angle lets the end touch, and the
+//! parabola of the center alone gives the step. The end that has just struck starts from exactly zero with its velocity
+//! upward, and the first step takes it off the ground for good; a touch without speed is no strike.
+//!
+//! # One end on the ground
+//! Chatter of one end at finite tilt is not exactly geometric, but nearly: with γ = −h″ and S = w/(1 − e), over the time
+//! 4S/γ the bounds on ω and φ keep γ within a share d ≤ (1 − e)/4, so each bounce is at most
+//! `e √((1+d)/(1−d)) ≤ 1 − 0.7 (1 − e)` of the one before, and all of them fit in that time. Then the end is a pivot
+//! (see [`pivot`](super::pivot)) until the other end lands or the turning lifts it.
+//!
+//! # Both ends near the ground
+//! The bound of [`settling`](super::settling) is doubled; it is used where `L ω² ≤ g/1000` and the tilt is below 1/1000,
+//! where it would hold with 1.01 in place of 2.
+
+use super::ballistic::Clock;
+use super::pivot::{self, Event};
+use super::roots::{first_zero, safe_step};
+use super::settling::Settling;
+use super::{After, Body, Flight, Log, SHARE, Scene, State, short};
+use crate::End;
+
+/// The body in flight, or at the moment of a strike.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pose {
+    pub(super) body: Body,
+    pub(super) gravity: f64,
+    /// Heights and vertical velocities of the ends.
+    pub(super) ends: State,
+    /// sin φ, cos φ.
+    pub(super) sin: f64,
+    pub(super) cos: f64,
+    /// Angular velocity.
+    pub(super) spin: f64,
+}
+
+/// −1 for end a, +1 for end b.
+pub(super) fn sigma(i: usize) -> f64 {
+    if i == 0 { -1.0 } else { 1.0 }
+}
+
+/// θ − sin θ, to a few roundings of itself.
+fn theta_minus_sin(theta: f64, sin: f64) -> f64 {
+    if theta.abs() > 0.7 {
+        return theta - sin;
+    }
+    let t2 = theta * theta;
+    // The terms of sin by Horner, each factor the ratio of neighbors; the eighth is below 1e-17 of the first at 0.7.
+    let mut sum = 1.0;
+    for k in [17.0_f64, 15.0, 13.0, 11.0, 9.0, 7.0, 5.0] {
+        sum = 1.0 - sum * t2 / (k * (k - 1.0));
+    }
+    theta * t2 / 6.0 * sum
+}
+
+impl Pose {
+    pub(super) fn start(scene: &Scene) -> Self {
+        let (sin, cos) = scene.tilt_rad().sin_cos();
+        let ends = State { h: [0.0, scene.height_gap_m()], v: scene.end_velocities(cos) };
+        Self { body: scene.body(), gravity: scene.gravity_m_s2(), ends, sin, cos, spin: scene.spin_rad_s() }
+    }
+    fn arm(&self, i: usize) -> f64 {
+        self.body.arms_m()[i]
+    }
+    /// Height and velocity of end i after a flight of time t.
+    pub(super) fn end(&self, i: usize, t: f64) -> (f64, f64) {
+        let (h, v) = (self.ends.h[i], self.ends.v[i]);
+        let (bend, swing) = self.bend(i, self.spin * t);
+        (h + (t * (v - 0.5 * self.gravity * t) - bend), v - self.gravity * t - self.spin * swing)
+    }
+    /// What a turn by θ takes from the height of end i beyond its lever arm, `σ L [(θ − sin θ) cos φ + (1 − cos θ) sin φ]`,
+    /// and from the lever arm.
+    pub(super) fn bend(&self, i: usize, theta: f64) -> (f64, f64) {
+        let (half_sin, half_cos) = (0.5 * theta).sin_cos();
+        let sin = 2.0 * half_sin * half_cos;
+        let versine = 2.0 * half_sin * half_sin;
+        let arm = sigma(i) * self.arm(i);
+        let bend = theta_minus_sin(theta, sin) * self.cos + versine * self.sin;
+        (arm * bend, arm * (versine * self.cos + sin * self.sin))
+    }
+    pub(super) fn after(&self) -> After {
+        After { ends: self.ends, tilt: self.sin.atan2(self.cos), spin: self.spin }
+    }
+    /// Free vertical acceleration of end i.
+    pub(super) fn acceleration(&self, i: usize) -> f64 {
+        -self.gravity - sigma(i) * self.arm(i) * self.spin * self.spin * self.sin
+    }
+    /// Height and velocity of the center.
+    pub(super) fn center(&self) -> (f64, f64) {
+        let [a, b] = self.body.arms_m();
+        let State { h, v } = self.ends;
+        ((b * h[0] + a * h[1]) / (a + b), (b * v[0] + a * v[1]) / (a + b))
+    }
+    /// Time after t in which no angle lets end i touch: the center is higher than its arm.
+    pub(super) fn clear(&self, i: usize, t: f64) -> f64 {
+        let (y, v) = self.center();
+        let clear = y + t * (v - 0.5 * self.gravity * t) - self.arm(i);
+        if clear > 0.0 { safe_step(clear, v - self.gravity * t, self.gravity) } else { 0.0 }
+    }
+    /// When end i touches the ground, if before `cap`. `leaving`: it starts on the ground without velocity, upward.
+    pub(super) fn touch(&self, i: usize, cap: f64, leaving: bool) -> Option<f64> {
+        let arm = self.arm(i);
+        let w2 = self.spin * self.spin;
+        let bound = self.gravity + arm * w2;
+        let step = |t: f64, h: f64, v: f64| safe_step(h, v, bound).max(self.clear(i, t));
+        let (h, v) = (self.ends.h[i], self.ends.v[i]);
+        let first = if h > 0.0 {
+            0.0
+        } else if v > 0.0 {
+            step(0.0, 0.0, v)
+        } else if v == 0.0 && leaving {
+            // h ≥ ½ h″ t² − J t³/6 with J = L |ω|³; where h″ = 0, h ≥ h‴ t³/6 − L ω⁴ t⁴/24.
+            let up = self.acceleration(i);
+            let rate = -sigma(i) * arm * self.spin * w2 * self.cos;
+            if up > 0.0 {
+                2.0 * up / (arm * w2 * self.spin.abs())
+            } else if rate > 0.0 {
+                2.0 * rate / (arm * w2 * w2)
+            } else {
+                return None; // level and turned downward: the other end strikes at once
+            }
+        } else if v == 0.0 {
+            return None; // lies still
+        } else {
+            return (cap > 0.0).then_some(0.0);
+        };
+        if first.is_nan() || first >= cap { None } else { first_zero(first, cap, |t| self.end(i, t), step) }
+    }
+    /// The pose after a flight of time t that ends with end i on the ground, before the strike.
+    pub(super) fn landed(&self, i: usize, t: f64) -> Self {
+        let j = 1 - i;
+        let (turn_sin, turn_cos) = (self.spin * t).sin_cos();
+        let sin = self.sin * turn_cos + self.cos * turn_sin;
+        let cos = self.cos * turn_cos - self.sin * turn_sin;
+        let length = self.body.length_m();
+        let mut next = *self;
+        next.ends.v[i] = self.end(i, t).1;
+        let (h, v) = self.end(j, t);
+        (next.ends.h[i], next.ends.v[j]) = (0.0, v);
+        if sin.abs() < 0.5 {
+            // Heights know a small angle to its last digit. Below zero is rounding: the other end has not touched.
+            next.ends.h[j] = h.max(0.0);
+            next.sin = sigma(j) * next.ends.h[j] / length;
+            next.cos = ((1.0 - next.sin) * (1.0 + next.sin)).sqrt().copysign(cos);
+        } else {
+            let norm = sin.hypot(cos);
+            (next.sin, next.cos) = (sin / norm, cos / norm);
+            next.ends.h[j] = (sigma(j) * length * next.sin).max(0.0);
+        }
+        next
+    }
+    /// Inertia ratio of a strike at end i at this angle.
+    fn ratio(&self, i: usize) -> f64 {
+        self.body.product(self.cos * self.cos) / self.body.inertia(self.arm(i) * self.cos)
+    }
+    /// Effective mass of end i over the mass of the body, ρ²/(ρ² + x²).
+    fn mass(&self, i: usize) -> f64 {
+        self.body.gyration_m().powi(2) / self.body.inertia(self.arm(i) * self.cos)
+    }
+    /// Gives end i the velocity jump; returns that of the other end.
+    fn strike(&mut self, i: usize, jump: f64) -> f64 {
+        let other = -self.ratio(i) * jump;
+        let x = sigma(i) * self.arm(i) * self.cos;
+        self.ends.v[i] += jump;
+        self.ends.v[1 - i] += other;
+        self.spin += jump * x / self.body.inertia(x);
+        self.level();
+        other
+    }
+    /// Energy per unit mass.
+    fn energy(&self) -> f64 {
+        let (y, v) = self.center();
+        let turning = self.body.gyration_m() * self.spin;
+        0.5 * (v * v + turning * turning) + self.gravity * y
+    }
+    /// Spin from the velocities of the ends, which know it better while they shrink.
+    fn level(&mut self) {
+        if self.cos.abs() > 0.5 {
+            self.spin = (self.ends.v[1] - self.ends.v[0]) / (self.body.length_m() * self.cos);
+        }
+    }
+}
+
+/// The energy that a body must have, carried beside the motion so that roundings do not add up over 10⁴ strikes.
+struct Ledger {
+    energy: f64,
+    opened: f64,
+}
+
+impl Ledger {
+    fn open(pose: &Pose) -> Self {
+        let energy = pose.energy();
+        Self { energy, opened: energy }
+    }
+    /// Corrects the velocities of a body in flight by what rounding has done to its energy.
+    fn settle(&self, pose: &mut Pose) {
+        let (y, _) = pose.center();
+        let now = pose.energy();
+        let share = 0.5 * (self.energy - now) / (now - pose.gravity * y);
+        // Beyond 10⁵ roundings it is not rounding: the kinetic energy is a small difference there.
+        if share.abs() < 1e5 * f64::EPSILON {
+            pose.ends.v = pose.ends.v.map(|v| v + share * v);
+            pose.spin += share * pose.spin;
+        }
+    }
+    /// Books the loss of a strike at effective mass `mass`; opens anew once the old account is twice as large.
+    fn strike(&mut self, pose: &Pose, mass: f64, e: f64, u: f64) {
+        self.energy -= 0.5 * mass * (1.0 - e) * (1.0 + e) * u * u;
+        if self.energy < 0.5 * self.opened {
+            *self = Self::open(pose);
+        }
+    }
+}
+
+pub(super) fn simulate(scene: &Scene) -> Flight {
+    let (e, g) = (scene.e(), scene.gravity_m_s2());
+    let rest = Rest::new(scene);
+    let mut log = Log::new(scene);
+    let mut pose = Pose::start(scene);
+    let mut time = Clock::default();
+    let mut leaving = [false; 2];
+    let mut ledger = Ledger::open(&pose);
+    loop {
+        let still = [0, 1].map(|i| pose.ends.h[i] == 0.0 && pose.ends.v[i] == 0.0 && !leaving[i]);
+        if still == [true; 2] && g > 0.0 {
+            log.at_rest(time.now(), 0.0, 0.0);
+            break;
+        }
+        let down = [0, 1].map(|i| still[i] && g > 0.0 && pose.acceleration(i) < 0.0);
+        leaving = [0, 1].map(|i| leaving[i] || (still[i] && !down[i]));
+        let landing = |j: usize| pose.ends.h[j] == 0.0 && pose.ends.v[j] < 0.0;
+        let i = if let Some(pivot) = (0..2).find(|&p| down[p] && !landing(1 - p)) {
+            let from = time.now();
+            let (after, dt, event) = pivot::run(&pose, pivot);
+            time.add(dt);
+            log.pivot(end_of(pivot), from, time.now(), &pose.ends);
+            pose = after;
+            ledger = Ledger::open(&pose);
+            if event == Event::LiftOff {
+                leaving[pivot] = true;
+                continue;
+            }
+            1 - pivot
+        } else {
+            let ta = pose.touch(0, f64::INFINITY, leaving[0]);
+            let tb = pose.touch(1, ta.unwrap_or(f64::INFINITY), leaving[1]);
+            // At one instant end a strikes first: b is looked for before a's time only.
+            let Some((i, dt)) = tb.map(|t| (1, t)).or(ta.map(|t| (0, t))) else {
+                log.bounced_clear();
+                break;
+            };
+            time.add(dt);
+            pose = pose.landed(i, dt);
+            ledger.settle(&mut pose);
+            if dt > 0.0 {
+                leaving = [false; 2];
+            }
+            i
+        };
+        let before = pose;
+        let u = pose.ends.v[i].min(0.0);
+        if u == 0.0 {
+            // A touch without speed. What lies still stays, what turns upward leaves.
+            pose.ends.v[i] = 0.0;
+            continue;
+        }
+        let jump = -(1.0 + e) * u;
+        let other = pose.strike(i, jump);
+        pose.ends.v[i] = -e * u;
+        pose.level();
+        ledger.strike(&pose, pose.mass(i), e, u);
+        leaving[i] = false;
+        let delta_v = if i == 0 { [jump, other] } else { [other, jump] };
+        if !log.strike(end_of(i), time.now(), u, delta_v, &pose.after()) {
+            break;
+        }
+        if jump <= SHARE * log.largest_m_s {
+            if let Some((left_s, shock)) = rest.left(&before, &pose, i)
+                && log.settled(time.now(), rest.scale_s, left_s, shock)
+            {
+                break;
+            }
+            if g > 0.0 {
+                chatter(&mut pose, &mut time, &mut log, i, e);
+                ledger = Ledger::open(&pose);
+            }
+        }
+    }
+    log.flight
+}
+
+pub(super) fn end_of(i: usize) -> End {
+    if i == 0 { End::A } else { End::B }
+}
+
+/// Sums the chatter of end `i` alone, if it is negligible, proven to contract, and the other end provably stays up.
+fn chatter(pose: &mut Pose, time: &mut Clock, log: &mut Log, i: usize, e: f64) {
+    let j = 1 - i;
+    let gamma = -pose.acceleration(i);
+    let s = pose.ends.v[i] / (1.0 - e);
+    let tau = 4.0 * s / gamma;
+    // The first shock left out, as the contraction bounds it.
+    let omitted = 1.3 * (1.0 + e) * pose.ends.v[i];
+    if omitted > SHARE * log.largest_m_s || gamma <= 0.0 || !short(tau, time.now(), 0.0) {
+        return;
+    }
+    let (arm, w) = (pose.arm(i), pose.spin.abs());
+    let x = arm * pose.cos.abs();
+    let kick = 2.0 * (1.0 + e) * s;
+    let dw = kick * x / pose.body.inertia(x);
+    let change = arm * ((2.0 * w + dw) * dw + (w + dw).powi(3) * tau);
+    let fastest = pose.ends.v[j].abs() + pose.ratio(i).abs() * kick;
+    let lowest = pose.ends.h[j] - tau * (fastest + tau * (pose.gravity + pose.arm(j) * (w + dw).powi(2)));
+    if change <= 0.25 * gamma * (1.0 - e) && lowest > 0.0 {
+        log.omitted_m_s = log.omitted_m_s.max(omitted);
+        let dt = 2.0 * s / gamma;
+        // To first order in a time below an ulp: what the free motion and the strikes give.
+        let free = pose.acceleration(j) * dt;
+        pose.ends.h[j] += dt * pose.ends.v[j];
+        pose.ends.v[j] += free - pose.ratio(i) * (1.0 + e) * s;
+        (pose.ends.h[i], pose.ends.v[i]) = (0.0, 0.0);
+        if pose.sin.abs() < 0.5 {
+            pose.sin = sigma(j) * pose.ends.h[j] / pose.body.length_m();
+            pose.cos = ((1.0 - pose.sin) * (1.0 + pose.sin)).sqrt().copysign(pose.cos);
+        }
+        pose.level();
+        time.add(dt);
+    }
+}
+
+/// The proofs of rest: by energy under gravity, by the map's contraction without.
+struct Rest {
+    settling: Settling,
+    scale_s: f64,
+    gravity: f64,
+    e: f64,
+    /// λ₊ and λ₋ of the level body where they are apart and below 1, κ.
+    contraction: Option<(f64, f64, f64)>,
+}
+
+impl Rest {
+    fn new(scene: &Scene) -> Self {
+        let (body, e, gravity) = (scene.body(), scene.e(), scene.gravity_m_s2());
+        let [qa, qb] = body.inertia_ratios();
+        let q = (qa * qb).sqrt().copysign(qa);
+        let trace = q * (1.0 + e);
+        let root = (trace * trace - 4.0 * e).sqrt();
+        // Margins far above rounding and the tilt left: what is closer to the edge runs to its limits instead.
+        let contracts = trace > 0.0 && root > 1e-3 && q < 1.0 - 1e-6;
+        let [a, b] = body.arms_m();
+        let kappa = (body.inertia(a) / body.inertia(b)).sqrt();
+        Self {
+            settling: Settling::new(&body, e, gravity, 1e-3),
+            scale_s: scene.speed_m_s() / gravity,
+            gravity,
+            e,
+            contraction: contracts.then_some((0.5 * (trace + root), root, kappa)),
+        }
+    }
+    /// Largest time and shock left after a strike of end i, where a proof is at hand.
+    fn left(&self, before: &Pose, after: &Pose, i: usize) -> Option<(f64, f64)> {
+        if after.sin.abs() > 1e-3 {
+            return None;
+        }
+        if self.gravity > 0.0 {
+            let energy = self.settling.energy(after.ends.h, after.ends.v);
+            let gyration = after.body.gyration_m();
+            let [a, b] = after.body.arms_m();
+            // ½ ρ² ω² ≤ E bounds the turning, g y ≤ E the tilt.
+            let turning = 2.0 * energy * a.max(b) / (gyration * gyration);
+            if turning > 1e-3 * self.gravity || energy > 1e-3 * self.gravity * a.min(b) {
+                return None;
+            }
+            let (time, speed) = self.settling.left(energy);
+            return Some((2.0 * time, 2.0 * (1.0 + self.e) * speed));
+        }
+        // Without gravity the tail is the map's: t_∞ = h/(λ₊|u| − v) from this strike on, doubled.
+        let (lambda, root, kappa) = self.contraction?;
+        let kappa = if i == 0 { kappa } else { 1.0 / kappa };
+        let j = 1 - i;
+        let (u, v, h) = (-before.ends.v[i], kappa * before.ends.v[j], kappa * before.ends.h[j]);
+        let closing = lambda * u - v;
+        if closing < 1e-3 * u {
+            return None;
+        }
+        Some((2.0 * h / closing, 4.0 * (u + v.abs()) * (1.0 + self.e) / root * kappa.max(1.0 / kappa)))
+    }
+}

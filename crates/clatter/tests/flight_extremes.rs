@@ -1,0 +1,221 @@
+//! The flights at the edges of what a scene may be.
+
+use clatter::flight::{Body, Flight, Model, Scene, Stop};
+use clatter::{End, Error};
+
+const MODELS: [Model; 3] = [Model::Map, Model::Ballistic, Model::FiniteTilt];
+
+fn body(q: f64) -> Body {
+    Body::new(0.14, 0.07 * ((1.0 - q) / (1.0 + q)).sqrt()).expect("as the test has it")
+}
+
+/// What holds for any flight whatever.
+fn sane(flight: &Flight, what: &str) {
+    let mut last = 0.0;
+    for (n, s) in flight.strikes.iter().enumerate() {
+        let numbers = [s.time_s, s.approach_m_s, s.delta_v_m_s[0], s.delta_v_m_s[1], s.height_m[0], s.height_m[1]];
+        assert!(numbers.iter().all(|x| x.is_finite()), "{what}: {s:?}");
+        // The map takes each time from its own closed form, to a few roundings.
+        assert!(s.time_s >= last * (1.0 - 8.0 * f64::EPSILON), "{what}: back in time at {s:?}");
+        assert!(s.approach_m_s <= 0.0 && s.height_m.iter().all(|&h| h >= 0.0), "{what}: {s:?}");
+        assert_eq!(s.number, n as u64 + 1, "{what}");
+        last = s.time_s;
+    }
+    assert!(flight.stop.time_s() >= 0.0, "{what}: {:?}", flight.stop);
+    if let Stop::AtRest { time_s, time_bound_s, shock_bound_m_s } = flight.stop {
+        let largest = flight.strikes.iter().flat_map(|s| s.delta_v_m_s).fold(0.0, |m: f64, d| m.max(d.abs()));
+        assert!(time_s >= last && shock_bound_m_s <= f64::EPSILON * largest, "{what}: {:?}", flight.stop);
+        assert!(time_s == 0.0 || time_bound_s <= f64::EPSILON * time_s, "{what}: {:?}", flight.stop);
+    }
+}
+
+#[test]
+fn every_corner_gives_an_answer() {
+    for q in [-0.999, -0.5, 0.0, 1e-9, 0.5, 0.9, 0.999_999, 1.0] {
+        for e in [0.0, 1e-300, 1e-9, 0.3, 0.9, 1.0] {
+            for tilt in [0.0, 1e-9, 1.0, 45.0, 89.9] {
+                for g in [0.0, 1e-3, 9.81, 1e6] {
+                    for speed in [4.43e-3, 140.0] {
+                        for model in MODELS {
+                            let scene = Scene::new(body(q), e, speed, tilt, g)
+                                .expect("as the test has it")
+                                .with_impact_limit(300)
+                                .expect("as the test has it");
+                            sane(&scene.simulate(model), &format!("{model:?} q {q} e {e} tilt {tilt} g {g} v {speed}"));
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn heights_from_a_micrometer_to_a_kilometer() {
+    for height in [1e-6, 1e-3, 1.2, 1e3] {
+        for model in [Model::Ballistic, Model::FiniteTilt] {
+            let scene = Scene::from_height(body(0.5), 0.5, height, 1.0, 9.81).expect("as the test has it");
+            let flight = scene.simulate(model);
+            sane(&flight, &format!("{model:?} from {height} m"));
+            assert!(matches!(flight.stop, Stop::AtRest { .. }), "{model:?} from {height} m: {:?}", flight.stop);
+        }
+    }
+}
+
+#[test]
+fn a_flat_drop_strikes_end_a_first_and_all_at_one_instant() {
+    for model in MODELS {
+        // c = T/(2√e) = 0.53: four strikes as the map has them, before anything can move.
+        let scene = Scene::new(body(0.5), 0.3, 1.0, 0.0, 9.81).expect("as the test has it");
+        let flight = scene.simulate(model);
+        let first: Vec<_> = flight.strikes.iter().take_while(|s| s.time_s == 0.0).collect();
+        assert_eq!(first.len(), 4, "{model:?}");
+        let ends: Vec<_> = first.iter().map(|s| s.end).collect();
+        assert_eq!(ends, [End::A, End::B, End::A, End::B], "{model:?}");
+        // a_1 = −T − 1, a_2 = −T a_1·(−1) …: the recurrence by hand, T = 0.65.
+        for (s, a) in first.iter().zip([-1.0, -1.65, -0.7725, -0.007_125]) {
+            assert!((s.approach_m_s - a).abs() < 1e-15, "{model:?}: {} not {a}", s.approach_m_s);
+        }
+    }
+}
+
+#[test]
+fn an_endless_train_at_one_instant_is_rest() {
+    for model in [Model::Ballistic, Model::FiniteTilt] {
+        for g in [9.81, 0.0] {
+            let flight = Scene::new(body(0.9), 0.1, 1.0, 0.0, g).expect("as the test has it").simulate(model);
+            assert!(flight.strikes.len() > 10, "{model:?} g {g}");
+            assert!(matches!(flight.stop, Stop::AtRest { time_s: 0.0, .. }), "{model:?} g {g}: {:?}", flight.stop);
+        }
+    }
+}
+
+#[test]
+fn both_ends_at_one_instant_later_on() {
+    // q = 0, e = 1: a strike leaves the other end alone, so from a level start both ends bounce together for ever.
+    let flight = Scene::new(body(0.0), 1.0, 1.0, 0.0, 10.0)
+        .expect("as the test has it")
+        .with_impact_limit(100)
+        .expect("as the test has it");
+    for model in [Model::Ballistic, Model::FiniteTilt] {
+        let flight = flight.simulate(model);
+        assert_eq!(flight.strikes.len(), 100);
+        for pair in flight.strikes.chunks(2) {
+            assert_eq!([pair[0].end, pair[1].end], [End::A, End::B], "{model:?}");
+            assert!(pair[1].time_s - pair[0].time_s <= 4.0 * f64::EPSILON * pair[0].time_s, "{model:?}: {pair:?}");
+        }
+        // 49 flights of 2 v/g.
+        assert!((flight.strikes[98].time_s - 9.8).abs() < 1e-12, "{model:?}: {}", flight.strikes[98].time_s);
+    }
+}
+
+#[test]
+fn a_million_strikes() {
+    for model in [Model::Ballistic, Model::FiniteTilt] {
+        let scene = Scene::new(body(0.5), 1.0, 1.0, 5.0, 9.81)
+            .expect("as the test has it")
+            .with_impact_limit(1_000_000)
+            .expect("as the test has it");
+        let flight = scene.simulate(model);
+        assert_eq!(flight.strikes.len(), 1_000_000, "{model:?}");
+        assert!(matches!(flight.stop, Stop::ImpactLimit { .. }), "{model:?}: {:?}", flight.stop);
+    }
+}
+
+#[test]
+fn limits_are_kept_and_said() {
+    for model in MODELS {
+        let scene = Scene::new(body(0.5), 0.5, 4.43, 5.0, 9.81).expect("as the test has it");
+        let two = scene.with_impact_limit(2).expect("as the test has it").simulate(model);
+        assert_eq!((two.strikes.len(), two.stop.reason()), (2, "impact-limit"), "{model:?}");
+        let early = scene.with_time_limit_s(1e-3).expect("as the test has it").simulate(model);
+        assert_eq!((early.strikes.len(), early.stop.reason()), (1, "time-limit"), "{model:?}");
+        assert_eq!(early.stop.time_s().to_bits(), 1e-3_f64.to_bits(), "{model:?}");
+    }
+    // A train of three within a limit of three has bounced clear.
+    let scene = Scene::new(body(0.5), 0.5, 4.43, 5.0, 0.0).expect("as the test has it");
+    for model in MODELS {
+        let flight = scene.with_impact_limit(3).expect("as the test has it").simulate(model);
+        assert_eq!((flight.strikes.len(), flight.stop.reason()), (3, "bounced-clear"), "{model:?}");
+    }
+}
+
+#[test]
+fn a_spin_that_lifts_end_b_away_leaves_it_there_without_gravity() {
+    let scene = Scene::new(body(0.5), 0.5, 1.0, 5.0, 0.0)
+        .expect("as the test has it")
+        .with_spin(200.0)
+        .expect("as the test has it");
+    for model in [Model::Map, Model::Ballistic] {
+        let flight = scene.simulate(model);
+        assert_eq!((flight.strikes.len(), flight.stop.reason()), (1, "bounced-clear"), "{model:?}");
+    }
+}
+
+#[test]
+fn an_off_center_mass_is_the_symmetric_map_in_disguise() {
+    // Without gravity and at vanishing tilt the finite-tilt simulation knows nothing of that reduction.
+    let body = Body::off_center(0.05, 0.09, 0.03).expect("as the test has it");
+    let scene = Scene::new(body, 0.4, 1.0, 1e-9, 0.0).expect("as the test has it");
+    let (map, finite) = (scene.simulate(Model::Map), scene.simulate(Model::FiniteTilt));
+    assert!(map.strikes.len() > 3, "{}", map.strikes.len());
+    assert_eq!(map.strikes.len(), finite.strikes.len());
+    for (m, f) in map.strikes.iter().zip(&finite.strikes) {
+        assert_eq!(m.end, f.end);
+        assert!((m.time_s - f.time_s).abs() <= 1e-12 * m.time_s, "strike {}: {} {}", m.number, m.time_s, f.time_s);
+        for k in 0..2 {
+            assert!((m.delta_v_m_s[k] - f.delta_v_m_s[k]).abs() < 1e-12, "strike {}", m.number);
+            assert!((m.height_m[k] - f.height_m[k]).abs() <= 1e-11 * scene.height_gap_m(), "strike {}", m.number);
+            assert!((m.velocity_m_s[k] - f.velocity_m_s[k]).abs() < 1e-12, "strike {}", m.number);
+        }
+    }
+}
+
+#[test]
+fn bad_scenes_are_refused_with_the_value() {
+    let refused = |r: Result<Scene, Error>, words: [&str; 2]| {
+        let text = r.unwrap_err().to_string();
+        assert!(words.iter().all(|w| text.contains(w)), "{text}");
+    };
+    let good = Scene::new(body(0.5), 0.5, 1.0, 5.0, 9.81).expect("as the test has it");
+    for bad in [f64::NAN, -0.14, 0.0, f64::INFINITY] {
+        assert!(Body::new(bad, 0.04).is_err() && Body::off_center(0.07, bad, 0.04).is_err());
+    }
+    for bad in [f64::NAN, -0.04, f64::INFINITY] {
+        assert!(Body::new(0.14, bad).is_err());
+    }
+    Body::new(0.14, 0.0).expect("as the test has it");
+    Body::new(0.14, 0.2).expect("as the test has it"); // beyond the half-length: q < 0
+    refused(Scene::new(body(0.5), 1.2, 1.0, 5.0, 9.81), ["restitution", "1.2"]);
+    refused(Scene::new(body(0.5), 0.5, -1.0, 5.0, 9.81), ["speed", "-1.0"]);
+    refused(Scene::new(body(0.5), 0.5, 1.0, 90.0, 9.81), ["tilt", "90"]);
+    refused(Scene::new(body(0.5), 0.5, 1.0, -5.0, 9.81), ["tilt", "-5"]);
+    refused(Scene::new(body(0.5), 0.5, 1.0, 5.0, -9.81), ["gravity", "-9.81"]);
+    refused(Scene::from_height(body(0.5), 0.5, 1.2, 5.0, 0.0), ["gravity", "0"]);
+    refused(Scene::from_height(body(0.5), 0.5, 0.0, 5.0, 9.81), ["height", "0"]);
+    refused(good.with_time_limit_s(0.0), ["time limit", "0"]);
+    refused(good.with_time_limit_s(f64::NAN), ["time limit", "NaN"]);
+    refused(good.with_impact_limit(0), ["impact limit", "0"]);
+    refused(good.with_spin(-15.0), ["spin", "-15"]);
+    refused(good.with_spin(f64::NAN), ["spin", "NaN"]);
+}
+
+#[test]
+fn the_drawing_meets_the_ground_at_the_strikes() {
+    for model in MODELS {
+        let scene = Scene::new(body(0.5), 0.3, 4.43, 5.0, 9.81).expect("a scene");
+        let flight = scene.simulate(model);
+        for pair in flight.strikes.windows(2) {
+            let dt = pair[1].time_s - pair[0].time_s;
+            if dt < 1e-9 {
+                continue;
+            }
+            // Just before it strikes, the end is its approach times a moment high.
+            let moment = 1e-6 * dt;
+            let h = scene.heights_m(model, &flight, pair[1].time_s - moment)[usize::from(pair[1].end == End::B)];
+            let want = -pair[1].approach_m_s * moment;
+            // After a pivot at 5° the parabola lands half a percent off the pendulum's speed.
+            assert!((h - want).abs() <= 1e-2 * want + 1e-15, "{model:?}, strike {}: {h} not {want}", pair[1].number);
+        }
+    }
+}
