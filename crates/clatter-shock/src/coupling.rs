@@ -19,7 +19,7 @@ pub struct TrainResponse {
 /// Impacts followed at most, whatever the bound: beyond, `omitted` says what is missing.
 const MOST_IMPACTS: usize = 1 << 20;
 /// What is left of an endless train counts no more below this share of the largest shock: far below one rounding.
-const NEGLIGIBLE: f64 = 1.0 / (1_u64 << 60) as f64;
+const NEGLIGIBLE: f64 = f64::EPSILON / 256.0;
 
 /// Share of the velocity jump of the struck end that a position gets: ((1−q) ∓ (1+q)s)/2 from a strike at end a or b.
 ///
@@ -46,7 +46,7 @@ fn check_position(position: f64) -> Result<(), Error> {
 ///
 /// # Endless trains
 ///
-/// They are followed until the sum of all shocks to come, bounded by a geometric series, is below 2⁻⁶⁰ of the largest.
+/// They are followed until the sum of all shocks to come, bounded by a geometric series, is below ε/256 of the largest.
 /// Where the gaps shrink much faster than the shocks (q near 1), the rest falls, to the resolution of time,
 /// on one instant: it acts there as the one change of velocity that brings the bar to rest. [`TrainResponse::omitted`]
 /// bounds what either leaves out.
@@ -89,7 +89,7 @@ pub fn shocks_at(bar: &Bar, start: &Start, position: f64, omega_max: f64) -> Res
     check_position(position)?;
     let (q, e) = (bar.q(), bar.e());
     let at_position = |i: &Impact| -(1.0 + e) * i.approach * share(q, position, i.end);
-    if q == 1.0 && position != 0.0 && bar.count(start) == Count::Endless {
+    if q >= 1.0 && position != 0.0 && bar.count(start) == Count::Endless {
         return Err(Error::Unsettled { position });
     }
     let largest_share = share(q, position.abs(), End::B);
@@ -129,16 +129,16 @@ pub fn shocks_at(bar: &Bar, start: &Start, position: f64, omega_max: f64) -> Res
         if discriminant > 0.0 && settled && impact.time - before.time <= resolution {
             closing += 1;
         }
-        if closing == 3 {
-            if let Some(next) = train.peek() {
-                let (struck, other) = (-e * impact.approach, next.approach);
-                let toward = if impact.end == End::A { -position } else { position };
-                let velocity = 0.5 * ((1.0 + toward) * struck + (1.0 - toward) * other);
-                list.push(VelocityShock { time: impact.time, delta_v: -velocity });
-                let shrink = e / (limit_ratio * limit_ratio);
-                let window = omega_max * resolution / (1.0 - shrink);
-                return Ok((VelocityShocks::new(list)?, 2.0 * window * -impact.approach));
-            }
+        if closing == 3
+            && let Some(next) = train.peek()
+        {
+            let (struck, other) = (-e * impact.approach, next.approach);
+            let toward = if impact.end == End::A { -position } else { position };
+            let velocity = 0.5 * ((1.0 + toward) * struck + (1.0 - toward) * other);
+            list.push(VelocityShock { time: impact.time, delta_v: -velocity });
+            let shrink = e / (limit_ratio * limit_ratio);
+            let window = omega_max * resolution / (1.0 - shrink);
+            return Ok((VelocityShocks::new(list)?, 2.0 * window * -impact.approach));
         }
         if list.len() == MOST_IMPACTS {
             return Ok((VelocityShocks::new(list)?, if train.peek().is_some() { rest } else { 0.0 }));
@@ -206,7 +206,7 @@ pub struct RulePoint {
     pub gain: f64,
 }
 
-/// The rule for a bar, a position and a damping ratio, at the given Ω. v0 = |v_a| is the speed of the end that strikes first.
+/// The rule for a bar, a position and a damping ratio, at the given Ω. v0 is the speed of the end that strikes first.
 ///
 /// # Errors
 /// As [`respond`]; [`Error::Entry`] for an Ω that is not finite and positive; [`Error::Quantity`] for a flat drop (no Ω).

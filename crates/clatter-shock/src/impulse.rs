@@ -92,6 +92,23 @@ impl VelocityShocks {
         }
         run.finish(|i| self.shocks[i].time)
     }
+    /// Extremes of one quantity from the first to the last shock, and after it.
+    pub(crate) fn extremes(&self, modes: &Modes, omega: f64, k: usize) -> [Range; 2] {
+        let (mut m, mut during) = (Motion::default(), Range::default());
+        let mut last = self.shocks[0].time;
+        for shock in &self.shocks {
+            let phase = gap(omega, last, shock.time);
+            during.note_free(modes, k, m, phase.hi, 0);
+            m = modes.propagator(phase).apply(modes.p, m);
+            during.note(0, 0.0, modes.quantity(k, m));
+            m.w -= shock.delta_v;
+            last = shock.time;
+        }
+        during.note(0, 0.0, modes.quantity(k, m));
+        let mut after = Range::default();
+        after.note_free(modes, k, m, f64::INFINITY, 0);
+        [during, after]
+    }
 }
 
 /// A response in progress: all three quantities, shock by shock.
@@ -135,10 +152,6 @@ impl Run {
         for (k, range) in self.ranges.iter_mut().enumerate() {
             range.note_free(&self.modes, k, self.m, span, self.number - 1);
         }
-    }
-    /// Largest value so far of ω z, z′ and A/ω.
-    pub(crate) fn largest(&self) -> [f64; 3] {
-        self.ranges.map(|r| r.high.value.max(-r.low.value))
     }
     pub(crate) fn finish(mut self, start: impl Fn(usize) -> f64) -> Response {
         self.note(f64::INFINITY);

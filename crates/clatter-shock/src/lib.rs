@@ -1,12 +1,17 @@
 //! What a train of shocks does to a suspended component.
 mod coupling;
 mod error;
+mod forced;
 mod impulse;
 mod peaks;
+mod pulse;
+mod spectrum;
 mod suspension;
 
 pub use coupling::{ImpulseFactors, Rule, RulePoint, TrainResponse, respond, shocks_at, three_way_rule};
 pub use error::Error;
 pub use impulse::{VelocityShock, VelocityShocks};
 pub use peaks::{Extreme, Extremes, Response};
+pub use pulse::{Pulse, Pulses, Shape};
+pub use spectrum::{Frequencies, Quantity, Spectrum};
 pub use suspension::{DampingRatio, State, Suspension};

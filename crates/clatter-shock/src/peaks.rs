@@ -76,12 +76,6 @@ impl Range {
         let seen = (self.low.value, self.high.value);
         modes.free_extremes(k, m, span, seen, |tau, value| self.note(interval, tau, value));
     }
-    pub(crate) fn join(&self, other: &Self) -> Self {
-        Self {
-            high: if other.high.value > self.high.value { other.high } else { self.high },
-            low: if other.low.value < self.low.value { other.low } else { self.low },
-        }
-    }
     pub(crate) fn extremes(&self, omega: f64, start: impl Fn(usize) -> f64) -> Extremes {
         let mark = |m: Mark| Extreme { value: m.value, time: start(m.interval) + m.tau / omega, interval: m.interval };
         Extremes { positive: mark(self.high), negative: mark(self.low) }

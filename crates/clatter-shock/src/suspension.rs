@@ -156,7 +156,7 @@ impl Phase {
     pub(crate) fn product(omega: f64, t: f64) -> Self {
         Self::product2(omega, t, 0.0)
     }
-    /// ω (t + t_lo).
+    /// ω (t + `t_lo`).
     #[inline]
     pub(crate) fn product2(omega: f64, t: f64, t_lo: f64) -> Self {
         // An infinite time behind ζ = 0 would have no phase; the largest double has one.
