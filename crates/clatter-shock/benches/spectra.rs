@@ -53,3 +53,25 @@ fn eight_pulses(bencher: Bencher) {
     let (pulses, frequencies) = (Pulses::new(&list).expect("pulses"), frequencies(200));
     bencher.bench(|| black_box(&pulses).spectrum(&frequencies, q10(), Quantity::AbsoluteAcceleration));
 }
+
+/// A record of 10⁴ samples at 100 kHz, the same eight half-sines, the same frequencies.
+#[divan::bench]
+fn record_of_10_000_samples(bencher: Bencher) {
+    let samples: Vec<f64> = (0..10_000_u32)
+        .map(|i| f64::from(i) * 1e-5)
+        .map(|t| {
+            (0..8)
+                .map(|i| (t - 0.002 - 0.0113 * f64::from(i), if i % 2 == 0 { 1000.0 } else { -700.0 }))
+                .filter(|(s, _)| (0.0..3e-4).contains(s))
+                .map(|(s, a)| a * (std::f64::consts::PI * s / 3e-4).sin())
+                .sum()
+        })
+        .collect();
+    let frequencies = frequencies(200);
+    bencher.bench(|| {
+        let mut filter =
+            SpectrumFilter::new(frequencies.clone(), q10(), Quantity::AbsoluteAcceleration, 1e-5).expect("filter");
+        filter.push(black_box(&samples));
+        filter.finish().expect("spectrum")
+    });
+}

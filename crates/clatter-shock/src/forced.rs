@@ -12,9 +12,13 @@
 use crate::peaks::Range;
 use crate::suspension::{Modes, Motion, Phase, Propagator};
 use num_complex::Complex64;
+use std::f64::consts::PI;
 
 /// Series up to (1 + 2ζ)τ = 2: no term is larger than e², and 40 terms reach the last bit.
 const SERIES_REACH: f64 = 2.0;
+
+/// From here on the steady motion is bounded at every frequency, and bounds on derivatives start from it.
+const STRONG_DAMPING: f64 = 0.5;
 
 /// Response from rest to f = 1 (`x0`, `w0`) and to f = τ (`x1`, `w1`).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -87,6 +91,8 @@ struct Sine {
     apart: Complex64,
     /// 1/(μ − λ₂)
     across: Complex64,
+    /// x of the steady motion, 1/((μ − λ₁)(μ − λ₂)); infinite at resonance without damping.
+    steady: Complex64,
 }
 
 /// Forcing over one segment and the motion at its start.
@@ -131,13 +137,8 @@ impl<'a> Segment<'a> {
         } else {
             (Complex64::new(-m.sigma, 0.0), Complex64::new(-m.rho, 0.0))
         };
-        self.sines.push(Sine {
-            amplitude,
-            phase: Complex64::cis(phi),
-            nu,
-            apart: slow - mu,
-            across: (mu - fast).inv(),
-        });
+        let (apart, across) = (slow - mu, (mu - fast).inv());
+        self.sines.push(Sine { amplitude, phase: Complex64::cis(phi), nu, apart, across, steady: -across / apart });
         for (bound, factor) in self.bound.iter_mut().zip([1.0, nu, nu * nu]) {
             *bound += amplitude.abs() * factor;
         }
@@ -178,25 +179,81 @@ impl<'a> Segment<'a> {
     fn bend(&self, k: usize, s: &Sample) -> f64 {
         self.modes.quantity(k + 2, s.m) + self.modes.rows[k + 1][1] * s.f + self.modes.rows[k][1] * s.f_slope
     }
+    /// The motion that is left of the forcing alone after a long time.
+    fn steady(&self, tau: f64) -> Motion {
+        let modes = self.modes;
+        let x = self.constant + self.slope * (tau - 2.0 * modes.zeta);
+        let mut m = Motion { x, w: self.slope + modes.sigma * x };
+        for sine in &self.sines {
+            let x = sine.phase * Complex64::cis(sine.nu * tau) * sine.steady;
+            m.x += sine.amplitude * x.im;
+            m.w += sine.amplitude * (x * Complex64::new(modes.sigma, sine.nu)).im;
+        }
+        m
+    }
     /// Bounds on |q″| and |q‴| for a time `h` after `a`.
     fn bounds(&self, k: usize, a: &Sample, h: f64) -> [f64; 2] {
         let (modes, [f0, f1, f2]) = (self.modes, self.bound);
-        let [x, w] = if modes.kappa == 0.0 {
-            // √(x² + y²) grows by no more than |f|.
-            let y = a.m.w - modes.sigma * a.m.x;
-            let v = (a.m.x * a.m.x + y * y).sqrt() + h * f0;
-            [v, (1.0 + modes.zeta * modes.zeta).sqrt() * v]
-        } else {
-            let w = a.m.w.abs().max(f0 / modes.rho);
-            [a.m.x.abs() + h * w, w]
-        };
         let r = &modes.rows;
-        let row = |j: usize| r[j][0].abs() * x + r[j][1].abs() * w;
-        let input = |j: usize| r[j][1].abs();
-        [
-            row(k + 2) + input(k + 1) * f0 + input(k) * f1,
-            row(k + 3) + input(k + 2) * f0 + input(k + 1) * f1 + input(k) * f2,
-        ]
+        let row = |j: usize, x: f64, w: f64| r[j][0].abs() * x + r[j][1].abs() * w;
+        let energy = |m: Motion| {
+            let y = m.w - modes.sigma * m.x;
+            (m.x * m.x + y * y).sqrt()
+        };
+        let tilt = (1.0 + modes.sigma * modes.sigma).sqrt();
+        if modes.zeta < STRONG_DAMPING {
+            // √(x² + y²) grows by no more than |f|.
+            let v = energy(a.m) + h * f0;
+            let input = |j: usize| r[j][1].abs();
+            return [
+                row(k + 2, v, tilt * v) + input(k + 1) * f0 + input(k) * f1,
+                row(k + 3, v, tilt * v) + input(k + 2) * f0 + input(k + 1) * f1 + input(k) * f2,
+            ];
+        }
+        // What is not steady only decays.
+        let steady = self.steady(a.tau);
+        let rest = Motion { x: a.m.x - steady.x, w: a.m.w - steady.w };
+        let [x, w] = if modes.kappa == 0.0 {
+            [energy(rest), tilt * energy(rest)]
+        } else {
+            [rest.x.abs() + h * rest.w.abs(), rest.w.abs()]
+        };
+        let mut bounds = [row(k + 2, x, w), row(k + 3, x, w)];
+        for sine in &self.sines {
+            let size = match k {
+                Modes::DISPLACEMENT => 1.0,
+                Modes::VELOCITY => sine.nu,
+                _ => (2.0 * modes.zeta * sine.nu).hypot(1.0),
+            };
+            let size = size * sine.steady.norm() * sine.amplitude.abs() * sine.nu * sine.nu;
+            bounds[0] += size;
+            bounds[1] += size * sine.nu;
+        }
+        bounds
+    }
+    /// How far quantity `k` can rise between two nodes `h` apart, above both of them, while forcing of area `area` h acts on a
+    /// motion that begins with `m` (a linear history between nodes).
+    pub(crate) fn bump(&self, k: usize, m: Motion, h: f64, area: f64) -> f64 {
+        let modes = self.modes;
+        let y = m.w - modes.sigma * m.x;
+        let v = (m.x * m.x + y * y).sqrt() + h * area;
+        let w = (1.0 + modes.sigma * modes.sigma).sqrt() * v;
+        let r = &modes.rows;
+        // |f| ≤ area, and |f′| ≤ 2 area/h for neighboring nodes.
+        let m2 = r[k + 2][0].abs() * v + r[k + 2][1].abs() * w + r[k + 1][1].abs() * area + r[k][1].abs() * area / h;
+        0.125 * h * h * m2
+    }
+    /// Whether quantity `k` may pass `range` before it is at `end`, a phase `h` on.
+    pub(crate) fn may_pass(&self, k: usize, end: Motion, h: f64, range: &Range) -> bool {
+        let start = Sample { tau: 0.0, m: self.start, f: self.constant, f_slope: self.slope };
+        let [m2, _] = self.bounds(k, &start, h);
+        let (qa, qb) = (self.modes.quantity(k, self.start), self.modes.quantity(k, end));
+        let bump = 0.125 * m2 * h * h;
+        qa.max(qb) + bump > range.high.value || qa.min(qb) - bump < range.low.value
+    }
+    /// The end of a segment of linear forcing whose motion is known.
+    pub(crate) fn sample_known(&self, tau: f64, m: Motion) -> Sample {
+        Sample { tau, m, f: self.constant + self.slope * tau, f_slope: self.slope }
     }
     /// Takes the extremes of quantity `k` over the segment up to `end` into `range`, both ends included.
     ///
@@ -215,31 +272,52 @@ impl<'a> Segment<'a> {
         }
         range.note(interval, 0.0, modes.quantity(k, self.start));
         range.note(interval, span, self.value(k, end));
-        if self.sines.is_empty() {
-            // The motion swings about the static one: x = c₀ + c₁(τ − 2ζ), y = c₁, A/ω = −(c₀ + c₁τ).
-            let bent = self.constant - 2.0 * modes.zeta * self.slope;
-            let swing = Motion { x: self.start.x - bent, w: self.start.w - self.slope - modes.sigma * bent };
-            let about = |tau: f64| match k {
-                Modes::DISPLACEMENT => bent + self.slope * tau,
-                Modes::VELOCITY => self.slope,
-                _ => -(self.constant + self.slope * tau),
-            };
-            let (first, last) = (about(0.0), about(span));
-            if self.slope == 0.0 {
-                let seen = (range.low.value - first, range.high.value - first);
-                modes.free_extremes(k, swing, span, seen, |tau, value| range.note(interval, tau, first + value));
-                return;
-            }
-            let reach = modes.amplitude(swing);
-            if modes.beta > 0.0
-                && first.max(last) + reach <= range.high.value
-                && first.min(last) - reach >= range.low.value
-            {
-                return;
-            }
-        }
         let begin = self.sample(Phase::product(0.0, 0.0));
-        self.search(k, begin, *end, interval, range);
+        if self.sines.is_empty() {
+            self.linear_extremes(k, begin, end, interval, range);
+        } else {
+            self.search(k, begin, *end, interval, range);
+        }
+    }
+    /// Linear forcing: the motion swings freely about the static one, x = c₀ + c₁(τ − 2ζ), y = c₁, A/ω = −(c₀ + c₁τ). The
+    /// bend of a quantity is free motion, so its zeros are known, and between two of them the slope vanishes once at most.
+    fn linear_extremes(&self, k: usize, begin: Sample, end: &Sample, interval: usize, range: &mut Range) {
+        let (modes, span) = (self.modes, end.tau);
+        let bent = self.steady(0.0);
+        let swing = Motion { x: self.start.x - bent.x, w: self.start.w - bent.w };
+        let about = |tau: f64| match k {
+            Modes::DISPLACEMENT => bent.x + self.slope * tau,
+            Modes::VELOCITY => self.slope,
+            _ => -(self.constant + self.slope * tau),
+        };
+        let (first, last) = (about(0.0), about(span));
+        if self.slope == 0.0 {
+            let seen = (range.low.value - first, range.high.value - first);
+            modes.free_extremes(k, swing, span, seen, |tau, value| range.note(interval, tau, first + value));
+            return;
+        }
+        let amplitude = modes.amplitude(swing);
+        let mut next = modes.zero(k + 2, swing).map_or(span, |(tau, _)| tau);
+        let mut a = begin;
+        loop {
+            if modes.beta > 0.0 {
+                let reach = amplitude * (-modes.zeta * a.tau).exp();
+                let here = about(a.tau);
+                if here.max(last) + reach <= range.high.value && here.min(last) - reach >= range.low.value {
+                    return;
+                }
+            }
+            let b = if next < span { self.sample(Phase::product(1.0, next)) } else { *end };
+            if self.slope(k, &a) * self.slope(k, &b) < 0.0 {
+                self.turning_point(k, &a, &b, interval, range);
+            }
+            if next >= span {
+                return;
+            }
+            // Beyond critical damping the bend vanishes once.
+            next = if modes.beta > 0.0 { next + PI / modes.beta } else { span };
+            a = b;
+        }
     }
     fn search(&self, k: usize, begin: Sample, end: Sample, interval: usize, range: &mut Range) {
         let mut panels = vec![(begin, end)];

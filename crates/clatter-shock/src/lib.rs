@@ -1,6 +1,7 @@
 //! What a train of shocks does to a suspended component.
 mod coupling;
 mod error;
+mod filter;
 mod forced;
 mod impulse;
 mod peaks;
@@ -10,6 +11,7 @@ mod suspension;
 
 pub use coupling::{ImpulseFactors, Rule, RulePoint, TrainResponse, respond, shocks_at, three_way_rule};
 pub use error::Error;
+pub use filter::SpectrumFilter;
 pub use impulse::{VelocityShock, VelocityShocks};
 pub use peaks::{Extreme, Extremes, Response};
 pub use pulse::{Pulse, Pulses, Shape};

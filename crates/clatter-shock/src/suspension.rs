@@ -190,7 +190,7 @@ pub(crate) struct Modes {
     half_swing: f64,
     /// Rows k: the k-th derivative of x in free motion is `row[0] x + row[1] w`. Rows 0, 1, 2 are the three
     /// quantities: displacement ωz, velocity z′, absolute acceleration A/ω.
-    pub(crate) rows: [[f64; 2]; 6],
+    pub(crate) rows: [[f64; 2]; 7],
 }
 
 /// x, w after a time: x = c x₀ + s w₀, w = k w₀ − p s x₀.
@@ -240,7 +240,7 @@ impl Modes {
                 beta_lo,
                 kappa: 0.0,
                 half_swing: (-zeta * PI / beta).exp(),
-                rows: [[0.0; 2]; 6],
+                rows: [[0.0; 2]; 7],
             }
         } else {
             let eta = (zeta - 1.0).sqrt() * (zeta + 1.0).sqrt();
@@ -254,11 +254,11 @@ impl Modes {
                 beta_lo: 0.0,
                 kappa: 2.0 * eta,
                 half_swing: 0.0,
-                rows: [[0.0; 2]; 6],
+                rows: [[0.0; 2]; 7],
             }
         };
         modes.rows[0] = [1.0, 0.0];
-        for k in 1..6 {
+        for k in 1..7 {
             let [a, b] = modes.rows[k - 1];
             modes.rows[k] = [-modes.sigma * a - modes.p * b, a - modes.rho * b];
         }
@@ -311,32 +311,39 @@ impl Modes {
     pub(crate) fn amplitude(&self, m: Motion) -> f64 {
         (m.w * m.w + self.p * m.x * m.x).sqrt()
     }
-    /// The first turning point of quantity `k` after the start of free motion from `m`.
+    /// The first zero of row `j` after the start of free motion from `m`, as τ and, beyond critical damping, φ.
     ///
-    /// For ζ ≤ 1 the quantities are derivatives of one another and swing with one amplitude N = √(w² + (1−ζ²)x²): at its
-    /// turning points each is ±N e^(−ζτ).
+    /// The row is e^(−στ) (r cos βτ + b sin(βτ)/β), or e^(−στ) (r + b (1 − e^(−κτ))/κ), with b = r′ + σr.
     #[inline]
-    pub(crate) fn turn(&self, k: usize, m: Motion) -> Option<Turn> {
-        let slope = self.quantity(k + 1, m);
-        let bend = self.quantity(k + 2, m) + self.sigma * slope;
+    pub(crate) fn zero(&self, j: usize, m: Motion) -> Option<(f64, f64)> {
+        let start = self.quantity(j, m);
+        let bend = self.quantity(j + 1, m) + self.sigma * start;
         if self.beta > 0.0 {
-            let (angle, sign) = if slope == 0.0 {
-                (PI, bend)
-            } else {
-                ((self.beta * slope.abs()).atan2(-bend * slope.signum()), slope)
-            };
-            let tau = angle / self.beta;
-            return Some(Turn { tau, value: (-self.zeta * tau).exp() * self.amplitude(m).copysign(sign) });
+            let angle = if start == 0.0 { PI } else { (self.beta * start.abs()).atan2(-bend * start.signum()) };
+            return Some((angle / self.beta, 0.0));
         }
-        // The slope is e^(−στ) (slope₀ + bend φ), φ = (1 − e^(−κτ))/κ.
-        let phi = -slope / bend;
+        let phi = -start / bend;
         if !(phi > 0.0 && phi < f64::INFINITY && self.kappa * phi < 1.0) {
             return None;
         }
-        let tau = if self.kappa == 0.0 { phi } else { -(-self.kappa * phi).ln_1p() / self.kappa };
-        let value = self.quantity(k, m);
-        let rise = slope + self.sigma * value;
-        Some(Turn { tau, value: (value + rise * phi) * (-self.sigma * tau).exp() })
+        Some((if self.kappa == 0.0 { phi } else { -(-self.kappa * phi).ln_1p() / self.kappa }, phi))
+    }
+    /// The first turning point of quantity `k` after the start of free motion from `m`.
+    ///
+    /// For ζ < 1 the quantities are derivatives of one another and swing with one amplitude N = √(w² + (1−ζ²)x²): at its
+    /// turning points each is ±N e^(−ζτ).
+    #[inline]
+    pub(crate) fn turn(&self, k: usize, m: Motion) -> Option<Turn> {
+        let (tau, phi) = self.zero(k + 1, m)?;
+        let slope = self.quantity(k + 1, m);
+        let value = if self.beta > 0.0 {
+            let sign = if slope == 0.0 { self.quantity(k + 2, m) } else { slope };
+            (-self.zeta * tau).exp() * self.amplitude(m).copysign(sign)
+        } else {
+            let value = self.quantity(k, m);
+            (value + (slope + self.sigma * value) * phi) * (-self.sigma * tau).exp()
+        };
+        Some(Turn { tau, value })
     }
     /// The two largest extremes of quantity `k` inside free motion from `m`, up to τ = `span`, reported as (τ, value); none
     /// where the amplitude cannot pass the lowest and highest values `seen`.
