@@ -1,6 +1,8 @@
 //! Speed of the exact responses: time for each shock and frequency, for the pulses of a drop, for a record.
 
-use clatter_shock::{DampingRatio, Frequencies, Pulse, Pulses, Quantity, Shape, VelocityShock, VelocityShocks};
+use clatter_shock::{
+    DampingRatio, Frequencies, Pulse, Pulses, Quantity, Shape, SpectrumFilter, VelocityShock, VelocityShocks,
+};
 use divan::{Bencher, black_box, counter::ItemsCount};
 
 fn main() {

@@ -183,9 +183,11 @@ impl DampingRatio {
 pub struct Rule {
     /// One point for each Ω asked.
     pub points: Vec<RulePoint>,
-    /// Ω → 0: the net change of velocity times the impulse factors.
+    /// Ω → 0: the net change of velocity times the impulse factors. The acceleration passes through the jumps 2ζΔv of the
+    /// dashpot on the way, so that at strong damping the largest partial sum of the shocks can stand above the net.
     pub soft: ImpulseFactors,
-    /// ζΩ → ∞: the largest single shock times the impulse factors; `None` at ζ = 0, where shocks add up by phase for ever.
+    /// ζΩ → ∞: the largest single shock times the impulse factors. The last strikes of an endless train come within any period,
+    /// so that there the limit is only crept up to, like a small power of 1/Ω. `None` at ζ = 0, where shocks add up by phase for ever.
     pub stiff: Option<ImpulseFactors>,
     /// What standards assume: one shock of 2 v0, times the impulse factors.
     pub standard: ImpulseFactors,
@@ -250,7 +252,11 @@ pub fn three_way_rule(
     }
     Ok(Rule {
         points,
-        soft: times(shocks.net().abs() / v0),
+        soft: {
+            let net = times(shocks.net().abs() / v0);
+            let jump = 2.0 * damping.get() * shocks.largest_partial_sum() / v0;
+            ImpulseFactors { acceleration: net.acceleration.max(jump), ..net }
+        },
         stiff: (damping.get() > 0.0).then(|| times(shocks.largest() / v0)),
         standard,
         omitted: omitted / v0,

@@ -70,6 +70,36 @@ pub enum Error {
         /// What is wrong and what is allowed.
         what: String,
     },
+    /// A unit that is not known.
+    #[error("unit {0:?} is not known; time: s, ms, us; acceleration: m/s2, g")]
+    Unit(String),
+    /// A record whose units nobody named.
+    #[error(
+        "the units of the record are not named: give them, or begin the file with a header such as `time [s],acceleration [m/s2]`"
+    )]
+    NoUnits,
+    /// A record too short to be one.
+    #[error("the record has {0} samples; it needs two at least")]
+    Short(usize),
+    /// An uneven record where an even one is needed.
+    #[error("the samples of the record are not even in time: read it whole instead of streaming it")]
+    Uneven,
+    /// Shock tests that show no critical level.
+    #[error("the {0} trials show no critical level: some level without damage must lie below the lowest with damage")]
+    Trials(&'static str),
+    /// No half-sine of the shock table does the same to the component.
+    #[error(
+        "no half-sine of this shock table is equivalent: {}",
+        if nearest.is_finite() {
+            format!("at equal acceleration its displacement is off by {:.1} % at best", 100.0 * nearest)
+        } else {
+            "all that give the same acceleration are beyond its acceleration or velocity change".to_owned()
+        }
+    )]
+    NoEquivalent {
+        /// Smallest relative mismatch in displacement; infinite if the table reaches the acceleration with no pulse.
+        nearest: f64,
+    },
     /// The file could not be read.
     #[error("the record could not be read: {0}")]
     Read(String),

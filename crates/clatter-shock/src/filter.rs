@@ -58,7 +58,21 @@ struct Lane {
     newest: Motion,
     step: Propagator,
     older: Motion,
+    /// 1/ω and 1/(ωθ).
+    inverse: [f64; 2],
+    /// s/(1 − s) with s = θ²/8: share of the bend that a rise between samples can have; infinite for s ≥ ½.
+    share: f64,
     range: Range,
+}
+
+/// Bounds on the acceleration over some samples and the one before them: sum and largest of absolute values, and the
+/// largest jump.
+#[derive(Debug, Clone, Copy)]
+struct Input {
+    before: f64,
+    sum: f64,
+    peak: f64,
+    jump: f64,
 }
 
 /// Where a block begins, and its largest and smallest sample, lane by lane.
@@ -68,6 +82,19 @@ struct Block {
     v: [f64; LANES],
     high: [f64; LANES],
     low: [f64; LANES],
+}
+
+impl Input {
+    fn new(mut before: f64, samples: &[f64]) -> Self {
+        let mut input = Self { before, sum: before.abs(), peak: before.abs(), jump: 0.0 };
+        for &a in samples {
+            input.sum += a.abs();
+            input.peak = input.peak.max(a.abs());
+            input.jump = input.jump.max((a - before).abs());
+            before = a;
+        }
+        input
+    }
 }
 
 impl Lane {
@@ -105,7 +132,10 @@ impl Lane {
         let moved = apply(free, newest);
         let input = apply(to, Motion { x: newest.x + moved[0] + older.x, w: newest.w + moved[1] + older.w });
         let at_once = apply(to, newest);
-        let lane = Self { omega, theta, row, back, newest, step, older, range: Range::default() };
+        let share = 0.125 * theta * theta;
+        let share = if share < 0.5 { share / (1.0 - share) } else { f64::INFINITY };
+        let inverse = [omega.recip(), (omega * theta).recip()];
+        let lane = Self { omega, theta, row, back, newest, step, older, inverse, share, range: Range::default() };
         (lane, [n[0][0], n[0][1], n[1][0], n[1][1]], input, at_once[0], at_once)
     }
     /// The motion at a sample, from the filter's coordinates and that sample.
@@ -113,24 +143,50 @@ impl Lane {
         let [x, w] = self.back;
         Motion { x: x[0] * u + x[1] * v + self.newest.x * a, w: w[0] * u + w[1] * v + self.newest.w * a }
     }
-    /// Goes through the steps of a block one by one; `samples` begins with the one before the block.
-    fn refine(&mut self, modes: &Modes, segment: &mut Segment, mut m: Motion, samples: &[f64]) {
-        for pair in samples.windows(2) {
-            let (from, to) = (pair[0], pair[1]);
+    /// How far the quantity can rise between samples, above all of them, where it reaches `q` at samples and the motion
+    /// begins with `m`: θ²/8 of the largest bend, which q″ = −q − 2ζq′ + (input) bounds.
+    #[inline]
+    fn bump(&self, modes: &Modes, q: f64, m: Motion, input: &Input) -> f64 {
+        let damp = 2.0 * modes.zeta;
+        let y = m.w - modes.sigma * m.x;
+        // |x| and |y| stay within v: √(x² + y²) grows by no more than |f|.
+        let v = m.x.abs() + y.abs() + self.theta * input.sum * self.inverse[0];
+        let (f, slope) = (input.peak * self.inverse[0], input.jump * self.inverse[1]);
+        let bend = match self.row {
+            Modes::DISPLACEMENT => damp * v + f,
+            Modes::VELOCITY => damp * ((1.0 + damp) * v + f) + slope,
+            _ => damp * ((1.0 + damp + damp * damp) * v + damp * f + slope) + f,
+        };
+        self.share * (q + bend)
+    }
+    /// Goes through the steps of a block one by one, from the motion `m` at the sample `from`.
+    /// No step rises by more than `most` between its samples.
+    fn refine(
+        &mut self,
+        modes: &Modes,
+        segment: &mut Segment,
+        most: f64,
+        mut m: Motion,
+        mut from: f64,
+        samples: &[f64],
+    ) {
+        let mut q = modes.quantity(self.row, m);
+        for &to in samples {
             let moved = self.step.apply(modes.p, m);
             let next = Motion {
                 x: moved.x + self.older.x * from + self.newest.x * to,
                 w: moved.w + self.older.w * from + self.newest.w * to,
             };
-            let (f0, f1) = (-from / self.omega, -to / self.omega);
-            segment.begin(m, f0, (f1 - f0) / self.theta, self.theta);
-            if segment.may_pass(self.row, next, self.theta, &self.range) {
+            let q_next = modes.quantity(self.row, next);
+            let (high, low) = (q.max(q_next), q.min(q_next));
+            let passes = |bump: f64| high + bump > self.range.high.value || low - bump < self.range.low.value;
+            if passes(most) && passes(self.bump(modes, high.max(-low), m, &Input::new(from, &[to]))) {
+                let (f0, f1) = (-from / self.omega, -to / self.omega);
+                segment.begin(m, f0, (f1 - f0) / self.theta, self.theta);
                 let end = segment.sample_known(self.theta, next);
                 segment.extremes(self.row, &end, 0, &mut self.range);
-            } else {
-                self.range.note(0, 0.0, modes.quantity(self.row, next));
             }
-            m = next;
+            (m, q, from) = (next, q_next, to);
         }
     }
 }
@@ -157,51 +213,43 @@ impl Group {
         }
         group
     }
-    fn run(&mut self, modes: &Modes, previous: f64, samples: &[f64]) {
-        let mut blocks: Vec<Block> = Vec::with_capacity(samples.len().div_ceil(BLOCK));
-        pulp::Arch::new().dispatch(|| {
-            let mut before = previous;
-            for block in samples.chunks(BLOCK) {
-                blocks.push(self.scan(before, block));
-                before = block[block.len() - 1];
-            }
-        });
+    fn run(&mut self, modes: &Modes, previous: f64, samples: &[f64], inputs: &[Input]) {
+        let blocks = pulp::Arch::new().dispatch(Scan { group: self, previous, samples });
         let mut segment = Segment::new(modes);
         for (l, lane) in self.lanes.iter_mut().enumerate() {
             for b in &blocks {
                 lane.range.note(0, 0.0, b.high[l]);
                 lane.range.note(0, 0.0, b.low[l]);
             }
-            let mut before = previous;
-            for (b, block) in blocks.iter().zip(samples.chunks(BLOCK)) {
-                let m = lane.motion(b.u[l], b.v[l], before);
-                let sum: f64 = block.iter().fold(before.abs(), |s, a| s + a.abs());
-                let bump = segment.bump(lane.row, m, lane.theta, sum / lane.omega);
+            for (i, (b, input)) in blocks.iter().zip(inputs).enumerate() {
+                let m = lane.motion(b.u[l], b.v[l], input.before);
+                let q = modes.quantity(lane.row, m).abs().max(b.high[l]).max(-b.low[l]);
+                let bump = lane.bump(modes, q, m, input);
                 if b.high[l] + bump > lane.range.high.value || b.low[l] - bump < lane.range.low.value {
-                    let mut samples = [0.0; BLOCK + 1];
-                    samples[0] = before;
-                    samples[1..=block.len()].copy_from_slice(block);
-                    lane.refine(modes, &mut segment, m, &samples[..=block.len()]);
+                    let begin = i * BLOCK;
+                    let block = &samples[begin..samples.len().min(begin + BLOCK)];
+                    lane.refine(modes, &mut segment, bump, m, input.before, block);
                 }
-                before = block[block.len() - 1];
             }
         }
     }
-    /// The recursion over one block.
+    /// The recursion over one block, with fused multiply-adds where the machine has them.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
-    fn scan(&mut self, mut before: f64, samples: &[f64]) -> Block {
+    fn scan<const FUSED: bool>(&mut self, mut before: f64, samples: &[f64]) -> Block {
+        let add = |a: f64, b: f64, c: f64| if FUSED { a.mul_add(b, c) } else { a * b + c };
         let [n00, n01, n10, n11] = self.n;
         let ([c0, c1], d) = (self.c, self.d);
         let (mut u, mut v) = (self.u, self.v);
         let mut block = Block { u, v, high: [f64::NEG_INFINITY; LANES], low: [f64::INFINITY; LANES] };
         for &a in samples {
             for l in 0..LANES {
-                let du = n00[l] * u[l] + n01[l] * v[l] + c0[l] * before;
-                let dv = n10[l] * u[l] + n11[l] * v[l] + c1[l] * before;
-                u[l] += du;
-                v[l] += dv;
-                let q = u[l] + d[l] * a;
+                // Grouped for the shortest chain from one sample to the next.
+                let from_v = add(n01[l], v[l], c0[l] * before);
+                let from_u = add(n10[l], u[l], c1[l] * before);
+                u[l] = add(n00[l], u[l], u[l]) + from_v;
+                v[l] = add(n11[l], v[l], v[l]) + from_u;
+                let q = add(d[l], a, u[l]);
                 block.high[l] = if q > block.high[l] { q } else { block.high[l] };
                 block.low[l] = if q < block.low[l] { q } else { block.low[l] };
             }
@@ -209,6 +257,31 @@ impl Group {
         }
         (self.u, self.v) = (u, v);
         block
+    }
+}
+
+/// One group through some samples, block by block, on the widest instructions of the machine.
+struct Scan<'a> {
+    group: &'a mut Group,
+    previous: f64,
+    samples: &'a [f64],
+}
+
+impl pulp::WithSimd for Scan<'_> {
+    type Output = Vec<Block>;
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Vec<Block> {
+        let mut blocks = Vec::with_capacity(self.samples.len().div_ceil(BLOCK));
+        let mut before = self.previous;
+        for block in self.samples.chunks(BLOCK) {
+            blocks.push(if S::IS_SCALAR {
+                self.group.scan::<false>(before, block)
+            } else {
+                self.group.scan::<true>(before, block)
+            });
+            before = block[block.len() - 1];
+        }
+        blocks
     }
 }
 
@@ -260,8 +333,13 @@ impl SpectrumFilter {
         }
         let Some(mut previous) = self.previous else { return };
         for chunk in rest.chunks(CHUNK) {
+            let mut before = previous;
+            let inputs: Vec<Input> = chunk
+                .chunks(BLOCK)
+                .map(|block| Input::new(std::mem::replace(&mut before, block[block.len() - 1]), block))
+                .collect();
             for group in &mut self.groups {
-                group.run(&self.modes, previous, chunk);
+                group.run(&self.modes, previous, chunk, &inputs);
             }
             previous = chunk[chunk.len() - 1];
         }

@@ -231,26 +231,6 @@ impl<'a> Segment<'a> {
         }
         bounds
     }
-    /// How far quantity `k` can rise between two nodes `h` apart, above both of them, while forcing of area `area` h acts on a
-    /// motion that begins with `m` (a linear history between nodes).
-    pub(crate) fn bump(&self, k: usize, m: Motion, h: f64, area: f64) -> f64 {
-        let modes = self.modes;
-        let y = m.w - modes.sigma * m.x;
-        let v = (m.x * m.x + y * y).sqrt() + h * area;
-        let w = (1.0 + modes.sigma * modes.sigma).sqrt() * v;
-        let r = &modes.rows;
-        // |f| ≤ area, and |f′| ≤ 2 area/h for neighboring nodes.
-        let m2 = r[k + 2][0].abs() * v + r[k + 2][1].abs() * w + r[k + 1][1].abs() * area + r[k][1].abs() * area / h;
-        0.125 * h * h * m2
-    }
-    /// Whether quantity `k` may pass `range` before it is at `end`, a phase `h` on.
-    pub(crate) fn may_pass(&self, k: usize, end: Motion, h: f64, range: &Range) -> bool {
-        let start = Sample { tau: 0.0, m: self.start, f: self.constant, f_slope: self.slope };
-        let [m2, _] = self.bounds(k, &start, h);
-        let (qa, qb) = (self.modes.quantity(k, self.start), self.modes.quantity(k, end));
-        let bump = 0.125 * m2 * h * h;
-        qa.max(qb) + bump > range.high.value || qa.min(qb) - bump < range.low.value
-    }
     /// The end of a segment of linear forcing whose motion is known.
     pub(crate) fn sample_known(&self, tau: f64, m: Motion) -> Sample {
         Sample { tau, m, f: self.constant + self.slope * tau, f_slope: self.slope }
@@ -272,16 +252,15 @@ impl<'a> Segment<'a> {
         }
         range.note(interval, 0.0, modes.quantity(k, self.start));
         range.note(interval, span, self.value(k, end));
-        let begin = self.sample(Phase::product(0.0, 0.0));
         if self.sines.is_empty() {
-            self.linear_extremes(k, begin, end, interval, range);
+            self.linear_extremes(k, end, interval, range);
         } else {
-            self.search(k, begin, *end, interval, range);
+            self.search(k, self.sample(Phase::product(0.0, 0.0)), *end, interval, range);
         }
     }
     /// Linear forcing: the motion swings freely about the static one, x = c₀ + c₁(τ − 2ζ), y = c₁, A/ω = −(c₀ + c₁τ). The
     /// bend of a quantity is free motion, so its zeros are known, and between two of them the slope vanishes once at most.
-    fn linear_extremes(&self, k: usize, begin: Sample, end: &Sample, interval: usize, range: &mut Range) {
+    fn linear_extremes(&self, k: usize, end: &Sample, interval: usize, range: &mut Range) {
         let (modes, span) = (self.modes, end.tau);
         let bent = self.steady(0.0);
         let swing = Motion { x: self.start.x - bent.x, w: self.start.w - bent.w };
@@ -296,9 +275,16 @@ impl<'a> Segment<'a> {
             modes.free_extremes(k, swing, span, seen, |tau, value| range.note(interval, tau, first + value));
             return;
         }
+        let mut a = Sample { tau: 0.0, m: self.start, f: self.constant, f_slope: self.slope };
+        if modes.beta * span < PI && self.bend(k, &a) * self.bend(k, end) > 0.0 {
+            // Less than half a swing, and the bend keeps its sign.
+            if self.slope(k, &a) * self.slope(k, end) < 0.0 {
+                self.turning_point(k, &a, end, interval, range);
+            }
+            return;
+        }
         let amplitude = modes.amplitude(swing);
         let mut next = modes.zero(k + 2, swing).map_or(span, |(tau, _)| tau);
-        let mut a = begin;
         loop {
             if modes.beta > 0.0 {
                 let reach = amplitude * (-modes.zeta * a.tau).exp();

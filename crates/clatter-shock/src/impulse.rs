@@ -55,6 +55,15 @@ impl VelocityShocks {
     pub fn net(&self) -> f64 {
         self.shocks.iter().map(|s| s.delta_v).sum()
     }
+    /// The largest sum of the first few velocity changes, in absolute value: how far the base's velocity strays.
+    #[must_use]
+    pub fn largest_partial_sum(&self) -> f64 {
+        let mut sum = 0.0_f64;
+        self.shocks.iter().fold(0.0, |m, s| {
+            sum += s.delta_v;
+            m.max(sum.abs())
+        })
+    }
     /// The largest single velocity change, in absolute value.
     #[must_use]
     pub fn largest(&self) -> f64 {

@@ -3,7 +3,7 @@
 use crate::forced::Segment;
 use crate::peaks::{Range, Response};
 use crate::suspension::{Modes, Motion, Phase};
-use crate::{Error, Suspension};
+use crate::{Error, State, Suspension};
 use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -193,16 +193,23 @@ impl Pulses {
             }
             previous = time;
         }
-        let terms: Vec<Term> = points
+        let history = Self::from_sorted(points);
+        if history.pieces.is_empty() { Err(Error::ZeroDuration) } else { Ok(history) }
+    }
+    /// A piecewise linear history of points already checked: finite, in order of time.
+    pub(crate) fn from_sorted(points: &[(f64, f64)]) -> Self {
+        let pieces: Vec<Piece> = points
             .windows(2)
             .filter(|w| w[1].0 > w[0].0)
-            .map(|w| Term {
+            .map(|w| Piece {
                 start: Instant::at(w[0].0),
-                end: Instant::at(w[1].0),
-                law: Law::Linear { from: w[0].1, to: w[1].1 },
+                length: w[1].0 - w[0].0,
+                from: w[0].1,
+                to: w[1].1,
+                sines: (0, 0),
             })
             .collect();
-        if terms.is_empty() { Err(Error::ZeroDuration) } else { Ok(Self::from_terms(terms)) }
+        Self { pieces, sines: Vec::new(), end: Instant::at(points.last().map_or(0.0, |p| p.0)) }
     }
     /// Cuts time at every begin and end and sums what acts between.
     fn from_terms(mut terms: Vec<Term>) -> Self {
@@ -268,6 +275,14 @@ impl Pulses {
             range.note_free(&modes, k, last, f64::INFINITY, self.pieces.len());
         }
         Response::from_ranges(omega, &ranges, |i| self.pieces.get(i).map_or(self.end.hi, |p| p.start.hi))
+    }
+    /// Motion relative to the base at the end of the last pulse.
+    #[must_use]
+    pub fn state_at_end(&self, suspension: &Suspension) -> State {
+        let modes = Modes::new(suspension.damping());
+        let omega = suspension.omega();
+        let m = self.drive(&modes, omega, &[], &mut []);
+        State { displacement: m.x / omega, velocity: modes.quantity(Modes::VELOCITY, m) }
     }
     /// The motion at the end of the last pulse; extremes until then of the quantities asked go into `ranges`.
     pub(crate) fn drive(&self, modes: &Modes, omega: f64, quantities: &[usize], ranges: &mut [Range]) -> Motion {
