@@ -270,6 +270,7 @@ struct Scan<'a> {
 impl pulp::WithSimd for Scan<'_> {
     type Output = Vec<Block>;
     #[inline(always)]
+    #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn with_simd<S: pulp::Simd>(self, _: S) -> Vec<Block> {
         let mut blocks = Vec::with_capacity(self.samples.len().div_ceil(BLOCK));
         let mut before = self.previous;

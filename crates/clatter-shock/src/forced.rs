@@ -352,9 +352,9 @@ impl<'a> Segment<'a> {
                 return;
             }
             if (slope > 0.0) == (sa > 0.0) {
-                low = tau
+                low = tau;
             } else {
-                high = tau
+                high = tau;
             }
             tau -= slope / bend;
             if !(tau > low && tau < high) {

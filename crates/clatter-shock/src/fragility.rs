@@ -239,9 +239,9 @@ fn largest_amplification(damping: DampingRatio, limit: Limit, shape: Shape) -> R
     for _ in 0..48 {
         let (a, b) = (high - golden * (high - low), low + golden * (high - low));
         if amplification(damping, limit, shape, a)? < amplification(damping, limit, shape, b)? {
-            low = a
+            low = a;
         } else {
-            high = b
+            high = b;
         }
     }
     let phase = 0.5 * (low + high);

@@ -1,4 +1,4 @@
-//! The motion at extreme frequencies, times and dampings, against values computed with 100 digits (data/make_extremes.py).
+//! The motion at extreme frequencies, times and dampings, against values computed with 100 digits (`data/make_extremes.py`).
 
 use clatter_shock::{DampingRatio, Pulse, Pulses, Shape, State, Suspension};
 use serde_json::Value;

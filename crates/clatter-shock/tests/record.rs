@@ -1,5 +1,7 @@
 //! Records: what is read, what is refused and by which line, what is reported.
 
+use std::fmt::Write;
+
 use clatter_shock::{DampingRatio, Error, Finding, Frequencies, Lines, Quantity, Record, Units, stream};
 
 fn refusal(csv: &str, units: Option<Units>) -> String {
@@ -46,7 +48,7 @@ fn gaps_offsets_and_drift_are_found() {
     for i in 0..2000_u32 {
         let t = f64::from(i) * 1e-4 + if i >= 1500 { 0.01 } else { 0.0 };
         let a = 2.0 + if i == 700 { 100.0 } else { 0.0 } + f64::from(i) * 0.005;
-        csv += &format!("{t:.4},{a}\n");
+        writeln!(csv, "{t:.4},{a}").expect("a string");
     }
     let record = Record::read(csv.as_bytes(), Some(Units::SI)).expect("record");
     let findings = &record.survey().findings;
@@ -63,7 +65,7 @@ fn even_and_uneven_records_of_one_history_agree() {
     let mut even = String::new();
     for i in 0..=40_u32 {
         let a = 50.0 * (1.0 - (f64::from(i) - 20.0).abs() / 20.0);
-        even += &format!("{},{a}\n", f64::from(i) / 4096.0);
+        writeln!(even, "{},{a}", f64::from(i) / 4096.0).expect("a string");
     }
     let corners = format!("0,0\n{},50\n{},0\n", 20.0 / 4096.0, 40.0 / 4096.0);
     let (even, uneven) = (
@@ -85,8 +87,10 @@ fn even_and_uneven_records_of_one_history_agree() {
 
 #[test]
 fn streaming_gives_the_same_spectrum() {
-    let csv: String =
-        (0..50_000_u32).map(|i| format!("{},{}\n", f64::from(i) * 1e-3, (f64::from(i) * 0.1).sin())).collect();
+    let mut csv = String::new();
+    for i in 0..50_000_u32 {
+        writeln!(csv, "{},{}", f64::from(i) * 1e-3, (f64::from(i) * 0.1).sin()).expect("a string");
+    }
     let record = Record::read(csv.as_bytes(), Some(Units::SI)).expect("record");
     let frequencies = Frequencies::list(vec![1.0, 15.9, 200.0]).expect("frequencies");
     let damping = DampingRatio::new(0.02).expect("damping");
