@@ -97,6 +97,18 @@ impl Input {
     }
 }
 
+impl Input {
+    /// Of all blocks together.
+    fn all(blocks: &[Self]) -> Self {
+        blocks.iter().fold(Self { before: 0.0, sum: 0.0, peak: 0.0, jump: 0.0 }, |all, b| Self {
+            before: 0.0,
+            sum: all.sum + b.sum,
+            peak: all.peak.max(b.peak),
+            jump: all.jump.max(b.jump),
+        })
+    }
+}
+
 impl Lane {
     fn new(modes: &Modes, omega: f64, dt: f64, row: usize) -> (Self, [f64; 4], [f64; 2], f64, [f64; 2]) {
         let phase = Phase::product(omega, dt);
@@ -174,8 +186,8 @@ impl Lane {
         for &to in samples {
             let moved = self.step.apply(modes.p, m);
             let next = Motion {
-                x: moved.x + self.older.x * from + self.newest.x * to,
-                w: moved.w + self.older.w * from + self.newest.w * to,
+                x: moved.x + (self.older.x * from + self.newest.x * to),
+                w: moved.w + (self.older.w * from + self.newest.w * to),
             };
             let q_next = modes.quantity(self.row, next);
             let (high, low) = (q.max(q_next), q.min(q_next));
@@ -216,12 +228,24 @@ impl Group {
     fn run(&mut self, modes: &Modes, previous: f64, samples: &[f64], inputs: &[Input]) {
         let blocks = pulp::Arch::new().dispatch(Scan { group: self, previous, samples });
         let mut segment = Segment::new(modes);
+        let total = Input::all(inputs);
         for (l, lane) in self.lanes.iter_mut().enumerate() {
-            for b in &blocks {
-                lane.range.note(0, 0.0, b.high[l]);
-                lane.range.note(0, 0.0, b.low[l]);
+            let (mut highest, mut lowest) = (0, 0);
+            for (i, b) in blocks.iter().enumerate() {
+                if b.high[l] > blocks[highest].high[l] {
+                    highest = i;
+                }
+                if b.low[l] < blocks[lowest].low[l] {
+                    lowest = i;
+                }
             }
-            for (i, (b, input)) in blocks.iter().zip(inputs).enumerate() {
+            lane.range.note(0, 0.0, blocks[highest].high[l]);
+            lane.range.note(0, 0.0, blocks[lowest].low[l]);
+            let first = lane.motion(blocks[0].u[l], blocks[0].v[l], inputs[0].before);
+            let q = blocks[highest].high[l].max(-blocks[lowest].low[l]).max(modes.quantity(lane.row, first).abs());
+            let most = lane.bump(modes, q, first, &total);
+            let mut look = |i: usize| {
+                let (b, input) = (&blocks[i], &inputs[i]);
                 let m = lane.motion(b.u[l], b.v[l], input.before);
                 let q = modes.quantity(lane.row, m).abs().max(b.high[l]).max(-b.low[l]);
                 let bump = lane.bump(modes, q, m, input);
@@ -229,6 +253,15 @@ impl Group {
                     let begin = i * BLOCK;
                     let block = &samples[begin..samples.len().min(begin + BLOCK)];
                     lane.refine(modes, &mut segment, bump, m, input.before, block);
+                }
+                lane.range
+            };
+            // Where the samples are largest the peak is likely, and rules out most of the rest.
+            look(highest);
+            let mut range = look(lowest);
+            for (i, b) in blocks.iter().enumerate() {
+                if b.high[l] + most > range.high.value || b.low[l] - most < range.low.value {
+                    range = look(i);
                 }
             }
         }

@@ -14,8 +14,21 @@ use crate::suspension::{Modes, Motion, Phase, Propagator};
 use num_complex::Complex64;
 use std::f64::consts::PI;
 
-/// Series up to (1 + 2ζ)τ = 2: no term is larger than e², and 40 terms reach the last bit.
-const SERIES_REACH: f64 = 2.0;
+/// Terms of a series at most.
+const TERMS: usize = 60;
+/// 1/k, and 1/((k+1)(k+2)): divisions would take most of the time of a series.
+const RECIPROCAL: [[f64; 2]; TERMS + 1] = {
+    let mut table = [[1.0; 2]; TERMS + 1];
+    let (mut i, mut k) = (0, 0.0);
+    while i <= TERMS {
+        table[i] = [if i == 0 { 1.0 } else { 1.0 / k }, 1.0 / ((k + 1.0) * (k + 2.0))];
+        (i, k) = (i + 1, k + 1.0);
+    }
+    table
+};
+
+/// Series up to (1 + 2ζ)τ = ½; beyond, the closed forms lose no more than two bits to their differences of terms of size τ.
+const SERIES_REACH: f64 = 0.5;
 
 /// From here on the steady motion is bounded at every frequency, and bounds on derivatives start from it.
 const STRONG_DAMPING: f64 = 0.5;
@@ -41,8 +54,8 @@ impl Modes {
             let (mut older, mut u) = (0.0, 1.0 / 6.0);
             let (mut x1, mut x0, mut h) = (u, 3.0 * u, 6.0 * u);
             let mut k = 3.0;
-            while k < 40.0 {
-                let next = (-damp * k * u - square * older) / (k * (k + 1.0));
+            for [_, reciprocal] in &RECIPROCAL[2..40] {
+                let next = (-damp * k * u - square * older) * reciprocal;
                 (older, u, k) = (u, next, k + 1.0);
                 x1 += u;
                 x0 += k * u;
@@ -231,6 +244,15 @@ impl<'a> Segment<'a> {
         }
         bounds
     }
+    /// The motion at the begin.
+    fn begin_sample(&self) -> Sample {
+        let mut s = Sample { tau: 0.0, m: self.start, f: self.constant, f_slope: self.slope };
+        for sine in &self.sines {
+            s.f += sine.amplitude * sine.phase.im;
+            s.f_slope += sine.amplitude * sine.nu * sine.phase.re;
+        }
+        s
+    }
     /// The end of a segment of linear forcing whose motion is known.
     pub(crate) fn sample_known(&self, tau: f64, m: Motion) -> Sample {
         Sample { tau, m, f: self.constant + self.slope * tau, f_slope: self.slope }
@@ -239,9 +261,9 @@ impl<'a> Segment<'a> {
     ///
     /// # Method
     ///
-    /// Free motion and constant forcing have turning points in closed form. Otherwise panels are halved until a bound on
-    /// q″ shows that a panel cannot hold a new extreme, or one on q‴ that its slope vanishes once or never; the turning point
-    /// is then a Newton iteration on the exact motion.
+    /// Free motion and constant forcing have turning points in closed form; under a ramp the zeros of the bend are known and
+    /// bracket them. Otherwise panels are halved until a bound on q″ shows that a panel cannot hold a new extreme, or one on
+    /// q‴ that its slope vanishes once or never; the turning point is then a Newton iteration on the exact motion.
     pub(crate) fn extremes(&self, k: usize, end: &Sample, interval: usize, range: &mut Range) {
         let modes = self.modes;
         let span = end.tau;
@@ -255,7 +277,7 @@ impl<'a> Segment<'a> {
         if self.sines.is_empty() {
             self.linear_extremes(k, end, interval, range);
         } else {
-            self.search(k, self.sample(Phase::product(0.0, 0.0)), *end, interval, range);
+            self.search(k, &self.begin_sample(), end, interval, range);
         }
     }
     /// Linear forcing: the motion swings freely about the static one, x = c₀ + c₁(τ − 2ζ), y = c₁, A/ω = −(c₀ + c₁τ). The
@@ -275,7 +297,7 @@ impl<'a> Segment<'a> {
             modes.free_extremes(k, swing, span, seen, |tau, value| range.note(interval, tau, first + value));
             return;
         }
-        let mut a = Sample { tau: 0.0, m: self.start, f: self.constant, f_slope: self.slope };
+        let mut a = self.begin_sample();
         if modes.beta * span < PI && self.bend(k, &a) * self.bend(k, end) > 0.0 {
             // Less than half a swing, and the bend keeps its sign.
             if self.slope(k, &a) * self.slope(k, end) < 0.0 {
@@ -305,37 +327,33 @@ impl<'a> Segment<'a> {
             a = b;
         }
     }
-    fn search(&self, k: usize, begin: Sample, end: Sample, interval: usize, range: &mut Range) {
-        let mut panels = vec![(begin, end)];
-        while let Some((a, b)) = panels.pop() {
-            let h = b.tau - a.tau;
-            let [m2, m3] = self.bounds(k, &a, h);
-            let (qa, qb) = (self.value(k, &a), self.value(k, &b));
-            let bump = 0.125 * m2 * h * h;
-            let scale = range.high.value.max(-range.low.value);
-            if (qa.max(qb) + bump <= range.high.value && qa.min(qb) - bump >= range.low.value) || bump <= 1e-16 * scale
-            {
-                continue;
+    /// Halves the panel from `a` to `b` until nothing new can be in its parts.
+    fn search(&self, k: usize, a: &Sample, b: &Sample, interval: usize, range: &mut Range) {
+        let h = b.tau - a.tau;
+        let [m2, m3] = self.bounds(k, a, h);
+        let (qa, qb) = (self.value(k, a), self.value(k, b));
+        let bump = 0.125 * m2 * h * h;
+        let scale = range.high.value.max(-range.low.value);
+        if (qa.max(qb) + bump <= range.high.value && qa.min(qb) - bump >= range.low.value) || bump <= 1e-16 * scale {
+            return;
+        }
+        let (sa, sb) = (self.slope(k, a), self.slope(k, b));
+        let (ba, bb) = (self.bend(k, a), self.bend(k, b));
+        if ba * bb > 0.0 && ba.abs().min(bb.abs()) > 0.5 * m3 * h {
+            if sa * sb < 0.0 {
+                self.turning_point(k, a, b, interval, range);
             }
-            let (sa, sb) = (self.slope(k, &a), self.slope(k, &b));
-            let (ba, bb) = (self.bend(k, &a), self.bend(k, &b));
-            if ba * bb > 0.0 && ba.abs().min(bb.abs()) > 0.5 * m3 * h {
-                if sa * sb < 0.0 {
-                    self.turning_point(k, &a, &b, interval, range);
-                }
-                continue;
-            }
-            if sa * sb > 0.0 && sa.abs().min(sb.abs()) > 0.125 * m3 * h * h {
-                continue;
-            }
-            let middle = a.tau + 0.5 * h;
-            if !(middle > a.tau && middle < b.tau) {
-                continue;
-            }
+            return;
+        }
+        if sa * sb > 0.0 && sa.abs().min(sb.abs()) > 0.125 * m3 * h * h {
+            return;
+        }
+        let middle = a.tau + 0.5 * h;
+        if middle > a.tau && middle < b.tau {
             let c = self.sample(Phase::product(1.0, middle));
             range.note(interval, middle, self.value(k, &c));
-            panels.push((c, b));
-            panels.push((a, c));
+            self.search(k, a, &c, interval, range);
+            self.search(k, &c, b, interval, range);
         }
     }
     /// Newton's iteration, kept between `a` and `b`, where the slope changes sign once.
@@ -374,14 +392,14 @@ impl Sine {
         let (mut older, mut u) = (0.0, 0.0);
         let (mut x, mut y) = (0.0, 0.0);
         let mut k = 0.0;
-        for turn in (0..4).cycle().take(60) {
-            let next = (power * wheel[turn] - damp * (k + 1.0) * u - square * older) / ((k + 1.0) * (k + 2.0));
+        for (i, [_, reciprocal]) in RECIPROCAL.iter().take(TERMS).enumerate() {
+            let next = (power * wheel[i % 4] - damp * (k + 1.0) * u - square * older) * reciprocal;
             (older, u) = (u, next);
             x += u;
             y += (k + 2.0) * u;
             k += 1.0;
-            power *= swing / k;
-            if power + (k * k) * (u.abs() + older.abs()) < 1e-17 * y.abs() {
+            power *= swing * RECIPROCAL[i + 1][0];
+            if power + (k * k) * (u.abs() + older.abs()) <= 1e-17 * y.abs() {
                 break;
             }
         }

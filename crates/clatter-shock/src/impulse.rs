@@ -3,6 +3,7 @@
 use crate::peaks::{Range, Response};
 use crate::suspension::{Modes, Motion, Phase};
 use crate::{Error, Suspension};
+use std::f64::consts::PI;
 
 /// A jump of the base's velocity, in no time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -107,9 +108,14 @@ impl VelocityShocks {
         let mut last = self.shocks[0].time;
         for shock in &self.shocks {
             let phase = gap(omega, last, shock.time);
-            during.note_free(modes, k, m, phase.hi, 0);
-            m = modes.propagator(phase).apply(modes.p, m);
+            let end = modes.propagator(phase).apply(modes.p, m);
             during.note(0, 0.0, modes.quantity(k, m));
+            // Within half a swing a slope that keeps its sign has not vanished.
+            if modes.beta * phase.hi >= PI || modes.quantity(k + 1, m) * modes.quantity(k + 1, end) <= 0.0 {
+                during.note_free(modes, k, m, phase.hi, 0);
+            }
+            during.note(0, 0.0, modes.quantity(k, end));
+            m = end;
             m.w -= shock.delta_v;
             last = shock.time;
         }

@@ -356,9 +356,11 @@ impl Modes {
         seen: (f64, f64),
         mut report: impl FnMut(f64, f64),
     ) {
-        if self.kappa == 0.0 && self.beta > 0.0 {
+        if self.beta > 0.0 {
+            // The first turning point lies the way the motion goes, the second the other way and half a swing later.
             let n = self.amplitude(m);
-            if n <= seen.1 && n <= -seen.0 {
+            let (ahead, behind) = if self.quantity(k + 1, m) > 0.0 { (seen.1, -seen.0) } else { (-seen.0, seen.1) };
+            if n <= ahead && n * self.half_swing <= behind {
                 return;
             }
         }
