@@ -75,7 +75,7 @@ struct Input {
     jump: f64,
 }
 
-/// Where a block begins, and its largest and smallest sample, lane by lane.
+/// Where a block begins, and its largest and smallest sample, that before it included, lane by lane.
 #[derive(Clone, Copy)]
 struct Block {
     u: [f64; LANES],
@@ -274,7 +274,9 @@ impl Group {
         let [n00, n01, n10, n11] = self.n;
         let ([c0, c1], d) = (self.c, self.d);
         let (mut u, mut v) = (self.u, self.v);
-        let mut block = Block { u, v, high: [f64::NEG_INFINITY; LANES], low: [f64::INFINITY; LANES] };
+        // The sample before the block counts: the first step begins with it.
+        let first: [f64; LANES] = std::array::from_fn(|l| add(d[l], before, u[l]));
+        let mut block = Block { u, v, high: first, low: first };
         for &a in samples {
             for l in 0..LANES {
                 // Grouped for the shortest chain from one sample to the next.

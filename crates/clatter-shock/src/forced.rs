@@ -305,7 +305,8 @@ impl<'a> Segment<'a> {
             }
             return;
         }
-        let amplitude = modes.amplitude(swing);
+        // Off its turning points the swing reaches N/β.
+        let amplitude = modes.amplitude(swing) / modes.beta;
         let mut next = modes.zero(k + 2, swing).map_or(span, |(tau, _)| tau);
         loop {
             if modes.beta > 0.0 {
