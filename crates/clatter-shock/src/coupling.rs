@@ -1,0 +1,264 @@
+//! The train of a clattering bar drives a component: velocity shocks at a position, and the three-way rule as a spectrum.
+
+use crate::impulse::Run;
+use crate::{DampingRatio, Error, Response, Suspension, VelocityShock, VelocityShocks};
+use clatter::{Bar, Count, End, Impact, Start};
+
+/// What a component at a position of the bar goes through in one clatter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TrainResponse {
+    /// Peaks, in the units of the bar's start: velocities in v0, times in h0/v0. Interval i begins with impact i + 1.
+    pub response: Response,
+    /// Velocity shocks at the position, as far as they were followed.
+    pub shocks: VelocityShocks,
+    /// Bound on what was left out of an endless (or very long) train: ωz and z′ are off by at most this, A/ω by at most
+    /// max(1, 2ζ) times this. Zero where every impact was followed.
+    pub omitted: f64,
+}
+
+/// Impacts followed at most, whatever the bound: beyond, `omitted` says what is missing.
+const MOST_IMPACTS: usize = 1 << 20;
+/// What is left of an endless train counts no more below this share of the largest shock: far below one rounding.
+const NEGLIGIBLE: f64 = f64::EPSILON / 256.0;
+
+/// Share of the velocity jump of the struck end that a position gets: ((1−q) ∓ (1+q)s)/2 from a strike at end a or b.
+///
+/// Formed from 1 ∓ q, so that it does not cancel near the center of percussion more than the position itself does.
+fn share(q: f64, position: f64, end: End) -> f64 {
+    let toward = match end {
+        End::A => -position,
+        End::B => position,
+    };
+    0.5 * ((1.0 - q) + (1.0 + q) * toward)
+}
+
+fn check_position(position: f64) -> Result<(), Error> {
+    if (-1.0..=1.0).contains(&position) {
+        return Ok(());
+    }
+    Err(Error::Quantity { name: "position", value: position, allowed: "in [-1, 1]; -1 is the end that strikes first" })
+}
+
+/// Response of a component at `position` (−1 is the end that strikes first) to the whole clatter.
+///
+/// Each impact n of [`Bar::train`] is a velocity shock there: the jump of the struck end times ((1−q) ∓ (1+q)s)/2
+/// (Eq. 3 of the paper). `suspension` has its ω in units of v0/h0.
+///
+/// # Endless trains
+///
+/// They are followed until the sum of all shocks to come, bounded by a geometric series, is below ε/256 of the largest.
+/// Where the gaps shrink much faster than the shocks (q near 1), the rest falls, to the resolution of time,
+/// on one instant: it acts there as the one change of velocity that brings the bar to rest. [`TrainResponse::omitted`]
+/// bounds what either leaves out.
+///
+/// # Errors
+///
+/// [`Error::Quantity`] for a position outside [−1, 1]; [`Error::Unsettled`] for an endless train at q = 1 off center.
+///
+/// # Examples
+///
+/// On a soft mount a clatter that ends at rest is one change of velocity, v0:
+///
+/// ```
+/// # use clatter::{Bar, Start};
+/// # use clatter_shock::{respond, DampingRatio, Suspension};
+/// let bar = Bar::new(0.9, 0.2)?;
+/// let soft = Suspension::new(1e-6, DampingRatio::new(0.0)?)?;
+/// let at_end = respond(&bar, &Start::default(), 1.0, &soft)?;
+/// let peak = at_end.response.pseudo_velocity().magnitude();
+/// assert!((peak - 1.0).abs() < 1e-6);
+/// assert!(at_end.omitted < 1e-17);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn respond(bar: &Bar, start: &Start, position: f64, suspension: &Suspension) -> Result<TrainResponse, Error> {
+    let (shocks, omitted) = shocks_at(bar, start, position, suspension.omega())?;
+    let mut run = Run::new(suspension);
+    for shock in shocks.as_slice() {
+        run.shock(shock.time, shock.delta_v);
+    }
+    let response = run.finish(|i| shocks.as_slice()[i].time);
+    Ok(TrainResponse { response, shocks, omitted })
+}
+
+/// The velocity shocks at a position, and a bound on what was left out (see [`respond`]) for components up to the
+/// angular frequency `omega_max`.
+///
+/// # Errors
+/// As [`respond`].
+pub fn shocks_at(bar: &Bar, start: &Start, position: f64, omega_max: f64) -> Result<(VelocityShocks, f64), Error> {
+    check_position(position)?;
+    let (q, e) = (bar.q(), bar.e());
+    let at_position = |i: &Impact| -(1.0 + e) * i.approach * share(q, position, i.end);
+    if q >= 1.0 && position != 0.0 && bar.count(start) == Count::Endless {
+        return Err(Error::Unsettled { position });
+    }
+    let largest_share = share(q, position.abs(), End::B);
+    // Roots of the recurrence of the approach speeds: ratios of neighbors tend to λ₊ without passing it.
+    let t = q * (1.0 + e);
+    let discriminant = t * t - 4.0 * e;
+    let limit_ratio = 0.5 * (t + discriminant.max(0.0).sqrt());
+    let mut list = Vec::new();
+    let (mut largest, mut fastest) = (0.0_f64, 0.0_f64);
+    let mut previous: Option<Impact> = None;
+    let mut train = bar.train(start).peekable();
+    let mut closing = 0;
+    while let Some(mut impact) = train.next() {
+        let delta_v = at_position(&impact);
+        if let Some(before) = previous {
+            // Strikes closer than the resolution of time may come out of order by a rounding.
+            impact.time = impact.time.max(before.time);
+        }
+        list.push(VelocityShock { time: impact.time, delta_v });
+        largest = largest.max(delta_v.abs());
+        fastest = fastest.max(-impact.approach);
+        let Some(before) = previous.replace(impact) else { continue };
+        let ratio = impact.approach / before.approach;
+        let bound = ratio.max(limit_ratio);
+        let rest = if bound < 1.0 {
+            -(1.0 + e) * impact.approach * largest_share * bound / (1.0 - bound)
+        } else {
+            f64::INFINITY
+        };
+        if rest <= NEGLIGIBLE * largest {
+            return Ok((VelocityShocks::new(list)?, if train.peek().is_some() { rest } else { 0.0 }));
+        }
+        // Time has run out of digits while the speeds still fall, in constant proportion: two more strikes show both
+        // states that the bar alternates between, then one jump brings it to rest.
+        let resolution = 4.0 * f64::EPSILON * impact.time;
+        let settled = (ratio - limit_ratio).abs() <= 1e-13 * limit_ratio && q < 1.0;
+        if discriminant > 0.0 && settled && impact.time - before.time <= resolution {
+            closing += 1;
+        }
+        if closing == 3
+            && let Some(next) = train.peek()
+        {
+            let (struck, other) = (-e * impact.approach, next.approach);
+            let toward = if impact.end == End::A { -position } else { position };
+            let velocity = 0.5 * ((1.0 + toward) * struck + (1.0 - toward) * other);
+            list.push(VelocityShock { time: impact.time, delta_v: -velocity });
+            let shrink = e / (limit_ratio * limit_ratio);
+            let window = omega_max * resolution / (1.0 - shrink);
+            return Ok((VelocityShocks::new(list)?, 2.0 * window * -impact.approach));
+        }
+        if list.len() == MOST_IMPACTS {
+            return Ok((VelocityShocks::new(list)?, if train.peek().is_some() { rest } else { 0.0 }));
+        }
+    }
+    Ok((VelocityShocks::new(list)?, 0.0))
+}
+
+/// What one unit of velocity change does to a component at rest: the factors that turn a shock into a peak.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ImpulseFactors {
+    /// Peak ω|z| / Δv.
+    pub displacement: f64,
+    /// Peak |A| / (ωΔv): 1 at ζ = 0, 0.931 at 0.05, 2ζ from ζ = ½ on.
+    pub acceleration: f64,
+}
+
+impl DampingRatio {
+    /// Peak of one velocity shock: ω|z|/Δv = e^(−ζ acos ζ/β) for ζ < 1, and |A|/(ωΔv).
+    ///
+    /// ```
+    /// # use clatter_shock::DampingRatio;
+    /// let factors = DampingRatio::new(0.05)?.impulse_factors();
+    /// assert!((factors.acceleration - 0.931).abs() < 5e-4);
+    /// assert_eq!(DampingRatio::new(3.0)?.impulse_factors().acceleration, 6.0);
+    /// # Ok::<(), clatter_shock::Error>(())
+    /// ```
+    #[must_use]
+    pub fn impulse_factors(self) -> ImpulseFactors {
+        let mut run = Run::new(&Suspension::unit(self));
+        run.shock(0.0, 1.0);
+        let response = run.finish(|_| 0.0);
+        ImpulseFactors {
+            displacement: response.relative_displacement.magnitude(),
+            acceleration: response.absolute_acceleration.magnitude(),
+        }
+    }
+}
+
+/// The paper's three-way rule as one spectrum over Ω = ω h0/v0 (section 4 of the paper: net change, resonance, largest shock).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rule {
+    /// One point for each Ω asked.
+    pub points: Vec<RulePoint>,
+    /// Ω → 0: the net change of velocity times the impulse factors. The acceleration passes through the jumps 2ζΔv of the
+    /// dashpot on the way, so that at strong damping the largest partial sum of the shocks can stand above the net.
+    pub soft: ImpulseFactors,
+    /// ζΩ → ∞: the largest single shock times the impulse factors. The last strikes of an endless train come within any period,
+    /// so that there the limit is only crept up to, like a small power of 1/Ω. `None` at ζ = 0, where shocks add up by phase for ever.
+    pub stiff: Option<ImpulseFactors>,
+    /// What standards assume: one shock of 2 v0, times the impulse factors.
+    pub standard: ImpulseFactors,
+    /// Bound on what an endless train leaves out, over all points.
+    pub omitted: f64,
+}
+
+/// Peaks of one component, in v0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RulePoint {
+    /// Ω = ω h0/v0.
+    pub omega: f64,
+    /// Peak of ω|z|/v0.
+    pub displacement: f64,
+    /// Peak of |A|/(ω v0).
+    pub acceleration: f64,
+    /// Peak |A| over that of one shock of 2 v0, the clatter-free impact that drop standards assume.
+    pub gain: f64,
+}
+
+/// The rule for a bar, a position and a damping ratio, at the given Ω. v0 is the speed of the end that strikes first.
+///
+/// # Errors
+/// As [`respond`]; [`Error::Entry`] for an Ω that is not finite and positive; [`Error::Quantity`] for a flat drop (no Ω).
+pub fn three_way_rule(
+    bar: &Bar,
+    start: &Start,
+    position: f64,
+    damping: DampingRatio,
+    omegas: &[f64],
+) -> Result<Rule, Error> {
+    let (v0, h0) = (-start.velocity()[0], start.height_gap());
+    crate::error::positive("height gap", h0)?;
+    for (i, &value) in omegas.iter().enumerate() {
+        if !(value > 0.0 && value.is_finite()) {
+            return Err(Error::Entry {
+                list: "frequencies",
+                entry: i + 1,
+                name: "omega h0/v0",
+                value,
+                allowed: "finite and > 0",
+            });
+        }
+    }
+    let highest = omegas.iter().fold(0.0_f64, |m, &w| m.max(w));
+    let (shocks, omitted) = shocks_at(bar, start, position, highest * v0 / h0)?;
+    let factors = damping.impulse_factors();
+    let times =
+        |v: f64| ImpulseFactors { displacement: v * factors.displacement, acceleration: v * factors.acceleration };
+    let standard = times(2.0);
+    let mut points = Vec::with_capacity(omegas.len());
+    for &omega in omegas {
+        let suspension = Suspension::new(omega * v0 / h0, damping)?;
+        let response = shocks.respond(&suspension);
+        let acceleration = response.absolute_acceleration.magnitude() / (suspension.omega() * v0);
+        points.push(RulePoint {
+            omega,
+            displacement: response.pseudo_velocity().magnitude() / v0,
+            acceleration,
+            gain: acceleration / standard.acceleration,
+        });
+    }
+    Ok(Rule {
+        points,
+        soft: {
+            let net = times(shocks.net().abs() / v0);
+            let jump = 2.0 * damping.get() * shocks.largest_partial_sum() / v0;
+            ImpulseFactors { acceleration: net.acceleration.max(jump), ..net }
+        },
+        stiff: (damping.get() > 0.0).then(|| times(shocks.largest() / v0)),
+        standard,
+        omitted: omitted / v0,
+    })
+}

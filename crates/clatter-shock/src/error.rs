@@ -1,0 +1,115 @@
+//! The one error type of the crate: what was given, where, and what is allowed.
+
+/// A value that describes no suspension, no shock, no record. Each message names the value and the range.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A damping ratio below 0, not finite, or beyond the range of the arithmetic.
+    #[error("damping ratio {0:?} is not in [0, 1e60]")]
+    DampingRatio(f64),
+    /// A quality factor that is not positive.
+    #[error("quality factor {0:?} is not at least 1e-60 (infinite: undamped)")]
+    QualityFactor(f64),
+    /// A number outside its range.
+    #[error("{name} = {value:?} is not {allowed}")]
+    Quantity {
+        /// What the value stands for, with its unit.
+        name: &'static str,
+        /// The value.
+        value: f64,
+        /// The range that makes sense.
+        allowed: &'static str,
+    },
+    /// An entry of a list that is not usable; entries count from 1.
+    #[error("{list}, entry {entry}: {name} = {value:?} is not {allowed}")]
+    Entry {
+        /// The list.
+        list: &'static str,
+        /// Its entry, from 1.
+        entry: usize,
+        /// What the value stands for.
+        name: &'static str,
+        /// The value.
+        value: f64,
+        /// The range that makes sense.
+        allowed: &'static str,
+    },
+    /// Times of a list that run back.
+    #[error("{list}, entry {entry}: time {time:?} is before {previous:?}, the one above it")]
+    TimeOrder {
+        /// The list.
+        list: &'static str,
+        /// Its entry, from 1.
+        entry: usize,
+        /// Its time.
+        time: f64,
+        /// The time of the entry above.
+        previous: f64,
+    },
+    /// A pulse of no length.
+    #[error(
+        "a pulse of zero duration has no area: give the velocity change of the shock instead (a velocity shock), or a duration > 0"
+    )]
+    ZeroDuration,
+    /// A list without entries.
+    #[error("{0} is empty")]
+    Empty(&'static str),
+    /// A velocity shock whose train does not settle.
+    #[error(
+        "at q = 1 and position {position:?} the bar strikes for ever without losing speed, so the response has no limit; only the center (position 0) has one"
+    )]
+    Unsettled {
+        /// Position on the bar.
+        position: f64,
+    },
+    /// A line of a record that cannot be used.
+    #[error("line {line}: {what}")]
+    Line {
+        /// Line of the file, from 1.
+        line: usize,
+        /// What is wrong and what is allowed.
+        what: String,
+    },
+    /// A unit that is not known.
+    #[error("unit {0:?} is not known; time: s, ms, us; acceleration: m/s2, g")]
+    Unit(String),
+    /// A record whose units nobody named.
+    #[error(
+        "the units of the record are not named: give them, or begin the file with a header such as `time [s],acceleration [m/s2]`"
+    )]
+    NoUnits,
+    /// A record too short to be one.
+    #[error("the record has {0} samples; it needs two at least")]
+    Short(usize),
+    /// An uneven record where an even one is needed.
+    #[error("the samples of the record are not even in time: read it whole instead of streaming it")]
+    Uneven,
+    /// Shock tests that show no critical level.
+    #[error("the {0} trials show no critical level: some level without damage must lie below the lowest with damage")]
+    Trials(&'static str),
+    /// No half-sine of the shock table does the same to the component.
+    #[error(
+        "no half-sine of this shock table is equivalent: {}",
+        if nearest.is_finite() {
+            format!("at equal acceleration its displacement is off by {:.1} % at best", 100.0 * nearest)
+        } else {
+            "all that give the same acceleration are beyond its acceleration or velocity change".to_owned()
+        }
+    )]
+    NoEquivalent {
+        /// Smallest relative mismatch in displacement; infinite if the table reaches the acceleration with no pulse.
+        nearest: f64,
+    },
+    /// The file could not be read.
+    #[error("the record could not be read: {0}")]
+    Read(String),
+}
+
+/// `value` if it is finite and greater than zero.
+pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, Error> {
+    if value > 0.0 && value.is_finite() {
+        Ok(value)
+    } else {
+        Err(Error::Quantity { name, value, allowed: "finite and > 0" })
+    }
+}

@@ -1,0 +1,188 @@
+//! Exact response to velocity shocks.
+
+use crate::peaks::{Range, Response};
+use crate::suspension::{Modes, Motion, Phase};
+use crate::{Error, Suspension};
+use std::f64::consts::PI;
+
+/// A jump of the base's velocity, in no time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct VelocityShock {
+    /// When.
+    pub time: f64,
+    /// By how much the velocity of the base jumps.
+    pub delta_v: f64,
+}
+
+/// A checked list of velocity shocks, in order of time.
+///
+/// Shocks may share one instant; they then act in the order given, as the limit of vanishing gaps, and the velocity
+/// between them counts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct VelocityShocks {
+    shocks: Vec<VelocityShock>,
+}
+
+const LIST: &str = "velocity shocks";
+
+impl VelocityShocks {
+    /// # Errors
+    /// [`Error::Empty`], [`Error::Entry`] for a value that is not finite, [`Error::TimeOrder`] where times run back.
+    pub fn new(shocks: Vec<VelocityShock>) -> Result<Self, Error> {
+        if shocks.is_empty() {
+            return Err(Error::Empty(LIST));
+        }
+        let mut previous = f64::NEG_INFINITY;
+        for (i, s) in shocks.iter().enumerate() {
+            for (name, value) in [("time", s.time), ("velocity change", s.delta_v)] {
+                if !value.is_finite() {
+                    return Err(Error::Entry { list: LIST, entry: i + 1, name, value, allowed: "finite" });
+                }
+            }
+            if s.time < previous {
+                return Err(Error::TimeOrder { list: LIST, entry: i + 1, time: s.time, previous });
+            }
+            previous = s.time;
+        }
+        Ok(Self { shocks })
+    }
+    /// The shocks, in order.
+    #[must_use]
+    pub fn as_slice(&self) -> &[VelocityShock] {
+        &self.shocks
+    }
+    /// Sum of all velocity changes.
+    #[must_use]
+    pub fn net(&self) -> f64 {
+        self.shocks.iter().map(|s| s.delta_v).sum()
+    }
+    /// The largest sum of the first few velocity changes, in absolute value: how far the base's velocity strays.
+    #[must_use]
+    pub fn largest_partial_sum(&self) -> f64 {
+        let mut sum = 0.0_f64;
+        self.shocks.iter().fold(0.0, |m, s| {
+            sum += s.delta_v;
+            m.max(sum.abs())
+        })
+    }
+    /// The largest single velocity change, in absolute value.
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        self.shocks.iter().fold(0.0, |m, s| m.max(s.delta_v.abs()))
+    }
+    /// Peaks of the component's response, ring-down included.
+    ///
+    /// At each shock z′ jumps by −Δv and A by 2ζωΔv; between shocks the motion is free, and its turning points are known in
+    /// closed form ([`Suspension::free`]), so nothing is sampled.
+    ///
+    /// # Accuracy
+    ///
+    /// Each shock adds a few roundings: values are within 8 ε n of the sum of all |Δv| after n shocks (times ω for
+    /// accelerations, 1/ω for displacements).
+    ///
+    /// # Examples
+    ///
+    /// One shock on an undamped component: ω z = Δv, A = ω Δv, a quarter of a period later.
+    ///
+    /// ```
+    /// # use clatter_shock::{DampingRatio, Suspension, VelocityShock, VelocityShocks};
+    /// let one = VelocityShocks::new(vec![VelocityShock { time: 0.0, delta_v: 2.0 }])?;
+    /// let undamped = Suspension::new(100.0, DampingRatio::new(0.0)?)?;
+    /// let response = one.respond(&undamped);
+    /// let peak = response.absolute_acceleration.peak();
+    /// assert!((peak.value - 200.0).abs() < 1e-12 && (peak.time - std::f64::consts::PI / 200.0).abs() < 1e-17);
+    /// assert!((response.relative_displacement.peak().value + 0.02).abs() < 1e-16);
+    /// # Ok::<(), clatter_shock::Error>(())
+    /// ```
+    #[must_use]
+    pub fn respond(&self, suspension: &Suspension) -> Response {
+        let mut run = Run::new(suspension);
+        for shock in &self.shocks {
+            run.shock(shock.time, shock.delta_v);
+        }
+        run.finish(|i| self.shocks[i].time)
+    }
+    /// Extremes of one quantity from the first to the last shock, and after it.
+    pub(crate) fn extremes(&self, modes: &Modes, omega: f64, k: usize) -> [Range; 2] {
+        let (mut m, mut during) = (Motion::default(), Range::default());
+        let mut last = self.shocks[0].time;
+        for shock in &self.shocks {
+            let phase = gap(omega, last, shock.time);
+            let end = modes.propagator(phase).apply(modes.p, m);
+            during.note(0, 0.0, modes.quantity(k, m));
+            // Within half a swing a slope that keeps its sign has not vanished.
+            if modes.beta * phase.hi >= PI || modes.quantity(k + 1, m) * modes.quantity(k + 1, end) <= 0.0 {
+                during.note_free(modes, k, m, phase.hi, 0);
+            }
+            during.note(0, 0.0, modes.quantity(k, end));
+            m = end;
+            m.w -= shock.delta_v;
+            last = shock.time;
+        }
+        during.note(0, 0.0, modes.quantity(k, m));
+        let mut after = Range::default();
+        after.note_free(modes, k, m, f64::INFINITY, 0);
+        [during, after]
+    }
+}
+
+/// A response in progress: all three quantities, shock by shock.
+#[derive(Debug)]
+pub(crate) struct Run {
+    omega: f64,
+    modes: Modes,
+    m: Motion,
+    ranges: [Range; 3],
+    last: Option<f64>,
+    number: usize,
+}
+
+impl Run {
+    pub(crate) fn new(suspension: &Suspension) -> Self {
+        Self {
+            omega: suspension.omega(),
+            modes: Modes::new(suspension.damping()),
+            m: Motion::default(),
+            ranges: [Range::default(); 3],
+            last: None,
+            number: 0,
+        }
+    }
+    pub(crate) fn shock(&mut self, time: f64, delta_v: f64) {
+        if let Some(last) = self.last {
+            let phase = gap(self.omega, last, time);
+            self.note(phase.hi);
+            self.m = self.modes.propagator(phase).apply(self.modes.p, self.m);
+            // The end of the interval, before the jump.
+            for (k, range) in self.ranges.iter_mut().enumerate() {
+                range.note(self.number - 1, phase.hi, self.modes.quantity(k, self.m));
+            }
+        }
+        self.m.w -= delta_v;
+        self.last = Some(time);
+        self.number += 1;
+    }
+    /// Takes in the free motion from the last shock over `span`.
+    fn note(&mut self, span: f64) {
+        for (k, range) in self.ranges.iter_mut().enumerate() {
+            range.note_free(&self.modes, k, self.m, span, self.number - 1);
+        }
+    }
+    pub(crate) fn finish(mut self, start: impl Fn(usize) -> f64) -> Response {
+        self.note(f64::INFINITY);
+        Response::from_ranges(self.omega, &self.ranges, start)
+    }
+}
+
+/// ω (to − from), exact in its second double where it is long.
+#[inline]
+pub(crate) fn gap(omega: f64, from: f64, to: f64) -> Phase {
+    let dt = to - from;
+    if omega * dt <= 16.0 {
+        return Phase::product(omega, dt);
+    }
+    // Knuth's two-sum of to + (−from).
+    let back = dt - to;
+    let lo = (to - (dt - back)) + (-from - back);
+    Phase::product2(omega, dt, lo)
+}

@@ -1,0 +1,59 @@
+//! What a train of shocks does to a suspended component.
+//!
+//! A component on a suspension is a single-degree-of-freedom system whose base is shaken:
+//!
+//! ```text
+//! z″ + 2ζω z′ + ω² z = −(acceleration of the base),      A = −(2ζω z′ + ω² z)
+//! ```
+//!
+//! z is its displacement relative to the base, A its absolute acceleration, ω its natural angular frequency, ζ ≥ 0 its
+//! damping ratio, of any size. Everything here is exact for the excitation given, but for rounding: peaks come from
+//! turning points, never from samples, and the ring-down is always complete.
+//!
+//! | excitation | type | when |
+//! |---|---|---|
+//! | jumps of velocity | [`VelocityShocks`] | pulses much shorter than the period |
+//! | pulses of a shape, overlapping or not | [`Pulses`] | any pulse |
+//! | samples, linear between them | [`Record`], [`SpectrumFilter`], [`stream()`] | measured records |
+//! | a clattering bar | [`respond`], [`three_way_rule`] | a part at a position of the bar |
+//!
+//! Each gives a [`Response`] of one component or a [`Spectrum`] over many; [`Limit`], [`DamageBoundary`] and [`ShockTable`] turn
+//! these into margins.
+//!
+//! ```
+//! use clatter::{Bar, Start};
+//! use clatter_shock::{DampingRatio, Limit, Suspension, respond};
+//!
+//! // A board mode at 180 Hz, Q = 10, at the end of a phone that falls from 1.2 m: v0 = 4.85 m/s, tilted so that h0 = 5 mm.
+//! let bar = Bar::new(0.5, 0.3)?;
+//! let start = Start::new([-4.85, -4.85], 5e-3)?;
+//! let board = Suspension::from_hz(180.0, DampingRatio::from_quality_factor(10.0)?)?;
+//! let shaken = respond(&bar, &start, 1.0, &board)?;
+//! let peak = shaken.response.absolute_acceleration.peak();
+//! assert!(peak.interval > 0); // the first impact is not the worst
+//! assert!(Limit::Acceleration(20_000.0).margin(&shaken.response)?.is_safe());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod coupling;
+mod error;
+mod filter;
+mod forced;
+mod fragility;
+mod impulse;
+mod peaks;
+mod pulse;
+mod record;
+mod spectrum;
+mod suspension;
+
+pub use coupling::{ImpulseFactors, Rule, RulePoint, TrainResponse, respond, shocks_at, three_way_rule};
+pub use error::Error;
+pub use filter::SpectrumFilter;
+pub use fragility::{DamageBoundary, EquivalentPulse, Limit, Margin, ShockTable, Trial};
+pub use impulse::{VelocityShock, VelocityShocks};
+pub use peaks::{Extreme, Extremes, Response};
+pub use pulse::{Pulse, Pulses, Shape};
+pub use record::{Finding, Lines, Record, STANDARD_GRAVITY_M_S2, Sample, Survey, Units, stream};
+pub use spectrum::{Frequencies, Quantity, Spectrum};
+pub use suspension::{DampingRatio, State, Suspension};

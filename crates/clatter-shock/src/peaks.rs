@@ -1,0 +1,120 @@
+//! Largest positive and negative values of a response, and where they stand.
+
+use crate::suspension::{Modes, Motion};
+
+/// An extreme value of the response.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extreme {
+    /// The value, with its sign.
+    pub value: f64,
+    /// When it is reached, on the time axis of the excitation.
+    pub time: f64,
+    /// Which interval holds it, from 0: interval i begins with shock i (or breakpoint i of the pulses) and lasts until
+    /// the next; the last one is the ring-down.
+    pub interval: usize,
+}
+
+/// The largest positive and the largest negative value of a quantity. Before the first shock all is at rest: a
+/// quantity that never turns negative has 0 there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extremes {
+    /// Largest value, at least 0.
+    pub positive: Extreme,
+    /// Smallest value, at most 0.
+    pub negative: Extreme,
+}
+
+impl Extremes {
+    /// The one that is larger in absolute value; the earlier one if they tie.
+    #[must_use]
+    pub fn peak(&self) -> Extreme {
+        let (p, n) = (self.positive, self.negative);
+        if p.value > -n.value || (p.value + n.value == 0.0 && p.time <= n.time) { p } else { n }
+    }
+    /// Largest absolute value.
+    #[must_use]
+    pub fn magnitude(&self) -> f64 {
+        self.positive.value.max(-self.negative.value)
+    }
+    /// The same extremes in another unit, `factor` > 0 times as large, or mirrored.
+    #[must_use]
+    pub(crate) fn scaled(&self, factor: f64) -> Self {
+        let scale = |e: Extreme| Extreme { value: factor * e.value + 0.0, ..e };
+        let (p, n) = (scale(self.positive), scale(self.negative));
+        if factor < 0.0 { Self { positive: n, negative: p } } else { Self { positive: p, negative: n } }
+    }
+}
+
+/// A mark within an interval, in phase τ from its begin.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Mark {
+    pub(crate) value: f64,
+    tau: f64,
+    interval: usize,
+}
+
+/// Running extremes of one quantity.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Range {
+    pub(crate) high: Mark,
+    pub(crate) low: Mark,
+}
+
+impl Range {
+    #[inline]
+    pub(crate) fn note(&mut self, interval: usize, tau: f64, value: f64) {
+        if value > self.high.value {
+            self.high = Mark { value, tau, interval };
+        } else if value < self.low.value {
+            self.low = Mark { value, tau, interval };
+        }
+    }
+    /// Takes in the free motion from `m` over `span`: its start and its turning points. Its end is the start of what follows.
+    #[inline]
+    pub(crate) fn note_free(&mut self, modes: &Modes, k: usize, m: Motion, span: f64, interval: usize) {
+        self.note(interval, 0.0, modes.quantity(k, m));
+        let seen = (self.low.value, self.high.value);
+        modes.free_extremes(k, m, span, seen, |tau, value| self.note(interval, tau, value));
+    }
+    pub(crate) fn extremes(&self, omega: f64, start: impl Fn(usize) -> f64) -> Extremes {
+        let mark = |m: Mark| Extreme { value: m.value, time: start(m.interval) + m.tau / omega, interval: m.interval };
+        Extremes { positive: mark(self.high), negative: mark(self.low) }
+    }
+}
+
+/// The largest values that a component reaches, exactly.
+///
+/// Signs: z is the displacement of the component relative to its base, so that a base that accelerates upward first
+/// drives z downward and the absolute acceleration A = −(2ζωz′ + ω²z) upward.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Response {
+    pub(crate) omega: f64,
+    /// Relative displacement z (rattle space).
+    pub relative_displacement: Extremes,
+    /// Relative velocity z′.
+    pub relative_velocity: Extremes,
+    /// Absolute acceleration A, its jumps 2ζωΔv included.
+    pub absolute_acceleration: Extremes,
+}
+
+impl Response {
+    /// Pseudo-velocity ωz.
+    #[must_use]
+    pub fn pseudo_velocity(&self) -> Extremes {
+        self.relative_displacement.scaled(self.omega)
+    }
+    /// Equivalent static acceleration −ω²z: the steady acceleration of the base that bends the suspension as far.
+    #[must_use]
+    pub fn equivalent_static_acceleration(&self) -> Extremes {
+        self.pseudo_velocity().scaled(-self.omega)
+    }
+    pub(crate) fn from_ranges(omega: f64, ranges: &[Range; 3], start: impl Fn(usize) -> f64) -> Self {
+        let [x, y, a] = ranges;
+        Self {
+            omega,
+            relative_displacement: x.extremes(omega, &start).scaled(omega.recip()),
+            relative_velocity: y.extremes(omega, &start),
+            absolute_acceleration: a.extremes(omega, &start).scaled(omega),
+        }
+    }
+}

@@ -1,0 +1,395 @@
+//! Measured records: time and acceleration, line by line.
+
+use crate::{DampingRatio, Error, Frequencies, Pulses, Quantity, Spectrum, SpectrumFilter};
+use std::io::BufRead;
+
+/// Standard acceleration of free fall, 9.80665 m/s² exactly (3rd CGPM, 1901).
+pub const STANDARD_GRAVITY_M_S2: f64 = 9.806_65;
+
+/// Units of the two columns, as factors to seconds and m/s².
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Units {
+    time: f64,
+    acceleration: f64,
+}
+
+const TIME_UNITS: [(&str, f64); 5] = [("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("µs", 1e-6), ("μs", 1e-6)];
+const ACCELERATION_UNITS: [(&str, f64); 7] = [
+    ("m/s2", 1.0),
+    ("m/s^2", 1.0),
+    ("m/s²", 1.0),
+    ("m_s2", 1.0),
+    ("m s-2", 1.0),
+    ("g", STANDARD_GRAVITY_M_S2),
+    ("gn", STANDARD_GRAVITY_M_S2),
+];
+
+impl Units {
+    /// Seconds and m/s².
+    pub const SI: Self = Self { time: 1.0, acceleration: 1.0 };
+
+    /// By name: "s", "ms" or "us", and "m/s2" or "g".
+    ///
+    /// # Errors
+    /// [`Error::Unit`] for a name that is none of these.
+    pub fn named(time: &str, acceleration: &str) -> Result<Self, Error> {
+        let find = |list: &[(&str, f64)], name: &str| {
+            list.iter().find(|(n, _)| *n == name.trim()).map(|u| u.1).ok_or_else(|| Error::Unit(name.trim().to_owned()))
+        };
+        Ok(Self { time: find(&TIME_UNITS, time)?, acceleration: find(&ACCELERATION_UNITS, acceleration)? })
+    }
+    /// From a header such as `time [s], acceleration (g)` or `time_ms,acceleration_m_s2`.
+    fn from_header(columns: [&str; 2]) -> Option<Self> {
+        let unit = |column: &str, list: &[(&str, f64)]| {
+            let column = column.trim().trim_matches('"').trim_end_matches([']', ')']);
+            list.iter()
+                .filter(|(name, _)| {
+                    column.strip_suffix(name).is_some_and(|rest| rest.ends_with(['[', '(', '_', ' ', '/', ',']))
+                })
+                .max_by_key(|(name, _)| name.len())
+                .map(|u| u.1)
+        };
+        Some(Self { time: unit(columns[0], &TIME_UNITS)?, acceleration: unit(columns[1], &ACCELERATION_UNITS)? })
+    }
+}
+
+/// Something about a record that its owner should know; the spectrum is computed all the same.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Finding {
+    /// A step in time much longer than the one before: the history is taken as linear across it.
+    Gap {
+        /// Line at its end.
+        line: usize,
+        /// Its length in seconds.
+        seconds: f64,
+        /// Usual step until there, in seconds.
+        usual: f64,
+    },
+    /// The record starts away from zero by more than 1 % of its largest value: an offset, or a late trigger.
+    Offset {
+        /// Lines it was averaged over.
+        lines: (usize, usize),
+        /// Mean acceleration there, m/s².
+        mean: f64,
+    },
+    /// The record ends at another level than it starts, by more than 1 % of its largest value: drift, or a cut-off shock.
+    Drift {
+        /// Lines at the end it was averaged over.
+        lines: (usize, usize),
+        /// Mean acceleration there less that at the start, m/s².
+        change: f64,
+    },
+}
+
+impl std::fmt::Display for Finding {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Gap { line, seconds, usual } => {
+                write!(
+                    f,
+                    "line {line}: {seconds:.4e} s since the line above, usual are {usual:.4e} s; taken as linear across"
+                )
+            }
+            Self::Offset { lines: (a, b), mean } => {
+                write!(f, "lines {a} to {b}: mean {mean:.4e} m/s² before the shock, more than 1 % of the largest value")
+            }
+            Self::Drift { lines: (a, b), change } => write!(
+                f,
+                "lines {a} to {b}: {change:+.4e} m/s² from the level of the start, more than 1 % of the largest value"
+            ),
+        }
+    }
+}
+
+/// What one pass over a record tells, in constant memory.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Survey {
+    /// Number of samples.
+    pub samples: usize,
+    /// Time of the first sample, in seconds.
+    pub start: f64,
+    /// Time of the last one.
+    pub end: f64,
+    /// Time between samples if they are even: every time within 10⁻³ of a step from start + i·step.
+    pub step: Option<f64>,
+    /// Largest absolute acceleration, m/s².
+    pub largest: f64,
+    /// What is odd.
+    pub findings: Vec<Finding>,
+}
+
+/// Time steps longer than this many usual ones are a gap.
+const GAP: f64 = 5.0;
+/// Times may be off an even grid by this share of a step: digits of the printed time.
+const UNEVEN: f64 = 1e-3;
+/// Levels of start and end differ when they do by this share of the largest value.
+const LEVEL: f64 = 0.01;
+/// Findings listed at most.
+const MOST_FINDINGS: usize = 100;
+/// Bins of the running mean: their number is halved when they are full.
+const BINS: usize = 64;
+
+/// Reads a record line by line: two columns, time and acceleration, separated by comma, semicolon, tab or blanks; lines that
+/// begin with `#` and empty ones are skipped; the first line may be a header, which may name the units.
+#[derive(Debug)]
+pub struct Lines<R> {
+    input: R,
+    units: Option<Units>,
+    text: String,
+    line: usize,
+    bytes: u64,
+    previous: Option<f64>,
+}
+
+/// One sample of a record.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Its line in the file, from 1.
+    pub line: usize,
+    /// Seconds.
+    pub time: f64,
+    /// m/s².
+    pub acceleration: f64,
+}
+
+impl<R: BufRead> Lines<R> {
+    /// `units` stand above those of a header.
+    pub fn new(input: R, units: Option<Units>) -> Self {
+        Self { input, units, text: String::new(), line: 0, bytes: 0, previous: None }
+    }
+    /// Bytes read so far: for a progress bar.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
+    /// The next sample, or `None` at the end.
+    ///
+    /// # Errors
+    /// [`Error::Line`] for a line that is not two finite numbers, or a time that does not follow the one above;
+    /// [`Error::NoUnits`] if neither caller nor header named the units; [`Error::Read`].
+    pub fn sample(&mut self) -> Result<Option<Sample>, Error> {
+        loop {
+            self.text.clear();
+            let n = self.input.read_line(&mut self.text).map_err(|e| Error::Read(e.to_string()))?;
+            if n == 0 {
+                return Ok(None);
+            }
+            (self.line, self.bytes) = (self.line + 1, self.bytes + n as u64);
+            let text = self.text.trim().trim_start_matches('\u{feff}');
+            if text.is_empty() || text.starts_with('#') {
+                continue;
+            }
+            let separator = [',', ';', '\t'].into_iter().find(|&c| text.contains(c));
+            let mut columns = match separator {
+                Some(c) => text.split(c).map(str::trim).collect::<Vec<_>>(),
+                None => text.split_whitespace().collect(),
+            }
+            .into_iter();
+            let bad = |what: String| Error::Line { line: self.line, what };
+            let (Some(first), Some(second)) = (columns.next(), columns.next()) else {
+                return Err(bad(format!("{text:?} is not two columns, time and acceleration")));
+            };
+            let (Ok(time), Ok(acceleration)) = (first.parse::<f64>(), second.parse::<f64>()) else {
+                if self.previous.is_none() && first.parse::<f64>().is_err() && second.parse::<f64>().is_err() {
+                    // A header, once: its units count unless the caller named some.
+                    if self.units.is_none() {
+                        self.units = Units::from_header([first, second]);
+                        if self.units.is_none() {
+                            return Err(Error::NoUnits);
+                        }
+                    }
+                    self.previous = Some(f64::NEG_INFINITY);
+                    continue;
+                }
+                let wrong = if first.parse::<f64>().is_err() { first } else { second };
+                return Err(bad(format!("{wrong:?} is not a number; a header may only be the first line")));
+            };
+            let units = self.units.ok_or(Error::NoUnits)?;
+            for (name, text, value) in [("time", first, time), ("acceleration", second, acceleration)] {
+                if !value.is_finite() {
+                    return Err(bad(format!("{name} {text} is not finite")));
+                }
+            }
+            let time = time * units.time;
+            if let Some(previous) = self.previous
+                && time <= previous
+            {
+                return Err(bad(format!("time {time:?} s does not come after {previous:?} s, the line above")));
+            }
+            self.previous = Some(time);
+            return Ok(Some(Sample { line: self.line, time, acceleration: acceleration * units.acceleration }));
+        }
+    }
+    /// Reads to the end and tells what is there, handing each sample to `each`.
+    ///
+    /// # Errors
+    /// As [`Lines::sample`]; [`Error::Short`] for fewer than two samples.
+    pub fn survey(mut self, mut each: impl FnMut(Sample, u64)) -> Result<Survey, Error> {
+        let mut findings = Vec::new();
+        let (mut n, mut largest) = (0_usize, 0.0_f64);
+        let (mut start, mut end) = (0.0, f64::NEG_INFINITY);
+        let (mut slowest, mut fastest) = (f64::INFINITY, 0.0_f64);
+        let mut bins = Bins::default();
+        while let Some(s) = self.sample()? {
+            if n == 0 {
+                start = s.time;
+            } else {
+                #[expect(clippy::cast_precision_loss, reason = "a count of lines stays below 2^53")]
+                let steps = n as f64;
+                let usual = (end - start) / (steps - 1.0).max(1.0);
+                if n > 1 && s.time - end > GAP * usual && findings.len() < MOST_FINDINGS {
+                    findings.push(Finding::Gap { line: s.line, seconds: s.time - end, usual });
+                }
+                // Steps that keep every time so far within the band about an even grid.
+                let mean = (s.time - start) / steps;
+                let band = UNEVEN * mean / steps;
+                (slowest, fastest) = (slowest.min(mean + band), fastest.max(mean - band));
+            }
+            (n, end, largest) = (n + 1, s.time, largest.max(s.acceleration.abs()));
+            bins.add(s);
+            each(s, self.bytes);
+        }
+        if n < 2 {
+            return Err(Error::Short(n));
+        }
+        bins.judge(largest, &mut findings);
+        #[expect(clippy::cast_precision_loss, reason = "a count of lines stays below 2^53")]
+        let mean = (end - start) / (n - 1) as f64;
+        let step = (fastest <= mean && mean <= slowest).then_some(mean);
+        Ok(Survey { samples: n, start, end, step, largest, findings })
+    }
+}
+
+/// Means over equal shares of a record of unknown length.
+#[derive(Debug, Default)]
+struct Bins {
+    full: Vec<(usize, usize, f64)>,
+    size: usize,
+    count: usize,
+}
+
+impl Bins {
+    fn add(&mut self, s: Sample) {
+        self.size = self.size.max(1);
+        if self.count == 0 {
+            if self.full.len() == BINS {
+                self.full = self.full.chunks(2).map(|p| (p[0].0, p[1].1, 0.5 * (p[0].2 + p[1].2))).collect();
+                self.size *= 2;
+            }
+            self.full.push((s.line, s.line, 0.0));
+        }
+        self.count += 1;
+        if let Some(bin) = self.full.last_mut() {
+            bin.1 = s.line;
+            #[expect(clippy::cast_precision_loss, reason = "a count of lines stays below 2^53")]
+            let share = self.count as f64;
+            bin.2 += (s.acceleration - bin.2) / share;
+        }
+        if self.count == self.size {
+            self.count = 0;
+        }
+    }
+    fn judge(&self, largest: f64, findings: &mut Vec<Finding>) {
+        let whole = if self.count > 0 && self.full.len() > 1 { self.full.len() - 1 } else { self.full.len() };
+        let (Some(first), Some(last)) = (self.full.first(), self.full[..whole].last()) else { return };
+        if first.2.abs() > LEVEL * largest {
+            findings.push(Finding::Offset { lines: (first.0, first.1), mean: first.2 });
+        }
+        if (last.2 - first.2).abs() > LEVEL * largest {
+            findings.push(Finding::Drift { lines: (last.0, last.1), change: last.2 - first.2 });
+        }
+    }
+}
+
+/// A record in memory, in seconds and m/s².
+#[derive(Debug, Clone, PartialEq)]
+pub struct Record {
+    survey: Survey,
+    points: Vec<(f64, f64)>,
+}
+
+impl Record {
+    /// Reads a record; `units` stand above those that a header names.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use clatter_shock::{DampingRatio, Frequencies, Quantity, Record};
+    /// let csv = "time [ms],acceleration [g]\n0,0\n1,100\n2,0\n3,0\n";
+    /// let record = Record::read(csv.as_bytes(), None)?;
+    /// assert_eq!(record.survey().samples, 4);
+    /// let spectrum = record.spectrum(
+    ///     &Frequencies::list(vec![100.0])?,
+    ///     DampingRatio::from_quality_factor(10.0)?,
+    ///     Quantity::AbsoluteAcceleration,
+    /// );
+    /// assert!(spectrum.maximax[0] > 500.0);
+    ///
+    /// let broken = Record::read("0,0\n1e-3,NaN\n".as_bytes(), Some(clatter_shock::Units::SI));
+    /// assert_eq!(broken.unwrap_err().to_string(), "line 2: acceleration NaN is not finite");
+    /// # Ok::<(), clatter_shock::Error>(())
+    /// ```
+    /// # Errors
+    /// As [`Lines::survey`].
+    pub fn read(input: impl BufRead, units: Option<Units>) -> Result<Self, Error> {
+        let mut points = Vec::new();
+        let survey = Lines::new(input, units).survey(|s, _| points.push((s.time, s.acceleration)))?;
+        Ok(Self { survey, points })
+    }
+    /// What was found.
+    #[must_use]
+    pub fn survey(&self) -> &Survey {
+        &self.survey
+    }
+    /// Time (s) and acceleration (m/s²).
+    #[must_use]
+    pub fn points(&self) -> &[(f64, f64)] {
+        &self.points
+    }
+    /// Shock response spectrum of the history that is linear between the samples: by the recursive filter where they are even,
+    /// step by step where they are not.
+    #[must_use]
+    pub fn spectrum(&self, frequencies: &Frequencies, damping: DampingRatio, quantity: Quantity) -> Spectrum {
+        let even = self.survey.step.and_then(|step| {
+            let mut filter = SpectrumFilter::new(frequencies.clone(), damping, quantity, step).ok()?;
+            let samples: Vec<f64> = self.points.iter().map(|p| p.1).collect();
+            filter.push(&samples);
+            filter.finish().ok()
+        });
+        even.unwrap_or_else(|| Pulses::from_sorted(&self.points).spectrum(frequencies, damping, quantity))
+    }
+}
+
+/// Spectrum of an even record of any length in constant memory: a second pass after [`Lines::survey`] told the step.
+///
+/// `progress` is told the bytes read so far, every few thousand samples.
+///
+/// # Errors
+/// As [`Lines::sample`]; [`Error::Uneven`] if the survey found no even step.
+pub fn stream<R: BufRead>(
+    mut lines: Lines<R>,
+    survey: &Survey,
+    frequencies: &Frequencies,
+    damping: DampingRatio,
+    quantity: Quantity,
+    mut progress: impl FnMut(u64),
+) -> Result<Spectrum, Error> {
+    let step = survey.step.ok_or(Error::Uneven)?;
+    let mut filter = SpectrumFilter::new(frequencies.clone(), damping, quantity, step)?;
+    let mut piece = Vec::with_capacity(PIECE);
+    while let Some(sample) = lines.sample()? {
+        piece.push(sample.acceleration);
+        if piece.len() == PIECE {
+            filter.push(&piece);
+            piece.clear();
+            progress(lines.bytes());
+        }
+    }
+    filter.push(&piece);
+    progress(lines.bytes());
+    filter.finish()
+}
+
+/// Samples read before they are filtered.
+const PIECE: usize = 1 << 14;

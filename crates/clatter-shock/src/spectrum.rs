@@ -1,0 +1,206 @@
+//! Shock response spectra: the peak of a quantity over the natural frequency of the component.
+
+use crate::peaks::Range;
+use crate::suspension::Modes;
+use crate::{DampingRatio, Error, Pulses, VelocityShocks};
+use std::f64::consts::TAU;
+
+/// The five quantities of ISO 18431-4. Signs as in [`crate::Response`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Quantity {
+    /// Absolute acceleration of the component, A.
+    AbsoluteAcceleration,
+    /// Displacement relative to the base, z.
+    RelativeDisplacement,
+    /// Velocity relative to the base, z′.
+    RelativeVelocity,
+    /// Pseudo-velocity, ωz.
+    PseudoVelocity,
+    /// Equivalent static acceleration, −ω²z.
+    EquivalentStaticAcceleration,
+}
+
+impl Quantity {
+    /// Row of the modes and the factor from there, for the angular frequency ω.
+    pub(crate) fn row(self, omega: f64) -> (usize, f64) {
+        match self {
+            Self::AbsoluteAcceleration => (Modes::ACCELERATION, omega),
+            Self::RelativeDisplacement => (Modes::DISPLACEMENT, omega.recip()),
+            Self::RelativeVelocity => (Modes::VELOCITY, 1.0),
+            Self::PseudoVelocity => (Modes::DISPLACEMENT, 1.0),
+            Self::EquivalentStaticAcceleration => (Modes::DISPLACEMENT, -omega),
+        }
+    }
+}
+
+/// A checked list of natural frequencies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frequencies {
+    hz: Vec<f64>,
+}
+
+impl Frequencies {
+    /// The frequencies given, in the order given.
+    /// # Errors
+    /// [`Error::Empty`]; [`Error::Entry`] for one that is not finite and positive.
+    pub fn list(hz: Vec<f64>) -> Result<Self, Error> {
+        if hz.is_empty() {
+            return Err(Error::Empty("list of frequencies"));
+        }
+        for (i, &value) in hz.iter().enumerate() {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(Error::Entry {
+                    list: "frequencies",
+                    entry: i + 1,
+                    name: "natural frequency (Hz)",
+                    value,
+                    allowed: "finite and > 0",
+                });
+            }
+        }
+        Ok(Self { hz })
+    }
+    /// From `low` to `high`, both included, in equal ratios, at least `per_octave` steps to the octave.
+    ///
+    /// ```
+    /// # use clatter_shock::Frequencies;
+    /// let thirds = Frequencies::per_octave(100.0, 400.0, 3.0)?;
+    /// assert_eq!(thirds.hz().len(), 7);
+    /// assert!((thirds.hz()[1] - 100.0 * 2_f64.powf(1.0 / 3.0)).abs() < 1e-12);
+    /// # Ok::<(), clatter_shock::Error>(())
+    /// ```
+    /// # Errors
+    /// [`Error::Quantity`] unless 0 < low ≤ high, per octave > 0, and there are at most 10⁷ frequencies.
+    pub fn per_octave(low: f64, high: f64, per_octave: f64) -> Result<Self, Error> {
+        crate::error::positive("lowest frequency (Hz)", low)?;
+        crate::error::positive("highest frequency (Hz)", high)?;
+        crate::error::positive("frequencies per octave", per_octave)?;
+        if high < low {
+            return Err(Error::Quantity {
+                name: "highest frequency (Hz)",
+                value: high,
+                allowed: "at least the lowest",
+            });
+        }
+        // A whole number of steps that rounding made a little larger stays that number.
+        let steps = ((high / low).log2() * per_octave * (1.0 - 4.0 * f64::EPSILON)).ceil();
+        if steps > 1e7 {
+            return Err(Error::Quantity { name: "number of frequencies", value: steps, allowed: "at most 1e7" });
+        }
+        let mut hz = vec![low];
+        let mut i = 1.0;
+        while i < steps {
+            hz.push(low * (high / low).powf(i / steps));
+            i += 1.0;
+        }
+        if high > low {
+            hz.push(high);
+        }
+        Ok(Self { hz })
+    }
+    /// In hertz.
+    #[must_use]
+    pub fn hz(&self) -> &[f64] {
+        &self.hz
+    }
+}
+
+/// A shock response spectrum. All arrays have one entry for each frequency; all values are absolute values.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spectrum {
+    /// The quantity.
+    pub quantity: Quantity,
+    /// The damping ratio.
+    pub damping: DampingRatio,
+    /// Natural frequencies in hertz.
+    pub frequency_hz: Vec<f64>,
+    /// Largest absolute value from the first start to the last end of the excitation.
+    pub primary: Vec<f64>,
+    /// Largest absolute value after it, the whole ring-down.
+    pub residual: Vec<f64>,
+    /// Largest absolute value over both.
+    pub maximax: Vec<f64>,
+    /// Largest positive value over both.
+    pub positive: Vec<f64>,
+    /// Largest negative value over both, without its sign.
+    pub negative: Vec<f64>,
+}
+
+impl Spectrum {
+    /// From the extremes during and after the excitation, frequency by frequency.
+    pub(crate) fn collect(
+        frequencies: &Frequencies,
+        damping: DampingRatio,
+        quantity: Quantity,
+        mut extremes: impl FnMut(usize, f64, usize) -> [Range; 2],
+    ) -> Self {
+        let n = frequencies.hz.len();
+        let empty = || Vec::with_capacity(n);
+        let mut s = Self {
+            quantity,
+            damping,
+            frequency_hz: frequencies.hz.clone(),
+            primary: empty(),
+            residual: empty(),
+            maximax: empty(),
+            positive: empty(),
+            negative: empty(),
+        };
+        for (i, &hz) in frequencies.hz.iter().enumerate() {
+            let omega = TAU * hz;
+            let (row, factor) = quantity.row(omega);
+            let [during, after] = extremes(i, omega, row);
+            let size = |r: &Range| factor.abs() * r.high.value.max(-r.low.value);
+            let (high, low) = (during.high.value.max(after.high.value), -during.low.value.min(after.low.value));
+            let (positive, negative) = if factor < 0.0 { (low, high) } else { (high, low) };
+            s.primary.push(size(&during));
+            s.residual.push(size(&after));
+            s.maximax.push(factor.abs() * high.max(low));
+            s.positive.push(factor.abs() * positive + 0.0);
+            s.negative.push(factor.abs() * negative + 0.0);
+        }
+        s
+    }
+}
+
+impl VelocityShocks {
+    /// Shock response spectrum of the shocks, exact at every frequency; times in seconds.
+    ///
+    /// The instant of the last shock ends the primary part, just before the jump and just after.
+    #[must_use]
+    pub fn spectrum(&self, frequencies: &Frequencies, damping: DampingRatio, quantity: Quantity) -> Spectrum {
+        let modes = Modes::new(damping);
+        Spectrum::collect(frequencies, damping, quantity, |_, omega, k| self.extremes(&modes, omega, k))
+    }
+}
+
+impl Pulses {
+    /// Shock response spectrum of the pulses, exact at every frequency; times in seconds.
+    ///
+    /// # Examples
+    ///
+    /// A short half-sine on a soft mount is a velocity shock of its area, 2aD/π:
+    ///
+    /// ```
+    /// # use clatter_shock::{DampingRatio, Frequencies, Pulse, Pulses, Quantity, Shape};
+    /// let shock = Pulse { shape: Shape::HalfSine, amplitude: 1000.0, duration: 1e-4, start: 0.0 };
+    /// let spectrum = Pulses::new(&[shock])?.spectrum(
+    ///     &Frequencies::list(vec![1.0])?,
+    ///     DampingRatio::new(0.0)?,
+    ///     Quantity::PseudoVelocity,
+    /// );
+    /// assert!((spectrum.maximax[0] / shock.velocity_change() - 1.0).abs() < 1e-7);
+    /// # Ok::<(), clatter_shock::Error>(())
+    /// ```
+    #[must_use]
+    pub fn spectrum(&self, frequencies: &Frequencies, damping: DampingRatio, quantity: Quantity) -> Spectrum {
+        let modes = Modes::new(damping);
+        Spectrum::collect(frequencies, damping, quantity, |_, omega, k| {
+            let mut ranges = [Range::default()];
+            let last = self.drive(&modes, omega, &[k], &mut ranges);
+            let mut after = Range::default();
+            after.note_free(&modes, k, last, f64::INFINITY, 0);
+            [ranges[0], after]
+        })
+    }
+}

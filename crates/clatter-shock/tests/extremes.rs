@@ -1,0 +1,69 @@
+//! The motion at extreme frequencies, times and dampings, against values computed with 100 digits (`data/make_extremes.py`).
+
+use clatter_shock::{DampingRatio, Pulse, Pulses, Shape, State, Suspension};
+use serde_json::Value;
+
+fn data() -> Value {
+    serde_json::from_str(include_str!("data/extremes.json")).expect("data")
+}
+
+fn number(v: &Value) -> f64 {
+    v.as_f64().unwrap_or_else(|| v.as_str().and_then(|s| s.parse().ok()).expect("a number"))
+}
+
+#[test]
+fn free_motion_is_exact_from_a_millionth_of_a_period_to_a_trillion() {
+    let data = data();
+    let cases = data["free"].as_array().expect("cases");
+    assert_eq!(cases.len(), 117, "cases");
+    for c in cases {
+        let n = |k: &str| number(&c[k]);
+        let (zeta, omega, t) = (n("zeta"), n("omega"), n("t"));
+        let suspension = Suspension::new(omega, DampingRatio::new(zeta).expect("damping")).expect("suspension");
+        let start = State { displacement: n("displacement"), velocity: n("velocity") };
+        let after = suspension.free(start, t);
+        // The stated accuracy: roundings of the start, decayed; beyond critical damping also of the exponent.
+        let exponent = if zeta > 1.0 { omega * t / zeta } else { 0.0 };
+        let size = (omega * start.displacement).abs() + start.velocity.abs();
+        let tau = omega * t;
+        // Near critical damping the motion itself grows by 1 + τ before it decays.
+        let growth = if (zeta - 1.0).abs() < 0.2 { 1.0 + tau } else { 1.0 };
+        let allowed = (8.0 + exponent) * f64::EPSILON * size * growth * n("slow_decay") + f64::MIN_POSITIVE;
+        for (name, got, want) in [("x", omega * after.displacement, n("x")), ("y", after.velocity, n("y"))] {
+            assert!(
+                (got - want).abs() <= allowed,
+                "{name} at damping {zeta:?}, omega t {tau:e}: {got:?}, not {want:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn half_sine_is_exact_at_resonance_and_at_critical_damping() {
+    let data = data();
+    let cases = data["half_sine_end"].as_array().expect("cases");
+    assert_eq!(cases.len(), 96, "cases");
+    let pulse = Pulse { shape: Shape::HalfSine, amplitude: 1.0, duration: 1.0, start: 0.0 };
+    let pulses = Pulses::new(&[pulse]).expect("pulses");
+    let mut worst = [0.0_f64; 2];
+    for c in cases {
+        let n = |k: &str| number(&c[k]);
+        let (zeta, omega) = (n("zeta"), n("omega"));
+        let suspension = Suspension::new(omega, DampingRatio::new(zeta).expect("damping")).expect("suspension");
+        let state = pulses.state_at_end(&suspension);
+        let (x, y) = (n("x"), n("y"));
+        let scale = x.hypot(y);
+        for (i, (got, want, own)) in
+            [(omega * state.displacement, x, x.abs()), (state.velocity, y, scale)].into_iter().enumerate()
+        {
+            // A soft mount keeps the relative accuracy of its small displacement.
+            let scale = if i == 0 && omega <= 0.01 { own } else { scale };
+            worst[i] = worst[i].max((got - want).abs() / scale);
+            assert!(
+                (got - want).abs() <= 1e-13 * scale,
+                "{i}: damping {zeta:?}, omega {omega:?}: {got:?}, not {want:?}"
+            );
+        }
+    }
+    assert!(worst[0] > 0.0, "not compared with itself");
+}

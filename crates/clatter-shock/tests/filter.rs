@@ -1,0 +1,148 @@
+//! The recursive filter against the exact response to the same piecewise linear history, step by step.
+
+use clatter_shock::{DampingRatio, Frequencies, Pulses, Quantity, SpectrumFilter, Suspension};
+use proptest::prelude::*;
+
+const QUANTITIES: [Quantity; 5] = [
+    Quantity::AbsoluteAcceleration,
+    Quantity::RelativeDisplacement,
+    Quantity::RelativeVelocity,
+    Quantity::PseudoVelocity,
+    Quantity::EquivalentStaticAcceleration,
+];
+
+fn compare(samples: &[f64], dt: f64, hz: &[f64], zeta: f64, allowed: f64) {
+    let frequencies = Frequencies::list(hz.to_vec()).expect("frequencies");
+    let damping = DampingRatio::new(zeta).expect("damping");
+    let points: Vec<(f64, f64)> = (0_u32..).map(|i| f64::from(i) * dt).zip(samples.iter().copied()).collect();
+    let history = Pulses::piecewise_linear(&points).expect("history");
+    for quantity in QUANTITIES {
+        let want = history.spectrum(&frequencies, damping, quantity);
+        let mut filter = SpectrumFilter::new(frequencies.clone(), damping, quantity, dt).expect("filter");
+        // Pieces of any size give the same.
+        let (a, b) = samples.split_at(samples.len() / 3);
+        filter.push(a);
+        filter.push(b);
+        let got = filter.finish().expect("spectrum");
+        let largest = &want.maximax;
+        for (name, got, want) in [
+            ("primary", &got.primary, &want.primary),
+            ("residual", &got.residual, &want.residual),
+            ("positive", &got.positive, &want.positive),
+            ("negative", &got.negative, &want.negative),
+        ] {
+            for (i, f) in hz.iter().enumerate() {
+                // Primary keeps its own relative accuracy on soft mounts, the others that of the largest.
+                let scale = if name == "primary" { want[i] } else { largest[i] };
+                assert!(
+                    (got[i] - want[i]).abs() <= allowed * scale,
+                    "{quantity:?}, {name} at f dt = {:e}, damping {zeta}: {:?}, not {:?}",
+                    f * dt,
+                    got[i],
+                    want[i]
+                );
+            }
+        }
+    }
+}
+
+/// A burst: a growing and fading oscillation with an offset that keeps all signs in play.
+fn burst(n: u32) -> Vec<f64> {
+    (0..n).map(|i| f64::from(i) / f64::from(n)).map(|t| (40.0 * t).sin() * (-8.0 * t).exp() * 100.0 + 3.0 * t).collect()
+}
+
+#[test]
+fn filter_is_the_exact_response_at_every_frequency_and_damping() {
+    let hz: Vec<f64> = (-36..=4).map(|i| 10_f64.powf(f64::from(i) / 4.0)).collect();
+    for zeta in [0.0, 1e-3, 0.05, 0.7, 1.0 - 1e-9, 1.0, 1.0 + 1e-9, 1.3, 10.0] {
+        // dt = 1, so that hz is f·dt from 1e-9 to 10.
+        compare(&burst(300), 1.0, &hz, zeta, 1e-10);
+    }
+}
+
+#[test]
+fn a_step_and_a_single_spike() {
+    let hz = [1e-9, 1e-4, 0.03, 0.2, 0.5, 1.7, 10.0];
+    for zeta in [0.0, 0.05, 1.0, 3.0] {
+        compare(&[1.0; 130], 1.0, &hz, zeta, 1e-10);
+        let mut spike = vec![0.0; 200];
+        spike[70] = -4.0;
+        compare(&spike, 1.0, &hz, zeta, 1e-10);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+    #[test]
+    fn filter_is_exact_for_any_record(
+        samples in prop::collection::vec(-100.0..100.0_f64, 2..400),
+        zeta in 0.0..2.0_f64,
+        exponent in -5.0..0.5_f64,
+    ) {
+        compare(&samples, 1e-4, &[1e4 * 10_f64.powf(exponent)], zeta, 1e-10);
+    }
+}
+
+/// A peak in the first step of a block, after the largest sample, the last of the block before: once missed.
+#[test]
+fn a_peak_between_samples_of_a_rough_record() {
+    let hz = 1e4 * 10_f64.powf(-1.652_892_353_661_28);
+    let frequencies = Frequencies::list(vec![hz]).expect("frequency");
+    let damping = DampingRatio::new(0.780_344_792_223_943_6).expect("damping");
+    for zeros in [1, 40, 62, 91] {
+        let mut samples = vec![0.0; zeros];
+        samples.extend([
+            -59.284_529_868_747_605,
+            -98.441_873_235_761_24,
+            -77.179_702_717_545_61,
+            80.657_460_828_120_49,
+            0.0,
+        ]);
+        let mut filter =
+            SpectrumFilter::new(frequencies.clone(), damping, Quantity::RelativeVelocity, 1e-4).expect("filter");
+        filter.push(&samples);
+        let filtered = filter.finish().expect("spectrum").primary[0];
+        let points: Vec<(f64, f64)> = (0_u32..).map(|i| f64::from(i) * 1e-4).zip(samples).collect();
+        let history = Pulses::piecewise_linear(&points).expect("history");
+        let exact = history.spectrum(&frequencies, damping, Quantity::RelativeVelocity).primary[0];
+        // Runge–Kutta with 20 000 steps a sample.
+        assert!((exact - 0.015_603_992_494_9).abs() < 1e-11, "step by step after {zeros}: {exact}");
+        assert!((filtered - 0.015_603_992_494_9).abs() < 1e-11, "filter after {zeros}: {filtered}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+    /// The history cut off at any instant ends within the peaks of the whole.
+    #[test]
+    fn no_instant_passes_the_peaks(
+        values in prop::collection::vec(-100.0..100.0_f64, 2..12),
+        zeta in 0.0..2.0_f64,
+        exponent in -2.0..1.0_f64,
+    ) {
+        let suspension =
+            Suspension::from_hz(10_f64.powf(exponent), DampingRatio::new(zeta).expect("damping")).expect("mount");
+        let points: Vec<(f64, f64)> = (0_u32..).map(f64::from).zip(values).collect();
+        let whole = Pulses::piecewise_linear(&points).expect("history").respond(&suspension);
+        for i in 1..points.len() {
+            let (before, after) = (points[i - 1], points[i]);
+            for share in [0.1, 0.25, 0.4, 0.55, 0.7, 0.85, 1.0] {
+                let mut part = points[..i].to_vec();
+                part.push((before.0 + share, before.1 + share * (after.1 - before.1)));
+                let state = Pulses::piecewise_linear(&part).expect("part").state_at_end(&suspension);
+                for (value, range) in [
+                    (state.displacement, whole.relative_displacement),
+                    (state.velocity, whole.relative_velocity),
+                    (suspension.absolute_acceleration(state), whole.absolute_acceleration),
+                ] {
+                    // Rounding of a dozen pieces.
+                    let slack = 1e-12 * range.magnitude();
+                    prop_assert!(
+                        value <= range.positive.value + slack && value >= range.negative.value - slack,
+                        "{} at {}: {:?}", value, i, range
+                    );
+                }
+            }
+        }
+    }
+}
