@@ -82,14 +82,6 @@ pub struct Bar {
     given: Given,
 }
 
-/// q, 1 − q and 1 + q, each to a relative 2⁻¹⁰⁰.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct WideQ {
-    pub(crate) q: Dd,
-    pub(crate) less: Dd,
-    pub(crate) more: Dd,
-}
-
 impl Bar {
     /// From inertia ratio q and restitution e.
     ///
@@ -218,10 +210,9 @@ impl Bar {
             return Err(Error::Quantity { name: "gyration ratio", value: k, allowed: "0 or in [1e-35, 1e35]" });
         }
         let given = Given::GyrationSquared { over, under };
-        let mut bar = Self { q: 0.0, e, t: 0.0, less: 0.0, more: 0.0, given };
-        let WideQ { q, less, more } = bar.wide_q();
-        (bar.q, bar.t, bar.less, bar.more) = (q.hi, q.hi + q.hi * e, less.hi, more.hi);
-        Ok(bar)
+        let ((n, d), two) = (terms(over, under), Dd::from(2.0));
+        let (q, less, more) = (((d - n) / (d + n)).hi, (two * n / (d + n)).hi, (two * d / (d + n)).hi);
+        Ok(Self { q, e, t: q + q * e, less, more, given })
     }
 
     /// Inertia ratio `q = (L² − ρ²)/(L² + ρ²)`, the negative ratio of the velocity jumps of the free and the
@@ -253,15 +244,24 @@ impl Bar {
         0.5 * (self.less + s * self.more)
     }
 
-    pub(crate) fn wide_q(&self) -> WideQ {
+    /// q to about 2⁻¹⁰⁰.
+    pub(crate) fn wide_q(&self) -> Dd {
         match self.given {
-            Given::InertiaRatio => {
-                WideQ { q: Dd::from(self.q), less: two_sum(1.0, -self.q), more: two_sum(1.0, self.q) }
-            }
+            Given::InertiaRatio => Dd::from(self.q),
             Given::GyrationSquared { over, under } => {
-                let (n, d) = (two_prod(over[0], over[1]), two_prod(under[0], under[1]) * under[2]);
-                let (both, two) = (d + n, Dd::from(2.0));
-                WideQ { q: (d - n) / both, less: two * n / both, more: two * d / both }
+                let (n, d) = terms(over, under);
+                (d - n) / (d + n)
+            }
+        }
+    }
+
+    /// (1 − q)(1 + q) to a relative 2⁻¹⁰⁰: with k² = n/d, 4nd/(d + n)².
+    pub(crate) fn wide_less_more(&self) -> Dd {
+        match self.given {
+            Given::InertiaRatio => two_sum(1.0, -self.q) * two_sum(1.0, self.q),
+            Given::GyrationSquared { over, under } => {
+                let (n, d) = terms(over, under);
+                n * d * 4.0 / (d + n).sqr()
             }
         }
     }
@@ -277,6 +277,11 @@ impl Bar {
             }
         }
     }
+}
+
+/// Numerator and denominator of k².
+fn terms(over: [f64; 2], under: [f64; 3]) -> (Dd, Dd) {
+    (two_prod(over[0], over[1]), two_prod(under[0], under[1]) * under[2])
 }
 
 /// A length or mass of a size whose products stay within the range of floats.

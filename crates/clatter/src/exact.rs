@@ -7,7 +7,7 @@
 //! c_{n+1} = P c_n − Q c_{n−1},   c_n = v U_{n+1} + w U_n,   U_0 = 0, U_1 = 1
 //! ```
 //!
-//! with the same signs as `a_n`, where `U_n(P, Q)` is the Lucas sequence. Doubling reaches any n in about
+//! with the same signs as a_n, where `U_n(P, Q)` is the Lucas sequence. Doubling reaches any n in about
 //! log₂ n steps. Up to n = [`EXACT`] the integers are kept whole, so that a sign, and a tie, is certain.
 //! Beyond, significands are cut at [`BITS`] bits: the relative error then stays below 2⁻³⁰⁰⁰ for n up to 2¹²⁰, and
 //! a `c_n` that cancels by more than 2²⁰⁴⁸ counts as a tie. No tie is known to be there: it fixes the ratio of the

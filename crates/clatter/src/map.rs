@@ -109,7 +109,7 @@ impl Map {
     /// Computes the map for pure translation, row by row on all threads.
     ///
     /// # Method
-    /// Peaks, and what follows from them, by the recurrence of the differences d = |a_{n+1}| − |`a_n`| in lanes:
+    /// Peaks, and what follows from them, by the recurrence of the differences d = |a_{n+1}| − |a_n| in lanes:
     /// `d ← max(0, e d − (1 − q)(1 + e) |a|)`, `|a| ← |a| + d`, which stands still at the peak. All else, and the few
     /// points that rise for more than 64 strikes, point by point from [`Bar::summary`].
     ///

@@ -1,6 +1,6 @@
 //! The clatter in closed form: constant time for a train of any length.
 //!
-//! Let `a_n` < 0 be the velocity of the end about to make strike n + 1, `b_n` the companion solution:
+//! Let a_n < 0 be the velocity of the end about to make strike n + 1, b_n the companion solution:
 //!
 //! ```text
 //! a_{n+1} = T a_n − e a_{n−1},  T = q(1 + e),  a_0 = −α,  a_1 = −(αT + β)      (α = −v_a > 0, β = −v_b)
@@ -10,15 +10,16 @@
 //!
 //! With D = 4e − T² and S = √|D| the solution is one of three:
 //!
-//! * D > 0, a **wave**: |`a_n`| = e^{n/2} A `sin(δ_n)/S` with A = hypot(αT + 2β, αS), `δ_n` = ψ − nθ,
+//! * D > 0, a **wave**: |a_n| = e^{n/2} A sin(δ_n)/S with A = hypot(αT + 2β, αS), δ_n = ψ − nθ,
 //!   θ = atan2(S, T), ψ = atan2(αS, −(αT + 2β)). It ends: N = ⌈ψ/θ⌉.
-//! * D < 0, a **decay**: |`a_n`| = (σ λ₊ⁿ − τ λ₋ⁿ)/S with λ± = (T ± S)/2, σ = αλ₊ + β, τ = αλ₋ + β. Endless iff
+//! * D < 0, a **decay**: |a_n| = (σ λ₊ⁿ − τ λ₋ⁿ)/S with λ± = (T ± S)/2, σ = αλ₊ + β, τ = αλ₋ + β. Endless iff
 //!   σ ≥ 0; else N = ⌈ln(τ/σ)/ln(λ₊/λ₋)⌉.
 //! * D = 0, the **edge** between them, where c = T/(2√e) = 1: only (1, 1) among floats.
 //!
 //! What decides is formed in double-double, or in integers where even those digits cancel: D, S, αT + 2β and
 //! σ τ = αβT + β² + α²e. Then f64 suffices, until a quotient lies within its error of an integer.
 
+use crate::accuracy::{DURATION_LONG, FINAL, SHORT};
 use crate::dd::{self, Dd, ldexp, two_prod, two_sum};
 use crate::exact::{Dyadic, Recurrence};
 use crate::{Bar, Count, PeakImpact, Start};
@@ -26,13 +27,16 @@ use libm::{exp, expm1, log, log1p, sin, sincos};
 use std::cmp::Ordering;
 use std::f64::consts::{LN_2, PI};
 
+mod lanes;
+pub(crate) use lanes::{LANES, Lanes};
+
 /// Roundings (units of 2⁻⁵³, relative) that a quotient of two f64 angles or logarithms may be off: two library
 /// functions of at most 2 each, their arguments of at most 4, a quotient, and a margin of 2.
 const QUOTIENT: f64 = 24.0 * UNIT;
 const UNIT: f64 = 0.5 * f64::EPSILON;
 
 /// The recurrence with its starting values, scaled by 2^m a step where T and e are so small that T² would underflow:
-/// `a_n` stands for 2^{mn−u} `a_n`, `b_n` for 2^{m(n−1)} `b_n`. The unit 2^u of velocities differs from 1 where squares
+/// a_n stands for 2^{mn−u} a_n, b_n for 2^{m(n−1)} b_n. The unit 2^u of velocities differs from 1 where squares
 /// of velocities would leave the range of floats.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Drive {
@@ -108,11 +112,11 @@ pub(crate) struct Ending {
     pub(crate) velocity: Option<[f64; 2]>,
 }
 
-/// The impact with the largest |`a_n`|, and that value.
+/// The impact with the largest |a_n|, and that value.
 pub(crate) type Largest = (PeakImpact, f64);
 
-/// Which solution of the recurrence: that of the velocities, or that of their differences a_{n+1} − `a_n`, whose
-/// first sign change is where |`a_n`| is largest.
+/// Which solution of the recurrence: that of the velocities, or that of their differences a_{n+1} − a_n, whose
+/// first sign change is where |a_n| is largest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Series {
     Velocity,
@@ -166,9 +170,8 @@ impl Drive {
         if error <= tolerance {
             return (Dd::from(d), error);
         }
-        let wide = self.bar.wide_q();
         let (first, second) = if corner {
-            (wide.less * wide.more * two_sum(1.0, e).sqr(), two_sum(1.0, -e).sqr())
+            (self.bar.wide_less_more() * two_sum(1.0, e).sqr(), two_sum(1.0, -e).sqr())
         } else {
             (Dd::from(4.0 * self.e), self.wide_t().sqr())
         };
@@ -178,8 +181,9 @@ impl Drive {
             return (d, error);
         }
         // 4e − q²(1 + 2e + e²), every product as the floats that make it up.
-        if wide.q.lo == 0.0 {
-            let q = wide.q.scale(self.m).hi;
+        let q = self.bar.wide_q();
+        if q.lo == 0.0 {
+            let q = q.scale(self.m).hi;
             let Dd { hi: h, lo: l } = two_prod(q, q);
             let Dd { hi: g, lo: k } = two_prod(e, e);
             let [a, b, c, d, f] =
@@ -248,7 +252,7 @@ impl Drive {
 
     /// T to about 2⁻¹⁰⁰.
     fn wide_t(&self) -> Dd {
-        let q = self.bar.wide_q().q;
+        let q = self.bar.wide_q();
         (if self.m == 0 { q } else { q.scale(self.m) }) * two_sum(1.0, self.bar.e)
     }
 
@@ -282,7 +286,9 @@ impl Drive {
     pub(crate) fn ending(&self) -> Ending {
         match self.steps() {
             Steps::Exactly(n) => {
-                let Last { a, next, time } = self.last(n, 1e-11);
+                // Half of what is allowed.
+                let allowed = if n <= u128::from(SHORT) { FINAL.error } else { DURATION_LONG.error };
+                let Last { a, next, time } = self.last(n, 0.5 * allowed);
                 let count = u64::try_from(n).map_or(Count::Huge(to_f64(n)), Count::Finite);
                 Ending { count, time, velocity: Some(rebound(&self.bar, n % 2 == 1, a, next)) }
             }
@@ -403,7 +409,7 @@ impl Drive {
         (a, time)
     }
 
-    /// a_{n−1}, `a_n` and the time of strike n, of a wave from angles to a relative `error`.
+    /// a_{n−1}, a_n and the time of strike n, of a wave from angles to a relative `error`.
     fn last(&self, n: u128, error: f64) -> Last {
         if n == 1 {
             return Last { a: self.start.velocity()[0], next: self.first(), time: 0.0 };
@@ -501,7 +507,7 @@ impl Drive {
         -after_first(&self.bar, &self.start)
     }
 
-    /// The impact of the largest |`a_n`|, the first if several tie, `Limit` where none attains it; and the value.
+    /// The impact of the largest |a_n|, the first if several tie, `Limit` where none attains it; and the value.
     pub(crate) fn peak(&self) -> Largest {
         let (steps, largest) = self.peak_steps();
         let impact = match steps {
@@ -511,7 +517,7 @@ impl Drive {
         (impact, largest)
     }
 
-    /// Index n and value of the largest |`a_n`|, the first if several tie; `Endless` where it is a limit.
+    /// Index n and value of the largest |a_n|, the first if several tie; `Endless` where it is a limit.
     fn peak_steps(&self) -> (Steps, f64) {
         if !rises(&self.bar, &self.start) {
             return (Steps::Exactly(0), -self.start.velocity()[0]);
@@ -549,7 +555,7 @@ impl Drive {
         }
     }
 
-    /// |`a_n`|, of true scale. Meant for n near the peak, where e^{n/2} is not small.
+    /// |a_n|, of true scale. Meant for n near the peak, where e^{n/2} is not small.
     fn magnitude(&self, n: Steps) -> f64 {
         let n = match n {
             Steps::Exactly(0) => return -self.start.velocity()[0],
@@ -580,133 +586,6 @@ impl Drive {
     }
 }
 
-/// Neighboring strikes that are carried on together.
-pub(crate) const LANES: usize = 4;
-/// Strikes from one anchor in the closed form to the next: 64 steps of the four lanes, which add some 64 roundings.
-const BLOCK: u64 = 256;
-
-/// Four neighboring strikes, ready to be carried on to the next four.
-///
-/// For a wave, x = sin `δ_n` and y = sin nθ turn by 4θ a step in the form `d ← d − κx, x ← x + d` with κ = 4 sin² 2θ
-/// (Reinsch), whose errors stay relative where `δ_n` or nθ are small; |`a_n`| = gx, time = cy/x. For an endless decay,
-/// x = ρⁿ and y = (1 − ρⁿ)/(1 − ρ) with ρ = λ₋/λ₊ add up positive terms; |`a_n`| = g(αλ₊x + σy), time = h0 y over that.
-#[derive(Debug, Clone)]
-pub(crate) struct Lanes {
-    /// Index n of the first lane.
-    n: u64,
-    x: [f64; LANES],
-    dx: [f64; LANES],
-    y: [f64; LANES],
-    dy: [f64; LANES],
-    g: [f64; LANES],
-    kappa: f64,
-    /// What g is multiplied by a step.
-    decay: f64,
-    /// 2 h0/A, or h0.
-    time: f64,
-}
-
-impl Lanes {
-    /// With index `n` in the first lane.
-    pub(crate) fn new(drive: &Drive, n: u64) -> Self {
-        let zero = [0.0; LANES];
-        let mut lanes = Self { n, x: zero, dx: zero, y: zero, dy: zero, g: zero, kappa: 0.0, decay: 0.0, time: 0.0 };
-        lanes.anchor(drive);
-        lanes
-    }
-
-    /// Approach velocities and times of the strikes of the lanes, which then carry on to the next four.
-    pub(crate) fn take(&mut self, drive: &Drive, approach: &mut [f64], times: &mut [f64]) {
-        self.output(drive, approach, times);
-        self.n = self.n.saturating_add(LANES as u64);
-        if self.n % BLOCK < LANES as u64 { self.anchor(drive) } else { self.step(drive) }
-    }
-
-    /// Carries all lanes on.
-    #[inline]
-    fn step(&mut self, drive: &Drive) {
-        for i in 0..LANES {
-            self.g[i] *= self.decay;
-        }
-        if let Kind::Wave(_) = drive.kind {
-            for i in 0..LANES {
-                self.x[i] += self.dx[i];
-                self.y[i] += self.dy[i];
-                self.dx[i] -= self.kappa * self.x[i];
-                self.dy[i] -= self.kappa * self.y[i];
-            }
-        } else {
-            for i in 0..LANES {
-                self.y[i] += self.dy[0] * self.x[i];
-                self.x[i] *= self.kappa;
-            }
-        }
-    }
-
-    #[inline]
-    fn output(&self, drive: &Drive, approach: &mut [f64], times: &mut [f64]) {
-        match drive.kind {
-            Kind::Decay(Decay { plus, sigma, .. }) => {
-                let start = drive.alpha * plus;
-                for i in 0..LANES {
-                    let sum = start * self.x[i] + sigma * self.y[i];
-                    approach[i] = -self.g[i] * sum;
-                    times[i] = self.time * (self.y[i] / sum);
-                }
-            }
-            _ => {
-                for i in 0..LANES {
-                    approach[i] = -self.g[i] * self.x[i];
-                    times[i] = self.time * (self.y[i] / self.x[i]);
-                }
-            }
-        }
-    }
-
-    /// All lanes from the closed form.
-    fn anchor(&mut self, drive: &Drive) {
-        let h0 = drive.start.height_gap();
-        match drive.kind {
-            Kind::Wave(wave) => {
-                let theta = wave.theta;
-                let (sin, cos) = sincos(2.0 * theta);
-                let (height, phi) = (drive.amplitude(&wave), angle(drive.alpha * wave.s, wave.x));
-                // The angle at index n seen from the near end of its half turn; a turn by 2θ away from it first,
-                // so that one sine and cosine give both value and difference.
-                let lane = |angle: f64, sign: f64| {
-                    let (s, c) = sincos(angle + sign * 2.0 * theta);
-                    (s * cos - sign * c * sin, 2.0 * sign * c * sin)
-                };
-                let n = [0, 1, 2, 3].map(|i| u128::from(self.n) + i);
-                let deltas = drive.remainders(&wave, n, 1e-13);
-                for (i, (n, delta)) in n.into_iter().zip(deltas).enumerate() {
-                    let turned = to_f64(n) * theta;
-                    let lead = phi + turned;
-                    (self.x[i], self.dx[i]) = if lead < 1.0 { lane(lead, 1.0) } else { lane(delta, -1.0) };
-                    (self.y[i], self.dy[i]) = if turned < 1.0 { lane(turned, 1.0) } else { lane(phi + delta, -1.0) };
-                    self.g[i] = drive.decayed(n, height / wave.s);
-                }
-                self.kappa = 4.0 * sin * sin;
-                self.decay = drive.bar.e * drive.bar.e;
-                self.time = ldexp(2.0 * h0 / height, drive.m - drive.unit);
-            }
-            Kind::Decay(Decay { s, plus, rate, ln_plus, .. }) => {
-                for i in 0..LANES {
-                    let n = to_f64(u128::from(self.n) + i as u128);
-                    self.x[i] = exp(-n * rate);
-                    self.y[i] = -expm1(-n * rate) * (plus / s);
-                    self.g[i] = drive.power(n * ln_plus, 1.0 / plus);
-                }
-                self.kappa = exp(-4.0 * rate);
-                self.dy[0] = -expm1(-4.0 * rate) * (plus / s);
-                self.decay = exp(4.0 * ln_plus);
-                self.time = ldexp(h0, drive.m - drive.unit);
-            }
-            Kind::Edge => {}
-        }
-    }
-}
-
 /// With q = μ/ν: P = μ(1 + e), Q = eν², `c_0` = `v_a`, w = ν `v_b`.
 pub(crate) fn exact(bar: &Bar, start: &Start) -> Recurrence {
     let [va, vb] = start.velocity();
@@ -721,7 +600,7 @@ pub(crate) fn exact(bar: &Bar, start: &Start) -> Recurrence {
 }
 
 impl Recurrence {
-    /// The differences a_{n+1} − `a_n`, times ν^{n+1}: they obey the same recurrence, from
+    /// The differences a_{n+1} − a_n, times ν^{n+1}: they obey the same recurrence, from
     /// (T − `1)v_a` + `v_b` and −(`v_b` + e `v_a`).
     fn differences(&self, bar: &Bar) -> Self {
         let nu = bar.exact_q().1;
@@ -748,10 +627,10 @@ pub(crate) fn rest(bar: &Bar, start: &Start) -> Option<[f64; 2]> {
     (bar.less > 0.0 || (va + vb == 0.0 && bar.e < 1.0)).then_some([0.0, 0.0])
 }
 
-/// αT + β = −`a_1`, to a relative 4 ε unless it is subnormal, its sign for certain.
+/// αT + β = −a_1, to a relative 4 ε unless it is subnormal, its sign for certain.
 pub(crate) fn after_first(bar: &Bar, start: &Start) -> f64 {
     let [va, vb] = start.velocity();
-    let at = bar.wide_q().q * two_sum(1.0, bar.e) * -va;
+    let at = bar.wide_q() * two_sum(1.0, bar.e) * -va;
     let sum = at + Dd::from(-vb);
     // A product below 1e−200 may have lost its low part, or all of it.
     if sum.hi.abs() > at.hi.abs() * 2f64.powi(-40) && (at.hi.abs() > 1e-200 || bar.q() == 0.0) {
@@ -768,7 +647,7 @@ pub(crate) fn after_first(bar: &Bar, start: &Start) -> f64 {
     }
 }
 
-/// Whether |`a_1`| > |`a_0`|, for certain: α(T − 1) + β > 0.
+/// Whether |a_1| > |a_0|, for certain: α(T − 1) + β > 0.
 pub(crate) fn rises(bar: &Bar, start: &Start) -> bool {
     let [va, vb] = start.velocity();
     // T − 1 = e − (1 − q)(1 + e), the smaller of two ways to cancel.

@@ -79,7 +79,7 @@ impl Bar {
     }
 
     /// Largest velocity shocks of each end in its own strikes, end a striking first. The larger of both is
-    /// [`Peak::end`]; the other is held by a neighboring impact, because |`a_n`| rises to its peak, then falls.
+    /// [`Peak::end`]; the other is held by a neighboring impact, because |a_n| rises to its peak, then falls.
     #[must_use]
     pub fn end_peaks(&self, start: &Start) -> EndPeaks {
         let Peak { end, impact, .. } = self.peak(start);

@@ -122,7 +122,7 @@ proptest! {
         };
         if let Count::Finite(n) = s.count {
             let want = exact_time(&bar, &start, u128::from(n) - 1);
-            let allowed = if n <= accuracy::SHORT { accuracy::DURATION } else { accuracy::DURATION_LONG };
+            let allowed = if n <= SHORT { accuracy::DURATION } else { DURATION_LONG };
             let error = (s.duration - want).abs() / want.max(1.0);
             prop_assert!(error <= allowed.error, "duration {} not {want}: {error:e}", s.duration);
         }
@@ -160,13 +160,13 @@ proptest! {
             let error = (s.peak.end - want).abs() / want;
             prop_assert!(error <= accuracy::PEAK.error, "peak {} not {want}: {error:e}", s.peak.end);
         }
-        if let (Count::Finite(n), Some([a, b])) = (s.count, s.final_velocity) && n <= accuracy::SHORT {
+        if let (Count::Finite(n), Some([a, b])) = (s.count, s.final_velocity) && n <= SHORT {
             let (struck, free) = (-bar.e() * value(u128::from(n) - 1), value(u128::from(n)));
             let want = if n % 2 == 1 { [struck, free] } else { [free, struck] };
             let size = struck.max(free);
             // Subnormal velocities have fewer digits to be right.
             let error = (a - want[0]).abs().max((b - want[1]).abs()) / size.max(1e-300);
-            prop_assert!(error <= accuracy::FINAL.error, "final [{a:e}, {b:e}] not {want:?}: {error:e}");
+            prop_assert!(error <= FINAL.error, "final [{a:e}, {b:e}] not {want:?}: {error:e}");
         }
     }
 }
