@@ -34,6 +34,8 @@ pub(crate) use lanes::{LANES, Lanes};
 /// functions of at most 2 each, their arguments of at most 4, a quotient, and a margin of 2.
 const QUOTIENT: f64 = 24.0 * UNIT;
 const UNIT: f64 = 0.5 * f64::EPSILON;
+/// No term of a plain step may come near the subnormal floats.
+pub(crate) const NORMAL: f64 = 1e-280;
 
 /// The recurrence with its starting values, scaled by 2^m a step where T and e are so small that T² would underflow:
 /// a_n stands for 2^{mn−u} a_n, b_n for 2^{m(n−1)} b_n. The unit 2^u of velocities differs from 1 where squares

@@ -1,6 +1,6 @@
 //! What a train amounts to: count, peak, net change, final velocities, duration.
 
-use crate::motion::{Drive, Ending, Largest, after_first, rebound, rest, rises};
+use crate::motion::{Drive, Ending, Largest, NORMAL, after_first, rebound, rest, rises};
 use crate::{Bar, Start};
 
 /// How many impacts the train has.
@@ -77,8 +77,6 @@ const DISTINCT: f64 = 1e-12;
 const DISCERNIBLE: f64 = 1e-6;
 /// sin²(π/18): a wave that turns by less a strike, from a start that does not spin up, takes more than 16 strikes.
 const SLOW: f64 = 0.030_153;
-/// No term may come near the subnormal floats.
-const NORMAL: f64 = 1e-280;
 
 impl Bar {
     /// Count, peak, net change, final velocities and duration of the train, in constant time.

@@ -1,6 +1,6 @@
 //! The train, impact by impact.
 
-use crate::motion::{Drive, Kind, LANES, Lanes, after_first};
+use crate::motion::{Drive, Kind, LANES, Lanes, NORMAL, after_first};
 use crate::{Bar, Count, End, Start};
 
 /// One impact of the train.
@@ -78,8 +78,6 @@ enum Source {
 const BUFFER: usize = 16;
 /// A velocity that cancels by more than this is left to the closed form.
 const CLEAR: f64 = 1.0 / 256.0;
-/// So is one that comes near the subnormal floats.
-const NORMAL: f64 = 1e-280;
 
 impl Iterator for Train {
     type Item = Impact;
@@ -237,7 +235,8 @@ impl Bar {
     ///
     /// # Accuracy
     /// [`crate::accuracy::APPROACH`], [`JUMP`](crate::accuracy::JUMP) and [`TIME`](crate::accuracy::TIME), for a
-    /// train of any length. Velocities below the range of floats are 0.
+    /// train of any length. Velocities below the range of floats are 0; where the last plain step or the only terms left
+    /// are subnormal (a bar with massless ends that turns about its center), times have only the digits that these have.
     ///
     /// # Examples
     /// ```
