@@ -298,8 +298,8 @@ impl<'a> Segment<'a> {
             return;
         }
         let mut a = self.begin_sample();
-        if modes.beta * span < PI && self.bend(k, &a) * self.bend(k, end) > 0.0 {
-            // Less than half a swing, and the bend keeps its sign.
+        if modes.beta * span < PI && modes.zeta * span < 4.0 && self.bend(k, &a) * self.bend(k, end) > 0.0 {
+            // Less than half a swing, and the bend keeps its sign. (Of a longer decay it would be rounding.)
             if self.slope(k, &a) * self.slope(k, end) < 0.0 {
                 self.turning_point(k, &a, end, interval, range);
             }
