@@ -20,6 +20,10 @@ golden:
 bench:
     cargo bench --workspace
 
+# Torn product files by the million, and the study of random scenes with a fresh seed: minutes to hours, once a week
+weekly:
+    PROPTEST_CASES=1000000 cargo test --release -p clatter-scene --test mutations && cargo run --release -p clatter-scene --example plan_study -- 10000
+
 # Everything that gates a change
 ci:
     .ci/run

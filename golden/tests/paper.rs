@@ -1,33 +1,13 @@
 //! The paper's table, claims, curves and page.
 
-use std::collections::BTreeSet;
+mod common;
+
 use std::fmt::Write as _;
 
 use clatter::contour::{self, SafeZone};
 use clatter::paper::{Kind, claims, table1};
 use clatter::{Axis, Map, Quantity};
-
-fn golden(name: &str, text: &str) {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path("../snapshots");
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.bind(|| insta::assert_snapshot!(name, text));
-}
-
-/// `digits` significant digits; what is only rounding is told as such.
-fn digits(value: f64, digits: u8) -> String {
-    match value {
-        v if v.is_infinite() => "inf".into(),
-        0.0 => "0".into(),
-        v if v.abs() < 1e-12 => "rounding".into(),
-        v => {
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 12 + digits")]
-            let decimals = (f64::from(digits) - 1.0 - v.abs().log10().floor()).max(0.0) as usize;
-            format!("{v:.decimals$}")
-        }
-    }
-}
+use common::{digits, golden, page};
 
 #[test]
 fn table_1() {
@@ -104,49 +84,8 @@ fn coarse_maps() {
 /// What the page says, where a reader or a screen reader looks for it.
 #[test]
 fn the_page() {
-    let dir = tempfile::tempdir().unwrap();
-    // an opt-out for machines that cannot have typst; it is never set in CI
-    if std::env::var_os("CLATTER_SKIP_TYPST").is_some() {
-        return;
+    let openings = ["Of its ", "Fig. 2 ", "Fig. 5 ", "Fig. 6 ", "Fig. 7 "];
+    if let Some(text) = page(clatter_report::Report::Paper, &openings) {
+        golden("page", &text);
     }
-    let written = clatter_report::write(clatter_report::Report::Paper, dir.path(), &mut |_| ()).unwrap();
-    let pdf = lopdf::Document::load(&written.files[0]).unwrap();
-    let mut text = String::new();
-    let files: Vec<_> = written.files.iter().map(|f| f.file_name().unwrap().to_string_lossy().into_owned()).collect();
-    let _ = writeln!(text, "files: {}", files.join(" "));
-    let _ = writeln!(text, "pages: {}", pdf.get_pages().len());
-    let (mut fonts, mut alts, mut titles) = (BTreeSet::new(), Vec::new(), Vec::new());
-    for object in pdf.objects.values() {
-        let Ok(dict) = object.as_dict() else { continue };
-        let string = |key: &[u8]| dict.get(key).ok().and_then(|v| lopdf::decode_text_string(v).ok());
-        if let Ok(name) = dict.get(b"FontName").and_then(lopdf::Object::as_name) {
-            let name = String::from_utf8_lossy(name);
-            fonts.insert(name.split('+').next_back().unwrap_or_default().to_owned());
-        }
-        if let Some(alt) = string(b"Alt") {
-            alts.push(alt);
-        }
-        if dict.has(b"Parent") && dict.has(b"Dest") {
-            titles.extend(string(b"Title"));
-        }
-        assert!(
-            dict.get(b"Subtype").and_then(lopdf::Object::as_name).ok() != Some(b"Image"),
-            "an image that is not vector"
-        );
-    }
-    let _ = writeln!(text, "fonts: {}", fonts.into_iter().collect::<Vec<_>>().join(", "));
-    for (what, lines) in [("heading", titles), ("alt", alts)] {
-        for line in lines {
-            let _ = writeln!(text, "{what}: {line}");
-        }
-    }
-    let pages: Vec<u32> = pdf.get_pages().into_keys().collect();
-    let said = pdf.extract_text(&pages).unwrap();
-    let words: Vec<&str> = said.split_whitespace().collect();
-    let said = words.join(" ");
-    for opening in ["Of its ", "Fig. 2 ", "Fig. 5 ", "Fig. 6 ", "Fig. 7 "] {
-        let from = said.find(opening).unwrap_or_else(|| panic!("the page does not say {opening:?}"));
-        let _ = writeln!(text, "text: {}", said[from..].chars().take(90).collect::<String>());
-    }
-    golden("page", &text);
 }

@@ -5,12 +5,21 @@
 
 #![cfg(test)]
 
+mod assess;
 mod bad_input;
+#[path = "../../crates/clatter/tests/cases/mod.rs"]
+mod cases;
+mod design;
 mod docs;
 mod extremes;
 mod json;
 mod map;
+mod off_center;
 mod oracle;
+mod respond;
+mod scatter;
+mod simulate;
+mod spectrum;
 mod tables;
 
 use clatter_cli::{Exit, Streams, run};

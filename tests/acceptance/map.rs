@@ -127,7 +127,44 @@ fn the_answer_says_what_was_written() {
     let arguments = ["map", "peak-end", "--q=0:1:3", "--e=0:1:4", "-o", name];
     let told = clatter(arguments).stdout;
     assert_eq!(told, format!("{name}: peak-end over 3 values of q from 0 to 1 and 4 values of e from 0 to 1\n"));
-    assert_eq!(answer(arguments), json!({"file": name, "quantity": "peak-end", "points": [3, 4]}));
+    let want = json!({"file": name, "quantity": "peak-end", "axes": ["q", "e"], "points": [3, 4]});
+    assert_eq!(answer(arguments), want);
+}
+
+#[test]
+fn the_gyration_ratio_takes_the_place_of_q_and_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |ending: &str| folder.path().join(format!("impacts.{ending}"));
+    // So little mass at the ends that q rounds to 1, where every train is endless.
+    let map = |ending| {
+        let name = file(ending).to_str().unwrap().to_owned();
+        ["map", "impacts", "--gyration-ratio=1e-9:2e-9:2", "--e=1:1:1", "-o", &name].map(str::to_owned)
+    };
+    let told = clatter(map("csv")).stdout;
+    assert!(told.contains("over 2 values of gyration ratio from 1e-9 to 2e-9 and 1 values of e"), "{told}");
+    // N = ⌈π/(2 atan k) − ½⌉.
+    let csv = fs::read_to_string(file("csv")).unwrap();
+    assert_eq!(csv, "gyration_ratio,e,impacts\n1e-9,1.0,1570796327\n2e-9,1.0,785398163\n");
+    assert_eq!(answer(map("json"))["axes"], json!(["gyration_ratio", "e"]));
+    let read: Value = serde_json::from_str(&fs::read_to_string(file("json")).unwrap()).unwrap();
+    assert_eq!((&read["gyration_ratio"], read.get("q")), (&json!([1e-9, 2e-9]), None));
+    assert_eq!(clatter(map("npy")).exit, Exit::Done);
+    assert_eq!(read_npy(&file("npy")).1, [1_570_796_327.0, 785_398_163.0]);
+    assert_eq!(clatter(map("svg")).exit, Exit::Done);
+    assert!(fs::read_to_string(file("svg")).unwrap().contains("gyration ratio"));
+}
+
+#[test]
+fn one_axis_of_inertia_is_needed_and_no_two() {
+    for (arguments, reason) in [
+        (vec!["--e=0:1:2"], "required"),
+        (vec!["--q=0:1:2", "--gyration-ratio=0:1:2", "--e=0:1:2"], "cannot be used with"),
+        (vec!["--gyration-ratio=-1:1:2", "--e=0:1:2"], "axis gyration ratio = -1.0:1.0:2: the gyration ratio must be"),
+    ] {
+        let outcome = clatter(["map", "impacts", "-o", "never.csv"].into_iter().chain(arguments));
+        assert_eq!(outcome.exit, Exit::BadInput);
+        assert!(outcome.stderr.contains(reason), "{}", outcome.stderr);
+    }
 }
 
 #[test]

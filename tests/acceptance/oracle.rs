@@ -1,126 +1,57 @@
-//! The command against `crates/clatter/tests/data/clatter.json`: 212 bars computed in exact rational arithmetic.
-//!
-//! Velocities are in v0, times in h0/v0. Every input is the exact value of its f64; results carry 24 digits and are
-//! rounded to f64 here, which costs 1e-16 of each, a thousandth of the tightest allowed error.
+//! The command against `crates/clatter/tests/data/clatter.json`.
 
 use clatter::accuracy;
-use serde::Deserialize;
 use serde_json::Value;
 
 use crate::answer;
+use crate::cases::{Case, cases, decimal};
 
 /// Of the peaks derived from the one at the ends, relative to that: two roundings more than [`accuracy::PEAK`] allow.
 const DERIVED_PEAK: f64 = 1e-12;
 /// Of the safe zone, relative to the larger of it and 1: [`accuracy::PEAK`] over 1 + q, which is not small here.
 const ZONE: f64 = 1e-12;
 
-#[derive(Deserialize)]
-struct Oracle {
-    cases: Vec<Case>,
+fn inertia(case: &Case) -> String {
+    match (case.q, case.k) {
+        (Some(q), _) => format!("--q={q:?}"),
+        (None, k) => format!("--gyration-ratio={:?}", k.unwrap()),
+    }
 }
 
-#[derive(Deserialize)]
-struct Case {
-    #[serde(rename = "case")]
-    name: String,
-    q: Option<f64>,
-    k: Option<f64>,
-    e: f64,
-    va: f64,
-    vb: f64,
-    impacts: Impacts,
-    approach: Vec<String>,
-    times: Vec<String>,
-    peak_end_dv: String,
-    peak_index: Value,
-    duration: String,
-    #[serde(rename = "final")]
-    last: Final,
+fn inertia_ratio(case: &Case) -> f64 {
+    case.q.unwrap_or_else(|| {
+        let k = case.k.unwrap();
+        (1.0 - k * k) / (1.0 + k * k)
+    })
 }
 
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum Impacts {
-    Finite(u64),
-    Infinite(String),
+fn impacts(case: &Case) -> Value {
+    answer([
+        "impacts",
+        &inertia(case),
+        &format!("--e={:?}", case.e),
+        &format!("--velocity={:?},{:?}", case.va, case.vb),
+        "--height-gap=1",
+        "--limit=10",
+    ])
 }
 
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum Final {
-    Settled([String; 2]),
-    Unsettled(String),
-}
-
-impl Case {
-    fn inertia(&self) -> String {
-        match (self.q, self.k) {
-            (Some(q), _) => format!("--q={q:?}"),
-            (None, k) => format!("--gyration-ratio={:?}", k.unwrap()),
-        }
-    }
-
-    fn q(&self) -> f64 {
-        self.q.unwrap_or_else(|| {
-            let k = self.k.unwrap();
-            (1.0 - k * k) / (1.0 + k * k)
-        })
-    }
-
-    fn answer(&self) -> Value {
-        answer([
-            "impacts",
-            &self.inertia(),
-            &format!("--e={:?}", self.e),
-            &format!("--velocity={:?},{:?}", self.va, self.vb),
-            "--height-gap=1",
-            "--limit=10",
-        ])
-    }
-
-    /// Number of impacts, `None` if they never end.
-    fn count(&self) -> Option<u64> {
-        match &self.impacts {
-            Impacts::Finite(n) => Some(*n),
-            Impacts::Infinite(word) => {
-                assert_eq!(word, "infinite");
-                None
-            }
-        }
-    }
-
-    /// Whether single impacts far along are held to what is promised up to 10⁴ impacts.
-    fn is_short(&self) -> bool {
-        self.count().is_none_or(|n| n <= accuracy::SHORT)
-    }
-
-    #[expect(clippy::float_cmp, reason = "the inputs of the oracle are exact")]
-    fn falls_flat(&self) -> bool {
-        [self.va, self.vb] == [-1.0, -1.0]
-    }
-
-    fn is_at_the_edge(&self) -> bool {
-        self.name.starts_with("spun-out")
-    }
+#[expect(clippy::float_cmp, reason = "the inputs of the oracle are exact")]
+fn falls_flat(case: &Case) -> bool {
+    [case.va, case.vb] == [-1.0, -1.0]
 }
 
 /// Runs `check` on every case; it returns what is off.
 fn for_every_case(check: impl Fn(&Case) -> Vec<Option<String>>) {
-    let oracle: Oracle = serde_json::from_str(include_str!("../../crates/clatter/tests/data/clatter.json")).unwrap();
-    assert_eq!(oracle.cases.len(), 212);
-    let mut off = Vec::new();
-    for case in &oracle.cases {
+    let (cases, mut off) = (cases(), Vec::new());
+    for case in &cases {
         let wrong: Vec<_> = check(case).into_iter().flatten().collect();
         if !wrong.is_empty() {
             let Case { name, e, va, vb, .. } = case;
-            off.push(format!("{name} {} --e={e:?} --velocity={va:?},{vb:?}: {}", case.inertia(), wrong.join("; ")));
+            off.push(format!("{name} {} --e={e:?} --velocity={va:?},{vb:?}: {}", inertia(case), wrong.join("; ")));
         }
     }
-    assert!(off.is_empty(), "{} of {} cases are off:\n{}", off.len(), oracle.cases.len(), off.join("\n"));
-}
-
-fn decimal(text: &str) -> f64 {
-    text.parse().unwrap()
+    assert!(off.is_empty(), "{} of {} cases are off:\n{}", off.len(), cases.len(), off.join("\n"));
 }
 
 /// What is off about a number that must lie within `allowed` times `scale` of `want`.
@@ -138,7 +69,7 @@ fn differs(name: &str, got: &Value, want: impl Into<Value>) -> Option<String> {
 #[test]
 fn the_count_is_exact() {
     for_every_case(|case| {
-        let got = case.answer();
+        let got = impacts(case);
         let want = case.count().map_or(Value::from("endless"), Value::from);
         vec![differs("count", &got["count"], want), differs("count_exact", &got["count_exact"], true)]
     });
@@ -147,11 +78,11 @@ fn the_count_is_exact() {
 #[test]
 fn the_peak_and_the_impact_that_holds_it_are_right() {
     for_every_case(|case| {
-        let (got, peak) = (&case.answer()["peak"], decimal(&case.peak_end_dv));
+        let (got, peak) = (&impacts(case)["peak"], decimal(&case.peak_end_dv));
         let mut wrong = if peak.is_infinite() {
             vec![differs("peak.end", &got["end"], "infinite"), differs("peak.center", &got["center"], 0.0)]
         } else {
-            let q = case.q();
+            let q = inertia_ratio(case);
             vec![
                 off("peak.end", &got["end"], peak, accuracy::PEAK.error, peak),
                 off("peak.center", &got["center"], 0.5 * (1.0 - q) * peak, DERIVED_PEAK, peak),
@@ -168,7 +99,7 @@ fn the_peak_and_the_impact_that_holds_it_are_right() {
 #[test]
 fn the_duration_is_right_also_where_the_train_is_endless() {
     for_every_case(|case| {
-        let (got, want) = (case.answer(), decimal(&case.duration));
+        let (got, want) = (impacts(case), decimal(&case.duration));
         let allowed = match (case.is_at_the_edge(), case.is_short()) {
             (true, _) => accuracy::NEAR_ENDLESS.error,
             (false, true) => accuracy::DURATION.error,
@@ -185,22 +116,20 @@ fn the_duration_is_right_also_where_the_train_is_endless() {
 #[test]
 fn the_velocities_at_the_end_and_their_net_change_are_right() {
     for_every_case(|case| {
-        let got = case.answer();
-        let last = match &case.last {
-            Final::Settled(_) if !case.is_short() => return vec![],
-            Final::Settled([a, b]) => [decimal(a), decimal(b)],
-            Final::Unsettled(why) => {
-                assert_eq!(why, "none: the velocities do not settle");
-                let net = &got["net"];
-                return vec![
-                    differs("final", &got["final"], Value::Null),
-                    differs("net.a", &net["a"], Value::Null),
-                    differs("net.b", &net["b"], Value::Null),
-                    differs("net.center", &net["center"], 0.0),
-                    differs("net.angular", &net["angular"], Value::Null),
-                ];
-            }
+        let got = impacts(case);
+        let Some(last) = case.last() else {
+            let net = &got["net"];
+            return vec![
+                differs("final", &got["final"], Value::Null),
+                differs("net.a", &net["a"], Value::Null),
+                differs("net.b", &net["b"], Value::Null),
+                differs("net.center", &net["center"], 0.0),
+                differs("net.angular", &net["angular"], Value::Null),
+            ];
         };
+        if !case.is_short() {
+            return vec![];
+        }
         let allowed = if case.is_at_the_edge() { accuracy::NEAR_ENDLESS.error } else { accuracy::FINAL.error };
         let larger = last[0].abs().max(last[1].abs());
         let [da, db] = [last[0] - case.va, last[1] - case.vb];
@@ -218,7 +147,7 @@ fn the_velocities_at_the_end_and_their_net_change_are_right() {
 #[test]
 fn the_first_impacts_are_right_one_by_one() {
     for_every_case(|case| {
-        let (answer, q) = (case.answer(), case.q());
+        let (answer, q) = (impacts(case), inertia_ratio(case));
         let Value::Array(listed) = &answer["impacts"] else { return vec![Some("no list of impacts".to_owned())] };
         let expected = case.count().map_or(10, |n| n.min(10));
         let mut wrong = vec![differs("number of impacts listed", &Value::from(listed.len()), expected)];
@@ -246,14 +175,14 @@ fn the_safe_zone_is_right_and_says_what_it_means() {
     for_every_case(|case| {
         let peak = decimal(&case.peak_end_dv);
         // The command takes bars without spin alone; without a finite peak there is no zone to compare.
-        if !case.falls_flat() || peak.is_infinite() {
+        if !falls_flat(case) || peak.is_infinite() {
             return vec![];
         }
         let thresholds = [0.5, 1.0, 2.0];
         let flags = thresholds.map(|threshold| format!("--threshold={threshold:?}"));
-        let arguments = ["zone".to_owned(), case.inertia(), format!("--e={:?}", case.e)];
+        let arguments = ["zone".to_owned(), inertia(case), format!("--e={:?}", case.e)];
         let got = answer(arguments.into_iter().chain(flags));
-        let q = case.q();
+        let q = inertia_ratio(case);
         let mut wrong = Vec::new();
         for (i, threshold) in thresholds.into_iter().enumerate() {
             let (got, s) = (&got["zones"][i], (2.0 * threshold / peak + q - 1.0) / (1.0 + q));

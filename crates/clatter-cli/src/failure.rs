@@ -11,18 +11,44 @@ use crate::Exit;
 pub(crate) enum Failure {
     #[error(transparent)]
     Input(#[from] clatter::Error),
+    /// A value that is wrong beside the others.
+    #[error("invalid value for '{flag}': {reason}")]
+    Flag { flag: &'static str, reason: clatter::Error },
+    #[error(transparent)]
+    Shock(#[from] clatter_shock::Error),
+    #[error("{}: {reason}", .path.display())]
+    Record { path: PathBuf, reason: clatter_shock::Error },
+    #[error(transparent)]
+    Scene(#[from] clatter_scene::Error),
+    #[error(transparent)]
+    Scatter(#[from] clatter_scene::scatter::Error),
     /// Arguments that are right one by one and wrong together.
     #[error("{0}")]
     Usage(&'static str),
+    /// Pulses and frequencies that are right one by one and wrong together.
+    #[error("{0}")]
+    Pulses(String),
     #[error("cannot write the answer: {0}")]
     Answer(#[source] io::Error),
     #[error("cannot write {}: {reason}", .path.display())]
     File { path: PathBuf, reason: io::Error },
+    #[error("cannot read {}: {reason}", .path.display())]
+    Unreadable { path: PathBuf, reason: io::Error },
+    #[error("{} is there already: choose another name, or remove it first", .0.display())]
+    Exists(PathBuf),
+    /// What is wrong with product files, each fault shown where it stands.
+    #[error("{0}")]
+    Product(String),
     #[error(transparent)]
     Report(#[from] ReportError),
 }
 
 impl Failure {
+    /// Names the flag whose value the model refuses.
+    pub(crate) fn flag(flag: &'static str) -> impl FnOnce(clatter::Error) -> Self {
+        move |reason| Self::Flag { flag, reason }
+    }
+
     pub(crate) fn exit(&self) -> Exit {
         match self {
             Self::Report(ReportError::Typst(_)) => Exit::Outside,

@@ -2,10 +2,10 @@
 
 use std::io::{self, Write};
 
-use clatter::{Bar, Count, Impact, PeakImpact, Start, Summary};
+use clatter::{Count, End, Impact, OffCenterBar, PeakImpact, Start, Summary};
 use serde::{Serialize, Serializer};
 
-use crate::inputs::{self, BarArgs, RowFormat, letter};
+use crate::inputs::{self, OffCenterArgs, RowFormat, letter};
 use crate::numbers::{Json, JsonCount, digits, figures, given};
 use crate::{Failure, Streams};
 
@@ -19,12 +19,13 @@ Examples:
   clatter impacts --q=0.5 --e=0.3                        a uniform bar in a moderately damped casing
   clatter impacts --q=0.5 --e=0.3 --at=0 --at=0.5        also the shocks of parts at these positions
   clatter impacts --q=0.5 --e=0.3 --velocity=-1,0.5      it turns as it falls
+  clatter impacts --mass=2@-1:1 --mass=1@0.5 --e=0.3     a uniform bar with a battery halfway to end b
   clatter impacts --gyration-ratio=0.01 --e=0.3 --limit=20 --format=json
 
 'clatter --help' tells what q, e and the units are.")]
 pub(crate) struct Args {
     #[command(flatten)]
-    bar: BarArgs,
+    bar: OffCenterArgs,
     /// Velocities of ends a and b at first contact, upward positive, in v0; VA is negative: end a strikes
     #[arg(long, value_name = "VA,VB", default_value = "-1,-1", allow_hyphen_values = true, value_parser = inputs::velocity)]
     velocity: [f64; 2],
@@ -44,7 +45,7 @@ pub(crate) struct Args {
 
 /// Everything that is shown of one drop; the impacts are made while they are written, so no list is too long.
 struct Drop<'a> {
-    bar: Bar,
+    bar: OffCenterBar,
     start: Start,
     summary: Summary,
     at: &'a [f64],
@@ -89,9 +90,21 @@ impl Drop<'_> {
 
     fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         let (Summary { count, duration, peak, final_velocity, net }, [va, vb]) = (self.summary, self.start.velocity());
-        let (q, e, gap) = (given(self.bar.q()), given(self.bar.e()), given(self.start.height_gap()));
+        let (e, gap) = (given(self.bar.e()), given(self.start.height_gap()));
         let gyration = figures(self.bar.gyration_ratio());
-        writeln!(out, "Bar with q = {q}, e = {e}; radius of gyration {gyration} of the half-length")?;
+        let symmetric = self.bar.is_symmetric();
+        if symmetric {
+            let q = given(self.bar.q());
+            writeln!(out, "Bar with q = {q}, e = {e}; radius of gyration {gyration} of the half-length")?;
+        } else {
+            let (c, q) = (figures(self.bar.center_of_mass()), figures(self.bar.q()));
+            let [qa, qb] = self.bar.inertia_ratios().map(figures);
+            writeln!(
+                out,
+                "Bar with its center of mass at {c}, e = {e}; radius of gyration {gyration} of the half-length"
+            )?;
+            writeln!(out, "q = {qa} for strikes at end a, {qb} at end b; the clatter is that of q = {q}")?;
+        }
         let (a, b) = (given(va), given(vb));
         writeln!(out, "End a strikes first, at {a} v0; end b comes with {b} v0 from {gap} h0\n")?;
 
@@ -112,13 +125,22 @@ impl Drop<'_> {
             PeakImpact::Huge(n) => format!("v0      at about impact {}", figures(n)),
             PeakImpact::Limit => "v0      not reached: the impacts tend to it".to_owned(),
         };
-        line(out, "Largest shock, ends", &figures(peak.end), &holder)?;
-        line(out, "               center", &figures(peak.center), "v0")?;
+        let center = if symmetric {
+            line(out, "Largest shock, ends", &figures(peak.end), &holder)?;
+            "               center"
+        } else {
+            let [a, b] = self.ends().map(figures);
+            line(out, "Hardest strike", &figures(peak.end), &holder)?;
+            line(out, "Largest shock, end a", &a, "v0")?;
+            line(out, "               end b", &b, "v0")?;
+            "       center of mass"
+        };
+        line(out, center, &figures(peak.center), "v0")?;
         line(out, "               turning", &figures(peak.angular), "v0/L")?;
         if let (Some(net), Some([a, b])) = (net, final_velocity) {
             line(out, "Net change,    end a", &figures(net.a), &format!("v0      leaving with {} v0", figures(a)))?;
             line(out, "               end b", &figures(net.b), &format!("v0      leaving with {} v0", figures(b)))?;
-            line(out, "               center", &figures(net.center), "v0")?;
+            line(out, center, &figures(net.center), "v0")?;
             line(out, "               turning", &figures(net.angular), "v0/L")?;
         } else {
             line(out, "Net change,    center", "0", "v0      the velocities of the ends do not settle")?;
@@ -173,14 +195,23 @@ impl Drop<'_> {
         Ok(())
     }
 
+    /// Largest shock at each end, by its own strikes or those of the other.
+    fn ends(&self) -> [f64; 2] {
+        let shocks = self.bar.shocks(&self.start, End::A);
+        [-1.0, 1.0].map(|s| shocks.at(s))
+    }
+
     fn shocks(&self, impact: &Impact) -> impl Iterator<Item = f64> {
         self.at.iter().map(|&s| impact.delta_v_at(s))
     }
 
     fn answer(&self) -> Answer<'_> {
         let Summary { count, duration, peak, final_velocity, net } = self.summary;
+        let symmetric = self.bar.is_symmetric();
         Answer {
             q: Json(self.bar.q()),
+            center_of_mass: (!symmetric).then(|| Json(self.bar.center_of_mass())),
+            inertia_ratios: (!symmetric).then(|| self.bar.inertia_ratios().map(Json)),
             gyration_ratio: Json(self.bar.gyration_ratio()),
             e: Json(self.bar.e()),
             velocity: self.start.velocity().map(Json),
@@ -194,6 +225,7 @@ impl Drop<'_> {
                 impact: peak.impact,
                 center: Json(peak.center),
                 angular: Json(peak.angular),
+                ends: (!symmetric).then(|| self.ends().map(Json)),
             },
             net: NetJson {
                 a: net.map(|net| Json(net.a)),
@@ -209,7 +241,14 @@ impl Drop<'_> {
 
 #[derive(Serialize)]
 struct Answer<'a> {
+    /// Of the symmetric bar with this clatter.
     q: Json,
+    /// Only where it is not the middle; so too the two below.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    center_of_mass: Option<Json>,
+    /// For strikes at end a and end b.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    inertia_ratios: Option<[Json; 2]>,
     gyration_ratio: Json,
     e: Json,
     velocity: [Json; 2],
@@ -232,6 +271,9 @@ struct PeakJson {
     impact: PeakImpact,
     center: Json,
     angular: Json,
+    /// Largest shock of ends a and b, whichever is struck.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ends: Option<[Json; 2]>,
 }
 
 #[derive(Serialize)]

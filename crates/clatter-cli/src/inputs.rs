@@ -3,7 +3,11 @@
 //! Every value is checked by the type that it becomes, so a range is written down once, in the model.
 
 use clap::ValueEnum;
-use clatter::{Axis, Bar, End, Error, Start};
+use clatter::flight::{Body, Contact, Scene};
+use clatter::{Axis, Bar, End, Error, Mass, OffCenterBar, Start, center_and_gyration};
+use clatter_shock::DampingRatio;
+
+use crate::Failure;
 
 /// What the numbers mean: part of the long help of the command and of each of its models.
 pub(crate) const PRIMER: &str = "\
@@ -16,6 +20,10 @@ through 0 (the center) to 1 (end b). Two numbers decide everything:
   q  inertia ratio (L² - ρ²)/(L² + ρ²) of half-length L and radius of gyration
      ρ: 1 all mass at the center, 0.5 evenly spread, 0 all mass at the ends,
      below 0 mass beyond the ends
+
+Where the center of mass is not the middle, --center-of-mass with
+--gyration-ratio, or a list of --mass, says how the mass lies; q is then that
+of the symmetric bar with the same clatter, and the ends differ.
 
 Units. Velocities are in v0, the drop speed, and upward positive; changes of
 angular velocity are in v0/L; times are in h0/v0, where h0 is the height of
@@ -44,15 +52,78 @@ struct Inertia {
     /// Instead of q: ρ/L, radius of gyration over half-length, exact also where q is within rounding of 1
     #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = gyration_ratio)]
     gyration_ratio: Option<f64>,
+    /// Instead of q: a mass M in any unit at position S, or spread evenly from S to T, in half-lengths from the middle;
+    /// given once for each piece, like --mass=2@-1:1 --mass=1@0.5
+    #[arg(long, value_name = "M@S[:T]", allow_hyphen_values = true, value_parser = mass)]
+    mass: Vec<Mass>,
 }
 
 impl BarArgs {
+    /// The bar, which must be symmetric.
     pub(crate) fn bar(&self) -> Result<Bar, Error> {
         match (self.inertia.q, self.inertia.gyration_ratio) {
             (_, Some(k)) => Bar::from_gyration_ratio(k, self.e),
-            (q, None) => Bar::new(q.unwrap_or(f64::NAN), self.e), // the group requires one of the two
+            (Some(q), None) => Bar::new(q, self.e),
+            // The group requires one of the three.
+            (None, None) => Bar::from_masses(2.0, &self.inertia.mass, self.e),
         }
     }
+}
+
+/// How the mass lies, the center of mass anywhere between the ends, and how the ends rebound.
+#[derive(Debug, clap::Args)]
+pub(crate) struct OffCenterArgs {
+    #[command(flatten)]
+    bar: BarArgs,
+    /// Where the center of mass lies, between -1 (end a) and 1 (end b); goes with --gyration-ratio, whose ρ is then about it
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = center_of_mass, conflicts_with_all = ["q", "mass"])]
+    center_of_mass: Option<f64>,
+}
+
+impl OffCenterArgs {
+    pub(crate) fn bar(&self) -> Result<OffCenterBar, Failure> {
+        let BarArgs { inertia, e } = &self.bar;
+        match (self.center_of_mass, inertia.gyration_ratio) {
+            (Some(c), Some(k)) => {
+                OffCenterBar::from_center_of_mass(c, 0.0, *e).map_err(Failure::flag("--center-of-mass"))?;
+                OffCenterBar::from_center_of_mass(c, k, *e).map_err(Failure::flag("--gyration-ratio"))
+            }
+            _ if inertia.mass.is_empty() => Ok(self.bar.bar()?.into()),
+            _ => bar_of(&inertia.mass, *e),
+        }
+    }
+}
+
+/// The bar of masses whose positions are in half-lengths.
+pub(crate) fn bar_of(masses: &[Mass], e: f64) -> Result<OffCenterBar, Failure> {
+    OffCenterBar::from_masses(2.0, masses, e).map_err(Failure::flag("--mass"))
+}
+
+/// How fast a component comes to rest.
+#[derive(Debug, clap::Args)]
+#[group(multiple = false)]
+pub(crate) struct DampingArgs {
+    /// Damping ratio of the component, 0 or more: 0 never comes to rest, 1 is critical [default: 0.05]
+    #[arg(long, value_name = "Z", allow_hyphen_values = true, value_parser = damping)]
+    damping: Option<DampingRatio>,
+    /// Instead of the damping ratio: quality factor Q = 1/(2 Z), `inf` for no damping [default: 10]
+    #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = quality_factor)]
+    q_factor: Option<DampingRatio>,
+}
+
+impl DampingArgs {
+    /// Q = 10, what the field takes where nobody says otherwise.
+    pub(crate) fn ratio(&self) -> Result<DampingRatio, clatter_shock::Error> {
+        self.damping.or(self.q_factor).map_or_else(|| DampingRatio::from_quality_factor(10.0), Ok)
+    }
+}
+
+fn damping(text: &str) -> Result<DampingRatio, String> {
+    DampingRatio::new(number(text)?).map_err(|error| error.to_string())
+}
+
+fn quality_factor(text: &str) -> Result<DampingRatio, String> {
+    DampingRatio::from_quality_factor(number(text)?).map_err(|error| error.to_string())
 }
 
 /// How rows are shown.
@@ -101,7 +172,7 @@ pub(crate) fn letter(end: End) -> &'static str {
     }
 }
 
-fn number(text: &str) -> Result<f64, String> {
+pub(crate) fn number(text: &str) -> Result<f64, String> {
     text.parse().map_err(|_| format!("'{text}' is not a number such as 0.5"))
 }
 
@@ -115,7 +186,7 @@ fn one_of_range(
     if good(value) { Ok(value) } else { Err(Error::Quantity { name, value, allowed }.to_string()) }
 }
 
-fn restitution(text: &str) -> Result<f64, String> {
+pub(crate) fn restitution(text: &str) -> Result<f64, String> {
     let e = number(text)?;
     Bar::new(0.0, e).map(|_| e).map_err(|error| error.to_string())
 }
@@ -141,12 +212,77 @@ pub(crate) fn height_gap(text: &str) -> Result<f64, String> {
     Start::new([-1.0, -1.0], gap).map(|_| gap).map_err(|error| error.to_string())
 }
 
+/// ω of a component.
+pub(crate) fn omega(text: &str) -> Result<f64, String> {
+    let name = "natural angular frequency";
+    one_of_range(name, text, |w| w > 0.0 && w.is_finite(), "finite and > 0, in v0/h0")
+}
+
 pub(crate) fn limit(text: &str) -> Result<usize, String> {
     text.parse().map_err(|_| format!("not a whole number from 0 to {}", usize::MAX))
 }
 
 pub(crate) fn position(text: &str) -> Result<f64, String> {
     one_of_range("position s", text, |s| (-1.0..=1.0).contains(&s), "in [-1, 1]")
+}
+
+pub(crate) fn mass(text: &str) -> Result<Mass, String> {
+    let form = "a mass is M@S at position S, or M@S:T from S to T";
+    let (mass, place) = text.split_once('@').ok_or(form)?;
+    let mass_kg = number(mass)?;
+    let piece = match place.split_once(':') {
+        None => Mass::Point { mass_kg, position_m: number(place)? },
+        Some((from, to)) => Mass::Slab { mass_kg, from_m: number(from)?, to_m: number(to)? },
+    };
+    center_and_gyration(&[piece]).map(|_| piece).map_err(|error| error.to_string())
+}
+
+pub(crate) fn center_of_mass(text: &str) -> Result<f64, String> {
+    one_of_range("center of mass", text, |s| s.abs() < 1.0, "in (-1, 1), between the ends")
+}
+
+/// A number that makes what it is for, with everything else as it may be.
+fn part_of<T>(text: &str, whole: impl Fn(f64) -> Result<T, Error>) -> Result<f64, String> {
+    let value = number(text)?;
+    whole(value).map(|_| value + 0.0).map_err(|error| error.to_string())
+}
+
+pub(crate) fn length_m(text: &str) -> Result<f64, String> {
+    part_of(text, |length| Body::new(length, 0.0))
+}
+
+fn drop_of(speed: f64, tilt: f64, gravity: f64) -> Result<Scene, Error> {
+    Scene::new(Body::new(1.0, 0.0)?, 0.0, speed, tilt, gravity)
+}
+
+pub(crate) fn speed_m_s(text: &str) -> Result<f64, String> {
+    part_of(text, |speed| drop_of(speed, 0.0, 0.0))
+}
+
+pub(crate) fn height_m(text: &str) -> Result<f64, String> {
+    part_of(text, |height| Scene::from_height(Body::new(1.0, 0.0)?, 0.0, height, 0.0, 1.0))
+}
+
+pub(crate) fn tilt_deg(text: &str) -> Result<f64, String> {
+    part_of(text, |tilt| drop_of(1.0, tilt, 0.0))
+}
+
+pub(crate) fn gravity_m_s2(text: &str) -> Result<f64, String> {
+    part_of(text, |gravity| drop_of(1.0, 0.0, gravity))
+}
+
+pub(crate) fn contact_time_s(text: &str) -> Result<f64, String> {
+    part_of(text, |time| Contact::new(1.0, time))
+}
+
+pub(crate) fn time_limit_s(text: &str) -> Result<f64, String> {
+    part_of(text, |time| drop_of(1.0, 0.0, 0.0)?.with_time_limit_s(time))
+}
+
+pub(crate) fn impact_limit(text: &str) -> Result<usize, String> {
+    let impacts = limit(text)?;
+    let set = drop_of(1.0, 0.0, 0.0).and_then(|scene| scene.with_impact_limit(impacts));
+    set.map(|_| impacts).map_err(|error| error.to_string())
 }
 
 /// The bounds are those of velocities: no safe zone overflows.
@@ -156,6 +292,10 @@ pub(crate) fn threshold(text: &str) -> Result<f64, String> {
 
 pub(crate) fn q_axis(text: &str) -> Result<Axis, String> {
     axis(text, Axis::q)
+}
+
+pub(crate) fn gyration_axis(text: &str) -> Result<Axis, String> {
+    axis(text, Axis::gyration_ratio)
 }
 
 pub(crate) fn e_axis(text: &str) -> Result<Axis, String> {

@@ -14,15 +14,26 @@
 //! # Ok::<(), std::string::FromUtf8Error>(())
 //! ```
 
+mod assess;
 mod completions;
+mod design;
+mod excitation;
 mod failure;
 mod impacts;
+mod init;
 mod inputs;
 mod map;
 mod npy;
 mod numbers;
 mod output;
+mod progress;
 mod report;
+mod respond;
+mod scatter;
+mod schema;
+mod simulate;
+mod spectrum;
+mod text;
 mod zone;
 
 use std::ffi::OsString;
@@ -70,6 +81,8 @@ impl Streams<'_> {
 pub enum Exit {
     /// 0: done.
     Done = 0,
+    /// 1: an assessment found a component unsafe.
+    Unsafe = 1,
     /// 2: bad input or usage, or an output that cannot be written.
     BadInput = 2,
     /// 3: an outside program is missing or failed.
@@ -102,6 +115,14 @@ enum Command {
     Impacts(impacts::Args),
     Zone(zone::Args),
     Map(map::Args),
+    Simulate(Box<simulate::Args>),
+    Respond(respond::Args),
+    Spectrum(spectrum::Args),
+    Design(design::Args),
+    Scatter(scatter::Args),
+    Assess(assess::Args),
+    Init(init::Args),
+    Schema(schema::Args),
     Report(report::Args),
     Completions(completions::Args),
 }
@@ -114,11 +135,20 @@ where
     I: IntoIterator<Item = T>,
     T: Into<OsString> + Clone,
 {
+    let mut exit = Exit::Done;
     let done = match Cli::try_parse_from(args) {
         Ok(cli) => match cli.command {
             Command::Impacts(args) => args.run(streams),
             Command::Zone(args) => args.run(streams),
             Command::Map(args) => args.run(streams),
+            Command::Simulate(args) => args.run(streams),
+            Command::Respond(args) => args.run(streams),
+            Command::Spectrum(args) => args.run(streams),
+            Command::Design(args) => args.run(streams),
+            Command::Scatter(args) => args.run(streams),
+            Command::Assess(args) => args.run(streams).map(|found| exit = found),
+            Command::Init(args) => args.run(streams),
+            Command::Schema(args) => args.run(streams),
             Command::Report(args) => args.run(streams),
             Command::Completions(args) => args.run(&mut Cli::command(), streams),
         },
@@ -129,8 +159,14 @@ where
         }
     };
     match done.and_then(|()| streams.out.flush().map_err(Failure::Answer)) {
-        Ok(()) => Exit::Done,
-        Err(Failure::Answer(gone)) if gone.kind() == io::ErrorKind::BrokenPipe => Exit::Done,
+        Ok(()) => exit,
+        Err(Failure::Answer(gone)) if gone.kind() == io::ErrorKind::BrokenPipe => exit,
+        // These begin with their own "error: ", one each.
+        Err(failure @ Failure::Product(_)) => {
+            let _ = streams.out.flush();
+            let _ = writeln!(streams.err, "{failure}");
+            failure.exit()
+        }
         Err(failure) => {
             streams.note("error", &failure);
             failure.exit()

@@ -1,15 +1,15 @@
-//! `clatter map`: one quantity over a grid of (q, e), as a file.
+//! `clatter map`: one quantity over a grid of (q, e), or of gyration ratio and e, as a file.
 
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, Write};
+use std::path::Path;
 
 use clap::{ValueEnum, ValueHint};
-use clatter::{Axis, Map, Quantity};
+use clatter::{Axis, Map, Quantity, Variable};
 use serde::{Serialize, Serializer};
 
 use crate::inputs::{self, Format};
 use crate::numbers::{Json, JsonWhole, digits, given, whole};
+use crate::output::{Kind, Target, buffered};
 use crate::{Failure, Streams, npy, output};
 
 /// Write a quantity over a grid of q and e to a file
@@ -21,6 +21,8 @@ use crate::{Failure, Streams, npy, output};
 ///   .npy   the values as numpy loads them, a row for each q
 ///   .svg   a picture
 ///
+/// With --gyration-ratio in place of --q, "q" becomes "gyration_ratio" in the headings of .csv and .json.
+///
 /// An endless train counts as inf ("infinite" in JSON).
 #[derive(Debug, clap::Args)]
 #[command(
@@ -29,15 +31,15 @@ use crate::{Failure, Streams, npy, output};
 Examples:
   clatter map peak-end --q=0:1:201 --e=0:1:201 -o peak.svg
   clatter map zone --threshold=0.5 --q=0:1:1000 --e=0:1:1000 -o zone.npy
+  clatter map impacts --gyration-ratio=1e-6:1e-3:201 --e=0.99:1:201 -o impacts.csv
 
 'clatter --help' tells what q, e and the units are."
 )]
 pub(crate) struct Args {
     #[arg(value_enum)]
     quantity: QuantityName,
-    /// Values of the inertia ratio q, in (-1, 1]: N values from LO to HI, both included
-    #[arg(long, value_name = "LO:HI:N", allow_hyphen_values = true, value_parser = inputs::q_axis)]
-    q: Axis,
+    #[command(flatten)]
+    inertia: Inertia,
     /// Values of the coefficient of restitution e, in [0, 1]: N values from LO to HI, both included
     #[arg(long, value_name = "LO:HI:N", allow_hyphen_values = true, value_parser = inputs::e_axis)]
     e: Axis,
@@ -50,6 +52,24 @@ pub(crate) struct Args {
     /// How to tell what was written
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
+}
+
+#[derive(Debug, clap::Args)]
+#[group(required = true, multiple = false)]
+struct Inertia {
+    /// Values of the inertia ratio q, in (-1, 1]: N values from LO to HI, both included
+    #[arg(long, value_name = "LO:HI:N", allow_hyphen_values = true, value_parser = inputs::q_axis)]
+    q: Option<Axis>,
+    /// Instead of q: values of the gyration ratio ρ/L, 0 or in [1e-35, 1e35], exact also where q is within rounding of 1
+    #[arg(long, value_name = "LO:HI:N", allow_hyphen_values = true, value_parser = inputs::gyration_axis)]
+    gyration_ratio: Option<Axis>,
+}
+
+impl Inertia {
+    fn axis(&self) -> Result<Axis, Failure> {
+        // The group requires one of the two.
+        self.gyration_ratio.or(self.q).ok_or(Failure::Usage("a map needs --q or --gyration-ratio"))
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -70,30 +90,8 @@ enum QuantityName {
     Zone,
 }
 
-#[derive(Debug, Clone)]
-struct Target {
-    path: PathBuf,
-    kind: Kind,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
-    Csv,
-    Json,
-    Npy,
-    Svg,
-}
-
-fn target(text: &str) -> Result<Target, &'static str> {
-    let path = PathBuf::from(text);
-    let kind = match path.extension().and_then(|ending| ending.to_str()) {
-        Some("csv") => Kind::Csv,
-        Some("json") => Kind::Json,
-        Some("npy") => Kind::Npy,
-        Some("svg") => Kind::Svg,
-        _ => return Err("the file must end in .csv, .json, .npy or .svg"),
-    };
-    Ok(Target { path, kind })
+fn target(text: &str) -> Result<Target, String> {
+    Target::of(text, &[Kind::Csv, Kind::Json, Kind::Npy, Kind::Svg])
 }
 
 impl QuantityName {
@@ -127,7 +125,7 @@ fn name(quantity: Quantity) -> &'static str {
 impl Args {
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
         let quantity = self.quantity.quantity(self.threshold)?;
-        let map = Map::compute(quantity, self.q, self.e)?;
+        let map = Map::compute(quantity, self.inertia.axis()?, self.e)?;
         let Target { path, kind } = &self.output;
         output::replace(path, |file| match kind {
             Kind::Npy => npy::write(file, map.q.points(), &map.values),
@@ -141,21 +139,16 @@ impl Args {
                     let (n, lo, hi) = (axis.points(), given(axis.value(0)), given(axis.value(axis.points() - 1)));
                     format!("{n} values of {name} from {lo} to {hi}")
                 };
-                let (file, name, q, e) = (path.display(), name(quantity), axis("q", map.q), axis("e", map.e));
+                let (file, name, q, e) =
+                    (path.display(), name(quantity), axis(&inertia(&map).replace('_', " "), map.q), axis("e", map.e));
                 writeln!(streams.out, "{file}: {name} over {q} and {e}").map_err(Failure::Answer)
             }
             Format::Json => {
-                let points = [map.q.points(), map.e.points()];
-                streams.json(&WrittenJson { file: path, quantity: name(quantity), points })
+                let (axes, points) = ([inertia(&map), "e"], [map.q.points(), map.e.points()]);
+                streams.json(&WrittenJson { file: path, quantity: name(quantity), axes, points })
             }
         }
     }
-}
-
-fn buffered(file: &mut File, write: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>) -> io::Result<()> {
-    let mut out = BufWriter::with_capacity(1 << 16, file);
-    write(&mut out)?;
-    out.flush()
 }
 
 /// Whether the values are whole numbers.
@@ -163,8 +156,13 @@ fn counts(map: &Map) -> bool {
     map.quantity == Quantity::Impacts
 }
 
+/// What the slow axis is called in headings.
+fn inertia(map: &Map) -> &'static str {
+    if map.q.variable() == Variable::GyrationRatio { "gyration_ratio" } else { "q" }
+}
+
 fn csv(map: &Map, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "q,e,{}", name(map.quantity))?;
+    writeln!(out, "{},e,{}", inertia(map), name(map.quantity))?;
     for (i, row) in map.values.chunks(map.e.points()).enumerate() {
         let q = digits(map.q.value(i));
         for (j, &value) in row.iter().enumerate() {
@@ -178,6 +176,7 @@ fn csv(map: &Map, out: &mut dyn Write) -> io::Result<()> {
 struct WrittenJson<'a> {
     file: &'a Path,
     quantity: &'static str,
+    axes: [&'static str; 2],
     points: [usize; 2],
 }
 
@@ -186,7 +185,10 @@ struct MapJson<'a> {
     quantity: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     threshold: Option<Json>,
-    q: Vec<Json>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    q: Option<Vec<Json>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gyration_ratio: Option<Vec<Json>>,
     e: Vec<Json>,
     values: Rows<'a>,
 }
@@ -195,11 +197,19 @@ impl<'a> MapJson<'a> {
     fn new(map: &'a Map) -> Self {
         let threshold = if let Quantity::Zone(threshold) = map.quantity { Some(Json(threshold)) } else { None };
         let axis = |axis: Axis| (0..axis.points()).map(|i| Json(axis.value(i))).collect();
-        Self { quantity: name(map.quantity), threshold, q: axis(map.q), e: axis(map.e), values: Rows(map) }
+        let of = |variable| (map.q.variable() == variable).then(|| axis(map.q));
+        Self {
+            quantity: name(map.quantity),
+            threshold,
+            q: of(Variable::InertiaRatio),
+            gyration_ratio: of(Variable::GyrationRatio),
+            e: axis(map.e),
+            values: Rows(map),
+        }
     }
 }
 
-/// The values of a map, a row for each q.
+/// The values of a map, a row for each value of the slow axis.
 struct Rows<'a>(&'a Map);
 
 impl Serialize for Rows<'_> {

@@ -1,37 +1,67 @@
-//! Files as outputs: whole, or as they were.
+//! Files as outputs.
 
-use std::fs::{self, File};
-use std::io;
-use std::path::Path;
-
-use tempfile::Builder;
+use std::fs::File;
+use std::io::{self, BufWriter, Write as _};
+use std::path::{Path, PathBuf};
 
 use crate::Failure;
 
-/// Writes a file beside `path` and puts it in its place only once it is whole, so that a full disk or a killed run
-/// leaves what was there before. A link is followed; what is no regular file (a directory, a device) is refused.
-pub(crate) fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> Result<(), Failure> {
-    replace_io(path, write).map_err(|reason| Failure::File { path: path.to_owned(), reason })
+/// A file to write, and what its ending says it is.
+#[derive(Debug, Clone)]
+pub(crate) struct Target {
+    pub(crate) path: PathBuf,
+    pub(crate) kind: Kind,
 }
 
-fn replace_io(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
-    let target = match fs::metadata(path) {
-        Ok(old) if old.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
-        Ok(old) if !old.is_file() => return Err(io::Error::other("not a regular file")),
-        Ok(_) => path.canonicalize()?,
-        Err(_) => path.to_owned(),
-    };
-    let parent = target.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    if !parent.is_dir() {
-        return Err(io::Error::new(io::ErrorKind::NotFound, format!("there is no directory {}", parent.display())));
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Csv,
+    Json,
+    Npy,
+    Svg,
+}
+
+impl Kind {
+    fn ending(self) -> &'static str {
+        match self {
+            Self::Csv => "csv",
+            Self::Json => "json",
+            Self::Npy => "npy",
+            Self::Svg => "svg",
+        }
     }
-    let mut builder = Builder::new();
-    builder.prefix(".clatter-").suffix(".tmp");
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666)); // less the umask, as for any new file
-    // The temporary's own name says nothing to the user.
-    let mut beside = builder.tempfile_in(parent).map_err(|error| io::Error::from(error.kind()))?;
-    write(beside.as_file_mut())?;
-    beside.persist(&target).map_err(|error| error.error)?;
-    Ok(())
+}
+
+impl Target {
+    /// By its ending, one of those of `kinds`, of which there are two or more.
+    pub(crate) fn of(text: &str, kinds: &[Kind]) -> Result<Self, String> {
+        let path = PathBuf::from(text);
+        let ending = path.extension().and_then(|ending| ending.to_str());
+        if let Some(&kind) = kinds.iter().find(|kind| Some(kind.ending()) == ending) {
+            return Ok(Self { path, kind });
+        }
+        let names: Vec<_> = kinds.iter().map(|kind| format!(".{}", kind.ending())).collect();
+        let (last, others) = names.split_last().map_or(("", &[][..]), |(last, others)| (last.as_str(), others));
+        Err(format!("the file must end in {} or {last}", others.join(", ")))
+    }
+}
+
+/// Writes through a buffer, all of it.
+pub(crate) fn buffered(
+    file: &mut File,
+    write: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut out = BufWriter::with_capacity(1 << 16, file);
+    write(&mut out)?;
+    out.flush()
+}
+
+/// [`clatter_report::replace`], with the file that could not be written in the message.
+pub(crate) fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> Result<(), Failure> {
+    clatter_report::replace(path, write).map_err(|reason| Failure::File { path: path.to_owned(), reason })
+}
+
+/// [`clatter_report::create`], likewise.
+pub(crate) fn create(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> Result<(), Failure> {
+    clatter_report::create(path, write).map_err(|reason| Failure::File { path: path.to_owned(), reason })
 }

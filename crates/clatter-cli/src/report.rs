@@ -37,6 +37,8 @@ then on the PATH, then in the project's own cache, where it is built if it is no
 enum Which {
     /// The paper's figures, its table and its claims, computed anew
     Paper,
+    /// What the clatter does to a suspended part
+    Shock,
     /// Every report there is
     All,
 }
@@ -44,7 +46,9 @@ enum Which {
 impl Which {
     fn reports(self) -> &'static [Report] {
         match self {
-            Self::Paper | Self::All => &[Report::Paper],
+            Self::Paper => &[Report::Paper],
+            Self::Shock => &[Report::Shock],
+            Self::All => &[Report::Paper, Report::Shock],
         }
     }
 }

@@ -3,15 +3,22 @@
 //! A report computes nothing: it is handed what `clatter` computed and says how it is drawn, worded and set. Figures
 //! are SVG, tables JSON and CSV; the page is a typst file that reads them. One module alone starts typst.
 
+mod assessment;
 mod figure;
+mod file;
 mod paper;
+mod shock;
 mod svg;
 mod table;
 mod typst;
 
 use std::fs;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::thread;
+
+pub use figure::design::{DesignBorder, DesignFronts, DesignPlane};
+pub use file::{create, replace};
 
 /// A report that can be written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,6 +26,8 @@ use std::thread;
 pub enum Report {
     /// The paper's own figures, table and claims.
     Paper,
+    /// What the clatter does to a suspended part.
+    Shock,
 }
 
 /// What was written.
@@ -48,6 +57,9 @@ pub enum ReportError {
     /// The report's data could not be computed.
     #[error(transparent)]
     Model(#[from] clatter::Error),
+    /// The same of a component.
+    #[error(transparent)]
+    Shock(#[from] clatter_shock::Error),
     /// The report's data could not be written as JSON.
     #[error("the report's data: {0}")]
     Data(String),
@@ -73,6 +85,10 @@ pub fn write(report: Report, dir: &Path, progress: &mut dyn FnMut(&str)) -> Resu
         Report::Paper => {
             let source = ("paper.typ", include_str!("../../../reports/paper.typ"));
             page("paper.pdf", source, &|| paper::Data::compute()?.files(), &paper::page(), dir, progress)
+        }
+        Report::Shock => {
+            let source = ("shock.typ", include_str!("../../../reports/shock.typ"));
+            page("shock.pdf", source, &|| shock::Data::compute()?.files(), &paper::page(), dir, progress)
         }
     }
 }
@@ -112,28 +128,88 @@ fn page(
     };
     let (typst, warning) = typst.map_err(stale)?;
     progress("setting the page");
-    let work = tempfile::tempdir().map_err(|source| ReportError::Io { path: std::env::temp_dir(), source })?;
     let inputs = files.iter().map(|(name, content)| (*name, content.as_str()));
-    for (name, content) in inputs.chain([(name, source), ("style.typ", STYLE), ("page.json", data)]) {
-        let path = work.path().join(name);
-        fs::write(&path, content).map_err(|source| ReportError::Io { path, source })?;
-    }
-    let bytes = typst.compile(work.path(), name).map_err(stale)?;
+    let bytes = set(&typst, (name, source), inputs.chain([("page.json", data)])).map_err(stale)?;
     let mut written = Written { files: vec![place(dir, pdf, &bytes)?], warnings: warning.into_iter().collect() };
     written.files.extend(paths);
     Ok(written)
 }
 
-/// Writes a file beside its place, then renames it.
+/// Sets a page from its source, the shared style and `files`, in a directory of its own.
+fn set<'a>(
+    typst: &typst::Typst,
+    (name, source): (&'a str, &'a str),
+    files: impl Iterator<Item = (&'a str, &'a str)>,
+) -> Result<Vec<u8>, ReportError> {
+    let work = tempfile::tempdir().map_err(|source| ReportError::Io { path: std::env::temp_dir(), source })?;
+    for (name, content) in files.chain([(name, source), ("style.typ", STYLE)]) {
+        let path = work.path().join(name);
+        fs::write(&path, content).map_err(|source| ReportError::Io { path, source })?;
+    }
+    typst.compile(work.path(), name)
+}
+
+/// Writes a file into `dir`.
 fn place(dir: &Path, name: &str, content: &[u8]) -> Result<PathBuf, ReportError> {
     let target = dir.join(name);
-    let beside = dir.join(format!(".{name}.{}", std::process::id()));
-    let placed = fs::write(&beside, content).and_then(|()| fs::rename(&beside, &target));
-    placed.map_err(|source| {
-        let _ = fs::remove_file(&beside); // it may not be there
-        ReportError::Io { path: target.clone(), source }
-    })?;
-    Ok(target)
+    match replace(&target, |file| file.write_all(content)) {
+        Ok(()) => Ok(target),
+        Err(source) => Err(ReportError::Io { path: target, source }),
+    }
+}
+
+/// Writes the pages of an assessment to `pdf`: the verdict first, then a part at a time. Gives what the caller should tell the
+/// user, if anything.
+///
+/// The file is written beside its place and renamed; the same assessment gives the same bytes.
+///
+/// ```no_run
+/// // typst may have to be built first
+/// use clatter_scene::{EXAMPLE, ProductFile};
+/// let file = ProductFile::read(EXAMPLE, "example.toml")?;
+/// let assessment = file.assess()?;
+/// let portraits = file.portraits(&assessment)?;
+/// clatter_report::write_assessment(&file, &assessment, &portraits, "report.pdf".as_ref(), &mut |_| ())?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`ReportError`]; nothing is left at `pdf` that was not there before.
+pub fn write_assessment(
+    file: &clatter_scene::ProductFile,
+    assessment: &clatter_scene::Assessment,
+    portraits: &[clatter_scene::Portrait],
+    pdf: &Path,
+    progress: &mut dyn FnMut(&str),
+) -> Result<Option<String>, ReportError> {
+    let (typst, warning) = typst::Typst::find(progress)?;
+    progress("setting the pages");
+    let files = assessment::files(file, assessment, portraits);
+    let inputs = files.iter().map(|(name, content)| (name.as_str(), content.as_str()));
+    let bytes = set(&typst, ("assessment.typ", include_str!("../../../reports/assessment.typ")), inputs)?;
+    replace(pdf, |file| file.write_all(&bytes)).map_err(|source| ReportError::Io { path: pdf.into(), source })?;
+    Ok(warning)
+}
+
+/// Which inertia ratios and restitutions make the parts of a product safe.
+///
+/// ```
+/// use clatter::design::{Goal, region};
+/// use clatter_report::{DesignBorder, DesignPlane};
+/// let border = DesignBorder::Exact(region(&[Goal::zone(0.5, 0.1)?], 1e-3));
+/// let plane = DesignPlane { borders: vec![("display".into(), border)], ..DesignPlane::default() };
+/// assert!(clatter_report::design_svg(&plane).contains("display"));
+/// # Ok::<(), clatter::Error>(())
+/// ```
+#[must_use]
+pub fn design_svg(plane: &DesignPlane) -> String {
+    figure::design::plane(plane)
+}
+
+/// The front of the largest safe zone against the inertia ratio, for each restitution.
+#[must_use]
+pub fn fronts_svg(fronts: &DesignFronts) -> String {
+    figure::design::fronts(fronts)
 }
 
 /// A map as a heat map with a color bar, a cell a grid point; endless (+∞) is shown apart. The color bar is
@@ -148,6 +224,71 @@ fn place(dir: &Path, name: &str, content: &[u8]) -> Result<PathBuf, ReportError>
 #[must_use]
 pub fn map_svg(map: &clatter::Map) -> String {
     figure::heat::heat(map)
+}
+
+/// One drop in time, as [`drop_svg`] draws it.
+#[derive(Debug, Clone, Copy)]
+pub struct Drop<'a> {
+    /// What the model keeps, in a few words.
+    pub model: &'a str,
+    /// Heights, velocities and, where contacts take time, accelerations and forces over time.
+    pub rows: &'a [clatter::history::Row],
+    /// The strikes.
+    pub strikes: &'a [clatter::flight::Strike],
+    /// How long each strike presses, where contacts take time; else empty.
+    pub pulses: &'a [clatter::flight::Pulse],
+    /// How it ends.
+    pub stop: clatter::flight::Stop,
+    /// Positions on the body, in [−1, 1], whose shocks are shown too.
+    pub at: &'a [f64],
+}
+
+/// A drop as a picture: heights of both ends over time with the strikes marked, the velocity shocks below, and, where
+/// contacts take time, forces and accelerations below these. Where the later strikes come much later than the first, the
+/// first stand beside the whole, magnified.
+///
+/// ```
+/// use clatter::flight::{Body, Model, Scene};
+/// let scene = Scene::new(Body::new(0.14, 0.04)?, 0.3, 4.43, 5.0, 9.81)?;
+/// let flight = scene.simulate(Model::FiniteTilt);
+/// let rows: Vec<_> = scene.history(Model::FiniteTilt, &flight).collect();
+/// let (strikes, stop) = (&flight.strikes, flight.stop);
+/// let drop = clatter_report::Drop { model: "finite tilt", rows: &rows, strikes, pulses: &[], stop, at: &[0.0] };
+/// assert!(clatter_report::drop_svg(&drop).contains("at rest"));
+/// # Ok::<(), clatter::Error>(())
+/// ```
+#[must_use]
+pub fn drop_svg(drop: &Drop<'_>) -> String {
+    figure::drop::drop(drop)
+}
+
+/// A shock response spectrum on log-log paper, with a limit and the least margin if there is one; the pseudo-velocity on
+/// four-coordinate paper, whose diagonals are relative displacement and acceleration.
+///
+/// ```
+/// use clatter_shock::{DampingRatio, Frequencies, Quantity, VelocityShock, VelocityShocks};
+/// let shock = VelocityShocks::new(vec![VelocityShock { time: 0.0, delta_v: 2.0 }])?;
+/// let frequencies = Frequencies::per_octave(10.0, 1000.0, 12.0)?;
+/// let spectrum = shock.spectrum(&frequencies, DampingRatio::new(0.05)?, Quantity::PseudoVelocity);
+/// assert!(clatter_report::spectrum_svg(&spectrum, None).contains("pseudo-velocity"));
+/// # Ok::<(), clatter_shock::Error>(())
+/// ```
+#[must_use]
+pub fn spectrum_svg(spectrum: &clatter_shock::Spectrum, limit: Option<&clatter_shock::LimitCurve>) -> String {
+    figure::shock::spectrum(spectrum, limit)
+}
+
+/// A damage boundary: acceleration over velocity change, log-log, `curve` from [`clatter_shock::DamageBoundary::curve`] and
+/// a pulse at (velocity change, acceleration) on it.
+#[must_use]
+pub fn damage_boundary_svg(boundary: &clatter_shock::DamageBoundary, curve: &[(f64, f64)], pulse: [f64; 2]) -> String {
+    figure::shock::damage_boundary(boundary, curve, pulse)
+}
+
+/// The three-way rule as one spectrum over ω h0/v0 with its asymptotes, and a component at (ω h0/v0, |A|/(ω v0)) on it.
+#[must_use]
+pub fn rule_svg(rule: &clatter_shock::Rule, component: [f64; 2]) -> String {
+    figure::shock::rule(rule, component)
 }
 
 #[cfg(test)]
@@ -180,12 +321,14 @@ mod tests {
 
     #[test]
     fn the_page_is_the_same_from_run_to_run() {
-        let run = || {
+        let run = |report| {
             let dir = tempfile::tempdir().unwrap();
-            let written = write(Report::Paper, dir.path(), &mut |_| ()).unwrap();
+            let written = write(report, dir.path(), &mut |_| ()).unwrap();
             written.files.iter().map(|file| fs::read(file).unwrap()).collect::<Vec<_>>()
         };
-        assert!(run() == run(), "two runs differ");
+        for report in [Report::Paper, Report::Shock] {
+            assert!(run(report) == run(report), "two runs of {report:?} differ");
+        }
     }
 
     #[test]

@@ -147,7 +147,7 @@ impl Data {
     }
 }
 
-fn pretty(value: &impl serde::Serialize) -> Result<String, ReportError> {
+pub(crate) fn pretty(value: &impl serde::Serialize) -> Result<String, ReportError> {
     let text = serde_json::to_string_pretty(value).map_err(|error| ReportError::Data(error.to_string()))?;
     Ok(text + "\n")
 }
@@ -158,12 +158,12 @@ pub(crate) fn page() -> String {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
 
-    #[test]
-    fn figures_stay_within_their_frame() {
-        for (name, svg) in Data::compute().unwrap().files().unwrap().iter().filter(|(name, _)| name.ends_with("svg")) {
+    /// No line of a figure leaves its frame, and every coordinate is a number.
+    pub(crate) fn stay_within_their_frame(files: &[File]) {
+        for (name, svg) in files.iter().filter(|(name, _)| name.ends_with("svg")) {
             let size = svg.split("viewBox=\"0 0 ").nth(1).and_then(|rest| rest.split('"').next()).unwrap();
             let size: Vec<f64> = size.split(' ').map(|v| v.parse().unwrap()).collect();
             assert!(!svg.contains("NaN") && !svg.contains("inf"), "{name}");
@@ -176,5 +176,10 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn figures_stay_within_their_frame() {
+        stay_within_their_frame(&Data::compute().unwrap().files().unwrap());
     }
 }

@@ -33,14 +33,16 @@ pub(crate) struct Ink {
     pub(crate) stroke: &'static str,
     /// Line width in pt.
     pub(crate) width: f64,
+    /// Lengths of dashes and gaps in pt, empty for a whole line.
+    pub(crate) dash: &'static str,
 }
 
 impl Ink {
     pub(crate) const fn line(stroke: &'static str, width: f64) -> Self {
-        Self { fill: "none", stroke, width }
+        Self { fill: "none", stroke, width, dash: "" }
     }
     pub(crate) const fn fill(fill: &'static str) -> Self {
-        Self { fill, stroke: "none", width: 0.0 }
+        Self { fill, stroke: "none", width: 0.0, dash: "" }
     }
 }
 
@@ -172,6 +174,9 @@ impl Svg {
         let _ = write!(self.body, "<path d=\"{d}\" fill=\"{}\"", ink.fill);
         if ink.stroke != "none" {
             let _ = write!(self.body, " stroke=\"{}\" stroke-width=\"{}\"", ink.stroke, pt(ink.width));
+            if !ink.dash.is_empty() {
+                let _ = write!(self.body, " stroke-dasharray=\"{}\" stroke-linecap=\"butt\"", ink.dash);
+            }
         }
         self.body.push_str("/>\n");
     }
@@ -201,7 +206,18 @@ impl Svg {
         self.path(&[to, side(1.0), side(-1.0)], true, Ink::fill(color));
     }
 
-    pub(crate) fn text(&mut self, [x, y]: Pt, text: &str, label: Label) {
+    /// Words in figure markup.
+    pub(crate) fn text(&mut self, at: Pt, text: &str, label: Label) {
+        self.set(at, &markup(text, label.size), label);
+    }
+
+    /// Words as they are: a name that somebody gave. What XML cannot say is left out.
+    pub(crate) fn plain(&mut self, at: Pt, text: &str, label: Label) {
+        let clean: String = text.chars().filter(|c| !c.is_control() && !matches!(c, '\u{FFFE}' | '\u{FFFF}')).collect();
+        self.set(at, &escape(&clean), label);
+    }
+
+    fn set(&mut self, [x, y]: Pt, inner: &str, label: Label) {
         let anchor = match label.anchor {
             Anchor::Start => "start",
             Anchor::Middle => "middle",
@@ -217,7 +233,7 @@ impl Svg {
         if label.turn != 0.0 {
             let _ = write!(self.body, " transform=\"rotate({} {x} {y})\"", pt(label.turn));
         }
-        let _ = writeln!(self.body, ">{}</text>", markup(text, label.size));
+        let _ = writeln!(self.body, ">{inner}</text>");
     }
 
     /// An image of `size` at `corner`, its pixels kept as they are.

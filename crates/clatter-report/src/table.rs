@@ -50,7 +50,7 @@ struct Figure {
 }
 
 /// `value` with `digits` decimals, its zero without a sign, its minus as long as a plus.
-fn decimals(value: f64, digits: usize) -> String {
+pub(crate) fn decimals(value: f64, digits: usize) -> String {
     let text = format!("{value:.digits$}");
     let text = if text.trim_start_matches('-').chars().all(|c| c == '0' || c == '.') {
         text.trim_start_matches('-').to_owned()

@@ -1,79 +1,161 @@
-//! Speed of the exact responses: time for each shock and frequency, for the pulses of a drop, for a record.
+//! Wall times of the responses, each beside a plain way to the same answer in the same run:
+//! `cargo bench -p clatter-shock --bench spectra`.
+//!
+//! Ours and the plain way take turns, so that a machine that slows down slows both; the table gives the least time of each and
+//! the ratio of the two.
+#![expect(clippy::print_stdout, clippy::cast_precision_loss, reason = "a table of times is what is wanted")]
 
 use clatter_shock::{
-    DampingRatio, Frequencies, Pulse, Pulses, Quantity, Shape, SpectrumFilter, VelocityShock, VelocityShocks,
+    DampingRatio, Frequencies, Pulse, Pulses, Quantity, Shape, SpectrumFilter, Suspension, VelocityShock,
+    VelocityShocks,
 };
-use divan::{Bencher, black_box, counter::ItemsCount};
+use std::f64::consts::{PI, TAU};
+use std::hint::black_box;
+use std::time::Instant;
 
-fn main() {
-    divan::main();
+/// Times both in turns and prints a line; one call of each does `items`.
+fn row<A, B>(
+    name: &str,
+    unit: &str,
+    rounds: usize,
+    items: f64,
+    mut ours: impl FnMut() -> A,
+    mut plain: impl FnMut() -> B,
+) {
+    let time = |f: &mut dyn FnMut()| {
+        let start = Instant::now();
+        f();
+        start.elapsed().as_nanos() as f64 / items
+    };
+    let (mut a, mut b) = (f64::INFINITY, f64::INFINITY);
+    for _ in 0..rounds {
+        a = a.min(time(&mut || drop(black_box(ours()))));
+        b = b.min(time(&mut || drop(black_box(plain()))));
+    }
+    println!("{name:52} {a:12.2} {b:12.2} {:8.3}   {unit}", a / b);
 }
 
-fn q10() -> DampingRatio {
-    DampingRatio::from_quality_factor(10.0).expect("Q = 10")
+fn damping(zeta: f64) -> DampingRatio {
+    DampingRatio::new(zeta).expect("damping")
 }
 
-fn frequencies(n: u32) -> Frequencies {
-    Frequencies::list((0..n).map(|i| 10.0 * 1000_f64.powf(f64::from(i) / f64::from(n - 1))).collect())
-        .expect("frequencies")
+/// 200 frequencies from 10 Hz to 10 kHz.
+fn frequencies() -> Frequencies {
+    Frequencies::list((0..200).map(|i| 10.0 * 1000_f64.powf(f64::from(i) / 199.0)).collect()).expect("frequencies")
 }
 
-/// Shocks of alternating sign that fade, 1 to 3 ms apart.
-fn shocks(n: u32) -> VelocityShocks {
-    let mut time = 0.0;
-    let list = (0..n).map(|i| {
+/// Thirty shocks of alternating sign that fade, 1 to 3 ms apart.
+fn shocks() -> VelocityShocks {
+    let (mut time, mut size) = (0.0, 1.0);
+    let list = (0_u32..30).map(|i| {
         time += 0.001 + 0.002 * f64::from(i * 7 % 11) / 11.0;
-        VelocityShock {
-            time,
-            delta_v: 0.98_f64.powi(i32::try_from(i).unwrap_or(0)) * if i % 2 == 0 { 2.0 } else { -1.0 },
-        }
+        size *= 0.98;
+        VelocityShock { time, delta_v: size * if i % 2 == 0 { 2.0 } else { -1.0 } }
     });
     VelocityShocks::new(list.collect()).expect("shocks")
 }
 
-/// Items are shocks × frequencies.
-#[divan::bench(args = [0.0, 0.05, 0.3, 1.0, 5.0])]
-fn train_of_shocks(bencher: Bencher, zeta: f64) {
-    let (train, frequencies) = (shocks(30), frequencies(200));
-    let damping = DampingRatio::new(zeta).expect("damping");
-    bencher
-        .counter(ItemsCount::new(30_usize * 200))
-        .bench(|| black_box(&train).spectrum(&frequencies, damping, Quantity::AbsoluteAcceleration));
-}
-
-/// Eight half-sines of 0.3 ms within 100 ms, 200 frequencies from 10 Hz to 10 kHz, Q = 10.
-#[divan::bench]
-fn eight_pulses(bencher: Bencher) {
-    let list: Vec<Pulse> = (0..8)
+/// Eight half-sines of 0.3 ms within 100 ms: a drop.
+fn drop_pulses() -> Vec<Pulse> {
+    (0..8)
         .map(|i| Pulse {
             shape: Shape::HalfSine,
             amplitude: if i % 2 == 0 { 1000.0 } else { -700.0 },
             duration: 3e-4,
             start: 0.002 + 0.0113 * f64::from(i),
         })
-        .collect();
-    let (pulses, frequencies) = (Pulses::new(&list).expect("pulses"), frequencies(200));
-    bencher.bench(|| black_box(&pulses).spectrum(&frequencies, q10(), Quantity::AbsoluteAcceleration));
+        .collect()
 }
 
-/// A record of 10⁴ samples at 100 kHz, the same eight half-sines, the same frequencies.
-#[divan::bench]
-fn record_of_10_000_samples(bencher: Bencher) {
-    let samples: Vec<f64> = (0..10_000_u32)
-        .map(|i| f64::from(i) * 1e-5)
+fn sampled(pulses: &[Pulse], dt: f64) -> Vec<f64> {
+    (0..1_000_000_u32)
+        .map(|i| f64::from(i) * dt)
+        .take_while(|&t| t < 0.1 - 0.5 * dt)
         .map(|t| {
-            (0..8)
-                .map(|i| (t - 0.002 - 0.0113 * f64::from(i), if i % 2 == 0 { 1000.0 } else { -700.0 }))
-                .filter(|(s, _)| (0.0..3e-4).contains(s))
-                .map(|(s, a)| a * (std::f64::consts::PI * s / 3e-4).sin())
+            pulses
+                .iter()
+                .filter(|p| (0.0..p.duration).contains(&(t - p.start)))
+                .map(|p| p.amplitude * (PI * (t - p.start) / p.duration).sin())
                 .sum()
         })
-        .collect();
-    let frequencies = frequencies(200);
-    bencher.bench(|| {
-        let mut filter =
-            SpectrumFilter::new(frequencies.clone(), q10(), Quantity::AbsoluteAcceleration, 1e-5).expect("filter");
-        filter.push(black_box(&samples));
-        filter.finish().expect("spectrum")
-    });
+        .collect()
+}
+
+/// The filter as textbooks have it, one frequency at a time: samples alone, no peak between them, no ring-down.
+fn plain_filter(samples: &[f64], dt: f64, hz: f64, zeta: f64) -> f64 {
+    let omega = TAU * hz;
+    let (beta, theta) = ((1.0 - zeta * zeta).sqrt() * omega * dt, zeta * omega * dt);
+    let (e, c) = ((-theta).exp(), (-theta).exp() * beta.cos());
+    let s = (-theta).exp() * beta.sin() / beta;
+    let b = [1.0 - s, 2.0 * (s - c), e * e - s];
+    let (mut x1, mut x2, mut y1, mut y2, mut peak) = (0.0, 0.0, 0.0, 0.0, 0.0_f64);
+    for &x in samples {
+        let y = b[0] * x + b[1] * x1 + b[2] * x2 + 2.0 * c * y1 - e * e * y2;
+        (x2, x1, y2, y1) = (x1, x, y1, y);
+        peak = peak.max(y.abs());
+    }
+    peak
+}
+
+fn main() {
+    let quantity = Quantity::AbsoluteAcceleration;
+    let frequencies = frequencies();
+    println!("{:52} {:>12} {:>12} {:>8}", "", "ours", "plain", "ratio");
+
+    // Plain: one component at a time, all its quantities and times.
+    let train = shocks();
+    for zeta in [0.0, 0.05, 0.3, 1.0, 5.0] {
+        let items = train.as_slice().len() as f64 * frequencies.hz().len() as f64;
+        let plain = || {
+            for &hz in frequencies.hz() {
+                black_box(train.respond(&Suspension::from_hz(hz, damping(zeta)).expect("mount")));
+            }
+        };
+        let ours = || train.spectrum(&frequencies, damping(zeta), quantity);
+        row(
+            &format!("train of shocks, damping {zeta} (plain: one by one)"),
+            "ns a shock and frequency",
+            201,
+            items,
+            ours,
+            plain,
+        );
+    }
+
+    // Plain: the same pulses as a record of 1 MHz, its samples alone.
+    let list = drop_pulses();
+    let pulses = Pulses::new(&list).expect("pulses");
+    let fine = sampled(&list, 1e-6);
+    let each = |samples: &[f64], dt: f64| {
+        frequencies.hz().iter().map(|&hz| plain_filter(samples, dt, hz, 0.05)).fold(0.0, f64::max)
+    };
+    let ours = || pulses.spectrum(&frequencies, damping(0.05), quantity);
+    row("eight half-sines, Q = 10 (plain: sampled at 1 MHz)", "µs", 15, 1e3, ours, || each(&fine, 1e-6));
+
+    // Plain: the recursive filter of the same record, one frequency at a time.
+    for dt in [5e-5, 1e-5, 2e-6] {
+        let samples = sampled(&list, dt);
+        let ours = || {
+            let mut filter = SpectrumFilter::new(frequencies.clone(), damping(0.05), quantity, dt).expect("filter");
+            filter.push(black_box(&samples));
+            filter.finish().expect("spectrum")
+        };
+        let name = format!("record of {} samples, Q = 10 (plain: textbook)", samples.len());
+        row(&name, "µs", 41, 1e3, ours, || each(&samples, dt));
+    }
+
+    // Plain: a pulse of one period, a thousandth as long; two pulses, a thousandth as many.
+    let unit = Suspension::new(1.0, damping(0.0)).expect("mount");
+    for shape in [Shape::HalfSine, Shape::Haversine, Shape::Triangle, Shape::InitialPeakSawtooth] {
+        let one = |duration| Pulses::new(&[Pulse { shape, amplitude: 1.0, duration, start: 0.0 }]).expect("pulse");
+        let (long, short) = (one(1e4), one(10.0));
+        let name = format!("{shape:?} of 1600 periods, undamped (plain: of 1.6)");
+        row(&name, "µs", 15, 1e3, || long.respond(&unit), || short.respond(&unit));
+    }
+    let heap = |n: u32| -> Vec<Pulse> {
+        let start = |i| 0.5 * f64::from(i) / f64::from(n);
+        (0..n).map(|i| Pulse { shape: Shape::HalfSine, amplitude: 1.0, duration: 1.0, start: start(i) }).collect()
+    };
+    let (many, few) = (heap(20_000), heap(20));
+    row("20 000 equal pulses in a heap (plain: 20)", "µs", 7, 1e3, || Pulses::new(&many), || Pulses::new(&few));
 }

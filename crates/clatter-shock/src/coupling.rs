@@ -156,6 +156,59 @@ pub struct ImpulseFactors {
     pub acceleration: f64,
 }
 
+impl ImpulseFactors {
+    /// The peaks ωz and A/ω of one shock of the velocity change `delta_v`, in its unit.
+    ///
+    /// ```
+    /// # use clatter_shock::DampingRatio;
+    /// assert_eq!(DampingRatio::new(0.0)?.impulse_factors().times(2.0).acceleration, 2.0);
+    /// # Ok::<(), clatter_shock::Error>(())
+    /// ```
+    #[must_use]
+    pub fn times(self, delta_v: f64) -> Self {
+        Self { displacement: delta_v * self.displacement, acceleration: delta_v * self.acceleration }
+    }
+}
+
+impl ImpulseFactors {
+    /// The larger of each.
+    pub(crate) fn or_larger(self, other: Self) -> Self {
+        Self {
+            displacement: self.displacement.max(other.displacement),
+            acceleration: self.acceleration.max(other.acceleration),
+        }
+    }
+}
+
+impl VelocityShocks {
+    /// Peaks ωz and A/ω of a component so soft that all shocks fall within a small part of its period (ω times the length of
+    /// the train → 0): the net change of velocity times the impulse factors. The acceleration passes through the jumps
+    /// 2ζΔv of the dashpot on the way, so that at strong damping the largest partial sum can stand above the net.
+    ///
+    /// ```
+    /// # use clatter_shock::{DampingRatio, VelocityShock, VelocityShocks};
+    /// let shock = |time, delta_v| VelocityShock { time, delta_v };
+    /// let shocks = VelocityShocks::new(vec![shock(0.0, 2.0), shock(1.0, -0.5)])?;
+    /// let undamped = DampingRatio::new(0.0)?;
+    /// assert_eq!(shocks.soft_limit(undamped).displacement, 1.5); // the net change
+    /// assert_eq!(shocks.stiff_limit(undamped), None); // shocks add up by phase for ever
+    /// assert!(shocks.stiff_limit(DampingRatio::new(1e-9)?).is_some());
+    /// # Ok::<(), clatter_shock::Error>(())
+    /// ```
+    #[must_use]
+    pub fn soft_limit(&self, damping: DampingRatio) -> ImpulseFactors {
+        let net = damping.impulse_factors().times(self.net().abs());
+        let jump = 2.0 * damping.get() * self.largest_partial_sum();
+        ImpulseFactors { acceleration: net.acceleration.max(jump), ..net }
+    }
+    /// Peaks ωz and A/ω of a component so stiff that it is at rest again before the next shock (ζω times each gap → ∞): the
+    /// largest single shock times the impulse factors. `None` at ζ = 0, where nothing comes to rest.
+    #[must_use]
+    pub fn stiff_limit(&self, damping: DampingRatio) -> Option<ImpulseFactors> {
+        (damping.get() > 0.0).then(|| damping.impulse_factors().times(self.largest()))
+    }
+}
+
 impl DampingRatio {
     /// Peak of one velocity shock: ω|z|/Δv = e^(−ζ acos ζ/β) for ζ < 1, and |A|/(ωΔv).
     ///
@@ -234,10 +287,7 @@ pub fn three_way_rule(
     }
     let highest = omegas.iter().fold(0.0_f64, |m, &w| m.max(w));
     let (shocks, omitted) = shocks_at(bar, start, position, highest * v0 / h0)?;
-    let factors = damping.impulse_factors();
-    let times =
-        |v: f64| ImpulseFactors { displacement: v * factors.displacement, acceleration: v * factors.acceleration };
-    let standard = times(2.0);
+    let standard = damping.impulse_factors().times(2.0);
     let mut points = Vec::with_capacity(omegas.len());
     for &omega in omegas {
         let suspension = Suspension::new(omega * v0 / h0, damping)?;
@@ -252,12 +302,8 @@ pub fn three_way_rule(
     }
     Ok(Rule {
         points,
-        soft: {
-            let net = times(shocks.net().abs() / v0);
-            let jump = 2.0 * damping.get() * shocks.largest_partial_sum() / v0;
-            ImpulseFactors { acceleration: net.acceleration.max(jump), ..net }
-        },
-        stiff: (damping.get() > 0.0).then(|| times(shocks.largest() / v0)),
+        soft: shocks.soft_limit(damping).times(v0.recip()),
+        stiff: shocks.stiff_limit(damping).map(|limit| limit.times(v0.recip())),
         standard,
         omitted: omitted / v0,
     })

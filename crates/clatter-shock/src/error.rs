@@ -51,6 +51,16 @@ pub enum Error {
         "a pulse of zero duration has no area: give the velocity change of the shock instead (a velocity shock), or a duration > 0"
     )]
     ZeroDuration,
+    /// Too many sinusoids of different lengths at once.
+    #[error(
+        "the pulses overlap in {sines} sinusoids of different lengths, more than {allowed}: give equal pulses equal durations (they then add up), or fewer at a time"
+    )]
+    Overlap {
+        /// Sinusoids between all begins and ends, those of one length counted once.
+        sines: usize,
+        /// The most that are held.
+        allowed: usize,
+    },
     /// A list without entries.
     #[error("{0} is empty")]
     Empty(&'static str),
@@ -79,11 +89,8 @@ pub enum Error {
     )]
     NoUnits,
     /// A record too short to be one.
-    #[error("the record has {0} samples; it needs two at least")]
+    #[error("the record has {}; it needs two at least", if *.0 == 1 { "one sample" } else { "no samples" })]
     Short(usize),
-    /// An uneven record where an even one is needed.
-    #[error("the samples of the record are not even in time: read it whole instead of streaming it")]
-    Uneven,
     /// Shock tests that show no critical level.
     #[error("the {0} trials show no critical level: some level without damage must lie below the lowest with damage")]
     Trials(&'static str),
@@ -100,6 +107,9 @@ pub enum Error {
         /// Smallest relative mismatch in displacement; infinite if the table reaches the acceleration with no pulse.
         nearest: f64,
     },
+    /// A bar or a drop that is none.
+    #[error(transparent)]
+    Bar(#[from] clatter::Error),
     /// The file could not be read.
     #[error("the record could not be read: {0}")]
     Read(String),

@@ -8,21 +8,29 @@
 //! ```
 //!
 //! The entries of N and c come from series where the step is short, and the sum is kept as an increment, so that nothing
-//! cancels at frequencies far below the sampling rate. Samples are scanned 64 at a time; where a bound says that a peak
-//! between samples may pass the largest sample, the steps are gone through one by one and the peak is found exactly.
+//! cancels at frequencies far below the sampling rate. Samples are taken a block at a time. Where a bound on the motion says that a
+//! block can hold no new extreme, one matrix and one weighted sum carry the filter across it. Where a bound says that a
+//! peak between samples may pass the largest sample, the steps are gone through one by one and the peak is found exactly.
 
 use crate::forced::Segment;
+use crate::lanes::{LANES, Many};
 use crate::peaks::Range;
-use crate::suspension::{Modes, Motion, Phase, Propagator};
+use crate::suspension::{Modes, Motion, Phase};
 use crate::{DampingRatio, Error, Frequencies, Quantity, Spectrum};
 use std::f64::consts::TAU;
 
-/// Frequencies run side by side.
-const LANES: usize = 8;
 /// Samples between two bounds.
-const BLOCK: usize = 64;
+const BLOCK: usize = 32;
+/// The same as a number.
+const STEPS: f64 = 32.0;
 /// Samples gone through for one group of frequencies before the next: they stay in the nearest cache.
 const CHUNK: usize = 4096;
+/// From so many samples on it is worth while to prepare for whole blocks at once.
+const WORTH: usize = 4 * BLOCK;
+/// Smaller numbers would slow the machine down; they are far below one rounding of anything that is compared.
+const TINY: f64 = 1e-280;
+/// Smaller extremes are not compared by their squares.
+const SMALLEST: f64 = 1e-140;
 
 /// A shock response spectrum in the making: samples in, in pieces of any size; memory does not grow.
 #[derive(Debug, Clone)]
@@ -38,26 +46,66 @@ pub struct SpectrumFilter {
 #[derive(Debug, Clone)]
 struct Group {
     /// N row by row, c, d of each lane.
-    n: [[f64; LANES]; 4],
-    c: [[f64; LANES]; 2],
-    d: [f64; LANES],
-    u: [f64; LANES],
-    v: [f64; LANES],
+    n: [Many; 4],
+    c: [Many; 2],
+    d: Many,
+    u: Many,
+    v: Many,
+    /// What u, v and the newest sample give to x and to y.
+    back: [[Many; 3]; 2],
+    /// Extremes so far, of the samples at least; infinite where there is no lane.
+    high: Many,
+    low: Many,
     lanes: Vec<Lane>,
+    reach: Reach,
+}
+
+/// How far a quantity can go within a block.
+#[derive(Debug, Clone)]
+struct Reach {
+    /// What x and y give to it.
+    of: [f64; 2],
+    /// Bound on it over √(x² + y²), and on what it changes by within a block.
+    most: f64,
+    drift: Many,
+    /// What a jump of velocity changes it by at once.
+    push: f64,
+    /// Time between samples.
+    dt: f64,
+}
+
+impl Reach {
+    fn new(zeta: f64, row: usize, dt: f64) -> Self {
+        let damp = 2.0 * zeta;
+        let (of, slope) = match row {
+            Modes::DISPLACEMENT => ([1.0, 0.0], 1.0),
+            Modes::VELOCITY => ([0.0, 1.0], 1.0 + damp),
+            _ => ([-1.0, -damp], 1.0 + damp + damp * damp),
+        };
+        Self { of, most: of[0].hypot(of[1]), drift: [slope * STEPS; LANES], push: of[1].abs(), dt }
+    }
+}
+
+/// The recursion of one frequency: N row by row, c and d.
+#[derive(Debug, Clone, Copy)]
+struct Recursion {
+    n: [f64; 4],
+    c: [f64; 2],
+    d: f64,
 }
 
 /// What one frequency needs beside the filter.
 #[derive(Debug, Clone)]
 struct Lane {
-    omega: f64,
     theta: f64,
     row: usize,
+    recursion: Recursion,
     /// From (u, v) back to (x, w).
     back: [[f64; 2]; 2],
     /// What the newest sample adds to (x, w) at once.
     newest: Motion,
-    step: Propagator,
-    older: Motion,
+    /// The same in (u, v).
+    at_once: [f64; 2],
     /// 1/ω and 1/(ωθ).
     inverse: [f64; 2],
     /// s/(1 − s) with s = θ²/8: share of the bend that a rise between samples can have; infinite for s ≥ ½.
@@ -78,10 +126,12 @@ struct Input {
 /// Where a block begins, and its largest and smallest sample, that before it included, lane by lane.
 #[derive(Clone, Copy)]
 struct Block {
-    u: [f64; LANES],
-    v: [f64; LANES],
-    high: [f64; LANES],
-    low: [f64; LANES],
+    /// Its number, from 0.
+    index: usize,
+    u: Many,
+    v: Many,
+    high: Many,
+    low: Many,
 }
 
 impl Input {
@@ -110,7 +160,7 @@ impl Input {
 }
 
 impl Lane {
-    fn new(modes: &Modes, omega: f64, dt: f64, row: usize) -> (Self, [f64; 4], [f64; 2], f64, [f64; 2]) {
+    fn new(modes: &Modes, omega: f64, dt: f64, row: usize) -> Self {
         let phase = Phase::product(omega, dt);
         let theta = phase.hi;
         let step = modes.propagator(phase);
@@ -147,8 +197,8 @@ impl Lane {
         let share = 0.125 * theta * theta;
         let share = if share < 0.5 { share / (1.0 - share) } else { f64::INFINITY };
         let inverse = [omega.recip(), (omega * theta).recip()];
-        let lane = Self { omega, theta, row, back, newest, step, older, inverse, share, range: Range::default() };
-        (lane, [n[0][0], n[0][1], n[1][0], n[1][1]], input, at_once[0], at_once)
+        let recursion = Recursion { n: [n[0][0], n[0][1], n[1][0], n[1][1]], c: input, d: at_once[0] };
+        Self { theta, row, recursion, back, newest, at_once, inverse, share, range: Range::default() }
     }
     /// The motion at a sample, from the filter's coordinates and that sample.
     fn motion(&self, u: f64, v: f64, a: f64) -> Motion {
@@ -171,128 +221,220 @@ impl Lane {
         };
         self.share * (q + bend)
     }
-    /// Goes through the steps of a block one by one, from the motion `m` at the sample `from`.
+    /// Goes through a block unless no step of it can rise above the largest value between its samples.
+    fn look(&mut self, modes: &Modes, segment: &mut Segment, l: usize, b: &Block, input: &Input, samples: &[f64]) {
+        let m = self.motion(b.u[l], b.v[l], input.before);
+        let q = modes.quantity(self.row, m).abs().max(b.high[l]).max(-b.low[l]);
+        let bump = self.bump(modes, q, m, input);
+        if b.high[l] + bump > self.range.high.value || b.low[l] - bump < self.range.low.value {
+            self.refine(modes, segment, bump, [b.u[l], b.v[l]], input.before, samples);
+        }
+    }
+    /// Goes through the steps of a block one by one, from the filter's coordinates at the sample `from`.
     /// No step rises by more than `most` between its samples.
     fn refine(
         &mut self,
         modes: &Modes,
         segment: &mut Segment,
         most: f64,
-        mut m: Motion,
+        [mut u, mut v]: [f64; 2],
         mut from: f64,
         samples: &[f64],
     ) {
-        let mut q = modes.quantity(self.row, m);
+        let Recursion { n, c, d } = self.recursion;
+        let mut q = u + d * from;
+        let (mut high, mut low) = (self.range.high.value - most, self.range.low.value + most);
         for &to in samples {
-            let moved = self.step.apply(modes.p, m);
-            let next = Motion {
-                x: moved.x + (self.older.x * from + self.newest.x * to),
-                w: moved.w + (self.older.w * from + self.newest.w * to),
-            };
-            let q_next = modes.quantity(self.row, next);
-            let (high, low) = (q.max(q_next), q.min(q_next));
-            let passes = |bump: f64| high + bump > self.range.high.value || low - bump < self.range.low.value;
-            if passes(most) && passes(self.bump(modes, high.max(-low), m, &Input::new(from, &[to]))) {
-                let (f0, f1) = (-from / self.omega, -to / self.omega);
-                segment.begin(m, f0, (f1 - f0) / self.theta, self.theta);
-                let end = segment.sample_known(self.theta, next);
-                segment.extremes(self.row, &end, 0, &mut self.range);
+            let (u_next, v_next) =
+                (u + ((n[0] * u + n[1] * v) + c[0] * from), v + ((n[2] * u + n[3] * v) + c[1] * from));
+            let q_next = u_next + d * to;
+            if q.max(q_next) > high || q.min(q_next) < low {
+                let m = self.motion(u, v, from);
+                let (top, bottom) = (q.max(q_next), q.min(q_next));
+                let bump = self.bump(modes, top.max(-bottom), m, &Input::new(from, &[to]));
+                if top + bump > self.range.high.value || bottom - bump < self.range.low.value {
+                    let (f0, slope) = (-from * self.inverse[0], (from - to) * self.inverse[1]);
+                    segment.begin(m, f0, slope, self.theta);
+                    let end = segment.sample_known(self.theta, self.motion(u_next, v_next, to));
+                    segment.extremes(self.row, &end, 0, &mut self.range);
+                    (high, low) = (self.range.high.value - most, self.range.low.value + most);
+                }
             }
-            (m, q, from) = (next, q_next, to);
+            (u, v, q, from) = (u_next, v_next, q_next, to);
         }
     }
 }
 
 impl Group {
     fn new(modes: &Modes, omegas: &[f64], dt: f64, row: usize) -> Self {
+        let zero = [0.0; LANES];
         let mut group = Self {
-            n: [[0.0; LANES]; 4],
-            c: [[0.0; LANES]; 2],
-            d: [0.0; LANES],
-            u: [0.0; LANES],
-            v: [0.0; LANES],
+            n: [zero; 4],
+            c: [zero; 2],
+            d: zero,
+            u: zero,
+            v: zero,
+            back: [[zero; 3]; 2],
+            high: [f64::INFINITY; LANES],
+            low: [f64::NEG_INFINITY; LANES],
             lanes: Vec::with_capacity(LANES),
+            reach: Reach::new(modes.zeta, row, dt),
         };
         for (l, &omega) in omegas.iter().enumerate() {
-            let (lane, n, c, d, at_once) = Lane::new(modes, omega, dt, row);
+            let lane = Lane::new(modes, omega, dt, row);
+            let Recursion { n, c, d } = lane.recursion;
             for (to, from) in group.n.iter_mut().zip(n) {
                 to[l] = from;
             }
             (group.c[0][l], group.c[1][l], group.d[l]) = (c[0], c[1], d);
             // Until the first sample: what it will add at once is taken off (times that sample).
-            (group.u[l], group.v[l]) = (-at_once[0], -at_once[1]);
+            (group.u[l], group.v[l]) = (-lane.at_once[0], -lane.at_once[1]);
+            for (i, x) in [[1.0, 0.0], [-modes.sigma, 1.0]].into_iter().enumerate() {
+                let of = |m: [f64; 2]| x[0] * m[0] + x[1] * m[1];
+                let [to_x, to_w] = lane.back;
+                group.back[i][0][l] = of([to_x[0], to_w[0]]);
+                group.back[i][1][l] = of([to_x[1], to_w[1]]);
+                group.back[i][2][l] = of([lane.newest.x, lane.newest.w]);
+            }
+            (group.high[l], group.low[l]) = (0.0, 0.0);
+            group.reach.drift[l] *= lane.theta;
             group.lanes.push(lane);
         }
         group
     }
-    fn run(&mut self, modes: &Modes, previous: f64, samples: &[f64], inputs: &[Input]) {
-        let blocks = pulp::Arch::new().dispatch(Scan { group: self, previous, samples });
+    fn run(&mut self, modes: &Modes, previous: f64, samples: &[f64], inputs: &[Input], total: &Input) {
+        let start = [self.u, self.v];
+        let scanned = pulp::Arch::new().dispatch(Scan { group: self, previous, samples, inputs });
+        let blocks = &scanned.blocks;
+        if blocks.is_empty() {
+            return;
+        }
         let mut segment = Segment::new(modes);
-        let total = Input::all(inputs);
+        // Blocks beyond these values may hold a new extreme; lanes that are not there have none.
+        let (mut high, mut low) = ([f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]);
         for (l, lane) in self.lanes.iter_mut().enumerate() {
-            let (mut highest, mut lowest) = (0, 0);
-            for (i, b) in blocks.iter().enumerate() {
-                if b.high[l] > blocks[highest].high[l] {
-                    highest = i;
-                }
-                if b.low[l] < blocks[lowest].low[l] {
-                    lowest = i;
-                }
-            }
-            lane.range.note(0, 0.0, blocks[highest].high[l]);
-            lane.range.note(0, 0.0, blocks[lowest].low[l]);
-            let first = lane.motion(blocks[0].u[l], blocks[0].v[l], inputs[0].before);
-            let q = blocks[highest].high[l].max(-blocks[lowest].low[l]).max(modes.quantity(lane.row, first).abs());
-            let most = lane.bump(modes, q, first, &total);
-            let mut look = |i: usize| {
-                let (b, input) = (&blocks[i], &inputs[i]);
-                let m = lane.motion(b.u[l], b.v[l], input.before);
-                let q = modes.quantity(lane.row, m).abs().max(b.high[l]).max(-b.low[l]);
-                let bump = lane.bump(modes, q, m, input);
-                if b.high[l] + bump > lane.range.high.value || b.low[l] - bump < lane.range.low.value {
-                    let begin = i * BLOCK;
-                    let block = &samples[begin..samples.len().min(begin + BLOCK)];
-                    lane.refine(modes, &mut segment, bump, m, input.before, block);
-                }
-                lane.range
-            };
+            let [highest, lowest] = [&blocks[scanned.highest[l]], &blocks[scanned.lowest[l]]];
+            lane.range.note(0, 0.0, highest.high[l]);
+            lane.range.note(0, 0.0, lowest.low[l]);
+            let m = lane.motion(start[0][l], start[1][l], previous);
+            let q = lane.range.high.value.max(-lane.range.low.value).max(modes.quantity(lane.row, m).abs());
+            let most = lane.bump(modes, q, m, total);
             // Where the samples are largest the peak is likely, and rules out most of the rest.
-            look(highest);
-            let mut range = look(lowest);
-            for (i, b) in blocks.iter().enumerate() {
-                if b.high[l] + most > range.high.value || b.low[l] - most < range.low.value {
-                    range = look(i);
-                }
+            for b in [highest, lowest] {
+                lane.look(modes, &mut segment, l, b, &inputs[b.index], block_of(samples, b.index));
+            }
+            (high[l], low[l]) = (lane.range.high.value - most, lane.range.low.value + most);
+        }
+        for b in blocks {
+            let mut beyond = [0; LANES];
+            for l in 0..LANES {
+                beyond[l] = u64::from(b.high[l] > high[l]) | u64::from(b.low[l] < low[l]);
+            }
+            if !beyond.contains(&1) {
+                continue;
+            }
+            for (l, lane) in self.lanes.iter_mut().enumerate().filter(|(l, _)| beyond[*l] == 1) {
+                let before = lane.range;
+                lane.look(modes, &mut segment, l, b, &inputs[b.index], block_of(samples, b.index));
+                high[l] += lane.range.high.value - before.high.value;
+                low[l] += lane.range.low.value - before.low.value;
             }
         }
+        for (l, lane) in self.lanes.iter().enumerate() {
+            (self.high[l], self.low[l]) = (lane.range.high.value, lane.range.low.value);
+        }
     }
-    /// The recursion over one block, with fused multiply-adds where the machine has them.
+    /// Whether no lane can reach a new extreme within a block, also between samples.
+    ///
+    /// √(x² + y²) grows by no more than the velocity that the acceleration adds; q stays below a multiple of it, and within
+    /// reach of where it begins.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
-    fn scan<const FUSED: bool>(&mut self, mut before: f64, samples: &[f64]) -> Block {
-        let add = |a: f64, b: f64, c: f64| if FUSED { a.mul_add(b, c) } else { a * b + c };
+    fn stays<const FUSED: bool>(&self, input: &Input, high: &Many, low: &Many) -> bool {
+        let Reach { of, most, drift, push, dt } = &self.reach;
+        let added = dt * input.sum;
+        // Numbers, that no lane waits for another.
+        let mut stays = [0; LANES];
+        for l in 0..LANES {
+            let coordinate = |[u, v, a]: &[Many; 3]| {
+                add::<FUSED>(u[l], self.u[l], add::<FUSED>(v[l], self.v[l], a[l] * input.before))
+            };
+            let (x, y) = (coordinate(&self.back[0]), coordinate(&self.back[1]));
+            let size = add::<FUSED>(x, x, y * y).sqrt() + added;
+            let (q, far) = (of[0] * x + of[1] * y, most * size);
+            let near = add::<FUSED>(drift[l], size, push * added);
+            let up = if q + near < far { q + near } else { far };
+            let down = if q - near > -far { q - near } else { -far };
+            stays[l] = u64::from(size > SMALLEST) & u64::from(up <= high[l]) & u64::from(down >= low[l]);
+        }
+        !stays.contains(&0)
+    }
+    /// The recursion over one block without its values.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
+    fn leap<const FUSED: bool>(&mut self, leap: &Leap, before: f64, samples: &[f64]) {
+        // Two sums, so that one need not wait for the other.
+        let [mut even_u, mut even_v, mut odd_u, mut odd_v] = [[0.0; LANES]; 4];
+        for l in 0..LANES {
+            (even_u[l], even_v[l]) = (leap.w[0][0][l] * before, leap.w[0][1][l] * before);
+            (odd_u[l], odd_v[l]) = (leap.w[1][0][l] * samples[0], leap.w[1][1][l] * samples[0]);
+        }
+        for (w, a) in leap.w[2..].as_chunks::<2>().0.iter().zip(samples[1..].as_chunks::<2>().0) {
+            for l in 0..LANES {
+                even_u[l] = add::<FUSED>(w[0][0][l], a[0], even_u[l]);
+                even_v[l] = add::<FUSED>(w[0][1][l], a[0], even_v[l]);
+                odd_u[l] = add::<FUSED>(w[1][0][l], a[1], odd_u[l]);
+                odd_v[l] = add::<FUSED>(w[1][1][l], a[1], odd_v[l]);
+            }
+        }
+        for l in 0..LANES {
+            let (n, u, v) = (&leap.n, self.u[l], self.v[l]);
+            self.u[l] = u + (add::<FUSED>(n[0][l], u, n[1][l] * v) + (even_u[l] + odd_u[l]));
+            self.v[l] = v + (add::<FUSED>(n[3][l], v, n[2][l] * u) + (even_v[l] + odd_v[l]));
+        }
+        self.flush();
+    }
+    /// Numbers too small for full speed are nothing.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
+    fn flush(&mut self) {
+        for l in 0..LANES {
+            self.u[l] = if self.u[l].abs() < TINY { 0.0 } else { self.u[l] };
+            self.v[l] = if self.v[l].abs() < TINY { 0.0 } else { self.v[l] };
+        }
+    }
+    /// The recursion over one block.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
+    fn scan<const FUSED: bool>(&mut self, index: usize, mut before: f64, samples: &[f64]) -> Block {
         let [n00, n01, n10, n11] = self.n;
         let ([c0, c1], d) = (self.c, self.d);
         let (mut u, mut v) = (self.u, self.v);
         // The sample before the block counts: the first step begins with it.
-        let first: [f64; LANES] = std::array::from_fn(|l| add(d[l], before, u[l]));
-        let mut block = Block { u, v, high: first, low: first };
+        let first: Many = std::array::from_fn(|l| add::<FUSED>(d[l], before, u[l]));
+        let mut block = Block { index, u, v, high: first, low: first };
         for &a in samples {
             for l in 0..LANES {
                 // Grouped for the shortest chain from one sample to the next.
-                let from_v = add(n01[l], v[l], c0[l] * before);
-                let from_u = add(n10[l], u[l], c1[l] * before);
-                u[l] = add(n00[l], u[l], u[l]) + from_v;
-                v[l] = add(n11[l], v[l], v[l]) + from_u;
-                let q = add(d[l], a, u[l]);
+                let from_v = add::<FUSED>(n01[l], v[l], c0[l] * before);
+                let from_u = add::<FUSED>(n10[l], u[l], c1[l] * before);
+                u[l] = add::<FUSED>(n00[l], u[l], u[l]) + from_v;
+                v[l] = add::<FUSED>(n11[l], v[l], v[l]) + from_u;
+                let q = add::<FUSED>(d[l], a, u[l]);
                 block.high[l] = if q > block.high[l] { q } else { block.high[l] };
                 block.low[l] = if q < block.low[l] { q } else { block.low[l] };
             }
             before = a;
         }
         (self.u, self.v) = (u, v);
+        self.flush();
         block
     }
+}
+
+/// The samples of a block.
+fn block_of(samples: &[f64], i: usize) -> &[f64] {
+    &samples[i * BLOCK..samples.len().min((i + 1) * BLOCK)]
 }
 
 /// One group through some samples, block by block, on the widest instructions of the machine.
@@ -300,25 +442,95 @@ struct Scan<'a> {
     group: &'a mut Group,
     previous: f64,
     samples: &'a [f64],
+    inputs: &'a [Input],
+}
+
+/// The blocks that were gone through sample by sample, and which of them hold the largest and the smallest sample of each lane.
+struct Scanned {
+    blocks: Vec<Block>,
+    highest: [usize; LANES],
+    lowest: [usize; LANES],
 }
 
 impl pulp::WithSimd for Scan<'_> {
-    type Output = Vec<Block>;
+    type Output = Scanned;
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> Vec<Block> {
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Scanned {
+        if S::IS_SCALAR { self.run::<false>() } else { self.run::<true>() }
+    }
+}
+
+impl Scan<'_> {
+    /// With fused multiply-adds where the machine has them.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
+    fn run<const FUSED: bool>(self) -> Scanned {
         let mut blocks = Vec::with_capacity(self.samples.len().div_ceil(BLOCK));
+        let (mut highest, mut lowest) = ([0; LANES], [0; LANES]);
+        let (mut high, mut low) = (self.group.high, self.group.low);
+        let leap = (self.samples.len() >= WORTH).then(|| Leap::new::<FUSED>(self.group));
         let mut before = self.previous;
-        for block in self.samples.chunks(BLOCK) {
-            blocks.push(if S::IS_SCALAR {
-                self.group.scan::<false>(before, block)
-            } else {
-                self.group.scan::<true>(before, block)
-            });
+        for (i, block) in self.samples.chunks(BLOCK).enumerate() {
+            match &leap {
+                Some(leap) if block.len() == BLOCK && self.group.stays::<FUSED>(&self.inputs[i], &high, &low) => {
+                    self.group.leap::<FUSED>(leap, before, block);
+                }
+                _ => {
+                    let b = self.group.scan::<FUSED>(i, before, block);
+                    for l in 0..LANES {
+                        let (higher, lower) = (b.high[l] > high[l], b.low[l] < low[l]);
+                        (high[l], highest[l]) = if higher { (b.high[l], blocks.len()) } else { (high[l], highest[l]) };
+                        (low[l], lowest[l]) = if lower { (b.low[l], blocks.len()) } else { (low[l], lowest[l]) };
+                    }
+                    blocks.push(b);
+                }
+            }
             before = block[block.len() - 1];
         }
-        blocks
+        (self.group.high, self.group.low) = (high, low);
+        Scanned { blocks, highest, lowest }
     }
+}
+
+/// The recursion over a whole block at once: (u, v) ← (u, v) + N' (u, v) + Σ w aₖ.
+struct Leap {
+    n: [Many; 4],
+    w: [[Many; 2]; BLOCK],
+}
+
+impl Leap {
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
+    fn new<const FUSED: bool>(group: &Group) -> Self {
+        let (mut n, mut w) = (group.n, [group.c; BLOCK]);
+        for k in (1..BLOCK).rev() {
+            let [u, v] = w[k];
+            for l in 0..LANES {
+                w[k - 1][0][l] = u[l] + add::<FUSED>(n[0][l], u[l], n[1][l] * v[l]);
+                w[k - 1][1][l] = v[l] + add::<FUSED>(n[3][l], v[l], n[2][l] * u[l]);
+            }
+        }
+        // (1 + N)² = 1 + 2N + N²
+        let [a, b, c, d] = &mut n;
+        for _ in 0..BLOCK.ilog2() {
+            for l in 0..LANES {
+                let (across, trace) = (b[l] * c[l], a[l] + d[l]);
+                a[l] = 2.0 * a[l] + add::<FUSED>(a[l], a[l], across);
+                d[l] = 2.0 * d[l] + add::<FUSED>(d[l], d[l], across);
+                b[l] = 2.0 * b[l] + b[l] * trace;
+                c[l] = 2.0 * c[l] + c[l] * trace;
+            }
+        }
+        Self { n, w }
+    }
+}
+
+/// a b + c
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
+fn add<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
+    if FUSED { a.mul_add(b, c) } else { a * b + c }
 }
 
 impl SpectrumFilter {
@@ -374,8 +586,9 @@ impl SpectrumFilter {
                 .chunks(BLOCK)
                 .map(|block| Input::new(std::mem::replace(&mut before, block[block.len() - 1]), block))
                 .collect();
+            let total = Input::all(&inputs);
             for group in &mut self.groups {
-                group.run(&self.modes, previous, chunk, &inputs);
+                group.run(&self.modes, previous, chunk, &inputs, &total);
             }
             previous = chunk[chunk.len() - 1];
         }

@@ -12,6 +12,7 @@
 use crate::peaks::Range;
 use crate::suspension::{Modes, Motion, Phase, Propagator};
 use num_complex::Complex64;
+use std::cell::Cell;
 use std::f64::consts::PI;
 
 /// Terms of a series at most.
@@ -30,8 +31,18 @@ const RECIPROCAL: [[f64; 2]; TERMS + 1] = {
 /// Series up to (1 + 2ζ)τ = ½; beyond, the closed forms lose no more than two bits to their differences of terms of size τ.
 const SERIES_REACH: f64 = 0.5;
 
+/// Phase βτ beyond which the turning points under a ramp are not visited one by one.
+const MANY_SWINGS: f64 = 128.0 * PI;
+
 /// From here on the steady motion is bounded at every frequency, and bounds on derivatives start from it.
 const STRONG_DAMPING: f64 = 0.5;
+
+/// Panels of one segment that are halved at most; then the largest value seen so far counts. Bounds that lead so far know nothing of
+/// the motion any more: seen beyond ζ = 10¹⁰ alone, while ordinary pulses take tens of panels.
+const PANELS: u32 = 100_000;
+
+/// Share of the forcing's terms below which their sum is bounded by itself at every damping.
+const CANCELLED: f64 = 0.01;
 
 /// Response from rest to f = 1 (`x0`, `w0`) and to f = τ (`x1`, `w1`).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -106,6 +117,8 @@ struct Sine {
     across: Complex64,
     /// x of the steady motion, 1/((μ − λ₁)(μ − λ₂)); infinite at resonance without damping.
     steady: Complex64,
+    /// Its absolute value.
+    size: f64,
 }
 
 /// Forcing over one segment and the motion at its start.
@@ -119,6 +132,8 @@ pub(crate) struct Segment<'a> {
     sines: Vec<Sine>,
     /// Bounds on |f|, |f′|, |f″|.
     bound: [f64; 3],
+    /// Panels that may still be halved.
+    panels: Cell<u32>,
 }
 
 /// The motion and the forcing at one instant.
@@ -126,23 +141,41 @@ pub(crate) struct Segment<'a> {
 pub(crate) struct Sample {
     tau: f64,
     pub(crate) m: Motion,
+    /// What is left of the forcing alone after a long time; infinite or no number at resonance without damping.
+    steady: Motion,
     f: f64,
     f_slope: f64,
 }
 
 impl<'a> Segment<'a> {
     pub(crate) fn new(modes: &'a Modes) -> Self {
-        Self { modes, start: Motion::default(), constant: 0.0, slope: 0.0, sines: Vec::new(), bound: [0.0; 3] }
+        Self {
+            modes,
+            start: Motion::default(),
+            constant: 0.0,
+            slope: 0.0,
+            sines: Vec::new(),
+            bound: [0.0; 3],
+            panels: Cell::new(PANELS),
+        }
     }
     /// Begins a segment of phase length `span` at `start` with forcing `constant` + `slope` τ.
     pub(crate) fn begin(&mut self, start: Motion, constant: f64, slope: f64, span: f64) {
         (self.start, self.constant, self.slope) = (start, constant, slope);
         self.sines.clear();
+        self.panels.set(PANELS);
         let highest = constant.abs().max((constant + slope * span).abs());
         self.bound = [highest, slope.abs(), 0.0];
     }
-    /// Adds a sin(φ + ντ).
-    pub(crate) fn add_sine(&mut self, amplitude: f64, phi: f64, nu: f64) {
+    /// Begins a segment of `length` in time at `start`, where the base's acceleration goes from `from` to `to` in a line; its
+    /// phase length.
+    pub(crate) fn begin_line(&mut self, start: Motion, omega: f64, length: f64, from: f64, to: f64) -> Phase {
+        let span = Phase::product(omega, length);
+        self.begin(start, -from / omega, -(to - from) / (omega * span.hi), span.hi);
+        span
+    }
+    /// Adds a sin(φ + ντ), with e^(iφ) given.
+    pub(crate) fn add_sine(&mut self, amplitude: f64, phase: Complex64, nu: f64) {
         let m = self.modes;
         let mu = Complex64::new(0.0, nu);
         let (slow, fast) = if m.kappa == 0.0 {
@@ -151,7 +184,8 @@ impl<'a> Segment<'a> {
             (Complex64::new(-m.sigma, 0.0), Complex64::new(-m.rho, 0.0))
         };
         let (apart, across) = (slow - mu, (mu - fast).inv());
-        self.sines.push(Sine { amplitude, phase: Complex64::cis(phi), nu, apart, across, steady: -across / apart });
+        let steady = -across / apart;
+        self.sines.push(Sine { amplitude, phase, nu, apart, across, steady, size: steady.norm_sqr().sqrt() });
         for (bound, factor) in self.bound.iter_mut().zip([1.0, nu, nu * nu]) {
             *bound += amplitude.abs() * factor;
         }
@@ -161,26 +195,40 @@ impl<'a> Segment<'a> {
     }
     /// The motion after τ.
     pub(crate) fn sample(&self, phase: Phase) -> Sample {
+        let tau = phase.hi;
+        self.sample_turned(phase, |sine, _| Complex64::cis(sine.nu * tau))
+    }
+    /// The motion at the end, with e^(iντ) of each sinusoid given.
+    pub(crate) fn sample_end(&self, phase: Phase, turned: impl Fn(usize) -> Complex64) -> Sample {
+        self.sample_turned(phase, |_, i| turned(i))
+    }
+    #[inline]
+    fn sample_turned(&self, phase: Phase, turned: impl Fn(&Sine, usize) -> Complex64) -> Sample {
         let (tau, modes) = (phase.hi, self.modes);
         let step = modes.propagator(phase);
-        let mut m = step.apply(modes.p, self.start);
-        let (mut f, mut f_slope) = (self.constant + self.slope * tau, self.slope);
+        let mut s = self.linear_sample(tau, step.apply(modes.p, self.start));
         if self.constant != 0.0 || self.slope != 0.0 {
             let ramp = modes.ramp(tau, &step);
-            m.x += self.constant * ramp.x0 + self.slope * ramp.x1;
-            m.w += self.constant * ramp.w0 + self.slope * ramp.w1;
+            s.m.x += self.constant * ramp.x0 + self.slope * ramp.x1;
+            s.m.w += self.constant * ramp.w0 + self.slope * ramp.w1;
         }
-        for sine in &self.sines {
-            let turned = Complex64::cis(sine.nu * tau);
+        let short = modes.is_short(tau);
+        for (i, sine) in self.sines.iter().enumerate() {
+            let turned = turned(sine, i);
             let now = sine.phase * turned;
-            f += sine.amplitude * now.im;
-            f_slope += sine.amplitude * sine.nu * now.re;
-            let from_rest =
-                if modes.is_short(tau) { sine.series(modes, tau) } else { sine.closed(modes, tau, turned, &step) };
-            m.x += sine.amplitude * from_rest.x;
-            m.w += sine.amplitude * from_rest.w;
+            s.add(sine, now, modes);
+            let from_rest = if short { sine.series(modes, tau) } else { sine.closed(modes, tau, turned, &step) };
+            s.m.x += sine.amplitude * from_rest.x;
+            s.m.w += sine.amplitude * from_rest.w;
         }
-        Sample { tau, m, f, f_slope }
+        s
+    }
+    /// A motion, with what the linear part of the forcing gives beside it.
+    fn linear_sample(&self, tau: f64, m: Motion) -> Sample {
+        let f = self.constant + self.slope * tau;
+        let x = f - 2.0 * self.modes.zeta * self.slope;
+        let steady = Motion { x, w: self.slope + self.modes.sigma * x };
+        Sample { tau, m, steady, f, f_slope: self.slope }
     }
     /// Value, slope and bend of quantity `k`.
     fn value(&self, k: usize, s: &Sample) -> f64 {
@@ -192,53 +240,51 @@ impl<'a> Segment<'a> {
     fn bend(&self, k: usize, s: &Sample) -> f64 {
         self.modes.quantity(k + 2, s.m) + self.modes.rows[k + 1][1] * s.f + self.modes.rows[k][1] * s.f_slope
     }
-    /// The motion that is left of the forcing alone after a long time.
-    fn steady(&self, tau: f64) -> Motion {
-        let modes = self.modes;
-        let x = self.constant + self.slope * (tau - 2.0 * modes.zeta);
-        let mut m = Motion { x, w: self.slope + modes.sigma * x };
-        for sine in &self.sines {
-            let x = sine.phase * Complex64::cis(sine.nu * tau) * sine.steady;
-            m.x += sine.amplitude * x.im;
-            m.w += sine.amplitude * (x * Complex64::new(modes.sigma, sine.nu)).im;
-        }
-        m
+    /// Bounds on |f|, |f′|, |f″| for a time `h` after `a`: where terms of the forcing cancel, as in the foot of a haversine, far
+    /// below those of the whole segment.
+    fn forcing_bounds(&self, a: &Sample, h: f64) -> [f64; 3] {
+        let [f0, f1, f2] = self.bound;
+        let slope = a.f_slope.abs();
+        [f0.min(a.f.abs() + h * (slope + 0.5 * h * f2)), f1.min(slope + h * f2), f2]
     }
-    /// Bounds on |q″| and |q‴| for a time `h` after `a`.
-    fn bounds(&self, k: usize, a: &Sample, h: f64) -> [f64; 2] {
-        let (modes, [f0, f1, f2]) = (self.modes, self.bound);
-        let r = &modes.rows;
-        let row = |j: usize, x: f64, w: f64| r[j][0].abs() * x + r[j][1].abs() * w;
-        let energy = |m: Motion| {
-            let y = m.w - modes.sigma * m.x;
-            (m.x * m.x + y * y).sqrt()
-        };
-        let tilt = (1.0 + modes.sigma * modes.sigma).sqrt();
+    /// Bounds on |q″| and |q‴| for a time `h` after `a` under forcing within these bounds: √(x² + y²) grows by no more than |f|.
+    fn energy_bounds(&self, k: usize, a: &Sample, h: f64, [f0, f1, f2]: [f64; 3]) -> [f64; 2] {
+        let modes = self.modes;
+        let input = |j: usize| modes.rows[j][1].abs();
+        let v = modes.energy(a.m) + h * f0;
+        let row = |j: usize| (modes.rows[j][0].abs() + modes.rows[j][1].abs() * modes.tilt) * v;
+        [
+            row(k + 2) + input(k + 1) * f0 + input(k) * f1,
+            row(k + 3) + input(k + 2) * f0 + input(k + 1) * f1 + input(k) * f2,
+        ]
+    }
+    /// The same from `steady`, those of the steady motion, and what is not steady, which reaches `most`: it only swings and
+    /// decays, and below critical damping its derivatives all have one amplitude. (At resonance without damping there
+    /// is no steady motion.)
+    fn steady_bounds_with(&self, k: usize, steady: [f64; 2], rest: Motion, most: f64, h: f64) -> [f64; 2] {
+        let modes = self.modes;
         if modes.zeta < STRONG_DAMPING {
-            // √(x² + y²) grows by no more than |f|.
-            let v = energy(a.m) + h * f0;
-            let input = |j: usize| r[j][1].abs();
-            return [
-                row(k + 2, v, tilt * v) + input(k + 1) * f0 + input(k) * f1,
-                row(k + 3, v, tilt * v) + input(k + 2) * f0 + input(k + 1) * f1 + input(k) * f2,
-            ];
+            return [most + steady[0], most + steady[1]];
         }
-        // What is not steady only decays.
-        let steady = self.steady(a.tau);
-        let rest = Motion { x: a.m.x - steady.x, w: a.m.w - steady.w };
-        let [x, w] = if modes.kappa == 0.0 {
-            [energy(rest), tilt * energy(rest)]
+        let (x, w) = if modes.kappa == 0.0 {
+            (modes.energy(rest), modes.tilt * modes.energy(rest))
         } else {
-            [rest.x.abs() + h * rest.w.abs(), rest.w.abs()]
+            (rest.x.abs() + h * rest.w.abs(), rest.w.abs())
         };
-        let mut bounds = [row(k + 2, x, w), row(k + 3, x, w)];
+        let most = if modes.beta > 0.0 { most } else { f64::INFINITY };
+        let row = |j: usize| (modes.rows[j][0].abs() * x + modes.rows[j][1].abs() * w).min(most);
+        [row(k + 2) + steady[0], row(k + 3) + steady[1]]
+    }
+    /// Bounds on q″ and q‴ of the steady motion.
+    fn steady_bounds(&self, k: usize) -> [f64; 2] {
+        let mut bounds = [0.0; 2];
         for sine in &self.sines {
             let size = match k {
                 Modes::DISPLACEMENT => 1.0,
                 Modes::VELOCITY => sine.nu,
-                _ => (2.0 * modes.zeta * sine.nu).hypot(1.0),
+                _ => 1.0 + 2.0 * self.modes.zeta * sine.nu,
             };
-            let size = size * sine.steady.norm() * sine.amplitude.abs() * sine.nu * sine.nu;
+            let size = size * sine.size * sine.amplitude.abs() * sine.nu * sine.nu;
             bounds[0] += size;
             bounds[1] += size * sine.nu;
         }
@@ -246,16 +292,15 @@ impl<'a> Segment<'a> {
     }
     /// The motion at the begin.
     fn begin_sample(&self) -> Sample {
-        let mut s = Sample { tau: 0.0, m: self.start, f: self.constant, f_slope: self.slope };
+        let mut s = self.linear_sample(0.0, self.start);
         for sine in &self.sines {
-            s.f += sine.amplitude * sine.phase.im;
-            s.f_slope += sine.amplitude * sine.nu * sine.phase.re;
+            s.add(sine, sine.phase, self.modes);
         }
         s
     }
     /// The end of a segment of linear forcing whose motion is known.
     pub(crate) fn sample_known(&self, tau: f64, m: Motion) -> Sample {
-        Sample { tau, m, f: self.constant + self.slope * tau, f_slope: self.slope }
+        self.linear_sample(tau, m)
     }
     /// Takes the extremes of quantity `k` over the segment up to `end` into `range`, both ends included.
     ///
@@ -277,15 +322,26 @@ impl<'a> Segment<'a> {
         if self.sines.is_empty() {
             self.linear_extremes(k, end, interval, range);
         } else {
-            self.search(k, &self.begin_sample(), end, interval, range);
+            self.search(k, self.steady_bounds(k), &self.begin_sample(), end, interval, range);
         }
     }
     /// Linear forcing: the motion swings freely about the static one, x = c₀ + c₁(τ − 2ζ), y = c₁, A/ω = −(c₀ + c₁τ). The
     /// bend of a quantity is free motion, so its zeros are known, and between two of them the slope vanishes once at most.
     fn linear_extremes(&self, k: usize, end: &Sample, interval: usize, range: &mut Range) {
         let (modes, span) = (self.modes, end.tau);
-        let bent = self.steady(0.0);
-        let swing = Motion { x: self.start.x - bent.x, w: self.start.w - bent.w };
+        let mut a = self.begin_sample();
+        if self.slope != 0.0
+            && modes.beta * span < PI
+            && modes.zeta * span < 4.0
+            && self.bend(k, &a) * self.bend(k, end) > 0.0
+        {
+            // Less than half a swing, and the bend keeps its sign. (Of a longer decay it would be rounding.)
+            if self.slope(k, &a) * self.slope(k, end) < 0.0 {
+                self.turning_point(k, &a, end, interval, range);
+            }
+            return;
+        }
+        let (bent, swing) = (a.steady, a.swing());
         let about = |tau: f64| match k {
             Modes::DISPLACEMENT => bent.x + self.slope * tau,
             Modes::VELOCITY => self.slope,
@@ -297,12 +353,8 @@ impl<'a> Segment<'a> {
             modes.free_extremes(k, swing, span, seen, |tau, value| range.note(interval, tau, first + value));
             return;
         }
-        let mut a = self.begin_sample();
-        if modes.beta * span < PI && modes.zeta * span < 4.0 && self.bend(k, &a) * self.bend(k, end) > 0.0 {
-            // Less than half a swing, and the bend keeps its sign. (Of a longer decay it would be rounding.)
-            if self.slope(k, &a) * self.slope(k, end) < 0.0 {
-                self.turning_point(k, &a, end, interval, range);
-            }
+        if modes.beta * span > MANY_SWINGS {
+            self.search(k, self.steady_bounds(k), &a, end, interval, range);
             return;
         }
         // Off its turning points the swing reaches N/β.
@@ -328,14 +380,41 @@ impl<'a> Segment<'a> {
             a = b;
         }
     }
-    /// Halves the panel from `a` to `b` until nothing new can be in its parts.
-    fn search(&self, k: usize, a: &Sample, b: &Sample, interval: usize, range: &mut Range) {
+    /// Halves the panel from `a` to `b` until nothing new can be in its parts, the likelier part first.
+    ///
+    /// Over many swings the motion stays within its amplitude of the steady one; `steady` bounds the bend of that, and the
+    /// change of the bend.
+    fn search(&self, k: usize, steady: [f64; 2], a: &Sample, b: &Sample, interval: usize, range: &mut Range) {
         let h = b.tau - a.tau;
-        let [m2, m3] = self.bounds(k, a, h);
-        let (qa, qb) = (self.value(k, a), self.value(k, b));
-        let bump = 0.125 * m2 * h * h;
+        // Rounding of what is compared decides nothing.
         let scale = range.high.value.max(-range.low.value);
-        if (qa.max(qb) + bump <= range.high.value && qa.min(qb) - bump >= range.low.value) || bump <= 1e-16 * scale {
+        let slack = 8.0 * f64::EPSILON * self.modes.size(k, a.m).max(self.modes.size(k, b.m)).max(scale);
+        let (high, low) = (range.high.value + slack, range.low.value - slack);
+        let (qa, qb) = (self.value(k, a), self.value(k, b));
+        let holds_nothing = |m2: f64| {
+            let bump = 0.125 * m2 * h * h;
+            (qa.max(qb) + bump <= high && qa.min(qb) - bump >= low) || bump <= 1e-16 * high.max(-low)
+        };
+        let mut bounds = [f64::INFINITY; 2];
+        let forcing = self.forcing_bounds(a, h);
+        if self.modes.zeta < STRONG_DAMPING || forcing[0] < CANCELLED * self.bound[0] {
+            bounds = self.energy_bounds(k, a, h, forcing);
+            if holds_nothing(bounds[0]) {
+                return;
+            }
+        }
+        let (steady_a, steady_b) = (self.modes.quantity(k, a.steady), self.modes.quantity(k, b.steady));
+        let rest = a.swing();
+        let most = self.modes.reach(k, rest);
+        let around = 0.125 * steady[0] * h * h + most;
+        let above = steady_a.max(steady_b) + around - high;
+        let below = low - (steady_a.min(steady_b) - around);
+        if above <= 0.0 && below <= 0.0 {
+            return;
+        }
+        let other = self.steady_bounds_with(k, steady, rest, most, h);
+        let [m2, m3] = [bounds[0].min(other[0]), bounds[1].min(other[1])];
+        if other[0] < bounds[0] && holds_nothing(m2) {
             return;
         }
         let (sa, sb) = (self.slope(k, a), self.slope(k, b));
@@ -350,11 +429,20 @@ impl<'a> Segment<'a> {
             return;
         }
         let middle = a.tau + 0.5 * h;
-        if middle > a.tau && middle < b.tau {
+        let panels = self.panels.get();
+        if middle > a.tau && middle < b.tau && panels > 0 {
+            self.panels.set(panels - 1);
             let c = self.sample(Phase::product(1.0, middle));
             range.note(interval, middle, self.value(k, &c));
-            self.search(k, a, &c, interval, range);
-            self.search(k, &c, b, interval, range);
+            let mut part = |a: &Sample, b: &Sample| self.search(k, steady, a, b, interval, range);
+            let first = if above >= below { steady_a > steady_b } else { steady_a < steady_b };
+            if first {
+                part(a, &c);
+                part(&c, b);
+            } else {
+                part(&c, b);
+                part(a, &c);
+            }
         }
     }
     /// Newton's iteration, kept between `a` and `b`, where the slope changes sign once.
@@ -380,6 +468,22 @@ impl<'a> Segment<'a> {
                 tau = 0.5 * (low + high);
             }
         }
+    }
+}
+
+impl Sample {
+    /// Takes in a sinusoid whose phase is e^(iφ) = `now`.
+    #[inline]
+    fn add(&mut self, sine: &Sine, now: Complex64, modes: &Modes) {
+        self.f += sine.amplitude * now.im;
+        self.f_slope += sine.amplitude * sine.nu * now.re;
+        let x = now * sine.steady;
+        self.steady.x += sine.amplitude * x.im;
+        self.steady.w += sine.amplitude * (modes.sigma * x.im + sine.nu * x.re);
+    }
+    /// What is not steady, and only swings and decays.
+    fn swing(&self) -> Motion {
+        Motion { x: self.m.x - self.steady.x, w: self.m.w - self.steady.w }
     }
 }
 

@@ -1,9 +1,12 @@
 //! Exact response to velocity shocks.
 
+use crate::impulse_lanes::SideBySide;
+use crate::lanes::{LANES, LARGEST_ANGLE};
 use crate::peaks::{Range, Response};
 use crate::suspension::{Modes, Motion, Phase};
 use crate::{Error, Suspension};
 use std::f64::consts::PI;
+use std::ops::RangeInclusive;
 
 /// A jump of the base's velocity, in no time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -102,8 +105,25 @@ impl VelocityShocks {
         }
         run.finish(|i| self.shocks[i].time)
     }
-    /// Extremes of one quantity from the first to the last shock, and after it.
-    pub(crate) fn extremes(&self, modes: &Modes, omega: f64, k: usize) -> [Range; 2] {
+    /// Extremes of one quantity from the first to the last shock, and after it, for each angular frequency.
+    pub(crate) fn extremes_at(&self, modes: &Modes, omegas: &[f64], k: usize) -> Vec<[Range; 2]> {
+        let arch = pulp::Arch::new();
+        let span = self.shocks[self.shocks.len() - 1].time - self.shocks[0].time;
+        let mut list = Vec::with_capacity(omegas.len());
+        for chunk in omegas.chunks(LANES) {
+            let omega = std::array::from_fn(|l| chunk[l.min(chunk.len() - 1)]);
+            let tame = TAME.contains(&self.largest()) && chunk.iter().all(|w| w * span < LARGEST_ANGLE);
+            let together =
+                if tame { arch.dispatch(SideBySide { shocks: &self.shocks, modes, omega, k }) } else { None };
+            match together {
+                Some(ranges) => list.extend(&ranges[..chunk.len()]),
+                None => list.extend(chunk.iter().map(|&w| self.extremes(modes, w, k))),
+            }
+        }
+        list
+    }
+    /// The same at one frequency.
+    fn extremes(&self, modes: &Modes, omega: f64, k: usize) -> [Range; 2] {
         let (mut m, mut during) = (Motion::default(), Range::default());
         let mut last = self.shocks[0].time;
         for shock in &self.shocks {
@@ -174,15 +194,68 @@ impl Run {
     }
 }
 
+/// Velocity changes whose squares are neither too small nor too large to compare.
+const TAME: RangeInclusive<f64> = 1e-100..=1e100;
+
 /// ω (to − from), exact in its second double where it is long.
 #[inline]
 pub(crate) fn gap(omega: f64, from: f64, to: f64) -> Phase {
-    let dt = to - from;
-    if omega * dt <= 16.0 {
-        return Phase::product(omega, dt);
-    }
-    // Knuth's two-sum of to + (−from).
-    let back = dt - to;
-    let lo = (to - (dt - back)) + (-from - back);
+    let (dt, lo) = difference(from, to);
     Phase::product2(omega, dt, lo)
+}
+
+/// to − from in two doubles (Knuth's two-sum).
+#[inline]
+pub(crate) fn difference(from: f64, to: f64) -> (f64, f64) {
+    let dt = to - from;
+    let back = dt - to;
+    (dt, (to - (dt - back)) + (-from - back))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::DampingRatio;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(400))]
+        /// Eight side by side, by series, as one by one, by the functions of the standard library.
+        #[test]
+        fn lanes_agree_with_one_frequency(
+            list in prop::collection::vec((-6.0..3.0_f64, -10.0..10.0_f64, 0..4_u8), 1..40),
+            zeta in prop_oneof![
+                Just(0.0), 1e-12..1e-3_f64, 1e-3..1.0_f64, Just(1.0 - 1e-9), Just(1.0), Just(1.0 + 1e-9), 1.0..60.0_f64
+            ],
+            low in -4.0..2.0_f64,
+        ) {
+            let mut time = 0.0;
+            let shocks: Vec<VelocityShock> = list
+                .iter()
+                .map(|&(gap, delta_v, kind)| {
+                    // One in four comes at the instant of the one before.
+                    time += if kind == 0 { 0.0 } else { 10_f64.powf(gap) };
+                    VelocityShock { time, delta_v }
+                })
+                .collect();
+            let shocks = VelocityShocks::new(shocks).expect("shocks");
+            let modes = Modes::new(DampingRatio::new(zeta).expect("damping"));
+            let omegas: Vec<f64> = (0..11).map(|i| 10_f64.powf(low + 0.4 * f64::from(i))).collect();
+            let sum: f64 = shocks.shocks.iter().map(|s| s.delta_v.abs()).sum();
+            for k in [Modes::DISPLACEMENT, Modes::VELOCITY, Modes::ACCELERATION] {
+                let together = shocks.extremes_at(&modes, &omegas, k);
+                prop_assert_eq!(together.len(), omegas.len());
+                // The stated accuracy of either, 8 ε a shock; A/ω is 2ζ times a velocity.
+                let size = if k == Modes::ACCELERATION { 1.0 + 2.0 * zeta } else { 1.0 };
+                let allowed = 16.0 * f64::EPSILON * size * sum * f64::from(u32::try_from(list.len()).expect("few"));
+                for (&omega, together) in omegas.iter().zip(together) {
+                    for (a, b) in together.iter().zip(shocks.extremes(&modes, omega, k)) {
+                        for (a, b) in [(a.high.value, b.high.value), (a.low.value, b.low.value)] {
+                            prop_assert!((a - b).abs() <= allowed, "{k} at {omega}: {a}, not {b}");
+                        }
+                    }
+                }
+            }
+        }
+    }
 }

@@ -35,25 +35,36 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod bounds;
 mod coupling;
 mod error;
 mod filter;
 mod forced;
 mod fragility;
 mod impulse;
+mod impulse_lanes;
+mod lanes;
+mod limit_curve;
 mod peaks;
 mod pulse;
 mod record;
 mod spectrum;
+mod study;
 mod suspension;
 
+pub use bounds::{LooseShock, PeakBounds, Peaked, peak_bounds};
 pub use coupling::{ImpulseFactors, Rule, RulePoint, TrainResponse, respond, shocks_at, three_way_rule};
 pub use error::Error;
 pub use filter::SpectrumFilter;
 pub use fragility::{DamageBoundary, EquivalentPulse, Limit, Margin, ShockTable, Trial};
 pub use impulse::{VelocityShock, VelocityShocks};
+pub use limit_curve::LimitCurve;
 pub use peaks::{Extreme, Extremes, Response};
 pub use pulse::{Pulse, Pulses, Shape};
 pub use record::{Finding, Lines, Record, STANDARD_GRAVITY_M_S2, Sample, Survey, Units, stream};
 pub use spectrum::{Frequencies, Quantity, Spectrum};
+pub use study::{
+    GainMap, Holders, OMEGAS, ShapeFigures, SuspendedZones, Worst, amplification, half_sine_train, impact_of_peak,
+    omegas, rule_either_end, suspended_zone, worst,
+};
 pub use suspension::{DampingRatio, State, Suspension};

@@ -50,7 +50,7 @@ impl Extremes {
 pub(crate) struct Mark {
     pub(crate) value: f64,
     tau: f64,
-    interval: usize,
+    pub(crate) interval: usize,
 }
 
 /// Running extremes of one quantity.

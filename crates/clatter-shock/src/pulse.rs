@@ -1,11 +1,14 @@
 //! Pulses of finite length: shapes, trains, and the exact response to them.
 
+mod overlap;
+
 use crate::forced::Segment;
 use crate::peaks::{Range, Response};
-use crate::suspension::{Modes, Motion, Phase};
+use crate::suspension::{Modes, Motion};
 use crate::{Error, State, Suspension};
+use num_complex::Complex64;
 use std::cmp::Ordering;
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::PI;
 
 /// The classical pulse shapes, of amplitude a and duration D.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -117,21 +120,10 @@ struct Piece {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct SinePiece {
     amplitude: f64,
-    phase: f64,
     rate: f64,
-}
-
-#[derive(Debug, Clone, Copy)]
-struct Term {
-    start: Instant,
-    end: Instant,
-    law: Law,
-}
-
-#[derive(Debug, Clone, Copy)]
-enum Law {
-    Linear { from: f64, to: f64 },
-    Sine { amplitude: f64, phase: f64, rate: f64 },
+    /// e^(iφ) at the begin, and e^(i rate length).
+    phase: Complex64,
+    turned: Complex64,
 }
 
 const PULSES: &str = "pulses";
@@ -143,7 +135,13 @@ impl Pulses {
     /// # Errors
     ///
     /// [`Error::Empty`]; [`Error::ZeroDuration`] for a pulse of no length; [`Error::Entry`] for a value that is not finite, a
-    /// negative duration or a ramp outside (0, ½].
+    /// negative duration or a ramp outside (0, ½]; [`Error::Overlap`] where too many sinusoids of different lengths overlap.
+    ///
+    /// # Cost
+    ///
+    /// n pulses take n log n steps, however they overlap, and responses to them n steps more for each frequency: sinusoids of
+    /// one length add up to one. Where pulses of m different lengths overlap, both take m times as many, and the memory
+    /// for it is bounded: beyond four million sinusoids (2000 half-sines of 2000 lengths that all overlap) it is refused.
     pub fn new(pulses: &[Pulse]) -> Result<Self, Error> {
         if pulses.is_empty() {
             return Err(Error::Empty(PULSES));
@@ -167,9 +165,10 @@ impl Pulses {
             {
                 return Err(entry("ramp over duration", ramp, "in (0, 0.5]; without ramps it is a rectangle"));
             }
-            add_terms(p, &mut terms);
+            overlap::add_terms(p, &mut terms);
         }
-        Ok(Self::from_terms(terms))
+        let (pieces, sines, end) = overlap::pieces(terms)?;
+        Ok(Self { pieces, sines, end })
     }
     /// A piecewise linear history of (time, acceleration); two points at one time are a jump.
     ///
@@ -211,41 +210,6 @@ impl Pulses {
             .collect();
         Self { pieces, sines: Vec::new(), end: Instant::at(points.last().map_or(0.0, |p| p.0)) }
     }
-    /// Cuts time at every begin and end and sums what acts between.
-    fn from_terms(mut terms: Vec<Term>) -> Self {
-        terms.sort_by(|a, b| a.start.order(&b.start));
-        let mut cuts: Vec<Instant> = terms.iter().flat_map(|t| [t.start, t.end]).collect();
-        cuts.sort_by(Instant::order);
-        cuts.dedup();
-        let (mut pieces, mut sines) = (Vec::with_capacity(cuts.len()), Vec::new());
-        let mut coming = terms.into_iter().peekable();
-        let mut active: Vec<Term> = Vec::new();
-        for cut in cuts.windows(2) {
-            let (start, end) = (cut[0], cut[1]);
-            active.retain(|t| t.end.order(&start) == Ordering::Greater);
-            while let Some(term) = coming.next_if(|t| t.start.order(&start) != Ordering::Greater) {
-                active.push(term);
-            }
-            let first_sine = sines.len();
-            let (mut from, mut to) = (0.0, 0.0);
-            for t in &active {
-                match t.law {
-                    Law::Linear { from: a, to: b } => {
-                        let length = t.end.since(t.start);
-                        let at = |instant: Instant| a + (b - a) * (instant.since(t.start) / length);
-                        from += if t.start == start { a } else { at(start) };
-                        to += if t.end == end { b } else { at(end) };
-                    }
-                    Law::Sine { amplitude, phase, rate } => {
-                        sines.push(SinePiece { amplitude, phase: phase + rate * start.since(t.start), rate });
-                    }
-                }
-            }
-            pieces.push(Piece { start, length: end.since(start), from, to, sines: (first_sine, sines.len()) });
-        }
-        let end = cuts.last().copied().unwrap_or(Instant::at(0.0));
-        Self { pieces, sines, end }
-    }
     /// Peaks of the component's response, ring-down included. Interval i begins at the i-th begin or end of a part of a
     /// pulse.
     ///
@@ -253,6 +217,11 @@ impl Pulses {
     ///
     /// Within a few tens of roundings per pulse of the largest response, also at resonance with ζ = 0 and for pulses much
     /// shorter or longer than the period; peaks inside pulses are isolated by bounds on derivatives, never sampled.
+    ///
+    /// # Cost
+    ///
+    /// A pulse of many periods costs little more than one of a few: the search halves it, and leaves out what the envelope of the
+    /// swing cannot lift above the largest value yet.
     ///
     /// # Examples
     ///
@@ -286,53 +255,30 @@ impl Pulses {
     }
     /// The motion at the end of the last pulse; extremes until then of the quantities asked go into `ranges`.
     pub(crate) fn drive(&self, modes: &Modes, omega: f64, quantities: &[usize], ranges: &mut [Range]) -> Motion {
-        let mut m = Motion::default();
+        self.drive_on(Motion::default(), modes, omega, quantities, ranges)
+    }
+    /// The same from a motion under way.
+    pub(crate) fn drive_on(
+        &self,
+        mut m: Motion,
+        modes: &Modes,
+        omega: f64,
+        quantities: &[usize],
+        ranges: &mut [Range],
+    ) -> Motion {
         let mut segment = Segment::new(modes);
         for (i, piece) in self.pieces.iter().enumerate() {
-            let span = Phase::product(omega, piece.length);
-            segment.begin(m, -piece.from / omega, -(piece.to - piece.from) / (omega * span.hi), span.hi);
-            for sine in &self.sines[piece.sines.0..piece.sines.1] {
+            let span = segment.begin_line(m, omega, piece.length, piece.from, piece.to);
+            let sines = &self.sines[piece.sines.0..piece.sines.1];
+            for sine in sines {
                 segment.add_sine(-sine.amplitude / omega, sine.phase, sine.rate / omega);
             }
-            let end = segment.sample(span);
+            let end = segment.sample_end(span, |i| sines[i].turned);
             for (&k, range) in quantities.iter().zip(ranges.iter_mut()) {
                 segment.extremes(k, &end, i, range);
             }
             m = end.m;
         }
         m
-    }
-}
-
-/// The parts of one pulse. Sinusoids are cut so that each part turns by half a circle at most.
-fn add_terms(p: &Pulse, terms: &mut Vec<Term>) {
-    let (a, d) = (p.amplitude, p.duration);
-    let instant = |fraction: f64| Instant::after(p.start, fraction * d);
-    let mut add = |from: f64, to: f64, law: Law| {
-        let (start, end) = (instant(from), instant(to));
-        if start.order(&end) == Ordering::Less {
-            terms.push(Term { start, end, law });
-        }
-    };
-    let line = |from, to| Law::Linear { from, to };
-    match p.shape {
-        Shape::HalfSine => add(0.0, 1.0, Law::Sine { amplitude: a, phase: 0.0, rate: PI / d }),
-        Shape::Haversine => {
-            add(0.0, 1.0, line(0.5 * a, 0.5 * a));
-            add(0.0, 0.5, Law::Sine { amplitude: -0.5 * a, phase: FRAC_PI_2, rate: TAU / d });
-            add(0.5, 1.0, Law::Sine { amplitude: -0.5 * a, phase: PI + FRAC_PI_2, rate: TAU / d });
-        }
-        Shape::Triangle => {
-            add(0.0, 0.5, line(0.0, a));
-            add(0.5, 1.0, line(a, 0.0));
-        }
-        Shape::InitialPeakSawtooth => add(0.0, 1.0, line(a, 0.0)),
-        Shape::TerminalPeakSawtooth => add(0.0, 1.0, line(0.0, a)),
-        Shape::Rectangle => add(0.0, 1.0, line(a, a)),
-        Shape::Trapezoid { ramp } => {
-            add(0.0, ramp, line(0.0, a));
-            add(ramp, 1.0 - ramp, line(a, a));
-            add(1.0 - ramp, 1.0, line(a, 0.0));
-        }
     }
 }

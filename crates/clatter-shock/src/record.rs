@@ -1,7 +1,11 @@
 //! Measured records: time and acceleration, line by line.
 
+use crate::forced::Segment;
+use crate::peaks::Range;
+use crate::suspension::{Modes, Motion};
 use crate::{DampingRatio, Error, Frequencies, Pulses, Quantity, Spectrum, SpectrumFilter};
-use std::io::BufRead;
+use std::f64::consts::TAU;
+use std::io::{BufRead, ErrorKind, Read};
 
 /// Standard acceleration of free fall, 9.80665 m/s² exactly (3rd CGPM, 1901).
 pub const STANDARD_GRAVITY_M_S2: f64 = 9.806_65;
@@ -127,6 +131,8 @@ const UNEVEN: f64 = 1e-3;
 const LEVEL: f64 = 0.01;
 /// Findings listed at most.
 const MOST_FINDINGS: usize = 100;
+/// Bytes of a line at most: what is longer is no record, and would not fit in memory in the end.
+const LONGEST: u64 = 1 << 16;
 /// Bins of the running mean: their number is halved when they are full.
 const BINS: usize = 64;
 
@@ -171,11 +177,20 @@ impl<R: BufRead> Lines<R> {
     pub fn sample(&mut self) -> Result<Option<Sample>, Error> {
         loop {
             self.text.clear();
-            let n = self.input.read_line(&mut self.text).map_err(|e| Error::Read(e.to_string()))?;
+            self.line += 1;
+            let read = (&mut self.input).take(LONGEST).read_line(&mut self.text);
+            let n = read.map_err(|error| match error.kind() {
+                ErrorKind::InvalidData => Error::Line { line: self.line, what: "not text (UTF-8)".to_owned() },
+                _ => Error::Read(error.to_string()),
+            })? as u64;
             if n == 0 {
                 return Ok(None);
             }
-            (self.line, self.bytes) = (self.line + 1, self.bytes + n as u64);
+            if n == LONGEST && !self.text.ends_with('\n') {
+                let what = format!("longer than {LONGEST} bytes, where two columns should be");
+                return Err(Error::Line { line: self.line, what });
+            }
+            self.bytes += n;
             let text = self.text.trim().trim_start_matches('\u{feff}');
             if text.is_empty() || text.starts_with('#') {
                 continue;
@@ -361,12 +376,13 @@ impl Record {
     }
 }
 
-/// Spectrum of an even record of any length in constant memory: a second pass after [`Lines::survey`] told the step.
+/// Spectrum of a record of any length in constant memory: a second pass after [`Lines::survey`] told whether it is even.
 ///
+/// Even records go through the recursive filter, others step by step, which takes some hundred times as long.
 /// `progress` is told the bytes read so far, every few thousand samples.
 ///
 /// # Errors
-/// As [`Lines::sample`]; [`Error::Uneven`] if the survey found no even step.
+/// As [`Lines::sample`]; [`Error::Short`] for fewer than two samples.
 pub fn stream<R: BufRead>(
     mut lines: Lines<R>,
     survey: &Survey,
@@ -375,20 +391,62 @@ pub fn stream<R: BufRead>(
     quantity: Quantity,
     mut progress: impl FnMut(u64),
 ) -> Result<Spectrum, Error> {
-    let step = survey.step.ok_or(Error::Uneven)?;
-    let mut filter = SpectrumFilter::new(frequencies.clone(), damping, quantity, step)?;
     let mut piece = Vec::with_capacity(PIECE);
-    while let Some(sample) = lines.sample()? {
-        piece.push(sample.acceleration);
-        if piece.len() == PIECE {
-            filter.push(&piece);
+    let mut pieces = |take: &mut dyn FnMut(&[Sample])| -> Result<(), Error> {
+        loop {
             piece.clear();
+            while piece.len() < PIECE
+                && let Some(sample) = lines.sample()?
+            {
+                piece.push(sample);
+            }
+            take(&piece);
             progress(lines.bytes());
+            if piece.len() < PIECE {
+                return Ok(());
+            }
         }
+    };
+    if let Some(step) = survey.step {
+        let mut filter = SpectrumFilter::new(frequencies.clone(), damping, quantity, step)?;
+        let mut values = Vec::with_capacity(PIECE);
+        pieces(&mut |piece| {
+            values.clear();
+            values.extend(piece.iter().map(|s| s.acceleration));
+            filter.push(&values);
+        })?;
+        return filter.finish();
     }
-    filter.push(&piece);
-    progress(lines.bytes());
-    filter.finish()
+    let modes = Modes::new(damping);
+    let mut lanes: Vec<(f64, Motion, Range)> =
+        frequencies.hz().iter().map(|f| (TAU * f, Motion::default(), Range::default())).collect();
+    let row = quantity.row(lanes[0].0).0;
+    let mut segment = Segment::new(&modes);
+    let mut last: Option<Sample> = None;
+    let mut count = 0;
+    pieces(&mut |piece| {
+        count += piece.len();
+        let joined: Vec<Sample> = last.iter().chain(piece).copied().collect();
+        for (omega, m, range) in &mut lanes {
+            for step in joined.windows(2) {
+                let (from, to) = (step[0], step[1]);
+                let span = segment.begin_line(*m, *omega, to.time - from.time, from.acceleration, to.acceleration);
+                let end = segment.sample(span);
+                segment.extremes(row, &end, 0, range);
+                *m = end.m;
+            }
+        }
+        last = joined.last().copied();
+    })?;
+    if count < 2 {
+        return Err(Error::Short(count));
+    }
+    Ok(Spectrum::collect(frequencies, damping, quantity, |i, _, k| {
+        let (_, m, during) = lanes[i];
+        let mut after = Range::default();
+        after.note_free(&modes, k, m, f64::INFINITY, 0);
+        [during, after]
+    }))
 }
 
 /// Samples read before they are filtered.

@@ -166,11 +166,16 @@ impl Spectrum {
 impl VelocityShocks {
     /// Shock response spectrum of the shocks, exact at every frequency; times in seconds.
     ///
+    /// Eight frequencies are carried side by side on machines with vectors of fused multiply-adds, with the accuracy of
+    /// [`VelocityShocks::respond`].
+    ///
     /// The instant of the last shock ends the primary part, just before the jump and just after.
     #[must_use]
     pub fn spectrum(&self, frequencies: &Frequencies, damping: DampingRatio, quantity: Quantity) -> Spectrum {
         let modes = Modes::new(damping);
-        Spectrum::collect(frequencies, damping, quantity, |_, omega, k| self.extremes(&modes, omega, k))
+        let omegas: Vec<f64> = frequencies.hz.iter().map(|hz| TAU * hz).collect();
+        let extremes = self.extremes_at(&modes, &omegas, quantity.row(omegas[0]).0);
+        Spectrum::collect(frequencies, damping, quantity, |i, _, _| extremes[i])
     }
 }
 

@@ -183,11 +183,13 @@ pub(crate) struct Modes {
     pub(crate) p: f64,
     /// √(1 − ζ²), or 0 beyond critical damping, and what its rounding left.
     pub(crate) beta: f64,
-    beta_lo: f64,
+    pub(crate) beta_lo: f64,
     /// Difference of the decay rates 2√(ζ² − 1), or 0 up to critical damping.
     pub(crate) kappa: f64,
     /// exp(−ζπ/β): what half a swing leaves.
-    half_swing: f64,
+    pub(crate) half_swing: f64,
+    /// √(1 + σ²): |w| stays below that times √(x² + y²).
+    pub(crate) tilt: f64,
     /// Rows k: the k-th derivative of x in free motion is `row[0] x + row[1] w`. Rows 0, 1, 2 are the three
     /// quantities: displacement ωz, velocity z′, absolute acceleration A/ω.
     pub(crate) rows: [[f64; 2]; 7],
@@ -240,6 +242,7 @@ impl Modes {
                 beta_lo,
                 kappa: 0.0,
                 half_swing: (-zeta * PI / beta).exp(),
+                tilt: 0.0,
                 rows: [[0.0; 2]; 7],
             }
         } else {
@@ -254,9 +257,11 @@ impl Modes {
                 beta_lo: 0.0,
                 kappa: 2.0 * eta,
                 half_swing: 0.0,
+                tilt: 0.0,
                 rows: [[0.0; 2]; 7],
             }
         };
+        modes.tilt = (1.0 + modes.sigma * modes.sigma).sqrt();
         modes.rows[0] = [1.0, 0.0];
         for k in 1..7 {
             let [a, b] = modes.rows[k - 1];
@@ -309,7 +314,26 @@ impl Modes {
     /// Upper bound on each of the three quantities at turning points to come, for ζ ≤ 1: √(w² + (1−ζ²)x²), their common amplitude.
     #[inline]
     pub(crate) fn amplitude(&self, m: Motion) -> f64 {
-        (m.w * m.w + self.p * m.x * m.x).sqrt()
+        let square = m.w * m.w + self.p * m.x * m.x;
+        if (1e-280..1e280).contains(&square) { square.sqrt() } else { m.w.hypot(self.beta * m.x) }
+    }
+    /// The terms of quantity `k` without their signs: what its rounding is relative to.
+    pub(crate) fn size(&self, k: usize, m: Motion) -> f64 {
+        self.rows[k][0].abs() * m.x.abs() + self.rows[k][1].abs() * m.w.abs()
+    }
+    /// √(x² + y²), which free motion never raises.
+    pub(crate) fn energy(&self, m: Motion) -> f64 {
+        let y = m.w - self.sigma * m.x;
+        (m.x * m.x + y * y).sqrt()
+    }
+    /// Upper bound on quantity `k` in all free motion from `m`.
+    pub(crate) fn reach(&self, k: usize, m: Motion) -> f64 {
+        if self.beta > 0.0 {
+            return self.amplitude(m) / self.beta;
+        }
+        // Two decays in a row: |x| ≤ |x₀| + |w₀|.
+        let [a, b] = self.rows[k];
+        a.abs() * (m.x.abs() + m.w.abs()) + b.abs() * m.w.abs()
     }
     /// The first zero of row `j` after the start of free motion from `m`, as τ and, beyond critical damping, φ.
     ///

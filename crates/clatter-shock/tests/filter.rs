@@ -158,3 +158,27 @@ proptest! {
         }
     }
 }
+
+/// Bursts in a long record with noise between: whole blocks are passed by where nothing new can be in them, and the true
+/// peaks are those of the exact response all the same.
+#[test]
+fn long_records_with_quiet_stretches() {
+    let mut state = 1_u64;
+    let mut noise = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        f64::from(u32::try_from(state >> 32).expect("32 bits")) / f64::from(u32::MAX) - 0.5
+    };
+    for (bursts, floor) in [(1_u32, 0.0), (4, 0.1), (3, 3.0)] {
+        let mut samples: Vec<f64> = (0..2600).map(|_| floor * noise()).collect();
+        for b in 0..bursts {
+            for i in 0..40 {
+                let size = 100.0 * (1.0 - 0.2 * f64::from(b)) * (std::f64::consts::PI * f64::from(i) / 40.0).sin();
+                samples[(150 + b * 610 + i) as usize] += if b % 2 == 0 { size } else { -size };
+            }
+        }
+        let hz = [1e-7, 1e-5, 4e-4, 3e-3, 0.011, 0.013, 0.05, 0.11, 0.2, 0.45, 1.7];
+        for zeta in [0.0, 1e-3, 0.05, 0.7, 1.0, 3.0] {
+            compare(&samples, 1.0, &hz, zeta, 1e-10);
+        }
+    }
+}

@@ -12,8 +12,8 @@ fn refusal(csv: &str, units: Option<Units>) -> String {
 fn bad_records_are_refused_by_line() {
     let si = Some(Units::SI);
     for (csv, message) in [
-        ("", "the record has 0 samples; it needs two at least"),
-        ("0,1\n", "the record has 1 samples; it needs two at least"),
+        ("", "the record has no samples; it needs two at least"),
+        ("0,1\n", "the record has one sample; it needs two at least"),
         ("0,1\n1,inf\n", "line 2: acceleration inf is not finite"),
         ("0,1\nnan,2\n", "line 2: time nan is not finite"),
         ("0,1\n\n# a note\n2,2\n1,3\n", "line 5: time 1.0 s does not come after 2.0 s, the line above"),
@@ -21,10 +21,15 @@ fn bad_records_are_refused_by_line() {
         ("t,a\n0,1\nt,a\n", "line 3: \"t\" is not a number; a header may only be the first line"),
         ("t,a\nt,a\n", "line 2: \"t\" is not a number; a header may only be the first line"),
         ("0,1\n1\n", "line 2: \"1\" is not two columns, time and acceleration"),
+        ("0,1\n1,\"1\n", "line 2: \"\\\"1\" is not a number; a header may only be the first line"),
         ("0,1\n1,1.2.3\n", "line 2: \"1.2.3\" is not a number; a header may only be the first line"),
     ] {
         assert_eq!(refusal(csv, si), message, "{csv:?}");
     }
+    let endless = "0,1\n".to_owned() + &"7".repeat(1 << 17);
+    assert_eq!(refusal(&endless, si), "line 2: longer than 65536 bytes, where two columns should be");
+    let binary = Record::read(&b"0,1\n\xff\xfe,1\n"[..], si).expect_err("no text");
+    assert_eq!(binary.to_string(), "line 2: not text (UTF-8)");
     assert!(refusal("0,1\n1,2\n", None).starts_with("the units of the record are not named"));
     assert!(refusal("time,acceleration\n0,1\n", None).starts_with("the units of the record are not named"));
     assert_eq!(Units::named("h", "g"), Err(Error::Unit("h".to_owned())));
@@ -103,5 +108,25 @@ fn streaming_gives_the_same_spectrum() {
     for (got, want) in got.maximax.iter().zip(&want.maximax) {
         // Peaks between samples come from Newton's iteration, which may begin elsewhere.
         assert!((got / want - 1.0).abs() < 1e-14, "{got} and {want}");
+    }
+}
+
+#[test]
+fn an_uneven_record_streams_to_the_very_same_spectrum() {
+    // Longer than two pieces, with steps that grow and shrink.
+    let (mut csv, mut time) = (String::from("time [s],acceleration [m/s2]\n"), 0.0);
+    for i in 0..40_000_u32 {
+        writeln!(csv, "{time:?},{:?}", (f64::from(i) * 0.1).sin()).expect("a string");
+        time += 1e-3 * (1.0 + 0.5 * f64::from(i % 7));
+    }
+    let record = Record::read(csv.as_bytes(), None).expect("record");
+    assert_eq!(record.survey().step, None, "uneven");
+    let frequencies = Frequencies::list(vec![0.01, 5.0, 300.0]).expect("frequencies");
+    let damping = DampingRatio::new(0.02).expect("damping");
+    for quantity in [Quantity::AbsoluteAcceleration, Quantity::EquivalentStaticAcceleration, Quantity::PseudoVelocity] {
+        let (lines, mut told) = (Lines::new(csv.as_bytes(), None), 0);
+        let got = stream(lines, record.survey(), &frequencies, damping, quantity, |b| told = b).expect("stream");
+        assert_eq!(told, csv.len() as u64);
+        assert_eq!(got, record.spectrum(&frequencies, damping, quantity), "the same steps in the same order");
     }
 }

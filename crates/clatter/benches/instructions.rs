@@ -3,7 +3,7 @@
 //! Needs valgrind and `cargo install gungraun-runner`, of the version that Cargo.lock names.
 #![expect(missing_docs, unused_qualifications, reason = "of items that the macros make")]
 
-use clatter::{Axis, Bar, Map, Quantity, Start, Summary};
+use clatter::{Axis, Bar, Count, Map, Quantity, Start, Summary};
 use gungraun::{library_benchmark, library_benchmark_group, main};
 use std::hint::black_box;
 
@@ -23,10 +23,48 @@ fn summary(bar: Bar) -> Summary {
 }
 
 #[library_benchmark]
-#[bench::four(bar(0.5, 0.3), 4)]
-#[bench::two_thousand(bar(0.999_999, 1.0), 2221)]
-fn train(bar: Bar, impacts: usize) -> f64 {
-    black_box(bar).train(&Start::default()).take(impacts).map(|impact| impact.time).sum()
+#[bench::four_impacts(bar(0.5, 0.3))]
+#[bench::thirty_one_impacts(bar(0.67, 0.15))]
+#[bench::two_thousand_impacts(bar(0.999_999, 1.0))]
+#[bench::one_float_below_endless(bar(0.799_999_999_999_999_9, 0.25))]
+#[bench::endless_by_one_float(bar(0.8, 0.25))]
+fn count(bar: Bar) -> Count {
+    black_box(bar).count(black_box(&Start::default()))
+}
+
+// The loop anyone would write, to its end.
+#[library_benchmark]
+#[bench::four_impacts(0.5, 0.3)]
+#[bench::thirty_one_impacts(0.67, 0.15)]
+fn plain_loop(q: f64, e: f64) -> [f64; 6] {
+    let (q, e) = black_box((q, e));
+    let t = q * (1.0 + e);
+    let (mut a, mut next, mut b, mut b_next, mut n, mut peak) = (-1.0, -t - 1.0, 0.0, 1.0, 1.0, 1.0_f64);
+    while next < 0.0 {
+        (a, next) = (next, t * next - e * a);
+        (b, b_next) = (b_next, t * b_next - e * b);
+        n += 1.0;
+        peak = peak.max(-a);
+    }
+    [n, (1.0 + e) * peak, b / -a, -e * a, next, b_next]
+}
+
+#[library_benchmark]
+#[bench::four_impacts(bar(0.5, 0.3))]
+#[bench::two_thousand_impacts(bar(0.999_999, 1.0))]
+fn train_one_by_one(bar: Bar) -> f64 {
+    let mut sum = 0.0;
+    for impact in black_box(bar).train(&Start::default()) {
+        sum += impact.time + impact.delta_v[0];
+    }
+    sum
+}
+
+#[library_benchmark]
+#[bench::four_impacts(bar(0.5, 0.3))]
+#[bench::two_thousand_impacts(bar(0.999_999, 1.0))]
+fn train_summed(bar: Bar) -> f64 {
+    black_box(bar).train(&Start::default()).map(|impact| impact.time + impact.delta_v[0]).sum()
 }
 
 #[library_benchmark]
@@ -35,5 +73,5 @@ fn map_of_the_peak() -> Map {
     Map::compute(Quantity::PeakEnd, q, e).expect("80 kB")
 }
 
-library_benchmark_group!(name = closed_form; benchmarks = summary, train, map_of_the_peak);
+library_benchmark_group!(name = closed_form; benchmarks = summary, count, plain_loop, train_one_by_one, train_summed, map_of_the_peak);
 main!(library_benchmark_groups = closed_form);

@@ -142,8 +142,20 @@ fn trains() {
         let (bar, repeat) = (bar(q, e), (20_000 / most).max(1));
         let (mut one, mut other) = (vec![[0.0; 3]; most], vec![[0.0; 3]; most]);
         let ours = || (0..repeat).for_each(|_| ours(black_box(&bar), black_box(&mut one)));
-        let loops = || (0..repeat).for_each(|_| drifting(black_box(&bar), black_box(&mut other)));
-        row(&format!("{name}, an impact"), repeat * most, "2.5 ns", ours, loops);
+        let mut loops = || (0..repeat).for_each(|_| drifting(black_box(&bar), black_box(&mut other)));
+        row(&format!("{name}, an impact"), repeat * most, "2.5 ns", ours, &mut loops);
+        if usize::try_from(match bar.count(&start) {
+            Count::Finite(n) => n,
+            _ => u64::MAX,
+        }) == Ok(most)
+        {
+            let sums = || {
+                (0..repeat).for_each(|_| {
+                    black_box(black_box(&bar).train(&start).map(|impact| impact.time + impact.delta_v[0]).sum::<f64>());
+                });
+            };
+            row(&format!("{name}, summed, an impact"), repeat * most, "2.5 ns", sums, &mut loops);
+        }
     }
 }
 

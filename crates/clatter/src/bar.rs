@@ -44,6 +44,24 @@ pub enum Mass {
     },
 }
 
+impl Mass {
+    /// Mass, and where it begins and ends.
+    pub(crate) fn parts(&self) -> Result<(f64, f64, f64), Error> {
+        let (m, from, to) = match *self {
+            Self::Point { mass_kg, position_m } => (mass_kg, place(position_m)?, position_m),
+            Self::Slab { mass_kg, from_m, to_m } => {
+                let (from, to) = (place(from_m)?, place(to_m)?);
+                if to < from {
+                    let allowed = "at or beyond where the slab begins";
+                    return Err(Error::Quantity { name: "end of slab (m)", value: to, allowed });
+                }
+                (mass_kg, from, to)
+            }
+        };
+        Ok((positive("mass (kg)", m)?, from, to))
+    }
+}
+
 /// What the inertia was given as: kept, because rounding it to a q would lose digits near q = 1, and because the
 /// last word on a count is spoken in integers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -169,18 +187,7 @@ impl Bar {
         let length = positive("length (m)", length_m)?;
         let (mut mass, mut first, mut size, mut second) = (0.0, 0.0, 0.0, 0.0);
         for piece in masses {
-            let (m, from, to) = match *piece {
-                Mass::Point { mass_kg, position_m } => (mass_kg, place(position_m)?, position_m),
-                Mass::Slab { mass_kg, from_m, to_m } => {
-                    let (from, to) = (place(from_m)?, place(to_m)?);
-                    if to < from {
-                        let allowed = "at or beyond where the slab begins";
-                        return Err(Error::Quantity { name: "end of slab (m)", value: to, allowed });
-                    }
-                    (mass_kg, from, to)
-                }
-            };
-            let m = positive("mass (kg)", m)?;
+            let (m, from, to) = piece.parts()?;
             // A slab is a point mass at its middle plus its own moment m w²/12.
             let (x, width) = (0.5 * from + 0.5 * to, to - from);
             mass += m;
@@ -285,7 +292,7 @@ fn terms(over: [f64; 2], under: [f64; 3]) -> (Dd, Dd) {
 }
 
 /// A length or mass of a size whose products stay within the range of floats.
-fn positive(name: &'static str, value: f64) -> Result<f64, Error> {
+pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, Error> {
     let allowed = "in [1e-25, 1e25]";
     if (1e-25..=1e25).contains(&value) { Ok(value) } else { Err(Error::Quantity { name, value, allowed }) }
 }

@@ -135,7 +135,7 @@ impl SafeZone {
     }
 
     /// 1/peak at the ends, which is finite at (1, 1) too.
-    fn inverse_peak(q: f64, e: f64) -> f64 {
+    pub(crate) fn inverse_peak(q: f64, e: f64) -> f64 {
         Bar::new(q, e).map_or(f64::NAN, |bar| 1.0 / bar.summary(&Start::default()).peak.end)
     }
 
@@ -225,11 +225,11 @@ impl SafeZone {
 }
 
 /// Steps of the search along q for places where a level curve leaves the square; a piece shorter in q is missed.
-const SCAN: u32 = 512;
+pub(crate) const SCAN: u32 = 512;
 
 /// The root in [0, 1] of a falling function with values `low ≥ 0 ≥ high` at the ends, to 1e-14, by regula falsi
 /// in the form of Illinois, which bisects where it stalls.
-fn falling_root(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
+pub(crate) fn falling_root(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     let (mut a, mut fa, mut b, mut fb) = (0.0, low, 1.0, high);
     for step in 0..200 {
         if b - a <= 1e-14 || fa == 0.0 {
@@ -251,7 +251,7 @@ fn falling_root(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
 }
 
 /// Adds points between `a` and `b`, and `b`, until three probes between lie within `flatness` of the chord.
-fn refine(at: &impl Fn(f64) -> Point, a: Point, b: Point, flatness: f64, depth: u32, out: &mut Vec<Point>) {
+pub(crate) fn refine(at: &impl Fn(f64) -> Point, a: Point, b: Point, flatness: f64, depth: u32, out: &mut Vec<Point>) {
     let m = at(0.5 * (a.q + b.q));
     let (dq, de) = (b.q - a.q, b.e - a.e);
     let off = |p: Point| (dq * (p.e - a.e) - de * (p.q - a.q)).abs() > flatness * dq.hypot(de);

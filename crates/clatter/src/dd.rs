@@ -206,6 +206,11 @@ pub(crate) fn atan2(y: Dd, x: Dd) -> Dd {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an integer in 0 … 16")]
     let base = ATAN[k as usize];
     let t = if k == 0.0 { n / d } else { (n - d * c) / (d + n * c) };
+    if t.hi.abs() < 2f64.powi(-23) {
+        // The terms of the series beside t are below 2⁻⁴⁶ of it, so that f64 has digits enough for them.
+        let z = t.hi * t.hi;
+        return fold(base + (t - Dd::from(t.hi * z * (1.0 / 3.0 - 0.2 * z))), steep, half_turn);
+    }
     let z = t.sqr();
     if z.hi < 2f64.powi(-36) {
         // Of 106 bits the second term of the bracket 1/3 − z/5 + z²/7 needs 34, the third none beyond f64.

@@ -35,7 +35,7 @@ pub enum Error {
     /// A grid axis that is no axis.
     #[error("axis {name} = {lo:?}:{hi:?}:{points}: {reason}")]
     Axis {
-        /// `q` or `e`.
+        /// `q`, `gyration ratio` or `e`.
         name: &'static str,
         /// First value.
         lo: f64,

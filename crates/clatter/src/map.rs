@@ -1,4 +1,4 @@
-//! Maps of one quantity over a grid of (q, e), for pure translation.
+//! Maps of one quantity over a grid of (q, e), or of gyration ratio and e, for pure translation.
 
 use crate::{Bar, Count, Error, Start};
 use rayon::prelude::*;
@@ -22,12 +22,34 @@ pub enum Quantity {
     Zone(f64),
 }
 
+/// What an axis of a grid runs over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Variable {
+    /// Inertia ratio q.
+    InertiaRatio,
+    /// k = ρ/L, radius of gyration over half-length.
+    GyrationRatio,
+    /// Coefficient of restitution e.
+    Restitution,
+}
+
 /// An axis of a grid: `points` values from `lo` to `hi`, both included.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Axis {
+    variable: Variable,
     lo: f64,
     hi: f64,
     points: usize,
+}
+
+impl Variable {
+    fn name(self) -> &'static str {
+        match self {
+            Self::InertiaRatio => "q",
+            Self::GyrationRatio => "gyration ratio",
+            Self::Restitution => "e",
+        }
+    }
 }
 
 impl Axis {
@@ -37,7 +59,21 @@ impl Axis {
     /// [`Error::Axis`] unless −1 < lo ≤ hi ≤ 1 and there are at least 2 points, or 1 where lo = hi.
     pub fn q(lo: f64, hi: f64, points: usize) -> Result<Self, Error> {
         let reason = "q must lie in (-1, 1]";
-        Self::new("q", lo, hi, points, (lo > -1.0 && hi <= 1.0).then_some(()).ok_or(reason))
+        Self::new(Variable::InertiaRatio, lo, hi, points, reason, lo > -1.0 && hi <= 1.0)
+    }
+
+    /// An axis over k = ρ/L in place of q = (1 − k²)/(1 + k²): no digit is lost near q = 1.
+    ///
+    /// # Errors
+    /// [`Error::Axis`] unless lo ≤ hi, every value is 0 or in [1e−35, 1e35] and there are at least 2 points, or 1 where
+    /// lo = hi.
+    pub fn gyration_ratio(lo: f64, hi: f64, points: usize) -> Result<Self, Error> {
+        let reason = "the gyration ratio must be 0 or in [1e-35, 1e35]";
+        let allowed = |k: f64| k == 0.0 || (1e-35..=1e35).contains(&k);
+        let axis = Self::new(Variable::GyrationRatio, lo, hi, points, reason, allowed(lo) && allowed(hi))?;
+        // The one after 0 is the smallest of all.
+        let all = allowed(axis.value(1));
+        all.then_some(axis).ok_or(Error::Axis { name: Variable::GyrationRatio.name(), lo, hi, points, reason })
     }
 
     /// An axis over e.
@@ -46,29 +82,38 @@ impl Axis {
     /// [`Error::Axis`] unless 0 ≤ lo ≤ hi ≤ 1 and there are at least 2 points, or 1 where lo = hi.
     pub fn e(lo: f64, hi: f64, points: usize) -> Result<Self, Error> {
         let reason = "e must lie in [0, 1]";
-        Self::new("e", lo, hi, points, (lo >= 0.0 && hi <= 1.0).then_some(()).ok_or(reason))
+        Self::new(Variable::Restitution, lo, hi, points, reason, lo >= 0.0 && hi <= 1.0)
     }
 
     fn new(
-        name: &'static str,
+        variable: Variable,
         lo: f64,
         hi: f64,
         points: usize,
-        range: Result<(), &'static str>,
+        range: &'static str,
+        inside: bool,
     ) -> Result<Self, Error> {
-        let error = |reason| Error::Axis { name, lo, hi, points, reason };
+        let error = |reason| Error::Axis { name: variable.name(), lo, hi, points, reason };
         if lo.is_nan() || hi.is_nan() {
             return Err(error("both bounds must be numbers"));
         }
         if lo > hi {
             return Err(error("the first bound must not exceed the last"));
         }
-        range.map_err(error)?;
+        if !inside {
+            return Err(error(range));
+        }
         // Two points are needed for two bounds; one will do where they are the same.
         if points == 0 || (points == 1 && lo < hi) {
             return Err(error("at least 2 points are needed, or 1 where both bounds are the same"));
         }
-        Ok(Self { lo: lo + 0.0, hi: hi + 0.0, points })
+        Ok(Self { variable, lo: lo + 0.0, hi: hi + 0.0, points })
+    }
+
+    /// What the axis runs over.
+    #[must_use]
+    pub fn variable(&self) -> Variable {
+        self.variable
     }
 
     /// Number of points.
@@ -94,7 +139,7 @@ impl Axis {
 pub struct Map {
     /// The quantity.
     pub quantity: Quantity,
-    /// Slow axis.
+    /// Slow axis: over q, or over the gyration ratio in its place ([`Axis::variable`]).
     pub q: Axis,
     /// Fast axis.
     pub e: Axis,
@@ -111,13 +156,14 @@ impl Map {
     /// # Method
     /// Peaks, and what follows from them, by the recurrence of the differences d = |a_{n+1}| − |a_n| in lanes:
     /// `d ← max(0, e d − (1 − q)(1 + e) |a|)`, `|a| ← |a| + d`, which stands still at the peak. All else, and the few
-    /// points that rise for more than 64 strikes, point by point from [`Bar::summary`].
+    /// points that rise for more than 64 strikes, point by point from [`Bar::summary`] or [`Bar::count`].
     ///
     /// # Accuracy
     /// That of [`Bar::summary`] for every point, peaks to [`crate::accuracy::PEAK`].
     ///
     /// # Errors
-    /// [`Error::TooLarge`] beyond 2²⁸ points, or if their memory is not to be had; it is asked for once.
+    /// [`Error::Axis`] where `q` is an axis over e, or `e` is none; [`Error::TooLarge`] beyond 2²⁸ points, or if their
+    /// memory is not to be had; it is asked for once.
     ///
     /// # Examples
     /// ```
@@ -128,6 +174,13 @@ impl Map {
     /// # Ok::<(), clatter::Error>(())
     /// ```
     pub fn compute(quantity: Quantity, q: Axis, e: Axis) -> Result<Self, Error> {
+        for (axis, inertia) in [(q, true), (e, false)] {
+            if (axis.variable != Variable::Restitution) != inertia {
+                let Axis { variable, lo, hi, points } = axis;
+                let reason = if inertia { "the slow axis is one of inertia" } else { "the fast axis is one of e" };
+                return Err(Error::Axis { name: variable.name(), lo, hi, points, reason });
+            }
+        }
         let points = q.points.saturating_mul(e.points);
         let mut values = Vec::new();
         if points > MOST || values.try_reserve_exact(points).is_err() {
@@ -139,35 +192,37 @@ impl Map {
         let rows = 8192_usize.div_ceil(e.points);
         values.par_chunks_mut(rows * e.points).enumerate().for_each(|(chunk, values)| {
             for (i, row) in values.chunks_mut(e.points).enumerate() {
-                fill(quantity, q.value(chunk * rows + i), &columns, row);
+                let inertia = q.value(chunk * rows + i);
+                let bar = |e| bar(q.variable, inertia, e);
+                fill(quantity, bar, &columns, row);
             }
         });
         Ok(Self { quantity, q, e, values })
     }
 }
 
-/// One row: fixed q.
-fn fill(quantity: Quantity, q: f64, columns: &[f64], row: &mut [f64]) {
-    let (less, more) = (1.0 - q, 1.0 + q);
+/// One row: fixed inertia.
+fn fill(quantity: Quantity, bar: impl Fn(f64) -> Bar, columns: &[f64], row: &mut [f64]) {
+    let Bar { less, more, .. } = bar(0.0);
     let spread: &dyn Fn(&mut f64) = match quantity {
         Quantity::PeakEnd => &|_| {},
         Quantity::PeakCenter => &|v| *v = if less == 0.0 { 0.0 } else { 0.5 * less * *v },
         Quantity::PeakAngular => &|v| *v *= 0.5 * more,
         Quantity::Zone(threshold) => &move |v| *v = (2.0 * threshold / *v - less) / more,
-        _ => {
+        Quantity::Impacts | Quantity::Duration | Quantity::NetCenter => {
             let start = Start::default();
             for (v, &e) in row.iter_mut().zip(columns) {
-                let summary = bar(q, e).summary(&start);
+                let bar = bar(e);
                 *v = match quantity {
-                    Quantity::Duration => summary.duration,
-                    Quantity::NetCenter => summary.net.map_or(0.0, |net| net.center),
-                    _ => count(summary.count),
+                    Quantity::Duration => bar.summary(&start).duration,
+                    Quantity::NetCenter => bar.summary(&start).net.map_or(0.0, |net| net.center),
+                    _ => count(bar.count(&start)),
                 };
             }
             return;
         }
     };
-    peaks(q, columns, row);
+    peaks(bar, columns, row);
     if quantity != Quantity::PeakEnd {
         row.iter_mut().for_each(spread);
     }
@@ -179,8 +234,9 @@ const LANES: usize = 16;
 const STEPS: usize = 64;
 
 /// Largest velocity shocks at the ends along a row.
-fn peaks(q: f64, columns: &[f64], row: &mut [f64]) {
-    let less = 1.0 - q;
+fn peaks(bar: impl Fn(f64) -> Bar, columns: &[f64], row: &mut [f64]) {
+    let dead = bar(0.0);
+    let (q, less) = (dead.q(), dead.less);
     // |a_2| ≤ |a_1| for q²(1 + e) ≤ 1, hence at every e.
     if q * q <= 0.499_999 {
         let q = q.max(0.0);
@@ -222,7 +278,7 @@ fn peaks(q: f64, columns: &[f64], row: &mut [f64]) {
         if rises {
             for i in 0..values.len() {
                 if d[i] > 0.0 {
-                    values[i] = bar(q, e[i]).peak(&Start::default()).end;
+                    values[i] = bar(e[i]).peak(&Start::default()).end;
                 }
             }
         }
@@ -230,8 +286,12 @@ fn peaks(q: f64, columns: &[f64], row: &mut [f64]) {
 }
 
 /// A bar from values that the axes have checked.
-fn bar(q: f64, e: f64) -> Bar {
-    Bar::new(q, e).unwrap_or_else(|error| unreachable!("an axis let it pass: {error}"))
+fn bar(variable: Variable, inertia: f64, e: f64) -> Bar {
+    let bar = match variable {
+        Variable::GyrationRatio => Bar::from_gyration_ratio(inertia, e),
+        Variable::InertiaRatio | Variable::Restitution => Bar::new(inertia, e),
+    };
+    bar.unwrap_or_else(|error| unreachable!("an axis let it pass: {error}"))
 }
 
 /// The count as a float; endless is +∞.
@@ -252,7 +312,13 @@ mod tests {
 
     #[test]
     fn every_quantity_is_that_of_the_summary() {
-        let (q, e) = (Axis::q(-0.9, 1.0, 23).unwrap(), Axis::e(0.0, 1.0, 19).unwrap());
+        let e = Axis::e(0.0, 1.0, 19).unwrap();
+        for q in [Axis::q(-0.9, 1.0, 23), Axis::gyration_ratio(0.0, 1.7, 23), Axis::gyration_ratio(1e-35, 1e-9, 3)] {
+            every_quantity(q.unwrap(), e);
+        }
+    }
+
+    fn every_quantity(q: Axis, e: Axis) {
         let start = Start::default();
         for quantity in [
             Quantity::Impacts,
@@ -266,7 +332,12 @@ mod tests {
             let map = Map::compute(quantity, q, e).unwrap();
             for i in 0..q.points() {
                 for j in 0..e.points() {
-                    let bar = Bar::new(q.value(i), e.value(j)).unwrap();
+                    let (inertia, e) = (q.value(i), e.value(j));
+                    let bar = match q.variable() {
+                        Variable::GyrationRatio => Bar::from_gyration_ratio(inertia, e),
+                        _ => Bar::new(inertia, e),
+                    }
+                    .unwrap();
                     let s = bar.summary(&start);
                     let want = match quantity {
                         Quantity::Impacts => count(s.count),
@@ -277,7 +348,7 @@ mod tests {
                         Quantity::Duration => s.duration,
                         Quantity::Zone(x) => bar.safe_zone(&start, x).s,
                     };
-                    let got = map.values[i * e.points() + j];
+                    let got = map.values[i * map.e.points() + j];
                     let same =
                         got.to_bits() == want.to_bits() || (got - want).abs() <= 2.0 * PEAK.error * want.abs().max(1.0);
                     assert!(same, "{quantity:?} at ({}, {}): {got} not {want}", bar.q(), bar.e());
@@ -300,12 +371,36 @@ mod tests {
         }
     }
 
+    proptest! {
+        /// Where q rounds to 1 the gyration ratio still decides.
+        #[test]
+        fn peaks_over_the_gyration_ratio_are_those_of_the_closed_form(k in -12.0..0.5_f64, x in 0.0..14.0_f64) {
+            let (k, e) = (10f64.powf(k), 1.0 - 10f64.powf(-x));
+            let map = Map::compute(Quantity::PeakEnd, Axis::gyration_ratio(k, k, 1).unwrap(), Axis::e(e, e, 1).unwrap());
+            let want = Bar::from_gyration_ratio(k, e).unwrap().peak(&Start::default()).end;
+            prop_assert!((map.unwrap().values[0] - want).abs() <= 0.5 * PEAK.error * want, "({k}, {e})");
+        }
+    }
+
+    #[test]
+    fn axes_in_the_wrong_place_are_refused() {
+        let (q, e) = (Axis::q(0.0, 1.0, 2).unwrap(), Axis::e(0.0, 1.0, 2).unwrap());
+        let k = Axis::gyration_ratio(0.0, 2.0, 2).unwrap();
+        for (slow, fast, reason) in [(e, e, "one of inertia"), (q, q, "one of e"), (q, k, "one of e")] {
+            let message = Map::compute(Quantity::PeakEnd, slow, fast).unwrap_err().to_string();
+            assert!(message.contains(reason), "{message}");
+        }
+    }
+
     #[test]
     fn axes_say_what_is_wrong_with_them() {
         for (axis, reason) in [
             (Axis::q(-1.0, 1.0, 3), "(-1, 1]"),
             (Axis::q(0.5, 0.2, 3), "must not exceed"),
             (Axis::q(f64::NAN, 0.2, 3), "numbers"),
+            (Axis::gyration_ratio(-0.1, 1.0, 3), "[1e-35, 1e35]"),
+            (Axis::gyration_ratio(0.0, 1e36, 3), "[1e-35, 1e35]"),
+            (Axis::gyration_ratio(0.0, 1e-34, 100), "[1e-35, 1e35]"),
             (Axis::e(0.0, 1.1, 3), "[0, 1]"),
             (Axis::e(0.0, 1.0, 1), "at least 2"),
             (Axis::e(0.0, 1.0, 0), "at least 2"),

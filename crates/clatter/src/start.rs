@@ -61,6 +61,12 @@ impl Start {
         }
         Ok(Self { velocity: [va, vb + 0.0], height_gap: height_gap + 0.0 })
     }
+    /// With end b's velocity and the height gap times κ, 10⁻⁶ to 10⁶: how an off-center bar arrives in the terms of its
+    /// symmetric one. The bounds leave room for that.
+    pub(crate) fn with_b_times(self, kappa: f64) -> Self {
+        let [va, vb] = self.velocity;
+        Self { velocity: [va, kappa * vb], height_gap: kappa * self.height_gap }
+    }
     /// Velocities of ends `a` and `b`, upward positive.
     #[must_use]
     pub fn velocity(&self) -> [f64; 2] {

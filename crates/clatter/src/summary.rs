@@ -1,6 +1,6 @@
 //! What a train amounts to: count, peak, net change, final velocities, duration.
 
-use crate::motion::{Drive, Ending, Largest, NORMAL, after_first, rebound, rest, rises};
+use crate::motion::{Digits, Drive, Ending, Largest, NORMAL, after_first, rebound, rest, rises};
 use crate::{Bar, Start};
 
 /// How many impacts the train has.
@@ -66,23 +66,40 @@ pub struct Summary {
     pub net: Option<Net>,
 }
 
-/// Plain steps that are tried before the closed form.
-const PLAIN: u32 = 16;
-/// A velocity that came out of a cancellation by more than this factor is left to the closed form: 16 steps
-/// accumulate some 300 roundings, so that the worst that is accepted is good to 300 · 2⁻⁵³ · 2¹² ≈ 1.4e−10.
-const CLEAR: f64 = 1.0 / 4096.0;
+/// Plain steps that are tried before the closed form, which is no faster for a train of so many.
+const PLAIN: u32 = 32;
+/// A velocity that came out of a cancellation by more than this factor is left to the closed form. Of a wave with N impacts,
+/// N steps add up to 1.3 N² roundings of its amplitude, of which the last velocities are π/N times this factor at least:
+/// 1.3 N³/π · 2⁻⁵³ · 2⁹ ≤ 8e−10 for N ≤ 32.
+const CLEAR: f64 = 1.0 / 512.0;
 /// Neighbors of the peak that differ by less are compared with more digits.
 const DISTINCT: f64 = 1e-12;
 /// 4e − T² in plain floats has this many digits to spare in its square root, and its sign, beyond this share of T².
 const DISCERNIBLE: f64 = 1e-6;
-/// sin²(π/18): a wave that turns by less a strike, from a start that does not spin up, takes more than 16 strikes.
-const SLOW: f64 = 0.030_153;
+/// sin²(π/34): a wave that turns by less a strike, from a start that does not spin up, takes more than 32 strikes.
+const SLOW: f64 = 0.008_513;
+
+/// A train that plain steps followed to its end.
+struct Short {
+    end: Ending,
+    peak: Largest,
+    /// Nothing about its end is in doubt.
+    clear: bool,
+    /// Neither is the impact that holds the peak.
+    distinct: bool,
+}
+
+/// The lesser of two numbers, neither of them NaN: one instruction, where `f64::min` takes five.
+#[inline]
+fn least(x: f64, y: f64) -> f64 {
+    if x < y { x } else { y }
+}
 
 impl Bar {
     /// Count, peak, net change, final velocities and duration of the train, in constant time.
     ///
     /// # Method
-    /// Up to 16 plain steps of the recurrence `a_{n+1} = T a_n − e a_{n−1}`, T = q(1 + e), where they leave nothing
+    /// Up to 32 plain steps of the recurrence `a_{n+1} = T a_n − e a_{n−1}`, T = q(1 + e), where they leave nothing
     /// in doubt; else its closed form. The sign of the discriminant is always certain: double-double with an error
     /// bound, and integers where that bound is not met. A count is the quotient of two angles (or logarithms) rounded
     /// up: taken from f64 where it is more than 24 roundings away from an integer, else from double-double angles
@@ -95,96 +112,173 @@ impl Bar {
     /// velocity is so small (2⁻¹⁰²² and below) that floats have no digits left for it.
     ///
     /// # Cost
-    /// Measured on a 2.9 GHz core (bench `speed`): 15 to 35 ns where plain steps do, 240 to 260 ns for a longer train,
-    /// 500 to 700 ns where double-double is needed (N beyond 10⁷, or next to the endless curve), microseconds to a
-    /// millisecond where integers decide (a start next to a tie), and tens of milliseconds for a count beyond 2⁹⁰.
+    /// Measured beside the plain loop (bench `speed`): 1.2 times its time where it ends, on average over the unit square,
+    /// 1.4 times for up to 4 impacts; for a longer train the time of some 130 impacts of that loop, or of 200 to 250 where
+    /// double-double is needed (N beyond 10⁷, or next to the endless curve). Microseconds to a millisecond where integers
+    /// decide (a start next to a tie), and tens of milliseconds for a count beyond 2⁹⁰.
+    #[must_use]
+    #[expect(clippy::inline_always, reason = "a bar that is made on the spot then needs no place in memory")]
+    #[inline(always)]
+    pub fn summary(&self, start: &Start) -> Summary {
+        if self.may_be_short(start) {
+            let Short { end, peak, clear, distinct } = self.steps(start);
+            if clear && distinct {
+                return self.put(start, end, peak);
+            }
+        } else if let Some(end) = self.endless(start)
+            && let Some(peak) = self.plain_peak(start)
+        {
+            return self.put(start, end, peak);
+        }
+        Self::long_summary(*self, *start)
+    }
+
+    /// Takes copies, so that a bar and a start whose train is short need no place in memory.
+    #[inline(never)]
+    fn long_summary(self, start: Start) -> Summary {
+        let peak = self.plain_peak(&start);
+        let (end, peak) = if self.t <= 0.0 || self.e == 0.0 {
+            let (end, special) = self.special(&start);
+            (end, peak.unwrap_or(special))
+        } else {
+            let drive = Drive::new(&self, &start, if peak.is_some() { Digits::ENDING } else { Digits::ALL });
+            (drive.ending(), peak.unwrap_or_else(|| drive.peak()))
+        };
+        self.put(&start, end, peak)
+    }
+
+    /// Number of impacts alone, as exact as in [`summary`](Self::summary), in a fraction of its time: that of the plain
+    /// loop for a short train, of some 70 impacts of it for a train of any length. Beyond 2⁶⁴ it is a float, off by no
+    /// more than its last digit.
     #[must_use]
     #[inline]
-    pub fn summary(&self, start: &Start) -> Summary {
-        match (self.plain_end(start), self.plain_peak(start)) {
-            (Some(end), Some(peak)) => self.put(start, end, peak),
-            (end, peak) => self.long_summary(start, end, peak),
+    pub fn count(&self, start: &Start) -> Count {
+        if self.may_be_short(start) {
+            let Short { end, clear, .. } = self.steps(start);
+            if clear {
+                return end.count;
+            }
+        } else if self.endless(start).is_some() {
+            return Count::Endless;
         }
+        Self::long_count(*self, *start)
     }
 
     #[inline(never)]
-    fn long_summary(&self, start: &Start, end: Option<Ending>, peak: Option<Largest>) -> Summary {
-        let (end, peak) = if self.t <= 0.0 || self.e == 0.0 {
-            let (end, special) = self.special(start);
-            (end, peak.unwrap_or(special))
+    fn long_count(self, start: Start) -> Count {
+        if self.t <= 0.0 || self.e == 0.0 {
+            self.special(&start).0.count
         } else {
-            let drive = Drive::new(self, start);
-            (end.unwrap_or_else(|| drive.ending()), peak.unwrap_or_else(|| drive.peak()))
-        };
-        self.put(start, end, peak)
-    }
-
-    /// Number of impacts alone, as exact as in [`summary`](Self::summary): 8 to 26 ns where plain steps do, 80 to 130 ns
-    /// for a longer train, 180 to 240 ns next to the endless curve, more where integers decide.
-    #[must_use]
-    pub fn count(&self, start: &Start) -> Count {
-        match self.plain_end(start) {
-            Some(end) => end.count,
-            None if self.t <= 0.0 || self.e == 0.0 => self.special(start).0.count,
-            None => Drive::new(self, start).count(),
+            Drive::new(&self, &start, Digits::COUNT).count()
         }
     }
 
-    /// Largest velocity shocks alone.
+    /// Largest velocity shocks alone, those of [`summary`](Self::summary).
     #[must_use]
     pub fn peak(&self, start: &Start) -> Peak {
+        if self.may_be_short(start) {
+            let Short { peak, clear, distinct, .. } = self.steps(start);
+            if clear && distinct {
+                return self.spread(peak);
+            }
+        }
         match self.plain_peak(start) {
             Some(peak) => self.spread(peak),
             None if self.t <= 0.0 || self.e == 0.0 => self.spread(self.special(start).1),
-            None => self.spread(Drive::new(self, start).peak()),
+            None => self.spread(Drive::new(self, start, Digits::ALL).peak()),
         }
     }
 
-    /// How the train ends, where at most 16 plain steps, or the limit of an endless one, leave nothing in doubt.
-    #[expect(clippy::inline_always, reason = "the whole summary of a short train takes 15 ns; calls would double it")]
-    #[inline(always)]
-    fn plain_end(&self, start: &Start) -> Option<Ending> {
+    /// Whether plain steps are worth a try.
+    #[inline]
+    fn may_be_short(&self, start: &Start) -> bool {
         let (t, e) = (self.t, self.e);
         let [va, vb] = start.velocity();
-        let (mut before, mut a, mut next) = (0.0, va, t * va + vb);
         let d = 4.0 * e - t * t;
-        // Left alone: T ≤ 0, e = 0, and a start that cancels, at once or, as a decay does, at every step.
-        if t * e <= NORMAL || (vb > 0.0 && (d < DISCERNIBLE * t * t || next.abs() < CLEAR * -va * t)) {
-            return None;
-        }
-        let h0 = start.height_gap();
-        if d < 4.0 * SLOW * e && vb <= 0.0 {
-            let limit = || h0 / (0.5 * (t + (-d).sqrt()) * -va - vb);
-            let at_rest = || Ending { count: Count::Endless, time: limit(), velocity: rest(self, start) };
-            return (d < -DISCERNIBLE * t * t).then(at_rest);
-        }
-        let (mut b, mut b_next, mut n) = (0.0, 1.0, 1_u32);
-        while next < 0.0 {
-            if n == PLAIN {
-                return None;
+        // Not for T ≤ 0, e = 0, and a start that cancels, at once or, as a decay does, at every step.
+        t * e > NORMAL
+            && if vb > 0.0 {
+                d >= DISCERNIBLE * t * t && (t * va + vb).abs() >= CLEAR * -va * t
+            } else {
+                d >= 4.0 * SLOW * e
             }
-            (before, a, next) = (a, next, t * next - e * a);
-            (b, b_next) = (b_next, t * b_next - e * b);
-            n += 1;
-        }
-        // No short circuits: which impact is the last is what a branch predictor cannot know. For N = 1, b and
-        // a_{N−2} are 0.
-        let margin = (next + CLEAR * e * before).min(CLEAR * t * before - a).min(next - NORMAL).min(-a - NORMAL);
-        let clear = margin > 0.0 && (n < 2 || b > NORMAL);
-        let time = h0 * (b / -a);
-        let velocity = Some(rebound(self, n % 2 == 1, a, next));
-        clear.then_some(Ending { count: Count::Finite(u64::from(n)), time, velocity })
     }
 
-    /// The peak, where at most 16 plain steps leave nothing in doubt, by d = |a_{n+1}| − |a_n|, which obeys
-    /// `d ← e d − (1 − q)(1 + e) |a|` and falls below zero at the peak.
-    #[expect(clippy::inline_always, reason = "the whole summary of a short train takes 15 ns; calls would double it")]
+    /// How a train ends that is endless without a doubt.
+    fn endless(&self, start: &Start) -> Option<Ending> {
+        let (t, e) = (self.t, self.e);
+        let [va, vb] = start.velocity();
+        let d = 4.0 * e - t * t;
+        (t * e > NORMAL && vb <= 0.0 && d < -DISCERNIBLE * t * t).then(|| {
+            let time = start.height_gap() / (0.5 * (t + (-d).sqrt()) * -va - vb);
+            Ending { count: Count::Endless, time, velocity: rest(self, start) }
+        })
+    }
+
+    /// At most 32 plain steps.
+    #[expect(
+        clippy::inline_always,
+        reason = "the whole summary of a short train takes 15 ns; a call would add a third"
+    )]
     #[inline(always)]
+    fn steps(&self, start: &Start) -> Short {
+        let (t, e) = (self.t, self.e);
+        let [va, vb] = start.velocity();
+        let first = t * va + vb;
+        let (mut before, mut a, mut next, mut b, mut b_next, mut n) = (0.0, va, first, 0.0, 1.0, 1_u32);
+        // The lowest velocity so far, its impact, and how close any other came to being the lowest.
+        let (mut lowest, mut peak, mut margin) = (va, 1, f64::INFINITY);
+        let mut look = |velocity: f64, number: u32| {
+            let above = velocity - lowest;
+            peak = if above < 0.0 { number } else { peak };
+            (lowest, margin) = (least(velocity, lowest), least(above.abs(), margin));
+        };
+        if vb <= 0.0 {
+            // Which impact is the last is what a branch predictor cannot know: two, three or four of them without a branch.
+            // A second one is certain, and a_3 < 0 comes after a_2 < 0 alone, so that no step too many moves the peak.
+            let second = t * first - e * va;
+            let third = t * second - e * first;
+            let fourth = t * third - e * second;
+            let twice = t * t - e;
+            let more = usize::from(second < 0.0) + usize::from(third < 0.0);
+            let strikes = [va, first, second, third, fourth, 0.0];
+            (before, a, next) = (strikes[more & 3], strikes[(more & 3) + 1], strikes[(more & 3) + 2]);
+            (b, b_next) = ([1.0, t, twice, 0.0][more & 3], t * twice - e * t);
+            n = 2 + u32::from(second < 0.0) + u32::from(third < 0.0);
+            look(first, 2);
+            look(second, 3);
+            look(third, 4);
+        }
+        while next < 0.0 && n < PLAIN {
+            n += 1;
+            look(next, n);
+            (before, a, next) = (a, next, t * next - e * a);
+            (b, b_next) = (b_next, t * b_next - e * b);
+        }
+        // For N = 1, b and a_{N−2} are 0.
+        let cancels = least(next + CLEAR * e * before, CLEAR * t * before - a);
+        let clear = cancels > 0.0 && least(next, -a) > NORMAL && (n < 2 || b > NORMAL);
+        let time = start.height_gap() * (b / -a);
+        let velocity = Some(rebound(self, n % 2 == 1, a, next));
+        Short {
+            end: Ending { count: Count::Finite(u64::from(n)), time, velocity },
+            peak: (PeakImpact::Number(u64::from(peak)), -lowest),
+            clear,
+            distinct: margin > DISTINCT * -lowest,
+        }
+    }
+
+    /// The peak, where at most 32 plain steps leave nothing in doubt, by d = |a_{n+1}| − |a_n|, which obeys
+    /// `d ← e d − (1 − q)(1 + e) |a|` and falls below zero at the peak.
+    #[inline]
     fn plain_peak(&self, start: &Start) -> Option<Largest> {
         let [va, vb] = start.velocity();
         let (e, w) = (self.e, self.less * (1.0 + self.e));
         let (mut a, mut d) = (-va, -va * (e - w) - vb);
-        if d.abs() < DISTINCT * (vb.abs() - va) {
+        // d falls no faster than this, so that it rises all the way.
+        let steps = f64::from(PLAIN);
+        let rises = d * (1.0 - steps * (1.0 - e)) > steps * w * (a + steps * d);
+        if rises || d.abs() < DISTINCT * (vb.abs() - va) {
             return None;
         }
         for n in 0..PLAIN {

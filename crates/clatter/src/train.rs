@@ -1,6 +1,6 @@
 //! The train, impact by impact.
 
-use crate::motion::{Drive, Kind, LANES, Lanes, NORMAL, after_first};
+use crate::motion::{Digits, Drive, Kind, Lanes, after_first};
 use crate::{Bar, Count, End, Start};
 
 /// One impact of the train.
@@ -37,191 +37,264 @@ impl Impact {
 }
 
 /// Iterator over the impacts of a train; without end where the train is endless. Made by [`Bar::train`].
+///
+/// Times never step back.
 #[derive(Debug, Clone)]
 pub struct Train {
     bar: Bar,
     start: Start,
-    /// Impacts worked out so far; those from `next` on still wait in the buffers.
+    /// Impacts given so far.
+    number: u64,
+    steps: Steps,
+    later: Option<Box<Later>>,
+    /// Where in the buffers of `later` the next impact stands.
+    at: usize,
+}
+
+/// The recurrence as it stands: a_n and b_n for the next impact and the one after.
+#[derive(Debug, Clone, Copy)]
+struct Steps {
+    a: f64,
+    next: f64,
+    /// A term of `next`, which is as large as the other where they cancel.
+    term: f64,
+    b: f64,
+    b_next: f64,
+    /// How far `next` may cancel.
+    clear: f64,
+    /// Time of the last impact.
+    latest: f64,
+}
+
+/// Impacts that are not worked out by plain steps, some at a time.
+#[derive(Debug, Clone)]
+struct Later {
+    source: Source,
+    /// Number of impacts, unless it is endless or beyond 2⁶⁴.
+    count: Option<u64>,
+    /// Impacts worked out or passed over so far.
     ahead: u64,
-    next: usize,
-    filled: usize,
+    /// The latest of them, up to the end of the buffers.
     approach: [f64; BUFFER],
     times: [f64; BUFFER],
-    source: Source,
+    /// Time of the last of them.
+    latest: f64,
 }
 
-/// Where the next impacts come from.
+/// Where the impacts come from.
 #[derive(Debug, Clone)]
+#[expect(clippy::large_enum_variant, reason = "boxed with its buffers")]
 enum Source {
-    /// The recurrence as it stands, for the first [`BUFFER`] impacts.
-    Plain,
     /// Four strikes at a time, from the closed form.
-    Lanes {
-        drive: Box<Drive>,
-        count: Option<u64>,
-        lanes: Box<Lanes>,
-    },
+    Lanes(Drive, Lanes),
     /// Each from the closed form.
-    Closed {
-        drive: Box<Drive>,
-        count: Option<u64>,
-    },
-    /// T ≤ 0: a second impact; e = 0: all further impacts at the instant of the second.
-    Instant {
-        first: f64,
-        a: f64,
-    },
-    Done,
+    Closed(Drive),
+    /// T ≤ 0: a second impact after `first`; e = 0: all further impacts at the instant of the second.
+    Instant { first: f64, a: f64, t: f64, h0: f64 },
 }
 
-/// Impacts worked out together, and plain steps taken before the closed form, which forgets no digit, takes over.
+/// Impacts worked out together.
 const BUFFER: usize = 16;
-/// A velocity that cancels by more than this is left to the closed form.
-const CLEAR: f64 = 1.0 / 256.0;
+/// Plain steps taken before the closed form, which forgets no digit, takes over.
+const PLAIN: u64 = 32;
+/// A velocity that cancels by more than this factor times its number is left to the closed form. Of a wave with N impacts, N
+/// steps add up to 1.3 N² roundings of its amplitude, of which a velocity is π/N times N times this factor at least: an
+/// error of 1.3 N²/π · 2⁻⁵³ · 2¹¹ ≤ 1e−10.
+const CLEAR: f64 = 1.0 / 2048.0;
+/// With T and e of at least this size no term of a plain step comes near the subnormal floats.
+const LARGE: f64 = 1e-8;
 
 impl Iterator for Train {
     type Item = Impact;
 
     #[inline]
     fn next(&mut self) -> Option<Impact> {
-        if self.next == self.filled {
-            self.fill();
-            if self.filled == 0 {
+        if self.later.is_none() {
+            if let Some(impact) = self.step() {
+                return Some(impact);
+            }
+            if self.steps.a >= 0.0 {
                 return None;
             }
+            self.later = Some(Later::new(self.bar, self.start, self.number, self.steps.latest));
         }
-        let i = self.next;
-        self.next += 1;
-        let number = self.ahead - (self.filled - self.next) as u64;
-        Some(self.bar.impact(number, self.approach[i], self.times[i]))
+        let later = self.later.as_mut()?;
+        if self.at == BUFFER {
+            self.at = later.fill();
+        }
+        let (approach, time) = (*later.approach.get(self.at)?, *later.times.get(self.at)?);
+        (self.at, self.number) = (self.at + 1, self.number + 1);
+        Some(self.bar.impact(self.number, approach, time))
+    }
+
+    /// Step by step, then buffer by buffer: sums over whole trains need not ask, impact by impact, where it comes from.
+    fn fold<B, F: FnMut(B, Impact) -> B>(mut self, init: B, mut f: F) -> B {
+        let mut all = init;
+        while self.later.is_none()
+            && let Some(impact) = self.step()
+        {
+            all = f(all, impact);
+        }
+        while let Some(impact) = self.next() {
+            all = f(all, impact);
+            let Some(later) = &self.later else { continue };
+            for (&approach, &time) in later.approach[self.at..].iter().zip(&later.times[self.at..]) {
+                self.number += 1;
+                all = f(all, self.bar.impact(self.number, approach, time));
+            }
+            self.at = BUFFER;
+        }
+        all
     }
 
     /// Skips in constant time, but for the plain steps at the beginning.
     fn nth(&mut self, mut skip: usize) -> Option<Impact> {
-        while skip >= self.filled - self.next {
-            skip -= self.filled - self.next;
-            self.next = self.filled;
-            match &mut self.source {
-                Source::Lanes { drive, lanes, .. } => {
-                    self.ahead = self.ahead.saturating_add(skip as u64);
-                    **lanes = Lanes::new(drive, self.ahead);
-                    skip = 0;
-                }
-                Source::Closed { .. } => {
-                    self.ahead = self.ahead.saturating_add(skip as u64);
-                    skip = 0;
-                }
-                Source::Instant { first, a } if self.ahead > 0 && *first > 0.0 && self.bar.t > 0.0 => {
-                    self.ahead = self.ahead.saturating_add(skip as u64);
-                    #[expect(clippy::cast_precision_loss, reason = "beyond 2^53 the power is 0, or 1 at q = 1")]
-                    let steps = skip as f64;
-                    *a *= libm::pow(self.bar.t, steps);
-                    skip = 0;
-                }
-                _ => {}
+        while self.later.is_none() {
+            let impact = self.next()?;
+            if skip == 0 {
+                return Some(impact);
             }
-            self.fill();
-            if self.filled == 0 {
-                return None;
-            }
+            skip -= 1;
         }
-        self.next += skip;
+        let waiting = BUFFER - self.at;
+        if skip >= waiting {
+            let later = self.later.as_mut()?;
+            later.skip(skip - waiting);
+            self.number = later.ahead;
+            self.at = BUFFER;
+        } else {
+            self.number += skip as u64;
+            self.at += skip;
+        }
         self.next()
     }
 }
 
 impl Train {
-    /// Works out the next impacts; none where the train has ended.
-    #[inline(never)]
-    fn fill(&mut self) {
-        if let Source::Plain = self.source {
-            self.plain();
-            if self.filled > 0 {
-                return;
-            }
+    /// The next impact by a plain step; none where the train has ended, and where more digits are needed.
+    #[inline]
+    fn step(&mut self) -> Option<Impact> {
+        let Steps { a, next, term, b, b_next, clear, latest } = self.steps;
+        // In doubt where the terms of a_{n+1} nearly cancel: from this strike on, more digits.
+        if a >= 0.0 || next.abs() <= clear * term.abs() || self.number == PLAIN {
+            return None;
         }
-        let ahead = self.ahead;
-        // Beyond 2^64 − 1 impacts there are no numbers left.
-        let left = |count: Option<u64>| count.unwrap_or(u64::MAX).saturating_sub(ahead);
-        (self.next, self.filled) = (0, 0);
-        match &mut self.source {
-            Source::Lanes { drive, count, lanes } => {
-                let left = left(*count);
-                if left > 0 {
-                    for (approach, times) in self.approach.chunks_mut(LANES).zip(self.times.chunks_mut(LANES)) {
-                        lanes.take(drive, approach, times);
-                    }
-                }
-                self.filled = usize::try_from(left).map_or(BUFFER, |left| left.min(BUFFER));
-                // The first and the last strike by themselves: next to a tie, the last takes more digits.
-                if ahead == 0 {
-                    (self.approach[0], self.times[0]) = drive.strike(1);
-                }
-                if let (Some(count), 1..=16) = (*count, left) {
-                    (self.approach[self.filled - 1], self.times[self.filled - 1]) = drive.strike(count);
-                }
-            }
-            Source::Closed { drive, count } => {
-                self.filled = usize::from(left(*count) > 0);
-                if self.filled > 0 {
-                    (self.approach[0], self.times[0]) = drive.strike(ahead + 1);
-                }
-            }
-            Source::Instant { first, a } => {
-                let h0 = self.start.height_gap();
-                let later = if h0 == 0.0 || *first <= 0.0 { 0.0 } else { h0 / *first };
-                (self.approach[0], self.times[0], self.filled) =
-                    (*a, if ahead == 0 { 0.0 } else { later }, usize::from(left(None) > 0));
-                *a = if ahead == 0 { -*first } else { *a * self.bar.t };
-                if *first <= 0.0 || (ahead > 0 && self.bar.t <= 0.0) {
-                    self.source = Source::Done;
-                }
-            }
-            Source::Plain | Source::Done => {}
-        }
-        self.ahead += self.filled as u64;
+        let (t, e) = (self.bar.t, self.bar.e);
+        let (term, time) = (e * a, self.start.height_gap() * (b / -a));
+        // Where strikes are closer than roundings; `f64::max` takes longer.
+        let time = if time < latest { latest } else { time };
+        let (next, b_next) = ([next, t * next - term], [b_next, t * b_next - e * b]);
+        self.steps = Steps {
+            a: next[0],
+            next: next[1],
+            term,
+            b: b_next[0],
+            b_next: b_next[1],
+            clear: clear + CLEAR,
+            latest: time,
+        };
+        self.number += 1;
+        Some(self.bar.impact(self.number, a, time))
     }
+}
 
-    /// The first impacts by the recurrence, up to the end, to a doubt, or until the buffer is full; then hands over.
-    fn plain(&mut self) {
-        let (t, e, h0) = (self.bar.t, self.bar.e, self.start.height_gap());
-        let [va, vb] = self.start.velocity();
-        let (mut before, mut a, mut next) = (0.0, va, t * va + vb);
-        let (mut b, mut b_next) = (0.0, 1.0_f64);
-        let mut n = 0;
-        while n < BUFFER && a < 0.0 {
-            // In doubt where the terms of a_{n+1}, of like size, nearly cancel: from this strike on, more digits.
-            let terms = if n == 0 { t * a } else { e * before };
-            if next.abs() <= CLEAR * terms.abs() || next.abs().min(b_next.abs()) <= NORMAL {
-                break;
-            }
-            (self.approach[n], self.times[n]) = (a, h0 * (b / -a));
-            n += 1;
-            (before, a, next) = (a, next, t * next - e * a);
-            (b, b_next) = (b_next, t * b_next - e * b);
-        }
-        (self.next, self.filled, self.ahead) = (0, n, n as u64);
-        self.source = if a < 0.0 { self.long() } else { Source::Done };
-    }
-
-    /// The closed form that takes over.
+impl Later {
+    /// From impact `ahead` + 1 on, none before `latest`. Takes copies, so that a train that needs no more than plain steps stays in registers.
     #[cold]
-    fn long(&self) -> Source {
-        let drive = Box::new(Drive::new(&self.bar, &self.start));
-        let count = match drive.count() {
-            Count::Finite(n) => Some(n),
-            Count::Huge(_) | Count::Endless => None,
+    fn new(bar: Bar, start: Start, ahead: u64, latest: f64) -> Box<Self> {
+        let (source, count) = if bar.t <= 0.0 || bar.e == 0.0 {
+            let first = after_first(&bar, &start);
+            let count = if first <= 0.0 { Some(1) } else { (bar.t <= 0.0).then_some(2) };
+            (Source::Instant { first, a: start.velocity()[0], t: bar.t, h0: start.height_gap() }, count)
+        } else {
+            let drive = Drive::new(&bar, &start, Digits::ALL);
+            let count = match drive.count() {
+                Count::Finite(n) => Some(n),
+                Count::Huge(_) | Count::Endless => None,
+            };
+            let closed = match drive.kind {
+                Kind::Wave(_) => false,
+                Kind::Decay(_) => count.is_some(),
+                Kind::Edge => true,
+            };
+            let source = if closed { Source::Closed(drive) } else { Source::Lanes(drive, Lanes::new(&drive, ahead)) };
+            (source, count)
         };
-        let closed = match drive.kind {
-            Kind::Wave(_) => false,
-            Kind::Decay(_) => count.is_some(),
-            Kind::Edge => true,
-        };
-        if closed {
-            return Source::Closed { drive, count };
+        let (approach, times) = ([0.0; BUFFER], [0.0; BUFFER]);
+        Box::new(Self { source, count, ahead, approach, times, latest })
+    }
+
+    /// Works out the next impacts and returns where in the buffers they begin: at their end where the train has ended.
+    #[cold]
+    fn fill(&mut self) -> usize {
+        // Beyond 2^64 − 1 impacts there are no numbers left.
+        let left = self.count.unwrap_or(u64::MAX).saturating_sub(self.ahead);
+        let n = usize::try_from(left).map_or(BUFFER, |left| left.min(BUFFER));
+        if n == 0 {
+            return BUFFER;
         }
-        let lanes = Box::new(Lanes::new(&drive, self.ahead));
-        Source::Lanes { drive, count, lanes }
+        let mut at = BUFFER - n;
+        match &mut self.source {
+            Source::Lanes(drive, lanes) => {
+                lanes.take(drive, &mut self.approach, &mut self.times);
+                if n < BUFFER {
+                    self.approach.copy_within(..n, at);
+                    self.times.copy_within(..n, at);
+                }
+                // The first and the last strike by themselves: next to a tie, the last takes more digits.
+                if self.ahead == 0 {
+                    (self.approach[at], self.times[at]) = drive.strike(1);
+                }
+                if let (Some(count), true) = (self.count, left <= BUFFER as u64) {
+                    (self.approach[BUFFER - 1], self.times[BUFFER - 1]) = drive.strike(count);
+                }
+                self.ahead += n as u64;
+            }
+            Source::Closed(drive) => {
+                self.ahead += 1;
+                at = BUFFER - 1;
+                (self.approach[at], self.times[at]) = drive.strike(self.ahead);
+            }
+            Source::Instant { first, a, t, h0 } => {
+                let later = if *h0 == 0.0 || *first <= 0.0 { 0.0 } else { *h0 / *first };
+                for (approach, time) in self.approach.iter_mut().zip(&mut self.times).skip(at) {
+                    (*approach, *time) = (*a, if self.ahead == 0 { 0.0 } else { later });
+                    *a = if self.ahead == 0 { -*first } else { *a * *t };
+                    self.ahead += 1;
+                }
+            }
+        }
+        // Roundings of times that hardly differ, or of two ways to the same time, may step back. Looked for all at once:
+        // it is rare, and a running maximum is a chain of operations that wait for each other.
+        let back = self.times[at] < self.latest;
+        if back || (1..BUFFER).filter(|&i| self.times[i] < self.times[i - 1]).count() > 0 {
+            for time in &mut self.times[at..] {
+                self.latest = self.latest.max(*time);
+                *time = self.latest;
+            }
+        }
+        self.latest = self.times[BUFFER - 1];
+        at
+    }
+
+    /// Passes over impacts, in constant time.
+    fn skip(&mut self, skip: usize) {
+        let from = self.ahead;
+        self.ahead = self.ahead.saturating_add(skip as u64);
+        if skip == 0 {
+            return;
+        }
+        match &mut self.source {
+            Source::Lanes(drive, lanes) => *lanes = Lanes::new(drive, self.ahead),
+            Source::Closed(_) => {}
+            Source::Instant { first, a, t, .. } => {
+                // The second impact is the first of a geometric series.
+                let (base, past) = if from == 0 { (-*first, 1) } else { (*a, 0) };
+                #[expect(clippy::cast_precision_loss, reason = "beyond 2^53 the power is 0, or 1 at q = 1")]
+                let steps = (skip - past) as f64;
+                *a = base * libm::pow(*t, steps);
+            }
+        }
     }
 }
 
@@ -229,7 +302,7 @@ impl Bar {
     /// The impacts, one by one.
     ///
     /// # Method
-    /// The recurrence for 16 strikes, then the closed form: four neighboring strikes are carried on together by
+    /// The recurrence for 32 strikes at most, then the closed form: four neighboring strikes are carried on together by
     /// rotations that keep small angles exact, anchored anew every 256 strikes. The number of impacts is settled
     /// beforehand, as exactly as by [`Bar::count`].
     ///
@@ -247,25 +320,72 @@ impl Bar {
     /// # Ok::<(), clatter::Error>(())
     /// ```
     #[must_use]
+    #[inline]
     pub fn train(&self, start: &Start) -> Train {
-        let [va, vb] = start.velocity();
-        let (approach, times) = ([0.0; BUFFER], [0.0; BUFFER]);
-        let mut train =
-            Train { bar: *self, start: *start, ahead: 0, next: 0, filled: 0, approach, times, source: Source::Plain };
-        if self.t <= 0.0 || self.e == 0.0 {
-            train.source = Source::Instant { first: after_first(self, start), a: va };
-        } else if vb > 0.0 || self.t * self.e <= NORMAL {
-            train.source = train.long();
-        }
-        train
+        let ([va, vb], t) = (start.velocity(), self.t);
+        let next = t * va + vb;
+        let steps = Steps { a: va, next, term: t * va, b: 0.0, b_next: 1.0, clear: CLEAR, latest: 0.0 };
+        let plain = vb <= 0.0 && (t <= -LARGE || (t >= LARGE && self.e >= LARGE));
+        let later = if plain { None } else { Some(Later::new(*self, *start, 0, 0.0)) };
+        Train { bar: *self, start: *start, number: 0, steps, later, at: BUFFER }
     }
 
     /// The impact as a whole.
     #[inline]
     fn impact(&self, number: u64, approach: f64, time: f64) -> Impact {
-        let hit = -(1.0 + self.e()) * approach;
-        let far = -self.q() * hit;
+        let [struck, free] = [-(1.0 + self.e) * approach, self.t * approach];
         let end = End::of_impact(number);
-        Impact { number, end, time, approach, delta_v: if end == End::A { [hit, far] } else { [far, hit] } }
+        Impact { number, end, time, approach, delta_v: if end == End::A { [struck, free] } else { [free, struck] } }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Trains of all kinds and lengths: short, long, hardly ending, endless, at one instant.
+    fn trains() -> impl Strategy<Value = Train> {
+        let bars = (-0.9..1.0_f64, 0.0..1.0_f64, 0.0..16.0_f64, 0..5_u8).prop_map(|(q, e, x, kind)| match kind {
+            0 => Bar::new(q, e),
+            1 => Bar::new(1.0 - 0.5 * 10f64.powf(-x), 1.0 - 10f64.powf(-0.5 * x)),
+            2 => Bar::new((2.0 * e.sqrt() / (1.0 + e) * (1.0 - 10f64.powf(-x))).min(1.0), e),
+            3 => Bar::new((2.0 * e.sqrt() / (1.0 + e) * (1.0 + 10f64.powf(-x))).min(1.0), e),
+            _ => Bar::new(q, 0.0),
+        });
+        let starts = prop_oneof![Just(-1.0), Just(0.0), -2.0..2.0_f64];
+        (bars, starts).prop_map(|(bar, vb)| bar.unwrap().train(&Start::new([-1.0, vb], 1.0).unwrap()))
+    }
+
+    proptest! {
+        /// Across the hand-over from plain steps, new anchors, and to the last strike by itself; also where strikes are so
+        /// close that roundings exceed what is between them.
+        #[test]
+        fn times_never_step_back(train in trains()) {
+            let mut latest = 0.0;
+            for impact in train.take(2000) {
+                prop_assert!(impact.time >= latest, "strike {} at {:?} after {latest:?}", impact.number, impact.time);
+                latest = impact.time;
+            }
+        }
+
+        /// Sums, skips and single steps meet the same impacts.
+        #[test]
+        fn however_impacts_are_taken_they_are_the_same(train in trains(), skip in 0..700_usize) {
+            let most = 3000;
+            let one_by_one: Vec<_> = train.clone().take(most).collect();
+            if one_by_one.len() < most {
+                let folded = train.clone().fold(Vec::new(), |mut list, impact| { list.push(impact); list });
+                prop_assert_eq!(&folded, &one_by_one);
+            }
+            let mut skipping = train;
+            let (got, want) = (skipping.nth(skip), one_by_one.get(skip));
+            prop_assert_eq!(got.map(|i| (i.number, i.end)), want.map(|i| (i.number, i.end)));
+            if let (Some(got), Some(want)) = (got, want) {
+                // From an anchor of its own, within twice the allowed error.
+                prop_assert!((got.time - want.time).abs() <= 2e-10 * want.time.max(1.0), "{got:?}, not {want:?}");
+                prop_assert_eq!(skipping.next().map(|i| i.number), one_by_one.get(skip + 1).map(|i| i.number));
+            }
+        }
     }
 }

@@ -82,14 +82,21 @@ impl Bar {
     /// [`Peak::end`]; the other is held by a neighboring impact, because |a_n| rises to its peak, then falls.
     #[must_use]
     pub fn end_peaks(&self, start: &Start) -> EndPeaks {
+        let [(a, _), (b, _)] = self.struck_peaks(start);
+        EndPeaks { a, b }
+    }
+
+    /// [`end_peaks`](Self::end_peaks) with the impacts that hold them; for an end that never strikes 0 and any impact.
+    pub(crate) fn struck_peaks(&self, start: &Start) -> [(f64, PeakImpact); 2] {
         let Peak { end, impact, .. } = self.peak(start);
         let PeakImpact::Number(number) = impact else {
-            return EndPeaks { a: end, b: end }; // a limit, which both ends share
+            return [(end, impact); 2]; // a limit, which both ends share
         };
         let skip = usize::try_from(number.saturating_sub(2)).unwrap_or(usize::MAX);
         let around = self.train(start).skip(skip).take(3).filter(|impact| impact.number != number);
-        let beside = around.map(|impact| -(1.0 + self.e()) * impact.approach).fold(0.0, f64::max);
-        if End::of_impact(number) == End::A { EndPeaks { a: end, b: beside } } else { EndPeaks { a: beside, b: end } }
+        let struck = around.map(|impact| (-(1.0 + self.e()) * impact.approach, PeakImpact::Number(impact.number)));
+        let beside = struck.fold((0.0, impact), |most, next| if next.0 > most.0 { next } else { most });
+        if End::of_impact(number) == End::A { [(end, impact), beside] } else { [beside, (end, impact)] }
     }
 
     /// The interval of signed positions in [−1, 1] where no shock exceeds `threshold` if end `first` strikes first;
@@ -126,7 +133,7 @@ impl Bar {
 }
 
 /// `share · peak`, where nothing of an infinite peak is nothing.
-fn shock(share: f64, peak: f64) -> f64 {
+pub(crate) fn shock(share: f64, peak: f64) -> f64 {
     if share == 0.0 { 0.0 } else { share * peak }
 }
 

@@ -3,6 +3,7 @@
 use clatter::End;
 use clatter::flight::{Body, Contact, Model, Scene, Strike};
 use ode_solvers::{Dop853, System, Vector4};
+use proptest::prelude::*;
 
 fn body(q: f64) -> Body {
     Body::new(0.14, 0.07 * ((1.0 - q) / (1.0 + q)).sqrt()).expect("as the test has it")
@@ -174,4 +175,67 @@ fn bad_contacts_are_refused_with_the_value() {
     assert!(dead.simulate_compliant(1e-3).unwrap_err().to_string().contains("restitution"));
     let massless = Scene::new(body(1.0), 0.5, 4.43, 5.0, 9.81).expect("as the test has it");
     assert!(massless.simulate_compliant(1e-3).unwrap_err().to_string().contains("gyration"));
+}
+
+/// A body of length 1 with contacts of 1 ms, so long in units of √(length/g) and of length/v0.
+fn unit_scene(q: f64, e: f64, tilt: f64, by_gravity: f64, by_speed: f64) -> (Scene, f64) {
+    let contact_time = 1e-3_f64;
+    let body = Body::new(1.0, 0.5 * ((1.0 - q) / (1.0 + q)).sqrt()).expect("a bar");
+    let (g, speed) = ((by_gravity / contact_time).powi(2), by_speed / contact_time);
+    let scene = Scene::new(body, e, speed, tilt, g).expect("a drop").with_impact_limit(100).expect("a hundred");
+    (scene, contact_time)
+}
+
+/// The table that the documentation of the contact states, from above and within a factor of five.
+#[test]
+fn the_energy_error_is_that_of_the_table() {
+    let table = [
+        (0.0999, [0.7, 0.3, 0.3]),
+        (0.03, [0.09, 0.02, 0.06]),
+        (0.01, [0.2, 0.003, 0.02]),
+        (0.003, [0.06, 0.001, 0.003]),
+    ];
+    for (by_gravity, row) in table {
+        for (by_speed, stated) in [0.0999, 0.01, 0.001].into_iter().zip(row) {
+            let mut worst = 0.0_f64;
+            for q in [-0.5, 0.5, 0.9, 0.98] {
+                for e in [0.1, 0.5, 0.9, 0.99, 1.0] {
+                    for tilt in [0.1, 10.0, 45.0, 70.0, 85.0] {
+                        let (scene, time) = unit_scene(q, e, tilt, by_gravity, by_speed);
+                        worst = worst.max(scene.simulate_compliant(time).expect("a contact").energy_error);
+                    }
+                }
+            }
+            assert!(worst <= stated && worst > 0.2 * stated, "{by_gravity} {by_speed}: {worst}, stated {stated}");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, max_shrink_iters: 0, ..ProptestConfig::default() })]
+
+    /// No flight has more energy than it began with, but for what it says the kept lever arms have made.
+    #[test]
+    fn energy_grows_by_the_stated_error_at_most(
+        q in -0.5..0.98_f64, e in prop_oneof![0.1..1.0_f64, 0.99..=1.0_f64], tilt in 0.1..85.0_f64,
+        by_gravity in prop_oneof![Just(0.0999), Just(0.0), 0.001..0.1_f64], by_speed in prop_oneof![Just(0.0999), 0.001..0.1_f64],
+    ) {
+        let (scene, contact_time) = unit_scene(q, e, tilt, by_gravity, by_speed);
+        let (g, rho) = (scene.gravity_m_s2(), scene.body().gyration_m());
+        let flight = scene.simulate_compliant(contact_time).expect("a contact");
+        let energy = |y: f64, v: f64, spin: f64| 0.5 * (v * v + (rho * spin).powi(2)) + g * y;
+        let first = energy(0.5 * scene.tilt_rad().sin(), scene.speed_m_s(), 0.0);
+        for (n, pulse) in flight.pulses.iter().enumerate().filter(|(_, p)| p.until_s.is_finite()) {
+            // In free flight, where springs hold nothing.
+            if flight.pulses.iter().any(|p| p.from_s <= pulse.until_s && pulse.until_s < p.until_s) {
+                continue;
+            }
+            let (s, now) = (flight.flight.strikes[n], flight.sample(pulse.until_s));
+            let center = |of: [f64; 2]| 0.5 * (of[0] + of[1]);
+            let held = energy(center(now.height_m), center(s.velocity_m_s), s.spin_rad_s) / first;
+            // A few roundings of a phase, and the kept arms.
+            let allowed = 1.0 + flight.energy_error + 1e-12 * f64::from(u32::try_from(flight.pulses.len()).expect("a hundred"));
+            prop_assert!(held <= allowed, "after strike {}: {held} of the first energy, {allowed} allowed", n + 1);
+        }
+    }
 }

@@ -45,6 +45,8 @@ fn ten_thousand_elastic_strikes_keep_the_energy() {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, max_shrink_iters: 0, ..ProptestConfig::default() })]
+
     /// From strike to strike the energy changes by the strike's loss alone.
     #[test]
     fn strikes_lose_what_the_theory_says(

@@ -1,6 +1,6 @@
 //! The flights at the edges of what a scene may be.
 
-use clatter::flight::{Body, Flight, Model, Scene, Stop};
+use clatter::flight::{Body, Flight, Model, Scene, Stop, Strike};
 use clatter::{End, Error};
 
 const MODELS: [Model; 3] = [Model::Map, Model::Ballistic, Model::FiniteTilt];
@@ -43,6 +43,50 @@ fn every_corner_gives_an_answer() {
                                 .expect("as the test has it");
                             sane(&scene.simulate(model), &format!("{model:?} q {q} e {e} tilt {tilt} g {g} v {speed}"));
                         }
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_start_already_spinning_gives_an_answer() {
+    for q in [-0.999, 0.0, 0.5, 0.999_999, 1.0] {
+        for e in [0.0, 0.3, 1.0] {
+            for tilt in [0.0, 1e-9, 1.0, 89.9] {
+                for g in [0.0, 9.81, 1e6] {
+                    for spin in [-0.999, -1e-9, 1e-9, 1.0, 1e3] {
+                        for model in MODELS {
+                            let scene = Scene::new(body(q), e, 1.0, tilt, g)
+                                .and_then(|s| s.with_spin(spin / 0.07))
+                                .and_then(|s| s.with_impact_limit(200))
+                                .expect("as the test has it");
+                            let what = format!("{model:?} q {q} e {e} tilt {tilt} g {g} spin {spin}");
+                            sane(&scene.simulate(model), &what);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn every_corner_of_a_soft_contact_gives_an_answer() {
+    for q in [-0.9, 0.0, 0.5, 0.95] {
+        for e in [0.01, 0.3, 1.0] {
+            for tilt in [0.0, 1e-9, 5.0, 89.9] {
+                for g in [0.0, 9.81, 1e6] {
+                    for contact in [1e-12, 1e-7, 1e-5] {
+                        let scene = Scene::new(body(q), e, 1.0, tilt, g).and_then(|s| s.with_impact_limit(30));
+                        let flight = scene.expect("as the test has it").simulate_compliant(contact);
+                        let flight = flight.expect("as the test has it");
+                        let what = format!("q {q} e {e} tilt {tilt} g {g} contact {contact}");
+                        let finite = |s: &Strike| s.delta_v_m_s.iter().chain(&s.velocity_m_s).all(|x| x.is_finite());
+                        assert!(flight.flight.strikes.iter().all(finite), "{what}");
+                        assert!(flight.flight.strikes.windows(2).all(|p| p[0].time_s <= p[1].time_s), "{what}");
+                        assert!(flight.energy_error.is_finite() && flight.flight.stop.time_s() >= 0.0, "{what}");
                     }
                 }
             }
@@ -137,6 +181,18 @@ fn limits_are_kept_and_said() {
     for model in MODELS {
         let flight = scene.with_impact_limit(3).expect("as the test has it").simulate(model);
         assert_eq!((flight.strikes.len(), flight.stop.reason()), (3, "bounced-clear"), "{model:?}");
+    }
+}
+
+/// After a drop at 10⁹ m/s the body turns 10¹⁹ times before it comes back; the search for its touch once went on for ever.
+#[test]
+fn a_turn_that_time_cannot_tell_ends_the_flight() {
+    let body = Body::new(1.0, 0.6).expect("as the test has it");
+    for speed in [1e9, 1e12, 1e16] {
+        let scene = Scene::new(body, 0.9, speed, 0.3, 0.3).expect("as the test has it");
+        let flight = scene.with_impact_limit(10).expect("as the test has it").simulate(Model::FiniteTilt);
+        assert_eq!(flight.stop.reason(), "time-limit", "{speed:e}: {:?}", flight.stop);
+        assert!(flight.strikes.len() < 10, "{speed:e}: {}", flight.strikes.len());
     }
 }
 

@@ -1,7 +1,7 @@
 //! A map as a heat map: one pixel a grid point, with a color bar.
 
 use base64::Engine as _;
-use clatter::{Map, Quantity};
+use clatter::{Map, Quantity, Variable};
 
 use crate::svg::{Anchor, BLUES, INK, Ink, LABEL, Label, SAND, Svg};
 
@@ -71,7 +71,7 @@ impl Scale {
 }
 
 /// Multiples of 1, 2 or 5 times a power of ten from `low` to `high`, four to nine of them; one if both are the same.
-fn round_values(low: f64, high: f64) -> Vec<f64> {
+pub(crate) fn round_values(low: f64, high: f64) -> Vec<f64> {
     let span = high - low;
     if !(span > 0.0 && span.is_finite()) {
         return vec![low];
@@ -168,7 +168,11 @@ pub(crate) fn heat(map: &Map) -> String {
         svg.text([left - 5.0, y + 2.6], &text, Label { anchor: Anchor::End, ..small });
     }
     svg.text([left + 0.5 * side, top + side + 24.0], "coefficient of restitution *e*", LABEL);
-    svg.text([left - 30.0, top + 0.5 * side], "inertia ratio *q*", Label { turn: -90.0, ..LABEL });
+    let (inertia, title) = match map.q.variable() {
+        Variable::GyrationRatio => ("gyration ratio *ρ*/*L*", "Map over restitution and gyration ratio"),
+        _ => ("inertia ratio *q*", "Map over restitution and inertia ratio"),
+    };
+    svg.text([left - 30.0, top + 0.5 * side], inertia, Label { turn: -90.0, ..LABEL });
     // the bar
     let bar = left + side + 18.0;
     let strip: Vec<u8> = (0..=255u8).rev().flat_map(|i| color(f64::from(i) / 255.0)).collect();
@@ -187,7 +191,7 @@ pub(crate) fn heat(map: &Map) -> String {
         svg.text([bar + 17.0, top + 8.6], word, Label { anchor: Anchor::Start, ..small });
     }
     svg.text([bar + 60.0, top + 0.5 * side], &name(map.quantity), Label { turn: -90.0, ..LABEL });
-    svg.finish("Map over restitution and inertia ratio")
+    svg.finish(title)
 }
 
 #[cfg(test)]

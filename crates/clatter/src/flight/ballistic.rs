@@ -27,7 +27,7 @@ pub(super) fn simulate(scene: &Scene) -> Flight {
     let settling = Settling::new(&scene.body(), e, g, 0.0);
     let scale_s = scene.speed_m_s() / g;
     let mut log = Log::new(scene);
-    let mut state = State { h: [0.0, scene.height_gap_m()], v: scene.end_velocities(1.0) };
+    let mut state = State { h: [0.0, scene.height_gap_m()], v: scene.level_velocities() };
     let mut time = Clock::default();
     loop {
         let down = [still(&state, 0), still(&state, 1)];

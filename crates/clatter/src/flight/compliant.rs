@@ -34,6 +34,17 @@
 //! Lever arms, and the acceleration by turning, are those of the beginning of a phase; at its end the pose follows in exact
 //! geometry. A phase ends with any touch or parting, and after a turn of 1/200 rad (so that a body may
 //! pivot on its spring). The shock of a contact is off by tan φ · ω τ of itself at most, ω the spin it leaves.
+//!
+//! What the ground does for the body in a phase is known in closed form; whatever else its energy changes by is the kept
+//! lever arm's doing, and is summed without regard to sign in [`CompliantFlight::energy_error`]. It grows with the turn during
+//! a contact. The worst of 100 strikes at q from −0.5 to 0.98, e from 0.1 to 1 and tilts from 0.1° to 85°, for contact times τ:
+//!
+//! | τ √(g/length) | τ v0/length = 0.1 | 0.01 | 0.001 |
+//! |---|---|---|---|
+//! | 0.1 | 0.7 | 0.3 | 0.3 |
+//! | 0.03 | 0.09 | 0.02 | 0.06 |
+//! | 0.01 | 0.2 | 0.003 | 0.02 |
+//! | 0.003 | 0.06 | 0.001 | 0.003 |
 
 use super::ballistic::Clock;
 use super::finite_tilt::{Pose, end_of, sigma};
@@ -265,10 +276,11 @@ impl Phase {
     fn impulses(&self, t: f64) -> [f64; 2] {
         self.solve([0, 1].map(|i| self.end(i, t)[1] - self.start.ends.v[i] + self.fall[i] * t))
     }
-    /// The pose at time t: an end in contact is where its spring is, the angle and the spin are what the impulses give, and
-    /// the other end follows in exact geometry. `free`: so are the velocities, by the velocity of the center, which keeps
-    /// the energy; else the end in contact keeps its own, and lies still if it did.
-    fn pose(&self, t: f64, free: bool) -> Pose {
+    /// The pose at time t: angle and spin are what the impulses give. `free`: so are the velocities of both ends, by that of
+    /// the center, which keeps the energy; else the end in contact keeps its own, and lies still if it did. `parts`: the
+    /// center is where the impulses have brought it, which keeps the energy too; else the end in contact is where its
+    /// spring is. What is left follows in exact geometry.
+    fn pose(&self, t: f64, free: bool, parts: bool) -> Pose {
         let s = &self.start;
         let length = s.body.length_m();
         let ends = [0, 1].map(|i| self.end(i, t));
@@ -286,6 +298,10 @@ impl Phase {
         let twice = (ends[i][0] - s.ends.h[i] - s.ends.v[i] * t + 0.5 * self.fall[i] * t * t) / self.mu[i];
         next = next.turned(s.spin * t + self.x[i] * twice / rho2);
         next.spin = s.spin + self.x[i] * self.impulses(t)[i] / rho2;
+        if parts {
+            let y = s.center().0 + t * (s.center().1 - 0.5 * s.gravity * t) + twice;
+            next.ends.h[i] = y + sigma(i) * s.body.arms_m()[i] * next.sin;
+        }
         next.ends.h[j] = next.ends.h[i] + sigma(j) * length * next.sin;
         next.ends.v[j] = next.ends.v[i] + sigma(j) * length * next.cos * next.spin;
         if free {
@@ -293,6 +309,15 @@ impl Phase {
             next.ends.v = next.levers().map(|x| center + x * next.spin);
         }
         next
+    }
+    /// Work of the ground on the body over the time t, per unit mass: with `M` the map of forces to accelerations,
+    /// `∫ f·v dt = ½ Δ(v·M⁻¹v) + fall·M⁻¹Δh`.
+    fn work(&self, t: f64) -> f64 {
+        let ends = [0, 1].map(|i| self.end(i, t));
+        let (h, v) = (self.start.ends.h, self.start.ends.v);
+        let rise = self.solve([0, 1].map(|i| ends[i][0] - h[i]));
+        let push = self.solve([0, 1].map(|i| ends[i][1] - v[i]));
+        (0..2).map(|i| 0.5 * (ends[i][1] + v[i]) * push[i] + self.fall[i] * rise[i]).sum()
     }
     /// When end i in contact parts. `fresh`: it has just begun to press.
     fn parting(&self, i: usize, cap: f64, fresh: bool) -> Option<f64> {
@@ -416,10 +441,19 @@ pub struct CompliantFlight {
     pub flight: Flight,
     /// Beginning and end of each strike's contact.
     pub pulses: Vec<Pulse>,
+    /// Energy that the kept lever arms have made or lost, summed over all contacts without regard to sign, over the energy
+    /// of the body at the first touch (the ground at height 0). Above 0.1, take late strikes for the right kind and not for
+    /// the right size; a shorter contact time lowers it in proportion.
+    pub energy_error: f64,
     phases: Vec<(f64, Phase)>,
 }
 
 impl CompliantFlight {
+    /// When each phase begins, in order from 0, and which ends press in it. Within a phase every force is smooth; a long contact is cut
+    /// into phases where its lever arms are renewed.
+    pub fn phases_s(&self) -> impl Iterator<Item = (f64, [bool; 2])> + '_ {
+        self.phases.iter().map(|(from, phase)| (*from, phase.on))
+    }
     /// Heights, velocities, accelerations and forces at a time since the first touch.
     #[must_use]
     pub fn sample(&self, time_s: f64) -> Sample {
@@ -454,6 +488,8 @@ pub(super) fn simulate(scene: &Scene, contact: Contact) -> CompliantFlight {
     let mut pulses: Vec<Pulse> = Vec::new();
     let mut strike_of = [0_usize; 2];
     let most = PHASES + 16 * scene.impact_limit();
+    let opened = pose.energy();
+    let mut misfit = 0.0;
     // The limit is at least one strike.
     log.strike(End::A, 0.0, pose.ends.v[0], [0.0; 2], &pose.after());
     pulses.push(Pulse { strike: 1, from_s: 0.0, until_s: f64::INFINITY });
@@ -501,7 +537,8 @@ pub(super) fn simulate(scene: &Scene, contact: Contact) -> CompliantFlight {
             pose = pose.flown(dt);
         } else {
             let impulses = phase.impulses(dt);
-            pose = phase.pose(dt, event.is_some() && !long);
+            pose = phase.pose(dt, !long, !long && event.is_some_and(|(i, ..)| on[i]));
+            misfit += (pose.energy() - phase.start.energy() - phase.work(dt)).abs();
             for k in (0..2).filter(|&k| on[k]) {
                 let delta = if k == 0 { [phase.mu[0], phase.cross] } else { [phase.cross, phase.mu[1]] };
                 let strike = &mut log.flight.strikes[strike_of[k]];
@@ -535,7 +572,7 @@ pub(super) fn simulate(scene: &Scene, contact: Contact) -> CompliantFlight {
             (strike.velocity_m_s, strike.spin_rad_s) = (pose.ends.v, pose.spin);
         }
     }
-    CompliantFlight { flight: log.flight, pulses, phases }
+    CompliantFlight { flight: log.flight, pulses, energy_error: misfit / opened, phases }
 }
 
 impl Pose {
@@ -566,11 +603,6 @@ impl Pose {
             (next.ends.h[i], next.ends.v[i]) = self.end(i, t);
         }
         next
-    }
-    /// Lever arms of the ends, signed.
-    fn levers(&self) -> [f64; 2] {
-        let [a, b] = self.body.arms_m();
-        [-a * self.cos, b * self.cos]
     }
     /// Stiffness of the contact that gives a lone end its frequency at this angle, over the mass of the body.
     fn stiffness(&self, i: usize, contact: Contact) -> f64 {

@@ -7,11 +7,12 @@
 //! h″(t) = −g − σ L ω² sin φ(t)
 //! ```
 //!
+//! (for an end of lever arm x and height H over the center in general, `h − x (θ − sin θ) − H (1 − cos θ)` and `−g − ω² H`)
 //! written from the state after the last strike, so that a small gap is a sum of terms of its own size. A strike at end i
 //! acts at the lever arm x = L cos φ: `Δv_i = −(1 + e) u`, `Δv_j = −q(φ) Δv_i`, `q_i(φ) = (x_a x_b − ρ²)/(x_i² + ρ²)`.
 //!
 //! # No strike is missed, none taken twice
-//! `h″ ≥ −(g + L ω²)` bounds the motion from below: [`roots`](super::roots) advances by steps that are proven free of zeros,
+//! `h″ ≥ −(g + L ω²)`, L the distance of the end, bounds the motion from below: [`roots`](super::roots) advances by steps that are proven free of zeros,
 //! so the first touch of either end is the first touch. While the center is higher than L no angle lets the end touch, and the
 //! parabola of the center alone gives the step. The end that has just struck starts from exactly zero with its velocity
 //! upward, and the first step takes it off the ground for good; a touch without speed is no strike.
@@ -69,11 +70,13 @@ fn theta_minus_sin(theta: f64, sin: f64) -> f64 {
 impl Pose {
     pub(super) fn start(scene: &Scene) -> Self {
         let (sin, cos) = scene.tilt_rad().sin_cos();
-        let ends = State { h: [0.0, scene.height_gap_m()], v: scene.end_velocities(cos) };
+        let (levers, _) = scene.body().levers(sin, cos);
+        let ends = State { h: [0.0, scene.height_gap_m()], v: scene.end_velocities(levers) };
         Self { body: scene.body(), gravity: scene.gravity_m_s2(), ends, sin, cos, spin: scene.spin_rad_s() }
     }
-    fn arm(&self, i: usize) -> f64 {
-        self.body.arms_m()[i]
+    /// Lever arms of the ends, signed.
+    pub(super) fn levers(&self) -> [f64; 2] {
+        self.body.levers(self.sin, self.cos).0
     }
     /// Height and velocity of end i after a flight of time t.
     pub(super) fn end(&self, i: usize, t: f64) -> (f64, f64) {
@@ -81,38 +84,39 @@ impl Pose {
         let (bend, swing) = self.bend(i, self.spin * t);
         (h + (t * (v - 0.5 * self.gravity * t) - bend), v - self.gravity * t - self.spin * swing)
     }
-    /// What a turn by θ takes from the height of end i beyond its lever arm, `σ L [(θ − sin θ) cos φ + (1 − cos θ) sin φ]`,
-    /// and from the lever arm.
+    /// What a turn by θ takes from the height of end i beyond its lever arm x, `x (θ − sin θ) + H (1 − cos θ)` for an end at
+    /// height H over the center, and from the lever arm.
     pub(super) fn bend(&self, i: usize, theta: f64) -> (f64, f64) {
         let (half_sin, half_cos) = (0.5 * theta).sin_cos();
         let sin = 2.0 * half_sin * half_cos;
         let versine = 2.0 * half_sin * half_sin;
-        let arm = sigma(i) * self.arm(i);
-        let bend = theta_minus_sin(theta, sin) * self.cos + versine * self.sin;
-        (arm * bend, arm * (versine * self.cos + sin * self.sin))
+        let (x, over) = self.body.levers(self.sin, self.cos);
+        (theta_minus_sin(theta, sin) * x[i] + versine * over[i], versine * x[i] + sin * over[i])
     }
     pub(super) fn after(&self) -> After {
         After { ends: self.ends, tilt: self.sin.atan2(self.cos), spin: self.spin }
     }
     /// Free vertical acceleration of end i.
     pub(super) fn acceleration(&self, i: usize) -> f64 {
-        -self.gravity - sigma(i) * self.arm(i) * self.spin * self.spin * self.sin
+        -self.gravity - self.spin * self.spin * self.body.levers(self.sin, self.cos).1[i]
     }
     /// Height and velocity of the center.
     pub(super) fn center(&self) -> (f64, f64) {
         let [a, b] = self.body.arms_m();
         let State { h, v } = self.ends;
-        ((b * h[0] + a * h[1]) / (a + b), (b * v[0] + a * v[1]) / (a + b))
+        let d = 0.5 * self.body.thickness_m();
+        let on_the_line = |of: [f64; 2]| (b * of[0] + a * of[1]) / (a + b);
+        (on_the_line(h) + d * self.cos, on_the_line(v) - d * self.sin * self.spin)
     }
-    /// Time after t in which no angle lets end i touch: the center is higher than its arm.
+    /// Time after t in which no angle lets end i touch: the center is higher than its distance.
     pub(super) fn clear(&self, i: usize, t: f64) -> f64 {
         let (y, v) = self.center();
-        let clear = y + t * (v - 0.5 * self.gravity * t) - self.arm(i);
+        let clear = y + t * (v - 0.5 * self.gravity * t) - self.body.radius(i);
         if clear > 0.0 { safe_step(clear, v - self.gravity * t, self.gravity) } else { 0.0 }
     }
     /// When end i touches the ground, if before `cap`. `leaving`: it starts on the ground without velocity, upward.
     pub(super) fn touch(&self, i: usize, cap: f64, leaving: bool) -> Option<f64> {
-        let arm = self.arm(i);
+        let arm = self.body.radius(i);
         let w2 = self.spin * self.spin;
         let bound = self.gravity + arm * w2;
         let step = |t: f64, h: f64, v: f64| safe_step(h, v, bound).max(self.clear(i, t));
@@ -122,22 +126,27 @@ impl Pose {
         } else if v > 0.0 {
             step(0.0, 0.0, v)
         } else if v == 0.0 && leaving {
-            // h ≥ ½ h″ t² − J t³/6 with J = L |ω|³; where h″ = 0, h ≥ h‴ t³/6 − L ω⁴ t⁴/24.
-            let up = self.acceleration(i);
-            let rate = -sigma(i) * arm * self.spin * w2 * self.cos;
-            if up > 0.0 {
-                2.0 * up / (arm * w2 * self.spin.abs())
-            } else if rate > 0.0 {
-                2.0 * rate / (arm * w2 * w2)
-            } else {
+            // h ≥ ½ h″ t² + h‴ t³/6 − R ω⁴ t⁴/24, R the distance of the end. Where turning has just lifted it, h″ is zero
+            // but for rounding.
+            let up = self.acceleration(i).max(0.0);
+            let rate = -self.levers()[i] * self.spin * w2;
+            let bound = arm * w2 * w2;
+            if up == 0.0 && rate <= 0.0 {
                 return None; // level and turned downward: the other end strikes at once
             }
+            let root = rate.hypot((3.0 * bound * up).sqrt());
+            if rate > 0.0 { 2.0 * (rate + root) / bound } else { 6.0 * up / (root - rate) }
         } else if v == 0.0 {
             return None; // lies still
         } else {
             return (cap > 0.0).then_some(0.0);
         };
         if first.is_nan() || first >= cap { None } else { first_zero(first, cap, |t| self.end(i, t), step) }
+    }
+    /// Whether a touch of end i at t says nothing: the body turned so often until then that its angle is known to 10⁻⁴ no more,
+    /// or the search was given up with the end still in the air.
+    fn is_lost(&self, i: usize, t: f64) -> bool {
+        (self.spin * t).abs() > 1e-4 / f64::EPSILON || self.end(i, t).0 > 1e-3 * self.body.length_m()
     }
     /// The pose after a flight of time t that ends with end i on the ground, before the strike.
     pub(super) fn landed(&self, i: usize, t: f64) -> Self {
@@ -160,20 +169,40 @@ impl Pose {
             (next.sin, next.cos) = (sin / norm, cos / norm);
             next.ends.h[j] = (sigma(j) * length * next.sin).max(0.0);
         }
+        if t > 0.0 && next.cos.abs() <= 0.5 {
+            // A steep body turns as its spin says; the other end follows, so that both never drift apart.
+            let x = next.levers();
+            next.ends.v[j] = next.ends.v[i] + (x[j] - x[i]) * next.spin;
+        }
         next
     }
     /// Inertia ratio of a strike at end i at this angle.
     fn ratio(&self, i: usize) -> f64 {
-        self.body.product(self.cos * self.cos) / self.body.inertia(self.arm(i) * self.cos)
+        let [a, b] = self.levers();
+        let product = if self.body.thickness_m() > 0.0 {
+            -a * b - self.body.gyration_m().powi(2)
+        } else {
+            self.body.product(self.cos * self.cos)
+        };
+        product / self.body.inertia([a, b][i])
     }
     /// Effective mass of end i over the mass of the body, ρ²/(ρ² + x²).
     fn mass(&self, i: usize) -> f64 {
-        self.body.gyration_m().powi(2) / self.body.inertia(self.arm(i) * self.cos)
+        self.body.gyration_m().powi(2) / self.body.inertia(self.levers()[i])
+    }
+    /// Time until a body of thickness stands at a right angle; never for one without, which has no other corners.
+    fn upright(&self) -> f64 {
+        let turn = self.sin.atan2(self.cos) * self.spin.signum();
+        if self.body.thickness_m() > 0.0 && self.spin != 0.0 {
+            (0.5 * std::f64::consts::PI - turn) / self.spin.abs()
+        } else {
+            f64::INFINITY
+        }
     }
     /// Gives end i the velocity jump; returns that of the other end.
     fn strike(&mut self, i: usize, jump: f64) -> f64 {
         let other = -self.ratio(i) * jump;
-        let x = sigma(i) * self.arm(i) * self.cos;
+        let x = self.levers()[i];
         self.ends.v[i] += jump;
         self.ends.v[1 - i] += other;
         self.spin += jump * x / self.body.inertia(x);
@@ -181,7 +210,7 @@ impl Pose {
         other
     }
     /// Energy per unit mass.
-    fn energy(&self) -> f64 {
+    pub(super) fn energy(&self) -> f64 {
         let (y, v) = self.center();
         let turning = self.body.gyration_m() * self.spin;
         0.5 * (v * v + turning * turning) + self.gravity * y
@@ -225,6 +254,9 @@ impl Ledger {
     }
 }
 
+/// Touches without speed, one after the other, that no motion needs: beyond them the time has no digits left for a turn.
+const IDLE: u32 = 64;
+
 pub(super) fn simulate(scene: &Scene) -> Flight {
     let (e, g) = (scene.e(), scene.gravity_m_s2());
     let rest = Rest::new(scene);
@@ -233,6 +265,7 @@ pub(super) fn simulate(scene: &Scene) -> Flight {
     let mut time = Clock::default();
     let mut leaving = [false; 2];
     let mut ledger = Ledger::open(&pose);
+    let mut idle = 0;
     loop {
         let still = [0, 1].map(|i| pose.ends.h[i] == 0.0 && pose.ends.v[i] == 0.0 && !leaving[i]);
         if still == [true; 2] && g > 0.0 {
@@ -249,17 +282,31 @@ pub(super) fn simulate(scene: &Scene) -> Flight {
             log.pivot(end_of(pivot), from, time.now(), &pose.ends);
             pose = after;
             ledger = Ledger::open(&pose);
+            if event == Event::Upright {
+                log.turned_over(time.now());
+                break;
+            }
             if event == Event::LiftOff {
+                log.lifted(&pose.after());
                 leaving[pivot] = true;
                 continue;
             }
             1 - pivot
         } else {
-            let ta = pose.touch(0, f64::INFINITY, leaving[0]);
-            let tb = pose.touch(1, ta.unwrap_or(f64::INFINITY), leaving[1]);
+            let upright = pose.upright();
+            let ta = pose.touch(0, upright, leaving[0]);
+            let tb = pose.touch(1, ta.unwrap_or(upright), leaving[1]);
             // At one instant end a strikes first: b is looked for before a's time only.
+            if [ta, tb].into_iter().enumerate().any(|(i, t)| t.is_some_and(|t| pose.is_lost(i, t))) {
+                log.lost(time.now());
+                break;
+            }
             let Some((i, dt)) = tb.map(|t| (1, t)).or(ta.map(|t| (0, t))) else {
-                log.bounced_clear();
+                if upright < f64::INFINITY {
+                    log.turned_over(time.now() + upright);
+                } else {
+                    log.bounced_clear();
+                }
                 break;
             };
             time.add(dt);
@@ -275,8 +322,14 @@ pub(super) fn simulate(scene: &Scene) -> Flight {
         if u == 0.0 {
             // A touch without speed. What lies still stays, what turns upward leaves.
             pose.ends.v[i] = 0.0;
+            idle += 1;
+            if idle > IDLE {
+                log.lost(time.now());
+                break;
+            }
             continue;
         }
+        idle = 0;
         let jump = -(1.0 + e) * u;
         let other = pose.strike(i, jump);
         pose.ends.v[i] = -e * u;
@@ -317,13 +370,13 @@ fn chatter(pose: &mut Pose, time: &mut Clock, log: &mut Log, i: usize, e: f64) {
     if omitted > SHARE * log.largest_m_s || gamma <= 0.0 || !short(tau, time.now(), 0.0) {
         return;
     }
-    let (arm, w) = (pose.arm(i), pose.spin.abs());
-    let x = arm * pose.cos.abs();
+    let (arm, w) = (pose.body.radius(i), pose.spin.abs());
+    let x = pose.levers()[i].abs();
     let kick = 2.0 * (1.0 + e) * s;
     let dw = kick * x / pose.body.inertia(x);
     let change = arm * ((2.0 * w + dw) * dw + (w + dw).powi(3) * tau);
     let fastest = pose.ends.v[j].abs() + pose.ratio(i).abs() * kick;
-    let lowest = pose.ends.h[j] - tau * (fastest + tau * (pose.gravity + pose.arm(j) * (w + dw).powi(2)));
+    let lowest = pose.ends.h[j] - tau * (fastest + tau * (pose.gravity + pose.body.radius(j) * (w + dw).powi(2)));
     if change <= 0.25 * gamma * (1.0 - e) && lowest > 0.0 {
         log.omitted_m_s = log.omitted_m_s.max(omitted);
         let dt = 2.0 * s / gamma;
@@ -372,15 +425,17 @@ impl Rest {
     }
     /// Largest time and shock left after a strike of end i, where a proof is at hand.
     fn left(&self, before: &Pose, after: &Pose, i: usize) -> Option<(f64, f64)> {
-        if after.sin.abs() > 1e-3 {
+        let [a, b] = after.body.arms_m();
+        // A center half a thickness over the ends moves them as a tilt does.
+        if after.sin.abs() * (1.0 + after.body.thickness_m() / a.min(b)) > 1e-3 {
             return None;
         }
         if self.gravity > 0.0 {
             let energy = self.settling.energy(after.ends.h, after.ends.v);
             let gyration = after.body.gyration_m();
-            let [a, b] = after.body.arms_m();
+            let [near, far] = [0, 1].map(|i| after.body.radius(i));
             // ½ ρ² ω² ≤ E bounds the turning, g y ≤ E the tilt.
-            let turning = 2.0 * energy * a.max(b) / (gyration * gyration);
+            let turning = 2.0 * energy * near.max(far) / (gyration * gyration);
             if turning > 1e-3 * self.gravity || energy > 1e-3 * self.gravity * a.min(b) {
                 return None;
             }

@@ -6,23 +6,35 @@
 use super::{After, Flight, Log, SHARE, Scene, State, Stop, index};
 use crate::{Bar, Count, Start};
 
+impl Scene {
+    /// The symmetric bar and start that have the train of this scene at small tilt without gravity, and κ: velocities of end b
+    /// are κ times the scene's, times the scene's own.
+    #[must_use]
+    pub fn symmetric_bar(&self) -> (Bar, Start, f64) {
+        let body = self.body();
+        let [a, b] = body.arms_m();
+        let ratios = body.inertia_ratios();
+        let kappa = (body.inertia(a) / body.inertia(b)).sqrt();
+        let [va, vb] = self.level_velocities();
+        let bar = if a - b == 0.0 {
+            Bar::from_gyration_ratio(body.gyration_m() / a, self.e())
+        } else {
+            Bar::new((ratios[0] * ratios[1]).sqrt().copysign(ratios[0]), self.e())
+        };
+        let (Ok(bar), Ok(start)) = (bar, Start::new([va, kappa * vb], kappa * self.height_gap_m())) else {
+            unreachable!("the bounds of a scene are within those of a bar and its start");
+        };
+        (bar, start, kappa)
+    }
+}
+
 pub(super) fn simulate(scene: &Scene) -> Flight {
     let mut log = Log::new(scene);
     let e = scene.e();
     let body = scene.body();
-    let [a, b] = body.arms_m();
     let ratios = body.inertia_ratios();
-    let kappa = (body.inertia(a) / body.inertia(b)).sqrt();
-    let [va, vb] = scene.end_velocities(1.0);
-    let gap = scene.height_gap_m();
-    let bar = if a - b == 0.0 {
-        Bar::from_gyration_ratio(body.gyration_m() / a, e)
-    } else {
-        Bar::new((ratios[0] * ratios[1]).sqrt().copysign(ratios[0]), e)
-    };
-    let (Ok(bar), Ok(start)) = (bar, Start::new([va, kappa * vb], kappa * gap)) else {
-        unreachable!("the bounds of a scene are within those of a bar and its start");
-    };
+    let (gap, [va, vb]) = (scene.height_gap_m(), scene.level_velocities());
+    let (bar, start, kappa) = scene.symmetric_bar();
     let summary = bar.summary(&start);
     let endless = summary.count == Count::Endless;
     let settles = endless && summary.final_velocity.is_some();
@@ -42,7 +54,7 @@ pub(super) fn simulate(scene: &Scene) -> Flight {
         state.h[j] = height;
         (state.v[i], state.v[j]) = (-e * u, far + delta_v[j]);
         far = -e * u;
-        if !log.strike(impact.end, impact.time, u, delta_v, &After::small(&state, a + b)) {
+        if !log.strike(impact.end, impact.time, u, delta_v, &After::small(&state, body.length_m())) {
             return log.flight;
         }
         // The approach speeds of an endless train rise to one peak and fall for ever: what follows is slower.

@@ -7,7 +7,7 @@
 //! |---|---|---|
 //! | [`Model::Map`] | straight lines, small tilt, no gravity | impulse |
 //! | [`Model::Ballistic`] | parabolas, small tilt | impulse |
-//! | [`Model::FiniteTilt`] | parabola of the center, uniform rotation, any angle | impulse, lever arm L cos φ |
+//! | [`Model::FiniteTilt`] | parabola of the center, uniform rotation, any angle | impulse, lever arm L cos φ, of corners where the body has a thickness |
 //! | [`Scene::simulate_compliant`] | as `FiniteTilt` | linear spring and dashpot at each end |
 //!
 //! # The picture
@@ -40,12 +40,14 @@ mod ballistic;
 mod compliant;
 mod finite_tilt;
 mod map;
+mod orders;
 mod pivot;
 mod roots;
 mod scene;
 mod settling;
 
 pub use compliant::{CompliantFlight, Contact, Pulse, Sample};
+pub use orders::{Order, Residue, orders, residues};
 pub use scene::{Body, Scene};
 
 use crate::{End, Error};
@@ -110,6 +112,21 @@ pub struct Pivot {
     pub height_m: f64,
     /// Vertical velocity of the other end at the beginning.
     pub velocity_m_s: f64,
+    /// How the resting end lifted off, if the pivot ended so; else the other end landed.
+    pub lift_off: Option<LiftOff>,
+}
+
+/// The body as a resting end lifts off, pulled up by a fast turn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LiftOff {
+    /// Height of the other end.
+    pub height_m: f64,
+    /// Vertical velocity of the other end.
+    pub velocity_m_s: f64,
+    /// Tilt, in (−π, π]; positive where end b is higher.
+    pub tilt_rad: f64,
+    /// Angular velocity, end b upward.
+    pub spin_rad_s: f64,
 }
 
 /// Why a flight ends.
@@ -130,9 +147,15 @@ pub enum Stop {
         /// When the last strike happened.
         time_s: f64,
     },
+    /// A body of thickness has turned past its end, and comes down on corners that no model here knows.
+    TurnedOver {
+        /// When it stood on its end, or flew by at a right angle.
+        time_s: f64,
+    },
     /// More strikes would follow after the time limit.
     TimeLimit {
-        /// The limit.
+        /// The limit; earlier where a body at finite tilt turns more often before it comes down than can be followed (a thousand
+        /// times or so).
         time_s: f64,
     },
     /// More strikes would follow than may be listed.
@@ -143,12 +166,13 @@ pub enum Stop {
 }
 
 impl Stop {
-    /// `at-rest`, `bounced-clear`, `time-limit` or `impact-limit`.
+    /// `at-rest`, `bounced-clear`, `turned-over`, `time-limit` or `impact-limit`.
     #[must_use]
     pub fn reason(&self) -> &'static str {
         match self {
             Self::AtRest { .. } => "at-rest",
             Self::BouncedClear { .. } => "bounced-clear",
+            Self::TurnedOver { .. } => "turned-over",
             Self::TimeLimit { .. } => "time-limit",
             Self::ImpactLimit { .. } => "impact-limit",
         }
@@ -159,6 +183,7 @@ impl Stop {
         match *self {
             Self::AtRest { time_s, .. }
             | Self::BouncedClear { time_s }
+            | Self::TurnedOver { time_s }
             | Self::TimeLimit { time_s }
             | Self::ImpactLimit { time_s } => time_s,
         }
@@ -195,7 +220,7 @@ impl Scene {
     /// lone contact takes.
     ///
     /// # Errors
-    /// [`Error::Quantity`] unless e is in [0.01, 1], the radius of gyration at least 0.05 of the length (light ends
+    /// [`Error::Quantity`] unless e is in [0.01, 1], the body without thickness, the radius of gyration at least 0.05 of the length (light ends
     /// would whirl the body through large angles while they touch), and
     /// the contact time in [1e−12, 1e3] s and so short that the ends sink in by a small part of the length: at most 0.1
     /// length over the speed of either end, and 0.1 √(length/gravity).
@@ -203,11 +228,16 @@ impl Scene {
         let contact = Contact::new(self.e(), contact_time_s)?;
         let gyration_m = self.body().gyration_m();
         let length = self.body().length_m();
+        let thickness = self.body().thickness_m();
+        if thickness > 0.0 {
+            let allowed = "0 for a compliant contact, which knows no corners";
+            return Err(Error::Quantity { name: "thickness in m", value: thickness, allowed });
+        }
         if gyration_m < 0.05 * length {
             let allowed = "at least 0.05 of the length for a compliant contact";
             return Err(Error::Quantity { name: "radius of gyration in m", value: gyration_m, allowed });
         }
-        let fastest = self.end_velocities(1.0).into_iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        let fastest = self.level_velocities().into_iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         let sinks = contact_time_s * fastest > 0.1 * length;
         if sinks || contact_time_s.powi(2) * self.gravity_m_s2() > 0.01 * length {
             let allowed = "at most 0.1 length/speed and 0.1 sqrt(length/gravity), so that the ends sink in little";
@@ -221,30 +251,56 @@ impl Scene {
     /// Heights of ends a and b at a time of a flight of instant impacts, for drawing.
     ///
     /// Exact in flight. While the body pivots at finite tilt it is the parabola with the height and velocity of the
-    /// beginning that lands when the pivot ends.
+    /// beginning that ends where the pivot ends.
     #[must_use]
     pub fn heights_m(&self, model: Model, flight: &Flight, time_s: f64) -> [f64; 2] {
+        self.ends(model, flight, time_s).0
+    }
+
+    /// Heights as [`heights_m`](Self::heights_m) and their rates, just after what happens at this time.
+    pub(crate) fn ends(&self, model: Model, flight: &Flight, time_s: f64) -> ([f64; 2], [f64; 2]) {
         if matches!(flight.stop, Stop::AtRest { time_s: rest, .. } if time_s >= rest) {
-            return [0.0; 2];
+            return ([0.0; 2], [0.0; 2]);
         }
         let past = flight.pivots.partition_point(|p| p.from_s <= time_s);
-        if let Some(p) = flight.pivots[..past].last().filter(|p| time_s < p.until_s) {
-            let (t, whole) = (time_s - p.from_s, p.until_s - p.from_s);
-            let mut h = [0.0; 2];
-            h[index(p.end.other())] =
-                ((p.height_m * (1.0 + t / whole) + p.velocity_m_s * t) * (1.0 - t / whole)).max(0.0);
-            return h;
+        let pivot = flight.pivots[..past].last();
+        if let Some(p) = pivot.filter(|p| time_s < p.until_s) {
+            let whole = p.until_s - p.from_s;
+            let x = (time_s - p.from_s) / whole;
+            let last = p.lift_off.map_or(0.0, |off| off.height_m);
+            let bulge = p.height_m - last + p.velocity_m_s * whole;
+            let (mut h, mut v) = ([0.0; 2], [0.0; 2]);
+            let j = index(p.end.other());
+            h[j] = (p.height_m * (1.0 - x) + last * x + bulge * x * (1.0 - x)).max(0.0);
+            v[j] = p.velocity_m_s - 2.0 * bulge * x / whole;
+            return (h, v);
         }
         let past = flight.strikes.partition_point(|s| s.time_s <= time_s);
-        let Some(s) = flight.strikes[..past].last() else { return [0.0, self.height_gap_m()] };
-        let t = time_s - s.time_s;
+        let strike = flight.strikes[..past].last();
+        let lifted = pivot.filter(|p| strike.is_none_or(|s| s.time_s < p.until_s));
+        let (from, ends, tilt, spin) = match (lifted.and_then(|p| p.lift_off.map(|off| (p, off))), strike) {
+            (Some((p, off)), _) => {
+                let mut ends = State { h: [0.0; 2], v: [0.0; 2] };
+                let j = index(p.end.other());
+                (ends.h[j], ends.v[j]) = (off.height_m, off.velocity_m_s);
+                (p.until_s, ends, off.tilt_rad, off.spin_rad_s)
+            }
+            (None, Some(s)) => (s.time_s, State { h: s.height_m, v: s.velocity_m_s }, s.tilt_rad, s.spin_rad_s),
+            (None, None) => {
+                let levers = self.body().levers(self.tilt_rad().sin(), self.tilt_rad().cos()).0;
+                return ([0.0, self.height_gap_m()], self.end_velocities(levers));
+            }
+        };
+        let t = time_s - from;
         let g = if model == Model::Map { 0.0 } else { self.gravity_m_s2() };
-        let ends = State { h: s.height_m, v: s.velocity_m_s };
-        let pose = (model == Model::FiniteTilt).then(|| {
-            let (sin, cos) = s.tilt_rad.sin_cos();
-            finite_tilt::Pose { body: self.body(), gravity: g, ends, sin, cos, spin: s.spin_rad_s }
-        });
-        [0, 1].map(|i| pose.map_or(ends.h[i] + t * (ends.v[i] - 0.5 * g * t), |p| p.end(i, t).0).max(0.0))
+        let (h, v) = if model == Model::FiniteTilt {
+            let (sin, cos) = tilt.sin_cos();
+            let pose = finite_tilt::Pose { body: self.body(), gravity: g, ends, sin, cos, spin };
+            ([0, 1].map(|i| pose.end(i, t).0), [0, 1].map(|i| pose.end(i, t).1))
+        } else {
+            ([0, 1].map(|i| ends.h[i] + t * (ends.v[i] - 0.5 * g * t)), ends.v.map(|v| v - g * t))
+        };
+        (h.map(|h| h.max(0.0)), v)
     }
 }
 
@@ -286,6 +342,8 @@ impl Log {
             return false;
         }
         let strikes = &mut self.flight.strikes;
+        // The map's times are each exact to roundings, by which neighbors may change places.
+        let time_s = strikes.last().map_or(time_s, |s| time_s.max(s.time_s));
         if strikes.len() == self.impact_limit {
             self.flight.stop = Stop::ImpactLimit { time_s: strikes.last().map_or(0.0, |s| s.time_s) };
             return false;
@@ -307,10 +365,29 @@ impl Log {
     fn pivot(&mut self, end: End, from_s: f64, until_s: f64, state: &State) {
         let j = index(end.other());
         let (height_m, velocity_m_s) = (state.h[j], state.v[j]);
-        self.flight.pivots.push(Pivot { end, from_s, until_s, height_m, velocity_m_s });
+        self.flight.pivots.push(Pivot { end, from_s, until_s, height_m, velocity_m_s, lift_off: None });
+    }
+    /// The last pivot ended as the resting end lifted off.
+    fn lifted(&mut self, after: &After) {
+        if let Some(pivot) = self.flight.pivots.last_mut() {
+            let j = index(pivot.end.other());
+            let (height_m, velocity_m_s) = (after.ends.h[j], after.ends.v[j]);
+            pivot.lift_off = Some(LiftOff { height_m, velocity_m_s, tilt_rad: after.tilt, spin_rad_s: after.spin });
+        }
     }
     fn bounced_clear(&mut self) {
         self.flight.stop = Stop::BouncedClear { time_s: self.flight.strikes.last().map_or(0.0, |s| s.time_s) };
+    }
+    /// The next strike cannot be told.
+    fn lost(&mut self, time_s: f64) {
+        self.flight.stop = Stop::TimeLimit { time_s: time_s.min(self.time_limit_s) };
+    }
+    fn turned_over(&mut self, time_s: f64) {
+        self.flight.stop = if time_s > self.time_limit_s {
+            Stop::TimeLimit { time_s: self.time_limit_s }
+        } else {
+            Stop::TurnedOver { time_s }
+        };
     }
     /// At rest if what is left is proven to take less than an ulp of the time and to give negligible shocks.
     ///

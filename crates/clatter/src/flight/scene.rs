@@ -7,6 +7,7 @@ use crate::{Error, Restitution};
 pub struct Body {
     arm: [f64; 2],
     gyration: f64,
+    thickness: f64,
 }
 
 impl Body {
@@ -35,7 +36,45 @@ impl Body {
             let allowed = "0 or between 1e-12 and 1e6 times the length";
             within("radius of gyration in m", gyration_m, 1e-12 * length, 1e6 * length, allowed)?;
         }
-        Ok(Self { arm: [a_m, b_m], gyration: gyration_m + 0.0 })
+        Ok(Self { arm: [a_m, b_m], gyration: gyration_m + 0.0, thickness: 0.0 })
+    }
+    /// The same body with corners: seen from the side a rectangle, its center of mass on the line midway between the two
+    /// long sides. At a tilt it stands on a corner of the lower side, which is half a thickness below that line:
+    ///
+    /// ```text
+    ///            b        height of a corner below the center   σ L sin φ − (t/2) cos φ
+    ///      ·  ·  /        its lever arm                         σ L cos φ + (t/2) sin φ
+    ///   ·   · · /         (σ = −1 at a, +1 at b)
+    ///  a · · ·
+    ///  ‾‾‾‾‾‾‾‾‾‾
+    /// ```
+    ///
+    /// So the lever arm of the end that is down is shorter by `(t/2) sin φ`, that of the other end longer. Everywhere in this
+    /// module "end a" and "end b" are then these two corners. [`Model::FiniteTilt`](super::Model::FiniteTilt) knows
+    /// corners, until the body has turned past its end and comes down on others
+    /// ([`Stop::TurnedOver`](super::Stop::TurnedOver)); at small tilt they make no difference.
+    ///
+    /// # Errors
+    /// [`Error::Quantity`] unless the thickness is 0 or between 10⁻¹² and 1 times the length.
+    ///
+    /// ```
+    /// use clatter::flight::{Body, Model, Scene};
+    /// // Length 2, thickness 1 and radius of gyration 1 at 45°: lever arms −½/√2 and 1½/√2. The free end gets
+    /// // (1 + x_a x_b/ρ²)/(1 + x_a²/ρ²) = (1 − 3/8)/(1 + 1/8) = 5/9 of the jump of the struck one.
+    /// let body = Body::new(2.0, 1.0)?.with_thickness(1.0)?;
+    /// let strike = Scene::new(body, 0.5, 1.0, 45.0, 0.0)?.simulate(Model::FiniteTilt).strikes[0];
+    /// assert!((strike.delta_v_m_s[0] - 1.5).abs() < 1e-15);
+    /// assert!((strike.delta_v_m_s[1] / strike.delta_v_m_s[0] - 5.0 / 9.0).abs() < 1e-15);
+    /// # Ok::<(), clatter::Error>(())
+    /// ```
+    pub fn with_thickness(mut self, thickness_m: f64) -> Result<Self, Error> {
+        if thickness_m != 0.0 {
+            let length = self.length_m();
+            let allowed = "0 or between 1e-12 and 1 times the length";
+            within("thickness in m", thickness_m, 1e-12 * length, length, allowed)?;
+        }
+        self.thickness = thickness_m + 0.0;
+        Ok(self)
     }
     /// Distances of ends a and b from the center of mass.
     #[must_use]
@@ -51,6 +90,20 @@ impl Body {
     #[must_use]
     pub fn gyration_m(&self) -> f64 {
         self.gyration
+    }
+    /// Thickness, from corner to corner of an end.
+    #[must_use]
+    pub fn thickness_m(&self) -> f64 {
+        self.thickness
+    }
+    /// Lever arms of the ends with sign, and their heights over the center of mass, at the angle with this sine and cosine.
+    pub(super) fn levers(&self, sin: f64, cos: f64) -> ([f64; 2], [f64; 2]) {
+        let ([a, b], d) = (self.arm, 0.5 * self.thickness);
+        ([d * sin - a * cos, d * sin + b * cos], [-a * sin - d * cos, b * sin - d * cos])
+    }
+    /// Distance of end i from the center of mass.
+    pub(super) fn radius(&self, i: usize) -> f64 {
+        self.arm[i].hypot(0.5 * self.thickness)
     }
     /// Inertia ratios of a level body, `q_a = (L_a L_b − ρ²)/(L_a² + ρ²)` and `q_b` likewise: minus the jump of the
     /// other end over the jump of the striking end.
@@ -129,12 +182,16 @@ impl Scene {
     /// Already turning at the first touch, end b upward where positive.
     ///
     /// # Errors
-    /// [`Error::Quantity`] unless the spin is finite and end a still approaches: above `−v0/L_a`, and its end speed
-    /// at most 1e30 m/s.
+    /// [`Error::Quantity`] unless the spin is finite and end a still approaches, at small tilt and at the scene's: above
+    /// `−v0/L_a` (and, where a thick body's center is beyond end a, below v0 over the lever arm); its end speed at most
+    /// 1e30 m/s.
     pub fn with_spin(mut self, spin_rad_s: f64) -> Result<Self, Error> {
         let far = 1e30 / self.body.length_m();
-        if !(spin_rad_s > -self.speed / self.body.arm[0] && spin_rad_s <= far) {
-            let allowed = "above -speed/arm of end a (so that end a approaches) and at most 1e30/length";
+        let (sin, cos) = self.tilt.sin_cos();
+        let ([x, _], _) = self.body.levers(sin, cos);
+        let approaches = spin_rad_s > -self.speed / self.body.arm[0] && x * spin_rad_s < self.speed;
+        if !(approaches && spin_rad_s <= far) {
+            let allowed = "such that end a approaches (above -speed/arm) and at most 1e30/length";
             return Err(Error::Quantity { name: "spin in rad/s", value: spin_rad_s, allowed });
         }
         self.spin = spin_rad_s + 0.0;
@@ -210,10 +267,14 @@ impl Scene {
     pub fn impact_limit(&self) -> usize {
         self.impact_limit
     }
-    /// Vertical velocities of the ends at the first touch for lever arms `L · cos`.
-    pub(super) fn end_velocities(&self, cos: f64) -> [f64; 2] {
+    /// Vertical velocities of the ends at the first touch for these lever arms.
+    pub(super) fn end_velocities(&self, levers: [f64; 2]) -> [f64; 2] {
+        levers.map(|x| x * self.spin - self.speed)
+    }
+    /// The same at small tilt.
+    pub(super) fn level_velocities(&self) -> [f64; 2] {
         let [a, b] = self.body.arm;
-        [-self.speed - a * cos * self.spin, -self.speed + b * cos * self.spin]
+        self.end_velocities([-a, b])
     }
 }
 

@@ -4,7 +4,7 @@ use super::{Decay, Drive, Kind, angle, ldexp, to_f64};
 use libm::{exp, expm1, sincos};
 
 /// Neighboring strikes that are carried on together.
-pub(crate) const LANES: usize = 4;
+const LANES: usize = 4;
 /// Strikes from one anchor in the closed form to the next: 64 steps of the four lanes, which add some 64 roundings.
 const BLOCK: u64 = 256;
 
@@ -26,7 +26,7 @@ pub(crate) struct Lanes {
     kappa: f64,
     /// What g is multiplied by a step.
     decay: f64,
-    /// What x and y are multiplied by before they are added up: 1, 0 for a wave; αλ₊, σ.
+    /// What x and y of a decay are multiplied by before they are added up: αλ₊, σ.
     sum: [f64; 2],
     /// 2 h0/A, or h0.
     time: f64,
@@ -46,14 +46,16 @@ impl Lanes {
         match drive.kind {
             Kind::Wave(wave) => {
                 theta = wave.theta;
-                turns = [0.0, 0.5, 1.0, 1.5].map(|half| {
-                    let (s, c) = sincos(half * wave.theta);
-                    [2.0 * s * s, 2.0 * s * c]
-                });
+                // Of halves of the turns, by doubling and adding: sums of what is not negative, for θ < π/3.
+                let (s, c) = sincos(0.5 * wave.theta);
+                let turn = |s: f64, c: f64| [2.0 * s * s, 2.0 * s * c];
+                let [v, w] = turn(s, c);
+                turns = [[0.0; 2], [v, w], turn(w, 1.0 - v), turn(s * (1.0 - v) + c * w, c * (1.0 - v) - s * w)];
                 (kappa, decay) = (4.0 * turns[2][1] * turns[2][1], drive.bar.e * drive.bar.e);
                 time = 2.0 * h0 / drive.amplitude(&wave);
             }
-            Kind::Decay(Decay { s, plus, sigma, rate, ln_plus, .. }) => {
+            Kind::Decay(roots) => {
+                let (Decay { s, plus, sigma, .. }, [rate, ln_plus]) = (roots, drive.rates(&roots));
                 turns = [0.0, 1.0, 2.0, 3.0].map(|j| [-expm1(-j * rate) * (plus / s), exp(-j * rate)]);
                 (kappa, decay, sum) = (exp(-4.0 * rate), exp(4.0 * ln_plus), [drive.alpha * plus, sigma]);
             }
@@ -67,39 +69,50 @@ impl Lanes {
     }
 
     /// Approach velocities and times of the next strikes, four by four.
-    pub(crate) fn take(&mut self, drive: &Drive, approach: &mut [f64], times: &mut [f64]) {
-        let (approach, times) = (approach.as_chunks_mut::<LANES>().0, times.as_chunks_mut::<LANES>().0);
-        for (approach, times) in approach.iter_mut().zip(times) {
-            for i in 0..LANES {
-                let sum = self.sum[0] * self.x[i] + self.sum[1] * self.y[i];
-                approach[i] = -self.g[i] * sum;
-                times[i] = self.time * (self.y[i] / sum);
-            }
-            self.n = self.n.saturating_add(LANES as u64);
-            if self.n % BLOCK < LANES as u64 { self.anchor(drive) } else { self.step() }
+    pub(crate) fn take<const N: usize>(&mut self, drive: &Drive, approach: &mut [f64; N], times: &mut [f64; N]) {
+        if self.wave {
+            self.turn(approach, times);
+        } else {
+            self.grow(approach, times);
+        }
+        self.n = self.n.saturating_add(N as u64);
+        if self.n % BLOCK < N as u64 {
+            self.anchor(drive);
         }
     }
 
-    /// Carries all lanes on.
-    #[inline]
-    fn step(&mut self) {
-        for i in 0..LANES {
-            self.g[i] *= self.decay;
-        }
-        if self.wave {
+    /// Strikes of a wave. What is carried on is held in variables, so that it need not go through memory.
+    fn turn(&mut self, approach: &mut [f64], times: &mut [f64]) {
+        let Self { mut x, mut dx, mut y, mut dy, mut g, kappa, decay, time, .. } = *self;
+        for (approach, times) in approach.as_chunks_mut::<LANES>().0.iter_mut().zip(times.as_chunks_mut::<LANES>().0) {
             for i in 0..LANES {
-                self.x[i] += self.dx[i];
-                self.y[i] += self.dy[i];
-                self.dx[i] -= self.kappa * self.x[i];
-                self.dy[i] -= self.kappa * self.y[i];
+                approach[i] = -g[i] * x[i];
+                times[i] = time * (y[i] / x[i]);
+                g[i] *= decay;
+                x[i] += dx[i];
+                y[i] += dy[i];
+                dx[i] -= kappa * x[i];
+                dy[i] -= kappa * y[i];
             }
-        } else {
+        }
+        (self.x, self.dx, self.y, self.dy, self.g) = (x, dx, y, dy, g);
+    }
+
+    /// Strikes of a decay.
+    fn grow(&mut self, approach: &mut [f64], times: &mut [f64]) {
+        let Self { mut x, mut y, dy, mut g, kappa, decay, sum, time, .. } = *self;
+        for (approach, times) in approach.as_chunks_mut::<LANES>().0.iter_mut().zip(times.as_chunks_mut::<LANES>().0) {
             for i in 0..LANES {
-                self.y[i] += self.dy[i] * self.x[i];
+                let sum = sum[0] * x[i] + sum[1] * y[i];
+                approach[i] = -g[i] * sum;
+                times[i] = time * (y[i] / sum);
+                g[i] *= decay;
+                y[i] += dy[i] * x[i];
                 // Before it is subnormal, and slow, it is nothing beside y.
-                self.x[i] = if self.x[i] > 1e-290 { self.x[i] * self.kappa } else { 0.0 };
+                x[i] = if x[i] > 1e-290 { x[i] * kappa } else { 0.0 };
             }
         }
+        (self.x, self.y, self.g) = (x, y, g);
     }
 
     /// All lanes from the closed form at the first.
@@ -117,7 +130,8 @@ impl Lanes {
                     (drive.decayed(u128::from(self.n), drive.amplitude(&wave) / wave.s), drive.bar.e.sqrt());
                 self.g = [first, first * root, first * drive.bar.e, first * (drive.bar.e * root)];
             }
-            Kind::Decay(Decay { s, plus, rate, ln_plus, .. }) => {
+            Kind::Decay(decay) => {
+                let (Decay { s, plus, .. }, [rate, ln_plus]) = (decay, drive.rates(&decay));
                 let (x, y) = (exp(-n * rate), -expm1(-n * rate) * (plus / s));
                 let (first, once) = (drive.power(n * ln_plus, 1.0 / plus), exp(ln_plus));
                 (self.x, self.y) = (self.turns.map(|[_, p]| x * p), self.turns.map(|[g, _]| y + x * g));

@@ -171,6 +171,51 @@ proptest! {
     }
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(20_000))]
+
+    /// What a quotient of two angles is allowed, 24 roundings, leaves 4 to each.
+    #[test]
+    fn an_angle_is_off_by_two_ulps_at_most(y in 0.0..1.0_f64, x in -1.0..1.0_f64, small in 0.0..20.0_f64) {
+        for y in [y, y * 10f64.powf(-small)] {
+            for x in [x, x * 10f64.powf(-small), if x < 0.0 { -y } else { y }] {
+                let want = dd::atan2(Dd::from(y), Dd::from(x));
+                let error = ((Dd::from(angle(y, x)) - want) / want).hi;
+                prop_assert!(error.abs() <= 2.0 * f64::EPSILON, "({y:e}, {x:e}): {error:e}");
+            }
+        }
+    }
+
+    /// Each way to D is as good as it says; the last is by integers.
+    #[test]
+    fn a_discriminant_is_as_good_as_it_says(bar in bars()) {
+        if bar.t <= 0.0 || bar.e == 0.0 {
+            return Ok(());
+        }
+        let start = Start::default();
+        let drive = Drive::new(&bar, &start, Digits::COUNT);
+        let nu = bar.exact_q().1;
+        let want = to_dd(&drive.exact(Series::Velocity).discriminant(), &nu, &nu, 2 * drive.m);
+        for digits in [Digits::COUNT, Digits::ENDING, Digits::ALL, Digits::ANGLES] {
+            let (got, error) = drive.discriminant(digits);
+            let off = ((got - want) / want).hi.abs();
+            prop_assert!(want.hi == 0.0 || off <= error, "{digits:?}: {off:e}, not {error:e}");
+        }
+        let (got, least) = (drive.compensated(), 4.0 * UNIT + power_of_two(-100) * (1.0 + (4.0 * drive.e / want.hi).abs()));
+        let off = ((Dd::from(got) - want) / want).hi.abs();
+        prop_assert!(want.hi == 0.0 || off <= least, "compensated: {off:e}, not {least:e}");
+    }
+
+    /// A count that is asked for by itself takes another way where it is a float.
+    #[test]
+    fn a_count_alone_is_that_of_the_end((bar, start) in drops()) {
+        if bar.t > 0.0 && bar.e > 0.0 {
+            let (alone, all) = (Drive::new(&bar, &start, Digits::COUNT), Drive::new(&bar, &start, Digits::ALL));
+            prop_assert_eq!(alone.count(), all.ending().count);
+        }
+    }
+}
+
 /// With e = 1 and T = ½ the companion solution `b_n` has n bits, so that starts in its ratio tie at every n to 50.
 #[test]
 fn exact_ties_end_the_train_with_the_strike_before() {

@@ -1,0 +1,35 @@
+//! `clatter init`: a product file to begin with.
+
+use std::io::{ErrorKind, Write};
+use std::path::PathBuf;
+
+use clap::ValueHint;
+
+use crate::{Failure, Streams, output};
+
+/// Write a commented product file that assesses as it stands
+///
+/// A file that is there already is never written over.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  clatter init                     product.toml
+  clatter init handheld.toml && clatter assess handheld.toml")]
+pub(crate) struct Args {
+    /// The file to write
+    #[arg(value_name = "FILE", default_value = "product.toml", value_hint = ValueHint::FilePath)]
+    file: PathBuf,
+}
+
+impl Args {
+    pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        output::create(&self.file, |file| file.write_all(clatter_scene::EXAMPLE.as_bytes())).map_err(|failure| {
+            match failure {
+                Failure::File { path, reason } if reason.kind() == ErrorKind::AlreadyExists => Failure::Exists(path),
+                other => other,
+            }
+        })?;
+        let file = self.file.display();
+        writeln!(streams.out, "Wrote {file}; assess it with: clatter assess {file}").map_err(Failure::Answer)
+    }
+}

@@ -1,0 +1,137 @@
+//! The answer for programs.
+
+use clatter::flight::Stop;
+use serde::{Serialize, Serializer};
+
+use super::Drop;
+use crate::inputs::letter;
+use crate::numbers::Json;
+
+impl Drop<'_> {
+    pub(super) fn answer(&self) -> Answer<'_> {
+        let (body, scene) = (self.scene.body(), &self.scene);
+        let flight = self.motion.flight();
+        let limit = scene.time_limit_s();
+        let pivots = flight.pivots.iter();
+        Answer {
+            model: self.args.model.name(),
+            length_m: Json(self.args.length_m),
+            gyration_m: Json(body.gyration_m()),
+            center_of_mass: Json(self.center_of_mass),
+            thickness_m: Json(body.thickness_m()),
+            inertia_ratios: body.inertia_ratios().map(Json),
+            e: Json(scene.e()),
+            height_m: self.args.fall.height_m.map(Json),
+            speed_m_s: Json(scene.speed_m_s()),
+            tilt_deg: Json(self.args.tilt_deg),
+            height_gap_m: Json(scene.height_gap_m()),
+            gravity_m_s2: Json(scene.gravity_m_s2()),
+            spin_rad_s: Json(scene.spin_rad_s()),
+            contact_time_s: self.args.contact_time_s.map(Json),
+            time_limit_s: limit.is_finite().then_some(Json(limit)),
+            impact_limit: scene.impact_limit(),
+            at: self.args.at.iter().copied().map(Json).collect(),
+            largest_delta_v_m_s: self.largest().map(Json).to_vec(),
+            largest_delta_v_at_m_s: self.largest_at().map(Json).collect(),
+            impacts: Impacts(self),
+            pivots: pivots
+                .map(|p| PivotJson { end: letter(p.end), from_s: Json(p.from_s), until_s: Json(p.until_s) })
+                .collect(),
+            stop: StopJson::new(&flight.stop),
+        }
+    }
+}
+
+#[derive(Serialize)]
+pub(super) struct Answer<'a> {
+    model: &'static str,
+    length_m: Json,
+    gyration_m: Json,
+    center_of_mass: Json,
+    thickness_m: Json,
+    inertia_ratios: [Json; 2],
+    e: Json,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    height_m: Option<Json>,
+    speed_m_s: Json,
+    tilt_deg: Json,
+    height_gap_m: Json,
+    gravity_m_s2: Json,
+    spin_rad_s: Json,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    contact_time_s: Option<Json>,
+    time_limit_s: Option<Json>,
+    impact_limit: usize,
+    at: Vec<Json>,
+    largest_delta_v_m_s: Vec<Json>,
+    largest_delta_v_at_m_s: Vec<Json>,
+    impacts: Impacts<'a>,
+    /// Times in which one end lay on the ground and the body turned about it.
+    pivots: Vec<PivotJson>,
+    stop: StopJson,
+}
+
+#[derive(Serialize)]
+struct PivotJson {
+    end: &'static str,
+    from_s: Json,
+    until_s: Json,
+}
+
+#[derive(Serialize)]
+struct StopJson {
+    reason: &'static str,
+    time_s: Json,
+    /// At rest only: what is left takes no longer, and no shock left out is larger.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    time_bound_s: Option<Json>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    shock_bound_m_s: Option<Json>,
+}
+
+impl StopJson {
+    fn new(stop: &Stop) -> Self {
+        let bounds = match *stop {
+            Stop::AtRest { time_bound_s, shock_bound_m_s, .. } => Some([time_bound_s, shock_bound_m_s].map(Json)),
+            _ => None,
+        };
+        Self {
+            reason: stop.reason(),
+            time_s: Json(stop.time_s()),
+            time_bound_s: bounds.map(|[time, _]| time),
+            shock_bound_m_s: bounds.map(|[_, shock]| shock),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct ImpactJson {
+    number: u64,
+    end: &'static str,
+    time_s: Json,
+    approach_m_s: Json,
+    delta_v_m_s: [Json; 2],
+    delta_v_at_m_s: Vec<Json>,
+    /// Compliant only: when the contact ends; `"infinite"` where the end stays down.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    until_s: Option<Json>,
+}
+
+/// The strikes, written as they come.
+struct Impacts<'a>(&'a Drop<'a>);
+
+impl Serialize for Impacts<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let drop = self.0;
+        let pulses = drop.motion.pulses();
+        serializer.collect_seq(drop.motion.flight().strikes.iter().enumerate().map(|(i, strike)| ImpactJson {
+            number: strike.number,
+            end: letter(strike.end),
+            time_s: Json(strike.time_s),
+            approach_m_s: Json(strike.approach_m_s),
+            delta_v_m_s: strike.delta_v_m_s.map(Json),
+            delta_v_at_m_s: drop.shocks(strike).map(Json).collect(),
+            until_s: pulses.get(i).map(|pulse| Json(pulse.until_s)),
+        }))
+    }
+}

@@ -1,0 +1,119 @@
+//! The whole motion as a file.
+
+use std::io::{self, Write};
+
+use clatter::history::Row;
+use serde::Serialize;
+
+use super::{Drop, Motion};
+use crate::Failure;
+use crate::numbers::{Json, digits};
+use crate::output::{self, Kind, Target};
+
+impl Drop<'_> {
+    pub(super) fn write(&self, Target { path, kind }: &Target) -> Result<(), Failure> {
+        output::replace(path, |file| match kind {
+            Kind::Csv => output::buffered(file, |out| self.history_csv(out)),
+            Kind::Json => output::buffered(file, |out| {
+                let history = Rows(self);
+                Ok(serde_json::to_writer(out, &Whole { answer: self.answer(), history })?)
+            }),
+            _ => output::buffered(file, |out| out.write_all(self.svg().as_bytes())),
+        })
+    }
+
+    /// The rows of the motion, one by one.
+    fn rows(&self) -> Box<dyn Iterator<Item = Row> + '_> {
+        match &self.motion {
+            Motion::Instant(model, flight) => Box::new(self.scene.history(*model, flight)),
+            Motion::Compliant(contact_time_s, flight) => Box::new(flight.history(*contact_time_s)),
+        }
+    }
+
+    fn svg(&self) -> String {
+        let (flight, rows) = (self.motion.flight(), self.rows().collect::<Vec<_>>());
+        clatter_report::drop_svg(&clatter_report::Drop {
+            model: &self.physics(),
+            rows: &rows,
+            strikes: &flight.strikes,
+            pulses: self.motion.pulses(),
+            stop: flight.stop,
+            at: &self.args.at,
+        })
+    }
+
+    fn history_csv(&self, out: &mut dyn Write) -> io::Result<()> {
+        let at = &self.args.at;
+        write!(out, "time_s,height_a_m,height_b_m,velocity_a_m_s,velocity_b_m_s")?;
+        for s in at {
+            write!(out, ",velocity_at_{}_m_s", digits(*s))?;
+        }
+        if matches!(self.motion, Motion::Compliant(..)) {
+            write!(out, ",force_per_mass_a_m_s2,force_per_mass_b_m_s2,acceleration_a_m_s2,acceleration_b_m_s2")?;
+            for s in at {
+                write!(out, ",acceleration_at_{}_m_s2", digits(*s))?;
+            }
+        }
+        writeln!(out)?;
+        for row in self.rows() {
+            write!(out, "{}", digits(row.time_s))?;
+            let velocities = row.velocity_m_s.into_iter().chain(at.iter().map(|s| row.velocity_at(*s)));
+            for x in row.height_m.into_iter().chain(velocities) {
+                write!(out, ",{}", digits(x))?;
+            }
+            if let Some(press) = row.press {
+                let forces = press.force_per_mass_m_s2.into_iter().chain(press.acceleration_m_s2);
+                for x in forces.chain(at.iter().map(|s| press.acceleration_at(*s))) {
+                    write!(out, ",{}", digits(x))?;
+                }
+            }
+            writeln!(out)?;
+        }
+        Ok(())
+    }
+}
+
+/// The answer, and the rows after it.
+#[derive(Serialize)]
+struct Whole<'a> {
+    #[serde(flatten)]
+    answer: super::answer::Answer<'a>,
+    history: Rows<'a>,
+}
+
+struct Rows<'a>(&'a Drop<'a>);
+
+impl Serialize for Rows<'_> {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let at = &self.0.args.at;
+        serializer.collect_seq(self.0.rows().map(|row| RowJson {
+            time_s: Json(row.time_s),
+            height_m: row.height_m.map(Json),
+            velocity_m_s: row.velocity_m_s.map(Json),
+            velocity_at_m_s: at.iter().map(|s| Json(row.velocity_at(*s))).collect(),
+            press: row.press.map(|press| PressJson {
+                force_per_mass_m_s2: press.force_per_mass_m_s2.map(Json),
+                acceleration_m_s2: press.acceleration_m_s2.map(Json),
+                acceleration_at_m_s2: at.iter().map(|s| Json(press.acceleration_at(*s))).collect(),
+            }),
+        }))
+    }
+}
+
+#[derive(Serialize)]
+struct RowJson {
+    time_s: Json,
+    height_m: [Json; 2],
+    velocity_m_s: [Json; 2],
+    velocity_at_m_s: Vec<Json>,
+    #[serde(flatten)]
+    press: Option<PressJson>,
+}
+
+#[derive(Serialize)]
+#[expect(clippy::struct_field_names, reason = "each name ends in its unit")]
+struct PressJson {
+    force_per_mass_m_s2: [Json; 2],
+    acceleration_m_s2: [Json; 2],
+    acceleration_at_m_s2: Vec<Json>,
+}

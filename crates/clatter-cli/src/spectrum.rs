@@ -1,0 +1,491 @@
+//! `clatter spectrum`: shock response spectra of records, pulses and velocity shocks.
+
+use std::fs::File;
+use std::io::{self, BufReader, Write};
+use std::path::{Path, PathBuf};
+
+use clap::{ValueEnum, ValueHint};
+use clatter_shock::{
+    DamageBoundary, Finding, Frequencies, Limit, LimitCurve, Lines, Margin, Pulse, Pulses, Quantity, Record, Spectrum,
+    Survey, Suspension, Units, VelocityShock, VelocityShocks, stream,
+};
+use serde::Serialize;
+
+use crate::excitation::{self, LimitArg, PulseArg, shape_name};
+use crate::inputs::{DampingArgs, RowFormat};
+use crate::numbers::{Json, digits, figures, given};
+use crate::output::{Kind, Target, buffered};
+use crate::progress::Progress;
+use crate::{Failure, Streams, output};
+
+/// Compute a shock response spectrum: the peak of a component over its natural frequency
+///
+/// What shakes the base of the component is a measured record, or pulses, or velocity shocks:
+///
+///   RECORD.csv  two columns, time and acceleration, with a header that names the units, such as
+///               `time [ms],acceleration [g]`; even in time or not, of any length. Between samples the
+///               acceleration is taken as linear, and for that the spectrum is exact
+///   --pulse     a pulse of a shape; may be given several times, and pulses may overlap
+///   --shock     a change of velocity in no time, for pulses much shorter than a period
+///
+/// For each frequency: `primary`, the largest absolute value from the first start to the last end; `residual`, after
+/// it, the ring-down complete; `maximax` over both; and over both the largest `positive` and `negative` value.
+///
+/// With --limit the margin 20 log10(limit/maximax) is given in decibel; below 0 the limit is passed.
+///
+/// `-o FILE` writes the rows as .csv, the whole answer as .json, or a picture as .svg: log-log, the pseudo-velocity on
+/// four-coordinate paper. With --damage-boundary the picture is the damage boundary with the pulse on it.
+#[derive(Debug, clap::Args)]
+#[command(
+    verbatim_doc_comment,
+    after_help = "\
+Examples:
+  clatter spectrum drop.csv                                     Q = 10, 10 Hz to 10 kHz
+  clatter spectrum drop.csv --units=ms,g --quantity=pseudo-velocity -o drop.svg
+  clatter spectrum --pulse=half-sine,5000,0.0005,0 --frequency=10:10000:12 --damping=0.05
+  clatter spectrum --pulse=half-sine,5000,0.0005,0,0.002 --frequency=100,180 --limit=4000
+  clatter spectrum --shock=2.5,0 --shock=-1,0.004 --frequency=180 --quantity=pseudo-velocity
+  clatter spectrum --pulse=half-sine,9810,0.001 --frequency=100 --limit=2000 \\
+      --damage-boundary -o boundary.svg"
+)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    excitation: Excitation,
+    /// Units of a record whose header does not name them: s, ms or us, and m/s2 or g
+    #[arg(long, value_name = "TIME,ACCELERATION", value_parser = excitation::units)]
+    units: Option<Units>,
+    /// Natural frequencies in Hz: a list, or from LO to HI with so many to the octave
+    #[arg(long, value_name = "HZ,…|LO:HI:PER_OCTAVE", default_value = "10:10000:12", allow_hyphen_values = true, value_parser = excitation::frequencies)]
+    frequency: Frequencies,
+    #[command(flatten)]
+    damping: DampingArgs,
+    /// Which quantity of the component
+    #[arg(long, value_enum, default_value_t = QuantityName::Acceleration)]
+    quantity: QuantityName,
+    /// What the component stands, in the unit of the quantity: one value, or points of a curve that is straight on
+    /// log-log paper
+    #[arg(long, value_name = "X|HZ:X,…", allow_hyphen_values = true, value_parser = excitation::limit)]
+    limit: Option<LimitArg>,
+    /// Also give the damage boundary of one pulse at one frequency, for a --limit of acceleration or relative displacement
+    #[arg(long)]
+    damage_boundary: bool,
+    /// File to write, ending in .csv, .json or .svg; what was there is replaced once the new file is whole
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = target)]
+    output: Option<Target>,
+    /// How to show the answer
+    #[arg(long, value_enum, default_value_t = RowFormat::Table)]
+    format: RowFormat,
+}
+
+#[derive(Debug, clap::Args)]
+#[group(required = true, multiple = false)]
+struct Excitation {
+    /// A record of time and acceleration, as text
+    #[arg(value_name = "RECORD.csv", value_hint = ValueHint::FilePath)]
+    record: Option<PathBuf>,
+    /// A pulse: half-sine, haversine, triangle, initial-peak-sawtooth, terminal-peak-sawtooth, rectangle, trapezoid or
+    /// trapezoid:RAMP (ramps over length, 0.1 unless given); amplitude in m/s², duration and one or more starts in s
+    #[arg(long, value_name = "SHAPE,AMPLITUDE,DURATION,START…", allow_hyphen_values = true, value_parser = excitation::pulse)]
+    pulse: Vec<PulseArg>,
+    /// A velocity shock: change of velocity in m/s and time in s; in order of time
+    #[arg(long, value_name = "DELTA_V,TIME", allow_hyphen_values = true, value_parser = excitation::shock)]
+    shock: Vec<VelocityShock>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum QuantityName {
+    /// Absolute acceleration, m/s²
+    Acceleration,
+    /// Displacement relative to the base, m
+    RelativeDisplacement,
+    /// Velocity relative to the base, m/s
+    RelativeVelocity,
+    /// Natural angular frequency times relative displacement, m/s
+    PseudoVelocity,
+    /// Its square times relative displacement, m/s²: the steady acceleration that bends the suspension as far
+    EquivalentStaticAcceleration,
+}
+
+impl QuantityName {
+    fn quantity(self) -> Quantity {
+        match self {
+            Self::Acceleration => Quantity::AbsoluteAcceleration,
+            Self::RelativeDisplacement => Quantity::RelativeDisplacement,
+            Self::RelativeVelocity => Quantity::RelativeVelocity,
+            Self::PseudoVelocity => Quantity::PseudoVelocity,
+            Self::EquivalentStaticAcceleration => Quantity::EquivalentStaticAcceleration,
+        }
+    }
+
+    /// The name, as it is given, and the unit.
+    fn name(self) -> [&'static str; 2] {
+        match self {
+            Self::Acceleration => ["acceleration", "m/s2"],
+            Self::RelativeDisplacement => ["relative-displacement", "m"],
+            Self::RelativeVelocity => ["relative-velocity", "m/s"],
+            Self::PseudoVelocity => ["pseudo-velocity", "m/s"],
+            Self::EquivalentStaticAcceleration => ["equivalent-static-acceleration", "m/s2"],
+        }
+    }
+}
+
+fn target(text: &str) -> Result<Target, String> {
+    Target::of(text, &[Kind::Csv, Kind::Json, Kind::Svg])
+}
+
+/// A computed spectrum and all that goes with it.
+struct Computed<'a> {
+    args: &'a Args,
+    spectrum: Spectrum,
+    survey: Option<Survey>,
+    margins: Option<Vec<Option<Margin>>>,
+    boundary: Option<Boundary>,
+}
+
+/// The damage boundary, and where the pulse stands.
+struct Boundary {
+    numbers: DamageBoundary,
+    curve: Vec<(f64, f64)>,
+    pulse: Pulse,
+    margin: Margin,
+}
+
+/// Points of the damage boundary between the critical velocity change and the knee.
+const BOUNDARY_POINTS: usize = 200;
+
+impl Args {
+    pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        if self.units.is_some() && self.excitation.record.is_none() {
+            return Err(Failure::Usage("--units goes with a record alone"));
+        }
+        let boundary = if self.damage_boundary { Some(self.boundary()?) } else { None };
+        let (spectrum, survey) = self.spectrum(streams)?;
+        let margins = self.limit.as_ref().map(|limit| limit.curve.margins(&spectrum));
+        let computed = Computed { args: self, spectrum, survey, margins, boundary };
+        if let Some(target) = &self.output {
+            computed.write(target)?;
+        }
+        for finding in computed.survey.iter().flat_map(|survey| &survey.findings) {
+            let path = self.excitation.record.as_deref().unwrap_or(Path::new(""));
+            streams.note("warning", format_args!("{}: {finding}", path.display()));
+        }
+        match self.format {
+            RowFormat::Table => computed.table(streams.out).map_err(Failure::Answer),
+            RowFormat::Csv => computed.csv(streams.out).map_err(Failure::Answer),
+            RowFormat::Json => streams.json(&computed.answer()),
+        }
+    }
+
+    fn spectrum(&self, streams: &mut Streams<'_>) -> Result<(Spectrum, Option<Survey>), Failure> {
+        let (damping, quantity) = (self.damping.ratio()?, self.quantity.quantity());
+        if let Some(path) = &self.excitation.record {
+            let (spectrum, survey) = self.record(path, streams)?;
+            return Ok((spectrum, Some(survey)));
+        }
+        if self.excitation.pulse.is_empty() {
+            let shocks = VelocityShocks::new(self.excitation.shock.clone())?;
+            return Ok((shocks.spectrum(&self.frequency, damping, quantity), None));
+        }
+        let pulses = self.pulses();
+        excitation::check_periods(&pulses, &self.frequency).map_err(Failure::Pulses)?;
+        let pulses = Pulses::new(&pulses)?;
+        Ok((pulses.spectrum(&self.frequency, damping, quantity), None))
+    }
+
+    fn pulses(&self) -> Vec<Pulse> {
+        self.excitation.pulse.iter().flat_map(|PulseArg(pulses)| pulses.iter().copied()).collect()
+    }
+
+    /// In two passes and constant memory; what can be read but once is kept.
+    fn record(&self, path: &Path, streams: &mut Streams<'_>) -> Result<(Spectrum, Survey), Failure> {
+        let (damping, quantity) = (self.damping.ratio()?, self.quantity.quantity());
+        let bad = |reason| Failure::Record { path: path.to_owned(), reason };
+        let open = || {
+            let file = File::open(path).map_err(|error| bad(clatter_shock::Error::Read(error.to_string())))?;
+            Ok::<_, Failure>((file.metadata().ok(), BufReader::with_capacity(1 << 20, file)))
+        };
+        let (metadata, input) = open()?;
+        let Some(size) = metadata.filter(std::fs::Metadata::is_file).map(|metadata| metadata.len()) else {
+            let record = Record::read(input, self.units).map_err(bad)?;
+            return Ok((record.spectrum(&self.frequency, damping, quantity), record.survey().clone()));
+        };
+        let mut progress = Progress::new(&mut *streams.err, streams.interactive, size);
+        progress.stage("checking");
+        let survey = Lines::new(input, self.units).survey(|_, bytes| progress.at(bytes)).map_err(bad)?;
+        progress.stage("filtering");
+        let lines = Lines::new(open()?.1, self.units);
+        let spectrum =
+            stream(lines, &survey, &self.frequency, damping, quantity, |bytes| progress.at(bytes)).map_err(bad)?;
+        Ok((spectrum, survey))
+    }
+
+    fn boundary(&self) -> Result<Boundary, Failure> {
+        let ([pulse], [hz]) = (&self.pulses()[..], self.frequency.hz()) else {
+            return Err(Failure::Usage("--damage-boundary goes with one --pulse with one start, and one --frequency"));
+        };
+        let level = self.limit.as_ref().and_then(|limit| limit.level);
+        let limit = match (self.quantity, level) {
+            (_, None) => return Err(Failure::Usage("--damage-boundary needs a --limit of one value")),
+            (QuantityName::Acceleration, Some(level)) => Limit::Acceleration(level),
+            (QuantityName::RelativeDisplacement, Some(level)) => Limit::RattleSpace(level),
+            _ => {
+                return Err(Failure::Usage(
+                    "--damage-boundary goes with the quantities acceleration and relative-displacement alone",
+                ));
+            }
+        };
+        let suspension = Suspension::from_hz(*hz, self.damping.ratio()?)?;
+        let boundary = DamageBoundary::new(suspension, limit, pulse.shape)?;
+        let margin = boundary.margin(pulse.amplitude, pulse.duration)?;
+        Ok(Boundary { numbers: boundary, curve: boundary.curve(BOUNDARY_POINTS)?, pulse: *pulse, margin })
+    }
+}
+
+impl Computed<'_> {
+    fn limit(&self) -> Option<&LimitCurve> {
+        self.args.limit.as_ref().map(|limit| &limit.curve)
+    }
+
+    fn write(&self, target: &Target) -> Result<(), Failure> {
+        output::replace(&target.path, |file| match target.kind {
+            Kind::Csv => buffered(file, |out| self.csv(out)),
+            Kind::Svg => file.write_all(self.svg().as_bytes()),
+            Kind::Json | Kind::Npy => buffered(file, |out| Ok(serde_json::to_writer(out, &self.answer())?)),
+        })
+    }
+
+    fn svg(&self) -> String {
+        match &self.boundary {
+            Some(b) => {
+                let at = [b.pulse.velocity_change().abs(), b.pulse.amplitude.abs()];
+                clatter_report::damage_boundary_svg(&b.numbers, &b.curve, at)
+            }
+            None => clatter_report::spectrum_svg(&self.spectrum, self.limit()),
+        }
+    }
+
+    fn table(&self, out: &mut dyn Write) -> io::Result<()> {
+        let [name, unit] = self.args.quantity.name();
+        let zeta = self.spectrum.damping.get();
+        let name = name.replace('-', " ");
+        writeln!(
+            out,
+            "Shock response spectrum: {name} in {unit}, damping ratio {} (Q = {})",
+            given(zeta),
+            figures(0.5 / zeta)
+        )?;
+        if let Some(survey) = &self.survey {
+            let steps = survey.step.map_or("uneven in time".to_owned(), |step| format!("every {} s", figures(step)));
+            let (n, from, to) = (survey.samples, figures(survey.start), figures(survey.end));
+            writeln!(out, "{n} samples from {from} to {to} s, {steps}; largest {} m/s2", figures(survey.largest))?;
+        }
+        if let Some(boundary) = &self.boundary {
+            boundary.table(out)?;
+        }
+        if let Some(margins) = &self.margins {
+            self.worst(margins, out)?;
+        }
+        if let Some(target) = &self.args.output {
+            return writeln!(out, "{}: {} frequencies", target.path.display(), self.spectrum.frequency_hz.len());
+        }
+        let margin = if self.margins.is_some() { "margin" } else { "" };
+        let head = ["frequency", "primary", "residual", "maximax", "positive", "negative", margin];
+        let units = ["Hz", unit, unit, unit, unit, unit, if margin.is_empty() { "" } else { "dB" }];
+        writeln!(out)?;
+        for cells in [head, units] {
+            let line = cells.map(|cell| format!("{cell:>13}")).concat();
+            writeln!(out, "{}", line.trim_end())?;
+        }
+        for i in 0..self.spectrum.frequency_hz.len() {
+            let row: String = self.row(i).map(|x| format!("{:>13}", figures(x))).into_iter().collect();
+            let margin = self.margins.as_ref().map_or(String::new(), |margins| {
+                format!("{:>13}", margins[i].map_or("-".to_owned(), |m| figures(m.decibel())))
+            });
+            writeln!(out, "{row}{margin}")?;
+        }
+        Ok(())
+    }
+
+    fn worst(&self, margins: &[Option<Margin>], out: &mut dyn Write) -> io::Result<()> {
+        let Some((i, margin)) = LimitCurve::worst(margins).and_then(|i| Some((i, margins[i]?))) else {
+            return writeln!(out, "The limit covers none of these frequencies");
+        };
+        let (word, hz) = (if margin.is_safe() { "holds" } else { "is passed" }, figures(self.spectrum.frequency_hz[i]));
+        writeln!(out, "The limit {word}: least margin {} dB at {hz} Hz", figures(margin.decibel()))
+    }
+
+    fn row(&self, i: usize) -> [f64; 6] {
+        let s = &self.spectrum;
+        [s.frequency_hz[i], s.primary[i], s.residual[i], s.maximax[i], s.positive[i], s.negative[i]]
+    }
+
+    fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
+        if let Some(boundary) = &self.boundary {
+            writeln!(out, "velocity_change_m_s,acceleration_m_s2")?;
+            return boundary.curve.iter().try_for_each(|(v, a)| writeln!(out, "{},{}", digits(*v), digits(*a)));
+        }
+        let margin = if self.margins.is_some() { ",margin_db" } else { "" };
+        writeln!(out, "frequency_hz,primary,residual,maximax,positive,negative{margin}")?;
+        for i in 0..self.spectrum.frequency_hz.len() {
+            write!(out, "{}", self.row(i).map(digits).join(","))?;
+            match self.margins.as_ref().map(|margins| margins[i]) {
+                Some(Some(margin)) => writeln!(out, ",{}", digits(margin.decibel()))?,
+                Some(None) => writeln!(out, ",")?,
+                None => writeln!(out)?,
+            }
+        }
+        Ok(())
+    }
+
+    fn answer(&self) -> Answer<'_> {
+        let [quantity, unit] = self.args.quantity.name();
+        let s = &self.spectrum;
+        let all = |values: &[f64]| values.iter().copied().map(Json).collect::<Vec<_>>();
+        Answer {
+            quantity,
+            unit,
+            damping: Json(s.damping.get()),
+            q_factor: Json(0.5 / s.damping.get()),
+            record: self.survey.as_ref().map(RecordJson::new),
+            frequency_hz: all(&s.frequency_hz),
+            primary: all(&s.primary),
+            residual: all(&s.residual),
+            maximax: all(&s.maximax),
+            positive: all(&s.positive),
+            negative: all(&s.negative),
+            limit: self.margins.as_ref().map(|margins| LimitJson::new(margins, s)),
+            damage_boundary: self.boundary.as_ref().map(BoundaryJson::new),
+            file: self.args.output.as_ref().map(|target| target.path.as_path()),
+        }
+    }
+}
+
+impl Boundary {
+    fn table(&self, out: &mut dyn Write) -> io::Result<()> {
+        let (b, p) = (&self.numbers, &self.pulse);
+        let line = |out: &mut dyn Write, name: &str, value: f64, unit: &str| {
+            writeln!(out, "{name:<28}{:>12} {unit}", figures(value))
+        };
+        writeln!(out, "\nDamage boundary for a {} pulse", shape_name(p.shape))?;
+        line(out, "Critical velocity change", b.critical_velocity_change(), "m/s")?;
+        line(out, "Critical acceleration", b.critical_acceleration(), "m/s2")?;
+        line(out, "Knee at a velocity change of", b.knee_velocity_change(), "m/s")?;
+        line(out, "This pulse, velocity change", p.velocity_change().abs(), "m/s")?;
+        line(out, "            acceleration", p.amplitude.abs(), "m/s2")?;
+        let word = if self.margin.is_safe() { "dB: no damage" } else { "dB: damage" };
+        line(out, "            margin", self.margin.decibel(), word)?;
+        writeln!(out)
+    }
+}
+
+#[derive(Serialize)]
+struct Answer<'a> {
+    quantity: &'static str,
+    unit: &'static str,
+    damping: Json,
+    q_factor: Json,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    record: Option<RecordJson>,
+    frequency_hz: Vec<Json>,
+    primary: Vec<Json>,
+    residual: Vec<Json>,
+    maximax: Vec<Json>,
+    positive: Vec<Json>,
+    negative: Vec<Json>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    limit: Option<LimitJson>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    damage_boundary: Option<BoundaryJson>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<&'a Path>,
+}
+
+#[derive(Serialize)]
+struct RecordJson {
+    samples: usize,
+    start_s: Json,
+    end_s: Json,
+    /// Null where the samples are uneven.
+    step_s: Option<Json>,
+    largest_m_s2: Json,
+    findings: Vec<String>,
+}
+
+impl RecordJson {
+    fn new(survey: &Survey) -> Self {
+        Self {
+            samples: survey.samples,
+            start_s: Json(survey.start),
+            end_s: Json(survey.end),
+            step_s: survey.step.map(Json),
+            largest_m_s2: Json(survey.largest),
+            findings: survey.findings.iter().map(Finding::to_string).collect(),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct LimitJson {
+    /// Null outside of the limit curve, as the margin is.
+    allowed: Vec<Option<Json>>,
+    margin_db: Vec<Option<Json>>,
+    worst: Option<WorstJson>,
+}
+
+#[derive(Serialize)]
+struct WorstJson {
+    frequency_hz: Json,
+    allowed: Json,
+    maximax: Json,
+    margin_db: Json,
+    safe: bool,
+}
+
+impl LimitJson {
+    fn new(margins: &[Option<Margin>], spectrum: &Spectrum) -> Self {
+        let worst = LimitCurve::worst(margins).and_then(|i| Some((spectrum.frequency_hz[i], margins[i]?)));
+        Self {
+            allowed: margins.iter().map(|m| m.map(|m| Json(m.allowed))).collect(),
+            margin_db: margins.iter().map(|m| m.map(|m| Json(m.decibel()))).collect(),
+            worst: worst.map(|(hz, margin)| WorstJson {
+                frequency_hz: Json(hz),
+                allowed: Json(margin.allowed),
+                maximax: Json(margin.demand),
+                margin_db: Json(margin.decibel()),
+                safe: margin.is_safe(),
+            }),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct BoundaryJson {
+    shape: String,
+    critical_velocity_change_m_s: Json,
+    critical_acceleration_m_s2: Json,
+    knee_velocity_change_m_s: Json,
+    velocity_change_m_s: Json,
+    acceleration_m_s2: Json,
+    margin: Json,
+    margin_db: Json,
+    safe: bool,
+    /// Pairs of velocity change and acceleration.
+    curve: Vec<[Json; 2]>,
+}
+
+impl BoundaryJson {
+    fn new(b: &Boundary) -> Self {
+        Self {
+            shape: shape_name(b.pulse.shape),
+            critical_velocity_change_m_s: Json(b.numbers.critical_velocity_change()),
+            critical_acceleration_m_s2: Json(b.numbers.critical_acceleration()),
+            knee_velocity_change_m_s: Json(b.numbers.knee_velocity_change()),
+            velocity_change_m_s: Json(b.pulse.velocity_change().abs()),
+            acceleration_m_s2: Json(b.pulse.amplitude.abs()),
+            margin: Json(b.margin.ratio()),
+            margin_db: Json(b.margin.decibel()),
+            safe: b.margin.is_safe(),
+            curve: b.curve.iter().map(|(v, a)| [Json(*v), Json(*a)]).collect(),
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! What one part goes through: over time in its worst drop, and at worst over the tilt.
+
+use super::axes::{Axes, Axis, SMALL, key};
+use super::product::fit;
+use crate::svg::{Anchor, BLUES, GRAY, INK, Ink, Label, RUST, Svg};
+
+const LIMIT: Ink = Ink { dash: "8 2 1.5 2", ..Ink::line(INK, 1.0) };
+
+/// A response over time with its limit on both sides; impacts are ticks at the foot.
+///
+/// `points` are (time, value), `impacts` their times, all in the units of the titles.
+pub(crate) fn history(points: &[(f64, f64)], impacts: &[f64], allowed: f64, titles: [&str; 2]) -> String {
+    let end = points.last().map_or(1.0, |p| p.0);
+    let largest = points.iter().map(|p| p.1.abs()).fold(0.0_f64, f64::max);
+    // a limit far away would press the curve flat: it is named instead
+    let shown = allowed <= 3.0 * largest;
+    let top = 1.12 * if shown { allowed.max(largest) } else { largest.max(f64::MIN_POSITIVE) };
+    let axes = Axes {
+        corner: [44.0, 8.0],
+        size: [176.0, 112.0],
+        x: Axis::linear(0.0, if end > 0.0 { end } else { 1.0 }, titles[0]),
+        y: Axis::linear(-top, top, titles[1]),
+    };
+    let mut svg = Svg::new(226.0, 150.0);
+    axes.grid(&mut svg);
+    axes.level(&mut svg, 0.0, Ink::line(GRAY, 0.5));
+    for &t in impacts {
+        let [x, y] = axes.at(t, -top);
+        if t <= end {
+            svg.line([x, y], [x, y - 8.0], Ink::line(RUST, 0.9));
+        }
+    }
+    if shown {
+        axes.level(&mut svg, allowed, LIMIT);
+        axes.level(&mut svg, -allowed, LIMIT);
+    }
+    axes.curve(&mut svg, points.iter().copied(), Ink::line(BLUES[8], 0.9));
+    axes.border(&mut svg, 36.0);
+    svg.finish("Response over time in the worst drop")
+}
+
+/// The demand over the tilt, a curve for each end that may touch first, with the limit.
+pub(crate) fn over_tilt(curves: &[(&str, Vec<(f64, f64)>)], allowed: f64, titles: [&str; 2]) -> String {
+    let all = || curves.iter().flat_map(|c| &c.1);
+    let largest = all().map(|p| p.1).fold(0.0_f64, f64::max);
+    let (lo, hi) = all().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p.0), b.max(p.0)));
+    let shown = allowed <= 3.0 * largest;
+    let top = 1.12 * if shown { allowed.max(largest) } else { largest.max(f64::MIN_POSITIVE) };
+    let axes = Axes {
+        corner: [44.0, 8.0],
+        size: [176.0, 112.0],
+        x: Axis::linear(lo, hi, titles[0]),
+        y: Axis::linear(0.0, top, titles[1]),
+    };
+    let inks = [Ink::line(BLUES[8], 1.1), Ink { dash: "3.5 2", ..Ink::line(RUST, 1.0) }];
+    let mut svg = Svg::new(226.0, 150.0);
+    axes.grid(&mut svg);
+    if shown {
+        axes.level(&mut svg, allowed, LIMIT);
+    }
+    let mut lines = Vec::new();
+    for ((name, points), ink) in curves.iter().zip(inks) {
+        axes.curve(&mut svg, points.iter().copied(), ink);
+        lines.push((ink, *name));
+    }
+    if curves.len() > 1 {
+        key(&mut svg, [54.0, 118.0 - 12.0 * f64::from(u8::from(lines.len() > 1))], &lines);
+    }
+    axes.border(&mut svg, 36.0);
+    svg.finish("Demand over the tilt")
+}
+
+/// What each part is asked, as a share of what it stands, over the tilt; each line has its name at its right end.
+pub(crate) fn shares(parts: &[(String, Vec<(f64, f64)>)]) -> String {
+    let all = || parts.iter().flat_map(|p| &p.1);
+    let largest = all().map(|p| p.1).filter(|v| v.is_finite()).fold(1.0_f64, f64::max);
+    let (lo, hi) = all().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p.0), b.max(p.0)));
+    let rows = f64::from(u32::try_from(parts.len()).unwrap_or(u32::MAX));
+    let axes = Axes {
+        corner: [44.0, 8.0],
+        size: [316.0, 130.0_f64.max(9.5 * rows)],
+        x: Axis::linear(lo, hi, "tilt, degrees"),
+        y: Axis::linear(0.0, 1.08 * largest, "demand / allowed"),
+    };
+    let right = axes.corner[0] + axes.size[0];
+    let mut svg = Svg::new(464.0, axes.corner[1] + axes.size[1] + 30.0);
+    axes.grid(&mut svg);
+    axes.level(&mut svg, 1.0, LIMIT);
+    let dashes = ["", "5 2", "1.5 1.5"];
+    let mut ends: Vec<(f64, f64, Ink, &str)> = Vec::new();
+    for (i, (name, points)) in parts.iter().enumerate() {
+        let over = points.iter().any(|p| p.1 > 1.0);
+        let color = if over { RUST } else { BLUES[8 - 2 * (i / 3 % 3)] };
+        let ink = Ink { dash: dashes[i % 3], ..Ink::line(color, 1.1) };
+        axes.curve(&mut svg, points.iter().copied(), ink);
+        let y = points.last().map_or(0.0, |p| axes.at(p.0, p.1)[1]);
+        ends.push((y, y, ink, name));
+    }
+    // names apart, from the top down, then pushed back up from the foot
+    ends.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let foot = axes.corner[1] + axes.size[1];
+    let mut free = axes.corner[1] + 3.0;
+    for end in &mut ends {
+        end.1 = end.1.max(free);
+        free = end.1 + 9.5;
+    }
+    let mut free = foot;
+    for end in ends.iter_mut().rev() {
+        end.1 = end.1.min(free);
+        free = end.1 - 9.5;
+    }
+    for (y, at, ink, name) in ends {
+        svg.line([right + 1.0, y], [right + 9.0, at], Ink::line(GRAY, 0.4));
+        let label = Label { anchor: Anchor::Start, color: ink.stroke, ..SMALL };
+        svg.text([right + 11.0, at + 2.6], &fit(name, 464.0 - right - 14.0), label);
+    }
+    axes.border(&mut svg, 32.0);
+    svg.finish("What each part is asked, as a share of what it stands, over the tilt")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_limit_out_of_reach_is_not_drawn_and_a_near_one_is_on_both_sides() {
+        let points = [(0.0, 0.0), (1.0, 2.0), (2.0, -1.0)];
+        let limits = |allowed| history(&points, &[0.5], allowed, ["t", "a"]).matches(LIMIT.dash).count();
+        assert_eq!([limits(100.0), limits(2.5)], [0, 2]);
+    }
+}

@@ -1,0 +1,348 @@
+//! The design plane of a product and the front of the largest safe zone.
+
+use clatter::contour::Point;
+use clatter::design::{Front, FrontPoint};
+
+use super::axes::{Axes, Axis, SMALL, note};
+use super::plane::percent;
+use crate::svg::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, Pt, RUST, SAND, Svg};
+
+/// Which (q, e) are safe.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct DesignPlane {
+    /// What has to be safe, and where it is.
+    pub borders: Vec<(String, DesignBorder)>,
+    /// The product: q, and the low and high end of e.
+    pub product: Option<(f64, [f64; 2])>,
+    /// Ranges of q and e that can be built.
+    pub reach: Option<[[f64; 2]; 2]>,
+    /// Designs to compare with, by name.
+    pub designs: Vec<(String, Point)>,
+}
+
+/// The border between safe and unsafe designs.
+#[derive(Debug, Clone, PartialEq)]
+pub enum DesignBorder {
+    /// Safe below these curves e(q), q ascending in each; without any, nowhere.
+    Exact(Vec<Vec<Point>>),
+    /// Margins on a square grid over 0 ≤ q ≤ 1, 0 ≤ e ≤ 1 of `side` values each, e fastest; safe from 0 on.
+    Grid {
+        /// Values of q, and of e.
+        side: usize,
+        /// allowed/demand − 1.
+        margins: Vec<f64>,
+    },
+}
+
+/// Safe, in the plane.
+const SAFE: &str = BLUES[2];
+/// Names longer than this are cut.
+const LONGEST_NAME: usize = 26;
+
+/// A polygon of the plane, or a line, as (e, q).
+type Shape = Vec<(f64, f64)>;
+
+/// What is unsafe, in pieces that may overlap, and the lines that bound it.
+fn unsafe_shapes(border: &DesignBorder) -> (Vec<Shape>, Vec<Shape>) {
+    match border {
+        DesignBorder::Exact(pieces) => {
+            let (mut shapes, mut lines) = (Vec::new(), Vec::new());
+            let band = |from: f64, to: f64| vec![(0.0, from), (1.0, from), (1.0, to), (0.0, to)];
+            let mut covered = 0.0;
+            for piece in pieces {
+                let (Some(first), Some(last)) = (piece.first(), piece.last()) else { continue };
+                if first.q > covered {
+                    shapes.push(band(covered, first.q));
+                }
+                let curve: Shape = piece.iter().map(|p| (p.e, p.q)).collect();
+                let mut shape = curve.clone();
+                shape.extend([(1.0, last.q), (1.0, first.q)]);
+                shapes.push(shape);
+                // along e = 1 the border is that of the plane
+                let inner = curve.split(|(e, _)| *e >= 1.0).filter(|part| part.len() > 1);
+                lines.extend(inner.map(<[_]>::to_vec));
+                covered = last.q;
+            }
+            if covered < 1.0 {
+                shapes.push(band(covered, 1.0));
+            }
+            (shapes, lines)
+        }
+        DesignBorder::Grid { side, margins } => grid_shapes(*side, margins),
+    }
+}
+
+/// The cells of a grid cut where the margin vanishes, linear in the logarithm of allowed over demand.
+fn grid_shapes(side: usize, margins: &[f64]) -> (Vec<Shape>, Vec<Shape>) {
+    let (mut shapes, mut lines) = (Vec::new(), Vec::new());
+    #[expect(clippy::cast_precision_loss, reason = "a small count")]
+    let at = |i: usize| i as f64 / (side.max(2) - 1) as f64;
+    let level = |i: usize, j: usize| margins.get(i * side + j).map_or(0.0, |m| m.ln_1p().clamp(-2.0, 2.0));
+    for i in 1..side {
+        for j in 1..side {
+            let corners = [(i - 1, j - 1), (i - 1, j), (i, j), (i, j - 1)];
+            let corners = corners.map(|(i, j)| ((at(j), at(i)), level(i, j)));
+            let (mut shape, mut cuts) = (Vec::new(), Vec::new());
+            for (k, &((e, q), v)) in corners.iter().enumerate() {
+                let ((e2, q2), v2) = corners[(k + 1) % 4];
+                if v < 0.0 {
+                    shape.push((e, q));
+                }
+                if (v < 0.0) != (v2 < 0.0) {
+                    let share = v / (v - v2);
+                    let cut = (e + share * (e2 - e), q + share * (q2 - q));
+                    shape.push(cut);
+                    cuts.push(cut);
+                }
+            }
+            if shape.len() > 2 {
+                shapes.push(shape);
+            }
+            lines.extend(cuts.chunks_exact(2).map(<[_]>::to_vec));
+        }
+    }
+    (shapes, lines)
+}
+
+/// One path through many shapes.
+fn path(axes: &Axes<'_>, shapes: &[Shape], closed: bool) -> String {
+    use std::fmt::Write as _;
+    let mut d = String::new();
+    for shape in shapes {
+        for (k, (e, q)) in shape.iter().enumerate() {
+            let [x, y] = axes.at(*e, *q);
+            let _ = write!(d, "{}{x:.2} {y:.2}", if k == 0 { 'M' } else { 'L' });
+        }
+        if closed {
+            d.push('Z');
+        }
+    }
+    d
+}
+
+/// A letter or number at a point.
+fn badge(svg: &mut Svg, [x, y]: Pt, text: &str) {
+    svg.circle([x, y], 5.2, Ink { stroke: "#2c5a86", width: 0.6, ..Ink::fill("#ffffff") });
+    svg.text([x, y + 2.6], text, Label { size: 7.5, ..LABEL });
+}
+
+/// The design plane: safe designs, the border of each part, the product and what can be built.
+pub(crate) fn plane(data: &DesignPlane) -> String {
+    let axes = Axes {
+        corner: [40.0, 8.0],
+        size: [220.0, 220.0],
+        x: Axis::linear(0.0, 1.0, "coefficient of restitution *e*"),
+        y: Axis::linear(0.0, 1.0, "inertia ratio *q*"),
+    };
+    let right = axes.corner[0] + axes.size[0] + 14.0;
+    let rows = 12.0 * f64::from(u32::try_from(data.borders.len() + data.designs.len()).unwrap_or(u32::MAX)) + 72.0;
+    let mut svg = Svg::new(right + 150.0, (axes.corner[1] + axes.size[1] + 30.0).max(rows));
+    svg.rect(axes.corner, axes.size, Ink::fill(SAFE));
+    let parts: Vec<_> = data.borders.iter().map(|(name, border)| (name, unsafe_shapes(border))).collect();
+    for (_, (shapes, _)) in &parts {
+        // a hairline of its own color closes the seams between cells
+        svg.raw_path(&path(&axes, shapes, true), Ink { stroke: SAND, width: 0.3, ..Ink::fill(SAND) });
+    }
+    let mut y = axes.corner[1] + 8.0;
+    let line = |svg: &mut Svg, y: &mut f64, text: &str, color| {
+        svg.text([right, *y], text, Label { anchor: Anchor::Start, color, ..SMALL });
+        *y += 12.0;
+    };
+    let (good, bad) =
+        if data.product.is_some() { ("all are safe", "one fails at least") } else { ("goals met", "goals missed") };
+    for (fill, text) in [(SAFE, good), (SAND, bad)] {
+        svg.rect([right, y - 7.0], [14.0, 8.0], Ink { stroke: GRAY, width: 0.4, ..Ink::fill(fill) });
+        svg.text([right + 19.0, y], text, Label { anchor: Anchor::Start, ..SMALL });
+        y += 12.0;
+    }
+    y += 4.0;
+    let mut taken: Vec<Pt> = data.product.iter().flat_map(|(q, e)| e.map(|e| axes.at(e, *q))).collect();
+    taken.extend(data.designs.iter().map(|(_, p)| axes.at(p.e, p.q)));
+    for (k, (name, (shapes, lines))) in parts.iter().enumerate() {
+        svg.raw_path(&path(&axes, lines, false), Ink::line("#2c5a86", 0.9));
+        if parts.len() == 1 && data.product.is_none() {
+            continue; // the legend has said it
+        }
+        // where the number is farthest from other numbers, marks and the frame
+        let points = lines.iter().flatten().map(|(e, q)| axes.at(*e, *q));
+        let room = |p: &Pt| {
+            let edge = (0..2).map(|i| (p[i] - axes.corner[i]).min(axes.corner[i] + axes.size[i] - p[i]));
+            let others = taken.iter().map(|o| (p[0] - o[0]).hypot(p[1] - o[1]));
+            edge.map(|d| 3.0 * d).chain(others).fold(90.0, f64::min)
+        };
+        let best = points.max_by(|a, b| room(a).total_cmp(&room(b)));
+        let number = (k + 1).to_string();
+        if let Some(p) = best {
+            badge(&mut svg, p, &number);
+            taken.push(p);
+        }
+        let everywhere = shapes.is_empty() && lines.is_empty();
+        let where_safe = match (everywhere, lines.is_empty()) {
+            (true, _) => ", safe everywhere",
+            (false, true) => ", safe nowhere",
+            _ => "",
+        };
+        let short: String = name.chars().take(LONGEST_NAME).collect();
+        let more = if name.chars().nth(LONGEST_NAME).is_some() { "…" } else { "" };
+        svg.plain(
+            [right, y],
+            &format!("{number}  {short}{more}{where_safe}"),
+            Label { anchor: Anchor::Start, ..SMALL },
+        );
+        y += 12.0;
+    }
+    y += 4.0;
+    if let Some([q, e]) = data.reach {
+        let box_of = [(e[0], q[0]), (e[1], q[0]), (e[1], q[1]), (e[0], q[1])].map(|(e, q)| axes.at(e, q));
+        let ink = Ink { dash: "3 2.5", ..Ink::line(GRAY, 0.9) };
+        svg.path(&box_of, true, ink);
+        svg.line([right, y - 2.8], [right + 14.0, y - 2.8], ink);
+        svg.text([right + 19.0, y], "can be built", Label { anchor: Anchor::Start, ..SMALL });
+        y += 12.0;
+    }
+    for (k, (name, p)) in data.designs.iter().enumerate() {
+        let letter = char::from(b'A' + u8::try_from(k.min(25)).unwrap_or(25));
+        badge(&mut svg, axes.at(p.e, p.q), &letter.to_string());
+        line(&mut svg, &mut y, &format!("{letter}  {name}"), INK);
+    }
+    if let Some((q, [lo, hi])) = data.product {
+        let ends = [axes.at(lo, q), axes.at(hi, q)];
+        svg.line(ends[0], ends[1], Ink::line(RUST, 2.0));
+        for end in ends {
+            svg.circle(end, 2.8, Ink { stroke: INK, width: 0.6, ..Ink::fill(RUST) });
+        }
+        svg.circle([right + 7.0, y - 2.8], 2.8, Ink { stroke: INK, width: 0.6, ..Ink::fill(RUST) });
+        svg.text([right + 19.0, y], "the product", Label { anchor: Anchor::Start, ..SMALL });
+    }
+    axes.border(&mut svg, 26.0);
+    svg.finish("Inertia ratio and restitution that make the parts safe")
+}
+
+/// Fronts of the largest safe zone against q.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DesignFronts {
+    /// Threshold of the zone, in v0.
+    pub threshold: f64,
+    /// Zone that is wanted.
+    pub wanted: f64,
+    /// At each e: the front among designs that meet the other goals, and without them.
+    pub fronts: Vec<[Front; 2]>,
+    /// What the other goals are, in figure markup; empty if there are none.
+    pub others: String,
+    /// Designs to compare with: name, q, and the zone they give.
+    pub designs: Vec<(String, FrontPoint)>,
+}
+
+/// The largest safe zone against q, for each e.
+pub(crate) fn fronts(data: &DesignFronts) -> String {
+    let largest = data.fronts.iter().filter_map(|[_, free]| free.largest()).map(|p| p.s).fold(data.wanted, f64::max);
+    let title = format!("safe zone within {} *v*_0, per cent of the bar", data.threshold);
+    let axes = Axes {
+        corner: [40.0, 8.0],
+        size: [260.0, 200.0],
+        x: Axis::linear(0.0, 1.0, "inertia ratio *q*"),
+        y: Axis::linear(0.0, 100.0 * largest * 1.06, &title),
+    };
+    let right = axes.corner[0] + axes.size[0];
+    let mut svg = Svg::new(right + 178.0, axes.corner[1] + axes.size[1] + 30.0);
+    axes.grid(&mut svg);
+    let (met, free) = (Ink::line(BLUES[8], 1.4), Ink { dash: "3 2.5", ..Ink::line(GRAY, 0.8) });
+    axes.level(&mut svg, 100.0 * data.wanted, Ink::line(RUST, 0.8));
+    let mut last = f64::NEG_INFINITY;
+    for [within, without] in &data.fronts {
+        for (front, ink) in [(without, free), (within, met)] {
+            for piece in &front.pieces {
+                axes.curve(&mut svg, piece.iter().map(|p| (p.q, 100.0 * p.s)), ink);
+            }
+        }
+        if let Some(end) = within.largest() {
+            axes.mark(&mut svg, end.q, 100.0 * end.s, BLUES[8]);
+        }
+        if let Some(end) = without.largest() {
+            let y = (axes.at(end.q, 100.0 * end.s)[1] + 2.6).max(last + 9.0);
+            svg.text([right + 5.0, y], &format!("*e* = {}", within.e), Label { anchor: Anchor::Start, ..SMALL });
+            last = y;
+        }
+    }
+    for (k, (_, p)) in data.designs.iter().enumerate() {
+        let letter = char::from(b'A' + u8::try_from(k.min(25)).unwrap_or(25)).to_string();
+        if p.s < 0.0 {
+            continue; // no zone at all, which its line in the key says
+        }
+        badge(&mut svg, axes.at(p.q, 100.0 * p.s), &letter);
+    }
+    axes.border(&mut svg, 26.0);
+    let x = right + 46.0;
+    let mut y = 16.0;
+    let mut say = |svg: &mut Svg, mark: Option<Ink>, text: &str| {
+        if let Some(ink) = mark {
+            svg.line([x, y - 2.8], [x + 14.0, y - 2.8], ink);
+            svg.text([x + 19.0, y], text, Label { anchor: Anchor::Start, ..SMALL });
+        } else {
+            note(svg, [x, y], text);
+        }
+        y += 12.0;
+    };
+    if data.others.is_empty() {
+        say(&mut svg, Some(met), "front");
+    } else {
+        say(&mut svg, Some(met), "front, other goals met");
+        say(&mut svg, Some(free), "they are not");
+        say(&mut svg, None, &data.others);
+    }
+    say(&mut svg, Some(Ink::line(RUST, 0.8)), &format!("wanted: {}", percent(data.wanted)));
+    for (k, (name, p)) in data.designs.iter().enumerate() {
+        let letter = char::from(b'A' + u8::try_from(k.min(25)).unwrap_or(25));
+        let none = if p.s < 0.0 { ": no zone" } else { "" };
+        say(&mut svg, None, &format!("{letter}  {name}{none}"));
+    }
+    say(&mut svg, None, "*q* = 1, *e* = 0 cannot be built");
+    svg.finish("The largest safe zone against the inertia ratio, for each restitution")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_are_cut_where_the_margin_vanishes() {
+        // safe below q = e, by margins linear in their logarithm
+        let side = 5;
+        let margins: Vec<f64> = (0..25_u8)
+            .map(|k| (f64::from(k / 5) / 4.0, f64::from(k % 5) / 4.0))
+            .map(|(q, e)| (e - q + 0.05_f64).exp_m1())
+            .collect();
+        let (shapes, lines) = grid_shapes(side, &margins);
+        for (e, q) in lines.iter().flatten() {
+            assert!((q - e - 0.05).abs() < 1e-12, "({e}, {q}) is off the line");
+        }
+        let area = |shape: &Shape| {
+            let next = shape.iter().cycle().skip(1);
+            0.5 * shape.iter().zip(next).map(|(a, b)| a.0 * b.1 - b.0 * a.1).sum::<f64>().abs()
+        };
+        let total: f64 = shapes.iter().map(area).sum();
+        assert!((total - 0.5 * 0.95 * 0.95).abs() < 1e-12, "unsafe area {total}");
+    }
+
+    #[test]
+    fn what_no_curve_covers_is_unsafe() {
+        let curve = vec![Point { q: 0.25, e: 0.0 }, Point { q: 0.75, e: 0.5 }];
+        let (shapes, lines) = unsafe_shapes(&DesignBorder::Exact(vec![curve]));
+        assert_eq!((shapes.len(), lines.len()), (3, 1), "below, beside, above");
+        let (shapes, lines) = unsafe_shapes(&DesignBorder::Exact(Vec::new()));
+        assert_eq!((shapes.len(), lines.len()), (1, 0), "safe nowhere");
+        let (shapes, _) =
+            unsafe_shapes(&DesignBorder::Exact(vec![vec![Point { q: 0.0, e: 1.0 }, Point { q: 1.0, e: 1.0 }]]));
+        assert_eq!(shapes.len(), 1, "a shape without area");
+    }
+
+    #[test]
+    fn names_stand_as_they_are() {
+        let border = DesignBorder::Exact(Vec::new());
+        let borders = vec![("a_b*<c> & d".to_owned(), border)];
+        // the goals of a plane without a product have no names
+        let data = DesignPlane { borders, product: Some((0.5, [0.2, 0.3])), ..DesignPlane::default() };
+        let drawn = plane(&data);
+        assert!(drawn.contains("a_b*&lt;c&gt; &amp; d"), "{drawn}");
+    }
+}

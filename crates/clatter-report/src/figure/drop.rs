@@ -1,0 +1,317 @@
+//! One drop in time: heights, velocity shocks, and pulses where contacts take time.
+
+use clatter::End;
+use clatter::flight::{Stop, Strike};
+use clatter::history::{Press, Row};
+
+use super::axes::{Axes, Axis, SMALL};
+use crate::Drop;
+use crate::svg::{Anchor, BLUES, GRAY, INK, Ink, Label, RUST, SAND, Svg, width};
+
+/// Lines of ends a and b.
+const ENDS: [&str; 2] = [BLUES[7], RUST];
+/// Marks of positions, one after the other.
+const FILLS: [&str; 4] = ["#ffffff", "#b5b9bd", "#efe5d3", "#1d2329"];
+/// Lines of positions, one after the other.
+const DASHES: [&str; 4] = ["", "4 2", "1.5 1.5", "6 2 1.5 2"];
+
+/// A unit of ten to some power of three.
+#[derive(Clone, Copy)]
+struct Unit {
+    factor: f64,
+    prefix: &'static str,
+}
+
+impl Unit {
+    /// In which `largest` lies between 0.5 and 500, if there is one.
+    fn of(largest: f64) -> Self {
+        const PREFIXES: [(f64, &str); 9] = [
+            (1e-9, "G"),
+            (1e-6, "M"),
+            (1e-3, "k"),
+            (1.0, ""),
+            (1e3, "m"),
+            (1e6, "µ"),
+            (1e9, "n"),
+            (1e12, "p"),
+            (1e15, "f"),
+        ];
+        let found = PREFIXES.into_iter().find(|(factor, _)| largest * factor >= 0.5);
+        let (factor, prefix) = found.unwrap_or((1.0, ""));
+        Self { factor, prefix }
+    }
+}
+
+/// A span of time, drawn as a column.
+#[derive(Clone, Copy)]
+struct Column {
+    left: f64,
+    width: f64,
+    from_s: f64,
+    until_s: f64,
+}
+
+/// A frame in a column, and what its numbers are multiplied by.
+struct Panel<'a> {
+    axes: Axes<'a>,
+    time: f64,
+    value: f64,
+}
+
+impl Panel<'_> {
+    fn curve(&self, svg: &mut Svg, points: impl Iterator<Item = (f64, f64)>, ink: Ink) {
+        let scaled: Vec<_> = points.map(|(t, y)| (t * self.time, y * self.value)).collect();
+        let step = (self.axes.x.high - self.axes.x.low) / self.axes.size[0] / 4.0;
+        self.axes.curve(svg, thinned(&scaled, step).into_iter(), ink);
+    }
+    fn at(&self, t: f64, y: f64) -> [f64; 2] {
+        self.axes.at(t * self.time, y * self.value)
+    }
+}
+
+/// Of the points within each step, those that show: the first, the last, the lowest and the highest.
+fn thinned(points: &[(f64, f64)], step: f64) -> Vec<(f64, f64)> {
+    let bucket = |p: &(f64, f64)| (p.0 / step).floor();
+    let mut kept = Vec::new();
+    for run in points.chunk_by(|a, b| (bucket(a) - bucket(b)).abs() < 0.5) {
+        let extreme =
+            |sign: f64| (0..run.len()).max_by(|&i, &j| (sign * run[i].1).total_cmp(&(sign * run[j].1))).unwrap_or(0);
+        let mut shown = [0, extreme(1.0), extreme(-1.0), run.len() - 1];
+        shown.sort_unstable();
+        kept.extend(shown.iter().enumerate().filter(|(k, i)| *k == 0 || shown[k - 1] != **i).map(|(_, i)| run[*i]));
+    }
+    kept
+}
+
+/// Until when the first strikes are shown magnified: up to the first long pause after at least three of them, else to the last
+/// one before, and only if that leaves most of the time to the rest.
+fn early(drop: &Drop<'_>, end_s: f64) -> Option<f64> {
+    let mut over_s = 0.0_f64;
+    let over = drop.strikes.iter().enumerate().map(|(i, strike)| {
+        let until_s = drop.pulses.get(i).map_or(strike.time_s, |pulse| pulse.until_s);
+        over_s = over_s.max(if until_s.is_finite() { until_s } else { strike.time_s });
+        over_s
+    });
+    let pauses = over.zip(drop.strikes.iter().skip(1)).enumerate();
+    let mut before = None;
+    for (i, (over_s, next)) in pauses.take_while(|(_, (over_s, _))| 7.5 * over_s < end_s) {
+        let pause = if over_s > 0.0 { next.time_s / over_s } else { 0.0 };
+        if i >= 2 && pause > 1.6 {
+            return Some(1.25 * over_s);
+        }
+        before = if pause > 2.0 { Some(1.25 * over_s) } else { before };
+    }
+    before
+}
+
+/// Lowest and highest of some values and 0, with a margin.
+fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    let (low, high) = values.filter(|v| v.is_finite()).fold((0.0, 0.0), |(a, b): (f64, f64), v| (a.min(v), b.max(v)));
+    if high > low { [low - 0.06 * (high - low), high + 0.06 * (high - low)] } else { [-0.06, 1.0] }
+}
+
+pub(crate) fn drop(drop: &Drop<'_>) -> String {
+    let end_s = drop.rows.last().map_or(0.0, |row| row.time_s);
+    let end_s = if end_s > 0.0 { end_s } else { 1e-3 };
+    let pressed = drop.rows.iter().any(|row| row.press.is_some());
+    let (top, high, gap) = (34.0, 112.0, 26.0);
+    let panels = if pressed { 3 } else { 2 };
+    let mut svg = Svg::new(520.0, top + f64::from(panels) * (high + gap) + 2.0);
+    let columns = match early(drop, end_s) {
+        Some(until_s) => vec![
+            Column { left: 44.0, width: 195.0, from_s: 0.0, until_s },
+            Column { left: 308.0, width: 195.0, from_s: 0.0, until_s: end_s },
+        ],
+        None => vec![Column { left: 44.0, width: 459.0, from_s: 0.0, until_s: end_s }],
+    };
+    heading(&mut svg, drop, pressed);
+    for (k, column) in columns.iter().enumerate() {
+        let magnified = (k > 0).then(|| columns[0].until_s);
+        let bottom = |n: u8| [column.left, top + f64::from(n) * (high + gap)];
+        heights(&mut svg, drop, *column, bottom(0), high, magnified);
+        shocks(&mut svg, drop, *column, bottom(1), high, !pressed);
+        if pressed {
+            pulses(&mut svg, drop, *column, bottom(2), high);
+        }
+    }
+    svg.finish("Heights of both ends and velocity shocks over time")
+}
+
+/// What is drawn, how it ends, and what the lines mean.
+fn heading(svg: &mut Svg, drop: &Drop<'_>, pressed: bool) {
+    let stop = match drop.stop {
+        Stop::AtRest { .. } => "at rest at",
+        Stop::BouncedClear { .. } => "bounced clear at",
+        Stop::TurnedOver { .. } => "turned over at",
+        Stop::ImpactLimit { .. } => "list full at",
+        _ => "left at",
+    };
+    let (n, time) = (drop.strikes.len(), drop.stop.time_s());
+    let unit = Unit::of(time);
+    let impacts = if n == 1 { "impact" } else { "impacts" };
+    let text = format!("{}: {n} {impacts}, {stop} {} {}s", drop.model, three(time * unit.factor), unit.prefix);
+    svg.text([44.0, 12.0], &text, Label { anchor: Anchor::Start, ..SMALL });
+    let mut x = 44.0;
+    let y = 25.0;
+    let words = |svg: &mut Svg, x: &mut f64, text: &str| {
+        svg.text([*x, y], text, Label { anchor: Anchor::Start, ..SMALL });
+        *x += width(text, SMALL.size) + 16.0;
+    };
+    for (end, color) in ["end *a*", "end *b*"].into_iter().zip(ENDS) {
+        svg.line([x, y - 2.8], [x + 16.0, y - 2.8], Ink::line(color, 1.2));
+        x += 20.0;
+        words(svg, &mut x, end);
+    }
+    for (k, s) in drop.at.iter().enumerate() {
+        if pressed {
+            svg.line([x, y - 2.8], [x + 16.0, y - 2.8], position_line(k));
+            x += 8.0;
+        }
+        svg.circle([x, y - 2.8], 2.2, position_mark(k));
+        x += if pressed { 12.0 } else { 5.0 };
+        words(svg, &mut x, &format!("at *s* = {}", three(*s)));
+    }
+    if pressed {
+        let text = "undermost, of the ends: force over mass";
+        svg.text([503.0, y], text, Label { anchor: Anchor::End, color: GRAY, ..SMALL });
+    }
+}
+
+fn position_line(k: usize) -> Ink {
+    Ink { dash: DASHES[k % DASHES.len()], ..Ink::line(INK, 0.7) }
+}
+
+fn position_mark(k: usize) -> Ink {
+    Ink { stroke: INK, width: 0.7, ..Ink::fill(FILLS[k % FILLS.len()]) }
+}
+
+/// Three significant digits.
+fn three(v: f64) -> String {
+    let text = format!("{v:.2e}");
+    let exponent = text.rsplit('e').next().and_then(|e| e.parse::<i32>().ok()).unwrap_or(0);
+    match exponent {
+        _ if v == 0.0 => "0".into(),
+        -4..=5 => {
+            let text = format!("{v:.*}", usize::try_from(2 - exponent).unwrap_or(0));
+            let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+            text.replace('-', "−")
+        }
+        _ => text.replace('-', "−"),
+    }
+}
+
+/// A frame over the time of a column, with ticks and a title of its values.
+fn panel(
+    column: Column,
+    corner: [f64; 2],
+    high: f64,
+    [low, top]: [f64; 2],
+    unit: Unit,
+    titles: [&str; 2],
+) -> Panel<'_> {
+    let time = Unit::of(column.until_s);
+    let x = Axis::linear(column.from_s * time.factor, column.until_s * time.factor, titles[0]);
+    let y = Axis::linear(low * unit.factor, top * unit.factor, titles[1]);
+    Panel { axes: Axes { corner, size: [column.width, high], x, y }, time: time.factor, value: unit.factor }
+}
+
+fn heights(svg: &mut Svg, drop: &Drop<'_>, column: Column, corner: [f64; 2], high: f64, magnified: Option<f64>) {
+    let seen: Vec<&Row> = drop.rows.iter().filter(|row| row.time_s <= column.until_s).collect();
+    let [low, top] = range(seen.iter().flat_map(|row| row.height_m));
+    let unit = Unit::of(top.max(-low));
+    let title = format!("height, {}m", unit.prefix);
+    let panel = panel(column, corner, high, [low, top], unit, ["", &title]);
+    panel.axes.grid(svg);
+    if let Some(until_s) = magnified {
+        let [from, to] = [0.0, until_s].map(|t| panel.at(t, 0.0)[0]);
+        svg.rect([from, corner[1]], [(to - from).max(0.8), high], Ink::fill(SAND));
+    }
+    panel.axes.level(svg, 0.0, Ink::line(GRAY, 0.6));
+    for end in [1, 0] {
+        panel.curve(svg, drop.rows.iter().map(|row| (row.time_s, row.height_m[end])), Ink::line(ENDS[end], 1.2));
+    }
+    for strike in shown(drop.strikes, &panel) {
+        svg.circle(panel.at(strike.time_s, 0.0), 1.9, Ink::fill(ENDS[usize::from(strike.end == End::B)]));
+    }
+    panel.axes.border(svg, 31.0);
+}
+
+/// The strikes of a column; of those that would lie on one another the hardest.
+fn shown<'a>(strikes: &'a [Strike], panel: &Panel<'_>) -> Vec<&'a Strike> {
+    let until = panel.axes.x.high * (1.0 + 1e-9);
+    let seen = strikes.iter().take_while(|strike| strike.time_s * panel.time <= until);
+    let mut kept: [Option<&Strike>; 2] = [None; 2];
+    let mut all: Vec<&Strike> = Vec::new();
+    for strike in seen {
+        let k = usize::from(strike.end == End::B);
+        match kept[k] {
+            Some(old) if panel.at(strike.time_s, 0.0)[0] - panel.at(old.time_s, 0.0)[0] < 0.5 => {
+                if strike.approach_m_s < old.approach_m_s {
+                    kept[k] = Some(strike);
+                }
+            }
+            old => {
+                all.extend(old);
+                kept[k] = Some(strike);
+            }
+        }
+    }
+    all.extend(kept.into_iter().flatten());
+    all.sort_by_key(|strike| strike.number);
+    all
+}
+
+fn time_title(column: Column) -> String {
+    format!("time since the first touch, {}s", Unit::of(column.until_s).prefix)
+}
+
+fn shocks(svg: &mut Svg, drop: &Drop<'_>, column: Column, corner: [f64; 2], high: f64, last: bool) {
+    let bounds = range(drop.strikes.iter().flat_map(|strike| strike.delta_v_m_s));
+    let unit = Unit::of(bounds[1]);
+    let title = format!("velocity shock, {}m/s", unit.prefix);
+    let time = if last { time_title(column) } else { String::new() };
+    let panel = panel(column, corner, high, bounds, unit, [&time, &title]);
+    panel.axes.grid(svg);
+    panel.axes.level(svg, 0.0, Ink::line(GRAY, 0.6));
+    let strikes = shown(drop.strikes, &panel);
+    let mut last: Option<(End, f64)> = None;
+    for strike in strikes {
+        let [mut x, ground] = panel.at(strike.time_s, 0.0);
+        // The other end's strike at this very time stays to be seen beside it.
+        if last.is_some_and(|(end, at)| end != strike.end && (x - at).abs() < 0.5) {
+            x += 1.8;
+        }
+        last = Some((strike.end, x));
+        let tips = strike.delta_v_m_s.map(|v| panel.at(0.0, v)[1]);
+        if tips.iter().all(|y| (y - ground).abs() < 2.0) {
+            continue; // nothing to be seen; the strike is marked above
+        }
+        for (y, color) in tips.into_iter().zip(ENDS) {
+            svg.line([x, ground], [x, y], Ink::line(color, 1.0));
+            svg.circle([x, y], 1.9, Ink::fill(color));
+        }
+        for (k, s) in drop.at.iter().enumerate() {
+            svg.circle([x, panel.at(0.0, strike.delta_v_at(*s))[1]], 2.2, position_mark(k));
+        }
+    }
+    panel.axes.border(svg, 31.0);
+}
+
+fn pulses(svg: &mut Svg, drop: &Drop<'_>, column: Column, corner: [f64; 2], high: f64) {
+    let rows = || drop.rows.iter().filter_map(|row| row.press.as_ref().map(|press| (row.time_s, press)));
+    let positions = |press: &Press| drop.at.iter().map(|s| press.acceleration_at(*s)).collect::<Vec<_>>();
+    let bounds = range(rows().flat_map(|(_, press)| press.force_per_mass_m_s2.into_iter().chain(positions(press))));
+    let unit = Unit::of(bounds[1]);
+    let title = format!("acceleration, {}m/s²", unit.prefix);
+    let time = time_title(column);
+    let panel = panel(column, corner, high, bounds, unit, [&time, &title]);
+    panel.axes.grid(svg);
+    panel.axes.level(svg, 0.0, Ink::line(GRAY, 0.6));
+    for end in [1, 0] {
+        panel.curve(svg, rows().map(|(t, press)| (t, press.force_per_mass_m_s2[end])), Ink::line(ENDS[end], 1.8));
+    }
+    for (k, s) in drop.at.iter().enumerate() {
+        panel.curve(svg, rows().map(|(t, press)| (t, press.acceleration_at(*s))), position_line(k));
+    }
+    panel.axes.border(svg, 31.0);
+}

@@ -1,0 +1,200 @@
+//! The cheapest pair within a tolerance, and why.
+
+use std::fmt;
+
+use super::{BarRung, ComponentRung, Estimate, Forecast, Groups, Pair, Quantity, Setup};
+use crate::Error;
+
+/// The models for one scene and quantity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plan {
+    /// The quantity asked.
+    pub quantity: Quantity,
+    /// One rung of each ladder.
+    pub pair: Pair,
+    /// What it gets wrong, as a share of the quantity.
+    pub estimate: Estimate,
+    /// What it costs, about: see [`Forecast::cost_ns`].
+    pub cost_ns: f64,
+    /// Models need not be followed beyond this time since the first touch; infinite where that is not known.
+    pub until_s: f64,
+    /// Which groups decided; `Display` says it in a sentence.
+    pub reason: Reason,
+    /// Where the tolerance is not reached, or is reached on a condition.
+    pub warning: Option<Warning>,
+}
+
+/// Which groups made cheaper models too coarse.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reason {
+    /// The rungs that are good enough.
+    pub pair: Pair,
+    /// The tolerance.
+    pub tolerance: f64,
+    /// Errors of the map, of parabolas and of real tilt.
+    pub bar: [f64; 3],
+    /// Whether contacts overlap.
+    pub overlaps: bool,
+    /// Whether later rebounds may decide.
+    pub rebounds: bool,
+    /// The scene's groups.
+    pub groups: Groups,
+}
+
+/// Why a plan may not hold.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// No contact time is known: the estimate holds for contacts up to this time.
+    ContactTimeUnknown {
+        /// At longer ones pulses are no impulses within the tolerance, or contacts overlap.
+        longest_s: f64,
+    },
+    /// No rung reaches the tolerance: the compliant one, which would, refuses the scene or has no contact time.
+    ToleranceNotReached {
+        /// What the pair gets wrong, about.
+        error: f64,
+        /// Whether contacts overlap, which no rigid model knows.
+        overlaps: bool,
+    },
+}
+
+impl Forecast {
+    /// The cheapest pair whose estimate is within a tolerance; the highest where none is, and with a warning the closest where that
+    /// is not to be had.
+    #[must_use]
+    pub fn plan(&self, tolerance: f64) -> Plan {
+        let mut chosen: Option<(Pair, f64)> = None;
+        for &pair in Pair::planned(self.quantity) {
+            if self.pair(pair).error <= tolerance {
+                let cost = self.cost_ns(pair);
+                if chosen.is_none_or(|(_, least)| cost < least) {
+                    chosen = Some((pair, cost));
+                }
+            }
+        }
+        let (pair, cost_ns) = chosen.unwrap_or_else(|| {
+            let pair = self.closest();
+            (pair, self.cost_ns(pair))
+        });
+        let estimate = self.pair(pair);
+        let warning = if chosen.is_none() {
+            Some(Warning::ToleranceNotReached { error: estimate.error, overlaps: self.overlaps })
+        } else if self.contact_known {
+            None
+        } else {
+            Some(Warning::ContactTimeUnknown { longest_s: self.longest_contact_s(pair, tolerance) })
+        };
+        let bar = [BarRung::Map, BarRung::Ballistic, BarRung::FiniteTilt].map(|rung| self.bar(rung).error);
+        let rebounds = self.until_s == f64::INFINITY;
+        let reason = Reason { pair, tolerance, bar, overlaps: self.overlaps, rebounds, groups: self.groups };
+        Plan { quantity: self.quantity, pair, estimate, cost_ns, until_s: self.until_s, reason, warning }
+    }
+
+    /// The pair with the least error.
+    fn closest(&self) -> Pair {
+        let mut closest = Pair { bar: BarRung::FiniteTilt, component: ComponentRung::ImpulseTrain };
+        for &pair in Pair::planned(self.quantity) {
+            if self.pair(pair).error < self.pair(closest).error {
+                closest = pair;
+            }
+        }
+        closest
+    }
+
+    /// Up to which contact time impulses stay within the tolerance that a pair leaves, and contacts apart.
+    fn longest_contact_s(&self, pair: Pair, tolerance: f64) -> f64 {
+        let room = (tolerance - self.pair(pair).error).max(0.0);
+        let [linear, square] = self.impulse_phase;
+        // linear x + square x² = room
+        let phase = 2.0 * room / (linear + (linear * linear + 4.0 * square * room).sqrt());
+        let pulses = if self.quantity == Quantity::VelocityShock { f64::INFINITY } else { phase / self.omega };
+        pulses.min(self.shortest_gap_s)
+    }
+}
+
+impl Plan {
+    /// The same plan, or a better one: where it follows contacts until rest because the first strikes leave open what later ones
+    /// do, a longer look ([`Setup::forecast_far`]) is cheap beside that.
+    #[must_use]
+    pub fn refined(self, setup: &Setup) -> Self {
+        if self.pair == Pair::HIGHEST && self.until_s == f64::INFINITY {
+            setup.forecast_far(self.quantity).plan(self.reason.tolerance)
+        } else {
+            self
+        }
+    }
+    /// The quantity asked, by the models of the plan.
+    ///
+    /// # Errors
+    /// As [`Setup::demand`].
+    pub fn run(&self, setup: &Setup) -> Result<f64, Error> {
+        setup.demand(self.pair, self.quantity, self.until_s)
+    }
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let g = &self.groups;
+        let [map, ballistic, tilted] = self.bar;
+        match self.pair.bar {
+            BarRung::ClosedForm | BarRung::Map => {
+                write!(f, "gravity (g h0/v0² = {:.1e}), tilt (φ² = {:.1e})", g.gravity, g.geometry)?;
+                f.write_str(" and contact time change too little to count")?;
+            }
+            BarRung::Ballistic => {
+                write!(f, "gravity counts (g h0/v0² = {:.1e}, without it {})", g.gravity, Share(map))?;
+            }
+            BarRung::FiniteTilt => {
+                write!(
+                    f,
+                    "the tilt changes the lever arms (φ² = {:.1e}, without it {})",
+                    g.geometry,
+                    Share(ballistic)
+                )?;
+            }
+            BarRung::Compliant if self.overlaps => {
+                write!(f, "contacts overlap (contact time {:.2} of the time between strikes)", g.overlap)?;
+            }
+            BarRung::Compliant if self.rebounds => {
+                write!(f, "later rebounds may decide, and contacts shift them ({} without)", Share(tilted))?;
+            }
+            BarRung::Compliant => {
+                write!(f, "contacts take time enough to delay the strikes ({} without)", Share(tilted))?;
+            }
+        }
+        match self.pair.component {
+            ComponentRung::NetChange => write!(f, "; the whole clatter is one push (ω t_N = {:.2})", g.train),
+            ComponentRung::LargestShock => f.write_str("; one shock decides"),
+            ComponentRung::ImpulseTrain => write!(f, "; pulses are as good as impulses (ωτ = {:.2})", g.pulse),
+            ComponentRung::PulseTrain => write!(f, "; pulses last {:.2} rad of the component's motion", g.pulse),
+        }
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::ContactTimeUnknown { longest_s } => {
+                write!(f, "no contact time is known: this holds for contacts of up to {:.3} ms", 1e3 * longest_s)
+            }
+            Self::ToleranceNotReached { error, overlaps } => {
+                write!(f, "no model reaches the tolerance; this one is off by {}", Share(error))?;
+                if overlaps {
+                    f.write_str(", because contacts overlap, which rigid models do not know")
+                } else {
+                    Ok(())
+                }
+            }
+        }
+    }
+}
+
+/// An error as people read it.
+struct Share(f64);
+
+impl fmt::Display for Share {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0 <= 1.0 { write!(f, "{:.2} % off", 100.0 * self.0) } else { f.write_str("far off") }
+    }
+}

@@ -1,0 +1,183 @@
+//! What a pair of models answers.
+
+use clatter::flight::{CompliantFlight, Flight, Model};
+use clatter::{Bar, PeakImpact, Start};
+use clatter_shock::{Pulses, Response, VelocityShock, VelocityShocks};
+
+use super::history::{self, Polygon};
+use super::{BarRung, ComponentRung, Pair, Quantity, Setup};
+use crate::Error;
+
+/// Pieces of the polygon of one pulse: its peak and its effect are then within 2e-4 or so.
+pub(super) const CELLS: usize = 96;
+
+/// Strikes of the map at most: a train as long has died down, or goes on like this.
+const MOST_OF_MAP: usize = 1000;
+
+impl Setup {
+    /// The quantity asked, by one pair of models, in m/s², m or m/s. Strikes after `until_s` ([`Forecast::until_s`], or infinity)
+    /// are left out; the highest pair finds for itself, by the energy of the flight that it follows, when nothing later raises the quantity.
+    ///
+    /// The closed form has no train: with it, the trains are those of the map.
+    ///
+    /// # Accuracy
+    /// That of the models; pulses are polygons, whose peak and effect are within 2e-4 or so.
+    ///
+    /// # Errors
+    /// [`Error::Bar`] where the compliant model refuses the scene; [`Error::Contact`] for a rung that needs the contact time where
+    /// there is none.
+    ///
+    /// [`Forecast::until_s`]: super::Forecast::until_s
+    pub fn demand(&self, pair: Pair, quantity: Quantity, until_s: f64) -> Result<f64, Error> {
+        if pair == Pair::HIGHEST {
+            let contact_s = self.known_contact_s()?;
+            let (flight, settled_s) = self.settled_flight(quantity, contact_s)?;
+            return self.of_contacts(&flight, settled_s, contact_s, quantity, CELLS);
+        }
+        self.demand_fine(pair, quantity, until_s, CELLS)
+    }
+
+    /// As [`demand`](Self::demand), followed until `until_s` or rest whatever it takes, and pulses of `cells` pieces: twice as many are
+    /// four times as close.
+    ///
+    /// # Errors
+    /// As [`demand`](Self::demand).
+    pub fn demand_fine(&self, pair: Pair, quantity: Quantity, until_s: f64, cells: usize) -> Result<f64, Error> {
+        let scene = if until_s < f64::INFINITY { self.scene.with_time_limit_s(until_s)? } else { self.scene };
+        let shocks_only = quantity == Quantity::VelocityShock;
+        let model = match pair.bar {
+            BarRung::ClosedForm => match pair.component {
+                ComponentRung::NetChange => return Ok(self.of_one(self.net_change(), quantity)),
+                ComponentRung::LargestShock => return Ok(self.of_one(self.largest_shock(), quantity)),
+                _ => Model::Map,
+            },
+            BarRung::Map => Model::Map,
+            BarRung::Ballistic => Model::Ballistic,
+            BarRung::FiniteTilt => Model::FiniteTilt,
+            BarRung::Compliant => {
+                let time = self.known_contact_s()?;
+                let flight = scene.simulate_compliant(time)?;
+                if pair.component != ComponentRung::PulseTrain {
+                    return self.of_flight(&flight.flight, pair.component, quantity, cells);
+                }
+                return self.of_contacts(&flight, f64::INFINITY, time, quantity, cells);
+            }
+        };
+        let component = if shocks_only { ComponentRung::LargestShock } else { pair.component };
+        let scene = if model == Model::Map { scene.with_impact_limit(MOST_OF_MAP)? } else { scene };
+        self.of_flight(&scene.simulate(model), component, quantity, cells)
+    }
+
+    fn known_contact_s(&self) -> Result<f64, Error> {
+        self.contact_time_s.ok_or(Error::Contact)
+    }
+
+    /// Pieces of a pulse: in a stiff component the corners of a polygon ring, a soft one sees little of them.
+    fn cells(&self, cells: usize, contact_s: f64) -> usize {
+        let turned = self.suspension.omega() * contact_s;
+        let fineness = (turned * (1.0 + 2.0 * self.suspension.damping().get())).max(turned / 8.0);
+        #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
+        let pieces = cells as f64 * fineness.clamp(0.125, 1.0) * (turned / 8.0).clamp(1.0, 8.0);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few hundred")]
+        let pieces = pieces.ceil() as usize;
+        pieces
+    }
+
+    fn of_contacts(
+        &self,
+        flight: &CompliantFlight,
+        until_s: f64,
+        contact_s: f64,
+        quantity: Quantity,
+        cells: usize,
+    ) -> Result<f64, Error> {
+        let shocks = quantity == Quantity::VelocityShock;
+        let cells = if shocks { cells } else { self.cells(cells, contact_s) };
+        #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
+        let polygon = history::of_contacts(self, flight, until_s, contact_s, cells as f64);
+        if shocks { Ok(history::largest_change(&polygon, contact_s)) } else { self.of_polygon(&polygon, quantity) }
+    }
+
+    /// The response to one velocity shock, or the shock itself.
+    fn of_one(&self, delta_v: f64, quantity: Quantity) -> f64 {
+        let (factors, omega) = (self.suspension.damping().impulse_factors(), self.suspension.omega());
+        delta_v.abs()
+            * match quantity {
+                Quantity::PeakAcceleration => omega * factors.acceleration,
+                Quantity::RattleSpace => factors.displacement / omega,
+                Quantity::VelocityShock => 1.0,
+            }
+    }
+
+    fn of_flight(
+        &self,
+        flight: &Flight,
+        component: ComponentRung,
+        quantity: Quantity,
+        cells: usize,
+    ) -> Result<f64, Error> {
+        let mut last = 0.0_f64;
+        // Times of strikes at one instant may run back by a rounding.
+        let shocks = flight.strikes.iter().map(|s| {
+            last = last.max(s.time_s);
+            VelocityShock { time: last, delta_v: s.delta_v_at(self.position) }
+        });
+        let shocks = VelocityShocks::new(shocks.collect())?;
+        match component {
+            ComponentRung::NetChange => Ok(self.of_one(shocks.net(), quantity)),
+            ComponentRung::LargestShock => Ok(self.of_one(shocks.largest(), quantity)),
+            ComponentRung::ImpulseTrain => Ok(peak(&shocks.respond(&self.suspension), quantity)),
+            ComponentRung::PulseTrain => {
+                let time = self.known_contact_s()?;
+                let polygon = history::of_shocks(shocks.as_slice(), self.scene.e(), time, self.cells(cells, time));
+                self.of_polygon(&polygon, quantity)
+            }
+        }
+    }
+
+    fn of_polygon(&self, polygon: &Polygon, quantity: Quantity) -> Result<f64, Error> {
+        Ok(peak(&Pulses::piecewise_linear(polygon)?.respond(&self.suspension), quantity))
+    }
+
+    /// Sum of all velocity shocks of the map, in closed form; infinite where it has no limit.
+    fn net_change(&self) -> f64 {
+        let (bar, start, kappa) = self.scene.symmetric_bar();
+        let summary = bar.summary(&start);
+        let at = |a: f64, b: f64| 0.5 * ((1.0 - self.position) * a + (1.0 + self.position) * b);
+        summary.net.map_or(f64::INFINITY, |net| at(net.a, net.b / kappa))
+    }
+
+    /// Largest velocity shock of the map at the position, in closed form: that of one end stands beside that of the other.
+    fn largest_shock(&self) -> f64 {
+        let (bar, start, kappa) = self.scene.symmetric_bar();
+        let first = match bar.peak(&start).impact {
+            PeakImpact::Number(n) => n.saturating_sub(2),
+            PeakImpact::Huge(_) | PeakImpact::Limit => return f64::INFINITY,
+        };
+        let ratios = self.scene.body().inertia_ratios();
+        let shock = |i: clatter::Impact| {
+            let (toward, ratio, scale) = match i.end {
+                clatter::End::A => (-self.position, ratios[0], 1.0),
+                clatter::End::B => (self.position, ratios[1], 1.0 / kappa),
+            };
+            let jump = (1.0 + self.scene.e()) * i.approach * scale;
+            (0.5 * jump * ((1.0 + toward) - (1.0 - toward) * ratio)).abs()
+        };
+        nearby(&bar, &start, first).map(shock).fold(0.0, f64::max)
+    }
+}
+
+/// Three impacts from number `first` + 1 on.
+fn nearby(bar: &Bar, start: &Start, first: u64) -> impl Iterator<Item = clatter::Impact> {
+    let mut train = bar.train(start);
+    let skip = usize::try_from(first).unwrap_or(usize::MAX);
+    let head = train.nth(skip);
+    head.into_iter().chain(train.take(2))
+}
+
+fn peak(response: &Response, quantity: Quantity) -> f64 {
+    match quantity {
+        Quantity::PeakAcceleration => response.absolute_acceleration.magnitude(),
+        _ => response.relative_displacement.magnitude(),
+    }
+}

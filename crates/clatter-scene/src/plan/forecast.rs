@@ -1,0 +1,503 @@
+//! What every rung gets wrong in a scene, estimated before anything is simulated.
+
+use clatter::flight::Scene;
+
+use super::lane::{Ends, Lane, Next};
+use super::pulse::Pulse;
+use super::swing::{Motion, Swing};
+use super::{BarRung, ComponentRung, Estimate, Pair, Quantity, Setup};
+
+/// Strikes followed at most.
+pub const STRIKES: usize = 8;
+/// Strikes followed at most by a second look.
+pub const MANY_STRIKES: usize = 96;
+
+/// What later strikes can do must stay below this share of the peak for the following to stop: pulses flatten both, not alike.
+const CLEAR: f64 = 0.9;
+
+/// Later strikes that could add more than this share of the peak are not foreseen from the earlier ones.
+const ROOM: f64 = 0.5;
+
+/// The dimensionless groups of a scene (v0 and h0 at the first touch).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Groups {
+    /// G = g h0/v0²: what gravity adds to the speed before the second strike.
+    pub gravity: f64,
+    /// φ²: what the tilt takes from the lever arms.
+    pub geometry: f64,
+    /// τ/Δt: contact time over the shortest time between the strikes followed; 0 where it is not known.
+    pub overlap: f64,
+    /// ωτ: how far the component turns in one contact; 0 where it is not known.
+    pub pulse: f64,
+    /// ω t_N: how far it turns from the first strike followed to the last.
+    pub train: f64,
+    /// ζωΔt: by how much it dies down in the shortest time between strikes.
+    pub damping: f64,
+}
+
+/// Estimates for every rung of both ladders, in one quantity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Forecast {
+    pub(super) quantity: Quantity,
+    /// Errors of the bar rungs up to finite tilt, as a share of the peak; the compliant one has none.
+    bar: [f64; 4],
+    /// What is wrong with one net change, one largest shock, impulses.
+    component: [f64; 3],
+    /// Share of the error of finite tilt that overlap makes.
+    pub(super) overlaps: bool,
+    pub(super) contact_known: bool,
+    /// Whether the compliant rung takes the scene.
+    pub(super) compliant: bool,
+    /// Shortest time between the strikes followed.
+    pub(super) shortest_gap_s: f64,
+    /// Largest contact time at which impulses are within a share of 1, by the error's square root or itself.
+    pub(super) impulse_phase: [f64; 2],
+    pub(super) omega: f64,
+    /// Strikes of impacts and of contacts until `until_s`, about.
+    strikes: f64,
+    contacts: f64,
+    /// The groups.
+    pub groups: Groups,
+    /// No strike after this time since the first touch raises the quantity: models need not be followed further. Infinite where
+    /// that is not known.
+    pub until_s: f64,
+    /// What the peak is, about.
+    pub peak: f64,
+}
+
+/// One interval between strikes, as the lane with all physics has it.
+#[derive(Debug, Clone, Copy, Default)]
+struct Interval {
+    /// Largest value, and the phase at which it stands.
+    value: f64,
+    phase: f64,
+    /// Bound on how far the map, the parabolas and real tilt are off it.
+    off: [f64; 3],
+}
+
+/// How far the contacts of one strike and of the next act on each other, and on what is asked.
+#[derive(Debug, Clone, Copy)]
+struct Coupling {
+    pulse: Pulse,
+    /// Contact time; 0 where it is not known.
+    time: f64,
+    velocity_shock: bool,
+    /// Share of a disturbed shock that the quantity sees.
+    seen: f64,
+    /// Share of the speed that both ends together rebound with.
+    rebound: f64,
+}
+
+impl Coupling {
+    fn new(ends: &Ends, pulse: Pulse, time: f64, omega: f64, jump: f64, quantity: Quantity) -> Self {
+        let velocity_shock = quantity == Quantity::VelocityShock;
+        // Fitted: a soft component sees the sum of overlapping shocks, which e and the bar's coupling q change, not their order.
+        let q = ends.ratio(0, 1.0).abs().max(ends.ratio(1, 1.0).abs());
+        let soft = ((1.0 + jump) * omega * time + 3.0 * ends.e).min(1.0) * (2.0 * q).min(1.0);
+        // Both contacts at once swing with √(1 ∓ q) of the lone frequency and damping; 1.3 for partings that are not at once.
+        let rebound = (1.3 * libm::pow(ends.e, (1.0 - q).max(0.0).sqrt())).min(1.0);
+        Self { pulse, time, velocity_shock, seen: if velocity_shock { 1.0 } else { soft }, rebound }
+    }
+    /// Shares of the earlier and of the later shock that are in doubt when the later follows after `gap`.
+    fn doubt(&self, gap: f64) -> (f64, f64) {
+        if gap >= self.time {
+            return (0.0, 0.0);
+        }
+        let x = gap / self.time;
+        let (earlier, later) = if self.velocity_shock {
+            // What a window of one contact time holds of both.
+            let share = self.pulse.remaining(x).max(1.0 - self.pulse.remaining(1.0 - x));
+            (share, share)
+        } else {
+            // Fitted: the later shock acts on the contact that is still there, whatever that has left to do.
+            (self.pulse.remaining(x), (3.0 * (1.0 - x)).min(1.0))
+        };
+        (self.seen * earlier, self.seen * later)
+    }
+}
+
+/// Bound on the shocks to come of a bar whose speed at the component stays below `speed`: from one side to the other, by one contact
+/// or by both together.
+pub(super) fn later_shock(speed: f64, gravity: f64, contact_s: f64) -> f64 {
+    2.0 * speed + gravity * contact_s
+}
+
+/// What the same may add to the response, about: one such shock, and the weight that the ground carries in the end.
+pub(super) fn later_response(swing: &Swing, speed: f64, gravity: f64, omega: f64) -> f64 {
+    2.0 * (swing.factor * speed + gravity / omega)
+}
+
+/// Whether [`Scene::simulate_compliant`] takes it: its own conditions, without the fit.
+fn takes(scene: &Scene, time: f64) -> bool {
+    let (body, v0) = (scene.body(), scene.speed_m_s());
+    let length = body.length_m();
+    let fastest = body.arms_m().iter().fold(v0, |m, arm| m.max(v0 + arm * scene.spin_rad_s().abs()));
+    scene.e() >= 0.01
+        && body.gyration_m() >= 0.05 * length
+        && time * fastest <= 0.1 * length
+        && time * time * scene.gravity_m_s2() <= 0.01 * length
+}
+
+/// Everything of a walk that outlives it.
+#[derive(Debug, Clone, Copy)]
+struct Walk<const N: usize> {
+    intervals: [Interval; N],
+    strikes: usize,
+    /// Bound on the response, or shock, after the strikes followed; what of it is not there yet.
+    late: f64,
+    extra: f64,
+    /// Whether nothing later can exceed the peak, and until when that needs following.
+    until_s: f64,
+    largest: f64,
+    net: f64,
+    last_s: f64,
+    shortest_gap_s: f64,
+    overlaps: bool,
+    /// Lanes that have had the same strikes so far.
+    alive: [bool; 3],
+}
+
+impl Setup {
+    /// What every rung gets wrong in this quantity, about.
+    ///
+    /// # Cost
+    /// Of the order of a microsecond; bench `plan` measures it.
+    #[must_use]
+    pub fn forecast(&self, quantity: Quantity) -> Forecast {
+        self.follow::<STRIKES>(quantity)
+    }
+
+    /// The same from a longer look, of [`MANY_STRIKES`]: worth it before contacts are followed, where the first few strikes leave open what
+    /// later ones do.
+    ///
+    /// # Cost
+    /// Some ten times as much.
+    #[must_use]
+    pub fn forecast_far(&self, quantity: Quantity) -> Forecast {
+        self.follow::<MANY_STRIKES>(quantity)
+    }
+
+    fn follow<const N: usize>(&self, quantity: Quantity) -> Forecast {
+        let ends = Ends::new(&self.scene, self.position);
+        let (zeta, omega) = (self.suspension.damping().get(), self.suspension.omega());
+        let swing = Swing::new(zeta, quantity == Quantity::PeakAcceleration);
+        let pulse = Pulse::new(ends.e);
+        let time = self.contact_time_s.unwrap_or(0.0);
+        let coupling = Coupling::new(&ends, pulse, time, omega, swing.jump(), quantity);
+        let walk = self.walk::<N>(&ends, &swing, &coupling);
+        let intervals = &walk.intervals[..walk.strikes];
+        let peak = intervals.iter().fold(Interval::default(), |m, i| if i.value > m.value { *i } else { m });
+        // As if impulses, then as pulses: a peak that pulses flatten leaves more room to every error.
+        let (smooth, impulse_phase) = smoothing(&swing, &pulse, omega * time, peak.phase, zeta);
+        let response = quantity != Quantity::VelocityShock;
+        let left = if response { 1.0 - smooth.min(0.8) } else { 1.0 };
+        let worst = |k: usize| {
+            let mut error = peak.off[k];
+            for i in intervals {
+                error = error.max(i.value + i.off[k] - peak.value);
+            }
+            error.max(walk.later(k, peak.value)) / (left * peak.value)
+        };
+        let [map, ballistic, tilted] = [worst(0), worst(1), worst(2)];
+        let of_peak = |shock: f64| (swing.factor * shock.abs() / peak.value - 1.0).abs();
+        let component = if response {
+            [of_peak(walk.net) + smooth, of_peak(walk.largest) + smooth, smooth]
+        } else {
+            [f64::INFINITY, 0.0, f64::INFINITY]
+        };
+        let number = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
+        let (strikes, contacts) = walk.about(ends.e);
+        let (v0, gap) = (self.scene.speed_m_s(), self.scene.height_gap_m());
+        Forecast {
+            quantity,
+            bar: [map, map, ballistic, tilted].map(number),
+            component: component.map(number),
+            overlaps: walk.overlaps,
+            contact_known: self.contact_time_s.is_some(),
+            compliant: self.contact_time_s.is_some_and(|time| takes(&self.scene, time)),
+            shortest_gap_s: walk.shortest_gap_s,
+            impulse_phase,
+            omega,
+            strikes,
+            contacts,
+            groups: Groups {
+                gravity: self.scene.gravity_m_s2() * gap / (v0 * v0),
+                geometry: self.scene.tilt_rad().powi(2),
+                overlap: time / walk.shortest_gap_s,
+                pulse: omega * time,
+                train: omega * walk.last_s,
+                damping: zeta * omega * walk.shortest_gap_s,
+            },
+            until_s: walk.until_s,
+            peak: peak.value
+                * match quantity {
+                    Quantity::PeakAcceleration => omega,
+                    Quantity::RattleSpace => 1.0 / omega,
+                    Quantity::VelocityShock => 1.0,
+                },
+        }
+    }
+
+    /// Follows the first strikes in four lanes.
+    #[expect(
+        clippy::too_many_lines,
+        reason = "one loop; all that it carries from strike to strike is used by the next"
+    )]
+    fn walk<const N: usize>(&self, ends: &Ends, swing: &Swing, coupling: &Coupling) -> Walk<N> {
+        let (g, omega, time) = (self.scene.gravity_m_s2(), self.suspension.omega(), coupling.time);
+        let shocks = coupling.velocity_shock;
+        let unit = if shocks { 1.0 } else { swing.factor };
+        let start = Lane::start(&self.scene, 1.0);
+        let tilted = Lane::start(&self.scene, libm::cos(self.scene.tilt_rad())).with_gravity(g).with_tilt();
+        let mut full = tilted.with_delay(time * coupling.pulse.centroid);
+        let mut lanes = [start, start.with_gravity(g), tilted];
+        let mut walk = Walk {
+            intervals: [Interval::default(); N],
+            strikes: 0,
+            late: 0.0,
+            extra: 0.0,
+            until_s: f64::INFINITY,
+            largest: 0.0,
+            net: 0.0,
+            last_s: 0.0,
+            shortest_gap_s: f64::INFINITY,
+            overlaps: false,
+            alive: [true; 3],
+        };
+        let (mut motion, mut off) = (Motion::default(), [Motion::default(); 3]);
+        // Shocks that a lane lacks, and shocks in doubt, faded.
+        let (mut lacking, mut doubtful) = ([0.0_f64; 3], 0.0_f64);
+        let (mut last, mut peak) = (0.0_f64, 0.0_f64);
+        let (mut next, mut rested) = (Next::FIRST, false);
+        // Speed at the component before the last strike, and what overlapping contacts leave of it.
+        let (mut before, mut floor) = (full.reach(ends), 0.0_f64);
+        loop {
+            let n = walk.strikes;
+            let (mut later, gap) = (0.0, next.after);
+            if n > 0 {
+                let interval = &mut walk.intervals[n - 1];
+                if !shocks {
+                    let turn = swing.turn(omega * gap);
+                    if swing.bound(motion) > 0.5 * peak {
+                        let top = swing.peak(motion, omega * gap);
+                        (interval.value, interval.phase) = (top.value, top.phase);
+                    }
+                    motion = swing.after(&turn, motion);
+                    let end = swing.quantity(motion).abs();
+                    if end > interval.value {
+                        (interval.value, interval.phase) = (end, omega * gap);
+                    }
+                    off = off.map(|m| swing.after(&turn, m));
+                    lacking = lacking.map(|l| turn.fade * l);
+                    doubtful *= turn.fade;
+                }
+                peak = peak.max(interval.value);
+                if rested && !shocks {
+                    // The ground carried the weight, which no train of strikes has: as one push, or as a load.
+                    let weight = g * gap.min(2.0 / omega);
+                    doubtful += weight;
+                    for off in &mut interval.off {
+                        *off += unit * weight;
+                    }
+                }
+                let (earlier, share) = coupling.doubt(gap);
+                later = share;
+                doubtful += earlier * last;
+                for off in &mut interval.off {
+                    *off += unit * earlier * last;
+                }
+                walk.shortest_gap_s = walk.shortest_gap_s.min(gap);
+                walk.overlaps |= gap < time && coupling.seen * last > 1e-3 * peak;
+                let now = full.reach(ends);
+                if gap < time {
+                    floor = floor.max(coupling.rebound * before);
+                }
+                let speed = now.max(floor);
+                before = now;
+                (walk.late, walk.extra) = if shocks {
+                    let shock = later_shock(speed, g, time);
+                    (shock, shock)
+                } else {
+                    let extra = later_response(swing, speed, g, omega);
+                    (swing.bound(motion) + extra, extra)
+                };
+                if walk.late < CLEAR * peak && gap >= time {
+                    // Strikes of other models may be later than those of this one.
+                    walk.until_s = 1.25 * walk.last_s + 0.5 * (gap + time);
+                    break;
+                }
+                if n == N {
+                    break;
+                }
+            }
+            let delta_v = full.strike(ends, &next);
+            walk.last_s += gap;
+            // The ground also carries the weight while it pushes.
+            doubtful += later * delta_v.abs() + g * if n == 0 { time } else { time.min(gap) };
+            last = delta_v.abs();
+            let rate = swing.rate(motion);
+            motion.w -= delta_v;
+            let mut interval = Interval { value: if shocks { last } else { 0.0 }, ..Interval::default() };
+            for k in 0..3 {
+                let own = if n == 0 { Some(Next::FIRST) } else { lanes[k].next(ends) };
+                let own = own.filter(|own| walk.alive[k] && own.end == next.end);
+                let mut shock_off = last;
+                if let Some(own) = own {
+                    let own_delta_v = lanes[k].strike(ends, &own);
+                    if k == 0 {
+                        walk.largest = walk.largest.max(own_delta_v.abs());
+                        walk.net += own_delta_v;
+                    }
+                    shock_off = (own_delta_v - delta_v).abs();
+                    // A later strike lets the motion turn further; beyond a radian no further than it is large.
+                    let turned = omega * (own.after - gap);
+                    let turned = turned / (1.0 + turned.abs());
+                    off[k].x += rate.x * turned;
+                    off[k].w += rate.w * turned - (own_delta_v - delta_v);
+                } else {
+                    walk.alive[k] = false;
+                    lacking[k] += last;
+                }
+                interval.off[k] = if shocks {
+                    shock_off + doubtful
+                } else {
+                    swing.bound(off[k]) + swing.factor * (lacking[k] + doubtful)
+                };
+            }
+            walk.intervals[n] = interval;
+            walk.strikes += 1;
+            let Some(follows) = full.next(ends) else {
+                // Nothing falls any more: the ring-down.
+                let interval = &mut walk.intervals[n];
+                if !shocks {
+                    let top = swing.peak(motion, f64::INFINITY);
+                    (interval.value, interval.phase) = (top.value, top.phase);
+                }
+                walk.until_s = f64::INFINITY;
+                (walk.late, walk.extra) = (0.0, 0.0);
+                break;
+            };
+            (next, rested) = (follows, full.is_down());
+        }
+        // The closed form has the whole train of the map.
+        let [mut map, ..] = lanes;
+        let mut left = N;
+        while walk.net.is_finite()
+            && let Some(own) = map.next(ends)
+        {
+            let delta_v = map.strike(ends, &own);
+            walk.largest = walk.largest.max(delta_v.abs());
+            walk.net = if left == 0 { f64::INFINITY } else { walk.net + delta_v };
+            left = left.saturating_sub(1);
+        }
+        walk
+    }
+}
+
+impl<const N: usize> Walk<N> {
+    /// What lane k may get wrong after the strikes followed.
+    fn later(&self, k: usize, peak: f64) -> f64 {
+        let above = self.late - peak;
+        let intervals = &self.intervals[..self.strikes];
+        // The map has no later strikes; the others have them, about.
+        if above <= 0.0 || k == 0 || self.extra >= ROOM * peak {
+            return above;
+        }
+        let worst = intervals.iter().fold(0.0_f64, |m, i| m.max(i.off[k]));
+        // Fitted: what later strikes add is off by 4 times what the earlier ones were.
+        let share = if self.alive[k] { 4.0 * (worst / peak).min(1.0) } else { 4.0 };
+        above.min(share * self.extra + intervals.last().map_or(0.0, |i| i.off[k]))
+    }
+    /// Strikes until `until_s`, about, of models with impacts (until they have fallen by 10⁻¹⁵, both ends in turn) and with contacts
+    /// (until both ends lie on their springs).
+    fn about(&self, e: f64) -> (f64, f64) {
+        let loss = 0.05 - libm::log(e.max(1e-30));
+        #[expect(clippy::cast_precision_loss, reason = "a few strikes")]
+        let followed = self.strikes as f64;
+        if self.until_s < f64::INFINITY { (followed, followed) } else { (followed + 240.0 / loss, 2.0 + 8.0 / loss) }
+    }
+}
+
+/// What impulses in place of pulses change at a peak that stands `phase` after its shock, and the phases ωτ at which a term
+/// linear and one quadratic in them would be 1.
+fn smoothing(swing: &Swing, pulse: &Pulse, turned: f64, phase: f64, zeta: f64) -> (f64, [f64; 2]) {
+    let age = 1.0 - pulse.centroid;
+    let half = 0.5 * pulse.variance;
+    let slope = if phase > 0.0 {
+        0.0
+    } else if swing.jump() > 1.0 {
+        // A(0) = 2ζ, A′(0) = 1 − 4ζ² after the jump of the dashpot.
+        (4.0 * zeta * zeta - 1.0) / (2.0 * zeta)
+    } else {
+        1.0
+    };
+    let early = if phase > 0.0 { 0.3 * (turned * age - phase).max(0.0) } else { 0.0 };
+    let smooth = half * turned * turned + slope * age * turned + early;
+    (smooth, [slope * age, half])
+}
+
+impl Forecast {
+    /// What the bar rung gets wrong, with the best component model.
+    #[must_use]
+    pub fn bar(&self, rung: BarRung) -> Estimate {
+        let error = match rung {
+            BarRung::ClosedForm => self.bar[0],
+            BarRung::Map => self.bar[1],
+            BarRung::Ballistic => self.bar[2],
+            BarRung::FiniteTilt => self.bar[3],
+            BarRung::Compliant => return Estimate { error: self.compliant_error(), is_bound: true },
+        };
+        Estimate { error, is_bound: false }
+    }
+    fn compliant_error(&self) -> f64 {
+        if self.compliant { 0.0 } else { f64::INFINITY }
+    }
+    /// What the component rung gets wrong, with the best bar model; infinite where it does not apply.
+    #[must_use]
+    pub fn component(&self, rung: ComponentRung) -> Estimate {
+        let error = match rung {
+            ComponentRung::NetChange => self.component[0],
+            ComponentRung::LargestShock => self.component[1],
+            ComponentRung::ImpulseTrain => self.component[2],
+            // Without a contact time there are no pulses.
+            ComponentRung::PulseTrain if self.contact_known => return Estimate { error: 0.0, is_bound: true },
+            ComponentRung::PulseTrain => f64::INFINITY,
+        };
+        Estimate { error, is_bound: false }
+    }
+    /// What a pair gets wrong: the sum of both. The highest pair has no error by definition; other component models on the
+    /// compliant bar are not estimated, since its contacts may merge into one.
+    #[must_use]
+    pub fn pair(&self, pair: Pair) -> Estimate {
+        if pair == Pair::HIGHEST {
+            return Estimate { error: self.compliant_error(), is_bound: true };
+        }
+        let error = if pair.bar == BarRung::Compliant {
+            f64::INFINITY
+        } else {
+            self.bar(pair.bar).error + self.component(pair.component).error
+        };
+        Estimate { error, is_bound: false }
+    }
+    /// What a pair costs, about, in ns on a 2.9 GHz core: a sum of constants measured once, by the study. Only ratios are good for
+    /// anything, and on the average of many scenes: a single one may differ by a factor of 10.
+    #[must_use]
+    pub fn cost_ns(&self, pair: Pair) -> f64 {
+        let (n, contacts) = (self.strikes, self.contacts);
+        let bar = match pair.bar {
+            BarRung::ClosedForm => 200.0,
+            BarRung::Map => 300.0 + 60.0 * n.min(20.0),
+            BarRung::Ballistic => 300.0 + 50.0 * n,
+            BarRung::FiniteTilt => 500.0 + 300.0 * n,
+            BarRung::Compliant => 3e3 + 5e3 * contacts,
+        };
+        let component = match pair.component {
+            ComponentRung::NetChange | ComponentRung::LargestShock => 150.0,
+            ComponentRung::ImpulseTrain => 200.0 + 120.0 * if pair.bar == BarRung::Map { n.min(20.0) } else { n },
+            ComponentRung::PulseTrain if pair.bar == BarRung::Compliant => 5e3 + 12e3 * contacts,
+            // Pulses of small shocks have few corners.
+            ComponentRung::PulseTrain => 4e3 + 8e3 * n.min(if pair.bar == BarRung::Map { 8.0 } else { 40.0 }),
+        };
+        bar + component
+    }
+}

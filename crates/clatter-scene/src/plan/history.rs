@@ -1,0 +1,188 @@
+//! What the ground does to the component's place, as a polygon of accelerations over time.
+
+use clatter::flight::{CompliantFlight, Stop};
+use clatter_shock::VelocityShock;
+
+use super::Setup;
+use super::pulse::Pulse;
+
+/// (time in s, acceleration in m/s²); two points at one time are a jump.
+pub(super) type Polygon = Vec<(f64, f64)>;
+
+/// How long, in periods of the component, the weight is kept after rest, and how long it is then taken away without ringing.
+const WEIGHT_PERIODS: [f64; 2] = [2.0, 64.0];
+/// Contact times after rest in which the contacts are followed until they only carry the weight.
+const SETTLED: f64 = 1e3;
+/// Shocks below this share of the largest are triangles, below its square nothing.
+const SMALL: f64 = 1e-5;
+
+/// What the contacts of a compliant flight do to a position, from its velocity and height there, free fall taken off.
+///
+/// Between changes of contact the motion is smooth; `cells` pieces are laid over a contact that does all, fewer (with the square
+/// root of its share) over one that does less, denser where it begins. Each piece has the exact change of velocity and the exact
+/// path, so that its effect on a component is off by the fourth power of its length.
+pub(super) fn of_contacts(
+    setup: &Setup,
+    flight: &CompliantFlight,
+    until_s: f64,
+    contact_s: f64,
+    cells: f64,
+) -> Polygon {
+    let (scene, s) = (setup.scene, setup.position);
+    let at = |[a, b]: [f64; 2]| 0.5 * ((1.0 - s) * a + (1.0 + s) * b);
+    let g = scene.gravity_m_s2();
+    let motion = |t: f64| {
+        let sample = flight.sample(t);
+        (at(sample.height_m), at(sample.velocity_m_s))
+    };
+    let piece = |from: f64, to: f64, start: (f64, f64), end: (f64, f64)| {
+        let h = to - from;
+        let change = (end.1 - start.1) / h + g;
+        // ∫∫ a over the piece, twice over h².
+        let path = 2.0 * ((end.0 - start.0) / h - start.1) / h + g;
+        [(from, 3.0 * path - 2.0 * change), (to, 4.0 * change - 3.0 * path)]
+    };
+    let largest = flight.flight.strikes.iter().flat_map(|s| s.delta_v_m_s).fold(0.0_f64, |m, v| m.max(v.abs()));
+    let rate = 2.0 * Pulse::new(scene.e()).rate() / contact_s;
+    let mut cuts: Vec<_> = flight.phases_s().collect();
+    let stop = flight.flight.stop.time_s();
+    let at_stop = cuts.last().map_or([false; 2], |(_, on)| *on);
+    cuts.push((stop, at_stop));
+    let rests = matches!(flight.flight.stop, Stop::AtRest { .. }) && until_s >= stop;
+    if rests {
+        cuts.push((stop + SETTLED * contact_s, at_stop));
+    }
+    let mut points = vec![(0.0, 0.0)];
+    let (mut pressing, mut changed) = ([false; 2], 0.0);
+    for cut in cuts.windows(2) {
+        let ((from, on), (to, _)) = (cut[0], cut[1]);
+        let long = to - from;
+        if on != pressing {
+            (pressing, changed) = (on, from);
+        }
+        if from >= until_s {
+            break;
+        }
+        // A shorter phase does nothing, and its motion has no digits.
+        if long < 1e-6 * contact_s {
+            continue;
+        }
+        let force = [0.02, 0.5]
+            .iter()
+            .fold(0.0_f64, |m, x| flight.sample(from + x * long).force_per_mass_m_s2.iter().fold(m, |m, f| m.max(*f)));
+        if on == [false; 2] || force == 0.0 {
+            points.extend([(from, 0.0), (to, 0.0)]);
+            continue;
+        }
+        let share = (force * long.min(contact_s) / largest).min(1.0);
+        let nodes = nodes(rate, from - changed, long, contact_s, (cells * share.sqrt()).max(6.0));
+        // Just before its end, not in what follows.
+        let last = to - 1e-9 * long.min(contact_s);
+        let mut now = (from, motion(from));
+        for t in &nodes[1..] {
+            let time = (from + t).min(last);
+            let next = (time, motion(time));
+            points.extend(piece(now.0, next.0, now.1, next.1));
+            now = next;
+        }
+    }
+    if rests {
+        let end = points.last().map_or(0.0, |p| p.0);
+        let weight = at(flight.sample(end).acceleration_m_s2) + g;
+        let period = std::f64::consts::TAU / setup.suspension.omega();
+        let keep = end + WEIGHT_PERIODS[0] * period;
+        points.extend([(end, weight), (keep, weight), (keep + WEIGHT_PERIODS[1] * period, 0.0)]);
+    }
+    points
+}
+
+/// Times from 0 over one phase, `age` after contacts changed: `cells` or so over a contact time, denser just after a change, and ever
+/// fewer over a contact that lasts.
+fn nodes(rate: f64, age: f64, long: f64, contact_s: f64, cells: f64) -> Vec<f64> {
+    let longest = contact_s / cells;
+    let first = if age > 0.0 { longest + 0.05 * age } else { (3.0 / (cells * rate)).min(longest) };
+    let mut step = first.min(if age > 0.0 { long } else { 0.25 * long });
+    let (mut t, mut nodes) = (0.0, vec![0.0]);
+    while t + 1.5 * step < long {
+        t += step;
+        nodes.push(t);
+        let most = if age + t < 4.0 * contact_s { longest } else { 10.0 * contact_s };
+        step = (step * (1.0 + 4.0 / cells)).min(most);
+    }
+    nodes.push(long);
+    nodes
+}
+
+/// Velocity shocks as pulses of lone contacts, added up where they overlap.
+pub(super) fn of_shocks(shocks: &[VelocityShock], e: f64, contact_s: f64, cells: usize) -> Polygon {
+    let pulse = Pulse::new(e);
+    // Each next one for shocks of a 64th.
+    let shapes = [cells, cells / 8 + 4, 8].map(|cells| pulse.polygon(cells));
+    let triangle = [(0.0, 0.0), (0.5, 2.0), (1.0, 0.0)];
+    let largest = shocks.iter().fold(0.0_f64, |m, s| m.max(s.delta_v.abs()));
+    // (time, jump, change of slope)
+    let mut corners: Vec<(f64, f64, f64)> = Vec::new();
+    for shock in shocks {
+        let share = shock.delta_v.abs() / largest;
+        let polygon: &[(f64, f64)] = match share {
+            s if s > 0.015 => &shapes[0],
+            s if s > 2e-4 => &shapes[1],
+            s if s > SMALL => &shapes[2],
+            _ => &triangle,
+        };
+        if share < SMALL * SMALL {
+            continue;
+        }
+        let height = shock.delta_v / contact_s;
+        let mut slope = 0.0;
+        for (k, &(t, a)) in polygon.iter().enumerate() {
+            let next = polygon.get(k + 1).map_or(0.0, |&(u, b)| (b - a) / (u - t));
+            let jump = if k == 0 {
+                a
+            } else if k + 1 == polygon.len() {
+                -a
+            } else {
+                0.0
+            };
+            corners.push((shock.time + contact_s * t, height * jump, height / contact_s * (next - slope)));
+            slope = next;
+        }
+    }
+    corners.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (mut a, mut slope, mut time) = (0.0, 0.0, corners.first().map_or(0.0, |c| c.0));
+    let mut points = vec![(time, 0.0)];
+    for (t, jump, bend) in corners {
+        a += slope * (t - time);
+        points.push((t, a));
+        if jump != 0.0 {
+            a += jump;
+            points.push((t, a));
+        }
+        slope += bend;
+        time = t;
+    }
+    points
+}
+
+/// Largest change of velocity within a time.
+pub(super) fn largest_change(polygon: &[(f64, f64)], within_s: f64) -> f64 {
+    let mut velocity = vec![0.0];
+    for w in polygon.windows(2) {
+        velocity.push(velocity[velocity.len() - 1] + 0.5 * (w[0].1 + w[1].1) * (w[1].0 - w[0].0));
+    }
+    // The velocity is made of parabolas; its change over a window is largest where a window begins or ends at a corner, but
+    // for a piece's own curvature.
+    let at = |t: f64| {
+        let k = polygon.partition_point(|p| p.0 <= t);
+        if k == 0 || k == polygon.len() {
+            return if k == 0 { 0.0 } else { velocity[k - 1] };
+        }
+        let ((t0, a0), (t1, a1)) = (polygon[k - 1], polygon[k]);
+        let h = t - t0;
+        velocity[k - 1] + h * (a0 + 0.5 * h * (a1 - a0) / (t1 - t0))
+    };
+    polygon
+        .iter()
+        .zip(&velocity)
+        .fold(0.0_f64, |m, (p, v)| m.max((v - at(p.0 - within_s)).abs()).max((at(p.0 + within_s) - v).abs()))
+}

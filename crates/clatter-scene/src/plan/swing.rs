@@ -1,0 +1,148 @@
+//! Free motion of the component, for estimates: x = ωz, w = z′, over the phase θ = ωt.
+//!
+//! `x″ + 2ζ x′ + x = 0`; a quantity is Q = r₀ x + r₁ w, with r = (1, 0) for the relative displacement ωz and (1, 2ζ) for the absolute
+//! acceleration over ω, sign aside. Next to ζ = 1 the damping is shifted by 5·10⁻⁷, far below what an estimate is good for.
+
+/// The component and the quantity asked of it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Swing {
+    zeta: f64,
+    /// √|1 − ζ²|
+    beta: f64,
+    swings: bool,
+    row: [f64; 2],
+    /// Peak of |Q| after a unit of w.
+    pub(super) factor: f64,
+}
+
+/// Motion relative to the base.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Motion {
+    pub(super) x: f64,
+    pub(super) w: f64,
+}
+
+/// What a phase does to a motion.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Turn {
+    c: f64,
+    s: f64,
+    /// What is left of the slowest mode.
+    pub(super) fade: f64,
+}
+
+/// A largest value, and the phase at which it stands.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Peak {
+    pub(super) value: f64,
+    pub(super) phase: f64,
+}
+
+impl Swing {
+    pub(super) fn new(zeta: f64, acceleration: bool) -> Self {
+        let gap = 1.0 - zeta * zeta;
+        let gap = if gap.abs() < 1e-6 { 1e-6 } else { gap };
+        let row = if acceleration { [1.0, 2.0 * zeta] } else { [1.0, 0.0] };
+        let swing = Self { zeta, beta: gap.abs().sqrt(), swings: gap > 0.0, row, factor: 0.0 };
+        let unit = Motion { x: 0.0, w: 1.0 };
+        Self { factor: swing.peak(unit, f64::INFINITY).value, ..swing }
+    }
+    /// Q.
+    pub(super) fn quantity(&self, m: Motion) -> f64 {
+        self.row[0] * m.x + self.row[1] * m.w
+    }
+    /// How much of Q a jump of w is at once.
+    pub(super) fn jump(&self) -> f64 {
+        self.row[1]
+    }
+    /// Derivative by the phase.
+    pub(super) fn rate(&self, m: Motion) -> Motion {
+        Motion { x: m.w, w: -m.x - 2.0 * self.zeta * m.w }
+    }
+    pub(super) fn turn(&self, theta: f64) -> Turn {
+        let (z, b) = (self.zeta, self.beta);
+        if self.swings {
+            let fade = libm::exp(-z * theta);
+            let (s, c) = libm::sincos((b * theta).min(1e15));
+            Turn { c: fade * c, s: fade * s / b, fade }
+        } else {
+            let (fade, fast) = (libm::exp(-theta / (z + b)), libm::exp(-(z + b) * theta));
+            Turn { c: 0.5 * (fade + fast), s: 0.5 * (fade - fast) / b, fade }
+        }
+    }
+    pub(super) fn after(&self, turn: &Turn, m: Motion) -> Motion {
+        let z = self.zeta;
+        Motion { x: m.x * turn.c + (m.w + z * m.x) * turn.s, w: m.w * turn.c - (m.x + z * m.w) * turn.s }
+    }
+    /// Largest |Q| of the free motion from m before the phase `until`: its start or its first turning point.
+    pub(super) fn peak(&self, m: Motion, until: f64) -> Peak {
+        let start = Peak { value: self.quantity(m).abs(), phase: 0.0 };
+        let rate = self.rate(m);
+        let (slope, bend) = (self.quantity(rate), self.quantity(self.rate(rate)));
+        let turn = if self.swings {
+            let sine = (bend + self.zeta * slope) / self.beta;
+            let phase = libm::atan2(slope.abs(), if slope < 0.0 { sine } else { -sine }) / self.beta;
+            (phase > 0.0 && phase < until)
+                .then(|| Peak { value: self.amplitude(m) * libm::exp(-self.zeta * phase), phase })
+        } else {
+            // slope = C e^(−(ζ−β)θ) + D e^(−(ζ+β)θ)
+            let slow = (bend + (self.zeta + self.beta) * slope) / (2.0 * self.beta);
+            let ratio = 1.0 - slope / slow;
+            let phase = if ratio > 1.0 { libm::log(ratio) / (2.0 * self.beta) } else { f64::INFINITY };
+            (phase < until).then(|| Peak { value: self.quantity(self.after(&self.turn(phase), m)).abs(), phase })
+        };
+        turn.filter(|t| t.value > start.value).unwrap_or(start)
+    }
+    /// √(w² + 2ζxw + x²): Q at its turning points is at most this, for ζ < 1.
+    fn amplitude(&self, m: Motion) -> f64 {
+        (m.w * m.w + 2.0 * self.zeta * m.x * m.w + m.x * m.x).max(0.0).sqrt()
+    }
+    /// Bound on |Q| from here on.
+    pub(super) fn bound(&self, m: Motion) -> f64 {
+        if self.swings { self.quantity(m).abs().max(self.amplitude(m)) } else { m.x.abs() + self.factor * m.w.abs() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clatter_shock::{DampingRatio, State, Suspension, VelocityShock, VelocityShocks};
+
+    /// Against the exact motion of the other crate.
+    #[test]
+    fn motion_and_peaks_are_those_of_the_suspension() {
+        for zeta in [0.0, 0.05, 0.4, 0.7, 0.999, 1.0, 1.3, 2.0, 20.0] {
+            let damping = DampingRatio::new(zeta).expect("as the test has it");
+            let unit = Suspension::new(1.0, damping).expect("as the test has it");
+            let factors = damping.impulse_factors();
+            for (acceleration, factor) in [(true, factors.acceleration), (false, factors.displacement)] {
+                let swing = Swing::new(zeta, acceleration);
+                assert!((swing.factor / factor - 1.0).abs() < 2e-6, "zeta {zeta}: {} {factor}", swing.factor);
+            }
+            let swing = Swing::new(zeta, false);
+            for (x, w) in [(0.3, -1.0), (-2.0, 0.1), (0.0, 1.0), (1.0, 0.0)] {
+                for theta in [0.01, 0.5, 3.0, 40.0] {
+                    let m = swing.after(&swing.turn(theta), Motion { x, w });
+                    let exact = unit.free(State { displacement: x, velocity: w }, theta);
+                    assert!((m.x - exact.displacement).abs() < 1e-4, "zeta {zeta} theta {theta}: {m:?} {exact:?}");
+                    assert!((m.w - exact.velocity).abs() < 1e-4, "zeta {zeta} theta {theta}: {m:?} {exact:?}");
+                    assert!(swing.bound(Motion { x, w }) >= m.x.abs(), "zeta {zeta} theta {theta}");
+                }
+            }
+            // Two shocks: the peak of the second interval starts from a motion that is not at rest.
+            let train = VelocityShocks::new(vec![
+                VelocityShock { time: 0.0, delta_v: -1.0 },
+                VelocityShock { time: 0.8, delta_v: 0.4 },
+            ])
+            .expect("as the test has it");
+            let exact = train.respond(&unit).absolute_acceleration.magnitude();
+            let swing = Swing::new(zeta, true);
+            let first = Motion { x: 0.0, w: 1.0 };
+            let mut second = swing.after(&swing.turn(0.8), first);
+            let end = swing.quantity(second).abs();
+            second.w -= 0.4;
+            let peak = swing.peak(first, 0.8).value.max(end).max(swing.peak(second, f64::INFINITY).value);
+            assert!((peak / exact - 1.0).abs() < 1e-5, "zeta {zeta}: {peak} {exact}");
+        }
+    }
+}

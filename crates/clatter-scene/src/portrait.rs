@@ -1,0 +1,213 @@
+//! What a page shows of a part beside its verdict: its response in the worst drop, its demand over the tilt, its safe places.
+
+use clatter::End;
+use clatter_shock::{State, Suspension};
+use rayon::prelude::*;
+
+use crate::base::{Base, SingleDrop};
+use crate::demand::{Demand, Heard};
+use crate::{Assessment, BarModel, Component, ComponentModel, Error, LimitAssessment, LimitKind, ProductFile, Unit};
+
+/// Points (x, y) of a line.
+pub type Curve = Vec<(f64, f64)>;
+
+/// A part to be drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Portrait {
+    /// Time (s) and value (SI) of what the tightest limit is on, in its worst drop. A velocity change is a spike.
+    pub history: Curve,
+    /// When the ends strike in that drop, in s.
+    pub impacts_s: Vec<f64>,
+    /// Tilt (rad) and the most that the tightest limit is asked there, a curve for each end that may touch first.
+    pub over_tilt: Vec<(End, Curve)>,
+    /// Where the middle of the part could be, and every limit hold in every drop, in m from the middle of the product.
+    pub zone_m: Option<[f64; 2]>,
+}
+
+/// Points of a history between two strikes and after the last, at least.
+const POINTS: u32 = 600;
+/// Steps of the curve over the tilt.
+const TILTS: u32 = 40;
+/// Places along the product that are assessed for the zone.
+const PLACES: u32 = 33;
+
+impl ProductFile {
+    /// Portraits of all components of an assessment of this file.
+    ///
+    /// The curves over the tilt take the largest over the ends and middles of the ranges of speed, restitution and frequency, and
+    /// over those of the worst case. Zones are interpolated between 33 places: the demand is convex along the bar (a largest
+    /// absolute value of functions linear in the place), so that the zone shown lies within the true one.
+    ///
+    /// # Errors
+    /// As [`ProductFile::assess`].
+    pub fn portraits(&self, assessment: &Assessment) -> Result<Vec<Portrait>, Error> {
+        let zones = self.zones()?;
+        let each = self.components.par_iter().zip(&assessment.components).zip(zones);
+        each.map(|((component, assessed), zone_m)| {
+            let tightest = assessed.tightest();
+            let (history, impacts_s) = self.history(component, tightest)?;
+            let over_tilt = self.over_tilt(component, tightest)?;
+            Ok(Portrait { history, impacts_s, over_tilt, zone_m })
+        })
+        .collect()
+    }
+
+    /// The drop of a worst case, in the model that found it.
+    fn worst_drop(&self, limit: &LimitAssessment) -> SingleDrop {
+        let worst = &limit.worst_case;
+        SingleDrop {
+            first: worst.first,
+            tilt_rad: worst.tilt_deg.to_radians(),
+            speed_m_s: worst.speed_m_s,
+            restitution: worst.restitution,
+            gravity_m_s2: if limit.model.bar == BarModel::Map { 0.0 } else { self.drop.gravity_m_s2 },
+        }
+    }
+
+    fn history(&self, component: &Component, limit: &LimitAssessment) -> Result<(Curve, Vec<f64>), Error> {
+        let worst = &limit.worst_case;
+        let base = Base::new(&self.product, &self.worst_drop(limit), limit.model.bar)?;
+        let pulses = limit.model.component != ComponentModel::ImpulseTrain;
+        let slices = base.slices_at(worst.position_m, pulses);
+        let impacts: Vec<f64> = base.times().collect();
+        let suspension = worst.frequency_hz.map(|f| component.mount.suspension(f)).transpose()?.flatten();
+        let period = suspension.map_or(0.0, |s| std::f64::consts::TAU / s.omega());
+        // to the peak and a little on; what comes long after it is far weaker
+        let second = impacts.get(1).copied().unwrap_or(0.0);
+        let clatter = self.product.contact_time_s.map_or(second, |contact| 12.0 * contact);
+        let late = worst.time_s.max(0.25 * clatter);
+        let strikes = impacts.iter().copied().filter(|t| *t <= 4.0 * late).fold(late, f64::max);
+        let end = (1.25 * strikes).max(worst.time_s + 2.5 * period).max(1e-9);
+        let history = match (limit.limit, suspension) {
+            (LimitKind::Acceleration | LimitKind::RattleSpace, Some(suspension)) => {
+                let acceleration = limit.limit == LimitKind::Acceleration;
+                respond(&suspension, &slices, end, |state| {
+                    if acceleration { suspension.absolute_acceleration(state) } else { state.displacement }
+                })
+            }
+            (LimitKind::Acceleration | LimitKind::RattleSpace, None) => {
+                within(base.acceleration_at(worst.position_m), end)
+            }
+            (LimitKind::DamageBoundary, _) if limit.unit == Unit::MeterPerSecondSquared => {
+                within(base.acceleration_at(worst.position_m), end)
+            }
+            (LimitKind::VelocityChange | LimitKind::DamageBoundary, _) => spikes(base.shocks_of(worst.position_m), end),
+            (LimitKind::AngularVelocityChange, _) => spikes(base.turns(), end),
+        };
+        Ok((history, impacts.into_iter().filter(|t| *t <= end).collect()))
+    }
+
+    fn over_tilt(&self, component: &Component, limit: &LimitAssessment) -> Result<Vec<(End, Curve)>, Error> {
+        let demands = Demand::of(component);
+        let Some(demand) = demands.iter().find(|d| d.kind == limit.limit) else { return Ok(Vec::new()) };
+        let worst = self.worst_drop(limit);
+        let tilt = &self.drop.tilt_rad;
+        // one stated tilt is shown among its neighbors
+        let [lo, hi] = if tilt.is_value() {
+            [0.2 * tilt.lo(), (2.0 * tilt.hi()).clamp(1f64.to_radians(), 30f64.to_radians())]
+        } else {
+            [tilt.lo(), tilt.hi()]
+        };
+        let mut tilts: Vec<f64> = (0..=TILTS).map(|i| lo + f64::from(i) / f64::from(TILTS) * (hi - lo)).collect();
+        tilts.push(worst.tilt_rad);
+        tilts.sort_by(f64::total_cmp);
+        let thirds = |lo: f64, hi: f64, own: f64| {
+            let mut all = vec![lo, 0.5 * (lo + hi), hi, own];
+            all.sort_by(f64::total_cmp);
+            all.dedup();
+            all
+        };
+        let [slow, fast] = self.drop.speeds_m_s();
+        let speeds = thirds(slow, fast, worst.speed_m_s);
+        let restitutions = thirds(self.product.restitution.lo(), self.product.restitution.hi(), worst.restitution);
+        let frequencies = demand
+            .frequencies()
+            .map_or(vec![0.0], |f| thirds(f.lo(), f.hi(), limit.worst_case.frequency_hz.unwrap_or(f.lo())));
+        let pulses = limit.model.component == ComponentModel::PulseTrain;
+        let most = |first: End, tilt_rad: f64| {
+            let mut most = 0.0_f64;
+            for &speed_m_s in &speeds {
+                for &restitution in &restitutions {
+                    let drop = SingleDrop { first, tilt_rad, speed_m_s, restitution, ..worst };
+                    let base = Base::new(&self.product, &drop, limit.model.bar)?;
+                    for &frequency in &frequencies {
+                        most = most.max(demand.reached(&base, component, frequency, &mut Heard::new(pulses))?.value);
+                    }
+                }
+            }
+            let settled = demand.settle(most, self.product.contact_time_s);
+            Ok((tilt_rad, settled.factor * most))
+        };
+        let ends = self.drop.first_ends();
+        ends.iter()
+            .map(|&first| Ok((first, tilts.iter().map(|&t| most(first, t)).collect::<Result<_, Error>>()?)))
+            .collect()
+    }
+
+    /// The safe places of every component.
+    fn zones(&self) -> Result<Vec<Option<[f64; 2]>>, Error> {
+        let length = self.product.body.length_m();
+        let place = |i: u32| length * (f64::from(i) / f64::from(PLACES - 1) - 0.5);
+        let moved = |c: &Component| {
+            let c = c.clone();
+            (0..PLACES).map(move |i| Component { position_m: place(i), ..c.clone() })
+        };
+        let all = Self { components: self.components.iter().flat_map(moved).collect(), ..self.clone() };
+        let assessed = all.assess()?;
+        let zone = |places: &[crate::ComponentAssessment]| {
+            let margins: Vec<f64> = places.iter().map(|c| c.tightest().demand / c.tightest().allowed - 1.0).collect();
+            let safe = |m: &f64| *m <= 0.0;
+            let (first, last) = (margins.iter().position(safe)?, margins.iter().rposition(safe)?);
+            let at = |i: usize| place(u32::try_from(i).unwrap_or(PLACES));
+            let cross = |inner: usize, outer: usize| {
+                let (m, n) = (margins[inner], margins[outer]);
+                at(inner) + (at(outer) - at(inner)) * (-m / (n - m))
+            };
+            let lo = if first == 0 { at(0) } else { cross(first, first - 1) };
+            let hi = if last + 1 == margins.len() { at(last) } else { cross(last, last + 1) };
+            Some([lo, hi])
+        };
+        Ok(assessed.components.chunks(PLACES as usize).map(zone).collect())
+    }
+}
+
+/// The motion of a part that is driven by small velocity shocks, sampled and right at every shock.
+fn respond(suspension: &Suspension, slices: &[(f64, f64)], end: f64, value: impl Fn(State) -> f64) -> Vec<(f64, f64)> {
+    let step = end / f64::from(POINTS);
+    let (mut state, mut now) = (State::default(), 0.0);
+    let mut points = vec![(0.0, value(state))];
+    let mut coast = |points: &mut Vec<(f64, f64)>, state: &mut State, until: f64| {
+        let mut t = step;
+        while t < until - now {
+            points.push((now + t, value(suspension.free(*state, t))));
+            t += step;
+        }
+        *state = suspension.free(*state, until - now);
+        now = until;
+        points.push((now, value(*state)));
+    };
+    for &(time, delta_v) in slices.iter().take_while(|s| s.0 < end) {
+        if time > points.last().map_or(0.0, |p| p.0) {
+            coast(&mut points, &mut state, time);
+        }
+        state.velocity -= delta_v;
+        points.push((time, value(state)));
+    }
+    coast(&mut points, &mut state, end);
+    points
+}
+
+/// A history up to `end`, at rest from its last point on.
+fn within(mut history: Vec<(f64, f64)>, end: f64) -> Vec<(f64, f64)> {
+    history.retain(|p| p.0 <= end);
+    history.push((end, 0.0));
+    history
+}
+
+/// Shocks as spikes from zero.
+fn spikes(shocks: impl Iterator<Item = (f64, f64)>, end: f64) -> Vec<(f64, f64)> {
+    let mut points = vec![(0.0, 0.0)];
+    points.extend(shocks.take_while(|s| s.0 <= end).flat_map(|(t, v)| [(t, 0.0), (t, v), (t, 0.0)]));
+    points.push((end, 0.0));
+    points
+}

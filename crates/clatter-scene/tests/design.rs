@@ -1,0 +1,123 @@
+//! The smallest change, against closed forms and dense scans.
+
+#![cfg(test)]
+
+use clatter::design::{Goal, largest_restitution};
+use clatter_scene::design::{Border, Bounds, Lever, Outcome, Plane};
+use clatter_scene::{Mount, ProductFile, Verdict};
+
+fn product(parts: &str) -> ProductFile {
+    let text = format!(
+        "[product]\nname = \"test\"\nlength = \"300 mm\"\nradius_of_gyration = \"90 mm\"\nrestitution = [0.25, 0.4]\n\
+         [drop]\nheight = \"0.8 m\"\ntilt = [\"0.5 deg\", \"1.5 deg\"]\nfirst = \"either\"\n{parts}"
+    );
+    ProductFile::read(&text, "test.toml").unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+const PANEL: &str = "[[component]]\nname = \"panel\"\nposition = \"20 mm\"\nextent = \"20 mm\"\nmount = \"hard\"\n\
+    velocity_change_limit = \"3.2 m/s\"\n";
+const DRIVE: &str = "[[component]]\nname = \"drive\"\nposition = \"60 mm\"\nnatural_frequency = \"40 Hz\"\n\
+    damping_ratio = 0.1\nacceleration_limit = \"100 gn\"\n";
+
+fn outcome(file: &ProductFile, bounds: &Bounds, lever: Lever) -> Outcome {
+    let assessment = file.assess().unwrap();
+    assert_eq!(assessment.verdict, Verdict::Unsafe);
+    let remedies = file.remedies(&assessment, bounds).unwrap();
+    assert_eq!(remedies.len(), 1);
+    remedies[0].levers.iter().find(|remedy| remedy.lever == lever).unwrap().outcome.clone()
+}
+
+fn change(file: &ProductFile, lever: Lever) -> [[f64; 2]; 2] {
+    match outcome(file, &Bounds::default(), lever) {
+        Outcome::Change { from, to, after } => {
+            assert_eq!(after.verdict, Verdict::Safe, "assessed again");
+            [from, to]
+        }
+        other => panic!("{lever:?}: {other:?}"),
+    }
+}
+
+/// Velocity shocks of a hard part have closed forms.
+#[test]
+fn the_smallest_changes_of_a_hard_part_are_those_of_the_closed_forms() {
+    let file = product(PANEL);
+    let (q, v0) = (file.product.inertia_ratio(), file.drop.speeds_m_s()[1]);
+    let x = 3.2 / v0;
+    // place: s = (2x/peak + q − 1)/(1 + q) at the largest e, for the far edge of the part
+    let bar = clatter::Bar::new(q, 0.4).unwrap();
+    let edge = bar.safe_zone(&clatter::Start::default(), x).s * 0.15;
+    let [from, to] = change(&file, Lever::Position);
+    // The assessment bounds demands to half a per cent above; a step is 0.29 m/96, bisected twelve times.
+    let slack = 0.005 * x / (bar.peak(&clatter::Start::default()).end * (1.0 + q)) * 2.0 * 0.15 + 1e-6;
+    assert!(
+        (from[0] - 0.02).abs() < 1e-15 && to[0] < edge - 0.01 + 1e-9 && to[0] > edge - 0.01 - slack,
+        "{to:?}, {edge}"
+    );
+    // restitution: the whole range below the border of the plane
+    let goal = Goal::zone(x, 0.03 / 0.15).unwrap();
+    let most = largest_restitution(&[goal], q).unwrap();
+    let [from, to] = change(&file, Lever::Restitution);
+    assert!((from[0] - 0.25).abs() < 1e-15 && (from[1] - 0.4).abs() < 1e-15, "{from:?}");
+    assert!(to[1] < most + 1e-9 && to[1] > most - 0.01, "{to:?}, {most}");
+    assert!((to[1] - to[0] - 0.15).abs() < 1e-12, "the range moves as a whole");
+    assert_eq!(outcome(&file, &Bounds::default(), Lever::Frequency), Outcome::NoEffect);
+    assert_eq!(outcome(&file, &Bounds::default(), Lever::Damping), Outcome::NoEffect);
+}
+
+#[test]
+fn the_border_of_a_hard_part_is_exact() {
+    let file = product(PANEL);
+    let plane = Plane::of(&file, &Bounds::default()).unwrap();
+    let Border::Exact(pieces) = &plane.components[0].border else { panic!("{:?}", plane.components[0]) };
+    let v0 = file.drop.speeds_m_s()[1];
+    for p in pieces.iter().flatten().filter(|p| p.q < 1.0 && p.e > 1e-9 && p.e < 1.0) {
+        let bar = clatter::Bar::new(p.q, p.e).unwrap();
+        let peak = bar.peak_at(&clatter::Start::default(), 0.2) * v0;
+        assert!((peak - 3.2).abs() < 1e-12, "{peak} at {p:?}");
+    }
+}
+
+/// A dense scan of each lever finds nothing safe nearer than the answer.
+#[test]
+fn no_smaller_change_makes_a_suspended_part_safe() {
+    let file = product(DRIVE);
+    for lever in [Lever::Position, Lever::Frequency, Lever::Damping, Lever::InertiaRatio] {
+        let bounds = Bounds::default();
+        let (from, to) = match outcome(&file, &bounds, lever) {
+            Outcome::Change { from, to, .. } => (from[0], to[0]),
+            Outcome::Nowhere { bounds } => (bounds[0], bounds[1]),
+            Outcome::NoEffect => panic!("{lever:?}"),
+        };
+        let nowhere = matches!(outcome(&file, &bounds, lever), Outcome::Nowhere { .. });
+        for i in 1..40 {
+            // short of the answer, or all over the bounds
+            let share = f64::from(i) / 40.0 * if nowhere { 1.0 } else { 0.999 };
+            let x = from + share * (to - from);
+            let mut tried = file.clone();
+            match (lever, &mut tried.components[0].mount) {
+                (Lever::Position, _) => tried.components[0].position_m = x,
+                (Lever::Frequency, Mount::Suspended { frequency_hz, .. }) => {
+                    *frequency_hz = clatter_scene::Spread::value(x).unwrap();
+                }
+                (Lever::Damping, Mount::Suspended { damping, .. }) => {
+                    *damping = clatter_shock::DampingRatio::new(x).unwrap();
+                }
+                _ => tried.product = file.product.with_inertia_ratio(x).unwrap(),
+            }
+            assert_eq!(tried.assess().unwrap().verdict, Verdict::Unsafe, "{lever:?} = {x}, short of {to}");
+        }
+    }
+}
+
+#[test]
+fn an_inertia_ratio_gives_the_radius_of_gyration_that_has_it() {
+    for arms in [[0.07, 0.07], [0.05, 0.09]] {
+        let mut product = product(PANEL).product;
+        product.body = clatter::flight::Body::off_center(arms[0], arms[1], 0.03).unwrap();
+        for q in [-0.9, -0.3, 0.0, 1e-9, 0.3, 0.5, 0.9, 0.999_999, 1.0] {
+            let found = product.with_inertia_ratio(q).unwrap().inertia_ratio();
+            assert!((found - q).abs() < 1e-14, "{found}, not {q}, for arms {arms:?}");
+        }
+        assert!(product.with_inertia_ratio(-1.0).is_err() && product.with_inertia_ratio(f64::NAN).is_err());
+    }
+}

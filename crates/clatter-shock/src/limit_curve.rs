@@ -1,0 +1,81 @@
+//! A limit over frequency, and how far a spectrum stays below it.
+
+use crate::{Error, Margin, Spectrum};
+
+/// What a component or a specification allows over natural frequency: one value, or straight lines between points on
+/// log-log paper.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LimitCurve(Law);
+
+#[derive(Debug, Clone, PartialEq)]
+enum Law {
+    Level(f64),
+    Points(Vec<(f64, f64)>),
+}
+
+const LIST: &str = "limit curve";
+
+impl LimitCurve {
+    /// The same value at every frequency.
+    /// # Errors
+    /// [`Error::Quantity`] unless it is finite and positive.
+    pub fn constant(allowed: f64) -> Result<Self, Error> {
+        Ok(Self(Law::Level(crate::error::positive("limit", allowed)?)))
+    }
+    /// Through points (Hz, allowed) in order of frequency, by powers of the frequency between neighbors; no limit outside.
+    ///
+    /// ```
+    /// # use clatter_shock::LimitCurve;
+    /// // 6 dB an octave up to 1 kHz, then level
+    /// let curve = LimitCurve::new(vec![(10.0, 100.0), (1000.0, 10_000.0), (10_000.0, 10_000.0)])?;
+    /// assert!((curve.at(100.0).unwrap() - 1000.0).abs() < 1e-10);
+    /// assert_eq!(curve.at(5000.0), Some(10_000.0));
+    /// assert_eq!(curve.at(5.0), None);
+    /// # Ok::<(), clatter_shock::Error>(())
+    /// ```
+    /// # Errors
+    /// [`Error::Empty`] below two points; [`Error::Entry`] for a value that is not finite and positive, or a frequency not above the one before.
+    pub fn new(points: Vec<(f64, f64)>) -> Result<Self, Error> {
+        if points.len() < 2 {
+            return Err(Error::Empty("a limit curve of at least two points"));
+        }
+        let mut previous = 0.0;
+        for (i, &(hz, allowed)) in points.iter().enumerate() {
+            let entry = |name, value, allowed| Error::Entry { list: LIST, entry: i + 1, name, value, allowed };
+            if !(hz > previous && hz.is_finite()) {
+                return Err(entry("frequency (Hz)", hz, "finite and above the one before it"));
+            }
+            if !(allowed > 0.0 && allowed.is_finite()) {
+                return Err(entry("limit", allowed, "finite and > 0"));
+            }
+            previous = hz;
+        }
+        Ok(Self(Law::Points(points)))
+    }
+    /// What is allowed at a frequency; `None` outside of the curve.
+    #[must_use]
+    pub fn at(&self, hz: f64) -> Option<f64> {
+        match &self.0 {
+            Law::Level(allowed) => Some(*allowed),
+            Law::Points(points) => points.windows(2).find_map(|w| {
+                let [(f, a), (g, b)] = [w[0], w[1]];
+                (f <= hz && hz <= g).then(|| a * (b / a).powf((hz / f).log2() / (g / f).log2()))
+            }),
+        }
+    }
+    /// The margin of the maximax at each frequency of a spectrum.
+    ///
+    /// The limit is in the unit of the spectrum.
+    #[must_use]
+    pub fn margins(&self, spectrum: &Spectrum) -> Vec<Option<Margin>> {
+        let reached = spectrum.frequency_hz.iter().zip(&spectrum.maximax);
+        reached.map(|(&hz, &demand)| Some(Margin { allowed: self.at(hz)?, demand })).collect()
+    }
+    /// Index of the smallest margin; `None` if the curve covers no frequency of the spectrum.
+    #[must_use]
+    pub fn worst(margins: &[Option<Margin>]) -> Option<usize> {
+        let ratio = |i: &usize| margins[*i].map_or(f64::INFINITY, |m| m.allowed / m.demand);
+        let covered = (0..margins.len()).filter(|&i| margins[i].is_some());
+        covered.min_by(|a, b| ratio(a).total_cmp(&ratio(b)))
+    }
+}

@@ -1,0 +1,106 @@
+//! The paper's design example, and what design and scatter say of a product.
+
+#![cfg(test)]
+
+use std::fmt::Write as _;
+
+use clatter::design::{Goal, front, region};
+use clatter_scene::design::{Bounds, Outcome};
+use clatter_scene::scatter::{Sampler, Settings};
+use clatter_scene::{ProductFile, Verdict};
+
+fn golden(name: &str, text: &str) {
+    insta::with_settings!(
+        { snapshot_path => "../snapshots", prepend_module_to_snapshot => false, omit_expression => true },
+        { insta::assert_snapshot!(name, text) }
+    );
+}
+
+/// v0/2 in the middle tenth of the bar, 2 v0 in 85 % of it: the border of the designs that meet both, and the fronts.
+#[test]
+fn the_paper_s_example() {
+    let (near, far) = (Goal::zone(0.5, 0.1).unwrap(), Goal::zone(2.0, 0.85).unwrap());
+    let mut text = String::from("border of the region\n  q        e\n");
+    for piece in region(&[near, far], 1e-2) {
+        for p in piece {
+            let _ = writeln!(text, "  {:.5}  {:.5}", p.q, p.e);
+        }
+    }
+    text.push_str("\nfronts of the zone within v0/2, 2 v0 within 85 %\n  e     first q  first s    last q   last s\n");
+    for e in [0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3] {
+        for piece in front(0.5, &[far], e, 200).unwrap().pieces {
+            let (a, b) = (piece[0], piece[piece.len() - 1]);
+            let s = a.s.max(0.0); // 0 to a rounding
+            let _ = writeln!(text, "  {e:.2}  {:.5}  {s:.5}    {:.5}  {:.5}", a.q, b.q, b.s);
+        }
+    }
+    golden("design-of-the-paper", &text);
+}
+
+const LAPTOP: &str = r#"
+[product]
+name = "Laptop"
+length = "300 mm"
+radius_of_gyration = "90 mm"
+restitution = { uniform = [0.25, 0.4] }
+[drop]
+height = { normal = ["0.8 m", "0.1 m"], range = ["0.5 m", "1 m"] }
+tilt = { triangular = ["0.5 deg", "0.8 deg", "1.5 deg"] }
+first = "either"
+[[component]]
+name = "panel"
+position = "20 mm"
+extent = "20 mm"
+mount = "hard"
+velocity_change_limit = "3.4 m/s"
+[[component]]
+name = "drive"
+position = "60 mm"
+natural_frequency = { uniform = ["36 Hz", "44 Hz"] }
+damping_ratio = 0.1
+acceleration_limit = "110 gn"
+"#;
+
+#[test]
+fn changes_that_make_a_laptop_safe() {
+    let file = ProductFile::read(LAPTOP, "laptop.toml").unwrap();
+    let assessment = file.assess().unwrap();
+    let mut text = String::new();
+    for part in file.remedies(&assessment, &Bounds::default()).unwrap() {
+        let found = &assessment.components[part.component];
+        let _ = writeln!(text, "{}", found.name);
+        for remedy in part.levers {
+            let said = match remedy.outcome {
+                Outcome::Change { from, to, after } => {
+                    assert_eq!(after.verdict, Verdict::Safe, "assessed again");
+                    format!("{from:.3?} -> {to:.3?}")
+                }
+                Outcome::Nowhere { bounds } => format!("nowhere in {bounds:.3?}"),
+                Outcome::NoEffect => "no effect".to_owned(),
+            };
+            let _ = writeln!(text, "  {:<18} {said}", remedy.lever.name());
+        }
+    }
+    golden("design-of-a-laptop", &text);
+}
+
+/// Counts of failures are the same on any machine: the generator counts in integers, and sines come from `libm`.
+#[test]
+fn scatter_of_a_laptop() {
+    let file = ProductFile::read(LAPTOP, "laptop.toml").unwrap();
+    let settings = Settings { samples: 20_000, seed: 1, confidence: 0.95 };
+    let scatter = Sampler::new(&file, settings).unwrap().run::<()>(false, |_| Ok(())).unwrap();
+    let mut text = String::new();
+    for part in scatter.components {
+        let p = part.survival;
+        let _ = writeln!(text, "{}: {} of 20000 fail", part.name, part.failures);
+        let _ =
+            writeln!(text, "  survives {:.5} in [{:.5}, {:.5}], at least {:.5}", p.estimate, p.lo, p.hi, p.at_least);
+        let _ = writeln!(text, "  utilization {:.5} ± {:.5}", part.mean_utilization, part.utilization_deviation);
+        for driver in part.drivers {
+            let share = driver.share;
+            let _ = writeln!(text, "  {:<18} {:.3} {:+.3}", driver.input.name(), share.variance, share.trend);
+        }
+    }
+    golden("scatter-of-a-laptop", &text);
+}
