@@ -119,7 +119,6 @@ impl OffCenterBar {
     /// ```
     /// let bar = clatter::OffCenterBar::from_center_of_mass(0.2, 0.5, 0.3)?;
     /// let same = clatter::OffCenterBar::new([1.2, 0.8], 0.5, 0.3)?;
-    /// assert_eq!(bar.arms(), same.arms());
     /// assert!((bar.center_of_mass() - same.center_of_mass()).abs() < 1e-16);
     /// # Ok::<(), clatter::Error>(())
     /// ```
