@@ -16,16 +16,12 @@ fn setup(tilt_deg: f64, gravity: f64, contact_s: Option<f64>, hz: f64) -> Setup 
     Setup::new(scene, contact_s, -0.9, part).expect("as the test has it")
 }
 
-/// Scene, quantity and tolerance of the study that no estimate warns of.
-const KNOWN: [(usize, Quantity, f64); 2] = [(7, Quantity::PeakAcceleration, 0.001), (7, Quantity::RattleSpace, 0.001)];
-
 /// Some scenes of the study, the same each time; the example draws fresh ones.
 #[test]
 fn plans_of_random_scenes_are_good_enough() {
     let scenes = if cfg!(debug_assertions) { 60 } else { 400 };
     let (outcomes, refused) = study(1, scenes);
     assert!(refused < scenes / 20, "{refused} refused");
-    let mut beyond = Vec::new();
     for (k, tolerance) in TOLERANCES.iter().enumerate() {
         let w = worth(outcomes.iter(), k);
         assert!(w.scenes > 2 * scenes, "{w:?}");
@@ -33,9 +29,7 @@ fn plans_of_random_scenes_are_good_enough() {
         for o in &outcomes {
             let (run, warned) = (o.run(o.plans[k].pair), o.plans[k].warning.is_some());
             let what = format!("scene {}, {:?} within {tolerance}, {run:?}: {:?}", o.scene, o.quantity, o.setup);
-            if !warned && run.error > 3.0 * tolerance {
-                beyond.push((o.scene, o.quantity, *tolerance));
-            }
+            assert!(warned || run.error <= 3.0 * tolerance, "{what}");
             assert!(run.estimate >= 0.0, "{what}");
             assert!(warned || o.plans[k].estimate.error <= *tolerance, "{what}");
         }
@@ -48,8 +42,6 @@ fn plans_of_random_scenes_are_good_enough() {
         // Some scene must need contacts, and some get less.
         assert!(w.needed > 0.05 && w.given < 0.97, "tolerance {tolerance}: {w:?}");
     }
-    // Known failures, which must fail until they are mended: the compliant rung stops following these drops too early.
-    assert_eq!(beyond, KNOWN, "scenes beyond three times the tolerance without a warning");
 }
 
 /// The cost model ranks pairs as they are, on the average over scenes.

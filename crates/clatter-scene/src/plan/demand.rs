@@ -11,6 +11,9 @@ use crate::Error;
 /// Pieces of the polygon of one pulse: its peak and its effect are then within 2e-4 or so.
 pub(super) const CELLS: usize = 96;
 
+/// Beyond this phase in one contact the pieces grow finer with it.
+const FINE: f64 = 4.0;
+
 /// Strikes of the map at most: a train as long has died down, or goes on like this.
 const MOST_OF_MAP: usize = 1000;
 
@@ -72,12 +75,15 @@ impl Setup {
         self.contact_time_s.ok_or(Error::Contact)
     }
 
-    /// Pieces of a pulse: in a stiff component the corners of a polygon ring, a soft one sees little of them.
+    /// Pieces of a pulse: a stiff or much damped component follows the corners of a polygon, a soft one sees little of them.
     fn cells(&self, cells: usize, contact_s: f64) -> usize {
         let turned = self.suspension.omega() * contact_s;
-        let fineness = (turned * (1.0 + 2.0 * self.suspension.damping().get())).max(turned / 8.0);
+        let zeta = self.suspension.damping().get();
+        let fineness = (turned * (1.0 + 2.0 * zeta)).max(turned / 8.0);
+        // By the fastest of its motions.
+        let fast = turned * (zeta + (zeta * zeta - 1.0).max(0.0).sqrt()).max(1.0);
         #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
-        let pieces = cells as f64 * fineness.clamp(0.125, 1.0) * (turned / 8.0).clamp(1.0, 8.0);
+        let pieces = cells as f64 * fineness.clamp(0.125, 1.0) * (fast / FINE).clamp(1.0, 8.0);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few hundred")]
         let pieces = pieces.ceil() as usize;
         pieces

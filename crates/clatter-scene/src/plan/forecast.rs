@@ -124,7 +124,12 @@ pub(super) fn later_shock(speed: f64, gravity: f64, contact_s: f64) -> f64 {
 
 /// What the same may add to the response, about: one such shock, and the weight that the ground carries in the end.
 pub(super) fn later_response(swing: &Swing, speed: f64, gravity: f64, omega: f64) -> f64 {
-    2.0 * (swing.factor * speed + gravity / omega)
+    2.0 * swing.factor * speed + weight(swing, gravity / omega)
+}
+
+/// What the weight does to the response when the ground takes it up at once.
+pub(super) fn weight(swing: &Swing, fall: f64) -> f64 {
+    (1.0 + swing.factor) * fall
 }
 
 /// Whether [`Scene::simulate_compliant`] takes it: its own conditions, without the fit.
@@ -264,9 +269,13 @@ impl Setup {
             overlaps: false,
             alive: [true; 3],
         };
+        // Fitted: the mean bend of a large tilt mistimes strikes by a share of the time since the first.
+        let blur = 0.25 * self.scene.tilt_rad().powi(2);
         let (mut motion, mut off) = (Motion::default(), [Motion::default(); 3]);
         // Shocks that a lane lacks, and shocks in doubt, faded.
         let (mut lacking, mut doubtful) = ([0.0_f64; 3], 0.0_f64);
+        // How much higher the component may ring where strikes are mistimed.
+        let mut adrift = 0.0_f64;
         let (mut last, mut peak) = (0.0_f64, 0.0_f64);
         let (mut next, mut rested) = (Next::FIRST, false);
         // Speed at the component before the last strike, and what overlapping contacts leave of it.
@@ -290,6 +299,7 @@ impl Setup {
                     off = off.map(|m| swing.after(&turn, m));
                     lacking = lacking.map(|l| turn.fade * l);
                     doubtful *= turn.fade;
+                    adrift *= turn.fade;
                 }
                 peak = peak.max(interval.value);
                 if rested && !shocks {
@@ -300,7 +310,7 @@ impl Setup {
                         *off += unit * weight;
                     }
                 }
-                let (earlier, share) = coupling.doubt(gap);
+                let (earlier, share) = coupling.doubt((gap - blur * walk.last_s).max(0.0));
                 later = share;
                 doubtful += earlier * last;
                 for off in &mut interval.off {
@@ -319,14 +329,14 @@ impl Setup {
                     (shock, shock)
                 } else {
                     let extra = later_response(swing, speed, g, omega);
-                    (swing.bound(motion) + extra, extra)
+                    (swing.bound(motion) + adrift + extra, extra)
                 };
                 if walk.late < CLEAR * peak && gap >= time {
                     // Strikes of other models may be later than those of this one.
                     walk.until_s = 1.25 * walk.last_s + 0.5 * (gap + time);
                     break;
                 }
-                if n == N {
+                if n == N || next.tumbles {
                     break;
                 }
             }
@@ -335,6 +345,12 @@ impl Setup {
             // The ground also carries the weight while it pushes.
             doubtful += later * delta_v.abs() + g * if n == 0 { time } else { time.min(gap) };
             last = delta_v.abs();
+            adrift += swing.factor * last * (omega * blur * walk.last_s).min(2.0);
+            if rested {
+                // The end that lies there is struck through the bar at the same instant.
+                let (earlier, later) = coupling.doubt(0.0);
+                doubtful += (earlier + later) * last;
+            }
             let rate = swing.rate(motion);
             motion.w -= delta_v;
             let mut interval = Interval { value: if shocks { last } else { 0.0 }, ..Interval::default() };

@@ -59,11 +59,13 @@ pub(super) struct Next {
     pub(super) after: f64,
     /// Downward accelerations that bring the ends there.
     fall: [f64; 2],
+    /// Whether the bar turns upright or over before: what strikes then is not known from parabolas.
+    pub(super) tumbles: bool,
 }
 
 impl Next {
     /// The first touch.
-    pub(super) const FIRST: Self = Self { end: 0, after: 0.0, fall: [0.0; 2] };
+    pub(super) const FIRST: Self = Self { end: 0, after: 0.0, fall: [0.0; 2], tumbles: false };
 }
 
 /// Time until `h + v t − ½ g t²` comes to 0, the later root where it starts upward; 0 where it is below.
@@ -129,7 +131,7 @@ impl Lane {
             let after = fall(self.height[j], self.velocity[j], turning);
             let mut fall = [0.0; 2];
             fall[j] = turning;
-            return (after < f64::INFINITY).then_some(Next { end: j, after, fall });
+            return (after < f64::INFINITY).then_some(Next { end: j, after, fall, tumbles: false });
         }
         let mut times = [0, 1].map(|i| fall(self.height[i], self.velocity[i], g));
         let mut down = [g; 2];
@@ -140,7 +142,8 @@ impl Lane {
             times = [0, 1].map(|i| fall(self.height[i], self.velocity[i], down[i]));
         }
         let end = usize::from(times[1] < times[0]);
-        (times[end] < f64::INFINITY).then_some(Next { end, after: times[end], fall: down })
+        let tumbles = self.tilts && self.sines(ends, times[end]).1.abs() > 1.0;
+        (times[end] < f64::INFINITY).then_some(Next { end, after: times[end], fall: down, tumbles })
     }
     /// Flies and strikes; returns the velocity shock at the component.
     pub(super) fn strike(&mut self, ends: &Ends, next: &Next) -> f64 {

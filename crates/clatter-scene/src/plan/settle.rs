@@ -2,7 +2,7 @@
 
 use clatter::flight::{CompliantFlight, Stop};
 
-use super::forecast::{later_response, later_shock};
+use super::forecast::{later_response, later_shock, weight};
 use super::lane::{Ends, Lane};
 use super::swing::{Motion, Swing};
 use super::{Quantity, Setup};
@@ -36,48 +36,113 @@ impl Setup {
     fn settled_s(&self, flight: &CompliantFlight, quantity: Quantity, contact_s: f64) -> f64 {
         let (omega, g) = (self.suspension.omega(), self.scene.gravity_m_s2());
         let ends = Ends::new(&self.scene, self.position);
-        let swing = Swing::new(self.suspension.damping().get(), quantity == Quantity::PeakAcceleration);
-        let shocks = quantity == Quantity::VelocityShock;
-        let (mut motion, mut peak, mut parted) = (Motion::default(), 0.0_f64, 0.0_f64);
-        // Strikes whose contacts overlap act as one.
-        let (mut together, mut from_s) = (0.0, 0.0);
+        let zeta = self.suspension.damping().get();
+        let swing = Swing::new(zeta, quantity == Quantity::PeakAcceleration);
+        let velocity_shock = quantity == Quantity::VelocityShock;
+        let (shocks, whole) = self.lone_shocks(flight);
+        // What may come after the last of them.
+        let beyond = if whole {
+            weight(&swing, g / omega)
+        } else if let Some(last) = shocks.last() {
+            let now = flight.sample(last.parted_s);
+            let speed = Lane::of(now.height_m, now.velocity_m_s, g).reach(&ends);
+            if velocity_shock {
+                later_shock(speed, g, contact_s)
+            } else {
+                pile(&ends, zeta, speed, g / omega) * later_response(&swing, speed, g, omega)
+            }
+        } else {
+            return f64::INFINITY;
+        };
+        let (mut motion, mut peak) = (Motion::default(), 0.0_f64);
         // What long contacts did, however it turned since.
         let mut loose = 0.0_f64;
-        let strikes = &flight.flight.strikes;
-        for ((strike, pulse), next) in strikes.iter().zip(&flight.pulses).zip(&strikes[1..]) {
-            together += strike.delta_v_at(self.position);
-            parted = parted.max(pulse.until_s);
-            if parted >= next.time_s {
-                continue;
-            }
+        for (k, shock) in shocks.iter().enumerate().filter(|(_, shock)| shock.next_s < f64::INFINITY) {
             let mut rings = 0.0;
-            if shocks {
-                peak = peak.max(together.abs() / ((parted - from_s) / contact_s).max(1.0).ceil());
+            if velocity_shock {
+                peak = peak.max(shock.net.abs() / ((shock.parted_s - shock.from_s) / contact_s).max(1.0).ceil());
             } else {
-                let turned = omega * (next.time_s - from_s);
+                let turned = omega * (shock.next_s - shock.from_s);
                 let turn = swing.turn(turned);
-                if parted - from_s > LONG * contact_s {
-                    loose += swing.factor * together.abs();
+                let long = shock.parted_s - shock.from_s;
+                if long > LONG * contact_s {
+                    loose += swing.factor * shock.gross;
                 } else {
-                    motion.w -= together;
+                    motion.w -= shock.net;
                 }
-
-                if swing.bound(motion) > peak + loose {
-                    peak = peak.max(swing.peak(motion, turned).value - loose);
+                // Contacts that overlap flatten what they do together; what comes later is taken as if none did.
+                let flat = if omega * long < 0.5 { 1.0 } else { (long / contact_s).max(1.0) };
+                if swing.bound(motion) > flat * peak + loose {
+                    peak = peak.max((swing.peak(motion, turned).value - loose) / flat);
                 }
                 motion = swing.after(&turn, motion);
-                peak = peak.max(swing.quantity(motion).abs() - loose);
+                peak = peak.max((swing.quantity(motion).abs() - loose) / flat);
                 loose *= turn.fade;
                 rings = swing.bound(motion) + loose;
             }
-            (together, from_s) = (0.0, next.time_s);
-            let now = flight.sample(parted);
-            let speed = Lane::of(now.height_m, now.velocity_m_s, g).reach(&ends);
-            let later = if shocks { later_shock(speed, g, contact_s) } else { later_response(&swing, speed, g, omega) };
-            if rings + later < CLEAR * peak {
-                return 0.5 * (parted + next.time_s);
+            // All later shocks that are known, as if in phase, then all others.
+            let mut later = rings;
+            let low = shocks[k + 1..].iter().all(|next| {
+                if velocity_shock {
+                    return next.gross < CLEAR * peak;
+                }
+                later += swing.factor * next.gross;
+                let low = later < CLEAR * peak;
+                if next.next_s < f64::INFINITY {
+                    later *= swing.turn(omega * (next.next_s - next.from_s)).fade;
+                }
+                low
+            });
+            if low && (if velocity_shock { beyond } else { later + beyond }) < CLEAR * peak {
+                return 0.5 * (shock.parted_s + shock.next_s);
             }
         }
         f64::INFINITY
     }
+
+    /// What contacts that do not overlap others do to the component's place, and whether nothing comes after them. Of a flight
+    /// cut short, the last is left out.
+    fn lone_shocks(&self, flight: &CompliantFlight) -> (Vec<LoneShock>, bool) {
+        let strikes = &flight.flight.strikes;
+        let mut shocks: Vec<LoneShock> = Vec::with_capacity(strikes.len());
+        let (mut net, mut gross, mut from_s, mut parted_s) = (0.0, 0.0, 0.0, 0.0_f64);
+        for (k, (strike, pulse)) in strikes.iter().zip(&flight.pulses).enumerate() {
+            let delta_v = strike.delta_v_at(self.position);
+            net += delta_v;
+            gross += delta_v.abs();
+            parted_s = parted_s.max(pulse.until_s);
+            let Some(next) = strikes.get(k + 1) else { break };
+            if parted_s < next.time_s {
+                shocks.push(LoneShock { from_s, parted_s, next_s: next.time_s, net, gross });
+                (net, gross, from_s) = (0.0, 0.0, next.time_s);
+            }
+        }
+        let whole = !matches!(flight.flight.stop, Stop::ImpactLimit { .. });
+        if whole {
+            shocks.push(LoneShock { from_s, parted_s, next_s: f64::INFINITY, net, gross });
+        }
+        (shocks, whole)
+    }
+}
+
+/// One contact, or several that overlap.
+#[derive(Debug, Clone, Copy)]
+struct LoneShock {
+    from_s: f64,
+    parted_s: f64,
+    /// When the next begins.
+    next_s: f64,
+    /// Sum of the jumps at the component's place, and of their magnitudes.
+    net: f64,
+    gross: f64,
+}
+
+/// How many times the largest later shock all later ones may do together: speeds fall by λ = max(√e, λ₊) a strike or faster, which
+/// allows 1/(1 − λ); and while the component dies down, in 1/(ζω), the ground gives no more than the weight does in that time, beside
+/// what stops and throws back the bar.
+fn pile(ends: &Ends, zeta: f64, speed: f64, fall: f64) -> f64 {
+    let t = 0.5 * (ends.ratio(0, 1.0) + ends.ratio(1, 1.0)) * (1.0 + ends.e);
+    let root = 0.5 * (t + (t * t - 4.0 * ends.e).max(0.0).sqrt());
+    let decay = root.max(ends.e.sqrt());
+    (1.0 / (1.0 - decay)).min(1.0 + fall / (2.0 * speed * zeta)).max(1.0)
 }
