@@ -10,7 +10,7 @@ const LIMIT: Ink = Ink { dash: "8 2 1.5 2", ..Ink::line(INK, 1.0) };
 ///
 /// `points` are (time, value), `impacts` their times, all in the units of the titles.
 pub(crate) fn history(points: &[(f64, f64)], impacts: &[f64], allowed: f64, titles: [&str; 2]) -> String {
-    let end = points.last().map_or(1.0, |p| p.0);
+    let end = points.last().map_or(1.0, |p| p.0).max(f64::MIN_POSITIVE);
     let largest = points.iter().map(|p| p.1.abs()).fold(0.0_f64, f64::max);
     // a limit far away would press the curve flat: it is named instead
     let shown = allowed <= 3.0 * largest;
@@ -18,7 +18,8 @@ pub(crate) fn history(points: &[(f64, f64)], impacts: &[f64], allowed: f64, titl
     let axes = Axes {
         corner: [44.0, 8.0],
         size: [176.0, 112.0],
-        x: Axis::linear(0.0, if end > 0.0 { end } else { 1.0 }, titles[0]),
+        // a shock at the first touch stands clear of the frame
+        x: Axis::linear(-0.03 * end, end, titles[0]),
         y: Axis::linear(-top, top, titles[1]),
     };
     let mut svg = Svg::new(226.0, 150.0);
