@@ -160,22 +160,21 @@ fn round(v: f64) -> f64 {
     (10.0 * v).round() / 10.0
 }
 
-/// Two significant digits, whole from 10 on, thousands apart.
+/// Two significant digits; thousands apart, below 0.001 with a power of ten.
 fn two(v: f64) -> String {
-    if v < 0.0995 {
+    if v < 1e-3 {
         return tick(v);
     }
-    if v < 0.995 {
-        return format!("{v:.2}");
+    let rounded = format!("{v:.1e}");
+    let (value, exponent) =
+        (rounded.parse().unwrap_or(v), rounded.rsplit('e').next().and_then(|e| e.parse::<i32>().ok()));
+    let text = format!("{value:.*}", usize::try_from(1 - exponent.unwrap_or(0)).unwrap_or(0));
+    if value < 1e3 {
+        return text;
     }
-    if v < 9.95 {
-        return format!("{v:.1}");
-    }
-    let unit = 10f64.powf(v.log10().floor() - 1.0);
-    let whole = format!("{:.0}", (v / unit).round() * unit);
-    let head = whole.len() % 3;
-    let groups = whole.as_bytes()[head..].chunks(3).map(|group| String::from_utf8_lossy(group).into_owned());
-    let head = (head > 0).then(|| whole[..head].to_owned());
+    let (head, rest) = text.split_at(text.len() % 3);
+    let groups = rest.as_bytes().chunks(3).map(|group| String::from_utf8_lossy(group).into_owned());
+    let head = (!head.is_empty()).then(|| head.to_owned());
     head.into_iter().chain(groups).collect::<Vec<_>>().join("\u{202f}")
 }
 
@@ -193,7 +192,7 @@ fn time(ms: f64) -> String {
 
 /// A relative error; what is only rounding is told as such.
 fn error(v: f64) -> String {
-    if v < 1e-15 { "rounding".to_owned() } else { tick(v) }
+    if v < 1e-15 { "rounding".to_owned() } else { two(v) }
 }
 
 /// An error in per cent.
@@ -289,9 +288,10 @@ mod tests {
 
     #[test]
     fn numbers_have_two_digits_and_their_unit() {
-        assert_eq!([0.31, 1.04, 99.6, 347.0, 123_456.0].map(two), ["0.31", "1.0", "100", "350", "120\u{202f}000"]);
+        let expected = ["0.025", "0.31", "1.0", "100", "350", "1\u{202f}000", "120\u{202f}000"];
+        assert_eq!([0.0252, 0.31, 1.04, 99.6, 347.0, 999.0, 123_456.0].map(two), expected);
         assert_eq!([5.46e-5, 0.0243, 213.1].map(time), ["55\u{a0}ns", "24\u{a0}µs", "210\u{a0}ms"]);
-        assert_eq!([2e-16, 3.8e-5].map(error), ["rounding", "4·10⁻⁵"]);
+        assert_eq!([2e-16, 3.8e-5, 0.0306].map(error), ["rounding", "4·10⁻⁵", "0.031"]);
         assert_eq!(span(&[2.0, 30.0, 4.0, 5.0]), "2.0–30");
     }
 
