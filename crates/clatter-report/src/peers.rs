@@ -237,11 +237,11 @@ mod tests {
         }
         assert!(spectra.contains(&("clatter, exact pulses", None)), "no row of exact pulses");
         assert_eq!((spectra.len(), results.maps.rows.len()), (13, 4));
+        let unit = results.bars.rows[1].ms;
         for row in &results.bars.rows {
-            let unit = results.bars.rows[1].ms;
-            for i in 0..4 {
-                assert!(row.ms[i] > 0.0, "{} has no time", row.tool);
-                assert!((row.ratio[i] * unit[i] / row.ms[i] - 1.0).abs() < 1e-12, "{}: ratio {i}", row.tool);
+            for ((ms, ratio), unit) in row.ms.iter().zip(row.ratio).zip(unit) {
+                assert!(*ms > 0.0, "{} has no time", row.tool);
+                assert!((ratio * unit / ms - 1.0).abs() < 1e-12, "{}: the ratio of {ms} ms is not {ratio}", row.tool);
             }
         }
     }
