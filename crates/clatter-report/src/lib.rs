@@ -7,6 +7,7 @@ mod assessment;
 mod figure;
 mod file;
 mod paper;
+mod peers;
 mod shock;
 mod svg;
 mod table;
@@ -224,6 +225,23 @@ pub fn fronts_svg(fronts: &DesignFronts) -> String {
 #[must_use]
 pub fn map_svg(map: &clatter::Map) -> String {
     figure::heat::heat(map)
+}
+
+/// What other tools make of the same scenes, each at the best setting found, as `peers/run.py` last measured them:
+/// `peers.json` for the page and `peers.svg`, a row a tool with its times, counts and error on the four bars of Table 1.
+///
+/// The times are those of one machine, which is named beside them.
+///
+/// ```
+/// let files = clatter_report::peers()?;
+/// assert!(files.iter().any(|(name, content)| *name == "peers.svg" && content.contains("MuJoCo")));
+/// # Ok::<(), clatter_report::ReportError>(())
+/// ```
+///
+/// # Errors
+/// [`ReportError::Data`] if the results of the last run are not whole.
+pub fn peers() -> Result<Vec<(&'static str, String)>, ReportError> {
+    peers::files()
 }
 
 /// One drop in time, as [`drop_svg`] draws it.
