@@ -11,3 +11,4 @@ pub(crate) mod rules;
 pub(crate) mod scheme;
 pub(crate) mod shock;
 pub(crate) mod surface;
+pub(crate) mod trade;
