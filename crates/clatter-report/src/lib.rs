@@ -220,8 +220,7 @@ pub fn fronts_svg(fronts: &DesignFronts) -> String {
 /// Error over cost of every pair of models in one scene, log-log: the front as a stepped line, the plan's choices ringed. What has an
 /// error below what the reference is known to stands in a strip of its own at the foot.
 ///
-/// ```no_run
-/// // it takes times
+/// ```
 /// use clatter_scene::plan::Quantity;
 /// use clatter_scene::tradeoff::{Tradeoff, bars};
 /// let [bar, ..] = bars()?;

@@ -77,3 +77,47 @@ pub(crate) fn of_product(product: &ProductTradeoff) -> String {
     };
     panels(&product.trades.iter().map(|part| (title(part), &part.trade)).collect::<Vec<_>>())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::paper::tests::stay_within_their_frame;
+    use clatter::flight::{Body, Scene};
+    use clatter_scene::plan::Setup;
+    use clatter_shock::{DampingRatio, Suspension};
+
+    #[test]
+    fn seven_figures_and_their_data() {
+        let files = trade_files().unwrap();
+        stay_within_their_frame(&files);
+        let names: Vec<_> = files.iter().map(|(name, _)| *name).collect();
+        assert_eq!((names.len(), names[0]), (8, "trade.json"));
+        let data: serde_json::Value = serde_json::from_str(&files[0].1).unwrap();
+        for (k, [q, e]) in DESIGNS.into_iter().enumerate() {
+            assert_eq!((&data["bars"][k]["q"], &data["bars"][k]["e"]), (&q.into(), &e.into()));
+            let figure = &files[1 + k].1;
+            assert!(figure.contains(&format!("q = {q}, e = {e}")) && figure.contains("compliant, pulses"), "{figure}");
+        }
+        assert_eq!(data["products"].as_array().unwrap().len(), 3);
+        // The laptop has no contact time: its figure says so, the phone's need not.
+        let says = |name| files.iter().find(|(n, _)| *n == name).unwrap().1.contains("compliant bar here");
+        assert!(says("trade-laptop.svg") && !says("trade-phone.svg"));
+    }
+
+    /// All mass in the middle: shocks of the map grow without end, at no place that is reached.
+    #[test]
+    fn infinite_errors_and_a_flat_drop_stay_in_the_frame() {
+        let part = Suspension::from_hz(100.0, DampingRatio::new(0.0).unwrap()).unwrap();
+        for (gyration_m, e, tilt, contact) in
+            [(0.0, 0.5, 5.0, None), (0.04, 0.0, 0.0, Some(1e-3)), (0.04, 1.0, 0.0, None)]
+        {
+            let scene = Scene::new(Body::new(0.14, gyration_m).unwrap(), e, 1.0, tilt, 0.0).unwrap();
+            let setup = Setup::new(scene, contact, 0.3, part).unwrap();
+            for quantity in [Quantity::PeakAcceleration, Quantity::VelocityShock] {
+                let trade = Tradeoff::measure(&setup, quantity).unwrap();
+                let svg = panels(&[("an *extreme* <one>".to_owned(), &trade)]);
+                stay_within_their_frame(&[("extreme.svg", svg)]);
+            }
+        }
+    }
+}

@@ -10,17 +10,18 @@ use crate::svg::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, Pt, RUST, SAND, Sv
 /// Size of the frame, in pt.
 const FRAME: Pt = [352.0, 236.0];
 /// Height of the strip at its foot for what a logarithm cannot show.
-const STRIP: f64 = 20.0;
+const STRIP: f64 = 26.0;
 /// From the top of a panel to its frame, and to the top of the next panel.
 const HEAD: f64 = 22.0;
 const PANEL: f64 = HEAD + FRAME[1] + 42.0;
 const LEFT: f64 = 44.0;
 /// Column of the key.
 const KEY: f64 = 122.0;
-/// Radius of a mark.
+/// Radius of a mark, and of the ring around a choice of the plan.
 const MARK: f64 = 3.2;
-/// Errors below this share are no longer told apart, above the other one neither.
-const LEAST: f64 = 1e-9;
+const RING: f64 = 5.8;
+/// Errors below this share, far below any tolerance that is asked for, are no longer told apart; above the other one neither.
+const LEAST: f64 = 1e-5;
 const MOST: f64 = 1e3;
 
 /// Panels one below the other.
@@ -46,8 +47,9 @@ pub(crate) fn panels(trades: &[(String, &Tradeoff)]) -> String {
 
 /// The error axis: its low end, where the strip begins, its high end, as shares.
 fn errors(trade: &Tradeoff) -> [f64; 3] {
-    let shown = trade.pairs.iter().map(|p| p.error).filter(|e| *e > trade.reference.within.max(LEAST) && *e <= MOST);
-    let (least, most) = shown.fold((1e-3_f64, 1.0_f64), |(a, b), e| (a.min(e), b.max(e)));
+    let known = trade.reference.within.max(LEAST);
+    let shown = trade.pairs.iter().map(|p| p.error).filter(|e| *e >= known && *e <= MOST);
+    let (least, most) = shown.fold((5e-4_f64, 1.0_f64), |(a, b), e| (a.min(e), b.max(e)));
     let strip = 10f64.powf(least.log10().floor());
     let high = step_up(1.3 * most);
     let decades = (high / strip).log10();
@@ -82,7 +84,7 @@ fn panel(svg: &mut Svg, top: f64, trade: &Tradeoff) {
     let steps = steps(&trade.pairs, &points, [top, LEFT + FRAME[0]]);
     svg.path(&steps, false, Ink::line(BLUES[6], 1.3));
     let reference = place(trade.reference.seconds, 0.0);
-    let mut wanted = vec![Wanted { at: reference, lines: vec!["reference".to_owned()] }];
+    let mut wanted = vec![Wanted { at: reference, radius: MARK, lines: vec!["reference".to_owned()] }];
     let mut order: Vec<usize> = (0..points.len()).collect();
     // What matters most finds its place first.
     order.sort_by_key(|&i| (trade.pairs[i].chosen_at.is_empty(), !trade.pairs[i].front));
@@ -92,18 +94,23 @@ fn panel(svg: &mut Svg, top: f64, trade: &Tradeoff) {
         if !pair.chosen_at.is_empty() {
             lines.push(format!("plan at {}", percents(&pair.chosen_at)));
         }
-        wanted.push(Wanted { at: points[i], lines });
+        let radius = if pair.chosen_at.is_empty() { MARK } else { RING };
+        wanted.push(Wanted { at: points[i], radius, lines });
     }
-    let labels = arrange(&wanted, [[LEFT, top], [LEFT + FRAME[0], foot]], &steps);
+    let level = |y: f64| [[LEFT, y], [LEFT + FRAME[0], y]];
+    let mut lines: Vec<[Pt; 2]> = steps.windows(2).map(|step| [step[0], step[1]]).collect();
+    lines.extend(TOLERANCES.map(|tolerance| level(axes.at(axes.x.low, 100.0 * tolerance)[1])));
+    lines.push(level(edge));
+    let labels = arrange(&wanted, [[LEFT, top], [LEFT + FRAME[0], foot]], &lines);
     for (label, of) in labels.iter().zip(&wanted) {
-        if let Some(from) = label.leader(of.at) {
+        if let Some(from) = label.leader(of) {
             svg.line(from, of.at, Ink::line(GRAY, 0.4));
         }
     }
     mark(svg, reference, ComponentRung::PulseTrain, RUST);
     for (pair, p) in trade.pairs.iter().zip(&points) {
         if !pair.chosen_at.is_empty() {
-            svg.circle(*p, MARK + 2.6, Ink { stroke: RUST, width: 1.1, ..Ink::fill("#ffffff") });
+            svg.circle(*p, RING, Ink { stroke: RUST, width: 1.1, ..Ink::fill("#ffffff") });
         }
     }
     for (pair, p) in trade.pairs.iter().zip(&points) {
@@ -247,6 +254,8 @@ const LINE: f64 = 8.0;
 #[derive(Debug)]
 struct Wanted {
     at: Pt,
+    /// Of what is drawn there.
+    radius: f64,
     lines: Vec<String>,
 }
 
@@ -266,10 +275,15 @@ impl Placed {
         };
         along(0).min(along(1))
     }
-    /// The nearest point of the box, where that is too far from `p` to be seen as its own.
-    fn leader(&self, p: Pt) -> Option<Pt> {
+    /// The point nearest to `p`, and how far it is.
+    fn nearest(&self, p: Pt) -> (Pt, f64) {
         let near: Pt = std::array::from_fn(|k| p[k].clamp(self.corner[k], self.corner[k] + self.size[k]));
-        ((near[0] - p[0]).hypot(near[1] - p[1]) > MARK + 5.0).then_some(near)
+        (near, (near[0] - p[0]).hypot(near[1] - p[1]))
+    }
+    /// Where a line to the mark begins, if that is too far to be seen as its own.
+    fn leader(&self, of: &Wanted) -> Option<Pt> {
+        let (near, far) = self.nearest(of.at);
+        (far > of.radius + 5.0).then_some(near)
     }
     /// Whether a line comes through the box.
     fn is_crossed(&self, [a, b]: [Pt; 2]) -> bool {
@@ -285,17 +299,17 @@ impl Placed {
 
 /// Boxes for all labels: apart from one another, from all marks and within the frame, each as near to its point as the ones before
 /// it leave, and clear of the lines where that is to be had.
-fn arrange(wanted: &[Wanted], [from, to]: [Pt; 2], lines: &[Pt]) -> Vec<Placed> {
+fn arrange(wanted: &[Wanted], [from, to]: [Pt; 2], lines: &[[Pt; 2]]) -> Vec<Placed> {
     let around = |p: Pt, r: f64| Placed { corner: [p[0] - r, p[1] - r], size: [2.0 * r, 2.0 * r] };
-    let marks: Vec<Placed> = wanted.iter().map(|w| around(w.at, MARK + 1.2)).collect();
-    let mut placed: Vec<Placed> = Vec::new();
+    let marks: Vec<Placed> = wanted.iter().map(|w| around(w.at, w.radius + 1.2)).collect();
+    let (mut placed, mut leaders) = (Vec::<Placed>::new(), Vec::<[Pt; 2]>::new());
     for w in wanted {
-        let wide = w.lines.iter().map(|line| 1.06 * width(line, SIZE)).fold(0.0, f64::max);
+        let wide = w.lines.iter().map(|line| 1.1 * width(line, SIZE)).fold(0.0, f64::max);
         #[expect(clippy::cast_precision_loss, reason = "two lines")]
         let size = [wide, LINE * w.lines.len() as f64];
         let mut best: Option<(f64, Placed)> = None;
         for ring in 0..28 {
-            let r = MARK + 3.5 + 6.0 * f64::from(ring);
+            let r = w.radius + 2.5 + 6.0 * f64::from(ring);
             for turn in 0..24 {
                 let (sin, cos) = (f64::from(turn) * std::f64::consts::PI / 12.0).sin_cos();
                 // The box touches the ring from outside.
@@ -306,12 +320,12 @@ fn arrange(wanted: &[Wanted], [from, to]: [Pt; 2], lines: &[Pt]) -> Vec<Placed> 
                 if !inside || marks.iter().chain(&placed).any(|other| label.overlap(other) > 0.0) {
                     continue;
                 }
-                let near: Pt = std::array::from_fn(|k| w.at[k].clamp(label.corner[k], label.corner[k] + label.size[k]));
-                let far = (near[0] - w.at[0]).hypot(near[1] - w.at[1]);
-                let crossed = lines.windows(2).filter(|line| label.is_crossed([line[0], line[1]])).count();
+                let (near, far) = label.nearest(w.at);
+                let crossed = lines.iter().filter(|line| label.is_crossed(**line)).count();
                 // A leader through what others say misleads.
                 let through = marks.iter().chain(&placed).filter(|other| other.is_crossed([near, w.at])).count();
-                let through = through.saturating_sub(1); // its own mark
+                let through = through.saturating_sub(1) // its own mark
+                    + leaders.iter().filter(|leader| label.is_crossed(**leader)).count();
                 #[expect(clippy::cast_precision_loss, reason = "a few")]
                 let cost = far + 14.0 * crossed as f64 + 30.0 * through as f64 + if cos < -0.5 { 1.0 } else { 0.0 };
                 if best.is_none_or(|(least, _)| cost < least) {
@@ -319,12 +333,14 @@ fn arrange(wanted: &[Wanted], [from, to]: [Pt; 2], lines: &[Pt]) -> Vec<Placed> 
                 }
             }
             // Farther rings cost more by themselves.
-            if best.is_some_and(|(least, _)| least < r - MARK) {
+            if best.is_some_and(|(least, _)| least < r - w.radius) {
                 break;
             }
         }
         // A frame without any room left: an empty box, and no words over others.
-        placed.push(best.map_or(Placed { corner: w.at, size: [0.0, 0.0] }, |(_, label)| label));
+        let label = best.map_or(Placed { corner: w.at, size: [0.0, 0.0] }, |(_, label)| label);
+        leaders.extend(label.leader(w).map(|near| [near, w.at]));
+        placed.push(label);
     }
     placed
 }
@@ -341,7 +357,11 @@ mod tests {
             [40.0 + 70.0 * heap + 5.0 * i, 60.0 + 30.0 * heap + 4.0 * (i * 7.0 % 3.0)]
         };
         let wanted: Vec<Wanted> = (0..18)
-            .map(|k| Wanted { at: at(k), lines: vec!["finite tilt, largest shock".to_owned(); usize::from(1 + k % 2)] })
+            .map(|k| Wanted {
+                at: at(k),
+                radius: MARK,
+                lines: vec!["finite tilt, largest shock".to_owned(); usize::from(1 + k % 2)],
+            })
             .collect();
         let labels = arrange(&wanted, [[0.0, 0.0], FRAME], &[]);
         for (i, a) in labels.iter().enumerate() {
@@ -361,7 +381,7 @@ mod tests {
 
     #[test]
     fn a_frame_without_room_leaves_words_out() {
-        let wanted = [Wanted { at: [5.0, 5.0], lines: vec!["closed form, net change".to_owned()] }];
+        let wanted = [Wanted { at: [5.0, 5.0], radius: MARK, lines: vec!["closed form, net change".to_owned()] }];
         let [label] = arrange(&wanted, [[0.0, 0.0], [10.0, 10.0]], &[])[..] else { panic!("one label") };
         assert!(label.size[0].abs() < f64::EPSILON, "{label:?}");
     }

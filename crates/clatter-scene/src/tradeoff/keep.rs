@@ -27,15 +27,13 @@ pub struct Kept {
 /// Share of the quantity that what is left out can change it by at most, where the list ends.
 pub const NEGLIGIBLE: f64 = 1e-6;
 
-/// Strikes of the whole train, at most.
-const WHOLE: usize = 2000;
 /// Strikes kept, at most.
 const MOST: usize = 256;
 
 impl Kept {
     pub(super) fn of(setup: &Setup, bar: BarRung, quantity: Quantity) -> Result<Self, Error> {
         let model = if bar == BarRung::Map { Model::Map } else { Model::FiniteTilt };
-        let flight = setup.scene().with_impact_limit(WHOLE)?.simulate(model);
+        let flight = setup.scene().simulate(model);
         let whole = setup.shocks(&flight)?;
         let truth = setup.of_impulses(&whole, quantity);
         let shocks = whole.as_slice();

@@ -85,7 +85,7 @@ mod tests {
 
     #[test]
     fn batches_are_longer_than_the_clock_and_few_where_runs_are_long() {
-        for (first_s, batch, samples) in [(1e-9, 1000, 151), (1e-6, 200, 15), (1e-3, 1, 5), (1.0, 1, 5)] {
+        for (first_s, batch, samples) in [(1e-9, 1000, 151), (1.5e-6, 134, 15), (1e-3, 1, 5), (1.0, 1, 5)] {
             assert_eq!(sizes(first_s), (batch, samples), "{first_s} s");
         }
     }
