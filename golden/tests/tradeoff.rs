@@ -1,6 +1,6 @@
 //! What every pair of models gets wrong: the four bars of Table 1 and a worked product. Times are never here.
 
-mod common;
+#![cfg(test)]
 
 use std::fmt::Write as _;
 
@@ -8,7 +8,13 @@ use clatter::paper::DESIGNS;
 use clatter_scene::ProductFile;
 use clatter_scene::plan::Quantity;
 use clatter_scene::tradeoff::{Tradeoff, bars};
-use common::golden;
+
+fn golden(name: &str, text: &str) {
+    insta::with_settings!(
+        { snapshot_path => "../snapshots", prepend_module_to_snapshot => false, omit_expression => true },
+        { insta::assert_snapshot!(name, text) }
+    );
+}
 
 /// Two digits, of shares that are more than what a reference is good for.
 fn share(error: f64) -> String {
