@@ -118,7 +118,7 @@ fn help_has_examples_and_says_how_to_read_the_table() {
 #[test]
 fn what_is_no_product_or_no_figure_is_refused() {
     let (_dir, path) = changed(|text| text.replace("140 mm", "140 kg"));
-    let (_stiff, stiff) = changed(|text| text.replace("contact_time = \"0.4 ms\"", ""));
+    let (_stiff, stiff) = changed(|text| text.replace("contact_time = \"0.4 ms\"", "").replace("220 Hz", "2.2 kHz"));
     let arguments = |all: &[&str]| all.iter().map(|&a| a.to_owned()).collect::<Vec<_>>();
     let rows: [(Vec<String>, &[&str]); 6] = [
         (arguments(&["tradeoff"]), &["<PRODUCT.toml>"]),
@@ -126,7 +126,7 @@ fn what_is_no_product_or_no_figure_is_refused() {
         (arguments(&["tradeoff", "x.toml", "-o", "x.png"]), &["x.png", "must end in .svg"]),
         (arguments(&["tradeoff", "x.toml", "--format=xml"]), &["--format", "table, json, csv"]),
         (arguments(&["tradeoff", &path]), &["\"kg\" is no unit of length", ":10:10"]),
-        (arguments(&["tradeoff", &stiff]), &["display", "needs the contact time"]),
+        (arguments(&["tradeoff", &stiff]), &["[[component]] 1 needs the contact time of the product", "318 Hz"]),
     ];
     are_refused(rows);
 }

@@ -475,7 +475,7 @@ mod tests {
             assert_eq!(off(value, truth).to_bits(), f64::to_bits(error), "{value} for {truth}");
         }
         for (value, truth) in [(1.0, 0.0), (f64::INFINITY, 1.0), (f64::INFINITY, f64::INFINITY), (f64::NAN, 1.0)] {
-            assert_eq!(off(value, truth), f64::INFINITY, "{value} for {truth}");
+            assert!(off(value, truth).is_infinite(), "{value} for {truth}");
         }
     }
 

@@ -366,9 +366,8 @@ mod tests {
         let labels = arrange(&wanted, [[0.0, 0.0], FRAME], &[]);
         for (i, a) in labels.iter().enumerate() {
             assert!(a.size[0] > 50.0, "label {i} has found a place");
-            for k in 0..2 {
-                assert!(a.corner[k] > 0.0 && a.corner[k] + a.size[k] < FRAME[k], "label {i}: {a:?}");
-            }
+            let inside = |k: usize| a.corner[k] > 0.0 && a.corner[k] + a.size[k] < FRAME[k];
+            assert!(inside(0) && inside(1), "label {i}: {a:?}");
             for b in &labels[..i] {
                 assert!(a.overlap(b) <= 0.0, "{a:?} and {b:?}");
             }
