@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use clatter::paper::DESIGNS;
 use clatter_scene::ProductFile;
 use clatter_scene::plan::Quantity;
-use clatter_scene::tradeoff::{Tradeoff, bars};
+use clatter_scene::tradeoff::{Kept, Tradeoff, bar, bars};
 
 fn golden(name: &str, text: &str) {
     insta::with_settings!(
@@ -40,7 +40,13 @@ fn rows(trade: &Tradeoff) -> String {
         );
         let _ = writeln!(text, "{}", line.trim_end());
     }
-    for kept in &trade.kept {
+    text + &worth(&trade.kept)
+}
+
+/// How many strikes are enough, and what the first few get wrong.
+fn worth(trains: &[Kept]) -> String {
+    let mut text = String::new();
+    for kept in trains {
         let least: Vec<String> = kept.least.iter().map(|n| n.map_or("-".to_owned(), |n| n.to_string())).collect();
         let first: Vec<String> = kept.errors.iter().take(8).map(|error| share(*error)).collect();
         let (bar, strikes, least, first) = (kept.bar.name(), kept.strikes, least.join(" "), first.join("  "));
@@ -55,6 +61,11 @@ fn the_bars_of_table_1() {
     for (setup, [q, e]) in bars().unwrap().iter().zip(DESIGNS) {
         let trade = Tradeoff::measure(setup, Quantity::PeakAcceleration).unwrap();
         let _ = write!(text, "q = {q}, e = {e}\n{}", rows(&trade));
+    }
+    text.push_str("without end, but for gravity\n");
+    for [q, e] in [[0.8, 0.1], [0.9, 0.3], [0.95, 0.5]] {
+        let trade = Tradeoff::measure(&bar(q, e).unwrap(), Quantity::PeakAcceleration).unwrap();
+        let _ = write!(text, "q = {q}, e = {e}\n{}", worth(&trade.kept));
     }
     golden("tradeoff-of-the-bars", &text);
 }

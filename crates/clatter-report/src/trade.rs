@@ -3,7 +3,7 @@
 use clatter::paper::DESIGNS;
 use clatter_scene::ProductFile;
 use clatter_scene::plan::Quantity;
-use clatter_scene::tradeoff::{Machine, PartTradeoff, ProductTradeoff, Tradeoff, bars};
+use clatter_scene::tradeoff::{Kept, Machine, PartTradeoff, ProductTradeoff, Tradeoff, bar, bars};
 use serde::Serialize;
 
 use crate::ReportError;
@@ -18,12 +18,24 @@ const EXAMPLES: [(&str, &str); 3] = [
 ];
 const BARS: [&str; 4] = ["trade-bar-1.svg", "trade-bar-2.svg", "trade-bar-3.svg", "trade-bar-4.svg"];
 
+/// Bars whose train never ends without gravity, from the shortest to one close to where trains begin to end.
+const ENDLESS: [[f64; 2]; 3] = [[0.8, 0.1], [0.9, 0.3], [0.95, 0.5]];
+
 /// Everything measured.
 #[derive(Debug, Serialize)]
 struct Trades {
     machine: Machine,
     bars: Vec<BarTrade>,
     products: Vec<ProductTradeoff>,
+    endless: Vec<Train>,
+}
+
+/// How many strikes of an endless train are worth keeping.
+#[derive(Debug, Serialize)]
+struct Train {
+    q: f64,
+    e: f64,
+    kept: Vec<Kept>,
 }
 
 /// One bar of Table 1.
@@ -36,7 +48,8 @@ struct BarTrade {
 }
 
 /// The trade between speed and accuracy for the four bars of Table 1 (peak acceleration; the scenes are those of
-/// [`bars`]) and for every part of the three worked products: `trade.json`, and a figure for each.
+/// [`bars`]) and for every part of the three worked products: `trade.json`, and a figure for each. The JSON also has how many strikes of
+/// three endless trains are worth keeping.
 ///
 /// Errors, estimates, counts and choices are the same from run to run, `seconds` and what follows from them (`front`) are of the
 /// machine.
@@ -45,7 +58,7 @@ struct BarTrade {
 /// None in practice: all scenes are valid.
 pub fn trade_files() -> Result<Vec<(&'static str, String)>, ReportError> {
     let mut files: Vec<File> = Vec::new();
-    let mut trades = Trades { machine: Machine::here(), bars: Vec::new(), products: Vec::new() };
+    let mut trades = Trades { machine: Machine::here(), bars: Vec::new(), products: Vec::new(), endless: Vec::new() };
     for ((setup, [q, e]), name) in bars()?.iter().zip(DESIGNS).zip(BARS) {
         let trade = Tradeoff::measure(setup, Quantity::PeakAcceleration)?;
         let title = format!("q = {q}, e = {e}: peak acceleration of a board near the end that strikes second");
@@ -57,6 +70,10 @@ pub fn trade_files() -> Result<Vec<(&'static str, String)>, ReportError> {
         let product = file.tradeoff(&file.assess()?)?;
         files.push((name, of_product(&product)));
         trades.products.push(product);
+    }
+    for [q, e] in ENDLESS {
+        let kept = Tradeoff::measure(&bar(q, e)?, Quantity::PeakAcceleration)?.kept;
+        trades.endless.push(Train { q, e, kept });
     }
     files.insert(0, ("trade.json", pretty(&trades)?));
     Ok(files)
@@ -99,6 +116,12 @@ mod tests {
             assert!(figure.contains(&format!("q = {q}, e = {e}")) && figure.contains("compliant, pulses"), "{figure}");
         }
         assert_eq!(data["products"].as_array().unwrap().len(), 3);
+        for train in data["endless"].as_array().unwrap() {
+            let start = clatter::Start::default();
+            let bar = clatter::Bar::new(train["q"].as_f64().unwrap(), train["e"].as_f64().unwrap()).unwrap();
+            assert_eq!(bar.summary(&start).count, clatter::Count::Endless, "{train}");
+            assert!(train["kept"][0]["least"][2].as_u64() < train["kept"][0]["strikes"].as_u64(), "{train}");
+        }
         // The laptop has no contact time: its figure says so, the phone's need not.
         let says = |name| files.iter().find(|(n, _)| *n == name).unwrap().1.contains("compliant bar here");
         assert!(says("trade-laptop.svg") && !says("trade-phone.svg"));

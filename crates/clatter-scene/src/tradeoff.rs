@@ -318,8 +318,20 @@ impl Stated {
     }
 }
 
-/// The four bars of the paper's Table 1 ([`DESIGNS`]) as drops of a phone: 140 mm long, 4.43 m/s (from 1 m), 5°, standard gravity,
-/// contacts of 0.2 ms; a board with a mode at 230 Hz, Q = 10, near the end that strikes second (s = 0.9).
+/// A bar with this inertia ratio and restitution as a drop to compare others with: 140 mm long, 4.43 m/s (from 1 m), 5°, standard
+/// gravity, contacts of 0.2 ms; a board with a mode at 230 Hz, Q = 10, near the end that strikes second (s = 0.9).
+///
+/// # Errors
+/// [`Error::Bar`] unless q is in (−1, 1] and e in [0, 1].
+pub fn bar(q: f64, e: f64) -> Result<Setup, Error> {
+    let part = Suspension::from_hz(230.0, DampingRatio::from_quality_factor(10.0)?)?;
+    // q = (L² − ρ²)/(L² + ρ²)
+    let gyration_m = 0.07 * ((1.0 - q) / (1.0 + q)).sqrt();
+    let scene = Scene::new(Body::new(0.14, gyration_m)?, e, 4.43, 5.0, STANDARD_GRAVITY_M_S2)?;
+    Setup::new(scene, Some(2e-4), 0.9, part)
+}
+
+/// The four bars of the paper's Table 1 ([`DESIGNS`]) as drops, each a [`bar`].
 ///
 /// # Errors
 /// None in practice: the numbers are valid.
@@ -332,14 +344,7 @@ impl Stated {
 /// # Ok::<(), clatter_scene::Error>(())
 /// ```
 pub fn bars() -> Result<[Setup; 4], Error> {
-    let part = Suspension::from_hz(230.0, DampingRatio::from_quality_factor(10.0)?)?;
-    let setup = |[q, e]: [f64; 2]| {
-        // q = (L² − ρ²)/(L² + ρ²)
-        let gyration_m = 0.07 * ((1.0 - q) / (1.0 + q)).sqrt();
-        let scene = Scene::new(Body::new(0.14, gyration_m)?, e, 4.43, 5.0, STANDARD_GRAVITY_M_S2)?;
-        Setup::new(scene, Some(2e-4), 0.9, part)
-    };
-    let [a, b, c, d] = DESIGNS.map(setup);
+    let [a, b, c, d] = DESIGNS.map(|[q, e]| bar(q, e));
     Ok([a?, b?, c?, d?])
 }
 

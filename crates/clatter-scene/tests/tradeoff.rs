@@ -3,7 +3,7 @@
 use clatter::End;
 use clatter::flight::{Body, Scene};
 use clatter_scene::plan::{BarRung, ComponentRung, Pair, Quantity, Setup};
-use clatter_scene::tradeoff::{TOLERANCES, Tradeoff, bars};
+use clatter_scene::tradeoff::{TOLERANCES, Tradeoff, bar, bars};
 use clatter_scene::{EXAMPLE, LimitKind, ProductFile};
 use clatter_shock::{DampingRatio, Suspension};
 
@@ -198,4 +198,12 @@ fn a_part_is_dropped_as_the_assessment_found_worst() {
         }
     }
     assert!(ends.contains(&End::A) && ends.contains(&End::B), "both ways around: {ends:?}");
+}
+
+#[test]
+fn what_is_no_bar_is_refused_with_its_value() {
+    for (q, e, said) in [(0.5, 1.5, "1.5"), (-1.0, 0.3, "inf"), (1.1, 0.3, "NaN"), (f64::NAN, 0.3, "NaN")] {
+        let text = bar(q, e).expect_err("no bar").to_string();
+        assert!(text.contains(said), "q = {q}, e = {e}: {text}");
+    }
 }
