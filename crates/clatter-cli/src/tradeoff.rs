@@ -29,7 +29,7 @@ Examples:
 
 How to read the table:
   error      what the pair gets wrong here, as a share of the demand by the reference
-  estimate   what the plan thinks that it gets wrong at most, before anything is run; - where it has no estimate
+  estimate   what the plan thinks that it gets wrong, before anything is run; - where it has none
   front      no other pair is both cheaper and closer
   plan       the tolerances at which the plan takes this pair by itself
 Below it stands how many strikes of the train are worth following for each tolerance.")]
