@@ -8,13 +8,13 @@ use serde_json::Value;
 
 use crate::{answer, clatter};
 
-fn example(name: &str) -> String {
+pub(crate) fn example(name: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../reports/examples").join(name);
     path.to_str().unwrap().to_owned()
 }
 
 /// A directory with a product file made from the one of `clatter init`.
-fn changed(change: impl Fn(String) -> String) -> (tempfile::TempDir, String) {
+pub(crate) fn changed(change: impl Fn(String) -> String) -> (tempfile::TempDir, String) {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("product.toml");
     let written = clatter(["init", path.to_str().unwrap()]);

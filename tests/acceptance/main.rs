@@ -21,6 +21,7 @@ mod scatter;
 mod simulate;
 mod spectrum;
 mod tables;
+mod tradeoff;
 
 use clatter_cli::{Exit, Streams, run};
 use serde_json::Value;

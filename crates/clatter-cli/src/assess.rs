@@ -102,7 +102,7 @@ pub(crate) fn read(path: &Path) -> Result<ProductFile, Failure> {
 }
 
 /// A value in the unit that people use for it.
-fn in_words(unit: Unit, value: f64) -> String {
+pub(crate) fn in_words(unit: Unit, value: f64) -> String {
     let (factor, name) = match unit {
         Unit::MeterPerSecondSquared => (1.0 / clatter_scene::STANDARD_GRAVITY_M_S2, "gn"),
         Unit::Meter => (1e3, "mm"),
@@ -113,7 +113,7 @@ fn in_words(unit: Unit, value: f64) -> String {
 }
 
 /// Four significant digits: more no drop is known to.
-fn four(x: f64) -> String {
+pub(crate) fn four(x: f64) -> String {
     let digits = figures(x);
     match digits.split_once('.') {
         Some((whole, _)) if !digits.contains('e') && x.is_finite() => {

@@ -34,6 +34,7 @@ mod schema;
 mod simulate;
 mod spectrum;
 mod text;
+mod tradeoff;
 mod zone;
 
 use std::ffi::OsString;
@@ -121,6 +122,7 @@ enum Command {
     Design(design::Args),
     Scatter(scatter::Args),
     Assess(assess::Args),
+    Tradeoff(tradeoff::Args),
     Init(init::Args),
     Schema(schema::Args),
     Report(report::Args),
@@ -147,6 +149,7 @@ where
             Command::Design(args) => args.run(streams),
             Command::Scatter(args) => args.run(streams),
             Command::Assess(args) => args.run(streams).map(|found| exit = found),
+            Command::Tradeoff(args) => args.run(streams),
             Command::Init(args) => args.run(streams),
             Command::Schema(args) => args.run(streams),
             Command::Report(args) => args.run(streams),

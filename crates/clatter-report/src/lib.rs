@@ -11,6 +11,7 @@ mod peers;
 mod shock;
 mod svg;
 mod table;
+mod trade;
 mod typst;
 
 use std::fs;
@@ -20,6 +21,7 @@ use std::thread;
 
 pub use figure::design::{DesignBorder, DesignFronts, DesignPlane};
 pub use file::{create, replace};
+pub use trade::trade_files;
 
 /// A report that can be written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,6 +63,9 @@ pub enum ReportError {
     /// The same of a component.
     #[error(transparent)]
     Shock(#[from] clatter_shock::Error),
+    /// The same of a product.
+    #[error(transparent)]
+    Scene(#[from] clatter_scene::Error),
     /// The report's data could not be written as JSON.
     #[error("the report's data: {0}")]
     Data(String),
@@ -211,6 +216,28 @@ pub fn design_svg(plane: &DesignPlane) -> String {
 #[must_use]
 pub fn fronts_svg(fronts: &DesignFronts) -> String {
     figure::design::fronts(fronts)
+}
+
+/// Error over cost of every pair of models in one scene, log-log: the front as a stepped line, the plan's choices ringed. What has an
+/// error below what the reference is known to stands in a strip of its own at the foot.
+///
+/// ```
+/// use clatter_scene::plan::Quantity;
+/// use clatter_scene::tradeoff::{Tradeoff, bars};
+/// let [bar, ..] = bars()?;
+/// let trade = Tradeoff::measure(&bar, Quantity::PeakAcceleration)?;
+/// assert!(clatter_report::tradeoff_svg("q = 0.5, e = 0.3", &trade).contains("front"));
+/// # Ok::<(), clatter_scene::Error>(())
+/// ```
+#[must_use]
+pub fn tradeoff_svg(title: &str, trade: &clatter_scene::tradeoff::Tradeoff) -> String {
+    figure::trade::panels(&[(title.to_owned(), trade)])
+}
+
+/// The same for all parts of a product, one below the other.
+#[must_use]
+pub fn product_tradeoff_svg(product: &clatter_scene::tradeoff::ProductTradeoff) -> String {
+    trade::of_product(product)
 }
 
 /// A map as a heat map with a color bar, a cell a grid point; endless (+∞) is shown apart. The color bar is

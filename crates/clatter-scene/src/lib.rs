@@ -24,6 +24,7 @@ mod verdict;
 
 pub mod design;
 pub mod scatter;
+pub mod tradeoff;
 
 pub use base::{Base, SingleDrop};
 pub use clatter_shock::STANDARD_GRAVITY_M_S2;

@@ -256,12 +256,12 @@ impl ComponentModel {
 
 /// Infinity is a string: JSON has no number for it.
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature serde asks for")]
-fn number<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+pub(crate) fn number<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     if value.is_infinite() { serializer.serialize_str("infinite") } else { serializer.serialize_f64(*value) }
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature serde asks for")]
-fn letter<S: Serializer>(end: &End, serializer: S) -> Result<S::Ok, S::Error> {
+pub(crate) fn letter<S: Serializer>(end: &End, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(match end {
         End::A => "a",
         End::B => "b",

@@ -12,3 +12,4 @@ pub(crate) mod rules;
 pub(crate) mod scheme;
 pub(crate) mod shock;
 pub(crate) mod surface;
+pub(crate) mod trade;

@@ -17,6 +17,24 @@ const FINE: f64 = 4.0;
 /// Strikes of the map at most: a train as long has died down, or goes on like this.
 const MOST_OF_MAP: usize = 1000;
 
+/// What a pair says, and what it took.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Answer {
+    /// The quantity asked, in m/s², m or m/s.
+    pub value: f64,
+    /// Strikes followed; 0 in closed form.
+    pub strikes: usize,
+    /// Straight pieces of the pulses that the component was driven through; 0 without pulses.
+    pub pieces: usize,
+}
+
+impl Answer {
+    /// In closed form.
+    fn at_once(value: f64) -> Self {
+        Self { value, strikes: 0, pieces: 0 }
+    }
+}
+
 impl Setup {
     /// The quantity asked, by one pair of models, in m/s², m or m/s. Strikes after `until_s` ([`Forecast::until_s`], or infinity)
     /// are left out; the highest pair finds for itself, by the energy of the flight that it follows, when nothing later raises the quantity.
@@ -32,12 +50,20 @@ impl Setup {
     ///
     /// [`Forecast::until_s`]: super::Forecast::until_s
     pub fn demand(&self, pair: Pair, quantity: Quantity, until_s: f64) -> Result<f64, Error> {
+        self.answer(pair, quantity, until_s).map(|answer| answer.value)
+    }
+
+    /// As [`demand`](Self::demand), with what it took.
+    ///
+    /// # Errors
+    /// As [`demand`](Self::demand).
+    pub fn answer(&self, pair: Pair, quantity: Quantity, until_s: f64) -> Result<Answer, Error> {
         if pair == Pair::HIGHEST {
             let contact_s = self.known_contact_s()?;
             let (flight, settled_s) = self.settled_flight(quantity, contact_s)?;
             return self.of_contacts(&flight, settled_s, contact_s, quantity, CELLS);
         }
-        self.demand_fine(pair, quantity, until_s, CELLS)
+        self.answer_fine(pair, quantity, until_s, CELLS)
     }
 
     /// As [`demand`](Self::demand), followed until `until_s` or rest whatever it takes, and pulses of `cells` pieces: twice as many are
@@ -46,12 +72,20 @@ impl Setup {
     /// # Errors
     /// As [`demand`](Self::demand).
     pub fn demand_fine(&self, pair: Pair, quantity: Quantity, until_s: f64, cells: usize) -> Result<f64, Error> {
+        self.answer_fine(pair, quantity, until_s, cells).map(|answer| answer.value)
+    }
+
+    /// As [`demand_fine`](Self::demand_fine), with what it took.
+    ///
+    /// # Errors
+    /// As [`demand`](Self::demand).
+    pub fn answer_fine(&self, pair: Pair, quantity: Quantity, until_s: f64, cells: usize) -> Result<Answer, Error> {
         let scene = if until_s < f64::INFINITY { self.scene.with_time_limit_s(until_s)? } else { self.scene };
         let shocks_only = quantity == Quantity::VelocityShock;
         let model = match pair.bar {
             BarRung::ClosedForm => match pair.component {
-                ComponentRung::NetChange => return Ok(self.of_one(self.net_change(), quantity)),
-                ComponentRung::LargestShock => return Ok(self.of_one(self.largest_shock(), quantity)),
+                ComponentRung::NetChange => return Ok(Answer::at_once(self.of_one(self.net_change(), quantity))),
+                ComponentRung::LargestShock => return Ok(Answer::at_once(self.of_one(self.largest_shock(), quantity))),
                 _ => Model::Map,
             },
             BarRung::Map => Model::Map,
@@ -96,16 +130,21 @@ impl Setup {
         contact_s: f64,
         quantity: Quantity,
         cells: usize,
-    ) -> Result<f64, Error> {
+    ) -> Result<Answer, Error> {
         let shocks = quantity == Quantity::VelocityShock;
         let cells = if shocks { cells } else { self.cells(cells, contact_s) };
         #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
         let polygon = history::of_contacts(self, flight, until_s, contact_s, cells as f64);
-        if shocks { Ok(history::largest_change(&polygon, contact_s)) } else { self.of_polygon(&polygon, quantity) }
+        let strikes = flight.flight.strikes.len();
+        if shocks {
+            let (value, pieces) = (history::largest_change(&polygon, contact_s), polygon.len().saturating_sub(1));
+            return Ok(Answer { value, strikes, pieces });
+        }
+        self.of_polygon(&polygon, quantity, strikes)
     }
 
     /// The response to one velocity shock, or the shock itself.
-    fn of_one(&self, delta_v: f64, quantity: Quantity) -> f64 {
+    pub(crate) fn of_one(&self, delta_v: f64, quantity: Quantity) -> f64 {
         let (factors, omega) = (self.suspension.damping().impulse_factors(), self.suspension.omega());
         delta_v.abs()
             * match quantity {
@@ -121,28 +160,43 @@ impl Setup {
         component: ComponentRung,
         quantity: Quantity,
         cells: usize,
-    ) -> Result<f64, Error> {
+    ) -> Result<Answer, Error> {
+        let (shocks, strikes) = (self.shocks(flight)?, flight.strikes.len());
+        let value = match component {
+            ComponentRung::NetChange => self.of_one(shocks.net(), quantity),
+            ComponentRung::LargestShock => self.of_one(shocks.largest(), quantity),
+            ComponentRung::ImpulseTrain => self.of_impulses(&shocks, quantity),
+            ComponentRung::PulseTrain => {
+                let time = self.known_contact_s()?;
+                let polygon = history::of_shocks(shocks.as_slice(), self.scene.e(), time, self.cells(cells, time));
+                return self.of_polygon(&polygon, quantity, strikes);
+            }
+        };
+        Ok(Answer { value, strikes, pieces: 0 })
+    }
+
+    /// What a flight does to the component's place.
+    pub(crate) fn shocks(&self, flight: &Flight) -> Result<VelocityShocks, Error> {
         let mut last = 0.0_f64;
         // Times of strikes at one instant may run back by a rounding.
         let shocks = flight.strikes.iter().map(|s| {
             last = last.max(s.time_s);
             VelocityShock { time: last, delta_v: s.delta_v_at(self.position) }
         });
-        let shocks = VelocityShocks::new(shocks.collect())?;
-        match component {
-            ComponentRung::NetChange => Ok(self.of_one(shocks.net(), quantity)),
-            ComponentRung::LargestShock => Ok(self.of_one(shocks.largest(), quantity)),
-            ComponentRung::ImpulseTrain => Ok(peak(&shocks.respond(&self.suspension), quantity)),
-            ComponentRung::PulseTrain => {
-                let time = self.known_contact_s()?;
-                let polygon = history::of_shocks(shocks.as_slice(), self.scene.e(), time, self.cells(cells, time));
-                self.of_polygon(&polygon, quantity)
-            }
+        Ok(VelocityShocks::new(shocks.collect())?)
+    }
+
+    /// The response to impulses, or the largest of them.
+    pub(crate) fn of_impulses(&self, shocks: &VelocityShocks, quantity: Quantity) -> f64 {
+        match quantity {
+            Quantity::VelocityShock => shocks.largest(),
+            _ => peak(&shocks.respond(&self.suspension), quantity),
         }
     }
 
-    fn of_polygon(&self, polygon: &Polygon, quantity: Quantity) -> Result<f64, Error> {
-        Ok(peak(&Pulses::piecewise_linear(polygon)?.respond(&self.suspension), quantity))
+    fn of_polygon(&self, polygon: &Polygon, quantity: Quantity, strikes: usize) -> Result<Answer, Error> {
+        let value = peak(&Pulses::piecewise_linear(polygon)?.respond(&self.suspension), quantity);
+        Ok(Answer { value, strikes, pieces: polygon.len().saturating_sub(1) })
     }
 
     /// Sum of all velocity shocks of the map, in closed form; infinite where it has no limit.

@@ -54,11 +54,13 @@ mod demand;
 mod forecast;
 mod history;
 mod lane;
+mod names;
 mod pulse;
 mod settle;
 mod swing;
 
 pub use choice::{Plan, Reason, Warning};
+pub use demand::Answer;
 pub use forecast::{Forecast, Groups, MANY_STRIKES, STRIKES};
 
 use clatter::flight::Scene;
@@ -207,5 +209,15 @@ impl Setup {
     #[must_use]
     pub fn contact_time_s(&self) -> Option<f64> {
         self.contact_time_s
+    }
+    /// Where the component is, in [−1, 1]; −1 is the end that touches first.
+    #[must_use]
+    pub fn position(&self) -> f64 {
+        self.position
+    }
+    /// The component.
+    #[must_use]
+    pub fn suspension(&self) -> &Suspension {
+        &self.suspension
     }
 }
