@@ -3,6 +3,7 @@
 //! A report computes nothing: it is handed what `clatter` computed and says how it is drawn, worded and set. Figures
 //! are SVG, tables JSON and CSV; the page is a typst file that reads them. One module alone starts typst.
 
+mod accuracy;
 mod assessment;
 mod figure;
 mod file;
@@ -17,6 +18,7 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::thread;
 
+pub use accuracy::{Measured, measured};
 pub use figure::design::{DesignBorder, DesignFronts, DesignPlane};
 pub use file::{create, replace};
 
@@ -28,6 +30,8 @@ pub enum Report {
     Paper,
     /// What the clatter does to a suspended part.
     Shock,
+    /// How exact all of it is.
+    Accuracy,
 }
 
 /// What was written.
@@ -89,6 +93,10 @@ pub fn write(report: Report, dir: &Path, progress: &mut dyn FnMut(&str)) -> Resu
         Report::Shock => {
             let source = ("shock.typ", include_str!("../../../reports/shock.typ"));
             page("shock.pdf", source, &|| shock::Data::compute()?.files(), &paper::page(), dir, progress)
+        }
+        Report::Accuracy => {
+            let source = ("accuracy.typ", include_str!("../../../reports/accuracy.typ"));
+            page("accuracy.pdf", source, &|| accuracy::Data::compute()?.files(), &paper::page(), dir, progress)
         }
     }
 }
@@ -326,7 +334,7 @@ mod tests {
             let written = write(report, dir.path(), &mut |_| ()).unwrap();
             written.files.iter().map(|file| fs::read(file).unwrap()).collect::<Vec<_>>()
         };
-        for report in [Report::Paper, Report::Shock] {
+        for report in [Report::Paper, Report::Shock, Report::Accuracy] {
             assert!(run(report) == run(report), "two runs of {report:?} differ");
         }
     }

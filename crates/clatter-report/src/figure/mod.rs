@@ -1,10 +1,11 @@
 //! The figures: each a pure function of the data it draws.
 
-mod axes;
+pub(crate) mod axes;
 pub(crate) mod component;
 pub(crate) mod design;
 pub(crate) mod drop;
 pub(crate) mod heat;
+pub(crate) mod orders;
 pub(crate) mod plane;
 pub(crate) mod product;
 pub(crate) mod rules;

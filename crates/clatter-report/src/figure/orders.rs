@@ -1,0 +1,48 @@
+//! How fast the flight models tend to one another: differences over the group that decides.
+
+use clatter::flight::Order;
+
+use super::axes::{Axes, Axis, key};
+use super::shock::GUIDE;
+use crate::svg::{BLUES, Ink, RUST, Svg};
+
+/// One panel: what goes to zero, the orders that share it, their names.
+#[derive(Debug)]
+pub(crate) struct Panel<'a> {
+    /// In figure markup.
+    pub(crate) title: &'a str,
+    pub(crate) curves: Vec<(&'a Order, String)>,
+}
+
+/// A panel for each group, a guide of the order that theory gives below each curve.
+pub(crate) fn orders(panels: &[Panel<'_>; 3]) -> String {
+    let inks = [Ink::line(BLUES[8], 1.2), Ink { dash: "4 2", ..Ink::line(RUST, 1.2) }];
+    let steps = |panel: &Panel<'_>| panel.curves.iter().flat_map(|(order, _)| order.steps.clone()).collect::<Vec<_>>();
+    let all: Vec<f64> = panels.iter().flat_map(&steps).map(|step| step.1).collect();
+    let y = Axis::log_over(all.iter().flat_map(|v| [0.25 * v, 2.0 * v]), 12.0, "");
+    let mut svg = Svg::new(465.0, 214.0);
+    let mut left = 34.0;
+    for (i, panel) in panels.iter().enumerate() {
+        let x = Axis::log_over(steps(panel).iter().flat_map(|step| [0.8 * step.0, 1.25 * step.0]), 12.0, panel.title);
+        let title = if i == 0 { "largest relative difference" } else { "" };
+        let axes = Axes { corner: [left, 6.0], size: [122.0, 148.0], x, y: Axis { title, ..y } };
+        axes.grid(&mut svg);
+        let mut lines = Vec::new();
+        for ((order, name), ink) in panel.curves.iter().zip(inks) {
+            if let Some(&(from, size)) = order.steps.first() {
+                let guide = |x: f64| (x, 0.4 * size * (x / from).powf(order.expected));
+                let last = order.steps.last().map_or(from, |step| step.0);
+                axes.curve(&mut svg, [guide(from), guide(last)].into_iter(), GUIDE);
+            }
+            axes.curve(&mut svg, order.steps.iter().copied(), ink);
+            for (x, y) in &order.steps {
+                axes.mark(&mut svg, *x, *y, ink.stroke);
+            }
+            lines.push((ink, name.as_str()));
+        }
+        axes.border(&mut svg, 30.0);
+        key(&mut svg, [left, 196.0], &lines);
+        left += 154.0;
+    }
+    svg.finish("Differences between the flight models over the group that decides them")
+}
