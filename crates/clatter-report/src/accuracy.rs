@@ -7,9 +7,9 @@ mod digits;
 mod part;
 mod train;
 
-use clatter::accuracy::{APPROACH, DURATION, DURATION_LONG, FINAL, JUMP, NEAR_ENDLESS, PEAK, TIME};
+use clatter::accuracy::{APPROACH, Allowance, DURATION, DURATION_LONG, FINAL, JUMP, NEAR_ENDLESS, PEAK, TABLE, TIME};
 use clatter::flight::{Body, Flight, Model, Order, Residue, Scene, orders, residues};
-use clatter_shock::accuracy::{FREE, PULSE, RECORD};
+use clatter_shock::accuracy::{FREE, PULSE, RECORD, TRAIN};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
@@ -121,9 +121,9 @@ impl Data {
             chosen.map(|order| (order, format!("{} to {}", order.model, order.limit))).collect()
         };
         let panels = [
-            Panel { title: "tilt *φ* in degrees", curves: of("tilt") },
-            Panel { title: "*G* = *gh*_0/*v*_0²", curves: of("g h0") },
-            Panel { title: "contact time over *h*_0/*v*_0", curves: of("contact") },
+            Panel { title: "tilt *φ* in degrees", guide: "slope 2", curves: of("tilt") },
+            Panel { title: "*G* = *gh*_0/*v*_0²", guide: "slope 1", curves: of("g h0") },
+            Panel { title: "contact time over *h*_0/*v*_0", guide: "slope 1", curves: of("contact") },
         ];
         Ok(vec![
             ("accuracy-orders.svg", figure(&panels)),
@@ -159,14 +159,14 @@ impl Data {
                 });
             }
         }
-        let mut cells = |subject, axis: &str, at: &[&str], lines: &[part::Line]| {
+        let mut cells = |[subject, quantity]: [&'static str; 2], axis: &str, at: &[&str], lines: &[part::Line]| {
             for line in lines {
                 for (at, cell) in at.iter().zip(&line.cells) {
                     let Some(cell) = cell else { continue };
                     rows.push(Measured {
                         subject,
                         extreme: format!("ζ = {}, {axis} = {at}", line.zeta),
-                        quantity: subject,
+                        quantity,
                         allowed: Some(cell.allowed),
                         measured: Some(cell.ours),
                         plain: [None, cell.plain],
@@ -175,9 +175,9 @@ impl Data {
             }
         };
         let part = &self.part;
-        cells("free motion", "ωt", &part::FREE_AT.map(|at| at.0), &part.free);
-        cells("half-sine", "ωD", &part::PULSE_AT.map(|at| at.0), &part.pulse);
-        cells("record", "f/fs", &part::RECORD_AT.map(|at| at.0), &part.record);
+        cells(["free motion", "ωz, z′"], "ωt", &part::FREE_AT.map(|at| at.0), &part.free);
+        cells(["half-sine", "ωz, z′ at its end"], "ωD", &part::PULSE_AT.map(|at| at.0), &part.pulse);
+        cells(["record", "primary acceleration"], "f/fs", &part::RECORD_AT.map(|at| at.0), &part.record);
         rows.push(Measured {
             subject: "part in a clatter",
             extreme: format!("{} parts", part.parts),
@@ -197,8 +197,48 @@ impl Data {
         rows
     }
 
+    /// Each allowance, and the extreme that comes nearest to it.
+    fn allowances(&self) -> Vec<Value> {
+        let told = |a: Allowance, worst: Option<(f64, String)>| {
+            let (error, at) = worst.unwrap_or((f64::NAN, String::new()));
+            json!({
+                "quantity": a.quantity, "scale": a.scale, "range": a.range,
+                "allowed": power(a.error), "measured": upper(error), "at": at,
+            })
+        };
+        let larger = |a: (f64, String), b: (f64, String)| if b.0 > a.0 { b } else { a };
+        let of_train = |a: Allowance| {
+            let judged = self.trains.iter().flat_map(|row| row.ours.judged.iter().map(move |j| (row, j)));
+            let errors = judged.filter(|(_, j)| j.allowed == Some(a));
+            errors.filter_map(|(row, j)| Some((j.error?, row.case.name.to_owned()))).reduce(larger)
+        };
+        // What is allowed more at one extreme than at others is taken off.
+        let of_part = |a: Allowance, axis: &str, at: &[&str], lines: &[part::Line]| {
+            let cells = lines.iter().flat_map(|line| {
+                line.cells.iter().zip(at).filter_map(move |(cell, at)| Some((line.zeta, cell.as_ref()?, at)))
+            });
+            let told = |(zeta, cell, at): (&str, &Cell, &&str)| {
+                (cell.ours * a.error / cell.allowed, format!("ζ = {zeta}, {axis} = {at}"))
+            };
+            cells.map(told).reduce(larger)
+        };
+        let part = &self.part;
+        let clatters = (part.clatters.ours, format!("{} parts", part.parts));
+        TABLE
+            .into_iter()
+            .map(|a| told(a, of_train(a)))
+            .chain([
+                told(FREE, of_part(FREE, "ωt", &part::FREE_AT.map(|at| at.0), &part.free)),
+                told(PULSE, of_part(PULSE, "ωD", &part::PULSE_AT.map(|at| at.0), &part.pulse)),
+                told(TRAIN, Some(clatters)),
+                told(RECORD, of_part(RECORD, "f/fₛ", &part::RECORD_AT.map(|at| at.0), &part.record)),
+            ])
+            .collect()
+    }
+
     /// Every number that the page says.
     fn numbers(&self) -> Value {
+        let allowances = self.allowances();
         let orders = self.orders.iter().map(|o| {
             let (last, difference) = o.steps.last().copied().unwrap_or((f64::NAN, f64::NAN));
             json!({
@@ -207,9 +247,10 @@ impl Data {
                 "at": power(last), "difference": power(difference),
             })
         });
-        let residues = self.residues.iter().map(|r| {
-            json!({ "compared": r.compared, "allowed": power(r.allowed), "measured": upper(r.value) })
-        });
+        let residues = self
+            .residues
+            .iter()
+            .map(|r| json!({ "compared": r.compared, "allowed": power(r.allowed), "measured": upper(r.value) }));
         let flights = self.flights.iter().map(|(model, flight)| {
             let strikes = flight.strikes.iter().take(STRIKES).map(|s| {
                 let end = if s.end == clatter::End::A { "a" } else { "b" };
@@ -245,6 +286,7 @@ impl Data {
         });
         let allowed = [PEAK, APPROACH, JUMP, TIME, FINAL, DURATION].map(|a| power(a.error));
         json!({
+            "allowances": allowances,
             "orders": orders.collect::<Vec<_>>(),
             "residues": residues.collect::<Vec<_>>(),
             "flights": flights.collect::<Vec<_>>(),
@@ -304,7 +346,7 @@ fn one_digit(value: f64, round: impl Fn(f64) -> f64) -> String {
         return format!("{:.*}", (-exponent).max(0.0) as usize, first * 10f64.powf(exponent));
     }
     let power = format!("10{}", raised(&exponent.to_string()));
-    if (first - 1.0).abs() < 0.5 { power } else { format!("{}·{power}", first) }
+    if (first - 1.0).abs() < 0.5 { power } else { format!("{first}·{power}") }
 }
 
 /// A number as one digit and a power of ten.
@@ -394,7 +436,8 @@ fn written(exact: &digits::Value, value: &digits::Value) -> Value {
         (Ok((want, scale)), Ok((got, other))) => {
             let same = scale == other && want.len() == got.len();
             let shared = want.chars().zip(got.chars()).take_while(|(a, b)| same && a == b).count();
-            let (good, bad): (String, String) = (got.chars().take(shared).collect(), got.chars().skip(shared).collect());
+            let (good, bad): (String, String) =
+                (got.chars().take(shared).collect(), got.chars().skip(shared).collect());
             json!({ "good": good, "bad": bad, "power": other })
         }
         (_, Ok((got, power))) => json!({ "good": "", "bad": got, "power": power }),

@@ -327,6 +327,34 @@ mod tests {
         assert!(said.contains(&plain(hostile)), "{said}");
     }
 
+    /// The sections that others bring: on the page with their data, and not a word of them without.
+    #[test]
+    fn sections_of_the_accuracy_report_appear_with_their_data() {
+        let figure = r#"{"file":"accuracy-orders.svg","alt":"Errors over costs.","caption":"Error over cost."}"#;
+        let table = r#"{"caption":"All pairs.","head":["pair","error"],"rows":[["map, net change","0.5"]]}"#;
+        let section = |title: &str| {
+            format!(r#"{{"title":"{title}","text":"Measured.","figures":[{figure}],"tables":[{table}]}}"#)
+        };
+        let data = format!(r#"{{"trade":{},"peers":{},"#, section("The trade"), section("Peers side by side"));
+        let said = |with: bool| {
+            let files = || {
+                let mut files = accuracy::Data::compute()?.files()?;
+                for (_, content) in files.iter_mut().filter(|(name, _)| with && *name == "accuracy.json") {
+                    *content = content.replacen('{', &data, 1);
+                }
+                Ok(files)
+            };
+            let dir = tempfile::tempdir().unwrap();
+            let source = ("accuracy.typ", include_str!("../../../reports/accuracy.typ"));
+            page("page.pdf", source, &files, &paper::page(), dir.path(), &mut |_| ()).unwrap();
+            text(&dir.path().join("page.pdf"))
+        };
+        let (without, with) = (said(false), said(true));
+        for words in ["The trade", "Peers side by side", "map, net change"] {
+            assert!(with.contains(words) && !without.contains(words), "{words}: {with}");
+        }
+    }
+
     #[test]
     fn the_page_is_the_same_from_run_to_run() {
         let run = |report| {

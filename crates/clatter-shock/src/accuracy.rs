@@ -23,12 +23,8 @@ pub const PULSE: Allowance = Allowance {
     range: "any pulse, at resonance and at critical damping",
 };
 /// Peaks in a clatter ([`crate::respond`]).
-pub const TRAIN: Allowance = Allowance {
-    quantity: "peak in a clatter",
-    error: 1e-12,
-    scale: "itself",
-    range: "trains of up to 300 shocks",
-};
+pub const TRAIN: Allowance =
+    Allowance { quantity: "peak in a clatter", error: 1e-12, scale: "itself", range: "trains of up to 300 shocks" };
 /// Spectra of records ([`crate::SpectrumFilter`]).
 pub const RECORD: Allowance = Allowance {
     quantity: "spectrum of a record",

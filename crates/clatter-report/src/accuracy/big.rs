@@ -69,14 +69,19 @@ impl Big {
         if self.is_zero() {
             return ("0".repeat(digits as usize), 0);
         }
-        #[expect(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "off by one is put right below")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_precision_loss,
+            reason = "off by one is put right below"
+        )]
         let mut power = ((self.top() - 1) as f64 * std::f64::consts::LOG10_2).floor() as i64;
         loop {
             let shift = i64::from(digits) - 1 - power;
             let ten = Self::new(BigInt::from(10).pow(u32::try_from(shift.unsigned_abs()).unwrap_or(0)), 0);
             let scaled = if shift < 0 { &self.abs() / &ten } else { &self.abs() * &ten };
             let scaled = &scaled + &Self::from(0.5);
-            let whole = if scaled.x < 0 { scaled.m >> scaled.x.unsigned_abs() } else { scaled.m << scaled.x.unsigned_abs() };
+            let whole =
+                if scaled.x < 0 { scaled.m >> scaled.x.unsigned_abs() } else { scaled.m << scaled.x.unsigned_abs() };
             let text = whole.to_string();
             match text.len().cmp(&(digits as usize)) {
                 std::cmp::Ordering::Equal => return (text, power),
@@ -164,9 +169,7 @@ impl Div for &Big {
 pub(super) type Matrix<const N: usize> = [[Big; N]; N];
 
 fn product<const N: usize>(a: &Matrix<N>, b: &Matrix<N>) -> Matrix<N> {
-    std::array::from_fn(|i| {
-        std::array::from_fn(|j| (0..N).fold(Big::zero(), |sum, k| &sum + &(&a[i][k] * &b[k][j])))
-    })
+    std::array::from_fn(|i| std::array::from_fn(|j| (0..N).fold(Big::zero(), |sum, k| &sum + &(&a[i][k] * &b[k][j]))))
 }
 
 /// e^A, by its power series at a small share of A, squared back up.

@@ -72,6 +72,15 @@ fn short(v: f64) -> String {
     v.to_string().replace('-', "−")
 }
 
+/// The words for a case with its start.
+fn told(case: &Case) -> String {
+    let [a, b] = case.velocity;
+    #[expect(clippy::float_cmp, reason = "the default, to the bit")]
+    let plain = a == -1.0 && b == -1.0;
+    let start = if plain { String::new() } else { format!(", v = [{}, {}]", short(a), short(b)) };
+    inputs(case) + &start
+}
+
 /// The lines about trains.
 fn trains(rows: &[Row]) -> Result<Vec<Line>, ReportError> {
     const RECURRENCE: &str = "aₙ₊₁ = T aₙ − e aₙ₋₁";
@@ -83,7 +92,7 @@ fn trains(rows: &[Row]) -> Result<Vec<Line>, ReportError> {
             let plain = if by_recurrence { &row.recurrence } else { &row.closed };
             lines.push(Line {
                 what: "number of impacts",
-                at: inputs(&row.case),
+                at: told(&row.case),
                 formula,
                 exact: found(row.exact),
                 ours: found(row.ours.found),
@@ -95,7 +104,7 @@ fn trains(rows: &[Row]) -> Result<Vec<Line>, ReportError> {
     count("one float below", CLOSED, false);
     count("q → 1, given k", CLOSED, false);
     count("beyond 2⁵³", CLOSED, false);
-    count("tie", CLOSED, false);
+    count("tie of a start", CLOSED, false);
     if let Some(row) = of("q → 1, given k")
         && let Given::K(k) = row.case.given
     {
@@ -126,14 +135,14 @@ fn trains(rows: &[Row]) -> Result<Vec<Line>, ReportError> {
             plain: number(recurrence(&row.case, &[]).duration),
         });
     }
-    if let Some(row) = of("hardly endless")
+    if let Some(row) = of("one float spun out")
         && let Found::Impacts(n) = row.exact
     {
         let Given::Q(q) = row.case.given else { return Ok(lines) };
         let start = Start::new(row.case.velocity, row.case.gap)?;
         lines.push(Line {
             what: "time of the last impact",
-            at: format!("{}, v_b = {}", inputs(&row.case), row.case.velocity[1]),
+            at: told(&row.case),
             formula: "h₀ bₙ/|A λ₊ⁿ + B λ₋ⁿ|",
             exact: Value::Number(Exact::new(&row.case).time(n - 1)),
             ours: number(Bar::new(q, row.case.e)?.summary(&start).duration),
@@ -146,12 +155,12 @@ fn trains(rows: &[Row]) -> Result<Vec<Line>, ReportError> {
 /// The lines about a suspended part.
 fn parts() -> Result<Vec<Line>, ReportError> {
     let mut lines = Vec::new();
-    let mut free = |what, zeta: f64, name: &str, (omega, t): (f64, f64), formula| {
+    let mut free = |what, zeta: f64, name: &str, (at, omega, t): (&str, f64, f64), formula| {
         let ([x, _], _) = part::free_exact(zeta, omega, t);
         let after = part::mount(omega, zeta)?.free(START, t);
         lines.push(Line {
             what,
-            at: format!("ζ = {name}, ωt = {}", short(omega * t)),
+            at: format!("ζ = {name}, ωt = {at}"),
             formula,
             exact: Value::Number(x),
             ours: number(omega * after.displacement),
@@ -159,10 +168,10 @@ fn parts() -> Result<Vec<Line>, ReportError> {
         });
         Ok::<_, ReportError>(())
     };
-    free("free motion, ωz", 1.0 + f64::EPSILON, "1 + 2⁻⁵²", (2.0, 0.5), "A e^(−sτ) + B e^(−rτ)")?;
-    free("free motion, ωz", 50.0, "50", (2.0, 256.0), "s = ζ − √(ζ² − 1)")?;
-    free("free motion, ωz", 0.0, "0", (1.1e6, 0.9e6), "x₀ cos ωt + y₀ sin ωt")?;
-    for (name, omega) in [part::PULSE_AT[2], part::PULSE_AT[0]] {
+    free("free motion, ωz", 1.0 + f64::EPSILON, "1 + 2⁻⁵²", ("1", 2.0, 0.5), "A e^(−sτ) + B e^(−rτ)")?;
+    free("free motion, ωz", 50.0, "50", ("512", 2.0, 256.0), "s = ζ − √(ζ² − 1)")?;
+    free("free motion, ωz", 0.0, "0", part::FREE_AT[5], "x₀ cos ωt + y₀ sin ωt")?;
+    for (name, omega) in [part::PULSE_AT[2], part::PULSE_AT[3]] {
         lines.push(Line {
             what: "end of a half-sine, ωz",
             at: format!("ζ = 0, ωD = {name}"),

@@ -101,24 +101,12 @@ pub(super) fn cases() -> Vec<Case> {
         q("thousands", 0.984_304_929_263_587, 0.7),
         q("beyond 2⁵³", 2.0 * 2f64.powi(-26) / (1.0 + f64::EPSILON), f64::EPSILON),
         q("tie", -0.5, 1.0),
-        Case { velocity: tie(24), ..q("tie at 24", 0.25, 1.0) },
+        // v_a b₃ + v_b b₂ = 0 exactly
+        Case { velocity: [-1.968_75, 2.875_976_562_5], ..q("tie of a start", 0.984_375, 1.0) },
         Case { velocity: [-1.0, 0.6], ..q("start that spins", 0.97, 0.3) },
-        Case {
-            velocity: [-1.0, 0.777_227_412_290_615_4],
-            edge: true,
-            ..q("hardly endless", 0.942_689_229_973_490_6, 0.481_090_853_272_706_1)
-        },
+        Case { velocity: [-1.0, 0.820_194_101_601_103_8], edge: true, ..q("one float spun out", 0.9, 0.25) },
         Case { gap: 0.0, ..q("flat drop", 0.73, 0.2) },
     ]
-}
-
-/// A start of the bar (¼, 1), T = ½, that has a_n = 0 exactly: v_a b_{n+1} + v_b b_n = 0, and each b_n is a float.
-fn tie(n: u32) -> [f64; 2] {
-    let (mut b, mut next) = (1.0_f64, 0.5_f64);
-    for _ in 1..n {
-        (b, next) = (next, 0.5 * next - b);
-    }
-    if b > 0.0 { [-b, next] } else { [b, -next] }
 }
 
 /// The recurrence in 512 bits.
@@ -289,8 +277,7 @@ pub(super) fn recurrence(case: &Case, list: &[u64]) -> Answer {
     let (t, e) = (plain_t(case), case.e);
     let [mut a, vb] = case.velocity;
     let (mut next, mut b, mut b_next) = (t * a + vb, 0.0, 1.0);
-    let mut answer =
-        Answer { found: Found::Open, peak: 0.0, strikes: Vec::new(), last: None, duration: f64::NAN };
+    let mut answer = Answer { found: Found::Open, peak: 0.0, strikes: Vec::new(), last: None, duration: f64::NAN };
     let mut looked = list.iter().copied().peekable();
     for n in 0..LONG {
         let time = case.gap * b / -a;
@@ -318,7 +305,8 @@ pub(super) fn closed(case: &Case, list: &[u64]) -> Answer {
     let (t, e, [va, vb]) = (plain_t(case), case.e, case.velocity);
     let c = t / (2.0 * sqrt(e));
     let theta = acos(c);
-    let (small, large) = ((t - sqrt(t * t - 4.0 * e)) / 2.0, (t + sqrt(t * t - 4.0 * e)) / 2.0);
+    let root = sqrt(t * t - 4.0 * e);
+    let (small, large) = (0.5 * (t - root), 0.5 * (t + root));
     let of_large = (t * va + vb - small * va) / (large - small);
     let of_small = va - of_large;
     #[expect(clippy::cast_precision_loss, reason = "plain floats are what is tried")]
@@ -357,7 +345,7 @@ pub(super) fn closed(case: &Case, list: &[u64]) -> Answer {
     } else {
         log(-of_small * log(small) / (of_large * log(large))) / log(large / small)
     };
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates, and NaN is 0")]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates; NaN is the first impact")]
     let beside = [floor(at) as u64, ceil(at) as u64].map(|n| n.min(end.saturating_sub(1)));
     let strike = |n: u64| {
         let [a, b] = term(n);
@@ -373,7 +361,7 @@ pub(super) fn closed(case: &Case, list: &[u64]) -> Answer {
     };
     Answer {
         found,
-        peak: beside.map(|n| strike(n)[1]).into_iter().fold(f64::NAN, f64::max),
+        peak: [0, beside[0], beside[1]].map(|n| strike(n)[1]).into_iter().fold(f64::NAN, f64::max),
         strikes: list.iter().map(|&n| (n < end).then(|| strike(n))).collect(),
         last,
         duration: match found {
@@ -402,7 +390,9 @@ fn judge(case: &Case, exact: &Exact, count: Found, list: &[u64], answer: &Answer
         // A loop that was stopped has not seen the rest.
         let Some([approach, jump, time]) = *strike else {
             if answer.found != Found::Open {
-                errors.iter_mut().for_each(|list| list.push(f64::INFINITY));
+                for list in &mut errors {
+                    list.push(f64::INFINITY);
+                }
             }
             continue;
         };
@@ -414,15 +404,18 @@ fn judge(case: &Case, exact: &Exact, count: Found, list: &[u64], answer: &Answer
         errors[2].push(off(time, &t, &t.max(&unit)));
     }
     let settles = count != Found::Endless || !(&exact.q - &Big::from(1.0)).is_zero();
-    let last = answer.last.filter(|_| settles);
+    // Of a long train they are below the floats.
+    let last = answer.last.filter(|_| settles && (size.is_zero() || size.to_f64() > f64::MIN_POSITIVE));
     let of_ends = last.map(|last| off(last[0], &ends[0], &size).max(off(last[1], &ends[1], &size)));
+    // A loop that was stopped may not have come to the peak.
+    let of_peak = (answer.found != Found::Open || count == Found::Endless).then(|| off(answer.peak, &peak, &peak));
     let of_duration = (answer.found != Found::Open).then(|| off(answer.duration, &duration, &duration.max(&unit)));
     let [approach, jump, time] = errors.map(|list| largest(list.into_iter()));
     let row = |allowed, error| Judged { allowed, error };
     Way {
         found: answer.found,
         judged: [
-            row(Some(PEAK), Some(off(answer.peak, &peak, &peak))),
+            row(Some(PEAK), of_peak),
             row(Some(APPROACH), approach),
             row(Some(JUMP), jump),
             row(Some(near(TIME)), time),
@@ -464,8 +457,8 @@ mod tests {
             let number = |key: &str| c[key].as_f64().unwrap();
             let given = c["q"].as_f64().map_or_else(|| Given::K(number("k")), Given::Q);
             let (e, velocity) = (number("e"), [number("va"), number("vb")]);
-            if e == 1.0 && matches!(given, Given::Q(1.0)) {
-                continue; // an infinite peak
+            if name == "all-mass-at-center-5" {
+                continue; // (1, 1): an infinite peak
             }
             let case = Case { name: "", given, e, velocity, gap: 1.0, edge: false };
             let exact = Exact::new(&case);
@@ -478,7 +471,8 @@ mod tests {
             };
             close(&exact.peak(count), &c["peak_end_dv"], "peak");
             close(&exact.duration(count), &c["duration"], "duration");
-            for (n, (a, t)) in c["approach"].as_array().unwrap().iter().zip(c["times"].as_array().unwrap()).enumerate() {
+            for (n, (a, t)) in c["approach"].as_array().unwrap().iter().zip(c["times"].as_array().unwrap()).enumerate()
+            {
                 let n = n as u64;
                 close(&exact.term(n)[0], a, "approach");
                 close(&exact.time(n), t, "time");
