@@ -24,11 +24,11 @@ pub(crate) fn orders(panels: &[Panel<'_>; 3]) -> String {
     let all: Vec<f64> = panels.iter().flat_map(&steps).map(|step| step.1).collect();
     let y = Axis::log_over(all.iter().flat_map(|v| [0.25 * v, 2.0 * v]), 12.0, "");
     let mut svg = Svg::new(465.0, 190.0);
-    let mut left = 34.0;
+    let mut left = 42.0;
     for (i, panel) in panels.iter().enumerate() {
         let x = Axis::log_over(steps(panel).iter().flat_map(|step| [0.8 * step.0, 1.25 * step.0]), 12.0, panel.title);
         let title = if i == 0 { "largest relative difference" } else { "" };
-        let axes = Axes { corner: [left, 6.0], size: [122.0, 124.0], x, y: Axis { title, ..y } };
+        let axes = Axes { corner: [left, 6.0], size: [120.0, 124.0], x, y: Axis { title, ..y } };
         axes.grid(&mut svg);
         let mut lines = Vec::new();
         if let Some((order, _)) = panel.curves.first()
@@ -50,7 +50,7 @@ pub(crate) fn orders(panels: &[Panel<'_>; 3]) -> String {
         }
         axes.border(&mut svg, 30.0);
         key(&mut svg, [left, 172.0], &lines);
-        left += 154.0;
+        left += 151.0;
     }
     svg.finish("Differences between the flight models over the group that decides them")
 }
