@@ -76,7 +76,7 @@ const STRIKES: usize = 5;
 /// ```
 ///
 /// # Errors
-/// [`ReportError`] none of which occurs: the cases are valid.
+/// None in practice: all cases are valid.
 pub fn measured() -> Result<Vec<Measured>, ReportError> {
     Ok(Data::compute()?.measured())
 }

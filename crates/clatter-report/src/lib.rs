@@ -327,20 +327,20 @@ mod tests {
         assert!(said.contains(&plain(hostile)), "{said}");
     }
 
-    /// The sections that others bring: on the page with their data, and not a word of them without.
+    /// The sections with pages of their own: printed when they are named, and not a word of them otherwise.
     #[test]
-    fn sections_of_the_accuracy_report_appear_with_their_data() {
-        let figure = r#"{"file":"accuracy-orders.svg","alt":"Errors over costs.","caption":"Error over cost."}"#;
-        let table = r#"{"caption":"All pairs.","head":["pair","error"],"rows":[["map, net change","0.5"]]}"#;
-        let section = |title: &str| {
-            format!(r#"{{"title":"{title}","text":"Measured.","figures":[{figure}],"tables":[{table}]}}"#)
-        };
-        let data = format!(r#"{{"trade":{},"peers":{},"#, section("The trade"), section("Peers side by side"));
+    fn sections_of_the_accuracy_report_appear_when_they_are_named() {
         let said = |with: bool| {
             let files = || {
                 let mut files = accuracy::Data::compute()?.files()?;
                 for (_, content) in files.iter_mut().filter(|(name, _)| with && *name == "accuracy.json") {
-                    *content = content.replacen('{', &data, 1);
+                    *content = content.replacen('{', r#"{"trade":true,"peers":true,"#, 1);
+                }
+                if with {
+                    files.push(("trade.typ", "#let trade(data) = [All pairs, #data.pair]".into()));
+                    files.push(("trade.json", r#"{"pair":"map with net change"}"#.into()));
+                    files.push(("peers.typ", "#let peers(data) = [All tools, #data.tool]".into()));
+                    files.push(("peers.json", r#"{"tool":"a plain loop"}"#.into()));
                 }
                 Ok(files)
             };
@@ -350,7 +350,7 @@ mod tests {
             text(&dir.path().join("page.pdf"))
         };
         let (without, with) = (said(false), said(true));
-        for words in ["The trade", "Peers side by side", "map, net change"] {
+        for words in ["The trade", "map with net change", "Peers side by side", "a plain loop"] {
             assert!(with.contains(words) && !without.contains(words), "{words}: {with}");
         }
     }
