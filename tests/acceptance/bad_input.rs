@@ -151,7 +151,7 @@ const REFUSED: &[(&[&str], &[&str])] = &[
     (&["scatter", "x.toml", "--confidence=1"], &["--confidence", "'1'", "between 0 and 1"]),
     (&["scatter", "x.toml", "-o", "x.json"], &["x.json", ".csv"]),
     // The command itself.
-    (&["report", "novel"], &["novel", "paper, shock, all"]),
+    (&["report", "novel"], &["novel", "paper, shock, accuracy, all"]),
     (&["completions", "tcsh"], &["tcsh", "bash"]),
     (&["bounce"], &["bounce"]),
     (&["impacts", "--q=0.5", "--e=0", "--mass=1"], &["--mass"]),

@@ -39,6 +39,8 @@ enum Which {
     Paper,
     /// What the clatter does to a suspended part
     Shock,
+    /// How exact all of it is, at every extreme
+    Accuracy,
     /// Every report there is
     All,
 }
@@ -48,7 +50,8 @@ impl Which {
         match self {
             Self::Paper => &[Report::Paper],
             Self::Shock => &[Report::Shock],
-            Self::All => &[Report::Paper, Report::Shock],
+            Self::Accuracy => &[Report::Accuracy],
+            Self::All => &[Report::Paper, Report::Shock, Report::Accuracy],
         }
     }
 }

@@ -3,6 +3,7 @@
 //! A report computes nothing: it is handed what `clatter` computed and says how it is drawn, worded and set. Figures
 //! are SVG, tables JSON and CSV; the page is a typst file that reads them. One module alone starts typst.
 
+mod accuracy;
 mod assessment;
 mod figure;
 mod file;
@@ -19,6 +20,7 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::thread;
 
+pub use accuracy::{Measured, measured};
 pub use figure::design::{DesignBorder, DesignFronts, DesignPlane};
 pub use file::{create, replace};
 pub use trade::trade_files;
@@ -31,6 +33,8 @@ pub enum Report {
     Paper,
     /// What the clatter does to a suspended part.
     Shock,
+    /// How exact all of it is.
+    Accuracy,
 }
 
 /// What was written.
@@ -95,6 +99,10 @@ pub fn write(report: Report, dir: &Path, progress: &mut dyn FnMut(&str)) -> Resu
         Report::Shock => {
             let source = ("shock.typ", include_str!("../../../reports/shock.typ"));
             page("shock.pdf", source, &|| shock::Data::compute()?.files(), &paper::page(), dir, progress)
+        }
+        Report::Accuracy => {
+            let source = ("accuracy.typ", include_str!("../../../reports/accuracy.typ"));
+            page("accuracy.pdf", source, &|| accuracy::Data::compute()?.files(), &paper::page(), dir, progress)
         }
     }
 }
@@ -364,6 +372,34 @@ mod tests {
         assert!(said.contains(&plain(hostile)), "{said}");
     }
 
+    /// The sections with pages of their own: printed when they are named, and not a word of them otherwise.
+    #[test]
+    fn sections_of_the_accuracy_report_appear_when_they_are_named() {
+        let said = |with: bool| {
+            let files = || {
+                let mut files = accuracy::Data::compute()?.files()?;
+                for (_, content) in files.iter_mut().filter(|(name, _)| with && *name == "accuracy.json") {
+                    *content = content.replacen('{', r#"{"trade":true,"peers":true,"#, 1);
+                }
+                if with {
+                    files.push(("trade.typ", "#let trade(data) = [All pairs, #data.pair]".into()));
+                    files.push(("trade.json", r#"{"pair":"map with net change"}"#.into()));
+                    files.push(("peers.typ", "#let peers(data) = [All tools, #data.tool]".into()));
+                    files.push(("peers.json", r#"{"tool":"a plain loop"}"#.into()));
+                }
+                Ok(files)
+            };
+            let dir = tempfile::tempdir().unwrap();
+            let source = ("accuracy.typ", include_str!("../../../reports/accuracy.typ"));
+            page("page.pdf", source, &files, &paper::page(), dir.path(), &mut |_| ()).unwrap();
+            text(&dir.path().join("page.pdf"))
+        };
+        let (without, with) = (said(false), said(true));
+        for words in ["The trade", "map with net change", "Peers side by side", "a plain loop"] {
+            assert!(with.contains(words) && !without.contains(words), "{words}: {with}");
+        }
+    }
+
     #[test]
     fn the_page_is_the_same_from_run_to_run() {
         let run = |report| {
@@ -371,7 +407,7 @@ mod tests {
             let written = write(report, dir.path(), &mut |_| ()).unwrap();
             written.files.iter().map(|file| fs::read(file).unwrap()).collect::<Vec<_>>()
         };
-        for report in [Report::Paper, Report::Shock] {
+        for report in [Report::Paper, Report::Shock, Report::Accuracy] {
             assert!(run(report) == run(report), "two runs of {report:?} differ");
         }
     }

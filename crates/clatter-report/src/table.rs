@@ -145,7 +145,7 @@ fn field(text: &str) -> String {
     if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
-fn csv(rows: impl IntoIterator<Item = Vec<String>>) -> String {
+pub(crate) fn csv(rows: impl IntoIterator<Item = Vec<String>>) -> String {
     rows.into_iter().map(|row| row.iter().map(|f| field(f)).collect::<Vec<_>>().join(",") + "\n").collect()
 }
 

@@ -113,8 +113,9 @@ impl Suspension {
     ///
     /// # Accuracy
     ///
-    /// ω z and z′ are within 8 ε of |ωz₀| + |z′₀|, for ζ ≤ 1 times the decay e^(−ζωt), for ωt from 0 to 10¹²: the phase
-    /// βωt is carried in two doubles. For ζ > 1 the exponent is one double: within (8 + ωt/ζ) ε of the decayed motion.
+    /// ω z and z′ are within 8 ε of |ωz₀| + |z′₀| times the decay, e^(−ζωt) for ζ ≤ 1, for ωt from 0 to 10¹²: the phase
+    /// βωt is carried in two doubles. For ζ > 1 the exponent is one double: within (8 + ωt/ζ) ε. Near critical damping
+    /// the motion grows by 1 + ωt before it decays, and the error with it ([`crate::accuracy::FREE`]).
     ///
     /// # Examples
     ///

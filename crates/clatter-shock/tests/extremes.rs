@@ -1,5 +1,6 @@
 //! The motion at extreme frequencies, times and dampings, against values computed with 100 digits (`data/make_extremes.py`).
 
+use clatter_shock::accuracy::{FREE, PULSE};
 use clatter_shock::{DampingRatio, Pulse, Pulses, Shape, State, Suspension};
 use serde_json::Value;
 
@@ -28,7 +29,7 @@ fn free_motion_is_exact_from_a_millionth_of_a_period_to_a_trillion() {
         let tau = omega * t;
         // Near critical damping the motion itself grows by 1 + τ before it decays.
         let growth = if (zeta - 1.0).abs() < 0.2 { 1.0 + tau } else { 1.0 };
-        let allowed = (8.0 + exponent) * f64::EPSILON * size * growth * n("slow_decay") + f64::MIN_POSITIVE;
+        let allowed = (FREE.error + exponent * f64::EPSILON) * size * growth * n("slow_decay") + f64::MIN_POSITIVE;
         for (name, got, want) in [("x", omega * after.displacement, n("x")), ("y", after.velocity, n("y"))] {
             assert!(
                 (got - want).abs() <= allowed,
@@ -60,7 +61,7 @@ fn half_sine_is_exact_at_resonance_and_at_critical_damping() {
             let scale = if i == 0 && omega <= 0.01 { own } else { scale };
             worst[i] = worst[i].max((got - want).abs() / scale);
             assert!(
-                (got - want).abs() <= 1e-13 * scale,
+                (got - want).abs() <= PULSE.error * scale,
                 "{i}: damping {zeta:?}, omega {omega:?}: {got:?}, not {want:?}"
             );
         }

@@ -1,5 +1,6 @@
 //! The recursive filter against the exact response to the same piecewise linear history, step by step.
 
+use clatter_shock::accuracy::RECORD;
 use clatter_shock::{DampingRatio, Frequencies, Pulses, Quantity, SpectrumFilter, Suspension};
 use proptest::prelude::*;
 
@@ -11,7 +12,7 @@ const QUANTITIES: [Quantity; 5] = [
     Quantity::EquivalentStaticAcceleration,
 ];
 
-fn compare(samples: &[f64], dt: f64, hz: &[f64], zeta: f64, allowed: f64) {
+fn compare(samples: &[f64], dt: f64, hz: &[f64], zeta: f64) {
     let frequencies = Frequencies::list(hz.to_vec()).expect("frequencies");
     let damping = DampingRatio::new(zeta).expect("damping");
     let points: Vec<(f64, f64)> = (0_u32..).map(|i| f64::from(i) * dt).zip(samples.iter().copied()).collect();
@@ -35,7 +36,7 @@ fn compare(samples: &[f64], dt: f64, hz: &[f64], zeta: f64, allowed: f64) {
                 // Primary keeps its own relative accuracy on soft mounts, the others that of the largest.
                 let scale = if name == "primary" { want[i] } else { largest[i] };
                 assert!(
-                    (got[i] - want[i]).abs() <= allowed * scale,
+                    (got[i] - want[i]).abs() <= RECORD.error * scale,
                     "{quantity:?}, {name} at f dt = {:e}, damping {zeta}: {:?}, not {:?}",
                     f * dt,
                     got[i],
@@ -56,7 +57,7 @@ fn filter_is_the_exact_response_at_every_frequency_and_damping() {
     let hz: Vec<f64> = (-36..=4).map(|i| 10_f64.powf(f64::from(i) / 4.0)).collect();
     for zeta in [0.0, 1e-3, 0.05, 0.7, 1.0 - 1e-9, 1.0, 1.0 + 1e-9, 1.3, 10.0] {
         // dt = 1, so that hz is f·dt from 1e-9 to 10.
-        compare(&burst(300), 1.0, &hz, zeta, 1e-10);
+        compare(&burst(300), 1.0, &hz, zeta);
     }
 }
 
@@ -64,10 +65,10 @@ fn filter_is_the_exact_response_at_every_frequency_and_damping() {
 fn a_step_and_a_single_spike() {
     let hz = [1e-9, 1e-4, 0.03, 0.2, 0.5, 1.7, 10.0];
     for zeta in [0.0, 0.05, 1.0, 3.0] {
-        compare(&[1.0; 130], 1.0, &hz, zeta, 1e-10);
+        compare(&[1.0; 130], 1.0, &hz, zeta);
         let mut spike = vec![0.0; 200];
         spike[70] = -4.0;
-        compare(&spike, 1.0, &hz, zeta, 1e-10);
+        compare(&spike, 1.0, &hz, zeta);
     }
 }
 
@@ -79,7 +80,7 @@ proptest! {
         zeta in 0.0..2.0_f64,
         exponent in -5.0..0.5_f64,
     ) {
-        compare(&samples, 1e-4, &[1e4 * 10_f64.powf(exponent)], zeta, 1e-10);
+        compare(&samples, 1e-4, &[1e4 * 10_f64.powf(exponent)], zeta);
     }
 }
 
@@ -178,7 +179,7 @@ fn long_records_with_quiet_stretches() {
         }
         let hz = [1e-7, 1e-5, 4e-4, 3e-3, 0.011, 0.013, 0.05, 0.11, 0.2, 0.45, 1.7];
         for zeta in [0.0, 1e-3, 0.05, 0.7, 1.0, 3.0] {
-            compare(&samples, 1.0, &hz, zeta, 1e-10);
+            compare(&samples, 1.0, &hz, zeta);
         }
     }
 }

@@ -1,11 +1,9 @@
 //! 75 components driven by a clatter, against values computed with exact rational trains and 50-digit arithmetic.
 
 use clatter::{Bar, Start};
+use clatter_shock::accuracy::TRAIN;
 use clatter_shock::{DampingRatio, Suspension, respond};
 use serde_json::Value;
-
-/// Share of the peak: the stated accuracy of the response to trains of up to 300 shocks.
-const ALLOWED: f64 = 1e-12;
 
 #[test]
 fn peaks_agree_with_the_reference() {
@@ -28,7 +26,7 @@ fn peaks_agree_with_the_reference() {
         ] {
             let want = number(&case[key]);
             let error = (value / want - 1.0).abs();
-            assert!(error <= ALLOWED, "{name}: {key} = {value:?}, not {want:?}, off by {error:e}");
+            assert!(error <= TRAIN.error, "{name}: {key} = {value:?}, not {want:?}, off by {error:e}");
         }
         assert!(got.omitted <= 1e-14, "{name}: {:e} left out", got.omitted);
     }

@@ -103,18 +103,20 @@ pub(crate) fn tick(v: f64) -> String {
     }
     let text = format!("{v:.0e}");
     let (digit, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-    let raised: String = exponent
-        .chars()
-        .map(|c| match c {
-            '-' => '⁻',
-            '1' => '¹',
-            '2' => '²',
-            '3' => '³',
-            c => c.to_digit(10).and_then(|d| char::from_u32(0x2070 + d)).unwrap_or(c),
-        })
-        .collect();
-    let power = format!("10{raised}");
+    let power = format!("10{}", raised(exponent));
     if digit == "1" { power } else { format!("{digit}·{power}") }
+}
+
+/// An exponent as it stands above the line.
+pub(crate) fn raised(exponent: &str) -> String {
+    let sign = |c: char| match c {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        c => c.to_digit(10).and_then(|d| char::from_u32(0x2070 + d)).unwrap_or(c),
+    };
+    exponent.chars().map(sign).collect()
 }
 
 /// A frame on the page with its two axes.

@@ -5,6 +5,7 @@ pub(crate) mod component;
 pub(crate) mod design;
 pub(crate) mod drop;
 pub(crate) mod heat;
+pub(crate) mod orders;
 pub(crate) mod peers;
 pub(crate) mod plane;
 pub(crate) mod product;

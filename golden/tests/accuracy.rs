@@ -1,0 +1,62 @@
+//! How exact the results are: orders, errors at every extreme, the page. Sizes of errors alone, never times.
+
+mod common;
+
+use std::fmt::Write as _;
+
+use clatter::flight::orders;
+use common::{digits, golden, page};
+
+/// The power of ten that an error stays below; what is only rounding is told as such.
+fn size(error: Option<f64>) -> String {
+    match error {
+        None => "-".into(),
+        Some(x) if !x.is_finite() => "fails".into(),
+        Some(0.0) => "exact".into(),
+        Some(x) if x <= 1e-12 => "rounding".into(),
+        Some(x) => format!("<1e{}", x.log10().ceil() + 0.0),
+    }
+}
+
+/// An error that is rounding and one that is none by luck are the same.
+fn ours(quantity: &str, error: Option<f64>) -> String {
+    let size = size(error);
+    if quantity != "count" && size == "exact" { "rounding".into() } else { size }
+}
+
+#[test]
+fn the_orders() {
+    let mut text = String::new();
+    for order in orders().unwrap() {
+        let _ = writeln!(text, "{} to {}, {}: {}", order.model, order.limit, order.parameter, order.compared);
+        let _ = writeln!(text, "  order {} of {}", digits(order.measured(), 4), order.expected);
+        for (parameter, difference) in order.steps {
+            let _ = writeln!(text, "  {:<10} {}", digits(parameter, 3), digits(difference, 5));
+        }
+    }
+    golden("accuracy-orders", &text);
+}
+
+#[test]
+fn the_errors() {
+    let mut text = String::from("allowed  ours      recurrence  plain       quantity at extreme\n");
+    for row in clatter_report::measured().unwrap() {
+        let allowed = row.allowed.map_or("-".into(), |allowed| format!("{allowed:.0e}"));
+        let [recurrence, plain] = row.plain.map(|error| ours(row.quantity, error));
+        let ours = ours(row.quantity, row.measured);
+        let _ = writeln!(
+            text,
+            "{allowed:<8} {ours:<9} {recurrence:<11} {plain:<11} {} of {}, {}",
+            row.quantity, row.subject, row.extreme
+        );
+    }
+    golden("accuracy-errors", &text);
+}
+
+#[test]
+fn the_page() {
+    let openings = ["An error is ", "Table 1 ", "Table 2 ", "Table 5 ", "Fig. 1 "];
+    if let Some(text) = page(clatter_report::Report::Accuracy, &openings) {
+        golden("accuracy-page", &text);
+    }
+}
