@@ -242,7 +242,7 @@ pub fn write_assessment(
 /// use clatter_report::{DesignBorder, DesignPlane};
 /// let border = DesignBorder::Exact(region(&[Goal::zone(0.5, 0.1)?], 1e-3));
 /// let plane = DesignPlane { borders: vec![("display".into(), border)], ..DesignPlane::default() };
-/// assert!(clatter_report::design_svg(&plane).contains("display"));
+/// assert!(clatter_report::design_svg(&plane).contains("coefficient of restitution"));
 /// # Ok::<(), clatter::Error>(())
 /// ```
 #[must_use]
