@@ -2,9 +2,9 @@
 
 use clatter::flight::{CompliantFlight, Flight, Model};
 use clatter::{Bar, PeakImpact, Start};
-use clatter_shock::{Pulses, Response, VelocityShock, VelocityShocks};
+use clatter_shock::{Pulses, Response, Suspension, VelocityShock, VelocityShocks};
 
-use super::history::{self, Polygon};
+use super::history;
 use super::{BarRung, ComponentRung, Pair, Quantity, Setup};
 use crate::Error;
 
@@ -72,12 +72,10 @@ impl Setup {
         self.contact_time_s.ok_or(Error::Contact)
     }
 
-    /// Pieces of a pulse: in a stiff component the corners of a polygon ring, a soft one sees little of them.
+    /// Pieces of a pulse.
     fn cells(&self, cells: usize, contact_s: f64) -> usize {
-        let turned = self.suspension.omega() * contact_s;
-        let fineness = (turned * (1.0 + 2.0 * self.suspension.damping().get())).max(turned / 8.0);
         #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
-        let pieces = cells as f64 * fineness.clamp(0.125, 1.0) * (turned / 8.0).clamp(1.0, 8.0);
+        let pieces = cells as f64 * fineness(&self.suspension, contact_s);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few hundred")]
         let pieces = pieces.ceil() as usize;
         pieces
@@ -94,8 +92,14 @@ impl Setup {
         let shocks = quantity == Quantity::VelocityShock;
         let cells = if shocks { cells } else { self.cells(cells, contact_s) };
         #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
-        let polygon = history::of_contacts(self, flight, until_s, contact_s, cells as f64);
-        if shocks { Ok(history::largest_change(&polygon, contact_s)) } else { self.of_polygon(&polygon, quantity) }
+        let pushes = history::of_contacts(&self.scene, flight, until_s, contact_s, cells as f64);
+        let at = |[a, b]: [f64; 2]| 0.5 * ((1.0 - self.position) * a + (1.0 + self.position) * b);
+        let polygon = history::at_place(&pushes, &self.suspension, at);
+        if shocks {
+            Ok(history::largest_change(&polygon, contact_s).0.abs())
+        } else {
+            self.of_polygon(&polygon, quantity)
+        }
     }
 
     /// The response to one velocity shock, or the shock itself.
@@ -135,7 +139,7 @@ impl Setup {
         }
     }
 
-    fn of_polygon(&self, polygon: &Polygon, quantity: Quantity) -> Result<f64, Error> {
+    fn of_polygon(&self, polygon: &[(f64, f64)], quantity: Quantity) -> Result<f64, Error> {
         Ok(peak(&Pulses::piecewise_linear(polygon)?.respond(&self.suspension), quantity))
     }
 
@@ -165,6 +169,14 @@ impl Setup {
         };
         nearby(&bar, &start, first).map(shock).fold(0.0, f64::max)
     }
+}
+
+/// Share of the pieces of a pulse that a component needs: in a stiff one the corners of a polygon ring, a soft one sees little of
+/// them.
+pub(crate) fn fineness(suspension: &Suspension, contact_s: f64) -> f64 {
+    let turned = suspension.omega() * contact_s;
+    let fineness = (turned * (1.0 + 2.0 * suspension.damping().get())).max(turned / 8.0);
+    fineness.clamp(0.125, 1.0) * (turned / 8.0).clamp(1.0, 8.0)
 }
 
 /// Three impacts from number `first` + 1 on.

@@ -50,16 +50,17 @@
 //! [`Scene::simulate_compliant`]: clatter::flight::Scene::simulate_compliant
 
 mod choice;
-mod demand;
+pub(crate) mod demand;
 mod forecast;
-mod history;
+pub(crate) mod history;
 mod lane;
-mod pulse;
+pub(crate) mod pulse;
 mod settle;
 mod swing;
+pub(crate) mod trail;
 
 pub use choice::{Plan, Reason, Warning};
-pub use forecast::{Forecast, Groups, MANY_STRIKES, STRIKES};
+pub use forecast::{DOUBT, Forecast, Groups, MANY_STRIKES, STRIKES};
 
 use clatter::flight::Scene;
 use clatter_shock::Suspension;
@@ -112,6 +113,33 @@ pub struct Pair {
     pub bar: BarRung,
     /// How the component answers.
     pub component: ComponentRung,
+}
+
+impl BarRung {
+    /// `closed-form`, `map`, `ballistic`, `finite-tilt`, `compliant`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ClosedForm => "closed-form",
+            Self::Map => "map",
+            Self::Ballistic => "ballistic",
+            Self::FiniteTilt => "finite-tilt",
+            Self::Compliant => "compliant",
+        }
+    }
+}
+
+impl ComponentRung {
+    /// `net-change`, `largest-shock`, `impulse-train`, `pulse-train`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::NetChange => "net-change",
+            Self::LargestShock => "largest-shock",
+            Self::ImpulseTrain => "impulse-train",
+            Self::PulseTrain => "pulse-train",
+        }
+    }
 }
 
 impl Pair {
@@ -197,6 +225,10 @@ impl Setup {
             );
         }
         Ok(Self { scene, contact_time_s, position, suspension })
+    }
+    /// The same with what was checked before, and a position that may lie beyond the ends.
+    pub(crate) fn anywhere(scene: Scene, contact_time_s: Option<f64>, position: f64, suspension: Suspension) -> Self {
+        Self { scene, contact_time_s, position, suspension }
     }
     /// The drop.
     #[must_use]
