@@ -11,6 +11,7 @@ mod bad_input;
 mod cases;
 mod design;
 mod docs;
+mod explain;
 mod extremes;
 mod json;
 mod map;

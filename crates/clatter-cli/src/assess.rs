@@ -5,7 +5,9 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 use clap::ValueHint;
-use clatter_scene::{Assessment, ComponentAssessment, LARGEST_FILE, LimitAssessment, ProductFile, Unit, Verdict};
+use clatter_scene::{
+    Accuracy, Assessment, ComponentAssessment, LARGEST_FILE, LimitAssessment, ProductFile, Unit, Verdict,
+};
 
 use crate::inputs::{self, Format};
 use crate::numbers::figures;
@@ -16,13 +18,16 @@ use crate::{Exit, Failure, Streams};
 ///
 /// For every limit of every component the worst drop over all stated ranges is found. Without gravity, for small tilt
 /// and for parts to which an impact is a velocity shock, the demand is proven: no drop of the ranges passes it. Where
-/// more physics counts, the model with it is searched, and the table says so. 'clatter init' writes a product file.
+/// more physics counts, the ranges are searched, each drop by the cheapest models within the tolerance ('clatter explain' tells
+/// which and why), and the table says so. 'clatter init' writes a product file.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   clatter init handheld.toml && clatter assess handheld.toml
   clatter assess handheld.toml -o handheld.pdf   the printed report beside the table
   clatter assess before.toml after.toml          verdicts side by side
+  clatter assess handheld.toml --tolerance=0.1%  by closer models
+  clatter assess handheld.toml --model=compliant every drop by the model with most physics
   clatter assess handheld.toml --format=json     an object; with several files, a list of them
 
 Exit status: 0 all safe, 1 a component is unsafe, 2 bad input.")]
@@ -33,6 +38,13 @@ pub(crate) struct Args {
     /// Write the assessment as a printed report: verdict first, then each part; of one product
     #[arg(short, long, value_name = "REPORT.pdf", value_hint = ValueHint::FilePath)]
     output: Option<PathBuf>,
+    /// What models may get wrong in drops that are searched, as a share of the demand: 0.01 or 1%
+    #[arg(long, value_name = "SHARE", default_value = "1%", allow_hyphen_values = true, value_parser = inputs::tolerance)]
+    tolerance: f64,
+    /// Follow every drop that is searched by this model of the bar, rather than by the cheapest within the tolerance; what is proven
+    /// without gravity stands beside it
+    #[arg(long, value_enum)]
+    model: Option<inputs::BarName>,
     /// How to show the answer
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
@@ -55,11 +67,13 @@ impl Args {
         if !faults.is_empty() {
             return Err(Failure::Product(faults.join("\n\n")));
         }
+        let accuracy = Accuracy { tolerance: self.tolerance, model: self.model.map(Into::into) };
         let assessments = files
             .iter()
             .zip(&self.products)
             .map(|(file, path)| {
-                file.assess().map_err(|error| Failure::Product(format!("error: {}: {error}", path.display())))
+                file.assess_to(&accuracy)
+                    .map_err(|error| Failure::Product(format!("error: {}: {error}", path.display())))
             })
             .collect::<Result<Vec<_>, _>>()?;
         if let (Some(pdf), [file], [assessment]) = (&self.output, &files[..], &assessments[..]) {
@@ -193,6 +207,9 @@ fn table(assessment: &Assessment, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "Flat drop: one impact without clatter, (1 + e) v0 everywhere at once, as drop standards assume.")?;
     for component in &assessment.components {
         writeln!(out, "{}: {}.", name(component), component.model.reason)?;
+        if let Some(warning) = &component.tightest().warning {
+            writeln!(out, "{}: warning: {warning}.", name(component))?;
+        }
     }
     Ok(())
 }

@@ -5,6 +5,7 @@
 use clap::ValueEnum;
 use clatter::flight::{Body, Contact, Scene};
 use clatter::{Axis, Bar, End, Error, Mass, OffCenterBar, Start, center_and_gyration};
+use clatter_scene::{Accuracy, BarModel};
 use clatter_shock::DampingRatio;
 
 use crate::Failure;
@@ -174,6 +175,38 @@ pub(crate) fn letter(end: End) -> &'static str {
 
 pub(crate) fn number(text: &str) -> Result<f64, String> {
     text.parse().map_err(|_| format!("'{text}' is not a number such as 0.5"))
+}
+
+/// A share, or a percentage with its sign.
+pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
+    let (digits, unit) = text.strip_suffix('%').map_or((text, 1.0), |digits| (digits.trim_end(), 100.0));
+    let share = digits.parse::<f64>().map_err(|_| format!("'{text}' is no share such as 0.01 or 1%"))? / unit;
+    Accuracy { tolerance: share, model: None }.check().map_err(|error| error.to_string())?;
+    Ok(share)
+}
+
+/// How the bar moves, from the cheapest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum BarName {
+    /// Small tilt, no gravity, instant impacts: the paper's bar
+    Map,
+    /// With gravity: what bounced clear comes back, until it lies still
+    Ballistic,
+    /// With gravity and the exact geometry of any tilt
+    FiniteTilt,
+    /// As finite-tilt, and every contact takes time
+    Compliant,
+}
+
+impl From<BarName> for BarModel {
+    fn from(name: BarName) -> Self {
+        match name {
+            BarName::Map => Self::Map,
+            BarName::Ballistic => Self::Ballistic,
+            BarName::FiniteTilt => Self::FiniteTilt,
+            BarName::Compliant => Self::Compliant,
+        }
+    }
 }
 
 fn one_of_range(

@@ -18,6 +18,7 @@ mod assess;
 mod completions;
 mod design;
 mod excitation;
+mod explain;
 mod failure;
 mod impacts;
 mod init;
@@ -122,6 +123,7 @@ enum Command {
     Design(design::Args),
     Scatter(scatter::Args),
     Assess(assess::Args),
+    Explain(explain::Args),
     Tradeoff(tradeoff::Args),
     Init(init::Args),
     Schema(schema::Args),
@@ -149,6 +151,7 @@ where
             Command::Design(args) => args.run(streams),
             Command::Scatter(args) => args.run(streams),
             Command::Assess(args) => args.run(streams).map(|found| exit = found),
+            Command::Explain(args) => args.run(streams),
             Command::Tradeoff(args) => args.run(streams),
             Command::Init(args) => args.run(streams),
             Command::Schema(args) => args.run(streams),

@@ -185,9 +185,10 @@ fn models(limit: &LimitAssessment) -> String {
     let how = if limit.guaranteed {
         format!("Proven over the whole ranges, to {within}.")
     } else {
-        format!("Searched; the last refinement moved it by {within}.")
+        format!("Searched, to {within}.")
     };
-    format!("{bar}, {component}: {}. {how}", limit.model.reason.trim_end_matches('.'))
+    let warning = limit.warning.as_ref().map_or(String::new(), |warning| format!(" But {warning}."));
+    format!("{bar}, {component}: {}. {how}{warning}", limit.model.reason.trim_end_matches('.'))
 }
 
 fn place(worst: &WorstCase) -> String {

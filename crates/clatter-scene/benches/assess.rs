@@ -1,11 +1,12 @@
 //! Assessments of ten components with two limits each over full ranges, by what the scene needs.
 //!
-//! Processor time on a shared 2.9 GHz machine: 16 ms for what is proven, 41 ms with the search for gravity and real tilt, 0.6 s with
-//! contacts that take time; all of it is spread over the cores.
+//! Processor time on a busy machine of 2 cores: 33 ms for what is proven, 61 ms with the search for gravity and real tilt, 0.19 s with
+//! contacts that take time (0.84 s where every place of the grid is followed to the end); all of it is spread over the cores. An
+//! idle core takes about two thirds of that.
 
 use std::fmt::Write as _;
 
-use clatter_scene::{EXAMPLE, ProductFile};
+use clatter_scene::{Accuracy, BarModel, EXAMPLE, ProductFile};
 use divan::{Bencher, black_box};
 
 fn main() {
@@ -50,6 +51,21 @@ fn with_gravity_and_tilt(bencher: Bencher<'_, '_>) {
 fn with_contact_time(bencher: Bencher<'_, '_>) {
     let file = ten("height = [\"0.8 m\", \"1.3 m\"]", "contact_time = \"0.4 ms\"");
     bencher.bench(|| black_box(&file).assess());
+}
+
+/// The worked products, by plans and by the highest rung there is, which follows every drop of the grid.
+#[divan::bench(sample_count = 3, args = ["phone", "terminal", "laptop"], consts = [true, false])]
+fn worked<const PLANNED: bool>(bencher: Bencher<'_, '_>, name: &str) {
+    let text = match name {
+        "phone" => include_str!("../../../reports/examples/phone.toml"),
+        "terminal" => include_str!("../../../reports/examples/handheld-terminal.toml"),
+        _ => include_str!("../../../reports/examples/laptop.toml"),
+    };
+    let file = ProductFile::read(text, name).unwrap_or_else(|faults| panic!("{faults}"));
+    let contacts = file.product.contact_time_s.is_some();
+    let highest = if contacts { BarModel::Compliant } else { BarModel::FiniteTilt };
+    let accuracy = Accuracy { model: (!PLANNED).then_some(highest), ..Accuracy::default() };
+    bencher.bench(|| black_box(&file).assess_to(&accuracy));
 }
 
 /// From text to product.

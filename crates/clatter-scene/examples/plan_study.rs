@@ -49,6 +49,8 @@ fn main() {
             100.0 * w.given
         );
     }
+    let above = outcomes.iter().filter(|o| o.truth > 1.01 * o.setup.forecast(o.quantity).at_most()).count();
+    println!("\n{above} of {} reach more than the bound of a search, by more than 1 %", outcomes.len());
     for quantity in QUANTITIES {
         let of: Vec<&Outcome> = outcomes.iter().filter(|o| o.quantity == quantity).collect();
         let count = |n: usize| f64::from(u32::try_from(n).expect("fits"));

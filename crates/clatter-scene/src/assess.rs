@@ -6,11 +6,12 @@ use rayon::prelude::*;
 use crate::base::{Base, SingleDrop};
 use crate::demand::{Demand, Heard};
 use crate::guaranteed::{self, Asked, Ranges, Trains};
-use crate::models::{self, Plan};
-use crate::search::{Field, Found, Task};
+use crate::models;
+use crate::plan::{ComponentRung, Pair};
+use crate::search::{self, Field, Found, Task};
 use crate::{
-    Assessment, BarModel, Component, ComponentAssessment, ComponentModel, Error, LimitAssessment, ModelChoice,
-    ProductFile, Verdict, WorstCase,
+    Accuracy, Assessment, BarModel, Component, ComponentAssessment, ComponentModel, Error, LimitAssessment,
+    ModelChoice, ProductFile, Verdict, WorstCase,
 };
 
 /// A demand with its proof or its search.
@@ -21,22 +22,14 @@ struct Case {
     tolerance: f64,
     drop: WorstCase,
     model: ModelChoice,
+    warning: Option<String>,
 }
 
 impl ProductFile {
-    /// The worst case of every component over all stated ranges, and whether it stands it.
-    ///
-    /// # Method
-    /// Without gravity, at small tilt and for velocity shocks, the demand is proven: bounds over the ranges leave no drop out, and
-    /// lie at most 0.5 % above what the stated drop attains (where more work than is set aside would be needed, `tolerance` says
-    /// how much). Where gravity, real tilt or contact that takes time count (see [`ModelChoice::reason`]), the model with them is
-    /// searched over the ranges: 17 tilts, 2 speeds, 3 restitutions, 3 frequencies and both ends, then three times at half the
-    /// step around the worst; the larger of both demands counts. For a part that is so stiff that a pulse is no velocity
-    /// shock, the search alone counts.
+    /// The worst case of every component over all stated ranges, and whether it stands it: [`assess_to`](Self::assess_to) 1 %.
     ///
     /// # Errors
-    /// [`Error::ContactTime`] for a stiff or hard-mounted part of a product without contact time; [`Error::Bar`] and
-    /// [`Error::Shock`] for values that the models do not take.
+    /// As [`assess_to`](Self::assess_to).
     ///
     /// # Examples
     /// ```
@@ -48,31 +41,57 @@ impl ProductFile {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn assess(&self) -> Result<Assessment, Error> {
-        let plans: Vec<_> = self.components.iter().map(|c| models::plan(&self.product, &self.drop, c)).collect();
-        let demands: Vec<_> = self.components.iter().map(Demand::of).collect();
+        self.assess_to(&Accuracy::default())
+    }
+
+    /// The same to an accuracy asked.
+    ///
+    /// # Method
+    /// Without gravity, at small tilt and for velocity shocks, the demand is proven: bounds over the ranges leave no drop out, and
+    /// lie at most 0.5 % above what the stated drop attains (where more work than is set aside would be needed, `tolerance` says
+    /// how much). Where gravity, real tilt or contact that takes time count, the ranges are searched: 17 tilts, 2 speeds, 3
+    /// restitutions, 3 frequencies, both ends of the part and either end first. At each of these places a forecast tells the cheapest
+    /// models within the tolerance ([`plan`](crate::plan)) and the most that they may give; places are followed from the highest,
+    /// until none that is left may pass the worst found. Around that the step is halved, three times or until half the tolerance
+    /// is not gained. The larger of both demands counts. For a part that is so stiff that a pulse is no velocity shock, the search
+    /// alone counts.
+    ///
+    /// With a model named, every place of the grid is followed by it, with the cheapest way of the components to answer that is within
+    /// the tolerance; the proof still stands beside it.
+    ///
+    /// # Errors
+    /// [`Error::Tolerance`] for a tolerance outside [1e-4, 0.5]; [`Error::ContactTime`] for a stiff or hard-mounted part of a product
+    /// without contact time, [`Error::Contact`] for the compliant model of one; [`Error::Bar`] and [`Error::Shock`] for values that
+    /// the models do not take.
+    pub fn assess_to(&self, accuracy: &Accuracy) -> Result<Assessment, Error> {
+        accuracy.check()?;
+        if accuracy.model == Some(BarModel::Compliant) && self.product.contact_time_s.is_none() {
+            return Err(Error::Contact);
+        }
         for component in &self.components {
             if let Some(reason) = models::lacks_contact_time(&self.product, component) {
                 return Err(Error::ContactTime { component: component.name.clone(), reason });
             }
         }
-        let each = || self.components.iter().zip(&plans).zip(&demands);
-        let mut tasks = Vec::new();
-        for ((component, plan), demands) in each() {
-            if let Some(model) = plan.searched {
-                let pulses = plan.component == ComponentModel::PulseTrain;
-                tasks.extend(demands.iter().map(|&demand| Task { component, demand, model, pulses }));
-            }
-        }
-        let field = Field { product: &self.product, drop: &self.drop };
-        let search = || field.worst(&tasks);
-        let (found, proven) = rayon::join(search, || self.prove_all(&plans, &demands));
-        let mut found = found?.into_iter();
+        let demands: Vec<_> = self.components.iter().map(Demand::of).collect();
+        let proven = self.prove_all(&demands)?;
+        let field = Field::new(&self.product, &self.drop, &self.components, *accuracy);
+        let each = || self.components.iter().zip(&demands);
+        let task = |(component, (&demand, proven)): (_, (_, &Option<Case>))| Task {
+            component,
+            demand,
+            proven: proven.as_ref().map(|case| case.demand),
+        };
+        let of_one = |((component, demands), proven)| std::iter::repeat(component).zip(std::iter::zip(demands, proven));
+        let tasks: Vec<_> = each().zip(&proven).flat_map(of_one).map(task).collect();
+        let found = field.worst(&tasks)?;
+        let mut found = tasks.iter().zip(found);
         let mut components = Vec::with_capacity(self.components.len());
-        for (((component, plan), demands), proven) in each().zip(proven?) {
+        for ((component, demands), proven) in each().zip(proven) {
             let mut limits = Vec::with_capacity(demands.len());
             for (demand, proven) in demands.iter().zip(proven) {
-                let searched = if plan.searched.is_some() { found.next() } else { None };
-                limits.push(self.limit(demand, plan, proven, searched.as_ref()));
+                let Some((task, found)) = found.next() else { unreachable!("a task for each demand") };
+                limits.push(self.limit(&field, task, proven, found.as_ref(), demand)?);
             }
             components.push(verdict(component, limits));
         }
@@ -86,36 +105,30 @@ impl ProductFile {
     /// # Errors
     /// As [`ProductFile::assess`].
     pub fn prove(&self) -> Result<Vec<Vec<Option<f64>>>, Error> {
-        let plans: Vec<_> = self.components.iter().map(|c| models::plan(&self.product, &self.drop, c)).collect();
         let demands: Vec<_> = self.components.iter().map(Demand::of).collect();
-        let proven = self.prove_all(&plans, &demands)?;
+        let proven = self.prove_all(&demands)?;
         Ok(proven
             .iter()
             .map(|limits| limits.iter().map(|case| case.as_ref().map(|case| case.demand)).collect())
             .collect())
     }
 
-    fn prove_all(&self, plans: &[Plan], demands: &[Vec<Demand>]) -> Result<Vec<Vec<Option<Case>>>, Error> {
-        let all: Vec<_> = self.components.iter().zip(plans).zip(demands).collect();
+    fn prove_all(&self, demands: &[Vec<Demand>]) -> Result<Vec<Vec<Option<Case>>>, Error> {
+        let all: Vec<_> = self.components.iter().zip(demands).collect();
         all.into_par_iter()
             .map_init(
                 || Trains::new(&self.product),
-                |trains, ((component, plan), demands)| {
-                    demands.iter().map(|demand| self.prove_one(trains, component, plan, demand)).collect()
+                |trains, (component, demands)| {
+                    demands.iter().map(|demand| self.prove_one(trains, component, demand)).collect()
                 },
             )
             .collect()
     }
 
     /// The gravity-free demand, where it says something of the limit.
-    fn prove_one(
-        &self,
-        trains: &mut Trains,
-        component: &Component,
-        plan: &Plan,
-        demand: &Demand,
-    ) -> Result<Option<Case>, Error> {
-        let Some(asked) = demand.asked().filter(|asked| plan.shocks || matches!(asked, Asked::Shock)) else {
+    fn prove_one(&self, trains: &mut Trains, component: &Component, demand: &Demand) -> Result<Option<Case>, Error> {
+        let shocks = models::feels_shocks(&self.product, component);
+        let Some(asked) = demand.asked().filter(|asked| shocks || matches!(asked, Asked::Shock)) else {
             return Ok(None);
         };
         let mut ranges = Ranges::new(&self.product, &self.drop);
@@ -150,38 +163,25 @@ impl ProductFile {
             model: ModelChoice {
                 bar: BarModel::Map,
                 component: component_model,
-                reason: format!("{quantity} is bounded over all ranges; {}", plan.reason),
+                reason: format!("{quantity} is bounded over all ranges"),
             },
+            warning: None,
         }))
     }
 
-    fn limit(&self, demand: &Demand, plan: &Plan, proven: Option<Case>, searched: Option<&Found>) -> LimitAssessment {
-        let by_search = searched.map(|found| Case {
-            demand: found.reached.value,
-            attained: found.reached.value,
-            guaranteed: false,
-            tolerance: found.raised,
-            drop: case(&found.drop, &found.reached),
-            model: ModelChoice {
-                bar: plan.searched.unwrap_or(BarModel::Map),
-                component: match demand.asked() {
-                    Some(Asked::Shock) => ComponentModel::LargestShock,
-                    Some(Asked::Response(..)) => plan.component,
-                    None => ComponentModel::Base,
-                },
-                reason: plan.reason.clone(),
-            },
-        });
+    fn limit(
+        &self,
+        field: &Field<'_>,
+        task: &Task<'_>,
+        proven: Option<Case>,
+        found: Option<&Found>,
+        demand: &Demand,
+    ) -> Result<LimitAssessment, Error> {
         let bound = proven.as_ref().map(|case| case.demand);
-        let case = match (proven, by_search) {
-            (Some(proven), Some(search)) => {
-                if search.demand > proven.demand {
-                    search
-                } else {
-                    proven
-                }
-            }
-            (Some(only), None) | (None, Some(only)) => only,
+        let case = match (proven, found) {
+            (Some(proven), Some(found)) if found.reached.value <= proven.demand => beside_proof(field, task, proven)?,
+            (Some(proven), None) => beside_proof(field, task, proven)?,
+            (_, Some(found)) => searched(field, task, found)?,
             (None, None) => unreachable!("what is not proven is searched"),
         };
         let contact_time_s = self.product.contact_time_s;
@@ -189,7 +189,7 @@ impl ProductFile {
         let (asked, attained) = (settled.factor * case.demand, settled.factor * case.attained);
         let [_, fastest] = self.drop.speeds_m_s();
         let clatter_free = demand.clatter_free(fastest, self.product.restitution.hi(), contact_time_s);
-        LimitAssessment {
+        Ok(LimitAssessment {
             limit: demand.kind,
             unit: settled.unit,
             allowed: settled.allowed,
@@ -202,8 +202,66 @@ impl ProductFile {
             tolerance: case.tolerance,
             worst_case: case.drop,
             model: case.model,
-        }
+            warning: case.warning,
+        })
     }
+}
+
+/// What the search found, with its reasons.
+fn searched(field: &Field<'_>, task: &Task<'_>, found: &Found) -> Result<Case, Error> {
+    let plan = field.plan(task, &found.place)?;
+    let component = match (task.demand.asked(), found.pair.component) {
+        (Some(Asked::Shock), _) => ComponentModel::LargestShock,
+        (None, _) => ComponentModel::Base,
+        (_, ComponentRung::PulseTrain) => ComponentModel::PulseTrain,
+        _ => ComponentModel::ImpulseTrain,
+    };
+    let (reason, warning, error) = match (field.accuracy.model, plan) {
+        (Some(model), plan) => {
+            let error = plan.map_or(0.0, |plan| plan.forecast.pair(found.pair).error);
+            (format!("{} was asked for", model.name()), None, error)
+        }
+        (None, Some(plan)) => {
+            let error = plan.forecast.pair(found.pair).error.max(field.accuracy.tolerance);
+            (plan.reason.to_string(), plan.warning.map(|w| w.to_string()), error)
+        }
+        (None, None) => {
+            let why = if found.pair == Pair::HIGHEST {
+                "contacts overlap, or come too close to tell them apart"
+            } else {
+                "contacts follow one another without overlap"
+            };
+            (why.to_owned(), None, field.accuracy.tolerance)
+        }
+    };
+    // A body that has bounced clear comes back after 2 e v0/g.
+    let clear_s = found.drop.restitution * found.drop.speed_m_s / found.drop.gravity_m_s2;
+    let rebound = (found.reached.time_s > clear_s).then(|| {
+        "the worst comes after a rebound, whose time hangs on every value: drops between those searched may ask for more".to_owned()
+    });
+    let warning = match (warning, rebound) {
+        (Some(one), Some(other)) => Some(format!("{one}; {other}")),
+        (one, other) => one.or(other),
+    };
+    Ok(Case {
+        demand: found.reached.value,
+        attained: found.reached.value,
+        guaranteed: false,
+        tolerance: found.raised + error,
+        drop: case(&found.drop, &found.reached),
+        model: ModelChoice { bar: search::bar_model(found.pair), component, reason },
+        warning,
+    })
+}
+
+/// A proof, with what more physics would say of its worst drop.
+fn beside_proof(field: &Field<'_>, task: &Task<'_>, proven: Case) -> Result<Case, Error> {
+    let place = field.place_of(&proven.drop, task.demand.frequencies());
+    let Some(plan) = field.plan(task, &place)? else { return Ok(proven) };
+    let more = if search::bar_model(plan.pair) == BarModel::Map { "" } else { ", but no drop with it asks for more" };
+    let reason = format!("{}; {}{more}", proven.model.reason, plan.reason);
+    let warning = plan.warning.map(|warning| warning.to_string());
+    Ok(Case { model: ModelChoice { reason, ..proven.model }, warning, ..proven })
 }
 
 fn case(drop: &SingleDrop, reached: &crate::demand::Reached) -> WorstCase {

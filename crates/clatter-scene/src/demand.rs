@@ -5,6 +5,7 @@ use clatter_shock::{DampingRatio, Peaked, Response, Shape, Suspension};
 
 use crate::base::Base;
 use crate::guaranteed::{Asked, Trains, Variant};
+use crate::plan::Quantity;
 use crate::{Component, Drop, Error, LimitKind, Mount, Product, Spread};
 
 /// One limit of a component.
@@ -87,6 +88,20 @@ impl Demand {
         }
         variants
     }
+    /// What is asked of a plan; `None` for a turn of the bar and for the pulses of a hard-mounted part.
+    pub(crate) fn quantity(&self) -> Option<Quantity> {
+        match (self.kind, self.suspended) {
+            (LimitKind::Acceleration, Some(_)) => Some(Quantity::PeakAcceleration),
+            (LimitKind::RattleSpace, Some(_)) => Some(Quantity::RattleSpace),
+            (LimitKind::VelocityChange | LimitKind::DamageBoundary, _) => Some(Quantity::VelocityShock),
+            _ => None,
+        }
+    }
+    /// The suspension at a frequency, where the limit is on its response.
+    pub(crate) fn suspension(&self, frequency_hz: f64) -> Result<Option<Suspension>, Error> {
+        let suspension = self.suspended.map(|(_, damping)| Suspension::from_hz(frequency_hz, damping));
+        Ok(suspension.transpose()?)
+    }
     /// What one drop does to it, at the worse end of the component.
     pub(crate) fn reached(
         &self,
@@ -95,28 +110,39 @@ impl Demand {
         frequency_hz: f64,
         heard: &mut Heard,
     ) -> Result<Reached, Error> {
-        let mut worst =
-            Reached { value: -1.0, strike: 0, time_s: 0.0, position_m: component.position_m, frequency_hz: None };
+        let mut worst: Option<Reached> = None;
         for position_m in component.ends_m() {
-            let (value, strike, time_s) = match (self.kind, self.suspended) {
-                (LimitKind::AngularVelocityChange, _) => base.largest_turn(),
-                (LimitKind::VelocityChange | LimitKind::DamageBoundary, _) => base.largest_shock(position_m),
-                (kind, Some((_, damping))) => {
-                    let response = heard.response(base, position_m, &Suspension::from_hz(frequency_hz, damping)?)?;
-                    let peak = match kind {
-                        LimitKind::Acceleration => response.absolute_acceleration.peak(),
-                        _ => response.relative_displacement.peak(),
-                    };
-                    (peak.value.abs(), base.contact_before(peak.time), peak.time)
-                }
-                (_, None) => base.largest_acceleration(position_m).unwrap_or_default(),
-            };
-            if value > worst.value {
-                let frequency_hz = self.suspended.map(|_| frequency_hz);
-                worst = Reached { value, strike, time_s, position_m, frequency_hz };
+            let mut respond = |suspension: &Suspension| heard.response(base, position_m, suspension);
+            let reached = self.reached_at(base, position_m, frequency_hz, &mut respond)?;
+            if worst.is_none_or(|worst| reached.value > worst.value) {
+                worst = Some(reached);
             }
         }
-        Ok(worst)
+        Ok(worst.unwrap_or_else(|| unreachable!("a component has an end")))
+    }
+    /// What one drop does to it at a place.
+    pub(crate) fn reached_at(
+        &self,
+        base: &Base,
+        position_m: f64,
+        frequency_hz: f64,
+        respond: &mut dyn FnMut(&Suspension) -> Result<Response, Error>,
+    ) -> Result<Reached, Error> {
+        let (value, strike, time_s) = match (self.kind, self.suspension(frequency_hz)?) {
+            (LimitKind::AngularVelocityChange, _) => base.largest_turn(),
+            (LimitKind::VelocityChange | LimitKind::DamageBoundary, _) => base.largest_shock(position_m),
+            (kind, Some(suspension)) => {
+                let response = respond(&suspension)?;
+                let peak = match kind {
+                    LimitKind::Acceleration => response.absolute_acceleration.peak(),
+                    _ => response.relative_displacement.peak(),
+                };
+                (peak.value.abs(), base.contact_before(peak.time), peak.time)
+            }
+            (_, None) => base.largest_acceleration(position_m).unwrap_or_default(),
+        };
+        let frequency_hz = self.suspended.map(|_| frequency_hz);
+        Ok(Reached { value, strike, time_s, position_m, frequency_hz })
     }
     /// Allowed and demand for a demand found: of a damage boundary, velocity change or acceleration, whichever leaves more room.
     pub(crate) fn settle(&self, demand: f64, contact_time_s: Option<f64>) -> Settled {

@@ -20,6 +20,9 @@ pub enum Error {
     /// A distribution that is none.
     #[error("{0:?} is no distribution over its range: a deviation is positive, a mode within the range")]
     Law(Law),
+    /// A tolerance that no model could be held to, or that says nothing.
+    #[error("the tolerance is {0:?}; allowed: a share in [1e-4, 0.5]")]
+    Tolerance(f64),
     /// What the bar does not accept.
     #[error(transparent)]
     Bar(#[from] clatter::Error),

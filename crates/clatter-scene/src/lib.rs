@@ -3,10 +3,12 @@
 //! [`ProductFile::read`] takes the text of a file (see [`EXAMPLE`]) and tells everything that is wrong with it at once, each
 //! fault where it stands. Inside, all quantities are SI.
 
+mod accuracy;
 mod assess;
 mod base;
 mod demand;
 mod error;
+pub mod explain;
 mod fault;
 mod guaranteed;
 mod keys;
@@ -26,6 +28,7 @@ pub mod design;
 pub mod scatter;
 pub mod tradeoff;
 
+pub use accuracy::Accuracy;
 pub use base::{Base, SingleDrop};
 pub use clatter_shock::STANDARD_GRAVITY_M_S2;
 pub use error::Error;

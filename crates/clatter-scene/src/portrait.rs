@@ -205,9 +205,9 @@ fn within(mut history: Vec<(f64, f64)>, end: f64) -> Vec<(f64, f64)> {
 }
 
 /// Shocks as spikes from zero.
-fn spikes(shocks: impl Iterator<Item = (f64, f64)>, end: f64) -> Vec<(f64, f64)> {
+fn spikes(shocks: Vec<(f64, f64)>, end: f64) -> Vec<(f64, f64)> {
     let mut points = vec![(0.0, 0.0)];
-    points.extend(shocks.take_while(|s| s.0 <= end).flat_map(|(t, v)| [(t, 0.0), (t, v), (t, 0.0)]));
+    points.extend(shocks.into_iter().take_while(|s| s.0 <= end).flat_map(|(t, v)| [(t, 0.0), (t, v), (t, 0.0)]));
     points.push((end, 0.0));
     points
 }

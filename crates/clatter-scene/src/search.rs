@@ -1,27 +1,49 @@
 //! The worst case by a search of stated resolution, for the models that have no bounds.
 //!
-//! All components share the drops of one grid over tilt, speed, restitution and the end that strikes first; around the worst drop
-//! of each demand the grid is then refined, the step halved each time.
+//! A grid over tilt, speed, restitution, frequency, place and the end that strikes first is foreseen ([`Setup::forecast`], a microsecond a
+//! place). Places are then followed in order of the most that they may reach, each by the cheapest pair of models within the tolerance,
+//! until no place that is left may pass the worst found. Around it the step is halved until that raises the demand no more. All
+//! components share the flights of one grid.
+
+use std::cmp::Ordering as Order;
+use std::collections::{BinaryHeap, HashMap};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use clatter::End;
+use clatter::flight::Scene;
+use clatter_shock::{DampingRatio, Response, Suspension};
 use rayon::prelude::*;
 
-use crate::base::{Base, SingleDrop};
-use crate::demand::{Demand, Heard, Reached};
-use crate::{BarModel, Component, Drop, Error, Product, Spread};
+use crate::base::{self, Base, Cells, SingleDrop};
+use crate::demand::{Demand, Reached};
+use crate::plan::demand::fineness;
+use crate::plan::trail::Trail;
+use crate::plan::{BarRung, ComponentRung, Pair, Plan, Quantity, Setup};
+use crate::{Accuracy, BarModel, Component, Drop, Error, LimitKind, Mount, Product, Spread, WorstCase};
 
 /// Steps along the tilt; even in its square root, because contacts overlap at small tilts and gaps grow from there.
 const TILTS: u32 = 16;
 /// Steps along restitution and frequency.
 const STEPS: u32 = 2;
-/// How often the step is halved around the worst drop.
-const HALVINGS: u32 = 3;
+/// How often the step is halved around the worst drop, at least and at most.
+const HALVINGS: [u32; 2] = [3, 6];
+/// Other places of the grid from which a worse drop is looked for.
+const BASINS: usize = 4;
+/// Contacts followed at first, and where these leave open what later ones do.
+const CONTACTS: [usize; 2] = [4, 10];
+/// Share of the tolerance that the polygons of pulses may take.
+const POLYGONS: f64 = 0.1;
+/// Pieces of a pulse, and within what share its peak and its effect then are; twice as many are four times as close.
+const FINE: (f64, f64) = (96.0, 2e-4);
 
 /// The worst drop of the search.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(crate) struct Found {
     pub(crate) reached: Reached,
     pub(crate) drop: SingleDrop,
+    pub(crate) place: Place,
+    pub(crate) pair: Pair,
     /// By which share the last refinement raised the demand.
     pub(crate) raised: f64,
 }
@@ -31,8 +53,8 @@ pub(crate) struct Found {
 pub(crate) struct Task<'a> {
     pub(crate) component: &'a Component,
     pub(crate) demand: Demand,
-    pub(crate) model: BarModel,
-    pub(crate) pulses: bool,
+    /// What no drop passes without gravity, at small tilt and for instant impacts, where that is proven.
+    pub(crate) proven: Option<f64>,
 }
 
 /// The product and the ranges of its drop.
@@ -40,170 +62,618 @@ pub(crate) struct Task<'a> {
 pub(crate) struct Field<'a> {
     pub(crate) product: &'a Product,
     pub(crate) drop: &'a Drop,
+    pub(crate) accuracy: Accuracy,
+    cells: Cells,
 }
 
-/// Where in its range each quantity is, from 0 to 1.
-#[derive(Debug, Clone, Copy)]
-struct Place {
-    first: End,
-    /// Of the square root of the tilt.
-    tilt: f64,
-    speed: f64,
-    restitution: f64,
-    frequency: f64,
+/// Where in its range each quantity is, from 0 to 1, and where in the component.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Place {
+    pub(crate) first: End,
+    /// Of the square root of the tilt, speed, restitution and frequency.
+    pub(crate) shares: [f64; 4],
+    pub(crate) position_m: f64,
 }
+
+/// A drop, and its flights as far as they were followed.
+struct Slot {
+    number: usize,
+    drop: SingleDrop,
+    scene: Scene,
+    trail: OnceLock<Trail>,
+    strikes: [OnceLock<Result<Base, Error>>; 3],
+    contacts: [OnceLock<Result<Base, Error>>; 3],
+}
+
+/// Drops beside the grid: first end and shares of tilt, speed and restitution.
+type Beside = Mutex<HashMap<(bool, [u64; 3]), Arc<Slot>>>;
+
+/// A place as it is foreseen.
+#[derive(Clone)]
+struct Candidate {
+    place: Place,
+    slot: Arc<Slot>,
+    pair: Pair,
+    /// Whether the pair is within the tolerance.
+    within: bool,
+    /// What it reaches, about, and at most.
+    about: f64,
+    at_most: f64,
+    /// Later strikes do not count.
+    until_s: f64,
+}
+
+/// What was worked out already: drop, model and contacts or shocks followed, position, frequency; beside a response to contacts
+/// as single shocks, how far it may be off.
+type Heard = HashMap<(usize, u8, usize, u64, u64), (Response, f64)>;
+
+/// Number of a response to contacts as single shocks, beside those of models.
+const CENTROIDS: u8 = u8::MAX;
 
 fn shares(steps: u32, fixed: bool) -> impl Iterator<Item = f64> + Clone {
     let steps = if fixed { 0 } else { steps };
     (0..=steps).map(move |i| if steps == 0 { 0.0 } else { f64::from(i) / f64::from(steps) })
 }
 
-impl Field<'_> {
+/// How the bar moves; sums of the closed form are taken strike by strike where flights are shared.
+pub(crate) fn bar_model(pair: Pair) -> BarModel {
+    match pair.bar {
+        BarRung::ClosedForm | BarRung::Map => BarModel::Map,
+        BarRung::Ballistic => BarModel::Ballistic,
+        BarRung::FiniteTilt => BarModel::FiniteTilt,
+        BarRung::Compliant => BarModel::Compliant,
+    }
+}
+
+impl<'a> Field<'a> {
+    pub(crate) fn new(product: &'a Product, drop: &'a Drop, components: &[Component], accuracy: Accuracy) -> Self {
+        let contact = product.contact_time_s.unwrap_or(0.0);
+        let finest = components.iter().filter_map(|c| match c.mount {
+            Mount::Suspended { frequency_hz, .. } => c.mount.suspension(frequency_hz.hi()).ok().flatten(),
+            Mount::Hard => None,
+        });
+        let finest = finest.map(|part| fineness(&part, contact)).fold(0.5, f64::max);
+        let most = finest * FINE.0 * (FINE.1 / (POLYGONS * accuracy.tolerance)).sqrt();
+        let cells = Cells { most, fineness: finest };
+        Self { product, drop, accuracy, cells }
+    }
+
     fn single(&self, place: &Place) -> SingleDrop {
         let [slow, fast] = self.drop.speeds_m_s();
         let [lo, hi] = [self.drop.tilt_rad.lo().sqrt(), self.drop.tilt_rad.hi().sqrt()];
-        let root = lo + place.tilt * (hi - lo);
+        let [tilt, speed, restitution, _] = place.shares;
+        let root = lo + tilt * (hi - lo);
         SingleDrop {
             first: place.first,
             tilt_rad: (root * root).clamp(self.drop.tilt_rad.lo(), self.drop.tilt_rad.hi()),
-            speed_m_s: (slow + place.speed * (fast - slow)).clamp(slow, fast),
-            restitution: self.product.restitution.at(place.restitution),
+            speed_m_s: (slow + speed * (fast - slow)).clamp(slow, fast),
+            restitution: self.product.restitution.at(restitution),
             gravity_m_s2: self.drop.gravity_m_s2,
         }
     }
 
-    fn symmetric(&self) -> bool {
-        let [a, b] = self.product.body.arms_m();
-        a.to_bits() == b.to_bits()
+    /// Where in the ranges a drop is.
+    pub(crate) fn place_of(&self, worst: &WorstCase, frequencies: Option<Spread>) -> Place {
+        let share = |[lo, hi]: [f64; 2], x: f64| if hi > lo { ((x - lo) / (hi - lo)).clamp(0.0, 1.0) } else { 0.0 };
+        let of = |spread: &Spread, x: f64| share([spread.lo(), spread.hi()], x);
+        let tilt = [self.drop.tilt_rad.lo(), self.drop.tilt_rad.hi()].map(f64::sqrt);
+        let frequency = frequencies.zip(worst.frequency_hz).map_or(0.0, |(spread, f)| of(&spread, f));
+        let shares = [
+            share(tilt, worst.tilt_deg.to_radians().sqrt()),
+            share(self.drop.speeds_m_s(), worst.speed_m_s),
+            of(&self.product.restitution, worst.restitution),
+            frequency,
+        ];
+        Place { first: worst.first, shares, position_m: worst.position_m }
     }
 
-    fn places(&self) -> Vec<Place> {
+    /// Of a symmetric product one end first is the other one turned around.
+    fn turns(&self) -> bool {
+        let [a, b] = self.product.body.arms_m();
+        a.to_bits() == b.to_bits() && self.drop.first_ends().len() > 1
+    }
+
+    /// The place of the same drop with the end first that is followed, and where it then is.
+    fn followed(&self, place: &Place) -> (End, f64) {
+        if self.turns() && place.first != self.drop.first_ends()[0] {
+            (place.first.other(), -place.position_m)
+        } else {
+            (place.first, place.position_m)
+        }
+    }
+
+    /// The drop of a place.
+    fn slot(&self, place: &Place) -> Result<Slot, Error> {
+        static NUMBER: AtomicUsize = AtomicUsize::new(0);
+        let (first, position_m) = self.followed(place);
+        let drop = self.single(&Place { first, position_m, ..*place });
+        let scene = base::scene(self.product, &drop)?;
+        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+        let (strikes, contacts) = Default::default();
+        Ok(Slot { number, drop, scene, trail: OnceLock::new(), strikes, contacts })
+    }
+
+    /// The drops of the grid.
+    fn slots(&self) -> Result<Vec<(Place, Arc<Slot>)>, Error> {
         let [slow, fast] = self.drop.speeds_m_s();
-        let mut places = Vec::new();
-        // Of a symmetric product one end first is the other one turned around.
-        for &first in if self.symmetric() { &self.drop.first_ends()[..1] } else { self.drop.first_ends() } {
+        let mut slots = Vec::new();
+        for &first in if self.turns() { &self.drop.first_ends()[..1] } else { self.drop.first_ends() } {
             for tilt in shares(TILTS, self.drop.tilt_rad.is_value()) {
-                // From the fastest and most elastic one, which is often the worst.
                 for speed in shares(1, slow >= fast) {
                     for restitution in shares(STEPS, self.product.restitution.is_value()) {
-                        places.push(Place { first, tilt, speed, restitution, frequency: 0.0 });
+                        let shares = [tilt, speed, restitution, 0.0];
+                        let place = Place { first, shares, position_m: 0.0 };
+                        let slot = self.slot(&place)?;
+                        // At the same h0/v0 a faster drop does more in proportion, gravity and geometry aside.
+                        let as_slow = slot.drop.tilt_rad.sin() * (fast / slot.drop.speed_m_s);
+                        let outdone = speed < 1.0 && slow < fast && as_slow <= self.drop.tilt_rad.hi().sin();
+                        if !outdone || self.accuracy.model.is_some() {
+                            slots.push((place, Arc::new(slot)));
+                        }
                     }
                 }
             }
         }
-        places
+        Ok(slots)
     }
 
-    /// The worst drop of each task, over one grid for each model.
+    /// The worst drop of each task; `None` where no drop may pass what is proven. Tasks of one component follow one another.
     ///
     /// # Errors
     /// A drop that a model does not take.
-    pub(crate) fn worst(&self, tasks: &[Task<'_>]) -> Result<Vec<Found>, Error> {
-        let mut models: Vec<_> = tasks.iter().map(|task| task.model).collect();
-        models.sort_unstable();
-        models.dedup();
-        let mut best: Vec<Option<(Place, Reached)>> = vec![None; tasks.len()];
-        for model in models {
-            let columns: Vec<Vec<Option<(Place, Reached)>>> =
-                self.places().par_iter().map(|place| self.column(tasks, model, place)).collect::<Result<_, Error>>()?;
-            for column in columns {
-                for (best, new) in best.iter_mut().zip(column) {
-                    if let Some(new) = new
-                        && best.as_ref().is_none_or(|old| new.1.value > old.1.value)
-                    {
-                        *best = Some(new);
+    pub(crate) fn worst(&self, tasks: &[Task<'_>]) -> Result<Vec<Option<Found>>, Error> {
+        let slots = self.slots()?;
+        let beside = Beside::default();
+        let components: Vec<_> = tasks.chunk_by(|a, b| std::ptr::eq(a.component, b.component)).collect();
+        let found = components.into_par_iter().map(|tasks| {
+            let mut heard = Heard::new();
+            let each = tasks.iter().map(|task| {
+                let grid = self.grid(task, &slots)?;
+                Search { field: self, task, beside: &beside, heard: &mut heard, best: None }.run(grid)
+            });
+            each.collect::<Result<Vec<_>, Error>>()
+        });
+        Ok(found.collect::<Result<Vec<_>, Error>>()?.into_iter().flatten().collect())
+    }
+
+    /// The pairs over the grid, for one demand.
+    ///
+    /// # Errors
+    /// As [`worst`](Self::worst).
+    pub(crate) fn pairs(&self, task: &Task<'_>) -> Result<Vec<Pair>, Error> {
+        Ok(self.grid(task, &self.slots()?)?.into_iter().map(|c| c.pair).collect())
+    }
+
+    /// All places of the grid, as they are foreseen.
+    fn grid(&self, task: &Task<'_>, slots: &[(Place, Arc<Slot>)]) -> Result<Vec<Candidate>, Error> {
+        let turn = task.demand.kind == LimitKind::AngularVelocityChange;
+        let positions = if turn { vec![task.component.position_m] } else { task.component.ends_m() };
+        let fixed = task.demand.frequencies().is_none_or(|f| f.is_value());
+        let mut grid = Vec::new();
+        for (place, slot) in slots {
+            let mut trail = slot.trail(self).clone();
+            let firsts = if self.turns() && !turn { self.drop.first_ends() } else { &[place.first] };
+            for &first in firsts {
+                for &position_m in &positions {
+                    for frequency in shares(STEPS, fixed) {
+                        let [tilt, speed, restitution, _] = place.shares;
+                        let place = Place { first, shares: [tilt, speed, restitution, frequency], position_m };
+                        grid.push(self.foresee(task, place, slot, &mut trail)?);
                     }
                 }
             }
         }
-        let refined = |(task, best): (&Task<'_>, Option<(Place, Reached)>)| {
-            let (place, reached) = best.unwrap_or_else(|| unreachable!("a grid has places"));
-            self.refine(task, place, reached)
+        Ok(grid)
+    }
+
+    fn frequency_hz(task: &Task<'_>, place: &Place) -> f64 {
+        task.demand.frequencies().map_or(0.0, |f| f.at(place.shares[3]))
+    }
+
+    /// The drop at a place as plans take it, for its own position or another one in [−1, 1].
+    fn setup(&self, task: &Task<'_>, place: &Place, slot: &Slot, position: Option<f64>) -> Result<Setup, Error> {
+        let toward = if place.first == End::A { 1.0 } else { -1.0 };
+        let position = position.unwrap_or_else(|| toward * self.product.relative(place.position_m));
+        let suspension = match task.demand.suspension(Self::frequency_hz(task, place))? {
+            Some(suspension) => suspension,
+            // Of a velocity shock it does not matter.
+            None => Suspension::new(1.0, DampingRatio::new(0.0)?)?,
         };
-        tasks.par_iter().zip(best).map(refined).collect()
+        Ok(Setup::anywhere(slot.scene, self.product.contact_time_s, position, suspension))
     }
 
-    /// What the tasks of a model get from the drops of a place.
-    fn column(
-        &self,
-        tasks: &[Task<'_>],
-        model: BarModel,
-        place: &Place,
-    ) -> Result<Vec<Option<(Place, Reached)>>, Error> {
-        let mut bases = vec![(*place, Base::new(self.product, &self.single(place), model)?)];
-        if self.symmetric() && self.drop.first_ends().len() > 1 {
-            let turned = Place { first: place.first.other(), ..*place };
-            bases.push((turned, bases[0].1.turned()));
+    /// The plan for a place, after a longer look where contacts would be followed.
+    ///
+    /// # Errors
+    /// A frequency that no suspension has.
+    pub(crate) fn plan(&self, task: &Task<'_>, place: &Place) -> Result<Option<Plan>, Error> {
+        let slot = self.slot(place)?;
+        let setup = self.setup(task, place, &slot, None)?;
+        let tolerance = self.accuracy.tolerance;
+        Ok(task.demand.quantity().map(|quantity| setup.forecast(quantity).plan(tolerance).refined(&setup)))
+    }
+
+    fn foresee(&self, task: &Task<'_>, place: Place, slot: &Arc<Slot>, trail: &mut Trail) -> Result<Candidate, Error> {
+        let tolerance = self.accuracy.tolerance;
+        let mut candidate = Candidate {
+            place,
+            slot: Arc::clone(slot),
+            pair: Pair::HIGHEST,
+            within: true,
+            about: f64::INFINITY,
+            at_most: f64::INFINITY,
+            until_s: f64::INFINITY,
+        };
+        if let Some(quantity) = task.demand.quantity() {
+            let setup = self.setup(task, &place, slot, None)?;
+            let forecast = setup.forecast_along(trail, quantity);
+            candidate.until_s = forecast.until_s;
+            candidate.pair = match self.accuracy.model {
+                None => {
+                    candidate.at_most = forecast.at_most();
+                    let plan = forecast.plan(tolerance);
+                    candidate.within = plan.estimate.error <= tolerance;
+                    plan.pair
+                }
+                Some(BarModel::Compliant) => Pair::HIGHEST,
+                Some(model) => {
+                    let bar = match model {
+                        BarModel::Map => BarRung::Map,
+                        BarModel::Ballistic => BarRung::Ballistic,
+                        BarModel::FiniteTilt | BarModel::Compliant => BarRung::FiniteTilt,
+                    };
+                    let impulses = self.product.contact_time_s.is_none()
+                        || forecast.component(ComponentRung::ImpulseTrain).error <= tolerance;
+                    let component = match quantity {
+                        Quantity::VelocityShock => ComponentRung::LargestShock,
+                        _ if impulses => ComponentRung::ImpulseTrain,
+                        _ => ComponentRung::PulseTrain,
+                    };
+                    Pair { bar, component }
+                }
+            };
+            candidate.about = forecast.peak;
+        } else {
+            candidate.pair = self.pair_of_shocks(task, &place, slot, trail)?;
         }
-        let mut column: Vec<Option<(Place, Reached)>> = vec![None; tasks.len()];
-        for (place, base) in &bases {
-            // Tasks of one component follow one another.
-            let (mut component, mut heard) = (std::ptr::null(), Heard::new(false));
-            for (task, best) in tasks.iter().zip(&mut column).filter(|(task, _)| task.model == model) {
-                if !std::ptr::eq(component, task.component) {
-                    (component, heard) = (task.component, Heard::new(task.pulses));
-                }
-                let new = reach_all(task, base, place, &mut heard)?;
-                if best.as_ref().is_none_or(|old| new.1.value > old.1.value) {
-                    *best = Some(new);
-                }
+        Ok(candidate)
+    }
+
+    /// For a turn of the bar or the pulse of a hard-mounted part: the bar that gives the velocity shocks right, with contacts
+    /// wherever two overlap.
+    fn pair_of_shocks(&self, task: &Task<'_>, place: &Place, slot: &Slot, trail: &mut Trail) -> Result<Pair, Error> {
+        let turn = task.demand.kind == LimitKind::AngularVelocityChange;
+        let component = if turn { ComponentRung::LargestShock } else { ComponentRung::PulseTrain };
+        if let Some(model) = self.accuracy.model {
+            let bar = match model {
+                BarModel::Map => BarRung::Map,
+                BarModel::Ballistic => BarRung::Ballistic,
+                BarModel::FiniteTilt => BarRung::FiniteTilt,
+                BarModel::Compliant => return Ok(Pair::HIGHEST),
+            };
+            return Ok(Pair { bar, component });
+        }
+        let ends = if turn { &[Some(-1.0), Some(1.0)][..] } else { &[None] };
+        let mut bar = BarRung::Map;
+        for &position in ends {
+            let setup = self.setup(task, place, slot, position)?;
+            let forecast = setup.forecast_along(trail, Quantity::VelocityShock);
+            let plan = forecast.plan(self.accuracy.tolerance);
+            let apart = self.product.contact_time_s.is_none() || forecast.groups.overlap <= 1.0;
+            if plan.pair.bar == BarRung::Compliant || !apart {
+                return Ok(Pair::HIGHEST);
+            }
+            bar = bar.max(if plan.estimate.error <= self.accuracy.tolerance {
+                plan.pair.bar
+            } else {
+                BarRung::FiniteTilt
+            });
+        }
+        Ok(Pair { bar, component })
+    }
+}
+
+impl Slot {
+    /// Its first strikes, all that a forecast looks at.
+    fn trail(&self, field: &Field<'_>) -> &Trail {
+        self.trail.get_or_init(|| Trail::new(&self.scene, field.product.contact_time_s).whole())
+    }
+    fn strikes(&self, field: &Field<'_>, model: BarModel) -> Result<&Base, Error> {
+        let k = match model {
+            BarModel::Map => 0,
+            BarModel::Ballistic => 1,
+            BarModel::FiniteTilt | BarModel::Compliant => 2,
+        };
+        let follow = || Base::of_strikes(field.product, &self.drop, model, field.cells);
+        self.strikes[k].get_or_init(follow).as_ref().map_err(Clone::clone)
+    }
+    fn contacts(&self, field: &Field<'_>, k: usize) -> Result<&Base, Error> {
+        let most = Base::most_contacts(field.product, self.drop.restitution);
+        let most = CONTACTS.get(k).map_or(most, |few| most.min(*few));
+        let follow = || {
+            let time = field.product.contact_time_s.ok_or(Error::Contact)?;
+            Base::of_contacts(field.product, &self.drop, time, most, field.cells)
+        };
+        self.contacts[k].get_or_init(follow).as_ref().map_err(Clone::clone)
+    }
+}
+
+/// A place of the grid that is not followed yet.
+#[derive(Debug, Clone, Copy)]
+struct Open {
+    at_most: f64,
+    k: usize,
+    /// Whether it was looked at closer.
+    closer: bool,
+}
+
+impl PartialEq for Open {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Order::Equal
+    }
+}
+impl Eq for Open {}
+impl PartialOrd for Open {
+    fn partial_cmp(&self, other: &Self) -> Option<Order> {
+        Some(self.cmp(other))
+    }
+}
+impl Ord for Open {
+    fn cmp(&self, other: &Self) -> Order {
+        self.at_most.total_cmp(&other.at_most).then(other.k.cmp(&self.k))
+    }
+}
+
+/// The search for one demand.
+struct Search<'a> {
+    field: &'a Field<'a>,
+    task: &'a Task<'a>,
+    beside: &'a Beside,
+    heard: &'a mut Heard,
+    best: Option<(Candidate, Reached)>,
+}
+
+impl Search<'_> {
+    fn run(mut self, mut grid: Vec<Candidate>) -> Result<Option<Found>, Error> {
+        if self.task.proven.is_some() && self.field.accuracy.model.is_none() {
+            grid.retain(|c| !self.is_proven(c));
+        }
+        // The highest first, so that most of the others need not be followed.
+        if let Some(first) = grid.iter().reduce(|a, b| if b.about > a.about { b } else { a }) {
+            self.consider(first)?;
+        }
+        self.sweep(&grid)?;
+        let mut raised = self.refine()?;
+        if self.task.demand.quantity().is_some() {
+            grid.sort_by(|a, b| b.about.total_cmp(&a.about));
+            if self.climb_from_elsewhere(&grid)? {
+                raised = self.refine()?;
             }
         }
-        Ok(column)
+        let field = self.field;
+        Ok(self.best.map(|(candidate, reached)| Found {
+            reached,
+            drop: field.single(&candidate.place),
+            place: candidate.place,
+            pair: candidate.pair,
+            raised,
+        }))
     }
 
-    /// Halves the step around a place.
-    fn refine(&self, task: &Task<'_>, mut place: Place, mut reached: Reached) -> Result<Found, Error> {
-        let [slow, fast] = self.drop.speeds_m_s();
-        let free = [
-            !self.drop.tilt_rad.is_value(),
+    /// What a place must pass to count.
+    fn worst(&self) -> f64 {
+        let proven = if self.field.accuracy.model.is_none() { self.task.proven } else { None };
+        self.best.as_ref().map_or(0.0, |(_, reached)| reached.value).max(proven.unwrap_or(0.0))
+    }
+
+    /// Whether the plan of a place knows nothing that the proof does not know.
+    fn is_proven(&self, candidate: &Candidate) -> bool {
+        let Pair { bar, component } = candidate.pair;
+        let instants = self.task.demand.quantity().is_none() || component != ComponentRung::PulseTrain;
+        bar <= BarRung::Map && instants && candidate.within
+    }
+
+    /// Follows the grid from the highest bound down, each place once a closer look has not lowered its bound below that of others.
+    fn sweep(&mut self, grid: &[Candidate]) -> Result<(), Error> {
+        let mut open: BinaryHeap<Open> =
+            grid.iter().enumerate().map(|(k, c)| Open { at_most: c.at_most, k, closer: false }).collect();
+        while let Some(Open { at_most, k, closer }) = open.pop() {
+            if at_most <= self.worst() {
+                break;
+            }
+            if closer {
+                self.consider(&grid[k])?;
+            } else {
+                open.push(Open { at_most: self.seen_closer(&grid[k])?, k, closer: true });
+            }
+        }
+        Ok(())
+    }
+
+    /// Follows a candidate, and keeps it where it is the worst.
+    fn consider(&mut self, candidate: &Candidate) -> Result<bool, Error> {
+        let reached = self.follow(candidate)?;
+        let worse = self.best.as_ref().is_none_or(|(_, best)| reached.value > best.value);
+        if worse {
+            self.best = Some((candidate.clone(), reached));
+        }
+        Ok(worse)
+    }
+
+    fn may_be_worst(&mut self, candidate: &Candidate) -> Result<bool, Error> {
+        Ok(candidate.at_most > self.worst() && self.seen_closer(candidate)? > self.worst())
+    }
+
+    /// What a candidate reaches at most, where contacts overlap by the response to each of them as a single shock.
+    fn seen_closer(&mut self, candidate: &Candidate) -> Result<f64, Error> {
+        let (field, task, Candidate { place, slot, .. }) = (self.field, self.task, candidate);
+        let frequency_hz = Field::frequency_hz(task, place);
+        let Some(suspension) = task.demand.suspension(frequency_hz)? else { return Ok(candidate.at_most) };
+        if candidate.pair.bar != BarRung::Compliant || field.accuracy.model.is_some() {
+            return Ok(candidate.at_most);
+        }
+        let (base, depth) = self.contacts(place, slot)?;
+        let (_, position_m) = field.followed(place);
+        let key = (slot.number, CENTROIDS, depth, position_m.to_bits(), frequency_hz.to_bits());
+        let heard = match self.heard.get(&key).copied() {
+            Some(heard) => Some(heard),
+            None => base.respond_to_centroids(position_m, &suspension)?,
+        };
+        let Some((response, spread)) = heard else { return Ok(candidate.at_most) };
+        self.heard.insert(key, (response, spread));
+        let (factors, omega) = (suspension.damping().impulse_factors(), suspension.omega());
+        let at_most = match task.demand.kind {
+            LimitKind::Acceleration => {
+                response.absolute_acceleration.magnitude() + spread * omega * factors.acceleration
+            }
+            _ => response.relative_displacement.magnitude() + spread * factors.displacement / omega,
+        };
+        Ok(at_most.min(candidate.at_most))
+    }
+
+    fn follow(&mut self, candidate: &Candidate) -> Result<Reached, Error> {
+        let (field, task, Candidate { place, slot, .. }) = (self.field, self.task, candidate);
+        let model = bar_model(candidate.pair);
+        let pulses = candidate.pair.component == ComponentRung::PulseTrain;
+        let (base, depth) = if model == BarModel::Compliant {
+            self.contacts(place, slot)?
+        } else {
+            let base = slot.strikes(field, model)?;
+            // In steps, so that the limits of a part share a response.
+            (base, base.shocks_until(candidate.until_s).max(4).next_power_of_two())
+        };
+        let (_, position_m) = field.followed(place);
+        let frequency_hz = Field::frequency_hz(task, place);
+        let heard = &mut *self.heard;
+        let mut respond = |suspension: &Suspension| {
+            let model = 2 * model as u8 + u8::from(pulses);
+            let key = (slot.number, model, depth, position_m.to_bits(), frequency_hz.to_bits());
+            if let Some((response, _)) = heard.get(&key) {
+                return Ok(*response);
+            }
+            let response = base.respond_to_first(depth, position_m, suspension, pulses)?;
+            heard.insert(key, (response, 0.0));
+            Ok(response)
+        };
+        let reached = task.demand.reached_at(base, position_m, frequency_hz, &mut respond)?;
+        Ok(Reached { position_m: place.position_m, ..reached })
+    }
+
+    /// The contacts of a drop, followed until nothing later counts.
+    fn contacts<'b>(&self, place: &Place, slot: &'b Slot) -> Result<(&'b Base, usize), Error> {
+        let (field, task) = (self.field, self.task);
+        let asked = match (task.demand.quantity(), task.demand.kind) {
+            (Some(quantity), _) => vec![(field.setup(task, place, slot, None)?, quantity)],
+            (None, LimitKind::AngularVelocityChange) => {
+                let end = |s| Ok((field.setup(task, place, slot, Some(s))?, Quantity::VelocityShock));
+                [-1.0, 1.0].map(end).into_iter().collect::<Result<_, Error>>()?
+            }
+            (None, _) => vec![(field.setup(task, place, slot, None)?, Quantity::VelocityShock)],
+        };
+        for k in 0..CONTACTS.len() {
+            let base = slot.contacts(field, k)?;
+            if asked.iter().all(|(setup, quantity)| base.has_settled(setup, *quantity)) {
+                return Ok((base, k));
+            }
+        }
+        Ok((slot.contacts(field, CONTACTS.len())?, CONTACTS.len()))
+    }
+
+    fn free(&self) -> [bool; 4] {
+        let [slow, fast] = self.field.drop.speeds_m_s();
+        [
+            !self.field.drop.tilt_rad.is_value(),
             slow < fast,
-            !self.product.restitution.is_value(),
-            task.demand.frequencies().is_some_and(|f| !f.is_value()),
-        ];
-        let mut step = [1.0 / f64::from(TILTS), 1.0, 1.0 / f64::from(STEPS), 1.0 / f64::from(STEPS)];
-        let mut raised = 0.0;
-        for _ in 0..HALVINGS {
-            let before = reached.value;
-            for axis in (0..4).filter(|&axis| free[axis]) {
-                step[axis] *= 0.5;
-                for sign in [-1.0, 1.0] {
-                    let mut next = place;
-                    let share = [&mut next.tilt, &mut next.speed, &mut next.restitution, &mut next.frequency];
-                    let share = share.into_iter().nth(axis).unwrap_or_else(|| unreachable!("one of four"));
-                    let moved = (*share + sign * step[axis]).clamp(0.0, 1.0);
-                    if (moved - *share).abs() < f64::EPSILON {
-                        continue;
-                    }
-                    *share = moved;
-                    let base = Base::new(self.product, &self.single(&next), task.model)?;
-                    let new = reach(task, &base, &next, &mut Heard::new(task.pulses))?;
-                    if new.value > reached.value {
-                        (place, reached) = (next, new);
+            !self.field.product.restitution.is_value(),
+            self.task.demand.frequencies().is_some_and(|f| !f.is_value()),
+        ]
+    }
+
+    /// The places next to one, at a share of the step of the grid.
+    fn neighbors(&self, place: Place, axis: usize, step: f64) -> impl Iterator<Item = Place> + use<> {
+        let whole = [1.0 / f64::from(TILTS), 1.0, 1.0 / f64::from(STEPS), 1.0 / f64::from(STEPS)][axis];
+        let free = self.free()[axis];
+        [-1.0, 1.0].into_iter().filter_map(move |sign| {
+            let mut next = place;
+            next.shares[axis] = (place.shares[axis] + sign * step * whole).clamp(0.0, 1.0);
+            (free && (next.shares[axis] - place.shares[axis]).abs() > f64::EPSILON).then_some(next)
+        })
+    }
+
+    /// A place beside the grid, as it is foreseen; of one drop all that was worked out is kept.
+    fn foresee(&self, place: Place) -> Result<Candidate, Error> {
+        let (first, _) = self.field.followed(&place);
+        let [tilt, speed, restitution, _] = place.shares.map(f64::to_bits);
+        let key = (first == End::B, [tilt, speed, restitution]);
+        let known = self.beside.lock().unwrap_or_else(PoisonError::into_inner).get(&key).map(Arc::clone);
+        let slot = if let Some(slot) = known {
+            slot
+        } else {
+            let slot = Arc::new(self.field.slot(&place)?);
+            let mut beside = self.beside.lock().unwrap_or_else(PoisonError::into_inner);
+            Arc::clone(beside.entry(key).or_insert(slot))
+        };
+        let mut trail = slot.trail(self.field).clone();
+        self.field.foresee(self.task, place, &slot, &mut trail)
+    }
+
+    /// Halves the step around the worst place; returns by which share the last halving raised the demand.
+    fn refine(&mut self) -> Result<f64, Error> {
+        let (mut step, mut raised) = (1.0, 0.0);
+        for halving in 0..HALVINGS[1] {
+            let Some((_, Reached { value: before, .. })) = self.best else { return Ok(0.0) };
+            step *= 0.5;
+            for axis in 0..4 {
+                let Some((Candidate { place, .. }, _)) = self.best else { return Ok(0.0) };
+                for next in self.neighbors(place, axis, step) {
+                    let candidate = self.foresee(next)?;
+                    if self.may_be_worst(&candidate)? {
+                        self.consider(&candidate)?;
                     }
                 }
             }
-            raised = reached.value / before - 1.0;
+            let after = self.best.as_ref().map_or(0.0, |(_, reached)| reached.value);
+            raised = if before > 0.0 { after / before - 1.0 } else { 0.0 };
+            if halving + 1 >= HALVINGS[0] && raised <= 0.5 * self.field.accuracy.tolerance {
+                break;
+            }
         }
-        Ok(Found { reached, drop: self.single(&place), raised: if raised.is_finite() { raised } else { 0.0 } })
+        Ok(raised)
     }
-}
 
-/// The worst over the frequencies of the part.
-fn reach_all(task: &Task<'_>, base: &Base, place: &Place, heard: &mut Heard) -> Result<(Place, Reached), Error> {
-    let fixed = task.demand.frequencies().is_none_or(|f| f.is_value());
-    let mut worst: Option<(Place, Reached)> = None;
-    for frequency in shares(STEPS, fixed) {
-        let place = Place { frequency, ..*place };
-        let reached = reach(task, base, &place, heard)?;
-        if worst.as_ref().is_none_or(|worst| reached.value > worst.1.value) {
-            worst = Some((place, reached));
+    /// Climbs by what is foreseen alone from the highest places of the grid that are no neighbors; follows where that leads. `grid` in
+    /// falling order. Whether the worst place is another one now.
+    fn climb_from_elsewhere(&mut self, grid: &[Candidate]) -> Result<bool, Error> {
+        let mut starts: Vec<Place> = self.best.iter().map(|(candidate, _)| candidate.place).collect();
+        let next_to = |a: &Place, b: &Place| {
+            let same = a.first == b.first && a.position_m.to_bits() == b.position_m.to_bits();
+            same && (a.shares[0] - b.shares[0]).abs() < 1.5 / f64::from(TILTS)
+        };
+        let mut moved = false;
+        for candidate in grid {
+            if starts.len() > BASINS {
+                break;
+            }
+            if starts.iter().any(|start| next_to(start, &candidate.place)) {
+                continue;
+            }
+            starts.push(candidate.place);
+            let (mut top, mut step) = (candidate.clone(), 1.0);
+            for _ in 0..HALVINGS[0] {
+                step *= 0.5;
+                for axis in 0..4 {
+                    for next in self.neighbors(top.place, axis, step) {
+                        let candidate = self.foresee(next)?;
+                        if candidate.about > top.about {
+                            top = candidate;
+                        }
+                    }
+                }
+            }
+            if self.may_be_worst(&top)? {
+                moved |= self.consider(&top)?;
+            }
         }
+        Ok(moved)
     }
-    Ok(worst.unwrap_or_else(|| unreachable!("at least one frequency")))
-}
-
-fn reach(task: &Task<'_>, base: &Base, place: &Place, heard: &mut Heard) -> Result<Reached, Error> {
-    let frequency_hz = task.demand.frequencies().map_or(0.0, |f: Spread| f.at(place.frequency));
-    task.demand.reached(base, task.component, frequency_hz, heard)
 }

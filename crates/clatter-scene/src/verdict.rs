@@ -96,13 +96,17 @@ pub struct LimitAssessment {
     pub proven: Option<f64>,
     /// Whether bounds over the whole ranges prove the demand, in the model named.
     pub guaranteed: bool,
-    /// `demand` is at most this share above `attained`; for a search, how finely the ranges were searched, as the share by which
-    /// the last refinement raised the demand.
+    /// Where `guaranteed`, `demand` is at most this share above `attained`; that gravity, real tilt and contact time ask for no more is
+    /// known to the tolerance of the assessment ([`Accuracy`](crate::Accuracy)). Of a search, no drop of the ranges asks for more than
+    /// this share above `demand`, about: what its models may get wrong, and what the last refinement of the grid still gained.
+    #[serde(serialize_with = "number")]
     pub tolerance: f64,
     /// The drop that does it.
     pub worst_case: WorstCase,
     /// The models, and why these.
     pub model: ModelChoice,
+    /// Why the demand may not hold to that, or on which condition it does.
+    pub warning: Option<String>,
 }
 
 impl LimitAssessment {

@@ -14,6 +14,8 @@ pub struct Plan {
     pub pair: Pair,
     /// What it gets wrong, as a share of the quantity.
     pub estimate: Estimate,
+    /// The estimates for all pairs.
+    pub forecast: Forecast,
     /// What it costs, about: see [`Forecast::cost_ns`].
     pub cost_ns: f64,
     /// Models need not be followed beyond this time since the first touch; infinite where that is not known.
@@ -27,6 +29,8 @@ pub struct Plan {
 /// Which groups made cheaper models too coarse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reason {
+    /// The quantity asked.
+    pub quantity: Quantity,
     /// The rungs that are good enough.
     pub pair: Pair,
     /// The tolerance.
@@ -87,15 +91,32 @@ impl Forecast {
         };
         let bar = [BarRung::Map, BarRung::Ballistic, BarRung::FiniteTilt].map(|rung| self.bar(rung).error);
         let rebounds = self.until_s == f64::INFINITY;
-        let reason = Reason { pair, tolerance, bar, overlaps: self.overlaps, rebounds, groups: self.groups };
-        Plan { quantity: self.quantity, pair, estimate, cost_ns, until_s: self.until_s, reason, warning }
+        let reason = Reason {
+            quantity: self.quantity,
+            pair,
+            tolerance,
+            bar,
+            overlaps: self.overlaps,
+            rebounds,
+            groups: self.groups,
+        };
+        Plan {
+            quantity: self.quantity,
+            pair,
+            estimate,
+            forecast: *self,
+            cost_ns,
+            until_s: self.until_s,
+            reason,
+            warning,
+        }
     }
 
-    /// The pair with the least error.
+    /// The pair with the least error, the one with most physics of several.
     fn closest(&self) -> Pair {
         let mut closest = Pair { bar: BarRung::FiniteTilt, component: ComponentRung::ImpulseTrain };
         for &pair in Pair::planned(self.quantity) {
-            if self.pair(pair).error < self.pair(closest).error {
+            if self.pair(pair).error <= self.pair(closest).error {
                 closest = pair;
             }
         }
@@ -153,9 +174,10 @@ impl fmt::Display for Reason {
                     Share(ballistic)
                 )?;
             }
-            BarRung::Compliant if self.overlaps => {
+            BarRung::Compliant if self.overlaps && g.overlap < 100.0 => {
                 write!(f, "contacts overlap (contact time {:.2} of the time between strikes)", g.overlap)?;
             }
+            BarRung::Compliant if self.overlaps => f.write_str("contacts overlap (strikes come together)")?,
             BarRung::Compliant if self.rebounds => {
                 write!(f, "later rebounds may decide, and contacts shift them ({} without)", Share(tilted))?;
             }
@@ -164,8 +186,10 @@ impl fmt::Display for Reason {
             }
         }
         match self.pair.component {
+            _ if self.quantity == Quantity::VelocityShock => f.write_str("; one shock decides"),
             ComponentRung::NetChange => write!(f, "; the whole clatter is one push (ω t_N = {:.2})", g.train),
             ComponentRung::LargestShock => f.write_str("; one shock decides"),
+            ComponentRung::ImpulseTrain if g.pulse == 0.0 => f.write_str("; strikes act as impulses"),
             ComponentRung::ImpulseTrain => write!(f, "; pulses are as good as impulses (ωτ = {:.2})", g.pulse),
             ComponentRung::PulseTrain => write!(f, "; pulses last {:.2} rad of the component's motion", g.pulse),
         }
@@ -179,7 +203,7 @@ impl fmt::Display for Warning {
                 write!(f, "no contact time is known: this holds for contacts of up to {:.3} ms", 1e3 * longest_s)
             }
             Self::ToleranceNotReached { error, overlaps } => {
-                write!(f, "no model reaches the tolerance; this one is off by {}", Share(error))?;
+                write!(f, "no model reaches the tolerance; this one is {}", Share(error))?;
                 if overlaps {
                     f.write_str(", because contacts overlap, which rigid models do not know")
                 } else {

@@ -2,9 +2,9 @@
 
 use clatter::flight::{CompliantFlight, Flight, Model};
 use clatter::{Bar, PeakImpact, Start};
-use clatter_shock::{Pulses, Response, VelocityShock, VelocityShocks};
+use clatter_shock::{Pulses, Response, Suspension, VelocityShock, VelocityShocks};
 
-use super::history::{self, Polygon};
+use super::history;
 use super::{BarRung, ComponentRung, Pair, Quantity, Setup};
 use crate::Error;
 
@@ -109,15 +109,10 @@ impl Setup {
         self.contact_time_s.ok_or(Error::Contact)
     }
 
-    /// Pieces of a pulse: a stiff or much damped component follows the corners of a polygon, a soft one sees little of them.
+    /// Pieces of a pulse.
     fn cells(&self, cells: usize, contact_s: f64) -> usize {
-        let turned = self.suspension.omega() * contact_s;
-        let zeta = self.suspension.damping().get();
-        let fineness = (turned * (1.0 + 2.0 * zeta)).max(turned / 8.0);
-        // By the fastest of its motions.
-        let fast = turned * (zeta + (zeta * zeta - 1.0).max(0.0).sqrt()).max(1.0);
         #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
-        let pieces = cells as f64 * fineness.clamp(0.125, 1.0) * (fast / FINE).clamp(1.0, 8.0);
+        let pieces = cells as f64 * fineness(&self.suspension, contact_s);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few hundred")]
         let pieces = pieces.ceil() as usize;
         pieces
@@ -134,11 +129,13 @@ impl Setup {
         let shocks = quantity == Quantity::VelocityShock;
         let cells = if shocks { cells } else { self.cells(cells, contact_s) };
         #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
-        let polygon = history::of_contacts(self, flight, until_s, contact_s, cells as f64);
+        let pushes = history::of_contacts(&self.scene, flight, until_s, contact_s, cells as f64);
+        let at = |[a, b]: [f64; 2]| 0.5 * ((1.0 - self.position) * a + (1.0 + self.position) * b);
+        let polygon = history::at_place(&pushes, &self.suspension, at);
         let strikes = flight.flight.strikes.len();
         if shocks {
-            let (value, pieces) = (history::largest_change(&polygon, contact_s), polygon.len().saturating_sub(1));
-            return Ok(Answer { value, strikes, pieces });
+            let value = history::largest_change(&polygon, contact_s).abs();
+            return Ok(Answer { value, strikes, pieces: polygon.len().saturating_sub(1) });
         }
         self.of_polygon(&polygon, quantity, strikes)
     }
@@ -194,7 +191,7 @@ impl Setup {
         }
     }
 
-    fn of_polygon(&self, polygon: &Polygon, quantity: Quantity, strikes: usize) -> Result<Answer, Error> {
+    fn of_polygon(&self, polygon: &[(f64, f64)], quantity: Quantity, strikes: usize) -> Result<Answer, Error> {
         let value = peak(&Pulses::piecewise_linear(polygon)?.respond(&self.suspension), quantity);
         Ok(Answer { value, strikes, pieces: polygon.len().saturating_sub(1) })
     }
@@ -225,6 +222,16 @@ impl Setup {
         };
         nearby(&bar, &start, first).map(shock).fold(0.0, f64::max)
     }
+}
+
+/// Share of the pieces of a pulse that a component needs: a stiff or much damped one follows the corners of a polygon, a
+/// soft one sees little of them.
+pub(crate) fn fineness(suspension: &Suspension, contact_s: f64) -> f64 {
+    let (turned, zeta) = (suspension.omega() * contact_s, suspension.damping().get());
+    let fineness = (turned * (1.0 + 2.0 * zeta)).max(turned / 8.0);
+    // By the fastest of its motions.
+    let fast = turned * (zeta + (zeta * zeta - 1.0).max(0.0).sqrt()).max(1.0);
+    fineness.clamp(0.125, 1.0) * (fast / FINE).clamp(1.0, 8.0)
 }
 
 /// Three impacts from number `first` + 1 on.

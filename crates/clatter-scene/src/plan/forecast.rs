@@ -2,9 +2,10 @@
 
 use clatter::flight::Scene;
 
-use super::lane::{Ends, Lane, Next};
+use super::lane::Ends;
 use super::pulse::Pulse;
 use super::swing::{Motion, Swing};
+use super::trail::Trail;
 use super::{BarRung, ComponentRung, Estimate, Pair, Quantity, Setup};
 
 /// Strikes followed at most.
@@ -17,6 +18,9 @@ const CLEAR: f64 = 0.9;
 
 /// Later strikes that could add more than this share of the peak are not foreseen from the earlier ones.
 const ROOM: f64 = 0.5;
+
+/// Safety factor on an estimate where a drop is passed over because of it.
+pub const DOUBT: f64 = 2.0;
 
 /// The dimensionless groups of a scene (v0 and h0 at the first touch).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -169,7 +173,12 @@ impl Setup {
     /// Of the order of a microsecond; bench `plan` measures it.
     #[must_use]
     pub fn forecast(&self, quantity: Quantity) -> Forecast {
-        self.follow::<STRIKES>(quantity)
+        self.follow::<STRIKES>(quantity, &mut Trail::new(&self.scene, self.contact_time_s))
+    }
+
+    /// The same from strikes of its scene that may have been followed before.
+    pub(crate) fn forecast_along(&self, trail: &mut Trail, quantity: Quantity) -> Forecast {
+        self.follow::<STRIKES>(quantity, trail)
     }
 
     /// The same from a longer look, of [`MANY_STRIKES`]: worth it before contacts are followed, where the first few strikes leave open what
@@ -179,17 +188,17 @@ impl Setup {
     /// Some ten times as much.
     #[must_use]
     pub fn forecast_far(&self, quantity: Quantity) -> Forecast {
-        self.follow::<MANY_STRIKES>(quantity)
+        self.follow::<MANY_STRIKES>(quantity, &mut Trail::new(&self.scene, self.contact_time_s))
     }
 
-    fn follow<const N: usize>(&self, quantity: Quantity) -> Forecast {
+    fn follow<const N: usize>(&self, quantity: Quantity, trail: &mut Trail) -> Forecast {
         let ends = Ends::new(&self.scene, self.position);
         let (zeta, omega) = (self.suspension.damping().get(), self.suspension.omega());
         let swing = Swing::new(zeta, quantity == Quantity::PeakAcceleration);
-        let pulse = Pulse::new(ends.e);
+        let pulse = trail.pulse;
         let time = self.contact_time_s.unwrap_or(0.0);
         let coupling = Coupling::new(&ends, pulse, time, omega, swing.jump(), quantity);
-        let walk = self.walk::<N>(&ends, &swing, &coupling);
+        let walk = self.walk::<N>(&ends, &swing, &coupling, trail);
         let intervals = &walk.intervals[..walk.strikes];
         let peak = intervals.iter().fold(Interval::default(), |m, i| if i.value > m.value { *i } else { m });
         // As if impulses, then as pulses: a peak that pulses flatten leaves more room to every error.
@@ -248,14 +257,10 @@ impl Setup {
         clippy::too_many_lines,
         reason = "one loop; all that it carries from strike to strike is used by the next"
     )]
-    fn walk<const N: usize>(&self, ends: &Ends, swing: &Swing, coupling: &Coupling) -> Walk<N> {
+    fn walk<const N: usize>(&self, ends: &Ends, swing: &Swing, coupling: &Coupling, trail: &mut Trail) -> Walk<N> {
         let (g, omega, time) = (self.scene.gravity_m_s2(), self.suspension.omega(), coupling.time);
         let shocks = coupling.velocity_shock;
         let unit = if shocks { 1.0 } else { swing.factor };
-        let start = Lane::start(&self.scene, 1.0);
-        let tilted = Lane::start(&self.scene, libm::cos(self.scene.tilt_rad())).with_gravity(g).with_tilt();
-        let mut full = tilted.with_delay(time * coupling.pulse.centroid);
-        let mut lanes = [start, start.with_gravity(g), tilted];
         let mut walk = Walk {
             intervals: [Interval::default(); N],
             strikes: 0,
@@ -277,12 +282,15 @@ impl Setup {
         // How much higher the component may ring where strikes are mistimed.
         let mut adrift = 0.0_f64;
         let (mut last, mut peak) = (0.0_f64, 0.0_f64);
-        let (mut next, mut rested) = (Next::FIRST, false);
+        // Time since the strike before, whether an end lay on the ground or the bar tumbled, and the energy left.
+        let (mut gap, mut rested, mut tumbles, mut twice_energy) = (0.0, false, false, trail.twice_energy);
         // Speed at the component before the last strike, and what overlapping contacts leave of it.
-        let (mut before, mut floor) = (full.reach(ends), 0.0_f64);
+        let (mut before, mut floor) = (ends.reach(twice_energy), 0.0_f64);
+        // Strikes of the map that belong to those followed.
+        let mut mapped = 0;
         loop {
             let n = walk.strikes;
-            let (mut later, gap) = (0.0, next.after);
+            let mut later = 0.0;
             if n > 0 {
                 let interval = &mut walk.intervals[n - 1];
                 if !shocks {
@@ -318,7 +326,7 @@ impl Setup {
                 }
                 walk.shortest_gap_s = walk.shortest_gap_s.min(gap);
                 walk.overlaps |= gap < time && coupling.seen * last > 1e-3 * peak;
-                let now = full.reach(ends);
+                let now = ends.reach(twice_energy);
                 if gap < time {
                     floor = floor.max(coupling.rebound * before);
                 }
@@ -336,11 +344,12 @@ impl Setup {
                     walk.until_s = 1.25 * walk.last_s + 0.5 * (gap + time);
                     break;
                 }
-                if n == N || next.tumbles {
+                if n == N || tumbles {
                     break;
                 }
             }
-            let delta_v = full.strike(ends, &next);
+            let Some(step) = trail.step(n) else { break };
+            let delta_v = ends.at(step.delta_v);
             walk.last_s += gap;
             // The ground also carries the weight while it pushes.
             doubtful += later * delta_v.abs() + g * if n == 0 { time } else { time.min(gap) };
@@ -355,18 +364,17 @@ impl Setup {
             motion.w -= delta_v;
             let mut interval = Interval { value: if shocks { last } else { 0.0 }, ..Interval::default() };
             for k in 0..3 {
-                let own = if n == 0 { Some(Next::FIRST) } else { lanes[k].next(ends) };
-                let own = own.filter(|own| walk.alive[k] && own.end == next.end);
                 let mut shock_off = last;
-                if let Some(own) = own {
-                    let own_delta_v = lanes[k].strike(ends, &own);
+                if let Some((after, own_delta_v)) = step.own[k] {
+                    let own_delta_v = ends.at(own_delta_v);
                     if k == 0 {
+                        mapped += 1;
                         walk.largest = walk.largest.max(own_delta_v.abs());
                         walk.net += own_delta_v;
                     }
                     shock_off = (own_delta_v - delta_v).abs();
                     // A later strike lets the motion turn further; beyond a radian no further than it is large.
-                    let turned = omega * (own.after - gap);
+                    let turned = omega * (after - gap);
                     let turned = turned / (1.0 + turned.abs());
                     off[k].x += rate.x * turned;
                     off[k].w += rate.w * turned - (own_delta_v - delta_v);
@@ -382,7 +390,7 @@ impl Setup {
             }
             walk.intervals[n] = interval;
             walk.strikes += 1;
-            let Some(follows) = full.next(ends) else {
+            let Some(follows) = step.follows else {
                 // Nothing falls any more: the ring-down.
                 let interval = &mut walk.intervals[n];
                 if !shocks {
@@ -393,15 +401,15 @@ impl Setup {
                 (walk.late, walk.extra) = (0.0, 0.0);
                 break;
             };
-            (next, rested) = (follows, full.is_down());
+            (gap, rested, tumbles, twice_energy) = (follows, step.rests, step.tumbles, step.twice_energy);
         }
         // The closed form has the whole train of the map.
-        let [mut map, ..] = lanes;
         let mut left = N;
         while walk.net.is_finite()
-            && let Some(own) = map.next(ends)
+            && let Some((.., delta_v)) = trail.of_map(mapped)
         {
-            let delta_v = map.strike(ends, &own);
+            mapped += 1;
+            let delta_v = ends.at(delta_v);
             walk.largest = walk.largest.max(delta_v.abs());
             walk.net = if left == 0 { f64::INFINITY } else { walk.net + delta_v };
             left = left.saturating_sub(1);
@@ -494,6 +502,12 @@ impl Forecast {
             self.bar(pair.bar).error + self.component(pair.component).error
         };
         Estimate { error, is_bound: false }
+    }
+    /// What the quantity is at most, by far more than the estimates are ever off: `peak` and [`DOUBT`] times the estimate of the
+    /// closest rigid bar. For screening; a study of random scenes holds it.
+    #[must_use]
+    pub fn at_most(&self) -> f64 {
+        self.peak * (1.0 + DOUBT * self.bar(BarRung::FiniteTilt).error)
     }
     /// What a pair costs, about, in ns on a 2.9 GHz core: a sum of constants measured once, by the study. Only ratios are good for
     /// anything, and on the average of many scenes: a single one may differ by a factor of 10.

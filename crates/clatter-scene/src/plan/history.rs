@@ -1,13 +1,23 @@
 //! What the ground does to the component's place, as a polygon of accelerations over time.
 
-use clatter::flight::{CompliantFlight, Stop};
-use clatter_shock::VelocityShock;
+use clatter::flight::{CompliantFlight, Scene, Stop};
+use clatter_shock::{Suspension, VelocityShock};
 
-use super::Setup;
 use super::pulse::Pulse;
 
 /// (time in s, acceleration in m/s²); two points at one time are a jump.
-pub(super) type Polygon = Vec<(f64, f64)>;
+pub(crate) type Polygon = Vec<(f64, f64)>;
+/// The same of both ends.
+pub(crate) type EndsPolygon = Vec<(f64, [f64; 2])>;
+
+/// What the ground does to both ends.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Pushes {
+    /// Free fall taken off; up to where only the weight is left.
+    pub(crate) points: EndsPolygon,
+    /// The weight that it carries from then on.
+    pub(crate) weight: Option<[f64; 2]>,
+}
 
 /// How long, in periods of the component, the weight is kept after rest, and how long it is then taken away without ringing.
 const WEIGHT_PERIODS: [f64; 2] = [2.0, 64.0];
@@ -16,31 +26,23 @@ const SETTLED: f64 = 1e3;
 /// Shocks below this share of the largest are triangles, below its square nothing.
 const SMALL: f64 = 1e-5;
 
-/// What the contacts of a compliant flight do to a position, from its velocity and height there, free fall taken off.
+/// What the contacts of a compliant flight do to both ends, from their velocities and heights, free fall taken off.
 ///
 /// Between changes of contact the motion is smooth; `cells` pieces are laid over a contact that does all, fewer (with the square
 /// root of its share) over one that does less, denser where it begins. Each piece has the exact change of velocity and the exact
 /// path, so that its effect on a component is off by the fourth power of its length.
-pub(super) fn of_contacts(
-    setup: &Setup,
-    flight: &CompliantFlight,
-    until_s: f64,
-    contact_s: f64,
-    cells: f64,
-) -> Polygon {
-    let (scene, s) = (setup.scene, setup.position);
-    let at = |[a, b]: [f64; 2]| 0.5 * ((1.0 - s) * a + (1.0 + s) * b);
+pub(crate) fn of_contacts(scene: &Scene, flight: &CompliantFlight, until_s: f64, contact_s: f64, cells: f64) -> Pushes {
     let g = scene.gravity_m_s2();
-    let motion = |t: f64| {
-        let sample = flight.sample(t);
-        (at(sample.height_m), at(sample.velocity_m_s))
-    };
     let piece = |from: f64, to: f64, start: (f64, f64), end: (f64, f64)| {
         let h = to - from;
         let change = (end.1 - start.1) / h + g;
         // ∫∫ a over the piece, twice over h².
         let path = 2.0 * ((end.0 - start.0) / h - start.1) / h + g;
-        [(from, 3.0 * path - 2.0 * change), (to, 4.0 * change - 3.0 * path)]
+        [3.0 * path - 2.0 * change, 4.0 * change - 3.0 * path]
+    };
+    let motion = |t: f64| {
+        let sample = flight.sample(t);
+        [0, 1].map(|i| (sample.height_m[i], sample.velocity_m_s[i]))
     };
     let largest = flight.flight.strikes.iter().flat_map(|s| s.delta_v_m_s).fold(0.0_f64, |m, v| m.max(v.abs()));
     let rate = 2.0 * Pulse::new(scene.e()).rate() / contact_s;
@@ -52,7 +54,7 @@ pub(super) fn of_contacts(
     if rests {
         cuts.push((stop + SETTLED * contact_s, at_stop));
     }
-    let mut points = vec![(0.0, 0.0)];
+    let mut points = vec![(0.0, [0.0; 2])];
     let (mut pressing, mut changed) = ([false; 2], 0.0);
     for cut in cuts.windows(2) {
         let ((from, on), (to, _)) = (cut[0], cut[1]);
@@ -71,7 +73,7 @@ pub(super) fn of_contacts(
             .iter()
             .fold(0.0_f64, |m, x| flight.sample(from + x * long).force_per_mass_m_s2.iter().fold(m, |m, f| m.max(*f)));
         if on == [false; 2] || force == 0.0 {
-            points.extend([(from, 0.0), (to, 0.0)]);
+            points.extend([(from, [0.0; 2]), (to, [0.0; 2])]);
             continue;
         }
         let share = (force * long.min(contact_s) / largest).min(1.0);
@@ -82,14 +84,22 @@ pub(super) fn of_contacts(
         for t in &nodes[1..] {
             let time = (from + t).min(last);
             let next = (time, motion(time));
-            points.extend(piece(now.0, next.0, now.1, next.1));
+            let [a, b] = [0, 1].map(|i| piece(now.0, next.0, now.1[i], next.1[i]));
+            points.extend([(now.0, [a[0], b[0]]), (next.0, [a[1], b[1]])]);
             now = next;
         }
     }
-    if rests {
-        let end = points.last().map_or(0.0, |p| p.0);
-        let weight = at(flight.sample(end).acceleration_m_s2) + g;
-        let period = std::f64::consts::TAU / setup.suspension.omega();
+    let end = points.last().map_or(0.0, |p| p.0);
+    let weight = rests.then(|| flight.sample(end).acceleration_m_s2.map(|a| a + g));
+    Pushes { points, weight }
+}
+
+/// The pushes at one place, `at` what it gets of both ends, and the weight for as long as a component takes notice of it.
+pub(crate) fn at_place(pushes: &Pushes, suspension: &Suspension, at: impl Fn([f64; 2]) -> f64) -> Polygon {
+    let mut points: Polygon = pushes.points.iter().map(|&(t, a)| (t, at(a))).collect();
+    if let Some(weight) = pushes.weight {
+        let (end, weight) = (points.last().map_or(0.0, |p| p.0), at(weight));
+        let period = std::f64::consts::TAU / suspension.omega();
         let keep = end + WEIGHT_PERIODS[0] * period;
         points.extend([(end, weight), (keep, weight), (keep + WEIGHT_PERIODS[1] * period, 0.0)]);
     }
@@ -114,7 +124,7 @@ fn nodes(rate: f64, age: f64, long: f64, contact_s: f64, cells: f64) -> Vec<f64>
 }
 
 /// Velocity shocks as pulses of lone contacts, added up where they overlap.
-pub(super) fn of_shocks(shocks: &[VelocityShock], e: f64, contact_s: f64, cells: usize) -> Polygon {
+pub(crate) fn of_shocks(shocks: &[VelocityShock], e: f64, contact_s: f64, cells: usize) -> Polygon {
     let pulse = Pulse::new(e);
     // Each next one for shocks of a 64th.
     let shapes = [cells, cells / 8 + 4, 8].map(|cells| pulse.polygon(cells));
@@ -164,13 +174,16 @@ pub(super) fn of_shocks(shocks: &[VelocityShock], e: f64, contact_s: f64, cells:
     points
 }
 
-/// Largest change of velocity within a time.
+/// Largest change of velocity within a time, with its sign.
 ///
 /// Over a window that moves, from one corner at either of its ends to the next, the change is a parabola.
-pub(super) fn largest_change(polygon: &[(f64, f64)], within_s: f64) -> f64 {
-    let mut velocity = vec![0.0];
+pub(crate) fn largest_change(polygon: &[(f64, f64)], within_s: f64) -> f64 {
+    let mut velocity = Vec::with_capacity(polygon.len());
+    let mut sum = 0.0;
+    velocity.push(sum);
     for w in polygon.windows(2) {
-        velocity.push(velocity[velocity.len() - 1] + 0.5 * (w[0].1 + w[1].1) * (w[1].0 - w[0].0));
+        sum += 0.5 * (w[0].1 + w[1].1) * (w[1].0 - w[0].0);
+        velocity.push(sum);
     }
     let (mut tail, mut head) =
         (Cursor { polygon, velocity: &velocity, next: 0 }, Cursor { polygon, velocity: &velocity, next: 0 });
@@ -178,22 +191,28 @@ pub(super) fn largest_change(polygon: &[(f64, f64)], within_s: f64) -> f64 {
     let (mut begins, mut ends) =
         (polygon.iter().map(|p| p.0).peekable(), polygon.iter().map(|p| p.0 - within_s).peekable());
     let Some(mut from) = ends.next() else { return 0.0 };
-    let (mut before, mut largest) = (change(from), 0.0_f64);
+    let mut before = change(from);
+    let mut largest = before;
     loop {
         let to = match (begins.peek(), ends.peek()) {
             (Some(begin), Some(end)) if begin < end => begins.next(),
             (_, Some(_)) => ends.next(),
             _ => begins.next(),
         };
-        let Some(to) = to else { return largest.max(before.abs()) };
+        let Some(to) = to else { return largest };
         let (middle, after) = (change(0.5 * (from + to)), change(to));
         // before + slope x + bend x², x from 0 to 1
         let (slope, bend) = (4.0 * middle - 3.0 * before - after, 2.0 * (before + after - 2.0 * middle));
         let turn = -0.5 * slope / bend;
+        let mut larger = |found: f64| {
+            if found.abs() > largest.abs() {
+                largest = found;
+            }
+        };
         if turn > 0.0 && turn < 1.0 {
-            largest = largest.max((before + 0.5 * slope * turn).abs());
+            larger(before + 0.5 * slope * turn);
         }
-        largest = largest.max(before.abs());
+        larger(after);
         (from, before) = (to, after);
     }
 }
@@ -229,11 +248,15 @@ mod tests {
     #[test]
     fn the_largest_change_stands_between_corners() {
         let crest = [(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)];
-        assert!((largest_change(&crest, 1.0) - 0.75).abs() < 1e-15);
-        assert!((largest_change(&crest, 0.5) - 0.4375).abs() < 1e-15);
-        assert!((largest_change(&crest, 4.0) - 1.0).abs() < 1e-15);
-        let down = crest.map(|(t, a)| (t, -3.0 * a));
-        assert!((largest_change(&down, 1.0) - 2.25).abs() < 1e-15);
-        assert!(largest_change(&[], 1.0) == 0.0 && largest_change(&[(1.0, 2.0)], 1.0) == 0.0);
+        let is = |polygon: &[(f64, f64)], within, change: f64| {
+            let found = largest_change(polygon, within);
+            assert!((found - change).abs() < 1e-15, "{found} within {within}, not {change}");
+        };
+        is(&crest, 1.0, 0.75);
+        is(&crest, 0.5, 0.4375);
+        is(&crest, 4.0, 1.0);
+        is(&crest.map(|(t, a)| (t, -3.0 * a)), 1.0, -2.25);
+        is(&[], 1.0, 0.0);
+        is(&[(1.0, 2.0)], 1.0, 0.0);
     }
 }

@@ -28,6 +28,16 @@ impl Ends {
     pub(super) fn offset(&self) -> f64 {
         0.5 * ((1.0 + self.position) * self.arm[1] - (1.0 - self.position) * self.arm[0])
     }
+    /// What the component gets of what both ends do.
+    pub(super) fn at(&self, [a, b]: [f64; 2]) -> f64 {
+        0.5 * ((1.0 - self.position) * a + (1.0 + self.position) * b)
+    }
+    /// Bound on the speed at the component: all energy in its motion, `√(2E (1 + x²/ρ²))`.
+    pub(super) fn reach(&self, twice_energy: f64) -> f64 {
+        let x = self.offset();
+        let lever = if x == 0.0 { 1.0 } else { 1.0 + x * x / self.gyration2 };
+        (twice_energy * lever).sqrt()
+    }
     /// Inertia ratio of a strike at end i at an angle of this cos².
     pub(super) fn ratio(&self, i: usize, cos2: f64) -> f64 {
         let over = self.arm[0] * self.arm[1] * cos2 - self.gyration2;
@@ -145,8 +155,8 @@ impl Lane {
         let tumbles = self.tilts && self.sines(ends, times[end]).1.abs() > 1.0;
         (times[end] < f64::INFINITY).then_some(Next { end, after: times[end], fall: down, tumbles })
     }
-    /// Flies and strikes; returns the velocity shock at the component.
-    pub(super) fn strike(&mut self, ends: &Ends, next: &Next) -> f64 {
+    /// Flies and strikes; returns the velocity shocks of both ends.
+    pub(super) fn strike(&mut self, ends: &Ends, next: &Next) -> [f64; 2] {
         let (i, t) = (next.end, next.after);
         if self.down.take().is_some() {
             self.velocity[i] -= t * next.fall[i];
@@ -169,7 +179,7 @@ impl Lane {
             self.velocity[k] += jump;
         }
         self.settle(ends, i, ratio);
-        0.5 * ((1.0 - ends.position) * delta_v[0] + (1.0 + ends.position) * delta_v[1])
+        delta_v
     }
     /// Lets end i lie where it would bounce ever less for a short while: bounces of w, e w, … last 2S/g in all, S = w/(1 − e).
     fn settle(&mut self, ends: &Ends, i: usize, ratio: f64) {
@@ -186,16 +196,17 @@ impl Lane {
     pub(super) fn is_down(&self) -> bool {
         self.down.is_some()
     }
-    /// Bound on the speed at the component from here on: all energy in its motion, `√(2E (1 + x²/ρ²))`.
-    pub(super) fn reach(&self, ends: &Ends) -> f64 {
+    /// Twice the energy over the mass.
+    pub(super) fn twice_energy(&self, ends: &Ends) -> f64 {
         let [a, b] = ends.arm;
         let length = ends.length();
         let center = (b * self.velocity[0] + a * self.velocity[1]) / length;
         let spin = (self.velocity[1] - self.velocity[0]) / length;
         let height = ((b * self.height[0] + a * self.height[1]) / length).max(0.0);
-        let twice = center * center + ends.gyration2 * spin * spin + 2.0 * self.gravity * height;
-        let x = ends.offset();
-        let lever = if x == 0.0 { 1.0 } else { 1.0 + x * x / ends.gyration2 };
-        (twice * lever).sqrt()
+        center * center + ends.gyration2 * spin * spin + 2.0 * self.gravity * height
+    }
+    /// Bound on the speed at the component from here on.
+    pub(super) fn reach(&self, ends: &Ends) -> f64 {
+        ends.reach(self.twice_energy(ends))
     }
 }

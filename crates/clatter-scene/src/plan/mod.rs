@@ -50,18 +50,19 @@
 //! [`Scene::simulate_compliant`]: clatter::flight::Scene::simulate_compliant
 
 mod choice;
-mod demand;
+pub(crate) mod demand;
 mod forecast;
-mod history;
+pub(crate) mod history;
 mod lane;
 mod names;
-mod pulse;
+pub(crate) mod pulse;
 mod settle;
 mod swing;
+pub(crate) mod trail;
 
 pub use choice::{Plan, Reason, Warning};
 pub use demand::Answer;
-pub use forecast::{Forecast, Groups, MANY_STRIKES, STRIKES};
+pub use forecast::{DOUBT, Forecast, Groups, MANY_STRIKES, STRIKES};
 
 use clatter::flight::Scene;
 use clatter_shock::Suspension;
@@ -199,6 +200,10 @@ impl Setup {
             );
         }
         Ok(Self { scene, contact_time_s, position, suspension })
+    }
+    /// The same with what was checked before, and a position that may lie beyond the ends.
+    pub(crate) fn anywhere(scene: Scene, contact_time_s: Option<f64>, position: f64, suspension: Suspension) -> Self {
+        Self { scene, contact_time_s, position, suspension }
     }
     /// The drop.
     #[must_use]

@@ -9,15 +9,15 @@ use clatter::flight::Contact;
 
 /// The pulse of one restitution.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Pulse {
+pub(crate) struct Pulse {
     e: f64,
     /// Natural frequency times duration, and damping ratio, of the contact.
     frequency: f64,
     damping: f64,
     /// When half of the moment has acted: the mean time of the velocity change.
-    pub(super) centroid: f64,
+    pub(crate) centroid: f64,
     /// Its variance about the mean.
-    pub(super) variance: f64,
+    pub(crate) variance: f64,
 }
 
 /// Cells of the table over −ln e, from e = 1 to 0.01.
@@ -59,7 +59,7 @@ impl Pulse {
         pulse
     }
     /// The pulse for restitution e; below 0.01 the one of 0.01.
-    pub(super) fn new(e: f64) -> Self {
+    pub(crate) fn new(e: f64) -> Self {
         let cell = (-libm::log(e.max(0.01)) / MOST_LOSS).clamp(0.0, 1.0) * index(CELLS);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within 0 and CELLS")]
         let k = (cell as usize).min(CELLS - 1);

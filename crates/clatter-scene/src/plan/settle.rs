@@ -33,7 +33,8 @@ impl Setup {
         Ok((self.scene.simulate_compliant(contact_s)?, f64::INFINITY))
     }
 
-    fn settled_s(&self, flight: &CompliantFlight, quantity: Quantity, contact_s: f64) -> f64 {
+    /// When nothing later in this flight raises the quantity; infinite where that is not known.
+    pub(crate) fn settled_s(&self, flight: &CompliantFlight, quantity: Quantity, contact_s: f64) -> f64 {
         let (omega, g) = (self.suspension.omega(), self.scene.gravity_m_s2());
         let ends = Ends::new(&self.scene, self.position);
         let zeta = self.suspension.damping().get();

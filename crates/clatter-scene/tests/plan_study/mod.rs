@@ -68,6 +68,8 @@ pub(crate) struct Outcome {
     pub(crate) scene: usize,
     pub(crate) setup: Setup,
     pub(crate) quantity: Quantity,
+    /// Of the highest pair until rest, in fine pieces.
+    pub(crate) truth: f64,
     pub(crate) plans: [Plan; 3],
     pub(crate) runs: Vec<Run>,
     /// The highest pair until rest.
@@ -122,7 +124,7 @@ pub(crate) fn study(seed: u64, scenes: usize) -> (Vec<Outcome>, usize) {
             });
             let runs = runs.collect();
             let plans = TOLERANCES.map(|tolerance| forecast.plan(tolerance).refined(&setup));
-            outcomes.push(Outcome { scene, setup, quantity, plans, runs, highest_seconds });
+            outcomes.push(Outcome { scene, setup, quantity, truth, plans, runs, highest_seconds });
         }
     }
     (outcomes, refused)

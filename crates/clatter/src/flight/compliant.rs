@@ -245,9 +245,12 @@ impl Phase {
             }
             return sum;
         }
+        self.free_end(i, t, self.end(1 - i, t))
+    }
+    /// The same of the free one, where the other one is known.
+    fn free_end(&self, i: usize, t: f64, [h, v, a]: [f64; 3]) -> [f64; 3] {
         let j = 1 - i;
         let share = self.cross / self.mu[j];
-        let [h, v, a] = self.end(j, t);
         let (h0, v0, g) = (self.start.ends.h, self.start.ends.v, self.fall);
         let half = 0.5 * t * t;
         [
@@ -256,8 +259,23 @@ impl Phase {
             -g[i] + share * (a + g[j]),
         ]
     }
-    fn force(&self, i: usize, t: f64) -> f64 {
-        let [h, v, _] = self.end(i, t);
+    /// Both ends at once: the modes are evaluated once.
+    fn ends(&self, t: f64) -> [[f64; 3]; 2] {
+        if !self.both() {
+            let i = usize::from(self.on[1]);
+            let pressing = self.end(i, t);
+            return [0, 1].map(|k| if k == i { pressing } else { self.free_end(k, t, pressing) });
+        }
+        let modes = self.modes.map(|mode| {
+            let now = mode.at(t);
+            [mode.rest + now.0, now.1, mode.second(now)]
+        });
+        [0, 1].map(|i| {
+            let [a, b] = self.weights(i);
+            [0, 1, 2].map(|k| 0.0 + a * modes[0][k] + b * modes[1][k])
+        })
+    }
+    fn force(&self, i: usize, [h, v, _]: [f64; 3]) -> f64 {
         if self.on[i] { (-self.kappa[i] * (h + self.delay * v)).max(0.0) } else { 0.0 }
     }
     /// Solves `M (f_a, f_b) = r` for the ends in contact.
@@ -461,12 +479,12 @@ impl CompliantFlight {
         let (from, phase) = &self.phases[n.saturating_sub(1)];
         let t = (time_s - from).max(0.0);
         let free = phase.on == [false; 2];
-        let ends = [0, 1].map(|i| if free { phase.start.free(i, t) } else { phase.end(i, t) });
+        let ends = if free { [0, 1].map(|i| phase.start.free(i, t)) } else { phase.ends(t) };
         Sample {
             height_m: ends.map(|e| e[0]),
             velocity_m_s: ends.map(|e| e[1]),
             acceleration_m_s2: ends.map(|e| e[2]),
-            force_per_mass_m_s2: [0, 1].map(|i| if free { 0.0 } else { phase.force(i, t) }),
+            force_per_mass_m_s2: [0, 1].map(|i| if free { 0.0 } else { phase.force(i, ends[i]) }),
         }
     }
 }

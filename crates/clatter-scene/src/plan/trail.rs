@@ -1,0 +1,121 @@
+//! The first strikes of a drop in all lanes: what the forecasts for every component of one drop share.
+
+use clatter::flight::Scene;
+
+use super::STRIKES;
+use super::lane::{Ends, Lane, Next};
+use super::pulse::Pulse;
+
+/// A strike of the lane with all physics, and the same one in the others.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Step {
+    /// Velocity shocks of both ends.
+    pub(super) delta_v: [f64; 2],
+    /// Time since the last one and shocks in the map, as parabolas and with real tilt; `None` once a lane had another strike.
+    pub(super) own: [Option<(f64, [f64; 2])>; 3],
+    /// Twice the energy that is left.
+    pub(super) twice_energy: f64,
+    /// Time until the next strike; `None` where nothing falls.
+    pub(super) follows: Option<f64>,
+    /// Whether an end lies on the ground until then.
+    pub(super) rests: bool,
+    /// Whether the bar turns upright or over until then.
+    pub(super) tumbles: bool,
+}
+
+/// A strike of the map: the end, the time since the last one, and velocity shocks of both ends.
+type MapStrike = (usize, f64, [f64; 2]);
+
+/// Strikes as far as they were asked for.
+#[derive(Debug, Clone)]
+pub(crate) struct Trail {
+    ends: Ends,
+    pub(super) pulse: Pulse,
+    full: Lane,
+    map: Lane,
+    others: [Lane; 2],
+    next: Option<Next>,
+    alive: [bool; 3],
+    /// Twice the energy at the first touch.
+    pub(super) twice_energy: f64,
+    steps: Vec<Step>,
+    of_map: Vec<MapStrike>,
+}
+
+impl Trail {
+    /// Nothing followed yet.
+    pub(crate) fn new(scene: &Scene, contact_time_s: Option<f64>) -> Self {
+        let ends = Ends::new(scene, 0.0);
+        let pulse = Pulse::new(ends.e);
+        let g = scene.gravity_m_s2();
+        let start = Lane::start(scene, 1.0);
+        let tilted = Lane::start(scene, libm::cos(scene.tilt_rad())).with_gravity(g).with_tilt();
+        let full = tilted.with_delay(contact_time_s.unwrap_or(0.0) * pulse.centroid);
+        Self {
+            ends,
+            pulse,
+            full,
+            map: start,
+            others: [start.with_gravity(g), tilted],
+            next: Some(Next::FIRST),
+            alive: [true; 3],
+            twice_energy: full.twice_energy(&ends),
+            steps: Vec::with_capacity(STRIKES),
+            of_map: Vec::with_capacity(STRIKES),
+        }
+    }
+
+    /// With all strikes that a forecast looks at, to be shared.
+    pub(crate) fn whole(mut self) -> Self {
+        let mut n = 0;
+        while n < STRIKES && self.step(n).is_some() {
+            n += 1;
+        }
+        self
+    }
+
+    /// Strike n, from 0; those before it exist.
+    pub(super) fn step(&mut self, n: usize) -> Option<Step> {
+        if n >= self.steps.len() {
+            self.advance();
+        }
+        self.steps.get(n).copied()
+    }
+
+    fn advance(&mut self) {
+        let Some(next) = self.next else { return };
+        let n = self.steps.len();
+        let delta_v = self.full.strike(&self.ends, &next);
+        let mut own = [None; 3];
+        if self.alive[0] {
+            own[0] = self.of_map(n).filter(|(end, ..)| *end == next.end).map(|(_, after, delta_v)| (after, delta_v));
+        }
+        let ends = &self.ends;
+        for ((own, lane), alive) in own[1..].iter_mut().zip(&mut self.others).zip(&self.alive[1..]) {
+            if *alive {
+                let strike = if n == 0 { Some(Next::FIRST) } else { lane.next(ends) };
+                let strike = strike.filter(|strike| strike.end == next.end);
+                *own = strike.map(|strike| (strike.after, lane.strike(ends, &strike)));
+            }
+        }
+        self.alive = own.map(|own| own.is_some());
+        self.next = self.full.next(ends);
+        self.steps.push(Step {
+            delta_v,
+            own,
+            twice_energy: self.full.twice_energy(ends),
+            follows: self.next.map(|next| next.after),
+            rests: self.full.is_down(),
+            tumbles: self.next.is_some_and(|next| next.tumbles),
+        });
+    }
+
+    /// Strike k, from 0, of the map; those before it exist.
+    pub(super) fn of_map(&mut self, k: usize) -> Option<MapStrike> {
+        if k >= self.of_map.len() {
+            let next = if k == 0 { Next::FIRST } else { self.map.next(&self.ends)? };
+            self.of_map.push((next.end, next.after, self.map.strike(&self.ends, &next)));
+        }
+        self.of_map.get(k).copied()
+    }
+}
