@@ -304,8 +304,10 @@ impl Setup {
                     if end > interval.value {
                         (interval.value, interval.phase) = (end, omega * gap);
                     }
-                    off = off.map(|m| swing.after(&turn, m));
-                    lacking = lacking.map(|l| turn.fade * l);
+                    for (off, lacking) in off.iter_mut().zip(&mut lacking) {
+                        *off = swing.after(&turn, *off);
+                        *lacking *= turn.fade;
+                    }
                     doubtful *= turn.fade;
                     adrift *= turn.fade;
                 }

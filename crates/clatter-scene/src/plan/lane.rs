@@ -143,13 +143,15 @@ impl Lane {
             fall[j] = turning;
             return (after < f64::INFINITY).then_some(Next { end: j, after, fall, tumbles: false });
         }
-        let mut times = [0, 1].map(|i| fall(self.height[i], self.velocity[i], g));
+        let lands = |i: usize, down: f64| fall(self.height[i], self.velocity[i], down);
+        let mut times = [lands(0, g), lands(1, g)];
         let mut down = [g; 2];
         let first = times[0].min(times[1]);
         if self.tilts && first < f64::INFINITY {
             let (from, to) = self.sines(ends, first);
-            down = [0, 1].map(|i| g + self.bend(ends, i, (2.0 * from + to) / 3.0));
-            times = [0, 1].map(|i| fall(self.height[i], self.velocity[i], down[i]));
+            let sin = (2.0 * from + to) / 3.0;
+            down = [g + self.bend(ends, 0, sin), g + self.bend(ends, 1, sin)];
+            times = [lands(0, down[0]), lands(1, down[1])];
         }
         let end = usize::from(times[1] < times[0]);
         let tumbles = self.tilts && self.sines(ends, times[end]).1.abs() > 1.0;
@@ -162,10 +164,11 @@ impl Lane {
             self.velocity[i] -= t * next.fall[i];
         } else {
             let (from, to) = self.sines(ends, t);
-            let swept = self.tilts.then(|| [0, 1].map(|k| self.bend(ends, k, 0.5 * (from + to))));
-            for k in 0..2 {
+            let sin = 0.5 * (from + to);
+            let swept = if self.tilts { [self.bend(ends, 0, sin), self.bend(ends, 1, sin)] } else { [0.0; 2] };
+            for (k, swept) in swept.into_iter().enumerate() {
                 self.height[k] += t * (self.velocity[k] - 0.5 * next.fall[k] * t);
-                self.velocity[k] -= t * (self.gravity + swept.map_or(0.0, |bend| bend[k]));
+                self.velocity[k] -= t * (self.gravity + swept);
             }
         }
         self.height[i] = 0.0;

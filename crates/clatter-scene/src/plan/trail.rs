@@ -91,14 +91,13 @@ impl Trail {
             own[0] = self.of_map(n).filter(|(end, ..)| *end == next.end).map(|(_, after, delta_v)| (after, delta_v));
         }
         let ends = &self.ends;
-        for ((own, lane), alive) in own[1..].iter_mut().zip(&mut self.others).zip(&self.alive[1..]) {
-            if *alive {
-                let strike = if n == 0 { Some(Next::FIRST) } else { lane.next(ends) };
-                let strike = strike.filter(|strike| strike.end == next.end);
-                *own = strike.map(|strike| (strike.after, lane.strike(ends, &strike)));
+        for (k, lane) in self.others.iter_mut().enumerate() {
+            let strike = if n == 0 { Some(Next::FIRST) } else { lane.next(ends) };
+            if let Some(strike) = strike.filter(|strike| self.alive[k + 1] && strike.end == next.end) {
+                own[k + 1] = Some((strike.after, lane.strike(ends, &strike)));
             }
         }
-        self.alive = own.map(|own| own.is_some());
+        self.alive = [own[0].is_some(), own[1].is_some(), own[2].is_some()];
         self.next = self.full.next(ends);
         self.steps.push(Step {
             delta_v,
