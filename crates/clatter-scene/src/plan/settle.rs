@@ -58,13 +58,14 @@ impl Setup {
         let (mut motion, mut peak) = (Motion::default(), 0.0_f64);
         // What long contacts did, however it turned since.
         let mut loose = 0.0_f64;
-        for (k, shock) in shocks.iter().enumerate().filter(|(_, shock)| shock.next_s < f64::INFINITY) {
+        let phase = |shock: &LoneShock| omega * (shock.next_s - shock.from_s);
+        let turns: Vec<_> =
+            shocks.iter().filter(|shock| shock.next_s < f64::INFINITY).map(|shock| swing.turn(phase(shock))).collect();
+        for (k, (shock, turn)) in shocks.iter().zip(&turns).enumerate() {
             let mut rings = 0.0;
             if velocity_shock {
                 peak = peak.max(shock.net.abs() / ((shock.parted_s - shock.from_s) / contact_s).max(1.0).ceil());
             } else {
-                let turned = omega * (shock.next_s - shock.from_s);
-                let turn = swing.turn(turned);
                 let long = shock.parted_s - shock.from_s;
                 if long > LONG * contact_s {
                     loose += swing.factor * shock.gross;
@@ -74,24 +75,22 @@ impl Setup {
                 // Contacts that overlap flatten what they do together; what comes later is taken as if none did.
                 let flat = if omega * long < 0.5 { 1.0 } else { (long / contact_s).max(1.0) };
                 if swing.bound(motion) > flat * peak + loose {
-                    peak = peak.max((swing.peak(motion, turned).value - loose) / flat);
+                    peak = peak.max((swing.peak(motion, phase(shock)).value - loose) / flat);
                 }
-                motion = swing.after(&turn, motion);
+                motion = swing.after(turn, motion);
                 peak = peak.max((swing.quantity(motion).abs() - loose) / flat);
                 loose *= turn.fade;
                 rings = swing.bound(motion) + loose;
             }
             // All later shocks that are known, as if in phase, then all others.
             let mut later = rings;
-            let low = shocks[k + 1..].iter().all(|next| {
+            let low = shocks[k + 1..].iter().enumerate().all(|(i, next)| {
                 if velocity_shock {
                     return next.gross < CLEAR * peak;
                 }
                 later += swing.factor * next.gross;
                 let low = later < CLEAR * peak;
-                if next.next_s < f64::INFINITY {
-                    later *= swing.turn(omega * (next.next_s - next.from_s)).fade;
-                }
+                later *= turns.get(k + 1 + i).map_or(1.0, |turn| turn.fade);
                 low
             });
             if low && (if velocity_shock { beyond } else { later + beyond }) < CLEAR * peak {
