@@ -1,6 +1,7 @@
 //! The pages of an assessment: verdict first, then each part.
 
 use clatter::End;
+use clatter_scene::design::{Lever, Outcome, Remedy};
 use clatter_scene::{
     Assessment, BarModel, ComponentAssessment, ComponentModel, Fall, First, LimitAssessment, LimitKind, Portrait,
     ProductFile, Spread, Unit, WorstCase,
@@ -195,6 +196,51 @@ fn place(worst: &WorstCase) -> String {
     millimeters(worst.position_m)
 }
 
+/// What would make a failing part safe, one change at a time.
+fn remedies(remedies: &[Remedy]) -> String {
+    let what = |lever: Lever| match lever {
+        Lever::InertiaRatio => "the inertia ratio q",
+        Lever::Restitution => "the restitution e",
+        Lever::Position => "its place",
+        Lever::Frequency => "its natural frequency",
+        Lever::Damping => "its damping ratio",
+    };
+    let value = |lever: Lever, of: [f64; 2]| {
+        let [lo, hi] = of.map(|v| match lever {
+            Lever::Position => millimeters(v),
+            Lever::Frequency => format!("{} Hz", three(v)),
+            _ => three(v),
+        });
+        if lo == hi { lo } else { format!("{lo} to {hi}") }
+    };
+    let (mut enough, mut not) = (Vec::new(), Vec::new());
+    for Remedy { lever, outcome } in remedies {
+        match outcome {
+            Outcome::Change { from, to, .. } => {
+                let bound = if to[0] < from[0] { "down" } else { "up" };
+                enough.push(format!(
+                    "{} {bound} from {} to {}",
+                    what(*lever),
+                    value(*lever, *from),
+                    value(*lever, *to)
+                ));
+            }
+            Outcome::Nowhere { bounds } => not.push(format!("{} ({})", what(*lever), value(*lever, *bounds))),
+            Outcome::NoEffect => {}
+        }
+    }
+    let mut text = String::new();
+    if !enough.is_empty() {
+        text = format!(" One of these alone would make it safe: {}.", enough.join("; "));
+    }
+    if !not.is_empty() {
+        let within =
+            if enough.is_empty() { " No single change is enough" } else { " Not enough alone, whatever it is" };
+        text += &format!("{within}: {}.", not.join("; "));
+    }
+    text
+}
+
 /// What the page says of one part.
 fn part(file: &ProductFile, part: &ComponentAssessment, portrait: &Portrait) -> Value {
     let safe = part.limits.iter().all(LimitAssessment::is_safe);
@@ -247,7 +293,7 @@ fn part(file: &ProductFile, part: &ComponentAssessment, portrait: &Portrait) -> 
         "name": who,
         "safe": safe,
         "position": millimeters(part.position_m),
-        "summary": summary + &zone,
+        "summary": summary + &zone + &remedies(&portrait.remedies),
         "limits": limits.collect::<Vec<_>>(),
         "history": format!("The {what} over time in that drop; red ticks are impacts.{limit_seen}"),
         "history-alt": format!("Curve of the {what} of this part over time in its worst drop, with the impacts marked at the foot."),
@@ -340,6 +386,24 @@ mod tests {
 
     fn said(pdf: &lopdf::Document, page: u32) -> String {
         pdf.extract_text(&[page]).unwrap()
+    }
+
+    #[test]
+    fn a_failing_part_is_told_what_would_make_it_safe() {
+        let file = ProductFile::read(include_str!("../../../reports/examples/phone.toml"), "phone.toml").unwrap();
+        let portraits = file.portraits(&file.assess().unwrap()).unwrap();
+        let [board, camera, crystal] = [0, 1, 2].map(|i| remedies(&portraits[i].remedies));
+        assert!(camera.is_empty(), "{camera}");
+        assert!(
+            crystal.starts_with(" One of these alone would make it safe: ") && !crystal.contains("Not enough"),
+            "{crystal}"
+        );
+        assert!(crystal.contains("its place down from 30 mm to 2") && !crystal.contains("frequency"), "{crystal}");
+        assert!(board.contains("its natural frequency down from 200 Hz to 240 Hz to 13"), "{board}");
+        assert!(
+            board.contains("Not enough alone, whatever it is: ") && board.contains("its place (−40 mm to 40 mm)"),
+            "{board}"
+        );
     }
 
     #[test]

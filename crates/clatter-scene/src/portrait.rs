@@ -1,4 +1,5 @@
-//! What a page shows of a part beside its verdict: its response in the worst drop, its demand over the tilt, its safe places.
+//! What a page shows of a part beside its verdict: its response in the worst drop, its demand over the tilt, its safe places, what
+//! would make it safe.
 
 use clatter::End;
 use clatter_shock::{State, Suspension};
@@ -6,6 +7,7 @@ use rayon::prelude::*;
 
 use crate::base::{Base, SingleDrop};
 use crate::demand::{Demand, Heard};
+use crate::design::{Bounds, Remedy};
 use crate::{Assessment, BarModel, Component, ComponentModel, Error, LimitAssessment, LimitKind, ProductFile, Unit};
 
 /// Points (x, y) of a line.
@@ -22,6 +24,8 @@ pub struct Portrait {
     pub over_tilt: Vec<(End, Curve)>,
     /// Where the middle of the part could be, and every limit hold in every drop, in m from the middle of the product.
     pub zone_m: Option<[f64; 2]>,
+    /// The smallest single changes that make it safe, within [`Bounds::default`]; empty for a part that is.
+    pub remedies: Vec<Remedy>,
 }
 
 /// Points of a history between two strikes and after the last, at least.
@@ -42,12 +46,18 @@ impl ProductFile {
     /// As [`ProductFile::assess`].
     pub fn portraits(&self, assessment: &Assessment) -> Result<Vec<Portrait>, Error> {
         let zones = self.zones()?;
-        let each = self.components.par_iter().zip(&assessment.components).zip(zones);
-        each.map(|((component, assessed), zone_m)| {
+        let mut remedies = vec![Vec::new(); self.components.len()];
+        for part in self.remedies(assessment, &Bounds::default())? {
+            if let Some(remedies) = remedies.get_mut(part.component) {
+                *remedies = part.levers;
+            }
+        }
+        let each = self.components.par_iter().zip(&assessment.components).zip(zones).zip(remedies);
+        each.map(|(((component, assessed), zone_m), remedies)| {
             let tightest = assessed.tightest();
             let (history, impacts_s) = self.history(component, tightest)?;
             let over_tilt = self.over_tilt(component, tightest)?;
-            Ok(Portrait { history, impacts_s, over_tilt, zone_m })
+            Ok(Portrait { history, impacts_s, over_tilt, zone_m, remedies })
         })
         .collect()
     }
