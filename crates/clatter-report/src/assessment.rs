@@ -229,16 +229,16 @@ fn remedies(remedies: &[Remedy]) -> String {
             Outcome::NoEffect => {}
         }
     }
-    let mut text = String::new();
-    if !enough.is_empty() {
-        text = format!(" One of these alone would make it safe: {}.", enough.join("; "));
-    }
-    if !not.is_empty() {
-        let within =
-            if enough.is_empty() { " No single change is enough" } else { " Not enough alone, whatever it is" };
-        text += &format!("{within}: {}.", not.join("; "));
-    }
-    text
+    let alone = match &enough[..] {
+        [] => String::new(),
+        changes => format!(" One of these alone would make it safe: {}.", changes.join("; ")),
+    };
+    let rest = match (&not[..], enough.is_empty()) {
+        ([], _) => String::new(),
+        (levers, true) => format!(" No single change is enough: {}.", levers.join("; ")),
+        (levers, false) => format!(" Not enough alone, whatever it is: {}.", levers.join("; ")),
+    };
+    alone + &rest
 }
 
 /// What the page says of one part.
