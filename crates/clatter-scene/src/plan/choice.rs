@@ -116,7 +116,9 @@ impl Forecast {
     fn closest(&self) -> Pair {
         let mut closest = Pair { bar: BarRung::FiniteTilt, component: ComponentRung::ImpulseTrain };
         for &pair in Pair::planned(self.quantity) {
-            if self.pair(pair).error <= self.pair(closest).error {
+            // Where none has an estimate, not one that cannot be used.
+            let error = self.pair(pair).error;
+            if error < f64::INFINITY && error <= self.pair(closest).error {
                 closest = pair;
             }
         }
