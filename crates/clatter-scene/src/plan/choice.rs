@@ -51,7 +51,8 @@ pub struct Reason {
 pub enum Warning {
     /// No contact time is known: the estimate holds for contacts up to this time.
     ContactTimeUnknown {
-        /// At longer ones pulses are no impulses within the tolerance, or contacts overlap.
+        /// At longer ones pulses are no impulses within the tolerance, or contacts overlap; 0 where strikes decide that come later
+        /// than those foreseen.
         longest_s: f64,
     },
     /// No rung reaches the tolerance: the compliant one, which would, refuses the scene or has no contact time.
@@ -127,6 +128,9 @@ impl Forecast {
 
     /// Up to which contact time impulses stay within the tolerance that a pair leaves, and contacts apart.
     fn longest_contact_s(&self, pair: Pair, tolerance: f64) -> f64 {
+        if self.doubt > tolerance {
+            return 0.0;
+        }
         let room = (tolerance - self.pair(pair).error).max(0.0);
         let [linear, square] = self.impulse_phase;
         // linear x + square x² = room
@@ -201,6 +205,9 @@ impl fmt::Display for Reason {
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
+            Self::ContactTimeUnknown { longest_s: 0.0 } => f.write_str(
+                "no contact time is known, and later rebounds may decide: this holds for contacts that are over long before the next",
+            ),
             Self::ContactTimeUnknown { longest_s } => {
                 write!(f, "no contact time is known: this holds for contacts of up to {:.3} ms", 1e3 * longest_s)
             }

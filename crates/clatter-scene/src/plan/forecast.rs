@@ -45,6 +45,8 @@ pub struct Forecast {
     pub(super) quantity: Quantity,
     /// Errors of the bar rungs up to finite tilt, as a share of the peak; the compliant one has none.
     bar: [f64; 4],
+    /// By how much the strikes that were not followed may pass the peak, with the error of finite tilt.
+    pub(super) doubt: f64,
     /// What is wrong with one net change, one largest shock, impulses.
     component: [f64; 3],
     /// Share of the error of finite tilt that overlap makes.
@@ -205,29 +207,34 @@ impl Setup {
         let (smooth, impulse_phase) = smoothing(&swing, &pulse, omega * time, peak.phase, zeta);
         let response = quantity != Quantity::VelocityShock;
         let left = if response { 1.0 - smooth.min(0.8) } else { 1.0 };
+        let number = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
         let worst = |k: usize| {
             let mut error = peak.off[k];
             for i in intervals {
                 error = error.max(i.value + i.off[k] - peak.value);
             }
-            error.max(walk.later(k, peak.value)) / (left * peak.value)
+            [error, error.max(walk.later(k, peak.value))].map(|error| error / (left * peak.value))
         };
-        let [map, ballistic, tilted] = [worst(0), worst(1), worst(2)];
+        let [[_, map], [_, ballistic], [followed, tilted]] = [worst(0), worst(1), worst(2)];
+        let contact_known = self.contact_time_s.is_some();
+        // Without a contact time it is finite tilt that the others are held against: what it makes of later strikes is the answer.
+        let doubt = number(tilted);
+        let tilted = if contact_known { tilted } else { followed };
         let of_peak = |shock: f64| (swing.factor * shock.abs() / peak.value - 1.0).abs();
         let component = if response {
             [of_peak(walk.net) + smooth, of_peak(walk.largest) + smooth, smooth]
         } else {
             [f64::INFINITY, 0.0, f64::INFINITY]
         };
-        let number = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
         let (strikes, contacts) = walk.about(ends.e);
         let (v0, gap) = (self.scene.speed_m_s(), self.scene.height_gap_m());
         Forecast {
             quantity,
             bar: [map, map, ballistic, tilted].map(number),
+            doubt,
             component: component.map(number),
             overlaps: walk.overlaps,
-            contact_known: self.contact_time_s.is_some(),
+            contact_known,
             compliant: self.contact_time_s.is_some_and(|time| takes(&self.scene, time)),
             shortest_gap_s: walk.shortest_gap_s,
             impulse_phase,
@@ -505,11 +512,11 @@ impl Forecast {
         };
         Estimate { error, is_bound: false }
     }
-    /// What the quantity is at most, by far more than the estimates are ever off: `peak` and [`DOUBT`] times the estimate of the
-    /// closest rigid bar. For screening; a study of random scenes holds it.
+    /// What the quantity is at most, by far more than the estimates are ever off: `peak` and [`DOUBT`] times what finite tilt and
+    /// the strikes not followed leave open. For screening; a study of random scenes holds it.
     #[must_use]
     pub fn at_most(&self) -> f64 {
-        self.peak * (1.0 + DOUBT * self.bar(BarRung::FiniteTilt).error)
+        self.peak * (1.0 + DOUBT * self.doubt)
     }
     /// What a pair costs, about, in ns on a 2.9 GHz core: a sum of constants measured once, by the study. Only ratios are good for
     /// anything, and on the average of many scenes: a single one may differ by a factor of 10.
