@@ -103,6 +103,28 @@ fn only_the_ratio_of_frequency_to_drop_matters() {
     assert_eq!(unit["gain"], si["gain"]);
 }
 
+/// One shock, whose peaks as velocities do not depend on the frequency: also where z or A itself is beyond the floats.
+#[test]
+fn frequencies_at_the_ends_of_the_floats_have_answers() {
+    let drop = [
+        "respond",
+        "--gyration-ratio=0.49",
+        "--e=0",
+        "--velocity=-1,0.25",
+        "--height-gap=0",
+        "--at=0",
+        "--damping=1.75",
+    ];
+    let of = |omega: &str| answer(drop.iter().copied().chain([omega]));
+    let unit = of("--omega=1");
+    assert!(unit["omega_peak_relative_displacement"].as_f64().unwrap() > 0.09, "{unit}");
+    for omega in ["--omega=5e-324", "--omega=1e-310", "--omega=1e308"] {
+        for name in ["omega_peak_relative_displacement", "peak_absolute_acceleration_over_omega", "gain", "stiff"] {
+            assert_eq!(of(omega)[name], unit[name], "{name} at {omega}");
+        }
+    }
+}
+
 #[test]
 fn quality_factor_and_damping_ratio_are_one_thing() {
     let part = ["respond", "--q=0.5", "--e=0.3", "--at=1", "--omega=3"];

@@ -131,7 +131,7 @@ impl Shaken<'_> {
 
     /// Peak acceleration over that of one shock of 2 v0.
     fn gain(&self) -> f64 {
-        let peak = self.train.response.absolute_acceleration.magnitude() / self.args.omega;
+        let peak = self.train.response.acceleration_over_omega().magnitude();
         peak / self.impulse(2.0 * self.v0()).acceleration
     }
 
@@ -154,7 +154,7 @@ impl Shaken<'_> {
             Kind::Csv => buffered(file, |out| csv(&rule, out)),
             Kind::Svg => {
                 let v = self.v0();
-                let peak = response.absolute_acceleration.magnitude() / (self.args.omega * v);
+                let peak = response.acceleration_over_omega().magnitude() / v;
                 file.write_all(clatter_report::rule_svg(&rule, [ratio, peak]).as_bytes())
             }
             Kind::Json | Kind::Npy => buffered(file, |out| Ok(serde_json::to_writer(out, &RuleJson::new(&rule))?)),
@@ -171,14 +171,12 @@ impl Shaken<'_> {
         writeln!(out, "{:<34}{:>12} {:>13}", "Peak", "v0", "when, h0/v0")?;
         let response = &self.train.response;
         let z = response.pseudo_velocity();
-        let (v, a) = (response.relative_velocity, response.absolute_acceleration);
-        for (name, extremes, factor) in [
-            ("relative displacement, W z", z, 1.0),
-            ("relative velocity", v, 1.0),
-            ("absolute acceleration, A/W", a, self.args.omega),
-        ] {
+        let (v, a) = (response.relative_velocity, response.acceleration_over_omega());
+        for (name, extremes) in
+            [("relative displacement, W z", z), ("relative velocity", v), ("absolute acceleration, A/W", a)]
+        {
             let peak = extremes.peak();
-            let size = figures(peak.value.abs() / factor);
+            let size = figures(peak.value.abs());
             writeln!(out, "  {name:<32}{size:>12} {:>13}  {}", figures(peak.time), self.holder(peak))?;
         }
         writeln!(out, "\n{:<34}{:>12} {:>13} {:>13}", "A shock at this position", "shock, v0", "W z, v0", "A/W, v0")?;
@@ -218,7 +216,7 @@ impl Shaken<'_> {
     fn answer(&self) -> Answer {
         let response = &self.train.response;
         let (shocks, omega) = (self.shocks(), self.args.omega);
-        let acceleration = response.absolute_acceleration;
+        let acceleration = response.acceleration_over_omega();
         Answer {
             q: Json(self.bar.q()),
             gyration_ratio: Json(self.bar.gyration_ratio()),
@@ -229,12 +227,12 @@ impl Shaken<'_> {
             omega: Json(omega),
             damping: Json(self.damping().get()),
             omega_peak_relative_displacement: Json(response.pseudo_velocity().magnitude()),
-            peak_absolute_acceleration_over_omega: Json(acceleration.magnitude() / omega),
+            peak_absolute_acceleration_over_omega: Json(acceleration.magnitude()),
             time_of_peak: Json(acceleration.peak().time),
             peaks: PeaksJson {
-                omega_relative_displacement: ExtremesJson::new(response.pseudo_velocity(), 1.0),
-                relative_velocity: ExtremesJson::new(response.relative_velocity, 1.0),
-                absolute_acceleration_over_omega: ExtremesJson::new(acceleration, omega),
+                omega_relative_displacement: ExtremesJson::new(response.pseudo_velocity()),
+                relative_velocity: ExtremesJson::new(response.relative_velocity),
+                absolute_acceleration_over_omega: ExtremesJson::new(acceleration),
             },
             shocks: ShocksJson {
                 count: shocks.as_slice().len(),
@@ -304,9 +302,9 @@ struct ExtremeJson {
 }
 
 impl ExtremesJson {
-    fn new(extremes: Extremes, over: f64) -> Self {
+    fn new(extremes: Extremes) -> Self {
         let extreme =
-            |e: Extreme| ExtremeJson { value: Json(e.value / over), time: Json(e.time), after_impact: e.interval + 1 };
+            |e: Extreme| ExtremeJson { value: Json(e.value), time: Json(e.time), after_impact: e.interval + 1 };
         Self { positive: extreme(extremes.positive), negative: extreme(extremes.negative) }
     }
 }

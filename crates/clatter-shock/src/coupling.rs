@@ -292,7 +292,7 @@ pub fn three_way_rule(
     for &omega in omegas {
         let suspension = Suspension::new(omega * v0 / h0, damping)?;
         let response = shocks.respond(&suspension);
-        let acceleration = response.absolute_acceleration.magnitude() / (suspension.omega() * v0);
+        let acceleration = response.acceleration_over_omega().magnitude() / v0;
         points.push(RulePoint {
             omega,
             displacement: response.pseudo_velocity().magnitude() / v0,

@@ -161,6 +161,10 @@ impl DamageBoundary {
     /// value as pulses grow longer.
     #[must_use]
     pub fn knee_velocity_change(&self) -> f64 {
+        // Also where the critical acceleration is too small for the floats, 0.
+        if self.knee_duration == f64::INFINITY {
+            return f64::INFINITY;
+        }
         self.shape.area() * self.critical_acceleration * self.knee_duration
     }
     /// The boundary from the critical velocity change to the knee: `points` pairs of (velocity change, acceleration), for durations

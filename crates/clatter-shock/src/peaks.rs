@@ -36,12 +36,10 @@ impl Extremes {
     pub fn magnitude(&self) -> f64 {
         self.positive.value.max(-self.negative.value)
     }
-    /// The same extremes in another unit, `factor` > 0 times as large, or mirrored.
-    #[must_use]
-    pub(crate) fn scaled(&self, factor: f64) -> Self {
-        let scale = |e: Extreme| Extreme { value: factor * e.value + 0.0, ..e };
-        let (p, n) = (scale(self.positive), scale(self.negative));
-        if factor < 0.0 { Self { positive: n, negative: p } } else { Self { positive: p, negative: n } }
+    /// The same extremes in another unit.
+    fn map(self, unit: impl Fn(f64) -> f64) -> Self {
+        let map = |e: Extreme| Extreme { value: unit(e.value) + 0.0, ..e };
+        Self { positive: map(self.positive), negative: map(self.negative) }
     }
 }
 
@@ -84,11 +82,17 @@ impl Range {
 
 /// The largest values that a component reaches, exactly.
 ///
+/// z and A are infinite where they pass the floats (ω below 10⁻³⁰⁰ or above 10³⁰⁰); as velocities,
+/// [`pseudo_velocity`](Self::pseudo_velocity) and [`acceleration_over_omega`](Self::acceleration_over_omega), they still are known.
+///
 /// Signs: z is the displacement of the component relative to its base, so that a base that accelerates upward first
 /// drives z downward and the absolute acceleration A = −(2ζωz′ + ω²z) upward.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Response {
-    pub(crate) omega: f64,
+    omega: f64,
+    /// ωz and A/ω as they were found: the way from z and A back would lose what those cannot hold.
+    pseudo_velocity: Extremes,
+    acceleration_over_omega: Extremes,
     /// Relative displacement z (rattle space).
     pub relative_displacement: Extremes,
     /// Relative velocity z′.
@@ -101,20 +105,28 @@ impl Response {
     /// Pseudo-velocity ωz.
     #[must_use]
     pub fn pseudo_velocity(&self) -> Extremes {
-        self.relative_displacement.scaled(self.omega)
+        self.pseudo_velocity
+    }
+    /// Absolute acceleration as a velocity, A/ω.
+    #[must_use]
+    pub fn acceleration_over_omega(&self) -> Extremes {
+        self.acceleration_over_omega
     }
     /// Equivalent static acceleration −ω²z: the steady acceleration of the base that bends the suspension as far.
     #[must_use]
     pub fn equivalent_static_acceleration(&self) -> Extremes {
-        self.pseudo_velocity().scaled(-self.omega)
+        let mirrored = self.pseudo_velocity.map(|x| -self.omega * x);
+        Extremes { positive: mirrored.negative, negative: mirrored.positive }
     }
     pub(crate) fn from_ranges(omega: f64, ranges: &[Range; 3], start: impl Fn(usize) -> f64) -> Self {
-        let [x, y, a] = ranges;
+        let [x, y, a] = ranges.map(|range| range.extremes(omega, &start));
         Self {
             omega,
-            relative_displacement: x.extremes(omega, &start).scaled(omega.recip()),
-            relative_velocity: y.extremes(omega, &start),
-            absolute_acceleration: a.extremes(omega, &start).scaled(omega),
+            pseudo_velocity: x,
+            acceleration_over_omega: a,
+            relative_displacement: x.map(|x| x / omega),
+            relative_velocity: y,
+            absolute_acceleration: a.map(|a| omega * a),
         }
     }
 }

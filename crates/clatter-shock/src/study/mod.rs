@@ -115,7 +115,7 @@ pub fn worst(bar: &Bar, damping: DampingRatio, per_octave: u16) -> Result<Worst,
     }
     let peak = |hz: f64| {
         let suspension = Suspension::from_hz(hz, damping)?;
-        Ok::<_, Error>(ends[end].respond(&suspension).absolute_acceleration.magnitude() / suspension.omega())
+        Ok::<_, Error>(ends[end].respond(&suspension).acceleration_over_omega().magnitude())
     };
     let hz = grid.hz();
     let mut top = hz[at];
@@ -174,7 +174,7 @@ pub fn suspended_zone(bar: &Bar, suspension: &Suspension, threshold: f64) -> Res
     let safe = |distance: f64| {
         for position in [-distance, distance] {
             let (shocks, _) = shocks_at(bar, &Start::default(), position, suspension.omega())?;
-            let peak = shocks.respond(suspension).absolute_acceleration.magnitude() / suspension.omega();
+            let peak = shocks.respond(suspension).acceleration_over_omega().magnitude();
             // A few roundings, so that the threshold that is the peak itself is safe.
             if peak > allowed * (1.0 + 8.0 * f64::EPSILON) {
                 return Ok(false);
