@@ -205,13 +205,14 @@ fn remedies(remedies: &[Remedy]) -> String {
         Lever::Frequency => "its natural frequency",
         Lever::Damping => "its damping ratio",
     };
-    let value = |lever: Lever, of: [f64; 2]| {
-        let [lo, hi] = of.map(|v| match lever {
-            Lever::Position => millimeters(v),
-            Lever::Frequency => format!("{} Hz", three(v)),
-            _ => three(v),
-        });
-        if lo == hi { lo } else { format!("{lo} to {hi}") }
+    let value = |lever: Lever, of: [f64; 2], between: &str| {
+        let (size, unit) = match lever {
+            Lever::Position => (1e3, " mm"),
+            Lever::Frequency => (1.0, " Hz"),
+            _ => (1.0, ""),
+        };
+        let [lo, hi] = of.map(|v| three(size * v).replace('-', "−"));
+        if lo == hi { format!("{lo}{unit}") } else { format!("{lo}{between}{hi}{unit}") }
     };
     let (mut enough, mut not) = (Vec::new(), Vec::new());
     for Remedy { lever, outcome } in remedies {
@@ -221,11 +222,11 @@ fn remedies(remedies: &[Remedy]) -> String {
                 enough.push(format!(
                     "{} {bound} from {} to {}",
                     what(*lever),
-                    value(*lever, *from),
-                    value(*lever, *to)
+                    value(*lever, *from, "–\u{2060}"),
+                    value(*lever, *to, "–\u{2060}")
                 ));
             }
-            Outcome::Nowhere { bounds } => not.push(format!("{} ({})", what(*lever), value(*lever, *bounds))),
+            Outcome::Nowhere { bounds } => not.push(format!("{} ({})", what(*lever), value(*lever, *bounds, " to "))),
             Outcome::NoEffect => {}
         }
     }

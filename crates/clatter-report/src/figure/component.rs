@@ -4,6 +4,9 @@ use super::axes::{Axes, Axis, SMALL, key};
 use super::product::fit;
 use crate::svg::{Anchor, BLUES, GRAY, INK, Ink, Label, RUST, Svg};
 
+/// Frame of both figures of a part: low, so that a page holds two parts.
+const FRAME: [f64; 2] = [176.0, 90.0];
+
 const LIMIT: Ink = Ink { dash: "8 2 1.5 2", ..Ink::line(INK, 1.0) };
 
 /// A response over time with its limit on both sides; impacts are ticks at the foot.
@@ -17,12 +20,12 @@ pub(crate) fn history(points: &[(f64, f64)], impacts: &[f64], allowed: f64, titl
     let top = 1.12 * if shown { allowed.max(largest) } else { largest.max(f64::MIN_POSITIVE) };
     let axes = Axes {
         corner: [44.0, 8.0],
-        size: [176.0, 112.0],
+        size: FRAME,
         // a shock at the first touch stands clear of the frame
         x: Axis::linear(-0.03 * end, end, titles[0]),
         y: Axis::linear(-top, top, titles[1]),
     };
-    let mut svg = Svg::new(226.0, 150.0);
+    let mut svg = Svg::new(FRAME[0] + 50.0, FRAME[1] + 38.0);
     axes.grid(&mut svg);
     axes.level(&mut svg, 0.0, Ink::line(GRAY, 0.5));
     for &t in impacts {
@@ -49,12 +52,12 @@ pub(crate) fn over_tilt(curves: &[(&str, Vec<(f64, f64)>)], allowed: f64, titles
     let top = 1.12 * if shown { allowed.max(largest) } else { largest.max(f64::MIN_POSITIVE) };
     let axes = Axes {
         corner: [44.0, 8.0],
-        size: [176.0, 112.0],
+        size: FRAME,
         x: Axis::linear(lo, hi, titles[0]),
         y: Axis::linear(0.0, top, titles[1]),
     };
     let inks = [Ink::line(BLUES[8], 1.1), Ink { dash: "3.5 2", ..Ink::line(RUST, 1.0) }];
-    let mut svg = Svg::new(226.0, 150.0);
+    let mut svg = Svg::new(FRAME[0] + 50.0, FRAME[1] + 38.0);
     axes.grid(&mut svg);
     if shown {
         axes.level(&mut svg, allowed, LIMIT);
@@ -65,7 +68,7 @@ pub(crate) fn over_tilt(curves: &[(&str, Vec<(f64, f64)>)], allowed: f64, titles
         lines.push((ink, *name));
     }
     if curves.len() > 1 {
-        key(&mut svg, [54.0, 118.0 - 12.0 * f64::from(u8::from(lines.len() > 1))], &lines);
+        key(&mut svg, [54.0, FRAME[1] + 6.0 - 12.0 * f64::from(u8::from(lines.len() > 1))], &lines);
     }
     axes.border(&mut svg, 36.0);
     svg.finish("Demand over the tilt")
