@@ -400,9 +400,9 @@ mod tests {
             "{crystal}"
         );
         assert!(crystal.contains("its place down from 30 mm to 2") && !crystal.contains("frequency"), "{crystal}");
-        assert!(board.contains("its natural frequency down from 200 Hz to 240 Hz to 13"), "{board}");
+        assert!(board.contains("its natural frequency down from 200–\u{2060}240 Hz to 13"), "{board}");
         assert!(
-            board.contains("Not enough alone, whatever it is: ") && board.contains("its place (−40 mm to 40 mm)"),
+            board.contains("Not enough alone, whatever it is: ") && board.contains("its place (−40 to 40 mm)"),
             "{board}"
         );
     }
