@@ -16,7 +16,7 @@ mod trade;
 mod typst;
 
 use std::fs;
-use std::io::Write as _;
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::thread;
 
@@ -59,7 +59,7 @@ pub enum ReportError {
         /// The file.
         path: PathBuf,
         /// What the system said.
-        source: std::io::Error,
+        source: io::Error,
     },
     /// The report's data could not be computed.
     #[error(transparent)]
@@ -149,7 +149,11 @@ fn page(
     dir: &Path,
     progress: &mut dyn FnMut(&str),
 ) -> Result<Written, ReportError> {
-    fs::create_dir_all(dir).map_err(|source| ReportError::Io { path: dir.into(), source })?;
+    fs::create_dir_all(dir).map_err(|source| {
+        let is_file = source.kind() == io::ErrorKind::AlreadyExists;
+        let source = if is_file { io::Error::other("is a file; the reports need a directory") } else { source };
+        ReportError::Io { path: dir.into(), source }
+    })?;
     progress("computing figures and tables");
     let files = || {
         let files = compute()?;
@@ -443,5 +447,7 @@ mod tests {
         fs::write(&file, "").unwrap();
         let error = write(Report::Paper, &file.join("in"), &mut |_| ()).unwrap_err();
         assert!(matches!(&error, ReportError::Io { path, .. } if path.ends_with("file/in")), "{error:?}");
+        let error = page("x.pdf", ("x.typ", "= One"), &|| Ok(vec![]), &[], &file, &mut |_| ()).unwrap_err();
+        assert!(error.to_string().ends_with("is a file; the reports need a directory"), "{error}");
     }
 }

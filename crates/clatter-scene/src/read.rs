@@ -205,6 +205,7 @@ impl Reader {
                 }
                 let what = match value.get_ref() {
                     DeValue::String(text) => format!("{:?}", shown(text)),
+                    DeValue::Float(text) => shown(text.as_str()),
                     _ => number.to_string(),
                 };
                 self.fault(

@@ -40,6 +40,7 @@ const WRONG: &[(&str, &str, usize, &[&str])] = &[
     ("position = \"10 mm\"", "position = \"50 mm\"", 12, &["90 mm from the middle", "up to 70 mm"]),
     ("quality_factor = 12", "", 1, &["none of `damping_ratio`, `quality_factor`"]),
     ("quality_factor = 12", "quality_factor = 12\ndamping_ratio = 0.1", 1, &["more than one"]),
+    ("quality_factor = 12", "quality_factor = 1e308", 18, &["`quality_factor` = 1e308 is out of its range"]),
     ("quality_factor = 12", "quality_factor = 0", 18, &["`quality_factor` = 0 is out of its range", "from 0.005"]),
     ("mount = \"hard\"", "mount = \"hard\"\nrattle_space = \"1 mm\"", 1, &["a hard-mounted part has no `rattle_space`"]),
     ("mount = \"hard\"", "", 1, &["no `natural_frequency`", "mount = \"hard\""]),
