@@ -66,7 +66,7 @@ impl Args {
                 Ok(())
             }
             RowFormat::Csv => drop.csv(streams.out).map_err(Failure::Answer),
-            RowFormat::Json => streams.json(&drop.answer()),
+            RowFormat::Json => streams.long_json(&drop.answer()),
         }
     }
 }

@@ -65,11 +65,16 @@ impl fmt::Debug for Streams<'_> {
 }
 
 impl Streams<'_> {
-    /// An answer for programs, on one line.
+    /// An answer for programs, on one line: all of it, or nothing.
     fn json(&mut self, answer: &impl Serialize) -> Result<(), Failure> {
-        // Whole before the first byte: half an answer is none.
         let text = serde_json::to_string(answer).map_err(|error| Failure::Answer(error.into()))?;
         writeln!(self.out, "{text}").map_err(Failure::Answer)
+    }
+
+    /// The same for an answer that may not fit into memory: as it comes.
+    fn long_json(&mut self, answer: &impl Serialize) -> Result<(), Failure> {
+        serde_json::to_writer(&mut *self.out, answer).map_err(|error| Failure::Answer(error.into()))?;
+        writeln!(self.out).map_err(Failure::Answer)
     }
 
     /// A line beside the answer, below what there is of it. That it cannot be shown is no reason to fail.
