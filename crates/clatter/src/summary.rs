@@ -76,8 +76,8 @@ const CLEAR: f64 = 1.0 / 512.0;
 const DISTINCT: f64 = 1e-12;
 /// 4e − T² in plain floats has this many digits to spare in its square root, and its sign, beyond this share of T².
 const DISCERNIBLE: f64 = 1e-6;
-/// sin²(π/34): a wave that turns by less a strike, from a start that does not spin up, takes more than 32 strikes.
-const SLOW: f64 = 0.008_513;
+/// sin²(π/32.5): a wave that turns by less a strike takes more than 32 strikes from pure translation.
+const SLOW: f64 = 0.009_315;
 
 /// A train that plain steps followed to its end.
 struct Short {
@@ -159,15 +159,15 @@ impl Bar {
         } else if self.endless(start).is_some() {
             return Count::Endless;
         }
-        Self::long_count(*self, *start)
+        self.long_count(start)
     }
 
     #[inline(never)]
-    fn long_count(self, start: Start) -> Count {
+    fn long_count(&self, start: &Start) -> Count {
         if self.t <= 0.0 || self.e == 0.0 {
-            self.special(&start).0.count
+            self.special(start).0.count
         } else {
-            Drive::new(&self, &start, Digits::COUNT).count()
+            Drive::new(self, start, Digits::COUNT).count()
         }
     }
 
