@@ -25,6 +25,7 @@ fn summary(bar: Bar) -> Summary {
 #[library_benchmark]
 #[bench::four_impacts(bar(0.5, 0.3))]
 #[bench::thirty_one_impacts(bar(0.67, 0.15))]
+#[bench::forty_seven_impacts(bar(0.9978, 1.0))]
 #[bench::two_thousand_impacts(bar(0.999_999, 1.0))]
 #[bench::one_float_below_endless(bar(0.799_999_999_999_999_9, 0.25))]
 #[bench::endless_by_one_float(bar(0.8, 0.25))]
@@ -67,11 +68,25 @@ fn train_summed(bar: Bar) -> f64 {
     black_box(bar).train(&Start::default()).map(|impact| impact.time + impact.delta_v[0]).sum()
 }
 
+// Times, approach velocities and shocks at an end, into a list that lasts.
+#[library_benchmark]
+#[bench::four_impacts(bar(0.5, 0.3), vec![[0.0; 3]; 4])]
+#[bench::thirty_one_impacts(bar(0.67, 0.15), vec![[0.0; 3]; 31])]
+#[bench::forty_seven_impacts(bar(0.9978, 1.0), vec![[0.0; 3]; 47])]
+#[bench::two_thousand_impacts(bar(0.999_999, 1.0), vec![[0.0; 3]; 2221])]
+fn train_listed(bar: Bar, mut list: Vec<[f64; 3]>) -> Vec<[f64; 3]> {
+    black_box(bar).train(&Start::default()).fold(0, |n, impact| {
+        list.get_mut(n).into_iter().for_each(|row| *row = [impact.time, impact.approach, impact.delta_v[0]]);
+        n + 1
+    });
+    list
+}
+
 #[library_benchmark]
 fn map_of_the_peak() -> Map {
     let (q, e) = (Axis::q(0.0, 1.0, 100).expect("an axis"), Axis::e(0.0, 1.0, 100).expect("an axis"));
     Map::compute(Quantity::PeakEnd, q, e).expect("80 kB")
 }
 
-library_benchmark_group!(name = closed_form; benchmarks = summary, count, plain_loop, train_one_by_one, train_summed, map_of_the_peak);
+library_benchmark_group!(name = closed_form; benchmarks = summary, count, plain_loop, train_one_by_one, train_summed, train_listed, map_of_the_peak);
 main!(library_benchmark_groups = closed_form);

@@ -13,6 +13,7 @@ impl Restitution {
     ///
     /// # Errors
     /// [`Error::Restitution`] unless 0 ≤ e ≤ 1; −0 counts as 0.
+    #[inline]
     pub fn new(e: f64) -> Result<Self, Error> {
         if (0.0..=1.0).contains(&e) { Ok(Self(e + 0.0)) } else { Err(Error::Restitution(e)) }
     }

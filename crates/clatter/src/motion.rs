@@ -19,7 +19,7 @@
 //! What decides is formed in double-double, or in integers where even those digits cancel: D, S, αT + 2β and
 //! σ τ = αβT + β² + α²e. Then f64 suffices, until a quotient lies within its error of an integer.
 
-use crate::accuracy::{DURATION_LONG, FINAL, SHORT};
+use crate::accuracy::{self, DURATION_LONG, FINAL, SHORT};
 use crate::dd::{self, Dd, ldexp, two_prod, two_sum};
 use crate::exact::{Dyadic, Recurrence};
 use crate::{Bar, Count, PeakImpact, Start};
@@ -171,9 +171,10 @@ impl Drive {
             exponent(va).max(exponent(vb) + m)
         };
         let (alpha, beta) = if unit == 0 && m == 0 { (-va, -vb) } else { (ldexp(-va, -unit), ldexp(-vb, m - unit)) };
-        let mut drive = Self { bar: *bar, start: *start, m, unit, t, e: scaled_e, alpha, beta, kind: Kind::Edge };
+        // The kind comes last: a whole that is written and at once copied makes the processor wait.
+        let drive = Self { bar: *bar, start: *start, m, unit, t, e: scaled_e, alpha, beta, kind: Kind::Edge };
         let (d, d_error) = drive.discriminant(digits);
-        drive.kind = if d.hi > 0.0 {
+        let kind = if d.hi > 0.0 {
             let s = d.hi.sqrt();
             let x = if beta >= 0.0 { alpha * t + 2.0 * beta } else { drive.slope(drive.wide_t(), d.hi).hi };
             Kind::Wave(Wave { d_error, s, x, theta: angle(s, t), psi: angle(alpha * s, -x) })
@@ -182,7 +183,7 @@ impl Drive {
         } else {
             Kind::Edge
         };
-        drive
+        Self { kind, ..drive }
     }
 
     /// D = 4e − T² and a bound on its relative error; its sign is certain.
@@ -405,8 +406,15 @@ impl Drive {
 
     /// ⌈quotient⌉, at least 1, where the quotient is off by no more than `error`: with more digits if need be.
     fn settle(&self, series: Series, quotient: f64, error: f64) -> Steps {
-        if (quotient - quotient.round()).abs() > error {
-            return Steps::Exactly(ceil_to_int(quotient));
+        // By integers, which take fewer instructions than `round` and `ceil`.
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_precision_loss,
+            reason = "no digit is lost where the quotient may decide: its error is above 1 from 2⁵⁰ on"
+        )]
+        let (below, rest) = (quotient as i64, quotient - (quotient as i64) as f64);
+        if rest > error && 1.0 - rest > error {
+            return Steps::Exactly(u128::from(below.unsigned_abs()) + 1);
         }
         let (mut middle, mut error) = (Dd::from(quotient), error);
         if let (Kind::Wave(_), Series::Velocity) = (self.kind, series) {
@@ -473,14 +481,15 @@ impl Drive {
             let time = ldexp(self.start.height_gap() * (g / sum), self.m - self.unit);
             return (-self.power(count * ln_plus, sum / plus), time);
         }
-        // Relative to |v_a| the error of the angle is spread by the amplitude.
+        // What an f64 angle may be off, spread by the amplitude, relative to |v_a|.
         let spread = match self.kind {
             Kind::Wave(wave) => {
-                8.0 * UNIT * self.decayed(n, self.amplitude(&wave) / wave.s) / -self.start.velocity()[0]
+                let amplitude = self.decayed(n, self.amplitude(&wave) / wave.s);
+                (8.0 * UNIT + wave.d_error) * wave.psi * amplitude / -self.start.velocity()[0]
             }
             _ => 0.0,
         };
-        let Last { a, time, .. } = self.last(n, if spread < 5e-14 { 1e-11 } else { 1e-13 });
+        let Last { a, time, .. } = self.last(n, if spread < 0.5 * accuracy::APPROACH.error { 1e-11 } else { 1e-13 });
         (a, time)
     }
 
@@ -765,27 +774,34 @@ fn to_dd(x: &Dyadic, d1: &Dyadic, d2: &Dyadic, shift: i32) -> Dd {
 /// quarter, atan(j/4), and a rest of no more than 1/8 from its series: one division, and no branch to mispredict.
 #[inline]
 fn angle(y: f64, x: f64) -> f64 {
-    let (ax, steep) = (x.abs(), y > x.abs());
-    if y < 0.02 * ax {
-        // As it is for long trains; z⁶/13 is below 2⁻⁷¹.
-        let (r, z) = (y / ax, (y / x) * (y / x));
-        let small = r - r * z * ((1.0 / 3.0 - z / 5.0) + z * z * ((1.0 / 7.0 - z / 9.0) + z * z / 11.0));
+    let ax = x.abs();
+    if y <= 0.125 * ax {
+        // As it is for trains of some 25 impacts or more.
+        let small = small_angle(y / ax);
         return if x < 0.0 { PI - small } else { small };
     }
+    let steep = y > ax;
     let (n, d) = if steep { (ax, y) } else { (y, ax) };
     let j = [0.125, 0.375, 0.625, 0.875].map(|edge| usize::from(n > edge * d)).iter().sum::<usize>();
     let (quarter, base) = QUARTERS[j & 7];
-    let t = (n - d * quarter) / (d + n * quarter);
-    let z = t * t;
-    let zz = z * z;
-    // The first term left out, z⁹/19, is below 2⁻⁵⁸.
-    let low = (1.0 / 3.0 - z / 5.0) + zz * (1.0 / 7.0 - z / 9.0);
-    let high = (1.0 / 11.0 - z / 13.0) + zz * (1.0 / 15.0 - z / 17.0);
-    let first = base + (t - t * z * (low + zz * zz * high));
+    let first = base + small_angle((n - d * quarter) / (d + n * quarter));
     let acute = if steep { FRAC_PI_2 - first } else { first };
     if x < 0.0 { PI - acute } else { acute }
 }
 
+/// Arc tangent for |t| ≤ 1/8.
+#[inline]
+fn small_angle(t: f64) -> f64 {
+    let z = t * t;
+    let zz = z * z;
+    // The first term left out, z⁹/19, is below 2⁻⁵⁸.
+    let low = (ODD[0] - z * ODD[1]) + zz * (ODD[2] - z * ODD[3]);
+    let high = (ODD[4] - z * ODD[5]) + zz * (ODD[6] - z * ODD[7]);
+    t - t * z * (low + zz * zz * high)
+}
+
+/// 1/3, 1/5, … 1/17: a product takes a third of the time of a quotient.
+const ODD: [f64; 8] = [1.0 / 3.0, 1.0 / 5.0, 1.0 / 7.0, 1.0 / 9.0, 1.0 / 11.0, 1.0 / 13.0, 1.0 / 15.0, 1.0 / 17.0];
 /// j/4 and its arc tangent, for j = 0 … 4; filled up, so that an index of three bits needs no check.
 const QUARTERS: [(f64, f64); 8] = {
     let [a, b, c, d] = [0.244_978_663_126_864_15, 0.463_647_609_000_806_1, 0.643_501_108_793_284_4, FRAC_PI_4];

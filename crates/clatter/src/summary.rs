@@ -76,8 +76,8 @@ const CLEAR: f64 = 1.0 / 512.0;
 const DISTINCT: f64 = 1e-12;
 /// 4e − T² in plain floats has this many digits to spare in its square root, and its sign, beyond this share of T².
 const DISCERNIBLE: f64 = 1e-6;
-/// sin²(π/34): a wave that turns by less a strike, from a start that does not spin up, takes more than 32 strikes.
-const SLOW: f64 = 0.008_513;
+/// sin²(π/32.5): a wave that turns by less a strike takes more than 32 strikes from pure translation.
+const SLOW: f64 = 0.009_315;
 
 /// A train that plain steps followed to its end.
 struct Short {
@@ -125,10 +125,6 @@ impl Bar {
             if clear && distinct {
                 return self.put(start, end, peak);
             }
-        } else if let Some(end) = self.endless(start)
-            && let Some(peak) = self.plain_peak(start)
-        {
-            return self.put(start, end, peak);
         }
         Self::long_summary(*self, *start)
     }
@@ -137,7 +133,9 @@ impl Bar {
     #[inline(never)]
     fn long_summary(self, start: Start) -> Summary {
         let peak = self.plain_peak(&start);
-        let (end, peak) = if self.t <= 0.0 || self.e == 0.0 {
+        let (end, peak) = if let (Some(end), Some(peak)) = (self.endless(&start), peak) {
+            (end, peak)
+        } else if self.t <= 0.0 || self.e == 0.0 {
             let (end, special) = self.special(&start);
             (end, peak.unwrap_or(special))
         } else {
@@ -161,15 +159,15 @@ impl Bar {
         } else if self.endless(start).is_some() {
             return Count::Endless;
         }
-        Self::long_count(*self, *start)
+        self.long_count(start)
     }
 
     #[inline(never)]
-    fn long_count(self, start: Start) -> Count {
+    fn long_count(&self, start: &Start) -> Count {
         if self.t <= 0.0 || self.e == 0.0 {
-            self.special(&start).0.count
+            self.special(start).0.count
         } else {
-            Drive::new(&self, &start, Digits::COUNT).count()
+            Drive::new(self, start, Digits::COUNT).count()
         }
     }
 
@@ -226,10 +224,11 @@ impl Bar {
         let [va, vb] = start.velocity();
         let first = t * va + vb;
         let (mut before, mut a, mut next, mut b, mut b_next, mut n) = (0.0, va, first, 0.0, 1.0, 1_u32);
-        // The lowest velocity so far, its impact, and how close any other came to being the lowest.
-        let (mut lowest, mut peak, mut margin) = (va, 1, f64::INFINITY);
-        let mut look = |velocity: f64, number: u32| {
-            let above = velocity - lowest;
+        // The lowest velocity so far, its impact, and how close any two neighbors came to each other.
+        let (mut lowest, mut peak, mut margin) = (va, 1, f64::MAX);
+        // |a_n| falls for good once it falls, so that neighbors tell.
+        let mut look = |before: f64, velocity: f64, number: u32| {
+            let above = velocity - before;
             peak = if above < 0.0 { number } else { peak };
             (lowest, margin) = (least(velocity, lowest), least(above.abs(), margin));
         };
@@ -241,23 +240,24 @@ impl Bar {
             let fourth = t * third - e * second;
             let twice = t * t - e;
             let more = usize::from(second < 0.0) + usize::from(third < 0.0);
-            let strikes = [va, first, second, third, fourth, 0.0];
-            (before, a, next) = (strikes[more & 3], strikes[(more & 3) + 1], strikes[(more & 3) + 2]);
-            (b, b_next) = ([1.0, t, twice, 0.0][more & 3], t * twice - e * t);
+            let strikes = [va, first, second, third, fourth];
+            (before, a, next) = (strikes[more], strikes[more + 1], strikes[more + 2]);
+            (b, b_next) = ([1.0, t, twice][more], t * twice - e * t);
             n = 2 + u32::from(second < 0.0) + u32::from(third < 0.0);
-            look(first, 2);
-            look(second, 3);
-            look(third, 4);
+            look(va, first, 2);
+            look(first, second, 3);
+            look(least(second, 0.0), third, 4);
         }
         while next < 0.0 && n < PLAIN {
             n += 1;
-            look(next, n);
+            look(a, next, n);
             (before, a, next) = (a, next, t * next - e * a);
             (b, b_next) = (b_next, t * b_next - e * b);
         }
-        // For N = 1, b and a_{N−2} are 0.
+        // Less than a_N and |a_{N−1}|, so that these too are above the range of subnormal floats. For N = 1, b and a_{N−2}
+        // are 0.
         let cancels = least(next + CLEAR * e * before, CLEAR * t * before - a);
-        let clear = cancels > 0.0 && least(next, -a) > NORMAL && (n < 2 || b > NORMAL);
+        let clear = cancels > NORMAL && (n < 2 || b > NORMAL);
         let time = start.height_gap() * (b / -a);
         let velocity = Some(rebound(self, n % 2 == 1, a, next));
         Short {

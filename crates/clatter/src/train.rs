@@ -38,7 +38,7 @@ impl Impact {
 
 /// Iterator over the impacts of a train; without end where the train is endless. Made by [`Bar::train`].
 ///
-/// Times never step back.
+/// Times never step back. Whole trains are quickest taken from within, by `for_each`, `fold` or `sum`.
 #[derive(Debug, Clone)]
 pub struct Train {
     bar: Bar,
@@ -51,17 +51,19 @@ pub struct Train {
     at: usize,
 }
 
-/// The recurrence as it stands: a_n and b_n for the next impact and the one after.
+/// The recurrence as it stands before the next impact.
 #[derive(Debug, Clone, Copy)]
 struct Steps {
+    /// a_n and h0 b_n.
     a: f64,
-    next: f64,
-    /// A term of `next`, which is as large as the other where they cancel.
-    term: f64,
     b: f64,
-    b_next: f64,
-    /// How far `next` may cancel.
+    /// e a_{n−1} and e h0 b_{n−1}, which are taken from T a_n and T h0 b_n for the next ones.
+    a_held: f64,
+    b_held: f64,
+    /// How far a_{n+1} may cancel, below 0.
     clear: f64,
+    /// No plain step leads beyond this impact.
+    last: u64,
     /// Time of the last impact.
     latest: f64,
 }
@@ -109,10 +111,10 @@ impl Iterator for Train {
 
     #[inline]
     fn next(&mut self) -> Option<Impact> {
+        if let Some(impact) = self.step() {
+            return Some(impact);
+        }
         if self.later.is_none() {
-            if let Some(impact) = self.step() {
-                return Some(impact);
-            }
             if self.steps.a >= 0.0 {
                 return None;
             }
@@ -128,23 +130,13 @@ impl Iterator for Train {
     }
 
     /// Step by step, then buffer by buffer: sums over whole trains need not ask, impact by impact, where it comes from.
+    #[inline]
     fn fold<B, F: FnMut(B, Impact) -> B>(mut self, init: B, mut f: F) -> B {
         let mut all = init;
-        while self.later.is_none()
-            && let Some(impact) = self.step()
-        {
+        while let Some(impact) = self.step() {
             all = f(all, impact);
         }
-        while let Some(impact) = self.next() {
-            all = f(all, impact);
-            let Some(later) = &self.later else { continue };
-            for (&approach, &time) in later.approach[self.at..].iter().zip(&later.times[self.at..]) {
-                self.number += 1;
-                all = f(all, self.bar.impact(self.number, approach, time));
-            }
-            self.at = BUFFER;
-        }
-        all
+        if self.later.is_none() && self.steps.a >= 0.0 { all } else { self.fold_later(all, f) }
     }
 
     /// Skips in constant time, but for the plain steps at the beginning.
@@ -171,26 +163,49 @@ impl Iterator for Train {
 }
 
 impl Train {
+    /// Buffer by buffer. Not part of [`fold`](Self::fold), whose plain steps then stay in registers.
+    #[inline(never)]
+    fn fold_later<B, F: FnMut(B, Impact) -> B>(mut self, init: B, mut f: F) -> B {
+        let mut all = init;
+        while let Some(impact) = self.next() {
+            all = f(all, impact);
+            let Some(later) = &self.later else { continue };
+            for (&approach, &time) in later.approach[self.at..].iter().zip(&later.times[self.at..]) {
+                self.number += 1;
+                all = f(all, self.bar.impact(self.number, approach, time));
+            }
+            self.at = BUFFER;
+        }
+        all
+    }
+
     /// The next impact by a plain step; none where the train has ended, and where more digits are needed.
     #[inline]
     fn step(&mut self) -> Option<Impact> {
-        let Steps { a, next, term, b, b_next, clear, latest } = self.steps;
-        // In doubt where the terms of a_{n+1} nearly cancel: from this strike on, more digits.
-        if a >= 0.0 || next.abs() <= clear * term.abs() || self.number == PLAIN {
+        let Steps { a, b, a_held, b_held, clear, last, latest } = self.steps;
+        if self.number >= last {
             return None;
         }
         let (t, e) = (self.bar.t, self.bar.e);
-        let (term, time) = (e * a, self.start.height_gap() * (b / -a));
+        let (next, doubt) = (t * a - a_held, clear * a_held.abs());
+        if next >= doubt {
+            if next <= -doubt {
+                // The terms of a_{n+1} nearly cancel: from this strike on, more digits.
+                self.steps.last = self.number;
+                return None;
+            }
+            self.steps.last = self.number + 1;
+        }
         // Where strikes are closer than roundings; `f64::max` takes longer.
+        let time = b / -a;
         let time = if time < latest { latest } else { time };
-        let (next, b_next) = ([next, t * next - term], [b_next, t * b_next - e * b]);
         self.steps = Steps {
-            a: next[0],
-            next: next[1],
-            term,
-            b: b_next[0],
-            b_next: b_next[1],
-            clear: clear + CLEAR,
+            a: next,
+            b: t * b - b_held,
+            a_held: e * a,
+            b_held: e * b,
+            clear: clear - CLEAR,
+            last: self.steps.last,
             latest: time,
         };
         self.number += 1;
@@ -323,9 +338,9 @@ impl Bar {
     #[inline]
     pub fn train(&self, start: &Start) -> Train {
         let ([va, vb], t) = (start.velocity(), self.t);
-        let next = t * va + vb;
-        let steps = Steps { a: va, next, term: t * va, b: 0.0, b_next: 1.0, clear: CLEAR, latest: 0.0 };
         let plain = vb <= 0.0 && (t <= -LARGE || (t >= LARGE && self.e >= LARGE));
+        let (h0, last) = (start.height_gap(), if plain { PLAIN } else { 0 });
+        let steps = Steps { a: va, b: 0.0, a_held: -vb, b_held: -h0, clear: -CLEAR, last, latest: 0.0 };
         let later = if plain { None } else { Some(Later::new(*self, *start, 0, 0.0)) };
         Train { bar: *self, start: *start, number: 0, steps, later, at: BUFFER }
     }
