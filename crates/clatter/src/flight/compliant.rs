@@ -539,8 +539,8 @@ pub(super) fn simulate(scene: &Scene, contact: Contact) -> CompliantFlight {
             // Neither end will ever part: proven by the energy of the vibration.
             let time_bound_s = phase.ringing_s();
             let impulses = phase.solve(pose.ends.v.map(|v| -v));
-            for k in 0..2 {
-                let strike = &mut log.flight.strikes[strike_of[k]];
+            for (k, last) in strike_of.into_iter().enumerate() {
+                let strike = &mut log.flight.strikes[last];
                 phase.push(strike, k, impulses);
                 (strike.velocity_m_s, strike.spin_rad_s) = ([0.0; 2], 0.0);
             }
