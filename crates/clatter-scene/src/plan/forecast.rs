@@ -77,6 +77,8 @@ struct Interval {
     /// Largest value, and the phase at which it stands.
     value: f64,
     phase: f64,
+    /// Rate of the value by the phase there: below 0 where a shock begins the interval, above 0 where the next one ends it.
+    slope: f64,
     /// Bound on how far the map, the parabolas and real tilt are off it.
     off: [f64; 3],
 }
@@ -90,6 +92,8 @@ struct Coupling {
     velocity_shock: bool,
     /// Share of a disturbed shock that the quantity sees.
     seen: f64,
+    /// Share of that which acts through the bar alone.
+    coupled: f64,
     /// Share of the speed that both ends together rebound with.
     rebound: f64,
 }
@@ -99,24 +103,39 @@ impl Coupling {
         let velocity_shock = quantity == Quantity::VelocityShock;
         // Fitted: a soft component sees the sum of overlapping shocks, which e and the bar's coupling q change, not their order.
         let q = ends.ratio(0, 1.0).abs().max(ends.ratio(1, 1.0).abs());
-        let soft = ((1.0 + jump) * omega * time + 3.0 * ends.e).min(1.0) * (2.0 * q).min(1.0);
+        let coupled = (2.0 * q).min(1.0);
+        let soft = ((1.0 + jump) * omega * time + 3.0 * ends.e).min(1.0) * coupled;
         // Both contacts at once swing with √(1 ∓ q) of the lone frequency and damping; 1.3 for partings that are not at once.
         let rebound = (1.3 * libm::pow(ends.e, (1.0 - q).max(0.0).sqrt())).min(1.0);
-        Self { pulse, time, velocity_shock, seen: if velocity_shock { 1.0 } else { soft }, rebound }
+        Self {
+            pulse,
+            time,
+            velocity_shock,
+            seen: if velocity_shock { 1.0 } else { soft },
+            coupled: if velocity_shock { coupled } else { 1.0 },
+            rebound,
+        }
     }
     /// Shares of the earlier and of the later shock that are in doubt when the later follows after `gap`.
     fn doubt(&self, gap: f64) -> (f64, f64) {
-        if gap >= self.time {
+        // An end that has parted is still below the ground, and comes up with what it rebounds with.
+        let rise = self.pulse.delay();
+        let x = gap / self.time;
+        if x.is_nan() || x >= 1.0 + rise {
             return (0.0, 0.0);
         }
-        let x = gap / self.time;
+        // Fitted: there the later shock pushes it down once more.
+        let dent = (0.3 * (1.0 + rise - x) / rise).min(0.3);
+        if x >= 1.0 {
+            return (0.0, self.seen * self.coupled * dent);
+        }
         let (earlier, later) = if self.velocity_shock {
             // What a window of one contact time holds of both.
             let share = self.pulse.remaining(x).max(1.0 - self.pulse.remaining(1.0 - x));
-            (share, share)
+            (share, share.max(self.coupled * dent))
         } else {
             // Fitted: the later shock acts on the contact that is still there, whatever that has left to do.
-            (self.pulse.remaining(x), (3.0 * (1.0 - x)).min(1.0))
+            (self.pulse.remaining(x), (3.0 * (1.0 - x)).clamp(dent, 1.0))
         };
         (self.seen * earlier, self.seen * later)
     }
@@ -204,14 +223,16 @@ impl Setup {
         let intervals = &walk.intervals[..walk.strikes];
         let peak = intervals.iter().fold(Interval::default(), |m, i| if i.value > m.value { *i } else { m });
         // As if impulses, then as pulses: a peak that pulses flatten leaves more room to every error.
-        let (smooth, impulse_phase) = smoothing(&swing, &pulse, omega * time, peak.phase, zeta);
+        let (smooth, impulse_phase) = smoothing(&pulse, omega * time, &peak, zeta);
         let response = quantity != Quantity::VelocityShock;
         let left = if response { 1.0 - smooth.min(0.8) } else { 1.0 };
         let number = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
+        // What pulses leave of the peak: another that comes up to it may be the higher one.
+        let top = if response { left * peak.value } else { peak.value };
         let worst = |k: usize| {
             let mut error = peak.off[k];
             for i in intervals {
-                error = error.max(i.value + i.off[k] - peak.value);
+                error = error.max(i.off[k] + (i.value - top).min(0.0));
             }
             [error, error.max(walk.later(k, peak.value))].map(|error| error / (left * peak.value))
         };
@@ -304,12 +325,13 @@ impl Setup {
                     let turn = swing.turn(omega * gap);
                     if swing.bound(motion) > 0.5 * peak {
                         let top = swing.peak(motion, omega * gap);
-                        (interval.value, interval.phase) = (top.value, top.phase);
+                        (interval.value, interval.phase, interval.slope) = (top.value, top.phase, top.slope);
                     }
                     motion = swing.after(&turn, motion);
-                    let end = swing.quantity(motion).abs();
-                    if end > interval.value {
-                        (interval.value, interval.phase) = (end, omega * gap);
+                    let (end, rate) = (swing.quantity(motion), swing.quantity(swing.rate(motion)));
+                    if end.abs() > interval.value {
+                        (interval.value, interval.phase) = (end.abs(), omega * gap);
+                        interval.slope = (rate * end.signum()).max(0.0);
                     }
                     for (off, lacking) in off.iter_mut().zip(&mut lacking) {
                         *off = swing.after(&turn, *off);
@@ -369,6 +391,13 @@ impl Setup {
                 let (earlier, later) = coupling.doubt(0.0);
                 doubtful += (earlier + later) * last;
             }
+            if n > 0 && walk.intervals[n - 1].slope > 0.0 {
+                // A value that the next shock cuts off is as high as that is late.
+                let cut = &mut walk.intervals[n - 1];
+                for (off, own) in cut.off.iter_mut().zip(step.own) {
+                    *off += own.map_or(0.0, |(after, _)| cut.slope * (omega * (after - gap)).abs().min(2.0));
+                }
+            }
             let rate = swing.rate(motion);
             motion.w -= delta_v;
             let mut interval = Interval { value: if shocks { last } else { 0.0 }, ..Interval::default() };
@@ -382,9 +411,8 @@ impl Setup {
                         walk.net += own_delta_v;
                     }
                     shock_off = (own_delta_v - delta_v).abs();
-                    // A later strike lets the motion turn further; beyond a radian no further than it is large.
-                    let turned = omega * (after - gap);
-                    let turned = turned / (1.0 + turned.abs());
+                    // A later strike lets the motion turn further, to its opposite at most.
+                    let turned = (omega * (after - gap)).clamp(-2.0, 2.0);
                     off[k].x += rate.x * turned;
                     off[k].w += rate.w * turned - (own_delta_v - delta_v);
                 } else {
@@ -404,7 +432,7 @@ impl Setup {
                 let interval = &mut walk.intervals[n];
                 if !shocks {
                     let top = swing.peak(motion, f64::INFINITY);
-                    (interval.value, interval.phase) = (top.value, top.phase);
+                    (interval.value, interval.phase, interval.slope) = (top.value, top.phase, top.slope);
                 }
                 walk.until_s = f64::INFINITY;
                 (walk.late, walk.extra) = (0.0, 0.0);
@@ -451,22 +479,27 @@ impl<const N: usize> Walk<N> {
     }
 }
 
-/// What impulses in place of pulses change at a peak that stands `phase` after its shock, and the phases ωτ at which a term
-/// linear and one quadratic in them would be 1.
-fn smoothing(swing: &Swing, pulse: &Pulse, turned: f64, phase: f64, zeta: f64) -> (f64, [f64; 2]) {
+/// What impulses in place of pulses change at a peak, and the phases ωτ at which a term linear and one quadratic in them would be 1.
+///
+/// A pulse is an impulse at its centroid, spread by its variance: `½ σ² ω²` of a peak inside the swing, which bends by itself. A peak that
+/// stands where the shock begins is reached when the pulse is over, `age` after the centroid, and has fallen by then:
+/// `slope age + ½ (1 − 2ζ slope) age²`. One that the next shock cuts off is cut off within that pulse.
+fn smoothing(pulse: &Pulse, turned: f64, peak: &Interval, zeta: f64) -> (f64, [f64; 2]) {
     let age = 1.0 - pulse.centroid;
     let half = 0.5 * pulse.variance;
-    let slope = if phase > 0.0 {
-        0.0
-    } else if swing.jump() > 1.0 {
-        // A(0) = 2ζ, A′(0) = 1 − 4ζ² after the jump of the dashpot.
-        (4.0 * zeta * zeta - 1.0) / (2.0 * zeta)
-    } else {
-        1.0
-    };
-    let early = if phase > 0.0 { 0.3 * (turned * age - phase).max(0.0) } else { 0.0 };
-    let smooth = half * turned * turned + slope * age * turned + early;
-    (smooth, [slope * age, half])
+    let slope = if peak.value > 0.0 { -peak.slope / peak.value } else { 0.0 };
+    if slope < 0.0 {
+        let linear = -slope * age.max(pulse.centroid);
+        return (linear * turned + half * turned * turned, [linear, half]);
+    }
+    let late = 0.5 * age * age;
+    if peak.phase > 0.0 {
+        let early = late * (turned - peak.phase / age).max(0.0).powi(2);
+        // A peak as early as this is one that stands at the shock.
+        return (half * turned * turned + early, [0.0, if peak.phase < 0.5 { half + late } else { half }]);
+    }
+    let (linear, square) = (slope * age, half + late * (1.0 - 2.0 * zeta * slope).max(0.0));
+    (linear * turned + square * turned * turned, [linear, square])
 }
 
 impl Forecast {

@@ -50,7 +50,7 @@ impl Trail {
         let g = scene.gravity_m_s2();
         let start = Lane::start(scene, 1.0);
         let tilted = Lane::start(scene, libm::cos(scene.tilt_rad())).with_gravity(g).with_tilt();
-        let full = tilted.with_delay(contact_time_s.unwrap_or(0.0) * pulse.centroid);
+        let full = tilted.with_contact(&pulse, contact_time_s.unwrap_or(0.0));
         Self {
             ends,
             pulse,
