@@ -74,6 +74,8 @@ pub struct Forecast {
 /// One interval between strikes, as the lane with all physics has it.
 #[derive(Debug, Clone, Copy, Default)]
 struct Interval {
+    /// When it begins.
+    from_s: f64,
     /// Largest value, and the phase at which it stands.
     value: f64,
     phase: f64,
@@ -83,63 +85,77 @@ struct Interval {
     off: [f64; 3],
 }
 
-/// How far the contacts of one strike and of the next act on each other, and on what is asked.
+/// How far the contacts of one strike and of the next act on each other.
 #[derive(Debug, Clone, Copy)]
 struct Coupling {
     pulse: Pulse,
+    e: f64,
     /// Contact time; 0 where it is not known.
     time: f64,
     velocity_shock: bool,
-    /// Share of a disturbed shock that the quantity sees.
-    seen: f64,
-    /// Share of that which acts through the bar alone.
-    coupled: f64,
     /// Share of the speed that both ends together rebound with.
     rebound: f64,
 }
 
+/// A strike as its contact has it: its shocks of both ends, and its age.
+#[derive(Debug, Clone, Copy)]
+struct Pressing {
+    delta_v: [f64; 2],
+    age_s: f64,
+}
+
 impl Coupling {
-    fn new(ends: &Ends, pulse: Pulse, time: f64, omega: f64, jump: f64, quantity: Quantity) -> Self {
-        let velocity_shock = quantity == Quantity::VelocityShock;
-        // Fitted: a soft component sees the sum of overlapping shocks, which e and the bar's coupling q change, not their order.
+    fn new(ends: &Ends, pulse: Pulse, time: f64, quantity: Quantity) -> Self {
         let q = ends.ratio(0, 1.0).abs().max(ends.ratio(1, 1.0).abs());
-        let coupled = (2.0 * q).min(1.0);
-        let soft = ((1.0 + jump) * omega * time + 3.0 * ends.e).min(1.0) * coupled;
         // Both contacts at once swing with √(1 ∓ q) of the lone frequency and damping; 1.3 for partings that are not at once.
         let rebound = (1.3 * libm::pow(ends.e, (1.0 - q).max(0.0).sqrt())).min(1.0);
-        Self {
-            pulse,
-            time,
-            velocity_shock,
-            seen: if velocity_shock { 1.0 } else { soft },
-            coupled: if velocity_shock { coupled } else { 1.0 },
-            rebound,
+        Self { pulse, e: ends.e, time, velocity_shock: quantity == Quantity::VelocityShock, rebound }
+    }
+    /// What end i may have been given more or less of, in m/s, where the other one strikes with `kick` for end i while the contact of end i,
+    /// which does `had` in all, is as old as `age`.
+    ///
+    /// A linear contact struck by a velocity δ in the share x of its time gives `(1 + e)(1 − r(1 − x)) δ` more, with r the share that is to
+    /// come after a time. Upward it parts early, and loses what is to come at most; downward the train of impacts has
+    /// a strike of its own there, which differs by e of the contact and by what no longer has time to come back.
+    fn pushed(&self, age: f64, kick: f64, had: f64) -> f64 {
+        let (x, rise) = (age / self.time, self.pulse.delay());
+        if x.is_nan() || x >= 1.0 + rise {
+            return 0.0;
+        }
+        // Fitted: an end that has parted is still below the ground, and comes up with what it rebounds with.
+        let dent = if kick < 0.0 { -kick * (DENT * (1.0 + rise - x) / rise).min(DENT) } else { 0.0 };
+        if x >= 1.0 {
+            return dent;
+        }
+        let back = self.pulse.remaining(1.0 - x);
+        let whole = (1.0 + self.e) * (1.0 - back) * kick.abs();
+        if kick > 0.0 {
+            whole.min(self.pulse.remaining(x) * had)
+        } else {
+            whole.min(self.e * had + (1.0 + self.e) * back * -kick).max(dent)
         }
     }
-    /// Shares of the earlier and of the later shock that are in doubt when the later follows after `gap`.
-    fn doubt(&self, gap: f64) -> (f64, f64) {
-        // An end that has parted is still below the ground, and comes up with what it rebounds with.
-        let rise = self.pulse.delay();
+    /// The same of the end that strikes, for which the other contact had `kick`: what of that is to come acts while it presses.
+    fn held(&self, age: f64, kick: f64) -> f64 {
+        if age >= self.time {
+            return 0.0;
+        }
+        (1.0 + self.e) * self.pulse.remaining(age / self.time).powi(2) * kick.abs()
+    }
+    /// By how much a window of one contact time may hold more than one of two shocks, or less.
+    fn windows(&self, gap: f64, [earlier, later]: [f64; 2]) -> f64 {
+        if gap >= self.time {
+            return 0.0;
+        }
         let x = gap / self.time;
-        if x.is_nan() || x >= 1.0 + rise {
-            return (0.0, 0.0);
-        }
-        // Fitted: there the later shock pushes it down once more.
-        let dent = (0.3 * (1.0 + rise - x) / rise).min(0.3);
-        if x >= 1.0 {
-            return (0.0, self.seen * self.coupled * dent);
-        }
-        let (earlier, later) = if self.velocity_shock {
-            // What a window of one contact time holds of both.
-            let share = self.pulse.remaining(x).max(1.0 - self.pulse.remaining(1.0 - x));
-            (share, share.max(self.coupled * dent))
-        } else {
-            // Fitted: the later shock acts on the contact that is still there, whatever that has left to do.
-            (self.pulse.remaining(x), (3.0 * (1.0 - x)).clamp(dent, 1.0))
-        };
-        (self.seen * earlier, self.seen * later)
+        let tail = self.pulse.remaining(x) * earlier.abs();
+        let head = (1.0 - self.pulse.remaining(1.0 - x)) * later.abs();
+        if earlier * later > 0.0 { tail + head } else { tail }
     }
 }
+
+/// Share of a shock that pushes an end which has just parted down once more.
+const DENT: f64 = 0.3;
 
 /// Bound on the shocks to come of a bar whose speed at the component stays below `speed`: from one side to the other, by one contact
 /// or by both together.
@@ -218,7 +234,7 @@ impl Setup {
         let swing = Swing::new(zeta, quantity == Quantity::PeakAcceleration);
         let pulse = trail.pulse;
         let time = self.contact_time_s.unwrap_or(0.0);
-        let coupling = Coupling::new(&ends, pulse, time, omega, swing.jump(), quantity);
+        let coupling = Coupling::new(&ends, pulse, time, quantity);
         let walk = self.walk::<N>(&ends, &swing, &coupling, trail);
         let intervals = &walk.intervals[..walk.strikes];
         let peak = intervals.iter().fold(Interval::default(), |m, i| if i.value > m.value { *i } else { m });
@@ -309,7 +325,9 @@ impl Setup {
         let (mut lacking, mut doubtful) = ([0.0_f64; 3], 0.0_f64);
         // How much higher the component may ring where strikes are mistimed.
         let mut adrift = 0.0_f64;
-        let (mut last, mut peak) = (0.0_f64, 0.0_f64);
+        // The last contacts of both ends, and how far the motion of the ends after them is in doubt.
+        let (mut pressing, mut loose) = ([None::<Pressing>; 2], 0.0_f64);
+        let mut peak = 0.0_f64;
         // Time since the strike before, whether an end lay on the ground or the bar tumbled, and the energy left.
         let (mut gap, mut rested, mut tumbles, mut twice_energy) = (0.0, false, false, trail.twice_energy);
         // Speed at the component before the last strike, and what overlapping contacts leave of it.
@@ -318,7 +336,6 @@ impl Setup {
         let mut mapped = 0;
         loop {
             let n = walk.strikes;
-            let mut later = 0.0;
             if n > 0 {
                 let interval = &mut walk.intervals[n - 1];
                 if !shocks {
@@ -349,14 +366,8 @@ impl Setup {
                         *off += unit * weight;
                     }
                 }
-                let (earlier, share) = coupling.doubt((gap - blur * walk.last_s).max(0.0));
-                later = share;
-                doubtful += earlier * last;
-                for off in &mut interval.off {
-                    *off += unit * earlier * last;
-                }
                 walk.shortest_gap_s = walk.shortest_gap_s.min(gap);
-                walk.overlaps |= gap < time && coupling.seen * last > 1e-3 * peak;
+                walk.overlaps |= gap < time;
                 let now = ends.reach(twice_energy);
                 if gap < time {
                     floor = floor.max(coupling.rebound * before);
@@ -383,14 +394,52 @@ impl Setup {
             let delta_v = ends.at(step.delta_v);
             walk.last_s += gap;
             // The ground also carries the weight while it pushes.
-            doubtful += later * delta_v.abs() + g * if n == 0 { time } else { time.min(gap) };
-            last = delta_v.abs();
-            adrift += swing.factor * last * (omega * blur * walk.last_s).min(2.0);
+            doubtful += g * if n == 0 { time } else { time.min(gap) };
+            let (j, i) = (step.end, 1 - step.end);
+            // What the component gets of a velocity that a contact gives.
+            let at = |given: f64, contact: &[f64; 2], end: usize| given * (ends.at(*contact) / contact[end]).abs();
+            // Of a motion in doubt, the shock is as much.
+            let strike = step.delta_v[j].abs();
+            let astray = if strike > 0.0 { delta_v.abs() * (loose * (1.0 + ends.e) / strike).min(1.0) } else { 0.0 };
+            for pressing in pressing.iter_mut().flatten() {
+                pressing.age_s += gap;
+            }
+            // Where this end presses already, it is the same contact.
+            let own = pressing[j].filter(|own| own.age_s < time);
+            let mut doubt = if own.is_some() && shocks { delta_v.abs() } else { 0.0 };
+            if let Some(other) = pressing[i] {
+                let age = (other.age_s - blur * walk.last_s).max(0.0);
+                let pushed = coupling.pushed(age, step.delta_v[i], other.delta_v[i].abs());
+                let held = if own.is_none() { coupling.held(age, other.delta_v[j]) } else { 0.0 };
+                loose += pushed + held;
+                doubt += at(pushed, &other.delta_v, i) + if held > 0.0 { at(held, &step.delta_v, j) } else { 0.0 };
+                if shocks {
+                    doubt += coupling.windows(age, [ends.at(other.delta_v), delta_v]);
+                }
+            }
+            if doubt > 0.0 {
+                // All that a contact which is still there has a part in.
+                for interval in walk.intervals[..n].iter_mut().rev() {
+                    for off in &mut interval.off {
+                        *off += unit * doubt;
+                    }
+                    if walk.last_s - interval.from_s >= time {
+                        break;
+                    }
+                }
+            }
+            doubtful += doubt + astray;
+            let contact = own.unwrap_or(Pressing { delta_v: [0.0; 2], age_s: 0.0 });
+            pressing[j] = Some(Pressing {
+                delta_v: [contact.delta_v[0] + step.delta_v[0], contact.delta_v[1] + step.delta_v[1]],
+                ..contact
+            });
             if rested {
                 // The end that lies there is struck through the bar at the same instant.
-                let (earlier, later) = coupling.doubt(0.0);
-                doubtful += (earlier + later) * last;
+                doubtful += 2.0 * delta_v.abs();
             }
+            let last = delta_v.abs();
+            adrift += swing.factor * last * (omega * blur * walk.last_s).min(2.0);
             if n > 0 && walk.intervals[n - 1].slope > 0.0 {
                 // A value that the next shock cuts off is as high as that is late.
                 let cut = &mut walk.intervals[n - 1];
@@ -400,7 +449,8 @@ impl Setup {
             }
             let rate = swing.rate(motion);
             motion.w -= delta_v;
-            let mut interval = Interval { value: if shocks { last } else { 0.0 }, ..Interval::default() };
+            let value = if shocks { last } else { 0.0 };
+            let mut interval = Interval { from_s: walk.last_s, value, ..Interval::default() };
             for k in 0..3 {
                 let mut shock_off = last;
                 if let Some((after, own_delta_v)) = step.own[k] {

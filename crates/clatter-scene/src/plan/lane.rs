@@ -227,8 +227,21 @@ impl Lane {
             self.height[k] -= jump * self.delay;
             self.velocity[k] += jump;
         }
+        if self.tilts && self.delay > 0.0 {
+            self.turn_back(ends, sin);
+        }
         self.settle(ends, i, ratio);
         delta_v
+    }
+    /// Set back from the sine of an angle, the spin is the same, and its vertical part is not.
+    fn turn_back(&mut self, ends: &Ends, from: f64) {
+        let [a, b] = ends.arm;
+        let over = 1.0 / ends.length();
+        let to = over * (self.height[1] - self.height[0]);
+        let squares = ((1.0 - to) * (1.0 + to)).max(LEAST_COS2) / ((1.0 - from) * (1.0 + from));
+        let change = over * (self.velocity[1] - self.velocity[0]) * (squares.sqrt() - 1.0);
+        self.velocity[0] -= a * change;
+        self.velocity[1] += b * change;
     }
     /// Lets end i lie where it would bounce ever less for a short while: bounces of w, e w, … last 2S/g in all, S = w/(1 − e).
     fn settle(&mut self, ends: &Ends, i: usize, ratio: f64) {

@@ -53,10 +53,6 @@ impl Swing {
     pub(super) fn quantity(&self, m: Motion) -> f64 {
         self.row[0] * m.x + self.row[1] * m.w
     }
-    /// How much of Q a jump of w is at once.
-    pub(super) fn jump(&self) -> f64 {
-        self.row[1]
-    }
     /// Derivative by the phase.
     pub(super) fn rate(&self, m: Motion) -> Motion {
         Motion { x: m.w, w: -m.x - 2.0 * self.zeta * m.w }
