@@ -47,6 +47,137 @@ fn plans_of_random_scenes_are_good_enough() {
     assert!(250 * above <= outcomes.len(), "{above} of {} reach more than the bound", outcomes.len());
 }
 
+/// One drop of a component: length and gyration in m, e, speed in m/s, tilt in degrees; contact time in s, position, ω in rad/s, ζ.
+fn drop_of([length, gyration, e, speed, tilt_deg]: [f64; 5], [contact, position, omega, zeta]: [f64; 4]) -> Setup {
+    let body = Body::new(length, gyration).expect("as the test has it");
+    let scene = Scene::new(body, e, speed, tilt_deg, 9.81).expect("as the test has it");
+    let part = Suspension::new(omega, DampingRatio::new(zeta).expect("as the test has it"));
+    Setup::new(scene, Some(contact), position, part.expect("as the test has it")).expect("as the test has it")
+}
+
+/// Error of a pair against the highest one until rest in fine pieces.
+fn off(setup: &Setup, pair: Pair, quantity: Quantity) -> f64 {
+    let truth = setup.demand_fine(Pair::HIGHEST, quantity, f64::INFINITY, 384).expect("as the test has it");
+    let until_s = setup.forecast(quantity).until_s;
+    (setup.demand(pair, quantity, until_s).expect("as the test has it") / truth - 1.0).abs()
+}
+
+/// What made the highest pair stop before the peak, or miss it between its pieces.
+#[test]
+fn contacts_are_followed_until_nothing_higher_comes() {
+    let mut wrong = Vec::new();
+    for (what, drop, part) in [
+        (
+            "the last contact never parts, and has the largest shock",
+            [0.38, 0.1735, 0.0114, 3.32, 17.4],
+            [4.75e-4, 0.085, 5245.0, 0.644],
+        ),
+        (
+            "one end lies down for long, and the other lands at the end of it",
+            [0.32, 0.1082, 0.0161, 0.7076, 26.1],
+            [6.57e-5, -0.449, 350.5, 0.158],
+        ),
+        (
+            "the bar whirls, and its energy does not show at its ends",
+            [0.0966, 0.0203, 0.9285, 4.7217, 0.3376],
+            [1.642e-4, 0.6414, 3099.0, 0.0887],
+        ),
+        (
+            "the velocity turns within two contacts, on a dashpot",
+            [0.335, 0.0492, 0.0496, 0.483, 8.21],
+            [1.32e-4, -0.988, 181.0, 0.995],
+        ),
+    ] {
+        let setup = drop_of(drop, part);
+        for quantity in QUANTITIES {
+            let error = off(&setup, Pair::HIGHEST, quantity);
+            if error > 1e-3 {
+                wrong.push(format!("{what}: {quantity:?} off by {error:e}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// What estimates once did not know.
+#[test]
+fn estimates_know_what_bends_a_peak() {
+    let mut wrong = Vec::new();
+    let (acceleration, shock) = (Quantity::PeakAcceleration, Quantity::VelocityShock);
+    for (what, drop, part, quantity) in [
+        (
+            "the angle turns far between two strikes",
+            [0.1488, 0.0653, 0.307, 2.82, 25.3],
+            [6.72e-5, 0.639, 21857.0, 0.0571],
+            shock,
+        ),
+        (
+            "later strikes are mistimed by more than the component turns",
+            [0.1788, 0.0932, 0.6646, 2.382, 0.144],
+            [5e-5, -0.853, 324.0, 0.0081],
+            acceleration,
+        ),
+        (
+            "the other end lifts a contact that has not done all it would",
+            [0.057_874, 0.031_35, 0.0297, 4.87, 0.684],
+            [3.822e-4, -0.905, 219.8, 0.777],
+            Quantity::RattleSpace,
+        ),
+        (
+            "two later contacts just part, and pulses of real tilt would overlap",
+            [0.0695, 0.016_425, 0.7751, 0.6516, 1.434],
+            [1.974e-4, -0.9795, 846.0, 0.5933],
+            acceleration,
+        ),
+        (
+            "a contact turns the bar, and lever arms with it",
+            [0.088_26, 0.030_67, 0.3865, 7.339, 14.246],
+            [3.167e-4, 0.6507, 738.9, 0.0502],
+            shock,
+        ),
+        (
+            "an end has parted and is still below the ground when the other strikes",
+            [0.2, 0.096, 0.097, 5.613, 0.416],
+            [2.17e-4, 0.0239, 262.0, 1.0646],
+            acceleration,
+        ),
+        (
+            "the second strike cuts the peak off, and is delayed",
+            [0.0882, 0.0254, 0.597, 1.5, 0.917],
+            [7.58e-5, -0.679, 1925.0, 0.0746],
+            acceleration,
+        ),
+        (
+            "a pulse ends after the top of a peak that stands at the shock",
+            [0.2384, 0.1593, 0.404, 1.285, 8.61],
+            [2.49e-4, 0.173, 1689.0, 0.5007],
+            acceleration,
+        ),
+        (
+            "contacts carry the weight, which moves later strikes",
+            [0.1936, 0.1267, 0.827, 0.937, 4.17],
+            [7.08e-4, -0.534, 93.14, 0.8546],
+            acceleration,
+        ),
+        (
+            "a pulse flattens the first peak below the next, where contacts overlap",
+            [0.0722, 0.03334, 0.0204, 6.97, 0.237],
+            [5.66e-5, -0.939, 391.0, 1.395],
+            acceleration,
+        ),
+    ] {
+        let setup = drop_of(drop, part);
+        for tolerance in TOLERANCES {
+            let plan = setup.forecast(quantity).plan(tolerance).refined(&setup);
+            let error = off(&setup, plan.pair, quantity);
+            if plan.warning.is_some() || error > 1.5 * tolerance {
+                wrong.push(format!("{what}: {:?} off by {error:e}, {:?}", plan.pair, plan.warning));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
 /// The cost model ranks pairs as they are, on the average over scenes.
 #[test]
 fn modeled_costs_have_the_ratios_of_measured_ones() {

@@ -225,13 +225,14 @@ impl Setup {
 }
 
 /// Share of the pieces of a pulse that a component needs: a stiff or much damped one follows the corners of a polygon, a
-/// soft one sees little of them.
+/// soft one sees little of them, but by its dashpot the turning of the velocity where contacts overlap.
 pub(crate) fn fineness(suspension: &Suspension, contact_s: f64) -> f64 {
     let (turned, zeta) = (suspension.omega() * contact_s, suspension.damping().get());
     let fineness = (turned * (1.0 + 2.0 * zeta)).max(turned / 8.0);
+    let least = (0.6 * zeta).clamp(0.125, 0.3);
     // By the fastest of its motions.
     let fast = turned * (zeta + (zeta * zeta - 1.0).max(0.0).sqrt()).max(1.0);
-    fineness.clamp(0.125, 1.0) * (fast / FINE).clamp(1.0, 8.0)
+    fineness.clamp(least, 1.0) * (fast / FINE).clamp(1.0, 8.0)
 }
 
 /// Three impacts from number `first` + 1 on.

@@ -74,53 +74,88 @@ pub struct Forecast {
 /// One interval between strikes, as the lane with all physics has it.
 #[derive(Debug, Clone, Copy, Default)]
 struct Interval {
+    /// When it begins.
+    from_s: f64,
     /// Largest value, and the phase at which it stands.
     value: f64,
     phase: f64,
+    /// Rate of the value by the phase there: below 0 where a shock begins the interval, above 0 where the next one ends it.
+    slope: f64,
     /// Bound on how far the map, the parabolas and real tilt are off it.
     off: [f64; 3],
 }
 
-/// How far the contacts of one strike and of the next act on each other, and on what is asked.
+/// How far the contacts of one strike and of the next act on each other.
 #[derive(Debug, Clone, Copy)]
 struct Coupling {
     pulse: Pulse,
+    e: f64,
     /// Contact time; 0 where it is not known.
     time: f64,
     velocity_shock: bool,
-    /// Share of a disturbed shock that the quantity sees.
-    seen: f64,
     /// Share of the speed that both ends together rebound with.
     rebound: f64,
 }
 
+/// A strike as its contact has it: its shocks of both ends, and its age.
+#[derive(Debug, Clone, Copy)]
+struct Pressing {
+    delta_v: [f64; 2],
+    age_s: f64,
+}
+
 impl Coupling {
-    fn new(ends: &Ends, pulse: Pulse, time: f64, omega: f64, jump: f64, quantity: Quantity) -> Self {
-        let velocity_shock = quantity == Quantity::VelocityShock;
-        // Fitted: a soft component sees the sum of overlapping shocks, which e and the bar's coupling q change, not their order.
+    fn new(ends: &Ends, pulse: Pulse, time: f64, quantity: Quantity) -> Self {
         let q = ends.ratio(0, 1.0).abs().max(ends.ratio(1, 1.0).abs());
-        let soft = ((1.0 + jump) * omega * time + 3.0 * ends.e).min(1.0) * (2.0 * q).min(1.0);
         // Both contacts at once swing with √(1 ∓ q) of the lone frequency and damping; 1.3 for partings that are not at once.
         let rebound = (1.3 * libm::pow(ends.e, (1.0 - q).max(0.0).sqrt())).min(1.0);
-        Self { pulse, time, velocity_shock, seen: if velocity_shock { 1.0 } else { soft }, rebound }
+        Self { pulse, e: ends.e, time, velocity_shock: quantity == Quantity::VelocityShock, rebound }
     }
-    /// Shares of the earlier and of the later shock that are in doubt when the later follows after `gap`.
-    fn doubt(&self, gap: f64) -> (f64, f64) {
+    /// What end i may have been given more or less of, in m/s, where the other one strikes with `kick` for end i while the contact of end i,
+    /// which does `had` in all, is as old as `age`.
+    ///
+    /// A linear contact struck by a velocity δ in the share x of its time gives `(1 + e)(1 − r(1 − x)) δ` more, with r the share that is to
+    /// come after a time. Upward it parts early, and loses what is to come at most; downward the train of impacts has
+    /// a strike of its own there, which differs by e of the contact and by what no longer has time to come back.
+    fn pushed(&self, age: f64, kick: f64, had: f64) -> f64 {
+        let (x, rise) = (age / self.time, self.pulse.delay());
+        if x.is_nan() || x >= 1.0 + rise {
+            return 0.0;
+        }
+        // Fitted: an end that has parted is still below the ground, and comes up with what it rebounds with.
+        let dent = if kick < 0.0 { -kick * (DENT * (1.0 + rise - x) / rise).min(DENT) } else { 0.0 };
+        if x >= 1.0 {
+            return dent;
+        }
+        let back = self.pulse.remaining(1.0 - x);
+        let whole = (1.0 + self.e) * (1.0 - back) * kick.abs();
+        if kick > 0.0 {
+            whole.min(self.pulse.remaining(x) * had)
+        } else {
+            whole.min(self.e * had + (1.0 + self.e) * back * -kick).max(dent)
+        }
+    }
+    /// The same of the end that strikes, for which the other contact had `kick`: what of that is to come acts while it presses.
+    fn held(&self, age: f64, kick: f64) -> f64 {
+        if age >= self.time {
+            return 0.0;
+        }
+        (1.0 + self.e) * self.pulse.remaining(age / self.time).powi(2) * kick.abs()
+    }
+    /// By how much a window of one contact time may hold more than one of two shocks, or less.
+    fn windows(&self, gap: f64, [earlier, later]: [f64; 2]) -> f64 {
         if gap >= self.time {
-            return (0.0, 0.0);
+            return 0.0;
         }
         let x = gap / self.time;
-        let (earlier, later) = if self.velocity_shock {
-            // What a window of one contact time holds of both.
-            let share = self.pulse.remaining(x).max(1.0 - self.pulse.remaining(1.0 - x));
-            (share, share)
-        } else {
-            // Fitted: the later shock acts on the contact that is still there, whatever that has left to do.
-            (self.pulse.remaining(x), (3.0 * (1.0 - x)).min(1.0))
-        };
-        (self.seen * earlier, self.seen * later)
+        let tail = self.pulse.remaining(x) * earlier.abs();
+        let head = (1.0 - self.pulse.remaining(1.0 - x)) * later.abs();
+        if earlier * later > 0.0 { tail + head } else { tail }
     }
 }
+
+/// Share of a shock that pushes an end which has just parted down once more.
+const DENT: f64 = 0.3;
 
 /// Bound on the shocks to come of a bar whose speed at the component stays below `speed`: from one side to the other, by one contact
 /// or by both together.
@@ -199,19 +234,21 @@ impl Setup {
         let swing = Swing::new(zeta, quantity == Quantity::PeakAcceleration);
         let pulse = trail.pulse;
         let time = self.contact_time_s.unwrap_or(0.0);
-        let coupling = Coupling::new(&ends, pulse, time, omega, swing.jump(), quantity);
+        let coupling = Coupling::new(&ends, pulse, time, quantity);
         let walk = self.walk::<N>(&ends, &swing, &coupling, trail);
         let intervals = &walk.intervals[..walk.strikes];
         let peak = intervals.iter().fold(Interval::default(), |m, i| if i.value > m.value { *i } else { m });
         // As if impulses, then as pulses: a peak that pulses flatten leaves more room to every error.
-        let (smooth, impulse_phase) = smoothing(&swing, &pulse, omega * time, peak.phase, zeta);
+        let (smooth, impulse_phase) = smoothing(&pulse, omega * time, &peak, zeta);
         let response = quantity != Quantity::VelocityShock;
         let left = if response { 1.0 - smooth.min(0.8) } else { 1.0 };
         let number = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
+        // What pulses leave of the peak: another that comes up to it may be the higher one.
+        let top = if response { left * peak.value } else { peak.value };
         let worst = |k: usize| {
             let mut error = peak.off[k];
             for i in intervals {
-                error = error.max(i.value + i.off[k] - peak.value);
+                error = error.max(i.off[k] + (i.value - top).min(0.0));
             }
             [error, error.max(walk.later(k, peak.value))].map(|error| error / (left * peak.value))
         };
@@ -288,7 +325,9 @@ impl Setup {
         let (mut lacking, mut doubtful) = ([0.0_f64; 3], 0.0_f64);
         // How much higher the component may ring where strikes are mistimed.
         let mut adrift = 0.0_f64;
-        let (mut last, mut peak) = (0.0_f64, 0.0_f64);
+        // The last contacts of both ends, and how far the motion of the ends after them is in doubt.
+        let (mut pressing, mut loose) = ([None::<Pressing>; 2], 0.0_f64);
+        let mut peak = 0.0_f64;
         // Time since the strike before, whether an end lay on the ground or the bar tumbled, and the energy left.
         let (mut gap, mut rested, mut tumbles, mut twice_energy) = (0.0, false, false, trail.twice_energy);
         // Speed at the component before the last strike, and what overlapping contacts leave of it.
@@ -297,19 +336,19 @@ impl Setup {
         let mut mapped = 0;
         loop {
             let n = walk.strikes;
-            let mut later = 0.0;
             if n > 0 {
                 let interval = &mut walk.intervals[n - 1];
                 if !shocks {
                     let turn = swing.turn(omega * gap);
                     if swing.bound(motion) > 0.5 * peak {
                         let top = swing.peak(motion, omega * gap);
-                        (interval.value, interval.phase) = (top.value, top.phase);
+                        (interval.value, interval.phase, interval.slope) = (top.value, top.phase, top.slope);
                     }
                     motion = swing.after(&turn, motion);
-                    let end = swing.quantity(motion).abs();
-                    if end > interval.value {
-                        (interval.value, interval.phase) = (end, omega * gap);
+                    let (end, rate) = (swing.quantity(motion), swing.quantity(swing.rate(motion)));
+                    if end.abs() > interval.value {
+                        (interval.value, interval.phase) = (end.abs(), omega * gap);
+                        interval.slope = (rate * end.signum()).max(0.0);
                     }
                     for (off, lacking) in off.iter_mut().zip(&mut lacking) {
                         *off = swing.after(&turn, *off);
@@ -327,14 +366,8 @@ impl Setup {
                         *off += unit * weight;
                     }
                 }
-                let (earlier, share) = coupling.doubt((gap - blur * walk.last_s).max(0.0));
-                later = share;
-                doubtful += earlier * last;
-                for off in &mut interval.off {
-                    *off += unit * earlier * last;
-                }
                 walk.shortest_gap_s = walk.shortest_gap_s.min(gap);
-                walk.overlaps |= gap < time && coupling.seen * last > 1e-3 * peak;
+                walk.overlaps |= gap < time;
                 let now = ends.reach(twice_energy);
                 if gap < time {
                     floor = floor.max(coupling.rebound * before);
@@ -361,17 +394,63 @@ impl Setup {
             let delta_v = ends.at(step.delta_v);
             walk.last_s += gap;
             // The ground also carries the weight while it pushes.
-            doubtful += later * delta_v.abs() + g * if n == 0 { time } else { time.min(gap) };
-            last = delta_v.abs();
-            adrift += swing.factor * last * (omega * blur * walk.last_s).min(2.0);
+            doubtful += g * if n == 0 { time } else { time.min(gap) };
+            let (j, i) = (step.end, 1 - step.end);
+            // What the component gets of a velocity that a contact gives.
+            let at = |given: f64, contact: &[f64; 2], end: usize| given * (ends.at(*contact) / contact[end]).abs();
+            // Of a motion in doubt, the shock is as much.
+            let strike = step.delta_v[j].abs();
+            let astray = if strike > 0.0 { delta_v.abs() * (loose * (1.0 + ends.e) / strike).min(1.0) } else { 0.0 };
+            for pressing in pressing.iter_mut().flatten() {
+                pressing.age_s += gap;
+            }
+            // Where this end presses already, it is the same contact.
+            let own = pressing[j].filter(|own| own.age_s < time);
+            let mut doubt = if own.is_some() && shocks { delta_v.abs() } else { 0.0 };
+            if let Some(other) = pressing[i] {
+                let age = (other.age_s - blur * walk.last_s).max(0.0);
+                let pushed = coupling.pushed(age, step.delta_v[i], other.delta_v[i].abs());
+                let held = if own.is_none() { coupling.held(age, other.delta_v[j]) } else { 0.0 };
+                loose += pushed + held;
+                doubt += at(pushed, &other.delta_v, i) + if held > 0.0 { at(held, &step.delta_v, j) } else { 0.0 };
+                if shocks {
+                    doubt += coupling.windows(age, [ends.at(other.delta_v), delta_v]);
+                }
+            }
+            if doubt > 0.0 {
+                // All that a contact which is still there has a part in.
+                for interval in walk.intervals[..n].iter_mut().rev() {
+                    for off in &mut interval.off {
+                        *off += unit * doubt;
+                    }
+                    if walk.last_s - interval.from_s >= time {
+                        break;
+                    }
+                }
+            }
+            doubtful += doubt + astray;
+            let contact = own.unwrap_or(Pressing { delta_v: [0.0; 2], age_s: 0.0 });
+            pressing[j] = Some(Pressing {
+                delta_v: [contact.delta_v[0] + step.delta_v[0], contact.delta_v[1] + step.delta_v[1]],
+                ..contact
+            });
             if rested {
                 // The end that lies there is struck through the bar at the same instant.
-                let (earlier, later) = coupling.doubt(0.0);
-                doubtful += (earlier + later) * last;
+                doubtful += 2.0 * delta_v.abs();
+            }
+            let last = delta_v.abs();
+            adrift += swing.factor * last * (omega * blur * walk.last_s).min(2.0);
+            if n > 0 && walk.intervals[n - 1].slope > 0.0 {
+                // A value that the next shock cuts off is as high as that is late.
+                let cut = &mut walk.intervals[n - 1];
+                for (off, own) in cut.off.iter_mut().zip(step.own) {
+                    *off += own.map_or(0.0, |(after, _)| cut.slope * (omega * (after - gap)).abs().min(2.0));
+                }
             }
             let rate = swing.rate(motion);
             motion.w -= delta_v;
-            let mut interval = Interval { value: if shocks { last } else { 0.0 }, ..Interval::default() };
+            let value = if shocks { last } else { 0.0 };
+            let mut interval = Interval { from_s: walk.last_s, value, ..Interval::default() };
             for k in 0..3 {
                 let mut shock_off = last;
                 if let Some((after, own_delta_v)) = step.own[k] {
@@ -382,9 +461,8 @@ impl Setup {
                         walk.net += own_delta_v;
                     }
                     shock_off = (own_delta_v - delta_v).abs();
-                    // A later strike lets the motion turn further; beyond a radian no further than it is large.
-                    let turned = omega * (after - gap);
-                    let turned = turned / (1.0 + turned.abs());
+                    // A later strike lets the motion turn further, to its opposite at most.
+                    let turned = (omega * (after - gap)).clamp(-2.0, 2.0);
                     off[k].x += rate.x * turned;
                     off[k].w += rate.w * turned - (own_delta_v - delta_v);
                 } else {
@@ -404,7 +482,7 @@ impl Setup {
                 let interval = &mut walk.intervals[n];
                 if !shocks {
                     let top = swing.peak(motion, f64::INFINITY);
-                    (interval.value, interval.phase) = (top.value, top.phase);
+                    (interval.value, interval.phase, interval.slope) = (top.value, top.phase, top.slope);
                 }
                 walk.until_s = f64::INFINITY;
                 (walk.late, walk.extra) = (0.0, 0.0);
@@ -451,22 +529,27 @@ impl<const N: usize> Walk<N> {
     }
 }
 
-/// What impulses in place of pulses change at a peak that stands `phase` after its shock, and the phases ωτ at which a term
-/// linear and one quadratic in them would be 1.
-fn smoothing(swing: &Swing, pulse: &Pulse, turned: f64, phase: f64, zeta: f64) -> (f64, [f64; 2]) {
+/// What impulses in place of pulses change at a peak, and the phases ωτ at which a term linear and one quadratic in them would be 1.
+///
+/// A pulse is an impulse at its centroid, spread by its variance: `½ σ² ω²` of a peak inside the swing, which bends by itself. A peak that
+/// stands where the shock begins is reached when the pulse is over, `age` after the centroid, and has fallen by then:
+/// `slope age + ½ (1 − 2ζ slope) age²`. One that the next shock cuts off is cut off within that pulse.
+fn smoothing(pulse: &Pulse, turned: f64, peak: &Interval, zeta: f64) -> (f64, [f64; 2]) {
     let age = 1.0 - pulse.centroid;
     let half = 0.5 * pulse.variance;
-    let slope = if phase > 0.0 {
-        0.0
-    } else if swing.jump() > 1.0 {
-        // A(0) = 2ζ, A′(0) = 1 − 4ζ² after the jump of the dashpot.
-        (4.0 * zeta * zeta - 1.0) / (2.0 * zeta)
-    } else {
-        1.0
-    };
-    let early = if phase > 0.0 { 0.3 * (turned * age - phase).max(0.0) } else { 0.0 };
-    let smooth = half * turned * turned + slope * age * turned + early;
-    (smooth, [slope * age, half])
+    let slope = if peak.value > 0.0 { -peak.slope / peak.value } else { 0.0 };
+    if slope < 0.0 {
+        let linear = -slope * age.max(pulse.centroid);
+        return (linear * turned + half * turned * turned, [linear, half]);
+    }
+    let late = 0.5 * age * age;
+    if peak.phase > 0.0 {
+        let early = late * (turned - peak.phase / age).max(0.0).powi(2);
+        // A peak as early as this is one that stands at the shock.
+        return (half * turned * turned + early, [0.0, if peak.phase < 0.5 { half + late } else { half }]);
+    }
+    let (linear, square) = (slope * age, half + late * (1.0 - 2.0 * zeta * slope).max(0.0));
+    (linear * turned + square * turned * turned, [linear, square])
 }
 
 impl Forecast {

@@ -69,14 +69,16 @@ pub(crate) fn of_contacts(scene: &Scene, flight: &CompliantFlight, until_s: f64,
         if long < 1e-6 * contact_s {
             continue;
         }
+        // A contact that lasts does most of what it does at first.
+        let first = long.min(contact_s);
         let force = [0.02, 0.5]
             .iter()
-            .fold(0.0_f64, |m, x| flight.sample(from + x * long).force_per_mass_m_s2.iter().fold(m, |m, f| m.max(*f)));
+            .fold(0.0_f64, |m, x| flight.sample(from + x * first).force_per_mass_m_s2.iter().fold(m, |m, f| m.max(*f)));
         if on == [false; 2] || force == 0.0 {
             points.extend([(from, [0.0; 2]), (to, [0.0; 2])]);
             continue;
         }
-        let share = (force * long.min(contact_s) / largest).min(1.0);
+        let share = (force * first / largest).min(1.0);
         let nodes = nodes(rate, from - changed, long, contact_s, (cells * share.sqrt()).max(6.0));
         // Just before its end, not in what follows.
         let last = to - 1e-9 * long.min(contact_s);

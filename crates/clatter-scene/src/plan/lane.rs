@@ -1,10 +1,13 @@
 //! One bar, strike by strike, with as much physics as its lane keeps.
 //!
-//! Between strikes both ends follow parabolas. With real tilt the turning bends them by `−σ L ω² sin φ`: its mean over the flight,
-//! the angle weighed as it acts on the height (⅔ at the beginning, ⅓ at the end) or on the velocity (evenly). A contact moves the bar as one
-//! impulse at its centroid does: beside the jump Δv both ends are set back by Δv times that time.
+//! Between strikes both ends follow parabolas. With real tilt the turning bends them by `−σ L ω² sin φ`: its means over the flight, as
+//! it acts on the height and on the velocity, are series in the angle turned, whose fifth powers are left out. A contact moves the bar as one
+//! impulse at its centroid does: beside the jump Δv both ends are set back by Δv times that time. The jump grows by what the contact
+//! carries of the weight.
 
 use clatter::flight::Scene;
+
+use super::pulse::Pulse;
 
 /// What all lanes share.
 #[derive(Debug, Clone, Copy)]
@@ -52,8 +55,9 @@ pub(super) struct Lane {
     velocity: [f64; 2],
     gravity: f64,
     tilts: bool,
-    /// Time from touch to centroid.
+    /// Time from touch to centroid, and in which the weight gives what a contact carries of it.
     delay: f64,
+    carried: f64,
     /// An end that lies on the ground, and the other turns about it.
     down: Option<usize>,
 }
@@ -61,21 +65,44 @@ pub(super) struct Lane {
 /// An end whose bounces all end within this share of the time that the other needs to land is down at once.
 const BRIEF: f64 = 0.05;
 
+/// The turning of a lane: sine of the angle, its rate, and the spin squared.
+#[derive(Debug, Clone, Copy)]
+struct Sweep {
+    sin: f64,
+    rate: f64,
+    spin2: f64,
+}
+
+/// cos² of the angle from which on a bar counts as upright: its sine no longer tells how fast it turns.
+const LEAST_COS2: f64 = 1e-3;
+
+impl Sweep {
+    /// Means of sin φ over a time, as it acts on heights and on velocities: series of `2 (sin φ + x cos φ − sin(φ + x))/x²` and
+    /// `(cos φ − cos(φ + x))/x`, x = ω t.
+    fn means(&self, t: f64) -> [f64; 2] {
+        let (x2, turned) = (self.spin2 * t * t, self.rate * t);
+        [
+            self.sin * (1.0 - x2 / 12.0) + turned * (1.0 / 3.0 - x2 / 60.0),
+            self.sin * (1.0 - x2 / 6.0) + turned * (0.5 - x2 / 24.0),
+        ]
+    }
+}
+
 /// The next strike of a lane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Next {
     pub(super) end: usize,
     /// Time since the last one.
     pub(super) after: f64,
-    /// Downward accelerations that bring the ends there.
-    fall: [f64; 2],
+    /// Downward acceleration of an end that turns about the other.
+    turning: f64,
     /// Whether the bar turns upright or over before: what strikes then is not known from parabolas.
     pub(super) tumbles: bool,
 }
 
 impl Next {
     /// The first touch.
-    pub(super) const FIRST: Self = Self { end: 0, after: 0.0, fall: [0.0; 2], tumbles: false };
+    pub(super) const FIRST: Self = Self { end: 0, after: 0.0, turning: 0.0, tumbles: false };
 }
 
 /// Time until `h + v t − ½ g t²` comes to 0, the later root where it starts upward; 0 where it is below.
@@ -105,12 +132,13 @@ impl Lane {
             gravity: 0.0,
             tilts: false,
             delay: 0.0,
+            carried: 0.0,
             down: None,
         }
     }
-    /// A body in flight with these heights and velocities of its ends.
+    /// A body in flight, at any angle, with these heights and velocities of its ends.
     pub(super) fn of(height: [f64; 2], velocity: [f64; 2], gravity: f64) -> Self {
-        Self { height, velocity, gravity, tilts: false, delay: 0.0, down: None }
+        Self { height, velocity, gravity, tilts: true, delay: 0.0, carried: 0.0, down: None }
     }
     pub(super) fn with_gravity(self, gravity: f64) -> Self {
         Self { gravity, ..self }
@@ -118,19 +146,15 @@ impl Lane {
     pub(super) fn with_tilt(self) -> Self {
         Self { tilts: true, ..self }
     }
-    pub(super) fn with_delay(self, delay: f64) -> Self {
-        Self { delay, ..self }
+    pub(super) fn with_contact(self, pulse: &Pulse, time: f64) -> Self {
+        Self { delay: time * pulse.centroid, carried: time * pulse.carried, ..self }
     }
-    /// Upward bend of the parabola of end i while the sine of the angle is `sin`.
-    fn bend(&self, ends: &Ends, i: usize, sin: f64) -> f64 {
-        let spin = (self.velocity[1] - self.velocity[0]) / ends.length();
-        let arm = if i == 0 { -ends.arm[0] } else { ends.arm[1] };
-        arm * spin * spin * sin
-    }
-    /// Sine of the angle now and after a time.
-    fn sines(&self, ends: &Ends, after: f64) -> (f64, f64) {
-        let sin = (self.height[1] - self.height[0]) / ends.length();
-        (sin, sin + after * (self.velocity[1] - self.velocity[0]) / ends.length())
+    fn sweep(&self, ends: &Ends) -> Sweep {
+        let over = 1.0 / ends.length();
+        let sin = over * (self.height[1] - self.height[0]);
+        let rate = over * (self.velocity[1] - self.velocity[0]);
+        let cos2 = ((1.0 - sin) * (1.0 + sin)).max(LEAST_COS2);
+        Sweep { sin, rate, spin2: rate * rate / cos2 }
     }
     /// The next strike; `None` if nothing falls.
     pub(super) fn next(&self, ends: &Ends) -> Option<Next> {
@@ -139,50 +163,85 @@ impl Lane {
             let j = 1 - i;
             let turning = g * (1.0 + ends.ratio(i, 1.0));
             let after = fall(self.height[j], self.velocity[j], turning);
-            let mut fall = [0.0; 2];
-            fall[j] = turning;
-            return (after < f64::INFINITY).then_some(Next { end: j, after, fall, tumbles: false });
+            return (after < f64::INFINITY).then_some(Next { end: j, after, turning, tumbles: false });
         }
         let lands = |i: usize, down: f64| fall(self.height[i], self.velocity[i], down);
         let mut times = [lands(0, g), lands(1, g)];
-        let mut down = [g; 2];
         let first = times[0].min(times[1]);
-        if self.tilts && first < f64::INFINITY {
-            let (from, to) = self.sines(ends, first);
-            let sin = (2.0 * from + to) / 3.0;
-            down = [g + self.bend(ends, 0, sin), g + self.bend(ends, 1, sin)];
-            times = [lands(0, down[0]), lands(1, down[1])];
+        if first == f64::INFINITY {
+            return None;
         }
+        if !self.tilts {
+            return Some(Next { end: usize::from(times[1] < times[0]), after: first, turning: 0.0, tumbles: false });
+        }
+        let sweep = self.sweep(ends);
+        let [a, b] = ends.arm;
+        let bend = sweep.spin2 * sweep.means(first)[0];
+        times = [lands(0, g - a * bend), lands(1, g + b * bend)];
         let end = usize::from(times[1] < times[0]);
-        let tumbles = self.tilts && self.sines(ends, times[end]).1.abs() > 1.0;
-        (times[end] < f64::INFINITY).then_some(Next { end, after: times[end], fall: down, tumbles })
+        let mut after = times[end];
+        if after == f64::INFINITY {
+            return None;
+        }
+        // The bend was that of another time: once more, as a straight line.
+        let arm = if end == 0 { -a } else { b };
+        let [height, velocity] = sweep.means(after).map(|mean| g + arm * sweep.spin2 * mean);
+        let (low, speed) = (
+            self.height[end] + after * (self.velocity[end] - 0.5 * height * after),
+            self.velocity[end] - velocity * after,
+        );
+        if speed < 0.0 {
+            after = (after - (low / speed).clamp(-0.1 * after, 0.1 * after)).max(0.0);
+        }
+        let tumbles = (sweep.sin + after * sweep.rate).abs() > 1.0;
+        Some(Next { end, after, turning: 0.0, tumbles })
     }
     /// Flies and strikes; returns the velocity shocks of both ends.
     pub(super) fn strike(&mut self, ends: &Ends, next: &Next) -> [f64; 2] {
         let (i, t) = (next.end, next.after);
+        let mut falls = [self.gravity; 2];
         if self.down.take().is_some() {
-            self.velocity[i] -= t * next.fall[i];
+            self.velocity[i] -= t * next.turning;
         } else {
-            let (from, to) = self.sines(ends, t);
-            let sin = 0.5 * (from + to);
-            let swept = if self.tilts { [self.bend(ends, 0, sin), self.bend(ends, 1, sin)] } else { [0.0; 2] };
-            for (k, swept) in swept.into_iter().enumerate() {
-                self.height[k] += t * (self.velocity[k] - 0.5 * next.fall[k] * t);
-                self.velocity[k] -= t * (self.gravity + swept);
+            let mut sinks = falls;
+            if self.tilts {
+                let sweep = self.sweep(ends);
+                let [height, velocity] = sweep.means(t);
+                for (k, arm) in [-ends.arm[0], ends.arm[1]].into_iter().enumerate() {
+                    sinks[k] += arm * sweep.spin2 * height;
+                    falls[k] += arm * sweep.spin2 * velocity;
+                }
+            }
+            for k in 0..2 {
+                self.height[k] += t * (self.velocity[k] - 0.5 * sinks[k] * t);
+                self.velocity[k] -= t * falls[k];
             }
         }
         self.height[i] = 0.0;
         let sin = if self.tilts { (self.height[1 - i] / ends.length()).clamp(-0.9, 0.9) } else { 0.0 };
         let ratio = ends.ratio(i, (1.0 - sin) * (1.0 + sin));
-        let jump = -(1.0 + ends.e) * self.velocity[i].min(0.0);
+        let jump = self.carried * falls[i].max(0.0) - (1.0 + ends.e) * self.velocity[i].min(0.0);
         let mut delta_v = [-ratio * jump; 2];
         delta_v[i] = jump;
         for (k, jump) in delta_v.into_iter().enumerate() {
             self.height[k] -= jump * self.delay;
             self.velocity[k] += jump;
         }
+        if self.tilts && self.delay > 0.0 {
+            self.turn_back(ends, sin);
+        }
         self.settle(ends, i, ratio);
         delta_v
+    }
+    /// Set back from the sine of an angle, the spin is the same, and its vertical part is not.
+    fn turn_back(&mut self, ends: &Ends, from: f64) {
+        let [a, b] = ends.arm;
+        let over = 1.0 / ends.length();
+        let to = over * (self.height[1] - self.height[0]);
+        let squares = ((1.0 - to) * (1.0 + to)).max(LEAST_COS2) / ((1.0 - from) * (1.0 + from));
+        let change = over * (self.velocity[1] - self.velocity[0]) * (squares.sqrt() - 1.0);
+        self.velocity[0] -= a * change;
+        self.velocity[1] += b * change;
     }
     /// Lets end i lie where it would bounce ever less for a short while: bounces of w, e w, … last 2S/g in all, S = w/(1 − e).
     fn settle(&mut self, ends: &Ends, i: usize, ratio: f64) {
@@ -192,6 +251,11 @@ impl Lane {
         if self.height[j] > 0.0 && w >= 0.0 && lasts < BRIEF * fall(self.height[j], self.velocity[j], self.gravity) {
             self.height[j] += lasts * (self.velocity[j] - sum);
             self.velocity[j] -= (2.0 + ratio * (1.0 + ends.e)) * sum;
+            if self.tilts {
+                // It lands with what its spin has, of which this is the vertical part.
+                let sin = (self.height[j] / ends.length()).min(0.9);
+                self.velocity[j] /= ((1.0 - sin) * (1.0 + sin)).sqrt();
+            }
             (self.height[i], self.velocity[i], self.down) = (0.0, 0.0, Some(i));
         }
     }
@@ -204,9 +268,10 @@ impl Lane {
         let [a, b] = ends.arm;
         let length = ends.length();
         let center = (b * self.velocity[0] + a * self.velocity[1]) / length;
-        let spin = (self.velocity[1] - self.velocity[0]) / length;
+        let sweep = self.sweep(ends);
+        let spin2 = if self.tilts { sweep.spin2 } else { sweep.rate * sweep.rate };
         let height = ((b * self.height[0] + a * self.height[1]) / length).max(0.0);
-        center * center + ends.gyration2 * spin * spin + 2.0 * self.gravity * height
+        center * center + ends.gyration2 * spin2 + 2.0 * self.gravity * height
     }
     /// Bound on the speed at the component from here on.
     pub(super) fn reach(&self, ends: &Ends) -> f64 {

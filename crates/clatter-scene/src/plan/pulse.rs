@@ -18,6 +18,9 @@ pub(crate) struct Pulse {
     pub(crate) centroid: f64,
     /// Its variance about the mean.
     pub(crate) variance: f64,
+    /// Share of a steady load over the contact time that the contact takes up beside its shock: `1 − s(1)`, with s the motion after
+    /// a unit of velocity, since at the parting no force is left.
+    pub(crate) carried: f64,
 }
 
 /// Cells of the table over −ln e, from e = 1 to 0.01.
@@ -39,7 +42,7 @@ impl Pulse {
     fn fitted(e: f64) -> Self {
         let Ok(contact) = Contact::new(e, 1.0) else { unreachable!("e is in [0.01, 1]") };
         let (frequency, damping) = (contact.frequency_rad_s(), contact.damping_ratio());
-        let mut pulse = Self { e, frequency, damping, centroid: 0.0, variance: 0.0 };
+        let mut pulse = Self { e, frequency, damping, centroid: 0.0, variance: 0.0, carried: 0.0 };
         // ∫ s dt and ∫ 2 t s dt of the share s to come are the first two moments; by Simpson.
         let n = 512;
         for k in 0..=n {
@@ -56,6 +59,7 @@ impl Pulse {
             pulse.variance += 2.0 * t * s;
         }
         pulse.variance -= pulse.centroid * pulse.centroid;
+        pulse.carried = 1.0 - pulse.motion(1.0).1;
         pulse
     }
     /// The pulse for restitution e; below 0.01 the one of 0.01.
@@ -72,6 +76,7 @@ impl Pulse {
             damping: mix(a.damping, b.damping),
             centroid: mix(a.centroid, b.centroid),
             variance: mix(a.variance, b.variance),
+            carried: mix(a.carried, b.carried),
         }
     }
     /// Cosine-like and sine-like part of the motion after the time t, damped.
@@ -100,6 +105,10 @@ impl Pulse {
         let sigma = self.damping * self.frequency;
         let (c, s) = self.motion(t);
         (self.frequency * self.frequency * s + 2.0 * sigma * (c - sigma * s)) / (1.0 + self.e)
+    }
+    /// What its dashpot holds back, over its speed: at the parting the end is below the ground by this and the rebound.
+    pub(super) fn delay(&self) -> f64 {
+        2.0 * self.damping / self.frequency
     }
     /// The fastest rate of change of the pulse.
     pub(super) fn rate(&self) -> f64 {
@@ -149,6 +158,7 @@ mod tests {
                 (read.damping, fitted.damping),
                 (read.centroid, fitted.centroid),
                 (read.variance, fitted.variance),
+                (read.carried, fitted.carried),
             ] {
                 assert!((a - b).abs() < 3e-4 * b.max(0.1), "e {e}: {a} {b}");
             }

@@ -59,9 +59,13 @@ impl Setup {
         // What long contacts did, however it turned since.
         let mut loose = 0.0_f64;
         let phase = |shock: &LoneShock| omega * (shock.next_s - shock.from_s);
-        let turns: Vec<_> =
-            shocks.iter().filter(|shock| shock.next_s < f64::INFINITY).map(|shock| swing.turn(phase(shock))).collect();
-        for (k, (shock, turn)) in shocks.iter().zip(&turns).enumerate() {
+        // Of a contact that lasts, the end may be what shocks: what is loose fades from its parting on.
+        let turns: Vec<_> = shocks
+            .iter()
+            .filter(|shock| shock.next_s < f64::INFINITY)
+            .map(|shock| (swing.turn(phase(shock)), swing.fade(omega * (shock.next_s - shock.parted_s))))
+            .collect();
+        for (k, (shock, (turn, fade))) in shocks.iter().zip(&turns).enumerate() {
             let mut rings = 0.0;
             if velocity_shock {
                 peak = peak.max(shock.net.abs() / ((shock.parted_s - shock.from_s) / contact_s).max(1.0).ceil());
@@ -79,7 +83,7 @@ impl Setup {
                 }
                 motion = swing.after(turn, motion);
                 peak = peak.max((swing.quantity(motion).abs() - loose) / flat);
-                loose *= turn.fade;
+                loose *= fade;
                 rings = swing.bound(motion) + loose;
             }
             // All later shocks that are known, as if in phase, then all others.
@@ -90,7 +94,7 @@ impl Setup {
                 }
                 later += swing.factor * next.gross;
                 let low = later < CLEAR * peak;
-                later *= turns.get(k + 1 + i).map_or(1.0, |turn| turn.fade);
+                later *= turns.get(k + 1 + i).map_or(1.0, |(_, fade)| *fade);
                 low
             });
             if low && (if velocity_shock { beyond } else { later + beyond }) < CLEAR * peak {

@@ -36,6 +36,8 @@ pub(super) struct Turn {
 pub(super) struct Peak {
     pub(super) value: f64,
     pub(super) phase: f64,
+    /// Rate of the value by the phase, where it falls from the start.
+    pub(super) slope: f64,
 }
 
 impl Swing {
@@ -51,22 +53,22 @@ impl Swing {
     pub(super) fn quantity(&self, m: Motion) -> f64 {
         self.row[0] * m.x + self.row[1] * m.w
     }
-    /// How much of Q a jump of w is at once.
-    pub(super) fn jump(&self) -> f64 {
-        self.row[1]
-    }
     /// Derivative by the phase.
     pub(super) fn rate(&self, m: Motion) -> Motion {
         Motion { x: m.w, w: -m.x - 2.0 * self.zeta * m.w }
     }
+    /// What a phase leaves of the slowest mode.
+    pub(super) fn fade(&self, theta: f64) -> f64 {
+        libm::exp(if self.swings { -self.zeta * theta } else { -theta / (self.zeta + self.beta) })
+    }
     pub(super) fn turn(&self, theta: f64) -> Turn {
         let (z, b) = (self.zeta, self.beta);
         if self.swings {
-            let fade = libm::exp(-z * theta);
+            let fade = self.fade(theta);
             let (s, c) = libm::sincos((b * theta).min(1e15));
             Turn { c: fade * c, s: fade * s / b, fade }
         } else {
-            let (fade, fast) = (libm::exp(-theta / (z + b)), libm::exp(-(z + b) * theta));
+            let (fade, fast) = (self.fade(theta), libm::exp(-(z + b) * theta));
             Turn { c: 0.5 * (fade + fast), s: 0.5 * (fade - fast) / b, fade }
         }
     }
@@ -76,20 +78,27 @@ impl Swing {
     }
     /// Largest |Q| of the free motion from m before the phase `until`: its start or its first turning point.
     pub(super) fn peak(&self, m: Motion, until: f64) -> Peak {
-        let start = Peak { value: self.quantity(m).abs(), phase: 0.0 };
-        let rate = self.rate(m);
+        let (now, rate) = (self.quantity(m), self.rate(m));
         let (slope, bend) = (self.quantity(rate), self.quantity(self.rate(rate)));
+        let start = Peak { value: now.abs(), phase: 0.0, slope: (slope * now.signum()).min(0.0) };
         let turn = if self.swings {
             let sine = (bend + self.zeta * slope) / self.beta;
             let phase = libm::atan2(slope.abs(), if slope < 0.0 { sine } else { -sine }) / self.beta;
-            (phase > 0.0 && phase < until)
-                .then(|| Peak { value: self.amplitude(m) * libm::exp(-self.zeta * phase), phase })
+            (phase > 0.0 && phase < until).then(|| Peak {
+                value: self.amplitude(m) * libm::exp(-self.zeta * phase),
+                phase,
+                slope: 0.0,
+            })
         } else {
             // slope = C e^(−(ζ−β)θ) + D e^(−(ζ+β)θ)
             let slow = (bend + (self.zeta + self.beta) * slope) / (2.0 * self.beta);
             let ratio = 1.0 - slope / slow;
             let phase = if ratio > 1.0 { libm::log(ratio) / (2.0 * self.beta) } else { f64::INFINITY };
-            (phase < until).then(|| Peak { value: self.quantity(self.after(&self.turn(phase), m)).abs(), phase })
+            (phase < until).then(|| Peak {
+                value: self.quantity(self.after(&self.turn(phase), m)).abs(),
+                phase,
+                slope: 0.0,
+            })
         };
         turn.filter(|t| t.value > start.value).unwrap_or(start)
     }

@@ -9,6 +9,8 @@ use super::pulse::Pulse;
 /// A strike of the lane with all physics, and the same one in the others.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Step {
+    /// The end that strikes.
+    pub(super) end: usize,
     /// Velocity shocks of both ends.
     pub(super) delta_v: [f64; 2],
     /// Time since the last one and shocks in the map, as parabolas and with real tilt; `None` once a lane had another strike.
@@ -50,7 +52,7 @@ impl Trail {
         let g = scene.gravity_m_s2();
         let start = Lane::start(scene, 1.0);
         let tilted = Lane::start(scene, libm::cos(scene.tilt_rad())).with_gravity(g).with_tilt();
-        let full = tilted.with_delay(contact_time_s.unwrap_or(0.0) * pulse.centroid);
+        let full = tilted.with_contact(&pulse, contact_time_s.unwrap_or(0.0));
         Self {
             ends,
             pulse,
@@ -100,6 +102,7 @@ impl Trail {
         self.alive = [own[0].is_some(), own[1].is_some(), own[2].is_some()];
         self.next = self.full.next(ends);
         self.steps.push(Step {
+            end: next.end,
             delta_v,
             own,
             twice_energy: self.full.twice_energy(ends),

@@ -49,7 +49,7 @@
 use super::ballistic::Clock;
 use super::finite_tilt::{Pose, end_of, sigma};
 use super::roots::{first_zero, safe_step};
-use super::{Flight, Log, SHARE, Scene, Stop};
+use super::{Flight, Log, SHARE, Scene, Stop, Strike};
 use crate::{End, Error};
 
 /// Natural frequency and damping ratio of a lone contact.
@@ -294,6 +294,13 @@ impl Phase {
     fn impulses(&self, t: f64) -> [f64; 2] {
         self.solve([0, 1].map(|i| self.end(i, t)[1] - self.start.ends.v[i] + self.fall[i] * t))
     }
+    /// Adds to a strike of end k what its impulse does to both ends.
+    fn push(&self, strike: &mut Strike, k: usize, impulses: [f64; 2]) {
+        let delta = if k == 0 { [self.mu[0], self.cross] } else { [self.cross, self.mu[1]] };
+        for (d, m) in strike.delta_v_m_s.iter_mut().zip(delta) {
+            *d += m * impulses[k];
+        }
+    }
     /// The pose at time t: angle and spin are what the impulses give. `free`: so are the velocities of both ends, by that of
     /// the center, which keeps the energy; else the end in contact keeps its own, and lies still if it did. `parts`: the
     /// center is where the impulses have brought it, which keeps the energy too; else the end in contact is where its
@@ -455,7 +462,8 @@ pub struct Pulse {
 /// A flight with contacts that take time, and its whole history.
 #[derive(Debug, Clone)]
 pub struct CompliantFlight {
-    /// Strikes and stop; times are those of touching, Δv is what the force of that contact does in all.
+    /// Strikes and stop; times are those of touching, Δv is what the force of that contact does in all: of one that stays down for
+    /// good until both ends are still, from when neither parts any more beside carrying the weight.
     pub flight: Flight,
     /// Beginning and end of each strike's contact.
     pub pulses: Vec<Pulse>,
@@ -530,6 +538,12 @@ pub(super) fn simulate(scene: &Scene, contact: Contact) -> CompliantFlight {
         if event.is_none() && phase.both() {
             // Neither end will ever part: proven by the energy of the vibration.
             let time_bound_s = phase.ringing_s();
+            let impulses = phase.solve(pose.ends.v.map(|v| -v));
+            for (k, last) in strike_of.into_iter().enumerate() {
+                let strike = &mut log.flight.strikes[last];
+                phase.push(strike, k, impulses);
+                (strike.velocity_m_s, strike.spin_rad_s) = ([0.0; 2], 0.0);
+            }
             log.flight.stop = Stop::AtRest { time_s: time.now(), time_bound_s, shock_bound_m_s: 0.0 };
             break;
         }
@@ -558,11 +572,7 @@ pub(super) fn simulate(scene: &Scene, contact: Contact) -> CompliantFlight {
             pose = phase.pose(dt, !long, !long && event.is_some_and(|(i, ..)| on[i]));
             misfit += (pose.energy() - phase.start.energy() - phase.work(dt)).abs();
             for k in (0..2).filter(|&k| on[k]) {
-                let delta = if k == 0 { [phase.mu[0], phase.cross] } else { [phase.cross, phase.mu[1]] };
-                let strike = &mut log.flight.strikes[strike_of[k]];
-                for (d, m) in strike.delta_v_m_s.iter_mut().zip(delta) {
-                    *d += m * impulses[k];
-                }
+                phase.push(&mut log.flight.strikes[strike_of[k]], k, impulses);
             }
         }
         long = event.is_none();
