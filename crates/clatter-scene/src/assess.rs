@@ -4,7 +4,7 @@ use clatter_shock::Peaked;
 use rayon::prelude::*;
 
 use crate::base::{Base, SingleDrop};
-use crate::demand::{Demand, Heard};
+use crate::demand::Demand;
 use crate::guaranteed::{self, Asked, Ranges, Trains};
 use crate::models;
 use crate::plan::{ComponentRung, Pair};
@@ -147,7 +147,8 @@ impl ProductFile {
         let frequency_hz = demand.frequencies().map(|f| (worst.omega / omega).clamp(f.lo(), f.hi()));
         let base = Base::new(&self.product, &drop, BarModel::Map)?;
         let at = Component { position_m: worst.variant.position_m, extent_m: 0.0, ..component.clone() };
-        let reached = demand.reached(&base, &at, frequency_hz.unwrap_or(0.0), &mut Heard::new(false))?;
+        let reached = demand.reached(&base, &at, frequency_hz.unwrap_or(0.0), false, Demand::ANY)?;
+        let Some(reached) = reached else { unreachable!("any is asked for") };
         let component_model =
             if matches!(asked, Asked::Shock) { ComponentModel::LargestShock } else { ComponentModel::ImpulseTrain };
         let quantity = match asked {

@@ -6,7 +6,7 @@ use clatter_shock::{State, Suspension};
 use rayon::prelude::*;
 
 use crate::base::{Base, SingleDrop};
-use crate::demand::{Demand, Heard};
+use crate::demand::Demand;
 use crate::design::{Bounds, Remedy};
 use crate::{Assessment, BarModel, Component, ComponentModel, Error, LimitAssessment, LimitKind, ProductFile, Unit};
 
@@ -141,7 +141,8 @@ impl ProductFile {
                     let drop = SingleDrop { first, tilt_rad, speed_m_s, restitution, ..worst };
                     let base = Base::new(&self.product, &drop, limit.model.bar)?;
                     for &frequency in &frequencies {
-                        most = most.max(demand.reached(&base, component, frequency, &mut Heard::new(pulses))?.value);
+                        let reached = demand.reached(&base, component, frequency, pulses, most)?;
+                        most = reached.map_or(most, |reached| reached.value);
                     }
                 }
             }

@@ -6,7 +6,7 @@ use clatter_shock::DampingRatio;
 use rayon::prelude::*;
 
 use crate::base::{Base, SingleDrop};
-use crate::demand::{Demand, Heard};
+use crate::demand::Demand;
 use crate::{
     Assessment, BarModel, Component, ComponentAssessment, ComponentModel, Error, Law, Mount, Product, ProductFile,
     Spread, Verdict,
@@ -396,11 +396,13 @@ fn breaks(file: &ProductFile, breaker: &Breaker) -> bool {
         Mount::Hard => 0.0,
     };
     let Ok(base) = Base::new(&file.product, &drop, breaker.model) else { return false };
-    let mut heard = Heard::new(breaker.pulses);
     Demand::of(component).iter().any(|demand| {
-        demand.reached(&base, component, frequency_hz, &mut heard).is_ok_and(|reached| {
-            let settled = demand.settle(reached.value, file.product.contact_time_s);
-            settled.factor * reached.value > settled.allowed
+        let reached = demand.reached(&base, component, frequency_hz, breaker.pulses, 0.0);
+        reached.is_ok_and(|reached| {
+            reached.is_some_and(|reached| {
+                let settled = demand.settle(reached.value, file.product.contact_time_s);
+                settled.factor * reached.value > settled.allowed
+            })
         })
     })
 }
