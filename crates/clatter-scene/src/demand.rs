@@ -123,22 +123,14 @@ impl Demand {
         let omega = std::f64::consts::TAU * frequency_hz;
         if self.kind == LimitKind::Acceleration { omega * self.factor } else { self.factor / omega }
     }
-    /// What one drop does to it, at the worse end of the component, if that passes `above`; of a suspended part to the pulses of contacts
-    /// where `pulses` asks for them.
-    pub(crate) fn reached(
-        &self,
-        base: &Base,
-        component: &Component,
-        frequency_hz: f64,
-        pulses: bool,
-        above: f64,
-    ) -> Result<Option<Reached>, Error> {
+    /// What one drop does to it by velocity shocks, at the worse end of the component.
+    pub(crate) fn reached(&self, base: &Base, component: &Component, frequency_hz: f64) -> Result<Reached, Error> {
         let mut worst: Option<Reached> = None;
         for position_m in component.ends_m() {
-            let above = worst.map_or(above, |worst| worst.value);
-            worst = self.reached_at(base, position_m, frequency_hz, pulses, f64::INFINITY, above)?.or(worst);
+            let above = worst.map_or(Self::ANY, |worst| worst.value);
+            worst = self.reached_at(base, position_m, frequency_hz, false, f64::INFINITY, above)?.or(worst);
         }
-        Ok(worst)
+        Ok(worst.unwrap_or_else(|| unreachable!("a component has an end")))
     }
     /// What one drop does to it at a place until a time, if that passes `above`.
     pub(crate) fn reached_at(

@@ -20,7 +20,10 @@ use crate::demand::{Demand, Reached};
 use crate::plan::demand::fineness;
 use crate::plan::trail::Trail;
 use crate::plan::{BarRung, ComponentRung, Pair, Plan, Quantity, Setup};
-use crate::{Accuracy, BarModel, Component, Drop, Error, LimitKind, Mount, Product, Spread, WorstCase};
+use crate::{
+    Accuracy, BarModel, Component, ComponentModel, Drop, Error, LimitKind, ModelChoice, Mount, Product, Spread,
+    WorstCase,
+};
 
 /// Steps along the tilt; even in its square root, because contacts overlap at small tilts and gaps grow from there.
 const TILTS: u32 = 16;
@@ -57,13 +60,14 @@ pub(crate) struct Task<'a> {
     pub(crate) proven: Option<f64>,
 }
 
-/// The product and the ranges of its drop.
-#[derive(Debug, Clone, Copy)]
+/// The product and the ranges of its drop, and the drops as far as they were followed: they are the same for all parts.
 pub(crate) struct Field<'a> {
     pub(crate) product: &'a Product,
     pub(crate) drop: &'a Drop,
     pub(crate) accuracy: Accuracy,
     cells: Cells,
+    grid: OnceLock<Result<Grid, Error>>,
+    beside: Beside,
 }
 
 /// Where in its range each quantity is, from 0 to 1, and where in the component.
@@ -86,6 +90,8 @@ struct Slot {
     contacts: [OnceLock<Result<Base, Error>>; 2],
 }
 
+/// Drops of the grid.
+type Grid = Vec<(Place, Arc<Slot>)>;
 /// Drops beside the grid: first end and shares of tilt, speed and restitution.
 type Beside = Mutex<HashMap<(bool, [u64; 3]), Arc<Slot>>>;
 
@@ -112,6 +118,18 @@ fn shares(steps: u32, fixed: bool) -> impl Iterator<Item = f64> + Clone {
     (0..=steps).map(move |i| if steps == 0 { 0.0 } else { f64::from(i) / f64::from(steps) })
 }
 
+/// The pair behind a demand.
+pub(crate) fn pair_of(model: &ModelChoice) -> Pair {
+    let bar = match model.bar {
+        BarModel::Map => BarRung::Map,
+        BarModel::Ballistic => BarRung::Ballistic,
+        BarModel::FiniteTilt => BarRung::FiniteTilt,
+        BarModel::Compliant => BarRung::Compliant,
+    };
+    let pulses = model.component == ComponentModel::PulseTrain;
+    Pair { bar, component: if pulses { ComponentRung::PulseTrain } else { ComponentRung::ImpulseTrain } }
+}
+
 /// How the bar moves; sums of the closed form are taken strike by strike where flights are shared.
 pub(crate) fn bar_model(pair: Pair) -> BarModel {
     match pair.bar {
@@ -132,7 +150,7 @@ impl<'a> Field<'a> {
         let finest = finest.map(|part| fineness(&part, contact)).fold(0.5, f64::max);
         let most = finest * FINE.0 * (FINE.1 / (POLYGONS * accuracy.tolerance)).sqrt();
         let cells = Cells { most, fineness: finest };
-        Self { product, drop, accuracy, cells }
+        Self { product, drop, accuracy, cells, grid: OnceLock::new(), beside: Beside::default() }
     }
 
     fn single(&self, place: &Place) -> SingleDrop {
@@ -190,8 +208,26 @@ impl<'a> Field<'a> {
         Ok(Slot { number, drop, scene, trail: OnceLock::new(), strikes, contacts })
     }
 
+    /// A drop beside the grid.
+    fn slot_beside(&self, place: &Place) -> Result<Arc<Slot>, Error> {
+        let (first, _) = self.followed(place);
+        let [tilt, speed, restitution, _] = place.shares.map(f64::to_bits);
+        let key = (first == End::B, [tilt, speed, restitution]);
+        let known = self.beside.lock().unwrap_or_else(PoisonError::into_inner).get(&key).map(Arc::clone);
+        if let Some(slot) = known {
+            return Ok(slot);
+        }
+        let slot = Arc::new(self.slot(place)?);
+        let mut beside = self.beside.lock().unwrap_or_else(PoisonError::into_inner);
+        Ok(Arc::clone(beside.entry(key).or_insert(slot)))
+    }
+
     /// The drops of the grid.
-    fn slots(&self) -> Result<Vec<(Place, Arc<Slot>)>, Error> {
+    fn slots(&self) -> Result<&[(Place, Arc<Slot>)], Error> {
+        self.grid.get_or_init(|| self.sow()).as_deref().map_err(Clone::clone)
+    }
+
+    fn sow(&self) -> Result<Grid, Error> {
         let [slow, fast] = self.drop.speeds_m_s();
         let mut slots = Vec::new();
         for &first in if self.turns() { &self.drop.first_ends()[..1] } else { self.drop.first_ends() } {
@@ -220,15 +256,35 @@ impl<'a> Field<'a> {
     /// A drop that a model does not take.
     pub(crate) fn worst(&self, tasks: &[Task<'_>]) -> Result<Vec<Option<Found>>, Error> {
         let slots = self.slots()?;
-        let beside = Beside::default();
         let components: Vec<_> = tasks.chunk_by(|a, b| std::ptr::eq(a.component, b.component)).collect();
         let found = components.into_par_iter().map(|tasks| {
-            let each = tasks.iter().zip(self.grids(tasks, &slots)?).map(|(task, grid)| {
-                Search { field: self, task, beside: &beside, known: Known::new(), best: None }.run(grid)
-            });
+            let grids = self.grids(tasks, slots)?;
+            let each = tasks.iter().zip(grids).map(|(task, grid)| Search::new(self, task, 0.0).run(grid));
             each.collect::<Result<Vec<_>, Error>>()
         });
         Ok(found.collect::<Result<Vec<_>, Error>>()?.into_iter().flatten().collect())
+    }
+
+    /// What the worst of some places reaches by one pair of models, if that passes `above`.
+    ///
+    /// # Errors
+    /// As [`worst`](Self::worst).
+    pub(crate) fn most(
+        &self,
+        task: &Task<'_>,
+        pair: Pair,
+        places: impl IntoIterator<Item = Place>,
+        above: f64,
+    ) -> Result<Option<Reached>, Error> {
+        let mut search = Search::new(self, task, above);
+        for place in places {
+            let (slot, at_most) = (self.slot_beside(&place)?, f64::INFINITY);
+            let candidate = Candidate { place, slot, pair, within: true, about: at_most, at_most, until_s: at_most };
+            if search.may_be_worst(&candidate)? {
+                search.consider(&candidate)?;
+            }
+        }
+        Ok(search.best.map(|(_, reached)| reached).filter(|reached| reached.value > above))
     }
 
     /// The pairs over the grid, for one demand.
@@ -236,7 +292,7 @@ impl<'a> Field<'a> {
     /// # Errors
     /// As [`worst`](Self::worst).
     pub(crate) fn pairs(&self, task: &Task<'_>) -> Result<Vec<Pair>, Error> {
-        let grids = self.grids(std::slice::from_ref(task), &self.slots()?)?;
+        let grids = self.grids(std::slice::from_ref(task), self.slots()?)?;
         Ok(grids.into_iter().flatten().map(|c| c.pair).collect())
     }
 
@@ -434,12 +490,17 @@ impl Ord for Open {
 struct Search<'a> {
     field: &'a Field<'a>,
     task: &'a Task<'a>,
-    beside: &'a Beside,
+    /// What a place must pass to count.
+    above: f64,
     known: Known,
     best: Option<(Candidate, Reached)>,
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    fn new(field: &'a Field<'a>, task: &'a Task<'a>, above: f64) -> Self {
+        Self { field, task, above, known: Known::new(), best: None }
+    }
+
     fn run(mut self, mut grid: Vec<Candidate>) -> Result<Option<Found>, Error> {
         if self.task.proven.is_some() && self.field.accuracy.model.is_none() {
             grid.retain(|c| !self.is_proven(c));
@@ -470,7 +531,7 @@ impl Search<'_> {
     /// What a place must pass to count.
     fn worst(&self) -> f64 {
         let proven = if self.field.accuracy.model.is_none() { self.task.proven } else { None };
-        self.best.as_ref().map_or(0.0, |(_, reached)| reached.value).max(proven.unwrap_or(0.0))
+        self.best.as_ref().map_or(self.above, |(_, reached)| reached.value).max(proven.unwrap_or(0.0))
     }
 
     /// Whether the plan of a place knows nothing that the proof does not know.
@@ -602,17 +663,7 @@ impl Search<'_> {
 
     /// A place beside the grid, as it is foreseen; of one drop all that was worked out is kept.
     fn foresee(&self, place: Place) -> Result<Candidate, Error> {
-        let (first, _) = self.field.followed(&place);
-        let [tilt, speed, restitution, _] = place.shares.map(f64::to_bits);
-        let key = (first == End::B, [tilt, speed, restitution]);
-        let known = self.beside.lock().unwrap_or_else(PoisonError::into_inner).get(&key).map(Arc::clone);
-        let slot = if let Some(slot) = known {
-            slot
-        } else {
-            let slot = Arc::new(self.field.slot(&place)?);
-            let mut beside = self.beside.lock().unwrap_or_else(PoisonError::into_inner);
-            Arc::clone(beside.entry(key).or_insert(slot))
-        };
+        let slot = self.field.slot_beside(&place)?;
         let mut trail = slot.trail(self.field).clone();
         self.field.foresee(self.task, place, &slot, &mut trail)
     }
