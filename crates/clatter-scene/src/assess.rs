@@ -4,7 +4,7 @@ use clatter_shock::Peaked;
 use rayon::prelude::*;
 
 use crate::base::{Base, SingleDrop};
-use crate::demand::{Demand, Heard};
+use crate::demand::Demand;
 use crate::guaranteed::{self, Asked, Ranges, Trains};
 use crate::models;
 use crate::plan::{ComponentRung, Pair};
@@ -73,9 +73,13 @@ impl ProductFile {
                 return Err(Error::ContactTime { component: component.name.clone(), reason });
             }
         }
+        self.assess_in(&Field::new(&self.product, &self.drop, &self.components, *accuracy))
+    }
+
+    /// The same where drops of the product may have been followed before.
+    pub(crate) fn assess_in(&self, field: &Field<'_>) -> Result<Assessment, Error> {
         let demands: Vec<_> = self.components.iter().map(Demand::of).collect();
         let proven = self.prove_all(&demands)?;
-        let field = Field::new(&self.product, &self.drop, &self.components, *accuracy);
         let each = || self.components.iter().zip(&demands);
         let task = |(component, (&demand, proven)): (_, (_, &Option<Case>))| Task {
             component,
@@ -91,7 +95,7 @@ impl ProductFile {
             let mut limits = Vec::with_capacity(demands.len());
             for (demand, proven) in demands.iter().zip(proven) {
                 let Some((task, found)) = found.next() else { unreachable!("a task for each demand") };
-                limits.push(self.limit(&field, task, proven, found.as_ref(), demand)?);
+                limits.push(self.limit(field, task, proven, found.as_ref(), demand)?);
             }
             components.push(verdict(component, limits));
         }
@@ -147,7 +151,7 @@ impl ProductFile {
         let frequency_hz = demand.frequencies().map(|f| (worst.omega / omega).clamp(f.lo(), f.hi()));
         let base = Base::new(&self.product, &drop, BarModel::Map)?;
         let at = Component { position_m: worst.variant.position_m, extent_m: 0.0, ..component.clone() };
-        let reached = demand.reached(&base, &at, frequency_hz.unwrap_or(0.0), &mut Heard::new(false))?;
+        let reached = demand.reached(&base, &at, frequency_hz.unwrap_or(0.0))?;
         let component_model =
             if matches!(asked, Asked::Shock) { ComponentModel::LargestShock } else { ComponentModel::ImpulseTrain };
         let quantity = match asked {

@@ -1,9 +1,9 @@
 //! What one limit of one component asks of a drop.
 
 use clatter::End;
-use clatter_shock::{DampingRatio, Peaked, Response, Shape, Suspension};
+use clatter_shock::{DampingRatio, ImpulseFactors, Peaked, Shape, Suspension};
 
-use crate::base::Base;
+use crate::base::{Base, PeakAsked};
 use crate::guaranteed::{Asked, Trains, Variant};
 use crate::plan::Quantity;
 use crate::{Component, Drop, Error, LimitKind, Mount, Product, Spread};
@@ -17,6 +17,8 @@ pub(crate) struct Demand {
     acceleration: Option<f64>,
     /// The suspension, where the limit is on its response.
     suspended: Option<(Spread, DampingRatio)>,
+    /// Its impulse factor.
+    factor: f64,
 }
 
 /// What a single drop does to a limit.
@@ -31,6 +33,8 @@ pub(crate) struct Reached {
 }
 
 impl Demand {
+    /// What every drop passes.
+    pub(crate) const ANY: f64 = -1.0;
     /// The limits of a component, in a fixed order.
     pub(crate) fn of(component: &Component) -> Vec<Self> {
         let suspended = match component.mount {
@@ -38,7 +42,12 @@ impl Demand {
             Mount::Suspended { frequency_hz, damping } => Some((frequency_hz, damping)),
         };
         let limits = &component.limits;
-        let demand = |kind, allowed, suspended| Self { kind, allowed, acceleration: None, suspended };
+        let factors = suspended.map(|(_, damping)| damping.impulse_factors());
+        let demand = |kind, allowed, suspended| {
+            let factor =
+                |of: ImpulseFactors| if kind == LimitKind::Acceleration { of.acceleration } else { of.displacement };
+            Self { kind, allowed, acceleration: None, suspended, factor: factors.map_or(0.0, factor) }
+        };
         let mut demands = Vec::new();
         demands.extend(limits.acceleration_m_s2.map(|a| demand(LimitKind::Acceleration, a, suspended)));
         demands.extend(limits.rattle_space_m.map(|z| demand(LimitKind::RattleSpace, z, suspended)));
@@ -102,47 +111,47 @@ impl Demand {
         let suspension = self.suspended.map(|(_, damping)| Suspension::from_hz(frequency_hz, damping));
         Ok(suspension.transpose()?)
     }
-    /// What one drop does to it, at the worse end of the component.
-    pub(crate) fn reached(
-        &self,
-        base: &Base,
-        component: &Component,
-        frequency_hz: f64,
-        heard: &mut Heard,
-    ) -> Result<Reached, Error> {
+    /// The peak that it is about, where it is on the response of a suspended part, to be found if it passes `above`.
+    pub(crate) fn asked_of(&self, position_m: f64, frequency_hz: f64, above: f64) -> Result<Option<PeakAsked>, Error> {
+        let acceleration = self.kind == LimitKind::Acceleration;
+        let peaked = if acceleration { Peaked::AccelerationOverOmega } else { Peaked::PseudoVelocity };
+        let asked = |suspension| PeakAsked { position_m, suspension, peaked, above };
+        Ok(self.suspension(frequency_hz)?.map(asked))
+    }
+    /// What a velocity shock of 1 m/s does to the part, where the limit is on its response.
+    pub(crate) fn of_unit_shock(&self, frequency_hz: f64) -> f64 {
+        let omega = std::f64::consts::TAU * frequency_hz;
+        if self.kind == LimitKind::Acceleration { omega * self.factor } else { self.factor / omega }
+    }
+    /// What one drop does to it by velocity shocks, at the worse end of the component.
+    pub(crate) fn reached(&self, base: &Base, component: &Component, frequency_hz: f64) -> Result<Reached, Error> {
         let mut worst: Option<Reached> = None;
         for position_m in component.ends_m() {
-            let mut respond = |suspension: &Suspension| heard.response(base, position_m, suspension);
-            let reached = self.reached_at(base, position_m, frequency_hz, &mut respond)?;
-            if worst.is_none_or(|worst| reached.value > worst.value) {
-                worst = Some(reached);
-            }
+            let above = worst.map_or(Self::ANY, |worst| worst.value);
+            worst = self.reached_at(base, position_m, frequency_hz, false, f64::INFINITY, above)?.or(worst);
         }
         Ok(worst.unwrap_or_else(|| unreachable!("a component has an end")))
     }
-    /// What one drop does to it at a place.
+    /// What one drop does to it at a place until a time, if that passes `above`.
     pub(crate) fn reached_at(
         &self,
         base: &Base,
         position_m: f64,
         frequency_hz: f64,
-        respond: &mut dyn FnMut(&Suspension) -> Result<Response, Error>,
-    ) -> Result<Reached, Error> {
-        let (value, strike, time_s) = match (self.kind, self.suspension(frequency_hz)?) {
+        pulses: bool,
+        until_s: f64,
+        above: f64,
+    ) -> Result<Option<Reached>, Error> {
+        let (value, strike, time_s) = match (self.kind, self.asked_of(position_m, frequency_hz, above)?) {
             (LimitKind::AngularVelocityChange, _) => base.largest_turn(),
             (LimitKind::VelocityChange | LimitKind::DamageBoundary, _) => base.largest_shock(position_m),
-            (kind, Some(suspension)) => {
-                let response = respond(&suspension)?;
-                let peak = match kind {
-                    LimitKind::Acceleration => response.absolute_acceleration.peak(),
-                    _ => response.relative_displacement.peak(),
-                };
-                (peak.value.abs(), base.contact_before(peak.time), peak.time)
-            }
+            (_, Some(asked)) => base
+                .peak_until(until_s, &asked, pulses)?
+                .map_or((0.0, 0, 0.0), |peak| (peak.value, base.contact_before(peak.time), peak.time)),
             (_, None) => base.largest_acceleration(position_m).unwrap_or_default(),
         };
         let frequency_hz = self.suspended.map(|_| frequency_hz);
-        Ok(Reached { value, strike, time_s, position_m, frequency_hz })
+        Ok(Some(Reached { value, strike, time_s, position_m, frequency_hz }).filter(|reached| reached.value > above))
     }
     /// Allowed and demand for a demand found: of a damage boundary, velocity change or acceleration, whichever leaves more room.
     pub(crate) fn settle(&self, demand: f64, contact_time_s: Option<f64>) -> Settled {
@@ -162,38 +171,10 @@ impl Demand {
         match (self.kind, self.suspended) {
             (LimitKind::AngularVelocityChange, _) => 0.0,
             (LimitKind::VelocityChange | LimitKind::DamageBoundary, _) => delta_v,
-            (LimitKind::Acceleration, Some((f, damping))) => {
-                delta_v * std::f64::consts::TAU * f.hi() * damping.impulse_factors().acceleration
-            }
-            (_, Some((f, damping))) => {
-                delta_v / (std::f64::consts::TAU * f.lo()) * damping.impulse_factors().displacement
-            }
+            (LimitKind::Acceleration, Some((f, _))) => delta_v * self.of_unit_shock(f.hi()),
+            (_, Some((f, _))) => delta_v * self.of_unit_shock(f.lo()),
             (_, None) => contact_time_s.map_or(f64::INFINITY, |t| delta_v / (Shape::HalfSine.area() * t)),
         }
-    }
-}
-
-/// Responses to one drop that were worked out already: the limits of one part ask for the same ones.
-#[derive(Debug)]
-pub(crate) struct Heard {
-    pulses: bool,
-    responses: Vec<(f64, Suspension, Response)>,
-}
-
-impl Heard {
-    pub(crate) fn new(pulses: bool) -> Self {
-        Self { pulses, responses: Vec::new() }
-    }
-    fn response(&mut self, base: &Base, position_m: f64, suspension: &Suspension) -> Result<Response, Error> {
-        let same = |(place, other, _): &&(f64, Suspension, Response)| {
-            place.to_bits() == position_m.to_bits() && other == suspension
-        };
-        if let Some((_, _, response)) = self.responses.iter().find(same) {
-            return Ok(*response);
-        }
-        let response = base.respond(position_m, suspension, self.pulses)?;
-        self.responses.push((position_m, *suspension, response));
-        Ok(response)
     }
 }
 

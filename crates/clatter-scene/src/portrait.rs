@@ -6,9 +6,13 @@ use clatter_shock::{State, Suspension};
 use rayon::prelude::*;
 
 use crate::base::{Base, SingleDrop};
-use crate::demand::{Demand, Heard};
+use crate::demand::Demand;
 use crate::design::{Bounds, Remedy};
-use crate::{Assessment, BarModel, Component, ComponentModel, Error, LimitAssessment, LimitKind, ProductFile, Unit};
+use crate::search::{self, Field, Task};
+use crate::{
+    Accuracy, Assessment, BarModel, Component, ComponentModel, Drop, Error, Law, LimitAssessment, LimitKind,
+    ProductFile, Spread, Unit, WorstCase,
+};
 
 /// Points (x, y) of a line.
 pub type Curve = Vec<(f64, f64)>;
@@ -52,11 +56,13 @@ impl ProductFile {
                 *remedies = part.levers;
             }
         }
+        let shown = self.shown()?;
+        let field = Field::new(&self.product, &shown, &self.components, Accuracy::default());
         let each = self.components.par_iter().zip(&assessment.components).zip(zones).zip(remedies);
         each.map(|(((component, assessed), zone_m), remedies)| {
             let tightest = assessed.tightest();
             let (history, impacts_s) = self.history(component, tightest)?;
-            let over_tilt = self.over_tilt(component, tightest)?;
+            let over_tilt = self.over_tilt(&field, component, tightest)?;
             Ok(Portrait { history, impacts_s, over_tilt, zone_m, remedies })
         })
         .collect()
@@ -107,51 +113,67 @@ impl ProductFile {
         Ok((history, impacts.into_iter().filter(|t| *t <= end).collect()))
     }
 
-    fn over_tilt(&self, component: &Component, limit: &LimitAssessment) -> Result<Vec<(End, Curve)>, Error> {
-        let demands = Demand::of(component);
-        let Some(demand) = demands.iter().find(|d| d.kind == limit.limit) else { return Ok(Vec::new()) };
-        let worst = self.worst_drop(limit);
+    /// The drops with one end first over the tilts that are shown; one stated tilt is shown among its neighbors.
+    fn shown(&self) -> Result<Drop, Error> {
         let tilt = &self.drop.tilt_rad;
-        // one stated tilt is shown among its neighbors
-        let [lo, hi] = if tilt.is_value() {
-            [0.2 * tilt.lo(), (2.0 * tilt.hi()).clamp(1f64.to_radians(), 30f64.to_radians())]
-        } else {
-            [tilt.lo(), tilt.hi()]
-        };
+        if !tilt.is_value() {
+            return Ok(self.drop);
+        }
+        let [lo, hi] = [0.2 * tilt.lo(), (2.0 * tilt.hi()).clamp(1f64.to_radians(), 30f64.to_radians())];
+        Ok(Drop { tilt_rad: Spread::new(lo, hi, Law::Range)?, ..self.drop })
+    }
+
+    fn over_tilt(
+        &self,
+        field: &Field<'_>,
+        component: &Component,
+        limit: &LimitAssessment,
+    ) -> Result<Vec<(End, Curve)>, Error> {
+        let demands = Demand::of(component);
+        let Some(&demand) = demands.iter().find(|d| d.kind == limit.limit) else { return Ok(Vec::new()) };
+        let (task, worst) = (Task { component, demand, proven: None }, &limit.worst_case);
+        let [lo, hi] = [field.drop.tilt_rad.lo(), field.drop.tilt_rad.hi()];
         let mut tilts: Vec<f64> = (0..=TILTS).map(|i| lo + f64::from(i) / f64::from(TILTS) * (hi - lo)).collect();
-        tilts.push(worst.tilt_rad);
+        tilts.push(worst.tilt_deg.to_radians());
         tilts.sort_by(f64::total_cmp);
-        let thirds = |lo: f64, hi: f64, own: f64| {
-            let mut all = vec![lo, 0.5 * (lo + hi), hi, own];
-            all.sort_by(f64::total_cmp);
+        // The worst case first, then from the highest: most others are soon outdone.
+        let thirds = |[lo, hi]: [f64; 2], own: f64| {
+            let mut all = vec![own, hi, 0.5 * (lo + hi), lo];
             all.dedup();
             all
         };
-        let [slow, fast] = self.drop.speeds_m_s();
-        let speeds = thirds(slow, fast, worst.speed_m_s);
-        let restitutions = thirds(self.product.restitution.lo(), self.product.restitution.hi(), worst.restitution);
-        let frequencies = demand
-            .frequencies()
-            .map_or(vec![0.0], |f| thirds(f.lo(), f.hi(), limit.worst_case.frequency_hz.unwrap_or(f.lo())));
-        let pulses = limit.model.component == ComponentModel::PulseTrain;
+        let range = |spread: &Spread| [spread.lo(), spread.hi()];
+        let speeds = thirds(self.drop.speeds_m_s(), worst.speed_m_s);
+        let restitutions = thirds(range(&self.product.restitution), worst.restitution);
+        let frequencies = demand.frequencies().map_or(vec![None], |f| {
+            thirds(range(&f), worst.frequency_hz.unwrap_or(f.lo())).into_iter().map(Some).collect()
+        });
         let most = |first: End, tilt_rad: f64| {
-            let mut most = 0.0_f64;
+            let mut places = Vec::new();
             for &speed_m_s in &speeds {
                 for &restitution in &restitutions {
-                    let drop = SingleDrop { first, tilt_rad, speed_m_s, restitution, ..worst };
-                    let base = Base::new(&self.product, &drop, limit.model.bar)?;
-                    for &frequency in &frequencies {
-                        most = most.max(demand.reached(&base, component, frequency, &mut Heard::new(pulses))?.value);
+                    for &frequency_hz in &frequencies {
+                        for position_m in component.ends_m() {
+                            let tilt_deg = tilt_rad.to_degrees();
+                            let case = WorstCase {
+                                first,
+                                tilt_deg,
+                                speed_m_s,
+                                restitution,
+                                frequency_hz,
+                                position_m,
+                                ..*worst
+                            };
+                            places.push(field.place_of(&case, demand.frequencies()));
+                        }
                     }
                 }
             }
-            let settled = demand.settle(most, self.product.contact_time_s);
-            Ok((tilt_rad, settled.factor * most))
+            let most = field.most(&task, search::pair_of(&limit.model), places, 0.0)?.map_or(0.0, |most| most.value);
+            Ok((tilt_rad, demand.settle(most, self.product.contact_time_s).factor * most))
         };
-        let ends = self.drop.first_ends();
-        ends.iter()
-            .map(|&first| Ok((first, tilts.iter().map(|&t| most(first, t)).collect::<Result<_, Error>>()?)))
-            .collect()
+        let curve = |first| tilts.par_iter().map(|&tilt| most(first, tilt)).collect::<Result<_, Error>>();
+        self.drop.first_ends().iter().map(|&first| Ok((first, curve(first)?))).collect()
     }
 
     /// The safe places of every component.

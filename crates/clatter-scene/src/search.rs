@@ -12,7 +12,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use clatter::End;
 use clatter::flight::Scene;
-use clatter_shock::{DampingRatio, Response, Suspension};
+use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
 use crate::base::{self, Base, Cells, SingleDrop};
@@ -20,7 +20,10 @@ use crate::demand::{Demand, Reached};
 use crate::plan::demand::fineness;
 use crate::plan::trail::Trail;
 use crate::plan::{BarRung, ComponentRung, Pair, Plan, Quantity, Setup};
-use crate::{Accuracy, BarModel, Component, Drop, Error, LimitKind, Mount, Product, Spread, WorstCase};
+use crate::{
+    Accuracy, BarModel, Component, ComponentModel, Drop, Error, LimitKind, ModelChoice, Mount, Product, Spread,
+    WorstCase,
+};
 
 /// Steps along the tilt; even in its square root, because contacts overlap at small tilts and gaps grow from there.
 const TILTS: u32 = 16;
@@ -30,8 +33,8 @@ const STEPS: u32 = 2;
 const HALVINGS: [u32; 2] = [3, 6];
 /// Other places of the grid from which a worse drop is looked for.
 const BASINS: usize = 4;
-/// Contacts followed at first, and where these leave open what later ones do.
-const CONTACTS: [usize; 2] = [4, 10];
+/// Contacts followed at first.
+const CONTACTS: usize = 10;
 /// Share of the tolerance that the polygons of pulses may take.
 const POLYGONS: f64 = 0.1;
 /// Pieces of a pulse, and within what share its peak and its effect then are; twice as many are four times as close.
@@ -57,13 +60,14 @@ pub(crate) struct Task<'a> {
     pub(crate) proven: Option<f64>,
 }
 
-/// The product and the ranges of its drop.
-#[derive(Debug, Clone, Copy)]
+/// The product and the ranges of its drop, and the drops as far as they were followed: they are the same for all parts.
 pub(crate) struct Field<'a> {
     pub(crate) product: &'a Product,
     pub(crate) drop: &'a Drop,
     pub(crate) accuracy: Accuracy,
     cells: Cells,
+    grid: OnceLock<Result<Grid, Error>>,
+    beside: Beside,
 }
 
 /// Where in its range each quantity is, from 0 to 1, and where in the component.
@@ -82,9 +86,12 @@ struct Slot {
     scene: Scene,
     trail: OnceLock<Trail>,
     strikes: [OnceLock<Result<Base, Error>>; 3],
-    contacts: [OnceLock<Result<Base, Error>>; 3],
+    /// The first of them, and all.
+    contacts: [OnceLock<Result<Base, Error>>; 2],
 }
 
+/// Drops of the grid.
+type Grid = Vec<(Place, Arc<Slot>)>;
 /// Drops beside the grid: first end and shares of tilt, speed and restitution.
 type Beside = Mutex<HashMap<(bool, [u64; 3]), Arc<Slot>>>;
 
@@ -103,16 +110,24 @@ struct Candidate {
     until_s: f64,
 }
 
-/// What was worked out already: drop, model and contacts or shocks followed, position, frequency; beside a response to contacts
-/// as single shocks, how far it may be off.
-type Heard = HashMap<(usize, u8, usize, u64, u64), (Response, f64)>;
-
-/// Number of a response to contacts as single shocks, beside those of models.
-const CENTROIDS: u8 = u8::MAX;
+/// What a place (drop, position, frequency) reaches at most, as far as it was looked at.
+type Known = HashMap<(usize, u64, u64), f64>;
 
 fn shares(steps: u32, fixed: bool) -> impl Iterator<Item = f64> + Clone {
     let steps = if fixed { 0 } else { steps };
     (0..=steps).map(move |i| if steps == 0 { 0.0 } else { f64::from(i) / f64::from(steps) })
+}
+
+/// The pair behind a demand.
+pub(crate) fn pair_of(model: &ModelChoice) -> Pair {
+    let bar = match model.bar {
+        BarModel::Map => BarRung::Map,
+        BarModel::Ballistic => BarRung::Ballistic,
+        BarModel::FiniteTilt => BarRung::FiniteTilt,
+        BarModel::Compliant => BarRung::Compliant,
+    };
+    let pulses = model.component == ComponentModel::PulseTrain;
+    Pair { bar, component: if pulses { ComponentRung::PulseTrain } else { ComponentRung::ImpulseTrain } }
 }
 
 /// How the bar moves; sums of the closed form are taken strike by strike where flights are shared.
@@ -135,7 +150,7 @@ impl<'a> Field<'a> {
         let finest = finest.map(|part| fineness(&part, contact)).fold(0.5, f64::max);
         let most = finest * FINE.0 * (FINE.1 / (POLYGONS * accuracy.tolerance)).sqrt();
         let cells = Cells { most, fineness: finest };
-        Self { product, drop, accuracy, cells }
+        Self { product, drop, accuracy, cells, grid: OnceLock::new(), beside: Beside::default() }
     }
 
     fn single(&self, place: &Place) -> SingleDrop {
@@ -193,8 +208,26 @@ impl<'a> Field<'a> {
         Ok(Slot { number, drop, scene, trail: OnceLock::new(), strikes, contacts })
     }
 
+    /// A drop beside the grid.
+    fn slot_beside(&self, place: &Place) -> Result<Arc<Slot>, Error> {
+        let (first, _) = self.followed(place);
+        let [tilt, speed, restitution, _] = place.shares.map(f64::to_bits);
+        let key = (first == End::B, [tilt, speed, restitution]);
+        let known = self.beside.lock().unwrap_or_else(PoisonError::into_inner).get(&key).map(Arc::clone);
+        if let Some(slot) = known {
+            return Ok(slot);
+        }
+        let slot = Arc::new(self.slot(place)?);
+        let mut beside = self.beside.lock().unwrap_or_else(PoisonError::into_inner);
+        Ok(Arc::clone(beside.entry(key).or_insert(slot)))
+    }
+
     /// The drops of the grid.
-    fn slots(&self) -> Result<Vec<(Place, Arc<Slot>)>, Error> {
+    fn slots(&self) -> Result<&[(Place, Arc<Slot>)], Error> {
+        self.grid.get_or_init(|| self.sow()).as_deref().map_err(Clone::clone)
+    }
+
+    fn sow(&self) -> Result<Grid, Error> {
         let [slow, fast] = self.drop.speeds_m_s();
         let mut slots = Vec::new();
         for &first in if self.turns() { &self.drop.first_ends()[..1] } else { self.drop.first_ends() } {
@@ -223,17 +256,35 @@ impl<'a> Field<'a> {
     /// A drop that a model does not take.
     pub(crate) fn worst(&self, tasks: &[Task<'_>]) -> Result<Vec<Option<Found>>, Error> {
         let slots = self.slots()?;
-        let beside = Beside::default();
         let components: Vec<_> = tasks.chunk_by(|a, b| std::ptr::eq(a.component, b.component)).collect();
         let found = components.into_par_iter().map(|tasks| {
-            let mut heard = Heard::new();
-            let each = tasks.iter().map(|task| {
-                let grid = self.grid(task, &slots)?;
-                Search { field: self, task, beside: &beside, heard: &mut heard, best: None }.run(grid)
-            });
+            let grids = self.grids(tasks, slots)?;
+            let each = tasks.iter().zip(grids).map(|(task, grid)| Search::new(self, task, 0.0).run(grid));
             each.collect::<Result<Vec<_>, Error>>()
         });
         Ok(found.collect::<Result<Vec<_>, Error>>()?.into_iter().flatten().collect())
+    }
+
+    /// What the worst of some places reaches by one pair of models, if that passes `above`.
+    ///
+    /// # Errors
+    /// As [`worst`](Self::worst).
+    pub(crate) fn most(
+        &self,
+        task: &Task<'_>,
+        pair: Pair,
+        places: impl IntoIterator<Item = Place>,
+        above: f64,
+    ) -> Result<Option<Reached>, Error> {
+        let mut search = Search::new(self, task, above);
+        for place in places {
+            let (slot, at_most) = (self.slot_beside(&place)?, f64::INFINITY);
+            let candidate = Candidate { place, slot, pair, within: true, about: at_most, at_most, until_s: at_most };
+            if search.may_be_worst(&candidate)? {
+                search.consider(&candidate)?;
+            }
+        }
+        Ok(search.best.map(|(_, reached)| reached).filter(|reached| reached.value > above))
     }
 
     /// The pairs over the grid, for one demand.
@@ -241,29 +292,40 @@ impl<'a> Field<'a> {
     /// # Errors
     /// As [`worst`](Self::worst).
     pub(crate) fn pairs(&self, task: &Task<'_>) -> Result<Vec<Pair>, Error> {
-        Ok(self.grid(task, &self.slots()?)?.into_iter().map(|c| c.pair).collect())
+        let grids = self.grids(std::slice::from_ref(task), self.slots()?)?;
+        Ok(grids.into_iter().flatten().map(|c| c.pair).collect())
     }
 
-    /// All places of the grid, as they are foreseen.
-    fn grid(&self, task: &Task<'_>, slots: &[(Place, Arc<Slot>)]) -> Result<Vec<Candidate>, Error> {
-        let turn = task.demand.kind == LimitKind::AngularVelocityChange;
-        let positions = if turn { vec![task.component.position_m] } else { task.component.ends_m() };
-        let fixed = task.demand.frequencies().is_none_or(|f| f.is_value());
-        let mut grid = Vec::new();
+    /// All places of the grid, as they are foreseen, for each demand of one component.
+    fn grids(&self, tasks: &[Task<'_>], slots: &[(Place, Arc<Slot>)]) -> Result<Vec<Vec<Candidate>>, Error> {
+        let mut grids = vec![Vec::new(); tasks.len()];
         for (place, slot) in slots {
+            // The strikes of one drop, and how far a part turns between them, are the same for all of its places.
             let mut trail = slot.trail(self).clone();
-            let firsts = if self.turns() && !turn { self.drop.first_ends() } else { &[place.first] };
-            for &first in firsts {
-                for &position_m in &positions {
-                    for frequency in shares(STEPS, fixed) {
-                        let [tilt, speed, restitution, _] = place.shares;
-                        let place = Place { first, shares: [tilt, speed, restitution, frequency], position_m };
-                        grid.push(self.foresee(task, place, slot, &mut trail)?);
-                    }
+            for (task, grid) in tasks.iter().zip(&mut grids) {
+                for place in self.places(task, *place) {
+                    grid.push(self.foresee(task, place, slot, &mut trail)?);
                 }
             }
         }
-        Ok(grid)
+        Ok(grids)
+    }
+
+    /// The places of one drop: both ends of the component, either end first where that is the same, and its frequencies.
+    fn places(&self, task: &Task<'_>, of_drop: Place) -> Vec<Place> {
+        let turn = task.demand.kind == LimitKind::AngularVelocityChange;
+        let positions = if turn { vec![task.component.position_m] } else { task.component.ends_m() };
+        let fixed = task.demand.frequencies().is_none_or(|f| f.is_value());
+        let firsts = if self.turns() && !turn { self.drop.first_ends() } else { &[of_drop.first] };
+        let [tilt, speed, restitution, _] = of_drop.shares;
+        let mut places = Vec::new();
+        for &first in firsts {
+            for &position_m in &positions {
+                let of = |frequency| Place { first, shares: [tilt, speed, restitution, frequency], position_m };
+                places.extend(shares(STEPS, fixed).map(of));
+            }
+        }
+        places
     }
 
     fn frequency_hz(task: &Task<'_>, place: &Place) -> f64 {
@@ -387,14 +449,14 @@ impl Slot {
         let follow = || Base::of_strikes(field.product, &self.drop, model, field.cells);
         self.strikes[k].get_or_init(follow).as_ref().map_err(Clone::clone)
     }
-    fn contacts(&self, field: &Field<'_>, k: usize) -> Result<&Base, Error> {
+    fn contacts(&self, field: &Field<'_>, all: bool) -> Result<&Base, Error> {
         let most = Base::most_contacts(field.product, self.drop.restitution);
-        let most = CONTACTS.get(k).map_or(most, |few| most.min(*few));
+        let most = if all { most } else { most.min(CONTACTS) };
         let follow = || {
             let time = field.product.contact_time_s.ok_or(Error::Contact)?;
             Base::of_contacts(field.product, &self.drop, time, most, field.cells)
         };
-        self.contacts[k].get_or_init(follow).as_ref().map_err(Clone::clone)
+        self.contacts[usize::from(all)].get_or_init(follow).as_ref().map_err(Clone::clone)
     }
 }
 
@@ -428,12 +490,17 @@ impl Ord for Open {
 struct Search<'a> {
     field: &'a Field<'a>,
     task: &'a Task<'a>,
-    beside: &'a Beside,
-    heard: &'a mut Heard,
+    /// What a place must pass to count.
+    above: f64,
+    known: Known,
     best: Option<(Candidate, Reached)>,
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    fn new(field: &'a Field<'a>, task: &'a Task<'a>, above: f64) -> Self {
+        Self { field, task, above, known: Known::new(), best: None }
+    }
+
     fn run(mut self, mut grid: Vec<Candidate>) -> Result<Option<Found>, Error> {
         if self.task.proven.is_some() && self.field.accuracy.model.is_none() {
             grid.retain(|c| !self.is_proven(c));
@@ -445,8 +512,9 @@ impl Search<'_> {
         self.sweep(&grid)?;
         let mut raised = self.refine()?;
         if self.task.demand.quantity().is_some() {
-            grid.sort_by(|a, b| b.about.total_cmp(&a.about));
-            if self.climb_from_elsewhere(&grid)? {
+            let mut falling: Vec<_> = grid.iter().collect();
+            falling.sort_by(|a, b| b.about.total_cmp(&a.about));
+            if self.climb_from_elsewhere(&falling)? {
                 raised = self.refine()?;
             }
         }
@@ -463,7 +531,7 @@ impl Search<'_> {
     /// What a place must pass to count.
     fn worst(&self) -> f64 {
         let proven = if self.field.accuracy.model.is_none() { self.task.proven } else { None };
-        self.best.as_ref().map_or(0.0, |(_, reached)| reached.value).max(proven.unwrap_or(0.0))
+        self.best.as_ref().map_or(self.above, |(_, reached)| reached.value).max(proven.unwrap_or(0.0))
     }
 
     /// Whether the plan of a place knows nothing that the proof does not know.
@@ -493,90 +561,83 @@ impl Search<'_> {
     /// Follows a candidate, and keeps it where it is the worst.
     fn consider(&mut self, candidate: &Candidate) -> Result<bool, Error> {
         let reached = self.follow(candidate)?;
-        let worse = self.best.as_ref().is_none_or(|(_, best)| reached.value > best.value);
-        if worse {
+        if let Some(reached) = reached {
             self.best = Some((candidate.clone(), reached));
         }
-        Ok(worse)
+        Ok(reached.is_some())
     }
 
     fn may_be_worst(&mut self, candidate: &Candidate) -> Result<bool, Error> {
         Ok(candidate.at_most > self.worst() && self.seen_closer(candidate)? > self.worst())
     }
 
-    /// What a candidate reaches at most, where contacts overlap by the response to each of them as a single shock.
-    fn seen_closer(&mut self, candidate: &Candidate) -> Result<f64, Error> {
-        let (field, task, Candidate { place, slot, .. }) = (self.field, self.task, candidate);
-        let frequency_hz = Field::frequency_hz(task, place);
-        let Some(suspension) = task.demand.suspension(frequency_hz)? else { return Ok(candidate.at_most) };
-        if candidate.pair.bar != BarRung::Compliant || field.accuracy.model.is_some() {
-            return Ok(candidate.at_most);
-        }
-        let (base, depth) = self.contacts(place, slot)?;
-        let (_, position_m) = field.followed(place);
-        let key = (slot.number, CENTROIDS, depth, position_m.to_bits(), frequency_hz.to_bits());
-        let heard = match self.heard.get(&key).copied() {
-            Some(heard) => Some(heard),
-            None => base.respond_to_centroids(position_m, &suspension)?,
-        };
-        let Some((response, spread)) = heard else { return Ok(candidate.at_most) };
-        self.heard.insert(key, (response, spread));
-        let (factors, omega) = (suspension.damping().impulse_factors(), suspension.omega());
-        let at_most = match task.demand.kind {
-            LimitKind::Acceleration => {
-                response.absolute_acceleration.magnitude() + spread * omega * factors.acceleration
-            }
-            _ => response.relative_displacement.magnitude() + spread * factors.displacement / omega,
-        };
-        Ok(at_most.min(candidate.at_most))
+    fn key(&self, Candidate { place, slot, .. }: &Candidate) -> (usize, u64, u64) {
+        let (_, position_m) = self.field.followed(place);
+        (slot.number, position_m.to_bits(), Field::frequency_hz(self.task, place).to_bits())
     }
 
-    fn follow(&mut self, candidate: &Candidate) -> Result<Reached, Error> {
+    /// What a candidate reaches at most, where contacts overlap by the response to each of them as a single shock; of what was followed,
+    /// no more than what it reached or was then to pass.
+    fn seen_closer(&mut self, candidate: &Candidate) -> Result<f64, Error> {
+        let key = self.key(candidate);
+        if let Some(at_most) = self.known.get(&key) {
+            return Ok(*at_most);
+        }
+        let at_most = self.look_closer(candidate)?.map_or(candidate.at_most, |closer| closer.min(candidate.at_most));
+        self.known.insert(key, at_most);
+        Ok(at_most)
+    }
+
+    fn look_closer(&self, Candidate { place, slot, pair, .. }: &Candidate) -> Result<Option<f64>, Error> {
+        let (field, demand) = (self.field, &self.task.demand);
+        let frequency_hz = Field::frequency_hz(self.task, place);
+        let (_, position_m) = field.followed(place);
+        let Some(asked) = demand.asked_of(position_m, frequency_hz, self.worst())? else { return Ok(None) };
+        if pair.bar != BarRung::Compliant || field.accuracy.model.is_some() {
+            return Ok(None);
+        }
+        let (base, until_s) = self.contacts(place, slot)?;
+        base.peak_at_most(until_s, &asked, demand.of_unit_shock(frequency_hz))
+    }
+
+    /// What a candidate reaches, if it is the worst yet.
+    fn follow(&mut self, candidate: &Candidate) -> Result<Option<Reached>, Error> {
         let (field, task, Candidate { place, slot, .. }) = (self.field, self.task, candidate);
         let model = bar_model(candidate.pair);
         let pulses = candidate.pair.component == ComponentRung::PulseTrain;
-        let (base, depth) = if model == BarModel::Compliant {
+        let (base, until_s) = if model == BarModel::Compliant {
             self.contacts(place, slot)?
         } else {
-            let base = slot.strikes(field, model)?;
-            // In steps, so that the limits of a part share a response.
-            (base, base.shocks_until(candidate.until_s).max(4).next_power_of_two())
+            (slot.strikes(field, model)?, candidate.until_s)
         };
         let (_, position_m) = field.followed(place);
         let frequency_hz = Field::frequency_hz(task, place);
-        let heard = &mut *self.heard;
-        let mut respond = |suspension: &Suspension| {
-            let model = 2 * model as u8 + u8::from(pulses);
-            let key = (slot.number, model, depth, position_m.to_bits(), frequency_hz.to_bits());
-            if let Some((response, _)) = heard.get(&key) {
-                return Ok(*response);
-            }
-            let response = base.respond_to_first(depth, position_m, suspension, pulses)?;
-            heard.insert(key, (response, 0.0));
-            Ok(response)
-        };
-        let reached = task.demand.reached_at(base, position_m, frequency_hz, &mut respond)?;
-        Ok(Reached { position_m: place.position_m, ..reached })
+        let above = self.best.as_ref().map_or(Demand::ANY, |(_, best)| best.value);
+        let reached = task.demand.reached_at(base, position_m, frequency_hz, pulses, until_s, above)?;
+        self.known.insert(self.key(candidate), reached.map_or(above, |reached| reached.value));
+        Ok(reached.map(|reached| Reached { position_m: place.position_m, ..reached }))
     }
 
-    /// The contacts of a drop, followed until nothing later counts.
-    fn contacts<'b>(&self, place: &Place, slot: &'b Slot) -> Result<(&'b Base, usize), Error> {
+    /// The contacts of a drop, followed until nothing later counts, and until when they count.
+    fn contacts<'b>(&self, place: &Place, slot: &'b Slot) -> Result<(&'b Base, f64), Error> {
         let (field, task) = (self.field, self.task);
-        let asked = match (task.demand.quantity(), task.demand.kind) {
-            (Some(quantity), _) => vec![(field.setup(task, place, slot, None)?, quantity)],
-            (None, LimitKind::AngularVelocityChange) => {
-                let end = |s| Ok((field.setup(task, place, slot, Some(s))?, Quantity::VelocityShock));
-                [-1.0, 1.0].map(end).into_iter().collect::<Result<_, Error>>()?
+        let turns = task.demand.kind == LimitKind::AngularVelocityChange;
+        let quantity = task.demand.quantity().unwrap_or(Quantity::VelocityShock);
+        let positions = if turns { &[Some(-1.0), Some(1.0)][..] } else { &[None] };
+        let settled = |base: &Base| {
+            let mut until_s = Some(0.0_f64);
+            for position in positions {
+                let settled_s = base.settled_s(&field.setup(task, place, slot, *position)?, quantity);
+                until_s = until_s.zip(settled_s).map(|(a, b)| a.max(b));
             }
-            (None, _) => vec![(field.setup(task, place, slot, None)?, Quantity::VelocityShock)],
+            Ok::<_, Error>(until_s)
         };
-        for k in 0..CONTACTS.len() {
-            let base = slot.contacts(field, k)?;
-            if asked.iter().all(|(setup, quantity)| base.has_settled(setup, *quantity)) {
-                return Ok((base, k));
-            }
+        let first = slot.contacts(field, false)?;
+        if let Some(until_s) = settled(first)? {
+            return Ok((first, until_s));
         }
-        Ok((slot.contacts(field, CONTACTS.len())?, CONTACTS.len()))
+        let all = slot.contacts(field, true)?;
+        Ok((all, settled(all)?.unwrap_or(f64::INFINITY)))
     }
 
     fn free(&self) -> [bool; 4] {
@@ -602,17 +663,7 @@ impl Search<'_> {
 
     /// A place beside the grid, as it is foreseen; of one drop all that was worked out is kept.
     fn foresee(&self, place: Place) -> Result<Candidate, Error> {
-        let (first, _) = self.field.followed(&place);
-        let [tilt, speed, restitution, _] = place.shares.map(f64::to_bits);
-        let key = (first == End::B, [tilt, speed, restitution]);
-        let known = self.beside.lock().unwrap_or_else(PoisonError::into_inner).get(&key).map(Arc::clone);
-        let slot = if let Some(slot) = known {
-            slot
-        } else {
-            let slot = Arc::new(self.field.slot(&place)?);
-            let mut beside = self.beside.lock().unwrap_or_else(PoisonError::into_inner);
-            Arc::clone(beside.entry(key).or_insert(slot))
-        };
+        let slot = self.field.slot_beside(&place)?;
         let mut trail = slot.trail(self.field).clone();
         self.field.foresee(self.task, place, &slot, &mut trail)
     }
@@ -643,7 +694,7 @@ impl Search<'_> {
 
     /// Climbs by what is foreseen alone from the highest places of the grid that are no neighbors; follows where that leads. `grid` in
     /// falling order. Whether the worst place is another one now.
-    fn climb_from_elsewhere(&mut self, grid: &[Candidate]) -> Result<bool, Error> {
+    fn climb_from_elsewhere(&mut self, grid: &[&Candidate]) -> Result<bool, Error> {
         let mut starts: Vec<Place> = self.best.iter().map(|(candidate, _)| candidate.place).collect();
         let next_to = |a: &Place, b: &Place| {
             let same = a.first == b.first && a.position_m.to_bits() == b.position_m.to_bits();
@@ -658,7 +709,7 @@ impl Search<'_> {
                 continue;
             }
             starts.push(candidate.place);
-            let (mut top, mut step) = (candidate.clone(), 1.0);
+            let (mut top, mut step) = (Candidate::clone(candidate), 1.0);
             for _ in 0..HALVINGS[0] {
                 step *= 0.5;
                 for axis in 0..4 {

@@ -62,13 +62,22 @@ impl LooseShock {
     }
 }
 
-/// Which peak is bounded.
+/// Which peak is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Peaked {
     /// ω|z|.
     PseudoVelocity,
     /// |A|/ω.
     AccelerationOverOmega,
+}
+
+impl Peaked {
+    pub(crate) fn row(self) -> usize {
+        match self {
+            Self::PseudoVelocity => Modes::DISPLACEMENT,
+            Self::AccelerationOverOmega => Modes::ACCELERATION,
+        }
+    }
 }
 
 /// A peak from below and from above.
@@ -102,9 +111,10 @@ pub struct PeakBounds {
 #[must_use]
 pub fn peak_bounds(damping: DampingRatio, peaked: Peaked, shocks: &[LooseShock], omitted: f64) -> PeakBounds {
     let modes = Modes::new(damping);
-    let (row, gain) = match peaked {
-        Peaked::PseudoVelocity => (Modes::DISPLACEMENT, 1.0),
-        Peaked::AccelerationOverOmega => (Modes::ACCELERATION, (2.0 * modes.zeta).hypot(1.0)),
+    let row = peaked.row();
+    let gain = match peaked {
+        Peaked::PseudoVelocity => 1.0,
+        Peaked::AccelerationOverOmega => (2.0 * modes.zeta).hypot(1.0),
     };
     let mut loose = Loose {
         row,

@@ -163,8 +163,7 @@ impl Lane {
     fn new(modes: &Modes, omega: f64, dt: f64, row: usize) -> Self {
         let phase = Phase::product(omega, dt);
         let theta = phase.hi;
-        let step = modes.propagator(phase);
-        let ramp = modes.ramp(theta, &step);
+        let (step, ramp) = modes.driven(phase);
         // Forcing is −a/ω; of a step, the newer sample drives `newest`, the older one the rest of the constant.
         let scale = -omega.recip();
         let newest = Motion { x: scale * (ramp.x1 / theta), w: scale * (ramp.w1 / theta) };

@@ -57,28 +57,41 @@ impl Modes {
     fn is_short(&self, tau: f64) -> bool {
         (1.0 + 2.0 * self.zeta) * tau <= SERIES_REACH
     }
-    /// Response from rest to a constant and to a ramp after τ; `step` is the free motion over the same τ.
-    pub(crate) fn ramp(&self, tau: f64, step: &Propagator) -> Ramp {
+    /// Free motion over τ, and the response from rest to a constant and to a ramp.
+    pub(crate) fn driven(&self, phase: Phase) -> (Propagator, Ramp) {
+        let tau = phase.hi;
         if self.is_short(tau) {
-            // Ramp response Σ u_k τ^k from u₃ = 1/6; its derivatives are the step and the impulse response.
-            let (damp, square) = (2.0 * self.zeta * tau, tau * tau);
-            let (mut older, mut u) = (0.0, 1.0 / 6.0);
-            let (mut x1, mut x0, mut h) = (u, 3.0 * u, 6.0 * u);
-            let mut k = 3.0;
-            for [_, reciprocal] in &RECIPROCAL[2..40] {
-                let next = (-damp * k * u - square * older) * reciprocal;
-                (older, u, k) = (u, next, k + 1.0);
-                x1 += u;
-                x0 += k * u;
-                let term = k * (k - 1.0) * u;
-                h += term;
-                if term.abs() + (k * k * older).abs() < 1e-18 {
-                    break;
-                }
-            }
-            let (x1, x0, h) = (x1 * tau * square, x0 * square, h * tau);
-            return Ramp { x0, w0: h + self.sigma * x0, x1, w1: x0 + self.sigma * x1 };
+            return self.short(tau);
         }
+        let step = self.propagator(phase);
+        (step, self.long_ramp(tau, &step))
+    }
+    /// Free motion over a short τ, and the response from rest to a constant and to a ramp: of one power series, which costs less than
+    /// the exponential and the sine.
+    fn short(&self, tau: f64) -> (Propagator, Ramp) {
+        // Ramp response Σ u_k τ^k from u₃ = 1/6; its derivatives are the step and the impulse response.
+        let (damp, square) = (2.0 * self.zeta * tau, tau * tau);
+        let (mut older, mut u) = (0.0, 1.0 / 6.0);
+        let (mut x1, mut x0, mut h) = (u, 3.0 * u, 6.0 * u);
+        let mut k = 3.0;
+        for [_, reciprocal] in &RECIPROCAL[2..40] {
+            let next = (-damp * k * u - square * older) * reciprocal;
+            (older, u, k) = (u, next, k + 1.0);
+            x1 += u;
+            x0 += k * u;
+            let term = k * (k - 1.0) * u;
+            h += term;
+            if term.abs() + (k * k * older).abs() < 1e-18 {
+                break;
+            }
+        }
+        let (x1, x0, h) = (x1 * tau * square, x0 * square, h * tau);
+        // The impulse response h is s, and by the equation of motion h′ = 1 − 2ζh − x₀, where 2ζ = ρ + σ.
+        let step = Propagator { c: 1.0 - x0 - self.sigma * h, s: h, k: 1.0 - x0 - self.rho * h };
+        (step, Ramp { x0, w0: h + self.sigma * x0, x1, w1: x0 + self.sigma * x1 })
+    }
+    /// Response from rest to a constant and to a ramp after a τ that is not short; `step` is the free motion over the same τ.
+    fn long_ramp(&self, tau: f64, step: &Propagator) -> Ramp {
         if self.kappa == 0.0 {
             let x0 = 1.0 - step.c - self.zeta * step.s;
             let x1 = tau - 2.0 * self.zeta * x0 - step.s;
@@ -205,10 +218,14 @@ impl<'a> Segment<'a> {
     #[inline]
     fn sample_turned(&self, phase: Phase, turned: impl Fn(&Sine, usize) -> Complex64) -> Sample {
         let (tau, modes) = (phase.hi, self.modes);
-        let step = modes.propagator(phase);
+        let pushed = self.constant != 0.0 || self.slope != 0.0;
+        let (step, ramp) = if pushed {
+            modes.driven(phase)
+        } else {
+            (modes.propagator(phase), Ramp { x0: 0.0, w0: 0.0, x1: 0.0, w1: 0.0 })
+        };
         let mut s = self.linear_sample(tau, step.apply(modes.p, self.start));
-        if self.constant != 0.0 || self.slope != 0.0 {
-            let ramp = modes.ramp(tau, &step);
+        if pushed {
             s.m.x += self.constant * ramp.x0 + self.slope * ramp.x1;
             s.m.w += self.constant * ramp.w0 + self.slope * ramp.w1;
         }
@@ -336,7 +353,7 @@ impl<'a> Segment<'a> {
             && self.bend(k, &a) * self.bend(k, end) > 0.0
         {
             // Less than half a swing, and the bend keeps its sign. (Of a longer decay it would be rounding.)
-            if self.slope(k, &a) * self.slope(k, end) < 0.0 {
+            if self.turns_beyond(k, &a, end, range) {
                 self.turning_point(k, &a, end, interval, range);
             }
             return;
@@ -369,7 +386,7 @@ impl<'a> Segment<'a> {
                 }
             }
             let b = if next < span { self.sample(Phase::product(1.0, next)) } else { *end };
-            if self.slope(k, &a) * self.slope(k, &b) < 0.0 {
+            if self.turns_beyond(k, &a, &b, range) {
                 self.turning_point(k, &a, &b, interval, range);
             }
             if next >= span {
@@ -388,6 +405,17 @@ impl<'a> Segment<'a> {
             return a.swing();
         }
         modes.propagator(Phase::product(1.0, a.tau)).apply(modes.p, self.begin_sample().swing())
+    }
+    /// Whether quantity `k`, whose bend keeps its sign from `a` to `b`, turns in between, and may do so outside of `range`: it does so
+    /// no further out than where the tangents of both ends cross.
+    fn turns_beyond(&self, k: usize, a: &Sample, b: &Sample, range: &Range) -> bool {
+        let (sa, sb) = (self.slope(k, a), self.slope(k, b));
+        if sa * sb >= 0.0 {
+            return false;
+        }
+        let (qa, qb) = (self.value(k, a), self.value(k, b));
+        let crossing = qa + sa * ((qb - qa - sb * (b.tau - a.tau)) / (sa - sb));
+        if sa > 0.0 { crossing > range.high.value } else { crossing < range.low.value }
     }
     /// Halves the panel from `a` to `b` until nothing new can be in its parts, the likelier part first.
     ///

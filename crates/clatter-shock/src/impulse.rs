@@ -2,9 +2,9 @@
 
 use crate::impulse_lanes::SideBySide;
 use crate::lanes::{LANES, LARGEST_ANGLE};
-use crate::peaks::{Range, Response};
+use crate::peaks::{Extreme, Range, Response};
 use crate::suspension::{Modes, Motion, Phase};
-use crate::{Error, Suspension};
+use crate::{Error, Peaked, Suspension};
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 
@@ -104,6 +104,36 @@ impl VelocityShocks {
             run.shock(shock.time, shock.delta_v);
         }
         run.finish(|i| self.shocks[i].time)
+    }
+    /// The peak of one quantity, ωz or A/ω with its sign, if it passes `above` ≥ 0 either way, as
+    /// [`Pulses::peak_above`](crate::Pulses::peak_above).
+    ///
+    /// ```
+    /// # use clatter_shock::{DampingRatio, Peaked, Suspension, VelocityShock, VelocityShocks};
+    /// let one = VelocityShocks::new(vec![VelocityShock { time: 0.0, delta_v: 2.0 }])?;
+    /// let undamped = Suspension::new(100.0, DampingRatio::new(0.0)?)?;
+    /// let peak = one.peak_above(&undamped, Peaked::AccelerationOverOmega, 1.9).unwrap();
+    /// assert!((peak.value - 2.0).abs() < 1e-15);
+    /// assert_eq!(one.peak_above(&undamped, Peaked::AccelerationOverOmega, 2.1), None);
+    /// # Ok::<(), clatter_shock::Error>(())
+    /// ```
+    #[must_use]
+    pub fn peak_above(&self, suspension: &Suspension, peaked: Peaked, above: f64) -> Option<Extreme> {
+        let modes = Modes::new(suspension.damping());
+        let (omega, row) = (suspension.omega(), peaked.row());
+        let mut range = Range::beyond(above);
+        let mut m = Motion::default();
+        for (i, shock) in self.shocks.iter().enumerate() {
+            if let Some(before) = i.checked_sub(1) {
+                let phase = gap(omega, self.shocks[before].time, shock.time);
+                range.note_free(&modes, row, m, phase.hi, before);
+                m = modes.propagator(phase).apply(modes.p, m);
+                range.note(before, phase.hi, modes.quantity(row, m));
+            }
+            m.w -= shock.delta_v;
+        }
+        range.note_free(&modes, row, m, f64::INFINITY, self.shocks.len() - 1);
+        range.peak_above(above, omega, |i| self.shocks[i].time)
     }
     /// Extremes of one quantity from the first to the last shock, and after it, for each angular frequency.
     pub(crate) fn extremes_at(&self, modes: &Modes, omegas: &[f64], k: usize) -> Vec<[Range; 2]> {

@@ -59,6 +59,15 @@ pub(crate) struct Range {
 }
 
 impl Range {
+    /// With nothing in it that is within `above` of 0: what lies there is passed over.
+    pub(crate) fn beyond(above: f64) -> Self {
+        let mark = |value| Mark { value, ..Mark::default() };
+        Self { high: mark(above.max(0.0)), low: mark(-above.max(0.0)) }
+    }
+    /// The larger extreme in absolute value, if it passes `above`.
+    pub(crate) fn peak_above(&self, above: f64, omega: f64, start: impl Fn(usize) -> f64) -> Option<Extreme> {
+        Some(self.extremes(omega, start).peak()).filter(|peak| peak.value.abs() > above.max(0.0))
+    }
     #[inline]
     pub(crate) fn note(&mut self, interval: usize, tau: f64, value: f64) {
         if value > self.high.value {

@@ -3,9 +3,9 @@
 mod overlap;
 
 use crate::forced::Segment;
-use crate::peaks::{Range, Response};
+use crate::peaks::{Extreme, Range, Response};
 use crate::suspension::{Modes, Motion};
-use crate::{Error, State, Suspension};
+use crate::{Error, Peaked, State, Suspension};
 use num_complex::Complex64;
 use std::cmp::Ordering;
 use std::f64::consts::PI;
@@ -243,7 +243,40 @@ impl Pulses {
         for (k, range) in ranges.iter_mut().enumerate() {
             range.note_free(&modes, k, last, f64::INFINITY, self.pieces.len());
         }
-        Response::from_ranges(omega, &ranges, |i| self.pieces.get(i).map_or(self.end.hi, |p| p.start.hi))
+        Response::from_ranges(omega, &ranges, |i| self.begin(i))
+    }
+    /// The peak of one quantity, ωz or A/ω with its sign, if it passes `above` ≥ 0 either way: a search for the largest of many peaks asks for
+    /// what passes the largest yet, and pays little for what does not.
+    ///
+    /// # Accuracy
+    ///
+    /// As [`respond`](Self::respond).
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use clatter_shock::{DampingRatio, Peaked, Pulse, Pulses, Shape, Suspension};
+    /// let pulses = Pulses::new(&[Pulse { shape: Shape::HalfSine, amplitude: 50.0, duration: 0.005, start: 0.0 }])?;
+    /// let mount = Suspension::from_hz(100.0, DampingRatio::new(0.05)?)?;
+    /// let peak = pulses.respond(&mount).relative_displacement.peak();
+    /// let alone = pulses.peak_above(&mount, Peaked::PseudoVelocity, 0.0).unwrap();
+    /// assert!((alone.value - mount.omega() * peak.value).abs() < 1e-15);
+    /// assert_eq!(pulses.peak_above(&mount, Peaked::PseudoVelocity, 1.0), None);
+    /// # Ok::<(), clatter_shock::Error>(())
+    /// ```
+    #[must_use]
+    pub fn peak_above(&self, suspension: &Suspension, peaked: Peaked, above: f64) -> Option<Extreme> {
+        let modes = Modes::new(suspension.damping());
+        let (omega, row) = (suspension.omega(), peaked.row());
+        let mut range = [Range::beyond(above)];
+        let last = self.drive(&modes, omega, &[row], &mut range);
+        let [mut range] = range;
+        range.note_free(&modes, row, last, f64::INFINITY, self.pieces.len());
+        range.peak_above(above, omega, |i| self.begin(i))
+    }
+    /// When interval `i` begins.
+    fn begin(&self, i: usize) -> f64 {
+        self.pieces.get(i).map_or(self.end.hi, |p| p.start.hi)
     }
     /// Motion relative to the base at the end of the last pulse.
     #[must_use]

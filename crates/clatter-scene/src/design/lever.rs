@@ -1,15 +1,14 @@
 //! The smallest single change that makes a part safe.
 
-use clatter::End;
 use clatter::flight::Body;
 use clatter_shock::DampingRatio;
 use rayon::prelude::*;
 
-use crate::base::{Base, SingleDrop};
-use crate::demand::{Demand, Heard};
+use crate::demand::Demand;
+use crate::plan::Pair;
+use crate::search::{self, Field, Place, Task};
 use crate::{
-    Assessment, BarModel, Component, ComponentAssessment, ComponentModel, Error, Law, Mount, Product, ProductFile,
-    Spread, Verdict,
+    Accuracy, Assessment, Component, ComponentAssessment, Error, Law, Mount, Product, ProductFile, Spread, Verdict,
 };
 
 /// One thing that a designer can change while all else stays.
@@ -71,6 +70,17 @@ impl Default for Bounds {
     /// of the paper), frequencies a factor of 4 either way, damping ratios up to 0.5.
     fn default() -> Self {
         Self { q: [0.0, 0.9], e: [0.05, 0.9], frequency_factor: 4.0, damping: [0.0, 0.5] }
+    }
+}
+
+impl Bounds {
+    /// A part with the highest frequency and damping that it can be given.
+    fn stiffest(&self, component: &Component) -> Option<Component> {
+        let Mount::Suspended { frequency_hz, damping } = component.mount else { return None };
+        let highest = frequency_hz.hi() * self.frequency_factor.max(1.0);
+        let frequency_hz = Spread::new(highest, highest, Law::Value).ok()?;
+        let damping = DampingRatio::new(self.damping[1].max(damping.get())).ok()?;
+        Some(Component { mount: Mount::Suspended { frequency_hz, damping }, ..component.clone() })
     }
 }
 
@@ -136,11 +146,13 @@ impl ProductFile {
     pub fn remedies(&self, assessment: &Assessment, bounds: &Bounds) -> Result<Vec<Remedies>, Error> {
         let failing = assessment.components.iter().enumerate().filter(|(_, c)| c.verdict == Verdict::Unsafe);
         let tasks: Vec<_> = failing.flat_map(|(i, found)| Lever::ALL.map(|lever| (i, found, lever))).collect();
+        let stiffest: Vec<_> = self.components.iter().filter_map(|component| bounds.stiffest(component)).collect();
+        let field = Field::new(&self.product, &self.drop, &stiffest, Accuracy::default());
         let outcomes: Vec<Outcome> = tasks
             .par_iter()
             .map(|&(i, found, lever)| {
                 let Some(component) = self.components.get(i) else { return Ok(Outcome::NoEffect) };
-                let case = Case { file: self, component, lever, bounds };
+                let case = Case { file: self, field: &field, component, lever, bounds };
                 Ok(case.solve(found))
             })
             .collect::<Result<_, Error>>()?;
@@ -182,6 +194,8 @@ impl Product {
 /// One lever of one part.
 struct Case<'a> {
     file: &'a ProductFile,
+    /// The product as it is.
+    field: &'a Field<'a>,
     component: &'a Component,
     lever: Lever,
     bounds: &'a Bounds,
@@ -190,14 +204,8 @@ struct Case<'a> {
 /// A drop that broke the part, in terms that outlast a change of the levers.
 #[derive(Debug, Clone, Copy)]
 struct Breaker {
-    first: End,
-    tilt_rad: f64,
-    speed_m_s: f64,
-    /// Where in their ranges.
-    restitution: f64,
-    frequency: f64,
-    model: BarModel,
-    pulses: bool,
+    place: Place,
+    pair: Pair,
 }
 
 impl Case<'_> {
@@ -218,7 +226,7 @@ impl Case<'_> {
         }
         let (here, [lo, hi]) = (self.here(), self.reach());
         let mut breakers = Vec::new();
-        remember(found, &mut breakers, &self.file.product, self.component);
+        remember(found, &mut breakers, self.field, self.component);
         let step = (hi - lo) / f64::from(STEPS);
         let mut best: Option<(f64, Box<ComponentAssessment>)> = None;
         for k in 1..=STEPS {
@@ -263,16 +271,26 @@ impl Case<'_> {
     /// The assessment at a value of the lever, if it is safe.
     fn safe_at(&self, x: f64, breakers: &mut Vec<Breaker>) -> Option<Box<ComponentAssessment>> {
         let file = self.changed(x)?;
-        if breakers.iter().rev().any(|breaker| breaks(&file, breaker)) {
+        let component = file.components.first()?;
+        // Of the product as it is, drops stay as they were followed.
+        let anew;
+        let field = match self.lever {
+            Lever::InertiaRatio | Lever::Restitution => {
+                anew = Field::new(&file.product, &file.drop, &file.components, Accuracy::default());
+                &anew
+            }
+            Lever::Position | Lever::Frequency | Lever::Damping => self.field,
+        };
+        if breakers.iter().rev().any(|breaker| breaks(field, component, breaker)) {
             return None;
         }
         // What cannot be assessed is not known to be safe.
-        let assessment = file.assess().ok()?;
+        let assessment = file.assess_in(field).ok()?;
         let found = assessment.components.into_iter().next()?;
         if found.verdict == Verdict::Safe {
             return Some(Box::new(found));
         }
-        remember(&found, breakers, &file.product, file.components.first()?);
+        remember(&found, breakers, field, component);
         None
     }
 
@@ -357,50 +375,28 @@ impl Case<'_> {
     }
 }
 
-/// Keeps the drops that broke a part of a product.
-fn remember(found: &ComponentAssessment, breakers: &mut Vec<Breaker>, product: &Product, component: &Component) {
-    let share = |spread: &Spread, value: f64| {
-        let width = spread.hi() - spread.lo();
-        if width > 0.0 { (value - spread.lo()) / width } else { 0.0 }
+/// Keeps the drops that broke a part.
+fn remember(found: &ComponentAssessment, breakers: &mut Vec<Breaker>, field: &Field<'_>, component: &Component) {
+    let frequencies = match component.mount {
+        Mount::Suspended { frequency_hz, .. } => Some(frequency_hz),
+        Mount::Hard => None,
     };
-    for limit in found.limits.iter().filter(|limit| !limit.is_safe()) {
-        let case = &limit.worst_case;
-        let frequency = match (&component.mount, case.frequency_hz) {
-            (Mount::Suspended { frequency_hz, .. }, Some(f)) => share(frequency_hz, f),
-            _ => 0.0,
-        };
-        breakers.push(Breaker {
-            first: case.first,
-            tilt_rad: case.tilt_deg.to_radians(),
-            speed_m_s: case.speed_m_s,
-            restitution: share(&product.restitution, case.restitution),
-            frequency,
-            model: limit.model.bar,
-            pulses: limit.model.component == ComponentModel::PulseTrain,
-        });
-    }
+    breakers.extend(found.limits.iter().filter(|limit| !limit.is_safe()).map(|limit| Breaker {
+        place: field.place_of(&limit.worst_case, frequencies),
+        pair: search::pair_of(&limit.model),
+    }));
 }
 
-/// Whether a drop breaks the first component of a product.
-fn breaks(file: &ProductFile, breaker: &Breaker) -> bool {
-    let Some(component) = file.components.first() else { return false };
-    let drop = SingleDrop {
-        first: breaker.first,
-        tilt_rad: breaker.tilt_rad,
-        speed_m_s: breaker.speed_m_s,
-        restitution: file.product.restitution.at(breaker.restitution),
-        gravity_m_s2: if breaker.model == BarModel::Map { 0.0 } else { file.drop.gravity_m_s2 },
-    };
-    let frequency_hz = match &component.mount {
-        Mount::Suspended { frequency_hz, .. } => frequency_hz.at(breaker.frequency),
-        Mount::Hard => 0.0,
-    };
-    let Ok(base) = Base::new(&file.product, &drop, breaker.model) else { return false };
-    let mut heard = Heard::new(breaker.pulses);
-    Demand::of(component).iter().any(|demand| {
-        demand.reached(&base, component, frequency_hz, &mut heard).is_ok_and(|reached| {
-            let settled = demand.settle(reached.value, file.product.contact_time_s);
-            settled.factor * reached.value > settled.allowed
+/// Whether a drop breaks a part.
+fn breaks(field: &Field<'_>, component: &Component, breaker: &Breaker) -> bool {
+    Demand::of(component).into_iter().any(|demand| {
+        let places = component.ends_m().into_iter().map(|position_m| Place { position_m, ..breaker.place });
+        let most = field.most(&Task { component, demand, proven: None }, breaker.pair, places, demand.allowed);
+        most.is_ok_and(|most| {
+            most.is_some_and(|most| {
+                let settled = demand.settle(most.value, field.product.contact_time_s);
+                settled.factor * most.value > settled.allowed
+            })
         })
     })
 }

@@ -2,7 +2,7 @@
 
 use clatter::flight::{CompliantFlight, Flight, Model};
 use clatter::{Bar, PeakImpact, Start};
-use clatter_shock::{Pulses, Response, Suspension, VelocityShock, VelocityShocks};
+use clatter_shock::{Extreme, Peaked, Pulses, Suspension, VelocityShock, VelocityShocks};
 
 use super::history;
 use super::{BarRung, ComponentRung, Pair, Quantity, Setup};
@@ -187,13 +187,20 @@ impl Setup {
     pub(crate) fn of_impulses(&self, shocks: &VelocityShocks, quantity: Quantity) -> f64 {
         match quantity {
             Quantity::VelocityShock => shocks.largest(),
-            _ => peak(&shocks.respond(&self.suspension), quantity),
+            _ => self.scaled(shocks.peak_above(&self.suspension, peaked(quantity), 0.0), quantity),
         }
     }
 
     fn of_polygon(&self, polygon: &[(f64, f64)], quantity: Quantity, strikes: usize) -> Result<Answer, Error> {
-        let value = peak(&Pulses::piecewise_linear(polygon)?.respond(&self.suspension), quantity);
+        let pulses = Pulses::piecewise_linear(polygon)?;
+        let value = self.scaled(pulses.peak_above(&self.suspension, peaked(quantity), 0.0), quantity);
         Ok(Answer { value, strikes, pieces: polygon.len().saturating_sub(1) })
+    }
+
+    /// A peak, from velocity to what is asked.
+    fn scaled(&self, peak: Option<Extreme>, quantity: Quantity) -> f64 {
+        let (peak, omega) = (peak.map_or(0.0, |peak| peak.value.abs()), self.suspension.omega());
+        if quantity == Quantity::PeakAcceleration { omega * peak } else { peak / omega }
     }
 
     /// Sum of all velocity shocks of the map, in closed form; infinite where it has no limit.
@@ -243,9 +250,9 @@ fn nearby(bar: &Bar, start: &Start, first: u64) -> impl Iterator<Item = clatter:
     head.into_iter().chain(train.take(2))
 }
 
-fn peak(response: &Response, quantity: Quantity) -> f64 {
+fn peaked(quantity: Quantity) -> Peaked {
     match quantity {
-        Quantity::PeakAcceleration => response.absolute_acceleration.magnitude(),
-        _ => response.relative_displacement.magnitude(),
+        Quantity::PeakAcceleration => Peaked::AccelerationOverOmega,
+        _ => Peaked::PseudoVelocity,
     }
 }

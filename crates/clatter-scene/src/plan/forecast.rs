@@ -339,7 +339,7 @@ impl Setup {
             if n > 0 {
                 let interval = &mut walk.intervals[n - 1];
                 if !shocks {
-                    let turn = swing.turn(omega * gap);
+                    let turn = trail.turn(n - 1, swing, omega * gap);
                     if swing.bound(motion) > 0.5 * peak {
                         let top = swing.peak(motion, omega * gap);
                         (interval.value, interval.phase, interval.slope) = (top.value, top.phase, top.slope);

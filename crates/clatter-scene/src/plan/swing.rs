@@ -49,6 +49,9 @@ impl Swing {
         let unit = Motion { x: 0.0, w: 1.0 };
         Self { factor: swing.peak(unit, f64::INFINITY).value, ..swing }
     }
+    pub(super) fn zeta(&self) -> f64 {
+        self.zeta
+    }
     /// Q.
     pub(super) fn quantity(&self, m: Motion) -> f64 {
         self.row[0] * m.x + self.row[1] * m.w

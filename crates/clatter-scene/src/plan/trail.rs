@@ -5,6 +5,7 @@ use clatter::flight::Scene;
 use super::STRIKES;
 use super::lane::{Ends, Lane, Next};
 use super::pulse::Pulse;
+use super::swing::{Swing, Turn};
 
 /// A strike of the lane with all physics, and the same one in the others.
 #[derive(Debug, Clone, Copy)]
@@ -28,6 +29,9 @@ pub(super) struct Step {
 /// A strike of the map: the end, the time since the last one, and velocity shocks of both ends.
 type MapStrike = (usize, f64, [f64; 2]);
 
+/// Frequencies of a part whose turns are kept: those of a grid over its range.
+const FREQUENCIES: usize = 3;
+
 /// Strikes as far as they were asked for.
 #[derive(Debug, Clone)]
 pub(crate) struct Trail {
@@ -42,6 +46,8 @@ pub(crate) struct Trail {
     pub(super) twice_energy: f64,
     steps: Vec<Step>,
     of_map: Vec<MapStrike>,
+    /// How a part turns after each strike, for the frequencies asked last: damping ratio, phase, turn.
+    turns: Vec<[Option<(f64, f64, Turn)>; FREQUENCIES]>,
 }
 
 impl Trail {
@@ -64,6 +70,7 @@ impl Trail {
             twice_energy: full.twice_energy(&ends),
             steps: Vec::with_capacity(STRIKES),
             of_map: Vec::with_capacity(STRIKES),
+            turns: Vec::with_capacity(STRIKES),
         }
     }
 
@@ -82,6 +89,23 @@ impl Trail {
             self.advance();
         }
         self.steps.get(n).copied()
+    }
+
+    /// What the phase θ after strike n does to a part: worked out once for all of its places.
+    pub(super) fn turn(&mut self, n: usize, swing: &Swing, theta: f64) -> Turn {
+        if n >= self.turns.len() {
+            self.turns.resize(n + 1, [None; FREQUENCIES]);
+        }
+        let kept = &mut self.turns[n];
+        for (zeta, phase, turn) in kept.iter().flatten() {
+            if zeta.to_bits() == swing.zeta().to_bits() && phase.to_bits() == theta.to_bits() {
+                return *turn;
+            }
+        }
+        let turn = swing.turn(theta);
+        kept.rotate_right(1);
+        kept[0] = Some((swing.zeta(), theta, turn));
+        turn
     }
 
     fn advance(&mut self) {

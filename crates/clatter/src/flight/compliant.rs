@@ -46,6 +46,8 @@
 //! | 0.01 | 0.2 | 0.003 | 0.02 |
 //! | 0.003 | 0.06 | 0.001 | 0.003 |
 
+use std::cell::Cell;
+
 use super::ballistic::Clock;
 use super::finite_tilt::{Pose, end_of, sigma};
 use super::roots::{first_zero, safe_step};
@@ -231,13 +233,27 @@ impl Phase {
         let weights = if i == 0 { [cos, -sin] } else { [sin, cos] };
         weights.map(|w| w / self.kappa[i].sqrt())
     }
-    /// Height, velocity, acceleration of end i.
-    fn end(&self, i: usize, t: f64) -> [f64; 3] {
+    /// z and z′ of the modes at time t; of one end in contact they are the same.
+    fn modes_at(&self, t: f64) -> [(f64, f64); 2] {
+        let first = self.modes[0].at(t);
+        [first, if self.both() { self.modes[1].at(t) } else { first }]
+    }
+    /// The same, kept for whoever asks again for the time asked last.
+    fn kept_modes_at(&self) -> impl Fn(f64) -> [(f64, f64); 2] {
+        let last = Cell::new((0.0_f64, self.modes_at(0.0)));
+        move |t| {
+            if t.to_bits() != last.get().0.to_bits() {
+                last.set((t, self.modes_at(t)));
+            }
+            last.get().1
+        }
+    }
+    /// Height, velocity, acceleration of end i at time t, from the modes then.
+    fn end(&self, i: usize, t: f64, modes: &[(f64, f64); 2]) -> [f64; 3] {
         if self.on[i] {
             let c = self.weights(i);
             let mut sum = [0.0; 3];
-            for (c, mode) in c.iter().zip(&self.modes) {
-                let now = mode.at(t);
+            for ((c, mode), &now) in c.iter().zip(&self.modes).zip(modes) {
                 let terms = [mode.rest + now.0, now.1, mode.second(now)];
                 for (s, term) in sum.iter_mut().zip(terms) {
                     *s += c * term;
@@ -245,7 +261,7 @@ impl Phase {
             }
             return sum;
         }
-        self.free_end(i, t, self.end(1 - i, t))
+        self.free_end(i, t, self.end(1 - i, t, modes))
     }
     /// The same of the free one, where the other one is known.
     fn free_end(&self, i: usize, t: f64, [h, v, a]: [f64; 3]) -> [f64; 3] {
@@ -259,21 +275,10 @@ impl Phase {
             -g[i] + share * (a + g[j]),
         ]
     }
-    /// Both ends at once: the modes are evaluated once.
+    /// Both ends.
     fn ends(&self, t: f64) -> [[f64; 3]; 2] {
-        if !self.both() {
-            let i = usize::from(self.on[1]);
-            let pressing = self.end(i, t);
-            return [0, 1].map(|k| if k == i { pressing } else { self.free_end(k, t, pressing) });
-        }
-        let modes = self.modes.map(|mode| {
-            let now = mode.at(t);
-            [mode.rest + now.0, now.1, mode.second(now)]
-        });
-        [0, 1].map(|i| {
-            let [a, b] = self.weights(i);
-            [0, 1, 2].map(|k| 0.0 + a * modes[0][k] + b * modes[1][k])
-        })
+        let modes = self.modes_at(t);
+        [0, 1].map(|i| self.end(i, t, &modes))
     }
     fn force(&self, i: usize, [h, v, _]: [f64; 3]) -> f64 {
         if self.on[i] { (-self.kappa[i] * (h + self.delay * v)).max(0.0) } else { 0.0 }
@@ -290,9 +295,9 @@ impl Phase {
             f
         }
     }
-    /// Impulses of both ends over the time t.
-    fn impulses(&self, t: f64) -> [f64; 2] {
-        self.solve([0, 1].map(|i| self.end(i, t)[1] - self.start.ends.v[i] + self.fall[i] * t))
+    /// Impulses of both ends over the time t, from what they do then.
+    fn impulses(&self, t: f64, ends: &[[f64; 3]; 2]) -> [f64; 2] {
+        self.solve([0, 1].map(|i| ends[i][1] - self.start.ends.v[i] + self.fall[i] * t))
     }
     /// Adds to a strike of end k what its impulse does to both ends.
     fn push(&self, strike: &mut Strike, k: usize, impulses: [f64; 2]) {
@@ -301,14 +306,13 @@ impl Phase {
             *d += m * impulses[k];
         }
     }
-    /// The pose at time t: angle and spin are what the impulses give. `free`: so are the velocities of both ends, by that of
+    /// The pose at time t, from what the ends do then: angle and spin are what the impulses give. `free`: so are the velocities of both ends, by that of
     /// the center, which keeps the energy; else the end in contact keeps its own, and lies still if it did. `parts`: the
     /// center is where the impulses have brought it, which keeps the energy too; else the end in contact is where its
     /// spring is. What is left follows in exact geometry.
-    fn pose(&self, t: f64, free: bool, parts: bool) -> Pose {
+    fn pose(&self, t: f64, ends: &[[f64; 3]; 2], free: bool, parts: bool) -> Pose {
         let s = &self.start;
         let length = s.body.length_m();
-        let ends = [0, 1].map(|i| self.end(i, t));
         let mut next = *s;
         (next.ends.h, next.ends.v) = (ends.map(|e| e[0]), ends.map(|e| e[1]));
         if self.both() {
@@ -322,7 +326,8 @@ impl Phase {
         let j = 1 - i;
         let twice = (ends[i][0] - s.ends.h[i] - s.ends.v[i] * t + 0.5 * self.fall[i] * t * t) / self.mu[i];
         next = next.turned(s.spin * t + self.x[i] * twice / rho2);
-        next.spin = s.spin + self.x[i] * self.impulses(t)[i] / rho2;
+        let impulse = self.impulses(t, ends)[i];
+        next.spin = s.spin + self.x[i] * impulse / rho2;
         if parts {
             let y = s.center().0 + t * (s.center().1 - 0.5 * s.gravity * t) + twice;
             next.ends.h[i] = y + sigma(i) * s.body.arms_m()[i] * next.sin;
@@ -330,15 +335,14 @@ impl Phase {
         next.ends.h[j] = next.ends.h[i] + sigma(j) * length * next.sin;
         next.ends.v[j] = next.ends.v[i] + sigma(j) * length * next.cos * next.spin;
         if free {
-            let center = s.center().1 - s.gravity * t + self.impulses(t)[i];
+            let center = s.center().1 - s.gravity * t + impulse;
             next.ends.v = next.levers().map(|x| center + x * next.spin);
         }
         next
     }
-    /// Work of the ground on the body over the time t, per unit mass: with `M` the map of forces to accelerations,
+    /// Work of the ground on the body until the ends do this, per unit mass: with `M` the map of forces to accelerations,
     /// `∫ f·v dt = ½ Δ(v·M⁻¹v) + fall·M⁻¹Δh`.
-    fn work(&self, t: f64) -> f64 {
-        let ends = [0, 1].map(|i| self.end(i, t));
+    fn work(&self, ends: &[[f64; 3]; 2]) -> f64 {
         let (h, v) = (self.start.ends.h, self.start.ends.v);
         let rise = self.solve([0, 1].map(|i| ends[i][0] - h[i]));
         let push = self.solve([0, 1].map(|i| ends[i][1] - v[i]));
@@ -348,14 +352,15 @@ impl Phase {
     fn parting(&self, i: usize, cap: f64, fresh: bool) -> Option<f64> {
         let (c, delay) = (self.weights(i), self.delay);
         let rest: f64 = c.iter().zip(&self.modes).map(|(c, m)| c * m.rest).sum();
+        let modes_at = self.kept_modes_at();
         let press = |t: f64| {
-            let [h, v, a] = self.end(i, t);
+            let [h, v, a] = self.end(i, t, &modes_at(t));
             (-(h + delay * v), -(v + delay * a))
         };
         let step = |t: f64, f: f64, slope: f64| {
             let (mut swing, mut bound) = (0.0, 0.0);
-            for (c, mode) in c.iter().zip(&self.modes) {
-                let (z, a) = mode.bounds(mode.at(t));
+            for ((c, mode), now) in c.iter().zip(&self.modes).zip(modes_at(t)) {
+                let (z, a) = mode.bounds(now);
                 let whole = c.abs() * (1.0 + delay * mode.k.sqrt());
                 swing += whole * z;
                 bound += whole * a;
@@ -374,12 +379,13 @@ impl Phase {
     fn touching(&self, j: usize, cap: f64, fresh: bool) -> Option<(f64, bool)> {
         let delay = self.delay;
         let share = (self.cross / self.mu[1 - j]).abs();
+        let modes_at = self.kept_modes_at();
         let bounds = |t: f64| {
-            let (_, a) = self.modes[0].bounds(self.modes[0].at(t));
+            let (_, a) = self.modes[0].bounds(modes_at(t)[0]);
             let fall = self.fall[j].abs() + share * (self.fall[1 - j].abs() + a);
             (fall, fall + delay * share * a * self.modes[0].k.sqrt())
         };
-        next_contact(delay, cap, fresh, |t| self.end(j, t), bounds, |_| 0.0)
+        next_contact(delay, cap, fresh, |t| self.end(j, t, &modes_at(t)), bounds, |_| 0.0)
     }
     /// Time in which the vibration dies down to `SHARE`.
     fn ringing_s(&self) -> f64 {
@@ -568,9 +574,10 @@ pub(super) fn simulate(scene: &Scene, contact: Contact) -> CompliantFlight {
         if free {
             pose = pose.flown(dt);
         } else {
-            let impulses = phase.impulses(dt);
-            pose = phase.pose(dt, !long, !long && event.is_some_and(|(i, ..)| on[i]));
-            misfit += (pose.energy() - phase.start.energy() - phase.work(dt)).abs();
+            let ends = phase.ends(dt);
+            let impulses = phase.impulses(dt, &ends);
+            pose = phase.pose(dt, &ends, !long, !long && event.is_some_and(|(i, ..)| on[i]));
+            misfit += (pose.energy() - phase.start.energy() - phase.work(&ends)).abs();
             for k in (0..2).filter(|&k| on[k]) {
                 phase.push(&mut log.flight.strikes[strike_of[k]], k, impulses);
             }
