@@ -17,7 +17,7 @@ use rayon::prelude::*;
 
 use crate::base::{self, Base, Cells, SingleDrop};
 use crate::demand::{Demand, Reached};
-use crate::plan::demand::fineness;
+use crate::plan::demand::{crowding, fineness};
 use crate::plan::trail::Trail;
 use crate::plan::{BarRung, ComponentRung, Pair, Plan, Quantity, Setup};
 use crate::{
@@ -147,8 +147,10 @@ impl<'a> Field<'a> {
             Mount::Suspended { frequency_hz, .. } => c.mount.suspension(frequency_hz.hi()).ok().flatten(),
             Mount::Hard => None,
         });
-        let finest = finest.map(|part| fineness(&part, contact)).fold(0.5, f64::max);
-        let most = finest * FINE.0 * (FINE.1 / (POLYGONS * accuracy.tolerance)).sqrt();
+        let finest: Vec<_> = finest.map(|part| (fineness(&part, contact), crowding(&product.body, &part))).collect();
+        let crowded = finest.iter().fold(1.0, |m: f64, f| m.max(f.1));
+        let finest = finest.iter().fold(0.5, |m: f64, f| m.max(f.0));
+        let most = crowded * finest * FINE.0 * (FINE.1 / (POLYGONS * accuracy.tolerance)).sqrt();
         let cells = Cells { most, fineness: finest };
         Self { product, drop, accuracy, cells, grid: OnceLock::new(), beside: Beside::default() }
     }

@@ -87,6 +87,11 @@ fn contacts_are_followed_until_nothing_higher_comes() {
             [0.335, 0.0492, 0.0496, 0.483, 8.21],
             [1.32e-4, -0.988, 181.0, 0.995],
         ),
+        (
+            "the shocks of two light ends nearly cancel, and a strong dashpot follows what is left",
+            [0.0606, 0.004_952, 0.0751, 0.7332, 0.321],
+            [8.714e-4, -0.8663, 1208.6, 1.3648],
+        ),
     ] {
         let setup = drop_of(drop, part);
         for quantity in QUANTITIES {

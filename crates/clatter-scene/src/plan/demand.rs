@@ -1,6 +1,6 @@
 //! What a pair of models answers.
 
-use clatter::flight::{CompliantFlight, Flight, Model};
+use clatter::flight::{Body, CompliantFlight, Flight, Model};
 use clatter::{Bar, PeakImpact, Start};
 use clatter_shock::{Extreme, Peaked, Pulses, Suspension, VelocityShock, VelocityShocks};
 
@@ -112,7 +112,8 @@ impl Setup {
     /// Pieces of a pulse.
     fn cells(&self, cells: usize, contact_s: f64) -> usize {
         #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
-        let pieces = cells as f64 * fineness(&self.suspension, contact_s);
+        let pieces =
+            cells as f64 * fineness(&self.suspension, contact_s) * crowding(&self.scene.body(), &self.suspension);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few hundred")]
         let pieces = pieces.ceil() as usize;
         pieces
@@ -240,6 +241,14 @@ pub(crate) fn fineness(suspension: &Suspension, contact_s: f64) -> f64 {
     // By the fastest of its motions.
     let fast = turned * (zeta + (zeta * zeta - 1.0).max(0.0).sqrt()).max(1.0);
     fineness.clamp(least, 1.0) * (fast / FINE).clamp(1.0, 8.0)
+}
+
+/// How many times as many pieces a part with a strong dashpot needs on a body with light ends: there the shocks of both nearly cancel in
+/// overlap, to a share of 1 − q, and the dashpot follows what is left; that is off by the second to third power of a piece.
+pub(crate) fn crowding(body: &Body, suspension: &Suspension) -> f64 {
+    let [a, b] = body.inertia_ratios();
+    let apart = 1.0 - a.max(b);
+    if suspension.damping().get() < 0.7 || apart >= 0.5 { 1.0 } else { (2.0 * apart).max(0.01).sqrt().recip() }
 }
 
 /// Three impacts from number `first` + 1 on.
