@@ -120,6 +120,7 @@ pub fn write(report: Report, dir: &Path, progress: &mut dyn FnMut(&str)) -> Resu
             let inputs = [
                 ("page.json", data.as_str()),
                 ("trade.typ", include_str!("../../../reports/trade.typ")),
+                ("plans.json", trade::PLANS),
                 ("peers.typ", include_str!("../../../reports/peers.typ")),
             ];
             page("accuracy.pdf", source, &accuracy_files, &inputs, dir, progress)

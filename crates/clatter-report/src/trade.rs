@@ -18,6 +18,9 @@ const EXAMPLES: [(&str, &str); 3] = [
 ];
 const BARS: [&str; 4] = ["trade-bar-1.svg", "trade-bar-2.svg", "trade-bar-3.svg", "trade-bar-4.svg"];
 
+/// The study of plans on random scenes, as it last ran.
+pub(crate) const PLANS: &str = include_str!("../../../reports/plans.json");
+
 /// Bars whose train never ends without gravity, from the shortest to one close to where trains begin to end.
 const ENDLESS: [[f64; 2]; 3] = [[0.8, 0.1], [0.9, 0.3], [0.95, 0.5]];
 
@@ -100,7 +103,7 @@ mod tests {
     use super::*;
     use crate::paper::tests::stay_within_their_frame;
     use clatter::flight::{Body, Scene};
-    use clatter_scene::plan::Setup;
+    use clatter_scene::plan::{Pair, Setup};
     use clatter_shock::{DampingRatio, Suspension};
 
     #[test]
@@ -125,6 +128,23 @@ mod tests {
         // The laptop has no contact time: its figure says so, the phone's need not.
         let says = |name| files.iter().find(|(n, _)| *n == name).unwrap().1.contains("compliant bar here");
         assert!(says("trade-laptop.svg") && !says("trade-phone.svg"));
+    }
+
+    /// The record is of pairs that plans choose from today, of enough scenes, and holds what plans promise.
+    #[test]
+    fn the_study_of_plans_holds_them() {
+        let data: serde_json::Value = serde_json::from_str(PLANS).unwrap();
+        assert!(data["scenes"].as_u64() >= Some(10_000), "{}", data["scenes"]);
+        for quantity in [Quantity::PeakAcceleration, Quantity::RattleSpace, Quantity::VelocityShock] {
+            let of = |row: &&serde_json::Value| row["quantity"] == quantity.name();
+            let pairs = data["pairs"].as_array().unwrap().iter().filter(of);
+            let pairs = pairs.map(|p| (p["bar"].as_str().unwrap(), p["component"].as_str().unwrap()));
+            let planned = Pair::planned(quantity).iter().map(|p| (p.bar.name(), p.component.name()));
+            assert!(pairs.eq(planned), "run the study again: the pairs of {} have changed", quantity.name());
+            for row in data["worth"].as_array().unwrap().iter().filter(of) {
+                assert!(row["within"].as_f64() >= Some(0.995), "{row}");
+            }
+        }
     }
 
     /// All mass in the middle: shocks of the map grow without end, at no place that is reached.

@@ -20,14 +20,14 @@
 //!
 //! - pulses in place of impulses: `½ σ² ω²` of a peak inside the swing (σ² the variance of the pulse), the slope over its mean
 //!   age for a peak on the jump of the dashpot;
-//! - overlapping contacts: the share of a shock that is still to come when the next contact begins, and the share of the next that
-//!   acts through the bar on the one still there;
+//! - overlapping contacts: what a kick through the bar does to a contact that has not done all it would, exactly for a linear one;
 //! - everything later: by energy, no end can be faster than E allows; where that cannot raise the response above the peak so
 //!   far, the following stops, and [`Forecast::until_s`] says until when any model needs to be followed.
 //!
 //! # Bounds and estimates
-//! The last is a bound for velocity shocks. The rest is first order in the groups, with constants that were fitted where two
-//! contacts overlap: an estimate, held by a study of random scenes (`examples/plan_study.rs`). [`Estimate::is_bound`] says which it is.
+//! The last is a bound for velocity shocks. The rest is first order in the groups, with three fitted constants, for ends
+//! that come up from below the ground, for large tilt and for later strikes: an estimate, held by a study of random scenes
+//! (`examples/plan_study.rs`). [`Estimate::is_bound`] says which it is.
 //!
 //! ```
 //! use clatter::flight::{Body, Scene};
