@@ -207,7 +207,7 @@ impl Setup {
     /// What every rung gets wrong in this quantity, about.
     ///
     /// # Cost
-    /// One to three microseconds; bench `plan` measures it.
+    /// Two to five microseconds; bench `plan` measures it.
     #[must_use]
     pub fn forecast(&self, quantity: Quantity) -> Forecast {
         self.follow::<STRIKES>(quantity, &mut Trail::new(&self.scene, self.contact_time_s))
