@@ -489,7 +489,9 @@ impl Drive {
             }
             _ => 0.0,
         };
-        let Last { a, time, .. } = self.last(n, if spread < 0.5 * accuracy::APPROACH.error { 1e-11 } else { 1e-13 });
+        // A twentieth of what is allowed: the rest is for the steps that follow from here.
+        let near = spread < 0.05 * accuracy::APPROACH.error;
+        let Last { a, time, .. } = self.last(n, if near { 1e-11 } else { 1e-13 });
         (a, time)
     }
 
