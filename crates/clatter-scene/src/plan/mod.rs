@@ -25,9 +25,9 @@
 //!   far, the following stops, and [`Forecast::until_s`] says until when any model needs to be followed.
 //!
 //! # Bounds and estimates
-//! The last is a bound for velocity shocks. The rest is first order in the groups, with three fitted constants, for ends
-//! that come up from below the ground, for large tilt and for later strikes: an estimate, held by a study of random scenes
-//! (`examples/plan_study.rs`). [`Estimate::is_bound`] says which it is.
+//! The last is a bound for velocity shocks. The rest is first order in the groups, with four fitted constants, for contacts
+//! that part together, for ends that come up from below the ground, for large tilt and for later strikes: an estimate, held by a study
+//! of random scenes (`examples/plan_study.rs`). [`Estimate::is_bound`] says which it is.
 //!
 //! ```
 //! use clatter::flight::{Body, Scene};
