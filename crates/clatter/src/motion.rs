@@ -28,7 +28,7 @@ use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, LN_2, PI};
 
 mod lanes;
-pub(crate) use lanes::Lanes;
+pub(crate) use lanes::{Lanes, Sweep, Then};
 
 /// Roundings (units of 2⁻⁵³, relative) that a quotient of two f64 angles or logarithms may be off: two library
 /// functions of at most 2 each, their arguments of at most 4, a quotient, and a margin of 2.
@@ -203,7 +203,8 @@ impl Drive {
             return (Dd::from(d), error);
         }
         if digits.all >= Digits::ALL.all {
-            let d = self.compensated();
+            let q = self.bar.wide_q();
+            let d = compensated(if self.m == 0 { q } else { q.scale(self.m) }, self.bar.e, self.e);
             let cancels = (4.0 * self.e / d).abs() + 1.0;
             let error = 4.0 * UNIT + power_of_two(-100) * cancels;
             if digits.allow(error, cancels) && error < 0.5 {
@@ -240,19 +241,6 @@ impl Drive {
         let exact = self.exact(Series::Velocity);
         let nu = self.bar.exact_q().1;
         (to_dd(&exact.discriminant(), &nu, &nu, 2 * self.m), power_of_two(-100))
-    }
-
-    /// 4e − T² with T = t + τ, τ what rounding leaves beside t: `((4e − s) − s') − 2tτ` with s + s' = t² exactly. Where that
-    /// cancels, 4e − s is exact; else its rounding is one of D. Error: 3 roundings of D, 2⁻¹⁰² of 4e.
-    #[inline]
-    fn compensated(&self) -> f64 {
-        let q = self.bar.wide_q();
-        let q = if self.m == 0 { q } else { q.scale(self.m) };
-        let product = two_prod(q.hi, self.bar.e);
-        let t = two_sum(q.hi, product.hi);
-        let rest = t.lo + (product.lo + q.lo * (1.0 + self.bar.e));
-        let square = two_prod(t.hi, t.hi);
-        ((4.0 * self.e - square.hi) - square.lo) - 2.0 * t.hi * rest
     }
 
     /// αT + 2β, to a relative 2⁻⁹⁰ of the amplitude at the very least.
@@ -707,6 +695,17 @@ impl Recurrence {
         let w = nu.mul(&self.w.add(&Dyadic::from(bar.e).mul(&nu).mul(&self.v))).neg();
         Self { v, w, ..self.clone() }
     }
+}
+
+/// D = 4e − T² with T = q(1 + `restitution`) = t + τ, τ what rounding leaves beside t: `((4e − s) − s') − 2tτ` with
+/// s + s' = t² exactly. Where that cancels, 4e − s is exact; else its rounding is one of D. Error: 3 roundings of D, 2⁻¹⁰² of 4e.
+#[inline]
+fn compensated(q: Dd, restitution: f64, e: f64) -> f64 {
+    let product = two_prod(q.hi, restitution);
+    let t = two_sum(q.hi, product.hi);
+    let rest = t.lo + (product.lo + q.lo * (1.0 + restitution));
+    let square = two_prod(t.hi, t.hi);
+    ((4.0 * e - square.hi) - square.lo) - 2.0 * t.hi * rest
 }
 
 /// Velocities after the last strike: of the end that struck, a for an odd count, and of the other.

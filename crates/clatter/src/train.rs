@@ -1,6 +1,6 @@
 //! The train, impact by impact.
 
-use crate::motion::{Digits, Drive, Kind, Lanes, after_first};
+use crate::motion::{Digits, Drive, Kind, Lanes, NORMAL, Sweep, Then, after_first};
 use crate::{Bar, Count, End, Start};
 
 /// One impact of the train.
@@ -71,8 +71,10 @@ struct Steps {
 /// Impacts that are not worked out by plain steps, some at a time.
 #[derive(Debug, Clone)]
 struct Later {
+    bar: Bar,
+    start: Start,
     source: Source,
-    /// Number of impacts, unless it is endless or beyond 2⁶⁴.
+    /// Number of impacts, unless it is endless, beyond 2⁶⁴ or not yet known.
     count: Option<u64>,
     /// Impacts worked out or passed over so far.
     ahead: u64,
@@ -87,10 +89,12 @@ struct Later {
 #[derive(Debug, Clone)]
 #[expect(clippy::large_enum_variant, reason = "boxed with its buffers")]
 enum Source {
+    /// The rest of a train of some hundred impacts.
+    Sweep(Sweep),
     /// Four strikes at a time, from the closed form.
-    Lanes(Drive, Lanes),
+    Lanes(Box<(Drive, Lanes)>),
     /// Each from the closed form.
-    Closed(Drive),
+    Closed(Box<Drive>),
     /// T ≤ 0: a second impact after `first`; e = 0: all further impacts at the instant of the second.
     Instant { first: f64, a: f64, t: f64, h0: f64 },
 }
@@ -98,7 +102,7 @@ enum Source {
 /// Impacts worked out together.
 const BUFFER: usize = 16;
 /// Plain steps taken before the closed form, which forgets no digit, takes over.
-const PLAIN: u64 = 32;
+const PLAIN: u64 = Sweep::BEFORE;
 /// A velocity that cancels by more than this factor times its number is left to the closed form. Of a wave with N impacts, N
 /// steps add up to 1.3 N² roundings of its amplitude, of which a velocity is π/N times N times this factor at least: an
 /// error of 1.3 N²/π · 2⁻⁵³ · 2¹¹ ≤ 1e−10.
@@ -111,14 +115,14 @@ impl Iterator for Train {
 
     #[inline]
     fn next(&mut self) -> Option<Impact> {
-        if let Some(impact) = self.step() {
+        if let Some(impact) = self.step(End::of_impact(self.number + 1)) {
             return Some(impact);
         }
         if self.later.is_none() {
             if self.steps.a >= 0.0 {
                 return None;
             }
-            self.later = Some(Later::new(self.bar, self.start, self.number, self.steps.latest));
+            self.later = Some(Later::boxed(self.bar, self.start, self.number, self.steps.latest));
         }
         let later = self.later.as_mut()?;
         if self.at == BUFFER {
@@ -126,14 +130,21 @@ impl Iterator for Train {
         }
         let (approach, time) = (*later.approach.get(self.at)?, *later.times.get(self.at)?);
         (self.at, self.number) = (self.at + 1, self.number + 1);
-        Some(self.bar.impact(self.number, approach, time))
+        Some(self.bar.impact(self.number, End::of_impact(self.number), approach, time))
     }
 
     /// Step by step, then buffer by buffer: sums over whole trains need not ask, impact by impact, where it comes from.
     #[inline]
     fn fold<B, F: FnMut(B, Impact) -> B>(mut self, init: B, mut f: F) -> B {
         let mut all = init;
-        while let Some(impact) = self.step() {
+        if self.number % 2 == 1 {
+            let Some(impact) = self.step(End::B) else { return self.fold_later(all, f) };
+            all = f(all, impact);
+        }
+        // By pairs: nothing need be chosen by the number.
+        while let Some(impact) = self.step(End::A) {
+            all = f(all, impact);
+            let Some(impact) = self.step(End::B) else { break };
             all = f(all, impact);
         }
         if self.later.is_none() && self.steps.a >= 0.0 { all } else { self.fold_later(all, f) }
@@ -165,23 +176,37 @@ impl Iterator for Train {
 impl Train {
     /// Buffer by buffer. Not part of [`fold`](Self::fold), whose plain steps then stay in registers.
     #[inline(never)]
-    fn fold_later<B, F: FnMut(B, Impact) -> B>(mut self, init: B, mut f: F) -> B {
-        let mut all = init;
-        while let Some(impact) = self.next() {
-            all = f(all, impact);
-            let Some(later) = &self.later else { continue };
-            for (&approach, &time) in later.approach[self.at..].iter().zip(&later.times[self.at..]) {
-                self.number += 1;
-                all = f(all, self.bar.impact(self.number, approach, time));
+    fn fold_later<B, F: FnMut(B, Impact) -> B>(self, init: B, mut f: F) -> B {
+        let (mut all, bar, mut number, mut at) = (init, self.bar, self.number, self.at);
+        let mut later = match self.later {
+            Some(later) => *later,
+            None => Later::new(self.bar, self.start, number, self.steps.latest),
+        };
+        loop {
+            if at < BUFFER && number % 2 == 1 {
+                number += 1;
+                all = f(all, bar.impact(number, End::B, later.approach[at], later.times[at]));
+                at += 1;
             }
-            self.at = BUFFER;
+            let pairs = later.approach[at..].chunks(2).zip(later.times[at..].chunks(2));
+            for (approach, times) in pairs {
+                number += 1;
+                all = f(all, bar.impact(number, End::A, approach[0], times[0]));
+                if let (&[_, approach], &[_, time]) = (approach, times) {
+                    number += 1;
+                    all = f(all, bar.impact(number, End::B, approach, time));
+                }
+            }
+            at = later.fill();
+            if at == BUFFER {
+                return all;
+            }
         }
-        all
     }
 
     /// The next impact by a plain step; none where the train has ended, and where more digits are needed.
     #[inline]
-    fn step(&mut self) -> Option<Impact> {
+    fn step(&mut self, end: End) -> Option<Impact> {
         let Steps { a, b, a_held, b_held, clear, last, latest } = self.steps;
         if self.number >= last {
             return None;
@@ -209,34 +234,61 @@ impl Train {
             latest: time,
         };
         self.number += 1;
-        Some(self.bar.impact(self.number, a, time))
+        Some(self.bar.impact(self.number, end, a, time))
+    }
+}
+
+impl Source {
+    /// From impact `ahead` + 1 on, and the number of impacts.
+    fn new(bar: &Bar, start: &Start, ahead: u64) -> (Self, Option<u64>) {
+        if bar.t <= 0.0 || bar.e == 0.0 {
+            let first = after_first(bar, start);
+            let count = if first <= 0.0 { Some(1) } else { (bar.t <= 0.0).then_some(2) };
+            return (Self::Instant { first, a: start.velocity()[0], t: bar.t, h0: start.height_gap() }, count);
+        }
+        let drive = Drive::new(bar, start, Digits::ALL);
+        let count = match drive.count() {
+            Count::Finite(n) => Some(n),
+            Count::Huge(_) | Count::Endless => None,
+        };
+        let closed = match drive.kind {
+            Kind::Wave(_) => false,
+            Kind::Decay(_) => count.is_some(),
+            Kind::Edge => true,
+        };
+        let lanes = || Box::new((drive, Lanes::new(&drive, ahead)));
+        (if closed { Self::Closed(Box::new(drive)) } else { Self::Lanes(lanes()) }, count)
+    }
+
+    /// Whether strikes may be so close that roundings exceed what is between them.
+    fn crowded(&self) -> bool {
+        match self {
+            Self::Sweep(_) => false,
+            Self::Lanes(lanes) => lanes.1.crowded,
+            Self::Closed(_) | Self::Instant { .. } => true,
+        }
     }
 }
 
 impl Later {
-    /// From impact `ahead` + 1 on, none before `latest`. Takes copies, so that a train that needs no more than plain steps stays in registers.
+    /// As [`new`](Self::new), out of the way of trains that need none.
     #[cold]
-    fn new(bar: Bar, start: Start, ahead: u64, latest: f64) -> Box<Self> {
-        let (source, count) = if bar.t <= 0.0 || bar.e == 0.0 {
-            let first = after_first(&bar, &start);
-            let count = if first <= 0.0 { Some(1) } else { (bar.t <= 0.0).then_some(2) };
-            (Source::Instant { first, a: start.velocity()[0], t: bar.t, h0: start.height_gap() }, count)
-        } else {
-            let drive = Drive::new(&bar, &start, Digits::ALL);
-            let count = match drive.count() {
-                Count::Finite(n) => Some(n),
-                Count::Huge(_) | Count::Endless => None,
-            };
-            let closed = match drive.kind {
-                Kind::Wave(_) => false,
-                Kind::Decay(_) => count.is_some(),
-                Kind::Edge => true,
-            };
-            let source = if closed { Source::Closed(drive) } else { Source::Lanes(drive, Lanes::new(&drive, ahead)) };
-            (source, count)
-        };
+    fn boxed(bar: Bar, start: Start, ahead: u64, latest: f64) -> Box<Self> {
+        Box::new(Self::new(bar, start, ahead, latest))
+    }
+
+    /// From impact `ahead` + 1 on, none before `latest`. Takes copies, so that a train that needs no more than plain steps
+    /// stays in registers.
+    #[cold]
+    fn new(bar: Bar, start: Start, ahead: u64, latest: f64) -> Self {
         let (approach, times) = ([0.0; BUFFER], [0.0; BUFFER]);
-        Box::new(Self { source, count, ahead, approach, times, latest })
+        if ahead == Sweep::BEFORE
+            && let Some(sweep) = Sweep::new(&bar, &start)
+        {
+            return Self { bar, start, source: Source::Sweep(sweep), count: None, ahead, approach, times, latest };
+        }
+        let (source, count) = Source::new(&bar, &start, ahead);
+        Self { bar, start, source, count, ahead, approach, times, latest }
     }
 
     /// Works out the next impacts and returns where in the buffers they begin: at their end where the train has ended.
@@ -250,18 +302,41 @@ impl Later {
         }
         let mut at = BUFFER - n;
         match &mut self.source {
-            Source::Lanes(drive, lanes) => {
+            Source::Sweep(sweep) => {
+                let (taken, then) = sweep.take(&mut self.approach, &mut self.times);
+                self.ahead += taken as u64;
+                match then {
+                    Then::On => {}
+                    Then::End => self.count = Some(self.ahead),
+                    Then::Doubt => (self.source, self.count) = Source::new(&self.bar, &self.start, self.ahead),
+                }
+                if taken == 0 {
+                    return self.fill();
+                }
+                at = BUFFER - taken;
+                if taken < BUFFER {
+                    self.approach.copy_within(..taken, at);
+                    self.times.copy_within(..taken, at);
+                }
+            }
+            Source::Lanes(lanes) => {
+                let (drive, lanes) = &mut **lanes;
                 lanes.take(drive, &mut self.approach, &mut self.times);
                 if n < BUFFER {
                     self.approach.copy_within(..n, at);
                     self.times.copy_within(..n, at);
                 }
-                // The first and the last strike by themselves: next to a tie, the last takes more digits.
+                // The first strike by itself, and a last one that is next to a tie: it takes more digits.
                 if self.ahead == 0 {
                     (self.approach[at], self.times[at]) = drive.strike(1);
                 }
                 if let (Some(count), true) = (self.count, left <= BUFFER as u64) {
-                    (self.approach[BUFFER - 1], self.times[BUFFER - 1]) = drive.strike(count);
+                    let [before, last] = [self.approach[BUFFER - 2], self.approach[BUFFER - 1]];
+                    // δ_N−1 > θ/4, as |a_N−1/a_N−2| = √e sin δ_N−1/sin(δ_N−1 + θ).
+                    let clear = n > 1 && last < 0.25 * self.bar.e.sqrt() * before && last < -NORMAL;
+                    if !clear {
+                        (self.approach[BUFFER - 1], self.times[BUFFER - 1]) = drive.strike(count);
+                    }
                 }
                 self.ahead += n as u64;
             }
@@ -282,7 +357,7 @@ impl Later {
         // Roundings of times that hardly differ, or of two ways to the same time, may step back. Looked for all at once:
         // it is rare, and a running maximum is a chain of operations that wait for each other.
         let back = self.times[at] < self.latest;
-        if back || (1..BUFFER).filter(|&i| self.times[i] < self.times[i - 1]).count() > 0 {
+        if back || self.source.crowded() && (1..BUFFER).filter(|&i| self.times[i] < self.times[i - 1]).count() > 0 {
             for time in &mut self.times[at..] {
                 self.latest = self.latest.max(*time);
                 *time = self.latest;
@@ -294,13 +369,17 @@ impl Later {
 
     /// Passes over impacts, in constant time.
     fn skip(&mut self, skip: usize) {
-        let from = self.ahead;
-        self.ahead = self.ahead.saturating_add(skip as u64);
         if skip == 0 {
             return;
         }
+        if let Source::Sweep(_) = self.source {
+            (self.source, self.count) = Source::new(&self.bar, &self.start, self.ahead);
+        }
+        let from = self.ahead;
+        self.ahead = self.ahead.saturating_add(skip as u64);
         match &mut self.source {
-            Source::Lanes(drive, lanes) => *lanes = Lanes::new(drive, self.ahead),
+            Source::Sweep(_) => {}
+            Source::Lanes(lanes) => lanes.1 = Lanes::new(&lanes.0, self.ahead),
             Source::Closed(_) => {}
             Source::Instant { first, a, t, .. } => {
                 // The second impact is the first of a geometric series.
@@ -341,15 +420,14 @@ impl Bar {
         let plain = vb <= 0.0 && (t <= -LARGE || (t >= LARGE && self.e >= LARGE));
         let (h0, last) = (start.height_gap(), if plain { PLAIN } else { 0 });
         let steps = Steps { a: va, b: 0.0, a_held: -vb, b_held: -h0, clear: -CLEAR, last, latest: 0.0 };
-        let later = if plain { None } else { Some(Later::new(*self, *start, 0, 0.0)) };
+        let later = if plain { None } else { Some(Later::boxed(*self, *start, 0, 0.0)) };
         Train { bar: *self, start: *start, number: 0, steps, later, at: BUFFER }
     }
 
     /// The impact as a whole.
     #[inline]
-    fn impact(&self, number: u64, approach: f64, time: f64) -> Impact {
+    fn impact(&self, number: u64, end: End, approach: f64, time: f64) -> Impact {
         let [struck, free] = [-(1.0 + self.e) * approach, self.t * approach];
-        let end = End::of_impact(number);
         Impact { number, end, time, approach, delta_v: if end == End::A { [struck, free] } else { [free, struck] } }
     }
 }

@@ -1,6 +1,7 @@
 //! Neighboring strikes carried on together, from one anchor in the closed form to the next.
 
-use super::{Decay, Drive, Kind, angle, ldexp, to_f64};
+use super::{Decay, Drive, Kind, angle, compensated, ldexp, power_of_two, to_f64};
+use crate::{Bar, Start};
 use libm::{exp, expm1, sincos};
 
 /// Neighboring strikes that are carried on together.
@@ -10,14 +11,11 @@ const BLOCK: u64 = 256;
 
 /// Four neighboring strikes, ready to be carried on to the next four.
 ///
-/// For a wave, x = sin δ_n and y = sin nθ turn by 4θ a step in the form `d ← d − κx, x ← x + d` with κ = 4 sin² 2θ
+/// For a wave, x ∝ sin δ_n and y ∝ sin nθ turn by 4θ a step in the form `d ← d − κx, x ← x + d` with κ = 4 sin² 2θ
 /// (Reinsch), whose errors stay relative where δ_n or nθ are small; |a_n| = gx, time = cy/x. For an endless decay,
 /// x = ρⁿ and y = (1 − ρⁿ)/(1 − ρ) with ρ = λ₋/λ₊ add up positive terms; |a_n| = g(αλ₊x + σy), time = h0 y over that.
-#[derive(Debug, Clone)]
-pub(crate) struct Lanes {
-    /// Index n of the first lane.
-    n: u64,
-    wave: bool,
+#[derive(Debug, Clone, Copy)]
+struct Four {
     x: [f64; LANES],
     dx: [f64; LANES],
     y: [f64; LANES],
@@ -26,65 +24,36 @@ pub(crate) struct Lanes {
     kappa: f64,
     /// What g is multiplied by a step.
     decay: f64,
+    /// c, or h0.
+    time: f64,
+}
+
+/// Four strikes that are anchored anew in the closed form, for trains of any length.
+#[derive(Debug, Clone)]
+pub(crate) struct Lanes {
+    /// Index n of the first lane.
+    n: u64,
+    wave: bool,
+    four: Four,
+    /// Whether neighboring times may differ by less than their errors.
+    pub(crate) crowded: bool,
     /// What x and y of a decay are multiplied by before they are added up: αλ₊, σ.
     sum: [f64; 2],
-    /// 2 h0/A, or h0.
-    time: f64,
     /// θ of a wave.
     theta: f64,
     /// Of a turn by jθ of a wave: 1 − cos and sin. Of a decay: (1 − ρʲ)/(1 − ρ) and ρʲ.
     turns: [[f64; 2]; LANES],
 }
 
-impl Lanes {
-    /// With index `n` in the first lane.
-    pub(crate) fn new(drive: &Drive, n: u64) -> Self {
-        let (zero, h0) = ([0.0; LANES], drive.start.height_gap());
-        let wave = matches!(drive.kind, Kind::Wave(_));
-        let (mut kappa, mut decay, mut sum, mut time) = (0.0, 0.0, [1.0, 0.0], h0);
-        let (mut theta, mut turns) = (0.0, [[0.0; 2]; LANES]);
-        match drive.kind {
-            Kind::Wave(wave) => {
-                theta = wave.theta;
-                // Of halves of the turns, by doubling and adding: sums of what is not negative, for θ < π/3.
-                let (s, c) = sincos(0.5 * wave.theta);
-                let turn = |s: f64, c: f64| [2.0 * s * s, 2.0 * s * c];
-                let [v, w] = turn(s, c);
-                turns = [[0.0; 2], [v, w], turn(w, 1.0 - v), turn(s * (1.0 - v) + c * w, c * (1.0 - v) - s * w)];
-                (kappa, decay) = (4.0 * turns[2][1] * turns[2][1], drive.bar.e * drive.bar.e);
-                time = 2.0 * h0 / drive.amplitude(&wave);
-            }
-            Kind::Decay(roots) => {
-                let (Decay { s, plus, sigma, .. }, [rate, ln_plus]) = (roots, drive.rates(&roots));
-                turns = [0.0, 1.0, 2.0, 3.0].map(|j| [-expm1(-j * rate) * (plus / s), exp(-j * rate)]);
-                (kappa, decay, sum) = (exp(-4.0 * rate), exp(4.0 * ln_plus), [drive.alpha * plus, sigma]);
-            }
-            Kind::Edge => {}
-        }
-        time = ldexp(time, drive.m - drive.unit);
-        let mut lanes =
-            Self { n, wave, x: zero, dx: zero, y: zero, dy: zero, g: zero, kappa, decay, sum, time, theta, turns };
-        lanes.anchor(drive);
-        lanes
-    }
-
-    /// Approach velocities and times of the next strikes, four by four.
-    pub(crate) fn take<const N: usize>(&mut self, drive: &Drive, approach: &mut [f64; N], times: &mut [f64; N]) {
-        if self.wave {
-            self.turn(approach, times);
-        } else {
-            self.grow(approach, times);
-        }
-        self.n = self.n.saturating_add(N as u64);
-        if self.n % BLOCK < N as u64 {
-            self.anchor(drive);
-        }
-    }
-
-    /// Strikes of a wave. What is carried on is held in variables, so that it need not go through memory.
-    fn turn(&mut self, approach: &mut [f64], times: &mut [f64]) {
-        let Self { mut x, mut dx, mut y, mut dy, mut g, kappa, decay, time, .. } = *self;
-        for (approach, times) in approach.as_chunks_mut::<LANES>().0.iter_mut().zip(times.as_chunks_mut::<LANES>().0) {
+impl Four {
+    /// Strikes of a wave, with their x in `values`. What is carried on is held in variables, so that it need not go
+    /// through memory.
+    #[inline]
+    fn turn<const N: usize>(&mut self, approach: &mut [f64; N], times: &mut [f64; N], values: &mut [f64; N]) {
+        let Self { mut x, mut dx, mut y, mut dy, mut g, kappa, decay, time } = *self;
+        let (approach, times) = (approach.as_chunks_mut::<LANES>().0, times.as_chunks_mut::<LANES>().0);
+        for ((approach, times), values) in approach.iter_mut().zip(times).zip(values.as_chunks_mut::<LANES>().0) {
+            *values = x;
             for i in 0..LANES {
                 approach[i] = -g[i] * x[i];
                 times[i] = time * (y[i] / x[i]);
@@ -95,12 +64,12 @@ impl Lanes {
                 dy[i] -= kappa * y[i];
             }
         }
-        (self.x, self.dx, self.y, self.dy, self.g) = (x, dx, y, dy, g);
+        *self = Self { x, dx, y, dy, g, kappa, decay, time };
     }
 
     /// Strikes of a decay.
-    fn grow(&mut self, approach: &mut [f64], times: &mut [f64]) {
-        let Self { mut x, mut y, dy, mut g, kappa, decay, sum, time, .. } = *self;
+    fn grow<const N: usize>(&mut self, sum: [f64; 2], approach: &mut [f64; N], times: &mut [f64; N]) {
+        let Self { mut x, mut y, dy, mut g, kappa, decay, time, .. } = *self;
         for (approach, times) in approach.as_chunks_mut::<LANES>().0.iter_mut().zip(times.as_chunks_mut::<LANES>().0) {
             for i in 0..LANES {
                 let sum = sum[0] * x[i] + sum[1] * y[i];
@@ -114,6 +83,152 @@ impl Lanes {
         }
         (self.x, self.y, self.g) = (x, y, g);
     }
+}
+
+/// The wave of a train of some hundred impacts, from strike 33 to the last. No angle is needed: its four strikes are
+/// carried there from the first ones by doublings of their distance.
+///
+/// With x_n = |a_n|/(α e^{n/2}), y_n = b_n/e^{(n−1)/2} and κ_m = 2 − 2 cos mθ, all of them sums without cancellation that
+/// matters to an amplitude,
+/// ```text
+/// κ_1 = D/(2e + T√e),  κ_2m = κ_m(4 − κ_m),  Δ_m x_n = x_{n+m} − x_n,  Δ_2m x_n = (2 − κ_m) Δ_m x_n − κ_m x_n.
+/// ```
+#[derive(Debug, Clone)]
+pub(crate) struct Sweep {
+    four: Four,
+    /// x that is known well enough for the time of its strike.
+    clear: f64,
+}
+
+/// How a stretch of a [`Sweep`] ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Then {
+    /// The train goes on.
+    On,
+    /// The train has ended.
+    End,
+    /// What comes next needs more digits.
+    Doubt,
+}
+
+impl Sweep {
+    /// Strikes before the sweep.
+    pub(crate) const BEFORE: u64 = 32;
+    /// Largest amplitude of x, hence 100 π strikes for a bar that falls flat. In the 70 steps of the lanes and the
+    /// 5 doublings, x gathers some 80 roundings of its amplitude: no more than ALLOWED.
+    const AMPLITUDE: f64 = 260.0;
+    /// x over its amplitude from where on a strike is left to the closed form: its time would lose 1.8e−11.
+    const CLEAR: f64 = power_of_two(-11);
+    /// Error of x over its amplitude, a hundred times what is seen.
+    const ALLOWED: f64 = 1e-12;
+
+    /// None for other trains than those of a wave of up to some hundred strikes.
+    #[inline]
+    pub(crate) fn new(bar: &Bar, start: &Start) -> Option<Self> {
+        let (e, [va, vb]) = (bar.e, start.velocity());
+        let (d, root, beta) = (compensated(bar.wide_q(), e, e), e.sqrt(), vb / va);
+        // Small e: e^{n/2} may leave the range of floats. Small D: lost in the last digits that it is formed of.
+        if !(e >= 0.01 && d > e * power_of_two(-40) && vb <= 0.0) {
+            return None;
+        }
+        let kappa = d / (2.0 * e + bar.t * root);
+        let kappa_2 = kappa * (4.0 - kappa);
+        // Steps of one of x and y, from which those of four follow.
+        let mut once = [(1.0, 1.0 - kappa + beta / root), (0.0, 1.0)];
+        let slope = once[0].1 + 0.5 * kappa;
+        let amplitude = (1.0 + 4.0 * slope * slope / kappa_2).sqrt();
+        if !(amplitude <= Self::AMPLITUDE) {
+            return None;
+        }
+        let mut lanes = [([0.0; LANES], [0.0; LANES]); 2];
+        let double = |kappa: f64, v: f64, step: f64| (2.0 - kappa) * step - kappa * v;
+        for i in 0..LANES {
+            for ((x, dx), (v, d)) in lanes.iter_mut().zip(&mut once) {
+                (x[i], dx[i]) = (*v, double(kappa_2, *v, double(kappa, *v, *d)));
+                *v += *d;
+                *d -= kappa * *v;
+            }
+        }
+        let kappa_4 = kappa_2 * (4.0 - kappa_2);
+        let kappa_8 = kappa_4 * (4.0 - kappa_4);
+        let kappa_16 = kappa_8 * (4.0 - kappa_8);
+        let far = |v: f64, step: f64| v + double(kappa_16, v, double(kappa_8, v, double(kappa_4, v, step)));
+        for (x, dx) in &mut lanes {
+            for i in 0..LANES {
+                (x[i], dx[i]) = (far(x[i], dx[i]), far(dx[i], -kappa_4 * (x[i] + dx[i])));
+            }
+        }
+        let [(x, dx), (y, dy)] = lanes;
+        let decay = e * e;
+        let first = (decay * decay) * (decay * decay);
+        let first = -va * (first * first);
+        let g = [first, first * root, first * e, first * (e * root)];
+        let time = start.height_gap() / (-va * root);
+        Some(Self { four: Four { x, dx, y, dy, g, kappa: kappa_4, decay, time }, clear: Self::CLEAR * amplitude })
+    }
+
+    /// Approach velocities and times of the next strikes, and of how many of them they hold.
+    pub(crate) fn take<const N: usize>(&mut self, approach: &mut [f64; N], times: &mut [f64; N]) -> (usize, Then) {
+        let mut values = [0.0; N];
+        self.four.turn(approach, times, &mut values);
+        // After its end, a wave stays below 0 for as long as it was above.
+        let next = self.four.x[0];
+        if next > self.clear {
+            return (N, Then::On);
+        }
+        let n = values.iter().position(|&x| x <= self.clear).unwrap_or(N);
+        let sure = values.get(n).unwrap_or(&next) < &(-Self::ALLOWED / Self::CLEAR * self.clear);
+        (n, if sure { Then::End } else { Then::Doubt })
+    }
+}
+
+impl Lanes {
+    /// With index `n` in the first lane.
+    pub(crate) fn new(drive: &Drive, n: u64) -> Self {
+        let h0 = drive.start.height_gap();
+        let wave = matches!(drive.kind, Kind::Wave(_));
+        let (mut kappa, mut decay, mut sum, mut time) = (0.0, 0.0, [1.0, 0.0], h0);
+        let (mut theta, mut turns, mut crowded) = (0.0, [[0.0; 2]; LANES], true);
+        match drive.kind {
+            Kind::Wave(wave) => {
+                theta = wave.theta;
+                // Of halves of the turns, by doubling and adding: sums of what is not negative, for θ < π/3.
+                let (s, c) = sincos(0.5 * wave.theta);
+                let turn = |s: f64, c: f64| [2.0 * s * s, 2.0 * s * c];
+                let [v, w] = turn(s, c);
+                turns = [[0.0; 2], [v, w], turn(w, 1.0 - v), turn(s * (1.0 - v) + c * w, c * (1.0 - v) - s * w)];
+                (kappa, decay) = (4.0 * turns[2][1] * turns[2][1], drive.bar.e * drive.bar.e);
+                time = 2.0 * h0 / drive.amplitude(&wave);
+                // Neighboring times differ by sin θ sin ψ/(sin δ_n+1 sin nθ) of themselves, with sin ψ = αS/A.
+                crowded = wave.theta * (drive.alpha * wave.s) < 1e-8 * drive.amplitude(&wave);
+            }
+            Kind::Decay(roots) => {
+                let (Decay { s, plus, sigma, .. }, [rate, ln_plus]) = (roots, drive.rates(&roots));
+                turns = [0.0, 1.0, 2.0, 3.0].map(|j| [-expm1(-j * rate) * (plus / s), exp(-j * rate)]);
+                (kappa, decay, sum) = (exp(-4.0 * rate), exp(4.0 * ln_plus), [drive.alpha * plus, sigma]);
+            }
+            Kind::Edge => {}
+        }
+        time = ldexp(time, drive.m - drive.unit);
+        let [x, dx, y, dy, g] = [[0.0; LANES]; 5];
+        let mut lanes =
+            Self { n, wave, crowded, four: Four { x, dx, y, dy, g, kappa, decay, time }, sum, theta, turns };
+        lanes.anchor(drive);
+        lanes
+    }
+
+    /// Approach velocities and times of the next strikes, four by four.
+    pub(crate) fn take<const N: usize>(&mut self, drive: &Drive, approach: &mut [f64; N], times: &mut [f64; N]) {
+        if self.wave {
+            self.four.turn(approach, times, &mut [0.0; N]);
+        } else {
+            self.four.grow(self.sum, approach, times);
+        }
+        self.n = self.n.saturating_add(N as u64);
+        if self.n % BLOCK < N as u64 {
+            self.anchor(drive);
+        }
+    }
 
     /// All lanes from the closed form at the first.
     fn anchor(&mut self, drive: &Drive) {
@@ -124,19 +239,20 @@ impl Lanes {
                 let [delta] = drive.remainders(&wave, [u128::from(self.n)], 1e-13);
                 let (turned, lead) = (n * wave.theta, phi + n * wave.theta);
                 // Each angle from the near end of its half turn, so that a small one is known to its last digit.
-                (self.x, self.dx) = if lead < 1.0 { self.lanes(lead, 1.0) } else { self.lanes(delta, -1.0) };
-                (self.y, self.dy) = if turned < 1.0 { self.lanes(turned, 1.0) } else { self.lanes(phi + delta, -1.0) };
+                (self.four.x, self.four.dx) = if lead < 1.0 { self.lanes(lead, 1.0) } else { self.lanes(delta, -1.0) };
+                (self.four.y, self.four.dy) =
+                    if turned < 1.0 { self.lanes(turned, 1.0) } else { self.lanes(phi + delta, -1.0) };
                 let (first, root) =
                     (drive.decayed(u128::from(self.n), drive.amplitude(&wave) / wave.s), drive.bar.e.sqrt());
-                self.g = [first, first * root, first * drive.bar.e, first * (drive.bar.e * root)];
+                self.four.g = [first, first * root, first * drive.bar.e, first * (drive.bar.e * root)];
             }
             Kind::Decay(decay) => {
                 let (Decay { s, plus, .. }, [rate, ln_plus]) = (decay, drive.rates(&decay));
                 let (x, y) = (exp(-n * rate), -expm1(-n * rate) * (plus / s));
                 let (first, once) = (drive.power(n * ln_plus, 1.0 / plus), exp(ln_plus));
-                (self.x, self.y) = (self.turns.map(|[_, p]| x * p), self.turns.map(|[g, _]| y + x * g));
-                self.dy = [-expm1(-4.0 * rate) * (plus / s); LANES];
-                self.g = [first, first * once, first * (once * once), first * (once * once * once)];
+                (self.four.x, self.four.y) = (self.turns.map(|[_, p]| x * p), self.turns.map(|[g, _]| y + x * g));
+                self.four.dy = [-expm1(-4.0 * rate) * (plus / s); LANES];
+                self.four.g = [first, first * once, first * (once * once), first * (once * once * once)];
             }
             Kind::Edge => {}
         }

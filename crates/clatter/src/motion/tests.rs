@@ -201,7 +201,8 @@ proptest! {
             let off = ((got - want) / want).hi.abs();
             prop_assert!(want.hi == 0.0 || off <= error, "{digits:?}: {off:e}, not {error:e}");
         }
-        let (got, least) = (drive.compensated(), 4.0 * UNIT + power_of_two(-100) * (1.0 + (4.0 * drive.e / want.hi).abs()));
+        let got = compensated(bar.wide_q().scale(drive.m), bar.e, drive.e);
+        let least = 4.0 * UNIT + power_of_two(-100) * (1.0 + (4.0 * drive.e / want.hi).abs());
         let off = ((Dd::from(got) - want) / want).hi.abs();
         prop_assert!(want.hi == 0.0 || off <= least, "compensated: {off:e}, not {least:e}");
     }
@@ -262,4 +263,56 @@ fn counts_beyond_2_to_the_64_are_floats() {
     let Count::Huge(n) = s.count else { panic!("{:?}", s.count) };
     assert!((n * 2e-25 / PI - 1.0).abs() < 1e-15, "{n:e}");
     assert!(s.duration > 0.5, "{}", s.duration);
+}
+
+/// Waves of 33 to some 400 strikes, of every restitution and spin, some next to a tie.
+fn waves() -> impl Strategy<Value = (Bar, Start)> {
+    let e = prop_oneof![Just(1.0), 0.0001..1.0_f64];
+    let wave = (33.0..420.0_f64, e, prop_oneof![Just(1.0), Just(0.0), 0.0..4.0_f64], 0.0..16.0_f64, prop::bool::ANY);
+    wave.prop_map(|(x, e, beta, d, tie)| {
+        // ψ = xθ for d → ∞ or a start without spin.
+        let aim = |n: f64| {
+            let (mut low, mut high) = (1e-3_f64, 0.2_f64);
+            for _ in 0..80 {
+                let theta = 0.5 * (low + high);
+                let t = 2.0 * e.sqrt() * theta.cos();
+                let psi = (2.0 * e.sqrt() * theta.sin()).atan2(-(t + 2.0 * beta));
+                if psi / theta > n { low = theta } else { high = theta }
+            }
+            low
+        };
+        let theta = if tie { aim(x.floor() + 10f64.powf(-d)) } else { aim(x) };
+        let q = 2.0 * e.sqrt() * theta.cos() / (1.0 + e);
+        (Bar::new(q.min(1.0), e).unwrap(), Start::new([-1.0, -beta], 1.0).unwrap())
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    /// Up to the last strike, near ties or not, and where the sweep leaves the last ones to the closed form; seen: a sixth of
+    /// what is allowed.
+    #[test]
+    fn strikes_of_waves_are_as_exact_as_allowed((bar, start) in waves(), at in 0.0..1.0_f64) {
+        let (exact, train) = (exact(&bar, &start), bar.train(&start).take(1000).collect::<Vec<_>>());
+        let n = train.len();
+        prop_assert_eq!(bar.count(&start), Count::Finite(n as u64));
+        let somewhere = (at * n as f64) as usize;
+        for i in [0, somewhere, n.saturating_sub(3), n.saturating_sub(2), n - 1] {
+            let ((a, shift), _) = exact.values(i as u128);
+            let (a, time) = (ldexp(a, clamp(shift)), exact_time(&bar, &start, i as u128));
+            let off = [(train[i].approach - a).abs() / a.abs().max(1.0), (train[i].time - time).abs() / time.max(1.0)];
+            prop_assert!(off[0] <= 0.5 * accuracy::APPROACH.error, "strike {} of {n}: approach off by {:e}", i + 1, off[0]);
+            prop_assert!(off[1] <= 0.5 * accuracy::TIME.error, "strike {} of {n}: time off by {:e}", i + 1, off[1]);
+        }
+    }
+}
+
+/// Trains of 33 to 400 impacts need no angle; ties, longer trains and the endless do.
+#[test]
+fn trains_of_some_hundred_impacts_are_swept() {
+    for (q, e, swept) in [(0.9978, 1.0, true), (0.999_96, 1.0, true), (0.999_98, 1.0, false), (0.8, 0.25, false)] {
+        let bar = Bar::new(q, e).unwrap();
+        assert_eq!(Sweep::new(&bar, &Start::default()).is_some(), swept, "({q}, {e})");
+    }
 }
