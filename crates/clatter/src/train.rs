@@ -87,7 +87,6 @@ struct Later {
 
 /// Where the impacts come from.
 #[derive(Debug, Clone)]
-#[expect(clippy::large_enum_variant, reason = "boxed with its buffers")]
 enum Source {
     /// The rest of a train of some hundred impacts.
     Sweep(Sweep),
@@ -137,17 +136,21 @@ impl Iterator for Train {
     #[inline]
     fn fold<B, F: FnMut(B, Impact) -> B>(mut self, init: B, mut f: F) -> B {
         let mut all = init;
-        if self.number % 2 == 1 {
-            let Some(impact) = self.step(End::B) else { return self.fold_later(all, f) };
-            all = f(all, impact);
-        }
         // By pairs: nothing need be chosen by the number.
-        while let Some(impact) = self.step(End::A) {
+        let first = End::of_impact(self.number + 1);
+        while let Some(impact) = self.step(first) {
             all = f(all, impact);
-            let Some(impact) = self.step(End::B) else { break };
+            let Some(impact) = self.step(first.other()) else { break };
             all = f(all, impact);
         }
-        if self.later.is_none() && self.steps.a >= 0.0 { all } else { self.fold_later(all, f) }
+        if self.later.is_none() && self.steps.a >= 0.0 {
+            return all;
+        }
+        let later = match self.later {
+            Some(later) => *later,
+            None => Later::new(self.bar, self.start, self.number, self.steps.latest),
+        };
+        later.fold(self.at, all, f)
     }
 
     /// Skips in constant time, but for the plain steps at the beginning.
@@ -174,36 +177,6 @@ impl Iterator for Train {
 }
 
 impl Train {
-    /// Buffer by buffer. Not part of [`fold`](Self::fold), whose plain steps then stay in registers.
-    #[inline(never)]
-    fn fold_later<B, F: FnMut(B, Impact) -> B>(self, init: B, mut f: F) -> B {
-        let (mut all, bar, mut number, mut at) = (init, self.bar, self.number, self.at);
-        let mut later = match self.later {
-            Some(later) => *later,
-            None => Later::new(self.bar, self.start, number, self.steps.latest),
-        };
-        loop {
-            if at < BUFFER && number % 2 == 1 {
-                number += 1;
-                all = f(all, bar.impact(number, End::B, later.approach[at], later.times[at]));
-                at += 1;
-            }
-            let pairs = later.approach[at..].chunks(2).zip(later.times[at..].chunks(2));
-            for (approach, times) in pairs {
-                number += 1;
-                all = f(all, bar.impact(number, End::A, approach[0], times[0]));
-                if let (&[_, approach], &[_, time]) = (approach, times) {
-                    number += 1;
-                    all = f(all, bar.impact(number, End::B, approach, time));
-                }
-            }
-            at = later.fill();
-            if at == BUFFER {
-                return all;
-            }
-        }
-    }
-
     /// The next impact by a plain step; none where the train has ended, and where more digits are needed.
     #[inline]
     fn step(&mut self, end: End) -> Option<Impact> {
@@ -367,6 +340,28 @@ impl Later {
         at
     }
 
+    /// All impacts, from where `at` stands in the buffers. Not part of the fold of a [`Train`], whose plain steps then
+    /// stay in registers.
+    #[inline(never)]
+    fn fold<B, F: FnMut(B, Impact) -> B>(mut self, mut at: usize, init: B, mut f: F) -> B {
+        let (mut all, bar) = (init, self.bar);
+        loop {
+            let mut number = self.ahead - (BUFFER - at) as u64;
+            let first = End::of_impact(number + 1);
+            for (approach, times) in self.approach[at..].chunks(2).zip(self.times[at..].chunks(2)) {
+                all = f(all, bar.impact(number + 1, first, approach[0], times[0]));
+                if let (&[_, approach], &[_, time]) = (approach, times) {
+                    all = f(all, bar.impact(number + 2, first.other(), approach, time));
+                }
+                number += 2;
+            }
+            at = self.fill();
+            if at == BUFFER {
+                return all;
+            }
+        }
+    }
+
     /// Passes over impacts, in constant time.
     fn skip(&mut self, skip: usize) {
         if skip == 0 {
@@ -378,9 +373,8 @@ impl Later {
         let from = self.ahead;
         self.ahead = self.ahead.saturating_add(skip as u64);
         match &mut self.source {
-            Source::Sweep(_) => {}
             Source::Lanes(lanes) => lanes.1 = Lanes::new(&lanes.0, self.ahead),
-            Source::Closed(_) => {}
+            Source::Sweep(_) | Source::Closed(_) => {}
             Source::Instant { first, a, t, .. } => {
                 // The second impact is the first of a geometric series.
                 let (base, past) = if from == 0 { (-*first, 1) } else { (*a, 0) };
@@ -396,9 +390,11 @@ impl Bar {
     /// The impacts, one by one.
     ///
     /// # Method
-    /// The recurrence for 32 strikes at most, then the closed form: four neighboring strikes are carried on together by
-    /// rotations that keep small angles exact, anchored anew every 256 strikes. The number of impacts is settled
-    /// beforehand, as exactly as by [`Bar::count`].
+    /// The recurrence for 32 strikes at most, then four neighboring strikes are carried on together by rotations that keep
+    /// small angles exact. Up to some 400 strikes the rotation by θ, 2θ, … 32θ follows from the discriminant alone, and the
+    /// train ends where the velocity changes its sign, by the closed form next to a tie. Beyond, the four are anchored
+    /// in the closed form anew every 256 strikes, and the number of impacts is settled beforehand, as exactly as by
+    /// [`Bar::count`].
     ///
     /// # Accuracy
     /// [`crate::accuracy::APPROACH`], [`JUMP`](crate::accuracy::JUMP) and [`TIME`](crate::accuracy::TIME), for a
