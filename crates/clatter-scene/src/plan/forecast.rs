@@ -387,7 +387,8 @@ impl Setup {
                 };
                 if walk.late < CLEAR * peak && gap >= time {
                     // Strikes of other models may be later than those of this one.
-                    walk.until_s = 1.25 * walk.last_s + 0.5 * (gap + time);
+                    // A flat drop has all of it at the first touch.
+                    walk.until_s = (1.25 * walk.last_s + 0.5 * (gap + time)).max(f64::MIN_POSITIVE);
                     break;
                 }
                 if n == N || tumbles {
@@ -492,6 +493,15 @@ impl Setup {
                 (walk.late, walk.extra) = (0.0, 0.0);
                 break;
             };
+            let (later_by, delta_v) = step.rival;
+            if later_by < blur * (walk.last_s + follows) {
+                // Which end strikes first is not known: the other one may do so, and be thrown up only then.
+                let shock = ends.at(delta_v).abs();
+                for off in &mut walk.intervals[n].off {
+                    *off += unit * shock;
+                }
+                doubtful += shock;
+            }
             (gap, rested, tumbles, twice_energy) = (follows, step.rests, step.tumbles, step.twice_energy);
         }
         // The closed form has the whole train of the map.

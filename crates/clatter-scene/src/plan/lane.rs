@@ -98,11 +98,16 @@ pub(super) struct Next {
     turning: f64,
     /// Whether the bar turns upright or over before: what strikes then is not known from parabolas.
     pub(super) tumbles: bool,
+    /// When the other end would strike, and how fast; infinite where it does not fall.
+    pub(super) rival: [f64; 2],
 }
+
+/// No rival.
+const ALONE: [f64; 2] = [f64::INFINITY, 0.0];
 
 impl Next {
     /// The first touch.
-    pub(super) const FIRST: Self = Self { end: 0, after: 0.0, turning: 0.0, tumbles: false };
+    pub(super) const FIRST: Self = Self { end: 0, after: 0.0, turning: 0.0, tumbles: false, rival: ALONE };
 }
 
 /// Time until `h + v t − ½ g t²` comes to 0, the later root where it starts upward; 0 where it is below.
@@ -163,7 +168,7 @@ impl Lane {
             let j = 1 - i;
             let turning = g * (1.0 + ends.ratio(i, 1.0));
             let after = fall(self.height[j], self.velocity[j], turning);
-            return (after < f64::INFINITY).then_some(Next { end: j, after, turning, tumbles: false });
+            return (after < f64::INFINITY).then_some(Next { end: j, after, turning, tumbles: false, rival: ALONE });
         }
         let lands = |i: usize, down: f64| fall(self.height[i], self.velocity[i], down);
         let mut times = [lands(0, g), lands(1, g)];
@@ -172,29 +177,38 @@ impl Lane {
             return None;
         }
         if !self.tilts {
-            return Some(Next { end: usize::from(times[1] < times[0]), after: first, turning: 0.0, tumbles: false });
+            let end = usize::from(times[1] < times[0]);
+            return Some(Next { end, after: first, turning: 0.0, tumbles: false, rival: ALONE });
         }
         let sweep = self.sweep(ends);
         let [a, b] = ends.arm;
         let bend = sweep.spin2 * sweep.means(first)[0];
-        times = [lands(0, g - a * bend), lands(1, g + b * bend)];
-        let end = usize::from(times[1] < times[0]);
-        let mut after = times[end];
-        if after == f64::INFINITY {
+        let sinks = [g - a * bend, g + b * bend];
+        times = [lands(0, sinks[0]), lands(1, sinks[1])];
+        // The bend was that of another time: once more, as a straight line.
+        let again = |end: usize, after: f64| {
+            let arm = if end == 0 { -a } else { b };
+            let [height, velocity] = sweep.means(after).map(|mean| g + arm * sweep.spin2 * mean);
+            let low = self.height[end] + after * (self.velocity[end] - 0.5 * height * after);
+            let speed = self.velocity[end] - velocity * after;
+            let most = 0.1 * after;
+            if speed < 0.0 { (after - (low / speed).clamp(-most, most)).max(0.0) } else { after }
+        };
+        let mut end = usize::from(times[1] < times[0]);
+        if times[end] == f64::INFINITY {
             return None;
         }
-        // The bend was that of another time: once more, as a straight line.
-        let arm = if end == 0 { -a } else { b };
-        let [height, velocity] = sweep.means(after).map(|mean| g + arm * sweep.spin2 * mean);
-        let (low, speed) = (
-            self.height[end] + after * (self.velocity[end] - 0.5 * height * after),
-            self.velocity[end] - velocity * after,
-        );
-        if speed < 0.0 {
-            after = (after - (low / speed).clamp(-0.1 * after, 0.1 * after)).max(0.0);
+        times[end] = again(end, times[end]);
+        let mut other = 1 - end;
+        if times[other] < 1.25 * times[end] {
+            times[other] = again(other, times[other]);
+            if times[other] < times[end] {
+                (end, other) = (other, end);
+            }
         }
+        let (after, rival) = (times[end], [times[other], sinks[other] * times[other] - self.velocity[other]]);
         let tumbles = (sweep.sin + after * sweep.rate).abs() > 1.0;
-        Some(Next { end, after, turning: 0.0, tumbles })
+        Some(Next { end, after, turning: 0.0, tumbles, rival })
     }
     /// Flies and strikes; returns the velocity shocks of both ends.
     pub(super) fn strike(&mut self, ends: &Ends, next: &Next) -> [f64; 2] {

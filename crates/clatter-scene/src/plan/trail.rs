@@ -20,6 +20,8 @@ pub(super) struct Step {
     pub(super) twice_energy: f64,
     /// Time until the next strike; `None` where nothing falls.
     pub(super) follows: Option<f64>,
+    /// How long after that the other end would strike without it, and the velocity shocks of both ends then.
+    pub(super) rival: (f64, [f64; 2]),
     /// Whether an end lies on the ground until then.
     pub(super) rests: bool,
     /// Whether the bar turns upright or over until then.
@@ -125,12 +127,20 @@ impl Trail {
         }
         self.alive = [own[0].is_some(), own[1].is_some(), own[2].is_some()];
         self.next = self.full.next(ends);
+        let rival = self.next.as_ref().map_or((f64::INFINITY, [0.0; 2]), |next| {
+            let ([time, speed], other) = (next.rival, 1 - next.end);
+            let jump = (1.0 + ends.e) * speed;
+            let mut delta_v = [-ends.ratio(other, 1.0) * jump; 2];
+            delta_v[other] = jump;
+            (time - next.after, delta_v)
+        });
         self.steps.push(Step {
             end: next.end,
             delta_v,
             own,
             twice_energy: self.full.twice_energy(ends),
             follows: self.next.map(|next| next.after),
+            rival,
             rests: self.full.is_down(),
             tumbles: self.next.is_some_and(|next| next.tumbles),
         });
