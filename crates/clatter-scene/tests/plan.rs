@@ -337,7 +337,7 @@ fn two_ends_that_land_together_are_told_apart() {
             4.003_267_837_128_914,
             14.138_843,
         ],
-        [5.880_439_458_170_122e-5, 0.646_784_797_035_285_4, 2_425.456_591_086_881_8, 0.835_646_038_496_948_3],
+        [5.880_439_458_170_122e-5, 0.646_784_797_035_285_4, 2_425.456_591_086_882, 0.835_646_038_496_948_3],
     );
     for quantity in [Quantity::PeakAcceleration, Quantity::RattleSpace] {
         let plan = setup.forecast(quantity).plan(0.001);

@@ -13,6 +13,8 @@ use super::pulse::Pulse;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ends {
     pub(super) arm: [f64; 2],
+    /// 1/length.
+    over: f64,
     pub(super) gyration2: f64,
     pub(super) e: f64,
     /// Position of the component in [−1, 1].
@@ -22,10 +24,8 @@ pub(super) struct Ends {
 impl Ends {
     pub(super) fn new(scene: &Scene, position: f64) -> Self {
         let body = scene.body();
-        Self { arm: body.arms_m(), gyration2: body.gyration_m().powi(2), e: scene.e(), position }
-    }
-    pub(super) fn length(&self) -> f64 {
-        self.arm[0] + self.arm[1]
+        let (arm, gyration2) = (body.arms_m(), body.gyration_m().powi(2));
+        Self { arm, over: 1.0 / (arm[0] + arm[1]), gyration2, e: scene.e(), position }
     }
     /// Distance of the component from the center of mass, toward end b.
     pub(super) fn offset(&self) -> f64 {
@@ -100,6 +100,8 @@ pub(super) struct Next {
     pub(super) tumbles: bool,
     /// When the other end would strike, and how fast; infinite where it does not fall.
     pub(super) rival: [f64; 2],
+    /// How a lane with real tilt turns until then.
+    sweep: Option<Sweep>,
 }
 
 /// No rival.
@@ -107,7 +109,7 @@ const ALONE: [f64; 2] = [f64::INFINITY, 0.0];
 
 impl Next {
     /// The first touch.
-    pub(super) const FIRST: Self = Self { end: 0, after: 0.0, turning: 0.0, tumbles: false, rival: ALONE };
+    pub(super) const FIRST: Self = Self { end: 0, after: 0.0, turning: 0.0, tumbles: false, rival: ALONE, sweep: None };
 }
 
 /// Time until `h + v t − ½ g t²` comes to 0, the later root where it starts upward; 0 where it is below.
@@ -155,9 +157,8 @@ impl Lane {
         Self { delay: time * pulse.centroid, carried: time * pulse.carried, ..self }
     }
     fn sweep(&self, ends: &Ends) -> Sweep {
-        let over = 1.0 / ends.length();
-        let sin = over * (self.height[1] - self.height[0]);
-        let rate = over * (self.velocity[1] - self.velocity[0]);
+        let sin = ends.over * (self.height[1] - self.height[0]);
+        let rate = ends.over * (self.velocity[1] - self.velocity[0]);
         let cos2 = ((1.0 - sin) * (1.0 + sin)).max(LEAST_COS2);
         Sweep { sin, rate, spin2: rate * rate / cos2 }
     }
@@ -168,7 +169,7 @@ impl Lane {
             let j = 1 - i;
             let turning = g * (1.0 + ends.ratio(i, 1.0));
             let after = fall(self.height[j], self.velocity[j], turning);
-            return (after < f64::INFINITY).then_some(Next { end: j, after, turning, tumbles: false, rival: ALONE });
+            return (after < f64::INFINITY).then_some(Next { end: j, after, turning, ..Next::FIRST });
         }
         let lands = |i: usize, down: f64| fall(self.height[i], self.velocity[i], down);
         let mut times = [lands(0, g), lands(1, g)];
@@ -178,7 +179,7 @@ impl Lane {
         }
         if !self.tilts {
             let end = usize::from(times[1] < times[0]);
-            return Some(Next { end, after: first, turning: 0.0, tumbles: false, rival: ALONE });
+            return Some(Next { end, after: first, ..Next::FIRST });
         }
         let sweep = self.sweep(ends);
         let [a, b] = ends.arm;
@@ -208,18 +209,22 @@ impl Lane {
         }
         let (after, rival) = (times[end], [times[other], sinks[other] * times[other] - self.velocity[other]]);
         let tumbles = (sweep.sin + after * sweep.rate).abs() > 1.0;
-        Some(Next { end, after, turning: 0.0, tumbles, rival })
+        Some(Next { end, after, turning: 0.0, tumbles, rival, sweep: Some(sweep) })
     }
     /// Flies and strikes; returns the velocity shocks of both ends.
     pub(super) fn strike(&mut self, ends: &Ends, next: &Next) -> [f64; 2] {
-        let (i, t) = (next.end, next.after);
-        let mut falls = [self.gravity; 2];
-        if self.down.take().is_some() {
-            self.velocity[i] -= t * next.turning;
+        // All that follows for a known end: what is indexed by a variable goes through memory.
+        if next.end == 0 { self.strike_at::<0>(ends, next) } else { self.strike_at::<1>(ends, next) }
+    }
+    fn strike_at<const I: usize>(&mut self, ends: &Ends, next: &Next) -> [f64; 2] {
+        let (i, t, mut lane) = (I, next.after, *self);
+        let mut falls = [lane.gravity; 2];
+        if lane.down.take().is_some() {
+            lane.velocity[i] -= t * next.turning;
         } else {
             let mut sinks = falls;
-            if self.tilts {
-                let sweep = self.sweep(ends);
+            if lane.tilts {
+                let sweep = next.sweep.unwrap_or_else(|| lane.sweep(ends));
                 let [height, velocity] = sweep.means(t);
                 for (k, arm) in [-ends.arm[0], ends.arm[1]].into_iter().enumerate() {
                     sinks[k] += arm * sweep.spin2 * height;
@@ -227,47 +232,54 @@ impl Lane {
                 }
             }
             for k in 0..2 {
-                self.height[k] += t * (self.velocity[k] - 0.5 * sinks[k] * t);
-                self.velocity[k] -= t * falls[k];
+                lane.height[k] += t * (lane.velocity[k] - 0.5 * sinks[k] * t);
+                lane.velocity[k] -= t * falls[k];
             }
         }
-        self.height[i] = 0.0;
-        let sin = if self.tilts { (self.height[1 - i] / ends.length()).clamp(-0.9, 0.9) } else { 0.0 };
+        lane.height[i] = 0.0;
+        let sin = if lane.tilts { (lane.height[1 - i] * ends.over).clamp(-0.9, 0.9) } else { 0.0 };
         let ratio = ends.ratio(i, (1.0 - sin) * (1.0 + sin));
-        let jump = self.carried * falls[i].max(0.0) - (1.0 + ends.e) * self.velocity[i].min(0.0);
+        let jump = lane.carried * falls[i].max(0.0) - (1.0 + ends.e) * lane.velocity[i].min(0.0);
         let mut delta_v = [-ratio * jump; 2];
         delta_v[i] = jump;
         for (k, jump) in delta_v.into_iter().enumerate() {
-            self.height[k] -= jump * self.delay;
-            self.velocity[k] += jump;
+            lane.height[k] -= jump * lane.delay;
+            lane.velocity[k] += jump;
         }
-        if self.tilts && self.delay > 0.0 {
-            self.turn_back(ends, sin);
+        if lane.tilts && lane.delay > 0.0 {
+            lane.turn_back(ends, sin);
         }
-        self.settle(ends, i, ratio);
+        lane.settle::<I>(ends, ratio);
+        *self = lane;
         delta_v
     }
     /// Set back from the sine of an angle, the spin is the same, and its vertical part is not.
+    #[inline]
     fn turn_back(&mut self, ends: &Ends, from: f64) {
         let [a, b] = ends.arm;
-        let over = 1.0 / ends.length();
-        let to = over * (self.height[1] - self.height[0]);
+        let to = ends.over * (self.height[1] - self.height[0]);
         let squares = ((1.0 - to) * (1.0 + to)).max(LEAST_COS2) / ((1.0 - from) * (1.0 + from));
-        let change = over * (self.velocity[1] - self.velocity[0]) * (squares.sqrt() - 1.0);
+        let change = ends.over * (self.velocity[1] - self.velocity[0]) * (squares.sqrt() - 1.0);
         self.velocity[0] -= a * change;
         self.velocity[1] += b * change;
     }
     /// Lets end i lie where it would bounce ever less for a short while: bounces of w, e w, … last 2S/g in all, S = w/(1 − e).
-    fn settle(&mut self, ends: &Ends, i: usize, ratio: f64) {
-        let (j, w) = (1 - i, self.velocity[i]);
-        let sum = w / (1.0 - ends.e);
-        let lasts = 2.0 * sum / self.gravity;
-        if self.height[j] > 0.0 && w >= 0.0 && lasts < BRIEF * fall(self.height[j], self.velocity[j], self.gravity) {
+    #[inline]
+    fn settle<const I: usize>(&mut self, ends: &Ends, ratio: f64) {
+        let (i, j, w) = (I, 1 - I, self.velocity[I]);
+        if self.height[j] <= 0.0 || w < 0.0 {
+            return;
+        }
+        // 2S/g is below the share of the fall of end j, (v + √(v² + 2gh))/g.
+        let (sum, v) = (w / (1.0 - ends.e), self.velocity[j]);
+        let root = 2.0 / BRIEF * sum - v;
+        if self.gravity > 0.0 && (root < 0.0 || root * root < v * v + 2.0 * self.gravity * self.height[j]) {
+            let lasts = 2.0 * sum / self.gravity;
             self.height[j] += lasts * (self.velocity[j] - sum);
             self.velocity[j] -= (2.0 + ratio * (1.0 + ends.e)) * sum;
             if self.tilts {
                 // It lands with what its spin has, of which this is the vertical part.
-                let sin = (self.height[j] / ends.length()).min(0.9);
+                let sin = (self.height[j] * ends.over).min(0.9);
                 self.velocity[j] /= ((1.0 - sin) * (1.0 + sin)).sqrt();
             }
             (self.height[i], self.velocity[i], self.down) = (0.0, 0.0, Some(i));
@@ -277,15 +289,18 @@ impl Lane {
     pub(super) fn is_down(&self) -> bool {
         self.down.is_some()
     }
+    /// Twice the energy over the mass, where it turns like this until its next strike.
+    pub(super) fn twice_energy_until(&self, ends: &Ends, next: Option<&Next>) -> f64 {
+        let [a, b] = ends.arm;
+        let center = (b * self.velocity[0] + a * self.velocity[1]) * ends.over;
+        let sweep = next.and_then(|next| next.sweep).unwrap_or_else(|| self.sweep(ends));
+        let spin2 = if self.tilts { sweep.spin2 } else { sweep.rate * sweep.rate };
+        let height = ((b * self.height[0] + a * self.height[1]) * ends.over).max(0.0);
+        center * center + ends.gyration2 * spin2 + 2.0 * self.gravity * height
+    }
     /// Twice the energy over the mass.
     pub(super) fn twice_energy(&self, ends: &Ends) -> f64 {
-        let [a, b] = ends.arm;
-        let length = ends.length();
-        let center = (b * self.velocity[0] + a * self.velocity[1]) / length;
-        let sweep = self.sweep(ends);
-        let spin2 = if self.tilts { sweep.spin2 } else { sweep.rate * sweep.rate };
-        let height = ((b * self.height[0] + a * self.height[1]) / length).max(0.0);
-        center * center + ends.gyration2 * spin2 + 2.0 * self.gravity * height
+        self.twice_energy_until(ends, None)
     }
     /// Bound on the speed at the component from here on.
     pub(super) fn reach(&self, ends: &Ends) -> f64 {

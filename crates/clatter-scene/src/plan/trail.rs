@@ -138,7 +138,7 @@ impl Trail {
             end: next.end,
             delta_v,
             own,
-            twice_energy: self.full.twice_energy(ends),
+            twice_energy: self.full.twice_energy_until(ends, self.next.as_ref()),
             follows: self.next.map(|next| next.after),
             rival,
             rests: self.full.is_down(),
