@@ -50,7 +50,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let (answer, ms) = best(1000, || {
             let [q, e, speed, gap] = black_box([q, e, speed, gap]);
             list.clear();
-            list.extend(Bar::new(q, e)?.train(&Start::new([-speed; 2], gap)?));
+            Bar::new(q, e)?.train(&Start::new([-speed; 2], gap)?).for_each(|impact| list.push(impact));
             let largest = list.iter().flat_map(|i| i.delta_v).fold(0.0_f64, |m, v| m.max(v.abs()));
             Ok((list.len() as u64, largest))
         });

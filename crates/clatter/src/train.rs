@@ -54,13 +54,13 @@ pub struct Train {
 /// The recurrence as it stands before the next impact.
 #[derive(Debug, Clone, Copy)]
 struct Steps {
-    /// a_n and h0 b_n.
-    a: f64,
+    /// |a_n|, no more than 0 where the train has ended, and h0 b_n.
+    speed: f64,
     b: f64,
-    /// e a_{n−1} and e h0 b_{n−1}, which are taken from T a_n and T h0 b_n for the next ones.
-    a_held: f64,
+    /// e |a_{n−1}| and e h0 b_{n−1}, which are taken from T |a_n| and T h0 b_n for the next ones.
+    held: f64,
     b_held: f64,
-    /// How far a_{n+1} may cancel, below 0.
+    /// How far |a_{n+1}| may cancel.
     clear: f64,
     /// No plain step leads beyond this impact.
     last: u64,
@@ -118,7 +118,7 @@ impl Iterator for Train {
             return Some(impact);
         }
         if self.later.is_none() {
-            if self.steps.a >= 0.0 {
+            if self.steps.speed <= 0.0 {
                 return None;
             }
             self.later = Some(Later::boxed(self.bar, self.start, self.number, self.steps.latest));
@@ -143,7 +143,7 @@ impl Iterator for Train {
             let Some(impact) = self.step(first.other()) else { break };
             all = f(all, impact);
         }
-        if self.later.is_none() && self.steps.a >= 0.0 {
+        if self.later.is_none() && self.steps.speed <= 0.0 {
             return all;
         }
         let later = match self.later {
@@ -180,14 +180,14 @@ impl Train {
     /// The next impact by a plain step; none where the train has ended, and where more digits are needed.
     #[inline]
     fn step(&mut self, end: End) -> Option<Impact> {
-        let Steps { a, b, a_held, b_held, clear, last, latest } = self.steps;
+        let Steps { speed, b, held, b_held, clear, last, latest } = self.steps;
         if self.number >= last {
             return None;
         }
         let (t, e) = (self.bar.t, self.bar.e);
-        let (next, doubt) = (t * a - a_held, clear * a_held.abs());
-        if next >= doubt {
-            if next <= -doubt {
+        let (next, doubt) = (t * speed - held, clear * held);
+        if next <= doubt {
+            if next >= -doubt {
                 // The terms of a_{n+1} nearly cancel: from this strike on, more digits.
                 self.steps.last = self.number;
                 return None;
@@ -195,19 +195,19 @@ impl Train {
             self.steps.last = self.number + 1;
         }
         // Where strikes are closer than roundings; `f64::max` takes longer.
-        let time = b / -a;
+        let time = b / speed;
         let time = if time < latest { latest } else { time };
         self.steps = Steps {
-            a: next,
+            speed: next,
             b: t * b - b_held,
-            a_held: e * a,
+            held: e * speed,
             b_held: e * b,
-            clear: clear - CLEAR,
+            clear: clear + CLEAR,
             last: self.steps.last,
             latest: time,
         };
         self.number += 1;
-        Some(self.bar.impact(self.number, end, a, time))
+        Some(self.bar.impact(self.number, end, -speed, time))
     }
 }
 
@@ -287,18 +287,12 @@ impl Later {
                     return self.fill();
                 }
                 at = BUFFER - taken;
-                if taken < BUFFER {
-                    self.approach.copy_within(..taken, at);
-                    self.times.copy_within(..taken, at);
-                }
+                to_the_end(taken, [&mut self.approach, &mut self.times]);
             }
             Source::Lanes(lanes) => {
                 let (drive, lanes) = &mut **lanes;
                 lanes.take(drive, &mut self.approach, &mut self.times);
-                if n < BUFFER {
-                    self.approach.copy_within(..n, at);
-                    self.times.copy_within(..n, at);
-                }
+                to_the_end(n, [&mut self.approach, &mut self.times]);
                 // The first strike by itself, and a last one that is next to a tie: it takes more digits.
                 if self.ahead == 0 {
                     (self.approach[at], self.times[at]) = drive.strike(1);
@@ -386,6 +380,15 @@ impl Later {
     }
 }
 
+/// Moves the first n of the buffers to their end.
+fn to_the_end(n: usize, buffers: [&mut [f64; BUFFER]; 2]) {
+    if n < BUFFER {
+        for buffer in buffers {
+            buffer.copy_within(..n, BUFFER - n);
+        }
+    }
+}
+
 impl Bar {
     /// The impacts, one by one.
     ///
@@ -413,9 +416,11 @@ impl Bar {
     #[inline]
     pub fn train(&self, start: &Start) -> Train {
         let ([va, vb], t) = (start.velocity(), self.t);
-        let plain = vb <= 0.0 && (t <= -LARGE || (t >= LARGE && self.e >= LARGE));
+        // T < 0: −a_1 = αT + β must not cancel. There are two impacts at most.
+        let apart = (t * va + vb).abs() > CLEAR * -vb;
+        let plain = vb <= 0.0 && ((t >= LARGE && self.e >= LARGE) || (t <= -LARGE && apart));
         let (h0, last) = (start.height_gap(), if plain { PLAIN } else { 0 });
-        let steps = Steps { a: va, b: 0.0, a_held: -vb, b_held: -h0, clear: -CLEAR, last, latest: 0.0 };
+        let steps = Steps { speed: -va, b: 0.0, held: vb, b_held: -h0, clear: CLEAR, last, latest: 0.0 };
         let later = if plain { None } else { Some(Later::boxed(*self, *start, 0, 0.0)) };
         Train { bar: *self, start: *start, number: 0, steps, later, at: BUFFER }
     }
@@ -466,6 +471,10 @@ mod tests {
             if one_by_one.len() < most {
                 let folded = train.clone().fold(Vec::new(), |mut list, impact| { list.push(impact); list });
                 prop_assert_eq!(&folded, &one_by_one);
+                let mut rest = train.clone();
+                let taken = rest.by_ref().take(skip).count();
+                let folded = rest.fold(Vec::new(), |mut list, impact| { list.push(impact); list });
+                prop_assert_eq!(&folded, &one_by_one[taken..]);
             }
             let mut skipping = train;
             let (got, want) = (skipping.nth(skip), one_by_one.get(skip));
