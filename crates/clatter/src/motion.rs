@@ -100,8 +100,9 @@ pub(crate) struct Digits {
 impl Digits {
     /// For a count: a last resort to more digits once in some hundred trains.
     pub(crate) const COUNT: Self = Self { all: power_of_two(-44), strike: power_of_two(-10) };
-    /// For the end of a train: a tenth of what is allowed.
-    pub(crate) const ENDING: Self = Self { all: power_of_two(-44), strike: 0.1 * FINAL.error };
+    /// For the end of a train: a hundredth of what is allowed, of the angle from one strike to the next. The last strike stands at a
+    /// random share of it.
+    pub(crate) const ENDING: Self = Self { all: power_of_two(-44), strike: 0.01 * FINAL.error };
     /// For peaks and strikes.
     pub(crate) const ALL: Self = Self { all: power_of_two(-50), strike: 0.0 };
     /// For angles beyond f64.
