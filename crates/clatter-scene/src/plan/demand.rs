@@ -42,7 +42,8 @@ impl Setup {
     /// The closed form has no train: with it, the trains are those of the map.
     ///
     /// # Accuracy
-    /// That of the models; pulses are polygons, whose peak and effect are within 2e-4 or so.
+    /// That of the models; pulses are polygons, whose peak and effect are within 2e-4 or so, and of light ends whose contacts act on
+    /// each other within 1.3e-3: the most in 10⁴ random scenes.
     ///
     /// # Errors
     /// [`Error::Bar`] where the compliant model refuses the scene; [`Error::Contact`] for a rung that needs the contact time where
