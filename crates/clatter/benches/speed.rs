@@ -50,13 +50,18 @@ fn naive(q: f64, e: f64) {
     black_box(&plain(black_box(q), black_box(e)));
 }
 
-/// The unit square, evenly at random, always the same.
-fn square() -> Vec<(f64, f64)> {
+/// Numbers in [0, 1), always the same.
+fn random() -> impl FnMut() -> f64 {
     let mut state = 1_u64;
-    let mut random = || {
+    move || {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 11) as f64 / (1_u64 << 53) as f64
-    };
+    }
+}
+
+/// The unit square, evenly at random.
+fn square() -> Vec<(f64, f64)> {
+    let mut random = random();
     (0..20_000).map(|_| (random(), random())).collect()
 }
 
@@ -109,6 +114,54 @@ fn long_trains() {
         };
         row(&format!("count, {name}"), repeat, "100 ns", count, loops);
     }
+}
+
+/// Counts and summaries of random bars beyond 32 impacts, each timed by itself: half of them anywhere or in the corner (1, 1), half
+/// beside the endless curve.
+fn singly() {
+    const BARS: usize = 2000;
+    let start = Start::default();
+    let mut random = random();
+    let mut times = Vec::with_capacity(BARS);
+    while times.len() < BARS {
+        let (kind, x, e) = (random(), random(), random());
+        let curve = |e: f64| 2.0 * e.sqrt() / (1.0 + e);
+        let (q, e) = match kind {
+            _ if kind < 0.3 => (x, e),
+            _ if kind < 0.5 => (1.0 - 10f64.powf(-16.0 * x), 1.0 - 10f64.powf(-16.0 * e)),
+            _ if kind < 0.8 => (curve(e) * (1.0 - 10f64.powf(-17.0 * x)), e),
+            _ => (curve(e) * (1.0 + f64::EPSILON * (4.0 * x - 2.0)), e),
+        };
+        let bar = bar(q.min(1.0), e);
+        if matches!(bar.count(&start), Count::Finite(n) if n <= 32) {
+            continue;
+        }
+        let least = |f: &dyn Fn()| {
+            let time = |_| {
+                let begin = Instant::now();
+                (0..50).for_each(|_| f());
+                begin.elapsed().as_nanos() as f64 / 50.0
+            };
+            (0..15).map(time).fold(f64::INFINITY, f64::min)
+        };
+        times.push([
+            least(&|| {
+                black_box(black_box(&bar).count(black_box(&start)));
+            }),
+            least(&|| {
+                black_box(&black_box(&bar).summary(black_box(&start)));
+            }),
+        ]);
+    }
+    println!("\nof {BARS} random bars beyond 32 impacts  mean      99 %     worst   above what is allowed");
+    for (k, (name, allowed)) in [("count", 100.0), ("summary", 600.0)].into_iter().enumerate() {
+        times.sort_by(|a, b| a[k].total_cmp(&b[k]));
+        let mean = times.iter().map(|t| t[k]).sum::<f64>() / BARS as f64;
+        let above = 100.0 * times.iter().filter(|t| t[k] > allowed).count() as f64 / BARS as f64;
+        let [most, worst] = [times[BARS * 99 / 100][k], times[BARS - 1][k]];
+        println!("{name:30} {mean:10.2} {most:9.2} {worst:9.2}   {above:.1} % above {allowed} ns");
+    }
+    println!();
 }
 
 /// Trains with times, written into a list: the plain way is the recurrence, which drifts.
@@ -180,6 +233,7 @@ fn main() {
     println!("{:44} {:>10} {:>10} {:>7}   allowed", "", "ours [ns]", "plain [ns]", "ratio");
     summaries();
     long_trains();
+    singly();
     trains();
     maps();
 }

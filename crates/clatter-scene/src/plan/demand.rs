@@ -245,8 +245,8 @@ pub(crate) fn fineness(suspension: &Suspension, contact_s: f64) -> f64 {
 }
 
 /// How many times as many pieces a part with a strong dashpot needs on a body with light ends: there the shocks of both nearly cancel in
-/// overlap, to a share of 1 − q, and the dashpot follows what is left; that is off by the second to third power of a piece. Random scenes show it from ζ = 1.1
-/// on; ten times as many at most.
+/// overlap, to a share of 1 − q, and the dashpot follows what is left; that is off by the second to third power of a piece. Random
+/// scenes show it from ζ = 1.1 on; ten times as many at most.
 pub(crate) fn crowding(body: &Body, suspension: &Suspension) -> f64 {
     let [a, b] = body.inertia_ratios();
     let apart = 1.0 - a.max(b);

@@ -387,7 +387,7 @@ impl Setup {
                 };
                 if walk.late < CLEAR * peak && gap >= time {
                     // Strikes of other models may be later than those of this one.
-                    // A flat drop has all of it at the first touch.
+                    // A flat drop has all of it at the first touch, and a time limit is above 0.
                     walk.until_s = (1.25 * walk.last_s + 0.5 * (gap + time)).max(f64::MIN_POSITIVE);
                     break;
                 }

@@ -201,6 +201,7 @@ impl Lane {
         }
         times[end] = again(end, times[end]);
         let mut other = 1 - end;
+        // `again` moves each by a tenth at most, so that no other order is possible beyond.
         if times[other] < 1.25 * times[end] {
             times[other] = again(other, times[other]);
             if times[other] < times[end] {

@@ -270,7 +270,7 @@ fn waves() -> impl Strategy<Value = (Bar, Start)> {
     let e = prop_oneof![Just(1.0), 0.0001..1.0_f64];
     let wave = (33.0..420.0_f64, e, prop_oneof![Just(1.0), Just(0.0), 0.0..4.0_f64], 0.0..16.0_f64, prop::bool::ANY);
     wave.prop_map(|(x, e, beta, d, tie)| {
-        // ψ = xθ for d → ∞ or a start without spin.
+        // θ for which ψ = nθ: the train ends with strike ⌈n⌉, next to a tie where n is hardly above an integer.
         let aim = |n: f64| {
             let (mut low, mut high) = (1e-3_f64, 0.2_f64);
             for _ in 0..80 {
@@ -305,6 +305,23 @@ proptest! {
             prop_assert!(off[1] <= 0.5 * accuracy::TIME.error, "strike {} of {n}: time off by {:e}", i + 1, off[1]);
         }
     }
+}
+
+/// e^(n/2) leaves the range of floats long before the last strike, whose velocity is 0 then; its time is not.
+#[test]
+fn a_strike_slower_than_any_float_has_its_time() {
+    let bar = Bar::new(0.019_997_290_927_626_685, 0.0001).unwrap();
+    let train: Vec<_> = bar.train(&Start::default()).collect();
+    for i in [train.len() - 2, train.len() - 1] {
+        let time = exact_time(&bar, &Start::default(), i as u128);
+        assert!(
+            (train[i].time / time - 1.0).abs() <= accuracy::TIME.error,
+            "strike {}: {} {time}",
+            i + 1,
+            train[i].time
+        );
+    }
+    assert!(train[train.len() - 1].approach.abs() < 1e-300, "below the range of normal floats");
 }
 
 /// Trains of 33 to 400 impacts need no angle; ties, longer trains and the endless do.
