@@ -45,7 +45,10 @@ pub(crate) fn tools(rows: &[Tool<'_>], designs: [[f64; 2]; 4]) -> String {
     let axes = Axes {
         corner: [106.0, 34.0],
         size: [186.0, height],
-        x: Axis { title: "time a scene, in ms", ..Axis::log_over(times(), 12.0, "") },
+        x: Axis {
+            title: "time a scene, in ms",
+            ..Axis::log_over(times().flat_map(|ms| [0.8 * ms, 1.25 * ms]), 12.0, "")
+        },
         y: Axis::linear(0.0, 1.0, ""),
     };
     let columns = [312.0, 338.0, 364.0, 390.0];
