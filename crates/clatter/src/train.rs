@@ -54,18 +54,31 @@ pub struct Train {
 /// The recurrence as it stands before the next impact.
 #[derive(Debug, Clone, Copy)]
 struct Steps {
-    /// |a_n|, no more than 0 where the train has ended, and h0 b_n.
+    /// |a_n|, no more than 0 where the train has ended.
     speed: f64,
-    b: f64,
-    /// e |a_{n−1}| and e h0 b_{n−1}, which are taken from T |a_n| and T h0 b_n for the next ones.
+    /// e |a_{n−1}|, which is taken from T |a_n| for the next one.
     held: f64,
-    b_held: f64,
+    /// (t_{n+1} − t_n) |a_n a_{n+1}| = h0 |a_1| e^{n−1}, the Casoratian of velocities and heights.
+    gap: f64,
+    /// Of the next impact.
+    time: f64,
     /// How far |a_{n+1}| may cancel.
     clear: f64,
     /// No plain step leads beyond this impact.
     last: u64,
-    /// Time of the last impact.
+}
+
+impl Steps {
+    /// No plain steps are left. Said after every call, so that what they consist of need not be kept through it.
+    const OVER: Self = Self { speed: 0.0, held: 0.0, gap: 0.0, time: 0.0, clear: 0.0, last: 0 };
+}
+
+/// What the impacts after the plain steps need to know.
+struct SoFar {
     latest: f64,
+    ahead: u64,
+    start: Start,
+    bar: Bar,
 }
 
 /// Impacts that are not worked out by plain steps, some at a time.
@@ -88,7 +101,7 @@ struct Later {
 /// Where the impacts come from.
 #[derive(Debug, Clone)]
 enum Source {
-    /// The rest of a train of some hundred impacts.
+    /// A train of some 30 to 400 impacts.
     Sweep(Sweep),
     /// Four strikes at a time, from the closed form.
     Lanes(Box<(Drive, Lanes)>),
@@ -101,7 +114,9 @@ enum Source {
 /// Impacts worked out together.
 const BUFFER: usize = 16;
 /// Plain steps taken before the closed form, which forgets no digit, takes over.
-const PLAIN: u64 = Sweep::BEFORE;
+const PLAIN: u64 = 32;
+/// The same of long waves, which a sweep takes over.
+const FEW: u64 = Sweep::BEFORE;
 /// A velocity that cancels by more than this factor times its number is left to the closed form. Of a wave with N impacts, N
 /// steps add up to 1.3 N² roundings of its amplitude, of which a velocity is π/N times N times this factor at least: an
 /// error of 1.3 N²/π · 2⁻⁵³ · 2¹¹ ≤ 1e−10.
@@ -121,11 +136,13 @@ impl Iterator for Train {
             if self.steps.speed <= 0.0 {
                 return None;
             }
-            self.later = Some(Later::boxed(self.bar, self.start, self.number, self.steps.latest));
+            self.later = Some(Later::boxed(self.so_far()));
+            self.steps = Steps::OVER;
         }
         let later = self.later.as_mut()?;
         if self.at == BUFFER {
             self.at = later.fill();
+            self.steps = Steps::OVER;
         }
         let (approach, time) = (*later.approach.get(self.at)?, *later.times.get(self.at)?);
         (self.at, self.number) = (self.at + 1, self.number + 1);
@@ -146,11 +163,10 @@ impl Iterator for Train {
         if self.later.is_none() && self.steps.speed <= 0.0 {
             return all;
         }
-        let later = match self.later {
-            Some(later) => *later,
-            None => Later::new(self.bar, self.start, self.number, self.steps.latest),
-        };
-        later.fold(self.at, all, f)
+        match self.later {
+            Some(later) => later.fold(self.at, all, f),
+            None => fold_later(self.so_far(), all, f),
+        }
     }
 
     /// Skips in constant time, but for the plain steps at the beginning.
@@ -177,10 +193,16 @@ impl Iterator for Train {
 }
 
 impl Train {
+    /// Copies, so that a train that needs no more than plain steps stays in registers.
+    #[inline]
+    fn so_far(&self) -> SoFar {
+        SoFar { latest: self.steps.time, ahead: self.number, start: self.start, bar: self.bar }
+    }
+
     /// The next impact by a plain step; none where the train has ended, and where more digits are needed.
     #[inline]
     fn step(&mut self, end: End) -> Option<Impact> {
-        let Steps { speed, b, held, b_held, clear, last, latest } = self.steps;
+        let Steps { speed, held, gap, time, clear, last } = self.steps;
         if self.number >= last {
             return None;
         }
@@ -194,17 +216,13 @@ impl Train {
             }
             self.steps.last = self.number + 1;
         }
-        // Where strikes are closer than roundings; `f64::max` takes longer.
-        let time = b / speed;
-        let time = if time < latest { latest } else { time };
         self.steps = Steps {
             speed: next,
-            b: t * b - b_held,
             held: e * speed,
-            b_held: e * b,
+            gap: e * gap,
+            time: time + gap / (speed * next),
             clear: clear + CLEAR,
             last: self.steps.last,
-            latest: time,
         };
         self.number += 1;
         Some(self.bar.impact(self.number, end, -speed, time))
@@ -244,24 +262,16 @@ impl Source {
 }
 
 impl Later {
-    /// As [`new`](Self::new), out of the way of trains that need none.
-    #[cold]
-    fn boxed(bar: Bar, start: Start, ahead: u64, latest: f64) -> Box<Self> {
-        Box::new(Self::new(bar, start, ahead, latest))
-    }
-
     /// From impact `ahead` + 1 on, none before `latest`. Takes copies, so that a train that needs no more than plain steps
     /// stays in registers.
     #[cold]
-    fn new(bar: Bar, start: Start, ahead: u64, latest: f64) -> Self {
+    fn boxed(so_far: SoFar) -> Box<Self> {
+        let SoFar { bar, start, ahead, latest } = so_far;
+        let swept = if ahead == FEW { Sweep::new(&bar, &start) } else { None };
+        let (source, count) =
+            swept.map_or_else(|| Source::new(&bar, &start, ahead), |sweep| (Source::Sweep(sweep), None));
         let (approach, times) = ([0.0; BUFFER], [0.0; BUFFER]);
-        if ahead == Sweep::BEFORE
-            && let Some(sweep) = Sweep::new(&bar, &start)
-        {
-            return Self { bar, start, source: Source::Sweep(sweep), count: None, ahead, approach, times, latest };
-        }
-        let (source, count) = Source::new(&bar, &start, ahead);
-        Self { bar, start, source, count, ahead, approach, times, latest }
+        Box::new(Self { bar, start, source, count, ahead, approach, times, latest })
     }
 
     /// Works out the next impacts and returns where in the buffers they begin: at their end where the train has ended.
@@ -276,7 +286,16 @@ impl Later {
         let mut at = BUFFER - n;
         match &mut self.source {
             Source::Sweep(sweep) => {
-                let (taken, then) = sweep.take(&mut self.approach, &mut self.times);
+                let (mut taken, mut then) = (0, Then::On);
+                let buffers = self.approach.as_chunks_mut::<4>().0.iter_mut().zip(self.times.as_chunks_mut::<4>().0);
+                for (approach, times) in buffers {
+                    let n;
+                    ([*approach, *times], n, then) = sweep.take();
+                    taken += n;
+                    if then != Then::On {
+                        break;
+                    }
+                }
                 self.ahead += taken as u64;
                 match then {
                     Then::On => {}
@@ -337,18 +356,11 @@ impl Later {
     /// All impacts, from where `at` stands in the buffers. Not part of the fold of a [`Train`], whose plain steps then
     /// stay in registers.
     #[inline(never)]
-    fn fold<B, F: FnMut(B, Impact) -> B>(mut self, mut at: usize, init: B, mut f: F) -> B {
+    fn fold<B, F: FnMut(B, Impact) -> B>(mut self: Box<Self>, mut at: usize, init: B, mut f: F) -> B {
         let (mut all, bar) = (init, self.bar);
         loop {
-            let mut number = self.ahead - (BUFFER - at) as u64;
-            let first = End::of_impact(number + 1);
-            for (approach, times) in self.approach[at..].chunks(2).zip(self.times[at..].chunks(2)) {
-                all = f(all, bar.impact(number + 1, first, approach[0], times[0]));
-                if let (&[_, approach], &[_, time]) = (approach, times) {
-                    all = f(all, bar.impact(number + 2, first.other(), approach, time));
-                }
-                number += 2;
-            }
+            let number = self.ahead - (BUFFER - at) as u64;
+            all = hand_out(&bar, number, [&self.approach[at..], &self.times[at..]], all, &mut f);
             at = self.fill();
             if at == BUFFER {
                 return all;
@@ -378,6 +390,47 @@ impl Later {
             }
         }
     }
+}
+
+/// As [`Later::fold`], from impact `ahead` + 1 on; a sweep is not stored anywhere.
+#[inline(never)]
+fn fold_later<B, F: FnMut(B, Impact) -> B>(so_far: SoFar, init: B, mut f: F) -> B {
+    let SoFar { bar, start, mut ahead, mut latest } = so_far;
+    let mut all = init;
+    if ahead == FEW
+        && let Some(mut sweep) = Sweep::new(&bar, &start)
+    {
+        loop {
+            let ([approach, times], taken, then) = sweep.take();
+            if then == Then::On {
+                all = hand_out(&bar, ahead, [&approach, &times], all, &mut f);
+                ahead += 4;
+                continue;
+            }
+            all = hand_out(&bar, ahead, [&approach[..taken], &times[..taken]], all, &mut f);
+            if then == Then::End {
+                return all;
+            }
+            ahead += taken as u64;
+            latest = times[..taken].last().copied().unwrap_or(latest);
+            break;
+        }
+    }
+    Later::boxed(SoFar { latest, ahead, start, bar }).fold(BUFFER, all, f)
+}
+
+/// Folds the impacts after number `number`, by pairs: nothing need be chosen by the number.
+#[inline]
+fn hand_out<B, F: FnMut(B, Impact) -> B>(bar: &Bar, mut number: u64, [approach, times]: [&[f64]; 2], init: B, f: &mut F) -> B {
+    let (mut all, first) = (init, End::of_impact(number + 1));
+    for (approach, times) in approach.chunks(2).zip(times.chunks(2)) {
+        all = f(all, bar.impact(number + 1, first, approach[0], times[0]));
+        if let (&[_, approach], &[_, time]) = (approach, times) {
+            all = f(all, bar.impact(number + 2, first.other(), approach, time));
+        }
+        number += 2;
+    }
+    all
 }
 
 /// Moves the first n of the buffers to their end.
@@ -419,10 +472,11 @@ impl Bar {
         // T < 0: −a_1 = αT + β must not cancel. There are two impacts at most.
         let apart = (t * va + vb).abs() > CLEAR * -vb;
         let plain = vb <= 0.0 && ((t >= LARGE && self.e >= LARGE) || (t <= -LARGE && apart));
-        let (h0, last) = (start.height_gap(), if plain { PLAIN } else { 0 });
-        let steps = Steps { speed: -va, b: 0.0, held: vb, b_held: -h0, clear: CLEAR, last, latest: 0.0 };
-        let later = if plain { None } else { Some(Later::boxed(*self, *start, 0, 0.0)) };
-        Train { bar: *self, start: *start, number: 0, steps, later, at: BUFFER }
+        let plainly = if Sweep::suits(self) { FEW } else { PLAIN };
+        let last = if plain { plainly } else { 0 };
+        let gap = start.height_gap() * -va;
+        let steps = Steps { speed: -va, held: vb, gap, time: 0.0, clear: CLEAR, last };
+        Train { bar: *self, start: *start, number: 0, steps, later: None, at: BUFFER }
     }
 
     /// The impact as a whole.

@@ -46,14 +46,10 @@ pub(crate) struct Lanes {
 }
 
 impl Four {
-    /// Strikes of a wave, with their x in `values`. What is carried on is held in variables, so that it need not go
-    /// through memory.
-    #[inline]
-    fn turn<const N: usize>(&mut self, approach: &mut [f64; N], times: &mut [f64; N], values: &mut [f64; N]) {
+    /// Strikes of a wave. What is carried on is held in variables, so that it need not go through memory.
+    fn turn<const N: usize>(&mut self, approach: &mut [f64; N], times: &mut [f64; N]) {
         let Self { mut x, mut dx, mut y, mut dy, mut g, kappa, decay, time } = *self;
-        let (approach, times) = (approach.as_chunks_mut::<LANES>().0, times.as_chunks_mut::<LANES>().0);
-        for ((approach, times), values) in approach.iter_mut().zip(times).zip(values.as_chunks_mut::<LANES>().0) {
-            *values = x;
+        for (approach, times) in approach.as_chunks_mut::<LANES>().0.iter_mut().zip(times.as_chunks_mut::<LANES>().0) {
             for i in 0..LANES {
                 approach[i] = -g[i] * x[i];
                 times[i] = time * (y[i] / x[i]);
@@ -85,18 +81,28 @@ impl Four {
     }
 }
 
-/// The wave of a train of some hundred impacts, from strike 33 to the last. No angle is needed: its four strikes are
-/// carried there from the first ones by doublings of their distance.
+/// The wave of a train of some 30 to 400 impacts. No angle is needed: all follows from the discriminant and the first two
+/// strikes.
 ///
-/// With x_n = |a_n|/(α e^{n/2}), y_n = b_n/e^{(n−1)/2} and κ_m = 2 − 2 cos mθ, all of them sums without cancellation that
-/// matters to an amplitude,
+/// With x_n = |a_n|/(α e^{n/2}) and κ_m = 2 − 2 cos mθ, all of them sums without cancellation that matters to an amplitude,
 /// ```text
 /// κ_1 = D/(2e + T√e),  κ_2m = κ_m(4 − κ_m),  Δ_m x_n = x_{n+m} − x_n,  Δ_2m x_n = (2 − κ_m) Δ_m x_n − κ_m x_n.
 /// ```
+/// The Casoratian of this wave and that of the heights is constant, so that times are sums of what is positive:
+/// t_{n+1} − t_n = h0/(α√e x_n x_{n+1}).
 #[derive(Debug, Clone)]
 pub(crate) struct Sweep {
-    four: Four,
-    /// Square of an x that is known well enough for the time of its strike.
+    x: [f64; LANES],
+    dx: [f64; LANES],
+    g: [f64; LANES],
+    kappa: f64,
+    /// What g is multiplied by a step.
+    decay: f64,
+    /// h0/(α√e).
+    unit: f64,
+    /// Of the first lane.
+    time: f64,
+    /// A larger x is known well enough for the time of its strike.
     clear: f64,
 }
 
@@ -113,9 +119,9 @@ pub(crate) enum Then {
 
 impl Sweep {
     /// Strikes before the sweep.
-    pub(crate) const BEFORE: u64 = 32;
-    /// Largest amplitude of x: 408 strikes of a bar that falls flat. Rounded in 5 doublings and some 100 steps, each
-    /// approach velocity then was off by no more than 1.5e−13 of the first.
+    pub(crate) const BEFORE: u64 = 0;
+    /// Largest amplitude of x: 408 strikes of a bar that falls flat. Rounded in some 100 steps, each approach velocity then
+    /// was off by no more than 1.5e−13 of the first.
     const AMPLITUDE: f64 = 260.0;
     /// A strike with a smaller x over its amplitude is left to the closed form. The time of others was off by no more than
     /// 1.6e−12.
@@ -123,67 +129,73 @@ impl Sweep {
     /// What x over its amplitude is never off by.
     const ALLOWED: f64 = 1e-12;
 
+    /// Whether a sweep may be the way to go: π/408 < θ < 0.1. Trains with larger θ have 31 impacts at most.
+    #[inline]
+    pub(crate) fn suits(bar: &Bar) -> bool {
+        (bar.t * bar.t.abs() - 3.98 * bar.e).abs() < 0.0199 * bar.e
+    }
+
     /// None for other trains than those of a wave of up to some hundred strikes.
     #[inline]
     pub(crate) fn new(bar: &Bar, start: &Start) -> Option<Self> {
         let (e, [va, vb]) = (bar.e, start.velocity());
-        let (d, root, beta) = (compensated(bar.wide_q(), e, e), e.sqrt(), vb / va);
-        // Small e: e^{n/2} may leave the range of floats. Small D: lost in the last digits that it is formed of.
-        if e < 0.01 || d <= e * power_of_two(-40) || vb > 0.0 {
+        // For small e, e^{n/2} may leave the range of floats.
+        if e < 0.01 || !Self::suits(bar) || vb > 0.0 {
             return None;
         }
-        let kappa = d / (2.0 * e + bar.t * root);
+        let (root, beta) = (e.sqrt(), vb / va);
+        let kappa = compensated(bar.wide_q(), e, e) / (2.0 * e + bar.t * root);
         let kappa_2 = kappa * (4.0 - kappa);
-        // Steps of one of x and y, from which those of four follow.
-        let mut once = [(1.0, 1.0 - kappa + beta / root), (0.0, 1.0)];
-        let slope = once[0].1 + 0.5 * kappa;
+        // A step of one, from which those of four follow.
+        let (mut v, mut step) = (1.0, 1.0 - kappa + beta / root);
+        let slope = step + 0.5 * kappa;
         let amplitude = 1.0 + 4.0 * slope * slope / kappa_2;
         if amplitude > Self::AMPLITUDE * Self::AMPLITUDE {
             return None;
         }
-        let mut lanes = [([0.0; LANES], [0.0; LANES]); 2];
+        let (mut x, mut dx) = ([0.0; LANES], [0.0; LANES]);
         let double = |kappa: f64, v: f64, step: f64| (2.0 - kappa) * step - kappa * v;
         for i in 0..LANES {
-            for ((x, dx), (v, d)) in lanes.iter_mut().zip(&mut once) {
-                (x[i], dx[i]) = (*v, double(kappa_2, *v, double(kappa, *v, *d)));
-                *v += *d;
-                *d -= kappa * *v;
-            }
+            (x[i], dx[i]) = (v, double(kappa_2, v, double(kappa, v, step)));
+            v += step;
+            step -= kappa * v;
         }
-        let kappa_4 = kappa_2 * (4.0 - kappa_2);
-        let kappa_8 = kappa_4 * (4.0 - kappa_4);
-        let kappa_16 = kappa_8 * (4.0 - kappa_8);
-        let far = |v: f64, step: f64| v + double(kappa_16, v, double(kappa_8, v, double(kappa_4, v, step)));
-        for (x, dx) in &mut lanes {
-            for i in 0..LANES {
-                (x[i], dx[i]) = (far(x[i], dx[i]), far(dx[i], -kappa_4 * (x[i] + dx[i])));
-            }
-        }
-        let [(x, dx), (y, dy)] = lanes;
-        let decay = e * e;
-        let first = (decay * decay) * (decay * decay);
-        let first = -va * (first * first);
-        let g = [first, first * root, first * e, first * (e * root)];
-        let time = start.height_gap() / (-va * root);
         Some(Self {
-            four: Four { x, dx, y, dy, g, kappa: kappa_4, decay, time },
-            clear: Self::CLEAR * Self::CLEAR * amplitude,
+            x,
+            dx,
+            g: [1.0, root, e, e * root].map(|power| -va * power),
+            kappa: kappa_2 * (4.0 - kappa_2),
+            decay: e * e,
+            unit: start.height_gap() / (-va * root),
+            time: 0.0,
+            clear: Self::CLEAR * amplitude.sqrt(),
         })
     }
 
-    /// Approach velocities and times of the next strikes, and of how many of them they hold.
-    pub(crate) fn take<const N: usize>(&mut self, approach: &mut [f64; N], times: &mut [f64; N]) -> (usize, Then) {
-        let mut values = [0.0; N];
-        self.four.turn(approach, times, &mut values);
-        // After its end, a wave stays below 0 for as long as it was above.
-        let clear = |x: f64| x > 0.0 && x * x > self.clear;
-        let next = self.four.x[0];
-        if clear(next) {
-            return (N, Then::On);
+    /// Approach velocities and times of the next four strikes, and of how many of them they hold.
+    #[inline]
+    pub(crate) fn take(&mut self) -> ([[f64; LANES]; 2], usize, Then) {
+        let Self { x, unit, time, .. } = *self;
+        let (mut approach, mut between) = ([0.0; LANES], [0.0; LANES]);
+        for i in 0..LANES {
+            approach[i] = -self.g[i] * x[i];
+            self.g[i] *= self.decay;
+            self.x[i] += self.dx[i];
+            self.dx[i] -= self.kappa * self.x[i];
         }
-        let n = values.iter().position(|&x| !clear(x)).unwrap_or(N);
-        let sure = values.get(n).unwrap_or(&next) * Self::CLEAR < -Self::ALLOWED * self.clear.sqrt();
-        (n, if sure { Then::End } else { Then::Doubt })
+        for i in 0..LANES {
+            between[i] = unit / (x[i] * if i + 1 < LANES { x[i + 1] } else { self.x[0] });
+        }
+        let two = between[0] + between[1];
+        self.time += two + (between[2] + between[3]);
+        let strikes = [approach, [time, time + between[0], time + two, time + (two + between[2])]];
+        // Between two strikes that are clear the wave is; after its end it stays below 0 for as long as it was above.
+        if x[LANES - 1] > self.clear {
+            return (strikes, LANES, Then::On);
+        }
+        let n = x.iter().take_while(|&&x| x > self.clear).count();
+        let sure = x[n] * Self::CLEAR < -Self::ALLOWED * self.clear;
+        (strikes, n, if sure { Then::End } else { Then::Doubt })
     }
 }
 
@@ -225,7 +237,7 @@ impl Lanes {
     /// Approach velocities and times of the next strikes, four by four.
     pub(crate) fn take<const N: usize>(&mut self, drive: &Drive, approach: &mut [f64; N], times: &mut [f64; N]) {
         if self.wave {
-            self.four.turn(approach, times, &mut [0.0; N]);
+            self.four.turn(approach, times);
         } else {
             self.four.grow(self.sum, approach, times);
         }
