@@ -58,9 +58,9 @@ struct Steps {
     speed: f64,
     /// e |a_{n−1}|, which is taken from T |a_n| for the next one.
     held: f64,
-    /// (t_{n+1} − t_n) |a_n a_{n+1}| = h0 |a_1| e^{n−1}, the Casoratian of velocities and heights.
+    /// (t_{n+1} − t_n) |a_n a_{n+1}|/h0 = |a_1| e^{n−1}, the Casoratian of velocities and heights.
     gap: f64,
-    /// Of the next impact.
+    /// Of the next impact, over h0.
     time: f64,
     /// How far |a_{n+1}| may cancel.
     clear: f64,
@@ -115,14 +115,14 @@ enum Source {
 const BUFFER: usize = 16;
 /// Plain steps taken before the closed form, which forgets no digit, takes over.
 const PLAIN: u64 = 32;
-/// The same of long waves, which a sweep takes over.
-const FEW: u64 = Sweep::BEFORE;
 /// A velocity that cancels by more than this factor times its number is left to the closed form. Of a wave with N impacts, N
 /// steps add up to 1.3 N² roundings of its amplitude, of which a velocity is π/N times N times this factor at least: an
 /// error of 1.3 N²/π · 2⁻⁵³ · 2¹¹ ≤ 1e−10.
 const CLEAR: f64 = 1.0 / 2048.0;
-/// With T and e of at least this size no term of a plain step comes near the subnormal floats.
+/// With T and e of at least this size, and |a_1| not smaller than the other or larger than its reciprocal, no term of a plain
+/// step comes near the subnormal floats, nor near those that overflow.
 const LARGE: f64 = 1e-8;
+const MODERATE: f64 = 1e-20;
 
 impl Iterator for Train {
     type Item = Impact;
@@ -196,7 +196,12 @@ impl Train {
     /// Copies, so that a train that needs no more than plain steps stays in registers.
     #[inline]
     fn so_far(&self) -> SoFar {
-        SoFar { latest: self.steps.time, ahead: self.number, start: self.start, bar: self.bar }
+        SoFar {
+            latest: self.start.height_gap() * self.steps.time,
+            ahead: self.number,
+            start: self.start,
+            bar: self.bar,
+        }
     }
 
     /// The next impact by a plain step; none where the train has ended, and where more digits are needed.
@@ -225,7 +230,7 @@ impl Train {
             last: self.steps.last,
         };
         self.number += 1;
-        Some(self.bar.impact(self.number, end, -speed, time))
+        Some(self.bar.impact(self.number, end, -speed, self.start.height_gap() * time))
     }
 }
 
@@ -262,12 +267,11 @@ impl Source {
 }
 
 impl Later {
-    /// From impact `ahead` + 1 on, none before `latest`. Takes copies, so that a train that needs no more than plain steps
-    /// stays in registers.
+    /// From impact `ahead` + 1 on, none before `latest`.
     #[cold]
     fn boxed(so_far: SoFar) -> Box<Self> {
         let SoFar { bar, start, ahead, latest } = so_far;
-        let swept = if ahead == FEW { Sweep::new(&bar, &start) } else { None };
+        let swept = if ahead == 0 { Sweep::new(&bar, &start) } else { None };
         let (source, count) =
             swept.map_or_else(|| Source::new(&bar, &start, ahead), |sweep| (Source::Sweep(sweep), None));
         let (approach, times) = ([0.0; BUFFER], [0.0; BUFFER]);
@@ -287,7 +291,7 @@ impl Later {
         match &mut self.source {
             Source::Sweep(sweep) => {
                 let (mut taken, mut then) = (0, Then::On);
-                let buffers = self.approach.as_chunks_mut::<4>().0.iter_mut().zip(self.times.as_chunks_mut::<4>().0);
+                let buffers = self.approach.as_chunks_mut().0.iter_mut().zip(self.times.as_chunks_mut().0);
                 for (approach, times) in buffers {
                     let n;
                     ([*approach, *times], n, then) = sweep.take();
@@ -397,22 +401,21 @@ impl Later {
 fn fold_later<B, F: FnMut(B, Impact) -> B>(so_far: SoFar, init: B, mut f: F) -> B {
     let SoFar { bar, start, mut ahead, mut latest } = so_far;
     let mut all = init;
-    if ahead == FEW
+    if ahead == 0
         && let Some(mut sweep) = Sweep::new(&bar, &start)
     {
         loop {
             let ([approach, times], taken, then) = sweep.take();
             if then == Then::On {
                 all = hand_out(&bar, ahead, [&approach, &times], all, &mut f);
-                ahead += 4;
+                ahead += taken as u64;
                 continue;
             }
             all = hand_out(&bar, ahead, [&approach[..taken], &times[..taken]], all, &mut f);
             if then == Then::End {
                 return all;
             }
-            ahead += taken as u64;
-            latest = times[..taken].last().copied().unwrap_or(latest);
+            (ahead, latest) = (ahead + taken as u64, times[..taken].last().copied().unwrap_or(latest));
             break;
         }
     }
@@ -421,7 +424,13 @@ fn fold_later<B, F: FnMut(B, Impact) -> B>(so_far: SoFar, init: B, mut f: F) -> 
 
 /// Folds the impacts after number `number`, by pairs: nothing need be chosen by the number.
 #[inline]
-fn hand_out<B, F: FnMut(B, Impact) -> B>(bar: &Bar, mut number: u64, [approach, times]: [&[f64]; 2], init: B, f: &mut F) -> B {
+fn hand_out<B, F: FnMut(B, Impact) -> B>(
+    bar: &Bar,
+    mut number: u64,
+    [approach, times]: [&[f64]; 2],
+    init: B,
+    f: &mut F,
+) -> B {
     let (mut all, first) = (init, End::of_impact(number + 1));
     for (approach, times) in approach.chunks(2).zip(times.chunks(2)) {
         all = f(all, bar.impact(number + 1, first, approach[0], times[0]));
@@ -446,11 +455,11 @@ impl Bar {
     /// The impacts, one by one.
     ///
     /// # Method
-    /// The recurrence for 32 strikes at most, then four neighboring strikes are carried on together by rotations that keep
-    /// small angles exact. Up to some 400 strikes the rotation by θ, 2θ, … 32θ follows from the discriminant alone, and the
-    /// train ends where the velocity changes its sign, by the closed form next to a tie. Beyond, the four are anchored
-    /// in the closed form anew every 256 strikes, and the number of impacts is settled beforehand, as exactly as by
-    /// [`Bar::count`].
+    /// The recurrence for 32 strikes at most; beyond, four neighboring strikes are carried on together by rotations that keep
+    /// small angles exact. In a train of some 30 to 400 strikes they follow from the discriminant alone, from the first one
+    /// on, and the train ends where the velocity changes its sign, by the closed form next to a tie. In longer ones the four
+    /// are anchored in the closed form anew every 256 strikes, and the number of impacts is settled beforehand, as exactly
+    /// as by [`Bar::count`]. Times between strikes are h0 |v_a| e^{n−1}/(a_n a_{n+1}): sums of what is positive.
     ///
     /// # Accuracy
     /// [`crate::accuracy::APPROACH`], [`JUMP`](crate::accuracy::JUMP) and [`TIME`](crate::accuracy::TIME), for a
@@ -471,11 +480,12 @@ impl Bar {
         let ([va, vb], t) = (start.velocity(), self.t);
         // T < 0: −a_1 = αT + β must not cancel. There are two impacts at most.
         let apart = (t * va + vb).abs() > CLEAR * -vb;
-        let plain = vb <= 0.0 && ((t >= LARGE && self.e >= LARGE) || (t <= -LARGE && apart));
-        let plainly = if Sweep::suits(self) { FEW } else { PLAIN };
-        let last = if plain { plainly } else { 0 };
-        let gap = start.height_gap() * -va;
-        let steps = Steps { speed: -va, held: vb, gap, time: 0.0, clear: CLEAR, last };
+        let plain = vb <= 0.0
+            && (MODERATE..=1.0 / MODERATE).contains(&-va)
+            && ((t >= LARGE && self.e >= LARGE) || (t <= -LARGE && apart));
+        let long = if Sweep::suits(self) { 0 } else { PLAIN };
+        let last = if plain { long } else { 0 };
+        let steps = Steps { speed: -va, held: vb, gap: -va, time: 0.0, clear: CLEAR, last };
         Train { bar: *self, start: *start, number: 0, steps, later: None, at: BUFFER }
     }
 

@@ -512,8 +512,10 @@ fn table_1_was_truncated_in_one_cell_and_clipped_in_two() {
 /// Velocities whose squares leave the range of floats decide as well as any others.
 #[test]
 fn tiny_and_huge_velocities_lose_no_digit() {
-    // Next to the endless curve, where no plain step will do; powers of two change no digit.
+    // Next to the endless curve, where no plain step will do, far from it, and as a sweep; powers of two change no digit.
     for (bar, vb) in [
+        (Bar::new(2.06e-4, 1.1e-8).unwrap(), 0.0),
+        (Bar::new(0.9978, 1.0).unwrap(), -1.0),
         (Bar::new(3.721_162_980_538_931_4e-8, 3.461_763_481_933_760_5e-16).unwrap(), 0.0),
         (
             Bar::from_gyration_ratio(0.015_380_505_952_165_578, 0.940_327_673_422_922_1).unwrap(),
