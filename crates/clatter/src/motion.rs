@@ -88,6 +88,9 @@ pub(crate) struct Decay {
     pub(crate) tau: f64,
 }
 
+/// Above this e, D is formed about the corner (1, 1).
+const CORNER: f64 = 0.17;
+
 /// How well D = 4e − T² must be known.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Digits {
@@ -158,6 +161,7 @@ enum Series {
 
 impl Drive {
     /// For T > 0 and e > 0.
+    #[inline]
     pub(crate) fn new(bar: &Bar, start: &Start, digits: Digits) -> Self {
         let [va, vb] = start.velocity();
         let e = bar.e;
@@ -188,11 +192,11 @@ impl Drive {
     }
 
     /// D = 4e − T² and a bound on its relative error; its sign is certain.
+    #[inline]
     fn discriminant(&self, digits: Digits) -> (Dd, f64) {
         let Bar { e, less, more, .. } = self.bar;
         // Of two equal forms the one with the smaller terms, (1 − q²)(1 + e)² − (1 − e)² for all but small e.
-        let corner = e > 0.17;
-        let (first, second) = if corner {
+        let (first, second) = if e > CORNER {
             (less * more * ((1.0 + e) * (1.0 + e)), (1.0 - e) * (1.0 - e))
         } else {
             (4.0 * self.e, self.t * self.t)
@@ -212,7 +216,14 @@ impl Drive {
                 return (Dd::from(d), error);
             }
         }
-        let (first, second) = if corner {
+        self.wide_discriminant(digits)
+    }
+
+    /// The same where more digits are needed.
+    #[cold]
+    fn wide_discriminant(&self, digits: Digits) -> (Dd, f64) {
+        let e = self.bar.e;
+        let (first, second) = if e > CORNER {
             (self.bar.wide_less_more() * two_sum(1.0, e).sqr(), two_sum(1.0, -e).sqr())
         } else {
             (Dd::from(4.0 * self.e), self.wide_t().sqr())
@@ -332,6 +343,7 @@ impl Drive {
     }
 
     /// The number of impacts.
+    #[inline]
     pub(crate) fn count(&self) -> Count {
         if let Kind::Wave(Wave { theta, psi, .. }) = self.kind
             && psi / theta > BEYOND_NUMBERS
@@ -363,6 +375,7 @@ impl Drive {
         }
     }
 
+    #[inline]
     fn steps(&self) -> Steps {
         match self.kind {
             Kind::Wave(wave) => {
@@ -394,6 +407,7 @@ impl Drive {
     }
 
     /// ⌈quotient⌉, at least 1, where the quotient is off by no more than `error`: with more digits if need be.
+    #[inline]
     fn settle(&self, series: Series, quotient: f64, error: f64) -> Steps {
         // By integers, which take fewer instructions than `round` and `ceil`.
         #[expect(
@@ -405,6 +419,12 @@ impl Drive {
         if rest > error && 1.0 - rest > error {
             return Steps::Exactly(u128::from(below.unsigned_abs()) + 1);
         }
+        self.settle_exactly(series, quotient, error)
+    }
+
+    /// The same with more digits.
+    #[cold]
+    fn settle_exactly(&self, series: Series, quotient: f64, error: f64) -> Steps {
         let (mut middle, mut error) = (Dd::from(quotient), error);
         if let (Kind::Wave(_), Series::Velocity) = (self.kind, series) {
             let (theta, psi, angle_error) = self.angles();
