@@ -222,33 +222,25 @@ impl Drive {
     /// The same where more digits are needed.
     #[cold]
     fn wide_discriminant(&self, digits: Digits) -> (Dd, f64) {
-        let e = self.bar.e;
-        let (first, second) = if e > CORNER {
-            (self.bar.wide_less_more() * two_sum(1.0, e).sqr(), two_sum(1.0, -e).sqr())
-        } else {
-            (Dd::from(4.0 * self.e), self.wide_t().sqr())
+        let (e, q) = (self.bar.e, self.bar.wide_q());
+        let good = |d: Dd, cancels: f64, forgotten: f64| {
+            let error = power_of_two(-100) + forgotten * cancels;
+            (digits.allow(error, cancels) && error < 0.5).then_some((d, error))
         };
-        let d = first - second;
-        let cancels = first.hi.max(second.hi) / d.hi.abs();
-        let error = power_of_two(-100) * cancels;
-        if digits.allow(error, cancels) && error < 0.5 {
-            return (d, error);
-        }
-        // 4e − q²(1 + 2e + e²), every product as the floats that make it up.
-        let q = self.bar.wide_q();
-        if q.lo == 0.0 {
-            let q = q.scale(self.m).hi;
-            let Dd { hi: h, lo: l } = two_prod(q, q);
-            let Dd { hi: g, lo: k } = two_prod(e, e);
-            let [a, b, c, d, f] =
-                [two_prod(-2.0 * e, h), two_prod(-2.0 * e, l), two_prod(-g, h), two_prod(-g, l), two_prod(-k, h)];
-            let tail = -k * l;
-            let d = dd::sum([tail, f.lo, d.lo, f.hi, d.hi, c.lo, b.lo, c.hi, b.hi, a.lo, -l, a.hi, -h, 4.0 * self.e]);
-            let cancels = (4.0 * self.e / d.hi).abs();
-            let error = power_of_two(-100) + power_of_two(-200) * cancels;
-            if digits.allow(error, cancels) {
-                return (d, error);
-            }
+        let known = if q.lo == 0.0 {
+            let d = expanded(q.scale(self.m).hi, e, self.e);
+            good(d, (4.0 * self.e / d.hi).abs() + 1.0, power_of_two(-155))
+        } else {
+            let (first, second) = if e > CORNER {
+                (self.bar.wide_less_more() * two_sum(1.0, e).sqr(), two_sum(1.0, -e).sqr())
+            } else {
+                (Dd::from(4.0 * self.e), self.wide_t().sqr())
+            };
+            let d = first - second;
+            good(d, first.hi.max(second.hi) / d.hi.abs(), power_of_two(-100))
+        };
+        if let Some(known) = known {
+            return known;
         }
         let exact = self.exact(Series::Velocity);
         let nu = self.bar.exact_q().1;
@@ -462,8 +454,10 @@ impl Drive {
     fn angles(&self) -> (Dd, Dd, f64) {
         let (d, d_error) = self.discriminant(Digits::ANGLES);
         let (s, t) = (d.sqrt(), self.wide_t());
-        let (theta, psi) = (dd::atan2(s, t), dd::atan2(s * self.alpha, -self.slope(t, d.hi)));
-        (theta, psi, d_error + power_of_two(-95))
+        // Of some thousand strikes no more digits count.
+        let enough = s.hi > power_of_two(-12) * t.hi;
+        let (theta, psi) = (dd::atan2(s, t, enough), dd::atan2(s * self.alpha, -self.slope(t, d.hi), enough));
+        (theta, psi, d_error + power_of_two(if enough { -81 } else { -95 }))
     }
 
     /// |δ_n| = |ψ − nθ| for each n, to a relative `error` or from double-double angles.
@@ -727,6 +721,16 @@ fn compensated(q: Dd, restitution: f64, e: f64) -> f64 {
     let rest = t.lo + (product.lo + q.lo * (1.0 + restitution));
     let square = two_prod(t.hi, t.hi);
     ((4.0 * e - square.hi) - square.lo) - 2.0 * t.hi * rest
+}
+
+/// The same with T = t + τ + τ' exactly: what is left out is below 2⁻¹⁵⁵ of 4e.
+fn expanded(q: f64, restitution: f64, e: f64) -> Dd {
+    let product = two_prod(q, restitution);
+    let t = two_sum(q, product.hi);
+    let rest = two_sum(t.lo, product.lo);
+    let (square, cross) = (two_prod(t.hi, t.hi), two_prod(2.0 * t.hi, rest.hi));
+    let small = cross.lo + (2.0 * t.hi * rest.lo + rest.hi * rest.hi);
+    two_sum(4.0 * e, -square.hi) - two_sum(square.lo, cross.hi) - Dd::from(small)
 }
 
 /// Velocities after the last strike: of the end that struck, a for an odd count, and of the other.

@@ -136,7 +136,7 @@ impl Iterator for Train {
             if self.steps.speed <= 0.0 {
                 return None;
             }
-            self.later = Some(Later::boxed(self.so_far()));
+            self.later = Some(Later::boxed(&self.so_far()));
             self.steps = Steps::OVER;
         }
         let later = self.later.as_mut()?;
@@ -165,7 +165,7 @@ impl Iterator for Train {
         }
         match self.later {
             Some(later) => later.fold(self.at, all, f),
-            None => fold_later(self.so_far(), all, f),
+            None => fold_later(&self.so_far(), all, f),
         }
     }
 
@@ -269,8 +269,8 @@ impl Source {
 impl Later {
     /// From impact `ahead` + 1 on, none before `latest`.
     #[cold]
-    fn boxed(so_far: SoFar) -> Box<Self> {
-        let SoFar { bar, start, ahead, latest } = so_far;
+    fn boxed(so_far: &SoFar) -> Box<Self> {
+        let SoFar { bar, start, ahead, latest } = *so_far;
         let swept = if ahead == 0 { Sweep::new(&bar, &start) } else { None };
         let (source, count) =
             swept.map_or_else(|| Source::new(&bar, &start, ahead), |sweep| (Source::Sweep(sweep), None));
@@ -398,8 +398,8 @@ impl Later {
 
 /// As [`Later::fold`], from impact `ahead` + 1 on; a sweep is not stored anywhere.
 #[inline(never)]
-fn fold_later<B, F: FnMut(B, Impact) -> B>(so_far: SoFar, init: B, mut f: F) -> B {
-    let SoFar { bar, start, mut ahead, mut latest } = so_far;
+fn fold_later<B, F: FnMut(B, Impact) -> B>(so_far: &SoFar, init: B, mut f: F) -> B {
+    let SoFar { bar, start, mut ahead, mut latest } = *so_far;
     let mut all = init;
     if ahead == 0
         && let Some(mut sweep) = Sweep::new(&bar, &start)
@@ -419,7 +419,7 @@ fn fold_later<B, F: FnMut(B, Impact) -> B>(so_far: SoFar, init: B, mut f: F) -> 
             break;
         }
     }
-    Later::boxed(SoFar { latest, ahead, start, bar }).fold(BUFFER, all, f)
+    Later::boxed(&SoFar { latest, ahead, start, bar }).fold(BUFFER, all, f)
 }
 
 /// Folds the impacts after number `number`, by pairs: nothing need be chosen by the number.
