@@ -290,16 +290,18 @@ impl Later {
         let mut at = BUFFER - n;
         match &mut self.source {
             Source::Sweep(sweep) => {
-                let (mut taken, mut then) = (0, Then::On);
+                // A copy may stay in registers.
+                let (mut on, mut taken, mut then) = (sweep.clone(), 0, Then::On);
                 let buffers = self.approach.as_chunks_mut().0.iter_mut().zip(self.times.as_chunks_mut().0);
                 for (approach, times) in buffers {
                     let n;
-                    ([*approach, *times], n, then) = sweep.take();
+                    ([*approach, *times], n, then) = on.take();
                     taken += n;
                     if then != Then::On {
                         break;
                     }
                 }
+                *sweep = on;
                 self.ahead += taken as u64;
                 match then {
                     Then::On => {}
