@@ -376,7 +376,7 @@ impl Later {
         }
     }
 
-    /// Passes over impacts, in constant time.
+    /// Passes over impacts after those of the buffers, in constant time.
     fn skip(&mut self, skip: usize) {
         if skip == 0 {
             return;
@@ -384,17 +384,15 @@ impl Later {
         if let Source::Sweep(_) = self.source {
             (self.source, self.count) = Source::new(&self.bar, &self.start, self.ahead);
         }
-        let from = self.ahead;
         self.ahead = self.ahead.saturating_add(skip as u64);
         match &mut self.source {
             Source::Lanes(lanes) => lanes.1 = Lanes::new(&lanes.0, self.ahead),
             Source::Sweep(_) | Source::Closed(_) => {}
-            Source::Instant { first, a, t, .. } => {
-                // The second impact is the first of a geometric series.
-                let (base, past) = if from == 0 { (-*first, 1) } else { (*a, 0) };
+            // Past the second impact, of which the rest is a geometric series.
+            Source::Instant { a, t, .. } => {
                 #[expect(clippy::cast_precision_loss, reason = "beyond 2^53 the power is 0, or 1 at q = 1")]
-                let steps = (skip - past) as f64;
-                *a = base * libm::pow(*t, steps);
+                let steps = skip as f64;
+                *a *= libm::pow(*t, steps);
             }
         }
     }
