@@ -206,6 +206,16 @@ fn trains() {
         let ours = || (0..repeat).for_each(|_| one_by_one(black_box(&bar), black_box(&mut one)));
         row(&format!("{name}, one by one, an impact"), repeat * most, "", ours, &mut loops);
         if bar.count(&start) == Count::Finite(most as u64) {
+            // A second place that takes impacts one by one: a call for each would show here.
+            let mut impacts: Vec<Impact> = Vec::with_capacity(most);
+            let collect = || {
+                (0..repeat).for_each(|_| {
+                    impacts.clear();
+                    impacts.extend(black_box(&bar).train(&start));
+                    black_box(&impacts);
+                });
+            };
+            row(&format!("{name}, collected, an impact"), repeat * most, "", collect, &mut loops);
             let ours = || (0..repeat).for_each(|_| whole(black_box(&bar), black_box(&mut one)));
             row(&format!("{name}, as a whole, an impact"), repeat * most, "2.5 ns", ours, &mut loops);
             let sums = || {
