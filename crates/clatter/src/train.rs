@@ -58,9 +58,9 @@ struct Steps {
     speed: f64,
     /// e |a_{n−1}|, which is taken from T |a_n| for the next one.
     held: f64,
-    /// (t_{n+1} − t_n) |a_n a_{n+1}|/h0 = |a_1| e^{n−1}, the Casoratian of velocities and heights.
+    /// (t_{n+1} − t_n) |a_n a_{n+1}| = h0 |a_1| e^{n−1}, the Casoratian of velocities and heights.
     gap: f64,
-    /// Of the next impact, over h0.
+    /// Of the next impact.
     time: f64,
     /// How far |a_{n+1}| may cancel.
     clear: f64,
@@ -119,8 +119,8 @@ const PLAIN: u64 = 32;
 /// steps add up to 1.3 N² roundings of its amplitude, of which a velocity is π/N times N times this factor at least: an
 /// error of 1.3 N²/π · 2⁻⁵³ · 2¹¹ ≤ 1e−10.
 const CLEAR: f64 = 1.0 / 2048.0;
-/// With T and e of at least this size, and |a_1| not smaller than the other or larger than its reciprocal, no term of a plain
-/// step comes near the subnormal floats, nor near those that overflow.
+/// With T and e of at least this size, and |a_1| and h0 not smaller than the other or larger than its reciprocal, no term of a
+/// plain step comes near the subnormal floats, nor near those that overflow.
 const LARGE: f64 = 1e-8;
 const MODERATE: f64 = 1e-20;
 
@@ -197,12 +197,7 @@ impl Train {
     /// Copies, so that a train that needs no more than plain steps stays in registers.
     #[inline]
     fn so_far(&self) -> SoFar {
-        SoFar {
-            latest: self.start.height_gap() * self.steps.time,
-            ahead: self.number,
-            start: self.start,
-            bar: self.bar,
-        }
+        SoFar { latest: self.steps.time, ahead: self.number, start: self.start, bar: self.bar }
     }
 
     /// The next impact by a plain step; none where the train has ended, and where more digits are needed.
@@ -232,7 +227,7 @@ impl Train {
             last: self.steps.last,
         };
         self.number += 1;
-        Some(self.bar.impact(self.number, end, -speed, self.start.height_gap() * time))
+        Some(self.bar.impact(self.number, end, -speed, time))
     }
 }
 
@@ -479,15 +474,17 @@ impl Bar {
     #[must_use]
     #[inline]
     pub fn train(&self, start: &Start) -> Train {
-        let ([va, vb], t) = (start.velocity(), self.t);
+        let ([va, vb], h0, t) = (start.velocity(), start.height_gap(), self.t);
+        let moderate = |x: f64| (MODERATE..=1.0 / MODERATE).contains(&x);
         // T < 0: −a_1 = αT + β must not cancel. There are two impacts at most.
         let apart = (t * va + vb).abs() > CLEAR * -vb;
         let plain = vb <= 0.0
-            && (MODERATE..=1.0 / MODERATE).contains(&-va)
+            && moderate(-va)
+            && (h0 == 0.0 || moderate(h0))
             && ((t >= LARGE && self.e >= LARGE) || (t <= -LARGE && apart));
         let long = if Sweep::suits(self) { 0 } else { PLAIN };
         let last = if plain { long } else { 0 };
-        let steps = Steps { speed: -va, held: vb, gap: -va, time: 0.0, clear: CLEAR, last };
+        let steps = Steps { speed: -va, held: vb, gap: h0 * -va, time: 0.0, clear: CLEAR, last };
         Train { bar: *self, start: *start, number: 0, steps, later: None, at: BUFFER }
     }
 

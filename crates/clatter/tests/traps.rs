@@ -509,12 +509,12 @@ fn table_1_was_truncated_in_one_cell_and_clipped_in_two() {
     }
 }
 
-/// Velocities whose squares leave the range of floats decide as well as any others.
+/// Velocities and heights whose squares leave the range of floats decide as well as any others.
 #[test]
-fn tiny_and_huge_velocities_lose_no_digit() {
+fn tiny_and_huge_velocities_and_heights_lose_no_digit() {
     // Next to the endless curve, where no plain step will do, far from it, and as a sweep; powers of two change no digit.
     for (bar, vb) in [
-        (Bar::new(2.06e-4, 1.1e-8).unwrap(), 0.0),
+        (Bar::new(2.086e-4, 1.1e-8).unwrap(), 0.0),
         (Bar::new(0.9978, 1.0).unwrap(), -1.0),
         (Bar::new(3.721_162_980_538_931_4e-8, 3.461_763_481_933_760_5e-16).unwrap(), 0.0),
         (
@@ -524,22 +524,26 @@ fn tiny_and_huge_velocities_lose_no_digit() {
         (Bar::from_gyration_ratio(2.4e-31, 0.367_775_275_916_264_24).unwrap(), 1.0),
     ] {
         let one = bar.summary(&start(-1.0, vb));
-        for x in [-498, -340, 400, 498] {
-            let unit = 2f64.powi(x);
-            let scaled = Start::new([-unit, vb * unit], 1.0).unwrap();
+        for (x, y) in [(-498, 0), (-340, 0), (400, 0), (498, 0), (0, -498), (0, 498)] {
+            let (unit, height) = (2f64.powi(x), 2f64.powi(y));
+            let scaled = Start::new([-unit, vb * unit], height).unwrap();
             let s = bar.summary(&scaled);
             assert_eq!((s.count, s.peak.impact), (one.count, one.peak.impact), "2^{x}, {bar:?}");
             assert!(close(s.peak.end, one.peak.end * unit, PEAK.error), "2^{x}: peak");
             let limit = one.duration / unit;
             assert!(
-                close(s.duration, limit, DURATION_LONG.error) || limit > 1e307,
+                close(s.duration / height, limit, DURATION_LONG.error) || limit > 1e307,
                 "2^{x}: {:e} not {limit:e}",
                 s.duration
             );
             for (got, want) in bar.train(&scaled).zip(bar.train(&start(-1.0, vb))).take(40) {
                 assert!(close(got.approach, want.approach * unit, APPROACH.error), "2^{x}: strike {}", got.number);
                 let time = want.time / unit;
-                assert!(close(got.time, time, 2.0 * TIME.error) || time > 1e307, "2^{x}: strike {}", got.number);
+                assert!(
+                    close(got.time / height, time, 2.0 * TIME.error) || time > 1e307,
+                    "2^{x}: strike {}",
+                    got.number
+                );
             }
         }
     }
