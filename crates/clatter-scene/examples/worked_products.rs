@@ -1,8 +1,9 @@
 //! What plans save on the worked products: `cargo run --release --example worked_products -- [TOLERANCE] [RUNS]`.
 //!
 //! Drop by drop, where the plan is not the highest rung: the time to plan and to run the plan; that of the highest rung until nothing
-//! later counts, which without contact time the plan has to tell it; and until rest. Then limit by limit: each is assessed alone, by plans and by the highest rung that the product has, on one thread; the shortest of a few
-//! runs counts. An assessment looks at all drops, but follows only those that may be the worst, so that both ways share most of it.
+//! later counts, which without contact time the plan has to tell it; and until rest. Then limit by limit: each is assessed alone, by
+//! plans and by the highest rung that the product has, on one thread; the shortest of a few runs counts. An assessment looks at all
+//! drops, but follows only those that may be the worst, so that both ways share most of it.
 
 use std::time::{Duration, Instant};
 

@@ -342,7 +342,7 @@ impl Drive {
             && psi / theta > BEYOND_NUMBERS
         {
             // Only the nearest float is asked for: no need to know the last impact by integers.
-            let (theta, psi, _) = self.angles();
+            let (theta, psi, _) = self.angles(false);
             return Count::Huge((psi / theta).hi);
         }
         match self.steps() {
@@ -420,7 +420,8 @@ impl Drive {
     fn settle_exactly(&self, series: Series, quotient: f64, error: f64) -> Steps {
         let (mut middle, mut error) = (Dd::from(quotient), error);
         if let (Kind::Wave(_), Series::Velocity) = (self.kind, series) {
-            let (theta, psi, angle_error) = self.angles();
+            // Of some thousand strikes no more digits count.
+            let (theta, psi, angle_error) = self.angles(quotient < 4096.0);
             middle = psi / theta;
             // αT + 2β as `slope` guarantees. A larger bound would let the search below leave the half turn.
             error = quotient * (angle_error + 2f64.powi(-86));
@@ -451,25 +452,25 @@ impl Drive {
         Steps::Exactly(high)
     }
 
-    /// θ and ψ of a wave in double-double, and a bound on the relative error that both share.
-    fn angles(&self) -> (Dd, Dd, f64) {
+    /// θ and ψ of a wave in double-double, and a bound on the relative error that both share: 2⁻⁸¹ where that is `enough`, else 2⁻⁹⁵,
+    /// beside that of D.
+    fn angles(&self, enough: bool) -> (Dd, Dd, f64) {
         let (d, d_error) = self.discriminant(Digits::ANGLES);
         let (s, t) = (d.sqrt(), self.wide_t());
-        // Of some thousand strikes no more digits count.
-        let enough = s.hi > power_of_two(-12) * t.hi;
         let (theta, psi) = (dd::atan2(s, t, enough), dd::atan2(s * self.alpha, -self.slope(t, d.hi), enough));
         (theta, psi, d_error + power_of_two(if enough { -81 } else { -95 }))
     }
 
-    /// |δ_n| = |ψ − nθ| for each n, to a relative `error` or from double-double angles.
-    fn remainders<const K: usize>(&self, wave: &Wave, n: [u128; K], error: f64) -> [f64; K] {
+    /// |δ_n| = |ψ − nθ| for each n, to a relative `error` or from double-double angles, and what they are off by at most.
+    fn remainders<const K: usize>(&self, wave: &Wave, n: [u128; K], error: f64) -> ([f64; K], f64) {
         let deltas = n.map(|n| (wave.psi - to_f64(n) * wave.theta).abs());
+        let least = deltas.iter().fold(f64::INFINITY, |least, delta| delta.min(least));
         let bound = (8.0 * UNIT + wave.d_error) * wave.psi;
-        if deltas.iter().all(|delta| bound < error * delta) {
-            return deltas;
+        if bound < error * least {
+            return (deltas, bound);
         }
-        let (theta, psi, _) = self.angles();
-        n.map(|n| (psi - theta * wide(n)).abs().hi)
+        let (theta, psi, angle_error) = self.angles(power_of_two(-78) * wave.psi < error * least);
+        (n.map(|n| (psi - theta * wide(n)).abs().hi), 2.0 * angle_error * wave.psi)
     }
 
     /// Approach velocity and time of strike n.
@@ -507,9 +508,9 @@ impl Drive {
         let h0 = self.start.height_gap();
         match self.kind {
             Kind::Wave(wave) => {
-                let [delta, beyond] = self.remainders(&wave, [n - 1, n], error);
-                // Next to a tie, integers.
-                if delta.min(beyond) > wave.psi * 2f64.powi(-60) {
+                let ([delta, beyond], bound) = self.remainders(&wave, [n - 1, n], error);
+                // Next to a tie, integers: a tenth of what is allowed of times.
+                if bound <= error.max(0.1 * accuracy::TIME.error) * delta.min(beyond) {
                     let height = self.amplitude(&wave);
                     let amplitude = height / wave.s;
                     let (rise, run) = sincos(delta);

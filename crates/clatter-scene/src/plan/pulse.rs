@@ -28,7 +28,7 @@ const CELLS: usize = 256;
 /// −ln 0.01
 const MOST_LOSS: f64 = 4.605_170_185_988_091;
 
-/// A fit takes some 30 µs; a table is read in 10 ns and is within 1e-5. It is filled where it is read.
+/// A fit takes some 30 µs; a table is read in 10 ns and is within 1e-4. It is filled where it is read.
 static TABLE: [OnceLock<Pulse>; CELLS + 1] = [const { OnceLock::new() }; CELLS + 1];
 
 #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
@@ -148,7 +148,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_table_is_within_1e_5_of_the_fit() {
+    fn the_table_is_within_1e_4_of_the_fit() {
         for k in 0..400_i32 {
             let e = 0.01_f64.powf((f64::from(k) + 0.37) / 400.0);
             let (read, fitted) = (Pulse::new(e), Pulse::fitted(e));
@@ -159,7 +159,7 @@ mod tests {
                 (read.variance, fitted.variance),
                 (read.carried, fitted.carried),
             ] {
-                assert!((a - b).abs() < 3e-4 * b.max(0.1), "e {e}: {a} {b}");
+                assert!((a - b).abs() < 1e-4 * b.max(0.1), "e {e}: {a} {b}");
             }
         }
     }

@@ -158,7 +158,8 @@ impl Mode {
     fn bounds(&self, now: (f64, f64)) -> (f64, f64) {
         let a = self.second(now);
         let jerk = -2.0 * self.s * a - self.k * now.1;
-        // Meters and seconds: no square leaves the range, and `hypot` takes a tenth of a simulation.
+        // Lengths, speeds and contact times are let in from 1e−31 to 1e30: no square leaves the floats. `hypot` would take a tenth
+        // of a simulation.
         let length = |x: f64, y: f64| (x * x + y * y).sqrt();
         (length(now.0, now.1 / self.root), length(a, jerk / self.root))
     }

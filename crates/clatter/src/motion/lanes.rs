@@ -127,10 +127,11 @@ impl Sweep {
     /// What x over its amplitude is never off by.
     const ALLOWED: f64 = 1e-12;
 
-    /// Whether a sweep may be the way to go: π/408 < θ < 0.1. Trains with larger θ have 31 impacts at most.
+    /// Whether a sweep may be the way to go, cos² θ from 0.990025 to 0.99994: π/408 < θ < 0.1. Trains with larger θ have 31 impacts
+    /// at most.
     #[inline]
     pub(crate) fn suits(bar: &Bar) -> bool {
-        (bar.t * bar.t.abs() - 3.98 * bar.e).abs() < 0.0199 * bar.e
+        (bar.t * bar.t.abs() - 3.97993 * bar.e).abs() < 0.01983 * bar.e
     }
 
     /// None for other trains than those of a wave of up to some hundred strikes.
@@ -251,7 +252,7 @@ impl Lanes {
         match drive.kind {
             Kind::Wave(wave) => {
                 let phi = angle(drive.alpha * wave.s, wave.x);
-                let [delta] = drive.remainders(&wave, [u128::from(self.n)], 1e-13);
+                let ([delta], _) = drive.remainders(&wave, [u128::from(self.n)], 1e-13);
                 let (turned, lead) = (n * wave.theta, phi + n * wave.theta);
                 // Each angle from the near end of its half turn, so that a small one is known to its last digit.
                 (self.four.x, self.four.dx) = if lead < 1.0 { self.lanes(lead, 1.0) } else { self.lanes(delta, -1.0) };

@@ -332,3 +332,38 @@ fn trains_of_some_hundred_impacts_are_swept() {
         assert_eq!(Sweep::new(&bar, &Start::default()).is_some(), swept, "({q}, {e})");
     }
 }
+
+/// The start whose last strike is next to a tie is found for many speeds: by chance, some are within 10⁻¹⁹ of the angle. There, the
+/// time of that strike hangs on the last digits of both angles.
+#[test]
+fn the_last_strike_next_to_a_tie_has_its_time() {
+    let wave = |q, e| Bar::new(q, e).unwrap();
+    let close = wave(0.993_640_960_712_627, 0.807_035_926_931_540_8);
+    let given = Bar::from_gyration_ratio(0.1, 0.9).unwrap();
+    for bar in [wave(0.67, 0.15), wave(0.9978, 1.0), close, wave(0.999_999, 1.0), given] {
+        let mut latest = 0.0_f64;
+        for k in 0..2000_u32 {
+            let va = 1.0 + f64::from(k) / 7000.0;
+            let start = |vb: u64| Start::new([-va, f64::from_bits(vb)], 1.0).unwrap();
+            let count = |vb: u64| match bar.count(&start(vb)) {
+                Count::Finite(n) => n,
+                other => panic!("it ends, not {other:?}"),
+            };
+            // Faster upward, it ends earlier.
+            let (mut low, mut high) = (0.3_f64.to_bits(), 0.5_f64.to_bits());
+            let n = count(low);
+            while high - low > 1 {
+                let middle = low + (high - low) / 2;
+                if count(middle) == n { low = middle } else { high = middle }
+            }
+            let start = start(low);
+            let want = exact_time(&bar, &start, u128::from(n) - 1);
+            latest = latest.max(want);
+            let error = (bar.summary(&start).duration / want - 1.0).abs();
+            assert!(error <= accuracy::DURATION.error, "{n} strikes, the last at {want:e}: duration off by {error:e}");
+            let error = (bar.train(&start).last().unwrap().time / want - 1.0).abs();
+            assert!(error <= accuracy::TIME.error, "{n} strikes, the last at {want:e}: off by {error:e}");
+        }
+        assert!(latest > 1e18, "no tie closer than {latest:e}");
+    }
+}
