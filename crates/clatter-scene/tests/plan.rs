@@ -36,8 +36,8 @@ fn plans_of_random_scenes_are_good_enough() {
         // In an optimized build alone costs mean something.
         if !cfg!(debug_assertions) {
             assert!(w.of_highest < 0.6, "tolerance {tolerance}: {w:?}");
-            // Of the other tolerances the study reports it.
-            assert!(k < 2 || w.over_oracle <= 2.0, "tolerance {tolerance}: {w:?}");
+            // Of 10 % it hangs on few scenes, and the study reports it.
+            assert!(k < 1 || w.over_oracle <= 2.0, "tolerance {tolerance}: {w:?}");
         }
         // Some scene must need contacts, and some get less.
         assert!(w.needed > 0.05 && w.given < 0.97, "tolerance {tolerance}: {w:?}");
@@ -56,9 +56,8 @@ fn drop_of([length, gyration, e, speed, tilt_deg]: [f64; 5], [contact, position,
 }
 
 /// Error of a pair against the highest one until rest in fine pieces.
-fn off(setup: &Setup, pair: Pair, quantity: Quantity) -> f64 {
+fn off(setup: &Setup, pair: Pair, quantity: Quantity, until_s: f64) -> f64 {
     let truth = setup.demand_fine(Pair::HIGHEST, quantity, f64::INFINITY, 384).expect("as the test has it");
-    let until_s = setup.forecast(quantity).until_s;
     (setup.demand(pair, quantity, until_s).expect("as the test has it") / truth - 1.0).abs()
 }
 
@@ -95,7 +94,7 @@ fn contacts_are_followed_until_nothing_higher_comes() {
     ] {
         let setup = drop_of(drop, part);
         for quantity in QUANTITIES {
-            let error = off(&setup, Pair::HIGHEST, quantity);
+            let error = off(&setup, Pair::HIGHEST, quantity, f64::INFINITY);
             if error > 1e-3 {
                 wrong.push(format!("{what}: {quantity:?} off by {error:e}"));
             }
@@ -104,77 +103,150 @@ fn contacts_are_followed_until_nothing_higher_comes() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// What estimates once did not know.
+/// What estimates once did not know, a drop and a part for which it counts, and the quantity.
+const BENT: &[(&str, [f64; 5], [f64; 4], Quantity)] = &[
+    (
+        "the angle turns far between two strikes",
+        [0.1488, 0.0653, 0.307, 2.82, 25.3],
+        [6.72e-5, 0.639, 21857.0, 0.0571],
+        Quantity::VelocityShock,
+    ),
+    (
+        "later strikes are mistimed by more than the component turns",
+        [0.1788, 0.0932, 0.6646, 2.382, 0.144],
+        [5e-5, -0.853, 324.0, 0.0081],
+        Quantity::PeakAcceleration,
+    ),
+    (
+        "the other end lifts a contact that has not done all it would",
+        [0.057_874, 0.031_35, 0.0297, 4.87, 0.684],
+        [3.822e-4, -0.905, 219.8, 0.777],
+        Quantity::RattleSpace,
+    ),
+    (
+        "two later contacts just part, and pulses of real tilt would overlap",
+        [0.0695, 0.016_425, 0.7751, 0.6516, 1.434],
+        [1.974e-4, -0.9795, 846.0, 0.5933],
+        Quantity::PeakAcceleration,
+    ),
+    (
+        "a contact turns the bar, and lever arms with it",
+        [0.088_26, 0.030_67, 0.3865, 7.339, 14.246],
+        [3.167e-4, 0.6507, 738.9, 0.0502],
+        Quantity::VelocityShock,
+    ),
+    (
+        "an end has parted and is still below the ground when the other strikes",
+        [0.2, 0.096, 0.097, 5.613, 0.416],
+        [2.17e-4, 0.0239, 262.0, 1.0646],
+        Quantity::PeakAcceleration,
+    ),
+    (
+        "the second strike cuts the peak off, and is delayed",
+        [0.0882, 0.0254, 0.597, 1.5, 0.917],
+        [7.58e-5, -0.679, 1925.0, 0.0746],
+        Quantity::PeakAcceleration,
+    ),
+    (
+        "a pulse ends after the top of a peak that stands at the shock",
+        [0.2384, 0.1593, 0.404, 1.285, 8.61],
+        [2.49e-4, 0.173, 1689.0, 0.5007],
+        Quantity::PeakAcceleration,
+    ),
+    (
+        "contacts carry the weight, which moves later strikes",
+        [0.1936, 0.1267, 0.827, 0.937, 4.17],
+        [7.08e-4, -0.534, 93.14, 0.8546],
+        Quantity::PeakAcceleration,
+    ),
+    (
+        "a pulse flattens the first peak below the next, where contacts overlap",
+        [0.0722, 0.03334, 0.0204, 6.97, 0.237],
+        [5.66e-5, -0.939, 391.0, 1.395],
+        Quantity::PeakAcceleration,
+    ),
+    (
+        "impacts follow one another at one instant, on a dashpot",
+        [0.206_021_4, 0.033_844_95, 0.030_809_16, 0.452_345, 9.325_547],
+        [5.314_298e-5, -0.915_098_1, 286.287_5, 0.655_576_9],
+        Quantity::PeakAcceleration,
+    ),
+    (
+        "the map has them one after the other",
+        [0.125_306, 0.014_247_89, 0.010_958_12, 0.638_530_8, 1.950_523],
+        [7.662_626e-5, -0.884_170_4, 159.213_3, 1.639_19],
+        Quantity::PeakAcceleration,
+    ),
+    (
+        "pulses overlap in the train of impacts alone",
+        [0.080_035_57, 0.016_749_24, 0.768_584_6, 4.199_18, 1.181_047],
+        [8.138_199e-5, 0.872_665, 851.883_4, 0.695_459_6],
+        Quantity::PeakAcceleration,
+    ),
+    (
+        "an end lies on a contact that has not done all",
+        [0.191_905_3, 0.086_161_94, 0.010_707_05, 4.610_76, 0.136_276_3],
+        [2.778_523e-4, -0.211_791_1, 405.659_4, 1.605_227],
+        Quantity::VelocityShock,
+    ),
+    (
+        "a contact that is pushed pushes back",
+        [0.080_322_97, 0.025_200_96, 0.235_020_6, 6.507_128, 7.331_395],
+        [4.266_093e-4, -0.339_581_5, 46.232_92, 0.632_569],
+        Quantity::PeakAcceleration,
+    ),
+    (
+        "what can come is little for a while, and more again",
+        [0.202_476_4, 0.097_597_98, 0.776_103_4, 2.555_518, 0.420_907_1],
+        [1.044_759e-4, 0.761_916_4, 49.567_15, 0.021_573_26],
+        Quantity::RattleSpace,
+    ),
+    (
+        "many shocks add up before the bar rests",
+        [0.323_457_6, 0.165_597_9, 0.925_243_4, 1.679_904, 0.258_850_1],
+        [1.912_254e-4, 0.241_953_8, 34.249_03, 0.005_512_234],
+        Quantity::RattleSpace,
+    ),
+    (
+        "the weight comes last",
+        [0.269_162_6, 0.134_370_4, 0.182_624, 1.368_594, 0.121_821_9],
+        [6.083_021e-5, 0.456_648_7, 91.654_13, 0.013_096_47],
+        Quantity::RattleSpace,
+    ),
+    (
+        "an end lies down for some time, while the component swings",
+        [0.238_445_7, 0.155_901_7, 0.294_132_9, 2.459_169, 0.930_542_3],
+        [1.193_48e-4, -0.928_265_7, 736.134_3, 0.001_069_466],
+        Quantity::RattleSpace,
+    ),
+    (
+        "parabolas have the third strike where the second is",
+        [0.359_417_3, 0.122_875, 0.022_311_04, 4.021_834, 16.261_99],
+        [5.613_145e-5, -0.083_905_14, 29_719.94, 0.663_831_6],
+        Quantity::PeakAcceleration,
+    ),
+    (
+        "the mean bend has it fall without a speed",
+        [0.083_227_81, 0.052_253_98, 0.741_282_8, 4.759_853, 23.866_51],
+        [1.845_034e-4, -0.694_618_9, 4_775.259, 1.159_283],
+        Quantity::VelocityShock,
+    ),
+    (
+        "far turns keep all of the energy",
+        [0.268_488_5, 0.134_650_9, 0.896_137_6, 5.489_828, 1.177_428],
+        [3.476_791e-4, 0.889_039, 96_645.12, 1.956_811],
+        Quantity::VelocityShock,
+    ),
+];
+
 #[test]
 fn estimates_know_what_bends_a_peak() {
     let mut wrong = Vec::new();
-    let (acceleration, shock) = (Quantity::PeakAcceleration, Quantity::VelocityShock);
-    for (what, drop, part, quantity) in [
-        (
-            "the angle turns far between two strikes",
-            [0.1488, 0.0653, 0.307, 2.82, 25.3],
-            [6.72e-5, 0.639, 21857.0, 0.0571],
-            shock,
-        ),
-        (
-            "later strikes are mistimed by more than the component turns",
-            [0.1788, 0.0932, 0.6646, 2.382, 0.144],
-            [5e-5, -0.853, 324.0, 0.0081],
-            acceleration,
-        ),
-        (
-            "the other end lifts a contact that has not done all it would",
-            [0.057_874, 0.031_35, 0.0297, 4.87, 0.684],
-            [3.822e-4, -0.905, 219.8, 0.777],
-            Quantity::RattleSpace,
-        ),
-        (
-            "two later contacts just part, and pulses of real tilt would overlap",
-            [0.0695, 0.016_425, 0.7751, 0.6516, 1.434],
-            [1.974e-4, -0.9795, 846.0, 0.5933],
-            acceleration,
-        ),
-        (
-            "a contact turns the bar, and lever arms with it",
-            [0.088_26, 0.030_67, 0.3865, 7.339, 14.246],
-            [3.167e-4, 0.6507, 738.9, 0.0502],
-            shock,
-        ),
-        (
-            "an end has parted and is still below the ground when the other strikes",
-            [0.2, 0.096, 0.097, 5.613, 0.416],
-            [2.17e-4, 0.0239, 262.0, 1.0646],
-            acceleration,
-        ),
-        (
-            "the second strike cuts the peak off, and is delayed",
-            [0.0882, 0.0254, 0.597, 1.5, 0.917],
-            [7.58e-5, -0.679, 1925.0, 0.0746],
-            acceleration,
-        ),
-        (
-            "a pulse ends after the top of a peak that stands at the shock",
-            [0.2384, 0.1593, 0.404, 1.285, 8.61],
-            [2.49e-4, 0.173, 1689.0, 0.5007],
-            acceleration,
-        ),
-        (
-            "contacts carry the weight, which moves later strikes",
-            [0.1936, 0.1267, 0.827, 0.937, 4.17],
-            [7.08e-4, -0.534, 93.14, 0.8546],
-            acceleration,
-        ),
-        (
-            "a pulse flattens the first peak below the next, where contacts overlap",
-            [0.0722, 0.03334, 0.0204, 6.97, 0.237],
-            [5.66e-5, -0.939, 391.0, 1.395],
-            acceleration,
-        ),
-    ] {
+    for &(what, drop, part, quantity) in BENT {
         let setup = drop_of(drop, part);
         for tolerance in TOLERANCES {
             let plan = setup.forecast(quantity).plan(tolerance).refined(&setup);
-            let error = off(&setup, plan.pair, quantity);
+            let error = off(&setup, plan.pair, quantity, plan.until_s);
             if plan.warning.is_some() || error > 1.5 * tolerance {
                 wrong.push(format!("{what}: {:?} off by {error:e}, {:?}", plan.pair, plan.warning));
             }
@@ -341,6 +413,6 @@ fn two_ends_that_land_together_are_told_apart() {
     );
     for quantity in [Quantity::PeakAcceleration, Quantity::RattleSpace] {
         let plan = setup.forecast(quantity).plan(0.001);
-        assert!(off(&setup, plan.pair, quantity) <= 0.001, "{quantity:?}: {:?}", plan.pair);
+        assert!(off(&setup, plan.pair, quantity, plan.until_s) <= 0.001, "{quantity:?}: {:?}", plan.pair);
     }
 }

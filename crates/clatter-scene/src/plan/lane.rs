@@ -7,6 +7,7 @@
 
 use clatter::flight::Scene;
 
+use super::both::Both;
 use super::pulse::Pulse;
 
 /// What all lanes share.
@@ -58,8 +59,16 @@ pub(super) struct Lane {
     /// Time from touch to centroid, and in which the weight gives what a contact carries of it.
     delay: f64,
     carried: f64,
-    /// An end that lies on the ground, and the other turns about it.
-    down: Option<usize>,
+    down: Down,
+}
+
+/// What lies on the ground.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Down {
+    Nothing,
+    /// One end, and the other turns about it, after the time that its bounces took.
+    End(usize, f64),
+    Bar,
 }
 
 /// An end whose bounces all end within this share of the time that the other needs to land is down at once.
@@ -140,12 +149,12 @@ impl Lane {
             tilts: false,
             delay: 0.0,
             carried: 0.0,
-            down: None,
+            down: Down::Nothing,
         }
     }
     /// A body in flight, at any angle, with these heights and velocities of its ends.
     pub(super) fn of(height: [f64; 2], velocity: [f64; 2], gravity: f64) -> Self {
-        Self { height, velocity, gravity, tilts: true, delay: 0.0, carried: 0.0, down: None }
+        Self { height, velocity, gravity, tilts: true, delay: 0.0, carried: 0.0, down: Down::Nothing }
     }
     pub(super) fn with_gravity(self, gravity: f64) -> Self {
         Self { gravity, ..self }
@@ -165,10 +174,13 @@ impl Lane {
     /// The next strike; `None` if nothing falls.
     pub(super) fn next(&self, ends: &Ends) -> Option<Next> {
         let g = self.gravity;
-        if let Some(i) = self.down {
+        if self.down == Down::Bar {
+            return None;
+        }
+        if let Down::End(i, bounced) = self.down {
             let j = 1 - i;
             let turning = g * (1.0 + ends.ratio(i, 1.0));
-            let after = fall(self.height[j], self.velocity[j], turning);
+            let after = bounced + fall(self.height[j], self.velocity[j], turning);
             return (after < f64::INFINITY).then_some(Next { end: j, after, turning, ..Next::FIRST });
         }
         let lands = |i: usize, down: f64| fall(self.height[i], self.velocity[i], down);
@@ -208,7 +220,8 @@ impl Lane {
                 (end, other) = (other, end);
             }
         }
-        let (after, rival) = (times[end], [times[other], sinks[other] * times[other] - self.velocity[other]]);
+        let [after, later] = [times[end], times[other]];
+        let rival = [later, sinks[other] * later - self.velocity[other]];
         let tumbles = (sweep.sin + after * sweep.rate).abs() > 1.0;
         Some(Next { end, after, turning: 0.0, tumbles, rival, sweep: Some(sweep) })
     }
@@ -220,8 +233,8 @@ impl Lane {
     fn strike_at<const I: usize>(&mut self, ends: &Ends, next: &Next) -> [f64; 2] {
         let (i, t, mut lane) = (I, next.after, *self);
         let mut falls = [lane.gravity; 2];
-        if lane.down.take().is_some() {
-            lane.velocity[i] -= t * next.turning;
+        if let Down::End(_, bounced) = std::mem::replace(&mut lane.down, Down::Nothing) {
+            lane.velocity[i] -= (t - bounced) * next.turning;
         } else {
             let mut sinks = falls;
             if lane.tilts {
@@ -264,31 +277,76 @@ impl Lane {
         self.velocity[0] -= a * change;
         self.velocity[1] += b * change;
     }
-    /// Lets end i lie where it would bounce ever less for a short while: bounces of w, e w, … last 2S/g in all, S = w/(1 − e).
+    /// Lets end i lie where it would bounce ever less for a short while, or where its contact does not lift it out of the ground again.
     #[inline]
     fn settle<const I: usize>(&mut self, ends: &Ends, ratio: f64) {
-        let (i, j, w) = (I, 1 - I, self.velocity[I]);
-        if self.height[j] <= 0.0 || w < 0.0 {
-            return;
+        let (h, w) = (self.height[I], self.velocity[I]);
+        // Turning lifts it.
+        let sweep = self.sweep(ends);
+        let lift =
+            if self.tilts { ends.arm[I] * sweep.spin2 * if I == 0 { sweep.sin } else { -sweep.sin } } else { 0.0 };
+        let g = self.gravity - lift;
+        let lands = self.lands(1 - I);
+        if g > 0.0
+            && lands > 0.0
+            && w >= 0.0
+            && (w * w + 2.0 * g * h < 0.0 || 2.0 * w < BRIEF * lands * g * (1.0 - ends.e))
+        {
+            self.lie_at::<I>(ends, ratio, lands);
         }
-        // 2S/g is below the share of the fall of end j, (v + √(v² + 2gh))/g.
-        let (sum, v) = (w / (1.0 - ends.e), self.velocity[j]);
-        let root = 2.0 / BRIEF * sum - v;
-        if self.gravity > 0.0 && (root < 0.0 || root * root < v * v + 2.0 * self.gravity * self.height[j]) {
-            let lasts = 2.0 * sum / self.gravity;
-            self.height[j] += lasts * (self.velocity[j] - sum);
+    }
+    /// When end j would land by gravity alone; 0 where that is not to come.
+    fn lands(&self, j: usize) -> f64 {
+        if self.gravity > 0.0 { fall(self.height[j], self.velocity[j], self.gravity) } else { 0.0 }
+    }
+    /// Lets the end that has just struck lie.
+    pub(super) fn lie(&mut self, ends: &Ends, end: usize) {
+        let lands = self.lands(1 - end);
+        if lands > 0.0 {
+            let ratio = ends.ratio(end, 1.0);
+            if end == 0 { self.lie_at::<0>(ends, ratio, lands) } else { self.lie_at::<1>(ends, ratio, lands) }
+        }
+    }
+    /// Bounces of w, e w, … last 2S/g in all, S = w/(1 − e); what there is no time for is left out.
+    fn lie_at<const I: usize>(&mut self, ends: &Ends, ratio: f64, lands: f64) {
+        let (i, j, sum) = (I, 1 - I, self.velocity[I] / (1.0 - ends.e));
+        let mut bounced = 2.0 * sum / self.gravity;
+        if bounced < lands {
+            self.height[j] += bounced * (self.velocity[j] - sum);
             self.velocity[j] -= (2.0 + ratio * (1.0 + ends.e)) * sum;
             if self.tilts {
                 // It lands with what its spin has, of which this is the vertical part.
                 let sin = (self.height[j] * ends.over).min(0.9);
                 self.velocity[j] /= ((1.0 - sin) * (1.0 + sin)).sqrt();
             }
-            (self.height[i], self.velocity[i], self.down) = (0.0, 0.0, Some(i));
+        } else {
+            bounced = 0.0;
         }
+        (self.height[i], self.velocity[i], self.down) = (0.0, 0.0, Down::End(i, bounced));
     }
     /// Whether one end lies on the ground.
-    pub(super) fn is_down(&self) -> bool {
-        self.down.is_some()
+    pub(super) fn lies(&self) -> bool {
+        matches!(self.down, Down::End(..))
+    }
+    /// Whether the next strike presses the end that lies there into the ground.
+    pub(super) fn is_pressed_by(&self, ends: &Ends, next: &Next, contact_s: f64) -> bool {
+        self.lies() && next.after >= contact_s && ends.ratio(next.end, 1.0) > 0.0
+    }
+    /// Flies until the other end lands, and does what both do together; returns the velocity shocks of both ends.
+    pub(super) fn strike_lying(&mut self, ends: &Ends, next: &Next, both: &Both, contact_s: f64) -> [f64; 2] {
+        let Down::End(_, bounced) = std::mem::replace(&mut self.down, Down::Nothing) else { return [0.0; 2] };
+        let speed = (next.after - bounced) * next.turning - self.velocity[next.end];
+        self.height = both.set_back.map(|back| speed * contact_s * back);
+        self.velocity = both.velocity.map(|velocity| speed * velocity);
+        let mut delta_v = self.velocity;
+        delta_v[next.end] += speed;
+        match [0, 1].map(|k| self.velocity[k] * self.velocity[k] + 2.0 * self.gravity * self.height[k] < 0.0) {
+            [true, true] => self.down = Down::Bar,
+            [true, false] => self.lie(ends, 0),
+            [false, true] => self.lie(ends, 1),
+            [false, false] => {}
+        }
+        delta_v
     }
     /// Twice the energy over the mass, where it turns like this until its next strike.
     pub(super) fn twice_energy_until(&self, ends: &Ends, next: Option<&Next>) -> f64 {
@@ -298,6 +356,12 @@ impl Lane {
         let spin2 = if self.tilts { sweep.spin2 } else { sweep.rate * sweep.rate };
         let height = ((b * self.height[0] + a * self.height[1]) * ends.over).max(0.0);
         center * center + ends.gyration2 * spin2 + 2.0 * self.gravity * height
+    }
+    /// What a strike at end i that changed its velocity by this took of it, just after that.
+    pub(super) fn twice_lost(&self, ends: &Ends, i: usize, jump: f64) -> f64 {
+        let sin = if self.tilts { self.height[1 - i] * ends.over } else { 0.0 };
+        let arm2 = ends.arm[i] * ends.arm[i] * (1.0 - sin * sin).max(0.0);
+        jump * jump * (1.0 - ends.e) / (1.0 + ends.e) * ends.gyration2 / (ends.gyration2 + arm2)
     }
     /// Twice the energy over the mass.
     pub(super) fn twice_energy(&self, ends: &Ends) -> f64 {

@@ -49,7 +49,10 @@
 //!
 //! [`Scene::simulate_compliant`]: clatter::flight::Scene::simulate_compliant
 
+mod both;
+mod bounds;
 mod choice;
+mod coupling;
 pub(crate) mod demand;
 mod forecast;
 pub(crate) mod history;
@@ -59,6 +62,7 @@ pub(crate) mod pulse;
 mod settle;
 mod swing;
 pub(crate) mod trail;
+mod walk;
 
 pub use choice::{Plan, Reason, Warning};
 pub use demand::Answer;

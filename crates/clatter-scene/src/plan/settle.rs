@@ -2,7 +2,7 @@
 
 use clatter::flight::{CompliantFlight, Stop};
 
-use super::forecast::{later_response, later_shock, weight};
+use super::bounds::{later_response, later_shock, pile, weight};
 use super::lane::{Ends, Lane};
 use super::swing::{Motion, Swing};
 use super::{Quantity, Setup};
@@ -139,14 +139,4 @@ struct LoneShock {
     /// Sum of the jumps at the component's place, and of their magnitudes.
     net: f64,
     gross: f64,
-}
-
-/// How many times the largest later shock all later ones may do together: speeds fall by λ = max(√e, λ₊) a strike or faster, which
-/// allows 1/(1 − λ); and while the component dies down, in 1/(ζω), the ground gives no more than the weight does in that time, beside
-/// what stops and throws back the bar.
-fn pile(ends: &Ends, zeta: f64, speed: f64, fall: f64) -> f64 {
-    let t = 0.5 * (ends.ratio(0, 1.0) + ends.ratio(1, 1.0)) * (1.0 + ends.e);
-    let root = 0.5 * (t + (t * t - 4.0 * ends.e).max(0.0).sqrt());
-    let decay = root.max(ends.e.sqrt());
-    (1.0 / (1.0 - decay)).min(1.0 + fall / (2.0 * speed * zeta)).max(1.0)
 }

@@ -3,6 +3,7 @@
 use clatter::flight::Scene;
 
 use super::STRIKES;
+use super::both::Both;
 use super::lane::{Ends, Lane, Next};
 use super::pulse::Pulse;
 use super::swing::{Swing, Turn};
@@ -24,12 +25,19 @@ pub(super) struct Step {
     pub(super) rival: (f64, [f64; 2]),
     /// Whether an end lies on the ground until then.
     pub(super) rests: bool,
+    /// Of both contacts at once: for how many contact times.
+    pub(super) together: Option<f64>,
+    /// Over how large a share of a contact time the strikes of the map are spread then.
+    pub(super) spread: f64,
     /// Whether the bar turns upright or over until then.
     pub(super) tumbles: bool,
 }
 
 /// A strike of the map: the end, the time since the last one, and velocity shocks of both ends.
 type MapStrike = (usize, f64, [f64; 2]);
+
+/// Strikes of the map at most that are taken as one.
+const MOST_AT_ONCE: usize = 32;
 
 /// Frequencies of a part whose turns are kept: those of a grid over its range.
 const FREQUENCIES: usize = 3;
@@ -40,7 +48,12 @@ pub(crate) struct Trail {
     ends: Ends,
     pub(super) pulse: Pulse,
     full: Lane,
+    contact_s: f64,
+    /// Twice the energy after the strikes so far.
+    energy: f64,
     map: Lane,
+    /// Strikes of the map that belong to those followed.
+    mapped: usize,
     others: [Lane; 2],
     next: Option<Next>,
     alive: [bool; 3],
@@ -65,7 +78,10 @@ impl Trail {
             ends,
             pulse,
             full,
+            contact_s: contact_time_s.unwrap_or(0.0),
             map: start,
+            mapped: 0,
+            energy: full.twice_energy(&ends),
             others: [start.with_gravity(g), tilted],
             next: Some(Next::FIRST),
             alive: [true; 3],
@@ -113,16 +129,55 @@ impl Trail {
     fn advance(&mut self) {
         let Some(next) = self.next else { return };
         let n = self.steps.len();
-        let delta_v = self.full.strike(&self.ends, &next);
-        let mut own = [None; 3];
-        if self.alive[0] {
-            own[0] = self.of_map(n).filter(|(end, ..)| *end == next.end).map(|(_, after, delta_v)| (after, delta_v));
+        let ends = self.ends;
+        let pressed = self.full.is_pressed_by(&ends, &next, self.contact_s).then(|| {
+            let q = (ends.ratio(0, 1.0) * ends.ratio(1, 1.0)).sqrt();
+            let impacts = Both::of_impacts(q, ends.e).scaled(&ends, next.end);
+            let contacts =
+                if self.contact_s > 0.0 { Both::of_contacts(q, ends.e).scaled(&ends, next.end) } else { impacts };
+            [impacts, contacts]
+        });
+        let delta_v = match &pressed {
+            Some([_, contacts]) => self.full.strike_lying(&ends, &next, contacts, self.contact_s),
+            None => self.full.strike(&ends, &next),
+        };
+        // Impacts take what they take; turning, as the lane has it, may lose some.
+        self.energy = if pressed.is_some() {
+            self.full.twice_energy(&ends)
+        } else {
+            self.energy - self.full.twice_lost(&ends, next.end, delta_v[next.end])
+        };
+        let (mut own, mut spread) = ([None; 3], 0.0);
+        if self.alive[0]
+            && let Some((end, after, delta_v)) = self.of_map(self.mapped)
+            && end == next.end
+        {
+            self.mapped += 1;
+            let (mut sum, mut last, most) = (delta_v, 0.0, self.mapped + MOST_AT_ONCE);
+            while pressed.is_some()
+                && self.mapped < most
+                && let Some((_, after, more)) = self.of_map(self.mapped)
+                && last + after < self.contact_s
+            {
+                last += after;
+                self.mapped += 1;
+                sum = [sum[0] + more[0], sum[1] + more[1]];
+                spread = last / self.contact_s;
+            }
+            own[0] = Some((after, sum));
         }
         let ends = &self.ends;
         for (k, lane) in self.others.iter_mut().enumerate() {
             let strike = if n == 0 { Some(Next::FIRST) } else { lane.next(ends) };
             if let Some(strike) = strike.filter(|strike| self.alive[k + 1] && strike.end == next.end) {
-                own[k + 1] = Some((strike.after, lane.strike(ends, &strike)));
+                let delta_v = match &pressed {
+                    Some([impacts, _]) if lane.lies() => lane.strike_lying(ends, &strike, impacts, 0.0),
+                    _ => lane.strike(ends, &strike),
+                };
+                own[k + 1] = Some((strike.after, delta_v));
+                if self.full.lies() && !lane.lies() {
+                    lane.lie(ends, next.end);
+                }
             }
         }
         self.alive = [own[0].is_some(), own[1].is_some(), own[2].is_some()];
@@ -138,10 +193,20 @@ impl Trail {
             end: next.end,
             delta_v,
             own,
-            twice_energy: self.full.twice_energy_until(ends, self.next.as_ref()),
+            twice_energy: if self.next.is_none() && n > 0 {
+                self.others
+                    .iter()
+                    .zip(&self.alive[1..])
+                    .filter(|(_, alive)| **alive)
+                    .fold(0.0_f64, |m, (lane, _)| m.max(lane.twice_energy(ends)))
+            } else {
+                self.full.twice_energy_until(ends, self.next.as_ref()).max(self.energy)
+            },
             follows: self.next.map(|next| next.after),
             rival,
-            rests: self.full.is_down(),
+            rests: self.full.lies(),
+            together: pressed.map(|[_, contacts]| contacts.lasts),
+            spread,
             tumbles: self.next.is_some_and(|next| next.tumbles),
         });
     }

@@ -1,0 +1,520 @@
+//! The first strikes of a drop as one component has them, in four lanes at once.
+
+use super::bounds::{later_response, later_shock, pile, weight};
+use super::coupling::{Coupling, Pressing};
+use super::lane::Ends;
+use super::swing::{Motion, Swing};
+use super::trail::{Step, Trail};
+
+/// What later strikes can do must stay below this share of the peak for the following to stop: pulses flatten both, not alike.
+const CLEAR: f64 = 0.9;
+
+/// Later strikes that could add more than this share of the peak are not foreseen from the earlier ones.
+const ROOM: f64 = 0.5;
+
+/// Fitted: an end that lies down mistimes what the other one does by this share of the time until then.
+const LYING: f64 = 0.03;
+
+/// Phases up to which a motion is taken as a straight line.
+const STRAIGHT: f64 = 0.1;
+
+/// One interval between strikes, as the lane with all physics has it.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Interval {
+    /// When it begins.
+    from_s: f64,
+    /// Largest value, and the phase at which it stands.
+    pub(super) value: f64,
+    pub(super) phase: f64,
+    /// Rate of the value by the phase there: below 0 where a shock begins the interval, above 0 where the next one ends it.
+    pub(super) slope: f64,
+    /// Bound on how far the map, the parabolas and real tilt are off it, and by what more at its beginning.
+    off: [f64; 3],
+    beginning: [f64; 3],
+    /// Bound on what a lane has before it that strikes earlier.
+    early: [f64; 3],
+    /// By how much more it may ring where strikes are mistimed in all models.
+    adrift: f64,
+    /// Bound on all that comes after it.
+    late: f64,
+}
+
+impl Interval {
+    /// Bound on how far lane k is off its largest value.
+    fn off(&self, k: usize) -> f64 {
+        let off = self.off[k] + if self.phase > 0.0 { 0.0 } else { self.beginning[k] };
+        if off.is_nan() { f64::INFINITY } else { off }
+    }
+}
+
+/// What one component has of the strikes followed.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Walk<const N: usize> {
+    intervals: [Interval; N],
+    strikes: usize,
+    /// Bound on the response, or shock, after the strikes followed; what of it one more shock does.
+    late: f64,
+    extra: f64,
+    /// Until when models need to be followed for nothing later to exceed the peak.
+    pub(super) until_s: f64,
+    /// Largest and sum of the shocks of the map.
+    pub(super) largest: f64,
+    pub(super) net: f64,
+    pub(super) last_s: f64,
+    pub(super) shortest_gap_s: f64,
+    pub(super) overlaps: bool,
+    /// What the weight does in the end, which no train has.
+    weight: f64,
+    /// Bound on what impacts, one after the other at one instant, do on the way.
+    pub(super) jumps: f64,
+    /// Lanes that have had the same strikes so far.
+    alive: [bool; 3],
+}
+
+impl<const N: usize> Walk<N> {
+    /// The interval that holds the peak.
+    pub(super) fn peak(&self) -> Interval {
+        self.intervals[..self.strikes]
+            .iter()
+            .fold(Interval::default(), |most, interval| if interval.value > most.value { *interval } else { most })
+    }
+    /// What lane k gets wrong, if pulses leave `top` of the `peak`: by the strikes followed, and by all.
+    pub(super) fn errors(&self, k: usize, peak: &Interval, top: f64) -> [f64; 2] {
+        let mut late = [self.late; N];
+        for n in (0..self.strikes).rev() {
+            late[n] = self.intervals[n].late.max(late[(n + 1).min(N - 1)]);
+        }
+        let (mut error, mut least) = (peak.off(k), f64::INFINITY);
+        for (interval, late) in self.intervals[..self.strikes].iter().zip(late) {
+            // Another that comes up to the top may be the higher one.
+            let short = (interval.value + interval.adrift - top).min(0.0);
+            error = error.max(interval.off(k) + short).max(interval.early[k] - top);
+            // From the peak on, what follows may be left to its bound.
+            if interval.from_s >= peak.from_s {
+                least = least.min(error.max(late - peak.value));
+            }
+        }
+        [error, error.max(self.later(k, peak.value))].map(|error| error.min(least))
+    }
+    /// What lane k may get wrong after the strikes followed.
+    fn later(&self, k: usize, peak: f64) -> f64 {
+        let above = self.late - peak;
+        let intervals = &self.intervals[..self.strikes];
+        // The map has no later strikes; the others have them, about.
+        if above <= 0.0 || k == 0 || self.extra >= ROOM * peak {
+            return above;
+        }
+        let worst = intervals.iter().fold(0.0_f64, |m, i| m.max(i.off[k]));
+        // Fitted: what later strikes add is off by 4 times what the earlier ones were.
+        let share = if self.alive[k] { 4.0 * (worst / peak).min(1.0) } else { 4.0 };
+        above.min(share * self.extra + self.weight + intervals.last().map_or(0.0, |i| i.off[k]))
+    }
+    /// Strikes until `until_s`, about, of models with impacts (until they have fallen by 10⁻¹⁵, both ends in turn) and with contacts
+    /// (until both ends lie on their springs).
+    pub(super) fn about(&self, e: f64) -> (f64, f64) {
+        let loss = 0.05 - libm::log(e.max(1e-30));
+        #[expect(clippy::cast_precision_loss, reason = "a few strikes")]
+        let followed = self.strikes as f64;
+        if self.until_s < f64::INFINITY { (followed, followed) } else { (followed + 240.0 / loss, 2.0 + 8.0 / loss) }
+    }
+}
+
+/// From one strike to the next.
+#[derive(Debug, Clone, Copy)]
+struct Flight {
+    gap_s: f64,
+    /// Share of the weight that the component feels of an end that lies on the ground meanwhile.
+    lying: Option<f64>,
+    tumbles: bool,
+    /// Bound on the speed at the component.
+    speed: f64,
+}
+
+/// Follows strikes until nothing later counts.
+#[derive(Debug)]
+pub(super) struct Walker<'a, const N: usize> {
+    ends: &'a Ends,
+    swing: &'a Swing,
+    coupling: &'a Coupling,
+    gravity: f64,
+    omega: f64,
+    /// Share of the time since the first strike by which strikes are mistimed.
+    blur: f64,
+    walk: Walk<N>,
+    /// The component now, and just after the last strike.
+    motion: Motion,
+    begun: Motion,
+    peak: f64,
+    /// Motion of the component in the other lanes less this one, and by how much later their strikes come than that has it.
+    off: [Motion; 3],
+    behind_s: [f64; 3],
+    /// Shocks that a lane lacks, and shocks in doubt, faded.
+    lacking: [f64; 3],
+    doubtful: f64,
+    /// How much higher the component may ring where strikes are mistimed.
+    adrift: f64,
+    /// The last contacts of both ends, and how far the motion of the ends after them is in doubt.
+    pressing: [Option<Pressing>; 2],
+    loose: f64,
+    /// Speed at the component before the last strike, and what overlapping contacts leave of it.
+    before: f64,
+    floor: f64,
+}
+
+impl<'a, const N: usize> Walker<'a, N> {
+    pub(super) fn new(
+        (ends, swing, coupling): (&'a Ends, &'a Swing, &'a Coupling),
+        gravity: f64,
+        omega: f64,
+        tilt: f64,
+    ) -> Self {
+        let weight = if coupling.velocity_shock { 0.0 } else { weight(swing, gravity / omega) };
+        Self {
+            ends,
+            swing,
+            coupling,
+            gravity,
+            omega,
+            // Fitted: the mean bend of a large tilt.
+            blur: 0.25 * tilt * tilt,
+            walk: Walk {
+                intervals: [Interval::default(); N],
+                strikes: 0,
+                late: 0.0,
+                extra: 0.0,
+                until_s: f64::INFINITY,
+                largest: 0.0,
+                net: 0.0,
+                last_s: 0.0,
+                shortest_gap_s: f64::INFINITY,
+                overlaps: false,
+                weight,
+                jumps: 0.0,
+                alive: [true; 3],
+            },
+            motion: Motion::default(),
+            begun: Motion::default(),
+            peak: 0.0,
+            off: [Motion::default(); 3],
+            behind_s: [0.0; 3],
+            lacking: [0.0; 3],
+            doubtful: 0.0,
+            adrift: 0.0,
+            pressing: [None; 2],
+            loose: 0.0,
+            before: 0.0,
+            floor: 0.0,
+        }
+    }
+
+    pub(super) fn follow(mut self, trail: &mut Trail) -> Walk<N> {
+        self.before = self.ends.reach(trail.twice_energy);
+        let mut flight = Flight { gap_s: 0.0, lying: None, tumbles: false, speed: self.before };
+        while let Some(step) = trail.step(self.walk.strikes) {
+            self.strike(&step, &flight);
+            let Some(follows) = step.follows else {
+                self.rest(&step);
+                break;
+            };
+            self.rival(&step, follows);
+            let lying = step.rests.then(|| {
+                let mut load = [-self.ends.ratio(step.end, 1.0); 2];
+                load[step.end] = 1.0;
+                self.ends.at(load).abs()
+            });
+            let speed = self.ends.reach(step.twice_energy);
+            flight = Flight { gap_s: follows, lying, tumbles: step.tumbles, speed };
+            self.fly(trail, &flight);
+            if self.is_over(&flight) {
+                break;
+            }
+        }
+        self.take_map(trail);
+        self.walk
+    }
+
+    fn unit(&self) -> f64 {
+        if self.coupling.velocity_shock { 1.0 } else { self.swing.factor }
+    }
+
+    /// From the last strike to the next.
+    fn fly(&mut self, trail: &mut Trail, flight: &Flight) {
+        let (swing, omega, gap, time) = (self.swing, self.omega, flight.gap_s, self.coupling.time);
+        let n = self.walk.strikes - 1;
+        let interval = &mut self.walk.intervals[n];
+        if !self.coupling.velocity_shock {
+            let turn = trail.turn(n, swing, omega * gap);
+            if swing.bound(self.motion) > 0.5 * self.peak {
+                let top = swing.peak(self.motion, omega * gap);
+                (interval.value, interval.phase, interval.slope) = (top.value, top.phase, top.slope);
+            }
+            self.motion = swing.after(&turn, self.motion);
+            let (end, rate) = (swing.quantity(self.motion), swing.quantity(swing.rate(self.motion)));
+            if end.abs() > interval.value {
+                (interval.value, interval.phase) = (end.abs(), omega * gap);
+                interval.slope = (rate * end.signum()).max(0.0);
+            }
+            for (off, lacking) in self.off.iter_mut().zip(&mut self.lacking) {
+                *off = swing.after(&turn, *off);
+                *lacking *= turn.fade;
+            }
+            self.doubtful *= turn.fade;
+            self.adrift *= turn.fade;
+            if let Some(share) = flight.lying {
+                // The ground carried the weight, which no train of strikes has: as one push, or as a load.
+                let weight = share * self.gravity * gap.min(2.0 / omega);
+                self.doubtful += weight;
+                for off in &mut interval.off {
+                    *off += swing.factor * weight;
+                }
+            }
+        }
+        self.peak = self.peak.max(interval.value);
+        self.walk.shortest_gap_s = self.walk.shortest_gap_s.min(gap);
+        if gap < time {
+            self.walk.overlaps = true;
+            self.floor = self.floor.max(self.coupling.rebound * self.before);
+        }
+        self.before = flight.speed;
+        (self.walk.late, self.walk.extra) = self.to_come(flight.speed.max(self.floor), true);
+        self.walk.intervals[n].late = self.walk.late;
+    }
+
+    /// Bound on what a bar of such a speed does to the component from now on, and what of it one shock does; `more` than one may come.
+    fn to_come(&self, speed: f64, more: bool) -> (f64, f64) {
+        if self.coupling.velocity_shock {
+            let shock = later_shock(speed, self.gravity, self.coupling.time);
+            return (shock, shock);
+        }
+        let fall = self.gravity / self.omega;
+        let extra = later_response(self.swing, speed, self.gravity, self.omega);
+        let times = if more { pile(self.ends, self.swing.zeta(), speed, fall) } else { 1.0 };
+        (self.swing.bound(self.motion) + self.adrift + times * extra, extra)
+    }
+
+    /// Whether nothing later counts, or is known.
+    fn is_over(&mut self, flight: &Flight) -> bool {
+        let time = self.coupling.time;
+        if self.walk.late < CLEAR * self.peak && flight.gap_s >= time {
+            // Strikes of other models may be later than those of this one.
+            // A flat drop has all of it at the first touch, and a time limit is above 0.
+            let until_s = 1.25 * self.walk.last_s + 0.5 * (flight.gap_s + time);
+            self.walk.until_s = until_s.max(f64::MIN_POSITIVE);
+            return true;
+        }
+        flight.tumbles || self.walk.strikes == N
+    }
+
+    fn strike(&mut self, step: &Step, flight: &Flight) {
+        let (ends, swing, omega, time) = (self.ends, self.swing, self.omega, self.coupling.time);
+        let shocks = self.coupling.velocity_shock;
+        let n = self.walk.strikes;
+        self.walk.last_s += flight.gap_s;
+        // The ground also carries the weight while it pushes.
+        self.doubtful += self.gravity * if n == 0 { time } else { time.min(flight.gap_s) };
+        self.couple(step, flight.gap_s);
+        let both = step.together.map(|lasts| (lasts, Parts::of(ends, step.end, step.delta_v)));
+        let delta_v = match both {
+            // The first of both contacts is the shock.
+            Some((_, parts)) if shocks => parts.first,
+            _ => ends.at(step.delta_v),
+        };
+        let last = delta_v.abs();
+        let (mut gross, mut shape) = (last, 0.0);
+        if let Some((lasts, parts)) = both {
+            gross = parts.first.abs() + parts.other.abs();
+            shape = parts.other.abs() + ends.ratio(0, 1.0) * ends.ratio(1, 1.0) * parts.first.abs();
+            // Pulses as if at one instant, of contacts that last.
+            self.doubtful += if shocks { 0.0 } else { shape * (0.5 * omega * lasts * time).min(2.0) };
+            let jump = swing.quantity(Motion { x: 0.0, w: gross });
+            self.walk.jumps = self.walk.jumps.max(swing.quantity(self.motion).abs() + jump.abs());
+        }
+        let mistimed = self.blur * self.walk.last_s + if flight.lying.is_some() { LYING * flight.gap_s } else { 0.0 };
+        self.adrift += swing.factor * last * (omega * mistimed).min(2.0);
+        if n > 0 && self.walk.intervals[n - 1].slope > 0.0 {
+            // A value that the next shock cuts off is as high as that is late.
+            let cut = &mut self.walk.intervals[n - 1];
+            for (off, own) in cut.off.iter_mut().zip(step.own) {
+                *off += own.map_or(0.0, |(after, _)| cut.slope * (omega * (after - flight.gap_s)).abs().min(2.0));
+            }
+        }
+        if n > 0 && !shocks && self.walk.intervals[n - 1].phase <= omega * time {
+            // A pulse that ends on a dashpot is cut off by the next where only one of both trains has them overlap.
+            let over = |gap: f64| if gap < time { 1.0 - gap / time } else { 0.0 };
+            let here = over(flight.gap_s);
+            let jump = swing.quantity(Motion { x: 0.0, w: last }).abs();
+            for (off, own) in self.walk.intervals[n - 1].off.iter_mut().zip(step.own) {
+                *off += own.map_or(0.0, |(after, _)| jump * (over(after) - here).abs());
+            }
+        }
+        let mut interval = Interval { from_s: self.walk.last_s, ..Interval::default() };
+        if shocks {
+            interval.value = last;
+        } else {
+            interval.adrift = self.adrift;
+        }
+        for k in 0..3 {
+            let mut shock_off = last;
+            if let Some((after, own)) = step.own[k] {
+                let own = if shocks && both.is_some() { Parts::of(ends, step.end, own).first } else { ends.at(own) };
+                shock_off = (own - delta_v).abs();
+                self.behind_s[k] += after - flight.gap_s;
+                self.off[k].w -= own - delta_v;
+                self.shift(k, own, flight.gap_s, &mut interval);
+            } else {
+                self.walk.alive[k] = false;
+                self.lacking[k] += gross;
+            }
+            interval.off[k] = if shocks {
+                shock_off + shape + self.doubtful
+            } else {
+                swing.bound(self.off[k]) + swing.factor * (self.lacking[k] + self.doubtful)
+            };
+        }
+        interval.off[0] += self.unit() * gross * step.spread;
+        self.motion.w -= delta_v;
+        self.begun = self.motion;
+        self.walk.intervals[n] = interval;
+        self.walk.strikes += 1;
+    }
+
+    /// How far the strike of lane k at another time moves its component. It meets a motion that has turned to another place, as which the
+    /// lane goes on; or is itself turned, and the lane goes on as before: the less of the two.
+    fn shift(&mut self, k: usize, own: f64, gap_s: f64, interval: &mut Interval) {
+        let (swing, phase) = (self.swing, self.omega * self.behind_s[k]);
+        let met = if phase.abs() > STRAIGHT {
+            swing.after(&swing.turn((self.omega * gap_s + phase).max(0.0)), self.begun)
+        } else {
+            let rate = swing.rate(self.motion);
+            Motion { x: self.motion.x + phase * rate.x, w: self.motion.w + phase * rate.w }
+        };
+        let moved = Motion { x: met.x - self.motion.x, w: met.w - self.motion.w };
+        let turned = phase.clamp(-2.0, 2.0);
+        let off = &mut self.off[k];
+        if swing.factor * (own * turned).abs() < swing.bound(moved) {
+            interval.beginning[k] = swing.quantity(moved).abs();
+            if phase < -STRAIGHT {
+                let jump = swing.quantity(Motion { x: -turned, w: 1.0 }).min(swing.factor);
+                interval.early[k] = swing.bound(met) + own.abs() * jump;
+            }
+            off.x += own * turned;
+            off.w -= 2.0 * swing.zeta() * own * turned;
+        } else {
+            off.x += moved.x;
+            off.w += moved.w;
+            self.behind_s[k] = 0.0;
+        }
+    }
+
+    /// What the last contacts and this strike do to each other.
+    fn couple(&mut self, step: &Step, gap_s: f64) {
+        let (ends, coupling, time) = (self.ends, self.coupling, self.coupling.time);
+        let (j, i, n) = (step.end, 1 - step.end, self.walk.strikes);
+        for pressing in self.pressing.iter_mut().flatten() {
+            pressing.age_s += gap_s;
+        }
+        let delta_v = ends.at(step.delta_v);
+        // Of a motion in doubt, the shock is as much.
+        let strike = step.delta_v[j].abs();
+        let astray = if strike > 0.0 { delta_v.abs() * (self.loose * (1.0 + ends.e) / strike).min(1.0) } else { 0.0 };
+        // What the component gets of a velocity that a contact gives.
+        let at = |given: f64, contact: &[f64; 2], end: usize| {
+            if contact[end] == 0.0 { given } else { given * (ends.at(*contact) / contact[end]).abs() }
+        };
+        // Where this end presses already, it is the same contact.
+        let own = self.pressing[j].filter(|own| own.age_s < time);
+        let mut doubt = if own.is_some() && coupling.velocity_shock { delta_v.abs() } else { 0.0 };
+        if let Some(other) = self.pressing[i].filter(|_| step.together.is_none()) {
+            let age = (other.age_s - self.blur * self.walk.last_s).max(0.0);
+            let pushed = coupling.pushed(age, step.delta_v[i], other.delta_v[i].abs());
+            // What the other contact does back is one more load on this one.
+            let back = pushed * ends.ratio(i, 1.0).abs();
+            let held = back + if own.is_none() { coupling.held(age, other.delta_v[j]) } else { 0.0 };
+            self.loose += pushed + held;
+            doubt += at(pushed, &other.delta_v, i) + if held > 0.0 { at(held, &step.delta_v, j) } else { 0.0 };
+            if coupling.velocity_shock {
+                doubt += coupling.windows(age, [ends.at(other.delta_v), delta_v]);
+            }
+        }
+        if doubt > 0.0 {
+            // All that a contact which is still there has a part in.
+            let unit = self.unit();
+            for interval in self.walk.intervals[..n].iter_mut().rev() {
+                for off in &mut interval.off {
+                    *off += unit * doubt;
+                }
+                if self.walk.last_s - interval.from_s >= time {
+                    break;
+                }
+            }
+        }
+        self.doubtful += doubt + astray;
+        let contact = own.unwrap_or_default();
+        let delta_v = [contact.delta_v[0] + step.delta_v[0], contact.delta_v[1] + step.delta_v[1]];
+        self.pressing[j] = Some(Pressing { delta_v, ..contact });
+        if step.together.is_some() {
+            self.pressing[i] = self.pressing[j];
+        }
+    }
+
+    /// Which end strikes first may not be known: the other one may do so, and be thrown up only then.
+    fn rival(&mut self, step: &Step, follows_s: f64) {
+        let (later_by, delta_v) = step.rival;
+        if later_by < self.blur * (self.walk.last_s + follows_s) {
+            let (unit, shock) = (self.unit(), self.ends.at(delta_v).abs());
+            for off in &mut self.walk.intervals[self.walk.strikes - 1].off {
+                *off += unit * shock;
+            }
+            self.doubtful += shock;
+        }
+    }
+
+    /// Nothing falls any more.
+    fn rest(&mut self, step: &Step) {
+        let interval = &mut self.walk.intervals[self.walk.strikes - 1];
+        if !self.coupling.velocity_shock {
+            let top = self.swing.peak(self.motion, f64::INFINITY);
+            (interval.value, interval.phase, interval.slope) = (top.value, top.phase, top.slope);
+        }
+        (self.walk.late, self.walk.extra) = (0.0, 0.0);
+        if self.gravity > 0.0 {
+            // The ground carries it from now on, and impacts have bounces left.
+            (self.walk.late, self.walk.extra) = self.to_come(self.ends.reach(step.twice_energy), false);
+        }
+    }
+
+    /// The closed form has the whole train of the map.
+    fn take_map(&mut self, trail: &mut Trail) {
+        let walk = &mut self.walk;
+        for k in 0.. {
+            let Some((.., delta_v)) = trail.of_map(k) else { break };
+            if k > 2 * N {
+                walk.net = f64::INFINITY;
+                break;
+            }
+            let delta_v = self.ends.at(delta_v);
+            walk.largest = walk.largest.max(delta_v.abs());
+            walk.net += delta_v;
+        }
+    }
+}
+
+/// What both contacts do to the component's place where they act at once.
+#[derive(Debug, Clone, Copy)]
+struct Parts {
+    /// That of the end that lands, and of the one that lay.
+    first: f64,
+    other: f64,
+}
+
+impl Parts {
+    fn of(ends: &Ends, landed: usize, [a, b]: [f64; 2]) -> Self {
+        let ratio = [ends.ratio(0, 1.0), ends.ratio(1, 1.0)];
+        let over = 1.0 / (1.0 - ratio[0] * ratio[1]);
+        let of_contacts = [
+            over * (a + ratio[1] * b) * ends.at([1.0, -ratio[0]]),
+            over * (b + ratio[0] * a) * ends.at([-ratio[1], 1.0]),
+        ];
+        Self { first: of_contacts[landed], other: of_contacts[1 - landed] }
+    }
+}
