@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """clatter beside what one would use instead: python3 peers/run.py (network the first time, about ten minutes)
+or python3 peers/run.py spectra: those alone, the rest of peers/results.json stays as it was measured (a minute)
 
 1. Impacts of the four bars of Table 1: a plain loop, SciPy, Siconos, Rapier, MuJoCo, each at the best setting found.
 2. Shock response spectra: pyyeti and endaq.
@@ -73,12 +74,13 @@ def scene():
     return {**given, "lifted_steps": LIFTED_STEPS, "bars": bars}, truth
 
 
-def environment(skipped):
-    """Installs what each tool needs; a tool that cannot be had is skipped."""
+def environment(skipped, tools):
+    """Installs what each of these tools needs; a tool that cannot be had is skipped."""
     if not os.path.exists(PYTHON):
         say("making a Python environment in target/peers/venv")
         venv.create(os.path.join(HOME, "venv"), with_pip=True)
-    for tool, packages in PACKAGES.items():
+    for tool in tools:
+        packages = PACKAGES[tool]
         stamp = os.path.join(HOME, f"{tool}.installed")
         wanted = " ".join([NUMPY, *packages])
         if os.path.exists(stamp) and open(stamp).read() == wanted:
@@ -92,11 +94,14 @@ def environment(skipped):
                 file.write(wanted)
 
 
+def build_ours(targets):
+    say("building clatter")
+    subprocess.run(["cargo", "build", "--release", "--quiet", *targets], cwd=ROOT, check=True)
+
+
 def build(skipped):
     """Ours must build; Rapier is skipped if it does not."""
-    say("building clatter")
-    examples = ["-p", "clatter", "-p", "clatter-shock", "-p", "clatter-cli", "--example", "bars", "--example", "peers", "--bin", "clatter"]
-    subprocess.run(["cargo", "build", "--release", "--quiet", *examples], cwd=ROOT, check=True)
+    build_ours(["-p", "clatter", "-p", "clatter-shock", "-p", "clatter-cli", "--example", "bars", "--example", "peers", "--bin", "clatter"])
     say("building Rapier")
     manifest = os.path.join(HERE, "rapier", "Cargo.toml")
     command = ["cargo", "build", "--release", "--quiet", "--locked", "--manifest-path", manifest]
@@ -215,15 +220,33 @@ def show(results):
         print(f"\nleft out: {tool}: {why}")
 
 
-def main():
+def main(parts):
+    if parts not in ([], ["spectra"]):
+        sys.exit(__doc__)
     skipped, load = {}, os.getloadavg()[0]
     os.makedirs(HOME, exist_ok=True)
-    environment(skipped)
+    script = lambda name: os.path.join(HERE, name)
+    example = [os.path.join(TARGET, "release", "examples", "peers")]
+    spectra = {
+        "clatter spectra": ([PYTHON, script("spectra.py"), "clatter", *example], None),
+        "pyyeti": ([PYTHON, script("spectra.py"), "pyyeti", *example], None),
+        "endaq": ([PYTHON, script("spectra.py"), "endaq", *example], None),
+    }
+    if parts:
+        environment(skipped, ["pyyeti", "endaq"])
+        build_ours(["-p", "clatter-shock", "--example", "peers"])
+        answers = take_turns(spectra, skipped)
+        if skipped.keys() & spectra.keys():
+            sys.exit(f"left out: {skipped}")
+        with open(os.path.join(HERE, "results.json")) as file:
+            results = json.load(file)
+        results["spectra"] = {"date": today(), "machine": machine(load), "rows": spectra_table(answers)}
+        write(results)
+        return
+    environment(skipped, PACKAGES)
     build(skipped)
     given, truth = scene()
     given = json.dumps(given)
-    script = lambda name: os.path.join(HERE, name)
-    example = [os.path.join(TARGET, "release", "examples", "peers")]
     answers = take_turns({
         "clatter": ([os.path.join(TARGET, "release", "examples", "bars")], given),
         "python": ([PYTHON, script("bars.py"), "python"], given),
@@ -231,19 +254,25 @@ def main():
         "siconos": ([DEBIAN_PYTHON, "-sE", script("bars.py"), "siconos"], given),
         "rapier": ([RAPIER], given),
         "mujoco": ([PYTHON, script("bars.py"), "mujoco"], given),
-        "clatter spectra": ([PYTHON, script("spectra.py"), "clatter", *example], None),
-        "pyyeti": ([PYTHON, script("spectra.py"), "pyyeti", *example], None),
-        "endaq": ([PYTHON, script("spectra.py"), "endaq", *example], None),
+        **spectra,
         "numpy": ([PYTHON, script("maps.py"), os.path.join(TARGET, "release", "clatter"), HOME], None),
     }, skipped)
     if "clatter" in skipped:
         sys.exit(skipped["clatter"])
     results = {
-        "date": datetime.date.today().isoformat(), "machine": machine(load),
+        "date": today(), "machine": machine(load),
         "bars": {"designs": DESIGNS, "impacts": [impacts for impacts, _ in truth], "half_length_m": HALF_LENGTH_M,
                  "speed_m_s": SPEED_M_S, "tilt_deg": TILT_DEG, "rows": bars_table(answers, truth)},
         "spectra": {"rows": spectra_table(answers)}, "maps": maps_table(answers), "skipped": skipped,
     }
+    write(results)
+
+
+def today():
+    return datetime.date.today().isoformat()
+
+
+def write(results):
     show(results)
     beside = os.path.join(HERE, "results.json.part")
     with open(beside, "w") as file:
@@ -253,4 +282,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    main(sys.argv[1:])

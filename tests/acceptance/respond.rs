@@ -150,6 +150,13 @@ fn endless_trains_have_a_bound_on_what_is_left_out() {
     assert!(0.0 < omitted && omitted < 1e-15, "{omitted:e}");
     let still = answer(["respond", "--q=1", "--e=0.2", "--at=0", "--omega=5"]);
     assert_eq!(still["peak_absolute_acceleration_over_omega"], json!(0.0), "nothing moves the center");
+    assert_eq!(still["shocks"]["omitted"], json!(0.0), "of nothing, nothing is left out");
+    let table = clatter(["respond", "--q=1", "--e=0.2", "--at=0", "--omega=5", "--damping=0.05"]).stdout;
+    assert!(
+        table.contains("absolute acceleration, A/W                 0             0  no impact is felt here\n"),
+        "{table}"
+    );
+    assert!(!table.contains("infinite"), "{table}");
 }
 
 #[test]

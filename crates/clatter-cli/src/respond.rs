@@ -208,6 +208,9 @@ impl Shaken<'_> {
 
     /// Which impact the peak follows, in words.
     fn holder(&self, peak: Extreme) -> String {
+        if peak.value.abs() <= 0.0 {
+            return "no impact is felt here".to_owned();
+        }
         let number = peak.interval + 1;
         let count = self.shocks().as_slice().len();
         if number == count { format!("after impact {number}, the last") } else { format!("after impact {number}") }

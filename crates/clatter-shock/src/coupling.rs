@@ -12,7 +12,7 @@ pub struct TrainResponse {
     /// Velocity shocks at the position, as far as they were followed.
     pub shocks: VelocityShocks,
     /// Bound on what was left out of an endless (or very long) train: ωz and z′ are off by at most this, A/ω by at most
-    /// max(1, 2ζ) times this. Zero where every impact was followed.
+    /// max(1, 2ζ) times this. Zero where every impact was followed, and at the center at q = 1, where none is felt.
     pub omitted: f64,
 }
 
@@ -49,7 +49,8 @@ fn check_position(position: f64) -> Result<(), Error> {
 /// They are followed until the sum of all shocks to come, bounded by a geometric series, is below ε/256 of the largest.
 /// Where the gaps shrink much faster than the shocks (q near 1), the rest falls, to the resolution of time,
 /// on one instant: it acts there as the one change of velocity that brings the bar to rest. [`TrainResponse::omitted`]
-/// bounds what either leaves out.
+/// bounds what either leaves out. At q = 1 the center alone has a limit: it gets nothing of any impact, and stands still in a
+/// train of one shock of no size.
 ///
 /// # Errors
 ///
@@ -93,6 +94,11 @@ pub fn shocks_at(bar: &Bar, start: &Start, position: f64, omega_max: f64) -> Res
         return Err(Error::Unsettled { position });
     }
     let largest_share = share(q, position.abs(), End::B);
+    if largest_share <= 0.0 {
+        // Nothing of any impact comes here: the first stands for all, of which there may be no end.
+        let first = bar.train(start).next().map(|impact| VelocityShock { time: impact.time, delta_v: 0.0 });
+        return Ok((VelocityShocks::new(first.into_iter().collect())?, 0.0));
+    }
     // Roots of the recurrence of the approach speeds: ratios of neighbors tend to λ₊ without passing it.
     let t = q * (1.0 + e);
     let discriminant = t * t - 4.0 * e;

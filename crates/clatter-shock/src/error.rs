@@ -98,7 +98,11 @@ pub enum Error {
     #[error(
         "no half-sine of this shock table is equivalent: {}",
         if nearest.is_finite() {
-            format!("at equal acceleration its displacement is off by {:.1} % at best", 100.0 * nearest)
+            format!(
+                "at equal acceleration the displacement is off by {} % at best, more than the {} % allowed",
+                percent(*nearest, f64::ceil),
+                percent(*tolerance, f64::round)
+            )
         } else {
             "all that give the same acceleration are beyond its acceleration or velocity change".to_owned()
         }
@@ -106,6 +110,8 @@ pub enum Error {
     NoEquivalent {
         /// Smallest relative mismatch in displacement; infinite if the table reaches the acceleration with no pulse.
         nearest: f64,
+        /// The mismatch that was allowed.
+        tolerance: f64,
     },
     /// A bar or a drop that is none.
     #[error(transparent)]
@@ -113,6 +119,13 @@ pub enum Error {
     /// The file could not be read.
     #[error("the record could not be read: {0}")]
     Read(String),
+}
+
+/// A share in percent, three digits of it; what is above a limit is rounded up, not to look as if it held.
+fn percent(share: f64, round: fn(f64) -> f64) -> f64 {
+    let percent = 100.0 * share;
+    let digit = 10_f64.powf(percent.log10().floor() - 2.0);
+    format!("{:.2e}", round(percent / digit) * digit).parse().unwrap_or(percent)
 }
 
 /// `value` if it is finite and greater than zero.

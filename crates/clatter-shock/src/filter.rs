@@ -43,7 +43,9 @@ pub struct SpectrumFilter {
     previous: Option<f64>,
 }
 
+/// Eight lanes, each field whole in lines of the cache.
 #[derive(Debug, Clone)]
+#[repr(C, align(64))]
 struct Group {
     /// N row by row, c, d of each lane.
     n: [Many; 4],
@@ -56,18 +58,19 @@ struct Group {
     /// Extremes so far, of the samples at least; infinite where there is no lane.
     high: Many,
     low: Many,
-    lanes: Vec<Lane>,
     reach: Reach,
+    lanes: Vec<Lane>,
 }
 
 /// How far a quantity can go within a block.
 #[derive(Debug, Clone)]
+#[repr(C, align(64))]
 struct Reach {
+    /// What it changes by within a block, at most, over √(x² + y²), and bound on itself over that.
+    drift: Many,
+    most: f64,
     /// What x and y give to it.
     of: [f64; 2],
-    /// Bound on it over √(x² + y²), and on what it changes by within a block.
-    most: f64,
-    drift: Many,
     /// What a jump of velocity changes it by at once.
     push: f64,
     /// Time between samples.
@@ -220,46 +223,34 @@ impl Lane {
         };
         self.share * (q + bend)
     }
-    /// Goes through a block unless no step of it can rise above the largest value between its samples.
-    fn look(&mut self, modes: &Modes, segment: &mut Segment, l: usize, b: &Block, input: &Input, samples: &[f64]) {
+    /// How far some step of a block can rise between its samples, if that may pass the largest value so far; `l` is the lane's place.
+    fn may_rise(&self, modes: &Modes, l: usize, b: &Block, input: &Input) -> Option<f64> {
         let m = self.motion(b.u[l], b.v[l], input.before);
         let q = modes.quantity(self.row, m).abs().max(b.high[l]).max(-b.low[l]);
         let bump = self.bump(modes, q, m, input);
-        if b.high[l] + bump > self.range.high.value || b.low[l] - bump < self.range.low.value {
-            self.refine(modes, segment, bump, [b.u[l], b.v[l]], input.before, samples);
-        }
+        (b.high[l] + bump > self.range.high.value || b.low[l] - bump < self.range.low.value).then_some(bump)
     }
-    /// Goes through the steps of a block one by one, from the filter's coordinates at the sample `from`.
-    /// No step rises by more than `most` between its samples.
-    fn refine(
-        &mut self,
-        modes: &Modes,
-        segment: &mut Segment,
-        most: f64,
-        [mut u, mut v]: [f64; 2],
-        mut from: f64,
-        samples: &[f64],
-    ) {
-        let Recursion { n, c, d } = self.recursion;
-        let mut q = u + d * from;
+    /// Goes through the steps of a block one by one; none of them rises by more than `most` between its samples.
+    fn refine(&mut self, modes: &Modes, segment: &mut Segment, l: usize, most: f64, steps: &Steps, samples: &[f64]) {
         let (mut high, mut low) = (self.range.high.value - most, self.range.low.value + most);
-        for &to in samples {
-            let (u_next, v_next) =
-                (u + ((n[0] * u + n[1] * v) + c[0] * from), v + ((n[2] * u + n[3] * v) + c[1] * from));
-            let q_next = u_next + d * to;
-            if q.max(q_next) > high || q.min(q_next) < low {
-                let m = self.motion(u, v, from);
-                let (top, bottom) = (q.max(q_next), q.min(q_next));
+        let mut from = steps.before;
+        let mut q = steps.q[0][l];
+        for (k, &to) in samples.iter().enumerate() {
+            let q_next = steps.q[k + 1][l];
+            let (top, bottom) = if q > q_next { (q, q_next) } else { (q_next, q) };
+            if top > high || bottom < low {
+                let m = self.motion(steps.u[k][l], steps.v[k][l], from);
                 let bump = self.bump(modes, top.max(-bottom), m, &Input::new(from, &[to]));
                 if top + bump > self.range.high.value || bottom - bump < self.range.low.value {
                     let (f0, slope) = (-from * self.inverse[0], (from - to) * self.inverse[1]);
                     segment.begin(m, f0, slope, self.theta);
-                    let end = segment.sample_known(self.theta, self.motion(u_next, v_next, to));
+                    let m_next = self.motion(steps.u[k + 1][l], steps.v[k + 1][l], to);
+                    let end = segment.sample_known(self.theta, m_next);
                     segment.extremes(self.row, &end, 0, &mut self.range);
                     (high, low) = (self.range.high.value - most, self.range.low.value + most);
                 }
             }
-            (u, v, q, from) = (u_next, v_next, q_next, to);
+            (q, from) = (q_next, to);
         }
     }
 }
@@ -303,26 +294,42 @@ impl Group {
     }
     fn run(&mut self, modes: &Modes, previous: f64, samples: &[f64], inputs: &[Input], total: &Input) {
         let start = [self.u, self.v];
-        let scanned = pulp::Arch::new().dispatch(Scan { group: self, previous, samples, inputs });
+        let arch = pulp::Arch::new();
+        let scanned = arch.dispatch(Scan { group: self, previous, samples, inputs });
         let blocks = &scanned.blocks;
         if blocks.is_empty() {
             return;
         }
         let mut segment = Segment::new(modes);
+        let mut steps = Steps::new();
+        let mut look = |group: &mut Self, l: usize, b: &Block| {
+            let Some(most) = group.lanes[l].may_rise(modes, l, b, &inputs[b.index]) else { return };
+            let samples = block_of(samples, b.index);
+            // Lanes side by side have their peaks in the same blocks.
+            if steps.index != Some(b.index) {
+                (steps.index, steps.before) = (Some(b.index), inputs[b.index].before);
+                arch.dispatch(Retrace { group, block: b, samples, steps: &mut steps });
+            }
+            group.lanes[l].refine(modes, &mut segment, l, most, &steps, samples);
+        };
         // Blocks beyond these values may hold a new extreme; lanes that are not there have none.
         let (mut high, mut low) = ([f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]);
         for (l, lane) in self.lanes.iter_mut().enumerate() {
-            let [highest, lowest] = [&blocks[scanned.highest[l]], &blocks[scanned.lowest[l]]];
-            lane.range.note(0, 0.0, highest.high[l]);
-            lane.range.note(0, 0.0, lowest.low[l]);
+            lane.range.note(0, 0.0, blocks[scanned.highest[l]].high[l]);
+            lane.range.note(0, 0.0, blocks[scanned.lowest[l]].low[l]);
             let m = lane.motion(start[0][l], start[1][l], previous);
             let q = lane.range.high.value.max(-lane.range.low.value).max(modes.quantity(lane.row, m).abs());
             let most = lane.bump(modes, q, m, total);
-            // Where the samples are largest the peak is likely, and rules out most of the rest.
-            for b in [highest, lowest] {
-                lane.look(modes, &mut segment, l, b, &inputs[b.index], block_of(samples, b.index));
+            (high[l], low[l]) = (-most, most);
+        }
+        // Where the samples are largest the peak is likely, and rules out most of the rest.
+        for likely in [&scanned.highest, &scanned.lowest] {
+            for l in 0..self.lanes.len() {
+                look(self, l, &blocks[likely[l]]);
             }
-            (high[l], low[l]) = (lane.range.high.value - most, lane.range.low.value + most);
+        }
+        for (l, lane) in self.lanes.iter().enumerate() {
+            (high[l], low[l]) = (high[l] + lane.range.high.value, low[l] + lane.range.low.value);
         }
         for b in blocks {
             let mut beyond = [0; LANES];
@@ -332,11 +339,12 @@ impl Group {
             if !beyond.contains(&1) {
                 continue;
             }
-            for (l, lane) in self.lanes.iter_mut().enumerate().filter(|(l, _)| beyond[*l] == 1) {
-                let before = lane.range;
-                lane.look(modes, &mut segment, l, b, &inputs[b.index], block_of(samples, b.index));
-                high[l] += lane.range.high.value - before.high.value;
-                low[l] += lane.range.low.value - before.low.value;
+            for l in (0..self.lanes.len()).filter(|l| beyond[*l] == 1) {
+                let before = self.lanes[l].range;
+                look(self, l, b);
+                let after = self.lanes[l].range;
+                high[l] += after.high.value - before.high.value;
+                low[l] += after.low.value - before.low.value;
             }
         }
         for (l, lane) in self.lanes.iter().enumerate() {
@@ -370,28 +378,31 @@ impl Group {
     }
     /// The recursion over one block without its values.
     #[inline(always)]
-    #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
-    fn leap<const FUSED: bool>(&mut self, leap: &Leap, before: f64, samples: &[f64]) {
-        // Two sums, so that one need not wait for the other.
-        let [mut even_u, mut even_v, mut odd_u, mut odd_v] = [[0.0; LANES]; 4];
-        for l in 0..LANES {
-            (even_u[l], even_v[l]) = (leap.w[0][0][l] * before, leap.w[0][1][l] * before);
-            (odd_u[l], odd_v[l]) = (leap.w[1][0][l] * samples[0], leap.w[1][1][l] * samples[0]);
-        }
-        for (w, a) in leap.w[2..].as_chunks::<2>().0.iter().zip(samples[1..].as_chunks::<2>().0) {
-            for l in 0..LANES {
-                even_u[l] = add::<FUSED>(w[0][0][l], a[0], even_u[l]);
-                even_v[l] = add::<FUSED>(w[0][1][l], a[0], even_v[l]);
-                odd_u[l] = add::<FUSED>(w[1][0][l], a[1], odd_u[l]);
-                odd_v[l] = add::<FUSED>(w[1][1][l], a[1], odd_v[l]);
+    fn leap<S: pulp::Simd>(&mut self, simd: S, leap: &Leap, before: f64, samples: &[f64]) {
+        /// Sums side by side, so that none waits for another.
+        const SUMS: usize = 4;
+        let (across, (u, _), (v, _)) =
+            (LANES / S::F64_LANES, S::as_mut_simd_f64s(&mut self.u), S::as_mut_simd_f64s(&mut self.v));
+        let n = leap.n.each_ref().map(|n| S::as_simd_f64s(n).0);
+        let (zero, tiny) = (simd.splat_f64s(0.0), simd.splat_f64s(TINY));
+        // In vectors of the machine by name: left to itself, the compiler splits these sums among scalars.
+        for i in 0..across {
+            let mut sums = [[zero; 2]; SUMS];
+            for (k, w) in leap.w.as_chunks::<SUMS>().0.iter().enumerate() {
+                for (j, (w, sum)) in w.iter().zip(&mut sums).enumerate() {
+                    let a = if k + j == 0 { before } else { samples[SUMS * k + j - 1] };
+                    let (w, a) = (S::as_simd_f64s(w).0, simd.splat_f64s(a));
+                    *sum = [simd.mul_add_e_f64s(w[i], a, sum[0]), simd.mul_add_e_f64s(w[across + i], a, sum[1])];
+                }
             }
+            let add = |a, b| simd.add_f64s(a, b);
+            let [sum_u, sum_v] = [0, 1].map(|h| add(add(sums[0][h], sums[1][h]), add(sums[2][h], sums[3][h])));
+            let by = |a, b, c, d| simd.mul_add_e_f64s(a, b, simd.mul_f64s(c, d));
+            let next_u = add(u[i], add(by(n[0][i], u[i], n[1][i], v[i]), sum_u));
+            let next_v = add(v[i], add(by(n[3][i], v[i], n[2][i], u[i]), sum_v));
+            let flush = |a| simd.select_f64s(simd.less_than_f64s(simd.abs_f64s(a), tiny), zero, a);
+            (u[i], v[i]) = (flush(next_u), flush(next_v));
         }
-        for l in 0..LANES {
-            let (n, u, v) = (&leap.n, self.u[l], self.v[l]);
-            self.u[l] = u + (add::<FUSED>(n[0][l], u, n[1][l] * v) + (even_u[l] + odd_u[l]));
-            self.v[l] = v + (add::<FUSED>(n[3][l], v, n[2][l] * u) + (even_v[l] + odd_v[l]));
-        }
-        self.flush();
     }
     /// Numbers too small for full speed are nothing.
     #[inline(always)]
@@ -405,29 +416,92 @@ impl Group {
     /// The recursion over one block.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
-    fn scan<const FUSED: bool>(&mut self, index: usize, mut before: f64, samples: &[f64]) -> Block {
+    fn scan<const FUSED: bool>(&mut self, index: usize, before: f64, samples: &[f64]) -> Block {
+        let (u, v) = (self.u, self.v);
+        let mut block = Block { index, u, v, high: [f64::NEG_INFINITY; LANES], low: [f64::INFINITY; LANES] };
+        (self.u, self.v) = self.walk::<FUSED>([u, v], before, samples, |_, _, _, q| {
+            for (l, &q) in q.iter().enumerate() {
+                block.high[l] = if q > block.high[l] { q } else { block.high[l] };
+                block.low[l] = if q < block.low[l] { q } else { block.low[l] };
+            }
+        });
+        self.flush();
+        block
+    }
+    /// The recursion sample by sample, from (u, v): `each` is told the number of the sample and what u, v and the quantity are
+    /// there, at number 0 those at the sample before.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
+    fn walk<const FUSED: bool>(
+        &self,
+        [mut u, mut v]: [Many; 2],
+        mut before: f64,
+        samples: &[f64],
+        mut each: impl FnMut(usize, &Many, &Many, &Many),
+    ) -> (Many, Many) {
         let [n00, n01, n10, n11] = self.n;
         let ([c0, c1], d) = (self.c, self.d);
-        let (mut u, mut v) = (self.u, self.v);
-        // The sample before the block counts: the first step begins with it.
-        let first: Many = std::array::from_fn(|l| add::<FUSED>(d[l], before, u[l]));
-        let mut block = Block { index, u, v, high: first, low: first };
-        for &a in samples {
+        let mut q: Many = std::array::from_fn(|l| add::<FUSED>(d[l], before, u[l]));
+        each(0, &u, &v, &q);
+        for (k, &a) in samples.iter().enumerate() {
             for l in 0..LANES {
                 // Grouped for the shortest chain from one sample to the next.
                 let from_v = add::<FUSED>(n01[l], v[l], c0[l] * before);
                 let from_u = add::<FUSED>(n10[l], u[l], c1[l] * before);
                 u[l] = add::<FUSED>(n00[l], u[l], u[l]) + from_v;
                 v[l] = add::<FUSED>(n11[l], v[l], v[l]) + from_u;
-                let q = add::<FUSED>(d[l], a, u[l]);
-                block.high[l] = if q > block.high[l] { q } else { block.high[l] };
-                block.low[l] = if q < block.low[l] { q } else { block.low[l] };
+                q[l] = add::<FUSED>(d[l], a, u[l]);
             }
+            each(k + 1, &u, &v, &q);
             before = a;
         }
-        (self.u, self.v) = (u, v);
-        self.flush();
-        block
+        (u, v)
+    }
+}
+
+/// A block gone through once more: u, v and the quantity at each of its samples, and first at the one before.
+struct Steps {
+    /// Which block it is.
+    index: Option<usize>,
+    /// The sample before it.
+    before: f64,
+    u: [Many; BLOCK + 1],
+    v: [Many; BLOCK + 1],
+    q: [Many; BLOCK + 1],
+}
+
+impl Steps {
+    fn new() -> Self {
+        let none = [[0.0; LANES]; BLOCK + 1];
+        Self { index: None, before: 0.0, u: none, v: none, q: none }
+    }
+}
+
+/// Fills in the steps of a block, in the very numbers of the [`Scan`].
+struct Retrace<'a> {
+    group: &'a Group,
+    block: &'a Block,
+    samples: &'a [f64],
+    steps: &'a mut Steps,
+}
+
+impl pulp::WithSimd for Retrace<'_> {
+    type Output = ();
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        if S::IS_SCALAR { self.run::<false>() } else { self.run::<true>() }
+    }
+}
+
+impl Retrace<'_> {
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
+    fn run<const FUSED: bool>(self) {
+        let Self { group, block, samples, steps } = self;
+        group.walk::<FUSED>([block.u, block.v], steps.before, samples, |k, u, v, q| {
+            (steps.u[k], steps.v[k], steps.q[k]) = (*u, *v, *q);
+        });
     }
 }
 
@@ -455,8 +529,8 @@ impl pulp::WithSimd for Scan<'_> {
     type Output = Scanned;
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> Scanned {
-        if S::IS_SCALAR { self.run::<false>() } else { self.run::<true>() }
+    fn with_simd<S: pulp::Simd>(self, simd: S) -> Scanned {
+        if S::IS_SCALAR { self.run::<S, false>(simd) } else { self.run::<S, true>(simd) }
     }
 }
 
@@ -464,7 +538,7 @@ impl Scan<'_> {
     /// With fused multiply-adds where the machine has them.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
-    fn run<const FUSED: bool>(self) -> Scanned {
+    fn run<S: pulp::Simd, const FUSED: bool>(self, simd: S) -> Scanned {
         let mut blocks = Vec::with_capacity(self.samples.len().div_ceil(BLOCK));
         let (mut highest, mut lowest) = ([0; LANES], [0; LANES]);
         let (mut high, mut low) = (self.group.high, self.group.low);
@@ -473,7 +547,7 @@ impl Scan<'_> {
         for (i, block) in self.samples.chunks(BLOCK).enumerate() {
             match &leap {
                 Some(leap) if block.len() == BLOCK && self.group.stays::<FUSED>(&self.inputs[i], &high, &low) => {
-                    self.group.leap::<FUSED>(leap, before, block);
+                    self.group.leap(simd, leap, before, block);
                 }
                 _ => {
                     let b = self.group.scan::<FUSED>(i, before, block);
@@ -493,21 +567,27 @@ impl Scan<'_> {
 }
 
 /// The recursion over a whole block at once: (u, v) ← (u, v) + N' (u, v) + Σ w aₖ.
+#[repr(C, align(64))]
 struct Leap {
     n: [Many; 4],
-    w: [[Many; 2]; BLOCK],
+    /// Those of u, then those of v.
+    w: [[f64; 2 * LANES]; BLOCK],
 }
 
 impl Leap {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn new<const FUSED: bool>(group: &Group) -> Self {
-        let (mut n, mut w) = (group.n, [group.c; BLOCK]);
-        for k in (1..BLOCK).rev() {
-            let [u, v] = w[k];
+        let (mut n, mut w) = (group.n, [[0.0; 2 * LANES]; BLOCK]);
+        let [mut u, mut v] = group.c;
+        for w in w.iter_mut().rev() {
+            w[..LANES].copy_from_slice(&u);
+            w[LANES..].copy_from_slice(&v);
             for l in 0..LANES {
-                w[k - 1][0][l] = u[l] + add::<FUSED>(n[0][l], u[l], n[1][l] * v[l]);
-                w[k - 1][1][l] = v[l] + add::<FUSED>(n[3][l], v[l], n[2][l] * u[l]);
+                (u[l], v[l]) = (
+                    u[l] + add::<FUSED>(n[0][l], u[l], n[1][l] * v[l]),
+                    v[l] + add::<FUSED>(n[3][l], v[l], n[2][l] * u[l]),
+                );
             }
         }
         // (1 + N)² = 1 + 2N + N²

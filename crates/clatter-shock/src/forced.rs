@@ -147,6 +147,9 @@ pub(crate) struct Segment<'a> {
     bound: [f64; 3],
     /// Panels that may still be halved.
     panels: Cell<u32>,
+    /// The sinusoid added last and the motion over the last segment of sinusoids: pulses of a train are often of one length.
+    last_sine: Option<Sine>,
+    last_end: Option<(Phase, bool, (Propagator, Ramp))>,
 }
 
 /// The motion and the forcing at one instant.
@@ -170,6 +173,8 @@ impl<'a> Segment<'a> {
             sines: Vec::new(),
             bound: [0.0; 3],
             panels: Cell::new(PANELS),
+            last_sine: None,
+            last_end: None,
         }
     }
     /// Begins a segment of phase length `span` at `start` with forcing `constant` + `slope` τ.
@@ -189,16 +194,12 @@ impl<'a> Segment<'a> {
     }
     /// Adds a sin(φ + ντ), with e^(iφ) given.
     pub(crate) fn add_sine(&mut self, amplitude: f64, phase: Complex64, nu: f64) {
-        let m = self.modes;
-        let mu = Complex64::new(0.0, nu);
-        let (slow, fast) = if m.kappa == 0.0 {
-            (Complex64::new(-m.zeta, m.beta), Complex64::new(-m.zeta, -m.beta))
-        } else {
-            (Complex64::new(-m.sigma, 0.0), Complex64::new(-m.rho, 0.0))
+        let sine = match self.last_sine {
+            Some(last) if last.nu.to_bits() == nu.to_bits() => Sine { amplitude, phase, ..last },
+            _ => Sine::new(self.modes, amplitude, phase, nu),
         };
-        let (apart, across) = (slow - mu, (mu - fast).inv());
-        let steady = -across / apart;
-        self.sines.push(Sine { amplitude, phase, nu, apart, across, steady, size: steady.norm_sqr().sqrt() });
+        self.last_sine = Some(sine);
+        self.sines.push(sine);
         for (bound, factor) in self.bound.iter_mut().zip([1.0, nu, nu * nu]) {
             *bound += amplitude.abs() * factor;
         }
@@ -209,23 +210,41 @@ impl<'a> Segment<'a> {
     /// The motion after τ.
     pub(crate) fn sample(&self, phase: Phase) -> Sample {
         let tau = phase.hi;
-        self.sample_turned(phase, |sine, _| Complex64::cis(sine.nu * tau))
+        self.sample_turned(tau, &self.driven(phase), |sine, _| Complex64::cis(sine.nu * tau))
     }
     /// The motion at the end, with e^(iντ) of each sinusoid given.
-    pub(crate) fn sample_end(&self, phase: Phase, turned: impl Fn(usize) -> Complex64) -> Sample {
-        self.sample_turned(phase, |_, i| turned(i))
+    pub(crate) fn sample_end(&mut self, phase: Phase, turned: impl Fn(usize) -> Complex64) -> Sample {
+        if self.sines.is_empty() {
+            return self.sample_turned(phase.hi, &self.driven(phase), |_, i| turned(i));
+        }
+        let driven = match self.last_end {
+            Some((last, pushed, driven)) if last == phase && (pushed || !self.is_pushed()) => driven,
+            _ => self.driven(phase),
+        };
+        self.last_end = Some((phase, self.is_pushed(), driven));
+        self.sample_turned(phase.hi, &driven, |_, i| turned(i))
+    }
+    fn is_pushed(&self) -> bool {
+        self.constant != 0.0 || self.slope != 0.0
+    }
+    /// Free motion and, where there is a linear part, the response to it.
+    #[inline]
+    fn driven(&self, phase: Phase) -> (Propagator, Ramp) {
+        if self.is_pushed() {
+            return self.modes.driven(phase);
+        }
+        (self.modes.propagator(phase), Ramp { x0: 0.0, w0: 0.0, x1: 0.0, w1: 0.0 })
     }
     #[inline]
-    fn sample_turned(&self, phase: Phase, turned: impl Fn(&Sine, usize) -> Complex64) -> Sample {
-        let (tau, modes) = (phase.hi, self.modes);
-        let pushed = self.constant != 0.0 || self.slope != 0.0;
-        let (step, ramp) = if pushed {
-            modes.driven(phase)
-        } else {
-            (modes.propagator(phase), Ramp { x0: 0.0, w0: 0.0, x1: 0.0, w1: 0.0 })
-        };
+    fn sample_turned(
+        &self,
+        tau: f64,
+        (step, ramp): &(Propagator, Ramp),
+        turned: impl Fn(&Sine, usize) -> Complex64,
+    ) -> Sample {
+        let modes = self.modes;
         let mut s = self.linear_sample(tau, step.apply(modes.p, self.start));
-        if pushed {
+        if self.is_pushed() {
             s.m.x += self.constant * ramp.x0 + self.slope * ramp.x1;
             s.m.w += self.constant * ramp.w0 + self.slope * ramp.w1;
         }
@@ -234,7 +253,7 @@ impl<'a> Segment<'a> {
             let turned = turned(sine, i);
             let now = sine.phase * turned;
             s.add(sine, now, modes);
-            let from_rest = if short { sine.series(modes, tau) } else { sine.closed(modes, tau, turned, &step) };
+            let from_rest = if short { sine.series(modes, tau) } else { sine.closed(modes, tau, turned, step) };
             s.m.x += sine.amplitude * from_rest.x;
             s.m.w += sine.amplitude * from_rest.w;
         }
@@ -329,6 +348,13 @@ impl<'a> Segment<'a> {
     pub(crate) fn extremes(&self, k: usize, end: &Sample, interval: usize, range: &mut Range) {
         let modes = self.modes;
         let span = end.tau;
+        let begin = self.begin_sample();
+        let bent = self.sines.is_empty() && self.keeps_its_bend(k, &begin, end);
+        if bent && !self.turns_beyond(k, &begin, end, range) {
+            range.note(interval, 0.0, modes.quantity(k, self.start));
+            range.note(interval, span, self.value(k, end));
+            return;
+        }
         if self.is_free() {
             range.note_free(modes, k, self.start, span, interval);
             range.note(interval, span, self.value(k, end));
@@ -336,28 +362,24 @@ impl<'a> Segment<'a> {
         }
         range.note(interval, 0.0, modes.quantity(k, self.start));
         range.note(interval, span, self.value(k, end));
-        if self.sines.is_empty() {
-            self.linear_extremes(k, end, interval, range);
+        if !self.sines.is_empty() {
+            self.search(k, self.steady_bounds(k), &begin, end, interval, range);
+        } else if bent && self.slope != 0.0 {
+            self.turning_point(k, &begin, end, interval, range);
         } else {
-            self.search(k, self.steady_bounds(k), &self.begin_sample(), end, interval, range);
+            self.linear_extremes(k, begin, end, interval, range);
         }
+    }
+    /// Whether the bend of quantity `k`, here free motion, surely keeps its sign up to `end`: less than half a swing, at whose ends it has
+    /// one sign. (Of a longer decay that would be rounding.)
+    fn keeps_its_bend(&self, k: usize, begin: &Sample, end: &Sample) -> bool {
+        let (modes, span) = (self.modes, end.tau);
+        modes.beta * span < PI && modes.zeta * span < 4.0 && self.bend(k, begin) * self.bend(k, end) > 0.0
     }
     /// Linear forcing: the motion swings freely about the static one, x = c₀ + c₁(τ − 2ζ), y = c₁, A/ω = −(c₀ + c₁τ). The
     /// bend of a quantity is free motion, so its zeros are known, and between two of them the slope vanishes once at most.
-    fn linear_extremes(&self, k: usize, end: &Sample, interval: usize, range: &mut Range) {
+    fn linear_extremes(&self, k: usize, mut a: Sample, end: &Sample, interval: usize, range: &mut Range) {
         let (modes, span) = (self.modes, end.tau);
-        let mut a = self.begin_sample();
-        if self.slope != 0.0
-            && modes.beta * span < PI
-            && modes.zeta * span < 4.0
-            && self.bend(k, &a) * self.bend(k, end) > 0.0
-        {
-            // Less than half a swing, and the bend keeps its sign. (Of a longer decay it would be rounding.)
-            if self.turns_beyond(k, &a, end, range) {
-                self.turning_point(k, &a, end, interval, range);
-            }
-            return;
-        }
         let (bent, swing) = (a.steady, a.swing());
         let about = |tau: f64| match k {
             Modes::DISPLACEMENT => bent.x + self.slope * tau,
@@ -457,7 +479,7 @@ impl<'a> Segment<'a> {
         let (sa, sb) = (self.slope(k, a), self.slope(k, b));
         let (ba, bb) = (self.bend(k, a), self.bend(k, b));
         if ba * bb > 0.0 && ba.abs().min(bb.abs()) > 0.5 * m3 * h {
-            if sa * sb < 0.0 {
+            if self.turns_beyond(k, a, b, range) {
                 self.turning_point(k, a, b, interval, range);
             }
             return;
@@ -486,10 +508,19 @@ impl<'a> Segment<'a> {
     fn turning_point(&self, k: usize, a: &Sample, b: &Sample, interval: usize, range: &mut Range) {
         let (mut low, mut high) = (a.tau, b.tau);
         let (sa, sb) = (self.slope(k, a), self.slope(k, b));
-        let mut tau = low + (high - low) * sa / (sa - sb);
+        let mut tau = low + (high - low) * first_guess([sa, sb], [self.bend(k, a), self.bend(k, b)], high - low);
         for _ in 0..60 {
             let s = self.sample(Phase::product(1.0, tau));
             let (value, slope, bend) = (self.value(k, &s), self.slope(k, &s), self.bend(k, &s));
+            let step = -slope / bend;
+            // At the end of the step the value is known to its third order.
+            let next = tau + step;
+            let near =
+                next > low && next < high && (step * step * step * self.jerk(k, &s)).abs() <= 1e-17 * value.abs();
+            if near {
+                range.note(interval, next, value + 0.5 * step * slope);
+                return;
+            }
             range.note(interval, tau, value);
             // What another step could still add.
             if slope * slope <= 1e-17 * (bend * value).abs() {
@@ -500,12 +531,31 @@ impl<'a> Segment<'a> {
             } else {
                 high = tau;
             }
-            tau -= slope / bend;
+            tau = next;
             if !(tau > low && tau < high) {
                 tau = 0.5 * (low + high);
             }
         }
     }
+    /// Bound on |q‴|.
+    fn jerk(&self, k: usize, s: &Sample) -> f64 {
+        let modes = self.modes;
+        let input = |j: usize| modes.rows[j][1].abs();
+        modes.size(k + 3, s.m) + input(k + 2) * s.f.abs() + input(k + 1) * s.f_slope.abs() + input(k) * self.bound[2]
+    }
+}
+
+/// Where the slope vanishes, as a share of the way from one end to the other, `h` apart: a step from the chord on the cubic of both slopes
+/// and bends.
+fn first_guess([sa, sb]: [f64; 2], [ba, bb]: [f64; 2], h: f64) -> f64 {
+    let chord = sa / (sa - sb);
+    // The cubic is the chord and t (1 − t) (c (1 − t) − d t).
+    let (c, d) = (h * ba - (sb - sa), h * bb - (sb - sa));
+    let (t, r) = (chord, 1.0 - chord);
+    let off = t * r * (c * r - d * t);
+    let rate = (sb - sa) + (r - t) * (c * r - d * t) - t * r * (c + d);
+    let guess = t - off / rate;
+    if guess > 0.0 && guess < 1.0 { guess } else { chord }
 }
 
 impl Sample {
@@ -525,6 +575,17 @@ impl Sample {
 }
 
 impl Sine {
+    fn new(modes: &Modes, amplitude: f64, phase: Complex64, nu: f64) -> Self {
+        let mu = Complex64::new(0.0, nu);
+        let (slow, fast) = if modes.kappa == 0.0 {
+            (Complex64::new(-modes.zeta, modes.beta), Complex64::new(-modes.zeta, -modes.beta))
+        } else {
+            (Complex64::new(-modes.sigma, 0.0), Complex64::new(-modes.rho, 0.0))
+        };
+        let (apart, across) = (slow - mu, (mu - fast).inv());
+        let steady = -across / apart;
+        Self { amplitude, phase, nu, apart, across, steady, size: steady.norm_sqr().sqrt() }
+    }
     /// Response from rest to sin(φ + ντ) by its power series.
     fn series(&self, modes: &Modes, tau: f64) -> Motion {
         let (damp, square, swing) = (2.0 * modes.zeta * tau, tau * tau, self.nu * tau);

@@ -253,7 +253,7 @@ fn largest_amplification(damping: DampingRatio, limit: Limit, shape: Shape) -> R
     Ok(if top > long { (top, phase) } else { (long, f64::INFINITY) })
 }
 
-/// What a shock table can do.
+/// What a shock table can do, in the units of the component; a limit may be infinite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShockTable {
     /// Shortest half-sine.
@@ -277,39 +277,198 @@ pub struct EquivalentPulse {
 
 impl ShockTable {
     /// The half-sine of this table that gives a component the same peak absolute acceleration as `response`, and the same peak
-    /// relative displacement to within `tolerance` (0.01: 1 %). Where many do, the longest: it needs the least
-    /// acceleration.
+    /// relative displacement to within `tolerance` (0.01: 1 %). Where many do, the one of least acceleration.
     ///
+    /// # Method
+    ///
+    /// Each duration D has one amplitude a(D) that gives the acceleration, and with it a mismatch of displacement. From durations
+    /// 1/48 of an octave apart, and up to 128 periods no more than 1/16 of a period, the ends of the ranges within tolerance and
+    /// limits are bisected wherever the mismatch passes ± `tolerance`, or a(D) a limit, from one to the next: also where
+    /// the whole range lies between two of them. Smallest mismatches and amplitudes are found by golden sections.
+    ///
+    /// # Accuracy
+    ///
+    /// The amplitude is that of the duration to 10⁻¹², and above the least one by at most 10⁻¹². A range is missed only if it is
+    /// entered and left between two neighbors, one of several there.
+    ///
+    /// # Examples
+    ///
+    /// Without damping A = ω²z whatever the pulse: all durations do, and least acceleration is asked where a half-sine is
+    /// amplified most, 1.768 times at 0.81 periods.
+    ///
+    /// ```
+    /// # use clatter_shock::{DampingRatio, ShockTable, Suspension, VelocityShock, VelocityShocks};
+    /// let mount = Suspension::from_hz(100.0, DampingRatio::new(0.0)?)?;
+    /// let drop = VelocityShocks::new(vec![VelocityShock { time: 0.0, delta_v: 2.0 }])?.respond(&mount);
+    /// let table = ShockTable { shortest: 2e-4, longest: 2e-2, acceleration: 5e4, velocity_change: 20.0 };
+    /// let pulse = table.equivalent_half_sine(&mount, &drop, 0.01)?.pulse;
+    /// assert!((pulse.duration - 8.0994e-3).abs() < 1e-7);
+    /// assert!((drop.absolute_acceleration.magnitude() / pulse.amplitude - 1.768458).abs() < 1e-6);
+    /// # Ok::<(), clatter_shock::Error>(())
+    /// ```
     /// # Errors
     ///
-    /// [`Error::NoEquivalent`] says that there is none, and how near the table comes; [`Error::Quantity`] for a table that can do
-    /// nothing.
+    /// [`Error::NoEquivalent`] says that there is none, and how near the table comes; [`Error::Quantity`] unless 0 < shortest ≤ longest,
+    /// the limits are above 0 and `tolerance` is finite and above 0, and for a response that is at rest or not finite.
     pub fn equivalent_half_sine(
         &self,
         suspension: &Suspension,
         response: &Response,
         tolerance: f64,
     ) -> Result<EquivalentPulse, Error> {
-        crate::error::positive("shortest pulse", self.shortest)?;
-        crate::error::positive("longest pulse", self.longest)?;
+        crate::error::positive("shortest pulse of the table", self.shortest)?;
+        crate::error::positive("longest pulse of the table", self.longest)?;
+        if self.longest < self.shortest {
+            let (name, value) = ("longest pulse of the table", self.longest);
+            return Err(Error::Quantity { name, value, allowed: "at least the shortest" });
+        }
+        for (name, value) in
+            [("acceleration of the table", self.acceleration), ("velocity change of the table", self.velocity_change)]
+        {
+            if value.is_nan() || value <= 0.0 {
+                return Err(Error::Quantity { name, value, allowed: "> 0" });
+            }
+        }
+        crate::error::positive("tolerance of the displacement", tolerance)?;
         let (a, z) = (response.absolute_acceleration.magnitude(), response.relative_displacement.magnitude());
         crate::error::positive("peak acceleration to reproduce", a)?;
-        let steps = ((self.longest / self.shortest).log2() * 2.0 * STEPS).ceil().clamp(1.0, 1e4);
-        let (mut i, mut nearest) = (steps, f64::INFINITY);
-        while i >= 0.0 {
-            let duration = self.shortest * (self.longest / self.shortest).powf(i / steps);
-            let mut pulse = Pulse { shape: Shape::HalfSine, amplitude: 1.0, duration, start: 0.0 };
-            let unit = Pulses::new(&[pulse])?.respond(suspension);
-            pulse.amplitude = a / unit.absolute_acceleration.magnitude();
-            let displacement_mismatch = pulse.amplitude * unit.relative_displacement.magnitude() / z - 1.0;
-            if pulse.amplitude <= self.acceleration && pulse.velocity_change() <= self.velocity_change {
-                if displacement_mismatch.abs() <= tolerance {
-                    return Ok(EquivalentPulse { pulse, displacement_mismatch });
-                }
-                nearest = nearest.min(displacement_mismatch.abs());
-            }
-            i -= 1.0;
+        crate::error::positive("peak displacement to reproduce", z)?;
+        Match { table: self, suspension, acceleration: a, displacement: z, tolerance }.find()
+    }
+}
+
+/// The search for an equivalent pulse.
+struct Match<'a> {
+    table: &'a ShockTable,
+    suspension: &'a Suspension,
+    acceleration: f64,
+    displacement: f64,
+    tolerance: f64,
+}
+
+/// Durations tried first, per octave, and per period up to so many periods.
+const DURATIONS: f64 = 48.0;
+const PER_PERIOD: f64 = 16.0;
+const PERIODS: f64 = 128.0;
+/// Durations tried first at most, for tables that no workshop has.
+const MOST_DURATIONS: f64 = 1e4;
+
+impl Match<'_> {
+    fn find(&self) -> Result<EquivalentPulse, Error> {
+        let mut list = self.durations()?;
+        let mut between = Vec::new();
+        for pair in list.windows(2) {
+            self.crossings(&pair[0], &pair[1], &mut between)?;
         }
-        Err(Error::NoEquivalent { nearest })
+        let (size, amplitude) =
+            (|e: &EquivalentPulse| e.displacement_mismatch.abs(), |e: &EquivalentPulse| e.pulse.amplitude);
+        for near in list.windows(3) {
+            let [before, here, after] = [&near[0], &near[1], &near[2]];
+            let ends = (before.pulse.duration, after.pulse.duration);
+            if !self.fits(here) && size(here) <= size(before).min(size(after)) {
+                let least = self.least(ends, size)?;
+                self.crossings(before, &least, &mut between)?;
+                self.crossings(&least, after, &mut between)?;
+                between.push(least);
+            }
+            if near.iter().all(|e| self.fits(e)) && amplitude(here) <= amplitude(before).min(amplitude(after)) {
+                between.push(self.least(ends, amplitude)?);
+            }
+        }
+        list.append(&mut between);
+        let fitting = list.iter().filter(|e| self.fits(e));
+        if let Some(least) = fitting.min_by(|a, b| amplitude(a).total_cmp(&amplitude(b))) {
+            return Ok(*least);
+        }
+        let nearest = list.iter().filter(|e| self.is_possible(e)).map(size).fold(f64::INFINITY, f64::min);
+        Err(Error::NoEquivalent { nearest, tolerance: self.tolerance })
+    }
+    /// The pulses of the durations tried first.
+    fn durations(&self) -> Result<Vec<EquivalentPulse>, Error> {
+        let ShockTable { shortest, longest, .. } = *self.table;
+        let period = TAU / self.suspension.omega();
+        let ratio = 2_f64.powf(((longest / shortest).log2() / MOST_DURATIONS).max(1.0 / DURATIONS));
+        let (mut list, mut duration) = (Vec::new(), shortest);
+        while duration < longest {
+            list.push(self.at(duration)?);
+            let fine = if duration < PERIODS * period { period / PER_PERIOD } else { f64::INFINITY };
+            duration += (duration * (ratio - 1.0)).min(fine);
+        }
+        list.push(self.at(longest)?);
+        Ok(list)
+    }
+    /// The pulse of this duration that gives the acceleration.
+    fn at(&self, duration: f64) -> Result<EquivalentPulse, Error> {
+        let mut pulse = Pulse { shape: Shape::HalfSine, amplitude: 1.0, duration, start: 0.0 };
+        let unit = Pulses::new(&[pulse])?.respond(self.suspension);
+        pulse.amplitude = self.acceleration / unit.absolute_acceleration.magnitude();
+        let reached = pulse.amplitude * unit.relative_displacement.magnitude();
+        Ok(EquivalentPulse { pulse, displacement_mismatch: reached / self.displacement - 1.0 })
+    }
+    fn is_possible(&self, e: &EquivalentPulse) -> bool {
+        e.pulse.amplitude <= self.table.acceleration && e.pulse.velocity_change() <= self.table.velocity_change
+    }
+    fn fits(&self, e: &EquivalentPulse) -> bool {
+        self.is_possible(e) && e.displacement_mismatch.abs() <= self.tolerance
+    }
+    /// Adds where ranges of pulses that fit end between two durations.
+    fn crossings(
+        &self,
+        one: &EquivalentPulse,
+        other: &EquivalentPulse,
+        list: &mut Vec<EquivalentPulse>,
+    ) -> Result<(), Error> {
+        for bound in 0..4 {
+            if (self.excess(one, bound) > 0.0) != (self.excess(other, bound) > 0.0) {
+                list.push(self.crossing(*one, *other, bound)?);
+            }
+        }
+        Ok(())
+    }
+    /// How far a pulse is above each of the bounds.
+    fn excess(&self, e: &EquivalentPulse, bound: usize) -> f64 {
+        match bound {
+            0 => e.displacement_mismatch - self.tolerance,
+            1 => -e.displacement_mismatch - self.tolerance,
+            2 => e.pulse.amplitude - self.table.acceleration,
+            _ => e.pulse.velocity_change() - self.table.velocity_change,
+        }
+    }
+    /// The last pulse within a bound, on the way from one that is to one that is not.
+    fn crossing(
+        &self,
+        mut within: EquivalentPulse,
+        mut beyond: EquivalentPulse,
+        bound: usize,
+    ) -> Result<EquivalentPulse, Error> {
+        if self.excess(&within, bound) > 0.0 {
+            std::mem::swap(&mut within, &mut beyond);
+        }
+        loop {
+            let (a, b) = (within.pulse.duration, beyond.pulse.duration);
+            let middle = 0.5 * a + 0.5 * b;
+            if middle <= a.min(b) || middle >= a.max(b) {
+                return Ok(within);
+            }
+            let e = self.at(middle)?;
+            *(if self.excess(&e, bound) <= 0.0 { &mut within } else { &mut beyond }) = e;
+        }
+    }
+    /// The least of some size between two durations, by a golden section.
+    fn least(
+        &self,
+        (mut low, mut high): (f64, f64),
+        size: impl Fn(&EquivalentPulse) -> f64,
+    ) -> Result<EquivalentPulse, Error> {
+        let golden = 0.5 * (5_f64.sqrt() - 1.0);
+        for _ in 0..40 {
+            let (a, b) = (high - golden * (high - low), low + golden * (high - low));
+            if size(&self.at(a)?) > size(&self.at(b)?) {
+                low = a;
+            } else {
+                high = b;
+            }
+        }
+        self.at(0.5 * (low + high))
     }
 }

@@ -68,3 +68,37 @@ fn half_sine_is_exact_at_resonance_and_at_critical_damping() {
     }
     assert!(worst[0] > 0.0, "not compared with itself");
 }
+
+/// Turning points within pulses and after them, of both signs, on mounts from slow to stiff, at resonance and at critical damping.
+#[test]
+fn peaks_of_pulses_are_exact() {
+    let data = data();
+    let cases = data["pulse_peaks"].as_array().expect("cases");
+    assert_eq!(cases.len(), 140, "cases");
+    for c in cases {
+        let n = |k: &str| number(&c[k]);
+        let (zeta, omega) = (n("zeta"), n("omega"));
+        let shape = match c["shape"].as_str().expect("a shape") {
+            "half-sine" => Shape::HalfSine,
+            "haversine" => Shape::Haversine,
+            "triangle" => Shape::Triangle,
+            "trapezoid" => Shape::Trapezoid { ramp: 0.25 },
+            other => panic!("{other}"),
+        };
+        let suspension = Suspension::new(omega, DampingRatio::new(zeta).expect("damping")).expect("suspension");
+        let pulses = Pulses::new(&[Pulse { shape, amplitude: 1.0, duration: 1.0, start: 0.0 }]).expect("pulse");
+        let response = pulses.respond(&suspension);
+        for (name, got, high, low) in [
+            ("ωz", response.pseudo_velocity(), n("x_high"), n("x_low")),
+            ("A/ω", response.acceleration_over_omega(), n("a_high"), n("a_low")),
+        ] {
+            let allowed = PULSE.error * high.max(-low);
+            for (got, want) in [(got.positive.value, high), (got.negative.value, low)] {
+                assert!(
+                    (got - want).abs() <= allowed,
+                    "{name} of {shape:?} at damping {zeta:?}, omega {omega:?}: {got:?}, not {want:?}"
+                );
+            }
+        }
+    }
+}

@@ -2,7 +2,8 @@
 
 use clatter::{Bar, Start};
 use clatter_shock::{
-    DamageBoundary, DampingRatio, Error, Limit, Shape, ShockTable, Suspension, Trial, respond, three_way_rule,
+    DamageBoundary, DampingRatio, Error, Limit, Pulse, Pulses, Shape, ShockTable, Suspension, Trial, respond,
+    three_way_rule,
 };
 use std::f64::consts::FRAC_PI_2;
 
@@ -76,14 +77,137 @@ fn an_equivalent_half_sine_or_none() {
     let component = mount(0.05);
     let clatter = respond(&bar, &start, 1.0, &component).expect("response").response;
     let found = table.equivalent_half_sine(&component, &clatter, 0.01).expect("pulse");
-    let again = clatter_shock::Pulses::new(&[found.pulse]).expect("pulses").respond(&component);
+    let again = Pulses::new(&[found.pulse]).expect("pulses").respond(&component);
     assert!((again.absolute_acceleration.magnitude() / clatter.absolute_acceleration.magnitude() - 1.0).abs() < 1e-12);
     assert!((again.relative_displacement.magnitude() / clatter.relative_displacement.magnitude() - 1.0).abs() <= 0.01);
     let weak = ShockTable { acceleration: 10.0, ..table };
     assert_eq!(
         weak.equivalent_half_sine(&component, &clatter, 0.01),
-        Err(Error::NoEquivalent { nearest: f64::INFINITY })
+        Err(Error::NoEquivalent { nearest: f64::INFINITY, tolerance: 0.01 })
     );
+}
+
+/// What a half-sine does, the acceleration first.
+fn done(component: &Suspension, amplitude: f64, duration: f64) -> [f64; 2] {
+    let pulse = Pulse { shape: Shape::HalfSine, amplitude, duration, start: 0.0 };
+    let response = Pulses::new(&[pulse]).expect("pulse").respond(component);
+    [response.absolute_acceleration.magnitude(), response.relative_displacement.magnitude()]
+}
+
+/// No duration of a fine grid needs less acceleration and fits, and the pulse found does fit. Once the longest was taken, which needs
+/// half as much again.
+#[test]
+fn the_equivalent_half_sine_needs_the_least_acceleration() {
+    let start = Start::new([-4.85, -4.85], 2e-3).expect("start");
+    for (q, e, zeta, tolerance) in [
+        (0.5, 0.3, 0.05, 0.01),
+        (0.5, 0.3, 0.0, 0.01),
+        (0.73, 0.2, 0.3, 0.003),
+        (0.5, 0.3, 0.7, 0.1),
+        (0.67, 0.15, 0.05, 1e-6),
+    ] {
+        let component = mount(zeta);
+        let clatter = respond(&Bar::new(q, e).expect("bar"), &start, 1.0, &component).expect("response").response;
+        let (a, z) = (clatter.absolute_acceleration.magnitude(), clatter.relative_displacement.magnitude());
+        for (acceleration, velocity_change) in [(5e4, 20.0), (f64::INFINITY, 8.0), (2500.0, f64::INFINITY)] {
+            let table = ShockTable { shortest: 2e-4, longest: 5e-2, acceleration, velocity_change };
+            let found = table.equivalent_half_sine(&component, &clatter, tolerance);
+            let mut least = f64::INFINITY;
+            for i in 0..=5000 {
+                let duration = 2e-4 * 250_f64.powf(f64::from(i) / 5000.0);
+                let [unit_a, unit_z] = done(&component, 1.0, duration);
+                let amplitude = a / unit_a;
+                let possible =
+                    amplitude <= acceleration && amplitude * duration * Shape::HalfSine.area() <= velocity_change;
+                if possible && (amplitude * unit_z / z - 1.0).abs() <= tolerance {
+                    least = least.min(amplitude);
+                }
+            }
+            let name =
+                format!("q {q}, damping {zeta}, tolerance {tolerance:e}, up to {acceleration} and {velocity_change}");
+            let Ok(found) = found else {
+                assert!(least.is_infinite(), "{name}: {found:?}, not {least}");
+                continue;
+            };
+            let pulse = found.pulse;
+            assert!(pulse.amplitude <= least * (1.0 + 1e-12), "{name}: {}, not {least}", pulse.amplitude);
+            assert!(pulse.amplitude <= acceleration && pulse.velocity_change() <= velocity_change, "{name}: {found:?}");
+            let [got_a, got_z] = done(&component, pulse.amplitude, pulse.duration);
+            assert!((got_a / a - 1.0).abs() < 1e-12, "{name}: {got_a}, not {a}");
+            assert!((got_z / z - 1.0).abs() <= tolerance + 1e-12, "{name}: {got_z}, not {z}");
+            // The grid comes as near as its steps.
+            assert!(
+                least.is_infinite() || pulse.amplitude >= 0.999 * least,
+                "{name}: {}, not {least}",
+                pulse.amplitude
+            );
+        }
+    }
+}
+
+/// A tolerance far below what durations of a grid differ by: the pulse asked for is found all the same, between them.
+#[test]
+fn an_equivalent_half_sine_between_the_durations_of_a_grid() {
+    let table =
+        ShockTable { shortest: 1e-4, longest: 1e-2, acceleration: f64::INFINITY, velocity_change: f64::INFINITY };
+    for zeta in [0.05, 0.3, 1.0, 2.0] {
+        let component = mount(zeta);
+        for duration in [1.234e-3, 4.321e-3, 8.765e-3] {
+            let pulse = Pulse { shape: Shape::HalfSine, amplitude: 1000.0, duration, start: 0.0 };
+            let asked = Pulses::new(&[pulse]).expect("pulse").respond(&component);
+            let found = table.equivalent_half_sine(&component, &asked, 1e-10).expect("the pulse itself").pulse;
+            assert!(found.amplitude <= pulse.amplitude * (1.0 + 1e-8), "damping {zeta}: {found:?}, not {pulse:?}");
+        }
+    }
+    // Of many periods, of which 1/48 of an octave is most of one.
+    let (component, table) = (mount(2e-3), ShockTable { shortest: 0.59, longest: 0.62, ..table });
+    for i in 0..21 {
+        let duration = 0.592 + 0.0013 * f64::from(i);
+        let pulse = Pulse { shape: Shape::HalfSine, amplitude: 1000.0, duration, start: 0.0 };
+        let asked = Pulses::new(&[pulse]).expect("pulse").respond(&component);
+        let found = table.equivalent_half_sine(&component, &asked, 1e-9).expect("the pulse itself").pulse;
+        assert!(found.amplitude <= pulse.amplitude * (1.0 + 1e-7), "{duration} s: {found:?}, not {pulse:?}");
+    }
+}
+
+#[test]
+fn tables_that_are_none_are_refused() {
+    let component = mount(0.05);
+    let pulse = Pulse { shape: Shape::HalfSine, amplitude: 1000.0, duration: 3e-3, start: 0.0 };
+    let asked = Pulses::new(&[pulse]).expect("pulse").respond(&component);
+    let table = ShockTable { shortest: 1e-4, longest: 1e-2, acceleration: 1e4, velocity_change: 10.0 };
+    for (table, tolerance, message) in [
+        (ShockTable { shortest: 0.0, ..table }, 0.01, "shortest pulse of the table = 0.0 is not finite and > 0"),
+        (ShockTable { shortest: f64::NAN, ..table }, 0.01, "shortest pulse of the table = NaN is not finite and > 0"),
+        (
+            ShockTable { longest: f64::INFINITY, ..table },
+            0.01,
+            "longest pulse of the table = inf is not finite and > 0",
+        ),
+        (ShockTable { longest: 5e-5, ..table }, 0.01, "longest pulse of the table = 5e-5 is not at least the shortest"),
+        (ShockTable { acceleration: -1.0, ..table }, 0.01, "acceleration of the table = -1.0 is not > 0"),
+        (ShockTable { acceleration: f64::NAN, ..table }, 0.01, "acceleration of the table = NaN is not > 0"),
+        (ShockTable { velocity_change: f64::NAN, ..table }, 0.01, "velocity change of the table = NaN is not > 0"),
+        (ShockTable { velocity_change: 0.0, ..table }, 0.01, "velocity change of the table = 0.0 is not > 0"),
+        (table, f64::NAN, "tolerance of the displacement = NaN is not finite and > 0"),
+        (table, -0.01, "tolerance of the displacement = -0.01 is not finite and > 0"),
+    ] {
+        let refused = table.equivalent_half_sine(&component, &asked, tolerance).expect_err(message);
+        assert_eq!(refused.to_string(), message);
+    }
+    // One duration alone is a table, and too far from the one asked for by its own mismatch.
+    let one = ShockTable { shortest: 6e-3, longest: 6e-3, ..table };
+    let Err(Error::NoEquivalent { nearest, .. }) = one.equivalent_half_sine(&component, &asked, 1e-5) else {
+        panic!("one duration is another pulse");
+    };
+    let ratio = |[a, z]: [f64; 2]| z / a;
+    let mismatch = ratio(done(&component, 1.0, 6e-3)) / ratio(done(&component, 1.0, 3e-3)) - 1.0;
+    assert!((nearest / mismatch.abs() - 1.0).abs() < 1e-9, "{nearest}, not {mismatch}");
+    let told = |nearest| Error::NoEquivalent { nearest, tolerance: 1e-4 }.to_string();
+    let expected = "no half-sine of this shock table is equivalent: at equal acceleration the displacement is off by 0.0101 % at \
+                    best, more than the 0.01 % allowed";
+    assert_eq!(told(1.001e-4), expected);
+    assert!(told(f64::INFINITY).ends_with("are beyond its acceleration or velocity change"));
 }
 
 #[test]

@@ -99,3 +99,37 @@ fn a_strong_short_shock_on_a_mount() {
         assert_eq!(format!("{:.2}", r.relative_displacement.magnitude() * 1e3), displacement, "at {damping}");
     }
 }
+
+/// A base that accelerates upward presses its component down, z < 0: the equivalent static acceleration is upward, +, and the swing back −.
+#[test]
+fn signs_of_the_equivalent_static_acceleration() {
+    for (shape, fd) in [(Shape::TerminalPeakSawtooth, 4.2), (Shape::InitialPeakSawtooth, 0.7), (Shape::Triangle, 0.1)] {
+        for damping in [0.05, 0.5] {
+            let suspension = Suspension::from_hz(1.0, zeta(damping)).expect("mount");
+            let of = |amplitude| {
+                let pulses = Pulses::new(&[Pulse { shape, amplitude, duration: fd, start: 0.0 }]).expect("pulse");
+                let frequencies = Frequencies::list(vec![1.0]).expect("frequency");
+                let quantity = Quantity::EquivalentStaticAcceleration;
+                (pulses.respond(&suspension), pulses.spectrum(&frequencies, suspension.damping(), quantity))
+            };
+            let (up, up_spectrum) = of(3.0);
+            let (down, down_spectrum) = of(-3.0);
+            let got = up.equivalent_static_acceleration();
+            let (most, back) = (got.positive.value, -got.negative.value);
+            let name = format!("{shape:?} at damping {damping}");
+            assert!(back > 0.0 && most > 1.05 * back, "{name}: +{most}, -{back}");
+            // Each a product of the same peak, rounded another way.
+            let close = |a: f64, b: f64| assert!((a - b).abs() <= 1e-14 * most, "{name}: {a}, not {b}");
+            let square = suspension.omega() * suspension.omega();
+            close(most, -square * up.relative_displacement.negative.value);
+            close(back, square * up.relative_displacement.positive.value);
+            close(got.positive.time, up.relative_displacement.negative.time);
+            close(up_spectrum.positive[0], most);
+            close(up_spectrum.negative[0], back);
+            close(down_spectrum.positive[0], back);
+            close(down_spectrum.negative[0], most);
+            close(down.equivalent_static_acceleration().positive.value, back);
+            close(-down.equivalent_static_acceleration().negative.value, most);
+        }
+    }
+}
