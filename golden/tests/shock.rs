@@ -148,7 +148,8 @@ fn rows(path: &str, value: &Value, text: &mut String) {
 }
 
 fn numbers() -> Value {
-    serde_json::from_str(&clatter_report::shock_numbers().unwrap()).unwrap()
+    let json = clatter_report::shock_numbers().expect("the numbers of the page");
+    serde_json::from_str(&json).expect("JSON")
 }
 
 /// Every number of the page, as it is printed, but those of the equivalent pulse.

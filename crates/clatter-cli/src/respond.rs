@@ -68,7 +68,7 @@ pub(crate) struct Args {
     /// Coefficient of restitution, in [0, 1]: rebound speed of an end over its approach speed
     #[arg(long, value_name = "E", allow_hyphen_values = true, value_parser = inputs::restitution, required_unless_present_any = FILES, requires = "inertia")]
     e: Option<f64>,
-    /// Position of the component, in [-1, 1]: -1 is the end that strikes first, 0 the middle, 1 the other end
+    /// Position of the component, in [-1, 1]: -1 is end a, which strikes first, 0 the middle, 1 end b
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = inputs::position, required_unless_present_any = FILES)]
     at: Option<f64>,
     /// Natural angular frequency of the component (2π times its frequency), in v0/h0; in rad/s with --model or a file
@@ -219,12 +219,13 @@ impl Args {
             (Driven::Bar { bar, start }, train.response, train.shocks, Some(train.omitted))
         };
         let pulses = matches!(driven, Driven::Pulses(_) | Driven::Drop { model: ModelName::Compliant, .. });
-        let equivalent = match self.equivalent_pulse {
-            false => None,
-            true => match self.shock_table.equivalent_half_sine(&suspension, &response, EQUIVALENT) {
+        let equivalent = if self.equivalent_pulse {
+            match self.shock_table.equivalent_half_sine(&suspension, &response, EQUIVALENT) {
                 Err(error) if !matches!(error, clatter_shock::Error::NoEquivalent { .. }) => return Err(error.into()),
                 answer => Some(answer),
-            },
+            }
+        } else {
+            None
         };
         Ok(Shaken { args: self, driven, suspension, response, shocks, pulses, omitted, equivalent })
     }
@@ -478,7 +479,7 @@ impl Shaken<'_> {
             clatter_free: at_once.map(|[flat, _]| self.impulse(flat).into()),
             standard: at_once.map(|[_, standard]| self.impulse(standard).into()),
             gain: self.gain().map(Json),
-            equivalent_pulse: self.equivalent.as_ref().map(|e| e.as_ref().ok().map(EquivalentJson::new)),
+            equivalent_pulse: self.equivalent.as_ref().map(EquivalentJson::new),
             no_equivalent_pulse: self.equivalent.as_ref().and_then(|e| e.as_ref().err().map(ToString::to_string)),
         }
     }
@@ -518,7 +519,7 @@ struct Answer<'a> {
     gain: Option<Json>,
     /// Where it is asked for; null, with the reason, where there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
-    equivalent_pulse: Option<Option<EquivalentJson>>,
+    equivalent_pulse: Option<EquivalentJson>,
     #[serde(skip_serializing_if = "Option::is_none")]
     no_equivalent_pulse: Option<String>,
 }
@@ -579,19 +580,25 @@ impl<'a> DrivenJson<'a> {
 }
 
 #[derive(Serialize)]
-struct EquivalentJson {
-    shape: &'static str,
-    acceleration_m_s2: Json,
-    acceleration_g: Json,
-    duration_s: Json,
-    velocity_change_m_s: Json,
-    /// Its relative displacement over that of the component, less 1.
-    displacement_mismatch: Json,
+#[serde(untagged)]
+enum EquivalentJson {
+    /// Null.
+    None,
+    HalfSine {
+        shape: &'static str,
+        acceleration_m_s2: Json,
+        acceleration_g: Json,
+        duration_s: Json,
+        velocity_change_m_s: Json,
+        /// Its relative displacement over that of the component, less 1.
+        displacement_mismatch: Json,
+    },
 }
 
 impl EquivalentJson {
-    fn new(EquivalentPulse { pulse, displacement_mismatch }: &EquivalentPulse) -> Self {
-        Self {
+    fn new(equivalent: &Result<EquivalentPulse, clatter_shock::Error>) -> Self {
+        let Ok(EquivalentPulse { pulse, displacement_mismatch }) = equivalent else { return Self::None };
+        Self::HalfSine {
             shape: "half-sine",
             acceleration_m_s2: Json(pulse.amplitude),
             acceleration_g: Json(pulse.amplitude / STANDARD_GRAVITY_M_S2),

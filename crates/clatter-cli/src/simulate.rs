@@ -61,7 +61,7 @@ pub(crate) struct Args {
     e: f64,
     #[command(flatten)]
     drop: DropArgs,
-    /// Also give the velocity shocks at this position, in [-1, 1]; may be given several times
+    /// Also give the velocity shocks at this position, in [-1, 1]: -1 is end a, 0 the middle, 1 end b; may be given several times
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = inputs::position)]
     at: Vec<f64>,
     /// Also write the whole motion to a file, ending in .csv, .json or .svg; what was there is replaced once the new file is

@@ -137,10 +137,11 @@ impl<R: BufRead> Lines<R> {
 }
 
 /// Steps in time, each judged beside its neighbors.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Steps {
     /// Line and length: the one to be judged, and as many before and after it as there are, up to [`NEIGHBORS`].
     window: VecDeque<(usize, f64)>,
+    shortest: f64,
     judged: usize,
     found: Vec<Finding>,
 }
@@ -152,24 +153,32 @@ const MISSING: f64 = 1.5;
 /// A step longer than this many usual ones is a gap wherever it is.
 const GAP: f64 = 5.0;
 
+impl Default for Steps {
+    fn default() -> Self {
+        Self { window: VecDeque::new(), shortest: f64::INFINITY, judged: 0, found: Vec::new() }
+    }
+}
+
 impl Steps {
     fn add(&mut self, line: usize, seconds: f64) {
         self.window.push_back((line, seconds));
+        self.shortest = self.shortest.min(seconds);
         if self.window.len() <= 2 * NEIGHBORS {
             return;
         }
         self.judge_to(NEIGHBORS + 1);
-        self.window.pop_front();
+        if self.window.pop_front().is_some_and(|step| step.1 <= self.shortest) {
+            self.shortest = self.window.iter().fold(f64::INFINITY, |least, step| least.min(step.1));
+        }
         self.judged -= 1;
     }
     /// Judges the steps of the window before the one of this number.
     fn judge_to(&mut self, number: usize) {
-        let shortest = self.window.iter().fold(f64::INFINITY, |least, step| least.min(step.1));
         while self.judged < number {
             let (line, seconds) = self.window[self.judged];
             self.judged += 1;
             // Most steps need no sorting.
-            if seconds <= MISSING * shortest || self.found.len() == MOST_FINDINGS {
+            if seconds <= MISSING * self.shortest || self.found.len() == MOST_FINDINGS {
                 continue;
             }
             let mut sorted: Vec<f64> = self.window.iter().map(|step| step.1).collect();
@@ -200,6 +209,8 @@ struct Grid {
     /// Power of ten of the last digit printed of any time, and the most significant digits of one: formats keep one or the other.
     place: i32,
     digits: i32,
+    /// The last power of ten that was asked for.
+    power: (i32, f64),
     /// Steps that keep every time so far within the band about an even grid.
     slowest: f64,
     fastest: f64,
@@ -214,6 +225,7 @@ impl Default for Grid {
             end: 0.0,
             place: i32::MAX,
             digits: 0,
+            power: (0, 1.0),
             slowest: f64::INFINITY,
             fastest: 0.0,
         }
@@ -249,7 +261,10 @@ impl Grid {
             let steps = self.count as f64;
             let mean = (time - self.start) / steps;
             let place = self.place.max(stamp.place + stamp.digits - self.digits);
-            let printed = stamp.unit * 10_f64.powi(place);
+            if place != self.power.0 {
+                self.power = (place, 10_f64.powi(place));
+            }
+            let printed = stamp.unit * self.power.1;
             let band = if printed <= COARSE * mean { printed.max(UNEVEN * mean) } else { UNEVEN * mean } / steps;
             (self.slowest, self.fastest) = (self.slowest.min(mean + band), self.fastest.max(mean - band));
         }
