@@ -241,7 +241,7 @@ fn lists_that_are_none_are_told_by_file_and_line() {
     let folder = tempfile::tempdir().unwrap();
     let pulses = "shape,amplitude_m_s2,duration_s,start_s\n";
     for (flag, text, said) in [
-        ("shocks-file", "", "line 0: no rows; the first line is time_s,delta_v_m_s, a row for each follows"),
+        ("shocks-file", "", "line 1: no rows; the first line is time_s,delta_v_m_s, a row for each follows"),
         (
             "shocks-file",
             "time_s,delta_v_m_s\n",

@@ -248,7 +248,7 @@ pub(crate) fn height_gap(text: &str) -> Result<f64, String> {
 /// ω of a component.
 pub(crate) fn omega(text: &str) -> Result<f64, String> {
     let name = "natural angular frequency";
-    one_of_range(name, text, |w| w > 0.0 && w.is_finite(), "finite and > 0, in v0/h0")
+    one_of_range(name, text, |w| w > 0.0 && w.is_finite(), "finite and > 0")
 }
 
 pub(crate) fn limit(text: &str) -> Result<usize, String> {

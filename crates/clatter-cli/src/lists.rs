@@ -70,7 +70,7 @@ fn rows<const N: usize>(
     }
     if rows == 0 {
         let what = format!("no rows; the first line is {}, a row for each follows", names.join(","));
-        return Err(Failure::Line { path: path.to_owned(), line: line - 1, what });
+        return Err(Failure::Line { path: path.to_owned(), line: (line - 1).max(1), what });
     }
     Ok(())
 }
