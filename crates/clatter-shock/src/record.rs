@@ -74,8 +74,6 @@ pub struct Lines<R> {
     line: usize,
     bytes: u64,
     previous: Option<f64>,
-    /// How the last time was printed.
-    stamp: Stamp,
     /// Names of columns by the header, and what is told of those that nobody reads.
     names: Vec<String>,
     more_columns: Option<Finding>,
@@ -93,15 +91,24 @@ struct Stamp {
 }
 
 impl Stamp {
-    /// Of a number as it stands there.
-    fn of(text: &str, unit: f64) -> Self {
-        let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
-        let (mut place, mut digits, mut fraction) = (exponent.parse().unwrap_or(0_i32).clamp(-400, 400), 0, false);
-        for c in mantissa.bytes() {
-            fraction |= c == b'.';
-            if c.is_ascii_digit() {
-                digits += i32::from(digits > 0 || c != b'0');
-                place -= i32::from(fraction);
+    /// Of the number that a line begins with.
+    fn of(line: &str, unit: f64) -> Self {
+        let (mut place, mut digits, mut fraction) = (0, 0, false);
+        let line = line.trim_start_matches('\u{feff}').trim_start();
+        for (i, c) in line.bytes().enumerate() {
+            match c {
+                b'0'..=b'9' => {
+                    digits += i32::from(digits > 0 || c != b'0');
+                    place -= i32::from(fraction);
+                }
+                b'.' => fraction = true,
+                b'+' | b'-' => {}
+                b'e' | b'E' => {
+                    let exponent = line[i + 1..].split([',', ';', ' ', '\t']).next().unwrap_or_default();
+                    place += exponent.parse().unwrap_or(0_i32).clamp(-400, 400);
+                    break;
+                }
+                _ => break,
             }
         }
         Self { place, digits, unit }
@@ -129,7 +136,6 @@ impl<R: BufRead> Lines<R> {
             line: 0,
             bytes: 0,
             previous: None,
-            stamp: Stamp { place: 0, digits: 0, unit: 1.0 },
             names: Vec::new(),
             more_columns: None,
         }
@@ -138,6 +144,10 @@ impl<R: BufRead> Lines<R> {
     #[must_use]
     pub fn bytes(&self) -> u64 {
         self.bytes
+    }
+    /// How the time of the last sample was printed.
+    fn stamp(&self) -> Stamp {
+        Stamp::of(&self.text, self.units.map_or(1.0, |units| units.time))
     }
     /// The next sample, or `None` at the end.
     ///
@@ -211,7 +221,6 @@ impl<R: BufRead> Lines<R> {
                     return Err(bad(format!("{name} {text} is not finite")));
                 }
             }
-            self.stamp = Stamp::of(first, units.time);
             let time = time * units.time;
             if let Some(previous) = self.previous
                 && time <= previous

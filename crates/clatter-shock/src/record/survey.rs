@@ -119,7 +119,7 @@ impl<R: BufRead> Lines<R> {
             } else {
                 steps.add(s.line, s.time - end);
             }
-            grid.add(s.time, self.stamp);
+            grid.add(s.time, self.stamp());
             (n, end, largest) = (n + 1, s.time, largest.max(s.acceleration.abs()));
             bins.add(s);
             each(s, self.bytes);
