@@ -8,6 +8,7 @@ use clatter::Bar;
 use clatter::paper::DESIGNS;
 use clatter_shock::{DampingRatio, GainMap, Holders, Shape, ShapeFigures, SuspendedZones, rule_either_end, worst};
 use common::{digits, golden, page};
+use serde_json::Value;
 
 fn bar([q, e]: [f64; 2]) -> Bar {
     Bar::new(q, e).expect("q and e in range")
@@ -125,7 +126,48 @@ fn the_pulse_shapes() {
     golden("shock-shapes", &text);
 }
 
-/// Every number of the page, as it is printed.
+/// One line for each number, or row of numbers, and the path to it.
+fn rows(path: &str, value: &Value, text: &mut String) {
+    let nested = |value: &Value| value.is_array() || value.is_object();
+    let deep = |value: &Value| match value {
+        Value::Object(map) => map.values().any(nested),
+        Value::Array(list) => list.iter().any(nested),
+        _ => false,
+    };
+    let _ = match value {
+        Value::Object(map) if path.is_empty() || map.values().any(deep) => {
+            map.iter().for_each(|(key, value)| rows(&format!("{path} {key}"), value, text));
+            Ok(())
+        }
+        Value::Array(list) if list.iter().any(nested) => {
+            list.iter().enumerate().for_each(|(i, value)| rows(&format!("{path} {}", i + 1), value, text));
+            Ok(())
+        }
+        value => writeln!(text, "{}: {}", path.trim_start(), value.to_string().replace('"', "")),
+    };
+}
+
+fn numbers() -> Value {
+    let json = clatter_report::shock_numbers().expect("the numbers of the page");
+    serde_json::from_str(&json).expect("JSON")
+}
+
+/// Every number of the page, as it is printed, but those of the equivalent pulse.
+#[test]
+fn the_numbers_of_the_page() {
+    let (mut numbers, mut text) = (numbers(), String::new());
+    numbers["phone"]["equivalent"].take();
+    rows("", &numbers, &mut text);
+    golden("shock-numbers", &text);
+}
+
+/// The half-sine of a shock table that the page gives; null where it says that there is none.
+#[test]
+fn the_equivalent_pulse() {
+    golden("shock-equivalent", &numbers()["phone"]["equivalent"].to_string());
+}
+
+/// What the page says besides its numbers: headings, alternative texts, how its parts begin.
 #[test]
 fn the_page() {
     let openings = ["What follows, in short", "Fig. 1 ", "Fig. 3 ", "Fig. 7 ", "Fig. 10 ", "Fig. 12 "];

@@ -1,6 +1,8 @@
 //! `clatter respond`: one component, driven by one clatter.
 
+use std::fmt::Write;
 use std::fs;
+use std::path::Path;
 
 use clatter_cli::Exit;
 use insta::assert_snapshot;
@@ -180,4 +182,260 @@ fn the_rule_can_be_written() {
     for word in ["largest shock alone", "net change alone", "this component"] {
         assert!(svg.contains(word), "{word}");
     }
+}
+
+fn of(got: &Value, name: &str) -> f64 {
+    got[name].as_f64().unwrap_or_else(|| panic!("{name} of {got}"))
+}
+
+const PEAKS: [&str; 2] = ["omega_peak_relative_displacement", "peak_absolute_acceleration_over_omega"];
+
+fn written(folder: &Path, name: &str, text: &str) -> String {
+    let file = folder.join(name);
+    fs::write(&file, text).unwrap();
+    file.to_str().unwrap().to_owned()
+}
+
+/// The impacts of a bar, written as a file of shocks, do what the bar does.
+#[test]
+fn shocks_of_a_file_are_those_of_the_bar_that_made_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let impacts = answer(["impacts", "--q=0.73", "--e=0.2", "--at=0.7"]);
+    let mut text = String::from("number,delta_v_m_s,time_s\n");
+    for impact in impacts["impacts"].as_array().unwrap() {
+        writeln!(text, "{},{},{}", impact["number"], impact["delta_v_at"][0], impact["time"]).unwrap();
+    }
+    let file = format!("--shocks-file={}", written(folder.path(), "shocks.csv", &text));
+    let got = answer(["respond", &file, "--omega=8"]);
+    let bar = answer(["respond", "--q=0.73", "--e=0.2", "--at=0.7", "--omega=8"]);
+    for name in PEAKS {
+        assert!((of(&got, name) / of(&bar, name) - 1.0).abs() < 1e-12, "{name}: {got}");
+    }
+    assert_eq!(
+        got["peaks"]["relative_velocity"]["positive"]["after_impact"],
+        bar["peaks"]["relative_velocity"]["positive"]["after_impact"]
+    );
+    assert_eq!(got["shocks"]["count"], json!(16));
+}
+
+/// In step with an undamped component each of a million shocks adds to its swing, and each of a million half-sines.
+#[test]
+fn a_million_shocks_and_a_million_pulses_come_from_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut shocks, mut pulses) =
+        (String::from("time_s,delta_v_m_s\n"), String::from("shape,amplitude_m_s2,duration_s,start_s\n"));
+    let one = "rectangle,1,5e-4,0\n";
+    for k in 0..1_000_000_u32 {
+        let time = f64::from(k) * 1e-3;
+        writeln!(shocks, "{time:?},0.25").unwrap();
+        writeln!(pulses, "rectangle,1,5e-4,{time:?}").unwrap();
+    }
+    let omega = format!("--omega={:?}", 2e3 * std::f64::consts::PI);
+    let respond = |name: &str, text: &str, flag: &str| {
+        answer(["respond", &format!("--{flag}={}", written(folder.path(), name, text)), &omega, "--damping=0"])
+    };
+    let got = respond("shocks.csv", &shocks, "shocks-file");
+    assert!((of(&got, PEAKS[0]) / 0.25e6 - 1.0).abs() < 1e-6, "{}", got[PEAKS[0]]);
+    let single =
+        respond("one.csv", &format!("{}{one}", pulses.lines().next().unwrap().to_owned() + "\n"), "pulses-file");
+    let got = respond("pulses.csv", &pulses, "pulses-file");
+    assert!((of(&got, PEAKS[0]) / (1e6 * of(&single, PEAKS[0])) - 1.0).abs() < 1e-6, "{}", got[PEAKS[0]]);
+    assert_eq!(got["peaks"]["omega_relative_displacement"]["positive"]["after_impact"], json!(1_000_000));
+}
+
+#[test]
+fn lists_that_are_none_are_told_by_file_and_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let pulses = "shape,amplitude_m_s2,duration_s,start_s\n";
+    for (flag, text, said) in [
+        ("shocks-file", "", "line 1: no rows; the first line is time_s,delta_v_m_s, a row for each follows"),
+        (
+            "shocks-file",
+            "time_s,delta_v_m_s\n",
+            "line 1: no rows; the first line is time_s,delta_v_m_s, a row for each follows",
+        ),
+        (
+            "shocks-file",
+            "0,1\n",
+            "line 1: no column time_s; the first line names the columns, time_s,delta_v_m_s among them",
+        ),
+        ("shocks-file", "time_s,delta_v_m_s\n0,1\n\n1\n", "line 4: column 2 (delta_v_m_s) is missing"),
+        ("shocks-file", "time_s,delta_v_m_s\n0,NaN\n", "line 2: delta_v_m_s = NaN is not finite"),
+        ("shocks-file", "time_s,delta_v_m_s\n0,1 m/s\n", "line 2: delta_v_m_s: '1 m/s' is not a number such as 0.5"),
+        (
+            "shocks-file",
+            "delta_v_m_s,time_s\n1,2\n1,1\n",
+            "line 3: time_s 1.0 is before 2.0, the row above; sort by time",
+        ),
+        (
+            "pulses-file",
+            &format!("{pulses}half-sine,1,0,0\n"),
+            "line 2: a pulse of zero duration is a velocity shock: give its velocity change in a file of shocks \
+             (--shocks-file), or a duration > 0",
+        ),
+        (
+            "pulses-file",
+            &format!("{pulses}half-sine,1,1,0\nhalf-sine,1,-1,0\n"),
+            "line 3: duration = -1.0 is not at least 2.3e-308",
+        ),
+        (
+            "pulses-file",
+            &format!("{pulses}half-sine,1e13,1,0\n"),
+            "line 2: amplitude = 10000000000000.0 is not in [1e-12, 1e12]",
+        ),
+        (
+            "pulses-file",
+            "shape,amplitude_m_s2,start_s\n",
+            "line 1: no column duration_s; the first line names the columns, shape,amplitude_m_s2,duration_s,start_s among them",
+        ),
+    ] {
+        let file = written(folder.path(), "list.csv", text);
+        let flag = format!("--{flag}={file}");
+        for command in [&["respond", "--omega=1", &flag][..], &["spectrum", "--frequency=1", &flag]] {
+            let outcome = clatter(command);
+            assert_eq!((outcome.exit, outcome.stdout.as_str()), (Exit::BadInput, ""), "{text:?}");
+            assert_eq!(outcome.stderr, format!("error: {file}: {said}\n"));
+        }
+    }
+    let shape = written(folder.path(), "list.csv", &format!("{pulses}sine,1,1,0\n"));
+    let outcome = clatter(["respond", "--omega=1", &format!("--pulses-file={shape}")]);
+    assert!(outcome.stderr.starts_with(&format!("error: {shape}: line 2: 'sine' is no shape")), "{}", outcome.stderr);
+    let missing = clatter(["respond", "--omega=1", "--shocks-file=nowhere.csv"]);
+    assert!(missing.stderr.starts_with("error: cannot read nowhere.csv: "), "{}", missing.stderr);
+}
+
+const DROP: [&str; 6] =
+    ["--length-m=0.14", "--gyration-m=0.045", "--e=0.3", "--speed-m-s=3", "--tilt-deg=4", "--omega=1131"];
+
+/// At small tilt without gravity the drop in meters is the bar of h0 and v0.
+#[test]
+fn the_map_in_meters_is_the_bar() {
+    let gap = 0.14 * 4_f64.to_radians().sin();
+    let [k, gap] = [format!("--gyration-ratio={:?}", 0.045 / 0.07), format!("--height-gap={gap:?}")];
+    for at in ["--at=-1", "--at=0.3", "--at=1"] {
+        let got = answer(["respond", "--model=map", at].into_iter().chain(DROP));
+        let bar = answer(["respond", &k, "--e=0.3", "--velocity=-3,-3", &gap, "--omega=1131", at]);
+        for name in [PEAKS[0], PEAKS[1], "time_of_peak", "gain"] {
+            assert!((of(&got, name) / of(&bar, name) - 1.0).abs() < 1e-9, "{name} {at}: {got}, not {bar}");
+        }
+        assert_eq!(got["shocks"]["count"], bar["shocks"]["count"]);
+        for name in ["standard", "clatter_free"] {
+            let [got, bar] = [&got, &bar].map(|answer| of(&answer[name], PEAKS[0]));
+            assert!((got / bar - 1.0).abs() < 1e-12, "{name}");
+        }
+    }
+}
+
+/// Every model as the assessment of a product follows it, the center of mass off the middle.
+#[test]
+fn drops_drive_components_as_in_an_assessment() {
+    use clatter::flight::Body;
+    use clatter_scene::{BarModel, Base, Law, Product, SingleDrop, Spread};
+    use clatter_shock::{DampingRatio, Suspension};
+    let body = Body::off_center(0.07 * 1.2, 0.07 * 0.8, 0.045).unwrap();
+    let contact_s = 4e-4;
+    let product = Product {
+        name: String::new(),
+        body,
+        mass_kg: None,
+        restitution: Spread::new(0.3, 0.3, Law::Value).unwrap(),
+        contact_time_s: Some(contact_s),
+    };
+    let drop = SingleDrop {
+        first: clatter::End::A,
+        tilt_rad: 4_f64.to_radians(),
+        speed_m_s: 3.0,
+        restitution: 0.3,
+        gravity_m_s2: 9.806_65,
+    };
+    let part = Suspension::new(1131.0, DampingRatio::new(0.05).unwrap()).unwrap();
+    for (name, model) in [
+        ("map", BarModel::Map),
+        ("ballistic", BarModel::Ballistic),
+        ("finite-tilt", BarModel::FiniteTilt),
+        ("compliant", BarModel::Compliant),
+    ] {
+        let base = Base::new(&product, &drop, model).unwrap();
+        let contact = (model == BarModel::Compliant).then(|| format!("--contact-time-s={contact_s:?}"));
+        for at in [-1.0, -0.4, 0.0, 1.0] {
+            let of_scene = base.respond(0.07 * at, &part, model == BarModel::Compliant).unwrap();
+            let arguments = ["respond".to_owned(), format!("--model={name}"), format!("--at={at:?}")];
+            let more = DROP.map(str::to_owned).into_iter().chain(["--center-of-mass=0.2".to_owned()]);
+            let got = answer(arguments.into_iter().chain(more).chain(contact.clone()));
+            let want = [of_scene.pseudo_velocity().magnitude(), of_scene.acceleration_over_omega().magnitude()];
+            for (peak, want) in PEAKS.iter().zip(want) {
+                // An assessment leaves out strikes below 2e-4 of the largest.
+                assert!((of(&got, peak) / want - 1.0).abs() < 1e-3, "{name} at {at}: {got}, not {want}");
+            }
+        }
+    }
+}
+
+/// Contacts of a few microseconds are instants to a component of 180 Hz.
+#[test]
+fn short_contacts_are_velocity_shocks() {
+    let instant = answer(["respond", "--model=finite-tilt", "--at=1"].into_iter().chain(DROP));
+    let short = answer(["respond", "--model=compliant", "--contact-time-s=2e-6", "--at=1"].into_iter().chain(DROP));
+    for name in PEAKS {
+        assert!((of(&short, name) / of(&instant, name) - 1.0).abs() < 1e-2, "{name}: {short}, not {instant}");
+    }
+    assert_eq!((&short["stiff"], short["model"].as_str()), (&Value::Null, Some("compliant")));
+    let [a, b] = [&short, &instant].map(|answer| of(answer, "time_of_peak"));
+    assert!((a - b).abs() < 1e-5, "{a}, not {b}");
+}
+
+/// The half-sine that is named gives the component the same acceleration, and within 1 % the same displacement.
+#[test]
+fn the_equivalent_pulse_does_the_same() {
+    let drop = ["respond", "--model=ballistic", "--at=1", "--equivalent-pulse"];
+    let got = answer(drop.into_iter().chain(DROP));
+    let pulse = &got["equivalent_pulse"];
+    let flag = format!("--pulse=half-sine,{},{}", pulse["acceleration_m_s2"], pulse["duration_s"]);
+    let hz = format!("--frequency={:?}", 1131.0 / std::f64::consts::TAU);
+    let maximax =
+        |quantity: &str| answer(["spectrum", &flag, &hz, "--quantity", quantity])["maximax"][0].as_f64().unwrap();
+    let [z, a] = PEAKS.map(|name| of(&got, name));
+    assert!((maximax("acceleration") / (1131.0 * a) - 1.0).abs() < 1e-9, "{pulse}");
+    let off = maximax("pseudo-velocity") / z - 1.0;
+    assert!(off.abs() < 0.01 && (off - of(pulse, "displacement_mismatch")).abs() < 1e-9, "{pulse}: {off}");
+    assert!((of(pulse, "acceleration_g") * 9.806_65 / of(pulse, "acceleration_m_s2") - 1.0).abs() < 1e-15, "{pulse}");
+    // What a weaker table cannot do it says, and that is an answer.
+    let weak = ["--shock-table=0.2:20,5,20"];
+    let none = answer(drop.into_iter().chain(DROP).chain(weak));
+    assert_eq!(none["equivalent_pulse"], Value::Null);
+    let reason = none["no_equivalent_pulse"].as_str().unwrap();
+    assert!(reason.starts_with("no half-sine of this shock table is equivalent: "), "{reason}");
+    let shown = clatter(drop.into_iter().chain(DROP).chain(weak));
+    assert!(shown.stdout.contains("\nShock table: no half-sine of this shock table is equivalent"), "{}", shown.stdout);
+    let shown = clatter(drop.into_iter().chain(DROP));
+    assert!(shown.stdout.contains("\nShock table: a half-sine of "), "{}", shown.stdout);
+    assert_eq!(answer(["respond", "--q=0.5", "--e=0.3", "--at=1", "--omega=3"]).get("equivalent_pulse"), None);
+}
+
+#[test]
+fn a_drop_explains_itself() {
+    let shown = clatter(["respond", "--model=ballistic", "--at=1"].into_iter().chain(DROP));
+    assert_eq!((shown.exit, shown.stderr.as_str()), (Exit::Done, ""));
+    assert_snapshot!(shown.stdout, @"
+    Component at 1 of a body of 0.14 m, e = 0.3; W = 1131 rad/s, damping ratio 0.05
+    Model ballistic: end a strikes first, at 3.00000 m/s, tilt 4 degrees; at-rest at 0.129507 s
+
+    Peak                                       m/s       when, s
+      relative displacement, W z           6.31927    0.00346627  after impact 3
+      relative velocity                    7.12954    0.00214386  after impact 2
+      absolute acceleration, A/W           6.38336    0.00326053  after impact 2
+
+    A shock at this position            shock, m/s      W z, m/s      A/W, m/s
+      of the net change (W h0/v0 -> 0)     4.26538       3.95269       3.97254
+      the largest (W h0/v0 -> infinity)     6.03177       5.58959       5.61766
+      without clatter, (1 + e) v0          3.90000       3.61410       3.63224
+      as standards assume, 2 v0            6.00000       5.56015       5.58807
+
+    W h0/v0 = 3.68175; acceleration over that of the standards' shock: 1.14232
+    ");
+    let cut = clatter(["respond", "--model=ballistic", "--at=1", "--impact-limit=3"].into_iter().chain(DROP));
+    assert_eq!(
+        (cut.exit, cut.stderr.as_str()),
+        (Exit::Done, "warning: the motion was left at its limit; later impacts are not in the answer\n")
+    );
 }

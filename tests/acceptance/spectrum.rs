@@ -325,3 +325,78 @@ fn rows_and_pictures_can_be_written() {
     let boundary = write("b.csv", &["--frequency=100", "--limit=2000", "--damage-boundary"]);
     assert!(boundary.starts_with("velocity_change_m_s,acceleration_m_s2\n"), "{boundary}");
 }
+
+/// Critical is the highest level below all damage, the knee that of a rectangle.
+#[test]
+fn a_damage_boundary_comes_from_tests() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("tests.csv");
+    let rows = "test,level,damaged\nvelocity-change,2,no\nvelocity-change,2.5,no\nvelocity-change,3,yes\n\
+                acceleration,300,no\nacceleration,400,yes\nacceleration,420,no\n";
+    fs::write(&file, rows).unwrap();
+    let tests = format!("--tests={}", file.display());
+    let spectrum = |pulse: &str, more: &[&str]| {
+        let arguments = ["spectrum", pulse, "--damage-boundary", &tests, "--frequency=100"];
+        clatter(arguments.iter().chain(more))
+    };
+    let outcome = spectrum("--pulse=rectangle,900,0.004", &["--format=json"]);
+    let got: Value = serde_json::from_str(&outcome.stdout).unwrap();
+    let of = |name: &str| got["damage_boundary"][name].as_f64().unwrap();
+    assert!(close(of("critical_velocity_change_m_s"), 2.5, 1e-14), "{got}");
+    assert!(close(of("critical_acceleration_m_s2"), 300.0, 1e-14), "{got}");
+    assert!(close(of("knee_velocity_change_m_s"), 2.5 * std::f64::consts::FRAC_PI_2, 1e-14), "{got}");
+    assert_eq!(got["damage_boundary"]["safe"], json!(false), "beyond both");
+    for safe in ["--pulse=rectangle,5000,0.00049", "--pulse=rectangle,299,1"] {
+        assert!(spectrum(safe, &[]).stdout.contains("dB: no damage"), "{safe}");
+    }
+    let svg = folder.path().join("boundary.svg");
+    let drawn = spectrum("--pulse=rectangle,900,0.004", &["-o", svg.to_str().unwrap()]);
+    assert_eq!((drawn.exit, drawn.stderr.as_str()), (Exit::Done, ""));
+    assert!(fs::read_to_string(svg).unwrap().contains("velocity change of the base"));
+    for (text, said) in [
+        ("test,level,damaged\nvelocity-change,NaN,no\n", "line 2: level = NaN is not finite"),
+        ("test,level,damaged\nvelocity-change,-1,no\n", "line 2: level = -1.0 is not > 0"),
+        ("test,level,damaged\nvelocity-change,1,maybe\n", "line 2: damaged 'maybe' is not yes or no"),
+        (
+            "test,level,damaged\nheight,1,no\n",
+            "line 2: test 'height' is not velocity-change (in m/s) or acceleration (in m/s2)",
+        ),
+        (
+            "test,damaged\nheight,no\n",
+            "line 1: no column level; the first line names the columns, test,level,damaged among them",
+        ),
+        (
+            "test,level,damaged\nvelocity-change,1,no\n",
+            "the velocity change trials show no critical level: some level without damage must lie below the lowest with damage",
+        ),
+    ] {
+        fs::write(&file, text).unwrap();
+        let outcome = spectrum("--pulse=rectangle,900,0.004", &[]);
+        assert_eq!((outcome.exit, outcome.stdout.as_str()), (Exit::BadInput, ""), "{text}");
+        assert_eq!(outcome.stderr, format!("error: {}: {said}\n", file.display()));
+    }
+    let outcome = spectrum("--pulse=half-sine,900,0.004", &[]);
+    assert!(outcome.stderr.contains("--tests goes with one --pulse with one start, a rectangle"), "{}", outcome.stderr);
+}
+
+#[test]
+fn lists_of_files_are_those_of_flags() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| {
+        let file = folder.path().join(name);
+        fs::write(&file, text).unwrap();
+        file.display().to_string()
+    };
+    let shocks = write("shocks.csv", "time_s,delta_v_m_s\n0,2.5\n0.004,-1\n");
+    // In any order, with a column more.
+    let pulses = write(
+        "pulses.csv",
+        "# two\nstart_s,shape,note,duration_s,amplitude_m_s2\n0.002,trapezoid:0.2,late,5e-4,-300\n0,half-sine,,1e-3,500\n",
+    );
+    for (file, flags) in [
+        (format!("--shocks-file={shocks}"), ["--shock=2.5,0", "--shock=-1,0.004"]),
+        (format!("--pulses-file={pulses}"), ["--pulse=half-sine,500,1e-3,0", "--pulse=trapezoid:0.2,-300,5e-4,0.002"]),
+    ] {
+        assert_eq!(answer(["spectrum", &file]), answer(["spectrum"].into_iter().chain(flags)), "{file}");
+    }
+}

@@ -1,6 +1,8 @@
 //! What shakes a component, and what it stands, as arguments of a command say it.
 
-use clatter_shock::{Error, Frequencies, LimitCurve, Pulse, Pulses, Shape, Units, VelocityShock};
+use clatter_shock::{
+    Error, Frequencies, LimitCurve, Pulse, Pulses, STANDARD_GRAVITY_M_S2, Shape, ShockTable, Units, VelocityShock,
+};
 
 use crate::inputs::number;
 
@@ -46,7 +48,7 @@ fn message(error: &Error) -> String {
     }
 }
 
-fn shape(text: &str) -> Result<Shape, String> {
+pub(crate) fn shape(text: &str) -> Result<Shape, String> {
     match (text, text.split_once(':')) {
         ("half-sine", _) => Ok(Shape::HalfSine),
         ("haversine", _) => Ok(Shape::Haversine),
@@ -81,16 +83,21 @@ pub(crate) fn pulse(text: &str) -> Result<PulseArg, String> {
     let (Some(name), Some(amplitude), Some(duration)) = (parts.next(), parts.next(), parts.next()) else {
         return Err("a pulse is SHAPE,AMPLITUDE_M_S2,DURATION_S,START_S, such as half-sine,5000,0.0005,0".to_owned());
     };
-    let (shape, amplitude, duration) = (shape(name)?, number(amplitude)?, within("duration", number(duration)?)?);
-    within("amplitude", amplitude.abs())?;
+    let (shape, amplitude, duration) = (shape(name)?, number(amplitude)?, number(duration)?);
     let mut starts = parts.map(number).collect::<Result<Vec<_>, _>>()?;
-    starts.iter().try_for_each(|start| within("start", start.abs()).map(drop))?;
     if starts.is_empty() {
         starts.push(0.0);
     }
     let pulses = starts.into_iter().map(|start| Pulse { shape, amplitude, duration, start });
-    let checked = pulses.map(|pulse| Pulses::new(&[pulse]).map(|_| pulse).map_err(|error| message(&error)));
-    checked.collect::<Result<_, _>>().map(PulseArg)
+    pulses.map(checked).collect::<Result<_, _>>().map(PulseArg)
+}
+
+/// A pulse that is one.
+pub(crate) fn checked(pulse: Pulse) -> Result<Pulse, String> {
+    within("duration", pulse.duration)?;
+    within("amplitude", pulse.amplitude.abs())?;
+    within("start", pulse.start.abs())?;
+    Pulses::new(&[pulse]).map(|_| pulse).map_err(|error| message(&error))
 }
 
 pub(crate) fn shock(text: &str) -> Result<VelocityShock, String> {
@@ -142,4 +149,32 @@ pub(crate) fn limit(text: &str) -> Result<LimitArg, String> {
 pub(crate) fn units(text: &str) -> Result<Units, String> {
     let (time, acceleration) = text.split_once(',').ok_or("two units are needed, TIME,ACCELERATION, such as ms,g")?;
     Units::named(time, acceleration).map_err(|error| error.to_string())
+}
+
+/// What a shock table can do, in ms, g and m/s.
+pub(crate) fn shock_table(text: &str) -> Result<ShockTable, String> {
+    let form =
+        "a shock table is SHORTEST:LONGEST,ACCELERATION,VELOCITY_CHANGE in ms, g and m/s, such as 0.2:20,5000,20";
+    let [durations, acceleration, velocity_change] = text.split(',').collect::<Vec<_>>()[..] else {
+        return Err(form.to_owned());
+    };
+    let (shortest, longest) = durations.split_once(':').ok_or(form)?;
+    let positive = |name: &str, text: &str| {
+        let value = number(text)?;
+        if value > 0.0 && value.is_finite() {
+            Ok(value)
+        } else {
+            Err(format!("{name} = {value:?} is not finite and > 0"))
+        }
+    };
+    let table = ShockTable {
+        shortest: 1e-3 * positive("shortest half-sine in ms", shortest)?,
+        longest: 1e-3 * positive("longest half-sine in ms", longest)?,
+        acceleration: STANDARD_GRAVITY_M_S2 * positive("acceleration in g", acceleration)?,
+        velocity_change: positive("velocity change in m/s", velocity_change)?,
+    };
+    if table.shortest > table.longest {
+        return Err(format!("the shortest half-sine, {shortest} ms, is longer than the longest, {longest} ms"));
+    }
+    Ok(table)
 }

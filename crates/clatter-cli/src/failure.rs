@@ -18,6 +18,9 @@ pub(crate) enum Failure {
     Shock(#[from] clatter_shock::Error),
     #[error("{}: {reason}", .path.display())]
     Record { path: PathBuf, reason: clatter_shock::Error },
+    /// A line of a list that is no entry of it.
+    #[error("{}: line {line}: {what}", .path.display())]
+    Line { path: PathBuf, line: usize, what: String },
     #[error(transparent)]
     Scene(#[from] clatter_scene::Error),
     #[error(transparent)]

@@ -224,12 +224,12 @@ pub(crate) fn restitution(text: &str) -> Result<f64, String> {
     Bar::new(0.0, e).map(|_| e).map_err(|error| error.to_string())
 }
 
-fn inertia_ratio(text: &str) -> Result<f64, String> {
+pub(crate) fn inertia_ratio(text: &str) -> Result<f64, String> {
     let q = number(text)?;
     Bar::new(q, 0.0).map(|_| q).map_err(|error| error.to_string())
 }
 
-fn gyration_ratio(text: &str) -> Result<f64, String> {
+pub(crate) fn gyration_ratio(text: &str) -> Result<f64, String> {
     let k = number(text)?;
     Bar::from_gyration_ratio(k, 0.0).map(|_| k).map_err(|error| error.to_string())
 }
@@ -248,7 +248,7 @@ pub(crate) fn height_gap(text: &str) -> Result<f64, String> {
 /// ω of a component.
 pub(crate) fn omega(text: &str) -> Result<f64, String> {
     let name = "natural angular frequency";
-    one_of_range(name, text, |w| w > 0.0 && w.is_finite(), "finite and > 0, in v0/h0")
+    one_of_range(name, text, |w| w > 0.0 && w.is_finite(), "finite and > 0")
 }
 
 pub(crate) fn limit(text: &str) -> Result<usize, String> {

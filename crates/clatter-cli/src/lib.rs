@@ -17,12 +17,14 @@
 mod assess;
 mod completions;
 mod design;
+mod drop_args;
 mod excitation;
 mod explain;
 mod failure;
 mod impacts;
 mod init;
 mod inputs;
+mod lists;
 mod map;
 mod npy;
 mod numbers;
@@ -124,8 +126,8 @@ enum Command {
     Zone(zone::Args),
     Map(map::Args),
     Simulate(Box<simulate::Args>),
-    Respond(respond::Args),
-    Spectrum(spectrum::Args),
+    Respond(Box<respond::Args>),
+    Spectrum(Box<spectrum::Args>),
     Design(design::Args),
     Scatter(scatter::Args),
     Assess(assess::Args),

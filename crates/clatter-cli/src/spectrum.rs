@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use clap::{ValueEnum, ValueHint};
 use clatter_shock::{
-    DamageBoundary, Finding, Frequencies, Limit, LimitCurve, Lines, Margin, Pulse, Pulses, Quantity, Record, Spectrum,
-    Survey, Suspension, Units, VelocityShock, VelocityShocks, stream,
+    DamageBoundary, Finding, Frequencies, Limit, LimitCurve, Lines, Margin, Pulse, Pulses, Quantity, Record, Shape,
+    Spectrum, Survey, Suspension, Units, VelocityShock, VelocityShocks, stream,
 };
 use serde::Serialize;
 
@@ -16,17 +16,21 @@ use crate::inputs::{DampingArgs, RowFormat};
 use crate::numbers::{Json, digits, figures, given};
 use crate::output::{Kind, Target, buffered};
 use crate::progress::Progress;
-use crate::{Failure, Streams, output};
+use crate::{Failure, Streams, lists, output};
 
 /// Compute a shock response spectrum: the peak of a component over its natural frequency
 ///
 /// What shakes the base of the component is a measured record, or pulses, or velocity shocks:
 ///
 ///   RECORD.csv  two columns, time and acceleration, with a header that names the units, such as
-///               `time [ms],acceleration [g]`; even in time or not, of any length. Between samples the
-///               acceleration is taken as linear, and for that the spectrum is exact
+///               `time [ms],acceleration [g]`; even in time, as far as its printed digits tell, or not, of any
+///               length. Between samples the acceleration is taken as linear, and for that the spectrum is
+///               exact. Missing samples, offset, drift and columns beyond the two are told as warnings
 ///   --pulse     a pulse of a shape; may be given several times, and pulses may overlap
 ///   --shock     a change of velocity in no time, for pulses much shorter than a period
+///   --pulses-file, --shocks-file
+///               either of these from a CSV file, of any number: its first line names the columns,
+///               shape,amplitude_m_s2,duration_s,start_s or time_s,delta_v_m_s, among others or not
 ///
 /// For each frequency: `primary`, the largest absolute value from the first start to the last end; `residual`, after
 /// it, the ring-down complete; `maximax` over both; and over both the largest `positive` and `negative` value.
@@ -35,6 +39,10 @@ use crate::{Failure, Streams, output};
 ///
 /// `-o FILE` writes the rows as .csv, the whole answer as .json, or a picture as .svg: log-log, the pseudo-velocity on
 /// four-coordinate paper. With --damage-boundary the picture is the damage boundary with the pulse on it.
+///
+/// A damage boundary comes from one frequency and a limit, or with --tests from shock tests: a CSV file with the columns test
+/// (velocity-change, in m/s, or acceleration, in m/s2), level and damaged (yes or no). Critical is the highest level of either
+/// below all damage, as in ASTM D3332; between them the boundary is that of an undamped component, for rectangles.
 #[derive(Debug, clap::Args)]
 #[command(
     verbatim_doc_comment,
@@ -46,7 +54,9 @@ Examples:
   clatter spectrum --pulse=half-sine,5000,0.0005,0,0.002 --frequency=100,180 --limit=4000
   clatter spectrum --shock=2.5,0 --shock=-1,0.004 --frequency=180 --quantity=pseudo-velocity
   clatter spectrum --pulse=half-sine,9810,0.001 --frequency=100 --limit=2000 \\
-      --damage-boundary -o boundary.svg"
+      --damage-boundary -o boundary.svg
+  clatter spectrum --pulse=rectangle,900,0.004 --damage-boundary --tests=tests.csv
+  clatter spectrum --shocks-file=shocks.csv --frequency=180"
 )]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -66,9 +76,14 @@ pub(crate) struct Args {
     /// log-log paper
     #[arg(long, value_name = "X|HZ:X,…", allow_hyphen_values = true, value_parser = excitation::limit)]
     limit: Option<LimitArg>,
-    /// Also give the damage boundary of one pulse at one frequency, for a --limit of acceleration or relative displacement
+    /// Also give the damage boundary of one pulse at one frequency, for a --limit of acceleration or relative displacement, or
+    /// from --tests
     #[arg(long)]
     damage_boundary: bool,
+    /// Take the damage boundary from these shock tests, for a pulse that is a rectangle: a CSV file with the columns test, level
+    /// and damaged
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "damage_boundary", conflicts_with = "limit")]
+    tests: Option<PathBuf>,
     /// File to write, ending in .csv, .json or .svg; what was there is replaced once the new file is whole
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = target)]
     output: Option<Target>,
@@ -90,6 +105,12 @@ struct Excitation {
     /// A velocity shock: change of velocity in m/s and time in s; in order of time
     #[arg(long, value_name = "DELTA_V,TIME", allow_hyphen_values = true, value_parser = excitation::shock)]
     shock: Vec<VelocityShock>,
+    /// Pulses from a CSV file with the columns shape, amplitude_m_s2, duration_s and start_s
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pulses_file: Option<PathBuf>,
+    /// Velocity shocks from a CSV file with the columns time_s and delta_v_m_s, in order of time
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    shocks_file: Option<PathBuf>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -182,18 +203,24 @@ impl Args {
             let (spectrum, survey) = self.record(path, streams)?;
             return Ok((spectrum, Some(survey)));
         }
-        if self.excitation.pulse.is_empty() {
-            let shocks = VelocityShocks::new(self.excitation.shock.clone())?;
-            return Ok((shocks.spectrum(&self.frequency, damping, quantity), None));
+        let shocks = match &self.excitation.shocks_file {
+            Some(path) => lists::shocks(path)?,
+            None => self.excitation.shock.clone(),
+        };
+        if !shocks.is_empty() {
+            return Ok((VelocityShocks::new(shocks)?.spectrum(&self.frequency, damping, quantity), None));
         }
-        let pulses = self.pulses();
+        let pulses = self.pulses()?;
         excitation::check_periods(&pulses, &self.frequency).map_err(Failure::Pulses)?;
         let pulses = Pulses::new(&pulses)?;
         Ok((pulses.spectrum(&self.frequency, damping, quantity), None))
     }
 
-    fn pulses(&self) -> Vec<Pulse> {
-        self.excitation.pulse.iter().flat_map(|PulseArg(pulses)| pulses.iter().copied()).collect()
+    fn pulses(&self) -> Result<Vec<Pulse>, Failure> {
+        match &self.excitation.pulses_file {
+            Some(path) => lists::pulses(path),
+            None => Ok(self.excitation.pulse.iter().flat_map(|PulseArg(pulses)| pulses.iter().copied()).collect()),
+        }
     }
 
     /// In two passes and constant memory; what can be read but once is kept.
@@ -220,8 +247,20 @@ impl Args {
     }
 
     fn boundary(&self) -> Result<Boundary, Failure> {
-        let ([pulse], [hz]) = (&self.pulses()[..], self.frequency.hz()) else {
-            return Err(Failure::Usage("--damage-boundary goes with one --pulse with one start, and one --frequency"));
+        if let Some(path) = &self.tests {
+            let [pulse @ Pulse { shape: Shape::Rectangle, .. }] = self.pulses()?[..] else {
+                return Err(Failure::Usage(
+                    "--tests goes with one --pulse with one start, a rectangle, as the tests are",
+                ));
+            };
+            let [velocity, acceleration] = lists::tests(path)?;
+            let boundary = DamageBoundary::from_tests(&velocity, &acceleration);
+            return Boundary::new(boundary.map_err(|reason| Failure::Record { path: path.clone(), reason })?, pulse);
+        }
+        let ([pulse], [hz]) = (&self.pulses()?[..], self.frequency.hz()) else {
+            return Err(Failure::Usage(
+                "--damage-boundary goes with one --pulse with one start, and with one --frequency or --tests",
+            ));
         };
         let level = self.limit.as_ref().and_then(|limit| limit.level);
         let limit = match (self.quantity, level) {
@@ -235,9 +274,14 @@ impl Args {
             }
         };
         let suspension = Suspension::from_hz(*hz, self.damping.ratio()?)?;
-        let boundary = DamageBoundary::new(suspension, limit, pulse.shape)?;
-        let margin = boundary.margin(pulse.amplitude, pulse.duration)?;
-        Ok(Boundary { numbers: boundary, curve: boundary.curve(BOUNDARY_POINTS)?, pulse: *pulse, margin })
+        Boundary::new(DamageBoundary::new(suspension, limit, pulse.shape)?, *pulse)
+    }
+}
+
+impl Boundary {
+    fn new(numbers: DamageBoundary, pulse: Pulse) -> Result<Self, Failure> {
+        let margin = numbers.margin(pulse.amplitude, pulse.duration)?;
+        Ok(Self { numbers, curve: numbers.curve(BOUNDARY_POINTS)?, pulse, margin })
     }
 }
 

@@ -23,6 +23,7 @@ use std::thread;
 pub use accuracy::{Measured, measured};
 pub use figure::design::{DesignBorder, DesignFronts, DesignPlane};
 pub use file::{create, replace};
+pub use shock::shock_numbers;
 pub use trade::trade_files;
 
 /// A report that can be written.

@@ -195,6 +195,14 @@ impl Phone {
     }
 }
 
+/// Every number that the page of [`Report::Shock`](crate::Report::Shock) says, as it is printed: the file `shock.json`.
+///
+/// # Errors
+/// None in practice: all cases are valid.
+pub fn shock_numbers() -> Result<String, ReportError> {
+    pretty(&Data::compute()?.numbers())
+}
+
 impl Data {
     /// Computes everything.
     pub(crate) fn compute() -> Result<Self, ReportError> {

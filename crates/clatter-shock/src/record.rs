@@ -1,5 +1,9 @@
 //! Measured records: time and acceleration, line by line.
 
+mod survey;
+
+pub use survey::{Finding, Survey};
+
 use crate::forced::Segment;
 use crate::peaks::Range;
 use crate::suspension::{Modes, Motion};
@@ -57,87 +61,11 @@ impl Units {
     }
 }
 
-/// Something about a record that its owner should know; the spectrum is computed all the same.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub enum Finding {
-    /// A step in time much longer than the one before: the history is taken as linear across it.
-    Gap {
-        /// Line at its end.
-        line: usize,
-        /// Its length in seconds.
-        seconds: f64,
-        /// Usual step until there, in seconds.
-        usual: f64,
-    },
-    /// The record starts away from zero by more than 1 % of its largest value: an offset, or a late trigger.
-    Offset {
-        /// Lines it was averaged over.
-        lines: (usize, usize),
-        /// Mean acceleration there, m/s².
-        mean: f64,
-    },
-    /// The record ends at another level than it starts, by more than 1 % of its largest value: drift, or a cut-off shock.
-    Drift {
-        /// Lines at the end it was averaged over.
-        lines: (usize, usize),
-        /// Mean acceleration there less that at the start, m/s².
-        change: f64,
-    },
-}
-
-impl std::fmt::Display for Finding {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Gap { line, seconds, usual } => {
-                write!(
-                    f,
-                    "line {line}: {seconds:.4e} s since the line above, usual are {usual:.4e} s; taken as linear across"
-                )
-            }
-            Self::Offset { lines: (a, b), mean } => {
-                write!(f, "lines {a} to {b}: mean {mean:.4e} m/s² before the shock, more than 1 % of the largest value")
-            }
-            Self::Drift { lines: (a, b), change } => write!(
-                f,
-                "lines {a} to {b}: {change:+.4e} m/s² from the level of the start, more than 1 % of the largest value"
-            ),
-        }
-    }
-}
-
-/// What one pass over a record tells, in constant memory.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Survey {
-    /// Number of samples.
-    pub samples: usize,
-    /// Time of the first sample, in seconds.
-    pub start: f64,
-    /// Time of the last one.
-    pub end: f64,
-    /// Time between samples if they are even: every time within 10⁻³ of a step from start + i·step.
-    pub step: Option<f64>,
-    /// Largest absolute acceleration, m/s².
-    pub largest: f64,
-    /// What is odd.
-    pub findings: Vec<Finding>,
-}
-
-/// Time steps longer than this many usual ones are a gap.
-const GAP: f64 = 5.0;
-/// Times may be off an even grid by this share of a step: digits of the printed time.
-const UNEVEN: f64 = 1e-3;
-/// Levels of start and end differ when they do by this share of the largest value.
-const LEVEL: f64 = 0.01;
-/// Findings listed at most.
-const MOST_FINDINGS: usize = 100;
 /// Bytes of a line at most: what is longer is no record, and would not fit in memory in the end.
 const LONGEST: u64 = 1 << 16;
-/// Bins of the running mean: their number is halved when they are full.
-const BINS: usize = 64;
-
-/// Reads a record line by line: two columns, time and acceleration, separated by comma, semicolon, tab or blanks; lines that
-/// begin with `#` and empty ones are skipped; the first line may be a header, which may name the units.
+/// Reads a record line by line: two columns, time and acceleration, separated by semicolon, comma, tab or blanks; lines that
+/// begin with `#` and empty ones are skipped; the first line may be a header, which may name the units. Further columns are
+/// left out, which a [`Finding`] tells.
 #[derive(Debug)]
 pub struct Lines<R> {
     input: R,
@@ -146,6 +74,45 @@ pub struct Lines<R> {
     line: usize,
     bytes: u64,
     previous: Option<f64>,
+    /// Names of columns by the header, and what is told of those that nobody reads.
+    names: Vec<String>,
+    more_columns: Option<Finding>,
+}
+
+/// How a time is printed.
+#[derive(Debug, Clone, Copy)]
+struct Stamp {
+    /// Power of ten of the last digit.
+    place: i32,
+    /// Significant digits.
+    digits: i32,
+    /// Unit of the time, in seconds.
+    unit: f64,
+}
+
+impl Stamp {
+    /// Of the number that a line begins with.
+    fn of(line: &str, unit: f64) -> Self {
+        let (mut place, mut digits, mut fraction) = (0, 0, false);
+        let line = line.trim_start_matches('\u{feff}').trim_start();
+        for (i, c) in line.bytes().enumerate() {
+            match c {
+                b'0'..=b'9' => {
+                    digits += i32::from(digits > 0 || c != b'0');
+                    place -= i32::from(fraction);
+                }
+                b'.' => fraction = true,
+                b'+' | b'-' => {}
+                b'e' | b'E' => {
+                    let exponent = line[i + 1..].split([',', ';', ' ', '\t']).next().unwrap_or_default();
+                    place += exponent.parse().unwrap_or(0_i32).clamp(-400, 400);
+                    break;
+                }
+                _ => break,
+            }
+        }
+        Self { place, digits, unit }
+    }
 }
 
 /// One sample of a record.
@@ -162,12 +129,25 @@ pub struct Sample {
 impl<R: BufRead> Lines<R> {
     /// `units` stand above those of a header.
     pub fn new(input: R, units: Option<Units>) -> Self {
-        Self { input, units, text: String::new(), line: 0, bytes: 0, previous: None }
+        Self {
+            input,
+            units,
+            text: String::new(),
+            line: 0,
+            bytes: 0,
+            previous: None,
+            names: Vec::new(),
+            more_columns: None,
+        }
     }
     /// Bytes read so far: for a progress bar.
     #[must_use]
     pub fn bytes(&self) -> u64 {
         self.bytes
+    }
+    /// How the time of the last sample was printed.
+    fn stamp(&self) -> Stamp {
+        Stamp::of(&self.text, self.units.map_or(1.0, |units| units.time))
     }
     /// The next sample, or `None` at the end.
     ///
@@ -195,18 +175,19 @@ impl<R: BufRead> Lines<R> {
             if text.is_empty() || text.starts_with('#') {
                 continue;
             }
-            let separator = [',', ';', '\t'].into_iter().find(|&c| text.contains(c));
-            let mut columns = match separator {
+            // A comma beside a semicolon is a decimal comma.
+            let separator = [';', ',', '\t'].into_iter().find(|&c| text.contains(c));
+            let columns = match separator {
                 Some(c) => text.split(c).map(str::trim).collect::<Vec<_>>(),
                 None => text.split_whitespace().collect(),
-            }
-            .into_iter();
+            };
             let bad = |what: String| Error::Line { line: self.line, what };
-            let (Some(first), Some(second)) = (columns.next(), columns.next()) else {
+            let [first, second, more @ ..] = &columns[..] else {
                 return Err(bad(format!("{text:?} is not two columns, time and acceleration")));
             };
-            let (Ok(time), Ok(acceleration)) = (first.parse::<f64>(), second.parse::<f64>()) else {
-                if self.previous.is_none() && first.parse::<f64>().is_err() && second.parse::<f64>().is_err() {
+            let numbers = [first, second].map(|text| text.parse::<f64>());
+            let [Ok(time), Ok(acceleration)] = numbers else {
+                if self.previous.is_none() && numbers.iter().all(Result::is_err) && decimal_comma(text).is_none() {
                     // A header, once: its units count unless the caller named some.
                     if self.units.is_none() {
                         self.units = Units::from_header([first, second]);
@@ -214,14 +195,28 @@ impl<R: BufRead> Lines<R> {
                             return Err(Error::NoUnits);
                         }
                     }
+                    self.names = columns.into_iter().map(|name| name.trim_matches('"').to_owned()).collect();
                     self.previous = Some(f64::NEG_INFINITY);
                     continue;
                 }
-                let wrong = if first.parse::<f64>().is_err() { first } else { second };
+                if let Some(number) = decimal_comma(text) {
+                    let point = number.replace(',', ".");
+                    return Err(bad(format!(
+                        "{number:?} has a decimal comma; write {point}, with a point, in all lines"
+                    )));
+                }
+                let wrong = if numbers[0].is_err() { first } else { second };
                 return Err(bad(format!("{wrong:?} is not a number; a header may only be the first line")));
             };
+            if self.more_columns.is_none() && more.iter().any(|column| !column.is_empty()) {
+                let names = (0..columns.len()).map(|i| match self.names.get(i) {
+                    Some(name) => format!("{} ({name})", i + 1),
+                    None => (i + 1).to_string(),
+                });
+                self.more_columns = Some(Finding::Columns { line: self.line, names: names.collect() });
+            }
             let units = self.units.ok_or(Error::NoUnits)?;
-            for (name, text, value) in [("time", first, time), ("acceleration", second, acceleration)] {
+            for (name, text, value) in [("time", *first, time), ("acceleration", *second, acceleration)] {
                 if !value.is_finite() {
                     return Err(bad(format!("{name} {text} is not finite")));
                 }
@@ -236,85 +231,14 @@ impl<R: BufRead> Lines<R> {
             return Ok(Some(Sample { line: self.line, time, acceleration: acceleration * units.acceleration }));
         }
     }
-    /// Reads to the end and tells what is there, handing each sample to `each`.
-    ///
-    /// # Errors
-    /// As [`Lines::sample`]; [`Error::Short`] for fewer than two samples.
-    pub fn survey(mut self, mut each: impl FnMut(Sample, u64)) -> Result<Survey, Error> {
-        let mut findings = Vec::new();
-        let (mut n, mut largest) = (0_usize, 0.0_f64);
-        let (mut start, mut end) = (0.0, f64::NEG_INFINITY);
-        let (mut slowest, mut fastest) = (f64::INFINITY, 0.0_f64);
-        let mut bins = Bins::default();
-        while let Some(s) = self.sample()? {
-            if n == 0 {
-                start = s.time;
-            } else {
-                #[expect(clippy::cast_precision_loss, reason = "a count of lines stays below 2^53")]
-                let steps = n as f64;
-                let usual = (end - start) / (steps - 1.0).max(1.0);
-                if n > 1 && s.time - end > GAP * usual && findings.len() < MOST_FINDINGS {
-                    findings.push(Finding::Gap { line: s.line, seconds: s.time - end, usual });
-                }
-                // Steps that keep every time so far within the band about an even grid.
-                let mean = (s.time - start) / steps;
-                let band = UNEVEN * mean / steps;
-                (slowest, fastest) = (slowest.min(mean + band), fastest.max(mean - band));
-            }
-            (n, end, largest) = (n + 1, s.time, largest.max(s.acceleration.abs()));
-            bins.add(s);
-            each(s, self.bytes);
-        }
-        if n < 2 {
-            return Err(Error::Short(n));
-        }
-        bins.judge(largest, &mut findings);
-        #[expect(clippy::cast_precision_loss, reason = "a count of lines stays below 2^53")]
-        let mean = (end - start) / (n - 1) as f64;
-        let step = (fastest <= mean && mean <= slowest).then_some(mean);
-        Ok(Survey { samples: n, start, end, step, largest, findings })
-    }
 }
 
-/// Means over equal shares of a record of unknown length.
-#[derive(Debug, Default)]
-struct Bins {
-    full: Vec<(usize, usize, f64)>,
-    size: usize,
-    count: usize,
-}
-
-impl Bins {
-    fn add(&mut self, s: Sample) {
-        self.size = self.size.max(1);
-        if self.count == 0 {
-            if self.full.len() == BINS {
-                self.full = self.full.chunks(2).map(|p| (p[0].0, p[1].1, 0.5 * (p[0].2 + p[1].2))).collect();
-                self.size *= 2;
-            }
-            self.full.push((s.line, s.line, 0.0));
-        }
-        self.count += 1;
-        if let Some(bin) = self.full.last_mut() {
-            bin.1 = s.line;
-            #[expect(clippy::cast_precision_loss, reason = "a count of lines stays below 2^53")]
-            let share = self.count as f64;
-            bin.2 += (s.acceleration - bin.2) / share;
-        }
-        if self.count == self.size {
-            self.count = 0;
-        }
-    }
-    fn judge(&self, largest: f64, findings: &mut Vec<Finding>) {
-        let whole = if self.count > 0 && self.full.len() > 1 { self.full.len() - 1 } else { self.full.len() };
-        let (Some(first), Some(last)) = (self.full.first(), self.full[..whole].last()) else { return };
-        if first.2.abs() > LEVEL * largest {
-            findings.push(Finding::Offset { lines: (first.0, first.1), mean: first.2 });
-        }
-        if (last.2 - first.2).abs() > LEVEL * largest {
-            findings.push(Finding::Drift { lines: (last.0, last.1), change: last.2 - first.2 });
-        }
-    }
+/// The first number of a line that has decimal commas, if all its columns are numbers with them read as points.
+fn decimal_comma(line: &str) -> Option<&str> {
+    let separated = |c: char| c == ';' || c.is_whitespace();
+    let columns = || line.split(separated).filter(|column| !column.is_empty());
+    let number = |column: &str| column.matches(',').count() <= 1 && column.replace(',', ".").parse::<f64>().is_ok();
+    (columns().count() > 1 && columns().all(number)).then(|| columns().find(|column| column.contains(','))).flatten()
 }
 
 /// A record in memory, in seconds and m/s².

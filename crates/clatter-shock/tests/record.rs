@@ -22,6 +22,10 @@ fn bad_records_are_refused_by_line() {
         ("t,a\nt,a\n", "line 2: \"t\" is not a number; a header may only be the first line"),
         ("0,1\n1\n", "line 2: \"1\" is not two columns, time and acceleration"),
         ("0,1\n1,\"1\n", "line 2: \"\\\"1\" is not a number; a header may only be the first line"),
+        ("0;1\n1;1,5\n", "line 2: \"1,5\" has a decimal comma; write 1.5, with a point, in all lines"),
+        ("0,5;1,5\n1;1\n", "line 1: \"0,5\" has a decimal comma; write 0.5, with a point, in all lines"),
+        ("0\t1\n1\t1,5\n", "line 2: \"1,5\" has a decimal comma; write 1.5, with a point, in all lines"),
+        ("0 1\n1 1,5e-3\n", "line 2: \"1,5e-3\" has a decimal comma; write 1.5e-3, with a point, in all lines"),
         ("0,1\n1,1.2.3\n", "line 2: \"1.2.3\" is not a number; a header may only be the first line"),
     ] {
         assert_eq!(refusal(csv, si), message, "{csv:?}");
@@ -62,6 +66,136 @@ fn gaps_offsets_and_drift_are_found() {
     assert!(matches!(findings[2], Finding::Drift { change, .. } if (change - 9.9).abs() < 0.3), "{findings:?}");
     assert_eq!(findings.len(), 3, "{findings:?}");
     assert_eq!(record.survey().step, None, "a gap is not even");
+}
+
+/// A record in SI units of samples at these times, all zero but one.
+fn at_times(times: impl IntoIterator<Item = String>) -> Record {
+    let line = |(i, time)| format!("{time},{}\n", if i == 20 { 100 } else { 0 });
+    let csv: String = times.into_iter().enumerate().map(line).collect();
+    Record::read(csv.as_bytes(), Some(Units::SI)).expect("a record")
+}
+
+/// Line, samples missing there and the usual step of each gap.
+fn gaps(record: &Record) -> Vec<(usize, f64, f64)> {
+    let gap = |finding: &Finding| match finding {
+        Finding::Gap { line, seconds, usual } => (*line, (seconds / usual).round() - 1.0, *usual),
+        other => panic!("{other:?}"),
+    };
+    record.survey().findings.iter().map(gap).collect()
+}
+
+#[test]
+fn missing_samples_are_found_by_line() {
+    // From which on how many are left out of 0, 1, 2, …, and where that shows.
+    for (missing, want) in [
+        (&[(500, 1)][..], &[(501, 1.0)][..]),
+        (&[(500, 2)], &[(501, 2.0)]),
+        (&[(500, 6)], &[(501, 6.0)]),
+        (&[(1, 1)], &[(2, 1.0)]),
+        (&[(2, 1)], &[(3, 1.0)]),
+        (&[(998, 1)], &[(999, 1.0)]),
+        // After a long gap the usual step is still the usual step.
+        (&[(100, 10_000), (10_200, 1), (10_203, 3)], &[(101, 10_000.0), (201, 1.0), (203, 3.0)]),
+        (&[], &[]),
+    ] {
+        let last = 1000 + missing.iter().map(|m: &(u32, u32)| m.1).sum::<u32>();
+        let times = (0..last).filter(|i| !missing.iter().any(|(from, n)| (*from..from + n).contains(i)));
+        let record = at_times(times.map(|i| format!("{:?}", 0.25 + 1e-4 * f64::from(i))));
+        let found = gaps(&record);
+        assert_eq!(found.iter().map(|g| (g.0, g.1)).collect::<Vec<_>>(), want, "{missing:?}");
+        assert!(found.iter().all(|g| (g.2 / 1e-4 - 1.0).abs() < 1e-6), "{found:?}");
+        assert_eq!(record.survey().step.is_some(), missing.is_empty(), "{missing:?}");
+    }
+}
+
+#[test]
+fn a_change_of_rate_is_no_missing_sample() {
+    // Ten times as slow from the middle on, in between, and steps that grow and shrink.
+    let change = |i: u32| if i < 500 { 0.0 } else { 9.0 * f64::from(i - 500) };
+    let record = at_times((0..1000).map(|i| format!("{:?}", 1e-4 * (f64::from(i) + change(i)))));
+    assert!(gaps(&record).len() <= 1, "{:?}", gaps(&record));
+    let mut time = 0.0;
+    let varied = (0..1000_u32).map(|i| {
+        time += 1e-3 * (1.0 + 0.5 * f64::from(i % 7));
+        format!("{time:?}")
+    });
+    assert_eq!(gaps(&at_times(varied)), []);
+}
+
+/// How a time is printed.
+type Print = fn(f64) -> String;
+
+/// 48 kHz in whole microseconds, rounded, cut off and with six digits: even as far as can be told.
+#[test]
+fn printed_digits_make_no_record_uneven() {
+    let step = 1.0 / 48_000.0;
+    let exact = |i: u32| 0.060_000_3 + f64::from(i) * step;
+    let formats: [(&str, Print); 4] = [
+        ("rounded", |t| format!("{t:.6}")),
+        ("cut off", |t| format!("{:.6}", (t * 1e6).floor() * 1e-6)),
+        ("without zeros", |t| format!("{t:.6}").trim_end_matches('0').to_owned()),
+        ("six digits", |t| format!("{t:.5e}")),
+    ];
+    for (name, print) in formats {
+        let record = at_times((0..20_000).map(|i| print(exact(i))));
+        let survey = record.survey();
+        assert_eq!(gaps(&record), [], "{name}");
+        let got = survey.step.unwrap_or_else(|| panic!("{name}: uneven"));
+        // One printed unit over the whole length.
+        assert!((got / step - 1.0).abs() < 1e-5, "{name}: {got}");
+        // One sample less is still seen, and a drift of the clock by more than its digits.
+        let less = at_times((0..20_000).filter(|i| *i != 9000).map(|i| print(exact(i))));
+        assert_eq!(gaps(&less).iter().map(|g| (g.0, g.1)).collect::<Vec<_>>(), [(9001, 1.0)], "{name}");
+        let bent = at_times((0..20_000).map(|i| print(exact(i) + 4e-5 * (f64::from(i) / 5000.0).sin())));
+        assert_eq!((gaps(&bent), bent.survey().step), (vec![], None), "{name}");
+    }
+    // Digits no finer than the step tell nothing of rounding: a step of two is a sample that is missing.
+    let coarse = at_times((0..200).filter(|i| *i != 77).map(|i| i.to_string()));
+    assert_eq!(gaps(&coarse), [(78, 1.0, 1.0)]);
+    let coarser = at_times((0..200).map(|i| (3 * i / 2).to_string()));
+    assert_eq!((gaps(&coarser), coarser.survey().step), (vec![], None));
+}
+
+#[test]
+fn a_base_line_that_bows_and_comes_back_is_found() {
+    use std::f64::consts::PI;
+    // A half-sine of 2 % of the length, ringing after it, and noise of 1 %; 2001 samples.
+    let shock = |x: f64| if (0.3..0.32).contains(&x) { (PI * (x - 0.3) / 0.02).sin() } else { 0.0 };
+    let ringing = |x: f64| if x > 0.32 { 0.3 * (-8.0 * (x - 0.32)).exp() * (90.0 * (x - 0.32)).sin() } else { 0.0 };
+    let noise = |i: u32| 0.01 * f64::from(i.wrapping_mul(2_654_435_761) >> 16) / 32768.0 - 0.01;
+    let of = |base: &dyn Fn(f64) -> f64| {
+        let mut csv = String::new();
+        for i in 0..=2000_u32 {
+            let x = f64::from(i) / 2000.0;
+            let a = 800.0 * (shock(x) + ringing(x) + noise(i) + base(x));
+            writeln!(csv, "{},{a}", f64::from(i) / 8192.0).expect("a string");
+        }
+        Record::read(csv.as_bytes(), Some(Units::SI)).expect("record").survey().findings.clone()
+    };
+    assert_eq!(of(&|_| 0.0), []);
+    for size in [0.04, 0.08, 0.2, -0.08] {
+        let found = of(&|x| size * (PI * x).sin());
+        // Cut in two by the shock, or one.
+        assert!(!found.is_empty() && found.len() <= 2, "{size}: {found:?}");
+        for finding in found {
+            let Finding::Drift { lines: (a, b), change } = finding else { panic!("{finding:?}") };
+            assert!(b - a >= 500 && (0.4..1.1).contains(&(change / (800.0 * size))), "{size}: {a} to {b}, {change}");
+        }
+    }
+}
+
+#[test]
+fn columns_that_are_not_read_are_told() {
+    let findings = |csv: &str| {
+        let record = Record::read(csv.as_bytes(), Some(Units::SI)).expect("record");
+        record.survey().findings.iter().map(Finding::to_string).collect::<Vec<_>>()
+    };
+    let named = "line 2: time is taken from column 1 (time), acceleration from column 2 (ax), nothing from column 3 (ay); \
+                 for another, put it second";
+    assert_eq!(findings("time,ax,ay\n0,0,3\n1,0,4\n"), [named]);
+    let unnamed = "line 3: time is taken from column 1, acceleration from column 2, nothing from column 3, 4; \
+                   for another, put it second";
+    assert_eq!(findings("0;0\n1;0;;\n2;0;5;6\n"), [unnamed], "a separator at the end of a line is no column");
 }
 
 #[test]

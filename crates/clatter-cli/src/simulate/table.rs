@@ -11,7 +11,7 @@ use crate::numbers::{digits, figures, given};
 impl Drop<'_> {
     /// What the model keeps.
     pub(super) fn physics(&self) -> String {
-        let gravity = given(self.args.gravity_m_s2);
+        let gravity = given(self.args.drop.gravity_m_s2);
         match self.motion {
             Motion::Instant(Model::Map, _) => "Small tilt, no gravity, instant impacts".to_owned(),
             Motion::Instant(Model::Ballistic, _) => format!("Small tilt, gravity {gravity} m/s², instant impacts"),
@@ -28,14 +28,15 @@ impl Drop<'_> {
             0.0 => format!("q = {qa}"),
             s => format!("center of mass at {}: q = {qa} for strikes at end a, {qb} at end b", figures(s)),
         };
-        let (length, gyration) = (given(args.length_m), figures(scene.body().gyration_m()));
-        let thickness = match args.thickness_m {
+        let (length, gyration) = (given(args.drop.length_m()), figures(scene.body().gyration_m()));
+        let thickness = match args.drop.thickness_m {
             0.0 => String::new(),
             thickness => format!(" by {}", given(thickness)),
         };
         let e = given(args.e);
         writeln!(out, "Body of {length}{thickness} m, radius of gyration {gyration} m, {mass}; e = {e}")?;
-        let (speed, tilt, gap) = (figures(scene.speed_m_s()), given(args.tilt_deg), figures(scene.height_gap_m()));
+        let (speed, tilt, gap) =
+            (figures(scene.speed_m_s()), given(args.drop.tilt_deg()), figures(scene.height_gap_m()));
         let spin = match scene.spin_rad_s() {
             0.0 => String::new(),
             spin => format!(", turning at {} rad/s", given(spin)),
