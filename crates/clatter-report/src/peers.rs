@@ -58,6 +58,14 @@ struct BarRow {
     ratio: [f64; 4],
 }
 
+impl Machine {
+    fn numbers(&self, date: &str) -> Value {
+        json!({ "date": date, "cpu": self.cpu, "cores": self.cores,
+                "load": [tick(round(self.load_before)), tick(round(self.load_after))],
+                "rustc": self.rustc, "python": self.python })
+    }
+}
+
 impl BarRow {
     /// How far the count of a bar is right.
     fn dot(&self, bar: usize, truth: u64) -> Dot {
@@ -72,6 +80,9 @@ impl BarRow {
 
 #[derive(Debug, Deserialize)]
 struct Spectra {
+    /// Of their own, where they were measured again alone.
+    date: Option<String>,
+    machine: Option<Machine>,
     rows: Vec<SpectrumRow>,
 }
 
@@ -107,7 +118,6 @@ impl Results {
 
     /// What the page says.
     fn numbers(&self) -> Value {
-        let m = &self.machine;
         let bars = self.bars.rows.iter().map(|row| {
             let dots = std::array::from_fn::<_, 4, _>(|i| row.dot(i, self.bars.impacts[i]));
             let count = |kept: fn(&Dot) -> bool| dots.iter().filter(|dot| kept(dot)).count();
@@ -132,9 +142,8 @@ impl Results {
         let maps =
             self.maps.rows.iter().map(|row| json!({ "tool": row.tool, "time": time(row.ms), "ratio": two(row.ratio) }));
         json!({
-            "date": self.date,
-            "machine": { "cpu": m.cpu, "cores": m.cores, "load": [tick(round(m.load_before)), tick(round(m.load_after))],
-                         "rustc": m.rustc, "python": m.python },
+            "measured": self.machine.numbers(&self.date),
+            "spectra_measured": self.spectra.machine.as_ref().zip(self.spectra.date.as_ref()).map(|(m, date)| m.numbers(date)),
             "bars": { "designs": self.bars.designs, "impacts": self.bars.impacts, "rows": bars.collect::<Vec<_>>(),
                       "half_length_mm": tick(1e3 * self.bars.half_length_m), "speed_m_s": tick(self.bars.speed_m_s),
                       "tilt_deg": tick(self.bars.tilt_deg) },

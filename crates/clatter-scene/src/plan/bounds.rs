@@ -3,10 +3,10 @@
 use super::lane::Ends;
 use super::swing::Swing;
 
-/// Bound on the shocks to come of a bar whose speed at the component stays below `speed`: from one side to the other, by one contact
-/// or by both together.
-pub(super) fn later_shock(speed: f64, gravity: f64, contact_s: f64) -> f64 {
-    2.0 * speed + gravity * contact_s
+/// Bound on the shocks to come of a bar whose speed at the component stays below `speed`, of which contacts, one or both together,
+/// throw back the share `rebound`.
+pub(super) fn later_shock(speed: f64, rebound: f64, gravity: f64, contact_s: f64) -> f64 {
+    (1.0 + rebound) * speed + gravity * contact_s
 }
 
 /// What the same may add to the response, about: one such shock, and the weight that the ground carries in the end.

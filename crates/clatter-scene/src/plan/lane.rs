@@ -286,14 +286,19 @@ impl Lane {
         let lift =
             if self.tilts { ends.arm[I] * sweep.spin2 * if I == 0 { sweep.sin } else { -sweep.sin } } else { 0.0 };
         let g = self.gravity - lift;
+        let sunk = w * w + 2.0 * g * h < 0.0;
+        if sunk && self.velocity[1 - I] >= 0.0 && self.is_sunk(1 - I) {
+            self.down = Down::Bar;
+            return;
+        }
         let lands = self.lands(1 - I);
-        if g > 0.0
-            && lands > 0.0
-            && w >= 0.0
-            && (w * w + 2.0 * g * h < 0.0 || 2.0 * w < BRIEF * lands * g * (1.0 - ends.e))
-        {
+        if g > 0.0 && lands > 0.0 && w >= 0.0 && (sunk || 2.0 * w < BRIEF * lands * g * (1.0 - ends.e)) {
             self.lie_at::<I>(ends, ratio, lands);
         }
+    }
+    /// Whether an end has no speed to come out of the ground with.
+    fn is_sunk(&self, k: usize) -> bool {
+        self.velocity[k] * self.velocity[k] + 2.0 * self.gravity * self.height[k] < 0.0
     }
     /// When end j would land by gravity alone; 0 where that is not to come.
     fn lands(&self, j: usize) -> f64 {
@@ -340,7 +345,7 @@ impl Lane {
         self.velocity = both.velocity.map(|velocity| speed * velocity);
         let mut delta_v = self.velocity;
         delta_v[next.end] += speed;
-        match [0, 1].map(|k| self.velocity[k] * self.velocity[k] + 2.0 * self.gravity * self.height[k] < 0.0) {
+        match [self.is_sunk(0), self.is_sunk(1)] {
             [true, true] => self.down = Down::Bar,
             [true, false] => self.lie(ends, 0),
             [false, true] => self.lie(ends, 1),

@@ -21,13 +21,16 @@
 //! - pulses in place of impulses: `½ σ² ω²` of a peak inside the swing (σ² the variance of the pulse), the slope over its mean
 //!   age for a peak on the jump of the dashpot;
 //! - overlapping contacts: what a kick through the bar does to a contact that has not done all it would, exactly for a linear one;
+//! - an end that lies on the ground while the other lands: both contacts at once, whose motion hangs on inertia ratio and restitution
+//!   alone, from a table that the model of contacts fills; against the closed form of all impacts of that instant;
 //! - everything later: by energy, no end can be faster than E allows; where that cannot raise the response above the peak so
-//!   far, the following stops, and [`Forecast::until_s`] says until when any model needs to be followed.
+//!   far, the following stops, and [`Forecast::until_s`] says until when any model needs to be followed. Where strikes are in doubt,
+//!   that bound takes their place.
 //!
 //! # Bounds and estimates
-//! The last is a bound for velocity shocks. The rest is first order in the groups, with four fitted constants, for contacts
-//! that part together, for ends that come up from below the ground, for large tilt and for later strikes: an estimate, held by a study
-//! of random scenes (`examples/plan_study.rs`). [`Estimate::is_bound`] says which it is.
+//! The last is a bound for velocity shocks. The rest is first order in the groups, with five fitted constants, for contacts
+//! that part together, for ends that come up from below the ground, for those that lie down, for large tilt and for later strikes: an
+//! estimate, held by a study of random scenes (`examples/plan_study.rs`). [`Estimate::is_bound`] says which it is.
 //!
 //! ```
 //! use clatter::flight::{Body, Scene};

@@ -283,7 +283,7 @@ impl<'a, const N: usize> Walker<'a, N> {
     /// Bound on what a bar of such a speed does to the component from now on, and what of it one shock does; `more` than one may come.
     fn to_come(&self, speed: f64, more: bool) -> (f64, f64) {
         if self.coupling.velocity_shock {
-            let shock = later_shock(speed, self.gravity, self.coupling.time);
+            let shock = later_shock(speed, self.coupling.rebound, self.gravity, self.coupling.time);
             return (shock, shock);
         }
         let fall = self.gravity / self.omega;
