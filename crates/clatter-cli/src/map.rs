@@ -14,14 +14,17 @@ use crate::{Failure, Streams, npy, output};
 
 /// Write a quantity over a grid of q and e to a file
 ///
-/// A bar falls without spin at every point of the grid. The ending of the file decides what is written:
+/// A bar falls without spin at every point of the grid. The ending of the file decides what is
+/// written:
 ///
 ///   .csv   a line q,e,QUANTITY for every point, e fastest
-///   .json  {"quantity", "threshold", "q": [...], "e": [...], "values": [[...], ...]}, a row for each q
+///   .json  {"quantity", "threshold", "q": [...], "e": [...], "values": [[...], ...]}, a row for each
+///          q
 ///   .npy   the values as numpy loads them, a row for each q
 ///   .svg   a picture
 ///
-/// With --gyration-ratio in place of --q, "q" becomes "gyration_ratio" in the headings of .csv and .json.
+/// With --gyration-ratio in place of --q, "q" becomes "gyration_ratio" in the headings of .csv and
+/// .json.
 ///
 /// An endless train counts as inf ("infinite" in JSON).
 #[derive(Debug, clap::Args)]

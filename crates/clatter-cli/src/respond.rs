@@ -21,31 +21,35 @@ use crate::{Failure, Streams, excitation, lists, output};
 
 /// Tell what a clatter does to a component on its suspension
 ///
-/// The component sits at position S of the bar and swings with the natural angular frequency W. Every impact is a
-/// velocity shock there; the peaks that follow are exact, from turning points and never from samples, and the
-/// ring-down is complete. Only W h0/v0 and the damping matter:
+/// The component sits at position S of the bar and swings with the natural angular frequency W. Every
+/// impact is a velocity shock there; the peaks that follow are exact, from turning points and never
+/// from samples, and the ring-down is complete. Only W h0/v0 and the damping matter:
 ///
-///   W h0/v0 small   the component is slower than the whole clatter and sees the net change of velocity
-///   W h0/v0 large   it has calmed down before the next impact, and the largest shock decides; without
-///                   damping it never does, and the shocks add up by phase
+///   W h0/v0 small   the component is slower than the whole clatter and sees the net change of
+///                   velocity
+///   W h0/v0 large   it has calmed down before the next impact, and the largest shock decides;
+///                   without damping it never does, and the shocks add up by phase
 ///   between         the impacts can fall into step with it: resonance
 ///
-/// Peaks are given as velocities: W z, of the displacement z relative to the bar, and A/W, of the absolute
-/// acceleration A. A single velocity shock of 1 makes both 1 if there is no damping.
+/// Peaks are given as velocities: W z, of the displacement z relative to the bar, and A/W, of the
+/// absolute acceleration A. A single velocity shock of 1 makes both 1 if there is no damping.
 ///
 /// `-o FILE` writes this rule as a curve over W h0/v0: .csv, .json, or .svg for a picture.
 ///
 /// What shakes the component is the clatter of the paper's bar, from --q and --e. Or it is
 ///
-///   --model         a drop in SI units, followed by any of the models of `clatter simulate` and with its options: with
-///                   gravity, real tilt, an off-center mass; W is then in rad/s. For compliant its pulses count, not only
-///                   their velocity changes, to 1e-3 or so and until contacts are weak, as in `clatter assess`
-///   --shocks-file   velocity shocks from a file in SI units, of any number, with the columns time_s and delta_v_m_s
-///   --pulses-file   pulses, with the columns shape, amplitude_m_s2, duration_s and start_s; shapes as in
-///                   `clatter spectrum --help`; they may overlap
+///   --model         a drop in SI units, followed by any of the models of `clatter simulate` and with
+///                   its options: with gravity, real tilt, an off-center mass; W is then in rad/s.
+///                   For compliant its pulses count, not only their velocity changes, to 1e-3 or so
+///                   and until contacts are weak, as in `clatter assess`
+///   --shocks-file   velocity shocks from a file in SI units, of any number, with the columns time_s
+///                   and delta_v_m_s
+///   --pulses-file   pulses, with the columns shape, amplitude_m_s2, duration_s and start_s; shapes
+///                   as in `clatter spectrum --help`; they may overlap
 ///
-/// --equivalent-pulse names the half-sine of a shock table that does the same to the component, in acceleration and in
-/// relative displacement to 1 %, or says that there is none. For that everything has to be in SI units.
+/// --equivalent-pulse names the half-sine of a shock table that does the same to the component, in
+/// acceleration and in relative displacement to 1 %, or says that there is none. For that everything
+/// has to be in SI units.
 #[derive(Debug, clap::Args)]
 #[command(
     verbatim_doc_comment,

@@ -16,7 +16,8 @@ use crate::{Failure, Streams};
 
 /// Follow one drop in time: its strikes, how hard they are, and how it comes to rest
 ///
-/// Four models of the same drop, each the cheapest that keeps its physics; run two to see what it matters:
+/// Four models of the same drop, each the cheapest that keeps its physics; run two to see what it
+/// matters:
 ///
 ///   map          small tilt, no gravity, instant impacts: the paper's bar
 ///   ballistic    with gravity: what bounced clear comes back, until it lies still
@@ -30,8 +31,8 @@ use crate::{Failure, Streams};
 /// A file written with -o holds the whole motion; its ending decides how:
 ///
 ///   .csv   rows over time: heights and velocities of both ends and velocities at --at; for compliant
-///          also the forces on the ends over the mass, and accelerations. Each strike is two rows, just
-///          before and just after, and straight lines through all rows follow the motion
+///          also the forces on the ends over the mass, and accelerations. Each strike is two rows,
+///          just before and just after, and straight lines through all rows follow the motion
 ///   .json  the answer of --format=json with these rows as "history"
 ///   .svg   a picture: heights over time with the strikes marked, the velocity shocks below, and for
 ///          compliant the pulses

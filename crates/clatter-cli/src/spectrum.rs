@@ -23,26 +23,30 @@ use crate::{Failure, Streams, lists, output};
 /// What shakes the base of the component is a measured record, or pulses, or velocity shocks:
 ///
 ///   RECORD.csv  two columns, time and acceleration, with a header that names the units, such as
-///               `time [ms],acceleration [g]`; even in time, as far as its printed digits tell, or not, of any
-///               length. Between samples the acceleration is taken as linear, and for that the spectrum is
-///               exact. Missing samples, offset, drift and columns beyond the two are told as warnings
+///               `time [ms],acceleration [g]`; even in time, as far as its printed digits tell, or
+///               not, of any length. Between samples the acceleration is taken as linear, and for
+///               that the spectrum is exact. Missing samples, offset, drift and columns beyond the
+///               two are told as warnings
 ///   --pulse     a pulse of a shape; may be given several times, and pulses may overlap
 ///   --shock     a change of velocity in no time, for pulses much shorter than a period
 ///   --pulses-file, --shocks-file
 ///               either of these from a CSV file, of any number: its first line names the columns,
 ///               shape,amplitude_m_s2,duration_s,start_s or time_s,delta_v_m_s, among others or not
 ///
-/// For each frequency: `primary`, the largest absolute value from the first start to the last end; `residual`, after
-/// it, the ring-down complete; `maximax` over both; and over both the largest `positive` and `negative` value.
+/// For each frequency: `primary`, the largest absolute value from the first start to the last end;
+/// `residual`, after it, the ring-down complete; `maximax` over both; and over both the largest
+/// `positive` and `negative` value.
 ///
 /// With --limit the margin 20 log10(limit/maximax) is given in decibel; below 0 the limit is passed.
 ///
-/// `-o FILE` writes the rows as .csv, the whole answer as .json, or a picture as .svg: log-log, the pseudo-velocity on
-/// four-coordinate paper. With --damage-boundary the picture is the damage boundary with the pulse on it.
+/// `-o FILE` writes the rows as .csv, the whole answer as .json, or a picture as .svg: log-log, the
+/// pseudo-velocity on four-coordinate paper. With --damage-boundary the picture is the damage
+/// boundary with the pulse on it.
 ///
-/// A damage boundary comes from one frequency and a limit, or with --tests from shock tests: a CSV file with the columns test
-/// (velocity-change, in m/s, or acceleration, in m/s2), level and damaged (yes or no). Critical is the highest level of either
-/// below all damage, as in ASTM D3332; between them the boundary is that of an undamped component, for rectangles.
+/// A damage boundary comes from one frequency and a limit, or with --tests from shock tests: a CSV
+/// file with the columns test (velocity-change, in m/s, or acceleration, in m/s2), level and damaged
+/// (yes or no). Critical is the highest level of either below all damage, as in ASTM D3332; between
+/// them the boundary is that of an undamped component, for rectangles.
 #[derive(Debug, clap::Args)]
 #[command(
     verbatim_doc_comment,
