@@ -370,6 +370,24 @@ fn extremes_get_a_plan() {
     assert_eq!(runs, 5 * 4 * 4 * 3 * 4 * 3);
 }
 
+/// Bodies lighter at their ends, and restitutions lower and higher, than contacts take: they lie down and land like others.
+#[test]
+fn any_body_gets_a_plan() {
+    let mut random = Random(9);
+    let mut log = |lo: f64, hi: f64| lo * (hi / lo).powf(random.unit());
+    for k in 0..4000 {
+        let (gyration, e) = (log(1e-4, 0.3), if k % 2 == 0 { log(1e-4, 1.0) } else { 1.0 - log(1e-6, 0.3) });
+        let drop = [0.1, gyration, e, log(0.1, 7.0), log(0.01, 40.0)];
+        let setup = drop_of(drop, [log(1e-6, 1e-2), 0.7, log(10.0, 1e5), log(1e-3, 2.0)]);
+        for quantity in QUANTITIES {
+            for forecast in [setup.forecast(quantity), setup.forecast_far(quantity)] {
+                assert!(forecast.pair(Pair::planned(quantity)[0]).error >= 0.0, "{forecast:?} {setup:?}");
+                assert!(forecast.peak >= 0.0 && forecast.until_s > 0.0, "{forecast:?} {setup:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn what_is_no_setup_is_refused_with_its_value() {
     let setup = Random(3).setup();

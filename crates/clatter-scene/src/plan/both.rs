@@ -21,10 +21,12 @@ pub(super) struct Both {
     pub(super) lasts: f64,
 }
 
-/// Cells of the table over √(1 − q), from 1 to 0.14, and over −ln e, from e = 1 to 0.01.
+/// Cells of the table over √(1 − q), from 1 to 0.15, and over −ln e, from e = 0.99 to 0.01: contacts take ends no lighter than that
+/// (0.05 of the length as radius of gyration) and no less restitution, and without loss some never part.
 const CELLS: usize = 32;
-const LEAST_ROOT: f64 = 0.14;
-const MOST_LOSS: f64 = 4.605_170_185_988_091;
+const LEAST_ROOT: f64 = 0.15;
+/// −ln 0.99, −ln 0.01
+const LOSS: [f64; 2] = [0.010_050_335_853_501_442, 4.605_170_185_988_091];
 
 /// Filled where it is read: a flight takes some 10 µs.
 static TABLE: [[OnceLock<Both>; CELLS + 1]; CELLS + 1] = [const { [const { OnceLock::new() }; CELLS + 1] }; CELLS + 1];
@@ -48,11 +50,11 @@ impl Both {
         let velocity = Bar::new(q, e).and_then(|bar| Ok(bar.summary(&Start::new([-1.0, 0.0], 0.0)?).final_velocity));
         Self { velocity: velocity.ok().flatten().unwrap_or_default(), ..Self::default() }
     }
-    /// Of contacts, for q in [0, 0.98] and e in [0.01, 1], to 2 % of the approach up to e = 0.8 and 15 % above,
+    /// Of contacts, for q in [0, 0.977] and e in [0.01, 0.99], to 2 % of the approach up to e = 0.8 and 15 % above,
     /// where it changes which end parts last; beyond, those next to them.
     pub(super) fn of_contacts(q: f64, e: f64) -> Self {
         let (i, x) = cell((1.0 - (1.0 - q).sqrt()) / (1.0 - LEAST_ROOT));
-        let (j, y) = cell(-libm::log(e) / MOST_LOSS);
+        let (j, y) = cell((-libm::log(e) - LOSS[0]) / (LOSS[1] - LOSS[0]));
         let at = |i: usize, j: usize| *TABLE[i][j].get_or_init(|| Self::followed(i, j));
         let four = [
             (at(i, j), (1.0 - x) * (1.0 - y)),
@@ -69,7 +71,9 @@ impl Both {
     }
     fn followed(i: usize, j: usize) -> Self {
         let root = 1.0 - (1.0 - LEAST_ROOT) * share(i);
-        Self::flight(1.0 - root * root, libm::exp(-MOST_LOSS * share(j)).clamp(0.01, 1.0))
+        let loss = LOSS[0] + (LOSS[1] - LOSS[0]) * share(j);
+        // At q = 0 a rounding decides how long the end that lies is pressed.
+        Self::flight((1.0 - root * root).max(1e-3), libm::exp(-loss).max(0.01))
     }
     /// By the model of contacts itself.
     fn flight(q: f64, e: f64) -> Self {
@@ -114,6 +118,21 @@ mod tests {
                     assert!(off < stated, "q {q} e {e}: set back {} {}", read.set_back[k], flown.set_back[k]);
                 }
             }
+        }
+    }
+
+    /// No node is refused by the model of contacts, whatever a body is.
+    #[test]
+    fn every_node_can_be_followed() {
+        for i in 0..=CELLS {
+            for j in 0..=CELLS {
+                let both = Both::followed(i, j);
+                assert!(both.velocity.iter().all(|v| (0.0..1.0).contains(v)), "{i} {j}: {both:?}");
+                assert!((0.999..20.0).contains(&both.lasts), "{i} {j}: {both:?}");
+            }
+        }
+        for q in [0.97, 0.979, 0.99, 1.0] {
+            assert!(Both::of_contacts(q, 0.0).lasts > 1.0, "q {q}");
         }
     }
 
