@@ -99,6 +99,9 @@ const REFUSED: &[(&[&str], &[&str])] = &[
     (&["respond", "--q=0.5", "--e=0", "--at=0", "--omega=1", "--equivalent-pulse", "--shock-table=2:1,3,4"], &["--shock-table", "2 ms, is longer than the longest, 1 ms"]),
     (&["respond", "--q=0.5", "--e=0", "--at=0", "--omega=1", "--equivalent-pulse", "--shock-table=1:2,nan,4"], &["--shock-table", "acceleration in g = NaN is not finite and > 0"]),
     (&["respond", "--model=compliant", "--length-m=0.14", "--gyration-m=0.04", "--e=0.3", "--speed-m-s=3", "--tilt-deg=4", "--at=0", "--omega=1", "--contact-time-s=1e-4", "--spin-rad-s=1"], &["--spin-rad-s", "instant impacts"]),
+    (&["respond", "--model=compliant", "--length-m=0.14", "--gyration-m=0.04", "--e=0.3", "--speed-m-s=3", "--tilt-deg=4", "--at=0", "--omega=1", "--contact-time-s=1e-4", "--impact-limit=1"], &["--impact-limit", "instant impacts"]),
+    (&["respond", "--model=compliant", "--length-m=0.14", "--gyration-m=0.04", "--e=0.3", "--speed-m-s=3", "--tilt-deg=4", "--at=0", "--omega=1", "--contact-time-s=1e-4", "--time-limit-s=1e-4"], &["--time-limit-s", "instant impacts"]),
+    (&["respond", "--q=0.5", "--e=0.3", "--at=1", "--omega=3", "--equivalent-pulse"], &["--equivalent-pulse", "SI units"]),
     // Spectra: one excitation, and each of its numbers.
     (&["spectrum"], &["<RECORD.csv|--pulse", "--shock"]),
     (&["spectrum", "--shocks-file=x.csv", "--pulses-file=x.csv"], &["cannot be used with"]),

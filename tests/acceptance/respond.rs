@@ -413,6 +413,38 @@ fn the_equivalent_pulse_does_the_same() {
 }
 
 #[test]
+fn where_nothing_is_felt_no_pulse_is_equivalent() {
+    let got = answer(["respond", "--q=1", "--e=0.3", "--at=0", "--omega=3", "--velocity=-3,-3", "--equivalent-pulse"]);
+    assert_eq!(got["equivalent_pulse"], Value::Null);
+    assert_eq!(got["no_equivalent_pulse"], "nothing is felt here, which no pulse does");
+}
+
+/// End a is as fast as its turning makes it: 3 m/s and 20 rad/s at 0.07 m, tilted by 4°.
+#[test]
+fn the_end_that_strikes_first_is_told_with_its_turning() {
+    let shown = clatter(["respond", "--model=map", "--at=1", "--spin-rad-s=20"].into_iter().chain(DROP)).stdout;
+    let speed = 3.0 + 20.0 * 0.07 * 4.0_f64.to_radians().cos();
+    assert!(shown.contains(&format!("end a strikes first, at {speed:.5} m/s")), "{shown}");
+}
+
+#[test]
+fn columns_of_lists_are_read_once_and_quotes_taken_off() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("list.csv");
+    let with = |text: &str, flag: &str, omega: &str| {
+        std::fs::write(&path, text).unwrap();
+        clatter(["respond", &format!("{flag}={}", path.display()), omega])
+    };
+    let twice = with("time_s,delta_v_m_s,time_s\n0,1,2\n", "--shocks-file", "--omega=10");
+    assert!(twice.stderr.contains("line 1: columns 1 and 3 are both named time_s"), "{}", twice.stderr);
+    let quoted = with("\"time_s\",\"delta_v_m_s\"\n\"0\",\"1\"\n", "--shocks-file", "--omega=10");
+    assert_eq!((quoted.exit, quoted.stderr.as_str()), (Exit::Done, ""));
+    let slow =
+        with("shape,amplitude_m_s2,duration_s,start_s\nhalf-sine,10,1e-3,0\n", "--pulses-file", "--omega=1e-300");
+    assert!(slow.stderr.contains("--omega 1e-300 rad/s is not in [1e-100, 1e100]"), "{}", slow.stderr);
+}
+
+#[test]
 fn a_drop_explains_itself() {
     let shown = clatter(["respond", "--model=ballistic", "--at=1"].into_iter().chain(DROP));
     assert_eq!((shown.exit, shown.stderr.as_str()), (Exit::Done, ""));

@@ -121,13 +121,32 @@ fn help_of_every_command_has_an_example_that_runs() {
             assert!(help.contains("Example"), "{help}");
         }
     }
+    let dir = tempfile::tempdir().unwrap();
+    let files = [
+        ("shocks.csv", "time_s,delta_v_m_s\n0,2.5\n0.004,-1\n"),
+        (
+            "tests.csv",
+            "test,level,damaged\nvelocity-change,2,no\nvelocity-change,3,yes\nacceleration,700,no\nacceleration,900,yes\n",
+        ),
+    ];
+    for (name, text) in files {
+        std::fs::write(dir.path().join(name), text).unwrap();
+    }
     for command in ["impacts", "zone", "respond", "spectrum", "simulate"] {
         let help = shown([command, "--help"]).replace("\\\n      ", "");
         let examples = help.lines().filter_map(|line| line.trim().strip_prefix("clatter "));
         // those that read or write a file are tested with files of their own
-        let examples = examples.filter(|line| !line.contains(".csv") && !line.contains(" -o "));
-        let arguments =
-            examples.map(|line| line.split("   ").next().unwrap_or(line).split_whitespace().collect::<Vec<_>>());
+        let examples = examples.filter(|line| !line.contains("drop.csv") && !line.contains(" -o "));
+        let arguments = examples.map(|line| {
+            let words = line.split("   ").next().unwrap_or(line).split_whitespace();
+            let beside = |word: &str| match word.split_once('=') {
+                Some((flag, name)) if files.iter().any(|(file, _)| *file == name) => {
+                    format!("{flag}={}", dir.path().join(name).display())
+                }
+                _ => word.to_owned(),
+            };
+            words.map(beside).collect::<Vec<_>>()
+        });
         let mut count = 0;
         for arguments in arguments {
             assert_eq!(clatter(&arguments).exit, Exit::Done, "{arguments:?}");

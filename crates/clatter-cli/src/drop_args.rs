@@ -7,6 +7,9 @@ use clatter::flight::{Body, CompliantFlight, Contact, Flight, Model, Pulse, Scen
 use crate::Failure;
 use crate::inputs;
 
+/// Strikes followed at most unless told.
+const IMPACT_LIMIT: usize = 100_000;
+
 /// With every model there are.
 const WITH_MODEL: [(&str, &str); 4] =
     [("model", "map"), ("model", "ballistic"), ("model", "finite-tilt"), ("model", "compliant")];
@@ -42,7 +45,7 @@ pub(crate) struct DropArgs {
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = inputs::time_limit_s, requires = "model")]
     pub(crate) time_limit_s: Option<f64>,
     /// Follow the motion for at most so many strikes
-    #[arg(long, value_name = "N", default_value = "100000", allow_hyphen_values = true, value_parser = inputs::impact_limit, requires = "model")]
+    #[arg(long, value_name = "N", default_value_t = IMPACT_LIMIT, allow_hyphen_values = true, value_parser = inputs::impact_limit, requires = "model")]
     impact_limit: usize,
 }
 
@@ -104,6 +107,10 @@ impl Motion {
 }
 
 impl DropArgs {
+    /// Whether a limit of its own may end it before rest.
+    pub(crate) fn is_cut_short(&self) -> bool {
+        self.time_limit_s.is_some() || self.impact_limit != IMPACT_LIMIT
+    }
     /// The two that clap requires with a model.
     pub(crate) fn length_m(&self) -> f64 {
         self.length_m.unwrap_or(f64::NAN)

@@ -48,10 +48,13 @@ fn rows<const N: usize>(
             let columns: Vec<_> = row.split(',').map(|name| name.trim().trim_matches('"')).collect();
             let mut found = [0; N];
             for (place, name) in found.iter_mut().zip(names) {
-                let at = columns.iter().position(|column| *column == name);
-                *place = at.ok_or_else(|| {
+                let mut at = (0..columns.len()).filter(|i| columns[*i] == name);
+                *place = at.next().ok_or_else(|| {
                     bad(format!("no column {name}; the first line names the columns, {} among them", names.join(",")))
                 })?;
+                if let Some(other) = at.next() {
+                    return Err(bad(format!("columns {} and {} are both named {name}", *place + 1, other + 1)));
+                }
             }
             places = Some(found);
             continue;
@@ -59,7 +62,7 @@ fn rows<const N: usize>(
         let mut cells = [None; N];
         for (i, cell) in row.split(',').enumerate() {
             if let Some(k) = places.iter().position(|place| *place == i) {
-                cells[k] = Some(cell.trim());
+                cells[k] = Some(cell.trim().trim_matches('"'));
             }
         }
         if let Some(k) = cells.iter().position(Option::is_none) {

@@ -1,6 +1,7 @@
 //! `clatter respond`: what one clatter does to one suspended component.
 
 use std::io::{self, Write};
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use clap::ValueHint;
@@ -49,7 +50,7 @@ use crate::{Failure, Streams, excitation, lists, output};
 ///
 /// --equivalent-pulse names the half-sine of a shock table that does the same to the component, in
 /// acceleration and in relative displacement to 1 %, or says that there is none. For that everything
-/// has to be in SI units.
+/// has to be in SI units, --velocity and --height-gap too.
 #[derive(Debug, clap::Args)]
 #[command(
     verbatim_doc_comment,
@@ -171,9 +172,11 @@ struct Shaken<'a> {
     pulses: bool,
     /// Bound on what an endless train leaves out, where there is one.
     omitted: Option<f64>,
-    equivalent: Option<Result<EquivalentPulse, clatter_shock::Error>>,
+    equivalent: Option<Result<EquivalentPulse, String>>,
 }
 
+/// Angular frequencies whose squares, and times between, are floats beside the pulses', in rad/s.
+const SWINGS: RangeInclusive<f64> = 1e-100..=1e100;
 /// Mismatch of the relative displacement that an equivalent pulse may have.
 const EQUIVALENT: f64 = 0.01;
 
@@ -208,6 +211,10 @@ impl Args {
             (Driven::Shocks(path), shocks.respond(&suspension), shocks, Some(0.0))
         } else if let Some(path) = &self.pulses_file {
             let mut list = lists::pulses(path)?;
+            if !SWINGS.contains(&self.omega) {
+                let what = format!("--omega {:?} rad/s is not in [1e-100, 1e100], which pulses take", self.omega);
+                return Err(Failure::Pulses(what));
+            }
             let hz = Frequencies::list(vec![suspension.omega() / std::f64::consts::TAU])?;
             excitation::check_periods(&list, &hz).map_err(Failure::Pulses)?;
             let response = Pulses::new(&list)?.respond(&suspension);
@@ -219,17 +226,24 @@ impl Args {
             self.drop(model, &suspension)?
         } else {
             let (bar, start) = (self.inertia.bar(self.e())?, Start::new(self.velocity, self.height_gap)?);
+            if self.equivalent_pulse && start == Start::default() {
+                return Err(Failure::Usage(
+                    "--equivalent-pulse needs SI units: --velocity in m/s and --height-gap in m, --model, or a file",
+                ));
+            }
             let train = clatter_shock::respond(&bar, &start, self.position(), &suspension)?;
             (Driven::Bar { bar, start }, train.response, train.shocks, Some(train.omitted))
         };
         let pulses = matches!(driven, Driven::Pulses(_) | Driven::Drop { model: ModelName::Compliant, .. });
-        let equivalent = if self.equivalent_pulse {
-            match self.shock_table.equivalent_half_sine(&suspension, &response, EQUIVALENT) {
-                Err(error) if !matches!(error, clatter_shock::Error::NoEquivalent { .. }) => return Err(error.into()),
-                answer => Some(answer),
-            }
-        } else {
+        let equivalent = if !self.equivalent_pulse {
             None
+        } else if response.absolute_acceleration.magnitude() <= 0.0 {
+            Some(Err("nothing is felt here, which no pulse does".to_owned()))
+        } else {
+            match self.shock_table.equivalent_half_sine(&suspension, &response, EQUIVALENT) {
+                Err(none @ clatter_shock::Error::NoEquivalent { .. }) => Some(Err(none.to_string())),
+                answer => Some(Ok(answer?)),
+            }
         };
         Ok(Shaken { args: self, driven, suspension, response, shocks, pulses, omitted, equivalent })
     }
@@ -251,8 +265,10 @@ impl Args {
         let omitted = matches!(stop, Stop::BouncedClear { .. }).then_some(0.0);
         let response = match motion {
             Motion::Instant(..) => shocks.respond(suspension),
-            Motion::Compliant(..) if scene.spin_rad_s() != 0.0 => {
-                return Err(Failure::Usage("respond takes --spin-rad-s with the models of instant impacts alone"));
+            Motion::Compliant(..) if scene.spin_rad_s() != 0.0 || self.drop.is_cut_short() => {
+                return Err(Failure::Usage(
+                    "respond takes --spin-rad-s, --time-limit-s and --impact-limit with the models of instant impacts alone",
+                ));
             }
             Motion::Compliant(contact_time_s, _) => {
                 let product = Product {
@@ -291,7 +307,10 @@ impl Shaken<'_> {
     fn start(&self) -> Option<[f64; 2]> {
         match &self.driven {
             Driven::Bar { start, .. } => Some([-start.velocity()[0], start.height_gap()]),
-            Driven::Drop { scene, .. } => Some([scene.speed_m_s(), scene.height_gap_m()]),
+            Driven::Drop { scene, .. } => {
+                let turning = scene.body().arms_m()[0] * scene.tilt_rad().cos() * scene.spin_rad_s();
+                Some([scene.speed_m_s() + turning, scene.height_gap_m()])
+            }
             Driven::Shocks(_) | Driven::Pulses(_) => None,
         }
     }
@@ -362,7 +381,8 @@ impl Shaken<'_> {
             }
             Driven::Drop { model, scene, stop } => {
                 let (name, e) = (model.name(), given(scene.e()));
-                let (length, speed) = (given(scene.body().length_m()), figures(scene.speed_m_s()));
+                let (length, speed) =
+                    (given(scene.body().length_m()), figures(self.start().map_or(f64::NAN, |[v0, _]| v0)));
                 let tilt = given(self.args.drop.tilt_deg());
                 writeln!(
                     out,
@@ -487,7 +507,7 @@ impl Shaken<'_> {
             standard: at_once.map(|[_, standard]| self.impulse(standard).into()),
             gain: self.gain().map(Json),
             equivalent_pulse: self.equivalent.as_ref().map(EquivalentJson::new),
-            no_equivalent_pulse: self.equivalent.as_ref().and_then(|e| e.as_ref().err().map(ToString::to_string)),
+            no_equivalent_pulse: self.equivalent.as_ref().and_then(|e| e.as_ref().err().cloned()),
         }
     }
 }
@@ -603,7 +623,7 @@ enum EquivalentJson {
 }
 
 impl EquivalentJson {
-    fn new(equivalent: &Result<EquivalentPulse, clatter_shock::Error>) -> Self {
+    fn new(equivalent: &Result<EquivalentPulse, String>) -> Self {
         let Ok(EquivalentPulse { pulse, displacement_mismatch }) = equivalent else { return Self::None };
         Self::HalfSine {
             shape: "half-sine",

@@ -3,10 +3,10 @@
 use super::lane::Ends;
 use super::swing::Swing;
 
-/// Bound on the shocks to come of a bar whose speed at the component stays below `speed`, of which contacts, one or both together,
-/// throw back the share `rebound`.
-pub(super) fn later_shock(speed: f64, rebound: f64, gravity: f64, contact_s: f64) -> f64 {
-    (1.0 + rebound) * speed + gravity * contact_s
+/// Bound on the shocks to come of a bar whose speed at the component stays below `speed`: from one side to the other, by one contact
+/// or by both together.
+pub(super) fn later_shock(speed: f64, gravity: f64, contact_s: f64) -> f64 {
+    2.0 * speed + gravity * contact_s
 }
 
 /// What the same may add to the response, about: one such shock, and the weight that the ground carries in the end.
@@ -23,8 +23,10 @@ pub(super) fn weight(swing: &Swing, fall: f64) -> f64 {
 /// allows 1/(1 − λ); and while the component dies down, in 1/(ζω), the ground gives no more than the weight does in that time, beside
 /// what stops and throws back the bar.
 pub(super) fn pile(ends: &Ends, zeta: f64, speed: f64, fall: f64) -> f64 {
-    let t = 0.5 * (ends.ratio(0, 1.0) + ends.ratio(1, 1.0)) * (1.0 + ends.e);
+    // The pair of ends moves as that of an even bar of the mean ratio; where one lifts the other, T is below 0.
+    let t = (ends.ratio(0, 1.0) * ends.ratio(1, 1.0)).max(0.0).sqrt() * (1.0 + ends.e);
     let root = 0.5 * (t + (t * t - 4.0 * ends.e).max(0.0).sqrt());
     let decay = root.max(ends.e.sqrt());
-    (1.0 / (1.0 - decay)).min(1.0 + fall / (2.0 * speed * zeta)).max(1.0)
+    let times = if decay < 1.0 { 1.0 / (1.0 - decay) } else { f64::INFINITY };
+    times.min(1.0 + fall / (2.0 * speed * zeta)).max(1.0)
 }

@@ -116,7 +116,7 @@ impl Setup {
         // As if impulses, then as pulses: a peak that pulses flatten leaves more room to every error.
         let (smooth, impulse_phase) = smoothing(&pulse, omega * time, &peak, zeta);
         let response = quantity != Quantity::VelocityShock;
-        let left = if response { 1.0 - smooth.min(0.4) } else { 1.0 };
+        let left = if response { 1.0 - smooth.min(0.8) } else { 1.0 };
         let number = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
         let top = left * peak.value;
         let worst = |k: usize| walk.errors(k, &peak, top).map(|error| error / top);

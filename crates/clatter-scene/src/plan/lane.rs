@@ -293,7 +293,7 @@ impl Lane {
         }
         let lands = self.lands(1 - I);
         if g > 0.0 && lands > 0.0 && w >= 0.0 && (sunk || 2.0 * w < BRIEF * lands * g * (1.0 - ends.e)) {
-            self.lie_at::<I>(ends, ratio, lands);
+            self.lie_at::<I>(ends, ratio, if sunk { 0.0 } else { lands });
         }
     }
     /// Whether an end has no speed to come out of the ground with.
@@ -304,17 +304,22 @@ impl Lane {
     fn lands(&self, j: usize) -> f64 {
         if self.gravity > 0.0 { fall(self.height[j], self.velocity[j], self.gravity) } else { 0.0 }
     }
-    /// Lets the end that has just struck lie.
+    /// Lets an end lie; without contacts, whose ends can not sink, once its bounces have ended, if the other lands after that.
     pub(super) fn lie(&mut self, ends: &Ends, end: usize) {
-        let lands = self.lands(1 - end);
-        if lands > 0.0 {
-            let ratio = ends.ratio(end, 1.0);
-            if end == 0 { self.lie_at::<0>(ends, ratio, lands) } else { self.lie_at::<1>(ends, ratio, lands) }
-        }
+        let (lands, ratio) = (self.lands(1 - end), ends.ratio(end, 1.0));
+        let sum = self.velocity[end].max(0.0) / (1.0 - ends.e);
+        let lands = if self.delay > 0.0 {
+            0.0
+        } else if 2.0 * sum < lands * self.gravity {
+            lands
+        } else {
+            return;
+        };
+        if end == 0 { self.lie_at::<0>(ends, ratio, lands) } else { self.lie_at::<1>(ends, ratio, lands) }
     }
-    /// Bounces of w, e w, … last 2S/g in all, S = w/(1 − e); what there is no time for is left out.
+    /// Bounces of w, e w, … last 2S/g in all, S = w/(1 − e), if they end before the other end `lands`.
     fn lie_at<const I: usize>(&mut self, ends: &Ends, ratio: f64, lands: f64) {
-        let (i, j, sum) = (I, 1 - I, self.velocity[I] / (1.0 - ends.e));
+        let (i, j, sum) = (I, 1 - I, self.velocity[I].max(0.0) / (1.0 - ends.e));
         let mut bounced = 2.0 * sum / self.gravity;
         if bounced < lands {
             self.height[j] += bounced * (self.velocity[j] - sum);
@@ -329,13 +334,13 @@ impl Lane {
         }
         (self.height[i], self.velocity[i], self.down) = (0.0, 0.0, Down::End(i, bounced));
     }
-    /// Whether one end lies on the ground.
-    pub(super) fn lies(&self) -> bool {
-        matches!(self.down, Down::End(..))
+    /// The end that lies on the ground, if one does.
+    pub(super) fn lying(&self) -> Option<usize> {
+        if let Down::End(end, _) = self.down { Some(end) } else { None }
     }
     /// Whether the next strike presses the end that lies there into the ground.
     pub(super) fn is_pressed_by(&self, ends: &Ends, next: &Next, contact_s: f64) -> bool {
-        self.lies() && next.after >= contact_s && ends.ratio(next.end, 1.0) > 0.0
+        self.lying().is_some() && next.after >= contact_s && ends.ratio(next.end, 1.0) > 0.0
     }
     /// Flies until the other end lands, and does what both do together; returns the velocity shocks of both ends.
     pub(super) fn strike_lying(&mut self, ends: &Ends, next: &Next, both: &Both, contact_s: f64) -> [f64; 2] {
@@ -362,8 +367,10 @@ impl Lane {
         let height = ((b * self.height[0] + a * self.height[1]) * ends.over).max(0.0);
         center * center + ends.gyration2 * spin2 + 2.0 * self.gravity * height
     }
-    /// What a strike at end i that changed its velocity by this took of it, just after that.
+    /// What a strike at end i that changed its velocity by this took of it, just after that; what the contact carries of the weight
+    /// takes nothing.
     pub(super) fn twice_lost(&self, ends: &Ends, i: usize, jump: f64) -> f64 {
+        let jump = (jump - self.carried * self.gravity).max(0.0);
         let sin = if self.tilts { self.height[1 - i] * ends.over } else { 0.0 };
         let arm2 = ends.arm[i] * ends.arm[i] * (1.0 - sin * sin).max(0.0);
         jump * jump * (1.0 - ends.e) / (1.0 + ends.e) * ends.gyration2 / (ends.gyration2 + arm2)

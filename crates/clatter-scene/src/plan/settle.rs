@@ -48,7 +48,7 @@ impl Setup {
             let now = flight.sample(last.parted_s);
             let speed = Lane::of(now.height_m, now.velocity_m_s, g).reach(&ends);
             if velocity_shock {
-                later_shock(speed, 1.0, g, contact_s)
+                later_shock(speed, g, contact_s)
             } else {
                 pile(&ends, zeta, speed, g / omega) * later_response(&swing, speed, g, omega)
             }

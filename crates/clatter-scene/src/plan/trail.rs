@@ -23,8 +23,8 @@ pub(super) struct Step {
     pub(super) follows: Option<f64>,
     /// How long after that the other end would strike without it, and the velocity shocks of both ends then.
     pub(super) rival: (f64, [f64; 2]),
-    /// Whether an end lies on the ground until then.
-    pub(super) rests: bool,
+    /// The end that lies on the ground until then.
+    pub(super) rests: Option<usize>,
     /// Of both contacts at once: for how many contact times.
     pub(super) together: Option<f64>,
     /// Over how large a share of a contact time the strikes of the map are spread then.
@@ -171,12 +171,14 @@ impl Trail {
             let strike = if n == 0 { Some(Next::FIRST) } else { lane.next(ends) };
             if let Some(strike) = strike.filter(|strike| self.alive[k + 1] && strike.end == next.end) {
                 let delta_v = match &pressed {
-                    Some([impacts, _]) if lane.lies() => lane.strike_lying(ends, &strike, impacts, 0.0),
+                    Some([impacts, _]) if lane.lying().is_some() => lane.strike_lying(ends, &strike, impacts, 0.0),
                     _ => lane.strike(ends, &strike),
                 };
                 own[k + 1] = Some((strike.after, delta_v));
-                if self.full.lies() && !lane.lies() {
-                    lane.lie(ends, next.end);
+                if let Some(end) = self.full.lying()
+                    && lane.lying().is_none()
+                {
+                    lane.lie(ends, end);
                 }
             }
         }
@@ -198,13 +200,13 @@ impl Trail {
                     .iter()
                     .zip(&self.alive[1..])
                     .filter(|(_, alive)| **alive)
-                    .fold(0.0_f64, |m, (lane, _)| m.max(lane.twice_energy(ends)))
+                    .fold(self.full.twice_energy(ends), |m, (lane, _)| m.max(lane.twice_energy(ends)))
             } else {
                 self.full.twice_energy_until(ends, self.next.as_ref()).max(self.energy)
             },
             follows: self.next.map(|next| next.after),
             rival,
-            rests: self.full.lies(),
+            rests: self.full.lying(),
             together: pressed.map(|[_, contacts]| contacts.lasts),
             spread,
             tumbles: self.next.is_some_and(|next| next.tumbles),

@@ -91,7 +91,7 @@ impl<const N: usize> Walk<N> {
             error = error.max(interval.off(k) + short).max(interval.early[k] - top);
             // From the peak on, what follows may be left to its bound.
             if interval.from_s >= peak.from_s {
-                least = least.min(error.max(late - peak.value));
+                least = least.min(error.max(late - top));
             }
         }
         [error, error.max(self.later(k, peak.value))].map(|error| error.min(least))
@@ -217,9 +217,9 @@ impl<'a, const N: usize> Walker<'a, N> {
                 break;
             };
             self.rival(&step, follows);
-            let lying = step.rests.then(|| {
-                let mut load = [-self.ends.ratio(step.end, 1.0); 2];
-                load[step.end] = 1.0;
+            let lying = step.rests.map(|end| {
+                let mut load = [-self.ends.ratio(end, 1.0); 2];
+                load[end] = 1.0;
                 self.ends.at(load).abs()
             });
             let speed = self.ends.reach(step.twice_energy);
@@ -283,13 +283,14 @@ impl<'a, const N: usize> Walker<'a, N> {
     /// Bound on what a bar of such a speed does to the component from now on, and what of it one shock does; `more` than one may come.
     fn to_come(&self, speed: f64, more: bool) -> (f64, f64) {
         if self.coupling.velocity_shock {
-            let shock = later_shock(speed, self.coupling.rebound, self.gravity, self.coupling.time);
+            let shock = later_shock(speed, self.gravity, self.coupling.time);
             return (shock, shock);
         }
         let fall = self.gravity / self.omega;
         let extra = later_response(self.swing, speed, self.gravity, self.omega);
         let times = if more { pile(self.ends, self.swing.zeta(), speed, fall) } else { 1.0 };
-        (self.swing.bound(self.motion) + self.adrift + times * extra, extra)
+        let all = self.swing.bound(self.motion) + self.adrift + times * extra;
+        (if all.is_nan() { f64::INFINITY } else { all }, extra)
     }
 
     /// Whether nothing later counts, or is known.
@@ -510,7 +511,10 @@ struct Parts {
 impl Parts {
     fn of(ends: &Ends, landed: usize, [a, b]: [f64; 2]) -> Self {
         let ratio = [ends.ratio(0, 1.0), ends.ratio(1, 1.0)];
-        let over = 1.0 / (1.0 - ratio[0] * ratio[1]);
+        // 1 − r₀ r₁ without cancellation; ends without mass of their own are taken as nearly so.
+        let [p, q] = ends.arm.map(|arm| arm * arm + ends.gyration2);
+        let length = ends.arm[0] + ends.arm[1];
+        let over = p * q / (ends.gyration2 * length * length).max(f64::MIN_POSITIVE);
         let of_contacts = [
             over * (a + ratio[1] * b) * ends.at([1.0, -ratio[0]]),
             over * (b + ratio[0] * a) * ends.at([-ratio[1], 1.0]),
