@@ -432,7 +432,7 @@ fn columns_of_lists_are_read_once_and_quotes_taken_off() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("list.csv");
     let with = |text: &str, flag: &str, omega: &str| {
-        std::fs::write(&path, text).unwrap();
+        fs::write(&path, text).unwrap();
         clatter(["respond", &format!("{flag}={}", path.display()), omega])
     };
     let twice = with("time_s,delta_v_m_s,time_s\n0,1,2\n", "--shocks-file", "--omega=10");
