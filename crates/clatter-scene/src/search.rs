@@ -17,7 +17,7 @@ use rayon::prelude::*;
 
 use crate::base::{self, Base, Cells, SingleDrop};
 use crate::demand::{Demand, Reached};
-use crate::plan::demand::{crowding, fineness};
+use crate::plan::demand::{crowding, fineness, pieces_for};
 use crate::plan::trail::Trail;
 use crate::plan::{BarRung, ComponentRung, Pair, Plan, Quantity, Setup};
 use crate::{
@@ -35,10 +35,6 @@ const HALVINGS: [u32; 2] = [3, 6];
 const BASINS: usize = 4;
 /// Contacts followed at first.
 const CONTACTS: usize = 10;
-/// Share of the tolerance that the polygons of pulses may take.
-const POLYGONS: f64 = 0.1;
-/// Pieces of a pulse, and within what share its peak and its effect then are; twice as many are four times as close.
-const FINE: (f64, f64) = (96.0, 2e-4);
 
 /// The worst drop of the search.
 #[derive(Debug, Clone)]
@@ -150,7 +146,7 @@ impl<'a> Field<'a> {
         let finest: Vec<_> = finest.map(|part| (fineness(&part, contact), crowding(&product.body, &part))).collect();
         let crowded = finest.iter().fold(1.0, |m: f64, f| m.max(f.1));
         let finest = finest.iter().fold(0.5, |m: f64, f| m.max(f.0));
-        let most = crowded * finest * FINE.0 * (FINE.1 / (POLYGONS * accuracy.tolerance)).sqrt();
+        let most = crowded * finest * pieces_for(accuracy.tolerance);
         let cells = Cells { most, fineness: finest };
         Self { product, drop, accuracy, cells, grid: OnceLock::new(), beside: Beside::default() }
     }

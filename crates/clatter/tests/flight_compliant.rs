@@ -134,9 +134,20 @@ fn a_drop_comes_to_rest_on_its_springs() {
     let land = |strikes: &[Strike]| *strikes.iter().find(|s| s.end == End::B).expect("as the test has it");
     let soft = land(&scene.simulate_compliant(1e-6).expect("as the test has it").flight.strikes);
     let hard = land(&scene.simulate(Model::FiniteTilt).strikes);
-    // The lever arm is renewed every 1/200 rad of the 1.4: first order, 1e-3 of the time and speed.
-    assert!((soft.time_s / hard.time_s - 1.0).abs() < 1e-3, "{} {}", soft.time_s, hard.time_s);
-    assert!((soft.approach_m_s / hard.approach_m_s - 1.0).abs() < 1e-3, "{} {}", soft.approach_m_s, hard.approach_m_s);
+    // Lever arms are those of halfway through 0.03 rad of the 1.4: second order; those of the beginning would be off by 1e-2.
+    assert!((soft.time_s / hard.time_s - 1.0).abs() < 1e-4, "{} {}", soft.time_s, hard.time_s);
+    assert!((soft.approach_m_s / hard.approach_m_s - 1.0).abs() < 1e-4, "{} {}", soft.approach_m_s, hard.approach_m_s);
+}
+
+/// Both ends part at one instant, as far as floats tell: they were once pushed in turn, 10⁻²⁰ s each, until 1.7 million phases had gone by.
+#[test]
+fn ends_that_part_together_do_not_take_turns() {
+    let body = Body::new(2.0 * 0.049_063_156_973_264_66, 0.008_898_156_337_023_289).expect("as the test has it");
+    let scene = Scene::new(body, 0.211_645_007_649_507_44, 1.056_038_848_610_071_6, 8.618_710_303_569_253, 9.81);
+    let flight =
+        scene.and_then(|scene| scene.simulate_compliant(9.940_110_752_429_448e-4)).expect("as the test has it");
+    assert_eq!(flight.flight.stop.reason(), "at-rest", "{:?}", flight.flight.stop);
+    assert!(flight.phases_s().count() < 100, "{}", flight.phases_s().count());
 }
 
 /// Where the last contacts never part they too have a shock: one of 3.9 m/s was once left out, of a bar that dropped at 3.3 m/s.
@@ -210,8 +221,8 @@ fn unit_scene(q: f64, e: f64, tilt: f64, by_gravity: f64, by_speed: f64) -> (Sce
 fn the_energy_error_is_that_of_the_table() {
     let table = [
         (0.0999, [0.7, 0.3, 0.3]),
-        (0.03, [0.09, 0.02, 0.06]),
-        (0.01, [0.2, 0.003, 0.02]),
+        (0.03, [0.09, 0.02, 0.01]),
+        (0.01, [0.1, 0.003, 0.005]),
         (0.003, [0.06, 0.001, 0.003]),
     ];
     for (by_gravity, row) in table {

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::demand::{OF_PIECES, pieces_for};
 use super::{BarRung, ComponentRung, Estimate, Forecast, Groups, Pair, Quantity, Setup};
 use crate::Error;
 
@@ -12,8 +13,10 @@ pub struct Plan {
     pub quantity: Quantity,
     /// One rung of each ladder.
     pub pair: Pair,
-    /// What it gets wrong, as a share of the quantity.
+    /// What it gets wrong, as a share of the quantity; the pieces of its pulses come to that.
     pub estimate: Estimate,
+    /// Pieces of a pulse that does all: they take a tenth of the tolerance at most.
+    pub pieces: usize,
     /// The estimates for all pairs.
     pub forecast: Forecast,
     /// What it costs, about: see [`Forecast::cost_ns`].
@@ -69,10 +72,13 @@ impl Forecast {
     /// is not to be had.
     #[must_use]
     pub fn plan(&self, tolerance: f64) -> Plan {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few hundred")]
+        let pieces = pieces_for(tolerance).ceil() as usize;
         let mut chosen: Option<(Pair, f64)> = None;
         for &pair in Pair::planned(self.quantity) {
-            if self.pair(pair).error <= tolerance {
-                let cost = self.cost_ns(pair);
+            let of_models = if pair.component == ComponentRung::PulseTrain { 1.0 - OF_PIECES } else { 1.0 };
+            if self.pair(pair).error <= of_models * tolerance {
+                let cost = self.cost_ns(pair, pieces);
                 if chosen.is_none_or(|(_, least)| cost < least) {
                     chosen = Some((pair, cost));
                 }
@@ -80,7 +86,7 @@ impl Forecast {
         }
         let (pair, cost_ns) = chosen.unwrap_or_else(|| {
             let pair = self.closest();
-            (pair, self.cost_ns(pair))
+            (pair, self.cost_ns(pair, pieces))
         });
         let estimate = self.pair(pair);
         let warning = if chosen.is_none() {
@@ -105,6 +111,7 @@ impl Forecast {
             quantity: self.quantity,
             pair,
             estimate,
+            pieces,
             forecast: *self,
             cost_ns,
             until_s: self.until_s,
@@ -156,7 +163,7 @@ impl Plan {
     /// # Errors
     /// As [`Setup::demand`].
     pub fn run(&self, setup: &Setup) -> Result<f64, Error> {
-        setup.demand(self.pair, self.quantity, self.until_s)
+        setup.answer_in(self.pair, self.quantity, self.until_s, self.pieces).map(|answer| answer.value)
     }
 }
 

@@ -8,8 +8,14 @@ use super::history;
 use super::{BarRung, ComponentRung, Pair, Quantity, Setup};
 use crate::Error;
 
-/// Pieces of the polygon of one pulse: its peak and its effect are then within 2e-4 or so.
-pub(super) const CELLS: usize = 96;
+/// Pieces of the polygon of one pulse, and within what share its peak and its effect then are or so; twice as many are four times as
+/// close.
+const CELLS: usize = 96;
+const WITHIN: f64 = 2e-4;
+/// The share of a tolerance that the pieces of pulses may take.
+pub(crate) const OF_PIECES: f64 = 0.1;
+/// Pieces of a pulse at most: 2e-6.
+const MOST_CELLS: f64 = 960.0;
 
 /// Beyond this phase in one contact the pieces grow finer with it.
 const FINE: f64 = 4.0;
@@ -59,12 +65,23 @@ impl Setup {
     /// # Errors
     /// As [`demand`](Self::demand).
     pub fn answer(&self, pair: Pair, quantity: Quantity, until_s: f64) -> Result<Answer, Error> {
+        self.answer_in(pair, quantity, until_s, CELLS)
+    }
+
+    /// As [`answer`](Self::answer), in pulses of `cells` pieces.
+    pub(super) fn answer_in(
+        &self,
+        pair: Pair,
+        quantity: Quantity,
+        until_s: f64,
+        cells: usize,
+    ) -> Result<Answer, Error> {
         if pair == Pair::HIGHEST {
             let contact_s = self.known_contact_s()?;
             let (flight, settled_s) = self.settled_flight(quantity, contact_s)?;
-            return self.of_contacts(&flight, settled_s, contact_s, quantity, CELLS);
+            return self.of_contacts(&flight, settled_s, contact_s, quantity, cells);
         }
-        self.answer_fine(pair, quantity, until_s, CELLS)
+        self.answer_fine(pair, quantity, until_s, cells)
     }
 
     /// As [`demand`](Self::demand), followed until `until_s` or rest whatever it takes, and pulses of `cells` pieces: twice as many are
@@ -231,6 +248,13 @@ impl Setup {
         };
         nearby(&bar, &start, first).map(shock).fold(0.0, f64::max)
     }
+}
+
+/// Pieces of a pulse that take [`OF_PIECES`] of a tolerance.
+pub(crate) fn pieces_for(tolerance: f64) -> f64 {
+    #[expect(clippy::cast_precision_loss, reason = "a few")]
+    let cells = CELLS as f64 * (WITHIN / (OF_PIECES * tolerance)).sqrt();
+    cells.clamp(1.0, MOST_CELLS)
 }
 
 /// Share of the pieces of a pulse that a component needs: a stiff or much damped one follows the corners of a polygon, a

@@ -245,11 +245,13 @@ impl Forecast {
     pub fn at_most(&self) -> f64 {
         self.peak * (1.0 + DOUBT * self.doubt)
     }
-    /// What a pair costs, about, in ns on a 2.9 GHz core: a sum of constants measured once, by the study. Only ratios are good for
+    /// What a pair costs in pulses of so many pieces, about, in ns on a 2.9 GHz core: a sum of constants measured once, by the study. Only ratios are good for
     /// anything, and on the average of many scenes: a single one may differ by a factor of 10.
     #[must_use]
-    pub fn cost_ns(&self, pair: Pair) -> f64 {
+    pub fn cost_ns(&self, pair: Pair, pieces: usize) -> f64 {
         let (n, contacts) = (self.strikes, self.contacts);
+        #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
+        let fine = pieces as f64 / 96.0;
         let bar = match pair.bar {
             BarRung::ClosedForm => 200.0,
             BarRung::Map => 300.0 + 60.0 * n.min(20.0),
@@ -260,9 +262,11 @@ impl Forecast {
         let component = match pair.component {
             ComponentRung::NetChange | ComponentRung::LargestShock => 150.0,
             ComponentRung::ImpulseTrain => 200.0 + 120.0 * if pair.bar == BarRung::Map { n.min(20.0) } else { n },
-            ComponentRung::PulseTrain if pair.bar == BarRung::Compliant => 5e3 + 12e3 * contacts,
+            ComponentRung::PulseTrain if pair.bar == BarRung::Compliant => 2e3 + (3e3 + 12e3 * fine) * contacts,
             // Pulses of small shocks have few corners.
-            ComponentRung::PulseTrain => 4e3 + 8e3 * n.min(if pair.bar == BarRung::Map { 8.0 } else { 40.0 }),
+            ComponentRung::PulseTrain => {
+                1e3 + (1e3 + 8e3 * fine) * n.min(if pair.bar == BarRung::Map { 8.0 } else { 40.0 })
+            }
         };
         bar + component
     }

@@ -8,8 +8,8 @@ use super::swing::{Motion, Swing};
 use super::{Quantity, Setup};
 use crate::Error;
 
-/// Strikes followed at most, in turn, before all are.
-const LIMITS: [usize; 4] = [3, 8, 24, 96];
+/// Looked at anew after every strike, and from twice as many on after every so manieth share of them.
+const OFTEN: usize = 6;
 
 /// What can come must stay below this share of the peak: pulses flatten both, not alike.
 const CLEAR: f64 = 0.75;
@@ -22,15 +22,20 @@ impl Setup {
     ///
     /// [`Forecast::until_s`]: super::Forecast::until_s
     pub(super) fn settled_flight(&self, quantity: Quantity, contact_s: f64) -> Result<(CompliantFlight, f64), Error> {
-        for limit in LIMITS {
-            let flight = self.scene.with_impact_limit(limit)?.simulate_compliant(contact_s)?;
-            let whole = !matches!(flight.flight.stop, Stop::ImpactLimit { .. });
-            let settled_s = self.settled_s(&flight, quantity, contact_s);
-            if whole || settled_s < f64::INFINITY {
-                return Ok((flight, settled_s));
+        let (mut settled_s, mut look) = (f64::INFINITY, 1);
+        let flight = self.scene.simulate_compliant_until(contact_s, |flight| {
+            let n = flight.flight.strikes.len();
+            if n < look {
+                return false;
             }
+            look = n + 1 + n / OFTEN;
+            settled_s = self.settled_s(flight, quantity, contact_s);
+            settled_s < f64::INFINITY
+        })?;
+        if settled_s == f64::INFINITY {
+            settled_s = self.settled_s(&flight, quantity, contact_s);
         }
-        Ok((self.scene.simulate_compliant(contact_s)?, f64::INFINITY))
+        Ok((flight, settled_s))
     }
 
     /// When nothing later in this flight raises the quantity; infinite where that is not known.

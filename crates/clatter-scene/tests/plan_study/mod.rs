@@ -7,7 +7,7 @@
 use std::time::Instant;
 
 use clatter::flight::{Body, Scene};
-use clatter_scene::plan::{BarRung, Pair, Plan, Quantity, Setup};
+use clatter_scene::plan::{BarRung, ComponentRung, Pair, Plan, Quantity, Setup};
 use clatter_shock::{DampingRatio, Suspension};
 
 pub(crate) const QUANTITIES: [Quantity; 3] =
@@ -54,8 +54,15 @@ impl Random {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Run {
     pub(crate) pair: Pair,
-    /// Estimated, and true.
     pub(crate) estimate: f64,
+    /// With the pieces for each tolerance.
+    pub(crate) with: [Ran; 3],
+}
+
+/// What a run gave.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ran {
+    /// Against the truth.
     pub(crate) error: f64,
     /// Taken here.
     pub(crate) seconds: f64,
@@ -81,9 +88,13 @@ impl Outcome {
         self.runs.iter().find(|r| r.pair == pair).expect("a planned pair")
     }
     /// The cheapest pair within a tolerance, by time taken.
-    pub(crate) fn oracle(&self, tolerance: f64) -> &Run {
-        let within = self.runs.iter().filter(|r| r.error <= tolerance);
-        within.min_by(|a, b| a.seconds.total_cmp(&b.seconds)).unwrap_or(self.run(Pair::HIGHEST))
+    pub(crate) fn oracle(&self, k: usize) -> &Run {
+        let within = self.runs.iter().filter(|r| r.with[k].error <= TOLERANCES[k]);
+        within.min_by(|a, b| a.with[k].seconds.total_cmp(&b.with[k].seconds)).unwrap_or(self.run(Pair::HIGHEST))
+    }
+    /// The pair that is planned for a tolerance, as it ran.
+    pub(crate) fn planned(&self, k: usize) -> &Ran {
+        &self.run(self.plans[k].pair).with[k]
     }
 }
 
@@ -116,14 +127,21 @@ pub(crate) fn study(seed: u64, scenes: usize) -> (Vec<Outcome>, usize) {
             let until_s = setup.forecast_far(quantity).until_s.min(forecast.until_s);
             let truth = highest(TRUE_CELLS);
             let (_, highest_seconds) = timed(|| highest(CELLS));
+            let plans = TOLERANCES.map(|tolerance| forecast.plan(tolerance).refined(&setup));
+            let run = |pair: Pair, pieces| {
+                let plan = Plan { pair, pieces, until_s, ..plans[0] };
+                let (value, seconds) = timed(|| plan.run(&setup).expect("a planned pair"));
+                Ran { error: (value / truth - 1.0).abs(), seconds, modeled_ns: forecast.cost_ns(pair, pieces) }
+            };
             let runs = Pair::planned(quantity).iter().map(|&pair| {
-                let (value, seconds) = timed(|| setup.demand(pair, quantity, until_s).expect("a planned pair"));
-                let error = (value / truth - 1.0).abs();
-                let (estimate, modeled_ns) = (forecast.pair(pair).error, forecast.cost_ns(pair));
-                Run { pair, estimate, error, seconds, modeled_ns }
+                let cut = pair.component == ComponentRung::PulseTrain;
+                let mut with = [run(pair, plans[0].pieces); 3];
+                for (with, plan) in with.iter_mut().zip(&plans).skip(1).filter(|_| cut) {
+                    *with = run(pair, plan.pieces);
+                }
+                Run { pair, estimate: forecast.pair(pair).error, with }
             });
             let runs = runs.collect();
-            let plans = TOLERANCES.map(|tolerance| forecast.plan(tolerance).refined(&setup));
             outcomes.push(Outcome { scene, setup, quantity, truth, plans, runs, highest_seconds });
         }
     }
@@ -151,18 +169,17 @@ pub(crate) fn worth<'a>(outcomes: impl Iterator<Item = &'a Outcome>, k: usize) -
     let mut w = Worth::default();
     let (mut cost, mut oracle, mut highest) = (0.0, 0.0, 0.0);
     for o in outcomes {
-        let (plan, tolerance) = (&o.plans[k], TOLERANCES[k]);
-        let run = o.run(plan.pair);
+        let (plan, tolerance, run) = (&o.plans[k], TOLERANCES[k], o.planned(k));
         w.scenes += 1;
         w.within += f64::from(u8::from(run.error <= tolerance));
         if plan.warning.is_none() {
             w.worst = w.worst.max(run.error / tolerance);
         }
         cost += run.seconds;
-        oracle += o.oracle(tolerance).seconds;
+        oracle += o.oracle(k).with[k].seconds;
         highest += o.highest_seconds;
         w.given += f64::from(u8::from(plan.pair.bar == BarRung::Compliant));
-        w.needed += f64::from(u8::from(o.oracle(tolerance).pair.bar == BarRung::Compliant));
+        w.needed += f64::from(u8::from(o.oracle(k).pair.bar == BarRung::Compliant));
     }
     let n = w.scenes as f64;
     Worth {

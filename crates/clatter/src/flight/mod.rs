@@ -201,6 +201,11 @@ pub struct Flight {
     pub stop: Stop,
 }
 
+impl Flight {
+    /// Nothing followed yet.
+    const NONE: Self = Self { strikes: Vec::new(), pivots: Vec::new(), stop: Stop::ImpactLimit { time_s: 0.0 } };
+}
+
 impl Scene {
     /// The strikes of this scene and why they end.
     #[must_use]
@@ -225,6 +230,27 @@ impl Scene {
     /// the contact time in [1e−12, 1e3] s and so short that the ends sink in by a small part of the length: at most 0.1
     /// length over the speed of either end, and 0.1 √(length/gravity).
     pub fn simulate_compliant(&self, contact_time_s: f64) -> Result<CompliantFlight, Error> {
+        self.simulate_compliant_until(contact_time_s, |_| false)
+    }
+
+    /// The same, as far as it is needed: before each strike but the first `enough` is asked of the flight up to there, which is that of an impact
+    /// limit, and ends it if so.
+    ///
+    /// # Errors
+    /// As [`simulate_compliant`](Self::simulate_compliant).
+    ///
+    /// ```
+    /// use clatter::flight::{Body, Scene};
+    /// let scene = Scene::new(Body::new(0.14, 0.05)?, 0.5, 2.0, 5.0, 9.81)?;
+    /// let three = scene.simulate_compliant_until(1e-4, |flight| flight.pulses.len() == 3)?;
+    /// assert_eq!(three.flight, scene.with_impact_limit(3)?.simulate_compliant(1e-4)?.flight);
+    /// # Ok::<(), clatter::Error>(())
+    /// ```
+    pub fn simulate_compliant_until(
+        &self,
+        contact_time_s: f64,
+        enough: impl FnMut(&CompliantFlight) -> bool,
+    ) -> Result<CompliantFlight, Error> {
         let contact = Contact::new(self.e(), contact_time_s)?;
         let gyration_m = self.body().gyration_m();
         let length = self.body().length_m();
@@ -243,7 +269,7 @@ impl Scene {
             let allowed = "at most 0.1 length/speed and 0.1 sqrt(length/gravity), so that the ends sink in little";
             return Err(Error::Quantity { name: "contact time in s", value: contact_time_s, allowed });
         }
-        Ok(compliant::simulate(self, contact))
+        Ok(compliant::simulate(self, contact, enough))
     }
 }
 
@@ -326,9 +352,8 @@ struct Log {
 
 impl Log {
     fn new(scene: &Scene) -> Self {
-        let stop = Stop::ImpactLimit { time_s: 0.0 };
         Self {
-            flight: Flight { strikes: Vec::new(), pivots: Vec::new(), stop },
+            flight: Flight::NONE,
             time_limit_s: scene.time_limit_s(),
             impact_limit: scene.impact_limit(),
             largest_m_s: 0.0,
