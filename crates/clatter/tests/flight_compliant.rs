@@ -139,6 +139,17 @@ fn a_drop_comes_to_rest_on_its_springs() {
     assert!((soft.approach_m_s / hard.approach_m_s - 1.0).abs() < 1e-4, "{} {}", soft.approach_m_s, hard.approach_m_s);
 }
 
+/// An end that lies while the body turns about it keeps lying where lever arms are renewed: it was once thrown up each time, and struck
+/// 294 times in one second.
+#[test]
+fn an_end_that_lies_is_not_struck_again() {
+    let body = Body::new(0.3656, 0.2452).expect("as the test has it");
+    let scene = Scene::new(body, 0.1176, 7.473, 0.2666, 9.81).expect("as the test has it");
+    let flight = scene.simulate_compliant(1.311e-4).expect("as the test has it");
+    assert_eq!(flight.flight.stop.reason(), "at-rest", "{:?}", flight.flight.stop);
+    assert!(flight.flight.strikes.len() < 30, "{}", flight.flight.strikes.len());
+}
+
 /// Both ends part at one instant, as far as floats tell: they were once pushed in turn, 10⁻²⁰ s each, until 1.7 million phases had gone by.
 #[test]
 fn ends_that_part_together_do_not_take_turns() {
@@ -221,9 +232,9 @@ fn unit_scene(q: f64, e: f64, tilt: f64, by_gravity: f64, by_speed: f64) -> (Sce
 fn the_energy_error_is_that_of_the_table() {
     let table = [
         (0.0999, [0.7, 0.3, 0.3]),
-        (0.03, [0.09, 0.02, 0.01]),
-        (0.01, [0.1, 0.003, 0.005]),
-        (0.003, [0.06, 0.001, 0.003]),
+        (0.03, [0.09, 0.02, 0.03]),
+        (0.01, [0.1, 0.001, 0.002]),
+        (0.003, [0.06, 0.001, 0.0003]),
     ];
     for (by_gravity, row) in table {
         for (by_speed, stated) in [0.0999, 0.01, 0.001].into_iter().zip(row) {

@@ -31,9 +31,11 @@
 //! from above, or, if it never gets there, when the force law pushes again; that belongs to the same strike.
 //!
 //! # Error of the kept lever arm
-//! Lever arms are those of the beginning of a phase; at its end the pose follows in exact geometry. A phase ends with any touch
-//! or parting, and after a turn of 1/200 rad. From then on the body pivots on its spring, with the lever arms, and the acceleration by turning,
-//! of halfway through a phase of 0.03 rad at most. The shock of a contact is off by tan φ · ω τ of itself at most, ω the spin it leaves.
+//! Lever arms are those of the beginning of a phase; at its end the pose follows in exact geometry. A phase ends with any
+//! touch or parting, and after a turn of 1/200 rad. From then on the body pivots on its spring, with the lever arms, and the
+//! acceleration by turning, of halfway through a phase of 0.03 rad at most. What kept arms would take from an end that
+//! lies, one more impulse on it gives back: it is not thrown up. The shock of a contact is off by tan φ · ω τ of itself
+//! at most, ω the spin it leaves.
 //!
 //! What the ground does for the body in a phase is known in closed form; whatever else its energy changes by is the kept
 //! lever arm's doing, and is summed without regard to sign in [`CompliantFlight::energy_error`]. It grows with the turn during
@@ -42,9 +44,9 @@
 //! | τ √(g/length) | τ v0/length = 0.1 | 0.01 | 0.001 |
 //! |---|---|---|---|
 //! | 0.1 | 0.7 | 0.3 | 0.3 |
-//! | 0.03 | 0.09 | 0.02 | 0.01 |
-//! | 0.01 | 0.1 | 0.003 | 0.005 |
-//! | 0.003 | 0.06 | 0.001 | 0.003 |
+//! | 0.03 | 0.09 | 0.02 | 0.03 |
+//! | 0.01 | 0.1 | 0.001 | 0.002 |
+//! | 0.003 | 0.06 | 0.001 | 0.0003 |
 
 use std::cell::Cell;
 
@@ -312,11 +314,11 @@ impl Phase {
             *d += m * impulses[k];
         }
     }
-    /// The pose at time t, from what the ends do then: angle and spin are what the impulses give. `free`: so are the velocities of both ends, by that of
-    /// the center, which keeps the energy; else the end in contact keeps its own, and lies still if it did. `parts`: the
-    /// center is where the impulses have brought it, which keeps the energy too; else the end in contact is where its
-    /// spring is. What is left follows in exact geometry.
-    fn pose(&self, t: f64, ends: &[[f64; 3]; 2], free: bool, parts: bool) -> Pose {
+    /// The pose at time t, from what the ends do then: angle and spin are what the impulses give, the velocities of both ends follow by that
+    /// of the center, which keeps the energy. `parts`: the center is where the impulses have brought it, which keeps the energy too; else the
+    /// end in contact is where its spring is. What is left follows in exact geometry. `stays`: the end in contact keeps its own velocity, so that
+    /// it lies still if it did; what kept lever arms take from that is one more impulse on it.
+    fn pose(&self, t: f64, ends: &[[f64; 3]; 2], impulses: &mut [f64; 2], parts: bool, stays: bool) -> Pose {
         let s = &self.start;
         let length = s.body.length_m();
         let mut next = *s;
@@ -332,18 +334,20 @@ impl Phase {
         let j = 1 - i;
         let twice = (ends[i][0] - s.ends.h[i] - s.ends.v[i] * t + 0.5 * self.fall[i] * t * t) / self.mu[i];
         next = next.turned(s.spin * t + self.x[i] * twice / rho2);
-        let impulse = self.impulses(t, ends)[i];
-        next.spin = s.spin + self.x[i] * impulse / rho2;
+        next.spin = s.spin + self.x[i] * impulses[i] / rho2;
         if parts {
             let y = s.center().0 + t * (s.center().1 - 0.5 * s.gravity * t) + twice;
             next.ends.h[i] = y + sigma(i) * s.body.arms_m()[i] * next.sin;
         }
         next.ends.h[j] = next.ends.h[i] + sigma(j) * length * next.sin;
-        next.ends.v[j] = next.ends.v[i] + sigma(j) * length * next.cos * next.spin;
-        if free {
-            let center = s.center().1 - s.gravity * t + impulse;
-            next.ends.v = next.levers().map(|x| center + x * next.spin);
+        let (x, mut center) = (next.levers(), s.center().1 - s.gravity * t + impulses[i]);
+        if stays {
+            let lacks = (ends[i][1] - center - x[i] * next.spin) / (1.0 + x[i] * x[i] / rho2);
+            impulses[i] += lacks;
+            center += lacks;
+            next.spin += x[i] * lacks / rho2;
         }
+        next.ends.v = x.map(|x| center + x * next.spin);
         next
     }
     /// Work of the ground on the body until the ends do this, per unit mass: with `M` the map of forces to accelerations,
@@ -380,6 +384,11 @@ impl Phase {
             0.0
         };
         if first.is_nan() || first >= cap { None } else { first_zero(first, cap, press, step) }
+    }
+    /// Whether the one end in contact, at fixed lever arms, never parts any more after the time t.
+    fn presses_for_good(&self, t: f64) -> bool {
+        let [mode, _] = self.modes;
+        (1.0 + self.delay * mode.root) * mode.bounds(mode.at(t)).0 < -mode.rest
     }
     /// When free end j comes into contact.
     fn touching(&self, j: usize, cap: f64, fresh: bool) -> Option<(f64, bool)> {
@@ -596,8 +605,10 @@ pub(super) fn simulate(
             pose = pose.flown(dt);
         } else {
             let ends = phase.ends(dt);
-            let impulses = phase.impulses(dt, &ends);
-            pose = phase.pose(dt, &ends, !long, !long && event.is_some_and(|(i, ..)| on[i]));
+            let mut impulses = phase.impulses(dt, &ends);
+            let parts = !long && event.is_some_and(|(i, ..)| on[i]);
+            let stays = long || event.is_none() && phase.presses_for_good(dt);
+            pose = phase.pose(dt, &ends, &mut impulses, parts, stays);
             misfit += (pose.energy() - phase.start.energy() - phase.work(&ends)).abs();
             for k in (0..2).filter(|&k| on[k]) {
                 phase.push(&mut log.flight.strikes[strike_of[k]], k, impulses);
