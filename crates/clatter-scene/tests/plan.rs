@@ -91,6 +91,16 @@ fn contacts_are_followed_until_nothing_higher_comes() {
             [0.0606, 0.004_952, 0.0751, 0.7332, 0.321],
             [8.714e-4, -0.8663, 1208.6, 1.3648],
         ),
+        (
+            "a stiff part does not ring up over several shocks as impulses would have it",
+            [0.279_172_2, 0.075_485_6, 0.759_571_3, 6.545_272_1, 8.237_057],
+            [9.961_482e-4, -0.588_980_7, 19703.218, 0.001_524_9],
+        ),
+        (
+            "two contacts that overlap push a stiff part less than they do in all",
+            [0.142_056_97, 0.029_657_31, 0.432_293_32, 6.537_003_2, 0.638_540_86],
+            [5.881_171_4e-4, -0.158_927_81, 60857.75, 0.100_430_78],
+        ),
     ] {
         let setup = drop_of(drop, part);
         for quantity in QUANTITIES {

@@ -114,6 +114,18 @@ impl Pulse {
         let over = ((self.damping - 1.0) * (self.damping + 1.0)).max(0.0).sqrt();
         self.frequency * (self.damping + over).max(1.0)
     }
+    /// Its acceleration as it begins, over velocity change and duration: what the dashpot does at once.
+    fn onset(&self) -> f64 {
+        2.0 * self.damping * self.frequency / (1.0 + self.e)
+    }
+    /// Whether it never pushes harder than as it begins.
+    pub(super) fn begins_hardest(&self) -> bool {
+        self.onset() > SMOOTH
+    }
+    /// Its largest acceleration, about.
+    pub(super) fn crest(&self) -> f64 {
+        self.onset().max(SMOOTH)
+    }
     /// The pulse as a polygon of (time, acceleration) of `cells` pieces, denser where it begins steeply, with the velocity change 1.
     pub(super) fn polygon(&self, cells: usize) -> Vec<(f64, f64)> {
         let times = graded(1.0, self.rate(), cells);
@@ -125,6 +137,10 @@ impl Pulse {
         points
     }
 }
+
+/// The largest acceleration of a pulse that grows first, over velocity change and duration: it is 1.47 to 1.87, and falls from
+/// the start where that is more.
+const SMOOTH: f64 = 1.87;
 
 /// Nodes over a time, about `cells` of them: steps of `3/cells` of the time constant at the beginning, each longer than the one before,
 /// up to 1/cells of the time.

@@ -1,9 +1,11 @@
 //! How far contacts are followed: until nothing that can come raises the quantity.
 
+use clatter::End;
 use clatter::flight::{CompliantFlight, Stop};
 
 use super::bounds::{later_response, later_shock, pile, weight};
 use super::lane::{Ends, Lane};
+use super::pulse::Pulse;
 use super::swing::{Motion, Swing};
 use super::{Quantity, Setup};
 use crate::Error;
@@ -13,6 +15,8 @@ const OFTEN: usize = 6;
 
 /// What can come must stay below this share of the peak: pulses flatten both, not alike.
 const CLEAR: f64 = 0.75;
+/// Phase of the component in one contact from which on it is no impulse.
+const PULSE: f64 = 0.5;
 /// Contact times beyond which a contact is no shock.
 const LONG: f64 = 4.0;
 
@@ -45,7 +49,8 @@ impl Setup {
         let zeta = self.suspension.damping().get();
         let swing = Swing::new(zeta, quantity == Quantity::PeakAcceleration);
         let velocity_shock = quantity == Quantity::VelocityShock;
-        let (shocks, whole) = self.lone_shocks(flight);
+        let (shocks, whole) = self.lone_shocks(flight, &ends);
+        let pulse = Pulse::new(ends.e);
         // What may come after the last of them.
         let beyond = if whole {
             weight(&swing, g / omega)
@@ -81,13 +86,15 @@ impl Setup {
                 } else {
                     motion.w -= shock.net;
                 }
-                // Contacts that overlap flatten what they do together; what comes later is taken as if none did.
-                let flat = if omega * long < 0.5 { 1.0 } else { (long / contact_s).max(1.0) };
-                if swing.bound(motion) > flat * peak + loose {
-                    peak = peak.max((swing.peak(motion, phase(shock)).value - loose) / flat);
+                // A part that turns far in a contact keeps little of the ones before; what comes later is taken as if none overlapped.
+                let impulse = omega * long < PULSE;
+                let mut certain = if impulse { motion } else { Motion { x: 0.0, w: shock.crest(&pulse, contact_s) } };
+                if swing.bound(certain) > peak + loose {
+                    peak = peak.max(swing.peak(certain, phase(shock)).value - loose);
                 }
+                certain = swing.after(turn, certain);
                 motion = swing.after(turn, motion);
-                peak = peak.max((swing.quantity(motion).abs() - loose) / flat);
+                peak = peak.max(swing.quantity(certain).abs() - loose);
                 loose *= fade;
                 rings = swing.bound(motion) + loose;
             }
@@ -111,32 +118,40 @@ impl Setup {
 
     /// What contacts that do not overlap others do to the component's place, and whether nothing comes after them. Of a flight
     /// cut short, the last is left out.
-    fn lone_shocks(&self, flight: &CompliantFlight) -> (Vec<LoneShock>, bool) {
+    fn lone_shocks(&self, flight: &CompliantFlight, ends: &Ends) -> (Vec<LoneShock>, bool) {
         let strikes = &flight.flight.strikes;
         let mut shocks: Vec<LoneShock> = Vec::with_capacity(strikes.len());
-        let (mut net, mut gross, mut from_s, mut parted_s) = (0.0, 0.0, 0.0, 0.0_f64);
+        let mut shock = LoneShock::default();
         for (k, (strike, pulse)) in strikes.iter().zip(&flight.pulses).enumerate() {
             let delta_v = strike.delta_v_at(self.position);
-            net += delta_v;
-            gross += delta_v.abs();
-            parted_s = parted_s.max(pulse.until_s);
+            if shock.strikes == 0 {
+                let (end, sin) = (usize::from(strike.end == End::B), libm::sin(strike.tilt_rad));
+                let mut jumps = [-ends.ratio(end, (1.0 - sin) * (1.0 + sin)); 2];
+                jumps[end] = 1.0;
+                shock.first = -(1.0 + ends.e) * strike.approach_m_s * ends.at(jumps);
+            }
+            shock.strikes += 1;
+            shock.net += delta_v;
+            shock.gross += delta_v.abs();
+            shock.parted_s = shock.parted_s.max(pulse.until_s);
             let Some(next) = strikes.get(k + 1) else { break };
-            if parted_s < next.time_s {
-                shocks.push(LoneShock { from_s, parted_s, next_s: next.time_s, net, gross });
-                (net, gross, from_s) = (0.0, 0.0, next.time_s);
+            if shock.parted_s < next.time_s {
+                shocks.push(LoneShock { next_s: next.time_s, ..shock });
+                shock = LoneShock { from_s: next.time_s, ..LoneShock::default() };
             }
         }
         let whole = !matches!(flight.flight.stop, Stop::ImpactLimit { .. });
         if whole {
-            shocks.push(LoneShock { from_s, parted_s, next_s: f64::INFINITY, net, gross });
+            shocks.push(LoneShock { next_s: f64::INFINITY, ..shock });
         }
         (shocks, whole)
     }
 }
 
 /// One contact, or several that overlap.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 struct LoneShock {
+    strikes: u32,
     from_s: f64,
     parted_s: f64,
     /// When the next begins.
@@ -144,4 +159,18 @@ struct LoneShock {
     /// Sum of the jumps at the component's place, and of their magnitudes.
     net: f64,
     gross: f64,
+    /// That of the first contact, if it were alone.
+    first: f64,
+}
+
+impl LoneShock {
+    /// The shock of a lone contact that pushes no harder than this one at its hardest: of several, no less than they do on the mean, nor, where the
+    /// dashpot pushes at once, than the first one does before the next begins.
+    fn crest(&self, pulse: &Pulse, contact_s: f64) -> f64 {
+        if self.strikes == 1 {
+            return self.net.abs();
+        }
+        let mean = self.net.abs() * (contact_s / (self.parted_s - self.from_s)) / pulse.crest();
+        if pulse.begins_hardest() { mean.max(self.first.abs()) } else { mean }
+    }
 }
