@@ -194,8 +194,8 @@ struct Phase {
     /// Stiffness over the mass of the body, from the angle of touch.
     kappa: [f64; 2],
     modes: [Mode; 2],
-    /// cos and sin of the angle that turns √κ h into modes.
-    mix: (f64, f64),
+    /// Heights of both ends in contact as sums of modes.
+    weights: [[f64; 2]; 2],
 }
 
 impl Phase {
@@ -208,7 +208,7 @@ impl Phase {
         let fall = if long { [0, 1].map(|i| -of.acceleration(i)) } else { [start.gravity; 2] };
         let (h, v) = (start.ends.h, start.ends.v);
         let delay = contact.delay();
-        let (modes, mix) = if on == [true; 2] {
+        let (modes, weights) = if on == [true; 2] {
             let root = kappa.map(f64::sqrt);
             // S = [[κ_a μ_a, off], [off, κ_b μ_b]], positive definite.
             let (off, half) = (root[0] * root[1] * cross, 0.5 * (kappa[0] * mu[0] - kappa[1] * mu[1]));
@@ -222,24 +222,15 @@ impl Phase {
                 Mode::new(large, delay, -one(fall), one(h), one(v)),
                 Mode::new(small, delay, -two(fall), two(h), two(v)),
             ];
-            (modes, (cos, sin))
+            (modes, [[cos / root[0], -sin / root[0]], [sin / root[1], cos / root[1]]])
         } else {
             let i = usize::from(on[1]);
-            ([Mode::new(kappa[i] * mu[i], delay, -fall[i], h[i], v[i]); 2], (1.0, 0.0))
+            ([Mode::new(kappa[i] * mu[i], delay, -fall[i], h[i], v[i]); 2], [[1.0, 0.0]; 2])
         };
-        Self { start, on, delay, fall, x, mu, cross, kappa, modes, mix }
+        Self { start, on, delay, fall, x, mu, cross, kappa, modes, weights }
     }
     fn both(&self) -> bool {
         self.on == [true; 2]
-    }
-    /// Height of end i in contact as a sum of modes.
-    fn weights(&self, i: usize) -> [f64; 2] {
-        if !self.both() {
-            return [1.0, 0.0];
-        }
-        let (cos, sin) = self.mix;
-        let weights = if i == 0 { [cos, -sin] } else { [sin, cos] };
-        weights.map(|w| w / self.kappa[i].sqrt())
     }
     /// z and z′ of the modes at time t; of one end in contact they are the same.
     fn modes_at(&self, t: f64) -> [(f64, f64); 2] {
@@ -259,7 +250,7 @@ impl Phase {
     /// Height, velocity, acceleration of end i at time t, from the modes then.
     fn end(&self, i: usize, t: f64, modes: &[(f64, f64); 2]) -> [f64; 3] {
         if self.on[i] {
-            let c = self.weights(i);
+            let c = self.weights[i];
             let mut sum = [0.0; 3];
             for ((c, mode), &now) in c.iter().zip(&self.modes).zip(modes) {
                 let terms = [mode.rest + now.0, now.1, mode.second(now)];
@@ -360,7 +351,7 @@ impl Phase {
     }
     /// When end i in contact parts. `fresh`: it has just begun to press.
     fn parting(&self, i: usize, cap: f64, fresh: bool) -> Option<f64> {
-        let (c, delay) = (self.weights(i), self.delay);
+        let (c, delay) = (self.weights[i], self.delay);
         let rest: f64 = c.iter().zip(&self.modes).map(|(c, m)| c * m.rest).sum();
         let modes_at = self.kept_modes_at();
         let press = |t: f64| {
