@@ -101,6 +101,11 @@ fn contacts_are_followed_until_nothing_higher_comes() {
             [0.142_056_97, 0.029_657_31, 0.432_293_32, 6.537_003_2, 0.638_540_86],
             [5.881_171_4e-4, -0.158_927_81, 60857.75, 0.100_430_78],
         ),
+        (
+            "a bar that whirls is upright as it leaves",
+            [0.089_997_689, 0.025_864_439, 0.937_817_89, 4.206_042_15, 7.249_865],
+            [8.635_154_2e-4, 0.024_916_288, 86848.236, 0.668_557_84],
+        ),
     ] {
         let setup = drop_of(drop, part);
         for quantity in QUANTITIES {

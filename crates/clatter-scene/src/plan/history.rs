@@ -79,7 +79,8 @@ pub(crate) fn of_contacts(scene: &Scene, flight: &CompliantFlight, until_s: f64,
             continue;
         }
         let share = (force * first / largest).min(1.0);
-        let nodes = nodes(rate, from - changed, long, contact_s, (cells * share.sqrt()).max(6.0));
+        let cells = (cells * share.sqrt()).max((0.5 * cells).clamp(1.0, 6.0));
+        let nodes = nodes(rate, from - changed, long, contact_s, cells);
         // Just before its end, not in what follows.
         let last = to - 1e-9 * long.min(contact_s);
         let mut now = (from, motion(from));
@@ -113,7 +114,7 @@ pub(crate) fn at_place(pushes: &Pushes, suspension: &Suspension, at: impl Fn([f6
 fn nodes(rate: f64, age: f64, long: f64, contact_s: f64, cells: f64) -> Vec<f64> {
     let longest = contact_s / cells;
     let first = if age > 0.0 { longest + 0.05 * age } else { (3.0 / (cells * rate)).min(longest) };
-    let mut step = first.min(if age > 0.0 { long } else { 0.25 * long });
+    let mut step = first.min(if age > 0.0 { long } else { long / cells.min(4.0) });
     let (mut t, mut nodes) = (0.0, vec![0.0]);
     while t + 1.5 * step < long {
         t += step;

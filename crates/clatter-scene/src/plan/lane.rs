@@ -152,10 +152,6 @@ impl Lane {
             down: Down::Nothing,
         }
     }
-    /// A body in flight, at any angle, with these heights and velocities of its ends.
-    pub(super) fn of(height: [f64; 2], velocity: [f64; 2], gravity: f64) -> Self {
-        Self { height, velocity, gravity, tilts: true, delay: 0.0, carried: 0.0, down: Down::Nothing }
-    }
     pub(super) fn with_gravity(self, gravity: f64) -> Self {
         Self { gravity, ..self }
     }
@@ -378,9 +374,5 @@ impl Lane {
     /// Twice the energy over the mass.
     pub(super) fn twice_energy(&self, ends: &Ends) -> f64 {
         self.twice_energy_until(ends, None)
-    }
-    /// Bound on the speed at the component from here on.
-    pub(super) fn reach(&self, ends: &Ends) -> f64 {
-        ends.reach(self.twice_energy(ends))
     }
 }

@@ -4,7 +4,7 @@ use clatter::End;
 use clatter::flight::{CompliantFlight, Stop};
 
 use super::bounds::{later_response, later_shock, pile, weight};
-use super::lane::{Ends, Lane};
+use super::lane::Ends;
 use super::pulse::Pulse;
 use super::swing::{Motion, Swing};
 use super::{Quantity, Setup};
@@ -55,8 +55,7 @@ impl Setup {
         let beyond = if whole {
             weight(&swing, g / omega)
         } else if let Some(last) = shocks.last() {
-            let now = flight.sample(last.parted_s);
-            let speed = Lane::of(now.height_m, now.velocity_m_s, g).reach(&ends);
+            let speed = ends.reach(self.twice_energy(flight, last));
             if velocity_shock {
                 later_shock(speed, g, contact_s)
             } else {
@@ -116,6 +115,17 @@ impl Setup {
         f64::INFINITY
     }
 
+    /// Twice the energy of the body as the last of a few contacts parts, by its spin: upright, its ends do not show how fast it turns.
+    fn twice_energy(&self, flight: &CompliantFlight, shock: &LoneShock) -> f64 {
+        let (body, strike) = (self.scene.body(), &flight.flight.strikes[shock.last]);
+        let [a, b] = body.arms_m();
+        let center = |[of_a, of_b]: [f64; 2]| (b * of_a + a * of_b) / (a + b);
+        let (speed, height) = (center(strike.velocity_m_s), center(flight.sample(shock.parted_s).height_m));
+        speed * speed
+            + (body.gyration_m() * strike.spin_rad_s).powi(2)
+            + 2.0 * self.scene.gravity_m_s2() * height.max(0.0)
+    }
+
     /// What contacts that do not overlap others do to the component's place, and whether nothing comes after them. Of a flight
     /// cut short, the last is left out.
     fn lone_shocks(&self, flight: &CompliantFlight, ends: &Ends) -> (Vec<LoneShock>, bool) {
@@ -133,7 +143,9 @@ impl Setup {
             shock.strikes += 1;
             shock.net += delta_v;
             shock.gross += delta_v.abs();
-            shock.parted_s = shock.parted_s.max(pulse.until_s);
+            if pulse.until_s >= shock.parted_s {
+                (shock.parted_s, shock.last) = (pulse.until_s, k);
+            }
             let Some(next) = strikes.get(k + 1) else { break };
             if shock.parted_s < next.time_s {
                 shocks.push(LoneShock { next_s: next.time_s, ..shock });
@@ -153,7 +165,9 @@ impl Setup {
 struct LoneShock {
     strikes: u32,
     from_s: f64,
+    /// When all of them have parted, and the number, from 0, of the strike that does so last.
     parted_s: f64,
+    last: usize,
     /// When the next begins.
     next_s: f64,
     /// Sum of the jumps at the component's place, and of their magnitudes.
