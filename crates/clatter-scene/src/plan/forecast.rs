@@ -6,7 +6,7 @@ use super::coupling::Coupling;
 use super::lane::Ends;
 use super::pulse::Pulse;
 use super::swing::Swing;
-use super::trail::Trail;
+use super::trail::{Course, Strikes, Trail};
 use super::walk::{Interval, Walker};
 use super::{BarRung, ComponentRung, Estimate, Pair, Quantity, Setup};
 
@@ -82,10 +82,10 @@ impl Setup {
     /// What every rung gets wrong in this quantity, about.
     ///
     /// # Cost
-    /// Two to five microseconds; bench `plan` measures it.
+    /// One to three microseconds; bench `plan` measures it.
     #[must_use]
     pub fn forecast(&self, quantity: Quantity) -> Forecast {
-        self.follow::<STRIKES>(quantity, &mut Trail::new(&self.scene, self.contact_time_s))
+        self.follow::<STRIKES>(quantity, &mut self.course())
     }
 
     /// The same from strikes of its scene that may have been followed before.
@@ -100,18 +100,23 @@ impl Setup {
     /// Some ten times as much.
     #[must_use]
     pub fn forecast_far(&self, quantity: Quantity) -> Forecast {
-        self.follow::<MANY_STRIKES>(quantity, &mut Trail::new(&self.scene, self.contact_time_s))
+        self.follow::<MANY_STRIKES>(quantity, &mut self.course())
     }
 
-    fn follow<const N: usize>(&self, quantity: Quantity, trail: &mut Trail) -> Forecast {
+    fn course(&self) -> Course {
+        Course::new(Ends::new(&self.scene, self.position), &self.scene, self.contact_time_s)
+    }
+
+    fn follow<const N: usize>(&self, quantity: Quantity, trail: &mut impl Strikes) -> Forecast {
         let ends = Ends::new(&self.scene, self.position);
         let (zeta, omega) = (self.suspension.damping().get(), self.suspension.omega());
         let swing = Swing::new(zeta, quantity == Quantity::PeakAcceleration);
-        let pulse = trail.pulse;
+        let pulse = trail.course().pulse;
         let time = self.contact_time_s.unwrap_or(0.0);
         let coupling = Coupling::new(&ends, pulse, time, quantity);
         let (gravity, tilt) = (self.scene.gravity_m_s2(), self.scene.tilt_rad());
-        let walk = Walker::<N>::new((&ends, &swing, &coupling), gravity, omega, tilt).follow(trail);
+        let mut walker = Walker::<N>::new((&ends, &swing, &coupling), gravity, omega, tilt);
+        let walk = walker.follow(trail);
         let peak = walk.peak();
         // As if impulses, then as pulses: a peak that pulses flatten leaves more room to every error.
         let (smooth, impulse_phase) = smoothing(&pulse, omega * time, &peak, zeta);
@@ -119,8 +124,8 @@ impl Setup {
         let left = if response { 1.0 - smooth.min(0.8) } else { 1.0 };
         let number = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
         let top = left * peak.value;
-        let worst = |k: usize| walk.errors(k, &peak, top).map(|error| error / top);
-        let [[_, map], [_, ballistic], [followed, tilted]] = [worst(0), worst(1), worst(2)];
+        let worst = walk.errors(&peak, top).map(|errors| errors.map(|error| error / top));
+        let [[_, map], [_, ballistic], [followed, tilted]] = worst;
         let contact_known = self.contact_time_s.is_some();
         // Without a contact time it is finite tilt that the others are held against: what it makes of later strikes is the answer.
         let doubt = number(tilted);

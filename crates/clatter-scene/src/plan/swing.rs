@@ -3,6 +3,8 @@
 //! `x″ + 2ζ x′ + x = 0`; a quantity is Q = r₀ x + r₁ w, with r = (1, 0) for the relative displacement ωz and (1, 2ζ) for the absolute
 //! acceleration over ω, sign aside. Next to ζ = 1 the damping is shifted by 5·10⁻⁷, far below what an estimate is good for.
 
+use super::bounds::{greater, lesser};
+
 /// The component and the quantity asked of it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Swing {
@@ -83,7 +85,7 @@ impl Swing {
     pub(super) fn peak(&self, m: Motion, until: f64) -> Peak {
         let (now, rate) = (self.quantity(m), self.rate(m));
         let (slope, bend) = (self.quantity(rate), self.quantity(self.rate(rate)));
-        let start = Peak { value: now.abs(), phase: 0.0, slope: (slope * now.signum()).min(0.0) };
+        let start = Peak { value: now.abs(), phase: 0.0, slope: lesser(slope * now.signum(), 0.0) };
         let turn = if self.swings {
             let sine = (bend + self.zeta * slope) / self.beta;
             let phase = libm::atan2(slope.abs(), if slope < 0.0 { sine } else { -sine }) / self.beta;
@@ -105,13 +107,40 @@ impl Swing {
         };
         turn.filter(|t| t.value > start.value).unwrap_or(start)
     }
+    /// The same of a motion whose Q has the rate `last` then.
+    #[inline]
+    pub(super) fn peak_before(&self, m: Motion, until: f64, last: f64) -> Peak {
+        let slope = self.quantity(self.rate(m));
+        // Turning points are half a turn apart.
+        if self.swings && self.beta * until < std::f64::consts::PI && slope * last > 0.0 {
+            let now = self.quantity(m);
+            Peak { value: now.abs(), phase: 0.0, slope: lesser(slope * now.signum(), 0.0) }
+        } else {
+            self.peak(m, until)
+        }
+    }
     /// √(w² + 2ζxw + x²): Q at its turning points is at most this, for ζ < 1.
     fn amplitude(&self, m: Motion) -> f64 {
-        (m.w * m.w + 2.0 * self.zeta * m.x * m.w + m.x * m.x).max(0.0).sqrt()
+        greater(m.w * m.w + 2.0 * self.zeta * m.x * m.w + m.x * m.x, 0.0).sqrt()
+    }
+    /// The square of `bound`.
+    #[inline]
+    pub(super) fn square(&self, m: Motion) -> f64 {
+        let now = self.quantity(m);
+        if self.swings {
+            greater(now * now, m.w * m.w + 2.0 * self.zeta * m.x * m.w + m.x * m.x)
+        } else {
+            let bound = self.bound(m);
+            bound * bound
+        }
     }
     /// Bound on |Q| from here on.
     pub(super) fn bound(&self, m: Motion) -> f64 {
-        if self.swings { self.quantity(m).abs().max(self.amplitude(m)) } else { m.x.abs() + self.factor * m.w.abs() }
+        if self.swings {
+            greater(self.quantity(m).abs(), self.amplitude(m))
+        } else {
+            m.x.abs() + self.factor * m.w.abs()
+        }
     }
 }
 
