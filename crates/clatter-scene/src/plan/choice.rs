@@ -91,7 +91,7 @@ impl Forecast {
             Some(Warning::ContactTimeUnknown { longest_s: self.longest_contact_s(pair, tolerance) })
         };
         let bar = [BarRung::Map, BarRung::Ballistic, BarRung::FiniteTilt].map(|rung| self.bar(rung).error);
-        let rebounds = self.until_s == f64::INFINITY;
+        let rebounds = self.until_s == f64::INFINITY && !self.is_certain;
         let reason = Reason {
             quantity: self.quantity,
             pair,
@@ -145,7 +145,7 @@ impl Plan {
     /// do, a longer look ([`Setup::forecast_far`]) is cheap beside that.
     #[must_use]
     pub fn refined(self, setup: &Setup) -> Self {
-        if self.pair == Pair::HIGHEST && self.until_s == f64::INFINITY {
+        if self.pair == Pair::HIGHEST && self.until_s == f64::INFINITY && !self.forecast.is_certain {
             setup.forecast_far(self.quantity).plan(self.reason.tolerance)
         } else {
             self

@@ -72,6 +72,8 @@ pub(super) struct Walk<const N: usize> {
     pub(super) jumps: f64,
     /// Lanes that have had the same strikes so far.
     alive: [bool; 3],
+    /// Whether real tilt is off by more than the tolerance, whatever comes later.
+    pub(super) is_certain: bool,
 }
 
 impl<const N: usize> Walk<N> {
@@ -83,25 +85,35 @@ impl<const N: usize> Walk<N> {
     }
     /// What each lane gets wrong, if pulses leave `top` of the `peak`: by the strikes followed, and by all.
     pub(super) fn errors(&self, peak: &Interval, top: f64) -> [[f64; 2]; 3] {
-        let intervals = &self.intervals[..self.strikes];
-        let (mut late, mut most) = ([0.0; N], self.late);
-        for (late, interval) in late.iter_mut().zip(intervals).rev() {
+        let lates = self.lates();
+        [0, 1, 2].map(|k| {
+            let [error, least] = self.followed(k, peak, top, &lates);
+            [error, greater(self.later(k, peak.value), error)].map(|error| lesser(least, error))
+        })
+    }
+    /// Bounds on all that comes after the intervals.
+    fn lates(&self) -> [f64; N] {
+        let (mut lates, mut most) = ([0.0; N], self.late);
+        for (late, interval) in lates.iter_mut().zip(&self.intervals[..self.strikes]).rev() {
             most = greater(interval.late, most);
             *late = most;
         }
-        let (mut error, mut least) = ([0, 1, 2].map(|k| peak.off(k)), [f64::INFINITY; 3]);
-        for (interval, late) in intervals.iter().zip(late) {
+        lates
+    }
+    /// What lane k gets wrong by the strikes followed, and what it gets wrong at most if what follows some interval is left to its bound.
+    #[inline]
+    fn followed(&self, k: usize, peak: &Interval, top: f64, lates: &[f64; N]) -> [f64; 2] {
+        let (mut error, mut least) = (peak.off(k), f64::INFINITY);
+        for (interval, late) in self.intervals[..self.strikes].iter().zip(lates) {
             // Another that comes up to the top may be the higher one.
             let short = lesser(interval.value + interval.adrift - top, 0.0);
-            for k in 0..3 {
-                error[k] = greater(interval.early[k] - top, greater(interval.off(k) + short, error[k]));
-                // From the peak on, what follows may be left to its bound.
-                if interval.from_s >= peak.from_s {
-                    least[k] = lesser(greater(late - top, error[k]), least[k]);
-                }
+            error = greater(interval.early[k] - top, greater(interval.off(k) + short, error));
+            // From the peak on, what follows may be left to its bound.
+            if interval.from_s >= peak.from_s {
+                least = lesser(greater(late - top, error), least);
             }
         }
-        [0, 1, 2].map(|k| [error[k], greater(self.later(k, peak.value), error[k])].map(|error| lesser(least[k], error)))
+        [error, least]
     }
     /// What lane k may get wrong after the strikes followed.
     fn later(&self, k: usize, peak: f64) -> f64 {
@@ -230,6 +242,8 @@ pub(super) struct Walker<'a, const N: usize> {
     before: f64,
     floor: f64,
     rebound: f64,
+    /// Bound on what later strikes of the lane with all physics add.
+    coming: f64,
 }
 
 impl<'a, const N: usize> Walker<'a, N> {
@@ -263,6 +277,7 @@ impl<'a, const N: usize> Walker<'a, N> {
                 weight,
                 jumps: 0.0,
                 alive: [true; 3],
+                is_certain: false,
             },
             motion: Motion::default(),
             begun: Motion::default(),
@@ -277,10 +292,12 @@ impl<'a, const N: usize> Walker<'a, N> {
             before: 0.0,
             floor: 0.0,
             rebound: 0.0,
+            coming: f64::INFINITY,
         }
     }
 
-    pub(super) fn follow(&mut self, trail: &mut impl Strikes) -> &Walk<N> {
+    /// Until nothing later counts, or until real tilt can not be within the tolerance any more.
+    pub(super) fn follow(&mut self, trail: &mut impl Strikes, tolerance: f64) -> &Walk<N> {
         self.before = self.ends.reach(trail.course().twice_energy);
         let mut flight = Flight { gap_s: 0.0, lying: None, tumbles: false, speed: self.before };
         while let Some(step) = trail.step(self.walk.strikes) {
@@ -299,6 +316,12 @@ impl<'a, const N: usize> Walker<'a, N> {
             self.fly(trail, &flight);
             if self.is_over(&flight) {
                 break;
+            }
+            if tolerance < f64::INFINITY && self.is_certain(tolerance) {
+                self.walk.is_certain = true;
+                // Not looked at.
+                (self.walk.net, self.walk.largest) = (f64::INFINITY, f64::INFINITY);
+                return &self.walk;
             }
         }
         if !self.coupling.velocity_shock {
@@ -354,21 +377,62 @@ impl<'a, const N: usize> Walker<'a, N> {
             self.floor = self.floor.max(self.rebound * self.before);
         }
         self.before = flight.speed;
-        (self.walk.late, self.walk.extra) = self.to_come(greater(flight.speed, self.floor), true);
+        (self.walk.late, self.walk.extra, self.coming) = self.to_come(flight.speed, true);
+        if flight.speed < self.floor {
+            (self.walk.late, self.walk.extra, _) = self.to_come(self.floor, true);
+        }
         self.walk.intervals[n].late = self.walk.late;
     }
 
-    /// Bound on what a bar of such a speed does to the component from now on, and what of it one shock does; `more` than one may come.
-    fn to_come(&self, speed: f64, more: bool) -> (f64, f64) {
+    /// Bound on what a bar of such a speed does to the component from now on, and what of it one shock and all of them do; `more` than one
+    /// may come.
+    fn to_come(&self, speed: f64, more: bool) -> (f64, f64, f64) {
         if self.coupling.velocity_shock {
             let shock = later_shock(speed, self.gravity, self.coupling.time);
-            return (shock, shock);
+            return (shock, shock, shock);
         }
         let fall = self.gravity / self.omega;
         let extra = later_response(self.swing, speed, self.gravity, self.omega);
         let times = if more { piled(self.pile, self.swing.zeta(), speed, fall) } else { 1.0 };
         let all = self.swing.bound(self.motion) + self.adrift + times * extra;
-        (if all.is_nan() { f64::INFINITY } else { all }, extra)
+        (if all.is_nan() { f64::INFINITY } else { all }, extra, times * extra)
+    }
+
+    /// Whether real tilt is off by more than the tolerance, whatever strikes still come.
+    ///
+    /// As long as the peak stays where it is, what `Walk::followed` has counted against it only grows; and where pulses flatten the peak,
+    /// its share does not fall.
+    fn is_certain(&self, tolerance: f64) -> bool {
+        self.rises_are_off(tolerance) && {
+            let peak = self.walk.peak();
+            let [error, least] = self.walk.followed(2, &peak, peak.value, &self.walk.lates());
+            lesser(error, least) > tolerance * peak.value
+        }
+    }
+
+    /// Whether it is so of every later interval that passes the peak.
+    fn rises_are_off(&self, tolerance: f64) -> bool {
+        let lost = !self.walk.alive[2];
+        if self.coupling.velocity_shock {
+            // A lane that has lost the strikes is off by each. Of both contacts at once, the first may be more than the two together.
+            return lost && tolerance < 1.0 || self.doubtful > 2.0 * tolerance * self.coming;
+        }
+        // In the share f that is left of it, the motion is at most f times its envelope, and the doubt f times what it is now.
+        let swing = self.swing;
+        let doubt = swing.factor * (self.lacking[2] + self.doubtful);
+        let [now, unit] = [self.motion, Motion { x: 0.0, w: 1.0 }].map(|motion| swing.envelope(motion));
+        if lost && doubt > tolerance * now && swing.factor > tolerance * unit {
+            return true;
+        }
+        // To pass the peak with all that comes, the motion must have kept this much; the doubt has then kept the same share.
+        let kept = self.peak - self.coming;
+        if kept >= now || doubt * kept > tolerance * now * self.peak {
+            return true;
+        }
+        // Or an earlier interval counts, however high the peak gets.
+        let most = greater(swing.bound(self.motion) + self.coming, self.peak);
+        let off = |interval: &Interval| interval.off(2) + lesser(interval.value + interval.adrift - most, 0.0);
+        self.walk.intervals[..self.walk.strikes].iter().any(|interval| off(interval) > tolerance * most)
     }
 
     /// Whether nothing later counts, or is known.
@@ -539,7 +603,7 @@ impl<'a, const N: usize> Walker<'a, N> {
         (self.walk.late, self.walk.extra) = (0.0, 0.0);
         if self.gravity > 0.0 {
             // The ground carries it from now on, and impacts have bounces left.
-            (self.walk.late, self.walk.extra) = self.to_come(self.ends.reach(step.twice_energy), false);
+            (self.walk.late, self.walk.extra, _) = self.to_come(self.ends.reach(step.twice_energy), false);
         }
     }
 
