@@ -11,8 +11,13 @@ fn main() {
 
 /// A phone lands at 5° from 1 m; contacts of 0.1 ms; a part at 180 Hz, Q = 10, near its end.
 fn setup(e: f64) -> Setup {
+    tilted(e, 5.0)
+}
+
+/// The same at any tilt.
+fn tilted(e: f64, tilt_deg: f64) -> Setup {
     let body = Body::new(0.14, 0.14 / 12.0_f64.sqrt()).expect("a phone");
-    let scene = Scene::from_height(body, e, 1.0, 5.0, 9.81).expect("a drop");
+    let scene = Scene::from_height(body, e, 1.0, tilt_deg, 9.81).expect("a drop");
     let damping = DampingRatio::from_quality_factor(10.0).expect("a quality factor");
     let part = Suspension::from_hz(180.0, damping).expect("a part");
     Setup::new(scene, Some(1e-4), 0.9, part).expect("a setup")
@@ -23,6 +28,20 @@ fn setup(e: f64) -> Setup {
 fn plan(bencher: Bencher, e: f64) {
     let setup = setup(e);
     bencher.bench(|| black_box(&setup).forecast(Quantity::PeakAcceleration).plan(0.01));
+}
+
+/// The choice alone.
+#[divan::bench(args = [0.05, 0.3, 0.9])]
+fn choice(bencher: Bencher, e: f64) {
+    let setup = setup(e);
+    bencher.bench(|| black_box(&setup).plan(Quantity::PeakAcceleration, 0.01));
+}
+
+/// The same of a flat drop, whose contacts overlap.
+#[divan::bench(args = [0.05, 0.3, 0.9])]
+fn choice_of_overlap(bencher: Bencher, e: f64) {
+    let setup = tilted(e, 0.1);
+    bencher.bench(|| black_box(&setup).plan(Quantity::PeakAcceleration, 0.01));
 }
 
 /// Every pair, in the order of `Pair::planned`.

@@ -270,6 +270,31 @@ fn estimates_know_what_bends_a_peak() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
+/// What is left out where the choice is certain does not change it, nor that of a longer look.
+#[test]
+fn a_choice_needs_no_more_strikes_than_it_hangs_on() {
+    let mut random = Random(11);
+    let mut shorter = 0;
+    for k in 0..4000 {
+        let setup = random.setup();
+        for quantity in QUANTITIES {
+            let forecast = setup.forecast(quantity);
+            for tolerance in TOLERANCES {
+                let (whole, plan) = (forecast.plan(tolerance), setup.plan(quantity, tolerance));
+                let same = plan.pair == whole.pair && plan.estimate == whole.estimate && plan.warning == whole.warning;
+                assert!(same, "{quantity:?} within {tolerance}: {:?} {:?} {setup:?}", plan.pair, whole.pair);
+                if plan.forecast != forecast {
+                    shorter += 1;
+                    assert!(plan.pair == Pair::HIGHEST && plan.forecast.at_most() == f64::INFINITY, "{plan:?}");
+                    let same = k >= 300 || whole.refined(&setup).pair == plan.refined(&setup).pair;
+                    assert!(same, "{quantity:?} within {tolerance}: {setup:?}");
+                }
+            }
+        }
+    }
+    assert!(shorter > 9 * 4000 / 5, "{shorter}");
+}
+
 /// The cost model ranks pairs as they are, on the average over scenes.
 #[test]
 fn modeled_costs_have_the_ratios_of_measured_ones() {

@@ -91,7 +91,7 @@ impl Both {
     }
     /// The same of a bar whose end `landed` lands, for its ends a and b.
     pub(super) fn scaled(&self, ends: &Ends, landed: usize) -> Self {
-        let scale = (ends.ratio(landed, 1.0) / ends.ratio(1 - landed, 1.0)).sqrt();
+        let scale = (ends.flat[landed] / ends.flat[1 - landed]).sqrt();
         let order = |[first, other]: [f64; 2]| {
             let mut of_ends = [other * scale; 2];
             of_ends[landed] = first;
@@ -149,12 +149,12 @@ mod tests {
             let parted = flight.pulses.iter().fold(0.0_f64, |m, pulse| m.max(pulse.until_s));
             let flown = flight.sample(parted + TIME).velocity_m_s;
             let ends = Ends::new(&scene, 0.0);
-            let q = (ends.ratio(0, 1.0) * ends.ratio(1, 1.0)).sqrt();
+            let q = (ends.flat[0] * ends.flat[1]).sqrt();
             let scaled = Both::of_contacts(q, 0.3).scaled(&ends, 0).velocity;
             // As the table is read.
             assert!((0..2).all(|k| (scaled[k] - flown[k]).abs() < 0.01), "{a} {b}: {scaled:?} {flown:?}");
             // Impact by impact.
-            let (ratio, mut velocity, mut end) = ([ends.ratio(0, 1.0), ends.ratio(1, 1.0)], [-1.0, 0.0], 0);
+            let (ratio, mut velocity, mut end) = ([ends.flat[0], ends.flat[1]], [-1.0, 0.0], 0);
             while velocity[end] < 0.0 {
                 let jump = -1.3 * velocity[end];
                 velocity[end] += jump;

@@ -15,7 +15,7 @@ pub struct Plan {
     pub pair: Pair,
     /// What it gets wrong, as a share of the quantity; the pieces of its pulses come to that.
     pub estimate: Estimate,
-    /// Pieces of a pulse that does all: they take a tenth of the tolerance at most.
+    /// Pieces of a pulse that does all: they take a tenth of the tolerance, about.
     pub pieces: usize,
     /// The estimates for all pairs.
     pub forecast: Forecast,
@@ -97,7 +97,7 @@ impl Forecast {
             Some(Warning::ContactTimeUnknown { longest_s: self.longest_contact_s(pair, tolerance) })
         };
         let bar = [BarRung::Map, BarRung::Ballistic, BarRung::FiniteTilt].map(|rung| self.bar(rung).error);
-        let rebounds = self.until_s == f64::INFINITY;
+        let rebounds = self.until_s == f64::INFINITY && !self.is_certain;
         let reason = Reason {
             quantity: self.quantity,
             pair,
@@ -152,7 +152,7 @@ impl Plan {
     /// do, a longer look ([`Setup::forecast_far`]) is cheap beside that.
     #[must_use]
     pub fn refined(self, setup: &Setup) -> Self {
-        if self.pair == Pair::HIGHEST && self.until_s == f64::INFINITY {
+        if self.pair == Pair::HIGHEST && self.until_s == f64::INFINITY && !self.forecast.is_certain {
             setup.forecast_far(self.quantity).plan(self.reason.tolerance)
         } else {
             self

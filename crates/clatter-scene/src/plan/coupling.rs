@@ -15,23 +15,28 @@ pub(super) struct Coupling {
     /// Contact time; 0 where it is not known.
     pub(super) time: f64,
     pub(super) velocity_shock: bool,
-    /// Share of the speed that both ends together rebound with.
-    pub(super) rebound: f64,
+    /// Of both ends together: √(1 − q).
+    root: f64,
 }
 
 /// A strike as its contact has it: its shocks of both ends, and its age.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Pressing {
-    pub(super) delta_v: [f64; 2],
+    pub(super) delta_v: (f64, f64),
     pub(super) age_s: f64,
 }
 
 impl Coupling {
     pub(super) fn new(ends: &Ends, pulse: Pulse, time: f64, quantity: Quantity) -> Self {
-        let q = ends.ratio(0, 1.0).abs().max(ends.ratio(1, 1.0).abs());
+        let q = ends.flat[0].abs().max(ends.flat[1].abs());
+        let velocity_shock = quantity == Quantity::VelocityShock;
+        Self { pulse, e: ends.e, time, velocity_shock, root: (1.0 - q).max(0.0).sqrt() }
+    }
+    /// Share of the speed that both ends together rebound with.
+    #[cold]
+    pub(super) fn rebound(&self) -> f64 {
         // Both contacts at once swing with √(1 ∓ q) of the lone frequency and damping; 1.3 for partings that are not at once.
-        let rebound = (1.3 * libm::pow(ends.e, (1.0 - q).max(0.0).sqrt())).min(1.0);
-        Self { pulse, e: ends.e, time, velocity_shock: quantity == Quantity::VelocityShock, rebound }
+        (1.3 * libm::pow(self.e, self.root)).min(1.0)
     }
     /// What end i may have been given more or less of, in m/s, where the other one strikes with `kick` for end i while the contact of end i,
     /// which does `had` in all, is as old as `age`.

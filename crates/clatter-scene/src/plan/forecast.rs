@@ -6,9 +6,9 @@ use super::coupling::Coupling;
 use super::lane::Ends;
 use super::pulse::Pulse;
 use super::swing::Swing;
-use super::trail::Trail;
+use super::trail::{Course, Strikes, Trail};
 use super::walk::{Interval, Walker};
-use super::{BarRung, ComponentRung, Estimate, Pair, Quantity, Setup};
+use super::{BarRung, ComponentRung, Estimate, Pair, Plan, Quantity, Setup};
 
 /// Strikes followed at most.
 pub const STRIKES: usize = 8;
@@ -39,17 +39,17 @@ pub struct Groups {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Forecast {
     pub(super) quantity: Quantity,
-    /// Errors of the bar rungs up to finite tilt, as a share of the peak; the compliant one has none.
-    bar: [f64; 4],
+    /// Errors of the bar rungs, as a share of the peak; the compliant one has none where it takes the scene.
+    bar: [f64; 5],
     /// By how much the strikes that were not followed may pass the peak, with the error of finite tilt.
     pub(super) doubt: f64,
-    /// What is wrong with one net change, one largest shock, impulses.
-    component: [f64; 3],
+    /// What is wrong with one net change, one largest shock, impulses, and with pulses where there are none.
+    component: [f64; 4],
     /// Share of the error of finite tilt that overlap makes.
     pub(super) overlaps: bool,
     pub(super) contact_known: bool,
-    /// Whether the compliant rung takes the scene.
-    pub(super) compliant: bool,
+    /// Whether no pair but the highest is within the tolerance whatever comes later, which was not looked at.
+    pub(super) is_certain: bool,
     /// Shortest time between the strikes followed.
     pub(super) shortest_gap_s: f64,
     /// Largest contact time at which impulses are within a share of 1, by the error's square root or itself.
@@ -82,15 +82,26 @@ impl Setup {
     /// What every rung gets wrong in this quantity, about.
     ///
     /// # Cost
-    /// Two to five microseconds; bench `plan` measures it.
+    /// One to three microseconds; bench `plan` measures it.
     #[must_use]
     pub fn forecast(&self, quantity: Quantity) -> Forecast {
-        self.follow::<STRIKES>(quantity, &mut Trail::new(&self.scene, self.contact_time_s))
+        self.follow::<STRIKES>(quantity, &mut self.course(), f64::INFINITY)
+    }
+
+    /// The plan that [`Setup::forecast`] leads to, from no more strikes than it hangs on: where none but the highest pair can be within the
+    /// tolerance any more, whatever comes later, no further ones are followed. Errors of the other pairs, the groups and the peak are
+    /// then those of the strikes so far; [`Forecast::at_most`] and `until_s`, which are not known, are infinite.
+    ///
+    /// # Cost
+    /// One to two and a half microseconds; bench `plan` measures it.
+    #[must_use]
+    pub fn plan(&self, quantity: Quantity, tolerance: f64) -> Plan {
+        self.follow::<STRIKES>(quantity, &mut self.course(), tolerance).plan(tolerance)
     }
 
     /// The same from strikes of its scene that may have been followed before.
     pub(crate) fn forecast_along(&self, trail: &mut Trail, quantity: Quantity) -> Forecast {
-        self.follow::<STRIKES>(quantity, trail)
+        self.follow::<STRIKES>(quantity, trail, f64::INFINITY)
     }
 
     /// The same from a longer look, of [`MANY_STRIKES`]: worth it before contacts are followed, where the first few strikes leave open what
@@ -100,18 +111,24 @@ impl Setup {
     /// Some ten times as much.
     #[must_use]
     pub fn forecast_far(&self, quantity: Quantity) -> Forecast {
-        self.follow::<MANY_STRIKES>(quantity, &mut Trail::new(&self.scene, self.contact_time_s))
+        self.follow::<MANY_STRIKES>(quantity, &mut self.course(), f64::INFINITY)
     }
 
-    fn follow<const N: usize>(&self, quantity: Quantity, trail: &mut Trail) -> Forecast {
+    fn course(&self) -> Course {
+        Course::new(Ends::new(&self.scene, self.position), &self.scene, self.contact_time_s)
+    }
+
+    fn follow<const N: usize>(&self, quantity: Quantity, trail: &mut impl Strikes, tolerance: f64) -> Forecast {
         let ends = Ends::new(&self.scene, self.position);
         let (zeta, omega) = (self.suspension.damping().get(), self.suspension.omega());
         let swing = Swing::new(zeta, quantity == Quantity::PeakAcceleration);
-        let pulse = trail.pulse;
+        let pulse = trail.course().pulse;
         let time = self.contact_time_s.unwrap_or(0.0);
         let coupling = Coupling::new(&ends, pulse, time, quantity);
         let (gravity, tilt) = (self.scene.gravity_m_s2(), self.scene.tilt_rad());
-        let walk = Walker::<N>::new((&ends, &swing, &coupling), gravity, omega, tilt).follow(trail);
+        let mut walker = Walker::<N>::new((&ends, &swing, &coupling), gravity, omega, tilt);
+        let compliant = self.contact_time_s.is_some_and(|time| takes(&self.scene, time));
+        let walk = walker.follow(trail, if compliant { tolerance } else { f64::INFINITY });
         let peak = walk.peak();
         // As if impulses, then as pulses: a peak that pulses flatten leaves more room to every error.
         let (smooth, impulse_phase) = smoothing(&pulse, omega * time, &peak, zeta);
@@ -119,18 +136,18 @@ impl Setup {
         let left = if response { 1.0 - smooth.min(0.8) } else { 1.0 };
         let number = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
         let top = left * peak.value;
-        let worst = |k: usize| walk.errors(k, &peak, top).map(|error| error / top);
-        let [[_, map], [_, ballistic], [followed, tilted]] = [worst(0), worst(1), worst(2)];
+        let worst = walk.errors(&peak, top).map(|errors| errors.map(|error| error / top));
+        let [[_, map], [_, ballistic], [followed, tilted]] = worst;
         let contact_known = self.contact_time_s.is_some();
         // Without a contact time it is finite tilt that the others are held against: what it makes of later strikes is the answer.
-        let doubt = number(tilted);
+        let doubt = if walk.is_certain { f64::INFINITY } else { number(tilted) };
         let tilted = if contact_known { tilted } else { followed };
         // What real tilt is not sure of, parabolas and the map know by luck alone.
         let tilted = number(tilted);
         let ballistic = number(ballistic).max(tilted);
         let map = number(map).max(ballistic);
         let of_peak = |shock: f64| (swing.factor * shock.abs() / peak.value - 1.0).abs();
-        let component = if response {
+        let [net, largest, impulses] = if response {
             [
                 of_peak(walk.net) + smooth,
                 of_peak(walk.largest) + smooth,
@@ -143,12 +160,17 @@ impl Setup {
         let (v0, gap) = (self.scene.speed_m_s(), self.scene.height_gap_m());
         Forecast {
             quantity,
-            bar: [map, map, ballistic, tilted],
+            bar: [map, map, ballistic, tilted, if compliant { 0.0 } else { f64::INFINITY }],
             doubt,
-            component: component.map(number),
+            component: [
+                number(net),
+                number(largest),
+                number(impulses),
+                if contact_known { 0.0 } else { f64::INFINITY },
+            ],
             overlaps: walk.overlaps,
             contact_known,
-            compliant: self.contact_time_s.is_some_and(|time| takes(&self.scene, time)),
+            is_certain: walk.is_certain,
             shortest_gap_s: walk.shortest_gap_s,
             impulse_phase,
             omega,
@@ -200,44 +222,22 @@ impl Forecast {
     /// What the bar rung gets wrong, with the best component model.
     #[must_use]
     pub fn bar(&self, rung: BarRung) -> Estimate {
-        let error = match rung {
-            BarRung::ClosedForm => self.bar[0],
-            BarRung::Map => self.bar[1],
-            BarRung::Ballistic => self.bar[2],
-            BarRung::FiniteTilt => self.bar[3],
-            BarRung::Compliant => return Estimate { error: self.compliant_error(), is_bound: true },
-        };
-        Estimate { error, is_bound: false }
-    }
-    fn compliant_error(&self) -> f64 {
-        if self.compliant { 0.0 } else { f64::INFINITY }
+        Estimate { error: self.bar[rung as usize], is_bound: rung == BarRung::Compliant }
     }
     /// What the component rung gets wrong, with the best bar model; infinite where it does not apply.
     #[must_use]
     pub fn component(&self, rung: ComponentRung) -> Estimate {
-        let error = match rung {
-            ComponentRung::NetChange => self.component[0],
-            ComponentRung::LargestShock => self.component[1],
-            ComponentRung::ImpulseTrain => self.component[2],
-            // Without a contact time there are no pulses.
-            ComponentRung::PulseTrain if self.contact_known => return Estimate { error: 0.0, is_bound: true },
-            ComponentRung::PulseTrain => f64::INFINITY,
-        };
-        Estimate { error, is_bound: false }
+        let is_bound = rung == ComponentRung::PulseTrain && self.contact_known;
+        Estimate { error: self.component[rung as usize], is_bound }
     }
     /// What a pair gets wrong: the sum of both. The highest pair has no error by definition; other component models on the
     /// compliant bar are not estimated, since its contacts may merge into one.
     #[must_use]
     pub fn pair(&self, pair: Pair) -> Estimate {
-        if pair == Pair::HIGHEST {
-            return Estimate { error: self.compliant_error(), is_bound: true };
-        }
-        let error = if pair.bar == BarRung::Compliant {
-            f64::INFINITY
-        } else {
-            self.bar(pair.bar).error + self.component(pair.component).error
-        };
-        Estimate { error, is_bound: false }
+        let (bar, component) = (self.bar[pair.bar as usize], self.component[pair.component as usize]);
+        let is_bound = pair == Pair::HIGHEST;
+        let merges = pair.bar == BarRung::Compliant && !is_bound;
+        Estimate { error: if merges { f64::INFINITY } else { bar + component }, is_bound }
     }
     /// What the quantity is at most, by far more than the estimates are ever off: `peak` and [`DOUBT`] times what finite tilt and
     /// the strikes not followed leave open. For screening; a study of random scenes holds it.

@@ -8,6 +8,7 @@
 use clatter::flight::Scene;
 
 use super::both::Both;
+use super::bounds::{greater, lesser};
 use super::pulse::Pulse;
 
 /// What all lanes share.
@@ -18,29 +19,42 @@ pub(super) struct Ends {
     over: f64,
     pub(super) gyration2: f64,
     pub(super) e: f64,
-    /// Position of the component in [−1, 1].
-    pub(super) position: f64,
+    /// Inertia ratios of strikes at both ends of a bar that lies flat.
+    pub(super) flat: [f64; 2],
+    /// (1 − e)/(1 + e) ρ²
+    loss: f64,
+    /// 1 + x²/ρ² at the component.
+    lever: f64,
+    /// Shares that the component has of what both ends do.
+    share: [f64; 2],
 }
 
 impl Ends {
     pub(super) fn new(scene: &Scene, position: f64) -> Self {
         let body = scene.body();
-        let (arm, gyration2) = (body.arms_m(), body.gyration_m().powi(2));
-        Self { arm, over: 1.0 / (arm[0] + arm[1]), gyration2, e: scene.e(), position }
+        let (arm, gyration2, e) = (body.arms_m(), body.gyration_m().powi(2), scene.e());
+        let (over, loss) = (1.0 / (arm[0] + arm[1]), (1.0 - e) / (1.0 + e) * gyration2);
+        let share = [0.5 * (1.0 - position), 0.5 * (1.0 + position)];
+        let mut ends = Self { arm, over, gyration2, e, flat: [0.0; 2], loss, lever: 1.0, share };
+        ends.flat = [ends.ratio(0, 1.0), ends.ratio(1, 1.0)];
+        let x = ends.offset();
+        if x != 0.0 {
+            ends.lever += x * x / gyration2;
+        }
+        ends
     }
     /// Distance of the component from the center of mass, toward end b.
     pub(super) fn offset(&self) -> f64 {
-        0.5 * ((1.0 + self.position) * self.arm[1] - (1.0 - self.position) * self.arm[0])
+        self.share[1] * self.arm[1] - self.share[0] * self.arm[0]
     }
     /// What the component gets of what both ends do.
-    pub(super) fn at(&self, [a, b]: [f64; 2]) -> f64 {
-        0.5 * ((1.0 - self.position) * a + (1.0 + self.position) * b)
+    #[inline]
+    pub(super) fn at(&self, (a, b): (f64, f64)) -> f64 {
+        self.share[0] * a + self.share[1] * b
     }
     /// Bound on the speed at the component: all energy in its motion, `√(2E (1 + x²/ρ²))`.
     pub(super) fn reach(&self, twice_energy: f64) -> f64 {
-        let x = self.offset();
-        let lever = if x == 0.0 { 1.0 } else { 1.0 + x * x / self.gyration2 };
-        (twice_energy * lever).sqrt()
+        (twice_energy * self.lever).sqrt()
     }
     /// Inertia ratio of a strike at end i at an angle of this cos².
     pub(super) fn ratio(&self, i: usize, cos2: f64) -> f64 {
@@ -49,17 +63,73 @@ impl Ends {
     }
 }
 
-/// The state of one lane just after a strike.
+/// A strike: the end, the time since the last one, and velocity shocks of both ends.
+pub(super) type Strike = (usize, f64, (f64, f64));
+
+/// The same strike in another lane: the time since the last one, and velocity shocks of both ends.
+pub(super) type Own = (f64, (f64, f64));
+
+/// The map: a bar without gravity, whose ends strike in turn.
+#[derive(Debug, Clone)]
+pub(super) struct MapLane {
+    /// The end that strikes next.
+    end: usize,
+    /// Heights, velocities and inertia ratios, of that end first.
+    height: [f64; 2],
+    velocity: [f64; 2],
+    ratio: [f64; 2],
+    /// 1 + e
+    gain: f64,
+    touched: bool,
+}
+
+impl MapLane {
+    /// At the first touch, as the other lane has it.
+    pub(super) fn start(ends: &Ends, lane: &Lane<false>) -> Self {
+        let Lane { height, velocity, .. } = *lane;
+        Self { end: 0, height, velocity, ratio: ends.flat, gain: 1.0 + ends.e, touched: false }
+    }
+}
+
+impl Iterator for MapLane {
+    type Item = Strike;
+
+    #[inline]
+    fn next(&mut self) -> Option<Strike> {
+        let ([height, other], [fall, rise], end) = (self.height, self.velocity, self.end);
+        // The one that struck goes up.
+        if self.touched && fall >= 0.0 {
+            return None;
+        }
+        let after = if self.touched { greater(height / -fall, 0.0) } else { 0.0 };
+        let jump = -self.gain * lesser(fall, 0.0);
+        let back = -self.ratio[0] * jump;
+        *self = Self {
+            end: 1 - end,
+            height: [other + after * rise, 0.0],
+            velocity: [rise + back, fall + jump],
+            ratio: [self.ratio[1], self.ratio[0]],
+            touched: true,
+            ..*self
+        };
+        Some((end, after, if end == 0 { (jump, back) } else { (back, jump) }))
+    }
+}
+
+/// The state of one lane with gravity just after a strike, with real tilt or as parabolas.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Lane {
+pub(super) struct Lane<const TILTS: bool> {
     height: [f64; 2],
     velocity: [f64; 2],
     gravity: f64,
-    tilts: bool,
     /// Time from touch to centroid, and in which the weight gives what a contact carries of it.
     delay: f64,
     carried: f64,
+    /// Time over the speed of an end within which the other must land for that one not to lie down: at least two thirds of it.
+    brief: f64,
     down: Down,
+    /// How it turns now.
+    sweep: Sweep,
 }
 
 /// What lies on the ground.
@@ -88,11 +158,12 @@ const LEAST_COS2: f64 = 1e-3;
 impl Sweep {
     /// Means of sin φ over a time, as it acts on heights and on velocities: series of `2 (sin φ + x cos φ − sin(φ + x))/x²` and
     /// `(cos φ − cos(φ + x))/x`, x = ω t.
+    #[inline]
     fn means(&self, t: f64) -> [f64; 2] {
         let (x2, turned) = (self.spin2 * t * t, self.rate * t);
         [
-            self.sin * (1.0 - x2 / 12.0) + turned * (1.0 / 3.0 - x2 / 60.0),
-            self.sin * (1.0 - x2 / 6.0) + turned * (0.5 - x2 / 24.0),
+            self.sin * (1.0 - x2 * (1.0 / 12.0)) + turned * (1.0 / 3.0 - x2 * (1.0 / 60.0)),
+            self.sin * (1.0 - x2 * (1.0 / 6.0)) + turned * (0.5 - x2 * (1.0 / 24.0)),
         ]
     }
 }
@@ -109,8 +180,6 @@ pub(super) struct Next {
     pub(super) tumbles: bool,
     /// When the other end would strike, and how fast; infinite where it does not fall.
     pub(super) rival: [f64; 2],
-    /// How a lane with real tilt turns until then.
-    sweep: Option<Sweep>,
 }
 
 /// No rival.
@@ -118,178 +187,253 @@ const ALONE: [f64; 2] = [f64::INFINITY, 0.0];
 
 impl Next {
     /// The first touch.
-    pub(super) const FIRST: Self = Self { end: 0, after: 0.0, turning: 0.0, tumbles: false, rival: ALONE, sweep: None };
+    pub(super) const FIRST: Self = Self { end: 0, after: 0.0, turning: 0.0, tumbles: false, rival: ALONE };
 }
 
 /// Time until `h + v t − ½ g t²` comes to 0, the later root where it starts upward; 0 where it is below.
+#[inline]
 fn fall(h: f64, v: f64, g: f64) -> f64 {
     let square = v * v + 2.0 * g * h;
     if g <= 0.0 {
         return if v < 0.0 && square >= 0.0 { (2.0 * h / (square.sqrt() - v)).max(0.0) } else { f64::INFINITY };
     }
-    let root = square.max(0.0).sqrt();
-    if square < 0.0 {
-        0.0
-    } else if v >= 0.0 {
-        (v + root) / g
-    } else {
-        (2.0 * h / (root - v)).max(0.0)
-    }
+    let root = greater(square, 0.0).sqrt();
+    // One division for either root.
+    let (over, under) = if v >= 0.0 { (v + root, g) } else { (2.0 * h, root - v) };
+    if square < 0.0 { 0.0 } else { greater(over / under, 0.0) }
 }
 
-impl Lane {
-    /// The scene at its first touch, without gravity; the cosine of its tilt counts where it spins.
-    pub(super) fn start(scene: &Scene, cos: f64) -> Self {
-        let [a, b] = scene.body().arms_m();
-        let (spin, speed) = (scene.spin_rad_s(), scene.speed_m_s());
-        Self {
-            height: [0.0, scene.height_gap_m()],
-            velocity: [-speed - a * cos * spin, -speed + b * cos * spin],
-            gravity: 0.0,
-            tilts: false,
-            delay: 0.0,
-            carried: 0.0,
-            down: Down::Nothing,
-        }
-    }
-    pub(super) fn with_gravity(self, gravity: f64) -> Self {
-        Self { gravity, ..self }
-    }
-    pub(super) fn with_tilt(self) -> Self {
-        Self { tilts: true, ..self }
-    }
+impl Lane<true> {
     pub(super) fn with_contact(self, pulse: &Pulse, time: f64) -> Self {
         Self { delay: time * pulse.centroid, carried: time * pulse.carried, ..self }
     }
-    fn sweep(&self, ends: &Ends) -> Sweep {
+}
+
+impl<const TILTS: bool> Lane<TILTS> {
+    /// At the first touch: the speed, the spin as it turns a bar that lies flat, the height of end b.
+    pub(super) fn start(ends: &Ends, (speed, spin, gap): (f64, f64, f64), gravity: f64) -> Self {
+        let [a, b] = ends.arm;
+        let velocity = [-speed - a * spin, -speed + b * spin];
+        let brief = 4.0 / (3.0 * BRIEF * gravity * (1.0 - ends.e));
+        let sweep = Sweep { sin: 0.0, rate: 0.0, spin2: 0.0 };
+        let flat =
+            Self { height: [0.0, gap], velocity, gravity, delay: 0.0, carried: 0.0, brief, down: Down::Nothing, sweep };
+        flat.turning(ends)
+    }
+    /// The same with its turning worked out from heights and velocities; of parabolas only the energy asks for it.
+    #[inline]
+    fn turning(self, ends: &Ends) -> Self {
+        if !TILTS {
+            return self;
+        }
         let sin = ends.over * (self.height[1] - self.height[0]);
         let rate = ends.over * (self.velocity[1] - self.velocity[0]);
-        let cos2 = ((1.0 - sin) * (1.0 + sin)).max(LEAST_COS2);
-        Sweep { sin, rate, spin2: rate * rate / cos2 }
+        let cos2 = greater((1.0 - sin) * (1.0 + sin), LEAST_COS2);
+        Self { sweep: Sweep { sin, rate, spin2: rate * rate / cos2 }, ..self }
     }
-    /// The next strike; `None` if nothing falls.
-    pub(super) fn next(&self, ends: &Ends) -> Option<Next> {
-        let g = self.gravity;
-        if self.down == Down::Bar {
-            return None;
+    /// The next strike, put in its place: copied it would be waited for. `false` if nothing falls.
+    #[inline]
+    pub(super) fn next(&self, ends: &Ends, next: &mut Next) -> bool {
+        match self.down {
+            Down::Nothing if TILTS => self.next_tilted(ends, next),
+            Down::Nothing => {
+                let (a, b) = self.lands([self.gravity; 2]);
+                let (end, after) = if b < a { (1, b) } else { (0, a) };
+                *next = Next { end, after, ..Next::FIRST };
+                after < f64::INFINITY
+            }
+            Down::End(i, bounced) => {
+                let end = 1 - i;
+                let turning = self.gravity * (1.0 + ends.flat[i]);
+                let after = bounced + fall(self.height[end], self.velocity[end], turning);
+                *next = Next { end, after, turning, ..Next::FIRST };
+                after < f64::INFINITY
+            }
+            Down::Bar => false,
         }
-        if let Down::End(i, bounced) = self.down {
-            let j = 1 - i;
-            let turning = g * (1.0 + ends.ratio(i, 1.0));
-            let after = bounced + fall(self.height[j], self.velocity[j], turning);
-            return (after < f64::INFINITY).then_some(Next { end: j, after, turning, ..Next::FIRST });
+    }
+    /// When both ends land that sink like this.
+    #[inline]
+    fn lands(&self, sinks: [f64; 2]) -> (f64, f64) {
+        let (h, v) = (self.height, self.velocity);
+        if sinks[0] <= 0.0 || sinks[1] <= 0.0 {
+            return (fall(h[0], v[0], sinks[0]), fall(h[1], v[1], sinks[1]));
         }
-        let lands = |i: usize, down: f64| fall(self.height[i], self.velocity[i], down);
-        let mut times = [lands(0, g), lands(1, g)];
-        let first = times[0].min(times[1]);
+        // Without branches, both at once.
+        let square = [v[0] * v[0] + 2.0 * sinks[0] * h[0], v[1] * v[1] + 2.0 * sinks[1] * h[1]];
+        let root = [greater(square[0], 0.0).sqrt(), greater(square[1], 0.0).sqrt()];
+        let over = [
+            if v[0] >= 0.0 { v[0] + root[0] } else { 2.0 * h[0] },
+            if v[1] >= 0.0 { v[1] + root[1] } else { 2.0 * h[1] },
+        ];
+        let under =
+            [if v[0] >= 0.0 { sinks[0] } else { root[0] - v[0] }, if v[1] >= 0.0 { sinks[1] } else { root[1] - v[1] }];
+        let times = [greater(over[0] / under[0], 0.0), greater(over[1] / under[1], 0.0)];
+        (if square[0] < 0.0 { 0.0 } else { times[0] }, if square[1] < 0.0 { 0.0 } else { times[1] })
+    }
+    #[inline]
+    fn next_tilted(&self, ends: &Ends, next: &mut Next) -> bool {
+        let (g, sweep) = (self.gravity, &self.sweep);
+        let (a, b) = self.lands([g; 2]);
+        let first = lesser(a, b);
         if first == f64::INFINITY {
-            return None;
+            return false;
         }
-        if !self.tilts {
-            let end = usize::from(times[1] < times[0]);
-            return Some(Next { end, after: first, ..Next::FIRST });
-        }
-        let sweep = self.sweep(ends);
-        let [a, b] = ends.arm;
         let bend = sweep.spin2 * sweep.means(first)[0];
-        let sinks = [g - a * bend, g + b * bend];
-        times = [lands(0, sinks[0]), lands(1, sinks[1])];
-        // The bend was that of another time: once more, as a straight line.
-        let again = |end: usize, after: f64| {
-            let arm = if end == 0 { -a } else { b };
-            let [height, velocity] = sweep.means(after).map(|mean| g + arm * sweep.spin2 * mean);
-            let low = self.height[end] + after * (self.velocity[end] - 0.5 * height * after);
-            let speed = self.velocity[end] - velocity * after;
-            let most = 0.1 * after;
-            if speed < 0.0 { (after - (low / speed).clamp(-most, most)).max(0.0) } else { after }
-        };
-        let mut end = usize::from(times[1] < times[0]);
-        if times[end] == f64::INFINITY {
-            return None;
+        let sinks = [g - ends.arm[0] * bend, g + ends.arm[1] * bend];
+        let (a, b) = self.lands(sinks);
+        if b < a {
+            self.first_of::<1>(ends, sinks, [a, b], next)
+        } else {
+            self.first_of::<0>(ends, sinks, [a, b], next)
         }
-        times[end] = again(end, times[end]);
-        let mut other = 1 - end;
-        // `again` moves each by a tenth at most, so that no other order is possible beyond.
-        if times[other] < 1.25 * times[end] {
-            times[other] = again(other, times[other]);
-            if times[other] < times[end] {
-                (end, other) = (other, end);
+    }
+    /// The next strike where end i comes first, as far as that is known from the bend at another time.
+    #[inline]
+    fn first_of<const I: usize>(&self, ends: &Ends, sinks: [f64; 2], times: [f64; 2], next: &mut Next) -> bool {
+        let (i, j, sweep) = (I, 1 - I, &self.sweep);
+        if times[i] == f64::INFINITY {
+            return false;
+        }
+        // The bend was that of another time: once more, as a straight line.
+        let again = |end: usize| {
+            let (after, arm) = (times[end], if end == 0 { -ends.arm[0] } else { ends.arm[1] });
+            let [height, velocity] = sweep.means(after).map(|mean| self.gravity + arm * sweep.spin2 * mean);
+            let low = self.height[end] + after * (self.velocity[end] - 0.5 * height * after);
+            let (speed, most) = (self.velocity[end] - velocity * after, 0.1 * after);
+            if speed < 0.0 { greater(after - greater(lesser(low / speed, most), -most), 0.0) } else { after }
+        };
+        let (mut end, mut after, mut later) = (i, again(i), times[j]);
+        // It moves each by a tenth at most, so that no other order is possible beyond.
+        if later < 1.25 * after {
+            later = again(j);
+            if later < after {
+                (end, after, later) = (j, later, after);
             }
         }
-        let [after, later] = [times[end], times[other]];
-        let rival = [later, sinks[other] * later - self.velocity[other]];
+        let (sinks, velocity) = if end == i { (sinks[j], self.velocity[j]) } else { (sinks[i], self.velocity[i]) };
         let tumbles = (sweep.sin + after * sweep.rate).abs() > 1.0;
-        Some(Next { end, after, turning: 0.0, tumbles, rival, sweep: Some(sweep) })
+        *next = Next { end, after, turning: 0.0, tumbles, rival: [later, sinks * later - velocity] };
+        true
+    }
+    /// The strike that the lane with all physics has as `of`, if this one has it too: the time since the last one, and shocks. Where that
+    /// one has an end lying, so has this one; `impacts` are those on it.
+    #[inline]
+    pub(super) fn along(
+        &mut self,
+        ends: &Ends,
+        of: &Next,
+        first: bool,
+        impacts: Option<&Both>,
+        lying: Option<usize>,
+    ) -> Option<Own> {
+        let mut next = Next::FIRST;
+        if !first && !self.next(ends, &mut next) || next.end != of.end {
+            return None;
+        }
+        let delta_v = match impacts {
+            Some(impacts) if self.lying().is_some() => self.strike_lying(ends, &next, impacts, 0.0),
+            _ => self.strike(ends, &next),
+        };
+        if let Some(end) = lying
+            && self.lying().is_none()
+        {
+            self.lie(ends, end);
+        }
+        Some((next.after, delta_v))
     }
     /// Flies and strikes; returns the velocity shocks of both ends.
-    pub(super) fn strike(&mut self, ends: &Ends, next: &Next) -> [f64; 2] {
+    #[inline]
+    pub(super) fn strike(&mut self, ends: &Ends, next: &Next) -> (f64, f64) {
         // All that follows for a known end: what is indexed by a variable goes through memory.
         if next.end == 0 { self.strike_at::<0>(ends, next) } else { self.strike_at::<1>(ends, next) }
     }
-    fn strike_at<const I: usize>(&mut self, ends: &Ends, next: &Next) -> [f64; 2] {
-        let (i, t, mut lane) = (I, next.after, *self);
-        let mut falls = [lane.gravity; 2];
-        if let Down::End(_, bounced) = std::mem::replace(&mut lane.down, Down::Nothing) {
-            lane.velocity[i] -= (t - bounced) * next.turning;
+    fn strike_at<const I: usize>(&mut self, ends: &Ends, next: &Next) -> (f64, f64) {
+        let (t, [mut h0, mut h1], [mut v0, mut v1]) = (next.after, self.height, self.velocity);
+        let mut falls = [self.gravity; 2];
+        if let Down::End(_, bounced) = self.down {
+            let speed = (t - bounced) * next.turning;
+            (v0, v1) = if I == 0 { (v0 - speed, v1) } else { (v0, v1 - speed) };
+            self.down = Down::Nothing;
         } else {
             let mut sinks = falls;
-            if lane.tilts {
-                let sweep = next.sweep.unwrap_or_else(|| lane.sweep(ends));
-                let [height, velocity] = sweep.means(t);
-                for (k, arm) in [-ends.arm[0], ends.arm[1]].into_iter().enumerate() {
-                    sinks[k] += arm * sweep.spin2 * height;
-                    falls[k] += arm * sweep.spin2 * velocity;
-                }
+            if TILTS {
+                let [height, velocity] = self.sweep.means(t).map(|mean| self.sweep.spin2 * mean);
+                sinks = [sinks[0] - ends.arm[0] * height, sinks[1] + ends.arm[1] * height];
+                falls = [falls[0] - ends.arm[0] * velocity, falls[1] + ends.arm[1] * velocity];
             }
-            for k in 0..2 {
-                lane.height[k] += t * (lane.velocity[k] - 0.5 * sinks[k] * t);
-                lane.velocity[k] -= t * falls[k];
+            h0 += t * (v0 - 0.5 * sinks[0] * t);
+            h1 += t * (v1 - 0.5 * sinks[1] * t);
+            v0 -= t * falls[0];
+            v1 -= t * falls[1];
+        }
+        let (height, fall) = if I == 0 { (h1, v0) } else { (h0, v1) };
+        let jump = self.carried * greater(falls[I], 0.0) - (1.0 + ends.e) * lesser(fall, 0.0);
+        let (mut ratio, mut from_cos2, mut over_cos2) = (ends.flat[I], 1.0, 1.0);
+        if TILTS {
+            let sin = greater(lesser(height * ends.over, 0.9), -0.9);
+            from_cos2 = (1.0 - sin) * (1.0 + sin);
+            // One division for the inertia ratio and for 1/cos².
+            let under = ends.arm[I] * ends.arm[I] * from_cos2 + ends.gyration2;
+            let over = 1.0 / (under * from_cos2);
+            ratio = (ends.arm[0] * ends.arm[1] * from_cos2 - ends.gyration2) * (from_cos2 * over);
+            over_cos2 = under * over;
+        }
+        let back = -ratio * jump;
+        let delta_v = if I == 0 { (jump, back) } else { (back, jump) };
+        (h0, h1) = if I == 0 { (0.0, h1) } else { (h0, 0.0) };
+        h0 -= delta_v.0 * self.delay;
+        h1 -= delta_v.1 * self.delay;
+        v0 += delta_v.0;
+        v1 += delta_v.1;
+        if TILTS {
+            let sin = ends.over * (h1 - h0);
+            let mut rate = ends.over * (v1 - v0);
+            let mut spin2 = rate * rate * over_cos2;
+            let cos2 = (1.0 - sin) * (1.0 + sin);
+            if self.delay > 0.0 {
+                // Set back from an angle, the spin is the same, and its vertical part is not.
+                let change = rate * ((greater(cos2, LEAST_COS2) * over_cos2).sqrt() - 1.0);
+                v0 -= ends.arm[0] * change;
+                v1 += ends.arm[1] * change;
+                rate += change;
+            } else if cos2 < from_cos2 {
+                // Beyond the angles that a strike is taken at.
+                spin2 = rate * rate / greater(cos2, LEAST_COS2);
             }
+            self.sweep = Sweep { sin, rate, spin2 };
         }
-        lane.height[i] = 0.0;
-        let sin = if lane.tilts { (lane.height[1 - i] * ends.over).clamp(-0.9, 0.9) } else { 0.0 };
-        let ratio = ends.ratio(i, (1.0 - sin) * (1.0 + sin));
-        let jump = lane.carried * falls[i].max(0.0) - (1.0 + ends.e) * lane.velocity[i].min(0.0);
-        let mut delta_v = [-ratio * jump; 2];
-        delta_v[i] = jump;
-        for (k, jump) in delta_v.into_iter().enumerate() {
-            lane.height[k] -= jump * lane.delay;
-            lane.velocity[k] += jump;
+        (self.height, self.velocity) = ([h0, h1], [v0, v1]);
+        let ((h, w), other) = if I == 0 { ((h0, v0), (h1, v1)) } else { ((h1, v1), (h0, v0)) };
+        // Turning lifts it.
+        let lift = if TILTS {
+            ends.arm[I] * self.sweep.spin2 * if I == 0 { self.sweep.sin } else { -self.sweep.sin }
+        } else {
+            0.0
+        };
+        let g = self.gravity - lift;
+        // Where the other lands soon, without a root.
+        let soon = self.brief * w;
+        let low = other.0 + soon * (other.1 - 0.5 * self.gravity * soon);
+        let bounces = low < 0.0 && other.0 >= 0.0 && 2.0 * g < 3.0 * self.gravity;
+        if !bounces || w * w + 2.0 * g * h < 0.0 {
+            self.settle::<I>(ends, ratio, g);
         }
-        if lane.tilts && lane.delay > 0.0 {
-            lane.turn_back(ends, sin);
-        }
-        lane.settle::<I>(ends, ratio);
-        *self = lane;
         delta_v
     }
-    /// Set back from the sine of an angle, the spin is the same, and its vertical part is not.
-    #[inline]
-    fn turn_back(&mut self, ends: &Ends, from: f64) {
-        let [a, b] = ends.arm;
-        let to = ends.over * (self.height[1] - self.height[0]);
-        let squares = ((1.0 - to) * (1.0 + to)).max(LEAST_COS2) / ((1.0 - from) * (1.0 + from));
-        let change = ends.over * (self.velocity[1] - self.velocity[0]) * (squares.sqrt() - 1.0);
-        self.velocity[0] -= a * change;
-        self.velocity[1] += b * change;
-    }
     /// Lets end i lie where it would bounce ever less for a short while, or where its contact does not lift it out of the ground again.
-    #[inline]
-    fn settle<const I: usize>(&mut self, ends: &Ends, ratio: f64) {
+    fn settle<const I: usize>(&mut self, ends: &Ends, ratio: f64, g: f64) {
         let (h, w) = (self.height[I], self.velocity[I]);
-        // Turning lifts it.
-        let sweep = self.sweep(ends);
-        let lift =
-            if self.tilts { ends.arm[I] * sweep.spin2 * if I == 0 { sweep.sin } else { -sweep.sin } } else { 0.0 };
-        let g = self.gravity - lift;
         let sunk = w * w + 2.0 * g * h < 0.0;
         if sunk && self.velocity[1 - I] >= 0.0 && self.is_sunk(1 - I) {
             self.down = Down::Bar;
             return;
         }
-        let lands = self.lands(1 - I);
-        if g > 0.0 && lands > 0.0 && w >= 0.0 && (sunk || 2.0 * w < BRIEF * lands * g * (1.0 - ends.e)) {
-            self.lie_at::<I>(ends, ratio, if sunk { 0.0 } else { lands });
+        if g > 0.0 && w >= 0.0 {
+            let lands = self.lands_at(1 - I);
+            if lands > 0.0 && (sunk || 2.0 * w < BRIEF * lands * g * (1.0 - ends.e)) {
+                self.lie_at::<I>(ends, ratio, if sunk { 0.0 } else { lands });
+            }
         }
     }
     /// Whether an end has no speed to come out of the ground with.
@@ -297,12 +441,13 @@ impl Lane {
         self.velocity[k] * self.velocity[k] + 2.0 * self.gravity * self.height[k] < 0.0
     }
     /// When end j would land by gravity alone; 0 where that is not to come.
-    fn lands(&self, j: usize) -> f64 {
+    #[inline]
+    fn lands_at(&self, j: usize) -> f64 {
         if self.gravity > 0.0 { fall(self.height[j], self.velocity[j], self.gravity) } else { 0.0 }
     }
     /// Lets an end lie; without contacts, whose ends can not sink, once its bounces have ended, if the other lands after that.
     pub(super) fn lie(&mut self, ends: &Ends, end: usize) {
-        let (lands, ratio) = (self.lands(1 - end), ends.ratio(end, 1.0));
+        let (lands, ratio) = (self.lands_at(1 - end), ends.flat[end]);
         let sum = self.velocity[end].max(0.0) / (1.0 - ends.e);
         let lands = if self.delay > 0.0 {
             0.0
@@ -314,13 +459,14 @@ impl Lane {
         if end == 0 { self.lie_at::<0>(ends, ratio, lands) } else { self.lie_at::<1>(ends, ratio, lands) }
     }
     /// Bounces of w, e w, … last 2S/g in all, S = w/(1 − e), if they end before the other end `lands`.
+    #[cold]
     fn lie_at<const I: usize>(&mut self, ends: &Ends, ratio: f64, lands: f64) {
         let (i, j, sum) = (I, 1 - I, self.velocity[I].max(0.0) / (1.0 - ends.e));
         let mut bounced = 2.0 * sum / self.gravity;
         if bounced < lands {
             self.height[j] += bounced * (self.velocity[j] - sum);
             self.velocity[j] -= (2.0 + ratio * (1.0 + ends.e)) * sum;
-            if self.tilts {
+            if TILTS {
                 // It lands with what its spin has, of which this is the vertical part.
                 let sin = (self.height[j] * ends.over).min(0.9);
                 self.velocity[j] /= ((1.0 - sin) * (1.0 + sin)).sqrt();
@@ -329,50 +475,52 @@ impl Lane {
             bounced = 0.0;
         }
         (self.height[i], self.velocity[i], self.down) = (0.0, 0.0, Down::End(i, bounced));
+        *self = self.turning(ends);
     }
     /// The end that lies on the ground, if one does.
+    #[inline]
     pub(super) fn lying(&self) -> Option<usize> {
         if let Down::End(end, _) = self.down { Some(end) } else { None }
     }
     /// Whether the next strike presses the end that lies there into the ground.
+    #[inline]
     pub(super) fn is_pressed_by(&self, ends: &Ends, next: &Next, contact_s: f64) -> bool {
-        self.lying().is_some() && next.after >= contact_s && ends.ratio(next.end, 1.0) > 0.0
+        self.lying().is_some() && next.after >= contact_s && ends.flat[next.end] > 0.0
     }
     /// Flies until the other end lands, and does what both do together; returns the velocity shocks of both ends.
-    pub(super) fn strike_lying(&mut self, ends: &Ends, next: &Next, both: &Both, contact_s: f64) -> [f64; 2] {
-        let Down::End(_, bounced) = std::mem::replace(&mut self.down, Down::Nothing) else { return [0.0; 2] };
+    pub(super) fn strike_lying(&mut self, ends: &Ends, next: &Next, both: &Both, contact_s: f64) -> (f64, f64) {
+        let Down::End(_, bounced) = std::mem::replace(&mut self.down, Down::Nothing) else { return (0.0, 0.0) };
         let speed = (next.after - bounced) * next.turning - self.velocity[next.end];
         self.height = both.set_back.map(|back| speed * contact_s * back);
         self.velocity = both.velocity.map(|velocity| speed * velocity);
         let mut delta_v = self.velocity;
         delta_v[next.end] += speed;
+        *self = self.turning(ends);
         match [self.is_sunk(0), self.is_sunk(1)] {
             [true, true] => self.down = Down::Bar,
             [true, false] => self.lie(ends, 0),
             [false, true] => self.lie(ends, 1),
             [false, false] => {}
         }
-        delta_v
+        (delta_v[0], delta_v[1])
     }
-    /// Twice the energy over the mass, where it turns like this until its next strike.
-    pub(super) fn twice_energy_until(&self, ends: &Ends, next: Option<&Next>) -> f64 {
-        let [a, b] = ends.arm;
-        let center = (b * self.velocity[0] + a * self.velocity[1]) * ends.over;
-        let sweep = next.and_then(|next| next.sweep).unwrap_or_else(|| self.sweep(ends));
-        let spin2 = if self.tilts { sweep.spin2 } else { sweep.rate * sweep.rate };
-        let height = ((b * self.height[0] + a * self.height[1]) * ends.over).max(0.0);
-        center * center + ends.gyration2 * spin2 + 2.0 * self.gravity * height
-    }
-    /// What a strike at end i that changed its velocity by this took of it, just after that; what the contact carries of the weight
-    /// takes nothing.
+    /// What a strike at end i that changed its velocity by this took of twice the energy, just after that; what the contact carries of
+    /// the weight takes nothing.
+    #[inline]
     pub(super) fn twice_lost(&self, ends: &Ends, i: usize, jump: f64) -> f64 {
-        let jump = (jump - self.carried * self.gravity).max(0.0);
-        let sin = if self.tilts { self.height[1 - i] * ends.over } else { 0.0 };
-        let arm2 = ends.arm[i] * ends.arm[i] * (1.0 - sin * sin).max(0.0);
-        jump * jump * (1.0 - ends.e) / (1.0 + ends.e) * ends.gyration2 / (ends.gyration2 + arm2)
+        let jump = greater(jump - self.carried * self.gravity, 0.0);
+        let sin = if TILTS { self.height[1 - i] * ends.over } else { 0.0 };
+        let arm2 = ends.arm[i] * ends.arm[i] * greater(1.0 - sin * sin, 0.0);
+        jump * jump * ends.loss / (ends.gyration2 + arm2)
     }
     /// Twice the energy over the mass.
+    #[inline]
     pub(super) fn twice_energy(&self, ends: &Ends) -> f64 {
-        self.twice_energy_until(ends, None)
+        let [a, b] = ends.arm;
+        let center = (b * self.velocity[0] + a * self.velocity[1]) * ends.over;
+        let rate = (self.velocity[1] - self.velocity[0]) * ends.over;
+        let spin2 = if TILTS { self.sweep.spin2 } else { rate * rate };
+        let height = greater((b * self.height[0] + a * self.height[1]) * ends.over, 0.0);
+        center * center + ends.gyration2 * spin2 + 2.0 * self.gravity * height
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! Two ladders: how the bar moves ([`BarRung`]) and how the component answers ([`ComponentRung`]). [`Setup::forecast`] estimates what
 //! each rung gets wrong in the quantity asked, as a share of it; [`Forecast::plan`] takes the cheapest [`Pair`] whose estimate is
-//! within a tolerance, and says which group of the scene decided. [`Setup::demand`] runs a pair.
+//! within a tolerance, and says which group of the scene decided. [`Setup::plan`] does both, and no more than the choice needs.
+//! [`Setup::demand`] runs a pair.
 //!
 //! # What the error is against
 //! The compliant bar with the exact response to its pulses, from the first touch until rest and through the ring-down: every
@@ -42,7 +43,7 @@
 //! let scene = Scene::from_height(body, 0.3, 1.0, 5.0, 9.81)?;
 //! let part = Suspension::from_hz(180.0, DampingRatio::from_quality_factor(10.0)?)?;
 //! let setup = Setup::new(scene, Some(1e-4), 0.9, part)?;
-//! let plan = setup.forecast(Quantity::PeakAcceleration).plan(0.01);
+//! let plan = setup.plan(Quantity::PeakAcceleration, 0.01);
 //! assert!(plan.estimate.error <= 0.01 && plan.warning.is_none());
 //! let demand = setup.demand(plan.pair, Quantity::PeakAcceleration, plan.until_s)?;
 //! let whole = setup.demand(clatter_scene::plan::Pair::HIGHEST, Quantity::PeakAcceleration, f64::INFINITY)?;

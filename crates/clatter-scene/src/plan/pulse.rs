@@ -84,8 +84,8 @@ impl Pulse {
         let gap = (1.0 - self.damping) * (1.0 + self.damping) * self.frequency * self.frequency;
         let nu = gap.abs().sqrt();
         if gap > 1e-6 {
-            let decay = libm::exp(-sigma * t);
-            (decay * libm::cos(nu * t), decay * libm::sin(nu * t) / nu)
+            let (decay, (sin, cos)) = (libm::exp(-sigma * t), libm::sincos(nu * t));
+            (decay * cos, decay * sin / nu)
         } else if gap < -1e-6 {
             let (slow, fast) = (libm::exp((nu - sigma) * t), libm::exp(-(nu + sigma) * t));
             (0.5 * (slow + fast), 0.5 * (slow - fast) / nu)

@@ -138,7 +138,7 @@ impl Setup {
                 let (end, sin) = (usize::from(strike.end == End::B), libm::sin(strike.tilt_rad));
                 let mut jumps = [-ends.ratio(end, (1.0 - sin) * (1.0 + sin)); 2];
                 jumps[end] = 1.0;
-                shock.first = -(1.0 + ends.e) * strike.approach_m_s * ends.at(jumps);
+                shock.first = -(1.0 + ends.e) * strike.approach_m_s * ends.at(jumps.into());
             }
             shock.strikes += 1;
             shock.net += delta_v;

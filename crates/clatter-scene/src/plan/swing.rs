@@ -3,12 +3,15 @@
 //! `x″ + 2ζ x′ + x = 0`; a quantity is Q = r₀ x + r₁ w, with r = (1, 0) for the relative displacement ωz and (1, 2ζ) for the absolute
 //! acceleration over ω, sign aside. Next to ζ = 1 the damping is shifted by 5·10⁻⁷, far below what an estimate is good for.
 
+use super::bounds::{greater, lesser};
+
 /// The component and the quantity asked of it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Swing {
     zeta: f64,
-    /// √|1 − ζ²|
+    /// √|1 − ζ²|, and its reciprocal.
     beta: f64,
+    over_beta: f64,
     swings: bool,
     row: [f64; 2],
     /// Peak of |Q| after a unit of w.
@@ -45,7 +48,8 @@ impl Swing {
         let gap = 1.0 - zeta * zeta;
         let gap = if gap.abs() < 1e-6 { 1e-6 } else { gap };
         let row = if acceleration { [1.0, 2.0 * zeta] } else { [1.0, 0.0] };
-        let swing = Self { zeta, beta: gap.abs().sqrt(), swings: gap > 0.0, row, factor: 0.0 };
+        let beta = gap.abs().sqrt();
+        let swing = Self { zeta, beta, over_beta: 1.0 / beta, swings: gap > 0.0, row, factor: 0.0 };
         let unit = Motion { x: 0.0, w: 1.0 };
         Self { factor: swing.peak(unit, f64::INFINITY).value, ..swing }
     }
@@ -69,10 +73,10 @@ impl Swing {
         if self.swings {
             let fade = self.fade(theta);
             let (s, c) = libm::sincos((b * theta).min(1e15));
-            Turn { c: fade * c, s: fade * s / b, fade }
+            Turn { c: fade * c, s: fade * s * self.over_beta, fade }
         } else {
             let (fade, fast) = (self.fade(theta), libm::exp(-(z + b) * theta));
-            Turn { c: 0.5 * (fade + fast), s: 0.5 * (fade - fast) / b, fade }
+            Turn { c: 0.5 * (fade + fast), s: 0.5 * (fade - fast) * self.over_beta, fade }
         }
     }
     pub(super) fn after(&self, turn: &Turn, m: Motion) -> Motion {
@@ -83,10 +87,10 @@ impl Swing {
     pub(super) fn peak(&self, m: Motion, until: f64) -> Peak {
         let (now, rate) = (self.quantity(m), self.rate(m));
         let (slope, bend) = (self.quantity(rate), self.quantity(self.rate(rate)));
-        let start = Peak { value: now.abs(), phase: 0.0, slope: (slope * now.signum()).min(0.0) };
+        let start = Peak { value: now.abs(), phase: 0.0, slope: lesser(slope * now.signum(), 0.0) };
         let turn = if self.swings {
-            let sine = (bend + self.zeta * slope) / self.beta;
-            let phase = libm::atan2(slope.abs(), if slope < 0.0 { sine } else { -sine }) / self.beta;
+            let sine = (bend + self.zeta * slope) * self.over_beta;
+            let phase = libm::atan2(slope.abs(), if slope < 0.0 { sine } else { -sine }) * self.over_beta;
             (phase > 0.0 && phase < until).then(|| Peak {
                 value: self.amplitude(m) * libm::exp(-self.zeta * phase),
                 phase,
@@ -105,13 +109,49 @@ impl Swing {
         };
         turn.filter(|t| t.value > start.value).unwrap_or(start)
     }
+    /// The same of a motion whose Q has the rate `last` then.
+    #[inline]
+    pub(super) fn peak_before(&self, m: Motion, until: f64, last: f64) -> Peak {
+        let slope = self.quantity(self.rate(m));
+        // Turning points are half a turn apart.
+        if self.swings && self.beta * until < std::f64::consts::PI && slope * last > 0.0 {
+            let now = self.quantity(m);
+            Peak { value: now.abs(), phase: 0.0, slope: lesser(slope * now.signum(), 0.0) }
+        } else {
+            self.peak(m, until)
+        }
+    }
     /// √(w² + 2ζxw + x²): Q at its turning points is at most this, for ζ < 1.
     fn amplitude(&self, m: Motion) -> f64 {
-        (m.w * m.w + 2.0 * self.zeta * m.x * m.w + m.x * m.x).max(0.0).sqrt()
+        greater(m.w * m.w + 2.0 * self.zeta * m.x * m.w + m.x * m.x, 0.0).sqrt()
+    }
+    /// Bound on |Q| from here on over what fades meanwhile.
+    pub(super) fn envelope(&self, m: Motion) -> f64 {
+        if self.swings {
+            // Q is largest on the ellipse of one amplitude by this.
+            return self.amplitude(m) * self.over_beta;
+        }
+        let (x, w, over) = (m.x.abs(), m.w.abs(), 0.5 * self.over_beta);
+        self.row[0] * (x + over * (w + self.zeta * x)) + self.row[1] * (w + over * (x + self.zeta * w))
+    }
+    /// The square of `bound`.
+    #[inline]
+    pub(super) fn square(&self, m: Motion) -> f64 {
+        let now = self.quantity(m);
+        if self.swings {
+            greater(now * now, m.w * m.w + 2.0 * self.zeta * m.x * m.w + m.x * m.x)
+        } else {
+            let bound = self.bound(m);
+            bound * bound
+        }
     }
     /// Bound on |Q| from here on.
     pub(super) fn bound(&self, m: Motion) -> f64 {
-        if self.swings { self.quantity(m).abs().max(self.amplitude(m)) } else { m.x.abs() + self.factor * m.w.abs() }
+        if self.swings {
+            greater(self.quantity(m).abs(), self.amplitude(m))
+        } else {
+            m.x.abs() + self.factor * m.w.abs()
+        }
     }
 }
 
@@ -139,6 +179,10 @@ mod tests {
                     assert!((m.x - exact.displacement).abs() < 1e-4, "zeta {zeta} theta {theta}: {m:?} {exact:?}");
                     assert!((m.w - exact.velocity).abs() < 1e-4, "zeta {zeta} theta {theta}: {m:?} {exact:?}");
                     assert!(swing.bound(Motion { x, w }) >= m.x.abs(), "zeta {zeta} theta {theta}");
+                    for swing in [swing, Swing::new(zeta, true)] {
+                        let left = swing.envelope(Motion { x, w }) * swing.fade(theta);
+                        assert!(left * (1.0 + 1e-9) >= swing.quantity(m).abs(), "zeta {zeta} theta {theta}: {left}");
+                    }
                 }
             }
             // Two shocks: the peak of the second interval starts from a motion that is not at rest.

@@ -4,7 +4,8 @@ use clatter::flight::Scene;
 
 use super::STRIKES;
 use super::both::Both;
-use super::lane::{Ends, Lane, Next};
+use super::bounds::greater;
+use super::lane::{Ends, Lane, MapLane, Next, Own, Strike};
 use super::pulse::Pulse;
 use super::swing::{Swing, Turn};
 
@@ -14,15 +15,15 @@ pub(super) struct Step {
     /// The end that strikes.
     pub(super) end: usize,
     /// Velocity shocks of both ends.
-    pub(super) delta_v: [f64; 2],
+    pub(super) delta_v: (f64, f64),
     /// Time since the last one and shocks in the map, as parabolas and with real tilt; `None` once a lane had another strike.
-    pub(super) own: [Option<(f64, [f64; 2])>; 3],
+    pub(super) own: [Option<Own>; 3],
     /// Twice the energy that is left.
     pub(super) twice_energy: f64,
     /// Time until the next strike; `None` where nothing falls.
     pub(super) follows: Option<f64>,
     /// How long after that the other end would strike without it, and the velocity shocks of both ends then.
-    pub(super) rival: (f64, [f64; 2]),
+    pub(super) rival: Own,
     /// The end that lies on the ground until then.
     pub(super) rests: Option<usize>,
     /// Of both contacts at once: for how many contact times.
@@ -33,34 +34,195 @@ pub(super) struct Step {
     pub(super) tumbles: bool,
 }
 
-/// A strike of the map: the end, the time since the last one, and velocity shocks of both ends.
-type MapStrike = (usize, f64, [f64; 2]);
-
 /// Strikes of the map at most that are taken as one.
 const MOST_AT_ONCE: usize = 32;
 
 /// Frequencies of a part whose turns are kept: those of a grid over its range.
 const FREQUENCIES: usize = 3;
 
-/// Strikes as far as they were asked for.
+/// Where the strikes come from: followed now, or kept.
+pub(super) trait Strikes {
+    /// Strike n, from 0; asked for in order.
+    fn step(&mut self, n: usize) -> Option<&Step>;
+    /// What the phase θ after strike n does to a part.
+    fn turn(&mut self, n: usize, swing: &Swing, theta: f64) -> Turn;
+    /// The drop itself.
+    fn course(&self) -> &Course;
+}
+
+/// All lanes after the strikes so far.
 #[derive(Debug, Clone)]
-pub(crate) struct Trail {
+pub(crate) struct Course {
     ends: Ends,
     pub(super) pulse: Pulse,
-    full: Lane,
     contact_s: f64,
+    full: Lane<true>,
     /// Twice the energy after the strikes so far.
     energy: f64,
-    map: Lane,
-    /// Strikes of the map that belong to those followed.
-    mapped: usize,
-    others: [Lane; 2],
-    next: Option<Next>,
+    /// The map with all its strikes, as far as those that belong to the ones followed, and the one after these.
+    pub(super) map: MapLane,
+    mapped: MapLane,
+    ahead: Option<Strike>,
+    parabolas: Lane<false>,
+    tilted: Lane<true>,
+    /// The strike to come, if something falls.
+    next: Next,
+    falls: bool,
     alive: [bool; 3],
+    /// Of an end that lies while the other lands: impacts, contacts. Every one of the drop moves alike.
+    both: Option<[Both; 2]>,
     /// Twice the energy at the first touch.
     pub(super) twice_energy: f64,
+    touched: bool,
+    /// The last strike; `None` where nothing falls any more.
+    step: Option<Step>,
+}
+
+impl Course {
+    /// Nothing followed yet.
+    pub(super) fn new(ends: Ends, scene: &Scene, contact_time_s: Option<f64>) -> Self {
+        let (pulse, contact_s, g) = (Pulse::new(ends.e), contact_time_s.unwrap_or(0.0), scene.gravity_m_s2());
+        let (speed, spin, gap) = (scene.speed_m_s(), scene.spin_rad_s(), scene.height_gap_m());
+        let flat_spin = if spin == 0.0 { 0.0 } else { spin * libm::cos(scene.tilt_rad()) };
+        let tilted = Lane::start(&ends, (speed, flat_spin, gap), g);
+        let full = tilted.with_contact(&pulse, contact_s);
+        let parabolas = Lane::start(&ends, (speed, spin, gap), g);
+        let map = MapLane::start(&ends, &parabolas);
+        let mut mapped = map.clone();
+        let ahead = mapped.next();
+        let energy = full.twice_energy(&ends);
+        Self {
+            ends,
+            pulse,
+            contact_s,
+            full,
+            energy,
+            map,
+            mapped,
+            ahead,
+            parabolas,
+            tilted,
+            next: Next::FIRST,
+            falls: true,
+            alive: [true; 3],
+            both: None,
+            twice_energy: energy,
+            touched: false,
+            step: None,
+        }
+    }
+
+    /// Both contacts of a bar whose end `landed` lands: as impacts, and as contacts.
+    #[cold]
+    fn both(&mut self, landed: usize) -> [Both; 2] {
+        let (ends, contact_s) = (&self.ends, self.contact_s);
+        let both = self.both.get_or_insert_with(|| {
+            let q = (ends.flat[0] * ends.flat[1]).sqrt();
+            let impacts = Both::of_impacts(q, ends.e);
+            [impacts, if contact_s > 0.0 { Both::of_contacts(q, ends.e) } else { impacts }]
+        });
+        both.map(|both| both.scaled(ends, landed))
+    }
+
+    /// The next strike.
+    #[inline]
+    fn advance(&mut self) {
+        if !self.falls {
+            self.step = None;
+            return;
+        }
+        let next = self.next;
+        let first = !std::mem::replace(&mut self.touched, true);
+        let pressed =
+            if self.full.is_pressed_by(&self.ends, &next, self.contact_s) { Some(self.both(next.end)) } else { None };
+        let ends = &self.ends;
+        let delta_v = match &pressed {
+            Some([_, contacts]) => self.full.strike_lying(ends, &next, contacts, self.contact_s),
+            None => self.full.strike(ends, &next),
+        };
+        // Impacts take what they take; turning, as the lane has it, may lose some.
+        self.energy = if pressed.is_some() {
+            self.full.twice_energy(ends)
+        } else {
+            self.energy - self.full.twice_lost(ends, next.end, if next.end == 0 { delta_v.0 } else { delta_v.1 })
+        };
+        let (mut own, mut spread) = ([None; 3], 0.0);
+        if self.alive[0]
+            && let Some((end, after, mut sum)) = self.ahead
+            && end == next.end
+        {
+            self.ahead = self.mapped.next();
+            if pressed.is_some() {
+                let mut last = 0.0;
+                for _ in 0..MOST_AT_ONCE {
+                    let Some((_, after, more)) = self.ahead.filter(|(_, after, _)| last + after < self.contact_s)
+                    else {
+                        break;
+                    };
+                    last += after;
+                    self.ahead = self.mapped.next();
+                    sum = (sum.0 + more.0, sum.1 + more.1);
+                    spread = last / self.contact_s;
+                }
+            }
+            own[0] = Some((after, sum));
+        }
+        let (impacts, lying) = (pressed.as_ref().map(|[impacts, _]| impacts), self.full.lying());
+        if self.alive[1] {
+            own[1] = self.parabolas.along(ends, &next, first, impacts, lying);
+        }
+        if self.alive[2] {
+            own[2] = self.tilted.along(ends, &next, first, impacts, lying);
+        }
+        self.alive = [own[0].is_some(), own[1].is_some(), own[2].is_some()];
+        self.falls = self.full.next(ends, &mut self.next);
+        let mut twice_energy = self.full.twice_energy(ends);
+        let (mut rival, mut follows, mut tumbles) = ((f64::INFINITY, (0.0, 0.0)), None, false);
+        if self.falls {
+            let next = &self.next;
+            let ([time, speed], other) = (next.rival, 1 - next.end);
+            let jump = (1.0 + ends.e) * speed;
+            let back = -ends.flat[other] * jump;
+            rival = (time - next.after, if other == 0 { (jump, back) } else { (back, jump) });
+            (follows, tumbles) = (Some(next.after), next.tumbles);
+        }
+        if self.falls || first {
+            twice_energy = greater(self.energy, twice_energy);
+        } else {
+            if self.alive[1] {
+                twice_energy = twice_energy.max(self.parabolas.twice_energy(ends));
+            }
+            if self.alive[2] {
+                twice_energy = twice_energy.max(self.tilted.twice_energy(ends));
+            }
+        }
+        let together = pressed.map(|[_, contacts]| contacts.lasts);
+        let end = next.end;
+        self.step =
+            Some(Step { end, delta_v, own, twice_energy, follows, rival, rests: lying, together, spread, tumbles });
+    }
+}
+
+impl Strikes for Course {
+    #[inline]
+    fn step(&mut self, _: usize) -> Option<&Step> {
+        self.advance();
+        self.step.as_ref()
+    }
+    #[inline]
+    fn turn(&mut self, _: usize, swing: &Swing, theta: f64) -> Turn {
+        swing.turn(theta)
+    }
+    fn course(&self) -> &Course {
+        self
+    }
+}
+
+/// Strikes as far as they were asked for, kept for all components of a drop.
+#[derive(Debug, Clone)]
+pub(crate) struct Trail {
+    course: Course,
     steps: Vec<Step>,
-    of_map: Vec<MapStrike>,
     /// How a part turns after each strike, for the frequencies asked last: damping ratio, phase, turn.
     turns: Vec<[Option<(f64, f64, Turn)>; FREQUENCIES]>,
 }
@@ -68,26 +230,9 @@ pub(crate) struct Trail {
 impl Trail {
     /// Nothing followed yet.
     pub(crate) fn new(scene: &Scene, contact_time_s: Option<f64>) -> Self {
-        let ends = Ends::new(scene, 0.0);
-        let pulse = Pulse::new(ends.e);
-        let g = scene.gravity_m_s2();
-        let start = Lane::start(scene, 1.0);
-        let tilted = Lane::start(scene, libm::cos(scene.tilt_rad())).with_gravity(g).with_tilt();
-        let full = tilted.with_contact(&pulse, contact_time_s.unwrap_or(0.0));
         Self {
-            ends,
-            pulse,
-            full,
-            contact_s: contact_time_s.unwrap_or(0.0),
-            map: start,
-            mapped: 0,
-            energy: full.twice_energy(&ends),
-            others: [start.with_gravity(g), tilted],
-            next: Some(Next::FIRST),
-            alive: [true; 3],
-            twice_energy: full.twice_energy(&ends),
+            course: Course::new(Ends::new(scene, 0.0), scene, contact_time_s),
             steps: Vec::with_capacity(STRIKES),
-            of_map: Vec::with_capacity(STRIKES),
             turns: Vec::with_capacity(STRIKES),
         }
     }
@@ -100,17 +245,18 @@ impl Trail {
         }
         self
     }
+}
 
-    /// Strike n, from 0; those before it exist.
-    pub(super) fn step(&mut self, n: usize) -> Option<Step> {
+impl Strikes for Trail {
+    fn step(&mut self, n: usize) -> Option<&Step> {
         if n >= self.steps.len() {
-            self.advance();
+            self.course.advance();
+            self.steps.extend(self.course.step);
         }
-        self.steps.get(n).copied()
+        self.steps.get(n)
     }
-
-    /// What the phase θ after strike n does to a part: worked out once for all of its places.
-    pub(super) fn turn(&mut self, n: usize, swing: &Swing, theta: f64) -> Turn {
+    /// Worked out once for all places of a part.
+    fn turn(&mut self, n: usize, swing: &Swing, theta: f64) -> Turn {
         if n >= self.turns.len() {
             self.turns.resize(n + 1, [None; FREQUENCIES]);
         }
@@ -125,100 +271,7 @@ impl Trail {
         kept[0] = Some((swing.zeta(), theta, turn));
         turn
     }
-
-    fn advance(&mut self) {
-        let Some(next) = self.next else { return };
-        let n = self.steps.len();
-        let ends = self.ends;
-        let pressed = self.full.is_pressed_by(&ends, &next, self.contact_s).then(|| {
-            let q = (ends.ratio(0, 1.0) * ends.ratio(1, 1.0)).sqrt();
-            let impacts = Both::of_impacts(q, ends.e).scaled(&ends, next.end);
-            let contacts =
-                if self.contact_s > 0.0 { Both::of_contacts(q, ends.e).scaled(&ends, next.end) } else { impacts };
-            [impacts, contacts]
-        });
-        let delta_v = match &pressed {
-            Some([_, contacts]) => self.full.strike_lying(&ends, &next, contacts, self.contact_s),
-            None => self.full.strike(&ends, &next),
-        };
-        // Impacts take what they take; turning, as the lane has it, may lose some.
-        self.energy = if pressed.is_some() {
-            self.full.twice_energy(&ends)
-        } else {
-            self.energy - self.full.twice_lost(&ends, next.end, delta_v[next.end])
-        };
-        let (mut own, mut spread) = ([None; 3], 0.0);
-        if self.alive[0]
-            && let Some((end, after, delta_v)) = self.of_map(self.mapped)
-            && end == next.end
-        {
-            self.mapped += 1;
-            let (mut sum, mut last, most) = (delta_v, 0.0, self.mapped + MOST_AT_ONCE);
-            while pressed.is_some()
-                && self.mapped < most
-                && let Some((_, after, more)) = self.of_map(self.mapped)
-                && last + after < self.contact_s
-            {
-                last += after;
-                self.mapped += 1;
-                sum = [sum[0] + more[0], sum[1] + more[1]];
-                spread = last / self.contact_s;
-            }
-            own[0] = Some((after, sum));
-        }
-        let ends = &self.ends;
-        for (k, lane) in self.others.iter_mut().enumerate() {
-            let strike = if n == 0 { Some(Next::FIRST) } else { lane.next(ends) };
-            if let Some(strike) = strike.filter(|strike| self.alive[k + 1] && strike.end == next.end) {
-                let delta_v = match &pressed {
-                    Some([impacts, _]) if lane.lying().is_some() => lane.strike_lying(ends, &strike, impacts, 0.0),
-                    _ => lane.strike(ends, &strike),
-                };
-                own[k + 1] = Some((strike.after, delta_v));
-                if let Some(end) = self.full.lying()
-                    && lane.lying().is_none()
-                {
-                    lane.lie(ends, end);
-                }
-            }
-        }
-        self.alive = [own[0].is_some(), own[1].is_some(), own[2].is_some()];
-        self.next = self.full.next(ends);
-        let rival = self.next.as_ref().map_or((f64::INFINITY, [0.0; 2]), |next| {
-            let ([time, speed], other) = (next.rival, 1 - next.end);
-            let jump = (1.0 + ends.e) * speed;
-            let mut delta_v = [-ends.ratio(other, 1.0) * jump; 2];
-            delta_v[other] = jump;
-            (time - next.after, delta_v)
-        });
-        self.steps.push(Step {
-            end: next.end,
-            delta_v,
-            own,
-            twice_energy: if self.next.is_none() && n > 0 {
-                self.others
-                    .iter()
-                    .zip(&self.alive[1..])
-                    .filter(|(_, alive)| **alive)
-                    .fold(self.full.twice_energy(ends), |m, (lane, _)| m.max(lane.twice_energy(ends)))
-            } else {
-                self.full.twice_energy_until(ends, self.next.as_ref()).max(self.energy)
-            },
-            follows: self.next.map(|next| next.after),
-            rival,
-            rests: self.full.lying(),
-            together: pressed.map(|[_, contacts]| contacts.lasts),
-            spread,
-            tumbles: self.next.is_some_and(|next| next.tumbles),
-        });
-    }
-
-    /// Strike k, from 0, of the map; those before it exist.
-    pub(super) fn of_map(&mut self, k: usize) -> Option<MapStrike> {
-        if k >= self.of_map.len() {
-            let next = if k == 0 { Next::FIRST } else { self.map.next(&self.ends)? };
-            self.of_map.push((next.end, next.after, self.map.strike(&self.ends, &next)));
-        }
-        self.of_map.get(k).copied()
+    fn course(&self) -> &Course {
+        &self.course
     }
 }

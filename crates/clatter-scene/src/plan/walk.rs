@@ -1,10 +1,10 @@
 //! The first strikes of a drop as one component has them, in four lanes at once.
 
-use super::bounds::{later_response, later_shock, pile, weight};
+use super::bounds::{greater, largest_pile, later_response, later_shock, lesser, piled, weight};
 use super::coupling::{Coupling, Pressing};
-use super::lane::Ends;
+use super::lane::{Ends, MapLane};
 use super::swing::{Motion, Swing};
-use super::trail::{Step, Trail};
+use super::trail::{Step, Strikes};
 
 /// What later strikes can do must stay below this share of the peak for the following to stop: pulses flatten both, not alike.
 const CLEAR: f64 = 0.9;
@@ -40,6 +40,9 @@ pub(super) struct Interval {
 }
 
 impl Interval {
+    fn is_higher(&self, other: &Self) -> bool {
+        self.value > other.value
+    }
     /// Bound on how far lane k is off its largest value.
     fn off(&self, k: usize) -> f64 {
         let off = self.off[k] + if self.phase > 0.0 { 0.0 } else { self.beginning[k] };
@@ -69,32 +72,48 @@ pub(super) struct Walk<const N: usize> {
     pub(super) jumps: f64,
     /// Lanes that have had the same strikes so far.
     alive: [bool; 3],
+    /// Whether real tilt is off by more than the tolerance, whatever comes later.
+    pub(super) is_certain: bool,
 }
 
 impl<const N: usize> Walk<N> {
     /// The interval that holds the peak.
     pub(super) fn peak(&self) -> Interval {
-        self.intervals[..self.strikes]
-            .iter()
-            .fold(Interval::default(), |most, interval| if interval.value > most.value { *interval } else { most })
+        let none = Interval::default();
+        let highest = |most, interval| if Interval::is_higher(interval, most) { interval } else { most };
+        *self.intervals[..self.strikes].iter().fold(&none, highest)
     }
-    /// What lane k gets wrong, if pulses leave `top` of the `peak`: by the strikes followed, and by all.
-    pub(super) fn errors(&self, k: usize, peak: &Interval, top: f64) -> [f64; 2] {
-        let mut late = [self.late; N];
-        for n in (0..self.strikes).rev() {
-            late[n] = self.intervals[n].late.max(late[(n + 1).min(N - 1)]);
+    /// What each lane gets wrong, if pulses leave `top` of the `peak`: by the strikes followed, and by all.
+    pub(super) fn errors(&self, peak: &Interval, top: f64) -> [[f64; 2]; 3] {
+        let lates = self.lates();
+        [0, 1, 2].map(|k| {
+            let [error, least] = self.followed(k, peak, top, &lates);
+            [error, greater(self.later(k, peak.value), error)].map(|error| lesser(least, error))
+        })
+    }
+    /// Bounds on all that comes after the intervals.
+    fn lates(&self) -> [f64; N] {
+        let (mut lates, mut most) = ([0.0; N], self.late);
+        for (late, interval) in lates.iter_mut().zip(&self.intervals[..self.strikes]).rev() {
+            most = greater(interval.late, most);
+            *late = most;
         }
+        lates
+    }
+    /// What lane k gets wrong by the strikes followed, and what it gets wrong at most if what follows some interval is left to its bound.
+    #[inline]
+    fn followed(&self, k: usize, peak: &Interval, top: f64, lates: &[f64; N]) -> [f64; 2] {
         let (mut error, mut least) = (peak.off(k), f64::INFINITY);
-        for (interval, late) in self.intervals[..self.strikes].iter().zip(late) {
+        for (interval, late) in self.intervals[..self.strikes].iter().zip(lates) {
             // Another that comes up to the top may be the higher one.
-            let short = (interval.value + interval.adrift - top).min(0.0);
-            error = error.max(interval.off(k) + short).max(interval.early[k] - top);
+            let short = lesser(interval.value + interval.adrift - top, 0.0);
+            error = greater(interval.early[k] - top, greater(interval.off(k) + short, error));
             // From the peak on, what follows may be left to its bound.
             if interval.from_s >= peak.from_s {
-                least = least.min(error.max(late - top));
+                least = lesser(greater(late - top, error), least);
             }
         }
-        [error, error.max(self.later(k, peak.value))].map(|error| error.min(least))
+        [error, least]
     }
     /// What lane k may get wrong after the strikes followed.
     fn later(&self, k: usize, peak: f64) -> f64 {
@@ -130,6 +149,67 @@ struct Flight {
     speed: f64,
 }
 
+/// The component where a strike of the lane with all physics meets it.
+#[derive(Debug)]
+struct Meeting<'a> {
+    swing: &'a Swing,
+    /// Just after the last strike, now, and the phase between.
+    begun: Motion,
+    motion: Motion,
+    turned: f64,
+    /// How fast it changes by the phase, and the square of the bound of that.
+    rate: Motion,
+    square: f64,
+}
+
+/// What the strike of a lane does to its component that comes at another time.
+#[derive(Debug, Clone, Copy)]
+struct Shifted {
+    by: Motion,
+    /// Whether the lane goes on as before.
+    goes_on: bool,
+    /// By how much the interval begins elsewhere, and what the lane has before it.
+    beginning: f64,
+    early: f64,
+}
+
+impl Meeting<'_> {
+    /// How far a strike at another phase moves the component of a lane. It meets a motion that has turned to another place, as which the
+    /// lane goes on; or is itself turned, and the lane goes on as before: the less of the two.
+    #[inline]
+    fn shift(&self, own: f64, phase: f64) -> Shifted {
+        let (swing, straight) = (self.swing, phase.abs() <= STRAIGHT);
+        let (mut moved, mut most) =
+            (Motion { x: phase * self.rate.x, w: phase * self.rate.w }, phase * phase * self.square);
+        if !straight {
+            moved = self.far(phase);
+            most = swing.square(moved);
+        }
+        let turned = greater(lesser(phase, 2.0), -2.0);
+        let shifted = swing.factor * own * turned;
+        if shifted * shifted < most {
+            let early = if phase < 0.0 && !straight { self.early(own, turned, moved) } else { 0.0 };
+            let by = Motion { x: own * turned, w: -2.0 * swing.zeta() * own * turned };
+            Shifted { by, goes_on: true, beginning: swing.quantity(moved).abs(), early }
+        } else {
+            Shifted { by: moved, goes_on: false, beginning: 0.0, early: 0.0 }
+        }
+    }
+    /// How far the motion moves in a phase that is not straight.
+    #[cold]
+    fn far(&self, phase: f64) -> Motion {
+        let met = self.swing.after(&self.swing.turn(greater(self.turned + phase, 0.0)), self.begun);
+        Motion { x: met.x - self.motion.x, w: met.w - self.motion.w }
+    }
+    /// What a lane has before the interval whose strike comes before by `turned`, where the motion is elsewhere by `moved`.
+    #[cold]
+    fn early(&self, own: f64, turned: f64, moved: Motion) -> f64 {
+        let swing = self.swing;
+        let met = Motion { x: self.motion.x + moved.x, w: self.motion.w + moved.w };
+        swing.bound(met) + own.abs() * lesser(swing.quantity(Motion { x: -turned, w: 1.0 }), swing.factor)
+    }
+}
+
 /// Follows strikes until nothing later counts.
 #[derive(Debug)]
 pub(super) struct Walker<'a, const N: usize> {
@@ -140,6 +220,8 @@ pub(super) struct Walker<'a, const N: usize> {
     omega: f64,
     /// Share of the time since the first strike by which strikes are mistimed.
     blur: f64,
+    /// How many times the largest later shock the speeds of all later ones allow.
+    pile: f64,
     walk: Walk<N>,
     /// The component now, and just after the last strike.
     motion: Motion,
@@ -156,9 +238,12 @@ pub(super) struct Walker<'a, const N: usize> {
     /// The last contacts of both ends, and how far the motion of the ends after them is in doubt.
     pressing: [Option<Pressing>; 2],
     loose: f64,
-    /// Speed at the component before the last strike, and what overlapping contacts leave of it.
+    /// Speed at the component before the last strike, and what overlapping contacts leave of it: this share, once it is asked for.
     before: f64,
     floor: f64,
+    rebound: f64,
+    /// Bound on what later strikes of the lane with all physics add.
+    coming: f64,
 }
 
 impl<'a, const N: usize> Walker<'a, N> {
@@ -177,6 +262,7 @@ impl<'a, const N: usize> Walker<'a, N> {
             omega,
             // Fitted: the mean bend of a large tilt.
             blur: 0.25 * tilt * tilt,
+            pile: largest_pile(ends),
             walk: Walk {
                 intervals: [Interval::default(); N],
                 strikes: 0,
@@ -191,6 +277,7 @@ impl<'a, const N: usize> Walker<'a, N> {
                 weight,
                 jumps: 0.0,
                 alive: [true; 3],
+                is_certain: false,
             },
             motion: Motion::default(),
             begun: Motion::default(),
@@ -204,23 +291,25 @@ impl<'a, const N: usize> Walker<'a, N> {
             loose: 0.0,
             before: 0.0,
             floor: 0.0,
+            rebound: 0.0,
+            coming: f64::INFINITY,
         }
     }
 
-    pub(super) fn follow(mut self, trail: &mut Trail) -> Walk<N> {
-        self.before = self.ends.reach(trail.twice_energy);
+    /// Until nothing later counts, or until real tilt can not be within the tolerance any more.
+    pub(super) fn follow(&mut self, trail: &mut impl Strikes, tolerance: f64) -> &Walk<N> {
+        self.before = self.ends.reach(trail.course().twice_energy);
         let mut flight = Flight { gap_s: 0.0, lying: None, tumbles: false, speed: self.before };
         while let Some(step) = trail.step(self.walk.strikes) {
-            self.strike(&step, &flight);
+            self.strike(step, &flight);
             let Some(follows) = step.follows else {
-                self.rest(&step);
+                self.rest(step);
                 break;
             };
-            self.rival(&step, follows);
+            self.rival(step, follows);
             let lying = step.rests.map(|end| {
-                let mut load = [-self.ends.ratio(end, 1.0); 2];
-                load[end] = 1.0;
-                self.ends.at(load).abs()
+                let other = -self.ends.flat[end];
+                self.ends.at(if end == 0 { (1.0, other) } else { (other, 1.0) }).abs()
             });
             let speed = self.ends.reach(step.twice_energy);
             flight = Flight { gap_s: follows, lying, tumbles: step.tumbles, speed };
@@ -228,9 +317,17 @@ impl<'a, const N: usize> Walker<'a, N> {
             if self.is_over(&flight) {
                 break;
             }
+            if tolerance < f64::INFINITY && self.is_certain(tolerance) {
+                self.walk.is_certain = true;
+                // Not looked at.
+                (self.walk.net, self.walk.largest) = (f64::INFINITY, f64::INFINITY);
+                return &self.walk;
+            }
         }
-        self.take_map(trail);
-        self.walk
+        if !self.coupling.velocity_shock {
+            self.take_map(trail.course().map.clone());
+        }
+        &self.walk
     }
 
     fn unit(&self) -> f64 {
@@ -238,21 +335,22 @@ impl<'a, const N: usize> Walker<'a, N> {
     }
 
     /// From the last strike to the next.
-    fn fly(&mut self, trail: &mut Trail, flight: &Flight) {
+    fn fly(&mut self, trail: &mut impl Strikes, flight: &Flight) {
         let (swing, omega, gap, time) = (self.swing, self.omega, flight.gap_s, self.coupling.time);
         let n = self.walk.strikes - 1;
         let interval = &mut self.walk.intervals[n];
         if !self.coupling.velocity_shock {
             let turn = trail.turn(n, swing, omega * gap);
-            if swing.bound(self.motion) > 0.5 * self.peak {
-                let top = swing.peak(self.motion, omega * gap);
+            let last = swing.after(&turn, self.motion);
+            let (end, rate) = (swing.quantity(last), swing.quantity(swing.rate(last)));
+            if swing.square(self.motion) > 0.25 * self.peak * self.peak {
+                let top = swing.peak_before(self.motion, omega * gap, rate);
                 (interval.value, interval.phase, interval.slope) = (top.value, top.phase, top.slope);
             }
-            self.motion = swing.after(&turn, self.motion);
-            let (end, rate) = (swing.quantity(self.motion), swing.quantity(swing.rate(self.motion)));
+            self.motion = last;
             if end.abs() > interval.value {
                 (interval.value, interval.phase) = (end.abs(), omega * gap);
-                interval.slope = (rate * end.signum()).max(0.0);
+                interval.slope = greater(rate * end.signum(), 0.0);
             }
             for (off, lacking) in self.off.iter_mut().zip(&mut self.lacking) {
                 *off = swing.after(&turn, *off);
@@ -269,28 +367,72 @@ impl<'a, const N: usize> Walker<'a, N> {
                 }
             }
         }
-        self.peak = self.peak.max(interval.value);
-        self.walk.shortest_gap_s = self.walk.shortest_gap_s.min(gap);
+        self.peak = greater(interval.value, self.peak);
+        self.walk.shortest_gap_s = lesser(gap, self.walk.shortest_gap_s);
         if gap < time {
             self.walk.overlaps = true;
-            self.floor = self.floor.max(self.coupling.rebound * self.before);
+            if self.rebound == 0.0 {
+                self.rebound = self.coupling.rebound();
+            }
+            self.floor = self.floor.max(self.rebound * self.before);
         }
         self.before = flight.speed;
-        (self.walk.late, self.walk.extra) = self.to_come(flight.speed.max(self.floor), true);
+        (self.walk.late, self.walk.extra, self.coming) = self.to_come(flight.speed, true);
+        if flight.speed < self.floor {
+            (self.walk.late, self.walk.extra, _) = self.to_come(self.floor, true);
+        }
         self.walk.intervals[n].late = self.walk.late;
     }
 
-    /// Bound on what a bar of such a speed does to the component from now on, and what of it one shock does; `more` than one may come.
-    fn to_come(&self, speed: f64, more: bool) -> (f64, f64) {
+    /// Bound on what a bar of such a speed does to the component from now on, and what of it one shock and all of them do; `more` than one
+    /// may come.
+    fn to_come(&self, speed: f64, more: bool) -> (f64, f64, f64) {
         if self.coupling.velocity_shock {
             let shock = later_shock(speed, self.gravity, self.coupling.time);
-            return (shock, shock);
+            return (shock, shock, shock);
         }
         let fall = self.gravity / self.omega;
         let extra = later_response(self.swing, speed, self.gravity, self.omega);
-        let times = if more { pile(self.ends, self.swing.zeta(), speed, fall) } else { 1.0 };
+        let times = if more { piled(self.pile, self.swing.zeta(), speed, fall) } else { 1.0 };
         let all = self.swing.bound(self.motion) + self.adrift + times * extra;
-        (if all.is_nan() { f64::INFINITY } else { all }, extra)
+        (if all.is_nan() { f64::INFINITY } else { all }, extra, times * extra)
+    }
+
+    /// Whether real tilt is off by more than the tolerance, whatever strikes still come.
+    ///
+    /// As long as the peak stays where it is, what `Walk::followed` has counted against it only grows; and where pulses flatten the peak,
+    /// its share does not fall.
+    fn is_certain(&self, tolerance: f64) -> bool {
+        self.rises_are_off(tolerance) && {
+            let peak = self.walk.peak();
+            let [error, least] = self.walk.followed(2, &peak, peak.value, &self.walk.lates());
+            lesser(error, least) > tolerance * peak.value
+        }
+    }
+
+    /// Whether it is so of every later interval that passes the peak.
+    fn rises_are_off(&self, tolerance: f64) -> bool {
+        let lost = !self.walk.alive[2];
+        if self.coupling.velocity_shock {
+            // A lane that has lost the strikes is off by each. Of both contacts at once, the first may be more than the two together.
+            return lost && tolerance < 1.0 || self.doubtful > 2.0 * tolerance * self.coming;
+        }
+        // In the share f that is left of it, the motion is at most f times its envelope, and the doubt f times what it is now.
+        let swing = self.swing;
+        let doubt = swing.factor * (self.lacking[2] + self.doubtful);
+        let [now, unit] = [self.motion, Motion { x: 0.0, w: 1.0 }].map(|motion| swing.envelope(motion));
+        if lost && doubt > tolerance * now && swing.factor > tolerance * unit {
+            return true;
+        }
+        // To pass the peak with all that comes, the motion must have kept this much; the doubt has then kept the same share.
+        let kept = self.peak - self.coming;
+        if kept >= now || doubt * kept > tolerance * now * self.peak {
+            return true;
+        }
+        // Or an earlier interval counts, however high the peak gets.
+        let most = greater(swing.bound(self.motion) + self.coming, self.peak);
+        let off = |interval: &Interval| interval.off(2) + lesser(interval.value + interval.adrift - most, 0.0);
+        self.walk.intervals[..self.walk.strikes].iter().any(|interval| off(interval) > tolerance * most)
     }
 
     /// Whether nothing later counts, or is known.
@@ -312,7 +454,7 @@ impl<'a, const N: usize> Walker<'a, N> {
         let n = self.walk.strikes;
         self.walk.last_s += flight.gap_s;
         // The ground also carries the weight while it pushes.
-        self.doubtful += self.gravity * if n == 0 { time } else { time.min(flight.gap_s) };
+        self.doubtful += self.gravity * if n == 0 { time } else { lesser(time, flight.gap_s) };
         self.couple(step, flight.gap_s);
         let both = step.together.map(|lasts| (lasts, Parts::of(ends, step.end, step.delta_v)));
         let delta_v = match both {
@@ -324,14 +466,14 @@ impl<'a, const N: usize> Walker<'a, N> {
         let (mut gross, mut shape) = (last, 0.0);
         if let Some((lasts, parts)) = both {
             gross = parts.first.abs() + parts.other.abs();
-            shape = parts.other.abs() + ends.ratio(0, 1.0) * ends.ratio(1, 1.0) * parts.first.abs();
+            shape = parts.other.abs() + ends.flat[0] * ends.flat[1] * parts.first.abs();
             // Pulses as if at one instant, of contacts that last.
             self.doubtful += if shocks { 0.0 } else { shape * (0.5 * omega * lasts * time).min(2.0) };
             let jump = swing.quantity(Motion { x: 0.0, w: gross });
             self.walk.jumps = self.walk.jumps.max(swing.quantity(self.motion).abs() + jump.abs());
         }
         let mistimed = self.blur * self.walk.last_s + if flight.lying.is_some() { LYING * flight.gap_s } else { 0.0 };
-        self.adrift += swing.factor * last * (omega * mistimed).min(2.0);
+        self.adrift += swing.factor * last * lesser(omega * mistimed, 2.0);
         if n > 0 && self.walk.intervals[n - 1].slope > 0.0 {
             // A value that the next shock cuts off is as high as that is late.
             let cut = &mut self.walk.intervals[n - 1];
@@ -348,63 +490,43 @@ impl<'a, const N: usize> Walker<'a, N> {
                 *off += own.map_or(0.0, |(after, _)| jump * (over(after) - here).abs());
             }
         }
-        let mut interval = Interval { from_s: self.walk.last_s, ..Interval::default() };
+        let from_s = self.walk.last_s;
+        let interval = &mut self.walk.intervals[n];
+        interval.from_s = from_s;
         if shocks {
             interval.value = last;
         } else {
             interval.adrift = self.adrift;
         }
+        let (rate, turned) = (swing.rate(self.motion), omega * flight.gap_s);
+        let square = swing.square(rate);
+        let meeting = Meeting { swing, begun: self.begun, motion: self.motion, turned, rate, square };
         for k in 0..3 {
-            let mut shock_off = last;
+            let (mut off, mut shock_off) = (self.off[k], last);
             if let Some((after, own)) = step.own[k] {
                 let own = if shocks && both.is_some() { Parts::of(ends, step.end, own).first } else { ends.at(own) };
                 shock_off = (own - delta_v).abs();
-                self.behind_s[k] += after - flight.gap_s;
-                self.off[k].w -= own - delta_v;
-                self.shift(k, own, flight.gap_s, &mut interval);
+                let behind_s = self.behind_s[k] + after - flight.gap_s;
+                off.w -= own - delta_v;
+                let shifted = meeting.shift(own, omega * behind_s);
+                self.behind_s[k] = if shifted.goes_on { behind_s } else { 0.0 };
+                off = Motion { x: off.x + shifted.by.x, w: off.w + shifted.by.w };
+                (interval.beginning[k], interval.early[k]) = (shifted.beginning, shifted.early);
             } else {
                 self.walk.alive[k] = false;
                 self.lacking[k] += gross;
             }
+            self.off[k] = off;
             interval.off[k] = if shocks {
                 shock_off + shape + self.doubtful
             } else {
-                swing.bound(self.off[k]) + swing.factor * (self.lacking[k] + self.doubtful)
+                swing.bound(off) + swing.factor * (self.lacking[k] + self.doubtful)
             };
         }
-        interval.off[0] += self.unit() * gross * step.spread;
+        interval.off[0] += if shocks { 1.0 } else { swing.factor } * gross * step.spread;
         self.motion.w -= delta_v;
         self.begun = self.motion;
-        self.walk.intervals[n] = interval;
         self.walk.strikes += 1;
-    }
-
-    /// How far the strike of lane k at another time moves its component. It meets a motion that has turned to another place, as which the
-    /// lane goes on; or is itself turned, and the lane goes on as before: the less of the two.
-    fn shift(&mut self, k: usize, own: f64, gap_s: f64, interval: &mut Interval) {
-        let (swing, phase) = (self.swing, self.omega * self.behind_s[k]);
-        let met = if phase.abs() > STRAIGHT {
-            swing.after(&swing.turn((self.omega * gap_s + phase).max(0.0)), self.begun)
-        } else {
-            let rate = swing.rate(self.motion);
-            Motion { x: self.motion.x + phase * rate.x, w: self.motion.w + phase * rate.w }
-        };
-        let moved = Motion { x: met.x - self.motion.x, w: met.w - self.motion.w };
-        let turned = phase.clamp(-2.0, 2.0);
-        let off = &mut self.off[k];
-        if swing.factor * (own * turned).abs() < swing.bound(moved) {
-            interval.beginning[k] = swing.quantity(moved).abs();
-            if phase < -STRAIGHT {
-                let jump = swing.quantity(Motion { x: -turned, w: 1.0 }).min(swing.factor);
-                interval.early[k] = swing.bound(met) + own.abs() * jump;
-            }
-            off.x += own * turned;
-            off.w -= 2.0 * swing.zeta() * own * turned;
-        } else {
-            off.x += moved.x;
-            off.w += moved.w;
-            self.behind_s[k] = 0.0;
-        }
     }
 
     /// What the last contacts and this strike do to each other.
@@ -416,23 +538,24 @@ impl<'a, const N: usize> Walker<'a, N> {
         }
         let delta_v = ends.at(step.delta_v);
         // Of a motion in doubt, the shock is as much.
-        let strike = step.delta_v[j].abs();
+        let strike = of(step.delta_v, j).abs();
         let astray = if strike > 0.0 { delta_v.abs() * (self.loose * (1.0 + ends.e) / strike).min(1.0) } else { 0.0 };
         // What the component gets of a velocity that a contact gives.
-        let at = |given: f64, contact: &[f64; 2], end: usize| {
-            if contact[end] == 0.0 { given } else { given * (ends.at(*contact) / contact[end]).abs() }
+        let at = |given: f64, contact: (f64, f64), end: usize| {
+            let own = of(contact, end);
+            if own == 0.0 { given } else { given * (ends.at(contact) / own).abs() }
         };
         // Where this end presses already, it is the same contact.
         let own = self.pressing[j].filter(|own| own.age_s < time);
         let mut doubt = if own.is_some() && coupling.velocity_shock { delta_v.abs() } else { 0.0 };
         if let Some(other) = self.pressing[i].filter(|_| step.together.is_none()) {
             let age = (other.age_s - self.blur * self.walk.last_s).max(0.0);
-            let pushed = coupling.pushed(age, step.delta_v[i], other.delta_v[i].abs());
+            let pushed = coupling.pushed(age, of(step.delta_v, i), of(other.delta_v, i).abs());
             // What the other contact does back is one more load on this one.
-            let back = pushed * ends.ratio(i, 1.0).abs();
-            let held = back + if own.is_none() { coupling.held(age, other.delta_v[j]) } else { 0.0 };
+            let back = pushed * ends.flat[i].abs();
+            let held = back + if own.is_none() { coupling.held(age, of(other.delta_v, j)) } else { 0.0 };
             self.loose += pushed + held;
-            doubt += at(pushed, &other.delta_v, i) + if held > 0.0 { at(held, &step.delta_v, j) } else { 0.0 };
+            doubt += at(pushed, other.delta_v, i) + if held > 0.0 { at(held, step.delta_v, j) } else { 0.0 };
             if coupling.velocity_shock {
                 doubt += coupling.windows(age, [ends.at(other.delta_v), delta_v]);
             }
@@ -451,7 +574,7 @@ impl<'a, const N: usize> Walker<'a, N> {
         }
         self.doubtful += doubt + astray;
         let contact = own.unwrap_or_default();
-        let delta_v = [contact.delta_v[0] + step.delta_v[0], contact.delta_v[1] + step.delta_v[1]];
+        let delta_v = (contact.delta_v.0 + step.delta_v.0, contact.delta_v.1 + step.delta_v.1);
         self.pressing[j] = Some(Pressing { delta_v, ..contact });
         if step.together.is_some() {
             self.pressing[i] = self.pressing[j];
@@ -480,24 +603,28 @@ impl<'a, const N: usize> Walker<'a, N> {
         (self.walk.late, self.walk.extra) = (0.0, 0.0);
         if self.gravity > 0.0 {
             // The ground carries it from now on, and impacts have bounces left.
-            (self.walk.late, self.walk.extra) = self.to_come(self.ends.reach(step.twice_energy), false);
+            (self.walk.late, self.walk.extra, _) = self.to_come(self.ends.reach(step.twice_energy), false);
         }
     }
 
     /// The closed form has the whole train of the map.
-    fn take_map(&mut self, trail: &mut Trail) {
+    fn take_map(&mut self, map: MapLane) {
         let walk = &mut self.walk;
-        for k in 0.. {
-            let Some((.., delta_v)) = trail.of_map(k) else { break };
+        for (k, (.., delta_v)) in map.enumerate() {
             if k > 2 * N {
                 walk.net = f64::INFINITY;
                 break;
             }
             let delta_v = self.ends.at(delta_v);
-            walk.largest = walk.largest.max(delta_v.abs());
+            walk.largest = greater(delta_v.abs(), walk.largest);
             walk.net += delta_v;
         }
     }
+}
+
+/// That of one end.
+fn of((a, b): (f64, f64), end: usize) -> f64 {
+    if end == 0 { a } else { b }
 }
 
 /// What both contacts do to the component's place where they act at once.
@@ -509,15 +636,15 @@ struct Parts {
 }
 
 impl Parts {
-    fn of(ends: &Ends, landed: usize, [a, b]: [f64; 2]) -> Self {
-        let ratio = [ends.ratio(0, 1.0), ends.ratio(1, 1.0)];
+    fn of(ends: &Ends, landed: usize, (a, b): (f64, f64)) -> Self {
+        let ratio = ends.flat;
         // 1 − r₀ r₁ without cancellation; ends without mass of their own are taken as nearly so.
         let [p, q] = ends.arm.map(|arm| arm * arm + ends.gyration2);
         let length = ends.arm[0] + ends.arm[1];
         let over = p * q / (ends.gyration2 * length * length).max(f64::MIN_POSITIVE);
         let of_contacts = [
-            over * (a + ratio[1] * b) * ends.at([1.0, -ratio[0]]),
-            over * (b + ratio[0] * a) * ends.at([-ratio[1], 1.0]),
+            over * (a + ratio[1] * b) * ends.at((1.0, -ratio[0])),
+            over * (b + ratio[0] * a) * ends.at((-ratio[1], 1.0)),
         ];
         Self { first: of_contacts[landed], other: of_contacts[1 - landed] }
     }
