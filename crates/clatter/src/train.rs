@@ -420,7 +420,8 @@ fn fold_later<B, F: FnMut(B, Impact) -> B>(so_far: &SoFar, init: B, mut f: F) ->
 }
 
 /// Folds the impacts after number `number`, by pairs: nothing need be chosen by the number.
-#[inline]
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "four at a time, without a loop")]
 fn hand_out<B, F: FnMut(B, Impact) -> B>(
     bar: &Bar,
     mut number: u64,
@@ -429,12 +430,14 @@ fn hand_out<B, F: FnMut(B, Impact) -> B>(
     f: &mut F,
 ) -> B {
     let (mut all, first) = (init, End::of_impact(number + 1));
-    for (approach, times) in approach.chunks(2).zip(times.chunks(2)) {
+    let ((approach, rest), (times, last)) = (approach.as_chunks::<2>(), times.as_chunks::<2>());
+    for (approach, times) in approach.iter().zip(times) {
         all = f(all, bar.impact(number + 1, first, approach[0], times[0]));
-        if let (&[_, approach], &[_, time]) = (approach, times) {
-            all = f(all, bar.impact(number + 2, first.other(), approach, time));
-        }
+        all = f(all, bar.impact(number + 2, first.other(), approach[1], times[1]));
         number += 2;
+    }
+    if let (&[approach], &[time]) = (rest, last) {
+        all = f(all, bar.impact(number + 1, first, approach, time));
     }
     all
 }
