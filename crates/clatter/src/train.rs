@@ -52,25 +52,44 @@ pub struct Train {
 }
 
 /// The recurrence as it stands before the next impact.
+///
+/// Each end has one of its own, so that the strikes of one need not wait for those of the other. With
+/// g_n = |a_{n+2}| − e |a_n| and D = 4e − T²,
+/// ```text
+/// |a_{n+2}| = e |a_n| + g_n,  g_{n+2} = (e − D) g_n − eD |a_n|.
+/// ```
 #[derive(Debug, Clone, Copy)]
 struct Steps {
-    /// |a_n|, no more than 0 where the train has ended.
-    speed: f64,
-    /// e |a_{n−1}|, which is taken from T |a_n| for the next one.
-    held: f64,
+    /// |a_n| of the next strike of each end.
+    speed: [f64; 2],
+    /// g_n of these.
+    growth: [f64; 2],
+    /// e − D and eD.
+    turn: [f64; 2],
     /// (t_{n+1} − t_n) |a_n a_{n+1}| = h0 |a_1| e^{n−1}, the Casoratian of velocities and heights.
     gap: f64,
     /// Of the next impact.
     time: f64,
-    /// How far |a_{n+1}| may cancel.
+    /// How far |a_{n+2}| may cancel.
     clear: f64,
     /// No plain step leads beyond this impact.
     last: u64,
+    /// Whether it is that of the train.
+    ends: bool,
 }
 
 impl Steps {
     /// No plain steps are left. Said after every call, so that what they consist of need not be kept through it.
-    const OVER: Self = Self { speed: 0.0, held: 0.0, gap: 0.0, time: 0.0, clear: 0.0, last: 0 };
+    const OVER: Self = Self {
+        speed: [0.0; 2],
+        growth: [0.0; 2],
+        turn: [0.0; 2],
+        gap: 0.0,
+        time: 0.0,
+        clear: 0.0,
+        last: 0,
+        ends: false,
+    };
 }
 
 /// What the impacts after the plain steps need to know.
@@ -101,7 +120,7 @@ struct Later {
 /// Where the impacts come from.
 #[derive(Debug, Clone)]
 enum Source {
-    /// A train of some 30 to 400 impacts.
+    /// A train of up to some 400 impacts.
     Sweep(Sweep),
     /// Four strikes at a time, from the closed form.
     Lanes(Box<(Drive, Lanes)>),
@@ -115,9 +134,18 @@ enum Source {
 const BUFFER: usize = 16;
 /// Plain steps taken before the closed form, which forgets no digit, takes over.
 const PLAIN: u64 = 32;
-/// A velocity that cancels by more than this factor times its number is left to the closed form. Of a wave with N impacts, N
-/// steps add up to 1.3 N² roundings of its amplitude, of which a velocity is π/N times N times this factor at least: an
-/// error of 1.3 N²/π · 2⁻⁵³ · 2¹¹ ≤ 1e−10.
+/// Those of a slow wave whose D is known well enough: it ends before.
+const SLOW: u64 = 256;
+/// A velocity that cancels by more than this factor times its number is left to the closed form: |a_{n+2}| against e |a_n|.
+///
+/// Of a wave with N impacts and θ ≈ π/N, one that is let through is N · 2θ times this factor of the amplitude at least, or
+/// 1/326. What it is off by, in roundings of 2⁻⁵³ of the amplitude:
+/// * 2.7 N from the steps: each of N/2 rounds the velocity twice and g, which is 2θ of the amplitude at most and counts 1/2θ
+///   times, three times;
+/// * 0.64 N² from D = 4e − T², which is off by 16 roundings of e at most and turns the wave by N/8eθ of that;
+/// * or 13 (1 + (1 − e)²/D) from D = (1 − q²)(1 + e)² − (1 − e)², off by 8 of D and of (1 − e)².
+///
+/// That is 2700 at most, where [`Bar::train`] lets plain steps go on: an error of 2700 · 326 · 2⁻⁵³ ≤ 1e−10.
 const CLEAR: f64 = 1.0 / 2048.0;
 /// With T and e of at least this size, and |a_1| and h0 not smaller than the other or larger than its reciprocal, no term of a
 /// plain step comes near the subnormal floats, nor near those that overflow.
@@ -130,11 +158,12 @@ impl Iterator for Train {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "through memory, an impact takes five times as long")]
     fn next(&mut self) -> Option<Impact> {
-        if let Some(impact) = self.step(End::of_impact(self.number + 1)) {
-            return Some(impact);
+        let plain = if self.number.is_multiple_of(2) { self.step::<0>() } else { self.step::<1>() };
+        if plain.is_some() {
+            return plain;
         }
         if self.later.is_none() {
-            if self.steps.speed <= 0.0 {
+            if self.steps.ends {
                 return None;
             }
             self.later = Some(Later::boxed(&self.so_far()));
@@ -154,14 +183,20 @@ impl Iterator for Train {
     #[inline]
     fn fold<B, F: FnMut(B, Impact) -> B>(mut self, init: B, mut f: F) -> B {
         let mut all = init;
-        // By pairs: nothing need be chosen by the number.
-        let first = End::of_impact(self.number + 1);
-        while let Some(impact) = self.step(first) {
-            all = f(all, impact);
-            let Some(impact) = self.step(first.other()) else { break };
+        if self.number % 2 == 1
+            && let Some(impact) = self.step::<1>()
+        {
             all = f(all, impact);
         }
-        if self.later.is_none() && self.steps.speed <= 0.0 {
+        // By pairs: nothing need be chosen by the number.
+        if self.number.is_multiple_of(2) {
+            while let Some(impact) = self.step::<0>() {
+                all = f(all, impact);
+                let Some(impact) = self.step::<1>() else { break };
+                all = f(all, impact);
+            }
+        }
+        if self.later.is_none() && self.steps.ends {
             return all;
         }
         match self.later {
@@ -200,34 +235,32 @@ impl Train {
         SoFar { latest: self.steps.time, ahead: self.number, start: self.start, bar: self.bar }
     }
 
-    /// The next impact by a plain step; none where the train has ended, and where more digits are needed.
+    /// The next impact by a plain step, at end `I`; none where the train has ended, and where more digits are needed.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "as `next`")]
-    fn step(&mut self, end: End) -> Option<Impact> {
-        let Steps { speed, held, gap, time, clear, last } = self.steps;
-        if self.number >= last {
+    fn step<const I: usize>(&mut self) -> Option<Impact> {
+        let steps = &mut self.steps;
+        if self.number >= steps.last {
             return None;
         }
-        let (t, e) = (self.bar.t, self.bar.e);
-        let (next, doubt) = (t * speed - held, clear * held);
-        if next <= doubt {
-            if next >= -doubt {
-                // The terms of a_{n+1} nearly cancel: from this strike on, more digits.
-                self.steps.last = self.number;
-                return None;
-            }
-            self.steps.last = self.number + 1;
-        }
-        self.steps = Steps {
-            speed: next,
-            held: e * speed,
-            gap: e * gap,
-            time: time + gap / (speed * next),
-            clear: clear + CLEAR,
-            last: self.steps.last,
-        };
+        let (e, speed, time) = (self.bar.e, steps.speed[I], steps.time);
+        let held = e * speed;
+        let (then, doubt) = (held + steps.growth[I], steps.clear * held);
         self.number += 1;
-        Some(self.bar.impact(self.number, end, -speed, time))
+        if then <= doubt && self.number < steps.last {
+            // The next impact is the last one; where the terms of a_{n+2} nearly cancel, more digits from that impact on.
+            // It is left as it is now: what is not worked out needs no place.
+            steps.ends = then < -doubt;
+            steps.last = self.number + u64::from(steps.ends);
+            steps.time += steps.gap / (speed * steps.speed[1 - I]);
+            return Some(self.bar.impact(self.number, [End::A, End::B][I], -speed, time));
+        }
+        steps.time += steps.gap / (speed * steps.speed[1 - I]);
+        steps.speed[I] = then;
+        steps.growth[I] = steps.turn[0] * steps.growth[I] - steps.turn[1] * speed;
+        steps.gap *= e;
+        steps.clear += CLEAR;
+        Some(self.bar.impact(self.number, [End::A, End::B][I], -speed, time))
     }
 }
 
@@ -420,7 +453,8 @@ fn fold_later<B, F: FnMut(B, Impact) -> B>(so_far: &SoFar, init: B, mut f: F) ->
 }
 
 /// Folds the impacts after number `number`, by pairs: nothing need be chosen by the number.
-#[inline]
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "four at a time, without a loop")]
 fn hand_out<B, F: FnMut(B, Impact) -> B>(
     bar: &Bar,
     mut number: u64,
@@ -429,12 +463,14 @@ fn hand_out<B, F: FnMut(B, Impact) -> B>(
     f: &mut F,
 ) -> B {
     let (mut all, first) = (init, End::of_impact(number + 1));
-    for (approach, times) in approach.chunks(2).zip(times.chunks(2)) {
+    let ((approach, rest), (times, last)) = (approach.as_chunks::<2>(), times.as_chunks::<2>());
+    for (approach, times) in approach.iter().zip(times) {
         all = f(all, bar.impact(number + 1, first, approach[0], times[0]));
-        if let (&[_, approach], &[_, time]) = (approach, times) {
-            all = f(all, bar.impact(number + 2, first.other(), approach, time));
-        }
+        all = f(all, bar.impact(number + 2, first.other(), approach[1], times[1]));
         number += 2;
+    }
+    if let (&[approach], &[time]) = (rest, last) {
+        all = f(all, bar.impact(number + 1, first, approach, time));
     }
     all
 }
@@ -452,11 +488,13 @@ impl Bar {
     /// The impacts, one by one.
     ///
     /// # Method
-    /// The recurrence for 32 strikes at most; beyond, four neighboring strikes are carried on together by rotations that keep
-    /// small angles exact. In a train of some 30 to 400 strikes they follow from the discriminant alone, from the first one
-    /// on, and the train ends where the velocity changes its sign, by the closed form next to a tie. In longer ones the four
-    /// are anchored in the closed form anew every 256 strikes, and the number of impacts is settled beforehand, as exactly
-    /// as by [`Bar::count`]. Times between strikes are h0 |v_a| e^{n−1}/(a_n a_{n+1}): sums of what is positive.
+    /// The recurrence of every other strike, one for each end, `a_{n+2} = (2e − D) a_n − e² a_{n−2}` in the form of differences,
+    /// to the end of a train of up to 60 strikes, or 222 where e is not small, and for 32 strikes of a longer one; the closed
+    /// form next to a tie. Beyond, four neighboring strikes are carried on together by rotations that keep small angles exact.
+    /// In a train of up to some 400 strikes they follow from the discriminant alone, from the first one on, and the train ends
+    /// where the velocity changes its sign. In longer ones the four are anchored in the closed form anew every 256 strikes,
+    /// and the number of impacts is settled beforehand, as exactly as by [`Bar::count`]. Times between strikes are
+    /// h0 |v_a| e^{n−1}/(a_n a_{n+1}): sums of what is positive.
     ///
     /// # Accuracy
     /// [`crate::accuracy::APPROACH`], [`JUMP`](crate::accuracy::JUMP) and [`TIME`](crate::accuracy::TIME), for a
@@ -472,19 +510,49 @@ impl Bar {
     /// # Ok::<(), clatter::Error>(())
     /// ```
     #[must_use]
-    #[inline]
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "a bar that is made on the spot then needs no place in memory")]
     pub fn train(&self, start: &Start) -> Train {
-        let ([va, vb], h0, t) = (start.velocity(), start.height_gap(), self.t);
+        let ([va, vb], h0, Self { e, t, less, more, .. }) = (start.velocity(), start.height_gap(), *self);
         let moderate = |x: f64| (MODERATE..=1.0 / MODERATE).contains(&x);
-        // T < 0: −a_1 = αT + β must not cancel. There are two impacts at most.
-        let apart = (t * va + vb).abs() > CLEAR * -vb;
-        let plain = vb <= 0.0
-            && moderate(-va)
-            && (h0 == 0.0 || moderate(h0))
-            && ((t >= LARGE && self.e >= LARGE) || (t <= -LARGE && apart));
-        let long = if Sweep::suits(self) { 0 } else { PLAIN };
-        let last = if plain { long } else { 0 };
-        let steps = Steps { speed: -va, held: vb, gap: h0 * -va, time: 0.0, clear: CLEAR, last };
+        let (alpha, beta) = (-va, -vb);
+        let first = t * alpha + beta;
+        // D = 4e − T² by the smaller terms.
+        let (square, small) = ((1.0 - e) * (1.0 - e), e <= 0.5);
+        let d = if small { 4.0 * e - t * t } else { less * more * ((1.0 + e) * (1.0 + e)) - square };
+        let last = if !(beta >= 0.0 && moderate(alpha) && (h0 == 0.0 || moderate(h0))) {
+            0
+        } else if least(t, e) >= LARGE {
+            if d >= 0.0399 * e {
+                PLAIN
+            } else {
+                // θ > π/60, and e^60 is far from where floats end; or θ > π/223.
+                let known = if small { e > 0.01 && d > 0.011 * e } else { d > 0.0008 * e + square / 128.0 };
+                if known {
+                    SLOW
+                } else if Sweep::suits(self) {
+                    0
+                } else {
+                    PLAIN
+                }
+            }
+        } else if t <= -LARGE && first.abs() > CLEAR * beta {
+            // −a_1 = αT + β does not cancel. There are two impacts at most.
+            1 + u64::from(first > 0.0)
+        } else {
+            0
+        };
+        let (c, turn) = (2.0 * e - d, [e - d, e * d]);
+        let steps = Steps {
+            speed: [alpha, first],
+            growth: [c * alpha + t * beta, turn[0] * (t * alpha) + c * beta],
+            turn,
+            gap: h0 * alpha,
+            time: 0.0,
+            clear: 2.0 * CLEAR,
+            last,
+            ends: matches!(last, 1 | 2),
+        };
         Train { bar: *self, start: *start, number: 0, steps, later: None, at: BUFFER }
     }
 
@@ -494,6 +562,12 @@ impl Bar {
         let [struck, free] = [-(1.0 + self.e) * approach, self.t * approach];
         Impact { number, end, time, approach, delta_v: if end == End::A { [struck, free] } else { [free, struck] } }
     }
+}
+
+/// The lesser of two numbers, neither of them NaN: one instruction, where `f64::min` takes five.
+#[inline]
+fn least(x: f64, y: f64) -> f64 {
+    if x < y { x } else { y }
 }
 
 #[cfg(test)]
