@@ -108,7 +108,7 @@ fn by_drops(file: &ProductFile, tolerance: f64) -> (u32, u32, [f64; 3]) {
     let (mut cheaper, mut all, mut times) = (0, 0, [0.0; 3]);
     for (setup, quantity) in setups(file) {
         all += 1;
-        let plan = |setup: &Setup| setup.forecast(quantity).plan(tolerance).refined(setup);
+        let plan = |setup: &Setup| setup.plan(quantity, tolerance).refined(setup);
         if plan(&setup).pair != highest {
             cheaper += 1;
             let until_s = if highest == Pair::HIGHEST { f64::INFINITY } else { setup.forecast(quantity).until_s };

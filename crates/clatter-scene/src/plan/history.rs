@@ -3,7 +3,7 @@
 use clatter::flight::{CompliantFlight, Scene, Stop};
 use clatter_shock::{Suspension, VelocityShock};
 
-use super::pulse::Pulse;
+use super::pulse::{Pulse, straight};
 
 /// (time in s, acceleration in m/s²); two points at one time are a jump.
 pub(crate) type Polygon = Vec<(f64, f64)>;
@@ -33,13 +33,7 @@ const SMALL: f64 = 1e-5;
 /// path, so that its effect on a component is off by the fourth power of its length.
 pub(crate) fn of_contacts(scene: &Scene, flight: &CompliantFlight, until_s: f64, contact_s: f64, cells: f64) -> Pushes {
     let g = scene.gravity_m_s2();
-    let piece = |from: f64, to: f64, start: (f64, f64), end: (f64, f64)| {
-        let h = to - from;
-        let change = (end.1 - start.1) / h + g;
-        // ∫∫ a over the piece, twice over h².
-        let path = 2.0 * ((end.0 - start.0) / h - start.1) / h + g;
-        [3.0 * path - 2.0 * change, 4.0 * change - 3.0 * path]
-    };
+    let piece = |from: f64, to: f64, start, end| straight(to - from, start, end).map(|a| a + g);
     let motion = |t: f64| {
         let sample = flight.sample(t);
         [0, 1].map(|i| (sample.height_m[i], sample.velocity_m_s[i]))
@@ -126,18 +120,29 @@ fn nodes(rate: f64, age: f64, long: f64, contact_s: f64, cells: f64) -> Vec<f64>
     nodes
 }
 
-/// Velocity shocks as pulses of lone contacts, added up where they overlap.
+/// Pieces of a lone pulse that are as close as 96 of contacts that act on each other. Where those are closer by the square of their number,
+/// these are by its third power.
+const ALONE: f64 = 30.0;
+
+/// Velocity shocks as pulses of lone contacts, added up where they overlap; as close as contacts would be in so many `cells`.
 pub(crate) fn of_shocks(shocks: &[VelocityShock], e: f64, contact_s: f64, cells: usize) -> Polygon {
     let pulse = Pulse::new(e);
+    #[expect(
+        clippy::cast_precision_loss,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a few hundred"
+    )]
+    let cells = (ALONE * libm::pow(cells as f64 / 96.0, 2.0 / 3.0)).ceil() as usize;
     // Each next one for shocks of a 64th.
-    let shapes = [cells, cells / 8 + 4, 8].map(|cells| pulse.polygon(cells));
-    let triangle = [(0.0, 0.0), (0.5, 2.0), (1.0, 0.0)];
+    let shapes = [cells, cells.min(cells / 8 + 4), cells.min(8)].map(|cells| pulse.pieces(cells));
+    let triangle = vec![[(0.0, 0.0), (0.5, 2.0)], [(0.5, 2.0), (1.0, 0.0)]];
     let largest = shocks.iter().fold(0.0_f64, |m, s| m.max(s.delta_v.abs()));
     // (time, jump, change of slope)
     let mut corners: Vec<(f64, f64, f64)> = Vec::new();
     for shock in shocks {
         let share = shock.delta_v.abs() / largest;
-        let polygon: &[(f64, f64)] = match share {
+        let pieces = match share {
             s if s > 0.015 => &shapes[0],
             s if s > 2e-4 => &shapes[1],
             s if s > SMALL => &shapes[2],
@@ -147,19 +152,13 @@ pub(crate) fn of_shocks(shocks: &[VelocityShock], e: f64, contact_s: f64, cells:
             continue;
         }
         let height = shock.delta_v / contact_s;
-        let mut slope = 0.0;
-        for (k, &(t, a)) in polygon.iter().enumerate() {
-            let next = polygon.get(k + 1).map_or(0.0, |&(u, b)| (b - a) / (u - t));
-            let jump = if k == 0 {
-                a
-            } else if k + 1 == polygon.len() {
-                -a
-            } else {
-                0.0
-            };
-            corners.push((shock.time + contact_s * t, height * jump, height / contact_s * (next - slope)));
-            slope = next;
+        let (mut value, mut slope) = (0.0, 0.0);
+        for &[(t, a), (u, b)] in pieces {
+            let next = (b - a) / (u - t);
+            corners.push((shock.time + contact_s * t, height * (a - value), height / contact_s * (next - slope)));
+            (value, slope) = (b, next);
         }
+        corners.push((shock.time + contact_s, -height * value, -height / contact_s * slope));
     }
     corners.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (mut a, mut slope, mut time) = (0.0, 0.0, corners.first().map_or(0.0, |c| c.0));
