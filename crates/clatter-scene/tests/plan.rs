@@ -106,6 +106,21 @@ fn contacts_are_followed_until_nothing_higher_comes() {
             [0.089_997_689, 0.025_864_439, 0.937_817_89, 4.206_042_15, 7.249_865],
             [8.635_154_2e-4, 0.024_916_288, 86848.236, 0.668_557_84],
         ),
+        (
+            "contacts that overlap are no impulse as they begin, and ring on with what rang before",
+            [0.107_335_955, 0.037_323_263, 0.060_094_468, 1.190_725_83, 3.291_325_05],
+            [2.020_465_81e-4, -0.233_070_02, 2677.1261, 0.001_752_153],
+        ),
+        (
+            "what rang before takes from a shock",
+            [0.359_280_525, 0.076_936_503, 0.911_128_892, 2.341_633_467, 0.577_432_01],
+            [4.314_880_81e-4, -0.521_142_36, 2824.3871, 0.055_760_375],
+        ),
+        (
+            "a part that is neither soft nor stiff rings less than after impulses",
+            [0.244_546_963, 0.049_858_8, 0.845_847_798, 3.432_622_979, 18.707_240_65],
+            [1.002_746_11e-3, -0.050_575_38, 5137.3586, 0.022_478_831],
+        ),
     ] {
         let setup = drop_of(drop, part);
         for quantity in QUANTITIES {

@@ -34,10 +34,6 @@ const SMALL: f64 = 1e-5;
 pub(crate) fn of_contacts(scene: &Scene, flight: &CompliantFlight, until_s: f64, contact_s: f64, cells: f64) -> Pushes {
     let g = scene.gravity_m_s2();
     let piece = |from: f64, to: f64, start, end| straight(to - from, start, end).map(|a| a + g);
-    let motion = |t: f64| {
-        let sample = flight.sample(t);
-        [0, 1].map(|i| (sample.height_m[i], sample.velocity_m_s[i]))
-    };
     let largest = flight.flight.strikes.iter().flat_map(|s| s.delta_v_m_s).fold(0.0_f64, |m, v| m.max(v.abs()));
     let rate = 2.0 * Pulse::new(scene.e()).rate() / contact_s;
     let mut cuts: Vec<_> = flight.phases_s().collect();
@@ -50,7 +46,7 @@ pub(crate) fn of_contacts(scene: &Scene, flight: &CompliantFlight, until_s: f64,
     }
     let mut points = vec![(0.0, [0.0; 2])];
     let (mut pressing, mut changed) = ([false; 2], 0.0);
-    for cut in cuts.windows(2) {
+    for (phase, cut) in cuts.windows(2).enumerate() {
         let ((from, on), (to, _)) = (cut[0], cut[1]);
         let long = to - from;
         if on != pressing {
@@ -63,12 +59,16 @@ pub(crate) fn of_contacts(scene: &Scene, flight: &CompliantFlight, until_s: f64,
         if long < 1e-6 * contact_s {
             continue;
         }
+        if on == [false; 2] {
+            points.extend([(from, [0.0; 2]), (to, [0.0; 2])]);
+            continue;
+        }
         // A contact that lasts does most of what it does at first.
         let first = long.min(contact_s);
         let force = [0.02, 0.5]
             .iter()
             .fold(0.0_f64, |m, x| flight.sample(from + x * first).force_per_mass_m_s2.iter().fold(m, |m, f| m.max(*f)));
-        if on == [false; 2] || force == 0.0 {
+        if force == 0.0 {
             points.extend([(from, [0.0; 2]), (to, [0.0; 2])]);
             continue;
         }
@@ -77,6 +77,7 @@ pub(crate) fn of_contacts(scene: &Scene, flight: &CompliantFlight, until_s: f64,
         let nodes = nodes(rate, from - changed, long, contact_s, cells);
         // Just before its end, not in what follows.
         let last = to - 1e-9 * long.min(contact_s);
+        let motion = |t| flight.motion_in(phase, t);
         let mut now = (from, motion(from));
         for t in &nodes[1..] {
             let time = (from + t).min(last);

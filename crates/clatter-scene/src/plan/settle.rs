@@ -80,20 +80,20 @@ impl Setup {
                 peak = peak.max(shock.net.abs() / ((shock.parted_s - shock.from_s) / contact_s).max(1.0).ceil());
             } else {
                 let long = shock.parted_s - shock.from_s;
-                if long > LONG * contact_s {
-                    loose += swing.factor * shock.gross;
-                } else {
+                let (certain, doubt) = if omega * long < PULSE && long <= LONG * contact_s {
                     motion.w -= shock.net;
+                    (motion, loose)
+                } else {
+                    // No impulse: what rang before may be with it or against it. What comes later is taken as if no contacts overlapped.
+                    let rang = swing.bound(motion) + loose;
+                    loose += swing.factor * shock.gross * shock.ringing(&pulse, omega * contact_s);
+                    (Motion { x: 0.0, w: shock.crest(&pulse, contact_s) }, rang)
+                };
+                if swing.bound(certain) > peak + doubt {
+                    peak = peak.max(swing.peak(certain, phase(shock)).value - doubt);
                 }
-                // A part that turns far in a contact keeps little of the ones before; what comes later is taken as if none overlapped.
-                let impulse = omega * long < PULSE;
-                let mut certain = if impulse { motion } else { Motion { x: 0.0, w: shock.crest(&pulse, contact_s) } };
-                if swing.bound(certain) > peak + loose {
-                    peak = peak.max(swing.peak(certain, phase(shock)).value - loose);
-                }
-                certain = swing.after(turn, certain);
+                peak = peak.max(swing.quantity(swing.after(turn, certain)).abs() - doubt);
                 motion = swing.after(turn, motion);
-                peak = peak.max(swing.quantity(certain).abs() - loose);
                 loose *= fade;
                 rings = swing.bound(motion) + loose;
             }
@@ -186,5 +186,10 @@ impl LoneShock {
         }
         let mean = self.net.abs() * (contact_s / (self.parted_s - self.from_s)) / pulse.crest();
         if pulse.begins_hardest() { mean.max(self.first.abs()) } else { mean }
+    }
+    /// What it leaves a component that turns by such a phase in one contact, over what an impulse would: at most the variation of the pulse
+    /// over that phase.
+    fn ringing(&self, pulse: &Pulse, turned: f64) -> f64 {
+        if self.strikes == 1 { (2.0 * pulse.crest() / turned).min(1.0) } else { 1.0 }
     }
 }

@@ -279,6 +279,28 @@ impl Phase {
         let modes = self.modes_at(t);
         [0, 1].map(|i| self.end(i, t, &modes))
     }
+    /// Height and velocity of both ends at time t.
+    fn motion(&self, t: f64) -> [(f64, f64); 2] {
+        if self.on == [false; 2] {
+            return [0, 1].map(|i| self.start.end(i, t));
+        }
+        let first = self.modes[0].at(t);
+        if self.both() {
+            let [one, two] = [(&self.modes[0], first), (&self.modes[1], self.modes[1].at(t))];
+            return self
+                .weights
+                .map(|[c, d]| (c * (one.0.rest + one.1.0) + d * (two.0.rest + two.1.0), c * one.1.1 + d * two.1.1));
+        }
+        let (i, g) = (usize::from(self.on[1]), self.fall);
+        let (j, (h, v)) = (1 - i, (self.modes[0].rest + first.0, first.1));
+        let (h0, v0, share, half) = (self.start.ends.h, self.start.ends.v, self.cross / self.mu[i], 0.5 * t * t);
+        let mut motion = [(h, v); 2];
+        motion[j] = (
+            h0[j] + v0[j] * t - half * g[j] + share * (h - h0[i] - v0[i] * t + half * g[i]),
+            v0[j] - g[j] * t + share * (v - v0[i] + g[i] * t),
+        );
+        motion
+    }
     fn force(&self, i: usize, [h, v, _]: [f64; 3]) -> f64 {
         if self.on[i] { (-self.kappa[i] * (h + self.delay * v)).max(0.0) } else { 0.0 }
     }
@@ -491,6 +513,13 @@ impl CompliantFlight {
     /// into phases where its lever arms are renewed.
     pub fn phases_s(&self) -> impl Iterator<Item = (f64, [bool; 2])> + '_ {
         self.phases.iter().map(|(from, phase)| (*from, phase.on))
+    }
+    /// Height and velocity of both ends at a time since the first touch, as the phase of this number in [`phases_s`](Self::phases_s) has them;
+    /// the last one where there are fewer.
+    #[must_use]
+    pub fn motion_in(&self, phase: usize, time_s: f64) -> [(f64, f64); 2] {
+        let (from, phase) = &self.phases[phase.min(self.phases.len() - 1)];
+        phase.motion((time_s - from).max(0.0))
     }
     /// Heights, velocities, accelerations and forces at a time since the first touch.
     #[must_use]

@@ -9,8 +9,7 @@
 
 /// The largest step that is proven to stay above zero; infinite where nothing pulls down.
 pub(super) fn safe_step(f: f64, slope: f64, bound: f64) -> f64 {
-    // Lengths, speeds and times are let in from 1e−31 to 1e30: no square leaves the floats.
-    let root = (slope * slope + 2.0 * bound * f).sqrt();
+    let root = slope.hypot((2.0 * bound * f).sqrt());
     if slope > 0.0 { (slope + root) / bound } else { 2.0 * f / (root - slope) }
 }
 
