@@ -121,6 +121,11 @@ fn contacts_are_followed_until_nothing_higher_comes() {
             [0.244_546_963, 0.049_858_8, 0.845_847_798, 3.432_622_979, 18.707_240_65],
             [1.002_746_11e-3, -0.050_575_38, 5137.3586, 0.022_478_831],
         ),
+        (
+            "pulses that begin at once leave a stiff part ringing",
+            [0.130_125_508, 0.083_574_002, 0.085_820_129, 7.018_211_724, 2.317_575_71],
+            [5.498_231_51e-4, -0.349_781_34, 63798.4342, 0.001_224_843],
+        ),
     ] {
         let setup = drop_of(drop, part);
         for quantity in QUANTITIES {

@@ -84,9 +84,10 @@ impl Setup {
                     motion.w -= shock.net;
                     (motion, loose)
                 } else {
-                    // No impulse: what rang before may be with it or against it. What comes later is taken as if no contacts overlapped.
+                    // No impulse: what rang before may be with it or against it. Pulses flatten all of it about alike; what comes
+                    // later is taken as if no contacts overlapped.
                     let rang = swing.bound(motion) + loose;
-                    loose += swing.factor * shock.gross * shock.ringing(&pulse, omega * contact_s);
+                    loose += swing.factor * shock.gross;
                     (Motion { x: 0.0, w: shock.crest(&pulse, contact_s) }, rang)
                 };
                 if swing.bound(certain) > peak + doubt {
@@ -186,10 +187,5 @@ impl LoneShock {
         }
         let mean = self.net.abs() * (contact_s / (self.parted_s - self.from_s)) / pulse.crest();
         if pulse.begins_hardest() { mean.max(self.first.abs()) } else { mean }
-    }
-    /// What it leaves a component that turns by such a phase in one contact, over what an impulse would: at most the variation of the pulse
-    /// over that phase.
-    fn ringing(&self, pulse: &Pulse, turned: f64) -> f64 {
-        if self.strikes == 1 { (2.0 * pulse.crest() / turned).min(1.0) } else { 1.0 }
     }
 }
