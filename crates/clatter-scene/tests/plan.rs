@@ -363,8 +363,32 @@ fn a_plan_costs_less_where_less_is_asked() {
     let costs = [0.3, 0.1, 0.03, 0.01, 1e-3, 1e-5].map(|tolerance| forecast.plan(tolerance).cost_ns);
     assert!(costs.windows(2).all(|w| w[0] <= w[1]), "{costs:?}");
     assert!(costs[0] < costs[5], "{costs:?}");
+    let pieces = [0.1, 0.01, 1e-3].map(|tolerance| forecast.plan(tolerance).pieces);
+    assert!(pieces[0] < pieces[1] && pieces[1] < pieces[2], "{pieces:?}");
     assert_eq!(forecast.plan(1e-9).pair, Pair::HIGHEST);
     assert!(forecast.plan(1e-9).estimate.is_bound);
+}
+
+/// A plan does not name contacts where their model refuses the scene: light ends, thick bodies, long contacts, ends that spin fast.
+#[test]
+fn contacts_are_planned_where_they_can_be_followed() {
+    let mut random = Random(11);
+    let mut log = |lo: f64, hi: f64| lo * (hi / lo).powf(random.unit());
+    let mut counts = [0; 2];
+    for k in 0..2000 {
+        let body = Body::new(0.1, log(2e-3, 0.1)).expect("as the test has it");
+        let body = if k % 5 == 0 { body.with_thickness(0.01).expect("as the test has it") } else { body };
+        let scene = Scene::new(body, log(5e-3, 1.0), log(0.1, 7.0), log(0.01, 40.0), 9.81).expect("as the test has it");
+        let spin = if k % 3 == 0 { log(0.1, 300.0) } else { 0.0 };
+        let scene = scene.with_spin(spin).and_then(|scene| scene.with_impact_limit(1)).expect("as the test has it");
+        let (part, contact) = (Suspension::from_hz(100.0, DampingRatio::new(0.1).expect("in range")), log(1e-5, 1e-1));
+        let setup = Setup::new(scene, Some(contact), 0.3, part.expect("in range")).expect("as the test has it");
+        let follows = scene.simulate_compliant(contact).is_ok();
+        let planned = setup.forecast(Quantity::RattleSpace).pair(Pair::HIGHEST).error == 0.0;
+        assert_eq!(planned, follows, "{setup:?}");
+        counts[usize::from(follows)] += 1;
+    }
+    assert!(counts.iter().all(|&n| n > 200), "{counts:?}");
 }
 
 #[test]

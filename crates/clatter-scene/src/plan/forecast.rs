@@ -73,6 +73,7 @@ fn takes(scene: &Scene, time: f64) -> bool {
     let length = body.length_m();
     let fastest = body.arms_m().iter().fold(v0, |m, arm| m.max(v0 + arm * scene.spin_rad_s().abs()));
     scene.e() >= 0.01
+        && body.thickness_m() == 0.0
         && body.gyration_m() >= 0.05 * length
         && time * fastest <= 0.1 * length
         && time * time * scene.gravity_m_s2() <= 0.01 * length
@@ -179,7 +180,7 @@ impl Setup {
             groups: Groups {
                 gravity: self.scene.gravity_m_s2() * gap / (v0 * v0),
                 geometry: self.scene.tilt_rad().powi(2),
-                overlap: time / walk.shortest_gap_s,
+                overlap: if time > 0.0 { time / walk.shortest_gap_s } else { 0.0 },
                 pulse: omega * time,
                 train: omega * walk.last_s,
                 damping: zeta * omega * walk.shortest_gap_s,

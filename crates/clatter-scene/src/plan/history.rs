@@ -203,6 +203,10 @@ pub(crate) fn largest_change(polygon: &[(f64, f64)], within_s: f64) -> f64 {
             _ => begins.next(),
         };
         let Some(to) = to else { return largest };
+        // A jump of the acceleration is two corners at one time.
+        if to <= from {
+            continue;
+        }
         let (middle, after) = (change(0.5 * (from + to)), change(to));
         // before + slope x + bend x², x from 0 to 1
         let (slope, bend) = (4.0 * middle - 3.0 * before - after, 2.0 * (before + after - 2.0 * middle));
