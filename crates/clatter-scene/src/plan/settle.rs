@@ -3,15 +3,15 @@
 use clatter::End;
 use clatter::flight::{CompliantFlight, Stop};
 
-use super::bounds::{later_response, later_shock, pile, weight};
+use super::bounds::{largest_pile, later_response, later_shock, pile, weight};
 use super::lane::Ends;
 use super::pulse::Pulse;
 use super::swing::{Motion, Swing};
 use super::{Quantity, Setup};
 use crate::Error;
 
-/// Looked at anew after every strike, and from twice as many on after every so manieth share of them.
-const OFTEN: usize = 6;
+/// Looked at anew after every strike; after many, once a sixth of them has come again.
+const AGAIN: usize = 6;
 
 /// What can come must stay below this share of the peak: pulses flatten both, not alike.
 const CLEAR: f64 = 0.75;
@@ -32,7 +32,7 @@ impl Setup {
             if n < look {
                 return false;
             }
-            look = n + 1 + n / OFTEN;
+            look = n + 1 + n / AGAIN;
             settled_s = self.settled_s(flight, quantity, contact_s);
             settled_s < f64::INFINITY
         })?;
@@ -59,7 +59,10 @@ impl Setup {
             if velocity_shock {
                 later_shock(speed, g, contact_s)
             } else {
-                pile(&ends, zeta, speed, g / omega) * later_response(&swing, speed, g, omega)
+                // Where the two ends push to and fro, the weight does not limit what piles up.
+                let [a, b] = [ends.at((1.0, -ends.flat[0])), ends.at((-ends.flat[1], 1.0))];
+                let times = if a * b < 0.0 { largest_pile(&ends) } else { pile(&ends, zeta, speed, g / omega) };
+                times * later_response(&swing, speed, g, omega)
             }
         } else {
             return f64::INFINITY;
