@@ -48,8 +48,8 @@ impl Setup {
     /// The closed form has no train: with it, the trains are those of the map.
     ///
     /// # Accuracy
-    /// That of the models; pulses are polygons, whose peak and effect are within 2e-4 or so, and of light ends whose contacts act on
-    /// each other within 1.3e-3: the most in 10⁴ random scenes.
+    /// That of the models; pulses are polygons, whose peak and effect are within 1e-4 in 999 of 1000 random scenes, and of light ends whose
+    /// contacts act on each other within 1.3e-3.
     ///
     /// # Errors
     /// [`Error::Bar`] where the compliant model refuses the scene; [`Error::Contact`] for a rung that needs the contact time where
@@ -154,7 +154,7 @@ impl Setup {
         let strikes = flight.flight.strikes.len();
         if shocks {
             let value = history::largest_change(&polygon, contact_s).abs();
-            return Ok(Answer { value, strikes, pieces: polygon.len().saturating_sub(1) });
+            return Ok(Answer { value, strikes, pieces: pieces(&polygon) });
         }
         self.of_polygon(&polygon, quantity, strikes)
     }
@@ -213,7 +213,7 @@ impl Setup {
     fn of_polygon(&self, polygon: &[(f64, f64)], quantity: Quantity, strikes: usize) -> Result<Answer, Error> {
         let pulses = Pulses::piecewise_linear(polygon)?;
         let value = self.scaled(pulses.peak_above(&self.suspension, peaked(quantity), 0.0), quantity);
-        Ok(Answer { value, strikes, pieces: polygon.len().saturating_sub(1) })
+        Ok(Answer { value, strikes, pieces: pieces(polygon) })
     }
 
     /// A peak, from velocity to what is asked.
@@ -248,6 +248,11 @@ impl Setup {
         };
         nearby(&bar, &start, first).map(shock).fold(0.0, f64::max)
     }
+}
+
+/// Pieces of a polygon, jumps left out.
+fn pieces(polygon: &[(f64, f64)]) -> usize {
+    polygon.windows(2).filter(|pair| pair[0].0 < pair[1].0).count()
 }
 
 /// Pieces of a pulse that take [`OF_PIECES`] of a tolerance.

@@ -398,6 +398,23 @@ impl Phase {
         };
         if first.is_nan() || first >= cap { None } else { first_zero(first, cap, press, step) }
     }
+    /// The next end to touch or to part, when, and whether it touches from above.
+    fn event(&self, contact: Contact, fresh: [bool; 2]) -> Option<(usize, f64, bool)> {
+        let free = self.on == [false; 2];
+        let mut event: Option<(usize, f64, bool)> = None;
+        for (i, fresh) in fresh.into_iter().enumerate() {
+            let cap = event.map_or(f64::INFINITY, |(_, t, _)| t);
+            let t = if free {
+                self.start.touching(i, contact.delay(), cap, fresh)
+            } else if self.on[i] {
+                self.parting(i, cap, fresh).map(|t| (t, false))
+            } else {
+                self.touching(i, cap, fresh)
+            };
+            event = t.map(|(t, above)| (i, t, above)).or(event);
+        }
+        event
+    }
     /// Whether the one end in contact, at fixed lever arms, never parts any more after the time t.
     fn presses_for_good(&self, t: f64) -> bool {
         let [mode, _] = self.modes;
@@ -548,8 +565,6 @@ pub(super) fn simulate(
     let mut log = Log::new(scene);
     let mut time = Clock::default();
     let mut pose = Pose::start(scene);
-    let [a, b] = scene.body().arms_m();
-    let arm = a.min(b);
     let mut on = [true, false];
     // Ends whose last event is now: their force is zero by rounding only.
     let mut fresh = [true, false];
@@ -567,33 +582,12 @@ pub(super) fn simulate(
     pulses.push(Pulse { strike: 1, from_s: 0.0, until_s: f64::INFINITY });
     loop {
         let free = on == [false; 2];
-        // A long phase with one end down is cut, and the lever arms renewed.
-        // A strike itself is never cut: its energy is exact while its lever arm is kept.
         let pivots = long && on != [true; 2];
-        let (spin, fastest) = (pose.spin.abs(), scene.gravity_m_s2() / arm);
-        let longest = if free {
-            f64::INFINITY
-        } else if pivots {
-            // spin t + ½ fastest t² = PIVOT
-            2.0 * PIVOT / (spin + (spin * spin + 2.0 * PIVOT * fastest).sqrt())
-        } else {
-            (TURN / (spin + fastest.sqrt())).max(2.0 * contact.time)
-        };
+        let longest = if free { f64::INFINITY } else { pose.longest(contact, pivots) };
         let halfway = if pivots { pose.halfway(usize::from(on[1]), 0.5 * longest) } else { pose };
         let phase = Phase::new(pose, &halfway, on, contact, kappa, long);
         phases.push((time.now(), phase));
-        let mut event: Option<(usize, f64, bool)> = None;
-        for i in 0..2 {
-            let cap = event.map_or(f64::INFINITY, |(_, t, _)| t);
-            let t = if free {
-                pose.touching(i, contact.delay(), cap, fresh[i])
-            } else if on[i] {
-                phase.parting(i, cap, fresh[i]).map(|t| (t, false))
-            } else {
-                phase.touching(i, cap, fresh[i])
-            };
-            event = t.map(|(t, above)| (i, t, above)).or(event);
-        }
+        let event = phase.event(contact, fresh);
         if event.is_none() && phase.both() {
             // Neither end will ever part: proven by the energy of the vibration.
             let time_bound_s = phase.ringing_s();
@@ -644,9 +638,9 @@ pub(super) fn simulate(
             if again && kappa[i] > 0.0 {
                 pulses[strike_of[i]].until_s = f64::INFINITY;
             } else {
+                // The flight so far, lent.
                 let flight = std::mem::replace(&mut log.flight, Flight::NONE);
-                let energy_error = misfit / opened;
-                let mut so_far = CompliantFlight { flight, pulses, energy_error, phases };
+                let mut so_far = CompliantFlight { flight, pulses, energy_error: misfit / opened, phases };
                 so_far.flight.stop =
                     Stop::ImpactLimit { time_s: so_far.flight.strikes.last().map_or(0.0, |s| s.time_s) };
                 let over = enough(&so_far);
@@ -684,6 +678,18 @@ impl Pose {
         let (sin, cos) = (self.sin * c + self.cos * s, self.cos * c - self.sin * s);
         let norm = sin.hypot(cos);
         Self { sin: sin / norm, cos: cos / norm, ..*self }
+    }
+    /// Longest phase with ends in contact: a strike itself is never cut, as its energy is exact while its lever arm is kept; what lasts is,
+    /// and the lever arms renewed.
+    fn longest(&self, contact: Contact, pivots: bool) -> f64 {
+        let [a, b] = self.body.arms_m();
+        let (spin, fastest) = (self.spin.abs(), self.gravity / a.min(b));
+        if pivots {
+            // spin t + ½ fastest t² = PIVOT
+            2.0 * PIVOT / (spin + (spin * spin + 2.0 * PIVOT * fastest).sqrt())
+        } else {
+            (TURN / (spin + fastest.sqrt())).max(2.0 * contact.time)
+        }
     }
     /// The pose after a time in which end i lies still and the body turns about it, about.
     fn halfway(&self, i: usize, t: f64) -> Self {
