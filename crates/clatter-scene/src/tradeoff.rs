@@ -221,7 +221,7 @@ impl Tradeoff {
         let reference = Reference::measure(setup, quantity)?;
         let compliant = reference.bar == BarRung::Compliant;
         let forecast = setup.forecast(quantity);
-        let plan = |tolerance| setup.forecast(quantity).plan(tolerance).refined(setup);
+        let plan = |tolerance| setup.plan(quantity, tolerance).refined(setup);
         let mut choices = Vec::new();
         for tolerance in TOLERANCES {
             let (plan, plan_seconds) = time::measured(|| Ok(plan(tolerance)))?;
