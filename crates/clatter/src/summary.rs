@@ -91,7 +91,7 @@ struct Short {
 
 /// The lesser of two numbers, neither of them NaN: one instruction, where `f64::min` takes five.
 #[inline]
-fn least(x: f64, y: f64) -> f64 {
+pub(crate) fn least(x: f64, y: f64) -> f64 {
     if x < y { x } else { y }
 }
 

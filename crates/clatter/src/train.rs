@@ -1,6 +1,7 @@
 //! The train, impact by impact.
 
 use crate::motion::{Digits, Drive, Kind, Lanes, NORMAL, Sweep, Then, after_first};
+use crate::summary::least;
 use crate::{Bar, Count, End, Start};
 
 /// One impact of the train.
@@ -562,12 +563,6 @@ impl Bar {
         let [struck, free] = [-(1.0 + self.e) * approach, self.t * approach];
         Impact { number, end, time, approach, delta_v: if end == End::A { [struck, free] } else { [free, struck] } }
     }
-}
-
-/// The lesser of two numbers, neither of them NaN: one instruction, where `f64::min` takes five.
-#[inline]
-fn least(x: f64, y: f64) -> f64 {
-    if x < y { x } else { y }
 }
 
 #[cfg(test)]

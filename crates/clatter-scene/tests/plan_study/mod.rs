@@ -13,9 +13,9 @@ use clatter_shock::{DampingRatio, Suspension};
 pub(crate) const QUANTITIES: [Quantity; 3] =
     [Quantity::PeakAcceleration, Quantity::RattleSpace, Quantity::VelocityShock];
 pub(crate) const TOLERANCES: [f64; 3] = [0.1, 0.01, 0.001];
-/// Pieces of a pulse in what is held to be true, four times as many as in the models: 16 times as close.
+/// Pieces of a pulse in what is held to be true: four times as many as the closest plans have.
 const TRUE_CELLS: usize = 384;
-/// Pieces of a pulse in the models.
+/// Pieces of a pulse where the highest pair is always used.
 const CELLS: usize = 96;
 
 /// A seeded sequence (SplitMix64).

@@ -281,25 +281,7 @@ impl Phase {
     }
     /// Height and velocity of both ends at time t.
     fn motion(&self, t: f64) -> [(f64, f64); 2] {
-        if self.on == [false; 2] {
-            return [0, 1].map(|i| self.start.end(i, t));
-        }
-        let first = self.modes[0].at(t);
-        if self.both() {
-            let [one, two] = [(&self.modes[0], first), (&self.modes[1], self.modes[1].at(t))];
-            return self
-                .weights
-                .map(|[c, d]| (c * (one.0.rest + one.1.0) + d * (two.0.rest + two.1.0), c * one.1.1 + d * two.1.1));
-        }
-        let (i, g) = (usize::from(self.on[1]), self.fall);
-        let (j, (h, v)) = (1 - i, (self.modes[0].rest + first.0, first.1));
-        let (h0, v0, share, half) = (self.start.ends.h, self.start.ends.v, self.cross / self.mu[i], 0.5 * t * t);
-        let mut motion = [(h, v); 2];
-        motion[j] = (
-            h0[j] + v0[j] * t - half * g[j] + share * (h - h0[i] - v0[i] * t + half * g[i]),
-            v0[j] - g[j] * t + share * (v - v0[i] + g[i] * t),
-        );
-        motion
+        if self.on == [false; 2] { [0, 1].map(|i| self.start.end(i, t)) } else { self.ends(t).map(|[h, v, _]| (h, v)) }
     }
     fn force(&self, i: usize, [h, v, _]: [f64; 3]) -> f64 {
         if self.on[i] { (-self.kappa[i] * (h + self.delay * v)).max(0.0) } else { 0.0 }
