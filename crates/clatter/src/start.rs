@@ -32,12 +32,18 @@ impl End {
 pub struct Start {
     velocity: [f64; 2],
     height_gap: f64,
+    /// Whether a train may begin by plain steps, known before any bar is.
+    pub(crate) plain: bool,
 }
+
+/// With |v_a| and h0 not smaller than this or larger than its reciprocal, and T and e not small, no term of a plain step comes
+/// near the subnormal floats, nor near those that overflow.
+const MODERATE: f64 = 1e-20;
 
 impl Default for Start {
     /// Pure translation at unit speed, unit height gap: velocities in v0, times in h0/v0.
     fn default() -> Self {
-        Self { velocity: [-1.0, -1.0], height_gap: 1.0 }
+        Self::of([-1.0, -1.0], 1.0)
     }
 }
 
@@ -59,13 +65,19 @@ impl Start {
         if height_gap != 0.0 && !(1e-150..=1e150).contains(&height_gap) {
             return Err(Error::Quantity { name: "height gap", value: height_gap, allowed: "0 or in [1e-150, 1e150]" });
         }
-        Ok(Self { velocity: [va, vb + 0.0], height_gap: height_gap + 0.0 })
+        Ok(Self::of([va, vb + 0.0], height_gap + 0.0))
+    }
+    #[inline]
+    fn of(velocity: [f64; 2], height_gap: f64) -> Self {
+        let moderate = |x: f64| (MODERATE..=1.0 / MODERATE).contains(&x);
+        let plain = velocity[1] <= 0.0 && moderate(-velocity[0]) && (height_gap == 0.0 || moderate(height_gap));
+        Self { velocity, height_gap, plain }
     }
     /// With end b's velocity and the height gap times κ, 10⁻⁶ to 10⁶: how an off-center bar arrives in the terms of its
     /// symmetric one. The bounds leave room for that.
     pub(crate) fn with_b_times(self, kappa: f64) -> Self {
         let [va, vb] = self.velocity;
-        Self { velocity: [va, kappa * vb], height_gap: kappa * self.height_gap }
+        Self::of([va, kappa * vb], kappa * self.height_gap)
     }
     /// Velocities of ends `a` and `b`, upward positive.
     #[must_use]

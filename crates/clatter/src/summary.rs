@@ -112,8 +112,8 @@ impl Bar {
     /// velocity is so small (2⁻¹⁰²² and below) that floats have no digits left for it.
     ///
     /// # Cost
-    /// Measured beside the plain loop (bench `speed`): 1.2 times its time where it ends, on average over the unit square,
-    /// 1.4 times for up to 4 impacts; for a longer train the time of some 130 impacts of that loop, or of 200 to 250 where
+    /// Measured beside the plain loop (bench `speed`): 0.9 to 1.3 times its time where it ends, on average over the unit square,
+    /// and for up to 4 impacts; for a longer train the time of some 130 impacts of that loop, or of 200 to 250 where
     /// double-double is needed (N beyond 10⁷, or next to the endless curve). Microseconds to a millisecond where integers
     /// decide (a start next to a tie), and tens of milliseconds for a count beyond 2⁹⁰.
     #[must_use]

@@ -55,23 +55,23 @@ pub struct Train {
 /// The recurrence as it stands before the next impact.
 ///
 /// Each end has one of its own, so that the strikes of one need not wait for those of the other. With
-/// g_n = |a_{n+2}| − e |a_n| and D = 4e − T²,
+/// g_n = a_{n+2} − e a_n and D = 4e − T²,
 /// ```text
-/// |a_{n+2}| = e |a_n| + g_n,  g_{n+2} = (e − D) g_n − eD |a_n|.
+/// a_{n+2} = e a_n + g_n,  g_{n+2} = (e − D) g_n − eD a_n.
 /// ```
 #[derive(Debug, Clone, Copy)]
 struct Steps {
-    /// |a_n| of the next strike of each end.
-    speed: [f64; 2],
+    /// a_n of the next strike of each end.
+    approach: [f64; 2],
     /// g_n of these.
     growth: [f64; 2],
     /// e − D and eD.
     turn: [f64; 2],
-    /// (t_{n+1} − t_n) |a_n a_{n+1}| = h0 |a_1| e^{n−1}, the Casoratian of velocities and heights.
+    /// (t_n − t_{n+1}) a_n a_{n+1} = h0 a_1 e^{n−1}, the Casoratian of velocities and heights.
     gap: f64,
     /// Of the next impact.
     time: f64,
-    /// How far |a_{n+2}| may cancel.
+    /// How far a_{n+2} may cancel.
     clear: f64,
     /// No plain step leads beyond this impact.
     last: u64,
@@ -82,7 +82,7 @@ struct Steps {
 impl Steps {
     /// No plain steps are left. Said after every call, so that what they consist of need not be kept through it.
     const OVER: Self = Self {
-        speed: [0.0; 2],
+        approach: [0.0; 2],
         growth: [0.0; 2],
         turn: [0.0; 2],
         gap: 0.0,
@@ -148,10 +148,8 @@ const SLOW: u64 = 256;
 ///
 /// That is 2700 at most, where [`Bar::train`] lets plain steps go on: an error of 2700 · 326 · 2⁻⁵³ ≤ 1e−10.
 const CLEAR: f64 = 1.0 / 2048.0;
-/// With T and e of at least this size, and |a_1| and h0 not smaller than the other or larger than its reciprocal, no term of a
-/// plain step comes near the subnormal floats, nor near those that overflow.
+/// Plain steps need T and e of at least this size, so that no term of theirs comes near the subnormal floats.
 const LARGE: f64 = 1e-8;
-const MODERATE: f64 = 1e-20;
 
 impl Iterator for Train {
     type Item = Impact;
@@ -244,24 +242,24 @@ impl Train {
         if self.number >= steps.last {
             return None;
         }
-        let (e, speed, time) = (self.bar.e, steps.speed[I], steps.time);
-        let held = e * speed;
+        let (e, approach, time) = (self.bar.e, steps.approach[I], steps.time);
+        let held = e * approach;
         let (then, doubt) = (held + steps.growth[I], steps.clear * held);
         self.number += 1;
-        if then <= doubt && self.number < steps.last {
+        let impact = self.bar.impact(self.number, [End::A, End::B][I], approach, time);
+        steps.time -= steps.gap / (approach * steps.approach[1 - I]);
+        if then >= doubt && self.number < steps.last {
             // The next impact is the last one; where the terms of a_{n+2} nearly cancel, more digits from that impact on.
             // It is left as it is now: what is not worked out needs no place.
-            steps.ends = then < -doubt;
+            steps.ends = then > -doubt;
             steps.last = self.number + u64::from(steps.ends);
-            steps.time += steps.gap / (speed * steps.speed[1 - I]);
-            return Some(self.bar.impact(self.number, [End::A, End::B][I], -speed, time));
+            return Some(impact);
         }
-        steps.time += steps.gap / (speed * steps.speed[1 - I]);
-        steps.speed[I] = then;
-        steps.growth[I] = steps.turn[0] * steps.growth[I] - steps.turn[1] * speed;
+        steps.approach[I] = then;
+        steps.growth[I] = steps.turn[0] * steps.growth[I] - steps.turn[1] * approach;
         steps.gap *= e;
         steps.clear += CLEAR;
-        Some(self.bar.impact(self.number, [End::A, End::B][I], -speed, time))
+        Some(impact)
     }
 }
 
@@ -515,20 +513,18 @@ impl Bar {
     #[expect(clippy::inline_always, reason = "a bar that is made on the spot then needs no place in memory")]
     pub fn train(&self, start: &Start) -> Train {
         let ([va, vb], h0, Self { e, t, less, more, .. }) = (start.velocity(), start.height_gap(), *self);
-        let moderate = |x: f64| (MODERATE..=1.0 / MODERATE).contains(&x);
-        let (alpha, beta) = (-va, -vb);
-        let first = t * alpha + beta;
+        let second = t * va + vb;
         // D = 4e − T² by the smaller terms.
-        let (square, small) = ((1.0 - e) * (1.0 - e), e <= 0.5);
-        let d = if small { 4.0 * e - t * t } else { less * more * ((1.0 + e) * (1.0 + e)) - square };
-        let last = if !(beta >= 0.0 && moderate(alpha) && (h0 == 0.0 || moderate(h0))) {
+        let (small, square) = (e <= 0.5, |x: f64| x * x);
+        let d = if small { 4.0 * e - t * t } else { less * more * square(1.0 + e) - square(1.0 - e) };
+        let last = if !start.plain {
             0
         } else if least(t, e) >= LARGE {
             if d >= 0.0399 * e {
                 PLAIN
             } else {
                 // θ > π/60, and e^60 is far from where floats end; or θ > π/223.
-                let known = if small { e > 0.01 && d > 0.011 * e } else { d > 0.0008 * e + square / 128.0 };
+                let known = if small { e > 0.01 && d > 0.011 * e } else { d > 0.0008 * e + square(1.0 - e) / 128.0 };
                 if known {
                     SLOW
                 } else if Sweep::suits(self) {
@@ -537,18 +533,19 @@ impl Bar {
                     PLAIN
                 }
             }
-        } else if t <= -LARGE && first.abs() > CLEAR * beta {
-            // −a_1 = αT + β does not cancel. There are two impacts at most.
-            1 + u64::from(first > 0.0)
+        } else if t <= -LARGE && second.abs() > -CLEAR * vb {
+            // a_2 = T v_a + v_b does not cancel. There are two impacts at most.
+            1 + u64::from(second < 0.0)
         } else {
             0
         };
-        let (c, turn) = (2.0 * e - d, [e - d, e * d]);
+        let turn = [e - d, e * d];
+        let c = e + turn[0];
         let steps = Steps {
-            speed: [alpha, first],
-            growth: [c * alpha + t * beta, turn[0] * (t * alpha) + c * beta],
+            approach: [va, second],
+            growth: [c * va + t * vb, turn[0] * (t * va) + c * vb],
             turn,
-            gap: h0 * alpha,
+            gap: h0 * va,
             time: 0.0,
             clear: 2.0 * CLEAR,
             last,
@@ -560,7 +557,7 @@ impl Bar {
     /// The impact as a whole.
     #[inline]
     fn impact(&self, number: u64, end: End, approach: f64, time: f64) -> Impact {
-        let [struck, free] = [-(1.0 + self.e) * approach, self.t * approach];
+        let [struck, free] = [(-1.0 - self.e) * approach, self.t * approach];
         Impact { number, end, time, approach, delta_v: if end == End::A { [struck, free] } else { [free, struck] } }
     }
 }
