@@ -114,8 +114,9 @@ impl Bar {
     /// # Cost
     /// Measured beside the plain loop (bench `speed`): 0.9 to 1.3 times its time where it ends, on average over the unit square,
     /// and for up to 4 impacts; for a longer train the time of some 130 impacts of that loop, or of 200 to 250 where
-    /// double-double is needed (N beyond 10⁷, or next to the endless curve). Microseconds to a millisecond where integers
-    /// decide (a start next to a tie), and tens of milliseconds for a count beyond 2⁹⁰.
+    /// double-double is needed (N beyond 10⁷, or next to the endless curve). Where integers decide, microseconds to a
+    /// millisecond for a start next to a tie, and one to a hundred milliseconds to tell which impact is the largest of more than
+    /// 10¹⁴ (gyration ratios below 10⁻¹⁴).
     #[must_use]
     #[expect(clippy::inline_always, reason = "a bar that is made on the spot then needs no place in memory")]
     #[inline(always)]
