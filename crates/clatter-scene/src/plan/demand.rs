@@ -8,10 +8,10 @@ use super::history;
 use super::{BarRung, ComponentRung, Pair, Quantity, Setup};
 use crate::Error;
 
-/// Pieces of the polygon of one pulse, and within what share its peak and its effect then are in 999 of 1000 random scenes; twice as many
-/// are four times as close.
+/// Pieces of the polygon of one pulse, and within what share its peak and its effect then are in 99 of 100 random scenes (in 999 of 1000
+/// within 1e-4); twice as many are four times as close.
 const CELLS: usize = 96;
-const WITHIN: f64 = 1e-4;
+const WITHIN: f64 = 2e-5;
 /// The share of a tolerance that the pieces of pulses take, about.
 pub(crate) const OF_PIECES: f64 = 0.1;
 /// Pieces of a pulse at most: 1e-6.

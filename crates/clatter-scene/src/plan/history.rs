@@ -105,7 +105,7 @@ pub(crate) fn at_place(pushes: &Pushes, suspension: &Suspension, at: impl Fn([f6
 }
 
 /// Times from 0 over one phase, `age` after contacts changed: `cells` or so over a contact time, denser just after a change, and ever
-/// fewer over a contact that lasts.
+/// fewer over a contact that lasts, which only carries the body in the end.
 fn nodes(rate: f64, age: f64, long: f64, contact_s: f64, cells: f64) -> Vec<f64> {
     let longest = contact_s / cells;
     let first = if age > 0.0 { longest + 0.05 * age } else { (3.0 / (cells * rate)).min(longest) };
@@ -114,7 +114,7 @@ fn nodes(rate: f64, age: f64, long: f64, contact_s: f64, cells: f64) -> Vec<f64>
     while t + 1.5 * step < long {
         t += step;
         nodes.push(t);
-        let most = if age + t < 4.0 * contact_s { longest } else { 10.0 * contact_s };
+        let most = if age + t < 4.0 * contact_s { longest } else { f64::INFINITY };
         step = (step * (1.0 + 4.0 / cells)).min(most);
     }
     nodes.push(long);
