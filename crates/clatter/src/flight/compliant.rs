@@ -25,7 +25,8 @@
 //! `w = √κ h` obeys `w″ = −√κ g − S (w + θ w′)` with a symmetric S, whose two modes are damped in proportion to their
 //! stiffness. So every phase is a sum of known functions, evaluated and not stepped.
 //! Touching, parting and coming back into contact are first zeros found by [`roots`](super::roots): the energy
-//! `z′² + k z²` of a mode never grows and bounds every derivative from any moment on.
+//! `z′² + k z²` of a mode never grows and bounds every derivative from any moment on. A lone contact parts between a zero and a crest of its
+//! mode, which are known.
 //!
 //! After parting the end is still below zero by what the dashpot held back. It touches again when it comes back to zero
 //! from above, or, if it never gets there, when the force law pushes again; that belongs to the same strike.
@@ -52,7 +53,7 @@ use std::cell::Cell;
 
 use super::ballistic::Clock;
 use super::finite_tilt::{Pose, end_of, sigma};
-use super::roots::{first_zero, safe_step};
+use super::roots::{STEPS, first_zero, safe_step};
 use super::{Flight, Log, SHARE, Scene, Stop, Strike};
 use crate::{End, Error};
 
@@ -139,6 +140,9 @@ impl Mode {
     }
     /// z and z′ at time t.
     fn at(&self, t: f64) -> (f64, f64) {
+        if t == 0.0 {
+            return (self.z, self.dz);
+        }
         let nu = self.nu;
         let (c, sn) = if self.s * self.s < self.k {
             let decay = (-self.s * t).exp();
@@ -148,8 +152,10 @@ impl Mode {
             // The slow exponent by the product of both, without cancellation.
             let decay = (-self.k / (self.s + nu) * t).exp();
             let x = 2.0 * nu * t;
-            let sn = if x > 0.0 { -(-x).exp_m1() / x } else { 1.0 };
-            (0.5 * decay * (1.0 + (-x).exp()), decay * t * sn)
+            // e^(−x) − 1, which cancels for small x alone.
+            let less = if x < 1.0 { (-x).exp_m1() } else { (-x).exp() - 1.0 };
+            let sn = if x > 0.0 { -less / x } else { 1.0 };
+            (decay * (1.0 + 0.5 * less), decay * t * sn)
         };
         (self.z * c + (self.dz + self.s * self.z) * sn, self.dz * c - (self.k * self.z + self.s * self.dz) * sn)
     }
@@ -165,11 +171,45 @@ impl Mode {
         let length = |x: f64, y: f64| (x * x + y * y).sqrt();
         (length(now.0, now.1 / self.root), length(a, jerk / self.root))
     }
+    /// When the force of a lone contact, `−(y + θ y′)` over its stiffness, has fallen to zero, if before `cap`: for a rest that presses.
+    ///
+    /// `w = z + θ z′` moves as z does, and its zeros and crests are known. From a zero on the way up it is concave as far as the
+    /// crest, the first being the highest: Newton's steps from there never pass the moment it reaches −rest, nor miss it.
+    fn lets_go(&self, delay: f64, cap: f64) -> Option<f64> {
+        let Self { s, k, nu, rest, .. } = *self;
+        let whole = |(z, dz): (f64, f64)| (z + delay * dz, dz + delay * self.second((z, dz)));
+        let (w, dw) = whole((self.z, self.dz));
+        let (zero, crest) = if s * s < k {
+            let (zero, lag) = (-w.atan2((dw + s * w) / nu) / nu, nu.atan2(s) / nu);
+            let zero = if zero + lag > 0.0 { zero } else { zero + std::f64::consts::TAU / nu };
+            (zero, zero + lag)
+        } else {
+            // Once up and down at most: what falls above zero, or is too slow to reach it, never comes up to it.
+            let time = |x: f64| if nu > 0.0 { (nu * x).atanh() / nu } else { x };
+            let zero = if w < 0.0 { time(-w / (dw + s * w)) } else { 0.0 };
+            if !(zero >= 0.0 && dw > 0.0) {
+                return None;
+            }
+            (zero, time(dw / (k * w + s * dw)))
+        };
+        let (from, cap) = ((zero - NEAR * zero).max(0.0), cap.min(crest));
+        if from >= cap {
+            return None;
+        }
+        let force = |t: f64| {
+            let (w, dw) = whole(self.at(t));
+            (-(rest + w), -dw)
+        };
+        first_zero(from, cap, force, |_, f, slope| -f / slope)
+    }
     /// Slowest rate of decay.
     fn decay(&self) -> f64 {
         if self.s * self.s > self.k { self.k / (self.s + self.nu) } else { self.s }
     }
 }
+
+/// Share of its time by which a zero in closed form may be late.
+const NEAR: f64 = 2e-7;
 
 /// Share of a radian, and of the time √(L/g), after which the lever arms of a strike that does not end are renewed.
 const TURN: f64 = 0.005;
@@ -250,6 +290,10 @@ impl Phase {
     /// Height, velocity, acceleration of end i at time t, from the modes then.
     fn end(&self, i: usize, t: f64, modes: &[(f64, f64); 2]) -> [f64; 3] {
         if self.on[i] {
+            if !self.both() {
+                let (mode, now) = (&self.modes[0], modes[0]);
+                return [mode.rest + now.0, now.1, mode.second(now)];
+            }
             let c = self.weights[i];
             let mut sum = [0.0; 3];
             for ((c, mode), &now) in c.iter().zip(&self.modes).zip(modes) {
@@ -353,47 +397,69 @@ impl Phase {
         let push = self.solve([0, 1].map(|i| ends[i][1] - v[i]));
         (0..2).map(|i| 0.5 * (ends[i][1] + v[i]) * push[i] + self.fall[i] * rise[i]).sum()
     }
-    /// When end i in contact parts. `fresh`: it has just begun to press.
-    fn parting(&self, i: usize, cap: f64, fresh: bool) -> Option<f64> {
-        let (c, delay) = (self.weights[i], self.delay);
-        let rest: f64 = c.iter().zip(&self.modes).map(|(c, m)| c * m.rest).sum();
-        let modes_at = self.kept_modes_at();
-        let press = |t: f64| {
-            let [h, v, a] = self.end(i, t, &modes_at(t));
-            (-(h + delay * v), -(v + delay * a))
-        };
-        let step = |t: f64, f: f64, slope: f64| {
-            let (mut swing, mut bound) = (0.0, 0.0);
-            for ((c, mode), now) in c.iter().zip(&self.modes).zip(modes_at(t)) {
-                let (z, a) = mode.bounds(now);
-                let whole = c.abs() * (1.0 + delay * mode.root);
-                swing += whole * z;
-                bound += whole * a;
+    /// The first of the ends in contact that parts, and when, if before `cap`. `fresh`: it has just begun to press.
+    ///
+    /// Of two, both are followed at once: what costs most are the modes, which they share.
+    fn parting(&self, cap: f64, fresh: [bool; 2]) -> Option<(usize, f64)> {
+        let delay = self.delay;
+        let rests = self.weights.map(|c| c[0] * self.modes[0].rest + c[1] * self.modes[1].rest);
+        if !self.both() {
+            let i = usize::from(self.on[1]);
+            if rests[i] <= 0.0 {
+                return self.modes[0].lets_go(delay, cap).map(|t| (i, t));
             }
-            if swing < -rest { f64::INFINITY } else { safe_step(f, slope, bound) }
-        };
-        let first = if fresh {
-            let (f, slope) = press(0.0);
-            step(0.0, f.max(0.0), slope)
-        } else {
-            0.0
-        };
-        if first.is_nan() || first >= cap { None } else { first_zero(first, cap, press, step) }
+        }
+        let whole = self.weights.map(|c| [0, 1].map(|k| c[k].abs() * (1.0 + delay * self.modes[k].root)));
+        let (mut t, mut begins) = (0.0, fresh);
+        let mut soonest = (f64::INFINITY, 0);
+        for _ in 0..STEPS {
+            let modes = self.modes_at(t);
+            let bounds = [0, 1].map(|k| self.modes[k].bounds(modes[k]));
+            soonest = (f64::INFINITY, 0);
+            for i in (0..2).filter(|&i| self.on[i]) {
+                let [h, v, a] = self.end(i, t, &modes);
+                let (force, slope) = (-(h + delay * v), -(v + delay * a));
+                if force <= 0.0 && !begins[i] {
+                    return Some((i, t));
+                }
+                let sum = |of: [f64; 2]| whole[i][0] * of[0] + whole[i][1] * of[1];
+                // Where the vibration is too weak to lift it, it presses for good.
+                let step = if sum(bounds.map(|(z, _)| z)) < -rests[i] {
+                    f64::INFINITY
+                } else {
+                    safe_step(force.max(0.0), slope, sum(bounds.map(|(_, a)| a)))
+                };
+                if step < soonest.0 {
+                    soonest = (step, i);
+                }
+            }
+            let next = t + soonest.0;
+            if next >= cap {
+                return None;
+            }
+            if next <= t {
+                break;
+            }
+            (t, begins) = (next, [false; 2]);
+        }
+        Some((soonest.1, t))
     }
     /// The next end to touch or to part, when, and whether it touches from above.
     fn event(&self, contact: Contact, fresh: [bool; 2]) -> Option<(usize, f64, bool)> {
-        let free = self.on == [false; 2];
+        if self.both() {
+            return self.parting(f64::INFINITY, fresh).map(|(i, t)| (i, t, false));
+        }
         let mut event: Option<(usize, f64, bool)> = None;
-        for (i, fresh) in fresh.into_iter().enumerate() {
+        for i in 0..2 {
             let cap = event.map_or(f64::INFINITY, |(_, t, _)| t);
-            let t = if free {
-                self.start.touching(i, contact.delay(), cap, fresh)
-            } else if self.on[i] {
-                self.parting(i, cap, fresh).map(|t| (t, false))
+            let next = if self.on[i] {
+                self.parting(cap, fresh).map(|(_, t)| (t, false))
+            } else if self.on == [false; 2] {
+                self.start.touching(i, contact.delay(), cap, fresh[i])
             } else {
-                self.touching(i, cap, fresh)
+                self.touching(i, cap, fresh[i])
             };
-            event = t.map(|(t, above)| (i, t, above)).or(event);
+            event = next.map(|(t, above)| (i, t, above)).or(event);
         }
         event
     }
@@ -412,7 +478,12 @@ impl Phase {
             let fall = self.fall[j].abs() + share * (self.fall[1 - j].abs() + a);
             (fall, fall + delay * share * a * self.modes[0].root)
         };
-        next_contact(delay, cap, fresh, |t| self.end(j, t, &modes_at(t)), bounds, |_| 0.0)
+        let end = |t| self.end(j, t, &modes_at(t));
+        let height = |t| {
+            let [h, v, _] = end(t);
+            (h, v)
+        };
+        next_contact(delay, cap, fresh, end, height, bounds, |_| 0.0)
     }
     /// Time in which the vibration dies down to `SHARE`.
     fn ringing_s(&self) -> f64 {
@@ -422,13 +493,14 @@ impl Phase {
 
 /// First time at which a free end comes into contact: at zero from above, or below zero when h + θ h′ falls to zero.
 ///
-/// `end` gives height, velocity and acceleration, `bounds` at least −h″ and −(h + θ h′)″ from a time on, `clear` a time
+/// `end` gives height, velocity and acceleration, `height` the first two alone, `bounds` at least −h″ and −(h + θ h′)″ from a time on, `clear` a time
 /// known to be free from a time on. Says whether it comes from above.
 fn next_contact(
     delay: f64,
     cap: f64,
     fresh: bool,
     end: impl Fn(f64) -> [f64; 3],
+    height: impl Fn(f64) -> (f64, f64),
     bounds: impl Fn(f64) -> (f64, f64),
     clear: impl Fn(f64) -> f64,
 ) -> Option<(f64, bool)> {
@@ -452,10 +524,6 @@ fn next_contact(
         }
         (t, first) = (next, false);
     }
-    let height = |t: f64| {
-        let [h, v, _] = end(t);
-        (h, v)
-    };
     let step = |t: f64, h: f64, v: f64| safe_step(h, v, bounds(t).0).max(clear(t));
     first_zero(t, cap, height, step).map(|t| (t, true))
 }
@@ -553,7 +621,7 @@ pub(super) fn simulate(
     let mut kappa = [pose.stiffness(0, contact), 0.0];
     // Whether the contact has outlasted a phase.
     let mut long = false;
-    let mut phases = Vec::new();
+    let mut phases = Vec::with_capacity(32);
     let mut pulses: Vec<Pulse> = Vec::new();
     let mut strike_of = [0_usize; 2];
     let most = PHASES + 16 * scene.impact_limit();
@@ -686,7 +754,7 @@ impl Pose {
         let w = self.spin.abs();
         let fall = self.gravity + arm * w * w;
         let bounds = (fall, fall + delay * arm * w * w * w);
-        next_contact(delay, cap, fresh, |t| self.free(i, t), |_| bounds, |t| self.clear(i, t))
+        next_contact(delay, cap, fresh, |t| self.free(i, t), |t| self.end(i, t), |_| bounds, |t| self.clear(i, t))
     }
     /// The pose after a flight of time t.
     fn flown(&self, t: f64) -> Self {
@@ -702,3 +770,6 @@ impl Pose {
         contact.frequency.powi(2) / (1.0 + (x / self.body.gyration_m()).powi(2))
     }
 }
+
+#[cfg(test)]
+mod tests;
