@@ -9,6 +9,7 @@ use clatter_shock::{Extreme, Peaked, Pulses, Response, Suspension, VelocityShock
 use crate::plan::demand::fineness;
 use crate::plan::history::{self, Polygon, Pushes};
 use crate::plan::pulse::Pulse;
+use crate::plan::settle::Looks;
 use crate::plan::{Quantity, Setup};
 use crate::{BarModel, Error, Product};
 
@@ -253,7 +254,7 @@ impl Base {
     /// After which time nothing raises what is asked, if contacts were followed far enough for that; infinite where all of them count.
     pub(crate) fn settled_s(&self, setup: &Setup, quantity: Quantity) -> Option<f64> {
         let Some(Contacts { flight, contact_time_s, .. }) = &self.contacts else { return Some(f64::INFINITY) };
-        let settled_s = setup.settled_s(flight, quantity, *contact_time_s);
+        let settled_s = setup.settled_s(flight, quantity, *contact_time_s, &mut Looks::default());
         let cut_short = matches!(flight.flight.stop, Stop::ImpactLimit { .. });
         (settled_s < f64::INFINITY || !cut_short).then_some(settled_s)
     }

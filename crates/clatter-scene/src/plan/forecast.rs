@@ -258,12 +258,12 @@ impl Forecast {
             BarRung::Map => 300.0 + 60.0 * n.min(20.0),
             BarRung::Ballistic => 300.0 + 50.0 * n,
             BarRung::FiniteTilt => 500.0 + 300.0 * n,
-            BarRung::Compliant => 3e3 + 5e3 * contacts,
+            BarRung::Compliant => 3e3 + 3e3 * contacts,
         };
         let component = match pair.component {
             ComponentRung::NetChange | ComponentRung::LargestShock => 150.0,
             ComponentRung::ImpulseTrain => 200.0 + 120.0 * if pair.bar == BarRung::Map { n.min(20.0) } else { n },
-            ComponentRung::PulseTrain if pair.bar == BarRung::Compliant => 2e3 + (3e3 + 12e3 * fine) * contacts,
+            ComponentRung::PulseTrain if pair.bar == BarRung::Compliant => 1.5e3 + (1.5e3 + 9e3 * fine) * contacts,
             // Pulses of small shocks have few corners.
             ComponentRung::PulseTrain => {
                 1e3 + (1e3 + 8e3 * fine) * n.min(if pair.bar == BarRung::Map { 8.0 } else { 40.0 })

@@ -63,7 +63,7 @@ pub(crate) mod history;
 mod lane;
 mod names;
 pub(crate) mod pulse;
-mod settle;
+pub(crate) mod settle;
 mod swing;
 pub(crate) mod trail;
 mod walk;

@@ -6,7 +6,7 @@ use clatter::flight::{CompliantFlight, Stop};
 use super::bounds::{largest_pile, later_response, later_shock, pile, weight};
 use super::lane::Ends;
 use super::pulse::Pulse;
-use super::swing::{Motion, Swing};
+use super::swing::{Motion, Swing, Turn};
 use super::{Quantity, Setup};
 use crate::Error;
 
@@ -26,30 +26,36 @@ impl Setup {
     ///
     /// [`Forecast::until_s`]: super::Forecast::until_s
     pub(super) fn settled_flight(&self, quantity: Quantity, contact_s: f64) -> Result<(CompliantFlight, f64), Error> {
-        let (mut settled_s, mut look) = (f64::INFINITY, 1);
+        let (mut settled_s, mut look, mut looks) = (f64::INFINITY, 1, Looks::default());
         let flight = self.scene.simulate_compliant_until(contact_s, |flight| {
             let n = flight.flight.strikes.len();
             if n < look {
                 return false;
             }
             look = n + 1 + n / AGAIN;
-            settled_s = self.settled_s(flight, quantity, contact_s);
+            settled_s = self.settled_s(flight, quantity, contact_s, &mut looks);
             settled_s < f64::INFINITY
         })?;
         if settled_s == f64::INFINITY {
-            settled_s = self.settled_s(&flight, quantity, contact_s);
+            settled_s = self.settled_s(&flight, quantity, contact_s, &mut looks);
         }
         Ok((flight, settled_s))
     }
 
-    /// When nothing later in this flight raises the quantity; infinite where that is not known.
-    pub(crate) fn settled_s(&self, flight: &CompliantFlight, quantity: Quantity, contact_s: f64) -> f64 {
+    /// When nothing later in this flight raises the quantity; infinite where that is not known. `looks` are those before, at its beginning.
+    pub(crate) fn settled_s(
+        &self,
+        flight: &CompliantFlight,
+        quantity: Quantity,
+        contact_s: f64,
+        looks: &mut Looks,
+    ) -> f64 {
         let (omega, g) = (self.suspension.omega(), self.scene.gravity_m_s2());
         let ends = Ends::new(&self.scene, self.position);
         let zeta = self.suspension.damping().get();
         let swing = Swing::new(zeta, quantity == Quantity::PeakAcceleration);
         let velocity_shock = quantity == Quantity::VelocityShock;
-        let (shocks, whole) = self.lone_shocks(flight, &ends);
+        let (shocks, whole) = self.lone_shocks(flight);
         let pulse = Pulse::new(ends.e);
         // What may come after the last of them.
         let beyond = if whole {
@@ -71,13 +77,14 @@ impl Setup {
         // What long contacts did, however it turned since.
         let mut loose = 0.0_f64;
         let phase = |shock: &LoneShock| omega * (shock.next_s - shock.from_s);
-        // Of a contact that lasts, the end may be what shocks: what is loose fades from its parting on.
-        let turns: Vec<_> = shocks
-            .iter()
-            .filter(|shock| shock.next_s < f64::INFINITY)
-            .map(|shock| (swing.turn(phase(shock)), swing.fade(omega * (shock.next_s - shock.parted_s))))
-            .collect();
-        for (k, (shock, (turn, fade))) in shocks.iter().zip(&turns).enumerate() {
+        for (k, shock) in shocks.iter().enumerate().filter(|(_, shock)| shock.next_s < f64::INFINITY) {
+            looks.turn(k, shock, |shock| {
+                // Of a contact that lasts, the end may be what shocks: what is loose fades from its parting on.
+                (swing.turn(phase(shock)), swing.fade(omega * (shock.next_s - shock.parted_s)))
+            });
+        }
+        let Looks { turns, hopeless } = looks;
+        for (k, (shock, (_, (turn, fade)))) in shocks.iter().zip(&*turns).enumerate() {
             let mut rings = 0.0;
             if velocity_shock {
                 peak = peak.max(shock.net.abs() / ((shock.parted_s - shock.from_s) / contact_s).max(1.0).ceil());
@@ -91,7 +98,10 @@ impl Setup {
                     // later is taken as if no contacts overlapped.
                     let rang = swing.bound(motion) + loose;
                     loose += swing.factor * shock.gross;
-                    (Motion { x: 0.0, w: shock.crest(&pulse, contact_s) }, rang)
+                    (
+                        Motion { x: 0.0, w: shock.crest(&pulse, contact_s, || self.jump(flight, &ends, shock.first)) },
+                        rang,
+                    )
                 };
                 if swing.bound(certain) > peak + doubt {
                     peak = peak.max(swing.peak(certain, phase(shock)).value - doubt);
@@ -101,6 +111,9 @@ impl Setup {
                 loose *= fade;
                 rings = swing.bound(motion) + loose;
             }
+            if k < *hopeless {
+                continue;
+            }
             // All later shocks that are known, as if in phase, then all others.
             let mut later = rings;
             let low = shocks[k + 1..].iter().enumerate().all(|(i, next)| {
@@ -109,9 +122,12 @@ impl Setup {
                 }
                 later += swing.factor * next.gross;
                 let low = later < CLEAR * peak;
-                later *= turns.get(k + 1 + i).map_or(1.0, |(_, fade)| *fade);
+                later *= turns.get(k + 1 + i).map_or(1.0, |(_, (_, fade))| *fade);
                 low
             });
+            if !low && k == *hopeless {
+                *hopeless = k + 1;
+            }
             if low && (if velocity_shock { beyond } else { later + beyond }) < CLEAR * peak {
                 return 0.5 * (shock.parted_s + shock.next_s);
             }
@@ -130,19 +146,25 @@ impl Setup {
             + 2.0 * self.scene.gravity_m_s2() * height.max(0.0)
     }
 
+    /// What the contact of this strike, from 0, does to the component's place if it is alone.
+    fn jump(&self, flight: &CompliantFlight, ends: &Ends, strike: usize) -> f64 {
+        let strike = &flight.flight.strikes[strike];
+        let (end, sin) = (usize::from(strike.end == End::B), libm::sin(strike.tilt_rad));
+        let mut jumps = [-ends.ratio(end, (1.0 - sin) * (1.0 + sin)); 2];
+        jumps[end] = 1.0;
+        -(1.0 + ends.e) * strike.approach_m_s * ends.at(jumps.into())
+    }
+
     /// What contacts that do not overlap others do to the component's place, and whether nothing comes after them. Of a flight
     /// cut short, the last is left out.
-    fn lone_shocks(&self, flight: &CompliantFlight, ends: &Ends) -> (Vec<LoneShock>, bool) {
+    fn lone_shocks(&self, flight: &CompliantFlight) -> (Vec<LoneShock>, bool) {
         let strikes = &flight.flight.strikes;
         let mut shocks: Vec<LoneShock> = Vec::with_capacity(strikes.len());
         let mut shock = LoneShock::default();
         for (k, (strike, pulse)) in strikes.iter().zip(&flight.pulses).enumerate() {
             let delta_v = strike.delta_v_at(self.position);
             if shock.strikes == 0 {
-                let (end, sin) = (usize::from(strike.end == End::B), libm::sin(strike.tilt_rad));
-                let mut jumps = [-ends.ratio(end, (1.0 - sin) * (1.0 + sin)); 2];
-                jumps[end] = 1.0;
-                shock.first = -(1.0 + ends.e) * strike.approach_m_s * ends.at(jumps.into());
+                shock.first = k;
             }
             shock.strikes += 1;
             shock.net += delta_v;
@@ -164,6 +186,27 @@ impl Setup {
     }
 }
 
+/// What looks at the beginning of a flight have found.
+#[derive(Debug, Default)]
+pub(crate) struct Looks {
+    /// For each lone shock but the last, when it begins, has parted and the next one begins, what the component's motion turns by meanwhile, and
+    /// what is left of the loose.
+    turns: Vec<([f64; 3], (Turn, f64))>,
+    /// So many of them are followed by known shocks that are too large: no later look finds that they settle.
+    hopeless: usize,
+}
+
+impl Looks {
+    /// Keeps what a shock turns by, unless it is known.
+    fn turn(&mut self, k: usize, shock: &LoneShock, turn: impl Fn(&LoneShock) -> (Turn, f64)) {
+        let times = [shock.from_s, shock.parted_s, shock.next_s];
+        if self.turns.get(k).is_none_or(|(known, _)| *known != times) {
+            self.turns.truncate(k);
+            self.turns.push((times, turn(shock)));
+        }
+    }
+}
+
 /// One contact, or several that overlap.
 #[derive(Debug, Clone, Copy, Default)]
 struct LoneShock {
@@ -177,18 +220,18 @@ struct LoneShock {
     /// Sum of the jumps at the component's place, and of their magnitudes.
     net: f64,
     gross: f64,
-    /// That of the first contact, if it were alone.
-    first: f64,
+    /// The number, from 0, of the first of them.
+    first: usize,
 }
 
 impl LoneShock {
     /// The shock of a lone contact that pushes no harder than this one at its hardest: of several, no less than they do on the mean, nor, where the
     /// dashpot pushes at once, than the first one does before the next begins.
-    fn crest(&self, pulse: &Pulse, contact_s: f64) -> f64 {
+    fn crest(&self, pulse: &Pulse, contact_s: f64, first: impl Fn() -> f64) -> f64 {
         if self.strikes == 1 {
             return self.net.abs();
         }
         let mean = self.net.abs() * (contact_s / (self.parted_s - self.from_s)) / pulse.crest();
-        if pulse.begins_hardest() { mean.max(self.first.abs()) } else { mean }
+        if pulse.begins_hardest() { mean.max(first().abs()) } else { mean }
     }
 }
