@@ -8,17 +8,19 @@ use super::history;
 use super::{BarRung, ComponentRung, Pair, Quantity, Setup};
 use crate::Error;
 
-/// Pieces of the polygon of one pulse, and within what share its peak and its effect then are in 99 of 100 random scenes (in 999 of 1000
-/// within 1e-4); twice as many are four times as close.
-const CELLS: usize = 96;
-const WITHIN: f64 = 2e-5;
+/// Pieces of the polygon of one pulse, and within what share its peak and its effect then are in 999 of 1000 random scenes; with more of
+/// them, that falls with this power of their number.
+const CELLS: usize = 34;
+const WITHIN: f64 = 1e-4;
+const POWER: f64 = 2.5;
 /// The share of a tolerance that the pieces of pulses take, about.
 pub(crate) const OF_PIECES: f64 = 0.1;
-/// Pieces of a pulse at most: 1e-6.
-const MOST_CELLS: f64 = 960.0;
+/// Pieces of a pulse at most: 1e-6; and at least, of the softest part.
+const MOST_CELLS: f64 = 200.0;
+const LEAST: f64 = 3.0;
 
 /// Beyond this phase in one contact the pieces grow finer with it.
-const FINE: f64 = 4.0;
+const FINE: f64 = 6.0;
 
 /// Strikes of the map at most: a train as long has died down, or goes on like this.
 const MOST_OF_MAP: usize = 1000;
@@ -85,7 +87,7 @@ impl Setup {
     }
 
     /// As [`demand`](Self::demand), followed until `until_s` or rest whatever it takes, and pulses of `cells` pieces: twice as many are
-    /// four times as close.
+    /// five times as close.
     ///
     /// # Errors
     /// As [`demand`](Self::demand).
@@ -133,7 +135,7 @@ impl Setup {
         let pieces =
             cells as f64 * fineness(&self.suspension, contact_s) * crowding(&self.scene.body(), &self.suspension);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few hundred")]
-        let pieces = pieces.ceil() as usize;
+        let pieces = pieces.ceil().max(LEAST) as usize;
         pieces
     }
 
@@ -258,7 +260,7 @@ fn pieces(polygon: &[(f64, f64)]) -> usize {
 /// Pieces of a pulse that take [`OF_PIECES`] of a tolerance.
 pub(crate) fn pieces_for(tolerance: f64) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "a few")]
-    let cells = CELLS as f64 * (WITHIN / (OF_PIECES * tolerance)).sqrt();
+    let cells = CELLS as f64 * libm::pow(WITHIN / (OF_PIECES * tolerance), 1.0 / POWER);
     cells.clamp(1.0, MOST_CELLS)
 }
 
@@ -270,7 +272,7 @@ pub(crate) fn fineness(suspension: &Suspension, contact_s: f64) -> f64 {
     let least = (0.6 * zeta).clamp(0.125, 0.3);
     // By the fastest of its motions.
     let fast = turned * (zeta + (zeta * zeta - 1.0).max(0.0).sqrt()).max(1.0);
-    fineness.clamp(least, 1.0) * (fast / FINE).clamp(1.0, 8.0)
+    fineness.clamp(least, 1.0) * (fast / FINE).clamp(1.0, 4.0)
 }
 
 /// How many times as many pieces a part with a strong dashpot needs on a body with light ends: there the shocks of both nearly cancel in

@@ -252,7 +252,7 @@ impl Forecast {
     pub fn cost_ns(&self, pair: Pair, pieces: usize) -> f64 {
         let (n, contacts) = (self.strikes, self.contacts);
         #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
-        let fine = pieces as f64 / 96.0;
+        let fine = pieces as f64 / 34.0;
         let bar = match pair.bar {
             BarRung::ClosedForm => 200.0,
             BarRung::Map => 300.0 + 60.0 * n.min(20.0),
@@ -263,10 +263,10 @@ impl Forecast {
         let component = match pair.component {
             ComponentRung::NetChange | ComponentRung::LargestShock => 150.0,
             ComponentRung::ImpulseTrain => 200.0 + 120.0 * if pair.bar == BarRung::Map { n.min(20.0) } else { n },
-            ComponentRung::PulseTrain if pair.bar == BarRung::Compliant => 1.5e3 + (1.5e3 + 9e3 * fine) * contacts,
+            ComponentRung::PulseTrain if pair.bar == BarRung::Compliant => 1.5e3 + (1.5e3 + 3e3 * fine) * contacts,
             // Pulses of small shocks have few corners.
             ComponentRung::PulseTrain => {
-                1e3 + (1e3 + 8e3 * fine) * n.min(if pair.bar == BarRung::Map { 8.0 } else { 40.0 })
+                1e3 + (1e3 + 4.5e3 * fine) * n.min(if pair.bar == BarRung::Map { 8.0 } else { 40.0 })
             }
         };
         bar + component

@@ -29,7 +29,7 @@ const SMALL: f64 = 1e-5;
 /// What the contacts of a compliant flight do to both ends, from their velocities and heights, free fall taken off.
 ///
 /// Between changes of contact the motion is smooth; `cells` pieces are laid over a contact that does all, fewer (with the square
-/// root of its share) over one that does less, denser where it begins. Each piece has the exact change of velocity and the exact
+/// root of its share of the largest shock of an end) over one that does less, denser where it begins. Each piece has the exact change of velocity and the exact
 /// path, so that its effect on a component is off by the fourth power of its length.
 pub(crate) fn of_contacts(scene: &Scene, flight: &CompliantFlight, until_s: f64, contact_s: f64, cells: f64) -> Pushes {
     let g = scene.gravity_m_s2();
@@ -65,14 +65,15 @@ pub(crate) fn of_contacts(scene: &Scene, flight: &CompliantFlight, until_s: f64,
         }
         // A contact that lasts does most of what it does at first.
         let first = long.min(contact_s);
-        let force = [0.02, 0.5]
-            .iter()
-            .fold(0.0_f64, |m, x| flight.sample(from + x * first).force_per_mass_m_s2.iter().fold(m, |m, f| m.max(*f)));
-        if force == 0.0 {
+        let push = [0.02, 0.5].iter().fold(0.0_f64, |m, x| {
+            let sample = flight.sample(from + x * first);
+            sample.acceleration_m_s2.iter().fold(m, |m, a| m.max((a + g).abs()))
+        });
+        if push == 0.0 {
             points.extend([(from, [0.0; 2]), (to, [0.0; 2])]);
             continue;
         }
-        let share = (force * first / largest).min(1.0);
+        let share = (push * first / largest).min(1.0);
         let cells = (cells * share.sqrt()).max((0.5 * cells).clamp(1.0, 6.0));
         let nodes = nodes(rate, from - changed, long, contact_s, cells);
         // Just before its end, not in what follows.
@@ -121,20 +122,9 @@ fn nodes(rate: f64, age: f64, long: f64, contact_s: f64, cells: f64) -> Vec<f64>
     nodes
 }
 
-/// Pieces of a lone pulse that are as close as 96 of contacts that act on each other. Where those are closer by the square of their number,
-/// these are by its third power.
-const ALONE: f64 = 30.0;
-
-/// Velocity shocks as pulses of lone contacts, added up where they overlap; as close as contacts would be in so many `cells`.
+/// Velocity shocks as pulses of lone contacts in so many `cells`, added up where they overlap.
 pub(crate) fn of_shocks(shocks: &[VelocityShock], e: f64, contact_s: f64, cells: usize) -> Polygon {
     let pulse = Pulse::new(e);
-    #[expect(
-        clippy::cast_precision_loss,
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a few hundred"
-    )]
-    let cells = (ALONE * libm::pow(cells as f64 / 96.0, 2.0 / 3.0)).ceil() as usize;
     // Each next one for shocks of a 64th.
     let shapes = [cells, cells.min(cells / 8 + 4), cells.min(8)].map(|cells| pulse.pieces(cells));
     let triangle = vec![[(0.0, 0.0), (0.5, 2.0)], [(0.5, 2.0), (1.0, 0.0)]];

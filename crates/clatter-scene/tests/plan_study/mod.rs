@@ -13,10 +13,10 @@ use clatter_shock::{DampingRatio, Suspension};
 pub(crate) const QUANTITIES: [Quantity; 3] =
     [Quantity::PeakAcceleration, Quantity::RattleSpace, Quantity::VelocityShock];
 pub(crate) const TOLERANCES: [f64; 3] = [0.1, 0.01, 0.001];
-/// Pieces of a pulse in what is held to be true: four times as many as the closest plans have.
+/// Pieces of a pulse in what is held to be true: eleven times as many as the closest plans have.
 const TRUE_CELLS: usize = 384;
 /// Pieces of a pulse where the highest pair is always used.
-const CELLS: usize = 96;
+const CELLS: usize = 34;
 
 /// A seeded sequence (SplitMix64).
 pub(crate) struct Random(pub(crate) u64);
