@@ -1,7 +1,7 @@
 //! How far contacts are followed: until nothing that can come raises the quantity.
 
 use clatter::End;
-use clatter::flight::{CompliantFlight, Stop};
+use clatter::flight::{CompliantFlight, Stop, Strike};
 
 use super::bounds::{largest_pile, later_response, later_shock, pile, weight};
 use super::lane::Ends;
@@ -77,12 +77,10 @@ impl Setup {
         // What long contacts did, however it turned since.
         let mut loose = 0.0_f64;
         let phase = |shock: &LoneShock| omega * (shock.next_s - shock.from_s);
-        for (k, shock) in shocks.iter().enumerate().filter(|(_, shock)| shock.next_s < f64::INFINITY) {
-            looks.turn(k, shock, |shock| {
-                // Of a contact that lasts, the end may be what shocks: what is loose fades from its parting on.
-                (swing.turn(phase(shock)), swing.fade(omega * (shock.next_s - shock.parted_s)))
-            });
-        }
+        looks.turn(&shocks[..shocks.len() - usize::from(whole)], |shock| {
+            // Of a contact that lasts, the end may be what shocks: what is loose fades from its parting on.
+            (swing.turn(phase(shock)), swing.fade(omega * (shock.next_s - shock.parted_s)))
+        });
         let Looks { turns, hopeless } = looks;
         for (k, (shock, (_, (turn, fade)))) in shocks.iter().zip(&*turns).enumerate() {
             let mut rings = 0.0;
@@ -99,7 +97,10 @@ impl Setup {
                     let rang = swing.bound(motion) + loose;
                     loose += swing.factor * shock.gross;
                     (
-                        Motion { x: 0.0, w: shock.crest(&pulse, contact_s, || self.jump(flight, &ends, shock.first)) },
+                        Motion {
+                            x: 0.0,
+                            w: shock.crest(&pulse, contact_s, || alone(&flight.flight.strikes[shock.first], &ends)),
+                        },
                         rang,
                     )
                 };
@@ -146,15 +147,6 @@ impl Setup {
             + 2.0 * self.scene.gravity_m_s2() * height.max(0.0)
     }
 
-    /// What the contact of this strike, from 0, does to the component's place if it is alone.
-    fn jump(&self, flight: &CompliantFlight, ends: &Ends, strike: usize) -> f64 {
-        let strike = &flight.flight.strikes[strike];
-        let (end, sin) = (usize::from(strike.end == End::B), libm::sin(strike.tilt_rad));
-        let mut jumps = [-ends.ratio(end, (1.0 - sin) * (1.0 + sin)); 2];
-        jumps[end] = 1.0;
-        -(1.0 + ends.e) * strike.approach_m_s * ends.at(jumps.into())
-    }
-
     /// What contacts that do not overlap others do to the component's place, and whether nothing comes after them. Of a flight
     /// cut short, the last is left out.
     fn lone_shocks(&self, flight: &CompliantFlight) -> (Vec<LoneShock>, bool) {
@@ -189,22 +181,33 @@ impl Setup {
 /// What looks at the beginning of a flight have found.
 #[derive(Debug, Default)]
 pub(crate) struct Looks {
-    /// For each lone shock but the last, when it begins, has parted and the next one begins, what the component's motion turns by meanwhile, and
-    /// what is left of the loose.
-    turns: Vec<([f64; 3], (Turn, f64))>,
+    /// For each lone shock but the last, when it begins, has parted and the next one begins, to the bit; what the component's motion turns by
+    /// meanwhile, and what is left of the loose.
+    turns: Vec<([u64; 3], (Turn, f64))>,
     /// So many of them are followed by known shocks that are too large: no later look finds that they settle.
     hopeless: usize,
 }
 
 impl Looks {
-    /// Keeps what a shock turns by, unless it is known.
-    fn turn(&mut self, k: usize, shock: &LoneShock, turn: impl Fn(&LoneShock) -> (Turn, f64)) {
-        let times = [shock.from_s, shock.parted_s, shock.next_s];
-        if self.turns.get(k).is_none_or(|(known, _)| *known != times) {
-            self.turns.truncate(k);
-            self.turns.push((times, turn(shock)));
+    /// Works out what shocks turn by, unless it is known: two that were apart may be one by now.
+    fn turn(&mut self, shocks: &[LoneShock], turn: impl Fn(&LoneShock) -> (Turn, f64)) {
+        self.turns.truncate(shocks.len());
+        for (k, shock) in shocks.iter().enumerate() {
+            let times = [shock.from_s, shock.parted_s, shock.next_s].map(f64::to_bits);
+            if self.turns.get(k).is_none_or(|(known, _)| *known != times) {
+                self.turns.truncate(k);
+                self.turns.push((times, turn(shock)));
+            }
         }
     }
+}
+
+/// What the contact of a strike does to the component's place if no other overlaps it.
+fn alone(strike: &Strike, ends: &Ends) -> f64 {
+    let (end, sin) = (usize::from(strike.end == End::B), libm::sin(strike.tilt_rad));
+    let mut jumps = [-ends.ratio(end, (1.0 - sin) * (1.0 + sin)); 2];
+    jumps[end] = 1.0;
+    -(1.0 + ends.e) * strike.approach_m_s * ends.at(jumps.into())
 }
 
 /// One contact, or several that overlap.
