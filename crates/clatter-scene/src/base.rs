@@ -102,7 +102,7 @@ impl Cells {
 const MOST_HALVINGS: usize = 2;
 /// Phase of a part in one contact, damping included, from which on it follows the pieces one by one; and the least share of the pieces below.
 const STIFF: f64 = 4.0;
-const LEAST_FINE: f64 = 0.18;
+const LEAST_FINE: f64 = 0.26;
 
 /// Contact times beyond which a contact is a blow and then a load, and for how many of them it is a blow.
 const LONG: f64 = 4.0;
@@ -123,7 +123,7 @@ const WEAK: f64 = 2e-4;
 /// The same of contacts that take time, each of which costs a hundred times as much.
 const WEAK_CONTACT: f64 = 5e-3;
 /// Pieces of a pulse unless told: its peak and its effect are then within 1e-3 or so.
-const CELLS: Cells = Cells { most: 48.0, fineness: 0.0 };
+const CELLS: Cells = Cells { most: 16.0, fineness: 0.0 };
 /// Below this restitution the contact law has no fit; the difference in rebound is as small.
 const LEAST_COMPLIANT: f64 = 0.01;
 
