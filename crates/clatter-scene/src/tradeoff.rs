@@ -5,7 +5,7 @@
 //! drop, [`bars`] gives the four bars of the paper's Table 1 as scenes to compare with.
 //!
 //! # What the error is against
-//! The compliant bar with the exact response to its pulses, followed until rest, each pulse in four times as many pieces as
+//! The compliant bar with the exact response to its pulses, followed until rest, each pulse in ten times as many pieces as
 //! the models take. Where that cannot be had, because no contact time is known or the compliant model refuses the drop, it is the
 //! highest rung there is: finite tilt, with pulses if the contact time is known, else with impulses. [`Reference`] says which, and to
 //! what share of the quantity it knows its own value.
@@ -33,7 +33,7 @@ use crate::{Assessment, Component, ComponentAssessment, Error, LimitAssessment, 
 /// The tolerances that plans are asked for.
 pub const TOLERANCES: [f64; 3] = [0.1, 0.01, 0.001];
 
-/// Pieces of a pulse in the reference, four times as many as in the models: 16 times as close.
+/// Pieces of a pulse in the reference, more than ten times as many as in the models: 400 times as close.
 const FINE: usize = 384;
 /// Strikes followed at most: bodies that lose next to nothing never rest.
 const STRIKES: usize = 2000;
