@@ -209,7 +209,7 @@ impl Mode {
 }
 
 /// Share of its time by which a zero in closed form may be late.
-const NEAR: f64 = 2e-7;
+const NEAR: f64 = 9e-7;
 
 /// Share of a radian, and of the time √(L/g), after which the lever arms of a strike that does not end are renewed.
 const TURN: f64 = 0.005;
