@@ -158,11 +158,13 @@ impl ProductFile {
             Asked::Response(_, Peaked::AccelerationOverOmega | Peaked::PseudoVelocity) => "the response",
             Asked::Shock => "every shock",
         };
+        // What was reached lacks the strikes that are weak at the end, which a part without damping adds up.
+        let attained = worst.attained.max(reached.value);
         Ok(Some(Case {
             demand: worst.demand.max(reached.value),
-            attained: reached.value,
+            attained,
             guaranteed: true,
-            tolerance: (worst.demand / reached.value - 1.0).max(0.0),
+            tolerance: (worst.demand / attained - 1.0).max(0.0),
             drop: case(&drop, &reached),
             model: ModelChoice {
                 bar: BarModel::Map,

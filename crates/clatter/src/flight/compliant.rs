@@ -174,7 +174,8 @@ impl Mode {
     /// When the force of a lone contact, `−(y + θ y′)` over its stiffness, has fallen to zero, if before `cap`: for a rest that presses.
     ///
     /// `w = z + θ z′` moves as z does, and its zeros and crests are known. From a zero on the way up it is concave as far as the
-    /// crest, the first being the highest: Newton's steps from there never pass the moment it reaches −rest, nor miss it.
+    /// crest, the first being the highest: Newton's steps from there never pass the moment it reaches −rest, nor miss it. Without weight
+    /// it is the zero itself.
     fn lets_go(&self, delay: f64, cap: f64) -> Option<f64> {
         let Self { s, k, nu, rest, .. } = *self;
         let whole = |(z, dz): (f64, f64)| (z + delay * dz, dz + delay * self.second((z, dz)));
@@ -192,7 +193,7 @@ impl Mode {
             }
             (zero, time(dw / (k * w + s * dw)))
         };
-        let (from, cap) = ((zero - NEAR * zero).max(0.0), cap.min(crest));
+        let (from, cap) = (zero.max(0.0), cap.min(crest));
         if from >= cap {
             return None;
         }
@@ -207,9 +208,6 @@ impl Mode {
         if self.s * self.s > self.k { self.k / (self.s + self.nu) } else { self.s }
     }
 }
-
-/// Share of its time by which a zero in closed form may be late.
-const NEAR: f64 = 9e-7;
 
 /// Share of a radian, and of the time √(L/g), after which the lever arms of a strike that does not end are renewed.
 const TURN: f64 = 0.005;
