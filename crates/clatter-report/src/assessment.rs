@@ -180,6 +180,8 @@ fn models(limit: &LimitAssessment) -> String {
     };
     let within = if limit.tolerance < 5e-4 {
         "less than 0.1\u{a0}%".to_owned()
+    } else if limit.tolerance == f64::INFINITY {
+        "no known share: the models are far off".to_owned()
     } else {
         percent(limit.tolerance).replace('+', "")
     };

@@ -5,7 +5,7 @@ use crate::{BarModel, Error};
 /// How well, and by which model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Accuracy {
-    /// What the models may get wrong, as a share of each demand; in [1e-4, 0.5].
+    /// By how much the models may let the truth pass each demand, as a share of it; in [1e-4, 0.5].
     pub tolerance: f64,
     /// How the bar moves in every drop that is searched; the cheapest within the tolerance, drop by drop, if none is named.
     pub model: Option<BarModel>,
@@ -19,6 +19,10 @@ impl Default for Accuracy {
 }
 
 impl Accuracy {
+    /// The same as a share of the truth, which estimates are of: a demand that lacks ε of it is passed by ε/(1 − ε).
+    pub(crate) fn of_truth(&self) -> f64 {
+        self.tolerance / (1.0 + self.tolerance)
+    }
     /// Whether the tolerance is one.
     ///
     /// # Errors

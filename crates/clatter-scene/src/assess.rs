@@ -54,7 +54,8 @@ impl ProductFile {
     /// models within the tolerance ([`plan`](crate::plan)) and the most that they may give; places are followed from the highest,
     /// until none that is left may pass the worst found. Around that the step is halved, three times or until half the tolerance
     /// is not gained. The larger of both demands counts. For a part that is so stiff that a pulse is no velocity shock, the search
-    /// alone counts.
+    /// alone counts. What a body does that has bounced clear hangs on every value: where the energy it has left does not rule out that it
+    /// asks for more, a warning says so.
     ///
     /// With a model named, every place of the grid is followed by it, with the cheapest way of the components to answer that is within
     /// the tolerance; the proof still stands beside it.
@@ -185,8 +186,10 @@ impl ProductFile {
     ) -> Result<LimitAssessment, Error> {
         let bound = proven.as_ref().map(|case| case.demand);
         let case = match (proven, found) {
-            (Some(proven), Some(found)) if found.reached.value <= proven.demand => beside_proof(field, task, proven)?,
-            (Some(proven), None) => beside_proof(field, task, proven)?,
+            (Some(proven), Some(found)) if found.reached.value <= proven.demand => {
+                beside_proof(field, task, proven, found.rebounds)?
+            }
+            (Some(proven), None) => beside_proof(field, task, proven, false)?,
             (_, Some(found)) => searched(field, task, found)?,
             (None, None) => unreachable!("what is not proven is searched"),
         };
@@ -222,13 +225,15 @@ fn searched(field: &Field<'_>, task: &Task<'_>, found: &Found) -> Result<Case, E
         (_, ComponentRung::PulseTrain) => ComponentModel::PulseTrain,
         _ => ComponentModel::ImpulseTrain,
     };
+    // A share of the truth, as one of the demand.
+    let passed = |error: f64| if error < 1.0 { error / (1.0 - error) } else { f64::INFINITY };
     let (reason, warning, error) = match (field.accuracy.model, plan) {
         (Some(model), plan) => {
-            let error = plan.map_or(0.0, |plan| plan.forecast.pair(found.pair).error);
+            let error = plan.map_or(0.0, |plan| passed(plan.forecast.pair(found.pair).error));
             (format!("{} was asked for", model.name()), None, error)
         }
         (None, Some(plan)) => {
-            let error = plan.forecast.pair(found.pair).error.max(field.accuracy.tolerance);
+            let error = passed(plan.forecast.pair(found.pair).error).max(field.accuracy.tolerance);
             (plan.reason.to_string(), plan.warning.map(|w| w.to_string()), error)
         }
         (None, None) => {
@@ -240,15 +245,8 @@ fn searched(field: &Field<'_>, task: &Task<'_>, found: &Found) -> Result<Case, E
             (why.to_owned(), None, field.accuracy.tolerance)
         }
     };
-    // A body that has bounced clear comes back after 2 e v0/g.
-    let clear_s = found.drop.restitution * found.drop.speed_m_s / found.drop.gravity_m_s2;
-    let rebound = (found.reached.time_s > clear_s).then(|| {
-        "the worst comes after a rebound, whose time hangs on every value: drops between those searched may ask for more".to_owned()
-    });
-    let warning = match (warning, rebound) {
-        (Some(one), Some(other)) => Some(format!("{one}; {other}")),
-        (one, other) => one.or(other),
-    };
+    let rebound = if found.reached.time_s > found.drop.clear_s() { Some(REBOUND) } else { may_rebound(found.rebounds) };
+    let warning = both(warning, rebound);
     Ok(Case {
         demand: found.reached.value,
         attained: found.reached.value,
@@ -260,13 +258,34 @@ fn searched(field: &Field<'_>, task: &Task<'_>, found: &Found) -> Result<Case, E
     })
 }
 
-/// A proof, with what more physics would say of its worst drop.
-fn beside_proof(field: &Field<'_>, task: &Task<'_>, proven: Case) -> Result<Case, Error> {
+const REBOUND: &str =
+    "the worst comes after a rebound, whose time hangs on every value: drops between those searched may ask for more";
+
+/// What is to be said where rebounds are not ruled out.
+fn may_rebound(rebounds: bool) -> Option<&'static str> {
+    rebounds.then_some(
+        "rebounds are not ruled out, whose time hangs on every value: drops between those searched may ask for more",
+    )
+}
+
+/// Two warnings as one.
+fn both(one: Option<String>, other: Option<&str>) -> Option<String> {
+    match (one, other) {
+        (Some(one), Some(other)) => Some(format!("{one}; {other}")),
+        (one, other) => one.or(other.map(str::to_owned)),
+    }
+}
+
+/// A proof, with what more physics would say of its worst drop, and whether `rebounds` may ask for more.
+fn beside_proof(field: &Field<'_>, task: &Task<'_>, proven: Case, rebounds: bool) -> Result<Case, Error> {
     let place = field.place_of(&proven.drop, task.demand.frequencies());
-    let Some(plan) = field.plan(task, &place)? else { return Ok(proven) };
+    let rebounds = may_rebound(rebounds);
+    let Some(plan) = field.plan(task, &place)? else {
+        return Ok(Case { warning: both(proven.warning, rebounds), ..proven });
+    };
     let more = if search::bar_model(plan.pair) == BarModel::Map { "" } else { ", but no drop with it asks for more" };
     let reason = format!("{}; {}{more}", proven.model.reason, plan.reason);
-    let warning = plan.warning.map(|warning| warning.to_string());
+    let warning = both(plan.warning.map(|warning| warning.to_string()), rebounds);
     Ok(Case { model: ModelChoice { reason, ..proven.model }, warning, ..proven })
 }
 

@@ -28,6 +28,13 @@ pub struct SingleDrop {
     pub gravity_m_s2: f64,
 }
 
+impl SingleDrop {
+    /// Half of the time after which a body that has bounced clear comes back, 2 e v0/g.
+    pub(crate) fn clear_s(&self) -> f64 {
+        self.restitution * self.speed_m_s / self.gravity_m_s2
+    }
+}
+
 /// What one drop does to a product: velocity shocks or whole pulses, at any place.
 #[derive(Debug, Clone)]
 pub struct Base {
@@ -56,7 +63,7 @@ pub(crate) struct PeakAsked {
 
 impl PeakAsked {
     /// From velocities to what is peaked.
-    fn unit(&self) -> f64 {
+    pub(crate) fn unit(&self) -> f64 {
         let omega = self.suspension.omega();
         match self.peaked {
             Peaked::AccelerationOverOmega => omega,
@@ -251,12 +258,18 @@ impl Base {
         }
     }
 
-    /// After which time nothing raises what is asked, if contacts were followed far enough for that; infinite where all of them count.
-    pub(crate) fn settled_s(&self, setup: &Setup, quantity: Quantity) -> Option<f64> {
+    /// After which time nothing raises what is asked or passes `least` (as a velocity), if contacts were followed far enough for that; infinite
+    /// where all of them count.
+    pub(crate) fn settled_s(&self, setup: &Setup, quantity: Quantity, least: f64) -> Option<f64> {
         let Some(Contacts { flight, contact_time_s, .. }) = &self.contacts else { return Some(f64::INFINITY) };
-        let settled_s = setup.settled_s(flight, quantity, *contact_time_s, &mut Looks::default());
+        let settled_s = setup.settled_s(flight, quantity, *contact_time_s, least, &mut Looks::default());
         let cut_short = matches!(flight.flight.stop, Stop::ImpactLimit { .. });
         (settled_s < f64::INFINITY || !cut_short).then_some(settled_s)
+    }
+
+    /// Whether it strikes after one time, and not after another.
+    pub(crate) fn strikes_within(&self, after_s: f64, until_s: f64) -> bool {
+        self.shocks.iter().any(|(time, _)| *time > after_s && *time <= until_s)
     }
 
     /// What a place gets of what both ends do.

@@ -45,6 +45,8 @@ pub(crate) struct Found {
     pub(crate) pair: Pair,
     /// By which share the last refinement raised the demand.
     pub(crate) raised: f64,
+    /// Whether a rebound decides, or may in a drop that came close enough to be followed.
+    pub(crate) rebounds: bool,
 }
 
 /// One demand to be searched for.
@@ -349,12 +351,12 @@ impl<'a> Field<'a> {
     pub(crate) fn plan(&self, task: &Task<'_>, place: &Place) -> Result<Option<Plan>, Error> {
         let slot = self.slot(place)?;
         let setup = self.setup(task, place, &slot, None)?;
-        let tolerance = self.accuracy.tolerance;
+        let tolerance = self.accuracy.of_truth();
         Ok(task.demand.quantity().map(|quantity| setup.forecast(quantity).plan(tolerance).refined(&setup)))
     }
 
     fn foresee(&self, task: &Task<'_>, place: Place, slot: &Arc<Slot>, trail: &mut Trail) -> Result<Candidate, Error> {
-        let tolerance = self.accuracy.tolerance;
+        let tolerance = self.accuracy.of_truth();
         let mut candidate = Candidate {
             place,
             slot: Arc::clone(slot),
@@ -414,20 +416,16 @@ impl<'a> Field<'a> {
             return Ok(Pair { bar, component });
         }
         let ends = if turn { &[Some(-1.0), Some(1.0)][..] } else { &[None] };
-        let mut bar = BarRung::Map;
+        let (mut bar, tolerance) = (BarRung::Map, self.accuracy.of_truth());
         for &position in ends {
             let setup = self.setup(task, place, slot, position)?;
             let forecast = setup.forecast_along(trail, Quantity::VelocityShock);
-            let plan = forecast.plan(self.accuracy.tolerance);
+            let plan = forecast.plan(tolerance);
             let apart = self.product.contact_time_s.is_none() || forecast.groups.overlap <= 1.0;
             if plan.pair.bar == BarRung::Compliant || !apart {
                 return Ok(Pair::HIGHEST);
             }
-            bar = bar.max(if plan.estimate.error <= self.accuracy.tolerance {
-                plan.pair.bar
-            } else {
-                BarRung::FiniteTilt
-            });
+            bar = bar.max(if plan.estimate.error <= tolerance { plan.pair.bar } else { BarRung::FiniteTilt });
         }
         Ok(Pair { bar, component })
     }
@@ -492,11 +490,13 @@ struct Search<'a> {
     above: f64,
     known: Known,
     best: Option<(Candidate, Reached)>,
+    /// Drops that were followed and whose rebounds may have raised what counted then.
+    returning: Vec<Candidate>,
 }
 
 impl<'a> Search<'a> {
     fn new(field: &'a Field<'a>, task: &'a Task<'a>, above: f64) -> Self {
-        Self { field, task, above, known: Known::new(), best: None }
+        Self { field, task, above, known: Known::new(), best: None, returning: Vec::new() }
     }
 
     fn run(mut self, mut grid: Vec<Candidate>) -> Result<Option<Found>, Error> {
@@ -516,14 +516,26 @@ impl<'a> Search<'a> {
                 raised = self.refine()?;
             }
         }
-        let field = self.field;
+        let (field, rebounds) = (self.field, self.rebounds_may_decide()?);
         Ok(self.best.map(|(candidate, reached)| Found {
             reached,
             drop: field.single(&candidate.place),
             place: candidate.place,
             pair: candidate.pair,
             raised,
+            rebounds,
         }))
+    }
+
+    /// Whether a rebound of a drop that was followed may pass the worst.
+    fn rebounds_may_decide(&self) -> Result<bool, Error> {
+        for candidate in &self.returning {
+            let (base, until_s) = self.followed(candidate)?;
+            if base.strikes_within(candidate.slot.drop.clear_s(), until_s) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// What a place must pass to count.
@@ -601,13 +613,11 @@ impl<'a> Search<'a> {
     /// What a candidate reaches, if it is the worst yet.
     fn follow(&mut self, candidate: &Candidate) -> Result<Option<Reached>, Error> {
         let (field, task, Candidate { place, slot, .. }) = (self.field, self.task, candidate);
-        let model = bar_model(candidate.pair);
         let pulses = candidate.pair.component == ComponentRung::PulseTrain;
-        let (base, until_s) = if model == BarModel::Compliant {
-            self.contacts(place, slot)?
-        } else {
-            (slot.strikes(field, model)?, candidate.until_s)
-        };
+        let (base, until_s) = self.followed(candidate)?;
+        if base.strikes_within(slot.drop.clear_s(), until_s) {
+            self.returning.push(candidate.clone());
+        }
         let (_, position_m) = field.followed(place);
         let frequency_hz = Field::frequency_hz(task, place);
         let above = self.best.as_ref().map_or(Demand::ANY, |(_, best)| best.value);
@@ -616,16 +626,45 @@ impl<'a> Search<'a> {
         Ok(reached.map(|reached| Reached { position_m: place.position_m, ..reached }))
     }
 
+    /// What a shock or a response, as a velocity, must pass to count.
+    fn least(&self, place: &Place) -> Result<f64, Error> {
+        let (field, task, worst) = (self.field, self.task, self.worst());
+        let (_, position_m) = field.followed(place);
+        let asked = task.demand.asked_of(position_m, Field::frequency_hz(task, place), worst)?;
+        Ok(match (asked, task.demand.kind) {
+            (Some(asked), _) => worst / asked.unit(),
+            (None, LimitKind::VelocityChange) => worst,
+            // Of all motions of one energy a turn about the center of mass is the fastest one; a shock of an end turns by less.
+            (None, LimitKind::AngularVelocityChange) => {
+                let (body, [a, b]) = (field.product.body, field.product.body.arms_m());
+                worst * body.gyration_m().hypot(a.min(b))
+            }
+            _ => 0.0,
+        })
+    }
+
+    /// A drop by the model of its plan, and until when its strikes count.
+    fn followed<'b>(
+        &self,
+        Candidate { place, slot, pair, until_s, .. }: &'b Candidate,
+    ) -> Result<(&'b Base, f64), Error> {
+        match bar_model(*pair) {
+            BarModel::Compliant => self.contacts(place, slot),
+            model => Ok((slot.strikes(self.field, model)?, *until_s)),
+        }
+    }
+
     /// The contacts of a drop, followed until nothing later counts, and until when they count.
     fn contacts<'b>(&self, place: &Place, slot: &'b Slot) -> Result<(&'b Base, f64), Error> {
         let (field, task) = (self.field, self.task);
         let turns = task.demand.kind == LimitKind::AngularVelocityChange;
         let quantity = task.demand.quantity().unwrap_or(Quantity::VelocityShock);
         let positions = if turns { &[Some(-1.0), Some(1.0)][..] } else { &[None] };
+        let least = self.least(place)?;
         let settled = |base: &Base| {
             let mut until_s = Some(0.0_f64);
             for position in positions {
-                let settled_s = base.settled_s(&field.setup(task, place, slot, *position)?, quantity);
+                let settled_s = base.settled_s(&field.setup(task, place, slot, *position)?, quantity, least);
                 until_s = until_s.zip(settled_s).map(|(a, b)| a.max(b));
             }
             Ok::<_, Error>(until_s)

@@ -15,11 +15,17 @@ const TOLERANCE: f64 = 0.005;
 /// What plans may get wrong unless told, and as much again for the grid.
 const SEARCHED: f64 = 0.02;
 
-/// The largest demand of a limit over a grid of drops.
-fn brute_force(file: &ProductFile, component: &Component, kind: LimitKind, model: BarModel, steps: [u32; 4]) -> f64 {
+/// The largest demand of a limit over a grid of drops, before a body that has bounced clear comes back, and in all.
+fn brute_force(
+    file: &ProductFile,
+    component: &Component,
+    kind: LimitKind,
+    model: BarModel,
+    steps: [u32; 4],
+) -> [f64; 2] {
     let share = |i: u32, n: u32| if n == 0 { 0.0 } else { f64::from(i) / f64::from(n) };
     let [slow, fast] = file.drop.speeds_m_s();
-    let mut worst = 0.0_f64;
+    let mut worst = [0.0_f64; 2];
     for &first in file.drop.first_ends() {
         for tilt in 0..=steps[0] {
             for (speed, e) in (0..=steps[1]).flat_map(|v| (0..=steps[2]).map(move |e| (v, e))) {
@@ -35,29 +41,39 @@ fn brute_force(file: &ProductFile, component: &Component, kind: LimitKind, model
                 let places = component.ends_m().into_iter().chain([component.position_m]);
                 for position in places {
                     let demand = match (kind, component.mount) {
-                        (LimitKind::VelocityChange, _) => base.largest_shock(position).0,
-                        (LimitKind::AngularVelocityChange, _) => base.largest_turn().0,
+                        (LimitKind::VelocityChange, _) => timed(base.largest_shock(position)),
+                        (LimitKind::AngularVelocityChange, _) => timed(base.largest_turn()),
                         (_, Mount::Suspended { frequency_hz, damping }) => {
                             let peak = |f: u32| {
                                 let mount = Suspension::from_hz(frequency_hz.at(share(f, steps[3])), damping)
                                     .expect("a frequency");
                                 let response = base.respond(position, &mount, true).expect("a response");
-                                if kind == LimitKind::Acceleration {
-                                    response.absolute_acceleration.magnitude()
+                                let peak = if kind == LimitKind::Acceleration {
+                                    response.absolute_acceleration.peak()
                                 } else {
-                                    response.relative_displacement.magnitude()
-                                }
+                                    response.relative_displacement.peak()
+                                };
+                                (peak.value.abs(), peak.time)
                             };
-                            (0..=steps[3]).map(peak).fold(0.0, f64::max)
+                            (0..=steps[3]).map(peak).fold((0.0, 0.0), |a, b| if b.0 > a.0 { b } else { a })
                         }
-                        (_, Mount::Hard) => base.largest_acceleration(position).expect("a contact time").0,
+                        (_, Mount::Hard) => timed(base.largest_acceleration(position).expect("a contact time")),
                     };
-                    worst = worst.max(demand);
+                    let (demand, time_s) = demand;
+                    worst[1] = worst[1].max(demand);
+                    if time_s <= drop.restitution * drop.speed_m_s / drop.gravity_m_s2 {
+                        worst[0] = worst[0].max(demand);
+                    }
                 }
             }
         }
     }
     worst
+}
+
+/// Size and time of a shock.
+fn timed((size, _, time_s): (f64, usize, f64)) -> (f64, f64) {
+    (size, time_s)
 }
 
 fn range(lo: f64, width: f64) -> Spread {
@@ -76,33 +92,30 @@ prop_compose! {
         first in prop_oneof![Just(First::Either), Just(First::End(End::A)), Just(First::End(End::B))],
     ) -> ProductFile {
         let length = 0.15;
-        let (a, b) = (length * (0.5 + center), length * (0.5 - center));
-        let limits = Limits {
-            acceleration_m_s2: Some(1000.0),
-            rattle_space_m: Some(1e-3),
-            velocity_change_m_s: Some(5.0),
-            angular_velocity_change_rad_s: Some(50.0),
-            damage_boundary: None,
-        };
-        let component = Component {
-            name: "part".into(),
-            position_m: position * length,
-            extent_m: extent * length,
-            mount: Mount::Suspended { frequency_hz: range(f, f_width), damping: DampingRatio::new(zeta).expect("a damping ratio") },
-            limits,
-        };
-        ProductFile {
-            product: Product {
-                name: "product".into(),
-                body: Body::off_center(a, b, gyration * length).expect("a body"),
-                mass_kg: None,
-                restitution: range(e, e_width),
-                contact_time_s: None,
-            },
-            drop: Drop { fall: Fall::SpeedMS(range(speed, speed_width)), tilt_rad: range(tilt, tilt_width), first, gravity_m_s2: 0.0 },
-            components: vec![component],
-        }
+        let body = Body::off_center(length * (0.5 + center), length * (0.5 - center), gyration * length).expect("a body");
+        let damping = DampingRatio::new(zeta).expect("a damping ratio");
+        let part = part([position, extent].map(|share| share * length), range(f, f_width), damping);
+        let product = product(body, range(e, e_width));
+        let fall = Fall::SpeedMS(range(speed, speed_width));
+        ProductFile { product, drop: Drop { fall, tilt_rad: range(tilt, tilt_width), first, gravity_m_s2: 0.0 }, components: vec![part] }
     }
+}
+
+/// Without a contact time.
+fn product(body: Body, restitution: Spread) -> Product {
+    Product { name: "product".into(), body, mass_kg: None, restitution, contact_time_s: None }
+}
+
+/// With a limit of every kind.
+fn part([position_m, extent_m]: [f64; 2], frequency_hz: Spread, damping: DampingRatio) -> Component {
+    let limits = Limits {
+        acceleration_m_s2: Some(1000.0),
+        rattle_space_m: Some(1e-3),
+        velocity_change_m_s: Some(5.0),
+        angular_velocity_change_rad_s: Some(50.0),
+        damage_boundary: None,
+    };
+    Component { name: "part".into(), position_m, extent_m, mount: Mount::Suspended { frequency_hz, damping }, limits }
 }
 
 fn proven(limit: &LimitAssessment) -> f64 {
@@ -117,7 +130,7 @@ proptest! {
         let assessment = file.assess().unwrap();
         for limit in &assessment.components[0].limits {
             let bound = proven(limit);
-            let worst = brute_force(&file, &file.components[0], limit.limit, BarModel::Map, [24, 2, 6, 3]);
+            let [_, worst] = brute_force(&file, &file.components[0], limit.limit, BarModel::Map, [24, 2, 6, 3]);
             // Strikes listed by the flight are rounded by themselves.
             prop_assert!(worst <= bound * (1.0 + 1e-9), "{:?}: {worst} passes {bound}", limit.limit);
             // Strong damping makes the bounds less sharp; where the work set aside ends before, the answer says so.
@@ -137,19 +150,20 @@ proptest! {
 fn nothing_worse(file: &ProductFile, model: BarModel, accuracy: &Accuracy) -> Result<(), TestCaseError> {
     let assessment = file.assess_to(accuracy).expect("an assessment");
     for limit in &assessment.components[0].limits {
-        let worst = brute_force(file, &file.components[0], limit.limit, model, [40, 1, 2, 2]);
+        let [early, worst] = brute_force(file, &file.components[0], limit.limit, model, [40, 1, 2, 2]);
         // A proof is of the map alone; that more physics asks for no more is known to the tolerance of the plans.
         let beyond = if limit.guaranteed { accuracy.tolerance } else { limit.tolerance };
         let most = limit.demand * (1.0 + beyond);
         let warning = limit.warning.as_deref().unwrap_or_default();
-        if warning.contains("rebound") || warning.contains("no model reaches") {
+        if ["after a rebound", "later rebounds", "no model reaches"].iter().any(|told| warning.contains(told)) {
             continue;
         }
-        let warned = !warning.is_empty();
+        let (warned, rebounds) = (!warning.is_empty(), warning.contains("rebounds are not ruled out"));
+        let worst = if rebounds { early } else { worst };
         prop_assert!(warned || limit.tolerance <= 2.0 * accuracy.tolerance + 1e-9, "{limit:?}");
         prop_assert!(worst <= most, "{worst} is {} above {limit:?}", worst / limit.demand - 1.0);
         // Nor does the assessment see more than there is; what is proven without gravity may be more.
-        let found = limit.guaranteed || limit.attained <= worst * (1.0 + limit.tolerance.max(GRID));
+        let found = limit.guaranteed || rebounds || limit.attained <= worst * (1.0 + limit.tolerance.max(GRID));
         prop_assert!(found, "{} is {} below {limit:?}", worst, 1.0 - worst / limit.attained);
     }
     Ok(())
@@ -172,6 +186,52 @@ proptest! {
         file.product.contact_time_s = Some(contact);
         nothing_worse(&file, BarModel::Compliant, &accuracy)?;
     }
+}
+
+/// What a demand lacks of the truth is a larger share of the demand: here the map lacks 0.9991 % of a shock, which is 1.0091 % above it.
+#[test]
+fn the_tolerance_is_a_share_of_the_demand() {
+    let body = Body::off_center(0.081_424_529_918_155_06, 0.068_575_470_081_844_93, 0.044_565_358_112_543_06).unwrap();
+    let exactly = |x| range(x, 0.0);
+    let drop = Drop {
+        fall: Fall::SpeedMS(exactly(1.386_365_005_186_031_2)),
+        tilt_rad: range(0.020_736_162_277_134_273, 0.020_736_162_277_134_273),
+        first: First::Either,
+        gravity_m_s2: 9.81,
+    };
+    let components = vec![part([0.0; 2], exactly(5.0), DampingRatio::new(0.0).unwrap())];
+    let file = ProductFile { product: product(body, exactly(0.424_848_138_995_882_4)), drop, components };
+    nothing_worse(&file, BarModel::FiniteTilt, &Accuracy::default()).unwrap();
+}
+
+/// A rebound that lands flat shocks the middle more than all strikes before, at a few tilts alone: the search misses it, and says so.
+#[test]
+fn rebounds_that_are_not_ruled_out_are_told() {
+    let (tilt, speed, e) = (0.023_062_716_720_472_22, 1.488_522_617_317_461_3, 0.834_214_138_063_687_8);
+    let drop = Drop {
+        fall: Fall::SpeedMS(range(speed, 0.0)),
+        tilt_rad: range(tilt, tilt),
+        first: First::End(End::A),
+        gravity_m_s2: 9.81,
+    };
+    let body = Body::new(0.15, 0.052_074_486_325_443_745).unwrap();
+    let product = Product {
+        contact_time_s: Some(1e-4),
+        ..product(body, range(0.562_725_632_290_584_9, e - 0.562_725_632_290_584_9))
+    };
+    let components = vec![part([0.0; 2], range(5.0, 0.0), DampingRatio::new(0.0).unwrap())];
+    let file = ProductFile { product, drop, components };
+    let assessment = file.assess().unwrap();
+    let of = |kind| assessment.components[0].limits.iter().find(|l| l.limit == kind).unwrap();
+    let limit = of(LimitKind::VelocityChange);
+    let drop =
+        SingleDrop { first: End::A, tilt_rad: 0.034_594_075, speed_m_s: speed, restitution: e, gravity_m_s2: 9.81 };
+    let missed = Base::new(&file.product, &drop, BarModel::Compliant).unwrap().largest_shock(0.0);
+    assert!(missed.0 > 1.05 * limit.demand && missed.2 > 0.3, "{missed:?} {limit:?}");
+    assert!(limit.warning.as_deref().is_some_and(|w| w.contains("rebounds are not ruled out")), "{limit:?}");
+    // It is not said where energy rules them out.
+    let example = ProductFile::read(EXAMPLE, "example").unwrap().assess().unwrap();
+    assert!(example.components[0].limits.iter().all(|limit| limit.warning.is_none()), "{:?}", example.components[0]);
 }
 
 #[test]

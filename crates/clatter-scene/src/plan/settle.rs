@@ -33,21 +33,23 @@ impl Setup {
                 return false;
             }
             look = n + 1 + n / AGAIN;
-            settled_s = self.settled_s(flight, quantity, contact_s, &mut looks);
+            settled_s = self.settled_s(flight, quantity, contact_s, 0.0, &mut looks);
             settled_s < f64::INFINITY
         })?;
         if settled_s == f64::INFINITY {
-            settled_s = self.settled_s(&flight, quantity, contact_s, &mut looks);
+            settled_s = self.settled_s(&flight, quantity, contact_s, 0.0, &mut looks);
         }
         Ok((flight, settled_s))
     }
 
-    /// When nothing later in this flight raises the quantity; infinite where that is not known. `looks` are those before, at its beginning.
+    /// When nothing later in this flight raises the quantity, or passes what counts at `least`, both as velocities; infinite where that is not
+    /// known. `looks` are those before, at its beginning.
     pub(crate) fn settled_s(
         &self,
         flight: &CompliantFlight,
         quantity: Quantity,
         contact_s: f64,
+        least: f64,
         looks: &mut Looks,
     ) -> f64 {
         let (omega, g) = (self.suspension.omega(), self.scene.gravity_m_s2());
@@ -58,20 +60,18 @@ impl Setup {
         let (shocks, whole) = self.lone_shocks(flight);
         let pulse = Pulse::new(ends.e);
         // What may come after the last of them.
-        let beyond = if whole {
+        let speed =
+            if whole { Some(0.0) } else { shocks.last().map(|last| ends.reach(self.twice_energy(flight, last))) };
+        let Some(speed) = speed else { return f64::INFINITY };
+        let beyond = if velocity_shock {
+            later_shock(speed, g, contact_s)
+        } else if whole {
             weight(&swing, g / omega)
-        } else if let Some(last) = shocks.last() {
-            let speed = ends.reach(self.twice_energy(flight, last));
-            if velocity_shock {
-                later_shock(speed, g, contact_s)
-            } else {
-                // Where the two ends push to and fro, the weight does not limit what piles up.
-                let [a, b] = [ends.at((1.0, -ends.flat[0])), ends.at((-ends.flat[1], 1.0))];
-                let times = if a * b < 0.0 { largest_pile(&ends) } else { pile(&ends, zeta, speed, g / omega) };
-                times * later_response(&swing, speed, g, omega)
-            }
         } else {
-            return f64::INFINITY;
+            // Where the two ends push to and fro, the weight does not limit what piles up.
+            let [a, b] = [ends.at((1.0, -ends.flat[0])), ends.at((-ends.flat[1], 1.0))];
+            let times = if a * b < 0.0 { largest_pile(&ends) } else { pile(&ends, zeta, speed, g / omega) };
+            times * later_response(&swing, speed, g, omega)
         };
         let (mut motion, mut peak) = (Motion::default(), 0.0_f64);
         // What long contacts did, however it turned since.
@@ -116,20 +116,20 @@ impl Setup {
                 continue;
             }
             // All later shocks that are known, as if in phase, then all others.
-            let mut later = rings;
+            let (mut later, most) = (rings, least.max(CLEAR * peak));
             let low = shocks[k + 1..].iter().enumerate().all(|(i, next)| {
                 if velocity_shock {
-                    return next.gross < CLEAR * peak;
+                    return next.gross < most;
                 }
                 later += swing.factor * next.gross;
-                let low = later < CLEAR * peak;
+                let low = later < most;
                 later *= turns.get(k + 1 + i).map_or(1.0, |(_, (_, fade))| *fade);
                 low
             });
             if !low && k == *hopeless {
                 *hopeless = k + 1;
             }
-            if low && (if velocity_shock { beyond } else { later + beyond }) < CLEAR * peak {
+            if low && (if velocity_shock { beyond } else { later + beyond }) < most {
                 return 0.5 * (shock.parted_s + shock.next_s);
             }
         }
