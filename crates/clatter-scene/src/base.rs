@@ -267,6 +267,13 @@ impl Base {
         (settled_s < f64::INFINITY || !cut_short).then_some(settled_s)
     }
 
+    /// Whether what comes after a time may pass `least` (as a velocity) in drops like this one, by the energy that is left then; `None` where
+    /// contacts are not modeled.
+    pub(crate) fn may_pass_after(&self, time_s: f64, setup: &Setup, quantity: Quantity, least: f64) -> Option<bool> {
+        let Contacts { flight, contact_time_s, .. } = self.contacts.as_ref()?;
+        Some(setup.may_pass_after(time_s, flight, quantity, *contact_time_s, least))
+    }
+
     /// Whether it strikes after one time, and not after another.
     pub(crate) fn strikes_within(&self, after_s: f64, until_s: f64) -> bool {
         self.shocks.iter().any(|(time, _)| *time > after_s && *time <= until_s)

@@ -490,7 +490,7 @@ struct Search<'a> {
     above: f64,
     known: Known,
     best: Option<(Candidate, Reached)>,
-    /// Drops that were followed and whose rebounds may have raised what counted then.
+    /// Drops that were followed and come back.
     returning: Vec<Candidate>,
 }
 
@@ -527,15 +527,30 @@ impl<'a> Search<'a> {
         }))
     }
 
-    /// Whether a rebound of a drop that was followed may pass the worst.
+    /// Whether a rebound may pass the worst in drops like those that were followed.
     fn rebounds_may_decide(&self) -> Result<bool, Error> {
         for candidate in &self.returning {
-            let (base, until_s) = self.followed(candidate)?;
-            if base.strikes_within(candidate.slot.drop.clear_s(), until_s) {
+            let Candidate { place, slot, until_s, .. } = candidate;
+            let clear_s = slot.drop.clear_s();
+            let (base, _) = self.followed(candidate)?;
+            let (least, mut may) = (self.least(place)?, None);
+            let (positions, quantity) = self.places();
+            for position in positions {
+                let setup = self.field.setup(self.task, place, slot, *position)?;
+                may = base.may_pass_after(clear_s, &setup, quantity, least).map(|passes| passes || may == Some(true));
+            }
+            if may.unwrap_or_else(|| base.strikes_within(clear_s, *until_s)) {
                 return Ok(true);
             }
         }
         Ok(false)
+    }
+
+    /// Where a drop is looked at, the place itself or both ends of the product, and for what.
+    fn places(&self) -> (&'static [Option<f64>], Quantity) {
+        let turns = self.task.demand.kind == LimitKind::AngularVelocityChange;
+        let positions: &[_] = if turns { &[Some(-1.0), Some(1.0)] } else { &[None] };
+        (positions, self.task.demand.quantity().unwrap_or(Quantity::VelocityShock))
     }
 
     /// What a place must pass to count.
@@ -615,7 +630,7 @@ impl<'a> Search<'a> {
         let (field, task, Candidate { place, slot, .. }) = (self.field, self.task, candidate);
         let pulses = candidate.pair.component == ComponentRung::PulseTrain;
         let (base, until_s) = self.followed(candidate)?;
-        if base.strikes_within(slot.drop.clear_s(), until_s) {
+        if base.strikes_within(slot.drop.clear_s(), f64::INFINITY) {
             self.returning.push(candidate.clone());
         }
         let (_, position_m) = field.followed(place);
@@ -657,10 +672,7 @@ impl<'a> Search<'a> {
     /// The contacts of a drop, followed until nothing later counts, and until when they count.
     fn contacts<'b>(&self, place: &Place, slot: &'b Slot) -> Result<(&'b Base, f64), Error> {
         let (field, task) = (self.field, self.task);
-        let turns = task.demand.kind == LimitKind::AngularVelocityChange;
-        let quantity = task.demand.quantity().unwrap_or(Quantity::VelocityShock);
-        let positions = if turns { &[Some(-1.0), Some(1.0)][..] } else { &[None] };
-        let least = self.least(place)?;
+        let ((positions, quantity), least) = (self.places(), self.least(place)?);
         let settled = |base: &Base| {
             let mut until_s = Some(0.0_f64);
             for position in positions {

@@ -136,6 +136,35 @@ impl Setup {
         f64::INFINITY
     }
 
+    /// Whether the energy that is left at a time lets later strikes, whenever they come, pass `least`, a shock or response as a velocity that
+    /// none passes before.
+    pub(crate) fn may_pass_after(
+        &self,
+        time_s: f64,
+        flight: &CompliantFlight,
+        quantity: Quantity,
+        contact_s: f64,
+        least: f64,
+    ) -> bool {
+        let (shocks, _) = self.lone_shocks(flight);
+        let Some(last) = shocks.iter().rev().find(|shock| shock.from_s <= time_s) else { return true };
+        if last.next_s == f64::INFINITY {
+            return false;
+        }
+        let (ends, omega, g) =
+            (Ends::new(&self.scene, self.position), self.suspension.omega(), self.scene.gravity_m_s2());
+        let speed = ends.reach(self.twice_energy(flight, last));
+        let later = if quantity == Quantity::VelocityShock {
+            later_shock(speed, g, contact_s)
+        } else {
+            let zeta = self.suspension.damping().get();
+            let swing = Swing::new(zeta, quantity == Quantity::PeakAcceleration);
+            let rings = least * swing.fade(omega * (last.next_s - last.parted_s));
+            rings + pile(&ends, zeta, speed, g / omega) * later_response(&swing, speed, g, omega)
+        };
+        later > least
+    }
+
     /// Twice the energy of the body as the last of a few contacts parts, by its spin: upright, its ends do not show how fast it turns.
     fn twice_energy(&self, flight: &CompliantFlight, shock: &LoneShock) -> f64 {
         let (body, strike) = (self.scene.body(), &flight.flight.strikes[shock.last]);
