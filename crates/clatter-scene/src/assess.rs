@@ -245,7 +245,8 @@ fn searched(field: &Field<'_>, task: &Task<'_>, found: &Found) -> Result<Case, E
             (why.to_owned(), None, field.accuracy.tolerance)
         }
     };
-    let rebound = if found.reached.time_s > found.drop.clear_s() { Some(REBOUND) } else { may_rebound(found.rebounds) };
+    let rebound =
+        if found.reached.time_s > field.clear_s(&found.drop) { Some(REBOUND) } else { may_rebound(found.rebounds) };
     let warning = both(warning, rebound);
     Ok(Case {
         demand: found.reached.value,

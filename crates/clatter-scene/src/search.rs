@@ -18,6 +18,7 @@ use rayon::prelude::*;
 use crate::base::{self, Base, Cells, SingleDrop};
 use crate::demand::{Demand, Reached};
 use crate::plan::demand::{crowding, fineness, pieces_for};
+use crate::plan::pulse::Pulse;
 use crate::plan::trail::Trail;
 use crate::plan::{BarRung, ComponentRung, Pair, Plan, Quantity, Setup};
 use crate::{
@@ -344,6 +345,11 @@ impl<'a> Field<'a> {
         Ok(Setup::anywhere(slot.scene, self.product.contact_time_s, position, suspension))
     }
 
+    /// When a drop has bounced clear.
+    pub(crate) fn clear_s(&self, drop: &SingleDrop) -> f64 {
+        drop.clear_s(self.product.body.length_m())
+    }
+
     /// The plan for a place, after a longer look where contacts would be followed.
     ///
     /// # Errors
@@ -417,15 +423,18 @@ impl<'a> Field<'a> {
         }
         let ends = if turn { &[Some(-1.0), Some(1.0)][..] } else { &[None] };
         let (mut bar, tolerance) = (BarRung::Map, self.accuracy.of_truth());
+        // Models of small tilt have the ends as far apart on the ground as along the body.
+        let apart = if turn { 1.0 / libm::cos(slot.drop.tilt_rad) - 1.0 } else { 0.0 };
         for &position in ends {
             let setup = self.setup(task, place, slot, position)?;
             let forecast = setup.forecast_along(trail, Quantity::VelocityShock);
             let plan = forecast.plan(tolerance);
-            let apart = self.product.contact_time_s.is_none() || forecast.groups.overlap <= 1.0;
-            if plan.pair.bar == BarRung::Compliant || !apart {
+            let alone = self.product.contact_time_s.is_none() || forecast.groups.overlap <= 1.0;
+            if plan.pair.bar == BarRung::Compliant || !alone {
                 return Ok(Pair::HIGHEST);
             }
-            bar = bar.max(if plan.estimate.error <= tolerance { plan.pair.bar } else { BarRung::FiniteTilt });
+            let within = plan.estimate.error + apart <= tolerance;
+            bar = bar.max(if within { plan.pair.bar } else { BarRung::FiniteTilt });
         }
         Ok(Pair { bar, component })
     }
@@ -490,7 +499,7 @@ struct Search<'a> {
     above: f64,
     known: Known,
     best: Option<(Candidate, Reached)>,
-    /// Drops that were followed and come back.
+    /// Drops that were followed and come back, as far as is known.
     returning: Vec<Candidate>,
 }
 
@@ -531,9 +540,9 @@ impl<'a> Search<'a> {
     fn rebounds_may_decide(&self) -> Result<bool, Error> {
         for candidate in &self.returning {
             let Candidate { place, slot, until_s, .. } = candidate;
-            let clear_s = slot.drop.clear_s();
+            let clear_s = self.field.clear_s(&slot.drop);
             let (base, _) = self.followed(candidate)?;
-            let (least, mut may) = (self.least(place)?, None);
+            let (least, mut may) = (self.least(place, slot)?, None);
             let (positions, quantity) = self.places();
             for position in positions {
                 let setup = self.field.setup(self.task, place, slot, *position)?;
@@ -630,7 +639,9 @@ impl<'a> Search<'a> {
         let (field, task, Candidate { place, slot, .. }) = (self.field, self.task, candidate);
         let pulses = candidate.pair.component == ComponentRung::PulseTrain;
         let (base, until_s) = self.followed(candidate)?;
-        if base.strikes_within(slot.drop.clear_s(), f64::INFINITY) {
+        let clear_s = field.clear_s(&slot.drop);
+        let returns = until_s == f64::INFINITY || base.strikes_within(clear_s, f64::INFINITY);
+        if clear_s < f64::INFINITY && returns {
             self.returning.push(candidate.clone());
         }
         let (_, position_m) = field.followed(place);
@@ -642,19 +653,23 @@ impl<'a> Search<'a> {
     }
 
     /// What a shock or a response, as a velocity, must pass to count.
-    fn least(&self, place: &Place) -> Result<f64, Error> {
+    fn least(&self, place: &Place, slot: &Slot) -> Result<f64, Error> {
         let (field, task, worst) = (self.field, self.task, self.worst());
         let (_, position_m) = field.followed(place);
         let asked = task.demand.asked_of(position_m, Field::frequency_hz(task, place), worst)?;
         Ok(match (asked, task.demand.kind) {
             (Some(asked), _) => worst / asked.unit(),
-            (None, LimitKind::VelocityChange) => worst,
+            (None, LimitKind::VelocityChange | LimitKind::DamageBoundary) => worst,
             // Of all motions of one energy a turn about the center of mass is the fastest one; a shock of an end turns by less.
             (None, LimitKind::AngularVelocityChange) => {
                 let (body, [a, b]) = (field.product.body, field.product.body.arms_m());
                 worst * body.gyration_m().hypot(a.min(b))
             }
-            _ => 0.0,
+            // The shock of a lone contact whose crest is as high.
+            (None, LimitKind::Acceleration | LimitKind::RattleSpace) => {
+                let crest = Pulse::new(slot.drop.restitution).crest();
+                worst * field.product.contact_time_s.unwrap_or(0.0) / crest
+            }
         })
     }
 
@@ -672,7 +687,7 @@ impl<'a> Search<'a> {
     /// The contacts of a drop, followed until nothing later counts, and until when they count.
     fn contacts<'b>(&self, place: &Place, slot: &'b Slot) -> Result<(&'b Base, f64), Error> {
         let (field, task) = (self.field, self.task);
-        let ((positions, quantity), least) = (self.places(), self.least(place)?);
+        let ((positions, quantity), least) = (self.places(), self.least(place, slot)?);
         let settled = |base: &Base| {
             let mut until_s = Some(0.0_f64);
             for position in positions {

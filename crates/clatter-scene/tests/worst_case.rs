@@ -1,5 +1,7 @@
 //! The demand against brute force: a dense grid of drops never finds worse.
 
+use std::cell::Cell;
+
 use clatter::End;
 use clatter::flight::Body;
 use clatter_scene::{
@@ -8,9 +10,14 @@ use clatter_scene::{
 };
 use clatter_shock::{DampingRatio, Suspension};
 use proptest::prelude::*;
+use proptest::test_runner::TestRunner;
 
 /// What the docs of `ProductFile::assess` promise of a proven demand.
 const TOLERANCE: f64 = 0.005;
+
+/// How far a bound may lie above what is attained where the work set aside ends before, which the answer tells: of strong damping seen up
+/// to 0.39.
+const UNFINISHED: f64 = 0.5;
 
 /// What plans may get wrong unless told, and as much again for the grid.
 const SEARCHED: f64 = 0.02;
@@ -40,28 +47,13 @@ fn brute_force(
                 // The middle of the part as well: its ends must be the worst.
                 let places = component.ends_m().into_iter().chain([component.position_m]);
                 for position in places {
-                    let demand = match (kind, component.mount) {
-                        (LimitKind::VelocityChange, _) => timed(base.largest_shock(position)),
-                        (LimitKind::AngularVelocityChange, _) => timed(base.largest_turn()),
-                        (_, Mount::Suspended { frequency_hz, damping }) => {
-                            let peak = |f: u32| {
-                                let mount = Suspension::from_hz(frequency_hz.at(share(f, steps[3])), damping)
-                                    .expect("a frequency");
-                                let response = base.respond(position, &mount, true).expect("a response");
-                                let peak = if kind == LimitKind::Acceleration {
-                                    response.absolute_acceleration.peak()
-                                } else {
-                                    response.relative_displacement.peak()
-                                };
-                                (peak.value.abs(), peak.time)
-                            };
-                            (0..=steps[3]).map(peak).fold((0.0, 0.0), |a, b| if b.0 > a.0 { b } else { a })
-                        }
-                        (_, Mount::Hard) => timed(base.largest_acceleration(position).expect("a contact time")),
-                    };
-                    let (demand, time_s) = demand;
+                    let of = |f: u32| reached(&base, component, kind, position, share(f, steps[3]));
+                    let steps = if matches!(component.mount, Mount::Hard) { 0 } else { steps[3] };
+                    let (demand, time_s) = (0..=steps).map(of).fold((0.0, 0.0), |a, b| if b.0 > a.0 { b } else { a });
                     worst[1] = worst[1].max(demand);
-                    if time_s <= drop.restitution * drop.speed_m_s / drop.gravity_m_s2 {
+                    let gap_m = file.product.body.length_m() * drop.tilt_rad.sin();
+                    let clear_s = 2.0 * gap_m / drop.speed_m_s + drop.restitution * drop.speed_m_s / drop.gravity_m_s2;
+                    if time_s <= clear_s {
                         worst[0] = worst[0].max(demand);
                     }
                 }
@@ -71,9 +63,44 @@ fn brute_force(
     worst
 }
 
-/// Size and time of a shock.
-fn timed((size, _, time_s): (f64, usize, f64)) -> (f64, f64) {
-    (size, time_s)
+/// What one drop reaches at a place of the component, with its frequency at a share of its range, and when.
+fn reached(base: &Base, component: &Component, kind: LimitKind, position_m: f64, frequency: f64) -> (f64, f64) {
+    let timed = |(size, _, time_s): (f64, usize, f64)| (size, time_s);
+    match (kind, component.mount) {
+        (LimitKind::VelocityChange, _) => timed(base.largest_shock(position_m)),
+        (LimitKind::AngularVelocityChange, _) => timed(base.largest_turn()),
+        (_, Mount::Suspended { frequency_hz, damping }) => {
+            let mount = Suspension::from_hz(frequency_hz.at(frequency), damping).expect("a frequency");
+            let response = base.respond(position_m, &mount, true).expect("a response");
+            let peak = if kind == LimitKind::Acceleration {
+                response.absolute_acceleration.peak()
+            } else {
+                response.relative_displacement.peak()
+            };
+            (peak.value.abs(), peak.time)
+        }
+        (_, Mount::Hard) => timed(base.largest_acceleration(position_m).expect("a contact time")),
+    }
+}
+
+/// What the highest rung says of the drop that a limit names.
+fn named(file: &ProductFile, component: &Component, limit: &LimitAssessment, model: BarModel) -> f64 {
+    let worst = limit.worst_case;
+    let drop = SingleDrop {
+        first: worst.first,
+        tilt_rad: worst.tilt_deg.to_radians(),
+        speed_m_s: worst.speed_m_s,
+        restitution: worst.restitution,
+        gravity_m_s2: file.drop.gravity_m_s2,
+    };
+    let base = Base::new(&file.product, &drop, model).expect("a drop of the ranges");
+    let frequency = match (worst.frequency_hz, component.mount) {
+        (Some(f), Mount::Suspended { frequency_hz, .. }) if !frequency_hz.is_value() => {
+            (f - frequency_hz.lo()) / (frequency_hz.hi() - frequency_hz.lo())
+        }
+        _ => 0.0,
+    };
+    reached(&base, component, limit.limit, worst.position_m, frequency).0
 }
 
 fn range(lo: f64, width: f64) -> Spread {
@@ -122,27 +149,34 @@ fn proven(limit: &LimitAssessment) -> f64 {
     limit.proven.unwrap_or_else(|| panic!("{limit:?} is not proven"))
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
-    /// Without gravity nothing on the grid passes the bound, and the bound is within its tolerance of a drop that does it.
-    #[test]
-    fn no_drop_of_the_ranges_passes_a_proven_demand(file in scene()) {
+/// Without gravity nothing on the grid passes the bound, and the bound is within its tolerance of a drop that does it.
+#[test]
+fn no_drop_of_the_ranges_passes_a_proven_demand() {
+    let (proofs, loose) = (Cell::new(0), Cell::new(0));
+    let config = ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(48) };
+    let passed = TestRunner::new(config).run(&scene(), |file| {
         let assessment = file.assess().unwrap();
         for limit in &assessment.components[0].limits {
             let bound = proven(limit);
             let [_, worst] = brute_force(&file, &file.components[0], limit.limit, BarModel::Map, [24, 2, 6, 3]);
             // Strikes listed by the flight are rounded by themselves.
             prop_assert!(worst <= bound * (1.0 + 1e-9), "{:?}: {worst} passes {bound}", limit.limit);
-            // Strong damping makes the bounds less sharp; where the work set aside ends before, the answer says so.
-            let Mount::Suspended { damping, .. } = file.components[0].mount else { unreachable!() };
-            let most = if damping.get() <= 0.5 { TOLERANCE * 1.01 } else { 0.1 };
-            let most = if limit.guaranteed { most } else { SEARCHED };
+            let most = if limit.guaranteed { UNFINISHED } else { SEARCHED };
             prop_assert!(
                 limit.tolerance <= most,
-                "{:?}: {} above what is attained, {:?}", limit.limit, limit.tolerance, limit.warning
+                "{:?}: {} above what is attained, {:?}",
+                limit.limit,
+                limit.tolerance,
+                limit.warning
             );
+            proofs.set(proofs.get() + u32::from(limit.guaranteed));
+            loose.set(loose.get() + u32::from(limit.guaranteed && limit.tolerance > TOLERANCE * 1.01));
         }
-    }
+        Ok(())
+    });
+    assert!(passed.is_ok(), "{}", passed.unwrap_err());
+    // Of 1800 random ones, 5 are.
+    assert!(25 * loose.get() <= proofs.get(), "{} of {} proofs ended before", loose.get(), proofs.get());
 }
 
 /// With gravity, real tilt and contacts that take time: on a grid of its own the highest rung finds nothing worse than the tolerance
@@ -158,19 +192,23 @@ fn nothing_worse(file: &ProductFile, model: BarModel, accuracy: &Accuracy) -> Re
         if ["after a rebound", "later rebounds", "no model reaches"].iter().any(|told| warning.contains(told)) {
             continue;
         }
-        let (warned, rebounds) = (!warning.is_empty(), warning.contains("rebounds are not ruled out"));
-        let worst = if rebounds { early } else { worst };
-        prop_assert!(warned || limit.tolerance <= 2.0 * accuracy.tolerance + 1e-9, "{limit:?}");
-        prop_assert!(worst <= most, "{worst} is {} above {limit:?}", worst / limit.demand - 1.0);
-        // Nor does the assessment see more than there is; what is proven without gravity may be more.
-        let found = limit.guaranteed || rebounds || limit.attained <= worst * (1.0 + limit.tolerance.max(GRID));
-        prop_assert!(found, "{} is {} below {limit:?}", worst, 1.0 - worst / limit.attained);
+        // Beside that of rebounds, which leaves everything before them as it is.
+        let (warned, rebounds) = (!warning.is_empty() && !warning.starts_with(REBOUNDS), warning.contains(REBOUNDS));
+        let first = if rebounds { early } else { worst };
+        let asked = if limit.guaranteed { UNFINISHED } else { 2.0 * accuracy.tolerance + 1e-9 };
+        prop_assert!(warned || limit.tolerance <= asked, "{limit:?}");
+        prop_assert!(first <= most, "{first} is {} above {limit:?}", first / limit.demand - 1.0);
+        // Nor does the assessment see more than there is: the drop that it names does what it says.
+        if !limit.guaranteed {
+            let named = named(file, &file.components[0], limit, model);
+            prop_assert!((named / limit.attained - 1.0).abs() <= limit.tolerance, "{named} in the drop of {limit:?}");
+        }
     }
     Ok(())
 }
 
-/// What the grid of `nothing_worse` may miss of a sharp peak over the tilt.
-const GRID: f64 = 0.05;
+/// What is said where energy does not rule rebounds out.
+const REBOUNDS: &str = "rebounds are not ruled out";
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(if cfg!(debug_assertions) { 2 } else { 12 }))]
@@ -228,7 +266,7 @@ fn rebounds_that_are_not_ruled_out_are_told() {
         SingleDrop { first: End::A, tilt_rad: 0.034_594_075, speed_m_s: speed, restitution: e, gravity_m_s2: 9.81 };
     let missed = Base::new(&file.product, &drop, BarModel::Compliant).unwrap().largest_shock(0.0);
     assert!(missed.0 > 1.05 * limit.demand && missed.2 > 0.3, "{missed:?} {limit:?}");
-    assert!(limit.warning.as_deref().is_some_and(|w| w.contains("rebounds are not ruled out")), "{limit:?}");
+    assert!(limit.warning.as_deref().is_some_and(|w| w.contains(REBOUNDS)), "{limit:?}");
     // It is not said where energy rules them out.
     let example = ProductFile::read(EXAMPLE, "example").unwrap().assess().unwrap();
     assert!(example.components[0].limits.iter().all(|limit| limit.warning.is_none()), "{:?}", example.components[0]);

@@ -43,6 +43,8 @@ pub struct Forecast {
     bar: [f64; 5],
     /// By how much the strikes that were not followed may pass the peak, with the error of finite tilt.
     pub(super) doubt: f64,
+    /// Bound on what comes after the strikes that were followed, as a share of the peak.
+    later: f64,
     /// What is wrong with one net change, one largest shock, impulses, and with pulses where there are none.
     component: [f64; 4],
     /// Share of the error of finite tilt that overlap makes.
@@ -163,6 +165,7 @@ impl Setup {
             quantity,
             bar: [map, map, ballistic, tilted, if compliant { 0.0 } else { f64::INFINITY }],
             doubt,
+            later: if walk.is_certain { f64::INFINITY } else { number(walk.late / peak.value) },
             component: [
                 number(net),
                 number(largest),
@@ -241,10 +244,10 @@ impl Forecast {
         Estimate { error: if merges { f64::INFINITY } else { bar + component }, is_bound }
     }
     /// What the quantity is at most, by far more than the estimates are ever off: `peak` and [`DOUBT`] times what finite tilt and
-    /// the strikes not followed leave open. For screening; a study of random scenes holds it.
+    /// the strikes not followed leave open, or all that may come after those that were. For screening; a study of random scenes holds it.
     #[must_use]
     pub fn at_most(&self) -> f64 {
-        self.peak * (1.0 + DOUBT * self.doubt)
+        self.peak * (1.0 + DOUBT * self.doubt).max(self.later)
     }
     /// What a pair costs in pulses of so many pieces, about, in ns on a 2.9 GHz core: a sum of constants measured once, by the study. Only ratios are good for
     /// anything, and on the average of many scenes: a single one may differ by a factor of 10.

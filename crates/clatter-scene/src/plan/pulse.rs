@@ -117,7 +117,7 @@ impl Pulse {
         self.onset() > SMOOTH
     }
     /// Its largest acceleration, about.
-    pub(super) fn crest(&self) -> f64 {
+    pub(crate) fn crest(&self) -> f64 {
         self.onset().max(SMOOTH)
     }
     /// The pulse in straight pieces, about `cells` of them, denser where it begins steeply: when each begins and ends, and the accelerations

@@ -63,16 +63,14 @@ impl Setup {
         let speed =
             if whole { Some(0.0) } else { shocks.last().map(|last| ends.reach(self.twice_energy(flight, last))) };
         let Some(speed) = speed else { return f64::INFINITY };
-        let beyond = if velocity_shock {
-            later_shock(speed, g, contact_s)
-        } else if whole {
+        let beyond = if whole && !velocity_shock {
             weight(&swing, g / omega)
         } else {
-            // Where the two ends push to and fro, the weight does not limit what piles up.
-            let [a, b] = [ends.at((1.0, -ends.flat[0])), ends.at((-ends.flat[1], 1.0))];
-            let times = if a * b < 0.0 { largest_pile(&ends) } else { pile(&ends, zeta, speed, g / omega) };
-            times * later_response(&swing, speed, g, omega)
+            self.later_at_most(&ends, &swing, quantity, speed, contact_s)
         };
+        // The envelope of a unit shock, and over its peak.
+        let unit = swing.envelope(Motion { x: 0.0, w: 1.0 });
+        let over_factor = unit / swing.factor;
         let (mut motion, mut peak) = (Motion::default(), 0.0_f64);
         // What long contacts did, however it turned since.
         let mut loose = 0.0_f64;
@@ -83,7 +81,8 @@ impl Setup {
         });
         let Looks { turns, hopeless } = looks;
         for (k, (shock, (_, (turn, fade)))) in shocks.iter().zip(&*turns).enumerate() {
-            let mut rings = 0.0;
+            // What rings on: at most, and as an envelope, which fades.
+            let mut rings = [0.0; 2];
             if velocity_shock {
                 peak = peak.max(shock.net.abs() / ((shock.parted_s - shock.from_s) / contact_s).max(1.0).ceil());
             } else {
@@ -110,26 +109,27 @@ impl Setup {
                 peak = peak.max(swing.quantity(swing.after(turn, certain)).abs() - doubt);
                 motion = swing.after(turn, motion);
                 loose *= fade;
-                rings = swing.bound(motion) + loose;
+                rings = [swing.bound(motion) + loose, swing.envelope(motion) + loose * over_factor];
             }
             if k < *hopeless {
                 continue;
             }
             // All later shocks that are known, as if in phase, then all others.
-            let (mut later, most) = (rings, least.max(CLEAR * peak));
+            let ([mut at_most, mut later], most) = (rings, least.max(CLEAR * peak));
             let low = shocks[k + 1..].iter().enumerate().all(|(i, next)| {
                 if velocity_shock {
                     return next.gross < most;
                 }
-                later += swing.factor * next.gross;
-                let low = later < most;
+                at_most += swing.factor * next.gross;
+                later += unit * next.gross;
+                let low = at_most.min(later) < most;
                 later *= turns.get(k + 1 + i).map_or(1.0, |(_, (_, fade))| *fade);
                 low
             });
             if !low && k == *hopeless {
                 *hopeless = k + 1;
             }
-            if low && (if velocity_shock { beyond } else { later + beyond }) < most {
+            if low && (if velocity_shock { beyond } else { at_most.min(later) + beyond }) < most {
                 return 0.5 * (shock.parted_s + shock.next_s);
             }
         }
@@ -151,18 +151,30 @@ impl Setup {
         if last.next_s == f64::INFINITY {
             return false;
         }
-        let (ends, omega, g) =
-            (Ends::new(&self.scene, self.position), self.suspension.omega(), self.scene.gravity_m_s2());
+        let ends = Ends::new(&self.scene, self.position);
+        let swing = Swing::new(self.suspension.damping().get(), quantity == Quantity::PeakAcceleration);
         let speed = ends.reach(self.twice_energy(flight, last));
-        let later = if quantity == Quantity::VelocityShock {
-            later_shock(speed, g, contact_s)
-        } else {
-            let zeta = self.suspension.damping().get();
-            let swing = Swing::new(zeta, quantity == Quantity::PeakAcceleration);
-            let rings = least * swing.fade(omega * (last.next_s - last.parted_s));
-            rings + pile(&ends, zeta, speed, g / omega) * later_response(&swing, speed, g, omega)
-        };
+        let mut later = self.later_at_most(&ends, &swing, quantity, speed, contact_s);
+        if quantity != Quantity::VelocityShock {
+            // What rings passes it no more: the envelope of a shock with that peak, faded.
+            let over_factor = swing.envelope(Motion { x: 0.0, w: 1.0 }) / swing.factor;
+            let fade = swing.fade(self.suspension.omega() * (last.next_s - last.parted_s));
+            later += least * (over_factor * fade).min(1.0);
+        }
         later > least
+    }
+
+    /// Bound on the shocks, or on what they do to the response, of a bar whose speed at the component stays below `speed`.
+    fn later_at_most(&self, ends: &Ends, swing: &Swing, quantity: Quantity, speed: f64, contact_s: f64) -> f64 {
+        let (omega, g) = (self.suspension.omega(), self.scene.gravity_m_s2());
+        if quantity == Quantity::VelocityShock {
+            return later_shock(speed, g, contact_s);
+        }
+        // Where the two ends push to and fro, the weight does not limit what piles up.
+        let [a, b] = [ends.at((1.0, -ends.flat[0])), ends.at((-ends.flat[1], 1.0))];
+        let zeta = self.suspension.damping().get();
+        let times = if a * b < 0.0 { largest_pile(ends) } else { pile(ends, zeta, speed, g / omega) };
+        times * later_response(swing, speed, g, omega)
     }
 
     /// Twice the energy of the body as the last of a few contacts parts, by its spin: upright, its ends do not show how fast it turns.

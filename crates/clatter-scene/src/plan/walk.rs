@@ -56,7 +56,7 @@ pub(super) struct Walk<const N: usize> {
     intervals: [Interval; N],
     strikes: usize,
     /// Bound on the response, or shock, after the strikes followed; what of it one more shock does.
-    late: f64,
+    pub(super) late: f64,
     extra: f64,
     /// Until when models need to be followed for nothing later to exceed the peak.
     pub(super) until_s: f64,
