@@ -42,9 +42,9 @@ fn plans_of_random_scenes_are_good_enough() {
         // Some scene must need contacts, and some get less.
         assert!(w.needed > 0.05 && w.given < 0.97, "tolerance {tolerance}: {w:?}");
     }
-    // What a search passes over because of the bound: four scenes in a thousand may reach more, by more than 1 %.
+    // What a search passes over because of the bound: one scene in a thousand may reach more, by more than 1 %. Of 8900, none does.
     let above = outcomes.iter().filter(|o| o.truth > 1.01 * o.setup.forecast(o.quantity).at_most()).count();
-    assert!(250 * above <= outcomes.len(), "{above} of {} reach more than the bound", outcomes.len());
+    assert!(1000 * above <= outcomes.len(), "{above} of {} reach more than the bound", outcomes.len());
 }
 
 /// A train so short that it ends, in half of its strikes, long before the part swings out: its peak stands after all that were followed.

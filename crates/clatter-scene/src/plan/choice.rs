@@ -163,7 +163,8 @@ impl Plan {
     /// # Errors
     /// As [`Setup::demand`].
     pub fn run(&self, setup: &Setup) -> Result<f64, Error> {
-        setup.answer_in(self.pair, self.quantity, self.until_s, self.pieces).map(|answer| answer.value)
+        let tolerance = self.reason.tolerance;
+        setup.answer_in(self.pair, self.quantity, self.until_s, self.pieces, tolerance).map(|answer| answer.value)
     }
 }
 

@@ -67,20 +67,21 @@ impl Setup {
     /// # Errors
     /// As [`demand`](Self::demand).
     pub fn answer(&self, pair: Pair, quantity: Quantity, until_s: f64) -> Result<Answer, Error> {
-        self.answer_in(pair, quantity, until_s, CELLS)
+        self.answer_in(pair, quantity, until_s, CELLS, 0.0)
     }
 
-    /// As [`answer`](Self::answer), in pulses of `cells` pieces.
+    /// As [`answer`](Self::answer), in pulses of `cells` pieces, and contacts followed until nothing later raises it beyond a tolerance.
     pub(super) fn answer_in(
         &self,
         pair: Pair,
         quantity: Quantity,
         until_s: f64,
         cells: usize,
+        tolerance: f64,
     ) -> Result<Answer, Error> {
         if pair == Pair::HIGHEST {
             let contact_s = self.known_contact_s()?;
-            let (flight, settled_s) = self.settled_flight(quantity, contact_s)?;
+            let (flight, settled_s) = self.settled_flight(quantity, contact_s, tolerance)?;
             return self.of_contacts(&flight, settled_s, contact_s, quantity, cells);
         }
         self.answer_fine(pair, quantity, until_s, cells)

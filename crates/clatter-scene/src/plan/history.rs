@@ -44,10 +44,12 @@ pub(crate) fn of_contacts(scene: &Scene, flight: &CompliantFlight, until_s: f64,
     if rests {
         cuts.push((stop + SETTLED * contact_s, at_stop));
     }
-    let mut points = vec![(0.0, [0.0; 2])];
+    let mut points = Vec::with_capacity(16 * cuts.len());
+    points.push((0.0, [0.0; 2]));
+    let mut nodes = Vec::new();
     let (mut pressing, mut changed) = ([false; 2], 0.0);
-    for (phase, cut) in cuts.windows(2).enumerate() {
-        let ((from, on), (to, _)) = (cut[0], cut[1]);
+    for (phase, pair) in cuts.windows(2).enumerate() {
+        let ((from, on), (to, _)) = (pair[0], pair[1]);
         let long = to - from;
         if on != pressing {
             (pressing, changed) = (on, from);
@@ -75,12 +77,12 @@ pub(crate) fn of_contacts(scene: &Scene, flight: &CompliantFlight, until_s: f64,
         }
         let share = (push * first / largest).min(1.0);
         let cells = (cells * share.sqrt()).max((0.5 * cells).clamp(1.0, 6.0));
-        let nodes = nodes(rate, from - changed, long, contact_s, cells);
+        cut(&mut nodes, rate, from - changed, long, contact_s, cells);
         // Just before its end, not in what follows.
         let last = to - 1e-9 * long.min(contact_s);
         let motion = |t| flight.motion_in(phase, t);
         let mut now = (from, motion(from));
-        for t in &nodes[1..] {
+        for t in &nodes {
             let time = (from + t).min(last);
             let next = (time, motion(time));
             let [a, b] = [0, 1].map(|i| piece(now.0, next.0, now.1[i], next.1[i]));
@@ -105,13 +107,14 @@ pub(crate) fn at_place(pushes: &Pushes, suspension: &Suspension, at: impl Fn([f6
     points
 }
 
-/// Times from 0 over one phase, `age` after contacts changed: `cells` or so over a contact time, denser just after a change, and ever
-/// fewer over a contact that lasts, which only carries the body in the end.
-fn nodes(rate: f64, age: f64, long: f64, contact_s: f64, cells: f64) -> Vec<f64> {
+/// Times after 0 at which one phase is cut, `age` after contacts changed: `cells` or so over a contact time, denser just after a change,
+/// and ever fewer over a contact that lasts, which only carries the body in the end.
+fn cut(nodes: &mut Vec<f64>, rate: f64, age: f64, long: f64, contact_s: f64, cells: f64) {
+    nodes.clear();
     let longest = contact_s / cells;
     let first = if age > 0.0 { longest + 0.05 * age } else { (3.0 / (cells * rate)).min(longest) };
     let mut step = first.min(if age > 0.0 { long } else { long / cells.min(4.0) });
-    let (mut t, mut nodes) = (0.0, vec![0.0]);
+    let mut t = 0.0;
     while t + 1.5 * step < long {
         t += step;
         nodes.push(t);
@@ -119,7 +122,6 @@ fn nodes(rate: f64, age: f64, long: f64, contact_s: f64, cells: f64) -> Vec<f64>
         step = (step * (1.0 + 4.0 / cells)).min(most);
     }
     nodes.push(long);
-    nodes
 }
 
 /// Velocity shocks as pulses of lone contacts in so many `cells`, added up where they overlap.

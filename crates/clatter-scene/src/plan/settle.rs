@@ -6,27 +6,36 @@ use clatter::flight::{CompliantFlight, Stop, Strike};
 use super::bounds::{largest_pile, later_response, later_shock, pile, weight};
 use super::lane::Ends;
 use super::pulse::Pulse;
-use super::swing::{Motion, Swing, Turn};
+use super::swing::{Motion, Swing};
 use super::{Quantity, Setup};
 use crate::Error;
 
 /// Looked at anew after every strike; after many, once a sixth of them has come again.
 const AGAIN: usize = 6;
 
-/// What can come must stay below this share of the peak: pulses flatten both, not alike.
+/// What can come must stay below this share of the peak, as pulses flatten both, not alike; and of each share of an error that is allowed,
+/// by so many times more. Of 10⁵ random answers one was then off by a third of a tolerance of 1 % and more, by the strikes left out.
 const CLEAR: f64 = 0.75;
+const ALLOWED: f64 = 3.0;
+/// At most: then what is left out is within half of the tolerance.
+const ONLY: f64 = 0.1;
 /// Phase of the component in one contact from which on it is no impulse.
 const PULSE: f64 = 0.5;
 /// Contact times beyond which a contact is no shock.
 const LONG: f64 = 4.0;
 
 impl Setup {
-    /// A flight with contacts, and the time after which no strike of it raises the quantity: by the bound of [`Forecast::until_s`] on the
-    /// flight itself, which is followed further until it holds, or to its end.
+    /// A flight with contacts, and the time after which no strike of it raises the quantity beyond a tolerance: by the bound of
+    /// [`Forecast::until_s`] on the flight itself, which is followed further until it holds, or to its end.
     ///
     /// [`Forecast::until_s`]: super::Forecast::until_s
-    pub(super) fn settled_flight(&self, quantity: Quantity, contact_s: f64) -> Result<(CompliantFlight, f64), Error> {
-        let (mut settled_s, mut look, mut looks) = (f64::INFINITY, 1, Looks::default());
+    pub(super) fn settled_flight(
+        &self,
+        quantity: Quantity,
+        contact_s: f64,
+        tolerance: f64,
+    ) -> Result<(CompliantFlight, f64), Error> {
+        let (mut settled_s, mut look, mut looks) = (f64::INFINITY, 1, Looks::new(tolerance));
         let flight = self.scene.simulate_compliant_until(contact_s, |flight| {
             let n = flight.flight.strikes.len();
             if n < look {
@@ -68,54 +77,42 @@ impl Setup {
         } else {
             self.later_at_most(&ends, &swing, quantity, speed, contact_s)
         };
-        // The envelope of a unit shock, and over its peak.
-        let unit = swing.envelope(Motion { x: 0.0, w: 1.0 });
-        let over_factor = unit / swing.factor;
-        let (mut motion, mut peak) = (Motion::default(), 0.0_f64);
-        // What long contacts did, however it turned since.
-        let mut loose = 0.0_f64;
-        let phase = |shock: &LoneShock| omega * (shock.next_s - shock.from_s);
-        looks.turn(&shocks[..shocks.len() - usize::from(whole)], |shock| {
-            // Of a contact that lasts, the end may be what shocks: what is loose fades from its parting on.
-            (swing.turn(phase(shock)), swing.fade(omega * (shock.next_s - shock.parted_s)))
-        });
-        let Looks { turns, hopeless } = looks;
-        for (k, (shock, (_, (turn, fade)))) in shocks.iter().zip(&*turns).enumerate() {
-            // What rings on: at most, and as an envelope, which fades.
-            let mut rings = [0.0; 2];
+        let over_factor = swing.over_factor();
+        let unit = over_factor * swing.factor;
+        looks.see(&shocks[..shocks.len() - usize::from(whole)], |shock, before| {
             if velocity_shock {
-                peak = peak.max(shock.net.abs() / ((shock.parted_s - shock.from_s) / contact_s).max(1.0).ceil());
+                let times = ((shock.parted_s - shock.from_s) / contact_s).max(1.0).ceil();
+                return Seen { peak: before.peak.max(shock.net.abs() / times), ..before };
+            }
+            let phase = omega * (shock.next_s - shock.from_s);
+            let turn = swing.turn(phase);
+            let Seen { mut motion, mut loose, mut peak, .. } = before;
+            let long = shock.parted_s - shock.from_s;
+            let (certain, doubt) = if omega * long < PULSE && long <= LONG * contact_s {
+                motion.w -= shock.net;
+                (motion, loose)
             } else {
-                let long = shock.parted_s - shock.from_s;
-                let (certain, doubt) = if omega * long < PULSE && long <= LONG * contact_s {
-                    motion.w -= shock.net;
-                    (motion, loose)
-                } else {
-                    // No impulse: what rang before may be with it or against it. Pulses flatten all of it about alike; what comes
-                    // later is taken as if no contacts overlapped.
-                    let rang = swing.bound(motion) + loose;
-                    loose += swing.factor * shock.gross;
-                    (
-                        Motion {
-                            x: 0.0,
-                            w: shock.crest(&pulse, contact_s, || alone(&flight.flight.strikes[shock.first], &ends)),
-                        },
-                        rang,
-                    )
-                };
-                if swing.bound(certain) > peak + doubt {
-                    peak = peak.max(swing.peak(certain, phase(shock)).value - doubt);
-                }
-                peak = peak.max(swing.quantity(swing.after(turn, certain)).abs() - doubt);
-                motion = swing.after(turn, motion);
-                loose *= fade;
-                rings = [swing.bound(motion) + loose, swing.envelope(motion) + loose * over_factor];
+                // No impulse: what rang before may be with it or against it. Pulses flatten all of it about alike; what comes
+                // later is taken as if no contacts overlapped.
+                let rang = swing.bound(motion) + loose;
+                loose += swing.factor * shock.gross;
+                let first = || alone(&flight.flight.strikes[shock.first], &ends);
+                (Motion { x: 0.0, w: shock.crest(&pulse, contact_s, first) }, rang)
+            };
+            if swing.bound(certain) > peak + doubt {
+                peak = peak.max(swing.peak(certain, phase).value - doubt);
             }
-            if k < *hopeless {
-                continue;
-            }
+            peak = peak.max(swing.quantity(swing.after(&turn, certain)).abs() - doubt);
+            motion = swing.after(&turn, motion);
+            // Of a contact that lasts, the end may be what shocks: what is loose fades from its parting on.
+            loose *= swing.fade(omega * (shock.next_s - shock.parted_s));
+            let rings = [swing.bound(motion) + loose, swing.envelope(motion) + loose * over_factor];
+            Seen { motion, loose, peak, rings, fade: turn.fade }
+        });
+        let Looks { clear, seen, hopeless } = looks;
+        for (k, (_, now)) in seen.iter().enumerate().skip(*hopeless) {
             // All later shocks that are known, as if in phase, then all others.
-            let ([mut at_most, mut later], most) = (rings, least.max(CLEAR * peak));
+            let ([mut at_most, mut later], most) = (now.rings, least.max(*clear * now.peak));
             let low = shocks[k + 1..].iter().enumerate().all(|(i, next)| {
                 if velocity_shock {
                     return next.gross < most;
@@ -123,14 +120,14 @@ impl Setup {
                 at_most += swing.factor * next.gross;
                 later += unit * next.gross;
                 let low = at_most.min(later) < most;
-                later *= turns.get(k + 1 + i).map_or(1.0, |(_, (_, fade))| *fade);
+                later *= seen.get(k + 1 + i).map_or(1.0, |(_, next)| next.fade);
                 low
             });
             if !low && k == *hopeless {
                 *hopeless = k + 1;
             }
             if low && (if velocity_shock { beyond } else { at_most.min(later) + beyond }) < most {
-                return 0.5 * (shock.parted_s + shock.next_s);
+                return 0.5 * (shocks[k].parted_s + shocks[k].next_s);
             }
         }
         f64::INFINITY
@@ -157,9 +154,8 @@ impl Setup {
         let mut later = self.later_at_most(&ends, &swing, quantity, speed, contact_s);
         if quantity != Quantity::VelocityShock {
             // What rings passes it no more: the envelope of a shock with that peak, faded.
-            let over_factor = swing.envelope(Motion { x: 0.0, w: 1.0 }) / swing.factor;
             let fade = swing.fade(self.suspension.omega() * (last.next_s - last.parted_s));
-            later += least * (over_factor * fade).min(1.0);
+            later += least * (swing.over_factor() * fade).min(1.0);
         }
         later > least
     }
@@ -168,13 +164,11 @@ impl Setup {
     fn later_at_most(&self, ends: &Ends, swing: &Swing, quantity: Quantity, speed: f64, contact_s: f64) -> f64 {
         let (omega, g) = (self.suspension.omega(), self.scene.gravity_m_s2());
         if quantity == Quantity::VelocityShock {
-            return later_shock(speed, g, contact_s);
+            return later_shock(speed, ends.e, g, contact_s);
         }
-        // Where the two ends push to and fro, the weight does not limit what piles up.
         let [a, b] = [ends.at((1.0, -ends.flat[0])), ends.at((-ends.flat[1], 1.0))];
-        let zeta = self.suspension.damping().get();
-        let times = if a * b < 0.0 { largest_pile(ends) } else { pile(ends, zeta, speed, g / omega) };
-        times * later_response(swing, speed, g, omega)
+        let times = pile(largest_pile(ends), swing, speed, g / omega, a * b >= 0.0);
+        later_response(swing, speed, ends.e, times, g, omega)
     }
 
     /// Twice the energy of the body as the last of a few contacts parts, by its spin: upright, its ends do not show how fast it turns.
@@ -220,24 +214,45 @@ impl Setup {
 }
 
 /// What looks at the beginning of a flight have found.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Looks {
-    /// For each lone shock but the last, when it begins, has parted and the next one begins, to the bit; what the component's motion turns by
-    /// meanwhile, and what is left of the loose.
-    turns: Vec<([u64; 3], (Turn, f64))>,
+    /// What can come must stay below this share of the peak.
+    clear: f64,
+    /// Each lone shock but the last: when it begins, has parted and the next one begins, to the bit, and what is then known.
+    seen: Vec<([u64; 3], Seen)>,
     /// So many of them are followed by known shocks that are too large: no later look finds that they settle.
     hopeless: usize,
 }
 
+/// The component as the next shock begins.
+#[derive(Debug, Clone, Copy, Default)]
+struct Seen {
+    motion: Motion,
+    /// What long contacts did, however it turned since.
+    loose: f64,
+    /// The peak so far, at least.
+    peak: f64,
+    /// What rings on: at most, and as an envelope, which fades.
+    rings: [f64; 2],
+    /// What is left of a motion since the shock began.
+    fade: f64,
+}
+
 impl Looks {
-    /// Works out what shocks turn by, unless it is known: two that were apart may be one by now.
-    fn turn(&mut self, shocks: &[LoneShock], turn: impl Fn(&LoneShock) -> (Turn, f64)) {
-        self.turns.truncate(shocks.len());
+    /// Of an answer that may be off by a tolerance.
+    pub(crate) fn new(tolerance: f64) -> Self {
+        Self { clear: CLEAR + ALLOWED * tolerance.min(ONLY), seen: Vec::new(), hopeless: 0 }
+    }
+
+    /// Works out what each shock leaves, by what the one before has left, unless it is known: two that were apart may be one by now.
+    fn see(&mut self, shocks: &[LoneShock], leaves: impl Fn(&LoneShock, Seen) -> Seen) {
+        self.seen.truncate(shocks.len());
         for (k, shock) in shocks.iter().enumerate() {
             let times = [shock.from_s, shock.parted_s, shock.next_s].map(f64::to_bits);
-            if self.turns.get(k).is_none_or(|(known, _)| *known != times) {
-                self.turns.truncate(k);
-                self.turns.push((times, turn(shock)));
+            if self.seen.get(k).is_none_or(|(known, _)| *known != times) {
+                self.seen.truncate(k);
+                let before = self.seen.last().map_or(Seen::default(), |(_, before)| *before);
+                self.seen.push((times, leaves(shock, before)));
             }
         }
     }

@@ -1,6 +1,6 @@
 //! The first strikes of a drop as one component has them, in four lanes at once.
 
-use super::bounds::{greater, largest_pile, later_response, later_shock, lesser, piled, weight};
+use super::bounds::{greater, largest_pile, later_response, later_shock, lesser, pile, weight};
 use super::coupling::{Coupling, Pressing};
 use super::lane::{Ends, MapLane};
 use super::swing::{Motion, Swing};
@@ -388,14 +388,15 @@ impl<'a, const N: usize> Walker<'a, N> {
     /// may come.
     fn to_come(&self, speed: f64, more: bool) -> (f64, f64, f64) {
         if self.coupling.velocity_shock {
-            let shock = later_shock(speed, self.gravity, self.coupling.time);
+            let shock = later_shock(speed, self.ends.e, self.gravity, self.coupling.time);
             return (shock, shock, shock);
         }
         let fall = self.gravity / self.omega;
-        let extra = later_response(self.swing, speed, self.gravity, self.omega);
-        let times = if more { piled(self.pile, self.swing.zeta(), speed, fall) } else { 1.0 };
-        let all = self.swing.bound(self.motion) + self.adrift + times * extra;
-        (if all.is_nan() { f64::INFINITY } else { all }, extra, times * extra)
+        let times = if more { pile(self.pile, self.swing, speed, fall, true) } else { 1.0 };
+        let [extra, coming] =
+            [1.0, times].map(|times| later_response(self.swing, speed, 1.0, times, self.gravity, self.omega));
+        let all = self.swing.bound(self.motion) + self.adrift + coming;
+        (if all.is_nan() { f64::INFINITY } else { all }, extra, coming)
     }
 
     /// Whether real tilt is off by more than the tolerance, whatever strikes still come.

@@ -128,16 +128,16 @@ pub(crate) fn study(seed: u64, scenes: usize) -> (Vec<Outcome>, usize) {
             let truth = highest(TRUE_CELLS);
             let (_, highest_seconds) = timed(|| highest(CELLS));
             let plans = TOLERANCES.map(|tolerance| forecast.plan(tolerance).refined(&setup));
-            let run = |pair: Pair, pieces| {
-                let plan = Plan { pair, pieces, until_s, ..plans[0] };
+            let run = |pair: Pair, plan: &Plan| {
+                let plan = Plan { pair, until_s, ..*plan };
                 let (value, seconds) = timed(|| plan.run(&setup).expect("a planned pair"));
-                Ran { error: (value / truth - 1.0).abs(), seconds, modeled_ns: forecast.cost_ns(pair, pieces) }
+                Ran { error: (value / truth - 1.0).abs(), seconds, modeled_ns: forecast.cost_ns(pair, plan.pieces) }
             };
             let runs = Pair::planned(quantity).iter().map(|&pair| {
                 let cut = pair.component == ComponentRung::PulseTrain;
-                let mut with = [run(pair, plans[0].pieces); 3];
+                let mut with = [run(pair, &plans[0]); 3];
                 for (with, plan) in with.iter_mut().zip(&plans).skip(1).filter(|_| cut) {
-                    *with = run(pair, plan.pieces);
+                    *with = run(pair, plan);
                 }
                 Run { pair, estimate: forecast.pair(pair).error, with }
             });

@@ -448,7 +448,9 @@ impl Phase {
             return self.parting(f64::INFINITY, fresh).map(|(i, t)| (i, t, false));
         }
         let mut event: Option<(usize, f64, bool)> = None;
-        for i in 0..2 {
+        // The end in contact first: when it parts is soon known.
+        let first = usize::from(self.on[1]);
+        for i in [first, 1 - first] {
             let cap = event.map_or(f64::INFINITY, |(_, t, _)| t);
             let next = if self.on[i] {
                 self.parting(cap, fresh).map(|(_, t)| (t, false))
