@@ -13,11 +13,12 @@ use crate::Error;
 /// Looked at anew after every strike; after many, once a sixth of them has come again.
 const AGAIN: usize = 6;
 
-/// What can come must stay below this share of the peak, as pulses flatten both, not alike; and of each share of an error that is allowed,
-/// by so many times more. Of 10⁵ random answers one was then off by a third of a tolerance of 1 % and more, by the strikes left out.
+/// What can come must stay below this share of the peak, as pulses flatten both, not alike; where an error is allowed, by so many times
+/// that more. Of 1.4·10⁵ random answers none was off by more than 1e-5 for the strikes left out; with 10 % allowed 300 by more than 1e-4,
+/// nearly all below 5 %, and one by more than 10 %.
 const CLEAR: f64 = 0.75;
 const ALLOWED: f64 = 3.0;
-/// At most: then what is left out is within half of the tolerance.
+/// No larger error counts: with this one, what is left out passes the peak by half of it at most.
 const ONLY: f64 = 0.1;
 /// Phase of the component in one contact from which on it is no impulse.
 const PULSE: f64 = 0.5;

@@ -392,6 +392,7 @@ impl<'a, const N: usize> Walker<'a, N> {
             return (shock, shock, shock);
         }
         let fall = self.gravity / self.omega;
+        // As if both ends pushed the same way, and threw back all of the speed: the study holds what follows from that.
         let times = if more { pile(self.pile, self.swing, speed, fall, true) } else { 1.0 };
         let [extra, coming] =
             [1.0, times].map(|times| later_response(self.swing, speed, 1.0, times, self.gravity, self.omega));
