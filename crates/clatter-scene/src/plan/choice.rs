@@ -158,7 +158,8 @@ impl Plan {
             self
         }
     }
-    /// The quantity asked, by the models of the plan.
+    /// The quantity asked, by the models of the plan. Contacts that take time are followed until nothing later raises it by more than half
+    /// of a tolerance of 10 %, or at all with one of 8 % and less.
     ///
     /// # Errors
     /// As [`Setup::demand`].
