@@ -587,6 +587,11 @@ impl Drive {
         self.power(0.5 * to_f64(n) * self.ln_e(), v)
     }
 
+    /// Whether the amplitude that the first strikes have of a wave is no float, though they are: next to e = 0 they are its lesser part.
+    pub(crate) fn is_out_of_range(&self, wave: &Wave) -> bool {
+        self.decayed(0, self.amplitude(wave) / wave.s) == f64::INFINITY
+    }
+
     /// exp(x) v, of true scale.
     fn power(&self, x: f64, v: f64) -> f64 {
         let [power] = self.powers(x, [v]);

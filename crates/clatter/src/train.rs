@@ -277,7 +277,7 @@ impl Source {
             Count::Huge(_) | Count::Endless => None,
         };
         let closed = match drive.kind {
-            Kind::Wave(_) => false,
+            Kind::Wave(wave) => drive.is_out_of_range(&wave),
             Kind::Decay(_) => count.is_some(),
             Kind::Edge => true,
         };

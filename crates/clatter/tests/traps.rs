@@ -509,6 +509,17 @@ fn table_1_was_truncated_in_one_cell_and_clipped_in_two() {
     }
 }
 
+/// Next to e = 0 the amplitude that the train would have had before its first strike may be no float.
+#[test]
+fn an_amplitude_out_of_range_gives_approaches_within() {
+    let train = bar(5e-324, 5e-324).train(&start(-1.0, -1e150));
+    let approaches: Vec<_> = train.map(|impact| impact.approach).collect();
+    assert!(approaches.len() == 3, "{approaches:?}");
+    for (got, want) in approaches.into_iter().zip([-1.0, -1e150, -1e150 * 5e-324]) {
+        assert!(close(got, want, APPROACH.error), "{got:e}, not {want:e}");
+    }
+}
+
 /// Velocities and heights whose squares leave the range of floats decide as well as any others.
 #[test]
 fn tiny_and_huge_velocities_and_heights_lose_no_digit() {

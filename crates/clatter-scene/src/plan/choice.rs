@@ -13,7 +13,7 @@ pub struct Plan {
     pub quantity: Quantity,
     /// One rung of each ladder.
     pub pair: Pair,
-    /// What it gets wrong, as a share of the quantity; the pieces of its pulses come to that.
+    /// What it gets wrong, as a share of the quantity; the pieces of its pulses come to that, and the strikes that [`Plan::run`] leaves out.
     pub estimate: Estimate,
     /// Pieces of a pulse that does all: they take a tenth of the tolerance, about.
     pub pieces: usize,
