@@ -10,7 +10,7 @@
 //! Free motion P(ψ) never makes the norm larger, and with m′ = M m, M = [[0, 1], [−1, −2ζ]], |M| = μ = ζ + √(1 + ζ²),
 //!
 //! ```text
-//! P(ψ₀ + δ) m = P(ψ₀) m + δ M P(ψ₀) m + (up to ½ δ² |P(ψ_lo)| |M² m|)           for ψ₀, ψ₀ + δ ≥ ψ_lo
+//! P(ψ₀ + δ) m = P(ψ₀) m + δ M P(ψ₀) m + (up to ½ δ² |M² P(ψ_lo) m|)             for ψ₀, ψ₀ + δ ≥ ψ_lo
 //! |q_k(m)| ≤ max over ξ = ±1 of |q_k(c + g₁ξ₁ + g₂ξ₂)| + G_k r,    G = 1 for ωz, √(1 + 4ζ²) for A/ω
 //! ```
 //!
@@ -18,7 +18,7 @@
 //! the state is anything of its size, or the shock is: by superposition it adds at most its own response, whenever it comes. The
 //! middle of all ranges is followed exactly: its peak is attained, so each call bounds from below and from above.
 
-use crate::suspension::{Modes, Motion, Phase};
+use crate::suspension::{Modes, Motion, Phase, Propagator};
 use crate::{DampingRatio, peaks::Range};
 
 /// A velocity shock known to within ranges.
@@ -28,8 +28,8 @@ pub struct LooseShock {
     pub phase: f64,
     /// What the two unknowns do to it at most, to first order, each with its sign for +1.
     pub phase_by: [f64; 2],
-    /// How far it may be from that.
-    pub phase_rest: f64,
+    /// How far it may be from that, each unknown's part: for both together, the sum.
+    pub phase_rest: [f64; 2],
     /// It is at least this.
     pub least_phase: f64,
     /// It is at most this; may be infinite.
@@ -51,7 +51,7 @@ impl LooseShock {
         Self {
             phase,
             phase_by: [0.0; 2],
-            phase_rest: 0.0,
+            phase_rest: [0.0; 2],
             least_phase: phase,
             most_phase: phase,
             delta_v,
@@ -165,7 +165,7 @@ pub fn peak_bounds(damping: DampingRatio, peaked: Peaked, shocks: &[LooseShock],
 struct Gap {
     middle: f64,
     by: [f64; 2],
-    rest: f64,
+    rest: [f64; 2],
     least: f64,
     most: f64,
 }
@@ -173,11 +173,16 @@ struct Gap {
 impl Gap {
     fn add(&mut self, shock: &LooseShock) {
         self.middle += shock.phase;
-        self.by[0] += shock.phase_by[0];
-        self.by[1] += shock.phase_by[1];
-        self.rest += shock.phase_rest;
+        for i in 0..2 {
+            self.by[i] += shock.phase_by[i];
+            self.rest[i] += shock.phase_rest[i];
+        }
         self.least += shock.least_phase;
         self.most += shock.most_phase;
+    }
+    /// What each unknown moves the phase by.
+    fn reach(&self) -> [f64; 2] {
+        [0, 1].map(|i: usize| self.by[i].abs() + self.rest[i])
     }
 }
 
@@ -197,51 +202,55 @@ struct Loose {
 impl Loose {
     /// Brings the state to the shock; false, and nothing done, where the shock is better left to the rest.
     fn advance(&mut self, modes: &Modes, gap: &Gap, shock: &LooseShock) -> bool {
-        let size = modes.energy(self.center);
-        let spread = modes.energy(self.by[0]) + modes.energy(self.by[1]);
-        let off =
-            (gap.by[0].abs() + gap.by[1].abs() + gap.rest).min((gap.most - gap.middle).max(gap.middle - gap.least));
+        // What is in motion fades until the shock may come; the shock has not.
+        let fade = modes.propagator(Phase::product(1.0, gap.least));
+        let decay = modes.decay(gap.least, &fade);
+        let faded = |m: Motion| fade.apply(modes.p, m);
+        let center = faded(self.center);
+        let [size, spread] = [modes.energy(center), self.by.iter().map(|by| modes.energy(faded(*by))).sum()];
+        let moving = size + spread;
+        let reach = gap.reach();
+        let off = (reach[0] + reach[1]).min((gap.most - gap.middle).max(gap.middle - gap.least));
         let mu = modes.zeta + modes.zeta.hypot(1.0);
         if mu * off < 1.0 {
-            let (speed, bend) = (modes.derivative(self.center), modes.derivative(modes.derivative(self.center)));
-            let bend = 0.5 * modes.energy(bend);
-            let more = gap.rest * modes.energy(speed) + mu * off * spread + off * off * bend;
-            if more <= (size + spread).min(shock.most_delta_v) {
-                let decay = modes.decay(gap.least);
+            let speed = modes.derivative(center);
+            let bend = 0.5 * modes.energy(modes.derivative(speed));
+            let speed = modes.energy(speed);
+            let more = (gap.rest[0] + gap.rest[1]) * speed + mu * off * spread + off * off * bend;
+            if more <= moving.min(shock.most_delta_v) {
                 let step = modes.propagator(Phase::product(1.0, gap.middle));
                 self.center = step.apply(modes.p, self.center);
-                let speed = modes.derivative(self.center);
+                let now = modes.derivative(self.center);
                 for (by, shift) in self.by.iter_mut().zip(gap.by) {
                     *by = step.apply(modes.p, *by);
-                    by.x += shift * speed.x;
-                    by.w += shift * speed.w;
+                    by.x += shift * now.x;
+                    by.w += shift * now.w;
                 }
-                self.rest = decay * (self.rest + more) + std::mem::take(&mut self.late);
-                for (doubt, shift) in self.doubt.iter_mut().zip(gap.by) {
+                self.rest = decay * self.rest + more + std::mem::take(&mut self.late);
+                for ((doubt, reach), rest) in self.doubt.iter_mut().zip(reach).zip(gap.rest) {
                     // Crossed terms count for both.
-                    let own =
-                        shift.abs() * off * bend + mu * shift.abs() * spread + 0.5 * gap.rest * modes.energy(speed);
-                    *doubt = decay * (*doubt + own);
+                    *doubt = decay * *doubt + rest * speed + reach * (mu * spread + off * bend);
                 }
                 return true;
             }
         }
-        if shock.most_delta_v <= size + spread {
+        if shock.most_delta_v <= moving {
             return false;
         }
-        let decay = modes.decay(gap.least);
-        self.rest = decay * (self.rest + size + spread) + std::mem::take(&mut self.late);
+        self.rest = decay * self.rest + moving + std::mem::take(&mut self.late);
         self.doubt = self.doubt.map(|doubt| decay * doubt);
-        self.blame(gap, decay * (size + spread));
+        self.blame(gap, moving);
         (self.center, self.by) = (Motion::default(), [Motion::default(); 2]);
         true
     }
     /// Shares a part of the rest out by what each unknown does to the phase.
     fn blame(&mut self, gap: &Gap, rest: f64) {
-        let all = gap.by[0].abs() + gap.by[1].abs() + gap.rest;
+        let reach = gap.reach();
+        let all = reach[0] + reach[1];
         if all > 0.0 {
-            self.doubt[0] += rest * ((gap.by[0].abs() + 0.5 * gap.rest) / all).min(1.0);
-            self.doubt[1] += rest * ((gap.by[1].abs() + 0.5 * gap.rest) / all).min(1.0);
+            for (doubt, reach) in self.doubt.iter_mut().zip(reach) {
+                *doubt += rest * (reach / all).min(1.0);
+            }
         }
     }
     /// The state at the corners of the unknowns.
@@ -286,11 +295,10 @@ impl Modes {
         Motion { x: m.w - self.sigma * m.x, w: -self.p * m.x - self.rho * m.w }
     }
     /// The norm of free motion over at least the phase `psi`, in the energy norm.
-    fn decay(&self, psi: f64) -> f64 {
+    fn decay(&self, psi: f64, step: &Propagator) -> f64 {
         if self.zeta * psi < 1e-2 {
             return 1.0; // within 2 % of it
         }
-        let step = self.propagator(Phase::product(1.0, psi));
         // From (x, w) to (x, y), w = y + σx.
         let (xx, xy) = (step.c + self.sigma * step.s, step.s);
         let (yx, yy) = (self.sigma * step.k - self.p * step.s - self.sigma * xx, step.k - self.sigma * xy);
@@ -322,9 +330,9 @@ mod tests {
             let damping = DampingRatio::new(zeta).unwrap();
             let peaked = if acceleration { Peaked::AccelerationOverOmega } else { Peaked::PseudoVelocity };
             let loose: Vec<_> = shocks.iter().map(|&(gap, by, delta_v, delta_v_by)| {
-                let (phase_by, phase_rest) = (by.map(|by| narrow * by), narrow * narrow * rest);
+                let (phase_by, phase_rest) = (by.map(|by| narrow * by), [0.3 * narrow * narrow * rest, 0.7 * narrow * narrow * rest]);
                 let (delta_v_by, delta_v_rest) = (narrow * delta_v_by, 0.1 * narrow * narrow * rest);
-                let reach = phase_by[0].abs() + phase_by[1].abs() + phase_rest;
+                let reach = phase_by.iter().chain(&phase_rest).map(|by| by.abs()).sum::<f64>();
                 LooseShock {
                     phase: gap + reach,
                     phase_by,
@@ -341,7 +349,7 @@ mod tests {
             let peak = |[one, two]: [f64; 2], rests: &[(f64, f64)]| {
                 let mut time = 0.0;
                 let list = loose.iter().zip(rests).map(|(s, &(at, off))| {
-                    time += s.phase + one * s.phase_by[0] + two * s.phase_by[1] + at * s.phase_rest;
+                    time += s.phase + one * s.phase_by[0] + two * s.phase_by[1] + at * (s.phase_rest[0] + s.phase_rest[1]);
                     VelocityShock { time, delta_v: s.delta_v + two * s.delta_v_by + off * s.delta_v_rest }
                 });
                 let response = VelocityShocks::new(list.collect()).unwrap().respond(&Suspension::unit(damping));

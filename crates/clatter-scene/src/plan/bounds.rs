@@ -16,13 +16,13 @@ pub(super) fn greater(a: f64, b: f64) -> f64 {
 }
 
 /// Bound on the shocks to come of a bar whose speed at the component stays below `speed`: by one contact, which throws back (1 + e) of
-/// it, or by both together, about.
+/// it, or by both together, about; with e = 1 whatever overlaps.
 pub(super) fn later_shock(speed: f64, e: f64, gravity: f64, contact_s: f64) -> f64 {
     (1.0 + e) * speed + gravity * contact_s
 }
 
-/// What `times` shocks, each of which throws back (1 + e) of the speed at the component, may add to the response, about, and the weight
-/// that the ground carries in the end.
+/// What `times` shocks, each of which throws back (1 + e) of the speed at the component, may add to the response, about, and with e = 1 at
+/// most; and the weight that the ground carries in the end.
 pub(super) fn later_response(swing: &Swing, speed: f64, e: f64, times: f64, gravity: f64, omega: f64) -> f64 {
     times * (1.0 + e) * swing.factor * speed + weight(swing, gravity / omega)
 }

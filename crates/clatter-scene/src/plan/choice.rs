@@ -158,8 +158,9 @@ impl Plan {
             self
         }
     }
-    /// The quantity asked, by the models of the plan. Contacts that take time are followed until nothing later raises it by more than half
-    /// of a tolerance of 10 %, or at all with one of 8 % and less.
+    /// The quantity asked, by the models of the plan. Contacts that take time are followed until, by the energy left, nothing later raises
+    /// it by more than about half of a tolerance of 10 %, or at all with one of 8 % and less. Of 1.4·10⁵ random answers followed to
+    /// rest none was off by more than 1e-5 where nothing was allowed, and one by more than 10 % at 10 %.
     ///
     /// # Errors
     /// As [`Setup::demand`].

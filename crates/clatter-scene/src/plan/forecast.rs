@@ -234,8 +234,9 @@ impl Forecast {
         let is_bound = rung == ComponentRung::PulseTrain && self.contact_known;
         Estimate { error: self.component[rung as usize], is_bound }
     }
-    /// What a pair gets wrong: the sum of both. The highest pair has no error by definition; other component models on the
-    /// compliant bar are not estimated, since its contacts may merge into one.
+    /// What a pair gets wrong: the sum of both. The highest pair, followed until rest, has no error by definition (what a tolerance lets
+    /// [`Plan::run`](super::Plan::run) leave out of it is told there); other component models on the compliant bar are not estimated,
+    /// since its contacts may merge into one.
     #[must_use]
     pub fn pair(&self, pair: Pair) -> Estimate {
         let (bar, component) = (self.bar[pair.bar as usize], self.component[pair.component as usize]);

@@ -76,7 +76,7 @@ impl Setup {
         let beyond = if whole && !velocity_shock {
             weight(&swing, g / omega)
         } else {
-            self.later_at_most(&ends, &swing, quantity, speed, contact_s)
+            self.later_at_most(&ends, &swing, quantity, speed, ends.e, contact_s)
         };
         let over_factor = swing.over_factor();
         let unit = over_factor * swing.factor;
@@ -152,7 +152,8 @@ impl Setup {
         let ends = Ends::new(&self.scene, self.position);
         let swing = Swing::new(self.suspension.damping().get(), quantity == Quantity::PeakAcceleration);
         let speed = ends.reach(self.twice_energy(flight, last));
-        let mut later = self.later_at_most(&ends, &swing, quantity, speed, contact_s);
+        // None throws back more than all of it, whatever overlaps.
+        let mut later = self.later_at_most(&ends, &swing, quantity, speed, 1.0, contact_s);
         if quantity != Quantity::VelocityShock {
             // What rings passes it no more: the envelope of a shock with that peak, faded.
             let fade = swing.fade(self.suspension.omega() * (last.next_s - last.parted_s));
@@ -161,15 +162,16 @@ impl Setup {
         later > least
     }
 
-    /// Bound on the shocks, or on what they do to the response, of a bar whose speed at the component stays below `speed`.
-    fn later_at_most(&self, ends: &Ends, swing: &Swing, quantity: Quantity, speed: f64, contact_s: f64) -> f64 {
+    /// Bound on the shocks, or on what they do to the response, of a bar whose speed at the component stays below `speed`, and of which each
+    /// throws back (1 + `e`).
+    fn later_at_most(&self, ends: &Ends, swing: &Swing, quantity: Quantity, speed: f64, e: f64, contact_s: f64) -> f64 {
         let (omega, g) = (self.suspension.omega(), self.scene.gravity_m_s2());
         if quantity == Quantity::VelocityShock {
-            return later_shock(speed, ends.e, g, contact_s);
+            return later_shock(speed, e, g, contact_s);
         }
         let [a, b] = [ends.at((1.0, -ends.flat[0])), ends.at((-ends.flat[1], 1.0))];
         let times = pile(largest_pile(ends), swing, speed, g / omega, a * b >= 0.0);
-        later_response(swing, speed, ends.e, times, g, omega)
+        later_response(swing, speed, e, times, g, omega)
     }
 
     /// Twice the energy of the body as the last of a few contacts parts, by its spin: upright, its ends do not show how fast it turns.
