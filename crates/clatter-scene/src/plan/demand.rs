@@ -1,6 +1,6 @@
 //! What a pair of models answers.
 
-use clatter::flight::{Body, CompliantFlight, Flight, Model};
+use clatter::flight::{Body, CompliantFlight, Flight, Model, Scene};
 use clatter::{Bar, PeakImpact, Start};
 use clatter_shock::{Extreme, Peaked, Pulses, Suspension, VelocityShock, VelocityShocks};
 
@@ -45,7 +45,7 @@ impl Answer {
 
 impl Setup {
     /// The quantity asked, by one pair of models, in m/s², m or m/s. Strikes after `until_s` ([`Forecast::until_s`], or infinity)
-    /// are left out; the highest pair finds for itself, by the energy of the flight that it follows, when nothing later raises the quantity.
+    /// are left out; all but the map find for themselves, by the energy of the flight that they follow, when nothing later raises the quantity.
     ///
     /// The closed form has no train: with it, the trains are those of the map.
     ///
@@ -70,7 +70,7 @@ impl Setup {
         self.answer_in(pair, quantity, until_s, CELLS, 0.0)
     }
 
-    /// As [`answer`](Self::answer), in pulses of `cells` pieces, and contacts followed until nothing later raises it beyond a tolerance.
+    /// As [`answer`](Self::answer), in pulses of `cells` pieces, and strikes followed until nothing later raises it beyond a tolerance.
     pub(super) fn answer_in(
         &self,
         pair: Pair,
@@ -84,7 +84,15 @@ impl Setup {
             let (flight, settled_s) = self.settled_flight(quantity, contact_s, tolerance)?;
             return self.of_contacts(&flight, settled_s, contact_s, quantity, cells);
         }
-        self.answer_fine(pair, quantity, until_s, cells)
+        let model = match (pair.bar, pair.component) {
+            // A net change is that of all strikes.
+            (_, ComponentRung::NetChange) => return self.answer_fine(pair, quantity, until_s, cells),
+            (BarRung::Ballistic, _) => Model::Ballistic,
+            (BarRung::FiniteTilt, _) => Model::FiniteTilt,
+            _ => return self.answer_fine(pair, quantity, until_s, cells),
+        };
+        let flight = self.settled_strikes(&self.scene_until(until_s)?, model, quantity, tolerance);
+        self.of_flight(&flight, pair.component, quantity, cells)
     }
 
     /// As [`demand`](Self::demand), followed until `until_s` or rest whatever it takes, and pulses of `cells` pieces: twice as many are
@@ -101,8 +109,7 @@ impl Setup {
     /// # Errors
     /// As [`demand`](Self::demand).
     pub fn answer_fine(&self, pair: Pair, quantity: Quantity, until_s: f64, cells: usize) -> Result<Answer, Error> {
-        let scene = if until_s < f64::INFINITY { self.scene.with_time_limit_s(until_s)? } else { self.scene };
-        let shocks_only = quantity == Quantity::VelocityShock;
+        let scene = self.scene_until(until_s)?;
         let model = match pair.bar {
             BarRung::ClosedForm => match pair.component {
                 ComponentRung::NetChange => return Ok(Answer::at_once(self.of_one(self.net_change(), quantity))),
@@ -121,9 +128,12 @@ impl Setup {
                 return self.of_contacts(&flight, f64::INFINITY, time, quantity, cells);
             }
         };
-        let component = if shocks_only { ComponentRung::LargestShock } else { pair.component };
         let scene = if model == Model::Map { scene.with_impact_limit(MOST_OF_MAP)? } else { scene };
-        self.of_flight(&scene.simulate(model), component, quantity, cells)
+        self.of_flight(&scene.simulate(model), pair.component, quantity, cells)
+    }
+
+    fn scene_until(&self, until_s: f64) -> Result<Scene, Error> {
+        Ok(if until_s < f64::INFINITY { self.scene.with_time_limit_s(until_s)? } else { self.scene })
     }
 
     fn known_contact_s(&self) -> Result<f64, Error> {
@@ -182,6 +192,7 @@ impl Setup {
     ) -> Result<Answer, Error> {
         let (shocks, strikes) = (self.shocks(flight)?, flight.strikes.len());
         let value = match component {
+            _ if quantity == Quantity::VelocityShock => shocks.largest(),
             ComponentRung::NetChange => self.of_one(shocks.net(), quantity),
             ComponentRung::LargestShock => self.of_one(shocks.largest(), quantity),
             ComponentRung::ImpulseTrain => self.of_impulses(&shocks, quantity),

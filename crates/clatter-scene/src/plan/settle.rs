@@ -1,17 +1,19 @@
-//! How far contacts are followed: until nothing that can come raises the quantity.
+//! How far strikes and contacts are followed: until nothing that can come raises the quantity.
 
 use clatter::End;
-use clatter::flight::{CompliantFlight, Stop, Strike};
+use clatter::flight::{CompliantFlight, Flight, Model, Scene, Stop, Strike};
 
 use super::bounds::{largest_pile, later_response, later_shock, pile, weight};
 use super::lane::Ends;
 use super::pulse::Pulse;
 use super::swing::{Motion, Swing};
-use super::{Quantity, Setup};
+use super::{Quantity, STRIKES, Setup};
 use crate::Error;
 
 /// Looked at anew after every strike; after many, once a sixth of them has come again.
 const AGAIN: usize = 6;
+/// Strikes without contacts cost less than looks, and a forecast has seen as many.
+const LOOK: usize = STRIKES;
 
 /// What can come must stay below this share of the peak, as pulses flatten both, not alike; where an error is allowed, by so many times
 /// that more. Of 1.4·10⁵ random answers none was off by more than 1e-5 for the strikes left out; with 10 % allowed 300 by more than 1e-4,
@@ -52,6 +54,20 @@ impl Setup {
         Ok((flight, settled_s))
     }
 
+    /// A flight of impacts, as far as any strike of it raises the quantity beyond a tolerance, by the same bound.
+    pub(super) fn settled_strikes(&self, scene: &Scene, model: Model, quantity: Quantity, tolerance: f64) -> Flight {
+        let (mut look, mut looks) = (LOOK, Looks::new(tolerance));
+        scene.simulate_until(model, |flight| {
+            let n = flight.strikes.len();
+            if n < look {
+                return false;
+            }
+            look = n + 1 + n / AGAIN;
+            let shocks = self.shocks_of(flight);
+            self.settled(&shocks, quantity, 0.0, 0.0, &mut looks) < f64::INFINITY
+        })
+    }
+
     /// When nothing later in this flight raises the quantity, or passes what counts at `least`, both as velocities; infinite where that is not
     /// known. `looks` are those before, at its beginning.
     pub(crate) fn settled_s(
@@ -62,25 +78,30 @@ impl Setup {
         least: f64,
         looks: &mut Looks,
     ) -> f64 {
+        self.settled(&self.lone_shocks(flight), quantity, contact_s, least, looks)
+    }
+
+    fn settled(&self, so_far: &SoFar<'_>, quantity: Quantity, contact_s: f64, least: f64, looks: &mut Looks) -> f64 {
         let (omega, g) = (self.suspension.omega(), self.scene.gravity_m_s2());
         let ends = Ends::new(&self.scene, self.position);
         let zeta = self.suspension.damping().get();
         let swing = Swing::new(zeta, quantity == Quantity::PeakAcceleration);
         let velocity_shock = quantity == Quantity::VelocityShock;
-        let (shocks, whole) = self.lone_shocks(flight);
+        let SoFar { shocks, strikes, whole, twice_energy } = so_far;
+        if shocks.is_empty() {
+            return f64::INFINITY;
+        }
         let pulse = Pulse::new(ends.e);
         // What may come after the last of them.
-        let speed =
-            if whole { Some(0.0) } else { shocks.last().map(|last| ends.reach(self.twice_energy(flight, last))) };
-        let Some(speed) = speed else { return f64::INFINITY };
-        let beyond = if whole && !velocity_shock {
+        let speed = ends.reach(*twice_energy);
+        let beyond = if *whole && !velocity_shock {
             weight(&swing, g / omega)
         } else {
             self.later_at_most(&ends, &swing, quantity, speed, ends.e, contact_s)
         };
         let over_factor = swing.over_factor();
         let unit = over_factor * swing.factor;
-        looks.see(&shocks[..shocks.len() - usize::from(whole)], |shock, before| {
+        looks.see(&shocks[..shocks.len() - usize::from(*whole)], |shock, before| {
             if velocity_shock {
                 let times = ((shock.parted_s - shock.from_s) / contact_s).max(1.0).ceil();
                 return Seen { peak: before.peak.max(shock.net.abs() / times), ..before };
@@ -97,7 +118,7 @@ impl Setup {
                 // later is taken as if no contacts overlapped.
                 let rang = swing.bound(motion) + loose;
                 loose += swing.factor * shock.gross;
-                let first = || alone(&flight.flight.strikes[shock.first], &ends);
+                let first = || alone(&strikes[shock.first], &ends);
                 (Motion { x: 0.0, w: shock.crest(&pulse, contact_s, first) }, rang)
             };
             if swing.bound(certain) > peak + doubt {
@@ -144,14 +165,14 @@ impl Setup {
         contact_s: f64,
         least: f64,
     ) -> bool {
-        let (shocks, _) = self.lone_shocks(flight);
-        let Some(last) = shocks.iter().rev().find(|shock| shock.from_s <= time_s) else { return true };
+        let so_far = self.lone_shocks(flight);
+        let Some(last) = so_far.shocks.iter().rev().find(|shock| shock.from_s <= time_s) else { return true };
         if last.next_s == f64::INFINITY {
             return false;
         }
         let ends = Ends::new(&self.scene, self.position);
         let swing = Swing::new(self.suspension.damping().get(), quantity == Quantity::PeakAcceleration);
-        let speed = ends.reach(self.twice_energy(flight, last));
+        let speed = ends.reach(self.energy_after(flight, last));
         // None throws back more than all of it, whatever overlaps.
         let mut later = self.later_at_most(&ends, &swing, quantity, speed, 1.0, contact_s);
         if quantity != Quantity::VelocityShock {
@@ -174,20 +195,47 @@ impl Setup {
         later_response(swing, speed, e, times, g, omega)
     }
 
-    /// Twice the energy of the body as the last of a few contacts parts, by its spin: upright, its ends do not show how fast it turns.
-    fn twice_energy(&self, flight: &CompliantFlight, shock: &LoneShock) -> f64 {
-        let (body, strike) = (self.scene.body(), &flight.flight.strikes[shock.last]);
-        let [a, b] = body.arms_m();
-        let center = |[of_a, of_b]: [f64; 2]| (b * of_a + a * of_b) / (a + b);
-        let (speed, height) = (center(strike.velocity_m_s), center(flight.sample(shock.parted_s).height_m));
-        speed * speed
-            + (body.gyration_m() * strike.spin_rad_s).powi(2)
-            + 2.0 * self.scene.gravity_m_s2() * height.max(0.0)
+    /// Twice the energy of the body as the last of a few contacts parts.
+    fn energy_after(&self, flight: &CompliantFlight, shock: &LoneShock) -> f64 {
+        self.twice_energy(&flight.flight.strikes[shock.last], flight.sample(shock.parted_s).height_m)
     }
 
-    /// What contacts that do not overlap others do to the component's place, and whether nothing comes after them. Of a flight
-    /// cut short, the last is left out.
-    fn lone_shocks(&self, flight: &CompliantFlight) -> (Vec<LoneShock>, bool) {
+    /// Twice the energy after a strike with the ends at these heights, by the spin: upright, the ends do not show how fast the body turns.
+    fn twice_energy(&self, strike: &Strike, height_m: [f64; 2]) -> f64 {
+        let body = self.scene.body();
+        let [a, b] = body.arms_m();
+        let center = |[of_a, of_b]: [f64; 2]| (b * of_a + a * of_b) / (a + b);
+        let speed = center(strike.velocity_m_s);
+        speed * speed
+            + (body.gyration_m() * strike.spin_rad_s).powi(2)
+            + 2.0 * self.scene.gravity_m_s2() * center(height_m).max(0.0)
+    }
+
+    /// The same of impacts.
+    fn shocks_of<'a>(&self, flight: &'a Flight) -> SoFar<'a> {
+        let strikes = &flight.strikes;
+        let whole = !matches!(flight.stop, Stop::ImpactLimit { .. });
+        let shock = |k: usize| {
+            let (strike, net) = (&strikes[k], strikes[k].delta_v_at(self.position));
+            LoneShock {
+                strikes: 1,
+                from_s: strike.time_s,
+                parted_s: strike.time_s,
+                last: k,
+                next_s: strikes.get(k + 1).map_or(f64::INFINITY, |next| next.time_s),
+                net,
+                gross: net.abs(),
+                first: k,
+            }
+        };
+        let shocks: Vec<_> = (0..strikes.len() - usize::from(!whole)).map(shock).collect();
+        let last = shocks.last().filter(|_| !whole);
+        let twice_energy = last.map_or(0.0, |last| self.twice_energy(&strikes[last.last], strikes[last.last].height_m));
+        SoFar { shocks, strikes, whole, twice_energy }
+    }
+
+    /// What contacts that do not overlap others do to the component's place. Of a flight cut short, the last is left out.
+    fn lone_shocks<'a>(&self, flight: &'a CompliantFlight) -> SoFar<'a> {
         let strikes = &flight.flight.strikes;
         let mut shocks: Vec<LoneShock> = Vec::with_capacity(strikes.len());
         let mut shock = LoneShock::default();
@@ -212,8 +260,20 @@ impl Setup {
         if whole {
             shocks.push(LoneShock { next_s: f64::INFINITY, ..shock });
         }
-        (shocks, whole)
+        let last = shocks.last().filter(|_| !whole);
+        let twice_energy = last.map_or(0.0, |last| self.energy_after(flight, last));
+        SoFar { shocks, strikes, whole, twice_energy }
     }
+}
+
+/// A flight as far as it is known.
+struct SoFar<'a> {
+    shocks: Vec<LoneShock>,
+    strikes: &'a [Strike],
+    /// Whether nothing comes after.
+    whole: bool,
+    /// Of the body after the last shock, over its mass; 0 where nothing comes after.
+    twice_energy: f64,
 }
 
 /// What looks at the beginning of a flight have found.

@@ -20,7 +20,7 @@ use super::settling::Settling;
 use super::{After, Flight, Log, SHARE, Scene, State, index, short};
 use crate::End;
 
-pub(super) fn simulate(scene: &Scene) -> Flight {
+pub(super) fn simulate(scene: &Scene, mut enough: impl FnMut(&Flight) -> bool) -> Flight {
     let (e, g) = (scene.e(), scene.gravity_m_s2());
     let q = scene.body().inertia_ratios();
     let length = scene.body().length_m();
@@ -64,7 +64,7 @@ pub(super) fn simulate(scene: &Scene) -> Flight {
         state.v[j] -= q[i] * jump;
         let mut delta_v = [0.0; 2];
         (delta_v[i], delta_v[j]) = (jump, -q[i] * jump);
-        if !log.strike(end, time.now(), u, delta_v, &After::small(&state, length)) {
+        if !log.strike(end, time.now(), u, delta_v, &After::small(&state, length), &mut enough) {
             break;
         }
         if jump <= SHARE * log.largest_m_s {

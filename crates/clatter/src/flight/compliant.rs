@@ -628,7 +628,7 @@ pub(super) fn simulate(
     let opened = pose.energy();
     let mut misfit = 0.0;
     // The limit is at least one strike.
-    log.strike(End::A, 0.0, pose.ends.v[0], [0.0; 2], &pose.after());
+    log.strike(End::A, 0.0, pose.ends.v[0], [0.0; 2], &pose.after(), &mut |_| false);
     pulses.push(Pulse { strike: 1, from_s: 0.0, until_s: f64::INFINITY });
     loop {
         let free = on == [false; 2];
@@ -702,7 +702,8 @@ pub(super) fn simulate(
                 kappa[i] = pose.stiffness(i, contact);
                 strike_of[i] = log.flight.strikes.len();
                 // A touch that grazes has no approach, whatever rounding says.
-                if !log.strike(end_of(i), time.now(), pose.ends.v[i].min(0.0), [0.0; 2], &pose.after()) {
+                if !log.strike(end_of(i), time.now(), pose.ends.v[i].min(0.0), [0.0; 2], &pose.after(), &mut |_| false)
+                {
                     break;
                 }
                 pulses.push(Pulse { strike: pulses.len() as u64 + 1, from_s: time.now(), until_s: f64::INFINITY });

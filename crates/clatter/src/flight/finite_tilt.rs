@@ -257,7 +257,7 @@ impl Ledger {
 /// Touches without speed, one after the other, that no motion needs: beyond them the time has no digits left for a turn.
 const IDLE: u32 = 64;
 
-pub(super) fn simulate(scene: &Scene) -> Flight {
+pub(super) fn simulate(scene: &Scene, mut enough: impl FnMut(&Flight) -> bool) -> Flight {
     let (e, g) = (scene.e(), scene.gravity_m_s2());
     let rest = Rest::new(scene);
     let mut log = Log::new(scene);
@@ -337,7 +337,7 @@ pub(super) fn simulate(scene: &Scene) -> Flight {
         ledger.strike(&pose, pose.mass(i), e, u);
         leaving[i] = false;
         let delta_v = if i == 0 { [jump, other] } else { [other, jump] };
-        if !log.strike(end_of(i), time.now(), u, delta_v, &pose.after()) {
+        if !log.strike(end_of(i), time.now(), u, delta_v, &pose.after(), &mut enough) {
             break;
         }
         if jump <= SHARE * log.largest_m_s {

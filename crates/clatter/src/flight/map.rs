@@ -28,7 +28,7 @@ impl Scene {
     }
 }
 
-pub(super) fn simulate(scene: &Scene) -> Flight {
+pub(super) fn simulate(scene: &Scene, mut enough: impl FnMut(&Flight) -> bool) -> Flight {
     let mut log = Log::new(scene);
     let e = scene.e();
     let body = scene.body();
@@ -54,7 +54,7 @@ pub(super) fn simulate(scene: &Scene) -> Flight {
         state.h[j] = height;
         (state.v[i], state.v[j]) = (-e * u, far + delta_v[j]);
         far = -e * u;
-        if !log.strike(impact.end, impact.time, u, delta_v, &After::small(&state, body.length_m())) {
+        if !log.strike(impact.end, impact.time, u, delta_v, &After::small(&state, body.length_m()), &mut enough) {
             return log.flight;
         }
         // The approach speeds of an endless train rise to one peak and fall for ever: what follows is slower.

@@ -210,12 +210,27 @@ impl Scene {
     /// The strikes of this scene and why they end.
     #[must_use]
     pub fn simulate(&self, model: Model) -> Flight {
+        self.simulate_until(model, |_| false)
+    }
+
+    /// The same, as far as it is needed: before each strike but the first `enough` is asked of the flight up to there, which is that of an impact
+    /// limit, and ends it if so.
+    ///
+    /// ```
+    /// use clatter::flight::{Body, Model, Scene};
+    /// let scene = Scene::new(Body::new(0.14, 0.05)?, 0.5, 2.0, 5.0, 9.81)?;
+    /// let three = scene.simulate_until(Model::FiniteTilt, |flight| flight.strikes.len() == 3);
+    /// assert_eq!(three, scene.with_impact_limit(3)?.simulate(Model::FiniteTilt));
+    /// # Ok::<(), clatter::Error>(())
+    /// ```
+    #[must_use]
+    pub fn simulate_until(&self, model: Model, enough: impl FnMut(&Flight) -> bool) -> Flight {
         match model {
-            Model::Map => map::simulate(self),
+            Model::Map => map::simulate(self, enough),
             // Without gravity the small-tilt motion is the map, which has closed forms where iteration drifts.
-            Model::Ballistic if self.gravity_m_s2() == 0.0 => map::simulate(self),
-            Model::Ballistic => ballistic::simulate(self),
-            Model::FiniteTilt => finite_tilt::simulate(self),
+            Model::Ballistic if self.gravity_m_s2() == 0.0 => map::simulate(self, enough),
+            Model::Ballistic => ballistic::simulate(self, enough),
+            Model::FiniteTilt => finite_tilt::simulate(self, enough),
         }
     }
 }
@@ -360,21 +375,31 @@ impl Log {
             omitted_m_s: 0.0,
         }
     }
-    /// Takes the strike down, or the stop that its time or number means; false ends the simulation.
-    fn strike(&mut self, end: End, time_s: f64, approach: f64, delta_v: [f64; 2], after: &After) -> bool {
+    /// Takes the strike down, or the stop that its time, its number or `enough` means; false ends the simulation.
+    fn strike(
+        &mut self,
+        end: End,
+        time_s: f64,
+        approach: f64,
+        delta_v: [f64; 2],
+        after: &After,
+        enough: &mut impl FnMut(&Flight) -> bool,
+    ) -> bool {
         if time_s > self.time_limit_s {
             self.flight.stop = Stop::TimeLimit { time_s: self.time_limit_s };
             return false;
         }
-        let strikes = &mut self.flight.strikes;
         // The map's times are each exact to roundings, by which neighbors may change places.
-        let time_s = strikes.last().map_or(time_s, |s| time_s.max(s.time_s));
-        if strikes.len() == self.impact_limit {
-            self.flight.stop = Stop::ImpactLimit { time_s: strikes.last().map_or(0.0, |s| s.time_s) };
+        let time_s = self.flight.strikes.last().map_or(time_s, |last| {
+            self.flight.stop = Stop::ImpactLimit { time_s: last.time_s };
+            time_s.max(last.time_s)
+        });
+        let strikes = self.flight.strikes.len();
+        if strikes == self.impact_limit || (strikes > 0 && enough(&self.flight)) {
             return false;
         }
-        strikes.push(Strike {
-            number: strikes.len() as u64 + 1,
+        self.flight.strikes.push(Strike {
+            number: strikes as u64 + 1,
             end,
             time_s,
             approach_m_s: approach,
