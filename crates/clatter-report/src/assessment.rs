@@ -300,7 +300,7 @@ fn part(file: &ProductFile, part: &ComponentAssessment, portrait: &Portrait) -> 
         "limits": limits.collect::<Vec<_>>(),
         "history": format!("The {what} over time in that drop; red ticks are impacts.{limit_seen}"),
         "history-alt": format!("Curve of the {what} of this part over time in its worst drop, with the impacts marked at the foot."),
-        "tilt": format!("The {what} that the worst drop asks for at each tilt, over all speeds and restitutions.{limit_seen}"),
+        "tilt": format!("The {what} asked at each tilt, at the worst speed and restitution.{limit_seen}"),
         "tilt-alt": format!("Curve of the worst {what} over the tilt at the first touch."),
     })
 }
