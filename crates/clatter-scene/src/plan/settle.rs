@@ -211,7 +211,7 @@ impl Setup {
             + 2.0 * self.scene.gravity_m_s2() * center(height_m).max(0.0)
     }
 
-    /// The same of impacts.
+    /// What impacts do to the component's place, each a lone shock. Of a flight cut short, the last is left out.
     fn shocks_of<'a>(&self, flight: &'a Flight) -> SoFar<'a> {
         let strikes = &flight.strikes;
         let whole = !matches!(flight.stop, Stop::ImpactLimit { .. });
@@ -234,7 +234,7 @@ impl Setup {
         SoFar { shocks, strikes, whole, twice_energy }
     }
 
-    /// What contacts that do not overlap others do to the component's place. Of a flight cut short, the last is left out.
+    /// The same of contacts that do not overlap others.
     fn lone_shocks<'a>(&self, flight: &'a CompliantFlight) -> SoFar<'a> {
         let strikes = &flight.flight.strikes;
         let mut shocks: Vec<LoneShock> = Vec::with_capacity(strikes.len());
