@@ -372,6 +372,22 @@ mod tests {
         }
     }
 
+    /// A long gap, however long exactly: what rang before it has faded, and the next shock stands alone.
+    #[test]
+    fn what_has_faded_adds_nothing_to_the_next_shock() {
+        let damping = DampingRatio::new(1.0).unwrap();
+        let second =
+            LooseShock { phase_by: [1.0, 0.0], least_phase: 24.0, most_phase: 26.0, ..LooseShock::known(25.0, 0.4) };
+        let upper = |first: f64| {
+            peak_bounds(damping, Peaked::PseudoVelocity, &[LooseShock::known(0.0, first), second], 0.0).upper
+        };
+        // One shock swings out to its share 1/e.
+        for first in [1.0, 0.2] {
+            let alone = f64::max(first, 0.4) / std::f64::consts::E;
+            assert!((upper(first) / alone - 1.0).abs() < 1e-8, "{} of {alone}", upper(first));
+        }
+    }
+
     /// A shock left to the rest, then a long gap closed: the rest once decayed over the whole gap, as if it had come at its beginning.
     #[test]
     fn what_is_left_to_the_rest_decays_from_when_it_comes() {
