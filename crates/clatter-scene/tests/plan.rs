@@ -87,8 +87,8 @@ fn impacts_are_followed_until_nothing_higher_comes() {
                 let answer = setup.answer(pair, quantity, f64::INFINITY).unwrap();
                 let whole = setup.answer_fine(pair, quantity, f64::INFINITY, 34).unwrap();
                 let off = (answer.value / whole.value - 1.0).abs();
-                // Two of these are off by 5e-5, all others by roundings.
-                assert!(off < 1e-4, "scene {scene}, {quantity:?}, {pair:?}: {off}");
+                // Roundings.
+                assert!(off < 1e-9, "scene {scene}, {quantity:?}, {pair:?}: {off}");
                 (strikes, until_rest) = (strikes + answer.strikes, until_rest + whole.strikes);
             }
         }

@@ -91,7 +91,8 @@ impl Setup {
             (BarRung::FiniteTilt, _) => Model::FiniteTilt,
             _ => return self.answer_fine(pair, quantity, until_s, cells),
         };
-        let flight = self.settled_strikes(&self.scene_until(until_s)?, model, quantity, tolerance);
+        let lasts_s = if pair.component == ComponentRung::PulseTrain { self.known_contact_s()? } else { 0.0 };
+        let flight = self.settled_strikes(&self.scene_until(until_s)?, model, quantity, lasts_s, tolerance);
         self.of_flight(&flight, pair.component, quantity, cells)
     }
 

@@ -3,7 +3,7 @@
 use clatter::End;
 use clatter::flight::{CompliantFlight, Flight, Model, Scene, Stop, Strike};
 
-use super::bounds::{largest_pile, later_response, later_shock, pile, weight};
+use super::bounds::{largest_pile, later_response, later_shock, pile, pile_until_rest, weight};
 use super::lane::Ends;
 use super::pulse::Pulse;
 use super::swing::{Motion, Swing};
@@ -54,8 +54,15 @@ impl Setup {
         Ok((flight, settled_s))
     }
 
-    /// A flight of impacts, as far as any strike of it raises the quantity beyond a tolerance, by the same bound.
-    pub(super) fn settled_strikes(&self, scene: &Scene, model: Model, quantity: Quantity, tolerance: f64) -> Flight {
+    /// A flight of impacts, each of which acts for a time, as far as any strike of it raises the quantity beyond a tolerance, by the same bound.
+    pub(super) fn settled_strikes(
+        &self,
+        scene: &Scene,
+        model: Model,
+        quantity: Quantity,
+        lasts_s: f64,
+        tolerance: f64,
+    ) -> Flight {
         let (mut look, mut looks) = (LOOK, Looks::new(tolerance));
         scene.simulate_until(model, |flight| {
             let n = flight.strikes.len();
@@ -63,8 +70,8 @@ impl Setup {
                 return false;
             }
             look = n + 1 + n / AGAIN;
-            let shocks = self.shocks_of(flight);
-            self.settled(&shocks, quantity, 0.0, 0.0, &mut looks) < f64::INFINITY
+            let so_far = self.so_far_by_impacts(flight, lasts_s);
+            self.settled(&so_far, quantity, lasts_s, 0.0, &mut looks) < f64::INFINITY
         })
     }
 
@@ -78,7 +85,7 @@ impl Setup {
         least: f64,
         looks: &mut Looks,
     ) -> f64 {
-        self.settled(&self.lone_shocks(flight), quantity, contact_s, least, looks)
+        self.settled(&self.so_far(flight), quantity, contact_s, least, looks)
     }
 
     fn settled(&self, so_far: &SoFar<'_>, quantity: Quantity, contact_s: f64, least: f64, looks: &mut Looks) -> f64 {
@@ -97,7 +104,7 @@ impl Setup {
         let beyond = if *whole && !velocity_shock {
             weight(&swing, g / omega)
         } else {
-            self.later_at_most(&ends, &swing, quantity, speed, ends.e, contact_s)
+            self.later(&ends, &swing, quantity, speed, contact_s, false)
         };
         let over_factor = swing.over_factor();
         let unit = over_factor * swing.factor;
@@ -165,7 +172,7 @@ impl Setup {
         contact_s: f64,
         least: f64,
     ) -> bool {
-        let so_far = self.lone_shocks(flight);
+        let so_far = self.so_far(flight);
         let Some(last) = so_far.shocks.iter().rev().find(|shock| shock.from_s <= time_s) else { return true };
         if last.next_s == f64::INFINITY {
             return false;
@@ -173,8 +180,7 @@ impl Setup {
         let ends = Ends::new(&self.scene, self.position);
         let swing = Swing::new(self.suspension.damping().get(), quantity == Quantity::PeakAcceleration);
         let speed = ends.reach(self.energy_after(flight, last));
-        // None throws back more than all of it, whatever overlaps.
-        let mut later = self.later_at_most(&ends, &swing, quantity, speed, 1.0, contact_s);
+        let mut later = self.later(&ends, &swing, quantity, speed, contact_s, true);
         if quantity != Quantity::VelocityShock {
             // What rings passes it no more: the envelope of a shock with that peak, faded.
             let fade = swing.fade(self.suspension.omega() * (last.next_s - last.parted_s));
@@ -183,14 +189,16 @@ impl Setup {
         later > least
     }
 
-    /// Bound on the shocks, or on what they do to the response, of a bar whose speed at the component stays below `speed`, and of which each
-    /// throws back (1 + `e`).
-    fn later_at_most(&self, ends: &Ends, swing: &Swing, quantity: Quantity, speed: f64, e: f64, contact_s: f64) -> f64 {
+    /// The shocks, or what they do to the response, of a bar whose speed at the component stays below `speed`, about at most. With
+    /// `doubt`, contacts that overlap may throw back all of the speed, and nothing is said of when the bar rests.
+    fn later(&self, ends: &Ends, swing: &Swing, quantity: Quantity, speed: f64, contact_s: f64, doubt: bool) -> f64 {
         let (omega, g) = (self.suspension.omega(), self.scene.gravity_m_s2());
+        let e = if doubt { 1.0 } else { ends.e };
         if quantity == Quantity::VelocityShock {
             return later_shock(speed, e, g, contact_s);
         }
         let [a, b] = [ends.at((1.0, -ends.flat[0])), ends.at((-ends.flat[1], 1.0))];
+        let pile = if doubt { pile } else { pile_until_rest };
         let times = pile(largest_pile(ends), swing, speed, g / omega, a * b >= 0.0);
         later_response(swing, speed, e, times, g, omega)
     }
@@ -211,44 +219,36 @@ impl Setup {
             + 2.0 * self.scene.gravity_m_s2() * center(height_m).max(0.0)
     }
 
-    /// What impacts do to the component's place, each a lone shock. Of a flight cut short, the last is left out.
-    fn shocks_of<'a>(&self, flight: &'a Flight) -> SoFar<'a> {
-        let strikes = &flight.strikes;
-        let whole = !matches!(flight.stop, Stop::ImpactLimit { .. });
-        let shock = |k: usize| {
-            let (strike, net) = (&strikes[k], strikes[k].delta_v_at(self.position));
-            LoneShock {
-                strikes: 1,
-                from_s: strike.time_s,
-                parted_s: strike.time_s,
-                last: k,
-                next_s: strikes.get(k + 1).map_or(f64::INFINITY, |next| next.time_s),
-                net,
-                gross: net.abs(),
-                first: k,
-            }
-        };
-        let shocks: Vec<_> = (0..strikes.len() - usize::from(!whole)).map(shock).collect();
-        let last = shocks.last().filter(|_| !whole);
-        let twice_energy = last.map_or(0.0, |last| self.twice_energy(&strikes[last.last], strikes[last.last].height_m));
-        SoFar { shocks, strikes, whole, twice_energy }
+    /// What contacts that do not overlap others do to the component's place.
+    fn so_far<'a>(&self, flight: &'a CompliantFlight) -> SoFar<'a> {
+        let so_far = self.lone_shocks(&flight.flight, |k| flight.pulses[k].until_s);
+        let last = so_far.shocks.last().filter(|_| !so_far.whole);
+        SoFar { twice_energy: last.map_or(0.0, |last| self.energy_after(flight, last)), ..so_far }
     }
 
-    /// The same of contacts that do not overlap others.
-    fn lone_shocks<'a>(&self, flight: &'a CompliantFlight) -> SoFar<'a> {
-        let strikes = &flight.flight.strikes;
+    /// The same of impacts, each of which acts for a time.
+    fn so_far_by_impacts<'a>(&self, flight: &'a Flight, lasts_s: f64) -> SoFar<'a> {
+        let so_far = self.lone_shocks(flight, |k| flight.strikes[k].time_s + lasts_s);
+        let last = so_far.shocks.last().filter(|_| !so_far.whole).map(|last| &flight.strikes[last.last]);
+        SoFar { twice_energy: last.map_or(0.0, |last| self.twice_energy(last, last.height_m)), ..so_far }
+    }
+
+    /// Strikes that are over at `until_s` of their number, from 0, grouped where they overlap. Of a flight cut short, the last group is left
+    /// out.
+    fn lone_shocks<'a>(&self, flight: &'a Flight, until_s: impl Fn(usize) -> f64) -> SoFar<'a> {
+        let strikes = &flight.strikes;
         let mut shocks: Vec<LoneShock> = Vec::with_capacity(strikes.len());
         let mut shock = LoneShock::default();
-        for (k, (strike, pulse)) in strikes.iter().zip(&flight.pulses).enumerate() {
-            let delta_v = strike.delta_v_at(self.position);
+        for (k, strike) in strikes.iter().enumerate() {
+            let (delta_v, until_s) = (strike.delta_v_at(self.position), until_s(k));
             if shock.strikes == 0 {
                 shock.first = k;
             }
             shock.strikes += 1;
             shock.net += delta_v;
             shock.gross += delta_v.abs();
-            if pulse.until_s >= shock.parted_s {
-                (shock.parted_s, shock.last) = (pulse.until_s, k);
+            if until_s >= shock.parted_s {
+                (shock.parted_s, shock.last) = (until_s, k);
             }
             let Some(next) = strikes.get(k + 1) else { break };
             if shock.parted_s < next.time_s {
@@ -256,13 +256,11 @@ impl Setup {
                 shock = LoneShock { from_s: next.time_s, ..LoneShock::default() };
             }
         }
-        let whole = !matches!(flight.flight.stop, Stop::ImpactLimit { .. });
+        let whole = !matches!(flight.stop, Stop::ImpactLimit { .. });
         if whole {
             shocks.push(LoneShock { next_s: f64::INFINITY, ..shock });
         }
-        let last = shocks.last().filter(|_| !whole);
-        let twice_energy = last.map_or(0.0, |last| self.energy_after(flight, last));
-        SoFar { shocks, strikes, whole, twice_energy }
+        SoFar { shocks, strikes, whole, twice_energy: 0.0 }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The first strikes of a drop as one component has them, in four lanes at once.
 
-use super::bounds::{greater, largest_pile, later_response, later_shock, lesser, pile, weight};
+use super::bounds::{greater, largest_pile, later_response, later_shock, lesser, pile_until_rest, weight};
 use super::coupling::{Coupling, Pressing};
 use super::lane::{Ends, MapLane};
 use super::swing::{Motion, Swing};
@@ -393,7 +393,7 @@ impl<'a, const N: usize> Walker<'a, N> {
         }
         let fall = self.gravity / self.omega;
         // As if both ends pushed the same way, and threw back all of the speed: the study holds what follows from that.
-        let times = if more { pile(self.pile, self.swing, speed, fall, true) } else { 1.0 };
+        let times = if more { pile_until_rest(self.pile, self.swing, speed, fall, true) } else { 1.0 };
         let [extra, coming] =
             [1.0, times].map(|times| later_response(self.swing, speed, 1.0, times, self.gravity, self.omega));
         let all = self.swing.bound(self.motion) + self.adrift + coming;
