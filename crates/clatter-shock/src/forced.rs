@@ -214,9 +214,6 @@ impl<'a> Segment<'a> {
     }
     /// The motion at the end, with e^(iντ) of each sinusoid given.
     pub(crate) fn sample_end(&mut self, phase: Phase, turned: impl Fn(usize) -> Complex64) -> Sample {
-        if self.sines.is_empty() {
-            return self.sample_turned(phase.hi, &self.driven(phase), |_, i| turned(i));
-        }
         let driven = match self.last_end {
             Some((last, pushed, driven)) if last == phase && (pushed || !self.is_pushed()) => driven,
             _ => self.driven(phase),
@@ -348,6 +345,11 @@ impl<'a> Segment<'a> {
     pub(crate) fn extremes(&self, k: usize, end: &Sample, interval: usize, range: &mut Range) {
         let modes = self.modes;
         let span = end.tau;
+        // √(x² + y²) grows by no more than |f|.
+        let row = modes.rows[k][0].abs() + modes.rows[k][1].abs() * modes.tilt;
+        if row * (modes.energy(self.start) + span * self.bound[0]) <= range.high.value.min(-range.low.value) {
+            return;
+        }
         let begin = self.begin_sample();
         let bent = self.sines.is_empty() && self.keeps_its_bend(k, &begin, end);
         if bent && !self.turns_beyond(k, &begin, end, range) {

@@ -56,13 +56,15 @@ pub(crate) struct Mark {
 pub(crate) struct Range {
     pub(crate) high: Mark,
     pub(crate) low: Mark,
+    /// Whether only the larger one counts: what is smaller either way is passed over.
+    peak: bool,
 }
 
 impl Range {
-    /// With nothing in it that is within `above` of 0: what lies there is passed over.
+    /// Of the one that is larger in absolute value, with nothing in it that is within `above` of 0.
     pub(crate) fn beyond(above: f64) -> Self {
         let mark = |value| Mark { value, ..Mark::default() };
-        Self { high: mark(above.max(0.0)), low: mark(-above.max(0.0)) }
+        Self { high: mark(above.max(0.0)), low: mark(-above.max(0.0)), peak: true }
     }
     /// The larger extreme in absolute value, if it passes `above`.
     pub(crate) fn peak_above(&self, above: f64, omega: f64, start: impl Fn(usize) -> f64) -> Option<Extreme> {
@@ -70,10 +72,18 @@ impl Range {
     }
     #[inline]
     pub(crate) fn note(&mut self, interval: usize, tau: f64, value: f64) {
+        // Of two as large as each other the earlier counts, and that is not the mirror image.
+        let mirror = Mark { value: -value, tau: f64::INFINITY, interval };
         if value > self.high.value {
             self.high = Mark { value, tau, interval };
+            if self.peak {
+                self.low = mirror;
+            }
         } else if value < self.low.value {
             self.low = Mark { value, tau, interval };
+            if self.peak {
+                self.high = mirror;
+            }
         }
     }
     /// Takes in the free motion from `m` over `span`: its start and its turning points. Its end is the start of what follows.

@@ -197,17 +197,14 @@ impl Pulses {
     }
     /// A piecewise linear history of points already checked: finite, in order of time.
     pub(crate) fn from_sorted(points: &[(f64, f64)]) -> Self {
-        let pieces: Vec<Piece> = points
-            .windows(2)
-            .filter(|w| w[1].0 > w[0].0)
-            .map(|w| Piece {
-                start: Instant::at(w[0].0),
-                length: w[1].0 - w[0].0,
-                from: w[0].1,
-                to: w[1].1,
-                sines: (0, 0),
-            })
-            .collect();
+        let mut pieces = Vec::with_capacity(points.len());
+        pieces.extend(points.windows(2).filter(|w| w[1].0 > w[0].0).map(|w| Piece {
+            start: Instant::at(w[0].0),
+            length: w[1].0 - w[0].0,
+            from: w[0].1,
+            to: w[1].1,
+            sines: (0, 0),
+        }));
         Self { pieces, sines: Vec::new(), end: Instant::at(points.last().map_or(0.0, |p| p.0)) }
     }
     /// Peaks of the component's response, ring-down included. Interval i begins at the i-th begin or end of a part of a

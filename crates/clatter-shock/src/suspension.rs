@@ -218,6 +218,12 @@ pub(crate) struct Turn {
     pub(crate) value: f64,
 }
 
+/// The root of a sum of squares, by `otherwise` where squares may leave the floats.
+#[inline]
+fn root_of(square: f64, otherwise: impl Fn() -> f64) -> f64 {
+    if (1e-280..1e280).contains(&square) { square.sqrt() } else { otherwise() }
+}
+
 impl Modes {
     pub(crate) const DISPLACEMENT: usize = 0;
     pub(crate) const VELOCITY: usize = 1;
@@ -315,8 +321,7 @@ impl Modes {
     /// Upper bound on each of the three quantities at turning points to come, for ζ ≤ 1: √(w² + (1−ζ²)x²), their common amplitude.
     #[inline]
     pub(crate) fn amplitude(&self, m: Motion) -> f64 {
-        let square = m.w * m.w + self.p * m.x * m.x;
-        if (1e-280..1e280).contains(&square) { square.sqrt() } else { m.w.hypot(self.beta * m.x) }
+        root_of(m.w * m.w + self.p * m.x * m.x, || m.w.hypot(self.beta * m.x))
     }
     /// The terms of quantity `k` without their signs: what its rounding is relative to.
     pub(crate) fn size(&self, k: usize, m: Motion) -> f64 {
@@ -325,7 +330,7 @@ impl Modes {
     /// √(x² + y²), which free motion never raises.
     pub(crate) fn energy(&self, m: Motion) -> f64 {
         let y = m.w - self.sigma * m.x;
-        (m.x * m.x + y * y).sqrt()
+        root_of(m.x * m.x + y * y, || m.x.hypot(y))
     }
     /// Upper bound on quantity `k` in all free motion from `m`.
     pub(crate) fn reach(&self, k: usize, m: Motion) -> f64 {

@@ -33,7 +33,7 @@ const SMALL: f64 = 1e-5;
 /// path, so that its effect on a component is off by the fourth power of its length.
 pub(crate) fn of_contacts(scene: &Scene, flight: &CompliantFlight, until_s: f64, contact_s: f64, cells: f64) -> Pushes {
     let g = scene.gravity_m_s2();
-    let piece = |from: f64, to: f64, start, end| straight(to - from, start, end).map(|a| a + g);
+    let piece = |long: f64, start, end| straight(long, start, end).map(|a| a + g);
     let largest = flight.flight.strikes.iter().flat_map(|s| s.delta_v_m_s).fold(0.0_f64, |m, v| m.max(v.abs()));
     let rate = 2.0 * Pulse::new(scene.e()).rate() / contact_s;
     let mut cuts: Vec<_> = flight.phases_s().collect();
@@ -44,9 +44,17 @@ pub(crate) fn of_contacts(scene: &Scene, flight: &CompliantFlight, until_s: f64,
     if rests {
         cuts.push((stop + SETTLED * contact_s, at_stop));
     }
+    // On a grid about as fine as the time of the end is known, steps of one length are so to the last bit, and the component turns alike in
+    // them. A contact begins no earlier than it does.
+    let coarse = 3.0 * cuts.last().map_or(0.0, |(time, _)| time.log2().ceil().exp2());
+    let on_grid = |time: f64| (time + coarse) - coarse;
+    for (time, _) in &mut cuts {
+        let near = on_grid(*time);
+        *time = if near < *time { near + coarse / 1.5 * f64::EPSILON } else { near };
+    }
     let mut points = Vec::with_capacity(16 * cuts.len());
     points.push((0.0, [0.0; 2]));
-    let mut nodes = Vec::new();
+    let mut doublings = Vec::with_capacity(32);
     let (mut pressing, mut changed) = ([false; 2], 0.0);
     for (phase, pair) in cuts.windows(2).enumerate() {
         let ((from, on), (to, _)) = (pair[0], pair[1]);
@@ -66,28 +74,32 @@ pub(crate) fn of_contacts(scene: &Scene, flight: &CompliantFlight, until_s: f64,
             continue;
         }
         // A contact that lasts does most of what it does at first.
-        let first = long.min(contact_s);
-        let push = [0.02, 0.5].iter().fold(0.0_f64, |m, x| {
-            let sample = flight.sample(from + x * first);
-            sample.acceleration_m_s2.iter().fold(m, |m, a| m.max((a + g).abs()))
-        });
-        if push == 0.0 {
+        let pushed = match flight.velocity_in(phase + 1) {
+            Some(end) if long <= 1.5 * contact_s => {
+                let start = flight.velocity_in(phase).unwrap_or_default();
+                (0..2).fold(0.0_f64, |m, i| m.max((end[i] - start[i] + g * long).abs()))
+            }
+            _ => [0.0, 0.5].iter().fold(0.0_f64, |m, x| {
+                let sample = flight.sample_in(phase, x * contact_s.min(long));
+                sample.acceleration_m_s2.iter().fold(m, |m, a| m.max((a + g).abs() * contact_s.min(long)))
+            }),
+        };
+        if pushed == 0.0 {
             points.extend([(from, [0.0; 2]), (to, [0.0; 2])]);
             continue;
         }
-        let share = (push * first / largest).min(1.0);
+        let share = (pushed / largest).min(1.0);
         let cells = (cells * share.sqrt()).max((0.5 * cells).clamp(1.0, 6.0));
-        cut(&mut nodes, rate, from - changed, long, contact_s, cells);
-        // Just before its end, not in what follows.
-        let last = to - 1e-9 * long.min(contact_s);
-        let motion = |t| flight.motion_in(phase, t);
-        let mut now = (from, motion(from));
-        for t in &nodes {
-            let time = (from + t).min(last);
-            let next = (time, motion(time));
-            let [a, b] = [0, 1].map(|i| piece(now.0, next.0, now.1[i], next.1[i]));
-            points.extend([(now.0, [a[0], b[0]]), (next.0, [a[1], b[1]])]);
-            now = next;
+        let step = cut(&mut doublings, rate, from - changed, long, contact_s, cells);
+        let mut steps = flight.steps_in(phase, on_grid(step), &doublings);
+        let mut now = steps.next();
+        for next in steps {
+            if let Some((t, motion)) = now {
+                let [a, b] = [0, 1].map(|i| piece(next.0 - t, motion[i], next.1[i]));
+                // Not into the next phase by a rounding.
+                points.extend([(from + t, [a[0], b[0]]), ((from + next.0).min(to), [a[1], b[1]])]);
+            }
+            now = Some(next);
         }
     }
     let end = points.last().map_or(0.0, |p| p.0);
@@ -107,21 +119,26 @@ pub(crate) fn at_place(pushes: &Pushes, suspension: &Suspension, at: impl Fn([f6
     points
 }
 
-/// Times after 0 at which one phase is cut, `age` after contacts changed: `cells` or so over a contact time, denser just after a change,
-/// and ever fewer over a contact that lasts, which only carries the body in the end.
-fn cut(nodes: &mut Vec<f64>, rate: f64, age: f64, long: f64, contact_s: f64, cells: f64) {
-    nodes.clear();
+/// How one phase is cut, `age` after contacts changed: `cells` or so pieces over a contact time, denser just after a change,
+/// and ever fewer over a contact that lasts, which only carries the body in the end. How often the first step, which it returns, is doubled.
+fn cut(doublings: &mut Vec<u32>, rate: f64, age: f64, long: f64, contact_s: f64, cells: f64) -> f64 {
+    doublings.clear();
     let longest = contact_s / cells;
     let first = if age > 0.0 { longest + 0.05 * age } else { (3.0 / (cells * rate)).min(longest) };
-    let mut step = first.min(if age > 0.0 { long } else { long / cells.min(4.0) });
-    let mut t = 0.0;
-    while t + 1.5 * step < long {
-        t += step;
-        nodes.push(t);
+    let first = first.min(if age > 0.0 { long } else { long / cells.min(4.0) });
+    let (mut step, mut doubled, mut t) = (first, 0, 0.0);
+    loop {
         let most = if age + t < 4.0 * contact_s { longest } else { f64::INFINITY };
-        step = (step * (1.0 + 4.0 / cells)).min(most);
+        // Each is longer than the last by 4/cells of it, to the nearest power of two.
+        while std::f64::consts::SQRT_2 * step < (first + 4.0 / cells * t).min(most) {
+            (step, doubled) = (2.0 * step, doubled + 1);
+        }
+        doublings.push(doubled);
+        t += step;
+        if t + 0.5 * step >= long {
+            return first * long / t;
+        }
     }
-    nodes.push(long);
 }
 
 /// Velocity shocks as pulses of lone contacts in so many `cells`, added up where they overlap.
@@ -180,29 +197,41 @@ pub(crate) fn largest_change(polygon: &[(f64, f64)], within_s: f64) -> f64 {
         sum += 0.5 * (w[0].1 + w[1].1) * (w[1].0 - w[0].0);
         velocity.push(sum);
     }
-    let (mut tail, mut head) =
-        (Cursor { polygon, velocity: &velocity, next: 0 }, Cursor { polygon, velocity: &velocity, next: 0 });
-    let mut change = |t: f64| head.at(t + within_s) - tail.at(t);
-    let (mut begins, mut ends) =
-        (polygon.iter().map(|p| p.0).peekable(), polygon.iter().map(|p| p.0 - within_s).peekable());
-    let Some(mut from) = ends.next() else { return 0.0 };
-    let mut before = change(from);
-    let mut largest = before;
-    loop {
-        let to = match (begins.peek(), ends.peek()) {
-            (Some(begin), Some(end)) if begin < end => begins.next(),
-            (_, Some(_)) => ends.next(),
-            _ => begins.next(),
-        };
-        let Some(to) = to else { return largest };
-        // A jump of the acceleration is two corners at one time.
-        if to <= from {
-            continue;
+    // Velocity and acceleration at a time on the side that ends with corner `next`.
+    let at = |next: usize, t: f64| {
+        if next == 0 || next == polygon.len() {
+            return [if next == 0 { 0.0 } else { sum }, 0.0];
         }
-        let (middle, after) = (change(0.5 * (from + to)), change(to));
+        let ((t0, a0), (t1, a1)) = (polygon[next - 1], polygon[next]);
+        let h = t - t0;
+        let rise = h * (a1 - a0) / (t1 - t0);
+        [velocity[next - 1] + h * (a0 + 0.5 * rise), a0 + rise]
+    };
+    // A jump is two corners at one time.
+    let passed = |next: usize| {
+        let time = polygon[next].0;
+        next + polygon[next..].iter().take_while(|corner| corner.0 <= time).count()
+    };
+    let (mut tail, mut head) = (0, 0);
+    let (mut from, mut before, mut rate, mut largest) = (f64::NEG_INFINITY, 0.0, 0.0, 0.0_f64);
+    loop {
+        // The head of the window is never behind its tail.
+        let to = match (polygon.get(tail), polygon.get(head)) {
+            (Some((tail_s, _)), Some((head_s, _))) if head_s - within_s < *tail_s => {
+                head = passed(head);
+                head_s - within_s
+            }
+            (Some((tail_s, _)), _) => {
+                tail = passed(tail);
+                *tail_s
+            }
+            _ => return largest,
+        };
+        let ([ahead, after_ahead], [behind, after_behind]) = (at(head, to + within_s), at(tail, to));
+        let after = ahead - behind;
         // before + slope x + bend x², x from 0 to 1
-        let (slope, bend) = (4.0 * middle - 3.0 * before - after, 2.0 * (before + after - 2.0 * middle));
-        let turn = -0.5 * slope / bend;
+        let slope = rate * (to - from);
+        let turn = -0.5 * slope / (after - before - slope);
         let mut larger = |found: f64| {
             if found.abs() > largest.abs() {
                 largest = found;
@@ -212,30 +241,7 @@ pub(crate) fn largest_change(polygon: &[(f64, f64)], within_s: f64) -> f64 {
             larger(before + 0.5 * slope * turn);
         }
         larger(after);
-        (from, before) = (to, after);
-    }
-}
-
-/// The velocity under a polygon of accelerations, at times that do not run back.
-struct Cursor<'a> {
-    polygon: &'a [(f64, f64)],
-    velocity: &'a [f64],
-    /// The first corner after the last time asked.
-    next: usize,
-}
-
-impl Cursor<'_> {
-    fn at(&mut self, t: f64) -> f64 {
-        while self.polygon.get(self.next).is_some_and(|p| p.0 <= t) {
-            self.next += 1;
-        }
-        let k = self.next;
-        if k == 0 || k == self.polygon.len() {
-            return if k == 0 { 0.0 } else { self.velocity[k - 1] };
-        }
-        let ((t0, a0), (t1, a1)) = (self.polygon[k - 1], self.polygon[k]);
-        let h = t - t0;
-        self.velocity[k - 1] + h * (a0 + 0.5 * h * (a1 - a0) / (t1 - t0))
+        (from, before, rate) = (to, after, after_ahead - after_behind);
     }
 }
 

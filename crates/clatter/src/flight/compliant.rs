@@ -18,7 +18,7 @@
 //! ω τ = 2β/sin β   (2β/sinh β),   e = exp(−ζ ω τ) = exp(−2β cot β)   (exp(−2β coth β))
 //! ```
 //!
-//! (At ζ = 0.3: e = 0.451.) Solved for β by bisection to the last digit; e² decreases with ζ throughout.
+//! (At ζ = 0.3: e = 0.451.) Solved for β² by Newton's steps to a few roundings; e² decreases with ζ throughout.
 //!
 //! # Phases
 //! With one end in contact its height is a damped oscillation, the other end a parabola plus a multiple of it. With both,
@@ -53,9 +53,12 @@ use std::cell::Cell;
 
 use super::ballistic::Clock;
 use super::finite_tilt::{Pose, end_of, sigma};
-use super::roots::{STEPS, first_zero, safe_step};
+use super::roots::{STEPS, Step, far_step, first_zero, safe_step};
 use super::{Flight, Log, SHARE, Scene, Stop, Strike};
 use crate::{End, Error};
+
+/// Newton's steps of the fit at most: eight do.
+const NEWTON: usize = 12;
 
 /// Natural frequency and damping ratio of a lone contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -90,20 +93,32 @@ impl Contact {
             return Err(Error::Quantity { name: "contact time in s", value: contact_time_s, allowed });
         }
         let loss = -e.ln(); // ζ ω τ
-        // 2β cot β falls from 2 to 0 on (0, π/2], 2β coth β rises from 2.
-        let under = loss < 2.0;
-        let excess = |b: f64| if under { loss - 2.0 * b / b.tan() } else { 2.0 * b / b.tanh() - loss };
-        let (mut lo, mut hi) = (0.0, if under { 0.5 * std::f64::consts::PI } else { 3.0 });
-        loop {
-            let mid = 0.5 * (lo + hi);
-            if mid <= lo || mid >= hi {
+        // β cot β, and β coth β with x = −β², are one function of x = β², 1 − x/3 − …, which falls and is concave: Newton's steps
+        // from where its tangent at 0 has the value stay on one side of x.
+        let mut x = 3.0 - 1.5 * loss;
+        for _ in 0..NEWTON {
+            let (b, sine, cosine) = Self::angle(x);
+            let (value, slope) = if b < 1e-4 {
+                (1.0 - x / 3.0, -1.0 / 3.0)
+            } else {
+                (b * cosine / sine, (sine * cosine - b).copysign(-1.0) / (2.0 * b * sine * sine))
+            };
+            let step = (0.5 * loss - value) / slope;
+            x += step;
+            if step.abs() <= 4.0 * f64::EPSILON * x.abs().max(1.0) {
                 break;
             }
-            if excess(mid) < 0.0 { lo = mid } else { hi = mid }
         }
-        let (damping, sine) = if under { (hi.cos(), hi.sin()) } else { (hi.cosh(), hi.sinh()) };
-        let damping = if loss > 0.0 { damping } else { 0.0 };
-        Ok(Self { time: contact_time_s, frequency: 2.0 * hi / sine / contact_time_s, damping })
+        let (b, sine, cosine) = Self::angle(x);
+        let damping = if loss > 0.0 { cosine } else { 0.0 };
+        let stretch = if b > 0.0 { b / sine } else { 1.0 };
+        Ok(Self { time: contact_time_s, frequency: 2.0 * stretch / contact_time_s, damping })
+    }
+    /// β, sin β and cos β of β² = x; sinh and cosh where x is negative.
+    fn angle(x: f64) -> (f64, f64, f64) {
+        let b = x.abs().sqrt();
+        let (sine, cosine) = if x > 0.0 { b.sin_cos() } else { (b.sinh(), b.cosh()) };
+        (b, sine, cosine)
     }
     /// Natural frequency ω of a lone contact, rad/s.
     #[must_use]
@@ -140,11 +155,12 @@ impl Mode {
     }
     /// z and z′ at time t.
     fn at(&self, t: f64) -> (f64, f64) {
-        if t == 0.0 {
-            return (self.z, self.dz);
-        }
+        if t == 0.0 { (self.z, self.dz) } else { self.turned((self.z, self.dz), self.turn(t)) }
+    }
+    /// e^(−st) cos νt and e^(−st) sin(νt)/ν, beyond critical damping of the hyperbolic functions.
+    fn turn(&self, t: f64) -> (f64, f64) {
         let nu = self.nu;
-        let (c, sn) = if self.s * self.s < self.k {
+        if self.s * self.s < self.k {
             let decay = (-self.s * t).exp();
             let (sin, cos) = (nu * t).sin_cos();
             (decay * cos, decay * sin / nu)
@@ -156,20 +172,30 @@ impl Mode {
             let less = if x < 1.0 { (-x).exp_m1() } else { (-x).exp() - 1.0 };
             let sn = if x > 0.0 { -less / x } else { 1.0 };
             (decay * (1.0 + 0.5 * less), decay * t * sn)
-        };
-        (self.z * c + (self.dz + self.s * self.z) * sn, self.dz * c - (self.k * self.z + self.s * self.dz) * sn)
+        }
+    }
+    /// The turn of twice the time.
+    fn twice(&self, (c, sn): (f64, f64)) -> (f64, f64) {
+        let square = (self.nu * sn).powi(2);
+        (c * c + if self.s * self.s < self.k { -square } else { square }, 2.0 * c * sn)
+    }
+    /// z and z′ a turn later.
+    fn turned(&self, (z, dz): (f64, f64), (c, sn): (f64, f64)) -> (f64, f64) {
+        (z * c + (dz + self.s * z) * sn, dz * c - (self.k * z + self.s * dz) * sn)
     }
     fn second(&self, (z, dz): (f64, f64)) -> f64 {
         -2.0 * self.s * dz - self.k * z
     }
-    /// Bounds from the moment of (z, z′) on: of |z|, and of |z″|; the first derivatives are at most √k times these.
-    fn bounds(&self, now: (f64, f64)) -> (f64, f64) {
+    /// Bounds from the moment of (z, z′) on: of |z|, |z″| and |z‴|; the first derivatives are at most √k times these. And z‴ then.
+    fn bounds(&self, now: (f64, f64)) -> ([f64; 3], f64) {
         let a = self.second(now);
-        let jerk = -2.0 * self.s * a - self.k * now.1;
+        let jerk = self.second((now.1, a));
+        let snap = self.second((a, jerk));
         // Lengths, speeds and contact times are let in from 1e−31 to 1e30: no square leaves the floats. `hypot` would take a tenth
         // of a simulation.
         let length = |x: f64, y: f64| (x * x + y * y).sqrt();
-        (length(now.0, now.1 / self.root), length(a, jerk / self.root))
+        let bounds = [length(now.0, now.1 / self.root), length(a, jerk / self.root), length(jerk, snap / self.root)];
+        (bounds, jerk)
     }
     /// When the force of a lone contact, `−(y + θ y′)` over its stiffness, has fallen to zero, if before `cap`: for a rest that presses.
     ///
@@ -199,9 +225,16 @@ impl Mode {
         }
         let force = |t: f64| {
             let (w, dw) = whole(self.at(t));
-            (-(rest + w), -dw)
+            [-(rest + w), -dw]
         };
-        first_zero(from, cap, force, |_, f, slope| -f / slope)
+        let step = |_: f64, [f, slope]: [f64; 2]| {
+            let by = -f / slope;
+            // w″ from there to −rest is at most this, either way; where that bends little, the step is short by half its square at most.
+            let bend = k * rest.abs() - 2.0 * s * slope;
+            let short = if 2.0 * by * bend <= -slope { by * by * bend / -slope } else { f64::INFINITY };
+            Step { by, short }
+        };
+        first_zero(from, cap, force, step)
     }
     /// Slowest rate of decay.
     fn decay(&self) -> f64 {
@@ -286,25 +319,25 @@ impl Phase {
         }
     }
     /// Height, velocity, acceleration of end i at time t, from the modes then.
+    #[inline]
     fn end(&self, i: usize, t: f64, modes: &[(f64, f64); 2]) -> [f64; 3] {
-        if self.on[i] {
-            if !self.both() {
-                let (mode, now) = (&self.modes[0], modes[0]);
-                return [mode.rest + now.0, now.1, mode.second(now)];
-            }
-            let c = self.weights[i];
-            let mut sum = [0.0; 3];
-            for ((c, mode), &now) in c.iter().zip(&self.modes).zip(modes) {
-                let terms = [mode.rest + now.0, now.1, mode.second(now)];
-                for (s, term) in sum.iter_mut().zip(terms) {
-                    *s += c * term;
-                }
-            }
-            return sum;
+        if self.on[i] { self.pressed_end(i, modes) } else { self.free_end(i, t, self.pressed_end(1 - i, modes)) }
+    }
+    /// The same of one in contact.
+    #[inline]
+    fn pressed_end(&self, i: usize, modes: &[(f64, f64); 2]) -> [f64; 3] {
+        let of = |k: usize| {
+            let (mode, now) = (&self.modes[k], modes[k]);
+            [mode.rest + now.0, now.1, mode.second(now)]
+        };
+        if !self.both() {
+            return of(0);
         }
-        self.free_end(i, t, self.end(1 - i, t, modes))
+        let ([c, d], one, two) = (self.weights[i], of(0), of(1));
+        [c * one[0] + d * two[0], c * one[1] + d * two[1], c * one[2] + d * two[2]]
     }
     /// The same of the free one, where the other one is known.
+    #[inline]
     fn free_end(&self, i: usize, t: f64, [h, v, a]: [f64; 3]) -> [f64; 3] {
         let j = 1 - i;
         let share = self.cross / self.mu[j];
@@ -320,10 +353,6 @@ impl Phase {
     fn ends(&self, t: f64) -> [[f64; 3]; 2] {
         let modes = self.modes_at(t);
         [0, 1].map(|i| self.end(i, t, &modes))
-    }
-    /// Height and velocity of both ends at time t.
-    fn motion(&self, t: f64) -> [(f64, f64); 2] {
-        if self.on == [false; 2] { [0, 1].map(|i| self.start.end(i, t)) } else { self.ends(t).map(|[h, v, _]| (h, v)) }
     }
     fn force(&self, i: usize, [h, v, _]: [f64; 3]) -> f64 {
         if self.on[i] { (-self.kappa[i] * (h + self.delay * v)).max(0.0) } else { 0.0 }
@@ -409,11 +438,11 @@ impl Phase {
         }
         let whole = self.weights.map(|c| [0, 1].map(|k| c[k].abs() * (1.0 + delay * self.modes[k].root)));
         let (mut t, mut begins) = (0.0, fresh);
-        let mut soonest = (f64::INFINITY, 0);
+        let mut soonest = (Step::clear(f64::INFINITY), 0);
         for _ in 0..STEPS {
             let modes = self.modes_at(t);
             let bounds = [0, 1].map(|k| self.modes[k].bounds(modes[k]));
-            soonest = (f64::INFINITY, 0);
+            soonest = (Step::clear(f64::INFINITY), 0);
             for i in (0..2).filter(|&i| self.on[i]) {
                 let [h, v, a] = self.end(i, t, &modes);
                 let (force, slope) = (-(h + delay * v), -(v + delay * a));
@@ -422,16 +451,18 @@ impl Phase {
                 }
                 let sum = |of: [f64; 2]| whole[i][0] * of[0] + whole[i][1] * of[1];
                 // Where the vibration is too weak to lift it, it presses for good.
-                let step = if sum(bounds.map(|(z, _)| z)) < -rests[i] {
-                    f64::INFINITY
+                let step = if sum(bounds.map(|([z, ..], _)| z)) < -rests[i] {
+                    Step::clear(f64::INFINITY)
                 } else {
-                    safe_step(force.max(0.0), slope, sum(bounds.map(|(_, a)| a)))
+                    let jerk = self.weights[i][0] * bounds[0].1 + self.weights[i][1] * bounds[1].1;
+                    let [second, third] = [1, 2].map(|n| sum(bounds.map(|(of, _)| of[n])));
+                    far_step([force.max(0.0), slope, -(a + delay * jerk)], second, third)
                 };
-                if step < soonest.0 {
+                if step.by < soonest.0.by {
                     soonest = (step, i);
                 }
             }
-            let next = t + soonest.0;
+            let next = t + soonest.0.by;
             if next >= cap {
                 return None;
             }
@@ -439,6 +470,9 @@ impl Phase {
                 break;
             }
             (t, begins) = (next, [false; 2]);
+            if soonest.0.arrives(t) {
+                break;
+            }
         }
         Some((soonest.1, t))
     }
@@ -466,7 +500,7 @@ impl Phase {
     /// Whether the one end in contact, at fixed lever arms, never parts any more after the time t.
     fn presses_for_good(&self, t: f64) -> bool {
         let [mode, _] = self.modes;
-        (1.0 + self.delay * mode.root) * mode.bounds(mode.at(t)).0 < -mode.rest
+        (1.0 + self.delay * mode.root) * mode.bounds(mode.at(t)).0[0] < -mode.rest
     }
     /// When free end j comes into contact.
     fn touching(&self, j: usize, cap: f64, fresh: bool) -> Option<(f64, bool)> {
@@ -474,16 +508,10 @@ impl Phase {
         let share = (self.cross / self.mu[1 - j]).abs();
         let modes_at = self.kept_modes_at();
         let bounds = |t: f64| {
-            let (_, a) = self.modes[0].bounds(modes_at(t)[0]);
-            let fall = self.fall[j].abs() + share * (self.fall[1 - j].abs() + a);
-            (fall, fall + delay * share * a * self.modes[0].root)
+            let ([_, second, third], _) = self.modes[0].bounds(modes_at(t)[0]);
+            [self.fall[j].abs() + share * (self.fall[1 - j].abs() + second), share * third]
         };
-        let end = |t| self.end(j, t, &modes_at(t));
-        let height = |t| {
-            let [h, v, _] = end(t);
-            (h, v)
-        };
-        next_contact(delay, cap, fresh, end, height, bounds, |_| 0.0)
+        next_contact(delay, cap, fresh, |t| self.end(j, t, &modes_at(t)), bounds, |_| 0.0)
     }
     /// Time in which the vibration dies down to `SHARE`.
     fn ringing_s(&self) -> f64 {
@@ -493,15 +521,14 @@ impl Phase {
 
 /// First time at which a free end comes into contact: at zero from above, or below zero when h + θ h′ falls to zero.
 ///
-/// `end` gives height, velocity and acceleration, `height` the first two alone, `bounds` at least −h″ and −(h + θ h′)″ from a time on, `clear` a time
+/// `end` gives height, velocity and acceleration, `bounds` from a time on at least −h″ and |h‴|, `clear` a time
 /// known to be free from a time on. Says whether it comes from above.
 fn next_contact(
     delay: f64,
     cap: f64,
     fresh: bool,
     end: impl Fn(f64) -> [f64; 3],
-    height: impl Fn(f64) -> (f64, f64),
-    bounds: impl Fn(f64) -> (f64, f64),
+    bounds: impl Fn(f64) -> [f64; 2],
     clear: impl Fn(f64) -> f64,
 ) -> Option<(f64, bool)> {
     let mut t = 0.0;
@@ -515,7 +542,8 @@ fn next_contact(
         if lift <= 0.0 && !first {
             return Some((t, false));
         }
-        let next = t + safe_step(lift.max(0.0), v + delay * a, bounds(t).1);
+        let [fall, third] = bounds(t);
+        let next = t + safe_step(lift.max(0.0), v + delay * a, fall + delay * third);
         if next.is_nan() || next >= cap {
             return None;
         }
@@ -524,8 +552,11 @@ fn next_contact(
         }
         (t, first) = (next, false);
     }
-    let step = |t: f64, h: f64, v: f64| safe_step(h, v, bounds(t).0).max(clear(t));
-    first_zero(t, cap, height, step).map(|t| (t, true))
+    let step = |t: f64, now: [f64; 3]| {
+        let [fall, third] = bounds(t);
+        far_step(now, fall, third).max(clear(t))
+    };
+    first_zero(t, cap, end, step).map(|t| (t, true))
 }
 
 /// Accelerations and forces at one moment.
@@ -581,21 +612,64 @@ impl CompliantFlight {
     pub fn phases_s(&self) -> impl Iterator<Item = (f64, [bool; 2])> + '_ {
         self.phases.iter().map(|(from, phase)| (*from, phase.on))
     }
-    /// Height and velocity of both ends at a time since the first touch, as the phase of this number in [`phases_s`](Self::phases_s) has them;
-    /// the last one where there are fewer.
+    /// Velocities of both ends as the phase of this number begins, if there is one.
     #[must_use]
-    pub fn motion_in(&self, phase: usize, time_s: f64) -> [(f64, f64); 2] {
-        let (from, phase) = &self.phases[phase.min(self.phases.len() - 1)];
-        phase.motion((time_s - from).max(0.0))
+    pub fn velocity_in(&self, phase: usize) -> Option<[f64; 2]> {
+        self.phases.get(phase).map(|(_, phase)| phase.start.ends.v)
+    }
+    /// Height and velocity of both ends along a phase in which an end presses, of this number in [`phases_s`](Self::phases_s): with the time since
+    /// its beginning, there and after each of some steps, which last `step_s` doubled so many times.
+    ///
+    /// # Accuracy
+    /// One exponential and one sine serve all steps, turned on by multiplication: each of n steps loses a rounding or two of the motion, and a doubling
+    /// doubles what is lost before.
+    ///
+    /// ```
+    /// use clatter::flight::{Body, Scene};
+    /// let flight = Scene::new(Body::new(0.14, 0.0404)?, 0.5, 4.43, 5.0, 9.81)?.simulate_compliant(1e-4)?;
+    /// let steps: Vec<_> = flight.steps_in(0, 1e-5, &[0, 0, 1]).collect();
+    /// assert!((steps[3].0 - 4e-5).abs() < 1e-20);
+    /// assert!((steps[3].1[0].0 - flight.sample(4e-5).height_m[0]).abs() < 1e-15);
+    /// # Ok::<(), clatter::Error>(())
+    /// ```
+    pub fn steps_in(
+        &self,
+        phase: usize,
+        step_s: f64,
+        doublings: &[u32],
+    ) -> impl Iterator<Item = (f64, [(f64, f64); 2])> {
+        let phase = &self.phases[phase.min(self.phases.len() - 1)].1;
+        let last = usize::from(phase.both());
+        let mut modes = phase.modes_at(0.0);
+        let mut level = 0;
+        let (mut step, mut turns, mut t) = (step_s, [0, last].map(|k| phase.modes[k].turn(step_s)), 0.0);
+        let motion = move |doublings: Option<&u32>| {
+            if let Some(&doublings) = doublings {
+                while level < doublings {
+                    turns = [0, 1].map(|k| phase.modes[k].twice(turns[k]));
+                    (level, step) = (level + 1, 2.0 * step);
+                }
+                modes = [0, 1].map(|k| phase.modes[k].turned(modes[k], turns[k]));
+                t += step;
+            }
+            (t, [0, 1].map(|i| phase.end(i, t, &modes)).map(|[h, v, _]| (h, v)))
+        };
+        std::iter::once(None).chain(doublings.iter().map(Some)).map(motion)
     }
     /// Heights, velocities, accelerations and forces at a time since the first touch.
     #[must_use]
     pub fn sample(&self, time_s: f64) -> Sample {
         let n = self.phases.partition_point(|(from, _)| *from <= time_s);
-        let (from, phase) = &self.phases[n.saturating_sub(1)];
-        let t = (time_s - from).max(0.0);
+        let phase = n.saturating_sub(1);
+        self.sample_in(phase, (time_s - self.phases[phase].0).max(0.0))
+    }
+    /// The same at a time since the beginning of the phase of this number in [`phases_s`](Self::phases_s), the last one where there are
+    /// fewer, as that phase has them.
+    #[must_use]
+    pub fn sample_in(&self, phase: usize, t: f64) -> Sample {
+        let (_, phase) = &self.phases[phase.min(self.phases.len() - 1)];
         let free = phase.on == [false; 2];
-        let ends = if free { [0, 1].map(|i| phase.start.free(i, t)) } else { phase.ends(t) };
+        let ends = if free { [0, 1].map(|i| phase.start.end(i, t)) } else { phase.ends(t) };
         Sample {
             height_m: ends.map(|e| e[0]),
             velocity_m_s: ends.map(|e| e[1]),
@@ -622,7 +696,7 @@ pub(super) fn simulate(
     // Whether the contact has outlasted a phase.
     let mut long = false;
     let mut phases = Vec::with_capacity(32);
-    let mut pulses: Vec<Pulse> = Vec::new();
+    let mut pulses: Vec<Pulse> = Vec::with_capacity(16);
     let mut strike_of = [0_usize; 2];
     let most = PHASES + 16 * scene.impact_limit();
     let opened = pose.energy();
@@ -635,8 +709,8 @@ pub(super) fn simulate(
         let pivots = long && on != [true; 2];
         let longest = if free { f64::INFINITY } else { pose.longest(contact, pivots) };
         let halfway = if pivots { pose.halfway(usize::from(on[1]), 0.5 * longest) } else { pose };
-        let phase = Phase::new(pose, &halfway, on, contact, kappa, long);
-        phases.push((time.now(), phase));
+        phases.push((time.now(), Phase::new(pose, &halfway, on, contact, kappa, long)));
+        let phase = &phases[phases.len() - 1].1;
         let event = phase.event(contact, fresh);
         if event.is_none() && phase.both() {
             // Neither end will ever part: proven by the energy of the vibration.
@@ -718,11 +792,6 @@ pub(super) fn simulate(
 }
 
 impl Pose {
-    /// Height, velocity and acceleration of end i in free flight.
-    fn free(&self, i: usize, t: f64) -> [f64; 3] {
-        let (h, v) = self.end(i, t);
-        [h, v, self.turned(self.spin * t).acceleration(i)]
-    }
     /// The same body turned by an angle.
     fn turned(&self, angle: f64) -> Self {
         let (s, c) = angle.sin_cos();
@@ -753,15 +822,14 @@ impl Pose {
     fn touching(&self, i: usize, delay: f64, cap: f64, fresh: bool) -> Option<(f64, bool)> {
         let arm = self.body.arms_m()[i];
         let w = self.spin.abs();
-        let fall = self.gravity + arm * w * w;
-        let bounds = (fall, fall + delay * arm * w * w * w);
-        next_contact(delay, cap, fresh, |t| self.free(i, t), |t| self.end(i, t), |_| bounds, |t| self.clear(i, t))
+        let bounds = [self.gravity + arm * w * w, arm * w * w * w];
+        next_contact(delay, cap, fresh, |t| self.end(i, t), |_| bounds, |t| self.clear(i, t))
     }
     /// The pose after a flight of time t.
     fn flown(&self, t: f64) -> Self {
         let mut next = self.turned(self.spin * t);
         for i in 0..2 {
-            (next.ends.h[i], next.ends.v[i]) = self.end(i, t);
+            [next.ends.h[i], next.ends.v[i], _] = self.end(i, t);
         }
         next
     }

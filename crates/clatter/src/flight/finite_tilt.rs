@@ -29,7 +29,7 @@
 
 use super::ballistic::Clock;
 use super::pivot::{self, Event};
-use super::roots::{first_zero, safe_step};
+use super::roots::{far_step, first_zero, safe_step};
 use super::settling::Settling;
 use super::{After, Body, Flight, Log, SHARE, Scene, State, short};
 use crate::End;
@@ -78,20 +78,24 @@ impl Pose {
     pub(super) fn levers(&self) -> [f64; 2] {
         self.body.levers(self.sin, self.cos).0
     }
-    /// Height and velocity of end i after a flight of time t.
-    pub(super) fn end(&self, i: usize, t: f64) -> (f64, f64) {
-        let (h, v) = (self.ends.h[i], self.ends.v[i]);
-        let (bend, swing) = self.bend(i, self.spin * t);
-        (h + (t * (v - 0.5 * self.gravity * t) - bend), v - self.gravity * t - self.spin * swing)
+    /// Height, velocity and acceleration of end i after a flight of time t.
+    pub(super) fn end(&self, i: usize, t: f64) -> [f64; 3] {
+        let (h, v, g, w) = (self.ends.h[i], self.ends.v[i], self.gravity, self.spin);
+        if t == 0.0 {
+            return [h, v, self.acceleration(i)];
+        }
+        let [bend, swing, over] = self.bend(i, w * t);
+        [h + (t * (v - 0.5 * g * t) - bend), v - g * t - w * swing, -g - w * w * over]
     }
     /// What a turn by θ takes from the height of end i beyond its lever arm x, `x (θ − sin θ) + H (1 − cos θ)` for an end at
-    /// height H over the center, and from the lever arm.
-    pub(super) fn bend(&self, i: usize, theta: f64) -> (f64, f64) {
+    /// height H over the center, and from the lever arm; and the height over the center then.
+    pub(super) fn bend(&self, i: usize, theta: f64) -> [f64; 3] {
         let (half_sin, half_cos) = (0.5 * theta).sin_cos();
         let sin = 2.0 * half_sin * half_cos;
         let versine = 2.0 * half_sin * half_sin;
         let (x, over) = self.body.levers(self.sin, self.cos);
-        (theta_minus_sin(theta, sin) * x[i] + versine * over[i], versine * x[i] + sin * over[i])
+        let (x, over) = (x[i], over[i]);
+        [theta_minus_sin(theta, sin) * x + versine * over, versine * x + sin * over, over - versine * over + sin * x]
     }
     pub(super) fn after(&self) -> After {
         After { ends: self.ends, tilt: self.sin.atan2(self.cos), spin: self.spin }
@@ -119,12 +123,13 @@ impl Pose {
         let arm = self.body.radius(i);
         let w2 = self.spin * self.spin;
         let bound = self.gravity + arm * w2;
-        let step = |t: f64, h: f64, v: f64| safe_step(h, v, bound).max(self.clear(i, t));
+        let jerk = arm * w2 * self.spin.abs();
+        let step = |t: f64, now: [f64; 3]| far_step(now, bound, jerk).max(self.clear(i, t));
         let (h, v) = (self.ends.h[i], self.ends.v[i]);
         let first = if h > 0.0 {
             0.0
         } else if v > 0.0 {
-            step(0.0, 0.0, v)
+            step(0.0, [0.0, v, self.acceleration(i)]).by
         } else if v == 0.0 && leaving {
             // h ≥ ½ h″ t² + h‴ t³/6 − R ω⁴ t⁴/24, R the distance of the end. Where turning has just lifted it, h″ is zero
             // but for rounding.
@@ -146,7 +151,7 @@ impl Pose {
     /// Whether a touch of end i at t says nothing: the body turned so often until then that its angle is known to 10⁻⁴ no more,
     /// or the search was given up with the end still in the air.
     fn is_lost(&self, i: usize, t: f64) -> bool {
-        (self.spin * t).abs() > 1e-4 / f64::EPSILON || self.end(i, t).0 > 1e-3 * self.body.length_m()
+        (self.spin * t).abs() > 1e-4 / f64::EPSILON || self.end(i, t)[0] > 1e-3 * self.body.length_m()
     }
     /// The pose after a flight of time t that ends with end i on the ground, before the strike.
     pub(super) fn landed(&self, i: usize, t: f64) -> Self {
@@ -156,8 +161,8 @@ impl Pose {
         let cos = self.cos * turn_cos - self.sin * turn_sin;
         let length = self.body.length_m();
         let mut next = *self;
-        next.ends.v[i] = self.end(i, t).1;
-        let (h, v) = self.end(j, t);
+        next.ends.v[i] = self.end(i, t)[1];
+        let [h, v, _] = self.end(j, t);
         (next.ends.h[i], next.ends.v[j]) = (0.0, v);
         if sin.abs() < 0.5 {
             // Heights know a small angle to its last digit. Below zero is rounding: the other end has not touched.

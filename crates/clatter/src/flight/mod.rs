@@ -337,7 +337,7 @@ impl Scene {
         let (h, v) = if model == Model::FiniteTilt {
             let (sin, cos) = tilt.sin_cos();
             let pose = finite_tilt::Pose { body: self.body(), gravity: g, ends, sin, cos, spin };
-            ([0, 1].map(|i| pose.end(i, t).0), [0, 1].map(|i| pose.end(i, t).1))
+            ([0, 1].map(|i| pose.end(i, t)[0]), [0, 1].map(|i| pose.end(i, t)[1]))
         } else {
             ([0, 1].map(|i| ends.h[i] + t * (ends.v[i] - 0.5 * g * t)), ends.v.map(|v| v - g * t))
         };
