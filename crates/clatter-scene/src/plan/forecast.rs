@@ -258,16 +258,16 @@ impl Forecast {
         #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
         let fine = pieces as f64 / 34.0;
         let bar = match pair.bar {
-            BarRung::ClosedForm => 200.0,
+            BarRung::ClosedForm => 300.0,
             BarRung::Map => 300.0 + 60.0 * n.min(20.0),
             BarRung::Ballistic => 300.0 + 50.0 * n,
-            BarRung::FiniteTilt => 500.0 + 300.0 * n,
-            BarRung::Compliant => 3e3 + 3e3 * contacts,
+            BarRung::FiniteTilt => 500.0 + 400.0 * n,
+            BarRung::Compliant => 2e3 + 2e3 * contacts,
         };
         let component = match pair.component {
             ComponentRung::NetChange | ComponentRung::LargestShock => 150.0,
             ComponentRung::ImpulseTrain => 200.0 + 120.0 * if pair.bar == BarRung::Map { n.min(20.0) } else { n },
-            ComponentRung::PulseTrain if pair.bar == BarRung::Compliant => 1.5e3 + (1.5e3 + 3e3 * fine) * contacts,
+            ComponentRung::PulseTrain if pair.bar == BarRung::Compliant => 1e3 + (1e3 + 2e3 * fine) * contacts,
             // Pulses of small shocks have few corners.
             ComponentRung::PulseTrain => {
                 1e3 + (1e3 + 4.5e3 * fine) * n.min(if pair.bar == BarRung::Map { 8.0 } else { 40.0 })
