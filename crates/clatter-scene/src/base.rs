@@ -268,7 +268,7 @@ impl Base {
     /// where all of them count.
     pub(crate) fn settled_s(&self, setup: &Setup, quantity: Quantity, least: f64) -> Option<f64> {
         let Some(Contacts { flight, contact_time_s, .. }) = &self.contacts else { return Some(f64::INFINITY) };
-        let settled_s = setup.settled_s(flight, quantity, *contact_time_s, least, &mut Looks::new(0.0));
+        let settled_s = setup.settled_s(flight, *contact_time_s, least, &mut Looks::new(setup, quantity, 0.0));
         let cut_short = matches!(flight.flight.stop, Stop::ImpactLimit { .. });
         (settled_s < f64::INFINITY || !cut_short).then_some(settled_s)
     }

@@ -415,7 +415,6 @@ fn a_plan_costs_less_where_less_is_asked() {
     assert!(forecast.plan(1e-9).estimate.is_bound);
 }
 
-/// A plan does not name contacts where their model refuses the scene: light ends, thick bodies, long contacts, ends that spin fast.
 /// The pieces of pulses, of contacts and of lone ones, take a tenth of the tolerance: fewer than 1 in 100 random cases take more, none all of it.
 #[test]
 fn pulses_are_cut_as_finely_as_the_tolerance_asks() {
@@ -442,6 +441,24 @@ fn pulses_are_cut_as_finely_as_the_tolerance_asks() {
     assert!(cases > 1000 && 100 * beyond < cases, "{beyond} of {cases}");
 }
 
+/// What answers state of the pieces of contacts: 1 in 1000 is more than 1e-4 off. Of 1200 that is 1.2; more than 5 are so in one draw of 700.
+#[test]
+fn answers_are_cut_as_finely_as_stated() {
+    let mut random = Random(20_261_123);
+    let (mut cases, mut beyond) = (0, 0);
+    for _ in 0..600 {
+        let setup = random.setup();
+        for quantity in [Quantity::PeakAcceleration, Quantity::RattleSpace] {
+            let Ok(fine) = setup.demand_fine(Pair::HIGHEST, quantity, f64::INFINITY, 384) else { continue };
+            let cut = setup.demand_fine(Pair::HIGHEST, quantity, f64::INFINITY, 34).expect("as in fine pieces");
+            cases += 1;
+            beyond += usize::from((cut / fine - 1.0).abs() > 1e-4);
+        }
+    }
+    assert!(cases > 1100 && beyond <= 5, "{beyond} of {cases}");
+}
+
+/// A plan does not name contacts where their model refuses the scene: light ends, thick bodies, long contacts, ends that spin fast.
 #[test]
 fn contacts_are_planned_where_they_can_be_followed() {
     let mut random = Random(11);

@@ -23,6 +23,8 @@ pub(crate) struct Pushes {
 const WEIGHT_PERIODS: [f64; 2] = [2.0, 64.0];
 /// Contact times after rest in which the contacts are followed until they only carry the weight.
 const SETTLED: f64 = 1e3;
+/// The largest acceleration of a pulse over its mean, about.
+const CREST: f64 = 1.6;
 /// Shocks below this share of the largest are triangles, below its square nothing.
 const SMALL: f64 = 1e-5;
 
@@ -77,7 +79,7 @@ pub(crate) fn of_contacts(scene: &Scene, flight: &CompliantFlight, until_s: f64,
         let pushed = match flight.velocity_in(phase + 1) {
             Some(end) if long <= 1.5 * contact_s => {
                 let start = flight.velocity_in(phase).unwrap_or_default();
-                (0..2).fold(0.0_f64, |m, i| m.max((end[i] - start[i] + g * long).abs()))
+                (0..2).fold(0.0_f64, |m, i| m.max(CREST * (end[i] - start[i] + g * long).abs()))
             }
             _ => [0.0, 0.5].iter().fold(0.0_f64, |m, x| {
                 let sample = flight.sample_in(phase, x * contact_s.min(long));
@@ -129,8 +131,8 @@ fn cut(doublings: &mut Vec<u32>, rate: f64, age: f64, long: f64, contact_s: f64,
     let (mut step, mut doubled, mut t) = (first, 0, 0.0);
     loop {
         let most = if age + t < 4.0 * contact_s { longest } else { f64::INFINITY };
-        // Each is longer than the last by 4/cells of it, to the nearest power of two.
-        while std::f64::consts::SQRT_2 * step < (first + 4.0 / cells * t).min(most) {
+        // Each would be longer than the last by 4/cells of it; what is a power of two of the first does as well if it is doubled as late as this.
+        while 1.6 * step < (first + 4.0 / cells * t).min(most) {
             (step, doubled) = (2.0 * step, doubled + 1);
         }
         doublings.push(doubled);

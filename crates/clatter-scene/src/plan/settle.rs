@@ -38,18 +38,18 @@ impl Setup {
         contact_s: f64,
         tolerance: f64,
     ) -> Result<(CompliantFlight, f64), Error> {
-        let (mut settled_s, mut look, mut looks) = (f64::INFINITY, 1, Looks::new(tolerance));
+        let (mut settled_s, mut look, mut looks) = (f64::INFINITY, 1, Looks::new(self, quantity, tolerance));
         let flight = self.scene.simulate_compliant_until(contact_s, |flight| {
             let n = flight.flight.strikes.len();
             if n < look {
                 return false;
             }
             look = n + 1 + n / AGAIN;
-            settled_s = self.settled_s(flight, quantity, contact_s, 0.0, &mut looks);
+            settled_s = self.settled_s(flight, contact_s, 0.0, &mut looks);
             settled_s < f64::INFINITY
         })?;
         if settled_s == f64::INFINITY {
-            settled_s = self.settled_s(&flight, quantity, contact_s, 0.0, &mut looks);
+            settled_s = self.settled_s(&flight, contact_s, 0.0, &mut looks);
         }
         Ok((flight, settled_s))
     }
@@ -63,7 +63,7 @@ impl Setup {
         lasts_s: f64,
         tolerance: f64,
     ) -> Flight {
-        let (mut look, mut looks) = (LOOK, Looks::new(tolerance));
+        let (mut look, mut looks) = (LOOK, Looks::new(self, quantity, tolerance));
         scene.simulate_until(model, |flight| {
             let n = flight.strikes.len();
             if n < look {
@@ -71,34 +71,24 @@ impl Setup {
             }
             look = n + 1 + n / AGAIN;
             let so_far = self.so_far_by_impacts(flight, lasts_s);
-            self.settled(&so_far, quantity, lasts_s, 0.0, &mut looks) < f64::INFINITY
+            self.settled(&so_far, lasts_s, 0.0, &mut looks) < f64::INFINITY
         })
     }
 
     /// When nothing later in this flight raises the quantity, or passes what counts at `least`, both as velocities; infinite where that is not
     /// known. `looks` are those before, at its beginning.
-    pub(crate) fn settled_s(
-        &self,
-        flight: &CompliantFlight,
-        quantity: Quantity,
-        contact_s: f64,
-        least: f64,
-        looks: &mut Looks,
-    ) -> f64 {
-        self.settled(&self.so_far(flight), quantity, contact_s, least, looks)
+    pub(crate) fn settled_s(&self, flight: &CompliantFlight, contact_s: f64, least: f64, looks: &mut Looks) -> f64 {
+        self.settled(&self.so_far(flight), contact_s, least, looks)
     }
 
-    fn settled(&self, so_far: &SoFar<'_>, quantity: Quantity, contact_s: f64, least: f64, looks: &mut Looks) -> f64 {
+    fn settled(&self, so_far: &SoFar<'_>, contact_s: f64, least: f64, looks: &mut Looks) -> f64 {
         let (omega, g) = (self.suspension.omega(), self.scene.gravity_m_s2());
-        let ends = Ends::new(&self.scene, self.position);
-        let zeta = self.suspension.damping().get();
-        let swing = Swing::new(zeta, quantity == Quantity::PeakAcceleration);
+        let Looks { quantity, ends, swing, pulse, .. } = *looks;
         let velocity_shock = quantity == Quantity::VelocityShock;
         let SoFar { shocks, strikes, whole, twice_energy } = so_far;
         if shocks.is_empty() {
             return f64::INFINITY;
         }
-        let pulse = Pulse::new(ends.e);
         // What may come after the last of them.
         let speed = ends.reach(*twice_energy);
         let beyond = if *whole && !velocity_shock {
@@ -138,7 +128,7 @@ impl Setup {
             let rings = [swing.bound(motion) + loose, swing.envelope(motion) + loose * over_factor];
             Seen { motion, loose, peak, rings, fade: turn.fade }
         });
-        let Looks { clear, seen, hopeless } = looks;
+        let Looks { clear, seen, hopeless, .. } = looks;
         for (k, (_, now)) in seen.iter().enumerate().skip(*hopeless) {
             // All later shocks that are known, as if in phase, then all others.
             let ([mut at_most, mut later], most) = (now.rings, least.max(*clear * now.peak));
@@ -277,6 +267,11 @@ struct SoFar<'a> {
 /// What looks at the beginning of a flight have found.
 #[derive(Debug)]
 pub(crate) struct Looks {
+    /// What is looked for, of which bar and component.
+    quantity: Quantity,
+    ends: Ends,
+    swing: Swing,
+    pulse: Pulse,
     /// What can come must stay below this share of the peak.
     clear: f64,
     /// Each lone shock but the last: when it begins, has parted and the next one begins, to the bit, and what is then known.
@@ -301,8 +296,17 @@ struct Seen {
 
 impl Looks {
     /// Of an answer that may be off by a tolerance.
-    pub(crate) fn new(tolerance: f64) -> Self {
-        Self { clear: CLEAR + ALLOWED * tolerance.min(ONLY), seen: Vec::new(), hopeless: 0 }
+    pub(crate) fn new(setup: &Setup, quantity: Quantity, tolerance: f64) -> Self {
+        let ends = Ends::new(&setup.scene, setup.position);
+        Self {
+            quantity,
+            ends,
+            swing: Swing::new(setup.suspension.damping().get(), quantity == Quantity::PeakAcceleration),
+            pulse: Pulse::new(ends.e),
+            clear: CLEAR + ALLOWED * tolerance.min(ONLY),
+            seen: Vec::new(),
+            hopeless: 0,
+        }
     }
 
     /// Works out what each shock leaves, by what the one before has left, unless it is known: two that were apart may be one by now.
