@@ -197,8 +197,7 @@ fn the_history_adds_up_to_the_shocks() {
     // Phase by phase, in steps, as at any time.
     let phases: Vec<_> = flight.phases_s().collect();
     assert!(phases.iter().any(|(_, on)| *on == [true; 2]) && phases.iter().any(|(_, on)| *on == [false, true]));
-    let pressing = |(_, pair): &(usize, &[(f64, [bool; 2])])| pair[0].1 != [false; 2] && pair[0].0 < pair[1].0;
-    for (k, pair) in phases.windows(2).enumerate().filter(pressing) {
+    for (k, pair) in phases.windows(2).enumerate().filter(|(_, pair)| pair[0].0 < pair[1].0) {
         let steps: Vec<_> = flight.steps_in(k, (pair[1].0 - pair[0].0) / 16.0, &[0, 0, 0, 2, 3]).collect();
         assert_eq!(steps.len(), 6);
         for (after, motion) in steps {

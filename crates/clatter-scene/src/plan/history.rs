@@ -46,10 +46,11 @@ pub(crate) fn of_contacts(scene: &Scene, flight: &CompliantFlight, until_s: f64,
     if rests {
         cuts.push((stop + SETTLED * contact_s, at_stop));
     }
-    // On a grid about as fine as the time of the end is known, steps of one length are so to the last bit, and the component turns alike in
-    // them. A contact begins no earlier than it does.
+    // On a grid as fine as the time of the end is known, steps of one length are so to the last bit, and the component turns alike in them.
+    // A contact begins no earlier than it does. Steps that the grid does not know to eight digits stay as they are.
     let coarse = 3.0 * cuts.last().map_or(0.0, |(time, _)| time.log2().ceil().exp2());
     let on_grid = |time: f64| (time + coarse) - coarse;
+    let even = |step: f64| if (on_grid(step) - step).abs() < 1e-8 * step { on_grid(step) } else { step };
     for (time, _) in &mut cuts {
         let near = on_grid(*time);
         *time = if near < *time { near + coarse / 1.5 * f64::EPSILON } else { near };
@@ -93,7 +94,7 @@ pub(crate) fn of_contacts(scene: &Scene, flight: &CompliantFlight, until_s: f64,
         let share = (pushed / largest).min(1.0);
         let cells = (cells * share.sqrt()).max((0.5 * cells).clamp(1.0, 6.0));
         let step = cut(&mut doublings, rate, from - changed, long, contact_s, cells);
-        let mut steps = flight.steps_in(phase, on_grid(step), &doublings);
+        let mut steps = flight.steps_in(phase, even(step), &doublings);
         let mut now = steps.next();
         for next in steps {
             if let Some((t, motion)) = now {
@@ -249,7 +250,41 @@ pub(crate) fn largest_change(polygon: &[(f64, f64)], within_s: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::largest_change;
+    use super::{largest_change, of_contacts};
+    use clatter::flight::{Body, Scene};
+
+    /// However short contacts are beside the time between them, and however few pieces they get, their pushes do what the flight does.
+    #[test]
+    fn pushes_do_what_the_contacts_do() {
+        let body = Body::new(0.14, 0.0404).expect("a phone");
+        for contact_s in [1e-4, 1e-6, 1e-8, 1e-10, 1e-12] {
+            for (e, tilt) in [(0.3, 20.0), (0.5, 5.0), (0.9, 1.0)] {
+                let scene = Scene::new(body, e, 0.1, tilt, 0.0).and_then(|scene| scene.with_impact_limit(3));
+                let scene = scene.expect("a drop");
+                let flight = scene.simulate_compliant(contact_s).expect("a contact");
+                for cells in [3.0, 40.0] {
+                    let points = of_contacts(&scene, &flight, f64::INFINITY, contact_s, cells).points;
+                    let mut change = [0.0; 2];
+                    for pair in points.windows(2) {
+                        let ((from, before), (to, after)) = (pair[0], pair[1]);
+                        assert!(from <= to, "{contact_s}: {pair:?}");
+                        for (i, change) in change.iter_mut().enumerate() {
+                            *change += 0.5 * (before[i] + after[i]) * (to - from);
+                        }
+                    }
+                    for (i, change) in change.into_iter().enumerate() {
+                        let of = |size: fn(f64) -> f64| {
+                            flight.flight.strikes.iter().map(|s| size(s.delta_v_m_s[i])).sum::<f64>()
+                        };
+                        // The lever arms of a contact are those of its beginning, and times are known to an ulp.
+                        let within = 10.0 * contact_s + 2e-16 / contact_s + 1e-7;
+                        let off = (change - of(|v| v)).abs() / of(f64::abs);
+                        assert!(off < within, "contacts of {contact_s} s, e {e}, {cells} cells: {off:e}");
+                    }
+                }
+            }
+        }
+    }
 
     /// Of a triangle the window that lies evenly about the crest holds most.
     #[test]

@@ -231,7 +231,7 @@ impl Mode {
         };
         let step = |_: f64, [f, slope]: [f64; 2]| {
             let by = -f / slope;
-            // w″ from there to −rest is at most this, either way; where that bends little, the step is short by half its square at most.
+            // |w″| on the way to −rest is at most this; where it takes no more than half of the slope, the step is short by no more than this.
             let bend = k * rest.abs() - 2.0 * s * slope;
             let short = if 2.0 * by * bend <= -slope { by * by * bend / -slope } else { f64::INFINITY };
             Step { by, short }
@@ -619,8 +619,8 @@ impl CompliantFlight {
     pub fn velocity_in(&self, phase: usize) -> Option<[f64; 2]> {
         self.phases.get(phase).map(|(_, phase)| phase.start.ends.v)
     }
-    /// Height and velocity of both ends along a phase in which an end presses, of this number in [`phases_s`](Self::phases_s): with the time since
-    /// its beginning, there and after each of some steps, which last `step_s` doubled so many times.
+    /// Height and velocity of both ends along the phase of this number in [`phases_s`](Self::phases_s), with the time since its beginning: there
+    /// and after each of some steps, which last `step_s` doubled so many times, none shorter than the one before.
     ///
     /// # Accuracy
     /// One exponential and one sine serve all steps, turned on by multiplication: each of n steps loses a rounding or two of the motion, and a doubling
@@ -641,10 +641,11 @@ impl CompliantFlight {
         doublings: &[u32],
     ) -> impl Iterator<Item = (f64, [(f64, f64); 2])> {
         let phase = &self.phases[phase.min(self.phases.len() - 1)].1;
-        let last = usize::from(phase.both());
-        let mut modes = phase.modes_at(0.0);
-        let mut level = 0;
-        let (mut step, mut turns, mut t) = (step_s, [0, last].map(|k| phase.modes[k].turn(step_s)), 0.0);
+        let free = phase.on == [false; 2];
+        let first = phase.modes[0].turn(step_s);
+        let mut turns = [first, if phase.both() { phase.modes[1].turn(step_s) } else { first }];
+        let (mut modes, mut t) = (phase.modes_at(0.0), 0.0);
+        let (mut step, mut level) = (step_s, 0);
         let motion = move |doublings: Option<&u32>| {
             if let Some(&doublings) = doublings {
                 while level < doublings {
@@ -654,7 +655,8 @@ impl CompliantFlight {
                 modes = [0, 1].map(|k| phase.modes[k].turned(modes[k], turns[k]));
                 t += step;
             }
-            (t, [0, 1].map(|i| phase.end(i, t, &modes)).map(|[h, v, _]| (h, v)))
+            let end = |i| if free { phase.start.end(i, t) } else { phase.end(i, t, &modes) };
+            (t, [0, 1].map(end).map(|[h, v, _]| (h, v)))
         };
         std::iter::once(None).chain(doublings.iter().map(Some)).map(motion)
     }
@@ -668,8 +670,8 @@ impl CompliantFlight {
     /// The same at a time since the beginning of the phase of this number in [`phases_s`](Self::phases_s), the last one where there are
     /// fewer, as that phase has them.
     #[must_use]
-    pub fn sample_in(&self, phase: usize, t: f64) -> Sample {
-        let (_, phase) = &self.phases[phase.min(self.phases.len() - 1)];
+    pub fn sample_in(&self, phase: usize, after_s: f64) -> Sample {
+        let (phase, t) = (&self.phases[phase.min(self.phases.len() - 1)].1, after_s);
         let free = phase.on == [false; 2];
         let ends = if free { [0, 1].map(|i| phase.start.end(i, t)) } else { phase.ends(t) };
         Sample {
