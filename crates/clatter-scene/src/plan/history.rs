@@ -132,7 +132,7 @@ fn cut(doublings: &mut Vec<u32>, rate: f64, age: f64, long: f64, contact_s: f64,
     let (mut step, mut doubled, mut t) = (first, 0, 0.0);
     loop {
         let most = if age + t < 4.0 * contact_s { longest } else { f64::INFINITY };
-        // Each would be longer than the last by 4/cells of it; what is a power of two of the first does as well if it is doubled as late as this.
+        // Each may be longer than the last by 4/cells of it. Doubled as late as this, they are as close as if each were.
         while 1.6 * step < (first + 4.0 / cells * t).min(most) {
             (step, doubled) = (2.0 * step, doubled + 1);
         }
