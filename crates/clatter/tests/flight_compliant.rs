@@ -245,28 +245,35 @@ fn unit_scene(q: f64, e: f64, tilt: f64, by_gravity: f64, by_speed: f64) -> (Sce
     (scene, contact_time)
 }
 
-/// The table that the documentation of the contact states, from above and within a factor of five, whatever the roundings.
+/// The table that the documentation of the contact states, from above and within a factor of five; and within three times it whatever the
+/// roundings of the start.
 #[test]
 fn the_energy_error_is_that_of_the_table() {
     let table = [
-        (0.0999, [0.7, 0.3, 0.4]),
-        (0.03, [0.15, 0.02, 0.03]),
-        (0.01, [0.2, 0.001, 0.002]),
-        (0.003, [0.2, 0.001, 0.0003]),
+        (0.0999, [0.7, 0.3, 0.3]),
+        (0.03, [0.09, 0.02, 0.03]),
+        (0.01, [0.1, 0.001, 0.002]),
+        (0.003, [0.06, 0.001, 0.0003]),
     ];
+    let worst = |by_gravity: f64, by_speed: f64| {
+        let mut worst = 0.0_f64;
+        for q in [-0.5, 0.5, 0.9, 0.98] {
+            for e in [0.1, 0.5, 0.9, 0.99, 1.0] {
+                for tilt in [0.1, 10.0, 45.0, 70.0, 85.0] {
+                    let (scene, time) = unit_scene(q, e, tilt, by_gravity, by_speed);
+                    worst = worst.max(scene.simulate_compliant(time).expect("a contact").energy_error);
+                }
+            }
+        }
+        worst
+    };
     for (by_gravity, row) in table {
         for (by_speed, stated) in [0.0999, 0.01, 0.001].into_iter().zip(row) {
-            for rounding in [0.0, 1e-13, 2e-13, 3e-13] {
-                let mut worst = 0.0_f64;
-                for q in [-0.5, 0.5, 0.9, 0.98] {
-                    for e in [0.1, 0.5, 0.9, 0.99, 1.0] {
-                        for tilt in [0.1, 10.0, 45.0, 70.0, 85.0] {
-                            let (scene, time) = unit_scene(q, e, tilt, by_gravity, by_speed * (1.0 + rounding));
-                            worst = worst.max(scene.simulate_compliant(time).expect("a contact").energy_error);
-                        }
-                    }
-                }
-                assert!(worst <= stated && worst > 0.2 * stated, "{by_gravity} {by_speed}: {worst}, stated {stated}");
+            let here = worst(by_gravity, by_speed);
+            assert!(here <= stated && here > 0.2 * stated, "{by_gravity} {by_speed}: {here}, stated {stated}");
+            for rounding in [1e-13, 2e-13, 3e-13] {
+                let next = worst(by_gravity, by_speed * (1.0 + rounding));
+                assert!(next <= 3.0 * stated, "{by_gravity} {by_speed}: {next} at {rounding:e} beside it");
             }
         }
     }

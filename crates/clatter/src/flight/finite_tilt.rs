@@ -67,21 +67,6 @@ fn theta_minus_sin(theta: f64, sin: f64) -> f64 {
     theta * t2 / 6.0 * sum
 }
 
-/// A turn by θ: θ − sin θ, 1 − cos θ, sin θ.
-struct Turn {
-    less_sin: f64,
-    versine: f64,
-    sin: f64,
-}
-
-impl Turn {
-    fn by(theta: f64) -> Self {
-        let (half_sin, half_cos) = (0.5 * theta).sin_cos();
-        let sin = 2.0 * half_sin * half_cos;
-        Self { less_sin: theta_minus_sin(theta, sin), versine: 2.0 * half_sin * half_sin, sin }
-    }
-}
-
 impl Pose {
     pub(super) fn start(scene: &Scene) -> Self {
         let (sin, cos) = scene.tilt_rad().sin_cos();
@@ -95,36 +80,22 @@ impl Pose {
     }
     /// Height, velocity and acceleration of end i after a flight of time t.
     pub(super) fn end(&self, i: usize, t: f64) -> [f64; 3] {
-        if t == 0.0 {
-            return [self.ends.h[i], self.ends.v[i], self.acceleration(i)];
-        }
-        self.end_turned(i, t, &Turn::by(self.spin * t))
-    }
-    /// The same, turned meanwhile as given: x (θ − sin θ) + H (1 − cos θ) is taken from the height beyond the lever arm x, for an end at height
-    /// H over the center.
-    fn end_turned(&self, i: usize, t: f64, turn: &Turn) -> [f64; 3] {
         let (h, v, g, w) = (self.ends.h[i], self.ends.v[i], self.gravity, self.spin);
-        let (x, over) = self.body.levers(self.sin, self.cos);
-        let (x, over) = (x[i], over[i]);
-        let bend = turn.less_sin * x + turn.versine * over;
-        let swing = turn.versine * x + turn.sin * over;
-        let over = over - turn.versine * over + turn.sin * x;
+        if t == 0.0 {
+            return [h, v, self.acceleration(i)];
+        }
+        let [bend, swing, over] = self.bend(i, w * t);
         [h + (t * (v - 0.5 * g * t) - bend), v - g * t - w * swing, -g - w * w * over]
     }
-    /// The pose after a flight of time t.
-    pub(super) fn flown(&self, t: f64) -> Self {
-        let turn = Turn::by(self.spin * t);
-        let mut next = self.turned_by(turn.sin, 1.0 - turn.versine);
-        for i in 0..2 {
-            [next.ends.h[i], next.ends.v[i], _] = self.end_turned(i, t, &turn);
-        }
-        next
-    }
-    /// The same body turned by an angle of this sine and cosine.
-    pub(super) fn turned_by(&self, s: f64, c: f64) -> Self {
-        let (sin, cos) = (self.sin * c + self.cos * s, self.cos * c - self.sin * s);
-        let norm = (sin * sin + cos * cos).sqrt();
-        Self { sin: sin / norm, cos: cos / norm, ..*self }
+    /// What a turn by θ takes from the height of end i beyond its lever arm x, `x (θ − sin θ) + H (1 − cos θ)` for an end at
+    /// height H over the center, and from the lever arm; and the height over the center then.
+    pub(super) fn bend(&self, i: usize, theta: f64) -> [f64; 3] {
+        let (half_sin, half_cos) = (0.5 * theta).sin_cos();
+        let sin = 2.0 * half_sin * half_cos;
+        let versine = 2.0 * half_sin * half_sin;
+        let (x, over) = self.body.levers(self.sin, self.cos);
+        let (x, over) = (x[i], over[i]);
+        [theta_minus_sin(theta, sin) * x + versine * over, versine * x + sin * over, over - versine * over + sin * x]
     }
     pub(super) fn after(&self) -> After {
         After { ends: self.ends, tilt: self.sin.atan2(self.cos), spin: self.spin }

@@ -59,8 +59,10 @@ pub(super) fn far_step([f, slope, bend]: [f64; 3], bound: f64, jerk: f64) -> Ste
             2.0 * f / (root - slope)
         };
         if by < reach {
-            // f is above by J x² (x + r)/6 at most there, where it falls at that rate.
-            return if by < step.by { step } else { Step { by, short: jerk * by * by * (by + reach) / (6.0 * root) } };
+            // f is J x² (x + r)/6 at most there, and falls at the rate of the root less J x (x/2 + r/3): half of it, or nothing is said.
+            let falls = jerk * by * (0.5 * by + reach / 3.0) <= 0.5 * root;
+            let short = if falls { jerk * by * by * (by + reach) / (3.0 * root) } else { f64::INFINITY };
+            return if by < step.by { step } else { Step { by, short } };
         }
         step.by = reach;
     }
