@@ -6,7 +6,8 @@ use std::process::ExitCode;
 use clatter_cli::{Streams, run};
 
 fn main() -> ExitCode {
-    let (mut out, mut err) = (BufWriter::new(io::stdout().lock()), io::stderr().lock());
+    // Standard error is not kept locked: other threads must be able to say why they end.
+    let (mut out, mut err) = (BufWriter::new(io::stdout().lock()), io::stderr());
     let interactive = err.is_terminal();
     run(std::env::args_os(), &mut Streams { out: &mut out, err: &mut err, interactive }).into()
 }

@@ -23,8 +23,8 @@ pub(super) fn later_shock(speed: f64, e: f64, gravity: f64, contact_s: f64) -> f
 
 /// What `times` shocks, each of which throws back (1 + e) of the speed at the component, may add to the response, about, and the weight
 /// that the ground carries in the end.
-pub(super) fn later_response(swing: &Swing, speed: f64, e: f64, times: f64, gravity: f64, omega: f64) -> f64 {
-    times * (1.0 + e) * swing.factor * speed + weight(swing, gravity / omega)
+pub(super) fn later_response(swing: &Swing, speed: f64, e: f64, times: f64, fall: f64) -> f64 {
+    times * (1.0 + e) * swing.factor * speed + weight(swing, fall)
 }
 
 /// What the weight does to the response when the ground takes it up at once.

@@ -1,82 +1,137 @@
 //! Contacts that act on each other through the bar.
 
-use super::Quantity;
 use super::lane::Ends;
 use super::pulse::Pulse;
 
 /// Share of a shock that pushes an end which has just parted down once more.
 const DENT: f64 = 0.3;
 
-/// How far the contacts of one strike and of the next act on each other.
-#[derive(Debug, Clone, Copy)]
+/// The last contacts of both ends, and how far they and the next one act on each other.
+#[derive(Debug, Clone)]
 pub(super) struct Coupling {
     pulse: Pulse,
     e: f64,
+    flat: [f64; 2],
     /// Contact time; 0 where it is not known.
-    pub(super) time: f64,
-    pub(super) velocity_shock: bool,
-    /// Of both ends together: √(1 − q).
-    root: f64,
+    time: f64,
+    pressing: [Option<Pressing>; 2],
+    /// How far the motion of the ends is in doubt.
+    loose: f64,
+    /// Share of the speed that both ends together rebound with, once it is asked for.
+    rebound: Option<f64>,
 }
 
 /// A strike as its contact has it: its shocks of both ends, and its age.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Pressing {
+struct Pressing {
+    delta_v: (f64, f64),
+    age_s: f64,
+}
+
+/// What a strike and the contacts before it do to each other.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Coupled {
+    /// Share of its shock by which the motion that it meets is in doubt.
+    pub(super) astray: f64,
+    /// Whether the end presses already: it is the same contact.
+    pub(super) presses: bool,
+    /// The contact of the other end, where it has not done all it would.
+    pub(super) other: Option<Other>,
+}
+
+/// The contact of the other end.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Other {
+    /// Its velocity shocks of both ends.
     pub(super) delta_v: (f64, f64),
-    pub(super) age_s: f64,
+    /// What it, and the one of the end that strikes, may have been given more or less of, in m/s at its own end.
+    pub(super) pushed: f64,
+    pub(super) held: f64,
+    /// Shares of a pulse that are to come after its age, and after what is left of its time.
+    remaining: [f64; 2],
+}
+
+impl Other {
+    /// By how much a window of one contact time may hold more than one of two shocks, or less.
+    pub(super) fn window(&self, [earlier, later]: [f64; 2]) -> f64 {
+        let tail = self.remaining[0] * earlier.abs();
+        let head = (1.0 - self.remaining[1]) * later.abs();
+        if earlier * later > 0.0 { tail + head } else { tail }
+    }
 }
 
 impl Coupling {
-    pub(super) fn new(ends: &Ends, pulse: Pulse, time: f64, quantity: Quantity) -> Self {
-        let q = ends.flat[0].abs().max(ends.flat[1].abs());
-        let velocity_shock = quantity == Quantity::VelocityShock;
-        Self { pulse, e: ends.e, time, velocity_shock, root: (1.0 - q).max(0.0).sqrt() }
+    pub(super) fn new(ends: &Ends, pulse: Pulse, time: f64) -> Self {
+        Self { pulse, e: ends.e, flat: ends.flat, time, pressing: [None; 2], loose: 0.0, rebound: None }
     }
     /// Share of the speed that both ends together rebound with.
     #[cold]
-    pub(super) fn rebound(&self) -> f64 {
+    pub(super) fn rebound(&mut self) -> f64 {
+        let q = self.flat[0].abs().max(self.flat[1].abs());
         // Both contacts at once swing with √(1 ∓ q) of the lone frequency and damping; 1.3 for partings that are not at once.
-        (1.3 * libm::pow(self.e, self.root)).min(1.0)
+        *self.rebound.get_or_insert_with(|| (1.3 * libm::pow(self.e, (1.0 - q).max(0.0).sqrt())).min(1.0))
     }
-    /// What end i may have been given more or less of, in m/s, where the other one strikes with `kick` for end i while the contact of end i,
-    /// which does `had` in all, is as old as `age`.
+    /// A strike after this time, which is known to `blur_s`; `together` with the other end, which is one contact.
+    pub(super) fn strike(
+        &mut self,
+        end: usize,
+        delta_v: (f64, f64),
+        [gap_s, blur_s]: [f64; 2],
+        together: bool,
+    ) -> Coupled {
+        for pressing in self.pressing.iter_mut().flatten() {
+            pressing.age_s += gap_s;
+        }
+        // Of a motion in doubt, the shock is as much.
+        let strike = of(delta_v, end).abs();
+        let astray = if strike > 0.0 { (self.loose * (1.0 + self.e) / strike).min(1.0) } else { 0.0 };
+        // Where this end presses already, it is the same contact.
+        let own = self.pressing[end].filter(|own| own.age_s < self.time);
+        let other = if together { None } else { self.meets(end, delta_v, blur_s, own.is_some()) };
+        if let Some(other) = other {
+            self.loose += other.pushed + other.held;
+        }
+        let contact = own.unwrap_or_default();
+        let delta_v = (contact.delta_v.0 + delta_v.0, contact.delta_v.1 + delta_v.1);
+        self.pressing[end] = Some(Pressing { delta_v, ..contact });
+        if together {
+            self.pressing[1 - end] = self.pressing[end];
+        }
+        Coupled { astray, presses: own.is_some(), other }
+    }
+    /// What the contact of the other end and this strike do to each other.
     ///
     /// A linear contact struck by a velocity δ in the share x of its time gives `(1 + e)(1 − r(1 − x)) δ` more, with r the share that is to
     /// come after a time. Upward it parts early, and loses what is to come at most; downward the train of impacts has
     /// a strike of its own there, which differs by e of the contact and by what no longer has time to come back.
-    pub(super) fn pushed(&self, age: f64, kick: f64, had: f64) -> f64 {
-        let (x, rise) = (age / self.time, self.pulse.delay());
+    fn meets(&self, end: usize, delta_v: (f64, f64), blur_s: f64, presses: bool) -> Option<Other> {
+        let (other, e) = (self.pressing[1 - end]?, self.e);
+        let (x, rise) = ((other.age_s - blur_s).max(0.0) / self.time, self.pulse.delay());
         if x.is_nan() || x >= 1.0 + rise {
-            return 0.0;
+            return None;
         }
+        let (kick, had) = (of(delta_v, 1 - end), of(other.delta_v, 1 - end).abs());
         // Fitted: an end that has parted is still below the ground, and comes up with what it rebounds with.
         let dent = if kick < 0.0 { -kick * (DENT * (1.0 + rise - x) / rise).min(DENT) } else { 0.0 };
-        if x >= 1.0 {
-            return dent;
+        let (mut pushed, mut remaining) = (dent, [0.0, 1.0]);
+        if x < 1.0 {
+            remaining = [x, 1.0 - x].map(|t| self.pulse.remaining(t));
+            let [to_come, back] = remaining;
+            let whole = (1.0 + e) * (1.0 - back) * kick.abs();
+            pushed = if kick > 0.0 {
+                whole.min(to_come * had)
+            } else {
+                whole.min(e * had + (1.0 + e) * back * -kick).max(dent)
+            };
         }
-        let back = self.pulse.remaining(1.0 - x);
-        let whole = (1.0 + self.e) * (1.0 - back) * kick.abs();
-        if kick > 0.0 {
-            whole.min(self.pulse.remaining(x) * had)
-        } else {
-            whole.min(self.e * had + (1.0 + self.e) * back * -kick).max(dent)
-        }
+        // What it does back is one more load on the one that strikes, and what of it is to come acts while that presses.
+        let load = if presses { 0.0 } else { (1.0 + e) * remaining[0].powi(2) * of(other.delta_v, end).abs() };
+        let held = pushed * self.flat[1 - end].abs() + load;
+        Some(Other { delta_v: other.delta_v, pushed, held, remaining })
     }
-    /// The same of the end that strikes, for which the other contact had `kick`: what of that is to come acts while it presses.
-    pub(super) fn held(&self, age: f64, kick: f64) -> f64 {
-        if age >= self.time {
-            return 0.0;
-        }
-        (1.0 + self.e) * self.pulse.remaining(age / self.time).powi(2) * kick.abs()
-    }
-    /// By how much a window of one contact time may hold more than one of two shocks, or less.
-    pub(super) fn windows(&self, gap: f64, [earlier, later]: [f64; 2]) -> f64 {
-        if gap >= self.time {
-            return 0.0;
-        }
-        let x = gap / self.time;
-        let tail = self.pulse.remaining(x) * earlier.abs();
-        let head = (1.0 - self.pulse.remaining(1.0 - x)) * later.abs();
-        if earlier * later > 0.0 { tail + head } else { tail }
-    }
+}
+
+/// That of one end.
+pub(super) fn of((a, b): (f64, f64), end: usize) -> f64 {
+    if end == 0 { a } else { b }
 }

@@ -273,7 +273,7 @@ fn pieces(polygon: &[(f64, f64)]) -> usize {
 /// Pieces of a pulse that take [`OF_PIECES`] of a tolerance.
 pub(crate) fn pieces_for(tolerance: f64) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "a few")]
-    let cells = CELLS as f64 * libm::pow(WITHIN / (OF_PIECES * tolerance), 1.0 / POWER);
+    let cells = CELLS as f64 * libm::exp(libm::log(WITHIN / (OF_PIECES * tolerance)) / POWER);
     cells.clamp(1.0, MOST_CELLS)
 }
 

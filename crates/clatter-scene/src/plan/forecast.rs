@@ -2,10 +2,8 @@
 
 use clatter::flight::Scene;
 
-use super::coupling::Coupling;
 use super::lane::Ends;
 use super::pulse::Pulse;
-use super::swing::Swing;
 use super::trail::{Course, Strikes, Trail};
 use super::walk::{Interval, Walker};
 use super::{BarRung, ComponentRung, Estimate, Pair, Plan, Quantity, Setup};
@@ -124,18 +122,17 @@ impl Setup {
     fn follow<const N: usize>(&self, quantity: Quantity, trail: &mut impl Strikes, tolerance: f64) -> Forecast {
         let ends = Ends::new(&self.scene, self.position);
         let (zeta, omega) = (self.suspension.damping().get(), self.suspension.omega());
-        let swing = Swing::new(zeta, quantity == Quantity::PeakAcceleration);
+        let swing = trail.swing(zeta, quantity == Quantity::PeakAcceleration);
         let pulse = trail.course().pulse;
         let time = self.contact_time_s.unwrap_or(0.0);
-        let coupling = Coupling::new(&ends, pulse, time, quantity);
-        let (gravity, tilt) = (self.scene.gravity_m_s2(), self.scene.tilt_rad());
-        let mut walker = Walker::<N>::new((&ends, &swing, &coupling), gravity, omega, tilt);
+        let response = quantity != Quantity::VelocityShock;
+        let gravity = self.scene.gravity_m_s2();
+        let mut walker = Walker::<N>::new((&ends, &swing, trail.course()), !response, gravity, omega);
         let compliant = self.contact_time_s.is_some_and(|time| takes(&self.scene, time));
         let walk = walker.follow(trail, if compliant { tolerance } else { f64::INFINITY });
         let peak = walk.peak();
         // As if impulses, then as pulses: a peak that pulses flatten leaves more room to every error.
         let (smooth, impulse_phase) = smoothing(&pulse, omega * time, &peak, zeta);
-        let response = quantity != Quantity::VelocityShock;
         let left = if response { 1.0 - smooth.min(0.8) } else { 1.0 };
         let number = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
         let top = left * peak.value;
@@ -181,7 +178,7 @@ impl Setup {
             strikes,
             contacts,
             groups: Groups {
-                gravity: self.scene.gravity_m_s2() * gap / (v0 * v0),
+                gravity: gravity * gap / (v0 * v0),
                 geometry: self.scene.tilt_rad().powi(2),
                 overlap: if time > 0.0 { time / walk.shortest_gap_s } else { 0.0 },
                 pulse: omega * time,

@@ -189,8 +189,9 @@ impl Setup {
         }
         let [a, b] = [ends.at((1.0, -ends.flat[0])), ends.at((-ends.flat[1], 1.0))];
         let pile = if doubt { pile } else { pile_until_rest };
-        let times = pile(largest_pile(ends), swing, speed, g / omega, a * b >= 0.0);
-        later_response(swing, speed, e, times, g, omega)
+        let fall = g / omega;
+        let times = pile(largest_pile(ends), swing, speed, fall, a * b >= 0.0);
+        later_response(swing, speed, e, times, fall)
     }
 
     /// Twice the energy of the body as the last of a few contacts parts.

@@ -4,7 +4,8 @@ use clatter::flight::Scene;
 
 use super::STRIKES;
 use super::both::Both;
-use super::bounds::greater;
+use super::bounds::{greater, largest_pile};
+use super::coupling::{Coupled, Coupling};
 use super::lane::{Ends, Lane, MapLane, Next, Own, Strike};
 use super::pulse::Pulse;
 use super::swing::{Swing, Turn};
@@ -26,6 +27,10 @@ pub(super) struct Step {
     pub(super) rival: Own,
     /// The end that lies on the ground until then.
     pub(super) rests: Option<usize>,
+    /// What it and the contacts before do to each other.
+    pub(super) coupled: Coupled,
+    /// Share of the speed that both ends together rebound with, where contacts overlap until the next strike; 0 elsewhere.
+    pub(super) rebound: f64,
     /// Of both contacts at once: for how many contact times.
     pub(super) together: Option<f64>,
     /// Over how large a share of a contact time the strikes of the map are spread then.
@@ -44,6 +49,8 @@ const FREQUENCIES: usize = 3;
 pub(super) trait Strikes {
     /// Strike n, from 0; asked for in order.
     fn step(&mut self, n: usize) -> Option<&Step>;
+    /// A part of this damping ratio, asked for its acceleration or its displacement.
+    fn swing(&mut self, zeta: f64, acceleration: bool) -> Swing;
     /// What the phase θ after strike n does to a part.
     fn turn(&mut self, n: usize, swing: &Swing, theta: f64) -> Turn;
     /// The drop itself.
@@ -55,7 +62,14 @@ pub(super) trait Strikes {
 pub(crate) struct Course {
     ends: Ends,
     pub(super) pulse: Pulse,
-    contact_s: f64,
+    pub(super) contact_s: f64,
+    /// Share of the time since the first strike by which strikes are mistimed.
+    pub(super) blur: f64,
+    /// How many times the largest later shock the speeds of all later ones allow.
+    pub(super) pile: f64,
+    /// The time since the first strike.
+    last_s: f64,
+    coupling: Coupling,
     full: Lane<true>,
     /// Twice the energy after the strikes so far.
     energy: f64,
@@ -95,6 +109,11 @@ impl Course {
             ends,
             pulse,
             contact_s,
+            // Fitted: the mean bend of a large tilt.
+            blur: 0.25 * scene.tilt_rad() * scene.tilt_rad(),
+            pile: largest_pile(&ends),
+            last_s: 0.0,
+            coupling: Coupling::new(&ends, pulse, contact_s),
             full,
             energy,
             map,
@@ -140,6 +159,9 @@ impl Course {
             Some([_, contacts]) => self.full.strike_lying(ends, &next, contacts, self.contact_s),
             None => self.full.strike(ends, &next),
         };
+        self.last_s += next.after;
+        let times = [next.after, self.blur * self.last_s];
+        let coupled = self.coupling.strike(next.end, delta_v, times, pressed.is_some());
         // Impacts take what they take; turning, as the lane has it, may lose some.
         self.energy = if pressed.is_some() {
             self.full.twice_energy(ends)
@@ -196,10 +218,21 @@ impl Course {
                 twice_energy = twice_energy.max(self.tilted.twice_energy(ends));
             }
         }
-        let together = pressed.map(|[_, contacts]| contacts.lasts);
-        let end = next.end;
-        self.step =
-            Some(Step { end, delta_v, own, twice_energy, follows, rival, rests: lying, together, spread, tumbles });
+        let overlaps = follows.is_some_and(|gap| gap < self.contact_s);
+        self.step = Some(Step {
+            end: next.end,
+            delta_v,
+            own,
+            twice_energy,
+            follows,
+            rival,
+            rests: lying,
+            coupled,
+            rebound: if overlaps { self.coupling.rebound() } else { 0.0 },
+            together: pressed.map(|[_, contacts]| contacts.lasts),
+            spread,
+            tumbles,
+        });
     }
 }
 
@@ -208,6 +241,9 @@ impl Strikes for Course {
     fn step(&mut self, _: usize) -> Option<&Step> {
         self.advance();
         self.step.as_ref()
+    }
+    fn swing(&mut self, zeta: f64, acceleration: bool) -> Swing {
+        Swing::new(zeta, acceleration)
     }
     #[inline]
     fn turn(&mut self, _: usize, swing: &Swing, theta: f64) -> Turn {
@@ -223,6 +259,8 @@ impl Strikes for Course {
 pub(crate) struct Trail {
     course: Course,
     steps: Vec<Step>,
+    /// The part asked last, and whether for its acceleration.
+    swing: Option<(bool, Swing)>,
     /// How a part turns after each strike, for the frequencies asked last: damping ratio, phase, turn.
     turns: Vec<[Option<(f64, f64, Turn)>; FREQUENCIES]>,
 }
@@ -233,6 +271,7 @@ impl Trail {
         Self {
             course: Course::new(Ends::new(scene, 0.0), scene, contact_time_s),
             steps: Vec::with_capacity(STRIKES),
+            swing: None,
             turns: Vec::with_capacity(STRIKES),
         }
     }
@@ -255,7 +294,13 @@ impl Strikes for Trail {
         }
         self.steps.get(n)
     }
-    /// Worked out once for all places of a part.
+    /// Worked out once for all places of a part, as its turns are.
+    fn swing(&mut self, zeta: f64, acceleration: bool) -> Swing {
+        match self.swing {
+            Some((of, swing)) if of == acceleration && swing.zeta().to_bits() == zeta.to_bits() => swing,
+            _ => self.swing.insert((acceleration, Swing::new(zeta, acceleration))).1,
+        }
+    }
     fn turn(&mut self, n: usize, swing: &Swing, theta: f64) -> Turn {
         if n >= self.turns.len() {
             self.turns.resize(n + 1, [None; FREQUENCIES]);

@@ -1,10 +1,10 @@
 //! The first strikes of a drop as one component has them, in four lanes at once.
 
-use super::bounds::{greater, largest_pile, later_response, later_shock, lesser, pile_until_rest, weight};
-use super::coupling::{Coupling, Pressing};
+use super::bounds::{greater, later_response, later_shock, lesser, pile_until_rest, weight};
+use super::coupling::of;
 use super::lane::{Ends, MapLane};
 use super::swing::{Motion, Swing};
-use super::trail::{Step, Strikes};
+use super::trail::{Course, Step, Strikes};
 
 /// What later strikes can do must stay below this share of the peak for the following to stop: pulses flatten both, not alike.
 const CLEAR: f64 = 0.9;
@@ -31,6 +31,8 @@ pub(super) struct Interval {
     /// Bound on how far the map, the parabolas and real tilt are off it, and by what more at its beginning.
     off: [f64; 3],
     beginning: [f64; 3],
+    /// Bound on how far all of them are off beside.
+    doubt: f64,
     /// Bound on what a lane has before it that strikes earlier.
     early: [f64; 3],
     /// By how much more it may ring where strikes are mistimed in all models.
@@ -45,7 +47,7 @@ impl Interval {
     }
     /// Bound on how far lane k is off its largest value.
     fn off(&self, k: usize) -> f64 {
-        let off = self.off[k] + if self.phase > 0.0 { 0.0 } else { self.beginning[k] };
+        let off = self.off[k] + self.doubt + if self.phase > 0.0 { 0.0 } else { self.beginning[k] };
         if off.is_nan() { f64::INFINITY } else { off }
     }
 }
@@ -85,9 +87,9 @@ impl<const N: usize> Walk<N> {
     }
     /// What each lane gets wrong, if pulses leave `top` of the `peak`: by the strikes followed, and by all.
     pub(super) fn errors(&self, peak: &Interval, top: f64) -> [[f64; 2]; 3] {
-        let lates = self.lates();
+        let followed = self.followed([0, 1, 2], peak, top);
         [0, 1, 2].map(|k| {
-            let [error, least] = self.followed(k, peak, top, &lates);
+            let [error, least] = followed[k];
             [error, greater(self.later(k, peak.value), error)].map(|error| lesser(least, error))
         })
     }
@@ -100,20 +102,22 @@ impl<const N: usize> Walk<N> {
         }
         lates
     }
-    /// What lane k gets wrong by the strikes followed, and what it gets wrong at most if what follows some interval is left to its bound.
+    /// What these lanes get wrong by the strikes followed, and what they get wrong at most if what follows some interval is left to its bound.
     #[inline]
-    fn followed(&self, k: usize, peak: &Interval, top: f64, lates: &[f64; N]) -> [f64; 2] {
-        let (mut error, mut least) = (peak.off(k), f64::INFINITY);
-        for (interval, late) in self.intervals[..self.strikes].iter().zip(lates) {
+    fn followed<const K: usize>(&self, lanes: [usize; K], peak: &Interval, top: f64) -> [[f64; 2]; K] {
+        let mut errors = lanes.map(|k| [peak.off(k), f64::INFINITY]);
+        for (interval, late) in self.intervals[..self.strikes].iter().zip(self.lates()) {
             // Another that comes up to the top may be the higher one.
             let short = lesser(interval.value + interval.adrift - top, 0.0);
-            error = greater(interval.early[k] - top, greater(interval.off(k) + short, error));
-            // From the peak on, what follows may be left to its bound.
-            if interval.from_s >= peak.from_s {
-                least = lesser(greater(late - top, error), least);
+            for ([error, least], k) in errors.iter_mut().zip(lanes) {
+                *error = greater(interval.early[k] - top, greater(interval.off(k) + short, *error));
+                // From the peak on, what follows may be left to its bound.
+                if interval.from_s >= peak.from_s {
+                    *least = lesser(greater(late - top, *error), *least);
+                }
             }
         }
-        [error, least]
+        errors
     }
     /// What lane k may get wrong after the strikes followed.
     fn later(&self, k: usize, peak: f64) -> f64 {
@@ -123,10 +127,10 @@ impl<const N: usize> Walk<N> {
         if above <= 0.0 || k == 0 || self.extra >= ROOM * peak {
             return above;
         }
-        let worst = intervals.iter().fold(0.0_f64, |m, i| m.max(i.off[k]));
+        let worst = intervals.iter().fold(0.0, |m, i| greater(i.off[k] + i.doubt, m));
         // Fitted: what later strikes add is off by 4 times what the earlier ones were.
         let share = if self.alive[k] { 4.0 * (worst / peak).min(1.0) } else { 4.0 };
-        above.min(share * self.extra + self.weight + intervals.last().map_or(0.0, |i| i.off[k]))
+        above.min(share * self.extra + self.weight + intervals.last().map_or(0.0, |i| i.off[k] + i.doubt))
     }
     /// Strikes until `until_s`, about, of models with impacts (until they have fallen by 10⁻¹⁵, both ends in turn) and with contacts
     /// (until both ends lie on their springs).
@@ -215,9 +219,14 @@ impl Meeting<'_> {
 pub(super) struct Walker<'a, const N: usize> {
     ends: &'a Ends,
     swing: &'a Swing,
-    coupling: &'a Coupling,
+    /// Velocity shocks are asked for, not a response.
+    shocks: bool,
+    /// Contact time; 0 where it is not known.
+    time: f64,
     gravity: f64,
     omega: f64,
+    /// The speed that the weight gives in one radian of the component.
+    fall: f64,
     /// Share of the time since the first strike by which strikes are mistimed.
     blur: f64,
     /// How many times the largest later shock the speeds of all later ones allow.
@@ -235,34 +244,32 @@ pub(super) struct Walker<'a, const N: usize> {
     doubtful: f64,
     /// How much higher the component may ring where strikes are mistimed.
     adrift: f64,
-    /// The last contacts of both ends, and how far the motion of the ends after them is in doubt.
-    pressing: [Option<Pressing>; 2],
-    loose: f64,
-    /// Speed at the component before the last strike, and what overlapping contacts leave of it: this share, once it is asked for.
+    /// Speed at the component before the last strike, and what overlapping contacts leave of it.
     before: f64,
     floor: f64,
-    rebound: f64,
     /// Bound on what later strikes of the lane with all physics add.
     coming: f64,
 }
 
 impl<'a, const N: usize> Walker<'a, N> {
     pub(super) fn new(
-        (ends, swing, coupling): (&'a Ends, &'a Swing, &'a Coupling),
+        (ends, swing, course): (&'a Ends, &'a Swing, &Course),
+        shocks: bool,
         gravity: f64,
         omega: f64,
-        tilt: f64,
     ) -> Self {
-        let weight = if coupling.velocity_shock { 0.0 } else { weight(swing, gravity / omega) };
+        let fall = gravity / omega;
+        let weight = if shocks { 0.0 } else { weight(swing, fall) };
         Self {
             ends,
             swing,
-            coupling,
+            shocks,
+            time: course.contact_s,
             gravity,
             omega,
-            // Fitted: the mean bend of a large tilt.
-            blur: 0.25 * tilt * tilt,
-            pile: largest_pile(ends),
+            fall,
+            blur: course.blur,
+            pile: course.pile,
             walk: Walk {
                 intervals: [Interval::default(); N],
                 strikes: 0,
@@ -287,11 +294,8 @@ impl<'a, const N: usize> Walker<'a, N> {
             lacking: [0.0; 3],
             doubtful: 0.0,
             adrift: 0.0,
-            pressing: [None; 2],
-            loose: 0.0,
             before: 0.0,
             floor: 0.0,
-            rebound: 0.0,
             coming: f64::INFINITY,
         }
     }
@@ -313,6 +317,7 @@ impl<'a, const N: usize> Walker<'a, N> {
             });
             let speed = self.ends.reach(step.twice_energy);
             flight = Flight { gap_s: follows, lying, tumbles: step.tumbles, speed };
+            self.floor = greater(step.rebound * self.before, self.floor);
             self.fly(trail, &flight);
             if self.is_over(&flight) {
                 break;
@@ -324,22 +329,22 @@ impl<'a, const N: usize> Walker<'a, N> {
                 return &self.walk;
             }
         }
-        if !self.coupling.velocity_shock {
+        if !self.shocks {
             self.take_map(trail.course().map.clone());
         }
         &self.walk
     }
 
     fn unit(&self) -> f64 {
-        if self.coupling.velocity_shock { 1.0 } else { self.swing.factor }
+        if self.shocks { 1.0 } else { self.swing.factor }
     }
 
     /// From the last strike to the next.
     fn fly(&mut self, trail: &mut impl Strikes, flight: &Flight) {
-        let (swing, omega, gap, time) = (self.swing, self.omega, flight.gap_s, self.coupling.time);
+        let (swing, omega, gap, time) = (self.swing, self.omega, flight.gap_s, self.time);
         let n = self.walk.strikes - 1;
         let interval = &mut self.walk.intervals[n];
-        if !self.coupling.velocity_shock {
+        if !self.shocks {
             let turn = trail.turn(n, swing, omega * gap);
             let last = swing.after(&turn, self.motion);
             let (end, rate) = (swing.quantity(last), swing.quantity(swing.rate(last)));
@@ -362,19 +367,13 @@ impl<'a, const N: usize> Walker<'a, N> {
                 // The ground carried the weight, which no train of strikes has: as one push, or as a load.
                 let weight = share * self.gravity * gap.min(2.0 / omega);
                 self.doubtful += weight;
-                for off in &mut interval.off {
-                    *off += swing.factor * weight;
-                }
+                interval.doubt += swing.factor * weight;
             }
         }
         self.peak = greater(interval.value, self.peak);
         self.walk.shortest_gap_s = lesser(gap, self.walk.shortest_gap_s);
         if gap < time {
             self.walk.overlaps = true;
-            if self.rebound == 0.0 {
-                self.rebound = self.coupling.rebound();
-            }
-            self.floor = self.floor.max(self.rebound * self.before);
         }
         self.before = flight.speed;
         (self.walk.late, self.walk.extra, self.coming) = self.to_come(flight.speed, true);
@@ -387,15 +386,13 @@ impl<'a, const N: usize> Walker<'a, N> {
     /// Bound on what a bar of such a speed does to the component from now on, and what of it one shock and all of them do; `more` than one
     /// may come.
     fn to_come(&self, speed: f64, more: bool) -> (f64, f64, f64) {
-        if self.coupling.velocity_shock {
-            let shock = later_shock(speed, self.ends.e, self.gravity, self.coupling.time);
+        if self.shocks {
+            let shock = later_shock(speed, self.ends.e, self.gravity, self.time);
             return (shock, shock, shock);
         }
-        let fall = self.gravity / self.omega;
         // As if both ends pushed the same way, and threw back all of the speed: the study holds what follows from that.
-        let times = if more { pile_until_rest(self.pile, self.swing, speed, fall, true) } else { 1.0 };
-        let [extra, coming] =
-            [1.0, times].map(|times| later_response(self.swing, speed, 1.0, times, self.gravity, self.omega));
+        let times = if more { pile_until_rest(self.pile, self.swing, speed, self.fall, true) } else { 1.0 };
+        let [extra, coming] = [1.0, times].map(|times| later_response(self.swing, speed, 1.0, times, self.fall));
         let all = self.swing.bound(self.motion) + self.adrift + coming;
         (if all.is_nan() { f64::INFINITY } else { all }, extra, coming)
     }
@@ -407,7 +404,7 @@ impl<'a, const N: usize> Walker<'a, N> {
     fn is_certain(&self, tolerance: f64) -> bool {
         self.rises_are_off(tolerance) && {
             let peak = self.walk.peak();
-            let [error, least] = self.walk.followed(2, &peak, peak.value, &self.walk.lates());
+            let [[error, least]] = self.walk.followed([2], &peak, peak.value);
             lesser(error, least) > tolerance * peak.value
         }
     }
@@ -415,7 +412,7 @@ impl<'a, const N: usize> Walker<'a, N> {
     /// Whether it is so of every later interval that passes the peak.
     fn rises_are_off(&self, tolerance: f64) -> bool {
         let lost = !self.walk.alive[2];
-        if self.coupling.velocity_shock {
+        if self.shocks {
             // A lane that has lost the strikes is off by each. Of both contacts at once, the first may be more than the two together.
             return lost && tolerance < 1.0 || self.doubtful > 2.0 * tolerance * self.coming;
         }
@@ -439,7 +436,7 @@ impl<'a, const N: usize> Walker<'a, N> {
 
     /// Whether nothing later counts, or is known.
     fn is_over(&mut self, flight: &Flight) -> bool {
-        let time = self.coupling.time;
+        let time = self.time;
         if self.walk.late < CLEAR * self.peak && flight.gap_s >= time {
             // Strikes of other models may be later than those of this one.
             // A flat drop has all of it at the first touch, and a time limit is above 0.
@@ -451,13 +448,12 @@ impl<'a, const N: usize> Walker<'a, N> {
     }
 
     fn strike(&mut self, step: &Step, flight: &Flight) {
-        let (ends, swing, omega, time) = (self.ends, self.swing, self.omega, self.coupling.time);
-        let shocks = self.coupling.velocity_shock;
+        let (ends, swing, omega, time, shocks) = (self.ends, self.swing, self.omega, self.time, self.shocks);
         let n = self.walk.strikes;
         self.walk.last_s += flight.gap_s;
         // The ground also carries the weight while it pushes.
         self.doubtful += self.gravity * if n == 0 { time } else { lesser(time, flight.gap_s) };
-        self.couple(step, flight.gap_s);
+        self.couple(step);
         let both = step.together.map(|lasts| (lasts, Parts::of(ends, step.end, step.delta_v)));
         let delta_v = match both {
             // The first of both contacts is the shock.
@@ -519,12 +515,9 @@ impl<'a, const N: usize> Walker<'a, N> {
                 self.lacking[k] += gross;
             }
             self.off[k] = off;
-            interval.off[k] = if shocks {
-                shock_off + shape + self.doubtful
-            } else {
-                swing.bound(off) + swing.factor * (self.lacking[k] + self.doubtful)
-            };
+            interval.off[k] = if shocks { shock_off } else { swing.bound(off) + swing.factor * self.lacking[k] };
         }
+        interval.doubt = if shocks { shape + self.doubtful } else { swing.factor * self.doubtful };
         interval.off[0] += if shocks { 1.0 } else { swing.factor } * gross * step.spread;
         self.motion.w -= delta_v;
         self.begun = self.motion;
@@ -532,55 +525,33 @@ impl<'a, const N: usize> Walker<'a, N> {
     }
 
     /// What the last contacts and this strike do to each other.
-    fn couple(&mut self, step: &Step, gap_s: f64) {
-        let (ends, coupling, time) = (self.ends, self.coupling, self.coupling.time);
-        let (j, i, n) = (step.end, 1 - step.end, self.walk.strikes);
-        for pressing in self.pressing.iter_mut().flatten() {
-            pressing.age_s += gap_s;
-        }
+    fn couple(&mut self, step: &Step) {
+        let (ends, coupled, shocks, n) = (self.ends, &step.coupled, self.shocks, self.walk.strikes);
         let delta_v = ends.at(step.delta_v);
-        // Of a motion in doubt, the shock is as much.
-        let strike = of(step.delta_v, j).abs();
-        let astray = if strike > 0.0 { delta_v.abs() * (self.loose * (1.0 + ends.e) / strike).min(1.0) } else { 0.0 };
-        // What the component gets of a velocity that a contact gives.
-        let at = |given: f64, contact: (f64, f64), end: usize| {
-            let own = of(contact, end);
-            if own == 0.0 { given } else { given * (ends.at(contact) / own).abs() }
-        };
-        // Where this end presses already, it is the same contact.
-        let own = self.pressing[j].filter(|own| own.age_s < time);
-        let mut doubt = if own.is_some() && coupling.velocity_shock { delta_v.abs() } else { 0.0 };
-        if let Some(other) = self.pressing[i].filter(|_| step.together.is_none()) {
-            let age = (other.age_s - self.blur * self.walk.last_s).max(0.0);
-            let pushed = coupling.pushed(age, of(step.delta_v, i), of(other.delta_v, i).abs());
-            // What the other contact does back is one more load on this one.
-            let back = pushed * ends.flat[i].abs();
-            let held = back + if own.is_none() { coupling.held(age, of(other.delta_v, j)) } else { 0.0 };
-            self.loose += pushed + held;
-            doubt += at(pushed, other.delta_v, i) + if held > 0.0 { at(held, step.delta_v, j) } else { 0.0 };
-            if coupling.velocity_shock {
-                doubt += coupling.windows(age, [ends.at(other.delta_v), delta_v]);
+        let mut doubt = if coupled.presses && shocks { delta_v.abs() } else { 0.0 };
+        if let Some(other) = &coupled.other {
+            // What the component gets of a velocity that a contact gives.
+            let at = |given: f64, contact: (f64, f64), end: usize| {
+                let own = of(contact, end);
+                if own == 0.0 { given } else { given * (ends.at(contact) / own).abs() }
+            };
+            doubt += at(other.pushed, other.delta_v, 1 - step.end);
+            doubt += if other.held > 0.0 { at(other.held, step.delta_v, step.end) } else { 0.0 };
+            if shocks {
+                doubt += other.window([ends.at(other.delta_v), delta_v]);
             }
         }
         if doubt > 0.0 {
             // All that a contact which is still there has a part in.
             let unit = self.unit();
             for interval in self.walk.intervals[..n].iter_mut().rev() {
-                for off in &mut interval.off {
-                    *off += unit * doubt;
-                }
-                if self.walk.last_s - interval.from_s >= time {
+                interval.doubt += unit * doubt;
+                if self.walk.last_s - interval.from_s >= self.time {
                     break;
                 }
             }
         }
-        self.doubtful += doubt + astray;
-        let contact = own.unwrap_or_default();
-        let delta_v = (contact.delta_v.0 + step.delta_v.0, contact.delta_v.1 + step.delta_v.1);
-        self.pressing[j] = Some(Pressing { delta_v, ..contact });
-        if step.together.is_some() {
-            self.pressing[i] = self.pressing[j];
-        }
+        self.doubtful += doubt + coupled.astray * delta_v.abs();
     }
 
     /// Which end strikes first may not be known: the other one may do so, and be thrown up only then.
@@ -588,9 +559,7 @@ impl<'a, const N: usize> Walker<'a, N> {
         let (later_by, delta_v) = step.rival;
         if later_by < self.blur * (self.walk.last_s + follows_s) {
             let (unit, shock) = (self.unit(), self.ends.at(delta_v).abs());
-            for off in &mut self.walk.intervals[self.walk.strikes - 1].off {
-                *off += unit * shock;
-            }
+            self.walk.intervals[self.walk.strikes - 1].doubt += unit * shock;
             self.doubtful += shock;
         }
     }
@@ -598,7 +567,7 @@ impl<'a, const N: usize> Walker<'a, N> {
     /// Nothing falls any more.
     fn rest(&mut self, step: &Step) {
         let interval = &mut self.walk.intervals[self.walk.strikes - 1];
-        if !self.coupling.velocity_shock {
+        if !self.shocks {
             let top = self.swing.peak(self.motion, f64::INFINITY);
             (interval.value, interval.phase, interval.slope) = (top.value, top.phase, top.slope);
         }
@@ -622,11 +591,6 @@ impl<'a, const N: usize> Walker<'a, N> {
             walk.net += delta_v;
         }
     }
-}
-
-/// That of one end.
-fn of((a, b): (f64, f64), end: usize) -> f64 {
-    if end == 0 { a } else { b }
 }
 
 /// What both contacts do to the component's place where they act at once.
