@@ -58,7 +58,8 @@ pub(crate) struct Args {
     /// Damping ratios that can be had, in [0, 10]
     #[arg(long, value_name = "LO:HI", default_value = "0:0.5", allow_hyphen_values = true, value_parser = damping_range)]
     damping: [f64; 2],
-    /// Write the plane of q and e to this file: .svg a picture, .csv its borders
+    /// Write the plane of q and e to this file: .svg a picture, .csv its borders; of a product without gravity, at small
+    /// tilt and by instant impacts, which takes seconds
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = target)]
     output: Option<PathBuf>,
     /// Write the fronts of the largest zone to this file: .svg a picture, .csv their points
@@ -475,6 +476,7 @@ fn product_table(
     for part in remedies {
         let Some(component) = assessment.components.get(part.component) else { continue };
         writeln!(out, "\n{} (margin {} %)", shown(&component.name, 60), figures(100.0 * margin(component)))?;
+        let mut warnings: Vec<(&String, Vec<&str>)> = Vec::new();
         for Remedy { lever, outcome } in &part.levers {
             let name = lever_name(*lever);
             match outcome {
@@ -486,6 +488,12 @@ fn product_table(
                         value(*lever, *from),
                         value(*lever, *to)
                     )?;
+                    if let Some(warning) = &after.tightest().warning {
+                        match warnings.iter_mut().find(|(known, _)| *known == warning) {
+                            Some((_, levers)) => levers.push(name),
+                            None => warnings.push((warning, vec![name])),
+                        }
+                    }
                 }
                 Outcome::Nowhere { bounds: [lo, hi] } => {
                     let (lo, hi) = (value(*lever, [*lo; 2]), value(*lever, [*hi; 2]));
@@ -493,6 +501,9 @@ fn product_table(
                 }
                 Outcome::NoEffect => writeln!(out, "  {name:<18} has no effect on its limits")?,
             }
+        }
+        for (warning, levers) in warnings {
+            writeln!(out, "  warning ({}): {warning}", levers.join(", "))?;
         }
     }
     Ok(())
@@ -590,19 +601,23 @@ struct RemedyJson {
     #[serde(skip_serializing_if = "Option::is_none")]
     margin_after: Option<Json>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    warning: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     bounds: Option<[Json; 2]>,
 }
 
 impl RemedyJson {
     fn new(Remedy { lever, outcome }: &Remedy) -> Self {
         let (lever, unit) = (lever.name(), lever.unit());
-        let none = Self { lever, unit, outcome: "no-effect", from: None, to: None, margin_after: None, bounds: None };
+        let (from, to, margin_after, warning, bounds) = (None, None, None, None, None);
+        let none = Self { lever, unit, outcome: "no-effect", from, to, margin_after, warning, bounds };
         match outcome {
             Outcome::Change { from, to, after } => Self {
                 outcome: "change",
                 from: Some(from.map(Json)),
                 to: Some(to.map(Json)),
                 margin_after: Some(Json(margin(after))),
+                warning: after.tightest().warning.clone(),
                 ..none
             },
             Outcome::Nowhere { bounds } => Self { outcome: "nowhere", bounds: Some(bounds.map(Json)), ..none },

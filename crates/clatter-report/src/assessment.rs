@@ -309,10 +309,11 @@ fn part(file: &ProductFile, part: &ComponentAssessment, portrait: &Portrait) -> 
 pub(crate) fn files(file: &ProductFile, assessment: &Assessment, portraits: &[Portrait]) -> Vec<(String, String)> {
     let parts = || assessment.components.iter().zip(&file.components).zip(portraits);
     let margins: Vec<String> = assessment.components.iter().map(|c| percent(c.tightest().margin)).collect();
+    let names: Vec<String> = assessment.components.iter().map(|c| name(&c.name)).collect();
     let places: Vec<Place<'_>> = parts()
-        .zip(&margins)
-        .map(|(((assessed, component), portrait), margin)| Place {
-            name: &assessed.name,
+        .zip(names.iter().zip(&margins))
+        .map(|(((assessed, component), portrait), (name, margin))| Place {
+            name,
             from_m: component.position_m - 0.5 * component.extent_m,
             to_m: component.position_m + 0.5 * component.extent_m,
             safe: assessed.limits.iter().all(LimitAssessment::is_safe),
@@ -324,8 +325,8 @@ pub(crate) fn files(file: &ProductFile, assessment: &Assessment, portraits: &[Po
         vec![("product.svg".into(), product(file.product.body.arms_m(), file.product.body.gyration_m(), &places))];
     for (i, ((assessed, _), portrait)) in parts().enumerate() {
         let tightest = assessed.tightest();
-        let (factor, name) = customary(tightest.unit);
-        let title = format!("{}, {name}", words(tightest.limit));
+        let (factor, unit) = customary(tightest.unit);
+        let title = format!("{}, {unit}", words(tightest.limit));
         let points: Vec<(f64, f64)> = portrait.history.iter().map(|p| (1e3 * p.0, p.1 / factor)).collect();
         let impacts: Vec<f64> = portrait.impacts_s.iter().map(|t| 1e3 * t).collect();
         let allowed = tightest.allowed / factor;
@@ -341,7 +342,8 @@ pub(crate) fn files(file: &ProductFile, assessment: &Assessment, portraits: &[Po
         files.push((format!("tilt-{}.svg", i + 1), over_tilt(&curves, allowed, ["tilt, degrees", &title])));
     }
     let lines: Vec<(String, Vec<(f64, f64)>)> = parts()
-        .map(|((assessed, _), portrait)| {
+        .zip(&names)
+        .map(|(((assessed, _), portrait), name)| {
             let allowed = assessed.tightest().allowed;
             let mut points: Vec<(f64, f64)> = Vec::new();
             for (i, (_, curve)) in portrait.over_tilt.iter().enumerate() {
@@ -352,21 +354,23 @@ pub(crate) fn files(file: &ProductFile, assessment: &Assessment, portraits: &[Po
                     points.iter_mut().zip(curve).for_each(|(p, q)| p.1 = p.1.max(q.1));
                 }
             }
-            (assessed.name.clone(), points)
+            (name.clone(), points)
         })
         .collect();
     files.push(("shares.svg".into(), shares(&lines)));
     let by_margin =
         |a: &&ComponentAssessment, b: &&ComponentAssessment| a.tightest().margin.total_cmp(&b.tightest().margin);
     let hardest = assessment.components.iter().min_by(by_margin);
+    let open = assessment.components.iter().zip(&names).filter(|(c, _)| c.tightest().warning.is_some());
     let data = json!({
+        "open": open.map(|(_, name)| name).collect::<Vec<_>>(),
         "hardest": hardest.map(|c| json!({"name": name(&c.name), "margin": percent(c.tightest().margin)})),
         "product": name(&assessment.product),
         "safe": assessment.components.iter().all(|c| c.limits.iter().all(LimitAssessment::is_safe)),
         "parts": parts().map(|((assessed, _), portrait)| part(file, assessed, portrait)).collect::<Vec<_>>(),
         "drop": drop(file),
         "body": body(file),
-        "drawing": places.iter().map(|p| format!("{}: {}.", name(p.name), p.word)).collect::<Vec<_>>().join(" "),
+        "drawing": places.iter().map(|p| format!("{}: {}.", p.name, p.word)).collect::<Vec<_>>().join(" "),
         "limits-of-the-model": NOT_COVERED,
     });
     files.push(("assessment.json".into(), data.to_string()));
@@ -426,6 +430,8 @@ mod tests {
     #[test]
     fn names_of_any_kind_print_as_they_are_or_as_boxes() {
         let dir = tempfile::tempdir().unwrap();
+        let short = EXAMPLE.replace("name = \"camera\"", "name = \"基板\"");
+        assert!(said(&pages(&short, &dir.path().join("short.pdf")), 1).contains("□□"), "boxes");
         let hostile = r#"#eval(\"x\") $ *b* _c_ @d <e> \\ `f` // g ־שלום 漢字 😀 \u0001"#;
         let text = EXAMPLE
             .replace("name = \"camera\"", &format!("name = \"{hostile}\""))

@@ -197,7 +197,7 @@ impl ProductFile {
         let settled = demand.settle(case.demand, contact_time_s);
         let (asked, attained) = (settled.factor * case.demand, settled.factor * case.attained);
         let [_, fastest] = self.drop.speeds_m_s();
-        let clatter_free = demand.clatter_free(fastest, self.product.restitution.hi(), contact_time_s);
+        let clatter_free = demand.clatter_free(fastest, self.product.restitution.hi(), contact_time_s)?;
         Ok(LimitAssessment {
             limit: demand.kind,
             unit: settled.unit,

@@ -9,7 +9,7 @@ use clatter_shock::{Extreme, Peaked, Pulses, Response, Suspension, VelocityShock
 use crate::plan::demand::fineness;
 use crate::plan::history::{self, Polygon, Pushes};
 use crate::plan::pulse::Pulse;
-use crate::plan::settle::Looks;
+use crate::plan::settle::{Looks, twice_energy};
 use crate::plan::{Quantity, Setup};
 use crate::{BarModel, Error, Product};
 
@@ -134,17 +134,34 @@ const WEAK: f64 = 2e-4;
 const WEAK_CONTACT: f64 = 5e-3;
 /// Pieces of a pulse unless told: its peak and its effect are then within 1e-3 or so.
 const CELLS: Cells = Cells { most: 16.0, fineness: 0.0 };
+/// Followed at most, where little is lost.
+const MOST_STRIKES: usize = 4096;
+pub(crate) const MOST_CONTACTS: usize = 1024;
 /// Below this restitution the contact law has no fit; the difference in rebound is as small.
 const LEAST_COMPLIANT: f64 = 0.01;
 
-/// Strikes to be followed until they are weak: approach speeds fall by √e a strike or, in an endless train, by its root λ₊.
-fn most_strikes(product: &Product, e: f64, weak: f64) -> usize {
-    let t = product.inertia_ratio() * (1.0 + e);
-    let root = 0.5 * (t + (t * t - 4.0 * e).max(0.0).sqrt());
-    let strikes = (weak.ln() / root.max(e.sqrt()).clamp(1e-3, 0.985).ln()).ceil();
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within [1, 600]")]
-    let strikes = strikes as usize;
-    8 + strikes
+/// How weak a body has become.
+struct Fading<'a> {
+    scene: &'a Scene,
+    /// (1 + e)² times the square of the speed that unit energy over mass gives the farther end at most, doubled.
+    reach2: f64,
+    /// The largest shock of an end.
+    largest: f64,
+}
+
+impl<'a> Fading<'a> {
+    fn new(scene: &'a Scene) -> Self {
+        let (body, e) = (scene.body(), scene.e());
+        let [a, b] = body.arms_m();
+        let reach2 = (1.0 + e).powi(2) * (1.0 + (a.max(b) / body.gyration_m()).powi(2));
+        Self { scene, reach2, largest: 0.0 }
+    }
+    /// Whether all that can come after this strike, which leaves the ends at these heights, is below a share of the largest shock. Asked of
+    /// every strike. Not by their number: an end that bounces by itself takes many, and the other one may land as hard as the first after that.
+    fn is_weak(&mut self, strike: &Strike, height_m: [f64; 2], share: f64) -> bool {
+        self.largest = strike.delta_v_m_s.iter().fold(self.largest, |most, v| most.max(v.abs()));
+        (twice_energy(self.scene, strike, height_m) * self.reach2).sqrt() < share * self.largest
+    }
 }
 
 /// The drop as the models of the bar take it, the end that touches first in front.
@@ -176,10 +193,7 @@ impl Base {
     /// [`Error::Bar`] for a drop that the model does not take.
     pub fn new(product: &Product, drop: &SingleDrop, model: BarModel) -> Result<Self, Error> {
         match (model, product.contact_time_s) {
-            (BarModel::Compliant, Some(time)) => {
-                let most = Self::most_contacts(product, drop.restitution);
-                Self::of_contacts(product, drop, time, most, CELLS)
-            }
+            (BarModel::Compliant, Some(time)) => Self::of_contacts(product, drop, time, MOST_CONTACTS, CELLS),
             _ => Self::of_strikes(product, drop, model, CELLS),
         }
     }
@@ -196,9 +210,11 @@ impl Base {
             BarModel::Ballistic => Model::Ballistic,
             BarModel::FiniteTilt | BarModel::Compliant => Model::FiniteTilt,
         };
-        let most = most_strikes(product, drop.restitution, WEAK);
-        let scene = rigid_scene(product, drop, drop.restitution)?.with_impact_limit(most)?;
-        let flight = scene.simulate(model);
+        let scene = rigid_scene(product, drop, drop.restitution)?.with_impact_limit(MOST_STRIKES)?;
+        let mut fading = Fading::new(&scene);
+        let flight = scene.simulate_until(model, |flight| {
+            flight.strikes.last().is_some_and(|last| fading.is_weak(last, last.height_m, WEAK))
+        });
         // Strikes closer than the resolution of time may come out of order by a rounding.
         let mut last = 0.0_f64;
         let in_order = flight.strikes.iter().map(|s| {
@@ -216,12 +232,7 @@ impl Base {
         Ok(Self { shocks, cosines, contact_time_s: product.contact_time_s, ..Self::empty(product, drop, cells) })
     }
 
-    /// Contacts to be followed until they are weak.
-    pub(crate) fn most_contacts(product: &Product, e: f64) -> usize {
-        most_strikes(product, e.max(LEAST_COMPLIANT), WEAK_CONTACT)
-    }
-
-    /// Contacts that take time, so many of them, in so many pieces each.
+    /// Contacts that take time, so many of them at most, in so many pieces each.
     pub(crate) fn of_contacts(
         product: &Product,
         drop: &SingleDrop,
@@ -230,7 +241,13 @@ impl Base {
         cells: Cells,
     ) -> Result<Self, Error> {
         let scene = scene(product, drop)?.with_impact_limit(most)?;
-        let flight = scene.simulate_compliant(contact_time_s)?;
+        let (mut fading, mut parted) = (Fading::new(&scene), f64::NEG_INFINITY);
+        let flight = scene.simulate_compliant_until(contact_time_s, |flight| {
+            let (Some(last), Some(pulse)) = (flight.flight.strikes.last(), flight.pulses.last()) else { return false };
+            let alone = pulse.from_s >= parted;
+            parted = parted.max(pulse.until_s);
+            fading.is_weak(last, flight.sample(pulse.until_s).height_m, WEAK_CONTACT) && alone
+        })?;
         // Those that overlap in time are one.
         let end = flight.flight.stop.time_s();
         let mut shocks: Vec<(f64, [f64; 2])> = Vec::new();

@@ -1,7 +1,7 @@
 //! What one limit of one component asks of a drop.
 
 use clatter::End;
-use clatter_shock::{DampingRatio, ImpulseFactors, Peaked, Shape, Suspension};
+use clatter_shock::{DampingRatio, ImpulseFactors, Peaked, Pulse, Pulses, Shape, Suspension};
 
 use crate::base::{Base, PeakAsked};
 use crate::guaranteed::{Asked, Trains, Variant};
@@ -165,18 +165,39 @@ impl Demand {
             by_velocity
         }
     }
-    /// What one clatter-free impact, (1 + e) v0 at every place at once, would do.
-    pub(crate) fn clatter_free(&self, speed_m_s: f64, restitution: f64, contact_time_s: Option<f64>) -> f64 {
+    /// What one clatter-free impact, (1 + e) v0 at every place at once, would do; where the contact time is known as a half-sine of that
+    /// length, else at once.
+    pub(crate) fn clatter_free(
+        &self,
+        speed_m_s: f64,
+        restitution: f64,
+        contact_time_s: Option<f64>,
+    ) -> Result<f64, Error> {
         let delta_v = (1.0 + restitution) * speed_m_s;
-        match (self.kind, self.suspended) {
-            (LimitKind::AngularVelocityChange, _) => 0.0,
-            (LimitKind::VelocityChange | LimitKind::DamageBoundary, _) => delta_v,
-            (LimitKind::Acceleration, Some((f, _))) => delta_v * self.of_unit_shock(f.hi()),
-            (_, Some((f, _))) => delta_v * self.of_unit_shock(f.lo()),
-            (_, None) => contact_time_s.map_or(f64::INFINITY, |t| delta_v / (Shape::HalfSine.area() * t)),
-        }
+        let amplitude = |duration: f64| delta_v / (Shape::HalfSine.area() * duration);
+        let (acceleration, Some((f, damping))) = (self.kind == LimitKind::Acceleration, self.suspended) else {
+            return Ok(match self.kind {
+                LimitKind::AngularVelocityChange => 0.0,
+                LimitKind::VelocityChange | LimitKind::DamageBoundary => delta_v,
+                LimitKind::Acceleration | LimitKind::RattleSpace => contact_time_s.map_or(f64::INFINITY, amplitude),
+            });
+        };
+        let Some(duration) = contact_time_s else {
+            return Ok(delta_v * self.of_unit_shock(if acceleration { f.hi() } else { f.lo() }));
+        };
+        let pulses =
+            Pulses::new(&[Pulse { shape: Shape::HalfSine, amplitude: amplitude(duration), duration, start: 0.0 }])?;
+        let crest = (CREST / duration).clamp(f.lo(), f.hi());
+        [f.lo(), crest, f.hi()].into_iter().try_fold(0.0, |most, f| {
+            let response = pulses.respond(&Suspension::from_hz(f, damping)?);
+            let peak = if acceleration { response.absolute_acceleration } else { response.relative_displacement };
+            Ok(peak.magnitude().max(most))
+        })
     }
 }
+
+/// Where the shock spectrum of a half-sine is highest: natural frequency times duration.
+const CREST: f64 = 0.8;
 
 /// What is compared with what.
 #[derive(Debug, Clone, Copy)]

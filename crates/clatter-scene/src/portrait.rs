@@ -8,10 +8,10 @@ use rayon::prelude::*;
 use crate::base::{Base, SingleDrop};
 use crate::demand::Demand;
 use crate::design::{Bounds, Remedy};
-use crate::search::{self, Field, Task};
+use crate::search::{self, EVEN_TILTS, Field, Task};
 use crate::{
     Accuracy, Assessment, BarModel, Component, ComponentModel, Drop, Error, Law, LimitAssessment, LimitKind,
-    ProductFile, Spread, Unit, WorstCase,
+    ProductFile, Spread, Unit,
 };
 
 /// Points (x, y) of a line.
@@ -34,16 +34,14 @@ pub struct Portrait {
 
 /// Points of a history between two strikes and after the last, at least.
 const POINTS: u32 = 600;
-/// Steps of the curve over the tilt.
-const TILTS: u32 = 40;
 /// Places along the product that are assessed for the zone.
 const PLACES: u32 = 33;
 
 impl ProductFile {
     /// Portraits of all components of an assessment of this file.
     ///
-    /// The curves over the tilt take the largest over the ends and middles of the ranges of speed, restitution and frequency, and
-    /// over those of the worst case. Zones are interpolated between 33 places: the demand is convex along the bar (a largest
+    /// The curves over the tilt take the largest over the ends of the ranges of speed, restitution and frequency, and over those of the
+    /// worst case; where a rebound may decide, the assessment has looked at the same drops. Zones are interpolated between 33 places: the demand is convex along the bar (a largest
     /// absolute value of functions linear in the place), so that the zone shown lies within the true one.
     ///
     /// # Errors
@@ -133,43 +131,16 @@ impl ProductFile {
         let Some(&demand) = demands.iter().find(|d| d.kind == limit.limit) else { return Ok(Vec::new()) };
         let (task, worst) = (Task { component, demand, proven: None }, &limit.worst_case);
         let [lo, hi] = [field.drop.tilt_rad.lo(), field.drop.tilt_rad.hi()];
-        let mut tilts: Vec<f64> = (0..=TILTS).map(|i| lo + f64::from(i) / f64::from(TILTS) * (hi - lo)).collect();
+        let mut tilts: Vec<f64> =
+            (0..=EVEN_TILTS).map(|i| lo + f64::from(i) / f64::from(EVEN_TILTS) * (hi - lo)).collect();
         tilts.push(worst.tilt_deg.to_radians());
         tilts.sort_by(f64::total_cmp);
-        // The worst case first, then from the highest: most others are soon outdone.
-        let thirds = |[lo, hi]: [f64; 2], own: f64| {
-            let mut all = vec![own, hi, 0.5 * (lo + hi), lo];
-            all.dedup();
-            all
-        };
-        let range = |spread: &Spread| [spread.lo(), spread.hi()];
-        let speeds = thirds(self.drop.speeds_m_s(), worst.speed_m_s);
-        let restitutions = thirds(range(&self.product.restitution), worst.restitution);
-        let frequencies = demand.frequencies().map_or(vec![None], |f| {
-            thirds(range(&f), worst.frequency_hz.unwrap_or(f.lo())).into_iter().map(Some).collect()
-        });
+        let worst = field.place_of(worst, demand.frequencies());
         let most = |first: End, tilt_rad: f64| {
-            let mut places = Vec::new();
-            for &speed_m_s in &speeds {
-                for &restitution in &restitutions {
-                    for &frequency_hz in &frequencies {
-                        for position_m in component.ends_m() {
-                            let tilt_deg = tilt_rad.to_degrees();
-                            let case = WorstCase {
-                                first,
-                                tilt_deg,
-                                speed_m_s,
-                                restitution,
-                                frequency_hz,
-                                position_m,
-                                ..*worst
-                            };
-                            places.push(field.place_of(&case, demand.frequencies()));
-                        }
-                    }
-                }
-            }
-            let most = field.most(&task, search::pair_of(&limit.model), places, 0.0)?.map_or(0.0, |most| most.value);
+            // The worst case first, then from the highest: most others are soon outdone.
+            let places = field.at_tilt(&task, &worst, first, tilt_rad);
+            let most =
+                field.most(&task, Some(search::pair_of(&limit.model)), places, 0.0)?.map_or(0.0, |most| most.value);
             Ok((tilt_rad, demand.settle(most, self.product.contact_time_s).factor * most))
         };
         let curve = |first| tilts.par_iter().map(|&tilt| most(first, tilt)).collect::<Result<_, Error>>();

@@ -15,7 +15,7 @@ use clatter::flight::Scene;
 use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
-use crate::base::{self, Base, Cells, SingleDrop};
+use crate::base::{self, Base, Cells, MOST_CONTACTS, SingleDrop};
 use crate::demand::{Demand, Reached};
 use crate::plan::demand::{crowding, fineness, pieces_for};
 use crate::plan::pulse::Pulse;
@@ -34,6 +34,9 @@ const STEPS: u32 = 2;
 const HALVINGS: [u32; 2] = [3, 6];
 /// Other places of the grid from which a worse drop is looked for.
 const BASINS: usize = 4;
+/// Steps of the tilt at which drops are looked at besides where a rebound may decide, and how often at most; pages draw them.
+pub(crate) const EVEN_TILTS: u32 = 40;
+const SCANS: u32 = 3;
 /// Contacts followed at first.
 const CONTACTS: usize = 10;
 
@@ -109,8 +112,10 @@ struct Candidate {
     until_s: f64,
 }
 
-/// What a place (drop, position, frequency) reaches at most, as far as it was looked at.
-type Known = HashMap<(usize, u64, u64), f64>;
+/// A place as its drop, position and frequency.
+type Key = (usize, u64, u64);
+/// What places reach at most, as far as they were looked at.
+type Known = HashMap<Key, f64>;
 
 fn shares(steps: u32, fixed: bool) -> impl Iterator<Item = f64> + Clone {
     let steps = if fixed { 0 } else { steps };
@@ -181,6 +186,40 @@ impl<'a> Field<'a> {
             frequency,
         ];
         Place { first: worst.first, shares, position_m: worst.position_m }
+    }
+
+    /// Which of tilt, speed, restitution and frequency have a range.
+    fn free(&self, demand: &Demand) -> [bool; 4] {
+        let [slow, fast] = self.drop.speeds_m_s();
+        [
+            !self.drop.tilt_rad.is_value(),
+            slow < fast,
+            !self.product.restitution.is_value(),
+            demand.frequencies().is_some_and(|f| !f.is_value()),
+        ]
+    }
+
+    /// Places at one tilt: at the values of a worst place, and at the ends of their ranges, from the highest.
+    pub(crate) fn at_tilt(&self, task: &Task<'_>, worst: &Place, first: End, tilt_rad: f64) -> Vec<Place> {
+        let [lo, hi] = [self.drop.tilt_rad.lo().sqrt(), self.drop.tilt_rad.hi().sqrt()];
+        let tilt = if hi > lo { ((tilt_rad.sqrt() - lo) / (hi - lo)).clamp(0.0, 1.0) } else { 0.0 };
+        let free = self.free(&task.demand);
+        let shares = |axis: usize| {
+            let own = worst.shares[axis];
+            let ends = [1.0, 0.0].into_iter().filter(move |end| free[axis] && (end - own).abs() > 0.0);
+            std::iter::once(own).chain(ends)
+        };
+        let mut places = Vec::new();
+        for speed in shares(1) {
+            for restitution in shares(2) {
+                for frequency in shares(3) {
+                    for position_m in task.component.ends_m() {
+                        places.push(Place { first, shares: [tilt, speed, restitution, frequency], position_m });
+                    }
+                }
+            }
+        }
+        places
     }
 
     /// Of a symmetric product one end first is the other one turned around.
@@ -273,14 +312,19 @@ impl<'a> Field<'a> {
     pub(crate) fn most(
         &self,
         task: &Task<'_>,
-        pair: Pair,
+        pair: Option<Pair>,
         places: impl IntoIterator<Item = Place>,
         above: f64,
     ) -> Result<Option<Reached>, Error> {
         let mut search = Search::new(self, task, above);
         for place in places {
-            let (slot, at_most) = (self.slot_beside(&place)?, f64::INFINITY);
-            let candidate = Candidate { place, slot, pair, within: true, about: at_most, at_most, until_s: at_most };
+            let candidate = match pair {
+                Some(pair) => {
+                    let (slot, all) = (self.slot_beside(&place)?, f64::INFINITY);
+                    Candidate { place, slot, pair, within: true, about: all, at_most: all, until_s: all }
+                }
+                None => search.foresee(place)?,
+            };
             if search.may_be_worst(&candidate)? {
                 search.consider(&candidate)?;
             }
@@ -455,8 +499,7 @@ impl Slot {
         self.strikes[k].get_or_init(follow).as_ref().map_err(Clone::clone)
     }
     fn contacts(&self, field: &Field<'_>, all: bool) -> Result<&Base, Error> {
-        let most = Base::most_contacts(field.product, self.drop.restitution);
-        let most = if all { most } else { most.min(CONTACTS) };
+        let most = if all { MOST_CONTACTS } else { CONTACTS };
         let follow = || {
             let time = field.product.contact_time_s.ok_or(Error::Contact)?;
             Base::of_contacts(field.product, &self.drop, time, most, field.cells)
@@ -500,12 +543,12 @@ struct Search<'a> {
     known: Known,
     best: Option<(Candidate, Reached)>,
     /// Drops that were followed and come back, as far as is known.
-    returning: Vec<Candidate>,
+    returning: HashMap<Key, Candidate>,
 }
 
 impl<'a> Search<'a> {
     fn new(field: &'a Field<'a>, task: &'a Task<'a>, above: f64) -> Self {
-        Self { field, task, above, known: Known::new(), best: None, returning: Vec::new() }
+        Self { field, task, above, known: Known::new(), best: None, returning: HashMap::new() }
     }
 
     fn run(mut self, mut grid: Vec<Candidate>) -> Result<Option<Found>, Error> {
@@ -526,6 +569,9 @@ impl<'a> Search<'a> {
             }
         }
         let (field, rebounds) = (self.field, self.rebounds_may_decide()?);
+        if rebounds {
+            self.scan()?;
+        }
         Ok(self.best.map(|(candidate, reached)| Found {
             reached,
             drop: field.single(&candidate.place),
@@ -538,7 +584,7 @@ impl<'a> Search<'a> {
 
     /// Whether a rebound may pass the worst in drops like those that were followed.
     fn rebounds_may_decide(&self) -> Result<bool, Error> {
-        for candidate in &self.returning {
+        for candidate in self.returning.values() {
             let Candidate { place, slot, until_s, .. } = candidate;
             let clear_s = self.field.clear_s(&slot.drop);
             let (base, _) = self.followed(candidate)?;
@@ -605,7 +651,7 @@ impl<'a> Search<'a> {
         Ok(candidate.at_most > self.worst() && self.seen_closer(candidate)? > self.worst())
     }
 
-    fn key(&self, Candidate { place, slot, .. }: &Candidate) -> (usize, u64, u64) {
+    fn key(&self, Candidate { place, slot, .. }: &Candidate) -> Key {
         let (_, position_m) = self.field.followed(place);
         (slot.number, position_m.to_bits(), Field::frequency_hz(self.task, place).to_bits())
     }
@@ -622,7 +668,8 @@ impl<'a> Search<'a> {
         Ok(at_most)
     }
 
-    fn look_closer(&self, Candidate { place, slot, pair, .. }: &Candidate) -> Result<Option<f64>, Error> {
+    fn look_closer(&mut self, candidate: &Candidate) -> Result<Option<f64>, Error> {
+        let Candidate { place, slot, pair, .. } = candidate;
         let (field, demand) = (self.field, &self.task.demand);
         let frequency_hz = Field::frequency_hz(self.task, place);
         let (_, position_m) = field.followed(place);
@@ -631,25 +678,31 @@ impl<'a> Search<'a> {
             return Ok(None);
         }
         let (base, until_s) = self.contacts(place, slot)?;
+        self.keep_if_returning(candidate, base, until_s);
         base.peak_at_most(until_s, &asked, demand.of_unit_shock(frequency_hz))
     }
 
     /// What a candidate reaches, if it is the worst yet.
     fn follow(&mut self, candidate: &Candidate) -> Result<Option<Reached>, Error> {
-        let (field, task, Candidate { place, slot, .. }) = (self.field, self.task, candidate);
+        let (field, task, place) = (self.field, self.task, &candidate.place);
         let pulses = candidate.pair.component == ComponentRung::PulseTrain;
         let (base, until_s) = self.followed(candidate)?;
-        let clear_s = field.clear_s(&slot.drop);
-        let returns = until_s == f64::INFINITY || base.strikes_within(clear_s, f64::INFINITY);
-        if clear_s < f64::INFINITY && returns {
-            self.returning.push(candidate.clone());
-        }
+        self.keep_if_returning(candidate, base, until_s);
         let (_, position_m) = field.followed(place);
         let frequency_hz = Field::frequency_hz(task, place);
         let above = self.best.as_ref().map_or(Demand::ANY, |(_, best)| best.value);
         let reached = task.demand.reached_at(base, position_m, frequency_hz, pulses, until_s, above)?;
         self.known.insert(self.key(candidate), reached.map_or(above, |reached| reached.value));
         Ok(reached.map(|reached| Reached { position_m: place.position_m, ..reached }))
+    }
+
+    /// Keeps a drop that comes back after it has bounced clear.
+    fn keep_if_returning(&mut self, candidate: &Candidate, base: &Base, until_s: f64) {
+        let clear_s = self.field.clear_s(&candidate.slot.drop);
+        let returns = until_s == f64::INFINITY || base.strikes_within(clear_s, f64::INFINITY);
+        if clear_s < f64::INFINITY && returns {
+            self.returning.entry(self.key(candidate)).or_insert_with(|| candidate.clone());
+        }
     }
 
     /// What a shock or a response, as a velocity, must pass to count.
@@ -704,20 +757,10 @@ impl<'a> Search<'a> {
         Ok((all, settled(all)?.unwrap_or(f64::INFINITY)))
     }
 
-    fn free(&self) -> [bool; 4] {
-        let [slow, fast] = self.field.drop.speeds_m_s();
-        [
-            !self.field.drop.tilt_rad.is_value(),
-            slow < fast,
-            !self.field.product.restitution.is_value(),
-            self.task.demand.frequencies().is_some_and(|f| !f.is_value()),
-        ]
-    }
-
     /// The places next to one, at a share of the step of the grid.
     fn neighbors(&self, place: Place, axis: usize, step: f64) -> impl Iterator<Item = Place> + use<> {
         let whole = [1.0 / f64::from(TILTS), 1.0, 1.0 / f64::from(STEPS), 1.0 / f64::from(STEPS)][axis];
-        let free = self.free()[axis];
+        let free = self.field.free(&self.task.demand)[axis];
         [-1.0, 1.0].into_iter().filter_map(move |sign| {
             let mut next = place;
             next.shares[axis] = (place.shares[axis] + sign * step * whole).clamp(0.0, 1.0);
@@ -754,6 +797,30 @@ impl<'a> Search<'a> {
             }
         }
         Ok(raised)
+    }
+
+    /// Follows drops at even tilts, for what rebounds ask between the places of the grid, until that changes nothing.
+    fn scan(&mut self) -> Result<(), Error> {
+        let [lo, hi] = [self.field.drop.tilt_rad.lo(), self.field.drop.tilt_rad.hi()];
+        for _ in 0..SCANS {
+            let Some((Candidate { place: worst, .. }, _)) = self.best else { return Ok(()) };
+            let mut moved = false;
+            for step in 0..=EVEN_TILTS {
+                let tilt_rad = lo + f64::from(step) / f64::from(EVEN_TILTS) * (hi - lo);
+                for first in self.field.drop.first_ends() {
+                    for place in self.field.at_tilt(self.task, &worst, *first, tilt_rad) {
+                        let candidate = self.foresee(place)?;
+                        if self.may_be_worst(&candidate)? {
+                            moved |= self.consider(&candidate)?;
+                        }
+                    }
+                }
+            }
+            if !moved {
+                break;
+            }
+        }
+        Ok(())
     }
 
     /// Climbs by what is foreseen alone from the highest places of the grid that are no neighbors; follows where that leads. `grid` in

@@ -5,6 +5,7 @@
 use clatter::design::{Goal, largest_restitution};
 use clatter_scene::design::{Border, Bounds, Lever, Outcome, Plane};
 use clatter_scene::{Mount, ProductFile, Verdict};
+use clatter_shock::DampingRatio;
 
 fn product(parts: &str) -> ProductFile {
     let text = format!(
@@ -100,7 +101,7 @@ fn no_smaller_change_makes_a_suspended_part_safe() {
                     *frequency_hz = clatter_scene::Spread::value(x).unwrap();
                 }
                 (Lever::Damping, Mount::Suspended { damping, .. }) => {
-                    *damping = clatter_shock::DampingRatio::new(x).unwrap();
+                    *damping = DampingRatio::new(x).unwrap();
                 }
                 _ => tried.product = file.product.with_inertia_ratio(x).unwrap(),
             }
@@ -120,4 +121,38 @@ fn an_inertia_ratio_gives_the_radius_of_gyration_that_has_it() {
         }
         assert!(product.with_inertia_ratio(-1.0).is_err() && product.with_inertia_ratio(f64::NAN).is_err());
     }
+}
+
+/// The answer, put into the file to the last digit, is safe: also where other pulses are cut for a part that may be four times as stiff.
+#[test]
+fn a_change_is_safe_as_the_file_with_it_is_assessed() {
+    let file = ProductFile::read(
+        "[product]\nname = \"p\"\nlength = \"200 mm\"\nradius_of_gyration = \"55 mm\"\nrestitution = [0.3, 0.4]\n\
+         contact_time = \"1 ms\"\n[drop]\nspeed = \"4 m/s\"\ntilt = \"3 deg\"\n[[component]]\nname = \"part\"\n\
+         position = \"50 mm\"\nnatural_frequency = [\"200 Hz\", \"300 Hz\"]\ndamping_ratio = 0.1\nacceleration_limit = \"850 gn\"\n",
+        "p",
+    )
+    .unwrap();
+    let Outcome::Change { to: [damping, _], .. } = outcome(&file, &Bounds::default(), Lever::Damping) else {
+        panic!("more damping makes it safe");
+    };
+    let mut changed = file.clone();
+    let Mount::Suspended { damping: of_part, .. } = &mut changed.components[0].mount else { panic!("suspended") };
+    *of_part = DampingRatio::new(damping).unwrap();
+    assert_eq!(changed.assess().unwrap().verdict, Verdict::Safe, "{damping}");
+}
+
+/// A drop that broke the part is followed by the models that it needs where the lever has moved.
+#[test]
+fn a_value_is_not_passed_over_by_models_that_it_does_not_need() {
+    let file = ProductFile::read(
+        "[product]\nname = \"p\"\nlength = \"200 mm\"\nradius_of_gyration = \"85.79744730644437 mm\"\n\
+         restitution = 0.44000863290075376\n[drop]\nspeed = \"2 m/s\"\ntilt = [\"1 deg\", \"10 deg\"]\n[[component]]\n\
+         name = \"part\"\nposition = \"-78.96461760892606 mm\"\nextent = \"15 mm\"\nmount = \"hard\"\n\
+         velocity_change_limit = \"2.8988749879286 m/s\"\n",
+        "p",
+    )
+    .unwrap();
+    let [_, [q, _]] = change(&file, Lever::InertiaRatio);
+    assert!((0.0..0.02).contains(&q), "{q}");
 }

@@ -1,7 +1,8 @@
 //! The demand against brute force: a dense grid of drops never finds worse.
 
 use clatter::End;
-use clatter::flight::Body;
+use clatter::flight::{Body, Scene};
+use clatter_scene::plan::{BarRung, ComponentRung, Pair, Quantity, Setup};
 use clatter_scene::{
     Accuracy, BarModel, Base, Component, Drop, EXAMPLE, Fall, First, Law, LimitAssessment, LimitKind, Limits, Mount,
     Product, ProductFile, SingleDrop, Spread, Verdict,
@@ -246,7 +247,8 @@ fn the_tolerance_is_a_share_of_the_demand() {
     nothing_worse(&file, BarModel::FiniteTilt, &Accuracy::default()).unwrap();
 }
 
-/// A rebound that lands flat shocks the middle more than all strikes before, at a few tilts alone: the search misses it, and says so.
+/// A rebound that lands flat shocks the middle more than all strikes before, at a few tilts alone, between those of the grid: even tilts
+/// find it, and it is said that there may be worse.
 #[test]
 fn rebounds_that_are_not_ruled_out_are_told() {
     let (tilt, speed, e) = (0.023_062_716_720_472_22, 1.488_522_617_317_461_3, 0.834_214_138_063_687_8);
@@ -269,15 +271,114 @@ fn rebounds_that_are_not_ruled_out_are_told() {
     let drop =
         SingleDrop { first: End::A, tilt_rad: 0.034_594_075, speed_m_s: speed, restitution: e, gravity_m_s2: 9.81 };
     let missed = Base::new(&file.product, &drop, BarModel::Compliant).unwrap().largest_shock(0.0);
-    assert!(missed.0 > 1.05 * limit.demand && missed.2 > 0.3, "{missed:?} {limit:?}");
-    assert!(limit.warning.as_deref().is_some_and(|w| w.contains(REBOUNDS)), "{limit:?}");
+    assert!(missed.0 < 1.01 * limit.demand && missed.2 > 0.3, "found among even tilts: {missed:?} {limit:?}");
+    assert!(limit.warning.as_deref().is_some_and(|w| w.contains("the worst comes after a rebound")), "{limit:?}");
     // It is not said where energy rules them out.
     let example = ProductFile::read(EXAMPLE, "example").unwrap().assess().unwrap();
-    assert!(example.components[0].limits.iter().all(|limit| limit.warning.is_none()), "{:?}", example.components[0]);
+    assert!(example.components[2].limits.iter().all(|limit| limit.warning.is_none()), "{:?}", example.components[2]);
 }
 
 #[test]
 fn the_example_is_safe_as_it_stands() {
     let assessment = ProductFile::read(EXAMPLE, "example").unwrap().assess().unwrap();
     assert_eq!(assessment.verdict, Verdict::Safe);
+}
+
+/// A bar of 300 mm dropped with either end first, and one suspended part with an acceleration limit.
+fn slate(body: &str, drop: &str, part: &str) -> ProductFile {
+    let text = format!(
+        "[product]\nname = \"slate\"\nlength = \"300 mm\"\n{body}\n[drop]\n{drop}\n[[component]]\nname = \"part\"\n{part}\n"
+    );
+    ProductFile::read(&text, "slate").unwrap()
+}
+
+/// While one end bounces by itself, shock by shock smaller, the other one is in the air: what it does then counts in full.
+#[test]
+fn an_end_that_bounces_by_itself_does_not_end_the_following() {
+    let file = ProductFile::read(
+        "[product]\nname = \"late\"\nlength = \"330 mm\"\nradius_of_gyration = \"100 mm\"\nrestitution = 0.3\n\
+         [drop]\nspeed = \"5 m/s\"\ntilt = \"2 deg\"\nfirst = \"a\"\n\
+         [[component]]\nname = \"part\"\nposition = \"-75 mm\"\nnatural_frequency = \"120 Hz\"\ndamping_ratio = 0\n\
+         acceleration_limit = \"350 gn\"\n",
+        "late",
+    )
+    .unwrap();
+    let assessment = file.assess().unwrap();
+    let limit = &assessment.components[0].limits[0];
+    let scene = Scene::new(file.product.body, 0.3, 5.0, 2.0, file.drop.gravity_m_s2).unwrap();
+    let part = Suspension::from_hz(120.0, DampingRatio::new(0.0).unwrap()).unwrap();
+    let setup = Setup::new(scene, None, -75.0 / 165.0, part).unwrap();
+    let pair = Pair { bar: BarRung::FiniteTilt, component: ComponentRung::ImpulseTrain };
+    let exact = setup.demand(pair, Quantity::PeakAcceleration, f64::INFINITY).unwrap();
+    // What is left out is below 2e-4 of the largest shock, of which many may follow.
+    assert!((limit.demand / exact - 1.0).abs() < 1e-3, "{} {exact}", limit.demand);
+    assert!(limit.worst_case.impact > 50, "{:?}", limit.worst_case);
+    // Contacts are followed on as well.
+    let product = Product { contact_time_s: Some(2e-5), ..file.product.clone() };
+    let contacts = ProductFile { product, ..file }.assess().unwrap();
+    let setup = Setup::new(*setup.scene(), Some(2e-5), setup.position(), part).unwrap();
+    let exact = setup.demand(Pair::HIGHEST, Quantity::PeakAcceleration, f64::INFINITY).unwrap();
+    let demand = contacts.components[0].limits[0].demand;
+    assert!((demand / exact - 1.0).abs() < 0.01, "{demand} {exact}");
+}
+
+/// What a page draws over the tilt is what the verdict knows.
+#[test]
+fn no_curve_over_the_tilt_passes_the_demand() {
+    let body = "radius_of_gyration = \"98 mm\"\nrestitution = [0.5, 0.8]\ncontact_time = \"0.1 ms\"";
+    let part = "position = \"-140 mm\"\nnatural_frequency = [\"20 Hz\", \"24 Hz\"]\ndamping_ratio = 0.005\n\
+                acceleration_limit = \"290 gn\"";
+    let file = slate(body, "height = \"1.2 m\"\ntilt = [\"0 deg\", \"20 deg\"]", part);
+    let assessment = file.assess().unwrap();
+    let limit = &assessment.components[0].limits[0];
+    let curves = file.portraits(&assessment).unwrap().remove(0).over_tilt;
+    let most = curves.iter().flat_map(|(_, curve)| curve).fold(0.0_f64, |most, p| most.max(p.1));
+    // The curve has the models of the worst drop, the search those of each.
+    assert!(most <= limit.demand * (1.0 + SEARCHED) && most >= 0.99 * limit.demand, "{most} {limit:?}");
+    assert!(limit.demand > 310.0 * 9.80665, "a rebound at 14 degrees decides: {limit:?}");
+}
+
+/// A drop at 0.08 degrees asks for 7 % more, by a rebound that no drop of the grid has.
+#[test]
+fn rebounds_of_drops_that_are_passed_over_are_told_as_well() {
+    let body = "radius_of_gyration = \"78.682 mm\"\nrestitution = [0.216, 0.439]\ncontact_time = \"0.5 ms\"";
+    let part =
+        "position = \"146.2 mm\"\nnatural_frequency = \"30 Hz\"\ndamping_ratio = 0.05\nacceleration_limit = \"140 gn\"";
+    let file = slate(body, "speed = \"4.823 m/s\"\ntilt = [\"0 deg\", \"10 deg\"]", part);
+    let assessment = file.assess().unwrap();
+    let limit = &assessment.components[0].limits[0];
+    let drop = SingleDrop {
+        first: End::B,
+        tilt_rad: 0.08_f64.to_radians(),
+        speed_m_s: 4.823,
+        restitution: 0.439,
+        gravity_m_s2: file.drop.gravity_m_s2,
+    };
+    let part = Suspension::from_hz(30.0, DampingRatio::new(0.05).unwrap()).unwrap();
+    let base = Base::new(&file.product, &drop, BarModel::Compliant).unwrap();
+    let missed = base.respond(0.1462, &part, true).unwrap().absolute_acceleration.magnitude();
+    assert!(missed > 1.05 * limit.demand, "{missed} {limit:?}");
+    assert!(limit.warning.as_deref().is_some_and(|w| w.contains(REBOUNDS)), "{limit:?}");
+}
+
+/// One impact without clatter is a half-sine where the contact time is known: a stiff part gets no more than 1.77 times its crest, a soft
+/// one what an impulse does.
+#[test]
+fn a_flat_drop_knows_the_contact_time() {
+    let of = |frequency: &str| {
+        let body = "radius_of_gyration = \"80 mm\"\nrestitution = 0.4\ncontact_time = \"0.4 ms\"";
+        let part = format!(
+            "position = \"20 mm\"\nnatural_frequency = {frequency}\ndamping_ratio = 0.0\nacceleration_limit = \"4000 gn\""
+        );
+        let assessment = slate(body, "speed = \"4 m/s\"\ntilt = \"2 deg\"", &part).assess().unwrap();
+        assessment.components[0].limits[0].clatter_free
+    };
+    let delta_v = 1.4 * 4.0;
+    let crest = delta_v * std::f64::consts::PI / (2.0 * 0.4e-3);
+    let shares = ["\"100 kHz\"", "[\"1 kHz\", \"20 kHz\"]"].map(|frequency| of(frequency) / crest);
+    assert!((shares[0] - 1.0).abs() < 0.05, "{shares:?}");
+    // The largest there is, of a part without damping (peers agree on 1.768).
+    assert!((1.76..1.77).contains(&shares[1]), "{shares:?}");
+    let impulse = delta_v * std::f64::consts::TAU * 10.0;
+    assert!((of("\"10 Hz\"") / impulse - 1.0).abs() < 1e-3);
 }

@@ -15,6 +15,12 @@ enum Law {
 
 const LIST: &str = "limit curve";
 
+/// log₂(b/a), also where the quotient is out of range.
+fn octaves(a: f64, b: f64) -> f64 {
+    let ratio = b / a;
+    if ratio.is_normal() { ratio.log2() } else { b.log2() - a.log2() }
+}
+
 impl LimitCurve {
     /// The same value at every frequency.
     /// # Errors
@@ -59,7 +65,10 @@ impl LimitCurve {
             Law::Level(allowed) => Some(*allowed),
             Law::Points(points) => points.windows(2).find_map(|w| {
                 let [(f, a), (g, b)] = [w[0], w[1]];
-                (f <= hz && hz <= g).then(|| a * (b / a).powf((hz / f).log2() / (g / f).log2()))
+                (f <= hz && hz <= g).then(|| {
+                    let (share, ratio) = (octaves(f, hz) / octaves(f, g), b / a);
+                    if ratio.is_normal() { a * ratio.powf(share) } else { (a.log2() + share * octaves(a, b)).exp2() }
+                })
             }),
         }
     }
@@ -77,5 +86,25 @@ impl LimitCurve {
         let ratio = |i: &usize| margins[*i].map_or(f64::INFINITY, |m| m.allowed / m.demand);
         let covered = (0..margins.len()).filter(|&i| margins[i].is_some());
         covered.min_by(|a, b| ratio(a).total_cmp(&ratio(b)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn curves_over_the_whole_range_of_numbers_are_straight() {
+        let curve = LimitCurve::new(vec![(5e-324, 1e308), (1e308, 5e-324)]).expect("as the test has it");
+        let mut before = f64::INFINITY;
+        for hz in [5e-324, 1e-300, 1e-100, 1.0, 1e100, 1e300, 1e308] {
+            let allowed = curve.at(hz).expect("within the curve");
+            assert!((0.0..=1.01e308).contains(&allowed) && allowed <= before, "{hz}: {allowed}");
+            before = allowed;
+        }
+        // In the middle of both logarithms.
+        let middle = (5e-324_f64.log2() + 1e308_f64.log2()) / 2.0;
+        let allowed = curve.at(middle.exp2()).expect("within the curve");
+        assert!((allowed.log2() - middle).abs() < 1e-9, "{allowed}");
     }
 }

@@ -128,6 +128,8 @@ pub struct Remedies {
 pub const STEPS: u32 = 96;
 /// Bisections of the step in which safety begins: its place is then known to 1/2¹² of a step.
 const BISECTIONS: u32 = 12;
+/// Shares of what is left of the step, at which an answer on the border is tried.
+const BEYOND: [f64; 6] = [0.0, 1e-4, 1e-3, 0.01, 0.1, 1.0];
 
 impl ProductFile {
     /// For every component that fails, and every lever alone, the smallest change that makes it safe.
@@ -135,7 +137,7 @@ impl ProductFile {
     /// # Method
     /// Values are tried outward from the present one, in steps of 1/96 of the bounds (frequencies: of their logarithm); the step
     /// in which safety begins is bisected twelve times, and the safe end of what is left is the answer: [`assess`](Self::assess)
-    /// has found the part safe there. A value is passed over at once where a drop that broke the part before still does.
+    /// finds the part safe there, of the file with that value. A value is passed over at once where a drop that broke the part before still does.
     ///
     /// # Limitation
     /// A safe stretch narrower than a step may be missed, and where a model of [`assess`](Self::assess) is searched and not
@@ -205,7 +207,8 @@ struct Case<'a> {
 #[derive(Debug, Clone, Copy)]
 struct Breaker {
     place: Place,
-    pair: Pair,
+    /// The models of a proof; what was searched is planned anew.
+    proven: Option<Pair>,
 }
 
 impl Case<'_> {
@@ -237,8 +240,11 @@ impl Case<'_> {
                 if (outer - inner).abs() <= 0.0 && k > 1 {
                     continue;
                 }
-                let Some(after) = self.safe_at(outer, &mut breakers) else { continue };
-                let begin = self.begin(inner, outer, after, &mut breakers);
+                if !self.is_safe_at(outer, &mut breakers) {
+                    continue;
+                }
+                let x = self.begin(inner, outer, &mut breakers);
+                let Some(begin) = self.confirmed(x, outer) else { continue };
                 if best.as_ref().is_none_or(|(x, _)| (begin.0 - here).abs() < (x - here).abs()) {
                     best = Some(begin);
                 }
@@ -251,27 +257,31 @@ impl Case<'_> {
     }
 
     /// The safe value nearest to `unsafe_side`, from a safe one.
-    fn begin(
-        &self,
-        mut unsafe_side: f64,
-        mut x: f64,
-        mut after: Box<ComponentAssessment>,
-        breakers: &mut Vec<Breaker>,
-    ) -> (f64, Box<ComponentAssessment>) {
+    fn begin(&self, mut unsafe_side: f64, mut safe_side: f64, breakers: &mut Vec<Breaker>) -> f64 {
         for _ in 0..BISECTIONS {
-            let middle = 0.5 * (unsafe_side + x);
-            match self.safe_at(middle, breakers) {
-                Some(found) => (x, after) = (middle, found),
-                None => unsafe_side = middle,
+            let middle = 0.5 * (unsafe_side + safe_side);
+            if self.is_safe_at(middle, breakers) {
+                safe_side = middle;
+            } else {
+                unsafe_side = middle;
             }
         }
-        (x, after)
+        safe_side
     }
 
-    /// The assessment at a value of the lever, if it is safe.
-    fn safe_at(&self, x: f64, breakers: &mut Vec<Breaker>) -> Option<Box<ComponentAssessment>> {
-        let file = self.changed(x)?;
-        let component = file.components.first()?;
+    /// The first value from `x` to `outer` that is safe as the file with it is assessed, whose pulses may have other pieces.
+    fn confirmed(&self, x: f64, outer: f64) -> Option<(f64, Box<ComponentAssessment>)> {
+        BEYOND.iter().find_map(|share| {
+            let x = x + share * (outer - x);
+            let found = self.changed(x)?.assess().ok()?.components.into_iter().next()?;
+            (found.verdict == Verdict::Safe).then(|| (x, Box::new(found)))
+        })
+    }
+
+    /// Whether the part is safe at a value of the lever, as the field has it. What cannot be assessed is not known to be safe.
+    fn is_safe_at(&self, x: f64, breakers: &mut Vec<Breaker>) -> bool {
+        let Some(file) = self.changed(x) else { return false };
+        let Some(component) = file.components.first() else { return false };
         // Of the product as it is, drops stay as they were followed.
         let anew;
         let field = match self.lever {
@@ -282,16 +292,13 @@ impl Case<'_> {
             Lever::Position | Lever::Frequency | Lever::Damping => self.field,
         };
         if breakers.iter().rev().any(|breaker| breaks(field, component, breaker)) {
-            return None;
+            return false;
         }
-        // What cannot be assessed is not known to be safe.
-        let assessment = file.assess_in(field).ok()?;
-        let found = assessment.components.into_iter().next()?;
-        if found.verdict == Verdict::Safe {
-            return Some(Box::new(found));
+        let found = file.assess_in(field).ok().and_then(|assessment| assessment.components.into_iter().next());
+        if let Some(found) = found.as_ref().filter(|found| found.verdict != Verdict::Safe) {
+            remember(found, breakers, field, component);
         }
-        remember(&found, breakers, field, component);
-        None
+        found.is_some_and(|found| found.verdict == Verdict::Safe)
     }
 
     /// The present value, as the lever counts: a range by its low end, a frequency by the logarithm of its factor.
@@ -383,7 +390,7 @@ fn remember(found: &ComponentAssessment, breakers: &mut Vec<Breaker>, field: &Fi
     };
     breakers.extend(found.limits.iter().filter(|limit| !limit.is_safe()).map(|limit| Breaker {
         place: field.place_of(&limit.worst_case, frequencies),
-        pair: search::pair_of(&limit.model),
+        proven: limit.guaranteed.then(|| search::pair_of(&limit.model)),
     }));
 }
 
@@ -391,7 +398,7 @@ fn remember(found: &ComponentAssessment, breakers: &mut Vec<Breaker>, field: &Fi
 fn breaks(field: &Field<'_>, component: &Component, breaker: &Breaker) -> bool {
     Demand::of(component).into_iter().any(|demand| {
         let places = component.ends_m().into_iter().map(|position_m| Place { position_m, ..breaker.place });
-        let most = field.most(&Task { component, demand, proven: None }, breaker.pair, places, demand.allowed);
+        let most = field.most(&Task { component, demand, proven: None }, breaker.proven, places, demand.allowed);
         most.is_ok_and(|most| {
             most.is_some_and(|most| {
                 let settled = demand.settle(most.value, field.product.contact_time_s);

@@ -183,6 +183,13 @@ impl fmt::Display for Reason {
             BarRung::Ballistic => {
                 write!(f, "gravity counts (g h0/v0² = {:.1e}, without it {})", g.gravity, Share(map))?;
             }
+            BarRung::FiniteTilt if g.geometry == 0.0 => {
+                write!(
+                    f,
+                    "both ends land at once, and what small-tilt models make of that may be {}",
+                    Share(ballistic)
+                )?;
+            }
             BarRung::FiniteTilt => {
                 write!(
                     f,

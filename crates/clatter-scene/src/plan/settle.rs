@@ -196,18 +196,7 @@ impl Setup {
 
     /// Twice the energy of the body as the last of a few contacts parts.
     fn energy_after(&self, flight: &CompliantFlight, shock: &LoneShock) -> f64 {
-        self.twice_energy(&flight.flight.strikes[shock.last], flight.sample(shock.parted_s).height_m)
-    }
-
-    /// Twice the energy after a strike with the ends at these heights, by the spin: upright, the ends do not show how fast the body turns.
-    fn twice_energy(&self, strike: &Strike, height_m: [f64; 2]) -> f64 {
-        let body = self.scene.body();
-        let [a, b] = body.arms_m();
-        let center = |[of_a, of_b]: [f64; 2]| (b * of_a + a * of_b) / (a + b);
-        let speed = center(strike.velocity_m_s);
-        speed * speed
-            + (body.gyration_m() * strike.spin_rad_s).powi(2)
-            + 2.0 * self.scene.gravity_m_s2() * center(height_m).max(0.0)
+        twice_energy(&self.scene, &flight.flight.strikes[shock.last], flight.sample(shock.parted_s).height_m)
     }
 
     /// What contacts that do not overlap others do to the component's place.
@@ -221,7 +210,7 @@ impl Setup {
     fn so_far_by_impacts<'a>(&self, flight: &'a Flight, lasts_s: f64) -> SoFar<'a> {
         let so_far = self.lone_shocks(flight, |k| flight.strikes[k].time_s + lasts_s);
         let last = so_far.shocks.last().filter(|_| !so_far.whole).map(|last| &flight.strikes[last.last]);
-        SoFar { twice_energy: last.map_or(0.0, |last| self.twice_energy(last, last.height_m)), ..so_far }
+        SoFar { twice_energy: last.map_or(0.0, |last| twice_energy(&self.scene, last, last.height_m)), ..so_far }
     }
 
     /// Strikes that are over at `until_s` of their number, from 0, grouped where they overlap. Of a flight cut short, the last group is left
@@ -253,6 +242,17 @@ impl Setup {
         }
         SoFar { shocks, strikes, whole, twice_energy: 0.0 }
     }
+}
+
+/// Twice the energy after a strike with the ends at these heights, by the spin: upright, the ends do not show how fast the body turns.
+pub(crate) fn twice_energy(scene: &Scene, strike: &Strike, height_m: [f64; 2]) -> f64 {
+    let body = scene.body();
+    let [a, b] = body.arms_m();
+    let center = |[of_a, of_b]: [f64; 2]| (b * of_a + a * of_b) / (a + b);
+    let speed = center(strike.velocity_m_s);
+    speed * speed
+        + (body.gyration_m() * strike.spin_rad_s).powi(2)
+        + 2.0 * scene.gravity_m_s2() * center(height_m).max(0.0)
 }
 
 /// A flight as far as it is known.
