@@ -32,8 +32,10 @@ pub struct Portrait {
     pub remedies: Vec<Remedy>,
 }
 
-/// Points of a history between two strikes and after the last, at least.
-const POINTS: u32 = 600;
+/// Points of a history between two strikes and after the last, at least; in a period of the part, as far as there are not too many.
+const POINTS: f64 = 600.0;
+const IN_A_PERIOD: f64 = 16.0;
+const MOST_POINTS: f64 = 12_000.0;
 /// Places along the product that are assessed for the zone.
 const PLACES: u32 = 33;
 
@@ -176,7 +178,8 @@ impl ProductFile {
 
 /// The motion of a part that is driven by small velocity shocks, sampled and right at every shock.
 fn respond(suspension: &Suspension, slices: &[(f64, f64)], end: f64, value: impl Fn(State) -> f64) -> Vec<(f64, f64)> {
-    let step = end / f64::from(POINTS);
+    let period = std::f64::consts::TAU / suspension.omega();
+    let step = (end / POINTS).min(period / IN_A_PERIOD).max(end / MOST_POINTS);
     let (mut state, mut now) = (State::default(), 0.0);
     let mut points = vec![(0.0, value(state))];
     let mut coast = |points: &mut Vec<(f64, f64)>, state: &mut State, until: f64| {

@@ -49,7 +49,11 @@ pub(crate) fn over_tilt(curves: &[(&str, Vec<(f64, f64)>)], allowed: f64, titles
     let largest = all().map(|p| p.1).fold(0.0_f64, f64::max);
     let (lo, hi) = all().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p.0), b.max(p.0)));
     let shown = allowed <= 3.0 * largest;
-    let top = 1.12 * if shown { allowed.max(largest) } else { largest.max(f64::MIN_POSITIVE) };
+    let highest = if shown { allowed.max(largest) } else { largest.max(f64::MIN_POSITIVE) };
+    let lowest = all().map(|p| p.1).fold(if shown { allowed } else { largest }, f64::min);
+    // The key stands at the foot, or above all lines where they come down to it.
+    let above = curves.len() > 1 && lowest < 0.3 * highest;
+    let top = if above { 1.4 } else { 1.12 } * highest;
     let axes = Axes {
         corner: [44.0, 8.0],
         size: FRAME,
@@ -68,7 +72,7 @@ pub(crate) fn over_tilt(curves: &[(&str, Vec<(f64, f64)>)], allowed: f64, titles
         lines.push((ink, *name));
     }
     if curves.len() > 1 {
-        key(&mut svg, [54.0, FRAME[1] + 6.0 - 12.0 * f64::from(u8::from(lines.len() > 1))], &lines);
+        key(&mut svg, [54.0, if above { 16.0 } else { FRAME[1] - 6.0 }], &lines);
     }
     axes.border(&mut svg, 36.0);
     svg.finish("Demand over the tilt")

@@ -135,7 +135,7 @@ pub(crate) fn plane(data: &DesignPlane) -> String {
         y: Axis::linear(0.0, 1.0, "inertia ratio *q*"),
     };
     let right = axes.corner[0] + axes.size[0] + 14.0;
-    let rows = 12.0 * f64::from(u32::try_from(data.borders.len() + data.designs.len()).unwrap_or(u32::MAX)) + 72.0;
+    let rows = 12.0 * f64::from(u32::try_from(data.borders.len() + data.designs.len()).unwrap_or(u32::MAX)) + 96.0;
     let mut svg = Svg::new(right + 150.0, (axes.corner[1] + axes.size[1] + 30.0).max(rows));
     svg.rect(axes.corner, axes.size, Ink::fill(SAFE));
     let parts: Vec<_> = data.borders.iter().map(|(name, border)| (name, unsafe_shapes(border))).collect();
@@ -150,6 +150,11 @@ pub(crate) fn plane(data: &DesignPlane) -> String {
     };
     let (good, bad) =
         if data.product.is_some() { ("all are safe", "one fails at least") } else { ("goals met", "goals missed") };
+    if data.product.is_some() {
+        // What `assess` knows beside may ask for more.
+        line(&mut svg, &mut y, "without gravity, real tilt", INK);
+        line(&mut svg, &mut y, "and contact time:", INK);
+    }
     for (fill, text) in [(SAFE, good), (SAND, bad)] {
         svg.rect([right, y - 7.0], [14.0, 8.0], Ink { stroke: GRAY, width: 0.4, ..Ink::fill(fill) });
         svg.text([right + 19.0, y], text, Label { anchor: Anchor::Start, ..SMALL });
