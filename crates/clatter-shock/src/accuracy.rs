@@ -30,7 +30,7 @@ pub const RECORD: Allowance = Allowance {
     quantity: "spectrum of a record",
     error: 1e-10,
     scale: "itself (primary), the maximax (the others)",
-    range: "f/fs from 10⁻⁹ to 10",
+    range: "f/fs from 10⁻⁹ to 10; the others from 10⁻⁶",
 };
 
 /// All of them.

@@ -43,6 +43,8 @@ const PANELS: u32 = 100_000;
 
 /// Share of the forcing's terms below which their sum is bounded by itself at every damping.
 const CANCELLED: f64 = 0.01;
+/// Share of the static motion below which the whole motion is not taken as the difference of two.
+const CANCELS: f64 = 0.125;
 
 /// Response from rest to f = 1 (`x0`, `w0`) and to f = τ (`x1`, `w1`).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -390,8 +392,16 @@ impl<'a> Segment<'a> {
         };
         let (first, last) = (about(0.0), about(span));
         if self.slope == 0.0 {
-            let seen = (range.low.value - first, range.high.value - first);
-            modes.free_extremes(k, swing, span, seen, |tau, value| range.note(interval, tau, first + value));
+            // Of a soft part the static motion is far above the true one, which is then what the two leave: when it turns is known, how far
+            // it has come by then only from the begin.
+            let slack = 8.0 * f64::EPSILON * first.abs();
+            let seen = (range.low.value - first + slack, range.high.value - first - slack);
+            modes.free_extremes(k, swing, span, seen, |tau, value| {
+                let sum = first + value;
+                let cancels = sum.abs() < CANCELS * first.abs();
+                let value = if cancels { self.value(k, &self.sample(Phase::product(1.0, tau))) } else { sum };
+                range.note(interval, tau, value);
+            });
             return;
         }
         if modes.beta * span > MANY_SWINGS {

@@ -102,3 +102,28 @@ fn peaks_of_pulses_are_exact() {
         }
     }
 }
+
+/// Pulses that push to and fro: 1 s down, 1 s up twice as hard, 1 s down. A soft part turns at 1.5 s, 0.75 m from where it was, which is far
+/// below the static motion that a constant push makes it swing about. Values of the closed form in 50 digits.
+#[test]
+fn soft_parts_turn_under_a_constant_push_where_they_do() {
+    let rectangle = |amplitude, start| Pulse { shape: Shape::Rectangle, amplitude, duration: 1.0, start };
+    let pulses = Pulses::new(&[rectangle(-1.0, 0.0), rectangle(2.0, 1.0), rectangle(-1.0, 2.0)]).expect("pulses");
+    let zeta = DampingRatio::new(0.0).expect("damping");
+    for (hz, displacement) in [
+        (1e-9, 0.75),
+        (1e-7, 0.749_999_999_999_919_8),
+        (1e-5, 0.749_999_999_198_094_6),
+        (1e-3, 0.749_991_981_068_385_9),
+    ] {
+        let suspension = Suspension::from_hz(hz, zeta).expect("a part");
+        let response = pulses.respond(&suspension);
+        let omega2 = suspension.omega() * suspension.omega();
+        for (got, want) in [
+            (response.relative_displacement.magnitude(), displacement),
+            (response.absolute_acceleration.magnitude(), omega2 * displacement),
+        ] {
+            assert!((got / want - 1.0).abs() < 1e-14, "{hz} Hz: {got:e}, not {want:e}");
+        }
+    }
+}

@@ -598,3 +598,20 @@ fn maps_have_an_answer_at_every_corner() {
         assert!(map.values.iter().all(|v| !v.is_nan()), "{quantity:?}: {:?}", map.values);
     }
 }
+
+/// Next to q = e = 1 velocities rise far above the first one and come down again: late ones have ten times the error, no more. Values of
+/// the recurrence in 600 bits.
+#[test]
+fn late_strikes_next_to_both_limits_keep_eleven_digits() {
+    for (q, e, vb, number, approach) in [
+        (0.9999999846041422, 0.9999999999309089, -0.665549294653355, 17_903, -1.154_192_970_588_862_5),
+        (0.9999999470383094, 0.9999999999995728, -2.795569806807307, 9653, -2.090_877_330_817_728_7),
+        (0.9999999337033442, 0.9999999992118757, -1.0, 8627, -2.162_631_372_661_775_3),
+    ] {
+        let bar = Bar::new(q, e).unwrap();
+        let start = Start::new([-1.0, vb], 1.0).unwrap();
+        let impact = bar.train(&start).find(|impact| impact.number == number).unwrap();
+        let off = (impact.approach - approach).abs() / approach.abs();
+        assert!(off <= 10.0 * APPROACH.error, "strike {number} at q = {q}: {off:e}");
+    }
+}
