@@ -6,7 +6,7 @@
 //! components share the flights of one grid.
 
 use std::cmp::Ordering as Order;
-use std::collections::{BinaryHeap, HashMap};
+use std::collections::{BTreeMap, BinaryHeap, HashMap};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -543,12 +543,12 @@ struct Search<'a> {
     known: Known,
     best: Option<(Candidate, Reached)>,
     /// Drops that were followed and come back, as far as is known.
-    returning: HashMap<Key, Candidate>,
+    returning: BTreeMap<Key, Candidate>,
 }
 
 impl<'a> Search<'a> {
     fn new(field: &'a Field<'a>, task: &'a Task<'a>, above: f64) -> Self {
-        Self { field, task, above, known: Known::new(), best: None, returning: HashMap::new() }
+        Self { field, task, above, known: Known::new(), best: None, returning: BTreeMap::new() }
     }
 
     fn run(mut self, mut grid: Vec<Candidate>) -> Result<Option<Found>, Error> {

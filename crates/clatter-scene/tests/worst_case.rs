@@ -289,7 +289,7 @@ fn slate(body: &str, drop: &str, part: &str) -> ProductFile {
     let text = format!(
         "[product]\nname = \"slate\"\nlength = \"300 mm\"\n{body}\n[drop]\n{drop}\n[[component]]\nname = \"part\"\n{part}\n"
     );
-    ProductFile::read(&text, "slate").unwrap()
+    ProductFile::read(&text, "slate").unwrap_or_else(|faults| panic!("{faults}"))
 }
 
 /// While one end bounces by itself, shock by shock smaller, the other one is in the air: what it does then counts in full.

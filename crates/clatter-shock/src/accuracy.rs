@@ -29,8 +29,8 @@ pub const TRAIN: Allowance =
 pub const RECORD: Allowance = Allowance {
     quantity: "spectrum of a record",
     error: 1e-10,
-    scale: "itself (primary), the maximax (the others)",
-    range: "f/fs from 10⁻⁹ to 10; the others from 10⁻⁶",
+    scale: "itself (primary), maximax (others)",
+    range: "f/fs 10⁻⁹ (others 10⁻⁶) to 10",
 };
 
 /// All of them.

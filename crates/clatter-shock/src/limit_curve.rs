@@ -103,7 +103,7 @@ mod tests {
             before = allowed;
         }
         // In the middle of both logarithms.
-        let middle = (5e-324_f64.log2() + 1e308_f64.log2()) / 2.0;
+        let middle = 5e-324_f64.log2().midpoint(1e308_f64.log2());
         let allowed = curve.at(middle.exp2()).expect("within the curve");
         assert!((allowed.log2() - middle).abs() < 1e-9, "{allowed}");
     }

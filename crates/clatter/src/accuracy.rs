@@ -26,7 +26,8 @@ pub const APPROACH: Allowance = Allowance {
     quantity: "approach velocity",
     error: 1e-12,
     scale: "the larger of itself and the first",
-    range: "a train of any length; ten times as much beyond 5000 impacts next to q = e = 1",
+    // Beyond 5000 impacts next to q = e = 1 velocities rise far above the first one, and come down again: ten times as much.
+    range: "any train, but ten times next to q = e = 1",
 };
 /// Jumps of the velocities of both ends at an impact.
 pub const JUMP: Allowance = Allowance {
