@@ -164,12 +164,13 @@ fn of_part(part: &PartTradeoff, out: &mut dyn Write) -> io::Result<()> {
     )?;
     writeln!(
         out,
-        "  reference  {}, {}: {}, good to {}; {}, {} strikes",
+        "  reference  {}, {}: {}, good to {}; {}, {}{} strikes",
         reference.bar.name(),
         reference.component.name(),
         in_words(unit, reference.value),
         percent(reference.within),
         time(reference.seconds),
+        if reference.cut { "the first " } else { "" },
         reference.strikes,
     )?;
     if let Some(lacks) = &reference.lacks {

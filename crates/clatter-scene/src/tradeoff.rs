@@ -99,6 +99,8 @@ pub struct Reference {
     pub seconds: f64,
     /// Strikes followed.
     pub strikes: usize,
+    /// Whether more would have come: what they do is in no number here.
+    pub cut: bool,
     /// Pieces of pulses.
     pub pieces: usize,
 }
@@ -198,7 +200,7 @@ impl Tradeoff {
     /// Runs and times every pair on one scene.
     ///
     /// Each pair is run as a plan would run it, until [`Forecast::until_s`], over and over for a few milliseconds; the median
-    /// counts. All of it takes some 0.1 s. No model follows more than 2000 strikes.
+    /// counts. All of it takes some 0.1 s. No model follows more than 2000 strikes; [`Reference::cut`] says where more would have come.
     ///
     /// # Errors
     /// As [`Setup::demand`], of scenes that no rung takes.
@@ -295,7 +297,8 @@ impl Reference {
         };
         let (Pair { bar, component }, Answer { value, strikes, pieces }, coarse, seconds) = highest?;
         let within = off(coarse, value).max(ROUNDING);
-        Ok(Self { bar, component, lacks, value, within, seconds, strikes, pieces })
+        let cut = strikes >= setup.scene().impact_limit();
+        Ok(Self { bar, component, lacks, value, within, seconds, strikes, cut, pieces })
     }
 }
 

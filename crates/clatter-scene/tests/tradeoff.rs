@@ -74,6 +74,15 @@ fn the_reference_is_the_highest_rung_there_is() {
     }
 }
 
+/// What loses nothing never rests.
+#[test]
+fn a_reference_that_is_cut_says_so() {
+    for (e, cut) in [(0.3, false), (1.0, true)] {
+        let trade = measure(&setup(e, 4.43, 5.0, None), Quantity::PeakAcceleration);
+        assert_eq!((trade.reference.cut, trade.reference.strikes == 2000), (cut, cut), "{:?}", trade.reference);
+    }
+}
+
 #[test]
 fn fronts_are_fronts_and_choices_are_among_the_pairs() {
     for bar in &bars().expect("the bars of Table 1") {
