@@ -59,7 +59,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "LO:HI", default_value = "0:0.5", allow_hyphen_values = true, value_parser = damping_range)]
     damping: [f64; 2],
     /// Write the plane of q and e to this file: .svg a picture, .csv its borders; of a product without gravity, at small
-    /// tilt and by instant impacts, which takes up to half a minute
+    /// tilt and by instant impacts; takes seconds
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = target)]
     output: Option<PathBuf>,
     /// Write the fronts of the largest zone to this file: .svg a picture, .csv their points

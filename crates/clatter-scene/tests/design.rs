@@ -2,9 +2,11 @@
 
 #![cfg(test)]
 
+use clatter::End;
 use clatter::design::{Goal, largest_restitution};
 use clatter_scene::design::{Border, Bounds, Lever, Outcome, Plane};
-use clatter_scene::{Mount, ProductFile, Verdict};
+use clatter_scene::scatter::{Sampler, Settings};
+use clatter_scene::{Drop, Fall, First, Mount, ProductFile, Spread, Verdict};
 use clatter_shock::DampingRatio;
 
 fn product(parts: &str) -> ProductFile {
@@ -78,6 +80,39 @@ fn the_border_of_a_hard_part_is_exact() {
     }
 }
 
+/// Margins of the grid are those of the worst of its drops, each by itself: of pulses, though few are followed with them.
+#[test]
+fn the_grid_has_the_worst_of_all_its_drops() {
+    let text = "[product]\nname = \"p\"\nlength = \"150 mm\"\nradius_of_gyration = \"41 mm\"\nrestitution = 0.3\n\
+         contact_time = \"0.4 ms\"\n[drop]\nspeed = [\"3 m/s\", \"4 m/s\"]\ntilt = [\"1 deg\", \"9 deg\"]\n[[component]]\n\
+         name = \"board\"\nposition = \"30 mm\"\nextent = \"20 mm\"\nnatural_frequency = \"1500 Hz\"\ndamping_ratio = 0.05\n\
+         acceleration_limit = \"1000 gn\"\nrattle_space = \"1 mm\"\n";
+    let file = ProductFile::read(text, "p").unwrap();
+    let plane = Plane::of(&file, &Bounds::default()).unwrap();
+    let Border::Grid(margins) = &plane.components[0].border else { panic!("a suspended part has a grid") };
+    for (i, j) in [(0, 0), (8, 37), (20, 10), (29, 29), (36, 4)] {
+        let [q, e] = [i, j].map(|n: u32| f64::from(n) / 40.0);
+        let mut product = file.product.with_inertia_ratio(q).unwrap();
+        product.restitution = Spread::value(e).unwrap();
+        let mut worst = 0.0_f64;
+        for first in [First::End(End::A), First::End(End::B)] {
+            for speed_m_s in [3.0, 3.5, 4.0] {
+                for k in 0..33 {
+                    let tilt_rad = Spread::value((1.0 + f64::from(k) / 4.0).to_radians()).unwrap();
+                    let fall = Fall::SpeedMS(Spread::value(speed_m_s).unwrap());
+                    let drop = Drop { first, fall, tilt_rad, ..file.drop };
+                    let one = ProductFile { product: product.clone(), drop, ..file.clone() };
+                    let settings = Settings { samples: 1, seed: 0, confidence: 0.5 };
+                    let scatter = Sampler::new(&one, settings).unwrap().run(false, |_| Ok::<(), ()>(())).unwrap();
+                    worst = worst.max(scatter.components[0].largest_utilization);
+                }
+            }
+        }
+        let found = 1.0 / (1.0 + margins[(i * 41 + j) as usize]);
+        assert!((found / worst - 1.0).abs() < 1e-9, "q {q}, e {e}: {found} {worst}");
+    }
+}
+
 /// A dense scan of each lever finds nothing safe nearer than the answer.
 #[test]
 fn no_smaller_change_makes_a_suspended_part_safe() {
@@ -98,7 +133,7 @@ fn no_smaller_change_makes_a_suspended_part_safe() {
             match (lever, &mut tried.components[0].mount) {
                 (Lever::Position, _) => tried.components[0].position_m = x,
                 (Lever::Frequency, Mount::Suspended { frequency_hz, .. }) => {
-                    *frequency_hz = clatter_scene::Spread::value(x).unwrap();
+                    *frequency_hz = Spread::value(x).unwrap();
                 }
                 (Lever::Damping, Mount::Suspended { damping, .. }) => {
                     *damping = DampingRatio::new(x).unwrap();

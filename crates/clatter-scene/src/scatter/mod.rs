@@ -161,8 +161,25 @@ const MOST_SAMPLES: u64 = 1_000_000_000_000;
 
 /// Tilts of the search of [`Sampler::worst`].
 const TILTS: u32 = 33;
+/// Beyond what fast peaks are off by, 1e-9, by which bounds are taken as higher.
+const SLACK: f64 = 1e-8;
 /// Inputs that every product has: uniform numbers 0 to 3; those of the components' frequencies follow.
 const SHARED: usize = 4;
+
+/// The ends of a range and its median, as probabilities.
+fn three(quantile: &Quantile) -> &'static [f64] {
+    if quantile.is_value() { &[0.5] } else { &[0.0, 0.5, 1.0] }
+}
+
+/// A drop of the search of [`Sampler::worst`].
+#[derive(Debug, Clone, Copy)]
+struct Corner {
+    bar: Falling,
+    /// −1 where end b strikes first.
+    mirror: f64,
+    speed_m_s: f64,
+    tilt_rad: f64,
+}
 
 /// Draws samples of a product.
 #[derive(Debug)]
@@ -383,39 +400,61 @@ impl Sampler {
         })
     }
 
-    /// The largest utilization of each part over all ranges but that of e, by drops at [`TILTS`] tilts and the ends and middles of
+    /// The largest utilization of each part over all ranges but that of e, by drops at [`TILTS`] tilts and the ends and medians of
     /// the other ranges.
+    ///
+    /// Pulses of one shape and length do a mean, over that length, of what impulses do, and never more: only drops whose impulses pass
+    /// the worst so far are followed with pulses.
     pub(crate) fn worst(&self, body: &Body, e: f64) -> Vec<f64> {
-        let three = |quantile: &Quantile| if quantile.is_value() { vec![0.5] } else { vec![0.0, 0.5, 1.0] };
-        let tilts = if self.tilt.is_value() { 1 } else { TILTS };
+        let corners = self.corners(body);
+        let follow = |clatter: &mut Clatter, corner: &Corner| {
+            clatter.follow(&corner.bar, e, corner.speed_m_s, corner.tilt_rad, self.fastest);
+        };
+        let (mut clatter, mut bounds) = (Clatter::default(), vec![Vec::new(); self.parts.len()]);
+        for corner in &corners {
+            follow(&mut clatter, corner);
+            for (part, bounds) in self.parts.iter().zip(&mut bounds) {
+                bounds.extend(part.mount.corners().iter().map(|&own| {
+                    let at_most = |s| part.mount.at_most(&clatter, s, own);
+                    (part.utilization(&clatter, corner.mirror, self.length_m, at_most, |_| ()), corner, own)
+                }));
+            }
+        }
         let mut worst = vec![0.0_f64; self.parts.len()];
-        let mut clatter = Clatter::default();
+        for ((part, worst), mut bounds) in self.parts.iter().zip(&mut worst).zip(bounds) {
+            bounds.sort_by(|(a, ..), (b, ..)| b.total_cmp(a));
+            for (bound, corner, own) in bounds {
+                if bound * (1.0 + SLACK) <= *worst {
+                    break;
+                }
+                follow(&mut clatter, corner);
+                let peaks = |s| part.mount.peaks(&clatter, s, own);
+                *worst = worst.max(part.utilization(&clatter, corner.mirror, self.length_m, peaks, |_| ()));
+            }
+        }
+        worst
+    }
+
+    /// Drops at [`TILTS`] tilts and the ends and medians of the speeds.
+    fn corners(&self, body: &Body) -> Vec<Corner> {
         let ends: &[End] = match self.first {
             First::End(End::A) => &[End::A],
             First::End(End::B) => &[End::B],
             First::Either => &[End::A, End::B],
         };
-        for end in ends {
-            let (bar, mirror) = (Falling::new(body, *end), if *end == End::A { 1.0 } else { -1.0 });
-            for u in three(&self.fall) {
-                let speed = self.speed(u);
-                for i in 0..tilts {
-                    let tilt = self.tilt.at(f64::from(i) / f64::from(TILTS - 1));
-                    clatter.follow(&bar, e, speed, tilt, self.fastest);
-                    for (part, worst) in self.parts.iter().zip(&mut worst) {
-                        let mut counts = vec![0; part.limits.len()];
-                        let own = match &part.mount {
-                            Held::Hard => vec![0.5],
-                            Held::Soft(soft) => three(&soft.frequency_hz),
-                        };
-                        for own in own {
-                            *worst = worst.max(part.utilization(&clatter, mirror, own, self.length_m, &mut counts));
-                        }
-                    }
-                }
+        let tilts = if self.tilt.is_value() { 1 } else { TILTS };
+        let mut corners = Vec::new();
+        for &end in ends {
+            let (bar, mirror) = (Falling::new(body, end), if end == End::A { 1.0 } else { -1.0 });
+            for &u in three(&self.fall) {
+                let speed_m_s = self.speed(u);
+                corners.extend((0..tilts).map(|i| {
+                    let tilt_rad = self.tilt.at(f64::from(i) / f64::from(TILTS - 1));
+                    Corner { bar, mirror, speed_m_s, tilt_rad }
+                }));
             }
         }
-        worst
+        corners
     }
 
     fn speed(&self, u: f64) -> f64 {
@@ -444,7 +483,8 @@ impl Sampler {
             let mut all = true;
             for (i, part) in self.parts.iter().enumerate() {
                 let own = uniforms[SHARED + i];
-                let utilization = part.utilization(&clatter, mirror, own, self.length_m, &mut tallies[i].limits);
+                let (peaks, failures) = (|s| part.mount.peaks(&clatter, s, own), &mut tallies[i].limits);
+                let utilization = part.utilization(&clatter, mirror, self.length_m, peaks, |k| failures[k] += 1);
                 tallies[i].add(sample, utilization, part.ranks(&uniforms, own));
                 all &= utilization <= 1.0;
                 utilizations[i] = utilization;
@@ -534,8 +574,15 @@ impl Part {
         })
     }
 
-    /// The largest demand over allowed; limits that do not hold are counted.
-    fn utilization(&self, clatter: &Clatter, mirror: f64, own: f64, length_m: f64, failures: &mut [u64]) -> f64 {
+    /// The largest demand over allowed, by the peaks of a response at a position; told which limits do not hold.
+    fn utilization(
+        &self,
+        clatter: &Clatter,
+        mirror: f64,
+        length_m: f64,
+        peaks_at: impl Fn(f64) -> Peaks,
+        mut fails: impl FnMut(usize),
+    ) -> f64 {
         let mut shock = 0.0_f64;
         let mut peaks = Peaks::default();
         let needs = |kind: fn(&Allowed) -> bool| self.limits.iter().any(|(_, allowed)| kind(allowed));
@@ -547,20 +594,22 @@ impl Part {
                 shock = shock.max(clatter.largest_shock(s));
             }
             if responds {
-                let here = self.mount.peaks(clatter, s, own);
+                let here = peaks_at(s);
                 peaks.displacement = peaks.displacement.max(here.displacement);
                 peaks.acceleration = peaks.acceleration.max(here.acceleration);
             }
         }
         let mut most = 0.0_f64;
-        for ((_, allowed), failures) in self.limits.iter().zip(failures) {
+        for (k, (_, allowed)) in self.limits.iter().enumerate() {
             let used = match *allowed {
                 Allowed::Displacement(z) => peaks.displacement / z,
                 Allowed::Acceleration(a) => peaks.acceleration / a,
                 Allowed::Shock(v) => shock / v,
                 Allowed::Turn(w) => clatter.largest_turn(length_m) / w,
             };
-            *failures += u64::from(used > 1.0);
+            if used > 1.0 {
+                fails(k);
+            }
             most = most.max(used);
         }
         most
@@ -587,25 +636,46 @@ impl Part {
 }
 
 impl Held {
-    fn peaks(&self, clatter: &Clatter, s: f64, own: f64) -> Peaks {
-        let Self::Soft(soft) = self else { return Peaks::default() };
-        let Soft { frequency_hz, zeta, swing, pulse_s } = &**soft;
-        let omega = TAU * frequency_hz.at(own);
-        if let (Some(swing), None) = (swing, pulse_s) {
-            return clatter.peaks(s, omega, swing);
+    /// The ends and the median of its frequencies.
+    fn corners(&self) -> &'static [f64] {
+        match self {
+            Self::Hard => &[0.5],
+            Self::Soft(soft) => three(&soft.frequency_hz),
         }
-        // Rare: a part that hardly swings, or one for which an impact takes its time.
-        let Ok(suspension) = clatter_shock::DampingRatio::new(*zeta).and_then(|zeta| Suspension::new(omega, zeta))
+    }
+
+    fn peaks(&self, clatter: &Clatter, s: f64, own: f64) -> Peaks {
+        match self {
+            Self::Soft(soft) if soft.pulse_s.is_some() => soft.response(clatter, s, own),
+            _ => self.at_most(clatter, s, own),
+        }
+    }
+
+    /// Peaks by impulses, which pulses do not pass.
+    fn at_most(&self, clatter: &Clatter, s: f64, own: f64) -> Peaks {
+        let Self::Soft(soft) = self else { return Peaks::default() };
+        match &soft.swing {
+            Some(swing) => clatter.peaks(s, TAU * soft.frequency_hz.at(own), swing),
+            None => soft.response(clatter, s, own),
+        }
+    }
+}
+
+impl Soft {
+    /// Rare: a part that hardly swings, or one for which an impact takes its time.
+    fn response(&self, clatter: &Clatter, s: f64, own: f64) -> Peaks {
+        let omega = TAU * self.frequency_hz.at(own);
+        let Ok(suspension) = clatter_shock::DampingRatio::new(self.zeta).and_then(|zeta| Suspension::new(omega, zeta))
         else {
             unreachable!("the frequency and the damping were accepted before")
         };
         let shocks = clatter.shocks_at(s);
-        let response = match pulse_s {
+        let response = match self.pulse_s {
             Some(duration) => {
                 let pulse = |(start, delta_v): (f64, f64)| Pulse {
                     shape: Shape::HalfSine,
                     amplitude: FRAC_PI_2 * delta_v / duration,
-                    duration: *duration,
+                    duration,
                     start,
                 };
                 Pulses::new(&shocks.map(pulse).collect::<Vec<_>>()).map(|pulses| pulses.respond(&suspension))
