@@ -180,6 +180,10 @@ pub(super) struct Peaks {
 }
 
 impl Peaks {
+    pub(super) fn raise(&mut self, other: &Self) {
+        self.displacement = self.displacement.max(other.displacement);
+        self.acceleration = self.acceleration.max(other.acceleration);
+    }
     fn scaled(self, omega: f64) -> Self {
         Self { displacement: self.displacement / omega, acceleration: self.acceleration * omega }
     }

@@ -21,7 +21,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use ::clatter::End;
 use ::clatter::flight::Body;
-use clatter_shock::{Pulse, Pulses, Shape, Suspension, VelocityShock, VelocityShocks};
+use clatter_shock::{DampingRatio, Extreme, Peaked, Pulse, Pulses, Shape, Suspension, VelocityShock, VelocityShocks};
 use rayon::prelude::*;
 
 use crate::models::{INSTANT_PULSE, lacks_contact_time};
@@ -188,7 +188,8 @@ pub struct Sampler {
     /// By the end that strikes first.
     bars: [Falling; 2],
     length_m: f64,
-    first: First,
+    /// The ends that may strike first.
+    first: &'static [End],
     fall: Quantile,
     /// 2g where the fall is a height: v = √(2gh).
     twice_gravity: Option<f64>,
@@ -250,6 +251,8 @@ struct Soft {
     swing: Option<Swing>,
     /// Length of a pulse, where it counts.
     pulse_s: Option<f64>,
+    /// The quantities that have limits.
+    asked: Vec<Peaked>,
 }
 
 /// A limit, as what a demand is divided by.
@@ -335,7 +338,7 @@ impl Sampler {
             settings,
             bars: [Falling::new(&product.body, End::A), Falling::new(&product.body, End::B)],
             length_m: product.body.length_m(),
-            first: drop.first,
+            first: drop.first_ends(),
             fall,
             twice_gravity,
             tilt,
@@ -415,7 +418,7 @@ impl Sampler {
             follow(&mut clatter, corner);
             for (part, bounds) in self.parts.iter().zip(&mut bounds) {
                 bounds.extend(part.mount.corners().iter().map(|&own| {
-                    let at_most = |s| part.mount.at_most(&clatter, s, own);
+                    let at_most = |peaks: &mut Peaks, s| part.mount.raise_to_bound(peaks, &clatter, s, own);
                     (part.utilization(&clatter, corner.mirror, self.length_m, at_most, |_| ()), corner, own)
                 }));
             }
@@ -428,7 +431,7 @@ impl Sampler {
                     break;
                 }
                 follow(&mut clatter, corner);
-                let peaks = |s| part.mount.peaks(&clatter, s, own);
+                let peaks = |peaks: &mut Peaks, s| part.mount.raise(peaks, &clatter, s, own);
                 *worst = worst.max(part.utilization(&clatter, corner.mirror, self.length_m, peaks, |_| ()));
             }
         }
@@ -437,14 +440,9 @@ impl Sampler {
 
     /// Drops at [`TILTS`] tilts and the ends and medians of the speeds.
     fn corners(&self, body: &Body) -> Vec<Corner> {
-        let ends: &[End] = match self.first {
-            First::End(End::A) => &[End::A],
-            First::End(End::B) => &[End::B],
-            First::Either => &[End::A, End::B],
-        };
         let tilts = if self.tilt.is_value() { 1 } else { TILTS };
         let mut corners = Vec::new();
-        for &end in ends {
+        for &end in self.first {
             let (bar, mirror) = (Falling::new(body, end), if end == End::A { 1.0 } else { -1.0 });
             for &u in three(&self.fall) {
                 let speed_m_s = self.speed(u);
@@ -471,10 +469,10 @@ impl Sampler {
         let mut clatter = Clatter::default();
         for sample in from..to {
             Stream::new(self.settings.seed, sample).fill(&mut uniforms);
-            let first = match self.first {
-                First::End(end) => end,
-                First::Either if uniforms[0] < 0.5 => End::A,
-                First::Either => End::B,
+            let first = match *self.first {
+                [end] => end,
+                _ if uniforms[0] < 0.5 => End::A,
+                _ => End::B,
             };
             let speed = self.speed(uniforms[1]);
             let (tilt, e) = (self.tilt.at(uniforms[2]), self.restitution.at(uniforms[3]));
@@ -483,7 +481,8 @@ impl Sampler {
             let mut all = true;
             for (i, part) in self.parts.iter().enumerate() {
                 let own = uniforms[SHARED + i];
-                let (peaks, failures) = (|s| part.mount.peaks(&clatter, s, own), &mut tallies[i].limits);
+                let peaks = |peaks: &mut Peaks, s| part.mount.raise(peaks, &clatter, s, own);
+                let failures = &mut tallies[i].limits;
                 let utilization = part.utilization(&clatter, mirror, self.length_m, peaks, |k| failures[k] += 1);
                 tallies[i].add(sample, utilization, part.ranks(&uniforms, own));
                 all &= utilization <= 1.0;
@@ -544,6 +543,13 @@ impl Part {
                     zeta,
                     swing: (zeta < LARGEST_DAMPING).then(|| Swing::new(suspension.damping().get())),
                     pulse_s: contact_s.filter(long),
+                    asked: [
+                        component.limits.acceleration_m_s2.map(|_| Peaked::AccelerationOverOmega),
+                        component.limits.rattle_space_m.map(|_| Peaked::PseudoVelocity),
+                    ]
+                    .into_iter()
+                    .flatten()
+                    .collect(),
                 }))
             }
         };
@@ -574,30 +580,24 @@ impl Part {
         })
     }
 
-    /// The largest demand over allowed, by the peaks of a response at a position; told which limits do not hold.
+    /// The largest demand over allowed, by what raises peaks to those at a position; told which limits do not hold.
     fn utilization(
         &self,
         clatter: &Clatter,
         mirror: f64,
         length_m: f64,
-        peaks_at: impl Fn(f64) -> Peaks,
+        raise: impl Fn(&mut Peaks, f64),
         mut fails: impl FnMut(usize),
     ) -> f64 {
         let mut shock = 0.0_f64;
         let mut peaks = Peaks::default();
-        let needs = |kind: fn(&Allowed) -> bool| self.limits.iter().any(|(_, allowed)| kind(allowed));
-        let responds = needs(|allowed| matches!(allowed, Allowed::Displacement(_) | Allowed::Acceleration(_)));
-        let shaken = needs(|allowed| matches!(allowed, Allowed::Shock(_)));
+        let shaken = self.limits.iter().any(|(_, allowed)| matches!(allowed, Allowed::Shock(_)));
         for place in &self.places {
             let s = mirror * place;
             if shaken {
                 shock = shock.max(clatter.largest_shock(s));
             }
-            if responds {
-                let here = peaks_at(s);
-                peaks.displacement = peaks.displacement.max(here.displacement);
-                peaks.acceleration = peaks.acceleration.max(here.acceleration);
-            }
+            raise(&mut peaks, s);
         }
         let mut most = 0.0_f64;
         for (k, (_, allowed)) in self.limits.iter().enumerate() {
@@ -644,33 +644,34 @@ impl Held {
         }
     }
 
-    fn peaks(&self, clatter: &Clatter, s: f64, own: f64) -> Peaks {
+    /// Raises peaks to those at a position, in the quantities that have limits.
+    fn raise(&self, peaks: &mut Peaks, clatter: &Clatter, s: f64, own: f64) {
         match self {
-            Self::Soft(soft) if soft.pulse_s.is_some() => soft.response(clatter, s, own),
-            _ => self.at_most(clatter, s, own),
+            Self::Soft(soft) if soft.pulse_s.is_some() => soft.raise(peaks, clatter, s, own),
+            _ => self.raise_to_bound(peaks, clatter, s, own),
         }
     }
 
-    /// Peaks by impulses, which pulses do not pass.
-    fn at_most(&self, clatter: &Clatter, s: f64, own: f64) -> Peaks {
-        let Self::Soft(soft) = self else { return Peaks::default() };
+    /// The same by impulses, whose peaks those of pulses do not pass.
+    fn raise_to_bound(&self, peaks: &mut Peaks, clatter: &Clatter, s: f64, own: f64) {
+        let Self::Soft(soft) = self else { return };
         match &soft.swing {
-            Some(swing) => clatter.peaks(s, TAU * soft.frequency_hz.at(own), swing),
-            None => soft.response(clatter, s, own),
+            _ if soft.asked.is_empty() => {}
+            Some(swing) => peaks.raise(&clatter.peaks(s, TAU * soft.frequency_hz.at(own), swing)),
+            None => soft.raise(peaks, clatter, s, own),
         }
     }
 }
 
 impl Soft {
-    /// Rare: a part that hardly swings, or one for which an impact takes its time.
-    fn response(&self, clatter: &Clatter, s: f64, own: f64) -> Peaks {
+    /// By the exact response, of a part that hardly swings or for which an impact takes its time.
+    fn raise(&self, peaks: &mut Peaks, clatter: &Clatter, s: f64, own: f64) {
         let omega = TAU * self.frequency_hz.at(own);
-        let Ok(suspension) = clatter_shock::DampingRatio::new(self.zeta).and_then(|zeta| Suspension::new(omega, zeta))
-        else {
+        let Ok(suspension) = DampingRatio::new(self.zeta).and_then(|zeta| Suspension::new(omega, zeta)) else {
             unreachable!("the frequency and the damping were accepted before")
         };
         let shocks = clatter.shocks_at(s);
-        let response = match self.pulse_s {
+        let raised = match self.pulse_s {
             Some(duration) => {
                 let pulse = |(start, delta_v): (f64, f64)| Pulse {
                     shape: Shape::HalfSine,
@@ -678,15 +679,25 @@ impl Soft {
                     duration,
                     start,
                 };
-                Pulses::new(&shocks.map(pulse).collect::<Vec<_>>()).map(|pulses| pulses.respond(&suspension))
+                Pulses::new(&shocks.map(pulse).collect::<Vec<_>>())
+                    .map(|pulses| self.raise_by(peaks, omega, |of, above| pulses.peak_above(&suspension, of, above)))
             }
             None => VelocityShocks::new(shocks.map(|(time, delta_v)| VelocityShock { time, delta_v }).collect())
-                .map(|shocks| shocks.respond(&suspension)),
+                .map(|shocks| self.raise_by(peaks, omega, |of, above| shocks.peak_above(&suspension, of, above))),
         };
-        let Ok(response) = response else { unreachable!("shocks of a train are finite and in order") };
-        Peaks {
-            displacement: response.relative_displacement.magnitude(),
-            acceleration: response.absolute_acceleration.magnitude(),
+        let Ok(()) = raised else { unreachable!("shocks of a train are finite and in order") };
+    }
+
+    /// Raises peaks to those of a response that passes them.
+    fn raise_by(&self, peaks: &mut Peaks, omega: f64, peak_above: impl Fn(Peaked, f64) -> Option<Extreme>) {
+        for &asked in &self.asked {
+            let (peak, unit) = match asked {
+                Peaked::PseudoVelocity => (&mut peaks.displacement, 1.0 / omega),
+                Peaked::AccelerationOverOmega => (&mut peaks.acceleration, omega),
+            };
+            if let Some(higher) = peak_above(asked, *peak / unit) {
+                *peak = unit * higher.value.abs();
+            }
         }
     }
 }
