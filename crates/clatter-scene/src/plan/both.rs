@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 use clatter::flight::{Body, Scene};
 use clatter::{Bar, Start};
 
-use super::lane::Ends;
+use super::ends::Ends;
 
 /// Both ends after it, the one that lands first, for an approach velocity of −1 and a contact time of 1.
 #[derive(Debug, Clone, Copy, Default)]

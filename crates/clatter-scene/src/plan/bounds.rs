@@ -1,19 +1,8 @@
 //! What can still come, by the energy that is left.
 
-use super::lane::Ends;
+use super::ends::Ends;
+use super::floats::{greater, lesser};
 use super::swing::Swing;
-
-/// The smaller one, and b for a NaN: one instruction, where `f64::min` takes five.
-#[inline]
-pub(super) fn lesser(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
-}
-
-/// The larger one, and b for a NaN.
-#[inline]
-pub(super) fn greater(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
 
 /// Bound on the shocks to come of a bar whose speed at the component stays below `speed`: by one contact, which throws back (1 + e) of
 /// it, or by both together, about; with e = 1 whatever overlaps.

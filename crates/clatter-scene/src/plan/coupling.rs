@@ -1,6 +1,6 @@
 //! Contacts that act on each other through the bar.
 
-use super::lane::Ends;
+use super::ends::Ends;
 use super::pulse::Pulse;
 
 /// Share of a shock that pushes an end which has just parted down once more.

@@ -2,7 +2,7 @@
 
 use clatter::flight::Scene;
 
-use super::lane::Ends;
+use super::ends::Ends;
 use super::pulse::Pulse;
 use super::trail::{Course, Strikes, Trail};
 use super::walk::{Interval, Walker};

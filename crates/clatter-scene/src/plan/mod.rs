@@ -58,6 +58,8 @@ mod bounds;
 mod choice;
 mod coupling;
 pub(crate) mod demand;
+mod ends;
+mod floats;
 mod forecast;
 pub(crate) mod history;
 mod lane;

@@ -4,7 +4,7 @@ use clatter::End;
 use clatter::flight::{CompliantFlight, Flight, Model, Scene, Stop, Strike};
 
 use super::bounds::{largest_pile, later_response, later_shock, pile, pile_until_rest, weight};
-use super::lane::Ends;
+use super::ends::Ends;
 use super::pulse::Pulse;
 use super::swing::{Motion, Swing};
 use super::{Quantity, STRIKES, Setup};

@@ -3,7 +3,7 @@
 //! `x″ + 2ζ x′ + x = 0`; a quantity is Q = r₀ x + r₁ w, with r = (1, 0) for the relative displacement ωz and (1, 2ζ) for the absolute
 //! acceleration over ω, sign aside. Next to ζ = 1 the damping is shifted by 5·10⁻⁷, far below what an estimate is good for.
 
-use super::bounds::{greater, lesser};
+use super::floats::{greater, lesser};
 
 /// The component and the quantity asked of it.
 #[derive(Debug, Clone, Copy)]

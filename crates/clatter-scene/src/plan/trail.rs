@@ -4,9 +4,11 @@ use clatter::flight::Scene;
 
 use super::STRIKES;
 use super::both::Both;
-use super::bounds::{greater, largest_pile};
+use super::bounds::largest_pile;
 use super::coupling::{Coupled, Coupling};
-use super::lane::{Ends, Lane, MapLane, Next, Own, Strike};
+use super::ends::Ends;
+use super::floats::greater;
+use super::lane::{Lane, MapLane, Next, Own, Strike};
 use super::pulse::Pulse;
 use super::swing::{Swing, Turn};
 

@@ -1,8 +1,10 @@
 //! The first strikes of a drop as one component has them, in four lanes at once.
 
-use super::bounds::{greater, later_response, later_shock, lesser, pile_until_rest, weight};
+use super::bounds::{later_response, later_shock, pile_until_rest, weight};
 use super::coupling::of;
-use super::lane::{Ends, MapLane};
+use super::ends::Ends;
+use super::floats::{greater, lesser};
+use super::lane::MapLane;
 use super::swing::{Motion, Swing};
 use super::trail::{Course, Step, Strikes};
 
