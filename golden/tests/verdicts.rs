@@ -10,7 +10,8 @@ const EXAMPLES: [&str; 3] = [
     include_str!("../../reports/examples/laptop.toml"),
 ];
 
-/// Three digits, more than any drop is known to: the search resolves no more, and a demand that is proven stands up to half a percent above the worst drop.
+/// Three digits, more than any drop is known to: the search resolves no more, and a demand that is proven stands up to
+/// half a percent above the worst drop.
 #[test]
 fn the_worked_products() {
     let mut text = String::new();

@@ -35,8 +35,8 @@ fn file(dir: &tempfile::TempDir, name: &str, text: &str) -> String {
     path.display().to_string()
 }
 
-/// Section 6 of the paper: (0.73, 0.2) alone has the 10 % zone that is asked for; all its suggestions keep nearly all of the bar
-/// within 2 v0, and the free optimum is all mass in the center of a dead casing.
+/// Section 6 of the paper: (0.73, 0.2) alone has the 10 % zone that is asked for; all its suggestions keep nearly all
+/// of the bar within 2 v0, and the free optimum is all mass in the center of a dead casing.
 #[test]
 fn the_paper_s_example_is_the_default() {
     let found = answer(["design"]);

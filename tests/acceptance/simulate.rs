@@ -137,7 +137,8 @@ fn a_height_is_the_speed_that_it_gives() {
 
 #[test]
 fn a_thick_body_stands_on_its_corners_and_may_turn_over() {
-    // Length 2, thickness 1 and radius of gyration 1 at 45 degrees: the free end gets 5/9 of the jump of the struck one.
+    // Length 2, thickness 1 and radius of gyration 1 at 45 degrees: the free end gets 5/9 of the jump of the struck
+    // one.
     let square = ["--length-m=2", "--gyration-m=1", "--thickness-m=1", "--tilt-deg=45", "--speed-m-s=1", "--e=0.5"];
     let got = answer(arguments("finite-tilt", &square));
     let [a, b] = [0, 1].map(|end| got["impacts"][0]["delta_v_m_s"][end].as_f64().unwrap());

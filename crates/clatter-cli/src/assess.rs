@@ -18,8 +18,8 @@ use crate::{Exit, Failure, Streams};
 ///
 /// For every limit of every component the worst drop over all stated ranges is found. Without gravity, for small tilt
 /// and for parts to which an impact is a velocity shock, the demand is proven: no drop of the ranges passes it. Where
-/// more physics counts, the ranges are searched, each drop by the cheapest models within the tolerance ('clatter explain' tells
-/// which and why), and the table says so. 'clatter init' writes a product file.
+/// more physics counts, the ranges are searched, each drop by the cheapest models within the tolerance ('clatter
+/// explain' tells which and why), and the table says so. 'clatter init' writes a product file.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -41,8 +41,8 @@ pub(crate) struct Args {
     /// What models may get wrong in drops that are searched, as a share of the demand: 0.01 or 1%
     #[arg(long, value_name = "SHARE", default_value = "1%", allow_hyphen_values = true, value_parser = inputs::tolerance)]
     tolerance: f64,
-    /// Follow every drop that is searched by this model of the bar, rather than by the cheapest within the tolerance; what is proven
-    /// without gravity stands beside it
+    /// Follow every drop that is searched by this model of the bar, rather than by the cheapest within the tolerance;
+    /// what is proven without gravity stands beside it
     #[arg(long, value_enum)]
     model: Option<inputs::BarName>,
     /// How to show the answer

@@ -21,11 +21,12 @@ use crate::{Failure, Streams, assess, output};
 
 /// Tell which q and e meet the limits, and what would make each failing part safe
 ///
-/// Of a product file: every component that 'clatter assess' finds unsafe, and for each thing that can be changed alone (the mass
-/// layout q, the restitution e, the part's place, its natural frequency, its damping) the smallest change that makes it safe,
-/// assessed again with it, or that none does within the bounds. Of goals (safe zones, in v0): where in the plane of q and e they
-/// are met, and the front of the largest zone against q for each e. Without either, the goals are the paper's example: v0/2
-/// in the middle tenth of the bar, 2 v0 in nearly all of it; the designs of its Table 1 stand beside the front.
+/// Of a product file: every component that 'clatter assess' finds unsafe, and for each thing that can be changed alone
+/// (the mass layout q, the restitution e, the part's place, its natural frequency, its damping) the smallest change
+/// that makes it safe, assessed again with it, or that none does within the bounds. Of goals (safe zones, in v0): where
+/// in the plane of q and e they are met, and the front of the largest zone against q for each e. Without either, the
+/// goals are the paper's example: v0/2 in the middle tenth of the bar, 2 v0 in nearly all of it; the designs of its
+/// Table 1 stand beside the front.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -39,8 +40,8 @@ pub(crate) struct Args {
     /// Product file
     #[arg(value_name = "PRODUCT.toml", value_hint = ValueHint::FilePath)]
     product: Option<PathBuf>,
-    /// Goal: shocks up to X v0 within S of the bar, its middle part in [0, 1]; may be given several times, and the first is the one
-    /// whose zone the front enlarges
+    /// Goal: shocks up to X v0 within S of the bar, its middle part in [0, 1]; may be given several times, and the
+    /// first is the one whose zone the front enlarges
     #[arg(long, value_name = "X:S", allow_hyphen_values = true, value_parser = zone, conflicts_with = "product")]
     zone: Vec<Goal>,
     /// Goal: changes of the angular velocity up to W, in v0/L
@@ -58,8 +59,8 @@ pub(crate) struct Args {
     /// Damping ratios that can be had, in [0, 10]
     #[arg(long, value_name = "LO:HI", default_value = "0:0.5", allow_hyphen_values = true, value_parser = damping_range)]
     damping: [f64; 2],
-    /// Write the plane of q and e to this file: .svg a picture, .csv its borders; of a product without gravity, at small
-    /// tilt and by instant impacts; takes seconds
+    /// Write the plane of q and e to this file: .svg a picture, .csv its borders; of a product without gravity, at
+    /// small tilt and by instant impacts; takes seconds
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = target)]
     output: Option<PathBuf>,
     /// Write the fronts of the largest zone to this file: .svg a picture, .csv their points
@@ -200,8 +201,8 @@ impl Args {
     }
 }
 
-/// The paper's example (section 6), threshold and zone: the second, “substantially most of the bar”, is met by all designs that
-/// it suggests.
+/// The paper's example (section 6), threshold and zone: the second, “substantially most of the bar”, is met by all
+/// designs that it suggests.
 const PAPER: [[f64; 2]; 2] = [[0.5, 0.1], [2.0, 0.85]];
 /// Restitutions whose fronts are given.
 const RESTITUTIONS: [f64; 7] = [0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3];

@@ -1,4 +1,5 @@
-//! A drop in SI units, and the model that follows it, as arguments of a command say them: one that has an argument `model`.
+//! A drop in SI units, and the model that follows it, as arguments of a command say them: one that has an argument
+//! `model`.
 
 use clap::ValueEnum;
 use clatter::Mass;
@@ -23,8 +24,8 @@ pub(crate) struct DropArgs {
     /// Where the center of mass lies, between -1 (end a) and 1 (end b); goes with --gyration-m
     #[arg(long, value_name = "S", default_value = "0", allow_hyphen_values = true, value_parser = inputs::center_of_mass, conflicts_with = "mass", requires = "model")]
     center_of_mass: f64,
-    /// Thickness of the body, in m, at most its length: at a tilt it stands on a corner, half of it below the line through the
-    /// center of mass; for finite-tilt, small tilts do not feel it
+    /// Thickness of the body, in m, at most its length: at a tilt it stands on a corner, half of it below the line
+    /// through the center of mass; for finite-tilt, small tilts do not feel it
     #[arg(long, value_name = "M", default_value = "0", allow_hyphen_values = true, value_parser = inputs::number, requires = "model")]
     pub(crate) thickness_m: f64,
     #[command(flatten)]

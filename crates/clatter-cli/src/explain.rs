@@ -13,10 +13,11 @@ use crate::{Failure, Streams, assess};
 
 /// Tell which models the drops of a product need, and why
 ///
-/// Two ladders of models, from the cheapest: how the bar moves (closed-form, map, ballistic, finite-tilt, compliant) and how a part
-/// answers (net-change, largest-shock, impulse-train, pulse-train). For each limit of each part: the cheapest pairs within the
-/// tolerance over the stated ranges, each with the share of the drops that it is enough for; and in the worst drop the pair, what
-/// made cheaper ones too coarse, and what the pair gets wrong. 'clatter assess' follows each drop by the pair told here.
+/// Two ladders of models, from the cheapest: how the bar moves (closed-form, map, ballistic, finite-tilt, compliant)
+/// and how a part answers (net-change, largest-shock, impulse-train, pulse-train). For each limit of each part: the
+/// cheapest pairs within the tolerance over the stated ranges, each with the share of the drops that it is enough for;
+/// and in the worst drop the pair, what made cheaper ones too coarse, and what the pair gets wrong. 'clatter assess'
+/// follows each drop by the pair told here.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

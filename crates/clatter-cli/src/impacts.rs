@@ -32,7 +32,8 @@ pub(crate) struct Args {
     /// Height of end b when end a first touches, in h0; 0 for a flat drop, whose impacts come all at once
     #[arg(long, value_name = "H0", default_value = "1", allow_hyphen_values = true, value_parser = inputs::height_gap)]
     height_gap: f64,
-    /// Also give the velocity shocks at this position, in [-1, 1]: -1 is end a, 0 the middle, 1 end b; may be given several times
+    /// Also give the velocity shocks at this position, in [-1, 1]: -1 is end a, 0 the middle, 1 end b; may be given
+    /// several times
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = inputs::position)]
     at: Vec<f64>,
     /// List at most so many impacts

@@ -76,7 +76,8 @@ impl BarArgs {
 pub(crate) struct OffCenterArgs {
     #[command(flatten)]
     bar: BarArgs,
-    /// Where the center of mass lies, between -1 (end a) and 1 (end b); goes with --gyration-ratio, whose ρ is then about it
+    /// Where the center of mass lies, between -1 (end a) and 1 (end b); goes with --gyration-ratio, whose ρ is then
+    /// about it
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = center_of_mass, conflicts_with_all = ["q", "mass"])]
     center_of_mass: Option<f64>,
 }

@@ -1,4 +1,5 @@
-//! Lists of shocks, pulses and tests that come as files: a header that names the columns, in any order, and a row for each.
+//! Lists of shocks, pulses and tests that come as files: a header that names the columns, in any order, and a row for
+//! each.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
@@ -112,7 +113,8 @@ pub(crate) fn pulses(path: &Path) -> Result<Vec<Pulse>, Failure> {
     Ok(list)
 }
 
-/// Shock tests: of rising velocity change in short pulses, in m/s, and of rising acceleration in long rectangles, in m/s².
+/// Shock tests: of rising velocity change in short pulses, in m/s, and of rising acceleration in long rectangles, in
+/// m/s².
 pub(crate) fn tests(path: &Path) -> Result<[Vec<Trial>; 2], Failure> {
     let mut lists = [Vec::new(), Vec::new()];
     rows(path, ["test", "level", "damaged"], |[test, level, damaged]| {

@@ -63,7 +63,8 @@ struct Inertia {
     /// Values of the inertia ratio q, in (-1, 1]: N values from LO to HI, both included
     #[arg(long, value_name = "LO:HI:N", allow_hyphen_values = true, value_parser = inputs::q_axis)]
     q: Option<Axis>,
-    /// Instead of q: values of the gyration ratio ρ/L, 0 or in [1e-35, 1e35], exact also where q is within rounding of 1
+    /// Instead of q: values of the gyration ratio ρ/L, 0 or in [1e-35, 1e35], exact also where q is within rounding of
+    /// 1
     #[arg(long, value_name = "LO:HI:N", allow_hyphen_values = true, value_parser = inputs::gyration_axis)]
     gyration_ratio: Option<Axis>,
 }

@@ -98,11 +98,12 @@ pub(crate) struct Args {
     /// Pulses instead of a clatter: a CSV file with the columns shape, amplitude_m_s2, duration_s and start_s
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = CLATTER, conflicts_with = "shocks_file")]
     pulses_file: Option<PathBuf>,
-    /// Also give the half-sine of a shock table that does the same to the component, or that there is none; in SI units alone
+    /// Also give the half-sine of a shock table that does the same to the component, or that there is none; in SI units
+    /// alone
     #[arg(long)]
     equivalent_pulse: bool,
-    /// What the shock table can do: its shortest and longest half-sine in ms, its highest acceleration in g, its largest velocity
-    /// change in m/s
+    /// What the shock table can do: its shortest and longest half-sine in ms, its highest acceleration in g, its
+    /// largest velocity change in m/s
     #[arg(long, value_name = "MS:MS,G,M_S", default_value = "0.2:20,5000,20", allow_hyphen_values = true, value_parser = excitation::shock_table, requires = "equivalent_pulse")]
     shock_table: ShockTable,
     /// Also write the rule over W h0/v0 to this file, ending in .csv, .json or .svg

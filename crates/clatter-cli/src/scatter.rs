@@ -18,10 +18,11 @@ use crate::{Failure, Streams, assess, output, progress};
 
 /// Tell how likely each part of a product survives, and what that hangs on
 ///
-/// Draws drops of the product from the distributions in its file (a plain range counts as equally likely all over it; with
-/// first = "either" both ends are) and compares what each part goes through with its limits: without gravity and at small tilt, the
-/// cheapest model, which 'clatter assess' holds against the others. The probability that a part survives comes with the interval of
-/// Clopper and Pearson, which holds the truth at least as often as it says, and with what it is at least.
+/// Draws drops of the product from the distributions in its file (a plain range counts as equally likely all over it;
+/// with first = "either" both ends are) and compares what each part goes through with its limits: without gravity and
+/// at small tilt, the cheapest model, which 'clatter assess' holds against the others. The probability that a part
+/// survives comes with the interval of Clopper and Pearson, which holds the truth at least as often as it says, and
+/// with what it is at least.
 ///
 /// What drives a part: the share of the variance of its utilization (demand over allowed) that an input explains alone
 /// (first-order index of Sobol), and the way it goes: + more is worse, - less is worse, ~ neither throughout.
@@ -46,7 +47,8 @@ pub(crate) struct Args {
     /// How sure the intervals are, between 0 and 1
     #[arg(long, value_name = "P", default_value = "0.95", allow_hyphen_values = true, value_parser = confidence)]
     confidence: f64,
-    /// Also write every sample to this file, ending in .csv: its drop, its frequencies and the utilization of every part
+    /// Also write every sample to this file, ending in .csv: its drop, its frequencies and the utilization of every
+    /// part
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = csv_file)]
     output: Option<PathBuf>,
     /// How to show the answer

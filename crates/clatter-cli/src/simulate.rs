@@ -62,11 +62,12 @@ pub(crate) struct Args {
     e: f64,
     #[command(flatten)]
     drop: DropArgs,
-    /// Also give the velocity shocks at this position, in [-1, 1]: -1 is end a, 0 the middle, 1 end b; may be given several times
+    /// Also give the velocity shocks at this position, in [-1, 1]: -1 is end a, 0 the middle, 1 end b; may be given
+    /// several times
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = inputs::position)]
     at: Vec<f64>,
-    /// Also write the whole motion to a file, ending in .csv, .json or .svg; what was there is replaced once the new file is
-    /// whole
+    /// Also write the whole motion to a file, ending in .csv, .json or .svg; what was there is replaced once the new
+    /// file is whole
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = target)]
     output: Option<Target>,
     /// How to show the strikes
@@ -78,11 +79,12 @@ pub(crate) struct Args {
 #[derive(Debug, clap::Args)]
 #[group(required = true, multiple = false)]
 struct Inertia {
-    /// Radius of gyration about the center of mass, in m: length/√12 for evenly spread mass; it may exceed the half-length
+    /// Radius of gyration about the center of mass, in m: length/√12 for evenly spread mass; it may exceed the
+    /// half-length
     #[arg(long, value_name = "M", allow_hyphen_values = true, value_parser = inputs::number)]
     gyration_m: Option<f64>,
-    /// Instead of it: a mass M in any unit at position S, or spread evenly from S to T, in half-lengths from the middle;
-    /// given once for each piece, like --mass=2@-1:1 --mass=1@0.5
+    /// Instead of it: a mass M in any unit at position S, or spread evenly from S to T, in half-lengths from the
+    /// middle; given once for each piece, like --mass=2@-1:1 --mass=1@0.5
     #[arg(long, value_name = "M@S[:T]", allow_hyphen_values = true, value_parser = inputs::mass)]
     mass: Vec<Mass>,
 }

@@ -80,12 +80,12 @@ pub(crate) struct Args {
     /// log-log paper
     #[arg(long, value_name = "X|HZ:X,…", allow_hyphen_values = true, value_parser = excitation::limit)]
     limit: Option<LimitArg>,
-    /// Also give the damage boundary of one pulse at one frequency, for a --limit of acceleration or relative displacement, or
-    /// from --tests
+    /// Also give the damage boundary of one pulse at one frequency, for a --limit of acceleration or relative
+    /// displacement, or from --tests
     #[arg(long)]
     damage_boundary: bool,
-    /// Take the damage boundary from these shock tests, for a pulse that is a rectangle: a CSV file with the columns test, level
-    /// and damaged
+    /// Take the damage boundary from these shock tests, for a pulse that is a rectangle: a CSV file with the columns
+    /// test, level and damaged
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "damage_boundary", conflicts_with = "limit")]
     tests: Option<PathBuf>,
     /// File to write, ending in .csv, .json or .svg; what was there is replaced once the new file is whole

@@ -2,8 +2,8 @@
 
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
-/// A name as it can be printed: at most `width` columns, control and direction characters escaped, text that runs from right to
-/// left kept to itself.
+/// A name as it can be printed: at most `width` columns, control and direction characters escaped, text that runs from
+/// right to left kept to itself.
 pub(crate) fn shown(name: &str, width: usize) -> String {
     let mut text = String::new();
     let mut used = 0;

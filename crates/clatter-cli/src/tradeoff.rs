@@ -16,10 +16,10 @@ use crate::{Failure, Streams, output};
 
 /// Measure speed against accuracy: what every model gets wrong for each part of a product, and what it costs
 ///
-/// Two ladders of models: how the product moves (closed form, map, ballistic, finite tilt, compliant contact) and how a part answers
-/// (to the net change of velocity, the largest shock, a train of impulses, a train of pulses). Every pair that says something of a limit
-/// is run on one drop, the one that 'clatter assess' finds worst for the part's tightest limit, and held against the highest pair,
-/// computed finer. Times are of this machine; errors are the same everywhere.
+/// Two ladders of models: how the product moves (closed form, map, ballistic, finite tilt, compliant contact) and how a
+/// part answers (to the net change of velocity, the largest shock, a train of impulses, a train of pulses). Every pair
+/// that says something of a limit is run on one drop, the one that 'clatter assess' finds worst for the part's tightest
+/// limit, and held against the highest pair, computed finer. Times are of this machine; errors are the same everywhere.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

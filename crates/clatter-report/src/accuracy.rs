@@ -47,7 +47,8 @@ pub struct Measured {
     pub extreme: String,
     /// The quantity.
     pub quantity: &'static str,
-    /// What is allowed, relative to what `clatter::accuracy` and `clatter_shock::accuracy` say; `None` where nothing is promised.
+    /// What is allowed, relative to what `clatter::accuracy` and `clatter_shock::accuracy` say; `None` where nothing is
+    /// promised.
     pub allowed: Option<f64>,
     /// What ours is off by; `None` where the quantity has no value.
     pub measured: Option<f64>,

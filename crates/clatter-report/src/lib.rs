@@ -141,8 +141,8 @@ fn accuracy_files() -> Result<Vec<paper::File>, ReportError> {
 /// The shared style of all pages.
 const STYLE: &str = include_str!("../../../reports/style.typ");
 
-/// Computes and writes the files while typst is looked for, then sets the page from them and from `inputs`, which are not
-/// written, in a directory of its own.
+/// Computes and writes the files while typst is looked for, then sets the page from them and from `inputs`, which are
+/// not written, in a directory of its own.
 fn page(
     pdf: &str,
     (name, source): (&str, &str),
@@ -208,8 +208,8 @@ fn place(dir: &Path, name: &str, content: &[u8]) -> Result<PathBuf, ReportError>
     }
 }
 
-/// Writes the pages of an assessment to `pdf`: the verdict first, then a part at a time. Gives what the caller should tell the
-/// user, if anything.
+/// Writes the pages of an assessment to `pdf`: the verdict first, then a part at a time. Gives what the caller should
+/// tell the user, if anything.
 ///
 /// The file is written beside its place and renamed; the same assessment gives the same bytes.
 ///
@@ -262,8 +262,8 @@ pub fn fronts_svg(fronts: &DesignFronts) -> String {
     figure::design::fronts(fronts)
 }
 
-/// Error over cost of every pair of models in one scene, log-log: the front as a stepped line, the plan's choices ringed. What has an
-/// error below what the reference is known to stands in a strip of its own at the foot.
+/// Error over cost of every pair of models in one scene, log-log: the front as a stepped line, the plan's choices
+/// ringed. What has an error below what the reference is known to stands in a strip of its own at the foot.
 ///
 /// ```
 /// use clatter_scene::plan::Quantity;
@@ -333,8 +333,8 @@ pub struct Drop<'a> {
 }
 
 /// A drop as a picture: heights of both ends over time with the strikes marked, the velocity shocks below, and, where
-/// contacts take time, forces and accelerations below these. Where the later strikes come much later than the first, the
-/// first stand beside the whole, magnified.
+/// contacts take time, forces and accelerations below these. Where the later strikes come much later than the first,
+/// the first stand beside the whole, magnified.
 ///
 /// ```
 /// use clatter::flight::{Body, Model, Scene};
@@ -351,8 +351,8 @@ pub fn drop_svg(drop: &Drop<'_>) -> String {
     figure::drop::drop(drop)
 }
 
-/// A shock response spectrum on log-log paper, with a limit and the least margin if there is one; the pseudo-velocity on
-/// four-coordinate paper, whose diagonals are relative displacement and acceleration.
+/// A shock response spectrum on log-log paper, with a limit and the least margin if there is one; the pseudo-velocity
+/// on four-coordinate paper, whose diagonals are relative displacement and acceleration.
 ///
 /// ```
 /// use clatter_shock::{DampingRatio, Frequencies, Quantity, VelocityShock, VelocityShocks};
@@ -367,8 +367,8 @@ pub fn spectrum_svg(spectrum: &clatter_shock::Spectrum, limit: Option<&clatter_s
     figure::shock::spectrum(spectrum, limit)
 }
 
-/// A damage boundary: acceleration over velocity change, log-log, `curve` from [`clatter_shock::DamageBoundary::curve`] and
-/// a pulse at (velocity change, acceleration) on it.
+/// A damage boundary: acceleration over velocity change, log-log, `curve` from [`clatter_shock::DamageBoundary::curve`]
+/// and a pulse at (velocity change, acceleration) on it.
 #[must_use]
 pub fn damage_boundary_svg(boundary: &clatter_shock::DamageBoundary, curve: &[(f64, f64)], pulse: [f64; 2]) -> String {
     figure::shock::damage_boundary(boundary, curve, pulse)

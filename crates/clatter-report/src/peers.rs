@@ -1,4 +1,5 @@
-//! What other tools make of the same scenes: `peers/results.json`, as `peers/run.py` last wrote it, as rows and a figure.
+//! What other tools make of the same scenes: `peers/results.json`, as `peers/run.py` last wrote it, as rows and a
+//! figure.
 
 use std::collections::BTreeMap;
 

@@ -51,11 +51,11 @@ struct BarTrade {
 }
 
 /// The trade between speed and accuracy for the four bars of Table 1 (peak acceleration; the scenes are those of
-/// [`bars`]) and for every part of the three worked products: `trade.json`, and a figure for each. The JSON also has how many strikes of
-/// three endless trains are worth keeping.
+/// [`bars`]) and for every part of the three worked products: `trade.json`, and a figure for each. The JSON also has
+/// how many strikes of three endless trains are worth keeping.
 ///
-/// Errors, estimates, counts and choices are the same from run to run, `seconds` and what follows from them (`front`) are of the
-/// machine.
+/// Errors, estimates, counts and choices are the same from run to run, `seconds` and what follows from them (`front`)
+/// are of the machine.
 ///
 /// # Errors
 /// None in practice: all scenes are valid.

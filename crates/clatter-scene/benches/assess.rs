@@ -1,7 +1,8 @@
 //! Assessments of ten components with two limits each over full ranges, by what the scene needs.
 //!
-//! Wall time on a shared machine of 2 cores at 2.9 GHz, at a quiet moment: 33 ms with contacts that take time, 18 ms without; on a
-//! busy one twice that and more. With contacts it is 0.43 thousand million instructions, all of it spread over the cores.
+//! Wall time on a shared machine of 2 cores at 2.9 GHz, at a quiet moment: 33 ms with contacts that take time, 18 ms
+//! without; on a busy one twice that and more. With contacts it is 0.43 thousand million instructions, all of it spread
+//! over the cores.
 
 use std::fmt::Write as _;
 

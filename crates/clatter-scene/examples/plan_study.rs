@@ -1,6 +1,7 @@
 //! The study that holds the error estimates: `cargo run --release --example plan_study -- [SCENES] [SEED] [FILE]`.
 //!
-//! Without a seed it takes one from the clock, and prints it. The file gets what the accuracy report shows of it, as JSON.
+//! Without a seed it takes one from the clock, and prints it. The file gets what the accuracy report shows of it, as
+//! JSON.
 
 #[path = "../tests/plan_study/mod.rs"]
 mod plan_study;
@@ -27,7 +28,8 @@ struct Row {
     quantity: Option<Quantity>,
     tolerance: f64,
     within: f64,
-    /// Scenes and quantities beyond three times the tolerance without a warning, and the largest error without one, over the tolerance.
+    /// Scenes and quantities beyond three times the tolerance without a warning, and the largest error without one,
+    /// over the tolerance.
     beyond: usize,
     worst: f64,
     over_cheapest: f64,

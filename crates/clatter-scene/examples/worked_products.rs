@@ -1,9 +1,10 @@
 //! What plans save on the worked products: `cargo run --release --example worked_products -- [TOLERANCE] [RUNS]`.
 //!
-//! Drop by drop, where the plan is not the highest rung: the time to plan and to run the plan; that of the highest rung until nothing
-//! later counts, which without contact time the plan has to tell it; and until rest. Then limit by limit: each is assessed alone, by
-//! plans and by the highest rung that the product has, on one thread; the shortest of a few runs counts. An assessment looks at all
-//! drops, but follows only those that may be the worst, so that both ways share most of it.
+//! Drop by drop, where the plan is not the highest rung: the time to plan and to run the plan; that of the highest rung
+//! until nothing later counts, which without contact time the plan has to tell it; and until rest. Then limit by limit:
+//! each is assessed alone, by plans and by the highest rung that the product has, on one thread; the shortest of a few
+//! runs counts. An assessment looks at all drops, but follows only those that may be the worst, so that both ways share
+//! most of it.
 
 use std::time::{Duration, Instant};
 
@@ -97,9 +98,9 @@ fn only(component: &Component, kind: LimitKind) -> Component {
     Component { limits, ..component.clone() }
 }
 
-/// Drops whose plan is not the highest rung, all drops, and the mean times in us over the former to plan and run the plan, and to run
-/// the highest rung until nothing later counts and until rest: 17 tilts, 3 restitutions, either end first, the ends of each component
-/// and 3 of its frequencies.
+/// Drops whose plan is not the highest rung, all drops, and the mean times in us over the former to plan and run the
+/// plan, and to run the highest rung until nothing later counts and until rest: 17 tilts, 3 restitutions, either end
+/// first, the ends of each component and 3 of its frequencies.
 fn by_drops(file: &ProductFile, tolerance: f64) -> (u32, u32, [f64; 3]) {
     let highest = match file.product.contact_time_s {
         Some(_) => Pair::HIGHEST,

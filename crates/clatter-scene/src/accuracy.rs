@@ -7,7 +7,8 @@ use crate::{BarModel, Error};
 pub struct Accuracy {
     /// By how much the models may let the truth pass each demand, as a share of it; in [1e-4, 0.5].
     pub tolerance: f64,
-    /// How the bar moves in every drop that is searched; the cheapest within the tolerance, drop by drop, if none is named.
+    /// How the bar moves in every drop that is searched; the cheapest within the tolerance, drop by drop, if none is
+    /// named.
     pub model: Option<BarModel>,
 }
 

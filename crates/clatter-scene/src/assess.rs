@@ -26,7 +26,8 @@ struct Case {
 }
 
 impl ProductFile {
-    /// The worst case of every component over all stated ranges, and whether it stands it: [`assess_to`](Self::assess_to) 1 %.
+    /// The worst case of every component over all stated ranges, and whether it stands it:
+    /// [`assess_to`](Self::assess_to) 1 %.
     ///
     /// # Errors
     /// As [`assess_to`](Self::assess_to).
@@ -47,23 +48,24 @@ impl ProductFile {
     /// The same to an accuracy asked.
     ///
     /// # Method
-    /// Without gravity, at small tilt and for velocity shocks, the demand is proven: bounds over the ranges leave no drop out, and
-    /// lie at most 0.5 % above what the stated drop attains (where more work than is set aside would be needed, `tolerance` says
-    /// how much). Where gravity, real tilt or contact that takes time count, the ranges are searched: 17 tilts, 2 speeds, 3
-    /// restitutions, 3 frequencies, both ends of the part and either end first. At each of these places a forecast tells the cheapest
-    /// models within the tolerance ([`plan`](crate::plan)) and the most that they may give; places are followed from the highest,
-    /// until none that is left may pass the worst found. Around that the step is halved, three times or until half the tolerance
-    /// is not gained. The larger of both demands counts. For a part that is so stiff that a pulse is no velocity shock, the search
-    /// alone counts. What a body does that has bounced clear hangs on every value: where the energy it has left does not rule out that it
+    /// Without gravity, at small tilt and for velocity shocks, the demand is proven: bounds over the ranges leave no
+    /// drop out, and lie at most 0.5 % above what the stated drop attains (where more work than is set aside would be
+    /// needed, `tolerance` says how much). Where gravity, real tilt or contact that takes time count, the ranges are
+    /// searched: 17 tilts, 2 speeds, 3 restitutions, 3 frequencies, both ends of the part and either end first. At each
+    /// of these places a forecast tells the cheapest models within the tolerance ([`plan`](crate::plan)) and the most
+    /// that they may give; places are followed from the highest, until none that is left may pass the worst found.
+    /// Around that the step is halved, three times or until half the tolerance is not gained. The larger of both
+    /// demands counts. For a part that is so stiff that a pulse is no velocity shock, the search alone counts. What a
+    /// body does that has bounced clear hangs on every value: where the energy it has left does not rule out that it
     /// asks for more, a warning says so.
     ///
-    /// With a model named, every place of the grid is followed by it, with the cheapest way of the components to answer that is within
-    /// the tolerance; the proof still stands beside it.
+    /// With a model named, every place of the grid is followed by it, with the cheapest way of the components to answer
+    /// that is within the tolerance; the proof still stands beside it.
     ///
     /// # Errors
-    /// [`Error::Tolerance`] for a tolerance outside [1e-4, 0.5]; [`Error::ContactTime`] for a stiff or hard-mounted part of a product
-    /// without contact time, [`Error::Contact`] for the compliant model of one; [`Error::Bar`] and [`Error::Shock`] for values that
-    /// the models do not take.
+    /// [`Error::Tolerance`] for a tolerance outside [1e-4, 0.5]; [`Error::ContactTime`] for a stiff or hard-mounted
+    /// part of a product without contact time, [`Error::Contact`] for the compliant model of one; [`Error::Bar`] and
+    /// [`Error::Shock`] for values that the models do not take.
     pub fn assess_to(&self, accuracy: &Accuracy) -> Result<Assessment, Error> {
         accuracy.check()?;
         if accuracy.model == Some(BarModel::Compliant) && self.product.contact_time_s.is_none() {
@@ -104,8 +106,9 @@ impl ProductFile {
         Ok(Assessment { product: self.product.name.clone(), verdict: Verdict::of(safe), components })
     }
 
-    /// The demands of all limits without gravity, at small tilt and for velocity shocks: what no drop of the ranges passes, component
-    /// by component in the order of [`ComponentAssessment::limits`]; `None` where that model says nothing of the limit.
+    /// The demands of all limits without gravity, at small tilt and for velocity shocks: what no drop of the ranges
+    /// passes, component by component in the order of [`ComponentAssessment::limits`]; `None` where that model says
+    /// nothing of the limit.
     ///
     /// # Errors
     /// As [`ProductFile::assess`].

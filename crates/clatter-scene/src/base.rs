@@ -29,7 +29,8 @@ pub struct SingleDrop {
 }
 
 impl SingleDrop {
-    /// When a body of this length has bounced clear: the gap of its raised end, twice over, and half of the flight of 2 e v0/g.
+    /// When a body of this length has bounced clear: the gap of its raised end, twice over, and half of the flight of 2
+    /// e v0/g.
     pub(crate) fn clear_s(&self, length_m: f64) -> f64 {
         let gap_m = length_m * libm::sin(self.tilt_rad);
         2.0 * gap_m / self.speed_m_s + self.restitution * self.speed_m_s / self.gravity_m_s2
@@ -95,8 +96,9 @@ impl Cells {
     fn halvings(&self, suspension: &Suspension, contact_time_s: f64) -> usize {
         self.halvings_to(fineness(suspension, contact_time_s))
     }
-    /// The same to contacts that are modeled, whose pieces have the exact change of velocity and path: a part that turns by less than
-    /// [`STIFF`] in one needs fewer. Of random drops and parts, eight pieces do below a phase of 1 what 400 do, to 4e-4.
+    /// The same to contacts that are modeled, whose pieces have the exact change of velocity and path: a part that
+    /// turns by less than [`STIFF`] in one needs fewer. Of random drops and parts, eight pieces do below a phase of 1
+    /// what 400 do, to 4e-4.
     fn halvings_of_contacts(&self, suspension: &Suspension, contact_time_s: f64) -> usize {
         let phase = suspension.omega() * contact_time_s * (1.0 + 2.0 * suspension.damping().get());
         let share = if phase < STIFF { (phase / STIFF).max(LEAST_FINE) } else { f64::INFINITY };
@@ -110,7 +112,8 @@ impl Cells {
 
 /// How often pieces are halved at most.
 const MOST_HALVINGS: usize = 2;
-/// Phase of a part in one contact, damping included, from which on it follows the pieces one by one; and the least share of the pieces below.
+/// Phase of a part in one contact, damping included, from which on it follows the pieces one by one; and the least
+/// share of the pieces below.
 const STIFF: f64 = 4.0;
 const LEAST_FINE: f64 = 0.26;
 
@@ -156,8 +159,9 @@ impl<'a> Fading<'a> {
         let reach2 = (1.0 + e).powi(2) * (1.0 + (a.max(b) / body.gyration_m()).powi(2));
         Self { scene, reach2, largest: 0.0 }
     }
-    /// Whether all that can come after this strike, which leaves the ends at these heights, is below a share of the largest shock. Asked of
-    /// every strike. Not by their number: an end that bounces by itself takes many, and the other one may land as hard as the first after that.
+    /// Whether all that can come after this strike, which leaves the ends at these heights, is below a share of the
+    /// largest shock. Asked of every strike. Not by their number: an end that bounces by itself takes many, and the
+    /// other one may land as hard as the first after that.
     fn is_weak(&mut self, strike: &Strike, height_m: [f64; 2], share: f64) -> bool {
         self.largest = strike.delta_v_m_s.iter().fold(self.largest, |most, v| most.max(v.abs()));
         (twice_energy(self.scene, strike, height_m) * self.reach2).sqrt() < share * self.largest
@@ -186,8 +190,8 @@ impl Base {
     /// Follows one drop.
     ///
     /// # Accuracy
-    /// Strikes are followed until they are weak: below 2e-4 of the largest, with contacts that take time 5e-3. Pulses are
-    /// polygons, whose peak and effect are within 1e-3 or so.
+    /// Strikes are followed until they are weak: below 2e-4 of the largest, with contacts that take time 5e-3. Pulses
+    /// are polygons, whose peak and effect are within 1e-3 or so.
     ///
     /// # Errors
     /// [`Error::Bar`] for a drop that the model does not take.
@@ -281,8 +285,8 @@ impl Base {
         }
     }
 
-    /// After which time nothing raises what is asked or passes `least` (as a velocity), if contacts were followed far enough for that; infinite
-    /// where all of them count.
+    /// After which time nothing raises what is asked or passes `least` (as a velocity), if contacts were followed far
+    /// enough for that; infinite where all of them count.
     pub(crate) fn settled_s(&self, setup: &Setup, quantity: Quantity, least: f64) -> Option<f64> {
         let Some(Contacts { flight, contact_time_s, .. }) = &self.contacts else { return Some(f64::INFINITY) };
         let settled_s = setup.settled_s(flight, *contact_time_s, least, &mut Looks::new(setup, quantity, 0.0));
@@ -290,8 +294,8 @@ impl Base {
         (settled_s < f64::INFINITY || !cut_short).then_some(settled_s)
     }
 
-    /// Whether what comes after a time may pass `least` (as a velocity) in drops like this one, by the energy that is left then; `None` where
-    /// contacts are not modeled.
+    /// Whether what comes after a time may pass `least` (as a velocity) in drops like this one, by the energy that is
+    /// left then; `None` where contacts are not modeled.
     pub(crate) fn may_pass_after(&self, time_s: f64, setup: &Setup, quantity: Quantity, least: f64) -> Option<bool> {
         let Contacts { flight, contact_time_s, .. } = self.contacts.as_ref()?;
         Some(setup.may_pass_after(time_s, flight, quantity, *contact_time_s, least))
@@ -308,8 +312,8 @@ impl Base {
         0.5 * ((1.0 - s) * a + (1.0 + s) * b)
     }
 
-    /// The velocity shocks at a place: of contacts that take time, the largest change of velocity within one contact time in each
-    /// stretch of contacts that overlap.
+    /// The velocity shocks at a place: of contacts that take time, the largest change of velocity within one contact
+    /// time in each stretch of contacts that overlap.
     ///
     /// # Errors
     /// None for a drop that was followed.
@@ -330,8 +334,8 @@ impl Base {
         largest(self.turns())
     }
 
-    /// Peaks of a suspended part at a place: to the contacts where the model has them, to pulses of lone contacts where `pulses` asks
-    /// for them and the contact time is known, else to velocity shocks.
+    /// Peaks of a suspended part at a place: to the contacts where the model has them, to pulses of lone contacts where
+    /// `pulses` asks for them and the contact time is known, else to velocity shocks.
     ///
     /// # Errors
     /// None for a drop that was followed.
@@ -342,8 +346,8 @@ impl Base {
         })
     }
 
-    /// The peak of one quantity of a suspended part, as [`respond`](Self::respond) has it, to what comes until a time; `None` where it does
-    /// not pass what is asked.
+    /// The peak of one quantity of a suspended part, as [`respond`](Self::respond) has it, to what comes until a time;
+    /// `None` where it does not pass what is asked.
     pub(crate) fn peak_until(&self, until_s: f64, asked: &PeakAsked, pulses: bool) -> Result<Option<Extreme>, Error> {
         let PeakAsked { suspension, peaked, .. } = asked;
         let (unit, above) = (asked.unit(), asked.above / asked.unit());
@@ -393,10 +397,11 @@ impl Base {
         pushes[halvings].get_or_init(|| history::of_contacts(scene, flight, f64::INFINITY, *contact_time_s, cells))
     }
 
-    /// The most that contacts until a time may do to a part, or what is asked to be passed where they do not: the peak to one shock each, at
-    /// the centroid of a pulse of its length, and by how much of `unit_shock`, what a unit shock does, pulses may lie above that:
-    /// `½ ω² √(Σ σ⁴ Δv²)`, σ² the variances of the pulses, and three times what a load does that is put on slowly; twice the former, and
-    /// the weight, where both ends come to lie. An estimate; of random drops and parts two in a thousand lie above. `None` where contacts are not modeled.
+    /// The most that contacts until a time may do to a part, or what is asked to be passed where they do not: the peak
+    /// to one shock each, at the centroid of a pulse of its length, and by how much of `unit_shock`, what a unit shock
+    /// does, pulses may lie above that: `½ ω² √(Σ σ⁴ Δv²)`, σ² the variances of the pulses, and three times what a load
+    /// does that is put on slowly; twice the former, and the weight, where both ends come to lie. An estimate; of
+    /// random drops and parts two in a thousand lie above. `None` where contacts are not modeled.
     pub(crate) fn peak_at_most(&self, until_s: f64, asked: &PeakAsked, unit_shock: f64) -> Result<Option<f64>, Error> {
         let Some(Contacts { scene, flight, contact_time_s, .. }) = &self.contacts else { return Ok(None) };
         let PeakAsked { position_m, suspension, peaked, above } = asked;
@@ -427,8 +432,8 @@ impl Base {
                 k += 1;
                 continue;
             }
-            // An end that stays on the ground is struck, carries a load while the other one falls, and is struck through the bar
-            // when that one lands.
+            // An end that stays on the ground is struck, carries a load while the other one falls, and is struck
+            // through the bar when that one lands.
             let (mut struck_s, mut gross) = (from_s, 0.0);
             let first = k;
             while let Some(contact) = contacts.get(k).filter(|c| c.from_s <= struck_s) {
@@ -472,8 +477,8 @@ impl Base {
         history::of_shocks(shocks, self.restitution, contact_time_s, cells)
     }
 
-    /// The largest acceleration of the product itself at a place, its number and time: of the contacts, or of pulses of lone
-    /// ones; `None` where no contact time is known.
+    /// The largest acceleration of the product itself at a place, its number and time: of the contacts, or of pulses of
+    /// lone ones; `None` where no contact time is known.
     #[must_use]
     pub fn largest_acceleration(&self, position_m: f64) -> Option<(f64, usize, f64)> {
         if self.contacts.is_none() && self.contact_time_s.is_none() {
@@ -502,8 +507,8 @@ impl Base {
         self.changes(contacts, &points.iter().map(|&(time, a)| (time, self.at(position_m, a))).collect::<Polygon>())
     }
 
-    /// Times and changes of angular velocity: the ends are `length cos θ` apart on the ground, and of a body that turns at Ω they come
-    /// closer in height by `length Ω² sin θ` without any push.
+    /// Times and changes of angular velocity: the ends are `length cos θ` apart on the ground, and of a body that turns
+    /// at Ω they come closer in height by `length Ω² sin θ` without any push.
     pub(crate) fn turns(&self) -> Vec<(f64, f64)> {
         let apart = |[a, b]: [f64; 2]| self.turn * (b - a) / self.length_m;
         let Some(contacts) = &self.contacts else {
@@ -536,8 +541,8 @@ impl Base {
         self.shocks.iter().zip(ends).map(change).collect()
     }
 
-    /// Time and acceleration of the product at a place, of pulses of lone contacts where the model has none of its own, velocity
-    /// shocks where no contact time is known.
+    /// Time and acceleration of the product at a place, of pulses of lone contacts where the model has none of its own,
+    /// velocity shocks where no contact time is known.
     pub(crate) fn acceleration_at(&self, position_m: f64) -> Polygon {
         if let Some(contacts) = &self.contacts {
             return self.pushes(contacts, 0).points.iter().map(|&(time, a)| (time, self.at(position_m, a))).collect();
@@ -608,7 +613,8 @@ mod tests {
         }
     }
 
-    /// Four shocks of one sign: an early one rings at its peak when a later one adds to it, however it fades in the end.
+    /// Four shocks of one sign: an early one rings at its peak when a later one adds to it, however it fades in the
+    /// end.
     #[test]
     fn shocks_that_may_still_pass_are_followed() {
         let exactly = |x| Spread::new(x, x, Law::Value).expect("a value");
@@ -650,8 +656,8 @@ mod tests {
         }
     }
 
-    /// What the search passes over because of a closer look would not have been the worst: two responses in a thousand may be above by more than
-    /// 1 %.
+    /// What the search passes over because of a closer look would not have been the worst: two responses in a thousand
+    /// may be above by more than 1 %.
     #[test]
     fn pulses_do_no_more_than_shocks_at_their_centroids_and_the_doubt() {
         let mut random = Random(7);

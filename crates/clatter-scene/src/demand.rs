@@ -153,7 +153,8 @@ impl Demand {
         let frequency_hz = self.suspended.map(|_| frequency_hz);
         Ok(Some(Reached { value, strike, time_s, position_m, frequency_hz }).filter(|reached| reached.value > above))
     }
-    /// Allowed and demand for a demand found: of a damage boundary, velocity change or acceleration, whichever leaves more room.
+    /// Allowed and demand for a demand found: of a damage boundary, velocity change or acceleration, whichever leaves
+    /// more room.
     pub(crate) fn settle(&self, demand: f64, contact_time_s: Option<f64>) -> Settled {
         let by_velocity = Settled { allowed: self.allowed, factor: 1.0, unit: self.kind.unit() };
         let Some((critical, time)) = self.acceleration.zip(contact_time_s) else { return by_velocity };
@@ -165,8 +166,8 @@ impl Demand {
             by_velocity
         }
     }
-    /// What one clatter-free impact, (1 + e) v0 at every place at once, would do; where the contact time is known as a half-sine of that
-    /// length, else at once.
+    /// What one clatter-free impact, (1 + e) v0 at every place at once, would do; where the contact time is known as a
+    /// half-sine of that length, else at once.
     pub(crate) fn clatter_free(
         &self,
         speed_m_s: f64,

@@ -33,7 +33,8 @@ pub struct ComponentExplanation {
 pub struct LimitExplanation {
     /// Which one.
     pub limit: LimitKind,
-    /// The cheapest pairs that are good enough, over the drops of the grid that [`ProductFile::assess_to`] looks at, from the cheapest bar.
+    /// The cheapest pairs that are good enough, over the drops of the grid that [`ProductFile::assess_to`] looks at,
+    /// from the cheapest bar.
     pub shares: Vec<PairShare>,
     /// The drop that asks most of it.
     pub worst_case: WorstCase,

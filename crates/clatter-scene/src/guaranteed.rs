@@ -6,10 +6,11 @@
 //! |A| = ω v0 · R_A(Ω, e),   |z| = (v0/ω) · R_z(Ω, e),   Ω = ω h0/v0,   h0 = length · sin(tilt)
 //! ```
 //!
-//! so tilt, speed and frequency are one axis: for each Ω the largest factor over the drops that have it is known in closed form
-//! ([`Ranges::factor`]). Cells of the plane (Ω, e) are bounded by [`peak_bounds`] over [`LooseTrain`]; the cell with the highest
-//! bound is halved until no bound is more than the tolerance above what some drop attains. The end that strikes first and both
-//! ends of the part are cells beside each other in one queue, so that effort goes to the worst of them alone.
+//! so tilt, speed and frequency are one axis: for each Ω the largest factor over the drops that have it is known in
+//! closed form ([`Ranges::factor`]). Cells of the plane (Ω, e) are bounded by [`peak_bounds`] over [`LooseTrain`]; the
+//! cell with the highest bound is halved until no bound is more than the tolerance above what some drop attains. The
+//! end that strikes first and both ends of the part are cells beside each other in one queue, so that effort goes to
+//! the worst of them alone.
 
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashMap};
@@ -92,8 +93,9 @@ impl Ranges {
     }
     /// The drop (v0, h0, ω) with this Ω and the largest factor: ω v0 for accelerations, v0/ω for displacements.
     ///
-    /// Accelerations: ω and v0 are both largest where h0 = Ω v0/ω then is in its range; below it h0 is least and ω gives way,
-    /// above it h0 is largest and v0 does. Displacements: v0 is largest and ω least, or h0 is largest and v0/ω = h0/Ω.
+    /// Accelerations: ω and v0 are both largest where h0 = Ω v0/ω then is in its range; below it h0 is least and ω
+    /// gives way, above it h0 is largest and v0 does. Displacements: v0 is largest and ω least, or h0 is largest and
+    /// v0/ω = h0/Ω.
     fn drop(&self, asked: Asked, scaled: f64) -> [f64; 3] {
         let ([vl, vh], [hl, hh], [wl, wh]) = (self.speed, self.gap, self.omega);
         let within = |x: f64, [lo, hi]: [f64; 2]| x.max(lo).min(hi);

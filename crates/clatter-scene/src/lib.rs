@@ -1,7 +1,7 @@
 //! From a product file to verdicts: which models the scene needs, the worst drop, what each part stands.
 //!
-//! [`ProductFile::read`] takes the text of a file (see [`EXAMPLE`]) and tells everything that is wrong with it at once, each
-//! fault where it stands. Inside, all quantities are SI.
+//! [`ProductFile::read`] takes the text of a file (see [`EXAMPLE`]) and tells everything that is wrong with it at once,
+//! each fault where it stands. Inside, all quantities are SI.
 
 mod accuracy;
 mod assess;

@@ -1,7 +1,7 @@
 //! The train of impacts over a range of restitution: what each strike can be, at least and at most.
 //!
-//! For an off-center bar κ^(n odd) times the approach speeds α_n obey the recurrence of a symmetric bar with q = ±√(q_a q_b), and the
-//! height gap is κ h0, κ = √((L_a² + ρ²)/(L_b² + ρ²)). In units of v0 and h0, from pure translation,
+//! For an off-center bar κ^(n odd) times the approach speeds α_n obey the recurrence of a symmetric bar with q = ±√(q_a
+//! q_b), and the height gap is κ h0, κ = √((L_a² + ρ²)/(L_b² + ρ²)). In units of v0 and h0, from pure translation,
 //!
 //! ```text
 //! α_0 = 1,  α_1 = T + κ,  α_{n+1} = T α_n − e α_{n−1},  T = q(1 + e)
@@ -9,16 +9,17 @@
 //! ```
 //!
 //! # Bounds over e₀ ± d
-//! α_n(e) is a polynomial. Its first derivative is carried along at e₀; the second is bounded over the whole range. With
-//! P = 1/(1 − T x + e x²), the generating function of the fundamental solution p_n, α_n = p_n + κ p_{n−1} and
+//! α_n(e) is a polynomial. Its first derivative is carried along at e₀; the second is bounded over the whole range.
+//! With P = 1/(1 − T x + e x²), the generating function of the fundamental solution p_n, α_n = p_n + κ p_{n−1} and
 //!
 //! ```text
 //! P″ = 2 (q x − x²)² P³        (derivative along e, T′ = q)
 //! ```
 //!
-//! and every |p_n| in the range is at most the p_n of T̂ = max(|T|, 2√e) at its upper and e at its lower end, whose roots are
-//! real: complex roots of modulus √e give at most (n+1) e^(n/2), which is p_n at T = 2√e; for real roots p_n is a sum of
-//! positive terms, rising in T and falling in e. So the coefficients of P³ are at most those of the same cube.
+//! and every |p_n| in the range is at most the p_n of T̂ = max(|T|, 2√e) at its upper and e at its lower end, whose
+//! roots are real: complex roots of modulus √e give at most (n+1) e^(n/2), which is p_n at T = 2√e; for real roots p_n
+//! is a sum of positive terms, rising in T and falling in e. So the coefficients of P³ are at most those of the same
+//! cube.
 
 use clatter::End;
 use clatter::flight::Body;
@@ -81,7 +82,8 @@ impl Clattering {
         let (kappa, ratios) = if first == End::A { (kappa, [qa, qb]) } else { (kappa.recip(), [qb, qa]) };
         Self { q: (qa * qb).sqrt().copysign(qa), kappa, ratios, length_m: body.length_m() }
     }
-    /// What a jump of 1 at the striking end gives to a position s, −1 the end that strikes first: shares for strikes at end a and b.
+    /// What a jump of 1 at the striking end gives to a position s, −1 the end that strikes first: shares for strikes at
+    /// end a and b.
     pub(crate) fn shares(&self, s: f64) -> [f64; 2] {
         let (near_a, near_b) = (0.5 * (1.0 - s), 0.5 * (1.0 + s));
         [near_a - self.ratios[0] * near_b, near_b - self.ratios[1] * near_a]

@@ -4,8 +4,8 @@ use crate::{Component, Mount, Product};
 
 /// The longest contact that is supposed where the file gives none: hard cases strike for 0.3 to 0.5 ms.
 pub(crate) const SUPPOSED_CONTACT_S: f64 = 0.5e-3;
-/// Up to this phase ωτ a part may be assessed without knowing the contact: a half-sine of ωτ = 1 does 2.3 % less to an undamped
-/// part than an impulse of the same area, 1 − cos(ωτ/2)/(1 − (ωτ/π)²).
+/// Up to this phase ωτ a part may be assessed without knowing the contact: a half-sine of ωτ = 1 does 2.3 % less to an
+/// undamped part than an impulse of the same area, 1 − cos(ωτ/2)/(1 − (ωτ/π)²).
 pub(crate) const SHORT_PULSE: f64 = 1.0;
 /// Up to this phase ωτ a pulse of known length counts as a velocity shock: 0.2 % by the same formula.
 pub(crate) const INSTANT_PULSE: f64 = 0.3;

@@ -1,5 +1,5 @@
-//! What a page shows of a part beside its verdict: its response in the worst drop, its demand over the tilt, its safe places, what
-//! would make it safe.
+//! What a page shows of a part beside its verdict: its response in the worst drop, its demand over the tilt, its safe
+//! places, what would make it safe.
 
 use clatter::End;
 use clatter_shock::{State, Suspension};
@@ -32,7 +32,8 @@ pub struct Portrait {
     pub remedies: Vec<Remedy>,
 }
 
-/// Points of a history between two strikes and after the last, at least; in a period of the part, as far as there are not too many.
+/// Points of a history between two strikes and after the last, at least; in a period of the part, as far as there are
+/// not too many.
 const POINTS: f64 = 600.0;
 const IN_A_PERIOD: f64 = 16.0;
 const MOST_POINTS: f64 = 12_000.0;
@@ -42,9 +43,10 @@ const PLACES: u32 = 33;
 impl ProductFile {
     /// Portraits of all components of an assessment of this file.
     ///
-    /// The curves over the tilt take the largest over the ends of the ranges of speed, restitution and frequency, and over those of the
-    /// worst case; where a rebound may decide, the assessment has looked at the same drops. Zones are interpolated between 33 places: the demand is convex along the bar (a largest
-    /// absolute value of functions linear in the place), so that the zone shown lies within the true one.
+    /// The curves over the tilt take the largest over the ends of the ranges of speed, restitution and frequency, and
+    /// over those of the worst case; where a rebound may decide, the assessment has looked at the same drops. Zones are
+    /// interpolated between 33 places: the demand is convex along the bar (a largest absolute value of functions linear
+    /// in the place), so that the zone shown lies within the true one.
     ///
     /// # Errors
     /// As [`ProductFile::assess`].

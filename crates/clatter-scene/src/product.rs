@@ -124,7 +124,8 @@ impl Product {
     pub fn relative(&self, position_m: f64) -> f64 {
         2.0 * position_m / self.body.length_m()
     }
-    /// Inertia ratio (L² − ρ²)/(L² + ρ²) of the product; off center ±√(q_a q_b), that of the symmetric bar with the same clatter.
+    /// Inertia ratio (L² − ρ²)/(L² + ρ²) of the product; off center ±√(q_a q_b), that of the symmetric bar with the
+    /// same clatter.
     #[must_use]
     pub fn inertia_ratio(&self) -> f64 {
         let [a, b] = self.body.inertia_ratios();
@@ -160,8 +161,9 @@ impl Drop {
 impl Component {
     /// Both ends of the part along the bar; one where it is a point.
     ///
-    /// The worst place is always one of them: for one drop the motion of the bar is linear in the position, so is the response
-    /// to it, and the largest absolute value of linear functions is convex, which has its maximum at an end of the interval.
+    /// The worst place is always one of them: for one drop the motion of the bar is linear in the position, so is the
+    /// response to it, and the largest absolute value of linear functions is convex, which has its maximum at an end of
+    /// the interval.
     #[must_use]
     pub fn ends_m(&self) -> Vec<f64> {
         let half = 0.5 * self.extent_m;

@@ -29,7 +29,8 @@ impl ProductFile {
     /// Reads the text of a product file; `origin` is its name in messages.
     ///
     /// # Errors
-    /// All that is wrong: syntax, unknown keys, wrong units, impossible values, keys that are missing or exclude each other.
+    /// All that is wrong: syntax, unknown keys, wrong units, impossible values, keys that are missing or exclude each
+    /// other.
     ///
     /// # Examples
     /// ```
@@ -654,7 +655,8 @@ fn mass_of(piece: &Mass) -> f64 {
 
 /// Center of mass from the middle, and radius of gyration about it.
 ///
-/// A slab is a point mass at its middle plus its own moment m w²/12. A center of mass within roundings of the middle is the middle.
+/// A slab is a point mass at its middle plus its own moment m w²/12. A center of mass within roundings of the middle is
+/// the middle.
 fn center_and_gyration(masses: &[Mass]) -> (f64, f64) {
     let places = masses.iter().map(|piece| match *piece {
         Mass::Point { mass_kg, position_m } => (mass_kg, position_m, 0.0),

@@ -1,9 +1,9 @@
 //! The worst case by a search of stated resolution, for the models that have no bounds.
 //!
-//! A grid over tilt, speed, restitution, frequency, place and the end that strikes first is foreseen ([`Setup::forecast`], a microsecond a
-//! place). Places are then followed in order of the most that they may reach, each by the cheapest pair of models within the tolerance,
-//! until no place that is left may pass the worst found. Around it the step is halved until that raises the demand no more. All
-//! components share the flights of one grid.
+//! A grid over tilt, speed, restitution, frequency, place and the end that strikes first is foreseen
+//! ([`Setup::forecast`], a microsecond a place). Places are then followed in order of the most that they may reach,
+//! each by the cheapest pair of models within the tolerance, until no place that is left may pass the worst found.
+//! Around it the step is halved until that raises the demand no more. All components share the flights of one grid.
 
 use std::cmp::Ordering as Order;
 use std::collections::{BTreeMap, BinaryHeap, HashMap};
@@ -34,7 +34,8 @@ const STEPS: u32 = 2;
 const HALVINGS: [u32; 2] = [3, 6];
 /// Other places of the grid from which a worse drop is looked for.
 const BASINS: usize = 4;
-/// Steps of the tilt at which drops are looked at besides where a rebound may decide, and how often at most; pages draw them.
+/// Steps of the tilt at which drops are looked at besides where a rebound may decide, and how often at most; pages draw
+/// them.
 pub(crate) const EVEN_TILTS: u32 = 40;
 const SCANS: u32 = 3;
 /// Contacts followed at first.
@@ -290,7 +291,8 @@ impl<'a> Field<'a> {
         Ok(slots)
     }
 
-    /// The worst drop of each task; `None` where no drop may pass what is proven. Tasks of one component follow one another.
+    /// The worst drop of each task; `None` where no drop may pass what is proven. Tasks of one component follow one
+    /// another.
     ///
     /// # Errors
     /// A drop that a model does not take.
@@ -356,7 +358,8 @@ impl<'a> Field<'a> {
         Ok(grids)
     }
 
-    /// The places of one drop: both ends of the component, either end first where that is the same, and its frequencies.
+    /// The places of one drop: both ends of the component, either end first where that is the same, and its
+    /// frequencies.
     fn places(&self, task: &Task<'_>, of_drop: Place) -> Vec<Place> {
         let turn = task.demand.kind == LimitKind::AngularVelocityChange;
         let positions = if turn { vec![task.component.position_m] } else { task.component.ends_m() };
@@ -451,8 +454,8 @@ impl<'a> Field<'a> {
         Ok(candidate)
     }
 
-    /// For a turn of the bar or the pulse of a hard-mounted part: the bar that gives the velocity shocks right, with contacts
-    /// wherever two overlap.
+    /// For a turn of the bar or the pulse of a hard-mounted part: the bar that gives the velocity shocks right, with
+    /// contacts wherever two overlap.
     fn pair_of_shocks(&self, task: &Task<'_>, place: &Place, slot: &Slot, trail: &mut Trail) -> Result<Pair, Error> {
         let turn = task.demand.kind == LimitKind::AngularVelocityChange;
         let component = if turn { ComponentRung::LargestShock } else { ComponentRung::PulseTrain };
@@ -621,7 +624,8 @@ impl<'a> Search<'a> {
         bar <= BarRung::Map && instants && candidate.within
     }
 
-    /// Follows the grid from the highest bound down, each place once a closer look has not lowered its bound below that of others.
+    /// Follows the grid from the highest bound down, each place once a closer look has not lowered its bound below that
+    /// of others.
     fn sweep(&mut self, grid: &[Candidate]) -> Result<(), Error> {
         let mut open: BinaryHeap<Open> =
             grid.iter().enumerate().map(|(k, c)| Open { at_most: c.at_most, k, closer: false }).collect();
@@ -656,8 +660,8 @@ impl<'a> Search<'a> {
         (slot.number, position_m.to_bits(), Field::frequency_hz(self.task, place).to_bits())
     }
 
-    /// What a candidate reaches at most, where contacts overlap by the response to each of them as a single shock; of what was followed,
-    /// no more than what it reached or was then to pass.
+    /// What a candidate reaches at most, where contacts overlap by the response to each of them as a single shock; of
+    /// what was followed, no more than what it reached or was then to pass.
     fn seen_closer(&mut self, candidate: &Candidate) -> Result<f64, Error> {
         let key = self.key(candidate);
         if let Some(at_most) = self.known.get(&key) {
@@ -713,7 +717,8 @@ impl<'a> Search<'a> {
         Ok(match (asked, task.demand.kind) {
             (Some(asked), _) => worst / asked.unit(),
             (None, LimitKind::VelocityChange | LimitKind::DamageBoundary) => worst,
-            // Of all motions of one energy a turn about the center of mass is the fastest one; a shock of an end turns by less.
+            // Of all motions of one energy a turn about the center of mass is the fastest one; a shock of an end turns
+            // by less.
             (None, LimitKind::AngularVelocityChange) => {
                 let (body, [a, b]) = (field.product.body, field.product.body.arms_m());
                 worst * body.gyration_m().hypot(a.min(b))
@@ -823,8 +828,8 @@ impl<'a> Search<'a> {
         Ok(())
     }
 
-    /// Climbs by what is foreseen alone from the highest places of the grid that are no neighbors; follows where that leads. `grid` in
-    /// falling order. Whether the worst place is another one now.
+    /// Climbs by what is foreseen alone from the highest places of the grid that are no neighbors; follows where that
+    /// leads. `grid` in falling order. Whether the worst place is another one now.
     fn climb_from_elsewhere(&mut self, grid: &[&Candidate]) -> Result<bool, Error> {
         let mut starts: Vec<Place> = self.best.iter().map(|(candidate, _)| candidate.place).collect();
         let next_to = |a: &Place, b: &Place| {

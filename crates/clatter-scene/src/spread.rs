@@ -4,7 +4,8 @@ use crate::Error;
 
 /// A range [lo, hi] of a quantity in SI, and how it is spread over it.
 ///
-/// The worst case is looked for over the whole range, whatever the distribution; the distribution counts where scatter is drawn.
+/// The worst case is looked for over the whole range, whatever the distribution; the distribution counts where scatter
+/// is drawn.
 ///
 /// ```
 /// use clatter_scene::{Law, Spread};
@@ -55,8 +56,8 @@ impl Spread {
     /// A range with its law; one of no length is a value.
     ///
     /// # Errors
-    /// [`Error::Number`] unless all numbers are finite, [`Error::Range`] where the range runs backwards, [`Error::Law`] for a
-    /// deviation that is not positive or a mode outside the range.
+    /// [`Error::Number`] unless all numbers are finite, [`Error::Range`] where the range runs backwards, [`Error::Law`]
+    /// for a deviation that is not positive or a mode outside the range.
     pub fn new(lo: f64, hi: f64, law: Law) -> Result<Self, Error> {
         let (own, allowed) = match law {
             Law::Normal { mean, deviation } => ([mean, deviation], deviation > 0.0),

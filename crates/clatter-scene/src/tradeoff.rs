@@ -1,14 +1,14 @@
 //! Speed for accuracy, measured: what every pair of models gets wrong in one drop, and what it costs.
 //!
-//! [`Tradeoff::measure`] runs every pair of rungs (see [`plan`](crate::plan)) on one scene that says something of the quantity, holds
-//! it against the highest rung, and times it. [`ProductFile::tradeoff`] does so for every part of a product in its worst
-//! drop, [`bars`] gives the four bars of the paper's Table 1 as scenes to compare with.
+//! [`Tradeoff::measure`] runs every pair of rungs (see [`plan`](crate::plan)) on one scene that says something of the
+//! quantity, holds it against the highest rung, and times it. [`ProductFile::tradeoff`] does so for every part of a
+//! product in its worst drop, [`bars`] gives the four bars of the paper's Table 1 as scenes to compare with.
 //!
 //! # What the error is against
-//! The compliant bar with the exact response to its pulses, followed until rest, each pulse in ten times as many pieces as
-//! the models take. Where that cannot be had, because no contact time is known or the compliant model refuses the drop, it is the
-//! highest rung there is: finite tilt, with pulses if the contact time is known, else with impulses. [`Reference`] says which, and to
-//! what share of the quantity it knows its own value.
+//! The compliant bar with the exact response to its pulses, followed until rest, each pulse in ten times as many pieces
+//! as the models take. Where that cannot be had, because no contact time is known or the compliant model refuses the
+//! drop, it is the highest rung there is: finite tilt, with pulses if the contact time is known, else with impulses.
+//! [`Reference`] says which, and to what share of the quantity it knows its own value.
 //!
 //! Errors are the same from run to run; times are of the machine that [`Machine`] names.
 
@@ -93,7 +93,8 @@ pub struct Reference {
     pub lacks: Option<String>,
     /// The quantity, in m/s², m or m/s.
     pub value: f64,
-    /// To what share of itself the value is known, as the numbers of its model go: half as many pieces change it by so much.
+    /// To what share of itself the value is known, as the numbers of its model go: half as many pieces change it by so
+    /// much.
     pub within: f64,
     /// Time of one run.
     pub seconds: f64,
@@ -166,8 +167,8 @@ impl Measured {
     }
 }
 
-/// The pairs that say something of a quantity. In closed form there is no train to answer to, and a velocity shock of an instant impact
-/// is the same whatever the component.
+/// The pairs that say something of a quantity. In closed form there is no train to answer to, and a velocity shock of
+/// an instant impact is the same whatever the component.
 fn pairs(quantity: Quantity) -> impl Iterator<Item = Pair> {
     let says = move |pair: &Pair| match (quantity, pair.bar, pair.component) {
         (Quantity::VelocityShock, _, ComponentRung::LargestShock) => true,
@@ -199,8 +200,9 @@ fn front(points: &[(f64, f64)]) -> Vec<bool> {
 impl Tradeoff {
     /// Runs and times every pair on one scene.
     ///
-    /// Each pair is run as a plan would run it, until [`Forecast::until_s`], over and over for a few milliseconds; the median
-    /// counts. All of it takes some 0.1 s. No model follows more than 2000 strikes; [`Reference::cut`] says where more would have come.
+    /// Each pair is run as a plan would run it, until [`Forecast::until_s`], over and over for a few milliseconds; the
+    /// median counts. All of it takes some 0.1 s. No model follows more than 2000 strikes; [`Reference::cut`] says
+    /// where more would have come.
     ///
     /// # Errors
     /// As [`Setup::demand`], of scenes that no rung takes.
@@ -321,8 +323,9 @@ impl Stated {
     }
 }
 
-/// A bar with this inertia ratio and restitution as a drop to compare others with: 140 mm long, 4.43 m/s (from 1 m), 5°, standard
-/// gravity, contacts of 0.2 ms; a board with a mode at 230 Hz, Q = 10, near the end that strikes second (s = 0.9).
+/// A bar with this inertia ratio and restitution as a drop to compare others with: 140 mm long, 4.43 m/s (from 1 m),
+/// 5°, standard gravity, contacts of 0.2 ms; a board with a mode at 230 Hz, Q = 10, near the end that strikes second (s
+/// = 0.9).
 ///
 /// # Errors
 /// [`Error::Bar`] unless q is in (−1, 1] and e in [0, 1].
@@ -395,8 +398,8 @@ pub struct LeftOut {
 impl ProductFile {
     /// What each pair of models gets wrong for each part, and costs.
     ///
-    /// A part is dropped as the assessment of this file found worst for its tightest limit; the place in it and its frequency are
-    /// those of the worst case of each limit.
+    /// A part is dropped as the assessment of this file found worst for its tightest limit; the place in it and its
+    /// frequency are those of the worst case of each limit.
     ///
     /// # Errors
     /// As [`Tradeoff::measure`].

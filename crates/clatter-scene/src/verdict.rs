@@ -92,14 +92,15 @@ pub struct LimitAssessment {
     /// with a contact time as a half-sine of that length.
     #[serde(serialize_with = "number")]
     pub clatter_free: f64,
-    /// What no drop of the ranges exceeds without gravity, at small tilt and for instant impacts, whichever model the demand is
-    /// of; null where that model says nothing of the limit.
+    /// What no drop of the ranges exceeds without gravity, at small tilt and for instant impacts, whichever model the
+    /// demand is of; null where that model says nothing of the limit.
     pub proven: Option<f64>,
     /// Whether bounds over the whole ranges prove the demand, in the model named.
     pub guaranteed: bool,
-    /// Where `guaranteed`, `demand` is at most this share above `attained`; that gravity, real tilt and contact time ask for no more is
-    /// known to the tolerance of the assessment ([`Accuracy`](crate::Accuracy)). Of a search, no drop of the ranges asks for more than
-    /// this share above `demand`, about: what its models may get wrong, and what the last refinement of the grid still gained.
+    /// Where `guaranteed`, `demand` is at most this share above `attained`; that gravity, real tilt and contact time
+    /// ask for no more is known to the tolerance of the assessment ([`Accuracy`](crate::Accuracy)). Of a search, no
+    /// drop of the ranges asks for more than this share above `demand`, about: what its models may get wrong, and what
+    /// the last refinement of the grid still gained.
     #[serde(serialize_with = "number")]
     pub tolerance: f64,
     /// The drop that does it.

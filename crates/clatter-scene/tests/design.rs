@@ -80,7 +80,8 @@ fn the_border_of_a_hard_part_is_exact() {
     }
 }
 
-/// Margins of the grid are those of the worst of its drops, each by itself: of pulses, though few are followed with them.
+/// Margins of the grid are those of the worst of its drops, each by itself: of pulses, though few are followed with
+/// them.
 #[test]
 fn the_grid_has_the_worst_of_all_its_drops() {
     let text = "[product]\nname = \"p\"\nlength = \"150 mm\"\nradius_of_gyration = \"41 mm\"\nrestitution = 0.3\n\
@@ -158,7 +159,8 @@ fn an_inertia_ratio_gives_the_radius_of_gyration_that_has_it() {
     }
 }
 
-/// The answer, put into the file to the last digit, is safe: also where other pulses are cut for a part that may be four times as stiff.
+/// The answer, put into the file to the last digit, is safe: also where other pulses are cut for a part that may be
+/// four times as stiff.
 #[test]
 fn a_change_is_safe_as_the_file_with_it_is_assessed() {
     let file = ProductFile::read(

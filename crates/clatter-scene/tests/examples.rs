@@ -1,4 +1,5 @@
-//! The worked products: one component of each recomputed by hand, as their comments do, and all held against brute force.
+//! The worked products: one component of each recomputed by hand, as their comments do, and all held against brute
+//! force.
 
 use clatter::End;
 use clatter_scene::{

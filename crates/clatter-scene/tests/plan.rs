@@ -42,12 +42,14 @@ fn plans_of_random_scenes_are_good_enough() {
         // Some scene must need contacts, and some get less.
         assert!(w.needed > 0.05 && w.given < 0.97, "tolerance {tolerance}: {w:?}");
     }
-    // What a search passes over because of the bound: one scene in a thousand may reach more, by more than 1 %. Of 8900, none does.
+    // What a search passes over because of the bound: one scene in a thousand may reach more, by more than 1 %. Of
+    // 8900, none does.
     let above = outcomes.iter().filter(|o| o.truth > 1.01 * o.setup.forecast(o.quantity).at_most()).count();
     assert!(1000 * above <= outcomes.len(), "{above} of {} reach more than the bound", outcomes.len());
 }
 
-/// A train so short that it ends, in half of its strikes, long before the part swings out: its peak stands after all that were followed.
+/// A train so short that it ends, in half of its strikes, long before the part swings out: its peak stands after all
+/// that were followed.
 #[test]
 fn a_bound_holds_what_rings_after_the_strikes_followed() {
     let body = Body::off_center(0.0816, 0.0684, 0.03).unwrap();
@@ -60,7 +62,8 @@ fn a_bound_holds_what_rings_after_the_strikes_followed() {
     assert!(reached <= at_most && at_most < 2.0 * reached, "{reached} {at_most}");
 }
 
-/// One drop of a component: length and gyration in m, e, speed in m/s, tilt in degrees; contact time in s, position, ω in rad/s, ζ.
+/// One drop of a component: length and gyration in m, e, speed in m/s, tilt in degrees; contact time in s, position, ω
+/// in rad/s, ζ.
 fn drop_of([length, gyration, e, speed, tilt_deg]: [f64; 5], [contact, position, omega, zeta]: [f64; 4]) -> Setup {
     let body = Body::new(length, gyration).expect("as the test has it");
     let scene = Scene::new(body, e, speed, tilt_deg, 9.81).expect("as the test has it");
@@ -415,7 +418,8 @@ fn a_plan_costs_less_where_less_is_asked() {
     assert!(forecast.plan(1e-9).estimate.is_bound);
 }
 
-/// The pieces of pulses, of contacts and of lone ones, take a tenth of the tolerance: fewer than 1 in 100 random cases take more, none all of it.
+/// The pieces of pulses, of contacts and of lone ones, take a tenth of the tolerance: fewer than 1 in 100 random cases
+/// take more, none all of it.
 #[test]
 fn pulses_are_cut_as_finely_as_the_tolerance_asks() {
     let parabolas = Pair { bar: BarRung::Ballistic, component: ComponentRung::PulseTrain };
@@ -441,7 +445,8 @@ fn pulses_are_cut_as_finely_as_the_tolerance_asks() {
     assert!(cases > 1000 && 100 * beyond < cases, "{beyond} of {cases}");
 }
 
-/// What answers state of the pieces of contacts: 1 in 1000 is more than 1e-4 off. Of 1200 that is 1.2; more than 5 are so in one draw of 700.
+/// What answers state of the pieces of contacts: 1 in 1000 is more than 1e-4 off. Of 1200 that is 1.2; more than 5 are
+/// so in one draw of 700.
 #[test]
 fn answers_are_cut_as_finely_as_stated() {
     let mut random = Random(20_261_123);
@@ -458,7 +463,8 @@ fn answers_are_cut_as_finely_as_stated() {
     assert!(cases > 1100 && beyond <= 5, "{beyond} of {cases}");
 }
 
-/// A plan does not name contacts where their model refuses the scene: light ends, thick bodies, long contacts, ends that spin fast.
+/// A plan does not name contacts where their model refuses the scene: light ends, thick bodies, long contacts, ends
+/// that spin fast.
 #[test]
 fn contacts_are_planned_where_they_can_be_followed() {
     let mut random = Random(11);
@@ -543,7 +549,8 @@ fn extremes_get_a_plan() {
     assert_eq!(runs, 5 * 4 * 4 * 3 * 4 * 3);
 }
 
-/// Bodies lighter at their ends, and restitutions lower and higher, than contacts take: they lie down and land like others.
+/// Bodies lighter at their ends, and restitutions lower and higher, than contacts take: they lie down and land like
+/// others.
 #[test]
 fn any_body_gets_a_plan() {
     let mut random = Random(9);
@@ -588,8 +595,9 @@ fn a_flat_drop_is_planned_and_run() {
     }
 }
 
-/// Both ends land within 1 % of one another: the slow one first, whose shock rings on when the fast one strikes. The bend of its flight, of
-/// another time than that of the fast end, had it land after that: 0.45 % off where 0.04 % were foreseen.
+/// Both ends land within 1 % of one another: the slow one first, whose shock rings on when the fast one strikes. The
+/// bend of its flight, of another time than that of the fast end, had it land after that: 0.45 % off where 0.04 % were
+/// foreseen.
 #[test]
 fn two_ends_that_land_together_are_told_apart() {
     let setup = drop_of(

@@ -26,8 +26,8 @@ fn draw(file: &ProductFile, settings: Settings) -> Scatter {
     Sampler::new(file, settings).unwrap().run::<()>(false, |_| Ok(())).unwrap()
 }
 
-/// A hard part at end b of a product that always lands on end a survives while v0 times the largest shock there stays below its
-/// limit: of heights spread evenly over 0.5 to 1.5 m exactly those up to h = (limit/peak)²/(2g).
+/// A hard part at end b of a product that always lands on end a survives while v0 times the largest shock there stays
+/// below its limit: of heights spread evenly over 0.5 to 1.5 m exactly those up to h = (limit/peak)²/(2g).
 fn known() -> (ProductFile, f64) {
     let drop = "height = { uniform = [\"0.5 m\", \"1.5 m\"] }\ntilt = [\"1 deg\", \"5 deg\"]\nfirst = \"a\"";
     let file = product(drop, "position = \"70 mm\"\nmount = \"hard\"\nvelocity_change_limit = \"9 m/s\"");
@@ -49,7 +49,8 @@ fn a_known_probability_lies_in_its_interval_as_often_as_promised() {
             survival.lo <= truth && truth <= survival.hi
         })
         .count();
-    // 95 % of 200 is 190; four standard deviations of the binomial are 12. The interval is exact, so it may hold more often.
+    // 95 % of 200 is 190; four standard deviations of the binomial are 12. The interval is exact, so it may hold more
+    // often.
     assert!(within >= 178, "{within} of {seeds}");
     let survival = draw(&file, settings(200_000, 1)).components[0].survival;
     assert!(

@@ -28,8 +28,9 @@ fn error(trade: &Tradeoff, bar: BarRung, component: ComponentRung) -> f64 {
     trade.pairs.iter().find(|p| p.pair() == Pair { bar, component }).expect("a pair that says something").error
 }
 
-/// Slow and steep, so that gravity and lever arms count, with contacts of a microsecond, which do not. (At q = 1/2 the lever arm of the
-/// first strike does to end b as much by turning as by lifting, in opposite directions; at q = 0.2 it does not.)
+/// Slow and steep, so that gravity and lever arms count, with contacts of a microsecond, which do not. (At q = 1/2 the
+/// lever arm of the first strike does to end b as much by turning as by lifting, in opposite directions; at q = 0.2 it
+/// does not.)
 #[test]
 fn errors_fall_along_the_ladder_of_the_bar() {
     let trade = measure(&of_inertia(0.2, 0.3, 1.0, 12.0, Some(1e-6)), Quantity::VelocityShock);
@@ -38,7 +39,8 @@ fn errors_fall_along_the_ladder_of_the_bar() {
     // The closed form is the map.
     assert!((rungs[0] - rungs[1]).abs() < 1e-12, "{rungs:?}");
     assert!(rungs[1] > 2.0 * rungs[2] && rungs[2] > 10.0 * rungs[3] && rungs[3] > rungs[4], "{rungs:?}");
-    // A lone contact of a microsecond does what an impulse does, but for the weight that the ground carries meanwhile, g τ = 1e-5 m/s.
+    // A lone contact of a microsecond does what an impulse does, but for the weight that the ground carries meanwhile,
+    // g τ = 1e-5 m/s.
     assert!(rungs[3] < 1e-4 && rungs[4] < 1e-4, "{rungs:?}");
 }
 
@@ -124,7 +126,8 @@ fn errors_are_the_same_from_run_to_run() {
     assert_eq!((a.reference.value.to_bits(), a.kept), (b.reference.value.to_bits(), b.kept));
 }
 
-/// At end b of q = 1/2, e = 0.3 (T = 0.65), strikes in v0: −q(1 + e) from the first, (1 + e)(1 + T) from the second, all others less.
+/// At end b of q = 1/2, e = 0.3 (T = 0.65), strikes in v0: −q(1 + e) from the first, (1 + e)(1 + T) from the second,
+/// all others less.
 #[test]
 fn strikes_worth_keeping_by_hand() {
     let trade = measure(&setup(0.3, 4.43, 5.0, None), Quantity::VelocityShock);
@@ -137,7 +140,8 @@ fn strikes_worth_keeping_by_hand() {
     assert!(tilted.strikes > 100 && tilted.stop == "at-rest" && tilted.least == map.least, "{tilted:?}");
 }
 
-/// q = 0.9, e = 0.3: the map never ends, and each strike is λ₊ = (T + √(T² − 4e))/2, T = 1.17, of the one before in the end.
+/// q = 0.9, e = 0.3: the map never ends, and each strike is λ₊ = (T + √(T² − 4e))/2, T = 1.17, of the one before in the
+/// end.
 #[test]
 fn an_endless_train_is_worth_a_few_strikes() {
     let gyration_m = 0.07 * (0.1_f64 / 1.9).sqrt();

@@ -165,7 +165,8 @@ fn proven(limit: &LimitAssessment) -> f64 {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
-    /// Without gravity nothing on the grid passes the bound, and the bound is within its tolerance of a drop that does it.
+    /// Without gravity nothing on the grid passes the bound, and the bound is within its tolerance of a drop that does
+    /// it.
     #[test]
     fn no_drop_of_the_ranges_passes_a_proven_demand(file in scene()) {
         let assessment = file.assess().unwrap();
@@ -184,8 +185,8 @@ proptest! {
     }
 }
 
-/// With gravity, real tilt and contacts that take time: on a grid of its own the highest rung finds nothing worse than the tolerance
-/// says.
+/// With gravity, real tilt and contacts that take time: on a grid of its own the highest rung finds nothing worse than
+/// the tolerance says.
 fn nothing_worse(file: &ProductFile, model: BarModel, accuracy: &Accuracy) -> Result<(), TestCaseError> {
     let assessment = file.assess_to(accuracy).expect("an assessment");
     for limit in &assessment.components[0].limits {
@@ -231,7 +232,8 @@ proptest! {
     }
 }
 
-/// What a demand lacks of the truth is a larger share of the demand: here the map lacks 0.9991 % of a shock, which is 1.0091 % above it.
+/// What a demand lacks of the truth is a larger share of the demand: here the map lacks 0.9991 % of a shock, which is
+/// 1.0091 % above it.
 #[test]
 fn the_tolerance_is_a_share_of_the_demand() {
     let body = Body::off_center(0.081_424_529_918_155_06, 0.068_575_470_081_844_93, 0.044_565_358_112_543_06).unwrap();
@@ -247,8 +249,8 @@ fn the_tolerance_is_a_share_of_the_demand() {
     nothing_worse(&file, BarModel::FiniteTilt, &Accuracy::default()).unwrap();
 }
 
-/// A rebound that lands flat shocks the middle more than all strikes before, at a few tilts alone, between those of the grid: even tilts
-/// find it, and it is said that there may be worse.
+/// A rebound that lands flat shocks the middle more than all strikes before, at a few tilts alone, between those of the
+/// grid: even tilts find it, and it is said that there may be worse.
 #[test]
 fn rebounds_that_are_not_ruled_out_are_told() {
     let (tilt, speed, e) = (0.023_062_716_720_472_22, 1.488_522_617_317_461_3, 0.834_214_138_063_687_8);
@@ -292,7 +294,8 @@ fn slate(body: &str, drop: &str, part: &str) -> ProductFile {
     ProductFile::read(&text, "slate").unwrap_or_else(|faults| panic!("{faults}"))
 }
 
-/// While one end bounces by itself, shock by shock smaller, the other one is in the air: what it does then counts in full.
+/// While one end bounces by itself, shock by shock smaller, the other one is in the air: what it does then counts in
+/// full.
 #[test]
 fn an_end_that_bounces_by_itself_does_not_end_the_following() {
     let file = ProductFile::read(
@@ -361,8 +364,8 @@ fn rebounds_of_drops_that_are_passed_over_are_told_as_well() {
     assert!(limit.warning.as_deref().is_some_and(|w| w.contains(REBOUNDS)), "{limit:?}");
 }
 
-/// One impact without clatter is a half-sine where the contact time is known: a stiff part gets no more than 1.77 times its crest, a soft
-/// one what an impulse does.
+/// One impact without clatter is a half-sine where the contact time is known: a stiff part gets no more than 1.77 times
+/// its crest, a soft one what an impulse does.
 #[test]
 fn a_flat_drop_knows_the_contact_time() {
     let of = |frequency: &str| {

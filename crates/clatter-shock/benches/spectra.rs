@@ -1,8 +1,8 @@
 //! Wall times of the responses, each beside a plain way to the same answer in the same run:
 //! `cargo bench -p clatter-shock --bench spectra`.
 //!
-//! Ours and the plain way take turns, so that a machine that slows down slows both; the table gives the least time of each and
-//! the ratio of the two.
+//! Ours and the plain way take turns, so that a machine that slows down slows both; the table gives the least time of
+//! each and the ratio of the two.
 #![expect(clippy::print_stdout, clippy::cast_precision_loss, reason = "a table of times is what is wanted")]
 
 use clatter_shock::{

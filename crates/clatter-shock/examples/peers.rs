@@ -1,4 +1,5 @@
-//! Our side of `peers/spectra.py`: reads pulses, frequencies and sampling rates as JSON from standard input, writes spectra and times.
+//! Our side of `peers/spectra.py`: reads pulses, frequencies and sampling rates as JSON from standard input, writes
+//! spectra and times.
 //!
 //! Each time is the best of at least five runs and 0.3 s on one thread, setting up included.
 

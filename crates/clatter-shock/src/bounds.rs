@@ -1,7 +1,7 @@
 //! Bounds on the response to velocity shocks whose times and sizes are known to within ranges only.
 //!
-//! Two unknowns ξ₁, ξ₂ in [−1, 1] move phases and velocity changes; what they do not do to first order is bounded. The state m = (x, y) of
-//! the component, x = ωz, y = z′, is carried as
+//! Two unknowns ξ₁, ξ₂ in [−1, 1] move phases and velocity changes; what they do not do to first order is bounded. The
+//! state m = (x, y) of the component, x = ωz, y = z′, is carried as
 //!
 //! ```text
 //! m = c + g₁ ξ₁ + g₂ ξ₂ + (anything of size up to r)        in the energy norm |m|² = x² + y²
@@ -14,9 +14,10 @@
 //! |q_k(m)| ≤ max over ξ = ±1 of |q_k(c + g₁ξ₁ + g₂ξ₂)| + G_k r,    G = 1 for ωz, √(1 + 4ζ²) for A/ω
 //! ```
 //!
-//! because q_k is linear. What is left in doubt thus shrinks like the square of the ranges. Where a phase is too uncertain for this, either
-//! the state is anything of its size, or the shock is: by superposition it adds at most its own response, whenever it comes. The
-//! middle of all ranges is followed exactly: its peak is attained, so each call bounds from below and from above.
+//! because q_k is linear. What is left in doubt thus shrinks like the square of the ranges. Where a phase is too
+//! uncertain for this, either the state is anything of its size, or the shock is: by superposition it adds at most its
+//! own response, whenever it comes. The middle of all ranges is followed exactly: its peak is attained, so each call
+//! bounds from below and from above.
 
 use crate::suspension::{Modes, Motion, Phase, Propagator};
 use crate::{DampingRatio, peaks::Range};
@@ -316,7 +317,8 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(2000))]
-        /// Any choice within the ranges stays below the upper bound; the middle is attained; the doubt shrinks like the square.
+        /// Any choice within the ranges stays below the upper bound; the middle is attained; the doubt shrinks like the
+        /// square.
         #[test]
         fn no_choice_passes_the_bound(
             zeta in prop_oneof![0.0..0.3_f64, 0.3..3.0_f64],
@@ -388,7 +390,8 @@ mod tests {
         }
     }
 
-    /// A shock left to the rest, then a long gap closed: the rest once decayed over the whole gap, as if it had come at its beginning.
+    /// A shock left to the rest, then a long gap closed: the rest once decayed over the whole gap, as if it had come at
+    /// its beginning.
     #[test]
     fn what_is_left_to_the_rest_decays_from_when_it_comes() {
         let damping = DampingRatio::new(1.03).unwrap();

@@ -1,4 +1,5 @@
-//! The train of a clattering bar drives a component: velocity shocks at a position, and the three-way rule as a spectrum.
+//! The train of a clattering bar drives a component: velocity shocks at a position, and the three-way rule as a
+//! spectrum.
 
 use crate::impulse::Run;
 use crate::{DampingRatio, Error, Response, Suspension, VelocityShock, VelocityShocks};
@@ -47,9 +48,9 @@ fn check_position(position: f64) -> Result<(), Error> {
 /// # Endless trains
 ///
 /// They are followed until the sum of all shocks to come, bounded by a geometric series, is below ε/256 of the largest.
-/// Where the gaps shrink much faster than the shocks (q near 1), the rest falls, to the resolution of time,
-/// on one instant: it acts there as the one change of velocity that brings the bar to rest. [`TrainResponse::omitted`]
-/// bounds what either leaves out. At q = 1 the center alone has a limit: it gets nothing of any impact, and stands still in a
+/// Where the gaps shrink much faster than the shocks (q near 1), the rest falls, to the resolution of time, on one
+/// instant: it acts there as the one change of velocity that brings the bar to rest. [`TrainResponse::omitted`] bounds
+/// what either leaves out. At q = 1 the center alone has a limit: it gets nothing of any impact, and stands still in a
 /// train of one shock of no size.
 ///
 /// # Errors
@@ -187,9 +188,10 @@ impl ImpulseFactors {
 }
 
 impl VelocityShocks {
-    /// Peaks ωz and A/ω of a component so soft that all shocks fall within a small part of its period (ω times the length of
-    /// the train → 0): the net change of velocity times the impulse factors. The acceleration passes through the jumps
-    /// 2ζΔv of the dashpot on the way, so that at strong damping the largest partial sum can stand above the net.
+    /// Peaks ωz and A/ω of a component so soft that all shocks fall within a small part of its period (ω times the
+    /// length of the train → 0): the net change of velocity times the impulse factors. The acceleration passes through
+    /// the jumps 2ζΔv of the dashpot on the way, so that at strong damping the largest partial sum can stand above the
+    /// net.
     ///
     /// ```
     /// # use clatter_shock::{DampingRatio, VelocityShock, VelocityShocks};
@@ -207,8 +209,8 @@ impl VelocityShocks {
         let jump = 2.0 * damping.get() * self.largest_partial_sum();
         ImpulseFactors { acceleration: net.acceleration.max(jump), ..net }
     }
-    /// Peaks ωz and A/ω of a component so stiff that it is at rest again before the next shock (ζω times each gap → ∞): the
-    /// largest single shock times the impulse factors. `None` at ζ = 0, where nothing comes to rest.
+    /// Peaks ωz and A/ω of a component so stiff that it is at rest again before the next shock (ζω times each gap → ∞):
+    /// the largest single shock times the impulse factors. `None` at ζ = 0, where nothing comes to rest.
     #[must_use]
     pub fn stiff_limit(&self, damping: DampingRatio) -> Option<ImpulseFactors> {
         (damping.get() > 0.0).then(|| damping.impulse_factors().times(self.largest()))
@@ -237,16 +239,18 @@ impl DampingRatio {
     }
 }
 
-/// The paper's three-way rule as one spectrum over Ω = ω h0/v0 (section 4 of the paper: net change, resonance, largest shock).
+/// The paper's three-way rule as one spectrum over Ω = ω h0/v0 (section 4 of the paper: net change, resonance, largest
+/// shock).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rule {
     /// One point for each Ω asked.
     pub points: Vec<RulePoint>,
-    /// Ω → 0: the net change of velocity times the impulse factors. The acceleration passes through the jumps 2ζΔv of the
-    /// dashpot on the way, so that at strong damping the largest partial sum of the shocks can stand above the net.
+    /// Ω → 0: the net change of velocity times the impulse factors. The acceleration passes through the jumps 2ζΔv of
+    /// the dashpot on the way, so that at strong damping the largest partial sum of the shocks can stand above the net.
     pub soft: ImpulseFactors,
-    /// ζΩ → ∞: the largest single shock times the impulse factors. The last strikes of an endless train come within any period,
-    /// so that there the limit is only crept up to, like a small power of 1/Ω. `None` at ζ = 0, where shocks add up by phase for ever.
+    /// ζΩ → ∞: the largest single shock times the impulse factors. The last strikes of an endless train come within any
+    /// period, so that there the limit is only crept up to, like a small power of 1/Ω. `None` at ζ = 0, where shocks
+    /// add up by phase for ever.
     pub stiff: Option<ImpulseFactors>,
     /// What standards assume: one shock of 2 v0, times the impulse factors.
     pub standard: ImpulseFactors,
@@ -270,7 +274,8 @@ pub struct RulePoint {
 /// The rule for a bar, a position and a damping ratio, at the given Ω. v0 is the speed of the end that strikes first.
 ///
 /// # Errors
-/// As [`respond`]; [`Error::Entry`] for an Ω that is not finite and positive; [`Error::Quantity`] for a flat drop (no Ω).
+/// As [`respond`]; [`Error::Entry`] for an Ω that is not finite and positive; [`Error::Quantity`] for a flat drop (no
+/// Ω).
 pub fn three_way_rule(
     bar: &Bar,
     start: &Start,

@@ -1,16 +1,17 @@
 //! Spectra of evenly sampled records: the ramp-invariant recursive filter of ISO 18431-4, many frequencies at a time.
 //!
-//! Between samples the acceleration is taken to be linear, and for such a history the filter is exact. It carries the quantity
-//! asked for and one more coordinate, u and v, less what the newest sample adds at once:
+//! Between samples the acceleration is taken to be linear, and for such a history the filter is exact. It carries the
+//! quantity asked for and one more coordinate, u and v, less what the newest sample adds at once:
 //!
 //! ```text
 //! (u, v)ₖ₊₁ = (u, v)ₖ + N (u, v)ₖ + c aₖ,    qₖ₊₁ = uₖ₊₁ + d aₖ₊₁
 //! ```
 //!
-//! The entries of N and c come from series where the step is short, and the sum is kept as an increment, so that nothing
-//! cancels at frequencies far below the sampling rate. Samples are taken a block at a time. Where a bound on the motion says that a
-//! block can hold no new extreme, one matrix and one weighted sum carry the filter across it. Where a bound says that a
-//! peak between samples may pass the largest sample, the steps are gone through one by one and the peak is found exactly.
+//! The entries of N and c come from series where the step is short, and the sum is kept as an increment, so that
+//! nothing cancels at frequencies far below the sampling rate. Samples are taken a block at a time. Where a bound on
+//! the motion says that a block can hold no new extreme, one matrix and one weighted sum carry the filter across it.
+//! Where a bound says that a peak between samples may pass the largest sample, the steps are gone through one by one
+//! and the peak is found exactly.
 
 use crate::forced::Segment;
 use crate::lanes::{LANES, Many};
@@ -223,7 +224,8 @@ impl Lane {
         };
         self.share * (q + bend)
     }
-    /// How far some step of a block can rise between its samples, if that may pass the largest value so far; `l` is the lane's place.
+    /// How far some step of a block can rise between its samples, if that may pass the largest value so far; `l` is the
+    /// lane's place.
     fn may_rise(&self, modes: &Modes, l: usize, b: &Block, input: &Input) -> Option<f64> {
         let m = self.motion(b.u[l], b.v[l], input.before);
         let q = modes.quantity(self.row, m).abs().max(b.high[l]).max(-b.low[l]);
@@ -353,8 +355,8 @@ impl Group {
     }
     /// Whether no lane can reach a new extreme within a block, also between samples.
     ///
-    /// √(x² + y²) grows by no more than the velocity that the acceleration adds; q stays below a multiple of it, and within
-    /// reach of where it begins.
+    /// √(x² + y²) grows by no more than the velocity that the acceleration adds; q stays below a multiple of it, and
+    /// within reach of where it begins.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn stays<const FUSED: bool>(&self, input: &Input, high: &Many, low: &Many) -> bool {
@@ -428,8 +430,8 @@ impl Group {
         self.flush();
         block
     }
-    /// The recursion sample by sample, from (u, v): `each` is told the number of the sample and what u, v and the quantity are
-    /// there, at number 0 those at the sample before.
+    /// The recursion sample by sample, from (u, v): `each` is told the number of the sample and what u, v and the
+    /// quantity are there, at number 0 those at the sample before.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn walk<const FUSED: bool>(
@@ -518,7 +520,8 @@ struct Scan<'a> {
     inputs: &'a [Input],
 }
 
-/// The blocks that were gone through sample by sample, and which of them hold the largest and the smallest sample of each lane.
+/// The blocks that were gone through sample by sample, and which of them hold the largest and the smallest sample of
+/// each lane.
 struct Scanned {
     blocks: Vec<Block>,
     highest: [usize; LANES],
@@ -617,8 +620,9 @@ impl SpectrumFilter {
     ///
     /// # Accuracy
     ///
-    /// Exact for a history that is linear between samples, but for rounding: from f·dt = 10⁻⁹ to 10, at any damping. The
-    /// component is at rest before the first sample; after the last the acceleration is zero and the ring-down is complete.
+    /// Exact for a history that is linear between samples, but for rounding: from f·dt = 10⁻⁹ to 10, at any damping.
+    /// The component is at rest before the first sample; after the last the acceleration is zero and the ring-down is
+    /// complete.
     ///
     /// # Examples
     ///

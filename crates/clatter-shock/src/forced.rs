@@ -1,13 +1,14 @@
 //! Motion while the base accelerates: linear and sinusoidal histories, in closed form, and their largest values.
 //!
-//! The response from rest to e^(μτ) is the divided difference of the exponential over the two modes λ₁, λ₂ and μ. It is formed as
+//! The response from rest to e^(μτ) is the divided difference of the exponential over the two modes λ₁, λ₂ and μ. It is
+//! formed as
 //!
 //! ```text
 //! e[λ₁, λ₂, μ] = (e[λ₁, μ] − e[λ₁, λ₂]) / (μ − λ₂),    e[λ₁, λ₂] = sin(βτ) e^(−ζτ)/β
 //! ```
 //!
-//! where μ − λ₂ is never small and e[λ₁, μ] is e^(μτ) τ (e^z − 1)/z: resonance (λ₁ = μ) and critical damping (λ₁ = λ₂) are
-//! ordinary points. For short spans the power series of the motion is summed instead.
+//! where μ − λ₂ is never small and e[λ₁, μ] is e^(μτ) τ (e^z − 1)/z: resonance (λ₁ = μ) and critical damping (λ₁ = λ₂)
+//! are ordinary points. For short spans the power series of the motion is summed instead.
 
 use crate::peaks::Range;
 use crate::suspension::{Modes, Motion, Phase, Propagator};
@@ -28,7 +29,8 @@ const RECIPROCAL: [[f64; 2]; TERMS + 1] = {
     table
 };
 
-/// Series up to (1 + 2ζ)τ = ½; beyond, the closed forms lose no more than two bits to their differences of terms of size τ.
+/// Series up to (1 + 2ζ)τ = ½; beyond, the closed forms lose no more than two bits to their differences of terms of
+/// size τ.
 const SERIES_REACH: f64 = 0.5;
 
 /// Phase βτ beyond which the turning points under a ramp are not visited one by one.
@@ -37,8 +39,9 @@ const MANY_SWINGS: f64 = 128.0 * PI;
 /// From here on the steady motion is bounded at every frequency, and bounds on derivatives start from it.
 const STRONG_DAMPING: f64 = 0.5;
 
-/// Panels of one segment that are halved at most; then the largest value seen so far counts. Bounds that lead so far know nothing of
-/// the motion any more: seen in ramps of 10⁸ swings and more alone, while ordinary pulses take tens of panels.
+/// Panels of one segment that are halved at most; then the largest value seen so far counts. Bounds that lead so far
+/// know nothing of the motion any more: seen in ramps of 10⁸ swings and more alone, while ordinary pulses take tens of
+/// panels.
 const PANELS: u32 = 100_000;
 
 /// Share of the forcing's terms below which their sum is bounded by itself at every damping.
@@ -68,8 +71,8 @@ impl Modes {
         let step = self.propagator(phase);
         (step, self.long_ramp(tau, &step))
     }
-    /// Free motion over a short τ, and the response from rest to a constant and to a ramp: of one power series, which costs less than
-    /// the exponential and the sine.
+    /// Free motion over a short τ, and the response from rest to a constant and to a ramp: of one power series, which
+    /// costs less than the exponential and the sine.
     fn short(&self, tau: f64) -> (Propagator, Ramp) {
         // Ramp response Σ u_k τ^k from u₃ = 1/6; its derivatives are the step and the impulse response.
         let (damp, square) = (2.0 * self.zeta * tau, tau * tau);
@@ -92,7 +95,8 @@ impl Modes {
         let step = Propagator { c: 1.0 - x0 - self.sigma * h, s: h, k: 1.0 - x0 - self.rho * h };
         (step, Ramp { x0, w0: h + self.sigma * x0, x1, w1: x0 + self.sigma * x1 })
     }
-    /// Response from rest to a constant and to a ramp after a τ that is not short; `step` is the free motion over the same τ.
+    /// Response from rest to a constant and to a ramp after a τ that is not short; `step` is the free motion over the
+    /// same τ.
     fn long_ramp(&self, tau: f64, step: &Propagator) -> Ramp {
         if self.kappa == 0.0 {
             let x0 = 1.0 - step.c - self.zeta * step.s;
@@ -149,7 +153,8 @@ pub(crate) struct Segment<'a> {
     bound: [f64; 3],
     /// Panels that may still be halved.
     panels: Cell<u32>,
-    /// The sinusoid added last and the motion over the last segment of sinusoids: pulses of a train are often of one length.
+    /// The sinusoid added last and the motion over the last segment of sinusoids: pulses of a train are often of one
+    /// length.
     last_sine: Option<Sine>,
     last_end: Option<(Phase, bool, (Propagator, Ramp))>,
 }
@@ -187,8 +192,8 @@ impl<'a> Segment<'a> {
         let highest = constant.abs().max((constant + slope * span).abs());
         self.bound = [highest, slope.abs(), 0.0];
     }
-    /// Begins a segment of `length` in time at `start`, where the base's acceleration goes from `from` to `to` in a line; its
-    /// phase length.
+    /// Begins a segment of `length` in time at `start`, where the base's acceleration goes from `from` to `to` in a
+    /// line; its phase length.
     pub(crate) fn begin_line(&mut self, start: Motion, omega: f64, length: f64, from: f64, to: f64) -> Phase {
         let span = Phase::product(omega, length);
         self.begin(start, -from / omega, -(to - from) / (omega * span.hi), span.hi);
@@ -275,14 +280,15 @@ impl<'a> Segment<'a> {
     fn bend(&self, k: usize, s: &Sample) -> f64 {
         self.modes.quantity(k + 2, s.m) + self.modes.rows[k + 1][1] * s.f + self.modes.rows[k][1] * s.f_slope
     }
-    /// Bounds on |f|, |f′|, |f″| for a time `h` after `a`: where terms of the forcing cancel, as in the foot of a haversine, far
-    /// below those of the whole segment.
+    /// Bounds on |f|, |f′|, |f″| for a time `h` after `a`: where terms of the forcing cancel, as in the foot of a
+    /// haversine, far below those of the whole segment.
     fn forcing_bounds(&self, a: &Sample, h: f64) -> [f64; 3] {
         let [f0, f1, f2] = self.bound;
         let slope = a.f_slope.abs();
         [f0.min(a.f.abs() + h * (slope + 0.5 * h * f2)), f1.min(slope + h * f2), f2]
     }
-    /// Bounds on |q″| and |q‴| for a time `h` after `a` under forcing within these bounds: √(x² + y²) grows by no more than |f|.
+    /// Bounds on |q″| and |q‴| for a time `h` after `a` under forcing within these bounds: √(x² + y²) grows by no more
+    /// than |f|.
     fn energy_bounds(&self, k: usize, a: &Sample, h: f64, [f0, f1, f2]: [f64; 3]) -> [f64; 2] {
         let modes = self.modes;
         let input = |j: usize| modes.rows[j][1].abs();
@@ -293,9 +299,9 @@ impl<'a> Segment<'a> {
             row(k + 3) + input(k + 2) * f0 + input(k + 1) * f1 + input(k) * f2,
         ]
     }
-    /// The same from `steady`, those of the steady motion, and what is not steady, which reaches `most`: it only swings and
-    /// decays, and below critical damping its derivatives all have one amplitude. (At resonance without damping there
-    /// is no steady motion.)
+    /// The same from `steady`, those of the steady motion, and what is not steady, which reaches `most`: it only swings
+    /// and decays, and below critical damping its derivatives all have one amplitude. (At resonance without damping
+    /// there is no steady motion.)
     fn steady_bounds_with(&self, k: usize, steady: [f64; 2], rest: Motion, most: f64, h: f64) -> [f64; 2] {
         let modes = self.modes;
         if modes.zeta < STRONG_DAMPING {
@@ -341,9 +347,10 @@ impl<'a> Segment<'a> {
     ///
     /// # Method
     ///
-    /// Free motion and constant forcing have turning points in closed form; under a ramp the zeros of the bend are known and
-    /// bracket them. Otherwise panels are halved until a bound on q″ shows that a panel cannot hold a new extreme, or one on
-    /// q‴ that its slope vanishes once or never; the turning point is then a Newton iteration on the exact motion.
+    /// Free motion and constant forcing have turning points in closed form; under a ramp the zeros of the bend are
+    /// known and bracket them. Otherwise panels are halved until a bound on q″ shows that a panel cannot hold a new
+    /// extreme, or one on q‴ that its slope vanishes once or never; the turning point is then a Newton iteration on the
+    /// exact motion.
     pub(crate) fn extremes(&self, k: usize, end: &Sample, interval: usize, range: &mut Range) {
         let modes = self.modes;
         let span = end.tau;
@@ -374,14 +381,15 @@ impl<'a> Segment<'a> {
             self.linear_extremes(k, begin, end, interval, range);
         }
     }
-    /// Whether the bend of quantity `k`, here free motion, surely keeps its sign up to `end`: less than half a swing, at whose ends it has
-    /// one sign. (Of a longer decay that would be rounding.)
+    /// Whether the bend of quantity `k`, here free motion, surely keeps its sign up to `end`: less than half a swing,
+    /// at whose ends it has one sign. (Of a longer decay that would be rounding.)
     fn keeps_its_bend(&self, k: usize, begin: &Sample, end: &Sample) -> bool {
         let (modes, span) = (self.modes, end.tau);
         modes.beta * span < PI && modes.zeta * span < 4.0 && self.bend(k, begin) * self.bend(k, end) > 0.0
     }
-    /// Linear forcing: the motion swings freely about the static one, x = c₀ + c₁(τ − 2ζ), y = c₁, A/ω = −(c₀ + c₁τ). The
-    /// bend of a quantity is free motion, so its zeros are known, and between two of them the slope vanishes once at most.
+    /// Linear forcing: the motion swings freely about the static one, x = c₀ + c₁(τ − 2ζ), y = c₁, A/ω = −(c₀ + c₁τ).
+    /// The bend of a quantity is free motion, so its zeros are known, and between two of them the slope vanishes once
+    /// at most.
     fn linear_extremes(&self, k: usize, mut a: Sample, end: &Sample, interval: usize, range: &mut Range) {
         let (modes, span) = (self.modes, end.tau);
         let (bent, swing) = (a.steady, a.swing());
@@ -392,8 +400,8 @@ impl<'a> Segment<'a> {
         };
         let (first, last) = (about(0.0), about(span));
         if self.slope == 0.0 {
-            // Of a soft part the static motion is far above the true one, which is then what the two leave: when it turns is known, how far
-            // it has come by then only from the begin.
+            // Of a soft part the static motion is far above the true one, which is then what the two leave: when it
+            // turns is known, how far it has come by then only from the begin.
             let slack = 8.0 * f64::EPSILON * first.abs();
             let seen = (range.low.value - first + slack, range.high.value - first - slack);
             modes.free_extremes(k, swing, span, seen, |tau, value| {
@@ -431,8 +439,9 @@ impl<'a> Segment<'a> {
             a = b;
         }
     }
-    /// What is not steady at `a`. Beyond critical damping the fast decay soon takes it below the rounding of the difference, which
-    /// bounds on derivatives, in powers of ρ, would then be made of: there it is the free motion from the begin.
+    /// What is not steady at `a`. Beyond critical damping the fast decay soon takes it below the rounding of the
+    /// difference, which bounds on derivatives, in powers of ρ, would then be made of: there it is the free motion from
+    /// the begin.
     fn rest(&self, a: &Sample) -> Motion {
         let modes = self.modes;
         if modes.kappa == 0.0 {
@@ -440,8 +449,8 @@ impl<'a> Segment<'a> {
         }
         modes.propagator(Phase::product(1.0, a.tau)).apply(modes.p, self.begin_sample().swing())
     }
-    /// Whether quantity `k`, whose bend keeps its sign from `a` to `b`, turns in between, and may do so outside of `range`: it does so
-    /// no further out than where the tangents of both ends cross.
+    /// Whether quantity `k`, whose bend keeps its sign from `a` to `b`, turns in between, and may do so outside of
+    /// `range`: it does so no further out than where the tangents of both ends cross.
     fn turns_beyond(&self, k: usize, a: &Sample, b: &Sample, range: &Range) -> bool {
         let (sa, sb) = (self.slope(k, a), self.slope(k, b));
         if sa * sb >= 0.0 {
@@ -453,8 +462,8 @@ impl<'a> Segment<'a> {
     }
     /// Halves the panel from `a` to `b` until nothing new can be in its parts, the likelier part first.
     ///
-    /// Over many swings the motion stays within its amplitude of the steady one; `steady` bounds the bend of that, and the
-    /// change of the bend.
+    /// Over many swings the motion stays within its amplitude of the steady one; `steady` bounds the bend of that, and
+    /// the change of the bend.
     fn search(&self, k: usize, steady: [f64; 2], a: &Sample, b: &Sample, interval: usize, range: &mut Range) {
         let h = b.tau - a.tau;
         // Rounding of what is compared decides nothing.
@@ -557,8 +566,8 @@ impl<'a> Segment<'a> {
     }
 }
 
-/// Where the slope vanishes, as a share of the way from one end to the other, `h` apart: a step from the chord on the cubic of both slopes
-/// and bends.
+/// Where the slope vanishes, as a share of the way from one end to the other, `h` apart: a step from the chord on the
+/// cubic of both slopes and bends.
 fn first_guess([sa, sb]: [f64; 2], [ba, bb]: [f64; 2], h: f64) -> f64 {
     let chord = sa / (sa - sb);
     // The cubic is the chord and t (1 − t) (c (1 − t) − d t).
@@ -652,8 +661,8 @@ mod tests {
     use super::*;
     use crate::DampingRatio;
 
-    /// Bounds beyond critical damping are those of the decay, not of what rounding leaves of it: they settle a half-sine in some tens
-    /// of panels at any damping.
+    /// Bounds beyond critical damping are those of the decay, not of what rounding leaves of it: they settle a
+    /// half-sine in some tens of panels at any damping.
     #[test]
     fn strong_damping_needs_no_more_panels() {
         for zeta in [1.5, 50.0, 1e4, 1e6, 1e9, 1e12] {

@@ -70,8 +70,8 @@ impl Margin {
 
 /// The damage boundary of a component for one pulse shape (Newton 1968; ASTM D3332).
 ///
-/// Pulses below the critical velocity change are safe at any acceleration, pulses below the critical acceleration at any
-/// velocity change; between, the boundary turns, and ends at the knee.
+/// Pulses below the critical velocity change are safe at any acceleration, pulses below the critical acceleration at
+/// any velocity change; between, the boundary turns, and ends at the knee.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DamageBoundary {
     suspension: Suspension,
@@ -99,7 +99,8 @@ impl DamageBoundary {
     ///
     /// # Examples
     ///
-    /// For an undamped component and the rectangle the knee is at π/2 times the critical velocity change (1.57 in ASTM D3332):
+    /// For an undamped component and the rectangle the knee is at π/2 times the critical velocity change (1.57 in ASTM
+    /// D3332):
     ///
     /// ```
     /// # use clatter_shock::{DamageBoundary, DampingRatio, Limit, Shape, Suspension};
@@ -131,9 +132,9 @@ impl DamageBoundary {
             knee_duration: phase / omega,
         })
     }
-    /// From shock tests as in ASTM D3332: `velocity` with short pulses of rising velocity change, `acceleration` with long
-    /// rectangles of rising acceleration. Critical is the highest level below all damage; the boundary between is that of the
-    /// undamped component with both, whose knee is at π/2 of the critical velocity change.
+    /// From shock tests as in ASTM D3332: `velocity` with short pulses of rising velocity change, `acceleration` with
+    /// long rectangles of rising acceleration. Critical is the highest level below all damage; the boundary between is
+    /// that of the undamped component with both, whose knee is at π/2 of the critical velocity change.
     ///
     /// # Errors
     /// [`Error::Trials`] if a list has no level without damage below the lowest with damage, or no damage at all.
@@ -157,8 +158,8 @@ impl DamageBoundary {
     pub fn critical_acceleration(&self) -> f64 {
         self.critical_acceleration
     }
-    /// Velocity change from which the critical acceleration alone decides; infinite if amplification only tends to its largest
-    /// value as pulses grow longer.
+    /// Velocity change from which the critical acceleration alone decides; infinite if amplification only tends to its
+    /// largest value as pulses grow longer.
     #[must_use]
     pub fn knee_velocity_change(&self) -> f64 {
         // Also where the critical acceleration is too small for the floats, 0.
@@ -167,8 +168,8 @@ impl DamageBoundary {
         }
         self.shape.area() * self.critical_acceleration * self.knee_duration
     }
-    /// The boundary from the critical velocity change to the knee: `points` pairs of (velocity change, acceleration), for durations
-    /// in equal ratios. Where the knee is infinite it ends at ten periods.
+    /// The boundary from the critical velocity change to the knee: `points` pairs of (velocity change, acceleration),
+    /// for durations in equal ratios. Where the knee is infinite it ends at ten periods.
     ///
     /// # Errors
     /// [`Error::Quantity`] unless there are at least two points.
@@ -276,25 +277,26 @@ pub struct EquivalentPulse {
 }
 
 impl ShockTable {
-    /// The half-sine of this table that gives a component the same peak absolute acceleration as `response`, and the same peak
-    /// relative displacement to within `tolerance` (0.01: 1 %). Where many do, the one of least acceleration.
+    /// The half-sine of this table that gives a component the same peak absolute acceleration as `response`, and the
+    /// same peak relative displacement to within `tolerance` (0.01: 1 %). Where many do, the one of least acceleration.
     ///
     /// # Method
     ///
-    /// Each duration D has one amplitude a(D) that gives the acceleration, and with it a mismatch of displacement. From durations
-    /// 1/48 of an octave apart, and up to 128 periods no more than 1/16 of a period, the ends of the ranges within tolerance and
-    /// limits are bisected wherever the mismatch passes ± `tolerance`, or a(D) a limit, from one to the next: also where
-    /// the whole range lies between two of them. Smallest mismatches and amplitudes are found by golden sections.
+    /// Each duration D has one amplitude a(D) that gives the acceleration, and with it a mismatch of displacement. From
+    /// durations 1/48 of an octave apart, and up to 128 periods no more than 1/16 of a period, the ends of the ranges
+    /// within tolerance and limits are bisected wherever the mismatch passes ± `tolerance`, or a(D) a limit, from one
+    /// to the next: also where the whole range lies between two of them. Smallest mismatches and amplitudes are found
+    /// by golden sections.
     ///
     /// # Accuracy
     ///
-    /// The amplitude is that of the duration to 10⁻¹², and above the least one by at most 10⁻¹². A range is missed only if it is
-    /// entered and left between two neighbors, one of several there.
+    /// The amplitude is that of the duration to 10⁻¹², and above the least one by at most 10⁻¹². A range is missed only
+    /// if it is entered and left between two neighbors, one of several there.
     ///
     /// # Examples
     ///
-    /// Without damping A = ω²z whatever the pulse: all durations do, and least acceleration is asked where a half-sine is
-    /// amplified most, 1.768 times at 0.81 periods.
+    /// Without damping A = ω²z whatever the pulse: all durations do, and least acceleration is asked where a half-sine
+    /// is amplified most, 1.768 times at 0.81 periods.
     ///
     /// ```
     /// # use clatter_shock::{DampingRatio, ShockTable, Suspension, VelocityShock, VelocityShocks};
@@ -308,8 +310,9 @@ impl ShockTable {
     /// ```
     /// # Errors
     ///
-    /// [`Error::NoEquivalent`] says that there is none, and how near the table comes; [`Error::Quantity`] unless 0 < shortest ≤ longest,
-    /// the limits are above 0 and `tolerance` is finite and above 0, and for a response that is at rest or not finite.
+    /// [`Error::NoEquivalent`] says that there is none, and how near the table comes; [`Error::Quantity`] unless 0 <
+    /// shortest ≤ longest, the limits are above 0 and `tolerance` is finite and above 0, and for a response that is at
+    /// rest or not finite.
     pub fn equivalent_half_sine(
         &self,
         suspension: &Suspension,

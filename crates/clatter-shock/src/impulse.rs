@@ -75,8 +75,8 @@ impl VelocityShocks {
     }
     /// Peaks of the component's response, ring-down included.
     ///
-    /// At each shock z′ jumps by −Δv and A by 2ζωΔv; between shocks the motion is free, and its turning points are known in
-    /// closed form ([`Suspension::free`]), so nothing is sampled.
+    /// At each shock z′ jumps by −Δv and A by 2ζωΔv; between shocks the motion is free, and its turning points are
+    /// known in closed form ([`Suspension::free`]), so nothing is sampled.
     ///
     /// # Accuracy
     ///

@@ -7,8 +7,8 @@ use crate::peaks::Range;
 use crate::suspension::{Modes, Motion};
 use std::f64::consts::PI;
 
-/// Extremes of quantity `k` at eight angular frequencies, as [`crate::VelocityShocks::extremes`] has them at one. `None` on a
-/// machine without vectors. The phases must stay below [`crate::lanes::LARGEST_ANGLE`].
+/// Extremes of quantity `k` at eight angular frequencies, as [`crate::VelocityShocks::extremes`] has them at one.
+/// `None` on a machine without vectors. The phases must stay below [`crate::lanes::LARGEST_ANGLE`].
 #[derive(Debug)]
 pub(crate) struct SideBySide<'a> {
     pub(crate) shocks: &'a [VelocityShock],

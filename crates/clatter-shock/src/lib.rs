@@ -17,8 +17,8 @@
 //! | samples, linear between them | [`Record`], [`SpectrumFilter`], [`stream()`] | measured records |
 //! | a clattering bar | [`respond`], [`three_way_rule`] | a part at a position of the bar |
 //!
-//! Each gives a [`Response`] of one component or a [`Spectrum`] over many; [`Limit`], [`DamageBoundary`] and [`ShockTable`] turn
-//! these into margins.
+//! Each gives a [`Response`] of one component or a [`Spectrum`] over many; [`Limit`], [`DamageBoundary`] and
+//! [`ShockTable`] turn these into margins.
 //!
 //! ```
 //! use clatter::{Bar, Start};

@@ -28,7 +28,8 @@ impl LimitCurve {
     pub fn constant(allowed: f64) -> Result<Self, Error> {
         Ok(Self(Law::Level(crate::error::positive("limit", allowed)?)))
     }
-    /// Through points (Hz, allowed) in order of frequency, by powers of the frequency between neighbors; no limit outside.
+    /// Through points (Hz, allowed) in order of frequency, by powers of the frequency between neighbors; no limit
+    /// outside.
     ///
     /// ```
     /// # use clatter_shock::LimitCurve;
@@ -40,7 +41,8 @@ impl LimitCurve {
     /// # Ok::<(), clatter_shock::Error>(())
     /// ```
     /// # Errors
-    /// [`Error::Empty`] below two points; [`Error::Entry`] for a value that is not finite and positive, or a frequency not above the one before.
+    /// [`Error::Empty`] below two points; [`Error::Entry`] for a value that is not finite and positive, or a frequency
+    /// not above the one before.
     pub fn new(points: Vec<(f64, f64)>) -> Result<Self, Error> {
         if points.len() < 2 {
             return Err(Error::Empty("a limit curve of at least two points"));

@@ -86,7 +86,8 @@ impl Range {
             }
         }
     }
-    /// Takes in the free motion from `m` over `span`: its start and its turning points. Its end is the start of what follows.
+    /// Takes in the free motion from `m` over `span`: its start and its turning points. Its end is the start of what
+    /// follows.
     #[inline]
     pub(crate) fn note_free(&mut self, modes: &Modes, k: usize, m: Motion, span: f64, interval: usize) {
         self.note(interval, 0.0, modes.quantity(k, m));
@@ -102,7 +103,8 @@ impl Range {
 /// The largest values that a component reaches, exactly.
 ///
 /// z and A are infinite where they pass the floats (ω below 10⁻³⁰⁰ or above 10³⁰⁰); as velocities,
-/// [`pseudo_velocity`](Self::pseudo_velocity) and [`acceleration_over_omega`](Self::acceleration_over_omega), they still are known.
+/// [`pseudo_velocity`](Self::pseudo_velocity) and [`acceleration_over_omega`](Self::acceleration_over_omega), they
+/// still are known.
 ///
 /// Signs: z is the displacement of the component relative to its base, so that a base that accelerates upward first
 /// drives z downward and the absolute acceleration A = −(2ζωz′ + ω²z) upward.

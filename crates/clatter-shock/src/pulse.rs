@@ -72,7 +72,8 @@ impl Pulse {
     }
 }
 
-/// A checked history of base acceleration: pulses that may overlap, or a piecewise linear history. Zero before and after.
+/// A checked history of base acceleration: pulses that may overlap, or a piecewise linear history. Zero before and
+/// after.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pulses {
     pieces: Vec<Piece>,
@@ -134,14 +135,16 @@ impl Pulses {
     ///
     /// # Errors
     ///
-    /// [`Error::Empty`]; [`Error::ZeroDuration`] for a pulse of no length; [`Error::Entry`] for a value that is not finite, a
-    /// negative duration or a ramp outside (0, ½]; [`Error::Overlap`] where too many sinusoids of different lengths overlap.
+    /// [`Error::Empty`]; [`Error::ZeroDuration`] for a pulse of no length; [`Error::Entry`] for a value that is not
+    /// finite, a negative duration or a ramp outside (0, ½]; [`Error::Overlap`] where too many sinusoids of different
+    /// lengths overlap.
     ///
     /// # Cost
     ///
-    /// n pulses take n log n steps, however they overlap, and responses to them n steps more for each frequency: sinusoids of
-    /// one length add up to one. Where pulses of m different lengths overlap, both take m times as many, and the memory
-    /// for it is bounded: beyond four million sinusoids (2000 half-sines of 2000 lengths that all overlap) it is refused.
+    /// n pulses take n log n steps, however they overlap, and responses to them n steps more for each frequency:
+    /// sinusoids of one length add up to one. Where pulses of m different lengths overlap, both take m times as many,
+    /// and the memory for it is bounded: beyond four million sinusoids (2000 half-sines of 2000 lengths that all
+    /// overlap) it is refused.
     pub fn new(pulses: &[Pulse]) -> Result<Self, Error> {
         if pulses.is_empty() {
             return Err(Error::Empty(PULSES));
@@ -174,8 +177,8 @@ impl Pulses {
     ///
     /// # Errors
     ///
-    /// [`Error::Empty`] below two points, [`Error::Entry`] for a value that is not finite, [`Error::TimeOrder`] where times run
-    /// back, [`Error::ZeroDuration`] if all happens at one instant.
+    /// [`Error::Empty`] below two points, [`Error::Entry`] for a value that is not finite, [`Error::TimeOrder`] where
+    /// times run back, [`Error::ZeroDuration`] if all happens at one instant.
     pub fn piecewise_linear(points: &[(f64, f64)]) -> Result<Self, Error> {
         if points.len() < 2 {
             return Err(Error::Empty("a history of at least two points"));
@@ -212,13 +215,14 @@ impl Pulses {
     ///
     /// # Accuracy
     ///
-    /// Within a few tens of roundings per pulse of the largest response, also at resonance with ζ = 0 and for pulses much
-    /// shorter or longer than the period; peaks inside pulses are isolated by bounds on derivatives, never sampled.
+    /// Within a few tens of roundings per pulse of the largest response, also at resonance with ζ = 0 and for pulses
+    /// much shorter or longer than the period; peaks inside pulses are isolated by bounds on derivatives, never
+    /// sampled.
     ///
     /// # Cost
     ///
-    /// A pulse of many periods costs little more than one of a few: the search halves it, and leaves out what the envelope of the
-    /// swing cannot lift above the largest value yet.
+    /// A pulse of many periods costs little more than one of a few: the search halves it, and leaves out what the
+    /// envelope of the swing cannot lift above the largest value yet.
     ///
     /// # Examples
     ///
@@ -242,8 +246,8 @@ impl Pulses {
         }
         Response::from_ranges(omega, &ranges, |i| self.begin(i))
     }
-    /// The peak of one quantity, ωz or A/ω with its sign, if it passes `above` ≥ 0 either way: a search for the largest of many peaks asks for
-    /// what passes the largest yet, and pays little for what does not.
+    /// The peak of one quantity, ωz or A/ω with its sign, if it passes `above` ≥ 0 either way: a search for the largest
+    /// of many peaks asks for what passes the largest yet, and pays little for what does not.
     ///
     /// # Accuracy
     ///

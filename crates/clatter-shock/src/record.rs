@@ -63,9 +63,9 @@ impl Units {
 
 /// Bytes of a line at most: what is longer is no record, and would not fit in memory in the end.
 const LONGEST: u64 = 1 << 16;
-/// Reads a record line by line: two columns, time and acceleration, separated by semicolon, comma, tab or blanks; lines that
-/// begin with `#` and empty ones are skipped; the first line may be a header, which may name the units. Further columns are
-/// left out, which a [`Finding`] tells.
+/// Reads a record line by line: two columns, time and acceleration, separated by semicolon, comma, tab or blanks; lines
+/// that begin with `#` and empty ones are skipped; the first line may be a header, which may name the units. Further
+/// columns are left out, which a [`Finding`] tells.
 #[derive(Debug)]
 pub struct Lines<R> {
     input: R,
@@ -286,8 +286,8 @@ impl Record {
     pub fn points(&self) -> &[(f64, f64)] {
         &self.points
     }
-    /// Shock response spectrum of the history that is linear between the samples: by the recursive filter where they are even,
-    /// step by step where they are not.
+    /// Shock response spectrum of the history that is linear between the samples: by the recursive filter where they
+    /// are even, step by step where they are not.
     #[must_use]
     pub fn spectrum(&self, frequencies: &Frequencies, damping: DampingRatio, quantity: Quantity) -> Spectrum {
         let even = self.survey.step.and_then(|step| {
@@ -300,7 +300,8 @@ impl Record {
     }
 }
 
-/// Spectrum of a record of any length in constant memory: a second pass after [`Lines::survey`] told whether it is even.
+/// Spectrum of a record of any length in constant memory: a second pass after [`Lines::survey`] told whether it is
+/// even.
 ///
 /// Even records go through the recursive filter, others step by step, which takes some hundred times as long.
 /// `progress` is told the bytes read so far, every few thousand samples.

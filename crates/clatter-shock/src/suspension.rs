@@ -318,7 +318,8 @@ impl Modes {
         let decay = (-exponent).exp() * (1.0 - exponent_lo.clamp(-0.5, 0.5));
         ((sin * small_cos + cos * small_sin, cos * small_cos - sin * small_sin), decay)
     }
-    /// Upper bound on each of the three quantities at turning points to come, for ζ ≤ 1: √(w² + (1−ζ²)x²), their common amplitude.
+    /// Upper bound on each of the three quantities at turning points to come, for ζ ≤ 1: √(w² + (1−ζ²)x²), their common
+    /// amplitude.
     #[inline]
     pub(crate) fn amplitude(&self, m: Motion) -> f64 {
         root_of(m.w * m.w + self.p * m.x * m.x, || m.w.hypot(self.beta * m.x))
@@ -360,8 +361,8 @@ impl Modes {
     }
     /// The first turning point of quantity `k` after the start of free motion from `m`.
     ///
-    /// For ζ < 1 the quantities are derivatives of one another and swing with one amplitude N = √(w² + (1−ζ²)x²): at its
-    /// turning points each is ±N e^(−ζτ).
+    /// For ζ < 1 the quantities are derivatives of one another and swing with one amplitude N = √(w² + (1−ζ²)x²): at
+    /// its turning points each is ±N e^(−ζτ).
     #[inline]
     pub(crate) fn turn(&self, k: usize, m: Motion) -> Option<Turn> {
         let (tau, phi) = self.zero(k + 1, m)?;
@@ -375,8 +376,8 @@ impl Modes {
         };
         Some(Turn { tau, value })
     }
-    /// The two largest extremes of quantity `k` inside free motion from `m`, up to τ = `span`, reported as (τ, value); none
-    /// where the amplitude cannot pass the lowest and highest values `seen`.
+    /// The two largest extremes of quantity `k` inside free motion from `m`, up to τ = `span`, reported as (τ, value);
+    /// none where the amplitude cannot pass the lowest and highest values `seen`.
     #[inline]
     pub(crate) fn free_extremes(
         &self,

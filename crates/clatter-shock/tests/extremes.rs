@@ -1,4 +1,5 @@
-//! The motion at extreme frequencies, times and dampings, against values computed with 100 digits (`data/make_extremes.py`).
+//! The motion at extreme frequencies, times and dampings, against values computed with 100 digits
+//! (`data/make_extremes.py`).
 
 use clatter_shock::accuracy::{FREE, PULSE};
 use clatter_shock::{DampingRatio, Pulse, Pulses, Shape, State, Suspension};
@@ -69,7 +70,8 @@ fn half_sine_is_exact_at_resonance_and_at_critical_damping() {
     assert!(worst[0] > 0.0, "not compared with itself");
 }
 
-/// Turning points within pulses and after them, of both signs, on mounts from slow to stiff, at resonance and at critical damping.
+/// Turning points within pulses and after them, of both signs, on mounts from slow to stiff, at resonance and at
+/// critical damping.
 #[test]
 fn peaks_of_pulses_are_exact() {
     let data = data();
@@ -103,8 +105,9 @@ fn peaks_of_pulses_are_exact() {
     }
 }
 
-/// Pulses that push to and fro: 1 s down, 1 s up twice as hard, 1 s down. A soft part turns at 1.5 s, 0.75 m from where it was, which is far
-/// below the static motion that a constant push makes it swing about. Values of the closed form in 50 digits.
+/// Pulses that push to and fro: 1 s down, 1 s up twice as hard, 1 s down. A soft part turns at 1.5 s, 0.75 m from where
+/// it was, which is far below the static motion that a constant push makes it swing about. Values of the closed form in
+/// 50 digits.
 #[test]
 fn soft_parts_turn_under_a_constant_push_where_they_do() {
     let rectangle = |amplitude, start| Pulse { shape: Shape::Rectangle, amplitude, duration: 1.0, start };

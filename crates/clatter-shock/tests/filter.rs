@@ -160,8 +160,8 @@ proptest! {
     }
 }
 
-/// Bursts in a long record with noise between: whole blocks are passed by where nothing new can be in them, and the true
-/// peaks are those of the exact response all the same.
+/// Bursts in a long record with noise between: whole blocks are passed by where nothing new can be in them, and the
+/// true peaks are those of the exact response all the same.
 #[test]
 fn long_records_with_quiet_stretches() {
     let mut state = 1_u64;

@@ -94,8 +94,8 @@ fn done(component: &Suspension, amplitude: f64, duration: f64) -> [f64; 2] {
     [response.absolute_acceleration.magnitude(), response.relative_displacement.magnitude()]
 }
 
-/// No duration of a fine grid needs less acceleration and fits, and the pulse found does fit. Once the longest was taken, which needs
-/// half as much again.
+/// No duration of a fine grid needs less acceleration and fits, and the pulse found does fit. Once the longest was
+/// taken, which needs half as much again.
 #[test]
 fn the_equivalent_half_sine_needs_the_least_acceleration() {
     let start = Start::new([-4.85, -4.85], 2e-3).expect("start");

@@ -57,8 +57,9 @@ struct Found {
     states: Vec<Vector2<f64>>,
 }
 
-/// From rest through jumps of the base's velocity and pulses, in steps of 0.005/ω at most; `stops` are the times at which states are asked
-/// for, and the last of them the end. Between two steps values are those of the cubic of values and slopes.
+/// From rest through jumps of the base's velocity and pulses, in steps of 0.005/ω at most; `stops` are the times at
+/// which states are asked for, and the last of them the end. Between two steps values are those of the cubic of values
+/// and slopes.
 fn integrate(pulses: &[Pulse], shocks: &[VelocityShock], [omega, zeta]: [f64; 2], stops: &[f64]) -> Found {
     let mut cuts = stops.to_vec();
     for p in pulses {
@@ -135,8 +136,8 @@ fn largest_of_cubic([a, b]: [f64; 2], [m, n]: [f64; 2]) -> f64 {
     most
 }
 
-/// DOPRI5 keeps about 1e-10 of the largest over some hundred steps a swing; the cubic adds (0.005)⁴/384 of the fourth derivative, which at
-/// ζ = 2.5 is 5⁴ times a velocity: 1e-9.
+/// DOPRI5 keeps about 1e-10 of the largest over some hundred steps a swing; the cubic adds (0.005)⁴/384 of the fourth
+/// derivative, which at ζ = 2.5 is 5⁴ times a velocity: 1e-9.
 const CLOSE: f64 = 1.1e-9;
 
 fn hold(name: &str, got: [f64; 2], want: [f64; 2]) {

@@ -7,8 +7,8 @@ fn mount(omega: f64, zeta: f64) -> Suspension {
     Suspension::new(omega, DampingRatio::new(zeta).expect("damping")).expect("mount")
 }
 
-/// z and z′ in a half-sine of unit amplitude and duration D at ω = 1: steady motion Im S e^(iνt), S = −1/(1 − ν² + 2iζν), and
-/// the free motion that brings it from rest.
+/// z and z′ in a half-sine of unit amplitude and duration D at ω = 1: steady motion Im S e^(iνt), S = −1/(1 − ν² +
+/// 2iζν), and the free motion that brings it from rest.
 fn in_half_sine(mount: &Suspension, duration: f64, t: f64) -> State {
     let (nu, zeta) = (PI / duration, mount.damping().get());
     let (re, im) = (1.0 - nu * nu, 2.0 * zeta * nu);

@@ -7,7 +7,8 @@ fn mount(omega: f64, zeta: f64) -> Suspension {
     Suspension::new(omega, DampingRatio::new(zeta).expect("damping")).expect("mount")
 }
 
-/// At q = 1 each impact turns the bar about its center. Once a million of them were followed there, and what was left out was infinite.
+/// At q = 1 each impact turns the bar about its center. Once a million of them were followed there, and what was left
+/// out was infinite.
 #[test]
 fn nothing_is_left_out_where_nothing_is_felt() {
     for e in [0.0, 0.3, 0.9, 1.0] {
@@ -51,7 +52,8 @@ fn what_is_left_out_stays_within_its_bound() {
                     let got = respond(&bar, &Start::default(), position, &mount).expect("response");
                     let followed = got.shocks.as_slice();
                     let n = followed.len() - 1;
-                    // From the last shock of the train on, all that was put there in one; times from there, where they have digits.
+                    // From the last shock of the train on, all that was put there in one; times from there, where they
+                    // have digits.
                     let (last, rest) = (followed[n - 1].time, &whole[n - 1..]);
                     let mut list: Vec<VelocityShock> =
                         followed[..n].iter().map(|s| VelocityShock { time: s.time - last, ..*s }).collect();
@@ -71,7 +73,8 @@ fn what_is_left_out_stays_within_its_bound() {
                         (got.response.acceleration_over_omega(), want.acceleration_over_omega(), (2.0 * zeta).max(1.0)),
                     ] {
                         let off = (got_peak.magnitude() - want.magnitude()).abs() / share;
-                        // The stated rounding, 8 ε n of their sum, of the first hundred: the others come at one instant.
+                        // The stated rounding, 8 ε n of their sum, of the first hundred: the others come at one
+                        // instant.
                         let rounding = 8.0 * f64::EPSILON * sum.min(100.0) * 100.0;
                         assert!(off <= got.omitted + rounding, "{name}: off by {off:e}, not {:e}", got.omitted);
                         if got.omitted > 1e3 * rounding {

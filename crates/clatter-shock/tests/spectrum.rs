@@ -100,7 +100,8 @@ fn a_strong_short_shock_on_a_mount() {
     }
 }
 
-/// A base that accelerates upward presses its component down, z < 0: the equivalent static acceleration is upward, +, and the swing back −.
+/// A base that accelerates upward presses its component down, z < 0: the equivalent static acceleration is upward, +,
+/// and the swing back −.
 #[test]
 fn signs_of_the_equivalent_static_acceleration() {
     for (shape, fd) in [(Shape::TerminalPeakSawtooth, 4.2), (Shape::InitialPeakSawtooth, 0.7), (Shape::Triangle, 0.1)] {

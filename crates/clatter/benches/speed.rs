@@ -1,7 +1,8 @@
 //! Wall times, each beside a plain way to the same answer in the same run: `cargo bench -p clatter --bench speed`.
 //!
 //! Ours and the plain way take turns, so that a machine that slows down slows both; the table gives the least time of
-//! each and the median of the ratios round by round. The bench `instructions` counts instructions, which repeat exactly.
+//! each and the median of the ratios round by round. The bench `instructions` counts instructions, which repeat
+//! exactly.
 #![expect(clippy::print_stdout, clippy::cast_precision_loss, reason = "a table of counts and times is what is wanted")]
 
 use clatter::{Axis, Bar, Count, Impact, Map, Quantity, Start};
@@ -59,7 +60,8 @@ fn random() -> impl FnMut() -> f64 {
     }
 }
 
-/// The unit square, evenly at random: so many points that no branch predictor knows the counts by heart, round after round.
+/// The unit square, evenly at random: so many points that no branch predictor knows the counts by heart, round after
+/// round.
 fn square() -> Vec<(f64, f64)> {
     let mut random = random();
     (0..300_000).map(|_| (random(), random())).collect()
@@ -116,8 +118,8 @@ fn long_trains() {
     }
 }
 
-/// Counts and summaries of random bars beyond 32 impacts, each timed by itself: half of them anywhere or in the corner (1, 1), half
-/// beside the endless curve.
+/// Counts and summaries of random bars beyond 32 impacts, each timed by itself: half of them anywhere or in the corner
+/// (1, 1), half beside the endless curve.
 fn singly() {
     const BARS: usize = 2000;
     let start = Start::default();

@@ -1,5 +1,5 @@
-//! Our side of `peers/run.py`: the four bars of Table 1 and a map of a million points. Scenes as JSON from standard input,
-//! impacts, largest shock at an end and time, by three models, as JSON to standard output.
+//! Our side of `peers/run.py`: the four bars of Table 1 and a map of a million points. Scenes as JSON from standard
+//! input, impacts, largest shock at an end and time, by three models, as JSON to standard output.
 //!
 //! Each time is the best of at least five batches and 0.3 s on one thread, from the numbers of the scene to the answer.
 

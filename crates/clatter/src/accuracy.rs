@@ -1,7 +1,7 @@
 //! The errors that are allowed, quantity by quantity: one table that the docs state and the tests hold.
 //!
-//! The count, the impact that holds the peak and the answer to whether a train ends are not in it: they are exact, of a bar with its mass
-//! in the middle.
+//! The count, the impact that holds the peak and the answer to whether a train ends are not in it: they are exact, of a
+//! bar with its mass in the middle.
 
 /// A train of up to so many impacts counts as short.
 pub const SHORT: u64 = 10_000;
@@ -26,7 +26,8 @@ pub const APPROACH: Allowance = Allowance {
     quantity: "approach velocity",
     error: 1e-12,
     scale: "the larger of itself and the first",
-    // Beyond 5000 impacts next to q = e = 1 velocities rise far above the first one, and come down again: ten times as much.
+    // Beyond 5000 impacts next to q = e = 1 velocities rise far above the first one, and come down again: ten times as
+    // much.
     range: "any train, but ten times next to q = e = 1",
 };
 /// Jumps of the velocities of both ends at an impact.

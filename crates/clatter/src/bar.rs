@@ -135,8 +135,8 @@ impl Bar {
     /// From half-length and radius of gyration, in the same unit.
     ///
     /// # Errors
-    /// [`Error::Quantity`] unless the half-length is in [1e−25, 1e25], the radius is 0 or in that range and so is k in its own,
-    /// [`Error::Restitution`] unless 0 ≤ e ≤ 1.
+    /// [`Error::Quantity`] unless the half-length is in [1e−25, 1e25], the radius is 0 or in that range and so is k in
+    /// its own, [`Error::Restitution`] unless 0 ≤ e ≤ 1.
     pub fn from_gyration_radius(half_length: f64, radius_of_gyration: f64, e: f64) -> Result<Self, Error> {
         let l = positive("half-length", half_length)?;
         let rho = if radius_of_gyration == 0.0 { 0.0 } else { positive("radius of gyration", radius_of_gyration)? };
@@ -146,8 +146,8 @@ impl Bar {
     /// From mass, length from end to end and moment of inertia about the center: k² = 4J/(m (2L)²).
     ///
     /// # Errors
-    /// [`Error::Quantity`] unless mass and length are in [1e−25, 1e25], the moment is 0 or in that range and k in its own,
-    /// [`Error::Restitution`] unless 0 ≤ e ≤ 1.
+    /// [`Error::Quantity`] unless mass and length are in [1e−25, 1e25], the moment is 0 or in that range and k in its
+    /// own, [`Error::Restitution`] unless 0 ≤ e ≤ 1.
     ///
     /// # Examples
     /// A uniform bar has J = m (2L)²/12, hence q = ½:
@@ -165,9 +165,9 @@ impl Bar {
     /// From the masses along a bar of given length, whose center of mass must be the middle.
     ///
     /// # Accuracy
-    /// Sums and products are rounded as f64; k² of the sums then loses no more. The center of mass counts as the middle where it
-    /// is off by no more than roundings of the positions: 8 ε a mass, of the half-length or of where the mass reaches
-    /// beyond it.
+    /// Sums and products are rounded as f64; k² of the sums then loses no more. The center of mass counts as the middle
+    /// where it is off by no more than roundings of the positions: 8 ε a mass, of the half-length or of where the mass
+    /// reaches beyond it.
     ///
     /// # Errors
     /// [`Error::NoMass`] for an empty list, [`Error::OffCenter`] where the center of mass is not the middle,

@@ -214,8 +214,8 @@ fn atan(t: Dd, enough: bool) -> Dd {
         // Of 106 bits the second term of the bracket 1/3 − z/5 + z²/7 needs 34, the third none beyond f64.
         return t - t * (z * INVERSE_ODD[3] - Dd::from(z.hi * z.hi * (0.2 - z.hi / 7.0)));
     }
-    // Of the term z^m/(2m + 1) of the series beside 1, f64 forgets 2^-53: below 2^-103 from z⁵ on, for small z from an earlier
-    // one on; below 2^-83 from z³ on.
+    // Of the term z^m/(2m + 1) of the series beside 1, f64 forgets 2^-53: below 2^-103 from z⁵ on, for small z from an
+    // earlier one on; below 2^-83 from z³ on.
     let skip = if enough { 2 } else { [2f64.powi(-12), 2f64.powi(-16)].iter().filter(|&&below| z.hi < below).count() };
     let tail = LATE_ODD[..7 + skip].iter().fold(0.0, |s, inverse| inverse - z.hi * s);
     let head = INVERSE_ODD[skip..].iter().fold(Dd::from(tail), |s, &inverse| inverse - z * s);

@@ -83,7 +83,8 @@ impl Goal {
         }
     }
 
-    /// How far a bar stays from the goal: what it allows at the ends over what they get, less 1; negative where the bar misses it.
+    /// How far a bar stays from the goal: what it allows at the ends over what they get, less 1; negative where the bar
+    /// misses it.
     #[must_use]
     pub fn margin(self, bar: &Bar) -> f64 {
         1.0 / (self.needed(bar.q()) * bar.peak(&Start::default()).end) - 1.0
@@ -101,8 +102,8 @@ pub fn largest_restitution(goals: &[Goal], q: f64) -> Option<f64> {
     goals.iter().try_fold(1.0_f64, |least, goal| goal.largest_restitution(q).map(|e| least.min(e)))
 }
 
-/// The upper border e(q) of the designs that meet all goals, in connected pieces with q ascending: below each piece, down
-/// to e = 0, all of them do. The true border stays within about `flatness` of the chords.
+/// The upper border e(q) of the designs that meet all goals, in connected pieces with q ascending: below each piece,
+/// down to e = 0, all of them do. The true border stays within about `flatness` of the chords.
 ///
 /// Goals that are met nowhere leave no piece.
 ///
@@ -138,8 +139,8 @@ pub struct FrontPoint {
     pub s: f64,
 }
 
-/// The front of the largest safe zone against q at one restitution: designs than which no other has both a larger zone and a
-/// smaller q, which is easier to build.
+/// The front of the largest safe zone against q at one restitution: designs than which no other has both a larger zone
+/// and a smaller q, which is easier to build.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Front {
     /// Restitution.
@@ -156,12 +157,13 @@ impl Front {
     }
 }
 
-/// The front of the largest zone for `threshold` (in v0) against q in [0, 1], at restitution `e`, among the designs that
-/// have a zone (s ≥ 0) and meet all `goals`.
+/// The front of the largest zone for `threshold` (in v0) against q in [0, 1], at restitution `e`, among the designs
+/// that have a zone (s ≥ 0) and meet all `goals`.
 ///
 /// # Accuracy
-/// Where goals end a piece, to a rounding of q; where the zone turns, to a rounding of s; between them `steps` values of q a unit, on the
-/// front exactly. A stretch of q shorter than 1/512, or a second top between neighboring values, may be missed.
+/// Where goals end a piece, to a rounding of q; where the zone turns, to a rounding of s; between them `steps` values
+/// of q a unit, on the front exactly. A stretch of q shorter than 1/512, or a second top between neighboring values,
+/// may be missed.
 ///
 /// # Errors
 /// [`Error::Quantity`] for a threshold outside [1e−150, 1e150], [`Error::Restitution`] unless 0 ≤ e ≤ 1.
@@ -208,8 +210,8 @@ pub fn front(threshold: f64, goals: &[Goal], e: f64, steps: u32) -> Result<Front
     Ok(Front { e, pieces })
 }
 
-/// The highest point of a function that rises to it and falls from it between `a` and `b`, by golden section, to a rounding of its
-/// height.
+/// The highest point of a function that rises to it and falls from it between `a` and `b`, by golden section, to a
+/// rounding of its height.
 fn highest(zone: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> FrontPoint {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let mut best = FrontPoint { q: a, s: zone(a) };
@@ -226,8 +228,8 @@ fn highest(zone: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> FrontPoint {
     best
 }
 
-/// The intervals of [0, 1] where `good` holds, each end good and within a rounding of the border; one shorter than a step of the
-/// scan may be missed.
+/// The intervals of [0, 1] where `good` holds, each end good and within a rounding of the border; one shorter than a
+/// step of the scan may be missed.
 fn intervals(good: impl Fn(f64) -> bool) -> Vec<[f64; 2]> {
     // from a good value towards a bad one
     let border = |mut inside: f64, mut outside: f64| {

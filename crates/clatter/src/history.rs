@@ -1,4 +1,5 @@
-//! A flight as rows over time, for drawing and for tables: every strike, and between strikes as many rows as the curves need.
+//! A flight as rows over time, for drawing and for tables: every strike, and between strikes as many rows as the curves
+//! need.
 //!
 //! A strike is two rows at one time, just before and just after it, so that no line drawn through the rows rounds a
 //! corner. Between strikes an interval is halved until straight lines through the rows are good enough; where the
@@ -59,8 +60,8 @@ fn between([a, b]: [f64; 2], s: f64) -> f64 {
     0.5 * ((1.0 - s) * a + (1.0 + s) * b)
 }
 
-/// A straight line through two neighboring rows is off, in the middle between them, by at most this share of the larger of
-/// the two ends' values there, for each of height, velocity, acceleration and force.
+/// A straight line through two neighboring rows is off, in the middle between them, by at most this share of the larger
+/// of the two ends' values there, for each of height, velocity, acceleration and force.
 pub const STRAIGHT: f64 = 1.0 / 1000.0;
 
 /// Halvings of an interval, at most: a kink ends in an interval this many powers of two shorter.
@@ -75,7 +76,8 @@ const RINGS: u32 = 10;
 impl Scene {
     /// The rows of a flight of instant impacts.
     ///
-    /// They go on until the body lies still or the limit is reached; one that has bounced clear is followed for a while.
+    /// They go on until the body lies still or the limit is reached; one that has bounced clear is followed for a
+    /// while.
     ///
     /// # Accuracy
     /// At a strike that of the model. Between strikes exact in flight; while the body pivots at finite tilt, as
@@ -124,8 +126,8 @@ impl Scene {
 impl CompliantFlight {
     /// The rows of a flight with contacts that take `contact_time_s`.
     ///
-    /// A touch is two rows at one time, because a dashpot's force begins with a jump. A body that has come to rest is followed
-    /// until its vibration has died down, but for ten contact times at most.
+    /// A touch is two rows at one time, because a dashpot's force begins with a jump. A body that has come to rest is
+    /// followed until its vibration has died down, but for ten contact times at most.
     ///
     /// # Accuracy
     /// Straight lines between the rows: [`STRAIGHT`].

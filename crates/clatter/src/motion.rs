@@ -103,8 +103,8 @@ pub(crate) struct Digits {
 impl Digits {
     /// For a count: a last resort to more digits once in some hundred trains.
     pub(crate) const COUNT: Self = Self { all: power_of_two(-44), strike: power_of_two(-10) };
-    /// For the end of a train: a hundredth of what is allowed, of the angle from one strike to the next. The last strike stands at a
-    /// random share of it.
+    /// For the end of a train: a hundredth of what is allowed, of the angle from one strike to the next. The last
+    /// strike stands at a random share of it.
     pub(crate) const ENDING: Self = Self { all: power_of_two(-44), strike: 0.01 * FINAL.error };
     /// For peaks and strikes.
     pub(crate) const ALL: Self = Self { all: power_of_two(-50), strike: 0.0 };
@@ -452,8 +452,8 @@ impl Drive {
         Steps::Exactly(high)
     }
 
-    /// θ and ψ of a wave in double-double, and a bound on the relative error that both share: 2⁻⁸¹ where that is `enough`, else 2⁻⁹⁵,
-    /// beside that of D.
+    /// θ and ψ of a wave in double-double, and a bound on the relative error that both share: 2⁻⁸¹ where that is
+    /// `enough`, else 2⁻⁹⁵, beside that of D.
     fn angles(&self, enough: bool) -> (Dd, Dd, f64) {
         let (d, d_error) = self.discriminant(Digits::ANGLES);
         let (s, t) = (d.sqrt(), self.wide_t());
@@ -587,7 +587,8 @@ impl Drive {
         self.power(0.5 * to_f64(n) * self.ln_e(), v)
     }
 
-    /// Whether the amplitude that the first strikes have of a wave is no float, though they are: next to e = 0 they are its lesser part.
+    /// Whether the amplitude that the first strikes have of a wave is no float, though they are: next to e = 0 they are
+    /// its lesser part.
     pub(crate) fn is_out_of_range(&self, wave: &Wave) -> bool {
         self.decayed(0, self.amplitude(wave) / wave.s) == f64::INFINITY
     }
@@ -719,8 +720,9 @@ impl Recurrence {
     }
 }
 
-/// D = 4e − T² with T = q(1 + `restitution`) = t + τ, τ what rounding leaves beside t: `((4e − s) − s') − 2tτ` with
-/// s + s' = t² exactly. Where that cancels, 4e − s is exact; else its rounding is one of D. Error: 3 roundings of D, 2⁻¹⁰² of 4e.
+/// D = 4e − T² with T = q(1 + `restitution`) = t + τ, τ what rounding leaves beside t: `((4e − s) − s') − 2tτ` with s +
+/// s' = t² exactly. Where that cancels, 4e − s is exact; else its rounding is one of D. Error: 3 roundings of D, 2⁻¹⁰²
+/// of 4e.
 #[inline]
 fn compensated(q: Dd, restitution: f64, e: f64) -> f64 {
     let product = two_prod(q.hi, restitution);

@@ -7,8 +7,8 @@
 //! Δv_a = −(1 + e) u,   Δv_b = q_a (1 + e) u,   q_a = P/I_a;   at end b likewise with q_b = P/I_b
 //! ```
 //!
-//! Let a_n be the velocity of the end about to strike, and `κ = √(I_a/I_b)`. Then y_n = a_n for n even (end a) and κ a_n for n
-//! odd (end b) obeys the recurrence of the symmetric bar with
+//! Let a_n be the velocity of the end about to strike, and `κ = √(I_a/I_b)`. Then y_n = a_n for n even (end a) and κ
+//! a_n for n odd (end b) obeys the recurrence of the symmetric bar with
 //!
 //! ```text
 //! q = P/√(I_a I_b) = ±√(q_a q_b),   start (v_a, κ v_b),   height gap κ h0
@@ -20,15 +20,16 @@
 //! 1 − q² = ρ² (L_a + L_b)²/(I_a I_b) without cancellation, hence `k = ρ (L_a + L_b)/(√(I_a I_b) + P)` is the gyration
 //! ratio of the symmetric bar, exact to a few roundings however close q is to 1; P itself is formed with twice the
 //! digits. q is irrational as a rule: it and κ are rounded, to 4 ε of themselves (k: 8 ε). The count is exact for the
-//! symmetric bar and start so rounded. For the bar as given it is that of a bar and start whose k, κ v_b and κ h0 are off by
-//! so little: where two counts meet within that, either may come out.
+//! symmetric bar and start so rounded. For the bar as given it is that of a bar and start whose k, κ v_b and κ h0 are
+//! off by so little: where two counts meet within that, either may come out.
 //!
 //! # The safest place
-//! A strike at end a that changes the velocity there by A reaches a point at distance x from the center of mass (towards
-//! b positive) with `A (ρ² − L_a x)/I_a`, one at end b with `B (ρ² + L_b x)/I_b`. With A and B the largest of each end,
-//! the largest shock at x is f(x) = max(|A (ρ² − L_a x)|/I_a, |B (ρ² + L_b x)|/I_b), a convex function. Between the two
-//! centers of percussion, x = −ρ²/L_b and ρ²/L_a, the first falls and the second rises, from 0 to 0 the other way round,
-//! so they meet there, and where a falling and a rising piece of a convex function meet is its least value:
+//! A strike at end a that changes the velocity there by A reaches a point at distance x from the center of mass
+//! (towards b positive) with `A (ρ² − L_a x)/I_a`, one at end b with `B (ρ² + L_b x)/I_b`. With A and B the largest of
+//! each end, the largest shock at x is f(x) = max(|A (ρ² − L_a x)|/I_a, |B (ρ² + L_b x)|/I_b), a convex function.
+//! Between the two centers of percussion, x = −ρ²/L_b and ρ²/L_a, the first falls and the second rises, from 0 to 0 the
+//! other way round, so they meet there, and where a falling and a rising piece of a convex function meet is its least
+//! value:
 //!
 //! ```text
 //! x = ρ² (α − β)/(α L_a + β L_b),   f(x) = α β ρ² (L_a + L_b)/(α L_a + β L_b),   α = A/I_a, β = B/I_b
@@ -46,8 +47,8 @@ use crate::{
 
 /// A rigid bar with its center of mass anywhere between its ends, which alone strike the ground.
 ///
-/// Positions s run from −1 (end a) to 1 (end b), with the middle of the bar, not its center of mass, at 0; velocities are in
-/// v0, changes of angular velocity in v0/L with L half the length, as for [`Bar`].
+/// Positions s run from −1 (end a) to 1 (end b), with the middle of the bar, not its center of mass, at 0; velocities
+/// are in v0, changes of angular velocity in v0/L with L half the length, as for [`Bar`].
 ///
 /// # Examples
 /// The center of mass near end a: a strike there whips end b, on the long arm.
@@ -90,12 +91,12 @@ impl From<Bar> for OffCenterBar {
 }
 
 impl OffCenterBar {
-    /// From the distances of ends a and b to the center of mass and the radius of gyration about it, in one unit, and the
-    /// restitution.
+    /// From the distances of ends a and b to the center of mass and the radius of gyration about it, in one unit, and
+    /// the restitution.
     ///
     /// # Errors
-    /// [`Error::Quantity`] unless both arms are in [1e−25, 1e25] and at most 10⁶ times one another, and the radius is 0 or
-    /// in [1e−25, 1e25] and 10⁻¹² to 10⁶ times half their sum; [`Error::Restitution`] unless 0 ≤ e ≤ 1.
+    /// [`Error::Quantity`] unless both arms are in [1e−25, 1e25] and at most 10⁶ times one another, and the radius is 0
+    /// or in [1e−25, 1e25] and 10⁻¹² to 10⁶ times half their sum; [`Error::Restitution`] unless 0 ≤ e ≤ 1.
     pub fn new([a, b]: [f64; 2], radius_of_gyration: f64, e: f64) -> Result<Self, Error> {
         let (a, b) = (positive("arm of end a", a)?, positive("arm of end b", b)?);
         let rho = radius_of_gyration + 0.0;
@@ -109,8 +110,8 @@ impl OffCenterBar {
         Self::reduced([a / half, b / half], (a - b) / (a + b), rho / half, e)
     }
 
-    /// From the position of the center of mass, −1 < c < 1, and the gyration ratio k = ρ/L, the radius of gyration about the
-    /// center of mass over half the length.
+    /// From the position of the center of mass, −1 < c < 1, and the gyration ratio k = ρ/L, the radius of gyration
+    /// about the center of mass over half the length.
     ///
     /// # Errors
     /// As [`OffCenterBar::new`] with arms 1 + c and 1 − c.
@@ -217,8 +218,8 @@ impl OffCenterBar {
     pub fn center_of_mass(&self) -> f64 {
         self.offset
     }
-    /// Inertia ratios q_a and q_b: minus the velocity jump of the other end over that of the end that strikes. One of them
-    /// may exceed 1.
+    /// Inertia ratios q_a and q_b: minus the velocity jump of the other end over that of the end that strikes. One of
+    /// them may exceed 1.
     #[must_use]
     pub fn inertia_ratios(&self) -> [f64; 2] {
         self.ratios
@@ -255,8 +256,8 @@ impl OffCenterBar {
     pub fn is_symmetric(&self) -> bool {
         self.offset == 0.0
     }
-    /// Share of the shock at a struck end that reaches position s: `(ρ² ∓ L x)/(L² + ρ²)` at distance x from the center of mass
-    /// towards b. 1 at the struck end itself, 0 at its center of percussion, −q at the other end.
+    /// Share of the shock at a struck end that reaches position s: `(ρ² ∓ L x)/(L² + ρ²)` at distance x from the center
+    /// of mass towards b. 1 at the struck end itself, 0 at its center of percussion, −q at the other end.
     #[must_use]
     pub fn share(&self, struck: End, s: f64) -> f64 {
         let x = s - self.center_of_mass();
@@ -274,8 +275,9 @@ impl OffCenterBar {
     /// The impacts, one by one, end a first; as [`Bar::train`], with [`Impact::delta_v_at`] for any position.
     ///
     /// # Accuracy
-    /// As [`Bar::train`], for the bar as it is rounded (see the module): velocities and times are off by a few times as much as a
-    /// change of q and κ by some ε makes, and velocity jumps of each end are relative to the largest of that end.
+    /// As [`Bar::train`], for the bar as it is rounded (see the module): velocities and times are off by a few times as
+    /// much as a change of q and κ by some ε makes, and velocity jumps of each end are relative to the largest of that
+    /// end.
     #[must_use]
     pub fn train(&self, start: &Start) -> OffCenterTrain {
         OffCenterTrain { bar: *self, train: self.bar.train(&self.reduce(start)) }
@@ -289,9 +291,9 @@ impl OffCenterBar {
 
     /// Count, peak, net change, final velocities and duration, end a first, in constant time.
     ///
-    /// The peak is the largest shock of an end in its own strikes; those of the center of mass and of the angular velocity
-    /// are the largest that any strike gives, not always that same one. `center` is the center of mass throughout. The
-    /// largest shock of every position, ends included, is in [`shocks`](Self::shocks).
+    /// The peak is the largest shock of an end in its own strikes; those of the center of mass and of the angular
+    /// velocity are the largest that any strike gives, not always that same one. `center` is the center of mass
+    /// throughout. The largest shock of every position, ends included, is in [`shocks`](Self::shocks).
     #[must_use]
     pub fn summary(&self, start: &Start) -> Summary {
         let symmetric = self.bar.summary(&self.reduce(start));
@@ -316,7 +318,8 @@ impl OffCenterBar {
         Summary { peak, final_velocity, net, ..symmetric }
     }
 
-    /// The largest shocks of one train, everywhere on the bar. The start is that of the end `first` and then of the other.
+    /// The largest shocks of one train, everywhere on the bar. The start is that of the end `first` and then of the
+    /// other.
     #[must_use]
     pub fn shocks(&self, start: &Start, first: End) -> Shocks {
         let peaks = match first {
@@ -345,12 +348,12 @@ impl OffCenterBar {
 /// Center of mass, from the middle towards end b, and radius of gyration about it, of masses along a bar, in m.
 ///
 /// # Accuracy
-/// The center to a rounding a mass of where the masses reach; the radius is summed about it, so that masses close together
-/// far off the middle keep their digits, and is 0 where it is no more than roundings of the positions.
+/// The center to a rounding a mass of where the masses reach; the radius is summed about it, so that masses close
+/// together far off the middle keep their digits, and is 0 where it is no more than roundings of the positions.
 ///
 /// # Errors
-/// [`Error::NoMass`] for an empty list, [`Error::Quantity`] where a mass is not in [1e−25, 1e25] kg, a position is beyond
-/// ±1e25 m or a slab ends before it begins.
+/// [`Error::NoMass`] for an empty list, [`Error::Quantity`] where a mass is not in [1e−25, 1e25] kg, a position is
+/// beyond ±1e25 m or a slab ends before it begins.
 ///
 /// ```
 /// use clatter::{Mass, center_and_gyration};

@@ -36,8 +36,8 @@ pub struct Start {
     pub(crate) plain: bool,
 }
 
-/// With |v_a| and h0 not smaller than this or larger than its reciprocal, and T and e not small, no term of a plain step comes
-/// near the subnormal floats, nor near those that overflow.
+/// With |v_a| and h0 not smaller than this or larger than its reciprocal, and T and e not small, no term of a plain
+/// step comes near the subnormal floats, nor near those that overflow.
 const MODERATE: f64 = 1e-20;
 
 impl Default for Start {

@@ -68,9 +68,9 @@ pub struct Summary {
 
 /// Plain steps that are tried before the closed form, which is no faster for a train of so many.
 const PLAIN: u32 = 32;
-/// A velocity that came out of a cancellation by more than this factor is left to the closed form. Of a wave with N impacts,
-/// N steps add up to 1.3 N² roundings of its amplitude, of which the last velocities are π/N times this factor at least:
-/// 1.3 N³/π · 2⁻⁵³ · 2⁹ ≤ 8e−10 for N ≤ 32.
+/// A velocity that came out of a cancellation by more than this factor is left to the closed form. Of a wave with N
+/// impacts, N steps add up to 1.3 N² roundings of its amplitude, of which the last velocities are π/N times this factor
+/// at least: 1.3 N³/π · 2⁻⁵³ · 2⁹ ≤ 8e−10 for N ≤ 32.
 const CLEAR: f64 = 1.0 / 512.0;
 /// Neighbors of the peak that differ by less are compared with more digits.
 const DISTINCT: f64 = 1e-12;
@@ -112,11 +112,11 @@ impl Bar {
     /// velocity is so small (2⁻¹⁰²² and below) that floats have no digits left for it.
     ///
     /// # Cost
-    /// Measured beside the plain loop (bench `speed`): 0.9 to 1.3 times its time where it ends, on average over the unit square,
-    /// and for up to 4 impacts; for a longer train the time of some 130 impacts of that loop, or of 200 to 250 where
-    /// double-double is needed (N beyond 10⁷, or next to the endless curve). Where integers decide, microseconds to a
-    /// millisecond for a start next to a tie, and one to a hundred milliseconds to tell which impact is the largest of more than
-    /// 10¹⁴ (gyration ratios below 10⁻¹⁴).
+    /// Measured beside the plain loop (bench `speed`): 0.9 to 1.3 times its time where it ends, on average over the
+    /// unit square, and for up to 4 impacts; for a longer train the time of some 130 impacts of that loop, or of 200 to
+    /// 250 where double-double is needed (N beyond 10⁷, or next to the endless curve). Where integers decide,
+    /// microseconds to a millisecond for a start next to a tie, and one to a hundred milliseconds to tell which impact
+    /// is the largest of more than 10¹⁴ (gyration ratios below 10⁻¹⁴).
     #[must_use]
     #[expect(clippy::inline_always, reason = "a bar that is made on the spot then needs no place in memory")]
     #[inline(always)]
@@ -234,8 +234,9 @@ impl Bar {
             (lowest, margin) = (least(velocity, lowest), least(above.abs(), margin));
         };
         if vb <= 0.0 {
-            // Which impact is the last is what a branch predictor cannot know: two, three or four of them without a branch.
-            // A second one is certain, and a_3 < 0 comes after a_2 < 0 alone, so that no step too many moves the peak.
+            // Which impact is the last is what a branch predictor cannot know: two, three or four of them without a
+            // branch. A second one is certain, and a_3 < 0 comes after a_2 < 0 alone, so that no step too many moves
+            // the peak.
             let second = t * first - e * va;
             let third = t * second - e * first;
             let fourth = t * third - e * second;
@@ -255,8 +256,8 @@ impl Bar {
             (before, a, next) = (a, next, t * next - e * a);
             (b, b_next) = (b_next, t * b_next - e * b);
         }
-        // Less than a_N and |a_{N−1}|, so that these too are above the range of subnormal floats. For N = 1, b and a_{N−2}
-        // are 0.
+        // Less than a_N and |a_{N−1}|, so that these too are above the range of subnormal floats. For N = 1, b and
+        // a_{N−2} are 0.
         let cancels = least(next + CLEAR * e * before, CLEAR * t * before - a);
         let clear = cancels > NORMAL && (n < 2 || b > NORMAL);
         let time = start.height_gap() * (b / -a);

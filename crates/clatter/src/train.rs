@@ -137,12 +137,13 @@ const BUFFER: usize = 16;
 const PLAIN: u64 = 32;
 /// Those of a slow wave whose D is known well enough: it ends before.
 const SLOW: u64 = 256;
-/// A velocity that cancels by more than this factor times its number is left to the closed form: |a_{n+2}| against e |a_n|.
+/// A velocity that cancels by more than this factor times its number is left to the closed form: |a_{n+2}| against e
+/// |a_n|.
 ///
-/// Of a wave with N impacts and θ ≈ π/N, one that is let through is N · 2θ times this factor of the amplitude at least, or
-/// 1/326. What it is off by, in roundings of 2⁻⁵³ of the amplitude:
-/// * 2.7 N from the steps: each of N/2 rounds the velocity twice and g, which is 2θ of the amplitude at most and counts 1/2θ
-///   times, three times;
+/// Of a wave with N impacts and θ ≈ π/N, one that is let through is N · 2θ times this factor of the amplitude at least,
+/// or 1/326. What it is off by, in roundings of 2⁻⁵³ of the amplitude:
+/// * 2.7 N from the steps: each of N/2 rounds the velocity twice and g, which is 2θ of the amplitude at most and counts
+///   1/2θ times, three times;
 /// * 0.64 N² from D = 4e − T², which is off by 16 roundings of e at most and turns the wave by N/8eθ of that;
 /// * or 13 (1 + (1 − e)²/D) from D = (1 − q²)(1 + e)² − (1 − e)², off by 8 of D and of (1 − e)².
 ///
@@ -249,8 +250,8 @@ impl Train {
         let impact = self.bar.impact(self.number, [End::A, End::B][I], approach, time);
         steps.time -= steps.gap / (approach * steps.approach[1 - I]);
         if then >= doubt && self.number < steps.last {
-            // The next impact is the last one; where the terms of a_{n+2} nearly cancel, more digits from that impact on.
-            // It is left as it is now: what is not worked out needs no place.
+            // The next impact is the last one; where the terms of a_{n+2} nearly cancel, more digits from that impact
+            // on. It is left as it is now: what is not worked out needs no place.
             steps.ends = then > -doubt;
             steps.last = self.number + u64::from(steps.ends);
             return Some(impact);
@@ -375,8 +376,8 @@ impl Later {
                 }
             }
         }
-        // Roundings of times that hardly differ, or of two ways to the same time, may step back. Looked for all at once:
-        // it is rare, and a running maximum is a chain of operations that wait for each other.
+        // Roundings of times that hardly differ, or of two ways to the same time, may step back. Looked for all at
+        // once: it is rare, and a running maximum is a chain of operations that wait for each other.
         let back = self.times[at] < self.latest;
         if back || self.source.crowded() && (1..BUFFER).filter(|&i| self.times[i] < self.times[i - 1]).count() > 0 {
             for time in &mut self.times[at..] {
@@ -487,18 +488,18 @@ impl Bar {
     /// The impacts, one by one.
     ///
     /// # Method
-    /// The recurrence of every other strike, one for each end, `a_{n+2} = (2e − D) a_n − e² a_{n−2}` in the form of differences,
-    /// to the end of a train of up to 60 strikes, or 222 where e is not small, and for 32 strikes of a longer one; the closed
-    /// form next to a tie. Beyond, four neighboring strikes are carried on together by rotations that keep small angles exact.
-    /// In a train of up to some 400 strikes they follow from the discriminant alone, from the first one on, and the train ends
-    /// where the velocity changes its sign. In longer ones the four are anchored in the closed form anew every 256 strikes,
-    /// and the number of impacts is settled beforehand, as exactly as by [`Bar::count`]. Times between strikes are
-    /// h0 |v_a| e^{n−1}/(a_n a_{n+1}): sums of what is positive.
+    /// The recurrence of every other strike, one for each end, `a_{n+2} = (2e − D) a_n − e² a_{n−2}` in the form of
+    /// differences, to the end of a train of up to 60 strikes, or 222 where e is not small, and for 32 strikes of a
+    /// longer one; the closed form next to a tie. Beyond, four neighboring strikes are carried on together by rotations
+    /// that keep small angles exact. In a train of up to some 400 strikes they follow from the discriminant alone, from
+    /// the first one on, and the train ends where the velocity changes its sign. In longer ones the four are anchored
+    /// in the closed form anew every 256 strikes, and the number of impacts is settled beforehand, as exactly as by
+    /// [`Bar::count`]. Times between strikes are h0 |v_a| e^{n−1}/(a_n a_{n+1}): sums of what is positive.
     ///
     /// # Accuracy
-    /// [`crate::accuracy::APPROACH`], [`JUMP`](crate::accuracy::JUMP) and [`TIME`](crate::accuracy::TIME), for a
-    /// train of any length. Velocities below the range of floats are 0; where the last plain step or the only terms left
-    /// are subnormal (a bar with massless ends that turns about its center), times have only the digits that these have.
+    /// [`crate::accuracy::APPROACH`], [`JUMP`](crate::accuracy::JUMP) and [`TIME`](crate::accuracy::TIME), for a train
+    /// of any length. Velocities below the range of floats are 0; where the last plain step or the only terms left are
+    /// subnormal (a bar with massless ends that turns about its center), times have only the digits that these have.
     ///
     /// # Examples
     /// ```
@@ -581,8 +582,8 @@ mod tests {
     }
 
     proptest! {
-        /// Across the hand-over from plain steps, new anchors, and to the last strike by itself; also where strikes are so
-        /// close that roundings exceed what is between them.
+        /// Across the hand-over from plain steps, new anchors, and to the last strike by itself; also where strikes are
+        /// so close that roundings exceed what is between them.
         #[test]
         fn times_never_step_back(train in trains()) {
             let mut latest = 0.0;

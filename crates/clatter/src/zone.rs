@@ -100,8 +100,9 @@ impl Bar {
     }
 
     /// The interval of signed positions in [−1, 1] where no shock exceeds `threshold` if end `first` strikes first;
-    /// `None` where there is none, as for a threshold of NaN. A strike at end a reaches position s with `((1 − q) − (1 + q) s)/2` of its shock
-    /// (Eq. 3), one at end b with `((1 − q) + (1 + q) s)/2`, so each end bounds the interval on both sides.
+    /// `None` where there is none, as for a threshold of NaN. A strike at end a reaches position s with
+    /// `((1 − q) − (1 + q) s)/2` of its shock (Eq. 3), one at end b with `((1 − q) + (1 + q) s)/2`, so each end bounds
+    /// the interval on both sides.
     ///
     /// # Accuracy
     /// 1e−12.

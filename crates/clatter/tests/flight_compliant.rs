@@ -77,8 +77,8 @@ impl System<f64, Pose> for Exact {
     }
 }
 
-/// The kept lever arm: its error against an adaptive integration (Dormand–Prince 8(5,3)) of the exact geometry over one contact
-/// at 45°, as a share of the shock, is of order 1 in the contact time.
+/// The kept lever arm: its error against an adaptive integration (Dormand–Prince 8(5,3)) of the exact geometry over one
+/// contact at 45°, as a share of the shock, is of order 1 in the contact time.
 #[test]
 fn the_kept_lever_arm_costs_a_turn_of_the_contact() {
     let (body, e, speed) = (body(0.5), 0.3, 4.43);
@@ -134,13 +134,14 @@ fn a_drop_comes_to_rest_on_its_springs() {
     let land = |strikes: &[Strike]| *strikes.iter().find(|s| s.end == End::B).expect("as the test has it");
     let soft = land(&scene.simulate_compliant(1e-6).expect("as the test has it").flight.strikes);
     let hard = land(&scene.simulate(Model::FiniteTilt).strikes);
-    // Lever arms are those of halfway through 0.03 rad of the 1.4: second order; those of the beginning would be off by 1e-2.
+    // Lever arms are those of halfway through 0.03 rad of the 1.4: second order; those of the beginning would be off by
+    // 1e-2.
     assert!((soft.time_s / hard.time_s - 1.0).abs() < 1e-4, "{} {}", soft.time_s, hard.time_s);
     assert!((soft.approach_m_s / hard.approach_m_s - 1.0).abs() < 1e-4, "{} {}", soft.approach_m_s, hard.approach_m_s);
 }
 
-/// An end that lies while the body turns about it keeps lying where lever arms are renewed: it was once thrown up each time, and struck
-/// 294 times in one second.
+/// An end that lies while the body turns about it keeps lying where lever arms are renewed: it was once thrown up each
+/// time, and struck 294 times in one second.
 #[test]
 fn an_end_that_lies_is_not_struck_again() {
     let body = Body::new(0.3656, 0.2452).expect("as the test has it");
@@ -150,7 +151,8 @@ fn an_end_that_lies_is_not_struck_again() {
     assert!(flight.flight.strikes.len() < 30, "{}", flight.flight.strikes.len());
 }
 
-/// Both ends part at one instant, as far as floats tell: they were once pushed in turn, 10⁻²⁰ s each, until 1.7 million phases had gone by.
+/// Both ends part at one instant, as far as floats tell: they were once pushed in turn, 10⁻²⁰ s each, until 1.7 million
+/// phases had gone by.
 #[test]
 fn ends_that_part_together_do_not_take_turns() {
     let body = Body::new(2.0 * 0.049_063_156_973_264_66, 0.008_898_156_337_023_289).expect("as the test has it");
@@ -161,7 +163,8 @@ fn ends_that_part_together_do_not_take_turns() {
     assert!(flight.phases_s().count() < 100, "{}", flight.phases_s().count());
 }
 
-/// Where the last contacts never part they too have a shock: one of 3.9 m/s was once left out, of a bar that dropped at 3.3 m/s.
+/// Where the last contacts never part they too have a shock: one of 3.9 m/s was once left out, of a bar that dropped at
+/// 3.3 m/s.
 #[test]
 fn all_shocks_together_stop_the_drop() {
     for (q, e, speed, tilt_deg, contact) in
@@ -245,8 +248,8 @@ fn unit_scene(q: f64, e: f64, tilt: f64, by_gravity: f64, by_speed: f64) -> (Sce
     (scene, contact_time)
 }
 
-/// The table that the documentation of the contact states, from above and within a factor of five; and within three times it whatever the
-/// roundings of the start.
+/// The table that the documentation of the contact states, from above and within a factor of five; and within three
+/// times it whatever the roundings of the start.
 #[test]
 fn the_energy_error_is_that_of_the_table() {
     let table = [

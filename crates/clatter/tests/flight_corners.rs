@@ -52,7 +52,8 @@ fn thick_scene() -> impl Strategy<Value = Scene> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 500, failure_persistence: None, max_shrink_iters: 0, ..ProptestConfig::default() })]
 
-    /// A strike keeps the angular momentum about the struck corner and takes `½ m (1 − e²) u²`; flight keeps the energy.
+    /// A strike keeps the angular momentum about the struck corner and takes `½ m (1 − e²) u²`; flight keeps the
+    /// energy.
     #[test]
     fn a_strike_keeps_the_angular_momentum_about_its_corner(scene in thick_scene()) {
         let (body, e) = (scene.body(), scene.e());
@@ -135,8 +136,8 @@ fn thin_corners_tend_to_none_in_proportion() {
     }
 }
 
-/// In flight without gravity the right angle comes when the spin has turned the body that far; on the ground, a tall body
-/// whose center is beyond its corner topples.
+/// In flight without gravity the right angle comes when the spin has turned the body that far; on the ground, a tall
+/// body whose center is beyond its corner topples.
 #[test]
 fn a_body_that_turns_past_its_end_says_when() {
     let scene = Scene::new(brick(0.02), 1.0, 1.0, 60.0, 0.0).and_then(|s| s.with_spin(80.0)).expect("a drop");

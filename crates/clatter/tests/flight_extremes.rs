@@ -184,7 +184,8 @@ fn limits_are_kept_and_said() {
     }
 }
 
-/// After a drop at 10⁹ m/s the body turns 10¹⁹ times before it comes back; the search for its touch once went on for ever.
+/// After a drop at 10⁹ m/s the body turns 10¹⁹ times before it comes back; the search for its touch once went on for
+/// ever.
 #[test]
 fn a_turn_that_time_cannot_tell_ends_the_flight() {
     let body = Body::new(1.0, 0.6).expect("as the test has it");

@@ -1,5 +1,5 @@
-//! The flights against a plain, slow simulation written differently: center, angle and their rates as the state, a dense
-//! scan of both heights, bisection, a resting end as a constraint integrated by Runge–Kutta.
+//! The flights against a plain, slow simulation written differently: center, angle and their rates as the state, a
+//! dense scan of both heights, bisection, a resting end as a constraint integrated by Runge–Kutta.
 
 use clatter::End;
 use clatter::flight::{Body, Model, Scene, Stop, Strike};
@@ -96,8 +96,8 @@ impl Plain {
         let size = self.y.abs() + self.reach() * self.phi.abs().max(1.0);
         Hit { end: i, time: self.time, approach: u, size }
     }
-    /// The next strike by scanning with a step that starts tiny and stays a small share of all time scales. An end that the
-    /// turning has just lifted is off the ground for good once it is clear of the roundings of its height.
+    /// The next strike by scanning with a step that starts tiny and stays a small share of all time scales. An end that
+    /// the turning has just lifted is off the ground for good once it is clear of the roundings of its height.
     fn fly(&mut self, lifted: Option<usize>) -> Option<usize> {
         let length = self.arm[0] + self.arm[1];
         let longest = 1e-2 * (1.0 / self.w.abs()).min((length / self.g).sqrt());
@@ -208,8 +208,8 @@ impl Plain {
             *self = next;
         }
     }
-    /// Strikes until `count` of them, or until a body with corners has turned over; an end is held down once the squares of its bounces are a share `hold` of the square
-    /// of the speed that the other end's height is worth.
+    /// Strikes until `count` of them, or until a body with corners has turned over; an end is held down once the
+    /// squares of its bounces are a share `hold` of the square of the speed that the other end's height is worth.
     fn run(mut self, count: usize, hold: f64) -> Vec<Hit> {
         let mut hits = vec![self.strike(0)];
         let mut down: Option<usize> = None;
@@ -297,8 +297,8 @@ proptest! {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, rng_seed: proptest::test_runner::RngSeed::Fixed(1), max_shrink_iters: 0, ..ProptestConfig::default() })]
 
-    /// Rest is reached, with the bounds promised, and every strike of the plain simulation on the way there, past chatters
-    /// and pivots, is in the list.
+    /// Rest is reached, with the bounds promised, and every strike of the plain simulation on the way there, past
+    /// chatters and pivots, is in the list.
     #[test]
     fn rest(scene in any_scene(0.0..0.5), finite in any::<bool>()) {
         let model = if finite { Model::FiniteTilt } else { Model::Ballistic };
@@ -312,8 +312,8 @@ proptest! {
             Stop::TurnedOver { .. } => prop_assert!(scene.body().thickness_m() > 0.0),
             stop => return Err(TestCaseError::fail(format!("{stop:?}"))),
         }
-        // Slow strikes are the chatter that is held, at 1e-5 of the speed that the other end's height is worth. What that does:
-        // the difference if it is held a bounce earlier, and if the drop is 1e-5 faster.
+        // Slow strikes are the chatter that is held, at 1e-5 of the speed that the other end's height is worth. What
+        // that does: the difference if it is held a bounce earlier, and if the drop is 1e-5 faster.
         let plain = Plain::new(&scene, finite);
         let fast = |plain: Plain, hold: f64| {
             let hits = plain.run(60, hold);

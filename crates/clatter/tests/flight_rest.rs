@@ -4,8 +4,8 @@ use clatter::End;
 use clatter::flight::{Body, Model, Scene, Stop};
 use serde_json::Value;
 
-/// Times over the time of rest, speeds over the drop speed. The scene that all but stands on its end multiplies a rounding by
-/// 1300; none of the others by more than 100.
+/// Times over the time of rest, speeds over the drop speed. The scene that all but stands on its end multiplies a
+/// rounding by 1300; none of the others by more than 100.
 const ALLOWED: f64 = 1e-11;
 
 fn cases() -> Vec<Value> {
@@ -50,8 +50,8 @@ fn every_strike_and_the_rest_agree_with_fifty_digits() {
     }
 }
 
-/// A body that toppled over its end with 4e-5 to spare: a simulation that held the chattering end down at 1e-10 of its energy came
-/// 0.4 % late, and was believed for a while.
+/// A body that toppled over its end with 4e-5 to spare: a simulation that held the chattering end down at 1e-10 of its
+/// energy came 0.4 % late, and was believed for a while.
 #[test]
 fn a_body_that_all_but_stands_on_its_end_topples_in_time() {
     let case = &cases()[1];
@@ -63,8 +63,8 @@ fn a_body_that_all_but_stands_on_its_end_topples_in_time() {
     assert!((topples.tilt_rad.abs() - std::f64::consts::PI).abs() < 1e-15, "{}", topples.tilt_rad);
 }
 
-/// Where turning lifts the resting end, its acceleration is a rounding above zero: four strikes of 5e-17 m/s were listed there,
-/// and the energy jumped by 1e-11.
+/// Where turning lifts the resting end, its acceleration is a rounding above zero: four strikes of 5e-17 m/s were
+/// listed there, and the energy jumped by 1e-11.
 #[test]
 fn an_end_that_turning_lifts_does_not_strike_by_rounding() {
     let q = -0.714_473_844_725_967_2_f64;
@@ -80,7 +80,8 @@ fn an_end_that_turning_lifts_does_not_strike_by_rounding() {
     assert!(after.approach_m_s < -0.1 && after.time_s > pivot.until_s + 0.1, "{after:?}");
 }
 
-/// Without gravity, rest is the limit of an endless train: `(h0/v0)/(1 + λ₊)` at small tilt, and within φ² of it at finite tilt.
+/// Without gravity, rest is the limit of an endless train: `(h0/v0)/(1 + λ₊)` at small tilt, and within φ² of it at
+/// finite tilt.
 #[test]
 fn without_gravity_the_endless_train_ends_where_the_closed_form_says() {
     for (q, e) in [(0.9, 0.1), (0.95, 0.3), (0.8, 0.05)] {

@@ -83,7 +83,8 @@ proptest! {
 
 #[test]
 fn a_resting_end_that_lifts_off_goes_on_from_there() {
-    // End a stays down (e = 0) and is pulled up by the turning, which mass beyond the ends keeps up, as the body stands steeper.
+    // End a stays down (e = 0) and is pulled up by the turning, which mass beyond the ends keeps up, as the body stands
+    // steeper.
     let body = Body::new(0.14, 0.2).unwrap();
     let drop = |spin: f64| Scene::new(body, 0.0, 0.1, 5.0, 9.81).unwrap().with_spin(spin).unwrap();
     let lifts = |scene: &Scene| scene.simulate(Model::FiniteTilt).pivots.iter().any(|pivot| pivot.lift_off.is_some());

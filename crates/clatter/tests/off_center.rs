@@ -202,8 +202,8 @@ fn the_safest_place_moves_with_the_mass() {
 fn no_digit_is_lost_where_the_ends_weigh_almost_nothing() {
     for rho in [1e-3, 1e-5, 1e-7, 1e-9] {
         let bar = OffCenterBar::new([1.3, 0.7], rho, 1.0).unwrap();
-        // Elastic: q = cos θ with tan(θ/2) = k = ρ ℓ/(√(I_a I_b) + P) = ρ/(L_a L_b) (1 + O(ρ²)), and the last strike is the
-        // first at or beyond (π − φ)/θ. With κ = 13/7 φ = atan2(sin θ, cos θ + κ) is θ/(1 + κ) but for O(θ³).
+        // Elastic: q = cos θ with tan(θ/2) = k = ρ ℓ/(√(I_a I_b) + P) = ρ/(L_a L_b) (1 + O(ρ²)), and the last strike is
+        // the first at or beyond (π − φ)/θ. With κ = 13/7 φ = atan2(sin θ, cos θ + κ) is θ/(1 + κ) but for O(θ³).
         let theta = 2.0 * rho / 0.91;
         let count = std::f64::consts::PI / theta - 7.0 / 20.0;
         let Count::Finite(n) = bar.count(&Start::default()) else { panic!("{:?}", bar.count(&Start::default())) };
@@ -216,7 +216,8 @@ fn no_digit_is_lost_where_the_ends_weigh_almost_nothing() {
     let bar = OffCenterBar::new([1.3, 0.7], 1e5, 0.5).unwrap();
     let want = (1.69_f64 / 1e10 + 1.0).sqrt() / (0.49_f64 / 1e10 + 1.0).sqrt();
     assert!((bar.kappa() - want).abs() < 4.0 * f64::EPSILON);
-    // 1 + q = P/√(I_a I_b) + 1 = ρ²ℓ²/(I_a I_b)/(1 − q) ≈ 2/ρ²; the gyration ratio of the symmetric bar is √((1−q)/(1+q)) ≈ ρ.
+    // 1 + q = P/√(I_a I_b) + 1 = ρ²ℓ²/(I_a I_b)/(1 − q) ≈ 2/ρ²; the gyration ratio of the symmetric bar is
+    // √((1−q)/(1+q)) ≈ ρ.
     assert!((1.0 + bar.q() - 2e-10).abs() < 2.0 * f64::EPSILON, "{}", bar.q());
 }
 

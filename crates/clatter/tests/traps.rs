@@ -165,7 +165,8 @@ fn underflow_from_one_half_on_sticks_at_no_subnormal() {
     assert_eq!(endless.summary(&Start::default()).final_velocity, Some([0.0, 0.0]));
 }
 
-/// D = 4e − T², plain or as (1 − q²)(1 + e)² − (1 − e)², has no digit right: the count would be off by tens of millions.
+/// D = 4e − T², plain or as (1 − q²)(1 + e)² − (1 − e)², has no digit right: the count would be off by tens of
+/// millions.
 #[test]
 fn the_discriminant_does_not_cancel() {
     let (q, e) = (0.799_999_999_999_999_9_f64, 0.25_f64);
@@ -523,7 +524,8 @@ fn an_amplitude_out_of_range_gives_approaches_within() {
 /// Velocities and heights whose squares leave the range of floats decide as well as any others.
 #[test]
 fn tiny_and_huge_velocities_and_heights_lose_no_digit() {
-    // Next to the endless curve, where no plain step will do, far from it, and as a sweep; powers of two change no digit.
+    // Next to the endless curve, where no plain step will do, far from it, and as a sweep; powers of two change no
+    // digit.
     for (bar, vb) in [
         (Bar::new(2.086e-4, 1.1e-8).unwrap(), 0.0),
         (Bar::new(0.9978, 1.0).unwrap(), -1.0),
@@ -599,8 +601,8 @@ fn maps_have_an_answer_at_every_corner() {
     }
 }
 
-/// Next to q = e = 1 velocities rise far above the first one and come down again: late ones have ten times the error, no more. Values of
-/// the recurrence in 600 bits.
+/// Next to q = e = 1 velocities rise far above the first one and come down again: late ones have ten times the error,
+/// no more. Values of the recurrence in 600 bits.
 #[test]
 fn late_strikes_next_to_both_limits_keep_eleven_digits() {
     for (q, e, vb, number, approach) in [

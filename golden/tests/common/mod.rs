@@ -26,8 +26,8 @@ pub(crate) fn digits(value: f64, digits: u8) -> String {
     }
 }
 
-/// What the page of a report says, where a reader or a screen reader looks for it: with the text that follows each of the
-/// `openings`.
+/// What the page of a report says, where a reader or a screen reader looks for it: with the text that follows each of
+/// the `openings`.
 pub(crate) fn page(report: clatter_report::Report, openings: &[&str]) -> Option<String> {
     let dir = tempfile::tempdir().expect("a temporary directory");
     // an opt-out for machines that cannot have typst; it is never set in CI

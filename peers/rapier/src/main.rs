@@ -1,8 +1,9 @@
-//! The four bars by Rapier: scenes as JSON from standard input, impacts, largest shock and time as JSON to standard output.
+//! The four bars by Rapier: scenes as JSON from standard input, impacts, largest shock and time as JSON to standard
+//! output.
 //!
 //! A bar is one body with a small ball at each end, over a half-space. Steps of 1 µs; contacts are foreseen no further
-//! ahead than bodies of this speed need, which is faster and changes nothing; the rest is as Rapier ships, which came out best:
-//! fewer solver iterations lose late impacts, more of them too.
+//! ahead than bodies of this speed need, which is faster and changes nothing; the rest is as Rapier ships, which came
+//! out best: fewer solver iterations lose late impacts, more of them too.
 
 use rapier2d_f64::prelude::*;
 use serde_json::{Value, json};

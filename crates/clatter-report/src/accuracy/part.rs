@@ -4,8 +4,8 @@
 //! x = ωz, y = z′, τ = ωt:   x′ = y,  y′ = −x − 2ζ y − a/ω
 //! ```
 //!
-//! A pulse or the line between two samples joins the state, so that every case is one matrix exponential: no roots of the
-//! characteristic equation, hence nothing that is special at ζ = 1 or at resonance.
+//! A pulse or the line between two samples joins the state, so that every case is one matrix exponential: no roots of
+//! the characteristic equation, hence nothing that is special at ζ = 1 or at resonance.
 
 use clatter_shock::accuracy::{FREE, PULSE, RECORD, TRAIN};
 use clatter_shock::{

@@ -164,8 +164,8 @@ impl Exact {
         let root = &(&self.t + &(-&self.discriminant()).sqrt()).scale(-1);
         &self.v[1] + &(root * &self.v[0])
     }
-    /// The first n ≥ 1 with a_n ≥ 0. The first wave of negative velocities is no shorter than the positive one after it, so
-    /// that doubling cannot step over that.
+    /// The first n ≥ 1 with a_n ≥ 0. The first wave of negative velocities is no shorter than the positive one after
+    /// it, so that doubling cannot step over that.
     fn count(&self) -> Found {
         if let Some(n) = (1..=2).find(|&n| !self.strikes(n)) {
             return Found::Impacts(n);

@@ -83,8 +83,8 @@ fn thinned(points: &[(f64, f64)], step: f64) -> Vec<(f64, f64)> {
     kept
 }
 
-/// Until when the first strikes are shown magnified: up to the first long pause after at least three of them, else to the last
-/// one before, and only if that leaves most of the time to the rest.
+/// Until when the first strikes are shown magnified: up to the first long pause after at least three of them, else to
+/// the last one before, and only if that leaves most of the time to the rest.
 fn early(drop: &Drop<'_>, end_s: f64) -> Option<f64> {
     let mut over_s = 0.0_f64;
     let over = drop.strikes.iter().enumerate().map(|(i, strike)| {

@@ -26,8 +26,8 @@ struct Scale {
 }
 
 impl Scale {
-    /// Over the finite values. If none is negative and the positive ones span more than a factor of 30, logarithmic from
-    /// the smallest positive one on.
+    /// Over the finite values. If none is negative and the positive ones span more than a factor of 30, logarithmic
+    /// from the smallest positive one on.
     fn of(values: &[f64]) -> Self {
         let range = |from: f64| {
             let inside = values.iter().copied().filter(|v| v.is_finite() && *v >= from);

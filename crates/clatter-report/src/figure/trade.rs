@@ -1,4 +1,5 @@
-//! Error over cost: what every pair of models gets wrong in one scene and how long it takes, with the front and the plan's choices.
+//! Error over cost: what every pair of models gets wrong in one scene and how long it takes, with the front and the
+//! plan's choices.
 
 use clatter_scene::plan::{BarRung, ComponentRung, Quantity};
 use clatter_scene::tradeoff::{Kept, Measured, TOLERANCES, Tradeoff};
@@ -20,7 +21,8 @@ const KEY: f64 = 122.0;
 /// Radius of a mark, and of the ring around a choice of the plan.
 const MARK: f64 = 3.2;
 const RING: f64 = 5.8;
-/// Errors below this share, far below any tolerance that is asked for, are no longer told apart; above the other one neither.
+/// Errors below this share, far below any tolerance that is asked for, are no longer told apart; above the other one
+/// neither.
 const LEAST: f64 = 1e-5;
 const MOST: f64 = 1e3;
 
@@ -297,8 +299,8 @@ impl Placed {
     }
 }
 
-/// Boxes for all labels: apart from one another, from all marks and within the frame, each as near to its point as the ones before
-/// it leave, and clear of the lines where that is to be had.
+/// Boxes for all labels: apart from one another, from all marks and within the frame, each as near to its point as the
+/// ones before it leave, and clear of the lines where that is to be had.
 fn arrange(wanted: &[Wanted], [from, to]: [Pt; 2], lines: &[[Pt; 2]]) -> Vec<Placed> {
     let around = |p: Pt, r: f64| Placed { corner: [p[0] - r, p[1] - r], size: [2.0 * r, 2.0 * r] };
     let marks: Vec<Placed> = wanted.iter().map(|w| around(w.at, w.radius + 1.2)).collect();

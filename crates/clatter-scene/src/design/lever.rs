@@ -66,8 +66,8 @@ pub struct Bounds {
 }
 
 impl Default for Bounds {
-    /// 0 ≤ q ≤ 0.9 and 0.05 ≤ e ≤ 0.9 (neither all mass in the center nor very dead or very bouncy casings can be built: section 6
-    /// of the paper), frequencies a factor of 4 either way, damping ratios up to 0.5.
+    /// 0 ≤ q ≤ 0.9 and 0.05 ≤ e ≤ 0.9 (neither all mass in the center nor very dead or very bouncy casings can be
+    /// built: section 6 of the paper), frequencies a factor of 4 either way, damping ratios up to 0.5.
     fn default() -> Self {
         Self { q: [0.0, 0.9], e: [0.05, 0.9], frequency_factor: 4.0, damping: [0.0, 0.5] }
     }
@@ -135,13 +135,14 @@ impl ProductFile {
     /// For every component that fails, and every lever alone, the smallest change that makes it safe.
     ///
     /// # Method
-    /// Values are tried outward from the present one, in steps of 1/96 of the bounds (frequencies: of their logarithm); the step
-    /// in which safety begins is bisected twelve times, and the safe end of what is left is the answer: [`assess`](Self::assess)
-    /// finds the part safe there, of the file with that value. A value is passed over at once where a drop that broke the part before still does.
+    /// Values are tried outward from the present one, in steps of 1/96 of the bounds (frequencies: of their logarithm);
+    /// the step in which safety begins is bisected twelve times, and the safe end of what is left is the answer:
+    /// [`assess`](Self::assess) finds the part safe there, of the file with that value. A value is passed over at once
+    /// where a drop that broke the part before still does.
     ///
     /// # Limitation
-    /// A safe stretch narrower than a step may be missed, and where a model of [`assess`](Self::assess) is searched and not
-    /// bounded, so may an unsafe one within.
+    /// A safe stretch narrower than a step may be missed, and where a model of [`assess`](Self::assess) is searched and
+    /// not bounded, so may an unsafe one within.
     ///
     /// # Errors
     /// As [`assess`](Self::assess), for the product as it is.
@@ -269,7 +270,8 @@ impl Case<'_> {
         safe_side
     }
 
-    /// The first value from `x` to `outer` that is safe as the file with it is assessed, whose pulses may have other pieces.
+    /// The first value from `x` to `outer` that is safe as the file with it is assessed, whose pulses may have other
+    /// pieces.
     fn confirmed(&self, x: f64, outer: f64) -> Option<(f64, Box<ComponentAssessment>)> {
         BEYOND.iter().find_map(|share| {
             let x = x + share * (outer - x);
@@ -278,7 +280,8 @@ impl Case<'_> {
         })
     }
 
-    /// Whether the part is safe at a value of the lever, as the field has it. What cannot be assessed is not known to be safe.
+    /// Whether the part is safe at a value of the lever, as the field has it. What cannot be assessed is not known to
+    /// be safe.
     fn is_safe_at(&self, x: f64, breakers: &mut Vec<Breaker>) -> bool {
         let Some(file) = self.changed(x) else { return false };
         let Some(component) = file.components.first() else { return false };

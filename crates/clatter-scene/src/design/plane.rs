@@ -33,11 +33,11 @@ pub struct PlaneComponent {
 /// How the border is known.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Border {
-    /// Exactly: below these curves e(q) the component is safe; without any it is nowhere. For limits on velocity shocks of parts
-    /// of a product whose center of mass is in the middle and that may touch with either end first.
+    /// Exactly: below these curves e(q) the component is safe; without any it is nowhere. For limits on velocity shocks
+    /// of parts of a product whose center of mass is in the middle and that may touch with either end first.
     Exact(Vec<Vec<Point>>),
-    /// Margins allowed/demand − 1 on a grid of [`Plane::GRID`] values of q and of e from 0 to 1, e fastest, from drops all over
-    /// the ranges (33 tilts, both ends, three speeds and frequencies).
+    /// Margins allowed/demand − 1 on a grid of [`Plane::GRID`] values of q and of e from 0 to 1, e fastest, from drops
+    /// all over the ranges (33 tilts, both ends, three speeds and frequencies).
     Grid(Vec<f64>),
 }
 

@@ -1,7 +1,9 @@
-//! One end lies on the ground, the other lands: what both contacts, which then act on each other, or all impacts of that instant do together.
+//! One end lies on the ground, the other lands: what both contacts, which then act on each other, or all impacts of
+//! that instant do together.
 //!
-//! Without gravity this depends on the inertia ratio and on restitution alone. Of a bar whose ends differ, `y = h √r`, with r the inertia
-//! ratio of a strike at that end, moves as the ends of an even bar do whose ratio is the geometric mean.
+//! Without gravity this depends on the inertia ratio and on restitution alone. Of a bar whose ends differ, `y = h √r`,
+//! with r the inertia ratio of a strike at that end, moves as the ends of an even bar do whose ratio is the geometric
+//! mean.
 
 use std::sync::OnceLock;
 
@@ -21,8 +23,9 @@ pub(super) struct Both {
     pub(super) lasts: f64,
 }
 
-/// Cells of the table over √(1 − q), from 1 to 0.15, and over −ln e, from e = 0.99 to 0.01: contacts take ends no lighter than that
-/// (0.05 of the length as radius of gyration) and no less restitution, and without loss some never part.
+/// Cells of the table over √(1 − q), from 1 to 0.15, and over −ln e, from e = 0.99 to 0.01: contacts take ends no
+/// lighter than that (0.05 of the length as radius of gyration) and no less restitution, and without loss some never
+/// part.
 const CELLS: usize = 32;
 const LEAST_ROOT: f64 = 0.15;
 /// −ln 0.99, −ln 0.01

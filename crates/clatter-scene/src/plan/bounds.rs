@@ -4,14 +4,14 @@ use super::ends::Ends;
 use super::floats::{greater, lesser};
 use super::swing::Swing;
 
-/// Bound on the shocks to come of a bar whose speed at the component stays below `speed`: by one contact, which throws back (1 + e) of
-/// it, or by both together, about; with e = 1 whatever overlaps.
+/// Bound on the shocks to come of a bar whose speed at the component stays below `speed`: by one contact, which throws
+/// back (1 + e) of it, or by both together, about; with e = 1 whatever overlaps.
 pub(super) fn later_shock(speed: f64, e: f64, gravity: f64, contact_s: f64) -> f64 {
     (1.0 + e) * speed + gravity * contact_s
 }
 
-/// What `times` shocks, each of which throws back (1 + e) of the speed at the component, may add to the response, about, and the weight
-/// that the ground carries in the end.
+/// What `times` shocks, each of which throws back (1 + e) of the speed at the component, may add to the response,
+/// about, and the weight that the ground carries in the end.
 pub(super) fn later_response(swing: &Swing, speed: f64, e: f64, times: f64, fall: f64) -> f64 {
     times * (1.0 + e) * swing.factor * speed + weight(swing, fall)
 }
@@ -23,16 +23,17 @@ pub(super) fn weight(swing: &Swing, fall: f64) -> f64 {
 
 /// How many times the largest later shock all later ones may do together; `most` as the speeds allow.
 ///
-/// The pushes sum to a velocity that stays below the speed, and to the weight: by parts, the response is at most that speed times all
-/// that the response to one shock goes up and down ([`Swing::pile`]). `upward`: where both ends push the same way, the ground gives, while
-/// the component dies down in 1/(ζω), no more than the weight does in that time, beside what stops and throws back the bar.
+/// The pushes sum to a velocity that stays below the speed, and to the weight: by parts, the response is at most that
+/// speed times all that the response to one shock goes up and down ([`Swing::pile`]). `upward`: where both ends push
+/// the same way, the ground gives, while the component dies down in 1/(ζω), no more than the weight does in that time,
+/// beside what stops and throws back the bar.
 pub(super) fn pile(most: f64, swing: &Swing, speed: f64, fall: f64, upward: bool) -> f64 {
     let net = if upward { 1.0 + fall / (2.0 * speed * swing.zeta()) } else { f64::INFINITY };
     greater(lesser(net, lesser(swing.pile, most)), 1.0)
 }
 
-/// The same, about, of a bar that comes to rest: until then, in a time of some `(2 most + 1) speed/g`, it does not get far, which counts at
-/// low speeds.
+/// The same, about, of a bar that comes to rest: until then, in a time of some `(2 most + 1) speed/g`, it does not get
+/// far, which counts at low speeds.
 pub(super) fn pile_until_rest(most: f64, swing: &Swing, speed: f64, fall: f64, upward: bool) -> f64 {
     let brief = (most + 0.5) * speed / (swing.factor * fall);
     greater(lesser(brief, pile(most, swing, speed, fall, upward)), 1.0)

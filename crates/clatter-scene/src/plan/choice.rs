@@ -13,7 +13,8 @@ pub struct Plan {
     pub quantity: Quantity,
     /// One rung of each ladder.
     pub pair: Pair,
-    /// What it gets wrong, as a share of the quantity; the pieces of its pulses come to that, and the strikes that [`Plan::run`] leaves out.
+    /// What it gets wrong, as a share of the quantity; the pieces of its pulses come to that, and the strikes that
+    /// [`Plan::run`] leaves out.
     pub estimate: Estimate,
     /// Pieces of a pulse that does all: they take a tenth of the tolerance, about.
     pub pieces: usize,
@@ -54,8 +55,8 @@ pub struct Reason {
 pub enum Warning {
     /// No contact time is known: the estimate holds for contacts up to this time.
     ContactTimeUnknown {
-        /// At longer ones pulses are no impulses within the tolerance, or contacts overlap; 0 where strikes decide that come later
-        /// than those foreseen.
+        /// At longer ones pulses are no impulses within the tolerance, or contacts overlap; 0 where strikes decide that
+        /// come later than those foreseen.
         longest_s: f64,
     },
     /// No rung reaches the tolerance: the compliant one, which would, refuses the scene or has no contact time.
@@ -68,8 +69,8 @@ pub enum Warning {
 }
 
 impl Forecast {
-    /// The cheapest pair whose estimate is within a tolerance; the highest where none is, and with a warning the closest where that
-    /// is not to be had.
+    /// The cheapest pair whose estimate is within a tolerance; the highest where none is, and with a warning the
+    /// closest where that is not to be had.
     #[must_use]
     pub fn plan(&self, tolerance: f64) -> Plan {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few hundred")]
@@ -148,8 +149,8 @@ impl Forecast {
 }
 
 impl Plan {
-    /// The same plan, or a better one: where it follows contacts until rest because the first strikes leave open what later ones
-    /// do, a longer look ([`Setup::forecast_far`]) is cheap beside that.
+    /// The same plan, or a better one: where it follows contacts until rest because the first strikes leave open what
+    /// later ones do, a longer look ([`Setup::forecast_far`]) is cheap beside that.
     #[must_use]
     pub fn refined(self, setup: &Setup) -> Self {
         if self.pair == Pair::HIGHEST && self.until_s == f64::INFINITY && !self.forecast.is_certain {
@@ -158,10 +159,10 @@ impl Plan {
             self
         }
     }
-    /// The quantity asked, by the models of the plan. Strikes and contacts are followed until, by the energy left, nothing later raises it
-    /// by more than about half of a tolerance of 10 %, or at all with one of 8 % and less. Of 1.4·10⁵ random answers of the highest
-    /// pair none was off by more than 1e-5 where nothing was allowed, and one by more than 10 % at 10 %; of 30 000 of impacts none, and
-    /// none by more than 2.5 %.
+    /// The quantity asked, by the models of the plan. Strikes and contacts are followed until, by the energy left,
+    /// nothing later raises it by more than about half of a tolerance of 10 %, or at all with one of 8 % and less. Of
+    /// 1.4·10⁵ random answers of the highest pair none was off by more than 1e-5 where nothing was allowed, and one by
+    /// more than 10 % at 10 %; of 30 000 of impacts none, and none by more than 2.5 %.
     ///
     /// # Errors
     /// As [`Setup::demand`].

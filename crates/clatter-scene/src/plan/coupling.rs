@@ -68,7 +68,8 @@ impl Coupling {
     #[cold]
     pub(super) fn rebound(&mut self) -> f64 {
         let q = self.flat[0].abs().max(self.flat[1].abs());
-        // Both contacts at once swing with √(1 ∓ q) of the lone frequency and damping; 1.3 for partings that are not at once.
+        // Both contacts at once swing with √(1 ∓ q) of the lone frequency and damping; 1.3 for partings that are not at
+        // once.
         *self.rebound.get_or_insert_with(|| (1.3 * libm::pow(self.e, (1.0 - q).max(0.0).sqrt())).min(1.0))
     }
     /// A strike after this time, which is known to `blur_s`; `together` with the other end, which is one contact.
@@ -101,9 +102,10 @@ impl Coupling {
     }
     /// What the contact of the other end and this strike do to each other.
     ///
-    /// A linear contact struck by a velocity δ in the share x of its time gives `(1 + e)(1 − r(1 − x)) δ` more, with r the share that is to
-    /// come after a time. Upward it parts early, and loses what is to come at most; downward the train of impacts has
-    /// a strike of its own there, which differs by e of the contact and by what no longer has time to come back.
+    /// A linear contact struck by a velocity δ in the share x of its time gives `(1 + e)(1 − r(1 − x)) δ` more, with r
+    /// the share that is to come after a time. Upward it parts early, and loses what is to come at most; downward the
+    /// train of impacts has a strike of its own there, which differs by e of the contact and by what no longer has time
+    /// to come back.
     fn meets(&self, end: usize, delta_v: (f64, f64), blur_s: f64, presses: bool) -> Option<Other> {
         let (other, e) = (self.pressing[1 - end]?, self.e);
         let (x, rise) = ((other.age_s - blur_s).max(0.0) / self.time, self.pulse.delay());
@@ -124,7 +126,8 @@ impl Coupling {
                 whole.min(e * had + (1.0 + e) * back * -kick).max(dent)
             };
         }
-        // What it does back is one more load on the one that strikes, and what of it is to come acts while that presses.
+        // What it does back is one more load on the one that strikes, and what of it is to come acts while that
+        // presses.
         let load = if presses { 0.0 } else { (1.0 + e) * remaining[0].powi(2) * of(other.delta_v, end).abs() };
         let held = pushed * self.flat[1 - end].abs() + load;
         Some(Other { delta_v: other.delta_v, pushed, held, remaining })

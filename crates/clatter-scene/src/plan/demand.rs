@@ -8,8 +8,8 @@ use super::history;
 use super::{BarRung, ComponentRung, Pair, Quantity, Setup};
 use crate::Error;
 
-/// Pieces of the polygon of one pulse, and within what share its peak and its effect then are in 999 of 1000 random scenes; with more of
-/// them, that falls with this power of their number.
+/// Pieces of the polygon of one pulse, and within what share its peak and its effect then are in 999 of 1000 random
+/// scenes; with more of them, that falls with this power of their number.
 const CELLS: usize = 34;
 const WITHIN: f64 = 1e-4;
 const POWER: f64 = 2.5;
@@ -44,18 +44,19 @@ impl Answer {
 }
 
 impl Setup {
-    /// The quantity asked, by one pair of models, in m/s², m or m/s. Strikes after `until_s` ([`Forecast::until_s`], or infinity)
-    /// are left out; all but the map find for themselves, by the energy of the flight that they follow, when nothing later raises the quantity.
+    /// The quantity asked, by one pair of models, in m/s², m or m/s. Strikes after `until_s` ([`Forecast::until_s`], or
+    /// infinity) are left out; all but the map find for themselves, by the energy of the flight that they follow, when
+    /// nothing later raises the quantity.
     ///
     /// The closed form has no train: with it, the trains are those of the map.
     ///
     /// # Accuracy
-    /// That of the models; pulses are polygons, whose peak and effect are within 1e-4 in 999 of 1000 random scenes, and of light ends whose
-    /// contacts act on each other within 1.3e-3.
+    /// That of the models; pulses are polygons, whose peak and effect are within 1e-4 in 999 of 1000 random scenes, and
+    /// of light ends whose contacts act on each other within 1.3e-3.
     ///
     /// # Errors
-    /// [`Error::Bar`] where the compliant model refuses the scene; [`Error::Contact`] for a rung that needs the contact time where
-    /// there is none.
+    /// [`Error::Bar`] where the compliant model refuses the scene; [`Error::Contact`] for a rung that needs the contact
+    /// time where there is none.
     ///
     /// [`Forecast::until_s`]: super::Forecast::until_s
     pub fn demand(&self, pair: Pair, quantity: Quantity, until_s: f64) -> Result<f64, Error> {
@@ -70,7 +71,8 @@ impl Setup {
         self.answer_in(pair, quantity, until_s, CELLS, 0.0)
     }
 
-    /// As [`answer`](Self::answer), in pulses of `cells` pieces, and strikes followed until nothing later raises it beyond a tolerance.
+    /// As [`answer`](Self::answer), in pulses of `cells` pieces, and strikes followed until nothing later raises it
+    /// beyond a tolerance.
     pub(super) fn answer_in(
         &self,
         pair: Pair,
@@ -96,8 +98,8 @@ impl Setup {
         self.of_flight(&flight, pair.component, quantity, cells)
     }
 
-    /// As [`demand`](Self::demand), followed until `until_s` or rest whatever it takes, and pulses of `cells` pieces: twice as many are
-    /// five times as close.
+    /// As [`demand`](Self::demand), followed until `until_s` or rest whatever it takes, and pulses of `cells` pieces:
+    /// twice as many are five times as close.
     ///
     /// # Errors
     /// As [`demand`](Self::demand).
@@ -245,7 +247,8 @@ impl Setup {
         summary.net.map_or(f64::INFINITY, |net| at(net.a, net.b / kappa))
     }
 
-    /// Largest velocity shock of the map at the position, in closed form: that of one end stands beside that of the other.
+    /// Largest velocity shock of the map at the position, in closed form: that of one end stands beside that of the
+    /// other.
     fn largest_shock(&self) -> f64 {
         let (bar, start, kappa) = self.scene.symmetric_bar();
         let first = match bar.peak(&start).impact {
@@ -277,8 +280,8 @@ pub(crate) fn pieces_for(tolerance: f64) -> f64 {
     cells.clamp(1.0, MOST_CELLS)
 }
 
-/// Share of the pieces of a pulse that a component needs: a stiff or much damped one follows the corners of a polygon, a
-/// soft one sees little of them, but by its dashpot the turning of the velocity where contacts overlap.
+/// Share of the pieces of a pulse that a component needs: a stiff or much damped one follows the corners of a polygon,
+/// a soft one sees little of them, but by its dashpot the turning of the velocity where contacts overlap.
 pub(crate) fn fineness(suspension: &Suspension, contact_s: f64) -> f64 {
     let (turned, zeta) = (suspension.omega() * contact_s, suspension.damping().get());
     let fineness = (turned * (1.0 + 2.0 * zeta)).max(turned / 8.0);
@@ -288,9 +291,9 @@ pub(crate) fn fineness(suspension: &Suspension, contact_s: f64) -> f64 {
     fineness.clamp(least, 1.0) * (fast / FINE).clamp(1.0, 4.0)
 }
 
-/// How many times as many pieces a part with a strong dashpot needs on a body with light ends: there the shocks of both nearly cancel in
-/// overlap, to a share of 1 − q, and the dashpot follows what is left; that is off by the second to third power of a piece. Random
-/// scenes show it from ζ = 1.1 on; ten times as many at most.
+/// How many times as many pieces a part with a strong dashpot needs on a body with light ends: there the shocks of both
+/// nearly cancel in overlap, to a share of 1 − q, and the dashpot follows what is left; that is off by the second to
+/// third power of a piece. Random scenes show it from ζ = 1.1 on; ten times as many at most.
 pub(crate) fn crowding(body: &Body, suspension: &Suspension) -> f64 {
     let [a, b] = body.inertia_ratios();
     let apart = 1.0 - a.max(b);

@@ -60,8 +60,8 @@ pub struct Forecast {
     contacts: f64,
     /// The groups.
     pub groups: Groups,
-    /// No strike after this time since the first touch raises the quantity: models need not be followed further. Infinite where
-    /// that is not known.
+    /// No strike after this time since the first touch raises the quantity: models need not be followed further.
+    /// Infinite where that is not known.
     pub until_s: f64,
     /// What the peak is, about.
     pub peak: f64,
@@ -89,9 +89,10 @@ impl Setup {
         self.follow::<STRIKES>(quantity, &mut self.course(), f64::INFINITY)
     }
 
-    /// The plan that [`Setup::forecast`] leads to, from no more strikes than it hangs on: where none but the highest pair can be within the
-    /// tolerance any more, whatever comes later, no further ones are followed. Errors of the other pairs, the groups and the peak are
-    /// then those of the strikes so far; [`Forecast::at_most`] and `until_s`, which are not known, are infinite.
+    /// The plan that [`Setup::forecast`] leads to, from no more strikes than it hangs on: where none but the highest
+    /// pair can be within the tolerance any more, whatever comes later, no further ones are followed. Errors of the
+    /// other pairs, the groups and the peak are then those of the strikes so far; [`Forecast::at_most`] and `until_s`,
+    /// which are not known, are infinite.
     ///
     /// # Cost
     /// One to two and a half microseconds; bench `plan` measures it.
@@ -105,8 +106,8 @@ impl Setup {
         self.follow::<STRIKES>(quantity, trail, f64::INFINITY)
     }
 
-    /// The same from a longer look, of [`MANY_STRIKES`]: worth it before contacts are followed, where the first few strikes leave open what
-    /// later ones do.
+    /// The same from a longer look, of [`MANY_STRIKES`]: worth it before contacts are followed, where the first few
+    /// strikes leave open what later ones do.
     ///
     /// # Cost
     /// Some ten times as much.
@@ -139,7 +140,8 @@ impl Setup {
         let worst = walk.errors(&peak, top).map(|errors| errors.map(|error| error / top));
         let [[_, map], [_, ballistic], [followed, tilted]] = worst;
         let contact_known = self.contact_time_s.is_some();
-        // Without a contact time it is finite tilt that the others are held against: what it makes of later strikes is the answer.
+        // Without a contact time it is finite tilt that the others are held against: what it makes of later strikes is
+        // the answer.
         let doubt = if walk.is_certain { f64::INFINITY } else { number(tilted) };
         let tilted = if contact_known { tilted } else { followed };
         // What real tilt is not sure of, parabolas and the map know by luck alone.
@@ -196,11 +198,13 @@ impl Setup {
     }
 }
 
-/// What impulses in place of pulses change at a peak, and the phases ωτ at which a term linear and one quadratic in them would be 1.
+/// What impulses in place of pulses change at a peak, and the phases ωτ at which a term linear and one quadratic in
+/// them would be 1.
 ///
-/// A pulse is an impulse at its centroid, spread by its variance: `½ σ² ω²` of a peak inside the swing, which bends by itself. A peak that
-/// stands where the shock begins is reached when the pulse is over, `age` after the centroid, and has fallen by then:
-/// `slope age + ½ (1 − 2ζ slope) age²`. One that the next shock cuts off is cut off within that pulse.
+/// A pulse is an impulse at its centroid, spread by its variance: `½ σ² ω²` of a peak inside the swing, which bends by
+/// itself. A peak that stands where the shock begins is reached when the pulse is over, `age` after the centroid, and
+/// has fallen by then: `slope age + ½ (1 − 2ζ slope) age²`. One that the next shock cuts off is cut off within that
+/// pulse.
 fn smoothing(pulse: &Pulse, turned: f64, peak: &Interval, zeta: f64) -> (f64, [f64; 2]) {
     let age = 1.0 - pulse.centroid;
     let half = 0.5 * pulse.variance;
@@ -231,9 +235,9 @@ impl Forecast {
         let is_bound = rung == ComponentRung::PulseTrain && self.contact_known;
         Estimate { error: self.component[rung as usize], is_bound }
     }
-    /// What a pair gets wrong: the sum of both. The highest pair, followed until rest, has no error by definition (what a tolerance lets
-    /// [`Plan::run`](super::Plan::run) leave out of it is told there); other component models on the compliant bar are not estimated,
-    /// since its contacts may merge into one.
+    /// What a pair gets wrong: the sum of both. The highest pair, followed until rest, has no error by definition (what
+    /// a tolerance lets [`Plan::run`](super::Plan::run) leave out of it is told there); other component models on the
+    /// compliant bar are not estimated, since its contacts may merge into one.
     #[must_use]
     pub fn pair(&self, pair: Pair) -> Estimate {
         let (bar, component) = (self.bar[pair.bar as usize], self.component[pair.component as usize]);
@@ -241,14 +245,16 @@ impl Forecast {
         let merges = pair.bar == BarRung::Compliant && !is_bound;
         Estimate { error: if merges { f64::INFINITY } else { bar + component }, is_bound }
     }
-    /// What the quantity is at most, by far more than the estimates are ever off: `peak` and [`DOUBT`] times what finite tilt and
-    /// the strikes not followed leave open, or all that may come after those that were. For screening; a study of random scenes holds it.
+    /// What the quantity is at most, by far more than the estimates are ever off: `peak` and [`DOUBT`] times what
+    /// finite tilt and the strikes not followed leave open, or all that may come after those that were. For screening;
+    /// a study of random scenes holds it.
     #[must_use]
     pub fn at_most(&self) -> f64 {
         self.peak * (1.0 + DOUBT * self.doubt).max(self.later)
     }
-    /// What a pair costs in pulses of so many pieces, about, in ns on a 2.9 GHz core: a sum of constants measured once, by the study. Only ratios are good for
-    /// anything, and on the average of many scenes: a single one may differ by a factor of 10.
+    /// What a pair costs in pulses of so many pieces, about, in ns on a 2.9 GHz core: a sum of constants measured once,
+    /// by the study. Only ratios are good for anything, and on the average of many scenes: a single one may differ by a
+    /// factor of 10.
     #[must_use]
     pub fn cost_ns(&self, pair: Pair, pieces: usize) -> f64 {
         let (n, contacts) = (self.strikes, self.contacts);

@@ -19,7 +19,8 @@ pub(crate) struct Pushes {
     pub(crate) weight: Option<[f64; 2]>,
 }
 
-/// How long, in periods of the component, the weight is kept after rest, and how long it is then taken away without ringing.
+/// How long, in periods of the component, the weight is kept after rest, and how long it is then taken away without
+/// ringing.
 const WEIGHT_PERIODS: [f64; 2] = [2.0, 64.0];
 /// Contact times after rest in which the contacts are followed until they only carry the weight.
 const SETTLED: f64 = 1e3;
@@ -30,9 +31,10 @@ const SMALL: f64 = 1e-5;
 
 /// What the contacts of a compliant flight do to both ends, from their velocities and heights, free fall taken off.
 ///
-/// Between changes of contact the motion is smooth; `cells` pieces are laid over a contact that does all, fewer (with the square
-/// root of its share of the largest shock of an end) over one that does less, denser where it begins. Each piece has the exact change of velocity and the exact
-/// path, so that its effect on a component is off by the fourth power of its length.
+/// Between changes of contact the motion is smooth; `cells` pieces are laid over a contact that does all, fewer (with
+/// the square root of its share of the largest shock of an end) over one that does less, denser where it begins. Each
+/// piece has the exact change of velocity and the exact path, so that its effect on a component is off by the fourth
+/// power of its length.
 pub(crate) fn of_contacts(scene: &Scene, flight: &CompliantFlight, until_s: f64, contact_s: f64, cells: f64) -> Pushes {
     let g = scene.gravity_m_s2();
     let piece = |long: f64, start, end| straight(long, start, end).map(|a| a + g);
@@ -46,8 +48,9 @@ pub(crate) fn of_contacts(scene: &Scene, flight: &CompliantFlight, until_s: f64,
     if rests {
         cuts.push((stop + SETTLED * contact_s, at_stop));
     }
-    // On a grid as fine as the time of the end is known, steps of one length are so to the last bit, and the component turns alike in them.
-    // A contact begins no earlier than it does. Steps that the grid does not know to eight digits stay as they are.
+    // On a grid as fine as the time of the end is known, steps of one length are so to the last bit, and the component
+    // turns alike in them. A contact begins no earlier than it does. Steps that the grid does not know to eight digits
+    // stay as they are.
     let coarse = 3.0 * cuts.last().map_or(0.0, |(time, _)| time.log2().ceil().exp2());
     let on_grid = |time: f64| (time + coarse) - coarse;
     let even = |step: f64| if (on_grid(step) - step).abs() < 1e-8 * step { on_grid(step) } else { step };
@@ -110,7 +113,8 @@ pub(crate) fn of_contacts(scene: &Scene, flight: &CompliantFlight, until_s: f64,
     Pushes { points, weight }
 }
 
-/// The pushes at one place, `at` what it gets of both ends, and the weight for as long as a component takes notice of it.
+/// The pushes at one place, `at` what it gets of both ends, and the weight for as long as a component takes notice of
+/// it.
 pub(crate) fn at_place(pushes: &Pushes, suspension: &Suspension, at: impl Fn([f64; 2]) -> f64) -> Polygon {
     let mut points: Polygon = pushes.points.iter().map(|&(t, a)| (t, at(a))).collect();
     if let Some(weight) = pushes.weight {
@@ -122,8 +126,9 @@ pub(crate) fn at_place(pushes: &Pushes, suspension: &Suspension, at: impl Fn([f6
     points
 }
 
-/// How one phase is cut, `age` after contacts changed: `cells` or so pieces over a contact time, denser just after a change,
-/// and ever fewer over a contact that lasts, which only carries the body in the end. How often the first step, which it returns, is doubled.
+/// How one phase is cut, `age` after contacts changed: `cells` or so pieces over a contact time, denser just after a
+/// change, and ever fewer over a contact that lasts, which only carries the body in the end. How often the first step,
+/// which it returns, is doubled.
 fn cut(doublings: &mut Vec<u32>, rate: f64, age: f64, long: f64, contact_s: f64, cells: f64) -> f64 {
     doublings.clear();
     let longest = contact_s / cells;
@@ -132,7 +137,8 @@ fn cut(doublings: &mut Vec<u32>, rate: f64, age: f64, long: f64, contact_s: f64,
     let (mut step, mut doubled, mut t) = (first, 0, 0.0);
     loop {
         let most = if age + t < 4.0 * contact_s { longest } else { f64::INFINITY };
-        // Each may be longer than the last by 4/cells of it. Doubled as late as this, they are as close as if each were.
+        // Each may be longer than the last by 4/cells of it. Doubled as late as this, they are as close as if each
+        // were.
         while 1.6 * step < (first + 4.0 / cells * t).min(most) {
             (step, doubled) = (2.0 * step, doubled + 1);
         }
@@ -253,7 +259,8 @@ mod tests {
     use super::{largest_change, of_contacts};
     use clatter::flight::{Body, Scene};
 
-    /// However short contacts are beside the time between them, and however few pieces they get, their pushes do what the flight does.
+    /// However short contacts are beside the time between them, and however few pieces they get, their pushes do what
+    /// the flight does.
     #[test]
     fn pushes_do_what_the_contacts_do() {
         let body = Body::new(0.14, 0.0404).expect("a phone");

@@ -1,9 +1,9 @@
 //! One bar, strike by strike, with as much physics as its lane keeps.
 //!
-//! Between strikes both ends follow parabolas. With real tilt the turning bends them by `−σ L ω² sin φ`: its means over the flight, as
-//! it acts on the height and on the velocity, are series in the angle turned, whose fifth powers are left out. A contact moves the bar as one
-//! impulse at its centroid does: beside the jump Δv both ends are set back by Δv times that time. The jump grows by what the contact
-//! carries of the weight.
+//! Between strikes both ends follow parabolas. With real tilt the turning bends them by `−σ L ω² sin φ`: its means over
+//! the flight, as it acts on the height and on the velocity, are series in the angle turned, whose fifth powers are
+//! left out. A contact moves the bar as one impulse at its centroid does: beside the jump Δv both ends are set back by
+//! Δv times that time. The jump grows by what the contact carries of the weight.
 
 use super::both::Both;
 use super::ends::Ends;
@@ -72,7 +72,8 @@ pub(super) struct Lane<const TILTS: bool> {
     /// Time from touch to centroid, and in which the weight gives what a contact carries of it.
     delay: f64,
     carried: f64,
-    /// Time over the speed of an end within which the other must land for that one not to lie down: at least two thirds of it.
+    /// Time over the speed of an end within which the other must land for that one not to lie down: at least two thirds
+    /// of it.
     brief: f64,
     down: Down,
     /// How it turns now.
@@ -103,8 +104,8 @@ struct Sweep {
 const LEAST_COS2: f64 = 1e-3;
 
 impl Sweep {
-    /// Means of sin φ over a time, as it acts on heights and on velocities: series of `2 (sin φ + x cos φ − sin(φ + x))/x²` and
-    /// `(cos φ − cos(φ + x))/x`, x = ω t.
+    /// Means of sin φ over a time, as it acts on heights and on velocities: series of
+    /// `2 (sin φ + x cos φ − sin(φ + x))/x²` and `(cos φ − cos(φ + x))/x`, x = ω t.
     #[inline]
     fn means(&self, t: f64) -> [f64; 2] {
         let (x2, turned) = (self.spin2 * t * t, self.rate * t);
@@ -263,8 +264,8 @@ impl<const TILTS: bool> Lane<TILTS> {
         *next = Next { end, after, turning: 0.0, tumbles, rival: [later, sinks * later - velocity] };
         true
     }
-    /// The strike that the lane with all physics has as `of`, if this one has it too: the time since the last one, and shocks. Where that
-    /// one has an end lying, so has this one; `impacts` are those on it.
+    /// The strike that the lane with all physics has as `of`, if this one has it too: the time since the last one, and
+    /// shocks. Where that one has an end lying, so has this one; `impacts` are those on it.
     #[inline]
     pub(super) fn along(
         &mut self,
@@ -368,7 +369,8 @@ impl<const TILTS: bool> Lane<TILTS> {
         }
         delta_v
     }
-    /// Lets end i lie where it would bounce ever less for a short while, or where its contact does not lift it out of the ground again.
+    /// Lets end i lie where it would bounce ever less for a short while, or where its contact does not lift it out of
+    /// the ground again.
     fn settle<const I: usize>(&mut self, ends: &Ends, ratio: f64, g: f64) {
         let (h, w) = (self.height[I], self.velocity[I]);
         let sunk = w * w + 2.0 * g * h < 0.0;
@@ -392,7 +394,8 @@ impl<const TILTS: bool> Lane<TILTS> {
     fn lands_at(&self, j: usize) -> f64 {
         if self.gravity > 0.0 { fall(self.height[j], self.velocity[j], self.gravity) } else { 0.0 }
     }
-    /// Lets an end lie; without contacts, whose ends can not sink, once its bounces have ended, if the other lands after that.
+    /// Lets an end lie; without contacts, whose ends can not sink, once its bounces have ended, if the other lands
+    /// after that.
     pub(super) fn lie(&mut self, ends: &Ends, end: usize) {
         let (lands, ratio) = (self.lands_at(1 - end), ends.flat[end]);
         let sum = self.velocity[end].max(0.0) / (1.0 - ends.e);
@@ -451,8 +454,8 @@ impl<const TILTS: bool> Lane<TILTS> {
         }
         (delta_v[0], delta_v[1])
     }
-    /// What a strike at end i that changed its velocity by this took of twice the energy, just after that; what the contact carries of
-    /// the weight takes nothing.
+    /// What a strike at end i that changed its velocity by this took of twice the energy, just after that; what the
+    /// contact carries of the weight takes nothing.
     #[inline]
     pub(super) fn twice_lost(&self, ends: &Ends, i: usize, jump: f64) -> f64 {
         let jump = greater(jump - self.carried * self.gravity, 0.0);

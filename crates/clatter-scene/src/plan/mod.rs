@@ -1,37 +1,40 @@
 //! The cheapest models that are good enough for a scene, before anything is simulated.
 //!
-//! Two ladders: how the bar moves ([`BarRung`]) and how the component answers ([`ComponentRung`]). [`Setup::forecast`] estimates what
-//! each rung gets wrong in the quantity asked, as a share of it; [`Forecast::plan`] takes the cheapest [`Pair`] whose estimate is
-//! within a tolerance, and says which group of the scene decided. [`Setup::plan`] does both, and no more than the choice needs.
-//! [`Setup::demand`] runs a pair.
+//! Two ladders: how the bar moves ([`BarRung`]) and how the component answers ([`ComponentRung`]). [`Setup::forecast`]
+//! estimates what each rung gets wrong in the quantity asked, as a share of it; [`Forecast::plan`] takes the cheapest
+//! [`Pair`] whose estimate is within a tolerance, and says which group of the scene decided. [`Setup::plan`] does both,
+//! and no more than the choice needs. [`Setup::demand`] runs a pair.
 //!
 //! # What the error is against
-//! The compliant bar with the exact response to its pulses, from the first touch until rest and through the ring-down: every
-//! force of the ground counts, the strikes of later rebounds too, and the weight that the ground carries in the end. The
-//! component falls freely before: its spring is not loaded. A velocity shock is there the largest change of velocity within one
-//! contact time, which is the jump of a strike where contacts do not overlap. Where [`Scene::simulate_compliant`] refuses (ends that
-//! sink in by more than a tenth of the length over their speed, light ends, e < 0.01) there is nothing to compare with, and the
-//! plan says so by a [`Warning`] where it needs that rung.
+//! The compliant bar with the exact response to its pulses, from the first touch until rest and through the ring-down:
+//! every force of the ground counts, the strikes of later rebounds too, and the weight that the ground carries in the
+//! end. The component falls freely before: its spring is not loaded. A velocity shock is there the largest change of
+//! velocity within one contact time, which is the jump of a strike where contacts do not overlap. Where
+//! [`Scene::simulate_compliant`] refuses (ends that sink in by more than a tenth of the length over their speed, light
+//! ends, e < 0.01) there is nothing to compare with, and the plan says so by a [`Warning`] where it needs that rung.
 //!
 //! # How
-//! The first strikes, [`STRIKES`] at most, are followed in four lanes at once: as the map, as parabolas, with real tilt, and with
-//! contacts that delay what they do by the centroid of their pulse (a lone contact moves the bar as one impulse at that moment
-//! does, exactly). What the lanes differ by, each the parabola, the lever arm or the delay of one group, is carried as a
-//! perturbation of the component's motion, turned and damped with it. Beside it stand
+//! The first strikes, [`STRIKES`] at most, are followed in four lanes at once: as the map, as parabolas, with real
+//! tilt, and with contacts that delay what they do by the centroid of their pulse (a lone contact moves the bar as one
+//! impulse at that moment does, exactly). What the lanes differ by, each the parabola, the lever arm or the delay of
+//! one group, is carried as a perturbation of the component's motion, turned and damped with it. Beside it stand
 //!
-//! - pulses in place of impulses: `½ σ² ω²` of a peak inside the swing (σ² the variance of the pulse), the slope over its mean
-//!   age for a peak on the jump of the dashpot;
-//! - overlapping contacts: what a kick through the bar does to a contact that has not done all it would, exactly for a linear one;
-//! - an end that lies on the ground while the other lands: both contacts at once, whose motion hangs on inertia ratio and restitution
-//!   alone, from a table that the model of contacts fills; against the closed form of all impacts of that instant;
-//! - everything later: by energy, no end can be faster than E allows; where that cannot raise the response above the peak so
-//!   far, the following stops, and [`Forecast::until_s`] says until when any model needs to be followed. Where strikes are in doubt,
-//!   that bound takes their place.
+//! - pulses in place of impulses: `½ σ² ω²` of a peak inside the swing (σ² the variance of the pulse), the slope over
+//!   its mean age for a peak on the jump of the dashpot;
+//! - overlapping contacts: what a kick through the bar does to a contact that has not done all it would, exactly for a
+//!   linear one;
+//! - an end that lies on the ground while the other lands: both contacts at once, whose motion hangs on inertia ratio
+//!   and restitution alone, from a table that the model of contacts fills; against the closed form of all impacts of
+//!   that instant;
+//! - everything later: by energy, no end can be faster than E allows; where that cannot raise the response above the
+//!   peak so far, the following stops, and [`Forecast::until_s`] says until when any model needs to be followed. Where
+//!   strikes are in doubt, that bound takes their place.
 //!
 //! # Bounds and estimates
-//! The last is a bound for velocity shocks. The rest is first order in the groups, with five fitted constants, for contacts
-//! that part together, for ends that come up from below the ground, for those that lie down, for large tilt and for later strikes: an
-//! estimate, held by a study of random scenes (`examples/plan_study.rs`). [`Estimate::is_bound`] says which it is.
+//! The last is a bound for velocity shocks. The rest is first order in the groups, with five fitted constants, for
+//! contacts that part together, for ends that come up from below the ground, for those that lie down, for large tilt
+//! and for later strikes: an estimate, held by a study of random scenes (`examples/plan_study.rs`).
+//! [`Estimate::is_bound`] says which it is.
 //!
 //! ```
 //! use clatter::flight::{Body, Scene};
@@ -189,8 +192,8 @@ pub struct Setup {
 }
 
 impl Setup {
-    /// A scene, the time that a lone contact takes where it is known, the position of the component in [−1, 1] (−1 is the end that
-    /// touches first) and its suspension.
+    /// A scene, the time that a lone contact takes where it is known, the position of the component in [−1, 1] (−1 is
+    /// the end that touches first) and its suspension.
     ///
     /// # Errors
     /// [`Error::Shock`] for a position outside [−1, 1], [`Error::Bar`] for a contact time outside [1e−12, 1e3] s.

@@ -1,7 +1,8 @@
 //! The pulse of a lone contact: spring and dashpot with restitution e, in units of its duration and velocity change.
 //!
-//! Approached with velocity −1, an end has the velocity `−e^(−σt) (cos νt − (σ/ν) sin νt)` (cosh, sinh beyond critical damping) until
-//! it leaves with e; the share `(v + e)/(1 + e)` of the velocity change, v the speed still downward, is then to come.
+//! Approached with velocity −1, an end has the velocity `−e^(−σt) (cos νt − (σ/ν) sin νt)` (cosh, sinh beyond critical
+//! damping) until it leaves with e; the share `(v + e)/(1 + e)` of the velocity change, v the speed still downward, is
+//! then to come.
 
 use std::sync::OnceLock;
 
@@ -18,8 +19,8 @@ pub(crate) struct Pulse {
     pub(crate) centroid: f64,
     /// Its variance about the mean.
     pub(crate) variance: f64,
-    /// Share of a steady load over the contact time that the contact takes up beside its shock: `1 − s(1)`, with s the motion after
-    /// a unit of velocity, since at the parting no force is left.
+    /// Share of a steady load over the contact time that the contact takes up beside its shock: `1 − s(1)`, with s the
+    /// motion after a unit of velocity, since at the parting no force is left.
     pub(crate) carried: f64,
 }
 
@@ -120,9 +121,9 @@ impl Pulse {
     pub(crate) fn crest(&self) -> f64 {
         self.onset().max(SMOOTH)
     }
-    /// The pulse in straight pieces, about `cells` of them, denser where it begins steeply: when each begins and ends, and the accelerations
-    /// there, for the velocity change 1. Each piece has the pulse's own change of velocity and path, so that its effect on a component is
-    /// off by the fourth power of its length.
+    /// The pulse in straight pieces, about `cells` of them, denser where it begins steeply: when each begins and ends,
+    /// and the accelerations there, for the velocity change 1. Each piece has the pulse's own change of velocity and
+    /// path, so that its effect on a component is off by the fourth power of its length.
     pub(super) fn pieces(&self, cells: usize) -> Vec<[(f64, f64); 2]> {
         let sigma = self.damping * self.frequency;
         // Height and velocity of the contact.
@@ -145,7 +146,8 @@ impl Pulse {
     }
 }
 
-/// The accelerations at the begin and the end of a straight piece of this length that leads from one (height, velocity) to another.
+/// The accelerations at the begin and the end of a straight piece of this length that leads from one (height, velocity)
+/// to another.
 pub(super) fn straight(h: f64, start: (f64, f64), end: (f64, f64)) -> [f64; 2] {
     let change = (end.1 - start.1) / h;
     // ∫∫ a over the piece, twice over h².
@@ -153,12 +155,12 @@ pub(super) fn straight(h: f64, start: (f64, f64), end: (f64, f64)) -> [f64; 2] {
     [3.0 * path - 2.0 * change, 4.0 * change - 3.0 * path]
 }
 
-/// The largest acceleration of a pulse that grows first, over velocity change and duration: it is 1.47 to 1.87, and falls from
-/// the start where that is more.
+/// The largest acceleration of a pulse that grows first, over velocity change and duration: it is 1.47 to 1.87, and
+/// falls from the start where that is more.
 const SMOOTH: f64 = 1.87;
 
-/// Nodes over a time, about `cells` of them: steps of `3/cells` of the time constant at the beginning, each longer than the one before,
-/// up to 1/cells of the time.
+/// Nodes over a time, about `cells` of them: steps of `3/cells` of the time constant at the beginning, each longer than
+/// the one before, up to 1/cells of the time.
 fn graded(time: f64, rate: f64, cells: usize) -> Vec<f64> {
     let n = index(cells);
     let longest = time / n;
@@ -195,7 +197,8 @@ mod tests {
         }
     }
 
-    /// Nothing is above the crest, by more than fine pieces have over the pulse; where it begins hardest, nothing is above the begin.
+    /// Nothing is above the crest, by more than fine pieces have over the pulse; where it begins hardest, nothing is
+    /// above the begin.
     #[test]
     fn no_pulse_passes_its_crest() {
         for k in 0..200 {

@@ -15,9 +15,9 @@ const AGAIN: usize = 6;
 /// Strikes without contacts cost less than looks, and a forecast has seen as many.
 const LOOK: usize = STRIKES;
 
-/// What can come must stay below this share of the peak, as pulses flatten both, not alike; where an error is allowed, by so many times
-/// that more. Of 1.4·10⁵ random answers none was off by more than 1e-5 for the strikes left out; with 10 % allowed 300 by more than 1e-4,
-/// nearly all below 5 %, and one by more than 10 %.
+/// What can come must stay below this share of the peak, as pulses flatten both, not alike; where an error is allowed,
+/// by so many times that more. Of 1.4·10⁵ random answers none was off by more than 1e-5 for the strikes left out; with
+/// 10 % allowed 300 by more than 1e-4, nearly all below 5 %, and one by more than 10 %.
 const CLEAR: f64 = 0.75;
 const ALLOWED: f64 = 3.0;
 /// No larger error counts: with this one, what is left out passes the peak by half of it at most.
@@ -28,8 +28,8 @@ const PULSE: f64 = 0.5;
 const LONG: f64 = 4.0;
 
 impl Setup {
-    /// A flight with contacts, and the time after which no strike of it raises the quantity beyond a tolerance: by the bound of
-    /// [`Forecast::until_s`] on the flight itself, which is followed further until it holds, or to its end.
+    /// A flight with contacts, and the time after which no strike of it raises the quantity beyond a tolerance: by the
+    /// bound of [`Forecast::until_s`] on the flight itself, which is followed further until it holds, or to its end.
     ///
     /// [`Forecast::until_s`]: super::Forecast::until_s
     pub(super) fn settled_flight(
@@ -54,7 +54,8 @@ impl Setup {
         Ok((flight, settled_s))
     }
 
-    /// A flight of impacts, each of which acts for a time, as far as any strike of it raises the quantity beyond a tolerance, by the same bound.
+    /// A flight of impacts, each of which acts for a time, as far as any strike of it raises the quantity beyond a
+    /// tolerance, by the same bound.
     pub(super) fn settled_strikes(
         &self,
         scene: &Scene,
@@ -75,8 +76,8 @@ impl Setup {
         })
     }
 
-    /// When nothing later in this flight raises the quantity, or passes what counts at `least`, both as velocities; infinite where that is not
-    /// known. `looks` are those before, at its beginning.
+    /// When nothing later in this flight raises the quantity, or passes what counts at `least`, both as velocities;
+    /// infinite where that is not known. `looks` are those before, at its beginning.
     pub(crate) fn settled_s(&self, flight: &CompliantFlight, contact_s: f64, least: f64, looks: &mut Looks) -> f64 {
         self.settled(&self.so_far(flight), contact_s, least, looks)
     }
@@ -111,8 +112,8 @@ impl Setup {
                 motion.w -= shock.net;
                 (motion, loose)
             } else {
-                // No impulse: what rang before may be with it or against it. Pulses flatten all of it about alike; what comes
-                // later is taken as if no contacts overlapped.
+                // No impulse: what rang before may be with it or against it. Pulses flatten all of it about alike; what
+                // comes later is taken as if no contacts overlapped.
                 let rang = swing.bound(motion) + loose;
                 loose += swing.factor * shock.gross;
                 let first = || alone(&strikes[shock.first], &ends);
@@ -152,8 +153,8 @@ impl Setup {
         f64::INFINITY
     }
 
-    /// Whether the energy that is left at a time lets later strikes, whenever they come, pass `least`, a shock or response as a velocity that
-    /// none passes before.
+    /// Whether the energy that is left at a time lets later strikes, whenever they come, pass `least`, a shock or
+    /// response as a velocity that none passes before.
     pub(crate) fn may_pass_after(
         &self,
         time_s: f64,
@@ -179,8 +180,9 @@ impl Setup {
         later > least
     }
 
-    /// The shocks, or what they do to the response, of a bar whose speed at the component stays below `speed`, about at most. With
-    /// `doubt`, contacts that overlap may throw back all of the speed, and nothing is said of when the bar rests.
+    /// The shocks, or what they do to the response, of a bar whose speed at the component stays below `speed`, about at
+    /// most. With `doubt`, contacts that overlap may throw back all of the speed, and nothing is said of when the bar
+    /// rests.
     fn later(&self, ends: &Ends, swing: &Swing, quantity: Quantity, speed: f64, contact_s: f64, doubt: bool) -> f64 {
         let (omega, g) = (self.suspension.omega(), self.scene.gravity_m_s2());
         let e = if doubt { 1.0 } else { ends.e };
@@ -213,8 +215,8 @@ impl Setup {
         SoFar { twice_energy: last.map_or(0.0, |last| twice_energy(&self.scene, last, last.height_m)), ..so_far }
     }
 
-    /// Strikes that are over at `until_s` of their number, from 0, grouped where they overlap. Of a flight cut short, the last group is left
-    /// out.
+    /// Strikes that are over at `until_s` of their number, from 0, grouped where they overlap. Of a flight cut short,
+    /// the last group is left out.
     fn lone_shocks<'a>(&self, flight: &'a Flight, until_s: impl Fn(usize) -> f64) -> SoFar<'a> {
         let strikes = &flight.strikes;
         let mut shocks: Vec<LoneShock> = Vec::with_capacity(strikes.len());
@@ -244,7 +246,8 @@ impl Setup {
     }
 }
 
-/// Twice the energy after a strike with the ends at these heights, by the spin: upright, the ends do not show how fast the body turns.
+/// Twice the energy after a strike with the ends at these heights, by the spin: upright, the ends do not show how fast
+/// the body turns.
 pub(crate) fn twice_energy(scene: &Scene, strike: &Strike, height_m: [f64; 2]) -> f64 {
     let body = scene.body();
     let [a, b] = body.arms_m();
@@ -275,7 +278,8 @@ pub(crate) struct Looks {
     pulse: Pulse,
     /// What can come must stay below this share of the peak.
     clear: f64,
-    /// Each lone shock but the last: when it begins, has parted and the next one begins, to the bit, and what is then known.
+    /// Each lone shock but the last: when it begins, has parted and the next one begins, to the bit, and what is then
+    /// known.
     seen: Vec<([u64; 3], Seen)>,
     /// So many of them are followed by known shocks that are too large: no later look finds that they settle.
     hopeless: usize,
@@ -310,7 +314,8 @@ impl Looks {
         }
     }
 
-    /// Works out what each shock leaves, by what the one before has left, unless it is known: two that were apart may be one by now.
+    /// Works out what each shock leaves, by what the one before has left, unless it is known: two that were apart may
+    /// be one by now.
     fn see(&mut self, shocks: &[LoneShock], leaves: impl Fn(&LoneShock, Seen) -> Seen) {
         self.seen.truncate(shocks.len());
         for (k, shock) in shocks.iter().enumerate() {
@@ -350,8 +355,8 @@ struct LoneShock {
 }
 
 impl LoneShock {
-    /// The shock of a lone contact that pushes no harder than this one at its hardest: of several, no less than they do on the mean, nor, where the
-    /// dashpot pushes at once, than the first one does before the next begins.
+    /// The shock of a lone contact that pushes no harder than this one at its hardest: of several, no less than they do
+    /// on the mean, nor, where the dashpot pushes at once, than the first one does before the next begins.
     fn crest(&self, pulse: &Pulse, contact_s: f64, first: impl Fn() -> f64) -> f64 {
         if self.strikes == 1 {
             return self.net.abs();

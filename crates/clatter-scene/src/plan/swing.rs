@@ -1,7 +1,8 @@
 //! Free motion of the component, for estimates: x = ωz, w = z′, over the phase θ = ωt.
 //!
-//! `x″ + 2ζ x′ + x = 0`; a quantity is Q = r₀ x + r₁ w, with r = (1, 0) for the relative displacement ωz and (1, 2ζ) for the absolute
-//! acceleration over ω, sign aside. Next to ζ = 1 the damping is shifted by 5·10⁻⁷, far below what an estimate is good for.
+//! `x″ + 2ζ x′ + x = 0`; a quantity is Q = r₀ x + r₁ w, with r = (1, 0) for the relative displacement ωz and (1, 2ζ)
+//! for the absolute acceleration over ω, sign aside. Next to ζ = 1 the damping is shifted by 5·10⁻⁷, far below what an
+//! estimate is good for.
 
 use super::floats::{greater, lesser};
 
@@ -16,8 +17,9 @@ pub(super) struct Swing {
     row: [f64; 2],
     /// Peak of |Q| after a unit of w.
     pub(super) factor: f64,
-    /// All that Q goes up and down after a unit of w, over twice its peak, at most: of an oscillation `1/(1 − e^(−πζ/β))`. Where Q is the
-    /// acceleration and falls from the start, what follows adds a little, 1/40 at ζ = 1.
+    /// All that Q goes up and down after a unit of w, over twice its peak, at most: of an oscillation
+    /// `1/(1 − e^(−πζ/β))`. Where Q is the acceleration and falls from the start, what follows adds a little, 1/40 at ζ
+    /// = 1.
     pub(super) pile: f64,
 }
 

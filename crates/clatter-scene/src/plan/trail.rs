@@ -19,7 +19,8 @@ pub(super) struct Step {
     pub(super) end: usize,
     /// Velocity shocks of both ends.
     pub(super) delta_v: (f64, f64),
-    /// Time since the last one and shocks in the map, as parabolas and with real tilt; `None` once a lane had another strike.
+    /// Time since the last one and shocks in the map, as parabolas and with real tilt; `None` once a lane had another
+    /// strike.
     pub(super) own: [Option<Own>; 3],
     /// Twice the energy that is left.
     pub(super) twice_energy: f64,
@@ -31,7 +32,8 @@ pub(super) struct Step {
     pub(super) rests: Option<usize>,
     /// What it and the contacts before do to each other.
     pub(super) coupled: Coupled,
-    /// Share of the speed that both ends together rebound with, where contacts overlap until the next strike; 0 elsewhere.
+    /// Share of the speed that both ends together rebound with, where contacts overlap until the next strike; 0
+    /// elsewhere.
     pub(super) rebound: f64,
     /// Of both contacts at once: for how many contact times.
     pub(super) together: Option<f64>,

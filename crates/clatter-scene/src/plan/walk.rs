@@ -8,7 +8,8 @@ use super::lane::MapLane;
 use super::swing::{Motion, Swing};
 use super::trail::{Course, Step, Strikes};
 
-/// What later strikes can do must stay below this share of the peak for the following to stop: pulses flatten both, not alike.
+/// What later strikes can do must stay below this share of the peak for the following to stop: pulses flatten both, not
+/// alike.
 const CLEAR: f64 = 0.9;
 
 /// Later strikes that could add more than this share of the peak are not foreseen from the earlier ones.
@@ -28,7 +29,8 @@ pub(super) struct Interval {
     /// Largest value, and the phase at which it stands.
     pub(super) value: f64,
     pub(super) phase: f64,
-    /// Rate of the value by the phase there: below 0 where a shock begins the interval, above 0 where the next one ends it.
+    /// Rate of the value by the phase there: below 0 where a shock begins the interval, above 0 where the next one ends
+    /// it.
     pub(super) slope: f64,
     /// Bound on how far the map, the parabolas and real tilt are off it, and by what more at its beginning.
     off: [f64; 3],
@@ -104,7 +106,8 @@ impl<const N: usize> Walk<N> {
         }
         lates
     }
-    /// What these lanes get wrong by the strikes followed, and what they get wrong at most if what follows some interval is left to its bound.
+    /// What these lanes get wrong by the strikes followed, and what they get wrong at most if what follows some
+    /// interval is left to its bound.
     #[inline]
     fn followed<const K: usize>(&self, lanes: [usize; K], peak: &Interval, top: f64) -> [[f64; 2]; K] {
         let mut errors = lanes.map(|k| [peak.off(k), f64::INFINITY]);
@@ -134,8 +137,8 @@ impl<const N: usize> Walk<N> {
         let share = if self.alive[k] { 4.0 * (worst / peak).min(1.0) } else { 4.0 };
         above.min(share * self.extra + self.weight + intervals.last().map_or(0.0, |i| i.off[k] + i.doubt))
     }
-    /// Strikes until `until_s`, about, of models with impacts (until they have fallen by 10⁻¹⁵, both ends in turn) and with contacts
-    /// (until both ends lie on their springs).
+    /// Strikes until `until_s`, about, of models with impacts (until they have fallen by 10⁻¹⁵, both ends in turn) and
+    /// with contacts (until both ends lie on their springs).
     pub(super) fn about(&self, e: f64) -> (f64, f64) {
         let loss = 0.05 - libm::log(e.max(1e-30));
         #[expect(clippy::cast_precision_loss, reason = "a few strikes")]
@@ -180,8 +183,8 @@ struct Shifted {
 }
 
 impl Meeting<'_> {
-    /// How far a strike at another phase moves the component of a lane. It meets a motion that has turned to another place, as which the
-    /// lane goes on; or is itself turned, and the lane goes on as before: the less of the two.
+    /// How far a strike at another phase moves the component of a lane. It meets a motion that has turned to another
+    /// place, as which the lane goes on; or is itself turned, and the lane goes on as before: the less of the two.
     #[inline]
     fn shift(&self, own: f64, phase: f64) -> Shifted {
         let (swing, straight) = (self.swing, phase.abs() <= STRAIGHT);
@@ -207,7 +210,8 @@ impl Meeting<'_> {
         let met = self.swing.after(&self.swing.turn(greater(self.turned + phase, 0.0)), self.begun);
         Motion { x: met.x - self.motion.x, w: met.w - self.motion.w }
     }
-    /// What a lane has before the interval whose strike comes before by `turned`, where the motion is elsewhere by `moved`.
+    /// What a lane has before the interval whose strike comes before by `turned`, where the motion is elsewhere by
+    /// `moved`.
     #[cold]
     fn early(&self, own: f64, turned: f64, moved: Motion) -> f64 {
         let swing = self.swing;
@@ -238,7 +242,8 @@ pub(super) struct Walker<'a, const N: usize> {
     motion: Motion,
     begun: Motion,
     peak: f64,
-    /// Motion of the component in the other lanes less this one, and by how much later their strikes come than that has it.
+    /// Motion of the component in the other lanes less this one, and by how much later their strikes come than that has
+    /// it.
     off: [Motion; 3],
     behind_s: [f64; 3],
     /// Shocks that a lane lacks, and shocks in doubt, faded.
@@ -385,8 +390,8 @@ impl<'a, const N: usize> Walker<'a, N> {
         self.walk.intervals[n].late = self.walk.late;
     }
 
-    /// Bound on what a bar of such a speed does to the component from now on, and what of it one shock and all of them do; `more` than one
-    /// may come.
+    /// Bound on what a bar of such a speed does to the component from now on, and what of it one shock and all of them
+    /// do; `more` than one may come.
     fn to_come(&self, speed: f64, more: bool) -> (f64, f64, f64) {
         if self.shocks {
             let shock = later_shock(speed, self.ends.e, self.gravity, self.time);
@@ -401,8 +406,8 @@ impl<'a, const N: usize> Walker<'a, N> {
 
     /// Whether real tilt is off by more than the tolerance, whatever strikes still come.
     ///
-    /// As long as the peak stays where it is, what `Walk::followed` has counted against it only grows; and where pulses flatten the peak,
-    /// its share does not fall.
+    /// As long as the peak stays where it is, what `Walk::followed` has counted against it only grows; and where pulses
+    /// flatten the peak, its share does not fall.
     fn is_certain(&self, tolerance: f64) -> bool {
         self.rises_are_off(tolerance) && {
             let peak = self.walk.peak();
@@ -415,17 +420,20 @@ impl<'a, const N: usize> Walker<'a, N> {
     fn rises_are_off(&self, tolerance: f64) -> bool {
         let lost = !self.walk.alive[2];
         if self.shocks {
-            // A lane that has lost the strikes is off by each. Of both contacts at once, the first may be more than the two together.
+            // A lane that has lost the strikes is off by each. Of both contacts at once, the first may be more than the
+            // two together.
             return lost && tolerance < 1.0 || self.doubtful > 2.0 * tolerance * self.coming;
         }
-        // In the share f that is left of it, the motion is at most f times its envelope, and the doubt f times what it is now.
+        // In the share f that is left of it, the motion is at most f times its envelope, and the doubt f times what it
+        // is now.
         let swing = self.swing;
         let doubt = swing.factor * (self.lacking[2] + self.doubtful);
         let [now, unit] = [self.motion, Motion { x: 0.0, w: 1.0 }].map(|motion| swing.envelope(motion));
         if lost && doubt > tolerance * now && swing.factor > tolerance * unit {
             return true;
         }
-        // To pass the peak with all that comes, the motion must have kept this much; the doubt has then kept the same share.
+        // To pass the peak with all that comes, the motion must have kept this much; the doubt has then kept the same
+        // share.
         let kept = self.peak - self.coming;
         if kept >= now || doubt * kept > tolerance * now * self.peak {
             return true;

@@ -16,14 +16,15 @@ pub struct Probability {
 /// The interval of Clopper and Pearson for the probability of an event seen `successes` times in `samples` draws.
 ///
 /// # Formula
-/// With α = 1 − confidence, `lo` is the p at which so many successes or more have probability α/2, `hi` that at which so many or
-/// fewer have, and `at_least` the p at which so many or more have probability α. Where every draw was a success these
-/// are (α/2)^(1/n), 1 and α^(1/n): at 95 % the event fails at most 3 times in n.
+/// With α = 1 − confidence, `lo` is the p at which so many successes or more have probability α/2, `hi` that at which
+/// so many or fewer have, and `at_least` the p at which so many or more have probability α. Where every draw was a
+/// success these are (α/2)^(1/n), 1 and α^(1/n): at 95 % the event fails at most 3 times in n.
 ///
 /// # Why this one
-/// It holds the true probability at least as often as it says, for every probability and sample size (C. J. Clopper, E. S. Pearson,
-/// Biometrika 26, 1934). Wilson's is shorter and right on average, but short of its confidence for probabilities near 0 and 1
-/// (L. D. Brown, T. T. Cai, A. DasGupta, Statistical Science 16, 2001), which is where parts that hardly ever fail lie.
+/// It holds the true probability at least as often as it says, for every probability and sample size (C. J. Clopper, E.
+/// S. Pearson, Biometrika 26, 1934). Wilson's is shorter and right on average, but short of its confidence for
+/// probabilities near 0 and 1 (L. D. Brown, T. T. Cai, A. DasGupta, Statistical Science 16, 2001), which is where parts
+/// that hardly ever fail lie.
 ///
 /// # Validity
 /// 0 < samples, successes ≤ samples, 0 < confidence < 1.
@@ -58,7 +59,8 @@ pub fn clopper_pearson(successes: u64, samples: u64, confidence: f64) -> Probabi
     Probability { estimate: k / n, lo: lower(0.5 * alpha), hi, at_least: lower(alpha) }
 }
 
-/// x and 1 − x with I_x(a, b) = `share`, for whole a, b ≥ 1: bisection in ln(x/(1 − x)), which keeps the digits of both.
+/// x and 1 − x with I_x(a, b) = `share`, for whole a, b ≥ 1: bisection in ln(x/(1 − x)), which keeps the digits of
+/// both.
 fn beta_quantile(a: f64, b: f64, share: f64) -> [f64; 2] {
     let point = |t: f64| [1.0 / (1.0 + libm::exp(-t)), 1.0 / (1.0 + libm::exp(t))];
     let (mut lo, mut hi) = (-100.0, 100.0); // a share of 1e-43 is beyond any sample
@@ -72,8 +74,8 @@ fn beta_quantile(a: f64, b: f64, share: f64) -> [f64; 2] {
 
 /// Regularized incomplete beta function I_x(a, b) for whole a, b ≥ 1 and y = 1 − x.
 ///
-/// The continued fraction (DLMF 8.17.22) by Lentz's method, on the side where it converges, about √(a + b) terms; its factor
-/// x^a y^b/(a B(a, b)) is a binomial probability.
+/// The continued fraction (DLMF 8.17.22) by Lentz's method, on the side where it converges, about √(a + b) terms; its
+/// factor x^a y^b/(a B(a, b)) is a binomial probability.
 fn incomplete_beta(a: f64, b: f64, x: f64, y: f64) -> f64 {
     if x > (a + 1.0) / (a + b + 2.0) {
         return 1.0 - incomplete_beta_below(b, a, y, x);
@@ -108,7 +110,8 @@ fn incomplete_beta_below(a: f64, b: f64, x: f64, y: f64) -> f64 {
 
 /// Probability of k successes in n draws, each with probability p = 1 − q, 0 < k ≤ n.
 ///
-/// Source: C. Loader, “Fast and accurate computation of binomial probabilities” (2000): deviances, so that nothing large cancels.
+/// Source: C. Loader, “Fast and accurate computation of binomial probabilities” (2000): deviances, so that nothing
+/// large cancels.
 fn binomial(k: f64, n: f64, p: f64, q: f64) -> f64 {
     if k >= n {
         return libm::exp(n * libm::log(p));
@@ -153,7 +156,8 @@ fn deviance(k: f64, m: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Successes, samples, confidence and both bounds: mpmath 1.3 at 40 digits; the last three scipy 1.17, `scipy.stats.beta`.
+    /// Successes, samples, confidence and both bounds: mpmath 1.3 at 40 digits; the last three scipy 1.17,
+    /// `scipy.stats.beta`.
     #[expect(clippy::excessive_precision, reason = "as computed")]
     const BOUNDS: &[(u64, u64, f64, f64, f64)] = &[
         (1, 10, 0.95, 0.002_528_578_544_461_786_8, 0.445_016_117_028_195_36),
@@ -189,8 +193,8 @@ mod tests {
         }
     }
 
-    /// The promise itself: summed over all outcomes, the interval holds the true probability at least as often as it says, and so
-    /// does the one-sided bound.
+    /// The promise itself: summed over all outcomes, the interval holds the true probability at least as often as it
+    /// says, and so does the one-sided bound.
     #[test]
     fn it_holds_the_truth_at_least_as_often_as_it_says() {
         for n in [1, 2, 5, 20, 60] {

@@ -1,8 +1,8 @@
 //! One drop on the gravity-free rung, fast: its train, and the peaks of a suspended part, no more.
 //!
-//! The same answers as `clatter::Bar::train` and `clatter_shock::respond` for a fall without spin, to 1e−9 of the peak, for
-//! damping ratios below [`LARGEST_DAMPING`] and a center of mass anywhere; only `libm`, so that a sample gives the same digits
-//! on any machine.
+//! The same answers as `clatter::Bar::train` and `clatter_shock::respond` for a fall without spin, to 1e−9 of the peak,
+//! for damping ratios below [`LARGEST_DAMPING`] and a center of mass anywhere; only `libm`, so that a sample gives the
+//! same digits on any machine.
 
 use clatter::End;
 use clatter::flight::Body;
@@ -61,8 +61,8 @@ impl Clatter {
     /// Follows the drop, for parts of angular frequencies up to `fastest`.
     ///
     /// # Formulas
-    /// Approach speeds y_n by `y_{n+1} = T y_n − e y_{n−1}`, T = q(1 + e), y_0 = v0, y_1 = (T + κ) v0; gaps in time, without
-    /// cancellation, as `κ h0 e^(n−1) y_0/(y_n y_{n−1})` (the Casoratian of the recurrence).
+    /// Approach speeds y_n by `y_{n+1} = T y_n − e y_{n−1}`, T = q(1 + e), y_0 = v0, y_1 = (T + κ) v0; gaps in time,
+    /// without cancellation, as `κ h0 e^(n−1) y_0/(y_n y_{n−1})` (the Casoratian of the recurrence).
     pub(super) fn follow(&mut self, bar: &Falling, e: f64, speed: f64, tilt_rad: f64, fastest: f64) {
         let Falling { ratio, kappa, q, length_m } = *bar;
         let t = q * (1.0 + e);
@@ -95,7 +95,8 @@ impl Clatter {
             if rest <= NEGLIGIBLE * largest {
                 break rest;
             }
-            // The states between strikes alternate in a constant ratio by then, so that the first of each kind is the largest.
+            // The states between strikes alternate in a constant ratio by then, so that the first of each kind is the
+            // largest.
             let settled = (fall - root).abs() <= SETTLED * root;
             if over >= 0.0
                 && settled

@@ -18,8 +18,8 @@ enum Kind {
     Even,
     /// Density rising to the mode and falling from there; `share` of all values lies below it.
     Triangle { mode: f64, share: f64 },
-    /// x = mean ± deviation · Φ⁻¹(from + u · mass); the sign turns a range in the upper tail, where Φ has no digits left, into
-    /// one in the lower.
+    /// x = mean ± deviation · Φ⁻¹(from + u · mass); the sign turns a range in the upper tail, where Φ has no digits
+    /// left, into one in the lower.
     Normal { mean: f64, deviation: f64, from: f64, mass: f64, mirrored: bool },
 }
 
@@ -77,8 +77,8 @@ fn below(z: f64) -> f64 {
 
 /// Φ⁻¹(p) for p in (0, 1).
 ///
-/// Source: M. J. Wichura, “Algorithm AS 241: the percentage points of the normal distribution”, Applied Statistics 37 (1988),
-/// routine PPND16; relative error about 1e−16 from p = 1e−316 to 1 − 1e−16.
+/// Source: M. J. Wichura, “Algorithm AS 241: the percentage points of the normal distribution”, Applied Statistics 37
+/// (1988), routine PPND16; relative error about 1e−16 from p = 1e−316 to 1 − 1e−16.
 #[expect(clippy::excessive_precision, reason = "as published")]
 fn normal_quantile(p: f64) -> f64 {
     // Coefficients from the highest power down.

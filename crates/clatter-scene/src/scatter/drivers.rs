@@ -1,12 +1,13 @@
 //! What drives a result: how much of its variance each input explains alone.
 //!
 //! The first-order index of Sobol, S = Var(E[y | input])/Var(y), estimated from the very samples that were drawn: each
-//! input's values are sorted into equally likely bins by their rank, which is the uniform number they came from, and the
-//! means of the bins are compared. Unlike a rank correlation it sees what rises and falls again, as a resonance does; unlike
-//! Saltelli's scheme it needs no further samples; and it takes constant memory.
+//! input's values are sorted into equally likely bins by their rank, which is the uniform number they came from, and
+//! the means of the bins are compared. Unlike a rank correlation it sees what rises and falls again, as a resonance
+//! does; unlike Saltelli's scheme it needs no further samples; and it takes constant memory.
 //!
-//! Source: E. Plischke, “An effective algorithm for computing global sensitivity indices (EASI)”, Reliability Engineering and System
-//! Safety 95 (2010), and the correlation ratio ε² of T. L. Kelley (1935), which is without bias where the input does nothing.
+//! Source: E. Plischke, “An effective algorithm for computing global sensitivity indices (EASI)”, Reliability
+//! Engineering and System Safety 95 (2010), and the correlation ratio ε² of T. L. Kelley (1935), which is without bias
+//! where the input does nothing.
 
 /// Equally likely bins of an input. The variance within a bin is lost to the index: 1/32² of it where y is linear.
 const BINS: usize = 32;
@@ -22,8 +23,8 @@ pub struct Share {
 
 /// Sums over samples of one result, for a number of inputs.
 ///
-/// y is counted from a fixed value near it, so that the variance does not cancel; sums of sums are exact to a rounding each and
-/// always made in the same order.
+/// y is counted from a fixed value near it, so that the variance does not cancel; sums of sums are exact to a rounding
+/// each and always made in the same order.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Sums {
     from: f64,
@@ -93,7 +94,8 @@ impl Sums {
         self.square - self.sum * self.sum / self.count
     }
 
-    /// The share of each input; `None` where the result does not vary, is infinite, or there are too few samples to tell.
+    /// The share of each input; `None` where the result does not vary, is infinite, or there are too few samples to
+    /// tell.
     pub(super) fn shares(&self) -> Option<Vec<Share>> {
         let total = self.spread();
         // What is left of a constant is rounding.

@@ -1,15 +1,15 @@
 //! Scatter: how likely each part survives when the drop, the casing and the parts are not known to the last digit.
 //!
 //! # Model
-//! The gravity-free rung: a fall without spin, small tilt, the train of the map, for a center of mass anywhere. A part on a
-//! suspension answers to velocity shocks, or, where an impact is not short beside its period, to half-sines of the contact
-//! time; a hard-mounted one to the half-sine itself, π Δv/(2τ). Gravity, which lets slow impacts come sooner and again, is left out:
-//! an assessment tells which parts need it.
+//! The gravity-free rung: a fall without spin, small tilt, the train of the map, for a center of mass anywhere. A part
+//! on a suspension answers to velocity shocks, or, where an impact is not short beside its period, to half-sines of the
+//! contact time; a hard-mounted one to the half-sine itself, π Δv/(2τ). Gravity, which lets slow impacts come sooner
+//! and again, is left out: an assessment tells which parts need it.
 //!
 //! # Samples
-//! Sample k draws its inputs from the counter (k, input) of Philox4x32-10 under the seed: it is the same alone, in any run, on any
-//! number of threads and on any machine. Sums are made in blocks of fixed size, merged in order, so that the answer is the
-//! same as well, and memory does not grow with the number of samples.
+//! Sample k draws its inputs from the counter (k, input) of Philox4x32-10 under the seed: it is the same alone, in any
+//! run, on any number of threads and on any machine. Sums are made in blocks of fixed size, merged in order, so that
+//! the answer is the same as well, and memory does not grow with the number of samples.
 
 mod binomial;
 mod clatter;
@@ -141,7 +141,8 @@ pub struct ComponentScatter {
     pub largest_utilization: f64,
     /// The sample it was seen in, from 0.
     pub worst_sample: u64,
-    /// What drives the utilization, the strongest first; empty where it does not vary or too few samples were drawn to tell.
+    /// What drives the utilization, the strongest first; empty where it does not vary or too few samples were drawn to
+    /// tell.
     pub drivers: Vec<Driver>,
 }
 
@@ -360,8 +361,8 @@ impl Sampler {
         shared.into_iter().chain(frequencies).chain((0..self.parts.len()).map(Column::Utilization)).collect()
     }
 
-    /// Draws all samples on the threads of the current pool. `watch` is called in order, on this thread, with all samples
-    /// where `keep` asks for them; where it fails, no more are drawn.
+    /// Draws all samples on the threads of the current pool. `watch` is called in order, on this thread, with all
+    /// samples where `keep` asks for them; where it fails, no more are drawn.
     ///
     /// # Errors
     /// Those of `watch`.
@@ -403,11 +404,11 @@ impl Sampler {
         })
     }
 
-    /// The largest utilization of each part over all ranges but that of e, by drops at [`TILTS`] tilts and the ends and medians of
-    /// the other ranges.
+    /// The largest utilization of each part over all ranges but that of e, by drops at [`TILTS`] tilts and the ends and
+    /// medians of the other ranges.
     ///
-    /// Pulses of one shape and length do a mean, over that length, of what impulses do, and never more: only drops whose impulses pass
-    /// the worst so far are followed with pulses.
+    /// Pulses of one shape and length do a mean, over that length, of what impulses do, and never more: only drops
+    /// whose impulses pass the worst so far are followed with pulses.
     pub(crate) fn worst(&self, body: &Body, e: f64) -> Vec<f64> {
         let corners = self.corners(body);
         let follow = |clatter: &mut Clatter, corner: &Corner| {

@@ -1,4 +1,5 @@
-//! Random numbers by their place: a counter-based generator, so that sample k is the same wherever and whenever it is drawn.
+//! Random numbers by their place: a counter-based generator, so that sample k is the same wherever and whenever it is
+//! drawn.
 
 /// Philox4x32 with ten rounds: 128 random bits for each counter, under a key of 64 bits.
 ///
@@ -22,7 +23,8 @@ fn word(wide: u64, shift: u32) -> u32 {
     (wide >> shift) as u32
 }
 
-/// The uniform numbers of one sample: input i of sample k under a seed is one fixed number in (0, 1), whatever else is drawn.
+/// The uniform numbers of one sample: input i of sample k under a seed is one fixed number in (0, 1), whatever else is
+/// drawn.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stream {
     key: [u32; 2],

@@ -17,8 +17,8 @@ pub struct Kept {
     pub strikes: usize,
     /// Why the train ends; `at-rest` where it is endless.
     pub stop: &'static str,
-    /// Error in the quantity with the first 1, 2, 3 … strikes, as a share of what the whole train does; until all that is left out
-    /// can do no more than [`NEGLIGIBLE`], or the train ends.
+    /// Error in the quantity with the first 1, 2, 3 … strikes, as a share of what the whole train does; until all that
+    /// is left out can do no more than [`NEGLIGIBLE`], or the train ends.
     pub errors: Vec<f64>,
     /// How many strikes are enough, with any number beyond, at each of [`TOLERANCES`]; null where more than were tried.
     pub least: Vec<Option<usize>>,
@@ -54,7 +54,8 @@ impl Kept {
     }
 }
 
-/// The least number of strikes from which on all errors are within the tolerance, `bound` being one on those not listed.
+/// The least number of strikes from which on all errors are within the tolerance, `bound` being one on those not
+/// listed.
 fn enough(errors: &[f64], bound: f64, tolerance: f64) -> Option<usize> {
     let last = errors.iter().rposition(|error| *error > tolerance);
     (bound <= tolerance).then(|| last.map_or(1, |last| last + 2)).filter(|n| *n <= errors.len())

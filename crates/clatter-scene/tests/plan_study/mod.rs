@@ -1,8 +1,9 @@
 //! Random scenes over wide ranges: what plans choose, what that gets wrong and what it costs.
 //!
-//! Log-uniform: tilt 0.1 to 30°, drop 1 cm to 3 m, e 0.01 to 0.95, length 5 to 40 cm, frequency 5 Hz to 20 kHz, contact 0.05 to 2 ms.
-//! Uniform: q in [−0.3, 0.95], position in [−1, 1]. Damping ratio: uniform in [0, 2] for half of the scenes, log-uniform in [10⁻³, 2] for
-//! the other half. Scenes that the compliant model refuses are counted and left out: there is no truth to compare with.
+//! Log-uniform: tilt 0.1 to 30°, drop 1 cm to 3 m, e 0.01 to 0.95, length 5 to 40 cm, frequency 5 Hz to 20 kHz, contact
+//! 0.05 to 2 ms. Uniform: q in [−0.3, 0.95], position in [−1, 1]. Damping ratio: uniform in [0, 2] for half of the
+//! scenes, log-uniform in [10⁻³, 2] for the other half. Scenes that the compliant model refuses are counted and left
+//! out: there is no truth to compare with.
 
 use std::time::Instant;
 

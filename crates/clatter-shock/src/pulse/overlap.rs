@@ -1,7 +1,7 @@
 //! Pulses that overlap: time is cut at every begin and end, and what acts between is summed.
 //!
-//! Where few act at once they are summed cut by cut. Where many do, time is halved again and again, and what acts throughout a
-//! part is summed once for all of it, sinusoids of one rate as one: n log n steps instead of n².
+//! Where few act at once they are summed cut by cut. Where many do, time is halved again and again, and what acts
+//! throughout a part is summed once for all of it, sinusoids of one rate as one: n log n steps instead of n².
 
 use super::{Instant, Piece, Pulse, Shape, SinePiece};
 use crate::Error;

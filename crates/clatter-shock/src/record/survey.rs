@@ -9,8 +9,8 @@ use std::io::BufRead;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Finding {
-    /// Samples are missing on a grid that is even otherwise, or a step is more than five times the usual: the history is taken as
-    /// linear across.
+    /// Samples are missing on a grid that is even otherwise, or a step is more than five times the usual: the history
+    /// is taken as linear across.
     Gap {
         /// Line at its end.
         line: usize,
@@ -26,8 +26,8 @@ pub enum Finding {
         /// Mean acceleration there, m/s².
         mean: f64,
     },
-    /// The level strays from that of the start by more than 1 % of the largest value: at the end (drift, or a cut-off shock), or
-    /// to one side over a quarter of the record or more (a bow of the base line, or a slow swing).
+    /// The level strays from that of the start by more than 1 % of the largest value: at the end (drift, or a cut-off
+    /// shock), or to one side over a quarter of the record or more (a bow of the base line, or a slow swing).
     Drift {
         /// Lines it was averaged over.
         lines: (usize, usize),
@@ -80,8 +80,8 @@ pub struct Survey {
     pub start: f64,
     /// Time of the last one.
     pub end: f64,
-    /// Time between samples if they are even: every time is start + i·step to within 10⁻³ of a step, or to within one unit of its
-    /// last printed digit where that is at most a quarter of a step.
+    /// Time between samples if they are even: every time is start + i·step to within 10⁻³ of a step, or to within one
+    /// unit of its last printed digit where that is at most a quarter of a step.
     pub step: Option<f64>,
     /// Largest absolute acceleration, m/s².
     pub largest: f64,
@@ -206,7 +206,8 @@ struct Grid {
     count: usize,
     start: f64,
     end: f64,
-    /// Power of ten of the last digit printed of any time, and the most significant digits of one: formats keep one or the other.
+    /// Power of ten of the last digit printed of any time, and the most significant digits of one: formats keep one or
+    /// the other.
     place: i32,
     digits: i32,
     /// The last power of ten that was asked for.

@@ -1,10 +1,10 @@
-//! Whichever end strikes first: gains over the single-impact estimate, the impact that holds the peak, and the safe zone
-//! of a suspended part.
+//! Whichever end strikes first: gains over the single-impact estimate, the impact that holds the peak, and the safe
+//! zone of a suspended part.
 //!
-//! A part does not know which end of the product will strike first. At a distance s from the center it sits at −s or at s of
-//! the bar of [`respond`], and the worse of the two counts. For each instant the response is linear in the position, so
-//! that the peak is a convex function of it, largest at one of the ends: what an end survives every part survives, and the
-//! positions that survive are one interval about the center.
+//! A part does not know which end of the product will strike first. At a distance s from the center it sits at −s or at
+//! s of the bar of [`respond`], and the worse of the two counts. For each instant the response is linear in the
+//! position, so that the peak is a convex function of it, largest at one of the ends: what an end survives every part
+//! survives, and the positions that survive are one interval about the center.
 
 use crate::coupling::shocks_at;
 pub use maps::{GainMap, Holders, SuspendedZones};
@@ -18,8 +18,8 @@ use crate::{
 use clatter::{Bar, Start};
 use std::f64::consts::TAU;
 
-/// [`three_way_rule`] at a distance of 0 to 1 half-lengths from the center, with the worse end first; the bar falls without
-/// spin.
+/// [`three_way_rule`] at a distance of 0 to 1 half-lengths from the center, with the worse end first; the bar falls
+/// without spin.
 ///
 /// # Errors
 /// As [`three_way_rule`].
@@ -86,8 +86,8 @@ pub fn omegas(per_octave: u16) -> Vec<f64> {
 ///
 /// # Accuracy
 ///
-/// The best of `per_octave` values of Ω, refined by golden section between its neighbors. A peak narrower than the steps could
-/// be missed; those of a train of n impacts are about 1/(n Ω) octaves wide or 1.4 ζ, whichever is more.
+/// The best of `per_octave` values of Ω, refined by golden section between its neighbors. A peak narrower than the
+/// steps could be missed; those of a train of n impacts are about 1/(n Ω) octaves wide or 1.4 ζ, whichever is more.
 ///
 /// # Errors
 /// As [`three_way_rule`].
@@ -149,12 +149,12 @@ pub fn worst(bar: &Bar, damping: DampingRatio, per_octave: u16) -> Result<Worst,
     })
 }
 
-/// The safe zone of a suspended part: how far from the center, in half-lengths up to 1, no part gets a larger peak acceleration
-/// than one velocity shock of `threshold` v0 would give it, whichever end strikes first; `None` if not even the center is
-/// safe. `suspension` has its ω in v0/h0.
+/// The safe zone of a suspended part: how far from the center, in half-lengths up to 1, no part gets a larger peak
+/// acceleration than one velocity shock of `threshold` v0 would give it, whichever end strikes first; `None` if not
+/// even the center is safe. `suspension` has its ω in v0/h0.
 ///
-/// For ζΩ → ∞ this is the safe zone of the paper (Eq. 5, [`Bar::safe_zone`]), for Ω → 0 the positions whose net change of
-/// velocity is within the threshold.
+/// For ζΩ → ∞ this is the safe zone of the paper (Eq. 5, [`Bar::safe_zone`]), for Ω → 0 the positions whose net change
+/// of velocity is within the threshold.
 ///
 /// # Errors
 /// As [`crate::respond`]; [`Error::Quantity`] for a threshold that is not finite and positive.
@@ -196,8 +196,8 @@ pub fn suspended_zone(bar: &Bar, suspension: &Suspension, threshold: f64) -> Res
     Ok(Some(low))
 }
 
-/// The number of the impact that the peak acceleration follows, from 1, for a part at a signed position (−1 is the end that
-/// strikes first), and how many impacts the train has, as far as it was followed.
+/// The number of the impact that the peak acceleration follows, from 1, for a part at a signed position (−1 is the end
+/// that strikes first), and how many impacts the train has, as far as it was followed.
 ///
 /// # Errors
 /// As [`crate::respond`].
@@ -270,8 +270,8 @@ pub fn amplification(shape: Shape, damping: DampingRatio, frequency_duration: f6
     Ok(Pulses::new(&[pulse])?.respond(&suspension).absolute_acceleration.magnitude())
 }
 
-/// The clatter as a train of half-sines of one contact time at a position: each impact gives the area of its velocity shock,
-/// beginning at the strike. Speeds and heights are those of `start`, in m/s and m. Longer contacts overlap.
+/// The clatter as a train of half-sines of one contact time at a position: each impact gives the area of its velocity
+/// shock, beginning at the strike. Speeds and heights are those of `start`, in m/s and m. Longer contacts overlap.
 ///
 /// # Errors
 /// As [`crate::respond`] and [`Pulses::new`].

@@ -1,8 +1,8 @@
 //! Small tilt with gravity: parabolas between strikes.
 //!
 //! `h_i(t) = h_i + v_i t − ½ g t²` for both ends, so that each end keeps its own `½ v_i² + g h_i` until the next strike
-//! of either. The end i that strikes with velocity u leaves with −e u and gives the other one `q_i (1 + e) u`. The time of
-//! fall is the root of a quadratic, taken in the form that adds; the speed at landing is `√(v² + 2 g h)`.
+//! of either. The end i that strikes with velocity u leaves with −e u and gives the other one `q_i (1 + e) u`. The time
+//! of fall is the root of a quadratic, taken in the form that adds; the speed at landing is `√(v² + 2 g h)`.
 //!
 //! # Chatter of one end
 //! Alone, an end that leaves with w returns after 2w/g with w and leaves with e w: times and speeds are geometric, and
@@ -12,9 +12,9 @@
 //! time 2S/g,   Δv_other = −2S − q (1+e) S,   Δh_other = v (2S/g) − 2S²/g − 2 q e S²/g
 //! ```
 //!
-//! if the other end provably stays up that long. Then the end lies still (h = v = 0) and is a pivot: the other end falls
-//! with `g (1 + q)`, the force on the pivot being `ρ²/(ρ² + L²)` of the weight, positive throughout. When it lands, the
-//! train of strikes at that one instant follows from the same rules with a fall of no time.
+//! if the other end provably stays up that long. Then the end lies still (h = v = 0) and is a pivot: the other end
+//! falls with `g (1 + q)`, the force on the pivot being `ρ²/(ρ² + L²)` of the weight, positive throughout. When it
+//! lands, the train of strikes at that one instant follows from the same rules with a fall of no time.
 
 use super::settling::Settling;
 use super::{After, Flight, Log, SHARE, Scene, State, index, short};

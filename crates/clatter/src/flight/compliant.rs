@@ -6,9 +6,9 @@
 //! f = −κ (h + θ h′),   κ = ω²/μ,   θ = 2ζ/ω,   μ = 1 + x²/ρ²,   contact lost at f = 0
 //! ```
 //!
-//! where x = L cos φ is the lever arm at the angle of touch, kept until no end is in contact. The stiffness is that of the
-//! effective mass at that angle, so a lone contact has the same natural frequency ω and damping ratio ζ at any angle,
-//! and with it the restitution and the duration that were asked for.
+//! where x = L cos φ is the lever arm at the angle of touch, kept until no end is in contact. The stiffness is that of
+//! the effective mass at that angle, so a lone contact has the same natural frequency ω and damping ratio ζ at any
+//! angle, and with it the restitution and the duration that were asked for.
 //!
 //! # Fit
 //! A lone contact without gravity loses contact when h + θ h′ = 0. With ζ = cos β (or cosh β beyond critical damping)
@@ -21,26 +21,27 @@
 //! (At ζ = 0.3: e = 0.451.) Solved for β² by Newton's steps to a few roundings; e² decreases with ζ throughout.
 //!
 //! # Phases
-//! With one end in contact its height is a damped oscillation, the other end a parabola plus a multiple of it. With both,
-//! `w = √κ h` obeys `w″ = −√κ g − S (w + θ w′)` with a symmetric S, whose two modes are damped in proportion to their
-//! stiffness. So every phase is a sum of known functions, evaluated and not stepped.
-//! Touching, parting and coming back into contact are first zeros found by [`roots`](super::roots): the energy
-//! `z′² + k z²` of a mode never grows and bounds every derivative from any moment on. A lone contact parts between a zero and a crest of its
-//! mode, which are known.
+//! With one end in contact its height is a damped oscillation, the other end a parabola plus a multiple of it. With
+//! both, `w = √κ h` obeys `w″ = −√κ g − S (w + θ w′)` with a symmetric S, whose two modes are damped in proportion to
+//! their stiffness. So every phase is a sum of known functions, evaluated and not stepped. Touching, parting and coming
+//! back into contact are first zeros found by [`roots`](super::roots): the energy `z′² + k z²` of a mode never grows
+//! and bounds every derivative from any moment on. A lone contact parts between a zero and a crest of its mode, which
+//! are known.
 //!
 //! After parting the end is still below zero by what the dashpot held back. It touches again when it comes back to zero
 //! from above, or, if it never gets there, when the force law pushes again; that belongs to the same strike.
 //!
 //! # Error of the kept lever arm
-//! Lever arms are those of the beginning of a phase; at its end the pose follows in exact geometry. A phase ends with any
-//! touch or parting, and after a turn of 1/200 rad. From then on the body pivots on its spring, with the lever arms, and the
-//! acceleration by turning, of halfway through a phase of 0.03 rad at most. What kept arms would take from an end that
-//! lies, one more impulse on it gives back: it is not thrown up. The shock of a contact is off by tan φ · ω τ of itself
-//! at most, ω the spin it leaves.
+//! Lever arms are those of the beginning of a phase; at its end the pose follows in exact geometry. A phase ends with
+//! any touch or parting, and after a turn of 1/200 rad. From then on the body pivots on its spring, with the lever
+//! arms, and the acceleration by turning, of halfway through a phase of 0.03 rad at most. What kept arms would take
+//! from an end that lies, one more impulse on it gives back: it is not thrown up. The shock of a contact is off by tan
+//! φ · ω τ of itself at most, ω the spin it leaves.
 //!
-//! What the ground does for the body in a phase is known in closed form; whatever else its energy changes by is the kept
-//! lever arm's doing, and is summed without regard to sign in [`CompliantFlight::energy_error`]. It grows with the turn during
-//! a contact. The worst of 100 strikes at q from −0.5 to 0.98, e from 0.1 to 1 and tilts from 0.1° to 85°, for contact times τ:
+//! What the ground does for the body in a phase is known in closed form; whatever else its energy changes by is the
+//! kept lever arm's doing, and is summed without regard to sign in [`CompliantFlight::energy_error`]. It grows with the
+//! turn during a contact. The worst of 100 strikes at q from −0.5 to 0.98, e from 0.1 to 1 and tilts from 0.1° to 85°,
+//! for contact times τ:
 //!
 //! | τ √(g/length) | τ v0/length = 0.1 | 0.01 | 0.001 |
 //! |---|---|---|---|
@@ -49,7 +50,8 @@
 //! | 0.01 | 0.1 | 0.001 | 0.002 |
 //! | 0.003 | 0.06 | 0.001 | 0.0003 |
 //!
-//! After many strikes of long contacts it hangs on roundings of the start: changes of the speed by 1e−13 make up to three times as much of it.
+//! After many strikes of long contacts it hangs on roundings of the start: changes of the speed by 1e−13 make up to
+//! three times as much of it.
 
 use std::cell::Cell;
 
@@ -77,8 +79,8 @@ impl Contact {
     /// A lone contact without gravity has this restitution and this duration to 1e−12.
     ///
     /// # Errors
-    /// [`Error::Quantity`] unless 0.01 ≤ e ≤ 1 and the contact time is in [1e−12, 1e3] s: shorter ones vanish beside the
-    /// times of flight.
+    /// [`Error::Quantity`] unless 0.01 ≤ e ≤ 1 and the contact time is in [1e−12, 1e3] s: shorter ones vanish beside
+    /// the times of flight.
     ///
     /// ```
     /// let contact = clatter::flight::Contact::new(0.451, 1e-3)?;
@@ -95,8 +97,8 @@ impl Contact {
             return Err(Error::Quantity { name: "contact time in s", value: contact_time_s, allowed });
         }
         let loss = -e.ln(); // ζ ω τ
-        // β cot β, and β coth β with x = −β², are one function of x = β², 1 − x/3 − …, which falls and is concave: Newton's steps
-        // from where its tangent at 0 has the value stay on one side of x.
+        // β cot β, and β coth β with x = −β², are one function of x = β², 1 − x/3 − …, which falls and is concave:
+        // Newton's steps from where its tangent at 0 has the value stay on one side of x.
         let mut x = 3.0 - 1.5 * loss;
         for _ in 0..NEWTON {
             let (b, sine, cosine) = Self::angle(x);
@@ -188,22 +190,24 @@ impl Mode {
     fn second(&self, (z, dz): (f64, f64)) -> f64 {
         -2.0 * self.s * dz - self.k * z
     }
-    /// Bounds from the moment of (z, z′) on: of |z|, |z″| and |z‴|; the first derivatives are at most √k times these. And z‴ then.
+    /// Bounds from the moment of (z, z′) on: of |z|, |z″| and |z‴|; the first derivatives are at most √k times these.
+    /// And z‴ then.
     fn bounds(&self, now: (f64, f64)) -> ([f64; 3], f64) {
         let a = self.second(now);
         let jerk = self.second((now.1, a));
         let snap = self.second((a, jerk));
-        // Lengths, speeds and contact times are let in from 1e−31 to 1e30: no square leaves the floats. `hypot` would take a tenth
-        // of a simulation.
+        // Lengths, speeds and contact times are let in from 1e−31 to 1e30: no square leaves the floats. `hypot` would
+        // take a tenth of a simulation.
         let length = |x: f64, y: f64| (x * x + y * y).sqrt();
         let bounds = [length(now.0, now.1 / self.root), length(a, jerk / self.root), length(jerk, snap / self.root)];
         (bounds, jerk)
     }
-    /// When the force of a lone contact, `−(y + θ y′)` over its stiffness, has fallen to zero, if before `cap`: for a rest that presses.
+    /// When the force of a lone contact, `−(y + θ y′)` over its stiffness, has fallen to zero, if before `cap`: for a
+    /// rest that presses.
     ///
-    /// `w = z + θ z′` moves as z does, and its zeros and crests are known. From a zero on the way up it is concave as far as the
-    /// crest, the first being the highest: Newton's steps from there never pass the moment it reaches −rest, nor miss it. Without weight
-    /// it is the zero itself.
+    /// `w = z + θ z′` moves as z does, and its zeros and crests are known. From a zero on the way up it is concave as
+    /// far as the crest, the first being the highest: Newton's steps from there never pass the moment it reaches −rest,
+    /// nor miss it. Without weight it is the zero itself.
     fn lets_go(&self, delay: f64, cap: f64) -> Option<f64> {
         let Self { s, k, nu, rest, .. } = *self;
         let whole = |(z, dz): (f64, f64)| (z + delay * dz, dz + delay * self.second((z, dz)));
@@ -382,10 +386,11 @@ impl Phase {
             *d += m * impulses[k];
         }
     }
-    /// The pose at time t, from what the ends do then: angle and spin are what the impulses give, the velocities of both ends follow by that
-    /// of the center, which keeps the energy. `parts`: the center is where the impulses have brought it, which keeps the energy too; else the
-    /// end in contact is where its spring is. What is left follows in exact geometry. `stays`: the end in contact keeps its own velocity, so that
-    /// it lies still if it did; what kept lever arms take from that is one more impulse on it.
+    /// The pose at time t, from what the ends do then: angle and spin are what the impulses give, the velocities of
+    /// both ends follow by that of the center, which keeps the energy. `parts`: the center is where the impulses have
+    /// brought it, which keeps the energy too; else the end in contact is where its spring is. What is left follows in
+    /// exact geometry. `stays`: the end in contact keeps its own velocity, so that it lies still if it did; what kept
+    /// lever arms take from that is one more impulse on it.
     fn pose(&self, t: f64, ends: &[[f64; 3]; 2], impulses: &mut [f64; 2], parts: bool, stays: bool) -> Pose {
         let s = &self.start;
         let length = s.body.length_m();
@@ -418,8 +423,8 @@ impl Phase {
         next.ends.v = x.map(|x| center + x * next.spin);
         next
     }
-    /// Work of the ground on the body until the ends do this, per unit mass: with `M` the map of forces to accelerations,
-    /// `∫ f·v dt = ½ Δ(v·M⁻¹v) + fall·M⁻¹Δh`.
+    /// Work of the ground on the body until the ends do this, per unit mass: with `M` the map of forces to
+    /// accelerations, `∫ f·v dt = ½ Δ(v·M⁻¹v) + fall·M⁻¹Δh`.
     fn work(&self, ends: &[[f64; 3]; 2]) -> f64 {
         let (h, v) = (self.start.ends.h, self.start.ends.v);
         let rise = self.solve([0, 1].map(|i| ends[i][0] - h[i]));
@@ -596,21 +601,21 @@ pub struct Pulse {
 /// A flight with contacts that take time, and its whole history.
 #[derive(Debug, Clone)]
 pub struct CompliantFlight {
-    /// Strikes and stop; times are those of touching, Δv is what the force of that contact does in all: of one that stays down for
-    /// good until both ends are still, from when neither parts any more beside carrying the weight.
+    /// Strikes and stop; times are those of touching, Δv is what the force of that contact does in all: of one that
+    /// stays down for good until both ends are still, from when neither parts any more beside carrying the weight.
     pub flight: Flight,
     /// Beginning and end of each strike's contact.
     pub pulses: Vec<Pulse>,
-    /// Energy that the kept lever arms have made or lost, summed over all contacts without regard to sign, over the energy
-    /// of the body at the first touch (the ground at height 0). Above 0.1, take late strikes for the right kind and not for
-    /// the right size; a shorter contact time lowers it in proportion.
+    /// Energy that the kept lever arms have made or lost, summed over all contacts without regard to sign, over the
+    /// energy of the body at the first touch (the ground at height 0). Above 0.1, take late strikes for the right kind
+    /// and not for the right size; a shorter contact time lowers it in proportion.
     pub energy_error: f64,
     phases: Vec<(f64, Phase)>,
 }
 
 impl CompliantFlight {
-    /// When each phase begins, in order from 0, and which ends press in it. Within a phase every force is smooth; a long contact is cut
-    /// into phases where its lever arms are renewed.
+    /// When each phase begins, in order from 0, and which ends press in it. Within a phase every force is smooth; a
+    /// long contact is cut into phases where its lever arms are renewed.
     pub fn phases_s(&self) -> impl Iterator<Item = (f64, [bool; 2])> + '_ {
         self.phases.iter().map(|(from, phase)| (*from, phase.on))
     }
@@ -619,12 +624,13 @@ impl CompliantFlight {
     pub fn velocity_in(&self, phase: usize) -> Option<[f64; 2]> {
         self.phases.get(phase).map(|(_, phase)| phase.start.ends.v)
     }
-    /// Height and velocity of both ends along the phase of this number in [`phases_s`](Self::phases_s), with the time since its beginning: there
-    /// and after each of some steps, which last `step_s` doubled so many times, none shorter than the one before.
+    /// Height and velocity of both ends along the phase of this number in [`phases_s`](Self::phases_s), with the time
+    /// since its beginning: there and after each of some steps, which last `step_s` doubled so many times, none shorter
+    /// than the one before.
     ///
     /// # Accuracy
-    /// One exponential and one sine serve all steps, turned on by multiplication: each of n steps loses a rounding or two of the motion, and a doubling
-    /// doubles what is lost before.
+    /// One exponential and one sine serve all steps, turned on by multiplication: each of n steps loses a rounding or
+    /// two of the motion, and a doubling doubles what is lost before.
     ///
     /// ```
     /// use clatter::flight::{Body, Scene};
@@ -667,8 +673,8 @@ impl CompliantFlight {
         let phase = n.saturating_sub(1);
         self.sample_in(phase, (time_s - self.phases[phase].0).max(0.0))
     }
-    /// The same at a time since the beginning of the phase of this number in [`phases_s`](Self::phases_s), the last one where there are
-    /// fewer, as that phase has them.
+    /// The same at a time since the beginning of the phase of this number in [`phases_s`](Self::phases_s), the last one
+    /// where there are fewer, as that phase has them.
     #[must_use]
     pub fn sample_in(&self, phase: usize, after_s: f64) -> Sample {
         let (phase, t) = (&self.phases[phase.min(self.phases.len() - 1)].1, after_s);
@@ -683,8 +689,9 @@ impl CompliantFlight {
     }
 }
 
-/// Simulates until rest (both ends press for good; the bound of the time is that of the vibration left), or a limit. `enough` is asked
-/// before each strike but the first, of the flight up to there, and ends it as the impact limit would.
+/// Simulates until rest (both ends press for good; the bound of the time is that of the vibration left), or a limit.
+/// `enough` is asked before each strike but the first, of the flight up to there, and ends it as the impact limit
+/// would.
 pub(super) fn simulate(
     scene: &Scene,
     contact: Contact,
@@ -803,8 +810,8 @@ impl Pose {
         let norm = sin.hypot(cos);
         Self { sin: sin / norm, cos: cos / norm, ..*self }
     }
-    /// Longest phase with ends in contact: a strike itself is never cut, as its energy is exact while its lever arm is kept; what lasts is,
-    /// and the lever arms renewed.
+    /// Longest phase with ends in contact: a strike itself is never cut, as its energy is exact while its lever arm is
+    /// kept; what lasts is, and the lever arms renewed.
     fn longest(&self, contact: Contact, pivots: bool) -> f64 {
         let [a, b] = self.body.arms_m();
         let (spin, fastest) = (self.spin.abs(), self.gravity / a.min(b));

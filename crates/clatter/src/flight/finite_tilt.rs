@@ -7,25 +7,27 @@
 //! h″(t) = −g − σ L ω² sin φ(t)
 //! ```
 //!
-//! (for an end of lever arm x and height H over the center in general, `h − x (θ − sin θ) − H (1 − cos θ)` and `−g − ω² H`)
-//! written from the state after the last strike, so that a small gap is a sum of terms of its own size. A strike at end i
-//! acts at the lever arm x = L cos φ: `Δv_i = −(1 + e) u`, `Δv_j = −q(φ) Δv_i`, `q_i(φ) = (x_a x_b − ρ²)/(x_i² + ρ²)`.
+//! (for an end of lever arm x and height H over the center in general, `h − x (θ − sin θ) − H (1 − cos θ)` and
+//! `−g − ω² H`) written from the state after the last strike, so that a small gap is a sum of terms of its own size. A
+//! strike at end i acts at the lever arm x = L cos φ: `Δv_i = −(1 + e) u`, `Δv_j = −q(φ) Δv_i`,
+//! `q_i(φ) = (x_a x_b − ρ²)/(x_i² + ρ²)`.
 //!
 //! # No strike is missed, none taken twice
-//! `h″ ≥ −(g + L ω²)`, L the distance of the end, bounds the motion from below: [`roots`](super::roots) advances by steps that are proven free of zeros,
-//! so the first touch of either end is the first touch. While the center is higher than L no angle lets the end touch, and the
-//! parabola of the center alone gives the step. The end that has just struck starts from exactly zero with its velocity
-//! upward, and the first step takes it off the ground for good; a touch without speed is no strike.
+//! `h″ ≥ −(g + L ω²)`, L the distance of the end, bounds the motion from below: [`roots`](super::roots) advances by
+//! steps that are proven free of zeros, so the first touch of either end is the first touch. While the center is higher
+//! than L no angle lets the end touch, and the parabola of the center alone gives the step. The end that has just
+//! struck starts from exactly zero with its velocity upward, and the first step takes it off the ground for good; a
+//! touch without speed is no strike.
 //!
 //! # One end on the ground
-//! Chatter of one end at finite tilt is not exactly geometric, but nearly: with γ = −h″ and S = w/(1 − e), over the time
-//! 4S/γ the bounds on ω and φ keep γ within a share d ≤ (1 − e)/4, so each bounce is at most
+//! Chatter of one end at finite tilt is not exactly geometric, but nearly: with γ = −h″ and S = w/(1 − e), over the
+//! time 4S/γ the bounds on ω and φ keep γ within a share d ≤ (1 − e)/4, so each bounce is at most
 //! `e √((1+d)/(1−d)) ≤ 1 − 0.7 (1 − e)` of the one before, and all of them fit in that time. Then the end is a pivot
 //! (see [`pivot`](super::pivot)) until the other end lands or the turning lifts it.
 //!
 //! # Both ends near the ground
-//! The bound of [`settling`](super::settling) is doubled; it is used where `L ω² ≤ g/1000` and the tilt is below 1/1000,
-//! where it would hold with 1.01 in place of 2.
+//! The bound of [`settling`](super::settling) is doubled; it is used where `L ω² ≤ g/1000` and the tilt is below
+//! 1/1000, where it would hold with 1.01 in place of 2.
 
 use super::ballistic::Clock;
 use super::pivot::{self, Event};
@@ -87,8 +89,8 @@ impl Pose {
         let [bend, swing, over] = self.bend(i, w * t);
         [h + (t * (v - 0.5 * g * t) - bend), v - g * t - w * swing, -g - w * w * over]
     }
-    /// What a turn by θ takes from the height of end i beyond its lever arm x, `x (θ − sin θ) + H (1 − cos θ)` for an end at
-    /// height H over the center, and from the lever arm; and the height over the center then.
+    /// What a turn by θ takes from the height of end i beyond its lever arm x, `x (θ − sin θ) + H (1 − cos θ)` for an
+    /// end at height H over the center, and from the lever arm; and the height over the center then.
     pub(super) fn bend(&self, i: usize, theta: f64) -> [f64; 3] {
         let (half_sin, half_cos) = (0.5 * theta).sin_cos();
         let sin = 2.0 * half_sin * half_cos;
@@ -131,8 +133,8 @@ impl Pose {
         } else if v > 0.0 {
             step(0.0, [0.0, v, self.acceleration(i)]).by
         } else if v == 0.0 && leaving {
-            // h ≥ ½ h″ t² + h‴ t³/6 − R ω⁴ t⁴/24, R the distance of the end. Where turning has just lifted it, h″ is zero
-            // but for rounding.
+            // h ≥ ½ h″ t² + h‴ t³/6 − R ω⁴ t⁴/24, R the distance of the end. Where turning has just lifted it, h″ is
+            // zero but for rounding.
             let up = self.acceleration(i).max(0.0);
             let rate = -self.levers()[i] * self.spin * w2;
             let bound = arm * w2 * w2;
@@ -148,8 +150,8 @@ impl Pose {
         };
         if first.is_nan() || first >= cap { None } else { first_zero(first, cap, |t| self.end(i, t), step) }
     }
-    /// Whether a touch of end i at t says nothing: the body turned so often until then that its angle is known to 10⁻⁴ no more,
-    /// or the search was given up with the end still in the air.
+    /// Whether a touch of end i at t says nothing: the body turned so often until then that its angle is known to 10⁻⁴
+    /// no more, or the search was given up with the end still in the air.
     fn is_lost(&self, i: usize, t: f64) -> bool {
         (self.spin * t).abs() > 1e-4 / f64::EPSILON || self.end(i, t)[0] > 1e-3 * self.body.length_m()
     }
@@ -259,7 +261,8 @@ impl Ledger {
     }
 }
 
-/// Touches without speed, one after the other, that no motion needs: beyond them the time has no digits left for a turn.
+/// Touches without speed, one after the other, that no motion needs: beyond them the time has no digits left for a
+/// turn.
 const IDLE: u32 = 64;
 
 pub(super) fn simulate(scene: &Scene, mut enough: impl FnMut(&Flight) -> bool) -> Flight {

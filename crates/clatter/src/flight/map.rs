@@ -1,14 +1,14 @@
 //! Small tilt without gravity: the train of the map in SI, for a center of mass anywhere.
 //!
-//! With `κ = √((L_a² + ρ²)/(L_b² + ρ²))` the approach velocities `a_n` (n even) and `κ a_n` (n odd) obey the recurrence of a
-//! symmetric bar with `q = ±√(q_a q_b)` (sign of `q_a`), started from `(v_a, κ v_b)` with the height gap κ h0.
+//! With `κ = √((L_a² + ρ²)/(L_b² + ρ²))` the approach velocities `a_n` (n even) and `κ a_n` (n odd) obey the recurrence
+//! of a symmetric bar with `q = ±√(q_a q_b)` (sign of `q_a`), started from `(v_a, κ v_b)` with the height gap κ h0.
 
 use super::{After, Flight, Log, SHARE, Scene, State, Stop, index};
 use crate::{Bar, Count, Start};
 
 impl Scene {
-    /// The symmetric bar and start that have the train of this scene at small tilt without gravity, and κ: velocities of end b
-    /// are κ times the scene's, times the scene's own.
+    /// The symmetric bar and start that have the train of this scene at small tilt without gravity, and κ: velocities
+    /// of end b are κ times the scene's, times the scene's own.
     #[must_use]
     pub fn symmetric_bar(&self) -> (Bar, Start, f64) {
         let body = self.body();

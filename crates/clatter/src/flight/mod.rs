@@ -154,8 +154,8 @@ pub enum Stop {
     },
     /// More strikes would follow after the time limit.
     TimeLimit {
-        /// The limit; earlier where a body at finite tilt turns more often before it comes down than can be followed (a thousand
-        /// times or so).
+        /// The limit; earlier where a body at finite tilt turns more often before it comes down than can be followed (a
+        /// thousand times or so).
         time_s: f64,
     },
     /// More strikes would follow than may be listed.
@@ -213,8 +213,8 @@ impl Scene {
         self.simulate_until(model, |_| false)
     }
 
-    /// The same, as far as it is needed: before each strike but the first `enough` is asked of the flight up to there, which is that of an impact
-    /// limit, and ends it if so.
+    /// The same, as far as it is needed: before each strike but the first `enough` is asked of the flight up to there,
+    /// which is that of an impact limit, and ends it if so.
     ///
     /// ```
     /// use clatter::flight::{Body, Model, Scene};
@@ -236,20 +236,20 @@ impl Scene {
 }
 
 impl Scene {
-    /// The flight with a linear spring and dashpot at each end, fitted to the scene's restitution and to the time that a
-    /// lone contact takes.
+    /// The flight with a linear spring and dashpot at each end, fitted to the scene's restitution and to the time that
+    /// a lone contact takes.
     ///
     /// # Errors
-    /// [`Error::Quantity`] unless e is in [0.01, 1], the body without thickness, the radius of gyration at least 0.05 of the length (light ends
-    /// would whirl the body through large angles while they touch), and
-    /// the contact time in [1e−12, 1e3] s and so short that the ends sink in by a small part of the length: at most 0.1
-    /// length over the speed of either end, and 0.1 √(length/gravity).
+    /// [`Error::Quantity`] unless e is in [0.01, 1], the body without thickness, the radius of gyration at least 0.05
+    /// of the length (light ends would whirl the body through large angles while they touch), and the contact time in
+    /// [1e−12, 1e3] s and so short that the ends sink in by a small part of the length: at most 0.1 length over the
+    /// speed of either end, and 0.1 √(length/gravity).
     pub fn simulate_compliant(&self, contact_time_s: f64) -> Result<CompliantFlight, Error> {
         self.simulate_compliant_until(contact_time_s, |_| false)
     }
 
-    /// The same, as far as it is needed: before each strike but the first `enough` is asked of the flight up to there, which is that of an impact
-    /// limit, and ends it if so.
+    /// The same, as far as it is needed: before each strike but the first `enough` is asked of the flight up to there,
+    /// which is that of an impact limit, and ends it if so.
     ///
     /// # Errors
     /// As [`simulate_compliant`](Self::simulate_compliant).

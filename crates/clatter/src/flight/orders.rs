@@ -46,7 +46,8 @@ fn phone(q: f64, e: f64, tilt_deg: f64, gravity: f64) -> Result<Scene, Error> {
     Scene::new(Body::new(2.0 * half, half * ((1.0 - q) / (1.0 + q)).sqrt())?, e, 4.43, tilt_deg, gravity)
 }
 
-/// Largest difference of times (relative) and of shocks (over the drop speed) of the first strikes; infinite if the ends differ.
+/// Largest difference of times (relative) and of shocks (over the drop speed) of the first strikes; infinite if the
+/// ends differ.
 fn distance(a: &Flight, b: &Flight, speed: f64, strikes: usize) -> f64 {
     let off = |(a, b): (&Strike, &Strike)| {
         let time = (a.time_s - b.time_s).abs() / b.time_s.max(f64::MIN_POSITIVE);
@@ -56,8 +57,8 @@ fn distance(a: &Flight, b: &Flight, speed: f64, strikes: usize) -> f64 {
     a.strikes.iter().zip(&b.strikes).take(strikes).map(off).fold(0.0, f64::max)
 }
 
-/// The orders in which the models tend to one another, measured on a train of four (q = ½, e = 0.3) over its first three
-/// strikes, the contact on its second strike.
+/// The orders in which the models tend to one another, measured on a train of four (q = ½, e = 0.3) over its first
+/// three strikes, the contact on its second strike.
 ///
 /// ```
 /// for order in clatter::flight::orders()? {
@@ -145,8 +146,8 @@ pub fn orders() -> Result<Vec<Order>, Error> {
     ])
 }
 
-/// What only rounding keeps from zero: weak gravity against none, the restitution that a contact has against the one it is
-/// fitted to, the energy of elastic bodies over 10⁴ strikes.
+/// What only rounding keeps from zero: weak gravity against none, the restitution that a contact has against the one it
+/// is fitted to, the energy of elastic bodies over 10⁴ strikes.
 ///
 /// # Errors
 /// None: the scenes are valid.

@@ -8,8 +8,8 @@
 //!   `g L² s² − 2 L E s + g (ρ² + L²) = 0`, s = sin ψ, if that is met on the way up;
 //! - turning point: `sin ψ = E/(g L)`; landing of the other end at ψ = 0 or π with `ψ′² = 2E/(ρ² + L²)`.
 //!
-//! With corners, L is the distance of the corner from the center and ψ the angle of the line between them: the body lies at
-//! `ψ_0 = atan(t/2L)` in place of 0, and stands on its end at `90° + ψ_0`.
+//! With corners, L is the distance of the corner from the center and ψ the angle of the line between them: the body
+//! lies at `ψ_0 = atan(t/2L)` in place of 0, and stands on its end at `90° + ψ_0`.
 //!
 //! The time is the integral of `√(I/2K)`, K the kinetic energy, by adaptive quadrature; near a turning point `ψ_m` in
 //! `x = √(ψ_m − ψ)`, where the integrand is smooth.

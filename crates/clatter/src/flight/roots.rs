@@ -1,12 +1,12 @@
 //! First zeros that cannot be missed: advance by what bounds on the derivatives prove.
 //!
-//! Where f ≥ 0 with slope s, and f″ ≥ −M from here on, f stays positive up to the root of `f + s x − ½ M x²`. Within a reach r
-//! of that order the second derivative b at hand proves more, with |f‴| ≤ J from here on: `f ≥ f + s x − ½ (J r/3 − b) x²`.
-//! Stepping there again and again never passes a zero, whatever f does in between, and near a simple zero the error of a
-//! step is of the order of `J x³`: one order more than Newton's. The zero is approached from the left and taken once; there is no
-//! tolerance, the steps end when they no longer change the time. What decides is the value computed for f, so an f
-//! written without cancellation gives a zero of any size to its last digits. Where f only grazes zero, within the
-//! rounding of f, either answer is right.
+//! Where f ≥ 0 with slope s, and f″ ≥ −M from here on, f stays positive up to the root of `f + s x − ½ M x²`. Within a
+//! reach r of that order the second derivative b at hand proves more, with |f‴| ≤ J from here on:
+//! `f ≥ f + s x − ½ (J r/3 − b) x²`. Stepping there again and again never passes a zero, whatever f does in between,
+//! and near a simple zero the error of a step is of the order of `J x³`: one order more than Newton's. The zero is
+//! approached from the left and taken once; there is no tolerance, the steps end when they no longer change the time.
+//! What decides is the value computed for f, so an f written without cancellation gives a zero of any size to its last
+//! digits. Where f only grazes zero, within the rounding of f, either answer is right.
 
 /// The largest step that is proven to stay above zero; infinite where nothing pulls down.
 pub(super) fn safe_step(f: f64, slope: f64, bound: f64) -> f64 {
@@ -59,7 +59,8 @@ pub(super) fn far_step([f, slope, bend]: [f64; 3], bound: f64, jerk: f64) -> Ste
             2.0 * f / (root - slope)
         };
         if by < reach {
-            // f is J x² (x + r)/6 at most there, and falls at the rate of the root less J x (x/2 + r/3): half of it, or nothing is said.
+            // f is J x² (x + r)/6 at most there, and falls at the rate of the root less J x (x/2 + r/3): half of it, or
+            // nothing is said.
             let falls = jerk * by * (0.5 * by + reach / 3.0) <= 0.5 * root;
             let short = if falls { jerk * by * by * (by + reach) / (3.0 * root) } else { f64::INFINITY };
             return if by < step.by { step } else { Step { by, short } };

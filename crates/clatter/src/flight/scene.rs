@@ -38,8 +38,8 @@ impl Body {
         }
         Ok(Self { arm: [a_m, b_m], gyration: gyration_m + 0.0, thickness: 0.0 })
     }
-    /// The same body with corners: seen from the side a rectangle, its center of mass on the line midway between the two
-    /// long sides. At a tilt it stands on a corner of the lower side, which is half a thickness below that line:
+    /// The same body with corners: seen from the side a rectangle, its center of mass on the line midway between the
+    /// two long sides. At a tilt it stands on a corner of the lower side, which is half a thickness below that line:
     ///
     /// ```text
     ///            b        height of a corner below the center   σ L sin φ − (t/2) cos φ
@@ -49,9 +49,9 @@ impl Body {
     ///  ‾‾‾‾‾‾‾‾‾‾
     /// ```
     ///
-    /// So the lever arm of the end that is down is shorter by `(t/2) sin φ`, that of the other end longer. Everywhere in this
-    /// module "end a" and "end b" are then these two corners. [`Model::FiniteTilt`](super::Model::FiniteTilt) knows
-    /// corners, until the body has turned past its end and comes down on others
+    /// So the lever arm of the end that is down is shorter by `(t/2) sin φ`, that of the other end longer. Everywhere
+    /// in this module "end a" and "end b" are then these two corners. [`Model::FiniteTilt`](super::Model::FiniteTilt)
+    /// knows corners, until the body has turned past its end and comes down on others
     /// ([`Stop::TurnedOver`](super::Stop::TurnedOver)); at small tilt they make no difference.
     ///
     /// # Errors
@@ -96,7 +96,8 @@ impl Body {
     pub fn thickness_m(&self) -> f64 {
         self.thickness
     }
-    /// Lever arms of the ends with sign, and their heights over the center of mass, at the angle with this sine and cosine.
+    /// Lever arms of the ends with sign, and their heights over the center of mass, at the angle with this sine and
+    /// cosine.
     pub(super) fn levers(&self, sin: f64, cos: f64) -> ([f64; 2], [f64; 2]) {
         let ([a, b], d) = (self.arm, 0.5 * self.thickness);
         ([d * sin - a * cos, d * sin + b * cos], [-a * sin - d * cos, b * sin - d * cos])
@@ -182,9 +183,9 @@ impl Scene {
     /// Already turning at the first touch, end b upward where positive.
     ///
     /// # Errors
-    /// [`Error::Quantity`] unless the spin is finite and end a still approaches, at small tilt and at the scene's: above
-    /// `−v0/L_a` (and, where a thick body's center is beyond end a, below v0 over the lever arm); its end speed at most
-    /// 1e30 m/s.
+    /// [`Error::Quantity`] unless the spin is finite and end a still approaches, at small tilt and at the scene's:
+    /// above `−v0/L_a` (and, where a thick body's center is beyond end a, below v0 over the lever arm); its end speed
+    /// at most 1e30 m/s.
     pub fn with_spin(mut self, spin_rad_s: f64) -> Result<Self, Error> {
         let far = 1e30 / self.body.length_m();
         let (sin, cos) = self.tilt.sin_cos();

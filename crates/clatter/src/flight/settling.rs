@@ -17,9 +17,9 @@
 //! The times 2τ shrink like √E, so all that is left takes at most `2τ(E)/(1 − 1/√(1 + κ))`. An end that lies still is
 //! the limit of ever more, ever slower strikes, and changes nothing. This holds for any pattern of strikes.
 //!
-//! *q < 0: strikes lift the other end,* by `p = max(−q_a, −q_b) < 1` of their own jump. Momentum of the other end limits
-//! how often: `v_a(t) = v_a(0) − (1 − p) g t + p (v_b(t) − v_b(0))` until a touches, and likewise for b. The same
-//! steps give `τ = V (6 + √((1 − p) m L/L_min))/((1 − p) g)`, velocities below 5δ at any time with two touches of
+//! *q < 0: strikes lift the other end,* by `p = max(−q_a, −q_b) < 1` of their own jump. Momentum of the other end
+//! limits how often: `v_a(t) = v_a(0) − (1 − p) g t + p (v_b(t) − v_b(0))` until a touches, and likewise for b. The
+//! same steps give `τ = V (6 + √((1 − p) m L/L_min))/((1 − p) g)`, velocities below 5δ at any time with two touches of
 //! both ends around it, heights below `(11 δ)²/(2 (1 − p) g)`, so a window of 4τ and
 //! `C = 12.5 + 50 ρ²/L² + 60.5/(1 − p)`. Coarse, but the price of a factor is a few more strikes.
 

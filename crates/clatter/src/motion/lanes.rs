@@ -81,10 +81,11 @@ impl Four {
     }
 }
 
-/// The wave of a train of some 30 to 400 impacts. No angle is needed: all follows from the discriminant and the first two
-/// strikes.
+/// The wave of a train of some 30 to 400 impacts. No angle is needed: all follows from the discriminant and the first
+/// two strikes.
 ///
-/// With x_n = |a_n|/(α e^{n/2}) and κ_m = 2 − 2 cos mθ, all of them sums without cancellation that matters to an amplitude,
+/// With x_n = |a_n|/(α e^{n/2}) and κ_m = 2 − 2 cos mθ, all of them sums without cancellation that matters to an
+/// amplitude,
 /// ```text
 /// κ_1 = D/(2e + T√e),  κ_2m = κ_m(4 − κ_m),  Δ_m x_n = x_{n+m} − x_n,  Δ_2m x_n = (2 − κ_m) Δ_m x_n − κ_m x_n.
 /// ```
@@ -118,17 +119,17 @@ pub(crate) enum Then {
 }
 
 impl Sweep {
-    /// Largest amplitude of x: 408 strikes of a bar that falls flat. Rounded in some 100 steps, each approach velocity then
-    /// was off by no more than 1.8e−13 of the first.
+    /// Largest amplitude of x: 408 strikes of a bar that falls flat. Rounded in some 100 steps, each approach velocity
+    /// then was off by no more than 1.8e−13 of the first.
     const AMPLITUDE: f64 = 260.0;
-    /// A strike with a smaller x over its amplitude is left to the closed form. The time of others was off by no more than
-    /// 1.6e−12.
+    /// A strike with a smaller x over its amplitude is left to the closed form. The time of others was off by no more
+    /// than 1.6e−12.
     const CLEAR: f64 = power_of_two(-11);
     /// What x over its amplitude is never off by.
     const ALLOWED: f64 = 1e-12;
 
-    /// Whether a sweep may be the way to go, cos² θ from 0.990025 to 0.99994: π/408 < θ < 0.1. Trains with larger θ have 31 impacts
-    /// at most.
+    /// Whether a sweep may be the way to go, cos² θ from 0.990025 to 0.99994: π/408 < θ < 0.1. Trains with larger θ
+    /// have 31 impacts at most.
     #[inline]
     pub(crate) fn suits(bar: &Bar) -> bool {
         (bar.t * bar.t.abs() - 3.97993 * bar.e).abs() < 0.01983 * bar.e

@@ -272,7 +272,8 @@ fn waves() -> impl Strategy<Value = (Bar, Start)> {
     wave.prop_map(|(x, e, beta, d, tie)| wave_of(if tie { x.floor() + 10f64.powf(-d) } else { x }, e, beta))
 }
 
-/// The bar and start for which ψ = nθ: the train ends with strike ⌈n⌉, next to a tie where n is hardly above an integer.
+/// The bar and start for which ψ = nθ: the train ends with strike ⌈n⌉, next to a tie where n is hardly above an
+/// integer.
 fn wave_of(n: f64, e: f64, beta: f64) -> (Bar, Start) {
     let (mut low, mut high) = (1e-3_f64, 1.5_f64);
     for _ in 0..80 {
@@ -313,8 +314,8 @@ fn within(share: f64, bar: &Bar, start: &Start, at: prop::sample::Index) -> Resu
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 
-    /// Up to the last strike, near ties or not, and where the sweep leaves the last ones to the closed form; seen: a sixth of
-    /// what is allowed.
+    /// Up to the last strike, near ties or not, and where the sweep leaves the last ones to the closed form; seen: a
+    /// sixth of what is allowed.
     #[test]
     fn strikes_of_waves_are_as_exact_as_allowed((bar, start) in waves(), at in any::<prop::sample::Index>()) {
         within(0.5, &bar, &start, at)?;
@@ -353,8 +354,8 @@ fn trains_of_some_hundred_impacts_are_swept() {
     }
 }
 
-/// The start whose last strike is next to a tie is found for many speeds: by chance, some are within 10⁻¹⁹ of the angle. There, the
-/// time of that strike hangs on the last digits of both angles.
+/// The start whose last strike is next to a tie is found for many speeds: by chance, some are within 10⁻¹⁹ of the
+/// angle. There, the time of that strike hangs on the last digits of both angles.
 #[test]
 fn the_last_strike_next_to_a_tie_has_its_time() {
     let wave = |q, e| Bar::new(q, e).unwrap();

@@ -37,8 +37,8 @@ proptest! {
         prop_assert_eq!(jerk.to_bits(), mode.second((now.1, mode.second(now))).to_bits());
     }
 
-    /// From any moment at which a contact presses, below and beyond critical damping and next to it, with and without weight: the first zero
-    /// of its force, neither a later one nor one that is none.
+    /// From any moment at which a contact presses, below and beyond critical damping and next to it, with and without
+    /// weight: the first zero of its force, neither a later one nor one that is none.
     #[test]
     fn a_lone_contact_lets_go_at_the_first_zero_of_its_force(
         zeta in prop_oneof![0.0..1.0_f64, 1.0..5.0_f64, (-12.0..-3.0_f64).prop_map(|x| 1.0 + 10f64.powf(x)), Just(0.0), Just(1.0)],
