@@ -9,7 +9,7 @@ use clatter_shock::{Extreme, Peaked, Pulses, Response, Suspension, VelocityShock
 use crate::plan::demand::fineness;
 use crate::plan::history::{self, Polygon, Pushes};
 use crate::plan::pulse::Pulse;
-use crate::plan::settle::{Looks, twice_energy};
+use crate::plan::settle::{Left, Looks, twice_energy};
 use crate::plan::{Quantity, Setup};
 use crate::{BarModel, Error, Product};
 
@@ -48,6 +48,8 @@ pub struct Base {
     shocks: Vec<(f64, [f64; 2])>,
     /// Cosine of the tilt at each of them, 1 in models of small tilt; empty where contacts are modeled.
     cosines: Vec<f64>,
+    /// When each begins, and what is left after it until the next; empty likewise.
+    left: Vec<(f64, Left)>,
     /// How long each takes, where that is known.
     contact_time_s: Option<f64>,
     cells: Cells,
@@ -231,9 +233,17 @@ impl Base {
         let largest = shocks.iter().fold(0.0_f64, |most, (_, v)| most.max(size(v)));
         let kept = shocks.iter().rposition(|(_, v)| size(v) >= WEAK * largest).map_or(0, |last| last + 1);
         shocks.truncate(kept.max(1));
+        let strikes = flight.strikes.iter();
+        let next_s = strikes.clone().skip(1).map(|s| s.time_s).chain([f64::INFINITY]);
+        let lasts_s = product.contact_time_s.unwrap_or(0.0);
+        let left = strikes.zip(next_s).map(|(s, next_s)| {
+            let twice_energy = twice_energy(&scene, s, s.height_m);
+            (s.time_s, Left { twice_energy, waits_s: (next_s - s.time_s - lasts_s).max(0.0) })
+        });
+        let left = left.take(shocks.len()).collect();
         let cosine = |s: &Strike| if model == Model::FiniteTilt { cosine(libm::sin(s.tilt_rad)) } else { 1.0 };
         let cosines = flight.strikes.iter().map(cosine).collect();
-        Ok(Self { shocks, cosines, contact_time_s: product.contact_time_s, ..Self::empty(product, drop, cells) })
+        Ok(Self { shocks, cosines, left, contact_time_s: product.contact_time_s, ..Self::empty(product, drop, cells) })
     }
 
     /// Contacts that take time, so many of them at most, in so many pieces each.
@@ -279,6 +289,7 @@ impl Base {
             restitution: drop.restitution,
             shocks: Vec::new(),
             cosines: Vec::new(),
+            left: Vec::new(),
             contact_time_s: None,
             cells,
             contacts: None,
@@ -294,11 +305,24 @@ impl Base {
         (settled_s < f64::INFINITY || !cut_short).then_some(settled_s)
     }
 
-    /// Whether what comes after a time may pass `least` (as a velocity) in drops like this one, by the energy that is
-    /// left then; `None` where contacts are not modeled.
-    pub(crate) fn may_pass_after(&self, time_s: f64, setup: &Setup, quantity: Quantity, least: f64) -> Option<bool> {
-        let Contacts { flight, contact_time_s, .. } = self.contacts.as_ref()?;
-        Some(setup.may_pass_after(time_s, flight, quantity, *contact_time_s, least))
+    /// Whether strikes between two times may pass `least` (as a velocity) in drops like this one, by the energy that is
+    /// left at the former.
+    pub(crate) fn may_pass_within(
+        &self,
+        [after_s, until_s]: [f64; 2],
+        setup: &Setup,
+        quantity: Quantity,
+        least: f64,
+    ) -> bool {
+        let (left, contact_s) = match &self.contacts {
+            Some(Contacts { flight, contact_time_s, .. }) => (setup.left_at(after_s, flight), *contact_time_s),
+            None if !self.strikes_within(after_s, until_s) => return false,
+            None => {
+                let last = self.left.iter().rev().find(|(from_s, _)| *from_s <= after_s);
+                (last.map(|(_, left)| *left), self.contact_time_s.unwrap_or(0.0))
+            }
+        };
+        left.is_none_or(|left| setup.may_pass(&left, quantity, contact_s, least))
     }
 
     /// Whether it strikes after one time, and not after another.

@@ -591,14 +591,12 @@ impl<'a> Search<'a> {
             let Candidate { place, slot, until_s, .. } = candidate;
             let clear_s = self.field.clear_s(&slot.drop);
             let (base, _) = self.followed(candidate)?;
-            let (least, mut may) = (self.least(place, slot)?, None);
-            let (positions, quantity) = self.places();
+            let (least, (positions, quantity)) = (self.least(place, slot)?, self.places());
             for position in positions {
                 let setup = self.field.setup(self.task, place, slot, *position)?;
-                may = base.may_pass_after(clear_s, &setup, quantity, least).map(|passes| passes || may == Some(true));
-            }
-            if may.unwrap_or_else(|| base.strikes_within(clear_s, *until_s)) {
-                return Ok(true);
+                if base.may_pass_within([clear_s, *until_s], &setup, quantity, least) {
+                    return Ok(true);
+                }
             }
         }
         Ok(false)

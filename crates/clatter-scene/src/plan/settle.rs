@@ -153,28 +153,31 @@ impl Setup {
         f64::INFINITY
     }
 
-    /// Whether the energy that is left at a time lets later strikes, whenever they come, pass `least`, a shock or
-    /// response as a velocity that none passes before.
-    pub(crate) fn may_pass_after(
-        &self,
-        time_s: f64,
-        flight: &CompliantFlight,
-        quantity: Quantity,
-        contact_s: f64,
-        least: f64,
-    ) -> bool {
+    /// What is left at a time of a flight with contacts; `None` where they were not followed until then.
+    pub(crate) fn left_at(&self, time_s: f64, flight: &CompliantFlight) -> Option<Left> {
         let so_far = self.so_far(flight);
-        let Some(last) = so_far.shocks.iter().rev().find(|shock| shock.from_s <= time_s) else { return true };
-        if last.next_s == f64::INFINITY {
+        let last = so_far.shocks.iter().rev().find(|shock| shock.from_s <= time_s)?;
+        let comes = last.next_s < f64::INFINITY;
+        Some(if comes {
+            Left { twice_energy: self.energy_after(flight, last), waits_s: last.next_s - last.parted_s }
+        } else {
+            Left::NOTHING
+        })
+    }
+
+    /// Whether what is left lets later strikes, whenever they come, pass `least`, a shock or response as a velocity
+    /// that none passes before.
+    pub(crate) fn may_pass(&self, left: &Left, quantity: Quantity, contact_s: f64, least: f64) -> bool {
+        if left.waits_s == f64::INFINITY {
             return false;
         }
         let ends = Ends::new(&self.scene, self.position);
         let swing = Swing::new(self.suspension.damping().get(), quantity == Quantity::PeakAcceleration);
-        let speed = ends.reach(self.energy_after(flight, last));
+        let speed = ends.reach(left.twice_energy);
         let mut later = self.later(&ends, &swing, quantity, speed, contact_s, true);
         if quantity != Quantity::VelocityShock {
             // What rings passes it no more: the envelope of a shock with that peak, faded.
-            let fade = swing.fade(self.suspension.omega() * (last.next_s - last.parted_s));
+            let fade = swing.fade(self.suspension.omega() * left.waits_s);
             later += least * (swing.over_factor() * fade).min(1.0);
         }
         later > least
@@ -256,6 +259,19 @@ pub(crate) fn twice_energy(scene: &Scene, strike: &Strike, height_m: [f64; 2]) -
     speed * speed
         + (body.gyration_m() * strike.spin_rad_s).powi(2)
         + 2.0 * scene.gravity_m_s2() * center(height_m).max(0.0)
+}
+
+/// What is left of a drop after a strike, or contacts that overlap.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Left {
+    /// Twice the energy over the mass.
+    pub(crate) twice_energy: f64,
+    /// How long it takes then to the next one; infinite where none comes.
+    pub(crate) waits_s: f64,
+}
+
+impl Left {
+    const NOTHING: Self = Self { twice_energy: 0.0, waits_s: f64::INFINITY };
 }
 
 /// A flight as far as it is known.
