@@ -276,3 +276,44 @@ fn the_drawing_meets_the_ground_at_the_strikes() {
         }
     }
 }
+
+/// Two inertia ratios next to 1 whose root rounds above it.
+#[test]
+fn ends_next_to_massless_off_the_middle_are_bars() {
+    for k in 1..2000 {
+        let a = 0.15 * (0.02 + 1.96 * f64::from(k) / 2000.0);
+        for gyration in [0.0, 1e-11, 1e-9] {
+            let body = Body::off_center(a, 0.3 - a, gyration).expect("as the test has it");
+            let scene = Scene::new(body, 0.3, 1.0, 3.0, 0.0).expect("as the test has it");
+            assert!(scene.symmetric_bar().0.q() <= 1.0, "{a} {gyration}");
+        }
+    }
+}
+
+/// A spin whose end speed rounds to nothing is no approach.
+#[test]
+fn the_least_spin_that_is_taken_leaves_an_approach() {
+    let (mut taken, mut refused) = (0, 0);
+    for k in 1..300 {
+        let (length, speed) = (0.1 + 0.002 * f64::from(k), 0.5 + 0.02 * f64::from(k));
+        let body = Body::new(length, 0.2 * length).expect("as the test has it");
+        let scene = Scene::new(body, 0.3, speed, 3.0, 0.0).expect("as the test has it");
+        let still = -speed / (0.5 * length);
+        for spin in [still, still.next_up(), still.next_up().next_up()] {
+            match scene.with_spin(spin) {
+                Ok(scene) => {
+                    taken += 1;
+                    sane(&scene.with_impact_limit(20).expect("some").simulate(Model::Map), &format!("{length} {spin}"));
+                }
+                Err(error) => {
+                    refused += 1;
+                    assert!(
+                        matches!(error, Error::Quantity { value, .. } if value.to_bits() == spin.to_bits()),
+                        "{error}"
+                    );
+                }
+            }
+        }
+    }
+    assert!(taken > 100 && refused > 100, "{taken} {refused}");
+}

@@ -19,7 +19,8 @@ impl Scene {
         let bar = if a - b == 0.0 {
             Bar::from_gyration_ratio(body.gyration_m() / a, self.e())
         } else {
-            Bar::new((ratios[0] * ratios[1]).sqrt().copysign(ratios[0]), self.e())
+            // The root of two ratios next to 1 may round above it.
+            Bar::new((ratios[0] * ratios[1]).sqrt().min(1.0).copysign(ratios[0]), self.e())
         };
         let (Ok(bar), Ok(start)) = (bar, Start::new([va, kappa * vb], kappa * self.height_gap_m())) else {
             unreachable!("the bounds of a scene are within those of a bar and its start");

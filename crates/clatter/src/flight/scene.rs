@@ -190,12 +190,13 @@ impl Scene {
         let far = 1e30 / self.body.length_m();
         let (sin, cos) = self.tilt.sin_cos();
         let ([x, _], _) = self.body.levers(sin, cos);
-        let approaches = spin_rad_s > -self.speed / self.body.arm[0] && x * spin_rad_s < self.speed;
+        self.spin = spin_rad_s + 0.0;
+        // As it rounds: next to -speed/arm nothing may be left of the approach.
+        let approaches = self.level_velocities()[0] <= -SLOWEST && x * spin_rad_s < self.speed;
         if !(approaches && spin_rad_s <= far) {
             let allowed = "such that end a approaches (above -speed/arm) and at most 1e30/length";
             return Err(Error::Quantity { name: "spin in rad/s", value: spin_rad_s, allowed });
         }
-        self.spin = spin_rad_s + 0.0;
         Ok(self)
     }
     /// No strike after this time since the first touch.
@@ -278,6 +279,9 @@ impl Scene {
         self.end_velocities([-a, b])
     }
 }
+
+/// The slowest approach that a [`Start`](crate::Start) takes.
+const SLOWEST: f64 = 1e-150;
 
 fn within(name: &'static str, value: f64, lo: f64, hi: f64, allowed: &'static str) -> Result<(), Error> {
     if (lo..=hi).contains(&value) { Ok(()) } else { Err(Error::Quantity { name, value, allowed }) }
