@@ -133,7 +133,7 @@ const REFUSED: &[(&[&str], &[&str])] = &[
     (&["spectrum", "--shock=1,0", "--damping=-1"], &["--damping", "-1.0", "[0, 1e60]"]),
     (&["spectrum", "--shock=1,0", "--quantity=force"], &["--quantity", "force", "relative-velocity"]),
     (&["spectrum", "--shock=1,0", "--limit=0"], &["--limit", "0.0 is not finite and > 0"]),
-    (&["spectrum", "--shock=1,0", "--limit=10:1"], &["--limit", "at least two points"]),
+    (&["spectrum", "--shock=1,0", "--limit=10:1"], &["--limit", "the limit curve has one point; it needs two at least"]),
     (&["spectrum", "--shock=1,0", "--limit=10:1,5:1"], &["--limit", "limit curve, entry 2", "5.0 is not finite and above the one before it"]),
     (&["spectrum", "--shock=1,0", "--limit=10:1,20"], &["--limit", "HZ:VALUE"]),
     (&["spectrum", "--shock=1,0", "--units=s,g"], &["--units goes with a record alone"]),

@@ -172,10 +172,10 @@ impl DamageBoundary {
     /// for durations in equal ratios. Where the knee is infinite it ends at ten periods.
     ///
     /// # Errors
-    /// [`Error::Quantity`] unless there are at least two points.
+    /// [`Error::Points`] below two points.
     pub fn curve(&self, points: usize) -> Result<Vec<(f64, f64)>, Error> {
         if points < 2 {
-            return Err(Error::Empty("a curve of at least two points"));
+            return Err(Error::Points("the curve", points));
         }
         let omega = self.suspension.omega();
         let last = self.knee_duration.min(10.0 * TAU / omega);

@@ -41,11 +41,11 @@ impl LimitCurve {
     /// # Ok::<(), clatter_shock::Error>(())
     /// ```
     /// # Errors
-    /// [`Error::Empty`] below two points; [`Error::Entry`] for a value that is not finite and positive, or a frequency
+    /// [`Error::Points`] below two points; [`Error::Entry`] for a value that is not finite and positive, or a frequency
     /// not above the one before.
     pub fn new(points: Vec<(f64, f64)>) -> Result<Self, Error> {
         if points.len() < 2 {
-            return Err(Error::Empty("a limit curve of at least two points"));
+            return Err(Error::Points("the limit curve", points.len()));
         }
         let mut previous = 0.0;
         for (i, &(hz, allowed)) in points.iter().enumerate() {

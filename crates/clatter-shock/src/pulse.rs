@@ -177,11 +177,11 @@ impl Pulses {
     ///
     /// # Errors
     ///
-    /// [`Error::Empty`] below two points, [`Error::Entry`] for a value that is not finite, [`Error::TimeOrder`] where
+    /// [`Error::Points`] below two points, [`Error::Entry`] for a value that is not finite, [`Error::TimeOrder`] where
     /// times run back, [`Error::ZeroDuration`] if all happens at one instant.
     pub fn piecewise_linear(points: &[(f64, f64)]) -> Result<Self, Error> {
         if points.len() < 2 {
-            return Err(Error::Empty("a history of at least two points"));
+            return Err(Error::Points("the history", points.len()));
         }
         let mut previous = f64::NEG_INFINITY;
         for (i, &(time, a)) in points.iter().enumerate() {

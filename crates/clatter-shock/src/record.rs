@@ -216,19 +216,21 @@ impl<R: BufRead> Lines<R> {
                 self.more_columns = Some(Finding::Columns { line: self.line, names: names.collect() });
             }
             let units = self.units.ok_or(Error::NoUnits)?;
-            for (name, text, value) in [("time", *first, time), ("acceleration", *second, acceleration)] {
+            let (time, acceleration) = (time * units.time, acceleration * units.acceleration);
+            for (name, text, unit, value) in
+                [("time", *first, "s", time), ("acceleration", *second, "m/s²", acceleration)]
+            {
                 if !value.is_finite() {
-                    return Err(bad(format!("{name} {text} is not finite")));
+                    return Err(bad(format!("{name} {text} is not finite, in {unit}")));
                 }
             }
-            let time = time * units.time;
             if let Some(previous) = self.previous
                 && time <= previous
             {
                 return Err(bad(format!("time {time:?} s does not come after {previous:?} s, the line above")));
             }
             self.previous = Some(time);
-            return Ok(Some(Sample { line: self.line, time, acceleration: acceleration * units.acceleration }));
+            return Ok(Some(Sample { line: self.line, time, acceleration }));
         }
     }
 }
