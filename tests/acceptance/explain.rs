@@ -59,7 +59,7 @@ fn a_tolerance_and_a_model_can_be_asked_for() {
     }
     for (option, said) in [
         ("--tolerance=0", "allowed: a share in [1e-4, 0.5]"),
-        ("--tolerance=many", "is no share such as 0.01 or 1%"),
+        ("--tolerance=many", "is not a share such as 0.01 or 1%"),
         ("--model=magic", "finite-tilt"),
         // The laptop has no contact time.
         ("--model=compliant", "needs the contact time"),

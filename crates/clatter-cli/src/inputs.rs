@@ -31,8 +31,9 @@ angular velocity are in v0/L; times are in h0/v0, where h0 is the height of
 end b when end a first touches. One time unit is what end b would still need
 to the ground if the bar did not turn: 0.5 ms for h0 = 2 mm at v0 = 4 m/s.
 
-Exit status: 0 done; 2 bad input, or an output that cannot be written;
-3 typst, which prints the reports, is missing or failed.";
+Exit status: 0 done; 1 'assess' found a component unsafe; 2 bad input, or an
+output that cannot be written; 3 typst, which prints the reports, is missing
+or failed.";
 
 /// How the mass lies, and how the ends rebound.
 #[derive(Debug, clap::Args)]
@@ -181,7 +182,7 @@ pub(crate) fn number(text: &str) -> Result<f64, String> {
 /// A share, or a percentage with its sign.
 pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
     let (digits, unit) = text.strip_suffix('%').map_or((text, 1.0), |digits| (digits.trim_end(), 100.0));
-    let share = digits.parse::<f64>().map_err(|_| format!("'{text}' is no share such as 0.01 or 1%"))? / unit;
+    let share = digits.parse::<f64>().map_err(|_| format!("'{text}' is not a share such as 0.01 or 1%"))? / unit;
     Accuracy { tolerance: share, model: None }.check().map_err(|error| error.to_string())?;
     Ok(share)
 }

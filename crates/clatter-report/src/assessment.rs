@@ -245,7 +245,7 @@ fn remedies(remedies: &[Remedy]) -> String {
 }
 
 /// What the page says of one part.
-fn part(file: &ProductFile, part: &ComponentAssessment, portrait: &Portrait) -> Value {
+fn part(part: &ComponentAssessment, portrait: &Portrait) -> Value {
     let safe = part.limits.iter().all(LimitAssessment::is_safe);
     let tightest = part.tightest();
     let worst = &tightest.worst_case;
@@ -270,11 +270,10 @@ fn part(file: &ProductFile, part: &ComponentAssessment, portrait: &Portrait) -> 
         },
     );
     let zone = match portrait.zone_m {
-        Some([lo, hi]) => format!(
-            " Its middle could sit anywhere from {} to {} and be safe.",
-            millimeters(lo.max(-0.5 * file.product.body.length_m())),
-            millimeters(hi.min(0.5 * file.product.body.length_m()))
-        ),
+        Some([lo, hi]) if lo < hi => {
+            format!(" Its middle could sit anywhere from {} to {} and be safe.", millimeters(lo), millimeters(hi))
+        }
+        Some(_) => String::new(),
         None => " Nowhere along the product would it be safe.".to_owned(),
     };
     let limits = part.limits.iter().map(|l| {
@@ -367,7 +366,7 @@ pub(crate) fn files(file: &ProductFile, assessment: &Assessment, portraits: &[Po
         "hardest": hardest.map(|c| json!({"name": name(&c.name), "margin": percent(c.tightest().margin)})),
         "product": name(&assessment.product),
         "safe": assessment.components.iter().all(|c| c.limits.iter().all(LimitAssessment::is_safe)),
-        "parts": parts().map(|((assessed, _), portrait)| part(file, assessed, portrait)).collect::<Vec<_>>(),
+        "parts": parts().map(|((assessed, _), portrait)| part(assessed, portrait)).collect::<Vec<_>>(),
         "drop": drop(file),
         "body": body(file),
         "drawing": places.iter().map(|p| format!("{}: {}.", p.name, p.word)).collect::<Vec<_>>().join(" "),

@@ -7,7 +7,7 @@ use crate::base::{Base, SingleDrop};
 use crate::demand::Demand;
 use crate::guaranteed::{self, Asked, Ranges, Trains};
 use crate::models;
-use crate::plan::{ComponentRung, Pair};
+use crate::plan::{ComponentRung, Pair, Share, Warning};
 use crate::search::{self, Field, Found, Task};
 use crate::{
     Accuracy, Assessment, BarModel, Component, ComponentAssessment, ComponentModel, Error, LimitAssessment,
@@ -103,7 +103,8 @@ impl ProductFile {
             components.push(verdict(component, limits));
         }
         let safe = components.iter().all(|c| c.verdict == Verdict::Safe);
-        Ok(Assessment { product: self.product.name.clone(), verdict: Verdict::of(safe), components })
+        let (product, verdict) = (self.product.name.clone(), Verdict::of(safe));
+        Ok(Assessment { product, verdict, components, accuracy: field.accuracy })
     }
 
     /// The demands of all limits without gravity, at small tilt and for velocity shocks: what no drop of the ranges
@@ -232,20 +233,25 @@ fn searched(field: &Field<'_>, task: &Task<'_>, found: &Found) -> Result<Case, E
     let passed = |error: f64| if error < 1.0 { error / (1.0 - error) } else { f64::INFINITY };
     let (reason, warning, error) = match (field.accuracy.model, plan) {
         (Some(model), plan) => {
-            let error = plan.map_or(0.0, |plan| passed(plan.forecast.pair(found.pair).error));
-            (format!("{} was asked for", model.name()), None, error)
+            let error = match plan {
+                Some(plan) => plan.forecast.pair(found.pair).error,
+                None => field.error_of(model, task, &found.place)?,
+            };
+            (format!("{} was asked for", model.name()), off(model, error, field), passed(error))
         }
         (None, Some(plan)) => {
             let error = passed(plan.forecast.pair(found.pair).error).max(field.accuracy.tolerance);
             (plan.reason.to_string(), plan.warning.map(|w| w.to_string()), error)
         }
         (None, None) => {
-            let why = if found.pair == Pair::HIGHEST {
+            let (pair, is_within) = field.planned_of_shocks(task, &found.place)?;
+            let why = if pair == Pair::HIGHEST || !is_within {
                 "contacts overlap, or come too close to tell them apart"
             } else {
                 "contacts follow one another without overlap"
             };
-            (why.to_owned(), None, field.accuracy.tolerance)
+            let error = if is_within { field.accuracy.tolerance } else { f64::INFINITY };
+            (why.to_owned(), not_taken(is_within), error)
         }
     };
     let rebound =
@@ -262,13 +268,12 @@ fn searched(field: &Field<'_>, task: &Task<'_>, found: &Found) -> Result<Case, E
     })
 }
 
-const REBOUND: &str =
-    "the worst comes after a rebound, whose time hangs on every value: drops between those searched may ask for more";
+const REBOUND: &str = "the worst comes after a rebound, whose timing is sensitive to every input: drops between those searched may ask for more";
 
 /// What is to be said where rebounds are not ruled out.
 fn may_rebound(rebounds: bool) -> Option<&'static str> {
     rebounds.then_some(
-        "rebounds are not ruled out, whose time hangs on every value: drops between those searched may ask for more",
+        "rebounds are not ruled out, whose timing is sensitive to every input: drops between those searched may ask for more",
     )
 }
 
@@ -280,16 +285,35 @@ fn both(one: Option<String>, other: Option<&str>) -> Option<String> {
     }
 }
 
+/// What is to be said of a model that was named where it is off by more than the tolerance.
+fn off(model: BarModel, error: f64, field: &Field<'_>) -> Option<String> {
+    let is_off = error > field.accuracy.of_truth();
+    is_off.then(|| format!("{} was asked for, and may be {}", model.name(), Share(error)))
+}
+
+/// What is to be said where contacts overlap and their model does not take the drop.
+fn not_taken(is_within: bool) -> Option<String> {
+    let warning = Warning::ToleranceNotReached { error: f64::INFINITY, overlaps: true };
+    (!is_within).then(|| warning.to_string())
+}
+
 /// A proof, with what more physics would say of its worst drop, and whether `rebounds` may ask for more.
 fn beside_proof(field: &Field<'_>, task: &Task<'_>, proven: Case, rebounds: bool) -> Result<Case, Error> {
     let place = field.place_of(&proven.drop, task.demand.frequencies());
-    let rebounds = may_rebound(rebounds);
-    let Some(plan) = field.plan(task, &place)? else {
-        return Ok(Case { warning: both(proven.warning, rebounds), ..proven });
+    let (more, warning) = match (field.accuracy.model, field.plan(task, &place)?) {
+        (Some(model), _) => {
+            let warning = off(model, field.error_of(model, task, &place)?, field);
+            (Some(format!("{} was asked for", model.name())).filter(|_| model != BarModel::Map), warning)
+        }
+        (None, Some(plan)) => {
+            let is_map = search::bar_model(plan.pair) == BarModel::Map;
+            let more = if is_map { "" } else { ", but no drop with it asks for more" };
+            (Some(format!("{}{more}", plan.reason)), plan.warning.map(|warning| warning.to_string()))
+        }
+        (None, None) => (None, not_taken(field.planned_of_shocks(task, &place)?.1)),
     };
-    let more = if search::bar_model(plan.pair) == BarModel::Map { "" } else { ", but no drop with it asks for more" };
-    let reason = format!("{}; {}{more}", proven.model.reason, plan.reason);
-    let warning = both(plan.warning.map(|warning| warning.to_string()), rebounds);
+    let reason = std::iter::once(proven.model.reason).chain(more).collect::<Vec<_>>().join("; ");
+    let warning = both(warning, may_rebound(rebounds));
     Ok(Case { model: ModelChoice { reason, ..proven.model }, warning, ..proven })
 }
 

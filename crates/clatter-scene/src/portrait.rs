@@ -51,7 +51,7 @@ impl ProductFile {
     /// # Errors
     /// As [`ProductFile::assess`].
     pub fn portraits(&self, assessment: &Assessment) -> Result<Vec<Portrait>, Error> {
-        let zones = self.zones()?;
+        let zones = self.zones(&assessment.accuracy)?;
         let mut remedies = vec![Vec::new(); self.components.len()];
         for part in self.remedies(assessment, &Bounds::default())? {
             if let Some(remedies) = remedies.get_mut(part.component) {
@@ -59,7 +59,7 @@ impl ProductFile {
             }
         }
         let shown = self.shown()?;
-        let field = Field::new(&self.product, &shown, &self.components, Accuracy::default());
+        let field = Field::new(&self.product, &shown, &self.components, assessment.accuracy);
         let each = self.components.par_iter().zip(&assessment.components).zip(zones).zip(remedies);
         each.map(|(((component, assessed), zone_m), remedies)| {
             let tightest = assessed.tightest();
@@ -151,21 +151,22 @@ impl ProductFile {
         self.drop.first_ends().iter().map(|&first| Ok((first, curve(first)?))).collect()
     }
 
-    /// The safe places of every component.
-    fn zones(&self) -> Result<Vec<Option<[f64; 2]>>, Error> {
+    /// The safe places of every component, as far as it is within the product.
+    fn zones(&self, accuracy: &Accuracy) -> Result<Vec<Option<[f64; 2]>>, Error> {
         let length = self.product.body.length_m();
-        let place = |i: u32| length * (f64::from(i) / f64::from(PLACES - 1) - 0.5);
+        let place =
+            |c: &Component, i: u32| (length - c.extent_m).max(0.0) * (f64::from(i) / f64::from(PLACES - 1) - 0.5);
         let moved = |c: &Component| {
             let c = c.clone();
-            (0..PLACES).map(move |i| Component { position_m: place(i), ..c.clone() })
+            (0..PLACES).map(move |i| Component { position_m: place(&c, i), ..c.clone() })
         };
         let all = Self { components: self.components.iter().flat_map(moved).collect(), ..self.clone() };
-        let assessed = all.assess()?;
-        let zone = |places: &[crate::ComponentAssessment]| {
+        let assessed = all.assess_to(accuracy)?;
+        let zone = |(component, places): (&Component, &[crate::ComponentAssessment])| {
             let margins: Vec<f64> = places.iter().map(|c| c.tightest().demand / c.tightest().allowed - 1.0).collect();
             let safe = |m: &f64| *m <= 0.0;
             let (first, last) = (margins.iter().position(safe)?, margins.iter().rposition(safe)?);
-            let at = |i: usize| place(u32::try_from(i).unwrap_or(PLACES));
+            let at = |i: usize| place(component, u32::try_from(i).unwrap_or(PLACES));
             let cross = |inner: usize, outer: usize| {
                 let (m, n) = (margins[inner], margins[outer]);
                 at(inner) + (at(outer) - at(inner)) * (-m / (n - m))
@@ -174,7 +175,7 @@ impl ProductFile {
             let hi = if last + 1 == margins.len() { at(last) } else { cross(last, last + 1) };
             Some([lo, hi])
         };
-        Ok(assessed.components.chunks(PLACES as usize).map(zone).collect())
+        Ok(self.components.iter().zip(assessed.components.chunks(PLACES as usize)).map(zone).collect())
     }
 }
 

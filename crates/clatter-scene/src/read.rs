@@ -53,7 +53,7 @@ impl ProductFile {
                 continue;
             }
             let span = error.span().unwrap_or(0..0);
-            reader.fault(span, format!("this is no TOML: {}", error.message()), "", "");
+            reader.fault(span, format!("invalid TOML: {}", error.message()), "", "");
         }
         let syntax = !reader.faults.is_empty();
         let section =
@@ -61,7 +61,7 @@ impl ProductFile {
         let file = reader.file(&section);
         if syntax {
             // What the parser made up to go on is not to be told of.
-            reader.faults.retain(|fault| fault.message.starts_with("this is no TOML"));
+            reader.faults.retain(|fault| fault.message.starts_with("invalid TOML"));
         }
         match file {
             Some(file) if reader.faults.is_empty() => Ok(file),

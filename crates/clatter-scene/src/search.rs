@@ -125,14 +125,19 @@ fn shares(steps: u32, fixed: bool) -> impl Iterator<Item = f64> + Clone {
 
 /// The pair behind a demand.
 pub(crate) fn pair_of(model: &ModelChoice) -> Pair {
-    let bar = match model.bar {
+    let pulses = model.component == ComponentModel::PulseTrain;
+    let component = if pulses { ComponentRung::PulseTrain } else { ComponentRung::ImpulseTrain };
+    Pair { bar: rung_of(model.bar), component }
+}
+
+/// The rung of a model.
+fn rung_of(model: BarModel) -> BarRung {
+    match model {
         BarModel::Map => BarRung::Map,
         BarModel::Ballistic => BarRung::Ballistic,
         BarModel::FiniteTilt => BarRung::FiniteTilt,
         BarModel::Compliant => BarRung::Compliant,
-    };
-    let pulses = model.component == ComponentModel::PulseTrain;
-    Pair { bar, component: if pulses { ComponentRung::PulseTrain } else { ComponentRung::ImpulseTrain } }
+    }
 }
 
 /// How the bar moves; sums of the closed form are taken strike by strike where flights are shared.
@@ -361,7 +366,7 @@ impl<'a> Field<'a> {
     /// The places of one drop: both ends of the component, either end first where that is the same, and its
     /// frequencies.
     fn places(&self, task: &Task<'_>, of_drop: Place) -> Vec<Place> {
-        let turn = task.demand.kind == LimitKind::AngularVelocityChange;
+        let turn = is_turn(task);
         let positions = if turn { vec![task.component.position_m] } else { task.component.ends_m() };
         let fixed = task.demand.frequencies().is_none_or(|f| f.is_value());
         let firsts = if self.turns() && !turn { self.drop.first_ends() } else { &[of_drop.first] };
@@ -432,11 +437,6 @@ impl<'a> Field<'a> {
                 }
                 Some(BarModel::Compliant) => Pair::HIGHEST,
                 Some(model) => {
-                    let bar = match model {
-                        BarModel::Map => BarRung::Map,
-                        BarModel::Ballistic => BarRung::Ballistic,
-                        BarModel::FiniteTilt | BarModel::Compliant => BarRung::FiniteTilt,
-                    };
                     let impulses = self.product.contact_time_s.is_none()
                         || forecast.component(ComponentRung::ImpulseTrain).error <= tolerance;
                     let component = match quantity {
@@ -444,47 +444,93 @@ impl<'a> Field<'a> {
                         _ if impulses => ComponentRung::ImpulseTrain,
                         _ => ComponentRung::PulseTrain,
                     };
-                    Pair { bar, component }
+                    Pair { bar: rung_of(model), component }
                 }
             };
             candidate.about = forecast.peak;
         } else {
-            candidate.pair = self.pair_of_shocks(task, &place, slot, trail)?;
+            candidate.pair = match self.accuracy.model {
+                None => self.pair_of_shocks(task, &place, slot, trail)?.0,
+                Some(BarModel::Compliant) => Pair::HIGHEST,
+                Some(model) => Pair { bar: rung_of(model), component: component_of_shocks(task) },
+            };
         }
         Ok(candidate)
     }
 
-    /// For a turn of the bar or the pulse of a hard-mounted part: the bar that gives the velocity shocks right, with
-    /// contacts wherever two overlap.
-    fn pair_of_shocks(&self, task: &Task<'_>, place: &Place, slot: &Slot, trail: &mut Trail) -> Result<Pair, Error> {
-        let turn = task.demand.kind == LimitKind::AngularVelocityChange;
-        let component = if turn { ComponentRung::LargestShock } else { ComponentRung::PulseTrain };
-        if let Some(model) = self.accuracy.model {
-            let bar = match model {
-                BarModel::Map => BarRung::Map,
-                BarModel::Ballistic => BarRung::Ballistic,
-                BarModel::FiniteTilt => BarRung::FiniteTilt,
-                BarModel::Compliant => return Ok(Pair::HIGHEST),
-            };
-            return Ok(Pair { bar, component });
+    /// What a model that was named gets wrong at a place, as a share of the truth, about; infinite where that is not
+    /// known.
+    pub(crate) fn error_of(&self, model: BarModel, task: &Task<'_>, place: &Place) -> Result<f64, Error> {
+        if let Some(plan) = self.plan(task, place)? {
+            return Ok(plan.forecast.bar(rung_of(model)).error);
         }
-        let ends = if turn { &[Some(-1.0), Some(1.0)][..] } else { &[None] };
-        let (mut bar, tolerance) = (BarRung::Map, self.accuracy.of_truth());
-        // Models of small tilt have the ends as far apart on the ground as along the body.
-        let apart = if turn { 1.0 / libm::cos(slot.drop.tilt_rad) - 1.0 } else { 0.0 };
-        for &position in ends {
+        let (pair, is_within) = self.planned_of_shocks(task, place)?;
+        let overlaps = pair == Pair::HIGHEST || !is_within;
+        if overlaps && model != BarModel::Compliant {
+            return Ok(f64::INFINITY);
+        }
+        let slot = self.slot(place)?;
+        let mut error = 0.0_f64;
+        for &position in places_of_shocks(task) {
+            let forecast = self.setup(task, place, &slot, position)?.forecast(Quantity::VelocityShock);
+            error = error.max(forecast.bar(rung_of(model)).error);
+        }
+        Ok(error + if model < BarModel::FiniteTilt { apart(task, &slot.drop) } else { 0.0 })
+    }
+
+    /// As [`pair_of_shocks`](Self::pair_of_shocks), for any place.
+    pub(crate) fn planned_of_shocks(&self, task: &Task<'_>, place: &Place) -> Result<(Pair, bool), Error> {
+        let slot = self.slot(place)?;
+        let mut trail = slot.trail(self).clone();
+        self.pair_of_shocks(task, place, &slot, &mut trail)
+    }
+
+    /// For a turn of the bar or the pulse of a hard-mounted part: the bar that gives the velocity shocks right, with
+    /// contacts wherever two overlap; and whether it does, which it does not where the model of contacts does not take
+    /// the drop.
+    fn pair_of_shocks(
+        &self,
+        task: &Task<'_>,
+        place: &Place,
+        slot: &Slot,
+        trail: &mut Trail,
+    ) -> Result<(Pair, bool), Error> {
+        let component = component_of_shocks(task);
+        let (mut bar, tolerance, apart) = (BarRung::Map, self.accuracy.of_truth(), apart(task, &slot.drop));
+        for &position in places_of_shocks(task) {
             let setup = self.setup(task, place, slot, position)?;
             let forecast = setup.forecast_along(trail, Quantity::VelocityShock);
             let plan = forecast.plan(tolerance);
             let alone = self.product.contact_time_s.is_none() || forecast.groups.overlap <= 1.0;
             if plan.pair.bar == BarRung::Compliant || !alone {
-                return Ok(Pair::HIGHEST);
+                let is_taken = forecast.bar(BarRung::Compliant).error < f64::INFINITY;
+                let rigid = Pair { bar: BarRung::FiniteTilt, component };
+                return Ok((if is_taken { Pair::HIGHEST } else { rigid }, is_taken));
             }
             let within = plan.estimate.error + apart <= tolerance;
             bar = bar.max(if within { plan.pair.bar } else { BarRung::FiniteTilt });
         }
-        Ok(Pair { bar, component })
+        Ok((Pair { bar, component }, true))
     }
+}
+
+/// How a turn of the bar, or a hard-mounted part, has its shocks.
+fn component_of_shocks(task: &Task<'_>) -> ComponentRung {
+    if is_turn(task) { ComponentRung::LargestShock } else { ComponentRung::PulseTrain }
+}
+
+/// Where a drop is looked at: the place itself, or both ends of the product.
+fn places_of_shocks(task: &Task<'_>) -> &'static [Option<f64>] {
+    if is_turn(task) { &[Some(-1.0), Some(1.0)] } else { &[None] }
+}
+
+/// What models of small tilt get wrong of a turn: they have the ends as far apart on the ground as along the body.
+fn apart(task: &Task<'_>, drop: &SingleDrop) -> f64 {
+    if is_turn(task) { 1.0 / libm::cos(drop.tilt_rad) - 1.0 } else { 0.0 }
+}
+
+fn is_turn(task: &Task<'_>) -> bool {
+    task.demand.kind == LimitKind::AngularVelocityChange
 }
 
 impl Slot {
@@ -604,9 +650,7 @@ impl<'a> Search<'a> {
 
     /// Where a drop is looked at, the place itself or both ends of the product, and for what.
     fn places(&self) -> (&'static [Option<f64>], Quantity) {
-        let turns = self.task.demand.kind == LimitKind::AngularVelocityChange;
-        let positions: &[_] = if turns { &[Some(-1.0), Some(1.0)] } else { &[None] };
-        (positions, self.task.demand.quantity().unwrap_or(Quantity::VelocityShock))
+        (places_of_shocks(self.task), self.task.demand.quantity().unwrap_or(Quantity::VelocityShock))
     }
 
     /// What a place must pass to count.

@@ -3,6 +3,8 @@
 use clatter::End;
 use serde::{Serialize, Serializer};
 
+use crate::Accuracy;
+
 /// Whether every limit holds in the worst case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -28,6 +30,9 @@ pub struct Assessment {
     pub verdict: Verdict,
     /// In the order of the file.
     pub components: Vec<ComponentAssessment>,
+    /// What it was worked out to.
+    #[serde(skip)]
+    pub accuracy: Accuracy,
 }
 
 /// The verdict on one component.
@@ -98,7 +103,7 @@ pub struct LimitAssessment {
     /// Whether bounds over the whole ranges prove the demand, in the model named.
     pub guaranteed: bool,
     /// Where `guaranteed`, `demand` is at most this share above `attained`; that gravity, real tilt and contact time
-    /// ask for no more is known to the tolerance of the assessment ([`Accuracy`](crate::Accuracy)). Of a search, no
+    /// ask for no more is known to the tolerance of the assessment ([`Accuracy`]), unless `warning` says otherwise. Of a search, no
     /// drop of the ranges asks for more than this share above `demand`, about: what its models may get wrong, and what
     /// the last refinement of the grid still gained.
     #[serde(serialize_with = "number")]

@@ -47,7 +47,7 @@ const WRONG: &[(&str, &str, usize, &[&str])] = &[
     ("name = \"crystal\"", "name = \"\"", 8, &["`name` is empty"]),
     ("acceleration_limit = \"1500 gn\"\nrattle_space = \"8 mm\"", "", 1, &["has no limit", "at least one of"]),
     ("contact_time = \"0.4 ms\"", "contact_time = \"400 gn\"", 16, &["\"gn\" is no unit of time", "s, ms"]),
-    ("[drop]", "[drop", 6, &["this is no TOML"]),
+    ("[drop]", "[drop", 6, &["invalid TOML"]),
     ("mount = \"hard\"", "mount = \"hard\"\nacceleration_limit = \"-3 gn\"", 22, &["\"-3 gn\" is out of its range", "1e-3 gn"]),
 ];
 

@@ -6,7 +6,7 @@ use clatter::End;
 use clatter::design::{Goal, largest_restitution};
 use clatter_scene::design::{Border, Bounds, Lever, Outcome, Plane};
 use clatter_scene::scatter::{Sampler, Settings};
-use clatter_scene::{Drop, Fall, First, Mount, ProductFile, Spread, Verdict};
+use clatter_scene::{Accuracy, BarModel, Drop, Fall, First, Mount, ProductFile, Spread, Verdict};
 use clatter_shock::DampingRatio;
 
 fn product(parts: &str) -> ProductFile {
@@ -192,4 +192,43 @@ fn a_value_is_not_passed_over_by_models_that_it_does_not_need() {
     .unwrap();
     let [_, [q, _]] = change(&file, Lever::InertiaRatio);
     assert!((0.0..0.02).contains(&q), "{q}");
+}
+
+/// Where the present value is beyond the bounds, all of them is looked at, from the bound next to it.
+#[test]
+fn changes_are_found_from_beyond_the_bounds() {
+    let damped = |zeta: f64, limit_gn: f64| {
+        let drive = DRIVE.replace("damping_ratio = 0.1", &format!("damping_ratio = {zeta}"));
+        product(&drive.replace("100 gn", &format!("{limit_gn} gn")))
+    };
+    // Too little damping and too much ask for more than some in between.
+    let demand = |zeta| damped(zeta, 1e3).assess().unwrap().components[0].limits[0].demand / 9.806_65;
+    let [some, much] = [0.25, 0.5].map(demand);
+    assert!(much > 1.02 * some, "{some} {much}");
+    let limit_gn = 0.5 * (some + much);
+    let bounds = Bounds::default();
+    let damping = |zeta| match outcome(&damped(zeta, limit_gn), &bounds, Lever::Damping) {
+        Outcome::Change { to: [to, _], .. } => to,
+        other => panic!("{zeta}: {other:?}"),
+    };
+    let (within, beyond) = (damping(0.5), damping(1.0));
+    assert!((within - beyond).abs() < 1e-3, "{within} {beyond}");
+}
+
+/// What an assessment with a named model finds unsafe is made safe by that model.
+#[test]
+fn changes_are_of_the_model_that_was_asked_for() {
+    let file = product(DRIVE);
+    let accuracy = Accuracy { tolerance: 0.05, model: Some(BarModel::FiniteTilt) };
+    let assessment = file.assess_to(&accuracy).unwrap();
+    let remedies = file.remedies(&assessment, &Bounds::default()).unwrap();
+    let mut changes = 0;
+    for remedy in &remedies[0].levers {
+        if let Outcome::Change { after, .. } = &remedy.outcome {
+            let reason = &after.limits[0].model.reason;
+            assert!(reason.contains("finite-tilt was asked for"), "{reason}");
+            changes += 1;
+        }
+    }
+    assert!(changes > 0, "{remedies:?}");
 }

@@ -385,3 +385,61 @@ fn a_flat_drop_knows_the_contact_time() {
     let impulse = delta_v * std::f64::consts::TAU * 10.0;
     assert!((of("\"10 Hz\"") / impulse - 1.0).abs() < 1e-3);
 }
+
+/// A part within a wide product, whose contacts overlap at its least tilt.
+fn stiff(limit: &str, contact: &str) -> ProductFile {
+    let text = format!(
+        "[product]\nname = \"p\"\nlength = \"140 mm\"\nradius_of_gyration = \"38 mm\"\nrestitution = [0.3, 0.4]\n\
+         contact_time = \"{contact}\"\n[drop]\nheight = \"1.2 m\"\ntilt = [\"1 deg\", \"10 deg\"]\n[[component]]\n\
+         name = \"part\"\nposition = \"10 mm\"\nextent = \"80 mm\"\n{limit}\n"
+    );
+    ProductFile::read(&text, "p").unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+/// What a lower model than the plan's leaves out is told where it is named, beside a proof and beside a search.
+#[test]
+fn a_model_that_is_named_says_how_far_off_it_may_be() {
+    let suspended = "natural_frequency = \"220 Hz\"\ndamping_ratio = 0.05\nacceleration_limit = \"1500 gn\"";
+    let hard = "mount = \"hard\"\nacceleration_limit = \"5000 gn\"";
+    let turns = "mount = \"hard\"\nangular_velocity_change_limit = \"400 rad/s\"";
+    for limit in [suspended, hard, turns] {
+        let file = stiff(limit, "1 ms");
+        let to = |model| {
+            let assessment = file.assess_to(&Accuracy { model, ..Accuracy::default() }).unwrap();
+            assessment.components[0].limits[0].clone()
+        };
+        let planned = to(None);
+        assert!(planned.model.bar > BarModel::Map, "{limit}");
+        let map = to(Some(BarModel::Map));
+        let warning = map.warning.as_deref().unwrap_or("");
+        assert!(warning.contains("map was asked for, and may be "), "{limit}: {map:?}");
+        assert!(!map.model.reason.contains("asks for more"), "{limit}: {map:?}");
+        let compliant = to(Some(BarModel::Compliant));
+        assert!(!compliant.warning.unwrap_or_default().contains("was asked for"), "{limit}");
+    }
+}
+
+/// Contacts too long for their model: the rest of the file is assessed all the same, and the limit says so.
+#[test]
+fn contacts_that_no_model_takes_are_a_warning() {
+    for limit in [
+        "mount = \"hard\"\nacceleration_limit = \"5000 gn\"",
+        "mount = \"hard\"\nangular_velocity_change_limit = \"400 rad/s\"",
+        "natural_frequency = \"220 Hz\"\ndamping_ratio = 0.05\nacceleration_limit = \"1500 gn\"",
+    ] {
+        let assessment = stiff(limit, "8 ms").assess().unwrap();
+        let limit = &assessment.components[0].limits[0];
+        assert!(limit.model.bar != BarModel::Compliant, "{limit:?}");
+        assert!(limit.warning.as_deref().unwrap_or("").contains("no model reaches the tolerance"), "{limit:?}");
+    }
+}
+
+/// A zone is of places that a part of its length can have.
+#[test]
+fn a_zone_is_within_the_product() {
+    let file =
+        stiff("natural_frequency = \"220 Hz\"\ndamping_ratio = 0.05\nacceleration_limit = \"9000 gn\"", "0.4 ms");
+    let portraits = file.portraits(&file.assess().unwrap()).unwrap();
+    let [lo, hi] = portraits[0].zone_m.unwrap();
+    assert!((lo + 0.03).abs() < 1e-12 && (hi - 0.03).abs() < 1e-12, "140 mm less 80 mm: {lo} to {hi}");
+}

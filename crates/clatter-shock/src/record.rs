@@ -216,14 +216,15 @@ impl<R: BufRead> Lines<R> {
                 self.more_columns = Some(Finding::Columns { line: self.line, names: names.collect() });
             }
             let units = self.units.ok_or(Error::NoUnits)?;
-            let (time, acceleration) = (time * units.time, acceleration * units.acceleration);
-            for (name, text, unit, value) in
-                [("time", *first, "s", time), ("acceleration", *second, "m/s²", acceleration)]
+            for (name, text, value, unit) in
+                [("time", *first, time, units.time), ("acceleration", *second, acceleration, units.acceleration)]
             {
-                if !value.is_finite() {
-                    return Err(bad(format!("{name} {text} is not finite, in {unit}")));
+                let what = if value.is_finite() { "is beyond the numbers in SI" } else { "is not finite" };
+                if !(value * unit).is_finite() {
+                    return Err(bad(format!("{name} {text} {what}")));
                 }
             }
+            let (time, acceleration) = (time * units.time, acceleration * units.acceleration);
             if let Some(previous) = self.previous
                 && time <= previous
             {

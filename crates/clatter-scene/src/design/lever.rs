@@ -7,9 +7,7 @@ use rayon::prelude::*;
 use crate::demand::Demand;
 use crate::plan::Pair;
 use crate::search::{self, Field, Place, Task};
-use crate::{
-    Accuracy, Assessment, Component, ComponentAssessment, Error, Law, Mount, Product, ProductFile, Spread, Verdict,
-};
+use crate::{Assessment, Component, ComponentAssessment, Error, Law, Mount, Product, ProductFile, Spread, Verdict};
 
 /// One thing that a designer can change while all else stays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -137,8 +135,8 @@ impl ProductFile {
     /// # Method
     /// Values are tried outward from the present one, in steps of 1/96 of the bounds (frequencies: of their logarithm);
     /// the step in which safety begins is bisected twelve times, and the safe end of what is left is the answer:
-    /// [`assess`](Self::assess) finds the part safe there, of the file with that value. A value is passed over at once
-    /// where a drop that broke the part before still does.
+    /// [`assess_to`](Self::assess_to) finds the part safe there, of the file with that value, to the accuracy of the
+    /// assessment. A value is passed over at once where a drop that broke the part before still does.
     ///
     /// # Limitation
     /// A safe stretch narrower than a step may be missed, and where a model of [`assess`](Self::assess) is searched and
@@ -150,7 +148,7 @@ impl ProductFile {
         let failing = assessment.components.iter().enumerate().filter(|(_, c)| c.verdict == Verdict::Unsafe);
         let tasks: Vec<_> = failing.flat_map(|(i, found)| Lever::ALL.map(|lever| (i, found, lever))).collect();
         let stiffest: Vec<_> = self.components.iter().filter_map(|component| bounds.stiffest(component)).collect();
-        let field = Field::new(&self.product, &self.drop, &stiffest, Accuracy::default());
+        let field = Field::new(&self.product, &self.drop, &stiffest, assessment.accuracy);
         let outcomes: Vec<Outcome> = tasks
             .par_iter()
             .map(|&(i, found, lever)| {
@@ -229,15 +227,17 @@ impl Case<'_> {
             return Outcome::NoEffect;
         }
         let (here, [lo, hi]) = (self.here(), self.reach());
+        // Where the present value is beyond the bounds, from the bound that is next to it.
+        let start = here.clamp(lo, hi);
         let mut breakers = Vec::new();
         remember(found, &mut breakers, self.field, self.component);
         let step = (hi - lo) / f64::from(STEPS);
         let mut best: Option<(f64, Box<ComponentAssessment>)> = None;
         for k in 1..=STEPS {
             for side in [-1.0, 1.0] {
-                let outer = (here + side * f64::from(k) * step).clamp(lo, hi);
-                let inner = (here + side * f64::from(k - 1) * step).clamp(lo, hi);
-                // beyond the bound nothing is left to try, and bounds may lie all to one side of what there is
+                let outer = (start + side * f64::from(k) * step).clamp(lo, hi);
+                let inner = (start + side * f64::from(k - 1) * step).clamp(lo, hi);
+                // beyond the bound nothing is left to try but the bound itself
                 if (outer - inner).abs() <= 0.0 && k > 1 {
                     continue;
                 }
@@ -275,7 +275,7 @@ impl Case<'_> {
     fn confirmed(&self, x: f64, outer: f64) -> Option<(f64, Box<ComponentAssessment>)> {
         BEYOND.iter().find_map(|share| {
             let x = x + share * (outer - x);
-            let found = self.changed(x)?.assess().ok()?.components.into_iter().next()?;
+            let found = self.changed(x)?.assess_to(&self.field.accuracy).ok()?.components.into_iter().next()?;
             (found.verdict == Verdict::Safe).then(|| (x, Box::new(found)))
         })
     }
@@ -289,7 +289,7 @@ impl Case<'_> {
         let anew;
         let field = match self.lever {
             Lever::InertiaRatio | Lever::Restitution => {
-                anew = Field::new(&file.product, &file.drop, &file.components, Accuracy::default());
+                anew = Field::new(&file.product, &file.drop, &file.components, self.field.accuracy);
                 &anew
             }
             Lever::Position | Lever::Frequency | Lever::Damping => self.field,

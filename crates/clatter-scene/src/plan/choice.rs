@@ -231,7 +231,7 @@ impl fmt::Display for Warning {
                 write!(f, "no contact time is known: this holds for contacts of up to {:.3} ms", 1e3 * longest_s)
             }
             Self::ToleranceNotReached { error, overlaps } => {
-                write!(f, "no model reaches the tolerance; this one is {}", Share(error))?;
+                write!(f, "no model reaches the tolerance; this one may be {}", Share(error))?;
                 if overlaps {
                     f.write_str(", because contacts overlap, which rigid models do not know")
                 } else {
@@ -243,7 +243,7 @@ impl fmt::Display for Warning {
 }
 
 /// An error as people read it.
-struct Share(f64);
+pub(crate) struct Share(pub(crate) f64);
 
 impl fmt::Display for Share {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

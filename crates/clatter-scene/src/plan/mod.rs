@@ -73,6 +73,7 @@ mod swing;
 pub(crate) mod trail;
 mod walk;
 
+pub(crate) use choice::Share;
 pub use choice::{Plan, Reason, Warning};
 pub use demand::Answer;
 pub use forecast::{DOUBT, Forecast, Groups, MANY_STRIKES, STRIKES};
