@@ -1,5 +1,7 @@
 //! The demand against brute force: a dense grid of drops never finds worse.
 
+use std::cell::Cell;
+
 use clatter::End;
 use clatter::flight::{Body, Scene};
 use clatter_scene::plan::{BarRung, ComponentRung, Pair, Quantity, Setup};
@@ -9,6 +11,7 @@ use clatter_scene::{
 };
 use clatter_shock::{DampingRatio, Suspension};
 use proptest::prelude::*;
+use proptest::test_runner::TestRunner;
 
 /// What the docs of `ProductFile::assess` promise of a proven demand.
 const TOLERANCE: f64 = 0.005;
@@ -186,9 +189,10 @@ proptest! {
 }
 
 /// With gravity, real tilt and contacts that take time: on a grid of its own the highest rung finds nothing worse than
-/// the tolerance says.
-fn nothing_worse(file: &ProductFile, model: BarModel, accuracy: &Accuracy) -> Result<(), TestCaseError> {
+/// the tolerance says. Returns of how many limits that could be held to it.
+fn nothing_worse(file: &ProductFile, model: BarModel, accuracy: &Accuracy) -> Result<u32, TestCaseError> {
     let assessment = file.assess_to(accuracy).expect("an assessment");
+    let mut held = 0;
     for limit in &assessment.components[0].limits {
         prop_assert!(stated(file, &file.components[0], limit), "the drop of {limit:?} is none of the product");
         let [early, worst] = brute_force(file, &file.components[0], limit.limit, model, [40, 1, 2, 2]);
@@ -204,32 +208,37 @@ fn nothing_worse(file: &ProductFile, model: BarModel, accuracy: &Accuracy) -> Re
         let first = if rebounds { early } else { worst };
         prop_assert!(warned || limit.tolerance <= 2.0 * accuracy.tolerance + 1e-9, "{limit:?}");
         prop_assert!(first <= most, "{first} is {} above {limit:?}", first / limit.demand - 1.0);
+        held += 1;
         // Nor does the assessment see more than there is: the drop that it names does what it says.
         if !limit.guaranteed {
             let named = named(file, &file.components[0], limit, model);
             prop_assert!((named / limit.attained - 1.0).abs() <= limit.tolerance, "{named} in the drop of {limit:?}");
         }
     }
-    Ok(())
+    Ok(held)
 }
 
 /// What is said where energy does not rule rebounds out.
 const REBOUNDS: &str = "rebounds are not ruled out";
 
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(if cfg!(debug_assertions) { 2 } else { 12 }))]
-    #[test]
-    fn no_drop_is_worse_by_more_than_the_tolerance(
-        file in scene(), contact in 1e-4..1e-3_f64, tilt in 0.003..0.03_f64, tolerance in prop_oneof![Just(0.01), Just(0.05)],
-    ) {
-        let mut file = file;
-        file.drop.gravity_m_s2 = 9.81;
-        file.drop.tilt_rad = range(tilt, file.drop.tilt_rad.hi() - file.drop.tilt_rad.lo() + tilt);
-        let accuracy = Accuracy { tolerance, ..Accuracy::default() };
-        nothing_worse(&file, BarModel::FiniteTilt, &accuracy)?;
-        file.product.contact_time_s = Some(contact);
-        nothing_worse(&file, BarModel::Compliant, &accuracy)?;
-    }
+#[test]
+fn no_drop_is_worse_by_more_than_the_tolerance() {
+    let cases = if cfg!(debug_assertions) { 2 } else { 12 };
+    let drawn = (scene(), 1e-4..1e-3_f64, 0.003..0.03_f64, prop_oneof![Just(0.01), Just(0.05)]);
+    let held = Cell::new(0);
+    TestRunner::new(ProptestConfig { source_file: Some(file!()), ..ProptestConfig::with_cases(cases) })
+        .run(&drawn, |(mut file, contact, tilt, tolerance)| {
+            file.drop.gravity_m_s2 = 9.81;
+            file.drop.tilt_rad = range(tilt, file.drop.tilt_rad.hi() - file.drop.tilt_rad.lo() + tilt);
+            let accuracy = Accuracy { tolerance, ..Accuracy::default() };
+            held.set(held.get() + nothing_worse(&file, BarModel::FiniteTilt, &accuracy)?);
+            file.product.contact_time_s = Some(contact);
+            held.set(held.get() + nothing_worse(&file, BarModel::Compliant, &accuracy)?);
+            Ok(())
+        })
+        .unwrap_or_else(|error| panic!("{error}"));
+    // Of four limits, with contact time and without: more than nine in ten, as a rule.
+    assert!(held.get() >= 4 * cases, "{} of {}", held.get(), 8 * cases);
 }
 
 /// What a demand lacks of the truth is a larger share of the demand: here the map lacks 0.9991 % of a shock, which is
