@@ -92,7 +92,7 @@ pub(crate) fn pulse(text: &str) -> Result<PulseArg, String> {
     pulses.map(checked).collect::<Result<_, _>>().map(PulseArg)
 }
 
-/// A pulse that is one.
+/// Validates a pulse.
 pub(crate) fn checked(pulse: Pulse) -> Result<Pulse, String> {
     within("duration", pulse.duration)?;
     within("amplitude", pulse.amplitude.abs())?;

@@ -24,7 +24,7 @@ impl Accuracy {
     pub(crate) fn of_truth(&self) -> f64 {
         self.tolerance / (1.0 + self.tolerance)
     }
-    /// Whether the tolerance is one.
+    /// Checks that the tolerance is in range.
     ///
     /// # Errors
     /// [`Error::Tolerance`] for one outside [1e-4, 0.5].

@@ -49,14 +49,15 @@ impl ProductFile {
     ///
     /// # Method
     /// Without gravity, at small tilt and for velocity shocks, the demand is proven: bounds over the ranges leave no
-    /// drop out, and lie at most 0.5 % above what the stated drop attains (where more work than is set aside would be
-    /// needed, `tolerance` says how much). Where gravity, real tilt or contact that takes time count, the ranges are
+    /// drop out, and lie at most 0.5 % above what the stated drop attains (where the work limit is
+    /// reached, `tolerance` says how much). Where gravity, real tilt or contact that takes time count, the ranges are
     /// searched: 17 tilts, 2 speeds, 3 restitutions, 3 frequencies, both ends of the part and either end first. At each
     /// of these places a forecast tells the cheapest models within the tolerance ([`plan`](crate::plan)) and the most
     /// that they may give; places are followed from the highest, until none that is left may pass the worst found.
-    /// Around that the step is halved, three times or until half the tolerance is not gained. The larger of both
+    /// Around that the step is halved, three to six times, and climbs begin from other high places of the grid; where
+    /// rebounds may decide, 41 even tilts are followed as well. The larger of both
     /// demands counts. For a part that is so stiff that a pulse is no velocity shock, the search alone counts. What a
-    /// body does that has bounced clear hangs on every value: where the energy it has left does not rule out that it
+    /// body does that has bounced clear is sensitive to every value: where the energy it has left does not rule out that it
     /// asks for more, a warning says so.
     ///
     /// With a model named, every place of the grid is followed by it, with the cheapest way of the components to answer

@@ -246,7 +246,7 @@ impl Base {
         Ok(Self { shocks, cosines, left, contact_time_s: product.contact_time_s, ..Self::empty(product, drop, cells) })
     }
 
-    /// Contacts that take time, so many of them at most, in so many pieces each.
+    /// Contacts that take time: at most `most` of them, each cut into `cells` pieces.
     pub(crate) fn of_contacts(
         product: &Product,
         drop: &SingleDrop,

@@ -12,12 +12,12 @@ pub enum Error {
     /// A range that runs backwards.
     #[error("the range begins at {lo:?}, above its end {hi:?}")]
     Range {
-        /// Its begin.
+        /// Its lower end.
         lo: f64,
-        /// Its end.
+        /// Its upper end.
         hi: f64,
     },
-    /// A distribution that is none.
+    /// An invalid distribution.
     #[error("{0:?} is no distribution over its range: a deviation is positive, a mode within the range")]
     Law(Law),
     /// A tolerance that no model could be held to, or that says nothing.

@@ -28,7 +28,7 @@ pub struct Faults {
     list: Vec<Fault>,
 }
 
-/// More are counted, not shown.
+/// Further faults are only counted.
 const SHOWN: usize = 24;
 
 impl Faults {

@@ -249,7 +249,7 @@ impl Search<'_> {
             };
             for part in parts {
                 let part = self.bound(part);
-                // What no longer counts is forgotten.
+                // Cells that cannot exceed the best found are dropped.
                 if part.upper > self.worst.attained {
                     cells.push(part);
                 }

@@ -61,7 +61,7 @@ pub enum Fall {
 pub enum First {
     /// Always this one.
     End(End),
-    /// Any of both: every part is assessed for the worse.
+    /// Either end; the worse case counts.
     Either,
 }
 

@@ -116,7 +116,7 @@ pub enum Error {
         /// The mismatch that was allowed.
         tolerance: f64,
     },
-    /// A bar or a drop that is none.
+    /// An invalid bar or drop.
     #[error(transparent)]
     Bar(#[from] clatter::Error),
     /// The file could not be read.

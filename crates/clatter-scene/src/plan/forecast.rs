@@ -45,14 +45,14 @@ pub struct Forecast {
     later: f64,
     /// What is wrong with one net change, one largest shock, impulses, and with pulses where there are none.
     component: [f64; 4],
-    /// Share of the error of finite tilt that overlap makes.
+    /// Whether contacts overlap among the strikes followed.
     pub(super) overlaps: bool,
     pub(super) contact_known: bool,
     /// Whether no pair but the highest is within the tolerance whatever comes later, which was not looked at.
     pub(super) is_certain: bool,
     /// Shortest time between the strikes followed.
     pub(super) shortest_gap_s: f64,
-    /// Largest contact time at which impulses are within a share of 1, by the error's square root or itself.
+    /// What impulses get wrong by the phase ωτ of a contact: the linear and the quadratic coefficient.
     pub(super) impulse_phase: [f64; 2],
     pub(super) omega: f64,
     /// Strikes of impacts and of contacts until `until_s`, about.
@@ -198,8 +198,8 @@ impl Setup {
     }
 }
 
-/// What impulses in place of pulses change at a peak, and the phases ωτ at which a term linear and one quadratic in
-/// them would be 1.
+/// What impulses in place of pulses change at a peak, and the coefficients of it that are linear and quadratic in the
+/// phase ωτ.
 ///
 /// A pulse is an impulse at its centroid, spread by its variance: `½ σ² ω²` of a peak inside the swing, which bends by
 /// itself. A peak that stands where the shock begins is reached when the pulse is over, `age` after the centroid, and

@@ -68,11 +68,11 @@ pub struct Worst {
 /// stiffer than 1.
 pub const OMEGAS: [f64; 2] = [1e-2, 1e3];
 
-/// `per_octave` values in equal ratios over [`OMEGAS`], both ends included.
+/// `per_octave` values in equal ratios over [`OMEGAS`], both ends included; of 0 the ends alone.
 #[must_use]
 pub fn omegas(per_octave: u16) -> Vec<f64> {
     let [low, high] = OMEGAS;
-    let steps = ((high / low).log2() * f64::from(per_octave)).ceil();
+    let steps = ((high / low).log2() * f64::from(per_octave)).ceil().max(1.0);
     let mut list = Vec::new();
     let mut i = 0.0;
     while i <= steps {
