@@ -13,7 +13,7 @@ use serde::Serialize;
 
 use crate::inputs::RowFormat;
 use crate::numbers::{Json, digits, figures, given};
-use crate::text::{field, shown};
+use crate::text::{column, field, shown};
 use crate::{Failure, Streams, assess, output, progress};
 
 /// Tell how likely each part of a product survives, and what that hangs on
@@ -209,7 +209,7 @@ fn table(file: &ProductFile, scatter: &Scatter, out: &mut dyn Write) -> io::Resu
         writeln!(out, "Taken as equally likely all over the range: {}", names.join(", "))?;
     }
     writeln!(out)?;
-    let wide = scatter.components.iter().map(|c| shown(&c.name, 24).chars().count()).max().unwrap_or(0).max(4);
+    let wide = scatter.components.iter().map(|c| column(&shown(&c.name, 24), 0).1).max().unwrap_or(0).max(4);
     writeln!(
         out,
         "{:<wide$}  {:>9}  {:>9}  {:>19}  {:>11}  {:>9}   driven by",
@@ -231,8 +231,8 @@ fn table(file: &ProductFile, scatter: &Scatter, out: &mut dyn Write) -> io::Resu
             .map(|driver| format!("{}{} {:.0} %", called(&driver.input), way(driver), 100.0 * driver.share.variance))
             .collect();
         let line = format!(
-            "{:<wide$}  {:>9}  {:>9}  {:>9} {:>9}  {:>11}  {:>9}   {}",
-            shown(&component.name, 24),
+            "{}  {:>9}  {:>9}  {:>9} {:>9}  {:>11}  {:>9}   {}",
+            column(&shown(&component.name, 24), wide).0,
             percent(estimate),
             percent(at_least),
             percent(lo),

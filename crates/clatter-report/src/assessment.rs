@@ -13,8 +13,6 @@ use crate::figure::product::{Place, product};
 use crate::figure::shock::three;
 use crate::paper;
 
-/// Standard gravity, m/s²: the unit gn of accelerations (3rd CGPM, 1901).
-const STANDARD_GRAVITY: f64 = 9.80665;
 /// Longest name in a running text; the figures cut theirs to the room there is.
 const LONGEST_NAME: usize = 60;
 
@@ -53,7 +51,7 @@ fn shown(unit: Unit, value: f64) -> String {
 /// What one customary unit is in SI, and its name.
 fn customary(unit: Unit) -> (f64, &'static str) {
     match unit {
-        Unit::MeterPerSecondSquared => (STANDARD_GRAVITY, "gn"),
+        Unit::MeterPerSecondSquared => (clatter_scene::STANDARD_GRAVITY_M_S2, "gn"),
         Unit::Meter => (1e-3, "mm"),
         Unit::MeterPerSecond => (1.0, "m/s"),
         Unit::RadianPerSecond => (1.0, "rad/s"),

@@ -142,7 +142,7 @@ pub(crate) fn claims(claims: &[Claim]) -> Claims {
 
 /// A CSV field, quoted where it must be.
 fn field(text: &str) -> String {
-    if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
 pub(crate) fn csv(rows: impl IntoIterator<Item = Vec<String>>) -> String {

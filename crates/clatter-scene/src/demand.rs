@@ -197,7 +197,7 @@ impl Demand {
     }
 }
 
-/// Where the shock spectrum of a half-sine is highest: natural frequency times duration.
+/// Where the shock spectrum of a half-sine is highest, about: natural frequency times duration, without damping.
 const CREST: f64 = 0.8;
 
 /// What is compared with what.

@@ -94,7 +94,7 @@ pub struct LimitAssessment {
     #[serde(serialize_with = "number")]
     pub margin: f64,
     /// What one clatter-free impact at the largest speed and restitution would ask, (1 + e) v0 at every place at once;
-    /// with a contact time as a half-sine of that length.
+    /// with a contact time as a half-sine of that length, of a range of frequencies at the ends and the undamped crest.
     #[serde(serialize_with = "number")]
     pub clatter_free: f64,
     /// What no drop of the ranges exceeds without gravity, at small tilt and for instant impacts, whichever model the
