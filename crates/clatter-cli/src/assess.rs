@@ -42,7 +42,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "SHARE", default_value = "1%", allow_hyphen_values = true, value_parser = inputs::tolerance)]
     tolerance: f64,
     /// Follow every drop that is searched by this model of the bar, rather than by the cheapest within the tolerance;
-    /// what is proven without gravity stands beside it
+    /// what is proven without gravity stands beside it. A warning says how far off it may be in the drop that it finds
+    /// worst; in others it may be further off
     #[arg(long, value_enum)]
     model: Option<inputs::BarName>,
     /// How to show the answer

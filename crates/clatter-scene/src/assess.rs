@@ -61,7 +61,8 @@ impl ProductFile {
     /// asks for more, a warning says so.
     ///
     /// With a model named, every place of the grid is followed by it, with the cheapest way of the components to answer
-    /// that is within the tolerance; the proof still stands beside it.
+    /// that is within the tolerance; the proof still stands beside it. A warning says how far off it may be in the drop
+    /// that it finds worst; in others it may be further off.
     ///
     /// # Errors
     /// [`Error::Tolerance`] for a tolerance outside [1e-4, 0.5]; [`Error::ContactTime`] for a stiff or hard-mounted
