@@ -54,11 +54,11 @@ impl ProductFile {
     /// searched: 17 tilts, 2 speeds, 3 restitutions, 3 frequencies, both ends of the part and either end first. At each
     /// of these places a forecast tells the cheapest models within the tolerance ([`plan`](crate::plan)) and the most
     /// that they may give; places are followed from the highest, until none that is left may pass the worst found.
-    /// Around that the step is halved, three to six times, and climbs begin from other high places of the grid; where
-    /// rebounds may decide, 41 even tilts are followed as well. The larger of both
-    /// demands counts. For a part that is so stiff that a pulse is no velocity shock, the search alone counts. What a
-    /// body does that has bounced clear is sensitive to every value: where the energy it has left does not rule out that it
-    /// asks for more, a warning says so.
+    /// Around that the step is halved three times, and up to three times more while that gains more than half the
+    /// tolerance; forecasts climb from up to 4 other high places of the grid; where rebounds may decide, 41 even tilts
+    /// are searched as well. The larger of both demands counts. For a part that is so stiff that a pulse is no velocity
+    /// shock, the search alone counts. What a body does that has bounced clear is sensitive to every value: where the
+    /// energy it has left does not rule out that it asks for more, a warning says so.
     ///
     /// With a model named, every place of the grid is followed by it, with the cheapest way of the components to answer
     /// that is within the tolerance; the proof still stands beside it. A warning says how far off it may be in the drop

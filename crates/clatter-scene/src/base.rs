@@ -246,7 +246,7 @@ impl Base {
         Ok(Self { shocks, cosines, left, contact_time_s: product.contact_time_s, ..Self::empty(product, drop, cells) })
     }
 
-    /// Contacts that take time: at most `most` of them, each cut into `cells` pieces.
+    /// Contacts that take time: at most `most` of them, whose pulses are cut as finely as `cells` says.
     pub(crate) fn of_contacts(
         product: &Product,
         drop: &SingleDrop,

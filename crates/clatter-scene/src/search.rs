@@ -3,7 +3,7 @@
 //! A grid over tilt, speed, restitution, frequency, place and the end that strikes first is foreseen
 //! ([`Setup::forecast`], a microsecond a place). Places are then followed in order of the most that they may reach,
 //! each by the cheapest pair of models within the tolerance, until no place that is left may pass the worst found.
-//! Around it the step is halved until that raises the demand no more. All components share the flights of one grid.
+//! Around it the step is halved until that raises the demand by little. All components share the flights of one grid.
 
 use std::cmp::Ordering as Order;
 use std::collections::{BTreeMap, BinaryHeap, HashMap};

@@ -94,7 +94,9 @@ pub struct LimitAssessment {
     #[serde(serialize_with = "number")]
     pub margin: f64,
     /// What one clatter-free impact at the largest speed and restitution would ask, (1 + e) v0 at every place at once;
-    /// with a contact time as a half-sine of that length, of a range of frequencies at the ends and the undamped crest.
+    /// with a contact time τ as a half-sine of that length. Over a range of frequencies f that is the largest of three:
+    /// at both ends and where f·τ is nearest to 0.8, about the crest of the acceleration of an undamped part; for the
+    /// acceleration of a damped part it is approximate.
     #[serde(serialize_with = "number")]
     pub clatter_free: f64,
     /// What no drop of the ranges exceeds without gravity, at small tilt and for instant impacts, whichever model the
@@ -103,9 +105,9 @@ pub struct LimitAssessment {
     /// Whether bounds over the whole ranges prove the demand, in the model named.
     pub guaranteed: bool,
     /// Where `guaranteed`, `demand` is at most this share above `attained`; that gravity, real tilt and contact time
-    /// ask for no more is known to the tolerance of the assessment ([`Accuracy`]), unless `warning` says otherwise. Of a search, no
-    /// drop of the ranges asks for more than this share above `demand`, about: what its models may get wrong, and what
-    /// the last refinement of the grid still gained.
+    /// ask for no more is known to the tolerance of the assessment ([`Accuracy`]), unless `warning` says otherwise. Of
+    /// a search, no drop of the ranges asks for more than this share above `demand`, about: what its models may get
+    /// wrong, and what the last refinement of the grid still gained.
     #[serde(serialize_with = "number")]
     pub tolerance: f64,
     /// The drop that does it.

@@ -67,7 +67,7 @@ pub enum Error {
     /// A curve of fewer than two points.
     #[error("{0} has {points}; it needs two at least", points = if *.1 == 1 { "one point" } else { "no points" })]
     Points(&'static str, usize),
-    /// A velocity shock whose train does not settle.
+    /// An endless train at q = 1, asked for at a position off center.
     #[error(
         "at q = 1 and position {position:?} the bar strikes for ever without losing speed, so the response has no limit; only the center (position 0) has one"
     )]

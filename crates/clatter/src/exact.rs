@@ -79,7 +79,7 @@ impl Dyadic {
             Sign::Plus => Ordering::Greater,
         }
     }
-    /// The top 64 bits as a float in ±[1, 2) and the exponent; (0, 0) for zero.
+    /// The top 64 bits as a float in ±[1, 2] and the exponent; (0, 0) for zero.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bit counts of numbers in memory")]
     pub(crate) fn to_float(&self) -> (f64, i128) {
         let bits = i128::from(self.m.bits());

@@ -52,7 +52,8 @@ pub struct Forecast {
     pub(super) is_certain: bool,
     /// Shortest time between the strikes followed.
     pub(super) shortest_gap_s: f64,
-    /// What impulses get wrong by the phase ωτ of a contact: the linear and the quadratic coefficient.
+    /// What impulses get wrong by the phase ωτ of a contact, as a share of the peak: the coefficients of the linear and
+    /// the quadratic term.
     pub(super) impulse_phase: [f64; 2],
     pub(super) omega: f64,
     /// Strikes of impacts and of contacts until `until_s`, about.
@@ -198,8 +199,8 @@ impl Setup {
     }
 }
 
-/// What impulses in place of pulses change at a peak, and the coefficients of it that are linear and quadratic in the
-/// phase ωτ.
+/// What impulses in place of pulses change at a peak, as a share of it, and the coefficients of the terms linear and
+/// quadratic in the phase ωτ (for a peak inside the swing an approximation).
 ///
 /// A pulse is an impulse at its centroid, spread by its variance: `½ σ² ω²` of a peak inside the swing, which bends by
 /// itself. A peak that stands where the shock begins is reached when the pulse is over, `age` after the centroid, and

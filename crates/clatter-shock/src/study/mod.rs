@@ -68,7 +68,7 @@ pub struct Worst {
 /// stiffer than 1.
 pub const OMEGAS: [f64; 2] = [1e-2, 1e3];
 
-/// `per_octave` values in equal ratios over [`OMEGAS`], both ends included; of 0 the ends alone.
+/// Values in equal ratios over [`OMEGAS`], at least `per_octave` to an octave, both ends included; for 0 those alone.
 #[must_use]
 pub fn omegas(per_octave: u16) -> Vec<f64> {
     let [low, high] = OMEGAS;
