@@ -26,16 +26,14 @@ pub const APPROACH: Allowance = Allowance {
     quantity: "approach velocity",
     error: 1e-12,
     scale: "the larger of itself and the first",
-    // Beyond 5000 impacts next to q = e = 1 velocities rise far above the first one, and come down again: ten times as
-    // much.
-    range: "any train, but ten times next to q = e = 1",
+    range: "a train of any length",
 };
 /// Jumps of the velocities of both ends at an impact.
 pub const JUMP: Allowance = Allowance {
     quantity: "velocity jump",
     error: 1e-12,
     scale: "twice the larger of its approach velocity and the first",
-    range: APPROACH.range,
+    range: "a train of any length",
 };
 /// Time of an impact.
 pub const TIME: Allowance = Allowance {

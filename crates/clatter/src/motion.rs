@@ -34,6 +34,9 @@ pub(crate) use lanes::{Lanes, Sweep, Then};
 /// functions of at most 2 each, their arguments of at most 4, a quotient, and a margin of 2.
 const QUOTIENT: f64 = 24.0 * UNIT;
 const UNIT: f64 = 0.5 * f64::EPSILON;
+/// What an angle may change an approach velocity by, over the larger of it and the first: a twentieth of what is
+/// allowed. The rest is for the steps that follow from there.
+const ANGLE: f64 = 0.05 * accuracy::APPROACH.error;
 /// 2⁶⁵, beyond which a count is a float.
 const BEYOND_NUMBERS: f64 = power_of_two(65);
 /// No term of a plain step may come near the subnormal floats.
@@ -494,8 +497,7 @@ impl Drive {
             }
             _ => 0.0,
         };
-        // A twentieth of what is allowed: the rest is for the steps that follow from here.
-        let near = spread < 0.05 * accuracy::APPROACH.error;
+        let near = spread < ANGLE;
         let Last { a, time, .. } = self.last(n, if near { 1e-11 } else { 1e-13 });
         (a, time)
     }

@@ -1,6 +1,6 @@
 //! Neighboring strikes carried on together, from one anchor in the closed form to the next.
 
-use super::{Decay, Drive, Kind, angle, compensated, ldexp, power_of_two, to_f64};
+use super::{ANGLE, Decay, Drive, Kind, angle, compensated, ldexp, power_of_two, to_f64};
 use crate::{Bar, Start};
 use libm::{exp, expm1, sincos};
 
@@ -253,14 +253,19 @@ impl Lanes {
         match drive.kind {
             Kind::Wave(wave) => {
                 let phi = angle(drive.alpha * wave.s, wave.x);
-                let ([delta], _) = drive.remainders(&wave, [u128::from(self.n)], 1e-13);
+                let first = drive.decayed(u128::from(self.n), drive.amplitude(&wave) / wave.s);
+                // In the last stretch velocities come down to the first one or below, from an amplitude far above it.
+                let left = (wave.psi - n * wave.theta).abs();
+                let share = -drive.start.velocity()[0] / first;
+                let is_last = left < 1.5 * to_f64(u128::from(BLOCK)) * wave.theta;
+                let error = if is_last { (ANGLE * share / left).min(1e-13) } else { 1e-13 };
+                let ([delta], _) = drive.remainders(&wave, [u128::from(self.n)], error);
                 let (turned, lead) = (n * wave.theta, phi + n * wave.theta);
                 // Each angle from the near end of its half turn, so that a small one is known to its last digit.
                 (self.four.x, self.four.dx) = if lead < 1.0 { self.lanes(lead, 1.0) } else { self.lanes(delta, -1.0) };
                 (self.four.y, self.four.dy) =
                     if turned < 1.0 { self.lanes(turned, 1.0) } else { self.lanes(phi + delta, -1.0) };
-                let (first, root) =
-                    (drive.decayed(u128::from(self.n), drive.amplitude(&wave) / wave.s), drive.bar.e.sqrt());
+                let root = drive.bar.e.sqrt();
                 self.four.g = [first, first * root, first * drive.bar.e, first * (drive.bar.e * root)];
             }
             Kind::Decay(decay) => {
