@@ -49,16 +49,16 @@ impl ProductFile {
     ///
     /// # Method
     /// Without gravity, at small tilt and for velocity shocks, the demand is proven: bounds over the ranges leave no
-    /// drop out, and lie at most 0.5 % above what the stated drop attains (where the work limit is
-    /// reached, `tolerance` says how much). Where gravity, real tilt or contact that takes time count, the ranges are
-    /// searched: 17 tilts, 2 speeds, 3 restitutions, 3 frequencies, both ends of the part and either end first. At each
-    /// of these places a forecast tells the cheapest models within the tolerance ([`plan`](crate::plan)) and the most
-    /// that they may give; places are followed from the highest, until none that is left may pass the worst found.
-    /// Around that the step is halved three times, and up to three times more while that gains more than half the
-    /// tolerance; forecasts climb from up to 4 other high places of the grid; where rebounds may decide, 41 even tilts
-    /// are searched as well. The larger of both demands counts. For a part that is so stiff that a pulse is no velocity
-    /// shock, the search alone counts. What a body does that has bounced clear is sensitive to every value: where the
-    /// energy it has left does not rule out that it asks for more, a warning says so.
+    /// drop out, and lie at most 0.5 % above what the stated drop attains (where the work limit is reached, `tolerance`
+    /// says how much). Where gravity, real tilt or contact that takes time count, the ranges are searched: 17 tilts, 2
+    /// speeds, 3 restitutions, 3 frequencies, both ends of the part and either end first. At each of these places a
+    /// forecast tells the cheapest models within the tolerance ([`plan`](crate::plan)) and the most that they may give;
+    /// places are followed from the highest, until none that is left may pass the worst found. Around that the step is
+    /// halved three times, and up to three times more while that gains more than half the tolerance; forecasts climb
+    /// from up to 4 other high places of the grid; where rebounds may decide, 41 even tilts are searched as well. The
+    /// larger of both demands counts. For a part that is so stiff that a pulse is no velocity shock, the search alone
+    /// counts. What a body does that has bounced clear is sensitive to every value: where the energy it has left does
+    /// not rule out that it asks for more, a warning says so.
     ///
     /// With a model named, every place of the grid is followed by it, with the cheapest way of the components to answer
     /// that is within the tolerance; the proof still stands beside it. A warning says how far off it may be in the drop
@@ -256,8 +256,11 @@ fn searched(field: &Field<'_>, task: &Task<'_>, found: &Found) -> Result<Case, E
             (why.to_owned(), not_taken(is_within), error)
         }
     };
-    let rebound =
-        if found.reached.time_s > field.clear_s(&found.drop) { Some(REBOUND) } else { may_rebound(found.rebounds) };
+    let rebound = if found.reached.time_s > field.clear_s(&found.drop) {
+        Some(sensitive("the worst comes after a rebound"))
+    } else {
+        may_rebound(found.rebounds)
+    };
     let warning = both(warning, rebound);
     Ok(Case {
         demand: found.reached.value,
@@ -270,20 +273,21 @@ fn searched(field: &Field<'_>, task: &Task<'_>, found: &Found) -> Result<Case, E
     })
 }
 
-const REBOUND: &str = "the worst comes after a rebound, whose timing is sensitive to every input: drops between those searched may ask for more";
-
 /// What is to be said where rebounds are not ruled out.
-fn may_rebound(rebounds: bool) -> Option<&'static str> {
-    rebounds.then_some(
-        "rebounds are not ruled out, whose timing is sensitive to every input: drops between those searched may ask for more",
-    )
+fn may_rebound(rebounds: bool) -> Option<String> {
+    rebounds.then(|| sensitive("rebounds are not ruled out"))
+}
+
+/// What is known of rebounds, and what they leave open.
+fn sensitive(what: &str) -> String {
+    format!("{what}, whose timing is sensitive to every input: drops between those searched may ask for more")
 }
 
 /// Two warnings as one.
-fn both(one: Option<String>, other: Option<&str>) -> Option<String> {
+fn both(one: Option<String>, other: Option<String>) -> Option<String> {
     match (one, other) {
         (Some(one), Some(other)) => Some(format!("{one}; {other}")),
-        (one, other) => one.or(other.map(str::to_owned)),
+        (one, other) => one.or(other),
     }
 }
 

@@ -30,7 +30,7 @@ pub const RECORD: Allowance = Allowance {
     quantity: "spectrum of a record",
     error: 1e-10,
     scale: "itself (primary), maximax (others)",
-    range: "f/fs 10⁻⁹ (others 10⁻⁶) to 10",
+    range: "f/fs from 10⁻⁹ to 10",
 };
 
 /// All of them.

@@ -427,11 +427,13 @@ impl<'a> Segment<'a> {
                     return;
                 }
             }
-            let b = if next < span { self.sample(Phase::product(1.0, next)) } else { *end };
+            // A zero beyond the floats is none.
+            let goes_on = next < span;
+            let b = if goes_on { self.sample(Phase::product(1.0, next)) } else { *end };
             if self.turns_beyond(k, &a, &b, range) {
                 self.turning_point(k, &a, &b, interval, range);
             }
-            if next >= span {
+            if !goes_on {
                 return;
             }
             // Beyond critical damping the bend vanishes once.

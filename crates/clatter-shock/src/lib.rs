@@ -44,6 +44,7 @@ mod forced;
 mod fragility;
 mod impulse;
 mod impulse_lanes;
+mod integrals;
 mod lanes;
 mod limit_curve;
 mod peaks;

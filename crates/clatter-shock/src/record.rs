@@ -14,6 +14,9 @@ use std::io::{BufRead, ErrorKind, Read};
 /// Standard acceleration of free fall, 9.80665 m/s² exactly (3rd CGPM, 1901).
 pub const STANDARD_GRAVITY_M_S2: f64 = 9.806_65;
 
+/// Larger accelerations (m/s²) are refused: far beyond any that there are, and far within the floats.
+const LARGEST: f64 = 1e100;
+
 /// Units of the two columns, as factors to seconds and m/s².
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Units {
@@ -152,8 +155,8 @@ impl<R: BufRead> Lines<R> {
     /// The next sample, or `None` at the end.
     ///
     /// # Errors
-    /// [`Error::Line`] for a line that is not two finite numbers, or a time that does not follow the one above;
-    /// [`Error::NoUnits`] if neither caller nor header named the units; [`Error::Read`].
+    /// [`Error::Line`] for a line that is not two finite numbers, an acceleration beyond 1e100 m/s², or a time that does
+    /// not follow the one above; [`Error::NoUnits`] if neither caller nor header named the units; [`Error::Read`].
     pub fn sample(&mut self) -> Result<Option<Sample>, Error> {
         loop {
             self.text.clear();
@@ -225,6 +228,9 @@ impl<R: BufRead> Lines<R> {
                 }
             }
             let (time, acceleration) = (time * units.time, acceleration * units.acceleration);
+            if acceleration.abs() > LARGEST {
+                return Err(bad(format!("acceleration {second} is beyond {LARGEST:e} m/s²")));
+            }
             if let Some(previous) = self.previous
                 && time <= previous
             {

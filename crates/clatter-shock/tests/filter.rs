@@ -1,7 +1,7 @@
 //! The recursive filter against the exact response to the same piecewise linear history, step by step.
 
 use clatter_shock::accuracy::RECORD;
-use clatter_shock::{DampingRatio, Frequencies, Pulses, Quantity, SpectrumFilter, Suspension};
+use clatter_shock::{DampingRatio, Frequencies, Pulses, Quantity, SpectrumFilter, State, Suspension};
 use proptest::prelude::*;
 
 const QUANTITIES: [Quantity; 5] = [
@@ -81,6 +81,65 @@ proptest! {
         exponent in -5.0..0.5_f64,
     ) {
         compare(&samples, 1e-4, &[1e4 * 10_f64.powf(exponent)], zeta);
+    }
+}
+
+/// Samples as large as records may have; next to the largest floats, where what a turning point is found from passes
+/// them, it went on for ever once.
+#[test]
+fn huge_samples_are_answered_like_small_ones() {
+    let spectrum = |scale: f64, quantity| {
+        let frequencies = Frequencies::list(vec![1e-9, 1e-3]).expect("frequencies");
+        let damping = DampingRatio::new(0.1).expect("damping");
+        let mut filter = SpectrumFilter::new(frequencies, damping, quantity, 1.0).expect("filter");
+        filter.push(&[0.0, scale, -scale, 0.0, 0.1 * scale]);
+        filter.finish().expect("spectrum").maximax
+    };
+    for quantity in QUANTITIES {
+        let (huge, small) = (spectrum(1e100, quantity), spectrum(1.0, quantity));
+        for i in 0..2 {
+            assert!((huge[i] / 1e100 / small[i] - 1.0).abs() < 1e-12, "{quantity:?}: {:e}, {:e}", huge[i], small[i]);
+        }
+        assert_eq!(spectrum(1e305, quantity).len(), 2);
+    }
+}
+
+/// A base that ends where it began, at rest: of a soft part that leaves far less than one rounding of the velocities on
+/// the way. Records of whole numbers, whose integrals are exact.
+#[test]
+fn soft_parts_on_a_base_that_comes_back() {
+    let dt = 1e-4;
+    for (n, phase, zeta) in [
+        (5, 1e-9, 0.0),
+        (40, 1e-9, 0.7),
+        (40, 1e-8, 2.0),
+        (300, 1e-9, 0.0),
+        (300, 1e-8, 0.05),
+        (300, 1e-7, 0.0),
+        (3000, 1e-9, 0.05),
+    ] {
+        // Second differences of a path that begins and ends in rest.
+        let path = |i: i32| if (1..n).contains(&i) { f64::from(i % 97 * 71 % 199 - 99) } else { 0.0 };
+        let samples: Vec<f64> = (-1..=n + 1).map(|i| path(i + 1) - 2.0 * path(i) + path(i - 1)).collect();
+        let frequencies = Frequencies::list(vec![phase / dt]).expect("frequency");
+        let damping = DampingRatio::new(zeta).expect("damping");
+        let mut filter = SpectrumFilter::new(frequencies, damping, Quantity::RelativeDisplacement, dt).expect("filter");
+        filter.push(&samples);
+        let got = filter.finish().expect("spectrum");
+        // By Laplace: 1/(s² + 2ζθs + θ²) = s⁻² − 2ζθ s⁻³ + (4ζ² − 1) θ² s⁻⁴ …, of −a dt² = −s² path dt².
+        let once: f64 = (1..n).map(path).sum();
+        let twice: f64 = (1..n).map(|i| path(i) * f64::from(n + 1 - i)).sum();
+        let suspension = Suspension::from_hz(phase / dt, damping).expect("mount");
+        let theta = suspension.omega() * dt;
+        let [c1, c2, c3] = [-2.0 * zeta, 4.0 * zeta * zeta - 1.0, 4.0 * zeta - 8.0 * zeta.powi(3)];
+        let left = State {
+            displacement: -dt * dt * theta * (c1 * once + c2 * theta * twice),
+            velocity: -dt * theta * theta * (c2 * once + c3 * theta * twice),
+        };
+        let ring = (0..200_000).map(|k| suspension.free(left, f64::from(k) * 1e-4 / suspension.omega()).displacement);
+        let want = ring.fold(0.0, |most: f64, z| most.max(z.abs()));
+        let off = (got.residual[0] - want).abs() / got.maximax[0];
+        assert!(off <= RECORD.error, "{n} samples, f dt = {phase:e}, damping {zeta}: off by {off:e}");
     }
 }
 

@@ -15,6 +15,7 @@ fn bad_records_are_refused_by_line() {
         ("", "the record has no samples; it needs two at least"),
         ("0,1\n", "the record has one sample; it needs two at least"),
         ("0,1\n1,inf\n", "line 2: acceleration inf is not finite"),
+        ("0,1\n1,-1e101\n", "line 2: acceleration -1e101 is beyond 1e100 m/s²"),
         ("0,1\nnan,2\n", "line 2: time nan is not finite"),
         ("0,1\n\n# a note\n2,2\n1,3\n", "line 5: time 1.0 s does not come after 2.0 s, the line above"),
         ("0,1\n0,1\n", "line 2: time 0.0 s does not come after 0.0 s, the line above"),
