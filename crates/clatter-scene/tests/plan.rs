@@ -364,6 +364,23 @@ fn a_choice_needs_no_more_strikes_than_it_hangs_on() {
     assert!(shorter > 9 * 4000 / 5, "{shorter}");
 }
 
+/// A velocity shock is one of the bar: whatever part is at its place, estimates of it are the same.
+#[test]
+fn estimates_of_velocity_shocks_know_no_part() {
+    let mut random = Random(5);
+    for _ in 0..500 {
+        let setup = random.setup();
+        let [mine, other] = [*setup.suspension(), *random.setup().suspension()].map(|part| {
+            let setup = Setup::new(*setup.scene(), setup.contact_time_s(), setup.position(), part);
+            setup.expect("as the test has it").forecast(Quantity::VelocityShock)
+        });
+        for rung in BarRung::ALL {
+            let [mine, other] = [mine, other].map(|forecast| forecast.bar(rung));
+            assert!(mine == other, "{rung:?}: {mine:?} {other:?} {setup:?}");
+        }
+    }
+}
+
 /// The cost model ranks pairs as they are, on the average over scenes.
 #[test]
 fn modeled_costs_have_the_ratios_of_measured_ones() {

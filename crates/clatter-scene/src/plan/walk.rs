@@ -510,22 +510,27 @@ impl<'a, const N: usize> Walker<'a, N> {
         let square = swing.square(rate);
         let meeting = Meeting { swing, begun: self.begun, motion: self.motion, turned, rate, square };
         for k in 0..3 {
-            let (mut off, mut shock_off) = (self.off[k], last);
-            if let Some((after, own)) = step.own[k] {
-                let own = if shocks && both.is_some() { Parts::of(ends, step.end, own).first } else { ends.at(own) };
-                shock_off = (own - delta_v).abs();
-                let behind_s = self.behind_s[k] + after - flight.gap_s;
-                off.w -= own - delta_v;
-                let shifted = meeting.shift(own, omega * behind_s);
-                self.behind_s[k] = if shifted.goes_on { behind_s } else { 0.0 };
-                off = Motion { x: off.x + shifted.by.x, w: off.w + shifted.by.w };
-                (interval.beginning[k], interval.early[k]) = (shifted.beginning, shifted.early);
-            } else {
+            let Some((after, own)) = step.own[k] else {
                 self.walk.alive[k] = false;
                 self.lacking[k] += gross;
+                interval.off[k] =
+                    if shocks { last } else { swing.bound(self.off[k]) + swing.factor * self.lacking[k] };
+                continue;
+            };
+            if shocks {
+                let own = if both.is_some() { Parts::of(ends, step.end, own).first } else { ends.at(own) };
+                interval.off[k] = (own - delta_v).abs();
+                continue;
             }
+            let (mut off, own) = (self.off[k], ends.at(own));
+            let behind_s = self.behind_s[k] + after - flight.gap_s;
+            off.w -= own - delta_v;
+            let shifted = meeting.shift(own, omega * behind_s);
+            self.behind_s[k] = if shifted.goes_on { behind_s } else { 0.0 };
+            off = Motion { x: off.x + shifted.by.x, w: off.w + shifted.by.w };
+            (interval.beginning[k], interval.early[k]) = (shifted.beginning, shifted.early);
             self.off[k] = off;
-            interval.off[k] = if shocks { shock_off } else { swing.bound(off) + swing.factor * self.lacking[k] };
+            interval.off[k] = swing.bound(off) + swing.factor * self.lacking[k];
         }
         interval.doubt = if shocks { shape + self.doubtful } else { swing.factor * self.doubtful };
         interval.off[0] += if shocks { 1.0 } else { swing.factor } * gross * step.spread;
