@@ -30,14 +30,21 @@ fn plan(bencher: Bencher, e: f64) {
     bencher.bench(|| black_box(&setup).forecast(Quantity::PeakAcceleration).plan(0.01));
 }
 
-/// The choice alone.
+/// The choice alone, by a first look.
 #[divan::bench(args = [0.05, 0.3, 0.9])]
 fn choice(bencher: Bencher, e: f64) {
     let setup = setup(e);
     bencher.bench(|| black_box(&setup).plan(Quantity::PeakAcceleration, 0.01));
 }
 
-/// The same of a flat drop, whose contacts overlap.
+/// The same after a longer look, where the first one leaves it open.
+#[divan::bench(args = [0.05, 0.3, 0.9])]
+fn refined(bencher: Bencher, e: f64) {
+    let setup = setup(e);
+    bencher.bench(|| black_box(&setup).plan(Quantity::PeakAcceleration, 0.01).refined(&setup));
+}
+
+/// The first look at a flat drop, whose contacts overlap.
 #[divan::bench(args = [0.05, 0.3, 0.9])]
 fn choice_of_overlap(bencher: Bencher, e: f64) {
     let setup = tilted(e, 0.1);

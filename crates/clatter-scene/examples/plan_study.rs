@@ -36,6 +36,12 @@ struct Row {
     highest_over: f64,
     needs: f64,
     gets: f64,
+    /// Mean and longest time of choosing by the first look, in µs, the share that it leaves open, and the mean time of
+    /// these with the longer look.
+    plan_us: f64,
+    longest_plan_us: f64,
+    open: f64,
+    refined_us: f64,
 }
 
 /// One pair in one quantity.
@@ -76,6 +82,10 @@ impl Row {
             highest_over: w.of_highest.recip(),
             needs: w.needed,
             gets: w.given,
+            plan_us: 1e6 * w.plan_s,
+            longest_plan_us: 1e6 * w.longest_plan_s,
+            open: w.open,
+            refined_us: 1e6 * w.refined_s,
         }
     }
 }
@@ -122,11 +132,11 @@ fn main() {
 
     println!("seed {seed}: {scenes} scenes, {refused} refused by the compliant model");
     println!(
-        "\nquantity          tolerance  within  beyond  worst/tol  cost/cheapest  highest/cost  needs highest  gets it"
+        "\nquantity          tolerance  within  beyond  worst/tol  cost/cheapest  highest/cost  needs highest  gets it  plan, us  longest  open    refined, us"
     );
     for r in &record.worth {
         println!(
-            "{:17} {:9} {:6.2}% {:7} {:10.2} {:14.2} {:13.2} {:13.1}% {:7.1}%",
+            "{:17} {:9} {:6.2}% {:7} {:10.2} {:14.2} {:13.2} {:13.1}% {:7.1}% {:9.2} {:8.2} {:5.1}% {:10.2}",
             r.quantity.map_or("all", Quantity::name),
             r.tolerance,
             100.0 * r.within,
@@ -135,7 +145,11 @@ fn main() {
             r.over_cheapest,
             r.highest_over,
             100.0 * r.needs,
-            100.0 * r.gets
+            100.0 * r.gets,
+            r.plan_us,
+            r.longest_plan_us,
+            100.0 * r.open,
+            r.refined_us
         );
     }
     let above = outcomes.iter().filter(|o| o.truth > 1.01 * o.setup.forecast(o.quantity).at_most()).count();

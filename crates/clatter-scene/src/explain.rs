@@ -172,6 +172,6 @@ fn explained(plan: &Plan, responds: bool) -> PlanExplanation {
         },
         error: plan.estimate.error,
         is_bound: plan.estimate.is_bound,
-        cost_ns: plan.cost_ns,
+        cost_ns: plan.cost_ns(),
     }
 }

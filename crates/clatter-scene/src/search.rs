@@ -410,7 +410,10 @@ impl<'a> Field<'a> {
         let slot = self.slot(place)?;
         let setup = self.setup(task, place, &slot, None)?;
         let tolerance = self.accuracy.of_truth();
-        Ok(task.demand.quantity().map(|quantity| setup.forecast(quantity).plan(tolerance).refined(&setup)))
+        Ok(task.demand.quantity().map(|quantity| {
+            let plan = setup.forecast(quantity).plan(tolerance);
+            if plan.is_open() { setup.forecast_far(quantity).plan(tolerance) } else { plan }
+        }))
     }
 
     fn foresee(&self, task: &Task<'_>, place: Place, slot: &Arc<Slot>, trail: &mut Trail) -> Result<Candidate, Error> {

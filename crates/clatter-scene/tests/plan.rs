@@ -339,29 +339,59 @@ fn estimates_know_what_bends_a_peak() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// What is left out where the choice is certain does not change it, nor that of a longer look.
+/// A short look leaves the choice open, or makes that of a longer one, but where it has a bound in place of what
+/// strikes do that only the longer one follows: of 18 000, 83 differ.
 #[test]
 fn a_choice_needs_no_more_strikes_than_it_hangs_on() {
     let mut random = Random(11);
-    let mut shorter = 0;
-    for k in 0..4000 {
+    let [mut all, mut open, mut others] = [0; 3];
+    for _ in 0..1000 {
         let setup = random.setup();
         for quantity in QUANTITIES {
-            let forecast = setup.forecast(quantity);
+            let far = setup.forecast_far(quantity);
             for tolerance in TOLERANCES {
-                let (whole, plan) = (forecast.plan(tolerance), setup.plan(quantity, tolerance));
-                let same = plan.pair == whole.pair && plan.estimate == whole.estimate && plan.warning == whole.warning;
-                assert!(same, "{quantity:?} within {tolerance}: {:?} {:?} {setup:?}", plan.pair, whole.pair);
-                if plan.forecast != forecast {
-                    shorter += 1;
-                    assert!(plan.pair == Pair::HIGHEST && plan.forecast.at_most() == f64::INFINITY, "{plan:?}");
-                    let same = k >= 300 || whole.refined(&setup).pair == plan.refined(&setup).pair;
-                    assert!(same, "{quantity:?} within {tolerance}: {setup:?}");
+                let (whole, plan) = (far.plan(tolerance), setup.plan(quantity, tolerance));
+                let refined = plan.refined(&setup);
+                let what = format!("{quantity:?} within {tolerance}: {refined:?}, {:?}, {setup:?}", whole.pair);
+                all += 1;
+                if plan.forecast == refined.forecast {
+                    others += i32::from(plan.pair != whole.pair);
+                } else {
+                    open += 1;
+                    assert!(plan.pair == Pair::HIGHEST && plan.until_s == f64::INFINITY, "{what}");
+                    assert!(refined.pair == whole.pair && refined.warning == whole.warning, "{what}");
+                    assert!(refined.estimate == whole.estimate, "{what}");
                 }
             }
         }
     }
-    assert!(shorter > 9 * 4000 / 5, "{shorter}");
+    assert!(100 * others < all && 4 * open > all && 4 * open < 3 * all, "{others}, {open} of {all}");
+}
+
+/// No pair that is within the tolerance, with its pulses in pieces, is modeled as cheaper than the one chosen.
+#[test]
+fn the_cheapest_pair_that_serves_is_chosen() {
+    let mut random = Random(17);
+    let mut chosen = 0;
+    for _ in 0..1000 {
+        let setup = random.setup();
+        for quantity in QUANTITIES {
+            for forecast in [setup.forecast(quantity), setup.forecast_far(quantity)] {
+                for tolerance in TOLERANCES {
+                    let plan = forecast.plan(tolerance);
+                    let serving = Pair::planned(quantity).iter().filter(|pair| {
+                        let pulses = pair.component == ComponentRung::PulseTrain;
+                        forecast.pair(**pair).error <= if pulses { 0.9 } else { 1.0 } * tolerance
+                    });
+                    let least =
+                        serving.map(|&pair| forecast.cost_ns(pair, plan.pieces())).fold(f64::INFINITY, f64::min);
+                    assert!(plan.cost_ns() <= least, "{quantity:?} within {tolerance}: {plan:?} {setup:?}");
+                    chosen += i32::from(plan.pair != Pair::HIGHEST);
+                }
+            }
+        }
+    }
+    assert!(chosen > 1000, "{chosen}");
 }
 
 /// A velocity shock is one of the bar: whatever part is at its place, estimates of it are the same.
@@ -426,10 +456,10 @@ fn estimates_fall_with_their_groups() {
 #[test]
 fn a_plan_costs_less_where_less_is_asked() {
     let forecast = setup(5.0, 9.81, Some(2e-4), 150.0).forecast(Quantity::RattleSpace);
-    let costs = [0.3, 0.1, 0.03, 0.01, 1e-3, 1e-5].map(|tolerance| forecast.plan(tolerance).cost_ns);
+    let costs = [0.3, 0.1, 0.03, 0.01, 1e-3, 1e-5].map(|tolerance| forecast.plan(tolerance).cost_ns());
     assert!(costs.windows(2).all(|w| w[0] <= w[1]), "{costs:?}");
     assert!(costs[0] < costs[5], "{costs:?}");
-    let pieces = [0.1, 0.01, 1e-3].map(|tolerance| forecast.plan(tolerance).pieces);
+    let pieces = [0.1, 0.01, 1e-3].map(|tolerance| forecast.plan(tolerance).pieces());
     assert!(pieces[0] < pieces[1] && pieces[1] < pieces[2], "{pieces:?}");
     assert_eq!(forecast.plan(1e-9).pair, Pair::HIGHEST);
     assert!(forecast.plan(1e-9).estimate.is_bound);
@@ -449,7 +479,7 @@ fn pulses_are_cut_as_finely_as_the_tolerance_asks() {
             for pair in [Pair::HIGHEST, parabolas] {
                 let Ok(fine) = setup.demand_fine(pair, quantity, forecast.until_s, 384) else { continue };
                 for tolerance in TOLERANCES {
-                    let pieces = forecast.plan(tolerance).pieces;
+                    let pieces = forecast.plan(tolerance).pieces();
                     let cut = setup.demand_fine(pair, quantity, forecast.until_s, pieces).expect("as in fine pieces");
                     let off = (cut / fine - 1.0).abs();
                     assert!(off <= tolerance, "{setup:?}: {quantity:?} off by {off} in {pieces} pieces");
@@ -554,7 +584,7 @@ fn extremes_get_a_plan() {
                         let setup = Setup::new(scene, contact, 1.0, part).expect("as the test has it");
                         for quantity in QUANTITIES {
                             let plan = setup.forecast(quantity).plan(0.01);
-                            assert!(!plan.estimate.error.is_nan() && plan.cost_ns > 0.0, "{setup:?} {plan:?}");
+                            assert!(!plan.estimate.error.is_nan() && plan.cost_ns() > 0.0, "{setup:?} {plan:?}");
                             assert!(!plan.reason.to_string().is_empty());
                             runs += 1;
                         }

@@ -70,7 +70,7 @@ impl Coupling {
         let q = self.flat[0].abs().max(self.flat[1].abs());
         // Both contacts at once swing with √(1 ∓ q) of the lone frequency and damping; 1.3 for partings that are not at
         // once.
-        *self.rebound.get_or_insert_with(|| (1.3 * libm::pow(self.e, (1.0 - q).max(0.0).sqrt())).min(1.0))
+        *self.rebound.get_or_insert_with(|| (1.3 * libm::exp(-self.pulse.loss * (1.0 - q).max(0.0).sqrt())).min(1.0))
     }
     /// A strike after this time, which is known to `blur_s`; `together` with the other end, which is one contact.
     pub(super) fn strike(

@@ -3,14 +3,18 @@
 use clatter::flight::Scene;
 
 use super::ends::Ends;
+use super::lag::{Lag, Part};
 use super::pulse::Pulse;
+use super::swing::{Peak, Swing};
 use super::trail::{Course, Strikes, Trail};
-use super::walk::{Interval, Walker};
+use super::walk::Walker;
 use super::{BarRung, ComponentRung, Estimate, Pair, Plan, Quantity, Setup};
 
 /// Strikes followed at most.
 pub const STRIKES: usize = 8;
-/// Strikes followed at most by a second look.
+/// Strikes followed at most by the first look of a plan.
+pub const FIRST_STRIKES: usize = 3;
+/// Strikes followed at most by a longer look.
 pub const MANY_STRIKES: usize = 96;
 
 /// Safety factor on an estimate where a drop is passed over because of it.
@@ -56,9 +60,9 @@ pub struct Forecast {
     /// the quadratic term.
     pub(super) impulse_phase: [f64; 2],
     pub(super) omega: f64,
-    /// Strikes of impacts and of contacts until `until_s`, about.
-    strikes: f64,
-    contacts: f64,
+    /// Strikes followed, and restitution.
+    pub(super) strikes: usize,
+    e: f64,
     /// The groups.
     pub groups: Groups,
     /// No strike after this time since the first touch raises the quantity: models need not be followed further.
@@ -87,24 +91,28 @@ impl Setup {
     /// One to three microseconds; bench `plan` measures it.
     #[must_use]
     pub fn forecast(&self, quantity: Quantity) -> Forecast {
-        self.follow::<STRIKES>(quantity, &mut self.course(), f64::INFINITY)
+        self.look::<STRIKES>(quantity, f64::INFINITY)
     }
 
-    /// The plan that [`Setup::forecast`] leads to, from no more strikes than it hangs on: where none but the highest
-    /// pair can be within the tolerance any more, whatever comes later, no further ones are followed. Errors of the
-    /// other pairs, the groups and the peak are then those of the strikes so far; [`Forecast::at_most`] and `until_s`,
-    /// which are not known, are infinite.
+    /// The plan of a first look, from no more of [`FIRST_STRIKES`] than it hangs on: where none but the highest pair can
+    /// be within the tolerance any more, whatever comes later, no further ones are followed, and where real tilt is
+    /// beyond it, no lanes that know less. Their errors are then told as that of real tilt, of the strikes so far, as are
+    /// the groups and the peak; [`Forecast::at_most`] and `until_s`, where they are not known, are infinite.
+    ///
+    /// Where these few strikes leave open what later ones do, it is the highest pair as well, and [`Plan::refined`] looks
+    /// longer. Without contacts, which then could decide all that is left open, it is the plan of [`Setup::forecast`].
     ///
     /// # Cost
-    /// One to two and a half microseconds; bench `plan` measures it.
+    /// One microsecond, about, which the study measures beside bench `plan`; two without contacts.
     #[must_use]
     pub fn plan(&self, quantity: Quantity, tolerance: f64) -> Plan {
-        self.follow::<STRIKES>(quantity, &mut self.course(), tolerance).plan(tolerance)
+        let look = if self.is_compliant() { Self::look::<FIRST_STRIKES> } else { Self::look::<STRIKES> };
+        look(self, quantity, tolerance).plan(tolerance)
     }
 
     /// The same from strikes of its scene that may have been followed before.
     pub(crate) fn forecast_along(&self, trail: &mut Trail, quantity: Quantity) -> Forecast {
-        self.follow::<STRIKES>(quantity, trail, f64::INFINITY)
+        self.follow::<STRIKES>(quantity, &Ends::new(&self.scene, self.position), trail, f64::INFINITY)
     }
 
     /// The same from a longer look, of [`MANY_STRIKES`]: worth it before contacts are followed, where the first few
@@ -114,53 +122,75 @@ impl Setup {
     /// Some ten times as much.
     #[must_use]
     pub fn forecast_far(&self, quantity: Quantity) -> Forecast {
-        self.follow::<MANY_STRIKES>(quantity, &mut self.course(), f64::INFINITY)
+        self.look::<MANY_STRIKES>(quantity, f64::INFINITY)
     }
 
-    fn course(&self) -> Course {
-        Course::new(Ends::new(&self.scene, self.position), &self.scene, self.contact_time_s)
+    /// The same from a longer look, and no more of it than the choice hangs on.
+    pub(super) fn plan_far(&self, quantity: Quantity, tolerance: f64) -> Plan {
+        self.look::<MANY_STRIKES>(quantity, tolerance).plan(tolerance)
     }
 
-    fn follow<const N: usize>(&self, quantity: Quantity, trail: &mut impl Strikes, tolerance: f64) -> Forecast {
+    /// Whether the model of contacts takes it.
+    fn is_compliant(&self) -> bool {
+        self.contact_time_s.is_some_and(|time| takes(&self.scene, time))
+    }
+
+    fn look<const N: usize>(&self, quantity: Quantity, tolerance: f64) -> Forecast {
         let ends = Ends::new(&self.scene, self.position);
+        self.follow::<N>(quantity, &ends, &mut Course::new(ends, &self.scene, self.contact_time_s), tolerance)
+    }
+
+    fn follow<const N: usize>(
+        &self,
+        quantity: Quantity,
+        ends: &Ends,
+        trail: &mut impl Strikes,
+        tolerance: f64,
+    ) -> Forecast {
         let (zeta, omega) = (self.suspension.damping().get(), self.suspension.omega());
-        let swing = trail.swing(zeta, quantity == Quantity::PeakAcceleration);
+        let response = quantity != Quantity::VelocityShock;
+        let swing = if response { trail.swing(zeta, quantity == Quantity::PeakAcceleration) } else { Swing::BAR };
         let pulse = trail.course().pulse;
         let time = self.contact_time_s.unwrap_or(0.0);
-        let response = quantity != Quantity::VelocityShock;
         let gravity = self.scene.gravity_m_s2();
-        let mut walker = Walker::<N>::new((&ends, &swing, trail.course()), !response, gravity, omega);
-        let compliant = self.contact_time_s.is_some_and(|time| takes(&self.scene, time));
-        let walk = walker.follow(trail, if compliant { tolerance } else { f64::INFINITY });
+        let part = Part { ends, swing: &swing, omega, shocks: !response, time };
+        let mut walker = Walker::<N>::new(part, trail.course(), gravity);
+        let compliant = self.is_compliant();
+        let tolerance = if compliant { tolerance } else { f64::INFINITY };
+        walker.follow(trail, tolerance);
+        let walk = &walker.walk;
         let peak = walk.peak();
         // As if impulses, then as pulses: a peak that pulses flatten leaves more room to every error.
-        let (smooth, impulse_phase) = smoothing(&pulse, omega * time, &peak, zeta);
-        let left = if response { 1.0 - smooth.min(0.8) } else { 1.0 };
+        let (smooth, impulse_phase) =
+            if response { smoothing(&pulse, omega * time, &peak, zeta) } else { (0.0, [0.0; 2]) };
+        let top = (1.0 - smooth.min(0.8)) * peak.value;
         let number = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
-        let top = left * peak.value;
-        let worst = walk.errors(&peak, top).map(|errors| errors.map(|error| error / top));
-        let [[_, map], [_, ballistic], [followed, tilted]] = worst;
+        let of_top = |lag: &Lag<N>| walk.errors(lag, top).map(|error| number(error / top));
+        let [followed, tilted] = of_top(&walk.tilted);
         let contact_known = self.contact_time_s.is_some();
         // Without a contact time it is finite tilt that the others are held against: what it makes of later strikes is
         // the answer.
-        let doubt = if walk.is_certain { f64::INFINITY } else { number(tilted) };
+        let doubt = if walk.is_certain { f64::INFINITY } else { tilted };
         let tilted = if contact_known { tilted } else { followed };
-        // What real tilt is not sure of, parabolas and the map know by luck alone.
-        let tilted = number(tilted);
-        let ballistic = number(ballistic).max(tilted);
-        let map = number(map).max(ballistic);
+        // What real tilt is not sure of, parabolas and the map know by luck alone: where it does not serve, they are
+        // not looked at.
+        let (mut bar, [mut net, mut largest]) = ([tilted; 2], [f64::INFINITY; 2]);
+        if !walk.is_certain && (tilted <= tolerance || tolerance == f64::INFINITY) {
+            let [map, ballistic] = walker.coarse(trail).map(|lag| of_top(&lag)[1]);
+            bar[1] = ballistic.max(tilted);
+            bar[0] = map.max(bar[1]);
+            if response {
+                [net, largest] = walker.train(trail);
+            }
+        }
+        let [map, ballistic] = bar;
         let of_peak = |shock: f64| (swing.factor * shock.abs() / peak.value - 1.0).abs();
         let [net, largest, impulses] = if response {
-            [
-                of_peak(walk.net) + smooth,
-                of_peak(walk.largest) + smooth,
-                smooth + (walk.jumps / peak.value - 1.0).max(0.0),
-            ]
+            [of_peak(net) + smooth, of_peak(largest) + smooth, smooth + (walk.jumps / peak.value - 1.0).max(0.0)]
         } else {
             [f64::INFINITY, 0.0, f64::INFINITY]
         };
-        let (strikes, contacts) = walk.about(ends.e);
-        let (v0, gap) = (self.scene.speed_m_s(), self.scene.height_gap_m());
+        let (v0, gap_m) = (self.scene.speed_m_s(), trail.course().gap_m);
         Forecast {
             quantity,
             bar: [map, map, ballistic, tilted, if compliant { 0.0 } else { f64::INFINITY }],
@@ -178,10 +208,10 @@ impl Setup {
             shortest_gap_s: walk.shortest_gap_s,
             impulse_phase,
             omega,
-            strikes,
-            contacts,
+            strikes: walk.strikes,
+            e: ends.e,
             groups: Groups {
-                gravity: gravity * gap / (v0 * v0),
+                gravity: gravity * gap_m / (v0 * v0),
                 geometry: self.scene.tilt_rad().powi(2),
                 overlap: if time > 0.0 { time / walk.shortest_gap_s } else { 0.0 },
                 pulse: omega * time,
@@ -206,7 +236,7 @@ impl Setup {
 /// itself. A peak that stands where the shock begins is reached when the pulse is over, `age` after the centroid, and
 /// has fallen by then: `slope age + ½ (1 − 2ζ slope) age²`. One that the next shock cuts off is cut off within that
 /// pulse.
-fn smoothing(pulse: &Pulse, turned: f64, peak: &Interval, zeta: f64) -> (f64, [f64; 2]) {
+fn smoothing(pulse: &Pulse, turned: f64, peak: &Peak, zeta: f64) -> (f64, [f64; 2]) {
     let age = 1.0 - pulse.centroid;
     let half = 0.5 * pulse.variance;
     let slope = if peak.value > 0.0 { -peak.slope / peak.value } else { 0.0 };
@@ -253,12 +283,23 @@ impl Forecast {
     pub fn at_most(&self) -> f64 {
         self.peak * (1.0 + DOUBT * self.doubt).max(self.later)
     }
+    /// Strikes until `until_s`, about, of models with impacts (until they have fallen by 10⁻¹⁵, both ends in turn) and
+    /// with contacts (until both ends lie on their springs).
+    fn until_rest(&self) -> (f64, f64) {
+        #[expect(clippy::cast_precision_loss, reason = "a few strikes")]
+        let followed = self.strikes as f64;
+        if self.until_s < f64::INFINITY {
+            return (followed, followed);
+        }
+        let loss = 0.05 - libm::log(self.e.max(1e-30));
+        (followed + 240.0 / loss, 2.0 + 8.0 / loss)
+    }
     /// What a pair costs in pulses of so many pieces, about, in ns on a 2.9 GHz core: a sum of constants measured once,
     /// by the study. Only ratios are good for anything, and on the average of many scenes: a single one may differ by a
     /// factor of 10.
     #[must_use]
     pub fn cost_ns(&self, pair: Pair, pieces: usize) -> f64 {
-        let (n, contacts) = (self.strikes, self.contacts);
+        let (n, contacts) = self.until_rest();
         #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
         let fine = pieces as f64 / 34.0;
         let bar = match pair.bar {

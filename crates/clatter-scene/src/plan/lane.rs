@@ -264,19 +264,19 @@ impl<const TILTS: bool> Lane<TILTS> {
         *next = Next { end, after, turning: 0.0, tumbles, rival: [later, sinks * later - velocity] };
         true
     }
-    /// The strike that the lane with all physics has as `of`, if this one has it too: the time since the last one, and
+    /// The strike that the lane with all physics has at this end, if this one has it too: the time since the last one, and
     /// shocks. Where that one has an end lying, so has this one; `impacts` are those on it.
     #[inline]
     pub(super) fn along(
         &mut self,
         ends: &Ends,
-        of: &Next,
+        end: usize,
         first: bool,
         impacts: Option<&Both>,
         lying: Option<usize>,
     ) -> Option<Own> {
         let mut next = Next::FIRST;
-        if !first && !self.next(ends, &mut next) || next.end != of.end {
+        if !first && !self.next(ends, &mut next) || next.end != end {
             return None;
         }
         let delta_v = match impacts {

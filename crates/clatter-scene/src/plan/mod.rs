@@ -2,8 +2,9 @@
 //!
 //! Two ladders: how the bar moves ([`BarRung`]) and how the component answers ([`ComponentRung`]). [`Setup::forecast`]
 //! estimates what each rung gets wrong in the quantity asked, as a share of it; [`Forecast::plan`] takes the cheapest
-//! [`Pair`] whose estimate is within a tolerance, and says which group of the scene decided. [`Setup::plan`] does both,
-//! and no more than the choice needs. [`Setup::demand`] runs a pair.
+//! [`Pair`] whose estimate is within a tolerance, and says which group of the scene decided. [`Setup::plan`] does both by
+//! a first look, and no more than the choice needs; [`Plan::refined`] looks longer where that leaves the choice open.
+//! [`Setup::demand`] runs a pair.
 //!
 //! # What the error is against
 //! The compliant bar with the exact response to its pulses, from the first touch until rest and through the ring-down:
@@ -14,10 +15,11 @@
 //! ends, e < 0.01) there is nothing to compare with, and the plan says so by a [`Warning`] where it needs that rung.
 //!
 //! # How
-//! The first strikes, [`STRIKES`] at most, are followed in four lanes at once: as the map, as parabolas, with real
-//! tilt, and with contacts that delay what they do by the centroid of their pulse (a lone contact moves the bar as one
-//! impulse at that moment does, exactly). What the lanes differ by, each the parabola, the lever arm or the delay of
-//! one group, is carried as a perturbation of the component's motion, turned and damped with it. Beside it stand
+//! The first strikes, [`STRIKES`] at most ([`FIRST_STRIKES`] by a first look), are followed in four lanes: with contacts
+//! that delay what they do by the centroid of their pulse (a lone contact moves the bar as one impulse at that moment
+//! does, exactly), with real tilt, and, where that serves, as parabolas and as the map. What the lanes differ by, each
+//! the delay, the lever arm or the parabola of one group, is carried as a perturbation of the component's motion, turned
+//! and damped with it. Beside it stand
 //!
 //! - pulses in place of impulses: `½ σ² ω²` of a peak inside the swing (σ² the variance of the pulse), the slope over
 //!   its mean age for a peak on the jump of the dashpot;
@@ -46,7 +48,7 @@
 //! let scene = Scene::from_height(body, 0.3, 1.0, 5.0, 9.81)?;
 //! let part = Suspension::from_hz(180.0, DampingRatio::from_quality_factor(10.0)?)?;
 //! let setup = Setup::new(scene, Some(1e-4), 0.9, part)?;
-//! let plan = setup.plan(Quantity::PeakAcceleration, 0.01);
+//! let plan = setup.plan(Quantity::PeakAcceleration, 0.01).refined(&setup);
 //! assert!(plan.estimate.error <= 0.01 && plan.warning.is_none());
 //! let demand = setup.demand(plan.pair, Quantity::PeakAcceleration, plan.until_s)?;
 //! let whole = setup.demand(clatter_scene::plan::Pair::HIGHEST, Quantity::PeakAcceleration, f64::INFINITY)?;
@@ -59,12 +61,14 @@
 mod both;
 mod bounds;
 mod choice;
+mod coarse;
 mod coupling;
 pub(crate) mod demand;
 mod ends;
 mod floats;
 mod forecast;
 pub(crate) mod history;
+mod lag;
 mod lane;
 mod names;
 pub(crate) mod pulse;
@@ -76,7 +80,7 @@ mod walk;
 pub(crate) use choice::Share;
 pub use choice::{Plan, Reason, Warning};
 pub use demand::Answer;
-pub use forecast::{DOUBT, Forecast, Groups, MANY_STRIKES, STRIKES};
+pub use forecast::{DOUBT, FIRST_STRIKES, Forecast, Groups, MANY_STRIKES, STRIKES};
 
 use clatter::flight::Scene;
 use clatter_shock::Suspension;

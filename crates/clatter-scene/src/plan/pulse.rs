@@ -12,6 +12,8 @@ use clatter::flight::Contact;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pulse {
     e: f64,
+    /// −ln e
+    pub(super) loss: f64,
     /// Natural frequency times duration, and damping ratio, of the contact.
     frequency: f64,
     damping: f64,
@@ -41,7 +43,7 @@ impl Pulse {
     fn fitted(e: f64) -> Self {
         let Ok(contact) = Contact::new(e, 1.0) else { unreachable!("e is in [0.01, 1]") };
         let (frequency, damping) = (contact.frequency_rad_s(), contact.damping_ratio());
-        let mut pulse = Self { e, frequency, damping, centroid: 0.0, variance: 0.0, carried: 0.0 };
+        let mut pulse = Self { e, loss: -libm::log(e), frequency, damping, centroid: 0.0, variance: 0.0, carried: 0.0 };
         // ∫ s dt and ∫ 2 t s dt of the share s to come are the first two moments; by Simpson.
         let n = 512;
         for k in 0..=n {
@@ -63,7 +65,8 @@ impl Pulse {
     }
     /// The pulse for restitution e; below 0.01 the one of 0.01.
     pub(crate) fn new(e: f64) -> Self {
-        let cell = (-libm::log(e.max(0.01)) / MOST_LOSS).clamp(0.0, 1.0) * index(CELLS);
+        let loss = -libm::log(e.max(0.01));
+        let cell = (loss / MOST_LOSS).clamp(0.0, 1.0) * index(CELLS);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within 0 and CELLS")]
         let k = (cell as usize).min(CELLS - 1);
         let share = cell - index(k);
@@ -72,6 +75,7 @@ impl Pulse {
         let mix = |a: f64, b: f64| a + share * (b - a);
         Self {
             e: e.max(0.01),
+            loss,
             frequency: mix(a.frequency, b.frequency),
             damping: mix(a.damping, b.damping),
             centroid: mix(a.centroid, b.centroid),

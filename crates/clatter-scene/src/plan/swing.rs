@@ -39,6 +39,11 @@ pub(super) struct Turn {
     pub(super) fade: f64,
 }
 
+impl Turn {
+    /// All has died down.
+    pub(super) const NONE: Self = Self { c: 0.0, s: 0.0, fade: 0.0 };
+}
+
 /// A largest value, and the phase at which it stands.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Peak {
@@ -49,6 +54,10 @@ pub(super) struct Peak {
 }
 
 impl Swing {
+    /// The bar itself: what a shock does to it is the shock.
+    pub(super) const BAR: Self =
+        Self { zeta: 0.0, beta: 1.0, over_beta: 1.0, swings: true, row: [1.0, 0.0], factor: 1.0, pile: f64::INFINITY };
+
     pub(super) fn new(zeta: f64, acceleration: bool) -> Self {
         let gap = 1.0 - zeta * zeta;
         let gap = if gap.abs() < 1e-6 { 1e-6 } else { gap };

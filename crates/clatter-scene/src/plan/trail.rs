@@ -5,31 +5,28 @@ use clatter::flight::Scene;
 use super::STRIKES;
 use super::both::Both;
 use super::bounds::largest_pile;
+use super::coarse::{Alike, Coarse, Landing};
 use super::coupling::{Coupled, Coupling};
 use super::ends::Ends;
 use super::floats::greater;
-use super::lane::{Lane, MapLane, Next, Own, Strike};
+use super::lane::{Lane, MapLane, Next, Own};
 use super::pulse::Pulse;
 use super::swing::{Swing, Turn};
 
-/// A strike of the lane with all physics, and the same one in the others.
+/// A strike of the lane with all physics.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Step {
-    /// The end that strikes.
-    pub(super) end: usize,
+    pub(super) landing: Landing,
     /// Velocity shocks of both ends.
     pub(super) delta_v: (f64, f64),
-    /// Time since the last one and shocks in the map, as parabolas and with real tilt; `None` once a lane had another
-    /// strike.
-    pub(super) own: [Option<Own>; 3],
+    /// The same one with real tilt; `None` once that had another strike.
+    pub(super) tilted: Option<Own>,
     /// Twice the energy that is left.
     pub(super) twice_energy: f64,
     /// Time until the next strike; `None` where nothing falls.
     pub(super) follows: Option<f64>,
     /// How long after that the other end would strike without it, and the velocity shocks of both ends then.
     pub(super) rival: Own,
-    /// The end that lies on the ground until then.
-    pub(super) rests: Option<usize>,
     /// What it and the contacts before do to each other.
     pub(super) coupled: Coupled,
     /// Share of the speed that both ends together rebound with, where contacts overlap until the next strike; 0
@@ -37,14 +34,9 @@ pub(super) struct Step {
     pub(super) rebound: f64,
     /// Of both contacts at once: for how many contact times.
     pub(super) together: Option<f64>,
-    /// Over how large a share of a contact time the strikes of the map are spread then.
-    pub(super) spread: f64,
     /// Whether the bar turns upright or over until then.
     pub(super) tumbles: bool,
 }
-
-/// Strikes of the map at most that are taken as one.
-const MOST_AT_ONCE: usize = 32;
 
 /// Frequencies of a part whose turns are kept: those of a grid over its range.
 const FREQUENCIES: usize = 3;
@@ -53,6 +45,10 @@ const FREQUENCIES: usize = 3;
 pub(super) trait Strikes {
     /// Strike n, from 0; asked for in order.
     fn step(&mut self, n: usize) -> Option<&Step>;
+    /// The same strike in the coarse lanes; asked for in order, and after it.
+    fn coarse(&mut self, n: usize, landing: &Landing) -> Alike;
+    /// The map from the first touch on, once a strike of it was asked for.
+    fn map(&self) -> Option<&MapLane>;
     /// A part of this damping ratio, asked for its acceleration or its displacement.
     fn swing(&mut self, zeta: f64, acceleration: bool) -> Swing;
     /// What the phase θ after strike n does to a part.
@@ -65,6 +61,8 @@ pub(super) trait Strikes {
 #[derive(Debug, Clone)]
 pub(crate) struct Course {
     ends: Ends,
+    /// Height of the end that lands second, at the first touch.
+    pub(super) gap_m: f64,
     pub(super) pulse: Pulse,
     pub(super) contact_s: f64,
     /// Share of the time since the first strike by which strikes are mistimed.
@@ -77,16 +75,15 @@ pub(crate) struct Course {
     full: Lane<true>,
     /// Twice the energy after the strikes so far.
     energy: f64,
-    /// The map with all its strikes, as far as those that belong to the ones followed, and the one after these.
-    pub(super) map: MapLane,
-    mapped: MapLane,
-    ahead: Option<Strike>,
-    parabolas: Lane<false>,
     tilted: Lane<true>,
+    /// Whether it has had the same strikes.
+    alive: bool,
+    /// Parabolas at the first touch, and the coarse lanes as far as they were asked for.
+    start: Lane<false>,
+    coarse: Option<Coarse>,
     /// The strike to come, if something falls.
     next: Next,
     falls: bool,
-    alive: [bool; 3],
     /// Of an end that lies while the other lands: impacts, contacts. Every one of the drop moves alike.
     both: Option<[Both; 2]>,
     /// Twice the energy at the first touch.
@@ -98,19 +95,18 @@ pub(crate) struct Course {
 
 impl Course {
     /// Nothing followed yet.
+    #[inline]
     pub(super) fn new(ends: Ends, scene: &Scene, contact_time_s: Option<f64>) -> Self {
         let (pulse, contact_s, g) = (Pulse::new(ends.e), contact_time_s.unwrap_or(0.0), scene.gravity_m_s2());
-        let (speed, spin, gap) = (scene.speed_m_s(), scene.spin_rad_s(), scene.height_gap_m());
+        let (speed, spin, gap_m) = (scene.speed_m_s(), scene.spin_rad_s(), scene.height_gap_m());
         let flat_spin = if spin == 0.0 { 0.0 } else { spin * libm::cos(scene.tilt_rad()) };
-        let tilted = Lane::start(&ends, (speed, flat_spin, gap), g);
+        let tilted = Lane::start(&ends, (speed, flat_spin, gap_m), g);
         let full = tilted.with_contact(&pulse, contact_s);
-        let parabolas = Lane::start(&ends, (speed, spin, gap), g);
-        let map = MapLane::start(&ends, &parabolas);
-        let mut mapped = map.clone();
-        let ahead = mapped.next();
+        let start = Lane::start(&ends, (speed, spin, gap_m), g);
         let energy = full.twice_energy(&ends);
         Self {
             ends,
+            gap_m,
             pulse,
             contact_s,
             // Fitted: the mean bend of a large tilt.
@@ -120,14 +116,12 @@ impl Course {
             coupling: Coupling::new(&ends, pulse, contact_s),
             full,
             energy,
-            map,
-            mapped,
-            ahead,
-            parabolas,
             tilted,
+            alive: true,
+            start,
+            coarse: None,
             next: Next::FIRST,
             falls: true,
-            alive: [true; 3],
             both: None,
             twice_energy: energy,
             touched: false,
@@ -172,35 +166,9 @@ impl Course {
         } else {
             self.energy - self.full.twice_lost(ends, next.end, if next.end == 0 { delta_v.0 } else { delta_v.1 })
         };
-        let (mut own, mut spread) = ([None; 3], 0.0);
-        if self.alive[0]
-            && let Some((end, after, mut sum)) = self.ahead
-            && end == next.end
-        {
-            self.ahead = self.mapped.next();
-            if pressed.is_some() {
-                let mut last = 0.0;
-                for _ in 0..MOST_AT_ONCE {
-                    let Some((_, after, more)) = self.ahead.filter(|(_, after, _)| last + after < self.contact_s)
-                    else {
-                        break;
-                    };
-                    last += after;
-                    self.ahead = self.mapped.next();
-                    sum = (sum.0 + more.0, sum.1 + more.1);
-                    spread = last / self.contact_s;
-                }
-            }
-            own[0] = Some((after, sum));
-        }
-        let (impacts, lying) = (pressed.as_ref().map(|[impacts, _]| impacts), self.full.lying());
-        if self.alive[1] {
-            own[1] = self.parabolas.along(ends, &next, first, impacts, lying);
-        }
-        if self.alive[2] {
-            own[2] = self.tilted.along(ends, &next, first, impacts, lying);
-        }
-        self.alive = [own[0].is_some(), own[1].is_some(), own[2].is_some()];
+        let (impacts, rests) = (pressed.as_ref().map(|[impacts, _]| impacts), self.full.lying());
+        let tilted = if self.alive { self.tilted.along(ends, next.end, first, impacts, rests) } else { None };
+        self.alive = tilted.is_some();
         self.falls = self.full.next(ends, &mut self.next);
         let mut twice_energy = self.full.twice_energy(ends);
         let (mut rival, mut follows, mut tumbles) = ((f64::INFINITY, (0.0, 0.0)), None, false);
@@ -214,29 +182,31 @@ impl Course {
         }
         if self.falls || first {
             twice_energy = greater(self.energy, twice_energy);
-        } else {
-            if self.alive[1] {
-                twice_energy = twice_energy.max(self.parabolas.twice_energy(ends));
-            }
-            if self.alive[2] {
-                twice_energy = twice_energy.max(self.tilted.twice_energy(ends));
-            }
+        } else if self.alive {
+            twice_energy = twice_energy.max(self.tilted.twice_energy(ends));
         }
         let overlaps = follows.is_some_and(|gap| gap < self.contact_s);
         self.step = Some(Step {
-            end: next.end,
+            landing: Landing { end: next.end, presses: pressed.is_some(), rests },
             delta_v,
-            own,
+            tilted,
             twice_energy,
             follows,
             rival,
-            rests: lying,
             coupled,
             rebound: if overlaps { self.coupling.rebound() } else { 0.0 },
             together: pressed.map(|[_, contacts]| contacts.lasts),
-            spread,
             tumbles,
         });
+    }
+}
+
+impl Course {
+    /// The strike that landed so, in the coarse lanes.
+    fn along(&mut self, landing: &Landing) -> Alike {
+        let impacts = if landing.presses { Some(self.both(landing.end)) } else { None };
+        let coarse = self.coarse.get_or_insert_with(|| Coarse::start(&self.ends, self.start));
+        coarse.along(&self.ends, landing, impacts.as_ref().map(|[impacts, _]| impacts), self.contact_s)
     }
 }
 
@@ -245,6 +215,12 @@ impl Strikes for Course {
     fn step(&mut self, _: usize) -> Option<&Step> {
         self.advance();
         self.step.as_ref()
+    }
+    fn coarse(&mut self, _: usize, landing: &Landing) -> Alike {
+        self.along(landing)
+    }
+    fn map(&self) -> Option<&MapLane> {
+        self.coarse.as_ref().map(Coarse::map)
     }
     fn swing(&mut self, zeta: f64, acceleration: bool) -> Swing {
         Swing::new(zeta, acceleration)
@@ -263,6 +239,7 @@ impl Strikes for Course {
 pub(crate) struct Trail {
     course: Course,
     steps: Vec<Step>,
+    coarse: Vec<Alike>,
     /// The part asked last, and whether for its acceleration.
     swing: Option<(bool, Swing)>,
     /// How a part turns after each strike, for the frequencies asked last: damping ratio, phase, turn.
@@ -275,6 +252,7 @@ impl Trail {
         Self {
             course: Course::new(Ends::new(scene, 0.0), scene, contact_time_s),
             steps: Vec::with_capacity(STRIKES),
+            coarse: Vec::with_capacity(STRIKES),
             swing: None,
             turns: Vec::with_capacity(STRIKES),
         }
@@ -283,7 +261,10 @@ impl Trail {
     /// With all strikes that a forecast looks at, to be shared.
     pub(crate) fn whole(mut self) -> Self {
         let mut n = 0;
-        while n < STRIKES && self.step(n).is_some() {
+        while n < STRIKES
+            && let Some(&Step { landing, .. }) = self.step(n)
+        {
+            self.coarse(n, &landing);
             n += 1;
         }
         self
@@ -297,6 +278,15 @@ impl Strikes for Trail {
             self.steps.extend(self.course.step);
         }
         self.steps.get(n)
+    }
+    fn coarse(&mut self, n: usize, landing: &Landing) -> Alike {
+        if n == self.coarse.len() {
+            self.coarse.push(self.course.along(landing));
+        }
+        self.coarse[n]
+    }
+    fn map(&self) -> Option<&MapLane> {
+        self.course.map()
     }
     /// Worked out once for all places of a part, as its turns are.
     fn swing(&mut self, zeta: f64, acceleration: bool) -> Swing {

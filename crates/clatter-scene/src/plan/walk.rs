@@ -1,11 +1,12 @@
-//! The first strikes of a drop as one component has them, in four lanes at once.
+//! The first strikes of a drop as one component has them.
 
+use super::STRIKES;
 use super::bounds::{later_response, later_shock, pile_until_rest, weight};
+use super::coarse::Alike;
 use super::coupling::of;
-use super::ends::Ends;
 use super::floats::{greater, lesser};
-use super::lane::MapLane;
-use super::swing::{Motion, Swing};
+use super::lag::{Beat, Lag, Part, Parts};
+use super::swing::{Motion, Peak};
 use super::trail::{Course, Step, Strikes};
 
 /// What later strikes can do must stay below this share of the peak for the following to stop: pulses flatten both, not
@@ -18,27 +19,18 @@ const ROOM: f64 = 0.5;
 /// Fitted: an end that lies down mistimes what the other one does by this share of the time until then.
 const LYING: f64 = 0.03;
 
-/// Phases up to which a motion is taken as a straight line.
-const STRAIGHT: f64 = 0.1;
+/// Contact times after which a strike finds nothing of the contact before.
+const APART: f64 = 2.0;
 
 /// One interval between strikes, as the lane with all physics has it.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Interval {
     /// When it begins.
     from_s: f64,
-    /// Largest value, and the phase at which it stands.
-    pub(super) value: f64,
-    pub(super) phase: f64,
-    /// Rate of the value by the phase there: below 0 where a shock begins the interval, above 0 where the next one ends
-    /// it.
-    pub(super) slope: f64,
-    /// Bound on how far the map, the parabolas and real tilt are off it, and by what more at its beginning.
-    off: [f64; 3],
-    beginning: [f64; 3],
-    /// Bound on how far all of them are off beside.
+    /// Its largest value; the slope is below 0 where a shock begins the interval, above 0 where the next one ends it.
+    pub(super) peak: Peak,
+    /// Bound on how far all lanes are off beside what each is.
     doubt: f64,
-    /// Bound on what a lane has before it that strikes earlier.
-    early: [f64; 3],
     /// By how much more it may ring where strikes are mistimed in all models.
     adrift: f64,
     /// Bound on all that comes after it.
@@ -46,29 +38,20 @@ pub(super) struct Interval {
 }
 
 impl Interval {
-    fn is_higher(&self, other: &Self) -> bool {
-        self.value > other.value
-    }
-    /// Bound on how far lane k is off its largest value.
-    fn off(&self, k: usize) -> f64 {
-        let off = self.off[k] + self.doubt + if self.phase > 0.0 { 0.0 } else { self.beginning[k] };
-        if off.is_nan() { f64::INFINITY } else { off }
-    }
+    const NONE: Self =
+        Self { from_s: 0.0, peak: Peak { value: 0.0, phase: 0.0, slope: 0.0 }, doubt: 0.0, adrift: 0.0, late: 0.0 };
 }
 
 /// What one component has of the strikes followed.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Walk<const N: usize> {
     intervals: [Interval; N],
-    strikes: usize,
+    pub(super) strikes: usize,
     /// Bound on the response, or shock, after the strikes followed; what of it one more shock does.
     pub(super) late: f64,
     extra: f64,
     /// Until when models need to be followed for nothing later to exceed the peak.
     pub(super) until_s: f64,
-    /// Largest and sum of the shocks of the map.
-    pub(super) largest: f64,
-    pub(super) net: f64,
     pub(super) last_s: f64,
     pub(super) shortest_gap_s: f64,
     pub(super) overlaps: bool,
@@ -76,26 +59,34 @@ pub(super) struct Walk<const N: usize> {
     weight: f64,
     /// Bound on what impacts, one after the other at one instant, do on the way.
     pub(super) jumps: f64,
-    /// Lanes that have had the same strikes so far.
-    alive: [bool; 3],
+    pub(super) tilted: Lag<N>,
     /// Whether real tilt is off by more than the tolerance, whatever comes later.
     pub(super) is_certain: bool,
 }
 
 impl<const N: usize> Walk<N> {
     /// The interval that holds the peak.
-    pub(super) fn peak(&self) -> Interval {
-        let none = Interval::default();
-        let highest = |most, interval| if Interval::is_higher(interval, most) { interval } else { most };
-        *self.intervals[..self.strikes].iter().fold(&none, highest)
+    fn highest(&self) -> usize {
+        let higher = |most: usize, n: usize| {
+            if self.intervals[n].peak.value > self.intervals[most].peak.value { n } else { most }
+        };
+        (0..self.strikes).fold(0, higher)
     }
-    /// What each lane gets wrong, if pulses leave `top` of the `peak`: by the strikes followed, and by all.
-    pub(super) fn errors(&self, peak: &Interval, top: f64) -> [[f64; 2]; 3] {
-        let followed = self.followed([0, 1, 2], peak, top);
-        [0, 1, 2].map(|k| {
-            let [error, least] = followed[k];
-            [error, greater(self.later(k, peak.value), error)].map(|error| lesser(least, error))
-        })
+    /// The highest of all.
+    pub(super) fn peak(&self) -> Peak {
+        self.intervals[self.highest()].peak
+    }
+    /// Bound on how far a lane is off the largest value of interval n.
+    fn off(&self, lag: &Lag<N>, n: usize) -> f64 {
+        let (interval, off) = (&self.intervals[n], &lag.off[n]);
+        let off = off.all + interval.doubt + if interval.peak.phase > 0.0 { 0.0 } else { off.beginning };
+        if off.is_nan() { f64::INFINITY } else { off }
+    }
+    /// What a lane gets wrong, if pulses leave `top` of the peak: by the strikes followed, and by all.
+    pub(super) fn errors(&self, lag: &Lag<N>, top: f64) -> [f64; 2] {
+        let highest = self.highest();
+        let [error, least] = self.followed(lag, highest, top);
+        [error, greater(self.later(lag, self.intervals[highest].peak.value), error)].map(|error| lesser(least, error))
     }
     /// Bounds on all that comes after the intervals.
     fn lates(&self) -> [f64; N] {
@@ -106,44 +97,39 @@ impl<const N: usize> Walk<N> {
         }
         lates
     }
-    /// What these lanes get wrong by the strikes followed, and what they get wrong at most if what follows some
-    /// interval is left to its bound.
+    /// What a lane gets wrong by the strikes followed, and what it gets wrong at most if what follows some interval is
+    /// left to its bound.
     #[inline]
-    fn followed<const K: usize>(&self, lanes: [usize; K], peak: &Interval, top: f64) -> [[f64; 2]; K] {
-        let mut errors = lanes.map(|k| [peak.off(k), f64::INFINITY]);
-        for (interval, late) in self.intervals[..self.strikes].iter().zip(self.lates()) {
+    fn followed(&self, lag: &Lag<N>, highest: usize, top: f64) -> [f64; 2] {
+        let [mut error, mut least] = [self.off(lag, highest), f64::INFINITY];
+        let (lates, peak_s) = (self.lates(), self.intervals[highest].from_s);
+        for (n, interval) in self.intervals[..self.strikes].iter().enumerate() {
             // Another that comes up to the top may be the higher one.
-            let short = lesser(interval.value + interval.adrift - top, 0.0);
-            for ([error, least], k) in errors.iter_mut().zip(lanes) {
-                *error = greater(interval.early[k] - top, greater(interval.off(k) + short, *error));
-                // From the peak on, what follows may be left to its bound.
-                if interval.from_s >= peak.from_s {
-                    *least = lesser(greater(late - top, *error), *least);
-                }
+            let short = lesser(interval.peak.value + interval.adrift - top, 0.0);
+            error = greater(lag.off[n].early - top, greater(self.off(lag, n) + short, error));
+            // From the peak on, what follows may be left to its bound.
+            if interval.from_s >= peak_s {
+                least = lesser(greater(lates[n] - top, error), least);
             }
         }
-        errors
+        [error, least]
     }
-    /// What lane k may get wrong after the strikes followed.
-    fn later(&self, k: usize, peak: f64) -> f64 {
+    /// Whether more strikes would be followed by a longer look: what is fitted to the later ones is fitted to those.
+    fn is_cut_short(&self) -> bool {
+        self.strikes == N && N < STRIKES
+    }
+    /// What a lane may get wrong after the strikes followed.
+    fn later(&self, lag: &Lag<N>, peak: f64) -> f64 {
         let above = self.late - peak;
-        let intervals = &self.intervals[..self.strikes];
         // The map has no later strikes; the others have them, about.
-        if above <= 0.0 || k == 0 || self.extra >= ROOM * peak {
+        if above <= 0.0 || lag.is_map || self.extra >= ROOM * peak || self.is_cut_short() {
             return above;
         }
-        let worst = intervals.iter().fold(0.0, |m, i| greater(i.off[k] + i.doubt, m));
+        let of_intervals = || lag.off.iter().zip(&self.intervals[..self.strikes]).map(|(off, i)| off.all + i.doubt);
+        let (worst, last) = of_intervals().fold((0.0, 0.0), |(worst, _), off| (greater(off, worst), off));
         // Fitted: what later strikes add is off by 4 times what the earlier ones were.
-        let share = if self.alive[k] { 4.0 * (worst / peak).min(1.0) } else { 4.0 };
-        above.min(share * self.extra + self.weight + intervals.last().map_or(0.0, |i| i.off[k] + i.doubt))
-    }
-    /// Strikes until `until_s`, about, of models with impacts (until they have fallen by 10⁻¹⁵, both ends in turn) and
-    /// with contacts (until both ends lie on their springs).
-    pub(super) fn about(&self, e: f64) -> (f64, f64) {
-        let loss = 0.05 - libm::log(e.max(1e-30));
-        #[expect(clippy::cast_precision_loss, reason = "a few strikes")]
-        let followed = self.strikes as f64;
-        if self.until_s < f64::INFINITY { (followed, followed) } else { (followed + 240.0 / loss, 2.0 + 8.0 / loss) }
+        let share = if lag.alive { 4.0 * (worst / peak).min(1.0) } else { 4.0 };
+        above.min(share * self.extra + self.weight + last)
     }
 }
 
@@ -158,96 +144,24 @@ struct Flight {
     speed: f64,
 }
 
-/// The component where a strike of the lane with all physics meets it.
-#[derive(Debug)]
-struct Meeting<'a> {
-    swing: &'a Swing,
-    /// Just after the last strike, now, and the phase between.
-    begun: Motion,
-    motion: Motion,
-    turned: f64,
-    /// How fast it changes by the phase, and the square of the bound of that.
-    rate: Motion,
-    square: f64,
-}
-
-/// What the strike of a lane does to its component that comes at another time.
-#[derive(Debug, Clone, Copy)]
-struct Shifted {
-    by: Motion,
-    /// Whether the lane goes on as before.
-    goes_on: bool,
-    /// By how much the interval begins elsewhere, and what the lane has before it.
-    beginning: f64,
-    early: f64,
-}
-
-impl Meeting<'_> {
-    /// How far a strike at another phase moves the component of a lane. It meets a motion that has turned to another
-    /// place, as which the lane goes on; or is itself turned, and the lane goes on as before: the less of the two.
-    #[inline]
-    fn shift(&self, own: f64, phase: f64) -> Shifted {
-        let (swing, straight) = (self.swing, phase.abs() <= STRAIGHT);
-        let (mut moved, mut most) =
-            (Motion { x: phase * self.rate.x, w: phase * self.rate.w }, phase * phase * self.square);
-        if !straight {
-            moved = self.far(phase);
-            most = swing.square(moved);
-        }
-        let turned = greater(lesser(phase, 2.0), -2.0);
-        let shifted = swing.factor * own * turned;
-        if shifted * shifted < most {
-            let early = if phase < 0.0 && !straight { self.early(own, turned, moved) } else { 0.0 };
-            let by = Motion { x: own * turned, w: -2.0 * swing.zeta() * own * turned };
-            Shifted { by, goes_on: true, beginning: swing.quantity(moved).abs(), early }
-        } else {
-            Shifted { by: moved, goes_on: false, beginning: 0.0, early: 0.0 }
-        }
-    }
-    /// How far the motion moves in a phase that is not straight.
-    #[cold]
-    fn far(&self, phase: f64) -> Motion {
-        let met = self.swing.after(&self.swing.turn(greater(self.turned + phase, 0.0)), self.begun);
-        Motion { x: met.x - self.motion.x, w: met.w - self.motion.w }
-    }
-    /// What a lane has before the interval whose strike comes before by `turned`, where the motion is elsewhere by
-    /// `moved`.
-    #[cold]
-    fn early(&self, own: f64, turned: f64, moved: Motion) -> f64 {
-        let swing = self.swing;
-        let met = Motion { x: self.motion.x + moved.x, w: self.motion.w + moved.w };
-        swing.bound(met) + own.abs() * lesser(swing.quantity(Motion { x: -turned, w: 1.0 }), swing.factor)
-    }
-}
-
 /// Follows strikes until nothing later counts.
 #[derive(Debug)]
 pub(super) struct Walker<'a, const N: usize> {
-    ends: &'a Ends,
-    swing: &'a Swing,
-    /// Velocity shocks are asked for, not a response.
-    shocks: bool,
-    /// Contact time; 0 where it is not known.
-    time: f64,
+    part: Part<'a>,
     gravity: f64,
-    omega: f64,
     /// The speed that the weight gives in one radian of the component.
     fall: f64,
     /// Share of the time since the first strike by which strikes are mistimed.
     blur: f64,
     /// How many times the largest later shock the speeds of all later ones allow.
     pile: f64,
-    walk: Walk<N>,
+    pub(super) walk: Walk<N>,
+    beats: [Beat; N],
     /// The component now, and just after the last strike.
     motion: Motion,
     begun: Motion,
     peak: f64,
-    /// Motion of the component in the other lanes less this one, and by how much later their strikes come than that has
-    /// it.
-    off: [Motion; 3],
-    behind_s: [f64; 3],
-    /// Shocks that a lane lacks, and shocks in doubt, faded.
-    lacking: [f64; 3],
+    /// Shocks in doubt, faded.
     doubtful: f64,
     /// How much higher the component may ring where strikes are mistimed.
     adrift: f64,
@@ -259,46 +173,34 @@ pub(super) struct Walker<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Walker<'a, N> {
-    pub(super) fn new(
-        (ends, swing, course): (&'a Ends, &'a Swing, &Course),
-        shocks: bool,
-        gravity: f64,
-        omega: f64,
-    ) -> Self {
-        let fall = gravity / omega;
-        let weight = if shocks { 0.0 } else { weight(swing, fall) };
+    #[inline]
+    pub(super) fn new(part: Part<'a>, course: &Course, gravity: f64) -> Self {
+        let fall = gravity / part.omega;
+        let weight = if part.shocks { 0.0 } else { weight(part.swing, fall) };
         Self {
-            ends,
-            swing,
-            shocks,
-            time: course.contact_s,
+            part,
             gravity,
-            omega,
             fall,
             blur: course.blur,
             pile: course.pile,
             walk: Walk {
-                intervals: [Interval::default(); N],
+                intervals: [Interval::NONE; N],
                 strikes: 0,
                 late: 0.0,
                 extra: 0.0,
                 until_s: f64::INFINITY,
-                largest: 0.0,
-                net: 0.0,
                 last_s: 0.0,
                 shortest_gap_s: f64::INFINITY,
                 overlaps: false,
                 weight,
                 jumps: 0.0,
-                alive: [true; 3],
+                tilted: Lag::NONE,
                 is_certain: false,
             },
+            beats: [Beat::NONE; N],
             motion: Motion::default(),
             begun: Motion::default(),
             peak: 0.0,
-            off: [Motion::default(); 3],
-            behind_s: [0.0; 3],
-            lacking: [0.0; 3],
             doubtful: 0.0,
             adrift: 0.0,
             before: 0.0,
@@ -308,8 +210,9 @@ impl<'a, const N: usize> Walker<'a, N> {
     }
 
     /// Until nothing later counts, or until real tilt can not be within the tolerance any more.
-    pub(super) fn follow(&mut self, trail: &mut impl Strikes, tolerance: f64) -> &Walk<N> {
-        self.before = self.ends.reach(trail.course().twice_energy);
+    pub(super) fn follow(&mut self, trail: &mut impl Strikes, tolerance: f64) {
+        let ends = self.part.ends;
+        self.before = ends.reach(trail.course().twice_energy);
         let mut flight = Flight { gap_s: 0.0, lying: None, tumbles: false, speed: self.before };
         while let Some(step) = trail.step(self.walk.strikes) {
             self.strike(step, &flight);
@@ -318,11 +221,11 @@ impl<'a, const N: usize> Walker<'a, N> {
                 break;
             };
             self.rival(step, follows);
-            let lying = step.rests.map(|end| {
-                let other = -self.ends.flat[end];
-                self.ends.at(if end == 0 { (1.0, other) } else { (other, 1.0) }).abs()
+            let lying = step.landing.rests.map(|end| {
+                let other = -ends.flat[end];
+                ends.at(if end == 0 { (1.0, other) } else { (other, 1.0) }).abs()
             });
-            let speed = self.ends.reach(step.twice_energy);
+            let speed = ends.reach(step.twice_energy);
             flight = Flight { gap_s: follows, lying, tumbles: step.tumbles, speed };
             self.floor = greater(step.rebound * self.before, self.floor);
             self.fly(trail, &flight);
@@ -331,43 +234,30 @@ impl<'a, const N: usize> Walker<'a, N> {
             }
             if tolerance < f64::INFINITY && self.is_certain(tolerance) {
                 self.walk.is_certain = true;
-                // Not looked at.
-                (self.walk.net, self.walk.largest) = (f64::INFINITY, f64::INFINITY);
-                return &self.walk;
+                break;
             }
         }
-        if !self.shocks {
-            self.take_map(trail.course().map.clone());
-        }
-        &self.walk
-    }
-
-    fn unit(&self) -> f64 {
-        if self.shocks { 1.0 } else { self.swing.factor }
     }
 
     /// From the last strike to the next.
     fn fly(&mut self, trail: &mut impl Strikes, flight: &Flight) {
-        let (swing, omega, gap, time) = (self.swing, self.omega, flight.gap_s, self.time);
+        let (Part { swing, omega, shocks, time, .. }, gap) = (self.part, flight.gap_s);
         let n = self.walk.strikes - 1;
         let interval = &mut self.walk.intervals[n];
-        if !self.shocks {
+        if !shocks {
             let turn = trail.turn(n, swing, omega * gap);
             let last = swing.after(&turn, self.motion);
             let (end, rate) = (swing.quantity(last), swing.quantity(swing.rate(last)));
             if swing.square(self.motion) > 0.25 * self.peak * self.peak {
-                let top = swing.peak_before(self.motion, omega * gap, rate);
-                (interval.value, interval.phase, interval.slope) = (top.value, top.phase, top.slope);
+                interval.peak = swing.peak_before(self.motion, omega * gap, rate);
             }
             self.motion = last;
-            if end.abs() > interval.value {
-                (interval.value, interval.phase) = (end.abs(), omega * gap);
-                interval.slope = greater(rate * end.signum(), 0.0);
+            if end.abs() > interval.peak.value {
+                let slope = greater(rate * end.signum(), 0.0);
+                interval.peak = Peak { value: end.abs(), phase: omega * gap, slope };
             }
-            for (off, lacking) in self.off.iter_mut().zip(&mut self.lacking) {
-                *off = swing.after(&turn, *off);
-                *lacking *= turn.fade;
-            }
+            self.walk.tilted.fly(swing, &turn);
+            self.beats[n].turn = turn;
             self.doubtful *= turn.fade;
             self.adrift *= turn.fade;
             if let Some(share) = flight.lying {
@@ -377,7 +267,7 @@ impl<'a, const N: usize> Walker<'a, N> {
                 interval.doubt += swing.factor * weight;
             }
         }
-        self.peak = greater(interval.value, self.peak);
+        self.peak = greater(interval.peak.value, self.peak);
         self.walk.shortest_gap_s = lesser(gap, self.walk.shortest_gap_s);
         if gap < time {
             self.walk.overlaps = true;
@@ -393,14 +283,15 @@ impl<'a, const N: usize> Walker<'a, N> {
     /// Bound on what a bar of such a speed does to the component from now on, and what of it one shock and all of them
     /// do; `more` than one may come.
     fn to_come(&self, speed: f64, more: bool) -> (f64, f64, f64) {
-        if self.shocks {
-            let shock = later_shock(speed, self.ends.e, self.gravity, self.time);
+        let Part { ends, swing, shocks, time, .. } = self.part;
+        if shocks {
+            let shock = later_shock(speed, ends.e, self.gravity, time);
             return (shock, shock, shock);
         }
         // As if both ends pushed the same way, and threw back all of the speed: the study holds what follows from that.
-        let times = if more { pile_until_rest(self.pile, self.swing, speed, self.fall, true) } else { 1.0 };
-        let [extra, coming] = [1.0, times].map(|times| later_response(self.swing, speed, 1.0, times, self.fall));
-        let all = self.swing.bound(self.motion) + self.adrift + coming;
+        let times = if more { pile_until_rest(self.pile, swing, speed, self.fall, true) } else { 1.0 };
+        let [extra, coming] = [1.0, times].map(|times| later_response(swing, speed, 1.0, times, self.fall));
+        let all = swing.bound(self.motion) + self.adrift + coming;
         (if all.is_nan() { f64::INFINITY } else { all }, extra, coming)
     }
 
@@ -410,24 +301,26 @@ impl<'a, const N: usize> Walker<'a, N> {
     /// flatten the peak, its share does not fall.
     fn is_certain(&self, tolerance: f64) -> bool {
         self.rises_are_off(tolerance) && {
-            let peak = self.walk.peak();
-            let [[error, least]] = self.walk.followed([2], &peak, peak.value);
-            lesser(error, least) > tolerance * peak.value
+            let highest = self.walk.highest();
+            let peak = self.walk.intervals[highest].peak.value;
+            let [error, least] = self.walk.followed(&self.walk.tilted, highest, peak);
+            lesser(error, least) > tolerance * peak
         }
     }
 
     /// Whether it is so of every later interval that passes the peak.
     fn rises_are_off(&self, tolerance: f64) -> bool {
-        let lost = !self.walk.alive[2];
-        if self.shocks {
+        let (walk, tilted) = (&self.walk, &self.walk.tilted);
+        let lost = !tilted.alive;
+        if self.part.shocks {
             // A lane that has lost the strikes is off by each. Of both contacts at once, the first may be more than the
             // two together.
             return lost && tolerance < 1.0 || self.doubtful > 2.0 * tolerance * self.coming;
         }
         // In the share f that is left of it, the motion is at most f times its envelope, and the doubt f times what it
         // is now.
-        let swing = self.swing;
-        let doubt = swing.factor * (self.lacking[2] + self.doubtful);
+        let swing = self.part.swing;
+        let doubt = swing.factor * (tilted.lacking + self.doubtful);
         let [now, unit] = [self.motion, Motion { x: 0.0, w: 1.0 }].map(|motion| swing.envelope(motion));
         if lost && doubt > tolerance * now && swing.factor > tolerance * unit {
             return true;
@@ -440,13 +333,13 @@ impl<'a, const N: usize> Walker<'a, N> {
         }
         // Or an earlier interval counts, however high the peak gets.
         let most = greater(swing.bound(self.motion) + self.coming, self.peak);
-        let off = |interval: &Interval| interval.off(2) + lesser(interval.value + interval.adrift - most, 0.0);
-        self.walk.intervals[..self.walk.strikes].iter().any(|interval| off(interval) > tolerance * most)
+        let short = |interval: &Interval| lesser(interval.peak.value + interval.adrift - most, 0.0);
+        (0..walk.strikes).any(|n| walk.off(tilted, n) + short(&walk.intervals[n]) > tolerance * most)
     }
 
     /// Whether nothing later counts, or is known.
     fn is_over(&mut self, flight: &Flight) -> bool {
-        let time = self.time;
+        let time = self.part.time;
         if self.walk.late < CLEAR * self.peak && flight.gap_s >= time {
             // Strikes of other models may be later than those of this one.
             // A flat drop has all of it at the first touch, and a time limit is above 0.
@@ -454,17 +347,21 @@ impl<'a, const N: usize> Walker<'a, N> {
             self.walk.until_s = until_s.max(f64::MIN_POSITIVE);
             return true;
         }
+        if self.walk.is_cut_short() && flight.gap_s < APART * time {
+            // What the next strike does to the contact that is still there belongs to this one.
+            (self.walk.late, self.walk.intervals[N - 1].late) = (f64::INFINITY, f64::INFINITY);
+        }
         flight.tumbles || self.walk.strikes == N
     }
 
     fn strike(&mut self, step: &Step, flight: &Flight) {
-        let (ends, swing, omega, time, shocks) = (self.ends, self.swing, self.omega, self.time, self.shocks);
+        let Part { ends, swing, omega, time, shocks } = self.part;
         let n = self.walk.strikes;
         self.walk.last_s += flight.gap_s;
         // The ground also carries the weight while it pushes.
         self.doubtful += self.gravity * if n == 0 { time } else { lesser(time, flight.gap_s) };
         self.couple(step);
-        let both = step.together.map(|lasts| (lasts, Parts::of(ends, step.end, step.delta_v)));
+        let both = step.together.map(|lasts| (lasts, Parts::of(ends, step.landing.end, step.delta_v)));
         let delta_v = match both {
             // The first of both contacts is the shock.
             Some((_, parts)) if shocks => parts.first,
@@ -480,60 +377,31 @@ impl<'a, const N: usize> Walker<'a, N> {
             let jump = swing.quantity(Motion { x: 0.0, w: gross });
             self.walk.jumps = self.walk.jumps.max(swing.quantity(self.motion).abs() + jump.abs());
         }
-        let mistimed = self.blur * self.walk.last_s + if flight.lying.is_some() { LYING * flight.gap_s } else { 0.0 };
-        self.adrift += swing.factor * last * lesser(omega * mistimed, 2.0);
-        if n > 0 && self.walk.intervals[n - 1].slope > 0.0 {
-            // A value that the next shock cuts off is as high as that is late.
-            let cut = &mut self.walk.intervals[n - 1];
-            for (off, own) in cut.off.iter_mut().zip(step.own) {
-                *off += own.map_or(0.0, |(after, _)| cut.slope * (omega * (after - flight.gap_s)).abs().min(2.0));
-            }
-        }
-        if n > 0 && !shocks && self.walk.intervals[n - 1].phase <= omega * time {
-            // A pulse that ends on a dashpot is cut off by the next where only one of both trains has them overlap.
-            let over = |gap: f64| if gap < time { 1.0 - gap / time } else { 0.0 };
-            let here = over(flight.gap_s);
-            let jump = swing.quantity(Motion { x: 0.0, w: last }).abs();
-            for (off, own) in self.walk.intervals[n - 1].off.iter_mut().zip(step.own) {
-                *off += own.map_or(0.0, |(after, _)| jump * (over(after) - here).abs());
-            }
-        }
+        let beat = &mut self.beats[n];
+        *beat = Beat {
+            landing: step.landing,
+            gap_s: flight.gap_s,
+            delta_v,
+            gross,
+            together: both.is_some(),
+            begun: self.begun,
+            met: self.motion,
+            ..Beat::NONE
+        };
+        let before = n.checked_sub(1).map(|before| &self.walk.intervals[before].peak);
+        Lag::strike([&mut self.walk.tilted], [step.tilted], n, (beat, &self.part, before));
         let from_s = self.walk.last_s;
         let interval = &mut self.walk.intervals[n];
         interval.from_s = from_s;
         if shocks {
-            interval.value = last;
+            interval.peak.value = last;
+            interval.doubt = shape + self.doubtful;
         } else {
+            let mistimed = self.blur * from_s + if flight.lying.is_some() { LYING * flight.gap_s } else { 0.0 };
+            self.adrift += swing.factor * last * lesser(omega * mistimed, 2.0);
             interval.adrift = self.adrift;
+            interval.doubt = swing.factor * self.doubtful;
         }
-        let (rate, turned) = (swing.rate(self.motion), omega * flight.gap_s);
-        let square = swing.square(rate);
-        let meeting = Meeting { swing, begun: self.begun, motion: self.motion, turned, rate, square };
-        for k in 0..3 {
-            let Some((after, own)) = step.own[k] else {
-                self.walk.alive[k] = false;
-                self.lacking[k] += gross;
-                interval.off[k] =
-                    if shocks { last } else { swing.bound(self.off[k]) + swing.factor * self.lacking[k] };
-                continue;
-            };
-            if shocks {
-                let own = if both.is_some() { Parts::of(ends, step.end, own).first } else { ends.at(own) };
-                interval.off[k] = (own - delta_v).abs();
-                continue;
-            }
-            let (mut off, own) = (self.off[k], ends.at(own));
-            let behind_s = self.behind_s[k] + after - flight.gap_s;
-            off.w -= own - delta_v;
-            let shifted = meeting.shift(own, omega * behind_s);
-            self.behind_s[k] = if shifted.goes_on { behind_s } else { 0.0 };
-            off = Motion { x: off.x + shifted.by.x, w: off.w + shifted.by.w };
-            (interval.beginning[k], interval.early[k]) = (shifted.beginning, shifted.early);
-            self.off[k] = off;
-            interval.off[k] = swing.bound(off) + swing.factor * self.lacking[k];
-        }
-        interval.doubt = if shocks { shape + self.doubtful } else { swing.factor * self.doubtful };
-        interval.off[0] += if shocks { 1.0 } else { swing.factor } * gross * step.spread;
         self.motion.w -= delta_v;
         self.begun = self.motion;
         self.walk.strikes += 1;
@@ -541,7 +409,8 @@ impl<'a, const N: usize> Walker<'a, N> {
 
     /// What the last contacts and this strike do to each other.
     fn couple(&mut self, step: &Step) {
-        let (ends, coupled, shocks, n) = (self.ends, &step.coupled, self.shocks, self.walk.strikes);
+        let (Part { ends, shocks, .. }, coupled, n) = (self.part, &step.coupled, self.walk.strikes);
+        let end = step.landing.end;
         let delta_v = ends.at(step.delta_v);
         let mut doubt = if coupled.presses && shocks { delta_v.abs() } else { 0.0 };
         if let Some(other) = &coupled.other {
@@ -550,18 +419,18 @@ impl<'a, const N: usize> Walker<'a, N> {
                 let own = of(contact, end);
                 if own == 0.0 { given } else { given * (ends.at(contact) / own).abs() }
             };
-            doubt += at(other.pushed, other.delta_v, 1 - step.end);
-            doubt += if other.held > 0.0 { at(other.held, step.delta_v, step.end) } else { 0.0 };
+            doubt += at(other.pushed, other.delta_v, 1 - end);
+            doubt += if other.held > 0.0 { at(other.held, step.delta_v, end) } else { 0.0 };
             if shocks {
                 doubt += other.window([ends.at(other.delta_v), delta_v]);
             }
         }
         if doubt > 0.0 {
             // All that a contact which is still there has a part in.
-            let unit = self.unit();
+            let unit = self.part.swing.factor;
             for interval in self.walk.intervals[..n].iter_mut().rev() {
                 interval.doubt += unit * doubt;
-                if self.walk.last_s - interval.from_s >= self.time {
+                if self.walk.last_s - interval.from_s >= self.part.time {
                     break;
                 }
             }
@@ -573,7 +442,7 @@ impl<'a, const N: usize> Walker<'a, N> {
     fn rival(&mut self, step: &Step, follows_s: f64) {
         let (later_by, delta_v) = step.rival;
         if later_by < self.blur * (self.walk.last_s + follows_s) {
-            let (unit, shock) = (self.unit(), self.ends.at(delta_v).abs());
+            let (unit, shock) = (self.part.swing.factor, self.part.ends.at(delta_v).abs());
             self.walk.intervals[self.walk.strikes - 1].doubt += unit * shock;
             self.doubtful += shock;
         }
@@ -582,51 +451,44 @@ impl<'a, const N: usize> Walker<'a, N> {
     /// Nothing falls any more.
     fn rest(&mut self, step: &Step) {
         let interval = &mut self.walk.intervals[self.walk.strikes - 1];
-        if !self.shocks {
-            let top = self.swing.peak(self.motion, f64::INFINITY);
-            (interval.value, interval.phase, interval.slope) = (top.value, top.phase, top.slope);
+        if !self.part.shocks {
+            interval.peak = self.part.swing.peak(self.motion, f64::INFINITY);
         }
         (self.walk.late, self.walk.extra) = (0.0, 0.0);
         if self.gravity > 0.0 {
             // The ground carries it from now on, and impacts have bounces left.
-            (self.walk.late, self.walk.extra, _) = self.to_come(self.ends.reach(step.twice_energy), false);
+            (self.walk.late, self.walk.extra, _) = self.to_come(self.part.ends.reach(step.twice_energy), false);
         }
     }
 
-    /// The closed form has the whole train of the map.
-    fn take_map(&mut self, map: MapLane) {
-        let walk = &mut self.walk;
-        for (k, (.., delta_v)) in map.enumerate() {
+    /// The coarse lanes along the strikes followed.
+    pub(super) fn coarse(&self, trail: &mut impl Strikes) -> [Lag<N>; 2] {
+        let (mut map, mut parabolas) = (Lag::NONE, Lag::NONE);
+        map.is_map = true;
+        for (n, beat) in self.beats[..self.walk.strikes].iter().enumerate() {
+            let Alike { own, spread } = trail.coarse(n, &beat.landing);
+            let last = n.checked_sub(1).map(|last| &self.walk.intervals[last].peak);
+            Lag::strike([&mut map, &mut parabolas], own, n, (beat, &self.part, last));
+            map.off[n].all += self.part.swing.factor * beat.gross * spread;
+            map.fly(self.part.swing, &beat.turn);
+            parabolas.fly(self.part.swing, &beat.turn);
+        }
+        [map, parabolas]
+    }
+
+    /// Sum and largest of the whole train of the map at the component, once the coarse lanes were followed; infinite
+    /// where it is long.
+    pub(super) fn train(&self, trail: &impl Strikes) -> [f64; 2] {
+        let [mut net, mut largest] = [0.0; 2];
+        for (k, (.., delta_v)) in trail.map().into_iter().flat_map(Clone::clone).enumerate() {
             if k > 2 * N {
-                walk.net = f64::INFINITY;
+                net = f64::INFINITY;
                 break;
             }
-            let delta_v = self.ends.at(delta_v);
-            walk.largest = greater(delta_v.abs(), walk.largest);
-            walk.net += delta_v;
+            let delta_v = self.part.ends.at(delta_v);
+            largest = greater(delta_v.abs(), largest);
+            net += delta_v;
         }
-    }
-}
-
-/// What both contacts do to the component's place where they act at once.
-#[derive(Debug, Clone, Copy)]
-struct Parts {
-    /// That of the end that lands, and of the one that lay.
-    first: f64,
-    other: f64,
-}
-
-impl Parts {
-    fn of(ends: &Ends, landed: usize, (a, b): (f64, f64)) -> Self {
-        let ratio = ends.flat;
-        // 1 − r₀ r₁ without cancellation; ends without mass of their own are taken as nearly so.
-        let [p, q] = ends.arm.map(|arm| arm * arm + ends.gyration2);
-        let length = ends.arm[0] + ends.arm[1];
-        let over = p * q / (ends.gyration2 * length * length).max(f64::MIN_POSITIVE);
-        let of_contacts = [
-            over * (a + ratio[1] * b) * ends.at((1.0, -ratio[0])),
-            over * (b + ratio[0] * a) * ends.at((-ratio[1], 1.0)),
-        ];
-        Self { first: of_contacts[landed], other: of_contacts[1 - landed] }
+        [net, largest]
     }
 }

@@ -5,6 +5,7 @@
 //! scenes, log-uniform in [10⁻³, 2] for the other half. Scenes that the compliant model refuses are counted and left
 //! out: there is no truth to compare with.
 
+use std::hint::black_box;
 use std::time::Instant;
 
 use clatter::flight::{Body, Scene};
@@ -71,6 +72,33 @@ pub(crate) struct Ran {
     pub(crate) modeled_ns: f64,
 }
 
+/// What a plan took.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Choosing {
+    pub(crate) seconds: f64,
+    /// With the longer look, where the first one left the choice open.
+    pub(crate) refined_seconds: Option<f64>,
+}
+
+impl Choosing {
+    fn measured(setup: &Setup, quantity: Quantity, tolerance: f64) -> (Plan, Self) {
+        // One is too short for the clock.
+        const BATCH: u32 = 16;
+        let many = |of: &dyn Fn() -> Plan| {
+            let run = || (0..BATCH).map(|_| black_box(of()).until_s).fold(0.0, f64::max);
+            timed(run).1 / f64::from(BATCH)
+        };
+        let plan = setup.plan(quantity, tolerance);
+        let refined = plan.refined(setup);
+        let is_open = refined.forecast != plan.forecast;
+        let choosing = Self {
+            seconds: many(&|| black_box(setup).plan(quantity, tolerance)),
+            refined_seconds: is_open.then(|| many(&|| black_box(setup).plan(quantity, tolerance).refined(setup))),
+        };
+        (refined, choosing)
+    }
+}
+
 /// One quantity in one scene.
 pub(crate) struct Outcome {
     pub(crate) scene: usize,
@@ -79,6 +107,8 @@ pub(crate) struct Outcome {
     /// Of the highest pair until rest, in fine pieces.
     pub(crate) truth: f64,
     pub(crate) plans: [Plan; 3],
+    /// What choosing them took.
+    pub(crate) choosing: [Choosing; 3],
     pub(crate) runs: Vec<Run>,
     /// The highest pair until rest.
     pub(crate) highest_seconds: f64,
@@ -128,11 +158,12 @@ pub(crate) fn study(seed: u64, scenes: usize) -> (Vec<Outcome>, usize) {
             let until_s = setup.forecast_far(quantity).until_s.min(forecast.until_s);
             let truth = highest(TRUE_CELLS);
             let (_, highest_seconds) = timed(|| highest(CELLS));
-            let plans = TOLERANCES.map(|tolerance| forecast.plan(tolerance).refined(&setup));
+            let chosen = TOLERANCES.map(|tolerance| Choosing::measured(&setup, quantity, tolerance));
+            let (plans, choosing) = (chosen.map(|(plan, _)| plan), chosen.map(|(_, choosing)| choosing));
             let run = |pair: Pair, plan: &Plan| {
                 let plan = Plan { pair, until_s, ..*plan };
                 let (value, seconds) = timed(|| plan.run(&setup).expect("a planned pair"));
-                Ran { error: (value / truth - 1.0).abs(), seconds, modeled_ns: forecast.cost_ns(pair, plan.pieces) }
+                Ran { error: (value / truth - 1.0).abs(), seconds, modeled_ns: forecast.cost_ns(pair, plan.pieces()) }
             };
             let runs = Pair::planned(quantity).iter().map(|&pair| {
                 let cut = pair.component == ComponentRung::PulseTrain;
@@ -143,7 +174,7 @@ pub(crate) fn study(seed: u64, scenes: usize) -> (Vec<Outcome>, usize) {
                 Run { pair, estimate: forecast.pair(pair).error, with }
             });
             let runs = runs.collect();
-            outcomes.push(Outcome { scene, setup, quantity, truth, plans, runs, highest_seconds });
+            outcomes.push(Outcome { scene, setup, quantity, truth, plans, choosing, runs, highest_seconds });
         }
     }
     (outcomes, refused)
@@ -160,6 +191,12 @@ pub(crate) struct Worth {
     /// Mean cost over that of the oracle choice, and over that of the highest pair until rest.
     pub(crate) over_oracle: f64,
     pub(crate) of_highest: f64,
+    /// Mean time of choosing a plan by its first look, the longest, the share that this leaves open, and the mean time
+    /// with the longer look of those.
+    pub(crate) plan_s: f64,
+    pub(crate) longest_plan_s: f64,
+    pub(crate) open: f64,
+    pub(crate) refined_s: f64,
     /// Share of scenes that need the highest pair, and that get it.
     pub(crate) needed: f64,
     pub(crate) given: f64,
@@ -179,6 +216,13 @@ pub(crate) fn worth<'a>(outcomes: impl Iterator<Item = &'a Outcome>, k: usize) -
         cost += run.seconds;
         oracle += o.oracle(k).with[k].seconds;
         highest += o.highest_seconds;
+        let choosing = o.choosing[k];
+        w.plan_s += choosing.seconds;
+        w.longest_plan_s = w.longest_plan_s.max(choosing.seconds);
+        if let Some(seconds) = choosing.refined_seconds {
+            w.open += 1.0;
+            w.refined_s += seconds;
+        }
         w.given += f64::from(u8::from(plan.pair.bar == BarRung::Compliant));
         w.needed += f64::from(u8::from(o.oracle(k).pair.bar == BarRung::Compliant));
     }
@@ -187,6 +231,9 @@ pub(crate) fn worth<'a>(outcomes: impl Iterator<Item = &'a Outcome>, k: usize) -
         within: w.within / n,
         over_oracle: cost / oracle,
         of_highest: cost / highest,
+        plan_s: w.plan_s / n,
+        open: w.open / n,
+        refined_s: w.refined_s / w.open.max(1.0),
         needed: w.needed / n,
         given: w.given / n,
         ..w
