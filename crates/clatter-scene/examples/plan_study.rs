@@ -9,6 +9,7 @@ mod plan_study;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use clatter_scene::plan::{BarRung, ComponentRung, Pair, Quantity};
+use clatter_scene::tradeoff::Machine;
 use plan_study::{Outcome, QUANTITIES, TOLERANCES, study, worth};
 use serde::Serialize;
 
@@ -18,6 +19,8 @@ struct Record {
     seed: u64,
     scenes: u64,
     refused: usize,
+    /// Where times were taken.
+    machine: Machine,
     worth: Vec<Row>,
     pairs: Vec<PairRow>,
 }
@@ -128,7 +131,7 @@ fn main() {
     let worth = of.flat_map(|quantity| [0, 1, 2].map(|k| Row::new(&outcomes, quantity, k))).collect();
     let pairs = QUANTITIES.into_iter().flat_map(|q| Pair::planned(q).iter().map(move |&pair| (q, pair)));
     let pairs = pairs.map(|(quantity, pair)| PairRow::new(&outcomes, quantity, pair)).collect();
-    let record = Record { seed, scenes, refused, worth, pairs };
+    let record = Record { seed, scenes, refused, machine: Machine::here(), worth, pairs };
 
     println!("seed {seed}: {scenes} scenes, {refused} refused by the compliant model");
     println!(

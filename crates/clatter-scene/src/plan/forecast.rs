@@ -94,13 +94,14 @@ impl Setup {
         self.look::<STRIKES>(quantity, f64::INFINITY)
     }
 
-    /// The plan of a first look, from no more of [`FIRST_STRIKES`] than it hangs on: where none but the highest pair can
-    /// be within the tolerance any more, whatever comes later, no further ones are followed, and where real tilt is
-    /// beyond it, no lanes that know less. Their errors are then told as that of real tilt, of the strikes so far, as are
-    /// the groups and the peak; [`Forecast::at_most`] and `until_s`, where they are not known, are infinite.
+    /// The plan of a first look, from no more of [`FIRST_STRIKES`] than it hangs on: where none but the highest pair
+    /// can be within the tolerance any more, whatever comes later, no further ones are followed, and where real tilt is
+    /// beyond it, no lanes that know less. Their errors are then told as that of real tilt, of the strikes so far, as
+    /// are the groups and the peak; [`Forecast::at_most`] and `until_s`, where they are not known, are infinite.
     ///
-    /// Where these few strikes leave open what later ones do, it is the highest pair as well, and [`Plan::refined`] looks
-    /// longer. Without contacts, which then could decide all that is left open, it is the plan of [`Setup::forecast`].
+    /// Where these few strikes leave open what later ones do, it is the highest pair as well, and [`Plan::refined`]
+    /// looks longer. Without contacts, which then could decide all that is left open, it is the plan of
+    /// [`Setup::forecast`].
     ///
     /// # Cost
     /// One microsecond, about, which the study measures beside bench `plan`; two without contacts.

@@ -40,13 +40,13 @@ pub(super) struct Beat {
 
 /// What both contacts do to the component's place where they act at once.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Parts {
+pub(super) struct TwoShocks {
     /// That of the end that lands, and of the one that lay.
     pub(super) first: f64,
     pub(super) other: f64,
 }
 
-impl Parts {
+impl TwoShocks {
     pub(super) fn of(ends: &Ends, landed: usize, (a, b): (f64, f64)) -> Self {
         let ratio = ends.flat;
         // 1 − r₀ r₁ without cancellation; ends without mass of their own are taken as nearly so.
@@ -186,7 +186,7 @@ impl<const N: usize> Lag<N> {
                 continue;
             };
             let Some(meeting) = &meeting else {
-                let first = || Parts::of(part.ends, beat.landing.end, own).first;
+                let first = || TwoShocks::of(part.ends, beat.landing.end, own).first;
                 let own = if beat.together { first() } else { part.ends.at(own) };
                 lag.off[n].all = (own - beat.delta_v).abs();
                 continue;

@@ -264,8 +264,8 @@ impl<const TILTS: bool> Lane<TILTS> {
         *next = Next { end, after, turning: 0.0, tumbles, rival: [later, sinks * later - velocity] };
         true
     }
-    /// The strike that the lane with all physics has at this end, if this one has it too: the time since the last one, and
-    /// shocks. Where that one has an end lying, so has this one; `impacts` are those on it.
+    /// The strike that the lane with all physics has at this end, if this one has it too: the time since the last one,
+    /// and shocks. Where that one has an end lying, so has this one; `impacts` are those on it.
     #[inline]
     pub(super) fn along(
         &mut self,

@@ -2,9 +2,9 @@
 //!
 //! Two ladders: how the bar moves ([`BarRung`]) and how the component answers ([`ComponentRung`]). [`Setup::forecast`]
 //! estimates what each rung gets wrong in the quantity asked, as a share of it; [`Forecast::plan`] takes the cheapest
-//! [`Pair`] whose estimate is within a tolerance, and says which group of the scene decided. [`Setup::plan`] does both by
-//! a first look, and no more than the choice needs; [`Plan::refined`] looks longer where that leaves the choice open.
-//! [`Setup::demand`] runs a pair.
+//! [`Pair`] whose estimate is within a tolerance, and says which group of the scene decided. [`Setup::plan`] does both
+//! by a first look, and no more than the choice needs; [`Plan::refined`] looks longer where that leaves the choice
+//! open. [`Setup::demand`] runs a pair.
 //!
 //! # What the error is against
 //! The compliant bar with the exact response to its pulses, from the first touch until rest and through the ring-down:
@@ -15,11 +15,11 @@
 //! ends, e < 0.01) there is nothing to compare with, and the plan says so by a [`Warning`] where it needs that rung.
 //!
 //! # How
-//! The first strikes, [`STRIKES`] at most ([`FIRST_STRIKES`] by a first look), are followed in four lanes: with contacts
-//! that delay what they do by the centroid of their pulse (a lone contact moves the bar as one impulse at that moment
-//! does, exactly), with real tilt, and, where that serves, as parabolas and as the map. What the lanes differ by, each
-//! the delay, the lever arm or the parabola of one group, is carried as a perturbation of the component's motion, turned
-//! and damped with it. Beside it stand
+//! The first strikes, [`STRIKES`] at most ([`FIRST_STRIKES`] by a first look), are followed in four lanes: with
+//! contacts that delay what they do by the centroid of their pulse (a lone contact moves the bar as one impulse at that
+//! moment does, exactly), with real tilt, and, where that serves, as parabolas and as the map. What the lanes differ
+//! by, each the delay, the lever arm or the parabola of one group, is carried as a perturbation of the component's
+//! motion, turned and damped with it. Beside it stand
 //!
 //! - pulses in place of impulses: `½ σ² ω²` of a peak inside the swing (σ² the variance of the pulse), the slope over
 //!   its mean age for a peak on the jump of the dashpot;

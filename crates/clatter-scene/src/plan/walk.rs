@@ -5,7 +5,7 @@ use super::bounds::{later_response, later_shock, pile_until_rest, weight};
 use super::coarse::Alike;
 use super::coupling::of;
 use super::floats::{greater, lesser};
-use super::lag::{Beat, Lag, Part, Parts};
+use super::lag::{Beat, Lag, Part, TwoShocks};
 use super::swing::{Motion, Peak};
 use super::trail::{Course, Step, Strikes};
 
@@ -361,7 +361,7 @@ impl<'a, const N: usize> Walker<'a, N> {
         // The ground also carries the weight while it pushes.
         self.doubtful += self.gravity * if n == 0 { time } else { lesser(time, flight.gap_s) };
         self.couple(step);
-        let both = step.together.map(|lasts| (lasts, Parts::of(ends, step.landing.end, step.delta_v)));
+        let both = step.together.map(|lasts| (lasts, TwoShocks::of(ends, step.landing.end, step.delta_v)));
         let delta_v = match both {
             // The first of both contacts is the shock.
             Some((_, parts)) if shocks => parts.first,
