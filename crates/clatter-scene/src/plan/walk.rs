@@ -19,7 +19,7 @@ const ROOM: f64 = 0.5;
 /// Fitted: an end that lies down mistimes what the other one does by this share of the time until then.
 const LYING: f64 = 0.03;
 
-/// Contact times after which a strike finds nothing of the contact before.
+/// Contact times after which a strike finds nothing of the contact before, whose end has come up by then.
 const APART: f64 = 2.0;
 
 /// One interval between strikes, as the lane with all physics has it.
