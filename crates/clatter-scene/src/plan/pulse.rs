@@ -215,15 +215,6 @@ mod tests {
         assert!(Pulse::new(0.1).begins_hardest() && !Pulse::new(0.5).begins_hardest());
     }
 
-    /// An end that has parted comes up again within one more contact time, with which looks at strikes reckon.
-    #[test]
-    fn the_dashpot_holds_back_for_less_than_a_contact_time() {
-        for k in 0..200 {
-            let pulse = Pulse::new(0.01_f64.powf(f64::from(k) / 199.0));
-            assert!(pulse.delay() < 1.0, "{pulse:?}: {}", pulse.delay());
-        }
-    }
-
     /// An elastic contact is half a sine: mean ½, variance ¼ − 2/π².
     #[test]
     fn an_elastic_pulse_is_half_a_sine() {

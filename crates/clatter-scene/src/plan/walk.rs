@@ -19,9 +19,6 @@ const ROOM: f64 = 0.5;
 /// Fitted: an end that lies down mistimes what the other one does by this share of the time until then.
 const LYING: f64 = 0.03;
 
-/// Contact times after which a strike finds nothing of the contact before, whose end has come up by then.
-const APART: f64 = 2.0;
-
 /// One interval between strikes, as the lane with all physics has it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Interval {
@@ -153,6 +150,8 @@ pub(super) struct Walker<'a, const N: usize> {
     fall: f64,
     /// Share of the time since the first strike by which strikes are mistimed.
     blur: f64,
+    /// Time after which a strike finds nothing of the contact before, whose end has come up by then.
+    apart_s: f64,
     /// How many times the largest later shock the speeds of all later ones allow.
     pile: f64,
     pub(super) walk: Walk<N>,
@@ -182,6 +181,7 @@ impl<'a, const N: usize> Walker<'a, N> {
             gravity,
             fall,
             blur: course.blur,
+            apart_s: (1.0 + course.pulse.delay()) * part.time,
             pile: course.pile,
             walk: Walk {
                 intervals: [Interval::NONE; N],
@@ -347,7 +347,8 @@ impl<'a, const N: usize> Walker<'a, N> {
             self.walk.until_s = until_s.max(f64::MIN_POSITIVE);
             return true;
         }
-        if self.walk.is_cut_short() && flight.gap_s < APART * time {
+        let gap_s = flight.gap_s - self.blur * (self.walk.last_s + flight.gap_s);
+        if self.walk.is_cut_short() && gap_s < self.apart_s {
             // What the next strike does to the contact that is still there belongs to this one.
             (self.walk.late, self.walk.intervals[N - 1].late) = (f64::INFINITY, f64::INFINITY);
         }
