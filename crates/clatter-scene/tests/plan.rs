@@ -354,12 +354,12 @@ fn estimates_know_what_bends_a_peak() {
 }
 
 /// A short look leaves the choice open, or makes that of a longer one, but where it has a bound in place of what
-/// strikes do that only the longer one follows: of 18 000, 83 differ.
+/// strikes do that only the longer one follows: such are cheaper pairs, 24 of 18 000.
 #[test]
 fn a_choice_needs_no_more_strikes_than_it_hangs_on() {
     let mut random = Random(11);
     let [mut all, mut open, mut others] = [0; 3];
-    for _ in 0..1000 {
+    for _ in 0..4000 {
         let setup = random.setup();
         for quantity in QUANTITIES {
             let far = setup.forecast_far(quantity);
@@ -370,6 +370,8 @@ fn a_choice_needs_no_more_strikes_than_it_hangs_on() {
                 all += 1;
                 if plan.forecast == refined.forecast {
                     others += i32::from(plan.pair != whole.pair);
+                    // That none but the highest pair serves is certain where it is told.
+                    assert!(plan.pair == whole.pair || plan.pair != Pair::HIGHEST, "{what}");
                 } else {
                     open += 1;
                     assert!(plan.pair == Pair::HIGHEST && plan.until_s == f64::INFINITY, "{what}");
@@ -379,7 +381,7 @@ fn a_choice_needs_no_more_strikes_than_it_hangs_on() {
             }
         }
     }
-    assert!(100 * others < all && 4 * open > all && 4 * open < 3 * all, "{others}, {open} of {all}");
+    assert!(400 * others < all && 4 * open > all && 4 * open < 3 * all, "{others}, {open} of {all}");
 }
 
 /// No pair that is within the tolerance, with its pulses in pieces, is modeled as cheaper than the one chosen.
