@@ -54,6 +54,10 @@ impl Coarse {
     pub(super) fn map(&self) -> &MapLane {
         &self.map
     }
+    /// Twice the energy that parabolas have left, if they had the same strikes.
+    pub(super) fn twice_energy(&self, ends: &Ends) -> Option<f64> {
+        self.alive[1].then(|| self.parabolas.twice_energy(ends))
+    }
     /// The next strike; `impacts` are those of both ends, where it presses the one that lies.
     pub(super) fn along(&mut self, ends: &Ends, landing: &Landing, impacts: Option<&Both>, contact_s: f64) -> Alike {
         let first = !std::mem::replace(&mut self.touched, true);

@@ -7,7 +7,7 @@ use super::lag::{Lag, Part};
 use super::pulse::Pulse;
 use super::swing::{Peak, Swing};
 use super::trail::{Course, Strikes, Trail};
-use super::walk::Walker;
+use super::walk::{Walk, Walker};
 use super::{BarRung, ComponentRung, Estimate, Pair, Plan, Quantity, Setup};
 
 /// Strikes followed at most.
@@ -166,8 +166,8 @@ impl Setup {
             if response { smoothing(&pulse, omega * time, &peak, zeta) } else { (0.0, [0.0; 2]) };
         let top = (1.0 - smooth.min(0.8)) * peak.value;
         let number = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
-        let of_top = |lag: &Lag<N>| walk.errors(lag, top).map(|error| number(error / top));
-        let [followed, tilted] = of_top(&walk.tilted);
+        let of_top = |walk: &Walk<N>, lag: &Lag<N>| walk.errors(lag, top).map(|error| number(error / top));
+        let [followed, tilted] = of_top(walk, &walk.tilted);
         let contact_known = self.contact_time_s.is_some();
         // Without a contact time it is finite tilt that the others are held against: what it makes of later strikes is
         // the answer.
@@ -177,14 +177,15 @@ impl Setup {
         // not looked at.
         let (mut bar, [mut net, mut largest]) = ([tilted; 2], [f64::INFINITY; 2]);
         if !walk.is_certain && (tilted <= tolerance || tolerance == f64::INFINITY) {
-            let [map, ballistic] = walker.coarse(trail).map(|lag| of_top(&lag)[1]);
+            let lags = walker.coarse(trail);
+            let [map, ballistic] = lags.map(|lag| of_top(&walker.walk, &lag)[1]);
             bar[1] = ballistic.max(tilted);
             bar[0] = map.max(bar[1]);
             if response {
                 [net, largest] = walker.train(trail);
             }
         }
-        let [map, ballistic] = bar;
+        let ([map, ballistic], walk) = (bar, &walker.walk);
         let of_peak = |shock: f64| (swing.factor * shock.abs() / peak.value - 1.0).abs();
         let [net, largest, impulses] = if response {
             [of_peak(net) + smooth, of_peak(largest) + smooth, smooth + (walk.jumps / peak.value - 1.0).max(0.0)]

@@ -48,7 +48,9 @@ pub(super) trait Strikes {
     /// The same strike in the coarse lanes; asked for in order, and after it.
     fn coarse(&mut self, n: usize, landing: &Landing) -> Alike;
     /// The map from the first touch on, once a strike of it was asked for.
-    fn map(&self) -> Option<&MapLane>;
+    fn map(&self) -> Option<&MapLane> {
+        self.course().coarse.as_ref().map(Coarse::map)
+    }
     /// A part of this damping ratio, asked for its acceleration or its displacement.
     fn swing(&mut self, zeta: f64, acceleration: bool) -> Swing;
     /// What the phase θ after strike n does to a part.
@@ -202,6 +204,10 @@ impl Course {
 }
 
 impl Course {
+    /// Twice the energy that parabolas have left after the last strike that was asked of them, if they had the same.
+    pub(super) fn left_as_parabolas(&self) -> Option<f64> {
+        self.coarse.as_ref()?.twice_energy(&self.ends)
+    }
     /// The strike that landed so, in the coarse lanes.
     fn along(&mut self, landing: &Landing) -> Alike {
         let impacts = if landing.presses { Some(self.both(landing.end)) } else { None };
@@ -218,9 +224,6 @@ impl Strikes for Course {
     }
     fn coarse(&mut self, _: usize, landing: &Landing) -> Alike {
         self.along(landing)
-    }
-    fn map(&self) -> Option<&MapLane> {
-        self.coarse.as_ref().map(Coarse::map)
     }
     fn swing(&mut self, zeta: f64, acceleration: bool) -> Swing {
         Swing::new(zeta, acceleration)
@@ -284,9 +287,6 @@ impl Strikes for Trail {
             self.coarse.push(self.course.along(landing));
         }
         self.coarse[n]
-    }
-    fn map(&self) -> Option<&MapLane> {
-        self.course.map()
     }
     /// Worked out once for all places of a part, as its turns are.
     fn swing(&mut self, zeta: f64, acceleration: bool) -> Swing {

@@ -169,6 +169,8 @@ pub(super) struct Walker<'a, const N: usize> {
     floor: f64,
     /// Bound on what later strikes of the lane with all physics add.
     coming: f64,
+    /// Whether nothing falls any more, after more than the first strike.
+    rests: bool,
 }
 
 impl<'a, const N: usize> Walker<'a, N> {
@@ -206,6 +208,7 @@ impl<'a, const N: usize> Walker<'a, N> {
             before: 0.0,
             floor: 0.0,
             coming: f64::INFINITY,
+            rests: false,
         }
     }
 
@@ -458,12 +461,13 @@ impl<'a, const N: usize> Walker<'a, N> {
         (self.walk.late, self.walk.extra) = (0.0, 0.0);
         if self.gravity > 0.0 {
             // The ground carries it from now on, and impacts have bounces left.
+            self.rests = self.walk.strikes > 1;
             (self.walk.late, self.walk.extra, _) = self.to_come(self.part.ends.reach(step.twice_energy), false);
         }
     }
 
-    /// The coarse lanes along the strikes followed.
-    pub(super) fn coarse(&self, trail: &mut impl Strikes) -> [Lag<N>; 2] {
+    /// The coarse lanes along the strikes followed. Where nothing falls any more, parabolas may have bounces left.
+    pub(super) fn coarse(&mut self, trail: &mut impl Strikes) -> [Lag<N>; 2] {
         let (mut map, mut parabolas) = (Lag::NONE, Lag::NONE);
         map.is_map = true;
         for (n, beat) in self.beats[..self.walk.strikes].iter().enumerate() {
@@ -473,6 +477,14 @@ impl<'a, const N: usize> Walker<'a, N> {
             map.off[n].all += self.part.swing.factor * beat.gross * spread;
             map.fly(self.part.swing, &beat.turn);
             parabolas.fly(self.part.swing, &beat.turn);
+        }
+        if self.rests
+            && let Some(left) = trail.course().left_as_parabolas()
+        {
+            let (late, extra, _) = self.to_come(self.part.ends.reach(left), false);
+            if late > self.walk.late {
+                (self.walk.late, self.walk.extra) = (late, extra);
+            }
         }
         [map, parabolas]
     }
