@@ -381,7 +381,9 @@ fn a_choice_needs_no_more_strikes_than_it_hangs_on() {
             }
         }
     }
-    assert!(400 * others < all && 4 * open > all && 4 * open < 3 * all, "{others}, {open} of {all}");
+    assert!(400 * others < all, "{others} of {all}");
+    // What is certain by the last strike of a short look is told: more than two fifths were open without.
+    assert!(4 * open > all && 3 * open < all, "{open} of {all}");
 }
 
 /// No pair that is within the tolerance, with its pulses in pieces, is modeled as cheaper than the one chosen.

@@ -239,6 +239,10 @@ impl<'a, const N: usize> Walker<'a, N> {
                 self.walk.is_certain = true;
                 break;
             }
+            if flight.tumbles || self.walk.strikes == N {
+                self.cut(&flight);
+                break;
+            }
         }
     }
 
@@ -340,22 +344,26 @@ impl<'a, const N: usize> Walker<'a, N> {
         (0..walk.strikes).any(|n| walk.off(tilted, n) + short(&walk.intervals[n]) > tolerance * most)
     }
 
-    /// Whether nothing later counts, or is known.
+    /// Whether nothing later counts.
     fn is_over(&mut self, flight: &Flight) -> bool {
         let time = self.part.time;
-        if self.walk.late < CLEAR * self.peak && flight.gap_s >= time {
+        let is_over = self.walk.late < CLEAR * self.peak && flight.gap_s >= time;
+        if is_over {
             // Strikes of other models may be later than those of this one.
             // A flat drop has all of it at the first touch, and a time limit is above 0.
             let until_s = 1.25 * self.walk.last_s + 0.5 * (flight.gap_s + time);
             self.walk.until_s = until_s.max(f64::MIN_POSITIVE);
-            return true;
         }
+        is_over
+    }
+
+    /// No more strikes are followed, or known.
+    fn cut(&mut self, flight: &Flight) {
         let gap_s = flight.gap_s - self.blur * (self.walk.last_s + flight.gap_s);
         if self.walk.is_cut_short() && gap_s < self.apart_s {
             // What the next strike does to the contact that is still there belongs to this one.
             (self.walk.late, self.walk.intervals[N - 1].late) = (f64::INFINITY, f64::INFINITY);
         }
-        flight.tumbles || self.walk.strikes == N
     }
 
     fn strike(&mut self, step: &Step, flight: &Flight) {
