@@ -164,8 +164,8 @@ impl Plan {
     /// do, a longer look, of [`MANY_STRIKES`](super::MANY_STRIKES) at most, is cheap beside that.
     ///
     /// # Cost
-    /// Two to four microseconds on the average where it looks, for two fifths of random scenes, forty at most; contacts
-    /// take ten and more.
+    /// Three to four microseconds on the average where it looks, for a quarter to a third of random scenes, forty at
+    /// most; contacts take ten and more.
     #[must_use]
     pub fn refined(self, setup: &Setup) -> Self {
         if self.is_open() { setup.plan_far(self.quantity, self.reason.tolerance) } else { self }
