@@ -4,6 +4,7 @@ use std::cell::LazyCell;
 use std::fmt;
 
 use super::demand::{OF_PIECES, pieces_for};
+use super::walk::Stop;
 use super::{BarRung, ComponentRung, Estimate, Forecast, Groups, Pair, Quantity, STRIKES, Setup};
 use crate::Error;
 
@@ -103,7 +104,7 @@ impl Forecast {
             Some(Warning::ContactTimeUnknown { longest_s: self.longest_contact_s(pair, tolerance) })
         };
         let bar = [BarRung::Map, BarRung::Ballistic, BarRung::FiniteTilt].map(|rung| self.bar(rung).error);
-        let rebounds = self.until_s == f64::INFINITY && !self.is_certain;
+        let rebounds = self.until_s == f64::INFINITY && self.stop != Stop::Certain;
         let reason = Reason {
             quantity: self.quantity,
             pair,
@@ -160,19 +161,21 @@ impl Plan {
     pub fn cost_ns(&self) -> f64 {
         self.forecast.cost_ns(self.pair, self.pieces())
     }
-    /// The same plan, or a better one: where it follows contacts because the first strikes leave open what later ones
-    /// do, a longer look, of [`MANY_STRIKES`](super::MANY_STRIKES) at most, is cheap beside that.
+    /// The same plan, or a better one: where it [is open](Self::is_open), a longer look, of
+    /// [`MANY_STRIKES`](super::MANY_STRIKES) at most, is cheap beside following contacts.
     ///
     /// # Cost
-    /// Three to four microseconds on the average where it looks, for a quarter to a third of random scenes, forty at
+    /// Three to four microseconds on the average where it looks, for a quarter to a third of random scenes, thirty at
     /// most; contacts take ten and more.
     #[must_use]
     pub fn refined(self, setup: &Setup) -> Self {
         if self.is_open() { setup.plan_far(self.quantity, self.reason.tolerance) } else { self }
     }
-    /// Whether it follows contacts because the strikes looked at leave open what later ones do.
-    pub(crate) fn is_open(&self) -> bool {
-        self.pair == Pair::HIGHEST && self.until_s == f64::INFINITY && !self.forecast.is_certain
+    /// Whether it follows contacts because the strikes looked at leave open what later ones do, and there are later
+    /// ones to look at: none are foreseen of a bar that turns upright or over, or comes to rest.
+    #[must_use]
+    pub fn is_open(&self) -> bool {
+        self.pair == Pair::HIGHEST && self.forecast.stop == Stop::CutShort
     }
     /// The quantity asked, by the models of the plan. Strikes and contacts are followed until, by the energy left,
     /// nothing later raises it by more than about half of a tolerance of 10 %, or at all with one of 8 % and less. Of

@@ -82,7 +82,7 @@ impl Coarse {
             own[0] = Some((after, sum));
         }
         if self.alive[1] {
-            own[1] = self.parabolas.along(ends, landing.end, first, impacts, landing.rests);
+            own[1] = self.parabolas.along(ends, (landing.end, 0.0), first, impacts, landing.rests);
         }
         self.alive = own.map(|own| own.is_some());
         Alike { own, spread }

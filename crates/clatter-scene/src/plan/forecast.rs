@@ -7,7 +7,7 @@ use super::lag::{Lag, Part};
 use super::pulse::Pulse;
 use super::swing::{Peak, Swing};
 use super::trail::{Course, Strikes, Trail};
-use super::walk::{Walk, Walker};
+use super::walk::{Stop, Walk, Walker};
 use super::{BarRung, ComponentRung, Estimate, Pair, Plan, Quantity, Setup};
 
 /// Strikes followed at most.
@@ -52,8 +52,9 @@ pub struct Forecast {
     /// Whether contacts overlap among the strikes followed.
     pub(super) overlaps: bool,
     pub(super) contact_known: bool,
-    /// Whether no pair but the highest is within the tolerance whatever comes later, which was not looked at.
-    pub(super) is_certain: bool,
+    /// Why the strikes followed end where they do; where it is certain that real tilt is off, so is every pair but the
+    /// highest.
+    pub(super) stop: Stop,
     /// Shortest time between the strikes followed.
     pub(super) shortest_gap_s: f64,
     /// What impulses get wrong by the phase ωτ of a contact, as a share of the peak: the coefficients of the linear and
@@ -171,12 +172,12 @@ impl Setup {
         let contact_known = self.contact_time_s.is_some();
         // Without a contact time it is finite tilt that the others are held against: what it makes of later strikes is
         // the answer.
-        let doubt = if walk.is_certain { f64::INFINITY } else { tilted };
+        let doubt = if walk.stop == Stop::Certain { f64::INFINITY } else { tilted };
         let tilted = if contact_known { tilted } else { followed };
         // What real tilt is not sure of, parabolas and the map know by luck alone: where it does not serve, they are
         // not looked at.
         let (mut bar, [mut net, mut largest]) = ([tilted; 2], [f64::INFINITY; 2]);
-        if !walk.is_certain && (tilted <= tolerance || tolerance == f64::INFINITY) {
+        if walk.stop != Stop::Certain && (tilted <= tolerance || tolerance == f64::INFINITY) {
             let lags = walker.coarse(trail);
             let [map, ballistic] = lags.map(|lag| of_top(&walker.walk, &lag)[1]);
             bar[1] = ballistic.max(tilted);
@@ -197,7 +198,7 @@ impl Setup {
             quantity,
             bar: [map, map, ballistic, tilted, if compliant { 0.0 } else { f64::INFINITY }],
             doubt,
-            later: if walk.is_certain { f64::INFINITY } else { number(walk.late / peak.value) },
+            later: if walk.stop == Stop::Certain { f64::INFINITY } else { number(walk.late / peak.value) },
             component: [
                 number(net),
                 number(largest),
@@ -206,7 +207,7 @@ impl Setup {
             ],
             overlaps: walk.overlaps,
             contact_known,
-            is_certain: walk.is_certain,
+            stop: walk.stop,
             shortest_gap_s: walk.shortest_gap_s,
             impulse_phase,
             omega,

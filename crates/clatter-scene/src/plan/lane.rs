@@ -193,8 +193,10 @@ impl<const TILTS: bool> Lane<TILTS> {
             Down::End(i, bounced) => {
                 let end = 1 - i;
                 let turning = self.gravity * (1.0 + ends.flat[i]);
-                let after = bounced + fall(self.height[end], self.velocity[end], turning);
-                *next = Next { end, after, turning, ..Next::FIRST };
+                let (height, velocity) = (self.height[end], self.velocity[end]);
+                let after = bounced + fall(height, velocity, turning);
+                let top = height + 0.5 * greater(velocity, 0.0).powi(2) / turning;
+                *next = Next { end, after, turning, tumbles: top * ends.over > 1.0, ..Next::FIRST };
                 after < f64::INFINITY
             }
             Down::Bar => false,
@@ -236,6 +238,15 @@ impl<const TILTS: bool> Lane<TILTS> {
             self.first_of::<0>(ends, sinks, [a, b], next)
         }
     }
+    /// When an end lands for which that was found from the bend at another time: once more, as a straight line.
+    #[inline]
+    fn again<const I: usize>(&self, ends: &Ends, after: f64) -> f64 {
+        let arm = if I == 0 { -ends.arm[0] } else { ends.arm[1] };
+        let [height, velocity] = self.sweep.means(after).map(|mean| self.gravity + arm * self.sweep.spin2 * mean);
+        let low = self.height[I] + after * (self.velocity[I] - 0.5 * height * after);
+        let (speed, most) = (self.velocity[I] - velocity * after, 0.1 * after);
+        if speed < 0.0 { greater(after - greater(lesser(low / speed, most), -most), 0.0) } else { after }
+    }
     /// The next strike where end i comes first, as far as that is known from the bend at another time.
     #[inline]
     fn first_of<const I: usize>(&self, ends: &Ends, sinks: [f64; 2], times: [f64; 2], next: &mut Next) -> bool {
@@ -243,15 +254,10 @@ impl<const TILTS: bool> Lane<TILTS> {
         if times[i] == f64::INFINITY {
             return false;
         }
-        // The bend was that of another time: once more, as a straight line.
         let again = |end: usize| {
-            let (after, arm) = (times[end], if end == 0 { -ends.arm[0] } else { ends.arm[1] });
-            let [height, velocity] = sweep.means(after).map(|mean| self.gravity + arm * sweep.spin2 * mean);
-            let low = self.height[end] + after * (self.velocity[end] - 0.5 * height * after);
-            let (speed, most) = (self.velocity[end] - velocity * after, 0.1 * after);
-            if speed < 0.0 { greater(after - greater(lesser(low / speed, most), -most), 0.0) } else { after }
+            if end == 0 { self.again::<0>(ends, times[0]) } else { self.again::<1>(ends, times[1]) }
         };
-        let (mut end, mut after, mut later) = (i, again(i), times[j]);
+        let (mut end, mut after, mut later) = (i, self.again::<I>(ends, times[i]), times[j]);
         // It moves each by a tenth at most, so that no other order is possible beyond.
         if later < 1.25 * after {
             later = again(j);
@@ -261,22 +267,22 @@ impl<const TILTS: bool> Lane<TILTS> {
         }
         let (sinks, velocity) = if end == i { (sinks[j], self.velocity[j]) } else { (sinks[i], self.velocity[i]) };
         let tumbles = (sweep.sin + after * sweep.rate).abs() > 1.0;
-        *next = Next { end, after, turning: 0.0, tumbles, rival: [later, sinks * later - velocity] };
+        *next = Next { end, after, tumbles, rival: [later, sinks * later - velocity], ..Next::FIRST };
         true
     }
-    /// The strike that the lane with all physics has at this end, if this one has it too: the time since the last one,
-    /// and shocks. Where that one has an end lying, so has this one; `impacts` are those on it.
+    /// The strike that the lane with all physics has at this end, after this time, if this one has it too: the time
+    /// since the last one, and shocks. Where that one has an end lying, so has this one; `impacts` are those on it.
     #[inline]
     pub(super) fn along(
         &mut self,
         ends: &Ends,
-        end: usize,
+        (end, near): (usize, f64),
         first: bool,
         impacts: Option<&Both>,
         lying: Option<usize>,
     ) -> Option<Own> {
-        let mut next = Next::FIRST;
-        if !first && !self.next(ends, &mut next) || next.end != end {
+        let mut next = Next { end, ..Next::FIRST };
+        if first && end != 0 || !first && !self.reaches(ends, near, &mut next) {
             return None;
         }
         let delta_v = match impacts {
@@ -289,6 +295,34 @@ impl<const TILTS: bool> Lane<TILTS> {
             self.lie(ends, end);
         }
         Some((next.after, delta_v))
+    }
+    /// Whether the next strike, about after the time `near`, is one of its end: when.
+    #[inline]
+    fn reaches(&self, ends: &Ends, near: f64, next: &mut Next) -> bool {
+        if self.down != Down::Nothing {
+            let end = next.end;
+            return self.next(ends, next) && next.end == end;
+        }
+        if next.end == 0 { self.reaches_at::<0>(ends, near, next) } else { self.reaches_at::<1>(ends, near, next) }
+    }
+    #[inline]
+    fn reaches_at<const I: usize>(&self, ends: &Ends, near: f64, next: &mut Next) -> bool {
+        let (j, mut sinks) = (1 - I, [self.gravity; 2]);
+        if TILTS {
+            let bend = self.sweep.spin2 * self.sweep.means(near)[0];
+            sinks = [sinks[0] - ends.arm[0] * bend, sinks[1] + ends.arm[1] * bend];
+        }
+        let mut after = fall(self.height[I], self.velocity[I], sinks[I]);
+        if after == f64::INFINITY {
+            return false;
+        }
+        if TILTS {
+            after = self.again::<I>(ends, after);
+        }
+        next.after = after;
+        // The other one is not down before.
+        let speed = self.velocity[j] - sinks[j] * after;
+        speed >= 0.0 || self.height[j] + 0.5 * after * (self.velocity[j] + speed) >= 0.0
     }
     /// Flies and strikes; returns the velocity shocks of both ends.
     #[inline]

@@ -169,7 +169,8 @@ impl Course {
             self.energy - self.full.twice_lost(ends, next.end, if next.end == 0 { delta_v.0 } else { delta_v.1 })
         };
         let (impacts, rests) = (pressed.as_ref().map(|[impacts, _]| impacts), self.full.lying());
-        let tilted = if self.alive { self.tilted.along(ends, next.end, first, impacts, rests) } else { None };
+        let tilted =
+            if self.alive { self.tilted.along(ends, (next.end, next.after), first, impacts, rests) } else { None };
         self.alive = tilted.is_some();
         self.falls = self.full.next(ends, &mut self.next);
         let mut twice_energy = self.full.twice_energy(ends);

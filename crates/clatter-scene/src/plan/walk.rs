@@ -1,6 +1,5 @@
 //! The first strikes of a drop as one component has them.
 
-use super::STRIKES;
 use super::bounds::{later_response, later_shock, pile_until_rest, weight};
 use super::coarse::Alike;
 use super::coupling::of;
@@ -8,6 +7,7 @@ use super::floats::{greater, lesser};
 use super::lag::{Beat, Lag, Part, TwoShocks};
 use super::swing::{Motion, Peak};
 use super::trail::{Course, Step, Strikes};
+use super::{MANY_STRIKES, STRIKES};
 
 /// What later strikes can do must stay below this share of the peak for the following to stop: pulses flatten both, not
 /// alike.
@@ -18,6 +18,10 @@ const ROOM: f64 = 0.5;
 
 /// Fitted: an end that lies down mistimes what the other one does by this share of the time until then.
 const LYING: f64 = 0.03;
+
+/// Whether real tilt is off for certain is asked after every strike; after many, once an eighth of them has come again,
+/// since it goes through all of them.
+const AGAIN: usize = 8;
 
 /// One interval between strikes, as the lane with all physics has it.
 #[derive(Debug, Clone, Copy)]
@@ -57,8 +61,18 @@ pub(super) struct Walk<const N: usize> {
     /// Bound on what impacts, one after the other at one instant, do on the way.
     pub(super) jumps: f64,
     pub(super) tilted: Lag<N>,
-    /// Whether real tilt is off by more than the tolerance, whatever comes later.
-    pub(super) is_certain: bool,
+    pub(super) stop: Stop,
+}
+
+/// Why the strikes followed end where they do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Stop {
+    /// No later one counts, or none is foreseen.
+    Whole,
+    /// A longer look would follow more.
+    CutShort,
+    /// Real tilt is off by more than the tolerance, whatever comes later.
+    Certain,
 }
 
 impl<const N: usize> Walk<N> {
@@ -111,15 +125,15 @@ impl<const N: usize> Walk<N> {
         }
         [error, least]
     }
-    /// Whether more strikes would be followed by a longer look: what is fitted to the later ones is fitted to those.
-    fn is_cut_short(&self) -> bool {
-        self.strikes == N && N < STRIKES
+    /// Whether what comes later holds strikes beside those that what is fitted to later ones is fitted to.
+    fn is_short(&self) -> bool {
+        self.stop == Stop::CutShort && N < STRIKES
     }
     /// What a lane may get wrong after the strikes followed.
     fn later(&self, lag: &Lag<N>, peak: f64) -> f64 {
         let above = self.late - peak;
         // The map has no later strikes; the others have them, about.
-        if above <= 0.0 || lag.is_map || self.extra >= ROOM * peak || self.is_cut_short() {
+        if above <= 0.0 || lag.is_map || self.extra >= ROOM * peak || self.is_short() {
             return above;
         }
         let of_intervals = || lag.off.iter().zip(&self.intervals[..self.strikes]).map(|(off, i)| off.all + i.doubt);
@@ -197,7 +211,7 @@ impl<'a, const N: usize> Walker<'a, N> {
                 weight,
                 jumps: 0.0,
                 tilted: Lag::NONE,
-                is_certain: false,
+                stop: Stop::Whole,
             },
             beats: [Beat::NONE; N],
             motion: Motion::default(),
@@ -216,6 +230,7 @@ impl<'a, const N: usize> Walker<'a, N> {
     pub(super) fn follow(&mut self, trail: &mut impl Strikes, tolerance: f64) {
         let ends = self.part.ends;
         self.before = ends.reach(trail.course().twice_energy);
+        let mut ask = 0;
         let mut flight = Flight { gap_s: 0.0, lying: None, tumbles: false, speed: self.before };
         while let Some(step) = trail.step(self.walk.strikes) {
             self.strike(step, &flight);
@@ -235,11 +250,17 @@ impl<'a, const N: usize> Walker<'a, N> {
             if self.is_over(&flight) {
                 break;
             }
-            if tolerance < f64::INFINITY && self.is_certain(tolerance) {
-                self.walk.is_certain = true;
+            if tolerance < f64::INFINITY && self.walk.strikes >= ask {
+                ask = self.walk.strikes + 1 + self.walk.strikes / AGAIN;
+                if self.is_certain(tolerance) {
+                    self.walk.stop = Stop::Certain;
+                    break;
+                }
+            }
+            if flight.tumbles {
                 break;
             }
-            if flight.tumbles || self.walk.strikes == N {
+            if self.walk.strikes == N {
                 self.cut(&flight);
                 break;
             }
@@ -357,10 +378,13 @@ impl<'a, const N: usize> Walker<'a, N> {
         is_over
     }
 
-    /// No more strikes are followed, or known.
+    /// No more strikes are followed.
     fn cut(&mut self, flight: &Flight) {
+        if N < MANY_STRIKES {
+            self.walk.stop = Stop::CutShort;
+        }
         let gap_s = flight.gap_s - self.blur * (self.walk.last_s + flight.gap_s);
-        if self.walk.is_cut_short() && gap_s < self.apart_s {
+        if self.walk.is_short() && gap_s < self.apart_s {
             // What the next strike does to the contact that is still there belongs to this one.
             (self.walk.late, self.walk.intervals[N - 1].late) = (f64::INFINITY, f64::INFINITY);
         }

@@ -89,13 +89,13 @@ impl Choosing {
             timed(run).1 / f64::from(BATCH)
         };
         let plan = setup.plan(quantity, tolerance);
-        let refined = plan.refined(setup);
-        let is_open = refined.forecast != plan.forecast;
         let choosing = Self {
             seconds: many(&|| black_box(setup).plan(quantity, tolerance)),
-            refined_seconds: is_open.then(|| many(&|| black_box(setup).plan(quantity, tolerance).refined(setup))),
+            refined_seconds: plan
+                .is_open()
+                .then(|| many(&|| black_box(setup).plan(quantity, tolerance).refined(setup))),
         };
-        (refined, choosing)
+        (plan.refined(setup), choosing)
     }
 }
 
