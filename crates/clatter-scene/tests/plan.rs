@@ -373,7 +373,7 @@ fn a_bar_that_turns_over_about_an_end_is_left_open() {
 }
 
 /// A short look leaves the choice open, or makes that of a longer one, but where it has a bound in place of what
-/// strikes do that only the longer one follows: such are cheaper pairs, 55 of 36 000.
+/// strikes do that only the longer one follows: such are cheaper pairs, 57 of 36 000.
 #[test]
 fn a_choice_needs_no_more_strikes_than_it_hangs_on() {
     let mut random = Random(11);
