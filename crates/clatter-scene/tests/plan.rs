@@ -372,12 +372,13 @@ fn a_bar_that_turns_over_about_an_end_is_left_open() {
     }
 }
 
-/// A short look leaves the choice open, or makes that of a longer one, but where it has a bound in place of what
-/// strikes do that only the longer one follows: such are cheaper pairs, 57 of 36 000.
+/// A short look makes the choice of a long one but in two cases: it has a bound in place of what strikes do that only the
+/// long one follows, and chooses a cheaper pair (54 of 36 000), or it takes the highest where real tilt is off by the
+/// strikes so far, which later ones mend (518). It leaves 2497 open, where waiting for that left 10 023.
 #[test]
 fn a_choice_needs_no_more_strikes_than_it_hangs_on() {
     let mut random = Random(11);
-    let [mut all, mut open, mut others] = [0; 3];
+    let [mut all, mut open, mut cheaper, mut missed] = [0; 4];
     for _ in 0..4000 {
         let setup = random.setup();
         for quantity in QUANTITIES {
@@ -387,24 +388,28 @@ fn a_choice_needs_no_more_strikes_than_it_hangs_on() {
                 let refined = plan.refined(&setup);
                 let what = format!("{quantity:?} within {tolerance}: {refined:?}, {:?}, {setup:?}", whole.pair);
                 all += 1;
+                let differs = refined.pair != whole.pair;
+                missed += i32::from(differs && refined.pair == Pair::HIGHEST);
                 if plan.is_open() {
                     open += 1;
                     assert!(plan.pair == Pair::HIGHEST && plan.until_s == f64::INFINITY, "{what}");
-                    assert!(refined.pair == whole.pair && refined.warning == whole.warning, "{what}");
-                    assert!(refined.estimate == whole.estimate, "{what}");
+                    assert!(!differs || refined.pair == Pair::HIGHEST, "{what}");
+                    assert!(
+                        differs || refined.warning == whole.warning && refined.estimate == whole.estimate,
+                        "{what}"
+                    );
                     // There is more to look at.
                     assert!(refined.forecast != plan.forecast, "{what}");
                 } else {
-                    others += i32::from(plan.pair != whole.pair);
-                    // That none but the highest pair serves is certain where it is told.
-                    assert!(plan.pair == whole.pair || plan.pair != Pair::HIGHEST, "{what}");
+                    assert!(refined == plan, "{what}");
+                    cheaper += i32::from(differs && refined.pair != Pair::HIGHEST);
                 }
             }
         }
     }
-    assert!(400 * others < all, "{others} of {all}");
-    // What is certain by the last strike of a short look is told: more than two fifths were open without.
-    assert!(4 * open > all && 3 * open < all, "{open} of {all}");
+    assert!(400 * cheaper < all, "{cheaper} of {all}");
+    assert!(60 * missed < all, "{missed} of {all}");
+    assert!(20 * open > all && 10 * open < all, "{open} of {all}");
 }
 
 /// No pair that is within the tolerance, with its pulses in pieces, is modeled as cheaper than the one chosen.

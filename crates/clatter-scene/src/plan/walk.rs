@@ -19,8 +19,8 @@ const ROOM: f64 = 0.5;
 /// Fitted: an end that lies down mistimes what the other one does by this share of the time until then.
 const LYING: f64 = 0.03;
 
-/// Whether real tilt is off for certain is asked after every strike; after many, once an eighth of them has come again,
-/// since it goes through all of them.
+/// Whether real tilt is off is asked after every strike; after many, once an eighth of them has come again, since that
+/// goes through all of them.
 const AGAIN: usize = 8;
 
 /// One interval between strikes, as the lane with all physics has it.
@@ -71,8 +71,8 @@ pub(super) enum Stop {
     Whole,
     /// A longer look would follow more.
     CutShort,
-    /// Real tilt is off by more than the tolerance, whatever comes later.
-    Certain,
+    /// Real tilt is off by more than the tolerance, which later strikes seldom mend.
+    Off,
 }
 
 impl<const N: usize> Walk<N> {
@@ -181,8 +181,6 @@ pub(super) struct Walker<'a, const N: usize> {
     /// Speed at the component before the last strike, and what overlapping contacts leave of it.
     before: f64,
     floor: f64,
-    /// Bound on what later strikes of the lane with all physics add.
-    coming: f64,
     /// Whether nothing falls any more, after more than the first strike.
     rests: bool,
 }
@@ -221,12 +219,11 @@ impl<'a, const N: usize> Walker<'a, N> {
             adrift: 0.0,
             before: 0.0,
             floor: 0.0,
-            coming: f64::INFINITY,
             rests: false,
         }
     }
 
-    /// Until nothing later counts, or until real tilt can not be within the tolerance any more.
+    /// Until nothing later counts, or real tilt is off.
     pub(super) fn follow(&mut self, trail: &mut impl Strikes, tolerance: f64) {
         let ends = self.part.ends;
         self.before = ends.reach(trail.course().twice_energy);
@@ -252,8 +249,8 @@ impl<'a, const N: usize> Walker<'a, N> {
             }
             if tolerance < f64::INFINITY && self.walk.strikes >= ask {
                 ask = self.walk.strikes + 1 + self.walk.strikes / AGAIN;
-                if self.is_certain(tolerance) {
-                    self.walk.stop = Stop::Certain;
+                if self.is_off(tolerance) {
+                    self.walk.stop = Stop::Off;
                     break;
                 }
             }
@@ -301,68 +298,36 @@ impl<'a, const N: usize> Walker<'a, N> {
             self.walk.overlaps = true;
         }
         self.before = flight.speed;
-        (self.walk.late, self.walk.extra, self.coming) = self.to_come(flight.speed, true);
+        (self.walk.late, self.walk.extra) = self.to_come(flight.speed, true);
         if flight.speed < self.floor {
-            (self.walk.late, self.walk.extra, _) = self.to_come(self.floor, true);
+            (self.walk.late, self.walk.extra) = self.to_come(self.floor, true);
         }
         self.walk.intervals[n].late = self.walk.late;
     }
 
-    /// Bound on what a bar of such a speed does to the component from now on, and what of it one shock and all of them
-    /// do; `more` than one may come.
-    fn to_come(&self, speed: f64, more: bool) -> (f64, f64, f64) {
+    /// Bound on what a bar of such a speed does to the component from now on, and what of it one shock does; `more` than
+    /// one may come.
+    fn to_come(&self, speed: f64, more: bool) -> (f64, f64) {
         let Part { ends, swing, shocks, time, .. } = self.part;
         if shocks {
             let shock = later_shock(speed, ends.e, self.gravity, time);
-            return (shock, shock, shock);
+            return (shock, shock);
         }
         // As if both ends pushed the same way, and threw back all of the speed: the study holds what follows from that.
         let times = if more { pile_until_rest(self.pile, swing, speed, self.fall, true) } else { 1.0 };
         let [extra, coming] = [1.0, times].map(|times| later_response(swing, speed, 1.0, times, self.fall));
         let all = swing.bound(self.motion) + self.adrift + coming;
-        (if all.is_nan() { f64::INFINITY } else { all }, extra, coming)
+        (if all.is_nan() { f64::INFINITY } else { all }, extra)
     }
 
-    /// Whether real tilt is off by more than the tolerance, whatever strikes still come.
-    ///
-    /// As long as the peak stays where it is, what `Walk::followed` has counted against it only grows; and where pulses
-    /// flatten the peak, its share does not fall.
-    fn is_certain(&self, tolerance: f64) -> bool {
-        self.rises_are_off(tolerance) && {
-            let highest = self.walk.highest();
-            let peak = self.walk.intervals[highest].peak.value;
-            let [error, least] = self.walk.followed(&self.walk.tilted, highest, peak);
-            lesser(error, least) > tolerance * peak
-        }
-    }
-
-    /// Whether it is so of every later interval that passes the peak.
-    fn rises_are_off(&self, tolerance: f64) -> bool {
-        let (walk, tilted) = (&self.walk, &self.walk.tilted);
-        let lost = !tilted.alive;
-        if self.part.shocks {
-            // A lane that has lost the strikes is off by each. Of both contacts at once, the first may be more than the
-            // two together.
-            return lost && tolerance < 1.0 || self.doubtful > 2.0 * tolerance * self.coming;
-        }
-        // In the share f that is left of it, the motion is at most f times its envelope, and the doubt f times what it
-        // is now.
-        let swing = self.part.swing;
-        let doubt = swing.factor * (tilted.lacking + self.doubtful);
-        let [now, unit] = [self.motion, Motion { x: 0.0, w: 1.0 }].map(|motion| swing.envelope(motion));
-        if lost && doubt > tolerance * now && swing.factor > tolerance * unit {
-            return true;
-        }
-        // To pass the peak with all that comes, the motion must have kept this much; the doubt has then kept the same
-        // share.
-        let kept = self.peak - self.coming;
-        if kept >= now || doubt * kept > tolerance * now * self.peak {
-            return true;
-        }
-        // Or an earlier interval counts, however high the peak gets.
-        let most = greater(swing.bound(self.motion) + self.coming, self.peak);
-        let short = |interval: &Interval| lesser(interval.peak.value + interval.adrift - most, 0.0);
-        (0..walk.strikes).any(|n| walk.off(tilted, n) + short(&walk.intervals[n]) > tolerance * most)
+    /// Whether real tilt is off by more than the tolerance by the strikes so far, which later ones seldom mend: twice
+    /// that where the last one holds the peak, since the next may hold a higher one.
+    fn is_off(&self, tolerance: f64) -> bool {
+        let highest = self.walk.highest();
+        let peak = self.walk.intervals[highest].peak.value;
+        let [error, least] = self.walk.followed(&self.walk.tilted, highest, peak);
+        let rises = if highest + 1 == self.walk.strikes { 2.0 } else { 1.0 };
+        lesser(error, least) > rises * tolerance * peak
     }
 
     /// Whether nothing later counts.
@@ -494,7 +459,7 @@ impl<'a, const N: usize> Walker<'a, N> {
         if self.gravity > 0.0 {
             // The ground carries it from now on, and impacts have bounces left.
             self.rests = self.walk.strikes > 1;
-            (self.walk.late, self.walk.extra, _) = self.to_come(self.part.ends.reach(step.twice_energy), false);
+            (self.walk.late, self.walk.extra) = self.to_come(self.part.ends.reach(step.twice_energy), false);
         }
     }
 
@@ -513,7 +478,7 @@ impl<'a, const N: usize> Walker<'a, N> {
         if self.rests
             && let Some(left) = trail.course().left_as_parabolas()
         {
-            let (late, extra, _) = self.to_come(self.part.ends.reach(left), false);
+            let (late, extra) = self.to_come(self.part.ends.reach(left), false);
             if late > self.walk.late {
                 (self.walk.late, self.walk.extra) = (late, extra);
             }
