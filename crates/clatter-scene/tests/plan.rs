@@ -372,9 +372,9 @@ fn a_bar_that_turns_over_about_an_end_is_left_open() {
     }
 }
 
-/// A short look makes the choice of a long one but in two cases: it has a bound in place of what strikes do that only the
-/// long one follows, and chooses a cheaper pair (54 of 36 000), or it takes the highest where real tilt is off by the
-/// strikes so far, which later ones mend (518). It leaves 2497 open, where waiting for that left 10 023.
+/// A short look makes the choice of a long one but in two cases: it has a bound in place of what strikes do that only
+/// the long one follows, and chooses a cheaper pair (57 of 36 000), or it takes the highest where real tilt is off by
+/// the strikes so far, which later ones mend (233). It leaves 2836 open.
 #[test]
 fn a_choice_needs_no_more_strikes_than_it_hangs_on() {
     let mut random = Random(11);
@@ -408,8 +408,8 @@ fn a_choice_needs_no_more_strikes_than_it_hangs_on() {
         }
     }
     assert!(400 * cheaper < all, "{cheaper} of {all}");
-    assert!(60 * missed < all, "{missed} of {all}");
-    assert!(20 * open > all && 10 * open < all, "{open} of {all}");
+    assert!(100 * missed < all, "{missed} of {all}");
+    assert!(20 * open > all && 12 * open < all, "{open} of {all}");
 }
 
 /// No pair that is within the tolerance, with its pulses in pieces, is modeled as cheaper than the one chosen.
