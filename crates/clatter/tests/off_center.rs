@@ -45,14 +45,19 @@ proptest! {
         let doubtful = want.iter().any(|impact| impact.approach.abs() < 1e-10);
         let got: Vec<_> = bar.train(&start).take(12).collect();
         prop_assert!(doubtful || got.len() == want.len(), "{} impacts, not {}", got.len(), want.len());
-        let scale = bar.kappa().max(1.0 / bar.kappa()) * (1.0 + vb.abs());
+        // A rounding at one strike grows until the last as a velocity of its energy can: of a bar that is hard to push
+        // and easy to turn, the ends are fast.
+        let growth = (1.0 + arms[0].max(arms[1]).powi(2) / (rho * rho)).sqrt();
+        let speeds = |i: &Impact| i.approach.abs().max(i.delta_v[0].abs()).max(i.delta_v[1].abs());
+        let fastest = want.iter().map(speeds).fold(vb.abs(), f64::max);
+        // Twelve strikes of six roundings each.
+        let budget = 12.0 * 6.0 * 0.5 * f64::EPSILON * growth * fastest;
         for (got, want) in got.iter().zip(&want) {
             prop_assert_eq!((got.number, got.end), (want.number, want.end));
-            // Twelve steps of a few roundings each; times divide by the velocity.
-            let budget = 1e-13 * scale;
             prop_assert!((got.approach - want.approach).abs() <= budget, "{got:?} not {want:?}");
-            prop_assert!((0..2).all(|i| (got.delta_v[i] - want.delta_v[i]).abs() <= 4.0 * budget), "{got:?} not {want:?}");
-            let slack = 10.0 * budget * (1.0 + want.time) / want.approach.abs();
+            prop_assert!((0..2).all(|i| (got.delta_v[i] - want.delta_v[i]).abs() <= 2.0 * budget), "{got:?} not {want:?}");
+            // Times divide by the velocity.
+            let slack = 2.0 * budget * (1.0 + want.time) / want.approach.abs();
             prop_assert!((got.time - want.time).abs() <= slack * gap.max(1.0), "{got:?} not {want:?}");
         }
     }
