@@ -1,7 +1,7 @@
 //! Cost of a plan, and of the pairs that it chooses from, on one drop.
 
 use clatter::flight::{Body, Scene};
-use clatter_scene::plan::{Pair, Quantity, Setup};
+use clatter_scene::plan::{Pair, Quantity, STRIKES, Setup};
 use clatter_shock::{DampingRatio, Suspension};
 use divan::{Bencher, black_box};
 
@@ -37,11 +37,11 @@ fn choice(bencher: Bencher, e: f64) {
     bencher.bench(|| black_box(&setup).plan(Quantity::PeakAcceleration, 0.01));
 }
 
-/// The same after a longer look, where the first one leaves it open.
+/// The same from as many strikes as it hangs on.
 #[divan::bench(args = [0.05, 0.3, 0.9])]
-fn refined(bencher: Bencher, e: f64) {
+fn choice_in_all(bencher: Bencher, e: f64) {
     let setup = setup(e);
-    bencher.bench(|| black_box(&setup).plan(Quantity::PeakAcceleration, 0.01).refined(&setup));
+    bencher.bench(|| black_box(&setup).plan_from(Quantity::PeakAcceleration, 0.01, STRIKES));
 }
 
 /// The first look at a flat drop, whose contacts overlap.

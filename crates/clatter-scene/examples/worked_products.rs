@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use clatter::End;
 use clatter::flight::{Body, Scene};
-use clatter_scene::plan::{BarRung, ComponentRung, Pair, Quantity, Setup};
+use clatter_scene::plan::{BarRung, ComponentRung, Pair, Quantity, STRIKES, Setup};
 use clatter_scene::{Accuracy, BarModel, Component, LimitKind, Limits, Mount, ProductFile};
 use clatter_shock::{DampingRatio, Suspension};
 
@@ -109,7 +109,7 @@ fn by_drops(file: &ProductFile, tolerance: f64) -> (u32, u32, [f64; 3]) {
     let (mut cheaper, mut all, mut times) = (0, 0, [0.0; 3]);
     for (setup, quantity) in setups(file) {
         all += 1;
-        let plan = |setup: &Setup| setup.plan(quantity, tolerance).refined(setup);
+        let plan = |setup: &Setup| setup.plan_from(quantity, tolerance, STRIKES);
         if plan(&setup).pair != highest {
             cheaper += 1;
             let until_s = if highest == Pair::HIGHEST { f64::INFINITY } else { setup.forecast(quantity).until_s };

@@ -243,7 +243,7 @@ fn searched(field: &Field<'_>, task: &Task<'_>, found: &Found) -> Result<Case, E
         }
         (None, Some(plan)) => {
             let error = passed(plan.forecast.pair(found.pair).error).max(field.accuracy.tolerance);
-            (plan.reason.to_string(), plan.warning.map(|w| w.to_string()), error)
+            (plan.reason().to_string(), plan.warning.map(|w| w.to_string()), error)
         }
         (None, None) => {
             let (pair, is_within) = field.planned_of_shocks(task, &found.place)?;
@@ -314,7 +314,7 @@ fn beside_proof(field: &Field<'_>, task: &Task<'_>, proven: Case, rebounds: bool
         (None, Some(plan)) => {
             let is_map = search::bar_model(plan.pair) == BarModel::Map;
             let more = if is_map { "" } else { ", but no drop with it asks for more" };
-            (Some(format!("{}{more}", plan.reason)), plan.warning.map(|warning| warning.to_string()))
+            (Some(format!("{}{more}", plan.reason())), plan.warning.map(|warning| warning.to_string()))
         }
         (None, None) => (None, not_taken(field.planned_of_shocks(task, &place)?.1)),
     };

@@ -156,12 +156,12 @@ fn explain(field: &Field<'_>, task: &Task<'_>, limit: &LimitAssessment) -> Resul
 }
 
 fn explained(plan: &Plan, responds: bool) -> PlanExplanation {
-    let Groups { gravity, geometry, overlap, pulse, train, damping } = plan.reason.groups;
+    let Groups { gravity, geometry, overlap, pulse, train, damping } = plan.reason().groups;
     let of_response = |x: f64| responds.then_some(x);
     PlanExplanation {
         bar: plan.pair.bar.name(),
         component: plan.pair.component.name(),
-        reason: plan.reason.to_string(),
+        reason: plan.reason().to_string(),
         groups: GroupValues {
             gravity,
             geometry,

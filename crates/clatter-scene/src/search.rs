@@ -402,7 +402,7 @@ impl<'a> Field<'a> {
         drop.clear_s(self.product.body.length_m())
     }
 
-    /// The plan for a place, after a longer look where contacts would be followed.
+    /// The plan for a place.
     ///
     /// # Errors
     /// A frequency that no suspension has.
@@ -410,10 +410,7 @@ impl<'a> Field<'a> {
         let slot = self.slot(place)?;
         let setup = self.setup(task, place, &slot, None)?;
         let tolerance = self.accuracy.of_truth();
-        Ok(task.demand.quantity().map(|quantity| {
-            let plan = setup.forecast(quantity).plan(tolerance);
-            if plan.is_open() { setup.forecast_far(quantity).plan(tolerance) } else { plan }
-        }))
+        Ok(task.demand.quantity().map(|quantity| setup.forecast(quantity).plan(tolerance)))
     }
 
     fn foresee(&self, task: &Task<'_>, place: Place, slot: &Arc<Slot>, trail: &mut Trail) -> Result<Candidate, Error> {

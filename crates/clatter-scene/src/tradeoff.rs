@@ -26,7 +26,7 @@ use serde::Serialize;
 pub use keep::{Kept, NEGLIGIBLE};
 pub use time::Machine;
 
-use crate::plan::{Answer, BarRung, ComponentRung, Pair, Quantity, Setup};
+use crate::plan::{self, Answer, BarRung, ComponentRung, Pair, Quantity, Setup};
 use crate::verdict::{letter, number};
 use crate::{Assessment, Component, ComponentAssessment, Error, LimitAssessment, LimitKind, ProductFile};
 
@@ -225,7 +225,7 @@ impl Tradeoff {
         let reference = Reference::measure(setup, quantity)?;
         let compliant = reference.bar == BarRung::Compliant;
         let forecast = setup.forecast(quantity);
-        let plan = |tolerance| setup.plan(quantity, tolerance).refined(setup);
+        let plan = |tolerance| setup.plan_from(quantity, tolerance, plan::STRIKES);
         let mut choices = Vec::new();
         for tolerance in TOLERANCES {
             let (plan, plan_seconds) = time::measured(|| Ok(plan(tolerance)))?;
@@ -238,7 +238,7 @@ impl Tradeoff {
                 error: off(value, reference.value),
                 plan_seconds,
                 seconds,
-                reason: plan.reason.to_string(),
+                reason: plan.reason().to_string(),
                 warning: plan.warning.map(|warning| warning.to_string()),
             });
         }

@@ -3,7 +3,7 @@
 mod plan_study;
 
 use clatter::flight::{Body, Scene};
-use clatter_scene::plan::{BarRung, ComponentRung, Pair, Quantity, Setup, Warning};
+use clatter_scene::plan::{BarRung, ComponentRung, FIRST_STRIKES, Pair, Quantity, STRIKES, Setup, Warning};
 use clatter_shock::{DampingRatio, Suspension};
 use plan_study::{QUANTITIES, Random, TOLERANCES, study, worth};
 
@@ -341,8 +341,8 @@ fn estimates_know_what_bends_a_peak() {
     for &(what, drop, part, quantity) in BENT {
         let setup = drop_of(drop, part);
         for tolerance in TOLERANCES {
-            for plan in [setup.forecast(quantity).plan(tolerance), setup.plan(quantity, tolerance)] {
-                let plan = plan.refined(&setup);
+            let looks = [FIRST_STRIKES, 3, STRIKES].map(|most| setup.plan_from(quantity, tolerance, most));
+            for plan in looks.into_iter().chain([setup.forecast(quantity).plan(tolerance)]) {
                 let error = off(&setup, plan.pair, quantity, plan.until_s);
                 if plan.warning.is_some() || error > 1.5 * tolerance {
                     wrong.push(format!("{what}: {:?} off by {error:e}, {:?}", plan.pair, plan.warning));
@@ -372,44 +372,40 @@ fn a_bar_that_turns_over_about_an_end_is_left_open() {
     }
 }
 
-/// A short look makes the choice of a long one but in two cases: it has a bound in place of what strikes do that only
-/// the long one follows, and chooses a cheaper pair (57 of 36 000), or it takes the highest where real tilt is off by
-/// the strikes so far, which later ones mend (233). It leaves 2836 open.
+/// A plan from no more strikes than it hangs on is that of all strikes but in two cases: it has a bound in place of
+/// what later ones do, and chooses a cheaper pair (118 of 36 000), or it takes the highest where real tilt is off by the
+/// strikes so far, which later ones mend (218). A first look leaves 8658 open, and has the same pair for all others.
 #[test]
-fn a_choice_needs_no_more_strikes_than_it_hangs_on() {
+fn a_plan_needs_no_more_strikes_than_it_hangs_on() {
     let mut random = Random(11);
-    let [mut all, mut open, mut cheaper, mut missed] = [0; 4];
+    let [mut all, mut open, mut cheaper, mut missed, mut moved] = [0; 5];
     for _ in 0..4000 {
         let setup = random.setup();
         for quantity in QUANTITIES {
-            let far = setup.forecast_far(quantity);
+            let forecast = setup.forecast(quantity);
             for tolerance in TOLERANCES {
-                let (whole, plan) = (far.plan(tolerance), setup.plan(quantity, tolerance));
-                let refined = plan.refined(&setup);
-                let what = format!("{quantity:?} within {tolerance}: {refined:?}, {:?}, {setup:?}", whole.pair);
+                let (whole, plan) = (forecast.plan(tolerance), setup.plan_from(quantity, tolerance, STRIKES));
+                let first = setup.plan(quantity, tolerance);
+                let what = format!("{quantity:?} within {tolerance}: {first:?}, {plan:?}, {:?}, {setup:?}", whole.pair);
                 all += 1;
-                let differs = refined.pair != whole.pair;
-                missed += i32::from(differs && refined.pair == Pair::HIGHEST);
-                if plan.is_open() {
+                assert!(!plan.is_open(), "{what}");
+                if plan.pair != whole.pair {
+                    let highest = plan.pair == Pair::HIGHEST;
+                    (missed, cheaper) = (missed + i32::from(highest), cheaper + i32::from(!highest));
+                }
+                if first.is_open() {
                     open += 1;
-                    assert!(plan.pair == Pair::HIGHEST && plan.until_s == f64::INFINITY, "{what}");
-                    assert!(!differs || refined.pair == Pair::HIGHEST, "{what}");
-                    assert!(
-                        differs || refined.warning == whole.warning && refined.estimate == whole.estimate,
-                        "{what}"
-                    );
-                    // There is more to look at.
-                    assert!(refined.forecast != plan.forecast, "{what}");
+                    assert!(first.pair == Pair::HIGHEST || first.warning.is_some(), "{what}");
+                    assert!(first.until_s == f64::INFINITY && first.forecast != plan.forecast, "{what}");
                 } else {
-                    assert!(refined == plan, "{what}");
-                    cheaper += i32::from(differs && refined.pair != Pair::HIGHEST);
+                    moved += i32::from(first.pair != plan.pair);
                 }
             }
         }
     }
-    assert!(400 * cheaper < all, "{cheaper} of {all}");
-    assert!(100 * missed < all, "{missed} of {all}");
-    assert!(20 * open > all && 12 * open < all, "{open} of {all}");
+    let counts = format!("of {all}: {cheaper} cheaper, {missed} missed, {open} open, {moved} moved");
+    assert!(200 * cheaper < all && 100 * missed < all && moved == 0, "{counts}");
+    assert!(10 * open > all && 3 * open < all, "{counts}");
 }
 
 /// No pair that is within the tolerance, with its pulses in pieces, is modeled as cheaper than the one chosen.
@@ -420,7 +416,7 @@ fn the_cheapest_pair_that_serves_is_chosen() {
     for _ in 0..1000 {
         let setup = random.setup();
         for quantity in QUANTITIES {
-            for forecast in [setup.forecast(quantity), setup.forecast_far(quantity)] {
+            for forecast in [setup.forecast(quantity), setup.plan(quantity, 0.01).forecast] {
                 for tolerance in TOLERANCES {
                     let plan = forecast.plan(tolerance);
                     let serving = Pair::planned(quantity).iter().filter(|pair| {
@@ -586,7 +582,7 @@ fn an_unknown_contact_time_is_a_condition() {
     assert!(longest_s > 1e-5 && longest_s < 1e-2, "{longest_s}");
     // Within the condition the plan holds.
     let known = setup(5.0, 9.81, Some(0.5 * longest_s), 100.0);
-    let truth = known.demand_fine(Pair::HIGHEST, plan.quantity, f64::INFINITY, 128).expect("as the test has it");
+    let truth = known.demand_fine(Pair::HIGHEST, plan.quantity(), f64::INFINITY, 128).expect("as the test has it");
     let planned = plan.run(&unknown).expect("as the test has it");
     assert!((planned / truth - 1.0).abs() < 0.05, "{planned} {truth}");
     assert!(plan.warning.is_some_and(|w| w.to_string().contains("no contact time is known")));
@@ -599,7 +595,7 @@ fn overlapping_contacts_get_the_compliant_bar_or_a_warning() {
     let flat = setup(0.05, 9.81, Some(5e-4), 500.0);
     let plan = flat.forecast(Quantity::PeakAcceleration).plan(0.01);
     assert_eq!(plan.pair, Pair::HIGHEST);
-    assert!(plan.warning.is_none() && plan.reason.to_string().contains("contacts overlap"), "{}", plan.reason);
+    assert!(plan.warning.is_none() && plan.reason().to_string().contains("contacts overlap"), "{}", plan.reason());
     // e = 0 has no contact to model.
     let body = Body::new(0.14, 0.05).expect("as the test has it");
     let scene = Scene::new(body, 0.0, 4.43, 0.05, 9.81).expect("as the test has it");
@@ -629,7 +625,7 @@ fn extremes_get_a_plan() {
                         for quantity in QUANTITIES {
                             let plan = setup.forecast(quantity).plan(0.01);
                             assert!(!plan.estimate.error.is_nan() && plan.cost_ns() > 0.0, "{setup:?} {plan:?}");
-                            assert!(!plan.reason.to_string().is_empty());
+                            assert!(!plan.reason().to_string().is_empty());
                             runs += 1;
                         }
                     }
@@ -651,7 +647,7 @@ fn any_body_gets_a_plan() {
         let drop = [0.1, gyration, e, log(0.1, 7.0), log(0.01, 40.0)];
         let setup = drop_of(drop, [log(1e-6, 1e-2), 0.7, log(10.0, 1e5), log(1e-3, 2.0)]);
         for quantity in QUANTITIES {
-            for forecast in [setup.forecast(quantity), setup.forecast_far(quantity)] {
+            for forecast in [setup.forecast(quantity), setup.plan(quantity, 0.01).forecast] {
                 assert!(forecast.pair(Pair::planned(quantity)[0]).error >= 0.0, "{forecast:?} {setup:?}");
                 assert!(forecast.peak >= 0.0 && forecast.until_s > 0.0, "{forecast:?} {setup:?}");
             }

@@ -1,20 +1,20 @@
 //! The cheapest pair within a tolerance, and why.
 
-use std::cell::LazyCell;
 use std::fmt;
 
-use super::demand::{OF_PIECES, pieces_for};
-use super::walk::Stop;
-use super::{BarRung, ComponentRung, Estimate, Forecast, Groups, Pair, Quantity, STRIKES, Setup};
+use super::demand::{pieces_for, serves};
+use super::forecast::Prices;
+use super::walked::Stop;
+use super::{BarRung, ComponentRung, Estimate, Forecast, Groups, Pair, Quantity, Setup};
 use crate::Error;
 
 /// The models for one scene and quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plan {
-    /// The quantity asked.
-    pub quantity: Quantity,
     /// One rung of each ladder.
     pub pair: Pair,
+    /// The tolerance that it was chosen for.
+    pub tolerance: f64,
     /// What it gets wrong, as a share of the quantity; the pieces of its pulses come to that, and the strikes that
     /// [`Plan::run`] leaves out.
     pub estimate: Estimate,
@@ -22,21 +22,17 @@ pub struct Plan {
     pub forecast: Forecast,
     /// Models need not be followed beyond this time since the first touch; infinite where that is not known.
     pub until_s: f64,
-    /// Which groups decided; `Display` says it in a sentence.
-    pub reason: Reason,
     /// Where the tolerance is not reached, or is reached on a condition.
     pub warning: Option<Warning>,
 }
 
-/// Which groups made cheaper models too coarse.
+/// Which groups made cheaper models too coarse; `Display` says it in a sentence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reason {
     /// The quantity asked.
     pub quantity: Quantity,
     /// The rungs that are good enough.
     pub pair: Pair,
-    /// The tolerance.
-    pub tolerance: f64,
     /// Errors of the map, of parabolas and of real tilt.
     pub bar: [f64; 3],
     /// Whether contacts overlap.
@@ -71,30 +67,8 @@ impl Forecast {
     /// closest where that is not to be had.
     #[must_use]
     pub fn plan(&self, tolerance: f64) -> Plan {
-        let pieces = LazyCell::new(|| whole_pieces_for(tolerance));
-        let is_pulses = |pair: Pair| pair.component == ComponentRung::PulseTrain;
-        let cost_ns = |pair| self.cost_ns(pair, if is_pulses(pair) { *pieces } else { 0 });
-        // Of few strikes, impulses cost less than any pulses.
-        let is_short = self.until_s < f64::INFINITY && self.strikes <= STRIKES;
-        let mut chosen: Option<(Pair, Option<f64>)> = None;
-        for &pair in Pair::planned(self.quantity) {
-            let of_models = if is_pulses(pair) { 1.0 - OF_PIECES } else { 1.0 };
-            if self.pair(pair).error > of_models * tolerance {
-                continue;
-            }
-            let Some((cheapest, least)) = &mut chosen else {
-                chosen = Some((pair, None));
-                continue;
-            };
-            if is_short && is_pulses(pair) && !is_pulses(*cheapest) {
-                break;
-            }
-            let (cost, least) = (cost_ns(pair), least.get_or_insert_with(|| cost_ns(*cheapest)));
-            if cost < *least {
-                (*cheapest, *least) = (pair, cost);
-            }
-        }
-        let pair = chosen.map_or_else(|| self.closest(), |(pair, _)| pair);
+        let chosen = self.cheapest(tolerance);
+        let pair = chosen.unwrap_or_else(|| self.closest());
         let estimate = self.pair(pair);
         let warning = if chosen.is_none() {
             Some(Warning::ToleranceNotReached { error: estimate.error, overlaps: self.overlaps })
@@ -103,18 +77,49 @@ impl Forecast {
         } else {
             Some(Warning::ContactTimeUnknown { longest_s: self.longest_contact_s(pair, tolerance) })
         };
-        let bar = [BarRung::Map, BarRung::Ballistic, BarRung::FiniteTilt].map(|rung| self.bar(rung).error);
-        let rebounds = self.until_s == f64::INFINITY && self.stop != Stop::Off;
-        let reason = Reason {
-            quantity: self.quantity,
-            pair,
-            tolerance,
-            bar,
-            overlaps: self.overlaps,
-            rebounds,
-            groups: self.groups,
-        };
-        Plan { quantity: self.quantity, pair, estimate, forecast: *self, until_s: self.until_s, reason, warning }
+        Plan { pair, tolerance, estimate, forecast: *self, warning, until_s: self.until_s }
+    }
+
+    /// The cheapest pair whose estimate is within a tolerance.
+    fn cheapest(&self, tolerance: f64) -> Option<Pair> {
+        let is_pulses = |pair: Pair| pair.component == ComponentRung::PulseTrain;
+        if self.bar(BarRung::FiniteTilt).error > tolerance {
+            // No bar without contacts knows more.
+            return (self.error(Pair::HIGHEST) <= tolerance).then_some(Pair::HIGHEST);
+        }
+        // Of few strikes, impulses cost less than any pulses.
+        let is_short = self.is_short();
+        let mut pieces = 0;
+        let mut chosen: Option<(Pair, Option<(Prices, f64)>)> = None;
+        for &pair in Pair::planned(self.quantity) {
+            let error = self.error(pair);
+            if !(if is_pulses(pair) { serves(error, tolerance) } else { error <= tolerance }) {
+                continue;
+            }
+            let Some((cheapest, priced)) = &mut chosen else {
+                chosen = Some((pair, None));
+                if pair.bar == BarRung::ClosedForm {
+                    // Nothing costs less.
+                    break;
+                }
+                continue;
+            };
+            if is_short && is_pulses(pair) && !is_pulses(*cheapest) {
+                break;
+            }
+            if is_pulses(pair) && pieces == 0 {
+                pieces = whole_pieces_for(tolerance);
+            }
+            let (prices, least) = priced.get_or_insert_with(|| {
+                let prices = self.prices();
+                (prices, prices.of(*cheapest, pieces))
+            });
+            let cost = prices.of(pair, pieces);
+            if cost < *least {
+                (*cheapest, *least) = (pair, cost);
+            }
+        }
+        chosen.map(|(pair, _)| pair)
     }
 
     /// The pair with the least error, the one with most physics of several.
@@ -151,31 +156,41 @@ fn whole_pieces_for(tolerance: f64) -> usize {
 }
 
 impl Plan {
+    /// The quantity asked.
+    #[must_use]
+    pub fn quantity(&self) -> Quantity {
+        self.forecast.quantity
+    }
+    /// Which groups decided.
+    #[must_use]
+    pub fn reason(&self) -> Reason {
+        let forecast = &self.forecast;
+        Reason {
+            quantity: forecast.quantity,
+            pair: self.pair,
+            bar: [BarRung::Map, BarRung::Ballistic, BarRung::FiniteTilt].map(|rung| forecast.bar(rung).error),
+            overlaps: forecast.overlaps,
+            rebounds: forecast.until_s == f64::INFINITY && forecast.stop != Stop::Off,
+            groups: forecast.groups,
+        }
+    }
     /// Pieces of a pulse that does all: they take a tenth of the tolerance, about.
     #[must_use]
     pub fn pieces(&self) -> usize {
-        whole_pieces_for(self.reason.tolerance)
+        whole_pieces_for(self.tolerance)
     }
     /// What it costs, about: see [`Forecast::cost_ns`].
     #[must_use]
     pub fn cost_ns(&self) -> f64 {
         self.forecast.cost_ns(self.pair, self.pieces())
     }
-    /// The same plan, or a better one: where it [is open](Self::is_open), a longer look, of
-    /// [`MANY_STRIKES`](super::MANY_STRIKES) at most, is cheap beside following contacts.
-    ///
-    /// # Cost
-    /// Three to four microseconds on the average where it looks, for one to sixteen in a hundred random scenes by the
-    /// tolerance, some fifteen at most; contacts take ten and more.
-    #[must_use]
-    pub fn refined(self, setup: &Setup) -> Self {
-        if self.is_open() { setup.plan_far(self.quantity, self.reason.tolerance) } else { self }
-    }
-    /// Whether it follows contacts because the strikes looked at leave open what later ones do, and there are later
-    /// ones to look at: none are foreseen of a bar that turns upright or over, or comes to rest.
+    /// Whether it follows contacts, or has no model for certain where no contact time is known, because the strikes
+    /// looked at leave open what later ones do, and there are later ones to look at: none are foreseen of a bar that
+    /// turns upright or over, or comes to rest. [`Setup::plan_from`] more strikes may then find a cheaper pair.
     #[must_use]
     pub fn is_open(&self) -> bool {
-        self.pair == Pair::HIGHEST && self.forecast.stop == Stop::CutShort
+        let uncertain = self.forecast.stop == Stop::CutShort && !serves(self.forecast.doubt, self.tolerance);
+        uncertain && (self.pair == Pair::HIGHEST || self.warning.is_some())
     }
     /// The quantity asked, by the models of the plan. Strikes and contacts are followed until, by the energy left,
     /// nothing later raises it by more than about half of a tolerance of 10 %, or at all with one of 8 % and less. Of
@@ -185,8 +200,9 @@ impl Plan {
     /// # Errors
     /// As [`Setup::demand`].
     pub fn run(&self, setup: &Setup) -> Result<f64, Error> {
-        let tolerance = self.reason.tolerance;
-        setup.answer_in(self.pair, self.quantity, self.until_s, self.pieces(), tolerance).map(|answer| answer.value)
+        setup
+            .answer_in(self.pair, self.quantity(), self.until_s, self.pieces(), self.tolerance)
+            .map(|answer| answer.value)
     }
 }
 

@@ -43,8 +43,9 @@ pub(super) struct Coarse {
 }
 
 impl Coarse {
-    /// At the first touch.
-    pub(super) fn start(ends: &Ends, parabolas: Lane<false>) -> Self {
+    /// At the first touch, as [`Lane::start`].
+    pub(super) fn start(ends: &Ends, touch: (f64, f64, f64), gravity: f64) -> Self {
+        let parabolas = Lane::start(ends, touch, gravity);
         let map = MapLane::start(ends, &parabolas);
         let mut mapped = map.clone();
         let ahead = mapped.next();

@@ -1,7 +1,9 @@
 //! Contacts that act on each other through the bar.
 
 use super::ends::Ends;
+use super::floats::{greater, lesser};
 use super::pulse::Pulse;
+use super::quick::{decay, ln};
 
 /// Share of a shock that pushes an end which has just parted down once more.
 const DENT: f64 = 0.3;
@@ -70,7 +72,10 @@ impl Coupling {
         let q = self.flat[0].abs().max(self.flat[1].abs());
         // Both contacts at once swing with √(1 ∓ q) of the lone frequency and damping; 1.3 for partings that are not at
         // once.
-        *self.rebound.get_or_insert_with(|| (1.3 * libm::exp(-self.pulse.loss * (1.0 - q).max(0.0).sqrt())).min(1.0))
+        *self.rebound.get_or_insert_with(|| {
+            let apart = greater(1.0 - q, 0.0).sqrt();
+            lesser(1.3 * decay(-apart * ln(self.pulse.e)), 1.0)
+        })
     }
     /// A strike after this time, which is known to `blur_s`; `together` with the other end, which is one contact.
     pub(super) fn strike(

@@ -5,6 +5,7 @@ use clatter::{Bar, PeakImpact, Start};
 use clatter_shock::{Extreme, Peaked, Pulses, Suspension, VelocityShock, VelocityShocks};
 
 use super::history;
+use super::quick::{decay, ln};
 use super::{BarRung, ComponentRung, Pair, Quantity, Setup};
 use crate::Error;
 
@@ -14,7 +15,7 @@ const CELLS: usize = 34;
 const WITHIN: f64 = 1e-4;
 const POWER: f64 = 2.5;
 /// The share of a tolerance that the pieces of pulses take, about.
-pub(crate) const OF_PIECES: f64 = 0.1;
+const OF_PIECES: f64 = 0.1;
 /// Pieces of a pulse at most: 1e-6; and at least, of the softest part.
 const MOST_CELLS: f64 = 200.0;
 const LEAST: f64 = 3.0;
@@ -273,10 +274,15 @@ fn pieces(polygon: &[(f64, f64)]) -> usize {
     polygon.windows(2).filter(|pair| pair[0].0 < pair[1].0).count()
 }
 
+/// Whether a bar with this error serves, its pulses in pieces.
+pub(super) fn serves(error: f64, tolerance: f64) -> bool {
+    error <= (1.0 - OF_PIECES) * tolerance
+}
+
 /// Pieces of a pulse that take [`OF_PIECES`] of a tolerance.
 pub(crate) fn pieces_for(tolerance: f64) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "a few")]
-    let cells = CELLS as f64 * libm::exp(libm::log(WITHIN / (OF_PIECES * tolerance)) / POWER);
+    let cells = CELLS as f64 * decay(ln(OF_PIECES * tolerance / WITHIN) / POWER);
     cells.clamp(1.0, MOST_CELLS)
 }
 

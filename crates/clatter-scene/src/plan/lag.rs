@@ -1,5 +1,6 @@
 //! A lane held against the one with all physics, as one component has both.
 
+use super::STRIKES;
 use super::coarse::Landing;
 use super::ends::Ends;
 use super::floats::{greater, lesser};
@@ -8,6 +9,9 @@ use super::swing::{Motion, Peak, Swing, Turn};
 
 /// Phases up to which a motion is taken as a straight line.
 const STRAIGHT: f64 = 0.1;
+
+/// Phases times 1 + 2ζ up to which a motion is taken as three terms of its series: 2 % of how far it moves are left out.
+const BENT: f64 = 0.7;
 
 /// A component at its place.
 #[derive(Debug, Clone, Copy)]
@@ -116,7 +120,17 @@ impl<'a> Meeting<'a> {
     /// How far the motion moves in a phase that is not straight.
     #[cold]
     fn far(&self, phase: f64) -> Motion {
-        let met = self.swing.after(&self.swing.turn(greater(self.turned + phase, 0.0)), self.begun);
+        // It begins with the last strike.
+        let phase = greater(phase, -self.turned);
+        if phase.abs() * (1.0 + 2.0 * self.swing.zeta()) <= BENT {
+            // By three terms of its series.
+            let by =
+                |rate: Motion, bend: Motion, step: f64| Motion { x: rate.x + step * bend.x, w: rate.w + step * bend.w };
+            let bend = self.swing.rate(self.rate);
+            let change = by(self.rate, by(bend, self.swing.rate(bend), phase * (1.0 / 3.0)), 0.5 * phase);
+            return Motion { x: phase * change.x, w: phase * change.w };
+        }
+        let met = self.swing.after(&self.swing.turn(self.turned + phase), self.begun);
         Motion { x: met.x - self.motion.x, w: met.w - self.motion.w }
     }
     /// What a lane has before the interval whose strike comes before by `turned`, where the motion is elsewhere by
@@ -141,7 +155,7 @@ pub(super) struct Off {
 
 /// One lane, as the component has the strikes so far.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Lag<const N: usize> {
+pub(super) struct Lag {
     /// Motion of the component less that in the lane with all physics, and by how much later the strikes come than
     /// that has it.
     motion: Motion,
@@ -153,10 +167,10 @@ pub(super) struct Lag<const N: usize> {
     /// The map, which has no more strikes than those of its train.
     pub(super) is_map: bool,
     /// Of each interval.
-    pub(super) off: [Off; N],
+    pub(super) off: [Off; STRIKES],
 }
 
-impl<const N: usize> Lag<N> {
+impl Lag {
     /// Before the first touch.
     pub(super) const NONE: Self = Self {
         motion: Motion { x: 0.0, w: 0.0 },
@@ -164,7 +178,7 @@ impl<const N: usize> Lag<N> {
         lacking: 0.0,
         alive: true,
         is_map: false,
-        off: [Off { all: 0.0, beginning: 0.0, early: 0.0 }; N],
+        off: [Off { all: 0.0, beginning: 0.0, early: 0.0 }; STRIKES],
     };
 
     /// Strike n of some lanes, where they have it; `last` is the peak of the interval before.
@@ -176,7 +190,7 @@ impl<const N: usize> Lag<N> {
         (beat, part, last): (&Beat, &Part<'_>, Option<&Peak>),
     ) {
         let swing = part.swing;
-        let meeting = if part.shocks { None } else { Some(Meeting::new(beat, part)) };
+        let meeting = if part.shocks || n == 0 { None } else { Some(Meeting::new(beat, part)) };
         for (lag, own) in lags.into_iter().zip(own) {
             let Some((after, own)) = own else {
                 lag.alive = false;
@@ -185,16 +199,20 @@ impl<const N: usize> Lag<N> {
                 lag.off[n].all = if part.shocks { beat.delta_v.abs() } else { rings };
                 continue;
             };
-            let Some(meeting) = &meeting else {
+            if part.shocks {
                 let first = || TwoShocks::of(part.ends, beat.landing.end, own).first;
                 let own = if beat.together { first() } else { part.ends.at(own) };
                 lag.off[n].all = (own - beat.delta_v).abs();
                 continue;
-            };
-            let own = part.ends.at(own);
-            if let Some(last) = last {
-                lag.off[n - 1].all += beat.cuts(after, last, part);
             }
+            let own = part.ends.at(own);
+            let (Some(meeting), Some(last)) = (&meeting, last) else {
+                // At the first touch all find it at rest.
+                lag.motion.w = beat.delta_v - own;
+                lag.off[n].all = swing.bound(lag.motion);
+                continue;
+            };
+            lag.off[n - 1].all += beat.cuts(after, last, part);
             let behind_s = lag.behind_s + after - beat.gap_s;
             let shifted = meeting.shift(own, part.omega * behind_s);
             lag.behind_s = if shifted.goes_on { behind_s } else { 0.0 };
@@ -230,7 +248,7 @@ impl Beat {
         let mut off = 0.0;
         if last.slope > 0.0 {
             // A value that the next shock cuts off is as high as that is late.
-            off = last.slope * (part.omega * (after - self.gap_s)).abs().min(2.0);
+            off = last.slope * lesser((part.omega * (after - self.gap_s)).abs(), 2.0);
         }
         if last.phase <= part.omega * part.time {
             // A pulse that ends on a dashpot is cut off by the next where only one of both trains has them overlap.
@@ -239,5 +257,35 @@ impl Beat {
             off += jump * (over(after) - over(self.gap_s)).abs();
         }
         off
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three terms of the series leave out what is stated, and no motion begins before its shock.
+    #[test]
+    fn a_far_phase_moves_as_the_motion_does() {
+        for zeta in [0.0, 0.1, 0.6, 1.0, 1.8, 10.0] {
+            let swing = Swing::new(zeta, true);
+            for begun in [Motion { x: 0.0, w: 1.0 }, Motion { x: 1.0, w: -0.4 }, Motion { x: -0.3, w: 0.2 }] {
+                let turned = 0.8;
+                let motion = swing.after(&swing.turn(turned), begun);
+                let rate = swing.rate(motion);
+                let meeting = Meeting { swing: &swing, begun, motion, turned, rate, square: swing.square(rate) };
+                let size = |m: Motion| m.x.hypot(m.w);
+                for k in -30..=30 {
+                    let phase = f64::from(k) / 25.0;
+                    let moved = meeting.far(phase);
+                    let met = swing.after(&swing.turn((turned + phase).max(0.0)), begun);
+                    let exact = Motion { x: met.x - motion.x, w: met.w - motion.w };
+                    let off = size(Motion { x: moved.x - exact.x, w: moved.w - exact.w });
+                    // Of a motion whose parts cancel, the share is of what they move.
+                    let whole = size(exact) + 0.1 * phase.abs() * (1.0 + 2.0 * zeta) * size(motion);
+                    assert!(off <= 0.02 * whole, "zeta {zeta} {begun:?} by {phase}: {moved:?} {exact:?}");
+                }
+            }
+        }
     }
 }

@@ -337,7 +337,7 @@ impl<const TILTS: bool> Lane<TILTS> {
             let speed = (t - bounced) * next.turning;
             (v0, v1) = if I == 0 { (v0 - speed, v1) } else { (v0, v1 - speed) };
             self.down = Down::Nothing;
-        } else {
+        } else if t > 0.0 {
             let mut sinks = falls;
             if TILTS {
                 let [height, velocity] = self.sweep.means(t).map(|mean| self.sweep.spin2 * mean);
@@ -348,6 +348,10 @@ impl<const TILTS: bool> Lane<TILTS> {
             h1 += t * (v1 - 0.5 * sinks[1] * t);
             v0 -= t * falls[0];
             v1 -= t * falls[1];
+        } else if TILTS {
+            // As at the first touch.
+            let velocity = self.sweep.spin2 * self.sweep.sin;
+            falls = [falls[0] - ends.arm[0] * velocity, falls[1] + ends.arm[1] * velocity];
         }
         let (height, fall) = if I == 0 { (h1, v0) } else { (h0, v1) };
         let jump = self.carried * greater(falls[I], 0.0) - (1.0 + ends.e) * lesser(fall, 0.0);

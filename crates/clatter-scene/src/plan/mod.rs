@@ -2,9 +2,9 @@
 //!
 //! Two ladders: how the bar moves ([`BarRung`]) and how the component answers ([`ComponentRung`]). [`Setup::forecast`]
 //! estimates what each rung gets wrong in the quantity asked, as a share of it; [`Forecast::plan`] takes the cheapest
-//! [`Pair`] whose estimate is within a tolerance, and says which group of the scene decided. [`Setup::plan`] does both
-//! by a first look, and no more than the choice needs; [`Plan::refined`] looks longer where that leaves the choice
-//! open. [`Setup::demand`] runs a pair.
+//! [`Pair`] whose estimate is within a tolerance, and says which group of the scene decided. [`Setup::plan_from`] does
+//! both from no more strikes than the choice needs, [`Setup::plan`] by a first look at two of them, in less than a
+//! microsecond. [`Setup::demand`] runs a pair.
 //!
 //! # What the error is against
 //! The compliant bar with the exact response to its pulses, from the first touch until rest and through the ring-down:
@@ -40,7 +40,7 @@
 //!
 //! ```
 //! use clatter::flight::{Body, Scene};
-//! use clatter_scene::plan::{BarRung, ComponentRung, Quantity, Setup};
+//! use clatter_scene::plan::{BarRung, ComponentRung, Quantity, STRIKES, Setup};
 //! use clatter_shock::{DampingRatio, Suspension};
 //!
 //! // A phone lands at 5° from 1 m; contacts take 0.1 ms; a part at 180 Hz, Q = 10, sits near its end.
@@ -48,7 +48,7 @@
 //! let scene = Scene::from_height(body, 0.3, 1.0, 5.0, 9.81)?;
 //! let part = Suspension::from_hz(180.0, DampingRatio::from_quality_factor(10.0)?)?;
 //! let setup = Setup::new(scene, Some(1e-4), 0.9, part)?;
-//! let plan = setup.plan(Quantity::PeakAcceleration, 0.01).refined(&setup);
+//! let plan = setup.plan_from(Quantity::PeakAcceleration, 0.01, STRIKES);
 //! assert!(plan.estimate.error <= 0.01 && plan.warning.is_none());
 //! let demand = setup.demand(plan.pair, Quantity::PeakAcceleration, plan.until_s)?;
 //! let whole = setup.demand(clatter_scene::plan::Pair::HIGHEST, Quantity::PeakAcceleration, f64::INFINITY)?;
@@ -72,15 +72,17 @@ mod lag;
 mod lane;
 mod names;
 pub(crate) mod pulse;
+mod quick;
 pub(crate) mod settle;
 mod swing;
 pub(crate) mod trail;
 mod walk;
+mod walked;
 
 pub(crate) use choice::Share;
 pub use choice::{Plan, Reason, Warning};
 pub use demand::Answer;
-pub use forecast::{DOUBT, FIRST_STRIKES, Forecast, Groups, MANY_STRIKES, STRIKES};
+pub use forecast::{DOUBT, FIRST_STRIKES, Forecast, Groups, STRIKES};
 
 use clatter::flight::Scene;
 use clatter_shock::Suspension;

@@ -8,12 +8,13 @@ use std::sync::OnceLock;
 
 use clatter::flight::Contact;
 
+use super::floats::{greater, lesser};
+use super::quick;
+
 /// The pulse of one restitution.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pulse {
-    e: f64,
-    /// −ln e
-    pub(super) loss: f64,
+    pub(super) e: f64,
     /// Natural frequency times duration, and damping ratio, of the contact.
     frequency: f64,
     damping: f64,
@@ -26,13 +27,21 @@ pub(crate) struct Pulse {
     pub(crate) carried: f64,
 }
 
-/// Cells of the table over −ln e, from e = 1 to 0.01.
-const CELLS: usize = 256;
-/// −ln 0.01
-const MOST_LOSS: f64 = 4.605_170_185_988_091;
+/// The table has nodes where e is 1 to 100 times the least, 128 in each doubling and evenly spaced there, so that the
+/// leading bits of that number say which.
+const LEAST: f64 = 0.01;
+const CELL_BITS: u32 = 45;
+/// 2⁻⁴⁵
+const OF_CELL: f64 = 1.0 / 35_184_372_088_832.0;
+const CELLS: usize = 840;
 
 /// A fit takes some 30 µs; a table is read in 10 ns and is within 1e-4. It is filled where it is read.
 static TABLE: [OnceLock<Pulse>; CELLS + 1] = [const { OnceLock::new() }; CELLS + 1];
+
+/// The restitution of node k.
+fn node(k: usize) -> f64 {
+    (LEAST * f64::from_bits(1.0_f64.to_bits() + ((k as u64) << CELL_BITS))).clamp(LEAST, 1.0)
+}
 
 #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
 fn index(k: usize) -> f64 {
@@ -43,7 +52,7 @@ impl Pulse {
     fn fitted(e: f64) -> Self {
         let Ok(contact) = Contact::new(e, 1.0) else { unreachable!("e is in [0.01, 1]") };
         let (frequency, damping) = (contact.frequency_rad_s(), contact.damping_ratio());
-        let mut pulse = Self { e, loss: -libm::log(e), frequency, damping, centroid: 0.0, variance: 0.0, carried: 0.0 };
+        let mut pulse = Self { e, frequency, damping, centroid: 0.0, variance: 0.0, carried: 0.0 };
         // ∫ s dt and ∫ 2 t s dt of the share s to come are the first two moments; by Simpson.
         let n = 512;
         for k in 0..=n {
@@ -55,7 +64,7 @@ impl Pulse {
                 2.0
             };
             let t = index(k) / index(n);
-            let s = weight / (3.0 * index(n)) * pulse.remaining(t);
+            let s = weight / (3.0 * index(n)) * pulse.left(pulse.motion(t));
             pulse.centroid += s;
             pulse.variance += 2.0 * t * s;
         }
@@ -65,17 +74,15 @@ impl Pulse {
     }
     /// The pulse for restitution e; below 0.01 the one of 0.01.
     pub(crate) fn new(e: f64) -> Self {
-        let loss = -libm::log(e.max(0.01));
-        let cell = (loss / MOST_LOSS).clamp(0.0, 1.0) * index(CELLS);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within 0 and CELLS")]
-        let k = (cell as usize).min(CELLS - 1);
-        let share = cell - index(k);
-        let fit = |k| move || Pulse::fitted(libm::exp(-MOST_LOSS * index(k) / index(CELLS)).clamp(0.01, 1.0));
-        let [a, b] = [k, k + 1].map(|k| TABLE[k].get_or_init(fit(k)));
+        let e = greater(e, LEAST);
+        let bits = (e / LEAST).to_bits().saturating_sub(1.0_f64.to_bits());
+        let k = ((bits >> CELL_BITS) as usize).min(CELLS - 1);
+        #[expect(clippy::cast_precision_loss, reason = "45 bits")]
+        let share = (bits - ((k as u64) << CELL_BITS)) as f64 * OF_CELL;
+        let [a, b] = [k, k + 1].map(|k| TABLE[k].get_or_init(|| Self::fitted(node(k))));
         let mix = |a: f64, b: f64| a + share * (b - a);
         Self {
-            e: e.max(0.01),
-            loss,
+            e,
             frequency: mix(a.frequency, b.frequency),
             damping: mix(a.damping, b.damping),
             centroid: mix(a.centroid, b.centroid),
@@ -85,24 +92,33 @@ impl Pulse {
     }
     /// Cosine-like and sine-like part of the motion after the time t, damped.
     fn motion(&self, t: f64) -> (f64, f64) {
+        self.motion_by(t, |y| libm::exp(-y), libm::sincos)
+    }
+    /// The same by these functions e^(−y) and (sin, cos).
+    #[inline]
+    fn motion_by(&self, t: f64, decay: fn(f64) -> f64, sin_cos: fn(f64) -> (f64, f64)) -> (f64, f64) {
         let sigma = self.damping * self.frequency;
         let gap = (1.0 - self.damping) * (1.0 + self.damping) * self.frequency * self.frequency;
         let nu = gap.abs().sqrt();
         if gap > 1e-6 {
-            let (decay, (sin, cos)) = (libm::exp(-sigma * t), libm::sincos(nu * t));
+            let (decay, (sin, cos)) = (decay(sigma * t), sin_cos(nu * t));
             (decay * cos, decay * sin / nu)
         } else if gap < -1e-6 {
-            let (slow, fast) = (libm::exp((nu - sigma) * t), libm::exp(-(nu + sigma) * t));
+            let (slow, fast) = (decay((sigma - nu) * t), decay((nu + sigma) * t));
             (0.5 * (slow + fast), 0.5 * (slow - fast) / nu)
         } else {
-            let decay = libm::exp(-sigma * t);
+            let decay = decay(sigma * t);
             (decay, decay * t)
         }
     }
-    /// Share of the velocity change that is still to come at the time t in [0, 1].
+    /// Share of the velocity change that is still to come at such a motion.
+    #[inline]
+    fn left(&self, (c, s): (f64, f64)) -> f64 {
+        greater(lesser((c - self.damping * self.frequency * s + self.e) / (1.0 + self.e), 1.0), 0.0)
+    }
+    /// The same at the time t in [0, 1], for estimates.
     pub(super) fn remaining(&self, t: f64) -> f64 {
-        let (c, s) = self.motion(t);
-        ((c - self.damping * self.frequency * s + self.e) / (1.0 + self.e)).clamp(0.0, 1.0)
+        self.left(self.motion_by(t, quick::decay, quick::sin_cos))
     }
     /// What its dashpot holds back, over its speed: at the parting the end is below the ground by this and the rebound.
     pub(super) fn delay(&self) -> f64 {

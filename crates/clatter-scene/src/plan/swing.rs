@@ -5,6 +5,7 @@
 //! estimate is good for.
 
 use super::floats::{greater, lesser};
+use super::quick::{angle, decay, ln, sin_cos};
 
 /// The component and the quantity asked of it.
 #[derive(Debug, Clone, Copy)]
@@ -17,6 +18,9 @@ pub(super) struct Swing {
     row: [f64; 2],
     /// Peak of |Q| after a unit of w.
     pub(super) factor: f64,
+    /// Where it stands, and how fast |Q| falls as it begins.
+    turns: f64,
+    falls: f64,
     /// All that Q goes up and down after a unit of w, over twice its peak, at most: of an oscillation
     /// `1/(1 − e^(−πζ/β))`. Where Q is the acceleration and falls from the start, what follows adds a little, 1/40 at ζ
     /// = 1.
@@ -55,19 +59,40 @@ pub(super) struct Peak {
 
 impl Swing {
     /// The bar itself: what a shock does to it is the shock.
-    pub(super) const BAR: Self =
-        Self { zeta: 0.0, beta: 1.0, over_beta: 1.0, swings: true, row: [1.0, 0.0], factor: 1.0, pile: f64::INFINITY };
+    pub(super) const BAR: Self = Self {
+        zeta: 0.0,
+        beta: 1.0,
+        over_beta: 1.0,
+        swings: true,
+        row: [1.0, 0.0],
+        factor: 1.0,
+        turns: 0.0,
+        falls: 0.0,
+        pile: f64::INFINITY,
+    };
 
     pub(super) fn new(zeta: f64, acceleration: bool) -> Self {
         let gap = 1.0 - zeta * zeta;
         let gap = if gap.abs() < 1e-6 { 1e-6 } else { gap };
         let row = if acceleration { [1.0, 2.0 * zeta] } else { [1.0, 0.0] };
         let beta = gap.abs().sqrt();
-        let half_turn = if gap > 0.0 { libm::exp(-std::f64::consts::PI * zeta / beta) } else { 0.0 };
+        let half_turn = if gap > 0.0 { decay(std::f64::consts::PI * zeta / beta) } else { 0.0 };
         let pile = 1.1 / (1.0 - half_turn);
-        let swing = Self { zeta, beta, over_beta: 1.0 / beta, swings: gap > 0.0, row, factor: 0.0, pile };
         let unit = Motion { x: 0.0, w: 1.0 };
-        Self { factor: swing.peak(unit, f64::INFINITY).value, ..swing }
+        let swing = Self {
+            zeta,
+            beta,
+            over_beta: 1.0 / beta,
+            swings: gap > 0.0,
+            row,
+            factor: 0.0,
+            turns: 0.0,
+            falls: 0.0,
+            pile,
+        };
+        let falls = lesser(swing.quantity(swing.rate(unit)), 0.0);
+        let peak = swing.peak(unit, f64::INFINITY);
+        Self { factor: peak.value, turns: peak.phase, falls, ..swing }
     }
     pub(super) fn zeta(&self) -> f64 {
         self.zeta
@@ -86,16 +111,16 @@ impl Swing {
     }
     /// What a phase leaves of the slowest mode.
     pub(super) fn fade(&self, theta: f64) -> f64 {
-        libm::exp(-self.decay() * theta)
+        decay(self.decay() * theta)
     }
     pub(super) fn turn(&self, theta: f64) -> Turn {
         let (z, b) = (self.zeta, self.beta);
         if self.swings {
             let fade = self.fade(theta);
-            let (s, c) = libm::sincos((b * theta).min(1e15));
+            let (s, c) = sin_cos(b * theta);
             Turn { c: fade * c, s: fade * s * self.over_beta, fade }
         } else {
-            let (fade, fast) = (self.fade(theta), libm::exp(-(z + b) * theta));
+            let (fade, fast) = (self.fade(theta), decay((z + b) * theta));
             Turn { c: 0.5 * (fade + fast), s: 0.5 * (fade - fast) * self.over_beta, fade }
         }
     }
@@ -110,9 +135,9 @@ impl Swing {
         let start = Peak { value: now.abs(), phase: 0.0, slope: lesser(slope * now.signum(), 0.0) };
         let turn = if self.swings {
             let sine = (bend + self.zeta * slope) * self.over_beta;
-            let phase = libm::atan2(slope.abs(), if slope < 0.0 { sine } else { -sine }) * self.over_beta;
+            let phase = angle(slope.abs(), if slope < 0.0 { sine } else { -sine }) * self.over_beta;
             (phase > 0.0 && phase < until).then(|| Peak {
-                value: self.amplitude(m) * libm::exp(-self.zeta * phase),
+                value: self.amplitude(m) * decay(self.zeta * phase),
                 phase,
                 slope: 0.0,
             })
@@ -120,7 +145,7 @@ impl Swing {
             // slope = C e^(−(ζ−β)θ) + D e^(−(ζ+β)θ)
             let slow = (bend + (self.zeta + self.beta) * slope) / (2.0 * self.beta);
             let ratio = 1.0 - slope / slow;
-            let phase = if ratio > 1.0 { libm::log(ratio) / (2.0 * self.beta) } else { f64::INFINITY };
+            let phase = if ratio > 1.0 { ln(ratio) / (2.0 * self.beta) } else { f64::INFINITY };
             (phase < until).then(|| Peak {
                 value: self.quantity(self.after(&self.turn(phase), m)).abs(),
                 phase,
@@ -128,6 +153,16 @@ impl Swing {
             })
         };
         turn.filter(|t| t.value > start.value).unwrap_or(start)
+    }
+    /// The same of what was at rest before a shock w.
+    #[inline]
+    pub(super) fn peak_of_shock(&self, w: f64, until: f64) -> Peak {
+        let size = w.abs();
+        if self.turns > 0.0 && self.turns < until {
+            Peak { value: self.factor * size, phase: self.turns, slope: 0.0 }
+        } else {
+            Peak { value: self.row[1] * size, phase: 0.0, slope: self.falls * size }
+        }
     }
     /// The same of a motion whose Q has the rate `last` then.
     #[inline]
@@ -200,6 +235,23 @@ mod tests {
                 }
                 let share = all / (2.0 * swing.factor * swing.pile);
                 assert!((0.85..=1.0).contains(&share), "zeta {zeta}, {acceleration}: {share}");
+            }
+        }
+    }
+
+    /// What was at rest has its peak where any motion has it.
+    #[test]
+    fn a_shock_has_the_peak_of_its_motion() {
+        for zeta in [0.0, 0.05, 0.3, 0.5, 0.7, 1.0, 1.5, 20.0] {
+            for acceleration in [false, true] {
+                let swing = Swing::new(zeta, acceleration);
+                for until in [0.01, 0.3, 1.0, 1.7, 50.0, f64::INFINITY] {
+                    let [scaled, peak] =
+                        [swing.peak_of_shock(2.5, until), swing.peak(Motion { x: 0.0, w: 2.5 }, until)];
+                    let near = |a: f64, b: f64| (a - b).abs() <= 1e-8 * (1.0 + b.abs());
+                    let same = near(scaled.value, peak.value) && near(scaled.slope, peak.slope);
+                    assert!(same && near(scaled.phase, peak.phase), "zeta {zeta} until {until}: {scaled:?} {peak:?}");
+                }
             }
         }
     }

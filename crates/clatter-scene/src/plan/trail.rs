@@ -80,8 +80,9 @@ pub(crate) struct Course {
     tilted: Lane<true>,
     /// Whether it has had the same strikes.
     alive: bool,
-    /// Parabolas at the first touch, and the coarse lanes as far as they were asked for.
-    start: Lane<false>,
+    gravity: f64,
+    /// Speed, spin and height gap at the first touch, and the coarse lanes as far as they were asked for.
+    touch: (f64, f64, f64),
     coarse: Option<Coarse>,
     /// The strike to come, if something falls.
     next: Next,
@@ -104,7 +105,6 @@ impl Course {
         let flat_spin = if spin == 0.0 { 0.0 } else { spin * libm::cos(scene.tilt_rad()) };
         let tilted = Lane::start(&ends, (speed, flat_spin, gap_m), g);
         let full = tilted.with_contact(&pulse, contact_s);
-        let start = Lane::start(&ends, (speed, spin, gap_m), g);
         let energy = full.twice_energy(&ends);
         Self {
             ends,
@@ -120,7 +120,8 @@ impl Course {
             energy,
             tilted,
             alive: true,
-            start,
+            gravity: g,
+            touch: (speed, spin, gap_m),
             coarse: None,
             next: Next::FIRST,
             falls: true,
@@ -212,7 +213,7 @@ impl Course {
     /// The strike that landed so, in the coarse lanes.
     fn along(&mut self, landing: &Landing) -> Alike {
         let impacts = if landing.presses { Some(self.both(landing.end)) } else { None };
-        let coarse = self.coarse.get_or_insert_with(|| Coarse::start(&self.ends, self.start));
+        let coarse = self.coarse.get_or_insert_with(|| Coarse::start(&self.ends, self.touch, self.gravity));
         coarse.along(&self.ends, landing, impacts.as_ref().map(|[impacts, _]| impacts), self.contact_s)
     }
 }

@@ -3,146 +3,21 @@
 use super::bounds::{later_response, later_shock, pile_until_rest, weight};
 use super::coarse::Alike;
 use super::coupling::of;
+use super::demand::serves;
 use super::floats::{greater, lesser};
 use super::lag::{Beat, Lag, Part, TwoShocks};
+use super::pulse::Pulse;
 use super::swing::{Motion, Peak};
 use super::trail::{Course, Step, Strikes};
-use super::{MANY_STRIKES, STRIKES};
+use super::walked::{Interval, Stop, Top, Walk, smoothing};
+use super::{FIRST_STRIKES, STRIKES};
 
 /// What later strikes can do must stay below this share of the peak for the following to stop: pulses flatten both, not
 /// alike.
 const CLEAR: f64 = 0.9;
 
-/// Later strikes that could add more than this share of the peak are not foreseen from the earlier ones.
-const ROOM: f64 = 0.5;
-
 /// Fitted: an end that lies down mistimes what the other one does by this share of the time until then.
 const LYING: f64 = 0.03;
-
-/// Whether real tilt is off is asked after every strike; after many, once an eighth of them has come again, since that
-/// goes through all of them.
-const AGAIN: usize = 8;
-
-/// One interval between strikes, as the lane with all physics has it.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Interval {
-    /// When it begins.
-    from_s: f64,
-    /// Its largest value; the slope is below 0 where a shock begins the interval, above 0 where the next one ends it.
-    pub(super) peak: Peak,
-    /// Bound on how far all lanes are off beside what each is.
-    doubt: f64,
-    /// By how much more it may ring where strikes are mistimed in all models.
-    adrift: f64,
-    /// Bound on all that comes after it.
-    late: f64,
-}
-
-impl Interval {
-    const NONE: Self =
-        Self { from_s: 0.0, peak: Peak { value: 0.0, phase: 0.0, slope: 0.0 }, doubt: 0.0, adrift: 0.0, late: 0.0 };
-}
-
-/// What one component has of the strikes followed.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Walk<const N: usize> {
-    intervals: [Interval; N],
-    pub(super) strikes: usize,
-    /// Bound on the response, or shock, after the strikes followed; what of it one more shock does.
-    pub(super) late: f64,
-    extra: f64,
-    /// Until when models need to be followed for nothing later to exceed the peak.
-    pub(super) until_s: f64,
-    pub(super) last_s: f64,
-    pub(super) shortest_gap_s: f64,
-    pub(super) overlaps: bool,
-    /// What the weight does in the end, which no train has.
-    weight: f64,
-    /// Bound on what impacts, one after the other at one instant, do on the way.
-    pub(super) jumps: f64,
-    pub(super) tilted: Lag<N>,
-    pub(super) stop: Stop,
-}
-
-/// Why the strikes followed end where they do.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Stop {
-    /// No later one counts, or none is foreseen.
-    Whole,
-    /// A longer look would follow more.
-    CutShort,
-    /// Real tilt is off by more than the tolerance, which later strikes seldom mend.
-    Off,
-}
-
-impl<const N: usize> Walk<N> {
-    /// The interval that holds the peak.
-    fn highest(&self) -> usize {
-        let higher = |most: usize, n: usize| {
-            if self.intervals[n].peak.value > self.intervals[most].peak.value { n } else { most }
-        };
-        (0..self.strikes).fold(0, higher)
-    }
-    /// The highest of all.
-    pub(super) fn peak(&self) -> Peak {
-        self.intervals[self.highest()].peak
-    }
-    /// Bound on how far a lane is off the largest value of interval n.
-    fn off(&self, lag: &Lag<N>, n: usize) -> f64 {
-        let (interval, off) = (&self.intervals[n], &lag.off[n]);
-        let off = off.all + interval.doubt + if interval.peak.phase > 0.0 { 0.0 } else { off.beginning };
-        if off.is_nan() { f64::INFINITY } else { off }
-    }
-    /// What a lane gets wrong, if pulses leave `top` of the peak: by the strikes followed, and by all.
-    pub(super) fn errors(&self, lag: &Lag<N>, top: f64) -> [f64; 2] {
-        let highest = self.highest();
-        let [error, least] = self.followed(lag, highest, top);
-        [error, greater(self.later(lag, self.intervals[highest].peak.value), error)].map(|error| lesser(least, error))
-    }
-    /// Bounds on all that comes after the intervals.
-    fn lates(&self) -> [f64; N] {
-        let (mut lates, mut most) = ([0.0; N], self.late);
-        for (late, interval) in lates.iter_mut().zip(&self.intervals[..self.strikes]).rev() {
-            most = greater(interval.late, most);
-            *late = most;
-        }
-        lates
-    }
-    /// What a lane gets wrong by the strikes followed, and what it gets wrong at most if what follows some interval is
-    /// left to its bound.
-    #[inline]
-    fn followed(&self, lag: &Lag<N>, highest: usize, top: f64) -> [f64; 2] {
-        let [mut error, mut least] = [self.off(lag, highest), f64::INFINITY];
-        let (lates, peak_s) = (self.lates(), self.intervals[highest].from_s);
-        for (n, interval) in self.intervals[..self.strikes].iter().enumerate() {
-            // Another that comes up to the top may be the higher one.
-            let short = lesser(interval.peak.value + interval.adrift - top, 0.0);
-            error = greater(lag.off[n].early - top, greater(self.off(lag, n) + short, error));
-            // From the peak on, what follows may be left to its bound.
-            if interval.from_s >= peak_s {
-                least = lesser(greater(lates[n] - top, error), least);
-            }
-        }
-        [error, least]
-    }
-    /// Whether what comes later holds strikes beside those that what is fitted to later ones is fitted to.
-    fn is_short(&self) -> bool {
-        self.stop == Stop::CutShort && N < STRIKES
-    }
-    /// What a lane may get wrong after the strikes followed.
-    fn later(&self, lag: &Lag<N>, peak: f64) -> f64 {
-        let above = self.late - peak;
-        // The map has no later strikes; the others have them, about.
-        if above <= 0.0 || lag.is_map || self.extra >= ROOM * peak || self.is_short() {
-            return above;
-        }
-        let of_intervals = || lag.off.iter().zip(&self.intervals[..self.strikes]).map(|(off, i)| off.all + i.doubt);
-        let (worst, last) = of_intervals().fold((0.0, 0.0), |(worst, _), off| (greater(off, worst), off));
-        // Fitted: what later strikes add is off by 4 times what the earlier ones were.
-        let share = if lag.alive { 4.0 * (worst / peak).min(1.0) } else { 4.0 };
-        above.min(share * self.extra + self.weight + last)
-    }
-}
 
 /// From one strike to the next.
 #[derive(Debug, Clone, Copy)]
@@ -157,19 +32,22 @@ struct Flight {
 
 /// Follows strikes until nothing later counts.
 #[derive(Debug)]
-pub(super) struct Walker<'a, const N: usize> {
+pub(super) struct Walker<'a> {
     part: Part<'a>,
     gravity: f64,
     /// The speed that the weight gives in one radian of the component.
     fall: f64,
+    pulse: Pulse,
+    /// Whether the model of contacts takes it.
+    compliant: bool,
     /// Share of the time since the first strike by which strikes are mistimed.
     blur: f64,
     /// Time after which a strike finds nothing of the contact before, whose end has come up by then.
     apart_s: f64,
     /// How many times the largest later shock the speeds of all later ones allow.
     pile: f64,
-    pub(super) walk: Walk<N>,
-    beats: [Beat; N],
+    pub(super) walk: Walk,
+    beats: [Beat; STRIKES],
     /// The component now, and just after the last strike.
     motion: Motion,
     begun: Motion,
@@ -185,20 +63,22 @@ pub(super) struct Walker<'a, const N: usize> {
     rests: bool,
 }
 
-impl<'a, const N: usize> Walker<'a, N> {
+impl<'a> Walker<'a> {
     #[inline]
-    pub(super) fn new(part: Part<'a>, course: &Course, gravity: f64) -> Self {
+    pub(super) fn new(part: Part<'a>, course: &Course, gravity: f64, compliant: bool) -> Self {
         let fall = gravity / part.omega;
         let weight = if part.shocks { 0.0 } else { weight(part.swing, fall) };
         Self {
             part,
             gravity,
             fall,
+            pulse: course.pulse,
+            compliant,
             blur: course.blur,
             apart_s: (1.0 + course.pulse.delay()) * part.time,
             pile: course.pile,
             walk: Walk {
-                intervals: [Interval::NONE; N],
+                intervals: [Interval::NONE; STRIKES],
                 strikes: 0,
                 late: 0.0,
                 extra: 0.0,
@@ -210,8 +90,9 @@ impl<'a, const N: usize> Walker<'a, N> {
                 jumps: 0.0,
                 tilted: Lag::NONE,
                 stop: Stop::Whole,
+                near: false,
             },
-            beats: [Beat::NONE; N],
+            beats: [Beat::NONE; STRIKES],
             motion: Motion::default(),
             begun: Motion::default(),
             peak: 0.0,
@@ -223,11 +104,10 @@ impl<'a, const N: usize> Walker<'a, N> {
         }
     }
 
-    /// Until nothing later counts, or real tilt is off.
-    pub(super) fn follow(&mut self, trail: &mut impl Strikes, tolerance: f64) {
+    /// Until nothing later counts, or by the strikes so far real tilt is off or serves; `most` strikes at most.
+    pub(super) fn follow(&mut self, trail: &mut impl Strikes, tolerance: f64, most: usize) {
         let ends = self.part.ends;
         self.before = ends.reach(trail.course().twice_energy);
-        let mut ask = 0;
         let mut flight = Flight { gap_s: 0.0, lying: None, tumbles: false, speed: self.before };
         while let Some(step) = trail.step(self.walk.strikes) {
             self.strike(step, &flight);
@@ -247,21 +127,40 @@ impl<'a, const N: usize> Walker<'a, N> {
             if self.is_over(&flight) {
                 break;
             }
-            if tolerance < f64::INFINITY && self.walk.strikes >= ask {
-                ask = self.walk.strikes + 1 + self.walk.strikes / AGAIN;
-                if self.is_off(tolerance) {
-                    self.walk.stop = Stop::Off;
+            if self.compliant && self.is_off(tolerance) {
+                self.walk.stop = Stop::Off;
+                break;
+            }
+            if flight.tumbles || self.walk.strikes == STRIKES {
+                break;
+            }
+            if tolerance < f64::INFINITY && self.walk.strikes >= most.min(FIRST_STRIKES) {
+                let gap_s = flight.gap_s - self.blur * (self.walk.last_s + flight.gap_s);
+                self.walk.near = gap_s < self.apart_s;
+                self.walk.stop = Stop::CutShort;
+                if self.walk.strikes >= most || self.serves(tolerance) {
                     break;
                 }
-            }
-            if flight.tumbles {
-                break;
-            }
-            if self.walk.strikes == N {
-                self.cut(&flight);
-                break;
+                self.walk.stop = Stop::Whole;
             }
         }
+    }
+
+    /// Whether real tilt serves whatever comes later.
+    fn serves(&self, tolerance: f64) -> bool {
+        let Top { left, .. } = self.top();
+        serves(self.walk.errors(&self.walk.tilted, left, &self.walk.lates())[1] / left, tolerance)
+    }
+
+    /// The peak as pulses leave it: one that they flatten leaves more room to every error.
+    pub(super) fn top(&self) -> Top {
+        let Part { swing, omega, shocks, time, .. } = self.part;
+        let peak = self.walk.peak();
+        if shocks {
+            return Top { peak: peak.value, smooth: 0.0, phase: [0.0; 2], left: peak.value };
+        }
+        let (smooth, phase) = smoothing(&self.pulse, omega * time, &peak, swing.zeta());
+        Top { peak: peak.value, smooth, phase, left: (1.0 - lesser(smooth, 0.8)) * peak.value }
     }
 
     /// From the last strike to the next.
@@ -273,7 +172,9 @@ impl<'a, const N: usize> Walker<'a, N> {
             let turn = trail.turn(n, swing, omega * gap);
             let last = swing.after(&turn, self.motion);
             let (end, rate) = (swing.quantity(last), swing.quantity(swing.rate(last)));
-            if swing.square(self.motion) > 0.25 * self.peak * self.peak {
+            if n == 0 {
+                interval.peak = swing.peak_of_shock(self.motion.w, omega * gap);
+            } else if swing.square(self.motion) > 0.25 * self.peak * self.peak {
                 interval.peak = swing.peak_before(self.motion, omega * gap, rate);
             }
             self.motion = last;
@@ -323,10 +224,14 @@ impl<'a, const N: usize> Walker<'a, N> {
     /// Whether real tilt is off by more than the tolerance by the strikes so far, which later ones seldom mend: twice
     /// that where the last one holds the peak, since the next may hold a higher one.
     fn is_off(&self, tolerance: f64) -> bool {
-        let highest = self.walk.highest();
-        let peak = self.walk.intervals[highest].peak.value;
-        let [error, least] = self.walk.followed(&self.walk.tilted, highest, peak);
-        let rises = if highest + 1 == self.walk.strikes { 2.0 } else { 1.0 };
+        let (walk, limit) = (&self.walk, tolerance * self.peak);
+        if walk.off_at_most() <= limit {
+            return false;
+        }
+        let lates = walk.lates();
+        let peak = walk.intervals[lates.highest].peak.value;
+        let [error, least] = walk.followed(&walk.tilted, peak, &lates);
+        let rises = if lates.highest + 1 == walk.strikes { 2.0 } else { 1.0 };
         lesser(error, least) > rises * tolerance * peak
     }
 
@@ -341,18 +246,6 @@ impl<'a, const N: usize> Walker<'a, N> {
             self.walk.until_s = until_s.max(f64::MIN_POSITIVE);
         }
         is_over
-    }
-
-    /// No more strikes are followed.
-    fn cut(&mut self, flight: &Flight) {
-        if N < MANY_STRIKES {
-            self.walk.stop = Stop::CutShort;
-        }
-        let gap_s = flight.gap_s - self.blur * (self.walk.last_s + flight.gap_s);
-        if self.walk.is_short() && gap_s < self.apart_s {
-            // What the next strike does to the contact that is still there belongs to this one.
-            (self.walk.late, self.walk.intervals[N - 1].late) = (f64::INFINITY, f64::INFINITY);
-        }
     }
 
     fn strike(&mut self, step: &Step, flight: &Flight) {
@@ -464,7 +357,7 @@ impl<'a, const N: usize> Walker<'a, N> {
     }
 
     /// The coarse lanes along the strikes followed. Where nothing falls any more, parabolas may have bounces left.
-    pub(super) fn coarse(&mut self, trail: &mut impl Strikes) -> [Lag<N>; 2] {
+    pub(super) fn coarse(&mut self, trail: &mut impl Strikes) -> [Lag; 2] {
         let (mut map, mut parabolas) = (Lag::NONE, Lag::NONE);
         map.is_map = true;
         for (n, beat) in self.beats[..self.walk.strikes].iter().enumerate() {
@@ -491,7 +384,7 @@ impl<'a, const N: usize> Walker<'a, N> {
     pub(super) fn train(&self, trail: &impl Strikes) -> [f64; 2] {
         let [mut net, mut largest] = [0.0; 2];
         for (k, (.., delta_v)) in trail.map().into_iter().flat_map(Clone::clone).enumerate() {
-            if k > 2 * N {
+            if k > 2 * STRIKES {
                 net = f64::INFINITY;
                 break;
             }

@@ -9,7 +9,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use clatter::flight::{Body, Scene};
-use clatter_scene::plan::{BarRung, ComponentRung, Pair, Plan, Quantity, Setup};
+use clatter_scene::plan::{BarRung, ComponentRung, FIRST_STRIKES, Pair, Plan, Quantity, STRIKES, Setup};
 use clatter_shock::{DampingRatio, Suspension};
 
 pub(crate) const QUANTITIES: [Quantity; 3] =
@@ -75,27 +75,25 @@ pub(crate) struct Ran {
 /// What a plan took.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Choosing {
+    /// By a first look, and whether that left it open.
+    pub(crate) first_seconds: f64,
+    pub(crate) open: bool,
+    /// From as many strikes as it hangs on.
     pub(crate) seconds: f64,
-    /// With the longer look, where the first one left the choice open.
-    pub(crate) refined_seconds: Option<f64>,
 }
 
 impl Choosing {
     fn measured(setup: &Setup, quantity: Quantity, tolerance: f64) -> (Plan, Self) {
         // One is too short for the clock.
         const BATCH: u32 = 16;
-        let many = |of: &dyn Fn() -> Plan| {
-            let run = || (0..BATCH).map(|_| black_box(of()).until_s).fold(0.0, f64::max);
+        let many = |most: usize| {
+            let plan = || black_box(setup).plan_from(quantity, tolerance, most);
+            let run = || (0..BATCH).map(|_| black_box(plan()).until_s).fold(0.0, f64::max);
             timed(run).1 / f64::from(BATCH)
         };
-        let plan = setup.plan(quantity, tolerance);
-        let choosing = Self {
-            seconds: many(&|| black_box(setup).plan(quantity, tolerance)),
-            refined_seconds: plan
-                .is_open()
-                .then(|| many(&|| black_box(setup).plan(quantity, tolerance).refined(setup))),
-        };
-        (plan.refined(setup), choosing)
+        let [first_seconds, seconds] = [FIRST_STRIKES, STRIKES].map(many);
+        let choosing = Self { first_seconds, open: setup.plan(quantity, tolerance).is_open(), seconds };
+        (setup.plan_from(quantity, tolerance, STRIKES), choosing)
     }
 }
 
@@ -155,7 +153,7 @@ pub(crate) fn study(seed: u64, scenes: usize) -> (Vec<Outcome>, usize) {
         for quantity in QUANTITIES {
             let forecast = setup.forecast(quantity);
             let highest = |cells| setup.demand_fine(Pair::HIGHEST, quantity, f64::INFINITY, cells).expect("accepted");
-            let until_s = setup.forecast_far(quantity).until_s.min(forecast.until_s);
+            let until_s = forecast.until_s;
             let truth = highest(TRUE_CELLS);
             let (_, highest_seconds) = timed(|| highest(CELLS));
             let chosen = TOLERANCES.map(|tolerance| Choosing::measured(&setup, quantity, tolerance));
@@ -191,12 +189,14 @@ pub(crate) struct Worth {
     /// Mean cost over that of the oracle choice, and over that of the highest pair until rest.
     pub(crate) over_oracle: f64,
     pub(crate) of_highest: f64,
-    /// Mean time of choosing a plan by its first look, the longest, the share that this leaves open, and the mean time
-    /// with the longer look of those.
-    pub(crate) plan_s: f64,
-    pub(crate) longest_plan_s: f64,
+    /// Mean time of a first look, the longest, the share that take more than 1 µs, and that are left open.
+    pub(crate) first_s: f64,
+    pub(crate) longest_first_s: f64,
+    pub(crate) above: f64,
     pub(crate) open: f64,
-    pub(crate) refined_s: f64,
+    /// Mean time of choosing in all, and the longest.
+    pub(crate) choosing_s: f64,
+    pub(crate) longest_s: f64,
     /// Share of scenes that need the highest pair, and that get it.
     pub(crate) needed: f64,
     pub(crate) given: f64,
@@ -217,12 +217,12 @@ pub(crate) fn worth<'a>(outcomes: impl Iterator<Item = &'a Outcome>, k: usize) -
         oracle += o.oracle(k).with[k].seconds;
         highest += o.highest_seconds;
         let choosing = o.choosing[k];
-        w.plan_s += choosing.seconds;
-        w.longest_plan_s = w.longest_plan_s.max(choosing.seconds);
-        if let Some(seconds) = choosing.refined_seconds {
-            w.open += 1.0;
-            w.refined_s += seconds;
-        }
+        w.first_s += choosing.first_seconds;
+        w.longest_first_s = w.longest_first_s.max(choosing.first_seconds);
+        w.above += f64::from(u8::from(choosing.first_seconds > 1e-6));
+        w.open += f64::from(u8::from(choosing.open));
+        w.choosing_s += choosing.seconds;
+        w.longest_s = w.longest_s.max(choosing.seconds);
         w.given += f64::from(u8::from(plan.pair.bar == BarRung::Compliant));
         w.needed += f64::from(u8::from(o.oracle(k).pair.bar == BarRung::Compliant));
     }
@@ -231,9 +231,10 @@ pub(crate) fn worth<'a>(outcomes: impl Iterator<Item = &'a Outcome>, k: usize) -
         within: w.within / n,
         over_oracle: cost / oracle,
         of_highest: cost / highest,
-        plan_s: w.plan_s / n,
+        first_s: w.first_s / n,
+        above: w.above / n,
         open: w.open / n,
-        refined_s: w.refined_s / w.open.max(1.0),
+        choosing_s: w.choosing_s / n,
         needed: w.needed / n,
         given: w.given / n,
         ..w

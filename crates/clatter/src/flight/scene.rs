@@ -136,6 +136,8 @@ pub struct Scene {
     e: Restitution,
     speed: f64,
     tilt: f64,
+    /// Height of end b at the first touch.
+    gap: f64,
     gravity: f64,
     spin: f64,
     time_limit: f64,
@@ -160,11 +162,13 @@ impl Scene {
         if gravity_m_s2 != 0.0 {
             within("gravity in m/s²", gravity_m_s2, 1e-60, 1e30, "0 or in [1e-60, 1e30]")?;
         }
+        let tilt = tilt_deg.to_radians();
         Ok(Self {
             body,
             e,
             speed: speed_m_s,
-            tilt: tilt_deg.to_radians(),
+            tilt,
+            gap: body.length_m() * tilt.sin(),
             gravity: gravity_m_s2 + 0.0,
             spin: 0.0,
             time_limit: f64::INFINITY,
@@ -257,7 +261,7 @@ impl Scene {
     /// Height of end b when end a touches, h0.
     #[must_use]
     pub fn height_gap_m(&self) -> f64 {
-        self.body.length_m() * self.tilt.sin()
+        self.gap
     }
     /// Limit of time since the first touch.
     #[must_use]
