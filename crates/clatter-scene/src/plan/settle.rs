@@ -22,7 +22,7 @@ const CLEAR: f64 = 0.75;
 const ALLOWED: f64 = 3.0;
 /// No larger error counts: with this one, what is left out passes the peak by half of it at most.
 const ONLY: f64 = 0.1;
-/// Phase of the component in one contact from which on it is no impulse.
+/// Phase of the fastest mode of a component in one contact from which on that is no impulse.
 const PULSE: f64 = 0.5;
 /// Contact times beyond which a contact is no shock.
 const LONG: f64 = 4.0;
@@ -108,7 +108,7 @@ impl Setup {
             let turn = swing.turn(phase);
             let Seen { mut motion, mut loose, mut peak, .. } = before;
             let long = shock.parted_s - shock.from_s;
-            let (certain, doubt) = if omega * long < PULSE && long <= LONG * contact_s {
+            let (certain, doubt) = if omega * swing.fastest() * long < PULSE && long <= LONG * contact_s {
                 motion.w -= shock.net;
                 (motion, loose)
             } else {

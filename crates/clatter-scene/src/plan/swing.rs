@@ -109,6 +109,10 @@ impl Swing {
     pub(super) fn decay(&self) -> f64 {
         if self.swings { self.zeta } else { 1.0 / (self.zeta + self.beta) }
     }
+    /// How fast its fastest mode moves.
+    pub(super) fn fastest(&self) -> f64 {
+        if self.swings { 1.0 } else { self.zeta + self.beta }
+    }
     /// What a phase leaves of the slowest mode.
     pub(super) fn fade(&self, theta: f64) -> f64 {
         decay(self.decay() * theta)
