@@ -333,6 +333,12 @@ const BENT: &[(&str, [f64; 5], [f64; 4], Quantity)] = &[
         [1.024_774e-4, -0.108_793_8, 83_999.69, 1.904_634],
         Quantity::VelocityShock,
     ),
+    (
+        "the next pulse begins before the peak, and later for contacts that are delayed",
+        [0.180_498_8, 0.057_554_15, 0.331_609, 3.496_429, 0.507_307_3],
+        [1.117_814e-4, -0.737_818_4, 3_013.942, 0.235_159_4],
+        Quantity::PeakAcceleration,
+    ),
 ];
 
 #[test]

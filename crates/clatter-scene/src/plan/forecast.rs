@@ -150,7 +150,8 @@ impl Setup {
         let swing = if response { trail.swing(zeta, quantity == Quantity::PeakAcceleration) } else { Swing::BAR };
         let time = self.contact_time_s.unwrap_or(0.0);
         let gravity = self.scene.gravity_m_s2();
-        let part = Part { ends, swing: &swing, omega, shocks: !response, time };
+        let acts_s = trail.course().pulse.centroid * time;
+        let part = Part { ends, swing: &swing, omega, shocks: !response, time, acts_s };
         let compliant = self.is_compliant();
         let mut walker = Walker::new(part, trail.course(), gravity, compliant);
         walker.follow(trail, tolerance, most);

@@ -21,8 +21,9 @@ pub(super) struct Part<'a> {
     pub(super) omega: f64,
     /// Velocity shocks are asked for, not a response.
     pub(super) shocks: bool,
-    /// Contact time; 0 where it is not known.
+    /// Contact time, and how long after its begin a contact acts on the mean; 0 where they are not known.
     pub(super) time: f64,
+    pub(super) acts_s: f64,
 }
 
 /// A strike of the lane with all physics as the component has it.
@@ -245,11 +246,15 @@ impl Beat {
     /// What a strike that comes after another time than this one changes of the peak before.
     #[inline]
     fn cuts(&self, after: f64, last: &Peak, part: &Part<'_>) -> f64 {
-        let mut off = 0.0;
-        if last.slope > 0.0 {
+        let mut off = if last.slope > 0.0 {
             // A value that the next shock cuts off is as high as that is late.
-            off = last.slope * lesser((part.omega * (after - self.gap_s)).abs(), 2.0);
-        }
+            last.slope * lesser((part.omega * (after - self.gap_s)).abs(), 2.0)
+        } else {
+            // A peak inside the swing, which bends by itself, is cut off where the next pulse begins before it.
+            let short = |gap: f64| lesser(greater(last.phase + part.omega * (part.acts_s - gap), 0.0), 1.0);
+            let [other, own] = [short(after), short(self.gap_s)];
+            0.5 * last.value * (other * other - own * own).abs()
+        };
         if last.phase <= part.omega * part.time {
             // A pulse that ends on a dashpot is cut off by the next where only one of both trains has them overlap.
             let over = |gap: f64| if gap < part.time { 1.0 - gap / part.time } else { 0.0 };

@@ -249,7 +249,7 @@ impl<'a> Walker<'a> {
     }
 
     fn strike(&mut self, step: &Step, flight: &Flight) {
-        let Part { ends, swing, omega, time, shocks } = self.part;
+        let Part { ends, swing, omega, time, shocks, .. } = self.part;
         let n = self.walk.strikes;
         self.walk.last_s += flight.gap_s;
         // The ground also carries the weight while it pushes.
