@@ -54,11 +54,13 @@ pub(super) struct Other {
 }
 
 impl Other {
-    /// By how much a window of one contact time may hold more than one of two shocks, or less.
+    /// By how much a window of one contact time may hold more than one of two shocks, or less: with both the same way,
+    /// the other one at most; against each other, what it holds of the other one, or leaves of its own to end before
+    /// that.
     pub(super) fn window(&self, [earlier, later]: [f64; 2]) -> f64 {
         let tail = self.remaining[0] * earlier.abs();
         let head = (1.0 - self.remaining[1]) * later.abs();
-        if earlier * later > 0.0 { tail + head } else { tail }
+        if earlier * later > 0.0 { lesser(tail + head, lesser(earlier.abs(), later.abs())) } else { lesser(tail, head) }
     }
 }
 
@@ -142,4 +144,34 @@ impl Coupling {
 /// That of one end.
 pub(super) fn of((a, b): (f64, f64), end: usize) -> f64 {
     if end == 0 { a } else { b }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two pulses that only overlap: no window of one contact time holds more than the larger shock and what is told.
+    #[test]
+    fn a_window_holds_no_more_than_is_told() {
+        let at = |k: i32| f64::from(k) / 100.0;
+        let mut nearest = 1.0_f64;
+        for e in [0.02, 0.1, 0.4, 0.9] {
+            let pulse = Pulse::new(e);
+            let given = |t: f64| 1.0 - pulse.remaining(t.clamp(0.0, 1.0));
+            for x in [0.05, 0.3, 0.6, 0.9].iter().copied() {
+                for later in [-2.0, -0.7, -0.2, 0.2, 0.7, 2.0] {
+                    let velocity = |t: f64| given(t) + later * given(t - x);
+                    let changes = (0..200).flat_map(|from| (from..=from + 100).map(move |to| (at(from), at(to))));
+                    let largest = changes.map(|(from, to)| (velocity(to) - velocity(from)).abs()).fold(0.0, f64::max);
+                    let remaining = [x, 1.0 - x].map(|t| pulse.remaining(t));
+                    let other = Other { delta_v: (1.0, 0.0), pushed: 0.0, held: 0.0, remaining };
+                    let (larger, told) = (later.abs().max(1.0), other.window([1.0, later]));
+                    // The changes are those of a hundred instants a contact.
+                    assert!((largest - larger).abs() <= told + 0.02, "e {e} x {x} {later}: {largest} {told}");
+                    nearest = nearest.min(told - (largest - larger).abs());
+                }
+            }
+        }
+        assert!(nearest < 0.05, "{nearest}");
+    }
 }
