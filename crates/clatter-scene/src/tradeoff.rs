@@ -1,6 +1,6 @@
 //! Speed for accuracy, measured: what every pair of models gets wrong in one drop, and what it costs.
 //!
-//! [`Tradeoff::measure`] runs every pair of rungs (see [`plan`](crate::plan)) on one scene that says something of the
+//! [`Tradeoff::measure`] runs every pair of rungs (see [`plan`]) on one scene that says something of the
 //! quantity, holds it against the highest rung, and times it. [`ProductFile::tradeoff`] does so for every part of a
 //! product in its worst drop, [`bars`] gives the four bars of the paper's Table 1 as scenes to compare with.
 //!

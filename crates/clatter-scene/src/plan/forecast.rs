@@ -116,7 +116,7 @@ impl Setup {
     /// them would be looked at.
     ///
     /// # Cost
-    /// With all strikes 0.4 to 0.9 µs on the average, by the tolerance, three at most, about.
+    /// With all strikes 0.4 to 0.9 µs on the average, by the tolerance, five at most.
     #[must_use]
     pub fn plan_from(&self, quantity: Quantity, tolerance: f64, most: usize) -> Plan {
         self.look(quantity, tolerance, most).plan(tolerance)
@@ -173,7 +173,7 @@ impl Setup {
             let lags = walker.coarse(trail);
             // As parabolas something may come after all.
             let lates = walker.walk.lates();
-            let [map, ballistic] = lags.map(|lag| of_top(&walker.walk, &lag, &lates)[1]);
+            let [map, ballistic] = lags.each_ref().map(|lag| of_top(&walker.walk, lag, &lates)[1]);
             bar[1] = ballistic.max(tilted);
             bar[0] = map.max(bar[1]);
             if response {

@@ -358,15 +358,16 @@ impl<'a> Walker<'a> {
 
     /// The coarse lanes along the strikes followed. Where nothing falls any more, parabolas may have bounces left.
     pub(super) fn coarse(&mut self, trail: &mut impl Strikes) -> [Lag; 2] {
-        let (mut map, mut parabolas) = (Lag::NONE, Lag::NONE);
-        map.is_map = true;
+        let mut lags = [Lag::NONE; 2];
+        lags[0].is_map = true;
         for (n, beat) in self.beats[..self.walk.strikes].iter().enumerate() {
             let Alike { own, spread } = trail.coarse(n, &beat.landing);
             let last = n.checked_sub(1).map(|last| &self.walk.intervals[last].peak);
-            Lag::strike([&mut map, &mut parabolas], own, n, (beat, &self.part, last));
-            map.off[n].all += self.part.swing.factor * beat.gross * spread;
-            map.fly(self.part.swing, &beat.turn);
-            parabolas.fly(self.part.swing, &beat.turn);
+            Lag::strike(lags.each_mut(), own, n, (beat, &self.part, last));
+            lags[0].off[n].all += self.part.swing.factor * beat.gross * spread;
+            for lag in &mut lags {
+                lag.fly(self.part.swing, &beat.turn);
+            }
         }
         if self.rests
             && let Some(left) = trail.course().left_as_parabolas()
@@ -376,7 +377,7 @@ impl<'a> Walker<'a> {
                 (self.walk.late, self.walk.extra) = (late, extra);
             }
         }
-        [map, parabolas]
+        lags
     }
 
     /// Sum and largest of the whole train of the map at the component, once the coarse lanes were followed; infinite
