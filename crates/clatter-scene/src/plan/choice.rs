@@ -149,7 +149,8 @@ impl Forecast {
     }
 }
 
-/// Pieces of a pulse that take their share of a tolerance, as plans count them.
+/// Pieces of a pulse that take their share of a tolerance, as plans count them. In line, it would be worked out for all.
+#[inline(never)]
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few hundred")]
 fn whole_pieces_for(tolerance: f64) -> usize {
     pieces_for(tolerance).ceil() as usize

@@ -270,7 +270,8 @@ impl Forecast {
     pub(super) fn is_short(&self) -> bool {
         self.until_s < f64::INFINITY || self.stop == Stop::CutShort
     }
-    /// What costs hang on.
+    /// What costs hang on. In line, it would be worked out for all.
+    #[inline(never)]
     pub(super) fn prices(&self) -> Prices {
         #[expect(clippy::cast_precision_loss, reason = "a few strikes")]
         let followed = self.strikes as f64;
