@@ -398,8 +398,8 @@ fn a_bar_that_turns_over_about_an_end_is_left_open() {
 }
 
 /// A plan from no more strikes than it hangs on is that of all strikes but in two cases: it has a bound in place of
-/// what later ones do, and chooses a cheaper pair (118 of 36 000), or it takes the highest where real tilt is off by the
-/// strikes so far, which later ones mend (227). A first look leaves 8682 open, and has the same pair for all others.
+/// what later ones do, and chooses a cheaper pair (69 of 36 000), or it takes the highest where real tilt is off by the
+/// strikes so far, which later ones mend (227). A first look leaves 8785 open, and has the same pair for all others.
 #[test]
 fn a_plan_needs_no_more_strikes_than_it_hangs_on() {
     let mut random = Random(11);
@@ -420,7 +420,8 @@ fn a_plan_needs_no_more_strikes_than_it_hangs_on() {
                 }
                 if first.is_open() {
                     open += 1;
-                    assert!(first.pair == Pair::HIGHEST || first.warning.is_some(), "{what}");
+                    let serves = first.estimate.error <= tolerance;
+                    assert!(serves || first.warning.is_some(), "{what}");
                     assert!(first.until_s == f64::INFINITY && first.forecast != plan.forecast, "{what}");
                 } else {
                     moved += i32::from(first.pair != plan.pair);
@@ -429,7 +430,7 @@ fn a_plan_needs_no_more_strikes_than_it_hangs_on() {
         }
     }
     let counts = format!("of {all}: {cheaper} cheaper, {missed} missed, {open} open, {moved} moved");
-    assert!(200 * cheaper < all && 100 * missed < all && moved == 0, "{counts}");
+    assert!(400 * cheaper < all && 100 * missed < all && moved == 0, "{counts}");
     assert!(10 * open > all && 3 * open < all, "{counts}");
 }
 

@@ -185,13 +185,12 @@ impl Plan {
     pub fn cost_ns(&self) -> f64 {
         self.forecast.cost_ns(self.pair, self.pieces())
     }
-    /// Whether it follows contacts, or has no model for certain where no contact time is known, because the strikes
-    /// looked at leave open what later ones do, and there are later ones to look at: none are foreseen of a bar that
-    /// turns upright or over, or comes to rest. [`Setup::plan_from`] more strikes may then find a cheaper pair.
+    /// Whether the strikes looked at leave open what later ones do, and there are later ones to look at: none are
+    /// foreseen of a bar that turns upright or over, or comes to rest. [`Setup::plan_from`] more strikes may then find a
+    /// cheaper pair.
     #[must_use]
     pub fn is_open(&self) -> bool {
-        let uncertain = self.forecast.stop == Stop::CutShort && !serves(self.forecast.doubt, self.tolerance);
-        uncertain && (self.pair == Pair::HIGHEST || self.warning.is_some())
+        self.forecast.stop == Stop::CutShort && !serves(self.forecast.doubt, self.tolerance)
     }
     /// The quantity asked, by the models of the plan. Strikes and contacts are followed until, by the energy left,
     /// nothing later raises it by more than about half of a tolerance of 10 %, or at all with one of 8 % and less. Of

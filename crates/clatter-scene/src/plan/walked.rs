@@ -127,7 +127,8 @@ impl Walk {
     pub(super) fn errors(&self, lag: &Lag, top: f64, lates: &Lates) -> [f64; 2] {
         let highest = lates.highest;
         let [error, least] = self.followed(lag, top, lates);
-        [error, greater(self.later(lag, self.intervals[highest].peak.value), error)].map(|error| lesser(least, error))
+        let later = self.later(lag, self.intervals[highest].peak.value, top);
+        [error, greater(later, error)].map(|error| lesser(least, error))
     }
     /// What no interval of real tilt is off by more than.
     pub(super) fn off_at_most(&self) -> f64 {
@@ -168,10 +169,14 @@ impl Walk {
         [error, least]
     }
     /// What a lane may get wrong after the strikes followed.
-    fn later(&self, lag: &Lag, peak: f64) -> f64 {
+    fn later(&self, lag: &Lag, peak: f64, top: f64) -> f64 {
+        if self.stop == Stop::CutShort {
+            // Pulses need not flatten what comes as they do the peak, and what is fitted is fitted to all strikes.
+            return self.after_all() - top;
+        }
         let above = self.after_all() - peak;
-        // The map has no later strikes; the others have them, about. What is fitted is fitted to those after all.
-        if above <= 0.0 || lag.is_map || self.extra >= ROOM * peak || self.stop == Stop::CutShort {
+        // The map has no later strikes; the others have them, about.
+        if above <= 0.0 || lag.is_map || self.extra >= ROOM * peak {
             return above;
         }
         let of_intervals = || lag.off.iter().zip(&self.intervals[..self.strikes]).map(|(off, i)| off.all + i.doubt);
