@@ -170,7 +170,8 @@ impl Setup {
         // not looked at.
         let (mut bar, [mut net, mut largest]) = ([tilted; 2], [f64::INFINITY; 2]);
         if walk.stop != Stop::Off && (!compliant || tilted <= tolerance || tolerance == f64::INFINITY) {
-            let lags = walker.coarse(trail);
+            let mut lags = [Lag::NONE; 2];
+            walker.coarse(trail, &mut lags);
             // As parabolas something may come after all.
             let lates = walker.walk.lates();
             let [map, ballistic] = lags.each_ref().map(|lag| of_top(&walker.walk, lag, &lates)[1]);

@@ -39,7 +39,7 @@ pub(super) struct Beat {
     /// The component just after the last one, and as this one meets it.
     pub(super) begun: Motion,
     pub(super) met: Motion,
-    /// What the time until the next one does to it.
+    /// What the time between both did to it.
     pub(super) turn: Turn,
 }
 
@@ -193,6 +193,10 @@ impl Lag {
         let swing = part.swing;
         let meeting = if part.shocks || n == 0 { None } else { Some(Meeting::new(beat, part)) };
         for (lag, own) in lags.into_iter().zip(own) {
+            if n > 0 && !part.shocks {
+                lag.motion = swing.after(&beat.turn, lag.motion);
+                lag.lacking *= beat.turn.fade;
+            }
             let Some((after, own)) = own else {
                 lag.alive = false;
                 lag.lacking += beat.gross;
@@ -222,12 +226,6 @@ impl Lag {
             let all = swing.bound(lag.motion) + swing.factor * lag.lacking;
             lag.off[n] = Off { all, beginning: shifted.beginning, early: shifted.early };
         }
-    }
-    /// Until the next strike.
-    #[inline]
-    pub(super) fn fly(&mut self, swing: &Swing, turn: &Turn) {
-        self.motion = swing.after(turn, self.motion);
-        self.lacking *= turn.fade;
     }
 }
 

@@ -147,9 +147,9 @@ impl Swing {
             })
         } else {
             // slope = C e^(−(ζ−β)θ) + D e^(−(ζ+β)θ)
-            let slow = (bend + (self.zeta + self.beta) * slope) / (2.0 * self.beta);
+            let slow = 0.5 * self.over_beta * (bend + (self.zeta + self.beta) * slope);
             let ratio = 1.0 - slope / slow;
-            let phase = if ratio > 1.0 { ln(ratio) / (2.0 * self.beta) } else { f64::INFINITY };
+            let phase = if ratio > 1.0 { 0.5 * self.over_beta * ln(ratio) } else { f64::INFINITY };
             (phase < until).then(|| Peak {
                 value: self.quantity(self.after(&self.turn(phase), m)).abs(),
                 phase,

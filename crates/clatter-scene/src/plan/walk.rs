@@ -7,7 +7,7 @@ use super::demand::serves;
 use super::floats::{greater, lesser};
 use super::lag::{Beat, Lag, Part, TwoShocks};
 use super::pulse::Pulse;
-use super::swing::{Motion, Peak};
+use super::swing::{Motion, Peak, Turn};
 use super::trail::{Course, Step, Strikes};
 use super::walked::{Interval, Stop, Top, Walk, smoothing};
 use super::{FIRST_STRIKES, STRIKES};
@@ -51,6 +51,8 @@ pub(super) struct Walker<'a> {
     /// The component now, and just after the last strike.
     motion: Motion,
     begun: Motion,
+    /// What the time between did to it.
+    turn: Turn,
     peak: f64,
     /// Shocks in doubt, faded.
     doubtful: f64,
@@ -95,6 +97,7 @@ impl<'a> Walker<'a> {
             beats: [Beat::NONE; STRIKES],
             motion: Motion::default(),
             begun: Motion::default(),
+            turn: Turn::NONE,
             peak: 0.0,
             doubtful: 0.0,
             adrift: 0.0,
@@ -182,8 +185,7 @@ impl<'a> Walker<'a> {
                 let slope = greater(rate * end.signum(), 0.0);
                 interval.peak = Peak { value: end.abs(), phase: omega * gap, slope };
             }
-            self.walk.tilted.fly(swing, &turn);
-            self.beats[n].turn = turn;
+            self.turn = turn;
             self.doubtful *= turn.fade;
             self.adrift *= turn.fade;
             if let Some(share) = flight.lying {
@@ -280,7 +282,7 @@ impl<'a> Walker<'a> {
             together: both.is_some(),
             begun: self.begun,
             met: self.motion,
-            ..Beat::NONE
+            turn: self.turn,
         };
         let before = n.checked_sub(1).map(|before| &self.walk.intervals[before].peak);
         Lag::strike([&mut self.walk.tilted], [step.tilted], n, (beat, &self.part, before));
@@ -296,7 +298,8 @@ impl<'a> Walker<'a> {
             interval.adrift = self.adrift;
             interval.doubt = swing.factor * self.doubtful;
         }
-        self.motion.w -= delta_v;
+        // Read at once as a whole, what was written in part is waited for.
+        self.motion = Motion { x: self.motion.x, w: self.motion.w - delta_v };
         self.begun = self.motion;
         self.walk.strikes += 1;
     }
@@ -357,17 +360,13 @@ impl<'a> Walker<'a> {
     }
 
     /// The coarse lanes along the strikes followed. Where nothing falls any more, parabolas may have bounces left.
-    pub(super) fn coarse(&mut self, trail: &mut impl Strikes) -> [Lag; 2] {
-        let mut lags = [Lag::NONE; 2];
+    pub(super) fn coarse(&mut self, trail: &mut impl Strikes, lags: &mut [Lag; 2]) {
         lags[0].is_map = true;
         for (n, beat) in self.beats[..self.walk.strikes].iter().enumerate() {
             let Alike { own, spread } = trail.coarse(n, &beat.landing);
             let last = n.checked_sub(1).map(|last| &self.walk.intervals[last].peak);
             Lag::strike(lags.each_mut(), own, n, (beat, &self.part, last));
             lags[0].off[n].all += self.part.swing.factor * beat.gross * spread;
-            for lag in &mut lags {
-                lag.fly(self.part.swing, &beat.turn);
-            }
         }
         if self.rests
             && let Some(left) = trail.course().left_as_parabolas()
@@ -377,7 +376,6 @@ impl<'a> Walker<'a> {
                 (self.walk.late, self.walk.extra) = (late, extra);
             }
         }
-        lags
     }
 
     /// Sum and largest of the whole train of the map at the component, once the coarse lanes were followed; infinite
