@@ -11,6 +11,8 @@ use clatter::flight::{Body, Scene};
 use clatter::{Bar, Start};
 
 use super::ends::Ends;
+use super::floats::greater;
+use super::quick::ln;
 
 /// Both ends after it, the one that lands first, for an approach velocity of −1 and a contact time of 1.
 #[derive(Debug, Clone, Copy, Default)]
@@ -57,7 +59,7 @@ impl Both {
     /// where it changes which end parts last; beyond, those next to them.
     pub(super) fn of_contacts(q: f64, e: f64) -> Self {
         let (i, x) = cell((1.0 - (1.0 - q).sqrt()) / (1.0 - LEAST_ROOT));
-        let (j, y) = cell((-libm::log(e) - LOSS[0]) / (LOSS[1] - LOSS[0]));
+        let (j, y) = cell((-ln(greater(e, f64::MIN_POSITIVE)) - LOSS[0]) / (LOSS[1] - LOSS[0]));
         let at = |i: usize, j: usize| *TABLE[i][j].get_or_init(|| Self::followed(i, j));
         let four = [
             (at(i, j), (1.0 - x) * (1.0 - y)),
@@ -96,9 +98,7 @@ impl Both {
     pub(super) fn scaled(&self, ends: &Ends, landed: usize) -> Self {
         let scale = (ends.flat[landed] / ends.flat[1 - landed]).sqrt();
         let order = |[first, other]: [f64; 2]| {
-            let mut of_ends = [other * scale; 2];
-            of_ends[landed] = first;
-            of_ends
+            if landed == 0 { [first, other * scale] } else { [other * scale, first] }
         };
         Self { velocity: order(self.velocity), set_back: order(self.set_back), ..*self }
     }

@@ -87,8 +87,9 @@ impl Forecast {
             // No bar without contacts knows more.
             return (self.error(Pair::HIGHEST) <= tolerance).then_some(Pair::HIGHEST);
         }
-        // Of few strikes, impulses cost less than any pulses.
+        // Of few strikes, impulses cost less than any pulses, and the pieces of coarse pulses change no order.
         let is_short = self.is_short();
+        let counts = !is_short || tolerance < COARSE;
         let mut pieces = 0;
         let mut chosen: Option<(Pair, Option<(Prices, f64)>)> = None;
         for &pair in Pair::planned(self.quantity) {
@@ -107,7 +108,7 @@ impl Forecast {
             if is_short && is_pulses(pair) && !is_pulses(*cheapest) {
                 break;
             }
-            if is_pulses(pair) && pieces == 0 {
+            if counts && is_pulses(pair) && pieces == 0 {
                 pieces = whole_pieces_for(tolerance);
             }
             let (prices, least) = priced.get_or_insert_with(|| {
@@ -149,11 +150,18 @@ impl Forecast {
     }
 }
 
-/// Pieces of a pulse that take their share of a tolerance, as plans count them. In line, it would be worked out for all.
-#[inline(never)]
+/// From this tolerance on pulses have 24 pieces at most, and by [`Prices`] those of impacts cost less than contacts.
+const COARSE: f64 = 0.0025;
+
+/// Pieces of a pulse that take their share of a tolerance, as plans count them.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few hundred")]
+#[expect(clippy::cast_precision_loss, reason = "a few hundred")]
+#[inline(never)]
 fn whole_pieces_for(tolerance: f64) -> usize {
-    pieces_for(tolerance).ceil() as usize
+    let pieces = pieces_for(tolerance);
+    // `ceil` is a call.
+    let below = pieces as usize;
+    below + usize::from((below as f64) < pieces)
 }
 
 impl Plan {

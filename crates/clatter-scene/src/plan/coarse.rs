@@ -69,16 +69,18 @@ impl Coarse {
         {
             self.ahead = self.mapped.next();
             if landing.presses {
-                let mut last = 0.0;
+                // In place, every step would wait for what the one before has written.
+                let (mut map, mut ahead, mut last) = (self.mapped.clone(), self.ahead, 0.0);
                 for _ in 0..MOST_AT_ONCE {
-                    let Some((_, after, more)) = self.ahead.filter(|(_, after, _)| last + after < contact_s) else {
+                    let Some((_, after, more)) = ahead.filter(|(_, after, _)| last + after < contact_s) else {
                         break;
                     };
                     last += after;
-                    self.ahead = self.mapped.next();
+                    ahead = map.next();
                     sum = (sum.0 + more.0, sum.1 + more.1);
-                    spread = last / contact_s;
                 }
+                (self.mapped, self.ahead) = (map, ahead);
+                spread = if last > 0.0 { last / contact_s } else { 0.0 };
             }
             own[0] = Some((after, sum));
         }

@@ -184,15 +184,15 @@ impl Lag {
 
     /// Strike n of some lanes, where they have it; `last` is the peak of the interval before.
     #[inline]
-    pub(super) fn strike<const K: usize>(
-        lags: [&mut Self; K],
-        own: [Option<Own>; K],
+    pub(super) fn strike(
+        lags: &mut [Self],
+        own: &[Option<Own>],
         n: usize,
         (beat, part, last): (&Beat, &Part<'_>, Option<&Peak>),
     ) {
         let swing = part.swing;
         let meeting = if part.shocks || n == 0 { None } else { Some(Meeting::new(beat, part)) };
-        for (lag, own) in lags.into_iter().zip(own) {
+        for (lag, &own) in lags.iter_mut().zip(own) {
             if n > 0 && !part.shocks {
                 lag.motion = swing.after(&beat.turn, lag.motion);
                 lag.lacking *= beat.turn.fade;
@@ -214,7 +214,7 @@ impl Lag {
             let (Some(meeting), Some(last)) = (&meeting, last) else {
                 // At the first touch all find it at rest.
                 lag.motion.w = beat.delta_v - own;
-                lag.off[n].all = swing.bound(lag.motion);
+                lag.off[n].all = swing.factor * lag.motion.w.abs();
                 continue;
             };
             lag.off[n - 1].all += beat.cuts(after, last, part);

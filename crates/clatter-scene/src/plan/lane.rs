@@ -48,7 +48,8 @@ impl Iterator for MapLane {
         if self.touched && fall >= 0.0 {
             return None;
         }
-        let after = if self.touched { greater(height / -fall, 0.0) } else { 0.0 };
+        // Speeds do not wait for heights, so that their reciprocal is there before.
+        let after = if self.touched { greater(height * (1.0 / -fall), 0.0) } else { 0.0 };
         let jump = -self.gain * lesser(fall, 0.0);
         let back = -self.ratio[0] * jump;
         *self = Self {

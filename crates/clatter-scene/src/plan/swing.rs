@@ -117,6 +117,9 @@ impl Swing {
     pub(super) fn fade(&self, theta: f64) -> f64 {
         decay(self.decay() * theta)
     }
+    /// What a phase does.
+    #[expect(clippy::inline_always, reason = "in memory, what is returned is waited for")]
+    #[inline(always)]
     pub(super) fn turn(&self, theta: f64) -> Turn {
         let (z, b) = (self.zeta, self.beta);
         if self.swings {
@@ -133,6 +136,8 @@ impl Swing {
         Motion { x: m.x * turn.c + (m.w + z * m.x) * turn.s, w: m.w * turn.c - (m.x + z * m.w) * turn.s }
     }
     /// Largest |Q| of the free motion from m before the phase `until`: its start or its first turning point.
+    #[expect(clippy::inline_always, reason = "in memory, what is returned is waited for")]
+    #[inline(always)]
     pub(super) fn peak(&self, m: Motion, until: f64) -> Peak {
         let (now, rate) = (self.quantity(m), self.rate(m));
         let (slope, bend) = (self.quantity(rate), self.quantity(self.rate(rate)));

@@ -141,7 +141,8 @@ impl Course {
             let impacts = Both::of_impacts(q, ends.e);
             [impacts, if contact_s > 0.0 { Both::of_contacts(q, ends.e) } else { impacts }]
         });
-        both.map(|both| both.scaled(ends, landed))
+        let [impacts, contacts] = both;
+        [impacts.scaled(ends, landed), contacts.scaled(ends, landed)]
     }
 
     /// The next strike.

@@ -1,5 +1,7 @@
 //! The first strikes of a drop as one component has them.
 
+use std::slice::{from_mut, from_ref};
+
 use super::bounds::{later_response, later_shock, pile_until_rest, weight};
 use super::coarse::Alike;
 use super::coupling::of;
@@ -152,7 +154,7 @@ impl<'a> Walker<'a> {
     /// Whether real tilt serves whatever comes later.
     fn serves(&self, tolerance: f64) -> bool {
         let Top { left, .. } = self.top();
-        serves(self.walk.errors(&self.walk.tilted, left, &self.walk.lates())[1] / left, tolerance)
+        serves(self.walk.errors(&self.walk.tilted, left, &self.walk.lates()).1 / left, tolerance)
     }
 
     /// The peak as pulses leave it: one that they flatten leaves more room to every error.
@@ -232,7 +234,7 @@ impl<'a> Walker<'a> {
         }
         let lates = walk.lates();
         let peak = walk.intervals[lates.highest].peak.value;
-        let [error, least] = walk.followed(&walk.tilted, peak, &lates);
+        let (error, least) = walk.followed(&walk.tilted, peak, &lates);
         let rises = if lates.highest + 1 == walk.strikes { 2.0 } else { 1.0 };
         lesser(error, least) > rises * tolerance * peak
     }
@@ -285,7 +287,7 @@ impl<'a> Walker<'a> {
             turn: self.turn,
         };
         let before = n.checked_sub(1).map(|before| &self.walk.intervals[before].peak);
-        Lag::strike([&mut self.walk.tilted], [step.tilted], n, (beat, &self.part, before));
+        Lag::strike(from_mut(&mut self.walk.tilted), from_ref(&step.tilted), n, (beat, &self.part, before));
         let from_s = self.walk.last_s;
         let interval = &mut self.walk.intervals[n];
         interval.from_s = from_s;
@@ -363,9 +365,9 @@ impl<'a> Walker<'a> {
     pub(super) fn coarse(&mut self, trail: &mut impl Strikes, lags: &mut [Lag; 2]) {
         lags[0].is_map = true;
         for (n, beat) in self.beats[..self.walk.strikes].iter().enumerate() {
-            let Alike { own, spread } = trail.coarse(n, &beat.landing);
+            let Alike { own, spread } = &trail.coarse(n, &beat.landing);
             let last = n.checked_sub(1).map(|last| &self.walk.intervals[last].peak);
-            Lag::strike(lags.each_mut(), own, n, (beat, &self.part, last));
+            Lag::strike(lags, own, n, (beat, &self.part, last));
             lags[0].off[n].all += self.part.swing.factor * beat.gross * spread;
         }
         if self.rests

@@ -124,11 +124,11 @@ impl Walk {
         if off.is_nan() { f64::INFINITY } else { off }
     }
     /// What a lane gets wrong, if pulses leave `top` of the peak: by the strikes followed, and by all.
-    pub(super) fn errors(&self, lag: &Lag, top: f64, lates: &Lates) -> [f64; 2] {
+    pub(super) fn errors(&self, lag: &Lag, top: f64, lates: &Lates) -> (f64, f64) {
         let highest = lates.highest;
-        let [error, least] = self.followed(lag, top, lates);
+        let (error, least) = self.followed(lag, top, lates);
         let later = self.later(lag, self.intervals[highest].peak.value, top);
-        [error, greater(later, error)].map(|error| lesser(least, error))
+        (lesser(least, error), lesser(least, greater(later, error)))
     }
     /// What no interval of real tilt is off by more than.
     pub(super) fn off_at_most(&self) -> f64 {
@@ -154,8 +154,8 @@ impl Walk {
     /// What a lane gets wrong by the strikes followed, and what it gets wrong at most if what follows some interval is
     /// left to its bound.
     #[inline]
-    pub(super) fn followed(&self, lag: &Lag, top: f64, lates: &Lates) -> [f64; 2] {
-        let [mut error, mut least] = [self.off(lag, lates.highest), f64::INFINITY];
+    pub(super) fn followed(&self, lag: &Lag, top: f64, lates: &Lates) -> (f64, f64) {
+        let (mut error, mut least) = (self.off(lag, lates.highest), f64::INFINITY);
         let peak_s = self.intervals[lates.highest].from_s;
         for (n, interval) in self.intervals[..self.strikes].iter().enumerate() {
             // Another that comes up to the top may be the higher one.
@@ -166,7 +166,7 @@ impl Walk {
                 least = lesser(greater(lates.after[n] - top, error), least);
             }
         }
-        [error, least]
+        (error, least)
     }
     /// What a lane may get wrong after the strikes followed.
     fn later(&self, lag: &Lag, peak: f64, top: f64) -> f64 {
