@@ -9,7 +9,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use clatter::flight::{Body, Scene};
-use clatter_scene::plan::{BarRung, ComponentRung, FIRST_STRIKES, Pair, Plan, Quantity, STRIKES, Setup};
+use clatter_scene::plan::{BarRung, FIRST_STRIKES, Pair, Plan, Quantity, STRIKES, Setup};
 use clatter_shock::{DampingRatio, Suspension};
 
 pub(crate) const QUANTITIES: [Quantity; 3] =
@@ -60,7 +60,7 @@ impl Random {
 pub(crate) struct Run {
     pub(crate) pair: Pair,
     pub(crate) estimate: f64,
-    /// With the pieces for each tolerance.
+    /// For each tolerance.
     pub(crate) with: [Ran; 3],
 }
 
@@ -171,11 +171,8 @@ pub(crate) fn study(seed: u64, scenes: usize) -> (Vec<Outcome>, usize) {
                 Ran { error: (value / truth - 1.0).abs(), seconds, modeled_ns: forecast.cost_ns(pair, plan.pieces()) }
             };
             let runs = Pair::planned(quantity).iter().map(|&pair| {
-                let cut = pair.component == ComponentRung::PulseTrain;
-                let mut with = [run(pair, &plans[0]); 3];
-                for (with, plan) in with.iter_mut().zip(&plans).skip(1).filter(|_| cut) {
-                    *with = run(pair, plan);
-                }
+                // Each by its own pieces of pulses, and as far as its tolerance asks.
+                let with = plans.each_ref().map(|plan| run(pair, plan));
                 Run { pair, estimate: forecast.pair(pair).error, with }
             });
             let runs = runs.collect();
