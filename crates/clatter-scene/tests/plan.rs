@@ -398,12 +398,12 @@ fn a_bar_that_turns_over_about_an_end_is_left_open() {
 }
 
 /// Where an error is allowed, strikes are left out that may raise the answer: seldom by more than a tolerance of 10 %, and
-/// never by one of 5 %. Some are.
+/// by less than 21 % then, as the docs have it of thirty times as many scenes; never by one of 5 %. Some are.
 #[test]
 fn strikes_left_out_count_by_no_more_than_stated() {
     let mut random = Random(29);
     let scenes = if cfg!(debug_assertions) { 60 } else { 600 };
-    for (tolerance, most) in [(0.1, 0.25), (0.05, 0.05), (0.01, 0.01)] {
+    for (tolerance, most) in [(0.1, 0.21), (0.05, 0.05), (0.01, 0.01)] {
         let (mut all, mut beyond, mut some) = (0, 0, 0);
         for _ in 0..scenes {
             let setup = random.setup();

@@ -153,7 +153,7 @@ impl Forecast {
 /// From this tolerance on pulses have 24 pieces at most, and by [`Prices`] those of impacts cost less than contacts.
 const COARSE: f64 = 0.0025;
 
-/// Pieces of a pulse that take their share of a tolerance, as plans count them.
+/// Pieces of a pulse that take their share of a tolerance, as plans count them. In line, it would be worked out for all.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few hundred")]
 #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
 #[inline(never)]

@@ -21,7 +21,8 @@ const LOOK: usize = STRIKES;
 /// than 1e-4, 99 by more than 10 %, and none by 21 %.
 const CLEAR: f64 = 0.75;
 const ALLOWED: f64 = 45.0;
-/// No larger error counts: with this one, what can come passes the peak by 20 % at most.
+/// No larger error counts: with this one, what can come passes the peak by 20 % at most, twice the error allowed. That
+/// is seldom reached, and few long trains take most of the time.
 const ONLY: f64 = 0.1;
 /// Phase of the fastest mode of a component in one contact from which on that is no impulse.
 const PULSE: f64 = 0.5;
@@ -29,8 +30,9 @@ const PULSE: f64 = 0.5;
 const LONG: f64 = 4.0;
 
 impl Setup {
-    /// A flight with contacts, and the time after which no strike of it raises the quantity beyond a tolerance: by the
-    /// bound of [`Forecast::until_s`] on the flight itself, which is followed further until it holds, or to its end.
+    /// A flight with contacts, and the time after which no strike of it raises the quantity by more than a tolerance lets
+    /// it ([`CLEAR`]): by the bound of [`Forecast::until_s`] on the flight itself, which is followed further until it
+    /// holds, or to its end.
     ///
     /// [`Forecast::until_s`]: super::Forecast::until_s
     pub(super) fn settled_flight(
@@ -55,8 +57,8 @@ impl Setup {
         Ok((flight, settled_s))
     }
 
-    /// A flight of impacts, each of which acts for a time, as far as any strike of it raises the quantity beyond a
-    /// tolerance, by the same bound.
+    /// A flight of impacts, each of which acts for a time, as far as any strike of it raises the quantity by more than a
+    /// tolerance lets it, by the same bound.
     pub(super) fn settled_strikes(
         &self,
         scene: &Scene,
