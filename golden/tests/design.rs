@@ -1,13 +1,12 @@
-//! The paper's design example, and what design and scatter say of a product.
+//! The paper's design example, and what design says of a product.
 
 #![cfg(test)]
 
 use std::fmt::Write as _;
 
 use clatter::design::{Goal, front, region};
-use clatter_scene::design::{Bounds, Outcome};
-use clatter_scene::scatter::{Sampler, Settings};
-use clatter_scene::{ProductFile, Verdict};
+use clatter_assess::design::{Bounds, Outcome, Together};
+use clatter_assess::{ProductFile, Verdict};
 
 fn golden(name: &str, text: &str) {
     insta::with_settings!(
@@ -61,46 +60,42 @@ damping_ratio = 0.1
 acceleration_limit = "110 gn"
 "#;
 
+/// The least margin that changes are to leave.
+const MARGIN: f64 = 0.1;
+
+fn together(text: &mut String, name: &str, found: &Together) {
+    let _ = writeln!(text, "  {name}: margin {:+.2}, {}", found.after.tightest().margin, found.after.verdict.name());
+    for change in &found.changes {
+        let _ = writeln!(text, "    {:<18} {:.3?} -> {:.3?}", change.lever.name(), change.from, change.to);
+    }
+}
+
 #[test]
 fn changes_that_make_a_laptop_safe() {
     let file = ProductFile::read(LAPTOP, "laptop.toml").unwrap();
     let assessment = file.assess().unwrap();
     let mut text = String::new();
-    for part in file.remedies(&assessment, &Bounds::default()).unwrap() {
+    for part in file.remedies(&assessment, &Bounds::default(), MARGIN).unwrap() {
         let found = &assessment.components[part.component];
-        let _ = writeln!(text, "{}", found.name);
-        for remedy in part.levers {
-            let said = match remedy.outcome {
-                Outcome::Change { from, to, after } => {
+        let _ = writeln!(text, "{}: {}", found.name, found.verdict.name());
+        for remedy in &part.levers {
+            let said = match &remedy.outcome {
+                Outcome::Change { change, after } => {
                     assert_eq!(after.verdict, Verdict::Safe, "assessed again");
-                    format!("{from:.3?} -> {to:.3?}")
+                    assert!(after.tightest().margin >= MARGIN, "{after:?}");
+                    format!("{:.3?} -> {:.3?}", change.from, change.to)
                 }
                 Outcome::Nowhere { bounds } => format!("nowhere in {bounds:.3?}"),
                 Outcome::NoEffect => "no effect".to_owned(),
             };
             let _ = writeln!(text, "  {:<18} {said}", remedy.lever.name());
         }
-    }
-    golden("design-of-a-laptop", &text);
-}
-
-/// Counts of failures are the same on any machine: the generator counts in integers, and sines come from `libm`.
-#[test]
-fn scatter_of_a_laptop() {
-    let file = ProductFile::read(LAPTOP, "laptop.toml").unwrap();
-    let settings = Settings { samples: 20_000, seed: 1, confidence: 0.95 };
-    let scatter = Sampler::new(&file, settings).unwrap().run::<()>(false, |_| Ok(())).unwrap();
-    let mut text = String::new();
-    for part in scatter.components {
-        let p = part.survival;
-        let _ = writeln!(text, "{}: {} of 20000 fail", part.name, part.failures);
-        let _ =
-            writeln!(text, "  survives {:.5} in [{:.5}, {:.5}], at least {:.5}", p.estimate, p.lo, p.hi, p.at_least);
-        let _ = writeln!(text, "  utilization {:.5} ± {:.5}", part.mean_utilization, part.utilization_deviation);
-        for driver in part.drivers {
-            let share = driver.share;
-            let _ = writeln!(text, "  {:<18} {:.3} {:+.3}", driver.input.name(), share.variance, share.trend);
+        if let Some(pair) = &part.pair {
+            together(&mut text, "together", pair);
+        }
+        if let Some(nearest) = &part.nearest {
+            together(&mut text, "nearest", nearest);
         }
     }
-    golden("scatter-of-a-laptop", &text);
+    golden("design-of-a-laptop", &text);
 }

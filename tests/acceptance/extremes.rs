@@ -153,6 +153,35 @@ proptest! {
         is_answered(&[&fixed[..], &[inertia], &rest, &part].concat())?;
     }
 
+    /// Drops as there are, and what is none.
+    #[test]
+    fn respond_by_a_model_answers_any_numbers(
+        model in select(vec!["map", "ballistic", "finite-tilt", "compliant"]), gyration in prop_oneof![3 => 0.1..=1.0_f64, 1 => number()],
+        c in prop_oneof![3 => -0.3..=0.3_f64, 1 => number()], e in prop_oneof![3 => 0.0..=0.95_f64, 1 => number()], speed in -1.0..1.0_f64,
+        tilt in prop_oneof![3 => 0.0..=30.0_f64, 1 => number()], gravity in prop_oneof![Just(0.0), Just(9.806_65)], at in number(),
+        contact in prop_oneof![3 => -6.0..-2.5_f64, 1 => -12.0..3.0_f64], dashpot in any::<bool>(), held in any::<bool>(), omega in size(), zeta in size(),
+    ) {
+        let mut arguments = ["respond", "--length-m=0.14", "--format=json"].map(str::to_owned).to_vec();
+        arguments.extend([
+            format!("--model={model}"),
+            format!("--gyration-m={:?}", 0.07 * gyration.abs()),
+            format!("--center-of-mass={c:?}"),
+            format!("--e={:?}", e.abs()),
+            format!("--speed-m-s={:?}", 10f64.powf(speed)),
+            format!("--tilt-deg={:?}", tilt.abs()),
+            format!("--gravity-m-s2={gravity:?}"),
+            format!("--at={at:?}"),
+        ]);
+        if model == "compliant" {
+            arguments.push(format!("--contact-time-s={:?}", 10f64.powf(contact)));
+            arguments.extend(dashpot.then(|| "--contact-law=dashpot".to_owned()));
+        }
+        if held {
+            arguments.extend([format!("--omega={omega:?}"), format!("--damping={zeta:?}")]);
+        }
+        is_answered(&arguments)?;
+    }
+
     #[test]
     fn spectrum_answers_any_numbers(
         shape in select(vec!["half-sine", "triangle", "initial-peak-sawtooth", "rectangle", "trapezoid:0.5"]),

@@ -17,6 +17,7 @@ mod json;
 mod map;
 mod off_center;
 mod oracle;
+mod products;
 mod respond;
 mod scatter;
 mod simulate;

@@ -87,6 +87,25 @@ fn impacts_tell_both_ends_apart() {
     assert!((got["peak"]["center"].as_f64().unwrap() - center).abs() < 1e-12);
 }
 
+/// A bar of masses next to the endless curve: its count hangs on the last digit of their center of mass. The same bar, given by
+/// lengths, is what was given.
+#[test]
+fn a_count_of_masses_is_exact_unless_their_rounding_decides_it() {
+    let masses = |e: &str| ["impacts", "--mass=2@-1:1", "--mass=1@0.5", e, "--limit=0"].map(str::to_owned);
+    // T = q (1 + e) = 2 √e at this e, to the last digit.
+    let (on_the_curve, apart) = (masses("--e=0.08987858053123303"), masses("--e=0.1"));
+    let next = answer(&on_the_curve);
+    assert_eq!(next["count_exact"], json!(false), "{next}");
+    assert!(next["count"].as_u64().unwrap() > 1_000_000, "{next}");
+    let table = clatter(&on_the_curve).stdout;
+    assert!(table.contains("of the rounded masses"), "{table}");
+    assert_eq!(answer(&apart)["count_exact"], json!(true));
+    let [c, k] = ["center_of_mass", "gyration_ratio"].map(|key| next[key].as_f64().unwrap());
+    let lengths = [format!("--center-of-mass={c:?}"), format!("--gyration-ratio={k:?}")];
+    let given = answer(["impacts", "--e=0.08987858053123303", "--limit=0", &lengths[0], &lengths[1]]);
+    assert_eq!((&given["count_exact"], &given["count"]), (&json!(true), &next["count"]));
+}
+
 #[test]
 fn zones_reach_differently_far_from_the_safest_place() {
     let got =

@@ -85,6 +85,85 @@ fn samples_in_a_file_add_up_to_the_answer() {
 }
 
 #[test]
+fn a_target_that_is_not_sure_exits_with_1_and_says_so() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = file(&dir);
+    let run = |target: &str| clatter(["scatter", path.as_str(), "--samples=2000", target]);
+    let low = answer(["scatter", path.as_str(), "--samples=2000"])["survival"]["interval"][0].as_f64().unwrap();
+    assert!((0.9..0.999).contains(&low), "{low}");
+    let missed = run("--target=99.99%");
+    assert_eq!((missed.exit, missed.stderr.as_str()), (Exit::Unsafe, ""));
+    assert!(missed.stdout.contains("Target of 99.99 % MISSED: the 95 % interval begins at "), "{}", missed.stdout);
+    // The interval decides, not the estimate: just above and just below where it begins.
+    let [above, below] = [1e-6, -1e-6].map(|off| run(&format!("--target={:?}", low + off)));
+    assert_eq!((above.exit, below.exit), (Exit::Unsafe, Exit::Done));
+    assert!(below.stdout.contains(" met: the 95 % interval begins at "), "{}", below.stdout);
+    let json = clatter(["scatter", path.as_str(), "--samples=2000", "--target=0.9999", "--format=json"]);
+    let found: serde_json::Value = serde_json::from_str(&json.stdout).unwrap();
+    assert_eq!(json.exit, Exit::Unsafe);
+    assert_eq!(found["target"], serde_json::json!({"survival": 0.9999, "met": false}));
+}
+
+/// All that may vary: what is drawn, and which part has it.
+#[test]
+fn contact_time_damping_place_and_limits_may_vary() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("all.toml");
+    let all = HANDHELD
+        .replace("restitution = [0.25, 0.4]", "restitution = 0.3\ncontact_time = [\"0.3 ms\", \"0.5 ms\"]")
+        .replace("damping_ratio = 0.1", "damping_ratio = { uniform = [0.05, 0.2] }")
+        .replace("\"55 mm\"", "{ normal = [\"55 mm\", \"1 mm\"], range = [\"50 mm\", \"60 mm\"] }")
+        .replace("\"500 gn\"", "{ uniform = [\"400 gn\", \"600 gn\"] }");
+    std::fs::write(&path, all).unwrap();
+    let target = dir.path().join("samples.csv");
+    let flags = ["--samples=500", "--format=json", "-o", target.to_str().unwrap()];
+    let outcome = clatter(["scatter", path.to_str().unwrap()].iter().chain(&flags));
+    assert_eq!((outcome.exit, outcome.stderr.as_str()), (Exit::Done, ""));
+    let found: serde_json::Value = serde_json::from_str(&outcome.stdout).unwrap();
+    let names: Vec<_> = found["inputs"].as_array().unwrap().iter().map(|i| i["input"].as_str().unwrap()).collect();
+    for name in ["contact-time", "natural-frequency", "damping", "position", "limit"] {
+        assert!(names.contains(&name), "{name}: {names:?}");
+    }
+    let limit = found["inputs"].as_array().unwrap().iter().find(|input| input["input"] == "limit").unwrap();
+    assert_eq!((&limit["component"], &limit["limit"]), (&0.into(), &"acceleration".into()));
+    assert_eq!(found["model"]["bar"], "compliant");
+    assert_eq!((&found["model"]["pilot"], &found["unanswered"]), (&serde_json::Value::Null, &0.into()), "few samples");
+    let csv = std::fs::read_to_string(&target).unwrap();
+    let titles = csv.lines().next().unwrap();
+    for title in ["contact_time_s", "damping_ratio of camera", "position_m of camera", "acceleration limit of camera"] {
+        assert!(titles.contains(title), "{title}: {titles}");
+    }
+    assert_eq!(csv.lines().count(), 501);
+    let columns = titles.replace("camera, front", "camera").matches(',').count();
+    assert!(csv.lines().skip(1).all(|line| line.matches(',').count() == columns && !line.contains("NaN")), "{titles}");
+}
+
+/// Many drops: a pilot tells what the closed form gets wrong, and it is taken or left for that.
+#[test]
+fn many_drops_are_answered_after_a_pilot() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = file(&dir);
+    let found = answer(["scatter", path.as_str(), "--samples=10000"]);
+    let pilot = &found["model"]["pilot"];
+    let error = pilot["worst_error"].as_f64().unwrap();
+    assert!(pilot["drops"].as_u64().unwrap() >= 400 && pilot["confidence"].as_f64().unwrap() > 0.95, "{pilot}");
+    assert_eq!(pilot["taken"], error <= 0.05, "{pilot}");
+    assert_eq!(found["model"]["bar"], if error <= 0.05 { "map" } else { "finite-tilt" });
+    let table = clatter(["scatter", path.as_str(), "--samples=10000"]).stdout;
+    assert!(table.contains("the closed form is off by up to ") || table.contains("Answered in closed form"), "{table}");
+    // Without gravity and at small tilt it is the whole truth.
+    let free = HANDHELD.replace("first = \"either\"", "first = \"either\"\ngravity = \"0 gn\"");
+    let free = free.replace(
+        "height = { normal = [\"1.2 m\", \"0.2 m\"], range = [\"0.6 m\", \"1.8 m\"] }",
+        "speed = [\"4 m/s\", \"5 m/s\"]",
+    );
+    let free = free.replace("{ triangular = [\"0.5 deg\", \"2 deg\", \"10 deg\"] }", "[\"0.5 deg\", \"1 deg\"]");
+    std::fs::write(dir.path().join("free.toml"), free).unwrap();
+    let found = answer(["scatter", dir.path().join("free.toml").to_str().unwrap(), "--samples=10000"]);
+    assert_eq!((&found["model"]["bar"], &found["model"]["pilot"]["taken"]), (&"map".into(), &true.into()), "{found}");
+}
+
+#[test]
 fn the_table_tells_what_drives_a_part() {
     let dir = tempfile::tempdir().unwrap();
     let outcome = clatter(["scatter", &file(&dir), "--samples=20000"]);

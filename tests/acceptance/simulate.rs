@@ -64,7 +64,11 @@ const REFUSED: &[(&str, &[&str], &[&str])] = &[
     ("compliant", &["--contact-time-s=0"], &["--contact-time-s", "0.0", "[1e-12, 1000]"]),
     ("compliant", &["--contact-time-s=1e-13"], &["--contact-time-s", "1e-13", "[1e-12, 1000]"]),
     ("compliant", &["--contact-time-s=0.1"], &["--contact-time-s", "0.1", "at most 0.1 length/speed"]),
-    ("compliant", &["--contact-time-s=1e-3", "--e=0.001"], &["--e", "0.001", "[0.01, 1]"]),
+    ("compliant", &["--contact-time-s=1e-3", "--e=1.001"], &["--e", "1.001", "[0, 1]"]),
+    ("compliant", &["--contact-time-s=1e-3", "--contact-law=glue"], &["--contact-law", "glue", "hysteretic, dashpot"]),
+    ("compliant", &["--contact-law=dashpot"], &["--contact-time-s <S>"]),
+    ("map", &["--contact-law=dashpot"], &["--contact-time-s <S>"]),
+    ("map", &["--contact-time-s=1e-3", "--contact-law=dashpot"], &["--contact-law", "--model=compliant alone"]),
     ("compliant", &["--contact-time-s=1e-4", "--gyration-m=0.001"], &["--gyration-m", "0.001", "at least 0.05 of the length"]),
 ];
 
@@ -73,10 +77,11 @@ fn unphysical_drops_are_refused() {
     are_refused(REFUSED.iter().map(|(model, others, said)| (arguments(model, others), *said)));
 }
 
-/// The reference drops of the models in `crates/clatter/tests/data/flight.json`: a fine numerical integration.
+/// The reference drops of the models in `crates/clatter-flight/tests/data/flight.json`: a fine numerical integration.
 #[test]
 fn every_reference_drop_comes_out() {
-    let oracle: Value = serde_json::from_str(include_str!("../../crates/clatter/tests/data/flight.json")).unwrap();
+    let oracle: Value =
+        serde_json::from_str(include_str!("../../crates/clatter-flight/tests/data/flight.json")).unwrap();
     let cases = oracle["cases"].as_array().unwrap();
     for case in cases {
         let model = case["model"].as_str().unwrap();
@@ -160,6 +165,118 @@ fn overlapping_contacts_are_told() {
     assert!(overlap.stderr.contains("while the other end still presses, the first is number 2"), "{}", overlap.stderr);
     let apart = clatter(arguments("compliant", &["--contact-time-s=3e-4", "--impact-limit=3"]));
     assert!(!apart.stderr.contains("presses"), "{}", apart.stderr);
+}
+
+/// The answer, whatever is told beside it.
+fn simulated(arguments: Vec<String>) -> Value {
+    let outcome = clatter(arguments.into_iter().chain(["--format=json".to_owned()]));
+    assert_eq!(outcome.exit, Exit::Done, "{}", outcome.stderr);
+    serde_json::from_str(&outcome.stdout).unwrap()
+}
+
+/// The largest force over the mass of a file of rows.
+fn largest_force(rows: &[Vec<f64>], column: usize) -> f64 {
+    rows.iter().map(|row| row[column]).fold(0.0, f64::max)
+}
+
+/// One contact of 2e-4 s, alone: its largest acceleration is that of the half-sine of its area and length, by the default
+/// law; a dashpot's jumps at the touch.
+#[test]
+fn a_contact_law_can_be_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("motion.csv");
+    let output = format!("--output={}", file.display());
+    // At 20° end b is far from the ground meanwhile.
+    let lone = ["--contact-time-s=2e-4", "--gravity-m-s2=0", "--impact-limit=1", "--tilt-deg=20", "--at=-1"];
+    let run = |law: &[&str], e: &str| {
+        let got = simulated(arguments("compliant", &[&lone[..], law, &[e, "--time-limit-s=3e-4", &output]].concat()));
+        let (heading, rows) = history(&file);
+        let column = heading.iter().position(|name| name == "force_per_mass_a_m_s2").unwrap();
+        (got, largest_force(&rows, column), rows)
+    };
+    let (got, force, _) = run(&[], "--e=0.2");
+    assert_eq!((&got["contact_law"], &got["contact_time_s"]), (&"hysteretic".into(), &2e-4.into()));
+    // The force on end a gives the center of mass its change of velocity.
+    let center = {
+        let [a, b] = [0, 1].map(|end| got["impacts"][0]["delta_v_m_s"][end].as_f64().unwrap());
+        0.5 * (a + b)
+    };
+    let half_sine = std::f64::consts::FRAC_PI_2 * center / 2e-4;
+    assert!((force / half_sine - 1.0).abs() < 2e-3, "{force}, not {half_sine}");
+    let (same, again, _) = run(&["--contact-law=hysteretic"], "--e=0.2");
+    assert_eq!((same, again.to_bits()), (got, force.to_bits()));
+    let (dashpot, harder, _) = run(&["--contact-law=dashpot"], "--e=0.2");
+    assert_eq!(dashpot["contact_law"], "dashpot");
+    assert!(harder > 1.2 * half_sine, "{harder}: below e = 0.3 it is largest as it touches");
+    for e in ["--e=0", "--e=1"] {
+        let (got, ..) = run(&[], e);
+        let e: f64 = e[4..].parse().unwrap();
+        let a = got["impacts"][0]["delta_v_m_s"][0].as_f64().unwrap();
+        assert!((a / ((1.0 + e) * 4.43) - 1.0).abs() < 2e-3, "{a} at e = {e}");
+    }
+    let whole = simulated(arguments("compliant", &["--contact-time-s=2e-4"]));
+    assert!(whole["energy_error"].as_f64().unwrap() < 1e-3, "{}", whole["energy_error"]);
+}
+
+#[test]
+fn a_contact_that_a_limit_cuts_off_is_unfinished() {
+    let cut = ["--contact-time-s=4e-4", "--time-limit-s=1e-4", "--at=0"];
+    let outcome = clatter(arguments("compliant", &[&cut[..], &["--format=json"]].concat()));
+    assert_eq!(outcome.exit, Exit::Done);
+    assert_eq!(
+        outcome.stderr,
+        "warning: 1 contact is cut off there, the first is that of number 1: what it does in all is not known\n"
+    );
+    let got: Value = serde_json::from_str(&outcome.stdout).unwrap();
+    let first = &got["impacts"][0];
+    assert_eq!((&first["unfinished"], &first["until_s"]), (&json!(true), &json!("infinite")));
+    assert_eq!((&first["delta_v_m_s"], &first["delta_v_at_m_s"]), (&json!([null, null]), &json!([null])));
+    assert_eq!((&first["time_s"], &first["approach_m_s"]), (&json!(0.0), &json!(-4.43)));
+    for format in ["table", "csv"] {
+        let shown = clatter(arguments("compliant", &[&cut[..], &[&format!("--format={format}")]].concat())).stdout;
+        assert_eq!(shown.lines().last().unwrap().matches("unfinished").count(), 4, "until and three shocks: {shown}");
+    }
+    // What a limit of number leaves pressing is unfinished as well, what has parted before is not.
+    let list = clatter(arguments("compliant", &["--contact-time-s=4e-4", "--impact-limit=2", "--format=csv"])).stdout;
+    let unfinished: Vec<bool> = list.lines().skip(1).map(|line| line.contains("unfinished")).collect();
+    assert!(unfinished.len() == 2 && !unfinished[0], "{list}");
+    let rest = simulated(arguments("compliant", &["--contact-time-s=4e-4"]));
+    assert_eq!(rest["stop"]["reason"], "at-rest");
+    for impact in rest["impacts"].as_array().unwrap() {
+        assert!(impact.get("unfinished").is_none() && impact["delta_v_m_s"][0].is_number(), "{impact}");
+    }
+}
+
+/// The rows go on until the last contact has parted: its force ends at 0, above the ground.
+#[test]
+fn a_motion_goes_on_until_the_last_contact_has_parted() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("motion.csv");
+    let output = format!("--output={}", file.display());
+    let got = simulated(arguments("compliant", &["--contact-time-s=4e-4", "--gravity-m-s2=0", &output]));
+    assert_eq!(got["stop"]["reason"], "bounced-clear");
+    let parted = got["impacts"].as_array().unwrap().iter().map(|i| i["until_s"].as_f64().unwrap()).fold(0.0, f64::max);
+    let (heading, rows) = history(&file);
+    let last = rows.last().unwrap();
+    assert!(last[0] >= parted, "{} s, and the last contact parts at {parted} s", last[0]);
+    for name in ["force_per_mass_a_m_s2", "force_per_mass_b_m_s2"] {
+        let column = heading.iter().position(|has| has == name).unwrap();
+        assert!(last[column].abs() < 1e-9, "{name} {last:?}");
+    }
+}
+
+#[test]
+fn every_strike_that_overlaps_another_is_counted() {
+    let light = ["--contact-time-s=3e-3", "--tilt-deg=0.5", "--gyration-m=0.0125", "--format=json"];
+    let overlap = clatter(arguments("compliant", &light));
+    assert_eq!(overlap.exit, Exit::Done, "{}", overlap.stderr);
+    let told: usize = overlap.stderr.split_whitespace().nth(1).unwrap().parse().unwrap();
+    let got: Value = serde_json::from_str(&overlap.stdout).unwrap();
+    let impacts = got["impacts"].as_array().unwrap();
+    let until = |i: usize| impacts[i]["until_s"].as_f64().unwrap_or(f64::INFINITY);
+    let from = |i: usize| impacts[i]["time_s"].as_f64().unwrap();
+    let pressed = (0..impacts.len()).filter(|&i| (0..i).any(|before| from(i) < until(before))).count();
+    assert!(told > 1 && told == pressed, "{told}, not {pressed}: {}", overlap.stderr);
 }
 
 /// A motion in a csv file: its headings and its rows.

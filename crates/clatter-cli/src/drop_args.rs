@@ -1,17 +1,12 @@
-//! A drop in SI units, and the model that follows it, as arguments of a command say them: one that has an argument
-//! `model`.
+//! A drop in SI units, as arguments of a command say it: one that has an argument `model`.
 
-use clap::ValueEnum;
 use clatter::Mass;
-use clatter::flight::{Body, CompliantFlight, Contact, Flight, Model, Pulse, Scene};
+use clatter_flight::{Body, ContactLaw, Scene};
 
 use crate::Failure;
-use crate::inputs;
+use crate::inputs::{self, LawName, ModelName};
 
-/// Strikes followed at most unless told.
-const IMPACT_LIMIT: usize = 100_000;
-
-/// With every model there are.
+/// With every model there is.
 const WITH_MODEL: [(&str, &str); 4] =
     [("model", "map"), ("model", "ballistic"), ("model", "finite-tilt"), ("model", "compliant")];
 
@@ -36,18 +31,13 @@ pub(crate) struct DropArgs {
     /// Acceleration of gravity, in m/s²; the model map leaves it out
     #[arg(long, value_name = "G", default_value = "9.80665", allow_hyphen_values = true, value_parser = inputs::gravity_m_s2, requires = "model")]
     pub(crate) gravity_m_s2: f64,
-    /// Angular velocity when end a touches, in rad/s; positive turns end b upward
-    #[arg(long, value_name = "W", default_value = "0", allow_hyphen_values = true, value_parser = inputs::number, requires = "model")]
-    spin_rad_s: f64,
-    /// For compliant: how long a lone contact presses, in s
+    /// How long a lone contact presses, in s; for compliant, and in `clatter respond` for the acceleration of a place by
+    /// the other models
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = inputs::contact_time_s, requires = "model", required_if_eq("model", "compliant"))]
     pub(crate) contact_time_s: Option<f64>,
-    /// Follow the motion until this time after the first touch, in s
-    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = inputs::time_limit_s, requires = "model")]
-    pub(crate) time_limit_s: Option<f64>,
-    /// Follow the motion for at most so many strikes
-    #[arg(long, value_name = "N", default_value_t = IMPACT_LIMIT, allow_hyphen_values = true, value_parser = inputs::impact_limit, requires = "model")]
-    impact_limit: usize,
+    /// What the ground does to an end while it touches, for compliant [default: hysteretic]
+    #[arg(long, value_enum, value_name = "LAW", requires = "contact_time_s")]
+    contact_law: Option<LawName>,
 }
 
 /// How fast it comes down; the argument `model` requires one of them.
@@ -62,62 +52,32 @@ pub(crate) struct Fall {
     pub(crate) height_m: Option<f64>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ModelName {
-    /// Small tilt, no gravity, instant impacts
-    Map,
-    /// Small tilt, gravity, instant impacts
-    Ballistic,
-    /// Any tilt, gravity, instant impacts
-    FiniteTilt,
-    /// Any tilt, gravity, contacts that take time
-    Compliant,
-}
-
-impl ModelName {
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Map => "map",
-            Self::Ballistic => "ballistic",
-            Self::FiniteTilt => "finite-tilt",
-            Self::Compliant => "compliant",
-        }
-    }
-}
-
-/// What a model says of a scene.
-pub(crate) enum Motion {
-    Instant(Model, Flight),
-    /// With the time that a lone contact takes, in s.
-    Compliant(f64, Box<CompliantFlight>),
-}
-
-impl Motion {
-    pub(crate) fn flight(&self) -> &Flight {
-        match self {
-            Self::Instant(_, flight) => flight,
-            Self::Compliant(_, compliant) => &compliant.flight,
-        }
-    }
-    pub(crate) fn pulses(&self) -> &[Pulse] {
-        match self {
-            Self::Instant(..) => &[],
-            Self::Compliant(_, compliant) => &compliant.pulses,
-        }
-    }
-}
-
 impl DropArgs {
-    /// Whether a limit of its own may end it before rest.
-    pub(crate) fn is_cut_short(&self) -> bool {
-        self.time_limit_s.is_some() || self.impact_limit != IMPACT_LIMIT
-    }
     /// The two that clap requires with a model.
     pub(crate) fn length_m(&self) -> f64 {
         self.length_m.unwrap_or(f64::NAN)
     }
     pub(crate) fn tilt_deg(&self) -> f64 {
         self.tilt_deg.unwrap_or(f64::NAN)
+    }
+    pub(crate) fn contact_law(&self) -> ContactLaw {
+        self.contact_law.map_or_else(ContactLaw::default, Into::into)
+    }
+
+    /// Refuses what the model would leave aside.
+    pub(crate) fn check(&self, model: ModelName) -> Result<(), Failure> {
+        if model != ModelName::Compliant {
+            return match self.contact_law {
+                Some(_) => Err(Failure::Usage("--contact-law goes with --model=compliant alone")),
+                None => Ok(()),
+            };
+        }
+        if self.thickness_m == 0.0 {
+            return Ok(());
+        }
+        let (name, allowed) = ("thickness in m", "0 for the model compliant: its contacts are those of a thin bar");
+        let reason = clatter::Error::Quantity { name, value: self.thickness_m, allowed };
+        Err(Failure::Flag { flag: "--thickness-m", reason })
     }
 
     /// The body, and where its center of mass lies.
@@ -136,9 +96,10 @@ impl DropArgs {
         Ok((center, body))
     }
 
+    /// The drop without spin, not limited in time.
     pub(crate) fn scene(&self, body: Body, e: f64) -> Result<Scene, Failure> {
         let (tilt, gravity) = (self.tilt_deg(), self.gravity_m_s2);
-        let scene = match (self.fall.speed_m_s, self.fall.height_m) {
+        Ok(match (self.fall.speed_m_s, self.fall.height_m) {
             (Some(speed), _) => Scene::new(body, e, speed, tilt, gravity)?,
             (None, Some(_)) if gravity == 0.0 => {
                 return Err(Failure::Usage("--height-m needs gravity: give --speed-m-s, or a --gravity-m-s2 above 0"));
@@ -146,31 +107,6 @@ impl DropArgs {
             // clap requires one of the two with a model.
             (None, height) => Scene::from_height(body, e, height.unwrap_or(f64::NAN), tilt, gravity)
                 .map_err(Failure::flag("--height-m"))?,
-        };
-        let scene = scene.with_spin(self.spin_rad_s).map_err(Failure::flag("--spin-rad-s"))?;
-        let scene = scene.with_impact_limit(self.impact_limit)?;
-        Ok(self.time_limit_s.map_or(Ok(scene), |limit| scene.with_time_limit_s(limit))?)
-    }
-
-    pub(crate) fn motion(&self, model: ModelName, scene: &Scene) -> Result<Motion, Failure> {
-        let model = match (model, self.contact_time_s) {
-            (ModelName::Compliant, contact_time) => {
-                let time = contact_time.unwrap_or(f64::NAN); // clap requires it
-                Contact::new(scene.e(), time).map_err(Failure::flag("--e"))?;
-                let body = scene.body();
-                let flag = match () {
-                    () if body.thickness_m() > 0.0 => "--thickness-m",
-                    () if body.gyration_m() < 0.05 * body.length_m() => "--gyration-m",
-                    () => "--contact-time-s",
-                };
-                let compliant = scene.simulate_compliant(time).map_err(Failure::flag(flag))?;
-                return Ok(Motion::Compliant(time, Box::new(compliant)));
-            }
-            (_, Some(_)) => return Err(Failure::Usage("--contact-time-s goes with --model=compliant alone")),
-            (ModelName::Map, None) => Model::Map,
-            (ModelName::Ballistic, None) => Model::Ballistic,
-            (ModelName::FiniteTilt, None) => Model::FiniteTilt,
-        };
-        Ok(Motion::Instant(model, scene.simulate(model)))
+        })
     }
 }

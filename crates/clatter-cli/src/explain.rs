@@ -1,23 +1,26 @@
-//! `clatter explain`: which models the drops of a product need, and why.
+//! `clatter explain`: which model the worst drops of a product need, and why.
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::ValueHint;
-use clatter_scene::explain::{Explanation, GroupValues, LimitExplanation, PlanExplanation};
+use clatter_assess::ladder::{Groups, LeftOut, LimitLadder, Measured, ProductLadder, Reference};
+use clatter_assess::{LimitKind, Model, Unit, WorstCase};
+use serde::Serialize;
 
 use crate::inputs::{self, Format};
-use crate::numbers::figures;
+use crate::numbers::{Json, figures, given};
 use crate::text::shown;
+use crate::words::{drop, in_words, percent};
 use crate::{Failure, Streams, assess};
 
-/// Tell which models the drops of a product need, and why
+/// Tell which model the worst drops of a product need, and why
 ///
-/// Two ladders of models, from the cheapest: how the bar moves (closed-form, map, ballistic, finite-tilt, compliant)
-/// and how a part answers (net-change, largest-shock, impulse-train, pulse-train). For each limit of each part: the
-/// cheapest pairs within the tolerance over the stated ranges, each with the share of the drops that it is enough for;
-/// and in the worst drop the pair, what made cheaper ones too coarse, and what the pair gets wrong. 'clatter assess'
-/// follows each drop by the pair told here.
+/// Six models from the least physics to the most answer the drop that 'clatter assess' finds worst for each limit: in
+/// closed form the net change of velocity (net-change) and the largest shock alone (largest-shock), then strike by
+/// strike map, ballistic, finite-tilt and compliant. Each is held against the one with the most physics that the file
+/// allows, worked out more exactly. Told are the error of each, the cheapest within the tolerance, and the
+/// dimensionless group that makes the next cheaper one too coarse.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -25,13 +28,12 @@ Examples:
   clatter explain handheld.toml --tolerance=10%    what a quick look needs
   clatter explain handheld.toml --format=json
 
-An error is against the compliant bar with the exact response to its pulses, until rest; of that pair
-it is none. It is an estimate unless it says bound. Costs are of one drop on a 2.9 GHz core, about.")]
+'clatter tradeoff' tells what each model costs as well.")]
 pub(crate) struct Args {
     /// Product file; 'clatter schema' describes it for editors
     #[arg(value_name = "PRODUCT.toml", value_hint = ValueHint::FilePath)]
     product: PathBuf,
-    /// What models may get wrong, as a share of the demand: 0.01 or 1%
+    /// What a model may get wrong, as a share of the demand: 0.01 or 1%
     #[arg(long, value_name = "SHARE", default_value = "1%", allow_hyphen_values = true, value_parser = inputs::tolerance)]
     tolerance: f64,
     /// How to show the answer
@@ -41,79 +43,113 @@ pub(crate) struct Args {
 
 impl Args {
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        let explanation = assess::read(&self.product)?.explain(self.tolerance)?;
+        let ladders = measure(&self.product, self.tolerance)?;
         match self.format {
-            Format::Json => streams.json(&explanation),
-            Format::Table => table(&explanation, streams.out).map_err(Failure::Answer),
+            Format::Json => streams.json(&Answer::new(&ladders)),
+            Format::Table => table(&ladders, streams.out).map_err(Failure::Answer),
         }
     }
 }
 
-fn table(explanation: &Explanation, out: &mut dyn Write) -> io::Result<()> {
-    let name = shown(&explanation.product, 60);
-    writeln!(out, "{name}: the cheapest models within {} %", figures(100.0 * explanation.tolerance))?;
-    for component in &explanation.components {
-        for limit in &component.limits {
-            writeln!(out, "\n{}, {}", shown(&component.name, 60), limit.limit.name())?;
-            limit_table(limit, out)?;
+/// All models on the worst drops of a product.
+pub(crate) fn measure(path: &Path, tolerance: f64) -> Result<ProductLadder, Failure> {
+    let file = assess::read(path)?;
+    let ladders = file.assess().and_then(|assessment| file.ladders(&assessment, tolerance));
+    ladders.map_err(|error| Failure::Product(format!("error: {}: {error}", path.display())))
+}
+
+/// What was left out, and why.
+pub(crate) fn left_out(ladders: &ProductLadder, out: &mut dyn Write) -> io::Result<()> {
+    for LeftOut { component, limit, reason } in &ladders.left_out {
+        writeln!(out, "\n{}, {}: left out, {reason}", shown(component, 24), limit.name())?;
+    }
+    Ok(())
+}
+
+fn table(ladders: &ProductLadder, out: &mut dyn Write) -> io::Result<()> {
+    let (name, tolerance) = (shown(&ladders.product, 60), given(100.0 * ladders.tolerance));
+    writeln!(out, "{name}: the cheapest model within {tolerance} % of the one with the most physics")?;
+    ladders.limits.iter().try_for_each(|limit| of_limit(limit, out))?;
+    left_out(ladders, out)
+}
+
+fn of_limit(limit: &LimitLadder, out: &mut dyn Write) -> io::Result<()> {
+    let ladder = &limit.ladder;
+    writeln!(out, "\n{}, {}", shown(&limit.component, 60), limit.limit.name())?;
+    writeln!(out, "  {:<11}{}", "worst drop", drop(&limit.worst_case))?;
+    for Measured { model, value, error, .. } in &ladder.models {
+        let mark = if *model == ladder.cheapest { "  cheapest within the tolerance" } else { "" };
+        let value = in_words(ladder.unit, *value);
+        let line = format!("  {:<14}{value:>14}  off by {:<8}{mark}", model.name(), percent(*error));
+        writeln!(out, "{}", line.trim_end())?;
+    }
+    writeln!(out, "  {:<11}{}", "because", ladder.reason)?;
+    writeln!(out, "  {:<11}{}", "groups", groups(&ladder.groups))
+}
+
+/// The dimensionless groups that are known.
+fn groups(groups: &Groups) -> String {
+    let Groups { gravity, geometry, overlap, pulse, train, damping } = *groups;
+    let named = [
+        ("g h0/v0²", Some(gravity)),
+        ("φ²", Some(geometry)),
+        ("τ/Δt", overlap),
+        ("ωτ", pulse),
+        ("ω t_N", train),
+        ("ζωΔt", damping),
+    ];
+    let known = named.into_iter().filter_map(|(name, x)| x.map(|x| format!("{name} = {}", figures(x))));
+    known.collect::<Vec<_>>().join(", ")
+}
+
+/// The same without times, which are of the machine.
+#[derive(Serialize)]
+struct Answer<'a> {
+    product: &'a str,
+    tolerance: Json,
+    limits: Vec<LimitJson<'a>>,
+    left_out: &'a [LeftOut],
+}
+
+#[derive(Serialize)]
+struct LimitJson<'a> {
+    component: &'a str,
+    limit: LimitKind,
+    unit: Unit,
+    worst_case: &'a WorstCase,
+    reference: Reference,
+    models: Vec<ModelJson>,
+    cheapest: Model,
+    reason: &'a str,
+    groups: Groups,
+}
+
+#[derive(Serialize)]
+struct ModelJson {
+    model: Model,
+    value: Json,
+    error: Json,
+}
+
+impl<'a> Answer<'a> {
+    fn new(ladders: &'a ProductLadder) -> Self {
+        let model = |m: &Measured| ModelJson { model: m.model, value: Json(m.value), error: Json(m.error) };
+        let limit = |limit: &'a LimitLadder| LimitJson {
+            component: &limit.component,
+            limit: limit.limit,
+            unit: limit.ladder.unit,
+            worst_case: &limit.worst_case,
+            reference: limit.ladder.reference,
+            models: limit.ladder.models.iter().map(model).collect(),
+            cheapest: limit.ladder.cheapest,
+            reason: &limit.ladder.reason,
+            groups: limit.ladder.groups,
+        };
+        Self {
+            product: &ladders.product,
+            tolerance: Json(ladders.tolerance),
+            limits: ladders.limits.iter().map(limit).collect(),
+            left_out: &ladders.left_out,
         }
     }
-    Ok(())
-}
-
-fn limit_table(limit: &LimitExplanation, out: &mut dyn Write) -> io::Result<()> {
-    let worst = &limit.worst_case;
-    for (i, pair) in limit.shares.iter().enumerate() {
-        let head = if i == 0 { "over the ranges" } else { "" };
-        writeln!(out, "  {head:<16} {:>5.1} %  {}, {}", 100.0 * pair.share, pair.bar, pair.component)?;
-    }
-    let frequency = worst.frequency_hz.map_or(String::new(), |f| format!(", {} Hz", figures(f)));
-    writeln!(
-        out,
-        "  {:<16} {} first, {} deg, {} m/s, e {}{frequency}",
-        "worst drop",
-        inputs::letter(worst.first),
-        figures(worst.tilt_deg),
-        figures(worst.speed_m_s),
-        figures(worst.restitution),
-    )?;
-    match &limit.plan {
-        Some(plan) => plan_table(plan, out)?,
-        None => writeln!(
-            out,
-            "  {:<16} by the velocity shocks of the bar: contacts are followed where they overlap",
-            "models"
-        )?,
-    }
-    if limit.guaranteed {
-        writeln!(
-            out,
-            "  {:<16} without gravity, at small tilt and for velocity shocks; no drop asks for more",
-            "proven"
-        )?;
-    }
-    if let Some(warning) = &limit.warning {
-        writeln!(out, "  {:<16} {warning}", "warning")?;
-    }
-    Ok(())
-}
-
-fn plan_table(plan: &PlanExplanation, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "  {:<16} {}, {}", "models", plan.bar, plan.component)?;
-    writeln!(out, "  {:<16} {}", "because", plan.reason)?;
-    let error = match (plan.error, plan.is_bound) {
-        (0.0, _) => "none: the others are held against this pair".to_owned(),
-        (error, true) => format!("at most {} % (bound)", figures(100.0 * error)),
-        (error, false) => format!("about {} % (estimate)", figures(100.0 * error)),
-    };
-    writeln!(out, "  {:<16} {error}", "error")?;
-    let GroupValues { gravity, geometry, overlap, pulse, train, damping } = plan.groups;
-    let mut groups = vec![("g h0/v0²", gravity), ("φ²", geometry)];
-    groups.extend((overlap > 0.0).then_some(("τ/Δt", overlap)));
-    groups.extend(pulse.filter(|x| *x > 0.0).map(|x| ("ωτ", x)));
-    groups.extend(train.map(|x| ("ω t_N", x)));
-    groups.extend(damping.map(|x| ("ζωΔt", x)));
-    let groups: Vec<_> = groups.into_iter().map(|(name, x)| format!("{name} = {}", figures(x))).collect();
-    writeln!(out, "  {:<16} {}", "groups", groups.join(", "))?;
-    writeln!(out, "  {:<16} {} µs a drop, about", "cost", figures(1e-3 * plan.cost_ns))
 }

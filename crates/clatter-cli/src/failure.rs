@@ -22,9 +22,11 @@ pub(crate) enum Failure {
     #[error("{}: line {line}: {what}", .path.display())]
     Line { path: PathBuf, line: usize, what: String },
     #[error(transparent)]
-    Scene(#[from] clatter_scene::Error),
+    Assess(#[from] clatter_assess::Error),
     #[error(transparent)]
-    Scatter(#[from] clatter_scene::scatter::Error),
+    Flight(#[from] clatter_flight::Error),
+    #[error(transparent)]
+    Scatter(#[from] clatter_assess::scatter::Error),
     /// Arguments that are right one by one and wrong together.
     #[error("{0}")]
     Usage(&'static str),
@@ -50,6 +52,25 @@ impl Failure {
     /// Names the flag whose value the model refuses.
     pub(crate) fn flag(flag: &'static str) -> impl FnOnce(clatter::Error) -> Self {
         move |reason| Self::Flag { flag, reason }
+    }
+
+    /// The same of a flight with contacts: it refuses quantities by name.
+    pub(crate) fn contacts(error: clatter_flight::Error) -> Self {
+        let clatter_flight::Error::Given(reason) = error else { return Self::Flight(error) };
+        let name = if let clatter::Error::Quantity { name, .. } = &reason { *name } else { "" };
+        match () {
+            () if name.starts_with("contact time") => Self::Flag { flag: "--contact-time-s", reason },
+            () if name.starts_with("radius of gyration") => Self::Flag { flag: "--gyration-m", reason },
+            () => Self::Input(reason),
+        }
+    }
+
+    /// The same of an assessment of one drop.
+    pub(crate) fn drop(error: clatter_assess::Error) -> Self {
+        match error {
+            clatter_assess::Error::Flight(error) => Self::contacts(error),
+            error => Self::Assess(error),
+        }
     }
 
     pub(crate) fn exit(&self) -> Exit {

@@ -12,7 +12,9 @@ use crate::{Failure, Streams};
 /// List the impacts of one drop and what they amount to
 ///
 /// The bar falls with velocities VA and VB of its ends; end a strikes first, at time 0. The number of impacts is exact
-/// however large it is, and like the rest of the summary it comes at once: no impact is followed for it.
+/// up to 2^64, and like the rest of the summary it comes at once: no impact is followed for it. The one exception are
+/// masses (--mass) so close to where the count changes that the rounding of their center of mass and radius of gyration
+/// decides: the count is then that of the rounded bar, and "count_exact" is false.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -117,7 +119,13 @@ impl Drop<'_> {
         let line = |out: &mut dyn Write, name: &str, value: &str, unit: &str| {
             writeln!(out, "{}", format!("{name:<24}{value:>12} {unit}").trim_end())
         };
-        line(out, "Impacts", &impacts, "")?;
+        let rounded = !matches!(count, Count::Huge(_)) && !self.bar.count_is_exact(&self.start);
+        line(
+            out,
+            "Impacts",
+            &impacts,
+            if rounded { "of the rounded masses; the exact ones may have others" } else { "" },
+        )?;
         let last = if count == Count::Endless { "Impacts tend to" } else { "Last impact at" };
         line(out, last, &figures(duration), "h0/v0")?;
         let holder = match peak.impact {
@@ -219,7 +227,7 @@ impl Drop<'_> {
             height_gap: Json(self.start.height_gap()),
             at: self.at.iter().copied().map(Json).collect(),
             count: JsonCount(count),
-            count_exact: !matches!(count, Count::Huge(_)),
+            count_exact: self.bar.count_is_exact(&self.start),
             duration: Json(duration),
             peak: PeakJson {
                 end: Json(peak.end),

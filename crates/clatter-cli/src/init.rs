@@ -23,7 +23,7 @@ pub(crate) struct Args {
 
 impl Args {
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        output::create(&self.file, |file| file.write_all(clatter_scene::EXAMPLE.as_bytes())).map_err(|failure| {
+        output::create(&self.file, |file| file.write_all(clatter_assess::EXAMPLE.as_bytes())).map_err(|failure| {
             match failure {
                 Failure::File { path, reason } if reason.kind() == ErrorKind::AlreadyExists => Failure::Exists(path),
                 other => other,

@@ -3,9 +3,9 @@
 //! Every value is checked by the type that it becomes, so a range is written down once, in the model.
 
 use clap::ValueEnum;
-use clatter::flight::{Body, Contact, Scene};
 use clatter::{Axis, Bar, End, Error, Mass, OffCenterBar, Start, center_and_gyration};
-use clatter_scene::{Accuracy, BarModel};
+use clatter_assess::{Accuracy, Model};
+use clatter_flight::{Body, Contact, ContactLaw, Scene};
 use clatter_shock::DampingRatio;
 
 use crate::Failure;
@@ -31,9 +31,9 @@ angular velocity are in v0/L; times are in h0/v0, where h0 is the height of
 end b when end a first touches. One time unit is what end b would still need
 to the ground if the bar did not turn: 0.5 ms for h0 = 2 mm at v0 = 4 m/s.
 
-Exit status: 0 done; 1 'assess' found a component unsafe; 2 bad input, or an
-output that cannot be written; 3 typst, which prints the reports, is missing
-or failed.";
+Exit status: 0 done; 1 'assess' found a component unsafe or could not decide,
+or 'scatter' missed its target; 2 bad input, or an output that cannot be
+written; 3 typst, which prints the reports, is missing or failed.";
 
 /// How the mass lies, and how the ends rebound.
 #[derive(Debug, clap::Args)]
@@ -115,6 +115,9 @@ pub(crate) struct DampingArgs {
 }
 
 impl DampingArgs {
+    pub(crate) fn is_given(&self) -> bool {
+        self.damping.is_some() || self.q_factor.is_some()
+    }
     /// Q = 10, what the field takes where nobody says otherwise.
     pub(crate) fn ratio(&self) -> Result<DampingRatio, clatter_shock::Error> {
         self.damping.or(self.q_factor).map_or_else(|| DampingRatio::from_quality_factor(10.0), Ok)
@@ -180,34 +183,70 @@ pub(crate) fn number(text: &str) -> Result<f64, String> {
 }
 
 /// A share, or a percentage with its sign.
-pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
+pub(crate) fn share(text: &str) -> Result<f64, String> {
     let (digits, unit) = text.strip_suffix('%').map_or((text, 1.0), |digits| (digits.trim_end(), 100.0));
-    let share = digits.parse::<f64>().map_err(|_| format!("'{text}' is not a share such as 0.01 or 1%"))? / unit;
+    Ok(digits.parse::<f64>().map_err(|_| format!("'{text}' is not a share such as 0.01 or 1%"))? / unit)
+}
+
+pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
+    let share = share(text)?;
     Accuracy { tolerance: share, model: None }.check().map_err(|error| error.to_string())?;
     Ok(share)
 }
 
-/// How the bar moves, from the cheapest.
+/// How a drop is followed, from the least physics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum BarName {
+pub(crate) enum ModelName {
     /// Small tilt, no gravity, instant impacts: the paper's bar
     Map,
-    /// With gravity: what bounced clear comes back, until it lies still
+    /// Small tilt, gravity, instant impacts: what bounced clear comes back
     Ballistic,
-    /// With gravity and the exact geometry of any tilt
+    /// Any tilt, gravity, instant impacts
     FiniteTilt,
-    /// As finite-tilt, and every contact takes time
+    /// Any tilt, gravity, contacts that take time
     Compliant,
 }
 
-impl From<BarName> for BarModel {
-    fn from(name: BarName) -> Self {
+impl ModelName {
+    pub(crate) fn name(self) -> &'static str {
+        Model::from(self).name()
+    }
+}
+
+impl From<ModelName> for Model {
+    fn from(name: ModelName) -> Self {
         match name {
-            BarName::Map => Self::Map,
-            BarName::Ballistic => Self::Ballistic,
-            BarName::FiniteTilt => Self::FiniteTilt,
-            BarName::Compliant => Self::Compliant,
+            ModelName::Map => Self::Map,
+            ModelName::Ballistic => Self::Ballistic,
+            ModelName::FiniteTilt => Self::FiniteTilt,
+            ModelName::Compliant => Self::Compliant,
         }
+    }
+}
+
+/// What the ground does to an end while it touches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum LawName {
+    /// The force rises and falls like a half-sine, as in shock tables and standards
+    Hysteretic,
+    /// A spring and a dashpot: the force jumps at the touch; for some rubber
+    Dashpot,
+}
+
+impl From<LawName> for ContactLaw {
+    fn from(name: LawName) -> Self {
+        match name {
+            LawName::Hysteretic => Self::Hysteretic,
+            LawName::Dashpot => Self::Dashpot,
+        }
+    }
+}
+
+/// The name of a contact law, as it is given.
+pub(crate) fn law_name(law: ContactLaw) -> &'static str {
+    match law {
+        ContactLaw::Hysteretic => "hysteretic",
+        ContactLaw::Dashpot => "dashpot",
     }
 }
 
@@ -261,6 +300,16 @@ pub(crate) fn position(text: &str) -> Result<f64, String> {
     one_of_range("position s", text, |s| (-1.0..=1.0).contains(&s), "in [-1, 1]")
 }
 
+/// The same where it may be worked out from lengths: an end that is missed by roundings is that end.
+pub(crate) fn worked_out_position(text: &str) -> Result<f64, String> {
+    let value = number(text)?;
+    if value.abs() > 1.0 && value.abs() <= 1.0 + 8.0 * f64::EPSILON {
+        Ok(value.clamp(-1.0, 1.0))
+    } else {
+        position(text)
+    }
+}
+
 pub(crate) fn mass(text: &str) -> Result<Mass, String> {
     let form = "a mass is M@S at position S, or M@S:T from S to T";
     let (mass, place) = text.split_once('@').ok_or(form)?;
@@ -307,7 +356,7 @@ pub(crate) fn gravity_m_s2(text: &str) -> Result<f64, String> {
 }
 
 pub(crate) fn contact_time_s(text: &str) -> Result<f64, String> {
-    part_of(text, |time| Contact::new(1.0, time))
+    part_of(text, |time| Contact::new(ContactLaw::Hysteretic, 1.0, time))
 }
 
 pub(crate) fn time_limit_s(text: &str) -> Result<f64, String> {

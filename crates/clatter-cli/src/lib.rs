@@ -38,6 +38,7 @@ mod simulate;
 mod spectrum;
 mod text;
 mod tradeoff;
+mod words;
 mod zone;
 
 use std::ffi::OsString;
@@ -91,7 +92,7 @@ impl Streams<'_> {
 pub enum Exit {
     /// 0: done.
     Done = 0,
-    /// 1: an assessment found a component unsafe.
+    /// 1: an assessment found a component unsafe or could not decide, or a survival target was missed.
     Unsafe = 1,
     /// 2: bad input or usage, or an output that cannot be written.
     BadInput = 2,
@@ -157,7 +158,7 @@ where
             Command::Respond(args) => args.run(streams),
             Command::Spectrum(args) => args.run(streams),
             Command::Design(args) => args.run(streams),
-            Command::Scatter(args) => args.run(streams),
+            Command::Scatter(args) => args.run(streams).map(|found| exit = found),
             Command::Assess(args) => args.run(streams).map(|found| exit = found),
             Command::Explain(args) => args.run(streams),
             Command::Tradeoff(args) => args.run(streams),

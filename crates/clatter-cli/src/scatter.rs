@@ -1,28 +1,29 @@
 //! `clatter scatter`: how likely each part of a product survives, and what that hangs on.
 
+mod answer;
+mod table;
+
 use std::convert::Infallible;
 use std::io::{self, BufWriter, Write};
 use std::path::PathBuf;
 
 use clap::ValueHint;
-use clatter_scene::scatter::{
-    Column, ComponentScatter, Driver, Input, Probability, Progress, Sampler, Scatter, Settings,
-};
-use clatter_scene::{Component, ProductFile};
-use serde::Serialize;
+use clatter_assess::scatter::{Column, Progress, Sampler, Scatter, Settings};
+use clatter_assess::{Model, ProductFile};
 
-use crate::inputs::RowFormat;
-use crate::numbers::{Json, digits, figures, given};
-use crate::text::{column, field, shown};
-use crate::{Failure, Streams, assess, output, progress};
+use crate::inputs::{self, RowFormat};
+use crate::numbers::digits;
+use crate::text::field;
+use crate::{Exit, Failure, Streams, assess, output, progress};
 
 /// Tell how likely each part of a product survives, and what that hangs on
 ///
-/// Draws drops of the product from the distributions in its file (a plain range counts as equally likely all over it;
-/// with first = "either" both ends are) and compares what each part goes through with its limits: without gravity and
-/// at small tilt, the cheapest model, which 'clatter assess' holds against the others. The probability that a part
-/// survives comes with the interval of Clopper and Pearson, which holds the truth at least as often as it says, and
-/// with what it is at least.
+/// Draws drops and parts of the product from the distributions in its file (a plain range counts as equally likely all
+/// over it; with first = "either" both ends are) and compares what each part goes through with its limits. Drops are
+/// answered as 'clatter assess' answers them, by the model with the most physics that the file allows; where many are
+/// drawn, in closed form as far as a pilot of drops answered by both bounds what that gets wrong. The probability that a
+/// part survives comes with the interval of Clopper and Pearson, which holds the truth at least as often as it says, and
+/// with what it is at least; what answers may be off by widens both.
 ///
 /// What drives a part: the share of the variance of its utilization (demand over allowed) that an input explains alone
 /// (first-order index of Sobol), and the way it goes: + more is worse, - less is worse, ~ neither throughout.
@@ -33,7 +34,10 @@ use crate::{Failure, Streams, assess, output, progress};
 Examples:
   clatter scatter handheld.toml
   clatter scatter handheld.toml --samples=1e6 --seed=7 --format=json
-  clatter scatter handheld.toml --samples=2000 -o samples.csv")]
+  clatter scatter handheld.toml --target=99.9%       exit status 1 where that is not sure
+  clatter scatter handheld.toml --samples=2000 -o samples.csv
+
+Exit status: 0 done, 1 the target is missed, 2 bad input.")]
 pub(crate) struct Args {
     /// Product file
     #[arg(value_name = "PRODUCT.toml", value_hint = ValueHint::FilePath)]
@@ -47,8 +51,11 @@ pub(crate) struct Args {
     /// How sure the intervals are, between 0 and 1
     #[arg(long, value_name = "P", default_value = "0.95", allow_hyphen_values = true, value_parser = confidence)]
     confidence: f64,
-    /// Also write every sample to this file, ending in .csv: its drop, its frequencies and the utilization of every
-    /// part
+    /// Survival of all parts that is to be sure, as a share: 0.999 or 99.9%; missed where the interval begins below it
+    #[arg(long, value_name = "SHARE", allow_hyphen_values = true, value_parser = target)]
+    target: Option<f64>,
+    /// Also write every sample to this file, ending in .csv: its drop, what varies of the parts, and the utilization of
+    /// every part
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = csv_file)]
     output: Option<PathBuf>,
     /// How to show the answer
@@ -81,6 +88,12 @@ fn confidence(text: &str) -> Result<f64, String> {
     good.ok_or_else(|| format!("'{text}' is not a confidence: between 0 and 1, such as 0.95"))
 }
 
+fn target(text: &str) -> Result<f64, String> {
+    let share = inputs::share(text)?;
+    let good = share > 0.0 && share < 1.0;
+    if good { Ok(share) } else { Err(format!("target {share:?} is not between 0 and 1, such as 0.999 or 99.9%")) }
+}
+
 fn csv_file(text: &str) -> Result<PathBuf, &'static str> {
     let path = PathBuf::from(text);
     let csv = path.extension().is_some_and(|ending| ending == "csv");
@@ -88,58 +101,69 @@ fn csv_file(text: &str) -> Result<PathBuf, &'static str> {
 }
 
 impl Args {
-    pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
+    pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<Exit, Failure> {
         let file = assess::read(&self.product)?;
-        let settings = Settings { samples: self.samples, seed: self.seed, confidence: self.confidence };
-        let sampler = Sampler::new(&file, settings)?;
-        let scatter = {
-            let mut bar = progress::Progress::new(streams.err, streams.interactive, self.samples);
-            bar.stage("drawing");
-            match &self.output {
-                None => {
-                    let watch = |progress: &Progress<'_>| {
-                        bar.at(progress.done);
-                        Ok::<(), Infallible>(())
-                    };
-                    let Ok(scatter) = sampler.run(false, watch);
-                    scatter
-                }
-                Some(path) => {
-                    let mut drawn = None;
-                    output::replace(path, |target| {
-                        let mut out = BufWriter::with_capacity(1 << 16, target);
-                        drawn = Some(rows(&sampler, &file, &mut out, |done| bar.at(done))?);
-                        out.flush()
-                    })?;
-                    let Some(scatter) = drawn else { unreachable!("a file that was written was drawn") };
-                    scatter
-                }
-            }
-        };
+        let scatter = self.draw(&file, streams)?;
+        let target = self.target.map(|share| Target { share });
         match self.format {
-            RowFormat::Table => table(&file, &scatter, streams.out).map_err(Failure::Answer)?,
-            RowFormat::Csv => csv(&scatter, streams.out).map_err(Failure::Answer)?,
-            RowFormat::Json => return streams.json(&Answer::new(&file, &scatter)),
+            RowFormat::Table => {
+                table::table(&file, &scatter, target.as_ref(), streams.out).map_err(Failure::Answer)?;
+            }
+            RowFormat::Csv => table::csv(&scatter, streams.out).map_err(Failure::Answer)?,
+            RowFormat::Json => streams.json(&answer::Answer::new(&file, &scatter, target.as_ref()))?,
         }
-        Ok(())
+        let met = target.is_none_or(|target| target.is_met(&scatter));
+        Ok(if met { Exit::Done } else { Exit::Unsafe })
+    }
+
+    fn draw(&self, file: &ProductFile, streams: &mut Streams<'_>) -> Result<Scatter, Failure> {
+        let settings = Settings { samples: self.samples, seed: self.seed, confidence: self.confidence };
+        let sampler = Sampler::new(file, settings)?;
+        let mut bar = progress::Progress::new(streams.err, streams.interactive, self.samples);
+        bar.stage("drawing");
+        let Some(path) = &self.output else {
+            let watch = |progress: &Progress<'_>| {
+                bar.at(progress.done);
+                Ok::<(), Infallible>(())
+            };
+            let Ok(scatter) = sampler.run(false, watch);
+            return Ok(scatter);
+        };
+        let mut drawn = None;
+        output::replace(path, |target| {
+            let mut out = BufWriter::with_capacity(1 << 16, target);
+            drawn = Some(rows(&sampler, file, &mut out, |done| bar.at(done))?);
+            out.flush()
+        })?;
+        let Some(scatter) = drawn else { unreachable!("a file that was written was drawn") };
+        Ok(scatter)
+    }
+}
+
+/// Heading of a column.
+fn title(file: &ProductFile, column: Column) -> String {
+    match column {
+        Column::First => "first".to_owned(),
+        Column::SpeedMS => "speed_m_s".to_owned(),
+        Column::TiltDeg => "tilt_deg".to_owned(),
+        Column::Restitution => "restitution".to_owned(),
+        Column::ContactTimeS => "contact_time_s".to_owned(),
+        Column::FrequencyHz(i) => format!("frequency_hz of {}", name_of(file, i)),
+        Column::DampingRatio(i) => format!("damping_ratio of {}", name_of(file, i)),
+        Column::PositionM(i) => format!("position_m of {}", name_of(file, i)),
+        Column::Limit(i, kind) => format!("{} limit of {}", kind.name(), name_of(file, i)),
+        Column::CriticalAccelerationMS2(i) => format!("critical_acceleration_m_s2 of {}", name_of(file, i)),
+        Column::Utilization(i) => format!("utilization of {}", name_of(file, i)),
+        _ => "value".to_owned(),
     }
 }
 
 /// Draws and writes every sample.
 fn rows(sampler: &Sampler, file: &ProductFile, out: &mut impl Write, mut done: impl FnMut(u64)) -> io::Result<Scatter> {
     let columns = sampler.columns();
-    let name = |i: &usize| file.components.get(*i).map_or("", |component| component.name.as_str());
     write!(out, "sample")?;
     for column in &columns {
-        let title = match column {
-            Column::First => "first".to_owned(),
-            Column::SpeedMS => "speed_m_s".to_owned(),
-            Column::TiltDeg => "tilt_deg".to_owned(),
-            Column::Restitution => "restitution".to_owned(),
-            Column::FrequencyHz(i) => format!("frequency_hz of {}", name(i)),
-            Column::Utilization(i) => format!("utilization of {}", name(i)),
-        };
-        write!(out, ",{}", field(&title))?;
+        write!(out, ",{}", field(&title(file, *column)))?;
     }
     writeln!(out)?;
     let mut sample = 0_u64;
@@ -149,6 +173,8 @@ fn rows(sampler: &Sampler, file: &ProductFile, out: &mut impl Write, mut done: i
             for (column, value) in columns.iter().zip(row) {
                 match column {
                     Column::First => write!(out, ",{}", if *value < 0.5 { "a" } else { "b" })?,
+                    // no answer
+                    _ if value.is_nan() => write!(out, ",")?,
                     _ => write!(out, ",{}", digits(*value))?,
                 }
             }
@@ -160,214 +186,24 @@ fn rows(sampler: &Sampler, file: &ProductFile, out: &mut impl Write, mut done: i
     })
 }
 
-/// How an input is called in a table: its name; a frequency is the part's own.
-fn called(input: &Input) -> &'static str {
-    match input {
-        Input::Frequency(_) => "own frequency",
-        Input::First => "first end",
-        other => other.name(),
+/// The share of drops that all parts are to survive.
+struct Target {
+    share: f64,
+}
+
+impl Target {
+    /// Whether the interval of the survival lies above it.
+    fn is_met(&self, scatter: &Scatter) -> bool {
+        scatter.survival.lo >= self.share
     }
 }
 
-/// Which way it goes, where that accounts for at least half of what the input does.
-fn way(driver: &Driver) -> &'static str {
-    let share = driver.share;
-    match (&driver.input, share.trend * share.trend >= 0.5 * share.variance, share.trend > 0.0) {
-        // two values have no way in between
-        (Input::First, _, true) => " (b)",
-        (Input::First, _, false) => " (a)",
-        (_, false, _) => "~",
-        (_, true, true) => "+",
-        (_, true, false) => "-",
-    }
+/// The model with the most physics that the file allows.
+fn fullest(file: &ProductFile) -> Model {
+    if file.product.contact_time_s.is_some() { Model::Compliant } else { Model::FiniteTilt }
 }
 
-/// Inputs that explain less than this share are not named in a table.
-const NAMED: f64 = 0.01;
-
-fn table(file: &ProductFile, scatter: &Scatter, out: &mut dyn Write) -> io::Result<()> {
-    let Settings { samples, seed, confidence } = scatter.settings;
-    let product = shown(&file.product.name, 60);
-    let sure = given(100.0 * confidence);
-    writeln!(out, "{product}: {samples} drops drawn with seed {seed}, without gravity, at small tilt")?;
-    let Probability { estimate, at_least, .. } = scatter.survival;
-    let percent = |p: f64| if p >= 1.0 { "100".to_owned() } else { figures(100.0 * p) };
-    writeln!(
-        out,
-        "All parts survive in {} % of them; in at least {} % of all drops ({sure} % confidence)",
-        percent(estimate),
-        percent(at_least)
-    )?;
-    if !scatter.assumed_even.is_empty() {
-        let name = |input: &Input| match input {
-            Input::Frequency(i) => {
-                format!("frequency of {}", shown(file.components.get(*i).map_or("", |c: &Component| &c.name), 24))
-            }
-            other => other.name().to_owned(),
-        };
-        let names: Vec<_> = scatter.assumed_even.iter().map(name).collect();
-        writeln!(out, "Taken as equally likely all over the range: {}", names.join(", "))?;
-    }
-    writeln!(out)?;
-    let wide = scatter.components.iter().map(|c| column(&shown(&c.name, 24), 0).1).max().unwrap_or(0).max(4);
-    writeln!(
-        out,
-        "{:<wide$}  {:>9}  {:>9}  {:>19}  {:>11}  {:>9}   driven by",
-        "part",
-        "survives",
-        "at least",
-        format!("{sure} % interval"),
-        "utilization",
-        "largest"
-    )?;
-    writeln!(out, "{:<wide$}  {:>9}  {:>9}  {:>19}  {:>11}", "", "%", "%", "%", "mean")?;
-    for component in &scatter.components {
-        let Probability { estimate, lo, hi, at_least } = component.survival;
-        let drivers: Vec<String> = component
-            .drivers
-            .iter()
-            .filter(|driver| driver.share.variance >= NAMED)
-            .take(4)
-            .map(|driver| format!("{}{} {:.0} %", called(&driver.input), way(driver), 100.0 * driver.share.variance))
-            .collect();
-        let line = format!(
-            "{}  {:>9}  {:>9}  {:>9} {:>9}  {:>11}  {:>9}   {}",
-            column(&shown(&component.name, 24), wide).0,
-            percent(estimate),
-            percent(at_least),
-            percent(lo),
-            percent(hi),
-            figures(component.mean_utilization),
-            figures(component.largest_utilization),
-            drivers.join(", ")
-        );
-        writeln!(out, "{}", line.trim_end())?;
-    }
-    Ok(())
-}
-
-fn csv(scatter: &Scatter, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(
-        out,
-        "name,samples,failed,survival,interval_lo,interval_hi,at_least,mean_utilization,largest_utilization"
-    )?;
-    let samples = scatter.settings.samples;
-    for ComponentScatter { name, failures, survival, mean_utilization, largest_utilization, .. } in &scatter.components
-    {
-        let numbers = [survival.estimate, survival.lo, survival.hi, survival.at_least];
-        let numbers = numbers.into_iter().chain([*mean_utilization, *largest_utilization]).map(digits);
-        writeln!(out, "{},{samples},{failures},{}", field(name), numbers.collect::<Vec<_>>().join(","))?;
-    }
-    Ok(())
-}
-
-#[derive(Serialize)]
-struct Answer<'a> {
-    product: &'a str,
-    samples: u64,
-    seed: u64,
-    confidence: Json,
-    model: ModelJson,
-    inputs: Vec<InputJson>,
-    survival: SurvivalJson,
-    components: Vec<ComponentJson<'a>>,
-}
-
-#[derive(Serialize)]
-struct ModelJson {
-    bar: &'static str,
-    reason: &'static str,
-}
-
-#[derive(Serialize)]
-struct InputJson {
-    input: &'static str,
-    /// Index of the component whose frequency it is.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    component: Option<usize>,
-    /// Whether the file gives no distribution, only a range.
-    assumed_uniform: bool,
-}
-
-#[derive(Serialize)]
-struct SurvivalJson {
-    probability: Json,
-    interval: [Json; 2],
-    at_least: Json,
-}
-
-#[derive(Serialize)]
-struct ComponentJson<'a> {
-    name: &'a str,
-    failed: u64,
-    survival: SurvivalJson,
-    limits: Vec<LimitJson>,
-    utilization: UtilizationJson,
-    drivers: Vec<DriverJson>,
-}
-
-#[derive(Serialize)]
-struct LimitJson {
-    limit: &'static str,
-    failed: u64,
-}
-
-#[derive(Serialize)]
-struct UtilizationJson {
-    mean: Json,
-    standard_deviation: Json,
-    largest: Json,
-    largest_sample: u64,
-}
-
-#[derive(Serialize)]
-struct DriverJson {
-    input: &'static str,
-    variance_share: Json,
-    trend: Json,
-}
-
-impl SurvivalJson {
-    fn new(p: Probability) -> Self {
-        Self { probability: Json(p.estimate), interval: [Json(p.lo), Json(p.hi)], at_least: Json(p.at_least) }
-    }
-}
-
-impl<'a> Answer<'a> {
-    fn new(file: &'a ProductFile, scatter: &'a Scatter) -> Self {
-        let Settings { samples, seed, confidence } = scatter.settings;
-        let input = |input: &Input| InputJson {
-            input: input.name(),
-            component: if let Input::Frequency(i) = input { Some(*i) } else { None },
-            assumed_uniform: scatter.assumed_even.contains(input),
-        };
-        let driver = |driver: &Driver| DriverJson {
-            input: driver.input.name(),
-            variance_share: Json(driver.share.variance),
-            trend: Json(driver.share.trend),
-        };
-        let component = |c: &'a ComponentScatter| ComponentJson {
-            name: &c.name,
-            failed: c.failures,
-            survival: SurvivalJson::new(c.survival),
-            limits: c.limits.iter().map(|(kind, failed)| LimitJson { limit: kind.name(), failed: *failed }).collect(),
-            utilization: UtilizationJson {
-                mean: Json(c.mean_utilization),
-                standard_deviation: Json(c.utilization_deviation),
-                largest: Json(c.largest_utilization),
-                largest_sample: c.worst_sample,
-            },
-            drivers: c.drivers.iter().map(driver).collect(),
-        };
-        Self {
-            product: &file.product.name,
-            samples,
-            seed,
-            confidence: Json(confidence),
-            model: ModelJson { bar: "map", reason: "millions of drops: small tilt, no gravity" },
-            inputs: scatter.inputs.iter().map(input).collect(),
-            survival: SurvivalJson::new(scatter.survival),
-            components: scatter.components.iter().map(component).collect(),
-        }
-    }
+/// The name of a part by its index.
+fn name_of(file: &ProductFile, i: usize) -> &str {
+    file.components.get(i).map_or("", |component| &component.name)
 }

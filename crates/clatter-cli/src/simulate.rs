@@ -6,10 +6,10 @@ mod table;
 
 use clap::ValueHint;
 use clatter::Mass;
-use clatter::flight::{Pulse, Scene, Stop};
+use clatter_flight::{Contact, ContactFlight, Flight, Model, Press, Scene, Stop, Strike};
 
-use crate::drop_args::{DropArgs, ModelName, Motion};
-use crate::inputs::{self, RowFormat};
+use crate::drop_args::DropArgs;
+use crate::inputs::{self, ModelName, RowFormat};
 use crate::numbers::figures;
 use crate::output::{Kind, Target};
 use crate::{Failure, Streams};
@@ -22,7 +22,8 @@ use crate::{Failure, Streams};
 ///   map          small tilt, no gravity, instant impacts: the paper's bar
 ///   ballistic    with gravity: what bounced clear comes back, until it lies still
 ///   finite-tilt  with gravity and the exact geometry of any tilt
-///   compliant    as finite-tilt, and every contact takes time: pulses, that may overlap
+///   compliant    as finite-tilt, and every contact takes time: pulses, that may overlap; --contact-law
+///                says what the ground does meanwhile
 ///
 /// A body of length 2L falls with its end a lower, which touches at time 0; end b is 2L sin(tilt)
 /// higher then. Everything is in SI units; heights and velocities are vertical, upward positive, and
@@ -49,7 +50,8 @@ Examples:
 Add --at=0 -o drop.svg for a picture, with the shocks of the middle.
 
 The motion ends at rest (proven, with bounds on what is left), bounced clear (without gravity, where
-nothing brings the body back), at a limit, or, of a body of thickness, where it has turned over."
+nothing brings the body back), at a limit, or, of a body of thickness, where it has turned over.
+A contact that a limit cuts off is told as unfinished: what it does in all is not known."
 )]
 pub(crate) struct Args {
     /// Which physics to keep
@@ -62,6 +64,15 @@ pub(crate) struct Args {
     e: f64,
     #[command(flatten)]
     drop: DropArgs,
+    /// Angular velocity when end a touches, in rad/s; positive turns end b upward
+    #[arg(long, value_name = "W", default_value = "0", allow_hyphen_values = true, value_parser = inputs::number)]
+    spin_rad_s: f64,
+    /// Follow the motion until this time after the first touch, in s
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = inputs::time_limit_s)]
+    time_limit_s: Option<f64>,
+    /// Follow the motion for at most so many strikes
+    #[arg(long, value_name = "N", default_value = "100000", allow_hyphen_values = true, value_parser = inputs::impact_limit)]
+    impact_limit: usize,
     /// Also give the velocity shocks at this position, in [-1, 1]: -1 is end a, 0 the middle, 1 end b; may be given
     /// several times
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = inputs::position)]
@@ -93,6 +104,28 @@ fn target(text: &str) -> Result<Target, String> {
     Target::of(text, &[Kind::Csv, Kind::Json, Kind::Svg])
 }
 
+/// What a model says of a scene.
+enum Motion {
+    Instant(Model, Flight),
+    Contacts(Contact, Box<ContactFlight>),
+}
+
+impl Motion {
+    fn flight(&self) -> &Flight {
+        match self {
+            Self::Instant(_, flight) => flight,
+            Self::Contacts(_, contacts) => &contacts.flight,
+        }
+    }
+    /// How long each strike presses; of instant strikes nothing.
+    fn presses(&self) -> &[Press] {
+        match self {
+            Self::Instant(..) => &[],
+            Self::Contacts(_, contacts) => &contacts.presses,
+        }
+    }
+}
+
 /// A drop and what came of it.
 struct Drop<'a> {
     args: &'a Args,
@@ -104,10 +137,7 @@ struct Drop<'a> {
 
 impl Args {
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        let (center_of_mass, body) = self.drop.body(self.inertia.gyration_m, &self.inertia.mass, self.e)?;
-        let scene = self.drop.scene(body, self.e)?;
-        let motion = self.drop.motion(self.model, &scene)?;
-        let drop = Drop { args: self, center_of_mass, scene, motion };
+        let drop = self.drop()?;
         if let Some(target) = &self.output {
             drop.write(target)?;
         }
@@ -121,11 +151,38 @@ impl Args {
         }
         Ok(())
     }
+
+    fn drop(&self) -> Result<Drop<'_>, Failure> {
+        self.drop.check(self.model)?;
+        let (center_of_mass, body) = self.drop.body(self.inertia.gyration_m, &self.inertia.mass, self.e)?;
+        let scene = self.drop.scene(body, self.e)?;
+        let scene = scene.with_spin(self.spin_rad_s).map_err(Failure::flag("--spin-rad-s"))?;
+        let scene = scene.with_impact_limit(self.impact_limit)?;
+        let scene = self.time_limit_s.map_or(Ok(scene), |limit| scene.with_time_limit_s(limit))?;
+        let motion = self.motion(&scene)?;
+        Ok(Drop { args: self, center_of_mass, scene, motion })
+    }
+
+    fn motion(&self, scene: &Scene) -> Result<Motion, Failure> {
+        let model = match (self.model, self.drop.contact_time_s) {
+            (ModelName::Compliant, time) => {
+                // clap requires the time
+                let contact = Contact::new(self.drop.contact_law(), scene.e(), time.unwrap_or(f64::NAN))?;
+                let contacts = scene.contacts(&contact).map_err(Failure::contacts)?;
+                return Ok(Motion::Contacts(contact, Box::new(contacts)));
+            }
+            (_, Some(_)) => return Err(Failure::Usage("--contact-time-s goes with --model=compliant alone")),
+            (ModelName::Map, None) => Model::Map,
+            (ModelName::Ballistic, None) => Model::Ballistic,
+            (ModelName::FiniteTilt, None) => Model::FiniteTilt,
+        };
+        Ok(Motion::Instant(model, scene.simulate(model)))
+    }
 }
 
 impl Drop<'_> {
     /// Velocity shocks at the positions asked for, of each strike.
-    fn shocks(&self, strike: &clatter::flight::Strike) -> impl Iterator<Item = f64> {
+    fn shocks(&self, strike: &Strike) -> impl Iterator<Item = f64> {
         self.args.at.iter().map(|&s| strike.delta_v_at(s))
     }
 
@@ -142,29 +199,57 @@ impl Drop<'_> {
         self.motion.flight().strikes.iter().map(|strike| strike.delta_v_at(s).abs()).fold(0.0, f64::max)
     }
 
+    /// When the contact of a strike ends, where contacts take time; infinite where the end stays down.
+    fn until_s(&self, strike: usize) -> Option<f64> {
+        self.motion.presses().get(strike).map(|press| press.until_s)
+    }
+
+    /// Whether a limit has cut off the contact of a strike, so that its shock is not known.
+    fn is_unfinished(&self, strike: usize) -> bool {
+        let cut = !matches!(self.motion.flight().stop, Stop::AtRest { .. } | Stop::BouncedClear { .. });
+        cut && self.until_s(strike).is_some_and(f64::is_infinite)
+    }
+
+    /// How many strikes begin while the other end still presses, and the number of the first of them.
+    fn overlaps(&self) -> Option<(usize, u64)> {
+        let (mut parted_s, mut found) = (f64::NEG_INFINITY, None);
+        for (press, strike) in self.motion.presses().iter().zip(&self.motion.flight().strikes) {
+            if press.from_s < parted_s {
+                found = Some(found.map_or((1, strike.number), |(count, first)| (count + 1, first)));
+            }
+            parted_s = parted_s.max(press.until_s);
+        }
+        found
+    }
+
     fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
-        let (flight, pulses) = (self.motion.flight(), self.motion.pulses());
-        let overlap = |&(i, pulse): &(usize, &Pulse)| pulses[..i].iter().any(|before| pulse.from_s < before.until_s);
-        let overlaps = pulses.iter().enumerate().filter(overlap);
-        if let Some((_, first)) = overlaps.clone().next() {
-            let n = overlaps.count();
-            let (number, touches) = (first.strike, if n == 1 { "strike begins" } else { "strikes begin" });
+        if let Some((count, first)) = self.overlaps() {
+            let touches = if count == 1 { "strike begins" } else { "strikes begin" };
             warnings.push(format!(
-                "{n} {touches} while the other end still presses, the first is number {number}: \
+                "{count} {touches} while the other end still presses, the first is number {first}: \
                  the impulses of such strikes depend on the contact time"
             ));
         }
+        let flight = self.motion.flight();
         match flight.stop {
             Stop::ImpactLimit { .. } => {
                 let n = flight.strikes.len();
                 warnings.push(format!("stopped after {n} impacts, more would follow; --impact-limit=N follows more"));
             }
-            Stop::TimeLimit { time_s } if self.args.drop.time_limit_s.is_none_or(|limit| time_s < limit) => {
+            Stop::TimeLimit { time_s } if self.args.time_limit_s.is_none_or(|limit| time_s < limit) => {
                 let time = figures(time_s);
                 warnings.push(format!("left at {time} s, where the body neither rests nor strikes again in sight"));
             }
             _ => {}
+        }
+        let unfinished: Vec<_> = (0..flight.strikes.len()).filter(|&i| self.is_unfinished(i)).collect();
+        if let [first, ..] = unfinished[..] {
+            let (count, first) = (unfinished.len(), flight.strikes[first].number);
+            let contacts = if count == 1 { "contact is" } else { "contacts are" };
+            warnings.push(format!(
+                "{count} {contacts} cut off there, the first is that of number {first}: what it does in all is not known"
+            ));
         }
         warnings
     }

@@ -7,6 +7,7 @@ mod accuracy;
 mod assessment;
 mod figure;
 mod file;
+mod page;
 mod paper;
 mod peers;
 mod shock;
@@ -14,17 +15,18 @@ mod svg;
 mod table;
 mod trade;
 mod typst;
+mod words;
 
-use std::fs;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
-use std::thread;
 
 pub use accuracy::{Measured, measured};
 pub use figure::design::{DesignBorder, DesignFronts, DesignPlane};
 pub use file::{create, replace};
 pub use shock::shock_numbers;
 pub use trade::trade_files;
+
+use page::{page, set};
 
 /// A report that can be written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,12 +67,15 @@ pub enum ReportError {
     /// The report's data could not be computed.
     #[error(transparent)]
     Model(#[from] clatter::Error),
+    /// The same of a drop in time.
+    #[error(transparent)]
+    Flight(#[from] clatter_flight::Error),
     /// The same of a component.
     #[error(transparent)]
     Shock(#[from] clatter_shock::Error),
     /// The same of a product.
     #[error(transparent)]
-    Scene(#[from] clatter_scene::Error),
+    Assess(#[from] clatter_assess::Error),
     /// The report's data could not be written as JSON.
     #[error("the report's data: {0}")]
     Data(String),
@@ -121,7 +126,6 @@ pub fn write(report: Report, dir: &Path, progress: &mut dyn FnMut(&str)) -> Resu
             let inputs = [
                 ("page.json", data.as_str()),
                 ("trade.typ", include_str!("../../../reports/trade.typ")),
-                ("plans.json", trade::PLANS),
                 ("peers.typ", include_str!("../../../reports/peers.typ")),
             ];
             page("accuracy.pdf", source, &accuracy_files, &inputs, dir, progress)
@@ -138,76 +142,6 @@ fn accuracy_files() -> Result<Vec<paper::File>, ReportError> {
     Ok(files)
 }
 
-/// The shared style of all pages.
-const STYLE: &str = include_str!("../../../reports/style.typ");
-
-/// Computes and writes the files while typst is looked for, then sets the page from them and from `inputs`, which are
-/// not written, in a directory of its own.
-fn page(
-    pdf: &str,
-    (name, source): (&str, &str),
-    compute: &(impl Fn() -> Result<Vec<paper::File>, ReportError> + Sync),
-    inputs: &[(&str, &str)],
-    dir: &Path,
-    progress: &mut dyn FnMut(&str),
-) -> Result<Written, ReportError> {
-    fs::create_dir_all(dir).map_err(|source| {
-        let is_file = source.kind() == io::ErrorKind::AlreadyExists;
-        let source = if is_file { io::Error::other("is a file; the reports need a directory") } else { source };
-        ReportError::Io { path: dir.into(), source }
-    })?;
-    progress("computing figures and tables");
-    let files = || {
-        let files = compute()?;
-        let paths = files.iter().map(|(name, content)| place(dir, name, content.as_bytes()));
-        let paths = paths.collect::<Result<Vec<_>, _>>()?;
-        Ok::<_, ReportError>((files, paths))
-    };
-    let (files, typst) = thread::scope(|scope| {
-        let files = scope.spawn(files);
-        let typst = typst::Typst::find(progress);
-        (files.join(), typst)
-    });
-    let (files, paths) = files.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
-    let target = dir.join(pdf);
-    let stale = |error| match error {
-        ReportError::Typst(text) if target.exists() => {
-            ReportError::Typst(format!("{text}\n{} is still the one from before", target.display()))
-        }
-        error => error,
-    };
-    let (typst, warning) = typst.map_err(stale)?;
-    progress("setting the page");
-    let all = files.iter().map(|(name, content)| (*name, content.as_str())).chain(inputs.iter().copied());
-    let bytes = set(&typst, (name, source), all).map_err(stale)?;
-    let mut written = Written { files: vec![place(dir, pdf, &bytes)?], warnings: warning.into_iter().collect() };
-    written.files.extend(paths);
-    Ok(written)
-}
-
-/// Sets a page from its source, the shared style and `files`, in a directory of its own.
-fn set<'a>(
-    typst: &typst::Typst,
-    (name, source): (&'a str, &'a str),
-    files: impl Iterator<Item = (&'a str, &'a str)>,
-) -> Result<Vec<u8>, ReportError> {
-    let work = tempfile::tempdir().map_err(|source| ReportError::Io { path: std::env::temp_dir(), source })?;
-    for (name, content) in files.chain([(name, source), ("style.typ", STYLE)]) {
-        let path = work.path().join(name);
-        fs::write(&path, content).map_err(|source| ReportError::Io { path, source })?;
-    }
-    typst.compile(work.path(), name)
-}
-
-/// Writes a file into `dir`.
-fn place(dir: &Path, name: &str, content: &[u8]) -> Result<PathBuf, ReportError> {
-    let target = dir.join(name);
-    match replace(&target, |file| file.write_all(content)) {
-        Ok(()) => Ok(target),
-        Err(source) => Err(ReportError::Io { path: target, source }),
-    }
-}
-
 /// Writes the pages of an assessment to `pdf`: the verdict first, then a part at a time. Gives what the caller should
 /// tell the user, if anything.
 ///
@@ -215,7 +149,7 @@ fn place(dir: &Path, name: &str, content: &[u8]) -> Result<PathBuf, ReportError>
 ///
 /// ```no_run
 /// // typst may have to be built first
-/// use clatter_scene::{EXAMPLE, ProductFile};
+/// use clatter_assess::{EXAMPLE, ProductFile};
 /// let file = ProductFile::read(EXAMPLE, "example.toml")?;
 /// let assessment = file.assess()?;
 /// let portraits = file.portraits(&assessment)?;
@@ -226,9 +160,9 @@ fn place(dir: &Path, name: &str, content: &[u8]) -> Result<PathBuf, ReportError>
 /// # Errors
 /// [`ReportError`]; nothing is left at `pdf` that was not there before.
 pub fn write_assessment(
-    file: &clatter_scene::ProductFile,
-    assessment: &clatter_scene::Assessment,
-    portraits: &[clatter_scene::Portrait],
+    file: &clatter_assess::ProductFile,
+    assessment: &clatter_assess::Assessment,
+    portraits: &[clatter_assess::Portrait],
     pdf: &Path,
     progress: &mut dyn FnMut(&str),
 ) -> Result<Option<String>, ReportError> {
@@ -262,25 +196,18 @@ pub fn fronts_svg(fronts: &DesignFronts) -> String {
     figure::design::fronts(fronts)
 }
 
-/// Error over cost of every pair of models in one scene, log-log: the front as a stepped line, the plan's choices
-/// ringed. What has an error below what the reference is known to stands in a strip of its own at the foot.
+/// Error over cost of every model that was measured on the worst drop of each limit, log-log, a panel a limit: the cheapest one
+/// within the tolerance is ringed. What is off by less than the reference is known to stands in a strip at the foot.
 ///
 /// ```
-/// use clatter_scene::plan::Quantity;
-/// use clatter_scene::tradeoff::{Tradeoff, bars};
-/// let [bar, ..] = bars()?;
-/// let trade = Tradeoff::measure(&bar, Quantity::PeakAcceleration)?;
-/// assert!(clatter_report::tradeoff_svg("q = 0.5, e = 0.3", &trade).contains("front"));
-/// # Ok::<(), clatter_scene::Error>(())
+/// use clatter_assess::{EXAMPLE, ProductFile};
+/// let file = ProductFile::read(EXAMPLE, "example.toml")?;
+/// let ladders = file.ladders(&file.assess()?, 0.01)?;
+/// assert!(clatter_report::ladder_svg(&ladders).contains("finite tilt"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]
-pub fn tradeoff_svg(title: &str, trade: &clatter_scene::tradeoff::Tradeoff) -> String {
-    figure::trade::panels(&[(title.to_owned(), trade)])
-}
-
-/// The same for all parts of a product, one below the other.
-#[must_use]
-pub fn product_tradeoff_svg(product: &clatter_scene::tradeoff::ProductTradeoff) -> String {
+pub fn ladder_svg(product: &clatter_assess::ladder::ProductLadder) -> String {
     trade::of_product(product)
 }
 
@@ -321,13 +248,13 @@ pub struct Drop<'a> {
     /// What the model keeps, in a few words.
     pub model: &'a str,
     /// Heights, velocities and, where contacts take time, accelerations and forces over time.
-    pub rows: &'a [clatter::history::Row],
+    pub rows: &'a [clatter_flight::history::Row],
     /// The strikes.
-    pub strikes: &'a [clatter::flight::Strike],
+    pub strikes: &'a [clatter_flight::Strike],
     /// How long each strike presses, where contacts take time; else empty.
-    pub pulses: &'a [clatter::flight::Pulse],
+    pub pulses: &'a [clatter_flight::Press],
     /// How it ends.
-    pub stop: clatter::flight::Stop,
+    pub stop: clatter_flight::Stop,
     /// Positions on the body, in [−1, 1], whose shocks are shown too.
     pub at: &'a [f64],
 }
@@ -337,7 +264,7 @@ pub struct Drop<'a> {
 /// the first stand beside the whole, magnified.
 ///
 /// ```
-/// use clatter::flight::{Body, Model, Scene};
+/// use clatter_flight::{Body, Model, Scene};
 /// let scene = Scene::new(Body::new(0.14, 0.04)?, 0.3, 4.43, 5.0, 9.81)?;
 /// let flight = scene.simulate(Model::FiniteTilt);
 /// let rows: Vec<_> = scene.history(Model::FiniteTilt, &flight).collect();
@@ -378,78 +305,4 @@ pub fn damage_boundary_svg(boundary: &clatter_shock::DamageBoundary, curve: &[(f
 #[must_use]
 pub fn rule_svg(rule: &clatter_shock::Rule, component: [f64; 2]) -> String {
     figure::shock::rule(rule, component)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn text(pdf: &Path) -> String {
-        let pdf = lopdf::Document::load(pdf).unwrap();
-        pdf.extract_text(&pdf.get_pages().into_keys().collect::<Vec<_>>()).unwrap()
-    }
-
-    #[test]
-    fn words_that_look_like_markup_print_as_they_are() {
-        let hostile = r#"#eval("x") $ *b* _c_ @d <e> \ `f` // g"#;
-        let quoted = serde_json::to_string(hostile).unwrap();
-        let files = || {
-            let mut files = paper::Data::compute()?.files()?;
-            for (_, content) in files.iter_mut().filter(|(name, _)| *name == "claims.json") {
-                *content = content.replace("\"The region of three impacts dominates.\"", &quoted);
-            }
-            Ok(files)
-        };
-        let dir = tempfile::tempdir().unwrap();
-        let source = ("paper.typ", include_str!("../../../reports/paper.typ"));
-        page("page.pdf", source, &files, &[("page.json", &paper::page())], dir.path(), &mut |_| ()).unwrap();
-        let plain = |text: &str| text.chars().filter(|c| !c.is_whitespace()).collect::<String>();
-        let said = plain(&text(&dir.path().join("page.pdf")));
-        assert!(said.contains(&plain(hostile)), "{said}");
-    }
-
-    #[test]
-    fn the_page_is_the_same_from_run_to_run() {
-        let run = |report| {
-            let dir = tempfile::tempdir().unwrap();
-            let written = write(report, dir.path(), &mut |_| ()).unwrap();
-            // The times of models are those of the run, on the page too.
-            let timed = |file: &&PathBuf| {
-                let name = file.file_name().unwrap().to_string_lossy();
-                name.starts_with("trade") || name == "accuracy.pdf"
-            };
-            let untimed = written.files.iter().filter(|file| !timed(file));
-            untimed.map(|file| fs::read(file).unwrap()).collect::<Vec<_>>()
-        };
-        for report in [Report::Paper, Report::Shock, Report::Accuracy] {
-            let files = run(report);
-            assert!(files.len() > 3 && files == run(report), "two runs of {report:?} differ");
-        }
-    }
-
-    #[test]
-    fn a_failed_page_leaves_figures_tables_and_the_old_pdf() {
-        let dir = tempfile::tempdir().unwrap();
-        fs::write(dir.path().join("x.pdf"), "old").unwrap();
-        let files = || Ok(vec![("figure.svg", "<svg/>".to_owned())]);
-        let error = page("x.pdf", ("x.typ", "= One\n#panic(1)"), &files, &[], dir.path(), &mut |_| ()).unwrap_err();
-        assert!(matches!(error, ReportError::Typst(_)), "{error:?}");
-        let said = error.to_string();
-        assert!(said.contains("x.typ:2:") && said.contains("still the one from before"), "{said}");
-        let mut names: Vec<_> = fs::read_dir(dir.path()).unwrap().map(|f| f.unwrap().file_name()).collect();
-        names.sort();
-        assert_eq!(names, ["figure.svg", "x.pdf"], "what is left");
-        assert_eq!(fs::read(dir.path().join("x.pdf")).unwrap(), b"old", "the old page");
-    }
-
-    #[test]
-    fn a_directory_that_cannot_be_made_is_named() {
-        let dir = tempfile::tempdir().unwrap();
-        let file = dir.path().join("file");
-        fs::write(&file, "").unwrap();
-        let error = write(Report::Paper, &file.join("in"), &mut |_| ()).unwrap_err();
-        assert!(matches!(&error, ReportError::Io { path, .. } if path.ends_with("file/in")), "{error:?}");
-        let error = page("x.pdf", ("x.typ", "= One"), &|| Ok(vec![]), &[], &file, &mut |_| ()).unwrap_err();
-        assert!(error.to_string().ends_with("is a file; the reports need a directory"), "{error}");
-    }
 }

@@ -226,9 +226,9 @@ pub(crate) fn files() -> Result<Vec<File>, ReportError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clatter::flight::{Body, Model, Scene};
     use clatter::paper::DESIGNS;
     use clatter::{Bar, Count, Start};
+    use clatter_flight::{Body, Model, Scene};
 
     #[test]
     fn the_last_run_left_no_tool_out() {
@@ -322,7 +322,7 @@ mod tests {
         let source = "#import \"style.typ\": *\n#import \"peers.typ\": peers\n#show: report.with(title: \"Peers\")\n= Peers\n\
                       #peers(json(\"peers.json\"))";
         let dir = tempfile::tempdir().unwrap();
-        crate::page("x.pdf", ("x.typ", source), &files, &[], dir.path(), &mut |_| ()).unwrap();
+        crate::page::page("x.pdf", ("x.typ", source), &files, &[], dir.path(), &mut |_| ()).unwrap();
         let pdf = lopdf::Document::load(dir.path().join("x.pdf")).unwrap();
         let said = pdf.extract_text(&pdf.get_pages().into_keys().collect::<Vec<_>>()).unwrap();
         let plain = |text: &str| text.chars().filter(|c| !c.is_whitespace()).collect::<String>();

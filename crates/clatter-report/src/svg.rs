@@ -20,6 +20,8 @@ pub(crate) const GRAY: &str = "#68717b";
 pub(crate) const SAND: &str = "#efe5d3";
 /// What must catch the eye.
 pub(crate) const RUST: &str = "#a34a1c";
+/// What is open.
+pub(crate) const OCHRE: &str = "#8f6b00";
 
 /// The typeface of figures and pages, embedded in typst.
 pub(crate) const FONT: &str = "Libertinus Serif";

@@ -1,14 +1,17 @@
-//! Speed for accuracy on scenes to compare with: the four bars of Table 1 and the worked products.
+//! Speed for accuracy, measured: the four bars of Table 1 and the worked products.
+
+use std::f64::consts::TAU;
 
 use clatter::paper::DESIGNS;
-use clatter_scene::ProductFile;
-use clatter_scene::plan::Quantity;
-use clatter_scene::tradeoff::{Kept, Machine, PartTradeoff, ProductTradeoff, Tradeoff, bar, bars};
+use clatter_assess::ladder::{Ladder, LimitLadder, Machine, ProductLadder, bars};
+use clatter_assess::{Accuracy, ProductFile};
 use serde::Serialize;
+use serde_json::json;
 
-use crate::ReportError;
-use crate::figure::trade::{panels, words};
+use crate::figure::ladder::{Panel, panels};
+use crate::figure::shock::three;
 use crate::paper::{File, pretty};
+use crate::{ReportError, words};
 
 /// The worked products, and the name of the figure of each.
 const EXAMPLES: [(&str, &str); 3] = [
@@ -16,151 +19,156 @@ const EXAMPLES: [(&str, &str); 3] = [
     ("trade-handheld-terminal.svg", include_str!("../../../reports/examples/handheld-terminal.toml")),
     ("trade-laptop.svg", include_str!("../../../reports/examples/laptop.toml")),
 ];
-const BARS: [&str; 4] = ["trade-bar-1.svg", "trade-bar-2.svg", "trade-bar-3.svg", "trade-bar-4.svg"];
-
-/// The study of plans on random scenes, as it last ran.
-pub(crate) const PLANS: &str = include_str!("../../../reports/plans.json");
-
-/// Bars whose train never ends without gravity, from the shortest to one close to where trains begin to end.
-const ENDLESS: [[f64; 2]; 3] = [[0.8, 0.1], [0.9, 0.3], [0.95, 0.5]];
-
-/// Everything measured.
-#[derive(Debug, Serialize)]
-struct Trades {
-    machine: Machine,
-    bars: Vec<BarTrade>,
-    products: Vec<ProductTradeoff>,
-    endless: Vec<Train>,
-}
-
-/// How many strikes of an endless train are worth keeping.
-#[derive(Debug, Serialize)]
-struct Train {
-    q: f64,
-    e: f64,
-    kept: Vec<Kept>,
-}
 
 /// One bar of Table 1.
 #[derive(Debug, Serialize)]
-struct BarTrade {
+struct BarLadder {
     q: f64,
     e: f64,
     #[serde(flatten)]
-    trade: Tradeoff,
+    ladder: Ladder,
 }
 
-/// The trade between speed and accuracy for the four bars of Table 1 (peak acceleration; the scenes are those of
-/// [`bars`]) and for every part of the three worked products: `trade.json`, and a figure for each. The JSON also has
-/// how many strikes of three endless trains are worth keeping.
+/// Why no cheaper model does, in words: limit by limit.
+fn reasons(ladders: &[LimitLadder]) -> Vec<String> {
+    ladders.iter().map(|limit| words::reason(&limit.ladder.reason)).collect()
+}
+
+/// What every model gets wrong and what it costs, for the four bars of Table 1 (the peak acceleration of a board; the drops are
+/// those of [`bars`]) and for the worst drop of every limit of the three worked products: `trade.json`, a figure of the bars and
+/// one of each product.
 ///
-/// Errors, estimates, counts and choices are the same from run to run, `seconds` and what follows from them (`front`)
-/// are of the machine.
+/// Errors and strikes are the same from run to run; `seconds`, and with them `cheapest`, are of the machine.
 ///
 /// # Errors
-/// None in practice: all scenes are valid.
+/// None in practice: all drops are valid.
 pub fn trade_files() -> Result<Vec<(&'static str, String)>, ReportError> {
-    let mut files: Vec<File> = Vec::new();
-    let mut trades = Trades { machine: Machine::here(), bars: Vec::new(), products: Vec::new(), endless: Vec::new() };
-    for ((setup, [q, e]), name) in bars()?.iter().zip(DESIGNS).zip(BARS) {
-        let trade = Tradeoff::measure(setup, Quantity::PeakAcceleration)?;
-        let title = format!("q = {q}, e = {e}: peak acceleration of a board near the end that strikes second");
-        files.push((name, panels(&[(title, &trade)])));
-        trades.bars.push(BarTrade { q, e, trade });
+    let tolerance = Accuracy::default().tolerance;
+    let mut ladders = Vec::new();
+    let all = bars()?;
+    for ((drop, part, limit), [q, e]) in all.iter().zip(DESIGNS) {
+        ladders.push(BarLadder { q, e, ladder: Ladder::measure(drop, part, limit, tolerance)? });
     }
+    let of_bars: Vec<Panel<'_>> = ladders
+        .iter()
+        .map(|bar| Panel {
+            title: format!("q = {}, e = {}: acceleration of the board", bar.q, bar.e),
+            drop: String::new(),
+            ladder: &bar.ladder,
+            tolerance,
+        })
+        .collect();
+    let mut files: Vec<File> = vec![("trade-bars.svg", panels(&of_bars))];
+    let mut products = Vec::new();
     for (name, text) in EXAMPLES {
         let file = ProductFile::read(text, name).map_err(|faults| ReportError::Data(faults.to_string()))?;
-        let product = file.tradeoff(&file.assess()?)?;
+        let product = file.ladders(&file.assess()?, tolerance)?;
         files.push((name, of_product(&product)));
-        trades.products.push(product);
+        products.push(product);
     }
-    for [q, e] in ENDLESS {
-        let kept = Tradeoff::measure(&bar(q, e)?, Quantity::PeakAcceleration)?.kept;
-        trades.endless.push(Train { q, e, kept });
-    }
-    files.insert(0, ("trade.json", pretty(&trades)?));
+    let [(drop, part, _), ..] = &all;
+    let scene = json!({
+        "length_mm": three(1e3 * drop.body.length_m()), "speed_m_s": three(drop.speed_m_s),
+        "tilt_deg": three(drop.tilt_rad.to_degrees()), "contact_ms": drop.contact_time_s.map(|time| three(1e3 * time)),
+        "frequency_hz": part.suspension.map(|part| three(part.omega() / TAU)),
+        "position": three(2.0 * part.position_m / drop.body.length_m()),
+    });
+    let of_bars: Vec<String> = ladders.iter().map(|bar| words::reason(&bar.ladder.reason)).collect();
+    let of_products: Vec<Vec<String>> = products.iter().map(|product| reasons(&product.limits)).collect();
+    let data = json!({
+        "machine": Machine::here(), "tolerance": tolerance, "scene": scene, "bars": ladders, "products": products,
+        "reasons": { "bars": of_bars, "products": of_products },
+    });
+    files.insert(0, ("trade.json", pretty(&data)?));
     Ok(files)
 }
 
 /// A panel for each limit.
-pub(crate) fn of_product(product: &ProductTradeoff) -> String {
-    let title = |part: &PartTradeoff| {
-        let scene = &part.trade.scene;
-        format!(
-            "{}: {}, dropped at {:.3} m/s and {:.2}°, e = {:.3}",
-            part.component,
-            words(part.trade.quantity),
-            scene.speed_m_s,
-            scene.tilt_deg,
-            scene.restitution
-        )
-    };
-    panels(&product.trades.iter().map(|part| (title(part), &part.trade)).collect::<Vec<_>>())
+pub(crate) fn of_product(product: &ProductLadder) -> String {
+    panels(&product.limits.iter().map(|limit| of_limit(limit, product.tolerance)).collect::<Vec<_>>())
+}
+
+fn of_limit(limit: &LimitLadder, tolerance: f64) -> Panel<'_> {
+    let LimitLadder { component, limit: kind, worst_case: worst, ladder } = limit;
+    Panel {
+        title: format!("{}: {}", words::name(component), words::limit(*kind)),
+        drop: format!(
+            "end {} first at {} m/s, {}°, e = {}",
+            words::end(worst.first),
+            three(worst.speed_m_s),
+            three(worst.tilt_deg),
+            three(worst.restitution)
+        ),
+        ladder,
+        tolerance,
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::paper::tests::stay_within_their_frame;
-    use clatter::flight::{Body, Scene};
-    use clatter_scene::plan::{Pair, Setup};
+    use clatter_assess::{Limit, LimitKind, Model, Part, SingleDrop};
+    use clatter_flight::{Body, ContactLaw};
     use clatter_shock::{DampingRatio, Suspension};
 
     #[test]
-    fn seven_figures_and_their_data() {
+    fn four_figures_and_their_data() {
         let files = trade_files().unwrap();
         stay_within_their_frame(&files);
         let names: Vec<_> = files.iter().map(|(name, _)| *name).collect();
-        assert_eq!((names.len(), names[0]), (8, "trade.json"));
+        assert_eq!((names.len(), names[..2].to_vec()), (5, vec!["trade.json", "trade-bars.svg"]));
         let data: serde_json::Value = serde_json::from_str(&files[0].1).unwrap();
         for (k, [q, e]) in DESIGNS.into_iter().enumerate() {
             assert_eq!((&data["bars"][k]["q"], &data["bars"][k]["e"]), (&q.into(), &e.into()));
-            let figure = &files[1 + k].1;
-            assert!(figure.contains(&format!("q = {q}, e = {e}")) && figure.contains("compliant, pulses"), "{figure}");
+            assert!(files[1].1.contains(&format!("q = {q}, e = {e}")), "{}", files[1].1);
         }
         assert_eq!(data["products"].as_array().unwrap().len(), 3);
-        for train in data["endless"].as_array().unwrap() {
-            let start = clatter::Start::default();
-            let bar = clatter::Bar::new(train["q"].as_f64().unwrap(), train["e"].as_f64().unwrap()).unwrap();
-            assert_eq!(bar.summary(&start).count, clatter::Count::Endless, "{train}");
-            assert!(train["kept"][0]["least"][2].as_u64() < train["kept"][0]["strikes"].as_u64(), "{train}");
-        }
-        // The laptop has no contact time: its figure says so, the phone's need not.
-        let says = |name| files.iter().find(|(n, _)| *n == name).unwrap().1.contains("compliant bar here");
-        assert!(says("trade-laptop.svg") && !says("trade-phone.svg"));
+        // The laptop has no contact time, and no model of contacts.
+        let says = |name| files.iter().find(|(n, _)| *n == name).unwrap().1.contains("compliant");
+        assert!(says("trade-phone.svg") && !says("trade-laptop.svg"));
     }
 
-    /// The record is of pairs that plans choose from today, of enough scenes, and holds what plans promise.
+    /// A flat drop, a dead one and a lively one: errors beyond all scales, times that differ little.
     #[test]
-    fn the_study_of_plans_holds_them() {
-        let data: serde_json::Value = serde_json::from_str(PLANS).unwrap();
-        assert!(data["scenes"].as_u64() >= Some(10_000), "{}", data["scenes"]);
-        for quantity in [Quantity::PeakAcceleration, Quantity::RattleSpace, Quantity::VelocityShock] {
-            let of = |row: &&serde_json::Value| row["quantity"] == quantity.name();
-            let pairs = data["pairs"].as_array().unwrap().iter().filter(of);
-            let pairs = pairs.map(|p| (p["bar"].as_str().unwrap(), p["component"].as_str().unwrap()));
-            let planned = Pair::planned(quantity).iter().map(|p| (p.bar.name(), p.component.name()));
-            assert!(pairs.eq(planned), "run the study again: the pairs of {} have changed", quantity.name());
-            for row in data["worth"].as_array().unwrap().iter().filter(of) {
-                assert!(row["within"].as_f64() >= Some(0.995), "{row}");
-            }
-        }
-    }
-
-    /// All mass in the middle: shocks of the map grow without end, at no place that is reached.
-    #[test]
-    fn infinite_errors_and_a_flat_drop_stay_in_the_frame() {
+    fn extremes_stay_in_the_frame() {
         let part = Suspension::from_hz(100.0, DampingRatio::new(0.0).unwrap()).unwrap();
-        for (gyration_m, e, tilt, contact) in
-            [(0.0, 0.5, 5.0, None), (0.04, 0.0, 0.0, Some(1e-3)), (0.04, 1.0, 0.0, None)]
+        for (gyration_m, e, tilt_rad, contact_time_s) in
+            [(0.01, 0.5, 0.1, None), (0.04, 0.0, 0.0, Some(1e-3)), (0.04, 0.6, 0.0, None)]
         {
-            let scene = Scene::new(Body::new(0.14, gyration_m).unwrap(), e, 1.0, tilt, 0.0).unwrap();
-            let setup = Setup::new(scene, contact, 0.3, part).unwrap();
-            for quantity in [Quantity::PeakAcceleration, Quantity::VelocityShock] {
-                let trade = Tradeoff::measure(&setup, quantity).unwrap();
-                let svg = panels(&[("an *extreme* <one>".to_owned(), &trade)]);
+            let drop = SingleDrop {
+                body: Body::new(0.14, gyration_m).unwrap(),
+                first: clatter::End::A,
+                tilt_rad,
+                speed_m_s: 1.0,
+                restitution: e,
+                gravity_m_s2: 9.81,
+                contact_time_s,
+                contact_law: ContactLaw::Hysteretic,
+            };
+            for kind in [LimitKind::Acceleration, LimitKind::VelocityChange] {
+                let place = Part { position_m: 0.02, suspension: Some(part) };
+                let mut ladder = Ladder::measure(&drop, &place, &Limit::new(kind, 1.0), 0.01).unwrap();
+                ladder.models[0].error = f64::INFINITY;
+                let of = Panel {
+                    title: "an *extreme* <one>".to_owned(),
+                    drop: String::new(),
+                    ladder: &ladder,
+                    tolerance: 0.01,
+                };
+                let svg = panels(&[of]);
+                assert!(svg.contains("off the scale") && svg.contains("&lt;one&gt;"), "{svg}");
                 stay_within_their_frame(&[("extreme.svg", svg)]);
             }
+        }
+    }
+
+    /// Every model that the page names has a word there.
+    #[test]
+    fn the_page_names_every_model() {
+        let page = include_str!("../../../reports/trade.typ");
+        for model in Model::ALL {
+            assert!(page.contains(&format!("\"{}\"", model.name())), "{}", model.name());
         }
     }
 }

@@ -33,6 +33,9 @@ const RECIPROCAL: [[f64; 2]; TERMS + 1] = {
 /// size τ.
 const SERIES_REACH: f64 = 0.5;
 
+/// Phase of a sinusoid beyond which its power series would lose digits: a whole swing, of a haversine, loses nine bits.
+const SERIES_SWING: f64 = 7.0;
+
 /// Phase βτ beyond which the turning points under a ramp are not visited one by one.
 const MANY_SWINGS: f64 = 128.0 * PI;
 
@@ -257,7 +260,11 @@ impl<'a> Segment<'a> {
             let turned = turned(sine, i);
             let now = sine.phase * turned;
             s.add(sine, now, modes);
-            let from_rest = if short { sine.series(modes, tau) } else { sine.closed(modes, tau, turned, step) };
+            let from_rest = if short && sine.nu * tau <= SERIES_SWING {
+                sine.series(modes, tau)
+            } else {
+                sine.closed(modes, tau, turned, step)
+            };
             s.m.x += sine.amplitude * from_rest.x;
             s.m.w += sine.amplitude * from_rest.w;
         }

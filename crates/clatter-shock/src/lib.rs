@@ -36,7 +36,6 @@
 //! ```
 
 pub mod accuracy;
-mod bounds;
 mod coupling;
 mod error;
 mod filter;
@@ -54,15 +53,14 @@ mod spectrum;
 mod study;
 mod suspension;
 
-pub use bounds::{LooseShock, PeakBounds, Peaked, peak_bounds};
 pub use coupling::{ImpulseFactors, Rule, RulePoint, TrainResponse, respond, shocks_at, three_way_rule};
 pub use error::Error;
 pub use filter::SpectrumFilter;
 pub use fragility::{DamageBoundary, EquivalentPulse, Limit, Margin, ShockTable, Trial};
 pub use impulse::{VelocityShock, VelocityShocks};
 pub use limit_curve::LimitCurve;
-pub use peaks::{Extreme, Extremes, Response};
-pub use pulse::{Pulse, Pulses, Shape};
+pub use peaks::{Extreme, Extremes, Peaked, Response};
+pub use pulse::{Pulse, Pulses, Section, Shape, Sine};
 pub use record::{Finding, Lines, Record, STANDARD_GRAVITY_M_S2, Sample, Survey, Units, stream};
 pub use spectrum::{Frequencies, Quantity, Spectrum};
 pub use study::{

@@ -43,6 +43,24 @@ impl Extremes {
     }
 }
 
+/// Which peak is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Peaked {
+    /// ω|z|.
+    PseudoVelocity,
+    /// |A|/ω.
+    AccelerationOverOmega,
+}
+
+impl Peaked {
+    pub(crate) fn row(self) -> usize {
+        match self {
+            Self::PseudoVelocity => Modes::DISPLACEMENT,
+            Self::AccelerationOverOmega => Modes::ACCELERATION,
+        }
+    }
+}
+
 /// A mark within an interval, in phase τ from its begin.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Mark {

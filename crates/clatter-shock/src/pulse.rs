@@ -72,8 +72,8 @@ impl Pulse {
     }
 }
 
-/// A checked history of base acceleration: pulses that may overlap, or a piecewise linear history. Zero before and
-/// after.
+/// A checked history of base acceleration: pulses that may overlap, a piecewise linear history, or sections with velocity
+/// shocks, straight lines and sinusoids. Zero before and after.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pulses {
     pieces: Vec<Piece>,
@@ -106,11 +106,37 @@ impl Instant {
     }
 }
 
+/// A part of a history of base acceleration: a velocity shock, then a straight line and sinusoids besides.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Section<'a> {
+    /// How long it lasts; 0 for the shock alone.
+    pub length: f64,
+    /// Velocity shock as it begins.
+    pub delta_v: f64,
+    /// Acceleration at its begin and its end, on a straight line between.
+    pub acceleration: [f64; 2],
+    /// What swings besides.
+    pub sines: &'a [Sine],
+}
+
+/// A sinusoid of a [`Section`], `amplitude · sin(phase + rate t)` with t from its begin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sine {
+    /// With its sign.
+    pub amplitude: f64,
+    /// Positive.
+    pub rate: f64,
+    /// In rad.
+    pub phase: f64,
+}
+
 /// What acts between two breakpoints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Piece {
     start: Instant,
     length: f64,
+    /// Velocity shock at the begin.
+    shock: f64,
     /// Linear part at both ends.
     from: f64,
     to: f64,
@@ -198,12 +224,62 @@ impl Pulses {
         let history = Self::from_sorted(points);
         if history.pieces.is_empty() { Err(Error::ZeroDuration) } else { Ok(history) }
     }
+    /// A history of sections, one after the other from `start` on.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Empty`]; [`Error::Entry`] for a value that is not finite, a negative length, or a rate that is not positive.
+    ///
+    /// # Examples
+    ///
+    /// A velocity shock of 2 as a section of no length:
+    ///
+    /// ```
+    /// use clatter_shock::{DampingRatio, Pulses, Section, Suspension};
+    /// let shock = Section { length: 0.0, delta_v: 2.0, acceleration: [0.0; 2], sines: &[] };
+    /// let mount = Suspension::new(100.0, DampingRatio::new(0.0)?)?;
+    /// let peak = Pulses::of_sections(0.0, [shock])?.respond(&mount).absolute_acceleration.peak();
+    /// assert!((peak.value - 200.0).abs() < 1e-12);
+    /// # Ok::<(), clatter_shock::Error>(())
+    /// ```
+    pub fn of_sections<'a>(start: f64, sections: impl IntoIterator<Item = Section<'a>>) -> Result<Self, Error> {
+        let sections = sections.into_iter();
+        let many = sections.size_hint().0;
+        let (mut pieces, mut sines) = (Vec::with_capacity(many), Vec::with_capacity(2 * many));
+        let mut at = Instant::at(start);
+        for (i, section) in sections.enumerate() {
+            let entry = |name, value, allowed| Error::Entry { list: "sections", entry: i + 1, name, value, allowed };
+            let Section { length, delta_v, acceleration: [from, to], .. } = section;
+            for (name, value) in [("start", at.hi), ("delta v", delta_v), ("acceleration", from), ("acceleration", to)]
+            {
+                if !value.is_finite() {
+                    return Err(entry(name, value, "finite"));
+                }
+            }
+            if !(0.0..f64::INFINITY).contains(&length) {
+                return Err(entry("length", length, "finite and at least 0"));
+            }
+            let first = sines.len();
+            for sine in section.sines {
+                let Sine { amplitude, rate, phase } = *sine;
+                if !(rate > 0.0 && rate.is_finite() && amplitude.is_finite() && phase.is_finite()) {
+                    return Err(entry("rate", rate, "positive, and all of a sinusoid finite"));
+                }
+                let turned = Complex64::cis(rate * length);
+                sines.push(SinePiece { amplitude, rate, phase: Complex64::cis(phase), turned });
+            }
+            pieces.push(Piece { start: at, length, shock: delta_v, from, to, sines: (first, sines.len()) });
+            at = Instant::after(at.hi, length + at.lo);
+        }
+        if pieces.is_empty() { Err(Error::Empty("sections")) } else { Ok(Self { pieces, sines, end: at }) }
+    }
     /// A piecewise linear history of points already checked: finite, in order of time.
     pub(crate) fn from_sorted(points: &[(f64, f64)]) -> Self {
         let mut pieces = Vec::with_capacity(points.len());
         pieces.extend(points.windows(2).filter(|w| w[1].0 > w[0].0).map(|w| Piece {
             start: Instant::at(w[0].0),
             length: w[1].0 - w[0].0,
+            shock: 0.0,
             from: w[0].1,
             to: w[1].1,
             sines: (0, 0),
@@ -267,12 +343,22 @@ impl Pulses {
     /// ```
     #[must_use]
     pub fn peak_above(&self, suspension: &Suspension, peaked: Peaked, above: f64) -> Option<Extreme> {
+        self.peak(suspension, peaked, above, true)
+    }
+    /// The same until the end of the history, without the ring-down after it: of a history that is known only so far.
+    #[must_use]
+    pub fn peak_within(&self, suspension: &Suspension, peaked: Peaked, above: f64) -> Option<Extreme> {
+        self.peak(suspension, peaked, above, false)
+    }
+    fn peak(&self, suspension: &Suspension, peaked: Peaked, above: f64, rings_down: bool) -> Option<Extreme> {
         let modes = Modes::new(suspension.damping());
         let (omega, row) = (suspension.omega(), peaked.row());
         let mut range = [Range::beyond(above)];
         let last = self.drive(&modes, omega, &[row], &mut range);
         let [mut range] = range;
-        range.note_free(&modes, row, last, f64::INFINITY, self.pieces.len());
+        if rings_down {
+            range.note_free(&modes, row, last, f64::INFINITY, self.pieces.len());
+        }
         range.peak_above(above, omega, |i| self.begin(i))
     }
     /// When interval `i` begins.
@@ -302,6 +388,15 @@ impl Pulses {
     ) -> Motion {
         let mut segment = Segment::new(modes);
         for (i, piece) in self.pieces.iter().enumerate() {
+            if piece.shock != 0.0 {
+                m.w -= piece.shock;
+                for (&k, range) in quantities.iter().zip(ranges.iter_mut()) {
+                    range.note(i, 0.0, modes.quantity(k, m));
+                }
+            }
+            if piece.length == 0.0 {
+                continue;
+            }
             let span = segment.begin_line(m, omega, piece.length, piece.from, piece.to);
             let sines = &self.sines[piece.sines.0..piece.sines.1];
             for sine in sines {

@@ -1,7 +1,7 @@
 //! The errors that are allowed, quantity by quantity: one table that the docs state and the tests hold.
 //!
-//! The count, the impact that holds the peak and the answer to whether a train ends are not in it: they are exact, of a
-//! bar with its mass in the middle.
+//! The count and the answer to whether a train ends are not in it: they are exact, off center as well. So is the impact that
+//! holds the peak of a bar with its mass in the middle.
 
 /// A train of up to so many impacts counts as short.
 pub const SHORT: u64 = 10_000;

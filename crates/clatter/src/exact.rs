@@ -21,6 +21,7 @@
 //! 2⁹⁰ impacts, where the bracket is wide. It comes to that where double-double angles leave the count of a wave within
 //! its error of an integer, where f64 logarithms leave that of a decay so, and where f64 leaves the place of a peak so.
 
+use crate::dd::{Dd, ldexp, power_of_two, two_sum};
 use num_bigint::{BigInt, Sign};
 use std::cmp::Ordering;
 
@@ -43,6 +44,12 @@ impl From<f64> for Dyadic {
         let (fraction, exponent) = (bits & ((1 << 52) - 1), (bits >> 52) & 0x7FF);
         let m = if exponent == 0 { fraction } else { fraction | (1 << 52) } as i64;
         Self { m: BigInt::from(if v < 0.0 { -m } else { m }), x: i128::from(exponent.max(1)) - 1075 }
+    }
+}
+
+impl From<Dd> for Dyadic {
+    fn from(v: Dd) -> Self {
+        Self::from(v.hi).add(&Self::from(v.lo))
     }
 }
 
@@ -89,8 +96,14 @@ impl Dyadic {
         let cut = (bits - 64).max(0);
         let top = (self.m.magnitude() >> cut as usize).iter_u64_digits().next().unwrap_or(0);
         #[expect(clippy::cast_precision_loss, reason = "rounds to nearest")]
-        let v = top as f64 / 2f64.powi((bits - cut - 1) as i32);
+        let v = top as f64 / power_of_two((bits - cut - 1) as i32);
         (if self.m.sign() == Sign::Minus { -v } else { v }, self.x + bits - 1)
+    }
+    /// The same with twice the digits.
+    pub(crate) fn to_wide(&self) -> (Dd, i128) {
+        let (hi, exponent) = self.to_float();
+        let lo = self.mul(&Self::power_of_two(-exponent)).sub(&Self::from(hi)).to_float();
+        (two_sum(hi, ldexp(lo.0, clamp(lo.1))), exponent)
     }
     fn cut(self, bits: u64) -> Self {
         let extra = self.m.bits().saturating_sub(bits);
@@ -100,6 +113,13 @@ impl Dyadic {
     fn top(&self) -> i128 {
         if self.sign() == Ordering::Equal { i128::MIN / 2 } else { self.x + i128::from(self.m.bits()) }
     }
+}
+
+/// An exponent, or one as far beyond those of floats.
+pub(crate) fn clamp(x: i128) -> i32 {
+    #[expect(clippy::cast_possible_truncation, reason = "clamped to far beyond the exponents of floats")]
+    let small = x.clamp(-20_000, 20_000) as i32;
+    small
 }
 
 /// The recurrence with its denominators multiplied out.
@@ -199,7 +219,7 @@ mod tests {
     fn a_float_survives_the_way_there_and_back() {
         for v in [1.0, -0.1, 5e-324, f64::MAX, -2.2e-308, 0.0] {
             let (m, x) = Dyadic::from(v).to_float();
-            assert_eq!(crate::dd::ldexp(m, i32::try_from(x).unwrap()).to_bits(), v.to_bits(), "{v:e}");
+            assert_eq!(ldexp(m, i32::try_from(x).unwrap()).to_bits(), v.to_bits(), "{v:e}");
         }
     }
 }

@@ -14,16 +14,17 @@
 //!   θ = atan2(S, T), ψ = atan2(αS, −(αT + 2β)). It ends: N = ⌈ψ/θ⌉.
 //! * D < 0, a **decay**: |a_n| = (σ λ₊ⁿ − τ λ₋ⁿ)/S with λ± = (T ± S)/2, σ = αλ₊ + β, τ = αλ₋ + β. Endless iff
 //!   σ ≥ 0; else N = ⌈ln(τ/σ)/ln(λ₊/λ₋)⌉.
-//! * D = 0, the **edge** between them, where c = T/(2√e) = 1: only (1, 1) among floats.
+//! * D = 0, the **edge** between them, where c = T/(2√e) = 1: only (1, 1) among floats, more where q is a quotient.
 //!
 //! What decides is formed in double-double, or in integers where even those digits cancel: D, S, αT + 2β and
 //! σ τ = αβT + β² + α²e. Then f64 suffices, until a quotient lies within its error of an integer.
 
 use crate::accuracy::{self, DURATION_LONG, FINAL, SHORT};
-use crate::dd::{self, Dd, ldexp, two_prod, two_sum};
-use crate::exact::{Dyadic, Recurrence};
+use crate::bar::Ratio;
+use crate::dd::{self, Dd, ldexp, power_of_two, two_prod, two_sum};
+use crate::exact::{Dyadic, Recurrence, clamp};
 use crate::{Bar, Count, PeakImpact, Start};
-use libm::{exp, expm1, log, log1p, sin, sincos};
+use libm::{exp, expm1, hypot, log, log1p, sin, sincos};
 use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, LN_2, PI};
 
@@ -121,12 +122,6 @@ impl Digits {
     }
 }
 
-/// 2ⁿ for −1022 ≤ n ≤ 1023.
-#[expect(clippy::cast_sign_loss, reason = "a biased exponent")]
-const fn power_of_two(n: i16) -> f64 {
-    f64::from_bits(((n + 1023) as u64) << 52)
-}
-
 /// How many steps until a sign changes: below 2¹²⁰ for every bar and start that is let in.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Steps {
@@ -215,7 +210,7 @@ impl Drive {
             let q = self.bar.wide_q();
             let d = compensated(if self.m == 0 { q } else { q.scale(self.m) }, self.bar.e, self.e);
             let cancels = (4.0 * self.e / d).abs() + 1.0;
-            let error = 4.0 * UNIT + power_of_two(-100) * cancels;
+            let error = 4.0 * UNIT + power_of_two(-99) * cancels;
             if digits.allow(error, cancels) && error < 0.5 {
                 return (Dd::from(d), error);
             }
@@ -241,40 +236,38 @@ impl Drive {
                 (Dd::from(4.0 * self.e), self.wide_t().sqr())
             };
             let d = first - second;
-            good(d, first.hi.max(second.hi) / d.hi.abs(), power_of_two(-100))
+            good(d, first.hi.max(second.hi) / d.hi.abs(), power_of_two(-99))
         };
         if let Some(known) = known {
             return known;
         }
         let exact = self.exact(Series::Velocity);
-        let nu = self.bar.exact_q().1;
-        (to_dd(&exact.discriminant(), &nu, &nu, 2 * self.m), power_of_two(-100))
+        (self.bar.exact_q().over_square(&exact.discriminant(), 2 * self.m), power_of_two(-100))
     }
 
     /// αT + 2β, to a relative 2⁻⁹⁰ of the amplitude at the very least.
     fn slope(&self, t: Dd, d: f64) -> Dd {
         let at = t * self.alpha;
-        let x = at + Dd::from(2.0 * self.beta);
+        let x = at + self.wide_beta() * 2.0;
         let size = x.hi.abs().max(self.alpha * d.abs().sqrt());
-        if size > at.hi * 2f64.powi(-10) {
+        if size > at.hi * power_of_two(-10) {
             return x;
         }
         let exact = self.exact(Series::Velocity);
         let x = Dyadic::from(-2.0).mul(&exact.w).sub(&exact.p.mul(&exact.v));
-        to_dd(&x, &self.bar.exact_q().1, &Dyadic::from(1.0), self.m - self.unit)
+        self.bar.exact_q().over_nu(&x, self.m - self.unit)
     }
 
     /// σ τ = αβT + β² + α²e, to a relative 2⁻⁵² at the very least, its sign for certain.
     fn product(&self) -> f64 {
-        let (alpha, beta) = (self.alpha, self.beta);
-        let terms = [two_prod(alpha, beta) * self.wide_t(), two_prod(beta, beta), two_prod(alpha, alpha) * self.e];
+        let (alpha, beta) = (self.alpha, self.wide_beta());
+        let terms = [beta * alpha * self.wide_t(), beta.sqr(), two_prod(alpha, alpha) * self.e];
         let sum = terms[0] + terms[1] + terms[2];
         // Below 1e−250 the low parts would be subnormal.
-        if sum.hi.abs() > terms.iter().fold(1e-250, |most: f64, t| most.max(t.hi.abs())) * 2f64.powi(-40) {
+        if sum.hi.abs() > terms.iter().fold(1e-250, |most: f64, t| most.max(t.hi.abs())) * power_of_two(-40) {
             return sum.hi;
         }
-        let nu = self.bar.exact_q().1;
-        to_dd(&self.exact(Series::Velocity).form(), &nu, &nu, 2 * (self.m - self.unit)).hi
+        self.bar.exact_q().over_square(&self.exact(Series::Velocity).form(), 2 * (self.m - self.unit)).hi
     }
 
     fn decay(&self, d: Dd, d_error: f64) -> Decay {
@@ -320,6 +313,12 @@ impl Drive {
         (if self.m == 0 { q } else { q.scale(self.m) }) * two_sum(1.0, self.bar.e)
     }
 
+    /// β to about 2⁻¹⁰⁰.
+    fn wide_beta(&self) -> Dd {
+        let beta = -self.start.wide_b();
+        if self.unit == 0 && self.m == 0 { beta } else { beta.scale(self.m - self.unit) }
+    }
+
     /// ln e of the true e.
     fn ln_e(&self) -> f64 {
         let e = self.bar.e;
@@ -330,7 +329,7 @@ impl Drive {
     fn amplitude(&self, wave: &Wave) -> f64 {
         let (x, y) = (wave.x, self.alpha * wave.s);
         // Squares leave the range only where a scale has been brought in.
-        if self.m == 0 { (x * x + y * y).sqrt() } else { x.hypot(y) }
+        if self.m == 0 { (x * x + y * y).sqrt() } else { hypot(x, y) }
     }
 
     /// 1 − e and (1 − q)(1 + e), without cancellation: u + w = 2 − T, u − w = T − 2e, w = 1 − T + e.
@@ -427,7 +426,7 @@ impl Drive {
             let (theta, psi, angle_error) = self.angles(quotient < 4096.0);
             middle = psi / theta;
             // αT + 2β as `slope` guarantees. A larger bound would let the search below leave the half turn.
-            error = quotient * (angle_error + 2f64.powi(-86));
+            error = quotient * (angle_error + power_of_two(-86));
         }
         let whole = Dd::from(middle.hi.round());
         let whole = whole + Dd::from((middle - whole).hi.round());
@@ -545,7 +544,7 @@ impl Drive {
                 let [count, start] = [to_f64(n - 1), self.alpha * lambda];
                 let sum = start + count * sigma;
                 if 2.0 * UNIT * start < 1e-11 * sum {
-                    let scale = exp((count - 1.0) * log(lambda));
+                    let scale = exp(0.5 * (count - 1.0) * self.ln_e());
                     let time = ldexp(h0 * count / sum, self.m - self.unit);
                     let [a, next] = [-scale * sum, -scale * lambda * (sum + sigma)].map(|v| ldexp(v, self.unit));
                     return Last { a, next, time };
@@ -556,7 +555,7 @@ impl Drive {
         let ((c, cx), (u, ux)) = exact.values(n - 1);
         let ((next, nx), _) = exact.values(n);
         // a_n = c_n/ν^n and b_n = U_n/ν^{n−1}, with q = μ/ν.
-        let nu = self.bar.exact_q().1;
+        let nu = self.bar.exact_q().nu;
         let above_one = nu.sub(&Dyadic::from(1.0)).to_float();
         let (nu, nu_x) = nu.to_float();
         let ln_nu =
@@ -652,7 +651,7 @@ impl Drive {
             Kind::Decay(decay) => {
                 let Decay { s, plus, sigma, tau } = decay;
                 if w == 0.0 {
-                    return (Steps::Endless, ldexp(two_sum(alpha, beta).hi / u, self.unit));
+                    return (Steps::Endless, ldexp((self.wide_beta() + Dd::from(alpha)).hi / u, self.unit));
                 }
                 // (λ₊/λ₋)^n ≥ τ(1 − λ₋)/(σ(1 − λ₊)); it rises, hence σ > 0 and τ > 0.
                 let (below, [rate, _]) = (0.5 * (u + w + s), self.rates(&decay));
@@ -661,8 +660,15 @@ impl Drive {
                 let steps = self.settle(Series::Difference, quotient.max(0.25), error);
                 (steps, self.magnitude(steps))
             }
-            // (1, 1): |a_n| = α + n(α + β), which rises for ever or not at all.
-            Kind::Edge => (Steps::Endless, f64::INFINITY),
+            // At (1, 1) |a_n| = α + n(α + β), which rises for ever or not at all.
+            Kind::Edge if w == 0.0 => (Steps::Endless, f64::INFINITY),
+            // |a_n| = λⁿ⁻¹(αλ + nσ) rises until nσ(1 − λ) ≥ λ(σ − α(1 − λ)), with σ > 0.
+            Kind::Edge => {
+                let (lambda, sigma) = (0.5 * self.t, 0.5 * self.slope(self.wide_t(), 0.0).hi);
+                let (rise, below) = (lambda / (0.5 * (u + w)), alpha * lambda / sigma);
+                let steps = self.settle(Series::Difference, (rise - below).max(0.25), QUOTIENT * (rise + below));
+                (steps, self.magnitude(steps))
+            }
         }
     }
 
@@ -684,7 +690,10 @@ impl Drive {
                 let (Decay { s, sigma, .. }, [rate, ln_plus]) = (decay, self.rates(&decay));
                 self.power(n * ln_plus, self.alpha * exp(-n * rate) - sigma * expm1(-n * rate) / s)
             }
-            Kind::Edge => ldexp(self.alpha + n * (self.alpha + self.beta), self.unit),
+            Kind::Edge => {
+                let (lambda, sigma) = (0.5 * self.t, 0.5 * self.slope(self.wide_t(), 0.0).hi);
+                self.power(0.5 * (n - 1.0) * self.ln_e(), self.alpha * lambda + n * sigma)
+            }
         }
     }
 
@@ -698,24 +707,23 @@ impl Drive {
     }
 }
 
-/// With q = μ/ν: P = μ(1 + e), Q = eν², `c_0` = `v_a`, w = ν `v_b`.
+/// With q = μ/ν: P = μ(1 + e), Q = eν², `c_0` = `v_a`, w = ν `v_b`. For an off-center bar, whose `v_b` is κ times that of
+/// its end and κ = I_a/ν, w is I_a times the velocity of its end: whole again.
 pub(crate) fn exact(bar: &Bar, start: &Start) -> Recurrence {
-    let [va, vb] = start.velocity();
-    let (mu, nu) = bar.exact_q();
-    let e = Dyadic::from(bar.e);
+    let (Ratio { mu, square, beside, .. }, e) = (bar.exact_q(), Dyadic::from(bar.e));
     Recurrence {
         p: mu.mul(&Dyadic::from(1.0).add(&e)),
-        q: e.mul(&nu.mul(&nu)),
-        v: Dyadic::from(va),
-        w: nu.mul(&Dyadic::from(vb)),
+        q: e.mul(&square),
+        v: Dyadic::from(start.velocity()[0]),
+        w: beside.mul(&Dyadic::from(start.own_b)),
     }
 }
 
 impl Recurrence {
     /// The differences a_{n+1} − a_n, times ν^{n+1}: they obey the same recurrence, from
-    /// (T − `1)v_a` + `v_b` and −(`v_b` + e `v_a`).
+    /// (T − `1)v_a` + `v_b` and −(`v_b` + e `v_a`). Whole but for an off-center bar, whose ν is rounded.
     fn differences(&self, bar: &Bar) -> Self {
-        let nu = bar.exact_q().1;
+        let nu = bar.exact_q().nu;
         let v = self.p.sub(&nu).mul(&self.v).add(&self.w);
         let w = nu.mul(&self.w.add(&Dyadic::from(bar.e).mul(&nu).mul(&self.v))).neg();
         Self { v, w, ..self.clone() }
@@ -756,22 +764,27 @@ pub(crate) fn rebound(bar: &Bar, odd: bool, a: f64, next: f64) -> [f64; 2] {
 /// Velocities an endless train tends to: rest, unless the ends have no mass (q = 1), where only a bar that turns about
 /// a still center comes to rest.
 pub(crate) fn rest(bar: &Bar, start: &Start) -> Option<[f64; 2]> {
-    let [va, vb] = start.velocity();
-    (bar.less > 0.0 || (va + vb == 0.0 && bar.e < 1.0)).then_some([0.0, 0.0])
+    let still = || {
+        let va = start.velocity()[0];
+        let sum = (start.wide_b() + Dd::from(va)).hi;
+        // Without mass at the ends μ = ν.
+        let whole = || exact(bar, start).w.add(&bar.exact_q().mu.mul(&Dyadic::from(va)));
+        sum.abs() < -va * power_of_two(-40) && whole().sign() == Ordering::Equal
+    };
+    (bar.less > 0.0 || (bar.e < 1.0 && still())).then_some([0.0, 0.0])
 }
 
 /// αT + β = −a_1, to a relative 4 ε unless it is subnormal, its sign for certain.
 pub(crate) fn after_first(bar: &Bar, start: &Start) -> f64 {
-    let [va, vb] = start.velocity();
-    let at = bar.wide_q() * two_sum(1.0, bar.e) * -va;
-    let sum = at + Dd::from(-vb);
+    let at = bar.wide_q() * two_sum(1.0, bar.e) * -start.velocity()[0];
+    let sum = at - start.wide_b();
     // A product below 1e−200 may have lost its low part, or all of it.
-    if sum.hi.abs() > at.hi.abs() * 2f64.powi(-40) && (at.hi.abs() > 1e-200 || bar.q() == 0.0) {
+    if sum.hi.abs() > at.hi.abs() * power_of_two(-40) && (at.hi.abs() > 1e-200 || bar.q() == 0.0) {
         return sum.hi;
     }
     let exact = exact(bar, start);
-    let (sum, nu) = (exact.p.mul(&exact.v).add(&exact.w), bar.exact_q().1);
-    let size = to_dd(&sum, &nu, &Dyadic::from(1.0), 0).abs().hi;
+    let sum = exact.p.mul(&exact.v).add(&exact.w);
+    let size = bar.exact_q().over_nu(&sum, 0).abs().hi;
     // Below the range of floats it is the smallest one, to keep the sign.
     match sum.sign() {
         Ordering::Less => size.max(f64::from_bits(1)),
@@ -789,22 +802,6 @@ pub(crate) fn rises(bar: &Bar, start: &Start) -> bool {
         return rise > 0.0;
     }
     exact(bar, start).differences(bar).sign(0) == Ordering::Less
-}
-
-/// `2^shift x/(d1 d2)` as a double-double.
-fn to_dd(x: &Dyadic, d1: &Dyadic, d2: &Dyadic, shift: i32) -> Dd {
-    let (hi, exponent) = x.to_float();
-    if hi == 0.0 {
-        return Dd::ZERO;
-    }
-    let normal = x.mul(&Dyadic::power_of_two(-exponent));
-    let value = |d: &Dyadic| {
-        let (hi, exponent) = d.to_float();
-        let lo = d.mul(&Dyadic::power_of_two(-exponent)).sub(&Dyadic::from(hi)).to_float();
-        (two_sum(hi, ldexp(lo.0, clamp(lo.1))), exponent)
-    };
-    let ((n, _), (a, ax), (b, bx)) = (value(&normal), value(d1), value(d2));
-    (n / a / b).scale(clamp(exponent - ax - bx + i128::from(shift)))
 }
 
 /// Angle of the point (x, y) for y ≥ 0, (x, y) ≠ 0: a relative 2 ε. In the first octant it is that of the nearest
@@ -850,12 +847,6 @@ fn exponent(x: f64) -> i32 {
     clamp(Dyadic::from(x).to_float().1)
 }
 
-fn clamp(x: i128) -> i32 {
-    #[expect(clippy::cast_possible_truncation, reason = "clamped to far beyond the exponents of floats")]
-    let small = x.clamp(-20_000, 20_000) as i32;
-    small
-}
-
 #[expect(clippy::cast_precision_loss, reason = "rounds to nearest, as every f64 operation does")]
 fn to_f64(n: u128) -> f64 {
     // The conversion from 64 bits with a sign is one instruction.
@@ -887,4 +878,5 @@ fn integer(x: Dd) -> u128 {
 }
 
 #[cfg(test)]
+#[expect(clippy::disallowed_methods, reason = "the last digit of a case or a reference may differ between machines")]
 mod tests;

@@ -1,6 +1,7 @@
 //! How the bar arrives: the velocities of both ends at first contact and the height gap.
 
 use crate::Error;
+use crate::dd::Dd;
 
 /// An end of the bar. End `a` strikes first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -32,6 +33,10 @@ impl End {
 pub struct Start {
     velocity: [f64; 2],
     height_gap: f64,
+    /// For an off-center bar `velocity[1]` is κ times the velocity of end b. What is left of it after rounding, and the
+    /// velocity of end b itself.
+    rest: f64,
+    pub(crate) own_b: f64,
     /// Whether a train may begin by plain steps, known before any bar is.
     pub(crate) plain: bool,
 }
@@ -71,13 +76,18 @@ impl Start {
     fn of(velocity: [f64; 2], height_gap: f64) -> Self {
         let moderate = |x: f64| (MODERATE..=1.0 / MODERATE).contains(&x);
         let plain = velocity[1] <= 0.0 && moderate(-velocity[0]) && (height_gap == 0.0 || moderate(height_gap));
-        Self { velocity, height_gap, plain }
+        Self { velocity, height_gap, rest: 0.0, own_b: velocity[1], plain }
     }
     /// With end b's velocity and the height gap times κ, 10⁻⁶ to 10⁶: how an off-center bar arrives in the terms of its
     /// symmetric one. The bounds leave room for that.
-    pub(crate) fn with_b_times(self, kappa: f64) -> Self {
-        let [va, vb] = self.velocity;
-        Self::of([va, kappa * vb], kappa * self.height_gap)
+    pub(crate) fn with_b_times(self, kappa: Dd) -> Self {
+        let [va, own_b] = self.velocity;
+        let Dd { hi, lo } = kappa * own_b;
+        Self { rest: lo, own_b, ..Self::of([va, hi], kappa.hi * self.height_gap) }
+    }
+    /// Velocity of end b to about 2⁻¹⁰⁰.
+    pub(crate) fn wide_b(&self) -> Dd {
+        Dd { hi: self.velocity[1], lo: self.rest }
     }
     /// Velocities of ends `a` and `b`, upward positive.
     #[must_use]

@@ -1,10 +1,11 @@
 //! The answer for programs.
 
-use clatter::flight::Stop;
+use clatter::End;
+use clatter_flight::Stop;
 use serde::{Serialize, Serializer};
 
-use super::Drop;
-use crate::inputs::letter;
+use super::{Drop, Motion};
+use crate::inputs::{law_name, letter};
 use crate::numbers::Json;
 
 impl Drop<'_> {
@@ -27,7 +28,7 @@ impl Drop<'_> {
             height_gap_m: Json(scene.height_gap_m()),
             gravity_m_s2: Json(scene.gravity_m_s2()),
             spin_rad_s: Json(scene.spin_rad_s()),
-            contact_time_s: self.args.drop.contact_time_s.map(Json),
+            contact: ContactJson::new(&self.motion),
             time_limit_s: limit.is_finite().then_some(Json(limit)),
             impact_limit: scene.impact_limit(),
             at: self.args.at.iter().copied().map(Json).collect(),
@@ -35,7 +36,7 @@ impl Drop<'_> {
             largest_delta_v_at_m_s: self.largest_at().map(Json).collect(),
             impacts: Impacts(self),
             pivots: pivots
-                .map(|p| PivotJson { end: letter(p.end), from_s: Json(p.from_s), until_s: Json(p.until_s) })
+                .map(|p| PivotJson { end: end(p.point), from_s: Json(p.from_s), until_s: Json(p.until_s) })
                 .collect(),
             stop: StopJson::new(&flight.stop),
         }
@@ -58,8 +59,8 @@ pub(super) struct Answer<'a> {
     height_gap_m: Json,
     gravity_m_s2: Json,
     spin_rad_s: Json,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    contact_time_s: Option<Json>,
+    #[serde(flatten)]
+    contact: Option<ContactJson>,
     time_limit_s: Option<Json>,
     impact_limit: usize,
     at: Vec<Json>,
@@ -69,6 +70,31 @@ pub(super) struct Answer<'a> {
     /// Times in which one end lay on the ground and the body turned about it.
     pivots: Vec<PivotJson>,
     stop: StopJson,
+}
+
+/// The end with this index.
+pub(super) fn end(point: usize) -> &'static str {
+    letter(if point == 0 { End::A } else { End::B })
+}
+
+/// Where contacts take time.
+#[derive(Serialize)]
+struct ContactJson {
+    contact_time_s: Json,
+    contact_law: &'static str,
+    /// What the energy of the body changes by without reason, over that at the first touch.
+    energy_error: Json,
+}
+
+impl ContactJson {
+    fn new(motion: &Motion) -> Option<Self> {
+        let Motion::Contacts(contact, contacts) = motion else { return None };
+        Some(Self {
+            contact_time_s: Json(contact.time_s()),
+            contact_law: law_name(contact.law()),
+            energy_error: Json(contacts.energy_error),
+        })
+    }
 }
 
 #[derive(Serialize)]
@@ -110,11 +136,15 @@ struct ImpactJson {
     end: &'static str,
     time_s: Json,
     approach_m_s: Json,
-    delta_v_m_s: [Json; 2],
-    delta_v_at_m_s: Vec<Json>,
+    /// Null, as those at positions, where the contact is unfinished.
+    delta_v_m_s: [Option<Json>; 2],
+    delta_v_at_m_s: Vec<Option<Json>>,
     /// Compliant only: when the contact ends; `"infinite"` where the end stays down.
     #[serde(skip_serializing_if = "Option::is_none")]
     until_s: Option<Json>,
+    /// Where a limit has cut off the contact.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    unfinished: bool,
 }
 
 /// The strikes, written as they come.
@@ -123,15 +153,19 @@ struct Impacts<'a>(&'a Drop<'a>);
 impl Serialize for Impacts<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let drop = self.0;
-        let pulses = drop.motion.pulses();
-        serializer.collect_seq(drop.motion.flight().strikes.iter().enumerate().map(|(i, strike)| ImpactJson {
-            number: strike.number,
-            end: letter(strike.end),
-            time_s: Json(strike.time_s),
-            approach_m_s: Json(strike.approach_m_s),
-            delta_v_m_s: strike.delta_v_m_s.map(Json),
-            delta_v_at_m_s: drop.shocks(strike).map(Json).collect(),
-            until_s: pulses.get(i).map(|pulse| Json(pulse.until_s)),
+        serializer.collect_seq(drop.motion.flight().strikes.iter().enumerate().map(|(i, strike)| {
+            let unfinished = drop.is_unfinished(i);
+            let shock = |x: f64| (!unfinished).then_some(Json(x));
+            ImpactJson {
+                number: strike.number,
+                end: end(strike.point),
+                time_s: Json(strike.time_s),
+                approach_m_s: Json(strike.approach_m_s),
+                delta_v_m_s: strike.delta_v_m_s.map(shock),
+                delta_v_at_m_s: drop.shocks(strike).map(shock).collect(),
+                until_s: drop.until_s(i).map(Json),
+                unfinished,
+            }
         }))
     }
 }

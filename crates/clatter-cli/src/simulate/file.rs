@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use clatter::history::Row;
+use clatter_flight::history::Row;
 use serde::Serialize;
 
 use super::{Drop, Motion};
@@ -26,7 +26,7 @@ impl Drop<'_> {
     fn rows(&self) -> Box<dyn Iterator<Item = Row> + '_> {
         match &self.motion {
             Motion::Instant(model, flight) => Box::new(self.scene.history(*model, flight)),
-            Motion::Compliant(contact_time_s, flight) => Box::new(flight.history(*contact_time_s)),
+            Motion::Contacts(contact, flight) => Box::new(flight.history(contact.time_s())),
         }
     }
 
@@ -36,7 +36,7 @@ impl Drop<'_> {
             model: &self.physics(),
             rows: &rows,
             strikes: &flight.strikes,
-            pulses: self.motion.pulses(),
+            pulses: self.motion.presses(),
             stop: flight.stop,
             at: &self.args.at,
         })
@@ -48,7 +48,7 @@ impl Drop<'_> {
         for s in at {
             write!(out, ",velocity_at_{}_m_s", digits(*s))?;
         }
-        if matches!(self.motion, Motion::Compliant(..)) {
+        if matches!(self.motion, Motion::Contacts(..)) {
             write!(out, ",force_per_mass_a_m_s2,force_per_mass_b_m_s2,acceleration_a_m_s2,acceleration_b_m_s2")?;
             for s in at {
                 write!(out, ",acceleration_at_{}_m_s2", digits(*s))?;
@@ -61,9 +61,9 @@ impl Drop<'_> {
             for x in row.height_m.into_iter().chain(velocities) {
                 write!(out, ",{}", digits(x))?;
             }
-            if let Some(press) = row.press {
-                let forces = press.force_per_mass_m_s2.into_iter().chain(press.acceleration_m_s2);
-                for x in forces.chain(at.iter().map(|s| press.acceleration_at(*s))) {
+            if let Some(forces) = row.forces {
+                let ends = forces.force_per_mass_m_s2.into_iter().chain(forces.acceleration_m_s2);
+                for x in ends.chain(at.iter().map(|s| forces.acceleration_at(*s))) {
                     write!(out, ",{}", digits(x))?;
                 }
             }
@@ -91,10 +91,10 @@ impl Serialize for Rows<'_> {
             height_m: row.height_m.map(Json),
             velocity_m_s: row.velocity_m_s.map(Json),
             velocity_at_m_s: at.iter().map(|s| Json(row.velocity_at(*s))).collect(),
-            press: row.press.map(|press| PressJson {
-                force_per_mass_m_s2: press.force_per_mass_m_s2.map(Json),
-                acceleration_m_s2: press.acceleration_m_s2.map(Json),
-                acceleration_at_m_s2: at.iter().map(|s| Json(press.acceleration_at(*s))).collect(),
+            forces: row.forces.map(|forces| ForcesJson {
+                force_per_mass_m_s2: forces.force_per_mass_m_s2.map(Json),
+                acceleration_m_s2: forces.acceleration_m_s2.map(Json),
+                acceleration_at_m_s2: at.iter().map(|s| Json(forces.acceleration_at(*s))).collect(),
             }),
         }))
     }
@@ -107,12 +107,12 @@ struct RowJson {
     velocity_m_s: [Json; 2],
     velocity_at_m_s: Vec<Json>,
     #[serde(flatten)]
-    press: Option<PressJson>,
+    forces: Option<ForcesJson>,
 }
 
 #[derive(Serialize)]
 #[expect(clippy::struct_field_names, reason = "each name ends in its unit")]
-struct PressJson {
+struct ForcesJson {
     force_per_mass_m_s2: [Json; 2],
     acceleration_m_s2: [Json; 2],
     acceleration_at_m_s2: Vec<Json>,

@@ -2,26 +2,60 @@
 
 use std::io::{self, Write};
 
-use clatter::flight::{Model, Stop};
+use clatter_flight::{Model, Stop, Strike};
 
+use super::answer::end;
 use super::{Drop, ModelName, Motion};
-use crate::inputs::letter;
+use crate::inputs::law_name;
 use crate::numbers::{digits, figures, given};
 
 impl Drop<'_> {
     /// What the model keeps.
     pub(super) fn physics(&self) -> String {
         let gravity = given(self.args.drop.gravity_m_s2);
-        match self.motion {
+        match &self.motion {
             Motion::Instant(Model::Map, _) => "Small tilt, no gravity, instant impacts".to_owned(),
             Motion::Instant(Model::Ballistic, _) => format!("Small tilt, gravity {gravity} m/s², instant impacts"),
             Motion::Instant(Model::FiniteTilt, _) => format!("Any tilt, gravity {gravity} m/s², instant impacts"),
-            Motion::Compliant(time, _) => format!("Any tilt, gravity {gravity} m/s², contacts of {} s", given(time)),
+            Motion::Contacts(contact, _) => {
+                let (law, time) = (law_name(contact.law()), given(contact.time_s()));
+                format!("Any tilt, gravity {gravity} m/s², {law} contacts of {time} s")
+            }
         }
     }
 
     pub(super) fn table(&self, out: &mut dyn Write) -> io::Result<()> {
-        let (args, scene, flight) = (self.args, &self.scene, self.motion.flight());
+        self.headings(out)?;
+        self.totals(out)?;
+        let compliant = self.args.model == ModelName::Compliant;
+        let column = |name: &str| if compliant { format!(" {name:>13}") } else { String::new() };
+        let until = column("until");
+        write!(
+            out,
+            "\n{:>9}  end {:>13}{until} {:>13} {:>13} {:>13}",
+            "impact", "time", "approach", "shock at a", "shock at b"
+        )?;
+        for s in &self.args.at {
+            write!(out, " {:>13}", format!("shock at {}", given(*s)))?;
+        }
+        let until = column("s");
+        write!(out, "\n{:>9}      {:>13}{until} {:>13} {:>13} {:>13}", "", "s", "m/s", "m/s", "m/s")?;
+        for _ in &self.args.at {
+            write!(out, " {:>13}", "m/s")?;
+        }
+        writeln!(out)?;
+        for (i, strike) in self.motion.flight().strikes.iter().enumerate() {
+            write!(out, "{:>9}  {:<3}", strike.number, end(strike.point))?;
+            for cell in self.cells(i, strike, figures) {
+                write!(out, " {cell:>13}")?;
+            }
+            writeln!(out)?;
+        }
+        Ok(())
+    }
+
+    fn headings(&self, out: &mut dyn Write) -> io::Result<()> {
+        let (args, scene) = (self.args, &self.scene);
         writeln!(out, "{}", self.physics())?;
         let [qa, qb] = scene.body().inertia_ratios().map(figures);
         let mass = match self.center_of_mass {
@@ -41,10 +75,13 @@ impl Drop<'_> {
             0.0 => String::new(),
             spin => format!(", turning at {} rad/s", given(spin)),
         };
-        writeln!(out, "End a touches at {speed} m/s, tilt {tilt} degrees{spin}; end b is {gap} m higher\n")?;
+        writeln!(out, "End a touches at {speed} m/s, tilt {tilt} degrees{spin}; end b is {gap} m higher\n")
+    }
 
+    fn totals(&self, out: &mut dyn Write) -> io::Result<()> {
+        let flight = self.motion.flight();
         writeln!(out, "{:<22}{:>14}", "Impacts", flight.strikes.len())?;
-        let end = match flight.stop {
+        let stop = match flight.stop {
             Stop::AtRest { .. } => "At rest at",
             Stop::BouncedClear { .. } => "Bounced clear at",
             Stop::TurnedOver { .. } => "Turned over at",
@@ -58,40 +95,25 @@ impl Drop<'_> {
             }
             _ => String::new(),
         };
-        writeln!(out, "{end:<22}{:>14} s{proven}", figures(flight.stop.time_s()))?;
+        writeln!(out, "{stop:<22}{:>14} s{proven}", figures(flight.stop.time_s()))?;
         let [a, b] = self.largest();
         writeln!(out, "{:<22}{:>14} m/s", "Largest shock, end a", figures(a))?;
         writeln!(out, "{:<22}{:>14} m/s", "               end b", figures(b))?;
-        for (s, shock) in args.at.iter().zip(self.largest_at()) {
+        for (s, shock) in self.args.at.iter().zip(self.largest_at()) {
             writeln!(out, "{:<22}{:>14} m/s", format!("               at {}", given(*s)), figures(shock))?;
         }
-        let compliant = args.model == ModelName::Compliant;
-        let until = if compliant { format!(" {:>13}", "until") } else { String::new() };
-        let head = format!(
-            "{:>9}  end {:>13}{until} {:>13} {:>13} {:>13}",
-            "impact", "time", "approach", "shock at a", "shock at b"
-        );
-        write!(out, "\n{head}")?;
-        for s in &args.at {
-            write!(out, " {:>13}", format!("shock at {}", given(*s)))?;
-        }
-        let until = if compliant { format!(" {:>13}", "s") } else { String::new() };
-        write!(out, "\n{:>9}      {:>13}{until} {:>13} {:>13} {:>13}", "", "s", "m/s", "m/s", "m/s")?;
-        for _ in &args.at {
-            write!(out, " {:>13}", "m/s")?;
-        }
-        writeln!(out)?;
-        for (i, strike) in flight.strikes.iter().enumerate() {
-            let [a, b] = strike.delta_v_m_s;
-            let until = self.motion.pulses().get(i).map(|pulse| pulse.until_s);
-            write!(out, "{:>9}  {:<3}", strike.number, letter(strike.end))?;
-            let numbers = [strike.time_s].into_iter().chain(until).chain([strike.approach_m_s, a, b]);
-            for x in numbers.chain(self.shocks(strike)) {
-                write!(out, " {:>13}", figures(x))?;
-            }
-            writeln!(out)?;
-        }
         Ok(())
+    }
+
+    /// Time, end of the contact where it takes time, approach and shocks of a strike.
+    fn cells(&self, i: usize, strike: &Strike, show: fn(f64) -> String) -> Vec<String> {
+        let shock = |x: f64| if self.is_unfinished(i) { UNFINISHED.to_owned() } else { show(x) };
+        let mut cells = vec![show(strike.time_s)];
+        cells.extend(self.until_s(i).map(shock));
+        cells.push(show(strike.approach_m_s));
+        cells.extend(strike.delta_v_m_s.map(shock));
+        cells.extend(self.shocks(strike).map(shock));
+        cells
     }
 
     pub(super) fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
@@ -102,15 +124,12 @@ impl Drop<'_> {
         }
         writeln!(out)?;
         for (i, strike) in self.motion.flight().strikes.iter().enumerate() {
-            let [a, b] = strike.delta_v_m_s;
-            let until = self.motion.pulses().get(i).map(|pulse| pulse.until_s);
-            write!(out, "{},{}", strike.number, letter(strike.end))?;
-            let numbers = [strike.time_s].into_iter().chain(until).chain([strike.approach_m_s, a, b]);
-            for x in numbers.chain(self.shocks(strike)) {
-                write!(out, ",{}", digits(x))?;
-            }
-            writeln!(out)?;
+            let cells = self.cells(i, strike, digits).join(",");
+            writeln!(out, "{},{},{cells}", strike.number, end(strike.point))?;
         }
         Ok(())
     }
 }
+
+/// What stands for a shock that a limit has cut off.
+const UNFINISHED: &str = "unfinished";

@@ -4,7 +4,8 @@ use clatter::{Bar, Start};
 
 use super::big::Big;
 use super::part::{self, START};
-use super::train::{Case, Exact, Found, Given, Row, closed, recurrence};
+use super::plain::{closed, recurrence};
+use super::train::{Case, Exact, Found, Given, Row};
 use crate::ReportError;
 use crate::figure::axes::raised;
 

@@ -1,11 +1,13 @@
 //! What one part goes through: over time in its worst drop, and at worst over the tilt.
 
+use clatter_assess::Verdict;
+
 use super::axes::{Axes, Axis, SMALL, key};
-use super::product::fit;
+use super::product::{fit, shade};
 use crate::svg::{Anchor, BLUES, GRAY, INK, Ink, Label, RUST, Svg};
 
 /// Frame of both figures of a part: low, so that a page holds two parts.
-const FRAME: [f64; 2] = [176.0, 90.0];
+const FRAME: [f64; 2] = [176.0, 76.0];
 
 const LIMIT: Ink = Ink { dash: "8 2 1.5 2", ..Ink::line(INK, 1.0) };
 
@@ -45,15 +47,16 @@ pub(crate) fn history(points: &[(f64, f64)], impacts: &[f64], allowed: f64, titl
 
 /// The demand over the tilt, a curve for each end that may touch first, with the limit.
 pub(crate) fn over_tilt(curves: &[(&str, Vec<(f64, f64)>)], allowed: f64, titles: [&str; 2]) -> String {
-    let all = || curves.iter().flat_map(|c| &c.1);
+    let all = || curves.iter().flat_map(|c| &c.1).filter(|p| p.1.is_finite());
     let largest = all().map(|p| p.1).fold(0.0_f64, f64::max);
     let (lo, hi) = all().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p.0), b.max(p.0)));
+    let (lo, hi) = if lo < hi { (lo, hi) } else { (0.0, 1.0) };
     let shown = allowed <= 3.0 * largest;
     let highest = if shown { allowed.max(largest) } else { largest.max(f64::MIN_POSITIVE) };
     let lowest = all().map(|p| p.1).fold(if shown { allowed } else { largest }, f64::min);
     // The key stands at the foot, or above all lines where they come down to it.
-    let above = curves.len() > 1 && lowest < 0.3 * highest;
-    let top = if above { 1.4 } else { 1.12 } * highest;
+    let above = curves.len() > 1 && lowest < 0.42 * highest;
+    let top = if above { 1.55 } else { 1.12 } * highest;
     let axes = Axes {
         corner: [44.0, 8.0],
         size: FRAME,
@@ -72,21 +75,30 @@ pub(crate) fn over_tilt(curves: &[(&str, Vec<(f64, f64)>)], allowed: f64, titles
         lines.push((ink, *name));
     }
     if curves.len() > 1 {
-        key(&mut svg, [54.0, if above { 16.0 } else { FRAME[1] - 6.0 }], &lines);
+        key(&mut svg, [54.0, if above { 18.0 } else { FRAME[1] - 6.0 }], &lines);
     }
     axes.border(&mut svg, 36.0);
     svg.finish("Demand over the tilt")
 }
 
+/// One line: what a part is asked at each tilt, in degrees, as a share of what it stands.
+#[derive(Debug)]
+pub(crate) struct Share<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) verdict: Verdict,
+    pub(crate) points: Vec<(f64, f64)>,
+}
+
 /// What each part is asked, as a share of what it stands, over the tilt; each line has its name at its right end.
-pub(crate) fn shares(parts: &[(String, Vec<(f64, f64)>)]) -> String {
-    let all = || parts.iter().flat_map(|p| &p.1);
-    let largest = all().map(|p| p.1).filter(|v| v.is_finite()).fold(1.0_f64, f64::max);
+pub(crate) fn shares(parts: &[Share<'_>]) -> String {
+    let all = || parts.iter().flat_map(|p| &p.points).filter(|p| p.1.is_finite());
+    let largest = all().map(|p| p.1).fold(1.0_f64, f64::max);
     let (lo, hi) = all().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p.0), b.max(p.0)));
+    let (lo, hi) = if lo < hi { (lo, hi) } else { (0.0, 1.0) };
     let rows = f64::from(u32::try_from(parts.len()).unwrap_or(u32::MAX));
     let axes = Axes {
         corner: [44.0, 8.0],
-        size: [316.0, 130.0_f64.max(9.5 * rows)],
+        size: [316.0, 108.0_f64.max(9.5 * rows)],
         x: Axis::linear(lo, hi, "tilt, degrees"),
         y: Axis::linear(0.0, 1.08 * largest, "demand / allowed"),
     };
@@ -96,12 +108,12 @@ pub(crate) fn shares(parts: &[(String, Vec<(f64, f64)>)]) -> String {
     axes.level(&mut svg, 1.0, LIMIT);
     let dashes = ["", "5 2", "1.5 1.5"];
     let mut ends: Vec<(f64, f64, Ink, &str)> = Vec::new();
-    for (i, (name, points)) in parts.iter().enumerate() {
-        let over = points.iter().any(|p| p.1 > 1.0);
-        let color = if over { RUST } else { BLUES[8 - 2 * (i / 3 % 3)] };
+    for (i, Share { name, verdict, points }) in parts.iter().enumerate() {
+        let color = if *verdict == Verdict::Safe { BLUES[8 - 2 * (i / 3 % 3)] } else { shade(*verdict) };
         let ink = Ink { dash: dashes[i % 3], ..Ink::line(color, 1.1) };
         axes.curve(&mut svg, points.iter().copied(), ink);
-        let y = points.last().map_or(0.0, |p| axes.at(p.0, p.1)[1]);
+        let last = points.iter().rev().find(|p| p.1.is_finite());
+        let y = last.map_or(0.0, |p| axes.at(p.0, p.1)[1]);
         ends.push((y, y, ink, name));
     }
     // names apart, from the top down, then pushed back up from the foot

@@ -14,6 +14,8 @@ pub struct DesignPlane {
     pub borders: Vec<(String, DesignBorder)>,
     /// The product: q, and the low and high end of e.
     pub product: Option<(f64, [f64; 2])>,
+    /// How the drops of the product were followed, in a few words.
+    pub model: String,
     /// Ranges of q and e that can be built.
     pub reach: Option<[[f64; 2]; 2]>,
     /// Designs to compare with, by name.
@@ -29,24 +31,36 @@ pub enum DesignBorder {
     Grid {
         /// Values of q, and of e.
         side: usize,
-        /// allowed/demand − 1.
-        margins: Vec<f64>,
+        /// allowed/demand − 1; none where it is not known.
+        margins: Vec<Option<f64>>,
     },
 }
 
 /// Safe, in the plane.
 const SAFE: &str = BLUES[2];
+/// Not known.
+const UNKNOWN: &str = "#ffffff";
 /// Names longer than this are cut.
 const LONGEST_NAME: usize = 26;
 
 /// A polygon of the plane, or a line, as (e, q).
 type Shape = Vec<(f64, f64)>;
 
-/// What is unsafe, in pieces that may overlap, and the lines that bound it.
-fn unsafe_shapes(border: &DesignBorder) -> (Vec<Shape>, Vec<Shape>) {
+/// A border as it is drawn.
+#[derive(Default)]
+struct Drawn {
+    /// What is unsafe, in pieces that may overlap.
+    shapes: Vec<Shape>,
+    /// The lines that bound it.
+    lines: Vec<Shape>,
+    /// Where it is not known.
+    unknown: Vec<Shape>,
+}
+
+fn drawn(border: &DesignBorder) -> Drawn {
     match border {
         DesignBorder::Exact(pieces) => {
-            let (mut shapes, mut lines) = (Vec::new(), Vec::new());
+            let Drawn { mut shapes, mut lines, unknown } = Drawn::default();
             let band = |from: f64, to: f64| vec![(0.0, from), (1.0, from), (1.0, to), (0.0, to)];
             let mut covered = 0.0;
             for piece in pieces {
@@ -66,22 +80,29 @@ fn unsafe_shapes(border: &DesignBorder) -> (Vec<Shape>, Vec<Shape>) {
             if covered < 1.0 {
                 shapes.push(band(covered, 1.0));
             }
-            (shapes, lines)
+            Drawn { shapes, lines, unknown }
         }
         DesignBorder::Grid { side, margins } => grid_shapes(*side, margins),
     }
 }
 
 /// The cells of a grid cut where the margin vanishes, linear in the logarithm of allowed over demand.
-fn grid_shapes(side: usize, margins: &[f64]) -> (Vec<Shape>, Vec<Shape>) {
-    let (mut shapes, mut lines) = (Vec::new(), Vec::new());
+fn grid_shapes(side: usize, margins: &[Option<f64>]) -> Drawn {
+    let Drawn { mut shapes, mut lines, mut unknown } = Drawn::default();
     #[expect(clippy::cast_precision_loss, reason = "a small count")]
     let at = |i: usize| i as f64 / (side.max(2) - 1) as f64;
-    let level = |i: usize, j: usize| margins.get(i * side + j).map_or(0.0, |m| m.ln_1p().clamp(-2.0, 2.0));
+    let level = |(i, j): (usize, usize)| {
+        let margin = margins.get(i * side + j).copied().flatten();
+        margin.map(|m| ((at(j), at(i)), m.ln_1p().clamp(-2.0, 2.0)))
+    };
     for i in 1..side {
         for j in 1..side {
             let corners = [(i - 1, j - 1), (i - 1, j), (i, j), (i, j - 1)];
-            let corners = corners.map(|(i, j)| ((at(j), at(i)), level(i, j)));
+            let [Some(a), Some(b), Some(c), Some(d)] = corners.map(level) else {
+                unknown.push(corners.map(|(i, j)| (at(j), at(i))).to_vec());
+                continue;
+            };
+            let corners = [a, b, c, d];
             let (mut shape, mut cuts) = (Vec::new(), Vec::new());
             for (k, &((e, q), v)) in corners.iter().enumerate() {
                 let ((e2, q2), v2) = corners[(k + 1) % 4];
@@ -101,7 +122,7 @@ fn grid_shapes(side: usize, margins: &[f64]) -> (Vec<Shape>, Vec<Shape>) {
             lines.extend(cuts.chunks_exact(2).map(<[_]>::to_vec));
         }
     }
-    (shapes, lines)
+    Drawn { shapes, lines, unknown }
 }
 
 /// One path through many shapes.
@@ -138,10 +159,20 @@ pub(crate) fn plane(data: &DesignPlane) -> String {
     let rows = 12.0 * f64::from(u32::try_from(data.borders.len() + data.designs.len()).unwrap_or(u32::MAX)) + 96.0;
     let mut svg = Svg::new(right + 150.0, (axes.corner[1] + axes.size[1] + 30.0).max(rows));
     svg.rect(axes.corner, axes.size, Ink::fill(SAFE));
-    let parts: Vec<_> = data.borders.iter().map(|(name, border)| (name, unsafe_shapes(border))).collect();
-    for (_, (shapes, _)) in &parts {
-        // a hairline of its own color closes the seams between cells
-        svg.raw_path(&path(&axes, shapes, true), Ink { stroke: SAND, width: 0.3, ..Ink::fill(SAND) });
+    let parts: Vec<_> = data.borders.iter().map(|(name, border)| (name, drawn(border))).collect();
+    let unknown = parts.iter().any(|(_, drawn)| !drawn.unknown.is_empty());
+    // a hairline of its own color closes the seams between cells
+    let mut fill = |shapes: &[Shape], color| {
+        if !shapes.is_empty() {
+            svg.raw_path(&path(&axes, shapes, true), Ink { stroke: color, width: 0.3, ..Ink::fill(color) });
+        }
+    };
+    for (_, drawn) in &parts {
+        fill(&drawn.unknown, UNKNOWN);
+    }
+    // What fails one part fails, whatever is known of the others.
+    for (_, drawn) in &parts {
+        fill(&drawn.shapes, SAND);
     }
     let mut y = axes.corner[1] + 8.0;
     let line = |svg: &mut Svg, y: &mut f64, text: &str, color| {
@@ -150,12 +181,11 @@ pub(crate) fn plane(data: &DesignPlane) -> String {
     };
     let (good, bad) =
         if data.product.is_some() { ("all are safe", "one fails at least") } else { ("goals met", "goals missed") };
-    if data.product.is_some() {
-        // What `assess` knows beside may ask for more.
-        line(&mut svg, &mut y, "without gravity, real tilt", INK);
-        line(&mut svg, &mut y, "and contact time:", INK);
+    if !data.model.is_empty() {
+        line(&mut svg, &mut y, &data.model, INK);
     }
-    for (fill, text) in [(SAFE, good), (SAND, bad)] {
+    let legend = [(SAFE, good), (SAND, bad), (UNKNOWN, "not looked at, or no answer")];
+    for (fill, text) in legend.into_iter().take(if unknown { 3 } else { 2 }) {
         svg.rect([right, y - 7.0], [14.0, 8.0], Ink { stroke: GRAY, width: 0.4, ..Ink::fill(fill) });
         svg.text([right + 19.0, y], text, Label { anchor: Anchor::Start, ..SMALL });
         y += 12.0;
@@ -163,7 +193,7 @@ pub(crate) fn plane(data: &DesignPlane) -> String {
     y += 4.0;
     let mut taken: Vec<Pt> = data.product.iter().flat_map(|(q, e)| e.map(|e| axes.at(e, *q))).collect();
     taken.extend(data.designs.iter().map(|(_, p)| axes.at(p.e, p.q)));
-    for (k, (name, (shapes, lines))) in parts.iter().enumerate() {
+    for (k, (name, Drawn { shapes, lines, unknown })) in parts.iter().enumerate() {
         svg.raw_path(&path(&axes, lines, false), Ink::line("#2c5a86", 0.9));
         if parts.len() == 1 && data.product.is_none() {
             continue; // the legend has said it
@@ -183,6 +213,7 @@ pub(crate) fn plane(data: &DesignPlane) -> String {
         }
         let everywhere = shapes.is_empty() && lines.is_empty();
         let where_safe = match (everywhere, lines.is_empty()) {
+            (true, _) if !unknown.is_empty() => ", safe wherever known",
             (true, _) => ", safe everywhere",
             (false, true) => ", safe nowhere",
             _ => "",
@@ -313,11 +344,12 @@ mod tests {
     fn cells_are_cut_where_the_margin_vanishes() {
         // safe below q = e, by margins linear in their logarithm
         let side = 5;
-        let margins: Vec<f64> = (0..25_u8)
+        let margins: Vec<Option<f64>> = (0..25_u8)
             .map(|k| (f64::from(k / 5) / 4.0, f64::from(k % 5) / 4.0))
-            .map(|(q, e)| (e - q + 0.05_f64).exp_m1())
+            .map(|(q, e)| Some((e - q + 0.05_f64).exp_m1()))
             .collect();
-        let (shapes, lines) = grid_shapes(side, &margins);
+        let Drawn { shapes, lines, unknown } = grid_shapes(side, &margins);
+        assert!(unknown.is_empty(), "all is known");
         for (e, q) in lines.iter().flatten() {
             assert!((q - e - 0.05).abs() < 1e-12, "({e}, {q}) is off the line");
         }
@@ -332,13 +364,26 @@ mod tests {
     #[test]
     fn what_no_curve_covers_is_unsafe() {
         let curve = vec![Point { q: 0.25, e: 0.0 }, Point { q: 0.75, e: 0.5 }];
-        let (shapes, lines) = unsafe_shapes(&DesignBorder::Exact(vec![curve]));
+        let Drawn { shapes, lines, .. } = drawn(&DesignBorder::Exact(vec![curve]));
         assert_eq!((shapes.len(), lines.len()), (3, 1), "below, beside, above");
-        let (shapes, lines) = unsafe_shapes(&DesignBorder::Exact(Vec::new()));
+        let Drawn { shapes, lines, .. } = drawn(&DesignBorder::Exact(Vec::new()));
         assert_eq!((shapes.len(), lines.len()), (1, 0), "safe nowhere");
-        let (shapes, _) =
-            unsafe_shapes(&DesignBorder::Exact(vec![vec![Point { q: 0.0, e: 1.0 }, Point { q: 1.0, e: 1.0 }]]));
+        let Drawn { shapes, .. } =
+            drawn(&DesignBorder::Exact(vec![vec![Point { q: 0.0, e: 1.0 }, Point { q: 1.0, e: 1.0 }]]));
         assert_eq!(shapes.len(), 1, "a shape without area");
+    }
+
+    #[test]
+    fn what_is_not_known_is_neither_safe_nor_unsafe() {
+        // Four cells; the corner that is not known leaves three of them.
+        let mut margins =
+            [Some(-0.5), Some(-0.5), Some(-0.5), Some(1.0), Some(1.0), Some(1.0), Some(1.0), Some(1.0), None];
+        let Drawn { shapes, lines, unknown } = grid_shapes(3, &margins);
+        assert_eq!((shapes.len(), lines.len(), unknown.len()), (2, 2, 1));
+        assert_eq!(unknown[0], [(0.5, 0.5), (1.0, 0.5), (1.0, 1.0), (0.5, 1.0)]);
+        margins[4] = None;
+        let Drawn { shapes, lines, unknown } = grid_shapes(3, &margins);
+        assert_eq!((shapes.len(), lines.len(), unknown.len()), (0, 0, 4), "each cell has that corner");
     }
 
     #[test]

@@ -1,8 +1,7 @@
 //! One drop in time: heights, velocity shocks, and pulses where contacts take time.
 
-use clatter::End;
-use clatter::flight::{Stop, Strike};
-use clatter::history::{Press, Row};
+use clatter_flight::history::{Forces, Row};
+use clatter_flight::{Stop, Strike};
 
 use super::axes::{Axes, Axis, SMALL};
 use crate::Drop;
@@ -113,7 +112,7 @@ fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
 pub(crate) fn drop(drop: &Drop<'_>) -> String {
     let end_s = drop.rows.last().map_or(0.0, |row| row.time_s);
     let end_s = if end_s > 0.0 { end_s } else { 1e-3 };
-    let pressed = drop.rows.iter().any(|row| row.press.is_some());
+    let pressed = drop.rows.iter().any(|row| row.forces.is_some());
     let (top, high, gap) = (34.0, 112.0, 26.0);
     let panels = if pressed { 3 } else { 2 };
     let mut svg = Svg::new(520.0, top + f64::from(panels) * (high + gap) + 2.0);
@@ -231,7 +230,7 @@ fn heights(svg: &mut Svg, drop: &Drop<'_>, column: Column, corner: [f64; 2], hig
         panel.curve(svg, drop.rows.iter().map(|row| (row.time_s, row.height_m[end])), Ink::line(ENDS[end], 1.2));
     }
     for strike in shown(drop.strikes, &panel) {
-        svg.circle(panel.at(strike.time_s, 0.0), 1.9, Ink::fill(ENDS[usize::from(strike.end == End::B)]));
+        svg.circle(panel.at(strike.time_s, 0.0), 1.9, Ink::fill(ENDS[strike.point]));
     }
     panel.axes.border(svg, 31.0);
 }
@@ -243,7 +242,7 @@ fn shown<'a>(strikes: &'a [Strike], panel: &Panel<'_>) -> Vec<&'a Strike> {
     let mut kept: [Option<&Strike>; 2] = [None; 2];
     let mut all: Vec<&Strike> = Vec::new();
     for strike in seen {
-        let k = usize::from(strike.end == End::B);
+        let k = strike.point;
         match kept[k] {
             Some(old) if panel.at(strike.time_s, 0.0)[0] - panel.at(old.time_s, 0.0)[0] < 0.5 => {
                 if strike.approach_m_s < old.approach_m_s {
@@ -274,14 +273,14 @@ fn shocks(svg: &mut Svg, drop: &Drop<'_>, column: Column, corner: [f64; 2], high
     panel.axes.grid(svg);
     panel.axes.level(svg, 0.0, Ink::line(GRAY, 0.6));
     let strikes = shown(drop.strikes, &panel);
-    let mut last: Option<(End, f64)> = None;
+    let mut last: Option<(usize, f64)> = None;
     for strike in strikes {
         let [mut x, ground] = panel.at(strike.time_s, 0.0);
         // The other end's strike at this very time stays to be seen beside it.
-        if last.is_some_and(|(end, at)| end != strike.end && (x - at).abs() < 0.5) {
+        if last.is_some_and(|(end, at)| end != strike.point && (x - at).abs() < 0.5) {
             x += 1.8;
         }
-        last = Some((strike.end, x));
+        last = Some((strike.point, x));
         let tips = strike.delta_v_m_s.map(|v| panel.at(0.0, v)[1]);
         if tips.iter().all(|y| (y - ground).abs() < 2.0) {
             continue; // nothing to be seen; the strike is marked above
@@ -298,9 +297,9 @@ fn shocks(svg: &mut Svg, drop: &Drop<'_>, column: Column, corner: [f64; 2], high
 }
 
 fn pulses(svg: &mut Svg, drop: &Drop<'_>, column: Column, corner: [f64; 2], high: f64) {
-    let rows = || drop.rows.iter().filter_map(|row| row.press.as_ref().map(|press| (row.time_s, press)));
-    let positions = |press: &Press| drop.at.iter().map(|s| press.acceleration_at(*s)).collect::<Vec<_>>();
-    let bounds = range(rows().flat_map(|(_, press)| press.force_per_mass_m_s2.into_iter().chain(positions(press))));
+    let rows = || drop.rows.iter().filter_map(|row| row.forces.as_ref().map(|forces| (row.time_s, forces)));
+    let positions = |forces: &Forces| drop.at.iter().map(|s| forces.acceleration_at(*s)).collect::<Vec<_>>();
+    let bounds = range(rows().flat_map(|(_, forces)| forces.force_per_mass_m_s2.into_iter().chain(positions(forces))));
     let unit = Unit::of(bounds[1]);
     let title = format!("acceleration, {}m/s²", unit.prefix);
     let time = time_title(column);
@@ -308,10 +307,10 @@ fn pulses(svg: &mut Svg, drop: &Drop<'_>, column: Column, corner: [f64; 2], high
     panel.axes.grid(svg);
     panel.axes.level(svg, 0.0, Ink::line(GRAY, 0.6));
     for end in [1, 0] {
-        panel.curve(svg, rows().map(|(t, press)| (t, press.force_per_mass_m_s2[end])), Ink::line(ENDS[end], 1.8));
+        panel.curve(svg, rows().map(|(t, forces)| (t, forces.force_per_mass_m_s2[end])), Ink::line(ENDS[end], 1.8));
     }
     for (k, s) in drop.at.iter().enumerate() {
-        panel.curve(svg, rows().map(|(t, press)| (t, press.acceleration_at(*s))), position_line(k));
+        panel.curve(svg, rows().map(|(t, forces)| (t, forces.acceleration_at(*s))), position_line(k));
     }
     panel.axes.border(svg, 31.0);
 }

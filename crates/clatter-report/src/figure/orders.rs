@@ -1,6 +1,6 @@
 //! How fast the flight models tend to one another: differences over the group that decides.
 
-use clatter::flight::Order;
+use clatter_flight::Order;
 
 use super::axes::{Axes, Axis, SMALL, key};
 use super::shock::GUIDE;

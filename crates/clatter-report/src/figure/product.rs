@@ -1,8 +1,10 @@
 //! The product drawn to scale from the side, where each part may sit, and where it sits.
 
+use clatter_assess::Verdict;
+
 use super::axes::{SMALL, tick};
 use super::heat::round_values;
-use crate::svg::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, RUST, Svg, width};
+use crate::svg::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, OCHRE, RUST, Svg, width};
 
 /// One part on the product.
 #[derive(Debug, Clone)]
@@ -11,11 +13,20 @@ pub(crate) struct Place<'a> {
     /// Along the bar from the middle towards end b, in m.
     pub(crate) from_m: f64,
     pub(crate) to_m: f64,
-    pub(crate) safe: bool,
+    pub(crate) verdict: Verdict,
     /// What stands at the right, such as the margin.
     pub(crate) word: &'a str,
     /// Where the middle of the part could sit and be safe, in m; `None` for nowhere.
     pub(crate) zone_m: Option<[f64; 2]>,
+}
+
+/// The color of a verdict, on the page as in the figures.
+pub(super) fn shade(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Safe => BLUES[8],
+        Verdict::Undecided => OCHRE,
+        Verdict::Unsafe => RUST,
+    }
 }
 
 /// The bar with its center of mass and centers of percussion, and a row a part.
@@ -64,7 +75,7 @@ pub(crate) fn product(arms_m: [f64; 2], gyration_m: f64, places: &[Place<'_>]) -
                 svg.line([at(m), y], [at(m), y + 10.0], Ink::line(BLUES[5], 0.8));
             }
         }
-        let color = if place.safe { BLUES[8] } else { RUST };
+        let color = shade(place.verdict);
         let (from, to) = (at(place.from_m.max(-half)), at(place.to_m.min(half)));
         let (from, to) = if to - from < 3.0 { (0.5 * (from + to) - 1.5, 0.5 * (from + to) + 1.5) } else { (from, to) };
         svg.rect([from, y + 2.5], [to - from, 5.0], Ink::fill(color));
@@ -106,8 +117,14 @@ mod tests {
 
     #[test]
     fn zones_and_parts_are_drawn_to_scale_and_stay_on_the_bar() {
-        let place =
-            Place { name: "part", from_m: 0.0, to_m: 0.05, safe: false, word: "−3 %", zone_m: Some([-0.2, 0.025]) };
+        let place = Place {
+            name: "part",
+            from_m: 0.0,
+            to_m: 0.05,
+            verdict: Verdict::Unsafe,
+            word: "−3 %",
+            zone_m: Some([-0.2, 0.025]),
+        };
         let drawn = product([0.05, 0.05], 0.02, &[place]);
         // 316 pt for 100 mm from x = 92: the zone is cut at end a and ends three quarters along
         assert!(drawn.contains("M92 54L329 54L329 64L92 64Z"), "{drawn}");

@@ -189,7 +189,7 @@ fn sweep(cuts: &[Instant], terms: &[Term], base: &Base, (pieces, sines, _): &mut
                 }
             }
         }
-        pieces.push(Piece { start, length, from, to, sines: (first_sine, sines.len()) });
+        pieces.push(Piece { shock: 0.0, start, length, from, to, sines: (first_sine, sines.len()) });
     }
 }
 

@@ -1,6 +1,7 @@
 //! Neighboring strikes carried on together, from one anchor in the closed form to the next.
 
-use super::{ANGLE, Decay, Drive, Kind, angle, compensated, ldexp, power_of_two, to_f64};
+use super::{ANGLE, Decay, Drive, Kind, angle, compensated, to_f64};
+use crate::dd::{ldexp, power_of_two};
 use crate::{Bar, Start};
 use libm::{exp, expm1, sincos};
 

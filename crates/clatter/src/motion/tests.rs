@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::accuracy;
-use crate::{Count, PeakImpact};
+use crate::{Count, OffCenterBar, PeakImpact};
 use proptest::prelude::*;
 
 /// Bars on, next to and far from the endless curve q = 2√e/(1 + e), and in the corner (1, 1).
@@ -59,14 +59,36 @@ fn starts(bar: Bar) -> impl Strategy<Value = Start> {
     prop_oneof![2 => translation, 2 => spin, 1 => edge, 2 => tie]
 }
 
+/// Off-center bars anywhere and next to the endless curve, as symmetric ones, with starts as above.
+fn off_center_drops() -> impl Strategy<Value = (Bar, Start)> {
+    let bars = (-0.99..0.99_f64, -9.0..0.5_f64, -3..4_i64, prop::option::of(0.0..1.0_f64), prop::bool::ANY);
+    let bars = bars.prop_map(|(c, k, ulps, e, arms)| {
+        let k = 10f64.powf(k);
+        let made = |e| {
+            if arms { OffCenterBar::new([1.0 + c, 1.0 - c], k, e) } else { OffCenterBar::from_center_of_mass(c, k, e) }
+        };
+        let root = (1.0 - made(0.0).unwrap().symmetric(&Start::default()).0.gyration_ratio()).max(0.0);
+        let root = root / (2.0 - root);
+        let beside = f64::from_bits((root * root).max(1e-300).to_bits().wrapping_add_signed(ulps)).min(1.0);
+        made(e.unwrap_or(beside)).unwrap()
+    });
+    bars.prop_flat_map(|bar| {
+        let kappa = bar.kappa();
+        starts(bar.symmetric(&Start::default()).0).prop_map(move |start| {
+            let [va, vb] = start.velocity();
+            bar.symmetric(&Start::new([va, vb / kappa], 1.0).unwrap())
+        })
+    })
+}
+
 fn drops() -> impl Strategy<Value = (Bar, Start)> {
-    bars().prop_flat_map(|bar| (Just(bar), starts(bar)))
+    prop_oneof![3 => bars().prop_flat_map(|bar| (Just(bar), starts(bar))), 1 => off_center_drops()]
 }
 
 /// The time of strike n + 1 from integers.
 fn exact_time(bar: &Bar, start: &Start, n: u128) -> f64 {
     let ((c, cx), (u, ux)) = exact(bar, start).values(n);
-    let (nu, nx) = bar.exact_q().1.to_float();
+    let (nu, nx) = bar.exact_q().nu.to_float();
     start.height_gap() * ldexp(u * nu / -c, clamp(ux + nx - cx))
 }
 
@@ -136,7 +158,7 @@ proptest! {
             let want = exact_time(&bar, &start, u128::from(n));
             let error = if want.is_infinite() { impact.time.recip() } else { (impact.time - want).abs() / want.max(1.0) };
             prop_assert!(error <= accuracy::TIME.error, "strike {} of {known}: {} not {want}: {error:e}", n + 1, impact.time);
-            if bar.exact_q().1 == Dyadic::from(1.0) {
+            if bar.exact_q().nu == Dyadic::from(1.0) {
                 let (c, x) = exact(&bar, &start).values(u128::from(n)).0;
                 let want = ldexp(c, clamp(x));
                 let error = (impact.approach - want).abs() / want.abs().max(-start.velocity()[0]);
@@ -149,7 +171,7 @@ proptest! {
     /// The peak and the final velocities against integers.
     #[test]
     fn peaks_and_final_velocities_hold_the_allowed_errors((bar, start) in drops()) {
-        if bar.exact_q().1 != Dyadic::from(1.0) {
+        if bar.exact_q().nu != Dyadic::from(1.0) {
             return Ok(()); // its terms are not those of the integers, but of ν^n
         }
         let s = bar.summary(&start);
@@ -188,21 +210,20 @@ proptest! {
 
     /// Each way to D is as good as it says; the last is by integers.
     #[test]
-    fn a_discriminant_is_as_good_as_it_says(bar in bars()) {
+    fn a_discriminant_is_as_good_as_it_says((bar, _) in drops()) {
         if bar.t <= 0.0 || bar.e == 0.0 {
             return Ok(());
         }
         let start = Start::default();
         let drive = Drive::new(&bar, &start, Digits::COUNT);
-        let nu = bar.exact_q().1;
-        let want = to_dd(&drive.exact(Series::Velocity).discriminant(), &nu, &nu, 2 * drive.m);
+        let want = bar.exact_q().over_square(&drive.exact(Series::Velocity).discriminant(), 2 * drive.m);
         for digits in [Digits::COUNT, Digits::ENDING, Digits::ALL, Digits::ANGLES] {
             let (got, error) = drive.discriminant(digits);
             let off = ((got - want) / want).hi.abs();
             prop_assert!(want.hi == 0.0 || off <= error, "{digits:?}: {off:e}, not {error:e}");
         }
         let got = compensated(bar.wide_q().scale(drive.m), bar.e, drive.e);
-        let least = 4.0 * UNIT + power_of_two(-100) * (1.0 + (4.0 * drive.e / want.hi).abs());
+        let least = 4.0 * UNIT + power_of_two(-99) * (1.0 + (4.0 * drive.e / want.hi).abs());
         let off = ((Dd::from(got) - want) / want).hi.abs();
         prop_assert!(want.hi == 0.0 || off <= least, "compensated: {off:e}, not {least:e}");
     }
@@ -233,6 +254,24 @@ fn exact_ties_end_the_train_with_the_strike_before() {
         assert_eq!(bar.train(&start).count() as u64, first, "train of the tie at {n}");
         (b, next) = (next, 0.5 * next - b);
     }
+}
+
+/// T = 1 = 2√e: |a_n| = (½ + nσ)/2ⁿ⁻¹ with σ = ½ + β.
+#[test]
+fn a_bar_on_the_endless_curve_has_a_largest_impact() {
+    let bar = Bar::from_gyration_radius(3.0, 1.0, 0.25).unwrap();
+    for (beta, number, largest) in [(1.0, 2, 2.0), (0.25, 2, 1.25), (0.0, 1, 1.0), (-0.25, 1, 1.0)] {
+        let start = Start::new([-1.0, -beta], 1.0).unwrap();
+        let summary = bar.summary(&start);
+        assert_eq!((summary.count, summary.peak.impact), (Count::Endless, PeakImpact::Number(number)), "β = {beta}");
+        assert!((summary.peak.end - 1.25 * largest).abs() < 1e-15, "β = {beta}: {}", summary.peak.end);
+    }
+    // λ = 63/64, k = (1 − λ)/(1 + λ): |a_n| = λⁿ⁻¹(λ + nσ) with σ = 1 + λ rises until n ≥ λ/(1 − λ) − λ/σ = 62.5.
+    let lambda = 63.0 / 64.0;
+    let summary = Bar::from_gyration_radius(127.0, 1.0, lambda * lambda).unwrap().summary(&Start::default());
+    assert_eq!((summary.count, summary.peak.impact), (Count::Endless, PeakImpact::Number(64)));
+    let largest = (0..62).fold(lambda + 63.0 * (1.0 + lambda), |product, _| product * lambda);
+    assert!((summary.peak.end / ((1.0 + lambda * lambda) * largest) - 1.0).abs() < 1e-13, "{}", summary.peak.end);
 }
 
 /// The paper's own ties among pure translations: (−½, 1) after one impact, (0, 0) after two.

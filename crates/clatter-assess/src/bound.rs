@@ -1,0 +1,56 @@
+//! What no drop of the ranges passes, by the energy that the body has as it touches.
+//!
+//! Per mass that is `E = ½ v₀² + g y`, y the height of the center of mass over where it lies. It bounds every speed from then on, whatever
+//! the order of the strikes, the tilt and the model: of a place at distance x from the center of mass by √(2E (1 + x²/ρ²)), of
+//! the turning by √(2E)/ρ. A suspended part has no such bound: it may add up shocks.
+
+use clatter_flight::{Contact, ContactLaw};
+
+use crate::{Component, Drop, Limit, LimitKind, Product};
+
+/// The largest value of a limited quantity that the energy of the drops allows; none for the response of a suspended part and for
+/// contacts without a bound.
+///
+/// # Formula
+/// One instant strike of point i approaches with at most √(2E μ_i), μ = 1 + x²/ρ², and gives the place
+/// `(1 + e) u (1 + x_p x_i/ρ²)/μ_i`, largest for the level body or for lever arms of 0. With contacts that take time, a place may
+/// change its velocity from one bound to the other, and gains gτ within the contact time τ. A hysteretic contact holds at
+/// most E on its line of first loading: its force is at most √(2E) ω₁/√μ.
+pub(crate) fn bound(product: &Product, drop: &Drop, component: &Component, limit: &Limit) -> Option<f64> {
+    let [a, b] = product.body.arms_m();
+    let rho = product.body.gyration_m();
+    let [_, fastest] = drop.speeds_m_s();
+    let height = a.max(b) * drop.tilt_rad.hi().sin();
+    let speed = (fastest * fastest + 2.0 * drop.gravity_m_s2 * height).sqrt(); // √(2E)
+    let e = product.restitution.hi();
+    // Places and ends from the center of mass.
+    let middle = 0.5 * (b - a);
+    let places: Vec<f64> = component.ends_m().iter().map(|x| x + middle).collect();
+    let ends = [-a, b];
+    let share = |place: f64, end: f64| (1.0 + place * end / (rho * rho)).abs() / (1.0 + end * end / (rho * rho)).sqrt();
+    let over = |of: &dyn Fn(f64) -> f64| places.iter().map(|&x| of(x)).fold(0.0, f64::max);
+    let contact_s = product.contact_time_s.as_ref().map(|time| [time.lo(), time.hi()]);
+    match (limit.kind, contact_s) {
+        (LimitKind::VelocityChange | LimitKind::DamageBoundary, None) => {
+            let one = |place: f64| ends.iter().map(|&end| share(place, end).max(1.0)).fold(0.0, f64::max);
+            Some((1.0 + e) * speed * over(&one))
+        }
+        (LimitKind::VelocityChange | LimitKind::DamageBoundary, Some([_, longest])) => {
+            let fastest = over(&|x| (1.0 + (x / rho).powi(2)).sqrt());
+            Some(2.0 * speed * fastest + drop.gravity_m_s2 * longest)
+        }
+        (LimitKind::AngularVelocityChange, None) => {
+            let one = ends.iter().map(|end| end.abs() / (rho * (rho * rho + end * end).sqrt())).fold(0.0, f64::max);
+            Some((1.0 + e) * speed * one)
+        }
+        (LimitKind::AngularVelocityChange, Some(_)) => Some(2.0 * speed / rho),
+        (LimitKind::Acceleration, Some([shortest, _])) => {
+            let hard = matches!(component.mount, crate::Mount::Hard) && product.contact_law == ContactLaw::Hysteretic;
+            let contact = Contact::new(product.contact_law, e, shortest).ok().filter(|_| hard)?;
+            // Both ends at once; a lever arm of 0 gives every place the whole force, and is the largest for μ.
+            let one = |place: f64| ends.iter().map(|&end| share(place, end).max(1.0)).sum::<f64>();
+            Some(speed * contact.frequency_rad_s() * over(&one))
+        }
+        (LimitKind::Acceleration | LimitKind::RattleSpace, _) => None,
+    }
+}

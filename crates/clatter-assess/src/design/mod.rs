@@ -1,0 +1,7 @@
+//! The design method for a product: what would make each failing part safe, and which (q, e) would.
+
+mod lever;
+mod plane;
+
+pub use lever::{Bounds, Change, Lever, Outcome, Remedies, Remedy, STEPS, Together};
+pub use plane::{Border, Plane, PlaneComponent};

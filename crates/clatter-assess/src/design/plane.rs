@@ -1,0 +1,154 @@
+//! Which (q, e) make the parts safe, over the design plane of the paper.
+
+use std::ops::Range;
+
+use clatter::contour::Point;
+use clatter::design::{Goal, region};
+
+use super::lever::Bounds;
+use crate::scatter::{Error, Pilot, extremes};
+use crate::{Component, First, Limit, LimitKind, Model, ProductFile};
+
+/// The design plane 0 ≤ q ≤ 1, 0 ≤ e ≤ 1 of a product.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Plane {
+    /// Inertia ratio of the product.
+    pub q: f64,
+    /// Its coefficients of restitution.
+    pub e: [f64; 2],
+    /// What can be built.
+    pub bounds: Bounds,
+    /// The model that answered: [`Model::Map`] is the closed form.
+    pub model: Model,
+    /// What the closed form gets wrong on drops all over the plane; none where it has no answer.
+    pub pilot: Option<Pilot>,
+    /// Values of q, and of e, of a grid.
+    pub side: usize,
+    /// In the order of the file.
+    pub components: Vec<PlaneComponent>,
+}
+
+/// Where one component is safe.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlaneComponent {
+    /// Its name.
+    pub name: String,
+    /// The border between safe and unsafe.
+    pub border: Border,
+}
+
+/// How the border is known.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Border {
+    /// As curves e(q), below which the component is safe; without any it is nowhere. By the closed form, for limits on velocity shocks
+    /// and turning of products whose center of mass is in the middle and that may touch with either end first.
+    Exact(Vec<Vec<Point>>),
+    /// Margins allowed/demand − 1 on a grid of [`Plane::side`] values of q and of e from 0 to 1, e fastest; none where the model has
+    /// no answer and beyond what can be built. The drops are those of [`extremes`].
+    Grid(Vec<Option<f64>>),
+}
+
+/// The true border stays within about this of the chords of exact curves.
+const FLATNESS: f64 = 2e-4;
+/// Stands for q = 1, whose massless ends would strike for ever.
+const LARGEST_Q: f64 = 0.999;
+
+impl Plane {
+    /// Values of q, and of e, of a grid.
+    pub const SIDE: usize = 41;
+    /// The same of a product with a contact time, whose drops cost ten times as much to follow: the plane still takes some seconds.
+    pub const SIDE_OF_CONTACTS: usize = 21;
+
+    /// The border of every component within what can be built. Limits are at their least values, and all ranges but that of the
+    /// restitution are those of the file.
+    ///
+    /// # Errors
+    /// As [`extremes`].
+    ///
+    /// # Examples
+    /// ```
+    /// use clatter_assess::{EXAMPLE, Model, ProductFile};
+    /// use clatter_assess::design::{Bounds, Plane};
+    /// let bounds = Bounds { q: [0.5, 0.55], e: [0.3, 0.35], ..Bounds::default() };
+    /// let plane = Plane::of(&ProductFile::read(EXAMPLE, "example.toml")?, &bounds)?;
+    /// assert_eq!((plane.model, plane.side), (Model::Compliant, Plane::SIDE_OF_CONTACTS));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn of(file: &ProductFile, bounds: &Bounds) -> Result<Self, Error> {
+        let side = if file.product.contact_time_s.is_some() { Self::SIDE_OF_CONTACTS } else { Self::SIDE };
+        let [qs, es] = [bounds.q, bounds.e].map(|range| within(range, side));
+        let mut points = Vec::with_capacity(qs.len() * es.len());
+        for i in qs.clone() {
+            let body = file.product.with_inertia_ratio(value(i, side).min(LARGEST_Q))?.body;
+            points.extend(es.clone().map(|j| (body, value(j, side))));
+        }
+        let found = extremes(file, &points)?;
+        let margins = |component: usize| {
+            let mut margins = vec![None; side * side];
+            for (k, used) in found.worst.iter().enumerate() {
+                let (i, j) = (qs.start + k / es.len(), es.start + k % es.len());
+                margins[i * side + j] = used[component].map(|used| 1.0 / used - 1.0);
+            }
+            margins
+        };
+        let border = |(i, component): (usize, &Component)| PlaneComponent {
+            name: component.name.clone(),
+            border: match goals(file, component).filter(|_| found.model == Model::Map) {
+                Some(goals) => Border::Exact(region(&goals, FLATNESS)),
+                None => Border::Grid(margins(i)),
+            },
+        };
+        let restitution = &file.product.restitution;
+        Ok(Self {
+            q: file.product.inertia_ratio(),
+            e: [restitution.lo(), restitution.hi()],
+            bounds: *bounds,
+            model: found.model,
+            pilot: found.pilot,
+            side,
+            components: file.components.iter().enumerate().map(border).collect(),
+        })
+    }
+
+    /// Value k of q, or of e, of the grid.
+    #[must_use]
+    pub fn value(&self, k: usize) -> f64 {
+        value(k, self.side)
+    }
+}
+
+fn value(k: usize, side: usize) -> f64 {
+    #[expect(clippy::cast_precision_loss, reason = "small counts")]
+    let share = k as f64 / (side - 1) as f64;
+    share
+}
+
+/// The values of a grid that a range within [0, 1] lies between; two at least, for a cell.
+fn within([lo, hi]: [f64; 2], side: usize) -> Range<usize> {
+    #[expect(clippy::cast_precision_loss, reason = "a small count")]
+    let steps = (side - 1) as f64;
+    // A bound is a value of the grid but for roundings, or lies well between two.
+    let [lo, hi] = [(steps * lo + 1e-9).floor(), (steps * hi - 1e-9).ceil()];
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+    let [lo, hi] = [lo.clamp(0.0, steps - 1.0), hi.clamp(1.0, steps)].map(|k| k as usize);
+    lo..hi.max(lo + 1) + 1
+}
+
+/// The limits of a component as goals in the plane; `None` where they are none.
+fn goals(file: &ProductFile, component: &Component) -> Option<Vec<Goal>> {
+    let body = &file.product.body;
+    let [a, b] = body.arms_m();
+    let middle = (a - b).abs() <= 1e-12 * (a + b); // roundings of what was given
+    if !middle || file.drop.first != First::Either {
+        return None;
+    }
+    let [_, fastest] = file.drop.speeds_m_s();
+    let s = component.ends_m().iter().fold(0.0_f64, |most, x| most.max(file.product.relative(*x).abs())).min(1.0);
+    let goal = |limit: Limit| match limit.kind {
+        LimitKind::VelocityChange => Goal::zone(limit.allowed / fastest, s).ok(),
+        LimitKind::AngularVelocityChange => Goal::turn(limit.allowed * 0.5 * body.length_m() / fastest).ok(),
+        LimitKind::DamageBoundary | LimitKind::Acceleration | LimitKind::RattleSpace => None,
+    };
+    Limit::of(component).into_iter().map(goal).collect()
+}

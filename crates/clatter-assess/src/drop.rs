@@ -1,0 +1,261 @@
+//! A single drop, followed by one of four models.
+
+use clatter::End;
+use clatter_flight::{Body, Contact, ContactFlight, ContactLaw, Flight, Model as Impacts, Scene, Stop, Stretch};
+use serde::Serialize;
+
+use crate::Error;
+
+/// How a drop is answered: from the least physics to the most.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Model {
+    /// In closed form, small tilt and no gravity: the whole clatter as one change of velocity. A part that is slow beside it
+    /// feels no more.
+    NetChange,
+    /// In closed form, likewise: the largest velocity shock alone. A damped part that is fast beside the gaps feels no more.
+    LargestShock,
+    /// Instant impacts, strike by strike, small tilt, no gravity.
+    Map,
+    /// With gravity.
+    Ballistic,
+    /// With gravity and exact geometry.
+    FiniteTilt,
+    /// With contacts that take time.
+    Compliant,
+}
+
+impl Model {
+    /// Those that follow a drop strike by strike.
+    pub const FOLLOWED: [Self; 4] = [Self::Map, Self::Ballistic, Self::FiniteTilt, Self::Compliant];
+    /// All of them.
+    pub const ALL: [Self; 6] =
+        [Self::NetChange, Self::LargestShock, Self::Map, Self::Ballistic, Self::FiniteTilt, Self::Compliant];
+    /// `net-change`, `largest-shock`, `map`, `ballistic`, `finite-tilt` or `compliant`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::NetChange => "net-change",
+            Self::LargestShock => "largest-shock",
+            Self::Map => "map",
+            Self::Ballistic => "ballistic",
+            Self::FiniteTilt => "finite-tilt",
+            Self::Compliant => "compliant",
+        }
+    }
+    /// The model of instant impacts; of contacts the one that they tend to.
+    pub(crate) fn impacts(self) -> Impacts {
+        match self {
+            Self::NetChange | Self::LargestShock | Self::Map => Impacts::Map,
+            Self::Ballistic => Impacts::Ballistic,
+            Self::FiniteTilt | Self::Compliant => Impacts::FiniteTilt,
+        }
+    }
+}
+
+/// A single drop of a product.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SingleDrop {
+    /// What falls.
+    pub body: Body,
+    /// The end that touches first.
+    pub first: End,
+    /// Angle to the ground at the first touch, in rad.
+    pub tilt_rad: f64,
+    /// Speed at the first touch, in m/s.
+    pub speed_m_s: f64,
+    /// Coefficient of restitution.
+    pub restitution: f64,
+    /// Gravity, in m/s².
+    pub gravity_m_s2: f64,
+    /// How long a lone contact takes, where that is known.
+    pub contact_time_s: Option<f64>,
+    /// What the ground does to an end while it touches.
+    pub contact_law: ContactLaw,
+}
+
+impl SingleDrop {
+    /// The model with the most physics that the data allow: contacts where their time is known, else real tilt.
+    #[must_use]
+    pub fn fullest(&self) -> Model {
+        if self.contact_time_s.is_some() { Model::Compliant } else { Model::FiniteTilt }
+    }
+    /// How long the clatter takes, about: four times what the raised end needs to come down, and some contacts.
+    pub(crate) fn clatter_s(&self) -> f64 {
+        let gap_m = self.body.length_m() * self.tilt_rad.sin();
+        4.0 * (gap_m / self.speed_m_s + self.contact_time_s.unwrap_or(0.0))
+    }
+    /// How long a contact takes at most: with both ends pressing, by their slower motion.
+    pub(crate) fn pressed_s(&self) -> f64 {
+        let ([a, b], rho2) = (self.body.arms_m(), self.body.gyration_m().powi(2));
+        let coupling = (rho2 - a * b) / ((rho2 + a * a) * (rho2 + b * b)).sqrt();
+        self.contact_time_s.unwrap_or(0.0) / (1.0 - coupling.abs()).sqrt()
+    }
+    /// When a body has bounced clear: after its clatter and a quarter of the flight of 2 e v0/g.
+    pub(crate) fn clear_s(&self) -> f64 {
+        self.clatter_s() + 0.5 * self.restitution * self.speed_m_s / self.gravity_m_s2
+    }
+    /// The drop as flights take it, the end that touches first in front.
+    pub(crate) fn scene(&self) -> Result<Scene, Error> {
+        let [a, b] = self.body.arms_m();
+        let body = match self.first {
+            End::A => self.body,
+            End::B => Body::off_center(b, a, self.body.gyration_m())?,
+        };
+        Ok(Scene::new(body, self.restitution, self.speed_m_s, self.tilt_rad.to_degrees(), self.gravity_m_s2)?)
+    }
+    /// Position s in [−1, 1], −1 the end that touches first, of a place in m from the middle.
+    pub(crate) fn relative(&self, position_m: f64) -> f64 {
+        let s = (2.0 * position_m / self.body.length_m()).clamp(-1.0, 1.0);
+        if self.first == End::A { s } else { -s }
+    }
+}
+
+/// A drop as far as it was followed.
+#[derive(Debug, Clone)]
+pub(crate) struct Followed {
+    pub(crate) drop: SingleDrop,
+    pub(crate) motion: Motion,
+    pub(crate) precision: f64,
+    /// Whether it was left while shocks that count may come.
+    early: bool,
+    /// Largest velocity shock of an end, and bound of what no later one passes.
+    pub(crate) largest_m_s: f64,
+    pub(crate) later_m_s: f64,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) enum Motion {
+    Impacts(Box<Scene>, Impacts, Flight),
+    Contacts(Box<ContactFlight>),
+}
+
+/// A hysteretic contact that is pushed again unloads and reloads along a line that is stiffer by 1/e²: the force of a slow shock
+/// is larger by 1/e. Drops are followed so much longer, down to this restitution.
+const LEAST_SHARE: f64 = 0.02;
+/// Drops are left after rebounds once the energy allows no later shock above this share of the largest.
+const LATE: f64 = 0.25;
+/// Strikes followed at most.
+const MOST_STRIKES: usize = 1024;
+
+/// How far a drop is followed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Until {
+    /// Until it comes down after its clatter.
+    Lands,
+    /// Until the energy allows no shock above a quarter of the largest.
+    Rebounded,
+    /// Until nothing later counts.
+    Over,
+}
+
+impl Followed {
+    /// Follows one drop until nothing later counts: until the energy that is left allows no velocity shock above `tolerance` of the
+    /// largest times the restitution.
+    ///
+    /// # Errors
+    /// [`Error::Contact`] for contacts whose time is not known; [`Error::Flight`] and [`Error::Bar`] for a drop that the model
+    /// does not take.
+    pub(crate) fn new(drop: &SingleDrop, model: Model, tolerance: f64) -> Result<Self, Error> {
+        Self::until(drop, model, tolerance, Until::Over)
+    }
+
+    /// The same, left at a moment.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub(crate) fn until(drop: &SingleDrop, model: Model, tolerance: f64, until: Until) -> Result<Self, Error> {
+        let scene = drop.scene()?.with_impact_limit(MOST_STRIKES)?;
+        let precision = 0.1 * tolerance;
+        let share = tolerance * drop.restitution.max(LEAST_SHARE);
+        let clatter_s = drop.clatter_s();
+        let is_over = |time_s: f64, later: f64, largest: f64, lands: bool| {
+            later <= share * largest
+                || match until {
+                    Until::Lands => lands && time_s > clatter_s,
+                    Until::Rebounded => lands && time_s > clatter_s && later <= LATE * largest,
+                    Until::Over => false,
+                }
+        };
+        let mut later = f64::INFINITY;
+        let motion = if model == Model::Compliant {
+            let time = drop.contact_time_s.ok_or(Error::Contact)?;
+            let contact = Contact::new(drop.contact_law, drop.restitution, time)?;
+            let flight = scene.contacts_until(&contact, precision, |ahead| {
+                // A strike gives back the restitution's share of what it takes.
+                later = 0.5 * (1.0 + drop.restitution) * ahead.most_m_s;
+                is_over(ahead.time_s, later, ahead.largest_m_s, ahead.lands)
+            })?;
+            Motion::Contacts(Box::new(flight))
+        } else {
+            let model = model.impacts();
+            let flight = scene.simulate_until(model, |flight| {
+                let Some(last) = flight.strikes.last() else { return false };
+                later = scene.later_shock_m_s(model, last);
+                is_over(last.time_s, later, largest(flight), true)
+            });
+            Motion::Impacts(Box::new(scene), model, flight)
+        };
+        let (largest_m_s, stop) = match &motion {
+            Motion::Contacts(flight) => (largest(&flight.flight), flight.flight.stop),
+            Motion::Impacts(_, _, flight) => (largest(flight), flight.stop),
+        };
+        let later_m_s = match stop {
+            Stop::AtRest { shock_bound_m_s, .. } => shock_bound_m_s,
+            Stop::BouncedClear { .. } => 0.0,
+            _ => later,
+        };
+        let early = later_m_s > share * largest_m_s && matches!(stop, Stop::Enough { .. });
+        Ok(Self { drop: *drop, motion, precision, early, largest_m_s, later_m_s })
+    }
+
+    pub(crate) fn flight(&self) -> &Flight {
+        match &self.motion {
+            Motion::Impacts(_, _, flight) => flight,
+            Motion::Contacts(contacts) => &contacts.flight,
+        }
+    }
+    pub(crate) fn is_early(&self) -> bool {
+        self.early
+    }
+    /// Whether the flight was given up before nothing later counts.
+    pub(crate) fn is_cut(&self) -> bool {
+        matches!(self.flight().stop, Stop::TimeLimit { .. } | Stop::ImpactLimit { .. } | Stop::TurnedOver { .. })
+    }
+    /// What a place feels, section by section.
+    pub(crate) fn felt(&self, position_m: f64) -> Vec<Stretch> {
+        let s = self.drop.relative(position_m);
+        match &self.motion {
+            Motion::Impacts(scene, model, flight) => scene.felt(*model, flight, s),
+            Motion::Contacts(flight) => {
+                let place = self.place(s);
+                flight.felt(place, self.precision)
+            }
+        }
+    }
+    fn place(&self, s: f64) -> [f64; 2] {
+        let [a, b] = self.drop.body.arms_m();
+        let [a, b] = if self.drop.first == End::A { [a, b] } else { [b, a] };
+        [0.5 * ((1.0 + s) * b - (1.0 - s) * a), 0.0]
+    }
+    /// How long nothing has pressed as the motion was left.
+    pub(crate) fn quiet_s(&self) -> f64 {
+        let flight = self.flight();
+        let last = match &self.motion {
+            Motion::Impacts(..) => flight.strikes.last().map_or(0.0, |strike| strike.time_s),
+            Motion::Contacts(contacts) => contacts.presses.iter().fold(0.0, |last: f64, press| last.max(press.until_s)),
+        };
+        (flight.stop.time_s() - last).max(0.0)
+    }
+    /// Number, from 1, of the last strike that began by a time; contacts do nothing as they begin.
+    pub(crate) fn impact_at(&self, time_s: f64) -> u64 {
+        let instant = matches!(self.motion, Motion::Impacts(..));
+        let begun = |touch_s: f64| touch_s < time_s || instant && touch_s <= time_s;
+        self.flight().strikes.partition_point(|s| begun(s.time_s)).max(1) as u64
+    }
+}
+
+/// Largest velocity shock of an end.
+fn largest(flight: &Flight) -> f64 {
+    flight.strikes.iter().flat_map(|s| s.delta_v_m_s).fold(0.0, |most, v| most.max(v.abs()))
+}

@@ -1,0 +1,471 @@
+//! The one way from a drop to an answer.
+//!
+//! [`answer`] follows a drop by a model, takes what the place of the part feels, and gives the largest value of one limited
+//! quantity. Commands that ask for many answers of one drop keep the drop between them; nothing else is different.
+
+use std::f64::consts::FRAC_PI_2;
+
+use clatter::{End, EndPeaks, OffCenterBar, Start};
+use clatter_flight::Stretch;
+use clatter_shock::{Peaked, Pulses, Response, Suspension};
+
+use crate::drop::{Followed, Model, Motion, SingleDrop};
+use crate::history::{SHORT, pulses};
+use crate::shock::{Shock, largest, looks};
+use crate::{Error, Limit, LimitKind, Unit};
+
+/// A part at one place of the product.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Part {
+    /// From the middle of the product towards end b.
+    pub position_m: f64,
+    /// How it is held; none where it is mounted rigidly.
+    pub suspension: Option<Suspension>,
+}
+
+/// What a drop asks of a part.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Answer {
+    /// The largest value of the quantity; of a damage boundary the velocity change or the acceleration, whichever leaves more
+    /// room.
+    pub value: f64,
+    /// What is allowed of it.
+    pub allowed: f64,
+    /// Their unit.
+    pub unit: Unit,
+    /// When, since the first touch.
+    pub time_s: f64,
+    /// The strike that does it, or that the peak follows; from 1.
+    pub impact: u64,
+    /// How far off the value may be for what the model leaves out of its own motion, as a share of it: what lever arms kept through a
+    /// phase get wrong, and what later strikes could still do. It says nothing of the physics that the model lacks.
+    pub error: f64,
+}
+
+impl Answer {
+    /// Value over allowed: beyond 1 the limit is passed.
+    #[must_use]
+    pub fn utilization(&self) -> f64 {
+        self.value / self.allowed
+    }
+}
+
+/// What one drop asks of one limit of a part: the largest value of the quantity over the whole motion.
+///
+/// `tolerance` is how exact the answer is for its model: how long a phase may keep its lever arms, how finely damped
+/// vibrations are cut, and when nothing later can count.
+///
+/// # Validity
+/// The part is light and linear; the product is rigid. Of instant impacts a suspended part feels velocity shocks, and the
+/// acceleration of a part mounted rigidly is that of half-sines of the contact time. From when the product lies still nothing is felt:
+/// the weight of the part on it, 1 g, is left out.
+///
+/// # Accuracy
+/// [`Answer::error`], until the product lands again: what each strike gets wrong is then multiplied by the next ones; for the motion of the model within `tolerance` of independent integrations (tests).
+///
+/// # Errors
+/// [`Error::Tolerance`]; [`Error::Contact`] where the contact time is needed and not known; [`Error::Flight`], [`Error::Bar`] and
+/// [`Error::Shock`] for what a model does not take; [`Error::Unfinished`] for a motion that was given up before nothing later
+/// counts.
+///
+/// # Examples
+/// The end of the paper's reference bar (q = ½, e = 0.3) feels 2.145 v₀ at most, by instant impacts without gravity:
+/// ```
+/// use clatter::End;
+/// use clatter_assess::{Limit, LimitKind, Model, Part, SingleDrop, answer};
+/// use clatter_flight::{Body, ContactLaw};
+/// let drop = SingleDrop {
+///     body: Body::new(0.15, 0.15 / 12_f64.sqrt())?,
+///     first: End::A,
+///     tilt_rad: 0.05,
+///     speed_m_s: 4.0,
+///     restitution: 0.3,
+///     gravity_m_s2: 0.0,
+///     contact_time_s: None,
+///     contact_law: ContactLaw::Hysteretic,
+/// };
+/// let part = Part { position_m: 0.075, suspension: None };
+/// let asked = answer(&drop, &part, &Limit::new(LimitKind::VelocityChange, 9.0), Model::Map, 0.01)?;
+/// assert!((asked.value - 4.0 * 2.145).abs() < 1e-12 && asked.impact == 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn answer(drop: &SingleDrop, part: &Part, limit: &Limit, model: Model, tolerance: f64) -> Result<Answer, Error> {
+    if !(1e-6..=0.5).contains(&tolerance) {
+        return Err(Error::Tolerance(tolerance));
+    }
+    if model < Model::Map {
+        return closed_form(drop, part, limit, model);
+    }
+    let followed = Followed::new(drop, model, tolerance)?;
+    let asked = Felt::new(&followed, part.position_m)?.answer(limit, part.suspension.as_ref(), 0.0)?;
+    let nothing =
+        Answer { value: 0.0, allowed: limit.allowed, unit: limit.kind.unit(), time_s: 0.0, impact: 1, error: 0.0 };
+    Ok(asked.unwrap_or(nothing))
+}
+
+/// An answer from the largest shock or the net change of velocity alone, without following a strike.
+fn closed_form(drop: &SingleDrop, part: &Part, limit: &Limit, model: Model) -> Result<Answer, Error> {
+    let [a, b] = drop.body.arms_m();
+    let bar = OffCenterBar::new([a, b], drop.body.gyration_m(), drop.restitution)?;
+    let start = Start::new([-drop.speed_m_s; 2], drop.body.length_m() * libm::sin(drop.tilt_rad))?;
+    let s = 2.0 * part.position_m / drop.body.length_m();
+    let of_turn = 2.0 / drop.body.length_m();
+    let (shock, turn) = if model == Model::LargestShock {
+        let EndPeaks { a, b } = bar.shocks(&start, drop.first).struck();
+        let [qa, qb] = bar.inertia_ratios();
+        let turn = 0.5 * of_turn * (a * (1.0 + qa)).max(b * (1.0 + qb));
+        (bar.shocks(&start, drop.first).at(s), turn)
+    } else {
+        let (bar, s) = if drop.first == End::A { (bar, s) } else { (bar.exchanged(), -s) };
+        let net = bar.summary(&start).net.ok_or(Error::Unfinished)?;
+        (0.5 * ((1.0 - s) * net.a + (1.0 + s) * net.b).abs(), 0.5 * of_turn * (net.b - net.a).abs())
+    };
+    let (value, unit) = match (limit.kind, part.suspension) {
+        (LimitKind::AngularVelocityChange, _) => (turn, limit.kind.unit()),
+        (LimitKind::Acceleration | LimitKind::RattleSpace, _) => {
+            (limit.clatter_free(shock, None, part.suspension.as_ref())?, limit.kind.unit())
+        }
+        (LimitKind::VelocityChange | LimitKind::DamageBoundary, _) => (shock, limit.kind.unit()),
+    };
+    let value = if value.is_finite() {
+        value
+    } else {
+        // A part mounted rigidly: the half-sine of the contact time.
+        shock * FRAC_PI_2 / drop.contact_time_s.ok_or(Error::Contact)?
+    };
+    let acceleration = drop.contact_time_s.map(|time| shock * FRAC_PI_2 / time);
+    let by_acceleration = acceleration.filter(|_| limit.kind == LimitKind::DamageBoundary);
+    let answer = Answer { value, allowed: limit.allowed, unit, time_s: 0.0, impact: 1, error: 0.0 };
+    Ok(match by_acceleration {
+        Some(value) if value / limit.critical_acceleration_m_s2 < answer.utilization() => {
+            Answer { value, allowed: limit.critical_acceleration_m_s2, unit: Unit::MeterPerSecondSquared, ..answer }
+        }
+        _ => answer,
+    })
+}
+
+/// The response of a suspended part in one drop, with all its peaks.
+///
+/// # Errors
+/// As [`answer`].
+pub fn respond(
+    drop: &SingleDrop,
+    position_m: f64,
+    part: &Suspension,
+    model: Model,
+    tolerance: f64,
+) -> Result<Response, Error> {
+    let followed = Followed::new(drop, model, tolerance)?;
+    Ok(Felt::new(&followed, position_m)?.pulses.respond(part))
+}
+
+/// What one place of a followed drop feels.
+#[derive(Debug)]
+pub(crate) struct Felt<'a> {
+    followed: &'a Followed,
+    pub(crate) sections: Vec<Stretch>,
+    pulses: Pulses,
+    position_m: f64,
+    fastest_rad_s: f64,
+    /// The same until earlier, of which all answers are known.
+    known: Option<&'a Felt<'a>>,
+}
+
+impl<'a> Felt<'a> {
+    pub(crate) fn new(followed: &'a Followed, position_m: f64) -> Result<Self, Error> {
+        Self::rough(followed, position_m, f64::INFINITY)
+    }
+
+    /// The same for responses of parts up to a natural frequency, to about 1 %: pulses that are short beside the period of
+    /// the fastest part are taken as trapezoids of the same impulse at the same time.
+    pub(crate) fn rough(followed: &'a Followed, position_m: f64, fastest_rad_s: f64) -> Result<Self, Error> {
+        if followed.is_cut() {
+            return Err(Error::Unfinished);
+        }
+        let sections = followed.felt(position_m);
+        let pulses = pulses(&sections, SHORT / fastest_rad_s)?;
+        Ok(Self { followed, sections, pulses, position_m, fastest_rad_s, known: None })
+    }
+
+    /// The same place in the same drop, followed for longer.
+    pub(crate) fn longer(&'a self, followed: &'a Followed) -> Result<Self, Error> {
+        Ok(Self { known: Some(self), ..Self::rough(followed, self.position_m, self.fastest_rad_s)? })
+    }
+
+    /// The answer for one limit, if its utilization passes `above`.
+    pub(crate) fn answer(
+        &self,
+        limit: &Limit,
+        suspension: Option<&Suspension>,
+        above: f64,
+    ) -> Result<Option<Answer>, Error> {
+        if self.known.is_some_and(|known| known.later_most(limit, suspension, above) <= above) {
+            return Ok(None);
+        }
+        let (value, time_s, error) = match (limit.kind, suspension) {
+            (LimitKind::Acceleration | LimitKind::RattleSpace, Some(part)) => {
+                let Some(peak) = self.peak(limit.kind, part, above * limit.allowed) else { return Ok(None) };
+                peak
+            }
+            (LimitKind::Acceleration | LimitKind::RattleSpace, None) => {
+                let (value, time_s) = self.largest_acceleration([f64::NEG_INFINITY, f64::INFINITY])?;
+                (value, time_s, self.error_of_shock(value * self.contact_s()?))
+            }
+            (LimitKind::VelocityChange, _) => {
+                let Some(&Shock { change, time_s, .. }) = largest(&self.shocks()) else { return Ok(None) };
+                (change, time_s, self.error_of_shock(change))
+            }
+            (LimitKind::AngularVelocityChange, _) => {
+                let Some(&Shock { change, time_s, .. }) = largest(&self.followed.turns()) else { return Ok(None) };
+                (change, time_s, self.error_of_shock(change * 0.5 * self.followed.drop.body.length_m()))
+            }
+            (LimitKind::DamageBoundary, _) => return self.boundary(limit, above),
+        };
+        let impact = self.followed.impact_at(time_s);
+        let answer = Answer { value, allowed: limit.allowed, unit: limit.kind.unit(), time_s, impact, error };
+        Ok(Some(answer).filter(|answer| answer.utilization() > above))
+    }
+
+    /// Changes of velocity at the place in steps of time, each in its middle, up to a time: what a curve is drawn from.
+    pub(crate) fn slices(&self, step_s: f64, end_s: f64) -> Vec<(f64, f64)> {
+        let mut slices = Vec::new();
+        for section in self.sections.iter().take_while(|section| section.from_s < end_s) {
+            if section.delta_v_m_s != 0.0 {
+                slices.push((section.from_s, section.delta_v_m_s));
+            }
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+            let steps = (section.length_s / step_s).ceil().clamp(1.0, 1e4) as u32;
+            let h = section.length_s / f64::from(steps);
+            let mut before = section.delta_v_m_s;
+            for k in 1..=steps {
+                let now = section.velocity_after(f64::from(k) * h);
+                if now - before != 0.0 {
+                    slices.push((section.from_s + (f64::from(k) - 0.5) * h, now - before));
+                }
+                before = now;
+            }
+        }
+        slices
+    }
+    /// Times and accelerations of the place, to be joined by straight lines.
+    pub(crate) fn acceleration(&self) -> Vec<(f64, f64)> {
+        let of = |section: &Stretch| {
+            let section = *section;
+            let steps = looks(&section, section.length_s);
+            (0..=steps).map(move |k| {
+                let t = f64::from(k) / f64::from(steps) * section.length_s;
+                (section.from_s + t, section.acceleration_at(t))
+            })
+        };
+        self.sections.iter().flat_map(of).collect()
+    }
+    /// The velocity shocks.
+    pub(crate) fn shocks(&self) -> Vec<Shock> {
+        self.followed.shocks(self.position_m, &self.sections)
+    }
+    /// The utilization that strikes after the motion was left may reach, by the energy that is left and what a part still rings
+    /// with; 0 where that is not above `above`. Of the parts given, or of a limit that is no response.
+    pub(crate) fn later_most<'p>(
+        &self,
+        limit: &Limit,
+        parts: impl IntoIterator<Item = &'p Suspension>,
+        above: f64,
+    ) -> f64 {
+        if !self.followed.is_early() {
+            return 0.0;
+        }
+        let later = self.later();
+        let most = match limit.kind {
+            LimitKind::Acceleration | LimitKind::RattleSpace => {
+                let of = |part: &Suspension| self.rings_most(limit, part, later.shock_of(part), above);
+                let most = parts.into_iter().map(of).reduce(f64::max);
+                most.unwrap_or(later.acceleration_m_s2 / limit.allowed)
+            }
+            LimitKind::AngularVelocityChange => later.turn_rad_s / limit.allowed,
+            LimitKind::VelocityChange => later.turned_m_s / limit.allowed,
+            // It takes both.
+            LimitKind::DamageBoundary => {
+                let acceleration = later.acceleration_m_s2 / limit.critical_acceleration_m_s2;
+                (later.turned_m_s / limit.allowed).min(acceleration)
+            }
+        };
+        if most > above { most } else { 0.0 }
+    }
+    /// What strikes may do here after the motion was left.
+    fn later(&self) -> Later {
+        let drop = &self.followed.drop;
+        let ([a, b], rho) = (drop.body.arms_m(), drop.body.gyration_m());
+        let x = (self.position_m + 0.5 * (b - a)) / rho;
+        let ends = [-a / rho, b / rho];
+        let mass = |x: f64| (1.0 + x * x).sqrt();
+        // All energy in the motion of the center of mass, over all of it in what moves the farther end fastest.
+        let center = self.followed.later_m_s / mass(a.max(b) / rho);
+        let both = ends.map(|end| (1.0 + x * end) / mass(end));
+        // A strike gives back the restitution's share of what it takes; several that overlap may turn all of the motion around.
+        let turned = 2.0 / (1.0 + drop.restitution);
+        Later {
+            shock_m_s: center * mass(x),
+            turned_m_s: center * mass(x) * turned,
+            turn_rad_s: center / rho * turned,
+            acceleration_m_s2: drop
+                .contact_time_s
+                .map_or(f64::INFINITY, |time| center * both[0].hypot(both[1]).max(mass(x)) * FRAC_PI_2 / time),
+        }
+    }
+    /// The utilization to which a shock of this size brings a part that still rings as the motion was left; 0 where it was below
+    /// `above` as the last contact ended, has decayed since, and stays below.
+    fn rings_most(&self, limit: &Limit, part: &Suspension, shock: f64, above: f64) -> f64 {
+        let (omega, zeta, factors) = (part.omega(), part.damping().get(), part.damping().impulse_factors());
+        let unit = if limit.kind == LimitKind::Acceleration {
+            omega * factors.acceleration
+        } else {
+            factors.displacement / omega
+        };
+        let per_velocity = unit / limit.allowed;
+        let slowest = if zeta < 1.0 { zeta } else { 1.0 / (zeta + (zeta * zeta - 1.0).sqrt()) };
+        if shock * per_velocity <= above * -(-slowest * omega * self.followed.quiet_s()).exp_m1() {
+            return 0.0;
+        }
+        let rest = self.pulses.state_at_end(part);
+        per_velocity * ((omega * rest.displacement).hypot(rest.velocity) + shock)
+    }
+    /// What a shock of this size may be off by: the share of the largest shock that lever arms get wrong, and what later ones
+    /// could pass it by.
+    fn error_of_shock(&self, value: f64) -> f64 {
+        if value <= 0.0 {
+            return f64::INFINITY;
+        }
+        let Followed { largest_m_s, later_m_s, .. } = self.followed;
+        (self.followed.kept_arms() * largest_m_s + (later_m_s - value).max(0.0)) / value
+    }
+
+    /// Peak of a suspended part where it passes `above`: value, time and error.
+    fn peak(&self, kind: LimitKind, part: &Suspension, above: f64) -> Option<(f64, f64, f64)> {
+        let omega = part.omega();
+        let (peaked, unit) = if kind == LimitKind::Acceleration {
+            (Peaked::AccelerationOverOmega, omega)
+        } else {
+            (Peaked::PseudoVelocity, omega.recip())
+        };
+        // What comes after a motion that was left early is no ring-down.
+        let peak = if self.followed.is_early() {
+            self.pulses.peak_within(part, peaked, above / unit)?
+        } else {
+            self.pulses.peak_above(part, peaked, above / unit)?
+        };
+        let velocity = peak.value.abs();
+        // What rings on as the motion is left, and the later shocks, as if all came at its crest.
+        let doubt = if self.followed.later_m_s > 0.0 {
+            let rest = self.pulses.state_at_end(part);
+            (omega * rest.displacement).hypot(rest.velocity) + self.later().shock_of(part) - velocity
+        } else {
+            0.0
+        };
+        // A part that is fast beside a contact follows its force and not its velocity.
+        let follows = self.followed.drop.contact_time_s.map_or(0.0, |time| omega * time / FRAC_PI_2).max(1.0);
+        let off = self.followed.kept_arms() * self.followed.largest_m_s / follows;
+        let error = (off + doubt.max(0.0)) / velocity;
+        Some((unit * velocity, peak.time, error))
+    }
+
+    fn contact_s(&self) -> Result<f64, Error> {
+        self.followed.drop.contact_time_s.ok_or(Error::Contact)
+    }
+
+    /// Largest acceleration of the product at the place within a time, and when.
+    fn largest_acceleration(&self, [from_s, until_s]: [f64; 2]) -> Result<(f64, f64), Error> {
+        let mut most = (0.0, 0.0);
+        if let Motion::Impacts(..) = self.followed.motion {
+            // A half-sine of this velocity change: its largest value is that of hysteretic contacts as well.
+            let contact_s = self.contact_s()?;
+            for shock in self.shocks().iter().filter(|shock| (from_s..=until_s).contains(&shock.time_s)) {
+                if shock.change * FRAC_PI_2 / contact_s > most.0 {
+                    most = (shock.change * FRAC_PI_2 / contact_s, shock.time_s);
+                }
+            }
+            return Ok(most);
+        }
+        for section in self.sections.iter().filter(|s| s.from_s + s.length_s >= from_s && s.from_s <= until_s) {
+            let swing: f64 = section.waves.iter().map(|w| w.amplitude_m_s2.abs()).sum();
+            let line = section.acceleration_m_s2.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
+            if line + swing > most.0 {
+                let (value, t) = crest(section);
+                if value > most.0 {
+                    most = (value, section.from_s + t);
+                }
+            }
+        }
+        Ok(most)
+    }
+
+    /// Of every shock, what leaves more room of velocity change and acceleration; the shock that leaves least.
+    fn boundary(&self, limit: &Limit, above: f64) -> Result<Option<Answer>, Error> {
+        let mut worst: Option<Answer> = None;
+        for Shock { change, time_s, span_s } in self.shocks() {
+            if change / limit.allowed <= worst.map_or(above, |worst| worst.utilization()) {
+                continue;
+            }
+            let impact = self.followed.impact_at(time_s);
+            let error = self.error_of_shock(change);
+            let (unit, allowed) = (Unit::MeterPerSecond, limit.allowed);
+            let mut answer = Answer { value: change, allowed, unit, time_s, impact, error };
+            if self.followed.drop.contact_time_s.is_some() {
+                let (value, time_s) = self.largest_acceleration(span_s)?;
+                let (unit, allowed) = (Unit::MeterPerSecondSquared, limit.critical_acceleration_m_s2);
+                if value / allowed < answer.utilization() {
+                    answer = Answer { value, allowed, unit, time_s, impact: self.followed.impact_at(time_s), error };
+                }
+            }
+            if worst.is_none_or(|worst| answer.utilization() > worst.utilization()) {
+                worst = Some(answer);
+            }
+        }
+        Ok(worst.filter(|worst| worst.utilization() > above))
+    }
+}
+
+/// What strikes may do at a place after a motion was left, by the energy left.
+struct Later {
+    /// Of one strike, and of strikes that overlap.
+    shock_m_s: f64,
+    turned_m_s: f64,
+    turn_rad_s: f64,
+    /// All energy in the springs of both ends, or in that of one, at any tilt.
+    acceleration_m_s2: f64,
+}
+
+impl Later {
+    /// The velocity shock that does as much to a part: one that is fast beside a contact feels no more than a pulse twice as high.
+    fn shock_of(&self, part: &Suspension) -> f64 {
+        CHATTER * self.shock_m_s.min(2.0 * self.acceleration_m_s2 / part.omega())
+    }
+}
+
+/// Strikes of both ends in step do this many times what one does that has all the energy, at most: of the drops of random
+/// products without damping, one in a thousand passes it.
+const CHATTER: f64 = 1.5;
+
+impl Followed {
+    /// Share of the largest shock that lever arms kept through a phase may get wrong: four times the precision (clatter-flight).
+    fn kept_arms(&self) -> f64 {
+        match &self.motion {
+            Motion::Impacts(..) => 0.0,
+            Motion::Contacts(_) => 4.0 * self.precision,
+        }
+    }
+}
+
+/// The largest acceleration of a section without its sign, and when: the highest of close looks, and the parabola over it.
+fn crest(section: &Stretch) -> (f64, f64) {
+    let looks = 2 * looks(section, section.length_s);
+    let step = section.length_s / f64::from(looks);
+    let of = |k: u32| section.acceleration_at(f64::from(k) * step);
+    let highest = (0..=looks).max_by(|&j, &k| of(j).abs().total_cmp(&of(k).abs())).unwrap_or(0);
+    let (t, value) = (f64::from(highest) * step, of(highest));
+    if highest == 0 || highest == looks {
+        return (value.abs(), t);
+    }
+    let (before, after) = (of(highest - 1), of(highest + 1));
+    let (slope, bend) = (0.5 * (after - before), before - 2.0 * value + after);
+    if bend == 0.0 { (value.abs(), t) } else { ((value - 0.5 * slope * slope / bend).abs(), t - step * slope / bend) }
+}

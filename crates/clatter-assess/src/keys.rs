@@ -1,0 +1,200 @@
+//! The keys of a product file: one table that the reader, its messages and the schema share.
+
+use crate::units::{self, Dimension};
+
+/// One key of a table.
+#[derive(Debug)]
+pub(crate) struct Key {
+    pub(crate) name: &'static str,
+    pub(crate) kind: Kind,
+    pub(crate) required: bool,
+    /// What it is, for editors.
+    pub(crate) doc: &'static str,
+}
+
+/// What stands behind a key.
+#[derive(Debug)]
+pub(crate) enum Kind {
+    Text,
+    /// One of these words.
+    Choice(&'static [&'static str]),
+    /// A value within bounds, both included; the bounds are written as the value would be.
+    Quantity(&'static Dimension, [&'static str; 2]),
+    /// A value, a range or a distribution, within bounds.
+    Spread(&'static Dimension, [&'static str; 2]),
+    Table(&'static [Key]),
+    /// At least one table.
+    Tables(&'static [Key]),
+}
+
+const fn key(name: &'static str, required: bool, kind: Kind, doc: &'static str) -> Key {
+    Key { name, kind, required, doc }
+}
+
+use Kind::{Choice, Quantity, Spread, Table, Tables, Text};
+
+/// Bounds that several keys share.
+const PLACES: [&str; 2] = ["-100 m", "100 m"];
+const MASSES: [&str; 2] = ["1 mg", "1000 kg"];
+
+pub(crate) static FILE: &[Key] = &[
+    key("product", true, Table(PRODUCT), "What falls: a flat body, seen from the side as a bar with ends a and b."),
+    key("drop", true, Table(DROP), "How it falls."),
+    key("component", true, Tables(COMPONENT), "The fragile parts, one table [[component]] each."),
+];
+
+pub(crate) static PRODUCT: &[Key] = &[
+    key("name", true, Text, "Name of the product."),
+    key("length", true, Quantity(&units::LENGTH, ["1 mm", "100 m"]), "Length from end a to end b."),
+    key("mass", false, Quantity(&units::MASS, MASSES), "Mass; needed with moment_of_inertia only."),
+    key(
+        "radius_of_gyration",
+        false,
+        Quantity(&units::LENGTH, ["0.01 mm", "100 m"]),
+        "Radius of gyration about the center of mass (length/√12 = 0.289 length for evenly spread mass). One of three ways to \
+         give the inertia.",
+    ),
+    key(
+        "moment_of_inertia",
+        false,
+        Quantity(&units::MOMENT_OF_INERTIA, ["1e-12 kg m2", "1e7 kg m2"]),
+        "Moment of inertia about the center of mass; needs the mass. One of three ways to give the inertia.",
+    ),
+    key(
+        "masses",
+        false,
+        Tables(MASS),
+        "Point masses and slabs along the bar: their center of mass and radius of gyration are worked out. One of three ways to \
+         give the inertia.",
+    ),
+    key(
+        "center_of_mass",
+        false,
+        Quantity(&units::LENGTH, PLACES),
+        "Where the center of mass lies, from the middle towards end b; 0 mm unless given. Not with masses.",
+    ),
+    key(
+        "restitution",
+        true,
+        Spread(&units::NUMBER, ["0", "1"]),
+        "Coefficient of restitution of the ends: rebound over approach speed.",
+    ),
+    key(
+        "contact_time",
+        false,
+        Spread(&units::TIME, ["1 us", "100 ms"]),
+        "How long an end touches in one impact; needed where a part is hard-mounted or stiff.",
+    ),
+    key(
+        "contact_law",
+        false,
+        Choice(&["hysteretic", "dashpot"]),
+        "What the force of an impact does: hysteretic (unless given) has the peak of a half-sine; dashpot is for some rubber.",
+    ),
+];
+
+pub(crate) static MASS: &[Key] = &[
+    key("name", false, Text, "What it is."),
+    key("mass", true, Quantity(&units::MASS, MASSES), "Its mass."),
+    key("position", false, Quantity(&units::LENGTH, PLACES), "Of a point mass: where, from the middle towards end b."),
+    key("from", false, Quantity(&units::LENGTH, PLACES), "Of a slab: where it begins."),
+    key("to", false, Quantity(&units::LENGTH, PLACES), "Of a slab: where it ends."),
+];
+
+pub(crate) static DROP: &[Key] = &[
+    key(
+        "height",
+        false,
+        Spread(&units::LENGTH, ["0.1 mm", "1000 m"]),
+        "Height of the lower end before the drop. Either this or speed.",
+    ),
+    key(
+        "speed",
+        false,
+        Spread(&units::SPEED, ["1 mm/s", "100 m/s"]),
+        "Speed at the first touch. Either this or height.",
+    ),
+    key("tilt", true, Spread(&units::ANGLE, ["0 deg", "30 deg"]), "Angle to the ground at the first touch."),
+    key("first", false, Choice(&["a", "b", "either"]), "Which end touches first; either unless given."),
+    key(
+        "gravity",
+        false,
+        Quantity(&units::ACCELERATION, ["0 gn", "100 gn"]),
+        "Gravity during the clatter; 1 gn unless given, 0 gn switches it off.",
+    ),
+];
+
+pub(crate) static COMPONENT: &[Key] = &[
+    key("name", true, Text, "Name of the part."),
+    key(
+        "position",
+        true,
+        Spread(&units::LENGTH, PLACES),
+        "Where its middle is, from the middle of the product towards end b.",
+    ),
+    key(
+        "extent",
+        false,
+        Quantity(&units::LENGTH, ["0 mm", "100 m"]),
+        "How far it extends along the bar; 0 mm unless given.",
+    ),
+    key(
+        "mount",
+        false,
+        Choice(&["hard", "suspended"]),
+        "hard: mounted rigidly; suspended (unless given): with a natural frequency.",
+    ),
+    key(
+        "natural_frequency",
+        false,
+        Spread(&units::FREQUENCY, ["0.1 Hz", "1000 kHz"]),
+        "Natural frequency of a suspended part.",
+    ),
+    key(
+        "damping_ratio",
+        false,
+        Spread(&units::NUMBER, ["0", "100"]),
+        "Damping ratio of a suspended part. Either this or quality_factor.",
+    ),
+    key(
+        "quality_factor",
+        false,
+        Spread(&units::NUMBER, ["0.005", "1e9"]),
+        "Quality factor 1/(2 damping ratio). Either this or damping_ratio.",
+    ),
+    key(
+        "acceleration_limit",
+        false,
+        Spread(&units::ACCELERATION, ["1e-3 gn", "1e7 gn"]),
+        "Largest absolute acceleration of the part that does no damage.",
+    ),
+    key(
+        "rattle_space",
+        false,
+        Spread(&units::LENGTH, ["1e-3 um", "100 m"]),
+        "Free space around a suspended part: its largest displacement relative to the product.",
+    ),
+    key(
+        "velocity_change_limit",
+        false,
+        Spread(&units::SPEED, ["1e-3 mm/s", "1000 m/s"]),
+        "Largest single velocity shock of the product at the part.",
+    ),
+    key(
+        "angular_velocity_change_limit",
+        false,
+        Spread(&units::ANGULAR_VELOCITY, ["1e-3 rad/s", "1e6 rad/s"]),
+        "Largest single change of the angular velocity of the product.",
+    ),
+    key("damage_boundary", false, Table(BOUNDARY), "Shocks at the part do damage beyond both of these alone."),
+];
+
+pub(crate) static BOUNDARY: &[Key] = &[
+    key("velocity_change", true, Spread(&units::SPEED, ["1e-3 mm/s", "1000 m/s"]), "Critical velocity change."),
+    key("acceleration", true, Spread(&units::ACCELERATION, ["1e-3 gn", "1e7 gn"]), "Critical acceleration."),
+];
+
+/// The key of a table by its name.
+pub(crate) fn find(table: &'static [Key], name: &str) -> Option<&'static Key> {
+    table.iter().find(|key| key.name == name)
+}

@@ -1,0 +1,291 @@
+//! Which model a drop needs, measured: every model on the worst drop of each limit, its error and its cost.
+//!
+//! Six models from the least physics to the most ([`Model`]) answer the same drop. Each is held against the one with the most
+//! physics that the data allow, worked out more exactly; the cheapest within the tolerance is named, with the dimensionless
+//! group that makes the next cheaper one too coarse. Errors are the same from run to run; times are of the machine that
+//! [`Machine`] names.
+
+mod time;
+
+use std::f64::consts::TAU;
+
+use clatter::paper::DESIGNS;
+use clatter_flight::{Body, ContactLaw};
+use clatter_shock::{DampingRatio, STANDARD_GRAVITY_M_S2, Suspension};
+use serde::Serialize;
+
+pub use time::Machine;
+
+use crate::drop::{Followed, Model, SingleDrop};
+use crate::engine::{Part, answer};
+use crate::verdict::number;
+use crate::{Assessment, Error, Limit, LimitKind, ProductFile, Unit, WorstCase};
+
+/// The reference is worked out so much more exactly than the tolerance asks.
+const FINER: f64 = 0.1;
+
+/// All models on the worst drops of a product.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ProductLadder {
+    /// Name of the product.
+    pub product: String,
+    /// What a model may get wrong.
+    pub tolerance: f64,
+    /// Where the times were taken.
+    pub machine: Machine,
+    /// Part by part, limit by limit, in the order of the assessment.
+    pub limits: Vec<LimitLadder>,
+    /// Limits of which no drop was answered.
+    pub left_out: Vec<LeftOut>,
+}
+
+/// All models on the worst drop of one limit.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LimitLadder {
+    /// Name of the part.
+    pub component: String,
+    /// What is limited.
+    pub limit: LimitKind,
+    /// The drop.
+    pub worst_case: WorstCase,
+    /// The models on it.
+    #[serde(flatten)]
+    pub ladder: Ladder,
+}
+
+/// A limit without a ladder.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct LeftOut {
+    /// Name of the part.
+    pub component: String,
+    /// What is limited.
+    pub limit: LimitKind,
+    /// Why.
+    pub reason: String,
+}
+
+/// All models on one drop.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Ladder {
+    /// Unit of the values.
+    pub unit: Unit,
+    /// What the models are held against.
+    pub reference: Reference,
+    /// From the least physics to the most; those that say something of the limit.
+    pub models: Vec<Measured>,
+    /// The cheapest one within the tolerance.
+    pub cheapest: Model,
+    /// Which dimensionless group makes the next cheaper one too coarse, in a sentence.
+    pub reason: String,
+    /// The dimensionless groups of the drop and the part.
+    pub groups: Groups,
+}
+
+/// What the models are held against.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Reference {
+    /// The model with the most physics that the data allow.
+    pub model: Model,
+    /// Its answer.
+    pub value: f64,
+    /// The tolerance that it was worked out to.
+    pub tolerance: f64,
+}
+
+/// One model on the drop.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Measured {
+    /// Which one.
+    pub model: Model,
+    /// Its answer.
+    pub value: f64,
+    /// |value/reference − 1|.
+    #[serde(serialize_with = "number")]
+    pub error: f64,
+    /// Time of one run, the median of many.
+    pub seconds: f64,
+    /// Strikes followed; 0 in closed form.
+    pub strikes: usize,
+}
+
+/// The dimensionless groups that decide which physics count.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Groups {
+    /// G = g h₀/v₀²: gravity.
+    pub gravity: f64,
+    /// φ²: real tilt.
+    pub geometry: f64,
+    /// τ/Δt, contact time over the gap between the first two strikes: overlap; null without a contact time.
+    pub overlap: Option<f64>,
+    /// ωτ: whether a pulse is a velocity shock to the part; null without a contact time and for limits on the product itself.
+    pub pulse: Option<f64>,
+    /// ω t_N, t_N the time from the first to the last strike that counts: whether the clatter is one change of velocity to the part.
+    pub train: Option<f64>,
+    /// ζωΔt: whether the part has calmed down before the next strike.
+    pub damping: Option<f64>,
+}
+
+impl Ladder {
+    /// Runs and times every model on one drop.
+    ///
+    /// # Errors
+    /// As [`answer`] of the model with the most physics.
+    ///
+    /// # Examples
+    /// ```
+    /// use clatter_assess::ladder::{Ladder, bars};
+    /// let [(drop, part, limit), ..] = bars()?;
+    /// let ladder = Ladder::measure(&drop, &part, &limit, 0.01)?;
+    /// assert!(ladder.models.last().is_some_and(|fullest| fullest.error < 0.01));
+    /// # Ok::<(), clatter_assess::Error>(())
+    /// ```
+    pub fn measure(drop: &SingleDrop, part: &Part, limit: &Limit, tolerance: f64) -> Result<Self, Error> {
+        let fullest = drop.fullest();
+        let exact = answer(drop, part, limit, fullest, FINER * tolerance)?;
+        let says = |model: &Model| *model <= fullest && (*model != Model::NetChange || part.suspension.is_some());
+        let mut models = Vec::new();
+        for model in Model::ALL.into_iter().filter(says) {
+            // What a model refuses is left out: an endless train has no net change.
+            let Ok((found, seconds)) = time::measured(|| answer(drop, part, limit, model, tolerance)) else { continue };
+            let strikes =
+                if model < Model::Map { 0 } else { Followed::new(drop, model, tolerance)?.flight().strikes.len() };
+            let error = (found.utilization() / exact.utilization() - 1.0).abs();
+            models.push(Measured { model, value: found.value, error, seconds, strikes });
+        }
+        let groups = Groups::of(drop, part)?;
+        let within = models.iter().filter(|m| m.error <= tolerance);
+        let cheapest = within.min_by(|a, b| a.seconds.total_cmp(&b.seconds)).map_or(fullest, |m| m.model);
+        let reason = reason(&models, cheapest, tolerance, &groups);
+        let reference = Reference { model: fullest, value: exact.value, tolerance: FINER * tolerance };
+        Ok(Self { unit: exact.unit, reference, models, cheapest, reason, groups })
+    }
+}
+
+impl Groups {
+    fn of(drop: &SingleDrop, part: &Part) -> Result<Self, Error> {
+        let h0 = drop.body.length_m() * libm::sin(drop.tilt_rad);
+        let map = Followed::new(drop, Model::Map, 0.01)?;
+        let times: Vec<f64> = map.flight().strikes.iter().map(|s| s.time_s).collect();
+        let gap = times.get(1).copied().unwrap_or(f64::INFINITY);
+        let last = times.last().copied().unwrap_or(0.0);
+        let omega = part.suspension.map(|part| part.omega());
+        Ok(Self {
+            gravity: drop.gravity_m_s2 * h0 / drop.speed_m_s.powi(2),
+            geometry: drop.tilt_rad.powi(2),
+            overlap: drop.contact_time_s.map(|time| time / gap),
+            pulse: omega.zip(drop.contact_time_s).map(|(omega, time)| omega * time),
+            train: omega.map(|omega| omega * last),
+            damping: part.suspension.map(|part| part.damping().get() * part.omega() * gap),
+        })
+    }
+}
+
+/// What makes the next cheaper model too coarse: the physics that it lacks, as a number.
+fn reason(models: &[Measured], cheapest: Model, tolerance: f64, groups: &Groups) -> String {
+    let number = |x: Option<f64>| x.map_or("not known".to_owned(), |x| format!("{x:.2e}"));
+    let percent = |share: f64| format!("{:.2} %", 100.0 * share);
+    let coarser = models.iter().rfind(|m| m.model < cheapest && m.error > tolerance);
+    let Some(coarser) = coarser else {
+        return match cheapest {
+            Model::NetChange => format!("the clatter is short beside the period: ω t_N = {}", number(groups.train)),
+            Model::LargestShock => format!("one shock decides: ζωΔt = {}", number(groups.damping)),
+            model => format!("{} is the cheapest here", model.name()),
+        };
+    };
+    let lacks = match coarser.model {
+        Model::NetChange => format!("the part feels single strikes: ω t_N = {}", number(groups.train)),
+        Model::LargestShock => format!("shocks add up: ζωΔt = {}", number(groups.damping)),
+        Model::Map => format!("gravity counts: g h0/v0² = {:.2e}", groups.gravity),
+        Model::Ballistic => format!("real tilt counts: φ² = {:.2e}", groups.geometry),
+        Model::FiniteTilt | Model::Compliant if groups.overlap.is_some_and(|x| x > 1.0) => {
+            format!("contacts overlap: τ/Δt = {}", number(groups.overlap))
+        }
+        Model::FiniteTilt | Model::Compliant => format!("pulses are no velocity shocks: ωτ = {}", number(groups.pulse)),
+    };
+    format!("{}; {} is off by {}", lacks, coarser.model.name(), percent(coarser.error))
+}
+
+impl ProductFile {
+    /// Every model on the worst drop of each limit, as an assessment of this file found it.
+    ///
+    /// # Errors
+    /// As [`Ladder::measure`].
+    ///
+    /// # Examples
+    /// ```
+    /// use clatter_assess::{EXAMPLE, ProductFile};
+    /// let file = ProductFile::read(EXAMPLE, "example.toml")?;
+    /// let ladders = file.ladders(&file.assess()?, 0.01)?;
+    /// assert!(ladders.limits.iter().all(|limit| limit.ladder.models.len() > 3));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn ladders(&self, assessment: &Assessment, tolerance: f64) -> Result<ProductLadder, Error> {
+        let (mut limits, mut left_out) = (Vec::new(), Vec::new());
+        for (component, assessed) in self.components.iter().zip(&assessment.components) {
+            for (limit, found) in Limit::of(component).iter().zip(&assessed.limits) {
+                let (name, worst) = (component.name.clone(), &found.worst_case);
+                if found.demand <= 0.0 {
+                    let reason = found.undecided.clone().unwrap_or_else(|| "nothing is asked of it".to_owned());
+                    left_out.push(LeftOut { component: name, limit: limit.kind, reason });
+                    continue;
+                }
+                let (drop, part) = self.worst_drop(worst)?;
+                let ladder = Ladder::measure(&drop, &part, limit, tolerance)?;
+                let (limit, worst_case) = (limit.kind, worst.clone());
+                limits.push(LimitLadder { component: name, limit, worst_case, ladder });
+            }
+        }
+        let (product, machine) = (assessment.product.clone(), Machine::here());
+        Ok(ProductLadder { product, tolerance, machine, limits, left_out })
+    }
+
+    /// The drop and the part that a worst case names.
+    pub(crate) fn worst_drop(&self, worst: &WorstCase) -> Result<(SingleDrop, Part), Error> {
+        let drop = SingleDrop {
+            body: self.product.body,
+            first: worst.first,
+            tilt_rad: worst.tilt_deg.to_radians(),
+            speed_m_s: worst.speed_m_s,
+            restitution: worst.restitution,
+            gravity_m_s2: self.drop.gravity_m_s2,
+            contact_time_s: worst.contact_time_s,
+            contact_law: self.product.contact_law,
+        };
+        let part = worst.frequency_hz.zip(worst.damping_ratio);
+        let part = part.map(|(hz, ratio)| Suspension::from_hz(hz, DampingRatio::new(ratio)?)).transpose()?;
+        Ok((drop, Part { position_m: worst.position_m, suspension: part }))
+    }
+}
+
+/// A bar with this inertia ratio and restitution as a drop to compare others with: 140 mm long, 4.43 m/s (from 1 m),
+/// 5°, standard gravity, contacts of 0.2 ms; the acceleration of a board with a mode at 230 Hz, Q = 10, near the end that strikes
+/// second (s = 0.9).
+///
+/// # Errors
+/// [`Error::Bar`] unless q is in (−1, 1] and e in [0, 1].
+pub fn bar(q: f64, e: f64) -> Result<(SingleDrop, Part, Limit), Error> {
+    let part = Suspension::new(TAU * 230.0, DampingRatio::from_quality_factor(10.0)?)?;
+    // q = (L² − ρ²)/(L² + ρ²)
+    let gyration_m = 0.07 * ((1.0 - q) / (1.0 + q)).sqrt();
+    let drop = SingleDrop {
+        body: Body::new(0.14, gyration_m)?,
+        first: clatter::End::A,
+        tilt_rad: 5f64.to_radians(),
+        speed_m_s: 4.43,
+        restitution: e,
+        gravity_m_s2: STANDARD_GRAVITY_M_S2,
+        contact_time_s: Some(2e-4),
+        contact_law: ContactLaw::Hysteretic,
+    };
+    let place = Part { position_m: 0.9 * 0.07, suspension: Some(part) };
+    Ok((drop, place, Limit::new(LimitKind::Acceleration, 1.0)))
+}
+
+/// The four bars of the paper's Table 1 ([`DESIGNS`]) as drops, each a [`bar`].
+///
+/// # Errors
+/// None in practice: the numbers are valid.
+pub fn bars() -> Result<[(SingleDrop, Part, Limit); 4], Error> {
+    let [a, b, c, d] = DESIGNS.map(|[q, e]| bar(q, e));
+    Ok([a?, b?, c?, d?])
+}

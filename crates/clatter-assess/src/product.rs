@@ -1,0 +1,241 @@
+//! What the product file says: a product, its drop and its fragile parts. All SI.
+//!
+//! Positions run along the bar from its middle, towards end b positive.
+
+use clatter::End;
+use clatter_flight::{Body, ContactLaw};
+use clatter_shock::{DampingRatio, Suspension};
+
+use crate::{Error, LimitKind, Spread};
+
+/// A product, its drop and its parts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProductFile {
+    /// What falls.
+    pub product: Product,
+    /// How it falls.
+    pub drop: Drop,
+    /// What must survive; at least one.
+    pub components: Vec<Component>,
+}
+
+/// What falls.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Product {
+    /// As the file names it.
+    pub name: String,
+    /// Length, center of mass and radius of gyration.
+    pub body: Body,
+    /// Mass, where the file gives it: it cancels out of every answer.
+    pub mass_kg: Option<f64>,
+    /// Coefficient of restitution of its ends, within [0, 1].
+    pub restitution: Spread,
+    /// How long a lone contact of an end takes.
+    pub contact_time_s: Option<Spread>,
+    /// What the ground does to an end while it touches.
+    pub contact_law: ContactLaw,
+}
+
+/// How it falls.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drop {
+    /// From where, or how fast.
+    pub fall: Fall,
+    /// Angle to the ground at the first touch, within [0, π/6] rad.
+    pub tilt_rad: Spread,
+    /// Which end touches first.
+    pub first: First,
+    /// Gravity after the first touch; 0 switches it off.
+    pub gravity_m_s2: f64,
+}
+
+/// The drop's height or the speed that it gives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Fall {
+    /// Height of the lower end before the drop, in m; the speed at the first touch is √(2 g h).
+    HeightM(Spread),
+    /// Speed at the first touch, in m/s.
+    SpeedMS(Spread),
+}
+
+/// Which end touches the ground first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum First {
+    /// Always this one.
+    End(End),
+    /// Either end; the worse case counts.
+    Either,
+}
+
+/// A fragile part.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Component {
+    /// As the file names it.
+    pub name: String,
+    /// Where its middle is.
+    pub position_m: Spread,
+    /// How far it extends along the bar, both sides together; 0 for a point.
+    pub extent_m: f64,
+    /// How it is held.
+    pub mount: Mount,
+    /// What it stands.
+    pub limits: Limits,
+}
+
+/// How a part is held.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Mount {
+    /// Rigidly: it goes through what the bar goes through at its place.
+    Hard,
+    /// On a suspension, or with a natural frequency of its own.
+    Suspended {
+        /// Natural frequency, in Hz.
+        frequency_hz: Spread,
+        /// Its damping.
+        damping: Damping,
+    },
+}
+
+/// Damping of a suspension, as it was given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Damping {
+    /// Damping ratio.
+    Ratio(Spread),
+    /// Quality factor, 1/(2 damping ratio).
+    Quality(Spread),
+}
+
+impl Damping {
+    /// What was given, a ratio or a quality factor.
+    #[must_use]
+    pub fn spread(&self) -> &Spread {
+        match self {
+            Self::Ratio(spread) | Self::Quality(spread) => spread,
+        }
+    }
+    /// The damping ratio for a value of what was given.
+    ///
+    /// # Errors
+    /// [`Error::Shock`] for one out of range.
+    pub fn ratio(&self, given: f64) -> Result<DampingRatio, Error> {
+        Ok(match self {
+            Self::Ratio(_) => DampingRatio::new(given)?,
+            Self::Quality(_) => DampingRatio::from_quality_factor(given)?,
+        })
+    }
+    /// The range of damping ratios, from the least.
+    #[must_use]
+    pub fn ratios(&self) -> [f64; 2] {
+        match self {
+            Self::Ratio(spread) => [spread.lo(), spread.hi()],
+            Self::Quality(spread) => [0.5 / spread.hi(), 0.5 / spread.lo()],
+        }
+    }
+}
+
+/// What a part stands; at least one limit is set. Each is finite and positive. Where one has a range, its least value is held
+/// against the worst drop.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Limits {
+    /// Peak absolute acceleration of the part, in m/s².
+    pub acceleration_m_s2: Option<Spread>,
+    /// Peak displacement relative to the bar, in m.
+    pub rattle_space_m: Option<Spread>,
+    /// Largest single velocity shock of the bar at the part, in m/s.
+    pub velocity_change_m_s: Option<Spread>,
+    /// Largest single change of the bar's angular velocity, in rad/s.
+    pub angular_velocity_change_rad_s: Option<Spread>,
+    /// Critical velocity change and acceleration of shocks of the bar at the part.
+    pub damage_boundary: Option<Boundary>,
+}
+
+impl Limits {
+    /// Those that are set, in a fixed order.
+    #[must_use]
+    pub fn kinds(&self) -> Vec<LimitKind> {
+        let all = [
+            (LimitKind::Acceleration, self.acceleration_m_s2.is_some()),
+            (LimitKind::RattleSpace, self.rattle_space_m.is_some()),
+            (LimitKind::VelocityChange, self.velocity_change_m_s.is_some()),
+            (LimitKind::AngularVelocityChange, self.angular_velocity_change_rad_s.is_some()),
+            (LimitKind::DamageBoundary, self.damage_boundary.is_some()),
+        ];
+        all.into_iter().filter(|(_, set)| *set).map(|(kind, _)| kind).collect()
+    }
+}
+
+/// A damage boundary: a shock does damage only beyond both.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Boundary {
+    /// Critical velocity change, in m/s.
+    pub velocity_change_m_s: Spread,
+    /// Critical acceleration of the pulse, in m/s².
+    pub acceleration_m_s2: Spread,
+}
+
+impl Product {
+    /// Positions s in [−1, 1] of a place given in m from the middle.
+    #[must_use]
+    pub fn relative(&self, position_m: f64) -> f64 {
+        2.0 * position_m / self.body.length_m()
+    }
+    /// Inertia ratio (L² − ρ²)/(L² + ρ²) of the product; off center ±√(q_a q_b), that of the symmetric bar with the
+    /// same clatter.
+    #[must_use]
+    pub fn inertia_ratio(&self) -> f64 {
+        let [a, b] = self.body.inertia_ratios();
+        (a * b).sqrt().copysign(a)
+    }
+}
+
+impl Drop {
+    /// The range of speeds at the first touch, in m/s.
+    #[must_use]
+    pub fn speeds_m_s(&self) -> [f64; 2] {
+        match self.fall {
+            Fall::HeightM(h) => [h.lo(), h.hi()].map(|h| self.speed_from(h)),
+            Fall::SpeedMS(v) => [v.lo(), v.hi()],
+        }
+    }
+    /// √(2 g h).
+    #[must_use]
+    pub fn speed_from(&self, height_m: f64) -> f64 {
+        (2.0 * self.gravity_m_s2 * height_m).sqrt()
+    }
+    /// The ends that may touch first.
+    #[must_use]
+    pub fn first_ends(&self) -> &'static [End] {
+        match self.first {
+            First::End(End::A) => &[End::A],
+            First::End(End::B) => &[End::B],
+            First::Either => &[End::A, End::B],
+        }
+    }
+}
+
+impl Component {
+    /// Both ends of where the part may be along the bar; one where it is a point.
+    ///
+    /// The worst place is always one of them: for one drop the motion of the bar is linear in the position, so is the
+    /// response to it, and the largest absolute value of linear functions is convex, which has its maximum at an end of
+    /// the interval.
+    #[must_use]
+    pub fn ends_m(&self) -> Vec<f64> {
+        let half = 0.5 * self.extent_m;
+        let (lo, hi) = (self.position_m.lo() - half, self.position_m.hi() + half);
+        if lo < hi { vec![lo, hi] } else { vec![lo] }
+    }
+}
+
+impl Mount {
+    /// The suspension at a frequency and a damping ratio; none of a part that is mounted rigidly.
+    ///
+    /// # Errors
+    /// [`Error::Shock`] unless the frequency is finite and positive and the ratio in range.
+    pub fn suspension(&self, frequency_hz: f64, damping_ratio: f64) -> Result<Option<Suspension>, Error> {
+        match self {
+            Self::Hard => Ok(None),
+            Self::Suspended { .. } => Ok(Some(Suspension::from_hz(frequency_hz, DampingRatio::new(damping_ratio)?)?)),
+        }
+    }
+}

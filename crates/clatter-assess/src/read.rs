@@ -1,0 +1,678 @@
+//! From the text of a product file to the product, or to everything that is wrong with it.
+
+use std::ops::Range;
+
+use clatter::{End, Mass};
+use clatter_flight::{Body, ContactLaw};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::fault::{Fault, Faults};
+use crate::keys::{self, Key, Kind};
+use crate::units::Dimension;
+use crate::{Boundary, Component, Damping, Drop, Fall, First, Law, Limits, Mount, Product, ProductFile, Spread};
+
+/// A file of more bytes is refused unread.
+pub const LARGEST_FILE: usize = 1 << 20;
+/// Components at most.
+const MOST_COMPONENTS: usize = 1000;
+
+/// A value and where it stands.
+#[derive(Debug, Clone)]
+struct At<T> {
+    value: T,
+    span: Range<usize>,
+}
+
+impl ProductFile {
+    /// Reads the text of a product file; `origin` is its name in messages.
+    ///
+    /// # Errors
+    /// All that is wrong: syntax, unknown keys, wrong units, impossible values, keys that are missing or exclude each
+    /// other.
+    ///
+    /// # Examples
+    /// ```
+    /// use clatter_assess::{EXAMPLE, ProductFile};
+    /// assert!(ProductFile::read(EXAMPLE, "example.toml").is_ok());
+    /// let faults = ProductFile::read(&EXAMPLE.replace("length", "lenght"), "example.toml").unwrap_err();
+    /// assert!(faults.to_string().contains("did you mean `length`?"));
+    /// ```
+    pub fn read(text: &str, origin: &str) -> Result<Self, Faults> {
+        let mut reader = Reader::default();
+        if text.len() > LARGEST_FILE {
+            let message = format!("the file has {} bytes", text.len());
+            reader.fault(0..0, message, "", format!("at most {LARGEST_FILE}"));
+            return Err(Faults::new(origin, "", reader.faults));
+        }
+        let (root, errors) = DeTable::parse_recoverable(text);
+        for error in errors {
+            // Keys repeat where a header before them was not understood.
+            if !reader.faults.is_empty() && error.message() == "duplicate key" {
+                continue;
+            }
+            let span = error.span().unwrap_or(0..0);
+            reader.fault(span, format!("invalid TOML: {}", error.message()), "", "");
+        }
+        let syntax = !reader.faults.is_empty();
+        let section =
+            Section { keys: keys::FILE, table: root.get_ref(), span: root.span(), title: "the file".to_owned() };
+        let file = reader.file(&section);
+        if syntax {
+            // What the parser made up to go on is not to be told of.
+            reader.faults.retain(|fault| fault.message.starts_with("invalid TOML"));
+        }
+        match file {
+            Some(file) if reader.faults.is_empty() => Ok(file),
+            _ => Err(Faults::new(origin, text, reader.faults)),
+        }
+    }
+}
+
+/// A table of the file, and the keys it may have.
+struct Section<'a> {
+    keys: &'static [Key],
+    table: &'a DeTable<'a>,
+    span: Range<usize>,
+    /// How messages call it.
+    title: String,
+}
+
+#[derive(Debug, Default)]
+struct Reader {
+    faults: Vec<Fault>,
+}
+
+impl Reader {
+    fn fault(
+        &mut self,
+        span: Range<usize>,
+        message: impl Into<String>,
+        label: impl Into<String>,
+        help: impl Into<String>,
+    ) {
+        self.faults.push(Fault { span, message: message.into(), label: label.into(), help: help.into() });
+    }
+
+    /// Faults for keys that are unknown or missing.
+    fn check(&mut self, section: &Section<'_>) {
+        let mut meant = Vec::new();
+        for name in section.table.keys() {
+            if keys::find(section.keys, name.get_ref()).is_some() {
+                continue;
+            }
+            let names: Vec<_> = section.keys.iter().map(|key| key.name).collect();
+            let likely = names
+                .iter()
+                .map(|known| (strsim::jaro_winkler(known, &shortened(name.get_ref())), known))
+                .filter(|(likeness, _)| *likeness > 0.8)
+                .max_by(|a, b| a.0.total_cmp(&b.0));
+            let label = likely.map_or("unknown".to_owned(), |(_, known)| format!("did you mean `{known}`?"));
+            meant.extend(likely.map(|(_, known)| *known));
+            let message = format!("{} has no key `{}`", section.title, shown(name.get_ref()));
+            self.fault(name.span(), message, label, format!("its keys are {}", names.join(", ")));
+        }
+        for key in section.keys.iter().filter(|key| key.required) {
+            if !section.table.contains_key(key.name) && !meant.contains(&key.name) {
+                let message = format!("{} has no `{}`", section.title, key.name);
+                let how = match key.kind {
+                    Kind::Table(_) => format!("[{}]", key.name),
+                    Kind::Tables(_) => format!("[[{}]]", key.name),
+                    Kind::Text => format!("{} = \"…\"", key.name),
+                    Kind::Choice(words) => format!("{} = {:?}", key.name, words[0]),
+                    Kind::Quantity(d, _) | Kind::Spread(d, _) => format!("{} = {}", key.name, written(d)),
+                };
+                self.fault(section.span.clone(), message, "in this table", format!("add {how}: {}", key.doc));
+            }
+        }
+    }
+
+    /// The value behind a key, if it is there.
+    fn get<'a>(section: &Section<'a>, name: &str) -> Option<(&'static Key, &'a Spanned<DeValue<'a>>)> {
+        let key = keys::find(section.keys, name)?;
+        section.table.get(name).map(|value| (key, value))
+    }
+
+    fn text(&mut self, section: &Section<'_>, name: &str) -> Option<At<String>> {
+        let (_, value) = Self::get(section, name)?;
+        let Some(text) = value.get_ref().as_str() else {
+            self.wrong_type(value, name, "text in quotes");
+            return None;
+        };
+        Some(At { value: text.to_owned(), span: value.span() })
+    }
+
+    /// A word among those of the key.
+    fn choice(&mut self, section: &Section<'_>, name: &str) -> Option<At<&'static str>> {
+        let (Key { kind: Kind::Choice(words), .. }, value) = Self::get(section, name)? else { return None };
+        let found = value.get_ref().as_str().and_then(|text| words.iter().find(|word| **word == text));
+        if found.is_none() {
+            self.wrong_type(value, name, &format!("one of \"{}\"", words.join("\", \"")));
+        }
+        found.map(|word| At { value: *word, span: value.span() })
+    }
+
+    fn wrong_type(&mut self, value: &Spanned<DeValue<'_>>, name: &str, allowed: &str) {
+        let what = match value.get_ref() {
+            DeValue::String(text) => format!("{:?}", shown(text)),
+            other => format!("this {}", other.type_str()),
+        };
+        self.fault(value.span(), format!("`{name}` cannot be {what}"), format!("expected {allowed}"), "");
+    }
+
+    fn quantity(&mut self, section: &Section<'_>, name: &str) -> Option<At<f64>> {
+        let (Key { kind: Kind::Quantity(dimension, bounds), .. }, value) = Self::get(section, name)? else {
+            return None;
+        };
+        self.number(value, name, dimension, *bounds)
+    }
+
+    /// One number with its unit, within bounds.
+    fn number(
+        &mut self,
+        value: &Spanned<DeValue<'_>>,
+        name: &str,
+        dimension: &Dimension,
+        bounds: [&str; 2],
+    ) -> Option<At<f64>> {
+        let allowed = format!("from {} to {}", bounds[0], bounds[1]);
+        let plain = match value.get_ref() {
+            DeValue::Integer(i) if i.radix() == 10 => Some(i.as_str().replace('_', "")),
+            DeValue::Float(f) => Some(f.as_str().replace('_', "")),
+            _ => None,
+        };
+        let read = match (plain, value.get_ref()) {
+            (Some(digits), _) if dimension.units.is_empty() => dimension.read(&digits),
+            (Some(digits), _) => Err(format!("`{name}` = {} has no unit", shown(&digits))),
+            (None, DeValue::String(text)) if !dimension.units.is_empty() => dimension.read(text),
+            (None, _) => {
+                self.wrong_type(value, name, &format!("a {} such as {}", dimension.name, written(dimension)));
+                return None;
+            }
+        };
+        match read {
+            Err(message) => {
+                let label = format!("expected a {} such as {}", dimension.name, written(dimension));
+                let units =
+                    if dimension.units.is_empty() { String::new() } else { format!(", in {}", dimension.names()) };
+                self.fault(value.span(), message, label, format!("`{name}` is {allowed}{units}"));
+                None
+            }
+            Ok(number) => {
+                let [lo, hi] = bounds.map(|bound| dimension.read(bound).unwrap_or(f64::NAN));
+                if (lo..=hi).contains(&number) {
+                    return Some(At { value: number, span: value.span() });
+                }
+                let what = match value.get_ref() {
+                    DeValue::String(text) => format!("{:?}", shown(text)),
+                    DeValue::Float(text) => shown(text.as_str()),
+                    _ => number.to_string(),
+                };
+                self.fault(
+                    value.span(),
+                    format!("`{name}` = {what} is out of its range"),
+                    format!("allowed: {allowed}"),
+                    "",
+                );
+                None
+            }
+        }
+    }
+
+    /// A value, `[lo, hi]`, or a table with a distribution.
+    fn spread(&mut self, section: &Section<'_>, name: &str) -> Option<At<Spread>> {
+        let (Key { kind: Kind::Spread(dimension, bounds), .. }, value) = Self::get(section, name)? else { return None };
+        let span = value.span();
+        let spread = match value.get_ref() {
+            DeValue::Array(_) => {
+                let [lo, hi] = self.numbers::<2>(value, name, dimension, *bounds)?;
+                self.checked(Spread::new(lo, hi, Law::Range), name, value)?
+            }
+            DeValue::Table(table) => self.distribution(table, value, name, dimension, *bounds)?,
+            _ => {
+                let number = self.number(value, name, dimension, *bounds)?.value;
+                self.checked(Spread::value(number), name, value)?
+            }
+        };
+        Some(At { value: spread, span })
+    }
+
+    fn distribution(
+        &mut self,
+        table: &DeTable<'_>,
+        value: &Spanned<DeValue<'_>>,
+        name: &str,
+        dimension: &Dimension,
+        bounds: [&str; 2],
+    ) -> Option<Spread> {
+        const KINDS: [&str; 3] = ["uniform", "normal", "triangular"];
+        let one = written(dimension);
+        let ways = format!(
+            "{{ uniform = [lo, hi] }}, {{ triangular = [lo, most frequent, hi] }} or {{ normal = [mean, deviation], \
+             range = [lo, hi] }}, each such as {one}"
+        );
+        let given: Vec<_> = KINDS.iter().filter(|kind| table.contains_key(**kind)).collect();
+        let extra = table.keys().find(|key| {
+            let key = key.get_ref().as_ref();
+            !(KINDS.contains(&key) || key == "range" && given == [&"normal"])
+        });
+        if let Some(key) = extra {
+            let message = format!("`{name}` is no distribution: `{}` is no part of one", shown(key.get_ref()));
+            self.fault(key.span(), message, "unknown here", ways);
+            return None;
+        }
+        let [kind] = given[..] else {
+            let message = format!("`{name}` is not one distribution but {}", given.len());
+            self.fault(value.span(), message, "expected one of uniform, normal, triangular", ways);
+            return None;
+        };
+        let numbers = &table[*kind];
+        let spread = match *kind {
+            "uniform" => {
+                let [lo, hi] = self.numbers::<2>(numbers, name, dimension, bounds)?;
+                Spread::new(lo, hi, Law::Uniform)
+            }
+            "triangular" => {
+                let [lo, mode, hi] = self.numbers::<3>(numbers, name, dimension, bounds)?;
+                Spread::new(lo, hi, Law::Triangular { mode })
+            }
+            _ => {
+                let Some(range) = table.get("range") else {
+                    let message = format!("the normal distribution of `{name}` has no `range` to be cut to");
+                    self.fault(value.span(), message, "expected range = [lo, hi]", ways);
+                    return None;
+                };
+                let [mean, deviation] = self.numbers::<2>(numbers, name, dimension, bounds)?;
+                let [lo, hi] = self.numbers::<2>(range, name, dimension, bounds)?;
+                Spread::new(lo, hi, Law::Normal { mean, deviation })
+            }
+        };
+        self.checked(spread, name, value)
+    }
+
+    fn checked(
+        &mut self,
+        spread: Result<Spread, crate::Error>,
+        name: &str,
+        value: &Spanned<DeValue<'_>>,
+    ) -> Option<Spread> {
+        spread
+            .map_err(|error| {
+                let message = match error {
+                    crate::Error::Range { .. } => format!("the range of `{name}` begins above its end"),
+                    _ => format!("`{name}` is no distribution over its range"),
+                };
+                let help = "a range runs from its lower to its upper end, a deviation is positive, the most frequent value is \
+                            within the range";
+                self.fault(value.span(), message, "this range", help);
+            })
+            .ok()
+    }
+
+    /// An array of so many numbers.
+    fn numbers<const N: usize>(
+        &mut self,
+        value: &Spanned<DeValue<'_>>,
+        name: &str,
+        dimension: &Dimension,
+        bounds: [&str; 2],
+    ) -> Option<[f64; N]> {
+        let items = value.get_ref().as_array().filter(|items| items.len() == N);
+        let Some(items) = items else {
+            self.wrong_type(value, name, &format!("a list of {N}, each such as {}", written(dimension)));
+            return None;
+        };
+        let read: Vec<_> =
+            items.iter().filter_map(|item| self.number(item, name, dimension, bounds)).map(|n| n.value).collect();
+        read.try_into().ok()
+    }
+
+    fn table<'a>(&mut self, section: &Section<'a>, name: &str) -> Option<Section<'a>> {
+        let (Key { kind: Kind::Table(keys), .. }, value) = Self::get(section, name)? else { return None };
+        let DeValue::Table(table) = value.get_ref() else {
+            self.wrong_type(value, name, &format!("a table [{name}]"));
+            return None;
+        };
+        let section = Section { keys, table, span: value.span(), title: format!("[{name}]") };
+        self.check(&section);
+        Some(section)
+    }
+
+    fn tables<'a>(&mut self, section: &Section<'a>, name: &str) -> Vec<Section<'a>> {
+        let Some((Key { kind: Kind::Tables(keys), .. }, value)) = Self::get(section, name) else { return Vec::new() };
+        let DeValue::Array(items) = value.get_ref() else {
+            self.wrong_type(value, name, &format!("one table [[{name}]] each"));
+            return Vec::new();
+        };
+        if items.is_empty() || items.len() > MOST_COMPONENTS {
+            let message = format!("`{name}` has {} entries", items.len());
+            self.fault(value.span(), message, format!("expected 1 to {MOST_COMPONENTS}"), "");
+            return Vec::new();
+        }
+        let mut sections = Vec::with_capacity(items.len());
+        for (i, item) in items.iter().enumerate() {
+            let DeValue::Table(table) = item.get_ref() else {
+                self.wrong_type(item, name, &format!("a table [[{name}]]"));
+                continue;
+            };
+            let title = format!("[[{name}]] {}", i + 1);
+            let section = Section { keys, table, span: item.span(), title };
+            self.check(&section);
+            sections.push(section);
+        }
+        sections
+    }
+
+    /// One of two keys that exclude each other; a fault where both or, if `needed`, none are given.
+    fn exactly_one(&mut self, section: &Section<'_>, names: &[&str], needed: bool) {
+        let given: Vec<_> = names.iter().filter_map(|name| section.table.get_key_value(*name)).collect();
+        let choice = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+        if given.is_empty() && needed {
+            let message = format!("{} has none of {choice}", section.title);
+            self.fault(section.span.clone(), message, "in this table", "give one of them");
+        }
+        for (key, _) in given.iter().skip(1) {
+            let message = format!("{} has more than one of {choice}", section.title);
+            self.fault(key.span(), message, format!("beside `{}`", given[0].0.get_ref()), "give one of them");
+        }
+    }
+
+    fn file(&mut self, root: &Section<'_>) -> Option<ProductFile> {
+        self.check(root);
+        let product = self.table(root, "product");
+        let product = product.and_then(|section| self.product(&section));
+        let drop = self.table(root, "drop");
+        let drop = drop.and_then(|section| self.drop(&section));
+        let mut components = Vec::new();
+        for section in self.tables(root, "component") {
+            components.extend(self.component(&section, product.as_ref()));
+        }
+        Some(ProductFile { product: product?, drop: drop?, components })
+    }
+
+    fn product(&mut self, section: &Section<'_>) -> Option<Product> {
+        let name = self.name(section);
+        let length = self.quantity(section, "length");
+        let mass = self.quantity(section, "mass");
+        let restitution = self.spread(section, "restitution");
+        let contact_time = self.spread(section, "contact_time");
+        let contact_law = self.choice(section, "contact_law");
+        let gyration = self.quantity(section, "radius_of_gyration");
+        let moment = self.quantity(section, "moment_of_inertia");
+        let center = self.quantity(section, "center_of_mass");
+        let masses = self.masses(section);
+        self.exactly_one(section, &["radius_of_gyration", "moment_of_inertia", "masses"], true);
+        self.exactly_one(section, &["masses", "center_of_mass"], false);
+        self.exactly_one(section, &["masses", "mass"], false);
+        let (center_m, gyration) = if let Some(moment) = &moment {
+            let Some(mass) = &mass else {
+                if !section.table.contains_key("mass") {
+                    self.fault(moment.span.clone(), "`moment_of_inertia` needs the `mass`", "", "add mass = \"190 g\"");
+                }
+                return None;
+            };
+            (center.clone(), At { value: (moment.value / mass.value).sqrt(), span: moment.span.clone() })
+        } else if let Some(masses) = &masses {
+            let (center_m, gyration_m) = center_and_gyration(&masses.value);
+            let at = |value| At { value, span: masses.span.clone() };
+            (Some(at(center_m)), at(gyration_m))
+        } else {
+            (center.clone(), gyration?)
+        };
+        let length_m = length?.value;
+        let total = masses.map(|m| m.value.iter().map(mass_of).sum());
+        let body = self.body(length_m, center_m, &gyration)?;
+        Some(Product {
+            name: name?,
+            body,
+            mass_kg: mass.map(|m| m.value).or(total),
+            restitution: restitution?.value,
+            contact_time_s: contact_time.map(|t| t.value),
+            contact_law: match contact_law.map(|law| law.value) {
+                Some("dashpot") => ContactLaw::Dashpot,
+                _ => ContactLaw::Hysteretic,
+            },
+        })
+    }
+
+    /// The body, with what it asks of center of mass and radius of gyration told in the file's terms.
+    fn body(&mut self, length_m: f64, center: Option<At<f64>>, gyration: &At<f64>) -> Option<Body> {
+        let center_m = center.as_ref().map_or(0.0, |c| c.value);
+        let half = 0.5 * length_m;
+        if center_m.abs() > 0.45 * length_m {
+            let span = center.map_or(0..0, |c| c.span);
+            let message = format!(
+                "the center of mass is {} mm from the middle of a product of {} mm",
+                mm(center_m),
+                mm(length_m)
+            );
+            self.fault(span, message, "this place", "allowed: within 0.45 of the length from the middle");
+            return None;
+        }
+        // Less mass at the ends than this no product has; more beyond them neither.
+        let ratio = gyration.value / length_m;
+        if !(0.05..=2.0).contains(&ratio) {
+            let message =
+                format!("the radius of gyration is {} mm in a product of {} mm", mm(gyration.value), mm(length_m));
+            self.fault(gyration.span.clone(), message, "from this", "allowed: from 0.05 to 2 times the length");
+            return None;
+        }
+        let body = if center_m == 0.0 {
+            Body::new(length_m, gyration.value)
+        } else {
+            Body::off_center(half + center_m, half - center_m, gyration.value)
+        };
+        body.map_err(|error| self.fault(gyration.span.clone(), error.to_string(), "from this", "")).ok()
+    }
+
+    fn name(&mut self, section: &Section<'_>) -> Option<String> {
+        let name = self.text(section, "name")?;
+        if name.value.trim().is_empty() {
+            self.fault(name.span, "`name` is empty", "expected a name", "");
+            return None;
+        }
+        Some(name.value)
+    }
+
+    fn masses(&mut self, section: &Section<'_>) -> Option<At<Vec<Mass>>> {
+        let span = section.table.get("masses")?.span();
+        let sections = self.tables(section, "masses");
+        let mut masses = Vec::with_capacity(sections.len());
+        let count = sections.len();
+        for piece in sections {
+            masses.extend(self.mass(&piece));
+        }
+        (count > 0 && masses.len() == count).then_some(At { value: masses, span })
+    }
+
+    fn mass(&mut self, section: &Section<'_>) -> Option<Mass> {
+        self.text(section, "name");
+        let mass = self.quantity(section, "mass");
+        let position = self.quantity(section, "position");
+        let [from, to] = ["from", "to"].map(|name| self.quantity(section, name));
+        let has = |name| section.table.contains_key(name);
+        let help = "a point mass has a `position`, a slab has `from` and `to`";
+        if has("position") == (has("from") || has("to")) || has("from") != has("to") {
+            let message = format!("{} is neither a point mass nor a slab", section.title);
+            self.fault(section.span.clone(), message, "this one", help);
+            return None;
+        }
+        let mass_kg = mass?.value;
+        if let Some(position) = position {
+            return Some(Mass::Point { mass_kg, position_m: position.value });
+        }
+        let (from, to) = (from?, to?);
+        if from.value > to.value {
+            self.fault(to.span, format!("{} ends before it begins", section.title), "`to` is below `from`", help);
+            return None;
+        }
+        Some(Mass::Slab { mass_kg, from_m: from.value, to_m: to.value })
+    }
+
+    fn drop(&mut self, section: &Section<'_>) -> Option<Drop> {
+        let height = self.spread(section, "height");
+        let speed = self.spread(section, "speed");
+        let tilt = self.spread(section, "tilt");
+        let first = self.choice(section, "first");
+        let gravity = self.quantity(section, "gravity");
+        self.exactly_one(section, &["height", "speed"], true);
+        let gravity_m_s2 = gravity.as_ref().map_or(clatter_shock::STANDARD_GRAVITY_M_S2, |g| g.value);
+        if let (Some(height), true) = (&height, gravity_m_s2 == 0.0) {
+            let message = "without gravity nothing falls from a `height`";
+            self.fault(height.span.clone(), message, "this height", "give the `speed` at the first touch instead");
+        }
+        let first = match first.map(|f| f.value) {
+            Some("a") => First::End(End::A),
+            Some("b") => First::End(End::B),
+            _ => First::Either,
+        };
+        let fall = match (height, speed) {
+            (Some(height), _) => Fall::HeightM(height.value),
+            (None, speed) => Fall::SpeedMS(speed?.value),
+        };
+        Some(Drop { fall, tilt_rad: tilt?.value, first, gravity_m_s2 })
+    }
+
+    fn component(&mut self, section: &Section<'_>, product: Option<&Product>) -> Option<Component> {
+        let name = self.name(section);
+        let position = self.spread(section, "position");
+        let extent = self.quantity(section, "extent");
+        let mount = self.mount(section);
+        let limits = self.limits(section);
+        let (position, extent_m) = (position?, extent.map_or(0.0, |e| e.value));
+        if let Some(product) = product {
+            let (half, reach) = (
+                0.5 * product.body.length_m(),
+                position.value.lo().abs().max(position.value.hi().abs()) + 0.5 * extent_m,
+            );
+            if reach > half * (1.0 + 1e-9) {
+                let message = format!("the component reaches {} mm from the middle", mm(reach));
+                let help = format!(
+                    "allowed: up to {} mm, half of the product's length; extent counts on both sides",
+                    mm(half)
+                );
+                self.fault(position.span, message, "this position", help);
+                return None;
+            }
+        }
+        let component = Component { name: name?, position_m: position.value, extent_m, mount: mount?, limits };
+        let stiff = product.and_then(|product| crate::quantity::lacks_contact_time(product, &component));
+        if let Some(reason) = stiff {
+            let message = format!("{} needs the contact time of the product", section.title);
+            let span =
+                section.table.get_key_value("mount").or_else(|| section.table.get_key_value("natural_frequency"));
+            let span = span.map_or(section.span.clone(), |(key, value)| key.span().start..value.span().end);
+            self.fault(span, message, reason, "add contact_time = \"0.4 ms\" or whatever was measured to [product]");
+        }
+        Some(component)
+    }
+
+    fn mount(&mut self, section: &Section<'_>) -> Option<Mount> {
+        let mount = self.choice(section, "mount");
+        let frequency = self.spread(section, "natural_frequency");
+        let damping = self.spread(section, "damping_ratio");
+        let quality = self.spread(section, "quality_factor");
+        if section.table.contains_key("mount") && mount.is_none() {
+            return None;
+        }
+        if mount.is_some_and(|mount| mount.value == "hard") {
+            for name in ["natural_frequency", "damping_ratio", "quality_factor", "rattle_space"] {
+                if let Some((key, _)) = section.table.get_key_value(name) {
+                    let message = format!("a hard-mounted part has no `{name}`");
+                    self.fault(key.span(), message, "beside mount = \"hard\"", "leave one of both out");
+                }
+            }
+            return Some(Mount::Hard);
+        }
+        if !section.table.contains_key("natural_frequency") {
+            let message = format!("{} has no `natural_frequency`", section.title);
+            let help = "add natural_frequency = \"180 Hz\", or mount = \"hard\" for a part mounted rigidly";
+            self.fault(section.span.clone(), message, "in this table", help);
+            return None;
+        }
+        self.exactly_one(section, &["damping_ratio", "quality_factor"], true);
+        let damping = match (damping, quality) {
+            (Some(zeta), _) => Damping::Ratio(zeta.value),
+            (None, Some(q)) => Damping::Quality(q.value),
+            (None, None) => return None,
+        };
+        Some(Mount::Suspended { frequency_hz: frequency?.value, damping })
+    }
+
+    fn limits(&mut self, section: &Section<'_>) -> Limits {
+        const NAMES: [&str; 5] = [
+            "acceleration_limit",
+            "rattle_space",
+            "velocity_change_limit",
+            "angular_velocity_change_limit",
+            "damage_boundary",
+        ];
+        if NAMES.iter().all(|name| !section.table.contains_key(*name)) {
+            let message = format!("{} has no limit", section.title);
+            self.fault(
+                section.span.clone(),
+                message,
+                "in this table",
+                format!("give at least one of {}", NAMES.join(", ")),
+            );
+        }
+        let mut value = |name| self.spread(section, name).map(|q| q.value);
+        let [acceleration_m_s2, rattle_space_m, velocity_change_m_s, angular_velocity_change_rad_s] =
+            [NAMES[0], NAMES[1], NAMES[2], NAMES[3]].map(&mut value);
+        let boundary = self.table(section, NAMES[4]).and_then(|section| {
+            let velocity = self.spread(&section, "velocity_change");
+            let acceleration = self.spread(&section, "acceleration");
+            Some(Boundary { velocity_change_m_s: velocity?.value, acceleration_m_s2: acceleration?.value })
+        });
+        Limits {
+            acceleration_m_s2,
+            rattle_space_m,
+            velocity_change_m_s,
+            angular_velocity_change_rad_s,
+            damage_boundary: boundary,
+        }
+    }
+}
+
+/// How a quantity is written in the file.
+fn written(dimension: &Dimension) -> String {
+    if dimension.units.is_empty() { dimension.example.to_owned() } else { format!("{:?}", dimension.example) }
+}
+
+/// The beginning of a text that may be of any length.
+fn shown(text: &str) -> String {
+    let short = shortened(text);
+    if short.len() < text.len() { format!("{short}…") } else { short }
+}
+
+fn shortened(text: &str) -> String {
+    text.chars().take(40).collect()
+}
+
+fn mm(length_m: f64) -> f64 {
+    (1e6 * length_m).round() / 1e3
+}
+
+fn mass_of(piece: &Mass) -> f64 {
+    match *piece {
+        Mass::Point { mass_kg, .. } | Mass::Slab { mass_kg, .. } => mass_kg,
+    }
+}
+
+/// Center of mass from the middle, and radius of gyration about it.
+///
+/// A slab is a point mass at its middle plus its own moment m w²/12. A center of mass within roundings of the middle is
+/// the middle.
+fn center_and_gyration(masses: &[Mass]) -> (f64, f64) {
+    let places = masses.iter().map(|piece| match *piece {
+        Mass::Point { mass_kg, position_m } => (mass_kg, position_m, 0.0),
+        Mass::Slab { mass_kg, from_m, to_m } => (mass_kg, 0.5 * (from_m + to_m), to_m - from_m),
+    });
+    let total: f64 = masses.iter().map(mass_of).sum();
+    let (first, reach) =
+        places.clone().fold((0.0, 0.0), |(first, reach), (m, x, w)| (first + m * x, reach + m * (x.abs() + w)));
+    #[expect(clippy::cast_precision_loss, reason = "a count of roundings")]
+    let center = if first.abs() <= 8.0 * f64::EPSILON * masses.len() as f64 * reach { 0.0 } else { first / total };
+    let second: f64 = places.map(|(m, x, w)| m * ((x - center) * (x - center) + w * w / 12.0)).sum();
+    (center, (second / total).sqrt())
+}

@@ -1,0 +1,127 @@
+//! A sample by the model with the most physics that the data allow.
+
+use super::Asked;
+use super::sample::{PartSample, Sample};
+use crate::drop::{Followed, Until};
+use crate::engine::Felt;
+use crate::{Error, Limit, LimitKind, SingleDrop};
+
+/// How exactly a sample is answered. A coarser answer costs no less: more samples are left open and followed once more.
+const TOLERANCE: f64 = 0.005;
+/// How exactly one is answered whose error leaves open whether a limit holds.
+const FINER: f64 = 0.0005;
+/// How exactly a drop is answered of which only the largest of many counts.
+const COARSE: f64 = 0.02;
+
+/// One drop, followed as far as its parts ask for it.
+///
+/// First until its energy allows no shock as large as the largest, then on where what comes later could still pass what a part was
+/// asked. Where the error told leaves open whether a limit holds, it is followed once more, finer.
+#[derive(Debug)]
+pub(super) struct Followings<'a> {
+    drop: &'a SingleDrop,
+    early: Following,
+    whole: Following,
+    fine: Following,
+}
+
+/// A drop that is followed when a part first asks for it.
+type Following = Option<Result<Followed, Error>>;
+
+impl<'a> Followings<'a> {
+    pub(super) fn of(drop: &'a SingleDrop) -> Self {
+        Self { drop, early: None, whole: None, fine: None }
+    }
+
+    /// What the drop asks of a part; why, where it is not answered.
+    pub(super) fn answer(&mut self, part: &PartSample) -> Result<Asked, Error> {
+        let asked = self.passing(part, TOLERANCE, LEAST)?;
+        if asked.is_open() {
+            let fine = self.fine.get_or_insert_with(|| Followed::new(self.drop, self.drop.fullest(), FINER));
+            let finer = fine.as_ref().map_err(Clone::clone).and_then(|fine| of_part(fine, part, LEAST));
+            // A motion that is too long to be followed finer stays open.
+            return Ok(finer.map_or(asked, |(finer, _)| finer));
+        }
+        Ok(asked)
+    }
+
+    /// The larger of a utilization and what the drop asks of a part.
+    pub(super) fn larger(&mut self, part: &PartSample, utilization: f64) -> Result<f64, Error> {
+        Ok(self.passing(part, COARSE, utilization)?.utilization.max(utilization))
+    }
+
+    /// What the drop asks of a part where that passes a utilization.
+    fn passing(&mut self, part: &PartSample, tolerance: f64, above: f64) -> Result<Asked, Error> {
+        let (drop, model) = (self.drop, self.drop.fullest());
+        let followed = |following: &mut Following, follow: &dyn Fn() -> Result<Followed, Error>| {
+            let followed = following.get_or_insert_with(follow);
+            followed.as_ref().map_err(Clone::clone).and_then(|followed| of_part(followed, part, above))
+        };
+        let (asked, goes_on) = followed(&mut self.early, &|| Followed::until(drop, model, tolerance, Until::Lands))?;
+        if !goes_on {
+            return Ok(asked);
+        }
+        match followed(&mut self.whole, &|| Followed::new(drop, model, tolerance)) {
+            Ok((asked, _)) => Ok(asked),
+            // However it goes on, it has failed.
+            Err(_) if asked.within[0] > 1.0 => Ok(asked),
+            Err(error) => Err(error),
+        }
+    }
+}
+
+/// What a sample asks of every part; why, of those that it does not answer.
+pub(super) fn answer(sample: &Sample, asked: &mut Vec<Result<Asked, Error>>) {
+    let mut followings = Followings::of(&sample.drop);
+    asked.clear();
+    asked.extend(sample.parts.iter().map(|part| followings.answer(part)));
+}
+
+/// Below every utilization: what a drop asks passes it, 0 too, unless it is no number.
+pub(super) const LEAST: f64 = -1.0;
+
+/// What a followed drop asks of a part where that passes a utilization, and whether what comes later may ask more.
+fn of_part(followed: &Followed, part: &PartSample, above: f64) -> Result<(Asked, bool), Error> {
+    let mut asked = Asked::default();
+    let mut goes_on = false;
+    let felt: Vec<Felt<'_>> = part.places().iter().map(|x| Felt::new(followed, *x)).collect::<Result<_, Error>>()?;
+    let each = || felt.iter().flat_map(|felt| part.limits.iter().enumerate().map(move |(k, limit)| (k, felt, limit)));
+    for (k, felt, limit) in each() {
+        if above >= 0.0 && !may_pass(felt, limit, &followed.drop, above)? {
+            continue;
+        }
+        match felt.answer(limit, part.suspension.as_ref(), above)? {
+            Some(answer) if answer.error >= 0.0 => asked.raise(k, answer.utilization(), answer.error),
+            None if above >= 0.0 => {}
+            // It may have been left before the part began to move.
+            _ if followed.is_early() => goes_on = true,
+            _ => return Err(Error::Unfinished),
+        }
+    }
+    let most = asked.utilization.max(above);
+    goes_on |= each().any(|(_, felt, limit)| may_pass_later(felt, limit, part, &followed.drop, most));
+    Ok((asked, goes_on))
+}
+
+/// The acceleration that a damage boundary asks for besides its velocity change, as a limit of its own; without a contact time no
+/// acceleration is known, and the velocity change alone counts.
+fn critical_acceleration(limit: &Limit, drop: &SingleDrop) -> Option<Limit> {
+    let of_boundary = limit.kind == LimitKind::DamageBoundary && drop.contact_time_s.is_some();
+    of_boundary.then(|| Limit::new(LimitKind::Acceleration, limit.critical_acceleration_m_s2))
+}
+
+/// Whether a limit may pass a utilization. A damage boundary does not unless the largest velocity change and the largest acceleration
+/// of all shocks both do, which is found sooner than shock by shock.
+fn may_pass(felt: &Felt<'_>, limit: &Limit, drop: &SingleDrop, above: f64) -> Result<bool, Error> {
+    let Some(acceleration) = critical_acceleration(limit, drop) else { return Ok(true) };
+    let change = Limit::new(LimitKind::VelocityChange, limit.allowed);
+    Ok(felt.answer(&change, None, above)?.is_some() && felt.answer(&acceleration, None, above)?.is_some())
+}
+
+/// Whether what comes later may pass a utilization; a damage boundary only by both of its quantities.
+fn may_pass_later(felt: &Felt<'_>, limit: &Limit, part: &PartSample, drop: &SingleDrop, above: f64) -> bool {
+    let parts = part.suspension.as_slice();
+    let acceleration = critical_acceleration(limit, drop);
+    let may_pass = |limit: &Limit, parts| felt.later_most(limit, parts, above) > above;
+    may_pass(limit, parts) && acceleration.is_none_or(|limit| may_pass(&limit, &[]))
+}

@@ -1,0 +1,365 @@
+//! What varies from sample to sample, and one sample.
+
+use clatter::End;
+use clatter_shock::Suspension;
+
+use super::draw::Quantile;
+use super::philox::Stream;
+use super::{Column, Error};
+use crate::quantity::lacks_contact_time;
+use crate::{Component, Damping, Fall, First, Law, Limit, LimitKind, Mount, ProductFile, SingleDrop, Spread};
+
+/// What varies from sample to sample; parts by their index in the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Input {
+    /// Which end touches first: either is as likely.
+    First,
+    /// Height of the drop.
+    Height,
+    /// Speed at the first touch.
+    Speed,
+    /// Tilt at the first touch.
+    Tilt,
+    /// Coefficient of restitution.
+    Restitution,
+    /// How long a lone contact takes.
+    ContactTime,
+    /// Natural frequency of a part.
+    Frequency(usize),
+    /// Damping ratio or quality factor of a part, whichever the file gives.
+    Damping(usize),
+    /// Where a part is.
+    Position(usize),
+    /// What a part stands; of a damage boundary the critical velocity change.
+    Limit(usize, LimitKind),
+    /// The critical acceleration of the damage boundary of a part.
+    CriticalAcceleration(usize),
+}
+
+impl Input {
+    /// `first`, `height`, `speed`, `tilt`, `restitution`, `contact-time`, `natural-frequency`, `damping`, `position`, `limit` or
+    /// `critical-acceleration`.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::First => "first",
+            Self::Height => "height",
+            Self::Speed => "speed",
+            Self::Tilt => "tilt",
+            Self::Restitution => "restitution",
+            Self::ContactTime => "contact-time",
+            Self::Frequency(_) => "natural-frequency",
+            Self::Damping(_) => "damping",
+            Self::Position(_) => "position",
+            Self::Limit(..) => "limit",
+            Self::CriticalAcceleration(_) => "critical-acceleration",
+        }
+    }
+    /// The part that it belongs to, by its index in the file; none of what all parts share.
+    #[must_use]
+    pub fn component(&self) -> Option<usize> {
+        match self {
+            Self::Frequency(i)
+            | Self::Damping(i)
+            | Self::Position(i)
+            | Self::Limit(i, _)
+            | Self::CriticalAcceleration(i) => Some(*i),
+            _ => None,
+        }
+    }
+    /// Which of the uniform numbers of a sample it is drawn from, whatever else is drawn.
+    fn number(self) -> u32 {
+        const SHARED: u32 = 5;
+        const OWN: u32 = 9;
+        let own = match self {
+            Self::First => return 0,
+            Self::Height | Self::Speed => return 1,
+            Self::Tilt => return 2,
+            Self::Restitution => return 3,
+            Self::ContactTime => return 4,
+            Self::Frequency(_) => 0,
+            Self::Damping(_) => 1,
+            Self::Position(_) => 2,
+            Self::Limit(_, LimitKind::Acceleration) => 3,
+            Self::Limit(_, LimitKind::RattleSpace) => 4,
+            Self::Limit(_, LimitKind::VelocityChange) => 5,
+            Self::Limit(_, LimitKind::AngularVelocityChange) => 6,
+            Self::Limit(_, LimitKind::DamageBoundary) => 7,
+            Self::CriticalAcceleration(_) => 8,
+        };
+        #[expect(clippy::cast_possible_truncation, reason = "a file has at most 1000 parts")]
+        let component = self.component().unwrap_or_default() as u32;
+        SHARED + OWN * component + own
+    }
+}
+
+/// A quantity, and the input that it varies with.
+#[derive(Debug, Clone, Copy)]
+struct Drawn {
+    quantile: Quantile,
+    input: Option<usize>,
+}
+
+impl Drawn {
+    fn at(&self, uniforms: &[f64]) -> f64 {
+        self.quantile.at(self.input.map_or(0.0, |input| uniforms[input]))
+    }
+}
+
+/// Everything that a sample is drawn from.
+#[derive(Debug)]
+pub(super) struct Inputs {
+    /// Those that vary.
+    pub(super) varied: Vec<Input>,
+    /// Those of them that are given as a range without a distribution.
+    pub(super) assumed_even: Vec<Input>,
+    /// Of each part, which of those that vary act on it.
+    pub(super) of_part: Vec<Vec<usize>>,
+    /// What is the same in all drops.
+    drop: SingleDrop,
+    firsts: &'static [End],
+    fall: Drawn,
+    is_height: bool,
+    tilt: Drawn,
+    restitution: Drawn,
+    contact_time: Option<Drawn>,
+    parts: Vec<PartInputs>,
+}
+
+#[derive(Debug)]
+struct PartInputs {
+    position: Drawn,
+    extent_m: f64,
+    mount: Option<(Drawn, Drawn, Damping)>,
+    limits: Vec<(LimitKind, Drawn, Option<Drawn>)>,
+}
+
+/// A drop and the parts in it.
+#[derive(Debug)]
+pub(super) struct Sample {
+    /// Of each input that varies, the uniform number that it comes from.
+    pub(super) uniforms: Vec<f64>,
+    pub(super) drop: SingleDrop,
+    pub(super) parts: Vec<PartSample>,
+}
+
+/// A part in a sample.
+#[derive(Debug, Clone)]
+pub(super) struct PartSample {
+    pub(super) position_m: f64,
+    /// Both ends of the part along the product, the same for a point.
+    pub(super) ends_m: [f64; 2],
+    pub(super) suspension: Option<Suspension>,
+    pub(super) limits: Vec<Limit>,
+}
+
+impl PartSample {
+    /// Both ends, or the point.
+    pub(super) fn places(&self) -> &[f64] {
+        if self.ends_m[0] < self.ends_m[1] { &self.ends_m } else { &self.ends_m[..1] }
+    }
+}
+
+/// The inputs that vary, as they are found.
+#[derive(Debug, Default)]
+struct Finder {
+    varied: Vec<Input>,
+    assumed_even: Vec<Input>,
+}
+
+impl Finder {
+    fn drawn(&mut self, input: Input, spread: &Spread, of: &str) -> Result<Drawn, Error> {
+        if spread.law() == Law::Range {
+            self.assumed_even.push(input);
+        }
+        let varies = !spread.is_value();
+        if varies {
+            self.varied.push(input);
+        }
+        let quantity = || format!("{}{of}", input.name().replace('-', " "));
+        let quantile = Quantile::new(spread).ok_or_else(|| Error::Tail { quantity: quantity() })?;
+        Ok(Drawn { quantile, input: varies.then(|| self.varied.len() - 1) })
+    }
+
+    fn part(&mut self, i: usize, component: &Component) -> Result<PartInputs, Error> {
+        let of = format!(" of {:?}", component.name);
+        let mount = match component.mount {
+            Mount::Hard => None,
+            Mount::Suspended { frequency_hz, damping } => {
+                // What is sound at both ends of its range is sound between them.
+                for (hz, given) in
+                    [(frequency_hz.lo(), damping.spread().lo()), (frequency_hz.hi(), damping.spread().hi())]
+                {
+                    Suspension::from_hz(hz, damping.ratio(given)?).map_err(crate::Error::from)?;
+                }
+                let frequency = self.drawn(Input::Frequency(i), &frequency_hz, &of)?;
+                Some((frequency, self.drawn(Input::Damping(i), damping.spread(), &of)?, damping))
+            }
+        };
+        let position = self.drawn(Input::Position(i), &component.position_m, &of)?;
+        let given = &component.limits;
+        let mut limits = Vec::new();
+        for (kind, spread) in [
+            (LimitKind::Acceleration, given.acceleration_m_s2),
+            (LimitKind::RattleSpace, given.rattle_space_m),
+            (LimitKind::VelocityChange, given.velocity_change_m_s),
+            (LimitKind::AngularVelocityChange, given.angular_velocity_change_rad_s),
+        ] {
+            let Some(spread) = spread else { continue };
+            limits.push((kind, self.drawn(Input::Limit(i, kind), &spread, &of)?, None));
+        }
+        if let Some(boundary) = given.damage_boundary {
+            let kind = LimitKind::DamageBoundary;
+            let allowed = self.drawn(Input::Limit(i, kind), &boundary.velocity_change_m_s, &of)?;
+            let critical = self.drawn(Input::CriticalAcceleration(i), &boundary.acceleration_m_s2, &of)?;
+            limits.push((kind, allowed, Some(critical)));
+        }
+        Ok(PartInputs { position, extent_m: component.extent_m, mount, limits })
+    }
+}
+
+impl Inputs {
+    /// The inputs of a product, all checked.
+    pub(super) fn new(file: &ProductFile) -> Result<Self, Error> {
+        let (product, drop) = (&file.product, &file.drop);
+        let mut finder = Finder::default();
+        if drop.first == First::Either {
+            finder.varied.push(Input::First);
+        }
+        let (fall, is_height) = match &drop.fall {
+            Fall::HeightM(height) => (finder.drawn(Input::Height, height, "")?, true),
+            Fall::SpeedMS(speed) => (finder.drawn(Input::Speed, speed, "")?, false),
+        };
+        let tilt = finder.drawn(Input::Tilt, &drop.tilt_rad, "")?;
+        let restitution = finder.drawn(Input::Restitution, &product.restitution, "")?;
+        let contact_time =
+            product.contact_time_s.map(|time| finder.drawn(Input::ContactTime, &time, "")).transpose()?;
+        let shared = finder.varied.len();
+        let (mut parts, mut of_part) = (Vec::new(), Vec::new());
+        for (i, component) in file.components.iter().enumerate() {
+            if let Some(reason) = lacks_contact_time(product, component) {
+                return Err(crate::Error::ContactTime { component: component.name.clone(), reason }.into());
+            }
+            let own = finder.varied.len();
+            parts.push(finder.part(i, component)?);
+            of_part.push((0..shared).chain(own..finder.varied.len()).collect());
+        }
+        let same = SingleDrop {
+            body: product.body,
+            first: drop.first_ends()[0],
+            tilt_rad: drop.tilt_rad.lo(),
+            speed_m_s: drop.speeds_m_s()[0],
+            restitution: product.restitution.lo(),
+            gravity_m_s2: drop.gravity_m_s2,
+            contact_time_s: product.contact_time_s.map(|time| time.lo()),
+            contact_law: product.contact_law,
+        };
+        let Finder { varied, assumed_even } = finder;
+        let firsts = drop.first_ends();
+        Ok(Self {
+            varied,
+            assumed_even,
+            of_part,
+            drop: same,
+            firsts,
+            fall,
+            is_height,
+            tilt,
+            restitution,
+            contact_time,
+            parts,
+        })
+    }
+
+    /// A sample to draw into.
+    pub(super) fn blank(&self) -> Sample {
+        let limit = |(kind, ..): &(LimitKind, _, _)| Limit::new(*kind, f64::INFINITY);
+        let part = |part: &PartInputs| {
+            let limits = part.limits.iter().map(limit).collect();
+            PartSample { position_m: 0.0, ends_m: [0.0; 2], suspension: None, limits }
+        };
+        let parts = self.parts.iter().map(part).collect();
+        Sample { uniforms: vec![0.0; self.varied.len()], drop: self.drop, parts }
+    }
+
+    /// Sample k of a seed.
+    pub(super) fn draw(&self, seed: u64, k: u64, sample: &mut Sample) -> Result<(), crate::Error> {
+        let stream = Stream::new(seed, k);
+        for (uniform, input) in sample.uniforms.iter_mut().zip(&self.varied) {
+            *uniform = stream.at(input.number());
+        }
+        let Sample { uniforms, drop, parts } = sample;
+        self.drop(uniforms, drop);
+        for (inputs, part) in self.parts.iter().zip(parts) {
+            part.position_m = inputs.position.at(uniforms);
+            let half = 0.5 * inputs.extent_m;
+            part.ends_m = [part.position_m - half, part.position_m + half];
+            if let Some((frequency, given, damping)) = &inputs.mount {
+                let ratio = damping.ratio(given.at(uniforms))?;
+                part.suspension = Some(Suspension::from_hz(frequency.at(uniforms), ratio)?);
+            }
+            for (limit, (_, allowed, critical)) in part.limits.iter_mut().zip(&inputs.limits) {
+                limit.allowed = allowed.at(uniforms);
+                limit.critical_acceleration_m_s2 = critical.as_ref().map_or(f64::INFINITY, |c| c.at(uniforms));
+            }
+        }
+        Ok(())
+    }
+
+    /// The drop that these uniform numbers give.
+    pub(super) fn drop(&self, uniforms: &[f64], drop: &mut SingleDrop) {
+        drop.first = match *self.firsts {
+            [end] => end,
+            _ if uniforms[0] < 0.5 => End::A,
+            _ => End::B,
+        };
+        let fall = self.fall.at(uniforms);
+        drop.speed_m_s = if self.is_height { (2.0 * drop.gravity_m_s2 * fall).sqrt() } else { fall };
+        drop.tilt_rad = self.tilt.at(uniforms);
+        drop.restitution = self.restitution.at(uniforms);
+        drop.contact_time_s = self.contact_time.as_ref().map(|time| time.at(uniforms));
+    }
+
+    /// What a row of values holds.
+    pub(super) fn columns(&self) -> Vec<Column> {
+        let mut columns = vec![Column::First, Column::SpeedMS, Column::TiltDeg, Column::Restitution];
+        columns.extend(self.contact_time.map(|_| Column::ContactTimeS));
+        for (i, part) in self.parts.iter().enumerate() {
+            columns.extend(part.mount.map(|_| Column::FrequencyHz(i)));
+            columns.extend(self.varied.iter().filter_map(|input| match *input {
+                Input::Damping(of) if of == i => Some(Column::DampingRatio(i)),
+                Input::Position(of) if of == i => Some(Column::PositionM(i)),
+                Input::Limit(of, kind) if of == i => Some(Column::Limit(i, kind)),
+                Input::CriticalAcceleration(of) if of == i => Some(Column::CriticalAccelerationMS2(i)),
+                _ => None,
+            }));
+        }
+        columns.extend((0..self.parts.len()).map(Column::Utilization));
+        columns
+    }
+}
+
+impl Sample {
+    /// The value of a column, utilizations excepted.
+    pub(super) fn value(&self, column: Column) -> f64 {
+        let suspension = |i: usize| self.parts[i].suspension.as_ref();
+        let limit = |i: usize, kind| self.parts[i].limits.iter().find(|limit| limit.kind == kind);
+        let value = match column {
+            Column::First => Some(if self.drop.first == End::A { 0.0 } else { 1.0 }),
+            Column::SpeedMS => Some(self.drop.speed_m_s),
+            Column::TiltDeg => Some(self.drop.tilt_rad.to_degrees()),
+            Column::Restitution => Some(self.drop.restitution),
+            Column::ContactTimeS => self.drop.contact_time_s,
+            Column::FrequencyHz(i) => suspension(i).map(|part| part.omega() / std::f64::consts::TAU),
+            Column::DampingRatio(i) => suspension(i).map(|part| part.damping().get()),
+            Column::PositionM(i) => Some(self.parts[i].position_m),
+            Column::Limit(i, kind) => limit(i, kind).map(|limit| limit.allowed),
+            Column::CriticalAccelerationMS2(i) => {
+                limit(i, LimitKind::DamageBoundary).map(|limit| limit.critical_acceleration_m_s2)
+            }
+            Column::Utilization(_) => None,
+        };
+        value.unwrap_or(f64::NAN)
+    }
+}

@@ -1,0 +1,388 @@
+//! The worst drop over the stated ranges.
+//!
+//! Drops all over the ranges are followed, each by the one engine: tilts are so close that the stiffest part turns by less than
+//! a radian between the first two strikes, with the ends of the ranges of speed, restitution and contact time, and in each the
+//! parts at both ends of where they may be, at the end of the range of natural frequencies that asks most as a rule and at
+//! others, from drop to drop at others still. From the highest of them the search climbs in all ranges at once.
+//!
+//! Drops are first followed until the body comes down after its clatter. Where the energy left then may bring a part above the
+//! worst found, they are followed for longer, and so are drops of a sequence that spreads evenly over all ranges.
+
+mod climb;
+mod grid;
+mod ranges;
+
+use std::f64::consts::TAU;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use clatter::End;
+use clatter_shock::{DampingRatio, Suspension};
+use rayon::prelude::*;
+
+use crate::drop::{Followed, SingleDrop, Until};
+use crate::engine::{Answer, Felt};
+use crate::{Component, Error, Limit, LimitKind, Mount, WorstCase};
+use climb::{EDGES_REACH, EDGES_TRIES, LATE_REACH, LATE_TRIES, NEAR, starts};
+use ranges::{DAMPING, FREQUENCY, RESTITUTION};
+pub(crate) use ranges::{Place, Ranges};
+
+/// One limit of one component.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Task<'a> {
+    pub(crate) component: &'a Component,
+    pub(crate) limit: Limit,
+}
+
+/// A drop and a part that ask for something.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Asked {
+    pub(crate) place: Place,
+    /// The part, where the limit is on its response.
+    pub(crate) part: Option<Suspension>,
+    pub(crate) answer: Answer,
+    /// Whether it comes after the body has bounced clear once.
+    pub(crate) late: bool,
+}
+
+/// The worst that was found for one limit.
+#[derive(Debug, Clone)]
+pub(crate) struct Worst {
+    /// The drop that asks most; none where no drop of the ranges was answered.
+    pub(crate) asked: Option<Asked>,
+    /// The utilization that strikes after the body has come down once may reach, by the energy left; 0 where that is below the worst.
+    pub(crate) later: f64,
+    /// Drops that the model does not take, and why the first of them.
+    pub(crate) refused: Option<(usize, Error)>,
+    /// Drops that were looked at besides climbing.
+    pub(crate) drops: usize,
+}
+
+/// What one drop asks.
+#[derive(Default)]
+struct OfDrop {
+    /// Of the tasks of these numbers.
+    asked: Vec<(usize, Asked)>,
+    /// Of tasks of which the energy allows more after the body has come down once, how much.
+    later: Vec<(usize, f64)>,
+}
+
+/// What drops that were looked at ask.
+struct Looked {
+    /// Of each task.
+    found: Vec<Vec<Asked>>,
+    /// How many are not answered, and why the first is not.
+    refused: Option<(usize, Error)>,
+    /// Of each task, what rebounds may ask by their energy; 0 where that is less than the worst.
+    later: Vec<f64>,
+    drops: usize,
+}
+
+impl Looked {
+    fn take(&mut self, looked: Vec<Result<OfDrop, Error>>) {
+        for looked in looked {
+            self.drops += 1;
+            match looked {
+                Ok(of_drop) => {
+                    of_drop.asked.into_iter().for_each(|(task, asked)| self.found[task].push(asked));
+                    of_drop.later.into_iter().for_each(|(task, most)| self.later[task] = most.max(self.later[task]));
+                }
+                Err(error) => {
+                    self.refused = Some(self.refused.take().map_or((1, error), |(n, first)| (n + 1, first)));
+                }
+            }
+        }
+    }
+}
+
+/// Natural frequencies within a range in one drop, besides the end of it.
+const FREQUENCIES: u32 = 2;
+/// The same in drops that are followed for longer.
+const FREQUENCIES_LATE: u32 = 6;
+/// The golden ratio: multiples of it spread evenly from 0 to 1.
+const GOLDEN: f64 = 0.618_033_988_749_895;
+/// Drops that are followed besides those of the grid where rebounds count.
+const SAMPLE: u32 = 512;
+/// Worst cases that are answered to the tolerance, early ones and late ones.
+const TRIES: usize = 8;
+
+impl Ranges<'_> {
+    /// The worst of each task; tasks of one component follow one another.
+    pub(crate) fn worst(&self, tasks: &[Task<'_>]) -> Vec<Worst> {
+        let steps = self.tilt_steps(tasks);
+        let best: Vec<AtomicU64> = tasks.iter().map(|_| AtomicU64::new(0)).collect();
+        let mut all =
+            Looked { found: vec![Vec::new(); tasks.len()], refused: None, later: vec![0.0; tasks.len()], drops: 0 };
+        let grid: Vec<(u32, Place)> = (0..).zip(self.grid(steps)).collect();
+        all.take(grid.par_iter().map(|(k, drop)| self.look(tasks, *k, drop, &best, None)).collect());
+        let shocks: Vec<bool> = tasks.iter().map(|task| !task.limit.is_response()).collect();
+        let overlaps = if shocks.contains(&true) { self.overlaps() } else { Vec::new() };
+        let look = |(k, drop): &(u32, Place)| self.look(tasks, *k, drop, &best, Some(&shocks));
+        all.take(overlaps.par_iter().map(look).collect());
+        // What rebounds ask is sensitive to every input: where the energy allows them more, drops all over the ranges are
+        // followed for longer as well.
+        if all.later.iter().any(|most| *most > 0.0) {
+            let only: Vec<bool> = all.later.iter().map(|most| *most > 0.0).collect();
+            let look = |k: u32| self.look(tasks, k, &self.spread_out(k), &best, Some(&only));
+            all.take((1..=SAMPLE).into_par_iter().map(look).collect());
+        }
+        let Looked { mut found, refused, drops, later } = all;
+        let climbs: Vec<(usize, Asked)> = found
+            .iter_mut()
+            .enumerate()
+            .flat_map(|(n, found)| starts(found).into_iter().map(move |s| (n, s)))
+            .collect();
+        let climb = |(n, start): (usize, Asked)| {
+            let task = &tasks[n];
+            let reached = if start.late {
+                self.climb_around(task, start, LATE_REACH, LATE_TRIES)
+            } else {
+                let climbed = self.climb(task, start, 0.5 / steps);
+                if self.has_edges(task) { self.climb_around(task, climbed, EDGES_REACH, EDGES_TRIES) } else { climbed }
+            };
+            (n, reached)
+        };
+        let climbed: Vec<(usize, Asked)> = climbs.into_par_iter().map(climb).collect();
+        let each = (0..tasks.len()).into_par_iter().map(|n| {
+            let mut reached: Vec<Asked> = climbed.iter().filter(|(of, _)| *of == n).map(|(_, asked)| *asked).collect();
+            reached.extend_from_slice(&found[n]);
+            let mut worst = self.settle(&tasks[n], reached);
+            (worst.drops, worst.later) = (drops, later[n]);
+            if let Some((count, error)) = &refused {
+                let (own, first) = worst.refused.take().unwrap_or((0, error.clone()));
+                worst.refused = Some((own + count, first));
+            }
+            worst
+        });
+        each.collect()
+    }
+
+    /// What drop k asks of each task, or of those marked in `only`, where that comes near the worst.
+    fn look(
+        &self,
+        tasks: &[Task<'_>],
+        k: u32,
+        drop: &Place,
+        best: &[AtomicU64],
+        only: Option<&[bool]>,
+    ) -> Result<OfDrop, Error> {
+        let mut of_drop = OfDrop::default();
+        let early = self.follow(drop, Until::Lands)?;
+        let (mut rebounded, mut over) = (None, None);
+        let mut first = 0;
+        for of_one in tasks.chunk_by(|a, b| std::ptr::eq(a.component, b.component)) {
+            let numbers = first..first + of_one.len();
+            first = numbers.end;
+            if only.is_some_and(|only| !only[numbers.clone()].contains(&true)) {
+                continue;
+            }
+            let mut positions: Vec<f64> = of_one[0].component.ends_m();
+            let own = positions.len();
+            if self.turns() {
+                positions.extend_from_within(..);
+                positions[own..].iter_mut().for_each(|x| *x = -*x);
+            }
+            for (n, &position_m) in positions.iter().enumerate() {
+                let felt = Felt::rough(&early, position_m, fastest_rad_s(of_one[0].component))?;
+                for (task, number) in of_one.iter().zip(numbers.clone()) {
+                    // Turns are the same everywhere.
+                    let again = n > 0 && task.limit.kind == LimitKind::AngularVelocityChange;
+                    if again || only.is_some_and(|only| !only[number]) {
+                        continue;
+                    }
+                    let worst = f64::from_bits(best[number].load(Ordering::Relaxed));
+                    let place = Place { position_m, ..*drop };
+                    let mut asked = self.most(task, &place, &felt, k, FREQUENCIES, NEAR * worst)?;
+                    let reached =
+                        |asked: Option<Asked>| asked.map_or(worst, |asked| worst.max(asked.answer.utilization()));
+                    let parts = Self::softest_and_stiffest(task, &place)?;
+                    let later = felt.later_most(&task.limit, &parts, reached(asked));
+                    if later > 0.0 {
+                        of_drop.later.push((number, later));
+                        let rebounded = self.followed(drop, Until::Rebounded, &mut rebounded)?;
+                        let longer = felt.longer(rebounded)?;
+                        let above =
+                            |asked: Option<Asked>| asked.map_or(NEAR * worst, |asked| asked.answer.utilization());
+                        asked = self.most(task, &place, &longer, k, FREQUENCIES_LATE, above(asked))?.or(asked);
+                        if longer.later_most(&task.limit, &parts, reached(asked)) > 0.0 {
+                            let longest = longer.longer(self.followed(drop, Until::Over, &mut over)?)?;
+                            asked = self.most(task, &place, &longest, k, FREQUENCIES_LATE, above(asked))?.or(asked);
+                        }
+                    }
+                    if let Some(mut asked) = asked {
+                        asked.late = asked.answer.time_s > early.drop.clear_s();
+                        best[number].fetch_max(asked.answer.utilization().to_bits(), Ordering::Relaxed);
+                        of_drop.asked.push((number, if n < own { asked } else { asked.turned() }));
+                    }
+                }
+            }
+        }
+        Ok(of_drop)
+    }
+
+    fn follow(&self, place: &Place, until: Until) -> Result<Followed, Error> {
+        Followed::until(&self.single(place), self.model, self.tolerance.max(0.02), until)
+    }
+
+    /// The same, once.
+    fn followed<'f>(&self, place: &Place, until: Until, once: &'f mut Option<Followed>) -> Result<&'f Followed, Error> {
+        match once {
+            Some(followed) => Ok(followed),
+            none => Ok(none.insert(self.follow(place, until)?)),
+        }
+    }
+
+    /// The part at a place, where the limit is on its response.
+    fn part(task: &Task<'_>, place: &Place) -> Result<Option<Suspension>, Error> {
+        let Mount::Suspended { frequency_hz, damping } = task.component.mount else { return Ok(None) };
+        if !task.limit.is_response() {
+            return Ok(None);
+        }
+        let [least, most] = damping.ratios();
+        let ratio = DampingRatio::new(least + place.shares[DAMPING] * (most - least))?;
+        Ok(Some(Suspension::from_hz(frequency_hz.at(place.shares[FREQUENCY]), ratio)?))
+    }
+
+    /// The part with least damping at both ends of the range of its frequencies.
+    fn softest_and_stiffest(task: &Task<'_>, place: &Place) -> Result<Vec<Suspension>, Error> {
+        let at = |frequency: f64| Self::part(task, &place.with(FREQUENCY, frequency).with(DAMPING, 0.0)).transpose();
+        [0.0, 1.0].into_iter().filter_map(at).collect()
+    }
+
+    /// What a part asks that feels this drop, where it passes `above`.
+    fn in_drop(task: &Task<'_>, place: &Place, felt: &Felt<'_>, above: f64) -> Result<Option<Asked>, Error> {
+        let part = Self::part(task, place)?;
+        let answer = felt.answer(&task.limit, part.as_ref(), above)?;
+        Ok(answer.map(|answer| Asked { place: *place, part, answer, late: false }))
+    }
+
+    /// The most of drop k at the end of the range of frequencies that asks most as a rule, and at `others` in it.
+    fn most(
+        &self,
+        task: &Task<'_>,
+        place: &Place,
+        felt: &Felt<'_>,
+        k: u32,
+        others: u32,
+        above: f64,
+    ) -> Result<Option<Asked>, Error> {
+        let [.., frequency, damping] = self.free(task);
+        let end = if task.limit.kind == LimitKind::Acceleration { 1.0 } else { 0.0 };
+        let mut worst = Self::in_drop(task, &place.with(FREQUENCY, end), felt, above)?;
+        let mut look = |place: &Place| -> Result<(), Error> {
+            let above = worst.map_or(above, |worst| worst.answer.utilization());
+            worst = Self::in_drop(task, place, felt, above)?.or(worst);
+            Ok(())
+        };
+        for n in 0..if frequency { others } else { 0 } {
+            let share = (GOLDEN * f64::from(k * others + n)).fract();
+            look(&place.with(FREQUENCY, share))?;
+        }
+        if damping {
+            look(&place.with(FREQUENCY, end).with(DAMPING, 1.0))?;
+        }
+        Ok(worst)
+    }
+
+    /// The worst of what was reached, answered to the tolerance. What comes after rebounds is so sensitive that it may not come up
+    /// again; so the next are tried until none may be worse.
+    fn settle(&self, task: &Task<'_>, mut reached: Vec<Asked>) -> Worst {
+        reached.sort_by(|a, b| b.answer.utilization().total_cmp(&a.answer.utilization()));
+        let mut worst = Worst { asked: None, later: 0.0, refused: None, drops: 0 };
+        // A drop that bounces on and on is not followed to its end, nor are those that bounce more.
+        let mut bounces = f64::INFINITY;
+        for late in [false, true] {
+            let such = reached.iter().filter(|found| found.late == late);
+            let mut tries = 0;
+            for found in such {
+                let most = worst.asked.map_or(0.0, |asked: Asked| asked.answer.utilization());
+                if found.answer.utilization() < most || tries == TRIES {
+                    break;
+                }
+                if found.place.shares[RESTITUTION] >= bounces {
+                    continue;
+                }
+                tries += 1;
+                match self.exactly(task, found) {
+                    Ok(exact) if exact.answer.utilization() > most || worst.asked.is_none() => {
+                        worst.asked = Some(exact);
+                    }
+                    Ok(_) => {}
+                    Err(error) => {
+                        if matches!(error, Error::Unfinished) && self.free(task)[RESTITUTION] {
+                            bounces = found.place.shares[RESTITUTION];
+                        }
+                        let (count, first) = worst.refused.take().unwrap_or((0, error));
+                        worst.refused = Some((count + 1, first));
+                    }
+                }
+            }
+        }
+        worst
+    }
+
+    /// What a drop that was found asks to the tolerance, of the part that was found.
+    fn exactly(&self, task: &Task<'_>, found: &Asked) -> Result<Asked, Error> {
+        let followed = Followed::new(&self.single(&found.place), self.model, self.tolerance)?;
+        let felt = Felt::new(&followed, found.place.position_m)?;
+        let answer = felt.answer(&task.limit, found.part.as_ref(), 0.0)?;
+        Ok(answer.map_or(*found, |answer| Asked { answer, ..*found }))
+    }
+
+    /// What one drop of the ranges asks of a task, as a utilization; 0 where it is not answered.
+    pub(crate) fn in_one(&self, task: &Task<'_>, place: &Place) -> f64 {
+        let Ok(followed) = self.follow(place, Until::Lands) else { return 0.0 };
+        let of = |position_m: f64| {
+            let felt = Felt::new(&followed, position_m).ok()?;
+            Self::in_drop(task, &Place { position_m, ..*place }, &felt, 0.0).ok()?
+        };
+        let asked = task.component.ends_m().into_iter().filter_map(of);
+        asked.map(|asked| asked.answer.utilization()).fold(0.0, f64::max)
+    }
+
+    /// The largest utilization at one tilt with one end first: at the values of a worst case, and at the ends of the ranges of
+    /// restitution and contact time.
+    pub(crate) fn most_at_tilt(&self, task: &Task<'_>, worst: &WorstCase, first: End, tilt_rad: f64) -> f64 {
+        let found = self.place_of(task.component, worst);
+        let values = |axis: usize| {
+            let own = found.shares[axis];
+            if self.free(task)[axis] { vec![own, 0.0, 1.0] } else { vec![own] }
+        };
+        let mut most = 0.0_f64;
+        for speed in [found.shares[1], 1.0] {
+            for restitution in values(2) {
+                for contact in values(3) {
+                    let [.., frequency, damping] = found.shares;
+                    let shares = [0.0, speed, restitution, contact, frequency, damping];
+                    let place = Place { first, shares, ..found };
+                    let drop = SingleDrop { tilt_rad, ..self.single(&place) };
+                    let followed = Followed::until(&drop, self.model, self.tolerance.max(0.02), Until::Over);
+                    let Ok(followed) = followed else { continue };
+                    for position_m in task.component.ends_m() {
+                        let Ok(felt) = Felt::new(&followed, position_m) else { continue };
+                        let place = Place { position_m, ..place };
+                        let found = Self::in_drop(task, &place, &felt, most).ok().flatten();
+                        let others = self.most(task, &place, &felt, 0, FREQUENCIES_LATE, most).ok().flatten();
+                        let all = found.into_iter().chain(others).map(|asked| asked.answer.utilization());
+                        most = all.fold(most, f64::max);
+                    }
+                }
+            }
+        }
+        most
+    }
+}
+
+/// The fastest that a part moves by itself; of one that is mounted rigidly no response is asked for.
+fn fastest_rad_s(component: &Component) -> f64 {
+    let Mount::Suspended { frequency_hz, damping } = component.mount else { return 0.0 };
+    let [_, most] = damping.ratios();
+    TAU * frequency_hz.hi() * if most > 1.0 { most + (most * most - 1.0).sqrt() } else { 1.0 }
+}
+
+impl Asked {
+    /// The same of the product turned around.
+    fn turned(self) -> Self {
+        let place = Place { first: self.place.first.other(), position_m: -self.place.position_m, ..self.place };
+        Self { place, ..self }
+    }
+}

@@ -1,0 +1,108 @@
+//! From drops that ask much to those that ask most.
+
+use super::grid::halton;
+use super::ranges::{AXES, FREQUENCY, Ranges, TILT};
+use super::{Asked, Task, fastest_rad_s};
+use crate::drop::Until;
+use crate::engine::Felt;
+use crate::{Mount, Spread};
+
+/// Drops within this share of the worst are climbed from, so many at most, and so many of those that rebound.
+pub(super) const NEAR: f64 = 0.8;
+const CLIMBS: usize = 4;
+/// How far a climb after rebounds tries, and how often; one of a part that feels the shape of pulses.
+pub(super) const LATE_REACH: f64 = 0.5;
+pub(super) const LATE_TRIES: u32 = 160;
+pub(super) const EDGES_REACH: f64 = 0.1;
+pub(super) const EDGES_TRIES: u32 = 96;
+/// How close the last try of a climb is over the first.
+const CLOSER: f64 = 0.004;
+/// Halvings of the steps of a climb.
+const HALVINGS: u32 = 6;
+
+impl Ranges<'_> {
+    /// Whether what is asked changes by edges or steps where contacts meet.
+    pub(super) fn has_edges(&self, task: &Task<'_>) -> bool {
+        let stiff = |time: &Spread| fastest_rad_s(task.component) * time.hi() > 1.0;
+        self.product.contact_time_s.as_ref().is_some_and(|time| task.component.mount == Mount::Hard || stiff(time))
+    }
+
+    /// Climbs from a place in all ranges, one after the other, each step half as long as the last.
+    pub(super) fn climb(&self, task: &Task<'_>, start: Asked, tilt_step: f64) -> Asked {
+        let (until, fastest) = (Until::Lands, fastest_rad_s(task.component));
+        let free = self.free(task);
+        let mut steps = [tilt_step, 0.25, 0.25, 0.25, 0.125, 0.5];
+        let mut best = start;
+        let Ok(mut here) = self.follow(&best.place, until) else { return best };
+        for _ in 0..HALVINGS {
+            for axis in (0..AXES).filter(|&axis| free[axis]) {
+                for sign in [-1.0, 1.0] {
+                    let share = (best.place.shares[axis] + sign * steps[axis]).clamp(0.0, 1.0);
+                    if (share - best.place.shares[axis]).abs() < 1e-12 {
+                        continue;
+                    }
+                    let place = best.place.with(axis, share);
+                    let moved = if axis < FREQUENCY { self.follow(&place, until).ok() } else { None };
+                    if axis < FREQUENCY && moved.is_none() {
+                        continue;
+                    }
+                    let followed = moved.as_ref().unwrap_or(&here);
+                    let Ok(felt) = Felt::rough(followed, place.position_m, fastest) else { continue };
+                    if let Ok(Some(next)) = Self::in_drop(task, &place, &felt, best.answer.utilization()) {
+                        best = Asked { late: best.late, ..next };
+                        here = moved.unwrap_or(here);
+                        break;
+                    }
+                }
+            }
+            steps = steps.map(|step| 0.5 * step);
+        }
+        best
+    }
+
+    /// The same in all ranges at once: tries all around, ever closer. After rebounds all ranges together decide in which phase a part
+    /// is struck again, and what stiff and rigidly mounted parts feel has edges where contacts meet.
+    pub(super) fn climb_around(&self, task: &Task<'_>, start: Asked, reach: f64, tries: u32) -> Asked {
+        let (free, fastest) = (self.free(task), fastest_rad_s(task.component));
+        let until = if start.late { Until::Rebounded } else { Until::Lands };
+        let mut best = start;
+        for k in 1..=tries {
+            let reach = reach * CLOSER.powf(f64::from(k) / f64::from(tries));
+            let mut place = best.place;
+            for axis in (0..AXES).filter(|&axis| free[axis]) {
+                let off = reach * (2.0 * halton(axis, k) - 1.0);
+                place.shares[axis] = (place.shares[axis] + off).clamp(0.0, 1.0);
+            }
+            let Ok(followed) = self.follow(&place, until) else { continue };
+            let Ok(felt) = Felt::rough(&followed, place.position_m, fastest) else { continue };
+            if let Ok(Some(next)) = Self::in_drop(task, &place, &felt, best.answer.utilization()) {
+                best = Asked { late: start.late, ..next };
+            }
+        }
+        best
+    }
+}
+
+/// Where to climb from: the highest, some way from one another.
+pub(super) fn starts(found: &mut [Asked]) -> Vec<Asked> {
+    found.sort_by(|a, b| b.answer.utilization().total_cmp(&a.answer.utilization()));
+    let most = found.first().map_or(0.0, |asked| asked.answer.utilization());
+    let mut starts: Vec<Asked> = Vec::new();
+    for asked in found.iter().take_while(|asked| asked.answer.utilization() >= NEAR * most) {
+        let next = |other: &Asked| {
+            let close = |axis: usize| {
+                let reach = if axis == TILT { 0.1 } else { 0.3 };
+                (other.place.shares[axis] - asked.place.shares[axis]).abs() < reach
+            };
+            other.late == asked.late
+                && other.place.first == asked.place.first
+                && other.place.position_m.to_bits() == asked.place.position_m.to_bits()
+                && (0..AXES).all(close)
+        };
+        let such = starts.iter().filter(|other| other.late == asked.late).count();
+        if such < CLIMBS && !starts.iter().any(next) {
+            starts.push(*asked);
+        }
+    }
+    starts
+}

@@ -1,0 +1,115 @@
+//! The ranges of a product's drops, and where in them a drop is.
+
+use clatter::End;
+
+use crate::drop::{Model, SingleDrop};
+use crate::search::Task;
+use crate::{Component, Drop, Mount, Product, Spread, WorstCase};
+
+/// Where in the ranges a drop and a part are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Place {
+    pub(crate) first: End,
+    pub(crate) position_m: f64,
+    /// From 0 to 1 along each range: of the [axes](AXES).
+    pub(crate) shares: [f64; AXES],
+}
+
+/// Square root of the tilt, speed, restitution, contact time, natural frequency, damping ratio.
+pub(super) const AXES: usize = 6;
+pub(super) const TILT: usize = 0;
+pub(super) const RESTITUTION: usize = 2;
+/// The axes from here on are those of the part.
+pub(super) const FREQUENCY: usize = 4;
+pub(super) const DAMPING: usize = 5;
+
+/// The ranges of a product's drops, and how they are followed.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ranges<'a> {
+    pub(crate) product: &'a Product,
+    pub(crate) drop: &'a Drop,
+    pub(crate) model: Model,
+    pub(crate) tolerance: f64,
+}
+
+impl Ranges<'_> {
+    /// The drop at a place.
+    pub(crate) fn single(&self, place: &Place) -> SingleDrop {
+        let [slow, fast] = self.drop.speeds_m_s();
+        let tilt = &self.drop.tilt_rad;
+        let [lo, hi] = [tilt.lo().sqrt(), tilt.hi().sqrt()];
+        let [share, speed, restitution, contact, ..] = place.shares;
+        let root = lo + share * (hi - lo);
+        SingleDrop {
+            body: self.product.body,
+            first: place.first,
+            tilt_rad: (root * root).clamp(tilt.lo(), tilt.hi()),
+            speed_m_s: (slow + speed * (fast - slow)).clamp(slow, fast),
+            restitution: self.product.restitution.at(restitution),
+            gravity_m_s2: self.drop.gravity_m_s2,
+            contact_time_s: self.product.contact_time_s.map(|time| time.at(contact)),
+            contact_law: self.product.contact_law,
+        }
+    }
+
+    /// Where in the ranges a worst case is.
+    pub(crate) fn place_of(&self, component: &Component, worst: &WorstCase) -> Place {
+        let share = |[lo, hi]: [f64; 2], x: f64| if hi > lo { ((x - lo) / (hi - lo)).clamp(0.0, 1.0) } else { 0.0 };
+        let of = |spread: &Spread, x: f64| share([spread.lo(), spread.hi()], x);
+        let contact = self.product.contact_time_s.zip(worst.contact_time_s).map_or(0.0, |(time, t)| of(&time, t));
+        let tilt = [self.drop.tilt_rad.lo(), self.drop.tilt_rad.hi()].map(f64::sqrt);
+        let part = match (component.mount, worst.frequency_hz.zip(worst.damping_ratio)) {
+            (Mount::Suspended { frequency_hz, damping }, Some((hz, ratio))) => {
+                [of(&frequency_hz, hz), share(damping.ratios(), ratio)]
+            }
+            _ => [0.0; 2],
+        };
+        let shares = [
+            share(tilt, worst.tilt_deg.to_radians().sqrt()),
+            share(self.drop.speeds_m_s(), worst.speed_m_s),
+            of(&self.product.restitution, worst.restitution),
+            contact,
+            part[0],
+            part[1],
+        ];
+        Place { first: worst.first, position_m: worst.position_m, shares }
+    }
+
+    /// The middle of all ranges.
+    pub(crate) fn middle(&self, component: &Component) -> Place {
+        let position_m = 0.5 * (component.position_m.lo() + component.position_m.hi());
+        Place { first: self.drop.first_ends()[0], position_m, shares: [0.5; AXES] }
+    }
+
+    /// Which axes have a range.
+    pub(super) fn free(&self, task: &Task<'_>) -> [bool; AXES] {
+        let [slow, fast] = self.drop.speeds_m_s();
+        let contact = self.product.contact_time_s.is_some_and(|time| !time.is_value());
+        let [frequency, damping] = match task.component.mount {
+            Mount::Suspended { frequency_hz, damping } if task.limit.is_response() => {
+                let [least, most] = damping.ratios();
+                [!frequency_hz.is_value(), least < most]
+            }
+            _ => [false; 2],
+        };
+        [!self.drop.tilt_rad.is_value(), slow < fast, !self.product.restitution.is_value(), contact, frequency, damping]
+    }
+
+    /// Of a symmetric product one end first is the other one turned around.
+    pub(super) fn turns(&self) -> bool {
+        let [a, b] = self.product.body.arms_m();
+        a.to_bits() == b.to_bits() && self.drop.first_ends().len() > 1
+    }
+
+    /// The ends that are let touch first.
+    pub(super) fn firsts(&self) -> &'static [End] {
+        if self.turns() { &self.drop.first_ends()[..1] } else { self.drop.first_ends() }
+    }
+}
+
+impl Place {
+    pub(super) fn with(mut self, axis: usize, share: f64) -> Self {
+        self.shares[axis] = share;
+        self
+    }
+}

@@ -1,0 +1,104 @@
+//! A quantity that is not known to the last digit: a value, a range, or a distribution over a range.
+
+use crate::Error;
+
+/// A range [lo, hi] of a quantity in SI, and how it is spread over it.
+///
+/// The worst case is looked for over the whole range, whatever the distribution; the distribution counts where scatter
+/// is drawn.
+///
+/// ```
+/// use clatter_assess::{Law, Spread};
+/// let tilt = Spread::new(0.0, 0.26, Law::Normal { mean: 0.09, deviation: 0.04 })?;
+/// assert_eq!((tilt.lo(), tilt.hi()), (0.0, 0.26));
+/// assert!(Spread::new(0.3, 0.2, Law::Range).is_err());
+/// # Ok::<(), clatter_assess::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spread {
+    lo: f64,
+    hi: f64,
+    law: Law,
+}
+
+/// How a quantity is spread over its range.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Law {
+    /// One value.
+    Value,
+    /// Anywhere in the range; nothing more is known.
+    Range,
+    /// With equal density over the range.
+    Uniform,
+    /// Normal, cut to the range.
+    Normal {
+        /// Mean before the cut.
+        mean: f64,
+        /// Standard deviation before the cut, positive.
+        deviation: f64,
+    },
+    /// Rising from the low end of the range to the mode, falling to the high end.
+    Triangular {
+        /// The most frequent value, within the range.
+        mode: f64,
+    },
+}
+
+impl Spread {
+    /// One value.
+    ///
+    /// # Errors
+    /// [`Error::Number`] unless finite.
+    pub fn value(value: f64) -> Result<Self, Error> {
+        Self::new(value, value, Law::Value)
+    }
+
+    /// A range with its law; one of no length is a value.
+    ///
+    /// # Errors
+    /// [`Error::Number`] unless all numbers are finite, [`Error::Range`] where the range runs backwards, [`Error::Law`]
+    /// for a deviation that is not positive or a mode outside the range.
+    pub fn new(lo: f64, hi: f64, law: Law) -> Result<Self, Error> {
+        let (own, allowed) = match law {
+            Law::Normal { mean, deviation } => ([mean, deviation], deviation > 0.0),
+            Law::Triangular { mode } => ([mode, mode], lo <= mode && mode <= hi),
+            Law::Value | Law::Range | Law::Uniform => ([lo, hi], true),
+        };
+        if let Some(&value) = [lo, hi, own[0], own[1]].iter().find(|v| !v.is_finite()) {
+            return Err(Error::Number(value));
+        }
+        if lo > hi {
+            return Err(Error::Range { lo, hi });
+        }
+        if !allowed {
+            return Err(Error::Law(law));
+        }
+        Ok(Self { lo, hi, law: if lo < hi { law } else { Law::Value } })
+    }
+
+    /// Least value.
+    #[must_use]
+    pub fn lo(&self) -> f64 {
+        self.lo
+    }
+    /// Largest value.
+    #[must_use]
+    pub fn hi(&self) -> f64 {
+        self.hi
+    }
+    /// How it is spread.
+    #[must_use]
+    pub fn law(&self) -> Law {
+        self.law
+    }
+    /// Whether it is one value.
+    #[must_use]
+    pub fn is_value(&self) -> bool {
+        self.law == Law::Value
+    }
+    /// The value at `share` in [0, 1] of the way from the low to the high end.
+    #[must_use]
+    pub fn at(&self, share: f64) -> f64 {
+        (self.lo + share * (self.hi - self.lo)).clamp(self.lo, self.hi)
+    }
+}

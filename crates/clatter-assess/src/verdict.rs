@@ -1,0 +1,199 @@
+//! What an assessment says.
+
+use clatter::End;
+use serde::{Serialize, Serializer};
+
+use crate::{LimitKind, Model, Unit};
+
+/// Whether every limit holds in the worst drop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// It does, with room for what the answer may be off by.
+    Safe,
+    /// What was found does not tell.
+    Undecided,
+    /// A drop of the ranges passes a limit.
+    Unsafe,
+}
+
+impl Verdict {
+    /// `safe`, `undecided` or `unsafe`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Safe => "safe",
+            Self::Undecided => "undecided",
+            Self::Unsafe => "unsafe",
+        }
+    }
+    /// The one of several parts: unsafe if one is, undecided if one is and none is unsafe.
+    pub(crate) fn of(all: impl IntoIterator<Item = Self>) -> Self {
+        all.into_iter().max().unwrap_or(Self::Safe)
+    }
+}
+
+/// The verdict on a product.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Assessment {
+    /// Name of the product.
+    pub product: String,
+    /// Unsafe where a component is, undecided where one is and none is unsafe.
+    pub verdict: Verdict,
+    /// In the order of the file.
+    pub components: Vec<ComponentAssessment>,
+    /// What it was worked out to.
+    #[serde(skip)]
+    pub accuracy: Accuracy,
+}
+
+/// How well an assessment is worked out, and by which model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Accuracy {
+    /// How exact the answer to each drop is for its model, as a share of it; in [1e-4, 0.5].
+    pub tolerance: f64,
+    /// How drops are followed; with the most physics that the data allow if none is named.
+    pub model: Option<Model>,
+}
+
+impl Default for Accuracy {
+    /// 1 %, by the model with the most physics.
+    fn default() -> Self {
+        Self { tolerance: 0.01, model: None }
+    }
+}
+
+impl Accuracy {
+    /// Checks that the tolerance is in range.
+    ///
+    /// # Errors
+    /// [`Error::Tolerance`](crate::Error::Tolerance) for one outside [1e-4, 0.5].
+    ///
+    /// ```
+    /// use clatter_assess::Accuracy;
+    /// assert!(Accuracy::default().check().is_ok());
+    /// assert!(Accuracy { tolerance: 0.0, model: None }.check().is_err());
+    /// ```
+    pub fn check(&self) -> Result<(), crate::Error> {
+        if (1e-4..=0.5).contains(&self.tolerance) { Ok(()) } else { Err(crate::Error::Tolerance(self.tolerance)) }
+    }
+}
+
+/// The verdict on one component.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ComponentAssessment {
+    /// Its name.
+    pub name: String,
+    /// Where its middle is, from the middle of the product towards end b; of a range, its middle.
+    pub position_m: f64,
+    /// That of its limits together.
+    pub verdict: Verdict,
+    /// One for each limit of the file.
+    pub limits: Vec<LimitAssessment>,
+    /// The drop behind the smallest margin.
+    pub worst_case: WorstCase,
+    /// How that drop was followed, and why so.
+    pub model: ModelChoice,
+}
+
+impl ComponentAssessment {
+    /// The limit with the smallest margin.
+    #[must_use]
+    pub fn tightest(&self) -> &LimitAssessment {
+        let tightest = self.limits.iter().min_by(|a, b| a.margin.total_cmp(&b.margin));
+        tightest.unwrap_or_else(|| unreachable!("a component has a limit"))
+    }
+}
+
+/// One limit and what is asked of it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LimitAssessment {
+    /// Which one.
+    pub limit: LimitKind,
+    /// Unit of `allowed`, `demand`, `bound`, `clatter_free` and `other_law`; of a damage boundary that of the one that leaves more room.
+    pub unit: Unit,
+    /// What the file allows.
+    pub allowed: f64,
+    /// What the worst drop that was found asks for: it is `worst_case`, and can be repeated.
+    pub demand: f64,
+    /// allowed/demand − 1.
+    #[serde(serialize_with = "number")]
+    pub margin: f64,
+    /// Whether the limit holds.
+    pub verdict: Verdict,
+    /// What no drop of the ranges passes, by the energy that the body has; null for the response of a suspended part.
+    pub bound: Option<f64>,
+    /// By how much at most drops of the ranges may pass the demand, as a share of it: what the answer may be off by and what
+    /// the search may miss.
+    #[serde(serialize_with = "number")]
+    pub uncertainty: f64,
+    /// What one clatter-free impact would ask in the worst drop, (1 + e) v0 at every place at once; with a contact time as a
+    /// half-sine of that length.
+    #[serde(serialize_with = "number")]
+    pub clatter_free: f64,
+    /// What the worst drop asks by the other contact law, where contacts take time: of a part on a suspension where it feels the
+    /// shape of a pulse; else null.
+    pub other_law: Option<f64>,
+    /// The drop that does it.
+    pub worst_case: WorstCase,
+    /// How it was followed, and why so.
+    pub model: ModelChoice,
+    /// Why the limit is undecided, and what would decide it; else null.
+    pub undecided: Option<String>,
+    /// What else is to be known, each with by how much; may be empty.
+    pub notes: Vec<String>,
+}
+
+/// A drop, and where in the component and when it does the worst.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WorstCase {
+    /// The end that touches first.
+    #[serde(serialize_with = "letter")]
+    pub first: End,
+    /// Angle to the ground at the first touch.
+    pub tilt_deg: f64,
+    /// Speed at the first touch.
+    pub speed_m_s: f64,
+    /// Coefficient of restitution.
+    pub restitution: f64,
+    /// How long a lone contact takes; null where that is not known.
+    pub contact_time_s: Option<f64>,
+    /// Natural frequency of the part; null for a hard-mounted one and where it does not matter.
+    pub frequency_hz: Option<f64>,
+    /// Its damping ratio, likewise.
+    pub damping_ratio: Option<f64>,
+    /// Where in the part.
+    pub position_m: f64,
+    /// The impact that does it, or that the peak follows; from 1.
+    pub impact: u64,
+    /// When, since the first touch.
+    pub time_s: f64,
+    /// The command that repeats this drop.
+    pub command: String,
+}
+
+/// The model behind a demand.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ModelChoice {
+    /// How the product moves.
+    pub bar: Model,
+    /// What the component answers to: `largest-shock` (the product's own shocks), `impulse-train`, `pulse-train`, or `base` (the pulses of
+    /// the product at a hard-mounted part).
+    pub component: &'static str,
+    /// Why these, in a sentence.
+    pub reason: String,
+}
+
+/// Infinity is a string: JSON has no number for it.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature serde asks for")]
+pub(crate) fn number<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    if value.is_infinite() { serializer.serialize_str("infinite") } else { serializer.serialize_f64(*value) }
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature serde asks for")]
+pub(crate) fn letter<S: Serializer>(end: &End, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(match end {
+        End::A => "a",
+        End::B => "b",
+    })
+}

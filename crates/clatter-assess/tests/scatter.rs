@@ -1,0 +1,407 @@
+//! Scatter against known probabilities, drops that are answered one by one, and itself on other threads.
+
+#![cfg(test)]
+
+use clatter_assess::scatter::{Column, Input, Progress, Sampler, Scatter, Settings, clopper_pearson, extremes};
+use clatter_assess::{
+    Answer, ContactLaw, Limit, LimitKind, Model, Mount, Part, ProductFile, STANDARD_GRAVITY_M_S2, SingleDrop, answer,
+};
+
+fn product(product: &str, drop: &str, parts: &str) -> ProductFile {
+    let text = format!(
+        "[product]\nname = \"test\"\nlength = \"140 mm\"\n{product}\n[drop]\n{drop}\n[[component]]\nname = \"part\"\n{parts}\n"
+    );
+    ProductFile::read(&text, "test.toml").unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+fn settings(samples: u64, seed: u64) -> Settings {
+    Settings { samples, seed, confidence: 0.95 }
+}
+
+fn draw(file: &ProductFile, settings: Settings) -> Scatter {
+    Sampler::new(file, settings).unwrap().run::<()>(false, |_| Ok(())).unwrap()
+}
+
+fn values(file: &ProductFile, settings: Settings) -> (Vec<Column>, Vec<f64>) {
+    let sampler = Sampler::new(file, settings).unwrap();
+    let mut all = Vec::new();
+    let keep = |progress: &Progress<'_>| {
+        all.extend_from_slice(progress.values);
+        Ok::<(), ()>(())
+    };
+    sampler.run(true, keep).unwrap();
+    (sampler.columns(), all)
+}
+
+/// Without gravity, so that the closed forms of a bar in free fall are the truth.
+const FREE: &str = "gravity = \"0 gn\"\nfirst = \"a\"";
+/// Its strikes leave the other end alone: q = 0.
+const DUMBBELL: &str = "radius_of_gyration = \"70 mm\"\nrestitution = 0.25";
+
+/// A part at end b of a product that always lands on end a survives while v0 times the largest shock there stays below its limit: of
+/// speeds spread evenly over 3 to 5 m/s exactly those up to limit/peak.
+fn known() -> (ProductFile, f64) {
+    let drop = format!("speed = {{ uniform = [\"3 m/s\", \"5 m/s\"] }}\ntilt = [\"0.01 deg\", \"0.05 deg\"]\n{FREE}");
+    let body = "radius_of_gyration = \"38 mm\"\nrestitution = 0.3";
+    let file = product(body, &drop, "position = \"70 mm\"\nmount = \"hard\"\nvelocity_change_limit = \"8.5 m/s\"");
+    let bar = clatter::Bar::new(file.product.inertia_ratio(), 0.3).unwrap();
+    let largest = bar.train(&clatter::Start::default()).map(|impact| impact.delta_v_at(1.0).abs()).fold(0.0, f64::max);
+    (file, (8.5 / largest - 3.0) / 2.0)
+}
+
+#[test]
+fn a_known_probability_lies_in_its_interval_as_often_as_promised() {
+    let (file, truth) = known();
+    assert!((0.2..0.8).contains(&truth), "{truth}");
+    let seeds = 200;
+    let within = (0..seeds)
+        .filter(|seed| {
+            let survival = draw(&file, settings(1000, *seed)).components[0].survival;
+            survival.lo <= truth && truth <= survival.hi
+        })
+        .count();
+    // 95 % of 200 is 190; four standard deviations of the binomial are 12. The interval is exact, so it may hold more
+    // often.
+    assert!(within >= 178, "{within} of {seeds}");
+    let survival = draw(&file, settings(200_000, 1)).components[0].survival;
+    assert!(
+        (survival.estimate - truth).abs() < 4.0 * (truth * (1.0 - truth) / 2e5).sqrt(),
+        "{survival:?}, not {truth}"
+    );
+}
+
+#[test]
+fn without_a_failure_the_bound_is_one_sided() {
+    let drop = format!("speed = \"4 m/s\"\ntilt = [\"1 deg\", \"5 deg\"]\n{FREE}");
+    let file = product(DUMBBELL, &drop, "position = \"0 mm\"\nmount = \"hard\"\nvelocity_change_limit = \"100 m/s\"");
+    let part = &draw(&file, settings(3000, 1)).components[0];
+    assert_eq!((part.failures, part.survival.estimate, part.survival.hi), (0, 1.0, 1.0));
+    assert!((part.survival.at_least - 0.05f64.powf(1.0 / 3000.0)).abs() < 1e-15);
+}
+
+#[test]
+fn what_drives_a_part_is_found() {
+    let (file, _) = known();
+    let part = &draw(&file, settings(20_000, 1)).components[0];
+    let driver = &part.drivers[0];
+    assert_eq!(driver.input, Input::Speed);
+    // bins of 1/32 lose 0.1 %
+    assert!(driver.share.variance > 0.995 && driver.share.trend > 0.99, "{driver:?}");
+    assert!(part.drivers[1..].iter().all(|other| other.share.variance < 0.01), "{:?}", part.drivers);
+}
+
+/// Half of the samples survive where the median of the one input that varies just does.
+fn half_survives(body: &str, drop: &str, part: &str, by: Input) {
+    let file = product(body, drop, part);
+    let scatter = draw(&file, settings(4000, 3));
+    let found = &scatter.components[0];
+    // four standard deviations
+    assert!((found.survival.estimate - 0.5).abs() < 4.0 * (0.25 / 4000.0_f64).sqrt(), "{part}: {:?}", found.survival);
+    assert_eq!((found.drivers[0].input, found.unanswered), (by, 0), "{part}");
+}
+
+/// With q = 0 each end is struck once, with (1 + e) v0 = 5 m/s, and place s feels (1 ± s)/2 of that.
+#[test]
+fn what_a_part_stands_where_it_is_and_how_it_is_damped_may_vary() {
+    let drop = format!("speed = \"4 m/s\"\ntilt = \"0.05 deg\"\n{FREE}");
+    let half = |part: &str, by| half_survives(DUMBBELL, &drop, part, by);
+    let limit = |kind| Input::Limit(0, kind);
+    let hard = "position = \"-70 mm\"\nmount = \"hard\"\n";
+    let even = "{ uniform = [\"2.5 m/s\", \"7.5 m/s\"] }";
+    half(&format!("{hard}velocity_change_limit = {even}"), limit(LimitKind::VelocityChange));
+    // Δv/(2L) each
+    let turn = 5.0 / 0.14;
+    let range = format!("{{ uniform = [\"{} rad/s\", \"{} rad/s\"] }}", 0.5 * turn, 1.5 * turn);
+    half(&format!("{hard}angular_velocity_change_limit = {range}"), limit(LimitKind::AngularVelocityChange));
+    let boundary = format!("damage_boundary = {{ velocity_change = {even}, acceleration = \"1 gn\" }}");
+    half(&format!("{hard}{boundary}"), limit(LimitKind::DamageBoundary));
+    // (1 + |s|)/2 of 5 m/s stays below 3.75 m/s for |s| < 1/2.
+    let anywhere =
+        "position = { uniform = [\"-70 mm\", \"70 mm\"] }\nmount = \"hard\"\nvelocity_change_limit = \"3.75 m/s\"";
+    half(anywhere, Input::Position(0));
+    // One velocity shock at end a: ωz = Δv e^(−ζ acos(ζ)/√(1−ζ²)), below the limit where ζ is above its median, 0.2.
+    let omega = std::f64::consts::TAU * 100.0;
+    let peak = |zeta: f64| 5.0 / omega * (-zeta / (1.0 - zeta * zeta).sqrt() * zeta.acos()).exp();
+    let soft = "position = \"-70 mm\"\nnatural_frequency = \"100 Hz\"\n";
+    let space = format!("rattle_space = \"{} m\"", peak(0.2));
+    half(&format!("{soft}damping_ratio = {{ uniform = [0.1, 0.3] }}\n{space}"), Input::Damping(0));
+    // In between quality factors of 2 and 4, 3 is the median.
+    let space = format!("rattle_space = \"{} m\"", peak(1.0 / 6.0));
+    half(&format!("{soft}quality_factor = {{ uniform = [2, 4] }}\n{space}"), Input::Damping(0));
+    let range = format!("{{ uniform = [\"{} m\", \"{} m\"] }}", 0.5 * peak(0.2), 1.5 * peak(0.2));
+    half(&format!("{soft}damping_ratio = 0.2\nrattle_space = {range}"), limit(LimitKind::RattleSpace));
+}
+
+/// A contact of its own asks π (1 + e) v0/(2τ) of a part mounted rigidly at that end.
+#[test]
+fn the_contact_time_may_vary() {
+    let drop = format!("speed = \"4 m/s\"\ntilt = \"10 deg\"\n{FREE}");
+    let file = |contact: &str, part: &str| {
+        let body = format!("{DUMBBELL}\ncontact_time = {contact}");
+        (body, format!("position = \"-70 mm\"\nmount = \"hard\"\n{part}"))
+    };
+    let at = |tau: f64| std::f64::consts::FRAC_PI_2 * 5.0 / tau;
+    let contact = "{ uniform = [\"0.2 ms\", \"0.4 ms\"] }";
+    let (body, part) = file(contact, &format!("acceleration_limit = \"{} m/s2\"", at(0.3e-3)));
+    half_survives(&body, &drop, &part, Input::ContactTime);
+    let range =
+        format!("acceleration_limit = {{ uniform = [\"{} m/s2\", \"{} m/s2\"] }}", 0.5 * at(0.3e-3), 1.5 * at(0.3e-3));
+    let (body, part) = file("\"0.3 ms\"", &range);
+    half_survives(&body, &drop, &part, Input::Limit(0, LimitKind::Acceleration));
+    let critical = format!("{{ uniform = [\"{} m/s2\", \"{} m/s2\"] }}", 0.5 * at(0.3e-3), 1.5 * at(0.3e-3));
+    let (body, part) = file(
+        "\"0.3 ms\"",
+        &format!("damage_boundary = {{ velocity_change = \"0.1 m/s\", acceleration = {critical} }}"),
+    );
+    half_survives(&body, &drop, &part, Input::CriticalAcceleration(0));
+}
+
+const SPREAD: &str = "height = { normal = [\"1 m\", \"0.2 m\"], range = [\"0.5 m\", \"1.5 m\"] }\n\
+    tilt = { triangular = [\"1 deg\", \"2 deg\", \"4 deg\"] }\nfirst = \"either\"";
+const BODY: &str = "radius_of_gyration = \"38 mm\"\nrestitution = 0.3";
+const SOFT: &str = "position = \"40 mm\"\nnatural_frequency = { uniform = [\"80 Hz\", \"120 Hz\"] }\n\
+    damping_ratio = 0.05\nacceleration_limit = \"400 gn\"\nrattle_space = \"9 mm\"";
+
+/// A part whose contacts overlap.
+fn overlapping() -> ProductFile {
+    let drop = "height = \"1 m\"\ntilt = { uniform = [\"0 deg\", \"0.5 deg\"] }\nfirst = \"either\"";
+    let part =
+        "position = \"60 mm\"\nnatural_frequency = \"200 Hz\"\ndamping_ratio = 0.05\nacceleration_limit = \"700 gn\"";
+    product(&format!("{BODY}\ncontact_time = \"0.4 ms\""), drop, part)
+}
+
+#[test]
+fn answers_are_the_same_on_any_number_of_threads() {
+    for (file, samples) in [(product(BODY, SPREAD, SOFT), 30_000), (overlapping(), 5000)] {
+        let on = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| draw(&file, settings(samples, 5)))
+        };
+        let one = on(1);
+        for threads in [2, 7] {
+            assert_eq!(on(threads), one, "{threads} threads");
+        }
+    }
+}
+
+#[test]
+fn a_sample_is_the_same_whatever_the_number_of_samples() {
+    let file = overlapping();
+    let (columns, many) = values(&file, settings(2000, 5));
+    let (_, few) = values(&file, settings(10, 5));
+    assert_eq!(few, many[..10 * columns.len()]);
+    let (_, other) = values(&file, settings(10, 6));
+    assert_ne!(few, other, "another seed");
+    // Of many, the closed form may answer: its inputs are the same.
+    let file = product(BODY, SPREAD, SOFT);
+    let (columns, many) = values(&file, settings(9000, 5));
+    let (_, few) = values(&file, settings(1000, 5));
+    for (few, many) in few.chunks(columns.len()).zip(many.chunks(columns.len())) {
+        let inputs = columns.len() - 1;
+        assert_eq!(few[..inputs], many[..inputs]);
+        assert!((few[inputs] / many[inputs] - 1.0).abs() < 0.05, "{few:?} {many:?}");
+    }
+}
+
+/// The drop and the part of a row, and what it asks of each limit.
+fn answers(file: &ProductFile, columns: &[Column], row: &[f64]) -> Vec<(LimitKind, f64)> {
+    let value = |column: Column| columns.iter().position(|other| *other == column).map(|i| row[i]);
+    let drop = SingleDrop {
+        body: file.product.body,
+        first: if row[0] < 0.5 { clatter::End::A } else { clatter::End::B },
+        speed_m_s: value(Column::SpeedMS).unwrap(),
+        tilt_rad: value(Column::TiltDeg).unwrap().to_radians(),
+        restitution: value(Column::Restitution).unwrap(),
+        gravity_m_s2: STANDARD_GRAVITY_M_S2,
+        contact_time_s: value(Column::ContactTimeS),
+        contact_law: ContactLaw::Hysteretic,
+    };
+    let component = &file.components[0];
+    let ratio = match &component.mount {
+        Mount::Hard => 0.0,
+        Mount::Suspended { damping, .. } => value(Column::DampingRatio(0)).unwrap_or_else(|| damping.ratios()[0]),
+    };
+    let suspension = component.mount.suspension(value(Column::FrequencyHz(0)).unwrap_or(1.0), ratio).unwrap();
+    let middle = value(Column::PositionM(0)).unwrap_or_else(|| component.position_m.lo());
+    let one = |limit: &Limit| {
+        let mut limit = *limit;
+        limit.allowed = value(Column::Limit(0, limit.kind)).unwrap_or(limit.allowed);
+        let critical = &mut limit.critical_acceleration_m_s2;
+        *critical = value(Column::CriticalAccelerationMS2(0)).unwrap_or(*critical);
+        let half = 0.5 * component.extent_m;
+        let places = [middle - half, middle + half].map(|position_m| Part { position_m, suspension });
+        let most = places.map(|part| answer(&drop, &part, &limit, drop.fullest(), 0.01).unwrap().utilization());
+        (limit.kind, most[0].max(most[1]))
+    };
+    Limit::of(component).iter().map(one).collect()
+}
+
+/// Every sample again, as one drop.
+fn samples_are_drops(file: &ProductFile) {
+    let (columns, all) = values(file, settings(300, 9));
+    for row in all.chunks(columns.len()) {
+        let known = answers(file, &columns, row).iter().map(|(_, used)| *used).fold(0.0, f64::max);
+        let found = row[columns.len() - 1];
+        assert!((found / known - 1.0).abs() < 0.005, "{found}, not {known}: {row:?}");
+    }
+}
+
+#[test]
+fn samples_are_those_of_single_drops() {
+    let contact = format!("{BODY}\ncontact_time = {{ uniform = [\"0.2 ms\", \"0.9 ms\"] }}");
+    let soft = "position = { uniform = [\"-40 mm\", \"40 mm\"] }\nextent = \"20 mm\"\n\
+        natural_frequency = { uniform = [\"80 Hz\", \"220 Hz\"] }\nquality_factor = { uniform = [5, 20] }\n\
+        acceleration_limit = { uniform = [\"300 gn\", \"500 gn\"] }\nrattle_space = { uniform = [\"5 mm\", \"9 mm\"] }";
+    let hard = "position = \"40 mm\"\nmount = \"hard\"\nacceleration_limit = \"4000 gn\"\n\
+        velocity_change_limit = { uniform = [\"5 m/s\", \"9 m/s\"] }\nangular_velocity_change_limit = \"90 rad/s\"\n\
+        damage_boundary = { velocity_change = { uniform = [\"3 m/s\", \"6 m/s\"] }, \
+        acceleration = { uniform = [\"500 gn\", \"4000 gn\"] } }";
+    samples_are_drops(&product(BODY, SPREAD, soft));
+    samples_are_drops(&product(&contact, SPREAD, soft));
+    samples_are_drops(&product(&contact, SPREAD, hard));
+    samples_are_drops(&overlapping());
+    // Without a contact time a damage boundary is its velocity change.
+    let hard = hard.replace("acceleration_limit = \"4000 gn\"\n", "");
+    samples_are_drops(&product(BODY, SPREAD, &hard));
+}
+
+/// Where a bouncy body lands again is sensitive to every input, so that one drop to two tolerances may be two drops. How many fail is
+/// the same.
+#[test]
+fn a_bouncy_body_fails_as_often_as_single_drops_do() {
+    let body = BODY.replace("0.3", "0.8");
+    let contact = format!("{body}\ncontact_time = \"0.4 ms\"");
+    let soft = "position = \"-40 mm\"\nnatural_frequency = { uniform = [\"80 Hz\", \"220 Hz\"] }\ndamping_ratio = 0.01\n\
+        acceleration_limit = \"550 gn\"";
+    for body in [body, contact] {
+        let file = product(&body, SPREAD, soft);
+        let (columns, rows) = values(&file, settings(1000, 77));
+        let survives = |row: &&[f64]| answers(&file, &columns, row)[0].1 <= 1.0;
+        let survivors = rows.chunks(columns.len()).filter(survives).count();
+        let known = clopper_pearson(survivors as u64, 1000, 0.999);
+        let found = draw(&file, settings(10_000, 1)).survival;
+        assert!(known.lo > 0.1 && known.hi < 0.9, "{known:?}");
+        assert!(known.lo <= found.estimate && found.estimate <= known.hi, "{found:?}, not {known:?}");
+    }
+}
+
+/// Numbers of no relation to those of the sampler.
+struct Other(u64);
+
+impl Other {
+    fn even(&mut self, lo: f64, hi: f64) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        #[expect(clippy::cast_precision_loss, reason = "53 bits")]
+        let share = ((z ^ (z >> 31)) >> 11) as f64 * 0.5_f64.powi(53);
+        lo + share * (hi - lo)
+    }
+}
+
+#[test]
+fn a_part_whose_contacts_overlap_fails_as_often_as_single_drops_do() {
+    let file = overlapping();
+    let mut other = Other(1);
+    let fails = |drop: &SingleDrop| {
+        let suspension = file.components[0].mount.suspension(200.0, 0.05).unwrap();
+        let limit = Limit::of(&file.components[0])[0];
+        let asked: Answer =
+            answer(drop, &Part { position_m: 0.06, suspension }, &limit, Model::Compliant, 0.01).unwrap();
+        asked.utilization() > 1.0
+    };
+    let drops = 2000;
+    let survivors = (0..drops).filter(|_| {
+        let drop = SingleDrop {
+            body: file.product.body,
+            first: if other.even(0.0, 1.0) < 0.5 { clatter::End::A } else { clatter::End::B },
+            tilt_rad: other.even(0.0, 0.5).to_radians(),
+            speed_m_s: (2.0 * STANDARD_GRAVITY_M_S2).sqrt(),
+            restitution: 0.3,
+            gravity_m_s2: STANDARD_GRAVITY_M_S2,
+            contact_time_s: Some(4e-4),
+            contact_law: ContactLaw::Hysteretic,
+        };
+        !fails(&drop)
+    });
+    let known = clopper_pearson(survivors.count() as u64, drops, 0.999);
+    let found = draw(&file, settings(20_000, 1));
+    assert!(!found.pilot.unwrap().taken && found.model == Model::Compliant, "{:?}", found.pilot);
+    let survival = found.survival;
+    assert!(known.lo <= survival.estimate && survival.estimate <= known.hi, "{survival:?}, not {known:?}");
+    assert!(survival.hi - survival.lo < 0.03 && survival.lo < survival.hi, "{survival:?}");
+}
+
+#[test]
+fn where_the_pilot_allows_it_the_closed_form_says_what_the_fullest_model_does() {
+    let file = product(BODY, SPREAD, SOFT);
+    // So few that no pilot is worth while.
+    let full = draw(&file, settings(7900, 11));
+    assert_eq!((full.model, full.pilot, full.refined), (Model::FiniteTilt, None, 0));
+    let cheap = draw(&file, settings(100_000, 12));
+    let pilot = cheap.pilot.unwrap();
+    assert!(pilot.taken && cheap.model == Model::Map, "{pilot:?}");
+    assert!(pilot.worst_error > 0.0 && pilot.worst_error < 0.05 && pilot.share > 0.0, "{pilot:?}");
+    assert!(cheap.refined > 0 && cheap.refined < 10_000, "{}", cheap.refined);
+    let (full, cheap) = (full.survival, cheap.survival);
+    assert!(cheap.lo <= full.hi && full.lo <= cheap.hi, "{full:?} and {cheap:?}");
+    // Without a failure the share that a pilot cannot see stays open.
+    let safe = product(BODY, SPREAD, &SOFT.replace("400 gn", "4000 gn").replace("9 mm", "90 mm"));
+    let safe = draw(&safe, settings(100_000, 1));
+    let pilot = safe.pilot.unwrap();
+    assert_eq!((pilot.taken, safe.components[0].failures), (true, 0));
+    assert!((1.0 - pilot.share).powf(5000.0) <= 0.025 + 1e-12, "{pilot:?}");
+    assert!(safe.survival.at_least <= 1.0 - pilot.share && safe.survival.at_least > 0.999, "{:?}", safe.survival);
+}
+
+#[test]
+fn samples_without_an_answer_are_told_and_are_no_survivors() {
+    // With e = 1 a body bounces for ever.
+    let body = "radius_of_gyration = \"38 mm\"\nrestitution = 1.0";
+    let hard = "position = \"70 mm\"\nmount = \"hard\"\nvelocity_change_limit = \"1000 m/s\"";
+    let file = product(body, SPREAD, hard);
+    let found = draw(&file, settings(50, 1));
+    let part = &found.components[0];
+    assert_eq!((found.unanswered, part.unanswered, part.failures), (50, 50, 0));
+    assert!(found.reason.is_some() && part.worst_sample.is_none(), "{:?}", found.reason);
+    for survival in [found.survival, part.survival] {
+        assert_eq!((survival.estimate, survival.at_least, survival.lo, survival.hi), (0.0, 0.0, 0.0, 1.0));
+    }
+    let (columns, all) = values(&file, settings(3, 1));
+    assert!(all.chunks(columns.len()).all(|row| row[columns.len() - 1].is_nan()), "{all:?}");
+}
+
+#[test]
+fn settings_that_make_no_sense_are_refused() {
+    let (file, _) = known();
+    for wrong in [
+        Settings { samples: 0, ..settings(1, 1) },
+        Settings { confidence: 1.0, ..settings(1, 1) },
+        Settings { confidence: f64::NAN, ..settings(1, 1) },
+    ] {
+        assert!(Sampler::new(&file, wrong).is_err(), "{wrong:?}");
+    }
+    let far = SPREAD
+        .replace("[\"1 m\", \"0.2 m\"]", "[\"1 m\", \"0.001 m\"]")
+        .replace("[\"0.5 m\", \"1.5 m\"]", "[\"2 m\", \"3 m\"]");
+    let error = Sampler::new(&product(BODY, &far, SOFT), settings(1, 1)).unwrap_err();
+    assert!(error.to_string().starts_with("height:"), "{error}");
+}
+
+/// The worst drops of a design plane against the search of an assessment, which looks closer.
+#[test]
+fn extremes_are_next_to_the_worst_of_an_assessment() {
+    let soft = SOFT.replace("{ uniform = [\"80 Hz\", \"120 Hz\"] }", "[\"80 Hz\", \"120 Hz\"]");
+    for body in
+        [BODY.to_owned(), format!("{BODY}\ncontact_time = \"0.4 ms\""), format!("{BODY}\ncenter_of_mass = \"5 mm\"")]
+    {
+        let file = product(&body, SPREAD, &soft);
+        let found = extremes(&file, &[(file.product.body, 0.3)]).unwrap();
+        let contacts = body.contains("contact");
+        assert_eq!(found.model, if contacts { Model::Compliant } else { Model::Map }, "{:?}", found.pilot);
+        let worst = found.worst[0][0].unwrap();
+        let limits = &file.assess().unwrap().components[0].limits;
+        let known = limits.iter().map(|limit| limit.demand / limit.allowed).fold(0.0, f64::max);
+        assert!(worst < 1.02 * known && worst > 0.97 * known, "{worst}, not {known}: {body}");
+    }
+}

@@ -1,0 +1,377 @@
+//! A part in a drop in SI units, answered by the engine that answers an assessment.
+
+use std::io::{self, Write};
+
+use clatter::End;
+use clatter_assess::{Answer, Limit, LimitKind, Part, SingleDrop, answer, respond};
+use clatter_flight::Scene;
+use clatter_shock::{ImpulseFactors, Response, Suspension};
+use serde::Serialize;
+
+use super::Args;
+use super::peaks::{
+    Equivalent, EquivalentJson, FactorsJson, ResponseJson, Shocks, at_once, equivalent, equivalent_table,
+};
+use crate::Failure;
+use crate::inputs::{ModelName, law_name};
+use crate::numbers::{Json, figures, given};
+
+/// A part in one drop.
+pub(super) struct Drop<'a> {
+    args: &'a Args,
+    model: ModelName,
+    center_of_mass: f64,
+    scene: Scene,
+    single: SingleDrop,
+    /// What the place goes through.
+    place: Place,
+    /// The part; none that is mounted rigidly.
+    part: Option<Suspended>,
+}
+
+/// The largest values at a place; none of what is not felt there.
+struct Place {
+    velocity_change: Option<Answer>,
+    /// Asked where a contact time is given.
+    acceleration: Option<Answer>,
+    angular_velocity_change: Option<Answer>,
+}
+
+/// A part on its suspension.
+struct Suspended {
+    suspension: Suspension,
+    response: Response,
+    acceleration: Option<Answer>,
+    displacement: Option<Answer>,
+    equivalent: Option<Equivalent>,
+}
+
+/// Later strikes are told of where they could raise an answer by more than so many tolerances.
+const TOLD: f64 = 10.0;
+
+impl Args {
+    pub(super) fn drop_by(&self, model: ModelName) -> Result<Drop<'_>, Failure> {
+        self.drop.check(model)?;
+        let e = self.e();
+        let (center_of_mass, body) = self.drop.body(self.inertia.gyration_m, &self.inertia.mass, e)?;
+        let scene = self.drop.scene(body, e)?;
+        let drop = SingleDrop {
+            body,
+            first: End::A,
+            tilt_rad: scene.tilt_rad(),
+            speed_m_s: scene.speed_m_s(),
+            restitution: e,
+            gravity_m_s2: scene.gravity_m_s2(),
+            contact_time_s: self.drop.contact_time_s,
+            contact_law: self.drop.contact_law(),
+        };
+        let ask = Ask { drop: &drop, model, tolerance: self.tolerance };
+        // The end that touches first feels every drop: where not even that is answered, none is.
+        ask.of(LimitKind::VelocityChange, -0.5 * body.length_m(), None).map_err(Failure::drop)?;
+        let position_m = 0.5 * self.position() * body.length_m();
+        let place = ask.place(position_m)?;
+        let part = self.suspension()?.map(|suspension| self.suspended(&ask, position_m, suspension)).transpose()?;
+        Ok(Drop { args: self, model, center_of_mass, scene, single: drop, place, part })
+    }
+
+    fn suspended(&self, ask: &Ask<'_>, position_m: f64, suspension: Suspension) -> Result<Suspended, Failure> {
+        let response = respond(ask.drop, position_m, &suspension, ask.model.into(), ask.tolerance);
+        let response = response.map_err(Failure::drop)?;
+        let asked = self.equivalent_pulse.then(|| equivalent(&self.shock_table, &suspension, &response));
+        Ok(Suspended {
+            suspension,
+            response,
+            acceleration: ask.felt(LimitKind::Acceleration, position_m, Some(suspension))?,
+            displacement: ask.felt(LimitKind::RattleSpace, position_m, Some(suspension))?,
+            equivalent: asked.transpose()?,
+        })
+    }
+}
+
+/// A drop, and how it is answered.
+struct Ask<'a> {
+    drop: &'a SingleDrop,
+    model: ModelName,
+    tolerance: f64,
+}
+
+impl Ask<'_> {
+    fn of(
+        &self,
+        kind: LimitKind,
+        position_m: f64,
+        suspension: Option<Suspension>,
+    ) -> Result<Answer, clatter_assess::Error> {
+        // Nothing is allowed or forbidden here: the value alone counts.
+        let limit = Limit::new(kind, 1.0);
+        answer(self.drop, &Part { position_m, suspension }, &limit, self.model.into(), self.tolerance)
+    }
+
+    /// The same of a drop that is known to be answered: none where nothing is felt.
+    fn felt(
+        &self,
+        kind: LimitKind,
+        position_m: f64,
+        suspension: Option<Suspension>,
+    ) -> Result<Option<Answer>, Failure> {
+        match self.of(kind, position_m, suspension) {
+            Err(clatter_assess::Error::Unfinished) => Ok(None),
+            answer => answer.map(Some).map_err(Failure::drop),
+        }
+    }
+
+    fn place(&self, position_m: f64) -> Result<Place, Failure> {
+        let of = |kind| self.felt(kind, position_m, None);
+        Ok(Place {
+            velocity_change: of(LimitKind::VelocityChange)?,
+            acceleration: self.drop.contact_time_s.map_or(Ok(None), |_| of(LimitKind::Acceleration))?,
+            angular_velocity_change: of(LimitKind::AngularVelocityChange)?,
+        })
+    }
+}
+
+/// What is not felt is 0.
+fn value(answer: Option<&Answer>) -> f64 {
+    answer.map_or(0.0, |answer| answer.value)
+}
+
+impl Drop<'_> {
+    fn at_once(&self) -> [f64; 2] {
+        at_once(self.single.restitution, self.single.speed_m_s)
+    }
+
+    /// W h0/v0.
+    fn ratio(&self, part: &Suspended) -> f64 {
+        part.suspension.omega() * self.scene.height_gap_m() / self.single.speed_m_s
+    }
+
+    fn headings(&self, out: &mut dyn Write) -> io::Result<()> {
+        let (at, e) = (given(self.args.position()), given(self.single.restitution));
+        let length = given(self.scene.body().length_m());
+        let part = self.part.as_ref().map(|part| part.suspension);
+        match part {
+            Some(part) => {
+                let (omega, zeta) = (given(part.omega()), given(part.damping().get()));
+                writeln!(
+                    out,
+                    "Component at {at} of a body of {length} m, e = {e}; W = {omega} rad/s, damping ratio {zeta}"
+                )?;
+            }
+            None => writeln!(out, "Place {at} of a body of {length} m, e = {e}; a part there is mounted rigidly")?,
+        }
+        let contact = self.single.contact_time_s.filter(|_| self.model == ModelName::Compliant);
+        let contact = contact.map_or(String::new(), |time| {
+            format!(", {} contacts of {} s", law_name(self.single.contact_law), given(time))
+        });
+        let (model, speed) = (self.model.name(), figures(self.single.speed_m_s));
+        let (tilt, tolerance) = (given(self.args.drop.tilt_deg()), given(100.0 * self.args.tolerance));
+        writeln!(
+            out,
+            "Model {model}, to {tolerance} %: end a strikes first, at {speed} m/s, tilt {tilt} degrees{contact}"
+        )
+    }
+
+    pub(super) fn table(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.headings(out)?;
+        if let Some(part) = &self.part {
+            peaks(part, out)?;
+        }
+        self.place(out)?;
+        if let Some(part) = &self.part {
+            self.shocks(part, out)?;
+        }
+        self.doubts(out)?;
+        let equivalent = self.part.as_ref().and_then(|part| part.equivalent.as_ref());
+        equivalent.map_or(Ok(()), |equivalent| equivalent_table(equivalent, out))
+    }
+
+    /// What the place goes through.
+    fn place(&self, out: &mut dyn Write) -> io::Result<()> {
+        let Place { velocity_change, acceleration, angular_velocity_change } = &self.place;
+        writeln!(out, "\n{:<34}{:>12} {:>13}", "Largest at this position", "", "when, s")?;
+        line("change of velocity, m/s", velocity_change.as_ref(), "", out)?;
+        if let Some(time) = self.single.contact_time_s {
+            let half_sine = format!(", taken for a half-sine of {} s", given(time));
+            let note = if self.model == ModelName::Compliant { "" } else { &half_sine };
+            line("acceleration, m/s²", acceleration.as_ref(), note, out)?;
+        }
+        line("change of angular velocity, rad/s", angular_velocity_change.as_ref(), "", out)?;
+        if self.part.is_none() {
+            let [flat, _] = self.at_once();
+            writeln!(out, "\nWithout clatter, (1 + e) v0 everywhere at once: {} m/s", figures(flat))?;
+        }
+        Ok(())
+    }
+
+    /// Single shocks at the position beside the answer.
+    fn shocks(&self, part: &Suspended, out: &mut dyn Write) -> io::Result<()> {
+        let [flat, standard] = self.at_once();
+        let factors = part.suspension.damping().impulse_factors();
+        let mut shocks = Shocks { unit: "m/s", out };
+        shocks.head()?;
+        let largest = value(self.place.velocity_change.as_ref());
+        shocks.row("the largest of this drop", largest, Some(factors.times(largest)))?;
+        shocks.row("without clatter, (1 + e) v0", flat, Some(factors.times(flat)))?;
+        shocks.row("as standards assume, 2 v0", standard, Some(factors.times(standard)))?;
+        let (ratio, gain) = (figures(self.ratio(part)), figures(part.gain(factors.times(standard))));
+        writeln!(out, "\nW h0/v0 = {ratio}; acceleration over that of the standards' shock: {gain}")
+    }
+
+    /// What later strikes could still do.
+    fn doubts(&self, out: &mut dyn Write) -> io::Result<()> {
+        let part = self.part.as_ref().map(|part| [("W z", &part.displacement), ("A/W", &part.acceleration)]);
+        let place = [
+            ("the change of velocity", &self.place.velocity_change),
+            ("the change of angular velocity", &self.place.angular_velocity_change),
+        ];
+        for (name, answer) in part.into_iter().flatten().chain(place) {
+            let error = answer.map_or(0.0, |answer| answer.error);
+            if error > TOLD * self.args.tolerance {
+                writeln!(out, "Later strikes may raise {name} by {} % at most", figures(100.0 * error))?;
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn answer(&self) -> DropJson {
+        let part = self.part.as_ref();
+        let standard = |i: usize| {
+            let shock = self.at_once()[i];
+            part.map(|part| part.suspension.damping().impulse_factors().times(shock))
+        };
+        let contact = self.single.contact_time_s.filter(|_| self.model == ModelName::Compliant);
+        DropJson {
+            model: self.model.name(),
+            length_m: Json(self.scene.body().length_m()),
+            gyration_m: Json(self.scene.body().gyration_m()),
+            center_of_mass: Json(self.center_of_mass),
+            inertia_ratios: self.scene.body().inertia_ratios().map(Json),
+            e: Json(self.single.restitution),
+            speed_m_s: Json(self.single.speed_m_s),
+            tilt_deg: Json(self.args.drop.tilt_deg()),
+            height_gap_m: Json(self.scene.height_gap_m()),
+            gravity_m_s2: Json(self.single.gravity_m_s2),
+            contact_time_s: self.single.contact_time_s.map(Json),
+            contact_law: contact.map(|_| law_name(self.single.contact_law)),
+            tolerance: Json(self.args.tolerance),
+            at: Json(self.args.position()),
+            response: part.map(|part| ResponseJson::new(&part.suspension, &part.response, |_| None)),
+            velocity_change_m_s: Json(value(self.place.velocity_change.as_ref())),
+            acceleration_m_s2: self.single.contact_time_s.map(|_| Json(value(self.place.acceleration.as_ref()))),
+            angular_velocity_change_rad_s: Json(value(self.place.angular_velocity_change.as_ref())),
+            answers: AnswersJson {
+                velocity_change: AnswerJson::new(self.place.velocity_change),
+                acceleration: AnswerJson::new(self.place.acceleration),
+                angular_velocity_change: AnswerJson::new(self.place.angular_velocity_change),
+                part_acceleration: AnswerJson::new(part.and_then(|part| part.acceleration)),
+                part_displacement: AnswerJson::new(part.and_then(|part| part.displacement)),
+            },
+            clatter_free: standard(0).map(Into::into),
+            standard: standard(1).map(Into::into),
+            gain: part.zip(standard(1)).map(|(part, standard)| Json(part.gain(standard))),
+            equivalent: part.and_then(|part| part.equivalent.as_ref()).map(Into::into),
+        }
+    }
+}
+
+impl Suspended {
+    /// Peak acceleration over that of one shock of 2 v0.
+    fn gain(&self, standard: ImpulseFactors) -> f64 {
+        self.response.acceleration_over_omega().magnitude() / standard.acceleration
+    }
+}
+
+/// The peaks of the part.
+fn peaks(part: &Suspended, out: &mut dyn Write) -> io::Result<()> {
+    let response = &part.response;
+    writeln!(out, "\n{:<34}{:>12} {:>13}", "Peak", "m/s", "when, s")?;
+    let rows = [
+        ("relative displacement, W z", response.pseudo_velocity(), part.displacement),
+        ("relative velocity", response.relative_velocity, None),
+        ("absolute acceleration, A/W", response.acceleration_over_omega(), part.acceleration),
+    ];
+    for (name, extremes, answer) in rows {
+        let peak = extremes.peak();
+        let (size, time) = (figures(peak.value.abs()), figures(peak.time));
+        let after = answer.map_or(String::new(), |answer| format!("  after impact {}", answer.impact));
+        writeln!(out, "  {name:<32}{size:>12} {time:>13}{after}")?;
+    }
+    Ok(())
+}
+
+/// One largest value.
+fn line(name: &str, answer: Option<&Answer>, note: &str, out: &mut dyn Write) -> io::Result<()> {
+    match answer {
+        Some(Answer { value, time_s, impact, .. }) => {
+            let (value, time) = (figures(*value), figures(*time_s));
+            writeln!(out, "  {name:<34}{value:>10} {time:>13}  at impact {impact}{note}")
+        }
+        None => writeln!(out, "  {name:<34}{:>10}", "0"),
+    }
+}
+
+#[derive(Serialize)]
+pub(super) struct DropJson {
+    model: &'static str,
+    length_m: Json,
+    gyration_m: Json,
+    center_of_mass: Json,
+    inertia_ratios: [Json; 2],
+    e: Json,
+    speed_m_s: Json,
+    tilt_deg: Json,
+    height_gap_m: Json,
+    gravity_m_s2: Json,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    contact_time_s: Option<Json>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    contact_law: Option<&'static str>,
+    tolerance: Json,
+    at: Json,
+    #[serde(flatten)]
+    response: Option<ResponseJson>,
+    velocity_change_m_s: Json,
+    /// Null without a contact time.
+    acceleration_m_s2: Option<Json>,
+    angular_velocity_change_rad_s: Json,
+    answers: AnswersJson,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    clatter_free: Option<FactorsJson>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    standard: Option<FactorsJson>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gain: Option<Json>,
+    #[serde(flatten)]
+    equivalent: Option<EquivalentJson>,
+}
+
+/// When each largest value comes and how far off it may be; null where nothing is felt.
+#[derive(Serialize)]
+struct AnswersJson {
+    velocity_change: Option<AnswerJson>,
+    acceleration: Option<AnswerJson>,
+    angular_velocity_change: Option<AnswerJson>,
+    part_acceleration: Option<AnswerJson>,
+    part_displacement: Option<AnswerJson>,
+}
+
+#[derive(Serialize)]
+struct AnswerJson {
+    value: Json,
+    unit: &'static str,
+    time_s: Json,
+    impact: u64,
+    error: Json,
+}
+
+impl AnswerJson {
+    fn new(answer: Option<Answer>) -> Option<Self> {
+        answer.map(|answer| Self {
+            value: Json(answer.value),
+            unit: answer.unit.name(),
+            time_s: Json(answer.time_s),
+            impact: answer.impact,
+            error: Json(answer.error),
+        })
+    }
+}

@@ -1,0 +1,190 @@
+//! The answer for programs.
+
+use clatter_assess::scatter::{ComponentScatter, Driver, Input, Pilot, Probability, Scatter, Settings};
+use clatter_assess::{Model, ProductFile};
+use serde::Serialize;
+
+use super::Target;
+use crate::numbers::Json;
+
+#[derive(Serialize)]
+pub(super) struct Answer<'a> {
+    product: &'a str,
+    samples: u64,
+    seed: u64,
+    confidence: Json,
+    model: ModelJson,
+    inputs: Vec<InputJson>,
+    survival: SurvivalJson,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    target: Option<TargetJson>,
+    unanswered: u64,
+    /// Why the first of them is not answered.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
+    components: Vec<ComponentJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct ModelJson {
+    bar: &'static str,
+    reason: &'static str,
+    /// Drops near a limit that the model with the most physics answers as well.
+    refined: u64,
+    /// Null where the closed form was not tried.
+    pilot: Option<PilotJson>,
+}
+
+#[derive(Serialize)]
+struct PilotJson {
+    drops: u64,
+    worst_error: Json,
+    /// At most this share of all drops is off by more than the worst error …
+    share: Json,
+    /// … with this confidence.
+    confidence: Json,
+    taken: bool,
+}
+
+#[derive(Serialize)]
+struct TargetJson {
+    survival: Json,
+    met: bool,
+}
+
+#[derive(Serialize)]
+struct InputJson {
+    input: &'static str,
+    /// Index of the component that it belongs to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    component: Option<usize>,
+    /// Of a limit, which one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    limit: Option<&'static str>,
+    /// Whether the file gives no distribution, only a range.
+    assumed_uniform: bool,
+}
+
+#[derive(Serialize)]
+struct SurvivalJson {
+    probability: Json,
+    interval: [Json; 2],
+    at_least: Json,
+}
+
+#[derive(Serialize)]
+struct ComponentJson<'a> {
+    name: &'a str,
+    failed: u64,
+    /// Drops whose utilization is so near 1 that what it may be off by decides.
+    open: u64,
+    unanswered: u64,
+    survival: SurvivalJson,
+    limits: Vec<LimitJson>,
+    /// Null where no drop was answered.
+    utilization: Option<UtilizationJson>,
+    drivers: Vec<DriverJson>,
+}
+
+#[derive(Serialize)]
+struct LimitJson {
+    limit: &'static str,
+    failed: u64,
+}
+
+#[derive(Serialize)]
+struct UtilizationJson {
+    mean: Json,
+    standard_deviation: Json,
+    largest: Json,
+    largest_sample: u64,
+}
+
+#[derive(Serialize)]
+struct DriverJson {
+    input: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    limit: Option<&'static str>,
+    variance_share: Json,
+    trend: Json,
+}
+
+impl SurvivalJson {
+    fn new(p: Probability) -> Self {
+        Self { probability: Json(p.estimate), interval: [Json(p.lo), Json(p.hi)], at_least: Json(p.at_least) }
+    }
+}
+
+impl ModelJson {
+    fn new(scatter: &Scatter) -> Self {
+        let reason = match scatter.model {
+            Model::Map => "the closed form: a pilot bounds what it gets wrong",
+            Model::Compliant => "contacts that take time: how long is known",
+            _ => "instant impacts at real tilt, with gravity: the contact time is not known",
+        };
+        let pilot = |pilot: Pilot| PilotJson {
+            drops: pilot.drops,
+            worst_error: Json(pilot.worst_error),
+            share: Json(pilot.share),
+            confidence: Json(pilot.confidence),
+            taken: pilot.taken,
+        };
+        Self { bar: scatter.model.name(), reason, refined: scatter.refined, pilot: scatter.pilot.map(pilot) }
+    }
+}
+
+/// The limit that an input is.
+fn limit(input: &Input) -> Option<&'static str> {
+    if let Input::Limit(_, kind) = input { Some(kind.name()) } else { None }
+}
+
+impl<'a> ComponentJson<'a> {
+    fn new(c: &'a ComponentScatter) -> Self {
+        let driver = |driver: &Driver| DriverJson {
+            input: driver.input.name(),
+            limit: limit(&driver.input),
+            variance_share: Json(driver.share.variance),
+            trend: Json(driver.share.trend),
+        };
+        Self {
+            name: &c.name,
+            failed: c.failures,
+            open: c.open,
+            unanswered: c.unanswered,
+            survival: SurvivalJson::new(c.survival),
+            limits: c.limits.iter().map(|(kind, failed)| LimitJson { limit: kind.name(), failed: *failed }).collect(),
+            utilization: c.worst_sample.map(|largest_sample| UtilizationJson {
+                mean: Json(c.mean_utilization),
+                standard_deviation: Json(c.utilization_deviation),
+                largest: Json(c.largest_utilization),
+                largest_sample,
+            }),
+            drivers: c.drivers.iter().map(driver).collect(),
+        }
+    }
+}
+
+impl<'a> Answer<'a> {
+    pub(super) fn new(file: &'a ProductFile, scatter: &'a Scatter, target: Option<&Target>) -> Self {
+        let Settings { samples, seed, confidence } = scatter.settings;
+        let input = |input: &Input| InputJson {
+            input: input.name(),
+            component: input.component(),
+            limit: limit(input),
+            assumed_uniform: scatter.assumed_even.contains(input),
+        };
+        Self {
+            product: &file.product.name,
+            samples,
+            seed,
+            confidence: Json(confidence),
+            model: ModelJson::new(scatter),
+            inputs: scatter.inputs.iter().map(input).collect(),
+            survival: SurvivalJson::new(scatter.survival),
+            target: target.map(|target| TargetJson { survival: Json(target.share), met: target.is_met(scatter) }),
+            unanswered: scatter.unanswered,
+            reason: scatter.reason.as_ref().map(ToString::to_string),
+            components: scatter.components.iter().map(ComponentJson::new).collect(),
+        }
+    }
+}

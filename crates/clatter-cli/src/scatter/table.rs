@@ -1,0 +1,164 @@
+//! What came of all samples, for people and as rows.
+
+use std::io::{self, Write};
+
+use clatter_assess::scatter::{ComponentScatter, Driver, Input, Pilot, Probability, Scatter, Settings};
+use clatter_assess::{Model, ProductFile};
+
+use super::{Target, fullest, name_of};
+use crate::numbers::{digits, figures, given};
+use crate::text::{column, field, shown};
+use crate::words::percent;
+
+/// Inputs that explain less than this share are not named.
+const NAMED: f64 = 0.01;
+
+/// How an input is called in a table: its name; what a part alone has is the part's own.
+fn called(input: &Input) -> &'static str {
+    match input {
+        Input::Frequency(_) => "own frequency",
+        Input::Damping(_) => "own damping",
+        Input::Position(_) => "own place",
+        Input::Limit(..) => "own limit",
+        Input::CriticalAcceleration(_) => "own critical acceleration",
+        Input::First => "first end",
+        Input::ContactTime => "contact time",
+        other => other.name(),
+    }
+}
+
+/// Which way it goes, where that accounts for at least half of what the input does.
+fn way(driver: &Driver) -> &'static str {
+    let share = driver.share;
+    match (&driver.input, share.trend * share.trend >= 0.5 * share.variance, share.trend > 0.0) {
+        // two values have no way in between
+        (Input::First, _, true) => " (b)",
+        (Input::First, _, false) => " (a)",
+        (_, false, _) => "~",
+        (_, true, true) => "+",
+        (_, true, false) => "-",
+    }
+}
+
+/// A probability as a number of a hundred.
+fn hundredths(p: f64) -> String {
+    if p >= 1.0 { "100".to_owned() } else { figures(100.0 * p) }
+}
+
+pub(super) fn table(
+    file: &ProductFile,
+    scatter: &Scatter,
+    target: Option<&Target>,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let Settings { samples, seed, confidence } = scatter.settings;
+    let (product, sure) = (shown(&file.product.name, 60), given(100.0 * confidence));
+    writeln!(out, "{product}: {samples} drops drawn with seed {seed}")?;
+    models(file, scatter, out)?;
+    let Probability { estimate, lo, at_least, .. } = scatter.survival;
+    writeln!(
+        out,
+        "All parts survive in {} % of them; in at least {} % of all drops ({sure} % confidence)",
+        hundredths(estimate),
+        hundredths(at_least)
+    )?;
+    if let Some(target) = target {
+        let word = if target.is_met(scatter) { "met" } else { "MISSED" };
+        let (wanted, low) = (given(100.0 * target.share), hundredths(lo));
+        writeln!(out, "Target of {wanted} % {word}: the {sure} % interval begins at {low} %")?;
+    }
+    if let Some(reason) = &scatter.reason {
+        writeln!(out, "{} drops are not answered, and counted as failures: {reason}", scatter.unanswered)?;
+    }
+    if !scatter.assumed_even.is_empty() {
+        let names: Vec<_> = scatter.assumed_even.iter().map(|input| in_full(file, input)).collect();
+        writeln!(out, "Taken as equally likely all over the range: {}", names.join(", "))?;
+    }
+    writeln!(out)?;
+    parts(scatter, &sure, out)
+}
+
+/// The model, and what a pilot says of the closed form.
+fn models(file: &ProductFile, scatter: &Scatter, out: &mut dyn Write) -> io::Result<()> {
+    let full = fullest(file).name();
+    let Some(Pilot { drops, worst_error, share, confidence, taken, .. }) = scatter.pilot else {
+        return writeln!(out, "Each is answered by the model {}", scatter.model.name());
+    };
+    let (error, left, sure) = (percent(worst_error), percent(share), given(100.0 * confidence));
+    if taken && scatter.model == Model::Map {
+        writeln!(
+            out,
+            "Answered in closed form (map: small tilt, no gravity, instant impacts); {} near a limit by {full}",
+            scatter.refined
+        )?;
+        return writeln!(
+            out,
+            "Against {full} it is off by {error} at most in {drops} drops; at most {left} of all are off by more ({sure} % confidence)"
+        );
+    }
+    writeln!(out, "Each is answered by the model {full}: in {drops} drops the closed form is off by up to {error}")
+}
+
+/// An input with the part that it belongs to.
+fn in_full(file: &ProductFile, input: &Input) -> String {
+    let name = input.name().replace('-', " ");
+    match input.component() {
+        Some(i) => format!("{name} of {}", shown(name_of(file, i), 24)),
+        None => name,
+    }
+}
+
+/// A row for each part.
+fn parts(scatter: &Scatter, sure: &str, out: &mut dyn Write) -> io::Result<()> {
+    let wide = scatter.components.iter().map(|c| column(&shown(&c.name, 24), 0).1).max().unwrap_or(0).max(4);
+    writeln!(
+        out,
+        "{:<wide$}  {:>9}  {:>9}  {:>19}  {:>11}  {:>9}   driven by",
+        "part",
+        "survives",
+        "at least",
+        format!("{sure} % interval"),
+        "utilization",
+        "largest"
+    )?;
+    writeln!(out, "{:<wide$}  {:>9}  {:>9}  {:>19}  {:>11}", "", "%", "%", "%", "mean")?;
+    for component in &scatter.components {
+        let Probability { estimate, lo, hi, at_least } = component.survival;
+        let named = component.drivers.iter().filter(|driver| driver.share.variance >= NAMED).take(4);
+        let driver = |d: &Driver| format!("{}{} {:.0} %", called(&d.input), way(d), 100.0 * d.share.variance);
+        let drivers: Vec<String> = named.map(driver).collect();
+        let answered = component.worst_sample.is_some();
+        let of = |utilization: f64| if answered { figures(utilization) } else { "-".to_owned() };
+        let line = format!(
+            "{}  {:>9}  {:>9}  {:>9} {:>9}  {:>11}  {:>9}   {}",
+            column(&shown(&component.name, 24), wide).0,
+            hundredths(estimate),
+            hundredths(at_least),
+            hundredths(lo),
+            hundredths(hi),
+            of(component.mean_utilization),
+            of(component.largest_utilization),
+            drivers.join(", ")
+        );
+        writeln!(out, "{}", line.trim_end())?;
+    }
+    Ok(())
+}
+
+pub(super) fn csv(scatter: &Scatter, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(
+        out,
+        "name,samples,failed,survival,interval_lo,interval_hi,at_least,mean_utilization,largest_utilization,open,unanswered"
+    )?;
+    let samples = scatter.settings.samples;
+    for component in &scatter.components {
+        let ComponentScatter { name, failures, survival, open, unanswered, .. } = component;
+        let numbers = [survival.estimate, survival.lo, survival.hi, survival.at_least].map(digits).join(",");
+        let used = match component.worst_sample {
+            Some(_) => format!("{},{}", digits(component.mean_utilization), digits(component.largest_utilization)),
+            None => ",".to_owned(),
+        };
+        writeln!(out, "{},{samples},{failures},{numbers},{used},{open},{unanswered}", field(name))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,102 @@
+//! Values as people say them: in common units, with as many digits as they are good for.
+
+use clatter_assess::{LimitAssessment, STANDARD_GRAVITY_M_S2, Unit, WorstCase};
+
+use crate::inputs;
+use crate::numbers::figures;
+
+/// A value in the unit that people use for it.
+pub(crate) fn in_words(unit: Unit, value: f64) -> String {
+    let (factor, name) = match unit {
+        Unit::MeterPerSecondSquared => (1.0 / STANDARD_GRAVITY_M_S2, "gn"),
+        Unit::Meter => (1e3, "mm"),
+        Unit::MeterPerSecond => (1.0, "m/s"),
+        Unit::RadianPerSecond => (1.0, "rad/s"),
+    };
+    format!("{} {name}", four(factor * value))
+}
+
+/// Four significant digits: more no drop is known to.
+pub(crate) fn four(x: f64) -> String {
+    significant(x, 4)
+}
+
+/// So many significant digits, without an exponent where [`figures`] has none.
+fn significant(x: f64, digits: i32) -> String {
+    let shown = figures(x);
+    if shown.contains('e') || !x.is_finite() || x == 0.0 {
+        return shown;
+    }
+    // From the rounded number, so that 9.9996 is 10.00.
+    let rounded = format!("{x:.*e}", usize::try_from(digits - 1).unwrap_or(0));
+    let exponent = rounded.rsplit('e').next().and_then(|e| e.parse::<i32>().ok()).unwrap_or(0);
+    format!("{x:.*}", usize::try_from(digits - 1 - exponent).unwrap_or(0))
+}
+
+/// A margin, with its sign.
+pub(crate) fn margin(margin: f64) -> String {
+    if margin.is_infinite() { "infinite".to_owned() } else { format!("{:+.1} %", 100.0 * margin) }
+}
+
+/// A share of a hundred to two digits, which is what errors are good for.
+pub(crate) fn percent(share: f64) -> String {
+    match 100.0 * share {
+        p if p.is_infinite() => "infinite".to_owned(),
+        0.0 => "0 %".to_owned(),
+        p if p < 1e-3 => format!("{p:.0e} %"),
+        p => format!("{} %", significant(p, 2)),
+    }
+}
+
+/// A time to three digits.
+pub(crate) fn time(seconds: f64) -> String {
+    let (factor, name) = match seconds {
+        s if s < 0.999_5e-6 => (1e9, "ns"),
+        s if s < 0.999_5e-3 => (1e6, "µs"),
+        _ => (1e3, "ms"),
+    };
+    let x = factor * seconds;
+    let places = if x < 9.995 { 2 } else { usize::from(x < 99.95) };
+    format!("{x:.places$} {name}")
+}
+
+/// A worst drop: how it falls, and the part in it.
+pub(crate) fn drop(worst: &WorstCase) -> String {
+    let contact = worst.contact_time_s.map_or(String::new(), |s| format!(", contacts of {} ms", four(1e3 * s)));
+    let part = worst.frequency_hz.zip(worst.damping_ratio);
+    let part = part.map_or(String::new(), |(hz, ratio)| format!(", {} Hz, damping ratio {}", four(hz), four(ratio)));
+    format!(
+        "{} first, {} deg, {} m/s, e {}{contact}; at {} mm{part}",
+        inputs::letter(worst.first),
+        four(worst.tilt_deg),
+        four(worst.speed_m_s),
+        four(worst.restitution),
+        four(1e3 * worst.position_m),
+    )
+}
+
+/// Whether a drop was answered at all: what was not asks for nothing known.
+pub(crate) fn is_answered(limit: &LimitAssessment) -> bool {
+    !limit.worst_case.command.is_empty()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_have_four_digits() {
+        let values = [0.041_666, 0.4, 9.999_6, 123.456, 12_345.6, 0.0, -0.012_344_9, f64::INFINITY];
+        let said = ["0.04167", "0.4000", "10.00", "123.5", "12346", "0", "-0.01234", "infinite"];
+        assert_eq!(values.map(four), said);
+    }
+
+    #[test]
+    fn shares_and_times_have_as_many_digits_as_they_are_good_for() {
+        let shares = [f64::INFINITY, 0.0, 1e-9, 0.000_05, 0.012_34, 0.099_6, 0.37, 12.0];
+        let said = ["infinite", "0 %", "1e-7 %", "0.0050 %", "1.2 %", "10 %", "37 %", "1200 %"];
+        assert_eq!(shares.map(percent), said);
+        let times = [2.5e-7, 0.999_6e-6, 3.456e-5, 1.5e-3, 2.0];
+        assert_eq!(times.map(time), ["250 ns", "1.00 µs", "34.6 µs", "1.50 ms", "2000 ms"]);
+    }
+}

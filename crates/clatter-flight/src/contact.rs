@@ -1,0 +1,194 @@
+//! Contacts that take time: a body whose points press into the ground by a law that is linear in pieces.
+//!
+//! Between two events (a point touches, is at its lowest, parts, presses again) all forces are linear in the motion, so that
+//! a [phase] is a sum of known functions, evaluated and not stepped. Events are first zeros: in closed form where one point
+//! presses without damping, else found by [`roots`](crate::roots), by bounds of the derivatives that hold from any moment on.
+//!
+//! # Lever arms
+//! A phase has constant lever arms, and a constant acceleration by turning: those of the mean angle as its forces weigh it.
+//! At its end the pose follows in exact geometry. What that gets wrong is measured beside each phase, by how far the body
+//! turns and how much it is pushed; phases are cut where it would be more than the precision asked allows. What the energy
+//! of the body changes by without reason is summed in [`ContactFlight::energy_error`], and a flight in which that is not
+//! small is refused.
+//!
+//! # A point that lies
+//! A hysteretic contact that is too slow to rise above the ground rings on its line of unloading for ever. Where that is
+//! slower than the precision times the largest approach, the point is laid down: it stays where it is until its force falls
+//! to zero or another point strikes. With e = 0 the line of unloading is upright, and every point lies as it has loaded.
+//!
+//! # Rest
+//! The flight is at rest where the energy left allows no point to be faster than the precision times the largest
+//! approach, or where no point can rise above the ground any more, nor load deeper. [`Stop::AtRest`] bounds what rings on.
+
+mod eigen;
+mod felt;
+mod law;
+mod mode;
+mod phase;
+mod pose;
+mod rest;
+mod run;
+mod touch;
+
+pub use law::{Contact, ContactLaw};
+
+use clatter::Error as BarError;
+
+use crate::Error;
+use crate::flight::{Flight, Stop};
+use crate::scene::{Scene, within};
+use phase::Phase;
+use pose::Pose;
+use run::Run;
+
+/// How long a strike presses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Press {
+    /// When it touches.
+    pub from_s: f64,
+    /// When it parts for the last time; infinite where it presses still as the flight ends.
+    pub until_s: f64,
+}
+
+/// A flight with contacts that take time, and its whole history.
+#[derive(Debug, Clone)]
+pub struct ContactFlight<const N: usize = 2> {
+    /// Strikes and stop. A strike is a touch from above the ground; its time is that of the touch, its Δv what the force of
+    /// that contact does in all, its velocities are those as it parts.
+    pub flight: Flight<N>,
+    /// Beginning and end of each strike's contact.
+    pub presses: Vec<Press>,
+    /// What the energy of the body has changed by without reason, summed without regard to sign, over that of the body at
+    /// the first touch.
+    ///
+    /// # Accuracy
+    /// Each time that a point comes to press adds less than 4 times the precision (measured on random drops). One strike may
+    /// press hundreds of times: a body that rocks in the dents it has made loses nothing by the law and never rises above the
+    /// ground.
+    pub energy_error: f64,
+    contact_s: f64,
+    phases: Vec<(f64, Phase<N>)>,
+    /// The body just before the flight ends, and as it ends, at rest without what was left of its motion.
+    last: Pose<N>,
+    end: Pose<N>,
+    /// The forces on it if it is at rest.
+    resting: [f64; N],
+}
+
+/// The body at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample<const N: usize = 2> {
+    /// Heights of all contact points; negative where one is pressed in.
+    pub height_m: [f64; N],
+    /// Vertical velocities of all points.
+    pub velocity_m_s: [f64; N],
+    /// Vertical accelerations of all points, gravity included.
+    pub acceleration_m_s2: [f64; N],
+    /// Forces of the ground on all points over the mass of the body.
+    pub force_per_mass_m_s2: [f64; N],
+    /// Tilt, in (−π, π] at each touch; it goes on from there where the body turns.
+    pub tilt_rad: f64,
+    /// Angular velocity.
+    pub spin_rad_s: f64,
+}
+
+impl<const N: usize> ContactFlight<N> {
+    /// The body at a time since the first touch; beyond the end of the flight it stays at rest, or goes on as it was.
+    #[must_use]
+    pub fn sample(&self, time_s: f64) -> Sample<N> {
+        if matches!(self.flight.stop, Stop::AtRest { time_s: rest, .. } if time_s >= rest) {
+            return Sample {
+                height_m: self.end.points().0,
+                velocity_m_s: [0.0; N],
+                acceleration_m_s2: [0.0; N],
+                force_per_mass_m_s2: self.resting,
+                tilt_rad: self.end.tilt,
+                spin_rad_s: 0.0,
+            };
+        }
+        let n = self.phases.partition_point(|(from, _)| *from <= time_s).saturating_sub(1);
+        let (from, phase) = &self.phases[n];
+        phase.sample((time_s - from).max(0.0))
+    }
+    /// When each phase begins, in order from 0. Within a phase every force is smooth.
+    pub fn phases_s(&self) -> impl Iterator<Item = f64> + '_ {
+        self.phases.iter().map(|(from, _)| *from)
+    }
+}
+
+/// What may still come, as asked while a flight goes on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ahead {
+    /// Now.
+    pub time_s: f64,
+    /// Largest velocity shock of a contact point so far.
+    pub largest_m_s: f64,
+    /// No later strike that presses alone changes the velocity of a contact point by more, by the energy that is left, its weight
+    /// apart; and none approaches at more than half of it.
+    pub most_m_s: f64,
+    /// Whether a point is about to touch from above the ground; else one that is down parts or presses again.
+    pub lands: bool,
+}
+
+impl<const N: usize> Scene<N> {
+    /// The flight with contacts that take time, until rest, to a precision of 1e−4.
+    ///
+    /// # Errors
+    /// As [`contacts_until`](Self::contacts_until).
+    ///
+    /// # Examples
+    /// A flat, even drop with e = 1: both ends press along one half-sine and rise together.
+    /// ```
+    /// use clatter_flight::{Body, Contact, ContactLaw, Scene};
+    /// let scene = Scene::new(Body::new(0.14, 0.04)?, 1.0, 2.0, 0.0, 0.0)?;
+    /// let flight = scene.contacts(&Contact::new(ContactLaw::Hysteretic, 1.0, 1e-3)?)?;
+    /// assert_eq!(flight.presses[0], flight.presses[1]);
+    /// assert!((flight.flight.strikes[0].velocity_m_s[0] - 2.0).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn contacts(&self, contact: &Contact) -> Result<ContactFlight<N>, Error> {
+        self.contacts_until(contact, 1e-4, |_| false)
+    }
+
+    /// The same to a precision, as far as it is needed: `enough` is asked before each event at which no point
+    /// loads, and ends the flight there.
+    ///
+    /// # Accuracy
+    /// Over the largest approach, each time that a point presses leaves the body with velocities that are wrong by less than
+    /// `precision`, and what is slower than `precision` is laid down.
+    ///
+    /// # Errors
+    /// [`Error::Given`] unless the precision is in [1e−8, 0.1], the radius of gyration is at least 0.05 of the length
+    /// (light ends would whirl it through large angles while they touch), and the contact time is so short that points sink
+    /// in by a small part of the length, at most 0.1 length over the speed and 0.1 √(length/gravity), and so long that
+    /// they sink in at all, 1e−10 length over the speed; [`Error::Energy`] where the motion does not keep its energy.
+    pub fn contacts_until(
+        &self,
+        contact: &Contact,
+        precision: f64,
+        enough: impl FnMut(&Ahead) -> bool,
+    ) -> Result<ContactFlight<N>, Error> {
+        within("precision", precision, 1e-8, 0.1, "in [1e-8, 0.1]")?;
+        self.check(contact)?;
+        Run::new(self, contact, precision).run(enough)
+    }
+
+    fn check(&self, contact: &Contact) -> Result<(), BarError> {
+        let refuse = |name, value, allowed| Err(BarError::Quantity { name, value, allowed });
+        let reach = self.body().reach();
+        let (length, gyration, time) = (self.body().length_m().max(reach), self.body().gyration_m(), contact.time_s());
+        if gyration < 0.05 * length {
+            let allowed = "at least 0.05 of the length for contacts that take time";
+            return refuse("radius of gyration in m", gyration, allowed);
+        }
+        let fastest = self.speed_m_s() + reach * self.spin_rad_s().abs();
+        if time * fastest > 0.1 * length || time * time * self.gravity_m_s2() > 0.01 * length {
+            let allowed = "at most 0.1 length/speed and 0.1 sqrt(length/gravity), so that the ends sink in little";
+            return refuse("contact time in s", time, allowed);
+        }
+        if time * self.speed_m_s() < 1e-10 * length {
+            return refuse("contact time in s", time, "at least 1e-10 length/speed, so that the ends sink in at all");
+        }
+        Ok(())
+    }
+}

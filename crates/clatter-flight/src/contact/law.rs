@@ -1,0 +1,148 @@
+//! Two contact laws, both linear in pieces, fitted to a restitution and to the time that a lone contact takes.
+
+use clatter::{Error, Restitution};
+
+use crate::scene::within;
+
+/// What the ground does to a point that presses into it by a depth d.
+///
+/// Both have the restitution e at any speed and the stated contact time τ for a lone contact without gravity. With ω₁ and
+/// μ = 1 + (lever arm/radius of gyration)² at the moment of touch, forces are per mass of the body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ContactLaw {
+    /// Loading along F = k₁ d; unloading and reloading along F = k₂ (d − d₀) with k₂ = k₁/e² and d₀ = d_max (1 − e²), never
+    /// pulling; back at d_max the point is on the first line again, and once it has been above the ground all is
+    /// forgotten (Walton and Braun). With ω₁ = (π/2)(1 + e)/τ and k₁ = ω₁²/μ the pulse is a quarter sine of τ/(1 + e) and a quarter
+    /// cosine of τ e/(1 + e): its largest force is that of the half-sine with the same length and velocity change, which
+    /// shock tables and standards mean.
+    #[default]
+    Hysteretic,
+    /// A spring and a dashpot, F = κ (d + θ d′), never pulling. The force jumps as the point touches, and is largest there
+    /// below e ≈ 0.3: right for some rubber.
+    Dashpot,
+}
+
+/// A contact law fitted to a lone contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    law: ContactLaw,
+    e: f64,
+    time_s: f64,
+    frequency: f64,
+    damping: f64,
+}
+
+/// Below this restitution a hysteretic contact does not rebound at all: what that leaves out is 1e-4 of a shock.
+const PLASTIC: f64 = 1e-4;
+/// Below this restitution a dashpot rebounds with it: its damping has no limit at e = 0.
+const LEAST_OF_DASHPOT: f64 = 1e-3;
+/// Newton's steps of the fit at most: eight do.
+const NEWTON: usize = 12;
+
+impl Contact {
+    /// The contact with restitution `e` whose lone contact lasts `time_s`.
+    ///
+    /// # Accuracy
+    /// A lone contact without gravity has this restitution and this duration to 1e−9; a hysteretic one with e below 1e−4
+    /// rebounds with 0, a dashpot with e below 1e−3 with 1e−3.
+    ///
+    /// # Errors
+    /// [`Error::Restitution`] unless 0 ≤ e ≤ 1, [`Error::Quantity`] unless the time is in [1e−12, 1e3] s.
+    ///
+    /// # Examples
+    /// ```
+    /// use clatter_flight::{Contact, ContactLaw};
+    /// let contact = Contact::new(ContactLaw::Hysteretic, 0.5, 1e-3)?;
+    /// assert!((contact.frequency_rad_s() - 0.75e3 * std::f64::consts::PI).abs() < 1e-9);
+    /// let rubber = Contact::new(ContactLaw::Dashpot, 0.451, 1e-3)?;
+    /// assert!((rubber.damping_ratio() - 0.3).abs() < 1e-3);
+    /// # Ok::<(), clatter::Error>(())
+    /// ```
+    pub fn new(law: ContactLaw, e: f64, time_s: f64) -> Result<Self, Error> {
+        let e = Restitution::new(e)?.get();
+        within("contact time in s", time_s, 1e-12, 1e3, "in [1e-12, 1000]")?;
+        let (frequency, damping) = match law {
+            ContactLaw::Hysteretic => (std::f64::consts::FRAC_PI_2 * (1.0 + e) / time_s, 0.0),
+            ContactLaw::Dashpot => {
+                let (phase, damping) = dashpot(e.max(LEAST_OF_DASHPOT));
+                (phase / time_s, damping)
+            }
+        };
+        Ok(Self { law, e, time_s, frequency, damping })
+    }
+    /// The law.
+    #[must_use]
+    pub fn law(&self) -> ContactLaw {
+        self.law
+    }
+    /// Restitution.
+    #[must_use]
+    pub fn restitution(&self) -> f64 {
+        self.e
+    }
+    /// Duration of a lone contact.
+    #[must_use]
+    pub fn time_s(&self) -> f64 {
+        self.time_s
+    }
+    /// Natural angular frequency of a lone contact as it loads, ω₁ or the dashpot's ω.
+    #[must_use]
+    pub fn frequency_rad_s(&self) -> f64 {
+        self.frequency
+    }
+    /// Damping ratio of a lone contact: 0 for a hysteretic one.
+    #[must_use]
+    pub fn damping_ratio(&self) -> f64 {
+        self.damping
+    }
+    /// θ of F = κ (d + θ d′).
+    pub(super) fn delay_s(&self) -> f64 {
+        2.0 * self.damping / self.frequency
+    }
+    /// Whether a point stays where its first loading leaves it.
+    pub(super) fn is_plastic(&self) -> bool {
+        self.law == ContactLaw::Hysteretic && self.e < PLASTIC
+    }
+    /// Stiffness of unloading over that of loading.
+    pub(super) fn unloading(&self) -> f64 {
+        if self.is_plastic() { f64::INFINITY } else { self.e.powi(-2) }
+    }
+}
+
+/// ωτ and damping ratio of a spring and dashpot with restitution e.
+///
+/// A lone contact without gravity parts when d + θ d′ = 0. With ζ = cos β (or cosh β beyond critical damping)
+///
+/// ```text
+/// ω τ = 2β/sin β   (2β/sinh β),   e = exp(−ζ ω τ) = exp(−2β cot β)   (exp(−2β coth β))
+/// ```
+///
+/// which is solved for β² by Newton's steps to a few roundings.
+fn dashpot(e: f64) -> (f64, f64) {
+    /// β, sin β and cos β of β² = x; sinh and cosh where x is negative.
+    fn angle(x: f64) -> (f64, f64, f64) {
+        let b = x.abs().sqrt();
+        let (sine, cosine) = if x > 0.0 { b.sin_cos() } else { (b.sinh(), b.cosh()) };
+        (b, sine, cosine)
+    }
+    let loss = -e.ln(); // ζ ω τ
+    // β cot β, and β coth β with x = −β², are one function of x = β², 1 − x/3 − …, which falls and is concave: Newton's
+    // steps from where its tangent at 0 has the value stay on one side of x.
+    let mut x = 3.0 - 1.5 * loss;
+    for _ in 0..NEWTON {
+        let (b, sine, cosine) = angle(x);
+        let (value, slope) = if b < 1e-4 {
+            (1.0 - x / 3.0, -1.0 / 3.0)
+        } else {
+            (b * cosine / sine, (sine * cosine - b).copysign(-1.0) / (2.0 * b * sine * sine))
+        };
+        let step = (0.5 * loss - value) / slope;
+        x += step;
+        if step.abs() <= 4.0 * f64::EPSILON * x.abs().max(1.0) {
+            break;
+        }
+    }
+    let (b, sine, cosine) = angle(x);
+    let stretch = if b > 0.0 { b / sine } else { 1.0 };
+    (2.0 * stretch, if loss > 0.0 { cosine } else { 0.0 })
+}

@@ -1,0 +1,485 @@
+//! A flight under way: phases one after the other, and the events between them.
+
+use super::law::{Contact, ContactLaw};
+use super::mode::Motion;
+use super::phase::{Hold, Phase};
+use super::pose::Pose;
+use super::touch::{Event, Margins, State, Touch, Watch};
+use super::{Ahead, ContactFlight, Press};
+use crate::Error;
+use crate::flight::{After, Log, State as Heights, Stop};
+use crate::rigid::Clock;
+use crate::roots::{Zero, far_step, first_zero, safe_step};
+use crate::scene::Scene;
+
+/// Refused is what has more unexplained energy than this share,
+const ENERGY: f64 = 0.01;
+/// and this many times the precision for each time that a point presses, from the air or again in its dent.
+const EACH: f64 = 4.0;
+/// Turn of a phase over the lever arm, times what it pushes over the fastest approach, over the precision: a strike is then
+/// wrong by less than the precision (measured on random scenes by the tests).
+const KEPT: f64 = 4.0;
+/// How often a phase is worked out anew with better lever arms.
+const PASSES: usize = 6;
+/// How often it is cut shorter.
+const CUTS: usize = 12;
+/// A phase is at most this many times as long as the one before, where that was cut.
+const GROWTH: f64 = 4.0;
+/// Events without time between them, one after the other, that no motion needs.
+const IDLE: u32 = 64;
+/// Longest phase in contact times where anything vibrates, else a tenth of √(reach/gravity) or of a turn by 1 if that is
+/// longer.
+const LONG: f64 = 64.0;
+/// Phases at most beyond those for each strike that is allowed: a body that neither rests nor strikes is left then.
+const PHASES: usize = 20_000;
+const EACH_STRIKE: usize = 128;
+/// Heights within this share of the body's length, and velocities within this share of the largest approach, are the same
+/// where an event has just happened.
+const MARGIN: f64 = 1e-14;
+
+pub(super) struct Run<'a, const N: usize> {
+    pub(super) contact: &'a Contact,
+    pub(super) precision: f64,
+    pub(super) margins: Margins,
+    pub(super) reach: f64,
+    /// Whether all points are on one side: what turns over comes down on others.
+    one_sided: bool,
+    pub(super) log: Log<N>,
+    pub(super) presses: Vec<Press>,
+    /// How often a point has come to press, also again in its dent.
+    pressed: usize,
+    pub(super) phases: Vec<(f64, Phase<N>)>,
+    /// Number of phases at the last strike.
+    pub(super) since: usize,
+    pub(super) time: Clock,
+    pub(super) pose: Pose<N>,
+    pub(super) touches: [Touch; N],
+    /// Largest approach so far.
+    pub(super) fastest: f64,
+    /// How long the next phase may be, by what the last one got wrong.
+    stride: f64,
+    opened: f64,
+    misfit: f64,
+    idle: u32,
+    most_phases: usize,
+    /// The body just before it comes to rest.
+    pub(super) unrested: Option<Pose<N>>,
+    pub(super) resting: [f64; N],
+}
+
+/// A phase, how long it lasts, and what ends it.
+struct Course<const N: usize> {
+    phase: Phase<N>,
+    dt: f64,
+    event: Option<(usize, Watch)>,
+}
+
+impl<'a, const N: usize> Run<'a, N> {
+    pub(super) fn new(scene: &Scene<N>, contact: &'a Contact, precision: f64) -> Self {
+        let (body, pose) = (scene.body(), Pose::start(scene));
+        Self {
+            contact,
+            precision,
+            margins: Margins { height: MARGIN * body.length_m().max(body.reach()), velocity: 0.0, force: precision },
+            reach: body.reach(),
+            one_sided: body.points_m().iter().all(|[_, z]| *z < 0.0),
+            log: Log::new(scene),
+            presses: Vec::with_capacity(16),
+            pressed: 0,
+            phases: Vec::with_capacity(64),
+            since: 0,
+            time: Clock::default(),
+            pose,
+            touches: [Touch::away(); N],
+            fastest: 0.0,
+            stride: f64::INFINITY,
+            opened: pose.energy(),
+            misfit: 0.0,
+            idle: 0,
+            most_phases: PHASES + EACH_STRIKE * scene.impact_limit().min(1 << 20),
+            unrested: None,
+            resting: [0.0; N],
+        }
+    }
+
+    pub(super) fn run(mut self, mut enough: impl FnMut(&Ahead) -> bool) -> Result<ContactFlight<N>, Error> {
+        let mut goes_on = self.first_touches();
+        while goes_on {
+            if let Some((forces, bound)) = self.rests() {
+                self.rest(forces, bound);
+                break;
+            }
+            goes_on = self.step(&mut enough)?;
+        }
+        self.finish()
+    }
+
+    /// The points that are on the ground and come down.
+    fn first_touches(&mut self) -> bool {
+        let (height, velocity) = self.pose.points();
+        (0..N).all(|i| height[i] > 0.0 || velocity[i] >= 0.0 || self.touch(i, height[i], velocity[i]))
+    }
+
+    /// A phase and the event at its end. Whether the flight goes on.
+    fn step(&mut self, enough: &mut impl FnMut(&Ahead) -> bool) -> Result<bool, Error> {
+        let Course { phase, dt, event } = self.next();
+        if dt > 0.0 {
+            self.phases.push((self.time.now(), phase));
+        }
+        if dt == f64::INFINITY {
+            self.bounced_clear();
+            return Ok(false);
+        }
+        let left = self.log.time_limit_s - self.time.now();
+        if dt > left {
+            self.advance(&phase, left)?;
+            self.log.lost(self.log.time_limit_s);
+            return Ok(false);
+        }
+        self.advance(&phase, dt)?;
+        self.time.add(dt);
+        if self.turned_over() {
+            self.log.turned_over(self.time.now());
+            return Ok(false);
+        }
+        self.idle = if dt > 0.0 { 0 } else { self.idle + 1 };
+        if self.phases.len() >= self.most_phases || self.idle > IDLE {
+            self.log.lost(self.time.now());
+            return Ok(false);
+        }
+        let Some((point, watch)) = event else { return Ok(true) };
+        let loads = self.touches.iter().any(|touch| touch.state == State::Loading);
+        if !loads && !self.presses.is_empty() && enough(&self.ahead(watch.event == Event::Touches)) {
+            self.log.flight.stop = Stop::Enough { time_s: self.time.now() };
+            return Ok(false);
+        }
+        Ok(self.happens(&phase, dt, point, watch))
+    }
+
+    /// From the last parting on nothing happens any more.
+    fn bounced_clear(&mut self) {
+        let parted = self.presses.iter().fold(0.0_f64, |last, press| last.max(press.until_s));
+        let begun = self.phases.partition_point(|(from, _)| *from <= parted);
+        self.phases.truncate(begun.max(1));
+        if let Some((from, phase)) = self.phases.last() {
+            self.pose = phase.start.flown(parted - from);
+        }
+        self.log.flight.stop = Stop::BouncedClear { time_s: parted };
+    }
+
+    fn finish(mut self) -> Result<ContactFlight<N>, Error> {
+        let energy_error = self.misfit / self.opened;
+        #[expect(clippy::cast_precision_loss, reason = "at most a hundred million")]
+        let allowed = ENERGY + EACH * self.precision * self.pressed as f64;
+        if energy_error > allowed {
+            return Err(Error::Energy { share: energy_error });
+        }
+        let (_, velocity) = self.pose.points();
+        for (press, strike) in self.presses.iter().zip(&mut self.log.flight.strikes) {
+            if press.until_s == f64::INFINITY {
+                (strike.velocity_m_s, strike.spin_rad_s) = (velocity, self.pose.spin);
+            }
+        }
+        let contact_s = self.contact.time_s();
+        let Self { log, presses, phases, pose, unrested, resting, .. } = self;
+        let last = unrested.unwrap_or(pose);
+        Ok(ContactFlight { flight: log.flight, presses, energy_error, contact_s, phases, last, end: pose, resting })
+    }
+
+    fn next(&mut self) -> Course<N> {
+        let holds = self.touches.map(|touch| touch.hold(self.contact));
+        if holds.iter().any(|hold| !matches!(hold, Hold::No)) {
+            self.lay_down();
+            if let Some(i) = self.touches.iter().position(|touch| touch.state == State::Lying) {
+                self.stop_point(i);
+            }
+            return self.pressed(self.touches.map(|touch| touch.hold(self.contact)));
+        }
+        let phase = Phase::free(self.pose);
+        let upright = self.upright();
+        let event = self.first_event(&phase, upright);
+        let dt = event.map_or(upright, |(t, _)| t);
+        Course { phase, dt, event: event.and_then(|(_, event)| event) }
+    }
+
+    /// A phase with forces, with lever arms and of a length as its precision asks.
+    fn pressed(&mut self, holds: [Hold; N]) -> Course<N> {
+        let delay = self.contact.delay_s();
+        let levers = self.pose.levers();
+        // What a turn changes the lever arms by, over themselves.
+        let steep = (0..N).filter(|&i| self.touches[i].is_pressing()).fold(0.1_f64, |most, i| {
+            most.max(levers.over[i].abs() / levers.x[i].abs().max(0.1 * self.pose.body.gyration_m()))
+        });
+        let budget = self.precision * self.fastest;
+        let mut longest = self.stride;
+        let mut halfway = self.pose.flown(0.5 * longest.min(0.5 * self.contact.time_s()));
+        halfway.spin = self.pose.spin;
+        let (mut passes, mut cuts) = (0, 0);
+        loop {
+            let phase = Phase::new(self.pose, &halfway, holds, delay);
+            let slowest = (self.reach / self.pose.gravity).sqrt().min(self.pose.spin.abs().recip());
+            let swing = if phase.is_still() && slowest < f64::INFINITY { 0.1 * slowest } else { 0.0 };
+            longest = longest.min(swing.max(LONG * self.contact.time_s()));
+            let event = self.first_event(&phase, longest);
+            let dt = event.map_or(longest, |(t, _)| t);
+            let Mean { pose, turn, pushed, off: gap, end } = self.mean(&phase, dt);
+            if let Some(past) = self.lets_go(&phase, &end).filter(|_| cuts < CUTS) {
+                cuts += 1;
+                longest = past * dt;
+                halfway = self.mean(&phase, longest).pose;
+                continue;
+            }
+            let wrong = turn * steep * (pushed + turn * steep * self.reach * pose.spin.abs());
+            let over = (wrong / KEPT + gap) / budget;
+            if over > 1.5 && cuts < CUTS {
+                cuts += 1;
+                longest = dt * over.sqrt().recip().clamp(0.1, 0.8);
+                halfway = self.mean(&phase, longest).pose;
+                continue;
+            }
+            passes += 1;
+            let off = (pose.tilt - halfway.tilt).abs() * steep * pushed;
+            if off > 0.1 * budget && passes < PASSES {
+                halfway = pose;
+                continue;
+            }
+            let cut = dt > 0.0 && (event.is_none() || cuts > 0);
+            self.stride = if cut { dt * over.sqrt().recip().min(GROWTH) } else { f64::INFINITY };
+            return Course { phase, dt, event: event.and_then(|(_, event)| event) };
+        }
+    }
+
+    /// The share of a phase after which turning lifts a point that alone presses and lies, and a little more.
+    fn lets_go(&self, phase: &Phase<N>, end: &Pose<N>) -> Option<f64> {
+        let l = phase.lies.filter(|_| phase.modes().is_empty())?;
+        let (now, then) = (self.pose.fall(l), end.fall(l));
+        let share = 1.02 * now / (now - then);
+        (now > 0.0 && then < 0.0 && share < 0.9).then_some(share)
+    }
+
+    /// The mean pose of a phase of length dt as its forces weigh it, by Simpson's rule; how far the body turns, and by how much a
+    /// point that presses is pushed.
+    fn mean(&self, phase: &Phase<N>, dt: f64) -> Mean<N> {
+        let at = |t: f64, motions: &[Motion; N]| {
+            let pushes = phase.pushes(t, motions);
+            (phase.forces(motions).iter().sum::<f64>(), phase.pose(t, &pushes), pushes)
+        };
+        let (half, end) = (phase.motions(0.5 * dt), phase.motions(dt));
+        let (begins, (middles, middle, _), (ends, end, pushes)) =
+            (phase.forces(&phase.motions(0.0)).iter().sum::<f64>(), at(0.5 * dt, &half), at(dt, &end));
+        let sum = begins + 4.0 * middles + ends;
+        let mut pose = middle;
+        if sum > 0.0 {
+            let weighed = |a: f64, b: f64, c: f64| (begins * a + 4.0 * middles * b + ends * c) / sum;
+            pose.tilt = weighed(self.pose.tilt, middle.tilt, end.tilt);
+            pose.spin = weighed(self.pose.spin, middle.spin, end.spin);
+        }
+        let turn = (end.tilt - self.pose.tilt).abs().max((middle.tilt - self.pose.tilt).abs());
+        let off = phase.mismatch(dt, &phase.motions(dt), &end, self.margins.height);
+        Mean { pose, turn, pushed: phase.pushed(&pushes), off, end }
+    }
+
+    /// The first event of a phase before `cap`, or the time until which none is proven to happen.
+    fn first_event(&self, phase: &Phase<N>, cap: f64) -> Option<(f64, Option<(usize, Watch)>)> {
+        let modes = phase.mode_bounds();
+        let mut found: Option<(f64, Option<(usize, Watch)>)> = None;
+        // Points that press first: what they end is short.
+        let pressing = |i: &usize| phase.lines[*i].is_some();
+        for i in (0..N).filter(pressing).chain((0..N).filter(|i| !pressing(i))) {
+            for watch in self.touches[i].watches(self.contact, &self.margins).into_iter().flatten() {
+                let cap = found.map_or(cap, |(t, _)| t);
+                match self.when(phase, i, &watch, &modes, cap) {
+                    Zero::Never => {}
+                    Zero::At(t) => found = Some((t, Some((i, watch)))),
+                    Zero::Beyond(t) => found = Some((t, None)),
+                }
+            }
+        }
+        found
+    }
+
+    /// When what is watched at a point happens, if before `cap`.
+    fn when(&self, phase: &Phase<N>, i: usize, watch: &Watch, modes: &[[f64; 4]; N], cap: f64) -> Zero {
+        if let Some(known) = phase.falls(i, watch) {
+            return known.filter(|t| *t < cap).map_or(Zero::Never, Zero::At);
+        }
+        if phase.swing(i, modes).is_some_and(|swing| watch.never(swing)) {
+            return Zero::Never;
+        }
+        let free = phase.is_free();
+        let bounds = if free {
+            self.pose.flying_bounds(i)
+        } else if phase.lies == Some(i) {
+            phase.reaction_bounds(i, modes)
+        } else {
+            phase.bounds(i, modes)
+        };
+        let [second, third] = watch.bounds(bounds);
+        if let Some([value, slope]) = phase.begins(i).and_then(|at| watch.begins(at))
+            && value > 0.0
+            && safe_step(value, slope, second) >= cap
+        {
+            return Zero::Never;
+        }
+        let clear = |t: f64| if free && watch.event == Event::Touches { self.pose.clear(i, t) } else { 0.0 };
+        first(cap, [second, third], |t| watch.at(phase.watched(i, t)), clear)
+    }
+
+    /// Moves the pose to the end of a phase, and books what the ground has done.
+    fn advance(&mut self, phase: &Phase<N>, dt: f64) -> Result<(), Error> {
+        if phase.is_free() {
+            self.pose = self.pose.flown(dt);
+            return Ok(());
+        }
+        let pushes = phase.pushes(dt, &phase.motions(dt));
+        let held = phase.start.energy() + phase.springs(&phase.start.points().0);
+        self.pose = phase.pose(dt, &pushes);
+        if !self.pose.y.is_finite() || !self.pose.spin.is_finite() {
+            return Err(Error::Energy { share: f64::INFINITY });
+        }
+        let change = self.pose.energy() + phase.springs(&self.pose.points().0) - held;
+        // A dashpot takes energy, and may not give any.
+        self.misfit += if self.contact.law() == ContactLaw::Dashpot { change.max(0.0) } else { change.abs() };
+        for i in 0..N {
+            if self.touches[i].is_pressing() {
+                self.book(i, phase.jumps(i, pushes.impulse[i]));
+            }
+        }
+        if let Some(l) = phase.lies {
+            let (pose, impulse) = phase.held(l, &self.pose);
+            self.pose = pose;
+            self.pushed(l, impulse);
+        }
+        Ok(())
+    }
+
+    /// Books what the ground does at point i with its strike.
+    pub(super) fn book(&mut self, i: usize, jumps: [f64; N]) {
+        let strike = &mut self.log.flight.strikes[self.touches[i].strike];
+        for (sum, jump) in strike.delta_v_m_s.iter_mut().zip(jumps) {
+            *sum += jump;
+        }
+    }
+
+    /// An event, and all others of its kind that come with it by symmetry. Whether the flight goes on.
+    fn happens(&mut self, phase: &Phase<N>, dt: f64, point: usize, watch: Watch) -> bool {
+        let [value, ..] = watch.at(phase.watched(point, dt));
+        let mut due = [None; N];
+        for (i, due) in due.iter_mut().enumerate() {
+            let comes_too = |other: &Watch| {
+                let [v, slope, _] = other.at(phase.watched(i, dt));
+                other.event == watch.event && v <= value && slope <= 0.0
+            };
+            let mut watches = self.touches[i].watches(self.contact, &self.margins).into_iter().flatten();
+            *due = if i == point { Some(watch.event) } else { watches.find(comes_too).map(|w| w.event) };
+        }
+        (0..N).all(|i| due[i].is_none_or(|event| self.apply(i, event)))
+    }
+
+    pub(super) fn apply(&mut self, i: usize, event: Event) -> bool {
+        let (height, velocity) = self.pose.points();
+        let (h, v) = (height[i], velocity[i]);
+        match event {
+            Event::Touches => return self.touch(i, h, v),
+            Event::Crests => self.touches[i].crest(h, self.contact),
+            Event::Parts => {
+                self.touches[i].part(h, v, self.contact);
+                let strike = self.touches[i].strike;
+                self.presses[strike].until_s = self.time.now();
+                let strike = &mut self.log.flight.strikes[strike];
+                (strike.velocity_m_s, strike.spin_rad_s) = (velocity, self.pose.spin);
+                self.log.largest_m_s =
+                    strike.delta_v_m_s.iter().fold(self.log.largest_m_s, |most, dv| most.max(dv.abs()));
+            }
+            Event::Reloads => self.touches[i].reload(h),
+            Event::Presses => {
+                if v < -self.slow() {
+                    self.rouse_others(i);
+                }
+                self.presses[self.touches[i].strike].until_s = f64::INFINITY;
+                self.pressed += 1;
+                if self.contact.is_plastic() {
+                    self.touches[i].reload(h);
+                } else {
+                    let dashpot = self.contact.law() == ContactLaw::Dashpot;
+                    self.touches[i].state = if dashpot { State::Loading } else { State::Elastic };
+                }
+            }
+            Event::Clears => self.touches[i] = Touch { strike: self.touches[i].strike, ..Touch::away() },
+        }
+        true
+    }
+
+    /// A new strike. Whether the flight goes on.
+    fn touch(&mut self, i: usize, height: f64, velocity: f64) -> bool {
+        self.rouse_others(i);
+        // A touch that grazes has no approach, whatever rounding says.
+        let approach = velocity.min(0.0);
+        let (h, v) = self.pose.points();
+        // Whole turns have done their part, and take digits.
+        self.pose.tilt = self.pose.tilt.sin().atan2(self.pose.tilt.cos());
+        let after = After { ends: Heights { h, v }, tilt: self.pose.tilt, spin: self.pose.spin };
+        let strike = self.log.flight.strikes.len();
+        if !self.log.strike(i, self.time.now(), approach, [0.0; N], &after, &mut |_| false) {
+            if let Stop::ImpactLimit { time_s } = &mut self.log.flight.stop {
+                *time_s = self.time.now();
+            }
+            return false;
+        }
+        self.fastest = self.fastest.max(-approach);
+        self.since = self.phases.len();
+        self.margins.velocity = MARGIN * self.fastest;
+        let stiffness = self.stiffness(i);
+        let [ground, crest, zero] = [height; 3];
+        self.touches[i] = Touch { state: State::Loading, stiffness, ground, crest, zero, bounces: 0, strike };
+        self.pressed += 1;
+        self.presses.push(Press { from_s: self.time.now(), until_s: f64::INFINITY });
+        true
+    }
+
+    /// Stiffness that a lone contact of a point has at this angle as it loads.
+    pub(super) fn stiffness(&self, i: usize) -> f64 {
+        let x = self.pose.levers().x[i];
+        self.contact.frequency_rad_s().powi(2) / (1.0 + x * x / self.pose.rho2)
+    }
+
+    /// Time until a body that has points on one side alone stands at a right angle.
+    fn upright(&self) -> f64 {
+        let Pose { tilt, spin, .. } = self.pose;
+        if self.one_sided && spin != 0.0 {
+            ((0.5 * std::f64::consts::PI - tilt * spin.signum()) / spin.abs()).max(0.0)
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    fn turned_over(&self) -> bool {
+        self.one_sided && self.pose.tilt.abs() >= 0.5 * std::f64::consts::PI
+    }
+}
+
+struct Mean<const N: usize> {
+    pose: Pose<N>,
+    turn: f64,
+    pushed: f64,
+    off: f64,
+    end: Pose<N>,
+}
+
+/// First time before `cap` at which what is watched falls to zero; where it begins at zero and rises, not then.
+fn first(cap: f64, [second, third]: [f64; 2], at: impl Fn(f64) -> [f64; 3], clear: impl Fn(f64) -> f64) -> Zero {
+    let [value, slope, bend] = at(0.0);
+    let begin = if value > 0.0 {
+        0.0
+    } else if slope > 0.0 {
+        slope / second
+    } else if slope == 0.0 && bend > 0.0 {
+        bend / third
+    } else {
+        return if cap > 0.0 { Zero::At(0.0) } else { Zero::Never };
+    };
+    if begin.is_nan() || begin >= cap {
+        return Zero::Never;
+    }
+    first_zero(begin, cap, at, |t, now| far_step(now, second, third).max(clear(t)))
+}

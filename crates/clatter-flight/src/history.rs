@@ -1,0 +1,217 @@
+//! A flight as rows over time, for drawing and for tables: every strike, and between strikes as many rows as the curves
+//! need.
+//!
+//! A strike is two rows at one time, just before and just after it, so that no line drawn through the rows rounds a
+//! corner. Between strikes an interval is halved until straight lines through the rows are good enough; where the
+//! motion is straight, as without gravity, nothing is added.
+//!
+//! ```
+//! use clatter_flight::{Body, Model, Scene};
+//! let scene = Scene::new(Body::new(0.14, 0.04)?, 0.3, 4.43, 5.0, 9.81)?;
+//! let flight = scene.simulate(Model::Map);
+//! let rows: Vec<_> = scene.history(Model::Map, &flight).collect();
+//! assert_eq!(rows.len(), 2 * flight.strikes.len() + 1); // straight lines, until it has bounced clear
+//! assert_eq!(rows[0].velocity_m_s, [-4.43, -4.43]);
+//! assert!((rows[1].velocity_m_s[0] - 0.3 * 4.43).abs() < 1e-15);
+//! # Ok::<(), clatter::Error>(())
+//! ```
+
+use crate::{ContactFlight, Flight, Model, Scene, Stop, Strike};
+
+/// The body at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Row {
+    /// Since the first touch.
+    pub time_s: f64,
+    /// Heights of ends a and b; negative where a compliant contact is compressed.
+    pub height_m: [f64; 2],
+    /// Vertical velocities of ends a and b.
+    pub velocity_m_s: [f64; 2],
+    /// What contacts that take time do; none where impacts are instant.
+    pub forces: Option<Forces>,
+}
+
+/// Accelerations and forces at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Forces {
+    /// Vertical accelerations of ends a and b, gravity included.
+    pub acceleration_m_s2: [f64; 2],
+    /// Forces of the ground on ends a and b over the mass of the body.
+    pub force_per_mass_m_s2: [f64; 2],
+}
+
+impl Row {
+    /// Vertical velocity at position `s` in [−1, 1] along the body (−1 is end a).
+    #[must_use]
+    pub fn velocity_at(&self, s: f64) -> f64 {
+        between(self.velocity_m_s, s)
+    }
+}
+
+impl Forces {
+    /// Vertical acceleration at position `s` in [−1, 1] along the body (−1 is end a).
+    #[must_use]
+    pub fn acceleration_at(&self, s: f64) -> f64 {
+        between(self.acceleration_m_s2, s)
+    }
+}
+
+fn between([a, b]: [f64; 2], s: f64) -> f64 {
+    0.5 * ((1.0 - s) * a + (1.0 + s) * b)
+}
+
+/// A straight line through two neighboring rows is off, in the middle between them, by at most this share of the larger
+/// of the two ends' values there, for each of height, velocity, acceleration and force.
+pub const STRAIGHT: f64 = 1.0 / 1000.0;
+
+/// Halvings of an interval, at most: a kink ends in an interval this many powers of two shorter.
+const HALVINGS: u32 = 12;
+
+/// Rows a compliant contact gets at least, over the time that a lone one takes.
+const PULSE: u32 = 16;
+
+impl Scene {
+    /// The rows of a flight of instant impacts.
+    ///
+    /// They go on until the body lies still or the limit is reached; one that has bounced clear is followed for a
+    /// while.
+    ///
+    /// # Accuracy
+    /// At a strike that of the model. Between strikes exact in flight; while the body pivots at finite tilt, as
+    /// [`heights_m`](Self::heights_m). Straight lines between the rows: [`STRAIGHT`].
+    pub fn history<'a>(&'a self, model: Model, flight: &'a Flight) -> impl Iterator<Item = Row> + 'a {
+        let at = move |time_s: f64| {
+            let (height_m, velocity_m_s) = self.ends(model, flight, time_s);
+            Row { time_s, height_m, velocity_m_s, forces: None }
+        };
+        let end = at(self.end_s(flight));
+        let strikes = &flight.strikes;
+        let first = strikes.iter().take(1).map(before);
+        first.chain(strikes.iter().enumerate().flat_map(move |(i, strike)| {
+            let from = after(strike);
+            let to = strikes.get(i + 1).map_or(end, before);
+            let mut rows = vec![from];
+            let inside = |t: &f64| from.time_s < *t && *t < to.time_s;
+            let past = flight.pivots.partition_point(|p| p.until_s <= from.time_s);
+            let pivots = flight.pivots[past..].iter().take_while(|p| p.from_s < to.time_s);
+            let mut last = from;
+            for knot in pivots.flat_map(|p| [p.from_s, p.until_s]).filter(inside).map(at) {
+                refine(&last, &knot, &at, HALVINGS, &mut rows);
+                rows.push(knot);
+                last = knot;
+            }
+            refine(&last, &to, &at, HALVINGS, &mut rows);
+            rows.push(to);
+            rows
+        }))
+    }
+
+    /// Until when the history of a flight goes.
+    fn end_s(&self, flight: &Flight) -> f64 {
+        match flight.stop {
+            // A seventh more; where all strikes fall on one instant, the time of a fall through the gap or the length.
+            Stop::BouncedClear { time_s } if time_s > 0.0 => time_s * (8.0 / 7.0),
+            Stop::BouncedClear { .. } => {
+                let gap = self.height_gap_m();
+                (if gap > 0.0 { gap } else { self.body().length_m() }) / self.speed_m_s()
+            }
+            stop => stop.time_s(),
+        }
+    }
+}
+
+impl ContactFlight {
+    /// The rows of a flight with contacts that take `contact_time_s`, until the last contact has parted.
+    ///
+    /// A touch is two rows at one time, because a dashpot's force begins with a jump. A body that has come to rest on its
+    /// springs is followed for two contact times more, one that has bounced clear for a seventh of the whole.
+    ///
+    /// # Accuracy
+    /// Straight lines between the rows: [`STRAIGHT`].
+    pub fn history(&self, contact_time_s: f64) -> impl Iterator<Item = Row> + '_ {
+        let at = |time_s: f64| self.row(time_s);
+        let stop = self.flight.stop;
+        let end = stop.time_s()
+            + match stop {
+                Stop::AtRest { .. } => 2.0 * contact_time_s,
+                Stop::BouncedClear { time_s } => (time_s / 7.0).max(contact_time_s),
+                _ => 0.0,
+            };
+        let mut knots = vec![0.0, end];
+        for press in &self.presses {
+            let step = contact_time_s / f64::from(PULSE);
+            for from in [press.from_s, press.until_s].into_iter().filter(|t| t.is_finite()) {
+                knots.extend((0..=PULSE).map(|k| from + f64::from(k) * step));
+            }
+        }
+        knots.extend(self.phases_s());
+        knots.retain(|t| (0.0..=end).contains(t));
+        knots.sort_by(f64::total_cmp);
+        knots.dedup();
+        let mut touches = self.flight.strikes.iter().map(|s| s.time_s).peekable();
+        let mut last: Option<Row> = None;
+        knots.into_iter().flat_map(move |t| {
+            let mut rows = Vec::new();
+            let touch = touches.next_if(|touch| *touch <= t).is_some();
+            while touches.next_if(|touch| *touch <= t).is_some() {}
+            let row = at(t);
+            if let Some(from) = last {
+                let to = if touch { Row { time_s: t, ..at(t.next_down()) } } else { row };
+                refine(&from, &to, &at, HALVINGS, &mut rows);
+                rows.extend(touch.then_some(to));
+            }
+            rows.push(row);
+            last = Some(row);
+            rows
+        })
+    }
+
+    fn row(&self, time_s: f64) -> Row {
+        let sample = self.sample(time_s);
+        let forces =
+            Forces { acceleration_m_s2: sample.acceleration_m_s2, force_per_mass_m_s2: sample.force_per_mass_m_s2 };
+        Row { time_s, height_m: sample.height_m, velocity_m_s: sample.velocity_m_s, forces: Some(forces) }
+    }
+}
+
+fn before(strike: &Strike) -> Row {
+    let velocity_m_s = [0, 1].map(|i| strike.velocity_m_s[i] - strike.delta_v_m_s[i]);
+    Row { velocity_m_s, ..after(strike) }
+}
+
+fn after(strike: &Strike) -> Row {
+    let (time_s, height_m, velocity_m_s) = (strike.time_s, strike.height_m, strike.velocity_m_s);
+    Row { time_s, height_m, velocity_m_s, forces: None }
+}
+
+/// Rows between two others, so that straight lines through all of them are good to [`STRAIGHT`].
+fn refine(from: &Row, to: &Row, at: &impl Fn(f64) -> Row, halvings: u32, rows: &mut Vec<Row>) {
+    let middle = 0.5 * (from.time_s + to.time_s);
+    if halvings == 0 || middle <= from.time_s || middle >= to.time_s {
+        return;
+    }
+    let middle = at(middle);
+    if straight(from, &middle, to) {
+        return;
+    }
+    refine(from, &middle, at, halvings - 1, rows);
+    rows.push(middle);
+    refine(&middle, to, at, halvings - 1, rows);
+}
+
+fn straight(from: &Row, middle: &Row, to: &Row) -> bool {
+    let near = |a: [f64; 2], m: [f64; 2], b: [f64; 2]| {
+        let largest = [a, m, b].into_iter().flatten().fold(0.0, |large: f64, x| large.max(x.abs()));
+        (0..2).all(|i| (m[i] - 0.5 * (a[i] + b[i])).abs() <= STRAIGHT * largest)
+    };
+    let pressed = match (&from.forces, &middle.forces, &to.forces) {
+        (Some(a), Some(m), Some(b)) => {
+            near(a.acceleration_m_s2, m.acceleration_m_s2, b.acceleration_m_s2)
+                && near(a.force_per_mass_m_s2, m.force_per_mass_m_s2, b.force_per_mass_m_s2)
+        }
+        _ => true,
+    };
+    pressed
+        && near(from.height_m, middle.height_m, to.height_m)
+        && near(from.velocity_m_s, middle.velocity_m_s, to.velocity_m_s)
+}

@@ -1,0 +1,56 @@
+//! The clatter in time: gravity, real tilt, an off-center mass, contact that takes time.
+//!
+//! Four models of one drop, each the cheapest that keeps its physics, all answering with the same kind of
+//! [`Flight`], so that they can be compared strike by strike:
+//!
+//! | model | between strikes | a strike |
+//! |---|---|---|
+//! | [`Model::Map`] | straight lines, small tilt, no gravity | impulse |
+//! | [`Model::Ballistic`] | parabolas, small tilt | impulse |
+//! | [`Model::FiniteTilt`] | parabola of the center, uniform rotation, any angle | impulse, lever arm L cos φ, of corners where the body has a thickness |
+//! | [`Scene::contacts`] | as `FiniteTilt` | contacts that take time, by one of two [laws](ContactLaw) |
+//!
+//! # The picture
+//!
+//! A body with ends `a` and `b` at distances `L_a`, `L_b` from its center of mass and radius of gyration `ρ`
+//! falls on hard, frictionless, level ground. The tilt φ is positive where `b` is the higher end:
+//! `h_a = y − L_a sin φ`, `h_b = y + L_b sin φ`. End `a` touches first, at time 0. Everything is in SI;
+//! heights and velocities are vertical, upward positive, and forces and energies are per unit mass.
+//!
+//! # How a motion ends
+//!
+//! [`Stop`] is a result, never a tolerance on height or speed. A body has bounced clear when nothing can bring
+//! it back (no gravity). It is at rest when its energy proves that all that is left takes less than an ulp of the
+//! time and gives shocks below [`SHARE`] of the largest; both bounds are given. Everything else stops at a limit
+//! and says so.
+//!
+//! ```
+//! use clatter_flight::{Body, Model, Scene, Stop};
+//! // A uniform bar with e = 0 and no tilt: both ends strike in turn at one instant, T = q = ½ each, until all is still.
+//! let body = Body::new(0.14, 0.07 / 3.0_f64.sqrt())?;
+//! let flight = Scene::new(body, 0.0, 1.0, 0.0, 9.81)?.simulate(Model::Ballistic);
+//! assert_eq!(flight.strikes[0].approach_m_s, -1.0);
+//! assert!((flight.strikes[1].approach_m_s + 1.5).abs() < 1e-15); // v_b − q v0
+//! assert!((flight.strikes[2].approach_m_s + 0.75).abs() < 1e-15);
+//! assert!(matches!(flight.stop, Stop::AtRest { time_s: 0.0, .. }));
+//! # Ok::<(), clatter::Error>(())
+//! ```
+
+mod body;
+mod contact;
+mod error;
+mod excitation;
+mod flight;
+pub mod history;
+mod orders;
+mod rigid;
+mod roots;
+mod scene;
+
+pub use body::Body;
+pub use contact::{Ahead, Contact, ContactFlight, ContactLaw, Press, Sample};
+pub use error::Error;
+pub use excitation::{Stretch, Wave};
+pub use flight::{Flight, LiftOff, Model, Pivot, SHARE, Stop, Strike};
+pub use orders::{Order, Residue, orders, residues};
+pub use scene::Scene;

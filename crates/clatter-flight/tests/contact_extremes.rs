@@ -1,0 +1,261 @@
+//! Contacts at the edges of what is taken: always a flight that ends and says how, or an error with the value.
+
+use clatter_flight::{Body, Contact, ContactFlight, ContactLaw, Model, Scene, Stop, Strike};
+use proptest::prelude::*;
+
+const LAWS: [ContactLaw; 2] = [ContactLaw::Hysteretic, ContactLaw::Dashpot];
+
+fn body(q: f64) -> Body {
+    Body::new(0.14, 0.07 * ((1.0 - q) / (1.0 + q)).sqrt()).expect("a bar")
+}
+
+fn contact(law: ContactLaw, e: f64, time_s: f64) -> Contact {
+    Contact::new(law, e, time_s).expect("a contact")
+}
+
+/// What holds for any flight whatever.
+fn sane(flight: &ContactFlight) -> Result<(), String> {
+    let strikes = &flight.flight.strikes;
+    let finite = |s: &Strike| {
+        let numbers = [s.time_s, s.approach_m_s, s.tilt_rad, s.spin_rad_s].into_iter();
+        numbers.chain(s.delta_v_m_s).chain(s.velocity_m_s).chain(s.height_m).all(f64::is_finite)
+    };
+    let checks = [
+        (strikes.iter().all(finite), "finite"),
+        (strikes.windows(2).all(|p| p[0].time_s <= p[1].time_s), "in order"),
+        (strikes.iter().all(|s| s.approach_m_s <= 0.0), "downward"),
+        (strikes.iter().all(|s| s.tilt_rad.abs() <= std::f64::consts::PI), "an angle"),
+        (strikes.iter().enumerate().all(|(n, s)| s.number == n as u64 + 1), "numbered"),
+        (strikes.len() == flight.presses.len(), "each with its press"),
+        (
+            flight
+                .presses
+                .iter()
+                .zip(strikes)
+                .all(|(p, s)| p.from_s.to_bits() == s.time_s.to_bits() && p.until_s >= p.from_s),
+            "pressing",
+        ),
+        (flight.energy_error.is_finite() && flight.flight.stop.time_s() >= 0.0, "with an end"),
+        (flight.phases_s().is_sorted(), "phases in order"),
+    ];
+    let failed: Vec<_> = checks.into_iter().filter(|(holds, _)| !holds).map(|(_, what)| what).collect();
+    if failed.is_empty() { Ok(()) } else { Err(format!("not {failed:?}: {:?}", flight.flight.stop)) }
+}
+
+/// In units of the body: contact times from the shortest to the longest, all restitutions, tilts from none to 89.9°,
+/// gravity from none to what the contact time allows.
+fn extreme() -> impl Strategy<Value = (Scene, Contact)> {
+    let law = prop_oneof![Just(ContactLaw::Hysteretic), Just(ContactLaw::Dashpot)];
+    let e = prop_oneof![
+        Just(0.0),
+        Just(1.0),
+        0.0..=1.0_f64,
+        (-6.0..-1.0_f64).prop_map(|x| 10f64.powf(x)),
+        (-6.0..-1.0_f64).prop_map(|x| 1.0 - 10f64.powf(x))
+    ];
+    let tilt =
+        prop_oneof![Just(0.0), Just(1e-6), Just(89.0), 0.0..89.9_f64, (-9.0..1.5_f64).prop_map(|x| 10f64.powf(x))];
+    let time = prop_oneof![Just(0.0999), Just(1.1e-10), (-10.0..-1.0_f64).prop_map(|x| 10f64.powf(x))];
+    let gravity = prop_oneof![Just(0.0), Just(100.0), Just(9.81), (-6.0..5.0_f64).prop_map(|x| 10f64.powf(x))];
+    let speed = prop_oneof![Just(4.43), (-3.0..3.0_f64).prop_map(|x| 10f64.powf(x))];
+    let spin = prop_oneof![Just(0.0), -1.0..3.0_f64];
+    (
+        law,
+        e,
+        tilt,
+        time,
+        gravity,
+        speed,
+        spin,
+        prop_oneof![-0.9..0.95_f64, Just(0.0)],
+        prop_oneof![Just(0.0), -0.4..0.4_f64],
+    )
+        .prop_map(|(law, e, tilt, time, gravity, speed, spin, q, off)| {
+            let half = 0.07;
+            let body = Body::off_center(half * (1.0 + off), half * (1.0 - off), half * ((1.0 - q) / (1.0 + q)).sqrt());
+            let scene = Scene::new(body.expect("a bar"), e, speed, tilt, gravity).expect("a drop");
+            let scene = scene.with_spin(spin * speed / half).unwrap_or(scene);
+            let time = (time * 2.0 * half / speed).clamp(1e-12, 1e3);
+            (scene.with_impact_limit(1024).expect("a limit"), contact(law, e, time))
+        })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 1500, failure_persistence: None, max_shrink_iters: 0, ..ProptestConfig::default() })]
+
+    #[test]
+    fn every_drop_ends_or_is_refused((scene, contact) in extreme(), precision in prop_oneof![Just(1e-4), Just(1e-2), Just(1e-5)]) {
+        let begin = std::time::Instant::now();
+        match scene.contacts_until(&contact, precision, |_| false) {
+            Ok(flight) => {
+                prop_assert_eq!(sane(&flight), Ok(()));
+                // Nothing that a flight may do takes longer, on a slow machine, a debug build apart.
+                prop_assert!(flight.phases_s().count() < 200_000, "{} phases", flight.phases_s().count());
+                prop_assert!(begin.elapsed().as_secs_f64() < 5.0, "{:?}", begin.elapsed());
+                // All but elastic bodies with the longest contacts may take more phases than are followed, as the stop says.
+                let (phases, ends) = (flight.phases_s().count(), !matches!(flight.flight.stop, Stop::TimeLimit { .. }));
+                let many = phases >= 20_000 + 128 * 1024 && scene.e() > 0.99 && precision < 1e-4;
+                prop_assert!(ends || many, "{:?} after {phases} phases", flight.flight.stop);
+            }
+            Err(error) => {
+                let text = error.to_string();
+                prop_assert!(text.contains("contact time in s"), "{text}");
+            }
+        }
+    }
+}
+
+#[test]
+fn bad_contacts_are_refused_with_the_value() {
+    let scene = Scene::new(body(0.5), 0.5, 4.43, 5.0, 9.81).expect("a drop");
+    for law in LAWS {
+        for bad in [0.0, -1e-3, 1e-13, f64::NAN, f64::INFINITY, 1e4] {
+            let text = Contact::new(law, 0.5, bad).unwrap_err().to_string();
+            assert!(text.contains("contact time") && text.contains(&format!("{bad:?}")), "{text}");
+        }
+        for bad in [-0.1, 1.1, f64::NAN] {
+            assert!(Contact::new(law, bad, 1e-3).unwrap_err().to_string().contains("restitution"), "{bad}");
+        }
+        // Longer than a tenth of length/speed, and than a tenth of √(length/gravity).
+        for (scene, time) in [(scene, 1.0), (Scene::new(body(0.5), 0.5, 1e-3, 5.0, 9.81).expect("a drop"), 0.02)] {
+            let text = scene.contacts(&contact(law, 0.5, time)).unwrap_err().to_string();
+            assert!(text.contains("contact time") && text.contains(&format!("{time:?}")), "{text}");
+        }
+        // So short that roundings of heights are all there is.
+        let text = scene.contacts(&contact(law, 0.5, 2e-12)).unwrap_err().to_string();
+        assert!(text.contains("contact time") && text.contains("2e-12"), "{text}");
+        let massless = Scene::new(body(1.0), 0.5, 4.43, 5.0, 9.81).expect("a drop");
+        assert!(massless.contacts(&contact(law, 0.5, 1e-3)).unwrap_err().to_string().contains("gyration"), "{law:?}");
+        for bad in [0.0, -1e-4, 1e-9, 0.5, f64::NAN] {
+            let text = scene.contacts_until(&contact(law, 0.5, 1e-3), bad, |_| false).unwrap_err().to_string();
+            assert!(text.contains("precision") && text.contains(&format!("{bad:?}")), "{text}");
+        }
+    }
+}
+
+/// A body that turns on its contact, against the pivot of instant impacts.
+#[test]
+fn a_drop_comes_to_rest_on_its_contacts() {
+    for law in LAWS {
+        for e in [0.05, 0.3, 0.6] {
+            let scene = Scene::new(body(0.5), e, 1.0, 5.0, 9.81).expect("a drop");
+            let flight = scene.contacts(&contact(law, e, 3e-5)).expect("a flight").flight;
+            assert_eq!(flight.stop.reason(), "at-rest", "{:?}", flight.stop);
+            let hard = scene.simulate(Model::FiniteTilt).stop.time_s();
+            if e < 0.5 {
+                continue; // strikes that are at one instant if contact takes no time overlap, and lift the body once more
+            }
+            // What the contacts themselves take.
+            assert!((flight.stop.time_s() - hard).abs() < 0.05 * hard, "{law:?}: {} {hard}", flight.stop.time_s());
+        }
+        let scene =
+            Scene::new(body(-0.9), 0.05, 1.0, 80.0, 1000.0).and_then(|s| s.with_impact_limit(50)).expect("a drop");
+        let land = |strikes: &[Strike]| *strikes.iter().find(|s| s.point == 1).expect("it lands");
+        let soft = land(&scene.contacts(&contact(law, 0.05, 1e-6)).expect("a flight").flight.strikes);
+        let hard = land(&scene.simulate(Model::FiniteTilt).strikes);
+        assert!((soft.time_s / hard.time_s - 1.0).abs() < 1e-4, "{law:?}: {} {}", soft.time_s, hard.time_s);
+        assert!((soft.approach_m_s / hard.approach_m_s - 1.0).abs() < 1e-4, "{law:?}: {soft:?} {hard:?}");
+    }
+}
+
+/// An end that lies while the body turns about it keeps lying where lever arms are renewed: it was once thrown up each
+/// time, and struck 294 times in one second.
+#[test]
+fn an_end_that_lies_is_not_struck_again() {
+    let body = Body::new(0.3656, 0.2452).expect("a bar");
+    let scene = Scene::new(body, 0.1176, 7.473, 0.2666, 9.81).expect("a drop");
+    for law in LAWS {
+        let flight = scene.contacts(&contact(law, 0.1176, 1.311e-4)).expect("a flight").flight;
+        assert_eq!(flight.stop.reason(), "at-rest", "{law:?}: {:?}", flight.stop);
+        assert!(flight.strikes.len() < 30, "{law:?}: {}", flight.strikes.len());
+    }
+}
+
+/// Both ends part at one instant, as far as floats tell: they were once pushed in turn, 10⁻²⁰ s each, until 1.7 million
+/// phases had gone by.
+#[test]
+fn ends_that_part_together_do_not_take_turns() {
+    let body = Body::new(2.0 * 0.049_063_156_973_264_66, 0.008_898_156_337_023_289).expect("a bar");
+    let e = 0.211_645_007_649_507_44;
+    let scene = Scene::new(body, e, 1.056_038_848_610_071_6, 8.618_710_303_569_253, 9.81).expect("a drop");
+    for law in LAWS {
+        let flight = scene.contacts(&contact(law, e, 9.940_110_752_429_448e-4)).expect("a flight");
+        assert_eq!(flight.flight.stop.reason(), "at-rest", "{law:?}: {:?}", flight.flight.stop);
+        assert!(flight.phases_s().count() < 100, "{law:?}: {}", flight.phases_s().count());
+    }
+}
+
+/// Where the last contacts never part they too have a shock: one of 3.9 m/s was once left out, of a bar that dropped at
+/// 3.3 m/s.
+#[test]
+fn all_shocks_together_stop_the_drop() {
+    for law in LAWS {
+        for (q, e, speed, tilt_deg, time) in
+            [(0.09, 0.0114, 3.3, 17.4, 5e-4), (0.5, 0.05, 1.0, 5.0, 3e-5), (0.1, 0.3, 2.8, 25.0, 7e-5)]
+        {
+            let scene = Scene::new(body(q), e, speed, tilt_deg, 9.81).expect("a drop");
+            let flight = scene.contacts(&contact(law, e, time)).expect("a flight").flight;
+            assert_eq!(flight.stop.reason(), "at-rest", "{law:?}: {:?}", flight.stop);
+            let stopped: f64 = flight.strikes.iter().map(|s| s.delta_v_at(0.0)).sum();
+            let fallen = speed + 9.81 * flight.stop.time_s();
+            assert!((stopped / fallen - 1.0).abs() < 1e-12, "{law:?} {e}: {stopped} {fallen}");
+            let last = flight.strikes.last().expect("a strike");
+            assert_eq!((last.velocity_m_s, last.spin_rad_s), ([0.0; 2], 0.0), "{law:?} {e}");
+        }
+    }
+}
+
+/// The limit of time may fall into a contact: nothing after it counts.
+#[test]
+fn a_limit_within_a_contact_cuts_it() {
+    for law in LAWS {
+        let scene = Scene::new(body(0.5), 0.4, 4.43, 5.0, 9.81).expect("a drop");
+        let (contact, limit) = (contact(law, 0.4, 3e-4), 1e-4);
+        let (whole, cut) =
+            (scene.contacts(&contact).expect("a flight"), scene.with_time_limit_s(limit).expect("a limit"));
+        let cut = cut.contacts(&contact).expect("a flight");
+        assert_eq!(cut.flight.stop, Stop::TimeLimit { time_s: limit }, "{law:?}");
+        let (one, other) = (whole.sample(limit), cut.sample(limit));
+        assert!((one.velocity_m_s[0] - other.velocity_m_s[0]).abs() < 1e-9 * 4.43, "{law:?}: {one:?} {other:?}");
+        let strike = cut.flight.strikes[0];
+        assert!(
+            (strike.velocity_m_s[0] - other.velocity_m_s[0]).abs() < 1e-12,
+            "{law:?}: as it is when the flight ends"
+        );
+        assert!(cut.presses[0].until_s == f64::INFINITY, "{law:?}: it presses still");
+        let moved = other.velocity_m_s[0] + 4.43 + 9.81 * limit;
+        assert!((strike.delta_v_m_s[0] - moved).abs() < 1e-4 * 4.43, "{law:?}: {} {moved}", strike.delta_v_m_s[0]);
+    }
+}
+
+/// `enough` ends the flight when nothing presses, and no velocity changes by more than it was told.
+#[test]
+fn nothing_later_is_larger_than_told() {
+    for (law, e, tilt) in
+        [(ContactLaw::Hysteretic, 0.4, 12.0), (ContactLaw::Dashpot, 0.6, 35.0), (ContactLaw::Hysteretic, 0.0, 20.0)]
+    {
+        let scene = Scene::new(body(0.3), e, 3.0, tilt, 9.81).and_then(|s| s.with_impact_limit(40)).expect("a drop");
+        let mut told = Vec::new();
+        let flight = scene.contacts_until(&contact(law, e, 3e-4), 1e-4, |ahead| {
+            told.push(*ahead);
+            false
+        });
+        let flight = flight.expect("a flight");
+        let end = flight.flight.stop.time_s();
+        for ahead in told {
+            let velocities = |share: f64| flight.sample(ahead.time_s + share * (end - ahead.time_s)).velocity_m_s;
+            let all: Vec<_> = (0..500).map(|k| velocities(f64::from(k) / 500.0)).collect();
+            for point in 0..2 {
+                let range = all
+                    .iter()
+                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v[point]), hi.max(v[point])));
+                assert!(range.1 - range.0 <= ahead.most_m_s * (1.0 + 1e-3), "{law:?}: {range:?} {ahead:?}");
+            }
+            let before = flight.flight.strikes.iter().filter(|s| s.time_s < ahead.time_s);
+            let largest = before.flat_map(|s| s.delta_v_m_s).fold(0.0, |most: f64, dv| most.max(dv.abs()));
+            assert!(ahead.largest_m_s <= largest * (1.0 + 1e-9), "{law:?}: {ahead:?} {largest}");
+        }
+        let first = scene.contacts_until(&contact(law, e, 3e-4), 1e-4, |_| true).expect("a flight").flight;
+        assert_eq!((first.strikes.len(), first.stop.reason()), (1, "enough"), "{law:?}");
+    }
+}

@@ -1,0 +1,121 @@
+//! What an assessment was made from, in words: the product, its drop, how a part is held.
+
+use clatter_assess::{Component, ContactLaw, Damping, Fall, First, Mount, ProductFile};
+
+use crate::figure::shock::three;
+use crate::words::{end, millimeters, range, span};
+
+/// Rows of what was given: its name and its value.
+pub(super) fn rows(file: &ProductFile) -> Vec<[String; 2]> {
+    let product = &file.product;
+    let mut rows = Vec::new();
+    let mut add = |what: &str, value: String| rows.push([what.to_owned(), value]);
+    add("Body", body(file));
+    add("Restitution", range(&product.restitution, 1.0, ""));
+    match product.contact_time_s {
+        Some(time) => {
+            let law = match product.contact_law {
+                ContactLaw::Hysteretic => "hysteretic, with the largest force of a half-sine",
+                ContactLaw::Dashpot => "spring and dashpot",
+            };
+            add("Contact", format!("an end touches for {}; {law}", range(&time, 1e-3, "ms")));
+        }
+        None => add("Contact", "no contact time is given: impacts are instants".to_owned()),
+    }
+    add("Drop", drop(file));
+    let tilt = range(&file.drop.tilt_rad, 1f64.to_radians(), "°").replace(" °", "°");
+    let first = match file.drop.first {
+        First::End(first) => format!("end {} first", end(first)),
+        First::Either => "either end first".to_owned(),
+    };
+    add("Tilt", format!("{tilt} at the first touch, {first}"));
+    let gravity = file.drop.gravity_m_s2;
+    add(
+        "Gravity",
+        if gravity > 0.0 { format!("{} m/s²", three(gravity)) } else { "none after the first touch".to_owned() },
+    );
+    rows
+}
+
+/// Length, inertia, center of mass.
+fn body(file: &ProductFile) -> String {
+    let body = &file.product.body;
+    let [a, b] = body.arms_m();
+    let center = 0.5 * (a - b);
+    let off = if center.abs() > 1e-9 * (a + b) {
+        format!(", center of mass {} from the middle", millimeters(center))
+    } else {
+        String::new()
+    };
+    let mass = file.product.mass_kg.map_or(String::new(), |kg| format!(", {} kg", three(kg)));
+    format!(
+        "length {}, radius of gyration {}{off}{mass}: inertia ratio q = {}",
+        millimeters(body.length_m()),
+        millimeters(body.gyration_m()),
+        three(file.product.inertia_ratio()).replace('-', "−"),
+    )
+}
+
+/// The fall.
+fn drop(file: &ProductFile) -> String {
+    match file.drop.fall {
+        Fall::HeightM(height) => {
+            format!("from {}, which gives {}", range(&height, 1.0, "m"), span(file.drop.speeds_m_s(), 1.0, "m/s"))
+        }
+        Fall::SpeedMS(speed) => format!("at {}", range(&speed, 1.0, "m/s")),
+    }
+}
+
+/// Where a part sits and how it is held, in a sentence.
+pub(super) fn held(component: &Component) -> String {
+    let [lo, hi] = [component.position_m.lo(), component.position_m.hi()];
+    let place = if lo < hi {
+        format!("anywhere from {} to {} along the product", millimeters(lo), millimeters(hi))
+    } else if lo == 0.0 {
+        "in the middle".to_owned()
+    } else {
+        format!("{} from the middle, towards end {}", millimeters(lo.abs()), if lo < 0.0 { "a" } else { "b" })
+    };
+    let extent = if component.extent_m > 0.0 {
+        format!(", and is {} long", millimeters(component.extent_m))
+    } else {
+        String::new()
+    };
+    let mount = match &component.mount {
+        Mount::Hard => "It is mounted rigidly.".to_owned(),
+        Mount::Suspended { frequency_hz, damping } => {
+            let damping = match damping {
+                Damping::Ratio(ratio) => format!("a damping ratio of {}", range(ratio, 1.0, "")),
+                Damping::Quality(quality) => format!("a quality factor of {}", range(quality, 1.0, "")),
+            };
+            format!("Its natural frequency is {}, with {damping}.", range(frequency_hz, 1.0, "Hz"))
+        }
+    };
+    format!("It sits {place}{extent}. {mount}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clatter_assess::EXAMPLE;
+
+    #[test]
+    fn what_the_file_gives_is_told() {
+        let file = ProductFile::read(EXAMPLE, "example.toml").unwrap();
+        let told: Vec<String> = rows(&file).into_iter().map(|[what, value]| format!("{what}: {value}")).collect();
+        assert_eq!(
+            told,
+            [
+                "Body: length 140 mm, radius of gyration 38 mm: inertia ratio q = 0.545",
+                "Restitution: 0.25 to 0.4",
+                "Contact: an end touches for 0.4 ms; hysteretic, with the largest force of a half-sine",
+                "Drop: from 1.2 m, which gives 4.85 m/s",
+                "Tilt: 1 to 10° at the first touch, either end first",
+                "Gravity: 9.81 m/s²",
+            ]
+        );
+        let parts: Vec<String> = file.components.iter().map(held).collect();
+        assert!(parts[0].ends_with("and is 80 mm long. Its natural frequency is 220 Hz, with a quality factor of 12."));
+        assert_eq!(parts[2], "It sits 20 mm from the middle, towards end a. It is mounted rigidly.");
+    }
+}

@@ -1,0 +1,166 @@
+//! What the page says of one part.
+
+use clatter_assess::{
+    Component, ComponentAssessment, ContactLaw, LimitAssessment, Model, Portrait, ProductFile, Verdict, WorstCase,
+};
+use serde_json::{Value, json};
+
+use super::changes::changes;
+use super::inputs::held;
+use crate::figure::ladder::words as model;
+use crate::figure::shock::three;
+use crate::words::{end, limit, millimeters, minus, name, percent, shown};
+
+/// Whether a drop of the ranges was answered.
+pub(super) fn is_answered(of: &LimitAssessment) -> bool {
+    of.demand > 0.0 || of.uncertainty.is_finite()
+}
+
+/// How the drop was followed, and what the part felt.
+fn followed(of: &LimitAssessment) -> String {
+    let felt = match of.model.component {
+        "largest-shock" => "the product's own shocks",
+        "impulse-train" => "the part driven by velocity shocks",
+        "pulse-train" => "the part driven by pulses",
+        _ => "the product's own acceleration",
+    };
+    format!("Model: {}, {felt}; {}.", model(of.model.bar), of.model.reason.trim_end_matches('.'))
+}
+
+/// What else is known of a limit, a sentence each.
+fn said(file: &ProductFile, of: &LimitAssessment) -> Vec<String> {
+    let sentence = |text: &str| {
+        let mut letters = text.chars();
+        let first = letters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();
+        format!("{first}{}.", letters.as_str().trim_end_matches('.'))
+    };
+    let mut said = vec![followed(of)];
+    if is_answered(of) {
+        let more = percent(of.uncertainty).replace('+', "");
+        said.push(format!("Others may ask for up to {more} more."));
+    }
+    if let Some(bound) = of.bound {
+        said.push(format!("The energy of the drops allows no more than {}.", shown(of.unit, bound)));
+    }
+    if let Some(other) = of.other_law {
+        let law = match file.product.contact_law {
+            ContactLaw::Hysteretic => "spring and dashpot",
+            ContactLaw::Dashpot => "hysteretic contact",
+        };
+        said.push(format!("With the other contact law ({law}) this drop asks for {}.", shown(of.unit, other)));
+    }
+    said.extend(of.notes.iter().map(|note| sentence(&minus(note))));
+    said
+}
+
+/// The worst drop as columns: first end, tilt, speed, restitution, contact, frequency, damping, place, impact.
+fn columns(of: &LimitAssessment) -> [String; 9] {
+    let worst = &of.worst_case;
+    let or_none = |value: Option<f64>, factor: f64| value.map_or("–".to_owned(), |v| three(factor * v));
+    let contact = worst.contact_time_s.filter(|_| of.model.bar == Model::Compliant);
+    [
+        end(worst.first).to_owned(),
+        format!("{}°", three(worst.tilt_deg)),
+        format!("{} m/s", three(worst.speed_m_s)),
+        three(worst.restitution),
+        contact.map_or("–".to_owned(), |time| format!("{} ms", three(1e3 * time))),
+        worst.frequency_hz.map_or("–".to_owned(), |hz| format!("{} Hz", three(hz))),
+        or_none(worst.damping_ratio, 1.0),
+        millimeters(worst.position_m),
+        worst.impact.to_string(),
+    ]
+}
+
+/// What the tables say of one limit.
+fn row(file: &ProductFile, of: &LimitAssessment) -> Value {
+    let known = |text: String| if is_answered(of) { text } else { "–".to_owned() };
+    json!({
+        "name": limit(of.limit),
+        "allowed": shown(of.unit, of.allowed),
+        "demand": known(shown(of.unit, of.demand)),
+        "flat": known(shown(of.unit, of.clatter_free)),
+        "bound": of.bound.map_or("–".to_owned(), |bound| shown(of.unit, bound)),
+        "margin": known(percent(of.margin)),
+        "verdict": of.verdict.name(),
+        "worst": if is_answered(of) { Some(columns(of)) } else { None },
+        "said": said(file, of),
+        "undecided": of.undecided.as_deref().map(minus),
+        "command": of.worst_case.command,
+    })
+}
+
+/// The tightest limit and the drop behind it, in a few sentences.
+fn summary(component: &Component, of: &LimitAssessment, portrait: &Portrait) -> String {
+    let what = limit(of.limit);
+    let tightest = if is_answered(of) {
+        format!(
+            "The tightest limit is its {what}: {} is allowed, and the worst drop that was found asks for {} ({}). {}",
+            shown(of.unit, of.allowed),
+            shown(of.unit, of.demand),
+            percent(of.margin),
+            drop(&of.worst_case),
+        )
+    } else {
+        format!("No drop of the ranges is answered for its {what}.")
+    };
+    let zone = match portrait.zone_m {
+        Some([lo, hi]) if lo < hi => {
+            format!(" Its middle could sit anywhere from {} to {} and be safe.", millimeters(lo), millimeters(hi))
+        }
+        Some(_) => String::new(),
+        None => " Nowhere along the product was it found safe.".to_owned(),
+    };
+    format!("{} {tightest}{zone}", held(component))
+}
+
+fn drop(worst: &WorstCase) -> String {
+    let frequency = worst.frequency_hz.map(|hz| format!(", the part at {} Hz", three(hz))).unwrap_or_default();
+    let peak = if worst.impact > 1 {
+        format!("the peak comes after impact {}, not after the first", worst.impact)
+    } else {
+        "the peak comes after the first impact".to_owned()
+    };
+    format!(
+        "That drop lands on end {} at {} m/s, tilted by {}°, with e = {}{frequency}; {peak}.",
+        end(worst.first),
+        three(worst.speed_m_s),
+        three(worst.tilt_deg),
+        three(worst.restitution),
+    )
+}
+
+/// What the page says of one part.
+pub(super) fn part(
+    file: &ProductFile,
+    (component, assessed): (&Component, &ComponentAssessment),
+    portrait: &Portrait,
+) -> Value {
+    let tightest = assessed.tightest();
+    let what = limit(tightest.limit);
+    let allowed = shown(tightest.unit, tightest.allowed);
+    let seen = |largest: f64| {
+        // As the figures have it: a limit far away would press the curve flat.
+        if tightest.allowed <= 3.0 * largest {
+            format!(" Dash-dotted: the limit of {allowed}.")
+        } else {
+            format!(" The limit, {allowed}, lies outside the figure.")
+        }
+    };
+    let over_time = portrait.history.iter().map(|p| p.1.abs()).fold(0.0, f64::max);
+    let over_tilt = portrait.over_tilt.iter().flat_map(|(_, curve)| curve).map(|p| p.1).filter(|v| v.is_finite());
+    let undecided = assessed.limits.iter().filter(|l| l.verdict == Verdict::Undecided);
+    json!({
+        "name": name(&assessed.name),
+        "verdict": assessed.verdict.name(),
+        "position": millimeters(assessed.position_m),
+        "summary": summary(component, tightest, portrait),
+        "undecided": undecided.map(|l| json!({ "limit": limit(l.limit), "why": l.undecided.as_deref().map(minus) })).collect::<Vec<_>>(),
+        "limits": assessed.limits.iter().map(|l| row(file, l)).collect::<Vec<_>>(),
+        "changes": portrait.remedies.as_ref().map(|remedies| changes(&file.product, remedies)),
+        "drawn": !portrait.history.is_empty(),
+        "history": format!("The {what} over time in that drop; red ticks are impacts.{}", seen(over_time)),
+        "history-alt": format!("Curve of the {what} of this part over time in its worst drop, with the impacts marked at the foot."),
+        "tilt": format!("The {what} asked at each tilt, at the worst speed and restitution.{}", seen(over_tilt.fold(0.0, f64::max))),
+        "tilt-alt": format!("Curve of the worst {what} over the tilt at the first touch."),
+    })
+}

@@ -1,0 +1,147 @@
+//! How numbers, limits and names are told in running text.
+
+use clatter::End;
+use clatter_assess::{LimitKind, Model, STANDARD_GRAVITY_M_S2, Spread, Unit};
+
+use crate::figure::shock::three;
+
+/// Longest name in a running text; the figures cut theirs to the room there is.
+const LONGEST_NAME: usize = 60;
+
+/// A value in the unit that engineers use for it.
+pub(crate) fn shown(unit: Unit, value: f64) -> String {
+    let (factor, name) = customary(unit);
+    if value.is_finite() { format!("{} {name}", three(value / factor)) } else { "∞".to_owned() }
+}
+
+/// What one customary unit is in SI, and its name.
+pub(crate) fn customary(unit: Unit) -> (f64, &'static str) {
+    match unit {
+        Unit::MeterPerSecondSquared => (STANDARD_GRAVITY_M_S2, "gn"),
+        Unit::Meter => (1e-3, "mm"),
+        Unit::MeterPerSecond => (1.0, "m/s"),
+        Unit::RadianPerSecond => (1.0, "rad/s"),
+    }
+}
+
+pub(crate) fn limit(kind: LimitKind) -> &'static str {
+    match kind {
+        LimitKind::Acceleration => "acceleration",
+        LimitKind::RattleSpace => "rattle space",
+        LimitKind::VelocityChange => "velocity change",
+        LimitKind::AngularVelocityChange => "angular velocity change",
+        LimitKind::DamageBoundary => "damage boundary",
+    }
+}
+
+/// As a signed share of a hundred.
+pub(crate) fn percent(share: f64) -> String {
+    if share.is_infinite() {
+        return "–".to_owned();
+    }
+    let whole = 100.0 * share;
+    let text = if whole.abs() < 9.95 { format!("{whole:+.1}\u{a0}%") } else { format!("{whole:+.0}\u{a0}%") };
+    text.replace('-', "−")
+}
+
+/// A sentence with minus signs as long as a plus, where hyphens stand before numbers.
+pub(crate) fn minus(text: &str) -> String {
+    let letters: Vec<char> = text.chars().collect();
+    let is_minus = |i: usize| {
+        letters[i] == '-'
+            && letters.get(i + 1).is_some_and(char::is_ascii_digit)
+            && i.checked_sub(1).is_none_or(|before| matches!(letters[before], ' ' | '(' | '['))
+    };
+    (0..letters.len()).map(|i| if is_minus(i) { '−' } else { letters[i] }).collect()
+}
+
+/// A reason as the ladder gives it, its numbers without powers of ten and its models without hyphens.
+pub(crate) fn reason(text: &str) -> String {
+    let word = |word: &str| {
+        let bare = word.trim_end_matches([';', ',']);
+        let tidy = match bare.parse::<f64>() {
+            Ok(number) if number.is_infinite() => "∞".to_owned(),
+            Ok(number) if bare.contains('e') => three(number),
+            _ if Model::ALL.iter().any(|model| model.name() == bare) => bare.replace('-', " "),
+            _ => bare.to_owned(),
+        };
+        tidy + &word[bare.len()..]
+    };
+    text.split(' ').map(word).collect::<Vec<_>>().join(" ").replace("h0/v0²", "h₀/v₀²")
+}
+
+pub(crate) fn millimeters(m: f64) -> String {
+    format!("{} mm", three(1e3 * m)).replace('-', "−")
+}
+
+/// A name for running text: cut where it is endless, with a box for every character that the pages' typefaces lack.
+pub(crate) fn name(text: &str) -> String {
+    let printable = |c: char| {
+        let known = matches!(u32::from(c), 0x20..=0x7e | 0xa0..=0x24f | 0x370..=0x3ff | 0x400..=0x4ff | 0x5d0..=0x5ea
+            | 0x2010..=0x2027 | 0x2030..=0x203a | 0x20ac | 0x2122 | 0x2190..=0x2193 | 0x2200..=0x22ff);
+        let defined =
+            !matches!(u32::from(c), 0x378 | 0x379 | 0x380..=0x383 | 0x38b | 0x38d | 0x3a2 | 0x3cf..=0x3ff | 0xad);
+        if c.is_whitespace() {
+            ' '
+        } else if known && defined {
+            c
+        } else {
+            '□'
+        }
+    };
+    let mut cut: String = text.chars().take(LONGEST_NAME).map(printable).collect();
+    if text.chars().nth(LONGEST_NAME).is_some() {
+        cut.push('…');
+    }
+    cut
+}
+
+pub(crate) fn end(end: End) -> &'static str {
+    match end {
+        End::A => "a",
+        End::B => "b",
+    }
+}
+
+/// "0.9 to 1.2 m", or one value.
+pub(crate) fn range(spread: &Spread, factor: f64, unit: &str) -> String {
+    span([spread.lo(), spread.hi()], factor, unit)
+}
+
+/// The same of a low and a high end.
+pub(crate) fn span([lo, hi]: [f64; 2], factor: f64, unit: &str) -> String {
+    let [lo, hi] = [lo, hi].map(|v| three(v / factor).replace('-', "−"));
+    let text = if lo == hi { format!("{lo} {unit}") } else { format!("{lo} to {hi} {unit}") };
+    text.trim_end().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn margins_are_signed() {
+        assert_eq!([0.0, -0.031, 0.5, f64::INFINITY].map(percent), ["+0.0\u{a0}%", "−3.1\u{a0}%", "+50\u{a0}%", "–"]);
+    }
+
+    #[test]
+    fn hyphens_of_words_stay() {
+        assert_eq!(minus("-2 %, finite-tilt (-15.7 %), 1e-3, a -b"), "−2 %, finite-tilt (−15.7 %), 1e-3, a -b");
+    }
+
+    #[test]
+    fn reasons_read_as_words() {
+        let told = reason("gravity counts: g h0/v0² = 2.58e-2; finite-tilt is off by 1.95 %");
+        assert_eq!(told, "gravity counts: g h₀/v₀² = 0.0258; finite tilt is off by 1.95 %");
+        assert_eq!(reason("contacts overlap: τ/Δt = 2.60e0; map"), "contacts overlap: τ/Δt = 2.6; map");
+        assert_eq!(reason("one shock decides: ζωΔt = inf"), "one shock decides: ζωΔt = ∞");
+    }
+
+    #[test]
+    fn ranges_of_no_length_are_values() {
+        let tilt = Spread::new(0.0, 0.1, clatter_assess::Law::Range).unwrap();
+        assert_eq!(range(&tilt, 1e-3, "mrad"), "0 to 100 mrad");
+        assert_eq!(range(&Spread::value(-0.02).unwrap(), 1e-3, "mm"), "−20 mm");
+        assert_eq!(span([0.3, 0.4], 1.0, ""), "0.3 to 0.4");
+    }
+}

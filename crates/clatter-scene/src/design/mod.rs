@@ -1,7 +1,0 @@
-//! The design method for a product: what would make each failing part safe, and which (q, e) would.
-
-mod lever;
-mod plane;
-
-pub use lever::{Bounds, Lever, Outcome, Remedies, Remedy, STEPS};
-pub use plane::{Border, Plane, PlaneComponent};
