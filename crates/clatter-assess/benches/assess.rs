@@ -1,6 +1,4 @@
 //! Assessments of ten components with two limits each over full ranges, and of the worked products.
-//!
-//! TIMES
 
 use std::fmt::Write as _;
 
