@@ -62,9 +62,9 @@ pub struct ContactFlight<const N: usize = 2> {
     /// the first touch.
     ///
     /// # Accuracy
-    /// Each time that a point comes to press adds less than 4 times the precision (measured on random drops). One strike may
-    /// press hundreds of times: a body that rocks in the dents it has made loses nothing by the law and never rises above the
-    /// ground.
+    /// Up to a precision of 1e−3, each time that a point comes to press adds less than 4 times the precision (measured on random
+    /// drops). One strike may press hundreds of times: a body that rocks in the dents it has made loses nothing by the law and
+    /// may never rise above the ground.
     pub energy_error: f64,
     contact_s: f64,
     phases: Vec<(f64, Phase<N>)>,

@@ -29,17 +29,24 @@ fn energy<const N: usize>(flight: &ContactFlight<N>, body: &Body<N>, t: f64) -> 
     0.5 * (v * v + (body.gyration_m() * now.spin_rad_s).powi(2)) + G * y
 }
 
-fn never_grows<const N: usize>(flight: &ContactFlight<N>, body: &Body<N>) -> Result<(), TestCaseError> {
+fn never_grows<const N: usize>(
+    flight: &ContactFlight<N>,
+    body: &Body<N>,
+    law: ContactLaw,
+) -> Result<(), TestCaseError> {
     let first = energy(flight, body, 0.0);
     let mut held = first;
     let mut free: Vec<f64> =
         flight.presses.iter().map(|p| p.until_s).filter(|t| *t < flight.flight.stop.time_s()).collect();
     free.sort_by(f64::total_cmp);
     for t in free.into_iter().map(|t| t * (1.0 + 4.0 * f64::EPSILON)) {
-        if flight.sample(t).force_per_mass_m_s2.iter().all(|force| *force == 0.0) {
+        let now = flight.sample(t);
+        if now.force_per_mass_m_s2.iter().all(|force| *force == 0.0) {
+            // A dashpot that has parted below the ground may press again, and give what its spring holds.
+            let above = law == ContactLaw::Hysteretic || now.height_m.iter().all(|h| *h >= 0.0);
             let now = energy(flight, body, t);
             prop_assert!(now <= held + first * (flight.energy_error + 1e-12), "{now} after {held} of {first}");
-            held = held.min(now);
+            held = if above { held.min(now) } else { held };
         }
     }
     Ok(())
@@ -56,7 +63,7 @@ proptest! {
     ) {
         let body = block(0.2, 0.2 * height, 0.1 * gyration * 1.0_f64.hypot(height));
         let flight = fly(body, law, e, speed, tilt);
-        never_grows(&flight, &body)?;
+        never_grows(&flight, &body, law)?;
         prop_assert!(flight.flight.strikes.iter().all(|s| s.tilt_rad.abs() <= std::f64::consts::PI));
         if let Stop::AtRest { time_s, .. } = flight.flight.stop {
             let rest = flight.sample(time_s);
@@ -69,6 +76,17 @@ proptest! {
             prop_assert!(matches!(flight.flight.stop, Stop::ImpactLimit { .. }), "{:?}", flight.flight.stop);
         }
     }
+}
+
+/// Lever arms of now and of later once took turns at whether a corner lies or loads, 10⁻¹⁶ s each, until no more phases were
+/// followed.
+#[test]
+fn a_corner_that_lies_and_loads_takes_no_turns() {
+    let (height, gyration) = (0.884_620_092_667_451_8, 0.314_594_423_919_700_16);
+    let body = block(0.2, 0.2 * height, 0.1 * gyration * 1.0_f64.hypot(height));
+    let flight = fly(body, ContactLaw::Hysteretic, 0.0, 5.988_344_336_143_666, 88.855_591_618_875_89);
+    assert_eq!(flight.flight.stop.reason(), "at-rest", "{:?}", flight.flight.stop);
+    assert!(flight.phases_s().count() < 100, "{}", flight.phases_s().count());
 }
 
 #[test]
@@ -122,4 +140,15 @@ fn a_bar_with_corners_turns_over() {
         let hard = scene.simulate(clatter_flight::Model::FiniteTilt).stop.time_s();
         assert!((time_s / hard - 1.0).abs() < 1e-2, "{time_s} {hard}");
     }
+}
+
+/// A corner that had parted in its dent once pressed again from above it, by what a long turn about the other one had wrong: the ground
+/// pulled, and energy grew.
+#[test]
+fn the_ground_never_pulls() {
+    let (height, gyration) = (0.439_331_968_574_293_8, 0.360_002_216_167_153_33);
+    let body = block(0.2, 0.2 * height, 0.1 * gyration * 1.0_f64.hypot(height));
+    let flight =
+        fly(body, ContactLaw::Hysteretic, 0.042_648_958_568_219_39, 2.137_926_186_721_748, 87.817_578_724_000_88);
+    never_grows(&flight, &body, ContactLaw::Hysteretic).expect("no growth");
 }

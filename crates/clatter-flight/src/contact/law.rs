@@ -103,6 +103,10 @@ impl Contact {
     pub(super) fn is_plastic(&self) -> bool {
         self.law == ContactLaw::Hysteretic && self.e < PLASTIC
     }
+    /// Share of a velocity that the line of unloading gives back, which lever arms must not lose: e; all where there is no such line.
+    pub(super) fn springs_back(&self) -> f64 {
+        if self.law == ContactLaw::Dashpot || self.is_plastic() { 1.0 } else { self.e }
+    }
     /// Stiffness of unloading over that of loading.
     pub(super) fn unloading(&self) -> f64 {
         if self.is_plastic() { f64::INFINITY } else { self.e.powi(-2) }

@@ -39,7 +39,7 @@ struct Weighed<const N: usize> {
 
 impl<const N: usize> Run<'_, N> {
     /// What a force at point i does to point j.
-    fn share(&self, i: usize, j: usize) -> f64 {
+    pub(super) fn share(&self, i: usize, j: usize) -> f64 {
         let x = self.pose.levers().x;
         1.0 + x[i] * x[j] / self.pose.rho2
     }
@@ -233,7 +233,8 @@ impl<const N: usize> Run<'_, N> {
         }
     }
 
-    /// Ends the flight at rest: what is left of the motion is taken by the points that carry the weight.
+    /// Ends the flight at rest: what is left of the motion is taken by the points that carry the weight, or by the
+    /// one that lies.
     pub(super) fn rest(&mut self, forces: [f64; N], shock_bound_m_s: f64) {
         self.unrested = Some(self.pose);
         let x = self.pose.levers().x;
@@ -251,6 +252,9 @@ impl<const N: usize> Run<'_, N> {
             for k in [i, j] {
                 self.presses[self.touches[k].strike].until_s = f64::INFINITY;
             }
+        } else if let Some(i) = left {
+            // Without gravity one point lies alone.
+            self.book(i, self.pose.points().1.map(|velocity| -velocity));
         }
         (self.pose.v, self.pose.spin) = (0.0, 0.0);
         self.resting = forces;

@@ -14,13 +14,17 @@ use crate::scene::Scene;
 
 /// Refused is what has more unexplained energy than this share,
 const ENERGY: f64 = 0.01;
-/// and this many times the precision for each time that a point presses, from the air or again in its dent.
+/// and this many times the precision for each strike,
 const EACH: f64 = 4.0;
+/// and for each press again in its dent, which is slower.
+const AGAIN: f64 = 0.25;
 /// Turn of a phase over the lever arm, times what it pushes over the fastest approach, over the precision: a strike is then
 /// wrong by less than the precision (measured on random scenes by the tests).
 const KEPT: f64 = 4.0;
 /// How often a phase is worked out anew with better lever arms.
 const PASSES: usize = 6;
+/// Contact times within which an event happens at once.
+const AT_ONCE: f64 = 1e-6;
 /// How often it is cut shorter.
 const CUTS: usize = 12;
 /// A phase is at most this many times as long as the one before, where that was cut.
@@ -46,8 +50,8 @@ pub(super) struct Run<'a, const N: usize> {
     one_sided: bool,
     pub(super) log: Log<N>,
     pub(super) presses: Vec<Press>,
-    /// How often a point has come to press, also again in its dent.
-    pressed: usize,
+    /// How often a point has pressed again in its dent.
+    again: usize,
     pub(super) phases: Vec<(f64, Phase<N>)>,
     /// Number of phases at the last strike.
     pub(super) since: usize,
@@ -85,7 +89,7 @@ impl<'a, const N: usize> Run<'a, N> {
             one_sided: body.points_m().iter().all(|[_, z]| *z < 0.0),
             log: Log::new(scene),
             presses: Vec::with_capacity(16),
-            pressed: 0,
+            again: 0,
             phases: Vec::with_capacity(64),
             since: 0,
             time: Clock::default(),
@@ -170,7 +174,7 @@ impl<'a, const N: usize> Run<'a, N> {
     fn finish(mut self) -> Result<ContactFlight<N>, Error> {
         let energy_error = self.misfit / self.opened;
         #[expect(clippy::cast_precision_loss, reason = "at most a hundred million")]
-        let allowed = ENERGY + EACH * self.precision * self.pressed as f64;
+        let allowed = ENERGY + self.precision * (EACH * self.presses.len() as f64 + AGAIN * self.again as f64);
         if energy_error > allowed {
             return Err(Error::Energy { share: energy_error });
         }
@@ -210,11 +214,13 @@ impl<'a, const N: usize> Run<'a, N> {
         let steep = (0..N).filter(|&i| self.touches[i].is_pressing()).fold(0.1_f64, |most, i| {
             most.max(levers.over[i].abs() / levers.x[i].abs().max(0.1 * self.pose.body.gyration_m()))
         });
-        let budget = self.precision * self.fastest;
+        let budget = self.precision.min(self.contact.springs_back()) * self.fastest;
         let mut longest = self.stride;
         let mut halfway = self.pose.flown(0.5 * longest.min(0.5 * self.contact.time_s()));
         halfway.spin = self.pose.spin;
         let (mut passes, mut cuts) = (0, 0);
+        // Whether the lever arms are those of now, and how long the phase was by the last lever arms.
+        let (mut early, mut before) = (false, f64::INFINITY);
         loop {
             let phase = Phase::new(self.pose, &halfway, holds, delay);
             let slowest = (self.reach / self.pose.gravity).sqrt().min(self.pose.spin.abs().recip());
@@ -226,27 +232,53 @@ impl<'a, const N: usize> Run<'a, N> {
             if let Some(past) = self.lets_go(&phase, &end).filter(|_| cuts < CUTS) {
                 cuts += 1;
                 longest = past * dt;
-                halfway = self.mean(&phase, longest).pose;
+                (halfway, early) = (self.mean(&phase, longest).pose, false);
                 continue;
             }
+            // An event that the lever arms of later bring about now: those of now tell, or a load and a rest take turns for ever.
+            if !early && dt < AT_ONCE * self.contact.time_s() && passes < PASSES {
+                passes += 1;
+                longest = longest.min(0.5 * before);
+                (halfway, early) = (self.pose, true);
+                continue;
+            }
+            let gap = gap.max(self.pressed_off(&phase, dt, event, &end));
             let wrong = turn * steep * (pushed + turn * steep * self.reach * pose.spin.abs());
             let over = (wrong / KEPT + gap) / budget;
             if over > 1.5 && cuts < CUTS {
                 cuts += 1;
                 longest = dt * over.sqrt().recip().clamp(0.1, 0.8);
-                halfway = self.mean(&phase, longest).pose;
+                (halfway, early) = (self.mean(&phase, longest).pose, false);
                 continue;
             }
             passes += 1;
             let off = (pose.tilt - halfway.tilt).abs() * steep * pushed;
             if off > 0.1 * budget && passes < PASSES {
-                halfway = pose;
+                (halfway, early, before) = (pose, false, dt);
                 continue;
             }
             let cut = dt > 0.0 && (event.is_none() || cuts > 0);
             self.stride = if cut { dt * over.sqrt().recip().min(GROWTH) } else { f64::INFINITY };
             return Course { phase, dt, event: event.and_then(|(_, event)| event) };
         }
+    }
+
+    /// By how much a point that presses again is not where its line begins, as the velocity that this is worth to its vibration:
+    /// the ground would pull, or push at once.
+    fn pressed_off(
+        &self,
+        phase: &Phase<N>,
+        dt: f64,
+        event: Option<(f64, Option<(usize, Watch)>)>,
+        end: &Pose<N>,
+    ) -> f64 {
+        let Some((_, Some((i, watch)))) = event else { return 0.0 };
+        if watch.event != Event::Presses || self.contact.is_plastic() {
+            return 0.0;
+        }
+        let unloading = if self.contact.law() == ContactLaw::Hysteretic { self.contact.unloading() } else { 1.0 };
+        let rate = (self.touches[i].stiffness * unloading * self.share(i, i)).sqrt();
+        rate * ((end.points().0[i] - phase.watched(i, dt)[0]).abs() - self.margins.height).max(0.0)
     }
 
     /// The share of a phase after which turning lifts a point that alone presses and lies, and a little more.
@@ -397,7 +429,7 @@ impl<'a, const N: usize> Run<'a, N> {
                     self.rouse_others(i);
                 }
                 self.presses[self.touches[i].strike].until_s = f64::INFINITY;
-                self.pressed += 1;
+                self.again += 1;
                 if self.contact.is_plastic() {
                     self.touches[i].reload(h);
                 } else {
@@ -432,7 +464,6 @@ impl<'a, const N: usize> Run<'a, N> {
         let stiffness = self.stiffness(i);
         let [ground, crest, zero] = [height; 3];
         self.touches[i] = Touch { state: State::Loading, stiffness, ground, crest, zero, bounces: 0, strike };
-        self.pressed += 1;
         self.presses.push(Press { from_s: self.time.now(), until_s: f64::INFINITY });
         true
     }
