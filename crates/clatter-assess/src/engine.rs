@@ -177,7 +177,7 @@ impl<'a> Felt<'a> {
     }
 
     /// The same for responses of parts up to a natural frequency, to about 1 %: pulses that are short beside the period of
-    /// the fastest part are taken as trapezoids of the same impulse at the same time.
+    /// the fastest part are taken as velocity shocks of the same impulse at the mean time.
     pub(crate) fn rough(followed: &'a Followed, position_m: f64, fastest_rad_s: f64) -> Result<Self, Error> {
         if followed.is_cut() {
             return Err(Error::Unfinished);

@@ -48,33 +48,18 @@ impl Pieces {
         let range = first..self.sines.len();
         self.all.push((section.length_s, section.delta_v_m_s, section.acceleration_m_s2, range));
     }
-    /// A rectangle of the same impulse at the same mean time, as long as it finds room; without a mean time within, a straight line
-    /// that does the same.
+    /// A velocity shock of the same impulse at the mean time; where that is not within, a straight line that does the same.
     fn join(&mut self, joined: &Joined) {
         let Joined { length_s: length, change_m_s: change, moved_m } = *joined;
         let mean = length - moved_m / change;
-        let mut push = |length: f64, delta_v: f64, line: [f64; 2]| {
-            if length > 0.0 || delta_v != 0.0 {
-                self.all.push((length, delta_v, line, 0..0));
-            }
-        };
-        if !(0.0..=length).contains(&mean) {
+        if (0.0..=length).contains(&mean) {
+            self.all.push((mean, 0.0, [0.0; 2], 0..0));
+            self.all.push((length - mean, change, [0.0; 2], 0..0));
+        } else if length > 0.0 {
             // The change is L (a + b)/2, and it moves by L² (2a + b)/6.
             let (mean, moved) = (change / length, 6.0 * moved_m / (length * length));
             let first = moved - 2.0 * mean;
-            return push(length, 0.0, if length > 0.0 { [first, 2.0 * mean - first] } else { [0.0; 2] });
-        }
-        let width = 2.0 * mean.min(length - mean);
-        if mean > 0.5 * length {
-            push(length - width, 0.0, [0.0; 2]);
-        }
-        if width > 1e-9 * length {
-            push(width, 0.0, [change / width; 2]);
-        } else {
-            push(0.0, change, [0.0; 2]);
-        }
-        if mean <= 0.5 * length {
-            push(length - width, 0.0, [0.0; 2]);
+            self.all.push((length, 0.0, [first, 2.0 * mean - first], 0..0));
         }
     }
 }

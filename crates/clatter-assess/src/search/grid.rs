@@ -7,7 +7,7 @@ use super::ranges::{Place, Ranges};
 use crate::{Mount, Spread};
 
 /// Tilts of the grid at least and at most.
-const TILTS: [f64; 2] = [16.0, 128.0];
+const TILTS: [f64; 2] = [12.0, 128.0];
 /// Phase by which the stiffest part turns between the first strikes of neighboring tilts, in rad.
 const PHASE: f64 = 0.8;
 const SQRT_3: f64 = 1.732_050_807_568_877;
