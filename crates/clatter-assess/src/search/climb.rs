@@ -66,17 +66,22 @@ impl Ranges<'_> {
         let (free, fastest) = (self.free(task), fastest_rad_s(task.component));
         let until = if start.late { Until::Rebounded } else { Until::Lands };
         let mut best = start;
+        // A step that went up is taken once more.
+        let mut again = None;
         for k in 1..=tries {
             let reach = reach * CLOSER.powf(f64::from(k) / f64::from(tries));
+            let around =
+                || std::array::from_fn(|axis| if free[axis] { reach * (2.0 * halton(axis, k) - 1.0) } else { 0.0 });
+            let step: [f64; AXES] = again.take().unwrap_or_else(around);
             let mut place = best.place;
-            for axis in (0..AXES).filter(|&axis| free[axis]) {
-                let off = reach * (2.0 * halton(axis, k) - 1.0);
-                place.shares[axis] = (place.shares[axis] + off).clamp(0.0, 1.0);
+            for (share, step) in place.shares.iter_mut().zip(step) {
+                *share = (*share + step).clamp(0.0, 1.0);
             }
             let Ok(followed) = self.follow(&place, until) else { continue };
             let Ok(felt) = Felt::rough(&followed, place.position_m, fastest) else { continue };
             if let Ok(Some(next)) = Self::in_drop(task, &place, &felt, best.answer.utilization()) {
                 best = Asked { late: start.late, ..next };
+                again = Some(step);
             }
         }
         best
