@@ -64,7 +64,10 @@ impl Ranges<'_> {
             for restitution in
                 levels(Some(&self.product.restitution), &[Level::At(1.0), Level::At(0.0), Level::Spread(SQRT_2)])
             {
-                for contact in levels(self.product.contact_time_s.as_ref(), &[Level::At(0.0), Level::Spread(SQRT_3)]) {
+                for contact in levels(
+                    self.product.contact_time_s.as_ref(),
+                    &[Level::At(0.0), Level::At(1.0), Level::Spread(SQRT_3)],
+                ) {
                     let mut add = |tilt: f64, speed: f64| {
                         let k = grid.len();
                         let shares = [tilt, speed, restitution.of(k), contact.of(k), 0.0, 0.0];
