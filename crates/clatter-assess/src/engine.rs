@@ -11,7 +11,7 @@ use clatter_shock::{Peaked, Pulses, Response, Suspension};
 
 use crate::drop::{Followed, Model, Motion, SingleDrop};
 use crate::history::{SHORT, pulses};
-use crate::shock::{Shock, largest, looks};
+use crate::shock::{Shock, largest, samples};
 use crate::{Error, Limit, LimitKind, Unit};
 
 /// A part at one place of the product.
@@ -251,7 +251,7 @@ impl<'a> Felt<'a> {
     pub(crate) fn acceleration(&self) -> Vec<(f64, f64)> {
         let of = |section: &Stretch| {
             let section = *section;
-            let steps = looks(&section, section.length_s);
+            let steps = samples(&section, section.length_s);
             (0..=steps).map(move |k| {
                 let t = f64::from(k) / f64::from(steps) * section.length_s;
                 (section.from_s + t, section.acceleration_at(t))
@@ -455,14 +455,14 @@ impl Followed {
     }
 }
 
-/// The largest acceleration of a section without its sign, and when: the highest of close looks, and the parabola over it.
+/// The largest acceleration of a section without its sign, and when: the highest of close samples, and the parabola over it.
 fn crest(section: &Stretch) -> (f64, f64) {
-    let looks = 2 * looks(section, section.length_s);
-    let step = section.length_s / f64::from(looks);
+    let count = 2 * samples(section, section.length_s);
+    let step = section.length_s / f64::from(count);
     let of = |k: u32| section.acceleration_at(f64::from(k) * step);
-    let highest = (0..=looks).max_by(|&j, &k| of(j).abs().total_cmp(&of(k).abs())).unwrap_or(0);
+    let highest = (0..=count).max_by(|&j, &k| of(j).abs().total_cmp(&of(k).abs())).unwrap_or(0);
     let (t, value) = (f64::from(highest) * step, of(highest));
-    if highest == 0 || highest == looks {
+    if highest == 0 || highest == count {
         return (value.abs(), t);
     }
     let (before, after) = (of(highest - 1), of(highest + 1));

@@ -66,8 +66,8 @@ struct OfDrop {
     later: Vec<(usize, f64)>,
 }
 
-/// What drops that were looked at ask.
-struct Looked {
+/// What all drops ask.
+struct AllAsked {
     /// Of each task.
     found: Vec<Vec<Asked>>,
     /// How many are not answered, and why the first is not.
@@ -77,11 +77,11 @@ struct Looked {
     drops: usize,
 }
 
-impl Looked {
-    fn take(&mut self, looked: Vec<Result<OfDrop, Error>>) {
-        for looked in looked {
+impl AllAsked {
+    fn take(&mut self, answers: Vec<Result<OfDrop, Error>>) {
+        for answer in answers {
             self.drops += 1;
-            match looked {
+            match answer {
                 Ok(of_drop) => {
                     of_drop.asked.into_iter().for_each(|(task, asked)| self.found[task].push(asked));
                     of_drop.later.into_iter().for_each(|(task, most)| self.later[task] = most.max(self.later[task]));
@@ -111,21 +111,21 @@ impl Ranges<'_> {
         let steps = self.tilt_steps(tasks);
         let best: Vec<AtomicU64> = tasks.iter().map(|_| AtomicU64::new(0)).collect();
         let mut all =
-            Looked { found: vec![Vec::new(); tasks.len()], refused: None, later: vec![0.0; tasks.len()], drops: 0 };
+            AllAsked { found: vec![Vec::new(); tasks.len()], refused: None, later: vec![0.0; tasks.len()], drops: 0 };
         let grid: Vec<(u32, Place)> = (0..).zip(self.grid(steps)).collect();
-        all.take(grid.par_iter().map(|(k, drop)| self.look(tasks, *k, drop, &best, None)).collect());
+        all.take(grid.par_iter().map(|(k, drop)| self.ask(tasks, *k, drop, &best, None)).collect());
         let shocks: Vec<bool> = tasks.iter().map(|task| !task.limit.is_response()).collect();
         let overlaps = if shocks.contains(&true) { self.overlaps() } else { Vec::new() };
-        let look = |(k, drop): &(u32, Place)| self.look(tasks, *k, drop, &best, Some(&shocks));
-        all.take(overlaps.par_iter().map(look).collect());
+        let ask = |(k, drop): &(u32, Place)| self.ask(tasks, *k, drop, &best, Some(&shocks));
+        all.take(overlaps.par_iter().map(ask).collect());
         // What rebounds ask is sensitive to every input: where the energy allows them more, drops all over the ranges are
         // followed for longer as well.
         if all.later.iter().any(|most| *most > 0.0) {
             let only: Vec<bool> = all.later.iter().map(|most| *most > 0.0).collect();
-            let look = |k: u32| self.look(tasks, k, &self.spread_out(k), &best, Some(&only));
-            all.take((1..=SAMPLE).into_par_iter().map(look).collect());
+            let ask = |k: u32| self.ask(tasks, k, &self.spread_out(k), &best, Some(&only));
+            all.take((1..=SAMPLE).into_par_iter().map(ask).collect());
         }
-        let Looked { mut found, refused, drops, later } = all;
+        let AllAsked { mut found, refused, drops, later } = all;
         let climbs: Vec<(usize, Asked)> = found
             .iter_mut()
             .enumerate()
@@ -157,7 +157,7 @@ impl Ranges<'_> {
     }
 
     /// What drop k asks of each task, or of those marked in `only`, where that comes near the worst.
-    fn look(
+    fn ask(
         &self,
         tasks: &[Task<'_>],
         k: u32,
@@ -268,17 +268,17 @@ impl Ranges<'_> {
         let [.., frequency, damping] = self.free(task);
         let end = if task.limit.kind == LimitKind::Acceleration { 1.0 } else { 0.0 };
         let mut worst = Self::in_drop(task, &place.with(FREQUENCY, end), felt, above)?;
-        let mut look = |place: &Place| -> Result<(), Error> {
+        let mut ask = |place: &Place| -> Result<(), Error> {
             let above = worst.map_or(above, |worst| worst.answer.utilization());
             worst = Self::in_drop(task, place, felt, above)?.or(worst);
             Ok(())
         };
         for n in 0..if frequency { others } else { 0 } {
             let share = (GOLDEN * f64::from(k * others + n)).fract();
-            look(&place.with(FREQUENCY, share))?;
+            ask(&place.with(FREQUENCY, share))?;
         }
         if damping {
-            look(&place.with(FREQUENCY, end).with(DAMPING, 1.0))?;
+            ask(&place.with(FREQUENCY, end).with(DAMPING, 1.0))?;
         }
         Ok(worst)
     }

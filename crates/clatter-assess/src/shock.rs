@@ -120,27 +120,27 @@ impl Range {
     }
 }
 
-/// Phase of the fastest wave between two looks at a section.
+/// Phase of the fastest wave between two samples of a section.
 const PHASE: f64 = 0.4;
-/// Looks at one section at most.
+/// Samples of one section at most.
 const MOST: f64 = 256.0;
 
-/// How often a section is looked at over a time.
-pub(crate) fn looks(section: &Stretch, length_s: f64) -> u32 {
+/// Samples of a section over a time.
+pub(crate) fn samples(section: &Stretch, length_s: f64) -> u32 {
     let fastest =
         section.waves.iter().filter(|w| w.amplitude_m_s2 != 0.0).fold(0.0, |most: f64, w| most.max(w.rate_rad_s));
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 256")]
-    let looks = (fastest * length_s / PHASE).clamp(1.0, MOST).ceil() as u32;
-    looks
+    let count = (fastest * length_s / PHASE).clamp(1.0, MOST).ceil() as u32;
+    count
 }
 
 /// Times within a section at which the acceleration is that of gravity.
 fn turning_points(section: &Stretch, gravity: f64, [begin, end]: [f64; 2], mut at: impl FnMut(f64)) {
-    let looks = looks(section, end - begin);
-    let step = (end - begin) / f64::from(looks);
+    let count = samples(section, end - begin);
+    let step = (end - begin) / f64::from(count);
     let of = |t: f64| section.acceleration_at(t) - gravity;
     let mut last = (begin, of(begin));
-    for k in 1..=looks {
+    for k in 1..=count {
         let t = begin + f64::from(k) * step;
         let next = (t, of(t));
         if last.1 * next.1 < 0.0 {

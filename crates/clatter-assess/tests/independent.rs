@@ -9,6 +9,7 @@
 
 #[path = "../../clatter-flight/tests/plain/mod.rs"]
 mod plain;
+mod random;
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -17,30 +18,10 @@ use clatter_assess::{Answer, ContactLaw, Limit, LimitKind, Model, Part, SingleDr
 use clatter_flight::Body;
 use clatter_shock::{DampingRatio, Suspension};
 use plain::Plain;
+use random::Random;
 use rayon::prelude::*;
 
 const G: f64 = 9.80665;
-
-/// Steele, Lea and Flood's SplitMix64.
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        #[expect(clippy::cast_precision_loss, reason = "53 bits")]
-        let unit = ((z ^ (z >> 31)) >> 11) as f64 * 0.5_f64.powi(53);
-        unit
-    }
-    fn even(&mut self, lo: f64, hi: f64) -> f64 {
-        lo + (hi - lo) * self.unit()
-    }
-    /// Even in the logarithm.
-    fn decades(&mut self, lo: f64, hi: f64) -> f64 {
-        lo * (hi / lo).powf(self.unit())
-    }
-}
 
 /// A bar of 60 to 400 mm, its center of mass in the middle or up to 0.15 of the half-length off it; tilts up to `tilt_deg`;
 /// contacts of 0.1 to 1.5 ms, where that is no longer than the flight takes. Of e between 0 and 0.03 (a dashpot: from 0 on) the

@@ -4,38 +4,21 @@
 
 #![expect(clippy::print_stdout, reason = "a long run tells what it found")]
 
+mod random;
+
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use clatter::End;
 use clatter_assess::{Component, Limit, LimitAssessment, Model, Mount, Part, ProductFile, SingleDrop, Verdict, answer};
 use clatter_shock::{DampingRatio, Suspension};
+use random::Random;
 use rayon::prelude::*;
 
-/// Steele, Lea and Flood's SplitMix64.
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        #[expect(clippy::cast_precision_loss, reason = "53 bits")]
-        let unit = ((z ^ (z >> 31)) >> 11) as f64 * 0.5_f64.powi(53);
-        unit
-    }
-    fn even(&mut self, lo: f64, hi: f64) -> f64 {
-        lo + (hi - lo) * self.unit()
-    }
-    /// Even in the logarithm.
-    fn decades(&mut self, lo: f64, hi: f64) -> f64 {
-        lo * (hi / lo).powf(self.unit())
-    }
-    fn one_of<T: Copy>(&mut self, list: &[T]) -> T {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "few")]
-        let n = (self.unit() * list.len() as f64) as usize;
-        list[n.min(list.len() - 1)]
-    }
+fn one_of<T: Copy>(r: &mut Random, list: &[T]) -> T {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "few")]
+    let n = (r.unit() * list.len() as f64) as usize;
+    list[n.min(list.len() - 1)]
 }
 
 /// A bar of 60 to 400 mm, contacts of 0.1 to 1.5 ms, tilts of 0 to 15°; a hard part and two suspended ones, of one natural
@@ -53,7 +36,7 @@ fn product(r: &mut Random) -> ProductFile {
     tilt.sort_by(f64::total_cmp);
     let height = r.decades(0.2, 2.0);
     let height = [height, height * r.even(1.0, 1.5)];
-    let first = r.one_of(&["a", "b", "either"]);
+    let first = one_of(r, &["a", "b", "either"]);
     let list = |[lo, hi]: [f64; 2], unit: &str| format!("[\"{lo:.9} {unit}\", \"{hi:.9} {unit}\"]");
     let mut text = format!(
         "[product]\nname = \"random\"\nlength = \"{length:.9} mm\"\nradius_of_gyration = \"{gyration:.9} mm\"\n\
@@ -79,11 +62,11 @@ fn product(r: &mut Random) -> ProductFile {
         format!("acceleration_limit = \"{:.6} m/s2\"", stands * 1570.0 / contact[0]),
         format!("angular_velocity_change_limit = \"{:.6} rad/s\"", 2000.0 * stands / length),
     ];
-    let hard = format!("mount = \"hard\"\n{}", r.one_of(&[0, 1, 2].map(|n| hard[n].as_str())));
+    let hard = format!("mount = \"hard\"\n{}", one_of(r, &[0, 1, 2].map(|n| hard[n].as_str())));
     part(r, "hard", &hard);
     for name in ["soft", "stiff"] {
         let frequency = r.decades(10.0, 3000.0);
-        let frequency = [frequency, frequency * r.one_of(&[1.0, 1.2, 10.0])];
+        let frequency = [frequency, frequency * one_of(r, &[1.0, 1.2, 10.0])];
         let stands = r.decades(0.5, 2.0) * speed;
         let limit = if r.unit() < 0.5 {
             format!("acceleration_limit = \"{:.6} m/s2\"", TAU * frequency[1] * stands)

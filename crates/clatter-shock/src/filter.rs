@@ -13,9 +13,9 @@
 //! Where a bound says that a peak between samples may pass the largest sample, the steps are gone through one by one
 //! and the peak is found exactly.
 
+use crate::eight::{Many, WIDTH};
 use crate::forced::Segment;
 use crate::integrals::Integrals;
-use crate::lanes::{LANES, Many};
 use crate::peaks::Range;
 use crate::suspension::{Modes, Motion, Phase};
 use crate::{DampingRatio, Error, Frequencies, Quantity, Spectrum};
@@ -43,15 +43,15 @@ pub struct SpectrumFilter {
     modes: Modes,
     groups: Vec<Group>,
     previous: Option<f64>,
-    /// As long as the softest lane may need them.
+    /// As long as the softest oscillator may need them.
     integrals: Option<Integrals>,
 }
 
-/// Eight lanes, each field whole in lines of the cache.
+/// Oscillators of eight natural frequencies, each field whole in lines of the cache.
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
 struct Group {
-    /// N row by row, c, d of each lane.
+    /// N row by row, c, d of each oscillator.
     n: [Many; 4],
     c: [Many; 2],
     d: Many,
@@ -59,11 +59,11 @@ struct Group {
     v: Many,
     /// What u, v and the newest sample give to x and to y.
     back: [[Many; 3]; 2],
-    /// Extremes so far, of the samples at least; infinite where there is no lane.
+    /// Extremes so far, of the samples at least; infinite where there is no oscillator.
     high: Many,
     low: Many,
     reach: Reach,
-    lanes: Vec<Lane>,
+    oscillators: Vec<Oscillator>,
 }
 
 /// How far a quantity can go within a block.
@@ -89,7 +89,7 @@ impl Reach {
             Modes::VELOCITY => ([0.0, 1.0], 1.0 + damp),
             _ => ([-1.0, -damp], 1.0 + damp + damp * damp),
         };
-        Self { of, most: of[0].hypot(of[1]), drift: [slope * STEPS; LANES], push: of[1].abs(), dt }
+        Self { of, most: of[0].hypot(of[1]), drift: [slope * STEPS; WIDTH], push: of[1].abs(), dt }
     }
 }
 
@@ -103,7 +103,7 @@ struct Recursion {
 
 /// What one frequency needs beside the filter.
 #[derive(Debug, Clone)]
-struct Lane {
+struct Oscillator {
     theta: f64,
     row: usize,
     recursion: Recursion,
@@ -130,7 +130,7 @@ struct Input {
     jump: f64,
 }
 
-/// Where a block begins, and its largest and smallest sample, that before it included, lane by lane.
+/// Where a block begins, and its largest and smallest sample, that before it included, of each oscillator.
 #[derive(Clone, Copy)]
 struct Block {
     /// Its number, from 0.
@@ -166,7 +166,7 @@ impl Input {
     }
 }
 
-impl Lane {
+impl Oscillator {
     fn new(modes: &Modes, omega: f64, dt: f64, row: usize) -> Self {
         let phase = Phase::product(omega, dt);
         let theta = phase.hi;
@@ -228,7 +228,7 @@ impl Lane {
         self.share * (q + bend)
     }
     /// How far some step of a block can rise between its samples, if that may pass the largest value so far; `l` is the
-    /// lane's place.
+    /// oscillator’s place.
     fn may_rise(&self, modes: &Modes, l: usize, b: &Block, input: &Input) -> Option<f64> {
         let m = self.motion(b.u[l], b.v[l], input.before);
         let q = modes.quantity(self.row, m).abs().max(b.high[l]).max(-b.low[l]);
@@ -262,7 +262,7 @@ impl Lane {
 
 impl Group {
     fn new(modes: &Modes, omegas: &[f64], dt: f64, row: usize) -> Self {
-        let zero = [0.0; LANES];
+        let zero = [0.0; WIDTH];
         let mut group = Self {
             n: [zero; 4],
             c: [zero; 2],
@@ -270,30 +270,30 @@ impl Group {
             u: zero,
             v: zero,
             back: [[zero; 3]; 2],
-            high: [f64::INFINITY; LANES],
-            low: [f64::NEG_INFINITY; LANES],
-            lanes: Vec::with_capacity(LANES),
+            high: [f64::INFINITY; WIDTH],
+            low: [f64::NEG_INFINITY; WIDTH],
+            oscillators: Vec::with_capacity(WIDTH),
             reach: Reach::new(modes.zeta, row, dt),
         };
         for (l, &omega) in omegas.iter().enumerate() {
-            let lane = Lane::new(modes, omega, dt, row);
-            let Recursion { n, c, d } = lane.recursion;
+            let oscillator = Oscillator::new(modes, omega, dt, row);
+            let Recursion { n, c, d } = oscillator.recursion;
             for (to, from) in group.n.iter_mut().zip(n) {
                 to[l] = from;
             }
             (group.c[0][l], group.c[1][l], group.d[l]) = (c[0], c[1], d);
             // Until the first sample: what it will add at once is taken off (times that sample).
-            (group.u[l], group.v[l]) = (-lane.at_once[0], -lane.at_once[1]);
+            (group.u[l], group.v[l]) = (-oscillator.at_once[0], -oscillator.at_once[1]);
             for (i, x) in [[1.0, 0.0], [-modes.sigma, 1.0]].into_iter().enumerate() {
                 let of = |m: [f64; 2]| x[0] * m[0] + x[1] * m[1];
-                let [to_x, to_w] = lane.back;
+                let [to_x, to_w] = oscillator.back;
                 group.back[i][0][l] = of([to_x[0], to_w[0]]);
                 group.back[i][1][l] = of([to_x[1], to_w[1]]);
-                group.back[i][2][l] = of([lane.newest.x, lane.newest.w]);
+                group.back[i][2][l] = of([oscillator.newest.x, oscillator.newest.w]);
             }
             (group.high[l], group.low[l]) = (0.0, 0.0);
-            group.reach.drift[l] *= lane.theta;
-            group.lanes.push(lane);
+            group.reach.drift[l] *= oscillator.theta;
+            group.oscillators.push(oscillator);
         }
         group
     }
@@ -308,55 +308,60 @@ impl Group {
         let mut segment = Segment::new(modes);
         let mut steps = Steps::new();
         let mut look = |group: &mut Self, l: usize, b: &Block| {
-            let Some(most) = group.lanes[l].may_rise(modes, l, b, &inputs[b.index]) else { return };
+            let Some(most) = group.oscillators[l].may_rise(modes, l, b, &inputs[b.index]) else { return };
             let samples = block_of(samples, b.index);
-            // Lanes side by side have their peaks in the same blocks.
+            // Oscillators side by side have their peaks in the same blocks.
             if steps.index != Some(b.index) {
                 (steps.index, steps.before) = (Some(b.index), inputs[b.index].before);
                 arch.dispatch(Retrace { group, block: b, samples, steps: &mut steps });
             }
-            group.lanes[l].refine(modes, &mut segment, l, most, &steps, samples);
+            group.oscillators[l].refine(modes, &mut segment, l, most, &steps, samples);
         };
-        // Blocks beyond these values may hold a new extreme; lanes that are not there have none.
-        let (mut high, mut low) = ([f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]);
-        for (l, lane) in self.lanes.iter_mut().enumerate() {
-            lane.range.note(0, 0.0, blocks[scanned.highest[l]].high[l]);
-            lane.range.note(0, 0.0, blocks[scanned.lowest[l]].low[l]);
-            let m = lane.motion(start[0][l], start[1][l], previous);
-            let q = lane.range.high.value.max(-lane.range.low.value).max(modes.quantity(lane.row, m).abs());
-            let most = lane.bump(modes, q, m, total);
+        // Blocks beyond these values may hold a new extreme; oscillators that are not there have none.
+        let (mut high, mut low) = ([f64::INFINITY; WIDTH], [f64::NEG_INFINITY; WIDTH]);
+        for (l, oscillator) in self.oscillators.iter_mut().enumerate() {
+            oscillator.range.note(0, 0.0, blocks[scanned.highest[l]].high[l]);
+            oscillator.range.note(0, 0.0, blocks[scanned.lowest[l]].low[l]);
+            let m = oscillator.motion(start[0][l], start[1][l], previous);
+            let q = oscillator
+                .range
+                .high
+                .value
+                .max(-oscillator.range.low.value)
+                .max(modes.quantity(oscillator.row, m).abs());
+            let most = oscillator.bump(modes, q, m, total);
             (high[l], low[l]) = (-most, most);
         }
         // Where the samples are largest the peak is likely, and rules out most of the rest.
         for likely in [&scanned.highest, &scanned.lowest] {
-            for l in 0..self.lanes.len() {
+            for l in 0..self.oscillators.len() {
                 look(self, l, &blocks[likely[l]]);
             }
         }
-        for (l, lane) in self.lanes.iter().enumerate() {
-            (high[l], low[l]) = (high[l] + lane.range.high.value, low[l] + lane.range.low.value);
+        for (l, oscillator) in self.oscillators.iter().enumerate() {
+            (high[l], low[l]) = (high[l] + oscillator.range.high.value, low[l] + oscillator.range.low.value);
         }
         for b in blocks {
-            let mut beyond = [0; LANES];
-            for l in 0..LANES {
+            let mut beyond = [0; WIDTH];
+            for l in 0..WIDTH {
                 beyond[l] = u64::from(b.high[l] > high[l]) | u64::from(b.low[l] < low[l]);
             }
             if !beyond.contains(&1) {
                 continue;
             }
-            for l in (0..self.lanes.len()).filter(|l| beyond[*l] == 1) {
-                let before = self.lanes[l].range;
+            for l in (0..self.oscillators.len()).filter(|l| beyond[*l] == 1) {
+                let before = self.oscillators[l].range;
                 look(self, l, b);
-                let after = self.lanes[l].range;
+                let after = self.oscillators[l].range;
                 high[l] += after.high.value - before.high.value;
                 low[l] += after.low.value - before.low.value;
             }
         }
-        for (l, lane) in self.lanes.iter().enumerate() {
-            (self.high[l], self.low[l]) = (lane.range.high.value, lane.range.low.value);
+        for (l, oscillator) in self.oscillators.iter().enumerate() {
+            (self.high[l], self.low[l]) = (oscillator.range.high.value, oscillator.range.low.value);
         }
     }
-    /// Whether no lane can reach a new extreme within a block, also between samples.
+    /// Whether no oscillator can reach a new extreme within a block, also between samples.
     ///
     /// √(x² + y²) grows by no more than the velocity that the acceleration adds; q stays below a multiple of it, and
     /// within reach of where it begins.
@@ -365,9 +370,9 @@ impl Group {
     fn stays<const FUSED: bool>(&self, input: &Input, high: &Many, low: &Many) -> bool {
         let Reach { of, most, drift, push, dt } = &self.reach;
         let added = dt * input.sum;
-        // Numbers, that no lane waits for another.
-        let mut stays = [0; LANES];
-        for l in 0..LANES {
+        // Numbers, that no oscillator waits for another.
+        let mut stays = [0; WIDTH];
+        for l in 0..WIDTH {
             let coordinate = |[u, v, a]: &[Many; 3]| {
                 add::<FUSED>(u[l], self.u[l], add::<FUSED>(v[l], self.v[l], a[l] * input.before))
             };
@@ -387,7 +392,7 @@ impl Group {
         /// Sums side by side, so that none waits for another.
         const SUMS: usize = 4;
         let (across, (u, _), (v, _)) =
-            (LANES / S::F64_LANES, S::as_mut_simd_f64s(&mut self.u), S::as_mut_simd_f64s(&mut self.v));
+            (WIDTH / S::F64_LANES, S::as_mut_simd_f64s(&mut self.u), S::as_mut_simd_f64s(&mut self.v));
         let n = leap.n.each_ref().map(|n| S::as_simd_f64s(n).0);
         let (zero, tiny) = (simd.splat_f64s(0.0), simd.splat_f64s(TINY));
         // In vectors of the machine by name: left to itself, the compiler splits these sums among scalars.
@@ -413,7 +418,7 @@ impl Group {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn flush(&mut self) {
-        for l in 0..LANES {
+        for l in 0..WIDTH {
             self.u[l] = if self.u[l].abs() < TINY { 0.0 } else { self.u[l] };
             self.v[l] = if self.v[l].abs() < TINY { 0.0 } else { self.v[l] };
         }
@@ -423,8 +428,8 @@ impl Group {
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn scan<const FUSED: bool>(&mut self, index: usize, before: f64, samples: &[f64]) -> Block {
         let (u, v) = (self.u, self.v);
-        let mut block = Block { index, u, v, high: [f64::NEG_INFINITY; LANES], low: [f64::INFINITY; LANES] };
-        (self.u, self.v) = self.walk::<FUSED>([u, v], before, samples, |_, _, _, q| {
+        let mut block = Block { index, u, v, high: [f64::NEG_INFINITY; WIDTH], low: [f64::INFINITY; WIDTH] };
+        (self.u, self.v) = self.step_through::<FUSED>([u, v], before, samples, |_, _, _, q| {
             for (l, &q) in q.iter().enumerate() {
                 block.high[l] = if q > block.high[l] { q } else { block.high[l] };
                 block.low[l] = if q < block.low[l] { q } else { block.low[l] };
@@ -437,7 +442,7 @@ impl Group {
     /// quantity are there, at number 0 those at the sample before.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
-    fn walk<const FUSED: bool>(
+    fn step_through<const FUSED: bool>(
         &self,
         [mut u, mut v]: [Many; 2],
         mut before: f64,
@@ -449,7 +454,7 @@ impl Group {
         let mut q: Many = std::array::from_fn(|l| add::<FUSED>(d[l], before, u[l]));
         each(0, &u, &v, &q);
         for (k, &a) in samples.iter().enumerate() {
-            for l in 0..LANES {
+            for l in 0..WIDTH {
                 // Grouped for the shortest chain from one sample to the next.
                 let from_v = add::<FUSED>(n01[l], v[l], c0[l] * before);
                 let from_u = add::<FUSED>(n10[l], u[l], c1[l] * before);
@@ -477,7 +482,7 @@ struct Steps {
 
 impl Steps {
     fn new() -> Self {
-        let none = [[0.0; LANES]; BLOCK + 1];
+        let none = [[0.0; WIDTH]; BLOCK + 1];
         Self { index: None, before: 0.0, u: none, v: none, q: none }
     }
 }
@@ -504,7 +509,7 @@ impl Retrace<'_> {
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn run<const FUSED: bool>(self) {
         let Self { group, block, samples, steps } = self;
-        group.walk::<FUSED>([block.u, block.v], steps.before, samples, |k, u, v, q| {
+        group.step_through::<FUSED>([block.u, block.v], steps.before, samples, |k, u, v, q| {
             (steps.u[k], steps.v[k], steps.q[k]) = (*u, *v, *q);
         });
     }
@@ -524,11 +529,11 @@ struct Scan<'a> {
 }
 
 /// The blocks that were gone through sample by sample, and which of them hold the largest and the smallest sample of
-/// each lane.
+/// each oscillator.
 struct Scanned {
     blocks: Vec<Block>,
-    highest: [usize; LANES],
-    lowest: [usize; LANES],
+    highest: [usize; WIDTH],
+    lowest: [usize; WIDTH],
 }
 
 impl pulp::WithSimd for Scan<'_> {
@@ -546,7 +551,7 @@ impl Scan<'_> {
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn run<S: pulp::Simd, const FUSED: bool>(self, simd: S) -> Scanned {
         let mut blocks = Vec::with_capacity(self.samples.len().div_ceil(BLOCK));
-        let (mut highest, mut lowest) = ([0; LANES], [0; LANES]);
+        let (mut highest, mut lowest) = ([0; WIDTH], [0; WIDTH]);
         let (mut high, mut low) = (self.group.high, self.group.low);
         let leap = (self.samples.len() >= WORTH).then(|| Leap::new::<FUSED>(self.group));
         let mut before = self.previous;
@@ -557,7 +562,7 @@ impl Scan<'_> {
                 }
                 _ => {
                     let b = self.group.scan::<FUSED>(i, before, block);
-                    for l in 0..LANES {
+                    for l in 0..WIDTH {
                         let (higher, lower) = (b.high[l] > high[l], b.low[l] < low[l]);
                         (high[l], highest[l]) = if higher { (b.high[l], blocks.len()) } else { (high[l], highest[l]) };
                         (low[l], lowest[l]) = if lower { (b.low[l], blocks.len()) } else { (low[l], lowest[l]) };
@@ -577,19 +582,19 @@ impl Scan<'_> {
 struct Leap {
     n: [Many; 4],
     /// Those of u, then those of v.
-    w: [[f64; 2 * LANES]; BLOCK],
+    w: [[f64; 2 * WIDTH]; BLOCK],
 }
 
 impl Leap {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn new<const FUSED: bool>(group: &Group) -> Self {
-        let (mut n, mut w) = (group.n, [[0.0; 2 * LANES]; BLOCK]);
+        let (mut n, mut w) = (group.n, [[0.0; 2 * WIDTH]; BLOCK]);
         let [mut u, mut v] = group.c;
         for w in w.iter_mut().rev() {
-            w[..LANES].copy_from_slice(&u);
-            w[LANES..].copy_from_slice(&v);
-            for l in 0..LANES {
+            w[..WIDTH].copy_from_slice(&u);
+            w[WIDTH..].copy_from_slice(&v);
+            for l in 0..WIDTH {
                 (u[l], v[l]) = (
                     u[l] + add::<FUSED>(n[0][l], u[l], n[1][l] * v[l]),
                     v[l] + add::<FUSED>(n[3][l], v[l], n[2][l] * u[l]),
@@ -599,7 +604,7 @@ impl Leap {
         // (1 + N)² = 1 + 2N + N²
         let [a, b, c, d] = &mut n;
         for _ in 0..BLOCK.ilog2() {
-            for l in 0..LANES {
+            for l in 0..WIDTH {
                 let (across, trace) = (b[l] * c[l], a[l] + d[l]);
                 a[l] = 2.0 * a[l] + add::<FUSED>(a[l], a[l], across);
                 d[l] = 2.0 * d[l] + add::<FUSED>(d[l], d[l], across);
@@ -649,7 +654,7 @@ impl SpectrumFilter {
         let modes = Modes::new(damping);
         let omegas: Vec<f64> = frequencies.hz().iter().map(|f| TAU * f).collect();
         let groups =
-            omegas.chunks(LANES).map(|chunk| Group::new(&modes, chunk, dt, quantity.row(chunk[0]).0)).collect();
+            omegas.chunks(WIDTH).map(|chunk| Group::new(&modes, chunk, dt, quantity.row(chunk[0]).0)).collect();
         Ok(Self {
             frequencies,
             damping,
@@ -667,7 +672,7 @@ impl SpectrumFilter {
             && let Some((&first, others)) = samples.split_first()
         {
             for group in &mut self.groups {
-                for l in 0..LANES {
+                for l in 0..WIDTH {
                     group.u[l] *= first;
                     group.v[l] *= first;
                 }
@@ -693,8 +698,11 @@ impl SpectrumFilter {
     /// As long as it may serve.
     fn integrate(&mut self, mut before: f64, samples: &[f64]) {
         let Some(integrals) = &mut self.integrals else { return };
-        let softest =
-            self.groups.iter().flat_map(|group| &group.lanes).fold(f64::INFINITY, |m, lane| m.min(lane.theta));
+        let softest = self
+            .groups
+            .iter()
+            .flat_map(|group| &group.oscillators)
+            .fold(f64::INFINITY, |m, oscillator| m.min(oscillator.theta));
         for &sample in samples {
             if !integrals.suit(self.modes.zeta, softest) {
                 self.integrals = None;
@@ -710,18 +718,18 @@ impl SpectrumFilter {
     pub fn finish(self) -> Result<Spectrum, Error> {
         let last = self.previous.ok_or(Error::Empty("record"))?;
         Ok(Spectrum::collect(&self.frequencies, self.damping, self.quantity, |i, _, k| {
-            let (group, l) = (&self.groups[i / LANES], i % LANES);
-            let lane = &group.lanes[l];
-            let soft = self.integrals.as_ref().filter(|integrals| integrals.suit(self.modes.zeta, lane.theta));
-            let left = soft.map(|integrals| integrals.motion(&self.modes, lane.theta, group.reach.dt));
+            let (group, l) = (&self.groups[i / WIDTH], i % WIDTH);
+            let oscillator = &group.oscillators[l];
+            let soft = self.integrals.as_ref().filter(|integrals| integrals.suit(self.modes.zeta, oscillator.theta));
+            let left = soft.map(|integrals| integrals.motion(&self.modes, oscillator.theta, group.reach.dt));
             // Integrals may pass the floats where the motion does not.
             let motion = match left.filter(|motion| (motion.x + motion.w).is_finite()) {
                 Some(motion) => motion,
-                None => lane.motion(group.u[l], group.v[l], last),
+                None => oscillator.motion(group.u[l], group.v[l], last),
             };
             let mut after = Range::default();
             after.note_free(&self.modes, k, motion, f64::INFINITY, 0);
-            [lane.range, after]
+            [oscillator.range, after]
         }))
     }
 }

@@ -1,8 +1,8 @@
 //! Exact response to velocity shocks.
 
-use crate::impulse_lanes::SideBySide;
-use crate::lanes::{LANES, LARGEST_ANGLE};
+use crate::eight::{LARGEST_ANGLE, WIDTH};
 use crate::peaks::{Extreme, Range, Response};
+use crate::side_by_side::SideBySide;
 use crate::suspension::{Modes, Motion, Phase};
 use crate::{Error, Peaked, Suspension};
 use std::f64::consts::PI;
@@ -140,7 +140,7 @@ impl VelocityShocks {
         let arch = pulp::Arch::new();
         let span = self.shocks[self.shocks.len() - 1].time - self.shocks[0].time;
         let mut list = Vec::with_capacity(omegas.len());
-        for chunk in omegas.chunks(LANES) {
+        for chunk in omegas.chunks(WIDTH) {
             let omega = std::array::from_fn(|l| chunk[l.min(chunk.len() - 1)]);
             let tame = TAME.contains(&self.largest()) && chunk.iter().all(|w| w * span < LARGEST_ANGLE);
             let together =

@@ -37,18 +37,18 @@
 
 pub mod accuracy;
 mod coupling;
+mod eight;
 mod error;
 mod filter;
 mod forced;
 mod fragility;
 mod impulse;
-mod impulse_lanes;
 mod integrals;
-mod lanes;
 mod limit_curve;
 mod peaks;
 mod pulse;
 mod record;
+mod side_by_side;
 mod spectrum;
 mod study;
 mod suspension;

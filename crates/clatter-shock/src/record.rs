@@ -352,16 +352,16 @@ pub fn stream<R: BufRead>(
         return filter.finish();
     }
     let modes = Modes::new(damping);
-    let mut lanes: Vec<(f64, Motion, Range)> =
+    let mut oscillators: Vec<(f64, Motion, Range)> =
         frequencies.hz().iter().map(|f| (TAU * f, Motion::default(), Range::default())).collect();
-    let row = quantity.row(lanes[0].0).0;
+    let row = quantity.row(oscillators[0].0).0;
     let mut segment = Segment::new(&modes);
     let mut last: Option<Sample> = None;
     let mut count = 0;
     pieces(&mut |piece| {
         count += piece.len();
         let joined: Vec<Sample> = last.iter().chain(piece).copied().collect();
-        for (omega, m, range) in &mut lanes {
+        for (omega, m, range) in &mut oscillators {
             for step in joined.windows(2) {
                 let (from, to) = (step[0], step[1]);
                 let span = segment.begin_line(*m, *omega, to.time - from.time, from.acceleration, to.acceleration);
@@ -376,7 +376,7 @@ pub fn stream<R: BufRead>(
         return Err(Error::Short(count));
     }
     Ok(Spectrum::collect(frequencies, damping, quantity, |i, _, k| {
-        let (_, m, during) = lanes[i];
+        let (_, m, during) = oscillators[i];
         let mut after = Range::default();
         after.note_free(&modes, k, m, f64::INFINITY, 0);
         [during, after]

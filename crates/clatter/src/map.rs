@@ -154,7 +154,7 @@ impl Map {
     /// Computes the map for pure translation, row by row on all threads.
     ///
     /// # Method
-    /// Peaks, and what follows from them, by the recurrence of the differences d = |a_{n+1}| − |a_n| in lanes:
+    /// Peaks, and what follows from them, by the recurrence of the differences d = |a_{n+1}| − |a_n| of 16 points side by side:
     /// `d ← max(0, e d − (1 − q)(1 + e) |a|)`, `|a| ← |a| + d`, which stands still at the peak. All else, and the few
     /// points that rise for more than 64 strikes, point by point from [`Bar::summary`] or [`Bar::count`].
     ///
@@ -229,7 +229,7 @@ fn fill(quantity: Quantity, bar: impl Fn(f64) -> Bar, columns: &[f64], row: &mut
 }
 
 /// Points that are carried on together: whole vectors on any machine, and long enough to hide latencies.
-const LANES: usize = 16;
+const WIDTH: usize = 16;
 /// Differences a point may add before it is left to the closed form; 64 roundings stay below 1e−14.
 const STEPS: usize = 64;
 
@@ -246,26 +246,26 @@ fn peaks(bar: impl Fn(f64) -> Bar, columns: &[f64], row: &mut [f64]) {
         return;
     }
     let q = q.max(0.0);
-    for (values, es) in row.chunks_mut(LANES).zip(columns.chunks(LANES)) {
+    for (values, es) in row.chunks_mut(WIDTH).zip(columns.chunks(WIDTH)) {
         // A last chunk that is short is filled with e = 0, which never rises.
-        let mut e = [0.0; LANES];
+        let mut e = [0.0; WIDTH];
         e[..es.len()].copy_from_slice(es);
-        let (mut a, mut d, mut w) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
-        for i in 0..LANES {
+        let (mut a, mut d, mut w) = ([0.0; WIDTH], [0.0; WIDTH], [0.0; WIDTH]);
+        for i in 0..WIDTH {
             d[i] = q * (1.0 + e[i]);
             a[i] = 1.0 + d[i];
             w[i] = less * (1.0 + e[i]);
         }
         let mut rises = true;
         for _ in 0..STEPS {
-            let mut most = [0.0; LANES / 2];
-            for i in 0..LANES {
+            let mut most = [0.0; WIDTH / 2];
+            for i in 0..WIDTH {
                 let next = e[i] * d[i] - w[i] * a[i];
                 d[i] = if next > 0.0 { next } else { 0.0 };
                 a[i] += d[i];
             }
-            for i in 0..LANES / 2 {
-                most[i] = if d[i] > d[i + LANES / 2] { d[i] } else { d[i + LANES / 2] };
+            for i in 0..WIDTH / 2 {
+                most[i] = if d[i] > d[i + WIDTH / 2] { d[i] } else { d[i + WIDTH / 2] };
             }
             rises = most.iter().any(|&d| d > 0.0);
             if !rises {

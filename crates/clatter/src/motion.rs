@@ -28,8 +28,8 @@ use libm::{exp, expm1, hypot, log, log1p, sin, sincos};
 use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, LN_2, PI};
 
-mod lanes;
-pub(crate) use lanes::{Lanes, Sweep, Then};
+mod four;
+pub(crate) use four::{Fours, Sweep, Then};
 
 /// Roundings (units of 2⁻⁵³, relative) that a quotient of two f64 angles or logarithms may be off: two library
 /// functions of at most 2 each, their arguments of at most 4, a quotient, and a margin of 2.

@@ -1,6 +1,6 @@
 //! The train, impact by impact.
 
-use crate::motion::{Digits, Drive, Kind, Lanes, NORMAL, Sweep, Then, after_first};
+use crate::motion::{Digits, Drive, Fours, Kind, NORMAL, Sweep, Then, after_first};
 use crate::summary::least;
 use crate::{Bar, Count, End, Start};
 
@@ -124,7 +124,7 @@ enum Source {
     /// A train of up to some 400 impacts.
     Sweep(Sweep),
     /// Four strikes at a time, from the closed form.
-    Lanes(Box<(Drive, Lanes)>),
+    Fours(Box<(Drive, Fours)>),
     /// Each from the closed form.
     Closed(Box<Drive>),
     /// T ≤ 0: a second impact after `first`; e = 0: all further impacts at the instant of the second.
@@ -282,15 +282,15 @@ impl Source {
             Kind::Decay(_) => count.is_some(),
             Kind::Edge => true,
         };
-        let lanes = || Box::new((drive, Lanes::new(&drive, ahead)));
-        (if closed { Self::Closed(Box::new(drive)) } else { Self::Lanes(lanes()) }, count)
+        let fours = || Box::new((drive, Fours::new(&drive, ahead)));
+        (if closed { Self::Closed(Box::new(drive)) } else { Self::Fours(fours()) }, count)
     }
 
     /// Whether strikes may be so close that roundings exceed what is between them.
     fn crowded(&self) -> bool {
         match self {
             Self::Sweep(_) => false,
-            Self::Lanes(lanes) => lanes.1.crowded,
+            Self::Fours(fours) => fours.1.crowded,
             Self::Closed(_) | Self::Instant { .. } => true,
         }
     }
@@ -344,9 +344,9 @@ impl Later {
                 at = BUFFER - taken;
                 to_the_end(taken, [&mut self.approach, &mut self.times]);
             }
-            Source::Lanes(lanes) => {
-                let (drive, lanes) = &mut **lanes;
-                lanes.take(drive, &mut self.approach, &mut self.times);
+            Source::Fours(fours) => {
+                let (drive, fours) = &mut **fours;
+                fours.take(drive, &mut self.approach, &mut self.times);
                 to_the_end(n, [&mut self.approach, &mut self.times]);
                 // The first strike by itself, and a last one that is next to a tie: it takes more digits.
                 if self.ahead == 0 {
@@ -414,7 +414,7 @@ impl Later {
         }
         self.ahead = self.ahead.saturating_add(skip as u64);
         match &mut self.source {
-            Source::Lanes(lanes) => lanes.1 = Lanes::new(&lanes.0, self.ahead),
+            Source::Fours(fours) => fours.1 = Fours::new(&fours.0, self.ahead),
             Source::Sweep(_) | Source::Closed(_) => {}
             // Past the second impact, of which the rest is a geometric series.
             Source::Instant { a, t, .. } => {

@@ -140,8 +140,8 @@ impl<const N: usize> Phase<N> {
             };
             self.modes().iter().zip(motions).zip(by_mode).map(one).sum::<f64>()
         };
-        let looks = [0.0, 0.5, 1.0].map(|share| at(&self.motions(share * whole.length_s)).abs());
-        lines.most = looks.into_iter().fold(lines.most, f64::max);
+        let three = [0.0, 0.5, 1.0].map(|share| at(&self.motions(share * whole.length_s)).abs());
+        lines.most = three.into_iter().fold(lines.most, f64::max);
         let (mut t, mut motions, mut sum) = (0.0, self.motions(0.0), 0.0);
         let (mut bend, mut begin) = (bends(&motions), at(&motions));
         let least = whole.length_s / MOST_LINES;

@@ -72,7 +72,7 @@ pub(super) struct Run<'a, const N: usize> {
 }
 
 /// A phase, how long it lasts, and what ends it.
-struct Course<const N: usize> {
+struct Lasting<const N: usize> {
     phase: Phase<N>,
     dt: f64,
     event: Option<(usize, Watch)>,
@@ -126,7 +126,7 @@ impl<'a, const N: usize> Run<'a, N> {
 
     /// A phase and the event at its end. Whether the flight goes on.
     fn step(&mut self, enough: &mut impl FnMut(&Ahead) -> bool) -> Result<bool, Error> {
-        let Course { phase, dt, event } = self.next();
+        let Lasting { phase, dt, event } = self.next();
         if dt > 0.0 {
             self.phases.push((self.time.now(), phase));
         }
@@ -190,7 +190,7 @@ impl<'a, const N: usize> Run<'a, N> {
         Ok(ContactFlight { flight: log.flight, presses, energy_error, contact_s, phases, last, end: pose, resting })
     }
 
-    fn next(&mut self) -> Course<N> {
+    fn next(&mut self) -> Lasting<N> {
         let holds = self.touches.map(|touch| touch.hold(self.contact));
         if holds.iter().any(|hold| !matches!(hold, Hold::No)) {
             self.lay_down();
@@ -203,11 +203,11 @@ impl<'a, const N: usize> Run<'a, N> {
         let upright = self.upright();
         let event = self.first_event(&phase, upright);
         let dt = event.map_or(upright, |(t, _)| t);
-        Course { phase, dt, event: event.and_then(|(_, event)| event) }
+        Lasting { phase, dt, event: event.and_then(|(_, event)| event) }
     }
 
     /// A phase with forces, with lever arms and of a length as its precision asks.
-    fn pressed(&mut self, holds: [Hold; N]) -> Course<N> {
+    fn pressed(&mut self, holds: [Hold; N]) -> Lasting<N> {
         let delay = self.contact.delay_s();
         let levers = self.pose.levers();
         // What a turn changes the lever arms by, over themselves.
@@ -259,7 +259,7 @@ impl<'a, const N: usize> Run<'a, N> {
             }
             let cut = dt > 0.0 && (event.is_none() || cuts > 0);
             self.stride = if cut { dt * over.sqrt().recip().min(GROWTH) } else { f64::INFINITY };
-            return Course { phase, dt, event: event.and_then(|(_, event)| event) };
+            return Lasting { phase, dt, event: event.and_then(|(_, event)| event) };
         }
     }
 

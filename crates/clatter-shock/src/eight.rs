@@ -6,8 +6,8 @@
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, LN_2, LOG2_E};
 
 /// Numbers side by side.
-pub(crate) const LANES: usize = 8;
-pub(crate) type Many = [f64; LANES];
+pub(crate) const WIDTH: usize = 8;
+pub(crate) type Many = [f64; WIDTH];
 
 /// What the doubles nearest to π/2 and ln 2 leave.
 const FRAC_PI_2_LO: f64 = 6.123_233_995_736_766e-17;
@@ -35,9 +35,9 @@ const INVERSE_FACTORIAL: [f64; 18] = {
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
 fn series<const N: usize>(terms: [f64; N], t: Many) -> Many {
-    let mut sum = [terms[N - 1]; LANES];
+    let mut sum = [terms[N - 1]; WIDTH];
     for term in terms.iter().rev().skip(1) {
-        for l in 0..LANES {
+        for l in 0..WIDTH {
             sum[l] = sum[l].mul_add(t[l], *term);
         }
     }
@@ -48,8 +48,8 @@ fn series<const N: usize>(terms: [f64; N], t: Many) -> Many {
 #[inline(always)]
 pub(crate) fn sin_cos(angle: Many, lo: Many) -> (Many, Many) {
     const F: [f64; 18] = INVERSE_FACTORIAL;
-    let (mut quarter, mut r, mut square) = ([0_u64; LANES], [0.0; LANES], [0.0; LANES]);
-    for l in 0..LANES {
+    let (mut quarter, mut r, mut square) = ([0_u64; WIDTH], [0.0; WIDTH], [0.0; WIDTH]);
+    for l in 0..WIDTH {
         let rounded = angle[l].mul_add(FRAC_2_PI, ROUND);
         let n = rounded - ROUND;
         quarter[l] = rounded.to_bits();
@@ -59,8 +59,8 @@ pub(crate) fn sin_cos(angle: Many, lo: Many) -> (Many, Many) {
     // |r| ≤ π/4: what the series leave out is below 10⁻¹⁸.
     let odd = series([-F[3], F[5], -F[7], F[9], -F[11], F[13], -F[15], F[17]], square);
     let even = series([-F[2], F[4], -F[6], F[8], -F[10], F[12], -F[14], F[16]], square);
-    let (mut sine, mut cosine) = ([0.0; LANES], [0.0; LANES]);
-    for l in 0..LANES {
+    let (mut sine, mut cosine) = ([0.0; WIDTH], [0.0; WIDTH]);
+    for l in 0..WIDTH {
         let s = (r[l] * square[l]).mul_add(odd[l], r[l]).to_bits();
         let c = square[l].mul_add(even[l], 1.0).to_bits();
         // Every quarter turn the two change places, and one of them its sign.
@@ -76,8 +76,8 @@ pub(crate) fn sin_cos(angle: Many, lo: Many) -> (Many, Many) {
 #[inline(always)]
 pub(crate) fn decay(y: Many, lo: Many) -> (Many, Many) {
     const F: [f64; 18] = INVERSE_FACTORIAL;
-    let (mut power, mut r) = ([0.0; LANES], [0.0; LANES]);
-    for l in 0..LANES {
+    let (mut power, mut r) = ([0.0; WIDTH], [0.0; WIDTH]);
+    for l in 0..WIDTH {
         let x = if y[l] < FADED { -y[l] } else { 0.0 };
         let rounded = x.mul_add(LOG2_E, ROUND);
         let n = rounded - ROUND;
@@ -86,8 +86,8 @@ pub(crate) fn decay(y: Many, lo: Many) -> (Many, Many) {
     }
     // |r| ≤ ln 2/2: what the series leaves out is below 10⁻¹⁷.
     let p = series([F[2], F[3], F[4], F[5], F[6], F[7], F[8], F[9], F[10], F[11], F[12], F[13]], r);
-    let (mut whole, mut less) = ([0.0; LANES], [0.0; LANES]);
-    for l in 0..LANES {
+    let (mut whole, mut less) = ([0.0; WIDTH], [0.0; WIDTH]);
+    for l in 0..WIDTH {
         let p = (r[l] * r[l]).mul_add(p[l], r[l]);
         let faded = y[l] >= FADED;
         whole[l] = if faded { 0.0 } else { power[l].mul_add(p, power[l]) };
@@ -107,10 +107,10 @@ mod tests {
         #[test]
         fn functions_are_those_of_the_standard_library(exponent in -9.0..12.0_f64, lo in -1e-9..1e-9_f64) {
             let x = 10_f64.powf(exponent);
-            let (sine, cosine) = sin_cos([x; LANES], [0.0; LANES]);
+            let (sine, cosine) = sin_cos([x; WIDTH], [0.0; WIDTH]);
             prop_assert!((sine[3] - x.sin()).abs() <= 3.0 * f64::EPSILON, "sine of {x}");
             prop_assert!((cosine[5] - x.cos()).abs() <= 3.0 * f64::EPSILON, "cosine of {x}");
-            let (whole, less) = decay([x; LANES], [0.0; LANES]);
+            let (whole, less) = decay([x; WIDTH], [0.0; WIDTH]);
             if x < FADED {
                 prop_assert!((whole[0] / (-x).exp() - 1.0).abs() <= 3.0 * f64::EPSILON, "exponential of {x}");
                 prop_assert!((less[7] / (-x).exp_m1() - 1.0).abs() <= 3.0 * f64::EPSILON, "exponential of {x}, less 1");
@@ -118,9 +118,9 @@ mod tests {
                 prop_assert_eq!((whole[0], less[7]), (0.0, -1.0));
             }
             // The second double turns and decays a little more.
-            let (turned, _) = sin_cos([x; LANES], [lo; LANES]);
+            let (turned, _) = sin_cos([x; WIDTH], [lo; WIDTH]);
             prop_assert!((turned[1] - (sine[1] + lo * cosine[1])).abs() <= 3.0 * f64::EPSILON, "sine of {x} + {lo}");
-            let (later, _) = decay([x; LANES], [lo; LANES]);
+            let (later, _) = decay([x; WIDTH], [lo; WIDTH]);
             prop_assert!((later[1] - whole[1] * (1.0 - lo)).abs() <= 3.0 * f64::EPSILON * whole[1], "{x} + {lo}");
         }
     }

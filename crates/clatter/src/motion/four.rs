@@ -6,8 +6,8 @@ use crate::{Bar, Start};
 use libm::{exp, expm1, sincos};
 
 /// Neighboring strikes that are carried on together.
-const LANES: usize = 4;
-/// Strikes from one anchor in the closed form to the next: 64 steps of the four lanes, which add some 64 roundings.
+const WIDTH: usize = 4;
+/// Strikes from one anchor in the closed form to the next: 64 steps of the four, which add some 64 roundings.
 const BLOCK: u64 = 256;
 
 /// Four neighboring strikes, ready to be carried on to the next four.
@@ -17,11 +17,11 @@ const BLOCK: u64 = 256;
 /// x = ρⁿ and y = (1 − ρⁿ)/(1 − ρ) with ρ = λ₋/λ₊ add up positive terms; |a_n| = g(αλ₊x + σy), time = h0 y over that.
 #[derive(Debug, Clone, Copy)]
 struct Four {
-    x: [f64; LANES],
-    dx: [f64; LANES],
-    y: [f64; LANES],
-    dy: [f64; LANES],
-    g: [f64; LANES],
+    x: [f64; WIDTH],
+    dx: [f64; WIDTH],
+    y: [f64; WIDTH],
+    dy: [f64; WIDTH],
+    g: [f64; WIDTH],
     kappa: f64,
     /// What g is multiplied by a step.
     decay: f64,
@@ -31,8 +31,8 @@ struct Four {
 
 /// Four strikes that are anchored anew in the closed form, for trains of any length.
 #[derive(Debug, Clone)]
-pub(crate) struct Lanes {
-    /// Index n of the first lane.
+pub(crate) struct Fours {
+    /// Index n of the first of the four.
     n: u64,
     wave: bool,
     four: Four,
@@ -43,15 +43,15 @@ pub(crate) struct Lanes {
     /// θ of a wave.
     theta: f64,
     /// Of a turn by jθ of a wave: 1 − cos and sin. Of a decay: (1 − ρʲ)/(1 − ρ) and ρʲ.
-    turns: [[f64; 2]; LANES],
+    turns: [[f64; 2]; WIDTH],
 }
 
 impl Four {
     /// Strikes of a wave. What is carried on is held in variables, so that it need not go through memory.
     fn turn<const N: usize>(&mut self, approach: &mut [f64; N], times: &mut [f64; N]) {
         let Self { mut x, mut dx, mut y, mut dy, mut g, kappa, decay, time } = *self;
-        for (approach, times) in approach.as_chunks_mut::<LANES>().0.iter_mut().zip(times.as_chunks_mut::<LANES>().0) {
-            for i in 0..LANES {
+        for (approach, times) in approach.as_chunks_mut::<WIDTH>().0.iter_mut().zip(times.as_chunks_mut::<WIDTH>().0) {
+            for i in 0..WIDTH {
                 approach[i] = -g[i] * x[i];
                 times[i] = time * (y[i] / x[i]);
                 g[i] *= decay;
@@ -67,8 +67,8 @@ impl Four {
     /// Strikes of a decay.
     fn grow<const N: usize>(&mut self, sum: [f64; 2], approach: &mut [f64; N], times: &mut [f64; N]) {
         let Self { mut x, mut y, dy, mut g, kappa, decay, time, .. } = *self;
-        for (approach, times) in approach.as_chunks_mut::<LANES>().0.iter_mut().zip(times.as_chunks_mut::<LANES>().0) {
-            for i in 0..LANES {
+        for (approach, times) in approach.as_chunks_mut::<WIDTH>().0.iter_mut().zip(times.as_chunks_mut::<WIDTH>().0) {
+            for i in 0..WIDTH {
                 let sum = sum[0] * x[i] + sum[1] * y[i];
                 approach[i] = -g[i] * sum;
                 times[i] = time * (y[i] / sum);
@@ -94,15 +94,15 @@ impl Four {
 /// t_{n+1} − t_n = h0/(α√e x_n x_{n+1}).
 #[derive(Debug, Clone)]
 pub(crate) struct Sweep {
-    x: [f64; LANES],
-    dx: [f64; LANES],
-    g: [f64; LANES],
+    x: [f64; WIDTH],
+    dx: [f64; WIDTH],
+    g: [f64; WIDTH],
     kappa: f64,
     /// What g is multiplied by a step.
     decay: f64,
     /// h0/(α√e).
     unit: f64,
-    /// Of the first lane.
+    /// Of the first of the four.
     time: f64,
     /// A larger x is known well enough for the time of its strike.
     clear: f64,
@@ -154,9 +154,9 @@ impl Sweep {
         if amplitude > Self::AMPLITUDE * Self::AMPLITUDE {
             return None;
         }
-        let (mut x, mut dx) = ([0.0; LANES], [0.0; LANES]);
+        let (mut x, mut dx) = ([0.0; WIDTH], [0.0; WIDTH]);
         let double = |kappa: f64, v: f64, step: f64| (2.0 - kappa) * step - kappa * v;
-        for i in 0..LANES {
+        for i in 0..WIDTH {
             (x[i], dx[i]) = (v, double(kappa_2, v, double(kappa, v, step)));
             v += step;
             step -= kappa * v;
@@ -175,24 +175,24 @@ impl Sweep {
 
     /// Approach velocities and times of the next four strikes, and of how many of them they hold.
     #[inline]
-    pub(crate) fn take(&mut self) -> ([[f64; LANES]; 2], usize, Then) {
+    pub(crate) fn take(&mut self) -> ([[f64; WIDTH]; 2], usize, Then) {
         let Self { x, unit, time, .. } = *self;
-        let (mut approach, mut between) = ([0.0; LANES], [0.0; LANES]);
-        for i in 0..LANES {
+        let (mut approach, mut between) = ([0.0; WIDTH], [0.0; WIDTH]);
+        for i in 0..WIDTH {
             approach[i] = -self.g[i] * x[i];
             self.g[i] *= self.decay;
             self.x[i] += self.dx[i];
             self.dx[i] -= self.kappa * self.x[i];
         }
-        for i in 0..LANES {
-            between[i] = unit / (x[i] * if i + 1 < LANES { x[i + 1] } else { self.x[0] });
+        for i in 0..WIDTH {
+            between[i] = unit / (x[i] * if i + 1 < WIDTH { x[i + 1] } else { self.x[0] });
         }
         let two = between[0] + between[1];
         self.time += two + (between[2] + between[3]);
         let strikes = [approach, [time, time + between[0], time + two, time + (two + between[2])]];
         // Between two strikes that are clear the wave is; after its end it stays below 0 for as long as it was above.
-        if x[LANES - 1] > self.clear {
-            return (strikes, LANES, Then::On);
+        if x[WIDTH - 1] > self.clear {
+            return (strikes, WIDTH, Then::On);
         }
         let n = x.iter().take_while(|&&x| x > self.clear).count();
         let sure = x[n] * Self::CLEAR < -Self::ALLOWED * self.clear;
@@ -200,13 +200,13 @@ impl Sweep {
     }
 }
 
-impl Lanes {
-    /// With index `n` in the first lane.
+impl Fours {
+    /// With index `n` as the first of the four.
     pub(crate) fn new(drive: &Drive, n: u64) -> Self {
         let h0 = drive.start.height_gap();
         let wave = matches!(drive.kind, Kind::Wave(_));
         let (mut kappa, mut decay, mut sum, mut time) = (0.0, 0.0, [1.0, 0.0], h0);
-        let (mut theta, mut turns, mut crowded) = (0.0, [[0.0; 2]; LANES], true);
+        let (mut theta, mut turns, mut crowded) = (0.0, [[0.0; 2]; WIDTH], true);
         match drive.kind {
             Kind::Wave(wave) => {
                 theta = wave.theta;
@@ -228,11 +228,11 @@ impl Lanes {
             Kind::Edge => {}
         }
         time = ldexp(time, drive.m - drive.unit);
-        let [x, dx, y, dy, g] = [[0.0; LANES]; 5];
-        let mut lanes =
+        let [x, dx, y, dy, g] = [[0.0; WIDTH]; 5];
+        let mut fours =
             Self { n, wave, crowded, four: Four { x, dx, y, dy, g, kappa, decay, time }, sum, theta, turns };
-        lanes.anchor(drive);
-        lanes
+        fours.anchor(drive);
+        fours
     }
 
     /// Approach velocities and times of the next strikes, four by four.
@@ -248,7 +248,7 @@ impl Lanes {
         }
     }
 
-    /// All lanes from the closed form at the first.
+    /// All four from the closed form at the first.
     fn anchor(&mut self, drive: &Drive) {
         let n = to_f64(u128::from(self.n));
         match drive.kind {
@@ -263,9 +263,9 @@ impl Lanes {
                 let ([delta], _) = drive.remainders(&wave, [u128::from(self.n)], error);
                 let (turned, lead) = (n * wave.theta, phi + n * wave.theta);
                 // Each angle from the near end of its half turn, so that a small one is known to its last digit.
-                (self.four.x, self.four.dx) = if lead < 1.0 { self.lanes(lead, 1.0) } else { self.lanes(delta, -1.0) };
+                (self.four.x, self.four.dx) = if lead < 1.0 { self.sines(lead, 1.0) } else { self.sines(delta, -1.0) };
                 (self.four.y, self.four.dy) =
-                    if turned < 1.0 { self.lanes(turned, 1.0) } else { self.lanes(phi + delta, -1.0) };
+                    if turned < 1.0 { self.sines(turned, 1.0) } else { self.sines(phi + delta, -1.0) };
                 let root = drive.bar.e.sqrt();
                 self.four.g = [first, first * root, first * drive.bar.e, first * (drive.bar.e * root)];
             }
@@ -274,7 +274,7 @@ impl Lanes {
                 let (x, y) = (exp(-n * rate), -expm1(-n * rate) * (plus / s));
                 let (first, once) = (drive.power(n * ln_plus, 1.0 / plus), exp(ln_plus));
                 (self.four.x, self.four.y) = (self.turns.map(|[_, p]| x * p), self.turns.map(|[g, _]| y + x * g));
-                self.four.dy = [-expm1(-4.0 * rate) * (plus / s); LANES];
+                self.four.dy = [-expm1(-4.0 * rate) * (plus / s); WIDTH];
                 self.four.g = [first, first * once, first * (once * once), first * (once * once * once)];
             }
             Kind::Edge => {}
@@ -283,15 +283,15 @@ impl Lanes {
 
     /// Sines of the angles `first` ± jθ, and what they grow by over the next 4θ. One sine and cosine, taken 2θ ahead,
     /// give them all by turns that keep small angles exact.
-    fn lanes(&self, first: f64, sign: f64) -> ([f64; LANES], [f64; LANES]) {
+    fn sines(&self, first: f64, sign: f64) -> ([f64; WIDTH], [f64; WIDTH]) {
         let [v2, w2] = self.turns[2];
         let (sin, cos) = sincos(first + sign * 2.0 * self.theta);
-        let mut lanes = ([0.0; LANES], [0.0; LANES]);
+        let mut sines = ([0.0; WIDTH], [0.0; WIDTH]);
         for (j, [v, w]) in self.turns.into_iter().enumerate() {
             let (s, c) = (sin - (sin * v - sign * cos * w), cos - (cos * v + sign * sin * w));
-            lanes.0[j] = s - (s * v2 + sign * c * w2);
-            lanes.1[j] = 2.0 * sign * c * w2;
+            sines.0[j] = s - (s * v2 + sign * c * w2);
+            sines.1[j] = 2.0 * sign * c * w2;
         }
-        lanes
+        sines
     }
 }

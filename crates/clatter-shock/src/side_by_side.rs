@@ -1,14 +1,14 @@
 //! Velocity shocks at eight natural frequencies side by side.
 
 use crate::VelocityShock;
+use crate::eight::{Many, WIDTH, decay, sin_cos};
 use crate::impulse::difference;
-use crate::lanes::{LANES, Many, decay, sin_cos};
 use crate::peaks::Range;
 use crate::suspension::{Modes, Motion};
 use std::f64::consts::PI;
 
 /// Extremes of quantity `k` at eight angular frequencies, as [`crate::VelocityShocks::extremes`] has them at one.
-/// `None` on a machine without vectors. The phases must stay below [`crate::lanes::LARGEST_ANGLE`].
+/// `None` on a machine without vectors. The phases must stay below [`crate::eight::LARGEST_ANGLE`].
 #[derive(Debug)]
 pub(crate) struct SideBySide<'a> {
     pub(crate) shocks: &'a [VelocityShock],
@@ -33,8 +33,8 @@ impl SideBySide<'_> {
         let modes = self.modes;
         let (beta, beta_lo) = (modes.beta, modes.beta_lo);
         let (mut angle, mut angle_lo, mut exponent, mut exponent_lo) =
-            ([0.0; LANES], [0.0; LANES], [0.0; LANES], [0.0; LANES]);
-        for l in 0..LANES {
+            ([0.0; WIDTH], [0.0; WIDTH], [0.0; WIDTH], [0.0; WIDTH]);
+        for l in 0..WIDTH {
             let tau = self.omega[l] * dt;
             let lo = self.omega[l].mul_add(dt_lo, self.omega[l].mul_add(dt, -tau));
             angle[l] = beta * tau;
@@ -48,7 +48,7 @@ impl SideBySide<'_> {
             return Step { c, s, k: c, angle };
         }
         let (fall, _) = decay(exponent, exponent_lo);
-        for l in 0..LANES {
+        for l in 0..WIDTH {
             c[l] *= fall[l];
             s[l] *= fall[l] * inverse;
         }
@@ -58,33 +58,33 @@ impl SideBySide<'_> {
     #[inline(always)]
     fn cascade(&self, dt: f64) -> Step {
         let modes = self.modes;
-        let (mut slow, mut apart, mut tau) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
-        for l in 0..LANES {
+        let (mut slow, mut apart, mut tau) = ([0.0; WIDTH], [0.0; WIDTH], [0.0; WIDTH]);
+        for l in 0..WIDTH {
             tau[l] = self.omega[l] * dt;
             slow[l] = modes.sigma * tau[l];
             apart[l] = modes.kappa * tau[l];
         }
-        let (c, _) = decay(slow, [0.0; LANES]);
+        let (c, _) = decay(slow, [0.0; WIDTH]);
         if modes.kappa == 0.0 {
             let mut s = c;
-            for l in 0..LANES {
+            for l in 0..WIDTH {
                 s[l] *= tau[l];
             }
-            return Step { c, s, k: c, angle: [0.0; LANES] };
+            return Step { c, s, k: c, angle: [0.0; WIDTH] };
         }
-        let (faster, less) = decay(apart, [0.0; LANES]);
+        let (faster, less) = decay(apart, [0.0; WIDTH]);
         let (mut s, mut k) = (c, c);
         let inverse = modes.kappa.recip();
-        for l in 0..LANES {
+        for l in 0..WIDTH {
             s[l] *= -less[l] * inverse;
             k[l] *= faster[l];
         }
-        Step { c, s, k, angle: [0.0; LANES] }
+        Step { c, s, k, angle: [0.0; WIDTH] }
     }
-    /// The turning points of the lanes that may hold a new extreme, one by one.
+    /// The turning points at the frequencies that may hold a new extreme, one by one.
     #[inline(never)]
-    fn turn(&self, new: &[u64; LANES], x: &Many, w: &Many, angle: &Many, high: &mut Many, low: &mut Many) {
-        for l in (0..LANES).filter(|&l| new[l] == 1) {
+    fn turn(&self, new: &[u64; WIDTH], x: &Many, w: &Many, angle: &Many, high: &mut Many, low: &mut Many) {
+        for l in (0..WIDTH).filter(|&l| new[l] == 1) {
             let m = Motion { x: x[l], w: w[l] };
             // The angle tells whether a second one follows; that there is a first is known.
             let span = if self.modes.beta > 0.0 { angle[l].max(PI) / self.modes.beta } else { f64::INFINITY };
@@ -101,13 +101,13 @@ impl SideBySide<'_> {
         let ([q0, q1], [s0, s1]) = (modes.rows[self.k], modes.rows[self.k + 1]);
         let swinging = modes.beta > 0.0;
         let half_swing = modes.half_swing * modes.half_swing;
-        let (mut x, mut w, mut high, mut low) = ([0.0; LANES], [0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        let (mut x, mut w, mut high, mut low) = ([0.0; WIDTH], [0.0; WIDTH], [0.0; WIDTH], [0.0; WIDTH]);
         let mut last = self.shocks[0].time;
         for shock in self.shocks {
             let (dt, dt_lo) = difference(last, shock.time);
             let step = if swinging { self.swing(dt, dt_lo) } else { self.cascade(dt) };
-            let (mut x1, mut w1, mut new) = (x, w, [0; LANES]);
-            for l in 0..LANES {
+            let (mut x1, mut w1, mut new) = (x, w, [0; WIDTH]);
+            for l in 0..WIDTH {
                 x1[l] = step.c[l].mul_add(x[l], step.s[l] * w[l]);
                 w1[l] = step.k[l].mul_add(w[l], -modes.p * step.s[l] * x[l]);
                 let (slope, slope1) = (s0.mul_add(x[l], s1 * w[l]), s0.mul_add(x1[l], s1 * w1[l]));
@@ -121,7 +121,7 @@ impl SideBySide<'_> {
             if new.contains(&1) {
                 self.turn(&new, &x, &w, &step.angle, &mut high, &mut low);
             }
-            for l in 0..LANES {
+            for l in 0..WIDTH {
                 let before = q0.mul_add(x1[l], q1 * w1[l]);
                 x[l] = x1[l];
                 w[l] = w1[l] - shock.delta_v;
@@ -137,7 +137,7 @@ impl SideBySide<'_> {
 }
 
 impl pulp::WithSimd for SideBySide<'_> {
-    type Output = Option<[[Range; 2]; LANES]>;
+    type Output = Option<[[Range; 2]; WIDTH]>;
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn with_simd<S: pulp::Simd>(self, _: S) -> Self::Output {
