@@ -14,15 +14,24 @@ fn readme_states_every_allowed_error() {
     }
 }
 
+/// What README shows after a command, up to its three dots.
+fn example(command: &str) -> &'static str {
+    let shown = include_str!("../../README.md").split(&format!("$ {command}\n")).nth(1);
+    let example = shown.and_then(|rest| rest.split("...").next()).unwrap_or_default();
+    assert!(!example.is_empty(), "README shows {command}");
+    example
+}
+
 #[test]
-fn the_example_of_readme_is_what_the_command_says() {
-    let readme = include_str!("../../README.md");
-    let outcome = crate::clatter(["impacts", "--q=0.5", "--e=0.3"]);
-    let example = readme.split("$ clatter impacts --q=0.5 --e=0.3\n").nth(1).and_then(|rest| rest.split("...").next());
-    let example = example.unwrap_or_default();
-    assert!(
-        !example.is_empty() && outcome.stdout.starts_with(example),
-        "README shows\n{example}\nnot\n{}",
-        outcome.stdout
-    );
+fn the_examples_of_readme_are_what_the_command_says() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("handheld.toml").display().to_string();
+    assert_eq!(crate::clatter(["init", &file]).stderr, "");
+    for (command, outcome) in [
+        ("clatter impacts --q=0.5 --e=0.3", crate::clatter(["impacts", "--q=0.5", "--e=0.3"])),
+        ("clatter assess handheld.toml", crate::clatter(["assess", &file])),
+    ] {
+        let (shown, said) = (example(command), outcome.stdout);
+        assert!(said.starts_with(shown), "README shows\n{shown}\nnot\n{said}");
+    }
 }

@@ -182,25 +182,31 @@ impl Groups {
 
 /// What makes the next cheaper model too coarse: the physics that it lacks, as a number.
 fn reason(models: &[Measured], cheapest: Model, tolerance: f64, groups: &Groups) -> String {
-    let number = |x: Option<f64>| x.map_or("not known".to_owned(), |x| format!("{x:.2e}"));
+    let with = |words: &str, group: &str, value: Option<f64>| match value {
+        Some(value) => format!("{words}: {group} = {value:.2e}"),
+        None => words.to_owned(),
+    };
     let percent = |share: f64| format!("{:.2} %", 100.0 * share);
     let coarser = models.iter().rfind(|m| m.model < cheapest && m.error > tolerance);
     let Some(coarser) = coarser else {
         return match cheapest {
-            Model::NetChange => format!("the clatter is short beside the period: ω t_N = {}", number(groups.train)),
-            Model::LargestShock => format!("one shock decides: ζωΔt = {}", number(groups.damping)),
+            Model::NetChange => with("the clatter is short beside the period", "ω t_N", groups.train),
+            Model::LargestShock => with("one shock decides", "ζωΔt", groups.damping),
             model => format!("{} is the cheapest here", model.name()),
         };
     };
     let lacks = match coarser.model {
-        Model::NetChange => format!("the part feels single strikes: ω t_N = {}", number(groups.train)),
-        Model::LargestShock => format!("shocks add up: ζωΔt = {}", number(groups.damping)),
-        Model::Map => format!("gravity counts: g h0/v0² = {:.2e}", groups.gravity),
-        Model::Ballistic => format!("real tilt counts: φ² = {:.2e}", groups.geometry),
+        Model::NetChange => with("the part feels single strikes", "ω t_N", groups.train),
+        Model::LargestShock => with("shocks add up", "ζωΔt", groups.damping),
+        Model::Map => with("gravity counts", "g h0/v0²", Some(groups.gravity)),
+        Model::Ballistic => with("real tilt counts", "φ²", Some(groups.geometry)),
         Model::FiniteTilt | Model::Compliant if groups.overlap.is_some_and(|x| x > 1.0) => {
-            format!("contacts overlap: τ/Δt = {}", number(groups.overlap))
+            with("contacts overlap", "τ/Δt", groups.overlap)
         }
-        Model::FiniteTilt | Model::Compliant => format!("pulses are no velocity shocks: ωτ = {}", number(groups.pulse)),
+        Model::FiniteTilt | Model::Compliant if groups.pulse.is_none() => {
+            with("the force has the shape that the contact gives it", "τ/Δt", groups.overlap)
+        }
+        Model::FiniteTilt | Model::Compliant => with("pulses are no velocity shocks", "ωτ", groups.pulse),
     };
     format!("{}; {} is off by {}", lacks, coarser.model.name(), percent(coarser.error))
 }

@@ -20,7 +20,7 @@ use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
 use crate::drop::{Followed, SingleDrop, Until};
-use crate::engine::{Answer, Felt};
+use crate::engine::{Answer, Felt, Part, answer, value_of};
 use crate::{Component, Error, Limit, LimitKind, Mount, WorstCase};
 use climb::{EDGES_REACH, EDGES_TRIES, LATE_REACH, LATE_TRIES, NEAR, starts};
 use ranges::{DAMPING, FREQUENCY, RESTITUTION};
@@ -317,15 +317,24 @@ impl Ranges<'_> {
                 }
             }
         }
+        // The one that counts, with all that it may be off by.
+        if let Some(asked) = &mut worst.asked {
+            let part = Part { position_m: asked.place.position_m, suspension: asked.part };
+            match answer(&self.single(&asked.place), &part, &task.limit, self.model, self.tolerance) {
+                Ok(answer) => asked.answer = answer,
+                Err(error) => {
+                    worst.refused = Some(worst.refused.take().map_or((1, error), |(n, first)| (n + 1, first)))
+                }
+            }
+        }
         worst
     }
 
     /// What a drop that was found asks to the tolerance, of the part that was found.
     fn exactly(&self, task: &Task<'_>, found: &Asked) -> Result<Asked, Error> {
-        let followed = Followed::new(&self.single(&found.place), self.model, self.tolerance)?;
-        let felt = Felt::new(&followed, found.place.position_m)?;
-        let answer = felt.answer(&task.limit, found.part.as_ref(), 0.0)?;
-        Ok(answer.map_or(*found, |answer| Asked { answer, ..*found }))
+        let part = Part { position_m: found.place.position_m, suspension: found.part };
+        let answer = value_of(&self.single(&found.place), &part, &task.limit, self.model, self.tolerance)?;
+        Ok(Asked { answer, ..*found })
     }
 
     /// What one drop of the ranges asks of a task, as a utilization; 0 where it is not answered.

@@ -10,7 +10,7 @@ use clap::ValueHint;
 use clatter_assess::{Accuracy, Assessment, LARGEST_FILE, ProductFile, Verdict};
 
 use crate::inputs::{self, Format};
-use crate::{Exit, Failure, Streams};
+use crate::{Exit, Failure, Streams, output};
 
 /// Assess the parts of a product: which one fails, in which drop, by how much
 ///
@@ -68,6 +68,7 @@ impl Args {
         if !faults.is_empty() {
             return Err(Failure::Product(faults.join("\n\n")));
         }
+        self.output.iter().try_for_each(|path| output::has_directory(path))?;
         let accuracy = Accuracy { tolerance: self.tolerance, model: self.model.map(Into::into) };
         let assessments = files
             .iter()

@@ -153,6 +153,7 @@ impl Args {
 
     fn of_product(&self, file: &ProductFile, streams: &mut Streams<'_>) -> Result<(), Failure> {
         let bounds = Bounds { q: self.q, e: self.e, frequency_factor: self.frequency_factor, damping: self.damping };
+        self.output.iter().try_for_each(|path| output::has_directory(path))?;
         let assessment = file.assess()?;
         let remedies = file.remedies(&assessment, &bounds, self.margin)?;
         let plane = self.output.as_ref().map(|_| Plane::of(file, &bounds)).transpose()?;

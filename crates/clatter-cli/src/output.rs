@@ -61,6 +61,12 @@ pub(crate) fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<(
     clatter_report::replace(path, write).map_err(|reason| Failure::File { path: path.to_owned(), reason })
 }
 
+/// Whether a file that takes long to work out has a directory to stand in, in the message of [`replace`].
+pub(crate) fn has_directory(path: &Path) -> Result<(), Failure> {
+    let there = clatter_report::directory_of(path).map(|_| ());
+    there.map_err(|reason| Failure::File { path: path.to_owned(), reason })
+}
+
 /// [`clatter_report::create`], likewise.
 pub(crate) fn create(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> Result<(), Failure> {
     clatter_report::create(path, write).map_err(|reason| Failure::File { path: path.to_owned(), reason })

@@ -41,12 +41,22 @@ pub fn create(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> i
     Ok(())
 }
 
+/// The directory that a file is to stand in; for what takes long, told before it begins.
+///
+/// # Errors
+/// [`io::ErrorKind::NotFound`] where it is not there.
+pub fn directory_of(path: &Path) -> io::Result<&Path> {
+    let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if parent.is_dir() {
+        Ok(parent)
+    } else {
+        Err(io::Error::new(io::ErrorKind::NotFound, format!("there is no directory {}", parent.display())))
+    }
+}
+
 /// The whole file, under another name in the same directory.
 fn beside(target: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<NamedTempFile> {
-    let parent = target.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    if !parent.is_dir() {
-        return Err(io::Error::new(io::ErrorKind::NotFound, format!("there is no directory {}", parent.display())));
-    }
+    let parent = directory_of(target)?;
     let mut builder = Builder::new();
     builder.prefix(".clatter-").suffix(".tmp");
     #[cfg(unix)]

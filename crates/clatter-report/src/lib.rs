@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
 
 pub use accuracy::{Measured, measured};
 pub use figure::design::{DesignBorder, DesignFronts, DesignPlane};
-pub use file::{create, replace};
+pub use file::{create, directory_of, replace};
 pub use shock::shock_numbers;
 pub use trade::trade_files;
 

@@ -286,6 +286,10 @@ impl Case<'_> {
         let best: Vec<_> = useful.filter_map(|lever| self.best_of(lever)).collect();
         let mut nearest: Option<Together> = None;
         let mut near = |changes: Vec<Change>, after: ComponentAssessment| {
+            // Of a limit without an answer nobody knows how near it is.
+            if after.limits.iter().any(|limit| limit.verdict == Verdict::Undecided && limit.uncertainty.is_infinite()) {
+                return;
+            }
             let closer = |last: &Together| after.tightest().margin > last.after.tightest().margin;
             if nearest.as_ref().is_none_or(closer) {
                 nearest = Some(Together { changes, after: Box::new(after) });

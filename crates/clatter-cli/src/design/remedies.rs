@@ -57,10 +57,15 @@ fn short(x: f64) -> String {
     given(format!("{x:.5e}").parse().unwrap_or(x))
 }
 
+/// A margin in words.
+fn in_percent(margin: f64) -> String {
+    if margin.is_infinite() { "no margin known".to_owned() } else { format!("margin {} %", figures(100.0 * margin)) }
+}
+
 /// The margin of a changed part in words.
 fn left(after: &ComponentAssessment) -> String {
     let undecided = if after.verdict == Verdict::Safe { "" } else { ", not safe" };
-    format!("margin then {} %{undecided}", figures(100.0 * margin(after)))
+    format!("then {}{undecided}", in_percent(margin(after)))
 }
 
 /// What follows lever and unit in a row.
@@ -114,8 +119,8 @@ impl Found<'_> {
 
     fn part(&self, part: &Remedies, out: &mut dyn Write) -> io::Result<()> {
         let Some(component) = self.assessment.components.get(part.component) else { return Ok(()) };
-        let (verdict, before) = (component.verdict.name(), figures(100.0 * margin(component)));
-        writeln!(out, "\n{} ({verdict}, margin {before} %)", shown(&component.name, 60))?;
+        let (verdict, before) = (component.verdict.name(), in_percent(margin(component)));
+        writeln!(out, "\n{} ({verdict}, {before})", shown(&component.name, 60))?;
         let mut notes: Vec<(&String, Vec<&str>)> = Vec::new();
         for Remedy { lever, outcome } in &part.levers {
             let name = called(*lever);
