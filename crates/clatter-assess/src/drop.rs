@@ -138,6 +138,8 @@ const LATE: f64 = 0.25;
 /// Strikes followed at most.
 const MOST_STRIKES: usize = 1024;
 
+/// Precision of a flight, as a share of the tolerance of its answer.
+pub(crate) const PRECISION: f64 = 0.1;
 /// How far a drop is followed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Until {
@@ -166,7 +168,7 @@ impl Followed {
     /// As [`new`](Self::new).
     pub(crate) fn until(drop: &SingleDrop, model: Model, tolerance: f64, until: Until) -> Result<Self, Error> {
         let scene = drop.scene()?.with_impact_limit(MOST_STRIKES)?;
-        let precision = 0.1 * tolerance;
+        let precision = PRECISION * tolerance;
         let share = tolerance * drop.restitution.max(LEAST_SHARE);
         let clatter_s = drop.clatter_s();
         let is_over = |time_s: f64, later: f64, largest: f64, lands: bool| {

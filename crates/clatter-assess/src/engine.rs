@@ -9,7 +9,7 @@ use clatter::{End, EndPeaks, OffCenterBar, Start};
 use clatter_flight::Stretch;
 use clatter_shock::{Peaked, Pulses, Response, Suspension};
 
-use crate::drop::{Followed, Model, Motion, SingleDrop};
+use crate::drop::{Followed, Model, Motion, PRECISION, SingleDrop};
 use crate::history::{SHORT, pulses};
 use crate::shock::{Shock, largest, samples};
 use crate::{Error, Limit, LimitKind, Unit};
@@ -97,51 +97,52 @@ pub fn answer(drop: &SingleDrop, part: &Part, limit: &Limit, model: Model, toler
     if model < Model::Map {
         return closed_form(drop, part, limit, model);
     }
-    let first = roughly(drop, part, limit, model, tolerance)?;
-    if !multiplies(model, first.impact) {
-        return Ok(first);
-    }
-    let mut answer = roughly(drop, part, limit, model, FINER * tolerance)?;
-    let mut off = (first.value - answer.value).abs();
-    // What lever arms kept through a phase may get wrong of the first strikes.
-    let off_by = KEPT_ARMS * 0.1 * tolerance;
-    for share in [1.0 - off_by, 1.0 + off_by] {
-        let faster = SingleDrop { speed_m_s: share * drop.speed_m_s, ..*drop };
-        let steeper = SingleDrop { tilt_rad: share * drop.tilt_rad, ..*drop };
-        for other in [faster, steeper] {
-            off = off.max((roughly(&other, part, limit, model, tolerance)?.value - answer.value).abs());
-        }
-    }
-    answer.error = answer.error.max(SAFETY * off / answer.value);
-    Ok(answer)
+    once(drop, part, limit, model, tolerance)?.with_what_strikes_multiply(drop, part, limit, model, tolerance)
 }
 
-/// Each strike multiplies what the ones before it got wrong, by more than a bound could tell. A drop whose peak comes after the
-/// second is followed so much more exactly; its error is the largest difference to drops followed to the tolerance: itself, and
-/// those whose speed or tilt differs by what lever arms may get wrong.
-const FINER: f64 = 0.1;
 /// Differences are told so many times as large as they are: the factor of the grid convergence index (Roache 1994) for three runs
 /// and more.
 const SAFETY: f64 = 1.25;
+/// A drop is followed again by so much more exactly.
+const FINER: f64 = 0.1;
 
-fn multiplies(model: Model, impact: u64) -> bool {
-    model == Model::Compliant && impact > 2
+impl Answer {
+    /// Each strike multiplies what the ones before it got wrong, by more than a bound could tell. A drop whose peak comes after the
+    /// second is followed again: more exactly, and with a tilt or with shocks that differ by what lever arms may get wrong. The
+    /// largest difference is told.
+    pub(crate) fn with_what_strikes_multiply(
+        self,
+        drop: &SingleDrop,
+        part: &Part,
+        limit: &Limit,
+        model: Model,
+        tolerance: f64,
+    ) -> Result<Self, Error> {
+        if model != Model::Compliant || self.impact <= 2 {
+            return Ok(self);
+        }
+        let off = |other: Self| (other.value / self.value - 1.0).abs();
+        let mut most = off(once(drop, part, limit, model, FINER * tolerance)?);
+        for off_by in [-KEPT_ARMS, KEPT_ARMS].map(|arms| arms * PRECISION * tolerance) {
+            let e = drop.restitution;
+            let bounces = SingleDrop { restitution: (e + off_by * (1.0 + e)).clamp(0.0, 1.0), ..*drop };
+            let steeper = SingleDrop { tilt_rad: drop.tilt_rad * (1.0 + off_by), ..*drop };
+            for other in [bounces, steeper] {
+                most = most.max(off(once(&other, part, limit, model, tolerance)?));
+            }
+        }
+        Ok(Self { error: self.error.max(SAFETY * most), ..self })
+    }
 }
 
-/// The value of [`answer`] without the drops that tell its error.
-pub(crate) fn value_of(
+/// The answer of a drop that is followed once, whose error leaves out that strikes multiply those before them.
+pub(crate) fn once(
     drop: &SingleDrop,
     part: &Part,
     limit: &Limit,
     model: Model,
     tolerance: f64,
 ) -> Result<Answer, Error> {
-    let first = roughly(drop, part, limit, model, tolerance)?;
-    if multiplies(model, first.impact) { roughly(drop, part, limit, model, FINER * tolerance) } else { Ok(first) }
-}
-
-/// The answer of a drop that is followed once, whose error leaves out that strikes multiply those before them.
-fn roughly(drop: &SingleDrop, part: &Part, limit: &Limit, model: Model, tolerance: f64) -> Result<Answer, Error> {
     let followed = Followed::new(drop, model, tolerance)?;
     let asked = Felt::new(&followed, part.position_m)?.answer(limit, part.suspension.as_ref(), 0.0)?;
     let nothing =
@@ -201,14 +202,8 @@ pub fn respond(
     model: Model,
     tolerance: f64,
 ) -> Result<Response, Error> {
-    let respond = |tolerance: f64| -> Result<(Response, u64), Error> {
-        let followed = Followed::new(drop, model, tolerance)?;
-        let response = Felt::new(&followed, position_m)?.pulses.respond(part);
-        let last_s = response.relative_displacement.peak().time.max(response.absolute_acceleration.peak().time);
-        Ok((response, followed.impact_at(last_s)))
-    };
-    let (first, impact) = respond(tolerance)?;
-    if multiplies(model, impact) { Ok(respond(FINER * tolerance)?.0) } else { Ok(first) }
+    let followed = Followed::new(drop, model, tolerance)?;
+    Ok(Felt::new(&followed, position_m)?.pulses.respond(part))
 }
 
 /// What one place of a followed drop feels.

@@ -20,7 +20,7 @@ use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
 use crate::drop::{Followed, SingleDrop, Until};
-use crate::engine::{Answer, Felt, Part, answer, value_of};
+use crate::engine::{Answer, Felt, Part, once};
 use crate::{Component, Error, Limit, LimitKind, Mount, WorstCase};
 use climb::{EDGES_REACH, EDGES_TRIES, LATE_REACH, LATE_TRIES, NEAR, starts};
 use ranges::{DAMPING, FREQUENCY, RESTITUTION};
@@ -66,6 +66,13 @@ struct OfDrop {
     later: Vec<(usize, f64)>,
 }
 
+impl Worst {
+    fn refuse(&mut self, count: usize, error: &Error) {
+        let (own, first) = self.refused.take().unwrap_or_else(|| (0, error.clone()));
+        self.refused = Some((own + count, first));
+    }
+}
+
 /// What all drops ask.
 struct AllAsked {
     /// Of each task.
@@ -97,11 +104,11 @@ impl AllAsked {
 /// Natural frequencies within a range in one drop, besides the end of it.
 const FREQUENCIES: u32 = 2;
 /// The same in drops that are followed for longer.
-const FREQUENCIES_LATE: u32 = 6;
+const FREQUENCIES_LATE: u32 = 4;
 /// The golden ratio: multiples of it spread evenly from 0 to 1.
 const GOLDEN: f64 = 0.618_033_988_749_895;
 /// Drops that are followed besides those of the grid where rebounds count.
-const SAMPLE: u32 = 512;
+const SAMPLE: u32 = 128;
 /// Worst cases that are answered to the tolerance, early ones and late ones.
 const TRIES: usize = 8;
 
@@ -148,8 +155,7 @@ impl Ranges<'_> {
             let mut worst = self.settle(&tasks[n], reached);
             (worst.drops, worst.later) = (drops, later[n]);
             if let Some((count, error)) = &refused {
-                let (own, first) = worst.refused.take().unwrap_or((0, error.clone()));
-                worst.refused = Some((own + count, first));
+                worst.refuse(*count, error);
             }
             worst
         });
@@ -311,8 +317,7 @@ impl Ranges<'_> {
                         if matches!(error, Error::Unfinished) && self.free(task)[RESTITUTION] {
                             bounces = found.place.shares[RESTITUTION];
                         }
-                        let (count, first) = worst.refused.take().unwrap_or((0, error));
-                        worst.refused = Some((count + 1, first));
+                        worst.refuse(1, &error);
                     }
                 }
             }
@@ -320,11 +325,10 @@ impl Ranges<'_> {
         // The one that counts, with all that it may be off by.
         if let Some(asked) = &mut worst.asked {
             let part = Part { position_m: asked.place.position_m, suspension: asked.part };
-            match answer(&self.single(&asked.place), &part, &task.limit, self.model, self.tolerance) {
+            let drop = self.single(&asked.place);
+            match asked.answer.with_what_strikes_multiply(&drop, &part, &task.limit, self.model, self.tolerance) {
                 Ok(answer) => asked.answer = answer,
-                Err(error) => {
-                    worst.refused = Some(worst.refused.take().map_or((1, error), |(n, first)| (n + 1, first)))
-                }
+                Err(error) => worst.refuse(1, &error),
             }
         }
         worst
@@ -333,7 +337,7 @@ impl Ranges<'_> {
     /// What a drop that was found asks to the tolerance, of the part that was found.
     fn exactly(&self, task: &Task<'_>, found: &Asked) -> Result<Asked, Error> {
         let part = Part { position_m: found.place.position_m, suspension: found.part };
-        let answer = value_of(&self.single(&found.place), &part, &task.limit, self.model, self.tolerance)?;
+        let answer = once(&self.single(&found.place), &part, &task.limit, self.model, self.tolerance)?;
         Ok(Asked { answer, ..*found })
     }
 
