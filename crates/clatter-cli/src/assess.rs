@@ -10,7 +10,8 @@ use clap::ValueHint;
 use clatter_assess::{Accuracy, Assessment, LARGEST_FILE, ProductFile, Verdict};
 
 use crate::inputs::{self, Format};
-use crate::{Exit, Failure, Streams, output};
+use crate::output::Files;
+use crate::{Exit, Failure, Streams};
 
 /// Assess the parts of a product: which one fails, in which drop, by how much
 ///
@@ -52,6 +53,13 @@ pub(crate) struct Args {
 }
 
 impl Args {
+    pub(crate) fn files(&self) -> Files<'_> {
+        Files {
+            reads: self.products.iter().map(AsRef::as_ref).collect(),
+            writes: self.output.iter().map(AsRef::as_ref).collect(),
+        }
+    }
+
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<Exit, Failure> {
         if self.output.is_some() && self.products.len() > 1 {
             return Err(Failure::Usage("'--output' takes one product file: a report is about one product"));
@@ -68,7 +76,6 @@ impl Args {
         if !faults.is_empty() {
             return Err(Failure::Product(faults.join("\n\n")));
         }
-        self.output.iter().try_for_each(|path| output::has_directory(path))?;
         let accuracy = Accuracy { tolerance: self.tolerance, model: self.model.map(Into::into) };
         let assessments = files
             .iter()

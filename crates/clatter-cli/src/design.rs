@@ -14,6 +14,7 @@ use clatter_assess::ProductFile;
 use clatter_assess::design::{Bounds, Plane};
 
 use crate::inputs::{self, RowFormat};
+use crate::output::Files;
 use crate::{Failure, Streams, assess, output};
 
 /// Tell which q and e meet the limits, and what would make each failing part safe
@@ -144,6 +145,13 @@ fn write(
 }
 
 impl Args {
+    pub(crate) fn files(&self) -> Files<'_> {
+        Files {
+            reads: self.product.iter().map(AsRef::as_ref).collect(),
+            writes: self.output.iter().chain(&self.front).map(AsRef::as_ref).collect(),
+        }
+    }
+
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
         match &self.product {
             Some(path) => self.of_product(&assess::read(path)?, streams),
@@ -153,7 +161,6 @@ impl Args {
 
     fn of_product(&self, file: &ProductFile, streams: &mut Streams<'_>) -> Result<(), Failure> {
         let bounds = Bounds { q: self.q, e: self.e, frequency_factor: self.frequency_factor, damping: self.damping };
-        self.output.iter().try_for_each(|path| output::has_directory(path))?;
         let assessment = file.assess()?;
         let remedies = file.remedies(&assessment, &bounds, self.margin)?;
         let plane = self.output.as_ref().map(|_| Plane::of(file, &bounds)).transpose()?;

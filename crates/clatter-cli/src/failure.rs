@@ -37,6 +37,10 @@ pub(crate) enum Failure {
     Answer(#[source] io::Error),
     #[error("cannot write {}: {reason}", .path.display())]
     File { path: PathBuf, reason: io::Error },
+    #[error("{} is read by this command and would be lost: choose another name for the output, or give --force", .0.display())]
+    Overwrites(PathBuf),
+    #[error("{} is to be written twice: choose another name for one output", .0.display())]
+    Twice(PathBuf),
     #[error("cannot read {}: {reason}", .path.display())]
     Unreadable { path: PathBuf, reason: io::Error },
     #[error("{} is there already: choose another name, or remove it first", .0.display())]

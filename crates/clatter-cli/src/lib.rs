@@ -45,11 +45,13 @@ use std::ffi::OsString;
 use std::fmt;
 use std::io::{self, Write};
 use std::process::ExitCode;
+use std::sync::Mutex;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use serde::Serialize;
 
 use failure::Failure;
+use output::Files;
 
 /// Where a command writes.
 pub struct Streams<'a> {
@@ -116,6 +118,9 @@ impl From<Exit> for ExitCode {
 struct Cli {
     #[command(subcommand)]
     command: Command,
+    /// Write over a file that the command reads as well
+    #[arg(long, global = true)]
+    force: bool,
 }
 
 const SHORT_HELP: &str =
@@ -140,6 +145,40 @@ enum Command {
     Completions(completions::Args),
 }
 
+impl Command {
+    fn files(&self) -> Files<'_> {
+        match self {
+            Self::Map(args) => args.files(),
+            Self::Simulate(args) => args.files(),
+            Self::Respond(args) => args.files(),
+            Self::Spectrum(args) => args.files(),
+            Self::Design(args) => args.files(),
+            Self::Scatter(args) => args.files(),
+            Self::Assess(args) => args.files(),
+            Self::Tradeoff(args) => args.files(),
+            _ => Files::default(),
+        }
+    }
+}
+
+/// Makes the threads that share long work: as many as there are processors, or as `RAYON_NUM_THREADS` asks for if that is less;
+/// none beside the present one where no more can be made. For a process, at its start.
+pub fn threads() {
+    let processors = std::thread::available_parallelism().map_or(1, usize::from);
+    let asked = std::env::var("RAYON_NUM_THREADS").ok().and_then(|text| text.parse().ok()).filter(|count| *count > 0);
+    let count = asked.map_or(processors, |asked: usize| asked.min(processors));
+    // The pool is made once or never: so threads are tried first, all at the same time.
+    let wait = Mutex::new(());
+    let made = std::thread::scope(|scope| {
+        let _wait = wait.lock();
+        let one = || std::thread::Builder::new().spawn_scoped(scope, || drop(wait.lock())).ok();
+        (0..count).map_while(|_| one()).count()
+    });
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(made.max(1));
+    // Where there is a pool already, it stays.
+    let _ = if made == 0 { pool.use_current_thread() } else { pool }.build_global();
+}
+
 /// Runs the command with these arguments, the first of which is the name it was called by.
 ///
 /// A reader that goes away early (`clatter impacts … | head`) is no error.
@@ -150,6 +189,12 @@ where
 {
     let mut exit = Exit::Done;
     let done = match Cli::try_parse_from(args) {
+        Ok(cli)
+            if !cli.force
+                && let Err(failure) = cli.command.files().check() =>
+        {
+            Err(failure)
+        }
         Ok(cli) => match cli.command {
             Command::Impacts(args) => args.run(streams),
             Command::Zone(args) => args.run(streams),

@@ -9,7 +9,7 @@ use serde::{Serialize, Serializer};
 
 use crate::inputs::{self, Format};
 use crate::numbers::{Json, JsonWhole, digits, given, whole};
-use crate::output::{Kind, Target, buffered};
+use crate::output::{Files, Kind, Target, buffered};
 use crate::{Failure, Streams, npy, output};
 
 /// Write a quantity over a grid of q and e to a file
@@ -127,6 +127,10 @@ fn name(quantity: Quantity) -> &'static str {
 }
 
 impl Args {
+    pub(crate) fn files(&self) -> Files<'_> {
+        Files { reads: Vec::new(), writes: vec![&self.output.path] }
+    }
+
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
         let quantity = self.quantity.quantity(self.threshold)?;
         let map = Map::compute(quantity, self.inertia.axis()?, self.e)?;

@@ -61,13 +61,33 @@ pub(crate) fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<(
     clatter_report::replace(path, write).map_err(|reason| Failure::File { path: path.to_owned(), reason })
 }
 
-/// Whether a file that takes long to work out has a directory to stand in, in the message of [`replace`].
-pub(crate) fn has_directory(path: &Path) -> Result<(), Failure> {
-    let there = clatter_report::directory_of(path).map(|_| ());
-    there.map_err(|reason| Failure::File { path: path.to_owned(), reason })
-}
-
 /// [`clatter_report::create`], likewise.
 pub(crate) fn create(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> Result<(), Failure> {
     clatter_report::create(path, write).map_err(|reason| Failure::File { path: path.to_owned(), reason })
+}
+
+/// The files that a command reads and those that it writes.
+#[derive(Debug, Default)]
+pub(crate) struct Files<'a> {
+    pub(crate) reads: Vec<&'a Path>,
+    pub(crate) writes: Vec<&'a Path>,
+}
+
+impl Files<'_> {
+    /// What would go wrong after the work is told before it: a directory that is not there, and an output that would be written
+    /// over an input or another output, by whatever name.
+    pub(crate) fn check(&self) -> Result<(), Failure> {
+        for (n, output) in self.writes.iter().enumerate() {
+            let there = clatter_report::directory_of(output);
+            there.map_err(|reason| Failure::File { path: output.to_path_buf(), reason })?;
+            let same = |other: &&Path| same_file::is_same_file(output, other).unwrap_or(output == other);
+            if self.reads.iter().any(same) {
+                return Err(Failure::Overwrites(output.to_path_buf()));
+            }
+            if self.writes[..n].iter().any(same) {
+                return Err(Failure::Twice(output.to_path_buf()));
+            }
+        }
+        Ok(())
+    }
 }

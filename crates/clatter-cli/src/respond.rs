@@ -13,7 +13,7 @@ use clatter_shock::{ShockTable, Suspension};
 
 use crate::drop_args::DropArgs;
 use crate::inputs::{self, DampingArgs, Format, ModelName};
-use crate::output::{Kind, Target};
+use crate::output::{Files, Kind, Target};
 use crate::{Failure, Streams, excitation};
 
 /// Tell what a clatter does to a component on its suspension
@@ -158,6 +158,13 @@ fn target(text: &str) -> Result<Target, String> {
 }
 
 impl Args {
+    pub(crate) fn files(&self) -> Files<'_> {
+        Files {
+            reads: self.shocks_file.iter().chain(&self.pulses_file).map(AsRef::as_ref).collect(),
+            writes: self.output.iter().map(|target| target.path.as_path()).collect(),
+        }
+    }
+
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
         if let Some(model) = self.model {
             return self.run_drop(model, streams);

@@ -13,6 +13,7 @@ use clatter_assess::{Model, ProductFile};
 
 use crate::inputs::{self, RowFormat};
 use crate::numbers::digits;
+use crate::output::Files;
 use crate::text::field;
 use crate::{Exit, Failure, Streams, assess, output, progress};
 
@@ -101,6 +102,10 @@ fn csv_file(text: &str) -> Result<PathBuf, &'static str> {
 }
 
 impl Args {
+    pub(crate) fn files(&self) -> Files<'_> {
+        Files { reads: vec![&self.product], writes: self.output.iter().map(AsRef::as_ref).collect() }
+    }
+
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<Exit, Failure> {
         let file = assess::read(&self.product)?;
         let scatter = self.draw(&file, streams)?;

@@ -11,7 +11,7 @@ use clatter_flight::{Contact, ContactFlight, Flight, Model, Press, Scene, Stop, 
 use crate::drop_args::DropArgs;
 use crate::inputs::{self, ModelName, RowFormat};
 use crate::numbers::figures;
-use crate::output::{Kind, Target};
+use crate::output::{Files, Kind, Target};
 use crate::{Failure, Streams};
 
 /// Follow one drop in time: its strikes, how hard they are, and how it comes to rest
@@ -136,6 +136,10 @@ struct Drop<'a> {
 }
 
 impl Args {
+    pub(crate) fn files(&self) -> Files<'_> {
+        Files { reads: Vec::new(), writes: self.output.iter().map(|target| target.path.as_path()).collect() }
+    }
+
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
         let drop = self.drop()?;
         if let Some(target) = &self.output {

@@ -14,7 +14,7 @@ use serde::Serialize;
 use crate::excitation::{self, LimitArg, PulseArg, shape_name};
 use crate::inputs::{DampingArgs, RowFormat};
 use crate::numbers::{Json, digits, figures, given};
-use crate::output::{Kind, Target, buffered};
+use crate::output::{Files, Kind, Target, buffered};
 use crate::progress::Progress;
 use crate::{Failure, Streams, lists, output};
 
@@ -179,6 +179,15 @@ struct Boundary {
 const BOUNDARY_POINTS: usize = 200;
 
 impl Args {
+    pub(crate) fn files(&self) -> Files<'_> {
+        let Excitation { record, pulses_file, shocks_file, .. } = &self.excitation;
+        let reads = [record, pulses_file, shocks_file, &self.tests];
+        Files {
+            reads: reads.into_iter().flatten().map(AsRef::as_ref).collect(),
+            writes: self.output.iter().map(|target| target.path.as_path()).collect(),
+        }
+    }
+
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
         if self.units.is_some() && self.excitation.record.is_none() {
             return Err(Failure::Usage("--units goes with a record alone"));

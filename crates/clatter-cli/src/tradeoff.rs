@@ -8,6 +8,7 @@ use clatter_assess::ladder::{LimitLadder, Measured, ProductLadder};
 
 use crate::inputs::{self, RowFormat};
 use crate::numbers::{digits, given};
+use crate::output::Files;
 use crate::text::{field, shown};
 use crate::words::{drop, in_words, percent, time};
 use crate::{Failure, Streams, explain, output};
@@ -54,6 +55,10 @@ fn picture(text: &str) -> Result<PathBuf, &'static str> {
 }
 
 impl Args {
+    pub(crate) fn files(&self) -> Files<'_> {
+        Files { reads: vec![&self.product], writes: self.output.iter().map(AsRef::as_ref).collect() }
+    }
+
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
         let ladders = explain::measure(&self.product, self.tolerance)?;
         if let Some(path) = &self.output {

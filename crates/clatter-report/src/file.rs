@@ -2,12 +2,14 @@
 
 use std::fs::{self, File};
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use crate::leftovers::Temporary;
 use tempfile::{Builder, NamedTempFile};
 
 /// Writes a file beside `path` and puts it in its place only once it is whole, so that a full disk or a killed run
-/// leaves what was there before. A link is followed; what is no regular file (a directory, a device) is refused.
+/// leaves what was there before. A link is followed; what is no regular file (a directory, a device) is refused. Content and name
+/// are on the disk as it returns; a file that is there keeps its permissions.
 ///
 /// # Errors
 /// What the system says, or what is wrong with `path`.
@@ -22,14 +24,37 @@ use tempfile::{Builder, NamedTempFile};
 /// # Ok::<(), std::io::Error>(())
 /// ```
 pub fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
-    let target = match fs::metadata(path) {
+    let target = followed(path)?;
+    let permissions = match fs::metadata(&target) {
         Ok(old) if old.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
         Ok(old) if !old.is_file() => return Err(io::Error::other("not a regular file")),
-        Ok(_) => path.canonicalize()?,
-        Err(_) => path.to_owned(),
+        Ok(old) => Some(old.permissions()),
+        Err(_) => None,
     };
-    beside(&target, write)?.persist(&target).map_err(|error| error.error)?;
-    Ok(())
+    let mut beside = beside(&target, write)?;
+    if let Some(permissions) = permissions {
+        beside.get().as_file().set_permissions(permissions)?;
+    }
+    beside.end(|file| file.persist(&target)).map_err(|error| error.error)?;
+    settle(&target)
+}
+
+/// Where a path leads, also where nothing is there yet.
+fn followed(path: &Path) -> io::Result<PathBuf> {
+    let mut target = path.to_owned();
+    for _ in 0..LINKS {
+        let Ok(next) = fs::read_link(&target) else { return Ok(target) };
+        target = target.parent().unwrap_or(Path::new("")).join(next);
+    }
+    Err(io::Error::other(format!("more than {LINKS} links, one to the next")))
+}
+
+/// Links that are followed one after the other, as many as systems do.
+const LINKS: usize = 40;
+
+/// The new name on the disk, as its content is: a loss of power leaves the old file or the new one.
+fn settle(target: &Path) -> io::Result<()> {
+    if cfg!(unix) { File::open(directory_of(target)?)?.sync_all() } else { Ok(()) }
 }
 
 /// As [`replace`], for a file that must not be there yet.
@@ -37,8 +62,8 @@ pub fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> 
 /// # Errors
 /// As [`replace`]; [`io::ErrorKind::AlreadyExists`] where there is a file, which stays as it is.
 pub fn create(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
-    beside(path, write)?.persist_noclobber(path).map_err(|error| error.error)?;
-    Ok(())
+    beside(path, write)?.end(|file| file.persist_noclobber(path)).map_err(|error| error.error)?;
+    settle(path)
 }
 
 /// The directory that a file is to stand in; for what takes long, told before it begins.
@@ -55,14 +80,18 @@ pub fn directory_of(path: &Path) -> io::Result<&Path> {
 }
 
 /// The whole file, under another name in the same directory.
-fn beside(target: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<NamedTempFile> {
+fn beside(target: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<Temporary<NamedTempFile>> {
     let parent = directory_of(target)?;
     let mut builder = Builder::new();
     builder.prefix(".clatter-").suffix(".tmp");
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666)); // less the umask, as for any new file
     // The temporary's own name says nothing to the user.
-    let mut beside = builder.tempfile_in(parent).map_err(|error| io::Error::from(error.kind()))?;
-    write(beside.as_file_mut())?;
-    Ok(beside)
+    let make = || builder.tempfile_in(parent).map_err(|error| io::Error::from(error.kind()));
+    let mut beside = Temporary::new(make)?;
+    let file = beside.get().as_file_mut();
+    match write(file).and_then(|()| file.sync_all()) {
+        Ok(()) => Ok(beside),
+        Err(error) => beside.end(|_| Err(error)),
+    }
 }

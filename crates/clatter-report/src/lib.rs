@@ -7,6 +7,7 @@ mod accuracy;
 mod assessment;
 mod figure;
 mod file;
+mod leftovers;
 mod page;
 mod paper;
 mod peers;
@@ -23,6 +24,7 @@ use std::path::{Path, PathBuf};
 pub use accuracy::{Measured, measured};
 pub use figure::design::{DesignBorder, DesignFronts, DesignPlane};
 pub use file::{create, directory_of, replace};
+pub use leftovers::remove_leftovers;
 pub use shock::shock_numbers;
 pub use trade::trade_files;
 

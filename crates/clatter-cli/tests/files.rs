@@ -1,0 +1,141 @@
+//! What a command does to the files of its user, also when it is stopped.
+
+#![cfg(all(test, unix))]
+
+use std::fs;
+use std::os::unix::fs::{PermissionsExt, symlink};
+use std::os::unix::process::ExitStatusExt;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
+
+fn clatter() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_clatter"))
+}
+
+fn says(command: &mut Command) -> (Option<i32>, String) {
+    let done = command.output().unwrap();
+    (done.status.code(), String::from_utf8(done.stderr).unwrap())
+}
+
+fn names(dir: &Path) -> Vec<String> {
+    let mut names: Vec<String> =
+        fs::read_dir(dir).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+fn product(dir: &Path) -> std::path::PathBuf {
+    let product = dir.join("p.toml");
+    assert_eq!(says(clatter().arg("init").arg(&product)), (Some(0), String::new()));
+    product
+}
+
+#[test]
+fn no_output_replaces_an_input() {
+    let dir = tempfile::tempdir().unwrap();
+    let at = |name: &str| dir.path().join(name);
+    let product = product(dir.path());
+    fs::write(at("rec.csv"), "t_s,a_m_s2\n0,0\n0.001,100\n0.002,0\n0.003,0\n").unwrap();
+    fs::write(at("shocks.csv"), "time_s,delta_v_m_s\n0,1\n").unwrap();
+    symlink(&product, at("link.pdf")).unwrap();
+    fs::hard_link(at("rec.csv"), at("hard.csv")).unwrap();
+    let all: [&[&str]; 6] = [
+        &["assess", "p.toml", "-o", "p.toml"],
+        &["assess", "p.toml", "-o", "link.pdf"],
+        &["assess", "./p.toml", "-o", "p.toml"],
+        &["spectrum", "rec.csv", "-o", "rec.csv"],
+        &["spectrum", "rec.csv", "-o", "hard.csv"],
+        &["spectrum", "--shocks-file=shocks.csv", "-o", "shocks.csv"],
+    ];
+    for arguments in all {
+        let before: Vec<_> = ["p.toml", "rec.csv", "shocks.csv"].map(|name| fs::read(at(name)).unwrap()).into();
+        let (code, stderr) = says(clatter().args(arguments).current_dir(dir.path()));
+        assert_eq!(code, Some(2), "{arguments:?}: {stderr}");
+        assert!(stderr.contains("is read by this command and would be lost"), "{arguments:?}: {stderr}");
+        let after: Vec<_> = ["p.toml", "rec.csv", "shocks.csv"].map(|name| fs::read(at(name)).unwrap()).into();
+        assert!(before == after, "{arguments:?}");
+    }
+    let (code, stderr) =
+        says(clatter().args(["spectrum", "rec.csv", "-o", "rec.csv", "--force"]).current_dir(dir.path()));
+    assert_eq!((code, stderr.as_str()), (Some(0), ""));
+    assert!(fs::read_to_string(at("rec.csv")).unwrap().starts_with("frequency"), "the spectrum");
+    let (code, stderr) = says(clatter().args(["design", "-o", "d.svg", "--front=d.svg"]).current_dir(dir.path()));
+    assert!(code == Some(2) && stderr.contains("written twice"), "{stderr}");
+}
+
+#[test]
+fn a_file_keeps_its_mode_and_a_link_leads_on() {
+    let dir = tempfile::tempdir().unwrap();
+    let secret = dir.path().join("secret.csv");
+    fs::write(&secret, "old").unwrap();
+    fs::set_permissions(&secret, fs::Permissions::from_mode(0o600)).unwrap();
+    // A link to nothing yet, by way of another.
+    symlink("second.csv", dir.path().join("first.csv")).unwrap();
+    symlink("third.csv", dir.path().join("second.csv")).unwrap();
+    for name in ["secret.csv", "first.csv"] {
+        let map = ["map", "peak-end", "--q=0:1:2", "--e=0:1:2", "-o", name];
+        assert_eq!(says(clatter().args(map).current_dir(dir.path())), (Some(0), String::new()));
+    }
+    assert_eq!(fs::metadata(&secret).unwrap().permissions().mode() & 0o777, 0o600);
+    assert!(fs::read_to_string(dir.path().join("third.csv")).unwrap().starts_with("q,"));
+    assert!(fs::symlink_metadata(dir.path().join("first.csv")).unwrap().is_symlink());
+    assert_eq!(names(dir.path()), ["first.csv", "second.csv", "secret.csv", "third.csv"]);
+}
+
+/// Stopped at any moment, a run leaves the old file and nothing beside it.
+#[test]
+fn a_run_that_is_stopped_leaves_no_temporary() {
+    let dir = tempfile::tempdir().unwrap();
+    let product = product(dir.path());
+    let samples = dir.path().join("samples.csv");
+    let mut stopped = 0;
+    for (n, signal) in ["INT", "TERM"].into_iter().cycle().take(24).enumerate() {
+        fs::write(&samples, "old").unwrap();
+        let mut child = clatter()
+            .args(["scatter", "--samples=1000000000"])
+            .arg(&product)
+            .arg("-o")
+            .arg(&samples)
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        sleep(Duration::from_millis(3 + 9 * n as u64));
+        assert!(Command::new("kill").arg(format!("-{signal}")).arg(child.id().to_string()).status().unwrap().success());
+        let status = child.wait().unwrap();
+        assert_eq!(status.signal(), Some(if signal == "INT" { 2 } else { 15 }), "{status}");
+        assert_eq!(names(dir.path()), ["p.toml", "samples.csv"], "after {signal}");
+        assert_eq!(fs::read_to_string(&samples).unwrap(), "old");
+        stopped += 1;
+    }
+    assert_eq!(stopped, 24);
+}
+
+/// A stack that no machine has stands in for a limit on threads.
+#[test]
+fn where_no_thread_can_be_made_one_is_enough() {
+    let dir = tempfile::tempdir().unwrap();
+    let product = product(dir.path());
+    let product = product.to_str().unwrap();
+    for arguments in [
+        &["map", "peak-end", "--q=0:1:64", "--e=0:1:64", "-o", "map.csv"][..],
+        &["assess", product],
+        &["scatter", product, "--samples=200", "--seed=1"],
+        &["explain", product],
+    ] {
+        let with = clatter().args(arguments).current_dir(dir.path()).output().unwrap();
+        let without = clatter()
+            .args(arguments)
+            .env("RUST_MIN_STACK", "1000000000000000")
+            .current_dir(dir.path())
+            .output()
+            .unwrap();
+        let stderr = String::from_utf8(without.stderr).unwrap();
+        assert_eq!((without.status.code(), stderr.as_str()), (with.status.code(), ""), "{arguments:?}");
+        assert!(with.stdout == without.stdout, "{arguments:?}");
+    }
+    let many = clatter().args(["assess", product]).env("RAYON_NUM_THREADS", "100000").output().unwrap();
+    assert_eq!(many.status.code(), Some(0));
+}
