@@ -10,6 +10,9 @@ use crate::inputs::{self, LawName, ModelName};
 const WITH_MODEL: [(&str, &str); 4] =
     [("model", "map"), ("model", "ballistic"), ("model", "finite-tilt"), ("model", "compliant")];
 
+/// Largest radius of gyration over the length. A body beyond hardly turns, and clatters for hours.
+const MOST_GYRATION: f64 = 2.0;
+
 /// All of a drop but its model, the inertia and the restitution.
 #[derive(Debug, clap::Args)]
 pub(crate) struct DropArgs {
@@ -89,6 +92,12 @@ impl DropArgs {
             let bar = inputs::bar_of(mass, e)?;
             [bar.center_of_mass(), half * bar.gyration_ratio()].map(|x| (x, "--mass"))
         };
+        if gyration > MOST_GYRATION * 2.0 * half {
+            let (name, allowed) =
+                ("radius of gyration in m", "at most 2 lengths, as in product files: two masses at the ends have 0.5");
+            let reason = clatter::Error::Quantity { name, value: gyration, allowed };
+            return Err(Failure::Flag { flag: gyration_flag, reason });
+        }
         let (a, b) = (half * (1.0 + center), half * (1.0 - center));
         Body::off_center(a, b, 0.0).map_err(Failure::flag(center_flag))?;
         let body = Body::off_center(a, b, gyration).map_err(Failure::flag(gyration_flag))?;

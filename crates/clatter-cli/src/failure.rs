@@ -39,6 +39,8 @@ pub(crate) enum Failure {
     File { path: PathBuf, reason: io::Error },
     #[error("{} is read by this command and would be lost: choose another name for the output, or give --force", .0.display())]
     Overwrites(PathBuf),
+    #[error("a map of {points} points takes more than --memory allows: allowed are {most} points")]
+    Large { points: u128, most: u128 },
     #[error("{} is to be written twice: choose another name for one output", .0.display())]
     Twice(PathBuf),
     #[error("cannot read {}: {reason}", .path.display())]

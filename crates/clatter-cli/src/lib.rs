@@ -15,6 +15,7 @@
 //! ```
 
 mod assess;
+mod budget;
 mod completions;
 mod design;
 mod drop_args;
@@ -121,6 +122,8 @@ struct Cli {
     /// Write over a file that the command reads as well
     #[arg(long, global = true)]
     force: bool,
+    #[command(flatten)]
+    budget: budget::Budget,
 }
 
 const SHORT_HELP: &str =
@@ -146,6 +149,17 @@ enum Command {
 }
 
 impl Command {
+    /// The same, watched.
+    fn within(self, budget: budget::Budget) -> Self {
+        budget.watch(match &self {
+            Self::Impacts(_) | Self::Simulate(_) => "fewer impacts or a shorter time take less",
+            Self::Map(_) => "fewer values of q and e take less",
+            Self::Respond(_) | Self::Spectrum(_) => "shorter lists and fewer natural frequencies take less",
+            Self::Scatter(_) => "fewer samples take less",
+            _ => "narrower ranges and fewer components take less",
+        });
+        self
+    }
     fn files(&self) -> Files<'_> {
         match self {
             Self::Map(args) => args.files(),
@@ -161,9 +175,10 @@ impl Command {
     }
 }
 
-/// Makes the threads that share long work: as many as there are processors, or as `RAYON_NUM_THREADS` asks for if that is less;
-/// none beside the present one where no more can be made. For a process, at its start.
-pub fn threads() {
+/// For a process of the command's own, at its start: memory and time are watched, and threads are made that share long work, as many as there are processors, or as `RAYON_NUM_THREADS` asks for if that is less;
+/// none beside the present one where no more can be made.
+pub fn own_process() {
+    budget::own_process();
     let processors = std::thread::available_parallelism().map_or(1, usize::from);
     let asked = std::env::var("RAYON_NUM_THREADS").ok().and_then(|text| text.parse().ok()).filter(|count| *count > 0);
     let count = asked.map_or(processors, |asked: usize| asked.min(processors));
@@ -195,7 +210,7 @@ where
         {
             Err(failure)
         }
-        Ok(cli) => match cli.command {
+        Ok(cli) => match cli.command.within(cli.budget) {
             Command::Impacts(args) => args.run(streams),
             Command::Zone(args) => args.run(streams),
             Command::Map(args) => args.run(streams),

@@ -3,12 +3,12 @@
 use std::io::{self, BufWriter, IsTerminal};
 use std::process::ExitCode;
 
-use clatter_cli::{Streams, run, threads};
+use clatter_cli::{Streams, own_process, run};
 
 fn main() -> ExitCode {
     #[cfg(unix)]
     tidy_on_signals();
-    threads();
+    own_process();
     // Standard error is not kept locked: other threads must be able to say why they end.
     let (mut out, mut err) = (BufWriter::new(io::stdout().lock()), io::stderr());
     let interactive = err.is_terminal();

@@ -10,7 +10,7 @@ use serde::{Serialize, Serializer};
 use crate::inputs::{self, Format};
 use crate::numbers::{Json, JsonWhole, digits, given, whole};
 use crate::output::{Files, Kind, Target, buffered};
-use crate::{Failure, Streams, npy, output};
+use crate::{Failure, Streams, budget, npy, output};
 
 /// Write a quantity over a grid of q and e to a file
 ///
@@ -133,7 +133,13 @@ impl Args {
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
         let quantity = self.quantity.quantity(self.threshold)?;
-        let map = Map::compute(quantity, self.inertia.axis()?, self.e)?;
+        let axis = self.inertia.axis()?;
+        let points = axis.points() as u128 * self.e.points() as u128;
+        // Beside the values there is the text of a picture or a file in JSON.
+        if 2 * 8 * points > u128::from(budget::memory()) {
+            return Err(Failure::Large { points, most: u128::from(budget::memory()) / 16 });
+        }
+        let map = Map::compute(quantity, axis, self.e)?;
         let Target { path, kind } = &self.output;
         output::replace(path, |file| match kind {
             Kind::Npy => npy::write(file, map.q.points(), &map.values),

@@ -1,0 +1,112 @@
+//! What a command may take of the machine: memory and time, watched beside the work.
+//!
+//! Work is not asked to look after itself: a thread looks at the memory of the process some fifty times a second. Beyond the budget
+//! temporary files are removed, the command says why it stopped and what would take less, and the process ends with exit code 2:
+//! what it had by then is in no file, and no answer is told.
+
+use std::process::exit;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use crate::Exit;
+
+/// What a command may take, for every command.
+#[derive(Debug, Clone, Copy, clap::Args)]
+pub(crate) struct Budget {
+    /// Memory that the command may take, such as 4GiB or 500MB; beyond it stops
+    #[arg(long, global = true, value_name = "BYTES", default_value = "1GiB", allow_hyphen_values = true, value_parser = bytes)]
+    memory: u64,
+    /// How long the command may run, such as 90s, 5min or 2h; then it stops [default: no limit]
+    #[arg(long, global = true, value_name = "TIME", allow_hyphen_values = true, value_parser = seconds)]
+    time_limit: Option<Duration>,
+}
+
+/// Whether the process is the command's own, to be ended by it.
+static OWN_PROCESS: AtomicBool = AtomicBool::new(false);
+/// The memory of the command that runs.
+static MEMORY: OnceLock<u64> = OnceLock::new();
+/// Between two looks.
+const INTERVAL: Duration = Duration::from_millis(20);
+
+/// The process is the command's own from here on.
+pub(crate) fn own_process() {
+    OWN_PROCESS.store(true, Ordering::Relaxed);
+}
+
+/// The memory that a command may take, in bytes.
+pub(crate) fn memory() -> u64 {
+    MEMORY.get().copied().unwrap_or(1 << 30)
+}
+
+/// A number with one of these units, such as "1.5GiB" or "90 s".
+fn quantity(text: &str, units: &[(&str, f64)]) -> Option<f64> {
+    let split = text.find(|c: char| c.is_ascii_alphabetic())?;
+    let (number, unit) = text.split_at(split);
+    let factor = units.iter().find(|(name, _)| name.eq_ignore_ascii_case(unit)).map(|(_, factor)| factor)?;
+    let value = number.trim().parse::<f64>().ok()? * factor;
+    (value.is_finite() && value > 0.0).then_some(value)
+}
+
+fn bytes(text: &str) -> Result<u64, String> {
+    let units =
+        [("kB", 1e3), ("MB", 1e6), ("GB", 1e9), ("KiB", 1024.0), ("MiB", 1_048_576.0), ("GiB", 1_073_741_824.0)];
+    let bytes = quantity(text, &units).filter(|bytes| (16e6..1e15).contains(bytes));
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within 1e15")]
+    bytes.map(|bytes| bytes as u64).ok_or_else(|| "memory is a number with its unit, from 16MB: 500MB, 4GiB".to_owned())
+}
+
+fn seconds(text: &str) -> Result<Duration, String> {
+    let time = quantity(text, &[("ms", 1e-3), ("s", 1.0), ("min", 60.0), ("h", 3600.0)]);
+    let time = time.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    time.ok_or_else(|| "a time is a number with its unit: 90s, 5min, 2h".to_owned())
+}
+
+impl Budget {
+    /// Watches until the process ends; `less` says what would take less. Nothing is watched in a process that is not the command's
+    /// own, or where no thread can be made.
+    pub(crate) fn watch(self, less: &'static str) {
+        if !OWN_PROCESS.load(Ordering::Relaxed) {
+            return;
+        }
+        let _ = MEMORY.set(self.memory);
+        let begin = Instant::now();
+        let look = move || {
+            loop {
+                if memory_stats::memory_stats().is_some_and(|now| now.physical_mem as u64 > self.memory) {
+                    stop(&format!("--memory={} MiB is used up", self.memory >> 20), less);
+                }
+                if self.time_limit.is_some_and(|limit| begin.elapsed() > limit) {
+                    stop("--time-limit is over", less);
+                }
+                thread::sleep(INTERVAL);
+            }
+        };
+        let _ = thread::Builder::new().name("budget".into()).spawn(look);
+    }
+}
+
+fn stop(what: &str, less: &str) -> ! {
+    clatter_report::remove_leftovers();
+    eprintln!("error: stopped, {what}: nothing is answered; {less}");
+    exit(Exit::BadInput as i32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn budgets_have_units() {
+        assert_eq!(bytes("1GiB"), Ok(1 << 30));
+        assert_eq!(bytes("500 MB"), Ok(500_000_000));
+        assert_eq!(seconds("1.5min"), Ok(Duration::from_secs(90)));
+        for text in ["", "1", "1 kB", "-1GiB", "nanGiB", "1e300GiB", "infGB", "1 s"] {
+            assert!(bytes(text).is_err(), "{text}");
+        }
+        for text in ["", "1", "0s", "-1s", "1e300h", "1 y", "s"] {
+            assert!(seconds(text).is_err(), "{text}");
+        }
+    }
+}
