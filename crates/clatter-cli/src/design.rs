@@ -7,6 +7,7 @@ mod remedies;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 
 use clap::ValueHint;
 use clatter::design::Goal;
@@ -15,6 +16,7 @@ use clatter_assess::design::{Bounds, Plane};
 
 use crate::inputs::{self, RowFormat};
 use crate::output::Files;
+use crate::progress::Progress;
 use crate::{Failure, Streams, assess, output};
 
 /// Tell which q and e meet the limits, and what would make each failing part safe
@@ -162,7 +164,17 @@ impl Args {
     fn of_product(&self, file: &ProductFile, streams: &mut Streams<'_>) -> Result<(), Failure> {
         let bounds = Bounds { q: self.q, e: self.e, frequency_factor: self.frequency_factor, damping: self.damping };
         let assessment = file.assess()?;
-        let remedies = file.remedies(&assessment, &bounds, self.margin)?;
+        let remedies = {
+            // Threads that work tell it: the terminal itself is handed to them.
+            let mut bar = Progress::new(io::stderr(), streams.interactive, 100);
+            bar.stage("changing");
+            let bar = Mutex::new(bar);
+            file.remedies_watched(&assessment, &bounds, self.margin, &|done, all| {
+                if let Ok(mut bar) = bar.lock() {
+                    bar.at(100 * done as u64 / all as u64);
+                }
+            })?
+        };
         let plane = self.output.as_ref().map(|_| Plane::of(file, &bounds)).transpose()?;
         if let (Some(path), Some(plane)) = (&self.output, &plane) {
             plane::write(path, plane)?;

@@ -124,7 +124,7 @@ impl Args {
     fn draw(&self, file: &ProductFile, streams: &mut Streams<'_>) -> Result<Scatter, Failure> {
         let settings = Settings { samples: self.samples, seed: self.seed, confidence: self.confidence };
         let sampler = Sampler::new(file, settings)?;
-        let mut bar = progress::Progress::new(streams.err, streams.interactive, self.samples);
+        let mut bar = progress::Progress::new(&mut *streams.err, streams.interactive, self.samples);
         bar.stage("drawing");
         let Some(path) = &self.output else {
             let watch = |progress: &Progress<'_>| {

@@ -15,13 +15,15 @@ fn clatter() -> Command {
 }
 
 fn says(command: &mut Command) -> (Option<i32>, String) {
-    let done = command.output().unwrap();
-    (done.status.code(), String::from_utf8(done.stderr).unwrap())
+    let done = command.output().expect("it runs");
+    (done.status.code(), String::from_utf8(done.stderr).expect("text"))
 }
 
 fn names(dir: &Path) -> Vec<String> {
-    let mut names: Vec<String> =
-        fs::read_dir(dir).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    let mut names: Vec<String> = fs::read_dir(dir)
+        .expect("a directory")
+        .map(|entry| entry.expect("an entry").file_name().into_string().expect("text"))
+        .collect();
     names.sort();
     names
 }
@@ -138,4 +140,39 @@ fn where_no_thread_can_be_made_one_is_enough() {
     }
     let many = clatter().args(["assess", product]).env("RAYON_NUM_THREADS", "100000").output().unwrap();
     assert_eq!(many.status.code(), Some(0));
+}
+
+#[test]
+fn a_budget_that_is_used_up_ends_the_command_with_nothing_left_behind() {
+    let dir = tempfile::tempdir().unwrap();
+    let product = product(dir.path());
+    let product = product.to_str().unwrap();
+    let endless = [
+        "simulate",
+        "--model=compliant",
+        "--length-m=0.2",
+        "--gyration-m=0.05",
+        "--e=1",
+        "--speed-m-s=3",
+        "--tilt-deg=3",
+        "--contact-time-s=0.0004",
+        "--impact-limit=10000000",
+        "--memory=64MB",
+    ];
+    for (arguments, why) in [
+        (
+            &["scatter", product, "--samples=1000000000", "-o", "s.csv", "--time-limit=300ms"][..],
+            "--time-limit is over",
+        ),
+        (&endless, "--memory=61 MiB is used up"),
+    ] {
+        let (code, stderr) = says(clatter().args(arguments).current_dir(dir.path()));
+        assert_eq!(code, Some(2), "{arguments:?}: {stderr}");
+        assert!(stderr.starts_with("error: stopped, ") && stderr.contains(why), "{stderr}");
+        assert_eq!(names(dir.path()), ["p.toml"]);
+    }
+    let map = ["map", "peak-end", "--q=0:1:16384", "--e=0:1:16384", "-o", "m.npy"];
+    let (code, stderr) = says(clatter().args(map).current_dir(dir.path()));
+    assert_eq!(code, Some(2));
+    assert!(stderr.contains("allowed are 67108864 points"), "{stderr}");
 }

@@ -1,5 +1,7 @@
 //! The smallest change that makes a part safe with a margin: of one lever, or of two where one is not enough.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use clatter_flight::Body;
 use rayon::prelude::*;
 
@@ -159,6 +161,20 @@ impl ProductFile {
     /// # Errors
     /// As [`assess`](Self::assess), for the product as it is; [`Error::Number`] for a margin that is negative or not finite.
     pub fn remedies(&self, assessment: &Assessment, bounds: &Bounds, margin: f64) -> Result<Vec<Remedies>, Error> {
+        self.remedies_watched(assessment, bounds, margin, &|_, _| ())
+    }
+
+    /// The same; `watch` is told how much of how much is done, from any thread.
+    ///
+    /// # Errors
+    /// As [`remedies`](Self::remedies).
+    pub fn remedies_watched(
+        &self,
+        assessment: &Assessment,
+        bounds: &Bounds,
+        margin: f64,
+        watch: &(dyn Fn(usize, usize) + Sync),
+    ) -> Result<Vec<Remedies>, Error> {
         if !(margin >= 0.0 && margin.is_finite()) {
             return Err(Error::Number(margin));
         }
@@ -169,7 +185,15 @@ impl ProductFile {
             let component = &self.components[i];
             Case { file: self, component, accuracy: assessment.accuracy, bounds, margin }
         };
-        let outcomes: Vec<Outcome> = tasks.par_iter().map(|&(i, found, lever)| case(i).solve(lever, found)).collect();
+        // One lever after the other of each component, then at most one pair of them, which takes as long as a lever.
+        let all = tasks.len() + tasks.len() / Lever::ALL.len();
+        let done = AtomicUsize::new(0);
+        let solve = |&(i, found, lever): &(usize, &ComponentAssessment, Lever)| {
+            let outcome = case(i).solve(lever, found);
+            watch(done.fetch_add(1, Ordering::Relaxed) + 1, all);
+            outcome
+        };
+        let outcomes: Vec<Outcome> = tasks.par_iter().map(solve).collect();
         let mut list: Vec<Remedies> = Vec::new();
         for ((component, _, lever), outcome) in tasks.into_iter().zip(outcomes) {
             if list.last().is_none_or(|last| last.component != component) {
@@ -183,6 +207,7 @@ impl ProductFile {
             if !remedies.levers.iter().any(|remedy| matches!(remedy.outcome, Outcome::Change { .. })) {
                 (remedies.pair, remedies.nearest) = case(remedies.component).together(&remedies.levers);
             }
+            watch(done.fetch_add(1, Ordering::Relaxed) + 1, all);
         }
         Ok(list)
     }
