@@ -30,7 +30,7 @@ fn names(dir: &Path) -> Vec<String> {
 
 fn product(dir: &Path) -> std::path::PathBuf {
     let product = dir.join("p.toml");
-    assert_eq!(says(clatter().arg("init").arg(&product)), (Some(0), String::new()));
+    assert_eq!(says(clatter().arg("init").arg(&product)), (Some(0), String::new()), "init");
     product
 }
 
