@@ -151,7 +151,7 @@ fn what_is_no_pdf_is_a_failure_of_typst_and_leaves_the_old_one() {
     let folder = tempfile::tempdir().unwrap();
     let pdf = folder.path().join("paper.pdf");
     std::fs::write(&pdf, "older").unwrap();
-    for script in ["", ": > page.pdf", "echo junk > page.pdf"] {
+    for script in ["true", ": > page.pdf", "echo junk > page.pdf"] {
         let typst = stand_in(folder.path(), script);
         let mut command = clatter();
         let done = command.args(["report", "paper", "-o"]).arg(folder.path()).env("CLATTER_TYPST", typst).output();
