@@ -107,8 +107,8 @@ fn print(file: &ProductFile, assessment: &Assessment, pdf: &Path, streams: &mut 
             streams.note("clatter", step);
         }
     };
-    if let Some(warning) = clatter_report::write_assessment(file, assessment, &portraits, pdf, &mut progress)? {
-        streams.note("warning", warning);
+    for warning in clatter_report::write_assessment(file, assessment, &portraits, pdf, &mut progress)? {
+        streams.note("warning", &warning);
     }
     Ok(())
 }

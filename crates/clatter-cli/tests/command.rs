@@ -96,14 +96,25 @@ fn a_run_killed_while_it_writes_leaves_what_was_there() {
     assert_eq!(std::fs::read_to_string(&file).unwrap(), "older");
 }
 
-/// A stand-in for typst that only fails.
+/// A stand-in for typst that tells its version and then runs a script.
 #[cfg(unix)]
-fn broken_typst(folder: &std::path::Path) -> std::path::PathBuf {
+fn stand_in(folder: &std::path::Path, script: &str) -> std::path::PathBuf {
     use std::os::unix::fs::PermissionsExt;
     let program = folder.join("typst");
-    std::fs::write(&program, "#!/bin/sh\necho 'error: out of ink' >&2\nexit 1\n").unwrap();
+    let script = format!("#!/bin/sh\n[ \"$1\" = --version ] && echo typst 0.15.1 && exit\n{script}\n");
+    std::fs::write(&program, script).unwrap();
     std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755)).unwrap();
+    // A process that another test starts holds the file open for a moment: until then it cannot be run.
+    while let Err(error) = Command::new(&program).arg("--version").output() {
+        assert_eq!(error.kind(), std::io::ErrorKind::ExecutableFileBusy, "{error}");
+    }
     program
+}
+
+/// One that only fails.
+#[cfg(unix)]
+fn broken_typst(folder: &std::path::Path) -> std::path::PathBuf {
+    stand_in(folder, "echo 'error: out of ink' >&2; exit 1")
 }
 
 #[cfg(unix)]
@@ -132,4 +143,37 @@ fn a_report_that_has_nowhere_to_go_is_bad_input() {
     let stderr = String::from_utf8(done.stderr).unwrap();
     assert_eq!(done.status.code(), Some(2), "{stderr}");
     assert!(stderr.starts_with("error: ") && stderr.contains(file.to_str().unwrap()), "{stderr}");
+}
+
+#[cfg(unix)]
+#[test]
+fn what_is_no_pdf_is_a_failure_of_typst_and_leaves_the_old_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let pdf = folder.path().join("paper.pdf");
+    std::fs::write(&pdf, "older").unwrap();
+    for script in ["true", ": > page.pdf", "echo junk > page.pdf"] {
+        let typst = stand_in(folder.path(), script);
+        let mut command = clatter();
+        let done = command.args(["report", "paper", "-o"]).arg(folder.path()).env("CLATTER_TYPST", typst).output();
+        let done = done.unwrap();
+        let stderr = String::from_utf8(done.stderr).unwrap();
+        assert_eq!((done.status.code(), done.stdout), (Some(3), vec![]), "{script}: {stderr}");
+        assert!(stderr.contains("still the one from before"), "{script}: {stderr}");
+        assert_eq!(std::fs::read_to_string(&pdf).unwrap(), "older", "{script}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_typst_is_found_from_where_the_command_runs() {
+    let page = "printf '%%PDF-1.7\n%%%%EOF\n' > page.pdf";
+    for (name, value) in [("CLATTER_TYPST", "./typst"), ("CLATTER_TYPST", "typst"), ("PATH", ".:/usr/bin:/bin")] {
+        let folder = tempfile::tempdir().unwrap();
+        stand_in(folder.path(), page);
+        let mut command = clatter();
+        command.args(["report", "paper", "-o", "out"]).env_remove("CLATTER_TYPST").current_dir(folder.path());
+        let done = command.env(name, value).output().unwrap();
+        assert_eq!(done.status.code(), Some(0), "{name}={value}: {}", String::from_utf8_lossy(&done.stderr));
+        assert_eq!(std::fs::read(folder.path().join("out/paper.pdf")).unwrap(), b"%PDF-1.7\n%%EOF\n", "{name}={value}");
+    }
 }

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use crate::figure::component::{Share, history, over_tilt, shares};
 use crate::figure::product::{Place, product};
 use crate::paper;
-use crate::words::{customary, limit, name, percent};
+use crate::words::{customary, limit, name, percent, sure_name};
 
 /// What the models leave out, in plain words.
 const NOT_COVERED: [[&str; 2]; 9] = [
@@ -93,6 +93,17 @@ pub(crate) fn files(file: &ProductFile, assessment: &Assessment, portraits: &[Po
     files.push(("assessment.json".into(), data.to_string()));
     files.push(("page.json".into(), paper::page()));
     files
+}
+
+/// The same assessment with names that can surely be set; `None` where its names are such already.
+pub(crate) fn surely_named(assessment: &Assessment) -> Option<Assessment> {
+    let mut sure = assessment.clone();
+    let mut changed = false;
+    for text in std::iter::once(&mut sure.product).chain(sure.components.iter_mut().map(|c| &mut c.name)) {
+        changed |= sure_name(text) != name(text);
+        *text = sure_name(text);
+    }
+    changed.then_some(sure)
 }
 
 /// The limit that is passed by most: the part, the margin.
@@ -223,6 +234,26 @@ mod tests {
         let plain: String = said(&pdf, 1).chars().filter(|c| !c.is_whitespace()).collect();
         assert!(plain.contains(r#"#eval("x")$*b*_c_@d<e>\`f`//g"#), "{plain}");
         assert!(plain.contains("dddd…") && plain.contains("□□"), "{plain}");
+    }
+
+    /// Each of these would fail the page: a mark that combines, one that surrounds, a sign beside accented Greek.
+    #[test]
+    fn names_that_cannot_be_set_are_drawn_as_boxes_and_told() {
+        let dir = tempfile::tempdir().unwrap();
+        let to = dir.path().join("report.pdf");
+        let text = EXAMPLE
+            .replace("name = \"camera\"", "name = \"C\u{485}amera ∰ ή\"")
+            .replace("name = \"crystal\"", "name = \"ῥ∰ά\"")
+            .replace("name = \"display\"", "name = \"display \u{488}\"");
+        let file = ProductFile::read(&text, "test.toml").unwrap();
+        let assessment = file.assess().unwrap();
+        let portraits = file.portraits(&assessment).unwrap();
+        let warnings = crate::write_assessment(&file, &assessment, &portraits, &to, &mut |_| ()).unwrap();
+        assert!(warnings.iter().any(|warning| warning.contains("drawn as boxes")), "{warnings:?}");
+        let first: String = said(&lopdf::Document::load(&to).unwrap(), 1).split_whitespace().collect();
+        for name in ["C□amera□ή", "□□ά", "display□"] {
+            assert!(first.contains(name), "{name}: {first}");
+        }
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::leftovers::Temporary;
+use crate::leftovers::{Left, Listed};
 use tempfile::{Builder, NamedTempFile};
 
 /// Writes a file beside `path` and puts it in its place only once it is whole, so that a full disk or a killed run
@@ -31,11 +31,11 @@ pub fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> 
         Ok(old) => Some(old.permissions()),
         Err(_) => None,
     };
-    let mut beside = beside(&target, write)?;
+    let (_listed, beside) = beside(&target, write)?;
     if let Some(permissions) = permissions {
-        beside.get().as_file().set_permissions(permissions)?;
+        beside.as_file().set_permissions(permissions)?;
     }
-    beside.end(|file| file.persist(&target)).map_err(|error| error.error)?;
+    beside.persist(&target).map_err(|error| error.error)?;
     settle(&target)
 }
 
@@ -62,7 +62,8 @@ fn settle(target: &Path) -> io::Result<()> {
 /// # Errors
 /// As [`replace`]; [`io::ErrorKind::AlreadyExists`] where there is a file, which stays as it is.
 pub fn create(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
-    beside(path, write)?.end(|file| file.persist_noclobber(path)).map_err(|error| error.error)?;
+    let (_listed, beside) = beside(path, write)?;
+    beside.persist_noclobber(path).map_err(|error| error.error)?;
     settle(path)
 }
 
@@ -80,7 +81,7 @@ pub fn directory_of(path: &Path) -> io::Result<&Path> {
 }
 
 /// The whole file, under another name in the same directory.
-fn beside(target: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<Temporary<NamedTempFile>> {
+fn beside(target: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<(Listed, NamedTempFile)> {
     let parent = directory_of(target)?;
     let mut builder = Builder::new();
     builder.prefix(".clatter-").suffix(".tmp");
@@ -88,10 +89,8 @@ fn beside(target: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io:
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666)); // less the umask, as for any new file
     // The temporary's own name says nothing to the user.
     let make = || builder.tempfile_in(parent).map_err(|error| io::Error::from(error.kind()));
-    let mut beside = Temporary::new(make)?;
-    let file = beside.get().as_file_mut();
-    match write(file).and_then(|()| file.sync_all()) {
-        Ok(()) => Ok(beside),
-        Err(error) => beside.end(|_| Err(error)),
-    }
+    let (listed, mut beside) = Listed::new(make, |file| Left::Path(file.path().to_owned()))?;
+    write(beside.as_file_mut())?;
+    beside.as_file().sync_all()?;
+    Ok((listed, beside))
 }

@@ -1,53 +1,85 @@
-//! What goes when the process is stopped from outside: temporary files and directories.
+//! What goes when the process is stopped from outside: temporary files and directories, and programs that work for it.
 
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+use std::process::Child;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Temporaries that are there now.
-static THERE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+use tempfile::TempDir;
 
-fn there() -> MutexGuard<'static, Vec<PathBuf>> {
+/// What must not outlive the process.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Left {
+    Path(PathBuf),
+    /// A program and what it started, by the number of their group.
+    Group(u32),
+}
+
+/// What is there now.
+static THERE: Mutex<Vec<Left>> = Mutex::new(Vec::new());
+
+fn there() -> MutexGuard<'static, Vec<Left>> {
     THERE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes every temporary file and directory. For the last moment of a process that is stopped by a signal or a time limit: nothing
-/// that is written goes on, and no new temporary is made until the process ends.
+/// Removes every temporary file and directory, and ends the programs that work for the process. For its last moment, where a signal
+/// or a time limit stops it: no new temporary is made and no program started until it ends.
 pub fn remove_leftovers() {
     let mut there = there();
-    for path in there.drain(..) {
+    // Programs first: they write into the directories.
+    there.sort_by_key(|left| matches!(left, Left::Path(_)));
+    for left in there.drain(..) {
         // What is gone already, or cannot be removed, is no reason to stay.
-        let _ = if path.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) };
+        match left {
+            Left::Group(number) => kill_group(number),
+            Left::Path(path) if path.is_dir() => drop(fs::remove_dir_all(&path)),
+            Left::Path(path) => drop(fs::remove_file(&path)),
+        }
     }
     std::mem::forget(there);
 }
 
-/// A temporary that goes with the process, too.
-#[derive(Debug)]
-pub(crate) struct Temporary<T> {
-    inner: T,
-    path: PathBuf,
+/// Kills a program and what it started.
+#[cfg(unix)]
+pub(crate) fn kill_group(number: u32) {
+    use rustix::process::{Pid, Signal, kill_process_group};
+    if let Some(group) = i32::try_from(number).ok().and_then(Pid::from_raw) {
+        // What has ended by itself in between needs no killing.
+        let _ = kill_process_group(group, Signal::KILL);
+    }
 }
 
-impl<T: AsRef<Path>> Temporary<T> {
-    /// Makes one; no signal comes between its making and its listing.
-    pub(crate) fn new(make: impl FnOnce() -> io::Result<T>) -> io::Result<Self> {
+#[cfg(not(unix))]
+pub(crate) fn kill_group(_: u32) {}
+
+/// Keeps something on the list; off it once this is dropped, which is to come after the end of the thing itself.
+#[derive(Debug)]
+pub(crate) struct Listed(Left);
+
+impl Listed {
+    /// Makes something; no signal comes between its making and its listing.
+    pub(crate) fn new<T>(make: impl FnOnce() -> io::Result<T>, of: impl FnOnce(&T) -> Left) -> io::Result<(Self, T)> {
         let mut there = there();
-        let inner = make()?;
-        let path = inner.as_ref().to_owned();
-        there.push(path.clone());
-        Ok(Self { inner, path })
+        let made = make()?;
+        let left = of(&made);
+        there.push(left.clone());
+        Ok((Self(left), made))
     }
 
-    pub(crate) fn get(&mut self) -> &mut T {
-        &mut self.inner
+    /// A temporary directory.
+    pub(crate) fn directory(make: impl FnOnce() -> io::Result<TempDir>) -> io::Result<(Self, TempDir)> {
+        Self::new(make, |dir| Left::Path(dir.path().to_owned()))
     }
 
-    /// Ends it, by a new name for a file or by removing it, and takes it off the list.
-    pub(crate) fn end<R>(self, end: impl FnOnce(T) -> R) -> R {
-        let ended = end(self.inner);
-        there().retain(|path| *path != self.path);
-        ended
+    /// A program that leads a group of its own.
+    pub(crate) fn group(start: impl FnOnce() -> io::Result<Child>) -> io::Result<(Self, Child)> {
+        Self::new(start, |child| Left::Group(child.id()))
+    }
+}
+
+impl Drop for Listed {
+    fn drop(&mut self) {
+        there().retain(|left| *left != self.0);
     }
 }

@@ -145,9 +145,10 @@ fn accuracy_files() -> Result<Vec<paper::File>, ReportError> {
 }
 
 /// Writes the pages of an assessment to `pdf`: the verdict first, then a part at a time. Gives what the caller should
-/// tell the user, if anything.
+/// tell the user.
 ///
-/// The file is written beside its place and renamed; the same assessment gives the same bytes.
+/// Where names have characters that the typefaces cannot set, they are drawn as boxes, and a warning says so. The file is
+/// written beside its place and renamed; the same assessment gives the same bytes.
 ///
 /// ```no_run
 /// // typst may have to be built first
@@ -167,14 +168,26 @@ pub fn write_assessment(
     portraits: &[clatter_assess::Portrait],
     pdf: &Path,
     progress: &mut dyn FnMut(&str),
-) -> Result<Option<String>, ReportError> {
-    let (typst, warning) = typst::Typst::find(progress)?;
+) -> Result<Vec<String>, ReportError> {
+    let (typst, mut warnings) = typst::Typst::find(progress)?;
     progress("setting the pages");
-    let files = assessment::files(file, assessment, portraits);
-    let inputs = files.iter().map(|(name, content)| (name.as_str(), content.as_str()));
-    let bytes = set(&typst, ("assessment.typ", include_str!("../../../reports/assessment.typ")), inputs)?;
+    let pages = |assessment| {
+        let files = assessment::files(file, assessment, portraits);
+        let inputs = files.iter().map(|(name, content)| (name.as_str(), content.as_str()));
+        set(&typst, ("assessment.typ", include_str!("../../../reports/assessment.typ")), inputs)
+    };
+    let bytes = match (pages(assessment), assessment::surely_named(assessment)) {
+        (Err(error @ ReportError::Typst(_)), Some(sure)) => {
+            progress("setting the pages once more, with plainer names");
+            let bytes = pages(&sure).map_err(|_| error)?;
+            let told = "the typefaces of the report cannot set some characters of its names: they are drawn as boxes";
+            warnings.push(told.to_owned());
+            bytes
+        }
+        (bytes, _) => bytes?,
+    };
     replace(pdf, |file| file.write_all(&bytes)).map_err(|source| ReportError::Io { path: pdf.into(), source })?;
-    Ok(warning)
+    Ok(warnings)
 }
 
 /// Which inertia ratios and restitutions make the parts of a product safe.

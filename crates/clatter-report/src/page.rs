@@ -5,7 +5,8 @@ use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::thread;
 
-use crate::typst::Typst;
+use crate::leftovers::Listed;
+use crate::typst::{Typst, failed};
 use crate::{ReportError, Written, paper, replace};
 
 /// The shared style of all pages.
@@ -42,15 +43,15 @@ pub(crate) fn page(
     let target = dir.join(pdf);
     let stale = |error| match error {
         ReportError::Typst(text) if target.exists() => {
-            ReportError::Typst(format!("{text}\n{} is still the one from before", target.display()))
+            failed(format!("{text}\n{} is still the one from before", target.display()))
         }
         error => error,
     };
-    let (typst, warning) = typst.map_err(stale)?;
+    let (typst, warnings) = typst.map_err(stale)?;
     progress("setting the page");
     let all = files.iter().map(|(name, content)| (*name, content.as_str())).chain(inputs.iter().copied());
     let bytes = set(&typst, (name, source), all).map_err(stale)?;
-    let mut written = Written { files: vec![place(dir, pdf, &bytes)?], warnings: warning.into_iter().collect() };
+    let mut written = Written { files: vec![place(dir, pdf, &bytes)?], warnings };
     written.files.extend(paths);
     Ok(written)
 }
@@ -61,7 +62,8 @@ pub(crate) fn set<'a>(
     (name, source): (&'a str, &'a str),
     files: impl Iterator<Item = (&'a str, &'a str)>,
 ) -> Result<Vec<u8>, ReportError> {
-    let work = tempfile::tempdir().map_err(|source| ReportError::Io { path: std::env::temp_dir(), source })?;
+    let work = Listed::directory(tempfile::tempdir);
+    let (_listed, work) = work.map_err(|source| ReportError::Io { path: std::env::temp_dir(), source })?;
     for (name, content) in files.chain([(name, source), ("style.typ", STYLE)]) {
         let path = work.path().join(name);
         fs::write(&path, content).map_err(|source| ReportError::Io { path, source })?;

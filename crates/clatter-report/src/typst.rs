@@ -1,18 +1,23 @@
 //! The one place that starts typst.
 
-use std::ffi::OsString;
+mod build;
+mod find;
+mod run;
+
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
-use std::thread;
-use std::time::{Duration, Instant};
+use std::process::Command;
+use std::time::Duration;
 
 use crate::ReportError;
+use crate::leftovers::Listed;
+use find::Env;
+use run::run;
 
 /// The version the pages are tested with.
 const VERSION: &str = "0.15.1";
 /// A compile of these pages takes well under a second; whatever takes so long hangs.
-const COMPILE_LIMIT: Duration = Duration::from_secs(120);
+const COMPILE_LIMIT: Duration = Duration::from_secs(300);
 /// Asking for the version takes milliseconds.
 const VERSION_LIMIT: Duration = Duration::from_secs(20);
 
@@ -23,38 +28,56 @@ pub(crate) struct Typst {
     limit: Duration,
 }
 
-/// Looks up an environment variable; what is empty counts as not set.
-type Env<'a> = &'a dyn Fn(&str) -> Option<OsString>;
-
-/// How a run ended, where it did not hang.
-struct Ended {
-    success: bool,
-    stdout: String,
-    stderr: String,
-}
-
-fn failed(message: impl Into<String>) -> ReportError {
-    ReportError::Typst(message.into())
+/// The failure of an outside program; the message may hold what it said.
+pub(crate) fn failed(message: impl AsRef<str>) -> ReportError {
+    ReportError::Typst(harmless(message.as_ref()))
 }
 
 impl Typst {
-    /// The typst that `CLATTER_TYPST` names, else the one on PATH, else the one in the project's cache, else a
-    /// new one there, built with cargo unless `CLATTER_NO_INSTALL` is set. A version other than the tested one
-    /// is a warning.
-    pub(crate) fn find(progress: &mut dyn FnMut(&str)) -> Result<(Self, Option<String>), ReportError> {
+    /// The typst that `CLATTER_TYPST` names, else the first on PATH that runs, else the one in the project's cache, else
+    /// a new one there, built with cargo unless `CLATTER_NO_INSTALL` is set. Warnings tell what was passed over and of
+    /// a version other than the tested one.
+    pub(crate) fn find(progress: &mut dyn FnMut(&str)) -> Result<(Self, Vec<String>), ReportError> {
         Self::find_with(&|name| std::env::var_os(name).filter(|value| !value.is_empty()), progress)
     }
 
-    fn find_with(env: Env<'_>, progress: &mut dyn FnMut(&str)) -> Result<(Self, Option<String>), ReportError> {
-        let typst = Self { program: locate(env, progress)?, limit: COMPILE_LIMIT };
-        let ended = run(Command::new(&typst.program).arg("--version"), VERSION_LIMIT, &typst.program)?;
+    fn find_with(env: Env<'_>, progress: &mut dyn FnMut(&str)) -> Result<(Self, Vec<String>), ReportError> {
+        if let Some(named) = find::named(env)? {
+            let (typst, warning) = Self::asked(named)?;
+            return Ok((typst, warning.into_iter().collect()));
+        }
+        let mut warnings = Vec::new();
+        for program in find::on_path(env) {
+            match Self::asked(program) {
+                Ok((typst, warning)) => {
+                    warnings.extend(warning);
+                    return Ok((typst, warnings));
+                }
+                Err(error) => warnings.push(format!("passed over: {error}")),
+            }
+        }
+        let found = find::cached(env, progress).and_then(Self::asked).map_err(|error| match error {
+            ReportError::Typst(text) => failed([&[text], &warnings[..]].concat().join("\n")),
+            error => error,
+        });
+        let (typst, warning) = found?;
+        warnings.extend(warning);
+        Ok((typst, warnings))
+    }
+
+    /// A program that tells its version as typst does, and a warning where that is another one.
+    fn asked(program: PathBuf) -> Result<(Self, Option<String>), ReportError> {
+        let own = Listed::directory(tempfile::tempdir);
+        let (_listed, own) = own.map_err(|source| ReportError::Io { path: std::env::temp_dir(), source })?;
+        let ended = run(Command::new(&program).arg("--version").current_dir(&own), VERSION_LIMIT, &program)?;
         let version = ended.stdout.split_whitespace().nth(1).unwrap_or_default();
         if !ended.success || !ended.stdout.starts_with("typst ") {
-            return Err(failed(format!("{} is not typst: it does not tell its version", typst.program.display())));
+            return Err(failed(format!("{} is not typst: it does not tell its version", program.display())));
         }
-        let warning = (version != VERSION)
-            .then(|| format!("typst {version} at {}: the pages are tested with {VERSION}", typst.program.display()));
-        Ok((typst, warning))
+        let warning = (version != VERSION).then(|| {
+            harmless(&format!("typst {version} at {}: the pages are tested with {VERSION}", program.display()))
+        });
+        Ok((Self { program, limit: COMPILE_LIMIT }, warning))
     }
 
     /// Compiles `main`, a file in `root`, and gives the PDF. Whatever typst says is a failure: it warns of missing
@@ -74,133 +97,58 @@ impl Typst {
             let said = if said.is_empty() { "it gave no reason" } else { said };
             return Err(failed(format!("typst could not set the page: {said}")));
         }
-        fs::read(&output).map_err(|source| ReportError::Io { path: output, source })
-    }
-}
-
-/// Finds or builds the program.
-fn locate(env: Env<'_>, progress: &mut dyn FnMut(&str)) -> Result<PathBuf, ReportError> {
-    if let Some(named) = env("CLATTER_TYPST") {
-        let path = PathBuf::from(named);
-        return if path.is_file() {
-            Ok(path)
+        let pdf = if output.is_file() { fs::read(&output) } else { Err(std::io::ErrorKind::NotFound.into()) };
+        let pdf = pdf.map_err(|error| failed(format!("{} made no page: {error}", self.program.display())))?;
+        if is_pdf(&pdf) {
+            Ok(pdf)
         } else {
-            Err(failed(format!("CLATTER_TYPST names {}, which is no file", path.display())))
-        };
-    }
-    let name = format!("typst{}", std::env::consts::EXE_SUFFIX);
-    let path = env("PATH").unwrap_or_default();
-    if let Some(found) = std::env::split_paths(&path).map(|dir| dir.join(&name)).find(|file| file.is_file()) {
-        return Ok(found);
-    }
-    let Some(cache) = cache(env) else {
-        return Err(failed("no typst on PATH, and no home directory to keep one in; set CLATTER_TYPST"));
-    };
-    let root = cache.join("clatter").join(format!("typst-{VERSION}"));
-    let program = root.join("bin").join(&name);
-    if program.is_file() {
-        return Ok(program);
-    }
-    let build = format!(
-        "cargo install typst-cli --version {VERSION} --locked --no-default-features --features embedded-fonts,vendor-openssl"
-    );
-    if env("CLATTER_NO_INSTALL").is_some_and(|value| value != "0") {
-        return Err(failed(format!(
-            "no typst: set CLATTER_TYPST, put typst {VERSION} on PATH, or unset CLATTER_NO_INSTALL to have it built; \
-             by hand: {build}"
-        )));
-    }
-    // two commands, or two tests, must not build it twice
-    let lock = fs::create_dir_all(&root).and_then(|()| fs::File::create(root.join("lock")));
-    let lock = lock.and_then(|file| file.lock().map(|()| file));
-    let _lock = lock.map_err(|source| ReportError::Io { path: root.join("lock"), source })?;
-    if program.is_file() {
-        return Ok(program);
-    }
-    progress(&format!("no typst found: building {VERSION} into {}, 7 to 12 minutes, once", root.display()));
-    let status = Command::new(env("CARGO").unwrap_or_else(|| "cargo".into()))
-        .args(build.split(' ').skip(1))
-        .arg("--root")
-        .arg(&root)
-        .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1") // sets a page as fast and builds in half the time
-        .stdin(Stdio::null())
-        .stdout(Stdio::null())
-        .status()
-        .map_err(|error| failed(format!("no typst, and cargo to build it cannot be started: {error}")))?;
-    if status.success() && program.is_file() {
-        Ok(program)
-    } else {
-        Err(failed(format!("typst could not be built ({status}); by hand: {build}")))
-    }
-}
-
-/// The user's cache directory.
-fn cache(env: Env<'_>) -> Option<PathBuf> {
-    let dir = |name: &str| env(name).map(PathBuf::from);
-    if let Some(xdg) = dir("XDG_CACHE_HOME").filter(|path| path.is_absolute()) {
-        return Some(xdg);
-    }
-    if cfg!(windows) {
-        dir("LOCALAPPDATA")
-    } else if cfg!(target_os = "macos") {
-        dir("HOME").map(|home| home.join("Library").join("Caches"))
-    } else {
-        dir("HOME").map(|home| home.join(".cache"))
-    }
-}
-
-/// Runs a command to its end, or kills it at the limit.
-fn run(command: &mut Command, limit: Duration, program: &Path) -> Result<Ended, ReportError> {
-    let child = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
-    let mut child = child.map_err(|error| failed(format!("{} cannot be started: {error}", program.display())))?;
-    let readers = (reader(child.stdout.take()), reader(child.stderr.take()));
-    let Some(success) = wait(&mut child, limit)? else {
-        return Err(failed(format!("{} was cut off after {} s without an end", program.display(), limit.as_secs())));
-    };
-    let text = |handle: thread::JoinHandle<String>| handle.join().unwrap_or_default();
-    Ok(Ended { success, stdout: text(readers.0), stderr: text(readers.1) })
-}
-
-/// Reads a pipe to its end beside the wait, so that a full pipe stops nobody.
-fn reader(pipe: Option<impl std::io::Read + Send + 'static>) -> thread::JoinHandle<String> {
-    thread::spawn(move || {
-        let mut bytes = Vec::new();
-        if let Some(mut pipe) = pipe {
-            let _ = pipe.read_to_end(&mut bytes); // what was read until then is still worth showing
-        }
-        String::from_utf8_lossy(&bytes).into_owned()
-    })
-}
-
-/// Whether the child succeeded; `None` if it had to be killed.
-fn wait(child: &mut Child, limit: Duration) -> Result<Option<bool>, ReportError> {
-    let end = Instant::now() + limit;
-    loop {
-        match child.try_wait() {
-            Ok(Some(status)) => return Ok(Some(status.success())),
-            Ok(None) if Instant::now() < end => thread::sleep(Duration::from_millis(2)),
-            Ok(None) => {
-                let _ = child.kill(); // it may have ended by itself in between
-                let _ = child.wait();
-                return Ok(None);
-            }
-            Err(error) => return Err(failed(format!("typst was lost: {error}"))),
+            Err(failed(format!("{} made a page that is no whole PDF", self.program.display())))
         }
     }
+}
+
+/// Whether it begins and ends as a PDF does; after the end there may be little else.
+fn is_pdf(bytes: &[u8]) -> bool {
+    let last = &bytes[bytes.len().saturating_sub(1024)..];
+    bytes.starts_with(b"%PDF-") && last.windows(5).any(|end| end == b"%%EOF")
+}
+
+/// Text from outside as a terminal can show it: nothing in it moves the cursor, changes colors or turns the direction of
+/// writing.
+fn harmless(text: &str) -> String {
+    let letter = |c: char| match c {
+        '\n' => '\n',
+        '\t' => ' ',
+        '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => '\u{fffd}',
+        c if c.is_control() => '\u{fffd}',
+        c => c,
+    };
+    text.replace("\r\n", "\n").chars().map(letter).collect()
 }
 
 #[cfg(test)]
 #[cfg(unix)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
+    use std::ffi::OsString;
     use std::os::unix::fs::PermissionsExt as _;
 
-    /// A program in a directory of its own that stands in for typst.
-    fn stand_in(script: &str) -> (tempfile::TempDir, PathBuf) {
-        let dir = tempfile::tempdir().unwrap();
-        let path = dir.path().join("typst");
-        fs::write(&path, format!("#!/bin/sh\n{script}\n")).unwrap();
+    /// A program that stands in for another one.
+    pub(crate) fn stand_in(dir: &Path, name: &str, script: &str) -> PathBuf {
+        let path = dir.join(name);
+        fs::write(&path, format!("#!/bin/sh\n[ \"$1\" = ready ] && exit\n{script}\n")).unwrap();
         fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
+        // A process that another test starts holds the file open for a moment: until then it cannot be run.
+        while let Err(error) = Command::new(&path).arg("ready").status() {
+            assert_eq!(error.kind(), std::io::ErrorKind::ExecutableFileBusy, "{error}");
+        }
+        path
+    }
+
+    /// A stand-in for typst in a directory of its own.
+    fn typst(script: &str) -> (tempfile::TempDir, PathBuf) {
+        let dir = tempfile::tempdir().unwrap();
+        let path = stand_in(dir.path(), "typst", script);
         (dir, path)
     }
 
@@ -213,14 +161,14 @@ mod tests {
     }
 
     fn compile(script: &str, limit: Duration) -> String {
-        let (dir, program) = stand_in(script);
+        let (dir, program) = typst(script);
         let done = Typst { program, limit }.compile(dir.path(), "page.typ");
         done.expect_err("a stand-in sets no page").to_string()
     }
 
     #[test]
     fn it_is_found_by_name_by_path_and_in_the_cache() {
-        let (dir, program) = stand_in("echo typst 0.15.1");
+        let (dir, program) = typst("echo typst 0.15.1");
         let cached = dir.path().join("clatter/typst-0.15.1/bin");
         fs::create_dir_all(&cached).unwrap();
         fs::copy(&program, cached.join("typst")).unwrap();
@@ -229,17 +177,17 @@ mod tests {
             ("PATH", dir.path().to_owned(), program.clone()),
             ("XDG_CACHE_HOME", dir.path().to_owned(), cached.join("typst")),
         ] {
-            let (typst, warning) = Typst::find_with(&only(name, &value), &mut |_| ()).unwrap();
-            assert_eq!((typst.program, warning), (want, None), "{name}");
+            let (typst, warnings) = Typst::find_with(&only(name, &value), &mut |_| ()).unwrap();
+            assert_eq!((typst.program, warnings), (want, vec![]), "{name}");
         }
     }
 
     #[test]
     fn another_version_is_a_warning_and_another_program_an_error() {
-        let (_dir, program) = stand_in("echo typst 0.99.0");
-        let (_, warning) = Typst::find_with(&only("CLATTER_TYPST", &program), &mut |_| ()).unwrap();
-        assert!(warning.unwrap().contains("0.99.0"), "the warning tells the version");
-        let (_dir, program) = stand_in("echo hello");
+        let (_dir, program) = typst("echo typst 0.99.0");
+        let (_, warnings) = Typst::find_with(&only("CLATTER_TYPST", &program), &mut |_| ()).unwrap();
+        assert!(warnings.concat().contains("typst 0.99.0"), "{warnings:?}");
+        let (_dir, program) = typst("echo hello");
         let error = Typst::find_with(&only("CLATTER_TYPST", &program), &mut |_| ()).unwrap_err();
         assert!(error.to_string().contains("is not typst"), "{error}");
     }
@@ -264,9 +212,62 @@ mod tests {
 
     #[test]
     fn a_hang_is_cut_off() {
-        let started = Instant::now();
-        let error = compile("exec sleep 60", Duration::from_millis(100));
+        let started = std::time::Instant::now();
+        // The script is not replaced by what it runs, which holds its output open.
+        let error = compile("sleep 60", Duration::from_millis(100));
         assert!(error.contains("cut off"), "{error}");
         assert!(started.elapsed() < Duration::from_secs(50), "the child was waited for");
+    }
+
+    #[test]
+    fn what_is_no_pdf_is_no_page() {
+        for (script, says) in [
+            ("true", "made no page"),
+            ("mkdir page.pdf", "made no page"),
+            (": > page.pdf", "no whole PDF"),
+            ("echo junk %%EOF > page.pdf", "no whole PDF"),
+            ("echo %PDF-1.7 > page.pdf", "no whole PDF"),
+            ("(echo %PDF-1.7 %%EOF; yes | head -c 2000) > page.pdf", "no whole PDF"),
+        ] {
+            let error = compile(script, COMPILE_LIMIT);
+            assert!(error.contains(says), "{script}: {error}");
+        }
+        let (dir, program) = typst("(echo %PDF-1.7; yes | head -c 2000; echo %%EOF) > page.pdf");
+        let pdf = Typst { program, limit: COMPILE_LIMIT }.compile(dir.path(), "page.typ").unwrap();
+        assert_eq!(pdf.len(), 9 + 2000 + 6);
+    }
+
+    #[test]
+    fn on_path_what_does_not_run_is_passed_over() {
+        let (last, program) = typst("echo typst 0.15.1");
+        let plain = tempfile::tempdir().unwrap();
+        fs::write(plain.path().join("typst"), "no program").unwrap();
+        let (format, other) = typst("");
+        fs::write(other, b"\x7fELF, but not really").unwrap();
+        let (hello, _) = typst("echo hello");
+        let dirs = [plain.path(), format.path(), hello.path()];
+        let path = |dirs: &[&Path]| PathBuf::from(std::env::join_paths(dirs).unwrap());
+        let all = path(&[&dirs[..], &[last.path()]].concat());
+        let (typst, warnings) = Typst::find_with(&only("PATH", &all), &mut |_| ()).unwrap();
+        assert_eq!((typst.program, warnings.len()), (program, 3), "{warnings:?}");
+        // Where none runs, the error tells of each.
+        let bad = path(&dirs);
+        let env = |name: &str| match name {
+            "PATH" => Some(bad.clone().into_os_string()),
+            "XDG_CACHE_HOME" => Some(plain.path().into()),
+            name => only("", plain.path())(name),
+        };
+        let error = Typst::find_with(&env, &mut |_| ()).unwrap_err().to_string();
+        assert!(error.starts_with("no typst: ") && error.matches("\npassed over: ").count() == 3, "{error}");
+    }
+
+    #[test]
+    fn what_typst_says_is_harmless_for_a_terminal() {
+        let said =
+            compile(r"printf 'page.typ:\033[2J\007\tred\r\nnext\342\200\256\302\233m' >&2; exit 1", COMPILE_LIMIT);
+        assert!(said.ends_with("page.typ:\u{fffd}[2J\u{fffd} red\nnext\u{fffd}\u{fffd}m"), "{said:?}");
+        let (_dir, program) = typst(r"printf 'typst \033[31m'");
+        let (_, warnings) = Typst::find_with(&only("CLATTER_TYPST", &program), &mut |_| ()).unwrap();
+        assert!(warnings.concat().contains("typst \u{fffd}[31m"), "{warnings:?}");
     }
 }

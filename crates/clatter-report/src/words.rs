@@ -96,6 +96,13 @@ pub(crate) fn name(text: &str) -> String {
     cut
 }
 
+/// A name with a box for every character but those that the pages' serif has in itself, beside any other of them:
+/// letters of Latin, Greek and Cyrillic without marks that combine.
+pub(crate) fn sure_name(text: &str) -> String {
+    let sure = |c: char| matches!(u32::from(c), 0x20..=0x7e | 0xa0..=0x17f | 0x370..=0x482 | 0x48a..=0x4ff | 0x25a1);
+    name(text).chars().map(|c| if sure(c) { c } else { '□' }).collect()
+}
+
 pub(crate) fn end(end: End) -> &'static str {
     match end {
         End::A => "a",
@@ -135,6 +142,12 @@ mod tests {
         assert_eq!(told, "gravity counts: g h₀/v₀² = 0.0258; finite tilt is off by 1.95 %");
         assert_eq!(reason("contacts overlap: τ/Δt = 2.60e0; map"), "contacts overlap: τ/Δt = 2.6; map");
         assert_eq!(reason("one shock decides: ζωΔt = inf"), "one shock decides: ζωΔt = ∞");
+    }
+
+    #[test]
+    fn sure_names_hold_letters_and_boxes_alone() {
+        assert_eq!(sure_name("C\u{485}é Ωή Жщ ∰ ῥ\t漢–…"), "C□é Ωή Жщ □ □ □□□");
+        assert_eq!(sure_name(&"∰".repeat(100)), "□".repeat(61), "cut as any name");
     }
 
     #[test]

@@ -1,0 +1,73 @@
+//! Finds a typst: named, on PATH, or in the project's cache.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+use super::build::{build, by_hand};
+use super::{VERSION, failed};
+use crate::ReportError;
+
+/// Looks up an environment variable; what is empty counts as not set.
+pub(super) type Env<'a> = &'a dyn Fn(&str) -> Option<OsString>;
+
+/// The program that `CLATTER_TYPST` names, if it is set.
+pub(super) fn named(env: Env<'_>) -> Result<Option<PathBuf>, ReportError> {
+    let Some(named) = env("CLATTER_TYPST") else { return Ok(None) };
+    let path = absolute(Path::new(&named))?;
+    if path.is_file() {
+        Ok(Some(path))
+    } else {
+        Err(failed(format!("CLATTER_TYPST names {}, which is no file", path.display())))
+    }
+}
+
+/// Every file on PATH that is named as typst is, in their order.
+pub(super) fn on_path(env: Env<'_>) -> Vec<PathBuf> {
+    let path = env("PATH").unwrap_or_default();
+    let files = std::env::split_paths(&path).filter_map(|dir| absolute(&dir.join(program())).ok());
+    files.filter(|file| file.is_file()).collect()
+}
+
+/// The one in the project's cache, built if it is not there yet.
+pub(super) fn cached(env: Env<'_>, progress: &mut dyn FnMut(&str)) -> Result<PathBuf, ReportError> {
+    let Some(cache) = cache(env) else {
+        return Err(failed("no typst on PATH, and no home directory to keep one in; set CLATTER_TYPST"));
+    };
+    let root = absolute(&cache)?.join("clatter").join(format!("typst-{VERSION}"));
+    let program = root.join("bin").join(program());
+    if program.is_file() {
+        return Ok(program);
+    }
+    if env("CLATTER_NO_INSTALL").is_some_and(|value| value != "0") {
+        return Err(failed(format!(
+            "no typst: set CLATTER_TYPST, put typst {VERSION} on PATH, or unset CLATTER_NO_INSTALL to have it built; \
+             by hand: {}",
+            by_hand()
+        )));
+    }
+    build(env, &root, program, progress)
+}
+
+/// The same path from any directory: programs are run in directories of their own.
+pub(super) fn absolute(path: &Path) -> Result<PathBuf, ReportError> {
+    std::path::absolute(path).map_err(|source| ReportError::Io { path: path.into(), source })
+}
+
+fn program() -> String {
+    format!("typst{}", std::env::consts::EXE_SUFFIX)
+}
+
+/// The user's cache directory.
+fn cache(env: Env<'_>) -> Option<PathBuf> {
+    let dir = |name: &str| env(name).map(PathBuf::from);
+    if let Some(xdg) = dir("XDG_CACHE_HOME").filter(|path| path.is_absolute()) {
+        return Some(xdg);
+    }
+    if cfg!(windows) {
+        dir("LOCALAPPDATA")
+    } else if cfg!(target_os = "macos") {
+        dir("HOME").map(|home| home.join("Library").join("Caches"))
+    } else {
+        dir("HOME").map(|home| home.join(".cache"))
+    }
+}
