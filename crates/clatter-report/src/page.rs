@@ -35,11 +35,16 @@ pub(crate) fn page(
         Ok::<_, ReportError>((files, paths))
     };
     let (files, typst) = thread::scope(|scope| {
-        let files = scope.spawn(files);
+        let beside = thread::Builder::new().spawn_scoped(scope, files);
         let typst = Typst::find(progress);
-        (files.join(), typst)
+        let files = match beside {
+            Ok(beside) => beside.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+            // Where no further thread can be made, one after the other.
+            Err(_) => files(),
+        };
+        (files, typst)
     });
-    let (files, paths) = files.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
+    let (files, paths) = files?;
     let target = dir.join(pdf);
     let stale = |error| match error {
         ReportError::Typst(text) if target.exists() => {
