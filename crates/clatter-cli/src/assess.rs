@@ -10,7 +10,7 @@ use clap::ValueHint;
 use clatter_assess::{Accuracy, Assessment, LARGEST_FILE, ProductFile, Verdict};
 
 use crate::inputs::{self, Format};
-use crate::{Exit, Failure, Streams, output};
+use crate::{Exit, Failure, Streams, output, text};
 
 /// Assess the parts of a product: which one fails, in which drop, by how much
 ///
@@ -75,7 +75,7 @@ impl Args {
             .zip(&self.products)
             .map(|(file, path)| {
                 file.assess_to(&accuracy)
-                    .map_err(|error| Failure::Product(format!("error: {}: {error}", path.display())))
+                    .map_err(|error| Failure::Product(format!("error: {}: {error}", text::path(path))))
             })
             .collect::<Result<Vec<_>, _>>()?;
         if let (Some(pdf), [file], [assessment]) = (&self.output, &files[..], &assessments[..]) {

@@ -10,6 +10,7 @@ use clatter_shock::{Pulse, Trial, VelocityShock};
 use crate::Failure;
 use crate::excitation;
 use crate::inputs::number;
+use crate::text::visible;
 use rows::rows;
 
 /// Velocity shocks, in order of time.
@@ -54,7 +55,12 @@ pub(crate) fn tests(path: &Path) -> Result<[Vec<Trial>; 2], Failure> {
         let list = match test {
             "velocity-change" => 0,
             "acceleration" => 1,
-            _ => return Err(format!("test '{test}' is not velocity-change (in m/s) or acceleration (in m/s2)")),
+            _ => {
+                return Err(format!(
+                    "test '{}' is not velocity-change (in m/s) or acceleration (in m/s2)",
+                    visible(test)
+                ));
+            }
         };
         let level = finite("level", level)?;
         if level <= 0.0 {
@@ -63,7 +69,7 @@ pub(crate) fn tests(path: &Path) -> Result<[Vec<Trial>; 2], Failure> {
         let damaged = match damaged {
             "yes" => true,
             "no" => false,
-            _ => return Err(format!("damaged '{damaged}' is not yes or no")),
+            _ => return Err(format!("damaged '{}' is not yes or no", visible(damaged))),
         };
         lists[list].push(Trial { level, damaged });
         Ok(())
