@@ -22,7 +22,7 @@ pub struct Fault {
 
 /// All that is wrong with a file, in the order of the file.
 ///
-/// Its `Display` shows each with the place underlined; whatever a terminal would obey is [`visible`] in it.
+/// Its `Display` shows each with the place underlined; whatever a terminal would obey is [`visible()`] in it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Faults {
     origin: String,

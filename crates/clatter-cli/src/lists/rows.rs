@@ -6,7 +6,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
-use csv_core::ReadRecordResult;
+use csv_core::{ReadRecordResult, Terminator};
 
 use crate::Failure;
 
@@ -36,7 +36,7 @@ enum Bad {
 
 impl<R: BufRead> Rows<R> {
     fn new(input: R) -> Self {
-        let parser = csv_core::Reader::new();
+        let parser = csv_core::ReaderBuilder::new().terminator(Terminator::Any(b'\n')).build();
         // No row has more cells than bytes.
         Self { input, row: Vec::new(), line: 0, lines: 0, parser, cells: vec![0; LONGEST], ends: vec![0; LONGEST] }
     }
@@ -114,7 +114,7 @@ impl<R: BufRead> Rows<R> {
     }
 }
 
-/// Without blanks around it and byte order marks before it, which come at the head of files, and so of files put together.
+/// Without blanks around it and byte order marks before it, which begin files, and so parts of files put together.
 fn bare(text: &str) -> &str {
     text.trim().trim_start_matches('\u{feff}')
 }
@@ -214,6 +214,7 @@ mod tests {
             ("\"a\" , \"b\"\n\"1\" , \"2\"\n", &[["1", "2"]]),
             ("a,b,,\n1,2,,\n", &[["1", "2"]]),
             ("a,b\n,\n", &[["", ""]]),
+            ("a,b\n1\r,2\r\r\n", &[["1", "2"]]),
         ] {
             let rows: Vec<_> = rows.iter().map(|row| row.map(str::to_owned)).collect();
             assert_eq!(of(text), Ok(rows), "{text:?}");
@@ -237,6 +238,7 @@ mod tests {
             ("a,b\n# nothing\n", "line 2: no rows"),
             ("a,b,a\n1,2,3\n", "line 1: columns 1 and 3 are both named a"),
             ("a,\n1,2\n", "line 1: no column b"),
+            ("a,b\r1,2\r", "line 1: no column b"),
         ] {
             let got = of(text).unwrap_err();
             assert!(got.starts_with(said), "{got}, not {said}");
