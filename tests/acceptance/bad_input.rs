@@ -219,5 +219,5 @@ pub(crate) fn are_refused<'a>(rows: impl IntoIterator<Item = (Vec<String>, &'a [
 fn no_command_at_all_shows_the_help_and_fails() {
     let outcome = clatter::<&str>([]);
     assert_eq!((outcome.exit, outcome.stdout.as_str()), (Exit::BadInput, ""));
-    assert!(outcome.stderr.contains("Usage: clatter <COMMAND>"), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("Usage: clatter [OPTIONS] <COMMAND>"), "{}", outcome.stderr);
 }

@@ -259,7 +259,11 @@ fn lists_that_are_none_are_told_by_file_and_line() {
             "0,1\n",
             "line 1: no column time_s; the first line names the columns, time_s,delta_v_m_s among them",
         ),
-        ("shocks-file", "time_s,delta_v_m_s\n0,1\n\n1\n", "line 4: column 2 (delta_v_m_s) is missing"),
+        (
+            "shocks-file",
+            "time_s,delta_v_m_s\n0,1\n\n1\n",
+            "line 4: 1 cell, and the header has 2 cells: each row must have as many, a cell with a comma in quotes",
+        ),
         ("shocks-file", "time_s,delta_v_m_s\n0,NaN\n", "line 2: delta_v_m_s = NaN is not finite"),
         ("shocks-file", "time_s,delta_v_m_s\n0,1 m/s\n", "line 2: delta_v_m_s: '1 m/s' is not a number such as 0.5"),
         (

@@ -5,6 +5,8 @@ use std::ops::Range;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
+use crate::{visible, visible_lines};
+
 /// One thing that is wrong with a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fault {
@@ -20,7 +22,7 @@ pub struct Fault {
 
 /// All that is wrong with a file, in the order of the file.
 ///
-/// Its `Display` shows each with the place underlined.
+/// Its `Display` shows each with the place underlined; whatever a terminal would obey is [`visible()`] in it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Faults {
     origin: String,
@@ -57,13 +59,13 @@ impl fmt::Display for Faults {
             if i > 0 {
                 writeln!(f, "\n")?;
             }
-            let mark = AnnotationKind::Primary.span(fault.span.clone()).label(&*fault.label);
-            let snippet = Snippet::source(&*self.source).path(&*self.origin).annotation(mark);
-            let mut group = Level::ERROR.primary_title(&*fault.message).element(snippet);
+            let mark = AnnotationKind::Primary.span(fault.span.clone()).label(visible(&fault.label));
+            let snippet = Snippet::source(&*self.source).path(visible(&self.origin)).annotation(mark);
+            let mut group = Level::ERROR.primary_title(visible(&fault.message)).element(snippet);
             if !fault.help.is_empty() {
-                group = group.element(Level::HELP.message(&*fault.help));
+                group = group.element(Level::HELP.message(visible(&fault.help)));
             }
-            write!(f, "{}", renderer.render(&[group]))?;
+            write!(f, "{}", visible_lines(&renderer.render(&[group])))?;
         }
         if self.list.len() > SHOWN {
             write!(f, "\n\nerror: and {} more", self.list.len() - SHOWN)?;

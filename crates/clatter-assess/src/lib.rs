@@ -24,6 +24,7 @@ mod shock;
 mod spread;
 mod units;
 mod verdict;
+mod visible;
 
 pub use clatter_flight::ContactLaw;
 pub use clatter_shock::STANDARD_GRAVITY_M_S2;
@@ -38,6 +39,7 @@ pub use read::LARGEST_FILE;
 pub use schema::schema;
 pub use spread::{Law, Spread};
 pub use verdict::{Accuracy, Assessment, ComponentAssessment, LimitAssessment, ModelChoice, Verdict, WorstCase};
+pub use visible::{visible, visible_lines};
 
 /// A commented product file that assesses as it stands.
 pub const EXAMPLE: &str = include_str!("example.toml");

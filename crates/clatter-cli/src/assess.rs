@@ -11,7 +11,7 @@ use clatter_assess::{Accuracy, Assessment, LARGEST_FILE, ProductFile, Verdict};
 
 use crate::inputs::{self, Format};
 use crate::output::Files;
-use crate::{Exit, Failure, Streams};
+use crate::{Exit, Failure, Streams, text};
 
 /// Assess the parts of a product: which one fails, in which drop, by how much
 ///
@@ -82,7 +82,7 @@ impl Args {
             .zip(&self.products)
             .map(|(file, path)| {
                 file.assess_to(&accuracy)
-                    .map_err(|error| Failure::Product(format!("error: {}: {error}", path.display())))
+                    .map_err(|error| Failure::Product(format!("error: {}: {error}", text::path(path))))
             })
             .collect::<Result<Vec<_>, _>>()?;
         if let (Some(pdf), [file], [assessment]) = (&self.output, &files[..], &assessments[..]) {

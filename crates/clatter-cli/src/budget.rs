@@ -15,9 +15,9 @@ use crate::Exit;
 /// What a command may take, for every command.
 #[derive(Debug, Clone, Copy, clap::Args)]
 pub(crate) struct Budget {
-    /// Memory that the command may take, such as 4GiB or 500MB; beyond it stops
-    #[arg(long, global = true, value_name = "BYTES", default_value = "1GiB", allow_hyphen_values = true, value_parser = bytes)]
-    memory: u64,
+    /// Memory that the command may take, such as 4GiB or 500MB; beyond it stops [default: 1GiB]
+    #[arg(long, global = true, value_name = "BYTES", allow_hyphen_values = true, value_parser = bytes)]
+    memory: Option<u64>,
     /// How long the command may run, such as 90s, 5min or 2h; then it stops [default: no limit]
     #[arg(long, global = true, value_name = "TIME", allow_hyphen_values = true, value_parser = seconds)]
     time_limit: Option<Duration>,
@@ -27,6 +27,8 @@ pub(crate) struct Budget {
 static OWN_PROCESS: AtomicBool = AtomicBool::new(false);
 /// The memory of the command that runs.
 static MEMORY: OnceLock<u64> = OnceLock::new();
+/// Unless another is given: 1 GiB.
+const DEFAULT: u64 = 1 << 30;
 /// Between two looks.
 const INTERVAL: Duration = Duration::from_millis(20);
 
@@ -37,7 +39,7 @@ pub(crate) fn own_process() {
 
 /// The memory that a command may take, in bytes.
 pub(crate) fn memory() -> u64 {
-    MEMORY.get().copied().unwrap_or(1 << 30)
+    MEMORY.get().copied().unwrap_or(DEFAULT)
 }
 
 /// A number with one of these units, such as "1.5GiB" or "90 s".
@@ -70,12 +72,13 @@ impl Budget {
         if !OWN_PROCESS.load(Ordering::Relaxed) {
             return;
         }
-        let _ = MEMORY.set(self.memory);
+        let memory = self.memory.unwrap_or(DEFAULT);
+        let _ = MEMORY.set(memory);
         let begin = Instant::now();
         let look = move || {
             loop {
-                if memory_stats::memory_stats().is_some_and(|now| now.physical_mem as u64 > self.memory) {
-                    stop(&format!("--memory={} MiB is used up", self.memory >> 20), less);
+                if memory_stats::memory_stats().is_some_and(|now| now.physical_mem as u64 > memory) {
+                    stop(&format!("--memory={} MiB is used up", memory >> 20), less);
                 }
                 if self.time_limit.is_some_and(|limit| begin.elapsed() > limit) {
                     stop("--time-limit is over", less);

@@ -92,15 +92,15 @@ impl DropArgs {
             let bar = inputs::bar_of(mass, e)?;
             [bar.center_of_mass(), half * bar.gyration_ratio()].map(|x| (x, "--mass"))
         };
+        let (a, b) = (half * (1.0 + center), half * (1.0 - center));
+        Body::off_center(a, b, 0.0).map_err(Failure::flag(center_flag))?;
+        let body = Body::off_center(a, b, gyration).map_err(Failure::flag(gyration_flag))?;
         if gyration > MOST_GYRATION * 2.0 * half {
             let (name, allowed) =
                 ("radius of gyration in m", "at most 2 lengths, as in product files: two masses at the ends have 0.5");
             let reason = clatter::Error::Quantity { name, value: gyration, allowed };
             return Err(Failure::Flag { flag: gyration_flag, reason });
         }
-        let (a, b) = (half * (1.0 + center), half * (1.0 - center));
-        Body::off_center(a, b, 0.0).map_err(Failure::flag(center_flag))?;
-        let body = Body::off_center(a, b, gyration).map_err(Failure::flag(gyration_flag))?;
         let body = body.with_thickness(self.thickness_m).map_err(Failure::flag("--thickness-m"))?;
         Ok((center, body))
     }

@@ -5,6 +5,7 @@ use clatter_shock::{
 };
 
 use crate::inputs::number;
+use crate::text::visible;
 
 /// Ramps of a trapezoid whose ramps nobody gave, over its length.
 const RAMP: f64 = 0.1;
@@ -59,8 +60,9 @@ pub(crate) fn shape(text: &str) -> Result<Shape, String> {
         ("trapezoid", _) => Ok(Shape::Trapezoid { ramp: RAMP }),
         (_, Some(("trapezoid", ramp))) => Ok(Shape::Trapezoid { ramp: number(ramp)? }),
         _ => Err(format!(
-            "'{text}' is no shape; there are half-sine, haversine, triangle, initial-peak-sawtooth, \
-             terminal-peak-sawtooth, rectangle, trapezoid and trapezoid:RAMP"
+            "'{}' is no shape; there are half-sine, haversine, triangle, initial-peak-sawtooth, \
+             terminal-peak-sawtooth, rectangle, trapezoid and trapezoid:RAMP",
+            visible(text)
         )),
     }
 }

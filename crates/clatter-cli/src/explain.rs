@@ -12,7 +12,7 @@ use crate::inputs::{self, Format};
 use crate::numbers::{Json, figures, given};
 use crate::text::shown;
 use crate::words::{drop, in_words, percent};
-use crate::{Failure, Streams, assess};
+use crate::{Failure, Streams, assess, text};
 
 /// Tell which model the worst drops of a product need, and why
 ///
@@ -55,7 +55,7 @@ impl Args {
 pub(crate) fn measure(path: &Path, tolerance: f64) -> Result<ProductLadder, Failure> {
     let file = assess::read(path)?;
     let ladders = file.assess().and_then(|assessment| file.ladders(&assessment, tolerance));
-    ladders.map_err(|error| Failure::Product(format!("error: {}: {error}", path.display())))
+    ladders.map_err(|error| Failure::Product(format!("error: {}: {error}", text::path(path))))
 }
 
 /// What was left out, and why.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clatter_report::ReportError;
 
-use crate::Exit;
+use crate::{Exit, text};
 
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
@@ -16,10 +16,10 @@ pub(crate) enum Failure {
     Flag { flag: &'static str, reason: clatter::Error },
     #[error(transparent)]
     Shock(#[from] clatter_shock::Error),
-    #[error("{}: {reason}", .path.display())]
+    #[error("{}: {}", text::path(.path), text::visible(&.reason.to_string()))]
     Record { path: PathBuf, reason: clatter_shock::Error },
     /// A line of a list that is no entry of it.
-    #[error("{}: line {line}: {what}", .path.display())]
+    #[error("{}: line {line}: {}", text::path(.path), text::visible(.what))]
     Line { path: PathBuf, line: usize, what: String },
     #[error(transparent)]
     Assess(#[from] clatter_assess::Error),
@@ -35,17 +35,17 @@ pub(crate) enum Failure {
     Pulses(String),
     #[error("cannot write the answer: {0}")]
     Answer(#[source] io::Error),
-    #[error("cannot write {}: {reason}", .path.display())]
+    #[error("cannot write {}: {}", text::path(.path), text::visible(&.reason.to_string()))]
     File { path: PathBuf, reason: io::Error },
-    #[error("{} is read by this command and would be lost: choose another name for the output, or give --force", .0.display())]
+    #[error("{} is read by this command and would be lost: choose another name for the output, or give --force", text::path(.0))]
     Overwrites(PathBuf),
     #[error("a map of {points} points takes more than --memory allows: allowed are {most} points")]
     Large { points: u128, most: u128 },
-    #[error("{} is to be written twice: choose another name for one output", .0.display())]
+    #[error("{} is to be written twice: choose another name for one output", text::path(.0))]
     Twice(PathBuf),
-    #[error("cannot read {}: {reason}", .path.display())]
+    #[error("cannot read {}: {}", text::path(.path), text::visible(&.reason.to_string()))]
     Unreadable { path: PathBuf, reason: io::Error },
-    #[error("{} is there already: choose another name, or remove it first", .0.display())]
+    #[error("{} is there already: choose another name, or remove it first", text::path(.0))]
     Exists(PathBuf),
     /// What is wrong with product files, each fault shown where it stands.
     #[error("{0}")]

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::ValueHint;
 
-use crate::{Failure, Streams, output};
+use crate::{Failure, Streams, output, text};
 
 /// Write a commented product file that assesses as it stands
 ///
@@ -29,7 +29,7 @@ impl Args {
                 other => other,
             }
         })?;
-        let file = self.file.display();
+        let file = text::path(&self.file);
         writeln!(streams.out, "Wrote {file}; assess it with: clatter assess {file}").map_err(Failure::Answer)
     }
 }

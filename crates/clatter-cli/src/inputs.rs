@@ -9,6 +9,7 @@ use clatter_flight::{Body, Contact, ContactLaw, Scene};
 use clatter_shock::DampingRatio;
 
 use crate::Failure;
+use crate::text::visible;
 
 /// What the numbers mean: part of the long help of the command and of each of its models.
 pub(crate) const PRIMER: &str = "\
@@ -179,13 +180,13 @@ pub(crate) fn letter(end: End) -> &'static str {
 }
 
 pub(crate) fn number(text: &str) -> Result<f64, String> {
-    text.parse().map_err(|_| format!("'{text}' is not a number such as 0.5"))
+    text.parse().map_err(|_| format!("'{}' is not a number such as 0.5", visible(text)))
 }
 
 /// A share, or a percentage with its sign.
 pub(crate) fn share(text: &str) -> Result<f64, String> {
     let (digits, unit) = text.strip_suffix('%').map_or((text, 1.0), |digits| (digits.trim_end(), 100.0));
-    Ok(digits.parse::<f64>().map_err(|_| format!("'{text}' is not a share such as 0.01 or 1%"))? / unit)
+    Ok(digits.parse::<f64>().map_err(|_| format!("'{}' is not a share such as 0.01 or 1%", visible(text)))? / unit)
 }
 
 pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
@@ -390,6 +391,7 @@ fn axis(text: &str, make: fn(f64, f64, usize) -> Result<Axis, Error>) -> Result<
     let [lo, hi, points] = text.split(':').collect::<Vec<_>>()[..] else {
         return Err("an axis is LO:HI:N, first value, last value and number of values".to_owned());
     };
-    let points = points.parse().map_err(|_| format!("'{points}' is not a number of values N such as 201"))?;
+    let points =
+        points.parse().map_err(|_| format!("'{}' is not a number of values N such as 201", visible(points)))?;
     make(number(lo)?, number(hi)?, points).map_err(|error| error.to_string())
 }

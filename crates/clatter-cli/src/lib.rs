@@ -48,6 +48,7 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 use std::sync::Mutex;
 
+use clap::error::ContextValue;
 use clap::{CommandFactory, Parser, Subcommand};
 use serde::Serialize;
 
@@ -85,8 +86,13 @@ impl Streams<'_> {
 
     /// A line beside the answer, below what there is of it. That it cannot be shown is no reason to fail.
     fn note(&mut self, kind: &str, what: impl fmt::Display) {
+        self.beside(&format!("{kind}: {what}\n"));
+    }
+
+    /// The same of text that is whole: nothing in it is obeyed by a terminal, wherever it comes from.
+    fn beside(&mut self, text: &str) {
         let _ = self.out.flush(); // whoever writes next sees the same failure, and tells
-        let _ = writeln!(self.err, "{kind}: {what}");
+        let _ = write!(self.err, "{}", text::visible_lines(text));
     }
 }
 
@@ -194,6 +200,22 @@ pub fn own_process() {
     let _ = if made == 0 { pool.use_current_thread() } else { pool }.build_global();
 }
 
+/// The same error with each value of the command line in it on one line, escapes for what a terminal would obey.
+fn visible_values(mut usage: clap::Error) -> clap::Error {
+    let given: Vec<_> = usage.context().map(|(kind, value)| (kind, value.clone())).collect();
+    for (kind, value) in given {
+        let value = match value {
+            ContextValue::String(text) => ContextValue::String(text::visible(&text).into_owned()),
+            ContextValue::Strings(list) => {
+                ContextValue::Strings(list.iter().map(|text| text::visible(text).into_owned()).collect())
+            }
+            _ => continue,
+        };
+        usage.insert(kind, value);
+    }
+    usage
+}
+
 /// Runs the command with these arguments, the first of which is the name it was called by.
 ///
 /// A reader that goes away early (`clatter impacts … | head`) is no error.
@@ -227,9 +249,11 @@ where
             Command::Report(args) => args.run(streams),
             Command::Completions(args) => args.run(&mut Cli::command(), streams),
         },
-        Err(help) if !help.use_stderr() => write!(streams.out, "{}", help.render()).map_err(Failure::Answer),
+        Err(help) if !help.use_stderr() => {
+            write!(streams.out, "{}", text::visible_lines(&help.render().to_string())).map_err(Failure::Answer)
+        }
         Err(usage) => {
-            let _ = write!(streams.err, "{}", usage.render());
+            streams.beside(&visible_values(usage).render().to_string());
             return Exit::BadInput;
         }
     };
@@ -238,8 +262,7 @@ where
         Err(Failure::Answer(gone)) if gone.kind() == io::ErrorKind::BrokenPipe => exit,
         // These begin with their own "error: ", one each.
         Err(failure @ Failure::Product(_)) => {
-            let _ = streams.out.flush();
-            let _ = writeln!(streams.err, "{failure}");
+            streams.beside(&format!("{failure}\n"));
             failure.exit()
         }
         Err(failure) => {

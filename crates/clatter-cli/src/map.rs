@@ -10,7 +10,7 @@ use serde::{Serialize, Serializer};
 use crate::inputs::{self, Format};
 use crate::numbers::{Json, JsonWhole, digits, given, whole};
 use crate::output::{Files, Kind, Target, buffered};
-use crate::{Failure, Streams, budget, npy, output};
+use crate::{Failure, Streams, budget, npy, output, text};
 
 /// Write a quantity over a grid of q and e to a file
 ///
@@ -154,7 +154,7 @@ impl Args {
                     format!("{n} values of {name} from {lo} to {hi}")
                 };
                 let (file, name, q, e) =
-                    (path.display(), name(quantity), axis(&inertia(&map).replace('_', " "), map.q), axis("e", map.e));
+                    (text::path(path), name(quantity), axis(&inertia(&map).replace('_', " "), map.q), axis("e", map.e));
                 writeln!(streams.out, "{file}: {name} over {q} and {e}").map_err(Failure::Answer)
             }
             Format::Json => {

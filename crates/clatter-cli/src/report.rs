@@ -7,6 +7,7 @@ use clatter_report::Report;
 use serde::Serialize;
 
 use crate::inputs::Format;
+use crate::text::visible;
 use crate::{Failure, Streams};
 
 /// Make the printed reports: figures, tables and the PDF
@@ -80,7 +81,8 @@ impl Args {
         }
         match self.format {
             Format::Table => {
-                answer.files.iter().try_for_each(|file| writeln!(streams.out, "{file}")).map_err(Failure::Answer)
+                let mut files = answer.files.iter();
+                files.try_for_each(|file| writeln!(streams.out, "{}", visible(file))).map_err(Failure::Answer)
             }
             Format::Json => streams.json(&answer),
         }

@@ -14,7 +14,7 @@ use clatter_assess::{Model, ProductFile};
 use crate::inputs::{self, RowFormat};
 use crate::numbers::digits;
 use crate::output::Files;
-use crate::text::field;
+use crate::text::{field, visible};
 use crate::{Exit, Failure, Streams, assess, output, progress};
 
 /// Tell how likely each part of a product survives, and what that hangs on
@@ -65,7 +65,7 @@ pub(crate) struct Args {
 }
 
 fn samples(text: &str) -> Result<u64, String> {
-    let wrong = || format!("'{text}' is not a number of samples: a whole number from 1 to 1e12");
+    let wrong = || format!("'{}' is not a number of samples: a whole number from 1 to 1e12", visible(text));
     let whole = if let Ok(whole) = text.parse::<u64>() {
         whole
     } else {
@@ -81,12 +81,12 @@ fn samples(text: &str) -> Result<u64, String> {
 }
 
 fn seed(text: &str) -> Result<u64, String> {
-    text.parse().map_err(|_| format!("'{text}' is not a seed: a whole number from 0 to {}", u64::MAX))
+    text.parse().map_err(|_| format!("'{}' is not a seed: a whole number from 0 to {}", visible(text), u64::MAX))
 }
 
 fn confidence(text: &str) -> Result<f64, String> {
     let good = text.parse::<f64>().ok().filter(|p| *p > 0.0 && *p < 1.0);
-    good.ok_or_else(|| format!("'{text}' is not a confidence: between 0 and 1, such as 0.95"))
+    good.ok_or_else(|| format!("'{}' is not a confidence: between 0 and 1, such as 0.95", visible(text)))
 }
 
 fn target(text: &str) -> Result<f64, String> {

@@ -16,7 +16,7 @@ use crate::inputs::{DampingArgs, RowFormat};
 use crate::numbers::{Json, digits, figures, given};
 use crate::output::{Files, Kind, Target, buffered};
 use crate::progress::Progress;
-use crate::{Failure, Streams, lists, output};
+use crate::{Failure, Streams, lists, output, text};
 
 /// Compute a shock response spectrum: the peak of a component over its natural frequency
 ///
@@ -201,7 +201,7 @@ impl Args {
         }
         for finding in computed.survey.iter().flat_map(|survey| &survey.findings) {
             let path = self.excitation.record.as_deref().unwrap_or(Path::new(""));
-            streams.note("warning", format_args!("{}: {finding}", path.display()));
+            streams.note("warning", format_args!("{}: {finding}", text::path(path)));
         }
         match self.format {
             RowFormat::Table => computed.table(streams.out).map_err(Failure::Answer),
@@ -343,7 +343,7 @@ impl Computed<'_> {
             self.worst(margins, out)?;
         }
         if let Some(target) = &self.args.output {
-            return writeln!(out, "{}: {} frequencies", target.path.display(), self.spectrum.frequency_hz.len());
+            return writeln!(out, "{}: {} frequencies", text::path(&target.path), self.spectrum.frequency_hz.len());
         }
         let margin = if self.margins.is_some() { "margin" } else { "" };
         let head = ["frequency", "primary", "residual", "maximax", "positive", "negative", margin];

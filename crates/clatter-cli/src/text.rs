@@ -1,15 +1,35 @@
-//! Text of others, such as names, in a table: of any length, in any script.
+//! Text of others in what the command writes: names from product files, names of files, cells of lists, values of the
+//! command line, what other programs said. It may be of any length, in any script, and out to harm.
+//!
+//! All of it goes through here on its way to a terminal or into CSV. Control characters (C0, DEL, C1), and so all escape
+//! sequences, characters that set the direction of text, ends of lines and paragraphs and characters without a width
+//! are shown as escapes such as `\u{1b}`: by [`visible`] on a line, by [`visible_lines`] in text of several lines, by
+//! [`shown`] in a table. Text that runs from right to left is kept to itself in tables by two marks of our own (U+2068,
+//! U+2069).
+//!
+//! A cell of CSV is a [`field`]. One that begins with `=`, `+`, `-`, `@`, a tab or a carriage return, which a spreadsheet
+//! would compute, gets an apostrophe before it and stands in quotes. Numbers are no such text: they are written as they
+//! are. In JSON names stand as they are, escaped as JSON asks for.
 
-use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
+use std::path::Path;
 
-/// A name as it can be printed: at most `width` columns, control and direction characters escaped, text that runs from
-/// right to left kept to itself.
+pub(crate) use clatter_assess::{visible, visible_lines};
+use unicode_width::UnicodeWidthStr;
+
+/// The name of a file.
+pub(crate) fn path(path: &Path) -> String {
+    visible(&path.display().to_string()).into_owned()
+}
+
+/// A name as it can be printed: [`visible`], in at most `width` columns, text that runs from right to left kept to
+/// itself.
 pub(crate) fn shown(name: &str, width: usize) -> String {
     let mut text = String::new();
     let mut used = 0;
     for c in name.chars() {
-        let piece = if c.is_control() || directs(c) { c.escape_unicode().to_string() } else { c.to_string() };
-        let more = if piece.len() > c.len_utf8() { piece.len() } else { c.width().unwrap_or(0) };
+        let mut one = [0; 4];
+        let piece = visible(c.encode_utf8(&mut one));
+        let more = piece.width();
         // Marks without a width may pile up as well.
         if used + more > width || text.len() > 8 * width {
             text.push('…');
@@ -27,19 +47,20 @@ pub(crate) fn column(text: &str, width: usize) -> (String, usize) {
     (format!("{text}{}", " ".repeat(width.saturating_sub(own))), own)
 }
 
-/// Characters that change the direction of what follows, and ends of lines and paragraphs.
-fn directs(c: char) -> bool {
-    matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
-}
-
 /// Letters of scripts written from right to left.
 fn runs_left(c: char) -> bool {
     matches!(c, '\u{590}'..='\u{8ff}' | '\u{fb1d}'..='\u{fdff}' | '\u{fe70}'..='\u{feff}' | '\u{10800}'..='\u{10fff}' | '\u{1e800}'..='\u{1efff}')
 }
 
-/// A field of a csv file: quoted where it has to be (RFC 4180).
+/// A cell of a CSV file that is text: [`visible`], in quotes where it has to be (RFC 4180), and never computed.
 pub(crate) fn field(text: &str) -> String {
-    if text.contains(['"', ',', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+    let computed = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
+    let text = visible(text);
+    if computed || text.contains(['"', ',']) {
+        format!("\"{}{}\"", if computed { "'" } else { "" }, text.replace('"', "\"\""))
+    } else {
+        text.into_owned()
+    }
 }
 
 #[cfg(test)]
@@ -63,5 +84,24 @@ mod tests {
         }
         assert!(shown(&"e\u{301}".repeat(100_000), 10).len() < 100, "cut");
         assert!(shown(&"\u{301}".repeat(100_000), 10).len() < 100, "marks alone");
+    }
+
+    #[test]
+    fn cells_are_text_and_nothing_else() {
+        for (name, cell) in [
+            ("camera", "camera"),
+            ("camera, front", "\"camera, front\""),
+            ("1\" disk", "\"1\"\" disk\""),
+            ("=1+1", "\"'=1+1\""),
+            ("+1", "\"'+1\""),
+            ("-1", "\"'-1\""),
+            ("@SUM(\"a\")", "\"'@SUM(\"\"a\"\")\""),
+            ("\t=1", "\"'\\u{9}=1\""),
+            ("\r=1", "\"'\\u{d}=1\""),
+            ("two\nlines", "two\\u{a}lines"),
+            ("", ""),
+        ] {
+            assert_eq!(field(name), cell, "{name:?}");
+        }
     }
 }

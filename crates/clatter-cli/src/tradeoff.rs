@@ -81,7 +81,9 @@ fn table(ladders: &ProductLadder, out: &mut dyn Write) -> io::Result<()> {
     writeln!(
         out,
         "Times of one run on one of {} processors, {} ({}){slow}",
-        machine.processors, machine.processor, machine.system
+        machine.processors,
+        shown(&machine.processor, 80),
+        machine.system
     )?;
     ladders.limits.iter().try_for_each(|limit| of_limit(limit, out))?;
     explain::left_out(ladders, out)

@@ -52,6 +52,21 @@ fn an_answer_that_cannot_be_written_is_an_error_even_if_it_is_short() {
     }
 }
 
+/// Callers that want no answer open the null device to write, or to read and write. The second cannot be told from a
+/// standard output that was closed, in whose place Rust opens the same: that answer is lost without an error.
+#[cfg(unix)]
+#[test]
+fn an_answer_that_nobody_wants_is_no_error() {
+    for nowhere in ["> /dev/null", "1<> /dev/null"] {
+        let done = Command::new("sh")
+            .args(["-c", &format!("exec \"$@\" {nowhere}"), "sh", env!("CARGO_BIN_EXE_clatter")])
+            .args(["impacts", "--q=0.5", "--e=0.3"])
+            .output()
+            .unwrap();
+        assert_eq!((done.status.code(), done.stderr), (Some(0), vec![]), "{nowhere}");
+    }
+}
+
 /// A limit on the size of files stands in for a full disk; the shell's `trap` decides whether reaching it is an error
 /// or kills the process on the spot.
 #[cfg(target_os = "linux")]
@@ -99,10 +114,15 @@ fn a_run_killed_while_it_writes_leaves_what_was_there() {
 /// A stand-in for typst that tells its version and then runs a script.
 #[cfg(unix)]
 fn stand_in(folder: &std::path::Path, script: &str) -> std::path::PathBuf {
+    scripted_typst(folder, &format!("[ \"$1\" = --version ] && echo typst 0.15.1 && exit\n{script}\n"))
+}
+
+/// A stand-in for typst that does this.
+#[cfg(unix)]
+fn scripted_typst(folder: &std::path::Path, script: &str) -> std::path::PathBuf {
     use std::os::unix::fs::PermissionsExt;
     let program = folder.join("typst");
-    let script = format!("#!/bin/sh\n[ \"$1\" = --version ] && echo typst 0.15.1 && exit\n{script}\n");
-    std::fs::write(&program, script).unwrap();
+    std::fs::write(&program, format!("#!/bin/sh\n{script}")).unwrap();
     std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755)).unwrap();
     // A process that another test starts holds the file open for a moment: until then it cannot be run.
     while let Err(error) = Command::new(&program).arg("--version").output() {
@@ -130,6 +150,22 @@ fn a_typst_that_fails_is_told_apart_and_leaves_no_pdf() {
     let endings: Vec<_> = std::fs::read_dir(&out).unwrap().map(|file| file.unwrap().path()).collect();
     assert!(endings.iter().all(|file| file.extension().is_none_or(|ending| ending != "pdf")), "{endings:?}");
     assert!(endings.iter().any(|file| file.extension().is_some_and(|ending| ending == "json")), "{endings:?}");
+}
+
+/// As version, where it is a warning, and as reason of a failure.
+#[cfg(unix)]
+#[test]
+fn what_typst_says_is_not_obeyed_by_the_terminal() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let script = "[ \"$1\" = --version ] && { printf 'typst \\033[31m9\\n'; exit; }\n\
+                  printf 'page.typ: \\033[2J\\302\\233\\342\\200\\256\\a\\nmore\\r\\n' >&2\nexit 1\n";
+    let typst = scripted_typst(folder.path(), script);
+    let done = clatter().args(["report", "paper", "-o"]).arg(&out).env("CLATTER_TYPST", typst).output().unwrap();
+    let stderr = String::from_utf8(done.stderr).unwrap();
+    assert_eq!((done.status.code(), done.stdout), (Some(3), vec![]), "{stderr}");
+    assert!(stderr.contains("page.typ: \\u{1b}[2J\\u{9b}\\u{202e}\\u{7}\nmore"), "{stderr:?}");
+    assert!(stderr.chars().all(|c| c == '\n' || !(c.is_control() || c == '\u{202e}')), "{stderr:?}");
 }
 
 #[cfg(unix)]

@@ -59,7 +59,7 @@ pub enum ReportError {
     #[error("{0}")]
     Typst(String),
     /// A file could not be written or read.
-    #[error("{path}: {source}", path = path.display())]
+    #[error("{}: {source}", clatter_assess::visible(&path.display().to_string()))]
     Io {
         /// The file.
         path: PathBuf,

@@ -9,6 +9,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
 
+use clatter_assess::visible_lines;
+
 use crate::ReportError;
 use crate::leftovers::Listed;
 use find::Env;
@@ -30,7 +32,7 @@ pub(crate) struct Typst {
 
 /// The failure of an outside program; the message may hold what it said.
 pub(crate) fn failed(message: impl AsRef<str>) -> ReportError {
-    ReportError::Typst(harmless(message.as_ref()))
+    ReportError::Typst(visible_lines(message.as_ref()).into_owned())
 }
 
 impl Typst {
@@ -75,7 +77,8 @@ impl Typst {
             return Err(failed(format!("{} is not typst: it does not tell its version", program.display())));
         }
         let warning = (version != VERSION).then(|| {
-            harmless(&format!("typst {version} at {}: the pages are tested with {VERSION}", program.display()))
+            let text = format!("typst {version} at {}: the pages are tested with {VERSION}", program.display());
+            visible_lines(&text).into_owned()
         });
         Ok((Self { program, limit: COMPILE_LIMIT }, warning))
     }
@@ -111,19 +114,6 @@ impl Typst {
 fn is_pdf(bytes: &[u8]) -> bool {
     let last = &bytes[bytes.len().saturating_sub(1024)..];
     bytes.starts_with(b"%PDF-") && last.windows(5).any(|end| end == b"%%EOF")
-}
-
-/// Text from outside as a terminal can show it: nothing in it moves the cursor, changes colors or turns the direction of
-/// writing.
-fn harmless(text: &str) -> String {
-    let letter = |c: char| match c {
-        '\n' => '\n',
-        '\t' => ' ',
-        '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => '\u{fffd}',
-        c if c.is_control() => '\u{fffd}',
-        c => c,
-    };
-    text.replace("\r\n", "\n").chars().map(letter).collect()
 }
 
 #[cfg(test)]
@@ -265,9 +255,9 @@ pub(crate) mod tests {
     fn what_typst_says_is_harmless_for_a_terminal() {
         let said =
             compile(r"printf 'page.typ:\033[2J\007\tred\r\nnext\342\200\256\302\233m' >&2; exit 1", COMPILE_LIMIT);
-        assert!(said.ends_with("page.typ:\u{fffd}[2J\u{fffd} red\nnext\u{fffd}\u{fffd}m"), "{said:?}");
+        assert!(said.ends_with("page.typ:\\u{1b}[2J\\u{7}    red\nnext\\u{202e}\\u{9b}m"), "{said:?}");
         let (_dir, program) = typst(r"printf 'typst \033[31m'");
         let (_, warnings) = Typst::find_with(&only("CLATTER_TYPST", &program), &mut |_| ()).unwrap();
-        assert!(warnings.concat().contains("typst \u{fffd}[31m"), "{warnings:?}");
+        assert!(warnings.concat().contains("typst \\u{1b}[31m"), "{warnings:?}");
     }
 }

@@ -16,7 +16,7 @@ use super::peaks::{
 use super::{Args, rule};
 use crate::numbers::{Json, figures, given};
 use crate::output::Target;
-use crate::{Failure, excitation, lists};
+use crate::{Failure, excitation, lists, text};
 
 /// What shakes the component.
 enum Driven<'a> {
@@ -145,7 +145,7 @@ impl Train<'_> {
             }
             Driven::Shocks(path) | Driven::Pulses(path) => {
                 let kind = if self.is_pulses() { "pulses" } else { "velocity shocks" };
-                let (path, count) = (path.display(), self.shocks.as_slice().len());
+                let (path, count) = (text::path(path), self.shocks.as_slice().len());
                 writeln!(out, "Component of W = {omega} rad/s, damping ratio {zeta}")?;
                 writeln!(out, "{path}: {count} {kind}\n")
             }
