@@ -71,7 +71,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = inputs::time_limit_s)]
     time_limit_s: Option<f64>,
     /// Follow the motion for at most so many strikes
-    #[arg(long, value_name = "N", default_value = "100000", allow_hyphen_values = true, value_parser = inputs::impact_limit)]
+    #[arg(long, value_name = "N", default_value_t = IMPACTS, allow_hyphen_values = true, value_parser = inputs::impact_limit)]
     impact_limit: usize,
     /// Also give the velocity shocks at this position, in [-1, 1]: -1 is end a, 0 the middle, 1 end b; may be given
     /// several times
@@ -134,6 +134,9 @@ struct Drop<'a> {
     scene: Scene,
     motion: Motion,
 }
+
+/// Impacts followed unless more are asked for.
+const IMPACTS: usize = 100_000;
 
 impl Args {
     pub(crate) fn files(&self) -> Files<'_> {

@@ -176,3 +176,24 @@ fn a_budget_that_is_used_up_ends_the_command_with_nothing_left_behind() {
     assert_eq!(code, Some(2));
     assert!(stderr.contains("allowed are 67108864 points"), "{stderr}");
 }
+
+#[test]
+fn a_history_of_gigabytes_is_written_only_where_it_is_asked_for() {
+    let dir = tempfile::tempdir().unwrap();
+    let drop = [
+        "simulate",
+        "--model=finite-tilt",
+        "--length-m=0.2",
+        "--gyration-m=0.05",
+        "--e=1",
+        "--speed-m-s=3",
+        "--tilt-deg=3",
+    ];
+    for file in ["long.csv", "long.json", "long.svg"] {
+        let (code, stderr) = says(clatter().args(drop).args(["-o", file]).current_dir(dir.path()));
+        assert!(code == Some(2) && stderr.contains("more than 4 million rows"), "{stderr}");
+        let asked = ["-o", file, "--impact-limit=1000"];
+        assert_eq!(says(clatter().args(drop).args(asked).current_dir(dir.path())).0, Some(0));
+    }
+    assert_eq!(names(dir.path()), ["long.csv", "long.json", "long.svg"]);
+}

@@ -5,13 +5,22 @@ use std::io::{self, Write};
 use clatter_flight::history::Row;
 use serde::Serialize;
 
-use super::{Drop, Motion};
+use super::{Drop, IMPACTS, Motion};
 use crate::Failure;
 use crate::numbers::{Json, digits};
 use crate::output::{self, Kind, Target};
 
+/// Rows that nobody wants unless they ask for them.
+const MOST_ROWS: usize = 4_000_000;
+
 impl Drop<'_> {
     pub(super) fn write(&self, Target { path, kind }: &Target) -> Result<(), Failure> {
+        let unasked = self.args.time_limit_s.is_none() && self.args.impact_limit == IMPACTS;
+        if unasked && self.rows().nth(MOST_ROWS).is_some() {
+            return Err(Failure::Usage(
+                "the motion has more than 4 million rows, some hundred megabytes: --time-limit-s or --impact-limit says how far it is wanted",
+            ));
+        }
         output::replace(path, |file| match kind {
             Kind::Csv => output::buffered(file, |out| self.history_csv(out)),
             Kind::Json => output::buffered(file, |out| {
