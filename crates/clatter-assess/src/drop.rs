@@ -141,12 +141,14 @@ const MOST_STRIKES: usize = 1024;
 /// Precision of a flight, as a share of the tolerance of its answer.
 pub(crate) const PRECISION: f64 = 0.1;
 /// How far a drop is followed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Until {
     /// Until it comes down after its clatter.
     Lands,
     /// Until the energy allows no shock above a quarter of the largest.
     Rebounded,
+    /// The same, or until it comes down after a time in s.
+    Past(f64),
     /// Until nothing later counts.
     Over,
 }
@@ -176,6 +178,7 @@ impl Followed {
                 || match until {
                     Until::Lands => lands && time_s > clatter_s,
                     Until::Rebounded => lands && time_s > clatter_s && later <= LATE * largest,
+                    Until::Past(most_s) => lands && time_s > clatter_s && (later <= LATE * largest || time_s > most_s),
                     Until::Over => false,
                 }
         };

@@ -15,6 +15,8 @@ pub(super) const LATE_REACH: f64 = 0.5;
 pub(super) const LATE_TRIES: u32 = 160;
 pub(super) const EDGES_REACH: f64 = 0.1;
 pub(super) const EDGES_TRIES: u32 = 96;
+/// How far beyond the time of its first peak a climb after rebounds follows.
+const LATER: f64 = 2.0;
 /// How close the last try of a climb is over the first.
 const CLOSER: f64 = 0.004;
 /// Halvings of the steps of a climb.
@@ -64,7 +66,8 @@ impl Ranges<'_> {
     /// is struck again, and what stiff and rigidly mounted parts feel has edges where contacts meet.
     pub(super) fn climb_around(&self, task: &Task<'_>, start: Asked, reach: f64, tries: u32) -> Asked {
         let (free, fastest) = (self.free(task), fastest_rad_s(task.component));
-        let until = if start.late { Until::Rebounded } else { Until::Lands };
+        // A climb is after the peak that it began with, not after those that elastic products have for minutes.
+        let until = if start.late { Until::Past(LATER * start.answer.time_s) } else { Until::Lands };
         let mut best = start;
         // A step that went up is taken once more.
         let mut again = None;
