@@ -181,8 +181,9 @@ impl Command {
     }
 }
 
-/// For a process of the command's own, at its start: memory and time are watched, and threads are made that share long work, as many as there are processors, or as `RAYON_NUM_THREADS` asks for if that is less;
-/// none beside the present one where no more can be made.
+/// For a process of the command's own, at its start: memory and time are watched, and the threads are made that share long work. They
+/// are as many as there are processors, or as `RAYON_NUM_THREADS` asks for if that is less; none beside the present one where no more
+/// can be made.
 pub fn own_process() {
     budget::own_process();
     let processors = std::thread::available_parallelism().map_or(1, usize::from);
