@@ -539,3 +539,25 @@ fn a_drop_explains_itself() {
     }
     assert!(!rigid.stdout.contains("W z"), "{}", rigid.stdout);
 }
+
+/// What is asked of an answer's own error goes to drops next to it: those of a product that stands nearly upright are not beyond.
+#[test]
+fn a_product_that_stands_nearly_upright_is_answered() {
+    for tilt in ["89.7", "89.99"] {
+        let arguments = [
+            "respond",
+            "--model=compliant",
+            "--length-m=0.2",
+            "--gyration-m=0.06",
+            "--e=0.7",
+            "--speed-m-s=3",
+            &format!("--tilt-deg={tilt}"),
+            "--contact-time-s=0.0004",
+            "--at=-0.5",
+            "--omega=50",
+            "--damping=0.02",
+        ];
+        let answers = &answer(arguments)["answers"];
+        assert!(answers["part_displacement"]["error"].as_f64().is_some_and(|error| error < 10.0), "{answers}");
+    }
+}

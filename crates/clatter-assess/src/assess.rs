@@ -96,8 +96,12 @@ impl ProductFile {
         let part = asked.part;
         let place = Part { position_m: asked.place.position_m, suspension: part };
         let mut uncertainty = found.error.max(0.0) + COVERAGE;
-        if found.error > 10.0 * ranges.tolerance {
-            notes.push(format!("later strikes may raise it by {} % at most", percent(found.error)));
+        if found.error.is_infinite() {
+            notes.push("how far off it is is not known: drops next to the worst are not answered".to_owned());
+        } else if found.error > 10.0 * ranges.tolerance {
+            let off = percent(found.error);
+            notes
+                .push(format!("it may be off by {off} %: later strikes add, and multiply what those before got wrong"));
         }
         if worst.later > found.utilization() * (1.0 + uncertainty) {
             uncertainty = worst.later / found.utilization() - 1.0;
@@ -122,7 +126,9 @@ impl ProductFile {
         }
         let utilization = found.utilization();
         let safe_by_energy = bound.is_some_and(|bound| bound <= task.limit.allowed);
-        if utilization <= 1.0 && utilization * (1.0 + uncertainty) > 1.0 {
+        if utilization <= 1.0 && uncertainty.is_infinite() {
+            doubts.push("how far other drops may pass the worst one found is not known".to_owned());
+        } else if utilization <= 1.0 && utilization * (1.0 + uncertainty) > 1.0 {
             doubts.push(format!(
                 "the worst drop found is {} % below the limit, and others may pass it by up to {} %",
                 percent(1.0 / utilization - 1.0),

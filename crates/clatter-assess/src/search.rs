@@ -326,10 +326,8 @@ impl Ranges<'_> {
         if let Some(asked) = &mut worst.asked {
             let part = Part { position_m: asked.place.position_m, suspension: asked.part };
             let drop = self.single(&asked.place);
-            match asked.answer.with_what_strikes_multiply(&drop, &part, &task.limit, self.model, self.tolerance) {
-                Ok(answer) => asked.answer = answer,
-                Err(error) => worst.refuse(1, &error),
-            }
+            asked.answer =
+                asked.answer.with_what_strikes_multiply(&drop, &part, &task.limit, self.model, self.tolerance);
         }
         worst
     }

@@ -2,7 +2,7 @@
 //!
 //! Work is not asked to look after itself: a thread looks at the memory of the process some fifty times a second. Beyond the budget
 //! temporary files are removed, the command says why it stopped and what would take less, and the process ends with exit code 2:
-//! what it had by then is in no file, and no answer is told.
+//! what it had by then is in no file, and what it printed is not whole.
 
 use std::process::exit;
 use std::sync::OnceLock;
@@ -92,7 +92,7 @@ impl Budget {
 
 fn stop(what: &str, less: &str) -> ! {
     clatter_report::remove_leftovers();
-    eprintln!("error: stopped, {what}: nothing is answered; {less}");
+    eprintln!("error: stopped, {what}: the answer is not whole; {less}");
     exit(Exit::BadInput as i32)
 }
 

@@ -36,7 +36,8 @@ pub fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> 
         beside.as_file().set_permissions(permissions)?;
     }
     beside.persist(&target).map_err(|error| error.error)?;
-    settle(&target)
+    settle(&target);
+    Ok(())
 }
 
 /// Where a path leads, also where nothing is there yet.
@@ -52,9 +53,12 @@ fn followed(path: &Path) -> io::Result<PathBuf> {
 /// Links that are followed one after the other, as many as systems do.
 const LINKS: usize = 40;
 
-/// The new name on the disk, as its content is: a loss of power leaves the old file or the new one.
-fn settle(target: &Path) -> io::Result<()> {
-    if cfg!(unix) { File::open(directory_of(target)?)?.sync_all() } else { Ok(()) }
+/// The new name on the disk, as its content is, so that a loss of power leaves the old file or the new one. The file is there already:
+/// a directory that may not be read, or a file system that cannot do it, is no failure.
+fn settle(target: &Path) {
+    if cfg!(unix) {
+        let _ = directory_of(target).and_then(File::open).and_then(|directory| directory.sync_all());
+    }
 }
 
 /// As [`replace`], for a file that must not be there yet.
@@ -64,7 +68,8 @@ fn settle(target: &Path) -> io::Result<()> {
 pub fn create(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
     let (_listed, beside) = beside(path, write)?;
     beside.persist_noclobber(path).map_err(|error| error.error)?;
-    settle(path)
+    settle(path);
+    Ok(())
 }
 
 /// The directory that a file is to stand in; for what takes long, told before it begins.

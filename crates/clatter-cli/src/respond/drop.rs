@@ -227,7 +227,8 @@ impl Drop<'_> {
         for (name, answer) in part.into_iter().flatten().chain(place) {
             let error = answer.map_or(0.0, |answer| answer.error);
             if error > TOLD * self.args.tolerance {
-                writeln!(out, "Later strikes may raise {name} by {} % at most", figures(100.0 * error))?;
+                let share = if error.is_infinite() { "?".to_owned() } else { figures(100.0 * error) };
+                writeln!(out, "Off by {share} % at most: {name}; strikes multiply what those before got wrong")?;
             }
         }
         Ok(())
