@@ -22,7 +22,7 @@ fn draw(bencher: Bencher<'_, '_>, file: &ProductFile, samples: u64, by_closed_fo
     let settings = Settings { samples, seed: 1, confidence: 0.95 };
     let Ok(sampler) = Sampler::new(file, settings) else { panic!("the product is sound") };
     bencher.counter(ItemsCount::new(samples)).bench_local(|| {
-        let Ok(scatter) = black_box(&sampler).run::<()>(false, |_| Ok(())) else { panic!("nothing stops it") };
+        let Ok(scatter) = black_box(&sampler).run::<()>(false, |_| Ok(true)) else { panic!("nothing stops it") };
         assert_eq!(scatter.pilot.is_some_and(|pilot| pilot.taken), by_closed_form, "{:?}", scatter.pilot);
         scatter
     });

@@ -8,7 +8,7 @@ use crate::bound::bound;
 use crate::drop::{Model, SingleDrop};
 use crate::engine::{Part, answer};
 use crate::quantity::lacks_contact_time;
-use crate::search::{Asked, Ranges, Task, Worst};
+use crate::search::{Asked, Ranges, Task, Watch, Worst};
 use crate::{
     Accuracy, Assessment, Component, ComponentAssessment, ContactLaw, Error, Limit, LimitAssessment, LimitKind,
     ModelChoice, Mount, ProductFile, Unit, Verdict, WorstCase,
@@ -54,6 +54,15 @@ impl ProductFile {
     /// [`Error::Tolerance`] for a tolerance outside [1e-4, 0.5]; [`Error::ContactTime`] for a stiff or hard-mounted
     /// part of a product without contact time, [`Error::Contact`] for the compliant model of one.
     pub fn assess_to(&self, accuracy: &Accuracy) -> Result<Assessment, Error> {
+        self.assess_watched(accuracy, &|_, _| true)
+    }
+
+    /// The same, watched. Where `watch` says to stop, no more drops are followed: what was found by then is answered, unsafe
+    /// limits as ever, and the others are undecided unless energy alone says that they are safe.
+    ///
+    /// # Errors
+    /// As [`assess_to`](Self::assess_to).
+    pub fn assess_watched(&self, accuracy: &Accuracy, watch: Watch<'_>) -> Result<Assessment, Error> {
         accuracy.check()?;
         if accuracy.model == Some(Model::Compliant) && self.product.contact_time_s.is_none() {
             return Err(Error::Contact);
@@ -66,7 +75,7 @@ impl ProductFile {
         let ranges = self.ranges(accuracy);
         let of_one = |component| Limit::of(component).into_iter().map(move |limit| Task { component, limit });
         let tasks: Vec<Task<'_>> = self.components.iter().flat_map(of_one).collect();
-        let worst = ranges.worst(&tasks);
+        let worst = ranges.worst(&tasks, watch);
         let mut all = tasks.iter().zip(worst);
         let mut components = Vec::with_capacity(self.components.len());
         for component in &self.components {
@@ -105,9 +114,13 @@ impl ProductFile {
         }
         if worst.later > found.utilization() * (1.0 + uncertainty) {
             uncertainty = worst.later / found.utilization() - 1.0;
+            let most = if uncertainty.is_finite() {
+                format!("by {} % at most", percent(uncertainty))
+            } else {
+                "how much more is not known".to_owned()
+            };
             notes.push(format!(
-                "rebounds may ask for more, by {} % at most by their energy: how the product lands again is sensitive to every input",
-                percent(uncertainty)
+                "rebounds may ask for more, {most} by their energy: how the product lands again is sensitive to every input"
             ));
         }
         if ranges.model < drop.fullest() {
@@ -122,7 +135,10 @@ impl ProductFile {
             ));
         }
         if let Some((count, error)) = &worst.refused {
-            doubts.push(format!("{count} of {} drops that were looked at are not answered: {error}", worst.drops));
+            doubts.push(match error {
+                Error::Stopped => "the search for the worst drop was stopped before its end".to_owned(),
+                _ => format!("{count} of {} drops that were looked at are not answered: {error}", worst.drops),
+            });
         }
         let utilization = found.utilization();
         let safe_by_energy = bound.is_some_and(|bound| bound <= task.limit.allowed);

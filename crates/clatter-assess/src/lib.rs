@@ -37,6 +37,7 @@ pub use product::{Boundary, Component, Damping, Drop, Fall, First, Limits, Mount
 pub use quantity::{Limit, LimitKind, Unit};
 pub use read::LARGEST_FILE;
 pub use schema::schema;
+pub use search::Watch;
 pub use spread::{Law, Spread};
 pub use verdict::{Accuracy, Assessment, ComponentAssessment, LimitAssessment, ModelChoice, Verdict, WorstCase};
 pub use visible::{visible, visible_lines};

@@ -13,7 +13,7 @@ mod grid;
 mod ranges;
 
 use std::f64::consts::TAU;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 use clatter::End;
 use clatter_shock::{DampingRatio, Suspension};
@@ -22,9 +22,30 @@ use rayon::prelude::*;
 use crate::drop::{Followed, SingleDrop, Until};
 use crate::engine::{Answer, Felt, Part, once};
 use crate::{Component, Error, Limit, LimitKind, Mount, WorstCase};
-use climb::{EDGES_REACH, EDGES_TRIES, LATE_REACH, LATE_TRIES, NEAR, starts};
+use climb::{CLIMBS, EDGES_REACH, EDGES_TRIES, LATE_REACH, LATE_TRIES, NEAR, starts};
 use ranges::{DAMPING, FREQUENCY, RESTITUTION};
 pub(crate) use ranges::{Place, Ranges};
+
+/// Is told how much of how much is done, from any thread, and says whether to go on.
+pub type Watch<'a> = &'a (dyn Fn(usize, usize) -> bool + Sync);
+
+/// The work of a search, counted in drops.
+struct Work<'a> {
+    watch: Watch<'a>,
+    done: AtomicUsize,
+    all: usize,
+}
+
+impl Work<'_> {
+    /// So many drops more are to be followed.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] where they are not wanted any more.
+    fn go_on(&self, drops: usize) -> Result<(), Error> {
+        let before = self.done.fetch_add(drops, Ordering::Relaxed);
+        if (self.watch)(before.min(self.all), self.all) { Ok(()) } else { Err(Error::Stopped) }
+    }
+}
 
 /// One limit of one component.
 #[derive(Debug, Clone, Copy)]
@@ -109,37 +130,49 @@ const FREQUENCIES_LATE: u32 = 4;
 const GOLDEN: f64 = 0.618_033_988_749_895;
 /// Drops that are followed besides those of the grid where rebounds count.
 const SAMPLE: u32 = 128;
+/// About as many drops are followed in a climb.
+const CLIMB: usize = 72;
 /// Worst cases that are answered to the tolerance, early ones and late ones.
 const TRIES: usize = 8;
 
 impl Ranges<'_> {
     /// The worst of each task; tasks of one component follow one another.
-    pub(crate) fn worst(&self, tasks: &[Task<'_>]) -> Vec<Worst> {
+    pub(crate) fn worst(&self, tasks: &[Task<'_>], watch: Watch<'_>) -> Vec<Worst> {
         let steps = self.tilt_steps(tasks);
         let best: Vec<AtomicU64> = tasks.iter().map(|_| AtomicU64::new(0)).collect();
         let mut all =
             AllAsked { found: vec![Vec::new(); tasks.len()], refused: None, later: vec![0.0; tasks.len()], drops: 0 };
         let grid: Vec<(u32, Place)> = (0..).zip(self.grid(steps)).collect();
-        all.take(grid.par_iter().map(|(k, drop)| self.ask(tasks, *k, drop, &best, None)).collect());
         let shocks: Vec<bool> = tasks.iter().map(|task| !task.limit.is_response()).collect();
         let overlaps = if shocks.contains(&true) { self.overlaps() } else { Vec::new() };
-        let ask = |(k, drop): &(u32, Place)| self.ask(tasks, *k, drop, &best, Some(&shocks));
-        all.take(overlaps.par_iter().map(ask).collect());
+        let climbing = CLIMB * CLIMBS * tasks.len();
+        let count = grid.len() + overlaps.len() + SAMPLE as usize + climbing;
+        let work = Work { watch, done: AtomicUsize::new(0), all: count };
+        let ask = |k: u32, drop: &Place, only: Option<&[bool]>| {
+            work.go_on(1).and_then(|()| self.ask(tasks, k, drop, &best, only))
+        };
+        all.take(grid.par_iter().map(|(k, drop)| ask(*k, drop, None)).collect());
+        all.take(overlaps.par_iter().map(|(k, drop)| ask(*k, drop, Some(&shocks))).collect());
         // What rebounds ask is sensitive to every input: where the energy allows them more, drops all over the ranges are
         // followed for longer as well.
         if all.later.iter().any(|most| *most > 0.0) {
             let only: Vec<bool> = all.later.iter().map(|most| *most > 0.0).collect();
-            let ask = |k: u32| self.ask(tasks, k, &self.spread_out(k), &best, Some(&only));
-            all.take((1..=SAMPLE).into_par_iter().map(ask).collect());
+            let sample = (1..=SAMPLE).into_par_iter().map(|k| ask(k, &self.spread_out(k), Some(&only)));
+            all.take(sample.collect());
         }
-        let AllAsked { mut found, refused, drops, later } = all;
+        work.done.store(count - climbing, Ordering::Relaxed);
+        let AllAsked { mut found, mut refused, drops, later } = all;
         let climbs: Vec<(usize, Asked)> = found
             .iter_mut()
             .enumerate()
             .flat_map(|(n, found)| starts(found).into_iter().map(move |s| (n, s)))
             .collect();
+        let each_climb = climbing / climbs.len().max(1);
         let climb = |(n, start): (usize, Asked)| {
             let task = &tasks[n];
+            if work.go_on(each_climb).is_err() {
+                return (n, start);
+            }
             let reached = if start.late {
                 self.climb_around(task, start, LATE_REACH, LATE_TRIES)
             } else {
@@ -149,6 +182,9 @@ impl Ranges<'_> {
             (n, reached)
         };
         let climbed: Vec<(usize, Asked)> = climbs.into_par_iter().map(climb).collect();
+        if refused.is_none() && work.go_on(0).is_err() {
+            refused = Some((0, Error::Stopped));
+        }
         let each = (0..tasks.len()).into_par_iter().map(|n| {
             let mut reached: Vec<Asked> = climbed.iter().filter(|(of, _)| *of == n).map(|(_, asked)| *asked).collect();
             reached.extend_from_slice(&found[n]);
@@ -197,7 +233,9 @@ impl Ranges<'_> {
                     }
                     let worst = f64::from_bits(best[number].load(Ordering::Relaxed));
                     let place = Place { position_m, ..*drop };
-                    let mut asked = self.most(task, &place, &felt, k, FREQUENCIES, NEAR * worst)?;
+                    // That nothing is asked is an answer as well.
+                    let near = if worst > 0.0 { NEAR * worst } else { -1.0 };
+                    let mut asked = self.most(task, &place, &felt, k, FREQUENCIES, near)?;
                     let reached =
                         |asked: Option<Asked>| asked.map_or(worst, |asked| worst.max(asked.answer.utilization()));
                     let parts = Self::softest_and_stiffest(task, &place)?;
@@ -206,8 +244,7 @@ impl Ranges<'_> {
                         of_drop.later.push((number, later));
                         let rebounded = self.followed(drop, Until::Rebounded, &mut rebounded)?;
                         let longer = felt.longer(rebounded)?;
-                        let above =
-                            |asked: Option<Asked>| asked.map_or(NEAR * worst, |asked| asked.answer.utilization());
+                        let above = |asked: Option<Asked>| asked.map_or(near, |asked| asked.answer.utilization());
                         asked = self.most(task, &place, &longer, k, FREQUENCIES_LATE, above(asked))?.or(asked);
                         if longer.later_most(&task.limit, &parts, reached(asked)) > 0.0 {
                             let longest = longer.longer(self.followed(drop, Until::Over, &mut over)?)?;

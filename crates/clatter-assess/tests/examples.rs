@@ -1,8 +1,10 @@
 //! The worked products: what their comments work out by hand, and every limit against all drops of a fine grid.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use clatter_assess::{
     Accuracy, Assessment, Component, Limit, LimitAssessment, LimitKind, Model, Mount, Part, ProductFile, SingleDrop,
-    answer,
+    Verdict, answer,
 };
 use rayon::prelude::*;
 
@@ -112,4 +114,37 @@ fn brute_force_finds_the_same_worst_drop() {
             }
         }
     }
+}
+
+#[test]
+fn a_search_that_is_stopped_calls_nothing_safe_but_by_energy() {
+    let mut undecided = 0;
+    for file in [PHONE, TERMINAL, LAPTOP].map(read) {
+        let whole = file.assess().expect("an assessment");
+        let limits = |assessment: &Assessment| -> Vec<LimitAssessment> {
+            assessment.components.iter().flat_map(|component| component.limits.clone()).collect()
+        };
+        for most in [0, 1, 10, 100, 300, 1000] {
+            let followed = AtomicUsize::new(0);
+            let watch = |_, _| followed.fetch_add(1, Ordering::Relaxed) < most;
+            let cut = file.assess_watched(&Accuracy::default(), &watch).expect("an assessment");
+            if followed.into_inner() <= most {
+                continue; // it came to its end
+            }
+            for (cut, whole) in limits(&cut).iter().zip(limits(&whole)) {
+                match cut.verdict {
+                    Verdict::Safe => {
+                        assert!(cut.bound.is_some_and(|bound| bound <= cut.allowed), "{most} drops: {cut:?}");
+                    }
+                    Verdict::Unsafe => assert_eq!(whole.verdict, Verdict::Unsafe, "{most} drops"),
+                    Verdict::Undecided => {
+                        let why = cut.undecided.as_deref().unwrap_or_default();
+                        assert!(why.contains("stopped") || whole.verdict == Verdict::Undecided, "{most} drops: {why}");
+                        undecided += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(undecided > 6, "{undecided}");
 }

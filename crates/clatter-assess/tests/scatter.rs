@@ -19,7 +19,7 @@ fn settings(samples: u64, seed: u64) -> Settings {
 }
 
 fn draw(file: &ProductFile, settings: Settings) -> Scatter {
-    Sampler::new(file, settings).unwrap().run::<()>(false, |_| Ok(())).unwrap()
+    Sampler::new(file, settings).unwrap().run::<()>(false, |_| Ok(true)).unwrap()
 }
 
 fn values(file: &ProductFile, settings: Settings) -> (Vec<Column>, Vec<f64>) {
@@ -27,7 +27,7 @@ fn values(file: &ProductFile, settings: Settings) -> (Vec<Column>, Vec<f64>) {
     let mut all = Vec::new();
     let keep = |progress: &Progress<'_>| {
         all.extend_from_slice(progress.values);
-        Ok::<(), ()>(())
+        Ok::<_, ()>(true)
     };
     sampler.run(true, keep).unwrap();
     (sampler.columns(), all)

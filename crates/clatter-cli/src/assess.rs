@@ -11,7 +11,8 @@ use clatter_assess::{Accuracy, Assessment, LARGEST_FILE, ProductFile, Verdict};
 
 use crate::inputs::{self, Format};
 use crate::output::Files;
-use crate::{Exit, Failure, Streams, text};
+use crate::progress::Counted;
+use crate::{Exit, Failure, Streams, budget, text};
 
 /// Assess the parts of a product: which one fails, in which drop, by how much
 ///
@@ -81,7 +82,7 @@ impl Args {
             .iter()
             .zip(&self.products)
             .map(|(file, path)| {
-                file.assess_to(&accuracy)
+                watched(file, &accuracy)
                     .map_err(|error| Failure::Product(format!("error: {}: {error}", text::path(path))))
             })
             .collect::<Result<Vec<_>, _>>()?;
@@ -97,6 +98,15 @@ impl Args {
         let safe = assessments.iter().all(|a| a.verdict == Verdict::Safe);
         Ok(if safe { Exit::Done } else { Exit::Unsafe })
     }
+}
+
+/// The assessment, counted; what it has by the end of its time.
+pub(crate) fn watched(file: &ProductFile, accuracy: &Accuracy) -> Result<Assessment, clatter_assess::Error> {
+    let search = Counted::begin("searching", 0);
+    file.assess_watched(accuracy, &|done, all| {
+        search.of(done, all);
+        budget::go_on()
+    })
 }
 
 /// The printed report.

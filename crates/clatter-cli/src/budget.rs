@@ -1,8 +1,9 @@
 //! What a command may take of the machine: memory and time, watched beside the work.
 //!
-//! Work is not asked to look after itself: a thread looks at the memory of the process some fifty times a second. Beyond the budget
-//! temporary files are removed, the command says why it stopped and what would take less, and the process ends with exit code 2:
-//! what it had by then is in no file, and what it printed is not whole.
+//! A thread looks at the process some fifty times a second, and shows how far the work is where somebody watches. When the time is
+//! over, searches and samples are asked to end: their answer is of what was done by then, undecided where that is not enough.
+//! Where they don't, and where other work goes on, or the memory is used up, temporary files are removed, the command says why
+//! it stopped, how far it had come and what would take less, and the process ends with exit code 2.
 
 use std::process::exit;
 use std::sync::OnceLock;
@@ -10,7 +11,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::Exit;
+use crate::{Exit, progress};
 
 /// What a command may take, for every command.
 #[derive(Debug, Clone, Copy, clap::Args)]
@@ -18,19 +19,25 @@ pub(crate) struct Budget {
     /// Memory that the command may take, such as 4GiB or 500MB; beyond it stops [default: 1GiB]
     #[arg(long, global = true, value_name = "BYTES", allow_hyphen_values = true, value_parser = bytes)]
     memory: Option<u64>,
-    /// How long the command may run, such as 90s, 5min or 2h; then it stops [default: no limit]
+    /// How long the command may run, such as 90s, 5min or 2h; then it stops, 'assess' and 'scatter' with the answer that
+    /// they have by then [default: no limit]
     #[arg(long, global = true, value_name = "TIME", allow_hyphen_values = true, value_parser = seconds)]
     time_limit: Option<Duration>,
 }
 
 /// Whether the process is the command's own, to be ended by it.
 static OWN_PROCESS: AtomicBool = AtomicBool::new(false);
+/// Whether the time of the command that runs is over.
+static OVER: AtomicBool = AtomicBool::new(false);
+/// Whether work was cut short by that.
+static CUT: AtomicBool = AtomicBool::new(false);
 /// The memory of the command that runs.
 static MEMORY: OnceLock<u64> = OnceLock::new();
 /// Unless another is given: 1 GiB.
 const DEFAULT: u64 = 1 << 30;
-/// Between two looks.
+/// Between two looks, and how many of them between two pictures of the progress.
 const INTERVAL: Duration = Duration::from_millis(20);
+const PICTURE: u32 = 10;
 
 /// The process is the command's own from here on.
 pub(crate) fn own_process() {
@@ -40,6 +47,18 @@ pub(crate) fn own_process() {
 /// The memory that a command may take, in bytes.
 pub(crate) fn memory() -> u64 {
     MEMORY.get().copied().unwrap_or(DEFAULT)
+}
+
+/// Whether work may go on: its time is not over.
+pub(crate) fn go_on() -> bool {
+    let over = OVER.load(Ordering::Relaxed);
+    CUT.fetch_or(over, Ordering::Relaxed);
+    !over
+}
+
+/// Whether work was told not to.
+pub(crate) fn was_cut() -> bool {
+    CUT.load(Ordering::Relaxed)
 }
 
 /// A number with one of these units, such as "1.5GiB" or "90 s".
@@ -66,9 +85,10 @@ fn seconds(text: &str) -> Result<Duration, String> {
 }
 
 impl Budget {
-    /// Watches until the process ends; `less` says what would take less. Nothing is watched in a process that is not the command's
-    /// own, or where no thread can be made.
-    pub(crate) fn watch(self, less: &'static str) {
+    /// Watches until the process ends; `less` says what would take less. Work that asks whether to go on has a quarter of its
+    /// time and a second more to come to an answer. Nothing is watched in a process that is not the command's own, or where no
+    /// thread can be made.
+    pub(crate) fn watch(self, less: &'static str, asks: bool, interactive: bool) {
         if !OWN_PROCESS.load(Ordering::Relaxed) {
             return;
         }
@@ -76,12 +96,20 @@ impl Budget {
         let _ = MEMORY.set(memory);
         let begin = Instant::now();
         let look = move || {
-            loop {
+            for n in 1_u32.. {
                 if memory_stats::memory_stats().is_some_and(|now| now.physical_mem as u64 > memory) {
                     stop(&format!("--memory={} MiB is used up", memory >> 20), less);
                 }
-                if self.time_limit.is_some_and(|limit| begin.elapsed() > limit) {
-                    stop("--time-limit is over", less);
+                if let Some(limit) = self.time_limit {
+                    let grace = if asks { limit / 4 + Duration::from_secs(1) } else { Duration::ZERO };
+                    let passed = begin.elapsed();
+                    OVER.store(passed > limit, Ordering::Relaxed);
+                    if passed > limit.saturating_add(grace) {
+                        stop("--time-limit is over", less);
+                    }
+                }
+                if interactive && n.is_multiple_of(PICTURE) {
+                    progress::show();
                 }
                 thread::sleep(INTERVAL);
             }
@@ -92,7 +120,8 @@ impl Budget {
 
 fn stop(what: &str, less: &str) -> ! {
     clatter_report::remove_leftovers();
-    eprintln!("error: stopped, {what}: the answer is not whole; {less}");
+    let so_far = progress::so_far();
+    eprintln!("error: stopped, {what}: {so_far}the answer is not whole; {less}");
     exit(Exit::BadInput as i32)
 }
 

@@ -7,16 +7,15 @@ mod remedies;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 
 use clap::ValueHint;
 use clatter::design::Goal;
-use clatter_assess::ProductFile;
 use clatter_assess::design::{Bounds, Plane};
+use clatter_assess::{Accuracy, ProductFile};
 
 use crate::inputs::{self, RowFormat};
 use crate::output::Files;
-use crate::progress::Progress;
+use crate::progress::Counted;
 use crate::{Failure, Streams, assess, output};
 
 /// Tell which q and e meet the limits, and what would make each failing part safe
@@ -163,19 +162,18 @@ impl Args {
 
     fn of_product(&self, file: &ProductFile, streams: &mut Streams<'_>) -> Result<(), Failure> {
         let bounds = Bounds { q: self.q, e: self.e, frequency_factor: self.frequency_factor, damping: self.damping };
-        let assessment = file.assess()?;
+        let assessment = assess::watched(file, &Accuracy::default())?;
         let remedies = {
-            // Threads that work tell it: the terminal itself is handed to them.
-            let mut bar = Progress::new(io::stderr(), streams.interactive, 100);
-            bar.stage("changing");
-            let bar = Mutex::new(bar);
+            let changes = Counted::begin("changing", 0);
             file.remedies_watched(&assessment, &bounds, self.margin, &|done, all| {
-                if let Ok(mut bar) = bar.lock() {
-                    bar.at(100 * done as u64 / all as u64);
-                }
+                changes.of(done, all);
+                true
             })?
         };
-        let plane = self.output.as_ref().map(|_| Plane::of(file, &bounds)).transpose()?;
+        let plane = {
+            let _drawing = Counted::begin("drawing the plane", 0);
+            self.output.as_ref().map(|_| Plane::of(file, &bounds)).transpose()?
+        };
         if let (Some(path), Some(plane)) = (&self.output, &plane) {
             plane::write(path, plane)?;
         }

@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueHint;
 use clatter_assess::ladder::{Groups, LeftOut, LimitLadder, Measured, ProductLadder, Reference};
-use clatter_assess::{LimitKind, Model, Unit, WorstCase};
+use clatter_assess::{Accuracy, LimitKind, Model, Unit, WorstCase};
 use serde::Serialize;
 
 use crate::inputs::{self, Format};
 use crate::numbers::{Json, figures, given};
+use crate::progress::Counted;
 use crate::text::shown;
 use crate::words::{drop, in_words, percent};
 use crate::{Failure, Streams, assess, text};
@@ -54,7 +55,10 @@ impl Args {
 /// All models on the worst drops of a product.
 pub(crate) fn measure(path: &Path, tolerance: f64) -> Result<ProductLadder, Failure> {
     let file = assess::read(path)?;
-    let ladders = file.assess().and_then(|assessment| file.ladders(&assessment, tolerance));
+    let ladders = assess::watched(&file, &Accuracy::default()).and_then(|assessment| {
+        let _measuring = Counted::begin("measuring models", 0);
+        file.ladders(&assessment, tolerance)
+    });
     ladders.map_err(|error| Failure::Product(format!("error: {}: {error}", text::path(path))))
 }
 

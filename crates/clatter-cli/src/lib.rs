@@ -154,18 +154,56 @@ enum Command {
     Completions(completions::Args),
 }
 
+impl Cli {
+    fn run(self, streams: &mut Streams<'_>) -> Result<Exit, Failure> {
+        if !self.force {
+            self.command.files().check()?;
+        }
+        let less = self.command.less();
+        let asks = matches!(self.command, Command::Assess(_) | Command::Scatter(_));
+        self.budget.watch(less, asks, streams.interactive);
+        let exit = self.command.run(streams)?;
+        if budget::was_cut() {
+            streams
+                .note("warning", format_args!("--time-limit is over: the answer is of what was done by then; {less}"));
+        }
+        Ok(exit)
+    }
+}
+
 impl Command {
-    /// The same, watched.
-    fn within(self, budget: budget::Budget) -> Self {
-        budget.watch(match &self {
+    /// What would take less memory and time.
+    fn less(&self) -> &'static str {
+        match self {
             Self::Impacts(_) | Self::Simulate(_) => "fewer impacts or a shorter time take less",
             Self::Map(_) => "fewer values of q and e take less",
             Self::Respond(_) | Self::Spectrum(_) => "shorter lists and fewer natural frequencies take less",
             Self::Scatter(_) => "fewer samples take less",
             _ => "narrower ranges and fewer components take less",
-        });
-        self
+        }
     }
+
+    fn run(self, streams: &mut Streams<'_>) -> Result<Exit, Failure> {
+        match self {
+            Self::Scatter(args) => return args.run(streams),
+            Self::Assess(args) => return args.run(streams),
+            Self::Impacts(args) => args.run(streams),
+            Self::Zone(args) => args.run(streams),
+            Self::Map(args) => args.run(streams),
+            Self::Simulate(args) => args.run(streams),
+            Self::Respond(args) => args.run(streams),
+            Self::Spectrum(args) => args.run(streams),
+            Self::Design(args) => args.run(streams),
+            Self::Explain(args) => args.run(streams),
+            Self::Tradeoff(args) => args.run(streams),
+            Self::Init(args) => args.run(streams),
+            Self::Schema(args) => args.run(streams),
+            Self::Report(args) => args.run(streams),
+            Self::Completions(args) => args.run(&mut Cli::command(), streams),
+        }?;
+        Ok(Exit::Done)
+    }
+
     fn files(&self) -> Files<'_> {
         match self {
             Self::Map(args) => args.files(),
@@ -225,40 +263,19 @@ where
     I: IntoIterator<Item = T>,
     T: Into<OsString> + Clone,
 {
-    let mut exit = Exit::Done;
     let done = match Cli::try_parse_from(args) {
-        Ok(cli)
-            if !cli.force
-                && let Err(failure) = cli.command.files().check() =>
-        {
-            Err(failure)
-        }
-        Ok(cli) => match cli.command.within(cli.budget) {
-            Command::Impacts(args) => args.run(streams),
-            Command::Zone(args) => args.run(streams),
-            Command::Map(args) => args.run(streams),
-            Command::Simulate(args) => args.run(streams),
-            Command::Respond(args) => args.run(streams),
-            Command::Spectrum(args) => args.run(streams),
-            Command::Design(args) => args.run(streams),
-            Command::Scatter(args) => args.run(streams).map(|found| exit = found),
-            Command::Assess(args) => args.run(streams).map(|found| exit = found),
-            Command::Explain(args) => args.run(streams),
-            Command::Tradeoff(args) => args.run(streams),
-            Command::Init(args) => args.run(streams),
-            Command::Schema(args) => args.run(streams),
-            Command::Report(args) => args.run(streams),
-            Command::Completions(args) => args.run(&mut Cli::command(), streams),
-        },
+        Ok(cli) => cli.run(streams),
         Err(help) if !help.use_stderr() => {
-            write!(streams.out, "{}", text::visible_lines(&help.render().to_string())).map_err(Failure::Answer)
+            let help = text::visible_lines(&help.render().to_string()).into_owned();
+            write!(streams.out, "{help}").map_err(Failure::Answer).map(|()| Exit::Done)
         }
         Err(usage) => {
             streams.beside(&visible_values(usage).render().to_string());
             return Exit::BadInput;
         }
     };
-    match done.and_then(|()| streams.out.flush().map_err(Failure::Answer)) {
+    let exit = *done.as_ref().unwrap_or(&Exit::Done);
+    match done.and_then(|_| streams.out.flush().map_err(Failure::Answer)) {
         Ok(()) => exit,
         Err(Failure::Answer(gone)) if gone.kind() == io::ErrorKind::BrokenPipe => exit,
         // These begin with their own "error: ", one each.

@@ -16,7 +16,7 @@ fn main() -> ExitCode {
 }
 
 /// Ctrl-C and SIGTERM end the process as they always do, after temporary files are removed. Where no thread can be made for that,
-/// they end it at once.
+/// they end it at once; where the process was told to ignore them, as in the background of a script, it goes on doing so.
 #[cfg(unix)]
 fn tidy_on_signals() {
     use signal_hook::consts::{SIGINT, SIGTERM};
@@ -24,11 +24,20 @@ fn tidy_on_signals() {
     use signal_hook::low_level::emulate_default_handler;
 
     let wait = || {
-        let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else { return };
+        let heeded = [SIGINT, SIGTERM].into_iter().filter(|signal| !is_ignored(*signal));
+        let Ok(mut signals) = Signals::new(heeded) else { return };
         if let Some(signal) = signals.forever().next() {
             clatter_report::remove_leftovers();
             let _ = emulate_default_handler(signal);
         }
     };
     let _ = std::thread::Builder::new().name("signals".into()).spawn(wait);
+}
+
+/// Whether the process was started with this signal ignored, as far as the system tells.
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
 }

@@ -10,6 +10,7 @@ use serde::{Serialize, Serializer};
 use crate::inputs::{self, Format};
 use crate::numbers::{Json, JsonWhole, digits, given, whole};
 use crate::output::{Files, Kind, Target, buffered};
+use crate::progress::Counted;
 use crate::{Failure, Streams, budget, npy, output, text};
 
 /// Write a quantity over a grid of q and e to a file
@@ -139,7 +140,10 @@ impl Args {
         if 2 * 8 * points > u128::from(budget::memory()) {
             return Err(Failure::Large { points, most: u128::from(budget::memory()) / 16 });
         }
-        let map = Map::compute(quantity, axis, self.e)?;
+        let map = {
+            let _computing = Counted::begin("computing", 0);
+            Map::compute(quantity, axis, self.e)?
+        };
         let Target { path, kind } = &self.output;
         output::replace(path, |file| match kind {
             Kind::Npy => npy::write(file, map.q.points(), &map.values),

@@ -1,58 +1,124 @@
-//! A progress bar for those who watch.
+//! How far the work is: counted where it is done, shown and told by the thread that watches the process.
 
-use std::io::Write;
+use std::io::{self, Write};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// A bar on one line of the terminal; nothing at all where nobody watches.
-pub(crate) struct Progress<W: Write> {
-    err: Option<W>,
+/// Work that takes long.
+struct Work {
     what: &'static str,
+    done: u64,
+    /// 0 where it is not counted.
     total: u64,
-    shown: Option<u64>,
     begin: Instant,
+    shown: bool,
 }
 
-/// An estimate of the time left is shown after this long.
-const PATIENCE: Duration = Duration::from_secs(2);
+/// The work of now.
+static WORK: Mutex<Option<Work>> = Mutex::new(None);
+
+fn work() -> MutexGuard<'static, Option<Work>> {
+    WORK.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Nothing is shown of work that is done by then.
+const PATIENCE: Duration = Duration::from_secs(1);
 /// Steps of the bar.
-const WIDTH: u64 = 30;
+const WIDTH: usize = 30;
 
-impl<W: Write> Progress<W> {
-    /// For `total` units of work, shown to `err` if somebody watches it.
-    pub(crate) fn new(err: W, interactive: bool, total: u64) -> Self {
-        Self { err: interactive.then_some(err), what: "", total: total.max(1), shown: None, begin: Instant::now() }
+/// Keeps count of one piece of work; once this is dropped its line is gone from the terminal.
+pub(crate) struct Counted(());
+
+impl Counted {
+    /// Begins `what`, such as "drawing", of which there are `total` parts; 0 where they are not counted.
+    pub(crate) fn begin(what: &'static str, total: u64) -> Self {
+        *work() = Some(Work { what, done: 0, total, begin: Instant::now(), shown: false });
+        Self(())
     }
 
-    /// What is done now.
-    pub(crate) fn stage(&mut self, what: &'static str) {
-        (self.what, self.shown) = (what, None);
-    }
-
-    /// So much is done. Cheap: it writes only where another per cent is full.
-    pub(crate) fn at(&mut self, done: u64) {
-        let percent = u128::from(done.min(self.total)) * 100 / u128::from(self.total);
-        let percent = u64::try_from(percent).unwrap_or(100);
-        if self.shown == Some(percent) {
-            return;
+    /// So much of it is done.
+    #[expect(clippy::unused_self, reason = "without it nothing is begun")]
+    pub(crate) fn at(&self, done: u64) {
+        if let Some(work) = &mut *work() {
+            work.done = work.done.max(done);
         }
-        self.shown = Some(percent);
-        let Some(err) = &mut self.err else { return };
-        let full = usize::try_from(percent * WIDTH / 100).unwrap_or(0);
-        let (full, rest) = ("=".repeat(full), " ".repeat(30 - full));
-        let passed = self.begin.elapsed();
-        // What is left, if it goes on as it did: told where it is worth waiting for.
-        let left = passed.as_secs() * (100 - percent) / percent.max(1);
-        let left = if passed < PATIENCE { String::new() } else { format!(", {left} s left") };
-        let _ = write!(err, "\r{:<9} [{full}{rest}] {percent:>3} %{left:<16}", self.what);
+    }
+
+    /// The same of a search, which counts from several threads.
+    pub(crate) fn of(&self, done: usize, total: usize) {
+        if let Some(work) = &mut *work() {
+            work.total = total as u64;
+        }
+        self.at(done as u64);
+    }
+}
+
+impl Drop for Counted {
+    fn drop(&mut self) {
+        let mut work = work();
+        wipe(work.as_ref());
+        *work = None;
+    }
+}
+
+/// Shows the work of now on the terminal that standard error is.
+pub(crate) fn show() {
+    if let Some(work) = &mut *work()
+        && work.begin.elapsed() > PATIENCE
+    {
+        work.shown = true;
+        let mut err = io::stderr();
+        let _ = write!(err, "\r{}", work.line(work.begin.elapsed()));
         let _ = err.flush();
     }
 }
 
-impl<W: Write> Drop for Progress<W> {
-    /// The line is left as it was found.
-    fn drop(&mut self) {
-        if let (Some(err), Some(_)) = (&mut self.err, self.shown) {
-            let _ = write!(err, "\r{}\r", " ".repeat(64));
-        }
+/// How far the work of now has come, as part of a sentence, for the last words of a process that is stopped.
+pub(crate) fn so_far() -> String {
+    let work = work();
+    wipe(work.as_ref());
+    let counted = work.as_ref().and_then(|work| Some((work.what, work.percent()?)));
+    counted.map_or_else(String::new, |(what, percent)| format!("{what} had come to {percent} %, "))
+}
+
+/// The line of the terminal as it was found.
+fn wipe(work: Option<&Work>) {
+    if work.is_some_and(|work| work.shown) {
+        let _ = write!(io::stderr(), "\r{:78}\r", "");
+    }
+}
+
+impl Work {
+    fn percent(&self) -> Option<u64> {
+        let percent = (u128::from(self.done.min(self.total)) * 100).checked_div(u128::from(self.total))?;
+        u64::try_from(percent).ok()
+    }
+
+    /// What is left is told as if it went on as it did.
+    fn line(&self, passed: Duration) -> String {
+        let seconds = passed.as_secs();
+        let Some(percent) = self.percent() else { return format!("{}, {seconds} s so far ", self.what) };
+        let full = usize::try_from(percent).unwrap_or(0) * WIDTH / 100;
+        let (full, open) = ("=".repeat(full), " ".repeat(WIDTH - full));
+        let rest = u128::from(self.total.saturating_sub(self.done));
+        let left = (u128::from(seconds) * rest).checked_div(u128::from(self.done));
+        let left = left.map_or_else(String::new, |left| format!(", {left} s left"));
+        format!("{:<10} [{full}{open}] {percent:>3} %{left:<16}", self.what)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_line_says_what_is_done_and_left() {
+        let work = |done, total| Work { what: "drawing", done, total, begin: Instant::now(), shown: false };
+        let at = |done, total| work(done, total).line(Duration::from_secs(30));
+        assert_eq!(at(25, 100), format!("drawing    [=======                       ]  25 %, {:<14}", "90 s left"));
+        assert!(at(100, 100).contains("100 %, 0 s left"), "{}", at(100, 100));
+        assert!(at(u64::MAX, u64::MAX).contains("100 %"));
+        assert!(!at(0, 100).contains("left"), "nothing is known yet");
+        assert_eq!(at(7, 0).trim_end(), "drawing, 30 s so far");
     }
 }

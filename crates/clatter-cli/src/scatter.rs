@@ -14,8 +14,9 @@ use clatter_assess::{Model, ProductFile};
 use crate::inputs::{self, RowFormat};
 use crate::numbers::digits;
 use crate::output::Files;
+use crate::progress::Counted;
 use crate::text::{field, visible};
-use crate::{Exit, Failure, Streams, assess, output, progress};
+use crate::{Exit, Failure, Streams, assess, budget, output};
 
 /// Tell how likely each part of a product survives, and what that hangs on
 ///
@@ -108,7 +109,7 @@ impl Args {
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<Exit, Failure> {
         let file = assess::read(&self.product)?;
-        let scatter = self.draw(&file, streams)?;
+        let scatter = self.draw(&file)?;
         let target = self.target.map(|share| Target { share });
         match self.format {
             RowFormat::Table => {
@@ -121,23 +122,22 @@ impl Args {
         Ok(if met { Exit::Done } else { Exit::Unsafe })
     }
 
-    fn draw(&self, file: &ProductFile, streams: &mut Streams<'_>) -> Result<Scatter, Failure> {
+    fn draw(&self, file: &ProductFile) -> Result<Scatter, Failure> {
         let settings = Settings { samples: self.samples, seed: self.seed, confidence: self.confidence };
         let sampler = Sampler::new(file, settings)?;
-        let mut bar = progress::Progress::new(&mut *streams.err, streams.interactive, self.samples);
-        bar.stage("drawing");
+        let counted = Counted::begin("drawing", self.samples);
+        let go_on = |done| {
+            counted.at(done);
+            budget::go_on()
+        };
         let Some(path) = &self.output else {
-            let watch = |progress: &Progress<'_>| {
-                bar.at(progress.done);
-                Ok::<(), Infallible>(())
-            };
-            let Ok(scatter) = sampler.run(false, watch);
+            let Ok(scatter) = sampler.run(false, |progress| Ok::<_, Infallible>(go_on(progress.done)));
             return Ok(scatter);
         };
         let mut drawn = None;
         output::replace(path, |target| {
             let mut out = BufWriter::with_capacity(1 << 16, target);
-            drawn = Some(rows(&sampler, file, &mut out, |done| bar.at(done))?);
+            drawn = Some(rows(&sampler, file, &mut out, go_on)?);
             out.flush()
         })?;
         let Some(scatter) = drawn else { unreachable!("a file that was written was drawn") };
@@ -163,8 +163,13 @@ fn title(file: &ProductFile, column: Column) -> String {
     }
 }
 
-/// Draws and writes every sample.
-fn rows(sampler: &Sampler, file: &ProductFile, out: &mut impl Write, mut done: impl FnMut(u64)) -> io::Result<Scatter> {
+/// Draws and writes every sample, as long as it may go on.
+fn rows(
+    sampler: &Sampler,
+    file: &ProductFile,
+    out: &mut impl Write,
+    go_on: impl Fn(u64) -> bool,
+) -> io::Result<Scatter> {
     let columns = sampler.columns();
     write!(out, "sample")?;
     for column in &columns {
@@ -186,8 +191,7 @@ fn rows(sampler: &Sampler, file: &ProductFile, out: &mut impl Write, mut done: i
             writeln!(out)?;
             sample += 1;
         }
-        done(progress.done);
-        Ok::<(), io::Error>(())
+        Ok::<_, io::Error>(go_on(progress.done))
     })
 }
 

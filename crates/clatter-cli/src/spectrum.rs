@@ -15,7 +15,7 @@ use crate::excitation::{self, LimitArg, PulseArg, shape_name};
 use crate::inputs::{DampingArgs, RowFormat};
 use crate::numbers::{Json, digits, figures, given};
 use crate::output::{Files, Kind, Target, buffered};
-use crate::progress::Progress;
+use crate::progress::Counted;
 use crate::{Failure, Streams, lists, output, text};
 
 /// Compute a shock response spectrum: the peak of a component over its natural frequency
@@ -193,7 +193,7 @@ impl Args {
             return Err(Failure::Usage("--units goes with a record alone"));
         }
         let boundary = if self.damage_boundary { Some(self.boundary()?) } else { None };
-        let (spectrum, survey) = self.spectrum(streams)?;
+        let (spectrum, survey) = self.spectrum()?;
         let margins = self.limit.as_ref().map(|limit| limit.curve.margins(&spectrum));
         let computed = Computed { args: self, spectrum, survey, margins, boundary };
         if let Some(target) = &self.output {
@@ -210,10 +210,10 @@ impl Args {
         }
     }
 
-    fn spectrum(&self, streams: &mut Streams<'_>) -> Result<(Spectrum, Option<Survey>), Failure> {
+    fn spectrum(&self) -> Result<(Spectrum, Option<Survey>), Failure> {
         let (damping, quantity) = (self.damping.ratio()?, self.quantity.quantity());
         if let Some(path) = &self.excitation.record {
-            let (spectrum, survey) = self.record(path, streams)?;
+            let (spectrum, survey) = self.record(path)?;
             return Ok((spectrum, Some(survey)));
         }
         let shocks = match &self.excitation.shocks_file {
@@ -237,7 +237,7 @@ impl Args {
     }
 
     /// In two passes and constant memory; what can be read but once is kept.
-    fn record(&self, path: &Path, streams: &mut Streams<'_>) -> Result<(Spectrum, Survey), Failure> {
+    fn record(&self, path: &Path) -> Result<(Spectrum, Survey), Failure> {
         let (damping, quantity) = (self.damping.ratio()?, self.quantity.quantity());
         let bad = |reason| Failure::Record { path: path.to_owned(), reason };
         let open = || {
@@ -249,13 +249,13 @@ impl Args {
             let record = Record::read(input, self.units).map_err(bad)?;
             return Ok((record.spectrum(&self.frequency, damping, quantity), record.survey().clone()));
         };
-        let mut progress = Progress::new(&mut *streams.err, streams.interactive, size);
-        progress.stage("checking");
-        let survey = Lines::new(input, self.units).survey(|_, bytes| progress.at(bytes)).map_err(bad)?;
-        progress.stage("filtering");
+        let checking = Counted::begin("checking", size);
+        let survey = Lines::new(input, self.units).survey(|_, bytes| checking.at(bytes)).map_err(bad)?;
+        drop(checking);
+        let filtering = Counted::begin("filtering", size);
         let lines = Lines::new(open()?.1, self.units);
         let spectrum =
-            stream(lines, &survey, &self.frequency, damping, quantity, |bytes| progress.at(bytes)).map_err(bad)?;
+            stream(lines, &survey, &self.frequency, damping, quantity, |bytes| filtering.at(bytes)).map_err(bad)?;
         Ok((spectrum, survey))
     }
 

@@ -93,7 +93,7 @@ fn a_run_that_is_stopped_leaves_no_temporary() {
     let product = product(dir.path());
     let samples = dir.path().join("samples.csv");
     let mut stopped = 0;
-    for (n, signal) in ["INT", "TERM"].into_iter().cycle().take(24).enumerate() {
+    for (n, signal) in ["INT", "TERM", "KILL"].into_iter().cycle().take(36).enumerate() {
         fs::write(&samples, "old").unwrap();
         let mut child = clatter()
             .args(["scatter", "--samples=1000000000"])
@@ -107,12 +107,33 @@ fn a_run_that_is_stopped_leaves_no_temporary() {
         sleep(Duration::from_millis(3 + 9 * n as u64));
         assert!(Command::new("kill").arg(format!("-{signal}")).arg(child.id().to_string()).status().unwrap().success());
         let status = child.wait().unwrap();
-        assert_eq!(status.signal(), Some(if signal == "INT" { 2 } else { 15 }), "{status}");
+        let number = match signal {
+            "INT" => 2,
+            "TERM" => 15,
+            _ => 9,
+        };
+        assert_eq!(status.signal(), Some(number), "{status}");
         assert_eq!(names(dir.path()), ["p.toml", "samples.csv"], "after {signal}");
         assert_eq!(fs::read_to_string(&samples).unwrap(), "old");
         stopped += 1;
     }
-    assert_eq!(stopped, 24);
+    assert_eq!(stopped, 36);
+}
+
+/// As it is for what a script starts in the background.
+#[test]
+fn a_signal_that_is_ignored_from_the_start_stays_so() {
+    let dir = tempfile::tempdir().unwrap();
+    let product = product(dir.path());
+    let script = "trap '' INT; \"$0\" scatter \"$1\" --samples=3000 >out & sleep 0.05; kill -INT $!; wait $!";
+    let status = Command::new("sh")
+        .args(["-c", script, env!("CARGO_BIN_EXE_clatter")])
+        .arg(&product)
+        .current_dir(dir.path())
+        .status()
+        .unwrap();
+    assert_eq!(status.code(), Some(0));
+    assert!(fs::read_to_string(dir.path().join("out")).unwrap().contains("survives"));
 }
 
 /// A stack that no machine has stands in for a limit on threads.
@@ -145,8 +166,6 @@ fn where_no_thread_can_be_made_one_is_enough() {
 #[test]
 fn a_budget_that_is_used_up_ends_the_command_with_nothing_left_behind() {
     let dir = tempfile::tempdir().unwrap();
-    let product = product(dir.path());
-    let product = product.to_str().unwrap();
     let endless = [
         "simulate",
         "--model=compliant",
@@ -159,22 +178,53 @@ fn a_budget_that_is_used_up_ends_the_command_with_nothing_left_behind() {
         "--impact-limit=10000000",
         "--memory=64MB",
     ];
-    for (arguments, why) in [
-        (
-            &["scatter", product, "--samples=1000000000", "-o", "s.csv", "--time-limit=300ms"][..],
-            "--time-limit is over",
-        ),
-        (&endless, "--memory=61 MiB is used up"),
-    ] {
+    let timeless: Vec<&str> = endless[..9].iter().copied().chain(["--time-limit=300ms", "--memory=2GiB"]).collect();
+    for (arguments, why) in [(&timeless[..], "--time-limit is over"), (&endless, "--memory=61 MiB is used up")] {
         let (code, stderr) = says(clatter().args(arguments).current_dir(dir.path()));
         assert_eq!(code, Some(2), "{arguments:?}: {stderr}");
         assert!(stderr.starts_with("error: stopped, ") && stderr.contains(why), "{stderr}");
-        assert_eq!(names(dir.path()), ["p.toml"]);
+        assert!(names(dir.path()).is_empty(), "{arguments:?}");
     }
     let map = ["map", "peak-end", "--q=0:1:16384", "--e=0:1:16384", "-o", "m.npy"];
     let (code, stderr) = says(clatter().args(map).current_dir(dir.path()));
     assert_eq!(code, Some(2));
     assert!(stderr.contains("allowed are 67108864 points"), "{stderr}");
+}
+
+/// Many stiff parts on an elastic product: some seconds of search.
+fn long() -> String {
+    let product = "[product]\nname = \"long\"\nlength = \"150 mm\"\nradius_of_gyration = \"41 mm\"\nrestitution = [0, 0.9]\n\
+        contact_time = [\"0.02 ms\", \"0.4 ms\"]\n[drop]\nspeed = [\"2 m/s\", \"4 m/s\"]\ntilt = [\"0.5 deg\", \"30 deg\"]\n\
+        first = \"either\"\n";
+    let part = |k: u32| {
+        format!(
+            "[[component]]\nname = \"part {k}\"\nposition = \"{k} mm\"\nnatural_frequency = [\"{}00 Hz\", \"30 kHz\"]\n\
+             damping_ratio = [0.01, 0.05]\nacceleration_limit = \"500000 gn\"\n",
+            k + 2
+        )
+    };
+    (0..70).map(part).fold(product.to_owned(), |text, part| text + &part)
+}
+
+#[test]
+fn what_is_found_when_the_time_is_over_is_told_and_nothing_is_safe_by_it() {
+    let dir = tempfile::tempdir().unwrap();
+    let product = product(dir.path());
+    fs::write(dir.path().join("long.toml"), long()).unwrap();
+    let samples = ["scatter", product.to_str().unwrap(), "--samples=1000000000", "-o", "s.csv"];
+    let (code, stderr) = says(clatter().args(samples).arg("--time-limit=300ms").current_dir(dir.path()));
+    assert_eq!(code, Some(0), "{stderr}");
+    assert!(
+        stderr.contains("warning: --time-limit is over: the answer is of what was done by then; fewer"),
+        "{stderr}"
+    );
+    assert!(fs::read_to_string(dir.path().join("s.csv")).unwrap().ends_with('\n'), "whole rows");
+    let assess = ["assess", "long.toml", "--time-limit=100ms"];
+    let done = clatter().args(assess).current_dir(dir.path()).output().unwrap();
+    let (stdout, stderr) = (String::from_utf8(done.stdout).unwrap(), String::from_utf8(done.stderr).unwrap());
+    assert_eq!(done.status.code(), Some(1), "{stderr}");
+    assert!(stdout.contains("undecided") && stdout.contains("was stopped before its end"), "{stdout}");
+    assert!(stderr.contains("--time-limit is over"), "{stderr}");
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::leftovers::{Left, Listed};
-use tempfile::{Builder, NamedTempFile};
+use tempfile::{Builder, NamedTempFile, TempPath};
 
 /// Writes a file beside `path` and puts it in its place only once it is whole, so that a full disk or a killed run
 /// leaves what was there before. A link is followed; what is no regular file (a directory, a device) is refused. Content and name
@@ -33,7 +33,7 @@ pub fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> 
     };
     let (_listed, beside) = beside(&target, write)?;
     if let Some(permissions) = permissions {
-        beside.as_file().set_permissions(permissions)?;
+        fs::set_permissions(&beside, permissions)?;
     }
     beside.persist(&target).map_err(|error| error.error)?;
     settle(&target);
@@ -85,17 +85,59 @@ pub fn directory_of(path: &Path) -> io::Result<&Path> {
     }
 }
 
-/// The whole file, under another name in the same directory.
-fn beside(target: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<(Listed, NamedTempFile)> {
+/// The whole file, under another name in the same directory. Where the system can do it, it has no name while it is written, which may
+/// take long: so a process that is killed outright leaves nothing there.
+fn beside(target: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<(Listed, TempPath)> {
     let parent = directory_of(target)?;
     let mut builder = Builder::new();
     builder.prefix(".clatter-").suffix(".tmp");
     #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666)); // less the umask, as for any new file
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(MODE));
     // The temporary's own name says nothing to the user.
-    let make = || builder.tempfile_in(parent).map_err(|error| io::Error::from(error.kind()));
-    let (listed, mut beside) = Listed::new(make, |file| Left::Path(file.path().to_owned()))?;
-    write(beside.as_file_mut())?;
-    beside.as_file().sync_all()?;
-    Ok((listed, beside))
+    let nameless = |error: io::Error| io::Error::from(error.kind());
+    #[cfg(target_os = "linux")]
+    if let Some(mut unnamed) = unnamed(parent) {
+        write(&mut unnamed)?;
+        unnamed.sync_all()?;
+        let make = || builder.make_in(parent, |path| name(&unnamed, path)).map_err(nameless);
+        let (listed, whole) = Listed::new(make, path_of)?;
+        return Ok((listed, whole.into_temp_path()));
+    }
+    let (listed, mut whole) = Listed::new(|| builder.tempfile_in(parent).map_err(nameless), path_of)?;
+    write(whole.as_file_mut())?;
+    whole.as_file().sync_all()?;
+    Ok((listed, whole.into_temp_path()))
 }
+
+fn path_of<F>(file: &NamedTempFile<F>) -> Left {
+    Left::Path(file.path().to_owned())
+}
+
+/// Less the umask, as for any new file.
+#[cfg(unix)]
+const MODE: u32 = 0o666;
+
+/// A file without a name; none where there is no such thing.
+#[cfg(target_os = "linux")]
+fn unnamed(parent: &Path) -> Option<File> {
+    use rustix::fs::{Mode, OFlags, open};
+    let flags = OFlags::TMPFILE | OFlags::RDWR | OFlags::CLOEXEC;
+    Path::new(DESCRIPTORS)
+        .is_dir()
+        .then(|| open(parent, flags, Mode::from_raw_mode(MODE)).ok())
+        .flatten()
+        .map(File::from)
+}
+
+/// Gives it one.
+#[cfg(target_os = "linux")]
+fn name(unnamed: &File, path: &Path) -> io::Result<()> {
+    use rustix::fs::{AtFlags, CWD, linkat};
+    use std::os::fd::AsRawFd;
+    let own = format!("{DESCRIPTORS}/{}", unnamed.as_raw_fd());
+    Ok(linkat(CWD, own, CWD, path, AtFlags::SYMLINK_FOLLOW)?)
+}
+
+/// Where a process sees its open files by name.
+#[cfg(target_os = "linux")]
+const DESCRIPTORS: &str = "/proc/self/fd";

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use clatter_flight::Body;
 use rayon::prelude::*;
 
-use crate::search::{Place, Ranges, Task};
+use crate::search::{Place, Ranges, Task, Watch};
 use crate::{
     Accuracy, Assessment, Component, ComponentAssessment, Damping, Error, Law, Limit, LimitKind, Mount, Product,
     ProductFile, Spread, Verdict,
@@ -161,19 +161,19 @@ impl ProductFile {
     /// # Errors
     /// As [`assess`](Self::assess), for the product as it is; [`Error::Number`] for a margin that is negative or not finite.
     pub fn remedies(&self, assessment: &Assessment, bounds: &Bounds, margin: f64) -> Result<Vec<Remedies>, Error> {
-        self.remedies_watched(assessment, bounds, margin, &|_, _| ())
+        self.remedies_watched(assessment, bounds, margin, &|_, _| true)
     }
 
-    /// The same; `watch` is told how much of how much is done, from any thread.
+    /// The same, watched.
     ///
     /// # Errors
-    /// As [`remedies`](Self::remedies).
+    /// As [`remedies`](Self::remedies); [`Error::Stopped`] where `watch` says so.
     pub fn remedies_watched(
         &self,
         assessment: &Assessment,
         bounds: &Bounds,
         margin: f64,
-        watch: &(dyn Fn(usize, usize) + Sync),
+        watch: Watch<'_>,
     ) -> Result<Vec<Remedies>, Error> {
         if !(margin >= 0.0 && margin.is_finite()) {
             return Err(Error::Number(margin));
@@ -188,12 +188,10 @@ impl ProductFile {
         // One lever after the other of each component, then at most one pair of them, which takes as long as a lever.
         let all = tasks.len() + tasks.len() / Lever::ALL.len();
         let done = AtomicUsize::new(0);
-        let solve = |&(i, found, lever): &(usize, &ComponentAssessment, Lever)| {
-            let outcome = case(i).solve(lever, found);
-            watch(done.fetch_add(1, Ordering::Relaxed) + 1, all);
-            outcome
-        };
-        let outcomes: Vec<Outcome> = tasks.par_iter().map(solve).collect();
+        let go_on = || if watch(done.fetch_add(1, Ordering::Relaxed), all) { Ok(()) } else { Err(Error::Stopped) };
+        let solve =
+            |&(i, found, lever): &(usize, &ComponentAssessment, Lever)| go_on().map(|()| case(i).solve(lever, found));
+        let outcomes = tasks.par_iter().map(solve).collect::<Result<Vec<Outcome>, Error>>()?;
         let mut list: Vec<Remedies> = Vec::new();
         for ((component, _, lever), outcome) in tasks.into_iter().zip(outcomes) {
             if list.last().is_none_or(|last| last.component != component) {
@@ -204,10 +202,10 @@ impl ProductFile {
             }
         }
         for remedies in &mut list {
+            go_on()?;
             if !remedies.levers.iter().any(|remedy| matches!(remedy.outcome, Outcome::Change { .. })) {
                 (remedies.pair, remedies.nearest) = case(remedies.component).together(&remedies.levers);
             }
-            watch(done.fetch_add(1, Ordering::Relaxed) + 1, all);
         }
         Ok(list)
     }

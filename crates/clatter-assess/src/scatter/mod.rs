@@ -267,12 +267,13 @@ impl Sampler {
         self.inputs.columns()
     }
 
-    /// Draws all samples on the threads of the current pool, after the pilot where one is worth while. `watch` is called in order, on this thread, with all
-    /// samples where `keep` asks for them; where it fails, no more are drawn.
+    /// Draws all samples on the threads of the current pool, after the pilot where one is worth while. `watch` is called in
+    /// order, on this thread, with all samples where `keep` asks for them. Where it says `false` no more are drawn: the answer is
+    /// that of the samples so far, as many as its settings say.
     ///
     /// # Errors
     /// Those of `watch`.
-    pub fn run<E>(&self, keep: bool, mut watch: impl FnMut(&Progress<'_>) -> Result<(), E>) -> Result<Scatter, E> {
+    pub fn run<E>(&self, keep: bool, mut watch: impl FnMut(&Progress<'_>) -> Result<bool, E>) -> Result<Scatter, E> {
         let Settings { samples, confidence, .. } = self.settings;
         let pilot = self.pilot();
         let taken = pilot.filter(|pilot| pilot.taken);
@@ -281,8 +282,8 @@ impl Sampler {
         let together = 4 * rayon::current_num_threads() as u64;
         let mut total = self.tallies(&near);
         let (mut all, mut refined, mut reason) = (Count::default(), 0, None);
-        let mut next = 0;
-        while next < blocks {
+        let (mut next, mut drawn_so_far) = (0, 0);
+        'drawing: while next < blocks {
             let until = blocks.min(next + together);
             let drawn: Vec<Block> = (next..until)
                 .into_par_iter()
@@ -293,23 +294,27 @@ impl Sampler {
                 refined += block.refined;
                 reason = reason.or(block.reason);
                 total.iter_mut().zip(&block.tallies).for_each(|(sum, later)| sum.merge(later));
-                watch(&Progress { done: samples.min((b + 1) * BLOCK), values: &block.values })?;
+                drawn_so_far = samples.min((b + 1) * BLOCK);
+                if !watch(&Progress { done: drawn_so_far, values: &block.values })? {
+                    break 'drawing;
+                }
             }
             next = until;
         }
+        let settings = Settings { samples: drawn_so_far, ..self.settings };
         let [confidence, share] = taken.map_or([confidence, 0.0], |pilot| [pilot.confidence, pilot.share]);
         let each = self.components.iter().zip(total.iter().zip(&self.inputs.of_part));
         let summary = |(component, (tally, own)): (&Component, (&Tally, &Vec<usize>))| {
-            tally.summary(component, &self.inputs, own, &self.settings, [confidence, share])
+            tally.summary(component, &self.inputs, own, &settings, [confidence, share])
         };
         Ok(Scatter {
-            settings: self.settings,
+            settings,
             model: if taken.is_some() { Model::Map } else { self.fullest },
             refined,
             pilot,
             inputs: self.inputs.varied.clone(),
             assumed_even: self.inputs.assumed_even.clone(),
-            survival: all.survival(samples, confidence, share),
+            survival: all.survival(settings.samples, confidence, share),
             unanswered: all.unanswered,
             reason,
             components: each.map(summary).collect(),

@@ -9,7 +9,7 @@ use crate::{Mount, Spread};
 
 /// Drops within this share of the worst are climbed from, so many at most, and so many of those that rebound.
 pub(super) const NEAR: f64 = 0.8;
-const CLIMBS: usize = 4;
+pub(super) const CLIMBS: usize = 4;
 /// How far a climb after rebounds tries, and how often; one of a part that feels the shape of pulses.
 pub(super) const LATE_REACH: f64 = 0.5;
 pub(super) const LATE_TRIES: u32 = 160;

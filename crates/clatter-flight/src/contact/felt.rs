@@ -146,8 +146,9 @@ impl<const N: usize> Phase<N> {
         let (mut bend, mut begin) = (bends(&motions), at(&motions));
         let least = whole.length_s / MOST_LINES;
         while t < whole.length_s || t == 0.0 {
-            // A straight line over h misses h²/8 of the bend.
-            let step = (8.0 * lines.straight * lines.most / bend).sqrt().max(least);
+            // A straight line over h misses h²/8 of the bend; nothing bends where both sides press alike.
+            let most = (8.0 * lines.straight * lines.most / bend).sqrt().max(least);
+            let step = if bend > 0.0 { most } else { whole.length_s };
             let then = if t + step < whole.length_s { t + step } else { whole.length_s };
             motions = self.motions(then);
             let end = at(&motions);
