@@ -4,6 +4,7 @@ mod goals;
 mod plane;
 mod remedies;
 
+use clatter_figures::FigureError;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -131,13 +132,13 @@ fn picture(path: &Path) -> bool {
 
 fn write(
     path: &Path,
-    svg: impl FnOnce() -> String,
+    svg: impl FnOnce() -> Result<String, FigureError>,
     csv: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Failure> {
     output::replace(path, |file: &mut File| {
         let mut out = BufWriter::new(file);
         if picture(path) {
-            out.write_all(svg().as_bytes())?;
+            out.write_all(svg()?.as_bytes())?;
         } else {
             csv(&mut out)?;
         }

@@ -51,6 +51,8 @@ pub(crate) enum Failure {
     #[error("{0}")]
     Product(String),
     #[error(transparent)]
+    Figure(#[from] clatter_figures::FigureError),
+    #[error(transparent)]
     Report(#[from] ReportError),
 }
 

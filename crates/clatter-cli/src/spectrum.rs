@@ -1,5 +1,6 @@
 //! `clatter spectrum`: shock response spectra of records, pulses and velocity shocks.
 
+use clatter_figures::FigureError;
 use std::fs::File;
 use std::io::{self, BufReader, Write};
 use std::path::{Path, PathBuf};
@@ -306,18 +307,18 @@ impl Computed<'_> {
     fn write(&self, target: &Target) -> Result<(), Failure> {
         output::replace(&target.path, |file| match target.kind {
             Kind::Csv => buffered(file, |out| self.csv(out)),
-            Kind::Svg => file.write_all(self.svg().as_bytes()),
+            Kind::Svg => file.write_all(self.svg()?.as_bytes()),
             Kind::Json | Kind::Npy => buffered(file, |out| Ok(serde_json::to_writer(out, &self.answer())?)),
         })
     }
 
-    fn svg(&self) -> String {
+    fn svg(&self) -> Result<String, FigureError> {
         match &self.boundary {
             Some(b) => {
                 let at = [b.pulse.velocity_change().abs(), b.pulse.amplitude.abs()];
-                clatter_report::damage_boundary_svg(&b.numbers, &b.curve, at)
+                clatter_figures::damage_boundary(&b.numbers, &b.curve, at)
             }
-            None => clatter_report::spectrum_svg(&self.spectrum, self.limit()),
+            None => clatter_figures::spectrum(&self.spectrum, self.limit()),
         }
     }
 

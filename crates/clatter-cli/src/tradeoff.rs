@@ -62,7 +62,7 @@ impl Args {
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
         let ladders = explain::measure(&self.product, self.tolerance)?;
         if let Some(path) = &self.output {
-            let svg = clatter_report::ladder_svg(&ladders);
+            let svg = clatter_report::ladder_svg(&ladders)?;
             output::replace(path, |file| file.write_all(svg.as_bytes()))?;
         }
         match self.format {

@@ -14,9 +14,9 @@ mod train;
 use rayon::prelude::*;
 
 use crate::ReportError;
-use crate::figure::orders::{Panel, orders as figure};
 use crate::paper::{File, pretty};
 use crate::table::csv;
+use clatter_figures::{OrderPanel as Panel, orders as figure};
 use digits::inputs;
 use flight::Flights;
 use part::Part;
@@ -95,7 +95,7 @@ impl Data {
             Panel { title: "contact time over *h*_0/*v*_0", guide: "slope 1", curves: of("contact") },
         ];
         Ok(vec![
-            ("accuracy-orders.svg", figure(&panels)),
+            ("accuracy-orders.svg", figure(&panels)?),
             ("accuracy.json", pretty(&self.numbers())?),
             ("accuracy.csv", table(&self.measured())),
         ])

@@ -8,10 +8,9 @@ use clatter::End;
 use clatter_assess::{Assessment, Component, ComponentAssessment, LimitKind, Portrait, ProductFile, Verdict};
 use serde_json::{Value, json};
 
-use crate::figure::component::{Share, history, over_tilt, shares};
-use crate::figure::product::{Place, product};
 use crate::paper;
 use crate::words::{customary, limit, name, percent, sure_name};
+use clatter_figures::{FigureError, Place, Share, history, over_tilt, product, shares};
 
 /// What the models leave out, in plain words.
 const NOT_COVERED: [[&str; 2]; 9] = [
@@ -54,7 +53,11 @@ const NOT_COVERED: [[&str; 2]; 9] = [
 type Part<'a> = ((&'a Component, &'a ComponentAssessment), &'a Portrait);
 
 /// The files of the pages: figures and data.
-pub(crate) fn files(file: &ProductFile, assessment: &Assessment, portraits: &[Portrait]) -> Vec<(String, String)> {
+pub(crate) fn files(
+    file: &ProductFile,
+    assessment: &Assessment,
+    portraits: &[Portrait],
+) -> Result<Vec<(String, String)>, FigureError> {
     let parts: Vec<Part<'_>> = file.components.iter().zip(&assessment.components).zip(portraits).collect();
     let names: Vec<String> = parts.iter().map(|((_, assessed), _)| name(&assessed.name)).collect();
     let margins: Vec<String> = parts.iter().map(|((_, assessed), _)| percent(assessed.tightest().margin)).collect();
@@ -70,12 +73,12 @@ pub(crate) fn files(file: &ProductFile, assessment: &Assessment, portraits: &[Po
         })
         .collect();
     let body = &file.product.body;
-    let mut files = vec![("product.svg".to_owned(), product(body.arms_m(), body.gyration_m(), &places))];
+    let mut files = vec![("product.svg".to_owned(), product(body.arms_m(), body.gyration_m(), &places)?)];
     for (i, part) in parts.iter().enumerate() {
-        files.extend(figures(i + 1, part));
+        files.extend(figures(i + 1, part)?);
     }
     let shown: Vec<Share<'_>> = parts.iter().zip(&names).map(|(part, name)| share(part, name)).collect();
-    files.push(("shares.svg".into(), shares(&shown)));
+    files.push(("shares.svg".into(), shares(&shown)?));
     let drawing = places.iter().map(|p| format!("{}: {}, margin {}.", p.name, p.verdict.name(), p.word));
     let with = |verdict| parts.iter().filter(|((_, assessed), _)| assessed.verdict == verdict).count();
     let data = json!({
@@ -92,7 +95,7 @@ pub(crate) fn files(file: &ProductFile, assessment: &Assessment, portraits: &[Po
     });
     files.push(("assessment.json".into(), data.to_string()));
     files.push(("page.json".into(), paper::page()));
-    files
+    Ok(files)
 }
 
 /// The same assessment with names that can surely be set; `None` where its names are such already.
@@ -115,7 +118,7 @@ fn hardest(assessment: &Assessment) -> Option<Value> {
 }
 
 /// The response over time of one part, and its demand over the tilt.
-fn figures(number: usize, ((_, assessed), portrait): &Part<'_>) -> [(String, String); 2] {
+fn figures(number: usize, ((_, assessed), portrait): &Part<'_>) -> Result<[(String, String); 2], FigureError> {
     let tightest = assessed.tightest();
     let (factor, unit) = customary(tightest.unit);
     // The figures are too low for the longest of the words.
@@ -129,10 +132,10 @@ fn figures(number: usize, ((_, assessed), portrait): &Part<'_>) -> [(String, Str
         (if *first == End::A { "end *a* first" } else { "end *b* first" }, points)
     });
     let curves: Vec<(&str, Vec<(f64, f64)>)> = curves.collect();
-    [
-        (format!("history-{number}.svg"), history(&points, &impacts, allowed, ["time, ms", &title])),
-        (format!("tilt-{number}.svg"), over_tilt(&curves, allowed, ["tilt, degrees", &title])),
-    ]
+    Ok([
+        (format!("history-{number}.svg"), history(&points, &impacts, allowed, ["time, ms", &title])?),
+        (format!("tilt-{number}.svg"), over_tilt(&curves, allowed, ["tilt, degrees", &title])?),
+    ])
 }
 
 /// What the tightest limit of a part is asked over the tilt, the worse of both first ends, as a share of what it allows.
@@ -175,7 +178,7 @@ mod tests {
     fn a_failing_part_is_told_what_would_make_it_safe() {
         let file = ProductFile::read(include_str!("../../../reports/examples/phone.toml"), "phone.toml").unwrap();
         let assessment = file.assess().unwrap();
-        let data = data(&files(&file, &assessment, &file.portraits(&assessment).unwrap()));
+        let data = data(&files(&file, &assessment, &file.portraits(&assessment).unwrap()).unwrap());
         for (part, found) in data["parts"].as_array().unwrap().iter().zip(&assessment.components) {
             let changes = &part["changes"];
             assert_eq!(changes.is_null(), found.verdict == Verdict::Safe, "{part}");
@@ -201,7 +204,7 @@ mod tests {
         let assessment = close.assess().unwrap();
         let camera = &assessment.components[1];
         assert_eq!(camera.limits[0].verdict, Verdict::Undecided, "{camera:?}");
-        let data = data(&files(&close, &assessment, &close.portraits(&assessment).unwrap()));
+        let data = data(&files(&close, &assessment, &close.portraits(&assessment).unwrap()).unwrap());
         let part = &data["parts"][1];
         assert_eq!(part["limits"][0]["verdict"], "undecided");
         let why = part["undecided"][0]["why"].as_str().unwrap();

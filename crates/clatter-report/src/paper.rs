@@ -6,10 +6,8 @@ use clatter::{Axis, Bar, Map, Quantity};
 use rayon::prelude::*;
 use serde_json::json;
 
-use crate::figure::plane::{Impacts, Zones, impacts, zones};
-use crate::figure::scheme::scheme;
-use crate::figure::surface::{Sheet, Surface, surface};
 use crate::{ReportError, table};
+use clatter_figures::{Impacts, Sheet, Surface, Zones, impacts, scheme, surface, zones};
 
 /// Everything the report shows.
 #[derive(Debug)]
@@ -124,18 +122,15 @@ impl Data {
 
     /// Figures as SVG, tables as JSON and CSV.
     pub(crate) fn files(&self) -> Result<Vec<File>, ReportError> {
-        let figures: Vec<File> = (1..=7u8)
-            .into_par_iter()
-            .map(|n| match n {
-                1 => ("figure-1.svg", scheme(self.percussion)),
-                2 => ("figure-2.svg", impacts(&self.impacts)),
-                3 => ("figure-3.svg", surface(&self.surfaces[0])),
-                4 => ("figure-4.svg", surface(&self.surfaces[1])),
-                5 => ("figure-5.svg", zones(&self.zones[0])),
-                6 => ("figure-6.svg", zones(&self.zones[1])),
-                _ => ("figure-7.svg", zones(&self.zones[2])),
-            })
-            .collect();
+        let figures: Vec<File> = vec![
+            ("figure-1.svg", scheme(self.percussion)?),
+            ("figure-2.svg", impacts(&self.impacts)?),
+            ("figure-3.svg", surface(&self.surfaces[0])?),
+            ("figure-4.svg", surface(&self.surfaces[1])?),
+            ("figure-5.svg", zones(&self.zones[0])?),
+            ("figure-6.svg", zones(&self.zones[1])?),
+            ("figure-7.svg", zones(&self.zones[2])?),
+        ];
         let (table1, claims) = (table::table1(&self.table1), table::claims(&self.claims));
         let tables = [
             ("table-1.json", pretty(&table1)?),

@@ -7,9 +7,8 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use crate::ReportError;
-use crate::figure::axes::tick;
-use crate::figure::peers::{Dot, Tool, tools};
 use crate::paper::{File, pretty};
+use clatter_figures::{Dot, FigureError, Tool, tick, tools};
 
 /// The last run.
 const RESULTS: &str = include_str!("../../../peers/results.json");
@@ -155,7 +154,7 @@ impl Results {
         })
     }
 
-    fn figure(&self) -> String {
+    fn figure(&self) -> Result<String, FigureError> {
         let rows = self.bars.rows.iter().map(|row| Tool {
             name: &row.tool,
             bars: std::array::from_fn(|i| (row.impacts[i], row.dot(i, self.bars.impacts[i]), row.ms[i])),
@@ -220,7 +219,7 @@ fn span(values: &[f64; 4]) -> String {
 /// `peers.json` and `peers.svg`.
 pub(crate) fn files() -> Result<Vec<File>, ReportError> {
     let results = Results::read()?;
-    Ok(vec![("peers.json", pretty(&results.numbers())?), ("peers.svg", results.figure())])
+    Ok(vec![("peers.json", pretty(&results.numbers())?), ("peers.svg", results.figure()?)])
 }
 
 #[cfg(test)]

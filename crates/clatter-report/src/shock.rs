@@ -12,10 +12,10 @@ use clatter_shock::{
 use serde_json::{Value, json};
 
 use crate::ReportError;
-use crate::figure::rules::{self, BarRules};
-use crate::figure::shock::{beside, boundary};
 use crate::paper::{File, pretty};
 use crate::table::decimals;
+use clatter_figures::rules::{self, BarRules};
+use clatter_figures::{RUST, beside, boundary};
 
 /// Everything the report shows.
 #[derive(Debug)]
@@ -261,21 +261,21 @@ impl Data {
             marks.push((at(hardest), "hardest impact", "#ffffff"));
         }
         if let Some(equivalent) = &p.equivalent {
-            marks.push((at(&equivalent.pulse), "equivalent half-sine", crate::svg::RUST));
+            marks.push((at(&equivalent.pulse), "equivalent half-sine", RUST));
         }
         Ok(vec![
-            ("shock-rules.svg", rules::rules(&self.bars)),
-            ("shock-damping.svg", rules::damping(&self.damping)),
-            ("shock-gain.svg", rules::gain(&self.gain, &DESIGNS)),
-            ("shock-impact-1.svg", rules::holders(&self.holders[0], DESIGNS[0])),
-            ("shock-impact-2.svg", rules::holders(&self.holders[1], DESIGNS[1])),
-            ("shock-zones-1.svg", rules::zones(&self.zones[0], DESIGNS[0])),
-            ("shock-zones-2.svg", rules::zones(&self.zones[1], DESIGNS[1])),
-            ("shock-spectrum.svg", beside(&p.acceleration[0], &p.acceleration[1], name)),
-            ("shock-velocity.svg", beside(&p.velocity[0], &p.velocity[1], name)),
-            ("shock-pulses.svg", rules::amplifications(&amplifications)),
-            ("shock-models.svg", rules::models(&p.models())),
-            ("shock-boundary.svg", boundary(&p.boundary, &p.curve, &marks, [230.0, 160.0])),
+            ("shock-rules.svg", rules::rules(&self.bars)?),
+            ("shock-damping.svg", rules::damping(&self.damping)?),
+            ("shock-gain.svg", rules::gain(&self.gain, &DESIGNS)?),
+            ("shock-impact-1.svg", rules::holders(&self.holders[0], DESIGNS[0])?),
+            ("shock-impact-2.svg", rules::holders(&self.holders[1], DESIGNS[1])?),
+            ("shock-zones-1.svg", rules::zones(&self.zones[0], DESIGNS[0])?),
+            ("shock-zones-2.svg", rules::zones(&self.zones[1], DESIGNS[1])?),
+            ("shock-spectrum.svg", beside(&p.acceleration[0], &p.acceleration[1], name)?),
+            ("shock-velocity.svg", beside(&p.velocity[0], &p.velocity[1], name)?),
+            ("shock-pulses.svg", rules::amplifications(&amplifications)?),
+            ("shock-models.svg", rules::models(&p.models())?),
+            ("shock-boundary.svg", boundary(&p.boundary, &p.curve, &marks, [230.0, 160.0])?),
             ("shock.json", pretty(&self.numbers())?),
         ])
     }

@@ -8,10 +8,9 @@ use clatter_assess::{Accuracy, ProductFile};
 use serde::Serialize;
 use serde_json::json;
 
-use crate::figure::ladder::{Panel, panels};
-use crate::figure::shock::three;
 use crate::paper::{File, pretty};
 use crate::{ReportError, words};
+use clatter_figures::{FigureError, LadderPanel as Panel, ladders as panels, three};
 
 /// The worked products, and the name of the figure of each.
 const EXAMPLES: [(&str, &str); 3] = [
@@ -55,15 +54,16 @@ pub fn trade_files() -> Result<Vec<(&'static str, String)>, ReportError> {
             title: format!("q = {}, e = {}: acceleration of the board", bar.q, bar.e),
             drop: String::new(),
             ladder: &bar.ladder,
+            reason: words::reason(&bar.ladder.reason),
             tolerance,
         })
         .collect();
-    let mut files: Vec<File> = vec![("trade-bars.svg", panels(&of_bars))];
+    let mut files: Vec<File> = vec![("trade-bars.svg", panels(&of_bars)?)];
     let mut products = Vec::new();
     for (name, text) in EXAMPLES {
         let file = ProductFile::read(text, name).map_err(|faults| ReportError::Data(faults.to_string()))?;
         let product = file.ladders(&file.assess()?, tolerance)?;
-        files.push((name, of_product(&product)));
+        files.push((name, of_product(&product)?));
         products.push(product);
     }
     let [(drop, part, _), ..] = &all;
@@ -84,7 +84,7 @@ pub fn trade_files() -> Result<Vec<(&'static str, String)>, ReportError> {
 }
 
 /// A panel for each limit.
-pub(crate) fn of_product(product: &ProductLadder) -> String {
+pub(crate) fn of_product(product: &ProductLadder) -> Result<String, FigureError> {
     panels(&product.limits.iter().map(|limit| of_limit(limit, product.tolerance)).collect::<Vec<_>>())
 }
 
@@ -100,6 +100,7 @@ fn of_limit(limit: &LimitLadder, tolerance: f64) -> Panel<'_> {
             three(worst.restitution)
         ),
         ladder,
+        reason: words::reason(&ladder.reason),
         tolerance,
     }
 }
@@ -154,9 +155,10 @@ mod tests {
                     title: "an *extreme* <one>".to_owned(),
                     drop: String::new(),
                     ladder: &ladder,
+                    reason: String::new(),
                     tolerance: 0.01,
                 };
-                let svg = panels(&[of]);
+                let svg = panels(&[of]).unwrap();
                 assert!(svg.contains("off the scale") && svg.contains("&lt;one&gt;"), "{svg}");
                 stay_within_their_frame(&[("extreme.svg", svg)]);
             }

@@ -3,7 +3,7 @@
 use clatter::End;
 use clatter_assess::{LimitKind, Model, STANDARD_GRAVITY_M_S2, Spread, Unit};
 
-use crate::figure::shock::three;
+use clatter_figures::three;
 
 /// Longest name in a running text; the figures cut theirs to the room there is.
 const LONGEST_NAME: usize = 60;

@@ -74,6 +74,14 @@ impl LimitCurve {
             }),
         }
     }
+    /// The corners of the curve from one frequency to another, and both ends there; straight lines on log-log paper in between.
+    #[must_use]
+    pub fn corners(&self, low_hz: f64, high_hz: f64) -> Vec<(f64, f64)> {
+        let corners = if let Law::Points(points) = &self.0 { &points[..] } else { &[] };
+        let end = |hz| self.at(hz).map(|allowed| (hz, allowed));
+        let between = corners.iter().copied().filter(|(hz, _)| low_hz < *hz && *hz < high_hz);
+        end(low_hz).into_iter().chain(between).chain(end(high_hz)).collect()
+    }
     /// The margin of the maximax at each frequency of a spectrum.
     ///
     /// The limit is in the unit of the spectrum.

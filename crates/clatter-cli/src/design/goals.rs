@@ -6,7 +6,7 @@ use clatter::contour::Point;
 use clatter::design::{Front, FrontPoint, Goal, front, region};
 use clatter::paper::DESIGNS;
 use clatter::{Bar, Start};
-use clatter_report::{DesignBorder, DesignFronts, DesignPlane};
+use clatter_figures::{DesignBorder, DesignFronts, DesignPlane};
 use serde::Serialize;
 
 use super::{Args, write};
@@ -47,7 +47,7 @@ impl Args {
             };
             write(
                 path,
-                || clatter_report::design_svg(&plane()),
+                || clatter_figures::design_plane(&plane()),
                 |out| {
                     writeln!(out, "piece,q,e")?;
                     points_csv("", &answer.region, out)
@@ -55,7 +55,7 @@ impl Args {
             )?;
         }
         if let Some(path) = &self.front {
-            write(path, || clatter_report::fronts_svg(&answer.drawing()), |out| answer.fronts_csv(out))?;
+            write(path, || clatter_figures::fronts(&answer.drawing()), |out| answer.fronts_csv(out))?;
         }
         match self.format {
             RowFormat::Table => answer.table(streams.out).map_err(Failure::Answer),

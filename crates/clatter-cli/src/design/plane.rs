@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use clatter_assess::design::{Border, Plane};
-use clatter_report::{DesignBorder, DesignPlane};
+use clatter_figures::{DesignBorder, DesignPlane};
 
 use crate::Failure;
 use crate::numbers::digits;
@@ -12,7 +12,7 @@ use crate::text::field;
 
 /// Writes the plane: a picture to a file that ends in .svg, else its borders.
 pub(super) fn write(path: &Path, plane: &Plane) -> Result<(), Failure> {
-    super::write(path, || clatter_report::design_svg(&drawing(plane)), |out| csv(plane, out))
+    super::write(path, || clatter_figures::design_plane(&drawing(plane)), |out| csv(plane, out))
 }
 
 fn drawing(plane: &Plane) -> DesignPlane {

@@ -31,7 +31,7 @@ pub(super) fn write(
     let rule = three_way_rule(bar, start, position, suspension.damping(), &omegas(ratio))?;
     output::replace(&target.path, |file| match target.kind {
         Kind::Csv => buffered(file, |out| csv(&rule, out)),
-        Kind::Svg => file.write_all(clatter_report::rule_svg(&rule, component).as_bytes()),
+        Kind::Svg => file.write_all(clatter_figures::rule(&rule, component)?.as_bytes()),
         Kind::Json | Kind::Npy => buffered(file, |out| Ok(serde_json::to_writer(out, &RuleJson::new(&rule))?)),
     })
 }

@@ -1,5 +1,6 @@
 //! The whole motion as a file.
 
+use clatter_figures::FigureError;
 use std::io::{self, Write};
 
 use clatter_flight::history::Row;
@@ -27,7 +28,7 @@ impl Drop<'_> {
                 let history = Rows(self);
                 Ok(serde_json::to_writer(out, &Whole { answer: self.answer(), history })?)
             }),
-            _ => output::buffered(file, |out| out.write_all(self.svg().as_bytes())),
+            _ => output::buffered(file, |out| out.write_all(self.svg()?.as_bytes())),
         })
     }
 
@@ -39,9 +40,9 @@ impl Drop<'_> {
         }
     }
 
-    fn svg(&self) -> String {
+    fn svg(&self) -> Result<String, FigureError> {
         let (flight, rows) = (self.motion.flight(), self.rows().collect::<Vec<_>>());
-        clatter_report::drop_svg(&clatter_report::Drop {
+        clatter_figures::drop(&clatter_figures::Drop {
             model: &self.physics(),
             rows: &rows,
             strikes: &flight.strikes,

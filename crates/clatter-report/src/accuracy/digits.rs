@@ -7,7 +7,7 @@ use super::part::{self, START};
 use super::plain::{closed, recurrence};
 use super::train::{Case, Exact, Found, Given, Row};
 use crate::ReportError;
-use crate::figure::axes::raised;
+use clatter_figures::raised;
 
 /// A number or a word.
 #[derive(Debug, Clone)]

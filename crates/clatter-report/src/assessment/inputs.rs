@@ -2,8 +2,8 @@
 
 use clatter_assess::{Component, ContactLaw, Damping, Fall, First, Mount, ProductFile};
 
-use crate::figure::shock::three;
 use crate::words::{end, millimeters, range, span};
+use clatter_figures::three;
 
 /// Rows of what was given: its name and its value.
 pub(super) fn rows(file: &ProductFile) -> Vec<[String; 2]> {

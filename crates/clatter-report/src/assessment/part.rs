@@ -7,9 +7,9 @@ use serde_json::{Value, json};
 
 use super::changes::changes;
 use super::inputs::held;
-use crate::figure::ladder::words as model;
-use crate::figure::shock::three;
 use crate::words::{end, limit, millimeters, minus, name, percent, shown};
+use clatter_figures::model_words as model;
+use clatter_figures::three;
 
 /// Whether a drop of the ranges was answered.
 pub(super) fn is_answered(of: &LimitAssessment) -> bool {

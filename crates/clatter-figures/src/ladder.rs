@@ -3,22 +3,26 @@
 use clatter_assess::Model;
 use clatter_assess::ladder::{Ladder, Measured};
 
-use super::axes::{Axes, Axis, SMALL, note, step_up, tick};
-use super::labels::{SIZE, Wanted, arrange};
-use super::product::fit;
-use crate::svg::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, Pt, RUST, SAND, Svg};
-use crate::words::reason;
+use crate::FigureError;
+use crate::chart::{Axes, Axis, step_up, tick};
+use crate::labels::{SIZE, Wanted, arrange};
+use crate::paper::{Paper, SMALL};
+use crate::product::fit;
+use crate::style::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, Pt, RUST, SAND};
 
 /// One panel.
 #[derive(Debug)]
-pub(crate) struct Panel<'a> {
+pub struct Panel<'a> {
     /// What is measured, as it stands.
-    pub(crate) title: String,
+    pub title: String,
     /// In which drop.
-    pub(crate) drop: String,
-    pub(crate) ladder: &'a Ladder,
+    pub drop: String,
+    /// The models on it.
+    pub ladder: &'a Ladder,
+    /// Why no cheaper model will do, in parts apart by semicolons.
+    pub reason: String,
     /// What a model may get wrong.
-    pub(crate) tolerance: f64,
+    pub tolerance: f64,
 }
 
 /// Size of a frame, in pt, and the left edge of a frame in its column.
@@ -37,23 +41,24 @@ const RING: f64 = 5.4;
 const MOST: f64 = 1e2;
 
 /// Panels in two columns; one alone stands by itself.
-pub(crate) fn panels(panels: &[Panel<'_>]) -> String {
+pub fn panels(panels: &[Panel<'_>]) -> Result<String, FigureError> {
     let columns = if panels.len() < 2 { 1 } else { 2 };
     let rows = f64::from(u32::try_from(panels.len().div_ceil(columns)).unwrap_or(u32::MAX));
-    let mut svg = Svg::new(LEFT + FRAME[0] + if columns > 1 { COLUMN } else { 24.0 } + 4.0, (PANEL * rows).max(HEAD));
+    let mut paper =
+        Paper::new(LEFT + FRAME[0] + if columns > 1 { COLUMN } else { 24.0 } + 4.0, (PANEL * rows).max(HEAD));
     if panels.is_empty() {
-        note(&mut svg, [4.0, 14.0], "No limit has a drop that was answered.");
+        paper.note([4.0, 14.0], "No limit has a drop that was answered.");
     }
     for (k, of) in panels.iter().enumerate() {
         let column = if k % columns == 0 { 0.0 } else { COLUMN };
         let row = f64::from(u32::try_from(k / columns).unwrap_or(u32::MAX));
-        panel(&mut svg, [column, PANEL * row], of);
+        panel(&mut paper, [column, PANEL * row], of);
     }
-    svg.finish("Error over cost of every model on one drop")
+    paper.finish("Error over cost of every model on one drop")
 }
 
 /// A model in words.
-pub(crate) fn words(model: Model) -> &'static str {
+pub fn words(model: Model) -> &'static str {
     match model {
         Model::NetChange => "net change",
         Model::LargestShock => "largest shock",
@@ -74,8 +79,8 @@ fn errors(ladder: &Ladder, tolerance: f64) -> [f64; 3] {
     [strip * 10f64.powf(-decades * STRIP / (FRAME[1] - STRIP)), strip, high]
 }
 
-fn panel(svg: &mut Svg, [left, top]: Pt, of: &Panel<'_>) {
-    head(svg, [left, top], of);
+fn panel(paper: &mut Paper, [left, top]: Pt, of: &Panel<'_>) {
+    head(paper, [left, top], of);
     let [low, strip, high] = errors(of.ladder, of.tolerance);
     let times = of.ladder.models.iter().map(|m| 1e6 * m.seconds);
     let axes = Axes {
@@ -84,15 +89,15 @@ fn panel(svg: &mut Svg, [left, top]: Pt, of: &Panel<'_>) {
         x: Axis::log_over(times.flat_map(|us| [0.5 * us, 2.0 * us]), 12.0, "time of one run, µs"),
         y: Axis::log(100.0 * low, 100.0 * high, "error, per cent"),
     };
-    axes.grid(svg);
+    let axes = axes.on(paper, 28.0);
     let ([left, top], [wide, _]) = (axes.corner, axes.size);
     let (right, foot) = (left + wide, top + FRAME[1]);
     let edge = axes.at(axes.x.low, 100.0 * strip)[1];
-    svg.rect([left, edge], [wide, foot - edge], Ink::fill("#ffffff"));
-    svg.rect([left, edge], [wide, foot - edge], Ink::fill(SAND));
+    paper.rect([left, edge], [wide, foot - edge], Ink::fill("#ffffff"));
+    paper.rect([left, edge], [wide, foot - edge], Ink::fill(SAND));
     let below = format!("< {}", tick(100.0 * strip));
-    svg.text([left - 5.0, 0.5 * (edge + foot) + 2.6], &below, Label { anchor: Anchor::End, ..SMALL });
-    axes.level(svg, 100.0 * of.tolerance, Ink { dash: "2 2.5", ..Ink::line(RUST, 0.7) });
+    paper.text([left - 5.0, 0.5 * (edge + foot) + 2.6], &below, Label { anchor: Anchor::End, ..SMALL });
+    axes.level(paper, 100.0 * of.tolerance, Ink { dash: "2 2.5", ..Ink::line(RUST, 0.7) });
     let place = |m: &Measured| {
         let [x, y] = axes.at(1e6 * m.seconds, 100.0 * m.error);
         [x, if m.error < strip { 0.5 * (edge + foot) } else { y }]
@@ -112,24 +117,24 @@ fn panel(svg: &mut Svg, [left, top]: Pt, of: &Panel<'_>) {
     let labels = arrange(&wanted, [[left, top], [right, foot]], &lines);
     for (label, of) in labels.iter().zip(&wanted) {
         if let Some(from) = label.leader(of) {
-            svg.line(from, of.at, Ink::line(GRAY, 0.4));
+            paper.line(from, of.at, Ink::line(GRAY, 0.4));
         }
     }
     for (m, at) in shown.iter().zip(&wanted) {
         if is_cheapest(m) {
-            svg.circle(at.at, RING, Ink { stroke: RUST, width: 1.1, ..Ink::fill("#ffffff") });
+            paper.circle(at.at, RING, Ink { stroke: RUST, width: 1.1, ..Ink::fill("#ffffff") });
         }
-        mark(svg, at.at, m.model);
+        mark(paper, at.at, m.model);
     }
     for ((m, label), of) in shown.iter().zip(&labels).zip(&wanted) {
         let color = if is_cheapest(m) { RUST } else { INK };
-        svg.text(label.baseline(), of.text, Label { anchor: Anchor::Start, size: SIZE, color, ..LABEL });
+        paper.text(label.baseline(), of.text, Label { anchor: Anchor::Start, size: SIZE, color, ..LABEL });
     }
-    axes.border(svg, 28.0);
+    axes.border(paper);
 }
 
 /// What is drawn, in which drop, what is the cheapest, and why no cheaper one.
-fn head(svg: &mut Svg, [left, top]: Pt, of: &Panel<'_>) {
+fn head(paper: &mut Paper, [left, top]: Pt, of: &Panel<'_>) {
     let room = LEFT + FRAME[0] - 4.0;
     let cheapest = format!("Cheapest within {} %: {}", tick(100.0 * of.tolerance), words(of.ladder.cheapest));
     let useless = of.ladder.models.iter().filter(|m| m.error > MOST).map(|m| words(m.model)).collect::<Vec<_>>();
@@ -137,7 +142,7 @@ fn head(svg: &mut Svg, [left, top]: Pt, of: &Panel<'_>) {
         [] => cheapest,
         names => format!("{cheapest}; off the scale: {}", names.join(", ")),
     };
-    let why = reason(&of.ladder.reason);
+    let why = of.reason.as_str();
     let mut lines =
         vec![(of.title.as_str(), 9.0, INK), (of.drop.as_str(), SMALL.size, GRAY), (&cheapest, SMALL.size, RUST)];
     lines.extend(why.split("; ").map(|part| (part, SMALL.size, GRAY)));
@@ -145,13 +150,13 @@ fn head(svg: &mut Svg, [left, top]: Pt, of: &Panel<'_>) {
     // The last stands above the frame, the others above it.
     let mut y = top + HEAD - 6.0;
     for (text, size, color) in lines.into_iter().rev() {
-        svg.plain([left + 4.0, y], &fit(text, room), Label { anchor: Anchor::Start, size, color, ..LABEL });
+        paper.plain([left + 4.0, y], &fit(text, room), Label { anchor: Anchor::Start, size, color, ..LABEL });
         y -= 10.0;
     }
 }
 
 /// Square where the answer is a closed form, round where the drop is followed; darker with more physics.
-fn mark(svg: &mut Svg, [x, y]: Pt, model: Model) {
+fn mark(paper: &mut Paper, [x, y]: Pt, model: Model) {
     let fill = match model {
         Model::NetChange | Model::LargestShock => "#ffffff",
         Model::Map => BLUES[2],
@@ -161,8 +166,8 @@ fn mark(svg: &mut Svg, [x, y]: Pt, model: Model) {
     };
     let ink = Ink { stroke: INK, width: 0.7, ..Ink::fill(fill) };
     if model < Model::Map {
-        svg.rect([x - 0.85 * MARK, y - 0.85 * MARK], [1.7 * MARK, 1.7 * MARK], ink);
+        paper.rect([x - 0.85 * MARK, y - 0.85 * MARK], [1.7 * MARK, 1.7 * MARK], ink);
     } else {
-        svg.circle([x, y], MARK, ink);
+        paper.circle([x, y], MARK, ink);
     }
 }

@@ -1,6 +1,6 @@
 //! Labels beside marks: none over another, over a mark or beyond the frame.
 
-use crate::svg::{Pt, width};
+use crate::style::{Pt, width};
 
 /// Font size and line height of the labels.
 pub(super) const SIZE: f64 = 7.5;

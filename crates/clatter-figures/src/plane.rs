@@ -2,67 +2,52 @@
 
 use clatter::contour::Point;
 
-use crate::svg::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, Pt, SAND, Svg, width};
+use crate::FigureError;
+use crate::chart::{Axes, Axis, Chart};
+use crate::paper::{Paper, What};
+use crate::style::{BLUES, GRAY, INK, Ink, LABEL, Label, Pt, SAND, width};
 
 /// Number of impacts over the plane.
 #[derive(Debug, Clone)]
-pub(crate) struct Impacts {
+pub struct Impacts {
     /// n and the curve between n and n + 1 impacts.
-    pub(crate) curves: Vec<(u32, Vec<Point>)>,
+    pub curves: Vec<(u32, Vec<Point>)>,
     /// The curve from which on the impacts never end.
-    pub(crate) endless: Vec<Point>,
+    pub endless: Vec<Point>,
 }
 
 /// Safe zones of one threshold over the plane.
 #[derive(Debug, Clone)]
-pub(crate) struct Zones {
+pub struct Zones {
     /// Threshold in v0.
-    pub(crate) threshold: f64,
+    pub threshold: f64,
     /// Level s and its curve in pieces, q ascending.
-    pub(crate) levels: Vec<(f64, Vec<Vec<Point>>)>,
+    pub levels: Vec<(f64, Vec<Vec<Point>>)>,
     /// Designs to mark, as (q, e).
-    pub(crate) designs: [[f64; 2]; 4],
+    pub designs: [[f64; 2]; 4],
 }
 
-/// The frame: left, top and the side of the square, in pt.
-#[derive(Debug, Clone, Copy)]
-struct Frame {
-    left: f64,
-    top: f64,
-    side: f64,
-}
-
-impl Frame {
-    fn at(self, p: Point) -> Pt {
-        [self.left + p.e * self.side, self.top + (1.0 - p.q) * self.side]
-    }
-    fn line(self, curve: &[Point]) -> Vec<Pt> {
-        curve.iter().map(|p| self.at(*p)).collect()
-    }
-    fn corner(self, q: f64, e: f64) -> Pt {
-        self.at(Point { q, e })
-    }
-
-    /// Border, ticks and titles; `titles` is how far left the title of q stands.
-    fn draw(self, svg: &mut Svg, titles: f64) {
-        svg.rect([self.left, self.top], [self.side, self.side], Ink::line(INK, 0.6));
-        let tick = Label { size: 8.0, color: INK, ..LABEL };
-        for i in 0..=5u8 {
-            let v = f64::from(i) / 5.0;
-            let text = if i == 0 || i == 5 { format!("{v:.0}") } else { format!("{v:.1}") };
-            let [x, y] = self.corner(0.0, v);
-            svg.line([x, y], [x, y + 3.0], Ink::line(INK, 0.6));
-            svg.text([x, y + 11.5], &text, tick);
-            let [x, y] = self.corner(v, 0.0);
-            svg.line([x, y], [x - 3.0, y], Ink::line(INK, 0.6));
-            svg.text([x - 5.0, y + 2.6], &text, Label { anchor: Anchor::End, ..tick });
-        }
-        let [x, y] = self.corner(0.0, 0.5);
-        svg.text([x, y + 24.0], "coefficient of restitution *e*", LABEL);
-        let [x, y] = self.corner(0.5, 0.0);
-        svg.text([x - titles, y], "inertia ratio *q*", Label { turn: -90.0, ..LABEL });
+/// The plane as a chart, e to the right and q upward.
+pub(crate) fn plane_axes(corner: Pt, side: f64) -> Axes<'static> {
+    Axes {
+        corner,
+        size: [side; 2],
+        x: Axis::linear(0.0, 1.0, "coefficient of restitution *e*"),
+        y: Axis::linear(0.0, 1.0, "inertia ratio *q*"),
     }
 }
+
+fn line(chart: &Chart<'_>, curve: &[Point]) -> Vec<Pt> {
+    curve.iter().map(|p| chart.at(p.e, p.q)).collect()
+}
+
+/// The part of the plane to the left of a curve, or all of it.
+fn fill(chart: &Chart<'_>, paper: &mut Paper, curve: &[Point], ends: &[(f64, f64)], color: &str) {
+    let shape = curve.iter().map(|p| (p.e, p.q)).chain(ends.iter().copied()).collect();
+    chart.draw(paper, vec![shape], What::Area(Ink::fill(color)));
+}
+
+const SQUARE: [(f64, f64); 4] = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
 
 /// e(q) of a level over the whole of 0 ≤ q ≤ 1, held at the border where the curve is outside.
 fn outline(pieces: &[Vec<Point>]) -> Vec<Point> {
@@ -88,43 +73,42 @@ fn crossing(curve: &[Point], e: f64) -> Option<f64> {
 }
 
 /// Fig. 2: the number of impacts.
-pub(crate) fn impacts(data: &Impacts) -> String {
-    let frame = Frame { left: 88.0, top: 6.0, side: 206.0 };
-    let mut svg = Svg::new(300.0, 242.0);
+///
+/// # Errors
+/// As every figure: [`FigureError`].
+pub fn impacts(data: &Impacts) -> Result<String, FigureError> {
+    let mut paper = Paper::new(300.0, 242.0);
+    let chart = plane_axes([88.0, 6.0], 206.0).without_grid(&mut paper, 24.0);
+    let side = chart.size[0];
     // from the top down: all of the square is endless, then each region covers the one above it
-    svg.rect([frame.left, frame.top], [frame.side, frame.side], Ink::fill(SAND));
-    let below = |svg: &mut Svg, curve: &[Point], fill| {
-        let mut shape = frame.line(curve);
-        shape.extend([frame.corner(0.0, 1.0), frame.corner(0.0, 0.0)]);
-        svg.path(&shape, true, Ink::fill(fill));
-    };
-    below(&mut svg, &data.endless, BLUES[7]);
+    fill(&chart, &mut paper, &[], &SQUARE, SAND);
+    let left = [(1.0, 0.0), (0.0, 0.0)];
+    fill(&chart, &mut paper, &data.endless, &left, BLUES[7]);
     for (i, (_, curve)) in data.curves.iter().enumerate().rev() {
-        let mut curve = curve.clone();
-        curve.reverse();
-        below(&mut svg, &curve, BLUES[i.min(6)]);
+        let down: Vec<Point> = curve.iter().rev().copied().collect();
+        fill(&chart, &mut paper, &down, &left, BLUES[i.min(6)]);
     }
     for (_, curve) in &data.curves {
-        svg.path(&frame.line(curve), false, Ink::line("#ffffff", 0.5));
+        paper.path(&line(&chart, curve), false, Ink::line("#ffffff", 0.5));
     }
-    svg.path(&frame.line(&data.endless), false, Ink::line(INK, 1.1));
-    frame.draw(&mut svg, 24.0);
+    paper.path(&line(&chart, &data.endless), false, Ink::line(INK, 1.1));
+    chart.border(&mut paper);
 
     // a number in each region, along e = 0.86, as long as there is room for it
     let mut lower = 0.0;
     for (n, curve) in &data.curves {
         let Some(upper) = crossing(curve, 0.86) else { continue };
-        if (upper - lower) * frame.side > 8.0 {
-            let [x, y] = frame.corner(0.5 * (lower + upper), 0.86);
+        if (upper - lower) * side > 8.0 {
+            let [x, y] = chart.at(0.86, 0.5 * (lower + upper));
             let color = if *n > 5 { "#ffffff" } else { INK };
             let text = if lower > 0.0 { n.to_string() } else { format!("{n} impacts") };
-            svg.text([x, y + 2.9], &text, Label { color, ..LABEL });
+            paper.text([x, y + 2.9], &text, Label { color, ..LABEL });
         }
         lower = upper;
     }
-    let [x, y] = frame.corner(0.93, 0.18);
-    svg.text([x, y], "endless", LABEL);
-    svg.text([x, y + 10.0], "*q* ≥ 2√*e*/(1 + *e*)", LABEL);
+    let [x, y] = chart.at(0.18, 0.93);
+    paper.text([x, y], "endless", LABEL);
+    paper.text([x, y + 10.0], "*q* ≥ 2√*e*/(1 + *e*)", LABEL);
 
     // how the mass lies at q = 0, 0.5, 1, beside the axis
     let (a, b) = (5.0, 47.0);
@@ -134,18 +118,18 @@ pub(crate) fn impacts(data: &Impacts) -> String {
         (0.5, 0.0, vec![], "uniform"),
         (0.0, -10.0, vec![a + 2.0, b - 2.0], "at the ends"),
     ] {
-        let y = frame.corner(q, 0.0)[1] + shift;
-        svg.line([a, y], [b, y], Ink::line(GRAY, if dots.is_empty() { 5.2 } else { 1.2 }));
+        let y = chart.at(0.0, q)[1] + shift;
+        paper.line([a, y], [b, y], Ink::line(GRAY, if dots.is_empty() { 5.2 } else { 1.2 }));
         for x in dots {
-            svg.circle([x, y], 4.2, Ink::fill(INK));
+            paper.circle([x, y], 4.2, Ink::fill(INK));
         }
-        svg.text([middle, y + 14.0], name, Label { size: 7.5, color: GRAY, ..LABEL });
+        paper.text([middle, y + 14.0], name, Label { size: 7.5, color: GRAY, ..LABEL });
     }
-    svg.finish("Number of impacts over restitution and inertia ratio")
+    paper.finish("Number of impacts over restitution and inertia ratio")
 }
 
 /// Where a label sits on a curve: its index in the line, point and turn.
-fn place(line: &[Pt], half: f64, others: &[Vec<Pt>], taken: &[Pt], frame: Frame) -> Option<(f64, Pt, f64)> {
+fn place(line: &[Pt], half: f64, others: &[Vec<Pt>], taken: &[Pt], chart: &Chart<'_>) -> Option<(f64, Pt, f64)> {
     let length: f64 = line.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1])).sum();
     if length < 5.0 * half {
         return None;
@@ -154,9 +138,8 @@ fn place(line: &[Pt], half: f64, others: &[Vec<Pt>], taken: &[Pt], frame: Frame)
     for k in 0..=24u8 {
         let t = 0.2 + 0.6 * f64::from(k) / 24.0;
         let p = along(line, t * length);
-        let edge = [p[0] - frame.left, frame.left + frame.side - p[0], p[1] - frame.top, frame.top + frame.side - p[1]]
-            .into_iter()
-            .fold(f64::INFINITY, f64::min);
+        let edge = (0..2).map(|k| (p[k] - chart.corner[k]).min(chart.corner[k] + chart.size[k] - p[k]));
+        let edge = edge.fold(f64::INFINITY, f64::min);
         let near = |q: &Pt| (q[0] - p[0]).hypot(q[1] - p[1]);
         let curve = others.iter().flatten().map(near).fold(60.0, f64::min);
         let label = taken.iter().map(near).fold(60.0, f64::min);
@@ -209,20 +192,18 @@ fn cut(line: &[Pt], from: f64, to: f64) -> [Vec<Pt>; 2] {
 }
 
 /// Figs. 5 to 7: the safe zone of one threshold.
-pub(crate) fn zones(data: &Zones) -> String {
-    let frame = Frame { left: 38.0, top: 6.0, side: 168.0 };
-    let mut svg = Svg::new(214.0, 204.0);
+pub fn zones(data: &Zones) -> Result<String, FigureError> {
+    let mut paper = Paper::new(214.0, 204.0);
+    let chart = plane_axes([38.0, 6.0], 168.0).without_grid(&mut paper, 25.0);
     let bare = data.levels.first().is_some_and(|(level, _)| *level <= 0.0);
-    svg.rect([frame.left, frame.top], [frame.side, frame.side], Ink::fill(if bare { SAND } else { BLUES[0] }));
+    fill(&chart, &mut paper, &[], &SQUARE, if bare { SAND } else { BLUES[0] });
     let shade = |i: usize| ((i + usize::from(!bare)) * 7 / (data.levels.len() - usize::from(bare)).max(1)).min(7);
     for (i, (_, pieces)) in data.levels.iter().enumerate() {
-        let mut shape = frame.line(&outline(pieces));
-        shape.extend([frame.corner(1.0, 0.0), frame.corner(0.0, 0.0)]);
-        svg.path(&shape, true, Ink::fill(BLUES[shade(i)]));
+        fill(&chart, &mut paper, &outline(pieces), &[(0.0, 1.0), (0.0, 0.0)], BLUES[shade(i)]);
     }
     let lines: Vec<Vec<Vec<Pt>>> =
-        data.levels.iter().map(|(_, pieces)| pieces.iter().map(|piece| frame.line(piece)).collect()).collect();
-    let mut taken: Vec<Pt> = data.designs.iter().map(|[q, e]| frame.corner(*q, *e)).collect();
+        data.levels.iter().map(|(_, pieces)| pieces.iter().map(|piece| line(&chart, piece)).collect()).collect();
+    let mut taken: Vec<Pt> = data.designs.iter().map(|[q, e]| chart.at(*e, *q)).collect();
     for (i, (level, _)) in data.levels.iter().enumerate() {
         let bound = *level <= 0.0 || *level >= 1.0;
         let ink = if bound { Ink::line(INK, 1.1) } else { Ink::line("#2c5a86", 0.7) };
@@ -230,18 +211,18 @@ pub(crate) fn zones(data: &Zones) -> String {
         let half = 0.5 * width(&text, 7.5) + 1.8;
         let others: Vec<Vec<Pt>> =
             lines.iter().enumerate().filter(|(j, _)| *j != i).flat_map(|(_, l)| l.iter().cloned()).collect();
-        for line in &lines[i] {
-            let Some((at, [x, y], turn)) = place(line, half, &others, &taken, frame) else {
-                svg.path(line, false, ink);
+        for curve in &lines[i] {
+            let Some((at, [x, y], turn)) = place(curve, half, &others, &taken, &chart) else {
+                paper.path(curve, false, ink);
                 continue;
             };
-            for part in cut(line, at - half, at + half) {
-                svg.path(&part, false, ink);
+            for part in cut(curve, at - half, at + half) {
+                paper.path(&part, false, ink);
             }
             taken.push([x, y]);
             let turned = turn.to_radians();
             let base = [x - 2.5 * turned.sin(), y + 2.5 * turned.cos()];
-            svg.text(
+            paper.text(
                 base,
                 &text,
                 Label { size: 7.5, turn, color: if shade(i) > 6 { "#ffffff" } else { INK }, ..LABEL },
@@ -249,25 +230,25 @@ pub(crate) fn zones(data: &Zones) -> String {
         }
     }
     for [q, e] in data.designs {
-        svg.circle(frame.corner(q, e), 2.0, Ink { stroke: INK, width: 0.8, ..Ink::fill("#ffffff") });
+        paper.circle(chart.at(e, q), 2.0, Ink { stroke: INK, width: 0.8, ..Ink::fill("#ffffff") });
     }
-    frame.draw(&mut svg, 25.0);
+    chart.border(&mut paper);
     let none = data.levels.iter().find(|(level, _)| *level <= 0.0).map(|(_, pieces)| outline(pieces));
     let area =
         |line: &[Point]| line.windows(2).map(|w| (w[1].q - w[0].q) * (1.0 - 0.5 * (w[0].e + w[1].e))).sum::<f64>();
     if none.is_some_and(|line| area(&line) > 0.2) {
-        let [x, y] = frame.corner(0.28, 0.72);
-        svg.text([x, y], "no safe zone", LABEL);
+        let [x, y] = chart.at(0.72, 0.28);
+        paper.text([x, y], "no safe zone", LABEL);
     } else if data.levels.iter().any(|(level, pieces)| *level <= 0.0 && !pieces.is_empty()) {
-        let [x, y] = frame.corner(0.24, 0.925);
-        svg.text([x, y], "none", LABEL);
+        let [x, y] = chart.at(0.925, 0.24);
+        paper.text([x, y], "none", LABEL);
     }
     if data.levels.iter().any(|(level, pieces)| *level >= 1.0 && !pieces.is_empty()) {
-        let [x, y] = frame.corner(0.2, 0.22);
-        svg.text([x, y], "the whole bar", Label { color: "#ffffff", ..LABEL });
+        let [x, y] = chart.at(0.22, 0.2);
+        paper.text([x, y], "the whole bar", Label { color: "#ffffff", ..LABEL });
     }
     let x = data.threshold;
-    svg.finish(&format!("Safe zone for velocity shocks up to {x} v0, in per cent of the bar"))
+    paper.finish(&format!("Safe zone for velocity shocks up to {x} v0, in per cent of the bar"))
 }
 
 /// A level in per cent.

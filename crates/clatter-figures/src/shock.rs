@@ -4,8 +4,10 @@ use std::f64::consts::TAU;
 
 use clatter_shock::{DamageBoundary, LimitCurve, Quantity, Rule, Spectrum};
 
-use super::axes::{Axes, Axis, SMALL, key, note, tick};
-use crate::svg::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, Pt, RUST, SAND, Svg, width};
+use crate::FigureError;
+use crate::chart::{Axes, Axis, Chart, tick};
+use crate::paper::{Paper, SMALL};
+use crate::style::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, Pt, RUST, SAND, width};
 
 const MAXIMAX: Ink = Ink::line(BLUES[2], 4.0);
 const POSITIVE: Ink = Ink::line(BLUES[8], 1.1);
@@ -37,16 +39,21 @@ fn pairs<'a>(spectrum: &'a Spectrum, values: &'a [f64], order: &'a [usize]) -> i
 }
 
 /// A shock response spectrum on log-log or four-coordinate paper.
-pub(crate) fn spectrum(s: &Spectrum, limit: Option<&LimitCurve>) -> String {
+pub fn spectrum(s: &Spectrum, limit: Option<&LimitCurve>) -> Result<String, FigureError> {
     draw(s, limit, &[], false)
 }
 
 /// A smaller one with another spectrum of the quantity beside it, by its maximax, and its name: half as wide as a page.
-pub(crate) fn beside(s: &Spectrum, other: &Spectrum, name: &str) -> String {
+pub fn beside(s: &Spectrum, other: &Spectrum, name: &str) -> Result<String, FigureError> {
     draw(s, None, &[(other, name)], true)
 }
 
-fn draw(s: &Spectrum, limit: Option<&LimitCurve>, others: &[(&Spectrum, &str)], small: bool) -> String {
+fn draw(
+    s: &Spectrum,
+    limit: Option<&LimitCurve>,
+    others: &[(&Spectrum, &str)],
+    small: bool,
+) -> Result<String, FigureError> {
     let mut order: Vec<usize> = (0..s.frequency_hz.len()).collect();
     order.sort_by(|a, b| s.frequency_hz[*a].total_cmp(&s.frequency_hz[*b]));
     let margins = limit.map(|limit| limit.margins(s)).unwrap_or_default();
@@ -66,8 +73,8 @@ fn draw(s: &Spectrum, limit: Option<&LimitCurve>, others: &[(&Spectrum, &str)], 
     let (x, y, size) = if four { squared(x, y, room) } else { (x, y, room) };
     let axes = Axes { corner: if small { [40.0, 8.0] } else { [52.0, 12.0] }, size, x, y };
     let (right, bottom) = (axes.corner[0] + axes.size[0], axes.corner[1] + axes.size[1]);
-    let mut svg = if small { Svg::new(226.0, bottom + 62.0) } else { Svg::new(right + 132.0, bottom + 30.0) };
-    axes.grid(&mut svg);
+    let mut paper = if small { Paper::new(226.0, bottom + 62.0) } else { Paper::new(right + 132.0, bottom + 30.0) };
+    let axes = axes.on(&mut paper, if small { 31.0 } else { 38.0 });
     if four {
         let drawn = order.iter().flat_map(|&i| {
             let allowed = margins.get(i).copied().flatten().map_or(f64::NAN, |m| m.allowed);
@@ -75,7 +82,7 @@ fn draw(s: &Spectrum, limit: Option<&LimitCurve>, others: &[(&Spectrum, &str)], 
         });
         let beside =
             others.iter().flat_map(|(o, _)| o.frequency_hz.iter().zip(&o.maximax).map(|(f, v)| axes.at(*f, *v)));
-        slants(&mut svg, &axes, &drawn.chain(beside).collect::<Vec<_>>());
+        slants(&mut paper, &axes, &drawn.chain(beside).collect::<Vec<_>>());
     }
     let curves = [
         (MAXIMAX, "maximax", &s.maximax),
@@ -85,54 +92,53 @@ fn draw(s: &Spectrum, limit: Option<&LimitCurve>, others: &[(&Spectrum, &str)], 
         (NEGATIVE, "negative", &s.negative),
     ];
     for (ink, _, values) in &curves {
-        axes.curve(&mut svg, pairs(s, values, &order), *ink);
+        axes.curve(&mut paper, pairs(s, values, &order), *ink);
         if let [one] = order[..] {
-            axes.mark(&mut svg, s.frequency_hz[one], values[one], ink.stroke);
+            axes.mark(&mut paper, s.frequency_hz[one], values[one], ink.stroke);
         }
     }
     let mut lines: Vec<(Ink, &str)> = curves.iter().map(|(ink, name, _)| (*ink, *name)).collect();
     for ((other, name), ink) in others.iter().zip(OTHERS) {
-        axes.curve(&mut svg, other.frequency_hz.iter().copied().zip(other.maximax.iter().copied()), ink);
+        axes.curve(&mut paper, other.frequency_hz.iter().copied().zip(other.maximax.iter().copied()), ink);
         lines.push((ink, *name));
     }
     let worst = LimitCurve::worst(&margins).and_then(|i| Some((s.frequency_hz[i], margins[i]?)));
-    if limit.is_some() {
-        let curve = order.iter().filter_map(|&i| Some((s.frequency_hz[i], margins.get(i)?.as_ref()?.allowed)));
-        axes.curve(&mut svg, curve, LIMIT);
+    if let Some(limit) = limit {
+        axes.curve(&mut paper, limit.corners(x.low, x.high).into_iter(), LIMIT);
         lines.push((LIMIT, "limit"));
     }
-    axes.border(&mut svg, if small { 31.0 } else { 38.0 });
+    axes.border(&mut paper);
     if small {
         for (pair, x) in lines.chunks(2).zip([6.0, 78.0, 148.0]) {
-            key(&mut svg, [x, bottom + 41.0], pair);
+            paper.key([x, bottom + 41.0], pair);
         }
-        return svg.finish(&format!("Shock response spectrum: {}", title(s.quantity)));
+        return paper.finish(&format!("Shock response spectrum: {}", title(s.quantity)));
     }
-    let mut down = key(&mut svg, [right + 12.0, 20.0], &lines);
+    let mut down = paper.key([right + 12.0, 20.0], &lines);
     if let Some((hz, margin)) = worst {
         let (from, to) = (axes.at(hz, margin.demand), axes.at(hz, margin.allowed));
         if from.iter().chain(&to).all(|c| c.is_finite()) && (from[1] - to[1]).abs() > 6.0 {
-            svg.arrow(from, to, if margin.is_safe() { INK } else { RUST }, 0.9);
+            paper.arrow(from, to, if margin.is_safe() { INK } else { RUST }, 0.9);
         }
         let db = margin.decibel();
         let db = format!("{db:+.*} dB", if db.abs() < 1.0 { 2 } else { 1 }).replace('-', "−");
-        note(&mut svg, [right + 12.0, down + 4.0], &format!("least margin {db}"));
-        note(&mut svg, [right + 12.0, down + 15.0], &format!("at {} Hz", three(hz)));
+        paper.note([right + 12.0, down + 4.0], &format!("least margin {db}"));
+        paper.note([right + 12.0, down + 15.0], &format!("at {} Hz", three(hz)));
         down += 26.0;
     }
     let zeta = s.damping.get();
-    let note_at = |svg: &mut Svg, k: f64, text: &str| note(svg, [right + 12.0, down + 4.0 + 11.0 * k], text);
-    note_at(&mut svg, 0.0, &format!("damping ratio {}", three(zeta)));
+    let note_at = |paper: &mut Paper, k: f64, text: &str| paper.note([right + 12.0, down + 4.0 + 11.0 * k], text);
+    note_at(&mut paper, 0.0, &format!("damping ratio {}", three(zeta)));
     if four {
-        note_at(&mut svg, 1.6, "aslant upward: relative");
-        note_at(&mut svg, 2.6, "displacement; downward:");
-        note_at(&mut svg, 3.6, "acceleration");
+        note_at(&mut paper, 1.6, "aslant upward: relative");
+        note_at(&mut paper, 2.6, "displacement; downward:");
+        note_at(&mut paper, 3.6, "acceleration");
     }
-    svg.finish(&format!("Shock response spectrum: {}", title(s.quantity)))
+    paper.finish(&format!("Shock response spectrum: {}", title(s.quantity)))
 }
 
 /// Three significant digits, short.
-pub(crate) fn three(v: f64) -> String {
+pub fn three(v: f64) -> String {
     if v == 0.0 || !(1e-3..1e5).contains(&v.abs()) {
         return tick(v);
     }
@@ -156,10 +162,10 @@ fn squared<'a>(x: Axis<'a>, y: Axis<'a>, room: Pt) -> (Axis<'a>, Axis<'a>, Pt) {
 }
 
 /// Lines of equal displacement and equal acceleration, a decade apart, with their values, clear of the points `drawn`.
-fn slants(svg: &mut Svg, axes: &Axes, drawn: &[Pt]) {
+fn slants(paper: &mut Paper, axes: &Chart<'_>, drawn: &[Pt]) {
     let (x, y) = (axes.x, axes.y);
-    let line = |svg: &mut Svg, at: &dyn Fn(f64) -> f64| {
-        axes.curve(svg, [(x.low, at(x.low)), (x.high, at(x.high))].into_iter(), SLANT);
+    let line = |paper: &mut Paper, at: &dyn Fn(f64) -> f64| {
+        axes.curve(paper, [(x.low, at(x.low)), (x.high, at(x.high))].into_iter(), SLANT);
     };
     let decades = |low: f64, high: f64| {
         let first = low.log10().ceil();
@@ -174,7 +180,7 @@ fn slants(svg: &mut Svg, axes: &Axes, drawn: &[Pt]) {
     // Labels at the upper ends of the displacements and the lower ends of the accelerations: never at one place.
     let turn = (axes.size[1] / (y.high / y.low).log10()).atan2(axes.size[0] / (x.high / x.low).log10()).to_degrees();
     let mut taken: Vec<(Pt, f64)> = Vec::new();
-    let mut label = |svg: &mut Svg, hz: f64, v: f64, text: &str, turn: f64| {
+    let mut label = |paper: &mut Paper, hz: f64, v: f64, text: &str, turn: f64| {
         let [px, py] = axes.at(hz, v);
         let (sin, cos) = turn.to_radians().sin_cos();
         let half = 0.5 * width(text, 7.0) + 1.0;
@@ -194,26 +200,26 @@ fn slants(svg: &mut Svg, axes: &Axes, drawn: &[Pt]) {
         let Some([cx, cy]) = (0..12).map(center).find(|c| clear(*c)) else { return };
         taken.push(([cx, cy], half));
         let corner = |a: f64, b: f64| [cx + a * cos - b * sin, cy + a * sin + b * cos];
-        svg.path(
+        paper.path(
             &[corner(-half, -3.5), corner(half, -3.5), corner(half, 3.5), corner(-half, 3.5)],
             true,
             Ink::fill("#ffffff"),
         );
-        svg.text(corner(0.0, 2.3), text, Label { size: 7.0, turn, color: GRAY, ..LABEL });
+        paper.text(corner(0.0, 2.3), text, Label { size: 7.0, turn, color: GRAY, ..LABEL });
     };
     let inset = 1.02;
     for d in decades(y.low / (TAU * x.high), y.high / (TAU * x.low)) {
-        line(svg, &|hz| TAU * hz * d);
+        line(paper, &|hz| TAU * hz * d);
         let hz = (y.high / (TAU * d)).min(x.high);
         if hz > x.low * 2.5 && TAU * hz * d > y.low * 2.5 {
-            label(svg, hz / inset, TAU * hz * d / inset, &length(d), -turn);
+            label(paper, hz / inset, TAU * hz * d / inset, &length(d), -turn);
         }
     }
     for a in decades(y.low * TAU * x.low, y.high * TAU * x.high) {
-        line(svg, &|hz| a / (TAU * hz));
+        line(paper, &|hz| a / (TAU * hz));
         let hz = (a / (TAU * y.low)).min(x.high);
         if hz > x.low * 2.5 && a / (TAU * hz) < y.high / 2.5 {
-            label(svg, hz / inset, a / (TAU * hz) * inset, &format!("{} m/s²", tick(a)), turn);
+            label(paper, hz / inset, a / (TAU * hz) * inset, &format!("{} m/s²", tick(a)), turn);
         }
     }
 }
@@ -230,17 +236,17 @@ fn length(m: f64) -> String {
 }
 
 /// Acceleration over velocity change, with what is safe on either side.
-pub(crate) fn damage_boundary(b: &DamageBoundary, curve: &[(f64, f64)], pulse: [f64; 2]) -> String {
+pub fn damage_boundary(b: &DamageBoundary, curve: &[(f64, f64)], pulse: [f64; 2]) -> Result<String, FigureError> {
     boundary(b, curve, &[(pulse, "this pulse", RUST)], [330.0, 230.0])
 }
 
 /// The same with any pulses, (velocity change, acceleration), name and color, in a frame of any size.
-pub(crate) fn boundary(
+pub fn boundary(
     b: &DamageBoundary,
     curve: &[(f64, f64)],
     pulses: &[([f64; 2], &str, &'static str)],
     size: Pt,
-) -> String {
+) -> Result<String, FigureError> {
     let (v, a) = (b.critical_velocity_change(), b.critical_acceleration());
     let knee = b.knee_velocity_change();
     let last = curve.last().map_or(v, |p| p.0);
@@ -255,39 +261,43 @@ pub(crate) fn boundary(
         x: Axis::log(least(0, v / 5.0), right, "velocity change of the base, m/s"),
         y: Axis::log(least(1, a / 5.0), most(1, 30.0 * a), "peak acceleration of the base, m/s²"),
     };
-    let mut svg = Svg::new(size[0] + 66.0, size[1] + 42.0);
-    axes.grid(&mut svg);
+    let mut paper = Paper::new(size[0] + 66.0, size[1] + 42.0);
+    let axes = axes.on(&mut paper, 38.0);
     // damage: above and to the right of the boundary
     let mut edge: Vec<(f64, f64)> = curve.iter().copied().filter(|p| p.1 <= axes.y.high).collect();
     edge.insert(0, (edge.first().map_or(v, |p| p.0), axes.y.high));
     edge.push((axes.x.high, if knee.is_finite() { a } else { edge.last().map_or(a, |p| p.1) }));
     let mut region: Vec<Pt> = edge.iter().map(|p| axes.at(p.0, p.1)).collect();
     region.push(axes.at(axes.x.high, axes.y.high));
-    svg.path(&region, true, Ink::fill(SAND));
-    axes.curve(&mut svg, [(v, axes.y.low), (v, axes.y.high)].into_iter(), GUIDE);
-    axes.level(&mut svg, a, GUIDE);
-    axes.curve(&mut svg, edge.into_iter(), Ink::line(INK, 1.6));
-    let word = |svg: &mut Svg, [x, y]: Pt, lines: &[&str]| {
+    paper.path(&region, true, Ink::fill(SAND));
+    axes.curve(&mut paper, [(v, axes.y.low), (v, axes.y.high)].into_iter(), GUIDE);
+    axes.level(&mut paper, a, GUIDE);
+    axes.curve(&mut paper, edge.into_iter(), Ink::line(INK, 1.6));
+    let word = |paper: &mut Paper, [x, y]: Pt, lines: &[&str]| {
         for (line, dy) in lines.iter().zip([0.0, 10.0, 20.0]) {
-            svg.text([x, y + dy], line, LABEL);
+            paper.text([x, y + dy], line, LABEL);
         }
     };
     let ([left, top], [wide, high]) = (axes.corner, axes.size);
     let [vx, ay] = axes.at(v, a);
     if vx - left > 60.0 {
-        word(&mut svg, [0.5 * (left + vx), top + 0.1 * high], &["no damage:", "too little", "velocity"]);
+        word(&mut paper, [0.5 * (left + vx), top + 0.1 * high], &["no damage:", "too little", "velocity"]);
     }
-    word(&mut svg, [0.5 * (vx + left + wide), ay + 0.5 * (top + high - ay)], &["no damage: too little acceleration"]);
-    word(&mut svg, [vx + 0.6 * (left + wide - vx), top + 0.3 * (ay - top)], &["damage"]);
+    word(&mut paper, [0.5 * (vx + left + wide), ay + 0.5 * (top + high - ay)], &["no damage: too little acceleration"]);
+    word(&mut paper, [vx + 0.6 * (left + wide - vx), top + 0.3 * (ay - top)], &["damage"]);
     let small = Label { color: GRAY, ..SMALL };
-    svg.text([left + 4.0, ay - 3.0], &format!("critical {} m/s²", three(a)), Label { anchor: Anchor::Start, ..small });
-    svg.text(
+    paper.text(
+        [left + 4.0, ay - 3.0],
+        &format!("critical {} m/s²", three(a)),
+        Label { anchor: Anchor::Start, ..small },
+    );
+    paper.text(
         [vx + 3.0, top + high - 4.0],
         &format!("critical {} m/s", three(v)),
         Label { anchor: Anchor::Start, ..small },
     );
     for (at, name, color) in pulses {
-        axes.mark(&mut svg, at[0], at[1], color);
+        axes.mark(&mut paper, at[0], at[1], color);
         let [x, y] = axes.at(at[0], at[1]);
         if !(x.is_finite() && y.is_finite()) {
             continue;
@@ -296,14 +306,14 @@ pub(crate) fn boundary(
         let room = x > vx && x + width(name, LABEL.size) + 8.0 < left + wide;
         let (dx, anchor) = if room { (3.0, Anchor::Start) } else { (-3.0, Anchor::End) };
         let color = if *color == "#ffffff" { INK } else { color };
-        svg.text([x + dx, y - 6.0], name, Label { anchor, color, ..LABEL });
+        paper.text([x + dx, y - 6.0], name, Label { anchor, color, ..LABEL });
     }
-    axes.border(&mut svg, 38.0);
-    svg.finish("Damage boundary: peak acceleration over velocity change of the base")
+    axes.border(&mut paper);
+    paper.finish("Damage boundary: peak acceleration over velocity change of the base")
 }
 
 /// The three-way rule of one bar, position and damping ratio, and a component on it.
-pub(crate) fn rule(rule: &Rule, component: [f64; 2]) -> String {
+pub fn rule(rule: &Rule, component: [f64; 2]) -> Result<String, FigureError> {
     let high = |of: fn(&clatter_shock::RulePoint) -> f64| rule.points.iter().map(of).fold(0.0_f64, f64::max);
     let top = high(|p| p.acceleration).max(high(|p| p.displacement)).max(rule.standard.acceleration);
     let (first, last) = (rule.points.first(), rule.points.last());
@@ -314,18 +324,18 @@ pub(crate) fn rule(rule: &Rule, component: [f64; 2]) -> String {
         y: Axis::linear(0.0, 1.08 * top, "peak, in *v*_0"),
     };
     let right = axes.corner[0] + axes.size[0];
-    let mut svg = Svg::new(right + 142.0, 262.0);
-    axes.grid(&mut svg);
+    let mut paper = Paper::new(right + 142.0, 262.0);
+    let axes = axes.on(&mut paper, 26.0);
     let (acceleration, displacement) = (Ink::line(BLUES[8], 1.3), Ink { dash: "4 2", ..Ink::line(RUST, 0.9) });
     let standard = Ink { dash: "8 2 1.5 2", ..Ink::line(INK, 0.9) };
-    axes.level(&mut svg, rule.soft.acceleration, GUIDE);
+    axes.level(&mut paper, rule.soft.acceleration, GUIDE);
     if let Some(stiff) = rule.stiff {
-        axes.level(&mut svg, stiff.acceleration, Ink { dash: "1.5 2", ..GUIDE });
+        axes.level(&mut paper, stiff.acceleration, Ink { dash: "1.5 2", ..GUIDE });
     }
-    axes.level(&mut svg, rule.standard.acceleration, standard);
-    axes.curve(&mut svg, rule.points.iter().map(|p| (p.omega, p.displacement)), displacement);
-    axes.curve(&mut svg, rule.points.iter().map(|p| (p.omega, p.acceleration)), acceleration);
-    axes.mark(&mut svg, component[0], component[1], RUST);
+    axes.level(&mut paper, rule.standard.acceleration, standard);
+    axes.curve(&mut paper, rule.points.iter().map(|p| (p.omega, p.displacement)), displacement);
+    axes.curve(&mut paper, rule.points.iter().map(|p| (p.omega, p.acceleration)), acceleration);
+    axes.mark(&mut paper, component[0], component[1], RUST);
     let mut lines = vec![
         (acceleration, "*A*/*ω*, acceleration"),
         (displacement, "*ωz*, displacement"),
@@ -335,9 +345,9 @@ pub(crate) fn rule(rule: &Rule, component: [f64; 2]) -> String {
         lines.push((Ink { dash: "1.5 2", ..GUIDE }, "largest shock alone"));
     }
     lines.push((standard, "one shock of 2 *v*_0"));
-    let down = key(&mut svg, [right + 12.0, 20.0], &lines);
-    svg.circle([right + 21.0, down - 2.8], 2.6, Ink { stroke: INK, width: 0.8, ..Ink::fill(RUST) });
-    svg.text([right + 35.0, down], "this component", Label { anchor: Anchor::Start, ..SMALL });
-    axes.border(&mut svg, 26.0);
-    svg.finish("Three-way rule: peak of a component over its natural frequency")
+    let down = paper.key([right + 12.0, 20.0], &lines);
+    paper.circle([right + 21.0, down - 2.8], 2.6, Ink { stroke: INK, width: 0.8, ..Ink::fill(RUST) });
+    paper.text([right + 35.0, down], "this component", Label { anchor: Anchor::Start, ..SMALL });
+    axes.border(&mut paper);
+    paper.finish("Three-way rule: peak of a component over its natural frequency")
 }

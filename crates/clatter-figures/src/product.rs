@@ -2,26 +2,31 @@
 
 use clatter_assess::Verdict;
 
-use super::axes::{SMALL, tick};
-use super::heat::round_values;
-use crate::svg::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, OCHRE, RUST, Svg, width};
+use crate::FigureError;
+use crate::chart::round_values;
+use crate::chart::tick;
+use crate::paper::{Paper, SMALL};
+use crate::style::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, OCHRE, RUST, width};
 
 /// One part on the product.
 #[derive(Debug, Clone)]
-pub(crate) struct Place<'a> {
-    pub(crate) name: &'a str,
+pub struct Place<'a> {
+    /// Of the part.
+    pub name: &'a str,
     /// Along the bar from the middle towards end b, in m.
-    pub(crate) from_m: f64,
-    pub(crate) to_m: f64,
-    pub(crate) verdict: Verdict,
+    pub from_m: f64,
+    /// To there.
+    pub to_m: f64,
+    /// Decides its color.
+    pub verdict: Verdict,
     /// What stands at the right, such as the margin.
-    pub(crate) word: &'a str,
+    pub word: &'a str,
     /// Where the middle of the part could sit and be safe, in m; `None` for nowhere.
-    pub(crate) zone_m: Option<[f64; 2]>,
+    pub zone_m: Option<[f64; 2]>,
 }
 
 /// The color of a verdict, on the page as in the figures.
-pub(super) fn shade(verdict: Verdict) -> &'static str {
+pub(crate) fn shade(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Safe => BLUES[8],
         Verdict::Undecided => OCHRE,
@@ -30,29 +35,29 @@ pub(super) fn shade(verdict: Verdict) -> &'static str {
 }
 
 /// The bar with its center of mass and centers of percussion, and a row a part.
-pub(crate) fn product(arms_m: [f64; 2], gyration_m: f64, places: &[Place<'_>]) -> String {
+pub fn product(arms_m: [f64; 2], gyration_m: f64, places: &[Place<'_>]) -> Result<String, FigureError> {
     let length = arms_m[0] + arms_m[1];
     let (left, wide, row) = (92.0, 316.0, 17.0);
     let top = 40.0;
     let bottom = top + 14.0 + row * f64::from(u32::try_from(places.len()).unwrap_or(u32::MAX));
-    let mut svg = Svg::new(464.0, bottom + 26.0);
+    let mut paper = Paper::new(464.0, bottom + 26.0);
     let at = |m: f64| left + wide * (m / length + 0.5);
     // the bar
-    svg.rect([left, top - 9.0], [wide, 9.0], Ink { stroke: INK, width: 0.8, ..Ink::fill(BLUES[2]) });
+    paper.rect([left, top - 9.0], [wide, 9.0], Ink { stroke: INK, width: 0.8, ..Ink::fill(BLUES[2]) });
     for (x, name) in [(left - 9.0, "*a*"), (left + wide + 9.0, "*b*")] {
-        svg.text([x, top - 1.5], name, LABEL);
+        paper.text([x, top - 1.5], name, LABEL);
     }
     let center = 0.5 * (arms_m[0] - arms_m[1]);
-    let dot = |svg: &mut Svg, m: f64, fill| {
-        svg.circle([at(m), top - 4.5], 2.5, Ink { stroke: INK, width: 0.8, ..Ink::fill(fill) });
+    let dot = |paper: &mut Paper, m: f64, fill| {
+        paper.circle([at(m), top - 4.5], 2.5, Ink { stroke: INK, width: 0.8, ..Ink::fill(fill) });
     };
     let square = gyration_m * gyration_m;
     let mut over = vec![(at(center), "CM")];
-    dot(&mut svg, center, INK);
+    dot(&mut paper, center, INK);
     for (m, name) in [(center + square / arms_m[0], "*R*_a"), (center - square / arms_m[1], "*R*_b")] {
         // a bar whose mass sits at its ends has no place that an impact leaves unshaken
         if m.abs() <= 0.5 * length {
-            dot(&mut svg, m, "#ffffff");
+            dot(&mut paper, m, "#ffffff");
             over.push((at(m), name));
         }
     }
@@ -60,39 +65,39 @@ pub(crate) fn product(arms_m: [f64; 2], gyration_m: f64, places: &[Place<'_>]) -
     let mut last = f64::NEG_INFINITY;
     for (x, name) in over {
         let raised = if x - last < 16.0 { 10.0 } else { 0.0 };
-        svg.text([x, top - 14.0 - raised], name, LABEL);
+        paper.text([x, top - 14.0 - raised], name, LABEL);
         last = if raised > 0.0 { last } else { x };
     }
     // the parts
     let half = 0.5 * length;
     let mut y = top + 14.0;
     for place in places {
-        svg.line([left, y + 5.0], [left + wide, y + 5.0], Ink::line(GRAY, 0.4));
+        paper.line([left, y + 5.0], [left + wide, y + 5.0], Ink::line(GRAY, 0.4));
         if let Some([lo, hi]) = place.zone_m {
             let (lo, hi) = (lo.max(-half), hi.min(half));
-            svg.rect([at(lo), y], [at(hi) - at(lo), 10.0], Ink::fill(BLUES[1]));
+            paper.rect([at(lo), y], [at(hi) - at(lo), 10.0], Ink::fill(BLUES[1]));
             for m in [lo, hi] {
-                svg.line([at(m), y], [at(m), y + 10.0], Ink::line(BLUES[5], 0.8));
+                paper.line([at(m), y], [at(m), y + 10.0], Ink::line(BLUES[5], 0.8));
             }
         }
         let color = shade(place.verdict);
         let (from, to) = (at(place.from_m.max(-half)), at(place.to_m.min(half)));
         let (from, to) = if to - from < 3.0 { (0.5 * (from + to) - 1.5, 0.5 * (from + to) + 1.5) } else { (from, to) };
-        svg.rect([from, y + 2.5], [to - from, 5.0], Ink::fill(color));
-        svg.text([left - 12.0, y + 8.0], &fit(place.name, left - 14.0), Label { anchor: Anchor::End, ..SMALL });
+        paper.rect([from, y + 2.5], [to - from, 5.0], Ink::fill(color));
+        paper.text([left - 12.0, y + 8.0], &fit(place.name, left - 14.0), Label { anchor: Anchor::End, ..SMALL });
         let weight = Label { anchor: Anchor::Start, color, ..SMALL };
-        svg.text([left + wide + 8.0, y + 8.0], place.word, weight);
+        paper.text([left + wide + 8.0, y + 8.0], place.word, weight);
         y += row;
     }
     // the scale
-    svg.line([left, bottom], [left + wide, bottom], Ink::line(INK, 0.6));
+    paper.line([left, bottom], [left + wide, bottom], Ink::line(INK, 0.6));
     for mm in round_values(-500.0 * length, 500.0 * length) {
         let x = at(1e-3 * mm);
-        svg.line([x, bottom], [x, bottom + 3.0], Ink::line(INK, 0.6));
-        svg.text([x, bottom + 11.5], &tick(mm), SMALL);
+        paper.line([x, bottom], [x, bottom + 3.0], Ink::line(INK, 0.6));
+        paper.text([x, bottom + 11.5], &tick(mm), SMALL);
     }
-    svg.text([left + wide + 8.0, bottom + 11.5], "mm", Label { anchor: Anchor::Start, ..SMALL });
-    svg.finish("The product from the side, its parts and where each would be safe")
+    paper.text([left + wide + 8.0, bottom + 11.5], "mm", Label { anchor: Anchor::Start, ..SMALL });
+    paper.finish("The product from the side, its parts and where each would be safe")
 }
 
 /// A name as it is, without the marks that figures read as markup, cut to `room` pt.
@@ -125,7 +130,7 @@ mod tests {
             word: "−3 %",
             zone_m: Some([-0.2, 0.025]),
         };
-        let drawn = product([0.05, 0.05], 0.02, &[place]);
+        let drawn = product([0.05, 0.05], 0.02, &[place]).unwrap();
         // 316 pt for 100 mm from x = 92: the zone is cut at end a and ends three quarters along
         assert!(drawn.contains("M92 54L329 54L329 64L92 64Z"), "{drawn}");
         assert!(drawn.contains("M250 56.5L408 56.5L408 61.5L250 61.5Z"), "{drawn}");

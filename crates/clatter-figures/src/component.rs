@@ -2,9 +2,11 @@
 
 use clatter_assess::Verdict;
 
-use super::axes::{Axes, Axis, SMALL, key};
-use super::product::{fit, shade};
-use crate::svg::{Anchor, BLUES, GRAY, INK, Ink, Label, RUST, Svg};
+use crate::FigureError;
+use crate::chart::{Axes, Axis};
+use crate::paper::{Paper, SMALL};
+use crate::product::{fit, shade};
+use crate::style::{Anchor, BLUES, GRAY, INK, Ink, Label, RUST};
 
 /// Frame of both figures of a part: low, so that a page holds two parts.
 const FRAME: [f64; 2] = [176.0, 76.0];
@@ -14,7 +16,7 @@ const LIMIT: Ink = Ink { dash: "8 2 1.5 2", ..Ink::line(INK, 1.0) };
 /// A response over time with its limit on both sides; impacts are ticks at the foot.
 ///
 /// `points` are (time, value), `impacts` their times, all in the units of the titles.
-pub(crate) fn history(points: &[(f64, f64)], impacts: &[f64], allowed: f64, titles: [&str; 2]) -> String {
+pub fn history(points: &[(f64, f64)], impacts: &[f64], allowed: f64, titles: [&str; 2]) -> Result<String, FigureError> {
     let end = points.last().map_or(1.0, |p| p.0).max(f64::MIN_POSITIVE);
     let largest = points.iter().map(|p| p.1.abs()).fold(0.0_f64, f64::max);
     // a limit far away would press the curve flat: it is named instead
@@ -27,26 +29,26 @@ pub(crate) fn history(points: &[(f64, f64)], impacts: &[f64], allowed: f64, titl
         x: Axis::linear(-0.03 * end, end, titles[0]),
         y: Axis::linear(-top, top, titles[1]),
     };
-    let mut svg = Svg::new(FRAME[0] + 50.0, FRAME[1] + 38.0);
-    axes.grid(&mut svg);
-    axes.level(&mut svg, 0.0, Ink::line(GRAY, 0.5));
+    let mut paper = Paper::new(FRAME[0] + 50.0, FRAME[1] + 38.0);
+    let axes = axes.on(&mut paper, 36.0);
+    axes.level(&mut paper, 0.0, Ink::line(GRAY, 0.5));
     for &t in impacts {
         let [x, y] = axes.at(t, -top);
         if t <= end {
-            svg.line([x, y], [x, y - 8.0], Ink::line(RUST, 0.9));
+            paper.line([x, y], [x, y - 8.0], Ink::line(RUST, 0.9));
         }
     }
     if shown {
-        axes.level(&mut svg, allowed, LIMIT);
-        axes.level(&mut svg, -allowed, LIMIT);
+        axes.level(&mut paper, allowed, LIMIT);
+        axes.level(&mut paper, -allowed, LIMIT);
     }
-    axes.curve(&mut svg, points.iter().copied(), Ink::line(BLUES[8], 0.9));
-    axes.border(&mut svg, 36.0);
-    svg.finish("Response over time in the worst drop")
+    axes.curve(&mut paper, points.iter().copied(), Ink::line(BLUES[8], 0.9));
+    axes.border(&mut paper);
+    paper.finish("Response over time in the worst drop")
 }
 
 /// The demand over the tilt, a curve for each end that may touch first, with the limit.
-pub(crate) fn over_tilt(curves: &[(&str, Vec<(f64, f64)>)], allowed: f64, titles: [&str; 2]) -> String {
+pub fn over_tilt(curves: &[(&str, Vec<(f64, f64)>)], allowed: f64, titles: [&str; 2]) -> Result<String, FigureError> {
     let all = || curves.iter().flat_map(|c| &c.1).filter(|p| p.1.is_finite());
     let largest = all().map(|p| p.1).fold(0.0_f64, f64::max);
     let (lo, hi) = all().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p.0), b.max(p.0)));
@@ -64,33 +66,36 @@ pub(crate) fn over_tilt(curves: &[(&str, Vec<(f64, f64)>)], allowed: f64, titles
         y: Axis::linear(0.0, top, titles[1]),
     };
     let inks = [Ink::line(BLUES[8], 1.1), Ink { dash: "3.5 2", ..Ink::line(RUST, 1.0) }];
-    let mut svg = Svg::new(FRAME[0] + 50.0, FRAME[1] + 38.0);
-    axes.grid(&mut svg);
+    let mut paper = Paper::new(FRAME[0] + 50.0, FRAME[1] + 38.0);
+    let axes = axes.on(&mut paper, 36.0);
     if shown {
-        axes.level(&mut svg, allowed, LIMIT);
+        axes.level(&mut paper, allowed, LIMIT);
     }
     let mut lines = Vec::new();
     for ((name, points), ink) in curves.iter().zip(inks) {
-        axes.curve(&mut svg, points.iter().copied(), ink);
+        axes.curve(&mut paper, points.iter().copied(), ink);
         lines.push((ink, *name));
     }
     if curves.len() > 1 {
-        key(&mut svg, [54.0, if above { 18.0 } else { FRAME[1] - 6.0 }], &lines);
+        paper.key([54.0, if above { 18.0 } else { FRAME[1] - 6.0 }], &lines);
     }
-    axes.border(&mut svg, 36.0);
-    svg.finish("Demand over the tilt")
+    axes.border(&mut paper);
+    paper.finish("Demand over the tilt")
 }
 
 /// One line: what a part is asked at each tilt, in degrees, as a share of what it stands.
 #[derive(Debug)]
-pub(crate) struct Share<'a> {
-    pub(crate) name: &'a str,
-    pub(crate) verdict: Verdict,
-    pub(crate) points: Vec<(f64, f64)>,
+pub struct Share<'a> {
+    /// Of the part.
+    pub name: &'a str,
+    /// Decides its color.
+    pub verdict: Verdict,
+    /// Tilt, share.
+    pub points: Vec<(f64, f64)>,
 }
 
 /// What each part is asked, as a share of what it stands, over the tilt; each line has its name at its right end.
-pub(crate) fn shares(parts: &[Share<'_>]) -> String {
+pub fn shares(parts: &[Share<'_>]) -> Result<String, FigureError> {
     let all = || parts.iter().flat_map(|p| &p.points).filter(|p| p.1.is_finite());
     let largest = all().map(|p| p.1).fold(1.0_f64, f64::max);
     let (lo, hi) = all().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p.0), b.max(p.0)));
@@ -103,15 +108,15 @@ pub(crate) fn shares(parts: &[Share<'_>]) -> String {
         y: Axis::linear(0.0, 1.08 * largest, "demand / allowed"),
     };
     let right = axes.corner[0] + axes.size[0];
-    let mut svg = Svg::new(464.0, axes.corner[1] + axes.size[1] + 30.0);
-    axes.grid(&mut svg);
-    axes.level(&mut svg, 1.0, LIMIT);
+    let mut paper = Paper::new(464.0, axes.corner[1] + axes.size[1] + 30.0);
+    let axes = axes.on(&mut paper, 32.0);
+    axes.level(&mut paper, 1.0, LIMIT);
     let dashes = ["", "5 2", "1.5 1.5"];
     let mut ends: Vec<(f64, f64, Ink, &str)> = Vec::new();
     for (i, Share { name, verdict, points }) in parts.iter().enumerate() {
         let color = if *verdict == Verdict::Safe { BLUES[8 - 2 * (i / 3 % 3)] } else { shade(*verdict) };
         let ink = Ink { dash: dashes[i % 3], ..Ink::line(color, 1.1) };
-        axes.curve(&mut svg, points.iter().copied(), ink);
+        axes.curve(&mut paper, points.iter().copied(), ink);
         let last = points.iter().rev().find(|p| p.1.is_finite());
         let y = last.map_or(0.0, |p| axes.at(p.0, p.1)[1]);
         ends.push((y, y, ink, name));
@@ -130,12 +135,12 @@ pub(crate) fn shares(parts: &[Share<'_>]) -> String {
         free = end.1 - 9.5;
     }
     for (y, at, ink, name) in ends {
-        svg.line([right + 1.0, y], [right + 9.0, at], Ink::line(GRAY, 0.4));
+        paper.line([right + 1.0, y], [right + 9.0, at], Ink::line(GRAY, 0.4));
         let label = Label { anchor: Anchor::Start, color: ink.stroke, ..SMALL };
-        svg.text([right + 11.0, at + 2.6], &fit(name, 464.0 - right - 14.0), label);
+        paper.text([right + 11.0, at + 2.6], &fit(name, 464.0 - right - 14.0), label);
     }
-    axes.border(&mut svg, 32.0);
-    svg.finish("What each part is asked, as a share of what it stands, over the tilt")
+    axes.border(&mut paper);
+    paper.finish("What each part is asked, as a share of what it stands, over the tilt")
 }
 
 #[cfg(test)]
@@ -145,7 +150,7 @@ mod tests {
     #[test]
     fn a_limit_out_of_reach_is_not_drawn_and_a_near_one_is_on_both_sides() {
         let points = [(0.0, 0.0), (1.0, 2.0), (2.0, -1.0)];
-        let limits = |allowed| history(&points, &[0.5], allowed, ["t", "a"]).matches(LIMIT.dash).count();
+        let limits = |allowed| history(&points, &[0.5], allowed, ["t", "a"]).unwrap().matches(LIMIT.dash).count();
         assert_eq!([limits(100.0), limits(2.5)], [0, 2]);
     }
 }

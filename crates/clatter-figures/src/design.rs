@@ -3,9 +3,12 @@
 use clatter::contour::Point;
 use clatter::design::{Front, FrontPoint};
 
-use super::axes::{Axes, Axis, SMALL, note};
-use super::plane::percent;
-use crate::svg::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, Pt, RUST, SAND, Svg};
+use crate::FigureError;
+use crate::chart::{Axes, Axis, Chart};
+use crate::grid::{Cells, Shape, cells};
+use crate::paper::{Paper, SMALL, What};
+use crate::plane::{percent, plane_axes};
+use crate::style::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, Pt, RUST, SAND};
 
 /// Which (q, e) are safe.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -38,29 +41,16 @@ pub enum DesignBorder {
 
 /// Safe, in the plane.
 const SAFE: &str = BLUES[2];
+const BORDER: Ink<'static> = Ink::line("#2c5a86", 0.9);
 /// Not known.
 const UNKNOWN: &str = "#ffffff";
 /// Names longer than this are cut.
 const LONGEST_NAME: usize = 26;
 
-/// A polygon of the plane, or a line, as (e, q).
-type Shape = Vec<(f64, f64)>;
-
-/// A border as it is drawn.
-#[derive(Default)]
-struct Drawn {
-    /// What is unsafe, in pieces that may overlap.
-    shapes: Vec<Shape>,
-    /// The lines that bound it.
-    lines: Vec<Shape>,
-    /// Where it is not known.
-    unknown: Vec<Shape>,
-}
-
-fn drawn(border: &DesignBorder) -> Drawn {
+fn drawn(border: &DesignBorder) -> Cells {
     match border {
         DesignBorder::Exact(pieces) => {
-            let Drawn { mut shapes, mut lines, unknown } = Drawn::default();
+            let Cells { mut shapes, mut lines, unknown } = Cells::default();
             let band = |from: f64, to: f64| vec![(0.0, from), (1.0, from), (1.0, to), (0.0, to)];
             let mut covered = 0.0;
             for piece in pieces {
@@ -74,97 +64,67 @@ fn drawn(border: &DesignBorder) -> Drawn {
                 shapes.push(shape);
                 // along e = 1 the border is that of the plane
                 let inner = curve.split(|(e, _)| *e >= 1.0).filter(|part| part.len() > 1);
-                lines.extend(inner.map(<[_]>::to_vec));
+                lines.extend(inner.map(|part| part.iter().rev().copied().collect()));
                 covered = last.q;
             }
             if covered < 1.0 {
                 shapes.push(band(covered, 1.0));
             }
-            Drawn { shapes, lines, unknown }
+            Cells { shapes, lines, unknown }
         }
-        DesignBorder::Grid { side, margins } => grid_shapes(*side, margins),
+        DesignBorder::Grid { side, margins } => grid(*side, margins),
     }
 }
 
-/// The cells of a grid cut where the margin vanishes, linear in the logarithm of allowed over demand.
-fn grid_shapes(side: usize, margins: &[Option<f64>]) -> Drawn {
-    let Drawn { mut shapes, mut lines, mut unknown } = Drawn::default();
+/// Where margins on a grid vanish, linear in the logarithm of allowed over demand.
+fn grid(side: usize, margins: &[Option<f64>]) -> Cells {
     #[expect(clippy::cast_precision_loss, reason = "a small count")]
     let at = |i: usize| i as f64 / (side.max(2) - 1) as f64;
-    let level = |(i, j): (usize, usize)| {
-        let margin = margins.get(i * side + j).copied().flatten();
-        margin.map(|m| ((at(j), at(i)), m.ln_1p().clamp(-2.0, 2.0)))
-    };
-    for i in 1..side {
-        for j in 1..side {
-            let corners = [(i - 1, j - 1), (i - 1, j), (i, j), (i, j - 1)];
-            let [Some(a), Some(b), Some(c), Some(d)] = corners.map(level) else {
-                unknown.push(corners.map(|(i, j)| (at(j), at(i))).to_vec());
-                continue;
-            };
-            let corners = [a, b, c, d];
-            let (mut shape, mut cuts) = (Vec::new(), Vec::new());
-            for (k, &((e, q), v)) in corners.iter().enumerate() {
-                let ((e2, q2), v2) = corners[(k + 1) % 4];
-                if v < 0.0 {
-                    shape.push((e, q));
-                }
-                if (v < 0.0) != (v2 < 0.0) {
-                    let share = v / (v - v2);
-                    let cut = (e + share * (e2 - e), q + share * (q2 - q));
-                    shape.push(cut);
-                    cuts.push(cut);
-                }
-            }
-            if shape.len() > 2 {
-                shapes.push(shape);
-            }
-            lines.extend(cuts.chunks_exact(2).map(<[_]>::to_vec));
-        }
-    }
-    Drawn { shapes, lines, unknown }
-}
-
-/// One path through many shapes.
-fn path(axes: &Axes<'_>, shapes: &[Shape], closed: bool) -> String {
-    use std::fmt::Write as _;
-    let mut d = String::new();
-    for shape in shapes {
-        for (k, (e, q)) in shape.iter().enumerate() {
-            let [x, y] = axes.at(*e, *q);
-            let _ = write!(d, "{}{x:.2} {y:.2}", if k == 0 { 'M' } else { 'L' });
-        }
-        if closed {
-            d.push('Z');
-        }
-    }
-    d
+    let margin = |i: usize, j: usize| margins.get(i * side + j).copied().flatten();
+    cells([side; 2], |i, j| (at(j), at(i)), |i, j| margin(i, j).map(|m| m.ln_1p().clamp(-2.0, 2.0)))
 }
 
 /// A letter or number at a point.
-fn badge(svg: &mut Svg, [x, y]: Pt, text: &str) {
-    svg.circle([x, y], 5.2, Ink { stroke: "#2c5a86", width: 0.6, ..Ink::fill("#ffffff") });
-    svg.text([x, y + 2.6], text, Label { size: 7.5, ..LABEL });
+fn badge(paper: &mut Paper, [x, y]: Pt, text: &str) {
+    paper.circle([x, y], 5.2, Ink { stroke: "#2c5a86", width: 0.6, ..Ink::fill("#ffffff") });
+    paper.text([x, y + 2.6], text, Label { size: 7.5, ..LABEL });
+}
+
+/// Short strokes on the side of a border where something fails.
+fn barbs(paper: &mut Paper, chart: &Chart<'_>, lines: &[Shape]) {
+    const APART: f64 = 8.0;
+    let mut since = 0.5 * APART;
+    for line in lines {
+        let page: Vec<Pt> = line.iter().map(|(e, q)| chart.at(*e, *q)).collect();
+        for w in page.windows(2) {
+            let (dx, dy) = (w[1][0] - w[0][0], w[1][1] - w[0][1]);
+            let length = dx.hypot(dy);
+            let mut along = APART - since;
+            while along <= length {
+                let (x, y) = (w[0][0] + along / length * dx, w[0][1] + along / length * dy);
+                paper.line([x, y], [x + 3.2 * dy / length, y - 3.2 * dx / length], BORDER);
+                along += APART;
+            }
+            since = length - (along - APART);
+        }
+    }
 }
 
 /// The design plane: safe designs, the border of each part, the product and what can be built.
-pub(crate) fn plane(data: &DesignPlane) -> String {
-    let axes = Axes {
-        corner: [40.0, 8.0],
-        size: [220.0, 220.0],
-        x: Axis::linear(0.0, 1.0, "coefficient of restitution *e*"),
-        y: Axis::linear(0.0, 1.0, "inertia ratio *q*"),
-    };
+pub fn plane(data: &DesignPlane) -> Result<String, FigureError> {
+    let axes = plane_axes([40.0, 8.0], 220.0);
     let right = axes.corner[0] + axes.size[0] + 14.0;
     let rows = 12.0 * f64::from(u32::try_from(data.borders.len() + data.designs.len()).unwrap_or(u32::MAX)) + 96.0;
-    let mut svg = Svg::new(right + 150.0, (axes.corner[1] + axes.size[1] + 30.0).max(rows));
-    svg.rect(axes.corner, axes.size, Ink::fill(SAFE));
+    let mut paper = Paper::new(right + 150.0, (axes.corner[1] + axes.size[1] + 30.0).max(rows));
+    let chart = axes.without_grid(&mut paper, 26.0);
+    paper.rect(axes.corner, axes.size, Ink::fill(SAFE));
     let parts: Vec<_> = data.borders.iter().map(|(name, border)| (name, drawn(border))).collect();
     let unknown = parts.iter().any(|(_, drawn)| !drawn.unknown.is_empty());
     // a hairline of its own color closes the seams between cells
     let mut fill = |shapes: &[Shape], color| {
         if !shapes.is_empty() {
-            svg.raw_path(&path(&axes, shapes, true), Ink { stroke: color, width: 0.3, ..Ink::fill(color) });
+            let ink = Ink { stroke: color, width: 0.3, ..Ink::fill(color) };
+            chart.draw(&mut paper, shapes.to_vec(), What::Area(ink));
         }
     };
     for (_, drawn) in &parts {
@@ -175,31 +135,33 @@ pub(crate) fn plane(data: &DesignPlane) -> String {
         fill(&drawn.shapes, SAND);
     }
     let mut y = axes.corner[1] + 8.0;
-    let line = |svg: &mut Svg, y: &mut f64, text: &str, color| {
-        svg.text([right, *y], text, Label { anchor: Anchor::Start, color, ..SMALL });
+    let line = |paper: &mut Paper, y: &mut f64, text: &str, color| {
+        paper.text([right, *y], text, Label { anchor: Anchor::Start, color, ..SMALL });
         *y += 12.0;
     };
     let (good, bad) =
         if data.product.is_some() { ("all are safe", "one fails at least") } else { ("goals met", "goals missed") };
     if !data.model.is_empty() {
-        line(&mut svg, &mut y, &data.model, INK);
+        line(&mut paper, &mut y, &data.model, INK);
     }
     let legend = [(SAFE, good), (SAND, bad), (UNKNOWN, "not looked at, or no answer")];
     for (fill, text) in legend.into_iter().take(if unknown { 3 } else { 2 }) {
-        svg.rect([right, y - 7.0], [14.0, 8.0], Ink { stroke: GRAY, width: 0.4, ..Ink::fill(fill) });
-        svg.text([right + 19.0, y], text, Label { anchor: Anchor::Start, ..SMALL });
+        paper.rect([right, y - 7.0], [14.0, 8.0], Ink { stroke: GRAY, width: 0.4, ..Ink::fill(fill) });
+        paper.text([right + 19.0, y], text, Label { anchor: Anchor::Start, ..SMALL });
         y += 12.0;
     }
+    line(&mut paper, &mut y, "strokes: the side that fails", GRAY);
     y += 4.0;
-    let mut taken: Vec<Pt> = data.product.iter().flat_map(|(q, e)| e.map(|e| axes.at(e, *q))).collect();
-    taken.extend(data.designs.iter().map(|(_, p)| axes.at(p.e, p.q)));
-    for (k, (name, Drawn { shapes, lines, unknown })) in parts.iter().enumerate() {
-        svg.raw_path(&path(&axes, lines, false), Ink::line("#2c5a86", 0.9));
+    let mut taken: Vec<Pt> = data.product.iter().flat_map(|(q, e)| e.map(|e| chart.at(e, *q))).collect();
+    taken.extend(data.designs.iter().map(|(_, p)| chart.at(p.e, p.q)));
+    for (k, (name, Cells { shapes, lines, unknown })) in parts.iter().enumerate() {
+        chart.draw(&mut paper, lines.clone(), What::Lines(BORDER));
+        barbs(&mut paper, &chart, lines);
         if parts.len() == 1 && data.product.is_none() {
             continue; // the legend has said it
         }
         // where the number is farthest from other numbers, marks and the frame
-        let points = lines.iter().flatten().map(|(e, q)| axes.at(*e, *q));
+        let points = lines.iter().flatten().map(|(e, q)| chart.at(*e, *q));
         let room = |p: &Pt| {
             let edge = (0..2).map(|i| (p[i] - axes.corner[i]).min(axes.corner[i] + axes.size[i] - p[i]));
             let others = taken.iter().map(|o| (p[0] - o[0]).hypot(p[1] - o[1]));
@@ -208,7 +170,7 @@ pub(crate) fn plane(data: &DesignPlane) -> String {
         let best = points.max_by(|a, b| room(a).total_cmp(&room(b)));
         let number = (k + 1).to_string();
         if let Some(p) = best {
-            badge(&mut svg, p, &number);
+            badge(&mut paper, p, &number);
             taken.push(p);
         }
         let everywhere = shapes.is_empty() && lines.is_empty();
@@ -220,7 +182,7 @@ pub(crate) fn plane(data: &DesignPlane) -> String {
         };
         let short: String = name.chars().take(LONGEST_NAME).collect();
         let more = if name.chars().nth(LONGEST_NAME).is_some() { "…" } else { "" };
-        svg.plain(
+        paper.plain(
             [right, y],
             &format!("{number}  {short}{more}{where_safe}"),
             Label { anchor: Anchor::Start, ..SMALL },
@@ -229,29 +191,29 @@ pub(crate) fn plane(data: &DesignPlane) -> String {
     }
     y += 4.0;
     if let Some([q, e]) = data.reach {
-        let box_of = [(e[0], q[0]), (e[1], q[0]), (e[1], q[1]), (e[0], q[1])].map(|(e, q)| axes.at(e, q));
+        let box_of = [(e[0], q[0]), (e[1], q[0]), (e[1], q[1]), (e[0], q[1])].map(|(e, q)| chart.at(e, q));
         let ink = Ink { dash: "3 2.5", ..Ink::line(GRAY, 0.9) };
-        svg.path(&box_of, true, ink);
-        svg.line([right, y - 2.8], [right + 14.0, y - 2.8], ink);
-        svg.text([right + 19.0, y], "can be built", Label { anchor: Anchor::Start, ..SMALL });
+        paper.path(&box_of, true, ink);
+        paper.line([right, y - 2.8], [right + 14.0, y - 2.8], ink);
+        paper.text([right + 19.0, y], "can be built", Label { anchor: Anchor::Start, ..SMALL });
         y += 12.0;
     }
     for (k, (name, p)) in data.designs.iter().enumerate() {
         let letter = char::from(b'A' + u8::try_from(k.min(25)).unwrap_or(25));
-        badge(&mut svg, axes.at(p.e, p.q), &letter.to_string());
-        line(&mut svg, &mut y, &format!("{letter}  {name}"), INK);
+        badge(&mut paper, chart.at(p.e, p.q), &letter.to_string());
+        line(&mut paper, &mut y, &format!("{letter}  {name}"), INK);
     }
     if let Some((q, [lo, hi])) = data.product {
-        let ends = [axes.at(lo, q), axes.at(hi, q)];
-        svg.line(ends[0], ends[1], Ink::line(RUST, 2.0));
+        let ends = [chart.at(lo, q), chart.at(hi, q)];
+        paper.line(ends[0], ends[1], Ink::line(RUST, 2.0));
         for end in ends {
-            svg.circle(end, 2.8, Ink { stroke: INK, width: 0.6, ..Ink::fill(RUST) });
+            paper.circle(end, 2.8, Ink { stroke: INK, width: 0.6, ..Ink::fill(RUST) });
         }
-        svg.circle([right + 7.0, y - 2.8], 2.8, Ink { stroke: INK, width: 0.6, ..Ink::fill(RUST) });
-        svg.text([right + 19.0, y], "the product", Label { anchor: Anchor::Start, ..SMALL });
+        paper.circle([right + 7.0, y - 2.8], 2.8, Ink { stroke: INK, width: 0.6, ..Ink::fill(RUST) });
+        paper.text([right + 19.0, y], "the product", Label { anchor: Anchor::Start, ..SMALL });
     }
-    axes.border(&mut svg, 26.0);
-    svg.finish("Inertia ratio and restitution that make the parts safe")
+    chart.border(&mut paper);
+    paper.finish("Inertia ratio and restitution that make the parts safe")
 }
 
 /// Fronts of the largest safe zone against q.
@@ -270,7 +232,7 @@ pub struct DesignFronts {
 }
 
 /// The largest safe zone against q, for each e.
-pub(crate) fn fronts(data: &DesignFronts) -> String {
+pub fn fronts(data: &DesignFronts) -> Result<String, FigureError> {
     let largest = data.fronts.iter().filter_map(|[_, free]| free.largest()).map(|p| p.s).fold(data.wanted, f64::max);
     let title = format!("safe zone within {} *v*_0, per cent of the bar", data.threshold);
     let axes = Axes {
@@ -280,23 +242,23 @@ pub(crate) fn fronts(data: &DesignFronts) -> String {
         y: Axis::linear(0.0, 100.0 * largest * 1.06, &title),
     };
     let right = axes.corner[0] + axes.size[0];
-    let mut svg = Svg::new(right + 178.0, axes.corner[1] + axes.size[1] + 30.0);
-    axes.grid(&mut svg);
+    let mut paper = Paper::new(right + 178.0, axes.corner[1] + axes.size[1] + 30.0);
+    let axes = axes.on(&mut paper, 26.0);
     let (met, free) = (Ink::line(BLUES[8], 1.4), Ink { dash: "3 2.5", ..Ink::line(GRAY, 0.8) });
-    axes.level(&mut svg, 100.0 * data.wanted, Ink::line(RUST, 0.8));
+    axes.level(&mut paper, 100.0 * data.wanted, Ink::line(RUST, 0.8));
     let mut last = f64::NEG_INFINITY;
     for [within, without] in &data.fronts {
         for (front, ink) in [(without, free), (within, met)] {
             for piece in &front.pieces {
-                axes.curve(&mut svg, piece.iter().map(|p| (p.q, 100.0 * p.s)), ink);
+                axes.curve(&mut paper, piece.iter().map(|p| (p.q, 100.0 * p.s)), ink);
             }
         }
         if let Some(end) = within.largest() {
-            axes.mark(&mut svg, end.q, 100.0 * end.s, BLUES[8]);
+            axes.mark(&mut paper, end.q, 100.0 * end.s, BLUES[8]);
         }
         if let Some(end) = without.largest() {
             let y = (axes.at(end.q, 100.0 * end.s)[1] + 2.6).max(last + 9.0);
-            svg.text([right + 5.0, y], &format!("*e* = {}", within.e), Label { anchor: Anchor::Start, ..SMALL });
+            paper.text([right + 5.0, y], &format!("*e* = {}", within.e), Label { anchor: Anchor::Start, ..SMALL });
             last = y;
         }
     }
@@ -305,35 +267,35 @@ pub(crate) fn fronts(data: &DesignFronts) -> String {
         if p.s < 0.0 {
             continue; // no zone at all, which its line in the key says
         }
-        badge(&mut svg, axes.at(p.q, 100.0 * p.s), &letter);
+        badge(&mut paper, axes.at(p.q, 100.0 * p.s), &letter);
     }
-    axes.border(&mut svg, 26.0);
+    axes.border(&mut paper);
     let x = right + 46.0;
     let mut y = 16.0;
-    let mut say = |svg: &mut Svg, mark: Option<Ink>, text: &str| {
+    let mut say = |paper: &mut Paper, mark: Option<Ink>, text: &str| {
         if let Some(ink) = mark {
-            svg.line([x, y - 2.8], [x + 14.0, y - 2.8], ink);
-            svg.text([x + 19.0, y], text, Label { anchor: Anchor::Start, ..SMALL });
+            paper.line([x, y - 2.8], [x + 14.0, y - 2.8], ink);
+            paper.text([x + 19.0, y], text, Label { anchor: Anchor::Start, ..SMALL });
         } else {
-            note(svg, [x, y], text);
+            paper.note([x, y], text);
         }
         y += 12.0;
     };
     if data.others.is_empty() {
-        say(&mut svg, Some(met), "front");
+        say(&mut paper, Some(met), "front");
     } else {
-        say(&mut svg, Some(met), "front, other goals met");
-        say(&mut svg, Some(free), "they are not");
-        say(&mut svg, None, &data.others);
+        say(&mut paper, Some(met), "front, other goals met");
+        say(&mut paper, Some(free), "they are not");
+        say(&mut paper, None, &data.others);
     }
-    say(&mut svg, Some(Ink::line(RUST, 0.8)), &format!("wanted: {}", percent(data.wanted)));
+    say(&mut paper, Some(Ink::line(RUST, 0.8)), &format!("wanted: {}", percent(data.wanted)));
     for (k, (name, p)) in data.designs.iter().enumerate() {
         let letter = char::from(b'A' + u8::try_from(k.min(25)).unwrap_or(25));
         let none = if p.s < 0.0 { ": no zone" } else { "" };
-        say(&mut svg, None, &format!("{letter}  {name}{none}"));
+        say(&mut paper, None, &format!("{letter}  {name}{none}"));
     }
-    say(&mut svg, None, "*q* = 1, *e* = 0 cannot be built");
-    svg.finish("The largest safe zone against the inertia ratio, for each restitution")
+    say(&mut paper, None, "*q* = 1, *e* = 0 cannot be built");
+    paper.finish("The largest safe zone against the inertia ratio, for each restitution")
 }
 
 #[cfg(test)]
@@ -348,7 +310,7 @@ mod tests {
             .map(|k| (f64::from(k / 5) / 4.0, f64::from(k % 5) / 4.0))
             .map(|(q, e)| Some((e - q + 0.05_f64).exp_m1()))
             .collect();
-        let Drawn { shapes, lines, unknown } = grid_shapes(side, &margins);
+        let Cells { shapes, lines, unknown } = grid(side, &margins);
         assert!(unknown.is_empty(), "all is known");
         for (e, q) in lines.iter().flatten() {
             assert!((q - e - 0.05).abs() < 1e-12, "({e}, {q}) is off the line");
@@ -364,11 +326,11 @@ mod tests {
     #[test]
     fn what_no_curve_covers_is_unsafe() {
         let curve = vec![Point { q: 0.25, e: 0.0 }, Point { q: 0.75, e: 0.5 }];
-        let Drawn { shapes, lines, .. } = drawn(&DesignBorder::Exact(vec![curve]));
+        let Cells { shapes, lines, .. } = drawn(&DesignBorder::Exact(vec![curve]));
         assert_eq!((shapes.len(), lines.len()), (3, 1), "below, beside, above");
-        let Drawn { shapes, lines, .. } = drawn(&DesignBorder::Exact(Vec::new()));
+        let Cells { shapes, lines, .. } = drawn(&DesignBorder::Exact(Vec::new()));
         assert_eq!((shapes.len(), lines.len()), (1, 0), "safe nowhere");
-        let Drawn { shapes, .. } =
+        let Cells { shapes, .. } =
             drawn(&DesignBorder::Exact(vec![vec![Point { q: 0.0, e: 1.0 }, Point { q: 1.0, e: 1.0 }]]));
         assert_eq!(shapes.len(), 1, "a shape without area");
     }
@@ -378,11 +340,11 @@ mod tests {
         // Four cells; the corner that is not known leaves three of them.
         let mut margins =
             [Some(-0.5), Some(-0.5), Some(-0.5), Some(1.0), Some(1.0), Some(1.0), Some(1.0), Some(1.0), None];
-        let Drawn { shapes, lines, unknown } = grid_shapes(3, &margins);
+        let Cells { shapes, lines, unknown } = grid(3, &margins);
         assert_eq!((shapes.len(), lines.len(), unknown.len()), (2, 2, 1));
         assert_eq!(unknown[0], [(0.5, 0.5), (1.0, 0.5), (1.0, 1.0), (0.5, 1.0)]);
         margins[4] = None;
-        let Drawn { shapes, lines, unknown } = grid_shapes(3, &margins);
+        let Cells { shapes, lines, unknown } = grid(3, &margins);
         assert_eq!((shapes.len(), lines.len(), unknown.len()), (0, 0, 4), "each cell has that corner");
     }
 
@@ -392,7 +354,7 @@ mod tests {
         let borders = vec![("a_b*<c> & d".to_owned(), border)];
         // the goals of a plane without a product have no names
         let data = DesignPlane { borders, product: Some((0.5, [0.2, 0.3])), ..DesignPlane::default() };
-        let drawn = plane(&data);
+        let drawn = plane(&data).unwrap();
         assert!(drawn.contains("a_b*&lt;c&gt; &amp; d"), "{drawn}");
     }
 }

@@ -3,9 +3,27 @@
 use clatter_flight::history::{Forces, Row};
 use clatter_flight::{Stop, Strike};
 
-use super::axes::{Axes, Axis, SMALL};
-use crate::Drop;
-use crate::svg::{Anchor, BLUES, GRAY, INK, Ink, Label, RUST, SAND, Svg, width};
+use crate::FigureError;
+use crate::chart::{Axes, Axis, Chart};
+use crate::paper::{Paper, SMALL};
+use crate::style::{Anchor, BLUES, GRAY, INK, Ink, Label, RUST, SAND, width};
+
+/// One drop in time, as [`drop`] draws it.
+#[derive(Debug, Clone, Copy)]
+pub struct Drop<'a> {
+    /// What the model keeps, in a few words.
+    pub model: &'a str,
+    /// Heights, velocities and, where contacts take time, accelerations and forces over time.
+    pub rows: &'a [Row],
+    /// The strikes.
+    pub strikes: &'a [Strike],
+    /// How long each strike presses, where contacts take time; else empty.
+    pub pulses: &'a [clatter_flight::Press],
+    /// How it ends.
+    pub stop: Stop,
+    /// Positions on the body, in [−1, 1], whose shocks are shown too.
+    pub at: &'a [f64],
+}
 
 /// Lines of ends a and b.
 const ENDS: [&str; 2] = [BLUES[7], RUST];
@@ -52,19 +70,19 @@ struct Column {
 
 /// A frame in a column, and what its numbers are multiplied by.
 struct Panel<'a> {
-    axes: Axes<'a>,
+    chart: Chart<'a>,
     time: f64,
     value: f64,
 }
 
 impl Panel<'_> {
-    fn curve(&self, svg: &mut Svg, points: impl Iterator<Item = (f64, f64)>, ink: Ink) {
+    fn curve(&self, paper: &mut Paper, points: impl Iterator<Item = (f64, f64)>, ink: Ink) {
         let scaled: Vec<_> = points.map(|(t, y)| (t * self.time, y * self.value)).collect();
-        let step = (self.axes.x.high - self.axes.x.low) / self.axes.size[0] / 4.0;
-        self.axes.curve(svg, thinned(&scaled, step).into_iter(), ink);
+        let step = (self.chart.x.high - self.chart.x.low) / self.chart.size[0] / 4.0;
+        self.chart.curve(paper, thinned(&scaled, step).into_iter(), ink);
     }
     fn at(&self, t: f64, y: f64) -> [f64; 2] {
-        self.axes.at(t * self.time, y * self.value)
+        self.chart.at(t * self.time, y * self.value)
     }
 }
 
@@ -83,8 +101,11 @@ fn thinned(points: &[(f64, f64)], step: f64) -> Vec<(f64, f64)> {
 }
 
 /// Until when the first strikes are shown magnified: up to the first long pause after at least three of them, else to
-/// the last one before, and only if that leaves most of the time to the rest.
+/// the last one before, and only if that leaves most of the time to the rest. The hardest strike is among them.
 fn early(drop: &Drop<'_>, end_s: f64) -> Option<f64> {
+    let hardness = |strike: &Strike| strike.delta_v_m_s.iter().fold(0.0_f64, |most, dv| most.max(dv.abs()));
+    let strikes = drop.strikes.iter().map(hardness).enumerate();
+    let hardest = strikes.fold((0, 0.0), |most, (i, dv)| if dv > most.1 { (i, dv) } else { most }).0;
     let mut over_s = 0.0_f64;
     let over = drop.strikes.iter().enumerate().map(|(i, strike)| {
         let until_s = drop.pulses.get(i).map_or(strike.time_s, |pulse| pulse.until_s);
@@ -95,10 +116,10 @@ fn early(drop: &Drop<'_>, end_s: f64) -> Option<f64> {
     let mut before = None;
     for (i, (over_s, next)) in pauses.take_while(|(_, (over_s, _))| 7.5 * over_s < end_s) {
         let pause = if over_s > 0.0 { next.time_s / over_s } else { 0.0 };
-        if i >= 2 && pause > 1.6 {
+        if i >= hardest.max(2) && pause > 1.6 {
             return Some(1.25 * over_s);
         }
-        before = if pause > 2.0 { Some(1.25 * over_s) } else { before };
+        before = if i >= hardest && pause > 2.0 { Some(1.25 * over_s) } else { before };
     }
     before
 }
@@ -109,13 +130,30 @@ fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
     if high > low { [low - 0.06 * (high - low), high + 0.06 * (high - low)] } else { [-0.06, 1.0] }
 }
 
-pub(crate) fn drop(drop: &Drop<'_>) -> String {
+/// A drop as a picture: heights of both ends over time with the strikes marked, the velocity shocks below, and, where
+/// contacts take time, forces and accelerations below these. Where the later strikes come much later than the first,
+/// the first stand beside the whole, magnified.
+///
+/// ```
+/// use clatter_flight::{Body, Model, Scene};
+/// let scene = Scene::new(Body::new(0.14, 0.04)?, 0.3, 4.43, 5.0, 9.81)?;
+/// let flight = scene.simulate(Model::FiniteTilt);
+/// let rows: Vec<_> = scene.history(Model::FiniteTilt, &flight).collect();
+/// let (strikes, stop) = (&flight.strikes, flight.stop);
+/// let drop = clatter_figures::Drop { model: "finite tilt", rows: &rows, strikes, pulses: &[], stop, at: &[0.0] };
+/// assert!(clatter_figures::drop(&drop)?.contains("at rest"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`FigureError`].
+pub fn drop(drop: &Drop<'_>) -> Result<String, FigureError> {
     let end_s = drop.rows.last().map_or(0.0, |row| row.time_s);
     let end_s = if end_s > 0.0 { end_s } else { 1e-3 };
     let pressed = drop.rows.iter().any(|row| row.forces.is_some());
     let (top, high, gap) = (34.0, 112.0, 26.0);
     let panels = if pressed { 3 } else { 2 };
-    let mut svg = Svg::new(520.0, top + f64::from(panels) * (high + gap) + 2.0);
+    let mut paper = Paper::new(520.0, top + f64::from(panels) * (high + gap) + 2.0);
     let columns = match early(drop, end_s) {
         Some(until_s) => vec![
             Column { left: 44.0, width: 195.0, from_s: 0.0, until_s },
@@ -123,21 +161,21 @@ pub(crate) fn drop(drop: &Drop<'_>) -> String {
         ],
         None => vec![Column { left: 44.0, width: 459.0, from_s: 0.0, until_s: end_s }],
     };
-    heading(&mut svg, drop, pressed);
+    heading(&mut paper, drop, pressed);
     for (k, column) in columns.iter().enumerate() {
         let magnified = (k > 0).then(|| columns[0].until_s);
         let bottom = |n: u8| [column.left, top + f64::from(n) * (high + gap)];
-        heights(&mut svg, drop, *column, bottom(0), high, magnified);
-        shocks(&mut svg, drop, *column, bottom(1), high, !pressed);
+        heights(&mut paper, drop, *column, bottom(0), high, magnified);
+        shocks(&mut paper, drop, *column, bottom(1), high, !pressed);
         if pressed {
-            pulses(&mut svg, drop, *column, bottom(2), high);
+            pulses(&mut paper, drop, *column, bottom(2), high);
         }
     }
-    svg.finish("Heights of both ends and velocity shocks over time")
+    paper.finish("Heights of both ends and velocity shocks over time")
 }
 
 /// What is drawn, how it ends, and what the lines mean.
-fn heading(svg: &mut Svg, drop: &Drop<'_>, pressed: bool) {
+fn heading(paper: &mut Paper, drop: &Drop<'_>, pressed: bool) {
     let stop = match drop.stop {
         Stop::AtRest { .. } => "at rest at",
         Stop::BouncedClear { .. } => "bounced clear at",
@@ -149,38 +187,38 @@ fn heading(svg: &mut Svg, drop: &Drop<'_>, pressed: bool) {
     let unit = Unit::of(time);
     let impacts = if n == 1 { "impact" } else { "impacts" };
     let text = format!("{}: {n} {impacts}, {stop} {} {}s", drop.model, three(time * unit.factor), unit.prefix);
-    svg.text([44.0, 12.0], &text, Label { anchor: Anchor::Start, ..SMALL });
+    paper.text([44.0, 12.0], &text, Label { anchor: Anchor::Start, ..SMALL });
     let mut x = 44.0;
     let y = 25.0;
-    let words = |svg: &mut Svg, x: &mut f64, text: &str| {
-        svg.text([*x, y], text, Label { anchor: Anchor::Start, ..SMALL });
+    let words = |paper: &mut Paper, x: &mut f64, text: &str| {
+        paper.text([*x, y], text, Label { anchor: Anchor::Start, ..SMALL });
         *x += width(text, SMALL.size) + 16.0;
     };
     for (end, color) in ["end *a*", "end *b*"].into_iter().zip(ENDS) {
-        svg.line([x, y - 2.8], [x + 16.0, y - 2.8], Ink::line(color, 1.2));
+        paper.line([x, y - 2.8], [x + 16.0, y - 2.8], Ink::line(color, 1.2));
         x += 20.0;
-        words(svg, &mut x, end);
+        words(paper, &mut x, end);
     }
     for (k, s) in drop.at.iter().enumerate() {
         if pressed {
-            svg.line([x, y - 2.8], [x + 16.0, y - 2.8], position_line(k));
+            paper.line([x, y - 2.8], [x + 16.0, y - 2.8], position_line(k));
             x += 8.0;
         }
-        svg.circle([x, y - 2.8], 2.2, position_mark(k));
+        paper.circle([x, y - 2.8], 2.2, position_mark(k));
         x += if pressed { 12.0 } else { 5.0 };
-        words(svg, &mut x, &format!("at *s* = {}", three(*s)));
+        words(paper, &mut x, &format!("at *s* = {}", three(*s)));
     }
     if pressed {
-        let text = "undermost, of the ends: force over mass";
-        svg.text([503.0, y], text, Label { anchor: Anchor::End, color: GRAY, ..SMALL });
+        let text = "last row: force on each end over the mass of the body";
+        paper.text([503.0, y], text, Label { anchor: Anchor::End, color: GRAY, ..SMALL });
     }
 }
 
-fn position_line(k: usize) -> Ink {
+fn position_line(k: usize) -> Ink<'static> {
     Ink { dash: DASHES[k % DASHES.len()], ..Ink::line(INK, 0.7) }
 }
 
-fn position_mark(k: usize) -> Ink {
+fn position_mark(k: usize) -> Ink<'static> {
     Ink { stroke: INK, width: 0.7, ..Ink::fill(FILLS[k % FILLS.len()]) }
 }
 
@@ -200,44 +238,45 @@ fn three(v: f64) -> String {
 }
 
 /// A frame over the time of a column, with ticks and a title of its values.
-fn panel(
+fn panel<'a>(
+    paper: &mut Paper,
     column: Column,
     corner: [f64; 2],
     high: f64,
     [low, top]: [f64; 2],
     unit: Unit,
-    titles: [&str; 2],
-) -> Panel<'_> {
+    titles: [&'a str; 2],
+) -> Panel<'a> {
     let time = Unit::of(column.until_s);
     let x = Axis::linear(column.from_s * time.factor, column.until_s * time.factor, titles[0]);
     let y = Axis::linear(low * unit.factor, top * unit.factor, titles[1]);
-    Panel { axes: Axes { corner, size: [column.width, high], x, y }, time: time.factor, value: unit.factor }
+    let chart = Axes { corner, size: [column.width, high], x, y }.on(paper, 31.0);
+    Panel { chart, time: time.factor, value: unit.factor }
 }
 
-fn heights(svg: &mut Svg, drop: &Drop<'_>, column: Column, corner: [f64; 2], high: f64, magnified: Option<f64>) {
+fn heights(paper: &mut Paper, drop: &Drop<'_>, column: Column, corner: [f64; 2], high: f64, magnified: Option<f64>) {
     let seen: Vec<&Row> = drop.rows.iter().filter(|row| row.time_s <= column.until_s).collect();
     let [low, top] = range(seen.iter().flat_map(|row| row.height_m));
     let unit = Unit::of(top.max(-low));
     let title = format!("height, {}m", unit.prefix);
-    let panel = panel(column, corner, high, [low, top], unit, ["", &title]);
-    panel.axes.grid(svg);
+    let panel = panel(paper, column, corner, high, [low, top], unit, ["", &title]);
     if let Some(until_s) = magnified {
         let [from, to] = [0.0, until_s].map(|t| panel.at(t, 0.0)[0]);
-        svg.rect([from, corner[1]], [(to - from).max(0.8), high], Ink::fill(SAND));
+        paper.rect([from, corner[1]], [(to - from).max(0.8), high], Ink::fill(SAND));
     }
-    panel.axes.level(svg, 0.0, Ink::line(GRAY, 0.6));
+    panel.chart.level(paper, 0.0, Ink::line(GRAY, 0.6));
     for end in [1, 0] {
-        panel.curve(svg, drop.rows.iter().map(|row| (row.time_s, row.height_m[end])), Ink::line(ENDS[end], 1.2));
+        panel.curve(paper, drop.rows.iter().map(|row| (row.time_s, row.height_m[end])), Ink::line(ENDS[end], 1.2));
     }
     for strike in shown(drop.strikes, &panel) {
-        svg.circle(panel.at(strike.time_s, 0.0), 1.9, Ink::fill(ENDS[strike.point]));
+        paper.circle(panel.at(strike.time_s, 0.0), 1.9, Ink::fill(ENDS[strike.point]));
     }
-    panel.axes.border(svg, 31.0);
+    panel.chart.border(paper);
 }
 
 /// The strikes of a column; of those that would lie on one another the hardest.
 fn shown<'a>(strikes: &'a [Strike], panel: &Panel<'_>) -> Vec<&'a Strike> {
-    let until = panel.axes.x.high * (1.0 + 1e-9);
+    let until = panel.chart.x.high * (1.0 + 1e-9);
     let seen = strikes.iter().take_while(|strike| strike.time_s * panel.time <= until);
     let mut kept: [Option<&Strike>; 2] = [None; 2];
     let mut all: Vec<&Strike> = Vec::new();
@@ -264,14 +303,13 @@ fn time_title(column: Column) -> String {
     format!("time since the first touch, {}s", Unit::of(column.until_s).prefix)
 }
 
-fn shocks(svg: &mut Svg, drop: &Drop<'_>, column: Column, corner: [f64; 2], high: f64, last: bool) {
+fn shocks(paper: &mut Paper, drop: &Drop<'_>, column: Column, corner: [f64; 2], high: f64, last: bool) {
     let bounds = range(drop.strikes.iter().flat_map(|strike| strike.delta_v_m_s));
     let unit = Unit::of(bounds[1]);
     let title = format!("velocity shock, {}m/s", unit.prefix);
     let time = if last { time_title(column) } else { String::new() };
-    let panel = panel(column, corner, high, bounds, unit, [&time, &title]);
-    panel.axes.grid(svg);
-    panel.axes.level(svg, 0.0, Ink::line(GRAY, 0.6));
+    let panel = panel(paper, column, corner, high, bounds, unit, [&time, &title]);
+    panel.chart.level(paper, 0.0, Ink::line(GRAY, 0.6));
     let strikes = shown(drop.strikes, &panel);
     let mut last: Option<(usize, f64)> = None;
     for strike in strikes {
@@ -286,31 +324,30 @@ fn shocks(svg: &mut Svg, drop: &Drop<'_>, column: Column, corner: [f64; 2], high
             continue; // nothing to be seen; the strike is marked above
         }
         for (y, color) in tips.into_iter().zip(ENDS) {
-            svg.line([x, ground], [x, y], Ink::line(color, 1.0));
-            svg.circle([x, y], 1.9, Ink::fill(color));
+            paper.line([x, ground], [x, y], Ink::line(color, 1.0));
+            paper.circle([x, y], 1.9, Ink::fill(color));
         }
         for (k, s) in drop.at.iter().enumerate() {
-            svg.circle([x, panel.at(0.0, strike.delta_v_at(*s))[1]], 2.2, position_mark(k));
+            paper.circle([x, panel.at(0.0, strike.delta_v_at(*s))[1]], 2.2, position_mark(k));
         }
     }
-    panel.axes.border(svg, 31.0);
+    panel.chart.border(paper);
 }
 
-fn pulses(svg: &mut Svg, drop: &Drop<'_>, column: Column, corner: [f64; 2], high: f64) {
+fn pulses(paper: &mut Paper, drop: &Drop<'_>, column: Column, corner: [f64; 2], high: f64) {
     let rows = || drop.rows.iter().filter_map(|row| row.forces.as_ref().map(|forces| (row.time_s, forces)));
     let positions = |forces: &Forces| drop.at.iter().map(|s| forces.acceleration_at(*s)).collect::<Vec<_>>();
     let bounds = range(rows().flat_map(|(_, forces)| forces.force_per_mass_m_s2.into_iter().chain(positions(forces))));
     let unit = Unit::of(bounds[1]);
     let title = format!("acceleration, {}m/s²", unit.prefix);
     let time = time_title(column);
-    let panel = panel(column, corner, high, bounds, unit, [&time, &title]);
-    panel.axes.grid(svg);
-    panel.axes.level(svg, 0.0, Ink::line(GRAY, 0.6));
+    let panel = panel(paper, column, corner, high, bounds, unit, [&time, &title]);
+    panel.chart.level(paper, 0.0, Ink::line(GRAY, 0.6));
     for end in [1, 0] {
-        panel.curve(svg, rows().map(|(t, forces)| (t, forces.force_per_mass_m_s2[end])), Ink::line(ENDS[end], 1.8));
+        panel.curve(paper, rows().map(|(t, forces)| (t, forces.force_per_mass_m_s2[end])), Ink::line(ENDS[end], 1.8));
     }
     for (k, s) in drop.at.iter().enumerate() {
-        panel.curve(svg, rows().map(|(t, forces)| (t, forces.acceleration_at(*s))), position_line(k));
+        panel.curve(paper, rows().map(|(t, forces)| (t, forces.acceleration_at(*s))), position_line(k));
     }
-    panel.axes.border(svg, 31.0);
+    panel.chart.border(paper);
 }

@@ -1,15 +1,18 @@
 //! Tools side by side on four bars: what a scene costs, how many impacts they count, how far off the largest shock is.
 
-use super::axes::{Axes, Axis, SMALL, tick};
-use crate::svg::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, RUST, Svg};
+use crate::FigureError;
+use crate::chart::{Axes, Axis};
+use crate::paper::{Paper, SMALL};
+use crate::style::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, RUST};
 
 /// How far a count is right.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Dot {
+pub enum Dot {
     /// From every start.
     Right,
     /// From this start; not from others that differ by less than a step.
     ByChance,
+    /// The count is wrong.
     Wrong,
 }
 
@@ -25,12 +28,13 @@ impl Dot {
 
 /// A row of the figure.
 #[derive(Debug)]
-pub(crate) struct Tool<'a> {
-    pub(crate) name: &'a str,
+pub struct Tool<'a> {
+    /// Of the tool.
+    pub name: &'a str,
     /// Impacts, whether they are right, and ms a scene.
-    pub(crate) bars: [(u64, Dot, f64); 4],
+    pub bars: [(u64, Dot, f64); 4],
     /// Of the largest shock, in words.
-    pub(crate) error: String,
+    pub error: String,
 }
 
 /// Height of a row.
@@ -39,7 +43,7 @@ const START: Label = Label { anchor: Anchor::Start, ..SMALL };
 const END: Label = Label { anchor: Anchor::End, ..SMALL };
 
 /// A row a tool, with a dot for the time of each bar.
-pub(crate) fn tools(rows: &[Tool<'_>], designs: [[f64; 2]; 4]) -> String {
+pub fn tools(rows: &[Tool<'_>], designs: [[f64; 2]; 4]) -> Result<String, FigureError> {
     let height = rows.iter().fold(0.0, |h, _| h + ROW);
     let times = || rows.iter().flat_map(|row| row.bars.iter().map(|bar| bar.2));
     let axes = Axes {
@@ -49,47 +53,39 @@ pub(crate) fn tools(rows: &[Tool<'_>], designs: [[f64; 2]; 4]) -> String {
             title: "time a scene, in ms",
             ..Axis::log_over(times().flat_map(|ms| [0.8 * ms, 1.25 * ms]), 12.0, "")
         },
-        y: Axis::linear(0.0, 1.0, ""),
+        y: Axis { bare: true, ..Axis::linear(0.0, 1.0, "") },
     };
     let columns = [312.0, 338.0, 364.0, 390.0];
     let bottom = axes.corner[1] + height;
-    let mut svg = Svg::new(465.0, bottom + 48.0);
-    svg.rect(axes.corner, axes.size, Ink::fill("#ffffff"));
-    let decades = (-7_i32..=7).map(|k| 10f64.powi(k)).filter(|v| (axes.x.low..=axes.x.high).contains(v));
-    for v in decades {
-        let x = axes.at(v, 0.0)[0];
-        svg.line([x, axes.corner[1]], [x, bottom], Ink::line("#e3e7eb", 0.6));
-        svg.line([x, bottom], [x, bottom + 3.0], Ink::line(INK, 0.6));
-        svg.text([x, bottom + 11.5], &tick(v), SMALL);
-    }
-    svg.text([0.5 * (columns[0] + columns[3]), 10.0], "impacts, bar by bar", LABEL);
-    svg.text([462.0, 10.0], "largest shock", Label { anchor: Anchor::End, ..LABEL });
-    svg.text([462.0, 24.0], "off by", END);
+    let mut paper = Paper::new(465.0, bottom + 48.0);
+    let chart = axes.on(&mut paper, 0.0);
+    paper.text([0.5 * (columns[0] + columns[3]), 10.0], "impacts, bar by bar", LABEL);
+    paper.text([462.0, 10.0], "largest shock", Label { anchor: Anchor::End, ..LABEL });
+    paper.text([462.0, 24.0], "off by", END);
     for (x, [q, _]) in columns.into_iter().zip(designs) {
-        svg.text([x, 24.0], &format!("*q* {q}"), Label { color: GRAY, ..SMALL });
+        paper.text([x, 24.0], &format!("*q* {q}"), Label { color: GRAY, ..SMALL });
     }
     let mut y = axes.corner[1] + 0.5 * ROW;
     for (i, row) in rows.iter().enumerate() {
         if i > 0 {
-            svg.line([0.0, y - 0.5 * ROW], [465.0, y - 0.5 * ROW], Ink::line("#e3e7eb", 0.6));
+            paper.line([0.0, y - 0.5 * ROW], [465.0, y - 0.5 * ROW], Ink::line("#e3e7eb", 0.6));
         }
-        svg.plain([2.0, y + 2.8], row.name, START);
+        paper.plain([2.0, y + 2.8], row.name, START);
         for ((impacts, dot, ms), x) in row.bars.iter().zip(columns) {
-            let at = [axes.at(*ms, 0.0)[0], y];
-            svg.circle(at, 2.8, Ink { stroke: INK, width: 0.7, ..Ink::fill(dot.fill()) });
+            let at = [chart.at(*ms, 0.0)[0], y];
+            paper.circle(at, 2.8, Ink { stroke: INK, width: 0.7, ..Ink::fill(dot.fill()) });
             let color = if *dot == Dot::Wrong { RUST } else { INK };
             let mark = if *dot == Dot::ByChance { "\u{2009}?" } else { "" };
-            svg.text([x, y + 2.8], &format!("{impacts}{mark}"), Label { color, ..SMALL });
+            paper.text([x, y + 2.8], &format!("{impacts}{mark}"), Label { color, ..SMALL });
         }
-        svg.plain([462.0, y + 2.8], &row.error, END);
+        paper.plain([462.0, y + 2.8], &row.error, END);
         y += ROW;
     }
-    svg.rect(axes.corner, axes.size, Ink::line(INK, 0.6));
-    svg.text([axes.corner[0] + 0.5 * axes.size[0], bottom + 24.0], axes.x.title, LABEL);
+    chart.border(&mut paper);
     let words = ["right count", "right, but not from every start within a step (?)", "wrong count"];
     for ((dot, word), x) in [Dot::Right, Dot::ByChance, Dot::Wrong].into_iter().zip(words).zip([110.0, 180.0, 366.0]) {
-        svg.circle([x, bottom + 39.2], 2.8, Ink { stroke: INK, width: 0.7, ..Ink::fill(dot.fill()) });
-        svg.text([x + 7.0, bottom + 42.0], word, START);
+        paper.circle([x, bottom + 39.2], 2.8, Ink { stroke: INK, width: 0.7, ..Ink::fill(dot.fill()) });
+        paper.text([x + 7.0, bottom + 42.0], word, START);
     }
-    svg.finish("Tools side by side: time, impacts and the error of the largest shock on four bars")
+    paper.finish("Tools side by side: time, impacts and the error of the largest shock on four bars")
 }

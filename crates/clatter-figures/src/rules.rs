@@ -2,9 +2,12 @@
 
 use clatter_shock::{GainMap, Holders, OMEGAS, Rule, SuspendedZones};
 
-use super::axes::{Axes, Axis, SMALL, key, step_up};
-use super::shock::GUIDE;
-use crate::svg::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, Pt, RUST, SAND, Svg, width};
+use crate::FigureError;
+use crate::chart::{Axes, Axis, step_up};
+use crate::paper::{Paper, SMALL};
+use crate::plane::plane_axes;
+use crate::shock::GUIDE;
+use crate::style::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, Pt, RUST, SAND, width};
 
 const OMEGA: &str = "*Ω* = *ωh*_0/*v*_0";
 const DOTS: Ink = Ink { dash: "1.2 2", ..GUIDE };
@@ -27,17 +30,18 @@ fn limits(rule: &Rule) -> (f64, Option<f64>) {
 
 /// The rule of one bar at its end, quarter points and center.
 #[derive(Debug)]
-pub(crate) struct BarRules {
-    pub(crate) design: [f64; 2],
+pub struct BarRules {
+    /// q, e.
+    pub design: [f64; 2],
     /// End, quarter point, center.
-    pub(crate) rules: [Rule; 3],
+    pub rules: [Rule; 3],
 }
 
 /// A panel for each bar: the rule at three distances from the center, between its asymptotes.
-pub(crate) fn rules(bars: &[BarRules; 4]) -> String {
+pub fn rules(bars: &[BarRules; 4]) -> Result<String, FigureError> {
     let inks = [Ink::line(BLUES[8], 1.2), Ink::line(RUST, 1.0), Ink::line("#4c7a49", 1.0)];
     let top = bars.iter().flat_map(|b| &b.rules).flat_map(peaks).fold(0.0_f64, |m, p| m.max(p.1));
-    let mut svg = Svg::new(465.0, 336.0);
+    let mut paper = Paper::new(465.0, 336.0);
     for (i, bar) in bars.iter().enumerate() {
         let (column, row) = ([0.0, 1.0][i % 2], [0.0, 1.0][i / 2]);
         let axes = Axes {
@@ -46,39 +50,39 @@ pub(crate) fn rules(bars: &[BarRules; 4]) -> String {
             x: omega_axis(if i > 1 { OMEGA } else { "" }),
             y: Axis::linear(0.0, 1.06 * top, if i % 2 == 0 { "peak, in *v*_0" } else { "" }),
         };
-        axes.grid(&mut svg);
-        axes.level(&mut svg, 2.0, STANDARD);
+        let axes = axes.on(&mut paper, 22.0);
+        axes.level(&mut paper, 2.0, STANDARD);
         for (rule, ink) in bar.rules.iter().zip(inks) {
             let (soft, stiff) = limits(rule);
-            let guide = |svg: &mut Svg, y: f64, from: f64, to: f64, dash| {
-                axes.curve(svg, [(from, y), (to, y)].into_iter(), Ink { dash, width: 0.7, ..ink });
+            let guide = |paper: &mut Paper, y: f64, from: f64, to: f64, dash| {
+                axes.curve(paper, [(from, y), (to, y)].into_iter(), Ink { dash, width: 0.7, ..ink });
             };
-            guide(&mut svg, soft, OMEGAS[0], 2.0, "3 2");
+            guide(&mut paper, soft, OMEGAS[0], 2.0, "3 2");
             if let Some(stiff) = stiff {
-                guide(&mut svg, stiff, 8.0, OMEGAS[1], "1.2 1.6");
+                guide(&mut paper, stiff, 8.0, OMEGAS[1], "1.2 1.6");
             }
-            axes.curve(&mut svg, peaks(rule), ink);
+            axes.curve(&mut paper, peaks(rule), ink);
         }
-        axes.border(&mut svg, 22.0);
+        axes.border(&mut paper);
         let [q, e] = bar.design;
         let [left, upper] = axes.corner;
         let title = format!("*q* = {q}, *e* = {e}");
-        svg.text([left + 97.0, upper - 5.0], &title, LABEL);
+        paper.text([left + 97.0, upper - 5.0], &title, LABEL);
     }
     let lines = [(inks[0], "end"), (inks[1], "quarter point"), (inks[2], "center"), (STANDARD, "one shock of 2 *v*_0")];
-    across(&mut svg, 332.0, &lines, &[60.0, 115.0, 210.0, 280.0]);
-    svg.finish("The three-way rule: peak acceleration over natural frequency for four bars at three places")
+    across(&mut paper, 332.0, &lines, &[60.0, 115.0, 210.0, 280.0]);
+    paper.finish("The three-way rule: peak acceleration over natural frequency for four bars at three places")
 }
 
 /// A key in one row.
-fn across(svg: &mut Svg, y: f64, lines: &[(Ink, &str)], at: &[f64]) {
+fn across(paper: &mut Paper, y: f64, lines: &[(Ink, &str)], at: &[f64]) {
     for (line, x) in lines.iter().zip(at) {
-        key(svg, [*x, y], &[*line]);
+        paper.key([*x, y], &[*line]);
     }
 }
 
 /// The rule of one bar at its end for several damping ratios.
-pub(crate) fn damping(rules: &[(f64, Rule)]) -> String {
+pub fn damping(rules: &[(f64, Rule)]) -> Result<String, FigureError> {
     let inks = [
         Ink { width: 0.7, ..Ink::line(BLUES[5], 0.7) },
         Ink::line(BLUES[8], 1.2),
@@ -93,21 +97,21 @@ pub(crate) fn damping(rules: &[(f64, Rule)]) -> String {
         x: Axis::log(OMEGAS[0], step_up(last), OMEGA),
         y: Axis::linear(0.0, 1.06 * top, "peak, in *v*_0"),
     };
-    let mut svg = Svg::new(304.0, 230.0);
-    axes.grid(&mut svg);
+    let mut paper = Paper::new(304.0, 230.0);
+    let axes = axes.on(&mut paper, 22.0);
     let mut lines = Vec::new();
     for ((zeta, rule), ink) in rules.iter().zip(inks) {
         if let (soft, Some(stiff)) = limits(rule) {
-            axes.level(&mut svg, soft, GUIDE);
-            axes.level(&mut svg, stiff, DOTS);
+            axes.level(&mut paper, soft, GUIDE);
+            axes.level(&mut paper, stiff, DOTS);
         }
-        axes.curve(&mut svg, peaks(rule), ink);
+        axes.curve(&mut paper, peaks(rule), ink);
         lines.push((ink, format!("*ζ* = {zeta}")));
     }
-    axes.border(&mut svg, 22.0);
+    axes.border(&mut paper);
     let lines: Vec<(Ink, &str)> = lines.iter().map(|(ink, name)| (*ink, name.as_str())).collect();
-    across(&mut svg, 225.0, &lines, &[30.0, 92.0, 160.0, 228.0]);
-    svg.finish("The three-way rule at the end of a bar for four damping ratios")
+    across(&mut paper, 225.0, &lines, &[30.0, 92.0, 160.0, 228.0]);
+    paper.finish("The three-way rule at the end of a bar for four damping ratios")
 }
 
 /// Where a band map changes color, and the colors: one more than levels.
@@ -126,16 +130,16 @@ impl Bands<'_> {
 /// A frame whose cells are strips of one color from crossing to crossing of a level.
 ///
 /// `values` row by row from the lowest, of cells whose middles are `columns` (on the page) apart from one another.
-fn strips(svg: &mut Svg, corner: Pt, size: Pt, columns: usize, values: &[f64], bands: &Bands<'_>, smooth: bool) {
+fn strips(paper: &mut Paper, corner: Pt, size: Pt, columns: usize, values: &[f64], bands: &Bands<'_>, smooth: bool) {
     let rows = values.len() / columns.max(1);
     #[expect(clippy::cast_precision_loss, reason = "a small grid")]
     let (high, wide) = (size[1] / rows as f64, size[0] / columns as f64);
     let mut bottom = corner[1] + size[1];
     for line in values.chunks(columns) {
         // a hair of overlap, or the ground shows between the strips
-        let strip = |svg: &mut Svg, from: f64, to: f64, color: &'static str| {
+        let strip = |paper: &mut Paper, from: f64, to: f64, color: &'static str| {
             let (y, h) = ((bottom - high - 0.2).max(corner[1]), high + 0.2);
-            svg.rect([corner[0] + from, y], [to - from, h.min(bottom - y)], Ink::fill(color));
+            paper.rect([corner[0] + from, y], [to - from, h.min(bottom - y)], Ink::fill(color));
         };
         let mut from = 0.0;
         let mut middle = 0.5 * wide;
@@ -145,12 +149,12 @@ fn strips(svg: &mut Svg, corner: Pt, size: Pt, columns: usize, values: &[f64], b
                 let crossed = bands.levels.iter().find(|level| (pair[0] < **level) != (pair[1] < **level));
                 let share = crossed.map_or(0.5, |level| (level - pair[0]) / (pair[1] - pair[0]));
                 let to = middle + wide * if smooth { share } else { 0.5 };
-                strip(svg, from, to, colors[0]);
+                strip(paper, from, to, colors[0]);
                 from = to;
             }
             middle += wide;
         }
-        strip(svg, from, size[0], bands.color(line[line.len() - 1]));
+        strip(paper, from, size[0], bands.color(line[line.len() - 1]));
         bottom -= high;
     }
 }
@@ -170,39 +174,34 @@ fn between_rows(values: &[f64], columns: usize, times: u8) -> Vec<f64> {
 }
 
 /// The largest gain over one shock of 2 v0, over the plane of bars.
-pub(crate) fn gain(map: &GainMap, designs: &[[f64; 2]; 4]) -> String {
+pub fn gain(map: &GainMap, designs: &[[f64; 2]; 4]) -> Result<String, FigureError> {
     let bands = Bands {
         levels: &[0.8, 1.0, 1.25, 1.5, 2.0, 3.0],
         colors: &[SAND, "#f6f0e4", BLUES[1], BLUES[3], BLUES[4], BLUES[6], BLUES[8]],
     };
-    let mut svg = Svg::new(296.0, 236.0);
-    let axes = Axes {
-        corner: [34.0, 8.0],
-        size: [190.0, 190.0],
-        x: Axis::linear(0.0, 1.0, "coefficient of restitution *e*"),
-        y: Axis::linear(0.0, 1.0, "inertia ratio *q*"),
-    };
-    strips(&mut svg, axes.corner, axes.size, map.cells, &between_rows(&map.gain, map.cells, 6), &bands, true);
+    let mut paper = Paper::new(296.0, 236.0);
+    let axes = plane_axes([34.0, 8.0], 190.0).without_grid(&mut paper, 24.0);
+    strips(&mut paper, axes.corner, axes.size, map.cells, &between_rows(&map.gain, map.cells, 6), &bands, true);
     for [q, e] in designs {
-        axes.mark(&mut svg, *e, *q, "#ffffff");
+        axes.mark(&mut paper, *e, *q, "#ffffff");
     }
-    axes.border(&mut svg, 24.0);
+    axes.border(&mut paper);
     let names = ["below 0.8", "0.8 to 1", "1 to 1.25", "1.25 to 1.5", "1.5 to 2", "2 to 3", "above 3"];
-    swatches(&mut svg, [234.0, 20.0], &bands.colors.iter().copied().zip(names).collect::<Vec<_>>());
-    svg.finish("Largest gain over a single shock of 2 v0, over restitution and inertia ratio")
+    swatches(&mut paper, [234.0, 20.0], &bands.colors.iter().copied().zip(names).collect::<Vec<_>>());
+    paper.finish("Largest gain over a single shock of 2 v0, over restitution and inertia ratio")
 }
 
 /// Colors and what they mean, one below the other.
-fn swatches(svg: &mut Svg, [x, mut y]: Pt, list: &[(&'static str, &str)]) {
+fn swatches(paper: &mut Paper, [x, mut y]: Pt, list: &[(&'static str, &str)]) {
     for (color, name) in list {
-        svg.rect([x, y - 7.5], [9.0, 9.0], Ink { stroke: GRAY, width: 0.4, ..Ink::fill(color) });
-        svg.text([x + 13.0, y], name, Label { anchor: Anchor::Start, ..SMALL });
+        paper.rect([x, y - 7.5], [9.0, 9.0], Ink { stroke: GRAY, width: 0.4, ..Ink::fill(color) });
+        paper.text([x + 13.0, y], name, Label { anchor: Anchor::Start, ..SMALL });
         y += 13.0;
     }
 }
 
 /// Which impact the peak follows, over Ω and position.
-pub(crate) fn holders(data: &Holders, [q, e]: [f64; 2]) -> String {
+pub fn holders(data: &Holders, [q, e]: [f64; 2]) -> Result<String, FigureError> {
     let colors: [&'static str; 6] = [SAND, BLUES[2], BLUES[4], BLUES[6], BLUES[8], "#d8a27f"];
     let bands = Bands { levels: &[1.5, 2.5, 3.5, 4.5, 5.5], colors: &colors };
     // the first by number, those between, the last
@@ -216,16 +215,17 @@ pub(crate) fn holders(data: &Holders, [q, e]: [f64; 2]) -> String {
         _ => 5.0,
     };
     let values: Vec<f64> = data.impact.iter().map(|&n| class(n)).collect();
-    let mut svg = Svg::new(226.0, 236.0);
+    let mut paper = Paper::new(226.0, 236.0);
     let axes = Axes {
         corner: [34.0, 18.0],
         size: [178.0, 150.0],
         x: omega_axis(OMEGA),
         y: Axis::linear(-1.0, 1.0, "position *s*"),
     };
-    strips(&mut svg, axes.corner, axes.size, data.omegas.len(), &values, &bands, false);
-    axes.border(&mut svg, 25.0);
-    svg.text([axes.corner[0] + 89.0, 13.0], &format!("*q* = {q}, *e* = {e}: {} impacts", data.impacts), LABEL);
+    let axes = axes.without_grid(&mut paper, 25.0);
+    strips(&mut paper, axes.corner, axes.size, data.omegas.len(), &values, &bands, false);
+    axes.border(&mut paper);
+    paper.text([axes.corner[0] + 89.0, 13.0], &format!("*q* = {q}, *e* = {e}: {} impacts", data.impacts), LABEL);
     let between = format!("5 to {}", last.saturating_sub(1));
     let names = ["1", "2", "3", "4", &between, "the last"];
     let mut x = 34.0;
@@ -236,43 +236,43 @@ pub(crate) fn holders(data: &Holders, [q, e]: [f64; 2]) -> String {
             _ => true,
         };
         if there {
-            swatches(&mut svg, [x, 226.0], &[(*color, name)]);
+            swatches(&mut paper, [x, 226.0], &[(*color, name)]);
             x += 18.0 + width(name, SMALL.size);
         }
     }
-    svg.text([34.0, 211.0], "the peak follows impact", Label { anchor: Anchor::Start, ..SMALL });
-    svg.finish("Number of the impact that the peak acceleration follows, over frequency and position")
+    paper.text([34.0, 211.0], "the peak follows impact", Label { anchor: Anchor::Start, ..SMALL });
+    paper.finish("Number of the impact that the peak acceleration follows, over frequency and position")
 }
 
 /// Safe zones of suspended parts over Ω, beside those of the paper.
-pub(crate) fn zones(data: &[SuspendedZones; 3], [q, e]: [f64; 2]) -> String {
+pub fn zones(data: &[SuspendedZones; 3], [q, e]: [f64; 2]) -> Result<String, FigureError> {
     let inks = [Ink::line(BLUES[8], 1.3), Ink::line(RUST, 1.2), Ink::line("#4c7a49", 1.2)];
-    let mut svg = Svg::new(226.0, 222.0);
+    let mut paper = Paper::new(226.0, 222.0);
     let axes = Axes {
         corner: [34.0, 18.0],
         size: [178.0, 150.0],
         x: omega_axis(OMEGA),
         y: Axis::linear(0.0, 1.0, "safe zone *s*"),
     };
-    axes.grid(&mut svg);
+    let axes = axes.on(&mut paper, 25.0);
     let mut lines = Vec::new();
     for (zone, ink) in data.iter().zip(inks) {
-        if let Some(paper) = zone.paper {
-            axes.level(&mut svg, paper, Ink { dash: "3 2", width: 0.7, ..ink });
+        if let Some(own) = zone.paper {
+            axes.level(&mut paper, own, Ink { dash: "3 2", width: 0.7, ..ink });
         }
         let curve = zone.omegas.iter().zip(&zone.zones).map(|(w, s)| (*w, s.unwrap_or(0.0)));
-        axes.curve(&mut svg, curve, ink);
+        axes.curve(&mut paper, curve, ink);
         lines.push((ink, format!("{} *v*_0", zone.threshold)));
     }
-    axes.border(&mut svg, 25.0);
-    svg.text([axes.corner[0] + 89.0, 13.0], &format!("*q* = {q}, *e* = {e}"), LABEL);
+    axes.border(&mut paper);
+    paper.text([axes.corner[0] + 89.0, 13.0], &format!("*q* = {q}, *e* = {e}"), LABEL);
     let lines: Vec<(Ink, &str)> = lines.iter().map(|(ink, name)| (*ink, name.as_str())).collect();
-    across(&mut svg, 214.0, &lines, &[40.0, 104.0, 162.0]);
-    svg.finish("Safe zone of a suspended part over its natural frequency, for three thresholds")
+    across(&mut paper, 214.0, &lines, &[40.0, 104.0, 162.0]);
+    paper.finish("Safe zone of a suspended part over its natural frequency, for three thresholds")
 }
 
 /// Amplification of single pulses over natural frequency times duration: a name and a curve each.
-pub(crate) fn amplifications(shapes: &[(&str, Vec<(f64, f64)>)]) -> String {
+pub fn amplifications(shapes: &[(&str, Vec<(f64, f64)>)]) -> Result<String, FigureError> {
     let ink = |color, dash| Ink { dash, ..Ink::line(color, 1.1) };
     let inks = [
         ink(BLUES[8], ""),
@@ -289,19 +289,19 @@ pub(crate) fn amplifications(shapes: &[(&str, Vec<(f64, f64)>)]) -> String {
         x: Axis::log(0.1, 10.0, "natural frequency times duration, *fD*"),
         y: Axis::linear(0.0, 2.1, "peak over amplitude, |*A*|/*a*"),
     };
-    let mut svg = Svg::new(440.0, 172.0);
-    axes.grid(&mut svg);
+    let mut paper = Paper::new(440.0, 172.0);
+    let axes = axes.on(&mut paper, 24.0);
     for ((_, curve), ink) in shapes.iter().zip(inks) {
-        axes.curve(&mut svg, curve.iter().copied(), ink);
+        axes.curve(&mut paper, curve.iter().copied(), ink);
     }
-    axes.border(&mut svg, 24.0);
+    axes.border(&mut paper);
     let lines: Vec<(Ink, &str)> = shapes.iter().zip(inks).map(|((name, _), ink)| (ink, *name)).collect();
-    key(&mut svg, [310.0, 20.0], &lines);
-    svg.finish("Amplification of single pulses without damping")
+    paper.key([310.0, 20.0], &lines);
+    paper.finish("Amplification of single pulses without damping")
 }
 
 /// What simpler models say over what the train of pulses does: a name and a curve each.
-pub(crate) fn models(curves: &[(&str, Vec<(f64, f64)>)]) -> String {
+pub fn models(curves: &[(&str, Vec<(f64, f64)>)]) -> Result<String, FigureError> {
     let inks = [
         Ink { dash: "3 2.5", ..Ink::line(GRAY, 1.1) },
         Ink { dash: "1.2 1.6", ..Ink::line(RUST, 1.2) },
@@ -316,16 +316,16 @@ pub(crate) fn models(curves: &[(&str, Vec<(f64, f64)>)]) -> String {
         x: Axis::log(ends(0).fold(f64::INFINITY, f64::min), ends(1).fold(0.0, f64::max), "natural frequency, Hz"),
         y: Axis::linear(0.0, 2.5, "estimate over peak"),
     };
-    let mut svg = Svg::new(304.0, 206.0);
-    axes.grid(&mut svg);
-    axes.level(&mut svg, 1.0, Ink::line(INK, 0.7));
+    let mut paper = Paper::new(304.0, 206.0);
+    let axes = axes.on(&mut paper, 24.0);
+    axes.level(&mut paper, 1.0, Ink::line(INK, 0.7));
     for ((_, curve), ink) in curves.iter().zip(inks) {
-        axes.curve(&mut svg, curve.iter().copied(), ink);
+        axes.curve(&mut paper, curve.iter().copied(), ink);
     }
-    axes.border(&mut svg, 24.0);
+    axes.border(&mut paper);
     let lines: Vec<(Ink, &str)> = curves.iter().zip(inks).map(|((name, _), ink)| (ink, *name)).collect();
     for (pair, x) in lines.chunks(2).zip([30.0, 170.0]) {
-        key(&mut svg, [x, 190.0], pair);
+        paper.key([x, 190.0], pair);
     }
-    svg.finish("Estimates of simpler models over the peak that the train of pulses makes")
+    paper.finish("Estimates of simpler models over the peak that the train of pulses makes")
 }

@@ -1,0 +1,59 @@
+//! Values on a grid: where they are negative, and the lines on which they vanish.
+
+/// A polygon of a plane, or a line.
+pub(crate) type Shape = Vec<(f64, f64)>;
+
+/// The cells of a grid, cut where the values vanish.
+#[derive(Debug, Default)]
+pub(crate) struct Cells {
+    /// Where values are negative, in pieces that may overlap.
+    pub(crate) shapes: Vec<Shape>,
+    /// The lines that bound it; negative values are to the left of each.
+    pub(crate) lines: Vec<Shape>,
+    /// Where they are not known.
+    pub(crate) unknown: Vec<Shape>,
+}
+
+/// Cuts each cell along straight lines. Of a grid point in row i and column j `place` is where it is, `value` its value, none where that
+/// is not known. Rows go upward and columns to the right.
+pub(crate) fn cells(
+    [rows, columns]: [usize; 2],
+    place: impl Fn(usize, usize) -> (f64, f64),
+    value: impl Fn(usize, usize) -> Option<f64>,
+) -> Cells {
+    let mut cells = Cells::default();
+    for i in 1..rows {
+        for j in 1..columns {
+            let corners = [(i - 1, j - 1), (i - 1, j), (i, j), (i, j - 1)];
+            let places = corners.map(|(i, j)| place(i, j));
+            let [Some(a), Some(b), Some(c), Some(d)] = corners.map(|(i, j)| value(i, j)) else {
+                cells.unknown.push(places.to_vec());
+                continue;
+            };
+            let values = [a, b, c, d];
+            let (mut shape, mut cuts) = (Vec::new(), Vec::new());
+            for k in 0..4 {
+                let ((x, y), (x2, y2)) = (places[k], places[(k + 1) % 4]);
+                let (v, v2) = (values[k], values[(k + 1) % 4]);
+                if v < 0.0 {
+                    shape.push((x, y));
+                }
+                if (v < 0.0) != (v2 < 0.0) {
+                    let share = v / (v - v2);
+                    let cut = (x + share * (x2 - x), y + share * (y2 - y));
+                    shape.push(cut);
+                    cuts.push(cut);
+                }
+            }
+            if shape.len() > 2 {
+                cells.shapes.push(shape);
+            }
+            // Around the cell one leaves what is negative and comes back to it.
+            if values[0] >= 0.0 {
+                cuts.reverse();
+            }
+            cells.lines.extend(cuts.chunks_exact(2).map(<[_]>::to_vec));
+        }
+    }
+    cells
+}

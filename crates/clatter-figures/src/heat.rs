@@ -1,0 +1,252 @@
+//! A map as a heat map: one pixel a grid point, with contours and a color bar.
+
+use base64::Engine as _;
+use clatter::{Map, Quantity, Variable};
+use plotters::style::RGBColor;
+use plotters::style::colors::colormaps::{ColorMap, DerivedColorMap};
+
+use crate::FigureError;
+use crate::chart::{Axes, Axis, round_values, tick};
+use crate::grid::cells;
+use crate::paper::{Paper, SMALL, What};
+use crate::shock::three;
+use crate::style::{Anchor, BLUES, INK, Ink, LABEL, Label, SAND, rgb};
+
+/// What a quantity is called on the color bar, in figure markup.
+fn name(quantity: Quantity) -> String {
+    match quantity {
+        Quantity::Impacts => "number of impacts".into(),
+        Quantity::PeakEnd => "largest velocity shock at the ends, in *v*_0".into(),
+        Quantity::PeakCenter => "largest velocity shock at the center, in *v*_0".into(),
+        Quantity::PeakAngular => "largest change of angular velocity, in *v*_0/*L*".into(),
+        Quantity::NetCenter => "net change of velocity at the center, in *v*_0".into(),
+        Quantity::Duration => "duration, in *h*_0/*v*_0".into(),
+        Quantity::Zone(x) => format!("safe zone *s* for shocks up to {x} *v*_0"),
+    }
+}
+
+/// How values become colors.
+struct Scale {
+    low: f64,
+    high: f64,
+    log: bool,
+    /// The largest value, where the scale ends below it.
+    most: Option<f64>,
+}
+
+/// The scale ends where so much of the map lies below, if that saves half of the colors: a corner must not take them all.
+const CUT: f64 = 0.98;
+
+impl Scale {
+    /// Over the finite values. If none is negative and the positive ones span more than a factor of 30, logarithmic
+    /// from the smallest positive one on.
+    fn of(values: &[f64]) -> Self {
+        let mut finite: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
+        finite.sort_by(f64::total_cmp);
+        let (Some(&low), Some(&high)) = (finite.first(), finite.last()) else {
+            return Self { low: 0.0, high: 1.0, log: false, most: None };
+        };
+        let least = finite.iter().copied().find(|v| *v > 0.0).unwrap_or(high);
+        let up_to = |high: f64| {
+            let log = low >= 0.0 && high > 30.0 * least;
+            Self { low: if log { least } else { low }, high, log, most: None }
+        };
+        let whole = up_to(high);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            clippy::cast_precision_loss,
+            reason = "an index"
+        )]
+        let upper = finite[(CUT * (finite.len() - 1) as f64) as usize];
+        let saves = upper > whole.low && whole.unit(upper) < 0.5;
+        if saves { Self { most: Some(high), ..up_to(upper) } } else { whole }
+    }
+    /// Where a value lies between the ends, 0 to 1.
+    fn unit(&self, v: f64) -> f64 {
+        let v = v.clamp(self.low, self.high);
+        let (v, a, b) = if self.log { (v.ln(), self.low.ln(), self.high.ln()) } else { (v, self.low, self.high) };
+        if b > a { (v - a) / (b - a) } else { 0.5 }
+    }
+    /// Those of contours: the ticks and, where they are even, the middles between them.
+    fn levels(&self) -> Vec<f64> {
+        let ticks = self.ticks();
+        let middles = ticks.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).filter(|_| !self.log);
+        let middles: Vec<f64> = middles.collect();
+        [ticks, middles].concat()
+    }
+    /// Round values for ticks.
+    fn ticks(&self) -> Vec<f64> {
+        if !self.log {
+            return round_values(self.low, self.high);
+        }
+        let steps: &[f64] = if (self.high / self.low).log10() < 3.5 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+        let first = self.low.log10().floor();
+        let decades = (0..=616u16).map(|k| 10f64.powf(first + f64::from(k))).take_while(|decade| *decade <= self.high);
+        let all = decades.flat_map(|decade| steps.iter().map(move |s| s * decade));
+        let ticks: Vec<f64> = all.filter(|v| (self.low..=self.high).contains(v)).collect();
+        let every = ticks.len().div_ceil(10).max(1);
+        ticks.into_iter().step_by(every).collect()
+    }
+}
+
+/// The palette as plotters mixes it.
+fn palette() -> DerivedColorMap<RGBColor> {
+    let colors = BLUES.map(|color| {
+        let [r, g, b] = rgb(color);
+        RGBColor(r, g, b)
+    });
+    DerivedColorMap::new(&colors)
+}
+
+/// The color at 0 ≤ x ≤ 1 of the palette.
+#[expect(clippy::cast_possible_truncation, reason = "a share")]
+fn color(palette: &DerivedColorMap<RGBColor>, x: f64) -> [u8; 3] {
+    let RGBColor(r, g, b) = palette.get_color(x as f32);
+    [r, g, b]
+}
+
+/// Pixels as a PNG in base64; empty if there are none.
+fn png(width: usize, height: usize, pixels: &[u8]) -> String {
+    let mut bytes = Vec::new();
+    let (Ok(w), Ok(h)) = (u32::try_from(width), u32::try_from(height)) else { return String::new() };
+    let mut encoder = png::Encoder::new(&mut bytes, w, h);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(pixels));
+    if written.is_err() { String::new() } else { base64::engine::general_purpose::STANDARD.encode(&bytes) }
+}
+
+/// Pixels a grid point gets on a side, so that viewers which smooth do so within a point.
+fn zoom(points: usize) -> usize {
+    500usize.div_ceil(points.max(1)).min(64)
+}
+
+/// An axis whose first and last grid points lie half a cell inside the frame.
+fn axis(of: clatter::Axis, title: &str) -> Axis<'_> {
+    #[expect(clippy::cast_precision_loss, reason = "a grid has far fewer than 2^53 points")]
+    let last = of.points().max(1) as f64 - 1.0;
+    let (low, high) = (of.value(0), of.value(of.points().max(1) - 1));
+    let half = if high > low { 0.5 * (high - low) / last } else { 0.5 };
+    Axis::linear(low - half, high + half, title)
+}
+
+/// A map as a heat map with a color bar, a cell a grid point, and contours at the ticks of the bar, and between them, where the quantity is
+/// continuous; that of no safe zone is bold. Endless (+∞) is shown apart. The color bar is logarithmic where no value is negative and the
+/// positive ones span more than a factor of 30; where one corner would take most of the colors, it ends below it and says so.
+///
+/// ```
+/// use clatter::{Axis, Map, Quantity};
+/// let map = Map::compute(Quantity::Impacts, Axis::q(0.0, 1.0, 50)?, Axis::e(0.0, 1.0, 50)?)?;
+/// assert!(clatter_figures::map(&map)?.contains("endless"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`FigureError`].
+pub fn map(map: &Map) -> Result<String, FigureError> {
+    let (inertia, title) = match map.q.variable() {
+        Variable::GyrationRatio => ("gyration ratio *ρ*/*L*", "Map over restitution and gyration ratio"),
+        _ => ("inertia ratio *q*", "Map over restitution and inertia ratio"),
+    };
+    let mut paper = Paper::new(390.0, 290.0);
+    let axes = Axes {
+        corner: [46.0, 8.0],
+        size: [250.0; 2],
+        x: axis(map.e, "coefficient of restitution *e*"),
+        y: axis(map.q, inertia),
+    };
+    let chart = axes.without_grid(&mut paper, 30.0);
+    let (scale, palette) = (Scale::of(&map.values), palette());
+    let (nq, ne) = (map.q.points(), map.e.points());
+    let (wide, high) = (zoom(ne), zoom(nq));
+    let mut pixels = Vec::with_capacity(3 * map.values.len() * wide * high);
+    for line in map.values.chunks(ne.max(1)).rev() {
+        let colors = line.iter().map(|&v| if v.is_finite() { color(&palette, scale.unit(v)) } else { rgb(SAND) });
+        let row: Vec<u8> = colors.flat_map(|c| std::iter::repeat_n(c, wide)).flatten().collect();
+        pixels.extend(std::iter::repeat_n(row, high).flatten());
+    }
+    let corners = vec![(axes.x.low, axes.y.high), (axes.x.high, axes.y.low)];
+    chart.draw(&mut paper, vec![corners], What::Image(&png(ne * wide, nq * high, &pixels)));
+    // Numbers of impacts and what hangs on them change by steps, which the colors show.
+    if !matches!(map.quantity, Quantity::Impacts | Quantity::Duration) {
+        for level in scale.levels() {
+            let place = |i: usize, j: usize| (map.e.value(j), map.q.value(i));
+            let above = |i: usize, j: usize| map.values.get(i * ne + j).map(|v| v - level).filter(|v| v.is_finite());
+            let zero = level == 0.0 && matches!(map.quantity, Quantity::Zone(_));
+            let ink = if zero { Ink::line(INK, 1.2) } else { Ink::line(INK, 0.35) };
+            chart.draw(&mut paper, cells([nq, ne], place, above).lines, What::Lines(ink));
+        }
+    }
+    chart.border(&mut paper);
+    bar(&mut paper, map, &scale, &palette);
+    paper.finish(title)
+}
+
+/// The color bar with its ticks and title.
+fn bar(paper: &mut Paper, map: &Map, scale: &Scale, palette: &DerivedColorMap<RGBColor>) {
+    let (left, top, side) = (314.0, 8.0, 250.0);
+    let word = |paper: &mut Paper, y: f64, text: &str| {
+        paper.text([left + 17.0, y], text, Label { anchor: Anchor::Start, ..SMALL });
+    };
+    let apart = map.values.iter().any(|v| !v.is_finite());
+    let rows = 16.0 * f64::from(u8::from(apart) + u8::from(scale.most.is_some()));
+    let (from, high) = if rows > 0.0 { (top + rows + 6.0, side - rows - 6.0) } else { (top, side) };
+    let strip: Vec<u8> = (0..=255u8).rev().flat_map(|i| color(palette, f64::from(i) / 255.0)).collect();
+    paper.image([left, from], [left + 12.0, from + high], &png(1, 256, &strip));
+    paper.rect([left, from], [12.0, high], Ink::line(INK, 0.5));
+    for v in scale.ticks() {
+        let y = from + high * (1.0 - scale.unit(v));
+        paper.line([left + 12.0, y], [left + 15.0, y], Ink::line(INK, 0.5));
+        word(paper, y + 2.6, &tick(v));
+    }
+    let mut beyond = Vec::new();
+    if apart {
+        beyond.push((SAND, if map.quantity == Quantity::Impacts { "endless" } else { "infinite" }.to_owned()));
+    }
+    if let Some(most) = scale.most {
+        beyond.push((BLUES[BLUES.len() - 1], format!("2 % above, to {}", three(most))));
+    }
+    for (k, (color, text)) in (0_u8..).zip(beyond) {
+        let y = top + 16.0 * f64::from(k);
+        paper.rect([left, y], [12.0, 12.0], Ink { stroke: INK, width: 0.5, ..Ink::fill(color) });
+        word(paper, y + 8.6, &text);
+    }
+    paper.text([left + 60.0, top + 0.5 * side], &name(map.quantity), Label { turn: -90.0, ..LABEL });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clatter::Axis;
+
+    #[test]
+    fn ticks_are_round_and_inside() {
+        let fifths: Vec<_> = round_values(0.0, 1.0).into_iter().map(tick).collect();
+        assert_eq!(fifths, ["0", "0.2", "0.4", "0.6", "0.8", "1"]);
+        assert_eq!(round_values(-0.5, 0.9).first(), Some(&-0.5), "the first");
+        assert_eq!(round_values(0.3, 0.3), [0.3]);
+        let scale = Scale::of(&[2.0, 900.0, f64::INFINITY]);
+        assert_eq!(scale.ticks(), [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0]);
+        let (low, high) = (Scale::of(&[0.0, 1e-300]), Scale::of(&[1e-300, 1e300]));
+        assert!(low.ticks().len() < 12 && high.ticks().len() < 12, "not too many");
+    }
+
+    #[test]
+    fn every_map_can_be_drawn() {
+        for (q, e) in [(Axis::q(0.2, 0.2, 1), Axis::e(0.0, 1.0, 3)), (Axis::q(-0.9, 1.0, 2), Axis::e(1.0, 1.0, 1))] {
+            let (q, e) = (q.unwrap(), e.unwrap());
+            for quantity in [Quantity::Impacts, Quantity::PeakEnd, Quantity::Duration, Quantity::Zone(0.5)] {
+                let drawn = map(&Map::compute(quantity, q, e).unwrap()).unwrap();
+                assert!(drawn.starts_with("<svg") && drawn.ends_with("</svg>\n") && !drawn.contains("NaN"), "{drawn}");
+            }
+        }
+        let nothing = Map {
+            quantity: Quantity::PeakEnd,
+            q: Axis::q(0.0, 1.0, 2).unwrap(),
+            e: Axis::e(0.0, 1.0, 2).unwrap(),
+            values: vec![f64::NAN; 4],
+        };
+        assert!(!map(&nothing).unwrap().contains("NaN"), "what is no number gets the color apart");
+    }
+}

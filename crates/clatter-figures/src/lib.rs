@@ -1,0 +1,58 @@
+//! Figures as SVG, drawn by plotters on a page of our own: each a pure function of the data it shows.
+//!
+//! Charts, axes, meshes, color maps and the view of surfaces are those of plotters. Its page is SVG in hundredths of a point, with
+//! the typeface of the printed reports and a title for readers that cannot see. Series are cut at the frame before they are drawn.
+//! The crate reads no file and starts nothing; it runs in a browser as well.
+
+mod bar;
+mod chart;
+mod component;
+mod design;
+mod drop;
+mod grid;
+mod heat;
+mod labels;
+mod ladder;
+mod orders;
+mod page;
+mod paper;
+mod peers;
+mod plane;
+mod product;
+pub mod rules;
+mod shock;
+mod style;
+mod surface;
+
+pub use bar::scheme;
+pub use chart::{raised, tick};
+pub use component::{Share, history, over_tilt, shares};
+pub use design::{DesignBorder, DesignFronts, DesignPlane, fronts, plane as design_plane};
+pub use drop::{Drop, drop};
+pub use heat::map;
+pub use ladder::{Panel as LadderPanel, panels as ladders, words as model_words};
+pub use orders::{Panel as OrderPanel, orders};
+pub use peers::{Dot, Tool, tools};
+pub use plane::{Impacts, Zones, impacts, zones};
+pub use product::{Place, product};
+pub use shock::{beside, boundary, damage_boundary, rule, spectrum, three};
+pub use style::RUST;
+pub use surface::{Sheet, Surface, surface};
+
+/// Why a figure was not drawn: what plotters says.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FigureError(pub(crate) String);
+
+impl std::fmt::Display for FigureError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "the figure could not be drawn: {}", self.0)
+    }
+}
+
+impl std::error::Error for FigureError {}
+
+impl From<FigureError> for std::io::Error {
+    fn from(error: FigureError) -> Self {
+        Self::other(error)
+    }
+}

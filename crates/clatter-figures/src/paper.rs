@@ -1,0 +1,185 @@
+//! A figure in the making: an area of plotters in points, y downward, and the one element that is drawn on it and on charts.
+
+use std::iter::Flatten;
+use std::slice::Iter;
+
+use plotters::coord::cartesian::Cartesian2d;
+use plotters::coord::{CoordTranslate, Shift};
+use plotters::drawing::{DrawingArea, IntoDrawingArea};
+use plotters::element::{Drawable, PointCollection};
+use plotters_backend::{BackendCoord, DrawingErrorKind};
+
+use crate::FigureError;
+use crate::chart::Axis;
+use crate::page::{Page, UNITS};
+use crate::style::{Anchor, GRAY, Ink, LABEL, Label, Pt};
+
+/// What plotters has no element for: lines with dashes, shapes in pieces, words in figure markup at any angle, images.
+pub(crate) struct Element<'a, P> {
+    pub(crate) pieces: Vec<Vec<P>>,
+    pub(crate) what: What<'a>,
+}
+
+/// What is drawn at or through its points.
+pub(crate) enum What<'a> {
+    Lines(Ink<'a>),
+    /// One area, its pieces closed.
+    Area(Ink<'a>),
+    /// A circle of this radius around each point.
+    Circles(f64, Ink<'a>),
+    /// Words in figure markup.
+    Text(&'a str, Label<'a>),
+    /// Words as they are.
+    Plain(&'a str, Label<'a>),
+    /// From the first point to the last: a PNG in base64.
+    Image(&'a str),
+}
+
+impl<'b, P> PointCollection<'b, P> for &'b Element<'_, P> {
+    type Point = &'b P;
+    type IntoIter = Flatten<Iter<'b, Vec<P>>>;
+    fn point_iter(self) -> Self::IntoIter {
+        self.pieces.iter().flatten()
+    }
+}
+
+impl<P> Drawable<Page> for Element<'_, P> {
+    fn draw<I: Iterator<Item = BackendCoord>>(
+        &self,
+        at: I,
+        page: &mut Page,
+        _: (u32, u32),
+    ) -> Result<(), DrawingErrorKind<std::convert::Infallible>> {
+        let mut at = at.map(|(x, y)| [f64::from(x) / UNITS, f64::from(y) / UNITS]);
+        match &self.what {
+            What::Lines(ink) | What::Area(ink) => {
+                let pieces: Vec<Vec<Pt>> =
+                    self.pieces.iter().map(|piece| at.by_ref().take(piece.len()).collect()).collect();
+                page.path(pieces.iter().map(Vec::as_slice), matches!(self.what, What::Area(_)), ink);
+            }
+            What::Circles(r, ink) => at.for_each(|at| page.circle(at, *r, ink)),
+            What::Text(text, label) => at.for_each(|at| page.text(at, text, label)),
+            What::Plain(text, label) => at.for_each(|at| page.plain(at, text, label)),
+            What::Image(png) => {
+                if let (Some(from), Some(to)) = (at.next(), at.last()) {
+                    page.image(from, to, png);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A page in points. The first failure of plotters is kept until the end.
+pub(crate) struct Paper {
+    page: Page,
+    pub(crate) root: DrawingArea<Page, Shift>,
+    points: DrawingArea<Page, Cartesian2d<Axis<'static>, Axis<'static>>>,
+    error: Option<FigureError>,
+}
+
+impl Paper {
+    pub(crate) fn new(width: f64, height: f64) -> Self {
+        let page = Page::new([width, height]);
+        let root = page.clone().into_drawing_area();
+        let (w, h) = root.dim_in_pixel();
+        let span = |n: u32| 0..i32::try_from(n).unwrap_or(i32::MAX);
+        let (x, y) = (Axis::linear(0.0, width, ""), Axis::linear(0.0, height, ""));
+        let points = root.apply_coord_spec(Cartesian2d::new(x, y, (span(w), span(h))));
+        Self { page, root, points, error: None }
+    }
+
+    /// What a step of plotters gives; its failure is kept.
+    pub(crate) fn keep<T>(&mut self, step: Result<T, impl std::fmt::Display>) -> Option<T> {
+        step.map_err(|error| self.error.get_or_insert_with(|| FigureError(error.to_string())).clone()).ok()
+    }
+
+    /// An element on an area of this page.
+    pub(crate) fn draw<P, C: CoordTranslate<From = P>>(
+        &mut self,
+        area: &DrawingArea<Page, C>,
+        element: &Element<'_, P>,
+    ) {
+        let drawn = area.draw(element);
+        self.keep(drawn);
+    }
+
+    fn here(&mut self, points: &[Pt], what: What<'_>) {
+        let pieces = vec![points.iter().map(|[x, y]| (*x, *y)).collect()];
+        let drawn = self.points.draw(&Element { pieces, what });
+        self.keep(drawn);
+    }
+
+    /// A line through points, or the area within them.
+    pub(crate) fn path(&mut self, points: &[Pt], closed: bool, ink: Ink<'_>) {
+        self.here(points, if closed { What::Area(ink) } else { What::Lines(ink) });
+    }
+
+    pub(crate) fn line(&mut self, from: Pt, to: Pt, ink: Ink<'_>) {
+        self.path(&[from, to], false, ink);
+    }
+
+    pub(crate) fn rect(&mut self, [x, y]: Pt, [w, h]: Pt, ink: Ink<'_>) {
+        self.path(&[[x, y], [x + w, y], [x + w, y + h], [x, y + h]], true, ink);
+    }
+
+    pub(crate) fn circle(&mut self, at: Pt, r: f64, ink: Ink<'_>) {
+        self.here(&[at], What::Circles(r, ink));
+    }
+
+    /// A line with a head at its end.
+    pub(crate) fn arrow(&mut self, from: Pt, to: Pt, color: &str, width: f64) {
+        let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
+        let length = dx.hypot(dy).max(1e-9);
+        let (ux, uy) = (dx / length, dy / length);
+        let (long, wide) = (5.0, 1.6);
+        let neck = [to[0] - long * ux, to[1] - long * uy];
+        self.line(from, [to[0] - 0.7 * long * ux, to[1] - 0.7 * long * uy], Ink::line(color, width));
+        let side = |s: f64| [neck[0] - s * wide * uy, neck[1] + s * wide * ux];
+        self.path(&[to, side(1.0), side(-1.0)], true, Ink::fill(color));
+    }
+
+    /// Words in figure markup.
+    pub(crate) fn text(&mut self, at: Pt, text: &str, label: Label<'_>) {
+        self.here(&[at], What::Text(text, label));
+    }
+
+    /// Words as they are.
+    pub(crate) fn plain(&mut self, at: Pt, text: &str, label: Label<'_>) {
+        self.here(&[at], What::Plain(text, label));
+    }
+
+    /// What the lines of a figure mean, one below the other from `at` on. Returns where the next line would stand.
+    pub(crate) fn key(&mut self, [x, mut y]: Pt, lines: &[(Ink<'_>, &str)]) -> f64 {
+        for (ink, text) in lines {
+            self.line([x, y - 2.8], [x + 18.0, y - 2.8], *ink);
+            self.text([x + 23.0, y], text, Label { anchor: Anchor::Start, ..SMALL });
+            y += 12.0;
+        }
+        y
+    }
+
+    /// A line of words below a key.
+    pub(crate) fn note(&mut self, at: Pt, text: &str) {
+        self.text(at, text, Label { anchor: Anchor::Start, color: GRAY, ..SMALL });
+    }
+
+    /// An image from corner to corner: a PNG in base64.
+    pub(crate) fn image(&mut self, from: Pt, to: Pt, png: &str) {
+        self.here(&[from, to], What::Image(png));
+    }
+
+    /// The picture, with what it shows as its title.
+    ///
+    /// # Errors
+    /// The first failure of plotters.
+    pub(crate) fn finish(self, title: &str) -> Result<String, FigureError> {
+        match self.error {
+            Some(error) => Err(error),
+            None => Ok(self.page.finish(title)),
+        }
+    }
+}
+
+/// Ticks and keys.
+pub(crate) const SMALL: Label<'static> = Label { size: 8.0, ..LABEL };

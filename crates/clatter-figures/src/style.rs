@@ -1,0 +1,85 @@
+//! Colors, lines and labels of the figures.
+
+/// A point on the page.
+pub(crate) type Pt = [f64; 2];
+
+/// One calm palette, light to dark; its steps are told apart in gray as well.
+pub(crate) const BLUES: [&str; 9] =
+    ["#f2f6fa", "#e1ebf4", "#cddeed", "#b5cde3", "#98b8d6", "#779fc6", "#5585b3", "#37699a", "#1f4e7c"];
+/// Lines and letters.
+pub(crate) const INK: &str = "#1d2329";
+/// Ticks, rules and second voices.
+pub(crate) const GRAY: &str = "#68717b";
+/// Regions apart: endless, or no safe zone.
+pub(crate) const SAND: &str = "#efe5d3";
+/// What must catch the eye.
+pub const RUST: &str = "#a34a1c";
+/// What is open.
+pub(crate) const OCHRE: &str = "#8f6b00";
+
+/// The typeface of figures and pages, embedded in typst.
+pub(crate) const FONT: &str = "Libertinus Serif";
+
+/// How a shape is drawn.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ink<'a> {
+    /// Fill color or `none`.
+    pub(crate) fill: &'a str,
+    /// Line color or `none`.
+    pub(crate) stroke: &'a str,
+    /// Line width in pt.
+    pub(crate) width: f64,
+    /// Lengths of dashes and gaps in pt, empty for a whole line.
+    pub(crate) dash: &'static str,
+}
+
+impl<'a> Ink<'a> {
+    pub(crate) const fn line(stroke: &'a str, width: f64) -> Self {
+        Self { fill: "none", stroke, width, dash: "" }
+    }
+    pub(crate) const fn fill(fill: &'a str) -> Self {
+        Self { fill, stroke: "none", width: 0.0, dash: "" }
+    }
+}
+
+/// Where a label stands about its point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// How a label is set.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Label<'a> {
+    pub(crate) anchor: Anchor,
+    /// Font size in pt.
+    pub(crate) size: f64,
+    /// Degrees, clockwise as seen.
+    pub(crate) turn: f64,
+    pub(crate) color: &'a str,
+}
+
+/// A label in the middle of its point, at the size of the figures' text.
+pub(crate) const LABEL: Label<'static> = Label { anchor: Anchor::Middle, size: 8.5, turn: 0.0, color: INK };
+
+/// About how wide a label is, from the widths of the typeface's letters (± 10 %): to keep labels apart.
+pub(crate) fn width(text: &str, size: f64) -> f64 {
+    let letter = |c: char| match c {
+        '*' | '_' | '{' | '}' => 0.0,
+        'i' | 'j' | 'l' | 't' | 'f' | 'r' | '.' | ',' | ' ' | '\'' | '(' | ')' | ':' => 0.28,
+        '0'..='9' => 0.47,
+        'm' | 'w' | '%' | 'M' | 'W' | '≥' | '≤' | '∞' => 0.75,
+        c if c.is_uppercase() => 0.65,
+        _ => 0.48,
+    };
+    size * text.chars().map(letter).sum::<f64>()
+}
+
+/// The bytes of a palette color `#rrggbb`.
+pub(crate) fn rgb(color: &str) -> [u8; 3] {
+    let channel =
+        |i: usize| color.get(1 + 2 * i..3 + 2 * i).and_then(|hex| u8::from_str_radix(hex, 16).ok()).unwrap_or(0);
+    [channel(0), channel(1), channel(2)]
+}
