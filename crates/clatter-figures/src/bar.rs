@@ -34,7 +34,7 @@ pub fn scheme(percussion: f64) -> Result<String, FigureError> {
     }
     // points
     let dot = |paper: &mut Paper, s: f64, fill| {
-        paper.circle(at(s, 0.0), 2.5, Ink { stroke: INK, width: 0.8, ..Ink::fill(fill) })
+        paper.circle(at(s, 0.0), 2.5, Ink { stroke: INK, width: 0.8, ..Ink::fill(fill) });
     };
     dot(&mut paper, 0.0, INK);
     dot(&mut paper, percussion, "#ffffff");

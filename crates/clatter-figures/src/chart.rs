@@ -154,6 +154,7 @@ pub(crate) fn step_up(v: f64) -> f64 {
 }
 
 /// A round value: plain from 0.001 to below 100 000, else with a power of ten.
+#[must_use]
 pub fn tick(v: f64) -> String {
     if v == 0.0 || (1e-3 * 0.999..0.999e5).contains(&v.abs()) {
         let text = format!("{v:.4}");
@@ -167,6 +168,7 @@ pub fn tick(v: f64) -> String {
 }
 
 /// An exponent as it stands above the line.
+#[must_use]
 pub fn raised(exponent: &str) -> String {
     let sign = |c: char| match c {
         '-' => '⁻',

@@ -6,6 +6,7 @@ use clatter_flight::{Stop, Strike};
 use crate::FigureError;
 use crate::chart::{Axes, Axis, Chart};
 use crate::paper::{Paper, SMALL};
+use crate::shock::three;
 use crate::style::{Anchor, BLUES, GRAY, INK, Ink, Label, RUST, SAND, width};
 
 /// One drop in time, as [`drop`] draws it.
@@ -144,9 +145,6 @@ fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
 /// assert!(clatter_figures::drop(&drop)?.contains("at rest"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-///
-/// # Errors
-/// [`FigureError`].
 pub fn drop(drop: &Drop<'_>) -> Result<String, FigureError> {
     let end_s = drop.rows.last().map_or(0.0, |row| row.time_s);
     let end_s = if end_s > 0.0 { end_s } else { 1e-3 };
@@ -220,21 +218,6 @@ fn position_line(k: usize) -> Ink<'static> {
 
 fn position_mark(k: usize) -> Ink<'static> {
     Ink { stroke: INK, width: 0.7, ..Ink::fill(FILLS[k % FILLS.len()]) }
-}
-
-/// Three significant digits.
-fn three(v: f64) -> String {
-    let text = format!("{v:.2e}");
-    let exponent = text.rsplit('e').next().and_then(|e| e.parse::<i32>().ok()).unwrap_or(0);
-    match exponent {
-        _ if v == 0.0 => "0".into(),
-        -4..=5 => {
-            let text = format!("{v:.*}", usize::try_from(2 - exponent).unwrap_or(0));
-            let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
-            text.replace('-', "−")
-        }
-        _ => text.replace('-', "−"),
-    }
 }
 
 /// A frame over the time of a column, with ticks and a title of its values.

@@ -141,9 +141,6 @@ fn axis(of: clatter::Axis, title: &str) -> Axis<'_> {
 /// assert!(clatter_figures::map(&map)?.contains("endless"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-///
-/// # Errors
-/// [`FigureError`].
 pub fn map(map: &Map) -> Result<String, FigureError> {
     let (inertia, title) = match map.q.variable() {
         Variable::GyrationRatio => ("gyration ratio *ρ*/*L*", "Map over restitution and gyration ratio"),

@@ -58,6 +58,7 @@ pub fn panels(panels: &[Panel<'_>]) -> Result<String, FigureError> {
 }
 
 /// A model in words.
+#[must_use]
 pub fn words(model: Model) -> &'static str {
     match model {
         Model::NetChange => "net change",

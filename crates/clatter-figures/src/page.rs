@@ -183,7 +183,7 @@ impl Page {
     }
 
     /// What plotters draws itself: grids, axes and ticks.
-    fn styled<S: BackendStyle>(&self, piece: &[BackendCoord], closed: bool, style: &S, filled: bool) -> Drawn {
+    fn styled<S: BackendStyle>(&self, piece: &[BackendCoord], closed: bool, style: &S, filled: bool) {
         let BackendColor { rgb: (r, g, b), alpha } = style.color();
         if alpha > 0.0 {
             let (color, piece) =
@@ -192,7 +192,6 @@ impl Page {
             let ink = if filled { Ink::fill(&color) } else { Ink::line(&color, width) };
             self.path([&piece[..]], closed, &ink);
         }
-        Ok(())
     }
 }
 
@@ -211,19 +210,24 @@ impl DrawingBackend for Page {
         Ok(())
     }
     fn draw_pixel(&mut self, (x, y): BackendCoord, color: BackendColor) -> Drawn {
-        self.styled(&[(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)], true, &color, true)
+        self.styled(&[(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)], true, &color, true);
+        Ok(())
     }
     fn draw_line<S: BackendStyle>(&mut self, from: BackendCoord, to: BackendCoord, style: &S) -> Drawn {
-        self.styled(&[from, to], false, style, false)
+        self.styled(&[from, to], false, style, false);
+        Ok(())
     }
     fn draw_rect<S: BackendStyle>(&mut self, from: BackendCoord, to: BackendCoord, style: &S, fill: bool) -> Drawn {
-        self.styled(&[from, (to.0, from.1), to, (from.0, to.1)], true, style, fill)
+        self.styled(&[from, (to.0, from.1), to, (from.0, to.1)], true, style, fill);
+        Ok(())
     }
     fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, path: I, style: &S) -> Drawn {
-        self.styled(&path.into_iter().collect::<Vec<_>>(), false, style, false)
+        self.styled(&path.into_iter().collect::<Vec<_>>(), false, style, false);
+        Ok(())
     }
     fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, corners: I, style: &S) -> Drawn {
-        self.styled(&corners.into_iter().collect::<Vec<_>>(), true, style, true)
+        self.styled(&corners.into_iter().collect::<Vec<_>>(), true, style, true);
+        Ok(())
     }
     fn draw_text<S: BackendTextStyle>(&mut self, text: &str, style: &S, at: BackendCoord) -> Drawn {
         let BackendColor { rgb: (r, g, b), .. } = style.color();

@@ -73,9 +73,6 @@ fn crossing(curve: &[Point], e: f64) -> Option<f64> {
 }
 
 /// Fig. 2: the number of impacts.
-///
-/// # Errors
-/// As every figure: [`FigureError`].
 pub fn impacts(data: &Impacts) -> Result<String, FigureError> {
     let mut paper = Paper::new(300.0, 242.0);
     let chart = plane_axes([88.0, 6.0], 206.0).without_grid(&mut paper, 24.0);

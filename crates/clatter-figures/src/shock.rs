@@ -138,6 +138,7 @@ fn draw(
 }
 
 /// Three significant digits, short.
+#[must_use]
 pub fn three(v: f64) -> String {
     if v == 0.0 || !(1e-3..1e5).contains(&v.abs()) {
         return tick(v);

@@ -126,9 +126,6 @@ fn below(polygon: &[P3], cut: f64) -> Vec<P3> {
 
 /// Draws the sheets back to front, column by column, and in a column from the lowest up: exact for sheets that
 /// are functions of (q, e), seen from above.
-///
-/// # Errors
-/// As every figure: [`FigureError`].
 pub fn surface(data: &Surface) -> Result<String, FigureError> {
     let mut paper = Paper::new(CENTER[0] + HALF, 246.0);
     let view = View::new(&mut paper, data);
