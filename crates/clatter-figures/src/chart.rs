@@ -76,7 +76,7 @@ impl<'a> Axis<'a> {
         Self { low, high, log: false, title, bare: false }
     }
     /// 0 at the low end, 1 at the high one; not finite for what a logarithm cannot show.
-    fn unit(&self, v: f64) -> f64 {
+    pub(crate) fn unit(&self, v: f64) -> f64 {
         if self.log {
             (v.ln() - self.low.ln()) / (self.high.ln() - self.low.ln())
         } else {
@@ -92,7 +92,7 @@ impl<'a> Axis<'a> {
         self.high.log10() - self.low.log10()
     }
     /// Values with a label, and values with a grid line alone.
-    fn ticks(&self) -> (Vec<f64>, Vec<f64>) {
+    pub(crate) fn ticks(&self) -> (Vec<f64>, Vec<f64>) {
         if self.bare {
             return (Vec::new(), Vec::new());
         }
@@ -110,7 +110,7 @@ impl<'a> Axis<'a> {
                 let v = f64::from(k) * decade;
                 let labelled = match k {
                     1 => (exponent / every).fract() == 0.0,
-                    2 | 5 => decades < 2.2,
+                    2 | 5 => decades < 2.7,
                     _ => false,
                 };
                 if labelled {

@@ -6,7 +6,7 @@ use plotters::style::RGBColor;
 use plotters::style::colors::colormaps::{ColorMap, DerivedColorMap};
 
 use crate::FigureError;
-use crate::chart::{Axes, Axis, round_values, tick};
+use crate::chart::{Axes, Axis, tick};
 use crate::grid::cells;
 use crate::paper::{Paper, SMALL, What};
 use crate::shock::three;
@@ -25,12 +25,10 @@ fn name(quantity: Quantity) -> String {
     }
 }
 
-/// How values become colors.
+/// How values become colors: along an axis, which may end below the largest value.
 struct Scale {
-    low: f64,
-    high: f64,
-    log: bool,
-    /// The largest value, where the scale ends below it.
+    axis: Axis<'static>,
+    /// The largest value, where that lies beyond the axis.
     most: Option<f64>,
 }
 
@@ -44,12 +42,12 @@ impl Scale {
         let mut finite: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
         finite.sort_by(f64::total_cmp);
         let (Some(&low), Some(&high)) = (finite.first(), finite.last()) else {
-            return Self { low: 0.0, high: 1.0, log: false, most: None };
+            return Self { axis: Axis::linear(0.0, 1.0, ""), most: None };
         };
         let least = finite.iter().copied().find(|v| *v > 0.0).unwrap_or(high);
         let up_to = |high: f64| {
             let log = low >= 0.0 && high > 30.0 * least;
-            Self { low: if log { least } else { low }, high, log, most: None }
+            if log { Axis::log(least, high, "") } else { Axis::linear(low, high, "") }
         };
         let whole = up_to(high);
         #[expect(
@@ -60,33 +58,19 @@ impl Scale {
         )]
         let upper = finite[(CUT * (finite.len() - 1) as f64) as usize];
         let saves = upper > whole.low && whole.unit(upper) < 0.5;
-        if saves { Self { most: Some(high), ..up_to(upper) } } else { whole }
+        if saves { Self { axis: up_to(upper), most: Some(high) } } else { Self { axis: whole, most: None } }
     }
     /// Where a value lies between the ends, 0 to 1.
     fn unit(&self, v: f64) -> f64 {
-        let v = v.clamp(self.low, self.high);
-        let (v, a, b) = if self.log { (v.ln(), self.low.ln(), self.high.ln()) } else { (v, self.low, self.high) };
-        if b > a { (v - a) / (b - a) } else { 0.5 }
+        let unit = self.axis.unit(v.clamp(self.axis.low, self.axis.high));
+        if unit.is_finite() { unit } else { 0.5 }
     }
     /// Those of contours: the ticks and, where they are even, the middles between them.
     fn levels(&self) -> Vec<f64> {
-        let ticks = self.ticks();
-        let middles = ticks.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).filter(|_| !self.log);
+        let ticks = self.axis.ticks().0;
+        let middles = ticks.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).filter(|_| !self.axis.log);
         let middles: Vec<f64> = middles.collect();
         [ticks, middles].concat()
-    }
-    /// Round values for ticks.
-    fn ticks(&self) -> Vec<f64> {
-        if !self.log {
-            return round_values(self.low, self.high);
-        }
-        let steps: &[f64] = if (self.high / self.low).log10() < 3.5 { &[1.0, 2.0, 5.0] } else { &[1.0] };
-        let first = self.low.log10().floor();
-        let decades = (0..=616u16).map(|k| 10f64.powf(first + f64::from(k))).take_while(|decade| *decade <= self.high);
-        let all = decades.flat_map(|decade| steps.iter().map(move |s| s * decade));
-        let ticks: Vec<f64> = all.filter(|v| (self.low..=self.high).contains(v)).collect();
-        let every = ticks.len().div_ceil(10).max(1);
-        ticks.into_iter().step_by(every).collect()
     }
 }
 
@@ -192,7 +176,7 @@ fn bar(paper: &mut Paper, map: &Map, scale: &Scale, palette: &DerivedColorMap<RG
     let strip: Vec<u8> = (0..=255u8).rev().flat_map(|i| color(palette, f64::from(i) / 255.0)).collect();
     paper.image([left, from], [left + 12.0, from + high], &png(1, 256, &strip));
     paper.rect([left, from], [12.0, high], Ink::line(INK, 0.5));
-    for v in scale.ticks() {
+    for v in scale.axis.ticks().0 {
         let y = from + high * (1.0 - scale.unit(v));
         paper.line([left + 12.0, y], [left + 15.0, y], Ink::line(INK, 0.5));
         word(paper, y + 2.6, &tick(v));
@@ -215,7 +199,8 @@ fn bar(paper: &mut Paper, map: &Map, scale: &Scale, palette: &DerivedColorMap<RG
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clatter::Axis;
+    use crate::chart::round_values;
+    use clatter::Axis as Of;
 
     #[test]
     fn ticks_are_round_and_inside() {
@@ -224,14 +209,25 @@ mod tests {
         assert_eq!(round_values(-0.5, 0.9).first(), Some(&-0.5), "the first");
         assert_eq!(round_values(0.3, 0.3), [0.3]);
         let scale = Scale::of(&[2.0, 900.0, f64::INFINITY]);
-        assert_eq!(scale.ticks(), [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0]);
+        assert_eq!(scale.axis.ticks().0, [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0]);
         let (low, high) = (Scale::of(&[0.0, 1e-300]), Scale::of(&[1e-300, 1e300]));
-        assert!(low.ticks().len() < 12 && high.ticks().len() < 12, "not too many");
+        assert!(low.axis.ticks().0.len() < 12 && high.axis.ticks().0.len() < 14, "not too many");
+    }
+
+    #[test]
+    fn a_corner_does_not_take_all_colors_and_what_is_above_is_told() {
+        let mut values: Vec<f64> = (0..1000).map(|k| 1.0 + f64::from(k) / 1000.0).collect();
+        let even = Scale::of(&values);
+        assert!(even.most.is_none() && !even.axis.log);
+        values.extend([500.0; 3]);
+        let scale = Scale::of(&values);
+        assert_eq!(scale.most, Some(500.0));
+        assert!((1.9..2.1).contains(&scale.axis.high) && scale.unit(500.0) >= 1.0, "{:?}", scale.axis);
     }
 
     #[test]
     fn every_map_can_be_drawn() {
-        for (q, e) in [(Axis::q(0.2, 0.2, 1), Axis::e(0.0, 1.0, 3)), (Axis::q(-0.9, 1.0, 2), Axis::e(1.0, 1.0, 1))] {
+        for (q, e) in [(Of::q(0.2, 0.2, 1), Of::e(0.0, 1.0, 3)), (Of::q(-0.9, 1.0, 2), Of::e(1.0, 1.0, 1))] {
             let (q, e) = (q.unwrap(), e.unwrap());
             for quantity in [Quantity::Impacts, Quantity::PeakEnd, Quantity::Duration, Quantity::Zone(0.5)] {
                 let drawn = map(&Map::compute(quantity, q, e).unwrap()).unwrap();
@@ -240,8 +236,8 @@ mod tests {
         }
         let nothing = Map {
             quantity: Quantity::PeakEnd,
-            q: Axis::q(0.0, 1.0, 2).unwrap(),
-            e: Axis::e(0.0, 1.0, 2).unwrap(),
+            q: Of::q(0.0, 1.0, 2).unwrap(),
+            e: Of::e(0.0, 1.0, 2).unwrap(),
             values: vec![f64::NAN; 4],
         };
         assert!(!map(&nothing).unwrap().contains("NaN"), "what is no number gets the color apart");
