@@ -110,7 +110,16 @@ fn barbs(paper: &mut Paper, chart: &Chart<'_>, lines: &[Shape]) {
     }
 }
 
-/// The design plane: safe designs, the border of each part, the product and what can be built.
+/// Which inertia ratios and restitutions make the parts of a product safe.
+///
+/// ```
+/// use clatter::design::{Goal, region};
+/// use clatter_figures::{DesignBorder, DesignPlane};
+/// let border = DesignBorder::Exact(region(&[Goal::zone(0.5, 0.1)?], 1e-3));
+/// let plane = DesignPlane { borders: vec![("display".into(), border)], ..DesignPlane::default() };
+/// assert!(clatter_figures::design_plane(&plane)?.contains("coefficient of restitution"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn plane(data: &DesignPlane) -> Result<String, FigureError> {
     let axes = plane_axes([40.0, 8.0], 220.0);
     let right = axes.corner[0] + axes.size[0] + 14.0;
@@ -231,7 +240,7 @@ pub struct DesignFronts {
     pub designs: Vec<(String, FrontPoint)>,
 }
 
-/// The largest safe zone against q, for each e.
+/// The front of the largest safe zone against the inertia ratio, for each restitution.
 pub fn fronts(data: &DesignFronts) -> Result<String, FigureError> {
     let largest = data.fronts.iter().filter_map(|[_, free]| free.largest()).map(|p| p.s).fold(data.wanted, f64::max);
     let title = format!("safe zone within {} *v*_0, per cent of the bar", data.threshold);

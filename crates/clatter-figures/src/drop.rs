@@ -334,3 +334,25 @@ fn pulses(paper: &mut Paper, drop: &Drop<'_>, column: Column, corner: [f64; 2], 
     }
     panel.chart.border(paper);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clatter_flight::{Body, Model, Scene};
+
+    #[test]
+    fn the_hardest_strike_is_magnified_with_those_before_it() {
+        let scene = Scene::new(Body::new(0.14, 0.04).unwrap(), 0.3, 4.43, 5.0, 9.81).unwrap();
+        let flight = scene.simulate(Model::FiniteTilt);
+        let rows: Vec<_> = scene.history(Model::FiniteTilt, &flight).collect();
+        let until = |strikes: &[Strike]| {
+            let drop = Drop { model: "", rows: &rows, strikes, pulses: &[], stop: flight.stop, at: &[] };
+            early(&drop, flight.stop.time_s())
+        };
+        let first = until(&flight.strikes).expect("a long pause");
+        let after = flight.strikes.iter().position(|strike| strike.time_s > first).expect("strikes after it");
+        let mut strikes = flight.strikes.clone();
+        strikes[after].delta_v_m_s = [100.0, 0.0];
+        assert!(until(&strikes).is_none_or(|until| until > strikes[after].time_s));
+    }
+}

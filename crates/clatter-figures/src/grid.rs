@@ -57,3 +57,28 @@ pub(crate) fn cells(
     }
     cells
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Values of a saddle and of a plane on a grid from −2 to 2: whichever corner a cell begins with.
+    #[test]
+    fn what_is_negative_lies_to_the_left_of_each_line() {
+        let at = |i: usize, j: usize| {
+            let along = |k: usize| f64::from(u8::try_from(k).unwrap()) - 2.1;
+            (along(j), along(i))
+        };
+        let surfaces: [fn(f64, f64) -> f64; 3] = [|x, y| x * y + 0.3, |x, y| x + 0.4 * y, |x, y| 1.3 - x * x - y * y];
+        for value in surfaces {
+            let found = cells([5, 5], at, |i, j| Some(value(at(i, j).0, at(i, j).1)));
+            assert!(found.lines.len() > 3 && found.unknown.is_empty());
+            for line in &found.lines {
+                let [(x, y), (x2, y2)] = line[..] else { panic!("a straight line") };
+                let (dx, dy) = (x2 - x, y2 - y);
+                let beside = |side: f64| value(0.5 * (x + x2) - side * dy, 0.5 * (y + y2) + side * dx);
+                assert!(beside(0.5) < beside(-0.5), "({x}, {y}) to ({x2}, {y2})");
+            }
+        }
+    }
+}

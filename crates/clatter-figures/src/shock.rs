@@ -38,7 +38,17 @@ fn pairs<'a>(spectrum: &'a Spectrum, values: &'a [f64], order: &'a [usize]) -> i
     order.iter().map(|&i| (spectrum.frequency_hz[i], values[i]))
 }
 
-/// A shock response spectrum on log-log or four-coordinate paper.
+/// A shock response spectrum on log-log paper, with a limit and the least margin if there is one; the pseudo-velocity
+/// on four-coordinate paper, whose diagonals are relative displacement and acceleration.
+///
+/// ```
+/// use clatter_shock::{DampingRatio, Frequencies, Quantity, VelocityShock, VelocityShocks};
+/// let shock = VelocityShocks::new(vec![VelocityShock { time: 0.0, delta_v: 2.0 }])?;
+/// let frequencies = Frequencies::per_octave(10.0, 1000.0, 12.0)?;
+/// let spectrum = shock.spectrum(&frequencies, DampingRatio::new(0.05)?, Quantity::PseudoVelocity);
+/// assert!(clatter_figures::spectrum(&spectrum, None)?.contains("pseudo-velocity"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn spectrum(s: &Spectrum, limit: Option<&LimitCurve>) -> Result<String, FigureError> {
     draw(s, limit, &[], false)
 }
@@ -236,7 +246,8 @@ fn length(m: f64) -> String {
     format!("{} m", tick(m))
 }
 
-/// Acceleration over velocity change, with what is safe on either side.
+/// A damage boundary: acceleration over velocity change, log-log, `curve` from [`clatter_shock::DamageBoundary::curve`]
+/// and a pulse at (velocity change, acceleration) on it.
 pub fn damage_boundary(b: &DamageBoundary, curve: &[(f64, f64)], pulse: [f64; 2]) -> Result<String, FigureError> {
     boundary(b, curve, &[(pulse, "this pulse", RUST)], [330.0, 230.0])
 }
@@ -313,7 +324,7 @@ pub fn boundary(
     paper.finish("Damage boundary: peak acceleration over velocity change of the base")
 }
 
-/// The three-way rule of one bar, position and damping ratio, and a component on it.
+/// The three-way rule as one spectrum over ω h0/v0 with its asymptotes, and a component at (ω h0/v0, |A|/(ω v0)) on it.
 pub fn rule(rule: &Rule, component: [f64; 2]) -> Result<String, FigureError> {
     let high = |of: fn(&clatter_shock::RulePoint) -> f64| rule.points.iter().map(of).fold(0.0_f64, f64::max);
     let top = high(|p| p.acceleration).max(high(|p| p.displacement)).max(rule.standard.acceleration);

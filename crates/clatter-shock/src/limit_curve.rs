@@ -104,6 +104,16 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_corners_between_two_frequencies_come_with_both_ends() {
+        let level = LimitCurve::constant(3.0).expect("a limit");
+        assert_eq!(level.corners(10.0, 50.0), [(10.0, 3.0), (50.0, 3.0)]);
+        let curve = LimitCurve::new(vec![(10.0, 100.0), (1000.0, 10_000.0), (5000.0, 10_000.0)]).expect("a curve");
+        let corners = curve.corners(100.0, 1e5);
+        assert_eq!(corners.len(), 3, "{corners:?}: nothing is allowed or not beyond its end");
+        assert!((corners[0].1 - 1000.0).abs() < 1e-9 && corners[1..] == [(1000.0, 10_000.0), (5000.0, 10_000.0)]);
+    }
+
+    #[test]
     fn curves_over_the_whole_range_of_numbers_are_straight() {
         let curve = LimitCurve::new(vec![(5e-324, 1e308), (1e308, 5e-324)]).expect("as the test has it");
         let mut before = f64::INFINITY;
