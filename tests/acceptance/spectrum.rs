@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use clatter_cli::{Exit, Streams, run};
+use clatter_cli::Exit;
 use insta::assert_snapshot;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -266,23 +266,6 @@ fn what_is_odd_about_a_record_is_a_warning_and_in_the_answer() {
     assert!(warnings[0].starts_with(&format!("warning: {}: line 1502: ", file.display())), "{warnings:?}");
     let got: Value = serde_json::from_str(&outcome.stdout).unwrap();
     assert_eq!(got["record"]["findings"].as_array().unwrap().len(), 3, "{}", got["record"]);
-}
-
-#[test]
-fn progress_is_shown_to_those_who_watch_and_leaves_no_trace() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = record(folder.path(), &triangle());
-    let call = |interactive| {
-        let (mut out, mut err) = (Vec::new(), Vec::new());
-        let mut streams = Streams { out: &mut out, err: &mut err, interactive };
-        let exit = run(["clatter", "spectrum", file.to_str().unwrap(), "--frequency=100"], &mut streams);
-        assert_eq!(exit, Exit::Done);
-        (String::from_utf8(out).unwrap(), String::from_utf8(err).unwrap())
-    };
-    let ((quiet, none), (watched, bar)) = (call(false), call(true));
-    assert_eq!((quiet, none.as_str()), (watched, ""));
-    assert!(bar.contains("checking") && bar.contains("filtering [==============================] 100 %"), "{bar:?}");
-    assert!(bar.ends_with(" \r") && !bar.contains('\n'), "the line is cleared: {bar:?}");
 }
 
 #[test]

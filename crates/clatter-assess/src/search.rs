@@ -42,8 +42,11 @@ impl Work<'_> {
     /// # Errors
     /// [`Error::Stopped`] where they are not wanted any more.
     fn go_on(&self, drops: usize) -> Result<(), Error> {
-        let before = self.done.fetch_add(drops, Ordering::Relaxed);
-        if (self.watch)(before.min(self.all), self.all) { Ok(()) } else { Err(Error::Stopped) }
+        if !(self.watch)(self.done.load(Ordering::Relaxed).min(self.all), self.all) {
+            return Err(Error::Stopped);
+        }
+        self.done.fetch_add(drops, Ordering::Relaxed);
+        Ok(())
     }
 }
 
@@ -160,7 +163,9 @@ impl Ranges<'_> {
             let sample = (1..=SAMPLE).into_par_iter().map(|k| ask(k, &self.spread_out(k), Some(&only)));
             all.take(sample.collect());
         }
-        work.done.store(count - climbing, Ordering::Relaxed);
+        if work.go_on(0).is_ok() {
+            work.done.store(count - climbing, Ordering::Relaxed);
+        }
         let AllAsked { mut found, mut refused, drops, later } = all;
         let climbs: Vec<(usize, Asked)> = found
             .iter_mut()

@@ -227,6 +227,35 @@ fn what_is_found_when_the_time_is_over_is_told_and_nothing_is_safe_by_it() {
     assert!(stderr.contains("--time-limit is over"), "{stderr}");
 }
 
+/// Standard error is a terminal, standard output is none.
+#[test]
+fn progress_is_shown_to_those_who_watch_and_leaves_no_trace() {
+    use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("long.toml"), long()).unwrap();
+    let terminal = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
+    grantpt(&terminal).unwrap();
+    unlockpt(&terminal).unwrap();
+    let other = ptsname(&terminal, Vec::new()).unwrap().into_string().unwrap();
+    let mut shown = fs::File::from(terminal);
+    let stderr = fs::File::options().read(true).write(true).open(other).unwrap();
+    let mut child = clatter()
+        .args(["assess", "long.toml", "--time-limit=2s"])
+        .current_dir(dir.path())
+        .stdout(Stdio::null())
+        .stderr(stderr)
+        .spawn()
+        .unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(1));
+    let mut text = vec![0; 1 << 16];
+    let length = std::io::Read::read(&mut shown, &mut text).unwrap();
+    let text = String::from_utf8_lossy(&text[..length]);
+    assert!(text.starts_with("\rsearching  [") && text.contains(" s left"), "{text:?}");
+    let (bar, after) = text.trim_end().rsplit_once('\r').unwrap();
+    assert!(bar.ends_with(&" ".repeat(70)), "the line is cleared: {text:?}");
+    assert!(after.starts_with("warning: --time-limit"), "{text:?}");
+}
+
 #[test]
 fn a_history_of_gigabytes_is_written_only_where_it_is_asked_for() {
     let dir = tempfile::tempdir().unwrap();
