@@ -12,7 +12,9 @@ const LEFT_OUT: [&str; 4] = ["-o", "--output", "--limit", "--impact-limit"];
 fuzz_target!(|text: &str| {
     let arguments: Vec<&str> = text.lines().collect();
     let named = arguments.first().is_some_and(|first| COMMANDS.contains(first));
-    if !named || arguments.iter().any(|argument| LEFT_OUT.iter().any(|option| argument.starts_with(option))) {
+    // Standard input may have no end.
+    let waits = arguments.iter().any(|argument| *argument == "-" || argument.ends_with("=-"));
+    if !named || waits || arguments.iter().any(|argument| LEFT_OUT.iter().any(|option| argument.starts_with(option))) {
         return;
     }
     let (mut out, mut err) = (Vec::new(), Vec::new());

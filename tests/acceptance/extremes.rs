@@ -4,7 +4,7 @@ use clatter_cli::Exit;
 use proptest::prelude::*;
 use proptest::sample::select;
 
-use crate::clatter;
+use crate::{clatter, warns_of_slips_alone};
 
 /// Numbers where something ends: of the ranges, of the floats, of what a digit can tell.
 const EDGES: [f64; 26] = [
@@ -47,7 +47,7 @@ fn is_answered(arguments: &[String]) -> Result<(), TestCaseError> {
     if outcome.exit == Exit::Done {
         let json: Result<serde_json::Value, _> = serde_json::from_str(&outcome.stdout);
         prop_assert!(json.is_ok(), "{arguments:?}: {}", outcome.stdout);
-        prop_assert_eq!(outcome.stderr, "");
+        prop_assert!(warns_of_slips_alone(&outcome.stderr), "{arguments:?}: {}", outcome.stderr);
     } else {
         prop_assert_eq!((outcome.exit, outcome.stdout.as_str()), (Exit::BadInput, ""), "{:?}", arguments);
         prop_assert_eq!(outcome.stderr.matches("error: ").count(), 1, "{:?}: {}", arguments, outcome.stderr);

@@ -30,7 +30,7 @@ const REFUSED: &[(&[&str], &[&str])] = &[
     (&["simulate", "--model=map", "--length-m=1", "--mass=1@1", "--e=0", "--speed-m-s=1", "--tilt-deg=1"], &["--mass", "center of mass = 1.0"]),
     (&["simulate", "--model=map", "--length-m=1", "--gyration-m=1", "--mass=1@0", "--e=0", "--speed-m-s=1", "--tilt-deg=1"], &["--gyration-m", "--mass", "cannot be used with"]),
     (&["simulate", "--model=map", "--length-m=1", "--center-of-mass=0.1", "--mass=1@0", "--e=0", "--speed-m-s=1", "--tilt-deg=1"], &["--center-of-mass", "--mass", "cannot be used with"]),
-    (&["simulate", "--model=map", "--length-m=1", "--e=0", "--speed-m-s=1", "--tilt-deg=1"], &["--gyration-m <M>|--mass <M@S[:T]>"]),
+    (&["simulate", "--model=map", "--length-m=1", "--e=0", "--speed-m-s=1", "--tilt-deg=1"], &["give --gyration=LENGTH or --mass=M@S"]),
     // What needs a symmetric bar says so.
     (&["respond", "--mass=1@0.5", "--e=0", "--at=0", "--omega=1"], &["0.5 of a half-length off the middle", "symmetric"]),
 ];

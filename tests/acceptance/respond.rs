@@ -68,8 +68,8 @@ fn respond_explains_itself() {
       absolute acceleration, A/W           1.95337       17.9362  after impact 4, the last
 
     A shock at this position             shock, v0       W z, v0       A/W, v0
-      of the net change (W h0/v0 -> 0)     1.00214       1.00214       1.00214
-      the largest (W h0/v0 -> infinity)     2.14500             -             -
+      of the net change, W h0/v0 -> 0      1.00214       1.00214       1.00214
+      the largest, W h0/v0 -> infinity     2.14500             -             -
       without clatter, (1 + e) v0          1.30000       1.30000       1.30000
       as standards assume, 2 v0            2.00000       2.00000       2.00000
 

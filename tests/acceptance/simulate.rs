@@ -27,8 +27,8 @@ fn arguments(model: &str, others: &[&str]) -> Vec<String> {
 #[rustfmt::skip]
 const REFUSED: &[(&str, &[&str], &[&str])] = &[
     ("bounce", &[], &["--model", "bounce", "map, ballistic, finite-tilt, compliant"]),
-    ("map", &["--length-m"], &["--length-m <M>"]),
-    ("map", &["--speed-m-s"], &["--speed-m-s <V>|--height-m <H>"]),
+    ("map", &["--length-m"], &["give --length=LENGTH", "--product=FILE"]),
+    ("map", &["--speed-m-s"], &["give --speed=SPEED or --height=LENGTH"]),
     ("map", &["--length-m=-0.14"], &["--length-m", "-0.14", "[1e-30, 1e30]"]),
     ("map", &["--length-m=0"], &["--length-m", "0.0", "[1e-30, 1e30]"]),
     ("map", &["--length-m=nan"], &["--length-m", "NaN", "[1e-30, 1e30]"]),
@@ -60,14 +60,14 @@ const REFUSED: &[(&str, &[&str], &[&str])] = &[
     ("map", &["--at=1.5"], &["--at", "1.5", "[-1, 1]"]),
     ("map", &["--output=motion.npy"], &["--output", ".csv, .json or .svg"]),
     ("map", &["--contact-time-s=1e-3"], &["--contact-time-s", "--model=compliant alone"]),
-    ("compliant", &[], &["--contact-time-s <S>"]),
+    ("compliant", &[], &["give --contact-time=TIME"]),
     ("compliant", &["--contact-time-s=0"], &["--contact-time-s", "0.0", "[1e-12, 1000]"]),
     ("compliant", &["--contact-time-s=1e-13"], &["--contact-time-s", "1e-13", "[1e-12, 1000]"]),
     ("compliant", &["--contact-time-s=0.1"], &["--contact-time-s", "0.1", "at most 0.1 length/speed"]),
     ("compliant", &["--contact-time-s=1e-3", "--e=1.001"], &["--e", "1.001", "[0, 1]"]),
     ("compliant", &["--contact-time-s=1e-3", "--contact-law=glue"], &["--contact-law", "glue", "hysteretic, dashpot"]),
-    ("compliant", &["--contact-law=dashpot"], &["--contact-time-s <S>"]),
-    ("map", &["--contact-law=dashpot"], &["--contact-time-s <S>"]),
+    ("compliant", &["--contact-law=dashpot"], &["give --contact-time=TIME"]),
+    ("map", &["--contact-law=dashpot"], &["--contact-law", "--model=compliant alone"]),
     ("map", &["--contact-time-s=1e-3", "--contact-law=dashpot"], &["--contact-law", "--model=compliant alone"]),
     ("compliant", &["--contact-time-s=1e-4", "--gyration-m=0.001"], &["--gyration-m", "0.001", "at least 0.05 of the length"]),
 ];
@@ -151,7 +151,7 @@ fn a_thick_body_stands_on_its_corners_and_may_turn_over() {
     let over = clatter(arguments("finite-tilt", &["--thickness-m=0.05", "--spin-rad-s=60", "--tilt-deg=60"]));
     assert_eq!(over.exit, Exit::Done);
     assert!(
-        over.stdout.contains("\nBody of 0.14 by 0.05 m") && over.stdout.contains("\nTurned over at"),
+        over.stdout.contains("\nBody of 0.14 m by 0.05 m") && over.stdout.contains("\nTurned over at"),
         "{}",
         over.stdout
     );

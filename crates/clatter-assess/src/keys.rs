@@ -76,7 +76,7 @@ pub(crate) static PRODUCT: &[Key] = &[
     key(
         "restitution",
         true,
-        Spread(&units::NUMBER, ["0", "1"]),
+        Spread(&units::SHARE, ["0", "1"]),
         "Coefficient of restitution of the ends: rebound over approach speed.",
     ),
     key(
@@ -153,7 +153,7 @@ pub(crate) static COMPONENT: &[Key] = &[
     key(
         "damping_ratio",
         false,
-        Spread(&units::NUMBER, ["0", "100"]),
+        Spread(&units::SHARE, ["0", "100"]),
         "Damping ratio of a suspended part. Either this or quality_factor.",
     ),
     key(

@@ -21,8 +21,9 @@ pub mod scatter;
 mod schema;
 mod search;
 mod shock;
+mod slip;
 mod spread;
-mod units;
+pub mod units;
 mod verdict;
 mod visible;
 
@@ -38,6 +39,7 @@ pub use quantity::{Limit, LimitKind, Unit};
 pub use read::LARGEST_FILE;
 pub use schema::schema;
 pub use search::Watch;
+pub use slip::{Slip, outside, slip};
 pub use spread::{Law, Spread};
 pub use verdict::{Accuracy, Assessment, ComponentAssessment, LimitAssessment, ModelChoice, Verdict, WorstCase};
 pub use visible::{visible, visible_lines};

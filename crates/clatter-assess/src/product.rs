@@ -6,7 +6,7 @@ use clatter::End;
 use clatter_flight::{Body, ContactLaw};
 use clatter_shock::{DampingRatio, Suspension};
 
-use crate::{Error, LimitKind, Spread};
+use crate::{Error, LimitKind, Spread, Unit, units};
 
 /// A product, its drop and its parts.
 #[derive(Debug, Clone, PartialEq)]
@@ -161,6 +161,24 @@ impl Limits {
             (LimitKind::DamageBoundary, self.damage_boundary.is_some()),
         ];
         all.into_iter().filter(|(_, set)| *set).map(|(kind, _)| kind).collect()
+    }
+}
+
+impl Limits {
+    /// The unit in which the file gives a limit; of a damage boundary that of its velocity change or, by the SI unit, of its
+    /// acceleration.
+    #[must_use]
+    pub fn unit(&self, kind: LimitKind, si: Unit) -> Option<&'static units::Unit> {
+        let boundary = self.damage_boundary.as_ref();
+        let spread = match kind {
+            LimitKind::Acceleration => self.acceleration_m_s2.as_ref(),
+            LimitKind::RattleSpace => self.rattle_space_m.as_ref(),
+            LimitKind::VelocityChange => self.velocity_change_m_s.as_ref(),
+            LimitKind::AngularVelocityChange => self.angular_velocity_change_rad_s.as_ref(),
+            LimitKind::DamageBoundary if si == Unit::MeterPerSecondSquared => boundary.map(|b| &b.acceleration_m_s2),
+            LimitKind::DamageBoundary => boundary.map(|b| &b.velocity_change_m_s),
+        };
+        spread.and_then(Spread::unit)
     }
 }
 

@@ -1,5 +1,8 @@
 //! From the text of a product file to the product, or to everything that is wrong with it.
 
+mod quantities;
+
+use std::collections::HashMap;
 use std::ops::Range;
 
 use clatter::{End, Mass};
@@ -9,8 +12,10 @@ use toml::de::{DeTable, DeValue};
 
 use crate::fault::{Fault, Faults};
 use crate::keys::{self, Key, Kind};
-use crate::units::Dimension;
-use crate::{Boundary, Component, Damping, Drop, Fall, First, Law, Limits, Mount, Product, ProductFile, Spread};
+use crate::slip;
+use crate::units;
+use crate::{Boundary, Component, Damping, Drop, Fall, First, Limits, Mount, Product, ProductFile};
+use quantities::written;
 
 /// A file of more bytes is refused unread.
 pub const LARGEST_FILE: usize = 1 << 20;
@@ -39,11 +44,19 @@ impl ProductFile {
     /// assert!(faults.to_string().contains("did you mean `length`?"));
     /// ```
     pub fn read(text: &str, origin: &str) -> Result<Self, Faults> {
+        Self::read_warned(text, origin).map(|(file, _)| file)
+    }
+
+    /// The same, with warnings of what is allowed and is likely a slip: a phone of 150 m, a mass outside of the body.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn read_warned(text: &str, origin: &str) -> Result<(Self, Faults), Faults> {
         let mut reader = Reader::default();
         if text.len() > LARGEST_FILE {
             let message = format!("the file has {} bytes", text.len());
             reader.fault(0..0, message, "", format!("at most {LARGEST_FILE}"));
-            return Err(Faults::new(origin, "", reader.faults));
+            return Err(Faults::new(origin, "", reader.faults, Vec::new()));
         }
         let (root, errors) = DeTable::parse_recoverable(text);
         for error in errors {
@@ -61,10 +74,13 @@ impl ProductFile {
         if syntax {
             // What the parser made up to go on is not to be told of.
             reader.faults.retain(|fault| fault.message.starts_with("invalid TOML"));
+            reader.warnings.clear();
         }
         match file {
-            Some(file) if reader.faults.is_empty() => Ok(file),
-            _ => Err(Faults::new(origin, text, reader.faults)),
+            Some(file) if reader.faults.is_empty() => {
+                Ok((file, Faults::new(origin, text, Vec::new(), reader.warnings)))
+            }
+            _ => Err(Faults::new(origin, text, reader.faults, reader.warnings)),
         }
     }
 }
@@ -81,6 +97,7 @@ struct Section<'a> {
 #[derive(Debug, Default)]
 struct Reader {
     faults: Vec<Fault>,
+    warnings: Vec<Fault>,
 }
 
 impl Reader {
@@ -91,7 +108,11 @@ impl Reader {
         label: impl Into<String>,
         help: impl Into<String>,
     ) {
-        self.faults.push(Fault { span, message: message.into(), label: label.into(), help: help.into() });
+        self.faults.push(Fault { span, message: message.into(), label: label.into(), help: help.into(), also: None });
+    }
+
+    fn warn(&mut self, span: Range<usize>, message: String, label: String) {
+        self.warnings.push(Fault { span, message, label, help: String::new(), also: None });
     }
 
     /// Faults for keys that are unknown or missing.
@@ -160,173 +181,6 @@ impl Reader {
         self.fault(value.span(), format!("`{name}` cannot be {what}"), format!("expected {allowed}"), "");
     }
 
-    fn quantity(&mut self, section: &Section<'_>, name: &str) -> Option<At<f64>> {
-        let (Key { kind: Kind::Quantity(dimension, bounds), .. }, value) = Self::get(section, name)? else {
-            return None;
-        };
-        self.number(value, name, dimension, *bounds)
-    }
-
-    /// One number with its unit, within bounds.
-    fn number(
-        &mut self,
-        value: &Spanned<DeValue<'_>>,
-        name: &str,
-        dimension: &Dimension,
-        bounds: [&str; 2],
-    ) -> Option<At<f64>> {
-        let allowed = format!("from {} to {}", bounds[0], bounds[1]);
-        let plain = match value.get_ref() {
-            DeValue::Integer(i) if i.radix() == 10 => Some(i.as_str().replace('_', "")),
-            DeValue::Float(f) => Some(f.as_str().replace('_', "")),
-            _ => None,
-        };
-        let read = match (plain, value.get_ref()) {
-            (Some(digits), _) if dimension.units.is_empty() => dimension.read(&digits),
-            (Some(digits), _) => Err(format!("`{name}` = {} has no unit", shown(&digits))),
-            (None, DeValue::String(text)) if !dimension.units.is_empty() => dimension.read(text),
-            (None, _) => {
-                self.wrong_type(value, name, &format!("a {} such as {}", dimension.name, written(dimension)));
-                return None;
-            }
-        };
-        match read {
-            Err(message) => {
-                let label = format!("expected a {} such as {}", dimension.name, written(dimension));
-                let units =
-                    if dimension.units.is_empty() { String::new() } else { format!(", in {}", dimension.names()) };
-                self.fault(value.span(), message, label, format!("`{name}` is {allowed}{units}"));
-                None
-            }
-            Ok(number) => {
-                let [lo, hi] = bounds.map(|bound| dimension.read(bound).unwrap_or(f64::NAN));
-                if (lo..=hi).contains(&number) {
-                    return Some(At { value: number, span: value.span() });
-                }
-                let what = match value.get_ref() {
-                    DeValue::String(text) => format!("{:?}", shown(text)),
-                    DeValue::Float(text) => shown(text.as_str()),
-                    _ => number.to_string(),
-                };
-                self.fault(
-                    value.span(),
-                    format!("`{name}` = {what} is out of its range"),
-                    format!("allowed: {allowed}"),
-                    "",
-                );
-                None
-            }
-        }
-    }
-
-    /// A value, `[lo, hi]`, or a table with a distribution.
-    fn spread(&mut self, section: &Section<'_>, name: &str) -> Option<At<Spread>> {
-        let (Key { kind: Kind::Spread(dimension, bounds), .. }, value) = Self::get(section, name)? else { return None };
-        let span = value.span();
-        let spread = match value.get_ref() {
-            DeValue::Array(_) => {
-                let [lo, hi] = self.numbers::<2>(value, name, dimension, *bounds)?;
-                self.checked(Spread::new(lo, hi, Law::Range), name, value)?
-            }
-            DeValue::Table(table) => self.distribution(table, value, name, dimension, *bounds)?,
-            _ => {
-                let number = self.number(value, name, dimension, *bounds)?.value;
-                self.checked(Spread::value(number), name, value)?
-            }
-        };
-        Some(At { value: spread, span })
-    }
-
-    fn distribution(
-        &mut self,
-        table: &DeTable<'_>,
-        value: &Spanned<DeValue<'_>>,
-        name: &str,
-        dimension: &Dimension,
-        bounds: [&str; 2],
-    ) -> Option<Spread> {
-        const KINDS: [&str; 3] = ["uniform", "normal", "triangular"];
-        let one = written(dimension);
-        let ways = format!(
-            "{{ uniform = [lo, hi] }}, {{ triangular = [lo, most frequent, hi] }} or {{ normal = [mean, deviation], \
-             range = [lo, hi] }}, each such as {one}"
-        );
-        let given: Vec<_> = KINDS.iter().filter(|kind| table.contains_key(**kind)).collect();
-        let extra = table.keys().find(|key| {
-            let key = key.get_ref().as_ref();
-            !(KINDS.contains(&key) || key == "range" && given == [&"normal"])
-        });
-        if let Some(key) = extra {
-            let message = format!("`{name}` is no distribution: `{}` is no part of one", shown(key.get_ref()));
-            self.fault(key.span(), message, "unknown here", ways);
-            return None;
-        }
-        let [kind] = given[..] else {
-            let message = format!("`{name}` is not one distribution but {}", given.len());
-            self.fault(value.span(), message, "expected one of uniform, normal, triangular", ways);
-            return None;
-        };
-        let numbers = &table[*kind];
-        let spread = match *kind {
-            "uniform" => {
-                let [lo, hi] = self.numbers::<2>(numbers, name, dimension, bounds)?;
-                Spread::new(lo, hi, Law::Uniform)
-            }
-            "triangular" => {
-                let [lo, mode, hi] = self.numbers::<3>(numbers, name, dimension, bounds)?;
-                Spread::new(lo, hi, Law::Triangular { mode })
-            }
-            _ => {
-                let Some(range) = table.get("range") else {
-                    let message = format!("the normal distribution of `{name}` has no `range` to be cut to");
-                    self.fault(value.span(), message, "expected range = [lo, hi]", ways);
-                    return None;
-                };
-                let [mean, deviation] = self.numbers::<2>(numbers, name, dimension, bounds)?;
-                let [lo, hi] = self.numbers::<2>(range, name, dimension, bounds)?;
-                Spread::new(lo, hi, Law::Normal { mean, deviation })
-            }
-        };
-        self.checked(spread, name, value)
-    }
-
-    fn checked(
-        &mut self,
-        spread: Result<Spread, crate::Error>,
-        name: &str,
-        value: &Spanned<DeValue<'_>>,
-    ) -> Option<Spread> {
-        spread
-            .map_err(|error| {
-                let message = match error {
-                    crate::Error::Range { .. } => format!("the range of `{name}` begins above its end"),
-                    _ => format!("`{name}` is no distribution over its range"),
-                };
-                let help = "a range runs from its lower to its upper end, a deviation is positive, the most frequent value is \
-                            within the range";
-                self.fault(value.span(), message, "this range", help);
-            })
-            .ok()
-    }
-
-    /// An array of so many numbers.
-    fn numbers<const N: usize>(
-        &mut self,
-        value: &Spanned<DeValue<'_>>,
-        name: &str,
-        dimension: &Dimension,
-        bounds: [&str; 2],
-    ) -> Option<[f64; N]> {
-        let items = value.get_ref().as_array().filter(|items| items.len() == N);
-        let Some(items) = items else {
-            self.wrong_type(value, name, &format!("a list of {N}, each such as {}", written(dimension)));
-            return None;
-        };
-        let read: Vec<_> =
-            items.iter().filter_map(|item| self.number(item, name, dimension, bounds)).map(|n| n.value).collect();
-        read.try_into().ok()
-    }
-
     fn table<'a>(&mut self, section: &Section<'a>, name: &str) -> Option<Section<'a>> {
         let (Key { kind: Kind::Table(keys), .. }, value) = Self::get(section, name)? else { return None };
         let DeValue::Table(table) = value.get_ref() else {
@@ -384,10 +238,32 @@ impl Reader {
         let drop = self.table(root, "drop");
         let drop = drop.and_then(|section| self.drop(&section));
         let mut components = Vec::new();
-        for section in self.tables(root, "component") {
+        let sections = self.tables(root, "component");
+        self.distinct(&sections);
+        for section in sections {
             components.extend(self.component(&section, product.as_ref()));
         }
         Some(ProductFile { product: product?, drop: drop?, components })
+    }
+
+    /// Refuses components of one name: answers could not be told apart.
+    fn distinct(&mut self, sections: &[Section<'_>]) {
+        let mut known: HashMap<&str, Range<usize>> = HashMap::new();
+        for section in sections {
+            let Some(value) = section.table.get("name") else { continue };
+            let Some(name) = value.get_ref().as_str().map(|name| name.trim_matches(' ')) else { continue };
+            if let Some(first) = known.get(name) {
+                self.faults.push(Fault {
+                    span: value.span(),
+                    message: format!("two components are named {:?}", shown(name)),
+                    label: "the second".to_owned(),
+                    help: "give each component a name of its own".to_owned(),
+                    also: Some((first.clone(), "the first".to_owned())),
+                });
+            } else {
+                known.insert(name, value.span());
+            }
+        }
     }
 
     fn product(&mut self, section: &Section<'_>) -> Option<Product> {
@@ -420,6 +296,9 @@ impl Reader {
             (center.clone(), gyration?)
         };
         let length_m = length?.value;
+        if masses.is_some() {
+            self.outside(section, length_m);
+        }
         let total = masses.map(|m| m.value.iter().map(mass_of).sum());
         let body = self.body(length_m, center_m, &gyration)?;
         Some(Product {
@@ -433,6 +312,20 @@ impl Reader {
                 _ => ContactLaw::Hysteretic,
             },
         })
+    }
+
+    /// Warns of masses far outside of the body.
+    fn outside(&mut self, section: &Section<'_>, length_m: f64) {
+        let items = section.table.get("masses").and_then(|masses| masses.get_ref().as_array());
+        for piece in items.into_iter().flatten().filter_map(|piece| piece.get_ref().as_table()) {
+            for name in ["position", "from", "to"] {
+                let Some(value) = piece.get(name) else { continue };
+                let place = value.get_ref().as_str().and_then(|text| units::LENGTH.read(text).ok());
+                if let Some(slip) = place.and_then(|place| slip::outside(&place, length_m)) {
+                    self.warn(value.span(), slip.message, slip.hint);
+                }
+            }
+        }
     }
 
     /// The body, with what it asks of center of mass and radius of gyration told in the file's terms.
@@ -632,11 +525,6 @@ impl Reader {
             damage_boundary: boundary,
         }
     }
-}
-
-/// How a quantity is written in the file.
-fn written(dimension: &Dimension) -> String {
-    if dimension.units.is_empty() { dimension.example.to_owned() } else { format!("{:?}", dimension.example) }
 }
 
 /// The beginning of a text that may be of any length.

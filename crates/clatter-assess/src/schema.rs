@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use crate::keys::{FILE, Key, Kind};
-use crate::units::Dimension;
+use crate::units::{self, Dimension};
 
 /// What a product file may hold, as a JSON Schema (draft 2020-12) that editors complete and check with.
 ///
@@ -60,17 +60,19 @@ fn kind(kind: &Kind) -> Value {
 
 /// One number with its unit; bounds as far as plain numbers have them.
 fn quantity(dimension: &Dimension, bounds: [&str; 2]) -> Value {
-    if dimension.units.is_empty() {
-        let [lo, hi] = bounds.map(|bound| dimension.read(bound).unwrap_or(f64::NAN));
-        return json!({ "type": "number", "minimum": lo, "maximum": hi });
-    }
-    let units: Vec<_> = dimension.units.iter().map(|(name, _)| name.replace(' ', "\\s+")).collect();
+    let units: Vec<_> = dimension.units.iter().map(units::pattern).collect();
     let number = r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?";
-    json!({ "type": "string", "pattern": format!(r"^\s*{number}\s*({})\s*$", units.join("|")) })
+    let text = json!({ "type": "string", "pattern": format!(r"^\s*{number}\s*({})\s*$", units.join("|")) });
+    if !dimension.plain {
+        return text;
+    }
+    let [lo, hi] = bounds.map(|bound| dimension.value(bound));
+    let plain = json!({ "type": "number", "minimum": lo, "maximum": hi });
+    if dimension.units.is_empty() { plain } else { json!({ "anyOf": [plain, text] }) }
 }
 
 fn with_examples(mut value: Value, dimension: &Dimension) -> Value {
-    let example = if dimension.units.is_empty() { json!(0.3) } else { dimension.example.into() };
+    let example = if dimension.plain { json!(0.3) } else { dimension.example.into() };
     value["examples"] = json!([example]);
     value
 }

@@ -1,6 +1,7 @@
 //! A quantity that is not known to the last digit: a value, a range, or a distribution over a range.
 
 use crate::Error;
+use crate::units::Unit;
 
 /// A range [lo, hi] of a quantity in SI, and how it is spread over it.
 ///
@@ -19,6 +20,7 @@ pub struct Spread {
     lo: f64,
     hi: f64,
     law: Law,
+    unit: Option<&'static Unit>,
 }
 
 /// How a quantity is spread over its range.
@@ -73,9 +75,19 @@ impl Spread {
         if !allowed {
             return Err(Error::Law(law));
         }
-        Ok(Self { lo, hi, law: if lo < hi { law } else { Law::Value } })
+        Ok(Self { lo, hi, law: if lo < hi { law } else { Law::Value }, unit: None })
     }
 
+    /// The same, known to be written in this unit.
+    #[must_use]
+    pub fn written_in(self, unit: Option<&'static Unit>) -> Self {
+        Self { unit, ..self }
+    }
+    /// The unit that it was written in, where it is known: answers about it may be given in the same.
+    #[must_use]
+    pub fn unit(&self) -> Option<&'static Unit> {
+        self.unit
+    }
     /// Least value.
     #[must_use]
     pub fn lo(&self) -> f64 {

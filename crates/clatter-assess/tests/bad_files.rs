@@ -33,7 +33,7 @@ const WRONG: &[(&str, &str, usize, &[&str])] = &[
     ("restitution = [0.25, 0.4]", "restitution = { gamma = [0.3, 0.1] }", 17, &["`gamma` is no part of one", "triangular"]),
     ("height = \"1.2 m\"", "height = \"1.2 m\"\nspeed = \"5 m/s\"", 1, &["more than one of `height`, `speed`"]),
     ("height = \"1.2 m\"", "gravity = \"0 gn\"\nheight = \"1.2 m\"", 10, &["nothing falls", "`speed`"]),
-    ("height = \"1.2 m\"", "gravity = \"1 g\"\nspeed = \"1 m/s\"", 11, &["\"g\" is the gram", "gn"]),
+    ("height = \"1.2 m\"", "gravity = \"1 lb\"\nspeed = \"1 m/s\"", 11, &["\"lb\" is no unit of acceleration", "m/s2, g, gn", "expected an acceleration such as \"400 g\""]),
     ("tilt = [\"1 deg\", \"10 deg\"]", "tilt = [\"1 deg\", \"40 deg\"]", 18, &["\"40 deg\"", "from 0 deg to 30 deg"]),
     ("tilt = [\"1 deg\", \"10 deg\"]", "tilt = [\"1 deg\"]", 8, &["a list of 2", "\"5 deg\""]),
     ("first = \"either\"", "first = \"c\"", 9, &["\"c\"", "\"a\", \"b\", \"either\""]),
@@ -68,6 +68,70 @@ fn each_fault_is_told_where_it_stands() {
         }
     }
     assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), WRONG.len(), wrong.join("\n"));
+}
+
+#[test]
+fn units_are_read_as_people_write_them() {
+    let read = |line: &str, other: &str| ProductFile::read(&with(line, other), "p").unwrap_or_else(|f| panic!("{f}"));
+    let limit = |text: &str| {
+        let file = read("acceleration_limit = \"1600 gn\"", &format!("acceleration_limit = \"{text}\""));
+        file.components[0].limits.acceleration_m_s2.unwrap()
+    };
+    for text in ["1600 g", "1600G", "1600 gn", "15690.64 m/s^2", "15690.64 m/s²", "15690.64 m/s2"] {
+        assert!((limit(text).lo() / 15_690.64 - 1.0).abs() < 1e-12, "{text}");
+    }
+    assert_eq!(limit("1600 G").unit().map(|unit| unit.name), Some("G"), "answers may be given in the unit of the file");
+    let inertia = "mass = \"190 g\"\nmoment_of_inertia = \"274.36 kg*mm^2\"";
+    let body = read("radius_of_gyration = \"38 mm\"", inertia).product.body;
+    assert!((body.gyration_m() / 0.038 - 1.0).abs() < 1e-12, "{}", body.gyration_m());
+    let e = read("restitution = [0.25, 0.4]", "restitution = [\"25 %\", \"40%\"]").product.restitution;
+    assert_eq!((e.lo(), e.hi()), (0.25, 0.4));
+}
+
+#[test]
+fn components_of_one_name_are_refused_with_both_lines() {
+    let faults = faults(&with("name = \"crystal\"", "name = \" display\""));
+    let text = faults.to_string();
+    assert_eq!(faults.list().len(), 1, "{text}");
+    let lines: Vec<_> = text.lines().filter(|line| line.contains("name = \"")).collect();
+    assert!(
+        matches!(lines[..], [first, second] if first.contains("\"display\"") && second.contains("\" display\"")),
+        "{text}"
+    );
+    assert!(text.contains("two components are named \"display\"") && text.contains("the first"), "{text}");
+}
+
+#[test]
+fn what_is_likely_a_slip_is_a_warning_that_names_it() {
+    let (_, none) = ProductFile::read_warned(EXAMPLE, "product.toml").unwrap();
+    assert!(none.list().is_empty() && none.warnings().is_empty(), "{none}");
+    for (line, other, said) in [
+        (
+            "height = \"1.2 m\"",
+            "height = \"120 m\"",
+            ["a height of 120 m is none that products have, from 1 mm to 50 m", "120 mm?"],
+        ),
+        (
+            "damping_ratio = 0.1",
+            "damping_ratio = 10",
+            ["a damping ratio of 10 is none that products have, from 0 to 1.5", "10 %?"],
+        ),
+        ("contact_time = \"0.4 ms\"", "contact_time = [\"0.4 ms\", \"90 ms\"]", ["a contact time of 90 ms", "90 us?"]),
+    ] {
+        let (_, odd) = ProductFile::read_warned(&with(line, other), "product.toml").unwrap();
+        let told = odd.to_string();
+        assert!(told.starts_with("warning: ") && said.iter().all(|part| told.contains(part)), "{other}: {told}");
+        assert!(told.contains("product.toml:") && odd.warnings().len() == 1, "{told}");
+    }
+    // So far outside that the center of mass is, too: the slip is told beside what is wrong.
+    let masses =
+        "masses = [{ mass = \"120 g\", from = \"-70 mm\", to = \"70 mm\" }, { mass = \"50 g\", position = \"5 m\" }]";
+    let told = faults(&with("radius_of_gyration = \"38 mm\"", masses)).to_string();
+    let outside = "warning: a mass at 5 m is outside of the body, which reaches 70 mm from its middle";
+    assert!(
+        told.starts_with("error: the center of mass is ") && told.contains(outside) && told.contains("5 mm?"),
+        "{told}"
+    );
 }
 
 #[test]

@@ -2,17 +2,18 @@
 
 mod table;
 
-use std::fs::File;
-use std::io::{self, Read};
+use std::io::{self, IsTerminal, Read};
 use std::path::{Path, PathBuf};
 
 use clap::ValueHint;
 use clatter_assess::{Accuracy, Assessment, LARGEST_FILE, ProductFile, Verdict};
+use serde::Serialize;
 
+use crate::input::is_standard;
 use crate::inputs::{self, Format};
 use crate::output::Files;
 use crate::progress::Counted;
-use crate::{Exit, Failure, Streams, budget, text};
+use crate::{Exit, Failure, Streams, budget, input, text};
 
 /// Assess the parts of a product: which one fails, in which drop, by how much
 ///
@@ -35,10 +36,11 @@ Examples:
 
 Exit status: 0 all safe, 1 a part is unsafe or undecided, 2 bad input.")]
 pub(crate) struct Args {
-    /// Product files; 'clatter schema' describes them for editors
+    /// Product files, - for standard input; 'clatter schema' describes them for editors
     #[arg(required = true, value_name = "PRODUCT.toml", value_hint = ValueHint::FilePath)]
     products: Vec<PathBuf>,
-    /// Write the assessment as a printed report: verdict first, then each part; of one product
+    /// Write the assessment as a printed report: verdict first, then each part; of one product; - writes it to standard
+    /// output in place of the table
     #[arg(short, long, value_name = "REPORT.pdf", value_hint = ValueHint::FilePath)]
     output: Option<PathBuf>,
     /// How exact the answer to each drop is for its model, as a share of it: 0.01 or 1%
@@ -65,10 +67,15 @@ impl Args {
         if self.output.is_some() && self.products.len() > 1 {
             return Err(Failure::Usage("'--output' takes one product file: a report is about one product"));
         }
+        if self.output.as_deref().is_some_and(is_standard) && io::stdout().is_terminal() {
+            return Err(Failure::Usage(
+                "a PDF is not written to a terminal: send it to a program or a file, as in -o - | lpr",
+            ));
+        }
         let mut files = Vec::with_capacity(self.products.len());
         let mut faults = Vec::new();
         for path in &self.products {
-            match read(path) {
+            match read(path, streams) {
                 Ok(file) => files.push(file),
                 Err(Failure::Product(fault)) => faults.push(fault),
                 Err(failure) => return Err(failure),
@@ -90,10 +97,17 @@ impl Args {
             print(file, assessment, pdf, streams)?;
         }
         match (self.format, &assessments[..]) {
+            // The report is the answer.
+            _ if self.output.as_deref().is_some_and(is_standard) => {}
             (Format::Json, [one]) => streams.json(one)?,
-            (Format::Json, all) => streams.json(&all)?,
-            (Format::Table, [one]) => table::of_one(one, streams.out).map_err(Failure::Answer)?,
-            (Format::Table, all) => table::side_by_side(all, streams.out).map_err(Failure::Answer)?,
+            (Format::Json, all) => {
+                let named = self.products.iter().zip(all).map(|(file, assessment)| Named { file, assessment });
+                streams.json(&named.collect::<Vec<_>>())?;
+            }
+            (Format::Table, [one]) => table::of_one(&files[0], one, streams.out).map_err(Failure::Answer)?,
+            (Format::Table, all) => {
+                table::side_by_side(&self.products, all, streams.out).map_err(Failure::Answer)?;
+            }
         }
         let safe = assessments.iter().all(|a| a.verdict == Verdict::Safe);
         Ok(if safe { Exit::Done } else { Exit::Unsafe })
@@ -117,19 +131,39 @@ fn print(file: &ProductFile, assessment: &Assessment, pdf: &Path, streams: &mut 
             streams.note("clatter", step);
         }
     };
-    for warning in clatter_report::write_assessment(file, assessment, &portraits, pdf, &mut progress)? {
+    let warnings = if is_standard(pdf) {
+        let (bytes, warnings) = clatter_report::assessment_pdf(file, assessment, &portraits, &mut progress)?;
+        streams.out.write_all(&bytes).map_err(Failure::Answer)?;
+        warnings
+    } else {
+        clatter_report::write_assessment(file, assessment, &portraits, pdf, &mut progress)?
+    };
+    for warning in warnings {
         streams.note("warning", &warning);
     }
     Ok(())
 }
 
-/// A product file, of a size that product files have.
-pub(crate) fn read(path: &Path) -> Result<ProductFile, Failure> {
+/// An assessment among several: products of one name are told apart by their files.
+#[derive(Serialize)]
+struct Named<'a> {
+    file: &'a Path,
+    #[serde(flatten)]
+    assessment: &'a Assessment,
+}
+
+/// A product file, of a size that product files have; what is odd in it is told.
+pub(crate) fn read(path: &Path, streams: &mut Streams<'_>) -> Result<ProductFile, Failure> {
     let unreadable = |reason: io::Error| Failure::Unreadable { path: path.to_owned(), reason };
     let mut bytes = Vec::new();
-    let file = File::open(path).map_err(unreadable)?;
+    let file = input::open(path).map_err(unreadable)?;
     file.take(LARGEST_FILE as u64 + 1).read_to_end(&mut bytes).map_err(unreadable)?;
     let text = String::from_utf8(bytes)
         .map_err(|_| unreadable(io::Error::new(io::ErrorKind::InvalidData, "it is not text in UTF-8")))?;
-    ProductFile::read(&text, &path.display().to_string()).map_err(|faults| Failure::Product(faults.to_string()))
+    let (file, odd) =
+        ProductFile::read_warned(&text, &input::name(path)).map_err(|faults| Failure::Product(faults.to_string()))?;
+    if !odd.warnings().is_empty() {
+        streams.beside(&format!("{odd}\n"));
+    }
+    Ok(file)
 }

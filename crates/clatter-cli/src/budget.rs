@@ -11,6 +11,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use clatter_assess::units::{Dimension, TIME, Unit};
+
 use crate::{Exit, progress};
 
 /// What a command may take, for every command.
@@ -61,25 +63,30 @@ pub(crate) fn was_cut() -> bool {
     CUT.load(Ordering::Relaxed)
 }
 
-/// A number with one of these units, such as "1.5GiB" or "90 s".
-fn quantity(text: &str, units: &[(&str, f64)]) -> Option<f64> {
-    let split = text.find(|c: char| c.is_ascii_alphabetic())?;
-    let (number, unit) = text.split_at(split);
-    let factor = units.iter().find(|(name, _)| name.eq_ignore_ascii_case(unit)).map(|(_, factor)| factor)?;
-    let value = number.trim().parse::<f64>().ok()? * factor;
-    (value.is_finite() && value > 0.0).then_some(value)
-}
+/// Amounts of memory.
+static MEMORY_UNITS: Dimension = Dimension {
+    name: "memory",
+    example: "4 GiB",
+    plain: false,
+    units: &[
+        Unit::new("B", |v| v),
+        Unit::new("KB", |v| v * 1e3),
+        Unit::new("MB", |v| v * 1e6),
+        Unit::new("GB", |v| v * 1e9),
+        Unit::new("KIB", |v| v * 1024.0),
+        Unit::new("MIB", |v| v * 1_048_576.0),
+        Unit::new("GIB", |v| v * 1_073_741_824.0),
+    ],
+};
 
 fn bytes(text: &str) -> Result<u64, String> {
-    let units =
-        [("kB", 1e3), ("MB", 1e6), ("GB", 1e9), ("KiB", 1024.0), ("MiB", 1_048_576.0), ("GiB", 1_073_741_824.0)];
-    let bytes = quantity(text, &units).filter(|bytes| (16e6..1e15).contains(bytes));
+    let bytes = MEMORY_UNITS.read(&text.to_uppercase()).ok().map(|bytes| bytes.si).filter(|b| (16e6..1e15).contains(b));
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within 1e15")]
     bytes.map(|bytes| bytes as u64).ok_or_else(|| "memory is a number with its unit, from 16MB: 500MB, 4GiB".to_owned())
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {
-    let time = quantity(text, &[("ms", 1e-3), ("s", 1.0), ("min", 60.0), ("h", 3600.0)]);
+    let time = TIME.read(&text.to_lowercase()).ok().map(|time| time.si).filter(|seconds| *seconds > 0.0);
     let time = time.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
     time.ok_or_else(|| "a time is a number with its unit: 90s, 5min, 2h".to_owned())
 }

@@ -14,6 +14,7 @@ use clatter::design::Goal;
 use clatter_assess::design::{Bounds, Plane};
 use clatter_assess::{Accuracy, ProductFile};
 
+use crate::input::is_standard;
 use crate::inputs::{self, RowFormat};
 use crate::output::Files;
 use crate::progress::Counted;
@@ -80,7 +81,7 @@ pub(crate) struct Args {
 fn zone(text: &str) -> Result<Goal, String> {
     let (x, s) =
         text.split_once(':').ok_or("a goal is X:S, a velocity shock in v0 and the part of the bar, such as 0.5:0.1")?;
-    Goal::zone(inputs::number(x)?, inputs::number(s)?).map_err(|error| error.to_string())
+    Goal::zone(inputs::number(x.trim())?, inputs::share(s)?).map_err(|error| error.to_string())
 }
 
 fn turn(text: &str) -> Result<Goal, String> {
@@ -97,7 +98,7 @@ fn damping_range(text: &str) -> Result<[f64; 2], String> {
 
 fn range(text: &str, most: f64) -> Result<[f64; 2], String> {
     let (lo, hi) = text.split_once(':').ok_or("a range is LO:HI, such as 0.1:0.6")?;
-    let (lo, hi) = (inputs::number(lo)?, inputs::number(hi)?);
+    let (lo, hi) = (inputs::share(lo)?, inputs::share(hi)?);
     if lo >= 0.0 && lo <= hi && hi <= most {
         Ok([lo, hi])
     } else {
@@ -117,11 +118,12 @@ fn factor(text: &str) -> Result<f64, String> {
     if factor > 1.0 && factor <= 1000.0 { Ok(factor) } else { Err(format!("factor {factor:?} is not {allowed}")) }
 }
 
-fn target(text: &str) -> Result<PathBuf, &'static str> {
+fn target(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     match path.extension().and_then(|ending| ending.to_str()) {
         Some("svg" | "csv") => Ok(path),
-        _ => Err("the file must end in .svg or .csv"),
+        _ if is_standard(&path) => Err(output::no_kind(&[".svg", ".csv"])),
+        _ => Err("the file must end in .svg or .csv".to_owned()),
     }
 }
 
@@ -156,7 +158,10 @@ impl Args {
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
         match &self.product {
-            Some(path) => self.of_product(&assess::read(path)?, streams),
+            Some(path) => {
+                let file = assess::read(path, streams)?;
+                self.of_product(&file, streams)
+            }
             None => self.of_goals(streams),
         }
     }

@@ -1,10 +1,13 @@
 //! What shakes a component, and what it stands, as arguments of a command say it.
 
+use clatter_assess::units::{ACCELERATION, Dimension, FREQUENCY, LENGTH, Quantity, SPEED, TIME, Unit};
 use clatter_shock::{
     Error, Frequencies, LimitCurve, Pulse, Pulses, STANDARD_GRAVITY_M_S2, Shape, ShockTable, Units, VelocityShock,
 };
 
-use crate::inputs::number;
+use crate::inputs::{number, parts, share};
+use crate::numbers::given;
+use crate::quantities::{loose, neat};
 use crate::text::visible;
 
 /// Ramps of a trapezoid whose ramps nobody gave, over its length.
@@ -12,7 +15,11 @@ const RAMP: f64 = 0.1;
 
 /// One `--pulse`: a shape, and when it comes.
 #[derive(Debug, Clone)]
-pub(crate) struct PulseArg(pub(crate) Vec<Pulse>);
+pub(crate) struct PulseArg {
+    pub(crate) pulses: Vec<Pulse>,
+    /// That of the amplitude, where one was typed.
+    pub(crate) unit: Option<&'static Unit>,
+}
 
 /// What a pulse and a frequency may be, in their units: far beyond any that there are, and far within the floats.
 const RANGE: std::ops::RangeInclusive<f64> = 1e-12..=1e12;
@@ -50,15 +57,17 @@ fn message(error: &Error) -> String {
 }
 
 pub(crate) fn shape(text: &str) -> Result<Shape, String> {
-    match (text, text.split_once(':')) {
-        ("half-sine", _) => Ok(Shape::HalfSine),
+    // "Half sine" is half-sine.
+    let spelled = text.trim().to_lowercase().replace([' ', '_'], "-");
+    match (spelled.as_str(), spelled.split_once(':')) {
+        ("half-sine" | "halfsine", _) => Ok(Shape::HalfSine),
         ("haversine", _) => Ok(Shape::Haversine),
         ("triangle", _) => Ok(Shape::Triangle),
         ("initial-peak-sawtooth", _) => Ok(Shape::InitialPeakSawtooth),
         ("terminal-peak-sawtooth", _) => Ok(Shape::TerminalPeakSawtooth),
         ("rectangle", _) => Ok(Shape::Rectangle),
         ("trapezoid", _) => Ok(Shape::Trapezoid { ramp: RAMP }),
-        (_, Some(("trapezoid", ramp))) => Ok(Shape::Trapezoid { ramp: number(ramp)? }),
+        (_, Some(("trapezoid", ramp))) => Ok(Shape::Trapezoid { ramp: share(ramp)? }),
         _ => Err(format!(
             "'{}' is no shape; there are half-sine, haversine, triangle, initial-peak-sawtooth, \
              terminal-peak-sawtooth, rectangle, trapezoid and trapezoid:RAMP",
@@ -81,17 +90,19 @@ pub(crate) fn shape_name(shape: Shape) -> String {
 }
 
 pub(crate) fn pulse(text: &str) -> Result<PulseArg, String> {
-    let mut parts = text.split(',');
-    let (Some(name), Some(amplitude), Some(duration)) = (parts.next(), parts.next(), parts.next()) else {
-        return Err("a pulse is SHAPE,AMPLITUDE_M_S2,DURATION_S,START_S, such as half-sine,5000,0.0005,0".to_owned());
+    let [name, amplitude, duration, starts @ ..] = &parts(text, ',')[..] else {
+        return Err("a pulse is SHAPE,AMPLITUDE,DURATION,START, such as half-sine,1500g,0.5ms,0s; numbers without a unit are in \
+                    SI: SHAPE,AMPLITUDE_M_S2,DURATION_S,START_S"
+            .to_owned());
     };
-    let (shape, amplitude, duration) = (shape(name)?, number(amplitude)?, number(duration)?);
-    let mut starts = parts.map(number).collect::<Result<Vec<_>, _>>()?;
+    let (shape, amplitude, duration) = (shape(name)?, loose(&ACCELERATION, amplitude)?, loose(&TIME, duration)?);
+    let mut starts = starts.iter().map(|start| Ok(loose(&TIME, start)?.si)).collect::<Result<Vec<_>, String>>()?;
     if starts.is_empty() {
         starts.push(0.0);
     }
-    let pulses = starts.into_iter().map(|start| Pulse { shape, amplitude, duration, start });
-    pulses.map(checked).collect::<Result<_, _>>().map(PulseArg)
+    let pulses = starts.into_iter().map(|start| Pulse { shape, amplitude: amplitude.si, duration: duration.si, start });
+    let pulses = pulses.map(checked).collect::<Result<_, _>>()?;
+    Ok(PulseArg { pulses, unit: amplitude.unit })
 }
 
 /// Validates a pulse.
@@ -103,27 +114,41 @@ pub(crate) fn checked(pulse: Pulse) -> Result<Pulse, String> {
 }
 
 pub(crate) fn shock(text: &str) -> Result<VelocityShock, String> {
-    let Some((delta_v, time)) = text.split_once(',') else {
-        return Err("a velocity shock is DELTA_V_M_S,TIME_S, such as 2.5,0".to_owned());
+    let [delta_v, time] = parts(text, ',')[..] else {
+        return Err(
+            "a velocity shock is DELTA_V,TIME, such as 2.5m/s,0s, or DELTA_V_M_S,TIME_S, such as 2.5,0".to_owned()
+        );
     };
-    let shock = VelocityShock { delta_v: number(delta_v)?, time: number(time)? };
+    let shock = VelocityShock { delta_v: loose(&SPEED, delta_v)?.si, time: loose(&TIME, time)?.si };
     clatter_shock::VelocityShocks::new(vec![shock]).map_err(|error| message(&error))?;
     Ok(shock)
 }
 
-pub(crate) fn frequencies(text: &str) -> Result<Frequencies, String> {
-    for value in text.split([',', ':']).filter_map(|part| part.parse().ok()) {
-        within("frequency", value)?;
-    }
-    let made = if text.contains(':') {
-        let [low, high, per_octave] = text.split(':').collect::<Vec<_>>()[..] else {
-            return Err("frequencies are HZ,HZ,… or LO:HI:PER_OCTAVE, such as 10:10000:12".to_owned());
-        };
-        Frequencies::per_octave(number(low)?, number(high)?, number(per_octave)?)
-    } else {
-        Frequencies::list(text.split(',').map(number).collect::<Result<_, _>>()?)
+/// Natural frequencies, and the unit that they were typed in.
+#[derive(Debug, Clone)]
+pub(crate) struct FrequencyArg {
+    pub(crate) list: Frequencies,
+    pub(crate) unit: Option<&'static Unit>,
+}
+
+pub(crate) fn frequencies(text: &str) -> Result<FrequencyArg, String> {
+    let typed = |text: &str| {
+        let hz = loose(&FREQUENCY, text)?;
+        within("frequency", hz.si)?;
+        Ok::<_, String>(hz)
     };
-    made.map_err(|error| error.to_string())
+    let (list, unit) = if text.contains(':') {
+        let [low, high, per_octave] = parts(text, ':')[..] else {
+            return Err("frequencies are HZ,HZ,… or LO:HI:PER_OCTAVE, such as 10:10000:12 or 10Hz:10kHz:12".to_owned());
+        };
+        let (low, high) = (typed(low)?, typed(high)?);
+        (Frequencies::per_octave(low.si, high.si, number(per_octave)?), low.unit)
+    } else {
+        let all = parts(text, ',').into_iter().map(typed).collect::<Result<Vec<_>, _>>()?;
+        (Frequencies::list(all.iter().map(|hz| hz.si).collect()), all.first().and_then(|hz| hz.unit))
+    };
+    let list = list.map_err(|error| error.to_string())?;
+    Ok(FrequencyArg { list, unit })
 }
 
 /// A limit, and the one value that it has if it is level.
@@ -131,21 +156,53 @@ pub(crate) fn frequencies(text: &str) -> Result<Frequencies, String> {
 pub(crate) struct LimitArg {
     pub(crate) curve: LimitCurve,
     pub(crate) level: Option<f64>,
+    /// What it limits and its unit, where one was typed.
+    pub(crate) typed: Option<Typed>,
+}
+
+/// A kind of quantity and one of its units.
+pub(crate) type Typed = (&'static Dimension, &'static Unit);
+
+/// What the response of a part has a limit for.
+const LIMITED: [&Dimension; 3] = [&ACCELERATION, &LENGTH, &SPEED];
+
+/// A value of any kind that is limited.
+fn allowed(text: &str) -> Result<(f64, Option<Typed>), String> {
+    let read = |dimension: &'static Dimension| {
+        let Quantity { si, unit } = loose(dimension, text).ok()?;
+        Some((si, unit.map(|unit| (dimension, unit))))
+    };
+    LIMITED.into_iter().find_map(read).ok_or_else(|| {
+        let units: Vec<_> = LIMITED.iter().map(|dimension| dimension.names()).collect();
+        format!(
+            "'{}' is not a number such as 4000, in the unit of the quantity, or one with its unit such as 1500g: {}",
+            visible(text),
+            units.join(", ")
+        )
+    })
 }
 
 pub(crate) fn limit(text: &str) -> Result<LimitArg, String> {
     if !text.contains(':') {
-        let level = number(text)?;
+        let (level, typed) = allowed(text)?;
         let curve = LimitCurve::constant(level).map_err(|error| error.to_string())?;
-        return Ok(LimitArg { curve, level: Some(level) });
+        return Ok(LimitArg { curve, level: Some(level), typed });
     }
-    let point = |pair: &str| {
-        let (hz, allowed) = pair.split_once(':').ok_or("a limit is one value, or points HZ:VALUE,HZ:VALUE,…")?;
-        Ok::<_, String>((number(hz)?, number(allowed)?))
+    let mut units = Vec::new();
+    let mut point = |pair: &str| {
+        let (hz, value) = pair.split_once(':').ok_or("a limit is one value, or points HZ:VALUE,HZ:VALUE,…")?;
+        let (value, typed) = allowed(value)?;
+        units.push(typed);
+        Ok::<_, String>((loose(&FREQUENCY, hz)?.si, value))
     };
-    let points = text.split(',').map(point).collect::<Result<Vec<_>, _>>()?;
+    let points = parts(text, ',').into_iter().map(&mut point).collect::<Result<Vec<_>, _>>()?;
     let curve = LimitCurve::new(points).map_err(|error| error.to_string())?;
-    Ok(LimitArg { curve, level: None })
+    let typed = units.first().copied().flatten();
+    if units.iter().any(|unit| unit.map(|(dimension, _)| dimension.name) != typed.map(|(dimension, _)| dimension.name))
+    {
+        return Err("the points of a limit are of one kind: all with a unit of it, or none".to_owned());
+    }
+    Ok(LimitArg { curve, level: None, typed })
 }
 
 pub(crate) fn units(text: &str) -> Result<Units, String> {
@@ -153,29 +210,32 @@ pub(crate) fn units(text: &str) -> Result<Units, String> {
     Units::named(time, acceleration).map_err(|error| error.to_string())
 }
 
-/// What a shock table can do, in ms, g and m/s.
+/// What a shock table can do; in ms, g and m/s where no unit is given.
 pub(crate) fn shock_table(text: &str) -> Result<ShockTable, String> {
-    let form =
-        "a shock table is SHORTEST:LONGEST,ACCELERATION,VELOCITY_CHANGE in ms, g and m/s, such as 0.2:20,5000,20";
-    let [durations, acceleration, velocity_change] = text.split(',').collect::<Vec<_>>()[..] else {
+    let form = "a shock table is SHORTEST:LONGEST,ACCELERATION,VELOCITY_CHANGE in ms, g and m/s, such as 0.2:20,5000,20 or \
+                0.2ms:20ms,5000g,20m/s";
+    let [durations, acceleration, velocity_change] = parts(text, ',')[..] else {
         return Err(form.to_owned());
     };
-    let (shortest, longest) = durations.split_once(':').ok_or(form)?;
-    let positive = |name: &str, text: &str| {
-        let value = number(text)?;
-        if value > 0.0 && value.is_finite() {
-            Ok(value)
+    let [shortest, longest] = parts(durations, ':')[..] else {
+        return Err(form.to_owned());
+    };
+    let positive = |name: &str, dimension: &'static Dimension, plain: f64, text: &str| {
+        let Quantity { si, unit } = loose(dimension, text)?;
+        if si > 0.0 && si.is_finite() {
+            Ok(if unit.is_some() { si } else { plain * si })
         } else {
-            Err(format!("{name} = {value:?} is not finite and > 0"))
+            Err(format!("{name} = {si:?} is not finite and > 0"))
         }
     };
     let table = ShockTable {
-        shortest: 1e-3 * positive("shortest half-sine in ms", shortest)?,
-        longest: 1e-3 * positive("longest half-sine in ms", longest)?,
-        acceleration: STANDARD_GRAVITY_M_S2 * positive("acceleration in g", acceleration)?,
-        velocity_change: positive("velocity change in m/s", velocity_change)?,
+        shortest: positive("shortest half-sine in ms", &TIME, 1e-3, shortest)?,
+        longest: positive("longest half-sine in ms", &TIME, 1e-3, longest)?,
+        acceleration: positive("acceleration in g", &ACCELERATION, STANDARD_GRAVITY_M_S2, acceleration)?,
+        velocity_change: positive("velocity change in m/s", &SPEED, 1.0, velocity_change)?,
     };
     if table.shortest > table.longest {
+        let [shortest, longest] = [table.shortest, table.longest].map(|s| given(neat(1e3 * s)));
         return Err(format!("the shortest half-sine, {shortest} ms, is longer than the longest, {longest} ms"));
     }
     Ok(table)

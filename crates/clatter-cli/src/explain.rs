@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueHint;
 use clatter_assess::ladder::{Groups, LeftOut, LimitLadder, Measured, ProductLadder, Reference};
-use clatter_assess::{Accuracy, LimitKind, Model, Unit, WorstCase};
+use clatter_assess::{Accuracy, LimitKind, Model, ProductFile, Unit, WorstCase, units};
 use serde::Serialize;
 
 use crate::inputs::{self, Format};
@@ -44,22 +44,33 @@ pub(crate) struct Args {
 
 impl Args {
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        let ladders = measure(&self.product, self.tolerance)?;
+        let (file, ladders) = measure(&self.product, self.tolerance, streams)?;
         match self.format {
             Format::Json => streams.json(&Answer::new(&ladders)),
-            Format::Table => table(&ladders, streams.out).map_err(Failure::Answer),
+            Format::Table => table(&file, &ladders, streams.out).map_err(Failure::Answer),
         }
     }
 }
 
 /// All models on the worst drops of a product.
-pub(crate) fn measure(path: &Path, tolerance: f64) -> Result<ProductLadder, Failure> {
-    let file = assess::read(path)?;
+pub(crate) fn measure(
+    path: &Path,
+    tolerance: f64,
+    streams: &mut Streams<'_>,
+) -> Result<(ProductFile, ProductLadder), Failure> {
+    let file = assess::read(path, streams)?;
     let ladders = assess::watched(&file, &Accuracy::default()).and_then(|assessment| {
         let _measuring = Counted::begin("measuring models", 0);
         file.ladders(&assessment, tolerance)
     });
-    ladders.map_err(|error| Failure::Product(format!("error: {}: {error}", text::path(path))))
+    let ladders = ladders.map_err(|error| Failure::Product(format!("error: {}: {error}", text::path(path))))?;
+    Ok((file, ladders))
+}
+
+/// The unit in which the file gives a limit.
+pub(crate) fn unit(file: &ProductFile, limit: &LimitLadder) -> Option<&'static units::Unit> {
+    let component = file.components.iter().find(|component| component.name == limit.component)?;
+    component.limits.unit(limit.limit, limit.ladder.unit)
 }
 
 /// What was left out, and why.
@@ -70,20 +81,20 @@ pub(crate) fn left_out(ladders: &ProductLadder, out: &mut dyn Write) -> io::Resu
     Ok(())
 }
 
-fn table(ladders: &ProductLadder, out: &mut dyn Write) -> io::Result<()> {
+fn table(file: &ProductFile, ladders: &ProductLadder, out: &mut dyn Write) -> io::Result<()> {
     let (name, tolerance) = (shown(&ladders.product, 60), given(100.0 * ladders.tolerance));
     writeln!(out, "{name}: the cheapest model within {tolerance} % of the one with the most physics")?;
-    ladders.limits.iter().try_for_each(|limit| of_limit(limit, out))?;
+    ladders.limits.iter().try_for_each(|limit| of_limit(file, limit, out))?;
     left_out(ladders, out)
 }
 
-fn of_limit(limit: &LimitLadder, out: &mut dyn Write) -> io::Result<()> {
+fn of_limit(file: &ProductFile, limit: &LimitLadder, out: &mut dyn Write) -> io::Result<()> {
     let ladder = &limit.ladder;
     writeln!(out, "\n{}, {}", shown(&limit.component, 60), limit.limit.name())?;
     writeln!(out, "  {:<11}{}", "worst drop", drop(&limit.worst_case))?;
     for Measured { model, value, error, .. } in &ladder.models {
         let mark = if *model == ladder.cheapest { "  cheapest within the tolerance" } else { "" };
-        let value = in_words(ladder.unit, *value);
+        let value = in_words(ladder.unit, unit(file, limit), *value);
         let line = format!("  {:<14}{value:>14}  off by {:<8}{mark}", model.name(), percent(*error));
         writeln!(out, "{}", line.trim_end())?;
     }

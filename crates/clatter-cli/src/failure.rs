@@ -30,9 +30,9 @@ pub(crate) enum Failure {
     /// Arguments that are right one by one and wrong together.
     #[error("{0}")]
     Usage(&'static str),
-    /// Pulses and frequencies that are right one by one and wrong together.
-    #[error("{0}")]
-    Pulses(String),
+    /// The same, with values in the message.
+    #[error("{}", text::visible(.0))]
+    Wrong(String),
     #[error("cannot write the answer: {0}")]
     Answer(#[source] io::Error),
     #[error("cannot write {}: {}", text::path(.path), text::visible(&.reason.to_string()))]

@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 
 use crate::inputs::{self, OffCenterArgs, RowFormat, letter};
 use crate::numbers::{Json, JsonCount, digits, figures, given};
-use crate::{Failure, Streams};
+use crate::{Failure, Streams, columns};
 
 /// List the impacts of one drop and what they amount to
 ///
@@ -66,11 +66,12 @@ impl Args {
                 if let Some(warning) = drop.cut_short() {
                     streams.note("warning", warning);
                 }
-                Ok(())
             }
-            RowFormat::Csv => drop.csv(streams.out).map_err(Failure::Answer),
-            RowFormat::Json => streams.long_json(&drop.answer()),
+            RowFormat::Csv => drop.csv(streams.out).map_err(Failure::Answer)?,
+            RowFormat::Json => streams.long_json(&drop.answer())?,
         }
+        self.bar.slips().for_each(|slip| streams.note("warning", slip));
+        Ok(())
     }
 }
 
@@ -163,26 +164,17 @@ impl Drop<'_> {
         if self.limit == 0 {
             return Ok(());
         }
-        write!(
-            out,
-            "\n{:>9}  end {:>13} {:>13} {:>13} {:>13}",
-            "impact", "time", "approach", "shock at a", "shock at b"
-        )?;
-        for s in self.at {
-            write!(out, " {:>13}", format!("shock at {}", given(*s)))?;
-        }
-        write!(out, "\n{:>9}      {:>13} {:>13} {:>13} {:>13}", "", "h0/v0", "v0", "v0", "v0")?;
-        for _ in self.at {
-            write!(out, " {:>13}", "v0")?;
-        }
+        let places = self.at.iter().map(|s| (format!("shock at {}", given(*s)), "v0"));
+        let heads = [("time", "h0/v0"), ("approach", "v0"), ("shock at a", "v0"), ("shock at b", "v0")];
+        let heads: Vec<_> = heads.map(|(name, unit)| (name.to_owned(), unit)).into_iter().chain(places).collect();
         writeln!(out)?;
+        columns::line(out, "   impact  end", &heads, heads.iter().map(|(name, _)| name.as_str()))?;
+        columns::line(out, "              ", &heads, heads.iter().map(|(_, unit)| *unit))?;
         for impact in self.impacts() {
             let [a, b] = impact.delta_v;
-            write!(out, "{:>9}  {:<3}", impact.number, letter(impact.end))?;
-            for x in [impact.time, impact.approach, a, b].into_iter().chain(self.shocks(&impact)) {
-                write!(out, " {:>13}", figures(x))?;
-            }
-            writeln!(out)?;
+            let first = format!("{:>9}  {:<3}", impact.number, letter(impact.end));
+            let cells = [impact.time, impact.approach, a, b].into_iter().chain(self.shocks(&impact)).map(figures);
+            columns::line(out, &first, &heads, cells)?;
         }
         Ok(())
     }

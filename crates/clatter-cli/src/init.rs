@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::ValueHint;
 
+use crate::input::is_standard;
 use crate::{Failure, Streams, output, text};
 
 /// Write a commented product file that assesses as it stands
@@ -16,13 +17,16 @@ Examples:
   clatter init                     product.toml
   clatter init handheld.toml && clatter assess handheld.toml")]
 pub(crate) struct Args {
-    /// The file to write
+    /// The file to write; - is standard output
     #[arg(value_name = "FILE", default_value = "product.toml", value_hint = ValueHint::FilePath)]
     file: PathBuf,
 }
 
 impl Args {
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        if is_standard(&self.file) {
+            return streams.out.write_all(clatter_assess::EXAMPLE.as_bytes()).map_err(Failure::Answer);
+        }
         output::create(&self.file, |file| file.write_all(clatter_assess::EXAMPLE.as_bytes())).map_err(|failure| {
             match failure {
                 Failure::File { path, reason } if reason.kind() == ErrorKind::AlreadyExists => Failure::Exists(path),

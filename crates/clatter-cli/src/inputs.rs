@@ -3,12 +3,14 @@
 //! Every value is checked by the type that it becomes, so a range is written down once, in the model.
 
 use clap::ValueEnum;
-use clatter::{Axis, Bar, End, Error, Mass, OffCenterBar, Start, center_and_gyration};
-use clatter_assess::{Accuracy, Model};
+use clatter::{Axis, Bar, End, Error, Mass, OffCenterBar, Start};
+use clatter_assess::units::{Quantity, SHARE};
+use clatter_assess::{Accuracy, Model, Slip};
 use clatter_flight::{Body, Contact, ContactLaw, Scene};
 use clatter_shock::DampingRatio;
 
 use crate::Failure;
+use crate::quantities::{self, Piece, loose};
 use crate::text::visible;
 
 /// What the numbers mean: part of the long help of the command and of each of its models.
@@ -32,6 +34,9 @@ angular velocity are in v0/L; times are in h0/v0, where h0 is the height of
 end b when end a first touches. One time unit is what end b would still need
 to the ground if the bar did not turn: 0.5 ms for h0 = 2 mm at v0 = 4 m/s.
 
+Quantities are numbers with their unit: 150mm, 0.4 ms, 4.85 m/s, 180Hz, 5deg,
+1500g or 15 m/s^2, 5 %. A file named - is standard input.
+
 Exit status: 0 done; 1 'assess' found a component unsafe or could not decide,
 or 'scatter' missed its target; 2 bad input, or an output that cannot be
 written; 3 typst, which prints the reports, is missing or failed.";
@@ -41,7 +46,7 @@ written; 3 typst, which prints the reports, is missing or failed.";
 pub(crate) struct BarArgs {
     #[command(flatten)]
     inertia: Inertia,
-    /// Coefficient of restitution, in [0, 1]: rebound speed of an end over its approach speed
+    /// Coefficient of restitution, in [0, 1]: rebound speed of an end over its approach speed, such as 0.3 or 30%
     #[arg(long, value_name = "E", allow_hyphen_values = true, value_parser = restitution)]
     e: f64,
 }
@@ -57,19 +62,19 @@ struct Inertia {
     gyration_ratio: Option<f64>,
     /// Instead of q: a mass M in any unit at position S, or spread evenly from S to T, in half-lengths from the middle;
     /// given once for each piece, like --mass=2@-1:1 --mass=1@0.5
-    #[arg(long, value_name = "M@S[:T]", allow_hyphen_values = true, value_parser = mass)]
-    mass: Vec<Mass>,
+    #[arg(long, value_name = "M@S[:T]", allow_hyphen_values = true, value_parser = quantities::mass)]
+    mass: Vec<Piece>,
 }
 
 impl BarArgs {
     /// The bar, which must be symmetric.
-    pub(crate) fn bar(&self) -> Result<Bar, Error> {
-        match (self.inertia.q, self.inertia.gyration_ratio) {
-            (_, Some(k)) => Bar::from_gyration_ratio(k, self.e),
-            (Some(q), None) => Bar::new(q, self.e),
+    pub(crate) fn bar(&self) -> Result<Bar, Failure> {
+        Ok(match (self.inertia.q, self.inertia.gyration_ratio) {
+            (_, Some(k)) => Bar::from_gyration_ratio(k, self.e)?,
+            (Some(q), None) => Bar::new(q, self.e)?,
             // The group requires one of the three.
-            (None, None) => Bar::from_masses(2.0, &self.inertia.mass, self.e),
-        }
+            (None, None) => Bar::from_masses(2.0, &quantities::masses(&self.inertia.mass, None)?, self.e)?,
+        })
     }
 }
 
@@ -93,8 +98,15 @@ impl OffCenterArgs {
                 OffCenterBar::from_center_of_mass(c, k, *e).map_err(Failure::flag("--gyration-ratio"))
             }
             _ if inertia.mass.is_empty() => Ok(self.bar.bar()?.into()),
-            _ => bar_of(&inertia.mass, *e),
+            _ => bar_of(&quantities::masses(&inertia.mass, None)?, *e),
         }
+    }
+}
+
+impl OffCenterArgs {
+    /// Masses far outside of the body.
+    pub(crate) fn slips(&self) -> impl Iterator<Item = Slip> {
+        self.bar.inertia.mass.iter().flat_map(|piece| piece.slips(1.0))
     }
 }
 
@@ -107,7 +119,7 @@ pub(crate) fn bar_of(masses: &[Mass], e: f64) -> Result<OffCenterBar, Failure> {
 #[derive(Debug, clap::Args)]
 #[group(multiple = false)]
 pub(crate) struct DampingArgs {
-    /// Damping ratio of the component, 0 or more: 0 never comes to rest, 1 is critical [default: 0.05]
+    /// Damping ratio of the component, 0 or more, such as 0.05 or 5%: 0 never comes to rest, 1 is critical [default: 0.05]
     #[arg(long, value_name = "Z", allow_hyphen_values = true, value_parser = damping)]
     damping: Option<DampingRatio>,
     /// Instead of the damping ratio: quality factor Q = 1/(2 Z), `inf` for no damping [default: 10]
@@ -116,8 +128,15 @@ pub(crate) struct DampingArgs {
 }
 
 impl DampingArgs {
+    pub(crate) fn given(&self) -> Option<DampingRatio> {
+        self.damping.or(self.q_factor)
+    }
     pub(crate) fn is_given(&self) -> bool {
-        self.damping.is_some() || self.q_factor.is_some()
+        self.given().is_some()
+    }
+    /// A damping ratio that no part has.
+    pub(crate) fn slip(&self) -> Option<Slip> {
+        self.damping.and_then(|ratio| clatter_assess::slip("damping_ratio", &Quantity::of_si(ratio.get())))
     }
     /// Q = 10, what the field takes where nobody says otherwise.
     pub(crate) fn ratio(&self) -> Result<DampingRatio, clatter_shock::Error> {
@@ -126,7 +145,7 @@ impl DampingArgs {
 }
 
 fn damping(text: &str) -> Result<DampingRatio, String> {
-    DampingRatio::new(number(text)?).map_err(|error| error.to_string())
+    DampingRatio::new(share(text)?).map_err(|error| error.to_string())
 }
 
 fn quality_factor(text: &str) -> Result<DampingRatio, String> {
@@ -185,8 +204,13 @@ pub(crate) fn number(text: &str) -> Result<f64, String> {
 
 /// A share, or a percentage with its sign.
 pub(crate) fn share(text: &str) -> Result<f64, String> {
-    let (digits, unit) = text.strip_suffix('%').map_or((text, 1.0), |digits| (digits.trim_end(), 100.0));
-    Ok(digits.parse::<f64>().map_err(|_| format!("'{}' is not a share such as 0.01 or 1%", visible(text)))? / unit)
+    let share = loose(&SHARE, text).map_err(|_| format!("'{}' is not a share such as 0.01 or 1%", visible(text)))?;
+    Ok(share.si)
+}
+
+/// The parts of a list, without the blanks around them.
+pub(crate) fn parts(text: &str, between: char) -> Vec<&str> {
+    text.split(between).map(str::trim).collect()
 }
 
 pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
@@ -262,7 +286,7 @@ fn one_of_range(
 }
 
 pub(crate) fn restitution(text: &str) -> Result<f64, String> {
-    let e = number(text)?;
+    let e = share(text)?;
     Bar::new(0.0, e).map(|_| e).map_err(|error| error.to_string())
 }
 
@@ -278,7 +302,9 @@ pub(crate) fn gyration_ratio(text: &str) -> Result<f64, String> {
 
 pub(crate) fn velocity(text: &str) -> Result<[f64; 2], String> {
     let (a, b) = text.split_once(',').ok_or("two velocities are needed, of ends a and b: VA,VB")?;
-    let velocity = [number(a)?, number(b)?];
+    let in_v0 =
+        |text: &str| number(text.trim()).map_err(|error| format!("{error}; velocities are in v0, without a unit"));
+    let velocity = [in_v0(a)?, in_v0(b)?];
     Start::new(velocity, 1.0).map(|_| velocity).map_err(|error| error.to_string())
 }
 
@@ -311,57 +337,74 @@ pub(crate) fn worked_out_position(text: &str) -> Result<f64, String> {
     }
 }
 
-pub(crate) fn mass(text: &str) -> Result<Mass, String> {
-    let form = "a mass is M@S at position S, or M@S:T from S to T";
-    let (mass, place) = text.split_once('@').ok_or(form)?;
-    let mass_kg = number(mass)?;
-    let piece = match place.split_once(':') {
-        None => Mass::Point { mass_kg, position_m: number(place)? },
-        Some((from, to)) => Mass::Slab { mass_kg, from_m: number(from)?, to_m: number(to)? },
-    };
-    center_and_gyration(&[piece]).map(|_| piece).map_err(|error| error.to_string())
-}
-
 pub(crate) fn center_of_mass(text: &str) -> Result<f64, String> {
     one_of_range("center of mass", text, |s| s.abs() < 1.0, "in (-1, 1), between the ends")
 }
 
 /// A number that makes what it is for, with everything else as it may be.
-fn part_of<T>(text: &str, whole: impl Fn(f64) -> Result<T, Error>) -> Result<f64, String> {
-    let value = number(text)?;
+pub(crate) fn part_of<T>(value: f64, whole: impl Fn(f64) -> Result<T, Error>) -> Result<f64, String> {
     whole(value).map(|_| value + 0.0).map_err(|error| error.to_string())
-}
-
-pub(crate) fn length_m(text: &str) -> Result<f64, String> {
-    part_of(text, |length| Body::new(length, 0.0))
 }
 
 fn drop_of(speed: f64, tilt: f64, gravity: f64) -> Result<Scene, Error> {
     Scene::new(Body::new(1.0, 0.0)?, 0.0, speed, tilt, gravity)
 }
 
+pub(crate) fn length_of(length: f64) -> Result<Body, Error> {
+    Body::new(length, 0.0)
+}
+
+pub(crate) fn speed_of(speed: f64) -> Result<Scene, Error> {
+    drop_of(speed, 0.0, 0.0)
+}
+
+pub(crate) fn height_of(height: f64) -> Result<Scene, Error> {
+    Scene::from_height(Body::new(1.0, 0.0)?, 0.0, height, 0.0, 1.0)
+}
+
+/// In degrees.
+pub(crate) fn tilt_of(tilt: f64) -> Result<Scene, Error> {
+    drop_of(1.0, tilt, 0.0)
+}
+
+pub(crate) fn gravity_of(gravity: f64) -> Result<Scene, Error> {
+    drop_of(1.0, 0.0, gravity)
+}
+
+pub(crate) fn contact_of(time: f64) -> Result<Contact, Error> {
+    Contact::new(ContactLaw::Hysteretic, 1.0, time)
+}
+
+pub(crate) fn until_of(time: f64) -> Result<Scene, Error> {
+    drop_of(1.0, 0.0, 0.0)?.with_time_limit_s(time)
+}
+
+pub(crate) fn length_m(text: &str) -> Result<f64, String> {
+    part_of(number(text)?, length_of)
+}
+
 pub(crate) fn speed_m_s(text: &str) -> Result<f64, String> {
-    part_of(text, |speed| drop_of(speed, 0.0, 0.0))
+    part_of(number(text)?, speed_of)
 }
 
 pub(crate) fn height_m(text: &str) -> Result<f64, String> {
-    part_of(text, |height| Scene::from_height(Body::new(1.0, 0.0)?, 0.0, height, 0.0, 1.0))
+    part_of(number(text)?, height_of)
 }
 
 pub(crate) fn tilt_deg(text: &str) -> Result<f64, String> {
-    part_of(text, |tilt| drop_of(1.0, tilt, 0.0))
+    part_of(number(text)?, tilt_of)
 }
 
 pub(crate) fn gravity_m_s2(text: &str) -> Result<f64, String> {
-    part_of(text, |gravity| drop_of(1.0, 0.0, gravity))
+    part_of(number(text)?, gravity_of)
 }
 
 pub(crate) fn contact_time_s(text: &str) -> Result<f64, String> {
-    part_of(text, |time| Contact::new(ContactLaw::Hysteretic, 1.0, time))
+    part_of(number(text)?, contact_of)
 }
 
 pub(crate) fn time_limit_s(text: &str) -> Result<f64, String> {
-    part_of(text, |time| drop_of(1.0, 0.0, 0.0)?.with_time_limit_s(time))
+    part_of(number(text)?, until_of)
 }
 
 pub(crate) fn impact_limit(text: &str) -> Result<usize, String> {
@@ -388,7 +431,7 @@ pub(crate) fn e_axis(text: &str) -> Result<Axis, String> {
 }
 
 fn axis(text: &str, make: fn(f64, f64, usize) -> Result<Axis, Error>) -> Result<Axis, String> {
-    let [lo, hi, points] = text.split(':').collect::<Vec<_>>()[..] else {
+    let [lo, hi, points] = parts(text, ':')[..] else {
         return Err("an axis is LO:HI:N, first value, last value and number of values".to_owned());
     };
     let points =

@@ -16,6 +16,7 @@
 
 mod assess;
 mod budget;
+mod columns;
 mod completions;
 mod design;
 mod drop_args;
@@ -24,13 +25,16 @@ mod explain;
 mod failure;
 mod impacts;
 mod init;
+mod input;
 mod inputs;
 mod lists;
 mod map;
 mod npy;
 mod numbers;
+mod one_drop;
 mod output;
 mod progress;
+mod quantities;
 mod report;
 mod respond;
 mod scatter;
@@ -156,6 +160,7 @@ enum Command {
 
 impl Cli {
     fn run(self, streams: &mut Streams<'_>) -> Result<Exit, Failure> {
+        self.command.files().check_input()?;
         if !self.force {
             self.command.files().check()?;
         }

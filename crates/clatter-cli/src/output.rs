@@ -5,6 +5,7 @@ use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
 use crate::Failure;
+use crate::input::is_standard;
 
 /// A file to write, and what its ending says it is.
 #[derive(Debug, Clone)]
@@ -36,6 +37,9 @@ impl Target {
     /// By its ending, one of those of `kinds`, of which there are two or more.
     pub(crate) fn of(text: &str, kinds: &[Kind]) -> Result<Self, String> {
         let path = PathBuf::from(text);
+        if is_standard(&path) {
+            return Err(no_kind(&kinds.iter().map(|kind| format!(".{}", kind.ending())).collect::<Vec<_>>()));
+        }
         let ending = path.extension().and_then(|ending| ending.to_str());
         if let Some(&kind) = kinds.iter().find(|kind| Some(kind.ending()) == ending) {
             return Ok(Self { path, kind });
@@ -44,6 +48,15 @@ impl Target {
         let (last, others) = names.split_last().map_or(("", &[][..]), |(last, others)| (last.as_str(), others));
         Err(format!("the file must end in {} or {last}", others.join(", ")))
     }
+}
+
+/// Why standard output is not taken where the ending of a file says what is written.
+pub(crate) fn no_kind(endings: &[impl AsRef<str>]) -> String {
+    let endings: Vec<_> = endings.iter().map(AsRef::as_ref).collect();
+    format!(
+        "- is standard output, which has no ending that says what to write: give a file ending in {}",
+        endings.join(", ")
+    )
 }
 
 /// Writes through a buffer, all of it.
@@ -74,13 +87,25 @@ pub(crate) struct Files<'a> {
 }
 
 impl Files<'_> {
+    /// Standard input can be read once.
+    pub(crate) fn check_input(&self) -> Result<(), Failure> {
+        let count = self.reads.iter().filter(|input| is_standard(input)).count();
+        if count < 2 {
+            Ok(())
+        } else {
+            Err(Failure::Usage("- is standard input, which can be read once: name one file as -"))
+        }
+    }
+
     /// What would go wrong after the work is told before it: a directory that is not there, and an output that would be written
     /// over an input or another output, by whatever name.
     pub(crate) fn check(&self) -> Result<(), Failure> {
-        for (n, output) in self.writes.iter().enumerate() {
+        for (n, output) in self.writes.iter().enumerate().filter(|(_, output)| !is_standard(output)) {
             let there = clatter_report::directory_of(output);
             there.map_err(|reason| Failure::File { path: output.to_path_buf(), reason })?;
-            let same = |other: &&Path| same_file::is_same_file(output, other).unwrap_or(output == other);
+            let same = |other: &&Path| {
+                !is_standard(other) && same_file::is_same_file(output, other).unwrap_or(output == other)
+            };
             if self.reads.iter().any(same) {
                 return Err(Failure::Overwrites(output.to_path_buf()));
             }

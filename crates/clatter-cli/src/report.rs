@@ -21,7 +21,7 @@ pub(crate) struct Args {
     #[arg(value_enum, default_value_t = Which::All)]
     which: Which,
     /// Directory to write into; made if need be
-    #[arg(short, long, value_name = "DIR", default_value = "report", value_hint = ValueHint::DirPath)]
+    #[arg(value_parser = directory, short, long, value_name = "DIR", default_value = "report", value_hint = ValueHint::DirPath)]
     output: PathBuf,
     /// How to show the answer
     #[arg(long, value_enum, default_value_t = Format::Table)]
@@ -61,6 +61,10 @@ impl Which {
 struct Answer {
     files: Vec<String>,
     warnings: Vec<String>,
+}
+
+fn directory(text: &str) -> Result<PathBuf, &'static str> {
+    if text == "-" { Err("reports are several files: give a directory, not standard output") } else { Ok(text.into()) }
 }
 
 impl Args {

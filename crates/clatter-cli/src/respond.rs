@@ -5,15 +5,19 @@ mod peaks;
 mod rule;
 mod train;
 
+use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use clap::ValueHint;
-use clatter::{Bar, Mass};
-use clatter_shock::{ShockTable, Suspension};
+use clatter::Bar;
+use clatter_assess::units::Quantity;
+use clatter_assess::{Slip, slip};
+use clatter_shock::{DampingRatio, ShockTable, Suspension};
 
-use crate::drop_args::DropArgs;
+use crate::drop_args::{DropArgs, IN_SI};
 use crate::inputs::{self, DampingArgs, Format, ModelName};
 use crate::output::{Files, Kind, Target};
+use crate::quantities::{self, Piece, Place};
 use crate::{Failure, Streams, excitation};
 
 /// Tell what a clatter does to a component on its suspension
@@ -35,12 +39,14 @@ use crate::{Failure, Streams, excitation};
 ///
 /// What shakes the component is the clatter of the paper's bar, from --q and --e. Or it is
 ///
-///   --model         a drop in SI units by any of the models of `clatter simulate`: with gravity,
-///                   real tilt, an off-center mass, contacts that take time; W is then in rad/s. It is
+///   --model         a drop by any of the models of `clatter simulate`: with gravity, real tilt, an
+///                   off-center mass, contacts that take time; W is then in rad/s. It is
 ///                   answered as `clatter assess` answers it, to the --tolerance, and followed until
 ///                   nothing later counts: a spin and limits of time and number are options of
 ///                   `clatter simulate` alone. Without --omega the part is mounted rigidly, and the
 ///                   answer is what its place goes through
+///   --product       the drop and the --component of a product file, each range at one value, which is
+///                   told; options given beside it count instead
 ///   --shocks-file   velocity shocks from a file in SI units, of any number, with the columns time_s
 ///                   and delta_v_m_s
 ///   --pulses-file   pulses, with the columns shape, amplitude_m_s2, duration_s and start_s; shapes
@@ -52,49 +58,58 @@ use crate::{Failure, Streams, excitation};
 #[derive(Debug, clap::Args)]
 #[command(
     verbatim_doc_comment,
+    group = clap::ArgGroup::new("followed").multiple(true),
     after_help = "\
 Examples:
   clatter respond --q=0.73 --e=0.2 --at=1 --omega=3               a part at the end that strikes second
   clatter respond --q=0.73 --e=0.2 --at=0 --omega=3 --damping=0   in the middle, without damping
-  clatter respond --q=0.5 --e=0.3 --at=1 --omega=1131 --velocity=-4.85,-4.85 --height-gap=0.005
+  clatter respond --q=0.5 --e=0.3 --at=1 --frequency=180Hz \\
+      --velocity=-4.85m/s,-4.85m/s --height-gap=5mm
                                     a board mode of 180 Hz in a phone dropped from 1.2 m, all in SI
   clatter respond --q=0.73 --e=0.2 --at=1 --omega=3 -o rule.svg   the three-way rule, drawn
-  clatter respond --model=finite-tilt --length-m=0.14 --gyration-m=0.04 --e=0.3 --height-m=1.2 \\
-      --tilt-deg=5 --at=1 --omega=1131 --equivalent-pulse         the same board, with gravity
-  clatter respond --model=compliant --contact-time-s=4e-4 --length-m=0.14 --gyration-m=0.04 \\
-      --e=0.3 --height-m=1.2 --tilt-deg=5 --at=0.5                a part that is mounted rigidly
+  clatter respond --model=finite-tilt --length=140mm --gyration=40mm --e=0.3 --height=1.2m \\
+      --tilt=5deg --at=70mm --frequency=180Hz --equivalent-pulse   the same board, with gravity
+  clatter respond --model=compliant --contact-time=0.4ms --length=140mm --gyration=40mm \\
+      --e=30% --height=1.2m --tilt=5deg --at=35mm                  a part that is mounted rigidly
   clatter respond --shocks-file=shocks.csv --omega=1131
+
+With a product file: clatter respond --product=phone.toml --component=camera
 
 'clatter --help' tells what q, e and the units are."
 )]
 pub(crate) struct Args {
     #[command(flatten)]
     inertia: Inertia,
-    /// Coefficient of restitution, in [0, 1]: rebound speed of an end over its approach speed
-    #[arg(long, value_name = "E", allow_hyphen_values = true, value_parser = inputs::restitution, required_unless_present_any = FILES, requires = "inertia")]
+    /// Coefficient of restitution, in [0, 1]: rebound speed of an end over its approach speed, such as 0.3 or 30%
+    #[arg(long, value_name = "E", allow_hyphen_values = true, value_parser = inputs::restitution, required_unless_present_any = GIVEN)]
     e: Option<f64>,
-    /// Position of the component, in [-1, 1]: -1 is end a, which strikes first, 0 the middle, 1 end b
-    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = inputs::worked_out_position, required_unless_present_any = FILES)]
-    at: Option<f64>,
+    /// Position of the component, in [-1, 1]: -1 is end a, which strikes first, 0 the middle, 1 end b; or with --model a
+    /// length from the middle
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantities::place, required_unless_present_any = GIVEN)]
+    at: Option<Place>,
     /// Natural angular frequency of the component (2π times its frequency), in v0/h0; in rad/s with --model or a file;
     /// with --model alone it may be left out
-    #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = inputs::omega, required_unless_present = "model")]
+    #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = inputs::omega, required_unless_present_any = ["model", "product", "frequency"])]
     omega: Option<f64>,
+    /// Instead of --omega, with --model or a file: natural frequency of the component, such as 180Hz
+    #[arg(long, value_name = "FREQUENCY", allow_hyphen_values = true, value_parser = quantities::frequency, conflicts_with = "omega")]
+    frequency: Option<Quantity>,
     #[command(flatten)]
     damping: DampingArgs,
-    /// Velocities of ends a and b at first contact, upward positive; VA is negative: end a strikes
-    #[arg(long, value_name = "VA,VB", default_value = "-1,-1", allow_hyphen_values = true, value_parser = inputs::velocity, conflicts_with = "model")]
-    velocity: [f64; 2],
+    /// Velocities of ends a and b at first contact, upward positive; VA is negative: end a strikes; in v0, or with their
+    /// units, as the height gap is then
+    #[arg(long, value_name = "VA,VB", default_value = "-1,-1", allow_hyphen_values = true, value_parser = quantities::velocity, conflicts_with = "followed")]
+    velocity: [Quantity; 2],
     /// Height of end b when end a first touches; 0 for a flat drop, whose impacts come all at once
-    #[arg(long, value_name = "H0", default_value = "1", allow_hyphen_values = true, value_parser = inputs::height_gap, conflicts_with = "model")]
-    height_gap: f64,
-    /// Follow a drop in SI units by this model
-    #[arg(long, value_enum, requires = "fall")]
+    #[arg(long, value_name = "H0", default_value = "1", allow_hyphen_values = true, value_parser = quantities::height_gap, conflicts_with = "followed")]
+    height_gap: Quantity,
+    /// Follow a drop by this model; with --product alone by the one with the most physics that the file allows
+    #[arg(long, value_enum, group = "followed")]
     model: Option<ModelName>,
     #[command(flatten)]
     drop: DropArgs,
     /// With --model: how exact the answer is for the model, as a share of it: 0.01 or 1%
-    #[arg(long, value_name = "SHARE", default_value = "1%", allow_hyphen_values = true, value_parser = inputs::tolerance, requires = "model")]
+    #[arg(long, value_name = "SHARE", default_value = "1%", allow_hyphen_values = true, value_parser = inputs::tolerance, requires = "followed")]
     tolerance: f64,
     /// Velocity shocks instead of a clatter: a CSV file with the columns time_s and delta_v_m_s, in order of time
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = CLATTER)]
@@ -104,14 +119,14 @@ pub(crate) struct Args {
     pulses_file: Option<PathBuf>,
     /// Also give the half-sine of a shock table that does the same to the component, or that there is none; in SI units
     /// alone
-    #[arg(long, requires = "omega")]
+    #[arg(long)]
     equivalent_pulse: bool,
-    /// What the shock table can do: its shortest and longest half-sine in ms, its highest acceleration in g, its
-    /// largest velocity change in m/s
-    #[arg(long, value_name = "MS:MS,G,M_S", default_value = "0.2:20,5000,20", allow_hyphen_values = true, value_parser = excitation::shock_table, requires = "equivalent_pulse")]
+    /// What the shock table can do: its shortest and longest half-sine, its highest acceleration, its largest velocity
+    /// change; in ms, g and m/s where no unit is given
+    #[arg(long, value_name = "TIME:TIME,ACCELERATION,VELOCITY", default_value = "0.2ms:20ms,5000g,20m/s", allow_hyphen_values = true, value_parser = excitation::shock_table, requires = "equivalent_pulse")]
     shock_table: ShockTable,
     /// Also write the rule over W h0/v0 to this file, ending in .csv, .json or .svg
-    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = target, conflicts_with_all = ["model", "shocks_file", "pulses_file"])]
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = target, conflicts_with_all = ["followed", "shocks_file", "pulses_file"])]
     output: Option<Target>,
     /// How to show the answer
     #[arg(long, value_enum, default_value_t = Format::Table)]
@@ -119,37 +134,45 @@ pub(crate) struct Args {
 }
 
 /// What stands in place of a clatter, and what says a clatter.
-const FILES: [&str; 2] = ["shocks_file", "pulses_file"];
-const CLATTER: [&str; 9] = ["q", "gyration_ratio", "gyration_m", "mass", "e", "at", "velocity", "height_gap", "model"];
+const GIVEN: [&str; 3] = ["shocks_file", "pulses_file", "followed"];
+const CLATTER: [&str; 10] =
+    ["q", "gyration_ratio", "gyration", "gyration_m", "mass", "e", "at", "velocity", "height_gap", "followed"];
 
 /// How the mass lies.
 #[derive(Debug, clap::Args)]
 #[group(id = "inertia", multiple = false)]
 struct Inertia {
     /// Inertia ratio (L² - ρ²)/(L² + ρ²), in (-1, 1]: 0.5 for evenly spread mass, 1 for all mass at the center
-    #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = inputs::inertia_ratio, conflicts_with = "model")]
+    #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = inputs::inertia_ratio, conflicts_with = "followed")]
     q: Option<f64>,
     /// Instead of q: ρ/L, radius of gyration over half-length, exact also where q is within rounding of 1
-    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = inputs::gyration_ratio, conflicts_with = "model")]
+    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = inputs::gyration_ratio, conflicts_with = "followed")]
     gyration_ratio: Option<f64>,
-    /// Instead of q, with --model: radius of gyration about the center of mass, in m; length/√12 for evenly spread mass
-    #[arg(long, value_name = "M", allow_hyphen_values = true, value_parser = inputs::number, requires = "model")]
+    /// Instead of q, with --model: radius of gyration about the center of mass; length/√12 for evenly spread mass
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = quantities::any_length, requires = "followed")]
+    gyration: Option<Quantity>,
+    /// Instead of q: a mass M at position S, or spread evenly from S to T, in half-lengths from the middle, with --model
+    /// also as lengths; given once for each piece, like --mass=2@-1:1 --mass=1@0.5; symmetric unless with --model
+    #[arg(long, value_name = "M@S[:T]", allow_hyphen_values = true, value_parser = quantities::mass)]
+    mass: Vec<Piece>,
+    /// --gyration in m
+    #[arg(long, value_name = "M", allow_hyphen_values = true, value_parser = inputs::number, requires = "followed", help_heading = IN_SI, hide_short_help = true)]
     gyration_m: Option<f64>,
-    /// Instead of q: a mass M in any unit at position S, or spread evenly from S to T, in half-lengths from the middle;
-    /// given once for each piece, like --mass=2@-1:1 --mass=1@0.5; symmetric unless with --model
-    #[arg(long, value_name = "M@S[:T]", allow_hyphen_values = true, value_parser = inputs::mass)]
-    mass: Vec<Mass>,
 }
 
 impl Inertia {
     /// The paper's bar.
-    fn bar(&self, e: f64) -> Result<Bar, clatter::Error> {
-        match (self.q, self.gyration_ratio) {
-            (_, Some(k)) => Bar::from_gyration_ratio(k, e),
-            (Some(q), None) => Bar::new(q, e),
-            // clap requires one of the three.
-            (None, None) => Bar::from_masses(2.0, &self.mass, e),
-        }
+    fn bar(&self, e: f64) -> Result<Bar, Failure> {
+        Ok(match (self.q, self.gyration_ratio, &self.mass[..]) {
+            (_, Some(k), _) => Bar::from_gyration_ratio(k, e)?,
+            (Some(q), None, _) => Bar::new(q, e)?,
+            (None, None, []) => {
+                return Err(Failure::Usage(
+                    "how the mass lies is missing: --q=Q, --gyration-ratio=K or --mass=M@S; or --model or --product for a drop with gravity",
+                ));
+            }
+            (None, None, pieces) => Bar::from_masses(2.0, &quantities::masses(pieces, None)?, e)?,
+        })
     }
 }
 
@@ -160,14 +183,20 @@ fn target(text: &str) -> Result<Target, String> {
 impl Args {
     pub(crate) fn files(&self) -> Files<'_> {
         Files {
-            reads: self.shocks_file.iter().chain(&self.pulses_file).map(AsRef::as_ref).collect(),
+            reads: self
+                .shocks_file
+                .iter()
+                .chain(&self.pulses_file)
+                .chain(&self.drop.product)
+                .map(AsRef::as_ref)
+                .collect(),
             writes: self.output.iter().map(|target| target.path.as_path()).collect(),
         }
     }
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        if let Some(model) = self.model {
-            return self.run_drop(model, streams);
+        if self.model.is_some() || self.drop.product.is_some() {
+            return self.run_drop(streams);
         }
         let train = self.train()?;
         if let Some(target) = &self.output {
@@ -176,14 +205,30 @@ impl Args {
         match self.format {
             Format::Table => train.table(streams.out).map_err(Failure::Answer),
             Format::Json => streams.json(&train.answer()),
-        }
+        }?;
+        let masses = self.inertia.mass.iter().flat_map(|piece| piece.slips(1.0));
+        self.warn(masses, streams);
+        Ok(())
     }
 
-    fn run_drop(&self, model: ModelName, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        let drop = self.drop_by(model)?;
+    fn run_drop(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        let drop = self.drop_by(streams)?;
         match self.format {
             Format::Table => drop.table(streams.out).map_err(Failure::Answer),
             Format::Json => streams.json(&drop.answer()),
+        }?;
+        for (kind, note) in drop.notes() {
+            streams.note(kind, note);
+        }
+        self.warn(std::iter::empty(), streams);
+        Ok(())
+    }
+
+    /// Tells of values that no part has, and of these.
+    fn warn(&self, others: impl Iterator<Item = Slip>, streams: &mut Streams<'_>) {
+        let frequency = self.frequency.and_then(|frequency| slip("natural_frequency", &frequency));
+        for slip in others.chain(self.damping.slip()).chain(frequency) {
+            streams.note("warning", slip);
         }
     }
 
@@ -191,22 +236,43 @@ impl Args {
     fn e(&self) -> f64 {
         self.e.unwrap_or(f64::NAN)
     }
-    fn position(&self) -> f64 {
-        self.at.unwrap_or(f64::NAN)
+    /// The position on the paper's bar.
+    fn position(&self) -> Result<Option<f64>, Failure> {
+        self.at.map(|at| at.relative("--at", None)).transpose()
+    }
+    /// Whether the paper's bar has units: all of its numbers, or none.
+    fn has_units(&self) -> Result<bool, Failure> {
+        let [a, b] = self.velocity;
+        let typed = [a, b, self.height_gap].map(|quantity| quantity.unit.is_some());
+        if typed == [true; 3] || typed == [false; 3] {
+            return Ok(typed[0]);
+        }
+        Err(Failure::Usage(
+            "--velocity and --height-gap go together with units or without: --velocity=-4m/s,-4m/s --height-gap=5mm",
+        ))
+    }
+    /// The natural angular frequency that was given.
+    fn omega(&self) -> Option<f64> {
+        self.omega.or(self.frequency.map(|frequency| TAU * frequency.si))
     }
 
-    /// The component; none that is mounted rigidly.
-    fn suspension(&self) -> Result<Option<Suspension>, Failure> {
-        match self.omega {
+    /// The component in a drop, over that of a product file; none that is mounted rigidly.
+    fn suspension(&self, of_file: Option<(Quantity, DampingRatio)>) -> Result<Option<Suspension>, Failure> {
+        let damping =
+            || self.damping.given().map_or_else(|| of_file.map_or_else(|| self.damping.ratio(), |(_, z)| Ok(z)), Ok);
+        match self.omega().or(of_file.map(|(frequency, _)| TAU * frequency.si)) {
             // Beyond, no motion of a drop can be told from rounding, and to search it would take for ever.
-            Some(omega) if self.model.is_some() && !(1e-12..=1e12).contains(&omega) => {
+            Some(omega) if !(1e-12..=1e12).contains(&omega) => {
                 let (name, allowed) = ("natural frequency in rad/s", "in [1e-12, 1e12]");
                 let reason = clatter::Error::Quantity { name, value: omega, allowed };
-                Err(Failure::Flag { flag: "--omega", reason })
+                Err(Failure::Flag { flag: if self.frequency.is_some() { "--frequency" } else { "--omega" }, reason })
             }
-            Some(omega) => Ok(Some(Suspension::new(omega, self.damping.ratio()?)?)),
+            Some(omega) => Ok(Some(Suspension::new(omega, damping()?)?)),
             None if self.damping.is_given() => Err(Failure::Usage(
-                "--damping and --q-factor go with --omega: a part that is mounted rigidly has neither",
+                "--damping and --q-factor go with --omega or --frequency: a part that is mounted rigidly has neither",
+            )),
+            None if self.equivalent_pulse => Err(Failure::Usage(
+                "--equivalent-pulse needs --omega <W> or --frequency: it is that of a part on a suspension",
             )),
             None => Ok(None),
         }

@@ -11,6 +11,7 @@ use clap::ValueHint;
 use clatter_assess::scatter::{Column, Progress, Sampler, Scatter, Settings};
 use clatter_assess::{Model, ProductFile};
 
+use crate::input::is_standard;
 use crate::inputs::{self, RowFormat};
 use crate::numbers::digits;
 use crate::output::Files;
@@ -57,7 +58,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true, value_parser = target)]
     target: Option<f64>,
     /// Also write every sample to this file, ending in .csv: its drop, what varies of the parts, and the utilization of
-    /// every part
+    /// every part; - writes them to standard output in place of the answer
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = csv_file)]
     output: Option<PathBuf>,
     /// How to show the answer
@@ -98,7 +99,7 @@ fn target(text: &str) -> Result<f64, String> {
 
 fn csv_file(text: &str) -> Result<PathBuf, &'static str> {
     let path = PathBuf::from(text);
-    let csv = path.extension().is_some_and(|ending| ending == "csv");
+    let csv = is_standard(&path) || path.extension().is_some_and(|ending| ending == "csv");
     if csv { Ok(path) } else { Err("the file must end in .csv") }
 }
 
@@ -108,10 +109,12 @@ impl Args {
     }
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<Exit, Failure> {
-        let file = assess::read(&self.product)?;
-        let scatter = self.draw(&file)?;
+        let file = assess::read(&self.product, streams)?;
+        let scatter = self.draw(&file, streams)?;
         let target = self.target.map(|share| Target { share });
         match self.format {
+            // The samples are the answer.
+            _ if self.output.as_deref().is_some_and(is_standard) => {}
             RowFormat::Table => {
                 table::table(&file, &scatter, target.as_ref(), streams.out).map_err(Failure::Answer)?;
             }
@@ -122,7 +125,7 @@ impl Args {
         Ok(if met { Exit::Done } else { Exit::Unsafe })
     }
 
-    fn draw(&self, file: &ProductFile) -> Result<Scatter, Failure> {
+    fn draw(&self, file: &ProductFile, streams: &mut Streams<'_>) -> Result<Scatter, Failure> {
         let settings = Settings { samples: self.samples, seed: self.seed, confidence: self.confidence };
         let sampler = Sampler::new(file, settings)?;
         let counted = Counted::begin("drawing", self.samples);
@@ -134,6 +137,9 @@ impl Args {
             let Ok(scatter) = sampler.run(false, |progress| Ok::<_, Infallible>(go_on(progress.done)));
             return Ok(scatter);
         };
+        if is_standard(path) {
+            return rows(&sampler, file, &mut streams.out, go_on).map_err(Failure::Answer);
+        }
         let mut drawn = None;
         output::replace(path, |target| {
             let mut out = BufWriter::with_capacity(1 << 16, target);

@@ -5,13 +5,13 @@ mod file;
 mod table;
 
 use clap::ValueHint;
-use clatter::Mass;
-use clatter_flight::{Contact, ContactFlight, Flight, Model, Press, Scene, Stop, Strike};
+use clatter_assess::units::Quantity;
+use clatter_flight::{Contact, ContactFlight, Flight, Model, Press, Stop, Strike};
 
-use crate::drop_args::DropArgs;
+use crate::drop_args::{Beside, DropArgs, IN_SI, Setup};
 use crate::inputs::{self, ModelName, RowFormat};
-use crate::numbers::figures;
 use crate::output::{Files, Kind, Target};
+use crate::quantities::{self, Piece, Place};
 use crate::{Failure, Streams};
 
 /// Follow one drop in time: its strikes, how hard they are, and how it comes to rest
@@ -26,8 +26,11 @@ use crate::{Failure, Streams};
 ///                says what the ground does meanwhile
 ///
 /// A body of length 2L falls with its end a lower, which touches at time 0; end b is 2L sin(tilt)
-/// higher then. Everything is in SI units; heights and velocities are vertical, upward positive, and
-/// positions run from -1 (end a) to 1 (end b).
+/// higher then. Quantities are numbers with their unit; heights and velocities are vertical, upward
+/// positive, and positions run from -1 (end a) to 1 (end b).
+///
+/// The table lists the strikes that matter, whose largest shock is at least 1 % of the largest of all,
+/// and sums up the others; --all lists every one, as JSON and CSV do.
 ///
 /// A file written with -o holds the whole motion; its ending decides how:
 ///
@@ -40,14 +43,19 @@ use crate::{Failure, Streams};
 #[derive(Debug, clap::Args)]
 #[command(
     verbatim_doc_comment,
+    group = clap::ArgGroup::new("followed").multiple(true),
     after_help = "\
 Examples:
-  clatter simulate --model=finite-tilt --length-m=0.14 --gyration-m=0.04 --e=0.3 \\
-      --height-m=1 --tilt-deg=5
-  clatter simulate --model=compliant --contact-time-s=5e-4 --length-m=0.2 --mass=2@-1:1 \\
-      --mass=1@0.5 --e=0.3 --speed-m-s=4 --tilt-deg=5
+  clatter simulate --model=finite-tilt --length=140mm --gyration=40mm --e=0.3 --height=1m \\
+      --tilt=5deg
+  clatter simulate --model=compliant --contact-time=0.5ms --length=200mm --mass=200g@-1:1 \\
+      --mass=100g@50mm --e=30% --speed=4m/s --tilt=5deg
 
-Add --at=0 -o drop.svg for a picture, with the shocks of the middle.
+Add --at=0 -o drop.svg for a picture, with the shocks of the middle. 'clatter simulate
+--product=phone.toml --component=camera' takes the drop and the part from a product file.
+
+Units: m, mm, cm, um, in, ft; s, ms, us; m/s, mm/s, cm/s, km/h, in/s, ft/s; m/s2 or m/s^2, g; deg,
+rad; Hz, kHz; kg, g, mg, lb, oz. The answer is given in the units that are typed, JSON and CSV in SI.
 
 The motion ends at rest (proven, with bounds on what is left), bounced clear (without gravity, where
 nothing brings the body back), at a limit, or, of a body of thickness, where it has turned over.
@@ -55,28 +63,37 @@ A contact that a limit cuts off is told as unfinished: what it does in all is no
 )]
 pub(crate) struct Args {
     /// Which physics to keep
-    #[arg(long, value_enum, requires = "fall")]
-    model: ModelName,
+    #[arg(long, value_enum, required_unless_present = "product", group = "followed")]
+    model: Option<ModelName>,
     #[command(flatten)]
     inertia: Inertia,
-    /// Coefficient of restitution, in [0, 1]: rebound speed of an end over its approach speed
+    /// Coefficient of restitution, in [0, 1]: rebound speed of an end over its approach speed, such as 0.3 or 30%
     #[arg(long, value_name = "E", allow_hyphen_values = true, value_parser = inputs::restitution)]
-    e: f64,
+    e: Option<f64>,
     #[command(flatten)]
     drop: DropArgs,
-    /// Angular velocity when end a touches, in rad/s; positive turns end b upward
-    #[arg(long, value_name = "W", default_value = "0", allow_hyphen_values = true, value_parser = inputs::number)]
-    spin_rad_s: f64,
-    /// Follow the motion until this time after the first touch, in s
-    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = inputs::time_limit_s)]
+    /// Angular velocity when end a touches; positive turns end b upward [default: 0rad/s]
+    #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = quantities::spin, conflicts_with = "spin_rad_s")]
+    spin: Option<Quantity>,
+    /// Follow the motion until this time after the first touch
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = quantities::until, conflicts_with = "time_limit_s")]
+    until: Option<Quantity>,
+    /// --spin in rad/s
+    #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = inputs::number, help_heading = IN_SI, hide_short_help = true)]
+    spin_rad_s: Option<f64>,
+    /// --until in s
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = inputs::time_limit_s, help_heading = IN_SI, hide_short_help = true)]
     time_limit_s: Option<f64>,
     /// Follow the motion for at most so many strikes
     #[arg(long, value_name = "N", default_value_t = IMPACTS, allow_hyphen_values = true, value_parser = inputs::impact_limit)]
     impact_limit: usize,
-    /// Also give the velocity shocks at this position, in [-1, 1]: -1 is end a, 0 the middle, 1 end b; may be given
-    /// several times
-    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = inputs::position)]
-    at: Vec<f64>,
+    /// Also give the velocity shocks at this position, in [-1, 1]: -1 is end a, 0 the middle, 1 end b; or a length from
+    /// the middle; may be given several times
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantities::place)]
+    at: Vec<Place>,
+    /// List every strike in the table
+    #[arg(long)]
+    all: bool,
     /// Also write the whole motion to a file, ending in .csv, .json or .svg; what was there is replaced once the new
     /// file is whole
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = target)]
@@ -88,16 +105,18 @@ pub(crate) struct Args {
 
 /// How its mass lies.
 #[derive(Debug, clap::Args)]
-#[group(required = true, multiple = false)]
+#[group(multiple = false)]
 struct Inertia {
-    /// Radius of gyration about the center of mass, in m: length/√12 for evenly spread mass; it may exceed the
-    /// half-length
-    #[arg(long, value_name = "M", allow_hyphen_values = true, value_parser = inputs::number)]
+    /// Radius of gyration about the center of mass: length/√12 for evenly spread mass; it may exceed the half-length
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = quantities::any_length)]
+    gyration: Option<Quantity>,
+    /// Instead of it: a mass M at position S, or spread evenly from S to T, in half-lengths from the middle or as
+    /// lengths; given once for each piece, like --mass=200g@-1:1 --mass=100g@35mm
+    #[arg(long, value_name = "M@S[:T]", allow_hyphen_values = true, value_parser = quantities::mass)]
+    mass: Vec<Piece>,
+    /// --gyration in m
+    #[arg(long, value_name = "M", allow_hyphen_values = true, value_parser = inputs::number, help_heading = IN_SI, hide_short_help = true)]
     gyration_m: Option<f64>,
-    /// Instead of it: a mass M in any unit at position S, or spread evenly from S to T, in half-lengths from the
-    /// middle; given once for each piece, like --mass=2@-1:1 --mass=1@0.5
-    #[arg(long, value_name = "M@S[:T]", allow_hyphen_values = true, value_parser = inputs::mass)]
-    mass: Vec<Mass>,
 }
 
 fn target(text: &str) -> Result<Target, String> {
@@ -129,9 +148,10 @@ impl Motion {
 /// A drop and what came of it.
 struct Drop<'a> {
     args: &'a Args,
-    /// Position of the center of mass on the body.
-    center_of_mass: f64,
-    scene: Scene,
+    setup: Setup,
+    /// Positions asked for, and how they are called.
+    at: Vec<f64>,
+    called: Vec<String>,
     motion: Motion,
 }
 
@@ -140,11 +160,14 @@ const IMPACTS: usize = 100_000;
 
 impl Args {
     pub(crate) fn files(&self) -> Files<'_> {
-        Files { reads: Vec::new(), writes: self.output.iter().map(|target| target.path.as_path()).collect() }
+        Files {
+            reads: self.drop.product.iter().map(AsRef::as_ref).collect(),
+            writes: self.output.iter().map(|target| target.path.as_path()).collect(),
+        }
     }
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        let drop = self.drop()?;
+        let drop = self.drop(streams)?;
         if let Some(target) = &self.output {
             drop.write(target)?;
         }
@@ -153,32 +176,59 @@ impl Args {
             RowFormat::Csv => drop.csv(streams.out).map_err(Failure::Answer)?,
             RowFormat::Json => streams.json(&drop.answer())?,
         }
+        for (kind, note) in &drop.setup.notes {
+            streams.note(kind, note);
+        }
         for warning in drop.warnings() {
             streams.note("warning", warning);
         }
         Ok(())
     }
 
-    fn drop(&self) -> Result<Drop<'_>, Failure> {
-        self.drop.check(self.model)?;
-        let (center_of_mass, body) = self.drop.body(self.inertia.gyration_m, &self.inertia.mass, self.e)?;
-        let scene = self.drop.scene(body, self.e)?;
-        let scene = scene.with_spin(self.spin_rad_s).map_err(Failure::flag("--spin-rad-s"))?;
-        let scene = scene.with_impact_limit(self.impact_limit)?;
-        let scene = self.time_limit_s.map_or(Ok(scene), |limit| scene.with_time_limit_s(limit))?;
-        let motion = self.motion(&scene)?;
-        Ok(Drop { args: self, center_of_mass, scene, motion })
+    fn time_limit_s(&self) -> Option<f64> {
+        self.time_limit_s.or(self.until.map(|until| until.si))
     }
 
-    fn motion(&self, scene: &Scene) -> Result<Motion, Failure> {
-        let model = match (self.model, self.drop.contact_time_s) {
-            (ModelName::Compliant, time) => {
-                // clap requires the time
-                let contact = Contact::new(self.drop.contact_law(), scene.e(), time.unwrap_or(f64::NAN))?;
-                let contacts = scene.contacts(&contact).map_err(Failure::contacts)?;
+    fn drop(&self, streams: &mut Streams<'_>) -> Result<Drop<'_>, Failure> {
+        let Inertia { gyration, gyration_m, mass } = &self.inertia;
+        let beside = Beside {
+            model: self.model,
+            e: self.e,
+            gyration: gyration.or(gyration_m.map(Quantity::of_si)),
+            masses: mass,
+            instant_contacts: false,
+        };
+        let mut setup = self.drop.setup(&beside, streams)?;
+        let (spin, flag) = match (self.spin, self.spin_rad_s) {
+            (Some(spin), _) => (spin.si, "--spin"),
+            (None, spin) => (spin.unwrap_or(0.0), "--spin-rad-s"),
+        };
+        setup.shown.spin.unit = self.spin.and_then(|spin| spin.unit);
+        setup.shown.time.unit = setup.shown.time.unit.or(self.until.and_then(|until| until.unit));
+        let scene = setup.scene.with_spin(spin).map_err(Failure::flag(flag))?.with_impact_limit(self.impact_limit)?;
+        setup.scene = self.time_limit_s().map_or(Ok(scene), |limit| scene.with_time_limit_s(limit))?;
+        let motion = self.motion(&setup)?;
+        let of_part = setup.part.iter().map(|part| part.place).filter(|_| self.at.is_empty());
+        let places: Vec<Place> = self.at.iter().copied().chain(of_part).collect();
+        let at = quantities::positions(&places, "--at", 0.5 * setup.length_m)?;
+        let called = places.iter().map(|place| place.said()).collect();
+        Ok(Drop { args: self, setup, at, called, motion })
+    }
+
+    fn motion(&self, setup: &Setup) -> Result<Motion, Failure> {
+        let scene = &setup.scene;
+        let model = match (setup.model, self.drop.contact_time()) {
+            (ModelName::Compliant, _) => {
+                // That there is one was looked at before.
+                let time = setup.contact_time_s.unwrap_or(f64::NAN);
+                let contact = Contact::new(setup.contact_law, scene.e(), time)?;
+                let contacts =
+                    scene.contacts(&contact).map_err(|error| self.drop.named(error, self.inertia.gyration_m))?;
                 return Ok(Motion::Contacts(contact, Box::new(contacts)));
             }
-            (_, Some(_)) => return Err(Failure::Usage("--contact-time-s goes with --model=compliant alone")),
+            (_, Some(_)) => {
+                return Err(Failure::Usage("--contact-time and --contact-time-s go with --model=compliant alone"));
+            }
             (ModelName::Map, None) => Model::Map,
             (ModelName::Ballistic, None) => Model::Ballistic,
             (ModelName::FiniteTilt, None) => Model::FiniteTilt,
@@ -190,7 +240,7 @@ impl Args {
 impl Drop<'_> {
     /// Velocity shocks at the positions asked for, of each strike.
     fn shocks(&self, strike: &Strike) -> impl Iterator<Item = f64> {
-        self.args.at.iter().map(|&s| strike.delta_v_at(s))
+        self.at.iter().map(|&s| strike.delta_v_at(s))
     }
 
     /// Largest velocity shock of each end, in its own strikes and those of the other.
@@ -199,7 +249,7 @@ impl Drop<'_> {
     }
 
     fn largest_at(&self) -> impl Iterator<Item = f64> {
-        self.args.at.iter().map(|&s| self.largest_of(s))
+        self.at.iter().map(|&s| self.largest_of(s))
     }
 
     fn largest_of(&self, s: f64) -> f64 {
@@ -244,9 +294,9 @@ impl Drop<'_> {
                 let n = flight.strikes.len();
                 warnings.push(format!("stopped after {n} impacts, more would follow; --impact-limit=N follows more"));
             }
-            Stop::TimeLimit { time_s } if self.args.time_limit_s.is_none_or(|limit| time_s < limit) => {
-                let time = figures(time_s);
-                warnings.push(format!("left at {time} s, where the body neither rests nor strikes again in sight"));
+            Stop::TimeLimit { time_s } if self.args.time_limit_s().is_none_or(|limit| time_s < limit) => {
+                let time = self.setup.shown.time.said(time_s);
+                warnings.push(format!("left at {time}, where the body neither rests nor strikes again in sight"));
             }
             _ => {}
         }

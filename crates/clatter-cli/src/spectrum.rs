@@ -6,18 +6,20 @@ use std::io::{self, BufReader, Write};
 use std::path::{Path, PathBuf};
 
 use clap::{ValueEnum, ValueHint};
+use clatter_assess::units::{ACCELERATION, Dimension, LENGTH, SPEED};
 use clatter_shock::{
-    DamageBoundary, Finding, Frequencies, Limit, LimitCurve, Lines, Margin, Pulse, Pulses, Quantity, Record, Shape,
-    Spectrum, Survey, Suspension, Units, VelocityShock, VelocityShocks, stream,
+    DamageBoundary, Finding, Limit, LimitCurve, Lines, Margin, Pulse, Pulses, Quantity, Record, Shape, Spectrum,
+    Survey, Suspension, Units, VelocityShock, VelocityShocks, stream,
 };
 use serde::Serialize;
 
-use crate::excitation::{self, LimitArg, PulseArg, shape_name};
+use crate::excitation::{self, FrequencyArg, LimitArg, PulseArg, shape_name};
 use crate::inputs::{DampingArgs, RowFormat};
 use crate::numbers::{Json, digits, figures, given};
 use crate::output::{Files, Kind, Target, buffered};
 use crate::progress::Counted;
-use crate::{Failure, Streams, lists, output, text};
+use crate::quantities::Show;
+use crate::{Failure, Streams, input, lists, output, text};
 
 /// Compute a shock response spectrum: the peak of a component over its natural frequency
 ///
@@ -55,13 +57,16 @@ use crate::{Failure, Streams, lists, output, text};
 Examples:
   clatter spectrum drop.csv                                     Q = 10, 10 Hz to 10 kHz
   clatter spectrum drop.csv --units=ms,g --quantity=pseudo-velocity -o drop.svg
-  clatter spectrum --pulse=half-sine,5000,0.0005,0 --frequency=10:10000:12 --damping=0.05
+  clatter spectrum --pulse=half-sine,500g,0.5ms --frequency=10Hz:10kHz:12 --damping=5%
   clatter spectrum --pulse=half-sine,5000,0.0005,0,0.002 --frequency=100,180 --limit=4000
-  clatter spectrum --shock=2.5,0 --shock=-1,0.004 --frequency=180 --quantity=pseudo-velocity
-  clatter spectrum --pulse=half-sine,9810,0.001 --frequency=100 --limit=2000 \\
+  clatter spectrum --shock=2.5m/s,0s --shock=-1m/s,4ms --frequency=180Hz --quantity=pseudo-velocity
+  clatter spectrum --pulse=half-sine,1000g,1ms --frequency=100Hz --limit=200g \\
       --damage-boundary -o boundary.svg
   clatter spectrum --pulse=rectangle,900,0.004 --damage-boundary --tests=tests.csv
-  clatter spectrum --shocks-file=shocks.csv --frequency=180"
+  clatter spectrum --shocks-file=shocks.csv --frequency=180Hz
+
+Numbers without a unit are in SI. A limit in g, or where there is none a pulse in g, has the table in
+g; JSON and CSV stay in SI."
 )]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -69,16 +74,16 @@ pub(crate) struct Args {
     /// Units of a record whose header does not name them: s, ms or us, and m/s2 or g
     #[arg(long, value_name = "TIME,ACCELERATION", value_parser = excitation::units)]
     units: Option<Units>,
-    /// Natural frequencies in Hz: a list, or from LO to HI with so many to the octave
+    /// Natural frequencies, in Hz without a unit: a list, or from LO to HI with so many to the octave
     #[arg(long, value_name = "HZ,…|LO:HI:PER_OCTAVE", default_value = "10:10000:12", allow_hyphen_values = true, value_parser = excitation::frequencies)]
-    frequency: Frequencies,
+    frequency: FrequencyArg,
     #[command(flatten)]
     damping: DampingArgs,
     /// Which quantity of the component
     #[arg(long, value_enum, default_value_t = QuantityName::Acceleration)]
     quantity: QuantityName,
-    /// What the component stands, in the unit of the quantity: one value, or points of a curve that is straight on
-    /// log-log paper
+    /// What the component stands, with its unit or in SI: one value, such as 1500g, or points of a curve that is
+    /// straight on log-log paper
     #[arg(long, value_name = "X|HZ:X,…", allow_hyphen_values = true, value_parser = excitation::limit)]
     limit: Option<LimitArg>,
     /// Also give the damage boundary of one pulse at one frequency, for a --limit of acceleration or relative
@@ -104,10 +109,11 @@ struct Excitation {
     #[arg(value_name = "RECORD.csv", value_hint = ValueHint::FilePath)]
     record: Option<PathBuf>,
     /// A pulse: half-sine, haversine, triangle, initial-peak-sawtooth, terminal-peak-sawtooth, rectangle, trapezoid or
-    /// trapezoid:RAMP (ramps over length, 0.1 unless given); amplitude in m/s², duration and one or more starts in s
+    /// trapezoid:RAMP (ramps over length, 0.1 unless given); amplitude, duration and one or more starts with their units, or in
+    /// m/s² and s
     #[arg(long, value_name = "SHAPE,AMPLITUDE,DURATION,START…", allow_hyphen_values = true, value_parser = excitation::pulse)]
     pulse: Vec<PulseArg>,
-    /// A velocity shock: change of velocity in m/s and time in s; in order of time
+    /// A velocity shock: change of velocity and time with their units, or in m/s and s; in order of time
     #[arg(long, value_name = "DELTA_V,TIME", allow_hyphen_values = true, value_parser = excitation::shock)]
     shock: Vec<VelocityShock>,
     /// Pulses from a CSV file with the columns shape, amplitude_m_s2, duration_s and start_s
@@ -140,6 +146,14 @@ impl QuantityName {
             Self::RelativeVelocity => Quantity::RelativeVelocity,
             Self::PseudoVelocity => Quantity::PseudoVelocity,
             Self::EquivalentStaticAcceleration => Quantity::EquivalentStaticAcceleration,
+        }
+    }
+
+    fn dimension(self) -> &'static Dimension {
+        match self {
+            Self::Acceleration | Self::EquivalentStaticAcceleration => &ACCELERATION,
+            Self::RelativeDisplacement => &LENGTH,
+            Self::RelativeVelocity | Self::PseudoVelocity => &SPEED,
         }
     }
 
@@ -193,6 +207,7 @@ impl Args {
         if self.units.is_some() && self.excitation.record.is_none() {
             return Err(Failure::Usage("--units goes with a record alone"));
         }
+        self.check_limit()?;
         let boundary = if self.damage_boundary { Some(self.boundary()?) } else { None };
         let (spectrum, survey) = self.spectrum()?;
         let margins = self.limit.as_ref().map(|limit| limit.curve.margins(&spectrum));
@@ -204,11 +219,33 @@ impl Args {
             let path = self.excitation.record.as_deref().unwrap_or(Path::new(""));
             streams.note("warning", format_args!("{}: {finding}", text::path(path)));
         }
+        if let Some(slip) = self.damping.slip() {
+            streams.note("warning", slip);
+        }
         match self.format {
             RowFormat::Table => computed.table(streams.out).map_err(Failure::Answer),
             RowFormat::Csv => computed.csv(streams.out).map_err(Failure::Answer),
             RowFormat::Json => streams.json(&computed.answer()),
         }
+    }
+
+    /// Refuses a limit in a unit of another quantity.
+    fn check_limit(&self) -> Result<(), Failure> {
+        let Some((dimension, unit)) = self.limit.as_ref().and_then(|limit| limit.typed) else { return Ok(()) };
+        let ([name, _], own) = (self.quantity.name(), self.quantity.dimension());
+        if dimension.name == own.name {
+            return Ok(());
+        }
+        let (what, own) = (dimension.one(), own.names());
+        Err(Failure::Wrong(format!("--limit in {} is {what}, and the quantity is {name}, in one of {own}", unit.name)))
+    }
+
+    /// How the quantity is shown: in the unit of the limit, else of a pulse.
+    fn show(&self) -> Show {
+        let typed = self.limit.as_ref().and_then(|limit| limit.typed).map(|(_, unit)| unit);
+        let pulse = self.excitation.pulse.iter().find_map(|pulse| pulse.unit);
+        let pulse = pulse.filter(|_| self.quantity.dimension().name == ACCELERATION.name);
+        Show { unit: typed.or(pulse), name: self.quantity.name()[1] }
     }
 
     fn spectrum(&self) -> Result<(Spectrum, Option<Survey>), Failure> {
@@ -222,18 +259,20 @@ impl Args {
             None => self.excitation.shock.clone(),
         };
         if !shocks.is_empty() {
-            return Ok((VelocityShocks::new(shocks)?.spectrum(&self.frequency, damping, quantity), None));
+            return Ok((VelocityShocks::new(shocks)?.spectrum(&self.frequency.list, damping, quantity), None));
         }
         let pulses = self.pulses()?;
-        excitation::check_periods(&pulses, &self.frequency).map_err(Failure::Pulses)?;
+        excitation::check_periods(&pulses, &self.frequency.list).map_err(Failure::Wrong)?;
         let pulses = Pulses::new(&pulses)?;
-        Ok((pulses.spectrum(&self.frequency, damping, quantity), None))
+        Ok((pulses.spectrum(&self.frequency.list, damping, quantity), None))
     }
 
     fn pulses(&self) -> Result<Vec<Pulse>, Failure> {
         match &self.excitation.pulses_file {
             Some(path) => lists::pulses(path),
-            None => Ok(self.excitation.pulse.iter().flat_map(|PulseArg(pulses)| pulses.iter().copied()).collect()),
+            None => {
+                Ok(self.excitation.pulse.iter().flat_map(|PulseArg { pulses, .. }| pulses.iter().copied()).collect())
+            }
         }
     }
 
@@ -245,18 +284,22 @@ impl Args {
             let file = File::open(path).map_err(|error| bad(clatter_shock::Error::Read(error.to_string())))?;
             Ok::<_, Failure>((file.metadata().ok(), BufReader::with_capacity(1 << 20, file)))
         };
+        if input::is_standard(path) {
+            let record = Record::read(io::stdin().lock(), self.units).map_err(bad)?;
+            return Ok((record.spectrum(&self.frequency.list, damping, quantity), record.survey().clone()));
+        }
         let (metadata, input) = open()?;
         let Some(size) = metadata.filter(std::fs::Metadata::is_file).map(|metadata| metadata.len()) else {
             let record = Record::read(input, self.units).map_err(bad)?;
-            return Ok((record.spectrum(&self.frequency, damping, quantity), record.survey().clone()));
+            return Ok((record.spectrum(&self.frequency.list, damping, quantity), record.survey().clone()));
         };
         let checking = Counted::begin("checking", size);
         let survey = Lines::new(input, self.units).survey(|_, bytes| checking.at(bytes)).map_err(bad)?;
         drop(checking);
         let filtering = Counted::begin("filtering", size);
         let lines = Lines::new(open()?.1, self.units);
-        let spectrum =
-            stream(lines, &survey, &self.frequency, damping, quantity, |bytes| filtering.at(bytes)).map_err(bad)?;
+        let spectrum = stream(lines, &survey, &self.frequency.list, damping, quantity, |bytes| filtering.at(bytes))
+            .map_err(bad)?;
         Ok((spectrum, survey))
     }
 
@@ -271,7 +314,7 @@ impl Args {
             let boundary = DamageBoundary::from_tests(&velocity, &acceleration);
             return Boundary::new(boundary.map_err(|reason| Failure::Record { path: path.clone(), reason })?, pulse);
         }
-        let ([pulse], [hz]) = (&self.pulses()?[..], self.frequency.hz()) else {
+        let ([pulse], [hz]) = (&self.pulses()?[..], self.frequency.list.hz()) else {
             return Err(Failure::Usage(
                 "--damage-boundary goes with one --pulse with one start, and with one --frequency or --tests",
             ));
@@ -323,7 +366,8 @@ impl Computed<'_> {
     }
 
     fn table(&self, out: &mut dyn Write) -> io::Result<()> {
-        let [name, unit] = self.args.quantity.name();
+        let ([name, _], show) = (self.args.quantity.name(), self.args.show());
+        let (unit, hz) = (show.name(), Show { unit: self.args.frequency.unit, name: "Hz" });
         let zeta = self.spectrum.damping.get();
         let name = name.replace('-', " ");
         writeln!(
@@ -338,7 +382,10 @@ impl Computed<'_> {
             writeln!(out, "{n} samples from {from} to {to} s, {steps}; largest {} m/s2", figures(survey.largest))?;
         }
         if let Some(boundary) = &self.boundary {
-            boundary.table(out)?;
+            let acceleration = self.args.quantity.dimension().name == ACCELERATION.name;
+            let pulse = self.args.excitation.pulse.iter().find_map(|pulse| pulse.unit);
+            let unit = show.unit.filter(|_| acceleration).or(pulse);
+            boundary.table(Show { unit, name: "m/s2" }, out)?;
         }
         if let Some(margins) = &self.margins {
             self.worst(margins, out)?;
@@ -348,14 +395,16 @@ impl Computed<'_> {
         }
         let margin = if self.margins.is_some() { "margin" } else { "" };
         let head = ["frequency", "primary", "residual", "maximax", "positive", "negative", margin];
-        let units = ["Hz", unit, unit, unit, unit, unit, if margin.is_empty() { "" } else { "dB" }];
+        let units = [hz.name(), unit, unit, unit, unit, unit, if margin.is_empty() { "" } else { "dB" }];
         writeln!(out)?;
         for cells in [head, units] {
             let line = cells.map(|cell| format!("{cell:>13}")).concat();
             writeln!(out, "{}", line.trim_end())?;
         }
         for i in 0..self.spectrum.frequency_hz.len() {
-            let row: String = self.row(i).map(|x| format!("{:>13}", figures(x))).into_iter().collect();
+            let [frequency, values @ ..] = self.row(i);
+            let cells = std::iter::once(hz.figures(frequency)).chain(values.map(|x| show.figures(x)));
+            let row = cells.fold(String::new(), |row, cell| format!("{row}{cell:>13}"));
             let margin = self.margins.as_ref().map_or(String::new(), |margins| {
                 format!("{:>13}", margins[i].map_or("-".to_owned(), |m| figures(m.decibel())))
             });
@@ -368,8 +417,9 @@ impl Computed<'_> {
         let Some((i, margin)) = LimitCurve::worst(margins).and_then(|i| Some((i, margins[i]?))) else {
             return writeln!(out, "The limit covers none of these frequencies");
         };
-        let (word, hz) = (if margin.is_safe() { "holds" } else { "is passed" }, figures(self.spectrum.frequency_hz[i]));
-        writeln!(out, "The limit {word}: least margin {} dB at {hz} Hz", figures(margin.decibel()))
+        let hz = Show { unit: self.args.frequency.unit, name: "Hz" }.said(self.spectrum.frequency_hz[i]);
+        let word = if margin.is_safe() { "holds" } else { "is passed" };
+        writeln!(out, "The limit {word}: least margin {} dB at {hz}", figures(margin.decibel()))
     }
 
     fn row(&self, i: usize) -> [f64; 6] {
@@ -419,17 +469,17 @@ impl Computed<'_> {
 }
 
 impl Boundary {
-    fn table(&self, out: &mut dyn Write) -> io::Result<()> {
+    fn table(&self, acceleration: Show, out: &mut dyn Write) -> io::Result<()> {
         let (b, p) = (&self.numbers, &self.pulse);
         let line = |out: &mut dyn Write, name: &str, value: f64, unit: &str| {
             writeln!(out, "{name:<28}{:>12} {unit}", figures(value))
         };
         writeln!(out, "\nDamage boundary for a {} pulse", shape_name(p.shape))?;
         line(out, "Critical velocity change", b.critical_velocity_change(), "m/s")?;
-        line(out, "Critical acceleration", b.critical_acceleration(), "m/s2")?;
+        line(out, "Critical acceleration", acceleration.value(b.critical_acceleration()), acceleration.name())?;
         line(out, "Knee at a velocity change of", b.knee_velocity_change(), "m/s")?;
         line(out, "This pulse, velocity change", p.velocity_change().abs(), "m/s")?;
-        line(out, "            acceleration", p.amplitude.abs(), "m/s2")?;
+        line(out, "            acceleration", acceleration.value(p.amplitude.abs()), acceleration.name())?;
         let word = if self.margin.is_safe() { "dB: no damage" } else { "dB: damage" };
         line(out, "            margin", self.margin.decibel(), word)?;
         writeln!(out)

@@ -16,9 +16,9 @@ use std::path::Path;
 pub(crate) use clatter_assess::{visible, visible_lines};
 use unicode_width::UnicodeWidthStr;
 
-/// The name of a file.
+/// The name of a file, or of standard input.
 pub(crate) fn path(path: &Path) -> String {
-    visible(&path.display().to_string()).into_owned()
+    visible(&crate::input::name(path)).into_owned()
 }
 
 /// A name as it can be printed: [`visible`], in at most `width` columns, text that runs from right to left kept to

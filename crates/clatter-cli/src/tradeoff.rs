@@ -4,8 +4,10 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use clap::ValueHint;
+use clatter_assess::ProductFile;
 use clatter_assess::ladder::{LimitLadder, Measured, ProductLadder};
 
+use crate::input::is_standard;
 use crate::inputs::{self, RowFormat};
 use crate::numbers::{digits, given};
 use crate::output::Files;
@@ -38,7 +40,7 @@ pub(crate) struct Args {
     /// What a model may get wrong, as a share of the demand: 0.01 or 1%
     #[arg(long, value_name = "SHARE", default_value = "1%", allow_hyphen_values = true, value_parser = inputs::tolerance)]
     tolerance: f64,
-    /// Write error over cost as a figure, log-log
+    /// Write error over cost as a figure, log-log; - writes it to standard output in place of the answer
     #[arg(short, long, value_name = "FILE.svg", value_hint = ValueHint::FilePath, value_parser = picture)]
     output: Option<PathBuf>,
     /// How to show the answer
@@ -49,6 +51,7 @@ pub(crate) struct Args {
 fn picture(text: &str) -> Result<PathBuf, &'static str> {
     let path = PathBuf::from(text);
     match path.extension().and_then(|ending| ending.to_str()) {
+        _ if is_standard(&path) => Ok(path),
         Some("svg") => Ok(path),
         _ => Err("the file must end in .svg"),
     }
@@ -60,20 +63,23 @@ impl Args {
     }
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        let ladders = explain::measure(&self.product, self.tolerance)?;
+        let (file, ladders) = explain::measure(&self.product, self.tolerance, streams)?;
         if let Some(path) = &self.output {
             let svg = clatter_report::ladder_svg(&ladders)?;
+            if is_standard(path) {
+                return streams.out.write_all(svg.as_bytes()).map_err(Failure::Answer);
+            }
             output::replace(path, |file| file.write_all(svg.as_bytes()))?;
         }
         match self.format {
-            RowFormat::Table => table(&ladders, streams.out).map_err(Failure::Answer),
+            RowFormat::Table => table(&file, &ladders, streams.out).map_err(Failure::Answer),
             RowFormat::Csv => csv(&ladders, streams.out).map_err(Failure::Answer),
             RowFormat::Json => streams.json(&ladders),
         }
     }
 }
 
-fn table(ladders: &ProductLadder, out: &mut dyn Write) -> io::Result<()> {
+fn table(file: &ProductFile, ladders: &ProductLadder, out: &mut dyn Write) -> io::Result<()> {
     let (name, tolerance) = (shown(&ladders.product, 60), given(100.0 * ladders.tolerance));
     writeln!(out, "{name}: speed for accuracy, to {tolerance} %")?;
     let machine = &ladders.machine;
@@ -85,19 +91,19 @@ fn table(ladders: &ProductLadder, out: &mut dyn Write) -> io::Result<()> {
         shown(&machine.processor, 80),
         machine.system
     )?;
-    ladders.limits.iter().try_for_each(|limit| of_limit(limit, out))?;
+    ladders.limits.iter().try_for_each(|limit| of_limit(file, limit, out))?;
     explain::left_out(ladders, out)
 }
 
-fn of_limit(limit: &LimitLadder, out: &mut dyn Write) -> io::Result<()> {
-    let (ladder, reference) = (&limit.ladder, &limit.ladder.reference);
+fn of_limit(file: &ProductFile, limit: &LimitLadder, out: &mut dyn Write) -> io::Result<()> {
+    let (ladder, reference, unit) = (&limit.ladder, &limit.ladder.reference, explain::unit(file, limit));
     writeln!(out, "\n{}, {}", shown(&limit.component, 24), limit.limit.name())?;
     writeln!(out, "  drop       {}", drop(&limit.worst_case))?;
-    let (name, value) = (reference.model.name(), in_words(ladder.unit, reference.value));
+    let (name, value) = (reference.model.name(), in_words(ladder.unit, unit, reference.value));
     writeln!(out, "  reference  {name}: {value}, worked out to {}\n", percent(reference.tolerance))?;
     writeln!(out, "  {:<13} {:>14} {:>9} {:>9} {:>7}", "model", "demand", "error", "time", "strikes")?;
     for Measured { model, value, error, seconds, strikes } in &ladder.models {
-        let value = in_words(ladder.unit, *value);
+        let value = in_words(ladder.unit, unit, *value);
         let cheapest = if *model == ladder.cheapest { "  cheapest" } else { "" };
         let (model, error, time) = (model.name(), percent(*error), time(*seconds));
         writeln!(out, "  {model:<13} {value:>14} {error:>9} {time:>9} {strikes:>7}{cheapest}")?;

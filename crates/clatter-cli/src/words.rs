@@ -1,12 +1,15 @@
 //! Values as people say them: in common units, with as many digits as they are good for.
 
-use clatter_assess::{LimitAssessment, STANDARD_GRAVITY_M_S2, Unit, WorstCase};
+use clatter_assess::{LimitAssessment, STANDARD_GRAVITY_M_S2, Unit, WorstCase, units};
 
 use crate::inputs;
 use crate::numbers::figures;
 
-/// A value in the unit that people use for it.
-pub(crate) fn in_words(unit: Unit, value: f64) -> String {
+/// A value in the unit that it was written in, or else in the one that people use for it.
+pub(crate) fn in_words(unit: Unit, written: Option<&units::Unit>, value: f64) -> String {
+    if let Some(written) = written {
+        return format!("{} {}", four(written.of_si(value)), written.name);
+    }
     let (factor, name) = match unit {
         Unit::MeterPerSecondSquared => (1.0 / STANDARD_GRAVITY_M_S2, "gn"),
         Unit::Meter => (1e3, "mm"),

@@ -65,7 +65,9 @@ impl Args {
             RowFormat::Table => self.table(&bar, &either, &rows, streams.out).map_err(Failure::Answer),
             RowFormat::Csv => self.csv(&bar, &rows, streams.out).map_err(Failure::Answer),
             RowFormat::Json => streams.json(&self.answer(&bar, &either, &rows)),
-        }
+        }?;
+        self.bar.slips().for_each(|slip| streams.note("warning", slip));
+        Ok(())
     }
 
     fn table(&self, bar: &OffCenterBar, either: &Shocks, rows: &[Row], out: &mut dyn Write) -> io::Result<()> {

@@ -276,3 +276,69 @@ fn a_history_of_gigabytes_is_written_only_where_it_is_asked_for() {
     }
     assert_eq!(names(dir.path()), ["long.csv", "long.json", "long.svg"]);
 }
+
+/// Runs a command with this as its standard input.
+fn piped(arguments: &[&str], input: &[u8], dir: &Path) -> std::process::Output {
+    let mut child = clatter()
+        .args(arguments)
+        .current_dir(dir)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("it starts");
+    // What is refused unread closes the pipe.
+    let _ = std::io::Write::write_all(&mut child.stdin.take().expect("a pipe"), input);
+    child.wait_with_output().expect("it ends")
+}
+
+#[test]
+fn a_dash_is_standard_input() {
+    let dir = tempfile::tempdir().unwrap();
+    product(dir.path());
+    let shocks = "time_s,delta_v_m_s\n0,2.5\n0.004,-1\n";
+    let pulses = "shape,amplitude_m_s2,duration_s,start_s\nHalf sine,5000,0.0005,0\n";
+    let record = "time [ms],acceleration [G]\n0,0\n1,100\n2,0\n3,0\n";
+    let tests =
+        "test,level,damaged\nvelocity-change,2,no\nvelocity-change,3,yes\nacceleration,700,no\nacceleration,900,yes\n";
+    for (name, text) in [("shocks.csv", shocks), ("pulses.csv", pulses), ("record.csv", record), ("tests.csv", tests)] {
+        fs::write(dir.path().join(name), text).unwrap();
+    }
+    for (name, arguments) in [
+        ("p.toml", &["assess", "p.toml", "--format=json"][..]),
+        ("p.toml", &["scatter", "p.toml", "--samples=50", "--format=json"]),
+        ("p.toml", &["explain", "p.toml", "--format=json"]),
+        ("p.toml", &["design", "p.toml", "--format=json"]),
+        ("p.toml", &["simulate", "--product=p.toml", "--format=csv"]),
+        ("p.toml", &["respond", "--product=p.toml", "--component=display"]),
+        ("shocks.csv", &["respond", "--omega=100", "--shocks-file=shocks.csv", "--format=json"]),
+        ("pulses.csv", &["spectrum", "--pulses-file=pulses.csv", "--format=csv"]),
+        ("record.csv", &["spectrum", "record.csv", "--format=csv"]),
+        ("tests.csv", &["spectrum", "--pulse=rectangle,900,0.004", "--damage-boundary", "--tests=tests.csv"]),
+    ] {
+        let dashed: Vec<_> = arguments.iter().map(|argument| argument.replace(name, "-")).collect();
+        let dashed: Vec<_> = dashed.iter().map(String::as_str).collect();
+        let input = fs::read(dir.path().join(name)).unwrap();
+        let (from_file, from_input) = (piped(arguments, b"", dir.path()), piped(&dashed, &input, dir.path()));
+        let stderr = String::from_utf8_lossy(&from_input.stderr);
+        assert_eq!(from_input.status.code(), from_file.status.code(), "{dashed:?}: {stderr}");
+        assert_ne!(from_input.status.code(), Some(2), "{dashed:?}: {stderr}");
+        let plain = String::from_utf8(from_file.stdout).unwrap().replace(name, "-");
+        assert_eq!(String::from_utf8(from_input.stdout).unwrap(), plain, "{dashed:?}");
+    }
+    for (arguments, input, said) in [
+        (&["assess", "-"][..], "[product]\nname = 1\n", "--> standard input:2:8"),
+        (
+            &["respond", "--omega=1", "--shocks-file=-"],
+            "time_s,delta_v_m_s\n0\n",
+            "error: standard input: line 2: 1 cell",
+        ),
+        (&["spectrum", "-"], "no numbers\n", "error: standard input: "),
+        (&["assess", "-"], "\u{0}", "invalid TOML"),
+    ] {
+        let done = piped(arguments, input.as_bytes(), dir.path());
+        let stderr = String::from_utf8(done.stderr).unwrap();
+        assert!(done.status.code() == Some(2) && stderr.contains(said), "{arguments:?}: {stderr}");
+    }
+    assert!(!dir.path().join("-").exists(), "no file of that name");
+}

@@ -169,6 +169,21 @@ pub fn write_assessment(
     pdf: &Path,
     progress: &mut dyn FnMut(&str),
 ) -> Result<Vec<String>, ReportError> {
+    let (bytes, warnings) = assessment_pdf(file, assessment, portraits, progress)?;
+    replace(pdf, |file| file.write_all(&bytes)).map_err(|source| ReportError::Io { path: pdf.into(), source })?;
+    Ok(warnings)
+}
+
+/// The same report, not written anywhere, and the warnings.
+///
+/// # Errors
+/// [`ReportError`].
+pub fn assessment_pdf(
+    file: &clatter_assess::ProductFile,
+    assessment: &clatter_assess::Assessment,
+    portraits: &[clatter_assess::Portrait],
+    progress: &mut dyn FnMut(&str),
+) -> Result<(Vec<u8>, Vec<String>), ReportError> {
     let (typst, mut warnings) = typst::Typst::find(progress)?;
     progress("setting the pages");
     let pages = |assessment| {
@@ -186,8 +201,7 @@ pub fn write_assessment(
         }
         (bytes, _) => bytes?,
     };
-    replace(pdf, |file| file.write_all(&bytes)).map_err(|source| ReportError::Io { path: pdf.into(), source })?;
-    Ok(warnings)
+    Ok((bytes, warnings))
 }
 
 /// Error over cost of every model that was measured on the worst drop of each limit, log-log, a panel a limit: the cheapest one

@@ -25,7 +25,7 @@ pub struct Units {
 }
 
 const TIME_UNITS: [(&str, f64); 5] = [("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("µs", 1e-6), ("μs", 1e-6)];
-const ACCELERATION_UNITS: [(&str, f64); 7] = [
+const ACCELERATION_UNITS: [(&str, f64); 8] = [
     ("m/s2", 1.0),
     ("m/s^2", 1.0),
     ("m/s²", 1.0),
@@ -33,6 +33,7 @@ const ACCELERATION_UNITS: [(&str, f64); 7] = [
     ("m s-2", 1.0),
     ("g", STANDARD_GRAVITY_M_S2),
     ("gn", STANDARD_GRAVITY_M_S2),
+    ("G", STANDARD_GRAVITY_M_S2),
 ];
 
 impl Units {

@@ -1,10 +1,11 @@
 //! Assessments for people.
 
 use std::io::{self, Write};
+use std::path::PathBuf;
 
-use clatter_assess::{Assessment, ComponentAssessment, LimitAssessment, Verdict};
+use clatter_assess::{Assessment, ComponentAssessment, LimitAssessment, ProductFile, Verdict};
 
-use crate::text::{column, shown};
+use crate::text::{column, path, shown};
 use crate::words::{drop, four, in_words, is_answered, margin, percent};
 
 fn verdict(verdict: Verdict) -> &'static str {
@@ -19,9 +20,9 @@ fn name(component: &ComponentAssessment) -> String {
     shown(&component.name, 24)
 }
 
-pub(super) fn of_one(assessment: &Assessment, out: &mut dyn Write) -> io::Result<()> {
+pub(super) fn of_one(file: &ProductFile, assessment: &Assessment, out: &mut dyn Write) -> io::Result<()> {
     headline(assessment, out)?;
-    limits(assessment, out)?;
+    limits(file, assessment, out)?;
     writeln!(out)?;
     writeln!(out, "Bound by energy: no drop of the ranges asks for more; parts on a suspension have none.")?;
     writeln!(out, "Flat drop: one impact without clatter, (1 + e) v0 everywhere at once, as drop standards assume.")?;
@@ -52,13 +53,10 @@ fn headline(assessment: &Assessment, out: &mut dyn Write) -> io::Result<()> {
     }
 }
 
-/// A row for each limit.
-fn limits(assessment: &Assessment, out: &mut dyn Write) -> io::Result<()> {
-    let wide = assessment.components.iter().map(|c| column(&name(c), 0).1).max().unwrap_or(0).max(9);
-    writeln!(
-        out,
-        "\n{} {:<24} {:<9} {:>12} {:>12} {:>9} {:>9} {:>15} {:>12} {:>12}",
-        column("component", wide).0,
+/// A row for each limit, in the unit in which the file gives it.
+fn limits(file: &ProductFile, assessment: &Assessment, out: &mut dyn Write) -> io::Result<()> {
+    let heads = [
+        "component",
         "limit",
         "verdict",
         "allowed",
@@ -68,18 +66,18 @@ fn limits(assessment: &Assessment, out: &mut dyn Write) -> io::Result<()> {
         "bound by energy",
         "flat drop",
         "other law",
-    )?;
-    for component in &assessment.components {
+    ];
+    let mut rows = vec![heads.map(str::to_owned)];
+    for (component, given) in assessment.components.iter().zip(&file.components) {
         for (i, limit) in component.limits.iter().enumerate() {
             let first = if i == 0 { name(component) } else { String::new() };
-            let of = |value: Option<f64>| value.map_or("-".to_owned(), |value| in_words(limit.unit, value));
+            let written = given.limits.unit(limit.limit, limit.unit);
+            let of = |value: Option<f64>| value.map_or("-".to_owned(), |value| in_words(limit.unit, written, value));
             let answered = is_answered(limit);
-            writeln!(
-                out,
-                "{} {:<24} {:<9} {:>12} {:>12} {:>9} {:>9} {:>15} {:>12} {:>12}",
-                column(&first, wide).0,
-                limit.limit.name(),
-                verdict(limit.verdict),
+            rows.push([
+                first,
+                limit.limit.name().to_owned(),
+                verdict(limit.verdict).to_owned(),
                 of(Some(limit.allowed)),
                 of(answered.then_some(limit.demand)),
                 if answered { margin(limit.margin) } else { "-".to_owned() },
@@ -87,8 +85,19 @@ fn limits(assessment: &Assessment, out: &mut dyn Write) -> io::Result<()> {
                 of(limit.bound),
                 of(answered.then_some(limit.clatter_free)),
                 of(limit.other_law),
-            )?;
+            ]);
         }
+    }
+    // At least as wide as what there mostly is, so that tables look alike.
+    let least = [9, 24, 9, 12, 12, 9, 9, 15, 12, 12];
+    let width = |i: usize| rows.iter().map(|row| column(&row[i], 0).1).max().unwrap_or(0).max(least[i]);
+    let widths: Vec<_> = (0..least.len()).map(width).collect();
+    writeln!(out)?;
+    for row in &rows {
+        let cells = row.iter().zip(&widths).enumerate().map(|(i, (cell, width))| {
+            if i < 3 { column(cell, *width).0 } else { format!("{}{cell}", " ".repeat(width - column(cell, 0).1)) }
+        });
+        writeln!(out, "{}", cells.collect::<Vec<_>>().join(" "))?;
     }
     Ok(())
 }
@@ -110,7 +119,7 @@ fn worst_drop(component: &ComponentAssessment, limit: &LimitAssessment, out: &mu
 }
 
 /// Margins of several products, a column each.
-pub(super) fn side_by_side(assessments: &[Assessment], out: &mut dyn Write) -> io::Result<()> {
+pub(super) fn side_by_side(files: &[PathBuf], assessments: &[Assessment], out: &mut dyn Write) -> io::Result<()> {
     let mut rows: Vec<(String, &'static str)> = Vec::new();
     for assessment in assessments {
         for component in &assessment.components {
@@ -123,7 +132,12 @@ pub(super) fn side_by_side(assessments: &[Assessment], out: &mut dyn Write) -> i
         }
     }
     let wide = rows.iter().map(|(name, _)| column(&shown(name, 24), 0).1).max().unwrap_or(0).max(9);
-    let heads: Vec<_> = assessments.iter().map(|a| shown(&a.product, 20)).collect();
+    // Products of one name are told apart by their files.
+    let alike = |name: &str| assessments.iter().filter(|a| shown(&a.product, 20) == shown(name, 20)).count() > 1;
+    let head = |(a, file): (&Assessment, &PathBuf)| {
+        if alike(&a.product) { path(file) } else { shown(&a.product, 20) }
+    };
+    let heads: Vec<_> = assessments.iter().zip(files).map(head).collect();
     let widths: Vec<_> = heads.iter().map(|head| column(head, 0).1.max(10)).collect();
     let line = |first: &str, second: &str, cells: &[String]| {
         let mut line = format!("{} {second:<24}", column(first, wide).0);

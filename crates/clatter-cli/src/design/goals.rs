@@ -148,7 +148,7 @@ impl Goals {
         let zone = format!("zone within {} v0", given(self.threshold));
         writeln!(out, "\nFront of the largest {zone} against q, the other goals met")?;
         writeln!(out, "{:>6}  {:>13}  {:>13}  {:>13}", "e", "smallest q", "largest zone", "at q")?;
-        writeln!(out, "{:>6}  {:>13}  {:>13}  {:>13}", "", "that meets all", "% of the bar", "")?;
+        writeln!(out, "{:>6}  {:>13}  {:>13}  {:>13}", "", "meeting all", "% of the bar", "")?;
         let cell = |x: Option<f64>| x.map_or("none".to_owned(), figures);
         for AtRestitution { fronts: [within, _], smallest_q } in &self.fronts {
             let largest = within.largest();

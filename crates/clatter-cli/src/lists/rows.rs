@@ -2,13 +2,12 @@
 //!
 //! Beyond RFC 4180, empty lines and lines that begin with `#` are skipped, and blanks around a cell are left out.
 
-use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
 use csv_core::{ReadRecordResult, Terminator};
 
-use crate::Failure;
+use crate::{Failure, input};
 
 /// Bytes of a row at most, with the ends of its lines. `csv` itself would read a row of any length, which is why rows
 /// are collected here and only their cells are told apart by its parser.
@@ -128,7 +127,7 @@ pub(super) fn rows<const N: usize>(
     each: impl FnMut([&str; N]) -> Result<(), String>,
 ) -> Result<(), Failure> {
     let unreadable = |reason| Failure::Unreadable { path: path.to_owned(), reason };
-    let mut rows = Rows::new(BufReader::with_capacity(1 << 20, File::open(path).map_err(unreadable)?));
+    let mut rows = Rows::new(BufReader::with_capacity(1 << 20, input::open(path).map_err(unreadable)?));
     read(&mut rows, names, each).map_err(|bad| match bad {
         Bad::Input(reason) => unreadable(reason),
         Bad::Row(what) => Failure::Line { path: path.to_owned(), line: rows.line.max(1), what },

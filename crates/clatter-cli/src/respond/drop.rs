@@ -3,25 +3,28 @@
 use std::io::{self, Write};
 
 use clatter::End;
+use clatter_assess::units::Quantity;
 use clatter_assess::{Answer, Limit, LimitKind, Part, SingleDrop, answer, respond};
-use clatter_flight::Scene;
 use clatter_shock::{ImpulseFactors, Response, Suspension};
 use serde::Serialize;
 
-use super::Args;
 use super::peaks::{
     Equivalent, EquivalentJson, FactorsJson, ResponseJson, Shocks, at_once, equivalent, equivalent_table,
 };
-use crate::Failure;
+use super::{Args, Inertia};
+use crate::drop_args::{Beside, Setup};
 use crate::inputs::{ModelName, law_name};
 use crate::numbers::{Json, figures, given};
+use crate::quantities::{self, Show, neat};
+use crate::{Failure, Streams};
 
 /// A part in one drop.
 pub(super) struct Drop<'a> {
     args: &'a Args,
-    model: ModelName,
-    center_of_mass: f64,
-    scene: Scene,
+    setup: Setup,
+    /// Position s, and how it is called.
+    at: f64,
+    called: String,
     single: SingleDrop,
     /// What the place goes through.
     place: Place,
@@ -50,28 +53,48 @@ struct Suspended {
 const TOLD: f64 = 10.0;
 
 impl Args {
-    pub(super) fn drop_by(&self, model: ModelName) -> Result<Drop<'_>, Failure> {
-        self.drop.check(model)?;
-        let e = self.e();
-        let (center_of_mass, body) = self.drop.body(self.inertia.gyration_m, &self.inertia.mass, e)?;
-        let scene = self.drop.scene(body, e)?;
+    pub(super) fn drop_by(&self, streams: &mut Streams<'_>) -> Result<Drop<'_>, Failure> {
+        let Inertia { gyration, gyration_m, mass, .. } = &self.inertia;
+        let beside = Beside {
+            model: self.model,
+            e: self.e,
+            gyration: gyration.or(gyration_m.map(Quantity::of_si)),
+            masses: mass,
+            instant_contacts: true,
+        };
+        let setup = self.drop.setup(&beside, streams)?;
+        let (scene, model, body) = (&setup.scene, setup.model, setup.scene.body());
         let drop = SingleDrop {
             body,
             first: End::A,
             tilt_rad: scene.tilt_rad(),
             speed_m_s: scene.speed_m_s(),
-            restitution: e,
+            restitution: scene.e(),
             gravity_m_s2: scene.gravity_m_s2(),
-            contact_time_s: self.drop.contact_time_s,
-            contact_law: self.drop.contact_law(),
+            contact_time_s: setup.contact_time_s,
+            contact_law: setup.contact_law,
         };
+        let Some(place) = self.at.or(setup.part.map(|part| part.place)) else {
+            return Err(Failure::Usage("the place is missing: --at=S, or with --product the --component=NAME"));
+        };
+        let at = quantities::positions(&[place], "--at", 0.5 * setup.length_m)?.pop().unwrap_or(f64::NAN);
         let ask = Ask { drop: &drop, model, tolerance: self.tolerance };
         // The end that touches first feels every drop: where not even that is answered, none is.
-        ask.of(LimitKind::VelocityChange, -0.5 * body.length_m(), None).map_err(Failure::drop)?;
-        let position_m = 0.5 * self.position() * body.length_m();
-        let place = ask.place(position_m)?;
-        let part = self.suspension()?.map(|suspension| self.suspended(&ask, position_m, suspension)).transpose()?;
-        Ok(Drop { args: self, model, center_of_mass, scene, single: drop, place, part })
+        ask.of(LimitKind::VelocityChange, -0.5 * body.length_m(), None).map_err(|error| self.named(error))?;
+        let position_m = 0.5 * at * body.length_m();
+        let of_file = setup.part.and_then(|part| part.suspension);
+        let suspension = self.suspension(of_file)?;
+        let place_felt = ask.place(position_m)?;
+        let part = suspension.map(|suspension| self.suspended(&ask, position_m, suspension)).transpose()?;
+        Ok(Drop { args: self, setup, at, called: place.said(), single: drop, place: place_felt, part })
+    }
+
+    /// A drop that was refused, with the options as they were given.
+    fn named(&self, error: clatter_assess::Error) -> Failure {
+        match error {
+            clatter_assess::Error::Flight(error) => self.drop.named(error, self.inertia.gyration_m),
+            error => Failure::Assess(error),
+        }
     }
 
     fn suspended(&self, ask: &Ask<'_>, position_m: f64, suspension: Suspension) -> Result<Suspended, Failure> {
@@ -142,39 +165,43 @@ impl Drop<'_> {
 
     /// W h0/v0.
     fn ratio(&self, part: &Suspended) -> f64 {
-        part.suspension.omega() * self.scene.height_gap_m() / self.single.speed_m_s
+        part.suspension.omega() * self.setup.scene.height_gap_m() / self.single.speed_m_s
+    }
+
+    pub(super) fn notes(&self) -> &[(&'static str, String)] {
+        &self.setup.notes
     }
 
     fn headings(&self, out: &mut dyn Write) -> io::Result<()> {
-        let (at, e) = (given(self.args.position()), given(self.single.restitution));
-        let length = given(self.scene.body().length_m());
+        let (at, e, shown) = (&self.called, given(self.single.restitution), &self.setup.shown);
+        let length = shown.length.given(self.setup.scene.body().length_m());
         let part = self.part.as_ref().map(|part| part.suspension);
         match part {
             Some(part) => {
-                let (omega, zeta) = (given(part.omega()), given(part.damping().get()));
-                writeln!(
-                    out,
-                    "Component at {at} of a body of {length} m, e = {e}; W = {omega} rad/s, damping ratio {zeta}"
-                )?;
+                let zeta = given(neat(part.damping().get()));
+                let of_file = self.setup.part.and_then(|part| part.suspension).map(|(frequency, _)| frequency);
+                let of_file = of_file.filter(|_| self.args.omega.is_none());
+                let frequency = match self.args.frequency.or(of_file) {
+                    Some(Quantity { si, unit }) => Show { unit, name: "Hz" }.given(si),
+                    None => format!("W = {} rad/s", given(part.omega())),
+                };
+                writeln!(out, "Component at {at} of a body of {length}, e = {e}; {frequency}, damping ratio {zeta}")?;
             }
-            None => writeln!(out, "Place {at} of a body of {length} m, e = {e}; a part there is mounted rigidly")?,
+            None => writeln!(out, "Place {at} of a body of {length}, e = {e}; a part there is mounted rigidly")?,
         }
-        let contact = self.single.contact_time_s.filter(|_| self.model == ModelName::Compliant);
+        let contact = self.single.contact_time_s.filter(|_| self.setup.model == ModelName::Compliant);
         let contact = contact.map_or(String::new(), |time| {
-            format!(", {} contacts of {} s", law_name(self.single.contact_law), given(time))
+            format!(", {} contacts of {}", law_name(self.single.contact_law), shown.time.given(time))
         });
-        let (model, speed) = (self.model.name(), figures(self.single.speed_m_s));
-        let (tilt, tolerance) = (given(self.args.drop.tilt_deg()), given(100.0 * self.args.tolerance));
-        writeln!(
-            out,
-            "Model {model}, to {tolerance} %: end a strikes first, at {speed} m/s, tilt {tilt} degrees{contact}"
-        )
+        let (model, speed) = (self.setup.model.name(), shown.speed.said(self.single.speed_m_s));
+        let (tilt, tolerance) = (shown.tilt(self.setup.tilt_deg), given(100.0 * self.args.tolerance));
+        writeln!(out, "Model {model}, to {tolerance} %: end a strikes first, at {speed}, tilt {tilt}{contact}")
     }
 
     pub(super) fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         self.headings(out)?;
         if let Some(part) = &self.part {
-            peaks(part, out)?;
+            self.peaks(part, out)?;
         }
         self.place(out)?;
         if let Some(part) = &self.part {
@@ -185,20 +212,49 @@ impl Drop<'_> {
         equivalent.map_or(Ok(()), |equivalent| equivalent_table(equivalent, out))
     }
 
+    /// The peaks of the part.
+    fn peaks(&self, part: &Suspended, out: &mut dyn Write) -> io::Result<()> {
+        let (response, time, speed) = (&part.response, self.setup.shown.time, self.setup.shown.speed);
+        let when = format!("when, {}", time.name());
+        writeln!(out, "\n{:<34}{:>12} {when:>13}", "Peak", speed.name())?;
+        let rows = [
+            ("relative displacement, W z", response.pseudo_velocity(), part.displacement),
+            ("relative velocity", response.relative_velocity, None),
+            ("absolute acceleration, A/W", response.acceleration_over_omega(), part.acceleration),
+        ];
+        for (name, extremes, answer) in rows {
+            let peak = extremes.peak();
+            let (size, time) = (speed.figures(peak.value.abs()), time.figures(peak.time));
+            let after = answer.map_or(String::new(), |answer| format!("  after impact {}", answer.impact));
+            writeln!(out, "  {name:<32}{size:>12} {time:>13}{after}")?;
+        }
+        Ok(())
+    }
+
     /// What the place goes through.
     fn place(&self, out: &mut dyn Write) -> io::Result<()> {
         let Place { velocity_change, acceleration, angular_velocity_change } = &self.place;
-        writeln!(out, "\n{:<34}{:>12} {:>13}", "Largest at this position", "", "when, s")?;
-        line("change of velocity, m/s", velocity_change.as_ref(), "", out)?;
+        let shown = &self.setup.shown;
+        let when = format!("when, {}", shown.time.name());
+        writeln!(out, "\n{:<34}{:>12} {when:>13}", "Largest at this position", "")?;
+        let mut line = |name: &str, show: Show, answer: Option<&Answer>, note: &str| {
+            let name = format!("{name}, {}", show.name());
+            let Some(Answer { value, time_s, impact, .. }) = answer else {
+                return writeln!(out, "  {name:<33}{:>11}", "0");
+            };
+            let (value, time) = (show.figures(*value), shown.time.figures(*time_s));
+            writeln!(out, "  {name:<33}{value:>11} {time:>13}  at impact {impact}{note}")
+        };
+        line("change of velocity", shown.speed, velocity_change.as_ref(), "")?;
         if let Some(time) = self.single.contact_time_s {
-            let half_sine = format!(", taken for a half-sine of {} s", given(time));
-            let note = if self.model == ModelName::Compliant { "" } else { &half_sine };
-            line("acceleration, m/s²", acceleration.as_ref(), note, out)?;
+            let half_sine = format!(", taken for a half-sine of {}", shown.time.given(time));
+            let note = if self.setup.model == ModelName::Compliant { "" } else { &half_sine };
+            line("acceleration", shown.acceleration, acceleration.as_ref(), note)?;
         }
-        line("change of angular velocity, rad/s", angular_velocity_change.as_ref(), "", out)?;
+        line("change of angular velocity", shown.spin, angular_velocity_change.as_ref(), "")?;
         if self.part.is_none() {
             let [flat, _] = self.at_once();
-            writeln!(out, "\nWithout clatter, (1 + e) v0 everywhere at once: {} m/s", figures(flat))?;
+            writeln!(out, "\nWithout clatter, (1 + e) v0 everywhere at once: {}", shown.speed.said(flat))?;
         }
         Ok(())
     }
@@ -207,7 +263,7 @@ impl Drop<'_> {
     fn shocks(&self, part: &Suspended, out: &mut dyn Write) -> io::Result<()> {
         let [flat, standard] = self.at_once();
         let factors = part.suspension.damping().impulse_factors();
-        let mut shocks = Shocks { unit: "m/s", out };
+        let mut shocks = Shocks { show: self.setup.shown.speed, out };
         shocks.head()?;
         let largest = value(self.place.velocity_change.as_ref());
         shocks.row("the largest of this drop", largest, Some(factors.times(largest)))?;
@@ -240,22 +296,22 @@ impl Drop<'_> {
             let shock = self.at_once()[i];
             part.map(|part| part.suspension.damping().impulse_factors().times(shock))
         };
-        let contact = self.single.contact_time_s.filter(|_| self.model == ModelName::Compliant);
+        let contact = self.single.contact_time_s.filter(|_| self.setup.model == ModelName::Compliant);
         DropJson {
-            model: self.model.name(),
-            length_m: Json(self.scene.body().length_m()),
-            gyration_m: Json(self.scene.body().gyration_m()),
-            center_of_mass: Json(self.center_of_mass),
-            inertia_ratios: self.scene.body().inertia_ratios().map(Json),
+            model: self.setup.model.name(),
+            length_m: Json(self.setup.scene.body().length_m()),
+            gyration_m: Json(self.setup.scene.body().gyration_m()),
+            center_of_mass: Json(self.setup.center_of_mass),
+            inertia_ratios: self.setup.scene.body().inertia_ratios().map(Json),
             e: Json(self.single.restitution),
             speed_m_s: Json(self.single.speed_m_s),
-            tilt_deg: Json(self.args.drop.tilt_deg()),
-            height_gap_m: Json(self.scene.height_gap_m()),
+            tilt_deg: Json(self.setup.tilt_deg),
+            height_gap_m: Json(self.setup.scene.height_gap_m()),
             gravity_m_s2: Json(self.single.gravity_m_s2),
             contact_time_s: self.single.contact_time_s.map(Json),
             contact_law: contact.map(|_| law_name(self.single.contact_law)),
             tolerance: Json(self.args.tolerance),
-            at: Json(self.args.position()),
+            at: Json(self.at),
             response: part.map(|part| ResponseJson::new(&part.suspension, &part.response, |_| None)),
             velocity_change_m_s: Json(value(self.place.velocity_change.as_ref())),
             acceleration_m_s2: self.single.contact_time_s.map(|_| Json(value(self.place.acceleration.as_ref()))),
@@ -279,35 +335,6 @@ impl Suspended {
     /// Peak acceleration over that of one shock of 2 v0.
     fn gain(&self, standard: ImpulseFactors) -> f64 {
         self.response.acceleration_over_omega().magnitude() / standard.acceleration
-    }
-}
-
-/// The peaks of the part.
-fn peaks(part: &Suspended, out: &mut dyn Write) -> io::Result<()> {
-    let response = &part.response;
-    writeln!(out, "\n{:<34}{:>12} {:>13}", "Peak", "m/s", "when, s")?;
-    let rows = [
-        ("relative displacement, W z", response.pseudo_velocity(), part.displacement),
-        ("relative velocity", response.relative_velocity, None),
-        ("absolute acceleration, A/W", response.acceleration_over_omega(), part.acceleration),
-    ];
-    for (name, extremes, answer) in rows {
-        let peak = extremes.peak();
-        let (size, time) = (figures(peak.value.abs()), figures(peak.time));
-        let after = answer.map_or(String::new(), |answer| format!("  after impact {}", answer.impact));
-        writeln!(out, "  {name:<32}{size:>12} {time:>13}{after}")?;
-    }
-    Ok(())
-}
-
-/// One largest value.
-fn line(name: &str, answer: Option<&Answer>, note: &str, out: &mut dyn Write) -> io::Result<()> {
-    match answer {
-        Some(Answer { value, time_s, impact, .. }) => {
-            let (value, time) = (figures(*value), figures(*time_s));
-            writeln!(out, "  {name:<34}{value:>10} {time:>13}  at impact {impact}{note}")
-        }
-        None => writeln!(out, "  {name:<34}{:>10}", "0"),
     }
 }
 

@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use crate::Failure;
 use crate::numbers::{Json, figures};
+use crate::quantities::Show;
 
 /// Mismatch of the relative displacement that an equivalent pulse may have.
 const EQUIVALENT: f64 = 0.01;
@@ -49,20 +50,21 @@ pub(super) fn equivalent_table(equivalent: &Equivalent, out: &mut dyn Write) -> 
 
 /// Single shocks at the position, each with what it does to the component.
 pub(super) struct Shocks<'a> {
-    pub(super) unit: &'static str,
+    pub(super) show: Show,
     pub(super) out: &'a mut dyn Write,
 }
 
 impl Shocks<'_> {
     pub(super) fn head(&mut self) -> io::Result<()> {
-        let Self { unit, out } = self;
+        let Self { show, out } = self;
+        let unit = show.name();
         let (shock, wz, aw) = (format!("shock, {unit}"), format!("W z, {unit}"), format!("A/W, {unit}"));
         writeln!(out, "\n{:<34}{shock:>12} {wz:>13} {aw:>13}", "A shock at this position")
     }
     pub(super) fn row(&mut self, name: &str, shock: f64, peaks: Option<ImpulseFactors>) -> io::Result<()> {
-        let show = |x: Option<f64>| x.map_or("-".to_owned(), figures);
+        let show = |x: Option<f64>| x.map_or("-".to_owned(), |x| self.show.figures(x));
         let (z, a) = (show(peaks.map(|p| p.displacement)), show(peaks.map(|p| p.acceleration)));
-        writeln!(self.out, "  {name:<32}{:>12} {z:>13} {a:>13}", figures(shock))
+        writeln!(self.out, "  {name:<32}{:>12} {z:>13} {a:>13}", self.show.figures(shock))
     }
 }
 

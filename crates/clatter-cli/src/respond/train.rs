@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 
 use clatter::{Bar, Start};
+use clatter_assess::units::Quantity;
 use clatter_shock::{
     DampingRatio, Extreme, Frequencies, ImpulseFactors, Pulses, Response, Suspension, VelocityShock, VelocityShocks,
 };
@@ -16,6 +17,7 @@ use super::peaks::{
 use super::{Args, rule};
 use crate::numbers::{Json, figures, given};
 use crate::output::Target;
+use crate::quantities::Show;
 use crate::{Failure, excitation, lists, text};
 
 /// What shakes the component.
@@ -28,6 +30,7 @@ enum Driven<'a> {
 /// What is shown.
 pub(super) struct Train<'a> {
     args: &'a Args,
+    position: Option<f64>,
     driven: Driven<'a>,
     suspension: Suspension,
     response: Response,
@@ -43,9 +46,11 @@ const SWINGS: RangeInclusive<f64> = 1e-100..=1e100;
 
 impl Args {
     pub(super) fn train(&self) -> Result<Train<'_>, Failure> {
-        let Some(suspension) = self.suspension()? else {
+        let Some(omega) = self.omega() else {
             return Err(Failure::Usage("--omega is missing: the natural angular frequency of the component"));
         };
+        let suspension = Suspension::new(omega, self.damping.ratio()?)?;
+        let position = self.position()?;
         let (driven, response, shocks, omitted) = if let Some(path) = &self.shocks_file {
             let shocks = VelocityShocks::new(lists::shocks(path)?)?;
             (Driven::Shocks(path), shocks.respond(&suspension), shocks, 0.0)
@@ -53,18 +58,25 @@ impl Args {
             let (response, shocks) = pulses(path, &suspension)?;
             (Driven::Pulses(path), response, shocks, 0.0)
         } else {
-            let (bar, start) = (self.inertia.bar(self.e())?, Start::new(self.velocity, self.height_gap)?);
-            if self.equivalent_pulse && start == Start::default() {
+            let (bar, start) =
+                (self.inertia.bar(self.e())?, Start::new(self.velocity.map(|v| v.si), self.height_gap.si)?);
+            let in_si = self.has_units()? || start != Start::default();
+            if self.frequency.is_some() && !in_si {
+                return Err(Failure::Usage(
+                    "--frequency needs SI units: --velocity in m/s and --height-gap in m, --model, or a file; --omega is in v0/h0",
+                ));
+            }
+            if self.equivalent_pulse && !in_si {
                 return Err(Failure::Usage(
                     "--equivalent-pulse needs SI units: --velocity in m/s and --height-gap in m, --model, or a file",
                 ));
             }
-            let train = clatter_shock::respond(&bar, &start, self.position(), &suspension)?;
+            let train = clatter_shock::respond(&bar, &start, position.unwrap_or(f64::NAN), &suspension)?;
             (Driven::Bar { bar, start }, train.response, train.shocks, train.omitted)
         };
         let asked = self.equivalent_pulse.then(|| equivalent(&self.shock_table, &suspension, &response));
         let equivalent = asked.transpose()?;
-        Ok(Train { args: self, driven, suspension, response, shocks, omitted, equivalent })
+        Ok(Train { args: self, position, driven, suspension, response, shocks, omitted, equivalent })
     }
 }
 
@@ -74,10 +86,10 @@ fn pulses(path: &Path, suspension: &Suspension) -> Result<(Response, VelocitySho
     let omega = suspension.omega();
     if !SWINGS.contains(&omega) {
         let what = format!("--omega {omega:?} rad/s is not in [1e-100, 1e100], which pulses take");
-        return Err(Failure::Pulses(what));
+        return Err(Failure::Wrong(what));
     }
     let hz = Frequencies::list(vec![omega / std::f64::consts::TAU])?;
-    excitation::check_periods(&list, &hz).map_err(Failure::Pulses)?;
+    excitation::check_periods(&list, &hz).map_err(Failure::Wrong)?;
     let response = Pulses::new(&list)?.respond(suspension);
     list.sort_by(|a, b| a.start.total_cmp(&b.start));
     let shock = |p: &clatter_shock::Pulse| VelocityShock { time: p.start, delta_v: p.velocity_change() };
@@ -91,6 +103,13 @@ impl Train<'_> {
 
     fn is_pulses(&self) -> bool {
         matches!(self.driven, Driven::Pulses(_))
+    }
+
+    /// How velocities are shown.
+    fn speed_shown(&self) -> Show {
+        let bar = matches!(self.driven, Driven::Bar { .. });
+        let unit = if bar { self.args.velocity[0].unit } else { None };
+        Show { unit, name: if bar { "v0" } else { "m/s" } }
     }
 
     /// The speed of the end that strikes first.
@@ -127,21 +146,23 @@ impl Train<'_> {
     pub(super) fn write_rule(&self, target: &Target) -> Result<(), Failure> {
         let (Driven::Bar { bar, start }, Some(ratio)) = (&self.driven, self.ratio()) else { return Ok(()) };
         let peak = self.response.acceleration_over_omega().magnitude() / -start.velocity()[0];
-        rule::write(target, (bar, start), self.args.position(), &self.suspension, [ratio, peak])
+        rule::write(target, (bar, start), self.position.unwrap_or(f64::NAN), &self.suspension, [ratio, peak])
     }
 
     fn headings(&self, out: &mut dyn Write) -> io::Result<()> {
         let (omega, zeta) = (given(self.suspension.omega()), given(self.damping().get()));
         match &self.driven {
             Driven::Bar { bar, start } => {
-                let (at, q, e) = (given(self.args.position()), given(bar.q()), given(bar.e()));
-                writeln!(
-                    out,
-                    "Component at {at} of a bar with q = {q}, e = {e}; W = {omega} v0/h0, damping ratio {zeta}"
-                )?;
-                let [va, vb] = start.velocity().map(given);
-                let gap = given(start.height_gap());
-                writeln!(out, "End a strikes first, at {va} v0; end b comes with {vb} v0 from {gap} h0\n")
+                let (at, q, e) = (given(self.position.unwrap_or(f64::NAN)), given(bar.q()), given(bar.e()));
+                let length = self.args.height_gap.unit;
+                let frequency = match self.args.frequency {
+                    Some(Quantity { si, unit }) => Show { unit, name: "Hz" }.given(si),
+                    None => format!("W = {omega} {}", if length.is_some() { "rad/s" } else { "v0/h0" }),
+                };
+                writeln!(out, "Component at {at} of a bar with q = {q}, e = {e}; {frequency}, damping ratio {zeta}")?;
+                let [va, vb] = start.velocity().map(|v| self.speed_shown().given(v));
+                let gap = Show { unit: length, name: "h0" }.given(start.height_gap());
+                writeln!(out, "End a strikes first, at {va}; end b comes with {vb} from {gap}\n")
             }
             Driven::Shocks(path) | Driven::Pulses(path) => {
                 let kind = if self.is_pulses() { "pulses" } else { "velocity shocks" };
@@ -154,23 +175,24 @@ impl Train<'_> {
 
     pub(super) fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         self.headings(out)?;
-        let [speed, time] = if matches!(self.driven, Driven::Bar { .. }) { ["v0", "h0/v0"] } else { ["m/s", "s"] };
-        let when = format!("when, {time}");
-        writeln!(out, "{:<34}{speed:>12} {when:>13}", "Peak")?;
+        let speed = self.speed_shown();
+        let in_units = !matches!(self.driven, Driven::Bar { .. }) || speed.unit.is_some();
+        let when = format!("when, {}", if in_units { "s" } else { "h0/v0" });
+        writeln!(out, "{:<34}{:>12} {when:>13}", "Peak", speed.name())?;
         let z = self.response.pseudo_velocity();
         let (v, a) = (self.response.relative_velocity, self.response.acceleration_over_omega());
         for (name, extremes) in
             [("relative displacement, W z", z), ("relative velocity", v), ("absolute acceleration, A/W", a)]
         {
             let peak = extremes.peak();
-            let size = figures(peak.value.abs());
+            let size = speed.figures(peak.value.abs());
             writeln!(out, "  {name:<32}{size:>12} {:>13}  {}", figures(peak.time), self.holder(peak))?;
         }
-        let mut shocks = Shocks { unit: speed, out };
+        let mut shocks = Shocks { show: speed, out };
         shocks.head()?;
         let net = self.shocks.net().abs();
-        shocks.row("of the net change (W h0/v0 -> 0)", net, Some(self.shocks.soft_limit(self.damping())))?;
-        shocks.row("the largest (W h0/v0 -> infinity)", self.shocks.largest(), self.stiff())?;
+        shocks.row("of the net change, W h0/v0 -> 0", net, Some(self.shocks.soft_limit(self.damping())))?;
+        shocks.row("the largest, W h0/v0 -> infinity", self.shocks.largest(), self.stiff())?;
         if let Some([flat, standard]) = self.at_once() {
             shocks.row("without clatter, (1 + e) v0", flat, Some(self.impulse(flat)))?;
             shocks.row("as standards assume, 2 v0", standard, Some(self.impulse(standard)))?;
@@ -180,8 +202,8 @@ impl Train<'_> {
             writeln!(out, "\nW h0/v0 = {ratio}; acceleration over that of the standards' shock: {gain}")?;
         }
         if self.omitted > 0.0 {
-            let omitted = figures(self.omitted);
-            writeln!(out, "The impacts never end; what was left out changes W z by {omitted} v0 at most")?;
+            let omitted = speed.said(self.omitted);
+            writeln!(out, "The impacts never end; what was left out changes W z by {omitted} at most")?;
         }
         self.equivalent.as_ref().map_or(Ok(()), |equivalent| equivalent_table(equivalent, out))
     }
@@ -214,7 +236,7 @@ impl Train<'_> {
         let at_once = self.at_once();
         Answer {
             driven: DrivenJson::new(&self.driven),
-            at: self.args.at.map(Json),
+            at: self.position.map(Json),
             response: ResponseJson::new(&self.suspension, &self.response, |extreme| Some(self.number(extreme))),
             shocks: ShocksJson {
                 count: shocks.as_slice().len(),

@@ -113,7 +113,7 @@ fn parts(scatter: &Scatter, sure: &str, out: &mut dyn Write) -> io::Result<()> {
     let wide = scatter.components.iter().map(|c| column(&shown(&c.name, 24), 0).1).max().unwrap_or(0).max(4);
     writeln!(
         out,
-        "{:<wide$}  {:>9}  {:>9}  {:>19}  {:>11}  {:>9}   driven by",
+        "{:<wide$}  {:>10}  {:>10}  {:>21}  {:>11}  {:>10}   driven by",
         "part",
         "survives",
         "at least",
@@ -121,7 +121,7 @@ fn parts(scatter: &Scatter, sure: &str, out: &mut dyn Write) -> io::Result<()> {
         "utilization",
         "largest"
     )?;
-    writeln!(out, "{:<wide$}  {:>9}  {:>9}  {:>19}  {:>11}", "", "%", "%", "%", "mean")?;
+    writeln!(out, "{:<wide$}  {:>10}  {:>10}  {:>21}  {:>11}", "", "%", "%", "%", "mean")?;
     for component in &scatter.components {
         let Probability { estimate, lo, hi, at_least } = component.survival;
         let named = component.drivers.iter().filter(|driver| driver.share.variance >= NAMED).take(4);
@@ -130,7 +130,7 @@ fn parts(scatter: &Scatter, sure: &str, out: &mut dyn Write) -> io::Result<()> {
         let answered = component.worst_sample.is_some();
         let of = |utilization: f64| if answered { figures(utilization) } else { "-".to_owned() };
         let line = format!(
-            "{}  {:>9}  {:>9}  {:>9} {:>9}  {:>11}  {:>9}   {}",
+            "{}  {:>10}  {:>10}  {:>10} {:>10}  {:>11}  {:>10}   {}",
             column(&shown(&component.name, 24), wide).0,
             hundredths(estimate),
             hundredths(at_least),

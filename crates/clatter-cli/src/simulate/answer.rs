@@ -10,28 +10,29 @@ use crate::numbers::Json;
 
 impl Drop<'_> {
     pub(super) fn answer(&self) -> Answer<'_> {
-        let (body, scene) = (self.scene.body(), &self.scene);
+        let (setup, scene) = (&self.setup, &self.setup.scene);
+        let body = scene.body();
         let flight = self.motion.flight();
         let limit = scene.time_limit_s();
         let pivots = flight.pivots.iter();
         Answer {
-            model: self.args.model.name(),
-            length_m: Json(self.args.drop.length_m()),
+            model: setup.model.name(),
+            length_m: Json(setup.length_m),
             gyration_m: Json(body.gyration_m()),
-            center_of_mass: Json(self.center_of_mass),
+            center_of_mass: Json(setup.center_of_mass),
             thickness_m: Json(body.thickness_m()),
             inertia_ratios: body.inertia_ratios().map(Json),
             e: Json(scene.e()),
-            height_m: self.args.drop.fall.height_m.map(Json),
+            height_m: setup.height_m.map(Json),
             speed_m_s: Json(scene.speed_m_s()),
-            tilt_deg: Json(self.args.drop.tilt_deg()),
+            tilt_deg: Json(setup.tilt_deg),
             height_gap_m: Json(scene.height_gap_m()),
             gravity_m_s2: Json(scene.gravity_m_s2()),
             spin_rad_s: Json(scene.spin_rad_s()),
             contact: ContactJson::new(&self.motion),
             time_limit_s: limit.is_finite().then_some(Json(limit)),
             impact_limit: scene.impact_limit(),
-            at: self.args.at.iter().copied().map(Json).collect(),
+            at: self.at.iter().copied().map(Json).collect(),
             largest_delta_v_m_s: self.largest().map(Json).to_vec(),
             largest_delta_v_at_m_s: self.largest_at().map(Json).collect(),
             impacts: Impacts(self),

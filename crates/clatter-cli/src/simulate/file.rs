@@ -16,7 +16,7 @@ const MOST_ROWS: usize = 4_000_000;
 
 impl Drop<'_> {
     pub(super) fn write(&self, Target { path, kind }: &Target) -> Result<(), Failure> {
-        let unasked = self.args.time_limit_s.is_none() && self.args.impact_limit == IMPACTS;
+        let unasked = self.args.time_limit_s().is_none() && self.args.impact_limit == IMPACTS;
         if unasked && self.rows().nth(MOST_ROWS).is_some() {
             return Err(Failure::Usage(
                 "the motion has more than 4 million rows, some hundred megabytes: --time-limit-s or --impact-limit says how far it is wanted",
@@ -35,7 +35,7 @@ impl Drop<'_> {
     /// The rows of the motion, one by one.
     fn rows(&self) -> Box<dyn Iterator<Item = Row> + '_> {
         match &self.motion {
-            Motion::Instant(model, flight) => Box::new(self.scene.history(*model, flight)),
+            Motion::Instant(model, flight) => Box::new(self.setup.scene.history(*model, flight)),
             Motion::Contacts(contact, flight) => Box::new(flight.history(contact.time_s())),
         }
     }
@@ -48,12 +48,12 @@ impl Drop<'_> {
             strikes: &flight.strikes,
             pulses: self.motion.presses(),
             stop: flight.stop,
-            at: &self.args.at,
+            at: &self.at,
         })
     }
 
     fn history_csv(&self, out: &mut dyn Write) -> io::Result<()> {
-        let at = &self.args.at;
+        let at = &self.at;
         write!(out, "time_s,height_a_m,height_b_m,velocity_a_m_s,velocity_b_m_s")?;
         for s in at {
             write!(out, ",velocity_at_{}_m_s", digits(*s))?;
@@ -95,7 +95,7 @@ struct Rows<'a>(&'a Drop<'a>);
 
 impl Serialize for Rows<'_> {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let at = &self.0.args.at;
+        let at = &self.0.at;
         serializer.collect_seq(self.0.rows().map(|row| RowJson {
             time_s: Json(row.time_s),
             height_m: row.height_m.map(Json),

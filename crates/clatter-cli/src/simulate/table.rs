@@ -6,20 +6,25 @@ use clatter_flight::{Model, Stop, Strike};
 
 use super::answer::end;
 use super::{Drop, ModelName, Motion};
+use crate::columns;
 use crate::inputs::law_name;
 use crate::numbers::{digits, figures, given};
+
+/// Strikes whose largest shock is below this share of the largest of all are summed up.
+const MATTERS: f64 = 0.01;
 
 impl Drop<'_> {
     /// What the model keeps.
     pub(super) fn physics(&self) -> String {
-        let gravity = given(self.args.drop.gravity_m_s2);
+        let shown = &self.setup.shown;
+        let gravity = shown.acceleration.given(self.setup.scene.gravity_m_s2());
         match &self.motion {
             Motion::Instant(Model::Map, _) => "Small tilt, no gravity, instant impacts".to_owned(),
-            Motion::Instant(Model::Ballistic, _) => format!("Small tilt, gravity {gravity} m/s², instant impacts"),
-            Motion::Instant(Model::FiniteTilt, _) => format!("Any tilt, gravity {gravity} m/s², instant impacts"),
+            Motion::Instant(Model::Ballistic, _) => format!("Small tilt, gravity {gravity}, instant impacts"),
+            Motion::Instant(Model::FiniteTilt, _) => format!("Any tilt, gravity {gravity}, instant impacts"),
             Motion::Contacts(contact, _) => {
-                let (law, time) = (law_name(contact.law()), given(contact.time_s()));
-                format!("Any tilt, gravity {gravity} m/s², {law} contacts of {time} s")
+                let (law, time) = (law_name(contact.law()), shown.time.given(contact.time_s()));
+                format!("Any tilt, gravity {gravity}, {law} contacts of {time}")
             }
         }
     }
@@ -27,60 +32,60 @@ impl Drop<'_> {
     pub(super) fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         self.headings(out)?;
         self.totals(out)?;
-        let compliant = self.args.model == ModelName::Compliant;
-        let column = |name: &str| if compliant { format!(" {name:>13}") } else { String::new() };
-        let until = column("until");
-        write!(
-            out,
-            "\n{:>9}  end {:>13}{until} {:>13} {:>13} {:>13}",
-            "impact", "time", "approach", "shock at a", "shock at b"
-        )?;
-        for s in &self.args.at {
-            write!(out, " {:>13}", format!("shock at {}", given(*s)))?;
-        }
-        let until = column("s");
-        write!(out, "\n{:>9}      {:>13}{until} {:>13} {:>13} {:>13}", "", "s", "m/s", "m/s", "m/s")?;
-        for _ in &self.args.at {
-            write!(out, " {:>13}", "m/s")?;
-        }
+        let (time, speed) = (self.setup.shown.time, self.setup.shown.speed);
+        let mut heads = vec![("time".to_owned(), time.name())];
+        heads.extend((self.setup.model == ModelName::Compliant).then(|| ("until".to_owned(), time.name())));
+        heads.extend(["approach", "shock at a", "shock at b"].map(|name| (name.to_owned(), speed.name())));
+        heads.extend(self.called.iter().map(|place| (format!("shock at {place}"), speed.name())));
         writeln!(out)?;
-        for (i, strike) in self.motion.flight().strikes.iter().enumerate() {
-            write!(out, "{:>9}  {:<3}", strike.number, end(strike.point))?;
-            for cell in self.cells(i, strike, figures) {
-                write!(out, " {cell:>13}")?;
-            }
-            writeln!(out)?;
+        columns::line(out, "   impact  end", &heads, heads.iter().map(|(name, _)| name.as_str()))?;
+        columns::line(out, "              ", &heads, heads.iter().map(|(_, unit)| *unit))?;
+        let strikes = &self.motion.flight().strikes;
+        let largest = self.largest().into_iter().fold(0.0, f64::max);
+        let shock = |strike: &Strike| strike.delta_v_m_s.into_iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        let matters = |i: usize| self.args.all || self.is_unfinished(i) || shock(&strikes[i]) >= MATTERS * largest;
+        for (i, strike) in strikes.iter().enumerate().filter(|(i, _)| matters(*i)) {
+            let cells = self.cells(i, strike, |x| time.figures(x), |x| speed.figures(x));
+            let first = format!("{:>9}  {:<3}", strike.number, end(strike.point));
+            columns::line(out, &first, &heads, cells.iter())?;
         }
-        Ok(())
+        let left: Vec<_> = (0..strikes.len()).filter(|i| !matters(*i)).map(|i| &strikes[i]).collect();
+        let Some(last) = left.last() else { return Ok(()) };
+        let most = left.iter().map(|strike| shock(strike)).fold(0.0, f64::max);
+        let (count, until, most) = (left.len(), time.said(last.time_s), speed.said(most));
+        let strikes = if count == 1 { "strike" } else { "strikes" };
+        writeln!(
+            out,
+            "{count} more {strikes} below 1 % of the largest shock, until {until}, the largest of them {most}; --all lists every one"
+        )
     }
 
     fn headings(&self, out: &mut dyn Write) -> io::Result<()> {
-        let (args, scene) = (self.args, &self.scene);
+        let (setup, scene, shown) = (&self.setup, &self.setup.scene, &self.setup.shown);
         writeln!(out, "{}", self.physics())?;
         let [qa, qb] = scene.body().inertia_ratios().map(figures);
-        let mass = match self.center_of_mass {
+        let mass = match setup.center_of_mass {
             0.0 => format!("q = {qa}"),
             s => format!("center of mass at {}: q = {qa} for strikes at end a, {qb} at end b", figures(s)),
         };
-        let (length, gyration) = (given(args.drop.length_m()), figures(scene.body().gyration_m()));
-        let thickness = match args.drop.thickness_m {
+        let (length, gyration) = (shown.length.given(setup.length_m), shown.length.said(scene.body().gyration_m()));
+        let thickness = match setup.thickness_m {
             0.0 => String::new(),
-            thickness => format!(" by {}", given(thickness)),
+            thickness => format!(" by {}", shown.length.given(thickness)),
         };
-        let e = given(args.e);
-        writeln!(out, "Body of {length}{thickness} m, radius of gyration {gyration} m, {mass}; e = {e}")?;
+        let e = given(scene.e());
+        writeln!(out, "Body of {length}{thickness}, radius of gyration {gyration}, {mass}; e = {e}")?;
         let (speed, tilt, gap) =
-            (figures(scene.speed_m_s()), given(args.drop.tilt_deg()), figures(scene.height_gap_m()));
+            (shown.speed.said(scene.speed_m_s()), shown.tilt(setup.tilt_deg), shown.length.said(scene.height_gap_m()));
         let spin = match scene.spin_rad_s() {
             0.0 => String::new(),
-            spin => format!(", turning at {} rad/s", given(spin)),
+            spin => format!(", turning at {}", shown.spin.given(spin)),
         };
-        writeln!(out, "End a touches at {speed} m/s, tilt {tilt} degrees{spin}; end b is {gap} m higher\n")
+        writeln!(out, "End a touches at {speed}, tilt {tilt}{spin}; end b is {gap} higher\n")
     }
 
     fn totals(&self, out: &mut dyn Write) -> io::Result<()> {
-        let flight = self.motion.flight();
-        writeln!(out, "{:<22}{:>14}", "Impacts", flight.strikes.len())?;
+        let (flight, time, speed) = (self.motion.flight(), self.setup.shown.time, self.setup.shown.speed);
         let stop = match flight.stop {
             Stop::AtRest { .. } => "At rest at",
             Stop::BouncedClear { .. } => "Bounced clear at",
@@ -88,43 +93,52 @@ impl Drop<'_> {
             Stop::ImpactLimit { .. } => "Stopped by limit at",
             _ => "Left at",
         };
-        let proven = match flight.stop {
+        let bounds = match flight.stop {
             Stop::AtRest { time_bound_s, shock_bound_m_s, .. } if time_bound_s + shock_bound_m_s > 0.0 => {
-                let (time, shock) = (figures(time_bound_s), figures(shock_bound_m_s));
-                format!("      within {time} s; no shock left out exceeds {shock} m/s")
+                let (time, shock) = (time.said(time_bound_s), speed.said(shock_bound_m_s));
+                format!("      within {time}; no shock left out exceeds {shock}")
             }
             _ => String::new(),
         };
-        writeln!(out, "{stop:<22}{:>14} s{proven}", figures(flight.stop.time_s()))?;
-        let [a, b] = self.largest();
-        writeln!(out, "{:<22}{:>14} m/s", "Largest shock, end a", figures(a))?;
-        writeln!(out, "{:<22}{:>14} m/s", "               end b", figures(b))?;
-        for (s, shock) in self.args.at.iter().zip(self.largest_at()) {
-            writeln!(out, "{:<22}{:>14} m/s", format!("               at {}", given(*s)), figures(shock))?;
+        let ends = ["Largest shock, end a".to_owned(), "               end b".to_owned()];
+        let names: Vec<_> =
+            ends.into_iter().chain(self.called.iter().map(|place| format!("               at {place}"))).collect();
+        let wide = names.iter().map(String::len).max().unwrap_or(0).max(22);
+        writeln!(out, "{:<wide$}{:>14}", "Impacts", flight.strikes.len())?;
+        writeln!(out, "{stop:<wide$}{:>14} {}{bounds}", time.figures(flight.stop.time_s()), time.name())?;
+        for (name, shock) in names.iter().zip(self.largest().into_iter().chain(self.largest_at())) {
+            writeln!(out, "{name:<wide$}{:>14} {}", speed.figures(shock), speed.name())?;
         }
         Ok(())
     }
 
     /// Time, end of the contact where it takes time, approach and shocks of a strike.
-    fn cells(&self, i: usize, strike: &Strike, show: fn(f64) -> String) -> Vec<String> {
-        let shock = |x: f64| if self.is_unfinished(i) { UNFINISHED.to_owned() } else { show(x) };
-        let mut cells = vec![show(strike.time_s)];
-        cells.extend(self.until_s(i).map(shock));
-        cells.push(show(strike.approach_m_s));
+    fn cells(
+        &self,
+        i: usize,
+        strike: &Strike,
+        time: impl Fn(f64) -> String,
+        speed: impl Fn(f64) -> String,
+    ) -> Vec<String> {
+        let known = |shown: String| if self.is_unfinished(i) { UNFINISHED.to_owned() } else { shown };
+        let shock = |x: f64| known(speed(x));
+        let mut cells = vec![time(strike.time_s)];
+        cells.extend(self.until_s(i).map(|x| known(time(x))));
+        cells.push(speed(strike.approach_m_s));
         cells.extend(strike.delta_v_m_s.map(shock));
         cells.extend(self.shocks(strike).map(shock));
         cells
     }
 
     pub(super) fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
-        let until = if self.args.model == ModelName::Compliant { ",until_s" } else { "" };
+        let until = if self.setup.model == ModelName::Compliant { ",until_s" } else { "" };
         write!(out, "number,end,time_s{until},approach_m_s,delta_v_a_m_s,delta_v_b_m_s")?;
-        for s in &self.args.at {
+        for s in &self.at {
             write!(out, ",delta_v_at_{}_m_s", digits(*s))?;
         }
         writeln!(out)?;
         for (i, strike) in self.motion.flight().strikes.iter().enumerate() {
-            let cells = self.cells(i, strike, digits).join(",");
+            let cells = self.cells(i, strike, digits, digits).join(",");
             writeln!(out, "{},{},{cells}", strike.number, end(strike.point))?;
         }
         Ok(())

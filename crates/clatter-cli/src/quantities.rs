@@ -1,0 +1,262 @@
+//! Quantities of the command line, each read by the table of units of product files, and shown in the unit that was typed.
+
+use clatter::{Mass, Start, center_and_gyration};
+use clatter_assess::units::{ACCELERATION, ANGLE, Dimension, FREQUENCY, LENGTH, MASS, Quantity, SPEED, TIME, Unit};
+use clatter_assess::{Slip, outside};
+
+use crate::Failure;
+use crate::inputs::{self, number, part_of};
+use crate::numbers::{figures, given};
+
+/// A number in SI, or a quantity with its unit.
+pub(crate) fn loose(dimension: &'static Dimension, text: &str) -> Result<Quantity, String> {
+    let text = text.trim();
+    number(text).map(Quantity::of_si).or_else(|none| {
+        let begins = text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
+        if begins { dimension.read(text) } else { Err(none) }
+    })
+}
+
+/// A quantity with its unit whose value in SI is checked.
+fn checked(
+    dimension: &'static Dimension,
+    text: &str,
+    check: impl Fn(f64) -> Result<f64, String>,
+) -> Result<Quantity, String> {
+    let Quantity { si, unit } = dimension.read(text)?;
+    check(si).map(|si| Quantity { si, unit })
+}
+
+pub(crate) fn length(text: &str) -> Result<Quantity, String> {
+    checked(&LENGTH, text, |si| part_of(si, inputs::length_of))
+}
+
+pub(crate) fn any_length(text: &str) -> Result<Quantity, String> {
+    LENGTH.read(text)
+}
+
+pub(crate) fn speed(text: &str) -> Result<Quantity, String> {
+    checked(&SPEED, text, |si| part_of(si, inputs::speed_of))
+}
+
+pub(crate) fn height(text: &str) -> Result<Quantity, String> {
+    checked(&LENGTH, text, |si| part_of(si, inputs::height_of))
+}
+
+pub(crate) fn tilt(text: &str) -> Result<Quantity, String> {
+    checked(&ANGLE, text, |si| part_of(neat(si.to_degrees()), inputs::tilt_of).map(|_| si))
+}
+
+pub(crate) fn gravity(text: &str) -> Result<Quantity, String> {
+    checked(&ACCELERATION, text, |si| part_of(si, inputs::gravity_of))
+}
+
+pub(crate) fn contact_time(text: &str) -> Result<Quantity, String> {
+    checked(&TIME, text, |si| part_of(si, inputs::contact_of))
+}
+
+pub(crate) fn until(text: &str) -> Result<Quantity, String> {
+    checked(&TIME, text, |si| part_of(si, inputs::until_of))
+}
+
+pub(crate) fn spin(text: &str) -> Result<Quantity, String> {
+    clatter_assess::units::ANGULAR_VELOCITY.read(text)
+}
+
+/// Velocities of both ends; in v0, or with their units.
+pub(crate) fn velocity(text: &str) -> Result<[Quantity; 2], String> {
+    let [a, b] = inputs::parts(text, ',')[..] else {
+        return Err("two velocities are needed, of ends a and b: VA,VB".to_owned());
+    };
+    let velocity = [loose(&SPEED, a)?, loose(&SPEED, b)?];
+    Start::new(velocity.map(|v| v.si), 1.0).map(|_| velocity).map_err(|error| error.to_string())
+}
+
+/// In h0, or with its unit.
+pub(crate) fn height_gap(text: &str) -> Result<Quantity, String> {
+    let gap = loose(&LENGTH, text)?;
+    Start::new([-1.0, -1.0], gap.si).map(|_| gap).map_err(|error| error.to_string())
+}
+
+/// A natural frequency.
+pub(crate) fn frequency(text: &str) -> Result<Quantity, String> {
+    checked(&FREQUENCY, text, |si| {
+        let good = si > 0.0;
+        if good { Ok(si) } else { Err(format!("natural frequency = {si:?} Hz is not > 0")) }
+    })
+}
+
+/// A place along the body.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Place {
+    /// Position s in [-1, 1].
+    Relative(f64),
+    /// From the middle towards end b.
+    Length(Quantity),
+}
+
+impl Place {
+    /// Position s on a body of this half-length; where that is not known, lengths are refused.
+    pub(crate) fn relative(self, flag: &'static str, half_m: Option<f64>) -> Result<f64, Failure> {
+        match (self, half_m) {
+            (Self::Relative(s), _) => Ok(s),
+            (Self::Length(length), Some(half)) => Ok(length.si / half),
+            (Self::Length(_), None) => Err(Failure::Wrong(format!(
+                "{flag} is a position in [-1, 1] here, in half-lengths: a length needs a drop with a --length"
+            ))),
+        }
+    }
+    fn unit(self) -> Option<&'static Unit> {
+        if let Self::Length(length) = self { length.unit } else { None }
+    }
+    /// As it is called in tables.
+    pub(crate) fn said(self) -> String {
+        match self {
+            Self::Relative(s) => given(s),
+            Self::Length(Quantity { si, unit }) => Show { unit, name: "m" }.given(si),
+        }
+    }
+}
+
+/// A position in [-1, 1], or a length.
+pub(crate) fn place(text: &str) -> Result<Place, String> {
+    if text.trim().parse::<f64>().is_ok() || LENGTH.read(text).is_err() {
+        inputs::worked_out_position(text).map(Place::Relative)
+    } else {
+        LENGTH.read(text).map(Place::Length)
+    }
+}
+
+pub(crate) fn center_of_mass(text: &str) -> Result<Place, String> {
+    if text.trim().parse::<f64>().is_ok() || LENGTH.read(text).is_err() {
+        inputs::center_of_mass(text).map(Place::Relative)
+    } else {
+        LENGTH.read(text).map(Place::Length)
+    }
+}
+
+/// Positions on a body of this half-length, an end that is missed by roundings taken for it.
+pub(crate) fn positions(places: &[Place], flag: &'static str, half_m: f64) -> Result<Vec<f64>, Failure> {
+    let within = |place: &Place| {
+        let s = place.relative(flag, Some(half_m))?;
+        if s.abs() <= 1.0 + 1e-9 {
+            return Ok(s.clamp(-1.0, 1.0));
+        }
+        let (place, half) = (place.said(), Show { unit: place.unit(), name: "m" }.given(half_m));
+        Err(Failure::Wrong(format!("{flag} {place} is beyond the ends: allowed is up to {half} from the middle")))
+    };
+    places.iter().map(within).collect()
+}
+
+/// One `--mass`: a point, or a piece from the first place to the second.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Piece {
+    kg: f64,
+    from: Place,
+    to: Option<Place>,
+}
+
+pub(crate) fn mass(text: &str) -> Result<Piece, String> {
+    let form = "a mass is M@S at position S, or M@S:T from S to T";
+    let (mass, place) = text.split_once('@').ok_or(form)?;
+    let place_of = |text: &str| {
+        let place = loose(&LENGTH, text)?;
+        Ok::<_, String>(if place.unit.is_some() { Place::Length(place) } else { Place::Relative(place.si) })
+    };
+    let (from, to) = match place.split_once(':') {
+        None => (place_of(place)?, None),
+        Some((from, to)) => (place_of(from)?, Some(place_of(to)?)),
+    };
+    let piece = Piece { kg: loose(&MASS, mass)?.si, from, to };
+    // What the places are is known later: the unit of them does not count.
+    let trial = piece.on(Some(1.0)).map_err(|failure| failure.to_string())?;
+    center_and_gyration(&[trial]).map(|_| piece).map_err(|error| error.to_string())
+}
+
+impl Piece {
+    /// With places in half-lengths.
+    pub(crate) fn on(&self, half_m: Option<f64>) -> Result<Mass, Failure> {
+        let [from, to] = [Some(self.from), self.to].map(|place| place.map(|place| place.relative("--mass", half_m)));
+        Ok(match (from, to) {
+            (Some(from), Some(to)) => Mass::Slab { mass_kg: self.kg, from_m: from?, to_m: to? },
+            (from, _) => Mass::Point { mass_kg: self.kg, position_m: from.unwrap_or(Ok(0.0))? },
+        })
+    }
+    /// Places far outside of the body.
+    pub(crate) fn slips(&self, half_m: f64) -> impl Iterator<Item = Slip> {
+        [Some(self.from), self.to].into_iter().flatten().filter_map(move |place| match place {
+            Place::Length(length) => outside(&length, 2.0 * half_m),
+            Place::Relative(s) => outside_relative(s),
+        })
+    }
+}
+
+/// A position far outside of the body.
+fn outside_relative(s: f64) -> Option<Slip> {
+    outside(&Quantity::of_si(s), 2.0).map(|_| Slip {
+        message: format!("a mass at {} is outside of the body, which reaches from -1 to 1 half-lengths", given(s)),
+        hint: String::new(),
+    })
+}
+
+/// All pieces, in half-lengths.
+pub(crate) fn masses(pieces: &[Piece], half_m: Option<f64>) -> Result<Vec<Mass>, Failure> {
+    pieces.iter().map(|piece| piece.on(half_m)).collect()
+}
+
+/// A number without the digits that a conversion adds.
+pub(crate) fn neat(x: f64) -> f64 {
+    format!("{x:.13e}").parse().unwrap_or(x)
+}
+
+/// How a kind of quantity is shown: in the unit that was typed, else in SI.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Show {
+    pub(crate) unit: Option<&'static Unit>,
+    /// The SI unit.
+    pub(crate) name: &'static str,
+}
+
+impl Show {
+    pub(crate) fn name(&self) -> &'static str {
+        self.unit.map_or(self.name, |unit| unit.name)
+    }
+    pub(crate) fn value(&self, si: f64) -> f64 {
+        self.unit.map_or(si, |unit| unit.of_si(si))
+    }
+    /// Six digits, without the unit.
+    pub(crate) fn figures(&self, si: f64) -> String {
+        figures(self.value(si))
+    }
+    /// An input, with its unit.
+    pub(crate) fn given(&self, si: f64) -> String {
+        let value = if self.unit.is_some() { neat(self.value(si)) } else { si };
+        format!("{} {}", given(value), self.name())
+    }
+    /// Six digits, with the unit.
+    pub(crate) fn said(&self, si: f64) -> String {
+        format!("{} {}", self.figures(si), self.name())
+    }
+}
+
+/// How the answer about a drop is shown.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Shown {
+    pub(crate) length: Show,
+    pub(crate) speed: Show,
+    pub(crate) time: Show,
+    pub(crate) acceleration: Show,
+    pub(crate) spin: Show,
+    /// Degrees unless another was typed.
+    pub(crate) angle: Option<&'static Unit>,
+}
+
+impl Shown {
+    /// A tilt that is given in degrees.
+    pub(crate) fn tilt(&self, degrees: f64) -> String {
+        match self.angle.filter(|unit| unit.name == "rad") {
+            Some(unit) => Show { unit: Some(unit), name: "rad" }.given(degrees.to_radians()),
+            None => format!("{} degrees", given(degrees)),
+        }
+    }
+}
