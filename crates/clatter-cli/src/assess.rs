@@ -13,7 +13,7 @@ use crate::input::is_standard;
 use crate::inputs::{self, Format};
 use crate::output::Files;
 use crate::progress::Counted;
-use crate::{Exit, Failure, Streams, budget, input, text};
+use crate::{Exit, Failure, Streams, budget, input, output, text};
 
 /// Assess the parts of a product: which one fails, in which drop, by how much
 ///
@@ -34,14 +34,14 @@ Examples:
   clatter assess handheld.toml --model=map       every drop by a model with less physics
   clatter assess handheld.toml --format=json     an object; with several files, a list of them
 
-Exit status: 0 all safe, 1 a part is unsafe or undecided, 2 bad input.")]
+Exit status: 0 all safe, 1 a part is unsafe or undecided, 2 bad input, 3 typst is missing or failed: no printed report.")]
 pub(crate) struct Args {
     /// Product files, - for standard input; 'clatter schema' describes them for editors
     #[arg(required = true, value_name = "PRODUCT.toml", value_hint = ValueHint::FilePath)]
     products: Vec<PathBuf>,
     /// Write the assessment as a printed report: verdict first, then each part; of one product; - writes it to standard
-    /// output in place of the table
-    #[arg(short, long, value_name = "REPORT.pdf", value_hint = ValueHint::FilePath)]
+    /// output in place of the table. It is set by typst, see 'clatter report --help'
+    #[arg(short, long, value_name = "REPORT.pdf", value_hint = ValueHint::FilePath, value_parser = output::ending("pdf"))]
     output: Option<PathBuf>,
     /// How exact the answer to each drop is for its model, as a share of it: 0.01 or 1%
     #[arg(long, value_name = "SHARE", default_value = "1%", allow_hyphen_values = true, value_parser = inputs::tolerance)]
@@ -93,22 +93,23 @@ impl Args {
                     .map_err(|error| Failure::Product(format!("error: {}: {error}", text::path(path))))
             })
             .collect::<Result<Vec<_>, _>>()?;
-        if let (Some(pdf), [file], [assessment]) = (&self.output, &files[..], &assessments[..]) {
-            print(file, assessment, pdf, streams)?;
-        }
-        match (self.format, &assessments[..]) {
+        let shown = match (self.format, &assessments[..]) {
             // The report is the answer.
-            _ if self.output.as_deref().is_some_and(is_standard) => {}
-            (Format::Json, [one]) => streams.json(one)?,
+            _ if self.output.as_deref().is_some_and(is_standard) => Ok(()),
+            (Format::Json, [one]) => streams.json(one),
             (Format::Json, all) => {
                 let named = self.products.iter().zip(all).map(|(file, assessment)| Named { file, assessment });
-                streams.json(&named.collect::<Vec<_>>())?;
+                streams.json(&named.collect::<Vec<_>>())
             }
-            (Format::Table, [one]) => table::of_one(&files[0], one, streams.out).map_err(Failure::Answer)?,
-            (Format::Table, all) => {
-                table::side_by_side(&self.products, all, streams.out).map_err(Failure::Answer)?;
-            }
+            (Format::Table, [one]) => table::of_one(&files[0], one, streams.out).map_err(Failure::Answer),
+            (Format::Table, all) => table::side_by_side(&self.products, all, streams.out).map_err(Failure::Answer),
+        };
+        // The answer does not wait for its print, which may take long or fail, nor the print for a reader of the answer.
+        if let (Some(pdf), [file], [assessment]) = (&self.output, &files[..], &assessments[..]) {
+            let _ = streams.out.flush(); // whoever writes next sees the same failure, and tells
+            print(file, assessment, pdf, streams)?;
         }
+        shown?;
         let safe = assessments.iter().all(|a| a.verdict == Verdict::Safe);
         Ok(if safe { Exit::Done } else { Exit::Unsafe })
     }

@@ -59,6 +59,15 @@ pub(crate) fn no_kind(endings: &[impl AsRef<str>]) -> String {
     )
 }
 
+/// A file that ends in this one way, or standard output.
+pub(crate) fn ending(ending: &'static str) -> impl Fn(&str) -> Result<PathBuf, String> + Clone + Send + Sync {
+    move |text| {
+        let path = PathBuf::from(text);
+        let good = is_standard(&path) || path.extension().is_some_and(|given| given == ending);
+        if good { Ok(path) } else { Err(format!("the file must end in .{ending}")) }
+    }
+}
+
 /// Writes through a buffer, all of it.
 pub(crate) fn buffered(
     file: &mut File,

@@ -32,7 +32,8 @@ const LONG_ABOUT: &str = "\
 Make the printed reports: figures, tables and the PDF
 
 The PDF needs typst; figures, tables and JSON come out without it. typst is found by the variable CLATTER_TYPST, \
-then on the PATH, then in the project's own cache, where it is built if it is nowhere else.";
+then on the PATH, then in the project's own cache. If it is nowhere, it is put there once: fetched with python3 and pip, \
+some 10 seconds, or, where that cannot be done, built with cargo, 7 to 12 minutes. CLATTER_NO_INSTALL=1 forbids both.";
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Which {

@@ -59,7 +59,7 @@ pub(crate) struct Args {
     target: Option<f64>,
     /// Also write every sample to this file, ending in .csv: its drop, what varies of the parts, and the utilization of
     /// every part; - writes them to standard output in place of the answer
-    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = csv_file)]
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = output::ending("csv"))]
     output: Option<PathBuf>,
     /// How to show the answer
     #[arg(long, value_enum, default_value_t = RowFormat::Table)]
@@ -95,12 +95,6 @@ fn target(text: &str) -> Result<f64, String> {
     let share = inputs::share(text)?;
     let good = share > 0.0 && share < 1.0;
     if good { Ok(share) } else { Err(format!("target {share:?} is not between 0 and 1, such as 0.999 or 99.9%")) }
-}
-
-fn csv_file(text: &str) -> Result<PathBuf, &'static str> {
-    let path = PathBuf::from(text);
-    let csv = is_standard(&path) || path.extension().is_some_and(|ending| ending == "csv");
-    if csv { Ok(path) } else { Err("the file must end in .csv") }
 }
 
 impl Args {

@@ -41,20 +41,11 @@ pub(crate) struct Args {
     #[arg(long, value_name = "SHARE", default_value = "1%", allow_hyphen_values = true, value_parser = inputs::tolerance)]
     tolerance: f64,
     /// Write error over cost as a figure, log-log; - writes it to standard output in place of the answer
-    #[arg(short, long, value_name = "FILE.svg", value_hint = ValueHint::FilePath, value_parser = picture)]
+    #[arg(short, long, value_name = "FILE.svg", value_hint = ValueHint::FilePath, value_parser = output::ending("svg"))]
     output: Option<PathBuf>,
     /// How to show the answer
     #[arg(long, value_enum, default_value_t = RowFormat::Table)]
     format: RowFormat,
-}
-
-fn picture(text: &str) -> Result<PathBuf, &'static str> {
-    let path = PathBuf::from(text);
-    match path.extension().and_then(|ending| ending.to_str()) {
-        _ if is_standard(&path) => Ok(path),
-        Some("svg") => Ok(path),
-        _ => Err("the file must end in .svg"),
-    }
 }
 
 impl Args {

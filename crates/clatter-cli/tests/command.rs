@@ -152,6 +152,49 @@ fn a_typst_that_fails_is_told_apart_and_leaves_no_pdf() {
     assert!(endings.iter().any(|file| file.extension().is_some_and(|ending| ending == "json")), "{endings:?}");
 }
 
+/// The print of an assessment is beside its answer.
+#[cfg(unix)]
+#[test]
+fn an_assessment_that_cannot_be_printed_is_told_all_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let (product, pdf) = (folder.path().join("p.toml"), folder.path().join("p.pdf"));
+    assert!(clatter().arg("init").arg(&product).output().unwrap().status.success());
+    let broken = broken_typst(folder.path());
+    for format in ["table", "json"] {
+        let assess = || {
+            let mut command = clatter();
+            command.arg("assess").arg(&product).args(["--format", format]);
+            command
+        };
+        let alone = assess().output().unwrap();
+        assert_eq!(alone.status.code(), Some(0));
+        for typst in [broken.as_path(), "/nowhere/typst".as_ref()] {
+            let done = assess().arg("-o").arg(&pdf).env("CLATTER_TYPST", typst).output().unwrap();
+            let stderr = String::from_utf8(done.stderr).unwrap();
+            assert_eq!(done.status.code(), Some(3), "{stderr}");
+            assert!(stderr.starts_with("error: ") && stderr.contains("typst"), "{stderr}");
+            assert!(done.stdout == alone.stdout && !pdf.exists(), "{}", String::from_utf8_lossy(&done.stdout));
+        }
+    }
+}
+
+/// A reader of the table that goes away early still has the print.
+#[cfg(unix)]
+#[test]
+fn an_assessment_without_a_reader_is_printed_all_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let (product, pdf) = (folder.path().join("p.toml"), folder.path().join("p.pdf"));
+    assert!(clatter().arg("init").arg(&product).output().unwrap().status.success());
+    let typst = stand_in(folder.path(), "printf '%%PDF-1.7\\n%%%%EOF\\n' > page.pdf");
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let mut command = clatter();
+    command.arg("assess").arg(&product).arg("-o").arg(&pdf).env("CLATTER_TYPST", typst).stdout(writer);
+    let done = command.output().unwrap();
+    let stderr = String::from_utf8(done.stderr).unwrap();
+    assert!(done.status.success() && stderr.is_empty() && pdf.exists(), "{:?}: {stderr}", done.status);
+}
+
 /// As version, where it is a warning, and as reason of a failure.
 #[cfg(unix)]
 #[test]

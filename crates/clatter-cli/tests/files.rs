@@ -41,22 +41,24 @@ fn no_output_replaces_an_input() {
     let product = product(dir.path());
     fs::write(at("rec.csv"), "t_s,a_m_s2\n0,0\n0.001,100\n0.002,0\n0.003,0\n").unwrap();
     fs::write(at("shocks.csv"), "time_s,delta_v_m_s\n0,1\n").unwrap();
+    fs::copy(&product, at("p.pdf")).unwrap();
     symlink(&product, at("link.pdf")).unwrap();
     fs::hard_link(at("rec.csv"), at("hard.csv")).unwrap();
     let all: [&[&str]; 6] = [
-        &["assess", "p.toml", "-o", "p.toml"],
+        &["assess", "p.pdf", "-o", "p.pdf"],
         &["assess", "p.toml", "-o", "link.pdf"],
-        &["assess", "./p.toml", "-o", "p.toml"],
+        &["assess", "./p.pdf", "-o", "p.pdf"],
         &["spectrum", "rec.csv", "-o", "rec.csv"],
         &["spectrum", "rec.csv", "-o", "hard.csv"],
         &["spectrum", "--shocks-file=shocks.csv", "-o", "shocks.csv"],
     ];
     for arguments in all {
-        let before: Vec<_> = ["p.toml", "rec.csv", "shocks.csv"].map(|name| fs::read(at(name)).unwrap()).into();
+        let all = ["p.toml", "p.pdf", "rec.csv", "shocks.csv"];
+        let before: Vec<_> = all.map(|name| fs::read(at(name)).unwrap()).into();
         let (code, stderr) = says(clatter().args(arguments).current_dir(dir.path()));
         assert_eq!(code, Some(2), "{arguments:?}: {stderr}");
         assert!(stderr.contains("is read by this command and would be lost"), "{arguments:?}: {stderr}");
-        let after: Vec<_> = ["p.toml", "rec.csv", "shocks.csv"].map(|name| fs::read(at(name)).unwrap()).into();
+        let after: Vec<_> = all.map(|name| fs::read(at(name)).unwrap()).into();
         assert!(before == after, "{arguments:?}");
     }
     let (code, stderr) =
@@ -118,6 +120,51 @@ fn a_run_that_is_stopped_leaves_no_temporary() {
         stopped += 1;
     }
     assert_eq!(stopped, 36);
+}
+
+/// A run that is stopped while it fetches typst ends what fetches, and leaves nothing of it.
+#[test]
+fn a_run_that_is_stopped_while_it_fetches_typst_leaves_nothing() {
+    for (signal, number) in [("INT", 2), ("TERM", 15)] {
+        let dir = tempfile::tempdir().unwrap();
+        let python = dir.path().join("python3");
+        // It makes an environment out of itself, says so, and lives on for as long as it may.
+        fs::write(
+            &python,
+            "#!/bin/sh\ncase $3 in venv) mkdir $4/bin; cp $0 $4/bin/python;; \
+             *) touch fetched; touch $HERE/fetching; sleep 2; touch $HERE/alive; esac\n",
+        )
+        .unwrap();
+        fs::set_permissions(&python, fs::Permissions::from_mode(0o755)).unwrap();
+        fs::create_dir(dir.path().join("tmp")).unwrap();
+        let mut child = clatter()
+            .args(["report", "paper", "-o", "out"])
+            .current_dir(dir.path())
+            .env("HERE", dir.path())
+            .env("TMPDIR", dir.path().join("tmp"))
+            .env("XDG_CACHE_HOME", dir.path().join("cache"))
+            .env("PATH", format!("{}:/bin", dir.path().display()))
+            .env("CARGO", "/nowhere")
+            .env_remove("CLATTER_TYPST")
+            .env_remove("CLATTER_NO_INSTALL")
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        while !dir.path().join("fetching").exists() {
+            assert!(child.try_wait().unwrap().is_none(), "it fetches until it is stopped");
+            sleep(Duration::from_millis(5));
+        }
+        let killed = Command::new("kill").arg(format!("-{signal}")).arg(child.id().to_string()).status();
+        assert!(killed.unwrap().success());
+        assert_eq!(child.wait().unwrap().signal(), Some(number));
+        let cache = dir.path().join("cache/clatter");
+        let [versioned] = &names(&cache)[..] else { panic!("{:?}", names(&cache)) };
+        assert_eq!(names(&cache.join(versioned)), ["lock"], "after {signal}");
+        assert_eq!(names(&dir.path().join("tmp")), [""; 0], "after {signal}");
+        sleep(Duration::from_millis(2200));
+        assert!(!dir.path().join("alive").exists(), "what fetches lived on");
+    }
 }
 
 /// As it is for what a script starts in the background.

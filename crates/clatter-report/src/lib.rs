@@ -87,10 +87,11 @@ pub enum ReportError {
 /// JSON and CSV. `progress` gets one line a step.
 ///
 /// Each file is written beside its place and renamed, so that none is ever half there. The PDF is the same, byte for
-/// byte, from run to run, but for the times in that of [`Report::Accuracy`].
+/// byte, from run to run, but for the times in that of [`Report::Accuracy`]. Another build of the same typst packs the same
+/// content differently.
 ///
 /// ```no_run
-/// // typst may have to be built first
+/// // typst may have to be installed first
 /// let written = clatter_report::write(clatter_report::Report::Paper, "report".as_ref(), &mut |step| eprintln!("{step}"))?;
 /// assert!(written.files[0].ends_with("paper.pdf"));
 /// # Ok::<(), clatter_report::ReportError>(())
@@ -151,7 +152,7 @@ fn accuracy_files() -> Result<Vec<paper::File>, ReportError> {
 /// written beside its place and renamed; the same assessment gives the same bytes.
 ///
 /// ```no_run
-/// // typst may have to be built first
+/// // typst may have to be installed first
 /// use clatter_assess::{EXAMPLE, ProductFile};
 /// let file = ProductFile::read(EXAMPLE, "example.toml")?;
 /// let assessment = file.assess()?;

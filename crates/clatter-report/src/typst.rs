@@ -2,7 +2,9 @@
 
 mod build;
 mod find;
+mod lock;
 mod run;
+mod wheel;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -22,11 +24,14 @@ const VERSION: &str = "0.15.1";
 const COMPILE_LIMIT: Duration = Duration::from_secs(300);
 /// Asking for the version takes milliseconds.
 const VERSION_LIMIT: Duration = Duration::from_secs(20);
+/// Some times what a build takes.
+const LOCK_LIMIT: Duration = Duration::from_secs(45 * 60);
 
-/// A typst to start.
+/// A typst to start: its command, or a program that does the same once it is given some arguments before those of typst.
 #[derive(Debug)]
 pub(crate) struct Typst {
     program: PathBuf,
+    before: &'static [&'static str],
     limit: Duration,
 }
 
@@ -36,58 +41,106 @@ pub(crate) fn failed(message: impl AsRef<str>) -> ReportError {
 }
 
 impl Typst {
+    fn new(program: PathBuf) -> Self {
+        Self { program, before: &[], limit: COMPILE_LIMIT }
+    }
+
     /// The typst that `CLATTER_TYPST` names, else the first on PATH that runs, else the one in the project's cache, else
-    /// a new one there, built with cargo unless `CLATTER_NO_INSTALL` is set. Warnings tell what was passed over and of
-    /// a version other than the tested one.
+    /// a new one there, unless `CLATTER_NO_INSTALL` is set: the wheel for Python, and where that cannot be had, one built
+    /// with cargo. Warnings tell what was passed over and of a version other than the tested one.
     pub(crate) fn find(progress: &mut dyn FnMut(&str)) -> Result<(Self, Vec<String>), ReportError> {
         Self::find_with(&|name| std::env::var_os(name).filter(|value| !value.is_empty()), progress)
     }
 
     fn find_with(env: Env<'_>, progress: &mut dyn FnMut(&str)) -> Result<(Self, Vec<String>), ReportError> {
         if let Some(named) = find::named(env)? {
-            let (typst, warning) = Self::asked(named)?;
+            let typst = Self::new(named);
+            let warning = typst.asked()?;
             return Ok((typst, warning.into_iter().collect()));
         }
         let mut warnings = Vec::new();
-        for program in find::on_path(env) {
-            match Self::asked(program) {
-                Ok((typst, warning)) => {
-                    warnings.extend(warning);
-                    return Ok((typst, warnings));
-                }
-                Err(error) => warnings.push(format!("passed over: {error}")),
-            }
+        let on_path = find::on_path(env, "typst").into_iter().map(Self::new);
+        let found = match Self::first(on_path, &mut warnings) {
+            Some(typst) => Ok(typst),
+            None => Self::cached(env, &mut warnings, progress),
+        };
+        match found {
+            Ok(typst) => Ok((typst, warnings)),
+            Err(ReportError::Typst(text)) => Err(failed([&[text], &warnings[..]].concat().join("\n"))),
+            Err(error) => Err(error),
         }
-        let found = find::cached(env, progress).and_then(Self::asked).map_err(|error| match error {
-            ReportError::Typst(text) => failed([&[text], &warnings[..]].concat().join("\n")),
-            error => error,
-        });
-        let (typst, warning) = found?;
-        warnings.extend(warning);
-        Ok((typst, warnings))
     }
 
-    /// A program that tells its version as typst does, and a warning where that is another one.
-    fn asked(program: PathBuf) -> Result<(Self, Option<String>), ReportError> {
+    /// The first that runs; what was passed over and what is to be said of it are warnings.
+    fn first(all: impl IntoIterator<Item = Self>, warnings: &mut Vec<String>) -> Option<Self> {
+        all.into_iter().find(|typst| match typst.asked() {
+            Ok(warning) => {
+                warnings.extend(warning);
+                true
+            }
+            Err(error) => {
+                warnings.push(format!("passed over: {error}"));
+                false
+            }
+        })
+    }
+
+    /// The one in the project's cache, put there if there is none that runs.
+    fn cached(env: Env<'_>, warnings: &mut Vec<String>, progress: &mut dyn FnMut(&str)) -> Result<Self, ReportError> {
+        let root = find::root(env)?;
+        let kept = || [build::kept(&root), wheel::kept(&root)].into_iter().filter(|typst| typst.program.is_file());
+        if let Some(typst) = Self::first(kept(), warnings) {
+            return Ok(typst);
+        }
+        find::may_install(env)?;
+        fs::create_dir_all(&root).map_err(|source| ReportError::Io { path: root.clone(), source })?;
+        // Two commands, or two tests, must not do this twice.
+        let _lock = lock::lock(&root.join("lock"), LOCK_LIMIT, progress)?;
+        if let Some(typst) = Self::first(kept(), &mut Vec::new()) {
+            return Ok(typst);
+        }
+        match wheel::install(env, &root, wheel::STEP_LIMIT, progress) {
+            Ok(typst) => Ok(typst),
+            Err(error) => {
+                let why = format!("passed over: {error}");
+                progress(&why); // now, for what follows takes minutes
+                warnings.push(why);
+                let typst = build::build(env, &root, progress)?;
+                warnings.extend(typst.asked()?);
+                Ok(typst)
+            }
+        }
+    }
+
+    /// The command as far as it is the same for all that typst is to do.
+    fn command(&self) -> Command {
+        let mut command = Command::new(&self.program);
+        command.args(self.before);
+        command
+    }
+
+    /// Asks for the version, as typst tells it; a warning where that is another one.
+    fn asked(&self) -> Result<Option<String>, ReportError> {
+        let program = &self.program;
         let own = Listed::directory(tempfile::tempdir);
         let (_listed, own) = own.map_err(|source| ReportError::Io { path: std::env::temp_dir(), source })?;
-        let ended = run(Command::new(&program).arg("--version").current_dir(&own), VERSION_LIMIT, &program)?;
+        let ended = run(self.command().arg("--version").current_dir(&own), VERSION_LIMIT, program)?;
         let version = ended.stdout.split_whitespace().nth(1).unwrap_or_default();
         if !ended.success || !ended.stdout.starts_with("typst ") {
-            return Err(failed(format!("{} is not typst: it does not tell its version", program.display())));
+            let said = ended.stderr.lines().last().map_or(String::new(), |said| format!(": {said}"));
+            return Err(failed(format!("{} is not typst: it does not tell its version{said}", program.display())));
         }
-        let warning = (version != VERSION).then(|| {
+        Ok((version != VERSION).then(|| {
             let text = format!("typst {version} at {}: the pages are tested with {VERSION}", program.display());
             visible_lines(&text).into_owned()
-        });
-        Ok((Self { program, limit: COMPILE_LIMIT }, warning))
+        }))
     }
 
     /// Compiles `main`, a file in `root`, and gives the PDF. Whatever typst says is a failure: it warns of missing
     /// fonts and goes on.
     pub(crate) fn compile(&self, root: &Path, main: &str) -> Result<Vec<u8>, ReportError> {
         let output = root.join("page.pdf");
-        let mut command = Command::new(&self.program);
+        let mut command = self.command();
         command.args(["compile", "--ignore-system-fonts", "--pdf-standard", "ua-1", "--diagnostic-format", "short"]);
         // the pages carry no date; this keeps typst from adding one
         command.args(["--creation-timestamp", "0", "--root", "."]).arg(main).arg("page.pdf").current_dir(root);
@@ -115,6 +168,9 @@ fn is_pdf(bytes: &[u8]) -> bool {
     let last = &bytes[bytes.len().saturating_sub(1024)..];
     bytes.starts_with(b"%PDF-") && last.windows(5).any(|end| end == b"%%EOF")
 }
+
+#[cfg(test)]
+mod both_ways;
 
 #[cfg(test)]
 #[cfg(unix)]
@@ -152,7 +208,7 @@ pub(crate) mod tests {
 
     fn compile(script: &str, limit: Duration) -> String {
         let (dir, program) = typst(script);
-        let done = Typst { program, limit }.compile(dir.path(), "page.typ");
+        let done = Typst { limit, ..Typst::new(program) }.compile(dir.path(), "page.typ");
         done.expect_err("a stand-in sets no page").to_string()
     }
 
@@ -223,7 +279,7 @@ pub(crate) mod tests {
             assert!(error.contains(says), "{script}: {error}");
         }
         let (dir, program) = typst("(echo %PDF-1.7; yes | head -c 2000; echo %%EOF) > page.pdf");
-        let pdf = Typst { program, limit: COMPILE_LIMIT }.compile(dir.path(), "page.typ").unwrap();
+        let pdf = Typst::new(program).compile(dir.path(), "page.typ").unwrap();
         assert_eq!(pdf.len(), 9 + 2000 + 6);
     }
 

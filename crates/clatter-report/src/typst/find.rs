@@ -1,9 +1,9 @@
-//! Finds a typst: named, on PATH, or in the project's cache.
+//! Where programs may be: named, on PATH, or in the project's cache.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use super::build::{build, by_hand};
+use super::build::by_hand;
 use super::{VERSION, failed};
 use crate::ReportError;
 
@@ -21,31 +21,31 @@ pub(super) fn named(env: Env<'_>) -> Result<Option<PathBuf>, ReportError> {
     }
 }
 
-/// Every file on PATH that is named as typst is, in their order.
-pub(super) fn on_path(env: Env<'_>) -> Vec<PathBuf> {
+/// Every file on PATH that is a program of this name, in their order.
+pub(super) fn on_path(env: Env<'_>, name: &str) -> Vec<PathBuf> {
     let path = env("PATH").unwrap_or_default();
-    let files = std::env::split_paths(&path).filter_map(|dir| absolute(&dir.join(program())).ok());
+    let files = std::env::split_paths(&path).filter_map(|dir| absolute(&dir.join(program(name))).ok());
     files.filter(|file| file.is_file()).collect()
 }
 
-/// The one in the project's cache, built if it is not there yet.
-pub(super) fn cached(env: Env<'_>, progress: &mut dyn FnMut(&str)) -> Result<PathBuf, ReportError> {
+/// Where the project keeps typst.
+pub(super) fn root(env: Env<'_>) -> Result<PathBuf, ReportError> {
     let Some(cache) = cache(env) else {
         return Err(failed("no typst on PATH, and no home directory to keep one in; set CLATTER_TYPST"));
     };
-    let root = absolute(&cache)?.join("clatter").join(format!("typst-{VERSION}"));
-    let program = root.join("bin").join(program());
-    if program.is_file() {
-        return Ok(program);
+    Ok(absolute(&cache)?.join("clatter").join(format!("typst-{VERSION}")))
+}
+
+/// An error where `CLATTER_NO_INSTALL` forbids to put anything there.
+pub(super) fn may_install(env: Env<'_>) -> Result<(), ReportError> {
+    if env("CLATTER_NO_INSTALL").is_none_or(|value| value == "0") {
+        return Ok(());
     }
-    if env("CLATTER_NO_INSTALL").is_some_and(|value| value != "0") {
-        return Err(failed(format!(
-            "no typst: set CLATTER_TYPST, put typst {VERSION} on PATH, or unset CLATTER_NO_INSTALL to have it built; \
-             by hand: {}",
-            by_hand()
-        )));
-    }
-    build(env, &root, program, progress)
+    Err(failed(format!(
+        "no typst: set CLATTER_TYPST, put typst {VERSION} on PATH, or unset CLATTER_NO_INSTALL to have it installed; \
+         by hand: {}",
+        by_hand()
+    )))
 }
 
 /// The same path from any directory: programs are run in directories of their own.
@@ -53,8 +53,9 @@ pub(super) fn absolute(path: &Path) -> Result<PathBuf, ReportError> {
     std::path::absolute(path).map_err(|source| ReportError::Io { path: path.into(), source })
 }
 
-fn program() -> String {
-    format!("typst{}", std::env::consts::EXE_SUFFIX)
+/// The file of a program.
+pub(super) fn program(name: &str) -> String {
+    format!("{name}{}", std::env::consts::EXE_SUFFIX)
 }
 
 /// The user's cache directory.
