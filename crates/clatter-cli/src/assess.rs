@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueHint;
 use clatter_assess::{Accuracy, Assessment, LARGEST_FILE, ProductFile, Verdict};
+use clatter_report::Pages;
 use serde::Serialize;
 
 use crate::input::is_standard;
@@ -43,6 +44,9 @@ pub(crate) struct Args {
     /// output in place of the table. It is set by typst, see 'clatter report --help'
     #[arg(short, long, value_name = "REPORT.pdf", value_hint = ValueHint::FilePath, value_parser = output::ending("pdf"))]
     output: Option<PathBuf>,
+    /// The day that the report is to tell, YYYY-MM-DD; without one it is the same from day to day
+    #[arg(long, value_name = "DATE", requires = "output", value_parser = date)]
+    date: Option<String>,
     /// How exact the answer to each drop is for its model, as a share of it: 0.01 or 1%
     #[arg(long, value_name = "SHARE", default_value = "1%", allow_hyphen_values = true, value_parser = inputs::tolerance)]
     tolerance: f64,
@@ -107,11 +111,51 @@ impl Args {
         // The answer does not wait for its print, which may take long or fail, nor the print for a reader of the answer.
         if let (Some(pdf), [file], [assessment]) = (&self.output, &files[..], &assessments[..]) {
             let _ = streams.out.flush(); // whoever writes next sees the same failure, and tells
-            print(file, assessment, pdf, streams)?;
+            self.print(file, assessment, pdf, streams)?;
         }
         shown?;
         let safe = assessments.iter().all(|a| a.verdict == Verdict::Safe);
         Ok(if safe { Exit::Done } else { Exit::Unsafe })
+    }
+
+    /// The printed report.
+    fn print(
+        &self,
+        file: &ProductFile,
+        assessment: &Assessment,
+        pdf: &Path,
+        streams: &mut Streams<'_>,
+    ) -> Result<(), Failure> {
+        let portraits = file.portraits(assessment).map_err(|error| Failure::Product(format!("error: {error}")))?;
+        let name = self.products[0].file_name().map_or(&*self.products[0], Path::new);
+        let path = text::path(name);
+        let pages = Pages { file, assessment, portraits: &portraits, path: &path, date: self.date.as_deref() };
+        let mut progress = |step: &str| {
+            if streams.interactive {
+                streams.note("clatter", step);
+            }
+        };
+        let warnings = if is_standard(pdf) {
+            let (bytes, warnings) = clatter_report::assessment_pdf(&pages, &mut progress)?;
+            streams.out.write_all(&bytes).map_err(Failure::Answer)?;
+            warnings
+        } else {
+            clatter_report::write_assessment(&pages, pdf, &mut progress)?
+        };
+        for warning in warnings {
+            streams.note("warning", &warning);
+        }
+        Ok(())
+    }
+}
+
+/// A day of the calendar, as ISO 8601 has it.
+fn date(text: &str) -> Result<String, &'static str> {
+    let parts: Vec<Option<u32>> = text.split('-').map(|part| part.parse().ok()).collect();
+    let shape = text.len() == 10 && text.bytes().all(|b| b == b'-' || b.is_ascii_digit());
+    match parts[..] {
+        [Some(_), Some(1..=12), Some(1..=31)] if shape => Ok(text.to_owned()),
+        _ => Err("a date is written as 2026-03-31"),
     }
 }
 
@@ -122,27 +166,6 @@ pub(crate) fn watched(file: &ProductFile, accuracy: &Accuracy) -> Result<Assessm
         search.of(done, all);
         budget::go_on()
     })
-}
-
-/// The printed report.
-fn print(file: &ProductFile, assessment: &Assessment, pdf: &Path, streams: &mut Streams<'_>) -> Result<(), Failure> {
-    let portraits = file.portraits(assessment).map_err(|error| Failure::Product(format!("error: {error}")))?;
-    let mut progress = |step: &str| {
-        if streams.interactive {
-            streams.note("clatter", step);
-        }
-    };
-    let warnings = if is_standard(pdf) {
-        let (bytes, warnings) = clatter_report::assessment_pdf(file, assessment, &portraits, &mut progress)?;
-        streams.out.write_all(&bytes).map_err(Failure::Answer)?;
-        warnings
-    } else {
-        clatter_report::write_assessment(file, assessment, &portraits, pdf, &mut progress)?
-    };
-    for warning in warnings {
-        streams.note("warning", &warning);
-    }
-    Ok(())
 }
 
 /// An assessment among several: products of one name are told apart by their files.

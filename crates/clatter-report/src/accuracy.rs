@@ -11,16 +11,16 @@ mod plain;
 mod told;
 mod train;
 
-use rayon::prelude::*;
-
-use crate::ReportError;
-use crate::paper::{File, pretty};
-use crate::table::csv;
 use clatter_figures::{OrderPanel as Panel, orders as figure};
 use digits::inputs;
 use flight::Flights;
 use part::Part;
+use rayon::prelude::*;
 use train::{Found, Row};
+
+use crate::ReportError;
+use crate::paper::{File, pretty};
+use crate::table::csv;
 
 /// Everything the report shows.
 #[derive(Debug)]

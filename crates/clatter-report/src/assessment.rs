@@ -5,12 +5,12 @@ mod inputs;
 mod part;
 
 use clatter::End;
-use clatter_assess::{Assessment, Component, ComponentAssessment, LimitKind, Portrait, ProductFile, Verdict};
+use clatter_assess::{Assessment, Component, ComponentAssessment, LimitKind, Portrait, Verdict};
+use clatter_figures::{FigureError, Place, Share, history, over_tilt, product, shares};
 use serde_json::{Value, json};
 
-use crate::paper;
 use crate::words::{customary, limit, name, percent, sure_name};
-use clatter_figures::{FigureError, Place, Share, history, over_tilt, product, shares};
+use crate::{Pages, paper};
 
 /// What the models leave out, in plain words.
 const NOT_COVERED: [[&str; 2]; 9] = [
@@ -53,11 +53,8 @@ const NOT_COVERED: [[&str; 2]; 9] = [
 type Part<'a> = ((&'a Component, &'a ComponentAssessment), &'a Portrait);
 
 /// The files of the pages: figures and data.
-pub(crate) fn files(
-    file: &ProductFile,
-    assessment: &Assessment,
-    portraits: &[Portrait],
-) -> Result<Vec<(String, String)>, FigureError> {
+pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureError> {
+    let Pages { file, assessment, portraits, .. } = *pages;
     let parts: Vec<Part<'_>> = file.components.iter().zip(&assessment.components).zip(portraits).collect();
     let names: Vec<String> = parts.iter().map(|((_, assessed), _)| name(&assessed.name)).collect();
     let margins: Vec<String> = parts.iter().map(|((_, assessed), _)| percent(assessed.tightest().margin)).collect();
@@ -89,7 +86,7 @@ pub(crate) fn files(
         "unsafe": with(Verdict::Unsafe),
         "hardest": hardest(assessment),
         "parts": parts.iter().map(|(of, portrait)| part::part(file, *of, portrait)).collect::<Vec<_>>(),
-        "inputs": inputs::rows(file),
+        "inputs": inputs::rows(pages),
         "drawing": drawing.collect::<Vec<_>>().join(" "),
         "limits-of-the-model": NOT_COVERED,
     });
@@ -156,13 +153,15 @@ fn share<'a>(((_, assessed), portrait): &Part<'_>, name: &'a str) -> Share<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clatter_assess::EXAMPLE;
+    use clatter_assess::{EXAMPLE, ProductFile};
 
     fn pages(text: &str, to: &std::path::Path) -> lopdf::Document {
         let file = ProductFile::read(text, "test.toml").unwrap();
         let assessment = file.assess().unwrap();
         let portraits = file.portraits(&assessment).unwrap();
-        crate::write_assessment(&file, &assessment, &portraits, to, &mut |_| ()).unwrap();
+        let pages =
+            Pages { file: &file, assessment: &assessment, portraits: &portraits, path: "test.toml", date: None };
+        crate::write_assessment(&pages, to, &mut |_| ()).unwrap();
         lopdf::Document::load(to).unwrap()
     }
 
@@ -178,7 +177,10 @@ mod tests {
     fn a_failing_part_is_told_what_would_make_it_safe() {
         let file = ProductFile::read(include_str!("../../../reports/examples/phone.toml"), "phone.toml").unwrap();
         let assessment = file.assess().unwrap();
-        let data = data(&files(&file, &assessment, &file.portraits(&assessment).unwrap()).unwrap());
+        let portraits = file.portraits(&assessment).unwrap();
+        let pages =
+            Pages { file: &file, assessment: &assessment, portraits: &portraits, path: "phone.toml", date: None };
+        let data = data(&files(&pages).unwrap());
         for (part, found) in data["parts"].as_array().unwrap().iter().zip(&assessment.components) {
             let changes = &part["changes"];
             assert_eq!(changes.is_null(), found.verdict == Verdict::Safe, "{part}");
@@ -204,7 +206,10 @@ mod tests {
         let assessment = close.assess().unwrap();
         let camera = &assessment.components[1];
         assert_eq!(camera.limits[0].verdict, Verdict::Undecided, "{camera:?}");
-        let data = data(&files(&close, &assessment, &close.portraits(&assessment).unwrap()).unwrap());
+        let portraits = close.portraits(&assessment).unwrap();
+        let pages =
+            Pages { file: &close, assessment: &assessment, portraits: &portraits, path: "close.toml", date: None };
+        let data = data(&files(&pages).unwrap());
         let part = &data["parts"][1];
         assert_eq!(part["limits"][0]["verdict"], "undecided");
         let why = part["undecided"][0]["why"].as_str().unwrap();
@@ -251,7 +256,9 @@ mod tests {
         let file = ProductFile::read(&text, "test.toml").unwrap();
         let assessment = file.assess().unwrap();
         let portraits = file.portraits(&assessment).unwrap();
-        let warnings = crate::write_assessment(&file, &assessment, &portraits, &to, &mut |_| ()).unwrap();
+        let pages =
+            Pages { file: &file, assessment: &assessment, portraits: &portraits, path: "C\u{485}.toml", date: None };
+        let warnings = crate::write_assessment(&pages, &to, &mut |_| ()).unwrap();
         assert!(warnings.iter().any(|warning| warning.contains("drawn as boxes")), "{warnings:?}");
         let first: String = said(&lopdf::Document::load(&to).unwrap(), 1).split_whitespace().collect();
         for name in ["C□amera□ή", "□□ά", "display□"] {

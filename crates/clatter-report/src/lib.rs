@@ -145,6 +145,21 @@ fn accuracy_files() -> Result<Vec<paper::File>, ReportError> {
     Ok(files)
 }
 
+/// What the pages of an assessment are made from.
+#[derive(Debug, Clone, Copy)]
+pub struct Pages<'a> {
+    /// The product.
+    pub file: &'a clatter_assess::ProductFile,
+    /// What was found of it.
+    pub assessment: &'a clatter_assess::Assessment,
+    /// What there is to draw of each part.
+    pub portraits: &'a [clatter_assess::Portrait],
+    /// Where the product was read from, as it is to be told.
+    pub path: &'a str,
+    /// The day that is to be told, if any.
+    pub date: Option<&'a str>,
+}
+
 /// Writes the pages of an assessment to `pdf`: the verdict first, then a part at a time. Gives what the caller should
 /// tell the user.
 ///
@@ -157,20 +172,19 @@ fn accuracy_files() -> Result<Vec<paper::File>, ReportError> {
 /// let file = ProductFile::read(EXAMPLE, "example.toml")?;
 /// let assessment = file.assess()?;
 /// let portraits = file.portraits(&assessment)?;
-/// clatter_report::write_assessment(&file, &assessment, &portraits, "report.pdf".as_ref(), &mut |_| ())?;
+/// let pages = clatter_report::Pages { file: &file, assessment: &assessment, portraits: &portraits, path: "example.toml", date: None };
+/// clatter_report::write_assessment(&pages, "report.pdf".as_ref(), &mut |_| ())?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
 /// [`ReportError`]; nothing is left at `pdf` that was not there before.
 pub fn write_assessment(
-    file: &clatter_assess::ProductFile,
-    assessment: &clatter_assess::Assessment,
-    portraits: &[clatter_assess::Portrait],
+    pages: &Pages<'_>,
     pdf: &Path,
     progress: &mut dyn FnMut(&str),
 ) -> Result<Vec<String>, ReportError> {
-    let (bytes, warnings) = assessment_pdf(file, assessment, portraits, progress)?;
+    let (bytes, warnings) = assessment_pdf(pages, progress)?;
     replace(pdf, |file| file.write_all(&bytes)).map_err(|source| ReportError::Io { path: pdf.into(), source })?;
     Ok(warnings)
 }
@@ -180,22 +194,20 @@ pub fn write_assessment(
 /// # Errors
 /// [`ReportError`].
 pub fn assessment_pdf(
-    file: &clatter_assess::ProductFile,
-    assessment: &clatter_assess::Assessment,
-    portraits: &[clatter_assess::Portrait],
+    pages: &Pages<'_>,
     progress: &mut dyn FnMut(&str),
 ) -> Result<(Vec<u8>, Vec<String>), ReportError> {
     let (typst, mut warnings) = typst::Typst::find(progress)?;
     progress("setting the pages");
-    let pages = |assessment| {
-        let files = assessment::files(file, assessment, portraits)?;
+    let set_of = |assessment| {
+        let files = assessment::files(&Pages { assessment, ..*pages })?;
         let inputs = files.iter().map(|(name, content)| (name.as_str(), content.as_str()));
         set(&typst, ("assessment.typ", include_str!("../../../reports/assessment.typ")), inputs)
     };
-    let bytes = match (pages(assessment), assessment::surely_named(assessment)) {
+    let bytes = match (set_of(pages.assessment), assessment::surely_named(pages.assessment)) {
         (Err(error @ ReportError::Typst(_)), Some(sure)) => {
             progress("setting the pages once more, with plainer names");
-            let bytes = pages(&sure).map_err(|_| error)?;
+            let bytes = set_of(&sure).map_err(|_| error)?;
             let told = "the typefaces of the report cannot set some characters of its names: they are drawn as boxes";
             warnings.push(told.to_owned());
             bytes

@@ -3,11 +3,11 @@
 use clatter::contour::{self, SafeZone};
 use clatter::paper::{Claim, DESIGNS, Row};
 use clatter::{Axis, Bar, Map, Quantity};
+use clatter_figures::{Impacts, Sheet, Surface, Zones, impacts, scheme, surface, zones};
 use rayon::prelude::*;
 use serde_json::json;
 
 use crate::{ReportError, table};
-use clatter_figures::{Impacts, Sheet, Surface, Zones, impacts, scheme, surface, zones};
 
 /// Everything the report shows.
 #[derive(Debug)]

@@ -3,12 +3,12 @@
 
 use std::collections::BTreeMap;
 
+use clatter_figures::{Dot, FigureError, Tool, tick, tools};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
 use crate::ReportError;
 use crate::paper::{File, pretty};
-use clatter_figures::{Dot, FigureError, Tool, tick, tools};
 
 /// The last run.
 const RESULTS: &str = include_str!("../../../peers/results.json");

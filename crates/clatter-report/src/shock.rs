@@ -4,6 +4,8 @@ use std::f64::consts::TAU;
 
 use clatter::paper::DESIGNS;
 use clatter::{Bar, Start};
+use clatter_figures::rules::{self, BarRules};
+use clatter_figures::{RUST, beside, boundary};
 use clatter_shock::{
     DamageBoundary, DampingRatio, EquivalentPulse, Frequencies, GainMap, Holders, Limit, Margin, OMEGAS, Pulse, Pulses,
     Quantity, Response, Rule, STANDARD_GRAVITY_M_S2, Shape, ShapeFigures, ShockTable, Spectrum, SuspendedZones,
@@ -14,8 +16,6 @@ use serde_json::{Value, json};
 use crate::ReportError;
 use crate::paper::{File, pretty};
 use crate::table::decimals;
-use clatter_figures::rules::{self, BarRules};
-use clatter_figures::{RUST, beside, boundary};
 
 /// Everything the report shows.
 #[derive(Debug)]

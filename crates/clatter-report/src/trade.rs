@@ -5,12 +5,12 @@ use std::f64::consts::TAU;
 use clatter::paper::DESIGNS;
 use clatter_assess::ladder::{Ladder, LimitLadder, Machine, ProductLadder, bars};
 use clatter_assess::{Accuracy, ProductFile};
+use clatter_figures::{FigureError, LadderPanel as Panel, ladders as panels, three};
 use serde::Serialize;
 use serde_json::json;
 
 use crate::paper::{File, pretty};
 use crate::{ReportError, words};
-use clatter_figures::{FigureError, LadderPanel as Panel, ladders as panels, three};
 
 /// The worked products, and the name of the figure of each.
 const EXAMPLES: [(&str, &str); 3] = [

@@ -1,13 +1,13 @@
 //! A few numbers in full: exact, ours, and what plain f64 makes of a formula as it is printed.
 
 use clatter::{Bar, Start};
+use clatter_figures::raised;
 
 use super::big::Big;
 use super::part::{self, START};
 use super::plain::{closed, recurrence};
 use super::train::{Case, Exact, Found, Given, Row};
 use crate::ReportError;
-use clatter_figures::raised;
 
 /// A number or a word.
 #[derive(Debug, Clone)]

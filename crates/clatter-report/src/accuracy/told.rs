@@ -1,6 +1,7 @@
 //! How errors, counts and digits are told on the page.
 
 use clatter::accuracy::{DURATION_LONG, NEAR_ENDLESS};
+use clatter_figures::raised;
 use serde_json::{Value, json};
 
 use super::big::Big;
@@ -9,7 +10,6 @@ use super::miscount;
 use super::part::Cell;
 use super::train::{Case, Found, Judged, Way};
 use crate::table::decimals;
-use clatter_figures::raised;
 
 /// A number with one digit and its power of ten, rounded by `round`.
 fn one_digit(value: f64, round: impl Fn(f64) -> f64) -> String {

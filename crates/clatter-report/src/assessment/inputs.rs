@@ -1,15 +1,18 @@
 //! What an assessment was made from, in words: the product, its drop, how a part is held.
 
 use clatter_assess::{Component, ContactLaw, Damping, Fall, First, Mount, ProductFile};
-
-use crate::words::{end, millimeters, range, span};
 use clatter_figures::three;
 
+use crate::Pages;
+use crate::words::{end, millimeters, range, span, sure_name};
+
 /// Rows of what was given: its name and its value.
-pub(super) fn rows(file: &ProductFile) -> Vec<[String; 2]> {
+pub(super) fn rows(pages: &Pages<'_>) -> Vec<[String; 2]> {
+    let file = pages.file;
     let product = &file.product;
     let mut rows = Vec::new();
     let mut add = |what: &str, value: String| rows.push([what.to_owned(), value]);
+    add("File", sure_name(pages.path));
     add("Body", body(file));
     add("Restitution", range(&product.restitution, 1.0, ""));
     match product.contact_time_s {
@@ -34,6 +37,11 @@ pub(super) fn rows(file: &ProductFile) -> Vec<[String; 2]> {
         "Gravity",
         if gravity > 0.0 { format!("{} m/s²", three(gravity)) } else { "none after the first touch".to_owned() },
     );
+    let tolerance = pages.assessment.accuracy.tolerance;
+    add("Answers", format!("each drop to {} % for its model", three(100.0 * tolerance)));
+    if let Some(date) = pages.date {
+        add("Date", date.to_owned());
+    }
     rows
 }
 
@@ -102,16 +110,27 @@ mod tests {
     #[test]
     fn what_the_file_gives_is_told() {
         let file = ProductFile::read(EXAMPLE, "example.toml").unwrap();
-        let told: Vec<String> = rows(&file).into_iter().map(|[what, value]| format!("{what}: {value}")).collect();
+        let assessment = file.assess().unwrap();
+        let pages = Pages {
+            file: &file,
+            assessment: &assessment,
+            portraits: &[],
+            path: "a\u{485}.toml",
+            date: Some("2026-03-31"),
+        };
+        let told: Vec<String> = rows(&pages).into_iter().map(|[what, value]| format!("{what}: {value}")).collect();
         assert_eq!(
             told,
             [
+                "File: a□.toml",
                 "Body: length 140 mm, radius of gyration 38 mm: inertia ratio q = 0.545",
                 "Restitution: 0.25 to 0.4",
                 "Contact: an end touches for 0.4 ms; hysteretic, with the largest force of a half-sine",
                 "Drop: from 1.2 m, which gives 4.85 m/s",
                 "Tilt: 1 to 10° at the first touch, either end first",
                 "Gravity: 9.81 m/s²",
+                "Answers: each drop to 1 % for its model",
+                "Date: 2026-03-31",
             ]
         );
         let parts: Vec<String> = file.components.iter().map(held).collect();

@@ -3,13 +3,13 @@
 use clatter_assess::{
     Component, ComponentAssessment, ContactLaw, LimitAssessment, Model, Portrait, ProductFile, Verdict, WorstCase,
 };
+use clatter_figures::model_words as model;
+use clatter_figures::three;
 use serde_json::{Value, json};
 
 use super::changes::changes;
 use super::inputs::held;
 use crate::words::{end, limit, millimeters, minus, name, percent, shown};
-use clatter_figures::model_words as model;
-use clatter_figures::three;
 
 /// Whether a drop of the ranges was answered.
 pub(super) fn is_answered(of: &LimitAssessment) -> bool {

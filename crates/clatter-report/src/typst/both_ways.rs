@@ -9,7 +9,7 @@ use std::sync::LazyLock;
 
 use super::*;
 use crate::page::set;
-use crate::{accuracy_files, assessment, paper, shock};
+use crate::{Pages, accuracy_files, assessment, paper, shock};
 
 static COMMAND: LazyLock<Option<Typst>> = LazyLock::new(by_command);
 static WHEEL: LazyLock<Option<Typst>> = LazyLock::new(by_wheel);
@@ -130,7 +130,10 @@ fn both_ways_set_the_same_reports() {
     let (Some(command), Some(wheel)) = (&*COMMAND, &*WHEEL) else { return };
     let product = clatter_assess::ProductFile::read(clatter_assess::EXAMPLE, "example.toml").unwrap();
     let assessed = product.assess().unwrap();
-    let pages = assessment::files(&product, &assessed, &product.portraits(&assessed).unwrap());
+    let portraits = product.portraits(&assessed).unwrap();
+    let pages =
+        Pages { file: &product, assessment: &assessed, portraits: &portraits, path: "example.toml", date: None };
+    let pages = assessment::files(&pages);
     let named =
         |files: Vec<paper::File>| files.into_iter().map(|(name, text)| (name.to_owned(), text)).collect::<Vec<_>>();
     let reports = [
