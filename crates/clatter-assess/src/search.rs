@@ -193,7 +193,7 @@ impl Ranges<'_> {
         let each = (0..tasks.len()).into_par_iter().map(|n| {
             let mut reached: Vec<Asked> = climbed.iter().filter(|(of, _)| *of == n).map(|(_, asked)| *asked).collect();
             reached.extend_from_slice(&found[n]);
-            let mut worst = self.settle(&tasks[n], reached);
+            let mut worst = self.settle(&tasks[n], reached, if work.go_on(0).is_ok() { TRIES } else { 1 });
             (worst.drops, worst.later) = (drops, later[n]);
             if let Some((count, error)) = &refused {
                 worst.refuse(*count, error);
@@ -333,7 +333,7 @@ impl Ranges<'_> {
 
     /// The worst of what was reached, answered to the tolerance. What comes after rebounds is so sensitive that it may not come up
     /// again; so the next are tried until none may be worse.
-    fn settle(&self, task: &Task<'_>, mut reached: Vec<Asked>) -> Worst {
+    fn settle(&self, task: &Task<'_>, mut reached: Vec<Asked>, most_tries: usize) -> Worst {
         reached.sort_by(|a, b| b.answer.utilization().total_cmp(&a.answer.utilization()));
         let mut worst = Worst { asked: None, later: 0.0, refused: None, drops: 0 };
         // A drop that bounces on and on is not followed to its end, nor are those that bounce more.
@@ -343,7 +343,7 @@ impl Ranges<'_> {
             let mut tries = 0;
             for found in such {
                 let most = worst.asked.map_or(0.0, |asked: Asked| asked.answer.utilization());
-                if found.answer.utilization() < most || tries == TRIES {
+                if found.answer.utilization() < most || tries == most_tries {
                     break;
                 }
                 if found.place.shares[RESTITUTION] >= bounces {

@@ -1,5 +1,6 @@
 //! Values that are allowed and that no product has: most of them are slips of the unit.
 
+use crate::STANDARD_GRAVITY_M_S2;
 use crate::units::{ACCELERATION, Dimension, FREQUENCY, LENGTH, MASS, Quantity, SHARE, SPEED, TIME, Unit};
 
 /// What products have, by the key of the product file, in SI: far apart, so that no sound product is doubted.
@@ -13,8 +14,8 @@ static USUAL: [(&str, &Dimension, [f64; 2]); 11] = [
     ("natural_frequency", &FREQUENCY, [0.5, 2e5]),
     // A part of critical damping, 1, does not swing any more.
     ("damping_ratio", &SHARE, [0.0, 1.5]),
-    ("acceleration_limit", &ACCELERATION, [1.0, 1e6]),
-    ("acceleration", &ACCELERATION, [1.0, 1e6]),
+    ("acceleration_limit", &ACCELERATION, [STANDARD_GRAVITY_M_S2, 1e5 * STANDARD_GRAVITY_M_S2]),
+    ("acceleration", &ACCELERATION, [STANDARD_GRAVITY_M_S2, 1e5 * STANDARD_GRAVITY_M_S2]),
     ("rattle_space", &LENGTH, [1e-5, 0.5]),
 ];
 
@@ -130,6 +131,12 @@ mod tests {
                 &FREQUENCY,
                 "900 kHz",
                 "a natural frequency of 900 kHz is none that products have, from 0.5 Hz to 200 kHz: 900 Hz?",
+            ),
+            (
+                "acceleration_limit",
+                &ACCELERATION,
+                "4e5 g",
+                "an acceleration limit of 400000 g is none that products have, from 1 g to 100000 g: 400000 m/s2?",
             ),
             ("mass", &MASS, "250 kg", "a mass of 250 kg is none that products have, from 10 mg to 200 kg: 250 g?"),
         ] {
