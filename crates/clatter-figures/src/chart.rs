@@ -9,6 +9,7 @@ use plotters::style::{Color, IntoFont, RGBColor};
 
 use crate::page::{Page, UNITS};
 use crate::paper::{Element, Paper, What};
+use crate::shock::three;
 use crate::style::{FONT, INK, Ink, LABEL, Pt, rgb};
 
 /// Lines of the grid.
@@ -223,6 +224,9 @@ impl<'a> Axes<'a> {
     }
 
     fn built(self, paper: &mut Paper, off: f64, grid: bool) -> Chart<'a> {
+        let titled = [self.y, self.x].into_iter().filter(|axis| !axis.title.is_empty());
+        let ranges = titled.map(|axis| format!("{} from {} to {}", axis.title, three(axis.low), three(axis.high)));
+        paper.describe(&ranges.collect::<Vec<_>>().join(" over "));
         let (off, [left, top], [w, h]) = (off + LETTERS, self.corner, self.size);
         let (from, size) = ([left - off, top], [w + off, h + BELOW]);
         let [x, y, wide, high] = [from[0], from[1], size[0], size[1]].map(units);
@@ -355,8 +359,8 @@ mod tests {
         let axes = Axes {
             corner: [50.0, 0.0],
             size: [100.0, 100.0],
-            x: Axis::linear(0.0, 1.0, ""),
-            y: Axis::linear(0.0, 1.0, ""),
+            x: Axis::linear(0.0, 1.0, "time"),
+            y: Axis::linear(0.0, 1.0, "speed *v*_0"),
         };
         let mut paper = Paper::new(160.0, 140.0);
         let chart = axes.without_grid(&mut paper, 20.0);
@@ -364,6 +368,7 @@ mod tests {
         let points = [(0.0, 0.5), (0.5, 1.5), (1.0, 0.5), (0.9, f64::NAN), (0.8, 0.2), (0.7, 0.1)];
         chart.curve(&mut paper, points.into_iter(), Ink::line("#123456", 1.0));
         let drawn = paper.finish("").expect("a figure");
+        assert!(drawn.contains("<desc>speed v0 from 0 to 1 over time from 0 to 1</desc>"), "{drawn}");
         let drawn: String = drawn.lines().filter(|line| line.contains("#123456")).collect();
         let paths: Vec<_> = drawn.split(" d=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
         assert_eq!(paths, ["M50 50L75 0", "M125 0L150 50", "M130 80L120 90"]);

@@ -171,12 +171,14 @@ impl Page {
         );
     }
 
-    /// The picture, with what it shows as its title.
-    pub(crate) fn finish(self, title: &str) -> String {
+    /// The picture, with what it shows as its title and what is drawn as its description.
+    pub(crate) fn finish(self, title: &str, description: &str) -> String {
         let [w, h] = self.size.map(pt);
+        let described =
+            if description.is_empty() { String::new() } else { format!("<desc>{}</desc>\n", escape(description)) };
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}pt\" height=\"{h}pt\" viewBox=\"0 0 {w} {h}\" role=\"img\" \
-             font-family=\"{FONT}\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n<title>{}</title>\n{}</svg>\n",
+             font-family=\"{FONT}\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n<title>{}</title>\n{described}{}</svg>\n",
             escape(title),
             self.body.borrow()
         )

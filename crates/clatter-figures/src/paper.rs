@@ -75,6 +75,8 @@ pub(crate) struct Paper {
     page: Page,
     pub(crate) root: DrawingArea<Page, Shift>,
     points: DrawingArea<Page, Cartesian2d<Axis<'static>, Axis<'static>>>,
+    /// What is drawn, in words.
+    described: Vec<String>,
     error: Option<FigureError>,
 }
 
@@ -86,7 +88,15 @@ impl Paper {
         let span = |n: u32| 0..i32::try_from(n).unwrap_or(i32::MAX);
         let (x, y) = (Axis::linear(0.0, width, ""), Axis::linear(0.0, height, ""));
         let points = root.apply_coord_spec(Cartesian2d::new(x, y, (span(w), span(h))));
-        Self { page, root, points, error: None }
+        Self { page, root, points, described: Vec::new(), error: None }
+    }
+
+    /// Says what is drawn, for readers that cannot see; in figure markup.
+    pub(crate) fn describe(&mut self, what: &str) {
+        let plain = what.replace(['*', '_', '{', '}'], "");
+        if !self.described.contains(&plain) {
+            self.described.push(plain);
+        }
     }
 
     /// What a step of plotters gives; its failure is kept.
@@ -152,6 +162,7 @@ impl Paper {
     /// What the lines of a figure mean, one below the other from `at` on. Returns where the next line would stand.
     pub(crate) fn key(&mut self, [x, mut y]: Pt, lines: &[(Ink<'_>, &str)]) -> f64 {
         for (ink, text) in lines {
+            self.describe(&format!("a line: {text}"));
             self.line([x, y - 2.8], [x + 18.0, y - 2.8], *ink);
             self.text([x + 23.0, y], text, Label { anchor: Anchor::Start, ..SMALL });
             y += 12.0;
@@ -176,7 +187,7 @@ impl Paper {
     pub(crate) fn finish(self, title: &str) -> Result<String, FigureError> {
         match self.error {
             Some(error) => Err(error),
-            None => Ok(self.page.finish(title)),
+            None => Ok(self.page.finish(title, &self.described.join("; "))),
         }
     }
 }
