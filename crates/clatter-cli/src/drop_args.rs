@@ -6,10 +6,9 @@ use clap::ValueHint;
 use clatter_assess::units::Quantity;
 use clatter_assess::{STANDARD_GRAVITY_M_S2, slip};
 use clatter_flight::{Body, ContactLaw, Scene};
-use clatter_shock::DampingRatio;
 
 use crate::inputs::{self, LawName, ModelName};
-use crate::one_drop::OneDrop;
+use crate::one_drop::{OneDrop, PartSetup};
 use crate::quantities::{self, Piece, Place, Show, Shown, neat};
 use crate::{Failure, Streams};
 
@@ -116,14 +115,6 @@ pub(crate) struct Setup {
     pub(crate) part: Option<PartSetup>,
     /// What is told beside the answer, after what it is.
     pub(crate) notes: Vec<(&'static str, String)>,
-}
-
-/// A part of a product file, each range at one value.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct PartSetup {
-    pub(crate) place: Place,
-    /// Natural frequency and damping; none of a part that is mounted rigidly.
-    pub(crate) suspension: Option<(Quantity, DampingRatio)>,
 }
 
 /// A number that was given one way or the other.

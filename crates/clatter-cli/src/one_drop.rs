@@ -8,11 +8,18 @@ use clatter_assess::{Component, Damping, Fall, First, Mount, ProductFile, Spread
 use clatter_flight::ContactLaw;
 use clatter_shock::DampingRatio;
 
-use crate::drop_args::PartSetup;
 use crate::numbers::given;
 use crate::quantities::{Place, Show, neat};
 use crate::text::{shown, visible};
 use crate::{Failure, Streams, assess};
+
+/// A part of a product file, each range at one value.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PartSetup {
+    pub(crate) place: Place,
+    /// Natural frequency and damping; none of a part that is mounted rigidly.
+    pub(crate) suspension: Option<(Quantity, DampingRatio)>,
+}
 
 /// A product file of which one drop is taken.
 pub(crate) struct OneDrop {

@@ -3,7 +3,8 @@
 use clatter_assess::Verdict;
 
 use crate::FigureError;
-use crate::chart::{Axes, Axis};
+use crate::axis::Axis;
+use crate::chart::Axes;
 use crate::paper::{Paper, SMALL};
 use crate::product::{fit, shade};
 use crate::style::{Anchor, BLUES, GRAY, INK, Ink, Label, RUST};

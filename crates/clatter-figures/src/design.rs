@@ -4,7 +4,8 @@ use clatter::contour::Point;
 use clatter::design::{Front, FrontPoint};
 
 use crate::FigureError;
-use crate::chart::{Axes, Axis, Chart};
+use crate::axis::Axis;
+use crate::chart::{Axes, Chart};
 use crate::grid::{Cells, Shape, cells};
 use crate::paper::{Paper, SMALL, What};
 use crate::plane::{percent, plane_axes};

@@ -4,9 +4,9 @@ use clatter_flight::history::{Forces, Row};
 use clatter_flight::{Stop, Strike};
 
 use crate::FigureError;
-use crate::chart::{Axes, Axis, Chart};
+use crate::axis::{Axis, three};
+use crate::chart::{Axes, Chart};
 use crate::paper::{Paper, SMALL};
-use crate::shock::three;
 use crate::style::{Anchor, BLUES, GRAY, INK, Ink, Label, RUST, SAND, width};
 
 /// One drop in time, as [`drop`] draws it.

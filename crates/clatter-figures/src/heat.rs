@@ -6,10 +6,10 @@ use plotters::style::RGBColor;
 use plotters::style::colors::colormaps::{ColorMap, DerivedColorMap};
 
 use crate::FigureError;
-use crate::chart::{Axes, Axis, tick};
+use crate::axis::{Axis, three, tick};
+use crate::chart::Axes;
 use crate::grid::cells;
 use crate::paper::{Paper, SMALL, What};
-use crate::shock::three;
 use crate::style::{Anchor, BLUES, INK, Ink, LABEL, Label, SAND, rgb};
 
 /// What a quantity is called on the color bar, in figure markup.
@@ -199,7 +199,7 @@ fn bar(paper: &mut Paper, map: &Map, scale: &Scale, palette: &DerivedColorMap<RG
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::chart::round_values;
+    use crate::axis::round_values;
     use clatter::Axis as Of;
 
     #[test]

@@ -4,7 +4,8 @@ use clatter_assess::Model;
 use clatter_assess::ladder::{Ladder, Measured};
 
 use crate::FigureError;
-use crate::chart::{Axes, Axis, step_up, tick};
+use crate::axis::{Axis, step_up, tick};
+use crate::chart::Axes;
 use crate::labels::{SIZE, Wanted, arrange};
 use crate::paper::{Paper, SMALL};
 use crate::product::fit;

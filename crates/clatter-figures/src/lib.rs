@@ -6,6 +6,7 @@
 
 #![expect(clippy::missing_errors_doc, reason = "of every figure: what plotters says, which no input brings about")]
 
+mod axis;
 mod bar;
 mod chart;
 mod component;
@@ -26,8 +27,8 @@ mod shock;
 mod style;
 mod surface;
 
+pub use axis::{raised, three, tick};
 pub use bar::scheme;
-pub use chart::{raised, tick};
 pub use component::{Share, history, over_tilt, shares};
 pub use design::{DesignBorder, DesignFronts, DesignPlane, fronts, plane as design_plane};
 pub use drop::{Drop, drop};
@@ -37,7 +38,7 @@ pub use orders::{Panel as OrderPanel, orders};
 pub use peers::{Dot, Tool, tools};
 pub use plane::{Impacts, Zones, impacts, zones};
 pub use product::{Place, product};
-pub use shock::{beside, boundary, damage_boundary, rule, spectrum, three};
+pub use shock::{beside, boundary, damage_boundary, rule, spectrum};
 pub use style::RUST;
 pub use surface::{Sheet, Surface, surface};
 

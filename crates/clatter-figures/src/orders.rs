@@ -3,7 +3,8 @@
 use clatter_flight::Order;
 
 use crate::FigureError;
-use crate::chart::{Axes, Axis};
+use crate::axis::Axis;
+use crate::chart::Axes;
 use crate::paper::{Paper, SMALL};
 use crate::shock::GUIDE;
 use crate::style::{Anchor, BLUES, GRAY, Ink, Label, RUST};

@@ -10,7 +10,7 @@ use plotters::element::{Drawable, PointCollection};
 use plotters_backend::{BackendCoord, DrawingErrorKind};
 
 use crate::FigureError;
-use crate::chart::Axis;
+use crate::axis::Axis;
 use crate::page::{Page, UNITS};
 use crate::style::{Anchor, GRAY, Ink, LABEL, Label, Pt};
 

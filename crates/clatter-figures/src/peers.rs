@@ -1,7 +1,8 @@
 //! Tools side by side on four bars: what a scene costs, how many impacts they count, how far off the largest shock is.
 
 use crate::FigureError;
-use crate::chart::{Axes, Axis};
+use crate::axis::Axis;
+use crate::chart::Axes;
 use crate::paper::{Paper, SMALL};
 use crate::style::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, RUST};
 

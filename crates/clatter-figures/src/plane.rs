@@ -3,7 +3,8 @@
 use clatter::contour::Point;
 
 use crate::FigureError;
-use crate::chart::{Axes, Axis, Chart};
+use crate::axis::Axis;
+use crate::chart::{Axes, Chart};
 use crate::paper::{Paper, What};
 use crate::style::{BLUES, GRAY, INK, Ink, LABEL, Label, Pt, SAND, width};
 

@@ -3,8 +3,8 @@
 use clatter_assess::Verdict;
 
 use crate::FigureError;
-use crate::chart::round_values;
-use crate::chart::tick;
+use crate::axis::round_values;
+use crate::axis::tick;
 use crate::paper::{Paper, SMALL};
 use crate::style::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, OCHRE, RUST, width};
 

@@ -3,7 +3,8 @@
 use clatter_shock::{GainMap, Holders, OMEGAS, Rule, SuspendedZones};
 
 use crate::FigureError;
-use crate::chart::{Axes, Axis, step_up};
+use crate::axis::{Axis, step_up};
+use crate::chart::Axes;
 use crate::paper::{Paper, SMALL};
 use crate::plane::plane_axes;
 use crate::shock::GUIDE;

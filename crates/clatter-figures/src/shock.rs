@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use clatter_shock::{DamageBoundary, LimitCurve, Quantity, Rule, Spectrum};
 
 use crate::FigureError;
-use crate::chart::{Axes, Axis, Chart, tick};
+use crate::axis::{Axis, three, tick};
+use crate::chart::{Axes, Chart};
 use crate::paper::{Paper, SMALL};
 use crate::style::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, Pt, RUST, SAND, width};
 
@@ -145,18 +146,6 @@ fn draw(
         note_at(&mut paper, 3.6, "acceleration");
     }
     paper.finish(&format!("Shock response spectrum: {}", title(s.quantity)))
-}
-
-/// Three significant digits, short.
-#[must_use]
-pub fn three(v: f64) -> String {
-    if v == 0.0 || !(1e-3..1e5).contains(&v.abs()) {
-        return tick(v);
-    }
-    let decimals = (2.0 - v.abs().log10().floor()).max(0.0);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 5")]
-    let text = format!("{v:.*}", decimals as usize);
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
 /// Axes whose decades are of one length, so that the other two coordinates run at 45°.

@@ -7,7 +7,8 @@ use plotters::chart::{ChartBuilder, ChartContext};
 use plotters::coord::cartesian::Cartesian3d;
 
 use crate::FigureError;
-use crate::chart::{Axis, styled, tick, units};
+use crate::axis::{Axis, tick};
+use crate::chart::{styled, units};
 use crate::page::{Page, UNITS};
 use crate::paper::{Element, Paper, SMALL, What};
 use crate::style::{Anchor, INK, Ink, LABEL, Label, Pt, RUST, width};
