@@ -126,7 +126,10 @@ impl Args {
         pdf: &Path,
         streams: &mut Streams<'_>,
     ) -> Result<(), Failure> {
-        let portraits = file.portraits(assessment).map_err(|error| Failure::Product(format!("error: {error}")))?;
+        let drawing = Counted::begin("drawing", 0);
+        let portraits = file.portraits(assessment);
+        drop(drawing);
+        let portraits = portraits.map_err(|error| Failure::Product(format!("error: {error}")))?;
         let name = self.products[0].file_name().map_or(&*self.products[0], Path::new);
         let path = text::path(name);
         let pages = Pages { file, assessment, portraits: &portraits, path: &path, date: self.date.as_deref() };
