@@ -239,7 +239,7 @@ fn what_is_likely_a_slip_is_told_by_name() {
                 "simulate",
                 "--model=map",
                 "--length=200mm",
-                "--mass=2@-1:1",
+                "--mass=2kg@-1:1",
                 "--mass=10g@5m",
                 "--e=0.3",
                 "--speed=4m/s",
@@ -338,7 +338,10 @@ fn a_drop_and_a_part_come_from_a_product_file() {
     let (got, notes) = json(&["simulate", &format!("--product={mirrored}"), "--component=camera"]);
     assert!((got["at"][0].as_f64().unwrap() + 55.0 / 70.0).abs() < 1e-12, "{got}");
     assert!((got["center_of_mass"].as_f64().unwrap() + 0.1).abs() < 1e-12, "{got}");
-    assert!(notes.contains("end b touches first: it is called a here"), "{notes}");
+    assert!(
+        notes.contains("end b touches first and is called a here: places of the file are turned around; those of --at"),
+        "{notes}"
+    );
     for (arguments, said) in [
         (&["respond", &product][..], "the place is missing: --at=S, or with --product the --component=NAME"),
         (
@@ -415,4 +418,32 @@ fn what_one_kind_alone_may_be_goes_to_standard_output() {
     assert!(picture.starts_with("<svg") && picture.trim_end().ends_with("</svg>"), "{picture}");
     let template = clatter(["init", "-"]);
     assert_eq!((template.stdout.as_str(), template.stderr.as_str()), (clatter_assess::EXAMPLE, ""));
+}
+
+#[test]
+fn what_would_be_taken_two_ways_is_refused() {
+    let body = ["--length=140mm", "--e=0.3", "--speed=4m/s", "--tilt=5deg", "--model=finite-tilt"];
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("p.toml");
+    fs::write(&file, clatter_assess::EXAMPLE).unwrap();
+    let file = file.to_str().unwrap();
+    for (arguments, says) in [
+        (
+            [&["simulate", "--mass=200@-1:1", "--mass=100g@0.5"], &body[..]].concat(),
+            "give all of them with their units",
+        ),
+        (vec!["impacts", "--e=.3", "--mass=200g@-1:1", "--mass=1@0.5"], "give all of them with their units"),
+        (
+            vec!["respond", "--q=0.5", "--e=.3", "--at=1", "--frequency=180Hz", "--height-gap=0.5"],
+            "--frequency needs SI units",
+        ),
+        (vec!["assess", file, "-o", "x.pdf", "--date=2026-02-29"], "a date is written as 2026-03-31"),
+        (vec!["scatter", file, "-o", "-", "--format=json"], "-o - takes its place"),
+        (vec!["tradeoff", file, "-o", "-", "--format=csv"], "-o - takes its place"),
+        (vec!["simulate", "--product", file, "--component=c\u{1b}[31m"], "its components are \"display\", "),
+    ] {
+        let outcome = clatter(&arguments);
+        assert_eq!(outcome.exit, Exit::BadInput, "{arguments:?}");
+        assert!(outcome.stderr.contains(says), "{arguments:?}: {}", outcome.stderr);
+    }
 }

@@ -135,10 +135,10 @@ impl ProductFile {
             ));
         }
         if let Some((count, error)) = &worst.refused {
-            doubts.push(match error {
-                Error::Stopped => "the search for the worst drop was stopped before its end".to_owned(),
-                _ => format!("{count} of {} drops that were looked at are not answered: {error}", worst.drops),
-            });
+            doubts.push(format!("{count} of {} drops that were looked at are not answered: {error}", worst.drops));
+        }
+        if worst.stopped {
+            doubts.push(format!("{} its end", Error::Stopped));
         }
         let utilization = found.utilization();
         let safe_by_energy = bound.is_some_and(|bound| bound <= task.limit.allowed);
@@ -184,7 +184,11 @@ impl ProductFile {
 /// A limit of which no drop was answered.
 fn unanswered(ranges: &Ranges<'_>, task: &Task<'_>, worst: &Worst, bound: Option<f64>) -> LimitAssessment {
     let free = bound.is_some_and(|bound| bound <= task.limit.allowed);
-    let why = worst.refused.as_ref().map_or(Error::Unfinished.to_string(), |(_, error)| error.to_string());
+    let why = match &worst.refused {
+        Some((_, error)) => error.to_string(),
+        None if worst.stopped => format!("{} its end", Error::Stopped),
+        None => Error::Unfinished.to_string(),
+    };
     let place = ranges.middle(task.component);
     let drop = ranges.single(&place);
     LimitAssessment {

@@ -44,7 +44,7 @@ pub enum Error {
     #[error("the motion goes on beyond 1024 strikes or 20 000 phases, and was left there")]
     Unfinished,
     /// A search that was told to stop.
-    #[error("the search was stopped before")]
+    #[error("the search for the worst drop was stopped before")]
     Stopped,
     /// A model of the contact, in a product without contact time.
     #[error("this model needs the contact time, and none is known")]

@@ -79,6 +79,8 @@ pub(crate) struct Worst {
     pub(crate) refused: Option<(usize, Error)>,
     /// Drops that were looked at besides climbing.
     pub(crate) drops: usize,
+    /// Whether the search was told to stop before its end.
+    pub(crate) stopped: bool,
 }
 
 /// What one drop asks.
@@ -110,7 +112,7 @@ struct AllAsked {
 
 impl AllAsked {
     fn take(&mut self, answers: Vec<Result<OfDrop, Error>>) {
-        for answer in answers {
+        for answer in answers.into_iter().filter(|answer| !matches!(answer, Err(Error::Stopped))) {
             self.drops += 1;
             match answer {
                 Ok(of_drop) => {
@@ -164,9 +166,9 @@ impl Ranges<'_> {
             all.take(sample.collect());
         }
         if work.go_on(0).is_ok() {
-            work.done.store(count - climbing, Ordering::Relaxed);
+            work.done.fetch_max(count - climbing, Ordering::Relaxed);
         }
-        let AllAsked { mut found, mut refused, drops, later } = all;
+        let AllAsked { mut found, refused, drops, later } = all;
         let climbs: Vec<(usize, Asked)> = found
             .iter_mut()
             .enumerate()
@@ -187,9 +189,6 @@ impl Ranges<'_> {
             (n, reached)
         };
         let climbed: Vec<(usize, Asked)> = climbs.into_par_iter().map(climb).collect();
-        if refused.is_none() && work.go_on(0).is_err() {
-            refused = Some((0, Error::Stopped));
-        }
         let each = (0..tasks.len()).into_par_iter().map(|n| {
             let mut reached: Vec<Asked> = climbed.iter().filter(|(of, _)| *of == n).map(|(_, asked)| *asked).collect();
             reached.extend_from_slice(&found[n]);
@@ -200,7 +199,13 @@ impl Ranges<'_> {
             }
             worst
         });
-        each.collect()
+        let mut all: Vec<Worst> = each.collect();
+        // Last, so that no task counts as searched whose worst case was not settled as it should be.
+        let stopped = work.go_on(0).is_err();
+        for worst in &mut all {
+            worst.stopped = stopped;
+        }
+        all
     }
 
     /// What drop k asks of each task, or of those marked in `only`, where that comes near the worst.
@@ -335,7 +340,7 @@ impl Ranges<'_> {
     /// again; so the next are tried until none may be worse.
     fn settle(&self, task: &Task<'_>, mut reached: Vec<Asked>, most_tries: usize) -> Worst {
         reached.sort_by(|a, b| b.answer.utilization().total_cmp(&a.answer.utilization()));
-        let mut worst = Worst { asked: None, later: 0.0, refused: None, drops: 0 };
+        let mut worst = Worst { asked: None, later: 0.0, refused: None, drops: 0, stopped: false };
         // A drop that bounces on and on is not followed to its end, nor are those that bounce more.
         let mut bounces = f64::INFINITY;
         for late in [false, true] {

@@ -71,6 +71,7 @@ impl Args {
         if self.output.is_some() && self.products.len() > 1 {
             return Err(Failure::Usage("'--output' takes one product file: a report is about one product"));
         }
+        output::in_place_of_answer(self.output.as_deref(), matches!(self.format, Format::Table))?;
         if self.output.as_deref().is_some_and(is_standard) && io::stdout().is_terminal() {
             return Err(Failure::Usage(
                 "a PDF is not written to a terminal: send it to a program or a file, as in -o - | lpr",
@@ -156,8 +157,16 @@ impl Args {
 fn date(text: &str) -> Result<String, &'static str> {
     let parts: Vec<Option<u32>> = text.split('-').map(|part| part.parse().ok()).collect();
     let shape = text.len() == 10 && text.bytes().all(|b| b == b'-' || b.is_ascii_digit());
+    let days = |year: u32, month: u32| match month {
+        2 if year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400)) => 29,
+        2 => 28,
+        4 | 6 | 9 | 11 => 30,
+        _ => 31,
+    };
     match parts[..] {
-        [Some(_), Some(1..=12), Some(1..=31)] if shape => Ok(text.to_owned()),
+        [Some(year), Some(month @ 1..=12), Some(day)] if shape && (1..=days(year, month)).contains(&day) => {
+            Ok(text.to_owned())
+        }
         _ => Err("a date is written as 2026-03-31"),
     }
 }

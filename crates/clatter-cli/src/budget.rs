@@ -5,6 +5,7 @@
 //! Where they don't, and where other work goes on, or the memory is used up, temporary files are removed, the command says why
 //! it stopped, how far it had come and what would take less, and the process ends with exit code 2.
 
+use std::io::{self, Write as _};
 use std::process::exit;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -128,7 +129,8 @@ impl Budget {
 fn stop(what: &str, less: &str) -> ! {
     clatter_report::remove_leftovers();
     let so_far = progress::so_far();
-    eprintln!("error: stopped, {what}: {so_far}the answer is not whole; {less}");
+    // Where nobody hears it, it ends all the same.
+    let _ = writeln!(io::stderr(), "error: stopped, {what}: {so_far}the answer is not whole; {less}");
     exit(Exit::BadInput as i32)
 }
 

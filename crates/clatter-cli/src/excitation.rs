@@ -7,7 +7,7 @@ use clatter_shock::{
 
 use crate::inputs::{number, parts, share};
 use crate::numbers::given;
-use crate::quantities::{loose, neat};
+use crate::quantities::{neat, plain_or_typed};
 use crate::text::visible;
 
 /// Ramps of a trapezoid whose ramps nobody gave, over its length.
@@ -95,8 +95,10 @@ pub(crate) fn pulse(text: &str) -> Result<PulseArg, String> {
                     SI: SHAPE,AMPLITUDE_M_S2,DURATION_S,START_S"
             .to_owned());
     };
-    let (shape, amplitude, duration) = (shape(name)?, loose(&ACCELERATION, amplitude)?, loose(&TIME, duration)?);
-    let mut starts = starts.iter().map(|start| Ok(loose(&TIME, start)?.si)).collect::<Result<Vec<_>, String>>()?;
+    let (shape, amplitude, duration) =
+        (shape(name)?, plain_or_typed(&ACCELERATION, amplitude)?, plain_or_typed(&TIME, duration)?);
+    let mut starts =
+        starts.iter().map(|start| Ok(plain_or_typed(&TIME, start)?.si)).collect::<Result<Vec<_>, String>>()?;
     if starts.is_empty() {
         starts.push(0.0);
     }
@@ -119,7 +121,7 @@ pub(crate) fn shock(text: &str) -> Result<VelocityShock, String> {
             "a velocity shock is DELTA_V,TIME, such as 2.5m/s,0s, or DELTA_V_M_S,TIME_S, such as 2.5,0".to_owned()
         );
     };
-    let shock = VelocityShock { delta_v: loose(&SPEED, delta_v)?.si, time: loose(&TIME, time)?.si };
+    let shock = VelocityShock { delta_v: plain_or_typed(&SPEED, delta_v)?.si, time: plain_or_typed(&TIME, time)?.si };
     clatter_shock::VelocityShocks::new(vec![shock]).map_err(|error| message(&error))?;
     Ok(shock)
 }
@@ -133,7 +135,7 @@ pub(crate) struct FrequencyArg {
 
 pub(crate) fn frequencies(text: &str) -> Result<FrequencyArg, String> {
     let typed = |text: &str| {
-        let hz = loose(&FREQUENCY, text)?;
+        let hz = plain_or_typed(&FREQUENCY, text)?;
         within("frequency", hz.si)?;
         Ok::<_, String>(hz)
     };
@@ -169,7 +171,7 @@ const LIMITED: [&Dimension; 3] = [&ACCELERATION, &LENGTH, &SPEED];
 /// A value of any kind that is limited.
 fn allowed(text: &str) -> Result<(f64, Option<Typed>), String> {
     let read = |dimension: &'static Dimension| {
-        let Quantity { si, unit } = loose(dimension, text).ok()?;
+        let Quantity { si, unit } = plain_or_typed(dimension, text).ok()?;
         Some((si, unit.map(|unit| (dimension, unit))))
     };
     LIMITED.into_iter().find_map(read).ok_or_else(|| {
@@ -193,7 +195,7 @@ pub(crate) fn limit(text: &str) -> Result<LimitArg, String> {
         let (hz, value) = pair.split_once(':').ok_or("a limit is one value, or points HZ:VALUE,HZ:VALUE,…")?;
         let (value, typed) = allowed(value)?;
         units.push(typed);
-        Ok::<_, String>((loose(&FREQUENCY, hz)?.si, value))
+        Ok::<_, String>((plain_or_typed(&FREQUENCY, hz)?.si, value))
     };
     let points = parts(text, ',').into_iter().map(&mut point).collect::<Result<Vec<_>, _>>()?;
     let curve = LimitCurve::new(points).map_err(|error| error.to_string())?;
@@ -221,7 +223,7 @@ pub(crate) fn shock_table(text: &str) -> Result<ShockTable, String> {
         return Err(form.to_owned());
     };
     let positive = |name: &str, dimension: &'static Dimension, plain: f64, text: &str| {
-        let Quantity { si, unit } = loose(dimension, text)?;
+        let Quantity { si, unit } = plain_or_typed(dimension, text)?;
         if si > 0.0 && si.is_finite() {
             Ok(if unit.is_some() { si } else { plain * si })
         } else {

@@ -10,7 +10,7 @@ use clatter_flight::{Body, Contact, ContactLaw, Scene};
 use clatter_shock::DampingRatio;
 
 use crate::Failure;
-use crate::quantities::{self, Piece, loose};
+use crate::quantities::{self, Piece, plain_or_typed};
 use crate::text::visible;
 
 /// What the numbers mean: part of the long help of the command and of each of its models.
@@ -204,7 +204,8 @@ pub(crate) fn number(text: &str) -> Result<f64, String> {
 
 /// A share, or a percentage with its sign.
 pub(crate) fn share(text: &str) -> Result<f64, String> {
-    let share = loose(&SHARE, text).map_err(|_| format!("'{}' is not a share such as 0.01 or 1%", visible(text)))?;
+    let share =
+        plain_or_typed(&SHARE, text).map_err(|_| format!("'{}' is not a share such as 0.01 or 1%", visible(text)))?;
     Ok(share.si)
 }
 

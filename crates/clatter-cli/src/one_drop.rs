@@ -48,7 +48,7 @@ impl OneDrop {
                     .iter()
                     .position(|component| component.name.trim_matches(' ') == name.trim_matches(' '));
                 let names = || {
-                    let names: Vec<_> = file.components.iter().map(|c| format!("{:?}", shown(&c.name, 60))).collect();
+                    let names: Vec<_> = file.components.iter().map(|c| format!("\"{}\"", shown(&c.name, 60))).collect();
                     names.join(", ")
                 };
                 Some(found.ok_or_else(|| {
@@ -61,7 +61,11 @@ impl OneDrop {
         let mirrored = file.drop.first == First::End(End::B);
         let mut notes = Vec::new();
         if mirrored {
-            notes.push("end b touches first: it is called a here, and positions are mirrored".to_owned());
+            notes.push(
+                "end b touches first and is called a here: places of the file are turned around; those of --at, \
+                 --center-of-mass and --mass are not, they count towards the end that strikes second"
+                    .to_owned(),
+            );
         }
         if file.drop.first == First::Either {
             notes.push("either end may touch first: taken is end a".to_owned());

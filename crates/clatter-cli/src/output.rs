@@ -4,6 +4,8 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
+use same_file::Handle;
+
 use crate::Failure;
 use crate::input::is_standard;
 
@@ -68,6 +70,14 @@ pub(crate) fn ending(ending: &'static str) -> impl Fn(&str) -> Result<PathBuf, S
     }
 }
 
+/// Refuses a format of the answer where something else is written to standard output in its place.
+pub(crate) fn in_place_of_answer(output: Option<&Path>, is_table: bool) -> Result<(), Failure> {
+    if output.is_some_and(is_standard) && !is_table {
+        return Err(Failure::Usage("--format is that of the answer, and -o - takes its place: leave one of them out"));
+    }
+    Ok(())
+}
+
 /// Writes through a buffer, all of it.
 pub(crate) fn buffered(
     file: &mut File,
@@ -112,13 +122,13 @@ impl Files<'_> {
         for (n, output) in self.writes.iter().enumerate().filter(|(_, output)| !is_standard(output)) {
             let there = clatter_report::directory_of(output);
             there.map_err(|reason| Failure::File { path: output.to_path_buf(), reason })?;
-            let same = |other: &&Path| {
-                !is_standard(other) && same_file::is_same_file(output, other).unwrap_or(output == other)
-            };
-            if self.reads.iter().any(same) {
+            let same = |other: &&Path| same_file::is_same_file(output, other).unwrap_or(output == other);
+            // Standard input may be a file that has a name as well.
+            let is_input = || Handle::from_path(output).ok().zip(Handle::stdin().ok()).is_some_and(|(a, b)| a == b);
+            if self.reads.iter().any(|input| if is_standard(input) { is_input() } else { same(input) }) {
                 return Err(Failure::Overwrites(output.to_path_buf()));
             }
-            if self.writes[..n].iter().any(same) {
+            if self.writes[..n].iter().filter(|other| !is_standard(other)).any(same) {
                 return Err(Failure::Twice(output.to_path_buf()));
             }
         }

@@ -9,7 +9,7 @@ use crate::inputs::{self, number, part_of};
 use crate::numbers::{figures, given};
 
 /// A number in SI, or a quantity with its unit.
-pub(crate) fn loose(dimension: &'static Dimension, text: &str) -> Result<Quantity, String> {
+pub(crate) fn plain_or_typed(dimension: &'static Dimension, text: &str) -> Result<Quantity, String> {
     let text = text.trim();
     number(text).map(Quantity::of_si).or_else(|none| {
         let begins = text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
@@ -68,13 +68,13 @@ pub(crate) fn velocity(text: &str) -> Result<[Quantity; 2], String> {
     let [a, b] = inputs::parts(text, ',')[..] else {
         return Err("two velocities are needed, of ends a and b: VA,VB".to_owned());
     };
-    let velocity = [loose(&SPEED, a)?, loose(&SPEED, b)?];
+    let velocity = [plain_or_typed(&SPEED, a)?, plain_or_typed(&SPEED, b)?];
     Start::new(velocity.map(|v| v.si), 1.0).map(|_| velocity).map_err(|error| error.to_string())
 }
 
 /// In h0, or with its unit.
 pub(crate) fn height_gap(text: &str) -> Result<Quantity, String> {
-    let gap = loose(&LENGTH, text)?;
+    let gap = plain_or_typed(&LENGTH, text)?;
     Start::new([-1.0, -1.0], gap.si).map(|_| gap).map_err(|error| error.to_string())
 }
 
@@ -118,21 +118,19 @@ impl Place {
     }
 }
 
+/// A length, or else a position as it is read where there are no lengths.
+fn place_or(text: &str, relative: impl Fn(&str) -> Result<f64, String>) -> Result<Place, String> {
+    let length = LENGTH.read(text).ok().filter(|length| length.unit.is_some());
+    length.map_or_else(|| relative(text).map(Place::Relative), |length| Ok(Place::Length(length)))
+}
+
 /// A position in [-1, 1], or a length.
 pub(crate) fn place(text: &str) -> Result<Place, String> {
-    if text.trim().parse::<f64>().is_ok() || LENGTH.read(text).is_err() {
-        inputs::worked_out_position(text).map(Place::Relative)
-    } else {
-        LENGTH.read(text).map(Place::Length)
-    }
+    place_or(text, inputs::worked_out_position)
 }
 
 pub(crate) fn center_of_mass(text: &str) -> Result<Place, String> {
-    if text.trim().parse::<f64>().is_ok() || LENGTH.read(text).is_err() {
-        inputs::center_of_mass(text).map(Place::Relative)
-    } else {
-        LENGTH.read(text).map(Place::Length)
-    }
+    place_or(text, inputs::center_of_mass)
 }
 
 /// Positions on a body of this half-length, an end that is missed by roundings taken for it.
@@ -151,7 +149,7 @@ pub(crate) fn positions(places: &[Place], flag: &'static str, half_m: f64) -> Re
 /// One `--mass`: a point, or a piece from the first place to the second.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Piece {
-    kg: f64,
+    mass: Quantity,
     from: Place,
     to: Option<Place>,
 }
@@ -160,14 +158,14 @@ pub(crate) fn mass(text: &str) -> Result<Piece, String> {
     let form = "a mass is M@S at position S, or M@S:T from S to T";
     let (mass, place) = text.split_once('@').ok_or(form)?;
     let place_of = |text: &str| {
-        let place = loose(&LENGTH, text)?;
+        let place = plain_or_typed(&LENGTH, text)?;
         Ok::<_, String>(if place.unit.is_some() { Place::Length(place) } else { Place::Relative(place.si) })
     };
     let (from, to) = match place.split_once(':') {
         None => (place_of(place)?, None),
         Some((from, to)) => (place_of(from)?, Some(place_of(to)?)),
     };
-    let piece = Piece { kg: loose(&MASS, mass)?.si, from, to };
+    let piece = Piece { mass: plain_or_typed(&MASS, mass)?, from, to };
     // What the places are is known later: the unit of them does not count.
     let trial = piece.on(Some(1.0)).map_err(|failure| failure.to_string())?;
     center_and_gyration(&[trial]).map(|_| piece).map_err(|error| error.to_string())
@@ -178,8 +176,8 @@ impl Piece {
     pub(crate) fn on(&self, half_m: Option<f64>) -> Result<Mass, Failure> {
         let [from, to] = [Some(self.from), self.to].map(|place| place.map(|place| place.relative("--mass", half_m)));
         Ok(match (from, to) {
-            (Some(from), Some(to)) => Mass::Slab { mass_kg: self.kg, from_m: from?, to_m: to? },
-            (from, _) => Mass::Point { mass_kg: self.kg, position_m: from.unwrap_or(Ok(0.0))? },
+            (Some(from), Some(to)) => Mass::Slab { mass_kg: self.mass.si, from_m: from?, to_m: to? },
+            (from, _) => Mass::Point { mass_kg: self.mass.si, position_m: from.unwrap_or(Ok(0.0))? },
         })
     }
     /// Places far outside of the body.
@@ -201,6 +199,12 @@ fn outside_relative(s: f64) -> Option<Slip> {
 
 /// All pieces, in half-lengths.
 pub(crate) fn masses(pieces: &[Piece], half_m: Option<f64>) -> Result<Vec<Mass>, Failure> {
+    let typed = pieces.iter().filter(|piece| piece.mass.unit.is_some()).count();
+    if (1..pieces.len()).contains(&typed) {
+        return Err(Failure::Usage(
+            "a --mass has a unit and another has none: give all of them with their units, or none",
+        ));
+    }
     pieces.iter().map(|piece| piece.on(half_m)).collect()
 }
 

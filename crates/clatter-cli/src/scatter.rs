@@ -103,6 +103,7 @@ impl Args {
     }
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<Exit, Failure> {
+        output::in_place_of_answer(self.output.as_deref(), matches!(self.format, RowFormat::Table))?;
         let file = assess::read(&self.product, streams)?;
         let scatter = self.draw(&file, streams)?;
         let target = self.target.map(|share| Target { share });

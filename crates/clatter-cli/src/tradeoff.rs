@@ -54,6 +54,7 @@ impl Args {
     }
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        output::in_place_of_answer(self.output.as_deref(), matches!(self.format, RowFormat::Table))?;
         let (file, ladders) = explain::measure(&self.product, self.tolerance, streams)?;
         if let Some(path) = &self.output {
             let svg = clatter_report::ladder_svg(&ladders)?;

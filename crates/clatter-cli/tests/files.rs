@@ -274,6 +274,31 @@ fn what_is_found_when_the_time_is_over_is_told_and_nothing_is_safe_by_it() {
     assert!(stderr.contains("--time-limit is over"), "{stderr}");
 }
 
+/// Where nobody can be told why, a command ends at its budget all the same.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_budget_ends_a_command_that_cannot_say_so() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("long.toml"), long()).unwrap();
+    let full = fs::File::options().write(true).open("/dev/full").unwrap();
+    let mut child = clatter()
+        .args(["design", "long.toml", "--time-limit=300ms"])
+        .current_dir(dir.path())
+        .stdout(Stdio::null())
+        .stderr(full)
+        .spawn()
+        .unwrap();
+    for _ in 0..600 {
+        if let Some(status) = child.try_wait().unwrap() {
+            assert_eq!(status.code(), Some(2));
+            return;
+        }
+        sleep(Duration::from_millis(100));
+    }
+    child.kill().unwrap();
+    panic!("it goes on after its end");
+}
+
 /// Standard error is a terminal, standard output is none.
 #[test]
 fn progress_is_shown_to_those_who_watch_and_leaves_no_trace() {
@@ -337,6 +362,22 @@ fn piped(arguments: &[&str], input: &[u8], dir: &Path) -> std::process::Output {
     // What is refused unread closes the pipe.
     let _ = std::io::Write::write_all(&mut child.stdin.take().expect("a pipe"), input);
     child.wait_with_output().expect("it ends")
+}
+
+/// A file may be the input without its name.
+#[test]
+fn standard_input_is_not_written_over() {
+    let dir = tempfile::tempdir().unwrap();
+    let record = "time [ms],acceleration [g]\n0,0\n1,100\n2,0\n3,0\n";
+    fs::write(dir.path().join("record.csv"), record).unwrap();
+    symlink("record.csv", dir.path().join("link.csv")).unwrap();
+    for name in ["record.csv", "link.csv"] {
+        let input = fs::File::open(dir.path().join("record.csv")).unwrap();
+        let spectrum = ["spectrum", "-", "--frequency=100Hz", "-o", name];
+        let (code, stderr) = says(clatter().args(spectrum).current_dir(dir.path()).stdin(input));
+        assert!(code == Some(2) && stderr.contains("is read by this command and would be lost"), "{stderr}");
+        assert_eq!(fs::read_to_string(dir.path().join("record.csv")).unwrap(), record);
+    }
 }
 
 #[test]

@@ -61,7 +61,11 @@ impl Args {
             let (bar, start) =
                 (self.inertia.bar(self.e())?, Start::new(self.velocity.map(|v| v.si), self.height_gap.si)?);
             let in_si = self.has_units()? || start != Start::default();
-            if self.frequency.is_some() && !in_si {
+            // A frequency needs both: one alone would leave the other in v0 or h0.
+            let plain = Start::default();
+            #[expect(clippy::float_cmp, reason = "the defaults themselves")]
+            let both = start.velocity() != plain.velocity() && start.height_gap() != plain.height_gap();
+            if self.frequency.is_some() && !(self.has_units()? || both) {
                 return Err(Failure::Usage(
                     "--frequency needs SI units: --velocity in m/s and --height-gap in m, --model, or a file; --omega is in v0/h0",
                 ));
