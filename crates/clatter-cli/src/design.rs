@@ -4,7 +4,6 @@ mod goals;
 mod plane;
 mod remedies;
 
-use clatter_figures::FigureError;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -13,6 +12,7 @@ use clap::ValueHint;
 use clatter::design::Goal;
 use clatter_assess::design::{Bounds, Plane};
 use clatter_assess::{Accuracy, ProductFile};
+use clatter_figures::FigureError;
 
 use crate::input::is_standard;
 use crate::inputs::{self, RowFormat};

@@ -1,8 +1,8 @@
 //! The whole motion as a file.
 
-use clatter_figures::FigureError;
 use std::io::{self, Write};
 
+use clatter_figures::FigureError;
 use clatter_flight::history::Row;
 use serde::Serialize;
 
