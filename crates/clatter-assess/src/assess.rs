@@ -135,7 +135,7 @@ impl ProductFile {
             ));
         }
         if let Some((count, error)) = &worst.refused {
-            doubts.push(format!("{count} of {} drops that were looked at are not answered: {error}", worst.drops));
+            doubts.push(format!("{count} of {} drops that were tried are not answered: {error}", worst.drops));
         }
         if worst.stopped {
             doubts.push(format!("{} its end", Error::Stopped));

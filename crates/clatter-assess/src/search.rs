@@ -77,7 +77,7 @@ pub(crate) struct Worst {
     pub(crate) later: f64,
     /// Drops that the model does not take, and why the first of them.
     pub(crate) refused: Option<(usize, Error)>,
-    /// Drops that were looked at besides climbing.
+    /// Drops that were followed besides climbing.
     pub(crate) drops: usize,
     /// Whether the search was told to stop before its end.
     pub(crate) stopped: bool,

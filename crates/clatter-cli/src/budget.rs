@@ -1,6 +1,6 @@
 //! What a command may take of the machine: memory and time, watched beside the work.
 //!
-//! A thread looks at the process some fifty times a second, and shows how far the work is where somebody watches. When the time is
+//! A thread checks the process some fifty times a second, and shows how far the work is where somebody watches. When the time is
 //! over, searches and samples are asked to end: their answer is of what was done by then, undecided where that is not enough.
 //! Where they don't, and where other work goes on, or the memory is used up, temporary files are removed, the command says why
 //! it stopped, how far it had come and what would take less, and the process ends with exit code 2.
@@ -38,7 +38,7 @@ static CUT: AtomicBool = AtomicBool::new(false);
 static MEMORY: OnceLock<u64> = OnceLock::new();
 /// Unless another is given: 1 GiB.
 const DEFAULT: u64 = 1 << 30;
-/// Between two looks, and how many of them between two pictures of the progress.
+/// Time between two checks, and checks between two pictures of the progress.
 const INTERVAL: Duration = Duration::from_millis(20);
 const PICTURE: u32 = 10;
 
@@ -103,7 +103,7 @@ impl Budget {
         let memory = self.memory.unwrap_or(DEFAULT);
         let _ = MEMORY.set(memory);
         let begin = Instant::now();
-        let look = move || {
+        let check = move || {
             for n in 1_u32.. {
                 if memory_stats::memory_stats().is_some_and(|now| now.physical_mem as u64 > memory) {
                     stop(&format!("--memory={} MiB is used up", memory >> 20), less);
@@ -122,7 +122,7 @@ impl Budget {
                 thread::sleep(INTERVAL);
             }
         };
-        let _ = thread::Builder::new().name("budget".into()).spawn(look);
+        let _ = thread::Builder::new().name("budget".into()).spawn(check);
     }
 }
 

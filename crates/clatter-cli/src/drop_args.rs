@@ -321,7 +321,7 @@ impl DropArgs {
                     "a height (--height, --height-m) needs gravity: give --speed, or a --gravity or --gravity-m-s2 above 0",
                 ));
             }
-            // That there is one of the two was looked at before.
+            // That there is one of the two was checked before.
             (None, height) => {
                 let flag = if self.fall.height_m.is_some() { "--height-m" } else { "--height" };
                 Scene::from_height(body, e, height.unwrap_or(f64::NAN), tilt, gravity).map_err(Failure::flag(flag))?

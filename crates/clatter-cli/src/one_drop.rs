@@ -25,7 +25,7 @@ pub(crate) struct PartSetup {
 pub(crate) struct OneDrop {
     file: ProductFile,
     component: Option<usize>,
-    /// The end that touches first is called a: where it is b, the product is looked at from behind.
+    /// The end that touches first is called a: where it is b, the product is seen from behind.
     mirrored: bool,
     notes: Vec<String>,
 }

@@ -219,7 +219,7 @@ impl Args {
         let scene = &setup.scene;
         let model = match (setup.model, self.drop.contact_time()) {
             (ModelName::Compliant, _) => {
-                // That there is one was looked at before.
+                // That there is one was checked before.
                 let time = setup.contact_time_s.unwrap_or(f64::NAN);
                 let contact = Contact::new(setup.contact_law, scene.e(), time)?;
                 let contacts =

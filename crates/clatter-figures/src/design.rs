@@ -154,7 +154,7 @@ pub fn plane(data: &DesignPlane) -> Result<String, FigureError> {
     if !data.model.is_empty() {
         line(&mut paper, &mut y, &data.model, INK);
     }
-    let legend = [(SAFE, good), (SAND, bad), (UNKNOWN, "not looked at, or no answer")];
+    let legend = [(SAFE, good), (SAND, bad), (UNKNOWN, "not tried, or no answer")];
     for (fill, text) in legend.into_iter().take(if unknown { 3 } else { 2 }) {
         paper.rect([right, y - 7.0], [14.0, 8.0], Ink { stroke: GRAY, width: 0.4, ..Ink::fill(fill) });
         paper.text([right + 19.0, y], text, Label { anchor: Anchor::Start, ..SMALL });

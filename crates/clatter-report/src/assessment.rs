@@ -86,7 +86,8 @@ pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureEr
         "unsafe": with(Verdict::Unsafe),
         "hardest": hardest(assessment),
         "parts": parts.iter().map(|(of, portrait)| part::part(file, *of, portrait)).collect::<Vec<_>>(),
-        "inputs": inputs::rows(pages),
+        "inputs": inputs::rows(file),
+        "made": inputs::made(pages),
         "drawing": drawing.collect::<Vec<_>>().join(" "),
         "limits-of-the-model": NOT_COVERED,
     });

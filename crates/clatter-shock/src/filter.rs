@@ -307,7 +307,7 @@ impl Group {
         }
         let mut segment = Segment::new(modes);
         let mut steps = Steps::new();
-        let mut look = |group: &mut Self, l: usize, b: &Block| {
+        let mut search = |group: &mut Self, l: usize, b: &Block| {
             let Some(most) = group.oscillators[l].may_rise(modes, l, b, &inputs[b.index]) else { return };
             let samples = block_of(samples, b.index);
             // Oscillators side by side have their peaks in the same blocks.
@@ -335,7 +335,7 @@ impl Group {
         // Where the samples are largest the peak is likely, and rules out most of the rest.
         for likely in [&scanned.highest, &scanned.lowest] {
             for l in 0..self.oscillators.len() {
-                look(self, l, &blocks[likely[l]]);
+                search(self, l, &blocks[likely[l]]);
             }
         }
         for (l, oscillator) in self.oscillators.iter().enumerate() {
@@ -351,7 +351,7 @@ impl Group {
             }
             for l in (0..self.oscillators.len()).filter(|l| beyond[*l] == 1) {
                 let before = self.oscillators[l].range;
-                look(self, l, b);
+                search(self, l, b);
                 let after = self.oscillators[l].range;
                 high[l] += after.high.value - before.high.value;
                 low[l] += after.low.value - before.low.value;

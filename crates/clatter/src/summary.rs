@@ -228,7 +228,7 @@ impl Bar {
         // The lowest velocity so far, its impact, and how close any two neighbors came to each other.
         let (mut lowest, mut peak, mut margin) = (va, 1, f64::MAX);
         // |a_n| falls for good once it falls, so that neighbors tell.
-        let mut look = |before: f64, velocity: f64, number: u32| {
+        let mut compare = |before: f64, velocity: f64, number: u32| {
             let above = velocity - before;
             peak = if above < 0.0 { number } else { peak };
             (lowest, margin) = (least(velocity, lowest), least(above.abs(), margin));
@@ -246,13 +246,13 @@ impl Bar {
             (before, a, next) = (strikes[more], strikes[more + 1], strikes[more + 2]);
             (b, b_next) = ([1.0, t, twice][more], t * twice - e * t);
             n = 2 + u32::from(second < 0.0) + u32::from(third < 0.0);
-            look(va, first, 2);
-            look(first, second, 3);
-            look(least(second, 0.0), third, 4);
+            compare(va, first, 2);
+            compare(first, second, 3);
+            compare(least(second, 0.0), third, 4);
         }
         while next < 0.0 && n < PLAIN {
             n += 1;
-            look(a, next, n);
+            compare(a, next, n);
             (before, a, next) = (a, next, t * next - e * a);
             (b, b_next) = (b_next, t * b_next - e * b);
         }

@@ -29,7 +29,7 @@ pub struct Pilot {
 
 /// Up to this error the closed form is taken.
 const LARGEST_ERROR: f64 = 0.05;
-/// Drops of a first look; one that shows a larger error is not gone on with.
+/// Drops that are tried first; one that shows a larger error is not gone on with.
 const FIRST: u64 = 400;
 /// A pilot is one of so many samples, at most.
 const ONE_OF: u64 = 20;

@@ -1,4 +1,4 @@
-//! Which drops of the ranges are looked at.
+//! Which drops of the ranges are followed.
 
 use std::f64::consts::{SQRT_2, TAU};
 
@@ -11,7 +11,7 @@ const TILTS: [f64; 2] = [12.0, 128.0];
 /// Phase by which the stiffest part turns between the first strikes of neighboring tilts, in rad.
 const PHASE: f64 = 0.8;
 const SQRT_3: f64 = 1.732_050_807_568_877;
-/// Tilts in a contact time, and contact times that are looked at so closely: where contacts overlap, velocity shocks change by steps.
+/// Tilts in a contact time, and contact times over which tilts lie so closely: where contacts overlap, velocity shocks change by steps.
 const OVERLAPS: [f64; 2] = [12.0, 4.0];
 /// Where along a range the drops of the grid are.
 enum Level {
@@ -74,7 +74,7 @@ impl Ranges<'_> {
                         grid.push(Place { first, position_m: 0.0, shares });
                     };
                     even(steps, tilted).for_each(|tilt| add(tilt, 1.0));
-                    // Slower drops seldom do more; fewer of them are looked at.
+                    // Slower drops seldom do more; fewer of them are followed.
                     even((steps / 4.0).ceil(), tilted).filter(|_| slow < fast).for_each(|tilt| add(tilt, 0.0));
                 }
             }

@@ -7,12 +7,10 @@ use crate::Pages;
 use crate::words::{end, millimeters, range, span, sure_name};
 
 /// Rows of what was given: its name and its value.
-pub(super) fn rows(pages: &Pages<'_>) -> Vec<[String; 2]> {
-    let file = pages.file;
+pub(super) fn rows(file: &ProductFile) -> Vec<[String; 2]> {
     let product = &file.product;
     let mut rows = Vec::new();
     let mut add = |what: &str, value: String| rows.push([what.to_owned(), value]);
-    add("File", sure_name(pages.path));
     add("Body", body(file));
     add("Restitution", range(&product.restitution, 1.0, ""));
     match product.contact_time_s {
@@ -37,12 +35,14 @@ pub(super) fn rows(pages: &Pages<'_>) -> Vec<[String; 2]> {
         "Gravity",
         if gravity > 0.0 { format!("{} m/s²", three(gravity)) } else { "none after the first touch".to_owned() },
     );
-    let tolerance = pages.assessment.accuracy.tolerance;
-    add("Answers", format!("each drop to {} % for its model", three(100.0 * tolerance)));
-    if let Some(date) = pages.date {
-        add("Date", date.to_owned());
-    }
     rows
+}
+
+/// How it was made, for the foot of each page: from which file, how exactly, and on which day where that is to be told.
+pub(super) fn made(pages: &Pages<'_>) -> String {
+    let share = three(100.0 * pages.assessment.accuracy.tolerance);
+    let day = pages.date.map_or_else(String::new, |date| format!(" on {date}"));
+    format!("assessed{day} from {}, each drop to {share} %,", sure_name(pages.path))
 }
 
 /// Length, inertia, center of mass.
@@ -118,21 +118,20 @@ mod tests {
             path: "a\u{485}.toml",
             date: Some("2026-03-31"),
         };
-        let told: Vec<String> = rows(&pages).into_iter().map(|[what, value]| format!("{what}: {value}")).collect();
+        let told: Vec<String> = rows(&file).into_iter().map(|[what, value]| format!("{what}: {value}")).collect();
         assert_eq!(
             told,
             [
-                "File: a□.toml",
                 "Body: length 140 mm, radius of gyration 38 mm: inertia ratio q = 0.545",
                 "Restitution: 0.25 to 0.4",
                 "Contact: an end touches for 0.4 ms; hysteretic, with the largest force of a half-sine",
                 "Drop: from 1.2 m, which gives 4.85 m/s",
                 "Tilt: 1 to 10° at the first touch, either end first",
                 "Gravity: 9.81 m/s²",
-                "Answers: each drop to 1 % for its model",
-                "Date: 2026-03-31",
             ]
         );
+        assert_eq!(made(&pages), "assessed on 2026-03-31 from a□.toml, each drop to 1 %,");
+        assert_eq!(made(&Pages { date: None, ..pages }), "assessed from a□.toml, each drop to 1 %,");
         let parts: Vec<String> = file.components.iter().map(held).collect();
         assert!(parts[0].ends_with("and is 80 mm long. Its natural frequency is 220 Hz, with a quality factor of 12."));
         assert_eq!(parts[2], "It sits 20 mm from the middle, towards end a. It is mounted rigidly.");
