@@ -1,6 +1,8 @@
 //! The one error type of the crate: what was given, where, and what is allowed.
 
-/// What makes a file no record.
+use std::fmt::Write as _;
+
+/// What makes a file no record. Lines count from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -10,4 +12,61 @@ pub enum Error {
     /// The file could not be read.
     #[error("the record could not be read: {0}")]
     Read(String),
+    /// Which column is time, and which acceleration, is not clear.
+    #[error("{0}")]
+    Columns(String),
+    /// A unit that is not known, or that is not the one of the file.
+    #[error("{0}")]
+    Units(String),
+    /// Lines that cannot be used.
+    #[error("{}", list(.0))]
+    Lines(Bad),
+    /// A record too short to be one.
+    #[error("the record has {}; it needs two at least", if *.0 == 1 { "one sample" } else { "no samples" })]
+    Short(usize),
+    /// More numbers than are to be read.
+    #[error("the record has more than {0} numbers: take a part of it, or fewer channels")]
+    Many(usize),
+    /// A number outside of its range.
+    #[error("{name} = {value:?} is not {allowed}")]
+    Quantity {
+        /// What the value stands for, with its unit.
+        name: &'static str,
+        /// The value.
+        value: f64,
+        /// The range that makes sense.
+        allowed: &'static str,
+    },
+}
+
+/// Lines that cannot be used: the first ones, each with what is wrong, and how many there are in all.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Bad {
+    /// Number of the line and what is wrong with it, of the first ten.
+    pub first: Vec<(usize, String)>,
+    /// How many lines.
+    pub count: usize,
+}
+
+impl Bad {
+    /// Listed one by one at most.
+    const LISTED: usize = 10;
+    pub(crate) fn add(&mut self, line: usize, what: impl FnOnce() -> String) {
+        if self.first.len() < Self::LISTED {
+            self.first.push((line, what()));
+        }
+        self.count += 1;
+    }
+}
+
+/// One line below the other where there are several.
+fn list(bad: &Bad) -> String {
+    let mut text = String::new();
+    for (i, (line, what)) in bad.first.iter().enumerate() {
+        let _ = write!(text, "{}line {line}: {what}", if i == 0 { "" } else { "\n" });
+    }
+    if bad.count > bad.first.len() {
+        let _ = write!(text, "\nand {} lines more", bad.count - bad.first.len());
+    }
+    text
 }

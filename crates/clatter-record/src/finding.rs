@@ -1,0 +1,315 @@
+//! What is odd about a record: told, and the record is used all the same.
+
+use crate::error::Bad;
+use crate::text::line_of;
+use std::f64::consts::TAU;
+
+/// Something about a record that its owner should know.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Finding {
+    /// Columns that nothing is made of.
+    LeftOut(Vec<String>),
+    /// Lines that were left out, as they cannot be used.
+    Skipped(Bad),
+    /// Lines of text below the numbers.
+    Below(Bad),
+    /// Steps in time that lack samples: longer than the usual ones by more than these differ. At most ten are listed.
+    Gaps {
+        /// Where each ends, and its length in seconds.
+        first: Vec<(At, f64)>,
+        /// How many there are.
+        count: usize,
+        /// The usual step in seconds.
+        usual_s: f64,
+    },
+    /// The record begins within a shock, or away from zero.
+    Begins {
+        /// Name of the channel.
+        channel: String,
+        /// Its first value over its largest.
+        share: f64,
+    },
+    /// The record ends within a shock, or away from zero.
+    Ends {
+        /// Name of the channel.
+        channel: String,
+        /// Its last value over its largest.
+        share: f64,
+    },
+    /// The level before the shock is not zero, by so much that the spectrum shows it.
+    Offset {
+        /// Name of the channel.
+        channel: String,
+        /// From where to where the level was taken.
+        from: At,
+        /// Its end.
+        to: At,
+        /// The level in m/s².
+        level_m_s2: f64,
+        /// What it may change of the spectrum at the lowest frequency.
+        share: f64,
+        /// That frequency in Hz.
+        hz: f64,
+    },
+    /// The level at the end is not that before the shock, by so much that the spectrum shows it.
+    Drift {
+        /// Name of the channel.
+        channel: String,
+        /// From where on the level was taken.
+        from: At,
+        /// The level there less that before the shock, in m/s².
+        change_m_s2: f64,
+        /// What it may change of the spectrum at the lowest frequency.
+        share: f64,
+        /// That frequency in Hz.
+        hz: f64,
+    },
+    /// Samples in a row have the very largest value: the amplifier or the converter may have been at its end.
+    Clipped {
+        /// Name of the channel.
+        channel: String,
+        /// The first of them.
+        at: At,
+        /// How many.
+        samples: usize,
+        /// Their value in m/s².
+        value_m_s2: f64,
+    },
+}
+
+/// A place in a file: a line of a text, else the number of a sample; both from 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum At {
+    /// A line.
+    Line(usize),
+    /// A sample.
+    Sample(usize),
+}
+
+impl std::fmt::Display for At {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Line(line) => write!(f, "line {line}"),
+            Self::Sample(sample) => write!(f, "sample {sample}"),
+        }
+    }
+}
+
+impl At {
+    /// The place of a sample, from 0, in a file whose lines are numbered so.
+    pub(crate) fn of(numbering: &[(usize, usize)], sample: usize) -> Self {
+        if numbering.is_empty() { Self::Sample(sample + 1) } else { Self::Line(line_of(numbering, sample)) }
+    }
+}
+
+impl std::fmt::Display for Finding {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let percent = |share: f64| three(100.0 * share);
+        match self {
+            Self::LeftOut(columns) => write!(f, "nothing is made of column {}", columns.join(", ")),
+            Self::Skipped(bad) => write!(f, "left out: {}", crate::Error::Lines(bad.clone()).to_string().replace('\n', "; ")),
+            Self::Below(bad) => {
+                let (line, what) = bad.first.first().map_or((0, ""), |(line, what)| (*line, what.as_str()));
+                write!(f, "text below the numbers: line {line}: {what}")
+            }
+            Self::Gaps { first, count, usual_s } => {
+                let listed: Vec<_> = first.iter().map(|(at, gap_s)| format!("{at}: {} s", three(*gap_s))).collect();
+                write!(f, "samples are missing: usual are {} s from one to the next; {}", three(*usual_s), listed.join("; "))?;
+                if *count > first.len() { write!(f, "; and {} more", count - first.len()) } else { Ok(()) }
+            }
+            Self::Begins { channel, share } => write!(
+                f,
+                "{channel} begins at {} % of its largest value: the shock begins before the record, or there is an offset",
+                percent(*share)
+            ),
+            Self::Ends { channel, share } => {
+                write!(f, "{channel} ends at {} % of its largest value: the shock is cut off, or there is an offset", percent(*share))
+            }
+            Self::Offset { channel, from, to, level_m_s2, share, hz } => write!(
+                f,
+                "{channel}, {from} to {to}: {} m/s2 before the shock, up to {} % of the spectrum at {} Hz",
+                three(*level_m_s2),
+                percent(*share),
+                three(*hz)
+            ),
+            Self::Drift { channel, from, change_m_s2, share, hz } => write!(
+                f,
+                "{channel}, from {from} on: {} m/s2 above the level before the shock, up to {} % of the spectrum at {} Hz",
+                three(*change_m_s2),
+                percent(*share),
+                three(*hz)
+            ),
+            Self::Clipped { channel, at, samples, value_m_s2 } => write!(
+                f,
+                "{channel}, from {at} on: {samples} samples at {} m/s2, the largest of all: it may be clipped",
+                three(*value_m_s2)
+            ),
+        }
+    }
+}
+
+/// Three significant digits.
+fn three(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "a float has at most 308 digits")]
+    let place = value.abs().log10().floor() as i32;
+    if (-3..6).contains(&place) {
+        let text = format!("{value:.*}", usize::try_from(2 - place).unwrap_or(0));
+        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    } else {
+        format!("{value:.2e}")
+    }
+}
+
+/// A shock begins and ends where the acceleration passes this share of the largest: the 10 % of the standards.
+pub(crate) const EDGE: f64 = 0.1;
+/// Offsets that change a spectrum by less are not told.
+const TOLD: f64 = 0.02;
+/// A level is told from noise where it is so many times its standard error, of the means of so many parts: one in two hundred
+/// by chance.
+const SURE: f64 = 4.0;
+const PARTS: usize = 8;
+/// Samples that a level needs.
+const LEAST: usize = 16;
+/// So many samples of the very largest value are no accident,
+const FLAT: usize = 3;
+/// unless the steps beside them are as small as the smallest step there is, or nearly.
+const ABRUPT: f64 = 8.0;
+/// Gaps that are listed.
+const LISTED: usize = 10;
+/// A step is a gap where it is longer than the usual one by half of it, and by so many times what nine of ten differ by: beyond
+/// what a normal distribution gives once in a million.
+const GAP: (f64, f64) = (0.5, 3.0);
+
+/// Steps that lack samples. `since_s` is in order.
+pub(crate) fn gaps(since_s: &[f64], at: &dyn Fn(usize) -> At) -> Option<Finding> {
+    let steps: Vec<f64> = since_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let share = |values: &mut [f64], share: usize| {
+        let nth = (values.len() - 1) * share / 10;
+        *values.select_nth_unstable_by(nth, f64::total_cmp).1
+    };
+    if steps.len() < 4 {
+        return None;
+    }
+    let usual_s = share(&mut steps.clone(), 5);
+    let spread = share(&mut steps.iter().map(|step| (step - usual_s).abs()).collect::<Vec<_>>(), 9);
+    let longest = usual_s + (GAP.0 * usual_s).max(GAP.1 * spread);
+    let found = steps.iter().enumerate().filter(|(_, step)| **step > longest);
+    let mut first = Vec::new();
+    let mut count = 0;
+    for (i, step) in found {
+        if first.len() < LISTED {
+            first.push((at(i + 1), *step));
+        }
+        count += 1;
+    }
+    (count > 0).then_some(Finding::Gaps { first, count, usual_s })
+}
+
+/// A level over some samples, if it is sure that it is not zero: the mean is far beyond what the means of its parts differ by.
+fn level(values: &[f64]) -> Option<f64> {
+    if values.len() < LEAST {
+        return None;
+    }
+    let means: Vec<f64> = values.chunks_exact(values.len() / PARTS).take(PARTS).map(mean).collect();
+    let all = mean(values);
+    let square: f64 = means.iter().map(|part| (part - all).powi(2)).sum();
+    #[expect(clippy::cast_precision_loss, reason = "eight")]
+    let parts = PARTS as f64;
+    let error = (square / (parts * (parts - 1.0))).sqrt();
+    (all.abs() > SURE * error).then_some(all)
+}
+
+fn mean(values: &[f64]) -> f64 {
+    #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
+    let count = values.len() as f64;
+    values.iter().sum::<f64>() / count
+}
+
+/// A channel, its duration and the lowest frequency that matters.
+pub(crate) struct Judged<'a> {
+    pub(crate) channel: &'a str,
+    pub(crate) values: &'a [f64],
+    pub(crate) duration_s: f64,
+    pub(crate) lowest_hz: f64,
+    pub(crate) at: &'a dyn Fn(usize) -> At,
+}
+
+impl Judged<'_> {
+    /// Adds what is odd.
+    pub(crate) fn judge(&self, findings: &mut Vec<Finding>) {
+        let values = self.values;
+        let largest = values.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
+        let (Some(first), Some(last)) = (values.first(), values.last()) else { return };
+        if largest == 0.0 {
+            return;
+        }
+        let channel = || self.channel.to_owned();
+        let inside = |a: f64| a.abs() > EDGE * largest;
+        if inside(*first) {
+            findings.push(Finding::Begins { channel: channel(), share: first.abs() / largest });
+        }
+        if inside(*last) {
+            findings.push(Finding::Ends { channel: channel(), share: last.abs() / largest });
+        }
+        let begin = values.iter().position(|a| inside(*a)).unwrap_or(0);
+        let end = values.iter().rposition(|a| inside(*a)).map_or(values.len(), |last| last + 1);
+        // The first half of what is before the shock, and the last half of what is after it: its feet and its ringing are not in.
+        let before = level(&values[..begin / 2]);
+        let from = end + (values.len() - end) / 2;
+        let after = level(&values[from..]).unwrap_or(0.0) - before.unwrap_or(0.0);
+        let swing = self.velocity_swing();
+        let share = |level: f64| {
+            let turn = TAU * self.lowest_hz;
+            let [offset, shock] = [(2.0 * level.abs(), level.abs() * self.duration_s), (2.0 * largest, swing)]
+                .map(|(at_most, velocity)| at_most.min(turn * velocity));
+            offset / shock
+        };
+        if let Some(level_m_s2) = before.filter(|level| share(*level) > TOLD) {
+            let (from, to) = ((self.at)(0), (self.at)(begin / 2 - 1));
+            let (share, hz) = (share(level_m_s2), self.lowest_hz);
+            findings.push(Finding::Offset { channel: channel(), from, to, level_m_s2, share, hz });
+        }
+        if begin >= 2 * LEAST && values.len() - from >= LEAST && share(after) > TOLD {
+            let (share, hz) = (share(after), self.lowest_hz);
+            findings.push(Finding::Drift { channel: channel(), from: (self.at)(from), change_m_s2: after, share, hz });
+        }
+        self.clipped(largest, findings);
+    }
+
+    /// How far the velocity goes, from its least to its most, over the shock: in m/s.
+    fn velocity_swing(&self) -> f64 {
+        #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
+        let step_s = self.duration_s / (self.values.len() - 1).max(1) as f64;
+        let (mut velocity, mut least, mut most) = (0.0_f64, 0.0_f64, 0.0_f64);
+        for a in self.values {
+            velocity += a * step_s;
+            (least, most) = (least.min(velocity), most.max(velocity));
+        }
+        most - least
+    }
+
+    fn clipped(&self, largest: f64, findings: &mut Vec<Finding>) {
+        let values = self.values;
+        let smallest = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|step| *step > 0.0);
+        let smallest = smallest.fold(f64::INFINITY, f64::min);
+        let mut at = 0;
+        for run in values.chunk_by(|a, b| a.to_bits() == b.to_bits()) {
+            let (begin, end) = (at, at + run.len());
+            at = end;
+            if run.len() < FLAT || run[0].abs() < largest {
+                continue;
+            }
+            let beside = [begin.checked_sub(1).map(|i| values[i]), values.get(end).copied()];
+            let steps = beside.into_iter().flatten().map(|a| (a - run[0]).abs());
+            if steps.fold(f64::INFINITY, f64::min) > ABRUPT * smallest {
+                let (at, samples, value_m_s2) = ((self.at)(begin), run.len(), run[0]);
+                findings.push(Finding::Clipped { channel: self.channel.to_owned(), at, samples, value_m_s2 });
+                return;
+            }
+        }
+    }
+}

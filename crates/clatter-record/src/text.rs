@@ -1,0 +1,137 @@
+//! Records as text: whatever loggers and programs write.
+
+mod cells;
+mod layout;
+mod rows;
+
+use std::io::Read;
+
+use crate::roles::{Roles, Seen};
+use crate::{Error, Options};
+use layout::Layout;
+pub(crate) use rows::{Rows, line_of};
+
+/// Bytes that are read at a time, and before it is known what a file holds.
+pub(crate) const BLOCK: usize = 1 << 20;
+/// Lines, and bytes of them, that may be above the numbers.
+const HEAD: (usize, usize) = (2000, 1 << 18);
+/// A line has no more bytes.
+const LONGEST: usize = 1 << 18;
+/// Rows that show what columns without names are.
+const SHOWN: usize = 8;
+
+/// A text as UTF-8, or as any other bytes with ASCII below 128, whose lines end with a line feed.
+pub(crate) fn decoded(first: &[u8]) -> Option<fn(&[u8]) -> Vec<u8>> {
+    fn little(bytes: &[u8]) -> Vec<u8> {
+        utf16(bytes, u16::from_le_bytes)
+    }
+    fn big(bytes: &[u8]) -> Vec<u8> {
+        utf16(bytes, u16::from_be_bytes)
+    }
+    fn returns(bytes: &[u8]) -> Vec<u8> {
+        bytes.iter().map(|byte| if *byte == b'\r' { b'\n' } else { *byte }).collect()
+    }
+    let zeros = |odd: usize| first.iter().skip(odd).step_by(2).take(32).filter(|byte| **byte == 0).count();
+    match first {
+        [0xff, 0xfe, ..] => Some(little),
+        [0xfe, 0xff, ..] => Some(big),
+        _ if zeros(1) > 24 && zeros(0) == 0 => Some(little),
+        _ if zeros(0) > 24 && zeros(1) == 0 => Some(big),
+        _ if first.contains(&b'\r') && !first.contains(&b'\n') => Some(returns),
+        _ => None,
+    }
+}
+
+fn utf16(bytes: &[u8], word: fn([u8; 2]) -> u16) -> Vec<u8> {
+    let words = bytes.chunks_exact(2).map(|pair| word([pair[0], pair[1]]));
+    let text: String = char::decode_utf16(words).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect();
+    text.replace("\r\n", "\n").replace('\r', "\n").into_bytes()
+}
+
+/// Bytes as text: UTF-8, or else Latin-1, of which µ and ² are in headings.
+fn text_of(bytes: &[u8]) -> String {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => text.to_owned(),
+        Err(_) => bytes.iter().map(|byte| char::from(*byte)).collect(),
+    }
+}
+
+/// Reads a text whose beginning is there already, handing on how many bytes are read.
+pub(crate) fn read(
+    begin: Vec<u8>,
+    rest: &mut dyn Read,
+    options: &Options,
+    progress: &mut dyn FnMut(u64),
+) -> Result<(Rows, Roles), Error> {
+    let begin = match begin.strip_prefix("\u{feff}".as_bytes()) {
+        Some(text) => text.to_vec(),
+        None => begin,
+    };
+    let lines: Vec<String> = begin[..begin.len().min(HEAD.1)].split(|byte| *byte == b'\n').take(HEAD.0).map(text_of).collect();
+    let lines = match begin.len() > HEAD.1 && lines.len() < HEAD.0 {
+        // The last one may be cut.
+        true if lines.len() == 1 => {
+            return Err(Error::File(format!("the first line is longer than {} bytes: this is no text of columns", HEAD.1)));
+        }
+        true => lines[..lines.len() - 1].to_vec(),
+        false => lines,
+    };
+    let mut layout = Layout::of(&lines)?;
+    let form = layout.form;
+    let data: Vec<Vec<_>> = lines[layout.begin..].iter().filter(|line| !line.trim().is_empty()).take(SHOWN).map(|line| form.cells(line)).collect();
+    // Times of day need no unit.
+    for (column, heading) in layout.headings.iter_mut().enumerate() {
+        if heading.unit.is_none() && data.first().and_then(|row| row.get(column)).is_some_and(|cell| crate::moment::seconds(cell).is_some()) {
+            *heading = heading.clone().with_unit("s");
+        }
+    }
+    let number = |cell: &std::borrow::Cow<'_, str>| form.number(cell).map_or(f64::NAN, crate::decimal::Decimal::float);
+    let seen = Seen {
+        headings: layout.headings,
+        named: layout.named,
+        sampled: layout.sampled_s.is_some(),
+        rows: data.iter().map(|row| row.iter().map(number).collect()).collect(),
+    };
+    let roles = seen.roles(options)?;
+    let mut rows = Rows::new(form, &roles, options, seen.headings.len(), layout.sampled_s);
+    rows.skip_lines(layout.begin);
+    let mut at = begin.split_inclusive(|byte| *byte == b'\n').take(layout.begin).map(<[u8]>::len).sum::<usize>();
+    let (mut buffer, mut bytes) = (begin, 0_u64);
+    bytes += buffer.len() as u64;
+    loop {
+        at += rows.take(&buffer[at..])?;
+        progress(bytes);
+        buffer.drain(..at);
+        at = 0;
+        if buffer.len() > LONGEST {
+            return Err(Error::File(format!("line {} is longer than {LONGEST} bytes: this is no text of columns", rows.line() + 1)));
+        }
+        let kept = buffer.len();
+        buffer.resize(kept + BLOCK, 0);
+        let read = fill(rest, &mut buffer[kept..])?;
+        buffer.truncate(kept + read);
+        bytes += read as u64;
+        if read == 0 {
+            break;
+        }
+    }
+    if !buffer.is_empty() {
+        buffer.push(b'\n');
+        rows.take(&buffer)?;
+    }
+    Ok((rows, roles))
+}
+
+/// Reads until a buffer is full or the input ends.
+pub(crate) fn fill(input: &mut dyn Read, buffer: &mut [u8]) -> Result<usize, Error> {
+    let mut filled = 0;
+    while filled < buffer.len() {
+        match input.read(&mut buffer[filled..]) {
+            Ok(0) => break,
+            Ok(read) => filled += read,
+            Err(error) if error.kind() == std::io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(Error::Read(error.to_string())),
+        }
+    }
+    Ok(filled)
+}

@@ -1,0 +1,217 @@
+//! Where the numbers of a text begin, how they are separated, and what the lines above them say.
+
+use super::cells::Form;
+use crate::Error;
+use crate::heading::Heading;
+use crate::unit::{Kind, Unit};
+
+/// What the beginning of a text tells.
+#[derive(Debug)]
+pub(super) struct Layout {
+    pub(super) form: Form,
+    /// Number of the first line of numbers, from 0.
+    pub(super) begin: usize,
+    /// One for each column.
+    pub(super) headings: Vec<Heading>,
+    pub(super) named: bool,
+    /// Time of the first sample and between samples, where lines above tell it and there is no column of times.
+    pub(super) sampled_s: Option<[f64; 2]>,
+}
+
+/// Lines that begin so are comments.
+const COMMENTS: [&str; 4] = ["#", "%", "//", "!"];
+/// Lines above the numbers that are read for headings.
+const ABOVE: usize = 8;
+
+/// A line without the mark of a comment, and whether it had one.
+pub(super) fn uncommented(line: &str) -> (&str, bool) {
+    let line = line.trim();
+    match COMMENTS.iter().find(|mark| line.starts_with(**mark)) {
+        Some(mark) => (line.trim_start_matches(mark.chars().next().unwrap_or('#')).trim_start(), true),
+        None => (line, false),
+    }
+}
+
+impl Layout {
+    /// Of the first lines of a text.
+    pub(super) fn of(lines: &[String]) -> Result<Self, Error> {
+        let forced = lines.iter().find_map(|line| separator_line(line));
+        let forms: Vec<Form> = match forced {
+            Some(separator) => {
+                [b'.', b','].map(|point| Form { separator: Some(separator), point }).into_iter().filter(|f| f.separator != Some(f.point)).collect()
+            }
+            None => [(Some(b'\t'), b'.'), (Some(b'\t'), b','), (Some(b';'), b'.'), (Some(b';'), b','), (Some(b','), b'.'), (Some(b'|'), b'.'), (None, b'.'), (None, b',')]
+                .map(|(separator, point)| Form { separator, point })
+                .to_vec(),
+        };
+        // Several columns before one: a separator that is not in the numbers makes one column of every line.
+        let found: Vec<(Form, usize, usize)> =
+            forms.into_iter().filter_map(|form| begin(lines, form).map(|(line, columns)| (form, line, columns))).collect();
+        let several = found.iter().find(|(_, _, columns)| *columns > 1);
+        let Some(&(form, begin, columns)) = several.or(found.first()) else {
+            return Err(Error::File(format!("no line of numbers is found in the first {} lines", lines.len())));
+        };
+        let mut layout = Self { form, begin, headings: Vec::new(), named: false, sampled_s: None };
+        layout.read_above(lines, columns)?;
+        Ok(layout)
+    }
+
+    /// Names and units of the columns, from the lines above the numbers, the nearest first.
+    fn read_above(&mut self, lines: &[String], columns: usize) -> Result<(), Error> {
+        let (mut names, mut units) = (None, None);
+        let above = lines[..self.begin].iter().rev().filter(|line| !line.trim().is_empty()).take(ABOVE);
+        for line in above {
+            let (text, commented) = uncommented(line);
+            if separator_line(text).is_some() {
+                continue;
+            }
+            let listed = text.split_once(':').filter(|(word, _)| {
+                ["unit", "units", "einheit", "einheiten"].contains(&word.trim().to_lowercase().as_str())
+            });
+            let cells = heading_cells(self.form, listed.map_or(text, |(_, list)| list.trim()), columns);
+            let Some(cells) = cells else { continue };
+            if units.is_none() && (listed.is_some() || all_units(&cells)) {
+                units = Some(cells);
+                continue;
+            }
+            // A line of text with as many cells is one of names; in a comment it has to say something of time or acceleration.
+            let headings: Vec<Heading> = cells.iter().map(|cell| Heading::of(cell)).collect();
+            let telling = |heading: &Heading| heading.unit.is_some() || heading.named() != crate::heading::Named::Unknown;
+            if !commented || headings.iter().filter(|heading| !heading.name.is_empty()).any(telling) {
+                names = Some(headings);
+                break;
+            }
+        }
+        let of_labview = labview(&lines[..self.begin], columns);
+        self.named = names.is_some();
+        let unnamed = || vec![Heading { name: String::new(), unit: None, spelled: None }; columns];
+        let mut headings = names.unwrap_or_else(unnamed);
+        // Names without numbers below them, as LabVIEW's `Comment`, are none of a column.
+        headings.truncate(columns);
+        if let Some(units) = units {
+            headings = headings.into_iter().zip(units).map(|(heading, unit)| heading.with_unit(&unit)).collect();
+        }
+        if let Some((units, sampled_s)) = of_labview {
+            headings = headings
+                .into_iter()
+                .zip(units)
+                .map(|(heading, unit)| if heading.spelled.is_none() { heading.with_unit(&unit) } else { heading })
+                .collect();
+            self.sampled_s = sampled_s;
+        }
+        self.headings = headings;
+        Ok(())
+    }
+}
+
+/// `sep=;`, by which spreadsheets tell the separator.
+fn separator_line(line: &str) -> Option<u8> {
+    let rest = line.trim().trim_matches('"').strip_prefix("sep=").or_else(|| line.trim().strip_prefix("SEP="))?;
+    match rest.as_bytes() {
+        [separator] => Some(*separator),
+        [] if line.contains("sep=\t") => Some(b'\t'),
+        _ => None,
+    }
+}
+
+/// The line that the numbers begin with, and their columns: cells that are all numbers, on it and the next line.
+///
+/// A line right above that is a number in its first cell and not in another is one of them too, with a fault.
+fn begin(lines: &[String], form: Form) -> Option<(usize, usize)> {
+    let is_comment = |line: &str| uncommented(line).1;
+    let of = |line: &str| -> Option<usize> {
+        let mut cells = form.cells(line);
+        // A separator at the end of each line makes no column.
+        while cells.len() > 1 && cells.last().is_some_and(|cell| cell.is_empty()) {
+            cells.pop();
+        }
+        let numbers = cells.iter().filter(|cell| form.number(cell).is_some()).count();
+        (numbers > 0 && cells.iter().all(|cell| form.is_data(cell))).then_some(cells.len())
+    };
+    let rows: Vec<(usize, &String)> =
+        lines.iter().enumerate().filter(|(_, line)| !line.trim().is_empty() && !is_comment(line)).collect();
+    let first = (0..rows.len()).find_map(|i| {
+        let columns = of(rows[i].1)?;
+        // An empty last cell may be a fault of one line.
+        let next = rows.get(i + 1).map(|row| of(row.1));
+        match next {
+            None => Some((i, columns)),
+            Some(Some(next)) if next >= columns && next <= columns + 1 => Some((i, next)),
+            Some(_) => None,
+        }
+    });
+    let (mut i, columns) = first?;
+    while let Some(row) = i.checked_sub(1).map(|above| rows[above].1) {
+        let cells = form.cells(row);
+        let starts = cells.len() == columns && columns > 1 && cells.first().is_some_and(|cell| form.number(cell).is_some());
+        if !starts {
+            break;
+        }
+        i -= 1;
+    }
+    Some((rows[i].0, columns))
+}
+
+/// The cells of a line of names or units: as many as there are columns; those of blanks may have blanks in them.
+fn heading_cells(form: Form, text: &str, columns: usize) -> Option<Vec<String>> {
+    let owned = |cells: Vec<std::borrow::Cow<'_, str>>| cells.into_iter().map(std::borrow::Cow::into_owned).collect::<Vec<_>>();
+    let mut cells = owned(form.cells(text));
+    while cells.len() > columns && cells.last().is_some_and(String::is_empty) {
+        cells.pop();
+    }
+    if form.separator.is_some() {
+        let fits = cells.len() == columns || cells.len() == columns + 1 && columns > 1;
+        if fits {
+            return Some(cells);
+        }
+        // In comments, and above columns of blanks, names may be separated in another way.
+    } else if cells.len() == columns {
+        return Some(cells);
+    }
+    let by = |separator: &str| text.split(separator).map(str::trim).filter(|cell| !cell.is_empty()).map(str::to_owned).collect::<Vec<_>>();
+    [by("  "), by("\t"), by(","), by(";"), joined(text)].into_iter().find(|cells| cells.len() == columns)
+}
+
+/// Words, with a unit in brackets joined to the name before it.
+fn joined(text: &str) -> Vec<String> {
+    let mut cells: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match cells.last_mut() {
+            Some(last) if word.starts_with(['[', '(']) => {
+                last.push(' ');
+                last.push_str(word);
+            }
+            _ => cells.push(word.to_owned()),
+        }
+    }
+    cells
+}
+
+/// Whether every cell is a unit or empty, and one is a unit.
+fn all_units(cells: &[String]) -> bool {
+    let unit = |cell: &String| Unit::of(cell.trim_matches(['[', ']', '(', ')'])).is_some();
+    // `t,a` are names, though `a` is a unit of current.
+    let telling = |cell: &String| {
+        let cell = cell.trim_matches(['[', ']', '(', ')']);
+        Unit::of(cell).is_some_and(|unit| !matches!(unit.kind, Kind::Other(_)))
+    };
+    cells.iter().all(|cell| cell.is_empty() || cell == "-" || unit(cell)) && cells.iter().any(telling)
+}
+
+/// What the lines above the numbers of a LabVIEW measurement file (.lvm) tell: units of the columns, and the times of samples
+/// where there is no column of them.
+fn labview(lines: &[String], columns: usize) -> Option<(Vec<String>, Option<[f64; 2]>)> {
+    lines.first().filter(|line| line.starts_with("LabVIEW Measurement"))?;
+    let values = |key: &str| -> Option<Vec<String>> {
+        let line = lines.iter().rev().find(|line| line.split(['\t', ',', ';']).next().is_some_and(|k| k.trim() == key))?;
+        let all = line.split(['\t', ',', ';']).skip(1).map(|cell| cell.trim().to_owned());
+        Some(all.collect())
+    };
+    let has_times = values("X_Columns").is_none_or(|values| values.first().is_none_or(|v| v != "No"));
+    let mut units = vec![if values("X_Dimension").is_none_or(|v| v.first().is_none_or(|v| v == "Time")) { "s" } else { "" }.to_owned()];
+    units.extend(values("Y_Unit_Label").unwrap_or_default());
+    units.resize(columns, String::new());
+    let number = |key: &str| values(key)?.first()?.replace(',', ".").parse::<f64>().ok();
+    let sampled_s = (!has_times).then(|| Some([number("X0").unwrap_or(0.0), number("Delta_X")?])).flatten();
+    Some((units, sampled_s))
+}

@@ -1,0 +1,258 @@
+//! Whether times lie on an even grid, as far as what a file holds of them tells.
+
+use crate::decimal::Decimal;
+
+/// Times may be off an even grid by this share of a step: what that does to a spectrum is far below what is between samples.
+const UNEVEN: f64 = 1e-3;
+/// Times that are rounded to more than this share of a step can't be told from uneven ones, or from missing samples.
+const COARSEST: f64 = 0.75;
+/// Where each line is as exact as its own digits say, zeros at its end may be missing: no more than this share is taken on trust.
+const TRUSTED: f64 = 0.25;
+
+/// How the times of a file are printed.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Printed {
+    /// Power of ten of the last digit of each; empty for times that are no text.
+    places: Vec<i8>,
+    /// The least of them; of all that are no text.
+    finest: i32,
+    /// Significant digits, of that which has most.
+    digits: i32,
+}
+
+impl Printed {
+    /// Whole numbers of units.
+    pub(crate) fn whole() -> Self {
+        Self::default()
+    }
+    /// Floats with all their digits.
+    pub(crate) fn floats() -> Self {
+        Self { finest: -400, ..Self::default() }
+    }
+    #[inline]
+    pub(crate) fn note(&mut self, time: Decimal) {
+        let place = time.exponent.clamp(-99, 99);
+        self.finest = if self.places.is_empty() { place } else { self.finest.min(place) };
+        self.digits = self.digits.max(time.digits);
+        #[expect(clippy::cast_possible_truncation, reason = "within 99 of zero")]
+        self.places.push(place as i8);
+    }
+    /// Without the times of these samples.
+    pub(crate) fn keep(&mut self, kept: &[bool]) {
+        let mut kept = kept.iter();
+        self.places.retain(|_| kept.next().copied().unwrap_or(true));
+    }
+    /// The unit of the last digit, in units of time.
+    pub(crate) fn unit(&self) -> f64 {
+        10_f64.powi(self.finest)
+    }
+}
+
+/// Times as a file has them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Times<'a> {
+    /// Seconds since the first one.
+    pub(crate) since_s: &'a [f64],
+    pub(crate) start_s: f64,
+    /// Unit of the numbers in the file, in seconds.
+    pub(crate) unit_s: f64,
+    pub(crate) printed: &'a Printed,
+}
+
+impl Times<'_> {
+    /// The time between samples, if all lie on an even grid: to a thousandth of a step, or as far as the times were rounded when
+    /// they were written: to decimals or to significant digits, to floats of 32 bits, or each to its own last digit.
+    pub(crate) fn step(&self) -> Option<f64> {
+        let count = self.since_s.len();
+        if count < 2 {
+            return None;
+        }
+        #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
+        let mean = self.since_s[count - 1] / (count - 1) as f64;
+        if mean <= 0.0 {
+            return None;
+        }
+        let own = |i| Some(self.own(i)?.min(TRUSTED * mean));
+        let mut found = [None; 3];
+        found[0] = self.even(mean, |i| Some(self.decimal(i)));
+        let explained = |found: Option<Even>| found.is_some_and(|found| found.exact);
+        if !explained(found[0]) && self.is_single() {
+            found[1] = self.even(mean, |i| Some(single(self.number(i)) * self.unit_s));
+        }
+        if !explained(found[0]) && !explained(found[1]) {
+            found[2] = self.even(mean, own);
+        }
+        // What rounding explains in full is meant, before what is a little off.
+        let found: Vec<Even> = found.into_iter().flatten().collect();
+        found.iter().find(|found| found.exact).or(found.first()).map(|found| found.step_s)
+    }
+
+    /// A time as the number in the file.
+    fn number(&self, i: usize) -> f64 {
+        (self.start_s + self.since_s[i]) / self.unit_s
+    }
+    /// How far a time may be rounded if all have as many decimals, or as many significant digits.
+    fn decimal(&self, i: usize) -> f64 {
+        let Printed { finest, digits, .. } = *self.printed;
+        #[expect(clippy::cast_possible_truncation, reason = "a float has at most 308 digits")]
+        let place = if digits > 0 { (self.number(i).abs().log10().floor().max(-400.0) as i32 + 1 - digits).max(finest) } else { finest };
+        10_f64.powi(place) * self.unit_s
+    }
+    /// How far a time may be rounded by its own last digit.
+    fn own(&self, i: usize) -> Option<f64> {
+        Some(10_f64.powi(i32::from(*self.printed.places.get(i)?)) * self.unit_s)
+    }
+    /// Whether all times are floats of 32 bits, as numbers, rounded to the digits that were printed, or in their shortest digits.
+    fn is_single(&self) -> bool {
+        (0..self.since_s.len()).all(|i| {
+            let number = self.number(i);
+            #[expect(clippy::cast_possible_truncation, reason = "the question is whether it is one")]
+            let near = number as f32;
+            let least = 4.0 * f64::EPSILON * number.abs();
+            let rounded = self.own(i).map_or(0.0, |unit_s| 0.5 * unit_s / self.unit_s);
+            let is = |other: f64, within: f64| (other - number).abs() <= within + least;
+            is(f64::from(near), rounded) || format!("{near}").parse().is_ok_and(|shortest| is(shortest, 0.0))
+        })
+    }
+
+    /// The step of a grid that all times lie on, each to within the larger of what `rounded` says and a thousandth of a step.
+    fn even(&self, mean: f64, rounded: impl Fn(usize) -> Option<f64>) -> Option<Even> {
+        // Steps that keep all times within the bands, and within what rounding alone explains.
+        let mut steps = Within::default();
+        let mut exact = Within::default();
+        let mut before = 0.0;
+        // Differences of floats are no more exact than these.
+        let least = 2.0 * f64::EPSILON * (self.start_s.abs() + self.since_s[self.since_s.len() - 1]);
+        for (i, &time) in self.since_s.iter().enumerate().skip(1) {
+            let rounded = rounded(i)?;
+            if rounded > COARSEST * mean || time - before > mean * (1.0 + UNEVEN) + rounded + least || time < before {
+                return None;
+            }
+            let rounded = rounded.max(least);
+            steps.note(i, time, rounded.max(UNEVEN * mean));
+            exact.note(i, time, rounded);
+            before = time;
+        }
+        if exact.low <= exact.high {
+            let step_s = exact.simplest().unwrap_or(mean.clamp(exact.low, exact.high));
+            return Some(Even { step_s, exact: true });
+        }
+        (steps.low <= steps.high).then(|| Even { step_s: mean.clamp(steps.low, steps.high), exact: false })
+    }
+}
+
+/// An even grid.
+#[derive(Debug, Clone, Copy)]
+struct Even {
+    step_s: f64,
+    /// Whether rounding explains all that times are off it.
+    exact: bool,
+}
+
+/// Lengths of a step that times allow.
+#[derive(Debug, Clone, Copy)]
+struct Within {
+    low: f64,
+    high: f64,
+}
+
+impl Default for Within {
+    fn default() -> Self {
+        Self { low: 0.0, high: f64::INFINITY }
+    }
+}
+
+impl Within {
+    /// The time of a sample is off by so much at most.
+    fn note(&mut self, sample: usize, time: f64, band: f64) {
+        #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
+        let steps = sample as f64;
+        (self.low, self.high) = (self.low.max((time - band) / steps), self.high.min((time + band) / steps));
+    }
+    /// The step that has the fewest digits, or whose rate has: 1e-4 s and 51200 Hz are meant where rounded times allow them.
+    fn simplest(self) -> Option<f64> {
+        // Times cut to whole digits reach their bounds, but for rounding.
+        let (low, high) = (self.low * (1.0 - 1e-12), self.high * (1.0 + 1e-12));
+        let middle = low.midpoint(high);
+        (0..16).find_map(|digits| {
+            let round = |value: f64| format!("{value:.digits$e}").parse::<f64>().ok();
+            let both = [round(middle), round(middle.recip()).map(f64::recip)];
+            both.into_iter().flatten().find(|step| (low..=high).contains(step))
+        })
+    }
+}
+
+/// The distance between floats of 32 bits around a number.
+fn single(number: f64) -> f64 {
+    number.abs().max(f64::from(f32::MIN_POSITIVE)).log2().floor().exp2() * f64::from(f32::EPSILON)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn step_of(texts: &[String]) -> Option<f64> {
+        let numbers: Vec<Decimal> = texts.iter().map(|text| Decimal::scan(text.as_bytes(), b'.').expect(text).0).collect();
+        let mut printed = Printed::default();
+        numbers.iter().for_each(|number| printed.note(*number));
+        let since_s: Vec<f64> = numbers.iter().map(|number| number.above(numbers[0])).collect();
+        Times { since_s: &since_s, start_s: numbers[0].float(), unit_s: 1.0, printed: &printed }.step()
+    }
+
+    fn texts(print: impl Fn(f64) -> String) -> Vec<String> {
+        (0..1200).map(|i| print(f64::from(i) / 51_200.0)).collect()
+    }
+
+    /// `%.6g`, as tables of spreadsheets and LabVIEW have it: significant digits without zeros at the end.
+    fn significant(number: f64, digits: i32) -> String {
+        if number == 0.0 {
+            return "0".to_owned();
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "a small number")]
+        let places = usize::try_from(digits - 1 - number.abs().log10().floor() as i32).unwrap_or(0);
+        let text = format!("{number:.places$}");
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    }
+
+    #[test]
+    fn times_that_were_rounded_are_even() {
+        #[expect(clippy::cast_possible_truncation, reason = "floats of 32 bits are what is tested")]
+        let as_single = |t: f64| format!("{}", t as f32);
+        for (name, texts) in [
+            ("exact", texts(|t| format!("{t:?}"))),
+            ("six decimals", texts(|t| format!("{t:.6}"))),
+            ("five decimals, half a step", texts(|t| format!("{t:.5}"))),
+            ("nine decimals", texts(|t| format!("{t:.9}"))),
+            ("exponents", texts(|t| format!("{t:.5e}"))),
+            ("six significant digits", texts(|t| significant(t, 6))),
+            ("six significant digits from 1 s on", texts(|t| significant(1.0 + t, 6))),
+            ("floats of 32 bits", texts(as_single)),
+            ("floats of 32 bits from 1 s on", texts(|t| as_single(1.0 + t))),
+            ("nine digits of floats of 32 bits from 1 s on", texts(|t| significant(f64::from((1.0 + t) as f32), 9))),
+            ("whole microseconds, cut", texts(|t| format!("{}", (t * 1e6).floor() * 1e-6))),
+            ("two ways to print", texts(|t| if t < 0.001 { format!("{t:.8e}") } else { format!("{t:.6}") })),
+        ] {
+            let step = step_of(&texts).unwrap_or_else(|| panic!("{name}: not even"));
+            // A round rate is meant where it is within what the digits allow.
+            assert_eq!(step.to_bits(), 51_200_f64.recip().to_bits(), "{name}: {step}");
+        }
+    }
+
+    #[test]
+    fn times_that_are_off_the_grid_are_not_even() {
+        let shifted = |i: usize, share: f64, print: &dyn Fn(f64) -> String| -> Vec<String> {
+            (0..1200).map(|k| print((f64::from(k) + if k as usize >= i { share } else { 0.0 }) / 51_200.0)).collect()
+        };
+        for (name, texts) in [
+            ("a missing sample", shifted(600, 1.0, &|t| format!("{t:?}"))),
+            ("a missing sample, six decimals", shifted(600, 1.0, &|t| format!("{t:.6}"))),
+            ("a missing sample, five decimals", shifted(600, 1.0, &|t| format!("{t:.5}"))),
+            ("a third of a step, six decimals", shifted(600, 0.33, &|t| format!("{t:.6}"))),
+            ("a hundredth of a step", shifted(600, 0.01, &|t| format!("{t:.9}"))),
+            ("coarser than the samples", texts(|t| format!("{t:.4}"))),
+            ("all at once", texts(|_| "1".to_owned())),
+        ] {
+            assert_eq!(step_of(&texts), None, "{name}");
+        }
+    }
+}
