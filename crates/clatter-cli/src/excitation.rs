@@ -2,7 +2,7 @@
 
 use clatter_assess::units::{ACCELERATION, Dimension, FREQUENCY, LENGTH, Quantity, SPEED, TIME, Unit};
 use clatter_shock::{
-    Error, Frequencies, LimitCurve, Pulse, Pulses, STANDARD_GRAVITY_M_S2, Shape, ShockTable, Units, VelocityShock,
+    Error, Frequencies, LimitCurve, Pulse, Pulses, STANDARD_GRAVITY_M_S2, Shape, ShockTable, VelocityShock,
 };
 
 use crate::inputs::{number, parts, share};
@@ -205,11 +205,6 @@ pub(crate) fn limit(text: &str) -> Result<LimitArg, String> {
         return Err("the points of a limit are of one kind: all with a unit of it, or none".to_owned());
     }
     Ok(LimitArg { curve, level: None, typed })
-}
-
-pub(crate) fn units(text: &str) -> Result<Units, String> {
-    let (time, acceleration) = text.split_once(',').ok_or("two units are needed, TIME,ACCELERATION, such as ms,g")?;
-    Units::named(time, acceleration).map_err(|error| error.to_string())
 }
 
 /// What a shock table can do; in ms, g and m/s where no unit is given.

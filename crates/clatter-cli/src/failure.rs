@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clatter_report::ReportError;
 
+use crate::record_args::remedy;
 use crate::{Exit, text};
 
 #[derive(Debug, thiserror::Error)]
@@ -16,8 +17,11 @@ pub(crate) enum Failure {
     Flag { flag: &'static str, reason: clatter::Error },
     #[error(transparent)]
     Shock(#[from] clatter_shock::Error),
+    /// A file of shock tests that shows no critical level.
     #[error("{}: {}", text::path(.path), text::visible(&.reason.to_string()))]
-    Record { path: PathBuf, reason: clatter_shock::Error },
+    Tests { path: PathBuf, reason: clatter_shock::Error },
+    #[error("{}: {}{}", text::path(.path), text::visible_lines(&.reason.to_string()), remedy(.reason))]
+    Record { path: PathBuf, reason: clatter_record::Error },
     /// A line of a list that is no entry of it.
     #[error("{}: line {line}: {}", text::path(.path), text::visible(.what))]
     Line { path: PathBuf, line: usize, what: String },

@@ -35,6 +35,8 @@ mod one_drop;
 mod output;
 mod progress;
 mod quantities;
+mod record;
+mod record_args;
 mod report;
 mod respond;
 mod scatter;
@@ -146,6 +148,7 @@ enum Command {
     Map(map::Args),
     Simulate(Box<simulate::Args>),
     Respond(Box<respond::Args>),
+    Record(record::Args),
     Spectrum(Box<spectrum::Args>),
     Design(design::Args),
     Scatter(scatter::Args),
@@ -182,6 +185,7 @@ impl Command {
         match self {
             Self::Impacts(_) | Self::Simulate(_) => "fewer impacts or a shorter time take less",
             Self::Map(_) => "fewer values of q and e take less",
+            Self::Record(_) => "a shorter record and fewer channels take less",
             Self::Respond(_) | Self::Spectrum(_) => "shorter lists and fewer natural frequencies take less",
             Self::Scatter(_) => "fewer samples take less",
             _ => "narrower ranges and fewer components take less",
@@ -197,6 +201,7 @@ impl Command {
             Self::Map(args) => args.run(streams),
             Self::Simulate(args) => args.run(streams),
             Self::Respond(args) => args.run(streams),
+            Self::Record(args) => args.run(streams),
             Self::Spectrum(args) => args.run(streams),
             Self::Design(args) => args.run(streams),
             Self::Explain(args) => args.run(streams),
@@ -214,6 +219,7 @@ impl Command {
             Self::Map(args) => args.files(),
             Self::Simulate(args) => args.files(),
             Self::Respond(args) => args.files(),
+            Self::Record(args) => args.files(),
             Self::Spectrum(args) => args.files(),
             Self::Design(args) => args.files(),
             Self::Scatter(args) => args.files(),

@@ -2,16 +2,16 @@
 
 mod answer;
 
-use std::fs::File;
-use std::io::{self, BufReader, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use clap::{ValueEnum, ValueHint};
 use clatter_assess::units::{ACCELERATION, Dimension, LENGTH, SPEED};
 use clatter_figures::FigureError;
+use clatter_record::{Between, Record};
 use clatter_shock::{
-    DamageBoundary, Limit, LimitCurve, Lines, Margin, Pulse, Pulses, Quantity, Record, Shape, Spectrum, Survey,
-    Suspension, Units, VelocityShock, VelocityShocks, stream,
+    DamageBoundary, Limit, LimitCurve, Margin, Pulse, Pulses, Quantity, Shape, Spectrum, Suspension, VelocityShock,
+    VelocityShocks,
 };
 
 use crate::excitation::{self, FrequencyArg, LimitArg, PulseArg, shape_name};
@@ -20,7 +20,8 @@ use crate::numbers::{digits, figures, given};
 use crate::output::{Files, Kind, Target, buffered};
 use crate::progress::Counted;
 use crate::quantities::Show;
-use crate::{Failure, Streams, input, lists, output, text};
+use crate::record_args::RecordArgs;
+use crate::{Failure, Streams, lists, output, text};
 
 /// Compute a shock response spectrum: the peak of a component over its natural frequency
 ///
@@ -72,9 +73,11 @@ g; JSON and CSV stay in SI."
 pub(crate) struct Args {
     #[command(flatten)]
     excitation: Excitation,
-    /// Units of a record whose header does not name them: s, ms or us, and m/s2 or g
-    #[arg(long, value_name = "TIME,ACCELERATION", value_parser = excitation::units)]
-    units: Option<Units>,
+    #[command(flatten)]
+    reading: RecordArgs,
+    /// What the acceleration of a record is between its samples
+    #[arg(long, value_enum, default_value_t = Interpolation::BandLimited)]
+    interpolation: Interpolation,
     /// Natural frequencies, in Hz without a unit: a list, or from LO to HI with so many to the octave
     #[arg(long, value_name = "HZ,…|LO:HI:PER_OCTAVE", default_value = "10:10000:12", allow_hyphen_values = true, value_parser = excitation::frequencies)]
     frequency: FrequencyArg,
@@ -123,6 +126,15 @@ struct Excitation {
     /// Velocity shocks from a CSV file with the columns time_s and delta_v_m_s, in order of time
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     shocks_file: Option<PathBuf>,
+}
+
+/// What is between samples.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Interpolation {
+    /// No content from half the sampling rate on; straight lines where samples are uneven
+    BandLimited,
+    /// Straight lines
+    Linear,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -178,7 +190,7 @@ fn target(text: &str) -> Result<Target, String> {
 struct Computed<'a> {
     args: &'a Args,
     spectrum: Spectrum,
-    survey: Option<Survey>,
+    record: Option<Record>,
     margins: Option<Vec<Option<Margin>>>,
     boundary: Option<Boundary>,
 }
@@ -205,18 +217,19 @@ impl Args {
     }
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        if self.units.is_some() && self.excitation.record.is_none() {
-            return Err(Failure::Usage("--units goes with a record alone"));
+        if let (Some(flag), None) = (self.reading.given(), &self.excitation.record) {
+            return Err(Failure::Wrong(format!("{flag} goes with a record alone")));
         }
         self.check_limit()?;
         let boundary = if self.damage_boundary { Some(self.boundary()?) } else { None };
-        let (spectrum, survey) = self.spectrum()?;
+        let (spectrum, record) = self.spectrum()?;
         let margins = self.limit.as_ref().map(|limit| limit.curve.margins(&spectrum));
-        let computed = Computed { args: self, spectrum, survey, margins, boundary };
+        let computed = Computed { args: self, spectrum, record, margins, boundary };
         if let Some(target) = &self.output {
             computed.write(target)?;
         }
-        for finding in computed.survey.iter().flat_map(|survey| &survey.findings) {
+        let lowest_hz = self.frequency.list.hz().iter().fold(f64::INFINITY, |least, hz| least.min(*hz));
+        for finding in computed.record.iter().flat_map(|record| record.findings(lowest_hz)) {
             let path = self.excitation.record.as_deref().unwrap_or(Path::new(""));
             streams.note("warning", format_args!("{}: {finding}", text::path(path)));
         }
@@ -249,11 +262,11 @@ impl Args {
         Show { unit: typed.or(pulse), name: self.quantity.name()[1] }
     }
 
-    fn spectrum(&self) -> Result<(Spectrum, Option<Survey>), Failure> {
+    fn spectrum(&self) -> Result<(Spectrum, Option<Record>), Failure> {
         let (damping, quantity) = (self.damping.ratio()?, self.quantity.quantity());
         if let Some(path) = &self.excitation.record {
-            let (spectrum, survey) = self.record(path)?;
-            return Ok((spectrum, Some(survey)));
+            let (spectrum, record) = self.record(path)?;
+            return Ok((spectrum, Some(record)));
         }
         let shocks = match &self.excitation.shocks_file {
             Some(path) => lists::shocks(path)?,
@@ -277,31 +290,17 @@ impl Args {
         }
     }
 
-    /// In two passes and constant memory; what can be read but once is kept.
-    fn record(&self, path: &Path) -> Result<(Spectrum, Survey), Failure> {
+    fn record(&self, path: &Path) -> Result<(Spectrum, Record), Failure> {
         let (damping, quantity) = (self.damping.ratio()?, self.quantity.quantity());
-        let bad = |reason| Failure::Record { path: path.to_owned(), reason };
-        let open = || {
-            let file = File::open(path).map_err(|error| bad(clatter_shock::Error::Read(error.to_string())))?;
-            Ok::<_, Failure>((file.metadata().ok(), BufReader::with_capacity(1 << 20, file)))
+        let record = self.reading.read(path)?;
+        let [channel] = record.channels() else {
+            return Err(Failure::Usage("the record has several channels: --acceleration picks one"));
         };
-        if input::is_standard(path) {
-            let record = Record::read(io::stdin().lock(), self.units).map_err(bad)?;
-            return Ok((record.spectrum(&self.frequency.list, damping, quantity), record.survey().clone()));
-        }
-        let (metadata, input) = open()?;
-        let Some(size) = metadata.filter(std::fs::Metadata::is_file).map(|metadata| metadata.len()) else {
-            let record = Record::read(input, self.units).map_err(bad)?;
-            return Ok((record.spectrum(&self.frequency.list, damping, quantity), record.survey().clone()));
-        };
-        let checking = Counted::begin("checking", size);
-        let survey = Lines::new(input, self.units).survey(|_, bytes| checking.at(bytes)).map_err(bad)?;
-        drop(checking);
-        let filtering = Counted::begin("filtering", size);
-        let lines = Lines::new(open()?.1, self.units);
-        let spectrum = stream(lines, &survey, &self.frequency.list, damping, quantity, |bytes| filtering.at(bytes))
-            .map_err(bad)?;
-        Ok((spectrum, survey))
+        let between = if self.interpolation == Interpolation::Linear { Between::Linear } else { Between::BandLimited };
+        let filtering = Counted::begin("filtering", record.samples() as u64);
+        let spectrum = record.spectrum(channel, &self.frequency.list, damping, quantity, between, |n| filtering.at(n));
+        let spectrum = spectrum.map_err(|reason| Failure::Record { path: path.to_owned(), reason })?;
+        Ok((spectrum, record))
     }
 
     fn boundary(&self) -> Result<Boundary, Failure> {
@@ -313,7 +312,7 @@ impl Args {
             };
             let [velocity, acceleration] = lists::tests(path)?;
             let boundary = DamageBoundary::from_tests(&velocity, &acceleration);
-            return Boundary::new(boundary.map_err(|reason| Failure::Record { path: path.clone(), reason })?, pulse);
+            return Boundary::new(boundary.map_err(|reason| Failure::Tests { path: path.clone(), reason })?, pulse);
         }
         let ([pulse], [hz]) = (&self.pulses()?[..], self.frequency.list.hz()) else {
             return Err(Failure::Usage(
@@ -377,10 +376,12 @@ impl Computed<'_> {
             given(zeta),
             figures(0.5 / zeta)
         )?;
-        if let Some(survey) = &self.survey {
-            let steps = survey.step.map_or("uneven in time".to_owned(), |step| format!("every {} s", figures(step)));
-            let (n, from, to) = (survey.samples, figures(survey.start), figures(survey.end));
-            writeln!(out, "{n} samples from {from} to {to} s, {steps}; largest {} m/s2", figures(survey.largest))?;
+        if let Some(record) = &self.record {
+            let steps = record.step_s().map_or("uneven in time".to_owned(), |step| format!("every {} s", figures(step)));
+            let (start, end) = (record.start_s(), record.start_s() + record.duration_s());
+            let (n, from, to) = (record.samples(), figures(start), figures(end));
+            let largest = record.channels()[0].values.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
+            writeln!(out, "{n} samples from {from} to {to} s, {steps}; largest {} m/s2", figures(largest))?;
         }
         if let Some(boundary) = &self.boundary {
             let acceleration = self.args.quantity.dimension().name == ACCELERATION.name;

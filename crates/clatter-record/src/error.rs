@@ -27,6 +27,9 @@ pub enum Error {
     /// More numbers than are to be read.
     #[error("the record has more than {0} numbers: take a part of it, or fewer channels")]
     Many(usize),
+    /// What makes no spectrum.
+    #[error(transparent)]
+    Shock(#[from] clatter_shock::Error),
     /// A number outside of its range.
     #[error("{name} = {value:?} is not {allowed}")]
     Quantity {

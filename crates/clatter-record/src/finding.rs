@@ -23,6 +23,13 @@ pub enum Finding {
         /// The usual step in seconds.
         usual_s: f64,
     },
+    /// Two samples at one time each: taken as jumps. At most ten are listed.
+    Jumps {
+        /// The second sample of each.
+        first: Vec<At>,
+        /// How many there are.
+        count: usize,
+    },
     /// The record begins within a shock, or away from zero.
     Begins {
         /// Name of the channel.
@@ -118,6 +125,11 @@ impl std::fmt::Display for Finding {
                 write!(f, "samples are missing: usual are {} s from one to the next; {}", three(*usual_s), listed.join("; "))?;
                 if *count > first.len() { write!(f, "; and {} more", count - first.len()) } else { Ok(()) }
             }
+            Self::Jumps { first, count } => {
+                let listed: Vec<_> = first.iter().map(At::to_string).collect();
+                write!(f, "two samples at one time are a jump: {}", listed.join(", "))?;
+                if *count > first.len() { write!(f, " and {} more", count - first.len()) } else { Ok(()) }
+            }
             Self::Begins { channel, share } => write!(
                 f,
                 "{channel} begins at {} % of its largest value: the shock begins before the record, or there is an offset",
@@ -174,12 +186,16 @@ const SURE: f64 = 4.0;
 const PARTS: usize = 8;
 /// Samples that a level needs.
 const LEAST: usize = 16;
-/// So many samples of the very largest value are no accident,
+/// So many samples of the very largest value are no accident, where the steps beside them are so many times the smallest step that
+/// there is, or the values beside them come so many times less often in a row. A crest in coarse steps has at most 4.9 times as
+/// many samples as the values beside it: √2/(√4 − √2), twice, where steps are cut.
 const FLAT: usize = 3;
-/// unless the steps beside them are as small as the smallest step there is, or nearly.
 const ABRUPT: f64 = 8.0;
-/// Gaps that are listed.
-const LISTED: usize = 10;
+const LONGER: usize = 6;
+/// Places that are listed, of one kind.
+pub(crate) const LISTED: usize = 10;
+/// Where more than one step in so many is long, the record is uneven, and nothing is missing.
+const MOST_GAPS: usize = 10;
 /// A step is a gap where it is longer than the usual one by half of it, and by so many times what nine of ten differ by: beyond
 /// what a normal distribution gives once in a million.
 const GAP: (f64, f64) = (0.5, 3.0);
@@ -197,15 +213,11 @@ pub(crate) fn gaps(since_s: &[f64], at: &dyn Fn(usize) -> At) -> Option<Finding>
     let usual_s = share(&mut steps.clone(), 5);
     let spread = share(&mut steps.iter().map(|step| (step - usual_s).abs()).collect::<Vec<_>>(), 9);
     let longest = usual_s + (GAP.0 * usual_s).max(GAP.1 * spread);
-    let found = steps.iter().enumerate().filter(|(_, step)| **step > longest);
-    let mut first = Vec::new();
-    let mut count = 0;
-    for (i, step) in found {
-        if first.len() < LISTED {
-            first.push((at(i + 1), *step));
-        }
-        count += 1;
-    }
+    // Between usual steps: where long ones follow one another the record is that of events.
+    let is_long = |i: usize| steps.get(i).is_some_and(|step| *step > longest);
+    let found: Vec<usize> = (0..steps.len()).filter(|i| is_long(*i) && !is_long(i + 1) && !(*i > 0 && is_long(i - 1))).collect();
+    let count = if MOST_GAPS * found.len() > steps.len() { 0 } else { found.len() };
+    let first = found.iter().take(LISTED).map(|i| (at(i + 1), steps[*i])).collect();
     (count > 0).then_some(Finding::Gaps { first, count, usual_s })
 }
 
@@ -261,7 +273,7 @@ impl Judged<'_> {
         let before = level(&values[..begin / 2]);
         let from = end + (values.len() - end) / 2;
         let after = level(&values[from..]).unwrap_or(0.0) - before.unwrap_or(0.0);
-        let swing = self.velocity_swing();
+        let swing = self.velocity_swing(before.unwrap_or(0.0));
         let share = |level: f64| {
             let turn = TAU * self.lowest_hz;
             let [offset, shock] = [(2.0 * level.abs(), level.abs() * self.duration_s), (2.0 * largest, swing)]
@@ -280,13 +292,13 @@ impl Judged<'_> {
         self.clipped(largest, findings);
     }
 
-    /// How far the velocity goes, from its least to its most, over the shock: in m/s.
-    fn velocity_swing(&self) -> f64 {
+    /// How far the velocity goes, from its least to its most, without what a level adds: in m/s.
+    fn velocity_swing(&self, level: f64) -> f64 {
         #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
         let step_s = self.duration_s / (self.values.len() - 1).max(1) as f64;
         let (mut velocity, mut least, mut most) = (0.0_f64, 0.0_f64, 0.0_f64);
         for a in self.values {
-            velocity += a * step_s;
+            velocity += (a - level) * step_s;
             (least, most) = (least.min(velocity), most.max(velocity));
         }
         most - least
@@ -296,16 +308,18 @@ impl Judged<'_> {
         let values = self.values;
         let smallest = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|step| *step > 0.0);
         let smallest = smallest.fold(f64::INFINITY, f64::min);
-        let mut at = 0;
-        for run in values.chunk_by(|a, b| a.to_bits() == b.to_bits()) {
-            let (begin, end) = (at, at + run.len());
-            at = end;
+        let runs: Vec<&[f64]> = values.chunk_by(|a, b| a.to_bits() == b.to_bits()).collect();
+        let mut end = 0;
+        for (i, run) in runs.iter().enumerate() {
+            let begin = end;
+            end += run.len();
             if run.len() < FLAT || run[0].abs() < largest {
                 continue;
             }
-            let beside = [begin.checked_sub(1).map(|i| values[i]), values.get(end).copied()];
-            let steps = beside.into_iter().flatten().map(|a| (a - run[0]).abs());
-            if steps.fold(f64::INFINITY, f64::min) > ABRUPT * smallest {
+            let beside = || [i.checked_sub(1), Some(i + 1)].into_iter().flatten().filter_map(|k| runs.get(k));
+            let least = beside().map(|other| (other[0] - run[0]).abs()).fold(f64::INFINITY, f64::min);
+            let longest = beside().map(|other| other.len()).max().unwrap_or(1);
+            if least > ABRUPT * smallest || run.len() >= LONGER * longest {
                 let (at, samples, value_m_s2) = ((self.at)(begin), run.len(), run[0]);
                 findings.push(Finding::Clipped { channel: self.channel.to_owned(), at, samples, value_m_s2 });
                 return;

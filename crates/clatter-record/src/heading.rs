@@ -10,6 +10,8 @@ pub(crate) struct Heading {
     pub(crate) unit: Option<Unit>,
     /// The unit as it is spelled, known or not.
     pub(crate) spelled: Option<String>,
+    /// Whether words stand in the column, and no numbers.
+    pub(crate) is_text: bool,
 }
 
 /// What the name of a column says.
@@ -30,8 +32,9 @@ const TIMES: [&str; 13] = [
 const INDICES: [&str; 14] = [
     "index", "idx", "sample", "samples", "n", "no", "nr", "num", "number", "row", "#", "id", "count", "unnamed",
 ];
-const ACCELERATIONS: [&str; 9] = ["a", "ax", "ay", "az", "ar", "beschl", "beschleunigung", "shock", "gforce"];
-const OTHERS: [&str; 22] = [
+const ACCELERATIONS: [&str; 7] = ["ax", "ay", "az", "ar", "beschleunigung", "shock", "gforce"];
+const OTHERS: [&str; 23] = [
+    "height",
     "mass", "masse", "weight", "velocity", "speed", "displacement", "position", "distance", "force", "temperature", "temp",
     "voltage", "pressure", "gyro", "gyroscope", "angular", "rotation", "strain", "magnetic", "humidity", "comment", "trigger",
 ];
@@ -43,10 +46,15 @@ impl Heading {
         bracketed(cell).unwrap_or_else(|| {
             let whole = Unit::of(cell).filter(|unit| unit.kind == Kind::Time || cell.chars().count() > 2 || cell == "g");
             if let Some(unit) = whole {
-                return Self { name: cell.to_owned(), unit: Some(unit), spelled: Some(cell.to_owned()) };
+                return Self { unit: Some(unit), spelled: Some(cell.to_owned()), ..Self::named_alone(cell) };
             }
-            trailing(cell).unwrap_or_else(|| Self { name: cell.to_owned(), unit: None, spelled: None })
+            trailing(cell).unwrap_or_else(|| Self::named_alone(cell))
         })
+    }
+
+    /// A name without a unit.
+    pub(crate) fn named_alone(name: &str) -> Self {
+        Self { name: name.to_owned(), unit: None, spelled: None, is_text: false }
     }
 
     /// The same with a unit that stands elsewhere.
@@ -64,16 +72,20 @@ impl Heading {
         let words: Vec<&str> = name.split(|c: char| !c.is_alphanumeric() && c != '#').filter(|w| !w.is_empty()).collect();
         let any = |list: &[&str]| words.iter().any(|word| list.contains(word));
         let within = |part: &str| words.iter().any(|word| word.starts_with(part));
-        if any(&OTHERS) {
+        if words.is_empty() {
+            return Named::Index;
+        }
+        if self.is_text || any(&OTHERS) {
             return Named::Other;
         }
         if any(&TIMES) || name == "x_value" || within("timestamp") || words == ["x", "value"] {
             return Named::Time;
         }
-        if any(&ACCELERATIONS) || within("acc") || within("beschl") {
+        let alone = words.first() == Some(&"a") && words.len() <= 2;
+        if alone || any(&ACCELERATIONS) || within("acc") || within("beschl") {
             return Named::Acceleration;
         }
-        if words.is_empty() || any(&INDICES) {
+        if any(&INDICES) {
             return Named::Index;
         }
         Named::Unknown
@@ -112,7 +124,7 @@ fn bracketed(cell: &str) -> Option<Heading> {
         _ => units.join("; "),
     };
     let words: Vec<_> = name.split_whitespace().chain(named).collect();
-    Some(Heading { name: words.join(" "), unit: Unit::of(&spelled), spelled: Some(spelled) })
+    Some(Heading { unit: Unit::of(&spelled), spelled: Some(spelled), ..Heading::named_alone(&words.join(" ")) })
 }
 
 /// Bytes up to the bracket that closes the one a text begins with.
@@ -134,9 +146,10 @@ fn closing(text: &str, close: char) -> Option<usize> {
 /// A heading that ends with its unit, after a comma, a colon, a slash, an underscore or a blank. The longest end that is a unit
 /// counts, and what is before it must be a name: no number, and no word for a factor.
 fn trailing(cell: &str) -> Option<Heading> {
-    let is_factor = |word: &str| {
+    // A number before an underscore is part of a name: `acceleration_at_0.5_m_s2`.
+    let is_factor = |word: &str, blank: bool| {
         let word = word.to_lowercase();
-        word.starts_with(|c: char| c.is_ascii_digit())
+        blank && word.starts_with(|c: char| c.is_ascii_digit())
             || word.strip_prefix('x').is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
             || ["deci", "centi", "milli", "micro", "nano", "pico", "deka", "hecto", "kilo", "mega", "giga", "k", "m", "u", "n"]
                 .contains(&word.as_str())
@@ -147,7 +160,7 @@ fn trailing(cell: &str) -> Option<Heading> {
         }
         let (name, unit) = (cell[..at].trim_end_matches([' ', ',', ':', '/', '_']), cell[at + c.len_utf8()..].trim());
         // A slash may be one of the unit.
-        let name_only = Heading { name: name.to_owned(), unit: None, spelled: None };
+        let name_only = Heading::named_alone(name);
         if c == '/' && !cell[..at].ends_with(' ') && matches!(name_only.named(), Named::Unknown | Named::Index) {
             continue;
         }
@@ -157,7 +170,7 @@ fn trailing(cell: &str) -> Option<Heading> {
         if let Some(known) = Unit::of(unit)
             && !name.is_empty()
             && !lone
-            && !is_factor(last)
+            && !is_factor(last, c == ' ')
         {
             return Some(Heading { unit: Some(known), spelled: Some(unit.to_owned()), ..name_only });
         }
@@ -189,6 +202,8 @@ mod tests {
             ("Zeit [s]", "Zeit", Some("s"), Named::Time),
             ("timestamp (ns)", "timestamp", Some("ns"), Named::Time),
             ("X_Value", "X_Value", None, Named::Time),
+            ("height_a_m", "height_a_m", None, Named::Other),
+            ("acceleration_at_0.5_m_s2", "acceleration_at_0.5", Some("m_s2"), Named::Acceleration),
             ("accel_x", "accel_x", None, Named::Acceleration),
             ("mass [g]", "mass", Some("g"), Named::Other),
             ("Velocity (m/s)", "Velocity", Some("m/s"), Named::Other),
@@ -210,6 +225,7 @@ mod tests {
         for cell in [
             "acceleration [deka g]",
             "acceleration deka g",
+            "acceleration 1000 g x",
             "acceleration [g] (100 mV/g)",
             "acceleration (g rms)",
             "acceleration [foo m/s2]",

@@ -1,5 +1,6 @@
 //! Measured shocks: from the files of loggers to channels in SI.
 
+mod between;
 mod decimal;
 mod error;
 mod finding;
@@ -8,15 +9,18 @@ mod moment;
 mod options;
 mod record;
 mod roles;
+mod spectrum;
 mod table;
 mod text;
 mod times;
 mod unit;
 
+pub use between::BAND;
 pub use error::{Bad, Error};
 pub use finding::{At, Finding};
 pub use options::{Options, Pick, Units};
 pub use record::{Channel, Record};
+pub use spectrum::Between;
 pub use table::{Column, Table, Values};
 
 /// The unit of columns that count in shares of full scale, from −1 to 1.

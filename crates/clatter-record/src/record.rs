@@ -3,7 +3,7 @@
 use std::io::Read;
 
 use crate::error::Bad;
-use crate::finding::{At, Finding, Judged, gaps};
+use crate::finding::{At, Finding, Judged, LISTED, gaps};
 use crate::roles::Roles;
 use crate::text::{self, BLOCK, Rows, decoded};
 use crate::times::{Printed, Times};
@@ -244,33 +244,48 @@ impl Raw {
         Times { since_s: &self.since_s, start_s: self.start_s, unit_s: self.unit_s, printed: &self.printed }
     }
 
-    /// Refuses times that are printed so coarsely that most of them come twice or more.
+    /// Refuses times that are printed so coarsely that samples have one and the same.
     fn refuse_coarse(&self) -> Result<(), Error> {
+        let count = self.since_s.len();
         let same = self.since_s.windows(2).filter(|pair| pair[0].to_bits() == pair[1].to_bits()).count();
-        if self.since_s.len() > 2 && 2 * same > self.since_s.len() {
-            let unit = self.printed.unit() * self.unit_s;
-            return Err(Error::Columns(format!(
-                "{same} of {} times are those of the line above: times are printed in steps of {unit:e} s, coarser than the \
-                 samples; give the sample rate",
-                self.since_s.len()
-            )));
+        let unit_s = self.printed.unit() * self.unit_s;
+        #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
+        let coarse = unit_s * (count - 1) as f64 > 0.5 * self.since_s[count - 1].abs();
+        if same == 0 || !coarse {
+            return Ok(());
         }
-        Ok(())
+        Err(Error::Columns(format!(
+            "{same} of {count} times are those of the sample before: they are printed in steps of {unit_s:e} s, too coarse for \
+             samples so close; give the sample rate"
+        )))
     }
 
-    /// Leaves out samples whose time does not come after all before it.
+    /// Leaves out samples whose time is before another one's that came earlier. Two samples at one time are a jump.
     fn drop_backward(&mut self, bad: &mut Bad) {
-        let mut latest = f64::NEG_INFINITY;
         let mut kept = vec![true; self.since_s.len()];
-        for (i, time) in self.since_s.iter().enumerate() {
-            if *time > latest {
-                latest = *time;
-                continue;
+        let mut jumps = (Vec::new(), 0);
+        let mut latest: Option<(f64, usize)> = None;
+        for (i, &time) in self.since_s.iter().enumerate() {
+            let at = At::of(&self.numbering, i);
+            match latest {
+                Some((last, times)) if time < last || time <= last && times > 1 => {
+                    kept[i] = false;
+                    let (At::Line(line) | At::Sample(line)) = at;
+                    let [time, last] = [time, last].map(|since_s| self.start_s + since_s);
+                    bad.add(line, || format!("time {time:?} s does not come after {last:?} s, that of the sample before"));
+                }
+                Some((last, times)) if time <= last => {
+                    latest = Some((time, times + 1));
+                    if jumps.0.len() < LISTED {
+                        jumps.0.push(at);
+                    }
+                    jumps.1 += 1;
+                }
+                _ => latest = Some((time, 1)),
             }
-            kept[i] = false;
-            let (At::Line(at) | At::Sample(at)) = At::of(&self.numbering, i);
-            let [time, latest] = [time, &latest].map(|since_s| self.start_s + since_s);
-            bad.add(at, || format!("time {time:?} s does not come after {latest:?} s, that of the sample before"));
+        }
+        if jumps.1 > 0 {
+            self.found.push(Finding::Jumps { first: jumps.0, count: jumps.1 });
         }
         if kept.iter().all(|kept| *kept) {
             return;

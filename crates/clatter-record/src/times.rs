@@ -229,7 +229,7 @@ mod tests {
             ("floats of 32 bits", texts(as_single)),
             ("floats of 32 bits from 1 s on", texts(|t| as_single(1.0 + t))),
             ("nine digits of floats of 32 bits from 1 s on", texts(|t| significant(f64::from((1.0 + t) as f32), 9))),
-            ("whole microseconds, cut", texts(|t| format!("{}", (t * 1e6).floor() * 1e-6))),
+            ("whole microseconds, cut", texts(|t| format!("{:.6}", (t * 1e6).floor() * 1e-6))),
             ("two ways to print", texts(|t| if t < 0.001 { format!("{t:.8e}") } else { format!("{t:.6}") })),
         ] {
             let step = step_of(&texts).unwrap_or_else(|| panic!("{name}: not even"));

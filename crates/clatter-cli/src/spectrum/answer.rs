@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use clatter_shock::{Finding, LimitCurve, Margin, Spectrum, Survey};
+use clatter_record::{Finding, Record};
+use clatter_shock::{LimitCurve, Margin, Spectrum};
 use serde::Serialize;
 
 use super::{Boundary, Computed};
@@ -19,7 +20,7 @@ impl Computed<'_> {
             unit,
             damping: Json(s.damping.get()),
             q_factor: Json(0.5 / s.damping.get()),
-            record: self.survey.as_ref().map(RecordJson::new),
+            record: self.record.as_ref().map(|record| RecordJson::new(record, s.frequency_hz[0])),
             frequency_hz: all(&s.frequency_hz),
             primary: all(&s.primary),
             residual: all(&s.residual),
@@ -67,14 +68,15 @@ struct RecordJson {
 }
 
 impl RecordJson {
-    fn new(survey: &Survey) -> Self {
+    fn new(record: &Record, lowest_hz: f64) -> Self {
+        let all = record.channels().iter().flat_map(|channel| &channel.values);
         Self {
-            samples: survey.samples,
-            start_s: Json(survey.start),
-            end_s: Json(survey.end),
-            step_s: survey.step.map(Json),
-            largest_m_s2: Json(survey.largest),
-            findings: survey.findings.iter().map(Finding::to_string).collect(),
+            samples: record.samples(),
+            start_s: Json(record.start_s()),
+            end_s: Json(record.start_s() + record.duration_s()),
+            step_s: record.step_s().map(Json),
+            largest_m_s2: Json(all.fold(0.0_f64, |most, a| most.max(a.abs()))),
+            findings: record.findings(lowest_hz).iter().map(Finding::to_string).collect(),
         }
     }
 }

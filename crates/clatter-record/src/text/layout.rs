@@ -1,5 +1,7 @@
 //! Where the numbers of a text begin, how they are separated, and what the lines above them say.
 
+use std::borrow::Cow;
+
 use super::cells::Form;
 use crate::Error;
 use crate::heading::Heading;
@@ -20,6 +22,8 @@ pub(super) struct Layout {
 
 /// Lines that begin so are comments.
 const COMMENTS: [&str; 4] = ["#", "%", "//", "!"];
+/// Lines that tell what columns there are.
+const LAST: usize = 20;
 /// Lines above the numbers that are read for headings.
 const ABOVE: usize = 8;
 
@@ -44,20 +48,25 @@ impl Layout {
                 .map(|(separator, point)| Form { separator, point })
                 .to_vec(),
         };
-        // Several columns before one: a separator that is not in the numbers makes one column of every line.
-        let found: Vec<(Form, usize, usize)> =
-            forms.into_iter().filter_map(|form| begin(lines, form).map(|(line, columns)| (form, line, columns))).collect();
-        let several = found.iter().find(|(_, _, columns)| *columns > 1);
-        let Some(&(form, begin, columns)) = several.or(found.first()) else {
+        // Several columns before one: a separator that is not in the numbers makes one column of every line. Of several the one that
+        // leaves the fewest cells that are no numbers.
+        let found: Vec<_> = forms.into_iter().filter_map(|form| begin(lines, form).map(|found| (form, found))).collect();
+        let rank = |found: &Numbers| (usize::from(found.columns.len() > 1), found.share);
+        let best = found.iter().reduce(|best, other| if rank(&other.1) > rank(&best.1) { other } else { best });
+        let Some((form, found)) = best else {
             return Err(Error::File(format!("no line of numbers is found in the first {} lines", lines.len())));
         };
+        let (form, begin, columns) = (*form, found.begin, found.count);
         let mut layout = Self { form, begin, headings: Vec::new(), named: false, sampled_s: None };
-        layout.read_above(lines, columns)?;
+        layout.read_above(lines, columns);
+        for (column, heading) in layout.headings.iter_mut().enumerate() {
+            heading.is_text = !found.columns.contains(&column);
+        }
         Ok(layout)
     }
 
     /// Names and units of the columns, from the lines above the numbers, the nearest first.
-    fn read_above(&mut self, lines: &[String], columns: usize) -> Result<(), Error> {
+    fn read_above(&mut self, lines: &[String], columns: usize) {
         let (mut names, mut units) = (None, None);
         let above = lines[..self.begin].iter().rev().filter(|line| !line.trim().is_empty()).take(ABOVE);
         for line in above {
@@ -84,7 +93,7 @@ impl Layout {
         }
         let of_labview = labview(&lines[..self.begin], columns);
         self.named = names.is_some();
-        let unnamed = || vec![Heading { name: String::new(), unit: None, spelled: None }; columns];
+        let unnamed = || vec![Heading::named_alone(""); columns];
         let mut headings = names.unwrap_or_else(unnamed);
         // Names without numbers below them, as LabVIEW's `Comment`, are none of a column.
         headings.truncate(columns);
@@ -100,7 +109,6 @@ impl Layout {
             self.sampled_s = sampled_s;
         }
         self.headings = headings;
-        Ok(())
     }
 }
 
@@ -114,47 +122,67 @@ fn separator_line(line: &str) -> Option<u8> {
     }
 }
 
-/// The line that the numbers begin with, and their columns: cells that are all numbers, on it and the next line.
+/// Where numbers are, by one way to separate them.
+struct Numbers {
+    /// The line that they begin with.
+    begin: usize,
+    /// How many columns there are.
+    count: usize,
+    /// Those of numbers.
+    columns: Vec<usize>,
+    /// Cells that are numbers, in 1000 of the last lines.
+    share: usize,
+}
+
+/// Where the numbers are.
 ///
-/// A line right above that is a number in its first cell and not in another is one of them too, with a fault.
-fn begin(lines: &[String], form: Form) -> Option<(usize, usize)> {
-    let is_comment = |line: &str| uncommented(line).1;
-    let of = |line: &str| -> Option<usize> {
-        let mut cells = form.cells(line);
-        // A separator at the end of each line makes no column.
-        while cells.len() > 1 && cells.last().is_some_and(|cell| cell.is_empty()) {
-            cells.pop();
-        }
-        let numbers = cells.iter().filter(|cell| form.number(cell).is_some()).count();
-        (numbers > 0 && cells.iter().all(|cell| form.is_data(cell))).then_some(cells.len())
+/// What the columns are is told by the last lines: as many cells as most have, and those columns that are numbers in most. The
+/// numbers begin with the first line that has as many cells and nothing else in those columns; a line right above with a number
+/// in the first of them is one too, with a fault.
+fn begin(lines: &[String], form: Form) -> Option<Numbers> {
+    let rows: Vec<(usize, Vec<Cow<'_, str>>)> = lines
+        .iter()
+        .enumerate()
+        .filter(|(_, line)| !line.trim().is_empty() && !uncommented(line).1)
+        .map(|(i, line)| {
+            let mut cells = form.cells(line);
+            // A separator at the end of each line makes no column.
+            while cells.len() > 1 && cells.last().is_some_and(|cell| cell.is_empty()) {
+                cells.pop();
+            }
+            (i, cells)
+        })
+        .collect();
+    let last = &rows[rows.len().saturating_sub(LAST)..];
+    let has = |columns: usize| last.iter().filter(|(_, cells)| cells.len() == columns).count();
+    let columns = last.iter().map(|(_, cells)| cells.len()).max_by_key(|columns| (has(*columns), *columns))?;
+    let is_number = |column: usize| {
+        let numbers = |(_, cells): &&(usize, Vec<Cow<'_, str>>)| cells.len() == columns && form.number(&cells[column]).is_some();
+        2 * last.iter().filter(numbers).count() >= has(columns)
     };
-    let rows: Vec<(usize, &String)> =
-        lines.iter().enumerate().filter(|(_, line)| !line.trim().is_empty() && !is_comment(line)).collect();
-    let first = (0..rows.len()).find_map(|i| {
-        let columns = of(rows[i].1)?;
-        // An empty last cell may be a fault of one line.
-        let next = rows.get(i + 1).map(|row| of(row.1));
-        match next {
-            None => Some((i, columns)),
-            Some(Some(next)) if next >= columns && next <= columns + 1 => Some((i, next)),
-            Some(_) => None,
-        }
-    });
-    let (mut i, columns) = first?;
-    while let Some(row) = i.checked_sub(1).map(|above| rows[above].1) {
-        let cells = form.cells(row);
-        let starts = cells.len() == columns && columns > 1 && cells.first().is_some_and(|cell| form.number(cell).is_some());
-        if !starts {
-            break;
-        }
+    let numbers: Vec<usize> = (0..columns).filter(|column| is_number(*column)).collect();
+    let first = *numbers.first()?;
+    let is_data = |cells: &[Cow<'_, str>]| {
+        let cell = |column: usize| cells.get(column).map_or("", |cell| cell);
+        // Cells at the end may be empty by a fault of one line.
+        cells.len() <= columns
+            && numbers.iter().all(|column| form.is_data(cell(*column)))
+            && numbers.iter().any(|column| form.number(cell(*column)).is_some())
+            && cells.len() + 1 >= columns
+    };
+    let mut i = rows.iter().position(|(_, cells)| is_data(cells))?;
+    let starts = |cells: &[Cow<'_, str>]| cells.len() == columns && columns > 1 && form.number(&cells[first]).is_some();
+    while i.checked_sub(1).is_some_and(|above| starts(&rows[above].1)) {
         i -= 1;
     }
-    Some((rows[i].0, columns))
+    let cells = || last.iter().flat_map(|(_, cells)| cells);
+    let share = 1000 * cells().filter(|cell| form.number(cell).is_some()).count() / cells().count().max(1);
+    Some(Numbers { begin: rows[i].0, count: columns, columns: numbers, share })
 }
 
 /// The cells of a line of names or units: as many as there are columns; those of blanks may have blanks in them.
 fn heading_cells(form: Form, text: &str, columns: usize) -> Option<Vec<String>> {
-    let owned = |cells: Vec<std::borrow::Cow<'_, str>>| cells.into_iter().map(std::borrow::Cow::into_owned).collect::<Vec<_>>();
+    let owned = |cells: Vec<Cow<'_, str>>| cells.into_iter().map(Cow::into_owned).collect::<Vec<_>>();
     let mut cells = owned(form.cells(text));
     while cells.len() > columns && cells.last().is_some_and(String::is_empty) {
         cells.pop();

@@ -160,7 +160,14 @@ impl Rows {
             match (text[at], separator) {
                 (b'\n', _) if last => return Some(at + 1),
                 (b'\r', _) if last => {}
+                // More columns than there are is a fault, and nothing beyond the last separator is none.
+                (byte, Some(separator)) if byte == separator && last && column + 1 == self.columns => {
+                    at += 1;
+                    return (text[at..].starts_with(b"\n") || text[at..].starts_with(b"\r\n"))
+                        .then(|| at + if text[at] == b'\n' { 1 } else { 2 });
+                }
                 (byte, Some(separator)) if byte == separator => at += 1,
+                (_, None) if last && column + 1 == self.columns => return None,
                 (_, None) if at > before => {}
                 _ => return None,
             }
@@ -278,10 +285,6 @@ impl Rows {
     /// The size of the unit of time, in seconds.
     pub(crate) fn time_size(&self) -> f64 {
         self.time_size
-    }
-    /// The line of a sample.
-    pub(crate) fn line_of(&self, sample: usize) -> usize {
-        line_of(&self.numbering, sample)
     }
 }
 

@@ -1,0 +1,287 @@
+//! Text as loggers and programs write it: read right, or refused with the reason.
+
+use std::fs;
+use std::path::Path;
+
+use clatter_record::{Finding, Options, Record, Units};
+
+const G: f64 = 9.806_65;
+
+fn file(name: &str) -> Vec<u8> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/text").join(name);
+    fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+fn read(text: impl AsRef<[u8]>) -> Result<Record, String> {
+    with(text, &Options::default())
+}
+
+fn with(text: impl AsRef<[u8]>, options: &Options) -> Result<Record, String> {
+    Record::read(text.as_ref(), options, |_| ()).map_err(|error| error.to_string())
+}
+
+fn si() -> Options {
+    Options { units: Some(Units::si()), ..Options::default() }
+}
+
+/// Sample `i` of the shock that most files hold: a half-sine of 50 g and 2 ms from 5 ms on, ten samples a millisecond.
+fn half_sine(i: u32) -> f64 {
+    if (50..=70).contains(&i) { 50.0 * G * (std::f64::consts::PI * f64::from(i - 50) / 20.0).sin() } else { 0.0 }
+}
+
+/// Every file that holds the shock, in whatever notation, is the shock: its times, and its values to the digits that it prints.
+#[test]
+fn one_shock_in_many_notations() {
+    let names = [
+        "base.csv", "b_pandas.csv", "h_clock.csv", "h_comment_units.csv", "h_epochms.csv", "h_epochns.csv", "h_fixedwidth.txt",
+        "h_footer.csv", "h_fortran.csv", "h_iso.csv", "h_labview.lvm", "h_leadcomma.csv", "h_phyphox.csv", "h_quoted.csv",
+        "h_slash.txt", "h_space_thousand.csv", "h_swapped.csv", "h_units_gs.csv", "h_units_ins2.csv", "h_units_mg.csv",
+        "h_units_millig.csv", "h_units_min.csv", "h_units_mmss.csv", "h_units_mps2.csv", "h_units_ms2sup.csv",
+        "h_units_msec.csv", "h_units_mss.csv", "h_units_ns.csv", "h_units_sec.csv", "h_units_words.csv", "h_units_x1000.csv",
+    ];
+    for name in names {
+        let record = read(file(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_eq!(record.samples(), 300, "{name}");
+        assert_eq!(record.step_s().map(f64::to_bits), Some(1e-4_f64.to_bits()), "{name}");
+        let channel = record.channels().last().expect("a channel");
+        // In thousands of m/s² the last digit is 1e-3 m/s², of g 1e-5; of D+02 g it is 1e-3.
+        let printed = if ["h_units_x1000.csv", "h_fortran.csv"].contains(&name) { 0.5e-3 } else { 2e-5 };
+        for (i, value) in (0..).zip(&channel.values) {
+            assert!((value - half_sine(i)).abs() <= printed, "{name}, sample {i}: {value}, not {}", half_sine(i));
+        }
+        let expected = usize::from(name == "h_footer.csv");
+        assert_eq!(record.findings(10.0).len(), expected, "{name}: {:?}", record.findings(10.0));
+    }
+    assert_eq!(read(file("h_phyphox.csv")).expect("a record").channels().len(), 4);
+}
+
+#[test]
+fn files_that_are_refused_with_the_reason() {
+    for (name, reason) in [
+        ("h_blankcell.csv", "line 302: nothing stands in column 2 (acceleration)"),
+        ("h_nanlast.csv", "line 302: NaN in column 2 (acceleration) is no finite number"),
+        (
+            "h_dup.csv",
+            "270 of 300 times are those of the sample before: they are printed in steps of 1e-3 s, too coarse for samples so \
+             close; give the sample rate",
+        ),
+        (
+            "tests_caps.csv",
+            "no column is a time: the columns are 1 (test), 2 (level), 3 (damaged); name one by its number, or give the sample \
+             rate",
+        ),
+        ("unit_grams.csv", "no column is an acceleration: the columns are 1 (time [s]), 2 (mass [g])"),
+        (
+            "unit_velocity_as_time.csv",
+            "no column is a time: the columns are 1 (Velocity [m/s]), 2 (Acceleration [g]); name one by its number, or give the \
+             sample rate",
+        ),
+    ] {
+        assert_eq!(read(file(name)).expect_err(name), reason, "{name}");
+    }
+    // What was told goes on.
+    let skipped = with(file("h_nanlast.csv"), &Options { skip_bad: true, ..Options::default() }).expect("the rest");
+    assert_eq!((skipped.samples(), skipped.step_s()), (300, Some(1e-4)));
+    assert!(matches!(&skipped.findings(10.0)[..], [Finding::Skipped(bad)] if bad.count == 1));
+    let rate = Options { sample_rate_hz: Some(10_000.0), ..Options::default() };
+    assert_eq!(with(file("h_dup.csv"), &rate).expect("a rate in place of times").step_s(), Some(1e-4));
+}
+
+#[test]
+fn times_printed_in_two_ways_are_the_same() {
+    let [exact, single] = ["time_exact.csv", "time_float32.csv"].map(|name| read(file(name)).expect(name));
+    assert_eq!(exact.step_s(), Some(1.0 / 51_200.0));
+    assert_eq!((exact.step_s(), exact.channels()), (single.step_s(), single.channels()));
+}
+
+#[test]
+fn small_files() {
+    for (name, largest) in [("quoted_comma_header.csv", G), ("sep_line.csv", G)] {
+        let record = read(file(name)).expect(name);
+        assert_eq!((record.step_s(), record.channels()[0].values[1]), (Some(1e-3), largest), "{name}");
+    }
+    let axes = read(file("h_3axis.csv")).expect("three channels");
+    let names: Vec<_> = axes.channels().iter().map(|channel| (channel.name.as_str(), channel.unit.as_str())).collect();
+    assert_eq!(names, [("ax", "g"), ("ay", "g"), ("az", "g")]);
+    // The sensor lies still at first: 1 g on the vertical axis.
+    assert!(axes.findings(10.0).iter().any(
+        |finding| matches!(finding, Finding::Offset { channel, level_m_s2, .. } if channel == "az" && (level_m_s2 / G - 1.0).abs() < 1e-12)
+    ));
+}
+
+/// Separators, decimal commas, headings, encodings, line ends: three samples, 1 ms apart, of 0, 1.5 and −2 m/s².
+#[test]
+fn notations() {
+    let latin: Vec<u8> = "t [s];a [m/s²]\n0;0\n0,001;1,5\n0,002;-2\n".chars().map(|c| c as u8).collect();
+    let utf16 = |text: &str, bytes: fn(u16) -> [u8; 2], mark: bool| {
+        let mark = if mark { "\u{feff}" } else { "" };
+        format!("{mark}{text}").encode_utf16().flat_map(bytes).collect::<Vec<u8>>()
+    };
+    let plain = "t [s],a [m/s2]\n0,0\n0.001,1.5\n0.002,-2\n";
+    // Without a mark, it takes some text to tell.
+    let long = format!("a line that says what follows, with nothing in it but letters\n{plain}");
+    let cases: Vec<(&str, Vec<u8>)> = vec![
+        ("plain", plain.into()),
+        ("BOM", format!("\u{feff}{plain}").into()),
+        ("CRLF", plain.replace('\n', "\r\n").into()),
+        ("CR", plain.replace('\n', "\r").into()),
+        ("no end of the last line", plain.trim_end().into()),
+        ("Latin-1", latin),
+        ("UTF-16, little", utf16(plain, u16::to_le_bytes, true)),
+        ("UTF-16, big", utf16(plain, u16::to_be_bytes, true)),
+        ("UTF-16 without a mark", utf16(&long, u16::to_le_bytes, false)),
+        ("tabs", plain.replace(',', "\t").into()),
+        ("blanks", "  t [s]   a [m/s2]\n 0 0\n 0.001   1.5\n 0.002 -2\n".into()),
+        ("decimal commas, tabs", "t [s]\ta [m/s2]\n0\t0\n0,001\t1,5\n0,002\t-2\n".into()),
+        ("decimal commas, blanks", "t [s] a [m/s2]\n0 0\n0,001 1,5\n0,002 -2\n".into()),
+        ("bars", plain.replace(',', " | ").into()),
+        ("separators at the ends", "t [s],a [m/s2],\n0,0,\n0.001,1.5,\n0.002,-2,\n".into()),
+        ("units below", "t,a\ns,m/s2\n0,0\n0.001,1.5\n0.002,-2\n".into()),
+        ("units below, in brackets", "Time;Acceleration\n[s];[m/s^2]\n0;0\n0.001;1.5\n0.002;-2\n".into()),
+        ("title above", format!("Drop 5 of 12, phone B\n\nrate, 1 kHz\n{plain}").into()),
+        ("comments", format!("# logger 3\n# serial, 12, 5\n{plain}# done\n").into()),
+        ("heading in a comment", format!("# {plain}").into()),
+        ("heading in a comment, blanks", "% time [s]  acc [m/s2]\n0 0\n0.001 1.5\n0.002 -2\n".into()),
+        ("an index", "sample,t [s],a [m/s2]\n1,0,0\n2,0.001,1.5\n3,0.002,-2\n".into()),
+        ("time last", "acc_m_s2,time_s\n0,0\n1.5,0.001\n-2,0.002\n".into()),
+        ("plus and exponents", "t [ms],a [mm/s2]\n+0,0e0\n1.0E+00,+1.5e3\n2,-2000.\n".into()),
+        ("time of day", "time,a [m/s2]\n23:59:59.999,0\n24:00:00.000,1.5\n0:00:00.001,-2\n".into()),
+        ("a column of words", "state,t [s],a [m/s2]\nidle,0,0\nidle,0.001,1.5\nhit,0.002,-2\n".into()),
+        ("empty lines", plain.replace('\n', "\n\n").into()),
+        ("German", "Zeit [ms];Beschleunigung [m/s²]\n0;0\n1;1,5\n2;-2\n".into()),
+    ];
+    for (name, text) in cases {
+        let record = read(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_eq!(record.channels().len(), 1, "{name}");
+        assert_eq!(record.channels()[0].values, [0.0, 1.5, -2.0], "{name}");
+        assert_eq!(record.step_s(), Some(1e-3), "{name}");
+    }
+}
+
+#[test]
+fn by_place_and_by_the_caller() {
+    let two = "0,0\n0.001,1.5\n0.002,-2\n";
+    assert!(read(two).expect_err("no units").contains("the unit of column 1, the time, is not named"));
+    assert_eq!(with(two, &si()).expect("units").channels()[0].values, [0.0, 1.5, -2.0]);
+    let numbered = "1,0,7\n2,0.5,8\n3,1,9\n";
+    let record = with(numbered, &si()).expect("an index");
+    assert_eq!((record.step_s(), record.channels().len()), (Some(0.5), 1), "a running number is no time beside one");
+    let one = Options { sample_rate_hz: Some(1e3), ..si() };
+    assert_eq!(with("0\n1.5\n-2\n", &one).expect("one column").step_s(), Some(1e-3));
+    assert!(with("0\n1.5\n-2\n", &si()).expect_err("no rate").contains("give the sample rate"));
+    let many = "t [s],x [g],y [g],x2 [mV]\n0,1,2,3\n1,4,5,6\n";
+    let record = read(many).expect("two channels");
+    assert!(matches!(&record.findings(10.0)[0], Finding::LeftOut(columns) if columns[..] == ["4 (x2 [mV])"]));
+    let pick = |column: &str| Options { accelerations: vec![column.parse().expect("a column")], ..Options::default() };
+    assert_eq!(with(many, &pick("y")).expect("by name").channels()[0].values, [2.0 * G, 5.0 * G]);
+    assert_eq!(with(many, &pick("3")).expect("by number").channels()[0].values, [2.0 * G, 5.0 * G]);
+    assert_eq!(with(many, &pick("z")).expect_err("none"), "there is no column 'z' for the acceleration; there are 1 (t [s]), 2 (x [g]), 3 (y [g]), 4 (x2 [mV])");
+    assert!(with(many, &pick("x2")).expect_err("a voltage").contains("in mV, a voltage"));
+    let time = Options { time: Some("2".parse().expect("a column")), ..Options::default() };
+    assert!(with(many, &time).expect_err("no time").contains("column 2 (x [g]) is in g, an acceleration, and not the time"));
+}
+
+#[test]
+fn units_count_as_a_whole() {
+    let of = |unit: &str| read(format!("t [s],a [{unit}]\n0,1\n1,2\n"));
+    assert_eq!(of("x1000 m/s^2").expect("a factor").channels()[0].values, [1e3, 2e3]);
+    for (unit, reason) in [
+        ("deka g", "'deka g' is no unit of acceleration that is known"),
+        ("100 mV/g", "is in 100 mV/g, the sensitivity of a sensor, and not the acceleration"),
+        ("kg", "is in kg, a mass"),
+        ("m/s2/Hz", "is no unit of acceleration that is known"),
+    ] {
+        assert!(of(unit).expect_err(unit).contains(reason), "{unit}: {:?}", of(unit));
+    }
+    let given = Options { units: Some("ms,g".parse().expect("units")), ..Options::default() };
+    let other = with("t [s],a [m/s2]\n0,1\n1,2\n", &given).expect_err("not the same");
+    assert_eq!(other, "column 1 (t [s]) is in s by its heading, and in ms by the units given");
+    assert!(with("t [ms],a [g]\n0,1\n1,2\n", &given).is_ok(), "the same");
+    assert!("ms,volt".parse::<Units>().expect_err("a voltage").to_string().contains("voltage"));
+}
+
+#[test]
+fn faults_by_line_ten_of_them_and_the_number_of_the_rest() {
+    let mut text = "t [s],a [g]\n".to_owned();
+    for i in 0..100 {
+        text.push_str(&if i % 5 == 2 { format!("{i},x{i}\n") } else { format!("{i},1\n") });
+    }
+    let error = read(&text).expect_err("twenty faults");
+    assert!(error.starts_with("line 4: 'x2' in column 2 (a) is not a number\nline 9: 'x7'"), "{error}");
+    assert!(error.ends_with("\nand 10 lines more") && error.lines().count() == 11, "{error}");
+    let skip = Options { skip_bad: true, ..Options::default() };
+    assert_eq!(with(&text, &skip).expect("the rest").samples(), 80);
+    for (text, reason) in [
+        ("t [s],a [g]\n0,\n1,1\n2,1\n", "line 2: nothing stands in column 2 (a)"),
+        ("t [s],a [g]\n0,bad\n1,1\n2,1\n", "line 2: 'bad' in column 2 (a) is not a number"),
+        ("t [s],a [g]\n0,1\n1\n2,1\n", "line 3: 1 has 1 of 2 columns"),
+        ("t [s],a [g]\n0,1\nend\n1,1\n2,1\n", "line 3: 'end' is no line of numbers"),
+        ("t [s],a [g]\n0,1\n1,2,3\n2,1\n", "line 3: '1,2,3' has 3 columns, and the lines above have 2"),
+        ("t [s],a [g]\n0,1\n1,1e999\n2,1\n", "line 3: 1e999 in column 2 (a) is beyond 1e100 m/s²"),
+        ("t [s],a [g]\n0,1\n2,1\n1.5,1\n3,1\n", "line 4: time 1.5 s does not come after 2.0 s, that of the sample before"),
+        ("t [s],a [g]\n0,1\n", "the record has one sample; it needs two at least"),
+        ("", "the file is empty"),
+        ("t [s],a [g]\n", "no line of numbers is found in the first 2 lines"),
+    ] {
+        assert_eq!(read(text).expect_err(text), reason, "{text:?}");
+    }
+}
+
+/// What is outside of a text of columns ends with a message, and soon.
+#[test]
+fn what_is_no_text_of_columns() {
+    assert!(read(vec![b'x'; 3 << 20]).expect_err("one long line").contains("longer than"));
+    let mut long = b"t [s],a [g]\n0,1\n1,1\n".to_vec();
+    long.extend(vec![b'1'; 3 << 20]);
+    assert!(read(long).expect_err("a long line below").contains("longer than"));
+    let few = Options { most_values: 1000, ..si() };
+    let endless = std::io::Read::chain(&b"0,0\n"[..], std::io::repeat(b'1'));
+    assert!(Record::read(endless, &few, |_| ()).is_err());
+    let rows: String = (0..2000).map(|i| format!("{i},1\n")).collect();
+    assert_eq!(with(rows, &few).expect_err("too many"), "the record has more than 1000 numbers: take a part of it, or fewer channels");
+}
+
+#[test]
+fn findings_of_text() {
+    let with_gap: String = (0..100).filter(|i| *i != 40).map(|i| format!("{i},0\n")).collect();
+    let found = with(with_gap, &si()).expect("a record").findings(10.0);
+    assert!(matches!(&found[..], [Finding::Gaps { first, count: 1, usual_s }] if first[0].0.to_string() == "line 41" && *usual_s == 1.0), "{found:?}");
+    // Jitter of a quarter of a step on either side is no gap.
+    let mut state = 1_u64;
+    let jittered: String = (0..2000)
+        .map(|i| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            format!("{:.6},0\n", f64::from(i) + 0.5 * ((state >> 40) as f64 / f64::from(1 << 24) - 0.5))
+        })
+        .collect();
+    let record = with(jittered, &si()).expect("a record");
+    assert_eq!((record.step_s(), record.findings(10.0)), (None, vec![]));
+    // A shock in the first samples of a record is no drift.
+    let early: String = (0..1000).map(|i| format!("{i}e-4,{:.3}\n", if i < 20 { (std::f64::consts::PI * f64::from(i) / 20.0).sin() } else { 0.0 })).collect();
+    assert_eq!(with(early, &si()).expect("a record").findings(10.0), []);
+}
+
+/// An offset of half a percent of the peak is told where it changes the spectrum.
+#[test]
+fn small_offsets_are_told_where_they_count() {
+    let text = |offset: f64| -> String {
+        (0..2000).map(|i| format!("{i}e-4,{:.6}\n", offset + if (1000..1020).contains(&i) { 100.0 * (std::f64::consts::PI * f64::from(i - 1000) / 20.0).sin() } else { 0.0 })).collect()
+    };
+    let found = |offset: f64, hz: f64| with(text(offset), &si()).expect("a record").findings(hz);
+    let offset = found(0.5, 10.0);
+    // 1 m/s² of 2π · 10 Hz · 0.127 m/s.
+    assert!(matches!(&offset[..], [Finding::Offset { share, .. }] if (share - 0.125).abs() < 0.01), "{offset:?}");
+    assert_eq!(found(0.5, 1000.0), [], "and not where they don't");
+    assert_eq!(found(0.0, 10.0), []);
+}
+
+#[test]
+fn clipping_is_told_and_coarse_steps_are_not() {
+    let text = |a: &dyn Fn(f64) -> f64| -> String {
+        (0..400).map(|i| format!("{i}e-4,{:.4}\n", a(if (100..200).contains(&i) { (std::f64::consts::PI * f64::from(i - 100) / 100.0).sin() } else { 0.0 }))).collect()
+    };
+    let found = |a: &dyn Fn(f64) -> f64| with(text(a), &si()).expect("a record").findings(10.0);
+    let clipped = found(&|a| (100.0 * a).min(80.0));
+    assert!(matches!(&clipped[..], [Finding::Clipped { samples: 41, value_m_s2: 80.0, .. }]), "{clipped:?}");
+    assert_eq!(found(&|a| (20.0 * a).round()), [], "a converter of a few steps");
+}
