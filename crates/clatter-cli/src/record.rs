@@ -90,7 +90,12 @@ impl Args {
             None => "uneven in time".to_owned(),
         };
         let (n, duration) = (record.samples(), time.said(record.duration_s()));
-        writeln!(out, "{}: {n} samples in {duration} from {} s on, {steps}\n", text::path(&self.file), figures(record.start_s()))?;
+        writeln!(
+            out,
+            "{}: {n} samples in {duration} from {} s on, {steps}\n",
+            text::path(&self.file),
+            figures(record.start_s())
+        )?;
         let width = 24;
         let (heading, _) = column("channel", width);
         writeln!(out, "{heading}{:>10}{:>14}{:>14}{:>14}{:>14}", "unit", "largest", "at", "smallest", "at")?;

@@ -377,7 +377,8 @@ impl Computed<'_> {
             figures(0.5 / zeta)
         )?;
         if let Some(record) = &self.record {
-            let steps = record.step_s().map_or("uneven in time".to_owned(), |step| format!("every {} s", figures(step)));
+            let steps =
+                record.step_s().map_or("uneven in time".to_owned(), |step| format!("every {} s", figures(step)));
             let (start, end) = (record.start_s(), record.start_s() + record.duration_s());
             let (n, from, to) = (record.samples(), figures(start), figures(end));
             let largest = record.channels()[0].values.iter().fold(0.0_f64, |most, a| most.max(a.abs()));

@@ -77,12 +77,8 @@ fn thinned(points: &[(f64, f64)], low: f64, high: f64) -> Vec<(f64, f64)> {
         let by = |pick: fn((usize, f64), (usize, f64)) -> (usize, f64)| {
             run.iter().map(|p| p.1).enumerate().reduce(pick).map_or(0, |(i, _)| i)
         };
-        let mut kept = [
-            0,
-            by(|a, b| if b.1 < a.1 { b } else { a }),
-            by(|a, b| if b.1 > a.1 { b } else { a }),
-            run.len() - 1,
-        ];
+        let mut kept =
+            [0, by(|a, b| if b.1 < a.1 { b } else { a }), by(|a, b| if b.1 > a.1 { b } else { a }), run.len() - 1];
         kept.sort_unstable();
         thin.extend(kept.map(|i| run[i]));
     }
@@ -97,7 +93,18 @@ mod tests {
     fn a_long_record_keeps_its_peaks() {
         let peak = 123_456;
         let points: Vec<(f64, f64)> = (0..1_000_000)
-            .map(|i| (f64::from(i), if i == peak { 7.0 } else if i == peak + 1 { -9.0 } else { f64::from(i % 2) }))
+            .map(|i| {
+                (
+                    f64::from(i),
+                    if i == peak {
+                        7.0
+                    } else if i == peak + 1 {
+                        -9.0
+                    } else {
+                        f64::from(i % 2)
+                    },
+                )
+            })
             .collect();
         let thin = thinned(&points, 0.0, 999_999.0);
         assert!(thin.len() < 4000, "{}", thin.len());

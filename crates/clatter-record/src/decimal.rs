@@ -134,7 +134,9 @@ mod tests {
 
     #[test]
     fn numbers_are_the_nearest_floats() {
-        for text in ["0", "-0.0", "1", "0.1", "3.14159", "1e-3", "123456789.123456789", "9007199254740993", "1e22", "1.5E+05"] {
+        for text in
+            ["0", "-0.0", "1", "0.1", "3.14159", "1e-3", "123456789.123456789", "9007199254740993", "1e22", "1.5E+05"]
+        {
             let (number, length) = read(text).expect(text);
             assert_eq!((number.to_bits(), length), (text.parse::<f64>().expect(text).to_bits(), text.len()), "{text}");
         }

@@ -3,6 +3,7 @@
 use crate::error::Bad;
 use crate::text::line_of;
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 /// Something about a record that its owner should know.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,12 +60,14 @@ pub enum Finding {
         /// That frequency in Hz.
         hz: f64,
     },
-    /// The level at the end is not that before the shock, by so much that the spectrum shows it.
+    /// The level strays from that before the shock, over a quarter of the record or at its end, by so much that the spectrum shows it.
     Drift {
         /// Name of the channel.
         channel: String,
-        /// From where on the level was taken.
+        /// From where the level was taken.
         from: At,
+        /// Its end.
+        to: At,
         /// The level there less that before the shock, in m/s².
         change_m_s2: f64,
         /// What it may change of the spectrum at the lowest frequency.
@@ -115,14 +118,21 @@ impl std::fmt::Display for Finding {
         let percent = |share: f64| three(100.0 * share);
         match self {
             Self::LeftOut(columns) => write!(f, "nothing is made of column {}", columns.join(", ")),
-            Self::Skipped(bad) => write!(f, "left out: {}", crate::Error::Lines(bad.clone()).to_string().replace('\n', "; ")),
+            Self::Skipped(bad) => {
+                write!(f, "left out: {}", crate::Error::Lines(bad.clone()).to_string().replace('\n', "; "))
+            }
             Self::Below(bad) => {
                 let (line, what) = bad.first.first().map_or((0, ""), |(line, what)| (*line, what.as_str()));
                 write!(f, "text below the numbers: line {line}: {what}")
             }
             Self::Gaps { first, count, usual_s } => {
                 let listed: Vec<_> = first.iter().map(|(at, gap_s)| format!("{at}: {} s", three(*gap_s))).collect();
-                write!(f, "samples are missing: usual are {} s from one to the next; {}", three(*usual_s), listed.join("; "))?;
+                write!(
+                    f,
+                    "samples are missing: usual are {} s from one to the next; {}",
+                    three(*usual_s),
+                    listed.join("; ")
+                )?;
                 if *count > first.len() { write!(f, "; and {} more", count - first.len()) } else { Ok(()) }
             }
             Self::Jumps { first, count } => {
@@ -136,7 +146,11 @@ impl std::fmt::Display for Finding {
                 percent(*share)
             ),
             Self::Ends { channel, share } => {
-                write!(f, "{channel} ends at {} % of its largest value: the shock is cut off, or there is an offset", percent(*share))
+                write!(
+                    f,
+                    "{channel} ends at {} % of its largest value: the shock is cut off, or there is an offset",
+                    percent(*share)
+                )
             }
             Self::Offset { channel, from, to, level_m_s2, share, hz } => write!(
                 f,
@@ -145,9 +159,9 @@ impl std::fmt::Display for Finding {
                 percent(*share),
                 three(*hz)
             ),
-            Self::Drift { channel, from, change_m_s2, share, hz } => write!(
+            Self::Drift { channel, from, to, change_m_s2, share, hz } => write!(
                 f,
-                "{channel}, from {from} on: {} m/s2 above the level before the shock, up to {} % of the spectrum at {} Hz",
+                "{channel}, {from} to {to}: {} m/s2 from the level before the shock, up to {} % of the spectrum at {} Hz",
                 three(*change_m_s2),
                 percent(*share),
                 three(*hz)
@@ -184,6 +198,7 @@ const TOLD: f64 = 0.02;
 /// by chance.
 const SURE: f64 = 4.0;
 const PARTS: usize = 8;
+const SIXTEENTHS: usize = 16;
 /// Samples that a level needs.
 const LEAST: usize = 16;
 /// So many samples of the very largest value are no accident, where the steps beside them are so many times the smallest step that
@@ -215,24 +230,40 @@ pub(crate) fn gaps(since_s: &[f64], at: &dyn Fn(usize) -> At) -> Option<Finding>
     let longest = usual_s + (GAP.0 * usual_s).max(GAP.1 * spread);
     // Between usual steps: where long ones follow one another the record is that of events.
     let is_long = |i: usize| steps.get(i).is_some_and(|step| *step > longest);
-    let found: Vec<usize> = (0..steps.len()).filter(|i| is_long(*i) && !is_long(i + 1) && !(*i > 0 && is_long(i - 1))).collect();
+    let found: Vec<usize> =
+        (0..steps.len()).filter(|i| is_long(*i) && !is_long(i + 1) && !(*i > 0 && is_long(i - 1))).collect();
     let count = if MOST_GAPS * found.len() > steps.len() { 0 } else { found.len() };
     let first = found.iter().take(LISTED).map(|i| (at(i + 1), steps[*i])).collect();
     (count > 0).then_some(Finding::Gaps { first, count, usual_s })
 }
 
-/// A level over some samples, if it is sure that it is not zero: the mean is far beyond what the means of its parts differ by.
+/// A level over some samples, if it is sure that it is not zero: the mean is far beyond what the means of its parts differ by, and
+/// what both halves differ by is less than half of it.
 fn level(values: &[f64]) -> Option<f64> {
     if values.len() < LEAST {
         return None;
     }
     let means: Vec<f64> = values.chunks_exact(values.len() / PARTS).take(PARTS).map(mean).collect();
-    let all = mean(values);
-    let square: f64 = means.iter().map(|part| (part - all).powi(2)).sum();
-    #[expect(clippy::cast_precision_loss, reason = "eight")]
-    let parts = PARTS as f64;
-    let error = (square / (parts * (parts - 1.0))).sqrt();
+    let (all, error) = with_error(&means);
+    let (first, second) = means.split_at(PARTS / 2);
+    let flat = (mean(second) - mean(first)).abs() < 0.5 * all.abs() + SURE * error;
+    (flat && all.abs() > SURE * error).then_some(all)
+}
+
+/// The mean over some samples less a level, if it is sure that it is not that.
+fn changed(values: &[f64], base: f64) -> Option<f64> {
+    let means: Vec<f64> = values.chunks_exact(values.len() / PARTS).take(PARTS).map(|part| mean(part) - base).collect();
+    let (all, error) = with_error(&means);
     (all.abs() > SURE * error).then_some(all)
+}
+
+/// The mean of some numbers and its standard error.
+fn with_error(values: &[f64]) -> (f64, f64) {
+    let all = mean(values);
+    let square: f64 = values.iter().map(|part| (part - all).powi(2)).sum();
+    #[expect(clippy::cast_precision_loss, reason = "a small number")]
+    let count = values.len() as f64;
+    (all, (square / (count * (count - 1.0))).sqrt())
 }
 
 fn mean(values: &[f64]) -> f64 {
@@ -271,25 +302,54 @@ impl Judged<'_> {
         let end = values.iter().rposition(|a| inside(*a)).map_or(values.len(), |last| last + 1);
         // The first half of what is before the shock, and the last half of what is after it: its feet and its ringing are not in.
         let before = level(&values[..begin / 2]);
-        let from = end + (values.len() - end) / 2;
-        let after = level(&values[from..]).unwrap_or(0.0) - before.unwrap_or(0.0);
-        let swing = self.velocity_swing(before.unwrap_or(0.0));
+        let base = before.unwrap_or(0.0);
+        let swing = self.velocity_swing(base);
         let share = |level: f64| {
             let turn = TAU * self.lowest_hz;
             let [offset, shock] = [(2.0 * level.abs(), level.abs() * self.duration_s), (2.0 * largest, swing)]
                 .map(|(at_most, velocity)| at_most.min(turn * velocity));
             offset / shock
         };
+        let hz = self.lowest_hz;
         if let Some(level_m_s2) = before.filter(|level| share(*level) > TOLD) {
             let (from, to) = ((self.at)(0), (self.at)(begin / 2 - 1));
-            let (share, hz) = (share(level_m_s2), self.lowest_hz);
-            findings.push(Finding::Offset { channel: channel(), from, to, level_m_s2, share, hz });
+            findings.push(Finding::Offset { channel: channel(), from, to, level_m_s2, share: share(level_m_s2), hz });
         }
-        if begin >= 2 * LEAST && values.len() - from >= LEAST && share(after) > TOLD {
-            let (share, hz) = (share(after), self.lowest_hz);
-            findings.push(Finding::Drift { channel: channel(), from: (self.at)(from), change_m_s2: after, share, hz });
+        for (from, to, change_m_s2) in self.strays(base, begin..end) {
+            if share(change_m_s2) > TOLD {
+                let (from, to, share) = ((self.at)(from), (self.at)(to - 1), share(change_m_s2));
+                findings.push(Finding::Drift { channel: channel(), from, to, change_m_s2, share, hz });
+            }
         }
         self.clipped(largest, findings);
+    }
+
+    /// Where the level strays from that before the shock, in sixteenths of the record: to one side over a quarter of it or more, or
+    /// at the end. Parts of the shock are none of a level. From, to, and by how much.
+    fn strays(&self, base: f64, shock: Range<usize>) -> Vec<(usize, usize, f64)> {
+        let (values, length) = (self.values, self.values.len() / SIXTEENTHS);
+        if length < LEAST {
+            return Vec::new();
+        }
+        let bound = |k: usize| if k == SIXTEENTHS { values.len() } else { k * length };
+        let parts: Vec<f64> = (0..SIXTEENTHS)
+            .map(|k| {
+                let part = bound(k)..bound(k + 1);
+                let is_shock = part.start < shock.end && shock.start < part.end;
+                let sure = if is_shock { None } else { changed(&values[part.clone()], base) };
+                sure.unwrap_or(0.0)
+            })
+            .collect();
+        let mut found = Vec::new();
+        let mut end = 0;
+        for run in parts.chunk_by(|a, b| a * b > 0.0) {
+            let begin = end;
+            end += run.len();
+            if run[0] != 0.0 && (4 * run.len() >= SIXTEENTHS || end == SIXTEENTHS) {
+                found.push((bound(begin), bound(end), mean(run)));
+            }
+        }
+        found
     }
 
     /// How far the velocity goes, from its least to its most, without what a level adds: in m/s.

@@ -27,16 +27,47 @@ pub(crate) enum Named {
 }
 
 const TIMES: [&str; 13] = [
-    "t", "time", "times", "zeit", "timestamp", "temps", "tiempo", "tid", "tijd", "tempo", "datetime", "clock", "elapsed",
+    "t",
+    "time",
+    "times",
+    "zeit",
+    "timestamp",
+    "temps",
+    "tiempo",
+    "tid",
+    "tijd",
+    "tempo",
+    "datetime",
+    "clock",
+    "elapsed",
 ];
-const INDICES: [&str; 14] = [
-    "index", "idx", "sample", "samples", "n", "no", "nr", "num", "number", "row", "#", "id", "count", "unnamed",
-];
+const INDICES: [&str; 14] =
+    ["index", "idx", "sample", "samples", "n", "no", "nr", "num", "number", "row", "#", "id", "count", "unnamed"];
 const ACCELERATIONS: [&str; 7] = ["ax", "ay", "az", "ar", "beschleunigung", "shock", "gforce"];
 const OTHERS: [&str; 23] = [
     "height",
-    "mass", "masse", "weight", "velocity", "speed", "displacement", "position", "distance", "force", "temperature", "temp",
-    "voltage", "pressure", "gyro", "gyroscope", "angular", "rotation", "strain", "magnetic", "humidity", "comment", "trigger",
+    "mass",
+    "masse",
+    "weight",
+    "velocity",
+    "speed",
+    "displacement",
+    "position",
+    "distance",
+    "force",
+    "temperature",
+    "temp",
+    "voltage",
+    "pressure",
+    "gyro",
+    "gyroscope",
+    "angular",
+    "rotation",
+    "strain",
+    "magnetic",
+    "humidity",
+    "comment",
+    "trigger",
 ];
 
 impl Heading {
@@ -44,7 +75,8 @@ impl Heading {
     pub(crate) fn of(cell: &str) -> Self {
         let cell = cell.trim().trim_matches(['"', '\'']).trim();
         bracketed(cell).unwrap_or_else(|| {
-            let whole = Unit::of(cell).filter(|unit| unit.kind == Kind::Time || cell.chars().count() > 2 || cell == "g");
+            let whole =
+                Unit::of(cell).filter(|unit| unit.kind == Kind::Time || cell.chars().count() > 2 || cell == "g");
             if let Some(unit) = whole {
                 return Self { unit: Some(unit), spelled: Some(cell.to_owned()), ..Self::named_alone(cell) };
             }
@@ -69,7 +101,8 @@ impl Heading {
     /// What the name says.
     pub(crate) fn named(&self) -> Named {
         let name = self.name.to_lowercase();
-        let words: Vec<&str> = name.split(|c: char| !c.is_alphanumeric() && c != '#').filter(|w| !w.is_empty()).collect();
+        let words: Vec<&str> =
+            name.split(|c: char| !c.is_alphanumeric() && c != '#').filter(|w| !w.is_empty()).collect();
         let any = |list: &[&str]| words.iter().any(|word| list.contains(word));
         let within = |part: &str| words.iter().any(|word| word.starts_with(part));
         if words.is_empty() {
@@ -151,8 +184,11 @@ fn trailing(cell: &str) -> Option<Heading> {
         let word = word.to_lowercase();
         blank && word.starts_with(|c: char| c.is_ascii_digit())
             || word.strip_prefix('x').is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
-            || ["deci", "centi", "milli", "micro", "nano", "pico", "deka", "hecto", "kilo", "mega", "giga", "k", "m", "u", "n"]
-                .contains(&word.as_str())
+            || [
+                "deci", "centi", "milli", "micro", "nano", "pico", "deka", "hecto", "kilo", "mega", "giga", "k", "m",
+                "u", "n",
+            ]
+            .contains(&word.as_str())
     };
     for (at, c) in cell.char_indices() {
         if !matches!(c, ',' | ':' | ';' | '/' | '_' | ' ') {

@@ -99,7 +99,9 @@ mod tests {
         ] {
             assert_eq!(seconds(text).expect(text).float().to_bits(), f64::to_bits(seconds_s), "{text}");
         }
-        for none in ["", "12", "12:", ":12", "12:61:00", "2023-13-01", "2023-01-02T", "ab:cd", "12:34:56x", "1.5", "12:34:5e3"] {
+        for none in
+            ["", "12", "12:", ":12", "12:61:00", "2023-13-01", "2023-01-02T", "ab:cd", "12:34:56x", "1.5", "12:34:5e3"]
+        {
             assert_eq!(seconds(none), None, "{none}");
         }
     }

@@ -112,7 +112,11 @@ impl Record {
             (start, step_s) = (from_s, Some(by_s));
         }
         let values = std::mem::take(&mut rows.channels);
-        let channels = values.into_iter().zip(roles.channels).map(|(values, role)| Channel { name: role.name, unit: role.unit, values });
+        let channels = values.into_iter().zip(roles.channels).map(|(values, role)| Channel {
+            name: role.name,
+            unit: role.unit,
+            values,
+        });
         let raw = Raw {
             channels: channels.collect(),
             start_s: start,
@@ -272,7 +276,9 @@ impl Raw {
                     kept[i] = false;
                     let (At::Line(line) | At::Sample(line)) = at;
                     let [time, last] = [time, last].map(|since_s| self.start_s + since_s);
-                    bad.add(line, || format!("time {time:?} s does not come after {last:?} s, that of the sample before"));
+                    bad.add(line, || {
+                        format!("time {time:?} s does not come after {last:?} s, that of the sample before")
+                    });
                 }
                 Some((last, times)) if time <= last => {
                     latest = Some((time, times + 1));

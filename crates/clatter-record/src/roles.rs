@@ -207,9 +207,11 @@ impl Seen {
                 };
                 Err(Error::Units(format!("column {called} is in {spelled}, {is}, and not the {what}")))
             }
-            (Some(unit), Some(spelled), Some((other, name))) if unit.size.to_bits() != other.size.to_bits() => Err(
-                Error::Units(format!("column {called} is in {spelled} by its heading, and in {name} by the units given")),
-            ),
+            (Some(unit), Some(spelled), Some((other, name))) if unit.size.to_bits() != other.size.to_bits() => {
+                Err(Error::Units(format!(
+                    "column {called} is in {spelled} by its heading, and in {name} by the units given"
+                )))
+            }
             (Some(unit), spelled, _) => Ok((unit, spelled.clone().unwrap_or_default())),
             (None, _, Some((unit, name))) => Ok((*unit, name.clone())),
             (None, Some(spelled), None) => Err(Error::Units(format!(

@@ -67,21 +67,32 @@ pub(crate) fn read(
         Some(text) => text.to_vec(),
         None => begin,
     };
-    let lines: Vec<String> = begin[..begin.len().min(HEAD.1)].split(|byte| *byte == b'\n').take(HEAD.0).map(text_of).collect();
+    let lines: Vec<String> =
+        begin[..begin.len().min(HEAD.1)].split(|byte| *byte == b'\n').take(HEAD.0).map(text_of).collect();
     let lines = match begin.len() > HEAD.1 && lines.len() < HEAD.0 {
         // The last one may be cut.
         true if lines.len() == 1 => {
-            return Err(Error::File(format!("the first line is longer than {} bytes: this is no text of columns", HEAD.1)));
+            return Err(Error::File(format!(
+                "the first line is longer than {} bytes: this is no text of columns",
+                HEAD.1
+            )));
         }
         true => lines[..lines.len() - 1].to_vec(),
         false => lines,
     };
     let mut layout = Layout::of(&lines)?;
     let form = layout.form;
-    let data: Vec<Vec<_>> = lines[layout.begin..].iter().filter(|line| !line.trim().is_empty()).take(SHOWN).map(|line| form.cells(line)).collect();
+    let data: Vec<Vec<_>> = lines[layout.begin..]
+        .iter()
+        .filter(|line| !line.trim().is_empty())
+        .take(SHOWN)
+        .map(|line| form.cells(line))
+        .collect();
     // Times of day need no unit.
     for (column, heading) in layout.headings.iter_mut().enumerate() {
-        if heading.unit.is_none() && data.first().and_then(|row| row.get(column)).is_some_and(|cell| crate::moment::seconds(cell).is_some()) {
+        if heading.unit.is_none()
+            && data.first().and_then(|row| row.get(column)).is_some_and(|cell| crate::moment::seconds(cell).is_some())
+        {
             *heading = heading.clone().with_unit("s");
         }
     }
@@ -104,7 +115,10 @@ pub(crate) fn read(
         buffer.drain(..at);
         at = 0;
         if buffer.len() > LONGEST {
-            return Err(Error::File(format!("line {} is longer than {LONGEST} bytes: this is no text of columns", rows.line() + 1)));
+            return Err(Error::File(format!(
+                "line {} is longer than {LONGEST} bytes: this is no text of columns",
+                rows.line() + 1
+            )));
         }
         let kept = buffer.len();
         buffer.resize(kept + BLOCK, 0);

@@ -95,7 +95,11 @@ impl Times<'_> {
     fn decimal(&self, i: usize) -> f64 {
         let Printed { finest, digits, .. } = *self.printed;
         #[expect(clippy::cast_possible_truncation, reason = "a float has at most 308 digits")]
-        let place = if digits > 0 { (self.number(i).abs().log10().floor().max(-400.0) as i32 + 1 - digits).max(finest) } else { finest };
+        let place = if digits > 0 {
+            (self.number(i).abs().log10().floor().max(-400.0) as i32 + 1 - digits).max(finest)
+        } else {
+            finest
+        };
         10_f64.powi(place) * self.unit_s
     }
     /// How far a time may be rounded by its own last digit.
@@ -192,7 +196,8 @@ mod tests {
     use super::*;
 
     fn step_of(texts: &[String]) -> Option<f64> {
-        let numbers: Vec<Decimal> = texts.iter().map(|text| Decimal::scan(text.as_bytes(), b'.').expect(text).0).collect();
+        let numbers: Vec<Decimal> =
+            texts.iter().map(|text| Decimal::scan(text.as_bytes(), b'.').expect(text).0).collect();
         let mut printed = Printed::default();
         numbers.iter().for_each(|number| printed.note(*number));
         let since_s: Vec<f64> = numbers.iter().map(|number| number.above(numbers[0])).collect();

@@ -334,7 +334,9 @@ mod tests {
                 unit => panic!("{text}: {unit:?}"),
             }
         }
-        for none in ["", "x", "milli", "deka g", "foo g", "m/s3", "m/s2/Hz", "g2", "1000", "g/Hz", "g rms", "-3 g", "x m/s2 y"] {
+        for none in
+            ["", "x", "milli", "deka g", "foo g", "m/s3", "m/s2/Hz", "g2", "1000", "g/Hz", "g rms", "-3 g", "x m/s2 y"]
+        {
             assert_eq!(Unit::of(none), None, "{none}");
         }
     }

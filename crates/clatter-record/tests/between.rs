@@ -27,7 +27,13 @@ fn record(values: impl Iterator<Item = f64>) -> Record {
     Record::read(csv.as_bytes(), &Options::default(), |_| ()).expect("a record")
 }
 
-fn of(record: &Record, frequencies: &Frequencies, damping: DampingRatio, quantity: Quantity, between: Between) -> Spectrum {
+fn of(
+    record: &Record,
+    frequencies: &Frequencies,
+    damping: DampingRatio,
+    quantity: Quantity,
+    between: Between,
+) -> Spectrum {
     record.spectrum(&record.channels()[0], frequencies, damping, quantity, between, |_| ()).expect("a spectrum")
 }
 
@@ -40,7 +46,8 @@ fn largest_error(fine: &[f64], highest: f64, between: Between) -> f64 {
     for zeta in [0.0, 0.05, 0.5, 1.5] {
         let damping = DampingRatio::new(zeta).expect("a ratio");
         for quantity in QUANTITIES {
-            let mut filter = SpectrumFilter::new(frequencies.clone(), damping, quantity, 1.0 / FINE as f64).expect("a filter");
+            let mut filter =
+                SpectrumFilter::new(frequencies.clone(), damping, quantity, 1.0 / FINE as f64).expect("a filter");
             filter.push(&fine[..(record.samples() - 1) * FINE + 1]);
             let exact = filter.finish().expect("a spectrum");
             let got = of(&record, &frequencies, damping, quantity, between);
@@ -105,7 +112,8 @@ fn clipped_pulses() {
         let waves: Vec<[f64; 2]> = (0..=harmonics)
             .map(|k| {
                 let turn = TAU * k as f64 / PERIOD as f64;
-                let sum = |wave: fn(f64) -> f64| (0..points).map(|i| pulse(at(i) - 100.0) * wave(turn * at(i))).sum::<f64>();
+                let sum =
+                    |wave: fn(f64) -> f64| (0..points).map(|i| pulse(at(i) - 100.0) * wave(turn * at(i))).sum::<f64>();
                 let norm = if k == 0 { 1.0 } else { 2.0 } / points as f64;
                 [norm * sum(f64::cos), norm * sum(f64::sin)]
             })

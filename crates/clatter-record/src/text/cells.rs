@@ -47,7 +47,10 @@ impl Form {
             let (number, length) = Decimal::scan(text.as_bytes(), self.point)?;
             (length == text.len()).then_some(number)
         };
-        whole(cell).or_else(|| moment::seconds(cell)).or_else(|| whole(&ungrouped(cell)?)).or_else(|| whole(&short(cell)?))
+        whole(cell)
+            .or_else(|| moment::seconds(cell))
+            .or_else(|| whole(&ungrouped(cell)?))
+            .or_else(|| whole(&short(cell)?))
     }
 
     /// Whether a cell can stand in a line of numbers.
@@ -75,7 +78,8 @@ fn ungrouped(cell: &str) -> Option<String> {
     let (whole, fraction) = digits.split_at(end);
     let groups: Vec<&str> = whole.split(between).collect();
     let full = |group: &&str| group.len() == 3;
-    let grouped = groups.len() > 1 && (1..=3).contains(&groups[0].len()) && groups[1..].iter().all(|group| full(&group));
+    let grouped =
+        groups.len() > 1 && (1..=3).contains(&groups[0].len()) && groups[1..].iter().all(|group| full(&group));
     grouped.then(|| format!("{sign}{}{fraction}", groups.concat()))
 }
 

@@ -41,16 +41,28 @@ impl Layout {
     pub(super) fn of(lines: &[String]) -> Result<Self, Error> {
         let forced = lines.iter().find_map(|line| separator_line(line));
         let forms: Vec<Form> = match forced {
-            Some(separator) => {
-                [b'.', b','].map(|point| Form { separator: Some(separator), point }).into_iter().filter(|f| f.separator != Some(f.point)).collect()
-            }
-            None => [(Some(b'\t'), b'.'), (Some(b'\t'), b','), (Some(b';'), b'.'), (Some(b';'), b','), (Some(b','), b'.'), (Some(b'|'), b'.'), (None, b'.'), (None, b',')]
-                .map(|(separator, point)| Form { separator, point })
-                .to_vec(),
+            Some(separator) => [b'.', b',']
+                .map(|point| Form { separator: Some(separator), point })
+                .into_iter()
+                .filter(|f| f.separator != Some(f.point))
+                .collect(),
+            None => [
+                (Some(b'\t'), b'.'),
+                (Some(b'\t'), b','),
+                (Some(b';'), b'.'),
+                (Some(b';'), b','),
+                (Some(b','), b'.'),
+                (Some(b'|'), b'.'),
+                (None, b'.'),
+                (None, b','),
+            ]
+            .map(|(separator, point)| Form { separator, point })
+            .to_vec(),
         };
         // Several columns before one: a separator that is not in the numbers makes one column of every line. Of several the one that
         // leaves the fewest cells that are no numbers.
-        let found: Vec<_> = forms.into_iter().filter_map(|form| begin(lines, form).map(|found| (form, found))).collect();
+        let found: Vec<_> =
+            forms.into_iter().filter_map(|form| begin(lines, form).map(|found| (form, found))).collect();
         let rank = |found: &Numbers| (usize::from(found.columns.len() > 1), found.share);
         let best = found.iter().reduce(|best, other| if rank(&other.1) > rank(&best.1) { other } else { best });
         let Some((form, found)) = best else {
@@ -85,7 +97,8 @@ impl Layout {
             }
             // A line of text with as many cells is one of names; in a comment it has to say something of time or acceleration.
             let headings: Vec<Heading> = cells.iter().map(|cell| Heading::of(cell)).collect();
-            let telling = |heading: &Heading| heading.unit.is_some() || heading.named() != crate::heading::Named::Unknown;
+            let telling =
+                |heading: &Heading| heading.unit.is_some() || heading.named() != crate::heading::Named::Unknown;
             if !commented || headings.iter().filter(|heading| !heading.name.is_empty()).any(telling) {
                 names = Some(headings);
                 break;
@@ -157,7 +170,8 @@ fn begin(lines: &[String], form: Form) -> Option<Numbers> {
     let has = |columns: usize| last.iter().filter(|(_, cells)| cells.len() == columns).count();
     let columns = last.iter().map(|(_, cells)| cells.len()).max_by_key(|columns| (has(*columns), *columns))?;
     let is_number = |column: usize| {
-        let numbers = |(_, cells): &&(usize, Vec<Cow<'_, str>>)| cells.len() == columns && form.number(&cells[column]).is_some();
+        let numbers =
+            |(_, cells): &&(usize, Vec<Cow<'_, str>>)| cells.len() == columns && form.number(&cells[column]).is_some();
         2 * last.iter().filter(numbers).count() >= has(columns)
     };
     let numbers: Vec<usize> = (0..columns).filter(|column| is_number(*column)).collect();
@@ -196,7 +210,9 @@ fn heading_cells(form: Form, text: &str, columns: usize) -> Option<Vec<String>> 
     } else if cells.len() == columns {
         return Some(cells);
     }
-    let by = |separator: &str| text.split(separator).map(str::trim).filter(|cell| !cell.is_empty()).map(str::to_owned).collect::<Vec<_>>();
+    let by = |separator: &str| {
+        text.split(separator).map(str::trim).filter(|cell| !cell.is_empty()).map(str::to_owned).collect::<Vec<_>>()
+    };
     [by("  "), by("\t"), by(","), by(";"), joined(text)].into_iter().find(|cells| cells.len() == columns)
 }
 
@@ -231,12 +247,15 @@ fn all_units(cells: &[String]) -> bool {
 fn labview(lines: &[String], columns: usize) -> Option<(Vec<String>, Option<[f64; 2]>)> {
     lines.first().filter(|line| line.starts_with("LabVIEW Measurement"))?;
     let values = |key: &str| -> Option<Vec<String>> {
-        let line = lines.iter().rev().find(|line| line.split(['\t', ',', ';']).next().is_some_and(|k| k.trim() == key))?;
+        let line =
+            lines.iter().rev().find(|line| line.split(['\t', ',', ';']).next().is_some_and(|k| k.trim() == key))?;
         let all = line.split(['\t', ',', ';']).skip(1).map(|cell| cell.trim().to_owned());
         Some(all.collect())
     };
     let has_times = values("X_Columns").is_none_or(|values| values.first().is_none_or(|v| v != "No"));
-    let mut units = vec![if values("X_Dimension").is_none_or(|v| v.first().is_none_or(|v| v == "Time")) { "s" } else { "" }.to_owned()];
+    let mut units = vec![
+        if values("X_Dimension").is_none_or(|v| v.first().is_none_or(|v| v == "Time")) { "s" } else { "" }.to_owned(),
+    ];
     units.extend(values("Y_Unit_Label").unwrap_or_default());
     units.resize(columns, String::new());
     let number = |key: &str| values(key)?.first()?.replace(',', ".").parse::<f64>().ok();

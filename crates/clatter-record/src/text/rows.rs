@@ -55,7 +55,13 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    pub(super) fn new(form: Form, roles: &Roles, options: &Options, columns: usize, sampled_s: Option<[f64; 2]>) -> Self {
+    pub(super) fn new(
+        form: Form,
+        roles: &Roles,
+        options: &Options,
+        columns: usize,
+        sampled_s: Option<[f64; 2]>,
+    ) -> Self {
         let last = roles.channels.iter().map(|role| role.column).chain(roles.time.map(|(column, _)| column)).max();
         let mut uses = vec![Use::Nothing; last.map_or(0, |last| last + 1)];
         if let Some((column, _)) = roles.time {
@@ -205,7 +211,9 @@ impl Rows {
             }
             let number = cells.get(column).and_then(|cell| form.number(cell));
             match (number, cells.get(column).map(|cell| &**cell)) {
-                (Some(number), _) if matches!(use_of, Use::Time) && number.float().is_finite() => self.time = Some(number),
+                (Some(number), _) if matches!(use_of, Use::Time) && number.float().is_finite() => {
+                    self.time = Some(number)
+                }
                 (Some(number), Some(cell)) => {
                     let size = if let Use::Acceleration(k) = use_of { self.sizes[k] } else { 1.0 };
                     let value = number.float() * size;
@@ -235,7 +243,12 @@ impl Rows {
         }
         let more = cells.iter().skip(self.columns).filter(|cell| !cell.is_empty()).count();
         if wrong.is_none() && more > 0 && self.columns > 1 {
-            wrong = Some(format!("'{}' has {} columns, and the lines above have {}", visible(text), cells.len(), self.columns));
+            wrong = Some(format!(
+                "'{}' has {} columns, and the lines above have {}",
+                visible(text),
+                cells.len(),
+                self.columns
+            ));
         }
         match wrong {
             None => return self.note_row(),
