@@ -246,7 +246,8 @@ fn level(values: &[f64]) -> Option<f64> {
     let means: Vec<f64> = values.chunks_exact(values.len() / PARTS).take(PARTS).map(mean).collect();
     let (all, error) = with_error(&means);
     let (first, second) = means.split_at(PARTS / 2);
-    let flat = (mean(second) - mean(first)).abs() < 0.5 * all.abs() + SURE * error;
+    let ((first, of_first), (second, of_second)) = (with_error(first), with_error(second));
+    let flat = (second - first).abs() < 0.5 * all.abs() + 2.0 * of_first.hypot(of_second);
     (flat && all.abs() > SURE * error).then_some(all)
 }
 

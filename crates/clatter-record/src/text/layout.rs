@@ -170,8 +170,9 @@ fn begin(lines: &[String], form: Form) -> Option<Numbers> {
     let has = |columns: usize| last.iter().filter(|(_, cells)| cells.len() == columns).count();
     let columns = last.iter().map(|(_, cells)| cells.len()).max_by_key(|columns| (has(*columns), *columns))?;
     let is_number = |column: usize| {
-        let numbers =
-            |(_, cells): &&(usize, Vec<Cow<'_, str>>)| cells.len() == columns && form.number(&cells[column]).is_some();
+        let numbers = |(_, cells): &&(usize, Vec<Cow<'_, str>>)| {
+            cells.len() == columns && !cells[column].is_empty() && form.is_data(&cells[column])
+        };
         2 * last.iter().filter(numbers).count() >= has(columns)
     };
     let numbers: Vec<usize> = (0..columns).filter(|column| is_number(*column)).collect();
