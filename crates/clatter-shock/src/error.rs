@@ -1,6 +1,6 @@
 //! The one error type of the crate: what was given, where, and what is allowed.
 
-/// A value that describes no suspension, no shock, no record. Each message names the value and the range.
+/// A value that describes no suspension and no shock. Each message names the value and the range.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -75,25 +75,6 @@ pub enum Error {
         /// Position on the bar.
         position: f64,
     },
-    /// A line of a record that cannot be used.
-    #[error("line {line}: {what}")]
-    Line {
-        /// Line of the file, from 1.
-        line: usize,
-        /// What is wrong and what is allowed.
-        what: String,
-    },
-    /// A unit that is not known.
-    #[error("unit {0:?} is not known; time: s, ms, us; acceleration: m/s2, g")]
-    Unit(String),
-    /// A record whose units nobody named.
-    #[error(
-        "the units of the record are not named: give them, or begin the file with a header such as `time [s],acceleration [m/s2]`"
-    )]
-    NoUnits,
-    /// A record too short to be one.
-    #[error("the record has {}; it needs two at least", if *.0 == 1 { "one sample" } else { "no samples" })]
-    Short(usize),
     /// Shock tests that show no critical level.
     #[error("the {0} trials show no critical level: some level without damage must lie below the lowest with damage")]
     Trials(&'static str),
@@ -119,9 +100,6 @@ pub enum Error {
     /// An invalid bar or drop.
     #[error(transparent)]
     Bar(#[from] clatter::Error),
-    /// The file could not be read.
-    #[error("the record could not be read: {0}")]
-    Read(String),
 }
 
 /// A share in percent, three digits of it; what is above a limit is rounded up, not to look as if it held.

@@ -14,7 +14,7 @@
 //! |---|---|---|
 //! | jumps of velocity | [`VelocityShocks`] | pulses much shorter than the period |
 //! | pulses of a shape, overlapping or not | [`Pulses`] | any pulse |
-//! | samples, linear between them | [`Record`], [`SpectrumFilter`], [`stream()`] | measured records |
+//! | samples, linear between them | [`SpectrumFilter`] | measured records, which `clatter-record` reads |
 //! | a clattering bar | [`respond`], [`three_way_rule`] | a part at a position of the bar |
 //!
 //! Each gives a [`Response`] of one component or a [`Spectrum`] over many; [`Limit`], [`DamageBoundary`] and
@@ -47,7 +47,6 @@ mod integrals;
 mod limit_curve;
 mod peaks;
 mod pulse;
-mod record;
 mod side_by_side;
 mod spectrum;
 mod study;
@@ -61,10 +60,12 @@ pub use impulse::{VelocityShock, VelocityShocks};
 pub use limit_curve::LimitCurve;
 pub use peaks::{Extreme, Extremes, Peaked, Response};
 pub use pulse::{Pulse, Pulses, Section, Shape, Sine};
-pub use record::{Finding, Lines, Record, STANDARD_GRAVITY_M_S2, Sample, Survey, Units, stream};
 pub use spectrum::{Frequencies, Quantity, Spectrum};
 pub use study::{
     GainMap, Holders, OMEGAS, ShapeFigures, SuspendedZones, Worst, amplification, half_sine_train, impact_of_peak,
     omegas, rule_either_end, suspended_zone, worst,
 };
 pub use suspension::{DampingRatio, State, Suspension};
+
+/// Standard acceleration of free fall, 9.80665 m/s² exactly (3rd CGPM, 1901).
+pub const STANDARD_GRAVITY_M_S2: f64 = 9.806_65;
