@@ -218,10 +218,18 @@ fn text(attributes: &Attributes, names: &[&str]) -> Option<String> {
         same.first().map(|(_, value)| *value)
     })?;
     let text = match found {
-        AttrValue::String(text) | AttrValue::AsciiString(text) => text.as_str(),
-        AttrValue::StringSized { value, .. } => value.as_str(),
-        AttrValue::StringArray(texts) => texts.first()?.as_str(),
-        AttrValue::StringArraySized { values, .. } => values.first()?.as_str(),
+        AttrValue::String(text)
+        | AttrValue::AsciiString(text)
+        | AttrValue::VarLenString(text)
+        | AttrValue::VarLenAsciiString(text) => text,
+        AttrValue::StringSized { value, .. } | AttrValue::AsciiStringSized { value, .. } => value,
+        AttrValue::StringArray(texts)
+        | AttrValue::AsciiStringArray(texts)
+        | AttrValue::VarLenStringArray(texts)
+        | AttrValue::VarLenAsciiStringArray(texts) => texts.first()?,
+        AttrValue::StringArraySized { values, .. } | AttrValue::AsciiStringArraySized { values, .. } => {
+            values.first()?
+        }
         _ => return None,
     };
     let text = text.trim_matches(['\0', ' ']);

@@ -357,8 +357,8 @@ fn times(bytes: &[u8], big_endian: bool, stride: usize, count: usize) -> Result<
         } else {
             (stamp.u64()?, stamp.i64()?)
         };
-        // Below 10⁹, so that it fits.
-        let fraction_ns = ((u128::from(fraction) * 1_000_000_000) >> 64) as i64;
+        // To the nearest; at most 10⁹, so that it fits.
+        let fraction_ns = ((u128::from(fraction) * 1_000_000_000 + (1 << 63)) >> 64) as i64;
         let time = seconds
             .checked_sub(FROM_1904_TO_1970_S)
             .and_then(|seconds| seconds.checked_mul(1_000_000_000))

@@ -17,6 +17,7 @@ pub(super) struct Pages {
     codec: CompressionCodec,
     /// Bytes of a page that holds all rows.
     most: usize,
+    has_dictionary: bool,
 }
 
 impl Pages {
@@ -40,7 +41,7 @@ impl Pages {
         let packed = SerializedPageReader::new(Arc::clone(bytes), &as_it_lies, rows, None);
         let packed = packed.map_err(|error| fault(&format!("is damaged: {error}")))?;
         // 12 bytes for the widest number, and some for levels; a page of few rows has a header.
-        Ok(Self { packed, codec, most: rows.saturating_mul(16).saturating_add(1 << 16) })
+        Ok(Self { packed, codec, most: rows.saturating_mul(16).saturating_add(1 << 16), has_dictionary: false })
     }
 
     fn unpack(&self, packed: &[u8]) -> Result<Bytes> {
@@ -55,8 +56,13 @@ impl Pages {
         unpacked.map(Bytes::from).map_err(|error| ParquetError::General(error.to_string()))
     }
 
-    fn unpacked(&self, page: Page) -> Result<Page> {
+    /// The page, with all that the crate takes for granted.
+    fn unpacked(&mut self, page: Page) -> Result<Page> {
         let is_packed = self.codec != CompressionCodec::UNCOMPRESSED;
+        let by_dictionary = matches!(page.encoding(), Encoding::PLAIN_DICTIONARY | Encoding::RLE_DICTIONARY);
+        if page.is_data_page() && by_dictionary && !self.has_dictionary {
+            return Err(ParquetError::General("a page needs a dictionary, but there is none before it".to_owned()));
+        }
         Ok(match page {
             Page::DataPage { buf, num_values, encoding, def_level_encoding, rep_level_encoding, statistics } => {
                 // The other coding of levels is of 2013, and the crate trusts its length.
@@ -101,6 +107,12 @@ impl Pages {
             }
             Page::DictionaryPage { buf, num_values, encoding, is_sorted } => {
                 let buf = if is_packed { self.unpack(&buf)? } else { buf };
+                // No number is shorter than 4 bytes.
+                if num_values as usize > buf.len() / 4 {
+                    let fault = format!("a dictionary of {num_values} numbers cannot have {} bytes", buf.len());
+                    return Err(ParquetError::General(fault));
+                }
+                self.has_dictionary = true;
                 Page::DictionaryPage { buf, num_values, encoding, is_sorted }
             }
         })
