@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use crate::At;
+
 /// What makes a file no record. Lines count from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -42,21 +44,21 @@ pub enum Error {
     },
 }
 
-/// Lines that cannot be used: the first ones, each with what is wrong, and how many there are in all.
+/// Lines or samples that cannot be used: the first ones, each with what is wrong, and how many there are in all.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Bad {
-    /// Number of the line and what is wrong with it, of the first ten.
-    pub first: Vec<(usize, String)>,
-    /// How many lines.
+    /// Where each is and what is wrong with it, of the first ten.
+    pub first: Vec<(At, String)>,
+    /// How many there are.
     pub count: usize,
 }
 
 impl Bad {
     /// Listed one by one at most.
     const LISTED: usize = 10;
-    pub(crate) fn add(&mut self, line: usize, what: impl FnOnce() -> String) {
+    pub(crate) fn add(&mut self, at: At, what: impl FnOnce() -> String) {
         if self.first.len() < Self::LISTED {
-            self.first.push((line, what()));
+            self.first.push((at, what()));
         }
         self.count += 1;
     }
@@ -65,11 +67,11 @@ impl Bad {
 /// One line below the other where there are several.
 fn list(bad: &Bad) -> String {
     let mut text = String::new();
-    for (i, (line, what)) in bad.first.iter().enumerate() {
-        let _ = write!(text, "{}line {line}: {what}", if i == 0 { "" } else { "\n" });
+    for (i, (at, what)) in bad.first.iter().enumerate() {
+        let _ = write!(text, "{}{at}: {what}", if i == 0 { "" } else { "\n" });
     }
     if bad.count > bad.first.len() {
-        let _ = write!(text, "\nand {} lines more", bad.count - bad.first.len());
+        let _ = write!(text, "\nand {} more", bad.count - bad.first.len());
     }
     text
 }

@@ -1,7 +1,6 @@
 //! What is odd about a record: told, and the record is used all the same.
 
 use crate::error::Bad;
-use crate::text::line_of;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -107,9 +106,22 @@ impl std::fmt::Display for At {
 }
 
 impl At {
-    /// The place of a sample, from 0, in a file whose lines are numbered so.
-    pub(crate) fn of(numbering: &[(usize, usize)], sample: usize) -> Self {
-        if numbering.is_empty() { Self::Sample(sample + 1) } else { Self::Line(line_of(numbering, sample)) }
+    /// The place of a sample, from 0, by the samples that do not follow on the one before.
+    pub(crate) fn of(numbering: &[(usize, Self)], sample: usize) -> Self {
+        let run = numbering.partition_point(|(first, _)| *first <= sample).checked_sub(1).map(|run| numbering[run]);
+        run.map_or(Self::Sample(sample + 1), |(first, at)| at.after(sample - first))
+    }
+    /// So many places on.
+    pub(crate) fn after(self, count: usize) -> Self {
+        match self {
+            Self::Line(line) => Self::Line(line + count),
+            Self::Sample(sample) => Self::Sample(sample + count),
+        }
+    }
+    /// Of the line, or of the sample.
+    pub(crate) fn number(self) -> usize {
+        let (Self::Line(number) | Self::Sample(number)) = self;
+        number
     }
 }
 
@@ -122,8 +134,8 @@ impl std::fmt::Display for Finding {
                 write!(f, "left out: {}", crate::Error::Lines(bad.clone()).to_string().replace('\n', "; "))
             }
             Self::Below(bad) => {
-                let (line, what) = bad.first.first().map_or((0, ""), |(line, what)| (*line, what.as_str()));
-                write!(f, "text below the numbers: line {line}: {what}")
+                let first = bad.first.first().map(|(at, what)| format!(": {at}: {what}")).unwrap_or_default();
+                write!(f, "text below the numbers{first}")
             }
             Self::Gaps { first, count, usual_s } => {
                 let listed: Vec<_> = first.iter().map(|(at, gap_s)| format!("{at}: {} s", three(*gap_s))).collect();

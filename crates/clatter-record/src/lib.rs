@@ -1,6 +1,7 @@
 //! Measured shocks: from the files of loggers to channels in SI.
 
 mod between;
+mod container;
 mod decimal;
 mod error;
 mod finding;
@@ -16,6 +17,9 @@ mod times;
 mod unit;
 
 pub use between::BAND;
+pub use container::{Kind, read, write_npy};
+#[cfg(feature = "parquet")]
+pub use container::{Series, write_parquet};
 pub use error::{Bad, Error};
 pub use finding::{At, Finding};
 pub use options::{Options, Pick, Units};

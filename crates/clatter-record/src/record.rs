@@ -2,12 +2,14 @@
 
 use std::io::Read;
 
+use crate::container::{self, Kind};
 use crate::error::Bad;
 use crate::finding::{At, Finding, Judged, LISTED, gaps};
-use crate::roles::Roles;
-use crate::text::{self, BLOCK, Rows, decoded};
+use crate::heading::Heading;
+use crate::roles::{Roles, Seen};
+use crate::text::{self, BLOCK, LARGEST, Rows, SHOWN, decoded};
 use crate::times::{Printed, Times};
-use crate::{Error, Options};
+use crate::{Column, Error, Options, Table, Values};
 
 /// A record of one or several channels, in seconds and m/s².
 #[derive(Debug, Clone, PartialEq)]
@@ -16,8 +18,8 @@ pub struct Record {
     start_s: f64,
     spacing: Spacing,
     samples: usize,
-    /// Samples that follow no other on the line before, each with its line.
-    numbering: Vec<(usize, usize)>,
+    /// Samples that follow no other at the place before, each with its place.
+    numbering: Vec<(usize, At)>,
     /// What was found while reading.
     read: Vec<Finding>,
 }
@@ -50,7 +52,7 @@ struct Raw {
     since_s: Vec<f64>,
     printed: Printed,
     step_s: Option<f64>,
-    numbering: Vec<(usize, usize)>,
+    numbering: Vec<(usize, At)>,
     found: Vec<Finding>,
 }
 
@@ -82,6 +84,14 @@ impl Record {
         begin.truncate(length);
         if begin.is_empty() {
             return Err(Error::File("the file is empty".to_owned()));
+        }
+        let kind = Kind::of(&begin)?;
+        if kind != Kind::Text {
+            let bytes = to_end(begin, &mut input, options)?;
+            progress(bytes.len() as u64);
+            let table = container::read(kind, &bytes, options.most_values)?;
+            drop(bytes);
+            return Self::of_table(table, options);
         }
         let (rows, roles) = match decoded(&begin) {
             Some(decode) => {
@@ -128,6 +138,90 @@ impl Record {
             found,
         };
         raw.finish(rows.bad, options)
+    }
+
+    /// Of the columns of a file whose numbers are no text.
+    fn of_table(table: Table, options: &Options) -> Result<Self, Error> {
+        let columns = table.columns;
+        let headings: Vec<Heading> = columns
+            .iter()
+            .map(|column| {
+                let heading = Heading::of(&column.name);
+                column.unit.iter().fold(heading, |heading, unit| heading.with_unit(unit))
+            })
+            .collect();
+        let number = |column: &Column, row: usize| match &column.values {
+            Values::Float(values) => values.get(row).copied().unwrap_or(f64::NAN),
+            #[expect(clippy::cast_precision_loss, reason = "the first rows tell times from indices")]
+            Values::Integer(values) => values.get(row).map_or(f64::NAN, |value| *value as f64),
+        };
+        let seen = Seen {
+            named: headings.iter().any(|heading| !heading.name.is_empty()),
+            sampled: columns.iter().any(|column| column.sampled_s.is_some()),
+            rows: (0..SHOWN).map(|row| columns.iter().map(|column| number(column, row)).collect()).collect(),
+            headings,
+        };
+        let roles = seen.roles(options)?;
+        let samples = columns[roles.channels[0].column].values.len();
+        for role in &roles.channels {
+            let other = columns[role.column].values.len();
+            if other != samples {
+                let first = &roles.channels[0].name;
+                return Err(Error::Columns(format!(
+                    "{} has {other} samples and {first} has {samples}: take one of them",
+                    role.name
+                )));
+            }
+        }
+        let (mut start_s, mut step_s, mut unit_s, mut since_s, mut printed) =
+            (0.0, None, 1.0, Vec::new(), Printed::floats());
+        if let Some(hz) = options.sample_rate_hz {
+            step_s = Some(period(hz)?);
+        } else if let Some((time, size)) = roles.time {
+            unit_s = size;
+            let column = &columns[time];
+            if column.values.len() != samples {
+                return Err(Error::Columns(format!(
+                    "{} has {} values for {samples} samples",
+                    column.name,
+                    column.values.len()
+                )));
+            }
+            (start_s, since_s) = since_first(&column.values, size);
+            if let Values::Integer(_) = column.values {
+                printed = Printed::whole();
+            }
+        } else if let Some([from_s, by_s]) = columns[roles.channels[0].column].sampled_s {
+            (start_s, step_s) = (from_s, Some(by_s));
+        } else {
+            return Err(Error::Columns("the file tells no times: give the sample rate".to_owned()));
+        }
+        let mut bad = Bad::default();
+        let mut kept = vec![true; samples];
+        let channels: Vec<Channel> = roles
+            .channels
+            .into_iter()
+            .map(|role| {
+                let values: Vec<f64> = match &columns[role.column].values {
+                    Values::Float(values) => values.iter().map(|value| value * role.size).collect(),
+                    #[expect(clippy::cast_precision_loss, reason = "no converter has so many digits")]
+                    Values::Integer(values) => values.iter().map(|value| *value as f64 * role.size).collect(),
+                };
+                Channel { name: role.name, unit: role.unit, values }
+            })
+            .collect();
+        for sample in 0..samples {
+            let values = channels.iter().map(|channel| (channel.name.as_str(), channel.values[sample]));
+            let mut values = values.chain(since_s.get(sample).map(|since_s| ("time", *since_s)));
+            if let Some((name, value)) = values.find(|(_, value)| !value.is_finite() || value.abs() > LARGEST) {
+                kept[sample] = false;
+                bad.add(At::Sample(sample + 1), || format!("{value} in {name} is no number up to {LARGEST:e}"));
+            }
+        }
+        let found = if roles.left_out.is_empty() { Vec::new() } else { vec![Finding::LeftOut(roles.left_out)] };
+        let mut raw = Raw { channels, start_s, unit_s, since_s, printed, step_s, numbering: Vec::new(), found };
+        raw.keep(&kept);
+        raw.finish(bad, options)
     }
 
     /// The channels.
@@ -221,7 +315,10 @@ impl Raw {
             step_s = self.times().step();
         }
         if bad.count > 0 {
-            if !options.skip_bad {
+            // Where samples have no times each of them counts, but for those at the end.
+            let last = self.channels[0].values.len().checked_sub(1).map(|last| At::of(&self.numbering, last));
+            let in_between = || bad.first.iter().any(|(at, _)| last.is_none_or(|last| at.number() < last.number()));
+            if !options.skip_bad || self.since_s.is_empty() && in_between() {
                 return Err(Error::Lines(bad));
             }
             self.found.push(Finding::Skipped(bad));
@@ -274,9 +371,8 @@ impl Raw {
             match latest {
                 Some((last, times)) if time < last || time <= last && times > 1 => {
                     kept[i] = false;
-                    let (At::Line(line) | At::Sample(line)) = at;
                     let [time, last] = [time, last].map(|since_s| self.start_s + since_s);
-                    bad.add(line, || {
+                    bad.add(at, || {
                         format!("time {time:?} s does not come after {last:?} s, that of the sample before")
                     });
                 }
@@ -293,6 +389,11 @@ impl Raw {
         if jumps.1 > 0 {
             self.found.push(Finding::Jumps { first: jumps.0, count: jumps.1 });
         }
+        self.keep(&kept);
+    }
+
+    /// Leaves out samples.
+    fn keep(&mut self, kept: &[bool]) {
         if kept.iter().all(|kept| *kept) {
             return;
         }
@@ -302,17 +403,30 @@ impl Raw {
         };
         keep(&mut self.since_s);
         self.channels.iter_mut().for_each(|channel| keep(&mut channel.values));
-        self.printed.keep(&kept);
-        let numbering = &self.numbering;
-        if !numbering.is_empty() {
-            let lines = (0..kept.len()).filter(|i| kept[*i]).map(|i| text::line_of(numbering, i));
-            let mut runs: Vec<(usize, usize)> = Vec::new();
-            for (sample, line) in lines.enumerate() {
-                if runs.last().is_none_or(|(first, at)| at + sample - first != line) {
-                    runs.push((sample, line));
-                }
+        self.printed.keep(kept);
+        let mut runs: Vec<(usize, At)> = Vec::new();
+        let places = (0..kept.len()).filter(|i| kept[*i]).map(|i| At::of(&self.numbering, i));
+        for (sample, at) in places.enumerate() {
+            if runs.last().is_none_or(|(first, begin)| begin.after(sample - first) != at) {
+                runs.push((sample, at));
             }
-            self.numbering = runs;
+        }
+        self.numbering = runs;
+    }
+}
+
+/// The first of some times in seconds, and all of them since it; exact for integers.
+fn since_first(values: &Values, size: f64) -> (f64, Vec<f64>) {
+    match values {
+        Values::Float(values) => {
+            let first = values.first().copied().unwrap_or(0.0);
+            (first * size, values.iter().map(|value| (value - first) * size).collect())
+        }
+        #[expect(clippy::cast_precision_loss, reason = "a record lasts less than 2^53 of its units")]
+        Values::Integer(values) => {
+            let first = values.first().copied().unwrap_or(0);
+            let since = |value: &i64| (i128::from(*value) - i128::from(first)) as f64 * size;
+            (first as f64 * size, values.iter().map(since).collect())
         }
     }
 }

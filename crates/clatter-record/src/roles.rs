@@ -123,7 +123,7 @@ impl Seen {
         };
         let is_index = |column: usize| {
             let values = || self.rows.iter().filter_map(|row| row.get(column));
-            self.rows.len() > 1 && values().zip(values().skip(1)).all(|(a, b)| b - a == 1.0)
+            self.rows.len() > 1 && values().zip(values().skip(1)).all(|(a, b)| (b - a).to_bits() == 1.0_f64.to_bits())
         };
         match count {
             1 if none => Ok(None),

@@ -9,7 +9,7 @@ use std::io::Read;
 use crate::roles::{Roles, Seen};
 use crate::{Error, Options};
 use layout::Layout;
-pub(crate) use rows::{Rows, line_of};
+pub(crate) use rows::{LARGEST, Rows};
 
 /// Bytes that are read at a time, and before it is known what a file holds.
 pub(crate) const BLOCK: usize = 1 << 20;
@@ -18,10 +18,13 @@ const HEAD: (usize, usize) = (2000, 1 << 18);
 /// A line has no more bytes.
 const LONGEST: usize = 1 << 18;
 /// Rows that show what columns without names are.
-const SHOWN: usize = 8;
+pub(crate) const SHOWN: usize = 8;
 
-/// A text as UTF-8, or as any other bytes with ASCII below 128, whose lines end with a line feed.
-pub(crate) fn decoded(first: &[u8]) -> Option<fn(&[u8]) -> Vec<u8>> {
+/// How the bytes of a text become others.
+type Decode = fn(&[u8]) -> Vec<u8>;
+
+/// What makes a text one of UTF-8, or of any other bytes with ASCII below 128, whose lines end with a line feed.
+pub(crate) fn decoded(first: &[u8]) -> Option<Decode> {
     fn little(bytes: &[u8]) -> Vec<u8> {
         utf16(bytes, u16::from_le_bytes)
     }

@@ -19,7 +19,7 @@ const MISSING: [&str; 6] = ["nan", "na", "n/a", "inf", "-inf", "null"];
 
 impl Form {
     /// The cells of a line, without quotes around them and blanks beside them.
-    pub(super) fn cells<'a>(&self, line: &'a str) -> Vec<Cow<'a, str>> {
+    pub(super) fn cells<'a>(self, line: &'a str) -> Vec<Cow<'a, str>> {
         let Some(separator) = self.separator.map(char::from) else {
             return line.split_whitespace().map(|cell| Cow::Borrowed(cell.trim_matches('"'))).collect();
         };
@@ -42,7 +42,7 @@ impl Form {
     }
 
     /// The number of a whole cell: with digits in groups of three as well, or a time of day.
-    pub(super) fn number(&self, cell: &str) -> Option<Decimal> {
+    pub(super) fn number(self, cell: &str) -> Option<Decimal> {
         let whole = |text: &str| {
             let (number, length) = Decimal::scan(text.as_bytes(), self.point)?;
             (length == text.len()).then_some(number)
@@ -54,7 +54,7 @@ impl Form {
     }
 
     /// Whether a cell can stand in a line of numbers.
-    pub(super) fn is_data(&self, cell: &str) -> bool {
+    pub(super) fn is_data(self, cell: &str) -> bool {
         cell.is_empty() || is_missing(cell) || self.number(cell).is_some()
     }
 }
@@ -77,9 +77,8 @@ fn ungrouped(cell: &str) -> Option<String> {
     let end = digits.find(|c: char| !c.is_ascii_digit() && !between(c)).unwrap_or(digits.len());
     let (whole, fraction) = digits.split_at(end);
     let groups: Vec<&str> = whole.split(between).collect();
-    let full = |group: &&str| group.len() == 3;
-    let grouped =
-        groups.len() > 1 && (1..=3).contains(&groups[0].len()) && groups[1..].iter().all(|group| full(&group));
+    let full = |group: &str| group.len() == 3;
+    let grouped = groups.len() > 1 && (1..=3).contains(&groups[0].len()) && groups[1..].iter().all(|group| full(group));
     grouped.then(|| format!("{sign}{}{fraction}", groups.concat()))
 }
 

@@ -8,7 +8,7 @@ use crate::error::Bad;
 use crate::moment::{CLOCK, DAY_S};
 use crate::roles::Roles;
 use crate::times::Printed;
-use crate::{Error, Options};
+use crate::{At, Error, Options};
 
 /// Larger accelerations (m/s²) are refused: far beyond any that there are, and far within the floats.
 pub(crate) const LARGEST: f64 = 1e100;
@@ -51,7 +51,7 @@ pub(crate) struct Rows {
     /// Lines that cannot be used.
     pub(crate) bad: Bad,
     /// Samples that follow no other on the line before, each with its line.
-    pub(crate) numbering: Vec<(usize, usize)>,
+    pub(crate) numbering: Vec<(usize, At)>,
 }
 
 impl Rows {
@@ -195,7 +195,7 @@ impl Rows {
             return Ok(());
         }
         if cells.iter().all(|cell| cell.is_empty() || !form.is_data(cell)) {
-            self.text.add(self.line, || format!("'{}' is no line of numbers", visible(text)));
+            self.text.add(At::Line(self.line), || format!("'{}' is no line of numbers", visible(text)));
             return Ok(());
         }
         self.row.clear();
@@ -212,7 +212,7 @@ impl Rows {
             let number = cells.get(column).and_then(|cell| form.number(cell));
             match (number, cells.get(column).map(|cell| &**cell)) {
                 (Some(number), _) if matches!(use_of, Use::Time) && number.float().is_finite() => {
-                    self.time = Some(number)
+                    self.time = Some(number);
                 }
                 (Some(number), Some(cell)) => {
                     let size = if let Use::Acceleration(k) = use_of { self.sizes[k] } else { 1.0 };
@@ -252,7 +252,7 @@ impl Rows {
         }
         match wrong {
             None => return self.note_row(),
-            Some(what) => self.bad.add(self.line, || what),
+            Some(what) => self.bad.add(At::Line(self.line), || what),
         }
         Ok(())
     }
@@ -262,14 +262,15 @@ impl Rows {
     fn note_row(&mut self) -> Result<(), Error> {
         if self.text.count > 0 {
             let text = std::mem::take(&mut self.text);
-            for (line, what) in &text.first {
-                self.bad.add(*line, || what.clone());
+            for (at, what) in &text.first {
+                self.bad.add(*at, || what.clone());
             }
             self.bad.count += text.count - text.first.len();
         }
         let sample = self.channels[0].len();
-        if self.numbering.last().is_none_or(|(first, line)| line + (sample - first) != self.line) {
-            self.numbering.push((sample, self.line));
+        let at = At::Line(self.line);
+        if self.numbering.last().is_none_or(|(first, begin)| begin.after(sample - first) != at) {
+            self.numbering.push((sample, at));
         }
         if let Some(time) = self.time {
             let first = *self.first_time.get_or_insert(time);
@@ -299,12 +300,6 @@ impl Rows {
     pub(crate) fn time_size(&self) -> f64 {
         self.time_size
     }
-}
-
-/// The line of a sample, by the samples that do not follow on the one before.
-pub(crate) fn line_of(numbering: &[(usize, usize)], sample: usize) -> usize {
-    let run = numbering.partition_point(|(first, _)| *first <= sample).saturating_sub(1);
-    numbering.get(run).map_or(0, |(first, line)| line + sample - first)
 }
 
 /// What a message shows of a text from outside: its beginning, without what a terminal would act on.

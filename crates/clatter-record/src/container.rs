@@ -1,0 +1,260 @@
+//! Files that hold numbers in binary, or in fixed fields: from their bytes to a [`Table`].
+//!
+//! A file is known by its first bytes, never by the ending of its name. Every reader stays within two bounds: what the
+//! file itself holds, and the number of values that the caller allows, which is checked before memory is taken.
+
+mod bytes;
+mod codec;
+mod kind;
+mod mat;
+mod npy;
+mod number;
+mod tdms;
+mod uff;
+mod wav;
+
+#[cfg(feature = "arrow")]
+mod arrow;
+#[cfg(feature = "hdf5")]
+mod hdf5;
+#[cfg(feature = "arrow")]
+mod nulls;
+#[cfg(feature = "parquet")]
+mod parquet;
+
+pub use kind::Kind;
+pub use npy::write as write_npy;
+#[cfg(feature = "parquet")]
+pub use parquet::{Series, write as write_parquet};
+
+use crate::{Column, Error, Table, Values};
+use number::Number;
+
+/// The columns of a file in one of the binary kinds.
+///
+/// At most `most` values are read, all columns together. A column keeps the name, the unit and the rate that the file
+/// gives it; numbers are not converted. Columns may differ in length where the file has channels of several lengths.
+/// Single numbers beside them are left out, save those that name a rate (`fs`, `dt` …): they become
+/// [`Column::sampled_s`]. 64-bit integers beyond 2⁵³ and points in time stay [`Values::Integer`], the latter in
+/// nanoseconds; all else are floats, exactly.
+///
+/// # Errors
+/// [`Error::File`] where the bytes are torn or not as the kind has to be, hold more than `most` values, hold no numbers,
+/// or are of a kind that is read elsewhere ([`Kind::Text`]) or left out of this build.
+///
+/// # Examples
+/// ```
+/// use clatter_record::{Kind, Values, read, write_npy};
+/// let file = write_npy(&[&[0.0, 0.001], &[0.0, 9.81]])?;
+/// let kind = Kind::of(&file)?;
+/// assert_eq!(kind, Kind::Npy);
+/// let table = read(kind, &file, 1000)?;
+/// assert_eq!(table.columns[1].values, Values::Float(vec![0.0, 9.81]));
+/// # Ok::<(), clatter_record::Error>(())
+/// ```
+pub fn read(kind: Kind, bytes: &[u8], most: usize) -> Result<Table, Error> {
+    let room = &mut Room { left: most, most };
+    let columns = match kind {
+        Kind::Text => return Err(refuse("a text file is not read as a binary one")),
+        Kind::Npy => npy::read(bytes, room)?,
+        Kind::Wav => wav::read(bytes, room)?,
+        Kind::Mat5 => mat::read(bytes, room)?,
+        Kind::Tdms => tdms::read(bytes, room)?,
+        Kind::Uff => uff::read(bytes, room)?,
+        #[cfg(feature = "hdf5")]
+        Kind::Hdf5 => hdf5::read(bytes, room)?,
+        #[cfg(feature = "parquet")]
+        Kind::Parquet => parquet::read(bytes, room)?,
+        #[cfg(feature = "arrow")]
+        Kind::Arrow => arrow::read(bytes, room)?,
+        #[cfg(not(all(feature = "hdf5", feature = "parquet", feature = "arrow")))]
+        other => return Err(refuse(format!("this build does not read {other}"))),
+    };
+    if columns.is_empty() {
+        return Err(refuse(format!("{kind}: it holds no column of numbers")));
+    }
+    Ok(Table { columns })
+}
+
+fn refuse(message: impl Into<String>) -> Error {
+    Error::File(message.into())
+}
+
+/// How many values may still be read.
+#[derive(Debug)]
+struct Room {
+    left: usize,
+    most: usize,
+}
+
+impl Room {
+    /// Room for so many values more, before memory is taken for them.
+    fn take(&mut self, values: usize) -> Result<(), Error> {
+        self.left = self.left.checked_sub(values).ok_or_else(|| {
+            refuse(format!("the file holds more than {} values, which is the most that is read", self.most))
+        })?;
+        Ok(())
+    }
+    /// The same for rows times columns.
+    fn take_all(&mut self, counts: &[usize]) -> Result<usize, Error> {
+        // A product that overflows is beyond any room.
+        let values =
+            counts.iter().try_fold(1_usize, |product, count| product.checked_mul(*count)).unwrap_or(usize::MAX);
+        self.take(values)?;
+        Ok(values)
+    }
+    /// Bytes that a compressed part of the file may unpack to: 8 a value, and some for names and headers.
+    fn bytes(&self) -> usize {
+        self.left.saturating_mul(8).saturating_add(1 << 16)
+    }
+}
+
+/// A column without a rate of its own.
+fn column(name: impl Into<String>, unit: Option<String>, values: Values) -> Column {
+    Column { name: name.into(), unit, sampled_s: None, values }
+}
+
+/// The number of rows of columns that are written.
+fn equal_length(columns: &[&[f64]]) -> Result<usize, Error> {
+    let rows = columns.first().ok_or_else(|| refuse("there is no column to write"))?.len();
+    match columns.iter().position(|column| column.len() != rows) {
+        None => Ok(rows),
+        Some(i) => Err(refuse(format!(
+            "column {} has {} values, the first has {rows}; columns of one file are of equal length",
+            i + 1,
+            columns[i].len()
+        ))),
+    }
+}
+
+/// How the columns of a matrix are told apart by name.
+#[derive(Debug, Clone, Copy)]
+enum Naming {
+    /// Not at all.
+    None,
+    /// `name(:,1)`, from 1.
+    Matlab,
+    /// `name[:,0]`, from 0.
+    Python,
+}
+
+impl Naming {
+    fn name(self, name: &str, index: usize, by_row: bool) -> String {
+        match (self, by_row) {
+            (Self::None, _) => String::new(),
+            (Self::Matlab, false) => format!("{name}(:,{})", index + 1),
+            (Self::Matlab, true) => format!("{name}({},:)", index + 1),
+            (Self::Python, false) => format!("{name}[:,{index}]"),
+            (Self::Python, true) => format!("{name}[{index},:]"),
+        }
+    }
+}
+
+/// A matrix of numbers, as it lies in the file.
+#[derive(Debug, Clone, Copy)]
+struct Matrix<'a> {
+    rows: usize,
+    columns: usize,
+    /// Whether the numbers of a column lie side by side, or those of a row.
+    column_by_column: bool,
+    bytes: &'a [u8],
+    number: Number,
+    big_endian: bool,
+}
+
+impl Matrix<'_> {
+    /// Its columns, or its rows where they are longer: a record has more samples than channels.
+    ///
+    /// One that has one row or one column goes by `name` alone. The bytes have been counted.
+    fn split(&self, name: &str, naming: Naming) -> Vec<Column> {
+        let by_row = self.columns > self.rows;
+        let (count, length) = if by_row { (self.rows, self.columns) } else { (self.columns, self.rows) };
+        let side_by_side = self.column_by_column != by_row;
+        let (step, next) = if side_by_side { (1, length) } else { (count, 1) };
+        (0..count)
+            .map(|i| {
+                let values = self.number.strided(self.bytes, self.big_endian, i * next, step, length);
+                let name = if count == 1 { name.to_owned() } else { naming.name(name, i, by_row) };
+                column(name, None, values)
+            })
+            .collect()
+    }
+}
+
+/// Seconds between samples, by the name and the value of a number beside the columns: `fs` or `sample_rate` in Hz, `dt`
+/// or `sample_interval` in s. The names are those of scripts and loggers, without regard to case and separators.
+fn interval_s(name: &str, value: f64) -> Option<f64> {
+    const RATES: [&str; 9] = [
+        "fs",
+        "samplerate",
+        "samplingrate",
+        "samplefrequency",
+        "samplingfrequency",
+        "samplefreq",
+        "samplingfreq",
+        "samplespersecond",
+        "sampleratehz",
+    ];
+    const INTERVALS: [&str; 10] = [
+        "dt",
+        "deltat",
+        "ts",
+        "sampleinterval",
+        "samplinginterval",
+        "sampleperiod",
+        "samplingperiod",
+        "sampletime",
+        "timestep",
+        "wfincrement",
+    ];
+    let name: String =
+        name.chars().filter(char::is_ascii_alphanumeric).map(|letter| letter.to_ascii_lowercase()).collect();
+    let interval = if RATES.contains(&name.as_str()) {
+        1.0 / value
+    } else if INTERVALS.contains(&name.as_str()) {
+        value
+    } else {
+        return None;
+    };
+    (interval.is_finite() && interval > 0.0).then_some(interval)
+}
+
+/// As integers, which they are.
+#[expect(clippy::cast_possible_truncation, reason = "integers up to 2^53 that were made floats")]
+fn whole(values: Values) -> Vec<i64> {
+    match values {
+        Values::Integer(values) => values,
+        Values::Float(values) => values.into_iter().map(|value| value as i64).collect(),
+    }
+}
+
+/// As floats, within half an ulp.
+#[expect(clippy::cast_precision_loss, reason = "beside integers that no 64 bits with a sign hold")]
+fn rounded(values: Values) -> Vec<f64> {
+    match values {
+        Values::Float(values) => values,
+        Values::Integer(values) => values.into_iter().map(|value| value as f64).collect(),
+    }
+}
+
+/// One part of a column behind the other. Where one has integers beyond 2^53, both are integers; where the other has
+/// some beyond 2^63, which came as floats, both are floats.
+fn joined(before: Values, after: Values) -> Values {
+    let beyond = |values: &Values| matches!(values, Values::Float(values) if values.iter().any(|value| value.abs() > 2_f64.powi(53)));
+    match (before, after) {
+        (Values::Float(mut before), Values::Float(after)) => {
+            before.extend(after);
+            Values::Float(before)
+        }
+        (before, after) if beyond(&before) || beyond(&after) => {
+            let mut before = rounded(before);
+            before.extend(rounded(after));
+            Values::Float(before)
+        }
+        (before, after) => {
+            let mut before = whole(before);
+            before.extend(whole(after));
+            Values::Integer(before)
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! MAT files of MATLAB 5 to 7.2: elements with a tag, compressed or not.
+//!
+//! Source: MAT-File Format, The MathWorks, chapter 1 (Level 5).
+
+use super::bytes::Bytes;
+use super::number::Number;
+use super::{Matrix, Naming, Room, codec, interval_s, refuse};
+use crate::{Column, Error, Values};
+
+const PART: &str = "MAT file";
+const MATRIX: u32 = 14;
+const COMPRESSED: u32 = 15;
+/// Structures in structures.
+const DEEPEST: usize = 8;
+
+/// What is found on the way.
+#[derive(Debug, Default)]
+struct Found {
+    columns: Vec<Column>,
+    interval_s: Option<f64>,
+}
+
+pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> {
+    let mut bytes = Bytes::new(bytes, PART);
+    bytes.take(126)?;
+    bytes.big_endian = bytes.take(2)? == b"MI";
+    let mut found = Found::default();
+    while bytes.left() > 0 {
+        let Element { kind, data } = Element::read(&mut bytes)?;
+        if kind == COMPRESSED {
+            let unpacked = codec::zlib(data, room.bytes(), "MAT file, a compressed variable")?;
+            let mut inner = Bytes::new(&unpacked, "MAT file, a compressed variable");
+            inner.big_endian = bytes.big_endian;
+            let inner_element = Element::read(&mut inner)?;
+            if inner_element.kind == MATRIX {
+                variable(inner_element.data, bytes.big_endian, None, 0, &mut found, room)?;
+            }
+        } else if kind == MATRIX {
+            variable(data, bytes.big_endian, None, 0, &mut found, room)?;
+        }
+    }
+    let Found { mut columns, interval_s } = found;
+    if let Some(interval) = interval_s {
+        columns.iter_mut().for_each(|column| column.sampled_s = Some([0.0, interval]));
+    }
+    Ok(columns)
+}
+
+/// A tagged part of the file.
+#[derive(Debug, Clone, Copy)]
+struct Element<'a> {
+    kind: u32,
+    data: &'a [u8],
+}
+
+impl<'a> Element<'a> {
+    fn read(bytes: &mut Bytes<'a>) -> Result<Self, Error> {
+        let tag = bytes.u32()?;
+        if tag >> 16 != 0 {
+            // A small one: up to 4 bytes within the tag.
+            let (kind, length) = (tag & 0xffff, tag >> 16);
+            let data = bytes.take(4)?;
+            let data = usize::try_from(length).ok().and_then(|length| data.get(..length));
+            return Ok(Self {
+                kind,
+                data: data.ok_or_else(|| refuse("MAT file: a small element is longer than 4 bytes"))?,
+            });
+        }
+        let length = bytes.u32()?;
+        let data = bytes.take_u64(length.into())?;
+        if tag != COMPRESSED {
+            // Fill to 8 bytes, which the last one may lack.
+            bytes.take(data.len().wrapping_neg() % 8)?;
+        }
+        Ok(Self { kind: tag, data })
+    }
+    /// Its numbers.
+    fn number(self) -> Option<Number> {
+        Some(match self.kind {
+            1 => Number::I8,
+            2 => Number::U8,
+            3 => Number::I16,
+            4 => Number::U16,
+            5 => Number::I32,
+            6 => Number::U32,
+            7 => Number::F32,
+            9 => Number::F64,
+            12 => Number::I64,
+            13 => Number::U64,
+            _ => return None,
+        })
+    }
+}
+
+/// Adds the columns of one variable; one that holds no numbers adds none.
+fn variable(
+    data: &[u8],
+    big_endian: bool,
+    given: Option<&str>,
+    depth: usize,
+    found: &mut Found,
+    room: &mut Room,
+) -> Result<(), Error> {
+    const STRUCTURE: u32 = 2;
+    const OPAQUE: u32 = 17;
+    const COMPLEX: u32 = 0x0800;
+    let mut bytes = Bytes::new(data, PART);
+    bytes.big_endian = big_endian;
+    // An empty cell or field.
+    if data.is_empty() {
+        return Ok(());
+    }
+    let mut flags = Bytes::new(Element::read(&mut bytes)?.data, "MAT file, the flags of a variable");
+    flags.big_endian = big_endian;
+    let flags = flags.u32()?;
+    let class = flags & 0xff;
+    if class == OPAQUE {
+        return Ok(());
+    }
+    let sides = Element::read(&mut bytes)?;
+    let own = Element::read(&mut bytes)?.data;
+    let own = String::from_utf8_lossy(own);
+    let name = given.unwrap_or(&own);
+    let sides = match Number::I32.values(sides.data, big_endian) {
+        Values::Float(sides) => sides,
+        Values::Integer(_) => Vec::new(),
+    };
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "32-bit integers; negative ones are refused"
+    )]
+    let sides: Vec<usize> = sides.iter().filter(|side| **side >= 0.0).map(|side| *side as usize).collect();
+    let &[rows, columns] = sides.as_slice() else {
+        // More than two dimensions are no record.
+        return if sides.len() > 2 {
+            Ok(())
+        } else {
+            Err(refuse(format!("MAT file: the size of {name:?} is damaged")))
+        };
+    };
+    match class {
+        STRUCTURE if rows == 1 && columns == 1 && depth < DEEPEST => fields(&mut bytes, name, depth, found, room),
+        6..=15 => {
+            let real = Element::read(&mut bytes)?;
+            let number =
+                real.number().ok_or_else(|| refuse(format!("MAT file: {name:?} has no numbers of a known kind")))?;
+            let values = rows.checked_mul(columns);
+            if values.and_then(|values| values.checked_mul(number.size())) != Some(real.data.len()) {
+                return Err(refuse(format!(
+                    "MAT file: {name:?} should hold {rows} times {columns} numbers, but has {} bytes",
+                    real.data.len()
+                )));
+            }
+            match values {
+                None | Some(0) => Ok(()),
+                Some(1) => {
+                    if let Values::Float(value) = number.values(real.data, big_endian)
+                        && let Some(interval) = interval_s(name.rsplit('.').next().unwrap_or(name), value[0])
+                    {
+                        found.interval_s = Some(interval);
+                    }
+                    Ok(())
+                }
+                Some(_) if flags & COMPLEX != 0 => {
+                    Err(refuse(format!("MAT file: {name:?} is complex; a record is real: save its real part")))
+                }
+                Some(_) => {
+                    room.take_all(&[rows, columns])?;
+                    let matrix = Matrix { rows, columns, column_by_column: true, bytes: real.data, number, big_endian };
+                    found.columns.extend(matrix.split(name, Naming::Matlab));
+                    Ok(())
+                }
+            }
+        }
+        // Text, cells, sparse matrices, arrays of structures.
+        _ => Ok(()),
+    }
+}
+
+/// The fields of one structure: the length of a name, the names, then a variable each.
+fn fields(bytes: &mut Bytes, name: &str, depth: usize, found: &mut Found, room: &mut Room) -> Result<(), Error> {
+    let big_endian = bytes.big_endian;
+    let mut length = Bytes::new(Element::read(bytes)?.data, "MAT file, the fields of a structure");
+    length.big_endian = big_endian;
+    let length = usize::try_from(length.u32()?).unwrap_or(usize::MAX).max(1);
+    let names = Element::read(bytes)?.data;
+    for field in names.chunks(length) {
+        let end = field.iter().position(|byte| *byte == 0).unwrap_or(field.len());
+        let field = String::from_utf8_lossy(&field[..end]);
+        let Element { kind, data } = Element::read(bytes)?;
+        if kind == MATRIX {
+            variable(data, big_endian, Some(&format!("{name}.{field}")), depth + 1, found, room)?;
+        }
+    }
+    Ok(())
+}

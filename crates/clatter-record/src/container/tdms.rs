@@ -1,0 +1,369 @@
+//! TDMS of National Instruments: segments, each a lead-in, a list of objects and raw data.
+//!
+//! Source: "TDMS File Format Internal Structure", National Instruments, 2024.
+
+mod scale;
+
+use super::bytes::Bytes;
+use super::number::Number;
+use super::{Room, joined, refuse};
+use crate::{Column, Error, Values};
+use scale::scaled;
+use std::collections::{HashMap, HashSet};
+
+const PART: &str = "TDMS file";
+/// Bits of a lead-in.
+const NEW_LIST: u32 = 1 << 2;
+const RAW_DATA: u32 = 1 << 3;
+const INTERLEAVED: u32 = 1 << 5;
+const BIG_ENDIAN: u32 = 1 << 6;
+const DAQMX: u32 = 1 << 7;
+/// The length of a segment that was not finished.
+const UNFINISHED: u64 = u64::MAX;
+
+/// A property, as far as it is used.
+#[derive(Debug, Clone)]
+enum Property {
+    Number(f64),
+    Text(String),
+    Other,
+}
+
+type Properties = HashMap<String, Property>;
+
+/// How the raw data of a channel lie in a chunk.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Layout {
+    kind: Stored,
+    count: usize,
+    /// Bytes of all.
+    bytes: usize,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Stored {
+    Number(Number),
+    /// Seconds since 1904 and 2⁻⁶⁴ of one.
+    Time,
+    /// Text and what else is no number: of so many bytes each, where that is fixed.
+    Skipped(Option<usize>),
+}
+
+impl Stored {
+    fn size(self) -> Option<usize> {
+        match self {
+            Self::Number(number) => Some(number.size()),
+            Self::Time => Some(16),
+            Self::Skipped(size) => size,
+        }
+    }
+}
+
+#[derive(Debug, Default)]
+struct Object {
+    path: Vec<String>,
+    properties: Properties,
+    layout: Option<Layout>,
+    values: Option<Values>,
+}
+
+/// All that is known so far.
+#[derive(Debug, Default)]
+struct File {
+    objects: Vec<Object>,
+    by_path: HashMap<String, usize>,
+    /// Those with data in this segment, in their order.
+    active: Vec<usize>,
+    is_active: HashSet<usize>,
+    /// How often a channel was gone to in a segment.
+    visits: usize,
+}
+
+pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> {
+    let mut bytes = Bytes::new(bytes, PART);
+    let mut file = File::default();
+    // Channels have bytes in each segment, save empty ones: only a made-up file has many more channels than bytes.
+    let most_visits = bytes.left().saturating_mul(16);
+    while bytes.left() > 0 {
+        file.segment(&mut bytes, room)?;
+        if file.visits > most_visits {
+            return Err(refuse("TDMS file: its segments list more channels than they have bytes; the file is damaged"));
+        }
+    }
+    file.columns()
+}
+
+impl File {
+    fn segment(&mut self, bytes: &mut Bytes<'_>, room: &mut Room) -> Result<(), Error> {
+        bytes.big_endian = false;
+        let begins = bytes.at();
+        if bytes.take(4)? != b"TDSm" {
+            return Err(refuse(format!("TDMS file: no segment begins at byte {begins}; the file is damaged")));
+        }
+        let contents = bytes.u32()?;
+        bytes.big_endian = contents & BIG_ENDIAN != 0;
+        let version = bytes.u32()?;
+        if !matches!(version, 4712 | 4713) {
+            return Err(refuse(format!("TDMS file: version {version} is not known, 4712 and 4713 are")));
+        }
+        let (next, data) = (bytes.u64()?, bytes.u64()?);
+        let big_endian = bytes.big_endian;
+        let length = if next == UNFINISHED { bytes.left() as u64 } else { next };
+        let segment = bytes.take_u64(length)?;
+        let Some((meta, raw)) = usize::try_from(data).ok().and_then(|data| segment.split_at_checked(data)) else {
+            return Err(refuse(format!("TDMS file: the data of the segment at byte {begins} begin beyond its end")));
+        };
+        if !meta.is_empty() {
+            let mut meta = Bytes::new(meta, "TDMS file, the list of channels");
+            meta.big_endian = big_endian;
+            self.list(&mut meta, contents & NEW_LIST != 0)?;
+        }
+        if contents & RAW_DATA == 0 || raw.is_empty() {
+            return Ok(());
+        }
+        if contents & DAQMX != 0 {
+            return Err(daqmx());
+        }
+        let unfinished = next == UNFINISHED;
+        self.chunks(raw, Order { big_endian, interleaved: contents & INTERLEAVED != 0, unfinished }, room)
+    }
+
+    /// The objects of a segment.
+    fn list(&mut self, meta: &mut Bytes<'_>, new: bool) -> Result<(), Error> {
+        if new {
+            self.active.clear();
+            self.is_active.clear();
+        }
+        for _ in 0..meta.u32()? {
+            let path = text(meta)?;
+            let index = match self.by_path.get(&path) {
+                Some(index) => *index,
+                None => {
+                    self.objects.push(Object { path: parts(&path), ..Object::default() });
+                    self.by_path.insert(path, self.objects.len() - 1);
+                    self.objects.len() - 1
+                }
+            };
+            let object = &mut self.objects[index];
+            let has_data = match meta.u32()? {
+                u32::MAX => false,
+                // As in the segment before.
+                0 => object.layout.is_some(),
+                0x6912_0000..=0x6912_ffff | 0x6913_0000..=0x6913_ffff | 0x1269 | 0x1369 => return Err(daqmx()),
+                _ => {
+                    object.layout = Some(layout(meta)?);
+                    true
+                }
+            };
+            for _ in 0..meta.u32()? {
+                let name = text(meta)?;
+                let value = property(meta)?;
+                object.properties.insert(name, value);
+            }
+            if has_data && self.is_active.insert(index) {
+                self.active.push(index);
+            }
+        }
+        Ok(())
+    }
+
+    /// The raw data of a segment: chunks of one layout, one behind the other.
+    fn chunks(&mut self, raw: &[u8], order: Order, room: &mut Room) -> Result<(), Error> {
+        self.visits += self.active.len();
+        let layouts: Vec<Layout> =
+            self.active.iter().map(|object| self.objects[*object].layout.unwrap_or(NOTHING)).collect();
+        let size = layouts.iter().try_fold(0_usize, |sum, layout| sum.checked_add(layout.bytes)).unwrap_or(usize::MAX);
+        if size == 0 {
+            return Err(refuse("TDMS file: a segment has data of no channel; the file is damaged"));
+        }
+        if raw.len() % size != 0 && !order.unfinished {
+            return Err(refuse(format!(
+                "TDMS file: the {} bytes of a segment are no whole number of chunks of {size}; the file is damaged",
+                raw.len()
+            )));
+        }
+        for chunk in raw.chunks(size) {
+            self.chunk(chunk, &layouts, order, room)?;
+        }
+        Ok(())
+    }
+
+    fn chunk(&mut self, chunk: &[u8], layouts: &[Layout], order: Order, room: &mut Room) -> Result<(), Error> {
+        let row = layouts.iter().filter(|layout| layout.count > 0).map(|layout| layout.kind.size().unwrap_or(0)).sum();
+        let mut offset = 0;
+        for (object, layout) in self.active.iter().zip(layouts) {
+            let (size, bytes, stride) = match (layout.kind.size(), order.interleaved) {
+                _ if layout.count == 0 => continue,
+                (Some(size), true) => (size, &chunk[offset.min(chunk.len())..], row),
+                // The last chunk of an unfinished segment may lack channels.
+                (size, false) => {
+                    let end = (offset + layout.bytes).min(chunk.len());
+                    (size.unwrap_or(1), &chunk[offset.min(chunk.len())..end], size.unwrap_or(1))
+                }
+                (None, true) => return Err(refuse("TDMS file: text cannot be interleaved; the file is damaged")),
+            };
+            offset += if order.interleaved { size } else { layout.bytes };
+            // Rows whose last one may be cut within.
+            let count = if bytes.len() < size { 0 } else { ((bytes.len() - size) / stride + 1).min(layout.count) };
+            let values = match layout.kind {
+                Stored::Skipped(_) => continue,
+                Stored::Number(number) => {
+                    room.take(count)?;
+                    number.placed(bytes, order.big_endian, 0, stride, count)
+                }
+                Stored::Time => {
+                    room.take(count)?;
+                    times(bytes, order.big_endian, stride, count)?
+                }
+            };
+            let object = &mut self.objects[*object];
+            object.values = Some(match object.values.take() {
+                None => values,
+                Some(before) => joined(before, values),
+            });
+        }
+        Ok(())
+    }
+
+    fn columns(mut self) -> Result<Vec<Column>, Error> {
+        let found: Vec<Option<Values>> = self.objects.iter_mut().map(|object| object.values.take()).collect();
+        let mut count: HashMap<&str, usize> = HashMap::new();
+        for (object, _) in self.objects.iter().zip(&found).filter(|(_, values)| values.is_some()) {
+            *count.entry(object.name()).or_default() += 1;
+        }
+        let properties: HashMap<&[String], &Properties> =
+            self.objects.iter().map(|object| (object.path.as_slice(), &object.properties)).collect();
+        let mut columns = Vec::new();
+        for (object, values) in self.objects.iter().zip(found) {
+            let Some(values) = values else { continue };
+            // A name that several groups have goes with its group.
+            let name = if count[object.name()] > 1 { object.path.join("/") } else { object.name().to_owned() };
+            let group = object.path.split_last().and_then(|(_, group)| properties.get(group));
+            let sources = [Some(&object.properties), group.copied(), properties.get([].as_slice()).copied()];
+            let values = scaled(values, &sources, &name)?;
+            let time = matches!(object.layout, Some(Layout { kind: Stored::Time, .. }));
+            let unit = if time { Some("ns".to_owned()) } else { object.text("unit_string") };
+            columns.push(Column { name, unit, sampled_s: object.sampled_s(), values });
+        }
+        Ok(columns)
+    }
+}
+
+const NOTHING: Layout = Layout { kind: Stored::Skipped(None), count: 0, bytes: 0 };
+
+/// How a segment stores its chunks.
+#[derive(Debug, Clone, Copy)]
+struct Order {
+    big_endian: bool,
+    interleaved: bool,
+    unfinished: bool,
+}
+
+impl Object {
+    fn name(&self) -> &str {
+        self.path.last().map_or("", String::as_str)
+    }
+    fn number(&self, name: &str) -> Option<f64> {
+        if let Some(Property::Number(number)) = self.properties.get(name) { Some(*number) } else { None }
+    }
+    fn text(&self, name: &str) -> Option<String> {
+        match self.properties.get(name) {
+            Some(Property::Text(text)) if !text.is_empty() => Some(text.clone()),
+            _ => None,
+        }
+    }
+    fn sampled_s(&self) -> Option<[f64; 2]> {
+        let interval = self.number("wf_increment").filter(|interval| interval.is_finite() && *interval > 0.0)?;
+        Some([self.number("wf_start_offset").filter(|start| start.is_finite()).unwrap_or(0.0), interval])
+    }
+}
+
+fn daqmx() -> Error {
+    refuse(
+        "TDMS file: it holds raw data of DAQmx; save it once more with the TDMS convert function of LabVIEW, or as CSV",
+    )
+}
+
+fn text(bytes: &mut Bytes<'_>) -> Result<String, Error> {
+    let length = bytes.u32()?;
+    Ok(String::from_utf8_lossy(bytes.take_u64(length.into())?).into_owned())
+}
+
+/// The parts of `/'group'/'channel'`, in which a quote stands twice.
+fn parts(path: &str) -> Vec<String> {
+    let inner = path.strip_prefix("/'").and_then(|path| path.strip_suffix('\''));
+    inner.map(|path| path.split("'/'").map(|part| part.replace("''", "'")).collect()).unwrap_or_default()
+}
+
+fn layout(meta: &mut Bytes<'_>) -> Result<Layout, Error> {
+    let kind = stored(meta.u32()?)?;
+    let dimension = meta.u32()?;
+    let count = meta.u64()?;
+    if dimension != 1 {
+        return Err(refuse(format!("TDMS file: a channel has {dimension} dimensions; the format allows 1")));
+    }
+    let bytes = match kind.size() {
+        Some(size) => count.checked_mul(size as u64).unwrap_or(u64::MAX),
+        None => meta.u64()?,
+    };
+    let beyond = |_| refuse(format!("TDMS file: a channel of {count} values is beyond the file"));
+    Ok(Layout { kind, count: count.try_into().map_err(beyond)?, bytes: bytes.try_into().map_err(beyond)? })
+}
+
+/// A type of data by its number.
+fn stored(kind: u32) -> Result<Stored, Error> {
+    Ok(match kind {
+        0 => Stored::Skipped(Some(0)),
+        1 => Stored::Number(Number::I8),
+        2 => Stored::Number(Number::I16),
+        3 => Stored::Number(Number::I32),
+        4 => Stored::Number(Number::I64),
+        5 | 0x21 => Stored::Number(Number::U8),
+        6 => Stored::Number(Number::U16),
+        7 => Stored::Number(Number::U32),
+        8 => Stored::Number(Number::U64),
+        9 | 0x19 => Stored::Number(Number::F32),
+        10 | 0x1a => Stored::Number(Number::F64),
+        // Extended floats, with a unit or without, and two complex types.
+        0x0b | 0x1b | 0x10_000d => Stored::Skipped(Some(16)),
+        0x08_000c => Stored::Skipped(Some(8)),
+        0x20 => Stored::Skipped(None),
+        0x44 => Stored::Time,
+        other => return Err(refuse(format!("TDMS file: data of the type {other:#x} are not known"))),
+    })
+}
+
+fn property(meta: &mut Bytes<'_>) -> Result<Property, Error> {
+    let kind = stored(meta.u32()?)?;
+    let Some(size) = kind.size() else { return Ok(Property::Text(text(meta)?)) };
+    let bytes = meta.take(size)?;
+    let Stored::Number(number) = kind else { return Ok(Property::Other) };
+    Ok(match number.values(bytes, meta.big_endian) {
+        Values::Float(value) => value.first().map_or(Property::Other, |value| Property::Number(*value)),
+        Values::Integer(_) => Property::Other,
+    })
+}
+
+/// Nanoseconds since 1970.
+fn times(bytes: &[u8], big_endian: bool, stride: usize, count: usize) -> Result<Values, Error> {
+    const FROM_1904_TO_1970_S: i64 = 2_082_844_800;
+    let mut times = Vec::with_capacity(count);
+    for stamp in bytes.chunks(stride).take(count) {
+        let mut stamp = Bytes::new(stamp, "TDMS file, a time");
+        stamp.big_endian = big_endian;
+        let (fraction, seconds) = if big_endian {
+            let seconds = stamp.i64()?;
+            (stamp.u64()?, seconds)
+        } else {
+            (stamp.u64()?, stamp.i64()?)
+        };
+        // To the nearest; at most 10⁹, so that it fits.
+        let fraction_ns = ((u128::from(fraction) * 1_000_000_000 + (1 << 63)) >> 64) as i64;
+        let time = seconds
+            .checked_sub(FROM_1904_TO_1970_S)
+            .and_then(|seconds| seconds.checked_mul(1_000_000_000))
+            .and_then(|time| time.checked_add(fraction_ns));
+        times.push(time.ok_or_else(|| refuse(format!("TDMS file: a time of {seconds} s since 1904 is beyond 2262")))?);
+    }
+    Ok(Values::Integer(times))
+}

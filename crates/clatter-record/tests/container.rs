@@ -1,0 +1,370 @@
+//! Files of the tools that define each kind, number by number against the formulas of `data/make.py`.
+
+use clatter_record::{Column, Error, Kind, Series, Table, Values, read, write_npy, write_parquet};
+use std::fs;
+use std::path::PathBuf;
+
+const N: usize = 40;
+const MOST: usize = 100_000;
+const EPOCH_NS: i64 = 1_700_000_000_000_000_000;
+
+fn t(i: usize) -> f64 {
+    i as f64 / 1024.0
+}
+fn a(i: usize) -> f64 {
+    ((37 * i % 101) as f64 - 50.0) / 4.0
+}
+fn b(i: usize) -> f64 {
+    ((53 * i % 97) as f64 - 48.0) * 2.0
+}
+fn c(i: usize) -> f64 {
+    4.0 * a(i)
+}
+fn ns(i: usize) -> i64 {
+    EPOCH_NS + 1_000_000 * i as i64
+}
+fn big(i: usize) -> i64 {
+    (1 << 60) + i as i64
+}
+
+fn bytes(name: &str) -> Vec<u8> {
+    fs::read(PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name)).expect(name)
+}
+fn table(name: &str) -> Table {
+    let bytes = bytes(name);
+    let kind = Kind::of(&bytes).expect(name);
+    read(kind, &bytes, MOST).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+fn fault(name: &str) -> String {
+    let bytes = bytes(name);
+    let Error::File(message) = Kind::of(&bytes).and_then(|kind| read(kind, &bytes, MOST)).expect_err(name) else {
+        panic!("{name}: another error")
+    };
+    message
+}
+
+/// Name, unit, times of samples, values of a column.
+type Expected<'a> = (&'a str, Option<&'a str>, Option<[f64; 2]>, Values);
+
+fn floats(value: fn(usize) -> f64) -> Values {
+    Values::Float((0..N).map(value).collect())
+}
+fn integers(value: fn(usize) -> i64) -> Values {
+    Values::Integer((0..N).map(value).collect())
+}
+/// NaN for a gap is no equal of itself: compared as bits.
+fn bits(values: &Values) -> Vec<u64> {
+    match values {
+        Values::Float(values) => values.iter().map(|value| value.to_bits()).collect(),
+        Values::Integer(values) => values.iter().map(|value| value.cast_unsigned()).collect(),
+        other => panic!("{other:?}"),
+    }
+}
+fn plain(name: &str, value: fn(usize) -> f64) -> Expected<'_> {
+    (name, None, None, floats(value))
+}
+fn holds(file: &str, expected: Vec<Expected<'_>>) {
+    let columns = |(name, unit, sampled_s, values): Expected<'_>| Column {
+        name: name.to_owned(),
+        unit: unit.map(str::to_owned),
+        sampled_s,
+        values,
+    };
+    let expected: Vec<Column> = expected.into_iter().map(columns).collect();
+    let found = table(file).columns;
+    let names = |columns: &[Column]| columns.iter().map(|column| column.name.clone()).collect::<Vec<_>>();
+    assert_eq!(names(&found), names(&expected), "{file}");
+    for (found, expected) in found.iter().zip(&expected) {
+        assert_eq!(found, expected, "{file}");
+    }
+}
+
+#[test]
+fn npy() {
+    for file in ["c_order.npy", "fortran_f4_big.npy", "rows.npy"] {
+        holds(file, vec![plain("", t), plain("", a)]);
+    }
+    holds("one_i2_big.npy", vec![plain("", c)]);
+    holds("big_u8.npy", vec![("", None, None, integers(big))]);
+    holds(
+        "fields.npy",
+        vec![
+            plain("t", t),
+            plain("acc[0]", a),
+            plain("acc[1]", b),
+            plain("n", c),
+            ("when", Some("ns"), None, integers(ns)),
+        ],
+    );
+    assert!(fault("complex.npy").contains("\"<c16\""));
+    assert!(fault("objects.npy").contains("\"|O\""));
+}
+
+#[test]
+fn wav() {
+    // A share of full scale: 2^7, 2^15, 2^23 or 2^31.
+    let full_scale = |name, value| (name, Some("full scale"), Some([0.0, 1e-4]), floats(value));
+    holds("u8.wav", vec![full_scale("channel 1", |i| c(i) / 128.0)]);
+    holds(
+        "i16_two.wav",
+        vec![full_scale("channel 1", |i| c(i) * 8.0 / 32768.0), full_scale("channel 2", |i| b(i) / 32768.0)],
+    );
+    holds("i24.wav", vec![full_scale("channel 1", |i| c(i) / 32768.0)]);
+    holds("i32.wav", vec![full_scale("channel 1", |i| c(i) / 32768.0)]);
+    holds("rifx.wav", vec![full_scale("channel 1", |i| c(i) / 32768.0)]);
+    for file in ["f32.wav", "f64.wav", "extensible.wav", "rf64.wav"] {
+        holds(file, vec![("channel 1", None, Some([0.0, 1e-4]), floats(a))]);
+    }
+}
+
+#[test]
+fn mat() {
+    let at = |name, value| (name, None, Some([0.0, 1.0 / 1024.0]), floats(value));
+    for file in ["plain.mat", "packed.mat"] {
+        holds(
+            file,
+            vec![
+                at("t", t),
+                at("a", a),
+                at("m(:,1)", c),
+                at("m(:,2)", b),
+                at("s", a),
+                at("run.acc", b),
+                at("run.inner.n", c),
+                ("big", None, Some([0.0, 1.0 / 1024.0]), integers(big)),
+            ],
+        );
+    }
+    holds("big_endian.mat", vec![plain("a", c)]);
+    assert!(fault("complex.mat").contains("\"z\" is complex"));
+    assert!(fault("level4.mat").contains("version 4: save it with -v7"));
+}
+
+#[cfg(feature = "hdf5")]
+#[test]
+fn hdf5() {
+    let at = |name, value| (name, None, Some([0.0, 1.0 / 1024.0]), floats(value));
+    holds(
+        "plain.h5",
+        vec![
+            ("acc", Some("g"), None, floats(a)),
+            plain("t", t),
+            at("run 2/m[:,0]", a),
+            at("run 2/m[:,1]", b),
+            ("run 2/own", Some("m/s2"), Some([0.0, 0.25]), floats(b)),
+            at("run 2/deep/x", c),
+        ],
+    );
+    holds(
+        "packed.h5",
+        vec![
+            at("growing", c),
+            at("lzf", b),
+            at("m[0,:]", a),
+            at("m[1,:]", b),
+            at("scaled", |i| 0.25 * c(i) + 1.0),
+            at("t", t),
+            at("table.t", t),
+            at("table.a", a),
+        ],
+    );
+    holds("v73.mat", vec![at("m(:,1)", a), at("m(:,2)", b), at("t", t)]);
+}
+
+#[test]
+fn tdms() {
+    holds(
+        "segments.tdms",
+        vec![
+            ("run 1/ax", Some("g"), Some([-0.25, 1.0 / 1024.0]), floats(a)),
+            plain("it's", c),
+            ("when", Some("ns"), None, integers(ns)),
+            plain("run 2/ax", b),
+            ("big", None, None, integers(big)),
+        ],
+    );
+    holds("scaled.tdms", vec![plain("a", |i| 2.0 + 0.5 * (0.25 * c(i) + 1.0).powi(2))]);
+    for file in ["interleaved.tdms", "interleaved_big.tdms"] {
+        holds(file, vec![plain("a", a), plain("c", c)]);
+    }
+}
+
+/// As text with 5 decimals.
+fn printed(value: f64) -> f64 {
+    format!("{value:.5e}").parse().expect("a number")
+}
+
+#[test]
+fn uff() {
+    let step = printed(1.0 / 1024.0);
+    let even = |name, unit, value| (name, Some(unit), Some([0.0, step]), floats(value));
+    holds("even.uff", vec![even("Acceleration 12+Z", "m/s2", a), even("acceleration 13-X", "g", b)]);
+    holds("binary.uff", vec![even("Acceleration 12+Z", "m/s2", a), even("Force 12+Z", "N", b)]);
+    let uneven = |i| printed(t(i) + (i % 2) as f64 / 65536.0);
+    let time = |value| ("Time", Some("s"), None, floats(value));
+    let acceleration = || ("Acceleration 12+Z", Some("m/s2"), None, floats(a));
+    holds("uneven.uff", vec![time(uneven), acceleration(), ("Force 12+Z", Some("N"), None, floats(b))]);
+    for file in ["binary_big.uff", "binary_single.uff"] {
+        holds(file, vec![time(t), acceleration()]);
+    }
+    // By another hand: one sample of 1 m/s2 after 1 ms.
+    let values = Values::Float(vec![0.0, 1.0, 0.0, 0.0, 0.0, 0.0]);
+    holds("time58.uff", vec![("Acceleration", Some("m/s2"), Some([0.0, 0.001]), values)]);
+    assert!(fault("complex.uff").contains("complex"));
+}
+
+/// What numbers fixed fields and Fortran may leave without a blank between them.
+#[test]
+fn numbers_of_uff() {
+    let file = String::from_utf8(bytes("time58.uff")).expect("text");
+    let numbers = "  0.00000E+00  1.00000E+00  0.00000E+00  0.00000E+00  0.00000E+00  0.00000E+00";
+    for (line, expected) in [
+        ("-1.23457E+001-1.23457E+002 1.0 2 3 4", None),
+        (
+            "-1.23457E+001-1.23457E+002  0.00000E+00  0.00000D+00  0.00000E+00-1.00000E-002",
+            Some([-12.3457, -123.457, 0.0, 0.0, 0.0, -0.01]),
+        ),
+        ("1 2 3.5 4e0 5 6", Some([1.0, 2.0, 3.5, 4.0, 5.0, 6.0])),
+        (
+            "  1.00000-101  1.00000+101  0.00000E+00  0.00000E+00  0.00000E+00  0.00000E+00",
+            Some([1e-101, 1e101, 0.0, 0.0, 0.0, 0.0]),
+        ),
+        ("inf 1 1 1 1 1", None),
+    ] {
+        let file = file.replace(numbers, line);
+        let found = read(Kind::Uff, file.as_bytes(), MOST);
+        match expected {
+            Some(expected) => assert_eq!(found.expect(line).columns[0].values, Values::Float(expected.to_vec())),
+            None => {
+                assert!(found.expect_err(line).to_string().contains("line 14: numbers should stand here"), "{line}")
+            }
+        }
+    }
+}
+
+#[cfg(feature = "arrow")]
+#[test]
+fn columnar() {
+    let gaps = |i| if i % 5 == 3 { f64::NAN } else { b(i) };
+    let huge = |i| 2_f64.powi(63) + 4096.0 * i as f64;
+    let expected: Vec<(&str, Option<&str>, Values)> = vec![
+        ("t", None, floats(t)),
+        ("a", Some("g"), floats(a)),
+        ("gaps", Some("m/s2"), floats(gaps)),
+        ("n", None, floats(c)),
+        ("u", None, floats(|i| c(i) + 50.0)),
+        ("ms", Some("ns"), integers(ns)),
+        ("ns", Some("ns"), integers(ns)),
+        ("big", None, integers(big)),
+        ("huge", None, floats(huge)),
+        ("same", None, floats(|_| 0.5)),
+    ];
+    let mut files = vec!["plain.arrow", "lz4.arrow", "zstd.arrow"];
+    if cfg!(feature = "parquet") {
+        files.extend(["snappy.parquet", "gzip_v2.parquet", "zstd.parquet", "lz4.parquet", "plain.parquet"]);
+    }
+    for file in files {
+        let found = table(file).columns;
+        // Lists are left out; of a pair with a number Parquet has a column.
+        let found: Vec<&Column> = found.iter().filter(|column| column.name != "pair.x").collect();
+        let names: Vec<&str> = found.iter().map(|column| column.name.as_str()).collect();
+        assert_eq!(names, expected.iter().map(|column| column.0).collect::<Vec<_>>(), "{file}");
+        for (found, (name, unit, values)) in found.iter().zip(&expected) {
+            assert_eq!(found.unit.as_deref(), *unit, "{file}, {name}");
+            assert_eq!(bits(&found.values), bits(values), "{file}, {name}");
+        }
+    }
+    // Columns of text as views stand before and after.
+    let found = table("stream.arrows").columns;
+    assert_eq!((found[0].name.as_str(), &found[0].values), ("a", &floats(a)));
+    assert_eq!(found.last().map(|column| (column.name.as_str(), &column.values)), Some(("t", &floats(t))));
+    if cfg!(feature = "parquet") {
+        let found = table("int96.parquet").columns;
+        assert_eq!((found[1].unit.as_deref(), &found[1].values), (Some("ns"), &integers(ns)));
+        assert!(fault("brotli.parquet").contains("column \"t\" is compressed by BROTLI"));
+    }
+}
+
+#[test]
+fn written_files_come_back_to_the_bit() {
+    let odd = [0.1, -0.0, f64::MIN_POSITIVE / 8.0, f64::MAX, f64::NAN, -1e-300];
+    let even: Vec<f64> = (0..6).map(a).collect();
+    for columns in [vec![&odd[..]], vec![&odd[..], &even]] {
+        let file = write_npy(&columns).expect("a file");
+        let table = read(Kind::of(&file).expect("NPY"), &file, MOST).expect("a table");
+        for (found, column) in table.columns.iter().zip(&columns) {
+            assert_eq!(bits(&found.values), bits(&Values::Float(column.to_vec())));
+        }
+    }
+    let file = write_parquet(&[
+        Series { name: "time", unit: "s", values: &even },
+        Series { name: "ax", unit: "m/s2", values: &odd },
+    ])
+    .expect("a file");
+    let table = read(Kind::of(&file).expect("Parquet"), &file, MOST).expect("a table");
+    let [time, ax] = table.columns.as_slice() else { panic!("two columns") };
+    assert_eq!((time.name.as_str(), time.unit.as_deref()), ("time [s]", Some("s")));
+    assert_eq!((ax.name.as_str(), ax.unit.as_deref()), ("ax [m/s2]", Some("m/s2")));
+    assert_eq!(bits(&ax.values), bits(&Values::Float(odd.to_vec())));
+    assert_eq!(bits(&time.values), bits(&Values::Float(even)));
+}
+
+#[test]
+fn columns_that_cannot_be_written_are_told() {
+    assert_eq!(
+        write_npy(&[&[1.0], &[1.0, 2.0]]).expect_err("uneven").to_string(),
+        "column 2 has 2 values, the first has 1; columns of one file are of equal length"
+    );
+    assert!(write_npy(&[]).is_err());
+    let twice = Series { name: "a", unit: "g", values: &[1.0] };
+    assert!(write_parquet(&[twice, twice]).expect_err("two of a name").to_string().contains("\"a [g]\""));
+}
+
+#[test]
+fn what_is_not_read_is_named() {
+    for (beginning, message) in [
+        (
+            &b"PK\x03\x04\x14\x00"[..],
+            "this is a spreadsheet, an NPZ or another ZIP file: save a spreadsheet as CSV, unpack what is packed",
+        ),
+        (b"\x1a\x45\xdf\xa3\xa3", "this is an IDE file of an enDAQ or Mide logger: export it as CSV with enDAQ Lab"),
+        (b"\x1f\x8b\x08", "this is a gzip file: unpack it first"),
+        (b"\x28\xb5\x2f\xfd", "this is a Zstandard file: unpack it first"),
+        (b"%PDF-1.7", "this is a PDF: a record is numbers: save them as CSV"),
+        (b"{\"t\": [0.0, 0.1]}", "this is a JSON file: save the numbers as CSV"),
+        (b"\n [ [0, 1], [1, 2] ]", "this is a JSON file: save the numbers as CSV"),
+        (
+            b"<?xml version=\"1.0\"?><usi:tdm>",
+            "this is the header of an NI TDM file: save the channels as TDMS or CSV with DIAdem or LabVIEW",
+        ),
+        (b"\x80\x04\x95\x10\x00", "this is a pickle of Python: save the array with numpy.save or as CSV"),
+    ] {
+        assert_eq!(Kind::of(beginning).expect_err(message).to_string(), message);
+    }
+    for text in
+        [&b"time [s],a [g]\n0,0\n"[..], b"-1\n58\n", b"", b"[s],[g]\n0,1\n", b"\xff\xfet\0,\0a\0", b"P,K\n1,2\n"]
+    {
+        assert_eq!(Kind::of(text).expect("text"), Kind::Text, "{text:?}");
+    }
+}
+
+#[test]
+fn larger_tables_are_refused() {
+    for entry in files() {
+        let bytes = bytes(&entry);
+        let Ok(kind) = Kind::of(&bytes) else { continue };
+        let Ok(table) = read(kind, &bytes, MOST) else { continue };
+        let most = table.columns.iter().map(|column| column.values.len()).sum::<usize>();
+        let refused = read(kind, &bytes, most - 1).expect_err(&entry).to_string();
+        assert!(refused.contains(&format!("more than {} values", most - 1)), "{entry}: {refused}");
+    }
+}
+
+fn files() -> Vec<String> {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data");
+    let names = fs::read_dir(folder).expect("tests/data").map(|entry| entry.expect("a file").file_name());
+    let mut names: Vec<String> = names.map(|name| name.into_string().expect("a name")).collect();
+    names.retain(|name| !name.ends_with(".py"));
+    names.sort();
+    names
+}
