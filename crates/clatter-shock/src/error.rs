@@ -46,6 +46,14 @@ pub enum Error {
         /// The time of the entry above.
         previous: f64,
     },
+    /// Times and values that do not go together.
+    #[error("there are {times} times and {values} values; each value needs its time")]
+    Lengths {
+        /// Number of times.
+        times: usize,
+        /// Number of values.
+        values: usize,
+    },
     /// A pulse of no length.
     #[error(
         "a pulse of zero duration has no area: give the velocity change of the shock instead (a velocity shock), or a duration > 0"

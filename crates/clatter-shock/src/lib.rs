@@ -14,7 +14,7 @@
 //! |---|---|---|
 //! | jumps of velocity | [`VelocityShocks`] | pulses much shorter than the period |
 //! | pulses of a shape, overlapping or not | [`Pulses`] | any pulse |
-//! | samples, linear between them | [`Record`], [`SpectrumFilter`], [`stream()`] | measured records |
+//! | samples, linear between them | [`Record`], [`SpectrumFilter`], [`UnevenFilter`], [`stream()`] | measured records |
 //! | a clattering bar | [`respond`], [`three_way_rule`] | a part at a position of the bar |
 //!
 //! Each gives a [`Response`] of one component or a [`Spectrum`] over many; [`Limit`], [`DamageBoundary`] and
@@ -52,6 +52,7 @@ mod side_by_side;
 mod spectrum;
 mod study;
 mod suspension;
+mod uneven;
 
 pub use coupling::{ImpulseFactors, Rule, RulePoint, TrainResponse, respond, shocks_at, three_way_rule};
 pub use error::Error;
@@ -68,3 +69,4 @@ pub use study::{
     omegas, rule_either_end, suspended_zone, worst,
 };
 pub use suspension::{DampingRatio, State, Suspension};
+pub use uneven::UnevenFilter;

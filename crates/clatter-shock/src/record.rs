@@ -4,11 +4,7 @@ mod survey;
 
 pub use survey::{Finding, Survey};
 
-use crate::forced::Segment;
-use crate::peaks::Range;
-use crate::suspension::{Modes, Motion};
-use crate::{DampingRatio, Error, Frequencies, Pulses, Quantity, Spectrum, SpectrumFilter};
-use std::f64::consts::TAU;
+use crate::{DampingRatio, Error, Frequencies, Pulses, Quantity, Spectrum, SpectrumFilter, UnevenFilter};
 use std::io::{BufRead, ErrorKind, Read};
 
 /// Standard acceleration of free fall, 9.80665 m/s² exactly (3rd CGPM, 1901).
@@ -301,19 +297,27 @@ impl Record {
     #[must_use]
     pub fn spectrum(&self, frequencies: &Frequencies, damping: DampingRatio, quantity: Quantity) -> Spectrum {
         let even = self.survey.step.and_then(|step| {
-            let mut filter = SpectrumFilter::new(frequencies.clone(), damping, quantity, step).ok()?;
+            let filter = SpectrumFilter::new(frequencies.clone(), damping, quantity, step).ok()?;
+            let mut filter = filter.starting_at(self.survey.start).ok()?;
             let samples: Vec<f64> = self.points.iter().map(|p| p.1).collect();
             filter.push(&samples);
             filter.finish().ok()
         });
-        even.unwrap_or_else(|| Pulses::from_sorted(&self.points).spectrum(frequencies, damping, quantity))
+        even.or_else(|| {
+            let (times, values): (Vec<f64>, Vec<f64>) = self.points.iter().copied().unzip();
+            let mut filter = UnevenFilter::new(frequencies.clone(), damping, quantity);
+            filter.push(&times, &values).ok()?;
+            filter.finish().ok()
+        })
+        // What the filters refuse, no record has.
+        .unwrap_or_else(|| Pulses::from_sorted(&self.points).spectrum(frequencies, damping, quantity))
     }
 }
 
 /// Spectrum of a record of any length in constant memory: a second pass after [`Lines::survey`] told whether it is
 /// even.
 ///
-/// Even records go through the recursive filter, others step by step, which takes some hundred times as long.
+/// Even records go through the recursive filter, others step by step, which takes a few times as long.
 /// `progress` is told the bytes read so far, every few thousand samples.
 ///
 /// # Errors
@@ -343,7 +347,8 @@ pub fn stream<R: BufRead>(
         }
     };
     if let Some(step) = survey.step {
-        let mut filter = SpectrumFilter::new(frequencies.clone(), damping, quantity, step)?;
+        let filter = SpectrumFilter::new(frequencies.clone(), damping, quantity, step)?;
+        let mut filter = filter.starting_at(survey.start)?;
         let mut values = Vec::with_capacity(PIECE);
         pieces(&mut |piece| {
             values.clear();
@@ -352,36 +357,25 @@ pub fn stream<R: BufRead>(
         })?;
         return filter.finish();
     }
-    let modes = Modes::new(damping);
-    let mut oscillators: Vec<(f64, Motion, Range)> =
-        frequencies.hz().iter().map(|f| (TAU * f, Motion::default(), Range::default())).collect();
-    let row = quantity.row(oscillators[0].0).0;
-    let mut segment = Segment::new(&modes);
-    let mut last: Option<Sample> = None;
-    let mut count = 0;
+    let mut filter = UnevenFilter::new(frequencies.clone(), damping, quantity);
+    let (mut times, mut values, mut count) = (Vec::with_capacity(PIECE), Vec::with_capacity(PIECE), 0);
+    let mut taken = Ok(());
     pieces(&mut |piece| {
+        times.clear();
+        values.clear();
+        times.extend(piece.iter().map(|s| s.time));
+        values.extend(piece.iter().map(|s| s.acceleration));
         count += piece.len();
-        let joined: Vec<Sample> = last.iter().chain(piece).copied().collect();
-        for (omega, m, range) in &mut oscillators {
-            for step in joined.windows(2) {
-                let (from, to) = (step[0], step[1]);
-                let span = segment.begin_line(*m, *omega, to.time - from.time, from.acceleration, to.acceleration);
-                let end = segment.sample(span);
-                segment.extremes(row, &end, 0, range);
-                *m = end.m;
-            }
+        let result = filter.push(&times, &values);
+        if taken.is_ok() {
+            taken = result;
         }
-        last = joined.last().copied();
     })?;
+    taken?;
     if count < 2 {
         return Err(Error::Short(count));
     }
-    Ok(Spectrum::collect(frequencies, damping, quantity, |i, _, k| {
-        let (_, m, during) = oscillators[i];
-        let mut after = Range::default();
-        after.note_free(&modes, k, m, f64::INFINITY, 0);
-        [during, after]
-    }))
+    filter.finish()
 }
 
 /// Samples read before they are filtered.
