@@ -241,14 +241,7 @@ impl Oscillator {
     }
     /// Goes through the steps of a block one by one; none of them rises by more than `most` between its samples. The
     /// block begins with step number `block`.
-    fn refine(
-        &mut self,
-        segment: &mut Segment,
-        l: usize,
-        most: f64,
-        (block, steps): (usize, &Steps),
-        samples: &[f64],
-    ) {
+    fn refine(&mut self, segment: &mut Segment, l: usize, most: f64, (block, steps): (usize, &Steps), samples: &[f64]) {
         let modes = segment.modes();
         let (mut high, mut low) = (self.range.high.value - most, self.range.low.value + most);
         let mut from = steps.before;

@@ -150,8 +150,7 @@ impl Ramps {
         let ((_, slow_less), (_, fast_less)) = (decay(slow, zero), decay(fast, zero));
         for l in 0..WIDTH {
             let rise = -slow_less[l] / modes.sigma;
-            let of_ramp =
-                if slow[l] < 0.5 { tau[l] * tau[l] * psi2(slow[l]) } else { (tau[l] - rise) / modes.sigma };
+            let of_ramp = if slow[l] < 0.5 { tau[l] * tau[l] * psi2(slow[l]) } else { (tau[l] - rise) / modes.sigma };
             let (x0, w0) = ((rise - step.s[l]) / modes.rho, -fast_less[l] / modes.rho);
             (ramps.x0[l], ramps.w0[l]) = (x0, w0);
             (ramps.x1[l], ramps.w1[l]) = ((of_ramp - x0) / modes.rho, (tau[l] - w0) / modes.rho);

@@ -298,8 +298,7 @@ impl Group {
             let (mut top, mut bottom) = (S::as_simd_f64s(&high).0[i], S::as_simd_f64s(&low).0[i]);
             for (k, s) in block.steps.iter().enumerate() {
                 let [h, x0, ramp] = &trace.integrals[k];
-                let (h, x0, ramp) =
-                    (S::as_simd_f64s(h).0[i], S::as_simd_f64s(x0).0[i], S::as_simd_f64s(ramp).0[i]);
+                let (h, x0, ramp) = (S::as_simd_f64s(h).0[i], S::as_simd_f64s(x0).0[i], S::as_simd_f64s(ramp).0[i]);
                 (x, w) = self.step(simd, c, s, i, [h, x0, ramp], (x, w));
                 let q = simd.mul_add_e_f64s(r0, x, simd.mul_f64s(r1, w));
                 (top, bottom) = (simd.max_f64s(top, q), simd.min_f64s(bottom, q));
@@ -350,13 +349,7 @@ impl Group {
     /// Steps of which some are long, each as its length asks for.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
-    fn any<S: pulp::Simd>(
-        &mut self,
-        simd: S,
-        c: &Constants<'_>,
-        block: &Block<'_>,
-        trace: &mut Trace,
-    ) -> [Many; 2] {
+    fn any<S: pulp::Simd>(&mut self, simd: S, c: &Constants<'_>, block: &Block<'_>, trace: &mut Trace) -> [Many; 2] {
         let modes = c.modes;
         let [r0, r1] = modes.rows[self.row];
         let (mut high, mut low) = (trace.q[0], trace.q[0]);
@@ -390,17 +383,12 @@ impl Group {
     /// h, X₀ and f₁X₁ of a short step for one vector of the machine.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
-    fn integrals<S: pulp::Simd, const N: usize>(
-        &self,
-        simd: S,
-        c: &Constants<'_>,
-        s: &Step,
-        i: usize,
-    ) -> [S::f64s; 3] {
+    fn integrals<S: pulp::Simd, const N: usize>(&self, simd: S, c: &Constants<'_>, s: &Step, i: usize) -> [S::f64s; 3] {
         let (omega, square_inverse) = (S::as_simd_f64s(&self.omega).0[i], S::as_simd_f64s(&self.square_inverse).0[i]);
         let tau = simd.mul_f64s(omega, simd.splat_f64s(s.dt));
         let square = simd.mul_f64s(tau, tau);
-        let (x0, x1) = (series::<S, N>(simd, &c.series.x0, tau), series::<S, N>(simd, &c.series.x1, tau));
+        let x0 = series::<S, N>(simd, &c.series.x0, tau, square);
+        let x1 = series::<S, N>(simd, &c.series.x1, tau, square);
         let (x0, x1) = (simd.mul_f64s(x0, square), simd.mul_f64s(x1, simd.mul_f64s(square, tau)));
         let h = simd.mul_add_e_f64s(simd.splat_f64s(-2.0 * c.modes.zeta), x0, simd.sub_f64s(tau, x1));
         let f1 = simd.mul_f64s(simd.splat_f64s(-s.slope), square_inverse);
@@ -509,11 +497,12 @@ impl Group {
         for leap in leaps {
             for i in 0..WIDTH / S::F64_LANES {
                 let tau = simd.mul_f64s(S::as_simd_f64s(&self.omega).0[i], simd.splat_f64s(leap.span));
-                let x0 = series::<S, N>(simd, &c.series.x0, tau);
-                let h = series::<S, N>(simd, &c.series.h, tau);
-                let driven_x = series::<S, N>(simd, &leap.x, tau);
-                let driven_w = series::<S, N>(simd, &leap.w, tau);
-                let (x0, h) = (simd.mul_f64s(x0, simd.mul_f64s(tau, tau)), simd.mul_f64s(h, tau));
+                let square = simd.mul_f64s(tau, tau);
+                let x0 = series::<S, N>(simd, &c.series.x0, tau, square);
+                let h = series::<S, N>(simd, &c.series.h, tau, square);
+                let driven_x = series::<S, N>(simd, &leap.x, tau, square);
+                let driven_w = series::<S, N>(simd, &leap.w, tau, square);
+                let (x0, h) = (simd.mul_f64s(x0, square), simd.mul_f64s(h, tau));
                 let (x, w) = (S::as_simd_f64s(&self.x).0[i], S::as_simd_f64s(&self.w).0[i]);
                 let y = simd.mul_add_e_f64s(simd.splat_f64s(-sigma), x, w);
                 let pull = simd.mul_add_e_f64s(simd.splat_f64s(rho), w, simd.mul_f64s(simd.splat_f64s(p), x));
@@ -603,16 +592,19 @@ impl Group {
     }
 }
 
-/// The first `N` terms of a series in powers of `t`.
+/// The first `N` terms of a series in powers of `t`, whose square is given: even and odd ones side by side, that fewer
+/// wait for another.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
-fn series<S: pulp::Simd, const N: usize>(simd: S, terms: &[f64; TERMS], t: S::f64s) -> S::f64s {
+fn series<S: pulp::Simd, const N: usize>(simd: S, terms: &[f64; TERMS], t: S::f64s, square: S::f64s) -> S::f64s {
     // A loop, where closures of an iterator would not take on the instruction set.
-    let mut sum = simd.splat_f64s(terms[N - 1]);
-    for k in (0..N - 1).rev() {
-        sum = simd.mul_add_e_f64s(sum, t, simd.splat_f64s(terms[k]));
+    let mut sums = [simd.splat_f64s(terms[N - 1]), simd.splat_f64s(terms[N - 2])];
+    for k in (0..N - 2).rev() {
+        let sum = &mut sums[(N - 1 - k) % 2];
+        *sum = simd.mul_add_e_f64s(*sum, square, simd.splat_f64s(terms[k]));
     }
-    sum
+    let [odd, even] = if N % 2 == 0 { sums } else { [sums[1], sums[0]] };
+    simd.mul_add_e_f64s(odd, t, even)
 }
 
 /// One group through some blocks, on the widest instructions of the machine.
