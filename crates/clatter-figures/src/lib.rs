@@ -38,7 +38,7 @@ pub use orders::{Panel as OrderPanel, orders};
 pub use peers::{Dot, Tool, tools};
 pub use plane::{Impacts, Zones, impacts, zones};
 pub use product::{Place, product};
-pub use shock::{beside, boundary, damage_boundary, rule, spectrum};
+pub use shock::{beside, boundary, damage_boundary, rule, spectra, spectrum};
 pub use style::RUST;
 pub use surface::{Sheet, Surface, surface};
 

@@ -102,6 +102,11 @@ pub enum Error {
     /// A record too short to be one.
     #[error("the record has {}; it needs two at least", if *.0 == 1 { "one sample" } else { "no samples" })]
     Short(usize),
+    /// A history whose velocity change is zero, as far as roundings tell.
+    #[error(
+        "the velocity change of the history is zero, both directions cancel: it has no damage boundary over velocity change, only a critical acceleration"
+    )]
+    NoVelocityChange,
     /// Shock tests that show no critical level.
     #[error("the {0} trials show no critical level: some level without damage must lie below the lowest with damage")]
     Trials(&'static str),

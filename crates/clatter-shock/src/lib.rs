@@ -17,8 +17,8 @@
 //! | samples, linear between them | [`Record`], [`SpectrumFilter`], [`UnevenFilter`], [`stream()`] | measured records |
 //! | a clattering bar | [`respond`], [`three_way_rule`] | a part at a position of the bar |
 //!
-//! Each gives a [`Response`] of one component or a [`Spectrum`] over many; [`Limit`], [`DamageBoundary`] and
-//! [`ShockTable`] turn these into margins.
+//! Each gives a [`Response`] of one component or a [`Spectrum`] over many; [`Limit`], [`DamageBoundary`],
+//! [`HistoryBoundary`] and [`ShockTable`] turn these into margins.
 //!
 //! ```
 //! use clatter::{Bar, Start};
@@ -42,6 +42,7 @@ mod error;
 mod filter;
 mod forced;
 mod fragility;
+mod history_boundary;
 mod impulse;
 mod integrals;
 mod limit_curve;
@@ -58,6 +59,7 @@ pub use coupling::{ImpulseFactors, Rule, RulePoint, TrainResponse, respond, shoc
 pub use error::Error;
 pub use filter::SpectrumFilter;
 pub use fragility::{DamageBoundary, EquivalentPulse, Limit, Margin, ShockTable, Trial};
+pub use history_boundary::HistoryBoundary;
 pub use impulse::{VelocityShock, VelocityShocks};
 pub use limit_curve::LimitCurve;
 pub use peaks::{Extreme, Extremes, Peaked, Response};
