@@ -19,6 +19,13 @@ fn close(got: f64, want: f64, share: f64) -> bool {
     (got - want).abs() <= share * want.abs()
 }
 
+/// The JSON of a limit that is exceeded.
+fn exceeded<const N: usize>(arguments: [&str; N]) -> Value {
+    let outcome = clatter(arguments.into_iter().chain(["--format=json"]));
+    assert_eq!((outcome.exit, outcome.stderr.as_str()), (Exit::Unsafe, ""));
+    serde_json::from_str(&outcome.stdout).unwrap()
+}
+
 #[derive(Deserialize)]
 struct Case {
     pulses: Vec<Half>,
@@ -72,10 +79,10 @@ fn spectrum_explains_itself() {
     Shock response spectrum: pseudo velocity in m/s, damping ratio 0 (Q = infinite)
     The limit holds: least margin 6.02060 dB at 10.0000 Hz
 
-        frequency      primary     residual      maximax     positive     negative       margin
-               Hz          m/s          m/s          m/s          m/s          m/s           dB
-          10.0000            0      2.00000      2.00000      2.00000      2.00000      6.02060
-          20.0000            0      2.00000      2.00000      2.00000      2.00000      6.02060
+        frequency      primary     residual      maximax     positive     negative time of peak       margin
+               Hz          m/s          m/s          m/s          m/s          m/s            s           dB
+          10.0000            0      2.00000      2.00000      2.00000      2.00000    0.0250000      6.02060
+          20.0000            0      2.00000      2.00000      2.00000      2.00000    0.0125000      6.02060
     ");
 }
 
@@ -100,6 +107,90 @@ fn the_five_quantities_of_one_shock_are_known() {
     }
 }
 
+/// One shock without damping swings from the shock on: first against it, half a period later with it.
+#[test]
+fn signs_of_both_parts_and_the_time_of_the_peak_are_told() {
+    let got = answer(["spectrum", "--shock=3,1", "--frequency=0.5", "--damping=0", "--quantity=relative-velocity"]);
+    let of = |name: &str| got[name][0].as_f64().unwrap();
+    assert_eq!((of("primary_positive"), of("primary_negative")), (0.0, 3.0), "{got}");
+    assert_eq!((of("residual_positive"), of("residual_negative"), of("time_of_peak_s")), (3.0, 3.0, 1.0), "{got}");
+    // Positive is ω² times positive of the displacement, and so is negative: of a shock on a damped part.
+    let of = |quantity: &str, name: &str| {
+        let got = answer(["spectrum", "--shock=3,1", "--frequency=0.5", "--damping=0.1", "--quantity", quantity]);
+        got[name][0].as_f64().unwrap()
+    };
+    for name in ["positive", "negative", "residual_positive", "residual_negative"] {
+        let (a, z) = (of("equivalent-static-acceleration", name), of("relative-displacement", name));
+        assert!(close(a, std::f64::consts::PI.powi(2) * z, 1e-14), "{name}: {a} and {z}");
+    }
+}
+
+#[test]
+fn accelerations_come_in_the_units_asked_for() {
+    let base = ["spectrum", "--pulse=rectangle,9.80665,1", "--frequency=100", "--damping=0", "--limit=3g"];
+    let with = |more: &[&str]| clatter(base.iter().copied().chain(more.iter().copied()));
+    let json = |more: &[&str]| -> Value {
+        let more: Vec<_> = more.iter().copied().chain(["--format=json"]).collect();
+        serde_json::from_str(&with(&more).stdout).unwrap()
+    };
+    // A step doubles 1 g.
+    for (more, unit, size) in
+        [(&[][..], "m/s2", 9.806_65), (&["--output-units=si"], "m/s2", 9.806_65), (&["--output-units=g"], "g", 1.0)]
+    {
+        let got = json(more);
+        assert_eq!(got["unit"], json!(unit), "{more:?}");
+        for name in ["maximax", "positive", "primary_positive"] {
+            assert!(close(got[name][0].as_f64().unwrap(), 2.0 * size, 1e-12), "{more:?}, {name}: {got}");
+        }
+        assert!(close(got["limit"]["allowed"][0].as_f64().unwrap(), 3.0 * size, 1e-12), "{got}");
+        assert!(close(got["limit"]["margin_db"][0].as_f64().unwrap(), 20.0 * 1.5_f64.log10(), 1e-12), "{got}");
+        let more: Vec<_> = more.iter().copied().chain(["--format=csv"]).collect();
+        let csv = with(&more).stdout;
+        let row: Vec<f64> = csv.lines().nth(1).unwrap().split(',').map(|cell| cell.parse().unwrap()).collect();
+        assert!(row[0] == 100.0 && close(row[3], 2.0 * size, 1e-12), "{csv}");
+    }
+    // The table as the limit is, unless told otherwise.
+    assert!(with(&[]).stdout.starts_with("Shock response spectrum: acceleration in g,"));
+    assert!(with(&["--output-units=si"]).stdout.starts_with("Shock response spectrum: acceleration in m/s2,"));
+    let refused = clatter(["spectrum", "--shock=1,0", "--quantity=pseudo-velocity", "--output-units=g"]);
+    assert_eq!(refused.exit, Exit::BadInput);
+    assert!(refused.stderr.contains("--output-units=g goes with the quantities acceleration"), "{}", refused.stderr);
+}
+
+#[test]
+fn several_quality_factors_give_a_spectrum_each() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = record(folder.path(), &triangle());
+    let of = |q: &str| answer(["spectrum", file.to_str().unwrap(), "--frequency=20,50", "--limit=600", q]);
+    let (mut all, singles) =
+        (of("--q-factor=5,10,inf"), [of("--q-factor=5"), of("--q-factor=10"), of("--q-factor=inf")]);
+    let spectra = all.as_object_mut().unwrap().remove("spectra").unwrap();
+    assert_eq!(all, singles[0], "above stands the first");
+    assert_eq!(spectra.as_array().unwrap().len(), 3);
+    for (one, single) in spectra.as_array().unwrap().iter().zip(&singles) {
+        for (name, value) in one.as_object().unwrap() {
+            assert_eq!(value, &single[name], "{name}");
+        }
+        assert!(one["time_of_peak_s"].is_array() && one["limit"]["worst"].is_object(), "{one}");
+    }
+    assert_eq!(singles[0]["spectra"], Value::Null, "one is no list");
+    let shown = |more: &[&str]| {
+        let base = ["spectrum", file.to_str().unwrap(), "--frequency=20,50", "--q-factor=5,10,inf"];
+        clatter(base.iter().chain(more)).stdout
+    };
+    let csv = shown(&["--format=csv"]);
+    let cells: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!((cells[0][0], cells[0][1], cells.len()), ("q_factor", "frequency_hz", 7), "{csv}");
+    assert_eq!(cells[1..].iter().map(|row| row[0]).collect::<Vec<_>>(), ["5.0", "5.0", "10.0", "10.0", "inf", "inf"]);
+    assert_eq!(shown(&[]).matches("Shock response spectrum").count(), 3);
+    let svg = folder.path().join("all.svg");
+    shown(&["-o", svg.to_str().unwrap()]);
+    let svg = fs::read_to_string(svg).unwrap();
+    assert!(svg.contains("maximax, Q = 10.0000") && svg.contains("maximax, Q = infinite"), "{svg}");
+    let outcome = clatter(["spectrum", "--shock=1,0", "--q-factor=5,0"]);
+    assert!(outcome.exit == Exit::BadInput && outcome.stderr.contains("quality factor 0.0"), "{}", outcome.stderr);
+}
+
 #[test]
 fn frequencies_come_as_asked() {
     let of = |text: &str| numbers(&answer(["spectrum", "--shock=1,0", "--frequency", text])["frequency_hz"]);
@@ -112,7 +203,7 @@ fn frequencies_come_as_asked() {
 
 #[test]
 fn the_margin_is_that_of_the_worst_frequency() {
-    let got = answer([
+    let got = exceeded([
         "spectrum",
         "--shock=1,0",
         "--damping=0",
@@ -128,13 +219,36 @@ fn the_margin_is_that_of_the_worst_frequency() {
     }
     assert!(limit["margin_db"][2].as_f64().unwrap().abs() < 1e-14, "{limit}");
     assert_eq!((&limit["worst"]["frequency_hz"], &limit["worst"]["safe"]), (&json!(1000.0), &json!(false)));
-    // The limit is passed, and that is an answer.
-    assert_eq!(clatter(["spectrum", "--shock=1,0", "--limit=1e-9"]).exit, Exit::Done);
+}
+
+/// The same words and the same exit status, whatever the format.
+#[test]
+fn a_limit_that_is_exceeded_is_told_by_word_and_exit_status() {
+    // 2 m/s at any frequency without damping: ω times that, against 100 m/s², is exceeded from 8 Hz on.
+    let of = |limit: &str, format: &str| {
+        clatter(["spectrum", "--shock=2,0", "--frequency=5,20", "--damping=0", limit, &format!("--format={format}")])
+    };
+    for format in ["table", "json", "csv"] {
+        assert_eq!(of("--limit=100", format).exit, Exit::Unsafe, "{format}");
+        assert_eq!(of("--limit=300", format).exit, Exit::Done, "{format}");
+        // The only frequency that is exceeded is outside of the curve.
+        assert_eq!(of("--limit=1:100,10:100", format).exit, Exit::Done, "{format}");
+    }
+    let margin = 20.0 * (100.0 / (80.0 * std::f64::consts::PI)).log10();
+    let line = format!("The limit is exceeded: least margin {margin:.5} dB at 20.0000 Hz\n");
+    let shown = of("--limit=100", "table").stdout;
+    assert!(shown.contains(&line), "{line}{shown}");
+    let json: Value = serde_json::from_str(&of("--limit=100", "json").stdout).unwrap();
+    assert_eq!(json["limit"]["worst"]["safe"], json!(false), "{json}");
+    // One of several damping ratios is enough.
+    let several = ["spectrum", "--shock=2,0", "--frequency=10", "--limit=100"];
+    let of = |q: &str| clatter(several.iter().copied().chain([q])).exit;
+    assert_eq!((of("--q-factor=0.5"), of("--q-factor=0.5,inf")), (Exit::Done, Exit::Unsafe));
 }
 
 #[test]
 fn the_damage_boundary_of_a_rectangle_is_that_of_the_standard() {
-    let got = answer([
+    let got = exceeded([
         "spectrum",
         "--pulse=rectangle,200,0.01,0",
         "--frequency=50",
@@ -275,22 +389,25 @@ fn rows_and_pictures_can_be_written() {
         let file = folder.path().join(name);
         let arguments = ["spectrum", "--pulse=half-sine,9810,0.001,0", "-o", file.to_str().unwrap()];
         let outcome = clatter(arguments.iter().chain(more));
-        assert_eq!((outcome.exit, outcome.stderr.as_str()), (Exit::Done, ""));
+        let exit = if outcome.stdout.contains("The limit is exceeded") { Exit::Unsafe } else { Exit::Done };
+        assert_eq!((outcome.exit, outcome.stderr.as_str()), (exit, ""));
         assert!(outcome.stdout.contains(&format!("{}: ", file.display())), "{}", outcome.stdout);
         fs::read_to_string(file).unwrap()
     };
     let three = ["--frequency=10,100,1000"];
     let (csv, json) = (write("s.csv", &three), write("s.json", &three));
-    assert!(csv.starts_with("frequency_hz,primary,residual,maximax,positive,negative\n10.0,"), "{csv}");
+    let header = "frequency_hz,primary,residual,maximax,positive,negative,primary_positive,primary_negative,\
+                  residual_positive,residual_negative,time_of_peak_s";
+    assert!(csv.starts_with(&format!("{header}\n10.0,")), "{csv}");
     let json: Value = serde_json::from_str(&json).unwrap();
     for (i, line) in csv.lines().skip(1).enumerate() {
         let row: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
-        let names = ["frequency_hz", "primary", "residual", "maximax", "positive", "negative"];
-        assert_eq!(row, names.map(|name| json[name][i].as_f64().unwrap()), "row {i}");
+        let named: Vec<f64> = header.split(',').map(|name| json[name][i].as_f64().unwrap()).collect();
+        assert_eq!(row, named, "row {i}");
     }
     let limited = write("l.csv", &["--frequency=10,100", "--limit=50:2000,500:2000"]);
-    assert!(limited.starts_with("frequency_hz,primary,residual,maximax,positive,negative,margin_db\n"), "{limited}");
-    assert!(limited.lines().nth(1).unwrap().ends_with(','), "no limit at 10 Hz: {limited}");
+    assert!(limited.starts_with(&header.replace("negative,primary", "negative,margin_db,primary")), "{limited}");
+    assert_eq!(limited.lines().nth(1).unwrap().split(',').nth(6), Some(""), "no limit at 10 Hz: {limited}");
     for (name, more, words) in [
         ("a.svg", &["--limit=2000"][..], ["absolute acceleration, m/s²", "least margin"]),
         ("v.svg", &["--quantity=pseudo-velocity"], ["pseudo-velocity, m/s", "10 mm"]),

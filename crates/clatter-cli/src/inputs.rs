@@ -38,8 +38,9 @@ Quantities are numbers with their unit: 150mm, 0.4 ms, 4.85 m/s, 180Hz, 5deg,
 1500g or 15 m/s^2, 5 %. A file named - is standard input.
 
 Exit status: 0 done; 1 'assess' found a component unsafe or could not decide,
-or 'scatter' missed its target; 2 bad input, or an output that cannot be
-written; 3 typst, which prints the reports, is missing or failed.";
+'scatter' missed its target, or 'spectrum' found its limit exceeded; 2 bad
+input, or an output that cannot be written; 3 typst, which prints the reports,
+is missing or failed.";
 
 /// How the mass lies, and how the ends rebound.
 #[derive(Debug, clap::Args)]
@@ -141,6 +142,33 @@ impl DampingArgs {
     /// Q = 10, what the field takes where nobody says otherwise.
     pub(crate) fn ratio(&self) -> Result<DampingRatio, clatter_shock::Error> {
         self.damping.or(self.q_factor).map_or_else(|| DampingRatio::from_quality_factor(10.0), Ok)
+    }
+}
+
+/// The same, with several quality factors.
+#[derive(Debug, clap::Args)]
+#[group(multiple = false)]
+pub(crate) struct DampingListArgs {
+    /// Damping ratio of the component, 0 or more, such as 0.05 or 5%: 0 never comes to rest, 1 is critical [default: 0.05]
+    #[arg(long, value_name = "Z", allow_hyphen_values = true, value_parser = damping)]
+    damping: Option<DampingRatio>,
+    /// Instead of the damping ratio: quality factors Q = 1/(2 Z), a spectrum each, `inf` for no damping [default: 10]
+    #[arg(long, value_name = "Q,…", allow_hyphen_values = true, value_delimiter = ',', value_parser = quality_factor)]
+    q_factor: Vec<DampingRatio>,
+}
+
+impl DampingListArgs {
+    /// A damping ratio that no part has.
+    pub(crate) fn slip(&self) -> Option<Slip> {
+        self.damping.and_then(|ratio| clatter_assess::slip("damping_ratio", &Quantity::of_si(ratio.get())))
+    }
+    /// Those given, at least one: Q = 10 where nobody says otherwise.
+    pub(crate) fn ratios(&self) -> Result<Vec<DampingRatio>, clatter_shock::Error> {
+        match (self.damping, &self.q_factor[..]) {
+            (Some(damping), _) => Ok(vec![damping]),
+            (None, []) => Ok(vec![DampingRatio::from_quality_factor(10.0)?]),
+            (None, several) => Ok(several.to_vec()),
+        }
     }
 }
 

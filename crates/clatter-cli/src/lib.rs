@@ -107,7 +107,8 @@ impl Streams<'_> {
 pub enum Exit {
     /// 0: done.
     Done = 0,
-    /// 1: an assessment found a component unsafe or could not decide, or a survival target was missed.
+    /// 1: an assessment found a component unsafe or could not decide, a survival target was missed, or a spectrum exceeds
+    /// its limit.
     Unsafe = 1,
     /// 2: bad input or usage, or an output that cannot be written.
     BadInput = 2,
@@ -196,13 +197,13 @@ impl Command {
         match self {
             Self::Scatter(args) => return args.run(streams),
             Self::Assess(args) => return args.run(streams),
+            Self::Spectrum(args) => return args.run(streams),
             Self::Impacts(args) => args.run(streams),
             Self::Zone(args) => args.run(streams),
             Self::Map(args) => args.run(streams),
             Self::Simulate(args) => args.run(streams),
             Self::Respond(args) => args.run(streams),
             Self::Record(args) => args.run(streams),
-            Self::Spectrum(args) => args.run(streams),
             Self::Design(args) => args.run(streams),
             Self::Explain(args) => args.run(streams),
             Self::Tradeoff(args) => args.run(streams),

@@ -1,27 +1,27 @@
 //! `clatter spectrum`: shock response spectra of records, pulses and velocity shocks.
 
 mod answer;
+mod table;
 
-use std::io::{self, Write};
+use std::fs::File;
+use std::io::{self, BufReader, Write};
 use std::path::{Path, PathBuf};
 
 use clap::{ValueEnum, ValueHint};
-use clatter_assess::units::{ACCELERATION, Dimension, LENGTH, SPEED};
+use clatter_assess::units::{ACCELERATION, Dimension, LENGTH, SPEED, Unit};
 use clatter_figures::FigureError;
-use clatter_record::{Between, Record};
 use clatter_shock::{
-    DamageBoundary, Limit, LimitCurve, Margin, Pulse, Pulses, Quantity, Shape, Spectrum, Suspension, VelocityShock,
-    VelocityShocks,
+    DamageBoundary, DampingRatio, Limit, LimitCurve, Lines, Margin, Pulse, Pulses, Quantity, Record, Shape, Spectrum,
+    Survey, Suspension, Units, VelocityShock, VelocityShocks, stream,
 };
 
-use crate::excitation::{self, FrequencyArg, LimitArg, PulseArg, shape_name};
-use crate::inputs::{DampingArgs, RowFormat};
-use crate::numbers::{digits, figures, given};
+use crate::excitation::{self, FrequencyArg, LimitArg, PulseArg};
+use crate::inputs::{DampingListArgs, RowFormat};
+use crate::numbers::figures;
 use crate::output::{Files, Kind, Target, buffered};
 use crate::progress::Counted;
 use crate::quantities::Show;
-use crate::record_args::RecordArgs;
-use crate::{Failure, Streams, lists, output, text};
+use crate::{Exit, Failure, Streams, input, lists, output, text};
 
 /// Compute a shock response spectrum: the peak of a component over its natural frequency
 ///
@@ -39,10 +39,11 @@ use crate::{Failure, Streams, lists, output, text};
 ///               shape,amplitude_m_s2,duration_s,start_s or time_s,delta_v_m_s, among others or not
 ///
 /// For each frequency: `primary`, the largest absolute value from the first start to the last end;
-/// `residual`, after it, the ring-down complete; `maximax` over both; and over both the largest
-/// `positive` and `negative` value.
+/// `residual`, after it, the ring-down complete; `maximax` over both, and when it is reached; and
+/// over both the largest `positive` and `negative` value. CSV and JSON have these of either part, too.
 ///
-/// With --limit the margin 20 log10(limit/maximax) is given in decibel; below 0 the limit is passed.
+/// With --limit the margin 20 log10(limit/maximax) is given in decibel; below 0 the limit is exceeded,
+/// and the exit status is 1.
 ///
 /// `-o FILE` writes the rows as .csv, the whole answer as .json, or a picture as .svg: log-log, the
 /// pseudo-velocity on four-coordinate paper. With --damage-boundary the picture is the damage
@@ -66,23 +67,24 @@ Examples:
       --damage-boundary -o boundary.svg
   clatter spectrum --pulse=rectangle,900,0.004 --damage-boundary --tests=tests.csv
   clatter spectrum --shocks-file=shocks.csv --frequency=180Hz
+  clatter spectrum drop.csv --q-factor=5,10,25 --output-units=g --format=csv
 
 Numbers without a unit are in SI. A limit in g, or where there is none a pulse in g, has the table in
-g; JSON and CSV stay in SI."
+g; JSON and CSV stay in SI. --output-units has all of them in one.
+
+Exit status: 0 done, 1 the limit is exceeded, 2 bad input."
 )]
 pub(crate) struct Args {
     #[command(flatten)]
     excitation: Excitation,
-    #[command(flatten)]
-    reading: RecordArgs,
-    /// What the acceleration of a record is between its samples
-    #[arg(long, value_enum, default_value_t = Interpolation::BandLimited)]
-    interpolation: Interpolation,
+    /// Units of a record whose header does not name them: s, ms or us, and m/s2 or g
+    #[arg(long, value_name = "TIME,ACCELERATION", value_parser = excitation::units)]
+    units: Option<Units>,
     /// Natural frequencies, in Hz without a unit: a list, or from LO to HI with so many to the octave
     #[arg(long, value_name = "HZ,…|LO:HI:PER_OCTAVE", default_value = "10:10000:12", allow_hyphen_values = true, value_parser = excitation::frequencies)]
     frequency: FrequencyArg,
     #[command(flatten)]
-    damping: DampingArgs,
+    damping: DampingListArgs,
     /// Which quantity of the component
     #[arg(long, value_enum, default_value_t = QuantityName::Acceleration)]
     quantity: QuantityName,
@@ -90,6 +92,10 @@ pub(crate) struct Args {
     /// straight on log-log paper
     #[arg(long, value_name = "X|HZ:X,…", allow_hyphen_values = true, value_parser = excitation::limit)]
     limit: Option<LimitArg>,
+    /// Unit of accelerations in the answer: of the table, CSV and JSON [default: that of the limit or the pulse in the
+    /// table, SI elsewhere]
+    #[arg(long, value_enum)]
+    output_units: Option<OutputUnits>,
     /// Also give the damage boundary of one pulse at one frequency, for a --limit of acceleration or relative
     /// displacement, or from --tests
     #[arg(long)]
@@ -128,13 +134,13 @@ struct Excitation {
     shocks_file: Option<PathBuf>,
 }
 
-/// What is between samples.
+/// In which unit accelerations are told.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Interpolation {
-    /// No content from half the sampling rate on; straight lines where samples are uneven
-    BandLimited,
-    /// Straight lines
-    Linear,
+enum OutputUnits {
+    /// Standard gravity, 9.80665 m/s²
+    G,
+    /// m/s²
+    Si,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -186,13 +192,25 @@ fn target(text: &str) -> Result<Target, String> {
     Target::of(text, &[Kind::Csv, Kind::Json, Kind::Svg])
 }
 
-/// A computed spectrum and all that goes with it.
+/// The spectra of one excitation and all that goes with them.
 struct Computed<'a> {
     args: &'a Args,
-    spectrum: Spectrum,
-    record: Option<Record>,
-    margins: Option<Vec<Option<Margin>>>,
+    /// One for each damping ratio, at least one.
+    parts: Vec<Part>,
+    survey: Option<Survey>,
     boundary: Option<Boundary>,
+}
+
+/// A spectrum and its margins, if there is a limit.
+struct Part {
+    spectrum: Spectrum,
+    margins: Option<Vec<Option<Margin>>>,
+}
+
+impl Part {
+    fn exceeds(&self) -> bool {
+        self.margins.iter().flatten().flatten().any(|margin| !margin.is_safe())
+    }
 }
 
 /// The damage boundary, and where the pulse stands.
@@ -216,20 +234,26 @@ impl Args {
         }
     }
 
-    pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        if let (Some(flag), None) = (self.reading.given(), &self.excitation.record) {
-            return Err(Failure::Wrong(format!("{flag} goes with a record alone")));
+    pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<Exit, Failure> {
+        if self.units.is_some() && self.excitation.record.is_none() {
+            return Err(Failure::Usage("--units goes with a record alone"));
+        }
+        let is_acceleration = self.quantity.dimension().name == ACCELERATION.name;
+        if self.output_units == Some(OutputUnits::G) && !is_acceleration {
+            return Err(Failure::Usage(
+                "--output-units=g goes with the quantities acceleration and equivalent-static-acceleration alone",
+            ));
         }
         self.check_limit()?;
         let boundary = if self.damage_boundary { Some(self.boundary()?) } else { None };
-        let (spectrum, record) = self.spectrum()?;
-        let margins = self.limit.as_ref().map(|limit| limit.curve.margins(&spectrum));
-        let computed = Computed { args: self, spectrum, record, margins, boundary };
+        let (spectra, survey) = self.spectra(&self.damping.ratios()?)?;
+        let margins = |spectrum: &Spectrum| self.limit.as_ref().map(|limit| limit.curve.margins(spectrum));
+        let parts = spectra.into_iter().map(|spectrum| Part { margins: margins(&spectrum), spectrum }).collect();
+        let computed = Computed { args: self, parts, survey, boundary };
         if let Some(target) = &self.output {
             computed.write(target)?;
         }
-        let lowest_hz = self.frequency.list.hz().iter().fold(f64::INFINITY, |least, hz| least.min(*hz));
-        for finding in computed.record.iter().flat_map(|record| record.findings(lowest_hz)) {
+        for finding in computed.survey.iter().flat_map(|survey| &survey.findings) {
             let path = self.excitation.record.as_deref().unwrap_or(Path::new(""));
             streams.note("warning", format_args!("{}: {finding}", text::path(path)));
         }
@@ -240,7 +264,8 @@ impl Args {
             RowFormat::Table => computed.table(streams.out).map_err(Failure::Answer),
             RowFormat::Csv => computed.csv(streams.out).map_err(Failure::Answer),
             RowFormat::Json => streams.json(&computed.answer()),
-        }
+        }?;
+        Ok(if computed.parts.iter().any(Part::exceeds) { Exit::Unsafe } else { Exit::Done })
     }
 
     /// Refuses a limit in a unit of another quantity.
@@ -254,31 +279,43 @@ impl Args {
         Err(Failure::Wrong(format!("--limit in {} is {what}, and the quantity is {name}, in one of {own}", unit.name)))
     }
 
-    /// How the quantity is shown: in the unit of the limit, else of a pulse.
+    /// How the quantity is shown: in the unit asked for, else of the limit, else of a pulse.
     fn show(&self) -> Show {
+        if self.output_units.is_some() {
+            return self.written();
+        }
         let typed = self.limit.as_ref().and_then(|limit| limit.typed).map(|(_, unit)| unit);
         let pulse = self.excitation.pulse.iter().find_map(|pulse| pulse.unit);
         let pulse = pulse.filter(|_| self.quantity.dimension().name == ACCELERATION.name);
         Show { unit: typed.or(pulse), name: self.quantity.name()[1] }
     }
 
-    fn spectrum(&self) -> Result<(Spectrum, Option<Record>), Failure> {
-        let (damping, quantity) = (self.damping.ratio()?, self.quantity.quantity());
+    /// How CSV and JSON have the quantity: in SI unless g is asked for.
+    fn written(&self) -> Show {
+        let in_g = self.output_units == Some(OutputUnits::G);
+        let unit: Option<&'static Unit> = ACCELERATION.units.iter().find(|unit| in_g && unit.name == "g");
+        Show { unit, name: self.quantity.name()[1] }
+    }
+
+    /// A spectrum for each damping ratio.
+    fn spectra(&self, dampings: &[DampingRatio]) -> Result<(Vec<Spectrum>, Option<Survey>), Failure> {
+        let (list, quantity) = (&self.frequency.list, self.quantity.quantity());
         if let Some(path) = &self.excitation.record {
-            let (spectrum, record) = self.record(path)?;
-            return Ok((spectrum, Some(record)));
+            let (spectra, survey) = self.record(path, dampings)?;
+            return Ok((spectra, Some(survey)));
         }
         let shocks = match &self.excitation.shocks_file {
             Some(path) => lists::shocks(path)?,
             None => self.excitation.shock.clone(),
         };
         if !shocks.is_empty() {
-            return Ok((VelocityShocks::new(shocks)?.spectrum(&self.frequency.list, damping, quantity), None));
+            let shocks = VelocityShocks::new(shocks)?;
+            return Ok((dampings.iter().map(|damping| shocks.spectrum(list, *damping, quantity)).collect(), None));
         }
         let pulses = self.pulses()?;
-        excitation::check_periods(&pulses, &self.frequency.list).map_err(Failure::Wrong)?;
+        excitation::check_periods(&pulses, list).map_err(Failure::Wrong)?;
         let pulses = Pulses::new(&pulses)?;
-        Ok((pulses.spectrum(&self.frequency.list, damping, quantity), None))
+        Ok((dampings.iter().map(|damping| pulses.spectrum(list, *damping, quantity)).collect(), None))
     }
 
     fn pulses(&self) -> Result<Vec<Pulse>, Failure> {
@@ -290,17 +327,36 @@ impl Args {
         }
     }
 
-    fn record(&self, path: &Path) -> Result<(Spectrum, Record), Failure> {
-        let (damping, quantity) = (self.damping.ratio()?, self.quantity.quantity());
-        let record = self.reading.read(path)?;
-        let [channel] = record.channels() else {
-            return Err(Failure::Usage("the record has several channels: --acceleration picks one"));
+    /// In constant memory: a first pass, and one for each damping ratio; what can be read but once is kept.
+    fn record(&self, path: &Path, dampings: &[DampingRatio]) -> Result<(Vec<Spectrum>, Survey), Failure> {
+        let (list, quantity) = (&self.frequency.list, self.quantity.quantity());
+        let bad = |reason| Failure::Record { path: path.to_owned(), reason };
+        let open = || {
+            let file = File::open(path).map_err(|error| bad(clatter_shock::Error::Read(error.to_string())))?;
+            Ok::<_, Failure>((file.metadata().ok(), BufReader::with_capacity(1 << 20, file)))
         };
-        let between = if self.interpolation == Interpolation::Linear { Between::Linear } else { Between::BandLimited };
-        let filtering = Counted::begin("filtering", record.samples() as u64);
-        let spectrum = record.spectrum(channel, &self.frequency.list, damping, quantity, between, |n| filtering.at(n));
-        let spectrum = spectrum.map_err(|reason| Failure::Record { path: path.to_owned(), reason })?;
-        Ok((spectrum, record))
+        let kept = |record: &Record| {
+            let spectra = dampings.iter().map(|damping| record.spectrum(list, *damping, quantity)).collect();
+            (spectra, record.survey().clone())
+        };
+        if input::is_standard(path) {
+            return Ok(kept(&Record::read(io::stdin().lock(), self.units).map_err(bad)?));
+        }
+        let (metadata, input) = open()?;
+        let Some(size) = metadata.filter(std::fs::Metadata::is_file).map(|metadata| metadata.len()) else {
+            return Ok(kept(&Record::read(input, self.units).map_err(bad)?));
+        };
+        let checking = Counted::begin("checking", size);
+        let survey = Lines::new(input, self.units).survey(|_, bytes| checking.at(bytes)).map_err(bad)?;
+        drop(checking);
+        let mut spectra = Vec::with_capacity(dampings.len());
+        for damping in dampings {
+            let filtering = Counted::begin("filtering", size);
+            let lines = Lines::new(open()?.1, self.units);
+            let one = stream(lines, &survey, list, *damping, quantity, |bytes| filtering.at(bytes)).map_err(bad)?;
+            spectra.push(one);
+        }
+        Ok((spectra, survey))
     }
 
     fn boundary(&self) -> Result<Boundary, Failure> {
@@ -312,7 +368,7 @@ impl Args {
             };
             let [velocity, acceleration] = lists::tests(path)?;
             let boundary = DamageBoundary::from_tests(&velocity, &acceleration);
-            return Boundary::new(boundary.map_err(|reason| Failure::Tests { path: path.clone(), reason })?, pulse);
+            return Boundary::new(boundary.map_err(|reason| Failure::Record { path: path.clone(), reason })?, pulse);
         }
         let ([pulse], [hz]) = (&self.pulses()?[..], self.frequency.list.hz()) else {
             return Err(Failure::Usage(
@@ -330,7 +386,10 @@ impl Args {
                 ));
             }
         };
-        let suspension = Suspension::from_hz(*hz, self.damping.ratio()?)?;
+        let [damping] = self.damping.ratios()?[..] else {
+            return Err(Failure::Usage("--damage-boundary goes with one --q-factor"));
+        };
+        let suspension = Suspension::from_hz(*hz, damping)?;
         Boundary::new(DamageBoundary::new(suspension, limit, pulse.shape)?, *pulse)
     }
 }
@@ -361,108 +420,14 @@ impl Computed<'_> {
                 let at = [b.pulse.velocity_change().abs(), b.pulse.amplitude.abs()];
                 clatter_figures::damage_boundary(&b.numbers, &b.curve, at)
             }
-            None => clatter_figures::spectrum(&self.spectrum, self.limit()),
-        }
-    }
-
-    fn table(&self, out: &mut dyn Write) -> io::Result<()> {
-        let ([name, _], show) = (self.args.quantity.name(), self.args.show());
-        let (unit, hz) = (show.name(), Show { unit: self.args.frequency.unit, name: "Hz" });
-        let zeta = self.spectrum.damping.get();
-        let name = name.replace('-', " ");
-        writeln!(
-            out,
-            "Shock response spectrum: {name} in {unit}, damping ratio {} (Q = {})",
-            given(zeta),
-            figures(0.5 / zeta)
-        )?;
-        if let Some(record) = &self.record {
-            let steps =
-                record.step_s().map_or("uneven in time".to_owned(), |step| format!("every {} s", figures(step)));
-            let (start, end) = (record.start_s(), record.start_s() + record.duration_s());
-            let (n, from, to) = (record.samples(), figures(start), figures(end));
-            let largest = record.channels()[0].values.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
-            writeln!(out, "{n} samples from {from} to {to} s, {steps}; largest {} m/s2", figures(largest))?;
-        }
-        if let Some(boundary) = &self.boundary {
-            let acceleration = self.args.quantity.dimension().name == ACCELERATION.name;
-            let pulse = self.args.excitation.pulse.iter().find_map(|pulse| pulse.unit);
-            let unit = show.unit.filter(|_| acceleration).or(pulse);
-            boundary.table(Show { unit, name: "m/s2" }, out)?;
-        }
-        if let Some(margins) = &self.margins {
-            self.worst(margins, out)?;
-        }
-        if let Some(target) = &self.args.output {
-            return writeln!(out, "{}: {} frequencies", text::path(&target.path), self.spectrum.frequency_hz.len());
-        }
-        let margin = if self.margins.is_some() { "margin" } else { "" };
-        let head = ["frequency", "primary", "residual", "maximax", "positive", "negative", margin];
-        let units = [hz.name(), unit, unit, unit, unit, unit, if margin.is_empty() { "" } else { "dB" }];
-        writeln!(out)?;
-        for cells in [head, units] {
-            let line = cells.map(|cell| format!("{cell:>13}")).concat();
-            writeln!(out, "{}", line.trim_end())?;
-        }
-        for i in 0..self.spectrum.frequency_hz.len() {
-            let [frequency, values @ ..] = self.row(i);
-            let cells = std::iter::once(hz.figures(frequency)).chain(values.map(|x| show.figures(x)));
-            let row = cells.fold(String::new(), |row, cell| format!("{row}{cell:>13}"));
-            let margin = self.margins.as_ref().map_or(String::new(), |margins| {
-                format!("{:>13}", margins[i].map_or("-".to_owned(), |m| figures(m.decibel())))
-            });
-            writeln!(out, "{row}{margin}")?;
-        }
-        Ok(())
-    }
-
-    fn worst(&self, margins: &[Option<Margin>], out: &mut dyn Write) -> io::Result<()> {
-        let Some((i, margin)) = LimitCurve::worst(margins).and_then(|i| Some((i, margins[i]?))) else {
-            return writeln!(out, "The limit covers none of these frequencies");
-        };
-        let hz = Show { unit: self.args.frequency.unit, name: "Hz" }.said(self.spectrum.frequency_hz[i]);
-        let word = if margin.is_safe() { "holds" } else { "is passed" };
-        writeln!(out, "The limit {word}: least margin {} dB at {hz}", figures(margin.decibel()))
-    }
-
-    fn row(&self, i: usize) -> [f64; 6] {
-        let s = &self.spectrum;
-        [s.frequency_hz[i], s.primary[i], s.residual[i], s.maximax[i], s.positive[i], s.negative[i]]
-    }
-
-    fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
-        if let Some(boundary) = &self.boundary {
-            writeln!(out, "velocity_change_m_s,acceleration_m_s2")?;
-            return boundary.curve.iter().try_for_each(|(v, a)| writeln!(out, "{},{}", digits(*v), digits(*a)));
-        }
-        let margin = if self.margins.is_some() { ",margin_db" } else { "" };
-        writeln!(out, "frequency_hz,primary,residual,maximax,positive,negative{margin}")?;
-        for i in 0..self.spectrum.frequency_hz.len() {
-            write!(out, "{}", self.row(i).map(digits).join(","))?;
-            match self.margins.as_ref().map(|margins| margins[i]) {
-                Some(Some(margin)) => writeln!(out, ",{}", digits(margin.decibel()))?,
-                Some(None) => writeln!(out, ",")?,
-                None => writeln!(out)?,
+            None => {
+                let [first, others @ ..] = &self.parts[..] else { return Ok(String::new()) };
+                let name = |part: &Part| format!("maximax, Q = {}", figures(0.5 / part.spectrum.damping.get()));
+                let names: Vec<String> = others.iter().map(name).collect();
+                let others: Vec<(&Spectrum, &str)> =
+                    others.iter().zip(&names).map(|(part, name)| (&part.spectrum, name.as_str())).collect();
+                clatter_figures::spectra(&first.spectrum, &others, self.limit())
             }
         }
-        Ok(())
-    }
-}
-
-impl Boundary {
-    fn table(&self, acceleration: Show, out: &mut dyn Write) -> io::Result<()> {
-        let (b, p) = (&self.numbers, &self.pulse);
-        let line = |out: &mut dyn Write, name: &str, value: f64, unit: &str| {
-            writeln!(out, "{name:<28}{:>12} {unit}", figures(value))
-        };
-        writeln!(out, "\nDamage boundary for a {} pulse", shape_name(p.shape))?;
-        line(out, "Critical velocity change", b.critical_velocity_change(), "m/s")?;
-        line(out, "Critical acceleration", acceleration.value(b.critical_acceleration()), acceleration.name())?;
-        line(out, "Knee at a velocity change of", b.knee_velocity_change(), "m/s")?;
-        line(out, "This pulse, velocity change", p.velocity_change().abs(), "m/s")?;
-        line(out, "            acceleration", acceleration.value(p.amplitude.abs()), acceleration.name())?;
-        let word = if self.margin.is_safe() { "dB: no damage" } else { "dB: damage" };
-        line(out, "            margin", self.margin.decibel(), word)?;
-        writeln!(out)
     }
 }

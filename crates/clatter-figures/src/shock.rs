@@ -16,8 +16,15 @@ const NEGATIVE: Ink = Ink { dash: "4 2", ..POSITIVE };
 const PRIMARY: Ink = Ink::line(RUST, 0.8);
 const RESIDUAL: Ink = Ink { dash: "1.5 1.5", ..PRIMARY };
 const LIMIT: Ink = Ink { dash: "8 2 1.5 2", ..Ink::line(INK, 1.2) };
-/// Spectra beside the one that is shown.
-const OTHERS: [Ink; 2] = [Ink::line("#4c7a49", 1.2), Ink { dash: "6 2", ..Ink::line("#4c7a49", 1.2) }];
+/// Spectra beside the one that is shown, in turn.
+const OTHERS: [Ink; 6] = [
+    Ink::line("#4c7a49", 1.2),
+    Ink { dash: "6 2", ..Ink::line("#4c7a49", 1.2) },
+    Ink::line(INK, 1.2),
+    Ink { dash: "6 2", ..Ink::line(INK, 1.2) },
+    Ink::line(GRAY, 1.2),
+    Ink { dash: "6 2", ..Ink::line(GRAY, 1.2) },
+];
 /// Asymptotes and other guides.
 pub(crate) const GUIDE: Ink = Ink { dash: "3 2.5", ..Ink::line(GRAY, 0.8) };
 /// Lines of four-coordinate paper that run aslant.
@@ -52,6 +59,11 @@ fn pairs<'a>(spectrum: &'a Spectrum, values: &'a [f64], order: &'a [usize]) -> i
 /// ```
 pub fn spectrum(s: &Spectrum, limit: Option<&LimitCurve>) -> Result<String, FigureError> {
     draw(s, limit, &[], false)
+}
+
+/// The same with spectra of other damping ratios beside it, by their maximax, each with its name.
+pub fn spectra(s: &Spectrum, others: &[(&Spectrum, &str)], limit: Option<&LimitCurve>) -> Result<String, FigureError> {
+    draw(s, limit, others, false)
 }
 
 /// A smaller one with another spectrum of the quantity beside it, by its maximax, and its name: half as wide as a page.
@@ -109,8 +121,13 @@ fn draw(
         }
     }
     let mut lines: Vec<(Ink, &str)> = curves.iter().map(|(ink, name, _)| (*ink, *name)).collect();
-    for ((other, name), ink) in others.iter().zip(OTHERS) {
-        axes.curve(&mut paper, other.frequency_hz.iter().copied().zip(other.maximax.iter().copied()), ink);
+    for ((other, name), ink) in others.iter().zip(OTHERS.into_iter().cycle()) {
+        let mut order: Vec<usize> = (0..other.frequency_hz.len()).collect();
+        order.sort_by(|a, b| other.frequency_hz[*a].total_cmp(&other.frequency_hz[*b]));
+        axes.curve(&mut paper, pairs(other, &other.maximax, &order), ink);
+        if let [one] = order[..] {
+            axes.mark(&mut paper, other.frequency_hz[one], other.maximax[one], ink.stroke);
+        }
         lines.push((ink, *name));
     }
     let worst = LimitCurve::worst(&margins).and_then(|i| Some((s.frequency_hz[i], margins[i]?)));

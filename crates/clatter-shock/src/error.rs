@@ -46,6 +46,14 @@ pub enum Error {
         /// The time of the entry above.
         previous: f64,
     },
+    /// Times and values that do not go together.
+    #[error("there are {times} times and {values} values; each value needs its time")]
+    Lengths {
+        /// Number of times.
+        times: usize,
+        /// Number of values.
+        values: usize,
+    },
     /// A pulse of no length.
     #[error(
         "a pulse of zero duration has no area: give the velocity change of the shock instead (a velocity shock), or a duration > 0"
@@ -75,6 +83,11 @@ pub enum Error {
         /// Position on the bar.
         position: f64,
     },
+    /// A history whose velocity change is zero, as far as roundings tell.
+    #[error(
+        "the velocity change of the history is zero, both directions cancel: it has no damage boundary over velocity change, only a critical acceleration"
+    )]
+    NoVelocityChange,
     /// Shock tests that show no critical level.
     #[error("the {0} trials show no critical level: some level without damage must lie below the lowest with damage")]
     Trials(&'static str),

@@ -43,6 +43,9 @@ pub struct SpectrumFilter {
     modes: Modes,
     groups: Vec<Group>,
     previous: Option<f64>,
+    /// Time of the first sample, and how many steps there have been.
+    start_s: f64,
+    steps: usize,
     /// As long as the softest oscillator may need them.
     integrals: Option<Integrals>,
 }
@@ -115,9 +118,17 @@ struct Oscillator {
     at_once: [f64; 2],
     /// 1/ω and 1/(ωθ).
     inverse: [f64; 2],
-    /// s/(1 − s) with s = θ²/8: share of the bend that a rise between samples can have; infinite for s ≥ ½.
+    /// See [`share_of_bend`].
     share: f64,
     range: Range,
+}
+
+/// Samples gone through at a time, the one before them, and bounds on each block of them and on all.
+struct Chunk<'a> {
+    previous: f64,
+    samples: &'a [f64],
+    inputs: &'a [Input],
+    total: Input,
 }
 
 /// Bounds on the acceleration over some samples and the one before them: sum and largest of absolute values, and the
@@ -200,8 +211,7 @@ impl Oscillator {
         let moved = apply(free, newest);
         let input = apply(to, Motion { x: newest.x + moved[0] + older.x, w: newest.w + moved[1] + older.w });
         let at_once = apply(to, newest);
-        let share = 0.125 * theta * theta;
-        let share = if share < 0.5 { share / (1.0 - share) } else { f64::INFINITY };
+        let share = share_of_bend(theta);
         let inverse = [omega.recip(), (omega * theta).recip()];
         let recursion = Recursion { n: [n[0][0], n[0][1], n[1][0], n[1][1]], c: input, d: at_once[0] };
         Self { theta, row, recursion, back, newest, at_once, inverse, share, range: Range::default() }
@@ -215,17 +225,11 @@ impl Oscillator {
     /// begins with `m`: θ²/8 of the largest bend, which q″ = −q − 2ζq′ + (input) bounds.
     #[inline]
     fn bump(&self, modes: &Modes, q: f64, m: Motion, input: &Input) -> f64 {
-        let damp = 2.0 * modes.zeta;
         let y = m.w - modes.sigma * m.x;
         // |x| and |y| stay within v: √(x² + y²) grows by no more than |f|.
         let v = m.x.abs() + y.abs() + self.theta * input.sum * self.inverse[0];
         let (f, slope) = (input.peak * self.inverse[0], input.jump * self.inverse[1]);
-        let bend = match self.row {
-            Modes::DISPLACEMENT => damp * v + f,
-            Modes::VELOCITY => damp * ((1.0 + damp) * v + f) + slope,
-            _ => damp * ((1.0 + damp + damp * damp) * v + damp * f + slope) + f,
-        };
-        self.share * (q + bend)
+        self.share * (q + modes.bend_beside(self.row, v, f, slope))
     }
     /// How far some step of a block can rise between its samples, if that may pass the largest value so far; `l` is the
     /// oscillator’s place.
@@ -235,8 +239,10 @@ impl Oscillator {
         let bump = self.bump(modes, q, m, input);
         (b.high[l] + bump > self.range.high.value || b.low[l] - bump < self.range.low.value).then_some(bump)
     }
-    /// Goes through the steps of a block one by one; none of them rises by more than `most` between its samples.
-    fn refine(&mut self, modes: &Modes, segment: &mut Segment, l: usize, most: f64, steps: &Steps, samples: &[f64]) {
+    /// Goes through the steps of a block one by one; none of them rises by more than `most` between its samples. The
+    /// block begins with step number `block`.
+    fn refine(&mut self, segment: &mut Segment, l: usize, most: f64, (block, steps): (usize, &Steps), samples: &[f64]) {
+        let modes = segment.modes();
         let (mut high, mut low) = (self.range.high.value - most, self.range.low.value + most);
         let mut from = steps.before;
         let mut q = steps.q[0][l];
@@ -244,6 +250,8 @@ impl Oscillator {
             let q_next = steps.q[k + 1][l];
             let (top, bottom) = if q > q_next { (q, q_next) } else { (q_next, q) };
             if top > high || bottom < low {
+                self.range.place(block, block + k, q);
+                self.range.place(block, block + k + 1, q_next);
                 let m = self.motion(steps.u[k][l], steps.v[k][l], from);
                 let bump = self.bump(modes, top.max(-bottom), m, &Input::new(from, &[to]));
                 if top + bump > self.range.high.value || bottom - bump < self.range.low.value {
@@ -251,7 +259,7 @@ impl Oscillator {
                     segment.begin(m, f0, slope, self.theta);
                     let m_next = self.motion(steps.u[k + 1][l], steps.v[k + 1][l], to);
                     let end = segment.sample_known(self.theta, m_next);
-                    segment.extremes(self.row, &end, 0, &mut self.range);
+                    segment.extremes(self.row, &end, block + k, &mut self.range);
                     (high, low) = (self.range.high.value - most, self.range.low.value + most);
                 }
             }
@@ -297,8 +305,10 @@ impl Group {
         }
         group
     }
-    fn run(&mut self, modes: &Modes, previous: f64, samples: &[f64], inputs: &[Input], total: &Input) {
+    /// Takes in some samples, the first of which ends step number `first`.
+    fn run(&mut self, modes: &Modes, first: usize, chunk: &Chunk<'_>) {
         let start = [self.u, self.v];
+        let &Chunk { previous, samples, inputs, .. } = chunk;
         let arch = pulp::Arch::new();
         let scanned = arch.dispatch(Scan { group: self, previous, samples, inputs });
         let blocks = &scanned.blocks;
@@ -307,21 +317,33 @@ impl Group {
         }
         let mut segment = Segment::new(modes);
         let mut steps = Steps::new();
-        let mut search = |group: &mut Self, l: usize, b: &Block| {
-            let Some(most) = group.oscillators[l].may_rise(modes, l, b, &inputs[b.index]) else { return };
-            let samples = block_of(samples, b.index);
-            // Oscillators side by side have their peaks in the same blocks.
+        let number = |b: &Block| first + b.index * BLOCK;
+        // Oscillators side by side have their peaks in the same blocks.
+        let retrace = |group: &Self, b: &Block, steps: &mut Steps| {
             if steps.index != Some(b.index) {
                 (steps.index, steps.before) = (Some(b.index), inputs[b.index].before);
-                arch.dispatch(Retrace { group, block: b, samples, steps: &mut steps });
+                arch.dispatch(Retrace { group, block: b, samples: block_of(samples, b.index), steps });
             }
-            group.oscillators[l].refine(modes, &mut segment, l, most, &steps, samples);
+        };
+        let mut search = |group: &mut Self, l: usize, b: &Block| {
+            if let Some(most) = group.oscillators[l].may_rise(modes, l, b, &inputs[b.index]) {
+                retrace(group, b, &mut steps);
+                let samples = block_of(samples, b.index);
+                group.oscillators[l].refine(&mut segment, l, most, (number(b), &steps), samples);
+            }
+            if group.oscillators[l].range.is_unplaced(number(b)) {
+                retrace(group, b, &mut steps);
+                for (k, q) in steps.q.iter().take(block_of(samples, b.index).len() + 1).enumerate() {
+                    group.oscillators[l].range.place(number(b), number(b) + k, q[l]);
+                }
+            }
         };
         // Blocks beyond these values may hold a new extreme; oscillators that are not there have none.
         let (mut high, mut low) = ([f64::INFINITY; WIDTH], [f64::NEG_INFINITY; WIDTH]);
         for (l, oscillator) in self.oscillators.iter_mut().enumerate() {
-            oscillator.range.note(0, 0.0, blocks[scanned.highest[l]].high[l]);
-            oscillator.range.note(0, 0.0, blocks[scanned.lowest[l]].low[l]);
+            let (highest, lowest) = (&blocks[scanned.highest[l]], &blocks[scanned.lowest[l]]);
+            oscillator.range.note_block(number(highest), highest.high[l]);
+            oscillator.range.note_block(number(lowest), lowest.low[l]);
             let m = oscillator.motion(start[0][l], start[1][l], previous);
             let q = oscillator
                 .range
@@ -329,7 +351,7 @@ impl Group {
                 .value
                 .max(-oscillator.range.low.value)
                 .max(modes.quantity(oscillator.row, m).abs());
-            let most = oscillator.bump(modes, q, m, total);
+            let most = oscillator.bump(modes, q, m, &chunk.total);
             (high[l], low[l]) = (-most, most);
         }
         // Where the samples are largest the peak is likely, and rules out most of the rest.
@@ -616,6 +638,13 @@ impl Leap {
     }
 }
 
+/// Share of the bend that a rise between samples a phase θ apart can have: s/(1 − s) with s = θ²/8, infinite for s ≥ ½.
+#[inline]
+pub(crate) fn share_of_bend(theta: f64) -> f64 {
+    let share = 0.125 * theta * theta;
+    if share < 0.5 { share / (1.0 - share) } else { f64::INFINITY }
+}
+
 /// a b + c
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
@@ -662,8 +691,21 @@ impl SpectrumFilter {
             modes,
             groups,
             previous: None,
+            start_s: 0.0,
+            steps: 0,
             integrals: Some(Integrals::default()),
         })
+    }
+    /// The same with the first sample at `start_s` in place of 0: times of peaks count from there.
+    ///
+    /// # Errors
+    /// [`Error::Quantity`] unless it is finite.
+    pub fn starting_at(mut self, start_s: f64) -> Result<Self, Error> {
+        if !start_s.is_finite() {
+            return Err(Error::Quantity { name: "time of the first sample (s)", value: start_s, allowed: "finite" });
+        }
+        self.start_s = start_s;
+        Ok(self)
     }
     /// Takes in more samples of base acceleration.
     pub fn push(&mut self, samples: &[f64]) {
@@ -688,9 +730,11 @@ impl SpectrumFilter {
                 .collect();
             let total = Input::all(&inputs);
             self.integrate(previous, chunk);
+            let of = Chunk { previous, samples: chunk, inputs: &inputs, total };
             for group in &mut self.groups {
-                group.run(&self.modes, previous, chunk, &inputs, &total);
+                group.run(&self.modes, self.steps, &of);
             }
+            self.steps = self.steps.saturating_add(chunk.len());
             previous = chunk[chunk.len() - 1];
         }
         self.previous = Some(previous);
@@ -717,7 +761,12 @@ impl SpectrumFilter {
     /// [`Error::Empty`] if no sample came.
     pub fn finish(self) -> Result<Spectrum, Error> {
         let last = self.previous.ok_or(Error::Empty("record"))?;
-        Ok(Spectrum::collect(&self.frequencies, self.damping, self.quantity, |i, _, k| {
+        let time = |dt: f64, step: usize| {
+            #[expect(clippy::cast_precision_loss, reason = "samples are fewer than 2^53")]
+            let steps = step as f64;
+            self.start_s + steps * dt
+        };
+        Ok(Spectrum::collect(&self.frequencies, self.damping, self.quantity, |i, omega, k| {
             let (group, l) = (&self.groups[i / WIDTH], i % WIDTH);
             let oscillator = &group.oscillators[l];
             let soft = self.integrals.as_ref().filter(|integrals| integrals.suit(self.modes.zeta, oscillator.theta));
@@ -728,8 +777,8 @@ impl SpectrumFilter {
                 None => oscillator.motion(group.u[l], group.v[l], last),
             };
             let mut after = Range::default();
-            after.note_free(&self.modes, k, motion, f64::INFINITY, 0);
-            [oscillator.range, after]
+            after.note_free(&self.modes, k, motion, f64::INFINITY, self.steps);
+            [oscillator.range, after].map(|range| range.peaks(omega, |step| time(group.reach.dt, step)))
         }))
     }
 }

@@ -10,7 +10,9 @@
 //! where μ − λ₂ is never small and e[λ₁, μ] is e^(μτ) τ (e^z − 1)/z: resonance (λ₁ = μ) and critical damping (λ₁ = λ₂)
 //! are ordinary points. For short spans the power series of the motion is summed instead.
 
+use crate::eight::{Many, WIDTH, decay};
 use crate::peaks::Range;
+use crate::side_by_side::Step;
 use crate::suspension::{Modes, Motion, Phase, Propagator};
 use num_complex::Complex64;
 use std::cell::Cell;
@@ -62,7 +64,7 @@ pub(crate) struct Ramp {
 }
 
 impl Modes {
-    fn is_short(&self, tau: f64) -> bool {
+    pub(crate) fn is_short(&self, tau: f64) -> bool {
         (1.0 + 2.0 * self.zeta) * tau <= SERIES_REACH
     }
     /// Free motion over τ, and the response from rest to a constant and to a ramp.
@@ -113,6 +115,47 @@ impl Modes {
         let w0 = -(-self.rho * tau).exp_m1() / self.rho;
         let x0 = (rise - step.s) / self.rho;
         Ramp { x0, w0, x1: (rise_of_ramp - x0) / self.rho, w1: (tau - w0) / self.rho }
+    }
+}
+
+/// The same to f = 1 and f = τ for eight phases of which some are long; `step` is the free motion over them. Where one
+/// is short, digits are lost.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ramps {
+    pub(crate) x0: Many,
+    pub(crate) w0: Many,
+    pub(crate) x1: Many,
+    pub(crate) w1: Many,
+}
+
+impl Ramps {
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
+    pub(crate) fn long(modes: &Modes, tau: &Many, step: &Step) -> Self {
+        let zero = [0.0; WIDTH];
+        let mut ramps = Self { x0: zero, w0: zero, x1: zero, w1: zero };
+        if modes.kappa == 0.0 {
+            for l in 0..WIDTH {
+                let x0 = 1.0 - step.c[l] - modes.zeta * step.s[l];
+                let x1 = tau[l] - 2.0 * modes.zeta * x0 - step.s[l];
+                (ramps.x0[l], ramps.x1[l]) = (x0, x1);
+                (ramps.w0[l], ramps.w1[l]) = (step.s[l] + modes.zeta * x0, x0 + modes.zeta * x1);
+            }
+            return ramps;
+        }
+        let (mut slow, mut fast) = (zero, zero);
+        for l in 0..WIDTH {
+            (slow[l], fast[l]) = (modes.sigma * tau[l], modes.rho * tau[l]);
+        }
+        let ((_, slow_less), (_, fast_less)) = (decay(slow, zero), decay(fast, zero));
+        for l in 0..WIDTH {
+            let rise = -slow_less[l] / modes.sigma;
+            let of_ramp = if slow[l] < 0.5 { tau[l] * tau[l] * psi2(slow[l]) } else { (tau[l] - rise) / modes.sigma };
+            let (x0, w0) = ((rise - step.s[l]) / modes.rho, -fast_less[l] / modes.rho);
+            (ramps.x0[l], ramps.w0[l]) = (x0, w0);
+            (ramps.x1[l], ramps.w1[l]) = ((of_ramp - x0) / modes.rho, (tau[l] - w0) / modes.rho);
+        }
+        ramps
     }
 }
 
@@ -186,6 +229,10 @@ impl<'a> Segment<'a> {
             last_sine: None,
             last_end: None,
         }
+    }
+    /// The system that moves.
+    pub(crate) fn modes(&self) -> &'a Modes {
+        self.modes
     }
     /// Begins a segment of phase length `span` at `start` with forcing `constant` + `slope` τ.
     pub(crate) fn begin(&mut self, start: Motion, constant: f64, slope: f64, span: f64) {

@@ -13,7 +13,7 @@ pub enum Limit {
 }
 
 impl Limit {
-    fn allowed(self) -> Result<f64, Error> {
+    pub(crate) fn allowed(self) -> Result<f64, Error> {
         match self {
             Self::Acceleration(a) => crate::error::positive("limit of acceleration", a),
             Self::RattleSpace(z) => crate::error::positive("rattle space", z),

@@ -1,7 +1,7 @@
 //! Exact response to velocity shocks.
 
 use crate::eight::{LARGEST_ANGLE, WIDTH};
-use crate::peaks::{Extreme, Range, Response};
+use crate::peaks::{Extreme, Peaks, Range, Response};
 use crate::side_by_side::SideBySide;
 use crate::suspension::{Modes, Motion, Phase};
 use crate::{Error, Peaked, Suspension};
@@ -135,8 +135,8 @@ impl VelocityShocks {
         range.note_free(&modes, row, m, f64::INFINITY, self.shocks.len() - 1);
         range.peak_above(above, omega, |i| self.shocks[i].time)
     }
-    /// Extremes of one quantity from the first to the last shock, and after it, for each angular frequency.
-    pub(crate) fn extremes_at(&self, modes: &Modes, omegas: &[f64], k: usize) -> Vec<[Range; 2]> {
+    /// Peaks of one quantity from the first to the last shock, and after it, for each angular frequency.
+    pub(crate) fn peaks_at(&self, modes: &Modes, omegas: &[f64], k: usize) -> Vec<[Peaks; 2]> {
         let arch = pulp::Arch::new();
         let span = self.shocks[self.shocks.len() - 1].time - self.shocks[0].time;
         let mut list = Vec::with_capacity(omegas.len());
@@ -146,33 +146,34 @@ impl VelocityShocks {
             let together =
                 if tame { arch.dispatch(SideBySide { shocks: &self.shocks, modes, omega, k }) } else { None };
             match together {
-                Some(ranges) => list.extend(&ranges[..chunk.len()]),
-                None => list.extend(chunk.iter().map(|&w| self.extremes(modes, w, k))),
+                Some(peaks) => list.extend(&peaks[..chunk.len()]),
+                None => list.extend(chunk.iter().map(|&w| self.peaks(modes, w, k))),
             }
         }
         list
     }
     /// The same at one frequency.
-    fn extremes(&self, modes: &Modes, omega: f64, k: usize) -> [Range; 2] {
+    fn peaks(&self, modes: &Modes, omega: f64, k: usize) -> [Peaks; 2] {
         let (mut m, mut during) = (Motion::default(), Range::default());
-        let mut last = self.shocks[0].time;
-        for shock in &self.shocks {
-            let phase = gap(omega, last, shock.time);
-            let end = modes.propagator(phase).apply(modes.p, m);
-            during.note(0, 0.0, modes.quantity(k, m));
-            // Within half a swing a slope that keeps its sign has not vanished.
-            if modes.beta * phase.hi >= PI || modes.quantity(k + 1, m) * modes.quantity(k + 1, end) <= 0.0 {
-                during.note_free(modes, k, m, phase.hi, 0);
+        for (i, shock) in self.shocks.iter().enumerate() {
+            if let Some(before) = i.checked_sub(1) {
+                let phase = gap(omega, self.shocks[before].time, shock.time);
+                let end = modes.propagator(phase).apply(modes.p, m);
+                during.note(before, 0.0, modes.quantity(k, m));
+                // Within half a swing a slope that keeps its sign has not vanished.
+                if modes.beta * phase.hi >= PI || modes.quantity(k + 1, m) * modes.quantity(k + 1, end) <= 0.0 {
+                    during.note_free(modes, k, m, phase.hi, before);
+                }
+                during.note(before, phase.hi, modes.quantity(k, end));
+                m = end;
             }
-            during.note(0, 0.0, modes.quantity(k, end));
-            m = end;
             m.w -= shock.delta_v;
-            last = shock.time;
         }
-        during.note(0, 0.0, modes.quantity(k, m));
+        let last = self.shocks.len() - 1;
+        during.note(last, 0.0, modes.quantity(k, m));
         let mut after = Range::default();
-        after.note_free(modes, k, m, f64::INFINITY, 0);
-        [during, after]
+        after.note_free(modes, k, m, f64::INFINITY, last);
+        [during, after].map(|range| range.peaks(omega, |i| self.shocks[i].time))
     }
 }
 
@@ -273,13 +274,13 @@ mod tests {
             let omegas: Vec<f64> = (0..11).map(|i| 10_f64.powf(low + 0.4 * f64::from(i))).collect();
             let sum: f64 = shocks.shocks.iter().map(|s| s.delta_v.abs()).sum();
             for k in [Modes::DISPLACEMENT, Modes::VELOCITY, Modes::ACCELERATION] {
-                let together = shocks.extremes_at(&modes, &omegas, k);
+                let together = shocks.peaks_at(&modes, &omegas, k);
                 prop_assert_eq!(together.len(), omegas.len());
                 // The stated accuracy of either, 8 ε a shock; A/ω is 2ζ times a velocity.
                 let size = if k == Modes::ACCELERATION { 1.0 + 2.0 * zeta } else { 1.0 };
                 let allowed = 16.0 * f64::EPSILON * size * sum * f64::from(u32::try_from(list.len()).expect("few"));
                 for (&omega, together) in omegas.iter().zip(together) {
-                    for (a, b) in together.iter().zip(shocks.extremes(&modes, omega, k)) {
+                    for (a, b) in together.iter().zip(shocks.peaks(&modes, omega, k)) {
                         for (a, b) in [(a.high.value, b.high.value), (a.low.value, b.low.value)] {
                             prop_assert!((a - b).abs() <= allowed, "{k} at {omega}: {a}, not {b}");
                         }

@@ -14,11 +14,11 @@
 //! |---|---|---|
 //! | jumps of velocity | [`VelocityShocks`] | pulses much shorter than the period |
 //! | pulses of a shape, overlapping or not | [`Pulses`] | any pulse |
-//! | samples, linear between them | [`SpectrumFilter`] | measured records, which `clatter-record` reads |
+//! | samples, linear between them | [`SpectrumFilter`], [`UnevenFilter`] | measured records, which `clatter-record` reads |
 //! | a clattering bar | [`respond`], [`three_way_rule`] | a part at a position of the bar |
 //!
-//! Each gives a [`Response`] of one component or a [`Spectrum`] over many; [`Limit`], [`DamageBoundary`] and
-//! [`ShockTable`] turn these into margins.
+//! Each gives a [`Response`] of one component or a [`Spectrum`] over many; [`Limit`], [`DamageBoundary`],
+//! [`HistoryBoundary`] and [`ShockTable`] turn these into margins.
 //!
 //! ```
 //! use clatter::{Bar, Start};
@@ -42,6 +42,7 @@ mod error;
 mod filter;
 mod forced;
 mod fragility;
+mod history_boundary;
 mod impulse;
 mod integrals;
 mod limit_curve;
@@ -51,11 +52,13 @@ mod side_by_side;
 mod spectrum;
 mod study;
 mod suspension;
+mod uneven;
 
 pub use coupling::{ImpulseFactors, Rule, RulePoint, TrainResponse, respond, shocks_at, three_way_rule};
 pub use error::Error;
 pub use filter::SpectrumFilter;
 pub use fragility::{DamageBoundary, EquivalentPulse, Limit, Margin, ShockTable, Trial};
+pub use history_boundary::HistoryBoundary;
 pub use impulse::{VelocityShock, VelocityShocks};
 pub use limit_curve::LimitCurve;
 pub use peaks::{Extreme, Extremes, Peaked, Response};
@@ -66,6 +69,7 @@ pub use study::{
     omegas, rule_either_end, suspended_zone, worst,
 };
 pub use suspension::{DampingRatio, State, Suspension};
+pub use uneven::UnevenFilter;
 
 /// Standard acceleration of free fall, 9.80665 m/s² exactly (3rd CGPM, 1901).
 pub const STANDARD_GRAVITY_M_S2: f64 = 9.806_65;

@@ -65,9 +65,12 @@ impl Peaked {
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Mark {
     pub(crate) value: f64,
-    tau: f64,
+    pub(crate) tau: f64,
     pub(crate) interval: usize,
 }
+
+/// Stands for τ where only the block of a sample is known.
+const UNPLACED: f64 = -1.0;
 
 /// Running extremes of one quantity.
 #[derive(Debug, Clone, Copy, Default)]
@@ -83,6 +86,11 @@ impl Range {
     pub(crate) fn beyond(above: f64) -> Self {
         let mark = |value| Mark { value, ..Mark::default() };
         Self { high: mark(above.max(0.0)), low: mark(-above.max(0.0)), peak: true }
+    }
+    /// Beyond these values.
+    pub(crate) fn outside(low: f64, high: f64) -> Self {
+        let mark = |value| Mark { value, ..Mark::default() };
+        Self { high: mark(high), low: mark(low), peak: false }
     }
     /// The larger extreme in absolute value, if it passes `above`.
     pub(crate) fn peak_above(&self, above: f64, omega: f64, start: impl Fn(usize) -> f64) -> Option<Extreme> {
@@ -104,6 +112,23 @@ impl Range {
             }
         }
     }
+    /// Notes the largest sample of a block, whose place within the block [`Self::place`] finds out.
+    pub(crate) fn note_block(&mut self, block: usize, value: f64) {
+        self.note(block, UNPLACED, value);
+    }
+    /// Whether the largest or the smallest value is a sample of this block whose place is not known.
+    pub(crate) fn is_unplaced(&self, block: usize) -> bool {
+        [self.high, self.low].iter().any(|mark| mark.tau < 0.0 && mark.interval == block)
+    }
+    /// Tells the value of a sample of the block: if it is one of the two, this is its place.
+    pub(crate) fn place(&mut self, block: usize, interval: usize, value: f64) {
+        let extreme = [value >= self.high.value, value <= self.low.value];
+        for (mark, is_it) in [&mut self.high, &mut self.low].into_iter().zip(extreme) {
+            if is_it && mark.tau < 0.0 && mark.interval == block {
+                (mark.interval, mark.tau) = (interval, 0.0);
+            }
+        }
+    }
     /// Takes in the free motion from `m` over `span`: its start and its turning points. Its end is the start of what
     /// follows.
     #[inline]
@@ -112,9 +137,36 @@ impl Range {
         let seen = (self.low.value, self.high.value);
         modes.free_extremes(k, m, span, seen, |tau, value| self.note(interval, tau, value));
     }
+    /// The extremes and their times; interval i begins at `start(i)`.
+    pub(crate) fn peaks(&self, omega: f64, start: impl Fn(usize) -> f64) -> Peaks {
+        let peak = |m: Mark| Peak { value: m.value, time: start(m.interval) + m.tau / omega };
+        Peaks { high: peak(self.high), low: peak(self.low) }
+    }
     pub(crate) fn extremes(&self, omega: f64, start: impl Fn(usize) -> f64) -> Extremes {
         let mark = |m: Mark| Extreme { value: m.value, time: start(m.interval) + m.tau / omega, interval: m.interval };
         Extremes { positive: mark(self.high), negative: mark(self.low) }
+    }
+}
+
+/// A value and the time at which it is reached.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Peak {
+    pub(crate) value: f64,
+    pub(crate) time: f64,
+}
+
+/// The largest positive and the largest negative value of one quantity over a part of its history.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Peaks {
+    pub(crate) high: Peak,
+    pub(crate) low: Peak,
+}
+
+impl Peaks {
+    /// The larger of the two in absolute value; the earlier one if they tie.
+    pub(crate) fn largest(&self) -> Peak {
+        let [high, low] = [self.high, Peak { value: -self.low.value, ..self.low }];
+        if low.value > high.value || (low.value >= high.value && low.time < high.time) { low } else { high }
     }
 }
 
@@ -151,11 +203,11 @@ impl Response {
     pub fn acceleration_over_omega(&self) -> Extremes {
         self.acceleration_over_omega
     }
-    /// Equivalent static acceleration −ω²z: the steady acceleration of the base that bends the suspension as far.
+    /// Equivalent static acceleration ω²z: in size the steady acceleration of the base that bends the suspension as
+    /// far. Its sign is that of z: a base that accelerates upward makes it negative first.
     #[must_use]
     pub fn equivalent_static_acceleration(&self) -> Extremes {
-        let mirrored = self.pseudo_velocity.map(|x| -self.omega * x);
-        Extremes { positive: mirrored.negative, negative: mirrored.positive }
+        self.pseudo_velocity.map(|x| self.omega * x)
     }
     pub(crate) fn from_ranges(omega: f64, ranges: &[Range; 3], start: impl Fn(usize) -> f64) -> Self {
         let [x, y, a] = ranges.map(|range| range.extremes(omega, &start));

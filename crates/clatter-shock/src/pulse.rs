@@ -362,8 +362,12 @@ impl Pulses {
         }
         range.peak_above(above, omega, |i| self.begin(i))
     }
+    /// Number of the interval after the last pulse.
+    pub(crate) fn end_interval(&self) -> usize {
+        self.pieces.len()
+    }
     /// When interval `i` begins.
-    fn begin(&self, i: usize) -> f64 {
+    pub(crate) fn begin(&self, i: usize) -> f64 {
         self.pieces.get(i).map_or(self.end.hi, |p| p.start.hi)
     }
     /// Motion relative to the base at the end of the last pulse.

@@ -1,6 +1,6 @@
 //! Shock response spectra: the peak of a quantity over the natural frequency of the component.
 
-use crate::peaks::Range;
+use crate::peaks::{Peak, Peaks, Range};
 use crate::suspension::Modes;
 use crate::{DampingRatio, Error, Pulses, VelocityShocks};
 use std::f64::consts::TAU;
@@ -16,19 +16,19 @@ pub enum Quantity {
     RelativeVelocity,
     /// Pseudo-velocity, ωz.
     PseudoVelocity,
-    /// Equivalent static acceleration, −ω²z.
+    /// Equivalent static acceleration, ω²z.
     EquivalentStaticAcceleration,
 }
 
 impl Quantity {
-    /// Row of the modes and the factor from there, for the angular frequency ω.
+    /// Row of the modes and the positive factor from there, for the angular frequency ω.
     pub(crate) fn row(self, omega: f64) -> (usize, f64) {
         match self {
             Self::AbsoluteAcceleration => (Modes::ACCELERATION, omega),
             Self::RelativeDisplacement => (Modes::DISPLACEMENT, omega.recip()),
             Self::RelativeVelocity => (Modes::VELOCITY, 1.0),
             Self::PseudoVelocity => (Modes::DISPLACEMENT, 1.0),
-            Self::EquivalentStaticAcceleration => (Modes::DISPLACEMENT, -omega),
+            Self::EquivalentStaticAcceleration => (Modes::DISPLACEMENT, omega),
         }
     }
 }
@@ -106,7 +106,11 @@ impl Frequencies {
 }
 
 /// A shock response spectrum. All arrays have one entry for each frequency; all values are absolute values.
+///
+/// The primary part lasts from the first start to the last end of the excitation, the residual part from there on: the
+/// whole ring-down.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Spectrum {
     /// The quantity.
     pub quantity: Quantity,
@@ -114,9 +118,9 @@ pub struct Spectrum {
     pub damping: DampingRatio,
     /// Natural frequencies in hertz.
     pub frequency_hz: Vec<f64>,
-    /// Largest absolute value from the first start to the last end of the excitation.
+    /// Largest absolute value of the primary part.
     pub primary: Vec<f64>,
-    /// Largest absolute value after it, the whole ring-down.
+    /// Largest absolute value of the residual part.
     pub residual: Vec<f64>,
     /// Largest absolute value over both.
     pub maximax: Vec<f64>,
@@ -124,6 +128,19 @@ pub struct Spectrum {
     pub positive: Vec<f64>,
     /// Largest negative value over both, without its sign.
     pub negative: Vec<f64>,
+    /// Largest positive value of the primary part.
+    pub primary_positive: Vec<f64>,
+    /// Largest negative value of the primary part, without its sign.
+    pub primary_negative: Vec<f64>,
+    /// Largest positive value of the residual part.
+    pub residual_positive: Vec<f64>,
+    /// Largest negative value of the residual part, without its sign.
+    pub residual_negative: Vec<f64>,
+    /// When the maximax is reached, in seconds on the time axis of the excitation; the first time if several values are
+    /// equal, and the start of the excitation where nothing moves.
+    ///
+    /// Near a peak the motion is flat: a rounding ε of the value moves the time by some √ε/ω.
+    pub time_of_peak_s: Vec<f64>,
 }
 
 impl Spectrum {
@@ -132,7 +149,7 @@ impl Spectrum {
         frequencies: &Frequencies,
         damping: DampingRatio,
         quantity: Quantity,
-        mut extremes: impl FnMut(usize, f64, usize) -> [Range; 2],
+        mut extremes: impl FnMut(usize, f64, usize) -> [Peaks; 2],
     ) -> Self {
         let n = frequencies.hz.len();
         let empty = || Vec::with_capacity(n);
@@ -145,19 +162,29 @@ impl Spectrum {
             maximax: empty(),
             positive: empty(),
             negative: empty(),
+            primary_positive: empty(),
+            primary_negative: empty(),
+            residual_positive: empty(),
+            residual_negative: empty(),
+            time_of_peak_s: empty(),
         };
         for (i, &hz) in frequencies.hz.iter().enumerate() {
             let omega = TAU * hz;
             let (row, factor) = quantity.row(omega);
             let [during, after] = extremes(i, omega, row);
-            let size = |r: &Range| factor.abs() * r.high.value.max(-r.low.value);
-            let (high, low) = (during.high.value.max(after.high.value), -during.low.value.min(after.low.value));
-            let (positive, negative) = if factor < 0.0 { (low, high) } else { (high, low) };
-            s.primary.push(size(&during));
-            s.residual.push(size(&after));
-            s.maximax.push(factor.abs() * high.max(low));
-            s.positive.push(factor.abs() * positive + 0.0);
-            s.negative.push(factor.abs() * negative + 0.0);
+            let [positive, negative] = [|p: &Peaks| p.high.value, |p: &Peaks| -p.low.value]
+                .map(|value| [&during, &after].map(|peaks| factor * value(peaks) + 0.0));
+            s.primary_positive.push(positive[0]);
+            s.primary_negative.push(negative[0]);
+            s.residual_positive.push(positive[1]);
+            s.residual_negative.push(negative[1]);
+            s.primary.push(positive[0].max(negative[0]));
+            s.residual.push(positive[1].max(negative[1]));
+            s.positive.push(positive[0].max(positive[1]));
+            s.negative.push(negative[0].max(negative[1]));
+            s.maximax.push(s.primary[i].max(s.residual[i]));
+            let [Peak { value, time }, later] = [during.largest(), after.largest()];
+            s.time_of_peak_s.push(if later.value > value { later.time } else { time });
         }
         s
     }
@@ -174,8 +201,8 @@ impl VelocityShocks {
     pub fn spectrum(&self, frequencies: &Frequencies, damping: DampingRatio, quantity: Quantity) -> Spectrum {
         let modes = Modes::new(damping);
         let omegas: Vec<f64> = frequencies.hz.iter().map(|hz| TAU * hz).collect();
-        let extremes = self.extremes_at(&modes, &omegas, quantity.row(omegas[0]).0);
-        Spectrum::collect(frequencies, damping, quantity, |i, _, _| extremes[i])
+        let peaks = self.peaks_at(&modes, &omegas, quantity.row(omegas[0]).0);
+        Spectrum::collect(frequencies, damping, quantity, |i, _, _| peaks[i])
     }
 }
 
@@ -204,8 +231,8 @@ impl Pulses {
             let mut ranges = [Range::default()];
             let last = self.drive(&modes, omega, &[k], &mut ranges);
             let mut after = Range::default();
-            after.note_free(&modes, k, last, f64::INFINITY, 0);
-            [ranges[0], after]
+            after.note_free(&modes, k, last, f64::INFINITY, self.end_interval());
+            [ranges[0], after].map(|range| range.peaks(omega, |i| self.begin(i)))
         })
     }
 }

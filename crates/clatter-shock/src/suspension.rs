@@ -342,6 +342,17 @@ impl Modes {
         let [a, b] = self.rows[k];
         a.abs() * (m.x.abs() + m.w.abs()) + b.abs() * m.w.abs()
     }
+    /// Bound on the bend of quantity `k` beside −q, where |x| and |y| stay within `v` and the forcing and its slope
+    /// within `f` and `slope`: q″ = −q − 2ζq′ + (input).
+    #[inline]
+    pub(crate) fn bend_beside(&self, k: usize, v: f64, f: f64, slope: f64) -> f64 {
+        let damp = 2.0 * self.zeta;
+        match k {
+            Self::DISPLACEMENT => damp * v + f,
+            Self::VELOCITY => damp * ((1.0 + damp) * v + f) + slope,
+            _ => damp * ((1.0 + damp + damp * damp) * v + damp * f + slope) + f,
+        }
+    }
     /// The first zero of row `j` after the start of free motion from `m`, as τ and, beyond critical damping, φ.
     ///
     /// The row is e^(−στ) (r cos βτ + b sin(βτ)/β), or e^(−στ) (r + b (1 − e^(−κτ))/κ), with b = r′ + σr.

@@ -1,6 +1,9 @@
 //! 16 trains of half-sines against a reference, and the amplification figures of the classical pulse shapes.
 
-use clatter_shock::{DampingRatio, Frequencies, Pulse, Pulses, Quantity, Shape, Suspension};
+use clatter_shock::{
+    DampingRatio, Frequencies, Pulse, Pulses, Quantity, Response, Shape, SpectrumFilter, Suspension, VelocityShock,
+    VelocityShocks,
+};
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -100,37 +103,113 @@ fn a_strong_short_shock_on_a_mount() {
     }
 }
 
-/// A base that accelerates upward presses its component down, z < 0: the equivalent static acceleration is upward, +,
-/// and the swing back −.
+/// Positive of ω²z is ω² times positive of z, in spectra and in responses: one sign for all that is made of z.
 #[test]
-fn signs_of_the_equivalent_static_acceleration() {
+fn equivalent_static_acceleration_has_the_sign_of_the_displacement() {
     for (shape, fd) in [(Shape::TerminalPeakSawtooth, 4.2), (Shape::InitialPeakSawtooth, 0.7), (Shape::Triangle, 0.1)] {
         for damping in [0.05, 0.5] {
             let suspension = Suspension::from_hz(1.0, zeta(damping)).expect("mount");
-            let of = |amplitude| {
-                let pulses = Pulses::new(&[Pulse { shape, amplitude, duration: fd, start: 0.0 }]).expect("pulse");
+            let pulses = Pulses::new(&[Pulse { shape, amplitude: 3.0, duration: fd, start: 0.0 }]).expect("pulse");
+            let spectrum = |quantity| {
                 let frequencies = Frequencies::list(vec![1.0]).expect("frequency");
-                let quantity = Quantity::EquivalentStaticAcceleration;
-                (pulses.respond(&suspension), pulses.spectrum(&frequencies, suspension.damping(), quantity))
+                pulses.spectrum(&frequencies, suspension.damping(), quantity)
             };
-            let (up, up_spectrum) = of(3.0);
-            let (down, down_spectrum) = of(-3.0);
-            let got = up.equivalent_static_acceleration();
-            let (most, back) = (got.positive.value, -got.negative.value);
+            let z = spectrum(Quantity::RelativeDisplacement);
+            let a = spectrum(Quantity::EquivalentStaticAcceleration);
             let name = format!("{shape:?} at damping {damping}");
-            assert!(back > 0.0 && most > 1.05 * back, "{name}: +{most}, -{back}");
-            // Each a product of the same peak, rounded another way.
-            let close = |a: f64, b: f64| assert!((a - b).abs() <= 1e-14 * most, "{name}: {a}, not {b}");
             let square = suspension.omega() * suspension.omega();
-            close(most, -square * up.relative_displacement.negative.value);
-            close(back, square * up.relative_displacement.positive.value);
-            close(got.positive.time, up.relative_displacement.negative.time);
-            close(up_spectrum.positive[0], most);
-            close(up_spectrum.negative[0], back);
-            close(down_spectrum.positive[0], back);
-            close(down_spectrum.negative[0], most);
-            close(down.equivalent_static_acceleration().positive.value, back);
-            close(-down.equivalent_static_acceleration().negative.value, most);
+            // A base that accelerates upward drives z downward first, and least of it comes back.
+            assert!(z.negative[0] > 1.05 * z.positive[0], "{name}: {z:?}");
+            // Each a product of the same peak, rounded another way.
+            let close =
+                |a: f64, b: f64| assert!((a - b).abs() <= 1e-14 * square * z.maximax[0], "{name}: {a}, not {b}");
+            close(a.positive[0], square * z.positive[0]);
+            close(a.negative[0], square * z.negative[0]);
+            let response = pulses.respond(&suspension);
+            let (got, z) = (response.equivalent_static_acceleration(), response.relative_displacement);
+            close(got.positive.value, square * z.positive.value);
+            close(got.negative.value, square * z.negative.value);
+            close(got.positive.time, z.positive.time);
         }
     }
+}
+
+/// The five quantities at three dampings, from shocks, pulses, and the same history sampled.
+#[test]
+fn signs_of_both_parts_and_the_time_of_the_peak_are_those_of_the_response() {
+    let list = [(0.3, 2.0), (0.9, -3.1), (1.7, 1.2)];
+    let shocks =
+        VelocityShocks::new(list.map(|(time, delta_v)| VelocityShock { time, delta_v }).to_vec()).expect("shocks");
+    let pulses = list.map(|(start, amplitude)| Pulse { shape: Shape::HalfSine, amplitude, duration: 0.4, start });
+    let pulses = Pulses::new(&pulses).expect("pulses");
+    let points: Vec<(f64, f64)> =
+        (0_u32..40).map(|i| (0.7 + 0.05 * f64::from(i), f64::from(i * i * 37 % 41) - 18.0)).collect();
+    let lines = Pulses::piecewise_linear(&points).expect("lines");
+    let hz: Vec<f64> = (0..23).map(|i| 0.05 * 1.35_f64.powi(i)).collect();
+    let frequencies = Frequencies::list(hz.clone()).expect("frequencies");
+    for damping in [0.0, 0.05, 1.0, 2.5].map(zeta) {
+        for quantity in [Quantity::AbsoluteAcceleration, Quantity::RelativeDisplacement, Quantity::RelativeVelocity] {
+            let mut filter = SpectrumFilter::new(frequencies.clone(), damping, quantity, 0.05).expect("filter");
+            filter = filter.starting_at(0.7).expect("start");
+            filter.push(&points.iter().map(|p| p.1).collect::<Vec<_>>());
+            let of = |r: &Response| match quantity {
+                Quantity::AbsoluteAcceleration => r.absolute_acceleration,
+                Quantity::RelativeDisplacement => r.relative_displacement,
+                _ => r.relative_velocity,
+            };
+            let respond = |hz: f64| {
+                let suspension = Suspension::from_hz(hz, damping).expect("mount");
+                [shocks.respond(&suspension), pulses.respond(&suspension), lines.respond(&suspension)].map(|r| of(&r))
+            };
+            let spectra = [
+                (shocks.spectrum(&frequencies, damping, quantity), 0),
+                (pulses.spectrum(&frequencies, damping, quantity), 1),
+                (lines.spectrum(&frequencies, damping, quantity), 2),
+                (filter.finish().expect("spectrum"), 2),
+            ];
+            for (kind, (s, which)) in spectra.iter().enumerate() {
+                for (i, hz) in hz.iter().enumerate() {
+                    let name = format!("{kind} at {hz} Hz, {damping:?}, {quantity:?}");
+                    // Both parts make up the whole, the very same numbers.
+                    let same = |a: f64, b: f64| assert!(a.to_bits() == b.to_bits(), "{name}: {a}, {b}");
+                    same(s.positive[i], s.primary_positive[i].max(s.residual_positive[i]));
+                    same(s.negative[i], s.primary_negative[i].max(s.residual_negative[i]));
+                    same(s.primary[i], s.primary_positive[i].max(s.primary_negative[i]));
+                    same(s.residual[i], s.residual_positive[i].max(s.residual_negative[i]));
+                    same(s.maximax[i], s.positive[i].max(s.negative[i]));
+                    let want = respond(*hz)[*which];
+                    // Peaks that are nearly equal may change places.
+                    let (p, n) = (want.positive.value, -want.negative.value);
+                    if (p / n - 1.0).abs() > 1e-9 {
+                        let off = (s.time_of_peak_s[i] - want.peak().time).abs();
+                        // √ε of a radian: the motion is flat there.
+                        assert!(off <= 1e-7 / (TAU * hz) + 1e-12, "{name}: off by {off:e} s, {want:?}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The first of equal peaks counts: two pulses so far apart that nothing is left of the first, a block of samples or
+/// many between them.
+#[test]
+fn of_equal_peaks_the_first_is_told() {
+    for gap in [40_u32, 500, 9000] {
+        let sample = |i: u32| if (3..9).contains(&(i % gap)) { f64::from(i % gap) } else { 0.0 };
+        let samples: Vec<f64> = (0..2 * gap).map(sample).collect();
+        for (hz, zeta_of) in [(2.0, 3.0), (0.3, 1.0)] {
+            let frequencies = Frequencies::list(vec![hz]).expect("frequency");
+            let mut filter =
+                SpectrumFilter::new(frequencies, zeta(zeta_of), Quantity::AbsoluteAcceleration, 1.0).expect("filter");
+            filter.push(&samples);
+            let time = filter.finish().expect("spectrum").time_of_peak_s[0];
+            assert!((7.0..12.0).contains(&time), "{hz} Hz, {gap} samples apart: {time} s");
+        }
+    }
+    // Without damping the swing back is as large.
+    let shock = VelocityShocks::new(vec![VelocityShock { time: 2.0, delta_v: -1.0 }]).expect("shock");
+    let frequencies = Frequencies::list(vec![0.25]).expect("frequency");
+    let spectrum = shock.spectrum(&frequencies, zeta(0.0), Quantity::RelativeDisplacement);
+    assert!((spectrum.time_of_peak_s[0] - 3.0).abs() < 1e-7, "a quarter of a period: {spectrum:?}");
 }

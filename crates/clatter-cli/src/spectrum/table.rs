@@ -1,0 +1,154 @@
+//! A spectrum as a table and as CSV.
+
+use std::io::{self, Write};
+
+use clatter_assess::units::ACCELERATION;
+use clatter_shock::{LimitCurve, Margin, Spectrum};
+
+use super::{Boundary, Computed};
+use crate::excitation::shape_name;
+use crate::numbers::{digits, figures, given};
+use crate::quantities::Show;
+use crate::text;
+
+impl Computed<'_> {
+    pub(super) fn table(&self, out: &mut dyn Write) -> io::Result<()> {
+        for (i, part) in self.parts.iter().enumerate() {
+            if i > 0 {
+                writeln!(out)?;
+            }
+            self.heading(&part.spectrum, out)?;
+            if i == 0 {
+                self.about_excitation(out)?;
+            }
+            if let Some(margins) = &part.margins {
+                self.worst(&part.spectrum, margins, out)?;
+            }
+            if self.args.output.is_none() {
+                self.rows(&part.spectrum, part.margins.as_deref(), out)?;
+            }
+        }
+        match &self.args.output {
+            Some(target) => {
+                let count: usize = self.parts.iter().map(|part| part.spectrum.frequency_hz.len()).sum();
+                writeln!(out, "{}: {count} frequencies", text::path(&target.path))
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn heading(&self, spectrum: &Spectrum, out: &mut dyn Write) -> io::Result<()> {
+        let ([name, _], unit, zeta) = (self.args.quantity.name(), self.args.show().name(), spectrum.damping.get());
+        let (name, ratio, q) = (name.replace('-', " "), given(zeta), figures(0.5 / zeta));
+        writeln!(out, "Shock response spectrum: {name} in {unit}, damping ratio {ratio} (Q = {q})")
+    }
+
+    fn about_excitation(&self, out: &mut dyn Write) -> io::Result<()> {
+        if let Some(survey) = &self.survey {
+            let steps = survey.step.map_or("uneven in time".to_owned(), |step| format!("every {} s", figures(step)));
+            let (n, from, to) = (survey.samples, figures(survey.start), figures(survey.end));
+            writeln!(out, "{n} samples from {from} to {to} s, {steps}; largest {} m/s2", figures(survey.largest))?;
+        }
+        let Some(boundary) = &self.boundary else { return Ok(()) };
+        let acceleration = self.args.quantity.dimension().name == ACCELERATION.name;
+        let unit = match self.args.output_units {
+            Some(_) => self.args.show().unit,
+            None => {
+                let pulse = self.args.excitation.pulse.iter().find_map(|pulse| pulse.unit);
+                self.args.show().unit.filter(|_| acceleration).or(pulse)
+            }
+        };
+        boundary.table(Show { unit, name: "m/s2" }, out)
+    }
+
+    fn rows(&self, spectrum: &Spectrum, margins: Option<&[Option<Margin>]>, out: &mut dyn Write) -> io::Result<()> {
+        let (show, hz) = (self.args.show(), Show { unit: self.args.frequency.unit, name: "Hz" });
+        let unit = show.name();
+        let margin = if margins.is_some() { ["margin", "dB"] } else { [""; 2] };
+        let head = ["frequency", "primary", "residual", "maximax", "positive", "negative", "time of peak", margin[0]];
+        let units = [hz.name(), unit, unit, unit, unit, unit, "s", margin[1]];
+        writeln!(out)?;
+        for cells in [head, units] {
+            let line = cells.map(|cell| format!("{cell:>13}")).concat();
+            writeln!(out, "{}", line.trim_end())?;
+        }
+        for i in 0..spectrum.frequency_hz.len() {
+            let [frequency, values @ ..] = row(spectrum, i);
+            let cells = std::iter::once(hz.figures(frequency)).chain(values.map(|x| show.figures(x)));
+            let cells = cells.chain([figures(spectrum.time_of_peak_s[i])]);
+            let row = cells.fold(String::new(), |row, cell| format!("{row}{cell:>13}"));
+            let margin = margins.map_or(String::new(), |margins| {
+                format!("{:>13}", margins[i].map_or("-".to_owned(), |m| figures(m.decibel())))
+            });
+            writeln!(out, "{row}{margin}")?;
+        }
+        Ok(())
+    }
+
+    fn worst(&self, spectrum: &Spectrum, margins: &[Option<Margin>], out: &mut dyn Write) -> io::Result<()> {
+        let Some((i, margin)) = LimitCurve::worst(margins).and_then(|i| Some((i, margins[i]?))) else {
+            return writeln!(out, "The limit covers none of these frequencies");
+        };
+        let hz = Show { unit: self.args.frequency.unit, name: "Hz" }.said(spectrum.frequency_hz[i]);
+        let word = if margin.is_safe() { "holds" } else { "is exceeded" };
+        writeln!(out, "The limit {word}: least margin {} dB at {hz}", figures(margin.decibel()))
+    }
+
+    pub(super) fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
+        if let Some(boundary) = &self.boundary {
+            writeln!(out, "velocity_change_m_s,acceleration_m_s2")?;
+            return boundary.curve.iter().try_for_each(|(v, a)| writeln!(out, "{},{}", digits(*v), digits(*a)));
+        }
+        let several = self.parts.len() > 1;
+        let q = if several { "q_factor," } else { "" };
+        let margin = if self.args.limit.is_some() { ",margin_db" } else { "" };
+        writeln!(
+            out,
+            "{q}frequency_hz,primary,residual,maximax,positive,negative{margin},primary_positive,primary_negative,\
+             residual_positive,residual_negative,time_of_peak_s"
+        )?;
+        let show = self.args.written();
+        let written = |x: f64| digits(show.value(x));
+        for part in &self.parts {
+            let s = &part.spectrum;
+            for i in 0..s.frequency_hz.len() {
+                if several {
+                    write!(out, "{},", digits(0.5 / s.damping.get()))?;
+                }
+                let [hz, values @ ..] = row(s, i);
+                write!(out, "{},{}", digits(hz), values.map(written).join(","))?;
+                match part.margins.as_ref().map(|margins| margins[i]) {
+                    Some(Some(margin)) => write!(out, ",{}", digits(margin.decibel()))?,
+                    Some(None) => write!(out, ",")?,
+                    None => {}
+                }
+                let signs = [&s.primary_positive, &s.primary_negative, &s.residual_positive, &s.residual_negative];
+                let time = digits(s.time_of_peak_s[i]);
+                writeln!(out, ",{},{time}", signs.map(|values| written(values[i])).join(","))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn row(s: &Spectrum, i: usize) -> [f64; 6] {
+    [s.frequency_hz[i], s.primary[i], s.residual[i], s.maximax[i], s.positive[i], s.negative[i]]
+}
+
+impl Boundary {
+    pub(super) fn table(&self, acceleration: Show, out: &mut dyn Write) -> io::Result<()> {
+        let (b, p) = (&self.numbers, &self.pulse);
+        let line = |out: &mut dyn Write, name: &str, value: f64, unit: &str| {
+            writeln!(out, "{name:<28}{:>12} {unit}", figures(value))
+        };
+        writeln!(out, "\nDamage boundary for a {} pulse", shape_name(p.shape))?;
+        line(out, "Critical velocity change", b.critical_velocity_change(), "m/s")?;
+        line(out, "Critical acceleration", acceleration.value(b.critical_acceleration()), acceleration.name())?;
+        line(out, "Knee at a velocity change of", b.knee_velocity_change(), "m/s")?;
+        line(out, "This pulse, velocity change", p.velocity_change().abs(), "m/s")?;
+        line(out, "            acceleration", acceleration.value(p.amplitude.abs()), acceleration.name())?;
+        let word = if self.margin.is_safe() { "dB: no damage" } else { "dB: damage" };
+        line(out, "            margin", self.margin.decibel(), word)?;
+        writeln!(out)
+    }
+}
