@@ -251,7 +251,7 @@ mod tests {
                     find_shocks(&record, 1e-5, &Search { threshold_m_s2: None, quiet_s: 1e-3 }).expect("a record");
                 assert!(found.shocks.is_empty(), "{n}, {seed}: {found:?}");
                 let want = (2.0 * (1000.0 * float(n)).ln()).sqrt();
-                // The median of n samples scatters by 1/(2 φ(0.6745) √n) = 0.79/(0.6745 √n)·… : 1.17/√n of itself.
+                // A median m of n samples scatters by 1/(2 f(m) √n), f the density: here by 1.17/√n of itself.
                 let allowed = 5.0 * 1.17 / float(n).sqrt();
                 assert!((found.threshold_m_s2 / want - 1.0).abs() < allowed, "{n}: {} {want}", found.threshold_m_s2);
             }

@@ -1,0 +1,287 @@
+//! The classical pulse that fits the main shock of a record best.
+
+use crate::Error;
+use crate::levels::{Level, Levels};
+use crate::samples::{check, float, peak, sum};
+use clatter_shock::{Pulse, Shape};
+use std::f64::consts::{PI, TAU};
+
+/// A pulse fitted to a record.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PulseFit {
+    /// Amplitude in m/s² with its sign; duration and start in seconds, from the first sample.
+    pub pulse: Pulse,
+    /// What is left: root mean square of record less pulse over that of the record, from half a duration before the
+    /// earliest of the three fits to half a duration after the last.
+    pub residual: f64,
+}
+
+/// The shapes that are fitted.
+const SHAPES: [Shape; 3] = [Shape::HalfSine, Shape::Haversine, Shape::TerminalPeakSawtooth];
+/// The shortest pulse, in samples: three lie within it, for its three unknowns.
+const SHORTEST: f64 = 4.0;
+/// Durations that are tried, to the octave: 9 % apart, of which half lies well within where the refinement converges.
+const PER_OCTAVE: u32 = 8;
+/// Starts that are tried for each, to the duration.
+const STARTS: u32 = 32;
+/// Steps of the refinement at most; it doubles the digits with each.
+const STEPS: usize = 60;
+
+/// Fits a half-sine, a haversine and a terminal-peak sawtooth to the main shock of a record; the best one first.
+///
+/// Each is the pulse a p((t − s)/D) with the least sum of squares Σ(aᵢ − a p)² over all samples, among those that hold the
+/// sample of largest size. For a start s and a duration D the amplitude is a = Σaᵢp/Σp², and Σaᵢ² falls by
+/// (Σaᵢp)²/Σp²; this gain is first looked for on a grid of all durations from 4 samples to the whole record, 9 % apart,
+/// and 33 starts each, and the best of them refined by Gauss–Newton steps (variable projection; Golub and Pereyra 1973),
+/// damped where a step gains nothing. A sawtooth ends between two samples: its end is taken halfway, and the one of all
+/// ends near the grid's is taken that gains most.
+///
+/// Long pulses are fitted to averages over blocks of samples, 2048 or more to the duration.
+///
+/// # Accuracy
+///
+/// A clean half-sine or haversine of 4 samples or more comes back to 1e-9 in amplitude, duration and start (of the
+/// duration), to 1e-6 from 4096 samples up. A sawtooth comes back within half a sample in duration and end, and within
+/// half a sample over its duration in amplitude. Equal records give equal fits.
+///
+/// # Errors
+///
+/// [`Error::Quantity`] for a time between samples outside [1e-15, 1e9] s; [`Error::Sample`]; [`Error::Short`] for fewer
+/// than 5 samples; [`Error::NoShock`] where all are zero.
+///
+/// # Examples
+///
+/// ```
+/// use clatter_record::fit_pulses;
+/// use clatter_shock::Shape;
+/// // 500 m/s² for 2 ms, from 1.005 ms on, a sample every 50 µs
+/// let record: Vec<f64> = (0..100)
+///     .map(|i| {
+///         let u = (f64::from(i) * 50e-6 - 1.005e-3) / 2e-3;
+///         if (0.0..=1.0).contains(&u) { 500.0 * (std::f64::consts::PI * u).sin() } else { 0.0 }
+///     })
+///     .collect();
+/// let [best, second, _] = fit_pulses(&record, 50e-6)?;
+/// assert_eq!(best.pulse.shape, Shape::HalfSine);
+/// assert!((best.pulse.amplitude - 500.0).abs() < 1e-6 && (best.pulse.duration - 2e-3).abs() < 1e-11);
+/// assert!((best.pulse.start - 1.005e-3).abs() < 1e-11 && best.residual < 1e-8);
+/// assert!(second.residual > 0.05);
+/// # Ok::<(), clatter_record::Error>(())
+/// ```
+pub fn fit_pulses(acceleration: &[f64], step_s: f64) -> Result<[PulseFit; 3], Error> {
+    check(acceleration, step_s, "a fit", 5)?;
+    let top = peak(acceleration);
+    if acceleration[top] == 0.0 {
+        return Err(Error::NoShock);
+    }
+    // In units of the peak and of samples, where no square overflows.
+    let size = acceleration[top].abs();
+    let scaled: Vec<f64> = acceleration.iter().map(|a| a / size).collect();
+    let levels = Levels::new(&scaled);
+    let mut fits = SHAPES.map(|shape| Trial::fit(&levels, shape, float(top)));
+    fits.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+    let first = fits.iter().map(|f| f.start - 0.5 * f.duration).fold(f64::INFINITY, f64::min);
+    let last = fits.iter().map(|f| f.start + 1.5 * f.duration).fold(0.0, f64::max);
+    let record = levels.finest();
+    Ok(fits.map(|fit| PulseFit {
+        pulse: Pulse {
+            shape: fit.shape,
+            amplitude: fit.amplitude * size,
+            duration: fit.duration * step_s,
+            start: fit.start * step_s,
+        },
+        residual: fit.residual(&record, first, last),
+    }))
+}
+
+/// A pulse that is tried: start and duration in samples.
+#[derive(Debug, Clone, Copy)]
+struct Trial {
+    shape: Shape,
+    start: f64,
+    duration: f64,
+    amplitude: f64,
+    /// By how much it lowers the sum of squares.
+    gain: f64,
+}
+
+/// The shape at u = (t − s)/D, and its slope.
+pub(crate) fn value(shape: Shape, u: f64) -> [f64; 2] {
+    if !(0.0..=1.0).contains(&u) {
+        return [0.0; 2];
+    }
+    match shape {
+        Shape::HalfSine => {
+            let (sin, cos) = (PI * u).sin_cos();
+            [sin, PI * cos]
+        }
+        Shape::Haversine => {
+            let (sin, cos) = (TAU * u).sin_cos();
+            [0.5 - 0.5 * cos, PI * sin]
+        }
+        Shape::Triangle => {
+            if u < 0.5 {
+                [2.0 * u, 2.0]
+            } else {
+                [2.0 - 2.0 * u, -2.0]
+            }
+        }
+        Shape::InitialPeakSawtooth => [1.0 - u, -1.0],
+        Shape::TerminalPeakSawtooth => [u, 1.0],
+        Shape::Rectangle => [1.0, 0.0],
+        Shape::Trapezoid { ramp } => {
+            if u < ramp {
+                [u / ramp, ramp.recip()]
+            } else if u > 1.0 - ramp {
+                [(1.0 - u) / ramp, -ramp.recip()]
+            } else {
+                [1.0, 0.0]
+            }
+        }
+    }
+}
+
+impl Trial {
+    /// With the amplitude of least squares on a level.
+    fn at(level: &Level, shape: Shape, start: f64, duration: f64) -> Self {
+        let (mut pp, mut pa) = (0.0, 0.0);
+        for (t, a) in level.within(start, start + duration) {
+            let [p, _] = value(shape, (t - start) / duration);
+            pp += p * p;
+            pa += p * a;
+        }
+        let amplitude = if pp > 0.0 { pa / pp } else { 0.0 };
+        Self { shape, start, duration, amplitude, gain: level.width * amplitude * pa }
+    }
+    /// The best of all pulses that hold the time `top`.
+    fn fit(levels: &Levels, shape: Shape, top: f64) -> Self {
+        let best = Self::on_grid(levels, shape, top);
+        let level = levels.fine(best.duration);
+        if shape == Shape::TerminalPeakSawtooth { best.refine_sawtooth(&level) } else { best.refine(&level) }
+    }
+    /// The best of the grid.
+    fn on_grid(levels: &Levels, shape: Shape, top: f64) -> Self {
+        let longest = levels.length() + 1.0;
+        let mut best = Self { shape, start: top - 0.5 * SHORTEST, duration: SHORTEST, amplitude: 0.0, gain: -1.0 };
+        for k in 0.. {
+            let duration = SHORTEST * (f64::from(k) / f64::from(PER_OCTAVE)).exp2();
+            if duration > longest {
+                return best;
+            }
+            let level = levels.coarse(duration);
+            for i in 0..=STARTS {
+                let start = top - duration * f64::from(i) / f64::from(STARTS);
+                // No further than a sample beyond the record.
+                if start >= -1.0 && start + duration <= longest {
+                    let trial = Self::at(&level, shape, start, duration);
+                    if trial.gain > best.gain {
+                        best = trial;
+                    }
+                }
+            }
+        }
+        best
+    }
+    /// Gauss–Newton steps in start and duration; the amplitude follows.
+    fn refine(self, level: &Level) -> Self {
+        let mut best = Self::at(level, self.shape, self.start, self.duration);
+        let mut damping = 0.0;
+        for _ in 0..STEPS {
+            let [by_start, by_duration] = best.step(level, damping);
+            let start = best.start + by_start * best.duration;
+            let duration = best.duration * (1.0 + by_duration);
+            if !(duration >= SHORTEST && start >= -1.0 && start + duration <= level.end() + 1.0) {
+                damping = next_damping(damping);
+                continue;
+            }
+            let trial = Self::at(level, self.shape, start, duration);
+            let moved = by_start.abs().max(by_duration.abs());
+            if trial.gain > best.gain {
+                best = trial;
+                damping *= 0.1;
+            } else {
+                damping = next_damping(damping);
+            }
+            if moved < 1e-14 {
+                break;
+            }
+        }
+        best
+    }
+    /// Start and duration of the next trial, in durations.
+    fn step(&self, level: &Level, damping: f64) -> [f64; 2] {
+        let [mut pp, mut ps, mut pd, mut ss, mut sd, mut dd, mut rs, mut rd] = [0.0; 8];
+        for (t, a) in level.within(self.start, self.start + self.duration) {
+            let u = (t - self.start) / self.duration;
+            let [p, slope] = value(self.shape, u);
+            let (s, d, rest) = (-slope, -u * slope, a - self.amplitude * p);
+            pp += p * p;
+            ps += p * s;
+            pd += p * d;
+            ss += s * s;
+            sd += s * d;
+            dd += d * d;
+            rs += rest * s;
+            rd += rest * d;
+        }
+        // Without the part along the pulse itself, which the amplitude takes.
+        let (ss, sd, dd) = (ss - ps * ps / pp, sd - ps * pd / pp, dd - pd * pd / pp);
+        let (ss, dd) = (ss * (1.0 + damping), dd * (1.0 + damping));
+        let scale = self.amplitude * (ss * dd - sd * sd);
+        let step = [(dd * rs - sd * rd) / scale, (ss * rd - sd * rs) / scale];
+        // No step longer than a tenth: the grid is closer than that.
+        step.map(|x| if x.is_finite() { x.clamp(-0.1, 0.1) } else { 0.0 })
+    }
+    /// The best start for every end near the grid's, each end halfway between two samples.
+    fn refine_sawtooth(self, level: &Level) -> Self {
+        let reach = self.duration / f64::from(STARTS) + level.width;
+        let near = self.start + self.duration;
+        let mut best = Self { gain: -1.0, ..self };
+        for (t, _) in level.within(near - reach, near + reach) {
+            let end = t + 0.5 * level.width;
+            let mut start = self.start;
+            // Newton's steps for the line through the samples that ends there: the zero of a straight line.
+            for _ in 0..STEPS {
+                let [mut n, mut lp, mut la, mut pp, mut pa] = [0.0; 5];
+                for (t, a) in level.within(start, end) {
+                    let p = t - start;
+                    n += 1.0;
+                    lp += p;
+                    la += a;
+                    pp += p * p;
+                    pa += p * a;
+                }
+                let slope = (n * pa - lp * la) / (n * pp - lp * lp);
+                let by = (lp - la / slope) / n;
+                // Short of the end and within the record, whatever the noise.
+                let next = (start + by).clamp(-1.0, end - SHORTEST);
+                let moved = (next - start).abs();
+                if !next.is_finite() {
+                    break;
+                }
+                start = next;
+                if moved < 1e-14 * self.duration {
+                    break;
+                }
+            }
+            let trial = Self::at(level, self.shape, start, end - start);
+            if trial.gain > best.gain {
+                best = trial;
+            }
+        }
+        best
+    }
+    /// Root mean square of what is left, over that of the record, between two times.
+    fn residual(&self, record: &Level, first: f64, last: f64) -> f64 {
+        let rest = |(t, a)| {
+            let [p, _] = value(self.shape, (t - self.start) / self.duration);
+            (a - self.amplitude * p) * (a - self.amplitude * p)
+        };
+        let all = sum(record.within(first, last).map(|(_, a)| a * a));
+        (sum(record.within(first, last).map(rest)) / all).sqrt()
+    }
+}
+
+fn next_damping(damping: f64) -> f64 {
+    if damping == 0.0 { 1e-3 } else { 10.0 * damping }
+}
