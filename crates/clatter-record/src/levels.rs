@@ -33,13 +33,17 @@ impl<'a> Levels<'a> {
             averages.push(below.chunks_exact(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect());
         }
     }
+    /// A record as a level of its own.
+    pub(crate) fn of_record(record: &'a [f64]) -> Level<'a> {
+        Level { values: record, width: 1.0 }
+    }
     /// Time of the last sample.
     pub(crate) fn length(&self) -> f64 {
         float(self.record.len() - 1)
     }
     /// The record itself.
     pub(crate) fn finest(&self) -> Level<'_> {
-        self.with_blocks(1.0, 1.0)
+        Levels::of_record(self.record)
     }
     /// The level that has some 32 to 64 blocks in a duration, or fewer where the record has.
     pub(crate) fn coarse(&self, duration: f64) -> Level<'_> {
@@ -62,14 +66,6 @@ impl<'a> Levels<'a> {
 }
 
 impl Level<'_> {
-    /// Time of the last one.
-    pub(crate) fn end(&self) -> f64 {
-        self.time(self.values.len().saturating_sub(1))
-    }
-    /// The middle of a block.
-    fn time(&self, i: usize) -> f64 {
-        float(i) * self.width + 0.5 * (self.width - 1.0)
-    }
     /// Times and values from one time to another, both included.
     pub(crate) fn within(&self, first: f64, last: f64) -> impl Iterator<Item = (f64, f64)> {
         let offset = 0.5 * (self.width - 1.0);

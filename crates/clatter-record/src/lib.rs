@@ -11,6 +11,7 @@ mod samples;
 mod shocks;
 mod standard;
 mod table;
+mod tolerance;
 
 pub use baseline::{Baseline, PRE_SHOCK_SHARE, Removed, remove_baseline};
 pub use butterworth::{Pass, butterworth};
@@ -21,3 +22,4 @@ pub use pulse_fit::{PulseFit, fit_pulses};
 pub use shocks::{MOST_SHOCKS, Search, Shock, Shocks, find_shocks, noise_threshold};
 pub use standard::{STANDARD_CURVES, STANDARD_PULSES, StandardCurve, StandardPulse, standard_curve, standard_pulse};
 pub use table::{Column, Table, Values};
+pub use tolerance::{Distortion, PULSE_TOLERANCES, PulseCheck, PulseTolerance, Within, check_pulse, pulse_tolerance};

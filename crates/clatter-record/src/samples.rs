@@ -4,7 +4,7 @@ use crate::Error;
 
 /// Larger accelerations (m/s²) are refused: far beyond any that there are, and their squares add up far within the
 /// floats.
-const LARGEST: f64 = 1e100;
+pub(crate) const LARGEST: f64 = 1e100;
 /// Times between samples (s), far beyond those of any recorder; displacements stay far within the floats.
 const STEPS: std::ops::RangeInclusive<f64> = 1e-15..=1e9;
 
@@ -16,8 +16,8 @@ pub(crate) fn check(acceleration: &[f64], step_s: f64, what: &'static str, neede
     if acceleration.len() < needed {
         return Err(Error::Short { what, samples: acceleration.len(), needed });
     }
-    // NaN compares as not within.
-    match acceleration.iter().position(|a| !(a.abs() <= LARGEST)) {
+    // NaN is in no range.
+    match acceleration.iter().position(|a| !(-LARGEST..=LARGEST).contains(a)) {
         Some(i) => Err(Error::Sample { sample: i + 1, value: acceleration[i] }),
         None => Ok(()),
     }

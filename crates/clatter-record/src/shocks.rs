@@ -176,26 +176,41 @@ struct Event {
 impl Event {
     /// The row of this shock; its 10 % points lie within `free`.
     fn measure(self, acceleration: &[f64], step_s: f64, free: Range<usize>) -> Shock {
-        let top = acceleration[self.peak];
-        let level = POINT * top;
-        // Positive where the pulse is above its tenth.
-        let above = |i: usize| (acceleration[i] - level) * top.signum();
-        let crossing = |inside: usize, outside: usize| above(inside) / (above(inside) - above(outside));
-        let first = (free.start..self.peak).rev().take_while(|&i| above(i) > 0.0).last().unwrap_or(self.peak);
-        let last = (self.peak..free.end).take_while(|&i| above(i) > 0.0).last().unwrap_or(self.peak);
-        let before = if first > free.start { crossing(first, first - 1) } else { 0.0 };
-        let after = if last + 1 < free.end { crossing(last, last + 1) } else { 0.0 };
+        let [start, end] = tenths(acceleration, self.peak, free);
+        let [first, last] = [whole(start.ceil()), whole(end.floor())];
+        let level = POINT * acceleration[self.peak];
         let inner = acceleration[first..=last].windows(2).map(|w| 0.5 * (w[0] + w[1]));
-        let ends = [(before, first), (after, last)].map(|(part, i)| 0.5 * part * (acceleration[i] + level));
+        let ends = [(float(first) - start, first), (end - float(last), last)]
+            .map(|(part, i)| 0.5 * part * (acceleration[i] + level));
         Shock {
-            start_s: (float(first) - before) * step_s,
-            peak_m_s2: top,
+            start_s: start * step_s,
+            peak_m_s2: acceleration[self.peak],
             peak_time_s: float(self.peak) * step_s,
-            duration_s: (float(last - first) + before + after) * step_s,
+            duration_s: (end - start) * step_s,
             velocity_change_m_s: sum(inner.chain(ends)) * step_s,
             samples: self.samples,
         }
     }
+}
+
+/// The 10 % points before and after a peak, in samples; on straight lines, or where `free` ends.
+pub(crate) fn tenths(acceleration: &[f64], peak: usize, free: Range<usize>) -> [f64; 2] {
+    let top = acceleration[peak];
+    let level = POINT * top;
+    // Positive where the pulse is above its tenth.
+    let above = |i: usize| (acceleration[i] - level) * top.signum();
+    let crossing = |inside: usize, outside: usize| above(inside) / (above(inside) - above(outside));
+    let first = (free.start..peak).rev().take_while(|&i| above(i) > 0.0).last().unwrap_or(peak);
+    let last = (peak..free.end).take_while(|&i| above(i) > 0.0).last().unwrap_or(peak);
+    let before = if first > free.start { crossing(first, first - 1) } else { 0.0 };
+    let after = if last + 1 < free.end { crossing(last, last + 1) } else { 0.0 };
+    [float(first) - before, float(last) + after]
+}
+
+/// A whole number of samples.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number within the record")]
+fn whole(samples: f64) -> usize {
+    samples as usize
 }
 
 /// Rows so far: no more than twice as many as are listed.
