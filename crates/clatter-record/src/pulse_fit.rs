@@ -318,7 +318,8 @@ mod tests {
     fn clean_pulses_come_back() {
         let step = 2.5e-5;
         for kind in SHAPES {
-            for (n, samples, start) in [
+            let every_length = (0..60).map(|i| (1001, 4.0 + 11.7 * f64::from(i), 20.0 + 1.37 * f64::from(i)));
+            for (n, samples, start) in every_length.chain([
                 (40, 4.3, 11.7),
                 (60, 17.0, 20.0),
                 (500, 100.3, 3.25),
@@ -327,7 +328,7 @@ mod tests {
                 (400_000, 30_000.4, 150_000.3),
                 (400_000, 390_000.0, 5000.5),
                 (200_000, 80.2, 180_000.9),
-            ] {
+            ]) {
                 let amplitude = if n % 40 == 0 { -3000.0 } else { 12.0 };
                 let pulse = Pulse { shape: kind, amplitude, duration: samples * step, start: start * step };
                 let record = record(n, &pulse, step);

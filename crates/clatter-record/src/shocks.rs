@@ -320,6 +320,13 @@ mod tests {
         let (first, last) = ((0..200).find(beyond).expect("one"), (0..200).rev().find(beyond).expect("one"));
         assert_eq!(merged[0].samples, first..last + 1);
         assert!(find(0.0005).len() > 5, "every half-swing by itself");
+        // Two samples ten steps apart: within ten steps one shock, within less two.
+        let mut two = [0.0; 50];
+        (two[20], two[30]) = (5.0, -4.0);
+        for (quiet_s, count) in [(10.0, 1), (9.9, 2)] {
+            let found = find_shocks(&two, 1.0, &Search { threshold_m_s2: Some(1.0), quiet_s }).expect("a record");
+            assert_eq!(found.shocks.len(), count, "{quiet_s}: {found:?}");
+        }
     }
 
     #[test]
