@@ -29,7 +29,7 @@ pub enum Error {
         value: f64,
     },
     /// A record too short for what is asked.
-    #[error("the record has {samples} samples; {what} needs {needed} at least")]
+    #[error("{what} needs {needed} samples at least; the record has {samples}")]
     Short {
         /// What is asked.
         what: &'static str,
@@ -43,8 +43,8 @@ pub enum Error {
     NoShock,
     /// A record without quiet before the shock.
     #[error(
-        "only {samples} samples come before the shock, which begins {share:?} of the peak away from the first ones; \
-         their mean needs {needed} at least: take out the mean of the whole record instead, or record earlier"
+        "{samples} samples come before the shock, which begins where the record is {share:?} of its peak away from its first \
+         {needed} samples; a mean before the shock needs {needed} at least: take out the mean of the whole record instead"
     )]
     NoQuiet {
         /// Samples before the shock.

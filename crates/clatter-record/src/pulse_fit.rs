@@ -26,6 +26,8 @@ const PER_OCTAVE: u32 = 8;
 const STARTS: u32 = 32;
 /// Steps of the refinement at most; it doubles the digits with each.
 const STEPS: usize = 60;
+/// And of that for a line, which ends with the second step unless a sample comes in or falls out.
+const LINE_STEPS: usize = 12;
 /// Steps, in durations, of which the gain is hardly above its rounding: their squares are below 1e-12.
 const SMALL: f64 = 1e-6;
 
@@ -248,8 +250,8 @@ impl Trial {
                 continue;
             }
             let mut start = self.start.min(latest);
-            // Newton's steps for the line through the samples that ends there: the zero of a straight line.
-            for _ in 0..STEPS {
+            // The zero of the straight line through the samples, until these are the ones between zero and end.
+            for _ in 0..LINE_STEPS {
                 let [mut n, mut lp, mut la, mut pp, mut pa] = [0.0; 5];
                 for (t, a) in level.within(start, end) {
                     let p = t - start;
