@@ -1,31 +1,49 @@
 //! Measured shocks: from the files of loggers to channels in SI.
 
+mod baseline;
 mod between;
+mod butterworth;
 mod container;
 mod decimal;
+mod duration;
 mod error;
 mod finding;
 mod heading;
+mod integrate;
+mod levels;
 mod moment;
 mod options;
+mod pulse_fit;
 mod record;
 mod roles;
+mod samples;
+mod shocks;
 mod spectrum;
+mod standard;
 mod table;
 mod text;
 mod times;
+mod tolerance;
 mod unit;
 
+pub use baseline::{Baseline, PRE_SHOCK_SHARE, Removed, remove_baseline};
 pub use between::BAND;
+pub use butterworth::{Pass, butterworth};
 pub use container::{Kind, read, write_npy};
 #[cfg(feature = "parquet")]
 pub use container::{Series, write_parquet};
+pub use duration::{EffectiveDuration, effective_duration};
 pub use error::{Bad, Error};
 pub use finding::{At, Finding};
+pub use integrate::{Motion, integrate};
 pub use options::{Options, Pick, Units};
+pub use pulse_fit::{PulseFit, fit_pulses};
 pub use record::{Channel, Record};
+pub use shocks::{MOST_SHOCKS, Search, Shock, Shocks, find_shocks, noise_threshold};
 pub use spectrum::Between;
+pub use standard::{STANDARD_CURVES, STANDARD_PULSES, StandardCurve, StandardPulse, standard_curve, standard_pulse};
 pub use table::{Column, Table, Values};
+pub use tolerance::{Distortion, PULSE_TOLERANCES, PulseCheck, PulseTolerance, Within, check_pulse, pulse_tolerance};
 
 /// The unit of columns that count in shares of full scale, from −1 to 1.
 pub(crate) const FULL_SCALE: &str = "full scale";

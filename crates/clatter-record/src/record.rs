@@ -325,7 +325,7 @@ impl Raw {
         }
         let samples = self.channels[0].values.len();
         if samples < 2 {
-            return Err(Error::Short(samples));
+            return Err(Error::Short { what: "a record", samples, needed: 2 });
         }
         if step_s.is_none() {
             let numbering = &self.numbering;

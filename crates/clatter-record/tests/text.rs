@@ -257,7 +257,7 @@ fn faults_by_line_ten_of_them_and_the_number_of_the_rest() {
             "t [s],a [g]\n0,1\n2,1\n1.5,1\n3,1\n",
             "line 4: time 1.5 s does not come after 2.0 s, that of the sample before",
         ),
-        ("t [s],a [g]\n0,1\n", "the record has one sample; it needs two at least"),
+        ("t [s],a [g]\n0,1\n", "a record needs 2 samples at least; the record has 1"),
         ("", "the file is empty"),
         ("t [s],a [g]\n", "no line of numbers is found in the first 2 lines"),
     ] {

@@ -1,0 +1,221 @@
+//! The baseline of a record: the offset and the drift of the sensor, taken out before anything is integrated.
+
+use crate::Error;
+use crate::samples::{check, float, peak, sum};
+
+/// Which baseline is taken out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Baseline {
+    /// The mean of all samples.
+    Mean,
+    /// The straight line of least squares through all samples.
+    Linear,
+    /// The mean of the samples before the shock.
+    ///
+    /// The shock begins at the first sample that is further from the mean of the first 16 than `share` times the
+    /// furthest one.
+    PreShock {
+        /// In (0, 1); [`PRE_SHOCK_SHARE`] by default.
+        share: f64,
+    },
+}
+
+/// Share of the peak at which the shock begins, if nobody says otherwise: above the noise of a usable record, and so
+/// low that the rise up to it is short.
+pub const PRE_SHOCK_SHARE: f64 = 0.05;
+
+/// The fewest samples before the shock: their mean keeps a quarter of the noise of one (1/√16).
+const FEWEST: usize = 16;
+
+/// What was taken out: offset + drift · t, t from the first sample.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Removed {
+    /// At the first sample, m/s².
+    pub offset_m_s2: f64,
+    /// Change with time, m/s³; zero but for [`Baseline::Linear`].
+    pub drift_m_s3: f64,
+    /// How many samples it was taken from.
+    pub samples: usize,
+}
+
+/// Takes the baseline out of a record, in place, and tells what was taken out.
+///
+/// With n samples aᵢ, i from 0, and c = (n − 1)/2:
+/// ```text
+/// mean         ā = Σaᵢ/n
+/// linear       drift = Σ(i − c)aᵢ / (step · n(n² − 1)/12),   offset = ā − drift · c · step
+/// pre-shock    Σaᵢ/m over the m samples before the shock
+/// ```
+///
+/// # Accuracy
+///
+/// The sums are compensated: offset and drift are those of the samples within 4 roundings of the largest sample, at any
+/// length. What the rise of the shock adds to the mean before it is below the share, times the peak, times the part of
+/// the samples in which it rises.
+///
+/// # Errors
+///
+/// [`Error::Quantity`] for a share outside (0, 1) or a time between samples outside [1e-15, 1e9] s; [`Error::Sample`];
+/// [`Error::Short`] for no sample, or one for a line; [`Error::NoShock`] and [`Error::NoQuiet`] for a mean
+/// before the shock where all samples are alike, or fewer than 16 come before it. The record is then as it was.
+///
+/// # Examples
+///
+/// ```
+/// use clatter_record::{Baseline, remove_baseline};
+/// let mut record = [1.0, 3.0, 5.0, 7.0]; // one more m/s² every half a second, twice over
+/// let removed = remove_baseline(&mut record, 0.5, Baseline::Linear)?;
+/// assert_eq!((removed.offset_m_s2, removed.drift_m_s3), (1.0, 4.0));
+/// assert_eq!(record, [0.0; 4]);
+/// # Ok::<(), clatter_record::Error>(())
+/// ```
+pub fn remove_baseline(acceleration: &mut [f64], step_s: f64, baseline: Baseline) -> Result<Removed, Error> {
+    let removed = match baseline {
+        Baseline::Mean => {
+            check(acceleration, step_s, "a mean", 1)?;
+            constant(acceleration)
+        }
+        Baseline::Linear => {
+            check(acceleration, step_s, "a line", 2)?;
+            line(acceleration, step_s)
+        }
+        Baseline::PreShock { share } => {
+            check(acceleration, step_s, "a mean before the shock", FEWEST + 1)?;
+            constant(&acceleration[..quiet(acceleration, share)?])
+        }
+    };
+    let slope = removed.drift_m_s3 * step_s;
+    for (i, a) in acceleration.iter_mut().enumerate() {
+        *a -= removed.offset_m_s2 + slope * float(i);
+    }
+    Ok(removed)
+}
+
+fn constant(samples: &[f64]) -> Removed {
+    let offset_m_s2 = sum(samples.iter().copied()) / float(samples.len());
+    Removed { offset_m_s2, drift_m_s3: 0.0, samples: samples.len() }
+}
+
+fn line(samples: &[f64], step_s: f64) -> Removed {
+    let n = float(samples.len());
+    let center = 0.5 * (n - 1.0);
+    // From the middle, so that a large offset does not hide the slope.
+    let moment = sum(samples.iter().enumerate().map(|(i, a)| (float(i) - center) * a));
+    let slope = moment / (n * (n * n - 1.0) / 12.0);
+    let mean = constant(samples).offset_m_s2;
+    Removed { offset_m_s2: mean - slope * center, drift_m_s3: slope / step_s, samples: samples.len() }
+}
+
+/// How many samples come before the shock.
+fn quiet(samples: &[f64], share: f64) -> Result<usize, Error> {
+    if !(share > 0.0 && share < 1.0) {
+        return Err(Error::Quantity { name: "share of the peak", value: share, allowed: "in (0, 1)" });
+    }
+    let level = constant(&samples[..FEWEST]).offset_m_s2;
+    let away: Vec<f64> = samples.iter().map(|a| a - level).collect();
+    let largest = away[peak(&away)].abs();
+    if largest == 0.0 {
+        return Err(Error::NoShock);
+    }
+    let begin = away.iter().position(|a| a.abs() > share * largest).unwrap_or(away.len());
+    if begin < FEWEST {
+        return Err(Error::NoQuiet { samples: begin, needed: FEWEST, share });
+    }
+    Ok(begin)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    /// Sums in whole numbers are exact: the samples are whole, and what is removed is compared as a fraction.
+    #[test]
+    fn mean_and_line_are_those_of_exact_sums() {
+        for n in [2_i64, 3, 1000, 1_000_001] {
+            // Large offset, small drift and a scatter from a congruential generator.
+            let mut seed = 12_345_i64;
+            let whole: Vec<i64> = (0..n)
+                .map(|i| {
+                    seed = (seed * 1_103_515_245 + 12_345) % 2_147_483_648;
+                    1_000_000_000 + i / 7 + seed % 1000
+                })
+                .collect();
+            let record: Vec<f64> = whole.iter().map(|&a| float(usize::try_from(a).expect("positive"))).collect();
+            let total: i128 = whole.iter().map(|&a| i128::from(a)).sum();
+            // Twice the moment about the middle, in whole numbers.
+            let moment: i128 = (0..).zip(&whole).map(|(i, &a)| i128::from(2 * i - (n - 1)) * i128::from(a)).sum();
+            let n = i128::from(n);
+            let exact = |above: i128, below: i128| {
+                let whole = above.div_euclid(below);
+                let part = above.rem_euclid(below);
+                #[expect(clippy::cast_precision_loss, reason = "rounded once each, as the test allows")]
+                let value = whole as f64 + part as f64 / below as f64;
+                value
+            };
+            let step = 1e-4;
+            // Four roundings of the largest sample, as stated.
+            let allowed = 4.0 * f64::EPSILON * 1e9;
+
+            let removed = remove_baseline(&mut record.clone(), step, Baseline::Mean).expect("a mean");
+            let want = exact(total, n);
+            assert!((removed.offset_m_s2 - want).abs() <= allowed, "{n}: {removed:?}, not {want:?}");
+
+            let mut rest = record.clone();
+            let removed = remove_baseline(&mut rest, step, Baseline::Linear).expect("a line");
+            let slope = exact(6 * moment, n * (n * n - 1));
+            let want = exact(total, n) - slope * (exact(n - 1, 2));
+            assert!((removed.offset_m_s2 - want).abs() <= allowed, "{n}: {removed:?}, not {want:?}");
+            // Over the record the drift is as exact as the offset.
+            let over = (removed.drift_m_s3 * step - slope) * float(rest.len());
+            assert!(over.abs() <= allowed, "{n}: {removed:?}, not {slope:?} a sample");
+        }
+    }
+
+    #[test]
+    fn the_mean_before_the_shock_leaves_the_quiet_part_at_zero() {
+        let (offset, amplitude, quiet, pulse) = (-9.806_65, 5000.0, 400_usize, 100_usize);
+        let mut record: Vec<f64> = (0..1000)
+            .map(|i| {
+                let at = float(i) - float(quiet);
+                let on = (0.0..=float(pulse)).contains(&at);
+                offset + if on { amplitude * (PI * at / float(pulse)).sin() } else { 0.0 }
+            })
+            .collect();
+        let removed = remove_baseline(&mut record, 1e-5, Baseline::PreShock { share: 0.05 }).expect("quiet");
+        // sin(πi/100) passes 0.05 at i = 2; the samples before it, 0 and 1, rise to sin(π/100) of the amplitude.
+        assert_eq!(removed.samples, quiet + 2);
+        let want = offset + amplitude * (PI / 100.0).sin() / float(quiet + 2);
+        assert!((removed.offset_m_s2 - want).abs() < 1e-12, "{removed:?}, not {want:?}");
+        assert!((record[0] - (offset - want)).abs() < 1e-12, "{}", record[0]);
+        // The bound that the documentation states.
+        assert!((want - offset).abs() < 0.05 * amplitude * 2.0 / float(quiet + 2), "{want}");
+    }
+
+    #[test]
+    fn what_has_no_baseline_is_refused_and_left() {
+        let shock: Vec<f64> = (0..100).map(|i| if i < 10 { 0.0 } else { 100.0 }).collect();
+        let pre = Baseline::PreShock { share: 0.05 };
+        let refused = |record: &[f64], step, baseline| {
+            let mut record = record.to_vec();
+            let before = record.clone();
+            let error = remove_baseline(&mut record, step, baseline).expect_err("refused");
+            assert!(record.iter().zip(&before).all(|(a, b)| a.to_bits() == b.to_bits()), "{error}: changed");
+            error
+        };
+        // The mean of the first 16 lies at 37.5; the first sample is 0.6 of the furthest away.
+        assert_eq!(refused(&shock, 1e-3, pre), Error::NoQuiet { samples: 0, needed: 16, share: 0.05 });
+        assert_eq!(refused(&[5.0; 100], 1e-3, pre), Error::NoShock);
+        assert!(matches!(refused(&[1.0; 16], 1e-3, pre), Error::Short { samples: 16, needed: 17, .. }));
+        assert!(matches!(refused(&[], 1e-3, Baseline::Mean), Error::Short { samples: 0, needed: 1, .. }));
+        assert!(matches!(refused(&[1.0], 1e-3, Baseline::Linear), Error::Short { samples: 1, needed: 2, .. }));
+        assert!(matches!(refused(&[0.0, f64::NAN], 1e-3, Baseline::Mean), Error::Sample { sample: 2, .. }));
+        for share in [0.0, 1.0, -1.0, f64::NAN] {
+            assert!(matches!(refused(&shock, 1e-3, Baseline::PreShock { share }), Error::Quantity { .. }), "{share}");
+        }
+        for step in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-16] {
+            assert!(matches!(refused(&shock, step, Baseline::Mean), Error::Quantity { .. }), "{step}");
+        }
+    }
+}

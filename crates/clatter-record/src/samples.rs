@@ -1,0 +1,89 @@
+//! What all the functions on evenly sampled accelerations share: the check at the door, sums, the peak.
+
+use crate::Error;
+
+/// Larger accelerations (m/s²) are refused: far beyond any that there are, and their squares add up far within the
+/// floats.
+pub(crate) const LARGEST: f64 = 1e100;
+/// Times between samples (s), far beyond those of any recorder; displacements stay far within the floats.
+const STEPS: std::ops::RangeInclusive<f64> = 1e-15..=1e9;
+
+/// Refuses what is no record: a time between samples out of range, too few samples, a sample that is not finite.
+pub(crate) fn check(acceleration: &[f64], step_s: f64, what: &'static str, needed: usize) -> Result<(), Error> {
+    if !STEPS.contains(&step_s) {
+        return Err(Error::Quantity { name: "time between samples (s)", value: step_s, allowed: "in [1e-15, 1e9]" });
+    }
+    if acceleration.len() < needed {
+        return Err(Error::Short { what, samples: acceleration.len(), needed });
+    }
+    // NaN is in no range.
+    match acceleration.iter().position(|a| !(-LARGEST..=LARGEST).contains(a)) {
+        Some(i) => Err(Error::Sample { sample: i + 1, value: acceleration[i] }),
+        None => Ok(()),
+    }
+}
+
+/// `value` if it is finite and greater than zero.
+pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, Error> {
+    if value > 0.0 && value.is_finite() {
+        Ok(value)
+    } else {
+        Err(Error::Quantity { name, value, allowed: "finite and > 0" })
+    }
+}
+
+/// A count as a number.
+#[expect(clippy::cast_precision_loss, reason = "no record has 2^53 samples")]
+pub(crate) fn float(count: usize) -> f64 {
+    count as f64
+}
+
+/// Index of the first sample of largest size.
+pub(crate) fn peak(acceleration: &[f64]) -> usize {
+    let mut best = 0;
+    for (i, a) in acceleration.iter().enumerate() {
+        if a.abs() > acceleration[best].abs() {
+            best = i;
+        }
+    }
+    best
+}
+
+/// A sum that keeps what rounding takes off it (Neumaier 1974): its error is that of one rounding of the result and
+/// ε² of the sum of sizes for each term.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Sum {
+    total: f64,
+    rest: f64,
+}
+
+impl Sum {
+    /// Adds a term.
+    #[inline]
+    pub(crate) fn add(&mut self, term: f64) {
+        // Knuth's two-sum, without a branch on which one is larger.
+        let total = self.total + term;
+        let added = total - self.total;
+        self.rest += (self.total - (total - added)) + (term - added);
+        self.total = total;
+    }
+    /// Both parts of the sum.
+    #[inline]
+    pub(crate) fn parts(self) -> [f64; 2] {
+        [self.total, self.rest]
+    }
+    /// The sum.
+    #[inline]
+    pub(crate) fn value(self) -> f64 {
+        self.total + self.rest
+    }
+}
+
+/// The sum of terms.
+pub(crate) fn sum(terms: impl IntoIterator<Item = f64>) -> f64 {
+    let mut sum = Sum::default();
+    for term in terms {
+        sum.add(term);
+    }
+    sum.value()
+}
