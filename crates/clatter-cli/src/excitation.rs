@@ -185,6 +185,11 @@ fn allowed(text: &str) -> Result<(f64, Option<Typed>), String> {
 }
 
 pub(crate) fn limit(text: &str) -> Result<LimitArg, String> {
+    if let Some(standard) = clatter_record::standard_curve(text) {
+        let curve = standard.limit_curve().map_err(|error| error.to_string())?;
+        let unit = ACCELERATION.units.iter().find(|unit| unit.name == standard.unit);
+        return Ok(LimitArg { curve, level: None, typed: unit.map(|unit| (&ACCELERATION, unit)) });
+    }
     if !text.contains(':') {
         let (level, typed) = allowed(text)?;
         let curve = LimitCurve::constant(level).map_err(|error| error.to_string())?;

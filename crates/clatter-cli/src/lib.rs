@@ -18,6 +18,7 @@ mod assess;
 mod budget;
 mod columns;
 mod completions;
+mod condition_args;
 mod design;
 mod drop_args;
 mod excitation;

@@ -5,12 +5,13 @@ mod rows;
 
 use std::path::Path;
 
-use clatter_shock::{Pulse, Trial, VelocityShock};
+use clatter_assess::units::Dimension;
+use clatter_shock::{LimitCurve, Pulse, Trial, VelocityShock};
 
-use crate::Failure;
-use crate::excitation;
+use crate::excitation::{self, LimitArg};
 use crate::inputs::number;
 use crate::text::visible;
+use crate::{Failure, input};
 use rows::rows;
 
 /// Velocity shocks, in order of time.
@@ -75,6 +76,21 @@ pub(crate) fn tests(path: &Path) -> Result<[Vec<Trial>; 2], Failure> {
         Ok(())
     })?;
     Ok(lists)
+}
+
+/// A limit curve, for spectra of this kind of quantity.
+pub(crate) fn limit(path: &Path, dimension: &'static Dimension) -> Result<LimitArg, Failure> {
+    let bad = |reason| Failure::Record { path: path.to_owned(), reason };
+    let file = input::open(path).map_err(|error| bad(clatter_record::Error::Read(error.to_string())))?;
+    let read = clatter_record::read_limit(file).map_err(bad)?;
+    if let Some(of) = read.of.filter(|of| *of != dimension.name) {
+        let reason = format!("the level is of {of}, and the spectrum is one of {}", dimension.name);
+        return Err(bad(clatter_record::Error::Units(reason)));
+    }
+    let curve = LimitCurve::new(read.points).map_err(|reason| bad(reason.into()))?;
+    let spelled = read.unit.map(|unit| unit.to_lowercase());
+    let unit = spelled.and_then(|spelled| dimension.units.iter().find(|unit| unit.name == spelled));
+    Ok(LimitArg { curve, level: None, typed: unit.map(|unit| (dimension, unit)) })
 }
 
 fn finite(name: &str, text: &str) -> Result<f64, String> {

@@ -9,6 +9,7 @@ use clatter_figures::{FigureError, Trace};
 use clatter_record::{Channel, Finding, Record};
 use serde::Serialize;
 
+use crate::condition_args::ConditionArgs;
 use crate::inputs::Format;
 use crate::npy;
 use crate::numbers::{Json, digits, figures};
@@ -39,6 +40,8 @@ pub(crate) struct Args {
     file: PathBuf,
     #[command(flatten)]
     reading: RecordArgs,
+    #[command(flatten)]
+    condition: ConditionArgs,
     /// File to write, ending in .csv, .npy or .svg; what was there is replaced once the new file is whole
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = target)]
     output: Vec<Target>,
@@ -60,7 +63,7 @@ impl Args {
     }
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        let record = self.reading.read(&self.file)?;
+        let record = self.condition.apply(self.reading.read(&self.file)?, &self.file)?;
         for target in &self.output {
             output::replace(&target.path, |file| match target.kind {
                 Kind::Npy => buffered(file, |out| npy::write(out, record.samples(), &rows(&record))),

@@ -1,27 +1,30 @@
 //! `clatter spectrum`: shock response spectra of records, pulses and velocity shocks.
 
 mod answer;
+mod records;
 mod table;
 
-use std::fs::File;
-use std::io::{self, BufReader, Write};
-use std::path::{Path, PathBuf};
+use std::io::Write;
+use std::path::PathBuf;
 
 use clap::{ValueEnum, ValueHint};
 use clatter_assess::units::{ACCELERATION, Dimension, LENGTH, SPEED, Unit};
-use clatter_figures::FigureError;
+use clatter_figures::{Critical, FigureError};
+use clatter_record::{BAND, Between};
 use clatter_shock::{
-    DamageBoundary, DampingRatio, Limit, LimitCurve, Lines, Margin, Pulse, Pulses, Quantity, Record, Shape, Spectrum,
-    Survey, Suspension, Units, VelocityShock, VelocityShocks, stream,
+    DamageBoundary, Frequencies, Limit, LimitCurve, Margin, Pulse, Pulses, Quantity, Shape, Spectrum, Suspension,
+    VelocityShock, VelocityShocks,
 };
 
-use crate::excitation::{self, FrequencyArg, LimitArg, PulseArg};
+use crate::condition_args::ConditionArgs;
+use crate::excitation::{self, FrequencyArg, LimitArg, PulseArg, shape_name};
 use crate::inputs::{DampingListArgs, RowFormat};
 use crate::numbers::figures;
 use crate::output::{Files, Kind, Target, buffered};
-use crate::progress::Counted;
 use crate::quantities::Show;
-use crate::{Exit, Failure, Streams, input, lists, output, text};
+use crate::record_args::RecordArgs;
+use crate::{Exit, Failure, Streams, lists, output, text};
+use records::{Measured, Several};
 
 /// Compute a shock response spectrum: the peak of a component over its natural frequency
 ///
@@ -77,12 +80,19 @@ Exit status: 0 done, 1 the limit is exceeded, 2 bad input."
 pub(crate) struct Args {
     #[command(flatten)]
     excitation: Excitation,
-    /// Units of a record whose header does not name them: s, ms or us, and m/s2 or g
-    #[arg(long, value_name = "TIME,ACCELERATION", value_parser = excitation::units)]
-    units: Option<Units>,
-    /// Natural frequencies, in Hz without a unit: a list, or from LO to HI with so many to the octave
-    #[arg(long, value_name = "HZ,…|LO:HI:PER_OCTAVE", default_value = "10:10000:12", allow_hyphen_values = true, value_parser = excitation::frequencies)]
-    frequency: FrequencyArg,
+    #[command(flatten)]
+    reading: RecordArgs,
+    #[command(flatten)]
+    condition: ConditionArgs,
+    #[command(flatten)]
+    several: Several,
+    /// What the acceleration of a record is between its samples
+    #[arg(long, value_enum, default_value_t = Interpolation::BandLimited)]
+    interpolation: Interpolation,
+    /// Natural frequencies, in Hz without a unit: a list, or from LO to HI with so many to the octave [default: 10:10000:12, of
+    /// records up to a third of the sampling rate]
+    #[arg(long, value_name = "HZ,…|LO:HI:PER_OCTAVE", allow_hyphen_values = true, value_parser = excitation::frequencies)]
+    frequency: Option<FrequencyArg>,
     #[command(flatten)]
     damping: DampingListArgs,
     /// Which quantity of the component
@@ -92,6 +102,9 @@ pub(crate) struct Args {
     /// straight on log-log paper
     #[arg(long, value_name = "X|HZ:X,…", allow_hyphen_values = true, value_parser = excitation::limit)]
     limit: Option<LimitArg>,
+    /// What the component stands from a CSV file: frequency and level, with units in its headings
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with = "limit")]
+    limit_file: Option<PathBuf>,
     /// Unit of accelerations in the answer: of the table, CSV and JSON [default: that of the limit or the pulse in the
     /// table, SI elsewhere]
     #[arg(long, value_enum)]
@@ -115,9 +128,9 @@ pub(crate) struct Args {
 #[derive(Debug, clap::Args)]
 #[group(required = true, multiple = false)]
 struct Excitation {
-    /// A record of time and acceleration, as text
-    #[arg(value_name = "RECORD.csv", value_hint = ValueHint::FilePath)]
-    record: Option<PathBuf>,
+    /// Files of measured accelerations, as `clatter record` reads them
+    #[arg(value_name = "RECORD", value_hint = ValueHint::FilePath)]
+    record: Vec<PathBuf>,
     /// A pulse: half-sine, haversine, triangle, initial-peak-sawtooth, terminal-peak-sawtooth, rectangle, trapezoid or
     /// trapezoid:RAMP (ramps over length, 0.1 unless given); amplitude, duration and one or more starts with their units, or in
     /// m/s² and s
@@ -132,6 +145,24 @@ struct Excitation {
     /// Velocity shocks from a CSV file with the columns time_s and delta_v_m_s, in order of time
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     shocks_file: Option<PathBuf>,
+}
+
+/// What is between samples.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Interpolation {
+    /// No content from half the sampling rate on; straight lines where samples are uneven
+    BandLimited,
+    /// Straight lines
+    Linear,
+}
+
+impl From<Interpolation> for Between {
+    fn from(interpolation: Interpolation) -> Self {
+        match interpolation {
+            Interpolation::BandLimited => Self::BandLimited,
+            Interpolation::Linear => Self::Linear,
+        }
+    }
 }
 
 /// In which unit accelerations are told.
@@ -195,14 +226,19 @@ fn target(text: &str) -> Result<Target, String> {
 /// The spectra of one excitation and all that goes with them.
 struct Computed<'a> {
     args: &'a Args,
-    /// One for each damping ratio, at least one.
+    /// Its frequencies, in the unit that was typed.
+    frequencies: FrequencyArg,
+    limit: Option<LimitArg>,
+    /// One for each channel and damping ratio, and those made of several; at least one.
     parts: Vec<Part>,
-    survey: Option<Survey>,
+    records: Vec<Measured>,
     boundary: Option<Boundary>,
 }
 
 /// A spectrum and its margins, if there is a limit.
 struct Part {
+    /// Of which record or channel, where there are several.
+    name: Option<String>,
     spectrum: Spectrum,
     margins: Option<Vec<Option<Margin>>>,
 }
@@ -213,30 +249,42 @@ impl Part {
     }
 }
 
-/// The damage boundary, and where the pulse stands.
+/// The damage boundary, and where the shock stands.
 struct Boundary {
-    numbers: DamageBoundary,
+    /// Of which shape, or of which record.
+    of: String,
+    /// None where velocities cancel.
+    critical_velocity_change: Option<f64>,
+    critical_acceleration: f64,
+    knee_velocity_change: Option<f64>,
     curve: Vec<(f64, f64)>,
-    pulse: Pulse,
+    velocity_change: f64,
+    acceleration: f64,
     margin: Margin,
 }
 
+/// Natural frequencies unless others are asked for, in Hz, and how many to the octave.
+const LOWEST_HZ: f64 = crate::record::LOWEST_HZ;
+const HIGHEST_HZ: f64 = 10_000.0;
+const PER_OCTAVE: f64 = 12.0;
 /// Points of the damage boundary between the critical velocity change and the knee.
 const BOUNDARY_POINTS: usize = 200;
 
 impl Args {
     pub(crate) fn files(&self) -> Files<'_> {
         let Excitation { record, pulses_file, shocks_file, .. } = &self.excitation;
-        let reads = [record, pulses_file, shocks_file, &self.tests];
+        let reads = [pulses_file, shocks_file, &self.tests, &self.limit_file];
         Files {
-            reads: reads.into_iter().flatten().map(AsRef::as_ref).collect(),
+            reads: record.iter().chain(reads.into_iter().flatten()).map(AsRef::as_ref).collect(),
             writes: self.output.iter().map(|target| target.path.as_path()).collect(),
         }
     }
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<Exit, Failure> {
-        if self.units.is_some() && self.excitation.record.is_none() {
-            return Err(Failure::Usage("--units goes with a record alone"));
+        if self.excitation.record.is_empty()
+            && let Some(flag) = self.reading.given().or_else(|| self.condition.given()).or_else(|| self.several.given())
+        {
+            return Err(Failure::Wrong(format!("{flag} goes with records alone")));
         }
         let is_acceleration = self.quantity.dimension().name == ACCELERATION.name;
         if self.output_units == Some(OutputUnits::G) && !is_acceleration {
@@ -244,18 +292,29 @@ impl Args {
                 "--output-units=g goes with the quantities acceleration and equivalent-static-acceleration alone",
             ));
         }
-        self.check_limit()?;
-        let boundary = if self.damage_boundary { Some(self.boundary()?) } else { None };
-        let (spectra, survey) = self.spectra(&self.damping.ratios()?)?;
-        let margins = |spectrum: &Spectrum| self.limit.as_ref().map(|limit| limit.curve.margins(spectrum));
-        let parts = spectra.into_iter().map(|spectrum| Part { margins: margins(&spectrum), spectrum }).collect();
-        let computed = Computed { args: self, parts, survey, boundary };
+        let limit = match &self.limit_file {
+            Some(path) => Some(lists::limit(path, self.quantity.dimension())?),
+            None => self.limit.clone(),
+        };
+        self.check_limit(limit.as_ref())?;
+        let records = records::read(self)?;
+        let frequencies = self.frequencies(&records)?;
+        let boundary = if self.damage_boundary { Some(self.boundary(&records, &frequencies)?) } else { None };
+        if boundary.as_ref().is_some_and(|boundary| boundary.critical_velocity_change.is_none())
+            && self.output.as_ref().is_some_and(|target| target.kind == Kind::Svg)
+        {
+            return Err(Failure::Usage("both directions of the record cancel: there is no damage boundary to draw"));
+        }
+        let spectra = self.spectra(&records, &frequencies.list)?;
+        let margins = |spectrum: &Spectrum| limit.as_ref().map(|limit| limit.curve.margins(spectrum));
+        let part = |(name, spectrum): (_, Spectrum)| Part { name, margins: margins(&spectrum), spectrum };
+        let parts = spectra.into_iter().map(part).collect();
+        let computed = Computed { args: self, frequencies, limit, parts, records, boundary };
         if let Some(target) = &self.output {
             computed.write(target)?;
         }
-        for finding in computed.survey.iter().flat_map(|survey| &survey.findings) {
-            let path = self.excitation.record.as_deref().unwrap_or(Path::new(""));
-            streams.note("warning", format_args!("{}: {finding}", text::path(path)));
+        for warning in computed.warnings() {
+            streams.note("warning", warning);
         }
         if let Some(slip) = self.damping.slip() {
             streams.note("warning", slip);
@@ -269,8 +328,8 @@ impl Args {
     }
 
     /// Refuses a limit in a unit of another quantity.
-    fn check_limit(&self) -> Result<(), Failure> {
-        let Some((dimension, unit)) = self.limit.as_ref().and_then(|limit| limit.typed) else { return Ok(()) };
+    fn check_limit(&self, limit: Option<&LimitArg>) -> Result<(), Failure> {
+        let Some((dimension, unit)) = limit.and_then(|limit| limit.typed) else { return Ok(()) };
         let ([name, _], own) = (self.quantity.name(), self.quantity.dimension());
         if dimension.name == own.name {
             return Ok(());
@@ -280,11 +339,11 @@ impl Args {
     }
 
     /// How the quantity is shown: in the unit asked for, else of the limit, else of a pulse.
-    fn show(&self) -> Show {
+    fn show(&self, limit: Option<&LimitArg>) -> Show {
         if self.output_units.is_some() {
             return self.written();
         }
-        let typed = self.limit.as_ref().and_then(|limit| limit.typed).map(|(_, unit)| unit);
+        let typed = limit.and_then(|limit| limit.typed).map(|(_, unit)| unit);
         let pulse = self.excitation.pulse.iter().find_map(|pulse| pulse.unit);
         let pulse = pulse.filter(|_| self.quantity.dimension().name == ACCELERATION.name);
         Show { unit: typed.or(pulse), name: self.quantity.name()[1] }
@@ -297,25 +356,37 @@ impl Args {
         Show { unit, name: self.quantity.name()[1] }
     }
 
-    /// A spectrum for each damping ratio.
-    fn spectra(&self, dampings: &[DampingRatio]) -> Result<(Vec<Spectrum>, Option<Survey>), Failure> {
-        let (list, quantity) = (&self.frequency.list, self.quantity.quantity());
-        if let Some(path) = &self.excitation.record {
-            let (spectra, survey) = self.record(path, dampings)?;
-            return Ok((spectra, Some(survey)));
+    /// The frequencies asked for; of records else up to a third of the lowest sampling rate.
+    fn frequencies(&self, records: &[Measured]) -> Result<FrequencyArg, Failure> {
+        if let Some(frequency) = &self.frequency {
+            return Ok(frequency.clone());
         }
+        let third = |measured: &Measured| measured.record.step_s().map(|step_s| (3.0 * step_s).recip());
+        let high = records.iter().filter_map(third).fold(HIGHEST_HZ, f64::min);
+        // Three decades, where the samples are few.
+        let low = LOWEST_HZ.min(high * LOWEST_HZ / HIGHEST_HZ);
+        Ok(FrequencyArg { list: Frequencies::per_octave(low, high, PER_OCTAVE)?, unit: None })
+    }
+
+    /// A spectrum for each channel and damping ratio, with its name where there are several channels.
+    fn spectra(&self, records: &[Measured], list: &Frequencies) -> Result<Vec<(Option<String>, Spectrum)>, Failure> {
+        let (dampings, quantity) = (self.damping.ratios()?, self.quantity.quantity());
+        if !records.is_empty() {
+            return records::spectra(self, records, list, &dampings);
+        }
+        let alone = |spectra: Vec<Spectrum>| spectra.into_iter().map(|spectrum| (None, spectrum)).collect();
         let shocks = match &self.excitation.shocks_file {
             Some(path) => lists::shocks(path)?,
             None => self.excitation.shock.clone(),
         };
         if !shocks.is_empty() {
             let shocks = VelocityShocks::new(shocks)?;
-            return Ok((dampings.iter().map(|damping| shocks.spectrum(list, *damping, quantity)).collect(), None));
+            return Ok(alone(dampings.iter().map(|damping| shocks.spectrum(list, *damping, quantity)).collect()));
         }
         let pulses = self.pulses()?;
         excitation::check_periods(&pulses, list).map_err(Failure::Wrong)?;
         let pulses = Pulses::new(&pulses)?;
-        Ok((dampings.iter().map(|damping| pulses.spectrum(list, *damping, quantity)).collect(), None))
+        Ok(alone(dampings.iter().map(|damping| pulses.spectrum(list, *damping, quantity)).collect()))
     }
 
     fn pulses(&self) -> Result<Vec<Pulse>, Failure> {
@@ -327,39 +398,8 @@ impl Args {
         }
     }
 
-    /// In constant memory: a first pass, and one for each damping ratio; what can be read but once is kept.
-    fn record(&self, path: &Path, dampings: &[DampingRatio]) -> Result<(Vec<Spectrum>, Survey), Failure> {
-        let (list, quantity) = (&self.frequency.list, self.quantity.quantity());
-        let bad = |reason| Failure::Record { path: path.to_owned(), reason };
-        let open = || {
-            let file = File::open(path).map_err(|error| bad(clatter_shock::Error::Read(error.to_string())))?;
-            Ok::<_, Failure>((file.metadata().ok(), BufReader::with_capacity(1 << 20, file)))
-        };
-        let kept = |record: &Record| {
-            let spectra = dampings.iter().map(|damping| record.spectrum(list, *damping, quantity)).collect();
-            (spectra, record.survey().clone())
-        };
-        if input::is_standard(path) {
-            return Ok(kept(&Record::read(io::stdin().lock(), self.units).map_err(bad)?));
-        }
-        let (metadata, input) = open()?;
-        let Some(size) = metadata.filter(std::fs::Metadata::is_file).map(|metadata| metadata.len()) else {
-            return Ok(kept(&Record::read(input, self.units).map_err(bad)?));
-        };
-        let checking = Counted::begin("checking", size);
-        let survey = Lines::new(input, self.units).survey(|_, bytes| checking.at(bytes)).map_err(bad)?;
-        drop(checking);
-        let mut spectra = Vec::with_capacity(dampings.len());
-        for damping in dampings {
-            let filtering = Counted::begin("filtering", size);
-            let lines = Lines::new(open()?.1, self.units);
-            let one = stream(lines, &survey, list, *damping, quantity, |bytes| filtering.at(bytes)).map_err(bad)?;
-            spectra.push(one);
-        }
-        Ok((spectra, survey))
-    }
-
-    fn boundary(&self) -> Result<Boundary, Failure> {
+    /// The damage boundary of a pulse or a record.
+    fn boundary(&self, records: &[Measured], frequencies: &FrequencyArg) -> Result<Boundary, Failure> {
         if let Some(path) = &self.tests {
             let [pulse @ Pulse { shape: Shape::Rectangle, .. }] = self.pulses()?[..] else {
                 return Err(Failure::Usage(
@@ -368,11 +408,14 @@ impl Args {
             };
             let [velocity, acceleration] = lists::tests(path)?;
             let boundary = DamageBoundary::from_tests(&velocity, &acceleration);
-            return Boundary::new(boundary.map_err(|reason| Failure::Record { path: path.clone(), reason })?, pulse);
+            return Boundary::of_pulse(
+                boundary.map_err(|reason| Failure::Tests { path: path.clone(), reason })?,
+                pulse,
+            );
         }
-        let ([pulse], [hz]) = (&self.pulses()?[..], self.frequency.list.hz()) else {
+        let ([hz], [damping]) = (frequencies.list.hz(), &self.damping.ratios()?[..]) else {
             return Err(Failure::Usage(
-                "--damage-boundary goes with one --pulse with one start, and with one --frequency or --tests",
+                "--damage-boundary goes with one --frequency and one --q-factor, or with --tests",
             ));
         };
         let level = self.limit.as_ref().and_then(|limit| limit.level);
@@ -386,24 +429,55 @@ impl Args {
                 ));
             }
         };
-        let [damping] = self.damping.ratios()?[..] else {
-            return Err(Failure::Usage("--damage-boundary goes with one --q-factor"));
-        };
-        let suspension = Suspension::from_hz(*hz, damping)?;
-        Boundary::new(DamageBoundary::new(suspension, limit, pulse.shape)?, *pulse)
+        let suspension = Suspension::from_hz(*hz, *damping)?;
+        match (&self.pulses()?[..], records) {
+            ([pulse], _) => Boundary::of_pulse(DamageBoundary::new(suspension, limit, pulse.shape)?, *pulse),
+            ([], [measured]) => records::boundary(self, measured, suspension, limit),
+            _ => Err(Failure::Usage(
+                "--damage-boundary goes with one --pulse with one start, or one record of one channel",
+            )),
+        }
     }
 }
 
 impl Boundary {
-    fn new(numbers: DamageBoundary, pulse: Pulse) -> Result<Self, Failure> {
-        let margin = numbers.margin(pulse.amplitude, pulse.duration)?;
-        Ok(Self { numbers, curve: numbers.curve(BOUNDARY_POINTS)?, pulse, margin })
+    fn of_pulse(numbers: DamageBoundary, pulse: Pulse) -> Result<Self, Failure> {
+        let knee = numbers.knee_velocity_change();
+        Ok(Self {
+            of: shape_name(pulse.shape),
+            critical_velocity_change: Some(numbers.critical_velocity_change()),
+            critical_acceleration: numbers.critical_acceleration(),
+            knee_velocity_change: Some(knee),
+            curve: numbers.curve(BOUNDARY_POINTS)?,
+            velocity_change: pulse.velocity_change().abs(),
+            acceleration: pulse.amplitude.abs(),
+            margin: numbers.margin(pulse.amplitude, pulse.duration)?,
+        })
     }
 }
 
 impl Computed<'_> {
     fn limit(&self) -> Option<&LimitCurve> {
-        self.args.limit.as_ref().map(|limit| &limit.curve)
+        self.limit.as_ref().map(|limit| &limit.curve)
+    }
+
+    /// What is odd about the records, and frequencies that they don't tell of.
+    fn warnings(&self) -> Vec<String> {
+        let hz = self.frequencies.list.hz();
+        let (low, high) = hz.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), hz| (low.min(*hz), high.max(*hz)));
+        let mut warnings = Vec::new();
+        for Measured { path, record } in &self.records {
+            let path = text::path(path);
+            warnings.extend(record.findings(low).iter().map(|finding| format!("{path}: {finding}")));
+            let band_hz = record.step_s().map_or(f64::INFINITY, |step_s| BAND / step_s);
+            if high > band_hz && self.args.interpolation == Interpolation::BandLimited {
+                let band = figures(band_hz);
+                warnings.push(format!(
+                    "{path}: natural frequencies above {band} Hz, 0.4 of the sampling rate, are beyond what the samples tell for sure"
+                ));
+            }
+        }
+        warnings
     }
 
     fn write(&self, target: &Target) -> Result<(), Failure> {
@@ -415,19 +489,27 @@ impl Computed<'_> {
     }
 
     fn svg(&self) -> Result<String, FigureError> {
-        match &self.boundary {
-            Some(b) => {
-                let at = [b.pulse.velocity_change().abs(), b.pulse.amplitude.abs()];
-                clatter_figures::damage_boundary(&b.numbers, &b.curve, at)
-            }
-            None => {
-                let [first, others @ ..] = &self.parts[..] else { return Ok(String::new()) };
-                let name = |part: &Part| format!("maximax, Q = {}", figures(0.5 / part.spectrum.damping.get()));
-                let names: Vec<String> = others.iter().map(name).collect();
-                let others: Vec<(&Spectrum, &str)> =
-                    others.iter().zip(&names).map(|(part, name)| (&part.spectrum, name.as_str())).collect();
-                clatter_figures::spectra(&first.spectrum, &others, self.limit())
-            }
+        if let Some(b) = &self.boundary {
+            let critical = Critical {
+                velocity_change: b.critical_velocity_change.unwrap_or(f64::INFINITY),
+                acceleration: b.critical_acceleration,
+                knee: b.knee_velocity_change.unwrap_or(f64::INFINITY),
+            };
+            return clatter_figures::damage_boundary(critical, &b.curve, [b.velocity_change, b.acceleration]);
         }
+        if let [part] = &self.parts[..] {
+            return clatter_figures::spectrum(&part.spectrum, self.limit());
+        }
+        let names: Vec<String> = self.parts.iter().map(|part| self.name(part)).collect();
+        let all: Vec<_> = self.parts.iter().zip(&names).map(|(part, name)| (&part.spectrum, name.as_str())).collect();
+        clatter_figures::spectra(&all, self.limit())
+    }
+
+    /// The channel and the quality factor of a part, as far as there are several.
+    fn name(&self, part: &Part) -> String {
+        let several = self.parts.iter().any(|other| other.spectrum.damping != part.spectrum.damping);
+        let q = several.then(|| format!("Q = {}", figures(0.5 / part.spectrum.damping.get())));
+        let names: Vec<_> = part.name.clone().into_iter().chain(q).collect();
+        names.join(", ")
     }
 }

@@ -58,21 +58,30 @@ fn pairs<'a>(spectrum: &'a Spectrum, values: &'a [f64], order: &'a [usize]) -> i
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn spectrum(s: &Spectrum, limit: Option<&LimitCurve>) -> Result<String, FigureError> {
-    draw(s, limit, &[], false)
+    draw(s, None, limit, &[], false)
 }
 
-/// The same with spectra of other damping ratios beside it, by their maximax, each with its name.
-pub fn spectra(s: &Spectrum, others: &[(&Spectrum, &str)], limit: Option<&LimitCurve>) -> Result<String, FigureError> {
-    draw(s, limit, others, false)
+/// Several spectra of one quantity by their maximax, each with its name; the margin is that of the one that leaves least.
+pub fn spectra(all: &[(&Spectrum, &str)], limit: Option<&LimitCurve>) -> Result<String, FigureError> {
+    let least = |spectrum: &Spectrum| {
+        let margins = limit.map(|limit| limit.margins(spectrum)).unwrap_or_default();
+        LimitCurve::worst(&margins).and_then(|i| margins[i]).map_or(f64::INFINITY, |margin| margin.decibel())
+    };
+    let worst = (0..all.len()).min_by(|a, b| least(all[*a].0).total_cmp(&least(all[*b].0)));
+    let Some(worst) = worst else { return Err(FigureError("there is no spectrum".to_owned())) };
+    let others: Vec<_> = all.iter().enumerate().filter(|(i, _)| *i != worst).map(|(_, other)| *other).collect();
+    draw(all[worst].0, Some(all[worst].1), limit, &others, false)
 }
 
 /// A smaller one with another spectrum of the quantity beside it, by its maximax, and its name: half as wide as a page.
 pub fn beside(s: &Spectrum, other: &Spectrum, name: &str) -> Result<String, FigureError> {
-    draw(s, None, &[(other, name)], true)
+    draw(s, None, None, &[(other, name)], true)
 }
 
+/// One spectrum, or by its name its maximax alone, and others.
 fn draw(
     s: &Spectrum,
+    name: Option<&str>,
     limit: Option<&LimitCurve>,
     others: &[(&Spectrum, &str)],
     small: bool,
@@ -107,14 +116,18 @@ fn draw(
             others.iter().flat_map(|(o, _)| o.frequency_hz.iter().zip(&o.maximax).map(|(f, v)| axes.at(*f, *v)));
         slants(&mut paper, &axes, &drawn.chain(beside).collect::<Vec<_>>());
     }
-    let curves = [
+    let all = [
         (MAXIMAX, "maximax", &s.maximax),
         (PRIMARY, "primary", &s.primary),
         (RESIDUAL, "residual", &s.residual),
         (POSITIVE, "positive", &s.positive),
         (NEGATIVE, "negative", &s.negative),
     ];
-    for (ink, _, values) in &curves {
+    let curves = match name {
+        Some(name) => &[(POSITIVE, name, &s.maximax)][..],
+        None => &all[..],
+    };
+    for (ink, _, values) in curves {
         axes.curve(&mut paper, pairs(s, values, &order), *ink);
         if let [one] = order[..] {
             axes.mark(&mut paper, s.frequency_hz[one], values[one], ink.stroke);
@@ -156,7 +169,9 @@ fn draw(
     }
     let zeta = s.damping.get();
     let note_at = |paper: &mut Paper, k: f64, text: &str| paper.note([right + 12.0, down + 4.0 + 11.0 * k], text);
-    note_at(&mut paper, 0.0, &format!("damping ratio {}", three(zeta)));
+    if others.iter().all(|(other, _)| other.damping == s.damping) {
+        note_at(&mut paper, 0.0, &format!("damping ratio {}", three(zeta)));
+    }
     if four {
         note_at(&mut paper, 1.6, "aslant upward: relative");
         note_at(&mut paper, 2.6, "displacement; downward:");
@@ -253,20 +268,40 @@ fn length(m: f64) -> String {
 }
 
 /// A damage boundary: acceleration over velocity change, log-log, `curve` from [`clatter_shock::DamageBoundary::curve`]
-/// and a pulse at (velocity change, acceleration) on it.
-pub fn damage_boundary(b: &DamageBoundary, curve: &[(f64, f64)], pulse: [f64; 2]) -> Result<String, FigureError> {
-    boundary(b, curve, &[(pulse, "this pulse", RUST)], [330.0, 230.0])
+/// and a shock at (velocity change, acceleration) on it.
+pub fn damage_boundary(critical: Critical, curve: &[(f64, f64)], shock: [f64; 2]) -> Result<String, FigureError> {
+    boundary(critical, curve, &[(shock, "this shock", RUST)], [330.0, 230.0])
+}
+
+/// Where a damage boundary turns.
+#[derive(Debug, Clone, Copy)]
+pub struct Critical {
+    /// In m/s.
+    pub velocity_change: f64,
+    /// In m/s².
+    pub acceleration: f64,
+    /// Velocity change in m/s from which on the acceleration alone decides; infinite where that is nowhere.
+    pub knee: f64,
+}
+
+impl From<&DamageBoundary> for Critical {
+    fn from(b: &DamageBoundary) -> Self {
+        Self {
+            velocity_change: b.critical_velocity_change(),
+            acceleration: b.critical_acceleration(),
+            knee: b.knee_velocity_change(),
+        }
+    }
 }
 
 /// The same with any pulses, (velocity change, acceleration), name and color, in a frame of any size.
 pub fn boundary(
-    b: &DamageBoundary,
+    critical: Critical,
     curve: &[(f64, f64)],
     pulses: &[([f64; 2], &str, &'static str)],
     size: Pt,
 ) -> Result<String, FigureError> {
-    let (v, a) = (b.critical_velocity_change(), b.critical_acceleration());
-    let knee = b.knee_velocity_change();
+    let Critical { velocity_change: v, acceleration: a, knee } = critical;
     let last = curve.last().map_or(v, |p| p.0);
     // without a knee the boundary comes down for ever, and the paper ends where it was followed to
     let drawn = |k: usize| pulses.iter().map(move |(at, ..)| at[k]).filter(|x| *x > 0.0 && x.is_finite());

@@ -23,6 +23,26 @@ pub enum Error {
     /// Lines that cannot be used.
     #[error("{}", list(.0))]
     Lines(Bad),
+    /// A window of fewer than two samples.
+    #[error(
+        "the window from {from_s} s to {to_s} s has {samples} samples; it needs two at least, and the record goes from {start_s} s \
+         to {end_s} s"
+    )]
+    Window {
+        /// From this time of the file, in seconds,
+        from_s: f64,
+        /// to this.
+        to_s: f64,
+        /// How many samples are in it.
+        samples: usize,
+        /// Where the record begins, in seconds,
+        start_s: f64,
+        /// and ends.
+        end_s: f64,
+    },
+    /// What goes with even samples alone.
+    #[error("{0} needs samples that are even in time, and those of this record are not")]
+    Uneven(&'static str),
     /// More numbers than are to be read.
     #[error("the record has more than {0} numbers: take a part of it, or fewer channels")]
     Many(usize),

@@ -14,12 +14,12 @@ use crate::{Column, Error, Options, Table, Values};
 /// A record of one or several channels, in seconds and m/s².
 #[derive(Debug, Clone, PartialEq)]
 pub struct Record {
-    channels: Vec<Channel>,
-    start_s: f64,
-    spacing: Spacing,
-    samples: usize,
+    pub(crate) channels: Vec<Channel>,
+    pub(crate) start_s: f64,
+    pub(crate) spacing: Spacing,
+    pub(crate) samples: usize,
     /// Samples that follow no other at the place before, each with its place.
-    numbering: Vec<(usize, At)>,
+    pub(crate) numbering: Vec<(usize, At)>,
     /// What was found while reading.
     read: Vec<Finding>,
 }
@@ -37,7 +37,7 @@ pub struct Channel {
 
 /// When the samples are.
 #[derive(Debug, Clone, PartialEq)]
-enum Spacing {
+pub(crate) enum Spacing {
     /// So many seconds from one to the next.
     Even(f64),
     /// Seconds since the first one.

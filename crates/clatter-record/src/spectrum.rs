@@ -1,6 +1,6 @@
 //! Shock response spectra of records.
 
-use clatter_shock::{DampingRatio, Frequencies, Pulses, Quantity, Spectrum, SpectrumFilter};
+use clatter_shock::{DampingRatio, Frequencies, Quantity, Spectrum, SpectrumFilter, UnevenFilter};
 
 use crate::between::{BAND, UpSampler};
 use crate::{Channel, Error, Record};
@@ -19,7 +19,7 @@ pub enum Between {
 const PIECE: usize = 1 << 14;
 
 impl Record {
-    /// The shock response spectrum of a channel; `progress` is told how many samples are done.
+    /// The shock response spectrum of a channel, its times on the axis of the file; `progress` is told how many samples are done.
     ///
     /// # Accuracy
     /// Straight lines: exact for what they say, but for rounding. Band-limited: within 0.1 % for a record
@@ -37,10 +37,30 @@ impl Record {
         between: Between,
         mut progress: impl FnMut(u64),
     ) -> Result<Spectrum, Error> {
+        let mut spectrum = self.since_first(channel, frequencies, damping, quantity, between, &mut progress)?;
+        spectrum.time_of_peak_s.iter_mut().for_each(|time| *time += self.start_s());
+        Ok(spectrum)
+    }
+
+    /// The same with times since the first sample.
+    fn since_first(
+        &self,
+        channel: &Channel,
+        frequencies: &Frequencies,
+        damping: DampingRatio,
+        quantity: Quantity,
+        between: Between,
+        progress: &mut impl FnMut(u64),
+    ) -> Result<Spectrum, Error> {
         let values = &channel.values;
         let Some(step_s) = self.step_s() else {
-            let points: Vec<(f64, f64)> = self.times_s().zip(values.iter().copied()).collect();
-            return Ok(Pulses::from_sorted(&points).spectrum(frequencies, damping, quantity));
+            let mut filter = UnevenFilter::new(frequencies.clone(), damping, quantity);
+            let times_s: Vec<f64> = self.times_s().collect();
+            for (i, (times_s, piece)) in times_s.chunks(PIECE).zip(values.chunks(PIECE)).enumerate() {
+                filter.push(times_s, piece)?;
+                progress((i * PIECE + piece.len()) as u64);
+            }
+            return Ok(filter.finish()?);
         };
         let filter = |step_s| SpectrumFilter::new(frequencies.clone(), damping, quantity, step_s);
         match between {
@@ -57,12 +77,36 @@ impl Record {
                 let highest = frequencies.hz().iter().fold(0.0_f64, |most, hz| most.max(*hz));
                 let follows = highest * (1.0 + 2.0 * damping.get()) * step_s > BAND;
                 if follows {
-                    points::<16>(values, filter(step_s / 16.0)?, &mut progress)
+                    points::<16>(values, filter(step_s / 16.0)?, progress)
                 } else {
-                    points::<4>(values, filter(step_s / 4.0)?, &mut progress)
+                    points::<4>(values, filter(step_s / 4.0)?, progress)
                 }
             }
         }
+    }
+}
+
+impl Record {
+    /// The history of a channel as points with straight lines between them, in seconds since the first sample and m/s²: the samples,
+    /// or where they are even and the record is band-limited 16 points for each.
+    #[must_use]
+    pub fn history(&self, channel: &Channel, between: Between) -> Vec<(f64, f64)> {
+        const POINTS: usize = 16;
+        let (Some(step_s), Between::BandLimited) = (self.step_s(), between) else {
+            return self.times_s().zip(channel.values.iter().copied()).collect();
+        };
+        let mut points = Vec::with_capacity(POINTS * self.samples());
+        let mut more = UpSampler::<POINTS>::new();
+        let mut each = |values: &[f64]| {
+            for value in values {
+                #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
+                let time_s = points.len() as f64 * step_s / POINTS as f64;
+                points.push((time_s, *value));
+            }
+        };
+        more.push(&channel.values, &mut each);
+        more.finish(&mut each);
+        points
     }
 }
 

@@ -6,8 +6,10 @@ mod rows;
 
 use std::io::Read;
 
+use crate::error::Bad;
+use crate::heading::Heading;
 use crate::roles::{Roles, Seen};
-use crate::{Error, Options};
+use crate::{At, Error, Options};
 use layout::Layout;
 pub(crate) use rows::{LARGEST, Rows};
 
@@ -151,4 +153,35 @@ pub(crate) fn fill(input: &mut dyn Read, buffer: &mut [u8]) -> Result<usize, Err
         }
     }
     Ok(filled)
+}
+
+/// All of a small text: its headings, and its rows of numbers.
+pub(crate) fn table(input: impl Read, most: usize) -> Result<(Vec<Heading>, Vec<Vec<f64>>), Error> {
+    let mut bytes = Vec::new();
+    input.take(HEAD.1 as u64).read_to_end(&mut bytes).map_err(|error| Error::Read(error.to_string()))?;
+    let text = match decoded(&bytes) {
+        Some(decode) => text_of(&decode(&bytes)),
+        None => text_of(&bytes),
+    };
+    let lines: Vec<String> = text.trim_start_matches('\u{feff}').lines().map(str::to_owned).collect();
+    if bytes.len() == HEAD.1 || lines.len() > most {
+        return Err(Error::Many(most));
+    }
+    let Layout { form, begin, headings, .. } = Layout::of(&lines)?;
+    let (mut rows, mut bad) = (Vec::new(), Bad::default());
+    for (i, line) in lines.iter().enumerate().skip(begin) {
+        if line.trim().is_empty() || layout::uncommented(line).1 {
+            continue;
+        }
+        let cells = form.cells(line);
+        let wrong = |column: usize| cells.get(column).is_none_or(|cell| form.number(cell).is_none());
+        match (0..headings.len()).find(|column| wrong(*column)) {
+            None => rows.push(cells.iter().filter_map(|cell| Some(form.number(cell)?.float())).collect()),
+            Some(column) => {
+                let cell = cells.get(column).map_or("", |cell| cell);
+                bad.add(At::Line(i + 1), || format!("'{cell}' in column {} is not a number", column + 1));
+            }
+        }
+    }
+    if bad.count > 0 { Err(Error::Lines(bad)) } else { Ok((headings, rows)) }
 }

@@ -11,7 +11,7 @@ pub(crate) enum Kind {
     Other(&'static str),
 }
 
-/// A unit: what it is of, and its size in SI; 1 for those of no use.
+/// A unit: what it is of, and its size in SI; 1 for those of no use, but for lengths, velocities and frequencies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Unit {
     pub(crate) kind: Kind,
@@ -116,8 +116,10 @@ const PER_SECOND_SQUARED: [&str; 14] = [
     "/ssquared",
     "/secsquared",
 ];
+/// Hertz.
+const FREQUENCIES: [(&str, f64); 3] = [("hz", 1.0), ("khz", 1e3), ("cps", 1.0)];
 /// Units of what is no time and no acceleration.
-const OTHERS: [(&str, &str); 36] = [
+const OTHERS: [(&str, &str); 34] = [
     ("kg", "a mass"),
     ("gram", "a mass"),
     ("grams", "a mass"),
@@ -133,8 +135,6 @@ const OTHERS: [(&str, &str); 36] = [
     ("volts", "a voltage"),
     ("a", "a current"),
     ("ma", "a current"),
-    ("hz", "a frequency"),
-    ("khz", "a frequency"),
     ("rad", "an angle"),
     ("deg", "an angle"),
     ("°", "an angle"),
@@ -204,8 +204,9 @@ impl Unit {
         of(Kind::Time, &TIMES, 1.0)
             .or_else(|| of(Kind::Acceleration, &GRAVITIES, STANDARD_GRAVITY_M_S2))
             .or_else(|| over(&PER_SECOND_SQUARED).map(|size| Self { kind: Kind::Acceleration, size }))
-            .or_else(|| over(&PER_SECOND).map(|_| other("a velocity")))
-            .or_else(|| LENGTHS.iter().any(|(name, _)| *name == text).then(|| other("a length")))
+            .or_else(|| over(&PER_SECOND).map(|size| Self { size, ..other("a velocity") }))
+            .or_else(|| of(Kind::Other("a length"), &LENGTHS, 1.0))
+            .or_else(|| of(Kind::Other("a frequency"), &FREQUENCIES, 1.0))
             .or_else(|| OTHERS.iter().find(|(name, _)| *name == text).map(|(_, what)| other(what)))
     }
 

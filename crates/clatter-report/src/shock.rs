@@ -275,7 +275,7 @@ impl Data {
             ("shock-velocity.svg", beside(&p.velocity[0], &p.velocity[1], name)?),
             ("shock-pulses.svg", rules::amplifications(&amplifications)?),
             ("shock-models.svg", rules::models(&p.models())?),
-            ("shock-boundary.svg", boundary(&p.boundary, &p.curve, &marks, [230.0, 160.0])?),
+            ("shock-boundary.svg", boundary((&p.boundary).into(), &p.curve, &marks, [230.0, 160.0])?),
             ("shock.json", pretty(&self.numbers())?),
         ])
     }

@@ -63,7 +63,7 @@ pub use impulse::{VelocityShock, VelocityShocks};
 pub use limit_curve::LimitCurve;
 pub use peaks::{Extreme, Extremes, Peaked, Response};
 pub use pulse::{Pulse, Pulses, Section, Shape, Sine};
-pub use spectrum::{Frequencies, Quantity, Spectrum};
+pub use spectrum::{Frequencies, Quantity, Spectrum, Summary};
 pub use study::{
     GainMap, Holders, OMEGAS, ShapeFigures, SuspendedZones, Worst, amplification, half_sine_train, impact_of_peak,
     omegas, rule_either_end, suspended_zone, worst,

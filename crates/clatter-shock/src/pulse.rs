@@ -274,8 +274,7 @@ impl Pulses {
         if pieces.is_empty() { Err(Error::Empty("sections")) } else { Ok(Self { pieces, sines, end: at }) }
     }
     /// A piecewise linear history of points already checked: finite, in order of time.
-    #[must_use]
-    pub fn from_sorted(points: &[(f64, f64)]) -> Self {
+    pub(crate) fn from_sorted(points: &[(f64, f64)]) -> Self {
         let mut pieces = Vec::with_capacity(points.len());
         pieces.extend(points.windows(2).filter(|w| w[1].0 > w[0].0).map(|w| Piece {
             start: Instant::at(w[0].0),

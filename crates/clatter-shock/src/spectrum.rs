@@ -143,7 +143,69 @@ pub struct Spectrum {
     pub time_of_peak_s: Vec<f64>,
 }
 
+/// One spectrum for several.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Summary {
+    /// The root of the sum of squares: of the axes of one sensor what the length of the response reaches at most.
+    RootSumSquare,
+    /// The largest.
+    Envelope,
+    /// The mean and 3 dB: times 10^(3/20).
+    MeanPlus3Db,
+}
+
 impl Spectrum {
+    /// One spectrum for several of the same frequencies, value by value. It has the damping of the first; times of peaks are those of
+    /// the largest in an envelope, else none (not a number).
+    ///
+    /// ```
+    /// # use clatter_shock::{DampingRatio, Frequencies, Quantity, Spectrum, Summary, VelocityShock, VelocityShocks};
+    /// let of = |delta_v| {
+    ///     let shock = VelocityShocks::new(vec![VelocityShock { time: 0.0, delta_v }])?;
+    ///     Ok(shock.spectrum(&Frequencies::list(vec![10.0])?, DampingRatio::new(0.0)?, Quantity::PseudoVelocity))
+    /// };
+    /// let both = Spectrum::summary(&[&of(3.0)?, &of(-4.0)?], Summary::RootSumSquare).unwrap();
+    /// assert!((both.maximax[0] - 5.0).abs() < 1e-12);
+    /// # Ok::<(), clatter_shock::Error>(())
+    /// ```
+    ///
+    /// `None` for no spectrum, and for spectra of different frequencies.
+    #[must_use]
+    pub fn summary(spectra: &[&Self], summary: Summary) -> Option<Self> {
+        let mut of = (*spectra.first()?).clone();
+        if spectra.iter().any(|other| other.frequency_hz != of.frequency_hz) {
+            return None;
+        }
+        let fold = |values: &mut Vec<f64>, field: fn(&Self) -> &[f64]| {
+            for (i, value) in values.iter_mut().enumerate() {
+                let all = || spectra.iter().map(|spectrum| field(spectrum)[i]);
+                #[expect(clippy::cast_precision_loss, reason = "a count of spectra")]
+                let count = spectra.len() as f64;
+                *value = match summary {
+                    Summary::RootSumSquare => all().fold(0.0, f64::hypot),
+                    Summary::Envelope => all().fold(0.0, f64::max),
+                    Summary::MeanPlus3Db => all().sum::<f64>() / count * 10_f64.powf(0.15),
+                };
+            }
+        };
+        for (i, time) in of.time_of_peak_s.iter_mut().enumerate() {
+            let largest =
+                spectra.iter().reduce(|best, other| if other.maximax[i] > best.maximax[i] { other } else { best });
+            let known = largest.filter(|_| summary == Summary::Envelope);
+            *time = known.map_or(f64::NAN, |spectrum| spectrum.time_of_peak_s[i]);
+        }
+        fold(&mut of.primary, |s| &s.primary);
+        fold(&mut of.residual, |s| &s.residual);
+        fold(&mut of.maximax, |s| &s.maximax);
+        fold(&mut of.positive, |s| &s.positive);
+        fold(&mut of.negative, |s| &s.negative);
+        fold(&mut of.primary_positive, |s| &s.primary_positive);
+        fold(&mut of.primary_negative, |s| &s.primary_negative);
+        fold(&mut of.residual_positive, |s| &s.residual_positive);
+        fold(&mut of.residual_negative, |s| &s.residual_negative);
+        Some(of)
+    }
+
     /// From the extremes during and after the excitation, frequency by frequency.
     pub(crate) fn collect(
         frequencies: &Frequencies,

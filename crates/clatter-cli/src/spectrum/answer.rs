@@ -2,26 +2,31 @@
 
 use std::path::Path;
 
-use clatter_shock::{Finding, LimitCurve, Margin, Spectrum, Survey};
+use clatter_record::Finding;
+use clatter_shock::{LimitCurve, Margin, Spectrum};
 use serde::Serialize;
 
+use super::records::{Measured, largest};
 use super::{Boundary, Computed, Part};
-use crate::excitation::shape_name;
 use crate::numbers::Json;
 use crate::quantities::Show;
 
 impl Computed<'_> {
     pub(super) fn answer(&self) -> Answer<'_> {
         let show = self.args.written();
-        let mut columns = self.parts.iter().map(|part| ColumnsJson::new(part, &show));
-        let (first, others) = (columns.next(), columns.len() > 0);
-        let all = || self.parts.iter().map(|part| ColumnsJson::new(part, &show)).collect();
+        let columns = || self.parts.iter().map(|part| ColumnsJson::new(part, &show));
+        // Where there are several channels, none of them is the first.
+        let is_one = self.parts.iter().all(|part| part.name.is_none());
+        let lowest_hz = self.frequencies.list.hz().iter().fold(f64::INFINITY, |least, hz| least.min(*hz));
+        let mut records = self.records.iter().map(|measured| RecordJson::new(measured, lowest_hz));
+        let several_records = self.records.len() > 1;
         Answer {
             quantity: self.args.quantity.name()[0],
             unit: show.name(),
-            record: self.survey.as_ref().map(RecordJson::new),
-            first,
-            spectra: if others { all() } else { Vec::new() },
+            records: if several_records { records.by_ref().collect() } else { Vec::new() },
+            record: records.next(),
+            first: columns().next().filter(|_| is_one),
+            spectra: if self.parts.len() > 1 { columns().collect() } else { Vec::new() },
             damage_boundary: self.boundary.as_ref().map(BoundaryJson::new),
             file: self.args.output.as_ref().map(|target| target.path.as_path()),
         }
@@ -33,21 +38,25 @@ pub(super) struct Answer<'a> {
     quantity: &'static str,
     unit: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
-    record: Option<RecordJson>,
-    #[serde(flatten)]
-    first: Option<ColumnsJson>,
-    /// Of each damping ratio, where there are several; the first is also above.
+    record: Option<RecordJson<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    spectra: Vec<ColumnsJson>,
+    records: Vec<RecordJson<'a>>,
+    #[serde(flatten)]
+    first: Option<ColumnsJson<'a>>,
+    /// Of each channel and damping ratio, where there are several; of one channel the first is also above.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    spectra: Vec<ColumnsJson<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    damage_boundary: Option<BoundaryJson>,
+    damage_boundary: Option<BoundaryJson<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     file: Option<&'a Path>,
 }
 
-/// The spectrum of one damping ratio.
+/// One spectrum.
 #[derive(Serialize)]
-struct ColumnsJson {
+struct ColumnsJson<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    of: Option<&'a str>,
     damping: Json,
     q_factor: Json,
     frequency_hz: Vec<Json>,
@@ -60,17 +69,20 @@ struct ColumnsJson {
     primary_negative: Vec<Json>,
     residual_positive: Vec<Json>,
     residual_negative: Vec<Json>,
-    time_of_peak_s: Vec<Json>,
+    /// Null where it is made of several.
+    time_of_peak_s: Vec<Option<Json>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     limit: Option<LimitJson>,
 }
 
-impl ColumnsJson {
-    fn new(part: &Part, show: &Show) -> Self {
+impl<'a> ColumnsJson<'a> {
+    fn new(part: &'a Part, show: &Show) -> Self {
         let s = &part.spectrum;
         let plain = |values: &[f64]| values.iter().copied().map(Json).collect::<Vec<_>>();
         let all = |values: &[f64]| values.iter().map(|x| Json(show.value(*x))).collect::<Vec<_>>();
+        let time = |time: &f64| Some(Json(*time)).filter(|_| !time.is_nan());
         Self {
+            of: part.name.as_deref(),
             damping: Json(s.damping.get()),
             q_factor: Json(0.5 / s.damping.get()),
             frequency_hz: plain(&s.frequency_hz),
@@ -83,14 +95,15 @@ impl ColumnsJson {
             primary_negative: all(&s.primary_negative),
             residual_positive: all(&s.residual_positive),
             residual_negative: all(&s.residual_negative),
-            time_of_peak_s: plain(&s.time_of_peak_s),
+            time_of_peak_s: s.time_of_peak_s.iter().map(time).collect(),
             limit: part.margins.as_ref().map(|margins| LimitJson::new(margins, s, show)),
         }
     }
 }
 
 #[derive(Serialize)]
-struct RecordJson {
+struct RecordJson<'a> {
+    file: &'a Path,
     samples: usize,
     start_s: Json,
     end_s: Json,
@@ -100,15 +113,16 @@ struct RecordJson {
     findings: Vec<String>,
 }
 
-impl RecordJson {
-    fn new(survey: &Survey) -> Self {
+impl<'a> RecordJson<'a> {
+    fn new(Measured { path, record }: &'a Measured, lowest_hz: f64) -> Self {
         Self {
-            samples: survey.samples,
-            start_s: Json(survey.start),
-            end_s: Json(survey.end),
-            step_s: survey.step.map(Json),
-            largest_m_s2: Json(survey.largest),
-            findings: survey.findings.iter().map(Finding::to_string).collect(),
+            file: path,
+            samples: record.samples(),
+            start_s: Json(record.start_s()),
+            end_s: Json(record.start_s() + record.duration_s()),
+            step_s: record.step_s().map(Json),
+            largest_m_s2: Json(record.channels().iter().map(largest).fold(0.0, f64::max)),
+            findings: record.findings(lowest_hz).iter().map(Finding::to_string).collect(),
         }
     }
 }
@@ -148,11 +162,12 @@ impl LimitJson {
 }
 
 #[derive(Serialize)]
-struct BoundaryJson {
-    shape: String,
-    critical_velocity_change_m_s: Json,
+struct BoundaryJson<'a> {
+    shape: &'a str,
+    /// Null where both directions cancel, as the knee.
+    critical_velocity_change_m_s: Option<Json>,
     critical_acceleration_m_s2: Json,
-    knee_velocity_change_m_s: Json,
+    knee_velocity_change_m_s: Option<Json>,
     velocity_change_m_s: Json,
     acceleration_m_s2: Json,
     margin: Json,
@@ -162,15 +177,15 @@ struct BoundaryJson {
     curve: Vec<[Json; 2]>,
 }
 
-impl BoundaryJson {
-    fn new(b: &Boundary) -> Self {
+impl<'a> BoundaryJson<'a> {
+    fn new(b: &'a Boundary) -> Self {
         Self {
-            shape: shape_name(b.pulse.shape),
-            critical_velocity_change_m_s: Json(b.numbers.critical_velocity_change()),
-            critical_acceleration_m_s2: Json(b.numbers.critical_acceleration()),
-            knee_velocity_change_m_s: Json(b.numbers.knee_velocity_change()),
-            velocity_change_m_s: Json(b.pulse.velocity_change().abs()),
-            acceleration_m_s2: Json(b.pulse.amplitude.abs()),
+            shape: &b.of,
+            critical_velocity_change_m_s: b.critical_velocity_change.map(Json),
+            critical_acceleration_m_s2: Json(b.critical_acceleration),
+            knee_velocity_change_m_s: b.knee_velocity_change.map(Json),
+            velocity_change_m_s: Json(b.velocity_change),
+            acceleration_m_s2: Json(b.acceleration),
             margin: Json(b.margin.ratio()),
             margin_db: Json(b.margin.decibel()),
             safe: b.margin.is_safe(),

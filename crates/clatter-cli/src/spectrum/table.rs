@@ -5,19 +5,23 @@ use std::io::{self, Write};
 use clatter_assess::units::ACCELERATION;
 use clatter_shock::{LimitCurve, Margin, Spectrum};
 
-use super::{Boundary, Computed};
-use crate::excitation::shape_name;
+use super::records::{Measured, largest};
+use super::{Boundary, Computed, Part};
 use crate::numbers::{digits, figures, given};
 use crate::quantities::Show;
 use crate::text;
 
 impl Computed<'_> {
+    fn show(&self) -> Show {
+        self.args.show(self.limit.as_ref())
+    }
+
     pub(super) fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         for (i, part) in self.parts.iter().enumerate() {
             if i > 0 {
                 writeln!(out)?;
             }
-            self.heading(&part.spectrum, out)?;
+            self.heading(part, out)?;
             if i == 0 {
                 self.about_excitation(out)?;
             }
@@ -37,32 +41,37 @@ impl Computed<'_> {
         }
     }
 
-    fn heading(&self, spectrum: &Spectrum, out: &mut dyn Write) -> io::Result<()> {
-        let ([name, _], unit, zeta) = (self.args.quantity.name(), self.args.show().name(), spectrum.damping.get());
+    fn heading(&self, part: &Part, out: &mut dyn Write) -> io::Result<()> {
+        let ([name, _], unit, zeta) = (self.args.quantity.name(), self.show().name(), part.spectrum.damping.get());
         let (name, ratio, q) = (name.replace('-', " "), given(zeta), figures(0.5 / zeta));
-        writeln!(out, "Shock response spectrum: {name} in {unit}, damping ratio {ratio} (Q = {q})")
+        let of = part.name.as_ref().map(|of| format!(" of {of}")).unwrap_or_default();
+        writeln!(out, "Shock response spectrum{of}: {name} in {unit}, damping ratio {ratio} (Q = {q})")
     }
 
     fn about_excitation(&self, out: &mut dyn Write) -> io::Result<()> {
-        if let Some(survey) = &self.survey {
-            let steps = survey.step.map_or("uneven in time".to_owned(), |step| format!("every {} s", figures(step)));
-            let (n, from, to) = (survey.samples, figures(survey.start), figures(survey.end));
-            writeln!(out, "{n} samples from {from} to {to} s, {steps}; largest {} m/s2", figures(survey.largest))?;
+        for Measured { path, record } in &self.records {
+            let steps =
+                record.step_s().map_or("uneven in time".to_owned(), |step| format!("every {} s", figures(step)));
+            let (start, end) = (record.start_s(), record.start_s() + record.duration_s());
+            let (n, from, to) = (record.samples(), figures(start), figures(end));
+            let file = if self.records.len() > 1 { format!("{}: ", text::path(path)) } else { String::new() };
+            let most = record.channels().iter().map(largest).fold(0.0, f64::max);
+            writeln!(out, "{file}{n} samples from {from} to {to} s, {steps}; largest {} m/s2", figures(most))?;
         }
         let Some(boundary) = &self.boundary else { return Ok(()) };
         let acceleration = self.args.quantity.dimension().name == ACCELERATION.name;
         let unit = match self.args.output_units {
-            Some(_) => self.args.show().unit,
+            Some(_) => self.show().unit,
             None => {
                 let pulse = self.args.excitation.pulse.iter().find_map(|pulse| pulse.unit);
-                self.args.show().unit.filter(|_| acceleration).or(pulse)
+                self.show().unit.filter(|_| acceleration).or(pulse)
             }
         };
         boundary.table(Show { unit, name: "m/s2" }, out)
     }
 
     fn rows(&self, spectrum: &Spectrum, margins: Option<&[Option<Margin>]>, out: &mut dyn Write) -> io::Result<()> {
-        let (show, hz) = (self.args.show(), Show { unit: self.args.frequency.unit, name: "Hz" });
+        let (show, hz) = (self.show(), Show { unit: self.frequencies.unit, name: "Hz" });
         let unit = show.name();
         let margin = if margins.is_some() { ["margin", "dB"] } else { [""; 2] };
         let head = ["frequency", "primary", "residual", "maximax", "positive", "negative", "time of peak", margin[0]];
@@ -75,7 +84,8 @@ impl Computed<'_> {
         for i in 0..spectrum.frequency_hz.len() {
             let [frequency, values @ ..] = row(spectrum, i);
             let cells = std::iter::once(hz.figures(frequency)).chain(values.map(|x| show.figures(x)));
-            let cells = cells.chain([figures(spectrum.time_of_peak_s[i])]);
+            let time = spectrum.time_of_peak_s[i];
+            let cells = cells.chain([if time.is_nan() { "-".to_owned() } else { figures(time) }]);
             let row = cells.fold(String::new(), |row, cell| format!("{row}{cell:>13}"));
             let margin = margins.map_or(String::new(), |margins| {
                 format!("{:>13}", margins[i].map_or("-".to_owned(), |m| figures(m.decibel())))
@@ -89,7 +99,7 @@ impl Computed<'_> {
         let Some((i, margin)) = LimitCurve::worst(margins).and_then(|i| Some((i, margins[i]?))) else {
             return writeln!(out, "The limit covers none of these frequencies");
         };
-        let hz = Show { unit: self.args.frequency.unit, name: "Hz" }.said(spectrum.frequency_hz[i]);
+        let hz = Show { unit: self.frequencies.unit, name: "Hz" }.said(spectrum.frequency_hz[i]);
         let word = if margin.is_safe() { "holds" } else { "is exceeded" };
         writeln!(out, "The limit {word}: least margin {} dB at {hz}", figures(margin.decibel()))
     }
@@ -99,12 +109,15 @@ impl Computed<'_> {
             writeln!(out, "velocity_change_m_s,acceleration_m_s2")?;
             return boundary.curve.iter().try_for_each(|(v, a)| writeln!(out, "{},{}", digits(*v), digits(*a)));
         }
-        let several = self.parts.len() > 1;
+        let first = &self.parts[0].spectrum;
+        let several = self.parts.iter().any(|part| part.spectrum.damping != first.damping);
+        let named = self.parts.iter().any(|part| part.name.is_some());
         let q = if several { "q_factor," } else { "" };
-        let margin = if self.args.limit.is_some() { ",margin_db" } else { "" };
+        let of = if named { "of," } else { "" };
+        let margin = if self.limit.is_some() { ",margin_db" } else { "" };
         writeln!(
             out,
-            "{q}frequency_hz,primary,residual,maximax,positive,negative{margin},primary_positive,primary_negative,\
+            "{of}{q}frequency_hz,primary,residual,maximax,positive,negative{margin},primary_positive,primary_negative,\
              residual_positive,residual_negative,time_of_peak_s"
         )?;
         let show = self.args.written();
@@ -112,6 +125,9 @@ impl Computed<'_> {
         for part in &self.parts {
             let s = &part.spectrum;
             for i in 0..s.frequency_hz.len() {
+                if named {
+                    write!(out, "{},", text::field(part.name.as_deref().unwrap_or_default()))?;
+                }
                 if several {
                     write!(out, "{},", digits(0.5 / s.damping.get()))?;
                 }
@@ -123,7 +139,7 @@ impl Computed<'_> {
                     None => {}
                 }
                 let signs = [&s.primary_positive, &s.primary_negative, &s.residual_positive, &s.residual_negative];
-                let time = digits(s.time_of_peak_s[i]);
+                let time = if s.time_of_peak_s[i].is_nan() { String::new() } else { digits(s.time_of_peak_s[i]) };
                 writeln!(out, ",{},{time}", signs.map(|values| written(values[i])).join(","))?;
             }
         }
@@ -137,16 +153,20 @@ fn row(s: &Spectrum, i: usize) -> [f64; 6] {
 
 impl Boundary {
     pub(super) fn table(&self, acceleration: Show, out: &mut dyn Write) -> io::Result<()> {
-        let (b, p) = (&self.numbers, &self.pulse);
         let line = |out: &mut dyn Write, name: &str, value: f64, unit: &str| {
             writeln!(out, "{name:<28}{:>12} {unit}", figures(value))
         };
-        writeln!(out, "\nDamage boundary for a {} pulse", shape_name(p.shape))?;
-        line(out, "Critical velocity change", b.critical_velocity_change(), "m/s")?;
-        line(out, "Critical acceleration", acceleration.value(b.critical_acceleration()), acceleration.name())?;
-        line(out, "Knee at a velocity change of", b.knee_velocity_change(), "m/s")?;
-        line(out, "This pulse, velocity change", p.velocity_change().abs(), "m/s")?;
-        line(out, "            acceleration", acceleration.value(p.amplitude.abs()), acceleration.name())?;
+        writeln!(out, "\nDamage boundary for {}", self.of)?;
+        match self.critical_velocity_change {
+            Some(velocity) => line(out, "Critical velocity change", velocity, "m/s")?,
+            None => writeln!(out, "No critical velocity change: both directions cancel")?,
+        }
+        line(out, "Critical acceleration", acceleration.value(self.critical_acceleration), acceleration.name())?;
+        if let Some(knee) = self.knee_velocity_change {
+            line(out, "Knee at a velocity change of", knee, "m/s")?;
+        }
+        line(out, "This shock, velocity change", self.velocity_change, "m/s")?;
+        line(out, "            acceleration", acceleration.value(self.acceleration), acceleration.name())?;
         let word = if self.margin.is_safe() { "dB: no damage" } else { "dB: damage" };
         line(out, "            margin", self.margin.decibel(), word)?;
         writeln!(out)

@@ -1,0 +1,153 @@
+//! Spectra of measured records: a channel each, and those made of several.
+
+use std::path::PathBuf;
+
+use clatter_record::{Channel, Record};
+use clatter_shock::{DampingRatio, Frequencies, HistoryBoundary, Limit, Margin, Spectrum, Summary, Suspension};
+
+use super::{Args, BOUNDARY_POINTS, Boundary};
+use crate::progress::Counted;
+use crate::{Failure, text};
+
+/// A record that was read, and made ready.
+pub(super) struct Measured {
+    pub(super) path: PathBuf,
+    pub(super) record: Record,
+}
+
+/// What is made of several spectra.
+#[derive(Debug, Clone, Copy, Default, clap::Args)]
+#[command(next_help_heading = "Of several channels or records")]
+pub(crate) struct Several {
+    /// Also the resultant of the channels of each record: the root of the sum of their squares, which the length of the response
+    /// vector does not pass
+    #[arg(long)]
+    resultant: bool,
+    /// Also the envelope: the largest of all channels of all records
+    #[arg(long)]
+    envelope: bool,
+    /// Also the mean of all channels of all records and 3 dB
+    #[arg(long)]
+    mean_3db: bool,
+}
+
+impl Several {
+    /// The flag that was given.
+    pub(super) fn given(self) -> Option<&'static str> {
+        let given = [(self.resultant, "--resultant"), (self.envelope, "--envelope"), (self.mean_3db, "--mean-3db")];
+        given.into_iter().find(|(given, _)| *given).map(|(_, flag)| flag)
+    }
+}
+
+pub(super) fn read(args: &Args) -> Result<Vec<Measured>, Failure> {
+    let one = |path: &PathBuf| {
+        let record = args.condition.apply(args.reading.read(path)?, path)?;
+        Ok(Measured { path: path.clone(), record })
+    };
+    args.excitation.record.iter().map(one).collect()
+}
+
+/// A spectrum for each channel and damping ratio, then those made of several.
+pub(super) fn spectra(
+    args: &Args,
+    records: &[Measured],
+    list: &Frequencies,
+    dampings: &[DampingRatio],
+) -> Result<Vec<(Option<String>, Spectrum)>, Failure> {
+    let count: usize = records.iter().map(|measured| measured.record.channels().len()).sum();
+    let all: usize = records.iter().map(|Measured { record, .. }| record.channels().len() * record.samples()).sum();
+    let filtering = Counted::begin("filtering", (all * dampings.len()) as u64);
+    let mut done = 0;
+    let mut found = Vec::new();
+    for damping in dampings {
+        let mut of_channels: Vec<Spectrum> = Vec::with_capacity(count);
+        let mut resultants = Vec::new();
+        let mut names = Vec::new();
+        for Measured { path, record } in records {
+            let first = of_channels.len();
+            // A record by its file where there are several of them.
+            let file = (records.len() > 1).then(|| text::path(path));
+            let within = |name: &str| match &file {
+                Some(file) if record.channels().len() > 1 || name == RESULTANT => format!("{file}: {name}"),
+                Some(file) => file.clone(),
+                None => name.to_owned(),
+            };
+            for channel in record.channels() {
+                let quantity = args.quantity.quantity();
+                let progress = |samples| filtering.at(done + samples);
+                let spectrum = record.spectrum(channel, list, *damping, quantity, args.interpolation.into(), progress);
+                of_channels.push(spectrum.map_err(|reason| Failure::Record { path: path.clone(), reason })?);
+                done += record.samples() as u64;
+                names.push((count > 1).then(|| within(&text::visible(&channel.name))));
+            }
+            let axes: Vec<&Spectrum> = of_channels[first..].iter().collect();
+            if args.several.resultant {
+                resultants.extend(
+                    Spectrum::summary(&axes, Summary::RootSumSquare)
+                        .map(|spectrum| (Some(within(RESULTANT)), spectrum)),
+                );
+            }
+        }
+        let every: Vec<&Spectrum> = of_channels.iter().collect();
+        let summaries = [
+            (args.several.envelope, Summary::Envelope, "envelope"),
+            (args.several.mean_3db, Summary::MeanPlus3Db, "mean + 3 dB"),
+        ];
+        let summaries: Vec<_> = summaries
+            .into_iter()
+            .filter(|(asked, ..)| *asked)
+            .filter_map(|(_, summary, name)| Some((Some(name.to_owned()), Spectrum::summary(&every, summary)?)))
+            .collect();
+        found.extend(names.into_iter().zip(of_channels));
+        found.extend(resultants);
+        found.extend(summaries);
+    }
+    Ok(found)
+}
+
+const RESULTANT: &str = "resultant";
+
+/// The damage boundary of a record of one channel.
+pub(super) fn boundary(
+    args: &Args,
+    measured: &Measured,
+    suspension: Suspension,
+    limit: Limit,
+) -> Result<Boundary, Failure> {
+    let Measured { path, record } = measured;
+    let [channel] = record.channels() else {
+        return Err(Failure::Usage("--damage-boundary goes with one channel: --acceleration picks one"));
+    };
+    let bad = |reason: clatter_shock::Error| Failure::Record { path: path.clone(), reason: reason.into() };
+    let points = record.history(channel, args.interpolation.into());
+    let numbers = HistoryBoundary::new(suspension, limit, &points).map_err(bad)?;
+    let hz = Frequencies::list(vec![suspension.omega() / std::f64::consts::TAU])?;
+    let (quantity, between) = (args.quantity.quantity(), args.interpolation.into());
+    let spectrum = record.spectrum(channel, &hz, suspension.damping(), quantity, between, |_| ());
+    let demand = spectrum.map_err(|reason| Failure::Record { path: path.clone(), reason })?.maximax[0];
+    let (Limit::Acceleration(allowed) | Limit::RattleSpace(allowed)) = limit else {
+        return Err(Failure::Usage(
+            "--damage-boundary goes with limits of acceleration and relative displacement alone",
+        ));
+    };
+    let curve = if numbers.critical_velocity_change().is_some() { numbers.curve(BOUNDARY_POINTS)? } else { Vec::new() };
+    Ok(Boundary {
+        of: channel.name.clone(),
+        critical_velocity_change: numbers.critical_velocity_change(),
+        critical_acceleration: numbers.critical_acceleration(),
+        knee_velocity_change: numbers.knee_velocity_change(),
+        curve,
+        velocity_change: velocity_change(&points).abs(),
+        acceleration: largest(channel),
+        margin: Margin { allowed, demand },
+    })
+}
+
+/// The area below straight lines, in m/s.
+fn velocity_change(points: &[(f64, f64)]) -> f64 {
+    points.windows(2).map(|pair| (pair[1].0 - pair[0].0) * 0.5 * (pair[0].1 + pair[1].1)).sum()
+}
+
+pub(super) fn largest(channel: &Channel) -> f64 {
+    channel.values.iter().fold(0.0_f64, |most, a| most.max(a.abs()))
+}
