@@ -1,23 +1,26 @@
 //! `clatter record`: what a file of measurements holds, and the same written anew.
 
+mod answer;
+mod pulse;
+mod shocks;
+
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::ValueHint;
-use clatter_assess::units::{ACCELERATION, TIME, Unit};
+use clatter_assess::units::{ACCELERATION, Dimension, FREQUENCY, TIME, Unit};
 use clatter_figures::{FigureError, Trace};
-use clatter_record::{Channel, Finding, Record};
-use serde::Serialize;
+use clatter_record::{Channel, Motion, Record, Shock, Shocks, integrate};
+use clatter_shock::Pulse;
 
 use crate::condition_args::ConditionArgs;
-use crate::inputs::Format;
-use crate::npy;
-use crate::numbers::{Json, digits, figures};
+use crate::inputs::RowFormat;
+use crate::numbers::{digits, figures};
 use crate::output::{self, Files, Kind, Target, buffered};
-use crate::quantities::Show;
+use crate::quantities::{Show, plain_or_typed};
 use crate::record_args::RecordArgs;
 use crate::text::{self, column, shown};
-use crate::{Failure, Streams};
+use crate::{Failure, Streams, excitation, npy};
 
 /// Show what a file of measured accelerations holds
 ///
@@ -33,7 +36,9 @@ use crate::{Failure, Streams};
 Examples:
   clatter record drop.csv
   clatter record drop.csv --acceleration=az -o drop.svg
-  clatter record logger.txt --units=ms,g -o drop.csv")]
+  clatter record logger.txt --units=ms,g -o drop.csv
+  clatter record day.csv --detrend=mean --find --format=csv
+  clatter record table.csv --low-pass=1650 --fit-pulse=half-sine,50g,11ms -o pulse.svg")]
 pub(crate) struct Args {
     /// A file of measured accelerations; - is standard input
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
@@ -42,12 +47,49 @@ pub(crate) struct Args {
     reading: RecordArgs,
     #[command(flatten)]
     condition: ConditionArgs,
+    /// Find the shocks: each with its start, peak, duration between the 10 % points and velocity change
+    #[arg(long)]
+    find: bool,
+    /// Acceleration that a shock passes [default: what noise passes in one record of a thousand, by the median of the record]
+    #[arg(long, value_name = "ACCELERATION", requires = "find", value_parser = threshold)]
+    threshold: Option<f64>,
+    /// Time without passing it after which another shock begins, in s without a unit
+    #[arg(long, value_name = "TIME", default_value = "5ms", value_parser = quiet)]
+    quiet: f64,
+    /// Fit a half-sine, a haversine and a terminal-peak sawtooth to the largest shock, and hold it against the tolerances of
+    /// standards about the best of them, or about a nominal pulse such as half-sine,50g,11ms or JESD22-B110/B
+    #[arg(long, value_name = "NOMINAL", num_args = 0..=1, require_equals = true, value_parser = nominal)]
+    fit_pulse: Option<Option<Pulse>>,
+    /// Also velocity and displacement, integrated from rest: their last values, and in files a column each
+    #[arg(long)]
+    integrate: bool,
     /// File to write, ending in .csv, .npy or .svg; what was there is replaced once the new file is whole
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = target)]
     output: Vec<Target>,
     /// How to show the answer
-    #[arg(long, value_enum, default_value_t = Format::Table)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = RowFormat::Table)]
+    format: RowFormat,
+}
+
+fn positive(dimension: &'static Dimension, text: &str) -> Result<f64, String> {
+    let value = plain_or_typed(dimension, text)?.si;
+    if value > 0.0 && value.is_finite() { Ok(value) } else { Err(format!("{value:?} is not finite and > 0")) }
+}
+
+fn threshold(text: &str) -> Result<f64, String> {
+    positive(&ACCELERATION, text)
+}
+
+fn quiet(text: &str) -> Result<f64, String> {
+    positive(&TIME, text)
+}
+
+/// A nominal pulse by the keyword of a standard, or by shape, amplitude and duration.
+fn nominal(text: &str) -> Result<Option<Pulse>, String> {
+    if let Some(standard) = clatter_record::standard_pulse(text) {
+        return Ok(Some(standard.pulse()));
+    }
+    excitation::pulse(text).map(|arg| arg.pulses.first().copied())
 }
 
 fn target(text: &str) -> Result<Target, String> {
@@ -64,25 +106,61 @@ impl Args {
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
         let record = self.condition.apply(self.reading.read(&self.file)?, &self.file)?;
+        let bad = |reason| Failure::Record { path: self.file.clone(), reason };
+        let found = Found {
+            shocks: if self.find { Some(shocks::find(self, &record).map_err(bad)?) } else { None },
+            fits: match &self.fit_pulse {
+                Some(nominal) => Some(pulse::fit(&record, nominal.as_ref()).map_err(bad)?),
+                None => None,
+            },
+            motions: if self.integrate { Some(motions(&record).map_err(bad)?) } else { None },
+        };
+        let whole = Whole { args: self, record, found };
         for target in &self.output {
             output::replace(&target.path, |file| match target.kind {
-                Kind::Npy => buffered(file, |out| npy::write(out, record.samples(), &rows(&record))),
-                Kind::Svg => file.write_all(picture(&record)?.as_bytes()),
-                _ => buffered(file, |out| csv(&record, out)),
+                Kind::Npy => buffered(file, |out| npy::write(out, whole.record.samples(), &whole.rows())),
+                Kind::Svg => file.write_all(whole.picture()?.as_bytes()),
+                _ => buffered(file, |out| whole.csv(out)),
             })?;
         }
-        let findings = record.findings(LOWEST_HZ);
-        match self.format {
-            Format::Table => self.table(&record, streams.out).map_err(Failure::Answer)?,
-            Format::Json => streams.json(&Answer::new(&self.file, &record, &findings))?,
+        let findings = whole.record.findings(LOWEST_HZ);
+        match (self.format, &whole.found.shocks) {
+            (RowFormat::Table, _) => whole.table(streams.out).map_err(Failure::Answer)?,
+            (RowFormat::Json, _) => streams.json(&answer::Answer::new(&whole, &findings))?,
+            (RowFormat::Csv, Some(found)) => {
+                shocks::csv(&whole.record, found, streams.out).map_err(Failure::Answer)?;
+            }
+            (RowFormat::Csv, None) => whole.channels_csv(streams.out).map_err(Failure::Answer)?,
         }
         for finding in &findings {
             streams.note("warning", format_args!("{}: {finding}", text::path(&self.file)));
         }
         Ok(())
     }
+}
 
-    fn table(&self, record: &Record, out: &mut dyn Write) -> io::Result<()> {
+/// What was asked for beside the record, for each channel.
+struct Found {
+    shocks: Option<Vec<Shocks>>,
+    fits: Option<Vec<pulse::Fitted>>,
+    motions: Option<Vec<Motion>>,
+}
+
+/// A record and all that goes with it.
+struct Whole<'a> {
+    args: &'a Args,
+    record: Record,
+    found: Found,
+}
+
+fn motions(record: &Record) -> Result<Vec<Motion>, clatter_record::Error> {
+    let step_s = record.even("integration")?;
+    record.channels().iter().map(|channel| integrate(&channel.values, step_s)).collect()
+}
+
+impl Whole<'_> {
+    fn table(&self, out: &mut dyn Write) -> io::Result<()> {
+        let record = &self.record;
         let time = Show { unit: time_unit(record.duration_s()), name: "s" };
         let steps = match record.step_s() {
             Some(step_s) => {
@@ -96,7 +174,7 @@ impl Args {
         writeln!(
             out,
             "{}: {n} samples in {duration} from {} s on, {steps}\n",
-            text::path(&self.file),
+            text::path(&self.args.file),
             figures(record.start_s())
         )?;
         let width = 24;
@@ -114,11 +192,128 @@ impl Args {
             }
             writeln!(out)?;
         }
-        for target in &self.output {
+        for (k, channel) in record.channels().iter().enumerate() {
+            let name = shown(&channel.name, 40);
+            if let Some(motions) = &self.found.motions {
+                let [velocity, displacement] = last(&motions[k]).map(figures);
+                writeln!(out, "\n{name}: at the end {velocity} m/s and {displacement} m, from rest")?;
+            }
+            if let Some(found) = &self.found.shocks {
+                shocks::table(record, &name, &found[k], out)?;
+            }
+            if let Some(fits) = &self.found.fits {
+                pulse::table(record, &name, &fits[k], out)?;
+            }
+        }
+        for target in &self.args.output {
             writeln!(out, "\n{}: written", text::path(&target.path))?;
         }
         Ok(())
     }
+
+    fn channels_csv(&self, out: &mut dyn Write) -> io::Result<()> {
+        writeln!(out, "channel,unit,largest_m_s2,largest_time_s,smallest_m_s2,smallest_time_s")?;
+        for channel in self.record.channels() {
+            write!(out, "{},{}", text::field(&channel.name), text::field(&channel.unit))?;
+            for i in extremes(channel) {
+                write!(out, ",{},{}", digits(channel.values[i]), digits(self.time_s(i)))?;
+            }
+            writeln!(out)?;
+        }
+        Ok(())
+    }
+
+    /// Time of a sample, on the axis of the file.
+    fn time_s(&self, sample: usize) -> f64 {
+        self.record.start_s() + self.record.since_s(sample)
+    }
+
+    /// The columns beside time: name and unit, and values.
+    fn columns(&self) -> Vec<(String, &[f64])> {
+        let mut columns = Vec::new();
+        for (k, channel) in self.record.channels().iter().enumerate() {
+            columns.push((format!("{} [m/s2]", channel.name), &channel.values[..]));
+            if let Some(motions) = &self.found.motions {
+                columns.push((format!("velocity of {} [m/s]", channel.name), &motions[k].velocity_m_s));
+                columns.push((format!("displacement of {} [m]", channel.name), &motions[k].displacement_m));
+            }
+        }
+        columns
+    }
+
+    /// Time and columns of each sample.
+    fn rows(&self) -> Vec<f64> {
+        let columns = self.columns();
+        let row = |i: usize| std::iter::once(self.time_s(i)).chain(columns.iter().map(move |(_, values)| values[i]));
+        (0..self.record.samples()).flat_map(row).collect()
+    }
+
+    fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
+        let columns = self.columns();
+        let names = columns.iter().map(|(name, _)| text::field(name));
+        writeln!(out, "time [s],{}", names.collect::<Vec<_>>().join(","))?;
+        for i in 0..self.record.samples() {
+            write!(out, "{}", digits(self.time_s(i)))?;
+            for (_, values) in &columns {
+                write!(out, ",{}", digits(values[i]))?;
+            }
+            writeln!(out)?;
+        }
+        Ok(())
+    }
+
+    /// All channels over time; in g where the file is. With a fitted pulse the part around it, and the pulse beside.
+    fn picture(&self) -> Result<String, FigureError> {
+        let record = &self.record;
+        let in_g = record.channels().iter().all(|channel| channel.unit.to_lowercase().contains('g'));
+        let unit = if in_g { ACCELERATION.units.iter().find(|unit| unit.name == "g") } else { None };
+        let value = Show { unit, name: "m/s²" };
+        let span = self.span();
+        let time = Show { unit: time_unit(span[1] - span[0]), name: "s" };
+        let place = |i: usize| (time.value(self.time_s(i)), record.since_s(i));
+        let points = |values: &[f64], show: &Show| -> Vec<(f64, f64)> {
+            let within = (0..values.len()).filter(|i| (span[0]..=span[1]).contains(&record.since_s(*i)));
+            within.map(|i| (place(i).0, show.value(values[i]))).collect()
+        };
+        let (title, velocity, length) =
+            (value.name(), Show { unit: None, name: "m/s" }, Show { unit: None, name: "m" });
+        let mut traces = Vec::new();
+        for (k, channel) in record.channels().iter().enumerate() {
+            let marks = self.found.shocks.as_ref().map_or(Vec::new(), |found| {
+                let mark =
+                    |shock: &Shock| (time.value(record.start_s() + shock.peak_time_s), value.value(shock.peak_m_s2));
+                found[k].shocks.iter().map(mark).collect()
+            });
+            let beside = self.found.fits.as_ref().map(|fits| {
+                let curve = pulse::curve(&fits[k]).into_iter();
+                let point = |(since_s, a)| (time.value(record.start_s() + since_s), value.value(a));
+                ("nominal pulse", curve.map(point).collect::<Vec<_>>())
+            });
+            traces.push(Trace { name: &channel.name, title, points: points(&channel.values, &value), marks, beside });
+            if let Some(motions) = &self.found.motions {
+                let plain = |name, title, points| Trace { name, title, points, marks: Vec::new(), beside: None };
+                traces.push(plain("velocity", "m/s", points(&motions[k].velocity_m_s, &velocity)));
+                traces.push(plain("displacement", "m", points(&motions[k].displacement_m, &length)));
+            }
+        }
+        clatter_figures::record(&traces, &format!("time, {}", time.name()))
+    }
+
+    /// What is drawn, in seconds since the first sample.
+    fn span(&self) -> [f64; 2] {
+        match self.found.fits.as_deref() {
+            Some([fitted, ..]) => {
+                let Pulse { start, duration, .. } = fitted.nominal;
+                [start - duration, start + 2.0 * duration]
+            }
+            _ => [0.0, self.record.duration_s()],
+        }
+    }
+}
+
+/// The last velocity and displacement.
+fn last(motion: &Motion) -> [f64; 2] {
+    [&motion.velocity_m_s, &motion.displacement_m].map(|values| values.last().copied().unwrap_or(0.0))
 }
 
 /// The first samples that hold the largest and the smallest value.
@@ -141,92 +336,5 @@ fn time_unit(time_s: f64) -> Option<&'static Unit> {
 }
 
 fn rate_unit(hz: f64) -> Option<&'static Unit> {
-    clatter_assess::units::FREQUENCY.units.iter().find(|unit| unit.name == "kHz" && hz >= 1e3)
-}
-
-/// Time and channels of each sample, in s and m/s².
-fn rows(record: &Record) -> Vec<f64> {
-    let row = |i: usize| {
-        std::iter::once(record.start_s() + record.since_s(i)).chain(record.channels().iter().map(move |c| c.values[i]))
-    };
-    (0..record.samples()).flat_map(row).collect()
-}
-
-fn csv(record: &Record, out: &mut dyn Write) -> io::Result<()> {
-    let names = record.channels().iter().map(|channel| text::field(&format!("{} [m/s2]", channel.name)));
-    writeln!(out, "time [s],{}", names.collect::<Vec<_>>().join(","))?;
-    for (i, since_s) in record.times_s().enumerate() {
-        write!(out, "{}", digits(record.start_s() + since_s))?;
-        for channel in record.channels() {
-            write!(out, ",{}", digits(channel.values[i]))?;
-        }
-        writeln!(out)?;
-    }
-    Ok(())
-}
-
-/// All channels over time; in g where the file is.
-fn picture(record: &Record) -> Result<String, FigureError> {
-    let in_g = record.channels().iter().all(|channel| channel.unit.to_lowercase().contains('g'));
-    let unit = if in_g { ACCELERATION.units.iter().find(|unit| unit.name == "g") } else { None };
-    let value = Show { unit, name: "m/s²" };
-    let time = Show { unit: time_unit(record.duration_s()), name: "s" };
-    let points = |channel: &Channel| {
-        let point = |(since_s, a): (f64, &f64)| (time.value(since_s), value.value(*a));
-        record.times_s().zip(&channel.values).map(point).collect()
-    };
-    let traces: Vec<_> =
-        record.channels().iter().map(|channel| Trace { name: &channel.name, points: points(channel) }).collect();
-    clatter_figures::record(&traces, [&format!("time, {}", time.name()), value.name()])
-}
-
-#[derive(Serialize)]
-struct Answer<'a> {
-    file: &'a Path,
-    samples: usize,
-    start_s: Json,
-    duration_s: Json,
-    /// Null where the samples are uneven.
-    step_s: Option<Json>,
-    sample_rate_hz: Option<Json>,
-    channels: Vec<ChannelJson<'a>>,
-    findings: Vec<String>,
-}
-
-#[derive(Serialize)]
-struct ChannelJson<'a> {
-    name: &'a str,
-    unit: &'a str,
-    largest_m_s2: Json,
-    largest_time_s: Json,
-    smallest_m_s2: Json,
-    smallest_time_s: Json,
-}
-
-impl<'a> Answer<'a> {
-    fn new(file: &'a Path, record: &'a Record, findings: &[Finding]) -> Self {
-        let channel = |channel: &'a Channel| {
-            let [high, low] = extremes(channel);
-            let [at_high, at_low] = [high, low].map(|i| Json(record.start_s() + record.since_s(i)));
-            let [high, low] = [high, low].map(|i| Json(channel.values[i]));
-            ChannelJson {
-                name: &channel.name,
-                unit: &channel.unit,
-                largest_m_s2: high,
-                largest_time_s: at_high,
-                smallest_m_s2: low,
-                smallest_time_s: at_low,
-            }
-        };
-        Self {
-            file,
-            samples: record.samples(),
-            start_s: Json(record.start_s()),
-            duration_s: Json(record.duration_s()),
-            step_s: record.step_s().map(Json),
-            sample_rate_hz: record.step_s().map(|step_s| Json(step_s.recip())),
-            channels: record.channels().iter().map(channel).collect(),
-            findings: findings.iter().map(Finding::to_string).collect(),
-        }
-    }
+    FREQUENCY.units.iter().find(|unit| unit.name == "kHz" && hz >= 1e3)
 }

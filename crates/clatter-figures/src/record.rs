@@ -4,16 +4,24 @@ use crate::FigureError;
 use crate::axis::Axis;
 use crate::chart::Axes;
 use crate::paper::{Paper, SMALL};
-use crate::style::{Anchor, BLUES, GRAY, INK, Ink, Label};
+use crate::style::{Anchor, BLUES, GRAY, INK, Ink, Label, RUST};
 
 /// A channel of a record.
 #[derive(Debug)]
 pub struct Trace<'a> {
     /// Its name.
     pub name: &'a str,
+    /// What its values are, with their unit.
+    pub title: &'a str,
     /// Time and value, in order of time, in the units of the titles.
     pub points: Vec<(f64, f64)>,
+    /// Points that are marked.
+    pub marks: Vec<(f64, f64)>,
+    /// A curve beside it, such as a pulse that fits, and its name.
+    pub beside: Option<(&'a str, Vec<(f64, f64)>)>,
 }
+
+const BESIDE: Ink = Ink { dash: "5 2", ..Ink::line(RUST, 1.1) };
 
 /// Channels beyond are left out, and it is said how many there are.
 const MOST: usize = 12;
@@ -22,15 +30,16 @@ const FRAME: [f64; 2] = [400.0, 96.0];
 const PITCH: f64 = FRAME[1] + 14.0;
 const CORNER: [f64; 2] = [52.0, 16.0];
 
-/// Channels over time, one below the other; `titles` are those of time and value.
+/// Channels over time, one below the other; `time` is the title of their times.
 ///
 /// ```
 /// use clatter_figures::{Trace, record};
-/// let trace = Trace { name: "ax", points: vec![(0.0, 0.0), (1.0, 50.0), (2.0, 0.0)] };
-/// assert!(record(&[trace], ["time, ms", "g"])?.contains("ax"));
+/// let points = vec![(0.0, 0.0), (1.0, 50.0), (2.0, 0.0)];
+/// let trace = Trace { name: "ax", title: "g", points, marks: vec![], beside: None };
+/// assert!(record(&[trace], "time, ms")?.contains("ax"));
 /// # Ok::<(), clatter_figures::FigureError>(())
 /// ```
-pub fn record(traces: &[Trace<'_>], titles: [&str; 2]) -> Result<String, FigureError> {
+pub fn record(traces: &[Trace<'_>], time: &str) -> Result<String, FigureError> {
     let shown = &traces[..traces.len().min(MOST)];
     let ends = shown.iter().flat_map(|trace| [trace.points.first(), trace.points.last()]).flatten();
     let (low, high) = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.0), high.max(p.0)));
@@ -38,8 +47,9 @@ pub fn record(traces: &[Trace<'_>], titles: [&str; 2]) -> Result<String, FigureE
     #[expect(clippy::cast_precision_loss, reason = "a dozen")]
     let count = shown.len() as f64;
     let mut paper = Paper::new(CORNER[0] + FRAME[0] + 12.0, CORNER[1] + PITCH * count + 26.0);
-    for (i, Trace { name, points }) in shown.iter().enumerate() {
-        let (least, most) = points.iter().fold((0.0_f64, 0.0_f64), |(least, most), p| (least.min(p.1), most.max(p.1)));
+    for (i, Trace { name, title, points, marks, beside }) in shown.iter().enumerate() {
+        let all = points.iter().chain(beside.iter().flat_map(|(_, points)| points));
+        let (least, most) = all.fold((0.0_f64, 0.0_f64), |(least, most), p| (least.min(p.1), most.max(p.1)));
         let room = if least < most { 0.06 * (most - least) } else { 1.0 };
         let last = i + 1 == shown.len();
         #[expect(clippy::cast_precision_loss, reason = "a dozen")]
@@ -47,12 +57,19 @@ pub fn record(traces: &[Trace<'_>], titles: [&str; 2]) -> Result<String, FigureE
         let axes = Axes {
             corner: [CORNER[0], top],
             size: FRAME,
-            x: Axis { bare: !last, ..Axis::linear(low, high, if last { titles[0] } else { "" }) },
-            y: Axis::linear(least - room, most + room, titles[1]),
+            x: Axis { bare: !last, ..Axis::linear(low, high, if last { time } else { "" }) },
+            y: Axis::linear(least - room, most + room, title),
         };
         let axes = axes.on(&mut paper, 38.0);
         axes.level(&mut paper, 0.0, Ink::line(GRAY, 0.5));
         axes.curve(&mut paper, thinned(points, low, high).into_iter(), Ink::line(BLUES[8], 0.8));
+        if let Some((name, curve)) = beside {
+            axes.curve(&mut paper, curve.iter().copied(), BESIDE);
+            paper.key([CORNER[0] + FRAME[0] - 118.0, top + 12.0], &[(BESIDE, *name)]);
+        }
+        for (at, value) in marks {
+            axes.mark(&mut paper, *at, *value, RUST);
+        }
         axes.border(&mut paper);
         let label = Label { anchor: Anchor::Start, color: INK, ..SMALL };
         paper.plain([CORNER[0] + 2.0, top - 3.0], name, label);

@@ -40,7 +40,7 @@ pub use finding::{At, Finding};
 pub use integrate::{Motion, integrate};
 pub use limit::{LimitPoints, read_limit};
 pub use options::{Options, Pick, Units};
-pub use pulse_fit::{PulseFit, fit_pulses};
+pub use pulse_fit::{PulseFit, fit_pulses, pulse_at};
 pub use record::{Channel, Record};
 pub use shocks::{MOST_SHOCKS, Search, Shock, Shocks, find_shocks, noise_threshold};
 pub use spectrum::Between;

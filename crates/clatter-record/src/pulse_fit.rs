@@ -109,6 +109,18 @@ struct Trial {
     gain: f64,
 }
 
+/// The acceleration of a pulse at a time, in m/s²; zero outside of it.
+///
+/// ```
+/// use clatter_shock::{Pulse, Shape};
+/// let pulse = Pulse { shape: Shape::Triangle, amplitude: 10.0, duration: 2.0, start: 1.0 };
+/// assert_eq!([0.5, 1.5, 2.0].map(|time_s| clatter_record::pulse_at(&pulse, time_s)), [0.0, 5.0, 10.0]);
+/// ```
+#[must_use]
+pub fn pulse_at(pulse: &Pulse, time_s: f64) -> f64 {
+    pulse.amplitude * value(pulse.shape, (time_s - pulse.start) / pulse.duration)[0]
+}
+
 /// The shape at u = (t − s)/D, and its slope.
 pub(crate) fn value(shape: Shape, u: f64) -> [f64; 2] {
     if !(0.0..=1.0).contains(&u) {

@@ -135,7 +135,8 @@ impl HistoryBoundary {
         let (omega, steps) = (self.suspension.omega(), points - 1);
         // The part moves by a thousandth of a radian in the shortest.
         let first = 1e-3 / (omega * history.duration);
-        let last = self.knee_scale.min(10.0 * TAU / (omega * history.duration)).max(first);
+        let last = if self.knee_scale.is_finite() { self.knee_scale } else { 10.0 * TAU / (omega * history.duration) };
+        let last = last.max(first);
         let scales: Vec<f64> = (0..points)
             .map(|i| {
                 #[expect(clippy::cast_precision_loss, reason = "a number of points on a curve")]

@@ -1,6 +1,6 @@
 //! Spectra of measured records: a channel each, and those made of several.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clatter_record::{Channel, Record};
 use clatter_shock::{DampingRatio, Frequencies, HistoryBoundary, Limit, Margin, Spectrum, Summary, Suspension};
@@ -66,7 +66,7 @@ pub(super) fn spectra(
         for Measured { path, record } in records {
             let first = of_channels.len();
             // A record by its file where there are several of them.
-            let file = (records.len() > 1).then(|| text::path(path));
+            let file = (records.len() > 1).then(|| called(path));
             let within = |name: &str| match &file {
                 Some(file) if record.channels().len() > 1 || name == RESULTANT => format!("{file}: {name}"),
                 Some(file) => file.clone(),
@@ -105,6 +105,11 @@ pub(super) fn spectra(
     Ok(found)
 }
 
+/// A record by the name of its file, without its folders.
+fn called(path: &Path) -> String {
+    path.file_name().map_or_else(|| text::path(path), |name| text::path(Path::new(name)))
+}
+
 const RESULTANT: &str = "resultant";
 
 /// The damage boundary of a record of one channel.
@@ -125,11 +130,7 @@ pub(super) fn boundary(
     let (quantity, between) = (args.quantity.quantity(), args.interpolation.into());
     let spectrum = record.spectrum(channel, &hz, suspension.damping(), quantity, between, |_| ());
     let demand = spectrum.map_err(|reason| Failure::Record { path: path.clone(), reason })?.maximax[0];
-    let (Limit::Acceleration(allowed) | Limit::RattleSpace(allowed)) = limit else {
-        return Err(Failure::Usage(
-            "--damage-boundary goes with limits of acceleration and relative displacement alone",
-        ));
-    };
+    let (Limit::Acceleration(allowed) | Limit::RattleSpace(allowed)) = limit;
     let curve = if numbers.critical_velocity_change().is_some() { numbers.curve(BOUNDARY_POINTS)? } else { Vec::new() };
     Ok(Boundary {
         of: channel.name.clone(),

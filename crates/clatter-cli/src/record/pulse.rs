@@ -1,0 +1,93 @@
+//! The pulse that fits the largest shock of a record, and the tolerances of standards about it.
+
+use std::io::{self, Write};
+
+use clatter_record::{
+    EffectiveDuration, Error, PULSE_TOLERANCES, PulseCheck, PulseFit, Record, Within, check_pulse, effective_duration,
+    fit_pulses, pulse_at,
+};
+use clatter_shock::Pulse;
+
+use crate::excitation::shape_name;
+use crate::numbers::figures;
+
+/// What was found of a channel.
+pub(super) struct Fitted {
+    /// Best first.
+    pub(super) fits: [PulseFit; 3],
+    pub(super) durations: EffectiveDuration,
+    /// What it is held against, where it fits best.
+    pub(super) nominal: Pulse,
+    /// By the keyword of each standard.
+    pub(super) checks: Vec<(&'static str, PulseCheck)>,
+}
+
+/// That of each channel.
+pub(super) fn fit(record: &Record, nominal: Option<&Pulse>) -> Result<Vec<Fitted>, Error> {
+    let step_s = record.even("a pulse")?;
+    let one = |values: &[f64]| {
+        let fits = fit_pulses(values, step_s)?;
+        let against = nominal.copied().unwrap_or(fits[0].pulse);
+        let check = |tolerance| Ok((tolerance, check_pulse(values, step_s, &against, tolerance)?));
+        let checks = PULSE_TOLERANCES.iter().map(check).collect::<Result<Vec<_>, Error>>()?;
+        let nominal = checks.first().map_or(against, |(_, check)| check.nominal);
+        let checks = checks.into_iter().map(|(tolerance, check)| (tolerance.keyword, check)).collect();
+        Ok(Fitted { fits, durations: effective_duration(values, step_s)?, nominal, checks })
+    };
+    record.channels().iter().map(|channel| one(&channel.values)).collect()
+}
+
+pub(super) fn table(record: &Record, name: &str, fitted: &Fitted, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "\n{name}: pulses that fit, best first")?;
+    let line = |out: &mut dyn Write, cells: [&str; 5]| {
+        let [shape, cells @ ..] = cells;
+        writeln!(out, "{shape:<24}{}", cells.map(|cell| format!("{cell:>14}")).concat())
+    };
+    line(out, ["", "amplitude", "duration", "start", "residual"])?;
+    line(out, ["", "m/s2", "s", "s", ""])?;
+    for PulseFit { pulse, residual } in &fitted.fits {
+        let start = record.start_s() + pulse.start;
+        let [amplitude, duration, start, residual] = [pulse.amplitude, pulse.duration, start, *residual].map(figures);
+        line(out, [&shape_name(pulse.shape), &amplitude, &duration, &start, &residual])?;
+    }
+    let EffectiveDuration { third_of_peak_s, tenth_of_rms_s, .. } = fitted.durations;
+    let [third, tenth] = [third_of_peak_s, tenth_of_rms_s].map(figures);
+    writeln!(
+        out,
+        "Above a third of the peak for {third} s (Te); above a tenth of the RMS for {tenth} s (T_E of MIL-STD-810)"
+    )?;
+    let Pulse { shape, amplitude, duration, .. } = fitted.nominal;
+    let [amplitude, duration] = [amplitude, duration].map(figures);
+    writeln!(out, "Held against a {} of {amplitude} m/s2 and {duration} s:", shape_name(shape))?;
+    for (keyword, check) in &fitted.checks {
+        let word = if check.holds() { "within" } else { "outside" };
+        let mut said = vec![word.to_owned()];
+        let mut say = |what: &str, within: Option<Within>, unit: &str| {
+            if let Some(Within { measured, allowed: [least, most] }) = within {
+                let [measured, least, most] = [measured, least, most].map(figures);
+                said.push(format!("{what} {measured} {unit}, allowed {least} to {most}"));
+            }
+        };
+        say("velocity change", check.velocity_change_m_s, "m/s");
+        say("duration", check.duration_s, "s");
+        say("largest difference", check.distortion.map(|distortion| distortion.largest_m_s2), "m/s2");
+        if let Some(leaves_s) = check.distortion.and_then(|distortion| distortion.leaves_s) {
+            said.push(format!("leaves the band at {} s", figures(record.start_s() + leaves_s)));
+        }
+        writeln!(out, "  {keyword}: {}", said.join("; "))?;
+    }
+    Ok(())
+}
+
+/// The nominal pulse as points, in seconds since the first sample and m/s², with quiet before and after.
+pub(super) fn curve(fitted: &Fitted) -> Vec<(f64, f64)> {
+    const POINTS: u32 = 200;
+    let Pulse { duration, start, .. } = fitted.nominal;
+    let inside = (0..=POINTS).map(|i| {
+        let time_s = start + f64::from(i) / f64::from(POINTS) * duration;
+        (time_s, pulse_at(&fitted.nominal, time_s))
+    });
+    let before = [(start - duration, 0.0), (start, 0.0)];
+    let after = [(start + duration, 0.0), (start + 2.0 * duration, 0.0)];
+    before.into_iter().chain(inside).chain(after).collect()
+}
