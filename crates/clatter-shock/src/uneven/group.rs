@@ -122,9 +122,9 @@ impl Group {
     fn long(&self, modes: &Modes, s: &Step) -> (Many, Many) {
         let (mut x, mut w, mut tau) = (self.x, self.w, [0.0; WIDTH]);
         let mut tame = true;
-        for l in 0..WIDTH {
-            tau[l] = self.omega[l] * s.dt;
-            tame &= tau[l] < LARGEST_ANGLE;
+        for (tau, omega) in tau.iter_mut().zip(&self.omega) {
+            *tau = omega * s.dt;
+            tame &= *tau < LARGEST_ANGLE;
         }
         if !tame {
             return self.one_by_one(modes, s);
@@ -171,8 +171,8 @@ impl Group {
             }
             if short.contains(&false) {
                 let long = if S::IS_SCALAR { self.one_by_one(modes, s) } else { self.long(modes, s) };
-                for l in 0..WIDTH {
-                    (next.0[l], next.1[l]) = if short[l] { (next.0[l], next.1[l]) } else { (long.0[l], long.1[l]) };
+                for (l, short) in short.into_iter().enumerate() {
+                    (next.0[l], next.1[l]) = if short { (next.0[l], next.1[l]) } else { (long.0[l], long.1[l]) };
                 }
             }
             (self.x, self.w) = next;
@@ -269,7 +269,7 @@ impl Group {
         };
         let span = block.span();
         let mut stays = [0_u64; WIDTH];
-        for l in 0..WIDTH {
+        for (l, stays) in stays.iter_mut().enumerate() {
             let y = self.w[l] - modes.sigma * self.x[l];
             let q = r0 * self.x[l] + r1 * self.w[l];
             let size = (self.x[l] * self.x[l] + y * y).sqrt() + block.added;
@@ -277,7 +277,7 @@ impl Group {
             let near = slope * (self.omega[l] * span) * size + push * block.added;
             let up = if q + near < far { q + near } else { far };
             let down = if q - near > -far { q - near } else { -far };
-            stays[l] = u64::from(size > SMALLEST) & u64::from(up <= self.high[l]) & u64::from(down >= self.low[l]);
+            *stays = u64::from(size > SMALLEST) & u64::from(up <= self.high[l]) & u64::from(down >= self.low[l]);
         }
         !stays.contains(&0)
     }
@@ -410,7 +410,7 @@ fn series<S: pulp::Simd, const N: usize>(simd: S, terms: &[Many; TERMS], t: S::f
         let sum = &mut sums[(N - 1 - k) % 2];
         *sum = simd.mul_add_e_f64s(*sum, square, S::as_simd_f64s(&terms[k]).0[0]);
     }
-    let [odd, even] = if N % 2 == 0 { sums } else { [sums[1], sums[0]] };
+    let [odd, even] = if N.is_multiple_of(2) { sums } else { [sums[1], sums[0]] };
     simd.mul_add_e_f64s(odd, t, even)
 }
 
@@ -424,7 +424,7 @@ fn powers<S: pulp::Simd, const N: usize>(simd: S, terms: &[f64; TERMS], t: S::f6
         let sum = &mut sums[(N - 1 - k) % 2];
         *sum = simd.mul_add_e_f64s(*sum, square, simd.splat_f64s(terms[k]));
     }
-    let [odd, even] = if N % 2 == 0 { sums } else { [sums[1], sums[0]] };
+    let [odd, even] = if N.is_multiple_of(2) { sums } else { [sums[1], sums[0]] };
     simd.mul_add_e_f64s(odd, t, even)
 }
 

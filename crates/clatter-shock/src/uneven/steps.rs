@@ -12,10 +12,10 @@ const LEAPS: [usize; 2] = [BLOCK, BLOCK / 4];
 /// (Gauss–Legendre).
 const POINTS: Many = [
     0.019_855_071_751_231_884,
-    0.101_666_761_293_186_63,
+    0.101_666_761_293_186_64,
     0.237_233_795_041_835_5,
     0.408_282_678_752_175_1,
-    0.591_717_321_247_824_9,
+    0.591_717_321_247_825,
     0.762_766_204_958_164_5,
     0.898_333_238_706_813_4,
     0.980_144_928_248_768_1,
@@ -23,10 +23,10 @@ const POINTS: Many = [
 const WEIGHTS: Many = [
     0.050_614_268_145_188_13,
     0.111_190_517_226_687_24,
-    0.156_853_322_938_943_64,
-    0.181_341_891_689_180_99,
-    0.181_341_891_689_180_99,
-    0.156_853_322_938_943_64,
+    0.156_853_322_938_943_63,
+    0.181_341_891_689_181,
+    0.181_341_891_689_181,
+    0.156_853_322_938_943_63,
     0.111_190_517_226_687_24,
     0.050_614_268_145_188_13,
 ];
@@ -68,7 +68,7 @@ impl<'a> Block<'a> {
             steepest: all(|s| s.slope.abs()).fold(0.0, f64::max),
             leaps: LEAPS.map(|length| {
                 let mut leaps = Vec::with_capacity(BLOCK / length);
-                pulp::Arch::new().dispatch(Leaps { series, steps, length, leaps: &mut leaps });
+                pulp::Arch::new().dispatch(Leaps { series, steps, length, to: &mut leaps });
                 (leaps.iter().fold(0.0, |most, leap| leap.span.max(most)), leaps)
             }),
         }
@@ -124,7 +124,7 @@ struct Leaps<'a> {
     series: &'a Series,
     steps: &'a [Step],
     length: usize,
-    leaps: &'a mut Vec<Leap>,
+    to: &'a mut Vec<Leap>,
 }
 
 impl pulp::WithSimd for Leaps<'_> {
@@ -133,7 +133,7 @@ impl pulp::WithSimd for Leaps<'_> {
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn with_simd<S: pulp::Simd>(self, _: S) {
         for steps in self.steps.chunks(self.length) {
-            self.leaps.push(Leap::new(self.series, steps));
+            self.to.push(Leap::new(self.series, steps));
         }
     }
 }
