@@ -415,19 +415,15 @@ impl Computed<'_> {
     }
 
     fn svg(&self) -> Result<String, FigureError> {
-        match &self.boundary {
-            Some(b) => {
-                let at = [b.pulse.velocity_change().abs(), b.pulse.amplitude.abs()];
-                clatter_figures::damage_boundary(&b.numbers, &b.curve, at)
-            }
-            None => {
-                let [first, others @ ..] = &self.parts[..] else { return Ok(String::new()) };
-                let name = |part: &Part| format!("maximax, Q = {}", figures(0.5 / part.spectrum.damping.get()));
-                let names: Vec<String> = others.iter().map(name).collect();
-                let others: Vec<(&Spectrum, &str)> =
-                    others.iter().zip(&names).map(|(part, name)| (&part.spectrum, name.as_str())).collect();
-                clatter_figures::spectra(&first.spectrum, &others, self.limit())
-            }
+        if let Some(b) = &self.boundary {
+            let at = [b.pulse.velocity_change().abs(), b.pulse.amplitude.abs()];
+            return clatter_figures::damage_boundary(&b.numbers, &b.curve, at);
         }
+        let [first, others @ ..] = &self.parts[..] else { return Ok(String::new()) };
+        let name = |part: &Part| format!("maximax, Q = {}", figures(0.5 / part.spectrum.damping.get()));
+        let names: Vec<String> = others.iter().map(name).collect();
+        let others: Vec<(&Spectrum, &str)> =
+            others.iter().zip(&names).map(|(part, name)| (&part.spectrum, name.as_str())).collect();
+        clatter_figures::spectra(&first.spectrum, &others, self.limit())
     }
 }
