@@ -87,7 +87,7 @@ fn pulses_limits_and_lists_take_units_blanks_and_any_case() {
     let plain = spectrum(&[
         "--pulse=half-sine,14709.975,0.0005,0,0.002",
         "--frequency=100,1800",
-        "--limit=19613.3",
+        "--limit=29419.95",
         "--damping=0.05",
     ]);
     for (shape, start) in
@@ -95,7 +95,7 @@ fn pulses_limits_and_lists_take_units_blanks_and_any_case() {
     {
         for amplitude in ["1500g", "1500 G", "14709.975 m/s^2", "14709.975"] {
             let pulse = format!("--pulse={shape}, {amplitude}, 0.5 ms, {start}");
-            for limit in ["--limit=2000g", "--limit=19613.3", "--limit=10 Hz:2000 G, 10kHz : 2000 gn"] {
+            for limit in ["--limit=3000g", "--limit=29419.95", "--limit=10 Hz:3000 G, 10kHz : 3000 gn"] {
                 let mut got = spectrum(&[&pulse, "--frequency=0.1kHz, 1800 Hz", limit, "--damping=5%"]);
                 got["limit"]["worst"]["safe"].take();
                 let mut plain = plain.clone();

@@ -91,11 +91,9 @@ fn thinned(points: &[(f64, f64)], low: f64, high: f64) -> Vec<(f64, f64)> {
     let column = |p: &(f64, f64)| ((p.0 - low) / (high - low) * columns).floor();
     let mut thin = Vec::new();
     for run in points.chunk_by(|a, b| column(a).total_cmp(&column(b)).is_eq()) {
-        let by = |pick: fn((usize, f64), (usize, f64)) -> (usize, f64)| {
-            run.iter().map(|p| p.1).enumerate().reduce(pick).map_or(0, |(i, _)| i)
-        };
-        let mut kept =
-            [0, by(|a, b| if b.1 < a.1 { b } else { a }), by(|a, b| if b.1 > a.1 { b } else { a }), run.len() - 1];
+        let most =
+            |sign: f64| (0..run.len()).max_by(|a, b| (sign * run[*a].1).total_cmp(&(sign * run[*b].1))).unwrap_or(0);
+        let mut kept = [0, most(1.0), most(-1.0), run.len() - 1];
         kept.sort_unstable();
         thin.extend(kept.map(|i| run[i]));
     }

@@ -6,7 +6,7 @@
 #![expect(clippy::print_stdout, clippy::cast_precision_loss, reason = "a table of times is what is wanted")]
 
 use clatter_shock::{
-    DampingRatio, Frequencies, Pulse, Pulses, Quantity, Shape, SpectrumFilter, Suspension, VelocityShock,
+    DampingRatio, Frequencies, Pulse, Pulses, Quantity, Shape, SpectrumFilter, Suspension, UnevenFilter, VelocityShock,
     VelocityShocks,
 };
 use std::f64::consts::{PI, TAU};
@@ -142,6 +142,39 @@ fn main() {
         };
         let name = format!("record of {} samples, Q = 10 (plain: textbook)", samples.len());
         row(&name, "µs", 41, 1e3, ours, || each(&samples, dt));
+    }
+
+    // Plain: the filter of even records, of as many samples.
+    for (name, noise) in [("quiet", 1.0), ("noisy", 300.0)] {
+        let mut state = 1_u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 32) as f64 / f64::from(u32::MAX) - 0.5
+        };
+        let mut samples = sampled(&list, 1e-5);
+        samples.resize(100_000, 0.0);
+        let mut time = 0.0;
+        let times: Vec<f64> = samples
+            .iter_mut()
+            .map(|a| {
+                *a += noise * random();
+                time += 1e-5 * (1.0 + 0.4 * random());
+                time
+            })
+            .collect();
+        let ours = || {
+            let mut filter = UnevenFilter::new(frequencies.clone(), damping(0.05), Quantity::AbsoluteAcceleration);
+            filter.push(black_box(&times), black_box(&samples)).expect("samples");
+            filter.finish().expect("spectrum")
+        };
+        let even = || {
+            let mut filter =
+                SpectrumFilter::new(frequencies.clone(), damping(0.05), Quantity::AbsoluteAcceleration, 1e-5)
+                    .expect("filter");
+            filter.push(black_box(&samples));
+            filter.finish().expect("spectrum")
+        };
+        row(&format!("{name} record of 100 000 uneven samples (plain: even)"), "µs", 21, 1e3, ours, even);
     }
 
     // Plain: a pulse of one period, a thousandth as long; two pulses, a thousandth as many.

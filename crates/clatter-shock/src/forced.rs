@@ -135,9 +135,9 @@ impl Ramps {
         let zero = [0.0; WIDTH];
         let mut ramps = Self { x0: zero, w0: zero, x1: zero, w1: zero };
         if modes.kappa == 0.0 {
-            for l in 0..WIDTH {
+            for (l, tau) in tau.iter().enumerate() {
                 let x0 = 1.0 - step.c[l] - modes.zeta * step.s[l];
-                let x1 = tau[l] - 2.0 * modes.zeta * x0 - step.s[l];
+                let x1 = tau - 2.0 * modes.zeta * x0 - step.s[l];
                 (ramps.x0[l], ramps.x1[l]) = (x0, x1);
                 (ramps.w0[l], ramps.w1[l]) = (step.s[l] + modes.zeta * x0, x0 + modes.zeta * x1);
             }

@@ -44,7 +44,7 @@ pub struct Margin {
 }
 
 impl Margin {
-    /// allowed/demand − 1: negative where the limit is passed, infinite where nothing is asked.
+    /// allowed/demand − 1: negative where the limit is exceeded, infinite where nothing is asked.
     ///
     /// ```
     /// # use clatter_shock::Margin;

@@ -64,6 +64,10 @@ impl HistoryBoundary {
     /// amplification has no neighbor within 1/48 of an octave (or within 1/8 of 1/T for natural frequencies below 64/T,
     /// T the length of the history) that it could be taken for.
     ///
+    /// # Cost
+    ///
+    /// That of a spectrum of some 500 frequencies for a short history, and 50 more for each doubling of its samples.
+    ///
     /// # Examples
     ///
     /// A rectangle: the knee is at π/2 times the critical velocity change (1.57 in ASTM D3332).

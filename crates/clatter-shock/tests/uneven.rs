@@ -84,6 +84,24 @@ fn filter_is_the_exact_response_at_every_frequency_and_damping() {
     }
 }
 
+/// Pieces of one sample, of a few and all at once give the very same numbers.
+#[test]
+fn pieces_of_any_size_give_the_same() {
+    let (times, values): (Vec<f64>, Vec<f64>) = burst(2000).into_iter().unzip();
+    let of = |size: usize| {
+        let frequencies = Frequencies::per_octave(1e-4, 1.0, 3.0).expect("frequencies");
+        let mut filter = UnevenFilter::new(frequencies, damping(0.05), Quantity::AbsoluteAcceleration);
+        for (times, values) in times.chunks(size).zip(values.chunks(size)) {
+            filter.push(times, values).expect("samples");
+        }
+        filter.finish().expect("spectrum")
+    };
+    let all = of(2000);
+    for size in [1, 7, 513] {
+        assert_eq!(of(size), all, "pieces of {size}");
+    }
+}
+
 /// Neighbors in a group of eight may be as far apart as they like.
 #[test]
 fn frequencies_in_any_order() {

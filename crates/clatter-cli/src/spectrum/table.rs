@@ -60,13 +60,9 @@ impl Computed<'_> {
         }
         let Some(boundary) = &self.boundary else { return Ok(()) };
         let acceleration = self.args.quantity.dimension().name == ACCELERATION.name;
-        let unit = match self.args.output_units {
-            Some(_) => self.show().unit,
-            None => {
-                let pulse = self.args.excitation.pulse.iter().find_map(|pulse| pulse.unit);
-                self.show().unit.filter(|_| acceleration).or(pulse)
-            }
-        };
+        let own = self.show().unit.filter(|_| acceleration);
+        let pulse = self.args.excitation.pulse.iter().find_map(|pulse| pulse.unit);
+        let unit = if self.args.output_units.is_some() { own } else { own.or(pulse) };
         boundary.table(Show { unit, name: "m/s2" }, out)
     }
 
