@@ -41,7 +41,9 @@ pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> 
     }
     let Found { mut columns, interval_s } = found;
     if let Some(interval) = interval_s {
-        columns.iter_mut().for_each(|column| column.sampled_s = Some([0.0, interval]));
+        for column in &mut columns {
+            column.sampled_s = Some([0.0, interval]);
+        }
     }
     Ok(columns)
 }

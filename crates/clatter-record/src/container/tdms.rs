@@ -136,13 +136,12 @@ impl File {
         }
         for _ in 0..meta.u32()? {
             let path = text(meta)?;
-            let index = match self.by_path.get(&path) {
-                Some(index) => *index,
-                None => {
-                    self.objects.push(Object { path: parts(&path), ..Object::default() });
-                    self.by_path.insert(path, self.objects.len() - 1);
-                    self.objects.len() - 1
-                }
+            let index = if let Some(index) = self.by_path.get(&path) {
+                *index
+            } else {
+                self.objects.push(Object { path: parts(&path), ..Object::default() });
+                self.by_path.insert(path, self.objects.len() - 1);
+                self.objects.len() - 1
             };
             let object = &mut self.objects[index];
             let has_data = match meta.u32()? {
@@ -176,7 +175,7 @@ impl File {
         if size == 0 {
             return Err(refuse("TDMS file: a segment has data of no channel; the file is damaged"));
         }
-        if raw.len() % size != 0 && !order.unfinished {
+        if !raw.len().is_multiple_of(size) && !order.unfinished {
             return Err(refuse(format!(
                 "TDMS file: the {} bytes of a segment are no whole number of chunks of {size}; the file is damaged",
                 raw.len()
@@ -303,7 +302,7 @@ fn layout(meta: &mut Bytes<'_>) -> Result<Layout, Error> {
         return Err(refuse(format!("TDMS file: a channel has {dimension} dimensions; the format allows 1")));
     }
     let bytes = match kind.size() {
-        Some(size) => count.checked_mul(size as u64).unwrap_or(u64::MAX),
+        Some(size) => count.saturating_mul(size as u64),
         None => meta.u64()?,
     };
     let beyond = |_| refuse(format!("TDMS file: a channel of {count} values is beyond the file"));

@@ -153,7 +153,7 @@ impl Head {
         if !matches!(even, 0.0 | 1.0) {
             return Err(lines.fault(&format!("a spacing of {even} is not known; 0 is uneven, 1 even")));
         }
-        let even = even == 1.0;
+        let even = even > 0.5;
         if !(0.0..=1e15).contains(&count) || count.fract() != 0.0 {
             return Err(lines.fault(&format!("{count} is no number of values")));
         }
