@@ -2,7 +2,9 @@
 
 #![expect(clippy::cast_precision_loss, clippy::cast_possible_wrap, reason = "rows are counted to 40")]
 
-use clatter_record::{Column, Error, Kind, Series, Table, Values, read, write_npy, write_parquet};
+use clatter_record::{Column, Error, Kind, Table, Values, read, write_npy};
+#[cfg(feature = "parquet")]
+use clatter_record::{Series, write_parquet};
 use std::fs;
 use std::path::PathBuf;
 
@@ -114,7 +116,7 @@ fn wav() {
     holds("i24.wav", vec![full_scale("channel 1", |i| c(i) / 32768.0)]);
     holds("i32.wav", vec![full_scale("channel 1", |i| c(i) / 32768.0)]);
     holds("rifx.wav", vec![full_scale("channel 1", |i| c(i) / 32768.0)]);
-    for file in ["f32.wav", "f64.wav", "extensible.wav", "rf64.wav"] {
+    for file in ["f32.wav", "f64.wav", "extensible.wav", "extensible_big.wav", "rf64.wav"] {
         holds(file, vec![("channel 1", None, Some([0.0, 1e-4]), floats(a))]);
     }
 }
@@ -287,37 +289,44 @@ fn columnar() {
     }
 }
 
+const ODD: [f64; 6] = [0.1, -0.0, f64::MIN_POSITIVE / 8.0, f64::MAX, f64::NAN, -1e-300];
+
 #[test]
-fn written_files_come_back_to_the_bit() {
-    let odd = [0.1, -0.0, f64::MIN_POSITIVE / 8.0, f64::MAX, f64::NAN, -1e-300];
+fn written_npy_comes_back_to_the_bit() {
     let even: Vec<f64> = (0..6).map(a).collect();
-    for columns in [vec![&odd[..]], vec![&odd[..], &even]] {
+    for columns in [vec![&ODD[..]], vec![&ODD[..], &even]] {
         let file = write_npy(&columns).expect("a file");
         let table = read(Kind::of(&file).expect("NPY"), &file, MOST).expect("a table");
         for (found, column) in table.columns.iter().zip(&columns) {
             assert_eq!(bits(&found.values), bits(&Values::Float(column.to_vec())));
         }
     }
-    let file = write_parquet(&[
-        Series { name: "time", unit: "s", values: &even },
-        Series { name: "ax", unit: "m/s2", values: &odd },
-    ])
-    .expect("a file");
-    let table = read(Kind::of(&file).expect("Parquet"), &file, MOST).expect("a table");
-    let [time, ax] = table.columns.as_slice() else { panic!("two columns") };
-    assert_eq!((time.name.as_str(), time.unit.as_deref()), ("time [s]", Some("s")));
-    assert_eq!((ax.name.as_str(), ax.unit.as_deref()), ("ax [m/s2]", Some("m/s2")));
-    assert_eq!(bits(&ax.values), bits(&Values::Float(odd.to_vec())));
-    assert_eq!(bits(&time.values), bits(&Values::Float(even)));
+    let fault = write_npy(&[&[1.0], &[1.0, 2.0]]).expect_err("uneven").to_string();
+    assert_eq!(fault, "column 2 has 2 values, the first has 1; columns of one file are of equal length");
+    assert!(write_npy(&[]).is_err());
 }
 
 #[test]
-fn columns_that_cannot_be_written_are_told() {
-    assert_eq!(
-        write_npy(&[&[1.0], &[1.0, 2.0]]).expect_err("uneven").to_string(),
-        "column 2 has 2 values, the first has 1; columns of one file are of equal length"
-    );
-    assert!(write_npy(&[]).is_err());
+fn written_npy_is_what_numpy_writes() {
+    let columns: [Vec<f64>; 2] = [(0..N).map(t).collect(), (0..N).map(a).collect()];
+    assert_eq!(write_npy(&[&columns[0], &columns[1]]).expect("a file"), bytes("c_order.npy"));
+}
+
+#[cfg(feature = "parquet")]
+#[test]
+fn written_parquet_comes_back_to_the_bit() {
+    // More than one page, with a remainder.
+    let long: Vec<f64> = (0..(1 << 17) + 3).map(|i| f64::from(i).sqrt()).collect();
+    let odd: Vec<f64> = ODD.iter().cycle().take(long.len()).copied().collect();
+    let columns =
+        [Series { name: "time", unit: "s", values: &long }, Series { name: "ax", unit: "m/s2", values: &odd }];
+    let file = write_parquet(&columns).expect("a file");
+    let table = read(Kind::of(&file).expect("Parquet"), &file, 2 * long.len()).expect("a table");
+    let [time, ax] = table.columns.as_slice() else { panic!("two columns") };
+    assert_eq!((time.name.as_str(), time.unit.as_deref()), ("time [s]", Some("s")));
+    assert_eq!((ax.name.as_str(), ax.unit.as_deref()), ("ax [m/s2]", Some("m/s2")));
+    assert_eq!(bits(&ax.values), bits(&Values::Float(odd.clone())));
+    assert_eq!(bits(&time.values), bits(&Values::Float(long.clone())));
     let twice = Series { name: "a", unit: "g", values: &[1.0] };
     assert!(write_parquet(&[twice, twice]).expect_err("two of a name").to_string().contains("\"a [g]\""));
 }
