@@ -256,5 +256,18 @@ def columnar():
         writer.write_table(views, max_chunksize=25)
 
 
-for make in (npy, wav, mat, hdf5, tdms, uff, columnar):
+def bombs():
+    zeros = np.zeros(1_000_000)
+    scipy.io.savemat("bomb.mat", {"a": zeros}, do_compression=True)
+    data = open("bomb.mat", "rb").read()
+    write("bomb.mat", b"MATLAB 5.0 MAT-file, made by scipy".ljust(116) + data[116:])
+    with h5py.File("bomb.h5", "w") as file:
+        file.create_dataset("a", data=zeros, chunks=(1_000_000,), compression="gzip", compression_opts=9)
+    table = pa.table({"a": zeros})
+    pq.write_table(table, "bomb_zstd.parquet", compression="zstd", use_dictionary=False)
+    with pa.ipc.new_file("bomb_zstd.arrow", table.schema, options=pa.ipc.IpcWriteOptions(compression="zstd")) as writer:
+        writer.write_table(table)
+
+
+for make in (npy, wav, mat, hdf5, tdms, uff, columnar, bombs):
     make()
