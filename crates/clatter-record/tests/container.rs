@@ -215,6 +215,11 @@ fn uff() {
     let values = Values::Float(vec![0.0, 1.0, 0.0, 0.0, 0.0, 0.0]);
     holds("time58.uff", vec![("Acceleration", Some("m/s2"), Some([0.0, 0.001]), values)]);
     assert!(fault("complex.uff").contains("complex"));
+    // In Latin-1.
+    let file = bytes("time58.uff");
+    let place = file.windows(4).position(|word| word == b"m/s2").expect("a unit");
+    let latin = [&file[..place], b"m/s\xb2", &file[place + 4..]].concat();
+    assert_eq!(read(Kind::Uff, &latin, MOST).expect("a table").columns[0].unit.as_deref(), Some("m/s²"));
 }
 
 /// What numbers fixed fields and Fortran may leave without a blank between them.
@@ -355,9 +360,15 @@ fn what_is_not_read_is_named() {
     ] {
         assert_eq!(Kind::of(beginning).expect_err(message).to_string(), message);
     }
-    for text in
-        [&b"time [s],a [g]\n0,0\n"[..], b"-1\n58\n", b"", b"[s],[g]\n0,1\n", b"\xff\xfet\0,\0a\0", b"P,K\n1,2\n"]
-    {
+    for text in [
+        &b"time [s],a [g]\n0,0\n"[..],
+        b"-1\n58\n",
+        b"",
+        b"[s],[g]\n0,1\n",
+        b"\xff\xfet\0,\0a\0",
+        b"P,K\n1,2\n",
+        b"channel,WAVE\n1,2\n",
+    ] {
         assert_eq!(Kind::of(text).expect("text"), Kind::Text, "{text:?}");
     }
 }

@@ -161,6 +161,9 @@ impl File {
             }
             if has_data && self.is_active.insert(index) {
                 self.active.push(index);
+            } else if !has_data && self.is_active.remove(&index) {
+                self.visits += self.active.len();
+                self.active.retain(|active| *active != index);
             }
         }
         Ok(())
