@@ -193,6 +193,37 @@ fn tdms() {
     }
 }
 
+/// Two channels, of these types and numbers of values, and four bytes of data, in a segment that was not finished.
+fn odd_tdms(channels: [(u32, u64); 2], interleaved: bool) -> Result<Table, Error> {
+    let mut meta = 2_u32.to_le_bytes().to_vec();
+    for ((kind, count), path) in channels.into_iter().zip(["/'g'/'a'", "/'g'/'b'"]) {
+        meta.extend(8_u32.to_le_bytes());
+        meta.extend(path.bytes());
+        meta.extend([20_u32, kind, 1].iter().flat_map(|word| word.to_le_bytes()));
+        meta.extend(count.to_le_bytes());
+        meta.extend([0; 4]);
+    }
+    let contents = if interleaved { 0x2e_u32 } else { 0x0e };
+    let mut file = b"TDSm".to_vec();
+    file.extend([contents, 4713].iter().flat_map(|word| word.to_le_bytes()));
+    file.extend([u64::MAX, meta.len() as u64].iter().flat_map(|word| word.to_le_bytes()));
+    file.extend(meta);
+    file.extend([1, 0, 2, 0]);
+    read(Kind::of(&file)?, &file, MOST)
+}
+
+#[test]
+fn odd_layouts_of_tdms() {
+    for interleaved in [false, true] {
+        // Nothing, three times, then two integers.
+        let found = odd_tdms([(0, 3), (2, 2)], interleaved).expect("a table").columns;
+        assert_eq!((found.len(), &found[0].values), (1, &Values::Float(vec![1.0, 2.0])));
+    }
+    // More bytes than there are addresses: what the file has is the beginning of the first channel.
+    let found = odd_tdms([(2, u64::MAX / 4), (2, u64::MAX / 4)], false).expect("a table").columns;
+    assert_eq!(found[0].values, Values::Float(vec![1.0, 2.0]));
+}
+
 /// As text with 5 decimals.
 fn printed(value: f64) -> f64 {
     format!("{value:.5e}").parse().expect("a number")

@@ -195,16 +195,17 @@ impl File {
         let mut offset = 0;
         for (object, layout) in self.active.iter().zip(layouts) {
             let (size, bytes, stride) = match (layout.kind.size(), order.interleaved) {
-                _ if layout.count == 0 => continue,
+                // Channels of the type "void" have values without bytes.
+                _ if layout.bytes == 0 => continue,
                 (Some(size), true) => (size, &chunk[offset.min(chunk.len())..], row),
                 // The last chunk of an unfinished segment may lack channels.
                 (size, false) => {
-                    let end = (offset + layout.bytes).min(chunk.len());
+                    let end = offset.saturating_add(layout.bytes).min(chunk.len());
                     (size.unwrap_or(1), &chunk[offset.min(chunk.len())..end], size.unwrap_or(1))
                 }
                 (None, true) => return Err(refuse("TDMS file: text cannot be interleaved; the file is damaged")),
             };
-            offset += if order.interleaved { size } else { layout.bytes };
+            offset = offset.saturating_add(if order.interleaved { size } else { layout.bytes });
             // Rows whose last one may be cut within.
             let count = if bytes.len() < size { 0 } else { ((bytes.len() - size) / stride + 1).min(layout.count) };
             let values = match layout.kind {
