@@ -13,11 +13,11 @@ mod tdms;
 mod uff;
 mod wav;
 
-#[cfg(feature = "arrow")]
+#[cfg(feature = "parquet")]
 mod arrow;
 #[cfg(feature = "hdf5")]
 mod hdf5;
-#[cfg(feature = "arrow")]
+#[cfg(feature = "parquet")]
 mod nulls;
 #[cfg(feature = "parquet")]
 mod parquet;
@@ -65,9 +65,9 @@ pub fn read(kind: Kind, bytes: &[u8], most: usize) -> Result<Table, Error> {
         Kind::Hdf5 => hdf5::read(bytes, room)?,
         #[cfg(feature = "parquet")]
         Kind::Parquet => parquet::read(bytes, room)?,
-        #[cfg(feature = "arrow")]
+        #[cfg(feature = "parquet")]
         Kind::Arrow => arrow::read(bytes, room)?,
-        #[cfg(not(all(feature = "hdf5", feature = "parquet", feature = "arrow")))]
+        #[cfg(not(all(feature = "hdf5", feature = "parquet")))]
         other => return Err(refuse(format!("this build does not read {other}"))),
     };
     if columns.is_empty() {
@@ -135,6 +135,7 @@ enum Naming {
     /// `name(:,1)`, from 1.
     Matlab,
     /// `name[:,0]`, from 0.
+    #[cfg(feature = "hdf5")]
     Python,
 }
 
@@ -144,7 +145,9 @@ impl Naming {
             (Self::None, _) => String::new(),
             (Self::Matlab, false) => format!("{name}(:,{})", index + 1),
             (Self::Matlab, true) => format!("{name}({},:)", index + 1),
+            #[cfg(feature = "hdf5")]
             (Self::Python, false) => format!("{name}[:,{index}]"),
+            #[cfg(feature = "hdf5")]
             (Self::Python, true) => format!("{name}[{index},:]"),
         }
     }

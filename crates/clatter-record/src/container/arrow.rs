@@ -5,7 +5,6 @@
 
 mod schema;
 
-#[cfg(feature = "parquet")]
 pub(super) use schema::{schema_message, units};
 
 use super::bytes::Bytes;

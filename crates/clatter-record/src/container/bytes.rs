@@ -6,7 +6,7 @@ use crate::Error;
 /// A place in the bytes of a file, or of a part of it.
 #[derive(Debug, Clone)]
 pub(super) struct Bytes<'a> {
-    bytes: &'a [u8],
+    all: &'a [u8],
     at: usize,
     pub(super) big_endian: bool,
     /// What the messages call the part.
@@ -24,16 +24,16 @@ macro_rules! number {
 
 impl<'a> Bytes<'a> {
     pub(super) fn new(bytes: &'a [u8], part: &'static str) -> Self {
-        Self { bytes, at: 0, big_endian: false, part }
+        Self { all: bytes, at: 0, big_endian: false, part }
     }
     pub(super) fn at(&self) -> usize {
         self.at
     }
     pub(super) fn left(&self) -> usize {
-        self.bytes.len() - self.at
+        self.all.len() - self.at
     }
     pub(super) fn take(&mut self, count: usize) -> Result<&'a [u8], Error> {
-        let taken = self.at.checked_add(count).and_then(|end| self.bytes.get(self.at..end)).ok_or_else(|| {
+        let taken = self.at.checked_add(count).and_then(|end| self.all.get(self.at..end)).ok_or_else(|| {
             refuse(format!(
                 "{}: byte {} should be followed by {count} more, but only {} are left; the file is cut short or damaged",
                 self.part,
@@ -51,8 +51,8 @@ impl<'a> Bytes<'a> {
     }
     /// All that is left.
     pub(super) fn rest(&mut self) -> &'a [u8] {
-        let rest = &self.bytes[self.at..];
-        self.at = self.bytes.len();
+        let rest = &self.all[self.at..];
+        self.at = self.all.len();
         rest
     }
     fn array<const N: usize>(&mut self) -> Result<[u8; N], Error> {

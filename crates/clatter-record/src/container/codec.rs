@@ -25,7 +25,7 @@ pub(super) fn zlib(packed: &[u8], most: usize, part: &str) -> Result<Vec<u8>, Er
 }
 
 /// A Zstandard stream.
-#[cfg(feature = "arrow")]
+#[cfg(feature = "parquet")]
 pub(super) fn zstd(packed: &[u8], most: usize, part: &str) -> Result<Vec<u8>, Error> {
     let stream = ruzstd::decoding::StreamingDecoder::new(packed)
         .map_err(|error| refuse(format!("{part}: the Zstandard bytes are damaged: {error}")))?;
@@ -33,7 +33,7 @@ pub(super) fn zstd(packed: &[u8], most: usize, part: &str) -> Result<Vec<u8>, Er
 }
 
 /// An LZ4 frame.
-#[cfg(feature = "arrow")]
+#[cfg(feature = "parquet")]
 pub(super) fn lz4_frame(packed: &[u8], most: usize, part: &str) -> Result<Vec<u8>, Error> {
     unpack(lz4_flex::frame::FrameDecoder::new(packed), most, part)
 }

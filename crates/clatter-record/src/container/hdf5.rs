@@ -190,7 +190,7 @@ fn fields(kind: &Datatype) -> Option<Vec<Field>> {
 fn number(kind: &Datatype) -> Option<(Number, bool)> {
     let (number, order) = match kind {
         Datatype::FixedPoint { size, byte_order, layout } => {
-            let whole = layout.bit_offset == 0 && u32::from(layout.bit_precision) == 8 * size;
+            let whole = layout.bit_offset == 0 && u64::from(layout.bit_precision) == 8 * u64::from(*size);
             (Number::integer((*size).into(), layout.signed).filter(|_| whole), byte_order)
         }
         Datatype::FloatingPoint { byte_order, layout, .. } => {
@@ -268,6 +268,8 @@ fn unpack(values: &mut Values, attributes: &Attributes) {
     let (factor, offset) = (number("scale_factor"), number("add_offset"));
     if let (Values::Float(values), true) = (values, factor.or(offset).is_some()) {
         let (factor, offset) = (factor.unwrap_or(1.0), offset.unwrap_or(0.0));
-        values.iter_mut().for_each(|value| *value = *value * factor + offset);
+        for value in values {
+            *value = *value * factor + offset;
+        }
     }
 }

@@ -44,10 +44,13 @@ impl fmt::Display for Kind {
     }
 }
 
-/// Kinds with a place and bytes of their own there.
-const READ: [(usize, &[u8], Kind); 10] = [
+/// Kinds with a place and bytes of their own there; a question mark stands for any byte.
+const READ: [(usize, &[u8], Kind); 13] = [
     (0, b"\x93NUMPY", Kind::Npy),
-    (8, b"WAVE", Kind::Wav),
+    (0, b"RIFF????WAVE", Kind::Wav),
+    (0, b"RIFX????WAVE", Kind::Wav),
+    (0, b"RF64????WAVE", Kind::Wav),
+    (0, b"BW64????WAVE", Kind::Wav),
     (0, b"\x89HDF\r\n\x1a\n", Kind::Hdf5),
     (512, b"\x89HDF\r\n\x1a\n", Kind::Hdf5),
     (124, b"\x00\x01IM", Kind::Mat5),
@@ -63,7 +66,7 @@ const NO_RECORD: &str = "a record is numbers: save them as CSV";
 const SHEET: &str = "save it as CSV";
 
 /// Kinds that are not read: place, bytes, what it is, what to do.
-const REFUSED: [(usize, &[u8], &str, &str); 38] = [
+const REFUSED: [(usize, &[u8], &str, &str); 36] = [
     (0, b"PK\x03\x04", "a spreadsheet, an NPZ or another ZIP file", "save a spreadsheet as CSV, unpack what is packed"),
     (0, b"PK\x05\x06", "an empty ZIP file", NO_RECORD),
     (0, b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "an old Excel or other OLE file", SHEET),
@@ -82,21 +85,19 @@ const REFUSED: [(usize, &[u8], &str, &str); 38] = [
     (0, b"GIF8", "an image (GIF)", NO_RECORD),
     (0, b"II*\x00", "an image (TIFF)", NO_RECORD),
     (0, b"MM\x00*", "an image (TIFF)", NO_RECORD),
-    (8, b"WEBP", "an image (WebP)", NO_RECORD),
-    (4, b"ftyp", "a video", "take the heights from it, and save them as CSV"),
-    (8, b"AVI ", "a video (AVI)", "take the heights from it, and save them as CSV"),
-    (0, b"ID3", "an MP3 file", "save the sound as WAV"),
+    (0, b"RIFF????WEBP", "an image (WebP)", NO_RECORD),
+    (0, b"\x00\x00\x00?ftyp", "a video", "take the heights from it, and save them as CSV"),
+    (0, b"RIFF????AVI ", "a video (AVI)", "take the heights from it, and save them as CSV"),
+    (0, b"ID3\x03", "an MP3 file", "save the sound as WAV"),
+    (0, b"ID3\x04", "an MP3 file", "save the sound as WAV"),
     (0, b"fLaC", "a FLAC file", "save the sound as WAV"),
     (0, b"OggS", "an Ogg file", "save the sound as WAV"),
-    (8, b"AIFF", "an AIFF file", "save the sound as WAV"),
+    (0, b"FORM????AIFF", "an AIFF file", "save the sound as WAV"),
     (0, b"SQLite format 3\x00", "an SQLite database", "export the table as CSV"),
     (0, b"TDSh", "the index of a TDMS file", "give the .tdms file that stands beside it"),
     (0, b"DIAEXTENDED", "a header of DIAdem DAT data", "save the channels as TDMS or CSV with DIAdem"),
-    (0, b"DIADAT", "a header of DIAdem DAT data", "save the channels as TDMS or CSV with DIAdem"),
     (0, b"MDF     ", "an MDF file (MF4, DAT)", "export the channels as CSV, for example with asammdf"),
     (0, b"UnFinMF ", "an MDF file that was not finished", "export the channels as CSV, for example with asammdf"),
-    (0, b"DEWESoft", "a Dewesoft file", "export it as CSV or UFF with DewesoftX"),
-    (0, b"DWDataFile", "a Dewesoft file", "export it as CSV or UFF with DewesoftX"),
     (0, b"|CF,", "an imc FAMOS file", "export it as CSV with FAMOS"),
     (0, b"CDF\x01", "a NetCDF file of version 3", "save it as NetCDF 4, HDF5 or CSV"),
     (0, b"CDF\x02", "a NetCDF file of version 3", "save it as NetCDF 4, HDF5 or CSV"),
@@ -122,7 +123,10 @@ impl Kind {
     /// # Ok::<(), clatter_record::Error>(())
     /// ```
     pub fn of(beginning: &[u8]) -> Result<Self, Error> {
-        let has = |at: usize, magic: &[u8]| beginning.get(at..).is_some_and(|bytes| bytes.starts_with(magic));
+        let has = |at: usize, magic: &[u8]| {
+            let bytes = beginning.get(at..).and_then(|bytes| bytes.get(..magic.len()));
+            bytes.is_some_and(|bytes| bytes.iter().zip(magic).all(|(byte, magic)| *magic == b'?' || byte == magic))
+        };
         if let Some((.., kind)) = READ.iter().find(|(at, magic, _)| has(*at, magic)) {
             return Ok(*kind);
         }

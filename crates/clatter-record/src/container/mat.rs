@@ -18,6 +18,8 @@ const DEEPEST: usize = 8;
 struct Found {
     columns: Vec<Column>,
     interval_s: Option<f64>,
+    /// Why a variable of numbers is left out.
+    left_out: Option<Error>,
 }
 
 pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> {
@@ -39,9 +41,14 @@ pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> 
             variable(data, bytes.big_endian, None, 0, &mut found, room)?;
         }
     }
-    let Found { mut columns, interval_s } = found;
+    let Found { mut columns, interval_s, left_out } = found;
+    if let (true, Some(reason)) = (columns.is_empty(), left_out) {
+        return Err(reason);
+    }
     if let Some(interval) = interval_s {
-        columns.iter_mut().for_each(|column| column.sampled_s = Some([0.0, interval]));
+        for column in &mut columns {
+            column.sampled_s = Some([0.0, interval]);
+        }
     }
     Ok(columns)
 }
@@ -121,6 +128,10 @@ fn variable(
     let own = Element::read(&mut bytes)?.data;
     let own = String::from_utf8_lossy(own);
     let name = given.unwrap_or(&own);
+    // What MATLAB keeps for itself has no name.
+    if name.is_empty() {
+        return Ok(());
+    }
     let sides = match Number::I32.values(sides.data, big_endian) {
         Values::Float(sides) => sides,
         Values::Integer(_) => Vec::new(),
@@ -163,7 +174,9 @@ fn variable(
                     Ok(())
                 }
                 Some(_) if flags & COMPLEX != 0 => {
-                    Err(refuse(format!("MAT file: {name:?} is complex; a record is real: save its real part")))
+                    let reason = format!("MAT file: {name:?} is complex; a record is real: save its real part");
+                    found.left_out = Some(refuse(reason));
+                    Ok(())
                 }
                 Some(_) => {
                     room.take_all(&[rows, columns])?;

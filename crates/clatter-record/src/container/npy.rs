@@ -366,7 +366,8 @@ pub fn write(columns: &[&[f64]]) -> Result<Vec<u8>, Error> {
     // 20 digits leave it below 118 bytes.
     let before = MAGIC.len() + 4;
     let fill = (before + header.len() + 1).next_multiple_of(64) - before - header.len();
-    header.push_str(&format!("{:>fill$}", "\n"));
+    header.extend(std::iter::repeat_n(' ', fill - 1));
+    header.push('\n');
     let length = u16::try_from(header.len()).map_err(|_| refuse("NPY file: the header is too long"))?;
     let mut file = Vec::with_capacity(before + header.len() + 8 * rows * columns.len());
     file.extend_from_slice(MAGIC);

@@ -136,13 +136,12 @@ impl File {
         }
         for _ in 0..meta.u32()? {
             let path = text(meta)?;
-            let index = match self.by_path.get(&path) {
-                Some(index) => *index,
-                None => {
-                    self.objects.push(Object { path: parts(&path), ..Object::default() });
-                    self.by_path.insert(path, self.objects.len() - 1);
-                    self.objects.len() - 1
-                }
+            let index = if let Some(index) = self.by_path.get(&path) {
+                *index
+            } else {
+                self.objects.push(Object { path: parts(&path), ..Object::default() });
+                self.by_path.insert(path, self.objects.len() - 1);
+                self.objects.len() - 1
             };
             let object = &mut self.objects[index];
             let has_data = match meta.u32()? {
@@ -162,6 +161,9 @@ impl File {
             }
             if has_data && self.is_active.insert(index) {
                 self.active.push(index);
+            } else if !has_data && self.is_active.remove(&index) {
+                self.visits += self.active.len();
+                self.active.retain(|active| *active != index);
             }
         }
         Ok(())
@@ -176,7 +178,7 @@ impl File {
         if size == 0 {
             return Err(refuse("TDMS file: a segment has data of no channel; the file is damaged"));
         }
-        if raw.len() % size != 0 && !order.unfinished {
+        if !raw.len().is_multiple_of(size) && !order.unfinished {
             return Err(refuse(format!(
                 "TDMS file: the {} bytes of a segment are no whole number of chunks of {size}; the file is damaged",
                 raw.len()
@@ -193,16 +195,17 @@ impl File {
         let mut offset = 0;
         for (object, layout) in self.active.iter().zip(layouts) {
             let (size, bytes, stride) = match (layout.kind.size(), order.interleaved) {
-                _ if layout.count == 0 => continue,
+                // Channels of the type "void" have values without bytes.
+                _ if layout.bytes == 0 => continue,
                 (Some(size), true) => (size, &chunk[offset.min(chunk.len())..], row),
                 // The last chunk of an unfinished segment may lack channels.
                 (size, false) => {
-                    let end = (offset + layout.bytes).min(chunk.len());
+                    let end = offset.saturating_add(layout.bytes).min(chunk.len());
                     (size.unwrap_or(1), &chunk[offset.min(chunk.len())..end], size.unwrap_or(1))
                 }
                 (None, true) => return Err(refuse("TDMS file: text cannot be interleaved; the file is damaged")),
             };
-            offset += if order.interleaved { size } else { layout.bytes };
+            offset = offset.saturating_add(if order.interleaved { size } else { layout.bytes });
             // Rows whose last one may be cut within.
             let count = if bytes.len() < size { 0 } else { ((bytes.len() - size) / stride + 1).min(layout.count) };
             let values = match layout.kind {
@@ -303,7 +306,7 @@ fn layout(meta: &mut Bytes<'_>) -> Result<Layout, Error> {
         return Err(refuse(format!("TDMS file: a channel has {dimension} dimensions; the format allows 1")));
     }
     let bytes = match kind.size() {
-        Some(size) => count.checked_mul(size as u64).unwrap_or(u64::MAX),
+        Some(size) => count.saturating_mul(size as u64),
         None => meta.u64()?,
     };
     let beyond = |_| refuse(format!("TDMS file: a channel of {count} values is beyond the file"));

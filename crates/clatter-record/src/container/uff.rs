@@ -5,6 +5,7 @@
 use super::number::Number;
 use super::{Room, column, refuse};
 use crate::{Column, Error, Values};
+use std::borrow::Cow;
 
 pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> {
     let mut lines = Lines { bytes, at: 0, line: 0 };
@@ -17,9 +18,9 @@ pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> 
             continue;
         }
         let Some(head) = lines.next() else { break };
-        let (set, binary) = (head.get(..6).unwrap_or(head).trim(), head.get(6..7) == Some("b"));
+        let (set, binary) = (head.get(..6).unwrap_or(&head).trim(), head.get(6..7) == Some("b"));
         if set == "58" {
-            match block(&mut lines, binary.then_some(head), room)? {
+            match block(&mut lines, binary.then_some(&head), room)? {
                 Block::Columns(Some(times), values) if last_times.as_ref() == Some(&times) => columns.push(values),
                 Block::Columns(Some(times), values) => {
                     last_times = Some(times.clone());
@@ -48,8 +49,8 @@ struct Lines<'a> {
 }
 
 impl<'a> Lines<'a> {
-    /// The next line; one that is no text is empty, as it holds nothing that is read.
-    fn next(&mut self) -> Option<&'a str> {
+    /// The next line, in UTF-8 or Latin-1.
+    fn next(&mut self) -> Option<Cow<'a, str>> {
         let rest = &self.bytes[self.at..];
         if rest.is_empty() {
             return None;
@@ -58,10 +59,10 @@ impl<'a> Lines<'a> {
         self.at += end.map_or(rest.len(), |end| end + 1);
         self.line += 1;
         let line = &rest[..end.unwrap_or(rest.len())];
-        // Names may be in Latin-1; a line of fixed fields has to stay so.
-        Some(std::str::from_utf8(line.strip_suffix(b"\r").unwrap_or(line)).unwrap_or_default())
+        let line = line.strip_suffix(b"\r").unwrap_or(line);
+        Some(std::str::from_utf8(line).map_or_else(|_| line.iter().copied().map(char::from).collect(), Cow::from))
     }
-    fn expect(&mut self) -> Result<&'a str, Error> {
+    fn expect(&mut self) -> Result<Cow<'a, str>, Error> {
         self.next()
             .ok_or_else(|| refuse(format!("universal file: it ends after line {}, within a data set 58", self.line)))
     }
@@ -141,8 +142,8 @@ impl Head {
         for _ in 0..5 {
             lines.expect()?;
         }
-        let place = place(lines.expect()?);
-        let form = lines.expect()?;
+        let place = place(&lines.expect()?);
+        let form = &lines.expect()?;
         let fields: Option<Vec<f64>> = fixed(form, &[10, 10, 10, 13, 13, 13]).or_else(|| blanks(form));
         let &[kind, count, even, start, step, ..] = fields.as_deref().unwrap_or_default() else {
             return Err(lines.fault("six numbers should stand here: kind of values, how many, spacing, first, step, z"));
@@ -153,7 +154,7 @@ impl Head {
         if !matches!(even, 0.0 | 1.0) {
             return Err(lines.fault(&format!("a spacing of {even} is not known; 0 is uneven, 1 even")));
         }
-        let even = even == 1.0;
+        let even = even > 0.5;
         if !(0.0..=1e15).contains(&count) || count.fract() != 0.0 {
             return Err(lines.fault(&format!("{count} is no number of values")));
         }
@@ -161,8 +162,8 @@ impl Head {
             return Err(lines.fault(&format!("even values need a step above 0, not {step}")));
         }
         let at = lines.line;
-        let time = Axis::read(lines.expect()?);
-        let value = Axis::read(lines.expect()?);
+        let time = Axis::read(&lines.expect()?);
+        let value = Axis::read(&lines.expect()?);
         for _ in 0..2 {
             lines.expect()?;
         }
@@ -199,7 +200,7 @@ impl Head {
         };
         let (mut times, mut values) = (Vec::new(), Vec::new());
         while values.len() < self.count {
-            let line = lines.expect()?;
+            let line = &lines.expect()?;
             let numbers = fixed(line, widths).or_else(|| blanks(line)).filter(|numbers| !numbers.is_empty());
             let Some(mut numbers) = numbers else {
                 let missing = self.count - values.len();
@@ -269,15 +270,11 @@ impl Axis {
     /// From a line of (I10,3I5,2(1X,20A1)).
     fn read(line: &str) -> Self {
         let word = |from: usize, to: usize| {
-            let word = line.get(from..to.min(line.len())).unwrap_or_default().trim();
-            if word.eq_ignore_ascii_case("none") { "" } else { word }
+            let word: String = line.chars().skip(from).take(to - from).collect();
+            if word.trim().eq_ignore_ascii_case("none") { String::new() } else { word.trim().to_owned() }
         };
         let unit = word(47, 67);
-        Self {
-            kind: word(0, 10).parse().unwrap_or(0),
-            label: word(26, 46).to_owned(),
-            unit: (!unit.is_empty()).then(|| unit.to_owned()),
-        }
+        Self { kind: word(0, 10).parse().unwrap_or(0), label: word(26, 46), unit: (!unit.is_empty()).then_some(unit) }
     }
     /// Its label, or what its kind is.
     fn name(&self) -> String {

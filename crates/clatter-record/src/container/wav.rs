@@ -81,10 +81,10 @@ pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> 
 
 impl Format {
     fn read(part: &[u8], big_endian: bool) -> Result<Self, Error> {
-        const EXTENSIBLE: u16 = 0xfffe;
+        const EXTENSIBLE: u32 = 0xfffe;
         let mut part = Bytes::new(part, "WAV file, fmt");
         part.big_endian = big_endian;
-        let mut kind = part.u16()?;
+        let mut kind = u32::from(part.u16()?);
         let channels = usize::from(part.u16()?);
         let rate_hz = part.u32()?;
         part.take(4)?;
@@ -93,7 +93,7 @@ impl Format {
         if kind == EXTENSIBLE {
             // Its own length, valid bits, places of the speakers, then the kind as the first bytes of an identifier.
             part.take(8)?;
-            kind = part.u16()?;
+            kind = part.u32()?;
         }
         let coding = match (kind, bits) {
             (1, 1..=8) => Coding::Unsigned,

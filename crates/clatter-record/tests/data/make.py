@@ -72,6 +72,10 @@ def wav():
     # An odd chunk before the data, a length of the data that was never entered.
     body = b"fmt " + struct.pack("<I", len(form)) + form + b"LIST" + struct.pack("<I", 3) + b"abc\0"
     write("extensible.wav", b"RIFF" + struct.pack("<I", 0xFFFFFFFF) + b"WAVE" + body + b"data" + b"\xff\xff\xff\xff" + data)
+    form = struct.pack(">HHIIHHHHI", 0xFFFE, 1, 10000, 40000, 4, 32, 22, 32, 4) + struct.pack(">I", 3) + bytes.fromhex("00000010800000aa00389b71")
+    body = b"fmt " + struct.pack(">I", len(form)) + form + b"data" + struct.pack(">I", len(data))
+    write("extensible_big.wav", b"RIFX" + struct.pack(">I", 4 + len(body) + len(data)) + b"WAVE" + body + a.astype(">f4").tobytes())
+    assert np.array_equal(scipy.io.wavfile.read("extensible_big.wav")[1], a)
     ds64 = struct.pack("<QQQI", 4 + 36 + 24 + 8 + len(data), len(data), N, 0)
     form = struct.pack("<HHIIHH", 3, 1, 10000, 40000, 4, 32)
     body = b"ds64" + struct.pack("<I", len(ds64)) + ds64 + b"fmt " + struct.pack("<I", len(form)) + form
@@ -89,6 +93,7 @@ def mat():
         "t": t, "a": a[:, None], "m": np.column_stack([c, b.astype("i2")]), "s": a.astype("f4"),
         "note": "drop 3", "fs": 1024.0, "cells": np.array([1, "x"], dtype=object),
         "run": {"acc": b, "name": "x", "inner": {"n": c}}, "empty": np.zeros((0, 3)), "big": big, "cube": np.zeros((2, 2, 2)),
+        "z": a + 1j * b,
     }
     for name, compressed in [("plain.mat", False), ("packed.mat", True)]:
         scipy.io.savemat(name, variables, do_compression=compressed)
@@ -251,5 +256,18 @@ def columnar():
         writer.write_table(views, max_chunksize=25)
 
 
-for make in (npy, wav, mat, hdf5, tdms, uff, columnar):
+def bombs():
+    zeros = np.zeros(1_000_000)
+    scipy.io.savemat("bomb.mat", {"a": zeros}, do_compression=True)
+    data = open("bomb.mat", "rb").read()
+    write("bomb.mat", b"MATLAB 5.0 MAT-file, made by scipy".ljust(116) + data[116:])
+    with h5py.File("bomb.h5", "w") as file:
+        file.create_dataset("a", data=zeros, chunks=(1_000_000,), compression="gzip", compression_opts=9)
+    table = pa.table({"a": zeros})
+    pq.write_table(table, "bomb_zstd.parquet", compression="zstd", use_dictionary=False)
+    with pa.ipc.new_file("bomb_zstd.arrow", table.schema, options=pa.ipc.IpcWriteOptions(compression="zstd")) as writer:
+        writer.write_table(table)
+
+
+for make in (npy, wav, mat, hdf5, tdms, uff, columnar, bombs):
     make()

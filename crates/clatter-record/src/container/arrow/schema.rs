@@ -142,7 +142,6 @@ fn count(field: &FieldRef<'_>, left: &mut usize, depth: usize) -> Result<(usize,
 }
 
 /// Names and units of the columns of a schema in a message, as Parquet files carry it.
-#[cfg(feature = "parquet")]
 pub(in crate::container) fn units(message: &[u8]) -> Result<Vec<(String, String)>, Error> {
     use ipc::planus::ReadAsRoot;
     // The mark and the length of the message may stand before it.
@@ -163,7 +162,6 @@ pub(in crate::container) fn units(message: &[u8]) -> Result<Vec<(String, String)
 }
 
 /// The message of a schema of floats: a name and a unit for each.
-#[cfg(feature = "parquet")]
 pub(in crate::container) fn schema_message(columns: &[(String, &str)]) -> Vec<u8> {
     let fields = columns.iter().map(|(name, unit)| {
         let unit = ipc::KeyValue { key: Some("unit".to_owned()), value: Some((*unit).to_owned()) };

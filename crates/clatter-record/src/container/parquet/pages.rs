@@ -1,140 +1,162 @@
-//! Pages of one column, unpacked within a bound, with lengths that hold.
+//! The pages of one column in one row group: unpacked, and its numbers as plain bytes.
 
+use super::encoding::{Dictionary, delta, hybrid, split_streams};
+use super::refuse;
 use crate::Error;
-use crate::container::{codec, refuse};
-use bytes::Bytes;
-use parquet::basic::{Compression, CompressionCodec, Encoding};
-use parquet::column::page::{Page, PageMetadata, PageReader};
-use parquet::errors::{ParquetError, Result};
-use parquet::file::metadata::ColumnChunkMetaData;
-use parquet::file::serialized_reader::SerializedPageReader;
-use std::sync::Arc;
+use crate::container::codec;
+use polars_parquet_format::thrift::protocol::TCompactInputProtocol;
+use polars_parquet_format::{ColumnMetaData, CompressionCodec, Encoding, PageHeader, PageType};
+use std::borrow::Cow;
 
-/// Reads pages as they lie, and unpacks them itself: the crate would take what memory a header asks for, and its
-/// Zstandard is no Rust.
-pub(super) struct Pages {
-    packed: SerializedPageReader<Bytes>,
-    codec: CompressionCodec,
-    /// Bytes of a page that holds all rows.
-    most: usize,
-    has_dictionary: bool,
+/// What the schema says of the rows to read.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Shape {
+    pub(super) rows: usize,
+    /// Bytes of a number.
+    pub(super) width: usize,
+    /// Levels of a value that is there.
+    pub(super) levels: u32,
 }
 
-impl Pages {
-    pub(super) fn new(
-        bytes: &Arc<Bytes>,
-        chunk: &ColumnChunkMetaData,
-        rows: usize,
-        name: &str,
-    ) -> std::result::Result<Self, Error> {
-        let fault = |fault: &str| refuse(format!("Parquet file: column {name:?} {fault}"));
-        let codec = chunk.compression_codec();
-        if matches!(codec, CompressionCodec::BROTLI | CompressionCodec::LZ4 | CompressionCodec::LZO) {
-            return Err(fault(&format!("is compressed by {codec}; write it with snappy, zstd, gzip or lz4_raw")));
-        }
-        let start = chunk.dictionary_page_offset().unwrap_or_else(|| chunk.data_page_offset());
-        if start < 0 || chunk.compressed_size() < 0 {
-            return Err(fault("begins before the file; the file is damaged"));
-        }
-        let as_it_lies = chunk.clone().into_builder().set_compression(Compression::UNCOMPRESSED).build();
-        let as_it_lies = as_it_lies.map_err(|error| fault(&format!("is damaged: {error}")))?;
-        let packed = SerializedPageReader::new(Arc::clone(bytes), &as_it_lies, rows, None);
-        let packed = packed.map_err(|error| fault(&format!("is damaged: {error}")))?;
-        // 12 bytes for the widest number, and some for levels; a page of few rows has a header.
-        Ok(Self { packed, codec, most: rows.saturating_mul(16).saturating_add(1 << 16), has_dictionary: false })
-    }
+/// Numbers as the plain encoding has them, one for each row; zeros where there is none.
+#[derive(Debug, Default)]
+pub(super) struct Rows {
+    pub(super) bytes: Vec<u8>,
+    /// Which rows have a number; empty where all have to.
+    pub(super) valid: Vec<bool>,
+}
 
-    fn unpack(&self, packed: &[u8]) -> Result<Bytes> {
-        let part = "Parquet file, a page";
-        let unpacked = match self.codec {
-            CompressionCodec::SNAPPY => codec::snappy(packed, self.most, part),
-            CompressionCodec::GZIP => codec::gzip(packed, self.most, part),
-            CompressionCodec::ZSTD => codec::zstd(packed, self.most, part),
-            CompressionCodec::LZ4_RAW => codec::lz4_block(packed, self.most, part),
-            _ => Err(refuse("Parquet file: a page is packed in a way that is not read")),
+/// All rows of a column in a row group.
+pub(super) fn read(bytes: &[u8], chunk: &ColumnMetaData, shape: Shape, name: &str) -> Result<Rows, Error> {
+    Chunk { told: chunk, shape, dictionary: None, rows: Rows::default(), left: shape.rows }
+        .read(bytes)
+        .map_err(|fault| refuse(format!("Parquet file: column {name:?} {fault}")))
+}
+
+/// A fault of a column: what follows its name in a message.
+type Fault = String;
+
+const CUT: &str = "ends too early; the file is damaged";
+
+struct Chunk<'a> {
+    told: &'a ColumnMetaData,
+    shape: Shape,
+    dictionary: Option<Vec<u8>>,
+    rows: Rows,
+    /// Rows to come.
+    left: usize,
+}
+
+impl Chunk<'_> {
+    fn read(mut self, bytes: &[u8]) -> Result<Rows, Fault> {
+        /// What texts in the head of a page may take: smallest and largest value.
+        const MOST: usize = 1 << 16;
+        let start = match self.told.dictionary_page_offset {
+            Some(dictionary) if (1..self.told.data_page_offset).contains(&dictionary) => dictionary,
+            _ => self.told.data_page_offset,
         };
-        unpacked.map(Bytes::from).map_err(|error| ParquetError::General(error.to_string()))
-    }
-
-    /// The page, with all that the crate takes for granted.
-    fn unpacked(&mut self, page: Page) -> Result<Page> {
-        let is_packed = self.codec != CompressionCodec::UNCOMPRESSED;
-        let by_dictionary = matches!(page.encoding(), Encoding::PLAIN_DICTIONARY | Encoding::RLE_DICTIONARY);
-        if page.is_data_page() && by_dictionary && !self.has_dictionary {
-            return Err(ParquetError::General("a page needs a dictionary, but there is none before it".to_owned()));
+        let range = usize::try_from(start).ok().zip(usize::try_from(self.told.total_compressed_size).ok());
+        let range = range.and_then(|(start, length)| bytes.get(start..start.checked_add(length)?));
+        let mut rest = range.ok_or("lies beyond the file; the file is damaged")?;
+        while self.left > 0 {
+            let head = PageHeader::read_from_in_protocol(&mut TCompactInputProtocol::new(&mut rest, MOST));
+            let head = head.map_err(|error| format!("has a damaged page: {error}"))?;
+            let length = usize::try_from(head.compressed_page_size).map_err(|_| CUT)?;
+            let page = rest.split_off(..length).ok_or(CUT)?;
+            match (head.type_, &head) {
+                (PageType::DICTIONARY_PAGE, PageHeader { dictionary_page_header: Some(_), .. }) => {
+                    self.dictionary = Some(self.unpacked(page)?.into_owned());
+                }
+                (PageType::DATA_PAGE, PageHeader { data_page_header: Some(head), .. }) => {
+                    let page = self.unpacked(page)?;
+                    let levels = if self.shape.levels > 0 { head.definition_level_encoding } else { Encoding::RLE };
+                    if levels != Encoding::RLE {
+                        return Err(format!("has levels in encoding {}; write it with a program of today", levels.0));
+                    }
+                    let (levels, values) = if self.shape.levels > 0 {
+                        let (length, rest) = page.split_first_chunk().ok_or(CUT)?;
+                        rest.split_at_checked(u32::from_le_bytes(*length) as usize).ok_or(CUT)?
+                    } else {
+                        (&[][..], &*page)
+                    };
+                    self.page(head.num_values, head.encoding, levels, values)?;
+                }
+                (PageType::DATA_PAGE_V2, PageHeader { data_page_header_v2: Some(head), .. }) => {
+                    let size = |length: i32| usize::try_from(length).map_err(|_| CUT);
+                    let repetition = size(head.repetition_levels_byte_length)?;
+                    let (_, rest) = page.split_at_checked(repetition).ok_or(CUT)?;
+                    let levels = size(head.definition_levels_byte_length)?;
+                    let (levels, values) = rest.split_at_checked(levels).ok_or(CUT)?;
+                    let packed = head.is_compressed.unwrap_or(true) && !values.is_empty();
+                    let values = if packed { self.unpacked(values)? } else { values.into() };
+                    self.page(head.num_values, head.encoding, levels, &values)?;
+                }
+                // An index.
+                _ => {}
+            }
         }
-        Ok(match page {
-            Page::DataPage { buf, num_values, encoding, def_level_encoding, rep_level_encoding, statistics } => {
-                // The other coding of levels is of 2013, and the crate trusts its length.
-                if def_level_encoding != Encoding::RLE {
-                    return Err(ParquetError::General(format!("levels coded as {def_level_encoding} are not read")));
-                }
-                let buf = if is_packed { self.unpack(&buf)? } else { buf };
-                Page::DataPage { buf, num_values, encoding, def_level_encoding, rep_level_encoding, statistics }
-            }
-            Page::DataPageV2 {
-                buf,
-                num_values,
-                encoding,
-                num_nulls,
-                num_rows,
-                def_levels_byte_len,
-                rep_levels_byte_len,
-                is_compressed,
-                statistics,
-            } => {
-                let levels =
-                    def_levels_byte_len.checked_add(rep_levels_byte_len).and_then(|sum| usize::try_from(sum).ok());
-                let Some((levels, values)) = levels.and_then(|levels| buf.split_at_checked(levels)) else {
-                    return Err(ParquetError::General("the levels of a page lie beyond it".to_owned()));
-                };
-                let buf = if is_packed && is_compressed && !values.is_empty() {
-                    [levels, self.unpack(values)?.as_ref()].concat().into()
-                } else {
-                    buf
-                };
-                Page::DataPageV2 {
-                    buf,
-                    num_values,
-                    encoding,
-                    num_nulls,
-                    num_rows,
-                    def_levels_byte_len,
-                    rep_levels_byte_len,
-                    is_compressed: false,
-                    statistics,
-                }
-            }
-            Page::DictionaryPage { buf, num_values, encoding, is_sorted } => {
-                let buf = if is_packed { self.unpack(&buf)? } else { buf };
-                // No number is shorter than 4 bytes.
-                if num_values as usize > buf.len() / 4 {
-                    let fault = format!("a dictionary of {num_values} numbers cannot have {} bytes", buf.len());
-                    return Err(ParquetError::General(fault));
-                }
-                self.has_dictionary = true;
-                Page::DictionaryPage { buf, num_values, encoding, is_sorted }
-            }
-        })
+        Ok(self.rows)
     }
-}
 
-impl Iterator for Pages {
-    type Item = Result<Page>;
-    fn next(&mut self) -> Option<Self::Item> {
-        self.get_next_page().transpose()
+    /// A page as it was before it was compressed.
+    fn unpacked<'b>(&self, packed: &'b [u8]) -> Result<Cow<'b, [u8]>, Fault> {
+        let Shape { rows, width, .. } = self.shape;
+        // A page that holds all rows, its levels, and heads of their runs.
+        let most = rows.saturating_mul(width + 8).saturating_add(1 << 16);
+        let part = "is damaged";
+        let unpacked = match self.told.codec {
+            CompressionCodec::UNCOMPRESSED => return Ok(packed.into()),
+            CompressionCodec::SNAPPY => codec::snappy(packed, most, part),
+            CompressionCodec::GZIP => codec::gzip(packed, most, part),
+            CompressionCodec::ZSTD => codec::zstd(packed, most, part),
+            CompressionCodec::LZ4_RAW => codec::lz4_block(packed, most, part),
+            CompressionCodec(other) => {
+                let names = ["LZO", "Brotli", "the LZ4 of old"];
+                let name = usize::try_from(other).ok().and_then(|other| names.get(other.checked_sub(3)?));
+                let name = name.unwrap_or(&"a codec that is not known");
+                return Err(format!("is compressed by {name}; write it with snappy, zstd, gzip or lz4_raw"));
+            }
+        };
+        unpacked.map(Cow::from).map_err(|error| error.to_string())
     }
-}
 
-impl PageReader for Pages {
-    fn get_next_page(&mut self) -> Result<Option<Page>> {
-        let page = self.packed.get_next_page()?;
-        page.map(|page| self.unpacked(page)).transpose()
-    }
-    fn peek_next_page(&mut self) -> Result<Option<PageMetadata>> {
-        self.packed.peek_next_page()
-    }
-    fn skip_next_page(&mut self) -> Result<()> {
-        self.packed.skip_next_page()
+    /// Adds the rows of a page.
+    fn page(&mut self, rows: i32, encoding: Encoding, levels: &[u8], values: &[u8]) -> Result<(), Fault> {
+        let told = usize::try_from(rows).ok().filter(|rows| *rows <= self.left);
+        let rows = told.ok_or_else(|| format!("has a page of {rows} rows where {} are to come", self.left))?;
+        self.left -= rows;
+        let Shape { width, levels: full, .. } = self.shape;
+        let first = self.rows.valid.len();
+        let mut there = rows;
+        if full > 0 {
+            let levels = hybrid(levels, u32::BITS - full.leading_zeros(), rows).ok_or(CUT)?;
+            self.rows.valid.extend(levels.into_iter().map(|level| level == full));
+            there = self.rows.valid[first..].iter().filter(|valid| **valid).count();
+        }
+        let plain: Cow<'_, [u8]> = match encoding {
+            Encoding::PLAIN => values.get(..there * width).ok_or(CUT)?.into(),
+            Encoding::PLAIN_DICTIONARY | Encoding::RLE_DICTIONARY => {
+                let numbers =
+                    self.dictionary.as_deref().ok_or("has no dictionary before its pages; the file is damaged")?;
+                Dictionary { numbers, width }.look_up(values, there).ok_or("has a number beyond its dictionary")?.into()
+            }
+            Encoding::BYTE_STREAM_SPLIT => split_streams(values, width, there).ok_or(CUT)?.into(),
+            Encoding::DELTA_BINARY_PACKED if width < 12 => delta(values, width, there).ok_or(CUT)?.into(),
+            Encoding(other) => return Err(format!("has numbers in encoding {other}, which is not known")),
+        };
+        if there == rows {
+            self.rows.bytes.extend_from_slice(&plain);
+            return Ok(());
+        }
+        let mut numbers = plain.chunks_exact(width);
+        for valid in &self.rows.valid[first..] {
+            let number = if *valid { numbers.next() } else { None };
+            let bytes = &mut self.rows.bytes;
+            bytes.resize(bytes.len() + width, 0);
+            if let (Some(number), Some(place)) = (number, bytes.len().checked_sub(width)) {
+                bytes[place..].copy_from_slice(number);
+            }
+        }
+        Ok(())
     }
 }

@@ -4,7 +4,7 @@ use super::{Properties, Property};
 use crate::container::refuse;
 use crate::{Error, Values};
 
-/// The raw values, as source of a scale.
+/// The raw values, as source of a scale; scales have numbers below.
 const RAW: f64 = u32::MAX as f64;
 
 /// The values by the scales of the first of these that has any: channel, group, file.
@@ -25,11 +25,11 @@ pub(super) fn scaled(values: Values, sources: &[Option<&Properties>], channel: &
     let mut polynomials = Vec::new();
     // From the last scale back to the raw values.
     let mut index = *count - 1.0;
-    while index != RAW {
+    while index < RAW {
         let scale = Scale { properties, index, channel };
         let (coefficients, source) = scale.read()?;
         polynomials.push(coefficients);
-        if source != RAW && source >= index {
+        if source < RAW && source >= index {
             return Err(scale.fault(&format!("takes scale {source}, which is not before it")));
         }
         index = source;
@@ -82,8 +82,10 @@ impl Scale<'_> {
             "Polynomial" => {
                 let count = self.number("Polynomial_Coefficients_Size").unwrap_or(4.0);
                 let mut coefficients = Vec::new();
-                while (coefficients.len() as f64) < count {
+                let mut left = count;
+                while left > 0.0 {
                     coefficients.push(self.coefficient(&format!("Polynomial_Coefficients[{}]", coefficients.len()))?);
+                    left -= 1.0;
                 }
                 coefficients
             }
