@@ -14,13 +14,14 @@ use clatter_record::{Channel, Motion, Record, Shock, Shocks, integrate};
 use clatter_shock::Pulse;
 
 use crate::condition_args::ConditionArgs;
+use crate::excitation::{self, PulseArg};
 use crate::inputs::RowFormat;
 use crate::numbers::{digits, figures};
 use crate::output::{self, Files, Kind, Target, buffered};
 use crate::quantities::{Show, plain_or_typed};
 use crate::record_args::RecordArgs;
 use crate::text::{self, column, shown};
-use crate::{Failure, Streams, excitation, npy};
+use crate::{Failure, Streams, npy};
 
 /// Show what a file of measured accelerations holds
 ///
@@ -38,7 +39,7 @@ Examples:
   clatter record drop.csv --acceleration=az -o drop.svg
   clatter record logger.txt --units=ms,g -o drop.csv
   clatter record day.csv --detrend=mean --find --format=csv
-  clatter record table.csv --low-pass=1650 --fit-pulse=half-sine,50g,11ms -o pulse.svg")]
+  clatter record table.csv --low-pass=1650 --fit-pulse --nominal=half-sine,50g,11ms -o pulse.svg")]
 pub(crate) struct Args {
     /// A file of measured accelerations; - is standard input
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
@@ -57,9 +58,12 @@ pub(crate) struct Args {
     #[arg(long, value_name = "TIME", default_value = "5ms", value_parser = quiet)]
     quiet: f64,
     /// Fit a half-sine, a haversine and a terminal-peak sawtooth to the largest shock, and hold it against the tolerances of
-    /// standards about the best of them, or about a nominal pulse such as half-sine,50g,11ms or JESD22-B110/B
-    #[arg(long, value_name = "NOMINAL", num_args = 0..=1, require_equals = true, value_parser = nominal)]
-    fit_pulse: Option<Option<Pulse>>,
+    /// standards
+    #[arg(long)]
+    fit_pulse: bool,
+    /// The pulse that tolerances are about, such as half-sine,50g,11ms or JESD22-B110/B [default: the best that fits]
+    #[arg(long, value_name = "PULSE", requires = "fit_pulse", value_parser = nominal)]
+    nominal: Option<Pulse>,
     /// Also velocity and displacement, integrated from rest: their last values, and in files a column each
     #[arg(long)]
     integrate: bool,
@@ -85,11 +89,12 @@ fn quiet(text: &str) -> Result<f64, String> {
 }
 
 /// A nominal pulse by the keyword of a standard, or by shape, amplitude and duration.
-fn nominal(text: &str) -> Result<Option<Pulse>, String> {
-    if let Some(standard) = clatter_record::standard_pulse(text) {
-        return Ok(Some(standard.pulse()));
+fn nominal(text: &str) -> Result<Pulse, String> {
+    match (clatter_record::standard_pulse(text), excitation::pulse(text)) {
+        (Some(standard), _) => Ok(standard.pulse()),
+        (None, Ok(PulseArg { pulses, .. })) => pulses.first().copied().ok_or_else(|| "no pulse".to_owned()),
+        (None, Err(error)) => Err(error),
     }
-    excitation::pulse(text).map(|arg| arg.pulses.first().copied())
 }
 
 fn target(text: &str) -> Result<Target, String> {
@@ -109,10 +114,7 @@ impl Args {
         let bad = |reason| Failure::Record { path: self.file.clone(), reason };
         let found = Found {
             shocks: if self.find { Some(shocks::find(self, &record).map_err(bad)?) } else { None },
-            fits: match &self.fit_pulse {
-                Some(nominal) => Some(pulse::fit(&record, nominal.as_ref()).map_err(bad)?),
-                None => None,
-            },
+            fits: if self.fit_pulse { Some(pulse::fit(&record, self.nominal.as_ref()).map_err(bad)?) } else { None },
             motions: if self.integrate { Some(motions(&record).map_err(bad)?) } else { None },
         };
         let whole = Whole { args: self, record, found };

@@ -24,7 +24,9 @@ impl Record {
         if let Spacing::Uneven(since_s) = &mut self.spacing {
             since_s.truncate(first + count);
             since_s.drain(..first);
-            since_s.iter_mut().for_each(|time| *time -= begin_s);
+            for time in since_s {
+                *time -= begin_s;
+            }
         }
         let at = self.at(first);
         let numbering = self.numbering.iter().filter(|(sample, _)| (first + 1..first + count).contains(sample));

@@ -210,11 +210,11 @@ impl Record {
                 Channel { name: role.name, unit: role.unit, values }
             })
             .collect();
-        for sample in 0..samples {
+        for (sample, kept) in kept.iter_mut().enumerate() {
             let values = channels.iter().map(|channel| (channel.name.as_str(), channel.values[sample]));
             let mut values = values.chain(since_s.get(sample).map(|since_s| ("time", *since_s)));
             if let Some((name, value)) = values.find(|(_, value)| !value.is_finite() || value.abs() > LARGEST) {
-                kept[sample] = false;
+                *kept = false;
                 bad.add(At::Sample(sample + 1), || format!("{value} in {name} is no number up to {LARGEST:e}"));
             }
         }

@@ -1,7 +1,8 @@
 //! Band-limited records: what is between the samples, against histories that are known everywhere.
-#![allow(clippy::cast_precision_loss, reason = "counts of samples")]
+#![expect(clippy::cast_precision_loss, reason = "counts of samples")]
 
 use std::f64::consts::{PI, TAU};
+use std::fmt::Write as _;
 
 use clatter_record::{BAND, Between, Options, Record};
 use clatter_shock::{DampingRatio, Frequencies, Quantity, Spectrum, SpectrumFilter};
@@ -22,7 +23,7 @@ const QUANTITIES: [Quantity; 4] = [
 fn record(values: impl Iterator<Item = f64>) -> Record {
     let mut csv = "t [s],a [m/s2]\n".to_owned();
     for (i, value) in values.enumerate() {
-        csv.push_str(&format!("{i},{value:?}\n"));
+        writeln!(csv, "{i},{value:?}").expect("a string");
     }
     Record::read(csv.as_bytes(), &Options::default(), |_| ()).expect("a record")
 }
@@ -48,7 +49,7 @@ fn largest_error(fine: &[f64], highest: f64, between: Between) -> f64 {
         for quantity in QUANTITIES {
             let mut filter =
                 SpectrumFilter::new(frequencies.clone(), damping, quantity, 1.0 / FINE as f64).expect("a filter");
-            filter.push(&fine[..(record.samples() - 1) * FINE + 1]);
+            filter.push(&fine[..=(record.samples() - 1) * FINE]);
             let exact = filter.finish().expect("a spectrum");
             let got = of(&record, &frequencies, damping, quantity, between);
             for (got, exact) in got.maximax.iter().zip(&exact.maximax) {
@@ -108,8 +109,8 @@ fn clipped_pulses() {
         // The Fourier series of a train of them, each with quiet before and after, and its sum up to the band.
         let points = PERIOD * FINE;
         let at = |i: usize| i as f64 / FINE as f64;
-        let harmonics = (BAND * PERIOD as f64) as usize;
-        let waves: Vec<[f64; 2]> = (0..=harmonics)
+        let waves: Vec<[f64; 2]> = (0..PERIOD)
+            .take_while(|k| *k as f64 <= BAND * PERIOD as f64)
             .map(|k| {
                 let turn = TAU * k as f64 / PERIOD as f64;
                 let sum =

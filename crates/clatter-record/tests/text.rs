@@ -1,5 +1,8 @@
 //! Text as loggers and programs write it: read right, or refused with the reason.
 
+#![expect(clippy::format_collect, clippy::format_push_string, reason = "small texts")]
+#![expect(clippy::cast_precision_loss, clippy::float_cmp, reason = "small numbers, and those that are exact")]
+
 use std::fs;
 use std::path::Path;
 

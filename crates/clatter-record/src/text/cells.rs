@@ -19,7 +19,7 @@ const MISSING: [&str; 6] = ["nan", "na", "n/a", "inf", "-inf", "null"];
 
 impl Form {
     /// The cells of a line, without quotes around them and blanks beside them.
-    pub(super) fn cells<'a>(self, line: &'a str) -> Vec<Cow<'a, str>> {
+    pub(super) fn cells(self, line: &str) -> Vec<Cow<'_, str>> {
         let Some(separator) = self.separator.map(char::from) else {
             return line.split_whitespace().map(|cell| Cow::Borrowed(cell.trim_matches('"'))).collect();
         };
