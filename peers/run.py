@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """clatter beside what one would use instead: python3 peers/run.py (network the first time, about ten minutes)
-or python3 peers/run.py spectra: those alone, the rest of peers/results.json stays as it was measured (a minute)
+or python3 peers/run.py spectra, or records: those alone, the rest of peers/results.json stays as it was measured (a minute)
 
 1. Impacts of the four bars of Table 1: a plain loop, SciPy, Siconos, Rapier, MuJoCo, each at the best setting found.
 2. Shock response spectra: pyyeti and endaq.
 3. A map of a million bars: numpy.
+4. Measured records: reading a file of a million rows (polars), its spectra and those of band-limited tones (pyyeti, endaq).
 
 Makes its own environment in target/peers, takes the best of three rounds in which all tools take turns, prints tables and
 writes peers/results.json. Siconos is Debian's package (apt install python3-siconos). What is missing is named and left out.
@@ -25,6 +26,7 @@ NUMPY = "numpy==2.4.6"
 PACKAGES = {
     "numpy": [], "scipy": ["scipy==1.17.1"], "mujoco": ["mujoco==4.0.0"],
     "pyyeti": ["pyyeti==1.4.7", "scipy==1.17.1", "pandas==3.1.1"], "endaq": ["endaq==1.5.3", "scipy==1.17.1", "pandas==3.1.1"],
+    "polars": ["polars==2.1.0"],
 }
 # One thread each, no traces of Python in the tree.
 VARIABLES = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", PYTHONDONTWRITEBYTECODE="1", PYTHONWARNINGS="ignore")
@@ -101,7 +103,8 @@ def build_ours(targets):
 
 def build(skipped):
     """Ours must build; Rapier is skipped if it does not."""
-    build_ours(["-p", "clatter", "-p", "clatter-shock", "-p", "clatter-cli", "--example", "bars", "--example", "peers", "--bin", "clatter"])
+    build_ours(["-p", "clatter", "-p", "clatter-shock", "-p", "clatter-cli", "-p", "clatter-record",
+                "--example", "bars", "--example", "peers", "--example", "records", "--bin", "clatter"])
     say("building Rapier")
     manifest = os.path.join(HERE, "rapier", "Cargo.toml")
     command = ["cargo", "build", "--release", "--quiet", "--locked", "--manifest-path", manifest]
@@ -189,6 +192,24 @@ def maps_table(answers):
     return {"points": 1_000_000, "rows": rows, "largest_difference": difference}
 
 
+def records_table(answers):
+    """One row a tool: least times, errors of the first round."""
+    rows = []
+    for tool, name in (("clatter records", "clatter"), ("polars records", "polars"), ("pyyeti records", "pyyeti"), ("endaq records", "endaq")):
+        rounds = answers.get(tool, [])
+        if not rounds:
+            continue
+        row = {"tool": name, "errors": rounds[0].get("errors")}
+        for key in ("reading_ms", "ms"):
+            times = [answer[key] for answer in rounds if key in answer]
+            row[key] = min(times) if times else None
+        rows.append(row)
+        if "linear_ms" in rounds[0]:
+            rows.append({"tool": f"{name}, straight lines", "reading_ms": None, "ms": min(answer["linear_ms"] for answer in rounds),
+                         "errors": rounds[0]["linear_errors"]})
+    return rows
+
+
 def machine(load):
     cpu = platform.processor() or platform.machine()
     if os.path.exists("/proc/cpuinfo"):
@@ -216,12 +237,27 @@ def show(results):
     print("\nMap of the peak, 1000 x 1000 bars\n")
     for row in results["maps"]["rows"]:
         print(f"{row['tool']:42} {row['ms']:>8.2f} ms {row['ratio']:8.1f}")
+    if "records" in results:
+        show_records(results["records"])
     for tool, why in results["skipped"].items():
         print(f"\nleft out: {tool}: {why}")
 
 
+def records_answer(answers, load):
+    return {"date": today(), "machine": machine(load), "samples": 1_000_000, "samples_a_cycle": [20.0, 10.0, 6.0, 5.0, 4.0, 3.0, 2.5],
+            "rows": records_table(answers)}
+
+
+def show_records(records):
+    print(f"\nA file of {records['samples']} rows, 200 spectra; errors at tones of {' '.join(map(str, records['samples_a_cycle']))} samples a cycle\n")
+    for row in records["rows"]:
+        times = [f"{row[key]:>9.1f} ms" if row[key] else f"{'':>12}" for key in ("reading_ms", "ms")]
+        errors = " ".join(f"{100 * error:>8.2f}" for error in row["errors"] or [])
+        print(f"{row['tool']:26} {times[0]} {times[1]}   {errors}{' %' if errors else ''}")
+
+
 def main(parts):
-    if parts not in ([], ["spectra"]):
+    if parts not in ([], ["spectra"], ["records"]):
         sys.exit(__doc__)
     skipped, load = {}, os.getloadavg()[0]
     os.makedirs(HOME, exist_ok=True)
@@ -232,6 +268,19 @@ def main(parts):
         "pyyeti": ([PYTHON, script("spectra.py"), "pyyeti", *example], None),
         "endaq": ([PYTHON, script("spectra.py"), "endaq", *example], None),
     }
+    record_command = os.path.join(TARGET, "release", "examples", "records")
+    records = {f"{tool} records": ([PYTHON, script("records.py"), tool, HOME, record_command], None) for tool in ("clatter", "polars", "pyyeti", "endaq")}
+    if parts == ["records"]:
+        environment(skipped, ["pyyeti", "endaq", "polars"])
+        build_ours(["-p", "clatter-record", "--example", "records"])
+        answers = take_turns(records, skipped)
+        if skipped.keys() & records.keys():
+            sys.exit(f"left out: {skipped}")
+        with open(os.path.join(HERE, "results.json")) as file:
+            results = json.load(file)
+        results["records"] = records_answer(answers, load)
+        write(results)
+        return
     if parts:
         environment(skipped, ["pyyeti", "endaq"])
         build_ours(["-p", "clatter-shock", "--example", "peers"])
@@ -255,6 +304,7 @@ def main(parts):
         "rapier": ([RAPIER], given),
         "mujoco": ([PYTHON, script("bars.py"), "mujoco"], given),
         **spectra,
+        **records,
         "numpy": ([PYTHON, script("maps.py"), os.path.join(TARGET, "release", "clatter"), HOME], None),
     }, skipped)
     if "clatter" in skipped:

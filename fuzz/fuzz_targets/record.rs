@@ -1,12 +1,26 @@
-//! A measured record is read, or its fault is told.
+//! A measured record of any kind is read, or its fault is told; what is read can be used.
 
 #![no_main]
 
-use clatter_shock::Record;
+use clatter_record::{Baseline, Options, Pass, Record, Search, Units, fit_pulses, find_shocks, read_limit};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
-    if let Ok(record) = Record::read(bytes, None) {
-        assert!(record.points().windows(2).all(|p| p[0].0 < p[1].0 && p[0].1.is_finite()));
+    let most_values = 100_000;
+    for (units, skip_bad) in [(None, false), (Some(Units::si()), true)] {
+        let options = Options { units, skip_bad, most_values, full_scale_m_s2: Some(500.0), ..Options::default() };
+        let Ok(mut record) = Record::read(bytes, &options, |_| ()) else { continue };
+        let times: Vec<f64> = record.times_s().collect();
+        assert!(times.windows(2).all(|pair| pair[0] <= pair[1]) && times.len() >= 2);
+        assert!(record.channels().iter().all(|channel| channel.values.len() == times.len()));
+        assert!(record.channels().iter().flat_map(|channel| &channel.values).all(|a| a.abs() <= 1e100));
+        let _ = record.findings(10.0).iter().map(ToString::to_string).collect::<Vec<_>>();
+        let _ = record.without_baseline(Baseline::Linear).map(|_| record.filter(Pass::Low, 100.0, 2));
+        if let Some(step_s) = record.step_s() {
+            let values = &record.channels()[0].values;
+            let _ = find_shocks(values, step_s, &Search { threshold_m_s2: None, quiet_s: 0.01 });
+            let _ = fit_pulses(values, step_s);
+        }
     }
+    let _ = read_limit(bytes);
 });

@@ -19,6 +19,7 @@ mod map;
 mod off_center;
 mod oracle;
 mod products;
+mod record;
 mod respond;
 mod scatter;
 mod simulate;

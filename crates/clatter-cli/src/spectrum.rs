@@ -267,6 +267,8 @@ struct Boundary {
 const LOWEST_HZ: f64 = crate::record::LOWEST_HZ;
 const HIGHEST_HZ: f64 = 10_000.0;
 const PER_OCTAVE: f64 = 12.0;
+const BOUNDARY_OF: &str = "--damage-boundary goes with one --pulse with one start or one record of one channel, and with one \
+                           --frequency and one --q-factor or --tests";
 /// Points of the damage boundary between the critical velocity change and the knee.
 const BOUNDARY_POINTS: usize = 200;
 
@@ -414,9 +416,7 @@ impl Args {
             );
         }
         let ([hz], [damping]) = (frequencies.list.hz(), &self.damping.ratios()?[..]) else {
-            return Err(Failure::Usage(
-                "--damage-boundary goes with one --frequency and one --q-factor, or with --tests",
-            ));
+            return Err(Failure::Usage(BOUNDARY_OF));
         };
         let level = self.limit.as_ref().and_then(|limit| limit.level);
         let limit = match (self.quantity, level) {
@@ -433,9 +433,7 @@ impl Args {
         match (&self.pulses()?[..], records) {
             ([pulse], _) => Boundary::of_pulse(DamageBoundary::new(suspension, limit, pulse.shape)?, *pulse),
             ([], [measured]) => records::boundary(self, measured, suspension, limit),
-            _ => Err(Failure::Usage(
-                "--damage-boundary goes with one --pulse with one start, or one record of one channel",
-            )),
+            _ => Err(Failure::Usage(BOUNDARY_OF)),
         }
     }
 }

@@ -227,18 +227,30 @@ const MOST_GAPS: usize = 10;
 /// what a normal distribution gives once in a million.
 const GAP: (f64, f64) = (0.5, 3.0);
 
-/// Steps that lack samples. `since_s` is in order.
-pub(crate) fn gaps(since_s: &[f64], at: &dyn Fn(usize) -> At) -> Option<Finding> {
-    let steps: Vec<f64> = since_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    let share = |values: &mut [f64], share: usize| {
+/// The usual step, and by how much nine steps of ten differ from it at most. `since_s` is in order.
+fn usual(steps: &[f64]) -> [f64; 2] {
+    let share = |mut values: Vec<f64>, share: usize| {
         let nth = (values.len() - 1) * share / 10;
         *values.select_nth_unstable_by(nth, f64::total_cmp).1
     };
-    if steps.len() < 4 {
+    let usual_s = share(steps.to_vec(), 5);
+    [usual_s, share(steps.iter().map(|step| (step - usual_s).abs()).collect(), 9)]
+}
+
+/// Whether samples are of events: their steps differ by more than they are long, and none of them is missing.
+pub(crate) fn is_of_events(since_s: &[f64]) -> bool {
+    let steps: Vec<f64> = since_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let [usual_s, spread] = usual(&steps);
+    spread > usual_s
+}
+
+/// Steps that lack samples. `since_s` is in order.
+pub(crate) fn gaps(since_s: &[f64], at: &dyn Fn(usize) -> At) -> Option<Finding> {
+    let steps: Vec<f64> = since_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    if steps.len() < 4 || is_of_events(since_s) {
         return None;
     }
-    let usual_s = share(&mut steps.clone(), 5);
-    let spread = share(&mut steps.iter().map(|step| (step - usual_s).abs()).collect::<Vec<_>>(), 9);
+    let [usual_s, spread] = usual(&steps);
     let longest = usual_s + (GAP.0 * usual_s).max(GAP.1 * spread);
     // Between usual steps: where long ones follow one another the record is that of events.
     let is_long = |i: usize| steps.get(i).is_some_and(|step| *step > longest);
@@ -290,6 +302,8 @@ pub(crate) struct Judged<'a> {
     pub(crate) channel: &'a str,
     pub(crate) values: &'a [f64],
     pub(crate) duration_s: f64,
+    /// Levels are means over time only where samples are even.
+    pub(crate) is_even: bool,
     pub(crate) lowest_hz: f64,
     pub(crate) at: &'a dyn Fn(usize) -> At,
 }
@@ -311,6 +325,17 @@ impl Judged<'_> {
         if inside(*last) {
             findings.push(Finding::Ends { channel: channel(), share: last.abs() / largest });
         }
+        self.clipped(largest, findings);
+        if self.is_even {
+            self.levels(largest, findings);
+        }
+    }
+
+    /// Offset and drift.
+    fn levels(&self, largest: f64, findings: &mut Vec<Finding>) {
+        let values = self.values;
+        let channel = || self.channel.to_owned();
+        let inside = |a: f64| a.abs() > EDGE * largest;
         let begin = values.iter().position(|a| inside(*a)).unwrap_or(0);
         let end = values.iter().rposition(|a| inside(*a)).map_or(values.len(), |last| last + 1);
         // The first half of what is before the shock, and the last half of what is after it: its feet and its ringing are not in.
@@ -334,7 +359,6 @@ impl Judged<'_> {
                 findings.push(Finding::Drift { channel: channel(), from, to, change_m_s2, share, hz });
             }
         }
-        self.clipped(largest, findings);
     }
 
     /// Where the level strays from that before the shock, in sixteenths of the record: to one side over a quarter of it or more, or

@@ -4,7 +4,7 @@ use std::io::Read;
 
 use crate::container::{self, Kind};
 use crate::error::Bad;
-use crate::finding::{At, Finding, Judged, LISTED, gaps};
+use crate::finding::{At, Finding, Judged, LISTED, gaps, is_of_events};
 use crate::heading::Heading;
 use crate::roles::{Roles, Seen};
 use crate::text::{self, BLOCK, LARGEST, Rows, SHOWN, decoded};
@@ -279,9 +279,13 @@ impl Record {
     pub fn findings(&self, lowest_hz: f64) -> Vec<Finding> {
         let mut findings = self.read.clone();
         let at = |sample| self.at(sample);
+        let is_even = match &self.spacing {
+            Spacing::Even(_) => true,
+            Spacing::Uneven(since_s) => !is_of_events(since_s),
+        };
         for Channel { name, values, .. } in &self.channels {
             let duration_s = self.duration_s();
-            Judged { channel: name, values, duration_s, lowest_hz, at: &at }.judge(&mut findings);
+            Judged { channel: name, values, duration_s, is_even, lowest_hz, at: &at }.judge(&mut findings);
         }
         findings
     }

@@ -246,7 +246,7 @@ fn faults_by_line_ten_of_them_and_the_number_of_the_rest() {
     }
     let error = read(&text).expect_err("twenty faults");
     assert!(error.starts_with("line 4: 'x2' in column 2 (a) is not a number\nline 9: 'x7'"), "{error}");
-    assert!(error.ends_with("\nand 10 lines more") && error.lines().count() == 11, "{error}");
+    assert!(error.ends_with("\nand 10 more") && error.lines().count() == 11, "{error}");
     let skip = Options { skip_bad: true, ..Options::default() };
     assert_eq!(with(&text, &skip).expect("the rest").samples(), 80);
     for (text, reason) in [

@@ -24,7 +24,7 @@ fn gaps(record: &Record) -> (Vec<(usize, f64)>, f64) {
             assert_eq!(first.len(), *count, "all are listed");
             let gap = |(at, gap_s): &(At, f64)| match at {
                 At::Line(line) => (*line, (gap_s / usual_s).round() - 1.0),
-                at => panic!("{at}"),
+                at @ At::Sample(_) => panic!("{at}"),
             };
             (first.iter().map(gap).collect(), *usual_s)
         }
