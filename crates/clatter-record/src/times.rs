@@ -199,7 +199,9 @@ mod tests {
         let numbers: Vec<Decimal> =
             texts.iter().map(|text| Decimal::scan(text.as_bytes(), b'.').expect(text).0).collect();
         let mut printed = Printed::default();
-        numbers.iter().for_each(|number| printed.note(*number));
+        for number in &numbers {
+            printed.note(*number);
+        }
         let since_s: Vec<f64> = numbers.iter().map(|number| number.above(numbers[0])).collect();
         Times { since_s: &since_s, start_s: numbers[0].float(), unit_s: 1.0, printed: &printed }.step()
     }
@@ -222,7 +224,8 @@ mod tests {
     #[test]
     fn times_that_were_rounded_are_even() {
         #[expect(clippy::cast_possible_truncation, reason = "floats of 32 bits are what is tested")]
-        let as_single = |t: f64| format!("{}", t as f32);
+        let single = |t: f64| t as f32;
+        let as_single = |t: f64| format!("{}", single(t));
         for (name, texts) in [
             ("exact", texts(|t| format!("{t:?}"))),
             ("six decimals", texts(|t| format!("{t:.6}"))),
@@ -233,7 +236,7 @@ mod tests {
             ("six significant digits from 1 s on", texts(|t| significant(1.0 + t, 6))),
             ("floats of 32 bits", texts(as_single)),
             ("floats of 32 bits from 1 s on", texts(|t| as_single(1.0 + t))),
-            ("nine digits of floats of 32 bits from 1 s on", texts(|t| significant(f64::from((1.0 + t) as f32), 9))),
+            ("nine digits of floats of 32 bits from 1 s on", texts(|t| significant(f64::from(single(1.0 + t)), 9))),
             ("whole microseconds, cut", texts(|t| format!("{:.6}", (t * 1e6).floor() * 1e-6))),
             ("two ways to print", texts(|t| if t < 0.001 { format!("{t:.8e}") } else { format!("{t:.6}") })),
         ] {
@@ -245,8 +248,8 @@ mod tests {
 
     #[test]
     fn times_that_are_off_the_grid_are_not_even() {
-        let shifted = |i: usize, share: f64, print: &dyn Fn(f64) -> String| -> Vec<String> {
-            (0..1200).map(|k| print((f64::from(k) + if k as usize >= i { share } else { 0.0 }) / 51_200.0)).collect()
+        let shifted = |i: i32, share: f64, print: &dyn Fn(f64) -> String| -> Vec<String> {
+            (0..1200).map(|k| print((f64::from(k) + if k >= i { share } else { 0.0 }) / 51_200.0)).collect()
         };
         for (name, texts) in [
             ("a missing sample", shifted(600, 1.0, &|t| format!("{t:?}"))),
