@@ -20,6 +20,7 @@ struct Results {
     bars: Bars,
     spectra: Spectra,
     maps: Maps,
+    records: Records,
     skipped: BTreeMap<String, String>,
 }
 
@@ -97,6 +98,47 @@ struct SpectrumRow {
     ratio: Option<f64>,
 }
 
+/// A file of measured accelerations, and band-limited tones.
+#[derive(Debug, Deserialize)]
+struct Records {
+    date: String,
+    machine: Machine,
+    samples: u64,
+    samples_a_cycle: Vec<f64>,
+    rows: Vec<RecordRow>,
+}
+
+#[derive(Debug, Deserialize)]
+struct RecordRow {
+    tool: String,
+    reading_ms: Option<f64>,
+    /// Of the spectra, without reading.
+    ms: Option<f64>,
+    /// At each number of samples a cycle.
+    errors: Option<Vec<f64>>,
+}
+
+impl Records {
+    fn numbers(&self) -> Value {
+        let rows = self.rows.iter().map(|row| {
+            let errors = row
+                .errors
+                .iter()
+                .flatten()
+                .map(|error| format!("{:.2}", (1e4 * error).round() / 100.0 + 0.0).replace('-', "−"));
+            json!({
+                "tool": row.tool, "reading": row.reading_ms.map(time), "time": row.ms.map(time),
+                "errors": errors.collect::<Vec<_>>(),
+            })
+        });
+        json!({
+            "measured": self.machine.numbers(&self.date), "samples": self.samples,
+            "samples_a_cycle": self.samples_a_cycle.iter().map(|count| tick(*count)).collect::<Vec<_>>(),
+            "rows": rows.collect::<Vec<_>>(),
+        })
+    }
+}
+
 #[derive(Debug, Deserialize)]
 struct Maps {
     points: u64,
@@ -150,6 +192,7 @@ impl Results {
             "spectra": spectra.into_iter().map(|(tool, cells)| json!({ "tool": tool, "cells": cells })).collect::<Vec<_>>(),
             "maps": { "points": self.maps.points, "rows": maps.collect::<Vec<_>>(),
                       "difference": self.maps.largest_difference.map(error) },
+            "records": self.records.numbers(),
             "skipped": self.skipped,
         })
     }
@@ -244,6 +287,11 @@ mod tests {
                 assert!(spectra.contains(&row), "no row {row:?}");
             }
         }
+        let records: Vec<_> = results.records.rows.iter().map(|row| row.tool.as_str()).collect();
+        assert_eq!(records, ["clatter", "clatter, straight lines", "polars", "pyyeti", "endaq"]);
+        let ours = results.records.rows[0].errors.as_ref().unwrap();
+        // What README states, but for the last tone: its bell reaches beyond the band.
+        assert!(ours.len() == 7 && ours[..6].iter().all(|error| error.abs() < 1e-3), "{ours:?}");
         assert!(spectra.contains(&("clatter, exact pulses", None)), "no row of exact pulses");
         assert_eq!((spectra.len(), results.maps.rows.len()), (13, 4));
         let unit = results.bars.rows[1].ms;
