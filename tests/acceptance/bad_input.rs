@@ -182,7 +182,7 @@ const REFUSED: &[(&[&str], &[&str])] = &[
     (&["record", "x.csv", "--nominal=half-sine,1,1"], &["--fit-pulse"]),
     (&["record", "x.csv", "--threshold=1"], &["--find"]),
     (&["record", "no such file.csv"], &["no such file.csv: the record could not be read"]),
-    (&["record", "x.csv", "-o", "x.png"], &["x.png", ".csv, .npy or .svg"]),
+    (&["record", "x.csv", "-o", "x.png"], &["x.png", ".csv, .npy, .parquet or .svg"]),
     (&["spectrum", "no such file.csv"], &["no such file.csv: the record could not be read"]),
     (&["spectrum", "."], &[".: the record could not be read"]),
     (&["spectrum", "--shock=1,0", "--damage-boundary", "--limit=1"], &["--pulse"]),

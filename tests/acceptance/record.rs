@@ -77,7 +77,7 @@ fn a_record_is_shown_as_it_was_understood() {
 fn a_record_is_written_anew() {
     let folder = tempfile::tempdir().unwrap();
     let path = file(folder.path(), "drop.csv", &plain());
-    for name in ["copy.csv", "copy.npy"] {
+    for name in ["copy.csv", "copy.parquet", "copy.npy"] {
         let copy = folder.path().join(name);
         let outcome = clatter(["record", path.to_str().unwrap(), "-o", copy.to_str().unwrap()]);
         assert_eq!(outcome.exit, Exit::Done, "{}", outcome.stderr);

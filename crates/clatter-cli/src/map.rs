@@ -149,7 +149,7 @@ impl Args {
             Kind::Npy => npy::write(file, map.q.points(), &map.values),
             Kind::Csv => buffered(file, |out| csv(&map, out)),
             Kind::Json => buffered(file, |out| Ok(serde_json::to_writer(out, &MapJson::new(&map))?)),
-            Kind::Svg => file.write_all(clatter_figures::map(&map)?.as_bytes()),
+            Kind::Svg | Kind::Parquet => file.write_all(clatter_figures::map(&map)?.as_bytes()),
         })?;
         match self.format {
             Format::Table => {

@@ -21,6 +21,7 @@ pub(crate) enum Kind {
     Csv,
     Json,
     Npy,
+    Parquet,
     Svg,
 }
 
@@ -30,6 +31,7 @@ impl Kind {
             Self::Csv => "csv",
             Self::Json => "json",
             Self::Npy => "npy",
+            Self::Parquet => "parquet",
             Self::Svg => "svg",
         }
     }

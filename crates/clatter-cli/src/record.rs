@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use clap::ValueHint;
 use clatter_assess::units::{ACCELERATION, Dimension, FREQUENCY, TIME, Unit};
 use clatter_figures::{FigureError, Trace};
-use clatter_record::{Channel, Motion, Record, Shock, Shocks, integrate};
+use clatter_record::{Channel, Motion, Record, Series, Shock, Shocks, integrate, write_parquet};
 use clatter_shock::Pulse;
 
 use crate::condition_args::ConditionArgs;
@@ -31,7 +31,7 @@ use crate::{Failure, Streams, npy};
 /// Text is read as loggers and programs write it: with commas, semicolons, tabs or blanks between columns, decimal points or
 /// commas, lines above the numbers, units in brackets or below the names, comments, times of day and dates.
 ///
-/// `-o FILE` writes the record anew: .csv, .npy (time and channels as columns, in s and m/s2), or a picture as .svg.
+/// `-o FILE` writes the record anew, in s and m/s2: .csv, .parquet, .npy (time and channels as columns), or a picture as .svg.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -67,7 +67,7 @@ pub(crate) struct Args {
     /// Also velocity and displacement, integrated from rest: their last values, and in files a column each
     #[arg(long)]
     integrate: bool,
-    /// File to write, ending in .csv, .npy or .svg; what was there is replaced once the new file is whole
+    /// File to write, ending in .csv, .npy, .parquet or .svg; what was there is replaced once the new file is whole
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = target)]
     output: Vec<Target>,
     /// How to show the answer
@@ -98,7 +98,7 @@ fn nominal(text: &str) -> Result<Pulse, String> {
 }
 
 fn target(text: &str) -> Result<Target, String> {
-    Target::of(text, &[Kind::Csv, Kind::Npy, Kind::Svg])
+    Target::of(text, &[Kind::Csv, Kind::Npy, Kind::Parquet, Kind::Svg])
 }
 
 /// Offsets are judged by what they do to a spectrum from this frequency on, in Hz: where that of `clatter spectrum` begins.
@@ -122,6 +122,7 @@ impl Args {
             output::replace(&target.path, |file| match target.kind {
                 Kind::Npy => buffered(file, |out| npy::write(out, whole.record.samples(), &whole.rows())),
                 Kind::Svg => file.write_all(whole.picture()?.as_bytes()),
+                Kind::Parquet => file.write_all(&whole.parquet()?),
                 _ => buffered(file, |out| whole.csv(out)),
             })?;
         }
@@ -230,14 +231,14 @@ impl Whole<'_> {
         self.record.start_s() + self.record.since_s(sample)
     }
 
-    /// The columns beside time: name and unit, and values.
-    fn columns(&self) -> Vec<(String, &[f64])> {
+    /// The columns beside time: name, unit and values.
+    fn columns(&self) -> Vec<(String, &'static str, &[f64])> {
         let mut columns = Vec::new();
         for (k, channel) in self.record.channels().iter().enumerate() {
-            columns.push((format!("{} [m/s2]", channel.name), &channel.values[..]));
+            columns.push((channel.name.clone(), "m/s2", &channel.values[..]));
             if let Some(motions) = &self.found.motions {
-                columns.push((format!("velocity of {} [m/s]", channel.name), &motions[k].velocity_m_s));
-                columns.push((format!("displacement of {} [m]", channel.name), &motions[k].displacement_m));
+                columns.push((format!("velocity of {}", channel.name), "m/s", &motions[k].velocity_m_s[..]));
+                columns.push((format!("displacement of {}", channel.name), "m", &motions[k].displacement_m[..]));
             }
         }
         columns
@@ -246,22 +247,30 @@ impl Whole<'_> {
     /// Time and columns of each sample.
     fn rows(&self) -> Vec<f64> {
         let columns = self.columns();
-        let row = |i: usize| std::iter::once(self.time_s(i)).chain(columns.iter().map(move |(_, values)| values[i]));
+        let row = |i: usize| std::iter::once(self.time_s(i)).chain(columns.iter().map(move |(.., values)| values[i]));
         (0..self.record.samples()).flat_map(row).collect()
     }
 
     fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
         let columns = self.columns();
-        let names = columns.iter().map(|(name, _)| text::field(name));
+        let names = columns.iter().map(|(name, unit, _)| text::field(&format!("{name} [{unit}]")));
         writeln!(out, "time [s],{}", names.collect::<Vec<_>>().join(","))?;
         for i in 0..self.record.samples() {
             write!(out, "{}", digits(self.time_s(i)))?;
-            for (_, values) in &columns {
+            for (.., values) in &columns {
                 write!(out, ",{}", digits(values[i]))?;
             }
             writeln!(out)?;
         }
         Ok(())
+    }
+
+    fn parquet(&self) -> io::Result<Vec<u8>> {
+        let times: Vec<f64> = (0..self.record.samples()).map(|i| self.time_s(i)).collect();
+        let columns = self.columns();
+        let time = Series { name: "time", unit: "s", values: &times };
+        let others = columns.iter().map(|(name, unit, values)| Series { name, unit, values });
+        write_parquet(&std::iter::once(time).chain(others).collect::<Vec<_>>()).map_err(io::Error::other)
     }
 
     /// All channels over time; in g where the file is. With a fitted pulse the part around it, and the pulse beside.

@@ -482,7 +482,7 @@ impl Computed<'_> {
         output::replace(&target.path, |file| match target.kind {
             Kind::Csv => buffered(file, |out| self.csv(out)),
             Kind::Svg => file.write_all(self.svg()?.as_bytes()),
-            Kind::Json | Kind::Npy => buffered(file, |out| Ok(serde_json::to_writer(out, &self.answer())?)),
+            _ => buffered(file, |out| Ok(serde_json::to_writer(out, &self.answer())?)),
         })
     }
 

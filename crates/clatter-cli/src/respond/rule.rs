@@ -32,7 +32,7 @@ pub(super) fn write(
     output::replace(&target.path, |file| match target.kind {
         Kind::Csv => buffered(file, |out| csv(&rule, out)),
         Kind::Svg => file.write_all(clatter_figures::rule(&rule, component)?.as_bytes()),
-        Kind::Json | Kind::Npy => buffered(file, |out| Ok(serde_json::to_writer(out, &RuleJson::new(&rule))?)),
+        _ => buffered(file, |out| Ok(serde_json::to_writer(out, &RuleJson::new(&rule))?)),
     })
 }
 
