@@ -23,7 +23,6 @@ mod nulls;
 mod parquet;
 
 pub use kind::Kind;
-pub use npy::write as write_npy;
 #[cfg(feature = "parquet")]
 pub use parquet::{Series, write as write_parquet};
 
@@ -44,12 +43,13 @@ use number::Number;
 ///
 /// # Examples
 /// ```
-/// use clatter_record::{Kind, Values, read, write_npy};
-/// let file = write_npy(&[&[0.0, 0.001], &[0.0, 9.81]])?;
+/// use clatter_record::{Kind, Values, read};
+/// let mut file = b"\x93NUMPY\x01\0\x38\0{'descr': '<f8', 'fortran_order': False, 'shape': (2,)}\n".to_vec();
+/// file.extend([0.0_f64, 9.81].into_iter().flat_map(f64::to_le_bytes));
 /// let kind = Kind::of(&file)?;
 /// assert_eq!(kind, Kind::Npy);
 /// let table = read(kind, &file, 1000)?;
-/// assert_eq!(table.columns[1].values, Values::Float(vec![0.0, 9.81]));
+/// assert_eq!(table.columns[0].values, Values::Float(vec![0.0, 9.81]));
 /// # Ok::<(), clatter_record::Error>(())
 /// ```
 pub fn read(kind: Kind, bytes: &[u8], most: usize) -> Result<Table, Error> {
@@ -115,6 +115,7 @@ fn column(name: impl Into<String>, unit: Option<String>, values: Values) -> Colu
 }
 
 /// The number of rows of columns that are written.
+#[cfg(feature = "parquet")]
 fn equal_length(columns: &[&[f64]]) -> Result<usize, Error> {
     let rows = columns.first().ok_or_else(|| refuse("there is no column to write"))?.len();
     match columns.iter().position(|column| column.len() != rows) {

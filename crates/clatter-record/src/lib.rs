@@ -31,7 +31,7 @@ mod unit;
 pub use baseline::{Baseline, PRE_SHOCK_SHARE, Removed, remove_baseline};
 pub use between::BAND;
 pub use butterworth::{Pass, butterworth};
-pub use container::{Kind, read, write_npy};
+pub use container::{Kind, read};
 #[cfg(feature = "parquet")]
 pub use container::{Series, write_parquet};
 pub use duration::{EffectiveDuration, effective_duration};

@@ -2,7 +2,7 @@
 
 #![expect(clippy::cast_precision_loss, clippy::cast_possible_wrap, reason = "rows are counted to 40")]
 
-use clatter_record::{Column, Error, Kind, Table, Values, read, write_npy};
+use clatter_record::{Column, Error, Kind, Table, Values, read};
 #[cfg(feature = "parquet")]
 use clatter_record::{Series, write_parquet};
 use std::fs;
@@ -329,27 +329,6 @@ fn columnar() {
 }
 
 const ODD: [f64; 6] = [0.1, -0.0, f64::MIN_POSITIVE / 8.0, f64::MAX, f64::NAN, -1e-300];
-
-#[test]
-fn written_npy_comes_back_to_the_bit() {
-    let even: Vec<f64> = (0..6).map(a).collect();
-    for columns in [vec![&ODD[..]], vec![&ODD[..], &even]] {
-        let file = write_npy(&columns).expect("a file");
-        let table = read(Kind::of(&file).expect("NPY"), &file, MOST).expect("a table");
-        for (found, column) in table.columns.iter().zip(&columns) {
-            assert_eq!(bits(&found.values), bits(&Values::Float(column.to_vec())));
-        }
-    }
-    let fault = write_npy(&[&[1.0], &[1.0, 2.0]]).expect_err("uneven").to_string();
-    assert_eq!(fault, "column 2 has 2 values, the first has 1; columns of one file are of equal length");
-    assert!(write_npy(&[]).is_err());
-}
-
-#[test]
-fn written_npy_is_what_numpy_writes() {
-    let columns: [Vec<f64>; 2] = [(0..N).map(t).collect(), (0..N).map(a).collect()];
-    assert_eq!(write_npy(&[&columns[0], &columns[1]]).expect("a file"), bytes("c_order.npy"));
-}
 
 #[cfg(feature = "parquet")]
 #[test]
