@@ -160,11 +160,10 @@ impl Spectrum {
     ///
     /// ```
     /// # use clatter_shock::{DampingRatio, Frequencies, Quantity, Spectrum, Summary, VelocityShock, VelocityShocks};
-    /// let of = |delta_v| {
-    ///     let shock = VelocityShocks::new(vec![VelocityShock { time: 0.0, delta_v }])?;
-    ///     Ok(shock.spectrum(&Frequencies::list(vec![10.0])?, DampingRatio::new(0.0)?, Quantity::PseudoVelocity))
-    /// };
-    /// let both = Spectrum::summary(&[&of(3.0)?, &of(-4.0)?], Summary::RootSumSquare).unwrap();
+    /// let (hz, undamped) = (Frequencies::list(vec![10.0])?, DampingRatio::new(0.0)?);
+    /// let of = |delta_v| VelocityShocks::new(vec![VelocityShock { time: 0.0, delta_v }]);
+    /// let [x, y] = [of(3.0)?, of(-4.0)?].map(|shock| shock.spectrum(&hz, undamped, Quantity::PseudoVelocity));
+    /// let both = Spectrum::summary(&[&x, &y], Summary::RootSumSquare).unwrap();
     /// assert!((both.maximax[0] - 5.0).abs() < 1e-12);
     /// # Ok::<(), clatter_shock::Error>(())
     /// ```
