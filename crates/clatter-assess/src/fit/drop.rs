@@ -1,0 +1,210 @@
+//! What is measured as a function of what is unknown: one drop, computed by the flights of `clatter-flight`.
+
+use clatter::End;
+use clatter_flight::{Body, Contact, ContactFlight, Flight, Model, Scene, Strike};
+
+use super::{Known, Set};
+
+// Where the unknowns stand. Those that are positive are their logarithms, so that a step is a share of them.
+/// ln of the radius of gyration over half the length.
+pub(super) const GYRATION: usize = 0;
+/// Mean restitution of both ends.
+pub(super) const RESTITUTION: usize = 1;
+/// Half of the restitution of end a less that of end b.
+pub(super) const DIFFERENCE: usize = 2;
+/// ln of the gap over the speed, in s.
+pub(super) const GAP_TIME: usize = 3;
+/// ln of the speed, in m/s.
+pub(super) const SPEED: usize = 4;
+/// Angular velocity at the first touch times half the length over the speed; the second end upward.
+pub(super) const SPIN: usize = 5;
+/// ln of the contact time, in s.
+pub(super) const CONTACT: usize = 6;
+/// The first touch on the time axis of each record, in units of time of the drop.
+pub(super) const OFFSET: usize = 7;
+
+/// Radius of gyration over half the length: from nearly all mass in the middle to ends on long arms. Contacts take none below 0.1.
+const GYRATIONS: [f64; 2] = [0.1, 4.0];
+/// Speeds from a fall of half a millimeter to twice that of product files.
+const SPEEDS_M_S: [f64; 2] = [0.1, 200.0];
+/// The sine of the tilt: what is steeper lands on its end and does not clatter.
+const STEEPEST: f64 = 0.9;
+/// A step of this share is far above the roundings of a rigid flight (1e−13) and far below its curvature.
+const STEP: f64 = 1e-6;
+/// Flights with contacts are exact to [`PRECISION`] for each contact; steps are far above that.
+const CONTACT_STEP: f64 = 2e-4;
+/// Precision of flights with contacts.
+const PRECISION: f64 = 1e-6;
+/// Strikes of a flight at most: more than records have.
+const MOST_STRIKES: usize = 8192;
+
+/// A drop of which some is unknown, and what was measured of it.
+#[derive(Debug, Clone)]
+pub(super) struct Drop<'a> {
+    pub(super) known: &'a Known,
+    pub(super) sets: Vec<Set<'a>>,
+    /// The end that touches first.
+    pub(super) first: End,
+    /// Whether contacts take time.
+    pub(super) contacts: bool,
+    /// Unit of time of the offsets.
+    pub(super) unit_s: f64,
+}
+
+/// A drop as it was computed.
+#[derive(Debug, Clone)]
+pub(super) enum Path {
+    Rigid(Box<Scene>, Flight),
+    Contacts(Box<Scene>, Box<ContactFlight>),
+}
+
+impl Drop<'_> {
+    /// Half the step of a difference.
+    pub(super) fn step(&self) -> f64 {
+        if self.contacts { CONTACT_STEP } else { STEP }
+    }
+    /// The values that the product file gives, a range in its middle.
+    pub(super) fn given(&self) -> Vec<f64> {
+        let Known { body, restitution, speed_m_s, tilt_rad, contact_time_s, .. } = self.known;
+        let ln_middle = |[lo, hi]: [f64; 2]| 0.5 * (libm::log(lo) + libm::log(hi));
+        let speed = ln_middle(*speed_m_s);
+        let gap_m = body.length_m() * libm::sin(0.5 * (tilt_rad[0] + tilt_rad[1])).max(1e-3);
+        let mut x = vec![0.0; OFFSET + self.sets.len()];
+        x[GYRATION] = libm::log(2.0 * body.gyration_m() / body.length_m());
+        x[RESTITUTION] = 0.5 * (restitution[0] + restitution[1]);
+        x[GAP_TIME] = libm::log(gap_m) - speed;
+        x[SPEED] = speed;
+        x[CONTACT] = contact_time_s.map_or(0.0, ln_middle);
+        x
+    }
+    /// How far an unknown that is held may be off by its range in the product file.
+    pub(super) fn half_range(&self, unknown: usize) -> f64 {
+        let half = |[lo, hi]: [f64; 2]| 0.5 * (libm::log(hi) - libm::log(lo));
+        match unknown {
+            SPEED => half(self.known.speed_m_s),
+            CONTACT => self.known.contact_time_s.map_or(0.0, half),
+            RESTITUTION => 0.5 * (self.known.restitution[1] - self.known.restitution[0]),
+            _ => 0.0,
+        }
+    }
+    pub(super) fn bounds(&self) -> Vec<[f64; 2]> {
+        let ln = |[lo, hi]: [f64; 2]| [libm::log(lo), libm::log(hi)];
+        let length = self.known.body.length_m();
+        let arm = self.arms()[0];
+        let mut bounds = vec![[f64::NEG_INFINITY, f64::INFINITY]; OFFSET + self.sets.len()];
+        bounds[GYRATION] = ln(GYRATIONS);
+        bounds[RESTITUTION] = [0.0, 1.0];
+        bounds[DIFFERENCE] = [-0.5, 0.5];
+        bounds[GAP_TIME] = ln([1e-9, 10.0]);
+        bounds[SPEED] = ln(SPEEDS_M_S);
+        // The end that touches first still approaches.
+        bounds[SPIN] = [-0.45 * length / arm, 5.0];
+        bounds[CONTACT] = ln([1e-6, 0.1]);
+        bounds
+    }
+    /// Arms of the end that touches first and of the other one.
+    fn arms(&self) -> [f64; 2] {
+        let [a, b] = self.known.body.arms_m();
+        if self.first == End::A { [a, b] } else { [b, a] }
+    }
+    /// The contact point that an end is, and the other way around.
+    pub(super) fn end(&self, point: usize) -> End {
+        if (point == 0) == (self.first == End::A) { End::A } else { End::B }
+    }
+    /// Restitution of the first and the second end.
+    pub(super) fn restitutions(&self, x: &[f64]) -> [f64; 2] {
+        let side = if self.first == End::A { 1.0 } else { -1.0 };
+        [1.0, -1.0].map(|sign| (x[RESTITUTION] + sign * side * x[DIFFERENCE]).clamp(0.0, 1.0))
+    }
+    /// Sine of the tilt, at most [`STEEPEST`].
+    pub(super) fn sin_tilt(&self, x: &[f64]) -> f64 {
+        (libm::exp(x[GAP_TIME] + x[SPEED]) / self.known.body.length_m()).min(STEEPEST)
+    }
+    /// Angular velocity at the first touch, end b upward.
+    pub(super) fn spin_rad_s(&self, x: &[f64]) -> f64 {
+        let side = if self.first == End::A { 1.0 } else { -1.0 };
+        side * x[SPIN] * libm::exp(x[SPEED]) * 2.0 / self.known.body.length_m()
+    }
+    fn scene(&self, x: &[f64]) -> Result<Scene, clatter::Error> {
+        let ([a, b], length) = (self.arms(), self.known.body.length_m());
+        let body = Body::off_center(a, b, 0.5 * length * libm::exp(x[GYRATION]))?;
+        let (speed, tilt) = (libm::exp(x[SPEED]), libm::asin(self.sin_tilt(x)));
+        Scene::new(body, x[RESTITUTION], speed, tilt.to_degrees(), self.known.gravity_m_s2)?
+            .with_spin(x[SPIN] * speed * 2.0 / length)
+    }
+    /// The flight of the rigid body: so many strikes, or until a time.
+    pub(super) fn rigid(&self, x: &[f64], strikes: usize, until_s: f64) -> Option<Path> {
+        let scene = self.scene(x).ok()?.with_impact_limit(MOST_STRIKES).ok()?;
+        let enough = |flight: &Flight| {
+            flight.strikes.len() >= strikes && flight.strikes.last().is_some_and(|s| s.time_s > until_s)
+        };
+        let flight = scene.simulate_ends(self.restitutions(x), enough).ok()?;
+        Some(Path::Rigid(Box::new(scene), flight))
+    }
+    /// The flight by the model of the fit.
+    pub(super) fn path(&self, x: &[f64]) -> Option<Path> {
+        let strikes = self.sets.iter().map(Set::strikes).max().unwrap_or(0);
+        let until_s = self.until_s(x);
+        if !self.contacts {
+            return self.rigid(x, strikes, until_s);
+        }
+        let scene = self.scene(x).ok()?.with_impact_limit(strikes.max(1)).ok()?;
+        let scene = if until_s > 0.0 { scene.with_impact_limit(MOST_STRIKES).ok()? } else { scene };
+        let contact = Contact::new(self.known.contact_law, x[RESTITUTION], libm::exp(x[CONTACT])).ok()?;
+        let flight = scene.contacts_until(&contact, PRECISION, |ahead| until_s > 0.0 && ahead.time_s > until_s).ok()?;
+        Some(Path::Contacts(Box::new(scene), Box::new(flight)))
+    }
+    /// Until when heights and accelerations need the motion, since the first touch.
+    fn until_s(&self, x: &[f64]) -> f64 {
+        let last = |(k, set): (usize, &Set<'_>)| set.end_s().map(|end_s| end_s - self.offset_s(x, k));
+        self.sets.iter().enumerate().filter_map(last).fold(f64::NEG_INFINITY, f64::max)
+    }
+    /// The first touch on the time axis of a record.
+    pub(super) fn offset_s(&self, x: &[f64], set: usize) -> f64 {
+        x[OFFSET + set] * self.unit_s
+    }
+    /// Measured less computed over a standard deviation, of all records.
+    pub(super) fn residuals(&self, x: &[f64]) -> Vec<f64> {
+        let path = self.path(x);
+        self.residuals_of(x, path.as_ref())
+    }
+    pub(super) fn residuals_of(&self, x: &[f64], path: Option<&Path>) -> Vec<f64> {
+        let mut all = Vec::new();
+        for (k, set) in self.sets.iter().enumerate() {
+            set.residuals(self, path, self.offset_s(x, k), &mut all);
+        }
+        all
+    }
+}
+
+impl Path {
+    pub(super) fn strikes(&self) -> &[Strike] {
+        match self {
+            Self::Rigid(_, flight) => &flight.strikes,
+            Self::Contacts(_, flight) => &flight.flight.strikes,
+        }
+    }
+    /// Heights of the first and the second end at a time since the first touch; before it in free flight.
+    pub(super) fn heights_m(&self, time_s: f64) -> [f64; 2] {
+        match self {
+            Self::Rigid(scene, _) | Self::Contacts(scene, _) if time_s < 0.0 => {
+                let body = scene.body();
+                let [a, b] = body.arms_m();
+                let tilt = scene.tilt_rad();
+                let center = a * libm::sin(tilt) - time_s * (scene.speed_m_s() + 0.5 * scene.gravity_m_s2() * time_s);
+                let sin = libm::sin(tilt + scene.spin_rad_s() * time_s);
+                [center - a * sin, center + b * sin]
+            }
+            Self::Rigid(scene, flight) => scene.heights_m(Model::FiniteTilt, flight, time_s),
+            Self::Contacts(_, flight) => flight.sample(time_s).height_m,
+        }
+    }
+    /// Velocity of a place, at `s` in [−1, 1] from the first end to the second, less that of a free fall from the first touch on: what
+    /// the contacts have given it.
+    pub(super) fn given_m_s(&self, s: f64, time_s: f64) -> f64 {
+        let Self::Contacts(scene, flight) = self else { return 0.0 };
+        let gravity = scene.gravity_m_s2();
+        let [a, b] = if time_s <= 0.0 { flight.sample(0.0).velocity_m_s } else { flight.sample(time_s).velocity_m_s };
+        0.5 * ((1.0 - s) * a + (1.0 + s) * b) + gravity * time_s.max(0.0)
+    }
+}

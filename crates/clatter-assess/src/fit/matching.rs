@@ -1,0 +1,229 @@
+//! Which computed strikes the measured ones are.
+
+use super::drop::{Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION};
+use super::solve::{Minimum, Problem};
+use super::starts::starts;
+use super::student;
+use super::{Error, MeasuredStrike, Set};
+
+/// Strikes may be missing before so many of the first measured ones.
+const PLACES: usize = 16;
+/// A fit is looked at again where its scatter passes this share of the mean time between strikes: with so much, nothing is told.
+const SUSPECT: f64 = 0.02;
+/// A fit with strikes missing or left out counts where chance makes the scatter of the plain one so much larger with this
+/// probability, over all that was tried.
+const CHANCE: f64 = 1e-3;
+/// The same of one time that is wrong, where nothing else is odd: so many sound records lose a time.
+const WRONG: f64 = 0.01;
+
+/// What is wrong with a record.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(super) struct Faults {
+    /// Measured strikes, from 0, before each of which a computed one is missing.
+    missing: Vec<usize>,
+    /// A measured strike that is left out, and whether it is one at a wrong time; else it is none at all.
+    left_out: Option<(usize, bool)>,
+}
+
+impl Faults {
+    /// Of each measured strike the computed one that it is.
+    fn index(&self, count: usize) -> Vec<Option<usize>> {
+        let mut next = 0;
+        (0..count)
+            .map(|k| {
+                next += self.missing.iter().filter(|place| **place == k).count();
+                match self.left_out {
+                    Some((out, is_strike)) if out == k => {
+                        next += usize::from(is_strike);
+                        None
+                    }
+                    _ => {
+                        next += 1;
+                        Some(next - 1)
+                    }
+                }
+            })
+            .collect()
+    }
+}
+
+/// A fit to one record of strikes, alone.
+struct Candidate {
+    index: Vec<Option<usize>>,
+    /// Strikes of the other end than measured.
+    wrong_ends: usize,
+    minimum: Minimum,
+    free: usize,
+}
+
+impl Candidate {
+    /// The better one is smaller.
+    fn rank(&self) -> (usize, f64) {
+        (self.wrong_ends, self.minimum.sum())
+    }
+    fn degrees(&self) -> usize {
+        self.minimum.residuals.len().saturating_sub(self.free)
+    }
+}
+
+/// Finds what the strikes of a record are, and writes it into the set. `known`: whether the deviation was given.
+pub(super) fn find(drop: &mut Drop<'_>, set: usize, known: bool) -> Result<(), Error> {
+    let Set::Strikes { strikes, .. } = drop.sets[set] else { return Ok(()) };
+    let alone = Drop { sets: vec![drop.sets[set].clone()], ..drop.clone() };
+    let index = Search { drop: alone, strikes, known }.index()?;
+    if let Set::Strikes { index: of_set, .. } = &mut drop.sets[set] {
+        *of_set = index;
+    }
+    Ok(())
+}
+
+/// The search in one record.
+struct Search<'d> {
+    /// With this record alone.
+    drop: Drop<'d>,
+    strikes: &'d [MeasuredStrike],
+    known: bool,
+}
+
+impl Search<'_> {
+    /// Takes measured strikes for these computed ones.
+    fn take(&mut self, of_strikes: &[Option<usize>]) {
+        if let Set::Strikes { index, .. } = &mut self.drop.sets[0] {
+            index.clear();
+            index.extend_from_slice(of_strikes);
+        }
+    }
+
+    fn index(mut self) -> Result<Vec<Option<usize>>, Error> {
+        let count = self.strikes.len();
+        let mut best = self.candidate(&Faults::default());
+        let one_missing = (0..count.min(PLACES)).map(|k| Faults { missing: vec![k], left_out: None });
+        let one_wrong = (0..count.min(PLACES)).flat_map(|k| {
+            [true, false].map(|is_strike| Faults { missing: Vec::new(), left_out: Some((k, is_strike)) })
+        });
+        let two_missing = (0..count.min(PLACES))
+            .flat_map(|k| (k..count.min(PLACES)).map(move |j| Faults { missing: vec![k, j], left_out: None }));
+        let rounds: [Vec<Faults>; 2] = [one_missing.chain(one_wrong).collect(), two_missing.collect()];
+        for round in rounds {
+            if !self.is_suspect(&best) {
+                break;
+            }
+            let other = round.iter().map(|faults| self.candidate(faults)).min_by(|a, b| {
+                let (a, b) = (a.rank(), b.rank());
+                a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+            });
+            if let Some(other) = other
+                && self.is_better(&best, &other, round.len())
+            {
+                best = other;
+            }
+        }
+        if best.wrong_ends > 0 {
+            return Err(Error::NoDrop("strikes"));
+        }
+        if let Some(k) = self.outlier(&best) {
+            let left_out = best.index.iter().enumerate().map(|(i, index)| if i == k { None } else { *index });
+            return Ok(left_out.collect());
+        }
+        Ok(best.index)
+    }
+
+    /// The best fit for what may be wrong with the record.
+    fn candidate(&mut self, faults: &Faults) -> Candidate {
+        let strikes = self.strikes;
+        let index = faults.index(strikes.len());
+        let used = index.iter().flatten().count();
+        self.take(&index);
+        let free: Vec<usize> = [OFFSET, GAP_TIME, RESTITUTION, GYRATION]
+            .into_iter()
+            .take(if self.known { used } else { used.saturating_sub(1) })
+            .collect();
+        let (bounds, residuals) = (self.drop.bounds(), |x: &[f64]| self.drop.residuals(x));
+        let problem = Problem { residuals: &residuals, bounds: &bounds, step: self.drop.step() };
+        let minimum = |x: Vec<f64>| {
+            let minimum = problem.minimize(&x, &free);
+            let path = self.drop.path(&minimum.x);
+            let computed = path.as_ref().map_or(&[][..], |path| path.strikes());
+            let is_wrong = |(strike, index): (&MeasuredStrike, &Option<usize>)| {
+                let computed = index.and_then(|index| computed.get(index));
+                computed.is_some_and(|computed| strike.end.is_some_and(|end| end != self.drop.end(computed.point)))
+            };
+            let wrong_ends = strikes.iter().zip(&index).filter(|pair| is_wrong(*pair)).count();
+            Candidate { index: index.clone(), wrong_ends, minimum, free: free.len() }
+        };
+        let candidates = starts(&self.drop).into_iter().map(minimum);
+        let best = candidates.min_by(|a, b| a.rank().0.cmp(&b.rank().0).then(a.rank().1.total_cmp(&b.rank().1)));
+        // The grid has hundreds of starts.
+        best.unwrap_or_else(|| minimum(self.drop.given()))
+    }
+
+    /// Whether the scatter is more than clatter data have, or ends are wrong.
+    fn is_suspect(&self, fit: &Candidate) -> bool {
+        let degrees = fit.degrees();
+        #[expect(clippy::cast_precision_loss, reason = "a count of strikes")]
+        let (count, sum) = (degrees as f64, fit.minimum.sum());
+        if fit.wrong_ends > 0 {
+            return true;
+        }
+        if degrees == 0 {
+            return false;
+        }
+        if self.known {
+            // Five standard deviations of χ².
+            return sum > count + 5.0 * (2.0 * count).sqrt();
+        }
+        (sum / count).sqrt() * self.deviation_s() > SUSPECT * self.drop.unit_s
+    }
+
+    fn deviation_s(&self) -> f64 {
+        if let Set::Strikes { deviation, .. } = &self.drop.sets[0] { *deviation } else { 1.0 }
+    }
+
+    /// Whether chance does not explain that the other fit is so much better, out of so many.
+    fn is_better(&self, plain: &Candidate, other: &Candidate, tried: usize) -> bool {
+        if other.wrong_ends != plain.wrong_ends {
+            return other.wrong_ends < plain.wrong_ends;
+        }
+        #[expect(clippy::cast_precision_loss, reason = "some hundred")]
+        let alpha = CHANCE / tried as f64;
+        let (before, after) = (plain.minimum.sum(), other.minimum.sum());
+        if self.known {
+            // What an unknown more takes off χ² is the square of a normal number.
+            return before - after > student::two_sided(alpha, None).powi(2);
+        }
+        let degrees = plain.degrees().min(other.degrees());
+        if degrees == 0 {
+            return false;
+        }
+        // The ratio F of two equal scatters is t distributed as (√F − 1/√F) √ν/2 (Cacoullos 1965).
+        #[expect(clippy::cast_precision_loss, reason = "a count of strikes")]
+        let (n, m, ratio) = (degrees as f64, other.degrees() as f64, before / plain.degrees() as f64 / after);
+        let root = (ratio * m).sqrt();
+        0.5 * n.sqrt() * (root - 1.0 / root) > student::two_sided(2.0 * alpha, Some(degrees))
+    }
+
+    /// A time that is further off than chance explains: the externally studentized residual t_i = r_i/(s_(i) √(1 − h_i)) with the
+    /// leverage h_i, the scatter s_(i) without it, and all strikes tried.
+    fn outlier(&mut self, fit: &Candidate) -> Option<usize> {
+        let spare = fit.degrees().checked_sub(usize::from(!self.known)).filter(|spare| *spare > 0)?;
+        self.take(&fit.index);
+        let (bounds, residuals) = (self.drop.bounds(), |x: &[f64]| self.drop.residuals(x));
+        let problem = Problem { residuals: &residuals, bounds: &bounds, step: self.drop.step() };
+        let free: Vec<usize> = [OFFSET, GAP_TIME, RESTITUTION, GYRATION].into_iter().take(fit.free).collect();
+        let q = problem.jacobian(&fit.minimum.x, &free).qr().q();
+        let sum = fit.minimum.sum();
+        #[expect(clippy::cast_precision_loss, reason = "a count of strikes")]
+        let (spare_count, count) = (spare as f64, fit.minimum.residuals.len() as f64);
+        let studentized = fit.minimum.residuals.iter().enumerate().map(|(i, r)| {
+            let room = (1.0 - q.row(i).norm_squared()).max(f64::EPSILON);
+            let variance = if self.known { 1.0 } else { (sum - r * r / room).max(0.0) / spare_count };
+            (i, r.abs() / (variance * room).sqrt())
+        });
+        let (worst, t) = studentized.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let degrees = if self.known { None } else { Some(spare) };
+        let is_wrong = t > student::two_sided(WRONG / count, degrees);
+        // Of the strikes that are used.
+        is_wrong
+            .then(|| fit.index.iter().enumerate().filter(|(_, index)| index.is_some()).nth(worst).map(|(k, _)| k))?
+    }
+}

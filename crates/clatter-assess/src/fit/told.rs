@@ -1,0 +1,280 @@
+//! What the data tell: which unknowns are left free, and how far they may be off.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::drop::{CONTACT, DIFFERENCE, Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED, SPIN};
+use super::solve::{Minimum, Problem};
+use super::starts::starts;
+use super::student;
+use super::{Error, Set};
+
+/// A direction is told where the interval of 95 % along it is within these half-widths: a restitution to a quarter of all there is, both
+/// ends apart to a twentieth, a length or a time to a factor of √2, the speed to a fifth. More would not be of use in a product file.
+fn half_width(unknown: usize) -> f64 {
+    match unknown {
+        RESTITUTION => 0.25,
+        DIFFERENCE => 0.05,
+        SPEED | SPIN => 0.2,
+        GYRATION | GAP_TIME | CONTACT => 0.35,
+        _ => 1.0,
+    }
+}
+
+/// How unknowns are called.
+fn name(unknown: usize) -> &'static str {
+    match unknown {
+        GYRATION => "the radius of gyration",
+        RESTITUTION => "the restitution",
+        DIFFERENCE => "the difference of the ends",
+        GAP_TIME => "the gap over the speed",
+        SPEED => "the speed",
+        SPIN => "the spin",
+        CONTACT => "the contact time",
+        _ => "the moment of the first touch",
+    }
+}
+
+/// Part of a direction above which an unknown counts as part of it.
+const PART: f64 = 0.3;
+/// Confidence of the intervals is one less this.
+const ALPHA: f64 = 0.05;
+
+/// The fit with all that the data tell left free.
+#[derive(Debug)]
+pub(super) struct Told {
+    pub(super) minimum: Minimum,
+    pub(super) free: Vec<usize>,
+    /// Unknowns that are held, and why.
+    pub(super) held: Vec<(usize, String)>,
+    pub(super) degrees: usize,
+    /// Standard deviation of a residual; none where nothing tells it.
+    pub(super) scatter: Option<f64>,
+    /// Residuals scatter more than the deviations given, by this factor.
+    pub(super) excess: Option<f64>,
+}
+
+/// Finds it. `known`: whether the deviations of all records are given.
+pub(super) fn find(drop: &mut Drop<'_>, known: bool) -> Result<Told, Error> {
+    let count: usize = drop.sets.iter().map(Set::len).sum();
+    let begins = starts(drop);
+    let mut told = {
+        let search = Search { drop, known, count };
+        search.base(&begins)?
+    };
+    for again in [true, false] {
+        // Records of several kinds count by how well each is explained.
+        if drop.sets.len() > 1 && !known {
+            drop.weigh(&told.minimum.x);
+        }
+        let search = Search { drop, known, count };
+        search.refit(&mut told);
+        if again {
+            search.free_more(&mut told);
+            search.hold_untold(&mut told);
+        }
+        search.judge(&mut told);
+    }
+    Ok(told)
+}
+
+impl Drop<'_> {
+    /// Takes what the residuals of each record scatter by as its deviation.
+    fn weigh(&mut self, x: &[f64]) {
+        let residuals = self.residuals(x);
+        let mut from = 0;
+        for set in &mut self.sets {
+            let own = &residuals[from..from + set.len()];
+            from += own.len();
+            #[expect(clippy::cast_precision_loss, reason = "a count of data")]
+            let mean = own.iter().map(|r| r * r).sum::<f64>() / own.len() as f64;
+            // Of a record that is met exactly nothing is known but that.
+            if mean > 0.0 && mean.is_finite() {
+                *set.deviation() *= mean.sqrt();
+            }
+        }
+    }
+}
+
+struct Search<'s, 'd> {
+    drop: &'s Drop<'d>,
+    known: bool,
+    count: usize,
+}
+
+impl Search<'_, '_> {
+    fn with<T>(&self, work: impl FnOnce(&Problem<'_>) -> T) -> T {
+        let (bounds, residuals) = (self.drop.bounds(), |x: &[f64]| self.drop.residuals(x));
+        work(&Problem { residuals: &residuals, bounds: &bounds, step: self.drop.step() })
+    }
+
+    /// From the best of the starts, with the unknowns that such records tell at least.
+    fn base(&self, starts: &[Vec<f64>]) -> Result<Told, Error> {
+        let has = |is: fn(&Set<'_>) -> bool| self.drop.sets.iter().any(is);
+        let heights = has(|set| matches!(set, Set::Heights { .. }));
+        let acceleration = has(|set| matches!(set, Set::Acceleration { .. }));
+        let mut free: Vec<usize> = (OFFSET..OFFSET + self.drop.sets.len()).chain([GAP_TIME, RESTITUTION]).collect();
+        if heights || acceleration {
+            free.push(SPEED);
+        }
+        if acceleration {
+            free.push(CONTACT);
+        }
+        if heights {
+            free.push(SPIN);
+        }
+        free.truncate(self.count);
+        let minimum = self.with(|problem| {
+            let all = starts.iter().map(|x| problem.minimize(x, &free));
+            all.min_by(|a, b| a.sum().total_cmp(&b.sum()))
+        });
+        let minimum = minimum.filter(|minimum| self.drop.path(&minimum.x).is_some()).ok_or(Error::NoDrop("data"))?;
+        let mut told = Told { minimum, free, held: Vec::new(), degrees: 0, scatter: None, excess: None };
+        self.judge(&mut told);
+        Ok(told)
+    }
+
+    fn refit(&self, told: &mut Told) {
+        told.minimum = self.with(|problem| problem.minimize(&told.minimum.x, &told.free));
+    }
+
+    /// Degrees of freedom and scatter.
+    fn judge(&self, told: &mut Told) {
+        told.degrees = self.count.saturating_sub(told.free.len());
+        #[expect(clippy::cast_precision_loss, reason = "a count of data")]
+        let (degrees, sum) = (told.degrees as f64, told.minimum.sum());
+        let found = (told.degrees > 0).then(|| (sum / degrees).sqrt());
+        told.scatter = if self.known { Some(1.0) } else { found };
+        told.excess = None;
+        // Five standard deviations of χ²: what is given is not what the residuals scatter by.
+        if self.known && told.degrees > 0 && sum > degrees + 5.0 * (2.0 * degrees).sqrt() {
+            (told.scatter, told.excess) = (found, found);
+        }
+    }
+
+    /// Leaves unknowns free, one by one, as long as the data tell them.
+    fn free_more(&self, told: &mut Told) {
+        for unknown in [GYRATION, SPEED, CONTACT, SPIN, DIFFERENCE] {
+            if told.free.contains(&unknown) || unknown == CONTACT && !self.drop.contacts {
+                continue;
+            }
+            if unknown == DIFFERENCE && self.drop.contacts {
+                let reason = "contacts that take time have one restitution for both ends".to_owned();
+                told.held.push((unknown, reason));
+                continue;
+            }
+            let needed = told.free.len() + 1 + usize::from(!self.known);
+            if needed > self.count {
+                let reason = format!("{} data are too few for {} unknowns", self.count, told.free.len() + 1);
+                told.held.push((unknown, reason));
+                continue;
+            }
+            let mut more = told.free.clone();
+            more.push(unknown);
+            match self.untold(&told.minimum, &more, Some(unknown)) {
+                Some((_, reason)) => told.held.push((unknown, reason)),
+                None => {
+                    told.minimum = self.with(|problem| problem.minimize(&told.minimum.x, &more));
+                    told.free = more;
+                }
+            }
+        }
+    }
+
+    /// Holds what turns out not to be told after all.
+    fn hold_untold(&self, told: &mut Told) {
+        while let Some((unknown, reason)) = self.untold(&told.minimum, &told.free, None) {
+            told.free.retain(|free| *free != unknown);
+            told.held.push((unknown, reason));
+            told.minimum.x[unknown] = self.drop.given()[unknown];
+            self.refit(told);
+        }
+    }
+
+    /// An unknown that the data do not tell beside the others, and why; `last` is the one to name if it is part of it.
+    fn untold(&self, minimum: &Minimum, free: &[usize], last: Option<usize>) -> Option<(usize, String)> {
+        let degrees = self.count.checked_sub(free.len())?;
+        if degrees == 0 && !self.known {
+            return None;
+        }
+        #[expect(clippy::cast_precision_loss, reason = "a count of data")]
+        let scatter = if self.known { 1.0 } else { (minimum.sum() / degrees as f64).sqrt() };
+        let t = student::two_sided(ALPHA, (!self.known).then_some(degrees));
+        let mut jacobian = self.with(|problem| problem.jacobian(&minimum.x, free));
+        for (mut column, unknown) in jacobian.column_iter_mut().zip(free) {
+            column *= half_width(*unknown);
+        }
+        let svd = jacobian.svd(false, true);
+        let directions = svd.v_t?;
+        let least = svd.singular_values.imin();
+        if svd.singular_values[least] >= scatter * t {
+            return None;
+        }
+        let part = |k: usize| directions[(least, k)].abs();
+        let largest =
+            (0..free.len()).filter(|&k| free[k] < OFFSET).max_by(|&i, &j| part(i).total_cmp(&part(j))).unwrap_or(0);
+        let k = last.and_then(|last| free.iter().position(|f| *f == last)).unwrap_or(largest);
+        let others: Vec<&str> = (0..free.len()).filter(|&i| i != k && part(i) > PART).map(|i| name(free[i])).collect();
+        Some((free[k], self.reason(free[k], &others)))
+    }
+
+    fn reason(&self, unknown: usize, others: &[&str]) -> String {
+        let strikes = self.drop.sets.iter().all(|set| matches!(set, Set::Strikes { .. }));
+        match (unknown, others) {
+            (SPEED, _) if strikes => {
+                "strike times alone tell the gap over the speed, not the gap and the speed".to_owned()
+            }
+            (_, []) => format!("{} changes the data by too little", name(unknown)),
+            (_, others) => {
+                format!("what {} changes in the data, {} can change as well", name(unknown), others.join(" and "))
+            }
+        }
+    }
+}
+
+/// How far functions of the unknowns may be off.
+pub(super) struct Spreads {
+    /// Covariance of the free unknowns, from the data.
+    covariance: DMatrix<f64>,
+    /// Half-ranges of what is held, and what the free unknowns change by for each.
+    held: Vec<(usize, f64, DVector<f64>)>,
+    free: Vec<usize>,
+    t: f64,
+}
+
+impl Told {
+    /// Covariances; none where nothing tells the scatter.
+    pub(super) fn spreads(&self, drop: &Drop<'_>, known: bool) -> Option<Spreads> {
+        let scatter = self.scatter?;
+        let (bounds, residuals) = (drop.bounds(), |x: &[f64]| drop.residuals(x));
+        let problem = Problem { residuals: &residuals, bounds: &bounds, step: drop.step() };
+        let jacobian = problem.jacobian(&self.minimum.x, &self.free);
+        let inverse = jacobian.pseudo_inverse(0.0).ok()?;
+        let covariance = &inverse * inverse.transpose() * (scatter * scatter);
+        let ranges = (0..OFFSET).filter(|unknown| !self.free.contains(unknown));
+        let ranges = ranges.map(|unknown| (unknown, drop.half_range(unknown))).filter(|(_, range)| *range > 0.0);
+        let held = ranges
+            .map(|(unknown, range)| {
+                let column = problem.jacobian(&self.minimum.x, &[unknown]);
+                (unknown, range, (-(&inverse * column)).column(0).into_owned())
+            })
+            .collect();
+        let normal = known && self.excess.is_none();
+        let t = student::two_sided(ALPHA, (!normal).then_some(self.degrees.max(1)));
+        Some(Spreads { covariance, held, free: self.free.clone(), t })
+    }
+}
+
+impl Spreads {
+    /// Covariance of two functions with these gradients over all unknowns, times the square of the quantile: the half-width of an
+    /// interval is the root of a function's own.
+    pub(super) fn of(&self, one: &[f64], other: &[f64]) -> f64 {
+        let free = |gradient: &[f64]| DVector::from_iterator(self.free.len(), self.free.iter().map(|&i| gradient[i]));
+        let (g, h) = (free(one), free(other));
+        let data = self.t * self.t * (g.transpose() * &self.covariance * &h)[0];
+        let held = self
+            .held
+            .iter()
+            .map(|(i, range, shift)| range * range * (one[*i] + g.dot(shift)) * (other[*i] + h.dot(shift)));
+        data + held.sum::<f64>()
+    }
+}
