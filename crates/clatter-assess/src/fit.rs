@@ -37,7 +37,7 @@ mod student;
 mod told;
 
 use clatter::End;
-use clatter_flight::{Body, ContactLaw};
+use clatter_flight::{Body, ContactLaw, Strike};
 
 use crate::{First, Model, ProductFile};
 
@@ -55,6 +55,9 @@ pub const MOST_SAMPLES: usize = 1_000_000;
 pub struct Known {
     /// Length and center of mass; the radius of gyration is where the search begins, and stays where the data do not tell it.
     pub body: Body,
+    /// Whether the radius of gyration is known and not looked for. Strike times tell it and the restitution mostly together, so that
+    /// the restitution is then known several times better.
+    pub gyration_known: bool,
     /// The end that touches first.
     pub first: First,
     /// Gravity, in m/s²; 0 switches it off.
@@ -76,6 +79,7 @@ impl From<&ProductFile> for Known {
         let range = |spread: &crate::Spread| [spread.lo(), spread.hi()];
         Self {
             body: file.product.body,
+            gyration_known: false,
             first: file.drop.first,
             gravity_m_s2: file.drop.gravity_m_s2,
             restitution: range(&file.product.restitution),
@@ -272,13 +276,35 @@ pub enum Error {
     NoDrop(&'static str),
 }
 
+/// A computed strike, from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Which {
+    /// So many strikes come before it.
+    Of(usize),
+    /// So many strikes of its end come before it: two of both ends close together are the same whichever is measured first.
+    OfEnd(End, usize),
+}
+
+impl Which {
+    /// The place of the strike among all that were computed.
+    fn find(self, drop: &Drop<'_>, strikes: &[Strike]) -> Option<usize> {
+        match self {
+            Self::Of(n) => (n < strikes.len()).then_some(n),
+            Self::OfEnd(end, n) => {
+                let own = strikes.iter().enumerate().filter(|(_, strike)| drop.end(strike.point) == end);
+                own.map(|(k, _)| k).nth(n)
+            }
+        }
+    }
+}
+
 /// A record as the fit takes it.
 #[derive(Debug, Clone)]
 enum Set<'a> {
     Strikes {
         strikes: &'a [MeasuredStrike],
-        /// Of each the computed strike that it is, from 0.
-        index: Vec<Option<usize>>,
+        /// Of each the computed strike that it is; none of one that is left out.
+        index: Vec<Option<Which>>,
         deviation: f64,
     },
     Heights {
@@ -296,10 +322,23 @@ enum Set<'a> {
 }
 
 impl Set<'_> {
-    /// So many computed strikes are asked for.
-    fn strikes(&self) -> usize {
-        let Self::Strikes { index, .. } = self else { return 0 };
-        index.iter().flatten().max().map_or(0, |last| last + 1)
+    /// Whether a flight has all strikes that are asked for.
+    fn has_enough(&self, drop: &Drop<'_>, strikes: &[Strike]) -> bool {
+        let Self::Strikes { index, .. } = self else { return true };
+        let most = |end: Option<End>| {
+            let of = |which: &Which| match *which {
+                Which::Of(n) => end.is_none().then_some(n + 1),
+                Which::OfEnd(own, n) => (end == Some(own)).then_some(n + 1),
+            };
+            index.iter().flatten().filter_map(of).max().unwrap_or(0)
+        };
+        let count = |end: End| strikes.iter().filter(|strike| drop.end(strike.point) == end).count();
+        strikes.len() >= most(None) && [End::A, End::B].into_iter().all(|end| count(end) >= most(Some(end)))
+    }
+    /// Time from the first to the last measured strike.
+    fn span_s(&self) -> Option<f64> {
+        let Self::Strikes { strikes, .. } = self else { return None };
+        strikes.last().zip(strikes.first()).map(|(last, first)| last.time_s - first.time_s)
     }
     /// Until when the motion is asked for, on the time axis of the record; strikes ask for their number alone.
     fn end_s(&self) -> Option<f64> {
@@ -328,11 +367,13 @@ impl Set<'_> {
     /// Computed values as the record has them: times, heights of ends a and b in turn, accelerations.
     fn computed(&self, drop: &Drop<'_>, path: &Path, offset_s: f64) -> Vec<f64> {
         match self {
-            Self::Strikes { strikes, index, .. } => {
+            Self::Strikes { index, .. } => {
                 let computed = path.strikes();
-                // A strike that does not happen is late: further than any measured one.
-                let never = strikes.last().map_or(0.0, |last| 2.0 * (last.time_s - offset_s));
-                let time = |n: &usize| offset_s + computed.get(*n).map_or(never, |strike| strike.time_s);
+                let never = drop.horizon_s();
+                let time = |which: &Which| {
+                    let found = which.find(drop, computed).map(|k| computed[k].time_s);
+                    offset_s + found.map_or(never, |time_s| time_s.min(never))
+                };
                 index.iter().flatten().map(time).collect()
             }
             Self::Heights { samples, .. } => {

@@ -37,12 +37,13 @@ impl Scene {
             // Without gravity the small-tilt motion is the map, which has closed forms where iteration drifts.
             Model::Ballistic if self.gravity_m_s2() == 0.0 => map::simulate(self, enough),
             Model::Ballistic => ballistic::simulate(self, enough),
-            Model::FiniteTilt => finite_tilt::simulate(self, [self.e(); 2], enough),
+            Model::FiniteTilt => finite_tilt::simulate(self, [self.e(); 2], f64::INFINITY, enough),
         }
     }
 
     /// The same at any tilt, of a body whose ends rebound differently: `restitution` of ends a and b counts in place of that
-    /// of the scene.
+    /// of the scene. Beyond the time limit of the scene no strike is looked for: the flight ends with [`Stop::TimeLimit`] also where
+    /// none would follow.
     ///
     /// # Errors
     /// [`Error::Restitution`] unless both are in [0, 1].
@@ -58,15 +59,11 @@ impl Scene {
     /// assert!((second.velocity_m_s[1] + second.approach_m_s).abs() < 1e-15);
     /// # Ok::<(), clatter::Error>(())
     /// ```
-    pub fn simulate_ends(
-        &self,
-        restitution: [f64; 2],
-        enough: impl FnMut(&Flight) -> bool,
-    ) -> Result<Flight, Error> {
+    pub fn simulate_ends(&self, restitution: [f64; 2], enough: impl FnMut(&Flight) -> bool) -> Result<Flight, Error> {
         for e in restitution {
             Restitution::new(e)?;
         }
-        Ok(finite_tilt::simulate(self, restitution, enough))
+        Ok(finite_tilt::simulate(self, restitution, self.time_limit_s(), enough))
     }
 }
 

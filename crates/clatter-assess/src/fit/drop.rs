@@ -35,6 +35,8 @@ const STEP: f64 = 1e-6;
 const CONTACT_STEP: f64 = 2e-4;
 /// Precision of flights with contacts.
 const PRECISION: f64 = 1e-6;
+/// A flight is followed for so many times as long as strikes were measured.
+const HORIZON: f64 = 3.0;
 /// Strikes of a flight at most: more than records have.
 const MOST_STRIKES: usize = 8192;
 
@@ -132,27 +134,30 @@ impl Drop<'_> {
         Scene::new(body, x[RESTITUTION], speed, tilt.to_degrees(), self.known.gravity_m_s2)?
             .with_spin(x[SPIN] * speed * 2.0 / length)
     }
-    /// The flight of the rigid body: so many strikes, or until a time.
-    pub(super) fn rigid(&self, x: &[f64], strikes: usize, until_s: f64) -> Option<Path> {
-        let scene = self.scene(x).ok()?.with_impact_limit(MOST_STRIKES).ok()?;
-        let enough = |flight: &Flight| {
-            flight.strikes.len() >= strikes && flight.strikes.last().is_some_and(|s| s.time_s > until_s)
-        };
+    /// The flight of the rigid body until `enough`.
+    pub(super) fn rigid(&self, x: &[f64], horizon_s: f64, enough: impl FnMut(&Flight) -> bool) -> Option<Path> {
+        let scene = self.scene(x).ok()?.with_impact_limit(MOST_STRIKES).ok()?.with_time_limit_s(horizon_s).ok()?;
         let flight = scene.simulate_ends(self.restitutions(x), enough).ok()?;
         Some(Path::Rigid(Box::new(scene), flight))
     }
-    /// The flight by the model of the fit.
+    /// The flight by the model of the fit, as far as the records need it.
     pub(super) fn path(&self, x: &[f64]) -> Option<Path> {
-        let strikes = self.sets.iter().map(Set::strikes).max().unwrap_or(0);
         let until_s = self.until_s(x);
+        let horizon_s = self.horizon_s().max(until_s);
         if !self.contacts {
-            return self.rigid(x, strikes, until_s);
+            return self.rigid(x, horizon_s, |flight| {
+                flight.strikes.last().is_some_and(|s| s.time_s > until_s)
+                    && self.sets.iter().all(|set| set.has_enough(self, &flight.strikes))
+            });
         }
-        let scene = self.scene(x).ok()?.with_impact_limit(strikes.max(1)).ok()?;
-        let scene = if until_s > 0.0 { scene.with_impact_limit(MOST_STRIKES).ok()? } else { scene };
+        let scene = self.scene(x).ok()?.with_impact_limit(MOST_STRIKES).ok()?;
         let contact = Contact::new(self.known.contact_law, x[RESTITUTION], libm::exp(x[CONTACT])).ok()?;
-        let flight = scene.contacts_until(&contact, PRECISION, |ahead| until_s > 0.0 && ahead.time_s > until_s).ok()?;
+        let flight = scene.contacts_until(&contact, PRECISION, |ahead| ahead.time_s > horizon_s).ok()?;
         Some(Path::Contacts(Box::new(scene), Box::new(flight)))
+    }
+    /// No strike that was measured is later after the first touch: what is computed later never happens.
+    pub(super) fn horizon_s(&self) -> f64 {
+        HORIZON * self.sets.iter().filter_map(Set::span_s).fold(0.0, f64::max)
     }
     /// Until when heights and accelerations need the motion, since the first touch.
     fn until_s(&self, x: &[f64]) -> f64 {

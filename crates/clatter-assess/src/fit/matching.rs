@@ -2,14 +2,17 @@
 
 use super::drop::{Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION};
 use super::solve::{Minimum, Problem};
-use super::starts::starts;
+use super::starts::{TAKEN, starts};
 use super::student;
-use super::{Error, MeasuredStrike, Set};
+use super::{Error, MeasuredStrike, Set, Which};
+use clatter::End;
 
+/// Starts that go on where fewer have not led to a fit.
+const MORE_TAKEN: usize = 24;
 /// Strikes may be missing before so many of the first measured ones.
 const PLACES: usize = 16;
 /// A fit is looked at again where its scatter passes this share of the mean time between strikes: with so much, nothing is told.
-const SUSPECT: f64 = 0.02;
+const SUSPECT: f64 = 0.05;
 /// A fit with strikes missing or left out counts where chance makes the scatter of the plain one so much larger with this
 /// probability, over all that was tried.
 const CHANCE: f64 = 1e-3;
@@ -26,30 +29,26 @@ pub(super) struct Faults {
 }
 
 impl Faults {
-    /// Of each measured strike the computed one that it is.
-    fn index(&self, count: usize) -> Vec<Option<usize>> {
-        let mut next = 0;
-        (0..count)
-            .map(|k| {
-                next += self.missing.iter().filter(|place| **place == k).count();
-                match self.left_out {
-                    Some((out, is_strike)) if out == k => {
-                        next += usize::from(is_strike);
-                        None
-                    }
-                    _ => {
-                        next += 1;
-                        Some(next - 1)
-                    }
-                }
-            })
-            .collect()
+    /// Of each measured strike the computed one that it is: in the order of its end where all ends are known, else in that of all.
+    fn index(&self, strikes: &[MeasuredStrike]) -> Vec<Option<Which>> {
+        let ends_known = strikes.iter().all(|strike| strike.end.is_some());
+        let mut next = [0; 2];
+        let one = |(k, strike): (usize, &MeasuredStrike)| {
+            let end = strike.end.filter(|_| ends_known);
+            let count = &mut next[usize::from(end == Some(End::B))];
+            *count += self.missing.iter().filter(|place| **place == k).count();
+            let is_out = self.left_out.filter(|(out, _)| *out == k);
+            let now = *count;
+            *count += is_out.map_or(1, |(_, is_strike)| usize::from(is_strike));
+            is_out.is_none().then(|| end.map_or(Which::Of(now), |end| Which::OfEnd(end, now)))
+        };
+        strikes.iter().enumerate().map(one).collect()
     }
 }
 
 /// A fit to one record of strikes, alone.
 struct Candidate {
-    index: Vec<Option<usize>>,
+    index: Vec<Option<Which>>,
     /// Strikes of the other end than measured.
     wrong_ends: usize,
     minimum: Minimum,
@@ -66,15 +65,26 @@ impl Candidate {
     }
 }
 
+/// What the strikes of a record are found to be.
+pub(super) struct Found {
+    index: Vec<Option<Which>>,
+    /// Unknowns that explain it.
+    pub(super) x: Vec<f64>,
+    /// Whether nothing is odd.
+    pub(super) is_plain: bool,
+}
+
 /// Finds what the strikes of a record are, and writes it into the set. `known`: whether the deviation was given.
-pub(super) fn find(drop: &mut Drop<'_>, set: usize, known: bool) -> Result<(), Error> {
-    let Set::Strikes { strikes, .. } = drop.sets[set] else { return Ok(()) };
+pub(super) fn find(drop: &mut Drop<'_>, set: usize, known: bool) -> Result<Found, Error> {
+    let Set::Strikes { strikes, .. } = drop.sets[set] else {
+        return Ok(Found { index: Vec::new(), x: drop.given(), is_plain: true });
+    };
     let alone = Drop { sets: vec![drop.sets[set].clone()], ..drop.clone() };
-    let index = Search { drop: alone, strikes, known }.index()?;
+    let found = Search { drop: alone, strikes, known }.found()?;
     if let Set::Strikes { index: of_set, .. } = &mut drop.sets[set] {
-        *of_set = index;
+        of_set.clone_from(&found.index);
     }
-    Ok(())
+    Ok(found)
 }
 
 /// The search in one record.
@@ -87,16 +97,19 @@ struct Search<'d> {
 
 impl Search<'_> {
     /// Takes measured strikes for these computed ones.
-    fn take(&mut self, of_strikes: &[Option<usize>]) {
+    fn take(&mut self, of_strikes: &[Option<Which>]) {
         if let Set::Strikes { index, .. } = &mut self.drop.sets[0] {
             index.clear();
             index.extend_from_slice(of_strikes);
         }
     }
 
-    fn index(mut self) -> Result<Vec<Option<usize>>, Error> {
+    fn found(mut self) -> Result<Found, Error> {
         let count = self.strikes.len();
-        let mut best = self.candidate(&Faults::default());
+        let mut best = self.candidate(&Faults::default(), TAKEN);
+        if self.is_suspect(&best) {
+            best = self.candidate(&Faults::default(), MORE_TAKEN);
+        }
         let one_missing = (0..count.min(PLACES)).map(|k| Faults { missing: vec![k], left_out: None });
         let one_wrong = (0..count.min(PLACES)).flat_map(|k| {
             [true, false].map(|is_strike| Faults { missing: Vec::new(), left_out: Some((k, is_strike)) })
@@ -104,11 +117,12 @@ impl Search<'_> {
         let two_missing = (0..count.min(PLACES))
             .flat_map(|k| (k..count.min(PLACES)).map(move |j| Faults { missing: vec![k, j], left_out: None }));
         let rounds: [Vec<Faults>; 2] = [one_missing.chain(one_wrong).collect(), two_missing.collect()];
+        let is_plain = !self.is_suspect(&best);
         for round in rounds {
             if !self.is_suspect(&best) {
                 break;
             }
-            let other = round.iter().map(|faults| self.candidate(faults)).min_by(|a, b| {
+            let other = round.iter().map(|faults| self.candidate(faults, 1)).min_by(|a, b| {
                 let (a, b) = (a.rank(), b.rank());
                 a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
             });
@@ -123,35 +137,39 @@ impl Search<'_> {
         }
         if let Some(k) = self.outlier(&best) {
             let left_out = best.index.iter().enumerate().map(|(i, index)| if i == k { None } else { *index });
-            return Ok(left_out.collect());
+            return Ok(Found { index: left_out.collect(), x: best.minimum.x, is_plain });
         }
-        Ok(best.index)
+        Ok(Found { index: best.index, x: best.minimum.x, is_plain })
+    }
+
+    /// So many unknowns, the first that strikes tell.
+    fn free(&self, most: usize) -> Vec<usize> {
+        let all = [OFFSET, GAP_TIME, RESTITUTION, GYRATION];
+        let all = if self.drop.known.gyration_known { &all[..3] } else { &all[..] };
+        all.iter().copied().take(most).collect()
     }
 
     /// The best fit for what may be wrong with the record.
-    fn candidate(&mut self, faults: &Faults) -> Candidate {
+    fn candidate(&mut self, faults: &Faults, taken: usize) -> Candidate {
         let strikes = self.strikes;
-        let index = faults.index(strikes.len());
+        let index = faults.index(strikes);
         let used = index.iter().flatten().count();
         self.take(&index);
-        let free: Vec<usize> = [OFFSET, GAP_TIME, RESTITUTION, GYRATION]
-            .into_iter()
-            .take(if self.known { used } else { used.saturating_sub(1) })
-            .collect();
+        let free = self.free(if self.known { used } else { used.saturating_sub(1) });
         let (bounds, residuals) = (self.drop.bounds(), |x: &[f64]| self.drop.residuals(x));
         let problem = Problem { residuals: &residuals, bounds: &bounds, step: self.drop.step() };
         let minimum = |x: Vec<f64>| {
             let minimum = problem.minimize(&x, &free);
             let path = self.drop.path(&minimum.x);
             let computed = path.as_ref().map_or(&[][..], |path| path.strikes());
-            let is_wrong = |(strike, index): (&MeasuredStrike, &Option<usize>)| {
-                let computed = index.and_then(|index| computed.get(index));
+            let is_wrong = |(strike, index): (&MeasuredStrike, &Option<Which>)| {
+                let computed = index.and_then(|which| which.find(&self.drop, computed)).map(|k| computed[k]);
                 computed.is_some_and(|computed| strike.end.is_some_and(|end| end != self.drop.end(computed.point)))
             };
             let wrong_ends = strikes.iter().zip(&index).filter(|pair| is_wrong(*pair)).count();
             Candidate { index: index.clone(), wrong_ends, minimum, free: free.len() }
         };
-        let candidates = starts(&self.drop).into_iter().map(minimum);
+        let candidates = starts(&self.drop, taken).into_iter().map(minimum);
         let best = candidates.min_by(|a, b| a.rank().0.cmp(&b.rank().0).then(a.rank().1.total_cmp(&b.rank().1)));
         // The grid has hundreds of starts.
         best.unwrap_or_else(|| minimum(self.drop.given()))
@@ -209,7 +227,7 @@ impl Search<'_> {
         self.take(&fit.index);
         let (bounds, residuals) = (self.drop.bounds(), |x: &[f64]| self.drop.residuals(x));
         let problem = Problem { residuals: &residuals, bounds: &bounds, step: self.drop.step() };
-        let free: Vec<usize> = [OFFSET, GAP_TIME, RESTITUTION, GYRATION].into_iter().take(fit.free).collect();
+        let free = self.free(fit.free);
         let q = problem.jacobian(&fit.minimum.x, &free).qr().q();
         let sum = fit.minimum.sum();
         #[expect(clippy::cast_precision_loss, reason = "a count of strikes")]

@@ -6,8 +6,8 @@ use clatter_flight::Body;
 use super::drop::{CONTACT, DIFFERENCE, Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED, SPIN};
 use super::told::{self, Spreads, Told};
 use super::{
-    Error, Estimate, Fit, Known, MOST_SAMPLES, MOST_STRIKES, Measured, Quantity, RecordFit, Set, StrikeFit, Untold,
-    matching,
+    Error, Estimate, Fit, Known, MOST_SAMPLES, MOST_STRIKES, Measured, MeasuredStrike, Quantity, RecordFit, Set,
+    StrikeFit, Untold, Which, matching,
 };
 use crate::{First, Model};
 
@@ -43,6 +43,7 @@ const MORE: usize = 3;
 /// use clatter_flight::{Body, ContactLaw};
 /// let known = Known {
 ///     body: Body::new(0.15, 0.05)?,
+///     gyration_known: false,
 ///     first: First::End(End::A),
 ///     gravity_m_s2: 0.0,
 ///     restitution: [0.2, 0.5],
@@ -71,7 +72,10 @@ pub fn fit(known: &Known, measured: &[Measured]) -> Result<Fit, Error> {
     let mut best: Option<Result<(Drop<'_>, Told), Error>> = None;
     for &first in firsts(known, measured) {
         let mut drop = Drop { known, sets: sets.clone(), first, contacts, unit_s };
-        let found = told_of(&mut drop, measured, given).map(|told| (drop, told));
+        let (found, is_plain) = match told_of(&mut drop, measured, given) {
+            Ok((told, is_plain)) => (Ok((drop, told)), is_plain),
+            Err(error) => (Err(error), false),
+        };
         let is_better = match (&best, &found) {
             (None | Some(Err(_)), _) => true,
             (Some(Ok((_, old))), Ok((_, new))) => new.minimum.sum() < old.minimum.sum(),
@@ -80,18 +84,26 @@ pub fn fit(known: &Known, measured: &[Measured]) -> Result<Fit, Error> {
         if is_better {
             best = Some(found);
         }
+        // The end that was measured first and that explains all is the one.
+        if is_plain {
+            break;
+        }
     }
     let (drop, told) = best.unwrap_or(Err(Error::Nothing))?;
     Ok(report(&drop, &told, given))
 }
 
-fn told_of(drop: &mut Drop<'_>, measured: &[Measured], given: bool) -> Result<Told, Error> {
+/// What the data tell if a given end touches first, and whether there is no need to try the other.
+fn told_of(drop: &mut Drop<'_>, measured: &[Measured], given: bool) -> Result<(Told, bool), Error> {
+    let (mut begin, mut is_plain) = (None, false);
     for (k, one) in measured.iter().enumerate() {
-        if let Measured::Strikes { deviation_s, .. } = one {
-            matching::find(drop, k, deviation_s.is_some())?;
+        if let Measured::Strikes { strikes, deviation_s } = one {
+            let found = matching::find(drop, k, deviation_s.is_some())?;
+            is_plain |= found.is_plain && strikes.first().is_some_and(|strike| strike.end.is_some());
+            begin = (measured.len() == 1).then_some(found.x);
         }
     }
-    told::find(drop, given)
+    Ok((told::find(drop, given, begin)?, is_plain))
 }
 
 /// The ends that may touch first: both where it matters and nothing says which.
@@ -151,7 +163,7 @@ fn set<'a>(known: &Known, measured: &'a Measured, record: usize) -> Result<Set<'
             let span = strikes[strikes.len() - 1].time_s - strikes[0].time_s;
             positive("time from the first to the last strike in s", span)?;
             deviation_s.map_or(Ok(()), |s| positive("standard deviation in s", s))?;
-            let index = (0..strikes.len()).map(Some).collect();
+            let index = (0..strikes.len()).map(|n| Some(Which::Of(n))).collect();
             // Where none is given, one as good as any: it cancels out.
             Set::Strikes { strikes, index, deviation: deviation_s.unwrap_or(1e-3 * span) }
         }
@@ -356,26 +368,16 @@ fn records(drop: &Drop<'_>, x: &[f64]) -> Vec<RecordFit> {
         match set {
             Set::Strikes { strikes, index, .. } => {
                 let mut computed = computed.iter();
-                record.strikes = strikes
-                    .iter()
-                    .zip(index)
-                    .map(|(&measured, index)| StrikeFit {
+                let places: Vec<Option<usize>> =
+                    index.iter().map(|which| which.and_then(|which| which.find(drop, path.strikes()))).collect();
+                let one =
+                    |((&measured, which), place): ((&MeasuredStrike, &Option<Which>), &Option<usize>)| StrikeFit {
                         measured,
-                        number: index.map(|n| n + 1),
-                        residual_s: index.and_then(|_| computed.next()).map(|time_s| measured.time_s - time_s),
-                    })
-                    .collect();
-                let last = index.iter().flatten().max().copied().unwrap_or(0);
-                let left_out = |n: &usize| {
-                    // The place of a time that was left out as wrong is not missing.
-                    let at = index.iter().position(Option::is_none);
-                    at.is_some_and(|at| {
-                        let before = index[..at].iter().flatten().max().map_or(0, |before| before + 1);
-                        *n == before && index[at..].iter().flatten().min().is_none_or(|next| *next > before)
-                    })
-                };
-                record.missing =
-                    (0..last).filter(|n| !index.contains(&Some(*n)) && !left_out(n)).map(|n| n + 1).collect();
+                        number: place.map(|place| place + 1),
+                        residual_s: which.and_then(|_| computed.next()).map(|time_s| measured.time_s - time_s),
+                    };
+                record.strikes = strikes.iter().zip(index).zip(&places).map(one).collect();
+                record.missing = missing(&places);
             }
             Set::Heights { samples, .. } => {
                 let curve = |end: usize| {
@@ -397,18 +399,28 @@ fn records(drop: &Drop<'_>, x: &[f64]) -> Vec<RecordFit> {
     drop.sets.iter().enumerate().map(one).collect()
 }
 
+/// Numbers of computed strikes before the last measured one that are not among the measured; the place of one that was left out as
+/// wrong is not missing.
+fn missing(places: &[Option<usize>]) -> Vec<usize> {
+    let last = places.iter().flatten().max().copied().unwrap_or(0);
+    let mut missing: Vec<usize> = (0..last).filter(|n| !places.contains(&Some(*n))).collect();
+    for out in (0..places.len()).filter(|&k| places[k].is_none()) {
+        let before = places[..out].iter().flatten().max().map_or(0, |before| before + 1);
+        missing.retain(|n| *n != before);
+    }
+    missing.into_iter().map(|n| n + 1).collect()
+}
+
 /// The computed strikes that are shown.
 fn computed(drop: &Drop<'_>, x: &[f64]) -> Vec<(f64, End)> {
-    let count = drop.sets.iter().map(Set::strikes).max().unwrap_or(0);
-    let shown = |strikes: &[clatter_flight::Strike]| {
-        let all = strikes.iter().map(|strike| (strike.time_s, drop.end(strike.point)));
-        if count > 0 { all.take(count + MORE).collect() } else { all.collect::<Vec<_>>() }
+    let Some(path) = drop.path(x) else { return Vec::new() };
+    let needed = path.strikes().len();
+    let more = || {
+        let last_s = path.strikes().last().map_or(0.0, |strike| strike.time_s);
+        drop.rigid(x, drop.horizon_s().max(last_s + drop.unit_s), |flight| flight.strikes.len() >= needed + MORE)
     };
-    if drop.contacts {
-        return drop.path(x).map_or_else(Vec::new, |path| shown(path.strikes()));
-    }
-    let last = drop.path(x).and_then(|path| path.strikes().last().map(|strike| strike.time_s)).unwrap_or(0.0);
-    drop.rigid(x, count + MORE, if count > 0 { 0.0 } else { last }).map_or_else(Vec::new, |path| shown(path.strikes()))
+    let path = if drop.contacts { None } else { more() }.unwrap_or(path);
+    path.strikes().iter().map(|strike| (strike.time_s, drop.end(strike.point))).collect()
 }
 
 fn notes(drop: &Drop<'_>, told: &Told, records: &[RecordFit]) -> Vec<String> {
@@ -429,6 +441,9 @@ fn notes(drop: &Drop<'_>, told: &Told, records: &[RecordFit]) -> Vec<String> {
                 strike.measured.time_s
             ));
         }
+    }
+    if let Some((_, reason)) = told.held.iter().find(|(unknown, _)| *unknown == DIFFERENCE) {
+        notes.push(format!("one restitution for both ends: {reason}"));
     }
     if let Some(excess) = told.excess {
         notes.push(format!(

@@ -29,7 +29,7 @@ impl Minimum {
 /// Residuals are computed so many times, at most, for each free unknown and one more.
 const PATIENCE: usize = 60;
 /// A step is the last one where it changes sum or unknowns by no more: far below what data tell, far above roundings.
-const PRECISION: f64 = 1e-10;
+const PRECISION: f64 = 1e-9;
 
 impl Problem<'_> {
     /// The minimum next to `x` over the free unknowns. One that comes to lie on its bound is held there, and the others go on.

@@ -3,23 +3,23 @@
 use clatter::{End, OffCenterBar, Start};
 
 use super::drop::{CONTACT, Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED, SPIN};
-use super::{MeasuredHeights, MeasuredStrike, Set};
+use super::{MeasuredHeights, MeasuredStrike, Set, Which};
 
 /// Restitutions that are tried.
-const RESTITUTIONS: [f64; 10] = [0.05, 0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75, 0.85, 0.95];
+const RESTITUTIONS: [f64; 12] = [0.02, 0.08, 0.15, 0.22, 0.3, 0.38, 0.46, 0.55, 0.65, 0.75, 0.85, 0.95];
 /// Radii of gyration that are tried, over that of the product file.
-const GYRATIONS: [f64; 5] = [1.0, 0.7, 0.85, 1.2, 1.5];
-/// So many of the best go on.
-const TAKEN: usize = 4;
+const GYRATIONS: [f64; 7] = [1.0, 0.7, 0.8, 0.9, 1.1, 1.25, 1.5];
+/// So many of the best go on at first.
+pub(super) const TAKEN: usize = 4;
 /// Strikes that a start is found from, at most.
 const EARLY: usize = 32;
 
-/// The best of a grid of unknowns, the best first.
-pub(super) fn starts(drop: &Drop<'_>) -> Vec<Vec<f64>> {
+/// The best of a grid of unknowns, so many, the best first.
+pub(super) fn starts(drop: &Drop<'_>, taken: usize) -> Vec<Vec<f64>> {
     let mut found: Vec<(f64, Vec<f64>)> = Vec::new();
     let given = drop.given();
     let rough = Drop { contacts: drop.contacts && drop.sets.iter().any(is_acceleration), ..drop.clone() };
-    for factor in GYRATIONS {
+    for &factor in if drop.known.gyration_known { &GYRATIONS[..1] } else { &GYRATIONS[..] } {
         for restitution in RESTITUTIONS {
             let mut x = given.clone();
             x[GYRATION] += libm::log(factor);
@@ -31,7 +31,7 @@ pub(super) fn starts(drop: &Drop<'_>) -> Vec<Vec<f64>> {
         }
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    found.into_iter().take(TAKEN).map(|(_, x)| x).collect()
+    found.into_iter().take(taken).map(|(_, x)| x).collect()
 }
 
 fn is_acceleration(set: &Set<'_>) -> bool {
@@ -62,14 +62,22 @@ fn at(drop: &Drop<'_>, x: &[f64]) -> Vec<Vec<f64>> {
 }
 
 /// Gap over speed and first touch by linear regression on the train without gravity.
-fn by_strikes(drop: &Drop<'_>, set: usize, strikes: &[MeasuredStrike], index: &[Option<usize>], x: &mut [f64]) {
+fn by_strikes(drop: &Drop<'_>, set: usize, strikes: &[MeasuredStrike], index: &[Option<Which>], x: &mut [f64]) {
     let [a, b] = drop.known.body.arms_m();
     let arms = if drop.first == End::A { [a, b] } else { [b, a] };
     let gyration = 0.5 * (a + b) * libm::exp(x[GYRATION]);
     let Ok(bar) = OffCenterBar::new(arms, gyration, x[RESTITUTION]) else { return };
     let train: Vec<f64> = bar.train(&Start::default()).take(EARLY).map(|impact| impact.time).collect();
-    let pairs: Vec<[f64; 2]> =
-        strikes.iter().zip(index).filter_map(|(strike, index)| Some([*train.get((*index)?)?, strike.time_s])).collect();
+    // Without gravity the ends strike in turn.
+    let place = |which: Which| match which {
+        Which::Of(n) => n,
+        Which::OfEnd(end, n) => 2 * n + usize::from(end != drop.first),
+    };
+    let pairs: Vec<[f64; 2]> = strikes
+        .iter()
+        .zip(index)
+        .filter_map(|(strike, which)| Some([*train.get(which.map(place)?)?, strike.time_s]))
+        .collect();
     #[expect(clippy::cast_precision_loss, reason = "at most 32")]
     let n = pairs.len() as f64;
     let [mean_x, mean_y] = [0, 1].map(|i| pairs.iter().map(|pair| pair[i]).sum::<f64>() / n);

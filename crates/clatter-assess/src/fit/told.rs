@@ -4,16 +4,16 @@ use nalgebra::{DMatrix, DVector};
 
 use super::drop::{CONTACT, DIFFERENCE, Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED, SPIN};
 use super::solve::{Minimum, Problem};
-use super::starts::starts;
+use super::starts::{TAKEN, starts};
 use super::student;
 use super::{Error, Set};
 
 /// A direction is told where the interval of 95 % along it is within these half-widths: a restitution to a quarter of all there is, both
-/// ends apart to a twentieth, a length or a time to a factor of √2, the speed to a fifth. More would not be of use in a product file.
+/// ends apart to 0.02, a length or a time to a factor of √2, the speed to a fifth. More would not be of use in a product file.
 fn half_width(unknown: usize) -> f64 {
     match unknown {
         RESTITUTION => 0.25,
-        DIFFERENCE => 0.05,
+        DIFFERENCE => 0.01,
         SPEED | SPIN => 0.2,
         GYRATION | GAP_TIME | CONTACT => 0.35,
         _ => 1.0,
@@ -53,10 +53,10 @@ pub(super) struct Told {
     pub(super) excess: Option<f64>,
 }
 
-/// Finds it. `known`: whether the deviations of all records are given.
-pub(super) fn find(drop: &mut Drop<'_>, known: bool) -> Result<Told, Error> {
+/// Finds it. `known`: whether the deviations of all records are given; `begin`: unknowns that explain the data already.
+pub(super) fn find(drop: &mut Drop<'_>, known: bool, begin: Option<Vec<f64>>) -> Result<Told, Error> {
     let count: usize = drop.sets.iter().map(Set::len).sum();
-    let begins = starts(drop);
+    let begins = begin.map_or_else(|| starts(drop, TAKEN), |x| vec![x]);
     let mut told = {
         let search = Search { drop, known, count };
         search.base(&begins)?
@@ -69,8 +69,8 @@ pub(super) fn find(drop: &mut Drop<'_>, known: bool) -> Result<Told, Error> {
         let search = Search { drop, known, count };
         search.refit(&mut told);
         if again {
-            search.free_more(&mut told);
             search.hold_untold(&mut told);
+            search.free_more(&mut told);
         }
         search.judge(&mut told);
     }
@@ -122,6 +122,9 @@ impl Search<'_, '_> {
         if heights {
             free.push(SPIN);
         }
+        if self.count > free.len() + usize::from(!self.known) && !self.drop.known.gyration_known {
+            free.push(GYRATION);
+        }
         free.truncate(self.count);
         let minimum = self.with(|problem| {
             let all = starts.iter().map(|x| problem.minimize(x, &free));
@@ -154,7 +157,12 @@ impl Search<'_, '_> {
     /// Leaves unknowns free, one by one, as long as the data tell them.
     fn free_more(&self, told: &mut Told) {
         for unknown in [GYRATION, SPEED, CONTACT, SPIN, DIFFERENCE] {
-            if told.free.contains(&unknown) || unknown == CONTACT && !self.drop.contacts {
+            let is_held = told.held.iter().any(|(held, _)| *held == unknown);
+            if told.free.contains(&unknown) || is_held || unknown == CONTACT && !self.drop.contacts {
+                continue;
+            }
+            if unknown == GYRATION && self.drop.known.gyration_known {
+                told.held.push((unknown, "it was given as known".to_owned()));
                 continue;
             }
             if unknown == DIFFERENCE && self.drop.contacts {
@@ -173,8 +181,12 @@ impl Search<'_, '_> {
             match self.untold(&told.minimum, &more, Some(unknown)) {
                 Some((_, reason)) => told.held.push((unknown, reason)),
                 None => {
-                    told.minimum = self.with(|problem| problem.minimize(&told.minimum.x, &more));
-                    told.free = more;
+                    let minimum = self.with(|problem| problem.minimize(&told.minimum.x, &more));
+                    // Where the minimum is, it may be told less than where it was looked for.
+                    match self.untold(&minimum, &more, Some(unknown)) {
+                        Some((_, reason)) => told.held.push((unknown, reason)),
+                        None => (told.minimum, told.free) = (minimum, more),
+                    }
                 }
             }
         }
@@ -210,8 +222,10 @@ impl Search<'_, '_> {
             return None;
         }
         let part = |k: usize| directions[(least, k)].abs();
-        let largest =
-            (0..free.len()).filter(|&k| free[k] < OFFSET).max_by(|&i, &j| part(i).total_cmp(&part(j))).unwrap_or(0);
+        // When it happened and how long it took is told by any record, or else nothing is.
+        let can_be_held = |k: &usize| free[*k] < OFFSET && free[*k] != GAP_TIME;
+        // Of those that undo each other the one that was left free last.
+        let largest = (0..free.len()).filter(can_be_held).rfind(|&k| part(k) > PART)?;
         let k = last.and_then(|last| free.iter().position(|f| *f == last)).unwrap_or(largest);
         let others: Vec<&str> = (0..free.len()).filter(|&i| i != k && part(i) > PART).map(|i| name(free[i])).collect();
         Some((free[k], self.reason(free[k], &others)))

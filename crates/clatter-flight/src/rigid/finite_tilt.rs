@@ -266,8 +266,8 @@ impl Ledger {
 /// turn.
 const IDLE: u32 = 64;
 
-/// `e` of ends a and b.
-pub(super) fn simulate(scene: &Scene, e: [f64; 2], mut enough: impl FnMut(&Flight) -> bool) -> Flight {
+/// `e` of ends a and b. Strikes are looked for until `horizon_s`.
+pub(super) fn simulate(scene: &Scene, e: [f64; 2], horizon_s: f64, mut enough: impl FnMut(&Flight) -> bool) -> Flight {
     let g = scene.gravity_m_s2();
     let rest = Rest::new(scene, e);
     let mut log = Log::new(scene);
@@ -304,15 +304,18 @@ pub(super) fn simulate(scene: &Scene, e: [f64; 2], mut enough: impl FnMut(&Fligh
             1 - pivot
         } else {
             let upright = pose.upright();
-            let ta = pose.touch(0, upright, leaving[0]);
-            let tb = pose.touch(1, ta.unwrap_or(upright), leaving[1]);
+            let sight = upright.min((horizon_s - time.now()).max(0.0));
+            let ta = pose.touch(0, sight, leaving[0]);
+            let tb = pose.touch(1, ta.unwrap_or(sight), leaving[1]);
             // At one instant end a strikes first: b is looked for before a's time only.
             if [ta, tb].into_iter().enumerate().any(|(i, t)| t.is_some_and(|t| pose.is_lost(i, t))) {
                 log.lost(time.now());
                 break;
             }
             let Some((i, dt)) = tb.map(|t| (1, t)).or(ta.map(|t| (0, t))) else {
-                if upright < f64::INFINITY {
+                if sight < upright {
+                    log.lost(horizon_s);
+                } else if upright < f64::INFINITY {
                     log.turned_over(time.now() + upright);
                 } else {
                     log.bounced_clear();
