@@ -17,7 +17,7 @@ const SUSPECT: f64 = 0.05;
 /// probability, over all that was tried.
 const CHANCE: f64 = 1e-3;
 /// The same of one time that is wrong, where nothing else is odd: so many sound records lose a time.
-const WRONG: f64 = 0.01;
+const WRONG: f64 = 1e-3;
 
 /// What is wrong with a record.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
