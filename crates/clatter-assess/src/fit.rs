@@ -35,6 +35,7 @@ mod solve;
 mod starts;
 mod student;
 mod told;
+mod write;
 
 use clatter::End;
 use clatter_flight::{Body, ContactLaw, Strike};
@@ -44,6 +45,7 @@ use crate::{First, Model, ProductFile};
 pub use bounces::bounces;
 use drop::{Drop, Path};
 pub use report::fit;
+pub use write::{Written, written};
 
 /// Strikes of a record at most.
 pub const MOST_STRIKES: usize = 4096;
@@ -165,6 +167,39 @@ pub enum Quantity {
     Spin,
     /// How long a lone contact takes, in s.
     ContactTime,
+}
+
+impl Quantity {
+    /// `restitution`, `restitution-a`, `restitution-b`, `radius-of-gyration`, `inertia-ratio`, `gap-over-speed`, `speed`,
+    /// `drop-height`, `tilt`, `spin` or `contact-time`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Restitution => "restitution",
+            Self::RestitutionA => "restitution-a",
+            Self::RestitutionB => "restitution-b",
+            Self::RadiusOfGyration => "radius-of-gyration",
+            Self::InertiaRatio => "inertia-ratio",
+            Self::GapOverSpeed => "gap-over-speed",
+            Self::Speed => "speed",
+            Self::DropHeight => "drop-height",
+            Self::Tilt => "tilt",
+            Self::Spin => "spin",
+            Self::ContactTime => "contact-time",
+        }
+    }
+    /// Its SI unit; empty for a plain number.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Restitution | Self::RestitutionA | Self::RestitutionB | Self::InertiaRatio => "",
+            Self::RadiusOfGyration | Self::DropHeight => "m",
+            Self::GapOverSpeed | Self::ContactTime => "s",
+            Self::Speed => "m/s",
+            Self::Tilt => "rad",
+            Self::Spin => "rad/s",
+        }
+    }
 }
 
 /// A quantity, its value and how far it may be off.

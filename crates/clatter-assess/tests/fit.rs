@@ -167,7 +167,19 @@ fn cover(
             row.held += usize::from(lo <= truth && truth <= hi);
             row.width += 0.5 * (hi - lo);
             row.error += (x.value - truth).powi(2);
-            if (quantity == Quantity::Restitution || quantity == Quantity::RestitutionA) && !(lo <= truth && truth <= hi) { eprintln!("MISS {name} q {q:.3} e {e:.3} gap {:.4} n {} est {:.4} [{lo:.4} {hi:.4}] scatter {:e} q est {:?} dof {}", found.estimates.iter().find(|x| x.quantity == Quantity::GapOverSpeed).unwrap().value, list.len(), x.value, found.records[0].scatter, found.estimates.iter().find(|x| x.quantity == Quantity::InertiaRatio).map(|x| x.value), found.degrees_of_freedom); }
+            if (quantity == Quantity::Restitution || quantity == Quantity::RestitutionA)
+                && !(lo <= truth && truth <= hi)
+            {
+                eprintln!(
+                    "MISS {name} q {q:.3} e {e:.3} gap {:.4} n {} est {:.4} [{lo:.4} {hi:.4}] scatter {:e} q est {:?} dof {}",
+                    found.estimates.iter().find(|x| x.quantity == Quantity::GapOverSpeed).unwrap().value,
+                    list.len(),
+                    x.value,
+                    found.records[0].scatter,
+                    found.estimates.iter().find(|x| x.quantity == Quantity::InertiaRatio).map(|x| x.value),
+                    found.degrees_of_freedom
+                );
+            }
         }
     }
     eprintln!("{name}: gyration untold {untold}, {:?}", begin.elapsed());
@@ -197,9 +209,11 @@ fn debug_two() {
     let truth = Truth { q: 0.7734051833517844, e: [0.309564718933963; 2], gap_s: 7e-3 };
     let list = truth.strikes(10);
     eprintln!("{list:?}");
-    let found = fit(&known(truth.q), &[Measured::Strikes { strikes: strikes(&list), deviation_s: Some(1e-6) }]).unwrap();
+    let found =
+        fit(&known(truth.q), &[Measured::Strikes { strikes: strikes(&list), deviation_s: Some(1e-6) }]).unwrap();
     eprintln!("{found:#?}");
-    let exact = Known { gyration_known: true, body: Body::new(LENGTH_M, gyration_m(truth.q)).unwrap(), ..known(truth.q) };
+    let exact =
+        Known { gyration_known: true, body: Body::new(LENGTH_M, gyration_m(truth.q)).unwrap(), ..known(truth.q) };
     let found = fit(&exact, &[Measured::Strikes { strikes: strikes(&list), deviation_s: Some(1e-6) }]).unwrap();
     eprintln!("{found:#?}");
 }

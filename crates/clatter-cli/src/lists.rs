@@ -12,6 +12,7 @@ use crate::excitation;
 use crate::inputs::number;
 use crate::text::visible;
 use rows::rows;
+pub(crate) use rows::rows_of;
 
 /// Velocity shocks, in order of time.
 pub(crate) fn shocks(path: &Path) -> Result<Vec<VelocityShock>, Failure> {
@@ -77,7 +78,7 @@ pub(crate) fn tests(path: &Path) -> Result<[Vec<Trial>; 2], Failure> {
     Ok(lists)
 }
 
-fn finite(name: &str, text: &str) -> Result<f64, String> {
+pub(crate) fn finite(name: &str, text: &str) -> Result<f64, String> {
     let value = number(text).map_err(|error| format!("{name}: {error}"))?;
     if value.is_finite() { Ok(value) } else { Err(format!("{name} = {value:?} is not finite")) }
 }
