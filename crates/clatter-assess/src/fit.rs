@@ -370,6 +370,24 @@ impl Set<'_> {
         let count = |end: End| strikes.iter().filter(|strike| drop.end(strike.point) == end).count();
         strikes.len() >= most(None) && [End::A, End::B].into_iter().all(|end| count(end) >= most(Some(end)))
     }
+    /// So many computed strikes have those that are asked for among them, unless one end strikes several times in a row more.
+    fn strikes(&self) -> usize {
+        let Self::Strikes { index, .. } = self else { return 0 };
+        let most = |end: End| {
+            let of = |which: &Which| match *which {
+                Which::Of(n) => n + 1,
+                Which::OfEnd(own, n) => {
+                    if own == end {
+                        n + 1
+                    } else {
+                        0
+                    }
+                }
+            };
+            index.iter().flatten().map(of).max().unwrap_or(0)
+        };
+        most(End::A) + most(End::B) + 2
+    }
     /// Time from the first to the last measured strike.
     fn span_s(&self) -> Option<f64> {
         let Self::Strikes { strikes, .. } = self else { return None };
@@ -389,6 +407,18 @@ impl Set<'_> {
             Self::Strikes { deviation, .. }
             | Self::Heights { deviation, .. }
             | Self::Acceleration { deviation, .. } => deviation,
+        }
+    }
+    /// What its data vary by, over their deviation: the time between strikes, the largest height or acceleration.
+    fn variation(&self, unit_s: f64) -> f64 {
+        match self {
+            Self::Strikes { deviation, .. } => unit_s / deviation,
+            Self::Heights { samples, deviation } => {
+                samples.iter().flat_map(|s| s.height_m).fold(0.0_f64, |most, h| most.max(h.abs())) / deviation
+            }
+            Self::Acceleration { values, deviation, .. } => {
+                values.iter().fold(0.0_f64, |most, a| most.max(a.abs())) / deviation
+            }
         }
     }
     /// Number of residuals.

@@ -205,15 +205,31 @@ fn coverage() {
 }
 
 #[test]
-fn debug_two() {
-    let truth = Truth { q: 0.7734051833517844, e: [0.309564718933963; 2], gap_s: 7e-3 };
-    let list = truth.strikes(10);
-    eprintln!("{list:?}");
-    let found =
-        fit(&known(truth.q), &[Measured::Strikes { strikes: strikes(&list), deviation_s: Some(1e-6) }]).unwrap();
-    eprintln!("{found:#?}");
-    let exact =
-        Known { gyration_known: true, body: Body::new(LENGTH_M, gyration_m(truth.q)).unwrap(), ..known(truth.q) };
-    let found = fit(&exact, &[Measured::Strikes { strikes: strikes(&list), deviation_s: Some(1e-6) }]).unwrap();
-    eprintln!("{found:#?}");
+fn debug_contacts() {
+    let file = clatter_assess::ProductFile::read(clatter_assess::EXAMPLE, "").unwrap();
+    let base = Known::from(&file);
+    for (e, tilt, n) in [(0.35, 4.0, 7), (0.3, 2.0, 6), (0.3, 8.0, 8), (0.39, 1.0, 10)] {
+        let body = Body::new(0.14, 0.038).unwrap();
+        let scene = clatter_flight::Scene::from_height(body, e, 1.2, tilt, 9.81).unwrap().with_impact_limit(n).unwrap();
+        let contact = clatter_flight::Contact::new(ContactLaw::Hysteretic, e, 0.4e-3).unwrap();
+        let flight = scene.contacts(&contact).unwrap().flight;
+        let list: Vec<_> =
+            flight.strikes.iter().map(|s| (s.time_s + 0.5, if s.point == 0 { End::A } else { End::B })).collect();
+        for known in [base.clone(), Known { gyration_known: true, ..base.clone() }] {
+            for noise in [1e-7, 1e-5] {
+                let mut random = Random(3);
+                let list: Vec<_> = list.iter().map(|(t, e)| (t + noise * random.normal(), *e)).collect();
+                let begin = std::time::Instant::now();
+                let found =
+                    fit(&known, &[Measured::Strikes { strikes: strikes(&list), deviation_s: Some(noise) }]).unwrap();
+                eprintln!(
+                    "{e} {tilt} {n} {:?}: {:?} scatter {:e} {:?}",
+                    begin.elapsed(),
+                    found.estimates.iter().map(|x| (x.quantity, x.value, x.interval)).collect::<Vec<_>>(),
+                    found.records[0].scatter,
+                    found.notes
+                );
+            }
+        }
+    }
 }

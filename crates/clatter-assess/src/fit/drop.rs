@@ -32,11 +32,13 @@ const STEEPEST: f64 = 0.9;
 /// A step of this share is far above the roundings of a rigid flight (1e−13) and far below its curvature.
 const STEP: f64 = 1e-6;
 /// Flights with contacts are exact to [`PRECISION`] for each contact; steps are far above that.
-const CONTACT_STEP: f64 = 2e-4;
+const CONTACT_STEP: f64 = 1e-4;
 /// Precision of flights with contacts.
-const PRECISION: f64 = 1e-6;
+const PRECISION: f64 = 1e-5;
 /// A flight is followed for so many times as long as strikes were measured.
 const HORIZON: f64 = 3.0;
+/// The same of contacts that take time, where no more were measured.
+const MOST_CONTACTS: usize = 64;
 /// Strikes of a flight at most: more than records have.
 const MOST_STRIKES: usize = 8192;
 
@@ -150,10 +152,16 @@ impl Drop<'_> {
                     && self.sets.iter().all(|set| set.has_enough(self, &flight.strikes))
             });
         }
-        let scene = self.scene(x).ok()?.with_impact_limit(MOST_STRIKES).ok()?;
+        let needed = self.sets.iter().map(Set::strikes).max().unwrap_or(0);
+        // Phases are limited with the strikes.
+        let scene = self.scene(x).ok()?.with_impact_limit(needed.max(MOST_CONTACTS)).ok()?;
         let contact = Contact::new(self.known.contact_law, x[RESTITUTION], libm::exp(x[CONTACT])).ok()?;
-        let flight = scene.contacts_until(&contact, PRECISION, |ahead| ahead.time_s > horizon_s).ok()?;
-        Some(Path::Contacts(Box::new(scene), Box::new(flight)))
+        let mut touches = 1;
+        let flight = scene.contacts_until(&contact, PRECISION, |ahead| {
+            touches += usize::from(ahead.lands);
+            ahead.time_s > horizon_s || ahead.time_s > until_s && touches > needed
+        });
+        Some(Path::Contacts(Box::new(scene), Box::new(flight.ok()?)))
     }
     /// No strike that was measured is later after the first touch: what is computed later never happens.
     pub(super) fn horizon_s(&self) -> f64 {

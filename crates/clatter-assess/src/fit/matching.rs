@@ -87,6 +87,11 @@ pub(super) fn find(drop: &mut Drop<'_>, set: usize, known: bool) -> Result<Found
     Ok(found)
 }
 
+fn minimize(drop: &Drop<'_>, x: &[f64], free: &[usize]) -> Minimum {
+    let (bounds, residuals) = (drop.bounds(), |x: &[f64]| drop.residuals(x));
+    Problem { residuals: &residuals, bounds: &bounds, step: drop.step() }.minimize(x, free)
+}
+
 /// The search in one record.
 struct Search<'d> {
     /// With this record alone.
@@ -117,6 +122,8 @@ impl Search<'_> {
         let two_missing = (0..count.min(PLACES))
             .flat_map(|k| (k..count.min(PLACES)).map(move |j| Faults { missing: vec![k, j], left_out: None }));
         let rounds: [Vec<Faults>; 2] = [one_missing.chain(one_wrong).collect(), two_missing.collect()];
+        // Contacts that take time take too long for all.
+        let rounds = if self.drop.contacts { &rounds[..1] } else { &rounds[..] };
         let is_plain = !self.is_suspect(&best);
         for round in rounds {
             if !self.is_suspect(&best) {
@@ -149,6 +156,20 @@ impl Search<'_> {
         all.iter().copied().take(most).collect()
     }
 
+    /// The drop with the early half of its strikes; none where they are too few.
+    fn early(&self, index: &[Option<Which>], free: usize) -> Option<Drop<'_>> {
+        let half = index.len().div_ceil(2) + 1;
+        let used = index[..half.min(index.len())].iter().flatten().count();
+        if half + 1 >= index.len() || used < free {
+            return None;
+        }
+        let mut early = self.drop.clone();
+        if let Set::Strikes { index: of_early, .. } = &mut early.sets[0] {
+            of_early[half..].fill(None);
+        }
+        Some(early)
+    }
+
     /// The best fit for what may be wrong with the record.
     fn candidate(&mut self, faults: &Faults, taken: usize) -> Candidate {
         let strikes = self.strikes;
@@ -156,10 +177,11 @@ impl Search<'_> {
         let used = index.iter().flatten().count();
         self.take(&index);
         let free = self.free(if self.known { used } else { used.saturating_sub(1) });
-        let (bounds, residuals) = (self.drop.bounds(), |x: &[f64]| self.drop.residuals(x));
-        let problem = Problem { residuals: &residuals, bounds: &bounds, step: self.drop.step() };
+        // What strikes late has multiplied what is off early: first the early half, then all.
+        let early = self.early(&index, free.len());
         let minimum = |x: Vec<f64>| {
-            let minimum = problem.minimize(&x, &free);
+            let x = early.as_ref().map_or_else(|| x.clone(), |early| minimize(early, &x, &free).x);
+            let minimum = minimize(&self.drop, &x, &free);
             let path = self.drop.path(&minimum.x);
             let computed = path.as_ref().map_or(&[][..], |path| path.strikes());
             let is_wrong = |(strike, index): (&MeasuredStrike, &Option<Which>)| {

@@ -27,7 +27,7 @@ impl Minimum {
 }
 
 /// Residuals are computed so many times, at most, for each free unknown and one more.
-const PATIENCE: usize = 60;
+const PATIENCE: usize = 15;
 /// A step is the last one where it changes sum or unknowns by no more: far below what data tell, far above roundings.
 const PRECISION: f64 = 1e-9;
 

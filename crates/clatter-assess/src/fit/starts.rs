@@ -18,20 +18,33 @@ const EARLY: usize = 32;
 pub(super) fn starts(drop: &Drop<'_>, taken: usize) -> Vec<Vec<f64>> {
     let mut found: Vec<(f64, Vec<f64>)> = Vec::new();
     let given = drop.given();
-    let rough = Drop { contacts: drop.contacts && drop.sets.iter().any(is_acceleration), ..drop.clone() };
     for &factor in if drop.known.gyration_known { &GYRATIONS[..1] } else { &GYRATIONS[..] } {
         for restitution in RESTITUTIONS {
             let mut x = given.clone();
             x[GYRATION] += libm::log(factor);
             x[RESTITUTION] = restitution;
             for x in at(drop, &x) {
-                let sum: f64 = rough.residuals(&x).iter().map(|r| r * r).sum();
-                found.push((sum, x));
+                found.push((misfit(drop, &x), x));
             }
         }
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     found.into_iter().take(taken).map(|(_, x)| x).collect()
+}
+
+/// How far a start is off: of each datum the logarithm, so that a start counts for what it explains, not for what it does not.
+fn misfit(drop: &Drop<'_>, x: &[f64]) -> f64 {
+    let residuals = drop.residuals(x);
+    let mut from = 0;
+    let mut sum = 0.0;
+    for set in &drop.sets {
+        let own = &residuals[from..from + set.len()];
+        from += own.len();
+        // A tenth of what such data vary by.
+        let scale = 0.1 * set.variation(drop.unit_s);
+        sum += own.iter().map(|r| (1.0 + (r / scale).powi(2)).ln()).sum::<f64>();
+    }
+    sum
 }
 
 fn is_acceleration(set: &Set<'_>) -> bool {
