@@ -15,7 +15,8 @@
 //! Measured strikes are computed ones in the same order, the first is the first. Strikes at the end may be missing freely. Where
 //! that does not explain the data, it is tried that up to two strikes before are missing, anywhere among the first
 //! 16 (two strikes measured as one are one that is missing), or that one time is wrong. Such a fit counts only where chance makes
-//! the scatter of the other fit that much larger less than once in a thousand times, over all that was tried.
+//! the scatter of the other fit that much larger less than once in a thousand times, over all that was tried. Contacts that take
+//! time take too long for that: there one time may be wrong where all else fits (by its externally studentized residual).
 //!
 //! # Intervals
 //! From the Jacobian at the minimum and Student's t: with J the derivatives of the residuals over their standard deviation s,

@@ -208,7 +208,7 @@ fn coverage() {
 fn debug_contacts() {
     let file = clatter_assess::ProductFile::read(clatter_assess::EXAMPLE, "").unwrap();
     let base = Known::from(&file);
-    for (e, tilt, n) in [(0.35, 4.0, 7), (0.3, 2.0, 6), (0.3, 8.0, 8), (0.39, 1.0, 10)] {
+    for (e, tilt, n) in [(0.35, 4.0, 7), (0.3, 2.0, 6), (0.3, 8.0, 8)] {
         let body = Body::new(0.14, 0.038).unwrap();
         let scene = clatter_flight::Scene::from_height(body, e, 1.2, tilt, 9.81).unwrap().with_impact_limit(n).unwrap();
         let contact = clatter_flight::Contact::new(ContactLaw::Hysteretic, e, 0.4e-3).unwrap();
@@ -216,7 +216,7 @@ fn debug_contacts() {
         let list: Vec<_> =
             flight.strikes.iter().map(|s| (s.time_s + 0.5, if s.point == 0 { End::A } else { End::B })).collect();
         for known in [base.clone(), Known { gyration_known: true, ..base.clone() }] {
-            for noise in [1e-7, 1e-5] {
+            for noise in [1e-6] {
                 let mut random = Random(3);
                 let list: Vec<_> = list.iter().map(|(t, e)| (t + noise * random.normal(), *e)).collect();
                 let begin = std::time::Instant::now();

@@ -51,7 +51,7 @@ pub fn bounces(times_s: &[f64], gravity_m_s2: f64, deviation_s: Option<f64>) -> 
         times_s.iter().zip(computed(x)).map(|(measured, computed)| (measured - computed) / deviation).collect()
     };
     let bounds = [[f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, 30.0], [0.0, 1.0]];
-    let problem = Problem { residuals: &residuals, bounds: &bounds, step: 1e-6 };
+    let problem = Problem { residuals: &residuals, bounds: &bounds, step: 1e-6, patience: 100 };
     let start = [times_s[0] / unit_s, libm::log(unit_s), (flights[1] / flights[0]).clamp(0.01, 0.99)];
     let minimum = problem.minimize(&start, &FREE);
     let degrees = times_s.len() - FREE.len();

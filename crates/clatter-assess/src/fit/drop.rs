@@ -39,6 +39,8 @@ const PRECISION: f64 = 1e-5;
 const HORIZON: f64 = 3.0;
 /// The same of contacts that take time, where no more were measured.
 const MOST_CONTACTS: usize = 64;
+/// Events of a flight with contacts for each strike, at most: a body that rocks in its dents is left there.
+const EVENTS: usize = 8;
 /// Strikes of a flight at most: more than records have.
 const MOST_STRIKES: usize = 8192;
 
@@ -66,6 +68,10 @@ impl Drop<'_> {
     /// Half the step of a difference.
     pub(super) fn step(&self) -> f64 {
         if self.contacts { CONTACT_STEP } else { STEP }
+    }
+    /// How long a minimum is looked for: flights with contacts take ten times as long.
+    pub(super) fn patience(&self) -> usize {
+        if self.contacts { 12 } else { 60 }
     }
     /// The values that the product file gives, a range in its middle.
     pub(super) fn given(&self) -> Vec<f64> {
@@ -99,7 +105,9 @@ impl Drop<'_> {
         bounds[GYRATION] = ln(GYRATIONS);
         bounds[RESTITUTION] = [0.0, 1.0];
         bounds[DIFFERENCE] = [-0.5, 0.5];
-        bounds[GAP_TIME] = ln([1e-9, 10.0]);
+        // The second end strikes within what was measured.
+        let longest_s = if self.horizon_s() > 0.0 { self.horizon_s() } else { 10.0 };
+        bounds[GAP_TIME] = ln([1e-6 * longest_s, longest_s]);
         bounds[SPEED] = ln(SPEEDS_M_S);
         // The end that touches first still approaches.
         bounds[SPIN] = [-0.45 * length / arm, 5.0];
@@ -156,10 +164,12 @@ impl Drop<'_> {
         // Phases are limited with the strikes.
         let scene = self.scene(x).ok()?.with_impact_limit(needed.max(MOST_CONTACTS)).ok()?;
         let contact = Contact::new(self.known.contact_law, x[RESTITUTION], libm::exp(x[CONTACT])).ok()?;
-        let mut touches = 1;
+        let (mut touches, mut events) = (1, 0);
+        let most = EVENTS * needed.max(MOST_CONTACTS);
         let flight = scene.contacts_until(&contact, PRECISION, |ahead| {
             touches += usize::from(ahead.lands);
-            ahead.time_s > horizon_s || ahead.time_s > until_s && touches > needed
+            events += 1;
+            ahead.time_s > horizon_s || ahead.time_s > until_s && touches > needed || events > most
         });
         Some(Path::Contacts(Box::new(scene), Box::new(flight.ok()?)))
     }

@@ -89,7 +89,7 @@ pub(super) fn find(drop: &mut Drop<'_>, set: usize, known: bool) -> Result<Found
 
 fn minimize(drop: &Drop<'_>, x: &[f64], free: &[usize]) -> Minimum {
     let (bounds, residuals) = (drop.bounds(), |x: &[f64]| drop.residuals(x));
-    Problem { residuals: &residuals, bounds: &bounds, step: drop.step() }.minimize(x, free)
+    Problem { residuals: &residuals, bounds: &bounds, step: drop.step(), patience: drop.patience() }.minimize(x, free)
 }
 
 /// The search in one record.
@@ -113,7 +113,7 @@ impl Search<'_> {
         let count = self.strikes.len();
         let mut best = self.candidate(&Faults::default(), TAKEN);
         if self.is_suspect(&best) {
-            best = self.candidate(&Faults::default(), MORE_TAKEN);
+            best = self.candidate(&Faults::default(), if self.drop.contacts { MORE_TAKEN / 2 } else { MORE_TAKEN });
         }
         let one_missing = (0..count.min(PLACES)).map(|k| Faults { missing: vec![k], left_out: None });
         let one_wrong = (0..count.min(PLACES)).flat_map(|k| {
@@ -122,8 +122,8 @@ impl Search<'_> {
         let two_missing = (0..count.min(PLACES))
             .flat_map(|k| (k..count.min(PLACES)).map(move |j| Faults { missing: vec![k, j], left_out: None }));
         let rounds: [Vec<Faults>; 2] = [one_missing.chain(one_wrong).collect(), two_missing.collect()];
-        // Contacts that take time take too long for all.
-        let rounds = if self.drop.contacts { &rounds[..1] } else { &rounds[..] };
+        // Flights with contacts take too long for hundreds of fits.
+        let rounds = if self.drop.contacts { &[][..] } else { &rounds[..] };
         let is_plain = !self.is_suspect(&best);
         for round in rounds {
             if !self.is_suspect(&best) {
@@ -156,18 +156,19 @@ impl Search<'_> {
         all.iter().copied().take(most).collect()
     }
 
-    /// The drop with the early half of its strikes; none where they are too few.
-    fn early(&self, index: &[Option<Which>], free: usize) -> Option<Drop<'_>> {
-        let half = index.len().div_ceil(2) + 1;
-        let used = index[..half.min(index.len())].iter().flatten().count();
-        if half + 1 >= index.len() || used < free {
-            return None;
+    /// The drop with its first strikes alone, as many as unknowns and then a quarter more each time.
+    fn stages(&self, index: &[Option<Which>], free: usize) -> Vec<Drop<'_>> {
+        let mut stages = Vec::new();
+        let mut count = free.max(3);
+        while count < index.len() {
+            let mut stage = self.drop.clone();
+            if let Set::Strikes { index: of_stage, .. } = &mut stage.sets[0] {
+                of_stage[count..].fill(None);
+            }
+            stages.push(stage);
+            count += (count / 4).max(1);
         }
-        let mut early = self.drop.clone();
-        if let Set::Strikes { index: of_early, .. } = &mut early.sets[0] {
-            of_early[half..].fill(None);
-        }
-        Some(early)
+        stages
     }
 
     /// The best fit for what may be wrong with the record.
@@ -177,10 +178,10 @@ impl Search<'_> {
         let used = index.iter().flatten().count();
         self.take(&index);
         let free = self.free(if self.known { used } else { used.saturating_sub(1) });
-        // What strikes late has multiplied what is off early: first the early half, then all.
-        let early = self.early(&index, free.len());
+        // Each strike multiplies what is off before it: the first ones come first, then more and more.
+        let stages: Vec<Drop<'_>> = self.stages(&index, free.len());
         let minimum = |x: Vec<f64>| {
-            let x = early.as_ref().map_or_else(|| x.clone(), |early| minimize(early, &x, &free).x);
+            let x = stages.iter().fold(x, |x, stage| minimize(stage, &x, &free).x);
             let minimum = minimize(&self.drop, &x, &free);
             let path = self.drop.path(&minimum.x);
             let computed = path.as_ref().map_or(&[][..], |path| path.strikes());
@@ -248,7 +249,8 @@ impl Search<'_> {
         let spare = fit.degrees().checked_sub(usize::from(!self.known)).filter(|spare| *spare > 0)?;
         self.take(&fit.index);
         let (bounds, residuals) = (self.drop.bounds(), |x: &[f64]| self.drop.residuals(x));
-        let problem = Problem { residuals: &residuals, bounds: &bounds, step: self.drop.step() };
+        let problem =
+            Problem { residuals: &residuals, bounds: &bounds, step: self.drop.step(), patience: self.drop.patience() };
         let free = self.free(fit.free);
         let q = problem.jacobian(&fit.minimum.x, &free).qr().q();
         let sum = fit.minimum.sum();

@@ -13,6 +13,8 @@ use crate::{First, Model};
 
 /// Values of accelerations that are fitted at most: of a longer record as many are taken together.
 const MOST_VALUES: usize = 4096;
+/// Strikes that are off by this share of the mean time between them are not explained.
+const FAR_OFF: f64 = 0.1;
 /// Strikes shown beyond the last measured one.
 const MORE: usize = 3;
 
@@ -439,6 +441,17 @@ fn notes(drop: &Drop<'_>, told: &Told, records: &[RecordFit]) -> Vec<String> {
             notes.push(format!(
                 "{which}the strike at {:?} s was left out: it is no strike, or its time is wrong",
                 strike.measured.time_s
+            ));
+        }
+    }
+    for (k, (record, set)) in records.iter().zip(&drop.sets).enumerate() {
+        if let Set::Strikes { .. } = set
+            && record.scatter > FAR_OFF * drop.unit_s
+        {
+            let percent = 100.0 * record.scatter / drop.unit_s;
+            notes.push(format!(
+                "record {}: no drop was found that comes near: strikes are off by {percent:.0} % of the mean time between them",
+                k + 1
             ));
         }
     }

@@ -10,6 +10,8 @@ pub(super) struct Problem<'a> {
     pub(super) bounds: &'a [[f64; 2]],
     /// Half the step of a central difference.
     pub(super) step: f64,
+    /// Residuals are computed so many times, at most, for each free unknown and one more.
+    pub(super) patience: usize,
 }
 
 /// Where a minimization ends.
@@ -26,8 +28,6 @@ impl Minimum {
     }
 }
 
-/// Residuals are computed so many times, at most, for each free unknown and one more.
-const PATIENCE: usize = 15;
 /// A step is the last one where it changes sum or unknowns by no more: far below what data tell, far above roundings.
 const PRECISION: f64 = 1e-9;
 
@@ -38,7 +38,7 @@ impl Problem<'_> {
         let mut free = free.to_vec();
         while !free.is_empty() {
             let at = At { problem: self, x, free };
-            let (at, _) = LevenbergMarquardt::new().with_tol(PRECISION).with_patience(PATIENCE).minimize(at);
+            let (at, _) = LevenbergMarquardt::new().with_tol(PRECISION).with_patience(self.patience).minimize(at);
             x = at.x;
             let inside = |i: &usize| self.bounds[*i][0] < x[*i] && x[*i] < self.bounds[*i][1];
             let still: Vec<usize> = at.free.iter().copied().filter(inside).collect();
@@ -113,12 +113,12 @@ mod tests {
         let residuals =
             |x: &[f64]| [0.9, 3.2, 4.9].iter().zip([0.0, 1.0, 2.0]).map(|(y, t)| y - x[0] - x[1] * t).collect();
         let bounds = [[-10.0, 10.0], [-10.0, 10.0]];
-        let problem = Problem { residuals: &residuals, bounds: &bounds, step: 1e-4 };
+        let problem = Problem { residuals: &residuals, bounds: &bounds, step: 1e-4, patience: 50 };
         let found = problem.minimize(&[5.0, -5.0], &[0, 1]);
         assert!((found.x[0] - 1.0).abs() < 1e-9 && (found.x[1] - 2.0).abs() < 1e-9, "{:?}", found.x);
         // With the slope at most 1, the intercept is the mean of what is left: 3 − 1.
         let bounds = [[-10.0, 10.0], [-10.0, 1.0]];
-        let problem = Problem { residuals: &residuals, bounds: &bounds, step: 1e-4 };
+        let problem = Problem { residuals: &residuals, bounds: &bounds, step: 1e-4, patience: 50 };
         let found = problem.minimize(&[5.0, -5.0], &[0, 1]);
         assert!((found.x[0] - 2.0).abs() < 1e-9 && found.x[1] == 1.0, "{:?}", found.x);
     }

@@ -11,8 +11,10 @@ const RESTITUTIONS: [f64; 12] = [0.02, 0.08, 0.15, 0.22, 0.3, 0.38, 0.46, 0.55, 
 const GYRATIONS: [f64; 7] = [1.0, 0.7, 0.8, 0.9, 1.1, 1.25, 1.5];
 /// So many of the best go on at first.
 pub(super) const TAKEN: usize = 4;
-/// Strikes that a start is found from, at most.
-const EARLY: usize = 32;
+/// Strikes and pulses that a start is found from, at most.
+const MOST: usize = 32;
+/// Of the first few, which gravity and contacts hardly change, and of all.
+const EARLY: [usize; 3] = [2, 3, MOST];
 
 /// The best of a grid of unknowns, so many, the best first.
 pub(super) fn starts(drop: &Drop<'_>, taken: usize) -> Vec<Vec<f64>> {
@@ -62,7 +64,8 @@ fn at(drop: &Drop<'_>, x: &[f64]) -> Vec<Vec<f64>> {
     }
     for (k, set) in drop.sets.iter().enumerate() {
         if let Set::Strikes { strikes, index, .. } = set {
-            all.iter_mut().for_each(|x| by_strikes(drop, k, strikes, index, x));
+            let of = |x: &Vec<f64>| EARLY.map(|early| by_strikes(drop, k, strikes, index, early, x.clone()));
+            all = all.iter().flat_map(of).collect();
         }
     }
     for (k, set) in drop.sets.iter().enumerate() {
@@ -74,13 +77,20 @@ fn at(drop: &Drop<'_>, x: &[f64]) -> Vec<Vec<f64>> {
     all
 }
 
-/// Gap over speed and first touch by linear regression on the train without gravity.
-fn by_strikes(drop: &Drop<'_>, set: usize, strikes: &[MeasuredStrike], index: &[Option<Which>], x: &mut [f64]) {
+/// Gap over speed and first touch by linear regression on the train without gravity, over so many strikes.
+fn by_strikes(
+    drop: &Drop<'_>,
+    set: usize,
+    strikes: &[MeasuredStrike],
+    index: &[Option<Which>],
+    early: usize,
+    mut x: Vec<f64>,
+) -> Vec<f64> {
     let [a, b] = drop.known.body.arms_m();
     let arms = if drop.first == End::A { [a, b] } else { [b, a] };
     let gyration = 0.5 * (a + b) * libm::exp(x[GYRATION]);
-    let Ok(bar) = OffCenterBar::new(arms, gyration, x[RESTITUTION]) else { return };
-    let train: Vec<f64> = bar.train(&Start::default()).take(EARLY).map(|impact| impact.time).collect();
+    let Ok(bar) = OffCenterBar::new(arms, gyration, x[RESTITUTION]) else { return x };
+    let train: Vec<f64> = bar.train(&Start::default()).take(MOST).map(|impact| impact.time).collect();
     // Without gravity the ends strike in turn.
     let place = |which: Which| match which {
         Which::Of(n) => n,
@@ -90,6 +100,7 @@ fn by_strikes(drop: &Drop<'_>, set: usize, strikes: &[MeasuredStrike], index: &[
         .iter()
         .zip(index)
         .filter_map(|(strike, which)| Some([*train.get(which.map(place)?)?, strike.time_s]))
+        .take(early)
         .collect();
     #[expect(clippy::cast_precision_loss, reason = "at most 32")]
     let n = pairs.len() as f64;
@@ -104,6 +115,7 @@ fn by_strikes(drop: &Drop<'_>, set: usize, strikes: &[MeasuredStrike], index: &[
     } else {
         x[OFFSET + set] = first / drop.unit_s;
     }
+    x
 }
 
 /// The fall before the first touch, which is where the lower end first turns upward near the ground.
@@ -154,7 +166,7 @@ fn by_acceleration(
         while let Some(from) = values[at..].iter().position(is_high).map(|k| at + k) {
             at = values[from..].iter().position(|value| !is_high(value)).map_or(values.len(), |k| from + k);
             pulses.push((from, at));
-            if pulses.len() == EARLY {
+            if pulses.len() == MOST {
                 break;
             }
         }

@@ -104,7 +104,12 @@ struct Search<'s, 'd> {
 impl Search<'_, '_> {
     fn with<T>(&self, work: impl FnOnce(&Problem<'_>) -> T) -> T {
         let (bounds, residuals) = (self.drop.bounds(), |x: &[f64]| self.drop.residuals(x));
-        work(&Problem { residuals: &residuals, bounds: &bounds, step: self.drop.step() })
+        work(&Problem {
+            residuals: &residuals,
+            bounds: &bounds,
+            step: self.drop.step(),
+            patience: self.drop.patience(),
+        })
     }
 
     /// From the best of the starts, with the unknowns that such records tell at least.
@@ -260,7 +265,7 @@ impl Told {
     pub(super) fn spreads(&self, drop: &Drop<'_>, known: bool) -> Option<Spreads> {
         let scatter = self.scatter?;
         let (bounds, residuals) = (drop.bounds(), |x: &[f64]| drop.residuals(x));
-        let problem = Problem { residuals: &residuals, bounds: &bounds, step: drop.step() };
+        let problem = Problem { residuals: &residuals, bounds: &bounds, step: drop.step(), patience: drop.patience() };
         let jacobian = problem.jacobian(&self.minimum.x, &self.free);
         let inverse = jacobian.pseudo_inverse(0.0).ok()?;
         let covariance = &inverse * inverse.transpose() * (scatter * scatter);
