@@ -212,7 +212,7 @@ fn debug_contacts() {
         let body = Body::new(0.14, 0.038).unwrap();
         let scene = clatter_flight::Scene::from_height(body, e, 1.2, tilt, 9.81).unwrap().with_impact_limit(n).unwrap();
         let contact = clatter_flight::Contact::new(ContactLaw::Hysteretic, e, 0.4e-3).unwrap();
-        let flight = scene.contacts(&contact).unwrap().flight;
+        let flight = scene.contacts_until(&contact, 1e-7, |_| false).unwrap().flight;
         let list: Vec<_> =
             flight.strikes.iter().map(|s| (s.time_s + 0.5, if s.point == 0 { End::A } else { End::B })).collect();
         for known in [base.clone(), Known { gyration_known: true, ..base.clone() }] {
@@ -231,5 +231,86 @@ fn debug_contacts() {
                 );
             }
         }
+    }
+}
+
+#[test]
+fn debug_heights() {
+    let file = clatter_assess::ProductFile::read(clatter_assess::EXAMPLE, "").unwrap();
+    for (spin, first) in [(0.0, End::A), (3.0, End::A), (-2.0, End::B)] {
+        let known = Known { contact_time_s: None, ..Known::from(&file) };
+        let body = Body::new(0.14, 0.0365).unwrap();
+        let scene = clatter_flight::Scene::new(body, 0.33, 4.2, 5.0, 9.80665).unwrap().with_spin(spin).unwrap();
+        let flight = scene.simulate(clatter_flight::Model::FiniteTilt);
+        let mut random = Random(3);
+        let samples: Vec<_> = (0..150)
+            .map(|k| {
+                let time_s = 1e-3 * k as f64;
+                let t = time_s - 0.02034;
+                let mut h = if t >= 0.0 {
+                    scene.heights_m(clatter_flight::Model::FiniteTilt, &flight, t)
+                } else {
+                    let y = 0.07 * 5f64.to_radians().sin() - t * (4.2 + 0.5 * 9.80665 * t);
+                    let phi = 5f64.to_radians() + spin * t;
+                    [y - 0.07 * phi.sin(), y + 0.07 * phi.sin()]
+                };
+                if first == End::B {
+                    h.swap(0, 1);
+                }
+                clatter_assess::fit::MeasuredHeights { time_s, height_m: h.map(|h| h + 2e-4 * random.normal()) }
+            })
+            .collect();
+        let begin = std::time::Instant::now();
+        let found = fit(&known, &[Measured::Heights { samples, deviation_m: None }]).unwrap();
+        eprintln!(
+            "{:?}: first {:?} {:?} {:?} scatter {:e} {:?}",
+            begin.elapsed(),
+            found.first,
+            found.estimates.iter().map(|x| (x.quantity, x.value, x.interval)).collect::<Vec<_>>(),
+            found.untold,
+            found.records[0].scatter,
+            found.notes
+        );
+    }
+}
+
+#[test]
+fn debug_acceleration() {
+    let file = clatter_assess::ProductFile::read(clatter_assess::EXAMPLE, "").unwrap();
+    for (place, noise) in [(0.03, 5.0), (-0.06, 20.0)] {
+        let known = Known::from(&file);
+        let body = Body::new(0.14, 0.0365).unwrap();
+        let scene = clatter_flight::Scene::new(body, 0.33, 4.7, 5.0, 9.80665).unwrap();
+        let contact = clatter_flight::Contact::new(ContactLaw::Hysteretic, 0.33, 0.45e-3).unwrap();
+        let flight = scene.contacts(&contact).unwrap();
+        let mut random = Random(3);
+        let values: Vec<f64> = (0..600)
+            .map(|k| {
+                let t = 2e-5 * k as f64 - 0.00204;
+                let a = if t < 0.0 {
+                    0.0
+                } else {
+                    let a = flight.sample(t).acceleration_m_s2;
+                    let s = place / 0.07;
+                    0.5 * ((1.0 - s) * a[0] + (1.0 + s) * a[1]) + 9.80665
+                };
+                a + noise * random.normal()
+            })
+            .collect();
+        let begin = std::time::Instant::now();
+        let found = fit(
+            &known,
+            &[Measured::Acceleration { position_m: place, start_s: 0.0, step_s: 2e-5, values_m_s2: values }],
+        )
+        .unwrap();
+        eprintln!(
+            "{:?}: first {:?} {:?} {:?} scatter {:e} {:?}",
+            begin.elapsed(),
+            found.first,
+            found.estimates.iter().map(|x| (x.quantity, x.value, x.interval)).collect::<Vec<_>>(),
+            found.untold,
+            found.records[0].scatter,
+            found.notes
+        );
     }
 }

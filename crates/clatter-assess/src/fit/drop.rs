@@ -1,5 +1,8 @@
 //! What is measured as a function of what is unknown: one drop, computed by the flights of `clatter-flight`.
 
+use std::cell::Cell;
+use std::rc::Rc;
+
 use clatter::End;
 use clatter_flight::{Body, Contact, ContactFlight, Flight, Model, Scene, Strike};
 
@@ -33,6 +36,8 @@ const STEEPEST: f64 = 0.9;
 const STEP: f64 = 1e-6;
 /// Flights with contacts are exact to [`PRECISION`] for each contact; steps are far above that.
 const CONTACT_STEP: f64 = 1e-4;
+/// Flights of a search, by whether contacts take time: about two seconds of either.
+pub(super) const FLIGHTS: [usize; 2] = [200_000, 20_000];
 /// Precision of flights with contacts.
 const PRECISION: f64 = 1e-5;
 /// A flight is followed for so many times as long as strikes were measured.
@@ -55,6 +60,8 @@ pub(super) struct Drop<'a> {
     pub(super) contacts: bool,
     /// Unit of time of the offsets.
     pub(super) unit_s: f64,
+    /// Flights that may still be computed for a search; beyond, each minimum is left where it is.
+    pub(super) left: Rc<Cell<usize>>,
 }
 
 /// A drop as it was computed.
@@ -71,7 +78,11 @@ impl Drop<'_> {
     }
     /// How long a minimum is looked for: flights with contacts take ten times as long.
     pub(super) fn patience(&self) -> usize {
-        if self.contacts { 12 } else { 60 }
+        match (self.left.get(), self.contacts) {
+            (0, _) => 1,
+            (_, true) => 12,
+            (_, false) => 60,
+        }
     }
     /// The values that the product file gives, a range in its middle.
     pub(super) fn given(&self) -> Vec<f64> {
@@ -152,6 +163,7 @@ impl Drop<'_> {
     }
     /// The flight by the model of the fit, as far as the records need it.
     pub(super) fn path(&self, x: &[f64]) -> Option<Path> {
+        self.left.set(self.left.get().saturating_sub(1));
         let until_s = self.until_s(x);
         let horizon_s = self.horizon_s().max(until_s);
         if !self.contacts {

@@ -113,7 +113,7 @@ impl Search<'_> {
         let count = self.strikes.len();
         let mut best = self.candidate(&Faults::default(), TAKEN);
         if self.is_suspect(&best) {
-            best = self.candidate(&Faults::default(), if self.drop.contacts { MORE_TAKEN / 2 } else { MORE_TAKEN });
+            best = self.candidate(&Faults::default(), if self.drop.contacts { MORE_TAKEN / 3 } else { MORE_TAKEN });
         }
         let one_missing = (0..count.min(PLACES)).map(|k| Faults { missing: vec![k], left_out: None });
         let one_wrong = (0..count.min(PLACES)).flat_map(|k| {
@@ -126,7 +126,7 @@ impl Search<'_> {
         let rounds = if self.drop.contacts { &[][..] } else { &rounds[..] };
         let is_plain = !self.is_suspect(&best);
         for round in rounds {
-            if !self.is_suspect(&best) {
+            if !self.is_suspect(&best) || self.drop.left.get() == 0 {
                 break;
             }
             let other = round.iter().map(|faults| self.candidate(faults, 1)).min_by(|a, b| {
@@ -156,7 +156,7 @@ impl Search<'_> {
         all.iter().copied().take(most).collect()
     }
 
-    /// The drop with its first strikes alone, as many as unknowns and then a quarter more each time.
+    /// The drop with its first strikes alone, as many as unknowns and then a third more each time.
     fn stages(&self, index: &[Option<Which>], free: usize) -> Vec<Drop<'_>> {
         let mut stages = Vec::new();
         let mut count = free.max(3);
@@ -166,7 +166,7 @@ impl Search<'_> {
                 of_stage[count..].fill(None);
             }
             stages.push(stage);
-            count += (count / 4).max(1);
+            count += (count / 3).max(1);
         }
         stages
     }
@@ -192,7 +192,9 @@ impl Search<'_> {
             let wrong_ends = strikes.iter().zip(&index).filter(|pair| is_wrong(*pair)).count();
             Candidate { index: index.clone(), wrong_ends, minimum, free: free.len() }
         };
-        let candidates = starts(&self.drop, taken).into_iter().map(minimum);
+        // One at least.
+        let starts = starts(&self.drop, taken).into_iter().enumerate();
+        let candidates = starts.take_while(|(k, _)| *k == 0 || self.drop.left.get() > 0).map(|(_, x)| minimum(x));
         let best = candidates.min_by(|a, b| a.rank().0.cmp(&b.rank().0).then(a.rank().1.total_cmp(&b.rank().1)));
         // The grid has hundreds of starts.
         best.unwrap_or_else(|| minimum(self.drop.given()))

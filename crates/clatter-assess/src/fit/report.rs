@@ -1,9 +1,12 @@
 //! A fit, from records to what is told of it.
 
+use std::cell::Cell;
+use std::rc::Rc;
+
 use clatter::End;
 use clatter_flight::Body;
 
-use super::drop::{CONTACT, DIFFERENCE, Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED, SPIN};
+use super::drop::{CONTACT, DIFFERENCE, Drop, FLIGHTS, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED, SPIN};
 use super::told::{self, Spreads, Told};
 use super::{
     Error, Estimate, Fit, Known, MOST_SAMPLES, MOST_STRIKES, Measured, MeasuredStrike, Quantity, RecordFit, Set,
@@ -73,7 +76,8 @@ pub fn fit(known: &Known, measured: &[Measured]) -> Result<Fit, Error> {
     let unit_s = unit_s(&sets);
     let mut best: Option<Result<(Drop<'_>, Told), Error>> = None;
     for &first in firsts(known, measured) {
-        let mut drop = Drop { known, sets: sets.clone(), first, contacts, unit_s };
+        let left = Rc::new(Cell::new(FLIGHTS[usize::from(contacts)]));
+        let mut drop = Drop { known, sets: sets.clone(), first, contacts, unit_s, left };
         let (found, is_plain) = match told_of(&mut drop, measured, given) {
             Ok((told, is_plain)) => (Ok((drop, told)), is_plain),
             Err(error) => (Err(error), false),
