@@ -26,20 +26,21 @@ pub(super) const CONTACT: usize = 6;
 /// The first touch on the time axis of each record, in units of time of the drop.
 pub(super) const OFFSET: usize = 7;
 
-/// Radius of gyration over half the length: from nearly all mass in the middle to ends on long arms. Contacts take none below 0.1.
-const GYRATIONS: [f64; 2] = [0.1, 4.0];
-/// Speeds from a fall of half a millimeter to twice that of product files.
-const SPEEDS_M_S: [f64; 2] = [0.1, 200.0];
-/// The sine of the tilt: what is steeper lands on its end and does not clatter.
-const STEEPEST: f64 = 0.9;
+/// Radius of gyration over half the length that flights with contacts take at least.
+const LEAST_GYRATION: f64 = 0.1;
+/// Unknowns are looked for within so many times of what the product file says: beyond, it is of another product or another drop.
+const BEYOND: f64 = 4.0;
+/// The sine of the largest tilt of a product file, 30 degrees.
+const STEEPEST: f64 = 0.5;
 /// A step of this share is far above the roundings of a rigid flight (1e−13) and far below its curvature.
 const STEP: f64 = 1e-6;
 /// Flights with contacts are exact to [`PRECISION`] for each contact; steps are far above that.
 const CONTACT_STEP: f64 = 1e-4;
 /// Flights of a search, by whether contacts take time: about two seconds of either.
 pub(super) const FLIGHTS: [usize; 2] = [200_000, 20_000];
-/// Precision of flights with contacts.
+/// Precision of flights with contacts, and while a search is on.
 const PRECISION: f64 = 1e-5;
+const ROUGH: f64 = 1e-3;
 /// A flight is followed for so many times as long as strikes were measured.
 const HORIZON: f64 = 3.0;
 /// The same of contacts that take time, where no more were measured.
@@ -60,6 +61,8 @@ pub(super) struct Drop<'a> {
     pub(super) contacts: bool,
     /// Unit of time of the offsets.
     pub(super) unit_s: f64,
+    /// Whether flights with contacts are computed roughly, as a search needs them.
+    pub(super) is_rough: bool,
     /// Flights that may still be computed for a search; beyond, each minimum is left where it is.
     pub(super) left: Rc<Cell<usize>>,
 }
@@ -74,7 +77,11 @@ pub(super) enum Path {
 impl Drop<'_> {
     /// Half the step of a difference.
     pub(super) fn step(&self) -> f64 {
-        if self.contacts { CONTACT_STEP } else { STEP }
+        match (self.contacts, self.is_rough) {
+            (false, _) => STEP,
+            (true, true) => 10.0 * CONTACT_STEP,
+            (true, false) => CONTACT_STEP,
+        }
     }
     /// How long a minimum is looked for: flights with contacts take ten times as long.
     pub(super) fn patience(&self) -> usize {
@@ -112,17 +119,19 @@ impl Drop<'_> {
         let ln = |[lo, hi]: [f64; 2]| [libm::log(lo), libm::log(hi)];
         let length = self.known.body.length_m();
         let arm = self.arms()[0];
+        let about = |[lo, hi]: [f64; 2]| ln([lo / BEYOND, hi * BEYOND]);
+        let gyration = 2.0 * self.known.body.gyration_m() / length;
         let mut bounds = vec![[f64::NEG_INFINITY, f64::INFINITY]; OFFSET + self.sets.len()];
-        bounds[GYRATION] = ln(GYRATIONS);
+        bounds[GYRATION] = about([gyration.max(BEYOND * LEAST_GYRATION), gyration]);
         bounds[RESTITUTION] = [0.0, 1.0];
         bounds[DIFFERENCE] = [-0.5, 0.5];
         // The second end strikes within what was measured.
         let longest_s = if self.horizon_s() > 0.0 { self.horizon_s() } else { 10.0 };
         bounds[GAP_TIME] = ln([1e-6 * longest_s, longest_s]);
-        bounds[SPEED] = ln(SPEEDS_M_S);
+        bounds[SPEED] = about(self.known.speed_m_s);
         // The end that touches first still approaches.
         bounds[SPIN] = [-0.45 * length / arm, 5.0];
-        bounds[CONTACT] = ln([1e-6, 0.1]);
+        bounds[CONTACT] = self.known.contact_time_s.map_or_else(|| ln([1e-6, 0.1]), about);
         bounds
     }
     /// Arms of the end that touches first and of the other one.
@@ -178,7 +187,8 @@ impl Drop<'_> {
         let contact = Contact::new(self.known.contact_law, x[RESTITUTION], libm::exp(x[CONTACT])).ok()?;
         let (mut touches, mut events) = (1, 0);
         let most = EVENTS * needed.max(MOST_CONTACTS);
-        let flight = scene.contacts_until(&contact, PRECISION, |ahead| {
+        let precision = if self.is_rough { ROUGH } else { PRECISION };
+        let flight = scene.contacts_until(&contact, precision, |ahead| {
             touches += usize::from(ahead.lands);
             events += 1;
             ahead.time_s > horizon_s || ahead.time_s > until_s && touches > needed || events > most

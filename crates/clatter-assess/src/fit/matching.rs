@@ -79,7 +79,7 @@ pub(super) fn find(drop: &mut Drop<'_>, set: usize, known: bool) -> Result<Found
     let Set::Strikes { strikes, .. } = drop.sets[set] else {
         return Ok(Found { index: Vec::new(), x: drop.given(), is_plain: true });
     };
-    let alone = Drop { sets: vec![drop.sets[set].clone()], ..drop.clone() };
+    let alone = Drop { sets: vec![drop.sets[set].clone()], is_rough: true, ..drop.clone() };
     let found = Search { drop: alone, strikes, known }.found()?;
     if let Set::Strikes { index: of_set, .. } = &mut drop.sets[set] {
         of_set.clone_from(&found.index);
@@ -141,6 +141,11 @@ impl Search<'_> {
         }
         if best.wrong_ends > 0 {
             return Err(Error::NoDrop("strikes"));
+        }
+        if self.drop.contacts {
+            self.drop.is_rough = false;
+            self.take(&best.index);
+            best.minimum = minimize(&self.drop, &best.minimum.x, &self.free(best.free));
         }
         if let Some(k) = self.outlier(&best) {
             let left_out = best.index.iter().enumerate().map(|(i, index)| if i == k { None } else { *index });
@@ -211,7 +216,7 @@ impl Search<'_> {
         if degrees == 0 {
             return false;
         }
-        if self.known {
+        if self.known && !self.drop.contacts {
             // Five standard deviations of χ².
             return sum > count + 5.0 * (2.0 * count).sqrt();
         }

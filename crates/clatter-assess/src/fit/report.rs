@@ -77,7 +77,7 @@ pub fn fit(known: &Known, measured: &[Measured]) -> Result<Fit, Error> {
     let mut best: Option<Result<(Drop<'_>, Told), Error>> = None;
     for &first in firsts(known, measured) {
         let left = Rc::new(Cell::new(FLIGHTS[usize::from(contacts)]));
-        let mut drop = Drop { known, sets: sets.clone(), first, contacts, unit_s, left };
+        let mut drop = Drop { known, sets: sets.clone(), first, contacts, unit_s, is_rough: false, left };
         let (found, is_plain) = match told_of(&mut drop, measured, given) {
             Ok((told, is_plain)) => (Ok((drop, told)), is_plain),
             Err(error) => (Err(error), false),
