@@ -57,10 +57,9 @@ pub(super) struct Told {
 pub(super) fn find(drop: &mut Drop<'_>, known: bool, begin: Option<Vec<f64>>) -> Result<Told, Error> {
     let count: usize = drop.sets.iter().map(Set::len).sum();
     let begins = begin.map_or_else(|| starts(drop, TAKEN), |x| vec![x]);
-    let mut told = {
-        let search = Search { drop, known, count };
-        search.base(&begins)?
-    };
+    drop.is_rough = true;
+    let mut told = Search { drop, known, count }.base(&begins)?;
+    drop.is_rough = false;
     for again in [true, false] {
         // Records of several kinds count by how well each is explained.
         if drop.sets.len() > 1 && !known {
@@ -77,7 +76,38 @@ pub(super) fn find(drop: &mut Drop<'_>, known: bool, begin: Option<Vec<f64>>) ->
     Ok(told)
 }
 
+/// Shares of a record that are fitted before all of it.
+const EARLY: [f64; 3] = [0.15, 0.3, 0.6];
+
 impl Drop<'_> {
+    /// The same with what was measured up to a share of the time after the first touch; none of strikes alone.
+    fn early(&self, x: &[f64], share: f64) -> Option<Self> {
+        let mut early = self.clone();
+        let mut cut = false;
+        for (k, set) in early.sets.iter_mut().enumerate() {
+            let touch_s = self.offset_s(x, k);
+            match set {
+                Set::Strikes { .. } => {}
+                Set::Heights { samples, .. } => {
+                    let end_s = samples.last()?.time_s;
+                    let until_s = touch_s + share * (end_s - touch_s);
+                    *samples = &samples[..samples.partition_point(|sample| sample.time_s <= until_s).max(4)];
+                    cut = true;
+                }
+                Set::Acceleration { start_s, step_s, values, .. } => {
+                    #[expect(clippy::cast_precision_loss, reason = "at most 4096")]
+                    let whole = values.len() as f64;
+                    let touch = (touch_s - *start_s) / *step_s;
+                    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+                    let count = (touch + share * (whole - touch)).clamp(8.0, whole.max(8.0)) as usize;
+                    values.truncate(count);
+                    cut = true;
+                }
+            }
+        }
+        cut.then_some(early)
+    }
+
     /// Takes what the residuals of each record scatter by as its deviation.
     fn weigh(&mut self, x: &[f64]) {
         let residuals = self.residuals(x);
@@ -95,6 +125,7 @@ impl Drop<'_> {
     }
 }
 
+#[derive(Clone, Copy)]
 struct Search<'s, 'd> {
     drop: &'s Drop<'d>,
     known: bool,
@@ -131,10 +162,15 @@ impl Search<'_, '_> {
             free.push(GYRATION);
         }
         free.truncate(self.count);
-        let minimum = self.with(|problem| {
-            let all = starts.iter().map(|x| problem.minimize(x, &free));
-            all.min_by(|a, b| a.sum().total_cmp(&b.sum()))
-        });
+        // Each strike multiplies what is off before it: the early part of a record comes first.
+        let staged = |x: &Vec<f64>| {
+            let x = EARLY.iter().fold(x.clone(), |x, share| match self.drop.early(&x, *share) {
+                Some(early) => Search { drop: &early, ..*self }.with(|problem| problem.minimize(&x, &free).x),
+                None => x,
+            });
+            self.with(|problem| problem.minimize(&x, &free))
+        };
+        let minimum = starts.iter().map(staged).min_by(|a, b| a.sum().total_cmp(&b.sum()));
         let minimum = minimum.filter(|minimum| self.drop.path(&minimum.x).is_some()).ok_or(Error::NoDrop("data"))?;
         let mut told = Told { minimum, free, held: Vec::new(), degrees: 0, scatter: None, excess: None };
         self.judge(&mut told);
@@ -175,7 +211,8 @@ impl Search<'_, '_> {
                 told.held.push((unknown, reason));
                 continue;
             }
-            let needed = told.free.len() + 1 + usize::from(!self.known);
+            // One datum more than unknowns: a second drop that explains the same would not be noticed without.
+            let needed = told.free.len() + 2;
             if needed > self.count {
                 let reason = format!("{} data are too few for {} unknowns", self.count, told.free.len() + 1);
                 told.held.push((unknown, reason));
