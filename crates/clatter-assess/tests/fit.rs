@@ -107,8 +107,12 @@ fn noisy(truth: &Truth, most: usize, deviation_s: f64, random: &mut Random) -> V
 
 /// The estimate of the restitution that end a has, alone or with end b.
 fn restitution_of_a(found: &Fit) -> &Estimate {
+    restitution_told(found).unwrap_or_else(|| panic!("a restitution in {found:#?}"))
+}
+
+fn restitution_told(found: &Fit) -> Option<&Estimate> {
     let is = |x: &&Estimate| matches!(x.quantity, Quantity::Restitution | Quantity::RestitutionA);
-    found.estimates.iter().find(is).unwrap()
+    found.estimates.iter().find(is)
 }
 
 fn holds(estimate: &Estimate, truth: f64) -> bool {
@@ -153,7 +157,7 @@ fn intervals_hold_the_truth_where_the_radius_of_gyration_is_known() {
 #[test]
 fn intervals_hold_the_truth_where_the_radius_of_gyration_is_fitted() {
     let mut random = Random(11);
-    let (mut e_held, mut gap_held, mut q_held, mut q_told) = (0, 0, 0, 0);
+    let (mut e_held, mut e_told, mut gap_held, mut q_held, mut q_told) = (0, 0, 0, 0, 0);
     for _ in 0..1000 {
         let (truth, list) = loop {
             let (q, e) = (random.within(0.4, 0.9), random.within(0.1, 0.8));
@@ -164,16 +168,20 @@ fn intervals_hold_the_truth_where_the_radius_of_gyration_is_fitted() {
             }
         };
         let found = fit(&known(truth.q), &[Measured::Strikes { strikes: strikes(&list), deviation_s: None }]).unwrap();
-        e_held += usize::from(holds(restitution_of_a(&found), truth.e[0]));
+        if let Some(e) = restitution_told(&found) {
+            e_told += 1;
+            e_held += usize::from(holds(e, truth.e[0]));
+        }
         gap_held += usize::from(holds(of(&found, Quantity::GapOverSpeed), truth.gap_s));
         if let Some(q) = found.estimates.iter().find(|x| x.quantity == Quantity::InertiaRatio) {
             q_told += 1;
             q_held += usize::from(holds(q, truth.q));
         }
     }
-    assert_covers("restitution", e_held, 1000);
+    assert_covers("restitution", e_held, e_told);
     assert_covers("gap over speed", gap_held, 1000);
     assert_covers("inertia ratio", q_held, q_told);
+    assert!(e_told >= 980, "{e_told} of 1000 told the restitution");
     assert!(q_told >= 980, "{q_told} of 1000 told the radius of gyration");
 }
 
@@ -257,7 +265,7 @@ fn faulty(change: impl Fn(&mut Vec<(f64, End)>)) -> Fit {
     change(&mut list);
     let body = Body::new(LENGTH_M, gyration_m(0.8)).unwrap();
     let known = Known { gyration_known: true, body, ..known(0.8) };
-    fit(&known, &[Measured::Strikes { strikes: strikes(&list), deviation_s: None }]).unwrap()
+    fit(&known, &[Measured::Strikes { strikes: strikes(&list), deviation_s: Some(2e-6) }]).unwrap()
 }
 
 #[test]
@@ -386,7 +394,7 @@ fn heights(e: f64, speed: f64, tilt: f64, spin: f64, random: &mut Random) -> Vec
 fn heights_tell_how_it_fell() {
     let mut random = Random(21);
     let mut held = [0; 5];
-    for _ in 0..20 {
+    for _ in 0..12 {
         let (e, speed, spin) = (random.within(0.25, 0.4), random.within(3.9, 4.6), random.within(-3.0, 3.0));
         let tilt = random.within(0.02, 0.04);
         let samples = heights(e, speed, tilt, spin, &mut random);
@@ -400,8 +408,8 @@ fn heights_tell_how_it_fell() {
         assert!((found.records[0].first_touch_s - 3.020_34).abs() < 1e-3, "{}", found.records[0].first_touch_s);
         assert!(found.records[0].scatter < 2.4e-4, "noise is 0.2 mm: {:e}", found.records[0].scatter);
     }
-    // Of 20, 19 on the mean; 15 or fewer are chance once in 400 times.
-    assert!(held.iter().all(|held| *held >= 16), "{held:?}");
+    // Of 12, 11 on the mean; 8 or fewer are chance once in 500 times.
+    assert!(held.iter().all(|held| *held >= 9), "{held:?}");
 }
 
 /// The acceleration at a place of a bar that lands with contacts of the hysteretic law, by small steps in time, as a sensor reads it.

@@ -1,6 +1,6 @@
 //! Which computed strikes the measured ones are.
 
-use super::drop::{Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION};
+use super::drop::{DIFFERENCE, Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION};
 use super::solve::{Minimum, Problem};
 use super::starts::{TAKEN, starts};
 use super::student;
@@ -9,6 +9,8 @@ use clatter::End;
 
 /// Starts that go on where fewer have not led to a fit.
 const MORE_TAKEN: usize = 24;
+/// More strikes than these can tell both ends apart and that they do.
+const ENOUGH_FOR_BOTH: usize = 6;
 /// Strikes may be missing before so many of the first measured ones.
 const PLACES: usize = 16;
 /// A fit is looked at again where its scatter passes this share of the mean time between strikes: with so much, nothing is told.
@@ -80,7 +82,7 @@ pub(super) fn find(drop: &mut Drop<'_>, set: usize, known: bool) -> Result<Found
         return Ok(Found { index: Vec::new(), x: drop.given(), is_plain: true });
     };
     let alone = Drop { sets: vec![drop.sets[set].clone()], is_rough: true, ..drop.clone() };
-    let found = Search { drop: alone, strikes, known }.found()?;
+    let found = Search { drop: alone, strikes, known, ends_differ: false }.found()?;
     if let Set::Strikes { index: of_set, .. } = &mut drop.sets[set] {
         of_set.clone_from(&found.index);
     }
@@ -98,6 +100,8 @@ struct Search<'d> {
     drop: Drop<'d>,
     strikes: &'d [MeasuredStrike],
     known: bool,
+    /// Whether each end has a restitution of its own.
+    ends_differ: bool,
 }
 
 impl Search<'_> {
@@ -124,6 +128,14 @@ impl Search<'_> {
         let rounds: [Vec<Faults>; 2] = [one_missing.chain(one_wrong).collect(), two_missing.collect()];
         // Flights with contacts take too long for hundreds of fits.
         let rounds = if self.drop.contacts { &[][..] } else { &rounds[..] };
+        if self.is_suspect(&best) && !self.drop.contacts && count > ENOUGH_FOR_BOTH {
+            self.ends_differ = true;
+            let apart = self.candidate(&Faults::default(), MORE_TAKEN);
+            self.ends_differ = !self.is_suspect(&apart) && self.is_better(&best, &apart, 1);
+            if self.ends_differ {
+                best = apart;
+            }
+        }
         let is_plain = !self.is_suspect(&best);
         for round in rounds {
             if !self.is_suspect(&best) || self.drop.left.get() == 0 {
@@ -156,9 +168,14 @@ impl Search<'_> {
 
     /// So many unknowns, the first that strikes tell.
     fn free(&self, most: usize) -> Vec<usize> {
-        let all = [OFFSET, GAP_TIME, RESTITUTION, GYRATION];
-        let all = if self.drop.known.gyration_known { &all[..3] } else { &all[..] };
-        all.iter().copied().take(most).collect()
+        let all = [
+            Some(OFFSET),
+            Some(GAP_TIME),
+            Some(RESTITUTION),
+            (!self.drop.known.gyration_known).then_some(GYRATION),
+            self.ends_differ.then_some(DIFFERENCE),
+        ];
+        all.into_iter().flatten().take(most).collect()
     }
 
     /// The drop with its first strikes alone, as many as unknowns and then a third more each time.

@@ -18,6 +18,8 @@ use crate::{First, Model};
 const MOST_VALUES: usize = 4096;
 /// Strikes that are off by this share of the mean time between them are not explained.
 const FAR_OFF: f64 = 0.1;
+/// Heights that are off by this share of the length, 1.4 mm of 140 mm, are met.
+const MET: f64 = 0.01;
 /// Strikes shown beyond the last measured one.
 const MORE: usize = 3;
 
@@ -90,7 +92,7 @@ pub fn fit(known: &Known, measured: &[Measured]) -> Result<Fit, Error> {
         if is_better {
             best = Some(found);
         }
-        // The end that was measured first and that explains all is the one.
+        // The end that was measured first, or that is lower as the product lands, and that explains all is the one.
         if is_plain {
             break;
         }
@@ -109,14 +111,25 @@ fn told_of(drop: &mut Drop<'_>, measured: &[Measured], given: bool) -> Result<(T
             begin = (measured.len() == 1).then_some(found.x);
         }
     }
-    Ok((told::find(drop, given, begin)?, is_plain))
+    let told = told::find(drop, given, begin)?;
+    let heights = drop.sets.iter().all(|set| matches!(set, Set::Heights { .. }));
+    let is_met = heights
+        && records(drop, &told.minimum.x).iter().all(|record| record.scatter < MET * drop.known.body.length_m());
+    Ok((told, is_plain || is_met))
 }
 
 /// The ends that may touch first: both where it matters and nothing says which.
 fn firsts(known: &Known, measured: &[Measured]) -> &'static [End] {
     let named = measured.iter().find_map(|one| match one {
         Measured::Strikes { strikes, .. } => strikes.first().and_then(|strike| strike.end),
-        _ => None,
+        // The end that is lower the first time that one turns upward.
+        Measured::Heights { samples, .. } => samples.windows(3).find_map(|three| {
+            let turns =
+                |i: usize| three[1].height_m[i] <= three[0].height_m[i] && three[1].height_m[i] < three[2].height_m[i];
+            let [a, b] = three[1].height_m;
+            (turns(0) && a <= b).then_some(End::A).or((turns(1) && b < a).then_some(End::B))
+        }),
+        Measured::Acceleration { .. } => None,
     });
     let symmetric = {
         let [a, b] = known.body.arms_m();

@@ -214,7 +214,8 @@ impl Search<'_, '_> {
             // One datum more than unknowns: a second drop that explains the same would not be noticed without.
             let needed = told.free.len() + 2;
             if needed > self.count {
-                let reason = format!("{} data are too few for {} unknowns", self.count, told.free.len() + 1);
+                let reason = format!("{} data are too few to check {} unknowns", self.count, told.free.len() + 1);
+                let reason = if unknown == SPEED { self.reason(SPEED, &[], reason) } else { reason };
                 told.held.push((unknown, reason));
                 continue;
             }
@@ -270,16 +271,18 @@ impl Search<'_, '_> {
         let largest = (0..free.len()).filter(can_be_held).rfind(|&k| part(k) > PART)?;
         let k = last.and_then(|last| free.iter().position(|f| *f == last)).unwrap_or(largest);
         let others: Vec<&str> = (0..free.len()).filter(|&i| i != k && part(i) > PART).map(|i| name(free[i])).collect();
-        Some((free[k], self.reason(free[k], &others)))
+        let little = format!("{} changes the data by too little", name(free[k]));
+        Some((free[k], self.reason(free[k], &others, little)))
     }
 
-    fn reason(&self, unknown: usize, others: &[&str]) -> String {
+    /// Why an unknown is not told: what undoes it, or else what is given.
+    fn reason(&self, unknown: usize, others: &[&str], alone: String) -> String {
         let strikes = self.drop.sets.iter().all(|set| matches!(set, Set::Strikes { .. }));
         match (unknown, others) {
             (SPEED, _) if strikes => {
                 "strike times alone tell the gap over the speed, not the gap and the speed".to_owned()
             }
-            (_, []) => format!("{} changes the data by too little", name(unknown)),
+            (_, []) => alone,
             (_, others) => {
                 format!("what {} changes in the data, {} can change as well", name(unknown), others.join(" and "))
             }
