@@ -1,5 +1,5 @@
-//! Fits to synthetic drops whose truth is known. Strikes come from the plain recursion of the paper's Eqs. 1 to 3, heights from the same
-//! with gravity, accelerations from small steps in time: nothing here shares code with the flights that the fit computes.
+//! Fits to synthetic drops whose truth is known. Strikes come from the plain recursion of the paper's Eqs. 1 to 3, heights and
+//! accelerations from small steps in time: nothing here shares code with the flights that the fit computes.
 
 use clatter::End;
 use clatter_assess::First;
@@ -259,12 +259,12 @@ fn strike_times_alone_tell_gap_over_speed() {
 /// A record of ten strikes of an even bar, some of them taken out or moved.
 fn faulty(change: impl Fn(&mut Vec<(f64, End)>)) -> Fit {
     let mut random = Random(5);
-    let truth = Truth { q: 0.8, e: [0.45; 2], gap_s: 8e-3 };
+    let truth = Truth { q: 0.86, e: [0.55; 2], gap_s: 8e-3 };
     let mut list = noisy(&truth, 10, 2e-6, &mut random);
-    assert!(list.len() >= 6, "{list:?}");
+    assert!(list.len() >= 7, "{list:?}");
     change(&mut list);
-    let body = Body::new(LENGTH_M, gyration_m(0.8)).unwrap();
-    let known = Known { gyration_known: true, body, ..known(0.8) };
+    let body = Body::new(LENGTH_M, gyration_m(0.86)).unwrap();
+    let known = Known { gyration_known: true, body, ..known(0.86) };
     fit(&known, &[Measured::Strikes { strikes: strikes(&list), deviation_s: Some(2e-6) }]).unwrap()
 }
 
@@ -276,9 +276,15 @@ fn missing_merged_and_wrong_strikes_are_found() {
         "{whole:#?}"
     );
     for place in 1..4 {
-        let missing = faulty(|list| drop(list.remove(place)));
+        let missing = faulty(|list| {
+            list.remove(place);
+        });
+        eprintln!(
+            "{place}: {:e} {:?} {:?}",
+            missing.records[0].scatter, missing.records[0].missing, missing.records[0].strikes
+        );
         assert_eq!(missing.records[0].missing, [place + 1], "strike {}", place + 1);
-        assert!((restitution_of_a(&missing).value - 0.45).abs() < 0.01, "{place}: {:?}", restitution_of_a(&missing));
+        assert!((restitution_of_a(&missing).value - 0.55).abs() < 0.01, "{place}: {:?}", restitution_of_a(&missing));
     }
     // Half a millisecond late, a dozen times the error of the others and more.
     for place in 1..4 {
@@ -286,7 +292,7 @@ fn missing_merged_and_wrong_strikes_are_found() {
         let left_out: Vec<_> =
             (0..wrong.records[0].strikes.len()).filter(|&k| wrong.records[0].strikes[k].number.is_none()).collect();
         assert_eq!(left_out, [place], "{:#?}", wrong.records[0]);
-        assert!((restitution_of_a(&wrong).value - 0.45).abs() < 0.01, "{place}: {:?}", restitution_of_a(&wrong));
+        assert!((restitution_of_a(&wrong).value - 0.55).abs() < 0.01, "{place}: {:?}", restitution_of_a(&wrong));
         assert!(wrong.notes.iter().any(|note| note.contains("was left out")), "{:?}", wrong.notes);
     }
 }
@@ -343,48 +349,41 @@ fn bar(contact_time_s: Option<[f64; 2]>) -> Known {
     }
 }
 
-/// Heights of a drop at small tilt with gravity, by parabolas between instant strikes, in steps of the time between samples.
+/// Heights of a drop at real tilt with gravity, in steps of a microsecond: an end that is below the ground and moves down strikes.
 fn heights(e: f64, speed: f64, tilt: f64, spin: f64, random: &mut Random) -> Vec<MeasuredHeights> {
     let half = 0.5 * BAR_M;
-    let q = (half * half - RHO_M * RHO_M) / (half * half + RHO_M * RHO_M);
-    let (touch, step) = (0.020_34, 1e-3);
-    let (mut now, mut h, mut v) = (0.0, [0.0, BAR_M * tilt], [-speed - half * spin, -speed + half * spin]);
-    // The last sample before the touch is the twenty-first.
-    let mut samples: Vec<[f64; 2]> = (0..21)
-        .map(|k| {
-            let t = f64::from(k) * step - touch;
-            [0, 1].map(|i| h[i] + v[i] * t - 0.5 * G * t * t)
-        })
-        .collect();
-    let jump = -(1.0 + e) * v[0];
-    v[0] += jump;
-    v[1] -= q * jump;
-    for k in 21..140 {
-        let until = f64::from(k) * step - touch;
-        loop {
-            let fall = |i: usize| (v[i] + f64::sqrt(v[i] * v[i] + 2.0 * G * h[i])) / G;
-            let i = usize::from(fall(1) < fall(0));
-            let dt = fall(i);
-            if now + dt > until {
-                break;
+    let (touch, step) = (0.020_34, 1e-6);
+    let ends = |y: f64, phi: f64| [y - half * phi.sin(), y + half * phi.sin()];
+    let (mut y, mut v, mut phi, mut w) = (half * tilt.sin(), -speed, tilt, spin);
+    let mut samples = Vec::new();
+    for k in 0..140_000_u32 {
+        let t = f64::from(k) * step - touch;
+        if t < 0.0 {
+            if k % 1000 == 0 {
+                samples.push(ends(half * tilt.sin() - t * (speed + 0.5 * G * t), tilt + spin * t));
             }
-            now += dt;
-            for j in 0..2 {
-                h[j] += dt * (v[j] - 0.5 * G * dt);
-                v[j] -= G * dt;
-            }
-            h[i] = 0.0;
-            let jump = -(1.0 + e) * v[i];
-            v[i] += jump;
-            v[1 - i] -= q * jump;
+            continue;
         }
-        let dt = until - now;
-        samples.push([0, 1].map(|i| h[i] + dt * (v[i] - 0.5 * G * dt)));
+        for (i, side) in [-1.0, 1.0].into_iter().enumerate() {
+            let x = side * half * phi.cos();
+            let rate = v + x * w;
+            if ends(y, phi)[i] <= 0.0 && rate < 0.0 {
+                let jump = -(1.0 + e) * rate / (1.0 + (x / RHO_M).powi(2));
+                v += jump;
+                w += jump * x / (RHO_M * RHO_M);
+            }
+        }
+        if k % 1000 == 0 {
+            samples.push(ends(y, phi));
+        }
+        y += step * (v - 0.5 * G * step);
+        v -= G * step;
+        phi += step * w;
     }
     let noisy = |(k, height_m): (usize, &[f64; 2])| {
         let height_m = height_m.map(|h| h + 2e-4 * random.normal());
         #[expect(clippy::cast_precision_loss, reason = "a hundred")]
-        MeasuredHeights { time_s: 3.0 + k as f64 * step, height_m }
+        MeasuredHeights { time_s: 3.0 + k as f64 * 1e-3, height_m }
     };
     samples.iter().enumerate().map(noisy).collect()
 }
@@ -399,6 +398,12 @@ fn heights_tell_how_it_fell() {
         let tilt = random.within(0.02, 0.04);
         let samples = heights(e, speed, tilt, spin, &mut random);
         let found = fit(&bar(None), &[Measured::Heights { samples, deviation_m: None }]).unwrap();
+        eprintln!(
+            "{e} {speed} {tilt} {spin}: {:e} {:?} {:?}",
+            found.records[0].scatter,
+            found.first,
+            found.estimates.iter().map(|x| (x.quantity, x.value)).collect::<Vec<_>>()
+        );
         let truths = [speed, tilt, spin, RHO_M];
         let quantities = [Quantity::Speed, Quantity::Tilt, Quantity::Spin, Quantity::RadiusOfGyration];
         for (k, (quantity, truth)) in quantities.into_iter().zip(truths).enumerate() {

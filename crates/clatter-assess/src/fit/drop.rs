@@ -47,8 +47,8 @@ const HORIZON: f64 = 3.0;
 const MOST_CONTACTS: usize = 64;
 /// Events of a flight with contacts for each strike, at most: a body that rocks in its dents is left there.
 const EVENTS: usize = 8;
-/// Strikes of a flight at most: more than records have.
-const MOST_STRIKES: usize = 8192;
+/// Strikes of a flight at most, where no more were measured: later ones of a body that comes to rest are too small to be seen.
+const MOST_STRIKES: usize = 256;
 
 /// A drop of which some is unknown, and what was measured of it.
 #[derive(Debug, Clone)]
@@ -166,7 +166,8 @@ impl Drop<'_> {
     }
     /// The flight of the rigid body until `enough`.
     pub(super) fn rigid(&self, x: &[f64], horizon_s: f64, enough: impl FnMut(&Flight) -> bool) -> Option<Path> {
-        let scene = self.scene(x).ok()?.with_impact_limit(MOST_STRIKES).ok()?.with_time_limit_s(horizon_s).ok()?;
+        let most = self.sets.iter().map(Set::strikes).max().unwrap_or(0).max(MOST_STRIKES);
+        let scene = self.scene(x).ok()?.with_impact_limit(most).ok()?.with_time_limit_s(horizon_s).ok()?;
         let flight = scene.simulate_ends(self.restitutions(x), enough).ok()?;
         Some(Path::Rigid(Box::new(scene), flight))
     }

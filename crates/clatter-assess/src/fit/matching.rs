@@ -5,10 +5,14 @@ use super::solve::{Minimum, Problem};
 use super::starts::{TAKEN, starts};
 use super::student;
 use super::{Error, MeasuredStrike, Set, Which};
+use std::cmp::Ordering;
+
 use clatter::End;
 
 /// Starts that go on where fewer have not led to a fit.
 const MORE_TAKEN: usize = 24;
+/// Starts that go on for each thing that may be wrong.
+const TRIED: usize = 3;
 /// More strikes than these can tell both ends apart and that they do.
 const ENOUGH_FOR_BOTH: usize = 6;
 /// Strikes may be missing before so many of the first measured ones.
@@ -58,9 +62,16 @@ struct Candidate {
 }
 
 impl Candidate {
-    /// The better one is smaller.
-    fn rank(&self) -> (usize, f64) {
-        (self.wrong_ends, self.minimum.sum())
+    /// The better one is less: by ends, then by the scatter for the degrees of freedom, so that nothing is gained by leaving out a
+    /// strike alone.
+    fn order(&self, other: &Self) -> Ordering {
+        let key = |fit: &Self| {
+            #[expect(clippy::cast_precision_loss, reason = "a count of strikes")]
+            let scatter = if fit.degrees() > 0 { fit.minimum.sum() / fit.degrees() as f64 } else { f64::INFINITY };
+            [scatter, fit.minimum.sum()]
+        };
+        let [[a, c], [b, d]] = [key(self), key(other)];
+        self.wrong_ends.cmp(&other.wrong_ends).then(a.total_cmp(&b)).then(c.total_cmp(&d))
     }
     fn degrees(&self) -> usize {
         self.minimum.residuals.len().saturating_sub(self.free)
@@ -141,10 +152,7 @@ impl Search<'_> {
             if !self.is_suspect(&best) || self.drop.left.get() == 0 {
                 break;
             }
-            let other = round.iter().map(|faults| self.candidate(faults, 1)).min_by(|a, b| {
-                let (a, b) = (a.rank(), b.rank());
-                a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
-            });
+            let other = round.iter().map(|faults| self.candidate(faults, TRIED)).min_by(Candidate::order);
             if let Some(other) = other
                 && self.is_better(&best, &other, round.len())
             {
@@ -159,7 +167,8 @@ impl Search<'_> {
             self.take(&best.index);
             best.minimum = minimize(&self.drop, &best.minimum.x, &self.free(best.free));
         }
-        if let Some(k) = self.outlier(&best) {
+        let is_whole = best.index.iter().all(Option::is_some);
+        if is_whole && let Some(k) = self.outlier(&best) {
             let left_out = best.index.iter().enumerate().map(|(i, index)| if i == k { None } else { *index });
             return Ok(Found { index: left_out.collect(), x: best.minimum.x, is_plain });
         }
@@ -217,7 +226,7 @@ impl Search<'_> {
         // One at least.
         let starts = starts(&self.drop, taken).into_iter().enumerate();
         let candidates = starts.take_while(|(k, _)| *k == 0 || self.drop.left.get() > 0).map(|(_, x)| minimum(x));
-        let best = candidates.min_by(|a, b| a.rank().0.cmp(&b.rank().0).then(a.rank().1.total_cmp(&b.rank().1)));
+        let best = candidates.min_by(Candidate::order);
         // The grid has hundreds of starts.
         best.unwrap_or_else(|| minimum(self.drop.given()))
     }

@@ -18,8 +18,8 @@ use crate::{First, Model};
 const MOST_VALUES: usize = 4096;
 /// Strikes that are off by this share of the mean time between them are not explained.
 const FAR_OFF: f64 = 0.1;
-/// Heights that are off by this share of the length, 1.4 mm of 140 mm, are met.
-const MET: f64 = 0.01;
+/// Heights that are off by this share of the length, 0.3 mm of 140 mm, are met, and the other end is not tried.
+const MET: f64 = 0.002;
 /// Strikes shown beyond the last measured one.
 const MORE: usize = 3;
 

@@ -161,6 +161,9 @@ impl Search<'_, '_> {
         if self.count > free.len() + usize::from(!self.known) && !self.drop.known.gyration_known {
             free.push(GYRATION);
         }
+        if starts.iter().any(|x| x[DIFFERENCE].abs() > 0.0) {
+            free.push(DIFFERENCE);
+        }
         free.truncate(self.count);
         // Each strike multiplies what is off before it: the early part of a record comes first.
         let staged = |x: &Vec<f64>| {
