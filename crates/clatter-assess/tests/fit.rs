@@ -279,10 +279,6 @@ fn missing_merged_and_wrong_strikes_are_found() {
         let missing = faulty(|list| {
             list.remove(place);
         });
-        eprintln!(
-            "{place}: {:e} {:?} {:?}",
-            missing.records[0].scatter, missing.records[0].missing, missing.records[0].strikes
-        );
         assert_eq!(missing.records[0].missing, [place + 1], "strike {}", place + 1);
         assert!((restitution_of_a(&missing).value - 0.55).abs() < 0.01, "{place}: {:?}", restitution_of_a(&missing));
     }
@@ -398,12 +394,6 @@ fn heights_tell_how_it_fell() {
         let tilt = random.within(0.02, 0.04);
         let samples = heights(e, speed, tilt, spin, &mut random);
         let found = fit(&bar(None), &[Measured::Heights { samples, deviation_m: None }]).unwrap();
-        eprintln!(
-            "{e} {speed} {tilt} {spin}: {:e} {:?} {:?}",
-            found.records[0].scatter,
-            found.first,
-            found.estimates.iter().map(|x| (x.quantity, x.value)).collect::<Vec<_>>()
-        );
         let truths = [speed, tilt, spin, RHO_M];
         let quantities = [Quantity::Speed, Quantity::Tilt, Quantity::Spin, Quantity::RadiusOfGyration];
         for (k, (quantity, truth)) in quantities.into_iter().zip(truths).enumerate() {

@@ -258,6 +258,10 @@ impl Search<'_> {
         if other.wrong_ends != plain.wrong_ends {
             return other.wrong_ends < plain.wrong_ends;
         }
+        // As many unknowns as data explain anything.
+        if other.degrees() == 0 {
+            return false;
+        }
         #[expect(clippy::cast_precision_loss, reason = "some hundred")]
         let alpha = CHANCE / tried as f64;
         let (before, after) = (plain.minimum.sum(), other.minimum.sum());

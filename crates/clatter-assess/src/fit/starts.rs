@@ -59,7 +59,9 @@ fn at(drop: &Drop<'_>, x: &[f64]) -> Vec<Vec<f64>> {
     // Heights tell most of how it fell, strikes when.
     for (k, set) in drop.sets.iter().enumerate() {
         if let Set::Heights { samples, .. } = set {
-            all.iter_mut().for_each(|x| by_heights(drop, k, samples, x));
+            for x in &mut all {
+                by_heights(drop, k, samples, x);
+            }
         }
     }
     for (k, set) in drop.sets.iter().enumerate() {

@@ -224,16 +224,16 @@ impl Search<'_, '_> {
             }
             let mut more = told.free.clone();
             more.push(unknown);
-            match self.untold(&told.minimum, &more, Some(unknown)) {
-                Some((_, reason)) => told.held.push((unknown, reason)),
-                None => {
-                    let minimum = self.with(|problem| problem.minimize(&told.minimum.x, &more));
-                    // Where the minimum is, it may be told less than where it was looked for.
-                    match self.untold(&minimum, &more, Some(unknown)) {
-                        Some((_, reason)) => told.held.push((unknown, reason)),
-                        None => (told.minimum, told.free) = (minimum, more),
-                    }
-                }
+            if let Some((_, reason)) = self.untold(&told.minimum, &more, Some(unknown)) {
+                told.held.push((unknown, reason));
+                continue;
+            }
+            // At the new minimum it may be told less than at the old one.
+            let minimum = self.with(|problem| problem.minimize(&told.minimum.x, &more));
+            if let Some((_, reason)) = self.untold(&minimum, &more, Some(unknown)) {
+                told.held.push((unknown, reason));
+            } else {
+                (told.minimum, told.free) = (minimum, more);
             }
         }
     }
