@@ -13,6 +13,7 @@ mod design;
 mod docs;
 mod explain;
 mod extremes;
+mod fit;
 mod hostile;
 mod json;
 mod map;

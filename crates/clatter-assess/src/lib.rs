@@ -10,6 +10,7 @@ mod drop;
 mod engine;
 mod error;
 mod fault;
+pub mod fit;
 mod history;
 mod keys;
 pub mod ladder;

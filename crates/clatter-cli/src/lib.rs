@@ -24,6 +24,7 @@ mod drop_args;
 mod excitation;
 mod explain;
 mod failure;
+mod fit;
 mod impacts;
 mod init;
 mod input;
@@ -157,6 +158,7 @@ enum Command {
     Assess(assess::Args),
     Explain(explain::Args),
     Tradeoff(tradeoff::Args),
+    Fit(Box<fit::Args>),
     Init(init::Args),
     Schema(schema::Args),
     Report(report::Args),
@@ -190,6 +192,7 @@ impl Command {
             Self::Record(_) => "a shorter record and fewer channels take less",
             Self::Respond(_) | Self::Spectrum(_) => "shorter lists and fewer natural frequencies take less",
             Self::Scatter(_) => "fewer samples take less",
+            Self::Fit(_) => "shorter records take less",
             _ => "narrower ranges and fewer components take less",
         }
     }
@@ -208,6 +211,7 @@ impl Command {
             Self::Design(args) => args.run(streams),
             Self::Explain(args) => args.run(streams),
             Self::Tradeoff(args) => args.run(streams),
+            Self::Fit(args) => args.run(streams),
             Self::Init(args) => args.run(streams),
             Self::Schema(args) => args.run(streams),
             Self::Report(args) => args.run(streams),
@@ -227,6 +231,7 @@ impl Command {
             Self::Scatter(args) => args.files(),
             Self::Assess(args) => args.files(),
             Self::Tradeoff(args) => args.files(),
+            Self::Fit(args) => args.files(),
             _ => Files::default(),
         }
     }

@@ -13,6 +13,7 @@ use crate::inputs::number;
 use crate::text::visible;
 use crate::{Failure, input};
 use rows::rows;
+pub(crate) use rows::rows_of;
 
 /// Velocity shocks, in order of time.
 pub(crate) fn shocks(path: &Path) -> Result<Vec<VelocityShock>, Failure> {
@@ -93,7 +94,7 @@ pub(crate) fn limit(path: &Path, dimension: &'static Dimension) -> Result<LimitA
     Ok(LimitArg { curve, level: None, typed: unit.map(|unit| (dimension, unit)) })
 }
 
-fn finite(name: &str, text: &str) -> Result<f64, String> {
+pub(crate) fn finite(name: &str, text: &str) -> Result<f64, String> {
     let value = number(text).map_err(|error| format!("{name}: {error}"))?;
     if value.is_finite() { Ok(value) } else { Err(format!("{name} = {value:?} is not finite")) }
 }

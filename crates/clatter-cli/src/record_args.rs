@@ -71,6 +71,18 @@ impl RecordArgs {
 
     /// The record of a file, or of standard input.
     pub(crate) fn read(&self, path: &Path) -> Result<Record, Failure> {
+        let unreadable = |error: io::Error| Failure::Record {
+            path: path.to_owned(),
+            reason: clatter_record::Error::Read(error.to_string()),
+        };
+        if input::is_standard(path) {
+            return self.read_from(path, io::stdin().lock());
+        }
+        self.read_from(path, File::open(path).map_err(unreadable)?)
+    }
+
+    /// The same of what is read of it.
+    pub(crate) fn read_from(&self, path: &Path, from: impl Read) -> Result<Record, Failure> {
         let options = Options {
             time: self.time.clone(),
             accelerations: self.acceleration.clone(),
@@ -81,14 +93,7 @@ impl RecordArgs {
             ..Options::default()
         };
         let bad = |reason| Failure::Record { path: path.to_owned(), reason };
-        let unreadable = |error: io::Error| bad(clatter_record::Error::Read(error.to_string()));
-        let (from, size): (Box<dyn Read>, u64) = if input::is_standard(path) {
-            (Box::new(io::stdin().lock()), 0)
-        } else {
-            let file = File::open(path).map_err(unreadable)?;
-            let size = file.metadata().ok().filter(std::fs::Metadata::is_file).map_or(0, |metadata| metadata.len());
-            (Box::new(file), size)
-        };
+        let size = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file).map_or(0, |metadata| metadata.len());
         let reading = Counted::begin("reading", size);
         Record::read(from, &options, |bytes| reading.at(bytes)).map_err(bad)
     }

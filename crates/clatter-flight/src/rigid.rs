@@ -6,6 +6,8 @@ mod map;
 mod pivot;
 mod settling;
 
+use clatter::{Error, Restitution};
+
 use crate::flight::{Flight, Model, State, Stop, Strike};
 use crate::scene::Scene;
 
@@ -35,8 +37,33 @@ impl Scene {
             // Without gravity the small-tilt motion is the map, which has closed forms where iteration drifts.
             Model::Ballistic if self.gravity_m_s2() == 0.0 => map::simulate(self, enough),
             Model::Ballistic => ballistic::simulate(self, enough),
-            Model::FiniteTilt => finite_tilt::simulate(self, enough),
+            Model::FiniteTilt => finite_tilt::simulate(self, [self.e(); 2], f64::INFINITY, enough),
         }
+    }
+
+    /// The same at any tilt, of a body whose ends rebound differently: `restitution` of ends a and b counts in place of that
+    /// of the scene. Beyond the time limit of the scene no strike is looked for: the flight ends with [`Stop::TimeLimit`] also where
+    /// none would follow.
+    ///
+    /// # Errors
+    /// [`Error::Restitution`] unless both are in [0, 1].
+    ///
+    /// # Examples
+    /// A dead end a, and an end b that gives back all of its speed: e = 0, then e = 1.
+    /// ```
+    /// use clatter_flight::{Body, Scene};
+    /// let scene = Scene::new(Body::new(0.14, 0.04)?, 0.5, 2.0, 1.0, 9.81)?;
+    /// let flight = scene.simulate_ends([0.0, 1.0], |flight| flight.strikes.len() == 2)?;
+    /// let [first, second] = &flight.strikes[..] else { panic!("two strikes") };
+    /// assert!((first.point, second.point) == (0, 1) && first.velocity_m_s[0] == 0.0);
+    /// assert!((second.velocity_m_s[1] + second.approach_m_s).abs() < 1e-15);
+    /// # Ok::<(), clatter::Error>(())
+    /// ```
+    pub fn simulate_ends(&self, restitution: [f64; 2], enough: impl FnMut(&Flight) -> bool) -> Result<Flight, Error> {
+        for e in restitution {
+            Restitution::new(e)?;
+        }
+        Ok(finite_tilt::simulate(self, restitution, self.time_limit_s(), enough))
     }
 }
 

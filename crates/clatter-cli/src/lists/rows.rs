@@ -127,7 +127,18 @@ pub(super) fn rows<const N: usize>(
     each: impl FnMut([&str; N]) -> Result<(), String>,
 ) -> Result<(), Failure> {
     let unreadable = |reason| Failure::Unreadable { path: path.to_owned(), reason };
-    let mut rows = Rows::new(BufReader::with_capacity(1 << 20, input::open(path).map_err(unreadable)?));
+    rows_of(path, BufReader::with_capacity(1 << 20, input::open(path).map_err(unreadable)?), names, each)
+}
+
+/// The same of a file that is open already.
+pub(crate) fn rows_of<const N: usize>(
+    path: &Path,
+    input: impl BufRead,
+    names: [&str; N],
+    each: impl FnMut([&str; N]) -> Result<(), String>,
+) -> Result<(), Failure> {
+    let unreadable = |reason| Failure::Unreadable { path: path.to_owned(), reason };
+    let mut rows = Rows::new(input);
     read(&mut rows, names, each).map_err(|bad| match bad {
         Bad::Input(reason) => unreadable(reason),
         Bad::Row(what) => Failure::Line { path: path.to_owned(), line: rows.line.max(1), what },

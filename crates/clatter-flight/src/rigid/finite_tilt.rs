@@ -266,9 +266,10 @@ impl Ledger {
 /// turn.
 const IDLE: u32 = 64;
 
-pub(super) fn simulate(scene: &Scene, mut enough: impl FnMut(&Flight) -> bool) -> Flight {
-    let (e, g) = (scene.e(), scene.gravity_m_s2());
-    let rest = Rest::new(scene);
+/// `e` of ends a and b. Strikes are looked for until `horizon_s`.
+pub(super) fn simulate(scene: &Scene, e: [f64; 2], horizon_s: f64, mut enough: impl FnMut(&Flight) -> bool) -> Flight {
+    let g = scene.gravity_m_s2();
+    let rest = Rest::new(scene, e);
     let mut log = Log::new(scene);
     let mut pose = Pose::start(scene);
     let mut time = Clock::default();
@@ -303,15 +304,18 @@ pub(super) fn simulate(scene: &Scene, mut enough: impl FnMut(&Flight) -> bool) -
             1 - pivot
         } else {
             let upright = pose.upright();
-            let ta = pose.touch(0, upright, leaving[0]);
-            let tb = pose.touch(1, ta.unwrap_or(upright), leaving[1]);
+            let sight = upright.min((horizon_s - time.now()).max(0.0));
+            let ta = pose.touch(0, sight, leaving[0]);
+            let tb = pose.touch(1, ta.unwrap_or(sight), leaving[1]);
             // At one instant end a strikes first: b is looked for before a's time only.
             if [ta, tb].into_iter().enumerate().any(|(i, t)| t.is_some_and(|t| pose.is_lost(i, t))) {
                 log.lost(time.now());
                 break;
             }
             let Some((i, dt)) = tb.map(|t| (1, t)).or(ta.map(|t| (0, t))) else {
-                if upright < f64::INFINITY {
+                if sight < upright {
+                    log.lost(horizon_s);
+                } else if upright < f64::INFINITY {
                     log.turned_over(time.now() + upright);
                 } else {
                     log.bounced_clear();
@@ -339,11 +343,11 @@ pub(super) fn simulate(scene: &Scene, mut enough: impl FnMut(&Flight) -> bool) -
             continue;
         }
         idle = 0;
-        let jump = -(1.0 + e) * u;
+        let jump = -(1.0 + e[i]) * u;
         let other = pose.strike(i, jump);
-        pose.ends.v[i] = -e * u;
+        pose.ends.v[i] = -e[i] * u;
         pose.level();
-        ledger.strike(&pose, pose.mass(i), e, u);
+        ledger.strike(&pose, pose.mass(i), e[i], u);
         leaving[i] = false;
         let delta_v = if i == 0 { [jump, other] } else { [other, jump] };
         if !log.strike(i, time.now(), u, delta_v, &pose.after(), &mut enough) {
@@ -356,7 +360,7 @@ pub(super) fn simulate(scene: &Scene, mut enough: impl FnMut(&Flight) -> bool) -
                 break;
             }
             if g > 0.0 {
-                chatter(&mut pose, &mut time, &mut log, i, e);
+                chatter(&mut pose, &mut time, &mut log, i, e[i]);
                 ledger = Ledger::open(&pose);
             }
         }
@@ -404,20 +408,21 @@ struct Rest {
     settling: Settling,
     scale_s: f64,
     gravity: f64,
+    /// The larger one: it bounds both ends.
     e: f64,
-    /// λ₊ and λ₋ of the level body where they are apart and below 1, κ.
+    /// λ₊ and λ₋ of the level body where they are apart and below 1 and both ends rebound alike, κ.
     contraction: Option<(f64, f64, f64)>,
 }
 
 impl Rest {
-    fn new(scene: &Scene) -> Self {
-        let (body, e, gravity) = (scene.body(), scene.e(), scene.gravity_m_s2());
+    fn new(scene: &Scene, [e_a, e_b]: [f64; 2]) -> Self {
+        let (body, e, gravity) = (scene.body(), e_a.max(e_b), scene.gravity_m_s2());
         let [qa, qb] = body.inertia_ratios();
         let q = (qa * qb).sqrt().copysign(qa);
         let trace = q * (1.0 + e);
         let root = (trace * trace - 4.0 * e).sqrt();
         // Margins far above rounding and the tilt left: what is closer to the edge runs to its limits instead.
-        let contracts = trace > 0.0 && root > 1e-3 && q < 1.0 - 1e-6;
+        let contracts = e_a - e_b == 0.0 && trace > 0.0 && root > 1e-3 && q < 1.0 - 1e-6;
         let [a, b] = body.arms_m();
         let kappa = (body.inertia(a) / body.inertia(b)).sqrt();
         Self {

@@ -1,0 +1,496 @@
+//! From what was measured of a drop to the data of the product.
+//!
+//! A drop that was measured, by the times of its strikes, the heights of the ends from a video, or the acceleration at a place,
+//! tells what a product file asks for: the restitution, the radius of gyration, the contact time, how the drop fell. [`fit`]
+//! finds the values with which a computed drop is nearest to the measured one, how far they may be off, and what the data cannot
+//! tell. Of a product that bounces flat, [`bounces`] tells the restitution by the ratio of flight times.
+//!
+//! # Method
+//! Least squares by Levenberg and Marquardt (MINPACK, the crate `levenberg-marquardt`) over the flights of `clatter-flight`, from
+//! several starts: for a grid of restitutions and radii of gyration the train of [`clatter::OffCenterBar`] has its strikes at known
+//! times in units of the gap over the speed, so that this and the first touch follow by linear regression. The starts with the
+//! smallest scatter go on.
+//!
+//! # Which strike is which
+//! Measured strikes are computed ones in the same order, the first is the first. Strikes at the end may be missing freely. Where
+//! that does not explain the data, it is tried that up to two strikes before are missing, anywhere among the first
+//! 16 (two strikes measured as one are one that is missing), or that one time is wrong. Such a fit counts only where chance makes
+//! the scatter of the other fit that much larger less than once in a thousand times, over all that was tried. Contacts that take
+//! time take too long for that: there one time may be wrong where all else fits (by its externally studentized residual).
+//!
+//! # Intervals
+//! From the Jacobian at the minimum and Student's t: with J the derivatives of the residuals over their standard deviation s,
+//! s² (JᵀJ)⁻¹ is the covariance, s² the sum of squares over the number of data less that of unknowns. Where the standard deviation of
+//! the data is given, s = 1 and t is normal. What is held at a value of the product file widens the others by its range there.
+//!
+//! # What the data cannot tell
+//! An unknown is left free as long as every direction in the space of unknowns is told: the singular values of J, each column scaled
+//! by how well the unknown has to be known to be of use, say so. What is not told is held at the value of the product file, and what
+//! undoes its change in the data is named.
+
+mod bounces;
+mod drop;
+mod matching;
+mod report;
+mod solve;
+mod starts;
+mod student;
+mod told;
+mod write;
+
+use clatter::End;
+use clatter_flight::{Body, ContactLaw, Strike};
+
+use crate::{First, Model, ProductFile};
+
+pub use bounces::bounces;
+use drop::{Drop, Path};
+pub use report::fit;
+pub use write::{Written, written};
+
+/// Strikes of a record at most.
+pub const MOST_STRIKES: usize = 4096;
+/// Samples of a record at most.
+pub const MOST_SAMPLES: usize = 1_000_000;
+
+/// What the product file says of the product and of its drop.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Known {
+    /// Length and center of mass; the radius of gyration is where the search begins, and stays where the data do not tell it.
+    pub body: Body,
+    /// Whether the radius of gyration is known and not looked for. Strike times tell it and the restitution mostly together, so that
+    /// the restitution is then known several times better.
+    pub gyration_known: bool,
+    /// The end that touches first.
+    pub first: First,
+    /// Gravity, in m/s²; 0 switches it off.
+    pub gravity_m_s2: f64,
+    /// Range of the restitution.
+    pub restitution: [f64; 2],
+    /// Range of the speed at the first touch.
+    pub speed_m_s: [f64; 2],
+    /// Range of the tilt.
+    pub tilt_rad: [f64; 2],
+    /// Range of the contact time, where it is known: contacts then take time in the fit as well.
+    pub contact_time_s: Option<[f64; 2]>,
+    /// What the ground does to an end while it touches.
+    pub contact_law: ContactLaw,
+}
+
+impl From<&ProductFile> for Known {
+    fn from(file: &ProductFile) -> Self {
+        let range = |spread: &crate::Spread| [spread.lo(), spread.hi()];
+        Self {
+            body: file.product.body,
+            gyration_known: false,
+            first: file.drop.first,
+            gravity_m_s2: file.drop.gravity_m_s2,
+            restitution: range(&file.product.restitution),
+            speed_m_s: file.drop.speeds_m_s(),
+            tilt_rad: range(&file.drop.tilt_rad),
+            contact_time_s: file.product.contact_time_s.as_ref().map(range),
+            contact_law: file.product.contact_law,
+        }
+    }
+}
+
+/// One record of a drop. Its time axis begins anywhere.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Measured {
+    /// Times of strikes.
+    Strikes {
+        /// In order of time.
+        strikes: Vec<MeasuredStrike>,
+        /// Standard deviation of a time; without it the scatter about the fit tells it.
+        deviation_s: Option<f64>,
+    },
+    /// Heights of both ends over the ground, from a video.
+    Heights {
+        /// In order of time.
+        samples: Vec<MeasuredHeights>,
+        /// Standard deviation of a height; without it the scatter about the fit tells it.
+        deviation_m: Option<f64>,
+    },
+    /// Acceleration at a place, upward positive and 0 in free fall, as sensors have it.
+    Acceleration {
+        /// From the middle of the product towards end b.
+        position_m: f64,
+        /// Time of the first value.
+        start_s: f64,
+        /// Time between two values.
+        step_s: f64,
+        /// Each the mean over a step about its time.
+        values_m_s2: Vec<f64>,
+    },
+}
+
+/// One strike of a record.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeasuredStrike {
+    /// On the time axis of the record.
+    pub time_s: f64,
+    /// The end that strikes, where it is known.
+    pub end: Option<End>,
+}
+
+/// Heights of both ends at a time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeasuredHeights {
+    /// On the time axis of the record.
+    pub time_s: f64,
+    /// Of ends a and b over the ground.
+    pub height_m: [f64; 2],
+}
+
+/// What a fit may tell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Quantity {
+    /// Coefficient of restitution of both ends.
+    Restitution,
+    /// That of end a.
+    RestitutionA,
+    /// That of end b.
+    RestitutionB,
+    /// Radius of gyration about the center of mass, in m.
+    RadiusOfGyration,
+    /// Inertia ratio of the level body.
+    InertiaRatio,
+    /// Height gap of the ends at the first touch over the speed, in s.
+    GapOverSpeed,
+    /// Speed at the first touch, in m/s.
+    Speed,
+    /// Height from which a body reaches that speed, in m.
+    DropHeight,
+    /// Angle to the ground at the first touch, in rad.
+    Tilt,
+    /// Angular velocity at the first touch, end b upward, in rad/s.
+    Spin,
+    /// How long a lone contact takes, in s.
+    ContactTime,
+}
+
+impl Quantity {
+    /// `restitution`, `restitution-a`, `restitution-b`, `radius-of-gyration`, `inertia-ratio`, `gap-over-speed`, `speed`,
+    /// `drop-height`, `tilt`, `spin` or `contact-time`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Restitution => "restitution",
+            Self::RestitutionA => "restitution-a",
+            Self::RestitutionB => "restitution-b",
+            Self::RadiusOfGyration => "radius-of-gyration",
+            Self::InertiaRatio => "inertia-ratio",
+            Self::GapOverSpeed => "gap-over-speed",
+            Self::Speed => "speed",
+            Self::DropHeight => "drop-height",
+            Self::Tilt => "tilt",
+            Self::Spin => "spin",
+            Self::ContactTime => "contact-time",
+        }
+    }
+    /// Its SI unit; empty for a plain number.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Restitution | Self::RestitutionA | Self::RestitutionB | Self::InertiaRatio => "",
+            Self::RadiusOfGyration | Self::DropHeight => "m",
+            Self::GapOverSpeed | Self::ContactTime => "s",
+            Self::Speed => "m/s",
+            Self::Tilt => "rad",
+            Self::Spin => "rad/s",
+        }
+    }
+}
+
+/// A quantity, its value and how far it may be off.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Estimate {
+    /// What it is.
+    pub quantity: Quantity,
+    /// Its value with which the computed drop is nearest to the measured one.
+    pub value: f64,
+    /// Holds the true value in 95 of 100 such measurements; none where nothing tells the scatter of the data.
+    pub interval: Option<[f64; 2]>,
+    /// What the value owes to the product file.
+    pub note: Option<String>,
+}
+
+/// A quantity that the data do not tell.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Untold {
+    /// What it is.
+    pub quantity: Quantity,
+    /// The value of the product file at which it is held.
+    pub held_at: f64,
+    /// Why.
+    pub reason: String,
+}
+
+/// What became of a measured strike.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StrikeFit {
+    /// As measured.
+    pub measured: MeasuredStrike,
+    /// The computed strike that it is, from 1; none if it was left out as wrong.
+    pub number: Option<usize>,
+    /// Measured less computed time.
+    pub residual_s: Option<f64>,
+}
+
+/// What a fit makes of one record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecordFit {
+    /// The first touch on the time axis of the record.
+    pub first_touch_s: f64,
+    /// Root mean square of measured less computed values, in s, m or m/s².
+    pub scatter: f64,
+    /// Of strikes, one by one; else empty.
+    pub strikes: Vec<StrikeFit>,
+    /// Numbers of computed strikes before the last measured one that the record does not have.
+    pub missing: Vec<usize>,
+    /// Of heights of ends a and b, or of accelerations: time, measured and computed value; else empty.
+    pub curves: Vec<Vec<[f64; 3]>>,
+}
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// The model of the computed drop: finite-tilt, or compliant where contacts take time.
+    pub model: Model,
+    /// The end that touches first.
+    pub first: End,
+    /// What the data tell.
+    pub estimates: Vec<Estimate>,
+    /// What they do not.
+    pub untold: Vec<Untold>,
+    /// Correlations of the estimates, in their order; empty where nothing tells the scatter of the data.
+    pub correlations: Vec<Vec<f64>>,
+    /// Number of data less that of unknowns.
+    pub degrees_of_freedom: usize,
+    /// Each record.
+    pub records: Vec<RecordFit>,
+    /// Computed strikes, up to the last one that was measured and three more: time since the first touch, and which end.
+    pub computed: Vec<(f64, End)>,
+    /// What is odd: strikes missing or left out, a drop that does not explain the data.
+    pub notes: Vec<String>,
+}
+
+/// Why there is no fit.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A number of a record that none can be.
+    #[error("record {record}: {name} = {value:?} is not {allowed}")]
+    Value {
+        /// Which record, from 1.
+        record: usize,
+        /// What it is.
+        name: &'static str,
+        /// As it is.
+        value: f64,
+        /// What it may be.
+        allowed: &'static str,
+    },
+    /// Too few or too many data.
+    #[error("record {record}: {count} {name}; allowed: {allowed}")]
+    Count {
+        /// Which record, from 1.
+        record: usize,
+        /// How many.
+        count: usize,
+        /// Of what.
+        name: &'static str,
+        /// What may be.
+        allowed: &'static str,
+    },
+    /// No records.
+    #[error("nothing was measured: give at least one record")]
+    Nothing,
+    /// No computed drop comes near the data.
+    #[error("no drop was found whose {0} are as measured: check units, ends and the length in the product file")]
+    NoDrop(&'static str),
+}
+
+/// A computed strike, from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Which {
+    /// So many strikes come before it.
+    Of(usize),
+    /// So many strikes of its end come before it: two of both ends close together are the same whichever is measured first.
+    OfEnd(End, usize),
+}
+
+impl Which {
+    /// The place of the strike among all that were computed.
+    fn find(self, drop: &Drop<'_>, strikes: &[Strike]) -> Option<usize> {
+        match self {
+            Self::Of(n) => (n < strikes.len()).then_some(n),
+            Self::OfEnd(end, n) => {
+                let own = strikes.iter().enumerate().filter(|(_, strike)| drop.end(strike.point) == end);
+                own.map(|(k, _)| k).nth(n)
+            }
+        }
+    }
+}
+
+/// A record as the fit takes it.
+#[derive(Debug, Clone)]
+enum Set<'a> {
+    Strikes {
+        strikes: &'a [MeasuredStrike],
+        /// Of each the computed strike that it is; none of one that is left out.
+        index: Vec<Option<Which>>,
+        deviation: f64,
+    },
+    Heights {
+        samples: &'a [MeasuredHeights],
+        deviation: f64,
+    },
+    Acceleration {
+        /// From the middle towards end b, in half-lengths.
+        place: f64,
+        start_s: f64,
+        step_s: f64,
+        values: Vec<f64>,
+        deviation: f64,
+    },
+}
+
+impl Set<'_> {
+    /// Whether a flight has all strikes that are asked for.
+    fn has_enough(&self, drop: &Drop<'_>, strikes: &[Strike]) -> bool {
+        let Self::Strikes { index, .. } = self else { return true };
+        let most = |end: Option<End>| {
+            let of = |which: &Which| match *which {
+                Which::Of(n) => end.is_none().then_some(n + 1),
+                Which::OfEnd(own, n) => (end == Some(own)).then_some(n + 1),
+            };
+            index.iter().flatten().filter_map(of).max().unwrap_or(0)
+        };
+        let count = |end: End| strikes.iter().filter(|strike| drop.end(strike.point) == end).count();
+        strikes.len() >= most(None) && [End::A, End::B].into_iter().all(|end| count(end) >= most(Some(end)))
+    }
+    /// So many computed strikes have those that are asked for among them, unless one end strikes several times in a row more.
+    fn strikes(&self) -> usize {
+        let Self::Strikes { index, .. } = self else { return 0 };
+        let most = |end: End| {
+            let of = |which: &Which| match *which {
+                Which::Of(n) => n + 1,
+                Which::OfEnd(own, n) => {
+                    if own == end {
+                        n + 1
+                    } else {
+                        0
+                    }
+                }
+            };
+            index.iter().flatten().map(of).max().unwrap_or(0)
+        };
+        most(End::A) + most(End::B) + 2
+    }
+    /// Time from the first to the last measured strike.
+    fn span_s(&self) -> Option<f64> {
+        let Self::Strikes { strikes, .. } = self else { return None };
+        strikes.last().zip(strikes.first()).map(|(last, first)| last.time_s - first.time_s)
+    }
+    /// Until when the motion is asked for, on the time axis of the record; strikes ask for their number alone.
+    fn end_s(&self) -> Option<f64> {
+        match self {
+            Self::Strikes { .. } => None,
+            Self::Heights { samples, .. } => samples.last().map(|sample| sample.time_s),
+            #[expect(clippy::cast_precision_loss, reason = "at most a million")]
+            Self::Acceleration { start_s, step_s, values, .. } => Some(start_s + step_s * values.len() as f64),
+        }
+    }
+    fn deviation(&mut self) -> &mut f64 {
+        match self {
+            Self::Strikes { deviation, .. }
+            | Self::Heights { deviation, .. }
+            | Self::Acceleration { deviation, .. } => deviation,
+        }
+    }
+    /// What its data vary by, over their deviation: the time between strikes, the largest height or acceleration.
+    fn variation(&self, unit_s: f64) -> f64 {
+        match self {
+            Self::Strikes { deviation, .. } => unit_s / deviation,
+            Self::Heights { samples, deviation } => {
+                samples.iter().flat_map(|s| s.height_m).fold(0.0_f64, |most, h| most.max(h.abs())) / deviation
+            }
+            Self::Acceleration { values, deviation, .. } => {
+                values.iter().fold(0.0_f64, |most, a| most.max(a.abs())) / deviation
+            }
+        }
+    }
+    /// Number of residuals.
+    fn len(&self) -> usize {
+        match self {
+            Self::Strikes { index, .. } => index.iter().flatten().count(),
+            Self::Heights { samples, .. } => 2 * samples.len(),
+            Self::Acceleration { values, .. } => values.len(),
+        }
+    }
+    /// Computed values as the record has them: times, heights of ends a and b in turn, accelerations.
+    fn computed(&self, drop: &Drop<'_>, path: &Path, offset_s: f64) -> Vec<f64> {
+        match self {
+            Self::Strikes { index, .. } => {
+                let computed = path.strikes();
+                let never = drop.horizon_s();
+                let time = |which: &Which| {
+                    let found = which.find(drop, computed).map(|k| computed[k].time_s);
+                    offset_s + found.map_or(never, |time_s| time_s.min(never))
+                };
+                index.iter().flatten().map(time).collect()
+            }
+            Self::Heights { samples, .. } => {
+                let ends = |sample: &MeasuredHeights| {
+                    let [first, second] = path.heights_m(sample.time_s - offset_s);
+                    if drop.first == End::A { [first, second] } else { [second, first] }
+                };
+                samples.iter().flat_map(ends).collect()
+            }
+            Self::Acceleration { place, start_s, step_s, values, .. } => {
+                let s = if drop.first == End::A { *place } else { -place };
+                #[expect(clippy::cast_precision_loss, reason = "at most a million")]
+                let edge = |k: usize| path.given_m_s(s, start_s + step_s * (k as f64 - 0.5) - offset_s);
+                let mut before = edge(0);
+                let mut mean = |k: usize| {
+                    let now = edge(k + 1);
+                    let mean = (now - before) / step_s;
+                    before = now;
+                    mean
+                };
+                (0..values.len()).map(&mut mean).collect()
+            }
+        }
+    }
+    /// Measured values in the same order.
+    fn measured(&self) -> Vec<f64> {
+        match self {
+            Self::Strikes { strikes, index, .. } => strikes
+                .iter()
+                .zip(index)
+                .filter(|(_, index)| index.is_some())
+                .map(|(strike, _)| strike.time_s)
+                .collect(),
+            Self::Heights { samples, .. } => samples.iter().flat_map(|sample| sample.height_m).collect(),
+            Self::Acceleration { values, .. } => values.clone(),
+        }
+    }
+    fn residuals(&self, drop: &Drop<'_>, path: Option<&Path>, offset_s: f64, all: &mut Vec<f64>) {
+        let (Self::Strikes { deviation, .. } | Self::Heights { deviation, .. } | Self::Acceleration { deviation, .. }) =
+            self;
+        let measured = self.measured();
+        match path {
+            Some(path) => {
+                let computed = self.computed(drop, path, offset_s);
+                all.extend(measured.iter().zip(computed).map(|(measured, computed)| (measured - computed) / deviation));
+            }
+            // A drop that no flight answers is no answer: further off than any.
+            None => all.extend(measured.iter().map(|_| FAR)),
+        }
+    }
+}
+
+/// A residual that none passes.
+const FAR: f64 = 1e9;

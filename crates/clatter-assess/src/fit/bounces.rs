@@ -1,0 +1,132 @@
+//! One point that bounces: the restitution by the ratio of flight times.
+
+use clatter::End;
+
+use super::solve::Problem;
+use super::student;
+use super::{Error, Estimate, Fit, MOST_STRIKES, MeasuredStrike, Quantity, RecordFit, StrikeFit};
+use crate::Model;
+
+/// Unknowns: first touch over the first flight time, ln of the first flight time, restitution.
+const FREE: [usize; 3] = [0, 1, 2];
+
+/// The restitution from the times at which a body that lands flat, or one point of it alone, bounces.
+///
+/// # Formula
+/// A flight after an approach of v takes 2 e v/g, and the next approach is e v: flight times are f, e f, e² f, … So the n-th bounce
+/// is at t₀ + f (1 + e + … + eⁿ⁻²). The three unknowns by least squares; intervals as those of [`fit`](super::fit). The height of the
+/// drop, if the body was let go at rest, is (g f/e)²/(8 g).
+///
+/// # Validity
+/// One restitution at any speed; contacts short beside flights; no air; gravity in m/s².
+///
+/// # Errors
+/// [`Error`] unless 3 to 4096 finite times rise.
+///
+/// # Examples
+/// Flights of 0.4, 0.2 and 0.1 s:
+/// ```
+/// use clatter_assess::fit::bounces;
+/// let found = bounces(&[1.0, 1.4, 1.6, 1.7], 9.81, Some(1e-4))?;
+/// assert!((found.estimates[0].value - 0.5).abs() < 1e-9);
+/// # Ok::<(), clatter_assess::fit::Error>(())
+/// ```
+pub fn bounces(times_s: &[f64], gravity_m_s2: f64, deviation_s: Option<f64>) -> Result<Fit, Error> {
+    check(times_s, deviation_s)?;
+    let flights: Vec<f64> = times_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let unit_s = flights[0];
+    let deviation = deviation_s.unwrap_or(1e-3 * unit_s);
+    let computed = |x: &[f64]| {
+        let mut flight = libm::exp(x[1]);
+        let mut time = x[0] * unit_s;
+        let mut at = Vec::with_capacity(times_s.len());
+        for _ in times_s {
+            at.push(time);
+            time += flight;
+            flight *= x[2];
+        }
+        at
+    };
+    let residuals = |x: &[f64]| {
+        times_s.iter().zip(computed(x)).map(|(measured, computed)| (measured - computed) / deviation).collect()
+    };
+    let bounds = [[f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, 30.0], [0.0, 1.0]];
+    let problem = Problem { residuals: &residuals, bounds: &bounds, step: 1e-6, patience: 100 };
+    let start = [times_s[0] / unit_s, libm::log(unit_s), (flights[1] / flights[0]).clamp(0.01, 0.99)];
+    let minimum = problem.minimize(&start, &FREE);
+    let degrees = times_s.len() - FREE.len();
+    #[expect(clippy::cast_precision_loss, reason = "at most 4096")]
+    let scatter = match deviation_s {
+        Some(_) => Some(1.0),
+        None => (degrees > 0).then(|| (minimum.sum() / degrees as f64).sqrt()),
+    };
+    let t = student::two_sided(0.05, deviation_s.is_none().then_some(degrees.max(1)));
+    let inverse = problem.jacobian(&minimum.x, &FREE).pseudo_inverse(0.0).ok();
+    let covariance = inverse.map(|inverse| &inverse * inverse.transpose());
+    let half = |gradient: [f64; 3]| {
+        let (scatter, covariance) = (scatter?, covariance.as_ref()?);
+        let of = |i: usize| (0..3).map(|j| gradient[i] * covariance[(i, j)] * gradient[j]).sum::<f64>();
+        Some(t * scatter * (0..3).map(of).sum::<f64>().sqrt())
+    };
+    let e = minimum.x[2];
+    let interval = half([0.0, 0.0, 1.0]).map(|half| [(e - half).max(0.0), (e + half).min(1.0)]);
+    let mut estimates = vec![Estimate { quantity: Quantity::Restitution, value: e, interval, note: None }];
+    if gravity_m_s2 > 0.0 && e > 0.0 {
+        let speed = 0.5 * gravity_m_s2 * libm::exp(minimum.x[1]) / e;
+        let value = 0.5 * speed * speed / gravity_m_s2;
+        // Of ln h = 2 ln f − 2 ln e.
+        let interval = half([0.0, 2.0, -2.0 / e]).map(|half| [value * libm::exp(-half), value * libm::exp(half)]);
+        let note = Some("if it was let go at rest".to_owned());
+        estimates.push(Estimate { quantity: Quantity::DropHeight, value, interval, note });
+    }
+    let first_touch_s = minimum.x[0] * unit_s;
+    let at = computed(&minimum.x);
+    let strikes: Vec<StrikeFit> = times_s
+        .iter()
+        .zip(&at)
+        .enumerate()
+        .map(|(k, (&time_s, computed))| StrikeFit {
+            measured: MeasuredStrike { time_s, end: None },
+            number: Some(k + 1),
+            residual_s: Some(time_s - computed),
+        })
+        .collect();
+    #[expect(clippy::cast_precision_loss, reason = "at most 4096")]
+    let rms = deviation * (minimum.sum() / times_s.len() as f64).sqrt();
+    let record = RecordFit { first_touch_s, scatter: rms, strikes, missing: Vec::new(), curves: Vec::new() };
+    let notes = if scatter.is_none() {
+        vec!["there are as many unknowns as data, and nothing tells their scatter: no intervals".to_owned()]
+    } else {
+        Vec::new()
+    };
+    Ok(Fit {
+        model: Model::Ballistic,
+        first: End::A,
+        estimates,
+        untold: Vec::new(),
+        correlations: Vec::new(),
+        degrees_of_freedom: degrees,
+        records: vec![record],
+        computed: at.iter().map(|time_s| (time_s - first_touch_s, End::A)).collect(),
+        notes,
+    })
+}
+
+fn check(times_s: &[f64], deviation_s: Option<f64>) -> Result<(), Error> {
+    if !(3..=MOST_STRIKES).contains(&times_s.len()) {
+        return Err(Error::Count { record: 1, count: times_s.len(), name: "bounces", allowed: "3 to 4096" });
+    }
+    for pair in times_s.windows(2) {
+        if !(pair[0].abs() < 1e9 && pair[1].abs() < 1e9 && pair[0] < pair[1]) {
+            let allowed = "after the one before it and below 1e9";
+            return Err(Error::Value { record: 1, name: "time of a bounce in s", value: pair[1], allowed });
+        }
+    }
+    match deviation_s {
+        Some(value) if !(value > 0.0 && value < 1e9) => {
+            let allowed = "positive and below 1e9";
+            Err(Error::Value { record: 1, name: "standard deviation in s", value, allowed })
+        }
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,256 @@
+//! What is measured as a function of what is unknown: one drop, computed by the flights of `clatter-flight`.
+
+use std::cell::Cell;
+use std::rc::Rc;
+
+use clatter::End;
+use clatter_flight::{Body, Contact, ContactFlight, Flight, Model, Scene, Strike};
+
+use super::{Known, Set};
+
+// Where the unknowns stand. Those that are positive are their logarithms, so that a step is a share of them.
+/// ln of the radius of gyration over half the length.
+pub(super) const GYRATION: usize = 0;
+/// Mean restitution of both ends.
+pub(super) const RESTITUTION: usize = 1;
+/// Half of the restitution of end a less that of end b.
+pub(super) const DIFFERENCE: usize = 2;
+/// ln of the gap over the speed, in s.
+pub(super) const GAP_TIME: usize = 3;
+/// ln of the speed, in m/s.
+pub(super) const SPEED: usize = 4;
+/// Angular velocity at the first touch times half the length over the speed; the second end upward.
+pub(super) const SPIN: usize = 5;
+/// ln of the contact time, in s.
+pub(super) const CONTACT: usize = 6;
+/// The first touch on the time axis of each record, in units of time of the drop.
+pub(super) const OFFSET: usize = 7;
+
+/// Radius of gyration over half the length that flights with contacts take at least.
+const LEAST_GYRATION: f64 = 0.1;
+/// Unknowns are looked for within so many times of what the product file says: beyond, it is of another product or another drop.
+const BEYOND: f64 = 4.0;
+/// The sine of the largest tilt of a product file, 30 degrees.
+const STEEPEST: f64 = 0.5;
+/// A step of this share is far above the roundings of a rigid flight (1e−13) and far below its curvature.
+const STEP: f64 = 1e-6;
+/// Flights with contacts are exact to [`PRECISION`] for each contact; steps are far above that.
+const CONTACT_STEP: f64 = 1e-4;
+/// Flights of a search, by whether contacts take time: about two seconds of either.
+pub(super) const FLIGHTS: [usize; 2] = [200_000, 20_000];
+/// Precision of flights with contacts, and while a search is on.
+const PRECISION: f64 = 1e-5;
+const ROUGH: f64 = 1e-3;
+/// A flight is followed for so many times as long as strikes were measured.
+const HORIZON: f64 = 3.0;
+/// The same of contacts that take time, where no more were measured.
+const MOST_CONTACTS: usize = 64;
+/// Events of a flight with contacts for each strike, at most: a body that rocks in its dents is left there.
+const EVENTS: usize = 8;
+/// Strikes of a flight at most, where no more were measured: later ones of a body that comes to rest are too small to be seen.
+const MOST_STRIKES: usize = 256;
+
+/// A drop of which some is unknown, and what was measured of it.
+#[derive(Debug, Clone)]
+pub(super) struct Drop<'a> {
+    pub(super) known: &'a Known,
+    pub(super) sets: Vec<Set<'a>>,
+    /// The end that touches first.
+    pub(super) first: End,
+    /// Whether contacts take time.
+    pub(super) contacts: bool,
+    /// Unit of time of the offsets.
+    pub(super) unit_s: f64,
+    /// Whether flights with contacts are computed roughly, as a search needs them.
+    pub(super) is_rough: bool,
+    /// Flights that may still be computed for a search; beyond, each minimum is left where it is.
+    pub(super) left: Rc<Cell<usize>>,
+}
+
+/// A drop as it was computed.
+#[derive(Debug, Clone)]
+pub(super) enum Path {
+    Rigid(Box<Scene>, Flight),
+    Contacts(Box<Scene>, Box<ContactFlight>),
+}
+
+impl Drop<'_> {
+    /// Half the step of a difference.
+    pub(super) fn step(&self) -> f64 {
+        match (self.contacts, self.is_rough) {
+            (false, _) => STEP,
+            (true, true) => 10.0 * CONTACT_STEP,
+            (true, false) => CONTACT_STEP,
+        }
+    }
+    /// How long a minimum is looked for: flights with contacts take ten times as long.
+    pub(super) fn patience(&self) -> usize {
+        match (self.left.get(), self.contacts) {
+            (0, _) => 1,
+            (_, true) => 12,
+            (_, false) => 60,
+        }
+    }
+    /// The values that the product file gives, a range in its middle.
+    pub(super) fn given(&self) -> Vec<f64> {
+        let Known { body, restitution, speed_m_s, tilt_rad, contact_time_s, .. } = self.known;
+        let ln_middle = |[lo, hi]: [f64; 2]| 0.5 * (libm::log(lo) + libm::log(hi));
+        let speed = ln_middle(*speed_m_s);
+        let gap_m = body.length_m() * libm::sin(0.5 * (tilt_rad[0] + tilt_rad[1])).max(1e-3);
+        let mut x = vec![0.0; OFFSET + self.sets.len()];
+        x[GYRATION] = libm::log(2.0 * body.gyration_m() / body.length_m());
+        x[RESTITUTION] = 0.5 * (restitution[0] + restitution[1]);
+        x[GAP_TIME] = libm::log(gap_m) - speed;
+        x[SPEED] = speed;
+        x[CONTACT] = contact_time_s.map_or(0.0, ln_middle);
+        x
+    }
+    /// How far an unknown that is held may be off by its range in the product file.
+    pub(super) fn half_range(&self, unknown: usize) -> f64 {
+        let half = |[lo, hi]: [f64; 2]| 0.5 * (libm::log(hi) - libm::log(lo));
+        match unknown {
+            SPEED => half(self.known.speed_m_s),
+            CONTACT => self.known.contact_time_s.map_or(0.0, half),
+            RESTITUTION => 0.5 * (self.known.restitution[1] - self.known.restitution[0]),
+            _ => 0.0,
+        }
+    }
+    pub(super) fn bounds(&self) -> Vec<[f64; 2]> {
+        let ln = |[lo, hi]: [f64; 2]| [libm::log(lo), libm::log(hi)];
+        let length = self.known.body.length_m();
+        let arm = self.arms()[0];
+        let about = |[lo, hi]: [f64; 2]| ln([lo / BEYOND, hi * BEYOND]);
+        let gyration = 2.0 * self.known.body.gyration_m() / length;
+        let mut bounds = vec![[f64::NEG_INFINITY, f64::INFINITY]; OFFSET + self.sets.len()];
+        bounds[GYRATION] = about([gyration.max(BEYOND * LEAST_GYRATION), gyration]);
+        bounds[RESTITUTION] = [0.0, 1.0];
+        bounds[DIFFERENCE] = [-0.5, 0.5];
+        // The second end strikes within what was measured.
+        let longest_s = if self.horizon_s() > 0.0 { self.horizon_s() } else { 10.0 };
+        bounds[GAP_TIME] = ln([1e-6 * longest_s, longest_s]);
+        bounds[SPEED] = about(self.known.speed_m_s);
+        // The end that touches first still approaches.
+        bounds[SPIN] = [-0.45 * length / arm, 5.0];
+        bounds[CONTACT] = self.known.contact_time_s.map_or_else(|| ln([1e-6, 0.1]), about);
+        bounds
+    }
+    /// Arms of the end that touches first and of the other one.
+    fn arms(&self) -> [f64; 2] {
+        let [a, b] = self.known.body.arms_m();
+        if self.first == End::A { [a, b] } else { [b, a] }
+    }
+    /// The contact point that an end is, and the other way around.
+    pub(super) fn end(&self, point: usize) -> End {
+        if (point == 0) == (self.first == End::A) { End::A } else { End::B }
+    }
+    /// Restitution of the first and the second end.
+    pub(super) fn restitutions(&self, x: &[f64]) -> [f64; 2] {
+        let side = if self.first == End::A { 1.0 } else { -1.0 };
+        [1.0, -1.0].map(|sign| (x[RESTITUTION] + sign * side * x[DIFFERENCE]).clamp(0.0, 1.0))
+    }
+    /// Sine of the tilt, at most [`STEEPEST`].
+    pub(super) fn sin_tilt(&self, x: &[f64]) -> f64 {
+        (libm::exp(x[GAP_TIME] + x[SPEED]) / self.known.body.length_m()).min(STEEPEST)
+    }
+    /// Angular velocity at the first touch, end b upward.
+    pub(super) fn spin_rad_s(&self, x: &[f64]) -> f64 {
+        let side = if self.first == End::A { 1.0 } else { -1.0 };
+        side * x[SPIN] * libm::exp(x[SPEED]) * 2.0 / self.known.body.length_m()
+    }
+    fn scene(&self, x: &[f64]) -> Result<Scene, clatter::Error> {
+        let ([a, b], length) = (self.arms(), self.known.body.length_m());
+        let body = Body::off_center(a, b, 0.5 * length * libm::exp(x[GYRATION]))?;
+        let (speed, tilt) = (libm::exp(x[SPEED]), libm::asin(self.sin_tilt(x)));
+        Scene::new(body, x[RESTITUTION], speed, tilt.to_degrees(), self.known.gravity_m_s2)?
+            .with_spin(x[SPIN] * speed * 2.0 / length)
+    }
+    /// The flight of the rigid body until `enough`.
+    pub(super) fn rigid(&self, x: &[f64], horizon_s: f64, enough: impl FnMut(&Flight) -> bool) -> Option<Path> {
+        let most = self.sets.iter().map(Set::strikes).max().unwrap_or(0).max(MOST_STRIKES);
+        let scene = self.scene(x).ok()?.with_impact_limit(most).ok()?.with_time_limit_s(horizon_s).ok()?;
+        let flight = scene.simulate_ends(self.restitutions(x), enough).ok()?;
+        Some(Path::Rigid(Box::new(scene), flight))
+    }
+    /// The flight by the model of the fit, as far as the records need it.
+    pub(super) fn path(&self, x: &[f64]) -> Option<Path> {
+        self.left.set(self.left.get().saturating_sub(1));
+        let until_s = self.until_s(x);
+        let horizon_s = self.horizon_s().max(until_s);
+        if !self.contacts {
+            return self.rigid(x, horizon_s, |flight| {
+                flight.strikes.last().is_some_and(|s| s.time_s > until_s)
+                    && self.sets.iter().all(|set| set.has_enough(self, &flight.strikes))
+            });
+        }
+        let needed = self.sets.iter().map(Set::strikes).max().unwrap_or(0);
+        // Phases are limited with the strikes.
+        let scene = self.scene(x).ok()?.with_impact_limit(needed.max(MOST_CONTACTS)).ok()?;
+        let contact = Contact::new(self.known.contact_law, x[RESTITUTION], libm::exp(x[CONTACT])).ok()?;
+        let (mut touches, mut events) = (1, 0);
+        let most = EVENTS * needed.max(MOST_CONTACTS);
+        let precision = if self.is_rough { ROUGH } else { PRECISION };
+        let flight = scene.contacts_until(&contact, precision, |ahead| {
+            touches += usize::from(ahead.lands);
+            events += 1;
+            ahead.time_s > horizon_s || ahead.time_s > until_s && touches > needed || events > most
+        });
+        Some(Path::Contacts(Box::new(scene), Box::new(flight.ok()?)))
+    }
+    /// No strike that was measured is later after the first touch: what is computed later never happens.
+    pub(super) fn horizon_s(&self) -> f64 {
+        HORIZON * self.sets.iter().filter_map(Set::span_s).fold(0.0, f64::max)
+    }
+    /// Until when heights and accelerations need the motion, since the first touch.
+    fn until_s(&self, x: &[f64]) -> f64 {
+        let last = |(k, set): (usize, &Set<'_>)| set.end_s().map(|end_s| end_s - self.offset_s(x, k));
+        self.sets.iter().enumerate().filter_map(last).fold(f64::NEG_INFINITY, f64::max)
+    }
+    /// The first touch on the time axis of a record.
+    pub(super) fn offset_s(&self, x: &[f64], set: usize) -> f64 {
+        x[OFFSET + set] * self.unit_s
+    }
+    /// Measured less computed over a standard deviation, of all records.
+    pub(super) fn residuals(&self, x: &[f64]) -> Vec<f64> {
+        let path = self.path(x);
+        self.residuals_of(x, path.as_ref())
+    }
+    pub(super) fn residuals_of(&self, x: &[f64], path: Option<&Path>) -> Vec<f64> {
+        let mut all = Vec::new();
+        for (k, set) in self.sets.iter().enumerate() {
+            set.residuals(self, path, self.offset_s(x, k), &mut all);
+        }
+        all
+    }
+}
+
+impl Path {
+    pub(super) fn strikes(&self) -> &[Strike] {
+        match self {
+            Self::Rigid(_, flight) => &flight.strikes,
+            Self::Contacts(_, flight) => &flight.flight.strikes,
+        }
+    }
+    /// Heights of the first and the second end at a time since the first touch; before it in free flight.
+    pub(super) fn heights_m(&self, time_s: f64) -> [f64; 2] {
+        match self {
+            Self::Rigid(scene, _) | Self::Contacts(scene, _) if time_s < 0.0 => {
+                let body = scene.body();
+                let [a, b] = body.arms_m();
+                let tilt = scene.tilt_rad();
+                let center = a * libm::sin(tilt) - time_s * (scene.speed_m_s() + 0.5 * scene.gravity_m_s2() * time_s);
+                let sin = libm::sin(tilt + scene.spin_rad_s() * time_s);
+                [center - a * sin, center + b * sin]
+            }
+            Self::Rigid(scene, flight) => scene.heights_m(Model::FiniteTilt, flight, time_s),
+            Self::Contacts(_, flight) => flight.sample(time_s).height_m,
+        }
+    }
+    /// Velocity of a place, at `s` in [−1, 1] from the first end to the second, less that of a free fall from the first touch on: what
+    /// the contacts have given it.
+    pub(super) fn given_m_s(&self, s: f64, time_s: f64) -> f64 {
+        let Self::Contacts(scene, flight) = self else { return 0.0 };
+        let gravity = scene.gravity_m_s2();
+        let [a, b] = if time_s <= 0.0 { flight.sample(0.0).velocity_m_s } else { flight.sample(time_s).velocity_m_s };
+        0.5 * ((1.0 - s) * a + (1.0 + s) * b) + gravity * time_s.max(0.0)
+    }
+}

@@ -1,0 +1,138 @@
+//! Least squares over some of the unknowns, the others held: Levenberg–Marquardt of the crate `levenberg-marquardt` (MINPACK).
+
+use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
+use nalgebra::{DMatrix, DVector, Dyn, Owned};
+
+/// Residuals as a function of all unknowns, and where these may lie.
+pub(super) struct Problem<'a> {
+    /// Measured less computed over a standard deviation; as many for any unknowns within the bounds.
+    pub(super) residuals: &'a dyn Fn(&[f64]) -> Vec<f64>,
+    pub(super) bounds: &'a [[f64; 2]],
+    /// Half the step of a central difference.
+    pub(super) step: f64,
+    /// Residuals are computed so many times, at most, for each free unknown and one more.
+    pub(super) patience: usize,
+}
+
+/// Where a minimization ends.
+#[derive(Debug, Clone)]
+pub(super) struct Minimum {
+    pub(super) x: Vec<f64>,
+    pub(super) residuals: Vec<f64>,
+}
+
+impl Minimum {
+    /// Sum of the squares of the residuals.
+    pub(super) fn sum(&self) -> f64 {
+        self.residuals.iter().map(|r| r * r).sum()
+    }
+}
+
+/// Searches one after the other, each as long as it takes this share off the sum.
+const RESTARTS: usize = 5;
+const GAIN: f64 = 0.01;
+/// A step is the last one where it changes sum or unknowns by no more: far below what data tell, far above roundings.
+const PRECISION: f64 = 1e-9;
+
+impl Problem<'_> {
+    /// The minimum next to `x` over the free unknowns. One that comes to lie on its bound is held there, and the others go on.
+    pub(super) fn minimize(&self, x: &[f64], free: &[usize]) -> Minimum {
+        let mut x: Vec<f64> = x.iter().zip(self.bounds).map(|(x, [lo, hi])| x.clamp(*lo, *hi)).collect();
+        let mut free = free.to_vec();
+        while !free.is_empty() {
+            let mut at = At { problem: self, x, free };
+            // In a narrow valley a search ends early; a new one goes on with steps of another size.
+            let mut before = f64::INFINITY;
+            for _ in 0..RESTARTS {
+                let (next, report) =
+                    LevenbergMarquardt::new().with_tol(PRECISION).with_patience(self.patience).minimize(at);
+                at = next;
+                if report.objective_function >= (1.0 - GAIN) * before {
+                    break;
+                }
+                before = report.objective_function;
+            }
+            x = at.x;
+            let inside = |i: &usize| self.bounds[*i][0] < x[*i] && x[*i] < self.bounds[*i][1];
+            let still: Vec<usize> = at.free.iter().copied().filter(inside).collect();
+            if still.len() == at.free.len() {
+                break;
+            }
+            free = still;
+        }
+        Minimum { residuals: (self.residuals)(&x), x }
+    }
+
+    /// Derivatives of the residuals by these unknowns, one column each: central differences, one-sided at a bound.
+    pub(super) fn jacobian(&self, x: &[f64], columns: &[usize]) -> DMatrix<f64> {
+        let of = |i: usize, to: f64| {
+            let mut x = x.to_vec();
+            x[i] = to;
+            (self.residuals)(&x)
+        };
+        let columns: Vec<DVector<f64>> = columns
+            .iter()
+            .map(|&i| {
+                let [lo, hi] =
+                    [x[i] - self.step, x[i] + self.step].map(|to| to.clamp(self.bounds[i][0], self.bounds[i][1]));
+                let (below, above) = (of(i, lo), of(i, hi));
+                let length = if hi > lo { hi - lo } else { f64::INFINITY };
+                DVector::from_iterator(
+                    below.len(),
+                    below.iter().zip(&above).map(|(below, above)| (above - below) / length),
+                )
+            })
+            .collect();
+        DMatrix::from_columns(&columns)
+    }
+}
+
+/// A problem at some unknowns.
+struct At<'p, 'a> {
+    problem: &'p Problem<'a>,
+    x: Vec<f64>,
+    free: Vec<usize>,
+}
+
+impl LeastSquaresProblem<f64, Dyn, Dyn> for At<'_, '_> {
+    type ResidualStorage = Owned<f64, Dyn>;
+    type JacobianStorage = Owned<f64, Dyn, Dyn>;
+    type ParameterStorage = Owned<f64, Dyn>;
+
+    fn set_params(&mut self, free: &DVector<f64>) {
+        for (&i, x) in self.free.iter().zip(free) {
+            let [lo, hi] = self.problem.bounds[i];
+            self.x[i] = if x.is_nan() { lo } else { x.clamp(lo, hi) };
+        }
+    }
+    fn params(&self) -> DVector<f64> {
+        DVector::from_iterator(self.free.len(), self.free.iter().map(|&i| self.x[i]))
+    }
+    fn residuals(&self) -> Option<DVector<f64>> {
+        Some(DVector::from_vec((self.problem.residuals)(&self.x)))
+    }
+    fn jacobian(&self) -> Option<DMatrix<f64>> {
+        Some(self.problem.jacobian(&self.x, &self.free))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A straight line, with a minimum that everybody can work out: slope 2, intercept 1, residuals ±1/10.
+    #[test]
+    fn a_straight_line_has_the_minimum_of_its_normal_equations() {
+        let residuals =
+            |x: &[f64]| [0.9, 3.2, 4.9].iter().zip([0.0, 1.0, 2.0]).map(|(y, t)| y - x[0] - x[1] * t).collect();
+        let bounds = [[-10.0, 10.0], [-10.0, 10.0]];
+        let problem = Problem { residuals: &residuals, bounds: &bounds, step: 1e-4, patience: 50 };
+        let found = problem.minimize(&[5.0, -5.0], &[0, 1]);
+        assert!((found.x[0] - 1.0).abs() < 1e-9 && (found.x[1] - 2.0).abs() < 1e-9, "{:?}", found.x);
+        // With the slope at most 1, the intercept is the mean of what is left: 3 − 1.
+        let bounds = [[-10.0, 10.0], [-10.0, 1.0]];
+        let problem = Problem { residuals: &residuals, bounds: &bounds, step: 1e-4, patience: 50 };
+        let found = problem.minimize(&[5.0, -5.0], &[0, 1]);
+        assert!((found.x[0] - 2.0).abs() < 1e-9 && (found.x[1] - 1.0).abs() < 1e-15, "{:?}", found.x);
+    }
+}

@@ -1,0 +1,209 @@
+//! Where searches begin: unknowns that explain the data roughly.
+
+use clatter::{End, OffCenterBar, Start};
+
+use super::drop::{CONTACT, Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED, SPIN};
+use super::{MeasuredHeights, MeasuredStrike, Set, Which};
+
+/// Restitutions that are tried.
+const RESTITUTIONS: [f64; 12] = [0.02, 0.08, 0.15, 0.22, 0.3, 0.38, 0.46, 0.55, 0.65, 0.75, 0.85, 0.95];
+/// Radii of gyration that are tried, over that of the product file.
+const GYRATIONS: [f64; 7] = [1.0, 0.7, 0.8, 0.9, 1.1, 1.25, 1.5];
+/// So many of the best go on at first.
+pub(super) const TAKEN: usize = 4;
+/// Strikes and pulses that a start is found from, at most.
+const MOST: usize = 32;
+/// Of the first few, which gravity and contacts hardly change, and of all.
+const EARLY: [usize; 3] = [2, 3, MOST];
+
+/// The best of a grid of unknowns, so many, the best first.
+pub(super) fn starts(drop: &Drop<'_>, taken: usize) -> Vec<Vec<f64>> {
+    let mut found: Vec<(f64, Vec<f64>)> = Vec::new();
+    let given = drop.given();
+    for &factor in if drop.known.gyration_known { &GYRATIONS[..1] } else { &GYRATIONS[..] } {
+        for restitution in RESTITUTIONS {
+            let mut x = given.clone();
+            x[GYRATION] += libm::log(factor);
+            x[RESTITUTION] = restitution;
+            for x in at(drop, &x) {
+                found.push((misfit(drop, &x), x));
+            }
+        }
+    }
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    found.into_iter().take(taken).map(|(_, x)| x).collect()
+}
+
+/// How far a start is off: of each datum the logarithm, so that a start counts for what it explains, not for what it does not.
+fn misfit(drop: &Drop<'_>, x: &[f64]) -> f64 {
+    let residuals = drop.residuals(x);
+    let mut from = 0;
+    let mut sum = 0.0;
+    for set in &drop.sets {
+        let own = &residuals[from..from + set.len()];
+        from += own.len();
+        // A tenth of what such data vary by.
+        let scale = 0.1 * set.variation(drop.unit_s);
+        sum += own.iter().map(|r| (1.0 + (r / scale).powi(2)).ln()).sum::<f64>();
+    }
+    sum
+}
+
+fn is_acceleration(set: &Set<'_>) -> bool {
+    matches!(set, Set::Acceleration { .. })
+}
+
+/// How the product fell, by each record that can tell, for a restitution and a radius of gyration.
+fn at(drop: &Drop<'_>, x: &[f64]) -> Vec<Vec<f64>> {
+    let mut all = vec![x.to_vec()];
+    // Heights tell most of how it fell, strikes when.
+    for (k, set) in drop.sets.iter().enumerate() {
+        if let Set::Heights { samples, .. } = set {
+            for x in &mut all {
+                by_heights(drop, k, samples, x);
+            }
+        }
+    }
+    for (k, set) in drop.sets.iter().enumerate() {
+        if let Set::Strikes { strikes, index, .. } = set {
+            let of = |x: &Vec<f64>| EARLY.map(|early| by_strikes(drop, k, strikes, index, early, x.clone()));
+            all = all.iter().flat_map(of).collect();
+        }
+    }
+    for (k, set) in drop.sets.iter().enumerate() {
+        if let Set::Acceleration { start_s, step_s, values, .. } = set {
+            let alone = drop.sets.iter().all(is_acceleration);
+            all = all.iter().flat_map(|x| by_acceleration(drop, k, [*start_s, *step_s], values, alone, x)).collect();
+        }
+    }
+    all
+}
+
+/// Gap over speed and first touch by linear regression on the train without gravity, over so many strikes.
+fn by_strikes(
+    drop: &Drop<'_>,
+    set: usize,
+    strikes: &[MeasuredStrike],
+    index: &[Option<Which>],
+    early: usize,
+    mut x: Vec<f64>,
+) -> Vec<f64> {
+    let [a, b] = drop.known.body.arms_m();
+    let arms = if drop.first == End::A { [a, b] } else { [b, a] };
+    let gyration = 0.5 * (a + b) * libm::exp(x[GYRATION]);
+    let Ok(bar) = OffCenterBar::new(arms, gyration, x[RESTITUTION]) else { return x };
+    let train: Vec<f64> = bar.train(&Start::default()).take(MOST).map(|impact| impact.time).collect();
+    // Without gravity the ends strike in turn.
+    let place = |which: Which| match which {
+        Which::Of(n) => n,
+        Which::OfEnd(end, n) => 2 * n + usize::from(end != drop.first),
+    };
+    let pairs: Vec<[f64; 2]> = strikes
+        .iter()
+        .zip(index)
+        .filter_map(|(strike, which)| Some([*train.get(which.map(place)?)?, strike.time_s]))
+        .take(early)
+        .collect();
+    #[expect(clippy::cast_precision_loss, reason = "at most 32")]
+    let n = pairs.len() as f64;
+    let [mean_x, mean_y] = [0, 1].map(|i| pairs.iter().map(|pair| pair[i]).sum::<f64>() / n);
+    let across: f64 = pairs.iter().map(|[x, y]| (x - mean_x) * (y - mean_y)).sum();
+    let along: f64 = pairs.iter().map(|[x, _]| (x - mean_x) * (x - mean_x)).sum();
+    let first = strikes.first().map_or(0.0, |strike| strike.time_s);
+    let slope = across / along;
+    if slope > 0.0 && slope.is_finite() {
+        x[GAP_TIME] = libm::log(slope);
+        x[OFFSET + set] = (mean_y - slope * mean_x) / drop.unit_s;
+    } else {
+        x[OFFSET + set] = first / drop.unit_s;
+    }
+    x
+}
+
+/// The fall before the first touch, which is where the lower end first turns upward near the ground.
+fn by_heights(drop: &Drop<'_>, set: usize, samples: &[MeasuredHeights], x: &mut [f64]) {
+    let first = usize::from(drop.first == End::B);
+    let low = |sample: &MeasuredHeights| sample.height_m[first];
+    let turns = (1..samples.len().saturating_sub(1))
+        .find(|&i| low(&samples[i]) <= low(&samples[i - 1]) && low(&samples[i]) < low(&samples[i + 1]))
+        .unwrap_or(0);
+    // The last fall before the touch: two samples at least half a dozen apart where there are so many.
+    let (from, to) = (turns.saturating_sub(7), turns.saturating_sub(1));
+    let (a, b) = (&samples[from], &samples[to]);
+    let span = b.time_s - a.time_s;
+    let rate = |i: usize| if span > 0.0 { (b.height_m[i] - a.height_m[i]) / span } else { 0.0 };
+    let [first_rate, second_rate] = [rate(first), rate(1 - first)];
+    let middle = 0.5 * (a.time_s + b.time_s);
+    let speed = libm::exp(x[SPEED]);
+    let falls = -0.5 * (first_rate + second_rate);
+    let speed = if falls > 0.0 { falls } else { speed };
+    let touch = b.time_s + (low(b) / speed).max(0.0);
+    let at_touch = speed + drop.known.gravity_m_s2 * (touch - middle);
+    let spin = (second_rate - first_rate) / drop.known.body.length_m();
+    let gap = samples[turns].height_m[1 - first] - samples[turns].height_m[first];
+    let gap = gap.max(1e-3 * drop.known.body.length_m());
+    x[SPEED] = libm::log(at_touch);
+    x[GAP_TIME] = libm::log(gap / at_touch);
+    x[SPIN] = spin * 0.5 * drop.known.body.length_m() / at_touch;
+    x[OFFSET + set] = touch / drop.unit_s;
+}
+
+/// Share of the largest value at which a pulse begins.
+const ONSET: f64 = 0.05;
+
+/// When pulses begin and how long the first takes; the gap from the time between the first two where nothing else tells it.
+fn by_acceleration(
+    drop: &Drop<'_>,
+    set: usize,
+    [start_s, step_s]: [f64; 2],
+    values: &[f64],
+    alone: bool,
+    x: &[f64],
+) -> Vec<Vec<f64>> {
+    let largest = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    let pulses: Vec<(usize, usize)> = {
+        let is_high = |value: &f64| value.abs() > ONSET * largest;
+        let mut pulses = Vec::new();
+        let mut at = 0;
+        while let Some(from) = values[at..].iter().position(is_high).map(|k| at + k) {
+            at = values[from..].iter().position(|value| !is_high(value)).map_or(values.len(), |k| from + k);
+            pulses.push((from, at));
+            if pulses.len() == MOST {
+                break;
+            }
+        }
+        pulses
+    };
+    #[expect(clippy::cast_precision_loss, reason = "at most a million")]
+    let time = |k: usize| k as f64 * step_s;
+    let Some(&(from, to)) = pulses.first() else { return vec![x.to_vec()] };
+    let mut x = x.to_vec();
+    x[OFFSET + set] = (start_s + time(from)) / drop.unit_s;
+    let width = time(to - from).max(2.0 * step_s);
+    let measured_width = Vec::from([{
+        let mut x = x.clone();
+        x[CONTACT] = libm::log(width);
+        x
+    }]);
+    let mut all = if drop.known.contact_time_s.is_some() { vec![x] } else { measured_width };
+    if alone {
+        // The next pulses, one of which is the other end's, and the tilt of the product file.
+        let gaps: Vec<f64> = pulses.iter().skip(1).take(3).map(|(next, _)| time(next - from)).collect();
+        let q = |x: &[f64]| {
+            let k = libm::exp(x[GYRATION]);
+            (1.0 - k * k) / (1.0 + k * k)
+        };
+        let more: Vec<Vec<f64>> = all
+            .iter()
+            .flat_map(|x| {
+                gaps.iter().map(|gap| {
+                    let mut x = x.clone();
+                    x[GAP_TIME] = libm::log(gap * (1.0 + q(&x) * (1.0 + x[RESTITUTION])).max(0.1));
+                    x
+                })
+            })
+            .collect();
+        all.extend(more);
+    }
+    all
+}

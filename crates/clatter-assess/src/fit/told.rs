@@ -1,0 +1,342 @@
+//! What the data tell: which unknowns are left free, and how far they may be off.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::drop::{CONTACT, DIFFERENCE, Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED, SPIN};
+use super::solve::{Minimum, Problem};
+use super::starts::{TAKEN, starts};
+use super::student;
+use super::{Error, Set};
+
+/// A direction is told where the interval of 95 % along it is within these half-widths: a restitution to a quarter of all there is, both
+/// ends apart to 0.02, a length or a time to a factor of √2, the speed to a fifth. More would not be of use in a product file.
+fn half_width(unknown: usize) -> f64 {
+    match unknown {
+        RESTITUTION => 0.25,
+        DIFFERENCE => 0.01,
+        SPEED | SPIN => 0.2,
+        GYRATION | GAP_TIME | CONTACT => 0.35,
+        _ => 1.0,
+    }
+}
+
+/// How unknowns are called.
+fn name(unknown: usize) -> &'static str {
+    match unknown {
+        GYRATION => "the radius of gyration",
+        RESTITUTION => "the restitution",
+        DIFFERENCE => "the difference of the ends",
+        GAP_TIME => "the gap over the speed",
+        SPEED => "the speed",
+        SPIN => "the spin",
+        CONTACT => "the contact time",
+        _ => "the moment of the first touch",
+    }
+}
+
+/// Part of a direction above which an unknown counts as part of it.
+const PART: f64 = 0.3;
+/// Confidence of the intervals is one less this.
+const ALPHA: f64 = 0.05;
+
+/// The fit with all that the data tell left free.
+#[derive(Debug)]
+pub(super) struct Told {
+    pub(super) minimum: Minimum,
+    pub(super) free: Vec<usize>,
+    /// Unknowns that are held, and why.
+    pub(super) held: Vec<(usize, String)>,
+    pub(super) degrees: usize,
+    /// Standard deviation of a residual; none where nothing tells it.
+    pub(super) scatter: Option<f64>,
+    /// Residuals scatter more than the deviations given, by this factor.
+    pub(super) excess: Option<f64>,
+}
+
+/// Finds it. `known`: whether the deviations of all records are given; `begin`: unknowns that explain the data already.
+pub(super) fn find(drop: &mut Drop<'_>, known: bool, begin: Option<Vec<f64>>) -> Result<Told, Error> {
+    let count: usize = drop.sets.iter().map(Set::len).sum();
+    let begins = begin.map_or_else(|| starts(drop, TAKEN), |x| vec![x]);
+    drop.is_rough = true;
+    let mut told = Search { drop, known, count }.base(&begins)?;
+    drop.is_rough = false;
+    for again in [true, false] {
+        // Records of several kinds count by how well each is explained.
+        if drop.sets.len() > 1 && !known {
+            drop.weigh(&told.minimum.x);
+        }
+        let search = Search { drop, known, count };
+        search.refit(&mut told);
+        if again {
+            search.hold_untold(&mut told);
+            search.free_more(&mut told);
+        }
+        search.judge(&mut told);
+    }
+    Ok(told)
+}
+
+/// Shares of a record that are fitted before all of it.
+const EARLY: [f64; 3] = [0.15, 0.3, 0.6];
+
+impl Drop<'_> {
+    /// The same with what was measured up to a share of the time after the first touch; none of strikes alone.
+    fn early(&self, x: &[f64], share: f64) -> Option<Self> {
+        let mut early = self.clone();
+        let mut cut = false;
+        for (k, set) in early.sets.iter_mut().enumerate() {
+            let touch_s = self.offset_s(x, k);
+            match set {
+                Set::Strikes { .. } => {}
+                Set::Heights { samples, .. } => {
+                    let end_s = samples.last()?.time_s;
+                    let until_s = touch_s + share * (end_s - touch_s);
+                    *samples = &samples[..samples.partition_point(|sample| sample.time_s <= until_s).max(4)];
+                    cut = true;
+                }
+                Set::Acceleration { start_s, step_s, values, .. } => {
+                    #[expect(clippy::cast_precision_loss, reason = "at most 4096")]
+                    let whole = values.len() as f64;
+                    let touch = (touch_s - *start_s) / *step_s;
+                    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+                    let count = (touch + share * (whole - touch)).clamp(8.0, whole.max(8.0)) as usize;
+                    values.truncate(count);
+                    cut = true;
+                }
+            }
+        }
+        cut.then_some(early)
+    }
+
+    /// Takes what the residuals of each record scatter by as its deviation.
+    fn weigh(&mut self, x: &[f64]) {
+        let residuals = self.residuals(x);
+        let mut from = 0;
+        for set in &mut self.sets {
+            let own = &residuals[from..from + set.len()];
+            from += own.len();
+            #[expect(clippy::cast_precision_loss, reason = "a count of data")]
+            let mean = own.iter().map(|r| r * r).sum::<f64>() / own.len() as f64;
+            // Of a record that is met exactly nothing is known but that.
+            if mean > 0.0 && mean.is_finite() {
+                *set.deviation() *= mean.sqrt();
+            }
+        }
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Search<'s, 'd> {
+    drop: &'s Drop<'d>,
+    known: bool,
+    count: usize,
+}
+
+impl Search<'_, '_> {
+    fn with<T>(&self, work: impl FnOnce(&Problem<'_>) -> T) -> T {
+        let (bounds, residuals) = (self.drop.bounds(), |x: &[f64]| self.drop.residuals(x));
+        work(&Problem {
+            residuals: &residuals,
+            bounds: &bounds,
+            step: self.drop.step(),
+            patience: self.drop.patience(),
+        })
+    }
+
+    /// From the best of the starts, with the unknowns that such records tell at least.
+    fn base(&self, starts: &[Vec<f64>]) -> Result<Told, Error> {
+        let has = |is: fn(&Set<'_>) -> bool| self.drop.sets.iter().any(is);
+        let heights = has(|set| matches!(set, Set::Heights { .. }));
+        let acceleration = has(|set| matches!(set, Set::Acceleration { .. }));
+        let mut free: Vec<usize> = (OFFSET..OFFSET + self.drop.sets.len()).chain([GAP_TIME, RESTITUTION]).collect();
+        if heights || acceleration {
+            free.push(SPEED);
+        }
+        if acceleration {
+            free.push(CONTACT);
+        }
+        if heights {
+            free.push(SPIN);
+        }
+        if self.count > free.len() + usize::from(!self.known) && !self.drop.known.gyration_known {
+            free.push(GYRATION);
+        }
+        if starts.iter().any(|x| x[DIFFERENCE].abs() > 0.0) {
+            free.push(DIFFERENCE);
+        }
+        free.truncate(self.count);
+        // Each strike multiplies what is off before it: the early part of a record comes first.
+        let staged = |x: &Vec<f64>| {
+            let x = EARLY.iter().fold(x.clone(), |x, share| match self.drop.early(&x, *share) {
+                Some(early) => Search { drop: &early, ..*self }.with(|problem| problem.minimize(&x, &free).x),
+                None => x,
+            });
+            self.with(|problem| problem.minimize(&x, &free))
+        };
+        let minimum = starts.iter().map(staged).min_by(|a, b| a.sum().total_cmp(&b.sum()));
+        let minimum = minimum.filter(|minimum| self.drop.path(&minimum.x).is_some()).ok_or(Error::NoDrop("data"))?;
+        let mut told = Told { minimum, free, held: Vec::new(), degrees: 0, scatter: None, excess: None };
+        self.judge(&mut told);
+        Ok(told)
+    }
+
+    fn refit(&self, told: &mut Told) {
+        told.minimum = self.with(|problem| problem.minimize(&told.minimum.x, &told.free));
+    }
+
+    /// Degrees of freedom and scatter.
+    fn judge(&self, told: &mut Told) {
+        told.degrees = self.count.saturating_sub(told.free.len());
+        #[expect(clippy::cast_precision_loss, reason = "a count of data")]
+        let (degrees, sum) = (told.degrees as f64, told.minimum.sum());
+        let found = (told.degrees > 0).then(|| (sum / degrees).sqrt());
+        told.scatter = if self.known { Some(1.0) } else { found };
+        told.excess = None;
+        // Five standard deviations of χ²: what is given is not what the residuals scatter by.
+        if self.known && told.degrees > 0 && sum > degrees + 5.0 * (2.0 * degrees).sqrt() {
+            (told.scatter, told.excess) = (found, found);
+        }
+    }
+
+    /// Leaves unknowns free, one by one, as long as the data tell them.
+    fn free_more(&self, told: &mut Told) {
+        for unknown in [GYRATION, SPEED, CONTACT, SPIN, DIFFERENCE] {
+            let is_held = told.held.iter().any(|(held, _)| *held == unknown);
+            if told.free.contains(&unknown) || is_held || unknown == CONTACT && !self.drop.contacts {
+                continue;
+            }
+            if unknown == GYRATION && self.drop.known.gyration_known {
+                told.held.push((unknown, "it was given as known".to_owned()));
+                continue;
+            }
+            if unknown == DIFFERENCE && self.drop.contacts {
+                let reason = "contacts that take time have one restitution for both ends".to_owned();
+                told.held.push((unknown, reason));
+                continue;
+            }
+            // One datum more than unknowns: a second drop that explains the same would not be noticed without.
+            let needed = told.free.len() + 2;
+            if needed > self.count {
+                let reason = format!("{} data are too few to check {} unknowns", self.count, told.free.len() + 1);
+                let reason = if unknown == SPEED { self.reason(SPEED, &[], reason) } else { reason };
+                told.held.push((unknown, reason));
+                continue;
+            }
+            let mut more = told.free.clone();
+            more.push(unknown);
+            if let Some((_, reason)) = self.untold(&told.minimum, &more, Some(unknown)) {
+                told.held.push((unknown, reason));
+                continue;
+            }
+            // At the new minimum it may be told less than at the old one.
+            let minimum = self.with(|problem| problem.minimize(&told.minimum.x, &more));
+            if let Some((_, reason)) = self.untold(&minimum, &more, Some(unknown)) {
+                told.held.push((unknown, reason));
+            } else {
+                (told.minimum, told.free) = (minimum, more);
+            }
+        }
+    }
+
+    /// Holds what turns out not to be told after all.
+    fn hold_untold(&self, told: &mut Told) {
+        while let Some((unknown, reason)) = self.untold(&told.minimum, &told.free, None) {
+            told.free.retain(|free| *free != unknown);
+            told.held.push((unknown, reason));
+            told.minimum.x[unknown] = self.drop.given()[unknown];
+            self.refit(told);
+        }
+    }
+
+    /// An unknown that the data do not tell beside the others, and why; `last` is the one to name if it is part of it.
+    fn untold(&self, minimum: &Minimum, free: &[usize], last: Option<usize>) -> Option<(usize, String)> {
+        let degrees = self.count.checked_sub(free.len())?;
+        if degrees == 0 && !self.known {
+            return None;
+        }
+        #[expect(clippy::cast_precision_loss, reason = "a count of data")]
+        let scatter = if self.known { 1.0 } else { (minimum.sum() / degrees as f64).sqrt() };
+        let t = student::two_sided(ALPHA, (!self.known).then_some(degrees));
+        let mut jacobian = self.with(|problem| problem.jacobian(&minimum.x, free));
+        for (mut column, unknown) in jacobian.column_iter_mut().zip(free) {
+            column *= half_width(*unknown);
+        }
+        let svd = jacobian.svd(false, true);
+        let directions = svd.v_t?;
+        let least = svd.singular_values.imin();
+        if svd.singular_values[least] >= scatter * t {
+            return None;
+        }
+        let part = |k: usize| directions[(least, k)].abs();
+        // When it happened and how long it took is told by any record, or else nothing is.
+        let can_be_held = |k: &usize| free[*k] < OFFSET && free[*k] != GAP_TIME;
+        // Of those that undo each other the one that was left free last.
+        let largest = (0..free.len()).filter(can_be_held).rfind(|&k| part(k) > PART)?;
+        let k = last.and_then(|last| free.iter().position(|f| *f == last)).unwrap_or(largest);
+        let others: Vec<&str> = (0..free.len()).filter(|&i| i != k && part(i) > PART).map(|i| name(free[i])).collect();
+        let little = format!("{} changes the data by too little", name(free[k]));
+        Some((free[k], self.reason(free[k], &others, little)))
+    }
+
+    /// Why an unknown is not told: what undoes it, or else what is given.
+    fn reason(&self, unknown: usize, others: &[&str], alone: String) -> String {
+        let strikes = self.drop.sets.iter().all(|set| matches!(set, Set::Strikes { .. }));
+        match (unknown, others) {
+            (SPEED, _) if strikes => {
+                "strike times alone tell the gap over the speed, not the gap and the speed".to_owned()
+            }
+            (_, []) => alone,
+            (_, others) => {
+                format!("what {} changes in the data, {} can change as well", name(unknown), others.join(" and "))
+            }
+        }
+    }
+}
+
+/// How far functions of the unknowns may be off.
+pub(super) struct Spreads {
+    /// Covariance of the free unknowns, from the data.
+    covariance: DMatrix<f64>,
+    /// Half-ranges of what is held, and what the free unknowns change by for each.
+    held: Vec<(usize, f64, DVector<f64>)>,
+    free: Vec<usize>,
+    t: f64,
+}
+
+impl Told {
+    /// Covariances; none where nothing tells the scatter.
+    pub(super) fn spreads(&self, drop: &Drop<'_>, known: bool) -> Option<Spreads> {
+        let scatter = self.scatter?;
+        let (bounds, residuals) = (drop.bounds(), |x: &[f64]| drop.residuals(x));
+        let problem = Problem { residuals: &residuals, bounds: &bounds, step: drop.step(), patience: drop.patience() };
+        let jacobian = problem.jacobian(&self.minimum.x, &self.free);
+        let inverse = jacobian.pseudo_inverse(0.0).ok()?;
+        let covariance = &inverse * inverse.transpose() * (scatter * scatter);
+        let ranges = (0..OFFSET).filter(|unknown| !self.free.contains(unknown));
+        let ranges = ranges.map(|unknown| (unknown, drop.half_range(unknown))).filter(|(_, range)| *range > 0.0);
+        let held = ranges
+            .map(|(unknown, range)| {
+                let column = problem.jacobian(&self.minimum.x, &[unknown]);
+                (unknown, range, (-(&inverse * column)).column(0).into_owned())
+            })
+            .collect();
+        let normal = known && self.excess.is_none();
+        let t = student::two_sided(ALPHA, (!normal).then_some(self.degrees.max(1)));
+        Some(Spreads { covariance, held, free: self.free.clone(), t })
+    }
+}
+
+impl Spreads {
+    /// Covariance of two functions with these gradients over all unknowns, times the square of the quantile: the half-width of an
+    /// interval is the root of a function's own.
+    pub(super) fn of(&self, one: &[f64], other: &[f64]) -> f64 {
+        let free = |gradient: &[f64]| DVector::from_iterator(self.free.len(), self.free.iter().map(|&i| gradient[i]));
+        let (g, h) = (free(one), free(other));
+        let data = self.t * self.t * (g.transpose() * &self.covariance * &h)[0];
+        let held = self
+            .held
+            .iter()
+            .map(|(i, range, shift)| range * range * (one[*i] + g.dot(shift)) * (other[*i] + h.dot(shift)));
+        data + held.sum::<f64>()
+    }
+}

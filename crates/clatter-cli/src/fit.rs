@@ -1,0 +1,196 @@
+//! `clatter fit`: from a measured drop to the data of the product.
+
+mod answer;
+mod picture;
+mod records;
+mod table;
+
+use std::fs::File;
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
+
+use clap::{ArgAction, ValueHint};
+use clatter_assess::fit::{self, Fit, Known, Measured};
+use clatter_assess::units::Quantity;
+use clatter_assess::{LARGEST_FILE, ProductFile};
+
+use crate::inputs::Format;
+use crate::output::{Files, no_kind};
+use crate::quantities::{self, Place};
+use crate::record_args::RecordArgs;
+use crate::{Failure, Streams, assess, input, output, text};
+use records::Record;
+
+/// Fit the data of a product to a measured drop: restitution, radius of gyration, contact time, how it fell
+///
+/// Finds the drop of the product that is nearest to what was measured, how far each value may be off (95 %), and what the data
+/// cannot tell. Each file is a record of the same drop; its first line says which kind:
+///
+///   time_s,end                       times of strikes; end a or b, or nothing where it is not known
+///   time_s,height_a_m,height_b_m     heights of both ends over the ground, from a video
+///   bounce_s                         times at which a flat product, or one point of it, bounces; alone
+///   time and acceleration, with units, as 'clatter record' reads them: the acceleration at --position
+///
+/// The time axis of each file begins anywhere. Strikes may be missing (two before the last, or any after it), and one time may be
+/// wrong; the answer says so. Contacts take time in the fit where the product file gives their time or an acceleration was
+/// measured; else strikes are instant, at real tilt and with gravity.
+///
+/// What the data cannot tell is held at the value of the product file. -o writes what was found into a copy of it (.toml), or draws
+/// measured beside computed (.svg).
+#[derive(Debug, clap::Args)]
+#[command(
+    verbatim_doc_comment,
+    after_help = "\
+Examples:
+  clatter fit strikes.csv --product=handheld.toml
+  clatter fit strikes.csv --product=handheld.toml --timing=10us -o fitted.toml -o fitted.svg
+  clatter fit video.csv --product=handheld.toml --format=json
+  clatter fit sensor.csv --position=30mm --product=handheld.toml
+
+Exit status: 0 done, 2 bad input, or no drop that comes near what was measured."
+)]
+pub(crate) struct Args {
+    /// Records of one drop, - for standard input
+    #[arg(required = true, value_name = "RECORD.csv", value_hint = ValueHint::FilePath)]
+    records: Vec<PathBuf>,
+    /// Product file: length, center of mass, gravity, and where the search begins
+    #[arg(long, value_name = "PRODUCT.toml", value_hint = ValueHint::FilePath)]
+    product: PathBuf,
+    /// Where an acceleration was measured: a length from the middle towards end b, or a position in [-1, 1]; once for each record of an
+    /// acceleration, in their order
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantities::place)]
+    position: Vec<Place>,
+    #[command(flatten)]
+    reading: RecordArgs,
+    /// Standard deviation of the times of strikes and bounces, such as 10us; unless given, their scatter about the fit tells it
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = quantities::contact_time)]
+    timing: Option<Quantity>,
+    /// Take the radius of gyration of the product file as known: strike times then tell the restitution several times better
+    #[arg(long)]
+    known_gyration: bool,
+    /// Write the ranges into a copy of the product file (.toml), or draw measured beside computed (.svg); may be given twice
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = target, action = ArgAction::Append)]
+    output: Vec<Target>,
+    /// How to show the answer
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+}
+
+/// A file to write.
+#[derive(Debug, Clone)]
+struct Target {
+    path: PathBuf,
+    is_picture: bool,
+}
+
+fn target(text: &str) -> Result<Target, String> {
+    let path = PathBuf::from(text);
+    if input::is_standard(&path) {
+        return Err(no_kind(&[".toml", ".svg"]));
+    }
+    match path.extension().and_then(|ending| ending.to_str()) {
+        Some("toml") => Ok(Target { path, is_picture: false }),
+        Some("svg") => Ok(Target { path, is_picture: true }),
+        _ => Err("the file must end in .toml or .svg".to_owned()),
+    }
+}
+
+/// A fit and what it is of.
+struct Answered<'a> {
+    args: &'a Args,
+    file: ProductFile,
+    records: Vec<Record>,
+    fit: Fit,
+}
+
+impl Args {
+    pub(crate) fn files(&self) -> Files<'_> {
+        let reads = self.records.iter().chain([&self.product]).map(AsRef::as_ref).collect();
+        Files { reads, writes: self.output.iter().map(|target| target.path.as_path()).collect() }
+    }
+
+    pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        let wants_copy = self.output.iter().any(|target| !target.is_picture);
+        if wants_copy && input::is_standard(&self.product) {
+            return Err(Failure::Usage("a copy of the product file needs it as a file: give its name with --product"));
+        }
+        let file = assess::read(&self.product, streams)?;
+        let answered = self.answered(file)?;
+        for target in &self.output {
+            if target.is_picture {
+                let picture = picture::draw(&answered)?;
+                output::replace(&target.path, |out| out.write_all(picture.as_bytes()))?;
+            } else {
+                answered.copy(&target.path, streams)?;
+            }
+        }
+        match self.format {
+            Format::Table => table::table(&answered, streams.out).map_err(Failure::Answer),
+            Format::Json => streams.json(&answer::Answer::new(&answered)),
+        }
+    }
+
+    fn answered(&self, file: ProductFile) -> Result<Answered<'_>, Failure> {
+        let mut places = self.position.iter();
+        let half_m = 0.5 * file.product.body.length_m();
+        let timing_s = self.timing.map(|timing| timing.si);
+        let read = |path: &PathBuf| records::read(path, &mut places, half_m, timing_s, &self.reading);
+        let records = self.records.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+        if places.next().is_some() {
+            return Err(Failure::Usage(
+                "--position goes with a record of an acceleration, one each: there are more of them",
+            ));
+        }
+        let fit = self.fit(&file, &records)?;
+        Ok(Answered { args: self, file, records, fit })
+    }
+
+    fn fit(&self, file: &ProductFile, records: &[Record]) -> Result<Fit, Failure> {
+        if let [Record::Bounces(times_s)] = records {
+            let timing_s = self.timing.map(|timing| timing.si);
+            return fit::bounces(times_s, file.drop.gravity_m_s2, timing_s).map_err(|error| self.failure(error));
+        }
+        let measured = |record: &Record| match record {
+            Record::Measured(measured) => Ok(measured.clone()),
+            Record::Bounces(_) => Err(Failure::Usage("a record of bounces is of another drop: fit it alone")),
+        };
+        let measured = records.iter().map(measured).collect::<Result<Vec<Measured>, _>>()?;
+        let known = Known { gyration_known: self.known_gyration, ..Known::from(file) };
+        fit::fit(&known, &measured).map_err(|error| self.failure(error))
+    }
+
+    /// The same with the name of the record.
+    fn failure(&self, error: fit::Error) -> Failure {
+        let name = |record: usize| {
+            let path = self.records.get(record.saturating_sub(1));
+            path.map_or_else(|| format!("record {record}"), |path| text::path(path))
+        };
+        Failure::Wrong(match error {
+            fit::Error::Value { record, name: what, value, allowed } => {
+                format!("{}: {what} = {value:?} is not {allowed}", name(record))
+            }
+            fit::Error::Count { record, count, name: what, allowed } => {
+                format!("{}: {count} {what}; allowed: {allowed}", name(record))
+            }
+            error => error.to_string(),
+        })
+    }
+}
+
+impl Answered<'_> {
+    /// The copy of the product file with what was found.
+    fn copy(&self, path: &Path, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        let source = &self.args.product;
+        let unreadable = |reason| Failure::Unreadable { path: source.clone(), reason };
+        let mut text = String::new();
+        let file = File::open(source).map_err(unreadable)?;
+        file.take(LARGEST_FILE as u64).read_to_string(&mut text).map_err(unreadable)?;
+        let written = fit::written(&text, &self.fit)
+            .map_err(|error| Failure::Wrong(format!("{} cannot take what was found: {error}", text::path(source))))?;
+        output::replace(path, |out| out.write_all(written.text.as_bytes()))?;
+        for note in written.notes {
+            streams.note("note", note);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,145 @@
+//! Records of a drop, each kind told by the first line of its file.
+
+use std::io::{self, BufRead, BufReader, Cursor, Read};
+use std::path::Path;
+
+use clatter::End;
+use clatter_assess::fit::{MOST_SAMPLES, MOST_STRIKES, Measured, MeasuredHeights, MeasuredStrike};
+
+use crate::lists::{finite, rows_of};
+use crate::quantities::{Place, positions};
+use crate::record_args::RecordArgs;
+use crate::text::visible;
+use crate::{Failure, input};
+
+/// What one file holds.
+#[derive(Debug, Clone)]
+pub(super) enum Record {
+    Measured(Measured),
+    Bounces(Vec<f64>),
+}
+
+/// Bytes that the lines before and with the header may have.
+const HEADER: usize = 1 << 16;
+
+/// Reads a file; the next of `places` is where an acceleration was measured.
+pub(super) fn read<'a>(
+    path: &Path,
+    places: &mut impl Iterator<Item = &'a Place>,
+    half_m: f64,
+    timing_s: Option<f64>,
+    reading: &RecordArgs,
+) -> Result<Record, Failure> {
+    let unreadable = |reason| Failure::Unreadable { path: path.to_owned(), reason };
+    let mut file = BufReader::with_capacity(1 << 16, input::open(path).map_err(unreadable)?);
+    let (before, header) = header(&mut file).map_err(unreadable)?;
+    let whole = BufReader::new(Cursor::new(before).chain(file));
+    let columns: Vec<&str> = header.split(',').map(|name| name.trim().trim_matches('"')).collect();
+    let has = |names: &[&str]| names.iter().all(|name| columns.contains(name));
+    if has(&["bounce_s"]) {
+        return bounces(path, whole).map(Record::Bounces);
+    }
+    let measured = if has(&["time_s", "end"]) {
+        Measured::Strikes { strikes: strikes(path, whole)?, deviation_s: timing_s }
+    } else if has(&["time_s", "height_a_m", "height_b_m"]) {
+        Measured::Heights { samples: heights(path, whole)?, deviation_m: None }
+    } else {
+        let place = places.next().ok_or_else(|| {
+            Failure::Wrong(format!(
+                "{} has neither strikes (time_s,end) nor heights (time_s,height_a_m,height_b_m) nor bounces (bounce_s) in its first \
+                 line: an acceleration needs --position, where it was measured",
+                crate::text::path(path)
+            ))
+        })?;
+        let s = positions(&[*place], "--position", half_m)?;
+        acceleration(path, whole, reading, s.first().map_or(0.0, |s| s * half_m))?
+    };
+    Ok(Record::Measured(measured))
+}
+
+/// The lines up to the first that says something, and that one as text.
+fn header(input: &mut impl BufRead) -> io::Result<(Vec<u8>, String)> {
+    let mut before = Vec::new();
+    loop {
+        let begin = before.len();
+        let room = (HEADER - begin) as u64;
+        let n = input.take(room).read_until(b'\n', &mut before)?;
+        let line = String::from_utf8_lossy(&before[begin..]).trim().trim_start_matches('\u{feff}').to_owned();
+        if n == 0 || !line.is_empty() && !line.starts_with('#') {
+            return Ok((before, line));
+        }
+    }
+}
+
+fn strikes(path: &Path, input: impl BufRead) -> Result<Vec<MeasuredStrike>, Failure> {
+    let mut list: Vec<MeasuredStrike> = Vec::new();
+    rows_of(path, input, ["time_s", "end"], |[time, end]| {
+        let time_s = rising("time_s", time, list.last().map(|strike| strike.time_s))?;
+        let end = match end {
+            "a" => Some(End::A),
+            "b" => Some(End::B),
+            "" => None,
+            _ => return Err(format!("end '{}' is not a, b or empty", visible(end))),
+        };
+        below(list.len(), MOST_STRIKES, "strikes")?;
+        list.push(MeasuredStrike { time_s, end });
+        Ok(())
+    })?;
+    Ok(list)
+}
+
+fn bounces(path: &Path, input: impl BufRead) -> Result<Vec<f64>, Failure> {
+    let mut list: Vec<f64> = Vec::new();
+    rows_of(path, input, ["bounce_s"], |[time]| {
+        let time_s = rising("bounce_s", time, list.last().copied())?;
+        below(list.len(), MOST_STRIKES, "bounces")?;
+        list.push(time_s);
+        Ok(())
+    })?;
+    Ok(list)
+}
+
+fn heights(path: &Path, input: impl BufRead) -> Result<Vec<MeasuredHeights>, Failure> {
+    let mut list: Vec<MeasuredHeights> = Vec::new();
+    rows_of(path, input, ["time_s", "height_a_m", "height_b_m"], |[time, a, b]| {
+        let time_s = rising("time_s", time, list.last().map(|sample| sample.time_s))?;
+        let height_m = [finite("height_a_m", a)?, finite("height_b_m", b)?];
+        below(list.len(), MOST_SAMPLES, "samples")?;
+        list.push(MeasuredHeights { time_s, height_m });
+        Ok(())
+    })?;
+    Ok(list)
+}
+
+/// A time, not before the one in the row above.
+fn rising(name: &str, text: &str, before: Option<f64>) -> Result<f64, String> {
+    let time = finite(name, text)?;
+    match before {
+        Some(before) if time < before => {
+            Err(format!("{name} {time:?} is before {before:?}, the row above; sort by time"))
+        }
+        _ => Ok(time),
+    }
+}
+
+fn below(count: usize, most: usize, name: &str) -> Result<(), String> {
+    if count < most { Ok(()) } else { Err(format!("more than {most} {name}")) }
+}
+
+/// An acceleration over even times, of one channel.
+fn acceleration(path: &Path, input: impl Read, reading: &RecordArgs, position_m: f64) -> Result<Measured, Failure> {
+    let bad = |reason| Failure::Record { path: path.to_owned(), reason };
+    let record = reading.read_from(path, input)?;
+    let [channel] = record.channels() else {
+        return Err(Failure::Usage("a record of several channels: --acceleration picks the one of --position"));
+    };
+    let step_s = record.even("a fit").map_err(bad)?;
+    if channel.values.len() > MOST_SAMPLES {
+        let samples = channel.values.len();
+        return Err(Failure::Wrong(format!(
+            "{}: {samples} samples; a fit takes {MOST_SAMPLES} at most",
+            crate::text::path(path)
+        )));
+    }
+    Ok(Measured::Acceleration { position_m, start_s: record.start_s(), step_s, values_m_s2: channel.values.clone() })
+}

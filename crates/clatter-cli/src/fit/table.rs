@@ -1,0 +1,106 @@
+//! A fit for people.
+
+use std::io::{self, Write};
+
+use clatter_assess::fit::{Estimate, Quantity};
+
+use super::{Answered, answer};
+use crate::inputs::letter;
+use crate::text::{self, shown};
+use crate::words::four;
+
+/// What a quantity is called, and the unit that people use for it with its factor.
+fn said(quantity: Quantity) -> (&'static str, f64, &'static str) {
+    match quantity {
+        Quantity::Restitution => ("restitution", 1.0, ""),
+        Quantity::RestitutionA => ("restitution of end a", 1.0, ""),
+        Quantity::RestitutionB => ("restitution of end b", 1.0, ""),
+        Quantity::RadiusOfGyration => ("radius of gyration", 1e3, "mm"),
+        Quantity::InertiaRatio => ("inertia ratio q", 1.0, ""),
+        Quantity::GapOverSpeed => ("gap over speed", 1e3, "ms"),
+        Quantity::Speed => ("speed", 1.0, "m/s"),
+        Quantity::DropHeight => ("drop height", 1e3, "mm"),
+        Quantity::Tilt => ("tilt", 180.0 / std::f64::consts::PI, "deg"),
+        Quantity::Spin => ("spin", 1.0, "rad/s"),
+        Quantity::ContactTime => ("contact time", 1e3, "ms"),
+        other => (other.name(), 1.0, other.unit()),
+    }
+}
+
+pub(super) fn table(answered: &Answered<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let fit = &answered.fit;
+    let records = answered.args.records.len();
+    let name = shown(&answered.file.product.name, 60);
+    let of = if records == 1 { "1 record".to_owned() } else { format!("{records} records") };
+    writeln!(out, "{name}: fit to {of}, model {}, {} degrees of freedom", fit.model.name(), fit.degrees_of_freedom)?;
+    writeln!(out)?;
+    writeln!(out, "{:<22}{:>12}  {:<24}unit", "", "estimate", "95 %")?;
+    for estimate in &fit.estimates {
+        line(estimate, out)?;
+    }
+    if !fit.untold.is_empty() {
+        writeln!(out, "\nThe data do not tell")?;
+    }
+    for untold in &fit.untold {
+        let (name, factor, unit) = said(untold.quantity);
+        let held = format!("{} {unit}", four(factor * untold.held_at));
+        writeln!(out, "  {name}, held at {}: {}", held.trim_end(), untold.reason)?;
+    }
+    writeln!(out)?;
+    for (path, (record, found)) in answered.args.records.iter().zip(answered.records.iter().zip(&fit.records)) {
+        let (kind, factor, unit) = match answer::kind(record) {
+            kind @ ("strikes" | "bounces") => (kind, 1e6, "us"),
+            kind @ "heights" => (kind, 1e3, "mm"),
+            kind => (kind, 1.0, "m/s2"),
+        };
+        writeln!(
+            out,
+            "{}: {kind}, {} {unit} off on the mean (root mean square), first touch at {} ms",
+            text::path(path),
+            four(factor * found.scatter),
+            four(1e3 * found.first_touch_s)
+        )?;
+    }
+    if fit.records.iter().any(|record| !record.strikes.is_empty()) {
+        strikes(answered, out)?;
+    }
+    for note in &fit.notes {
+        writeln!(out, "\nNote: {note}.")?;
+    }
+    Ok(())
+}
+
+fn line(estimate: &Estimate, out: &mut dyn Write) -> io::Result<()> {
+    let (name, factor, unit) = said(estimate.quantity);
+    let interval = estimate
+        .interval
+        .map_or_else(|| "not known".to_owned(), |[lo, hi]| format!("{} to {}", four(factor * lo), four(factor * hi)));
+    let note = estimate.note.as_ref().map_or(String::new(), ToString::to_string);
+    let text = format!("{name:<22}{:>12}  {interval:<24}{unit:<6}{note}", four(factor * estimate.value));
+    writeln!(out, "{}", text.trim_end())
+}
+
+/// Strikes shown at most.
+const MOST: usize = 40;
+
+/// Measured strikes beside computed ones.
+fn strikes(answered: &Answered<'_>, out: &mut dyn Write) -> io::Result<()> {
+    for record in answered.fit.records.iter().filter(|record| !record.strikes.is_empty()) {
+        writeln!(out, "\n{:>7} {:>4} {:>14} {:>14}", "strike", "end", "measured, ms", "less computed")?;
+        for strike in record.strikes.iter().take(MOST) {
+            let number = strike.number.map_or_else(|| "none".to_owned(), |number| number.to_string());
+            let residual =
+                strike.residual_s.map_or_else(|| "left out".to_owned(), |s| format!("{:+.1} us", 1e6 * s + 0.0));
+            let end = strike.measured.end.map_or("", letter);
+            writeln!(
+                out,
+                "{number:>7} {end:>4} {:>14} {residual:>14}",
+                format!("{:.4}", 1e3 * strike.measured.time_s)
+            )?;
+        }
+        if record.strikes.len() > MOST {
+            writeln!(out, "  and {} more; --format=json lists all", record.strikes.len() - MOST)?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,211 @@
+//! `clatter fit`: from a measured drop to the data of the product. That its numbers and intervals hold is tested in `clatter-assess`.
+
+use std::fs;
+use std::path::Path;
+
+use clatter_cli::Exit;
+use serde_json::Value;
+
+use crate::{answer, clatter};
+
+/// The paper's reference bar, q = 1/2, so slow and so level that neither gravity nor the tilt counts.
+const PRODUCT: &str = r#"# a bar of the laboratory
+[product]
+name = "Bar"
+length = "200 mm"
+radius_of_gyration = "57.735 mm" # evenly spread
+restitution = [0.1, 0.9] # not known yet
+[drop]
+speed = "0.1 m/s"
+tilt = ["0 deg", "1 deg"]
+gravity = "0 gn"
+[[component]]
+name = "part"
+position = "0 mm"
+mount = "hard"
+velocity_change_limit = "1 m/s"
+"#;
+
+/// Its four strikes for e = 0.3 and a gap of 2 ms times the speed, by Eqs. 1 to 3: 0, 1/1.65, 0.8414239 and 17.1929825 times that.
+const STRIKES: &str = "time_s,end\n0.25,a\n0.25121212121,b\n0.25168284790,a\n0.28438596491,b\n";
+
+fn write(dir: &Path, name: &str, text: &str) -> String {
+    let path = dir.join(name);
+    fs::write(&path, text).unwrap();
+    path.display().to_string()
+}
+
+fn estimate<'a>(found: &'a Value, name: &str) -> &'a Value {
+    let all = found["estimates"].as_array().unwrap();
+    all.iter().find(|one| one["quantity"] == name).unwrap_or_else(|| panic!("{name} in {found:#}"))
+}
+
+#[test]
+fn strikes_give_the_restitution_and_gap_over_speed() {
+    let dir = tempfile::tempdir().unwrap();
+    let product = format!("--product={}", write(dir.path(), "bar.toml", PRODUCT));
+    let strikes = write(dir.path(), "strikes.csv", STRIKES);
+    for ends in [true, false] {
+        let file =
+            if ends { strikes.clone() } else { write(dir.path(), "times.csv", &STRIKES.replace(['a', 'b'], "")) };
+        let found = answer(["fit", &file, &product, "--known-gyration", "--timing=1us"]);
+        let e = estimate(&found, "restitution");
+        assert!((e["value"].as_f64().unwrap() - 0.3).abs() < 1e-4, "{e}");
+        let [lo, hi] = [0, 1].map(|i| e["interval"][i].as_f64().unwrap());
+        assert!(lo < 0.3 && 0.3 < hi && hi - lo < 0.01, "{e}");
+        let gap = estimate(&found, "gap-over-speed");
+        assert!((gap["value"].as_f64().unwrap() - 2e-3).abs() < 1e-6 && gap["unit"] == "s", "{gap}");
+        let speed = found["untold"].as_array().unwrap().iter().find(|one| one["quantity"] == "speed").unwrap();
+        assert!(
+            speed["reason"].as_str().unwrap().contains("the gap over the speed, not the gap and the speed"),
+            "{speed}"
+        );
+        assert_eq!((&found["model"], &found["first"]), (&"finite-tilt".into(), &"a".into()));
+        let record = &found["records"][0];
+        assert_eq!((&record["kind"], record["strikes"].as_array().unwrap().len()), (&"strikes".into(), 4));
+        assert!((record["first_touch_s"].as_f64().unwrap() - 0.25).abs() < 1e-6, "{record}");
+        assert_eq!(found["correlations"].as_array().unwrap().len(), found["estimates"].as_array().unwrap().len());
+    }
+}
+
+#[test]
+fn a_copy_of_the_product_file_has_the_ranges_and_all_else_as_it_was() {
+    let dir = tempfile::tempdir().unwrap();
+    let product = write(dir.path(), "bar.toml", PRODUCT);
+    let strikes = write(dir.path(), "strikes.csv", STRIKES);
+    let [copy, picture] = ["fitted.toml", "fitted.svg"].map(|name| dir.path().join(name));
+    let (flag, outputs) =
+        (format!("--product={product}"), [&copy, &picture].map(|path| format!("-o{}", path.display())));
+    let outcome = clatter(["fit", &strikes, &flag, "--known-gyration", "--timing=1us", &outputs[0], &outputs[1]]);
+    assert_eq!((outcome.exit, outcome.stderr.as_str()), (Exit::Done, ""));
+    assert!(
+        outcome.stdout.contains("restitution") && outcome.stdout.contains("The data do not tell"),
+        "{}",
+        outcome.stdout
+    );
+    let text = fs::read_to_string(&copy).unwrap();
+    let changed: Vec<_> =
+        text.lines().zip(PRODUCT.lines()).filter(|(new, old)| new != old).map(|(new, _)| new).collect();
+    let [restitution, tilt] = changed[..] else { panic!("{text}") };
+    assert!(
+        restitution.starts_with("restitution = [0.29") && restitution.ends_with("] # not known yet"),
+        "{restitution}"
+    );
+    assert!(tilt.starts_with("tilt = ") && tilt.contains("deg"), "{tilt}");
+    assert_eq!(text.lines().count(), PRODUCT.lines().count());
+    let picture = fs::read_to_string(&picture).unwrap();
+    assert!(picture.starts_with("<svg") && picture.contains("measured") && picture.contains("computed"), "{picture}");
+    // Its own product file is not written over.
+    let same = clatter(["fit", &strikes, &flag, &format!("-o{product}")]);
+    assert_eq!(same.exit, Exit::BadInput);
+    assert!(same.stderr.contains("would be lost"), "{}", same.stderr);
+    assert_eq!(fs::read_to_string(&product).unwrap(), PRODUCT);
+}
+
+#[test]
+fn bounces_give_the_restitution() {
+    let dir = tempfile::tempdir().unwrap();
+    let product = write(dir.path(), "bar.toml", &PRODUCT.replace("gravity = \"0 gn\"\n", ""));
+    // Flights of 0.4, 0.24, 0.144 s.
+    let bounces = write(dir.path(), "bounces.csv", "bounce_s\n2.0\n2.4\n2.64\n2.784\n");
+    let flag = format!("--product={product}");
+    let found = answer(["fit", &bounces, &flag, "--timing=0.1ms"]);
+    let e = estimate(&found, "restitution")["value"].as_f64().unwrap();
+    assert!((e - 0.6).abs() < 1e-9, "{e}");
+    // 2 e v/g = 0.4 s: v = 3.2689 m/s.
+    let height = estimate(&found, "drop-height")["value"].as_f64().unwrap();
+    assert!((height - 3.268_883_f64.powi(2) / (2.0 * 9.80665)).abs() < 1e-5, "{height}");
+    let beside = clatter(["fit", &bounces, &write(dir.path(), "strikes.csv", STRIKES), &flag]);
+    assert!(beside.stderr.contains("fit it alone"), "{}", beside.stderr);
+}
+
+/// Rows of a file by their columns.
+fn columns(csv: &str, names: &[&str]) -> Vec<Vec<f64>> {
+    let mut lines = csv.lines();
+    let header: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let places: Vec<usize> = names.iter().map(|name| header.iter().position(|h| h == name).unwrap()).collect();
+    let row = |line: &str| {
+        let cells: Vec<&str> = line.split(',').collect();
+        places.iter().map(|place| cells[*place].parse().unwrap()).collect()
+    };
+    lines.map(row).collect()
+}
+
+/// The way of heights through the command: what `simulate` says of a drop comes back.
+#[test]
+fn heights_come_back() {
+    let dir = tempfile::tempdir().unwrap();
+    let rows = dir.path().join("rows.csv").display().to_string();
+    let flags = ["--model=finite-tilt", "--length=200mm", "--gyration=60mm", "--e=0.4", "--speed=3m/s", "--tilt=3deg"];
+    let simulated = clatter(["simulate", "--until=60ms", "-o", &rows].iter().chain(&flags));
+    assert_eq!(simulated.exit, Exit::Done, "{}", simulated.stderr);
+    let mut csv = "time_s,height_a_m,height_b_m\n".to_owned();
+    for row in columns(&fs::read_to_string(&rows).unwrap(), &["time_s", "height_a_m", "height_b_m"]) {
+        csv += &format!("{},{},{}\n", 5.0 + row[0], row[1], row[2]);
+    }
+    let product = PRODUCT.replace("gravity = \"0 gn\"\n", "").replace("\"0.1 m/s\"", "[\"2.5 m/s\", \"3.4 m/s\"]");
+    let product = product.replace("\"1 deg\"", "\"10 deg\"");
+    let product = write(dir.path(), "bar.toml", &product);
+    let found = answer(["fit", &write(dir.path(), "video.csv", &csv), &format!("--product={product}")]);
+    for (name, truth) in [("radius-of-gyration", 0.06), ("speed", 3.0), ("tilt", 3f64.to_radians())] {
+        let value = estimate(&found, name)["value"].as_f64().unwrap();
+        assert!((value / truth - 1.0).abs() < 1e-3, "{name}: {value}, not {truth}");
+    }
+}
+
+#[test]
+fn bad_records_are_told_by_line() {
+    let dir = tempfile::tempdir().unwrap();
+    let product = format!("--product={}", write(dir.path(), "bar.toml", PRODUCT));
+    for (text, said) in [
+        ("time_s,end\n0,a\n1,c\n", "line 3: end 'c' is not a, b or empty"),
+        ("time_s,end\n0,a\n1e-3,b\n5e-4,a\n", "line 4: time_s 0.0005 is before 0.001, the row above; sort by time"),
+        ("time_s,end\n0,a\nsoon,b\n", "line 3: time_s: 'soon' is not a number"),
+        ("time_s,end\n0,a\n", "1 strikes; allowed: 2 to 4096"),
+        ("time_s,end\n", "no rows"),
+        ("time_s,height_a_m,height_b_m\n0,1,inf\n", "line 2: height_b_m = inf is not finite"),
+        ("bounce_s\n1\n", "1 bounces; allowed: 3 to 4096"),
+        ("time [s],acceleration [g]\n0,0\n1,0\n", "an acceleration needs --position"),
+        ("", "an acceleration needs --position"),
+    ] {
+        let file = write(dir.path(), "record.csv", text);
+        let outcome = clatter(["fit", &file, &product]);
+        assert_eq!((outcome.exit, outcome.stdout.as_str()), (Exit::BadInput, ""), "{text:?}");
+        assert!(outcome.stderr.contains(said) && outcome.stderr.lines().count() == 1, "{}, not {said}", outcome.stderr);
+        assert!(outcome.stderr.contains("record.csv"), "{}", outcome.stderr);
+    }
+    let uneven = write(dir.path(), "uneven.csv", "time [s],acceleration [g]\n0,0\n1,1\n2,0\n7,0\n");
+    let outcome = clatter(["fit", &uneven, &product, "--position=0mm"]);
+    assert!(outcome.stderr.contains("line 3: time 1.0 s is off an even step"), "{}", outcome.stderr);
+    for (flags, said) in [
+        (&["--position=3m"][..], "beyond the ends"),
+        (&["-o", "fit.pdf"], "must end in .toml or .svg"),
+        (&["-o", "-"], "no ending that says what to write"),
+        (&["--timing=0s"], "--timing"),
+    ] {
+        let outcome = clatter(["fit", &uneven, &product].iter().copied().chain(flags.iter().copied()));
+        assert_eq!(outcome.exit, Exit::BadInput, "{flags:?}");
+        assert!(outcome.stderr.contains(said), "{}, not {said}", outcome.stderr);
+    }
+}
+
+/// The first two examples of the help, with files of these names.
+#[test]
+fn the_examples_of_the_help_run() {
+    let help = clatter(["fit", "--help"]).stdout;
+    let dir = tempfile::tempdir().unwrap();
+    write(dir.path(), "strikes.csv", STRIKES);
+    write(dir.path(), "handheld.toml", PRODUCT);
+    let examples: Vec<&str> = help.lines().filter(|line| line.trim().starts_with("clatter fit strikes.csv")).collect();
+    assert_eq!(examples.len(), 2, "{help}");
+    for example in examples {
+        let place = |name: &str| dir.path().join(name).display().to_string();
+        let argument = |word: &str| match word.strip_prefix("--product=") {
+            Some(name) => format!("--product={}", place(name)),
+            None if word.ends_with(".csv") || word.ends_with(".toml") || word.ends_with(".svg") => place(word),
+            None => word.to_owned(),
+        };
+        let outcome = clatter(example.split_whitespace().skip(1).map(argument));
+        assert_eq!((outcome.exit, outcome.stderr.as_str()), (Exit::Done, ""), "{example}: {}", outcome.stdout);
+    }
+}
