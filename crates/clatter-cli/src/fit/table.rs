@@ -34,7 +34,7 @@ pub(super) fn table(answered: &Answered<'_>, out: &mut dyn Write) -> io::Result<
     let of = if records == 1 { "1 record".to_owned() } else { format!("{records} records") };
     writeln!(out, "{name}: fit to {of}, model {}, {} degrees of freedom", fit.model.name(), fit.degrees_of_freedom)?;
     writeln!(out)?;
-    writeln!(out, "{:<22}{:>12}  {:<24}{}", "", "estimate", "95 %", "unit")?;
+    writeln!(out, "{:<22}{:>12}  {:<24}unit", "", "estimate", "95 %")?;
     for estimate in &fit.estimates {
         line(estimate, out)?;
     }
@@ -75,7 +75,7 @@ fn line(estimate: &Estimate, out: &mut dyn Write) -> io::Result<()> {
     let interval = estimate
         .interval
         .map_or_else(|| "not known".to_owned(), |[lo, hi]| format!("{} to {}", four(factor * lo), four(factor * hi)));
-    let note = estimate.note.as_ref().map_or(String::new(), |note| format!("{note}"));
+    let note = estimate.note.clone().unwrap_or_default();
     let text = format!("{name:<22}{:>12}  {interval:<24}{unit:<6}{note}", four(factor * estimate.value));
     writeln!(out, "{}", text.trim_end())
 }
