@@ -344,7 +344,7 @@ enum Set<'a> {
         deviation: f64,
     },
     Heights {
-        samples: &'a [MeasuredHeights],
+        samples: Vec<MeasuredHeights>,
         deviation: f64,
     },
     Acceleration {
@@ -358,9 +358,9 @@ enum Set<'a> {
 }
 
 impl Set<'_> {
-    /// Whether a flight has all strikes that are asked for.
-    fn has_enough(&self, drop: &Drop<'_>, strikes: &[Strike]) -> bool {
-        let Self::Strikes { index, .. } = self else { return true };
+    /// How many strikes are asked for: of all, and of ends a and b.
+    fn needed(&self) -> [usize; 3] {
+        let Self::Strikes { index, .. } = self else { return [0; 3] };
         let most = |end: Option<End>| {
             let of = |which: &Which| match *which {
                 Which::Of(n) => end.is_none().then_some(n + 1),
@@ -368,26 +368,12 @@ impl Set<'_> {
             };
             index.iter().flatten().filter_map(of).max().unwrap_or(0)
         };
-        let count = |end: End| strikes.iter().filter(|strike| drop.end(strike.point) == end).count();
-        strikes.len() >= most(None) && [End::A, End::B].into_iter().all(|end| count(end) >= most(Some(end)))
+        let [all, a, b] = [None, Some(End::A), Some(End::B)].map(most);
+        [all.max(a + b), a, b]
     }
     /// So many computed strikes have those that are asked for among them, unless one end strikes several times in a row more.
     fn strikes(&self) -> usize {
-        let Self::Strikes { index, .. } = self else { return 0 };
-        let most = |end: End| {
-            let of = |which: &Which| match *which {
-                Which::Of(n) => n + 1,
-                Which::OfEnd(own, n) => {
-                    if own == end {
-                        n + 1
-                    } else {
-                        0
-                    }
-                }
-            };
-            index.iter().flatten().map(of).max().unwrap_or(0)
-        };
-        most(End::A) + most(End::B) + 2
+        self.needed()[0] + 2
     }
     /// Time from the first to the last measured strike.
     fn span_s(&self) -> Option<f64> {
@@ -436,9 +422,18 @@ impl Set<'_> {
             Self::Strikes { index, .. } => {
                 let computed = path.strikes();
                 let never = drop.horizon_s();
+                let of_end = |end: End| -> Vec<usize> {
+                    (0..computed.len()).filter(|k| drop.end(computed[*k].point) == end).collect()
+                };
+                let (a, b) = (of_end(End::A), of_end(End::B));
+                let place = |which: &Which| match *which {
+                    Which::Of(n) => Some(n),
+                    Which::OfEnd(End::A, n) => a.get(n).copied(),
+                    Which::OfEnd(End::B, n) => b.get(n).copied(),
+                };
                 let time = |which: &Which| {
-                    let found = which.find(drop, computed).map(|k| computed[k].time_s);
-                    offset_s + found.map_or(never, |time_s| time_s.min(never))
+                    let found = place(which).and_then(|k| computed.get(k));
+                    offset_s + found.map_or(never, |strike| strike.time_s.min(never))
                 };
                 index.iter().flatten().map(time).collect()
             }

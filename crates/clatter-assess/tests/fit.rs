@@ -1,6 +1,8 @@
 //! Fits to synthetic drops whose truth is known. Strikes come from the plain recursion of the paper's Eqs. 1 to 3, heights and
 //! accelerations from small steps in time: nothing here shares code with the flights that the fit computes.
 
+#![cfg(test)]
+
 use clatter::End;
 use clatter_assess::First;
 use clatter_assess::fit::{Estimate, Fit, Known, Measured, MeasuredHeights, MeasuredStrike, Quantity, bounces, fit};

@@ -36,8 +36,9 @@ const STEEPEST: f64 = 0.5;
 const STEP: f64 = 1e-6;
 /// Flights with contacts are exact to [`PRECISION`] for each contact; steps are far above that.
 const CONTACT_STEP: f64 = 1e-4;
-/// Flights of a search, by whether contacts take time: about two seconds of either.
-pub(super) const FLIGHTS: [usize; 2] = [200_000, 20_000];
+/// Flights of a search, by whether contacts take time, for so many data: about two seconds of either.
+pub(super) const FLIGHTS: [usize; 2] = [200_000, 10_000];
+pub(super) const DATA: [usize; 2] = [32, 256];
 /// Precision of flights with contacts, and while a search is on.
 const PRECISION: f64 = 1e-5;
 const ROUGH: f64 = 1e-3;
@@ -177,9 +178,13 @@ impl Drop<'_> {
         let until_s = self.until_s(x);
         let horizon_s = self.horizon_s().max(until_s);
         if !self.contacts {
+            let needed: Vec<[usize; 3]> = self.sets.iter().map(Set::needed).collect();
             return self.rigid(x, horizon_s, |flight| {
-                flight.strikes.last().is_some_and(|s| s.time_s > until_s)
-                    && self.sets.iter().all(|set| set.has_enough(self, &flight.strikes))
+                let strikes = &flight.strikes;
+                let count = |end: End| strikes.iter().filter(|strike| self.end(strike.point) == end).count();
+                let has =
+                    |[all, a, b]: &[usize; 3]| strikes.len() >= *all && count(End::A) >= *a && count(End::B) >= *b;
+                strikes.last().is_some_and(|s| s.time_s > until_s) && needed.iter().all(has)
             });
         }
         let needed = self.sets.iter().map(Set::strikes).max().unwrap_or(0);

@@ -152,7 +152,16 @@ impl Search<'_> {
             if !self.is_suspect(&best) || self.drop.left.get() == 0 {
                 break;
             }
-            let other = round.iter().map(|faults| self.candidate(faults, TRIED)).min_by(Candidate::order);
+            let mut other: Option<Candidate> = None;
+            for faults in round {
+                let next = self.candidate(faults, TRIED);
+                if other.as_ref().is_none_or(|other| next.order(other) == Ordering::Less) {
+                    other = Some(next);
+                }
+                if self.drop.left.get() == 0 {
+                    break;
+                }
+            }
             if let Some(other) = other
                 && self.is_better(&best, &other, round.len())
             {

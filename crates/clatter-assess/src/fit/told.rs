@@ -91,7 +91,7 @@ impl Drop<'_> {
                 Set::Heights { samples, .. } => {
                     let end_s = samples.last()?.time_s;
                     let until_s = touch_s + share * (end_s - touch_s);
-                    *samples = &samples[..samples.partition_point(|sample| sample.time_s <= until_s).max(4)];
+                    samples.truncate(samples.partition_point(|sample| sample.time_s <= until_s).max(4));
                     cut = true;
                 }
                 Set::Acceleration { start_s, step_s, values, .. } => {

@@ -75,7 +75,7 @@ fn line(estimate: &Estimate, out: &mut dyn Write) -> io::Result<()> {
     let interval = estimate
         .interval
         .map_or_else(|| "not known".to_owned(), |[lo, hi]| format!("{} to {}", four(factor * lo), four(factor * hi)));
-    let note = estimate.note.as_ref().map_or(String::new(), ToString::to_string);
+    let note = estimate.note.clone().unwrap_or_default();
     let text = format!("{name:<22}{:>12}  {interval:<24}{unit:<6}{note}", four(factor * estimate.value));
     writeln!(out, "{}", text.trim_end())
 }
