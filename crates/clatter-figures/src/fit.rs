@@ -99,7 +99,7 @@ fn mark(color: &str, is_used: bool) -> Ink<'_> {
 
 fn frame<'a>(paper: &mut Paper, top: f64, [from, to]: [f64; 2], [low, high]: [f64; 2], title: &'a str) -> Chart<'a> {
     let x = Axis::linear(1e3 * from, 1e3 * to, "time since the first touch, ms");
-    let y = Axis::linear(low, high, title);
+    let y = Axis { bare: title.is_empty(), ..Axis::linear(low, high, title) };
     Axes { corner: [LEFT, top], size: [WIDE, HIGH], x, y }.on(paper, 36.0)
 }
 
@@ -108,7 +108,7 @@ fn strikes(paper: &mut Paper, top: f64, measured: &[Strike], computed: &[(f64, E
     let last = measured.iter().map(|strike| strike.time_s).fold(0.0, f64::max);
     let first = measured.iter().map(|strike| strike.time_s).fold(0.0, f64::min);
     let span = if last > first { last - first } else { 1e-3 };
-    let chart = frame(paper, top, [first - 0.03 * span, last + 0.06 * span], [0.0, 3.0], "strikes");
+    let chart = frame(paper, top, [first - 0.03 * span, last + 0.06 * span], [0.0, 3.0], "");
     let color = |end: Option<End>| match end {
         Some(End::A) => ENDS[0],
         Some(End::B) => ENDS[1],
@@ -121,6 +121,10 @@ fn strikes(paper: &mut Paper, top: f64, measured: &[Strike], computed: &[(f64, E
         let ink = Ink { dash: "2 2", ..Ink::line(color(strike.end), 0.7) };
         paper.line(chart.at(1e3 * strike.time_s, 1.4), chart.at(1e3 * strike.time_s, 2.2), ink);
         paper.circle(chart.at(1e3 * strike.time_s, 2.2), 2.2, mark(color(strike.end), strike.is_used));
+    }
+    for (text, height) in [("measured", 2.2), ("computed", 0.7)] {
+        let [x, y] = chart.at(1e3 * (first - 0.03 * span), height);
+        paper.text([x - 4.0, y + 2.5], text, Label { anchor: Anchor::End, ..SMALL });
     }
     chart.border(paper);
 }

@@ -25,7 +25,7 @@ const MORE: usize = 3;
 
 /// Finds the drop that is nearest to what was measured, what the data tell of it, and what they do not.
 ///
-/// All records are of one drop; the time axis of each begins anywhere. The method is told in the [module](self).
+/// All records are of one drop; the time axis of each begins anywhere. The method is told in the [module](crate::fit).
 ///
 /// # Validity
 /// A rigid bar on hard, level ground without friction; one restitution at any speed. Strikes are told apart where they are missing
