@@ -32,6 +32,7 @@ mod bounces;
 mod drop;
 mod matching;
 mod report;
+mod set;
 mod solve;
 mod starts;
 mod student;
@@ -39,13 +40,13 @@ mod told;
 mod write;
 
 use clatter::End;
-use clatter_flight::{Body, ContactLaw, Strike};
+use clatter_flight::{Body, ContactLaw};
 
 use crate::{First, Model, ProductFile};
 
 pub use bounces::bounces;
-use drop::{Drop, Path};
 pub use report::fit;
+use set::{Set, Which};
 pub use write::{Written, written};
 
 /// Strikes of a record at most.
@@ -311,181 +312,3 @@ pub enum Error {
     #[error("no drop was found whose {0} are as measured: check units, ends and the length in the product file")]
     NoDrop(&'static str),
 }
-
-/// A computed strike, from 0.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Which {
-    /// So many strikes come before it.
-    Of(usize),
-    /// So many strikes of its end come before it: two of both ends close together are the same whichever is measured first.
-    OfEnd(End, usize),
-}
-
-impl Which {
-    /// The place of the strike among all that were computed.
-    fn find(self, drop: &Drop<'_>, strikes: &[Strike]) -> Option<usize> {
-        match self {
-            Self::Of(n) => (n < strikes.len()).then_some(n),
-            Self::OfEnd(end, n) => {
-                let own = strikes.iter().enumerate().filter(|(_, strike)| drop.end(strike.point) == end);
-                own.map(|(k, _)| k).nth(n)
-            }
-        }
-    }
-}
-
-/// A record as the fit takes it.
-#[derive(Debug, Clone)]
-enum Set<'a> {
-    Strikes {
-        strikes: &'a [MeasuredStrike],
-        /// Of each the computed strike that it is; none of one that is left out.
-        index: Vec<Option<Which>>,
-        deviation: f64,
-    },
-    Heights {
-        samples: Vec<MeasuredHeights>,
-        deviation: f64,
-    },
-    Acceleration {
-        /// From the middle towards end b, in half-lengths.
-        place: f64,
-        start_s: f64,
-        step_s: f64,
-        values: Vec<f64>,
-        deviation: f64,
-    },
-}
-
-impl Set<'_> {
-    /// How many strikes are asked for: of all, and of ends a and b.
-    fn needed(&self) -> [usize; 3] {
-        let Self::Strikes { index, .. } = self else { return [0; 3] };
-        let most = |end: Option<End>| {
-            let of = |which: &Which| match *which {
-                Which::Of(n) => end.is_none().then_some(n + 1),
-                Which::OfEnd(own, n) => (end == Some(own)).then_some(n + 1),
-            };
-            index.iter().flatten().filter_map(of).max().unwrap_or(0)
-        };
-        let [all, a, b] = [None, Some(End::A), Some(End::B)].map(most);
-        [all.max(a + b), a, b]
-    }
-    /// So many computed strikes have those that are asked for among them, unless one end strikes several times in a row more.
-    fn strikes(&self) -> usize {
-        self.needed()[0] + 2
-    }
-    /// Time from the first to the last measured strike.
-    fn span_s(&self) -> Option<f64> {
-        let Self::Strikes { strikes, .. } = self else { return None };
-        strikes.last().zip(strikes.first()).map(|(last, first)| last.time_s - first.time_s)
-    }
-    /// Until when the motion is asked for, on the time axis of the record; strikes ask for their number alone.
-    fn end_s(&self) -> Option<f64> {
-        match self {
-            Self::Strikes { .. } => None,
-            Self::Heights { samples, .. } => samples.last().map(|sample| sample.time_s),
-            #[expect(clippy::cast_precision_loss, reason = "at most a million")]
-            Self::Acceleration { start_s, step_s, values, .. } => Some(start_s + step_s * values.len() as f64),
-        }
-    }
-    fn deviation(&mut self) -> &mut f64 {
-        match self {
-            Self::Strikes { deviation, .. }
-            | Self::Heights { deviation, .. }
-            | Self::Acceleration { deviation, .. } => deviation,
-        }
-    }
-    /// What its data vary by, over their deviation: the time between strikes, the largest height or acceleration.
-    fn variation(&self, unit_s: f64) -> f64 {
-        match self {
-            Self::Strikes { deviation, .. } => unit_s / deviation,
-            Self::Heights { samples, deviation } => {
-                samples.iter().flat_map(|s| s.height_m).fold(0.0_f64, |most, h| most.max(h.abs())) / deviation
-            }
-            Self::Acceleration { values, deviation, .. } => {
-                values.iter().fold(0.0_f64, |most, a| most.max(a.abs())) / deviation
-            }
-        }
-    }
-    /// Number of residuals.
-    fn len(&self) -> usize {
-        match self {
-            Self::Strikes { index, .. } => index.iter().flatten().count(),
-            Self::Heights { samples, .. } => 2 * samples.len(),
-            Self::Acceleration { values, .. } => values.len(),
-        }
-    }
-    /// Computed values as the record has them: times, heights of ends a and b in turn, accelerations.
-    fn computed(&self, drop: &Drop<'_>, path: &Path, offset_s: f64) -> Vec<f64> {
-        match self {
-            Self::Strikes { index, .. } => {
-                let computed = path.strikes();
-                let never = drop.horizon_s();
-                let of_end = |end: End| -> Vec<usize> {
-                    (0..computed.len()).filter(|k| drop.end(computed[*k].point) == end).collect()
-                };
-                let (a, b) = (of_end(End::A), of_end(End::B));
-                let place = |which: &Which| match *which {
-                    Which::Of(n) => Some(n),
-                    Which::OfEnd(End::A, n) => a.get(n).copied(),
-                    Which::OfEnd(End::B, n) => b.get(n).copied(),
-                };
-                let time = |which: &Which| {
-                    let found = place(which).and_then(|k| computed.get(k));
-                    offset_s + found.map_or(never, |strike| strike.time_s.min(never))
-                };
-                index.iter().flatten().map(time).collect()
-            }
-            Self::Heights { samples, .. } => {
-                let ends = |sample: &MeasuredHeights| {
-                    let [first, second] = path.heights_m(sample.time_s - offset_s);
-                    if drop.first == End::A { [first, second] } else { [second, first] }
-                };
-                samples.iter().flat_map(ends).collect()
-            }
-            Self::Acceleration { place, start_s, step_s, values, .. } => {
-                let s = if drop.first == End::A { *place } else { -place };
-                #[expect(clippy::cast_precision_loss, reason = "at most a million")]
-                let edge = |k: usize| path.given_m_s(s, start_s + step_s * (k as f64 - 0.5) - offset_s);
-                let mut before = edge(0);
-                let mut mean = |k: usize| {
-                    let now = edge(k + 1);
-                    let mean = (now - before) / step_s;
-                    before = now;
-                    mean
-                };
-                (0..values.len()).map(&mut mean).collect()
-            }
-        }
-    }
-    /// Measured values in the same order.
-    fn measured(&self) -> Vec<f64> {
-        match self {
-            Self::Strikes { strikes, index, .. } => strikes
-                .iter()
-                .zip(index)
-                .filter(|(_, index)| index.is_some())
-                .map(|(strike, _)| strike.time_s)
-                .collect(),
-            Self::Heights { samples, .. } => samples.iter().flat_map(|sample| sample.height_m).collect(),
-            Self::Acceleration { values, .. } => values.clone(),
-        }
-    }
-    fn residuals(&self, drop: &Drop<'_>, path: Option<&Path>, offset_s: f64, all: &mut Vec<f64>) {
-        let (Self::Strikes { deviation, .. } | Self::Heights { deviation, .. } | Self::Acceleration { deviation, .. }) =
-            self;
-        let measured = self.measured();
-        match path {
-            Some(path) => {
-                let computed = self.computed(drop, path, offset_s);
-                all.extend(measured.iter().zip(computed).map(|(measured, computed)| (measured - computed) / deviation));
-            }
-            // A drop that no flight answers is no answer: further off than any.
-            None => all.extend(measured.iter().map(|_| FAR)),
-        }
-    }
-}
-
-/// A residual that none passes.
-const FAR: f64 = 1e9;

@@ -38,7 +38,7 @@ const STEP: f64 = 1e-6;
 const CONTACT_STEP: f64 = 1e-4;
 /// Flights of a search, by whether contacts take time, for so many data: about two seconds of either.
 pub(super) const FLIGHTS: [usize; 2] = [200_000, 10_000];
-pub(super) const DATA: [usize; 2] = [32, 256];
+pub(super) const DATA: [usize; 2] = [16, 256];
 /// Precision of flights with contacts, and while a search is on.
 const PRECISION: f64 = 1e-5;
 const ROUGH: f64 = 1e-3;

@@ -7,15 +7,13 @@ use clatter::End;
 use clatter_flight::Body;
 
 use super::drop::{CONTACT, DATA, DIFFERENCE, Drop, FLIGHTS, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED, SPIN};
+use super::set::{sets, unit_s};
 use super::told::{self, Spreads, Told};
 use super::{
-    Error, Estimate, Fit, Known, MOST_SAMPLES, MOST_STRIKES, Measured, MeasuredStrike, Quantity, RecordFit, Set,
-    StrikeFit, Untold, Which, matching,
+    Error, Estimate, Fit, Known, Measured, MeasuredStrike, Quantity, RecordFit, Set, StrikeFit, Untold, Which, matching,
 };
 use crate::{First, Model};
 
-/// Values of heights and accelerations that are fitted at most: of a longer record some are left out, or taken together.
-const MOST_VALUES: usize = 2048;
 /// Strikes that are off by this share of the mean time between them are not explained.
 const FAR_OFF: f64 = 0.1;
 /// Heights that are off by this share of the length, 0.3 mm of 140 mm, are met, and the other end is not tried.
@@ -145,95 +143,6 @@ fn firsts(known: &Known, measured: &[Measured]) -> &'static [End] {
         (First::Either, Some(End::B)) => &[End::B, End::A],
         (First::Either, _) => &[End::A, End::B],
     }
-}
-
-/// Checks the records, and takes them as the fit needs them.
-fn sets<'a>(known: &Known, measured: &'a [Measured]) -> Result<Vec<Set<'a>>, Error> {
-    if measured.is_empty() {
-        return Err(Error::Nothing);
-    }
-    measured.iter().enumerate().map(|(k, one)| set(known, one, k + 1)).collect()
-}
-
-fn set<'a>(known: &Known, measured: &'a Measured, record: usize) -> Result<Set<'a>, Error> {
-    let finite = |name, value: f64| {
-        let allowed = "a finite number below 1e9";
-        if value.abs() < 1e9 { Ok(()) } else { Err(Error::Value { record, name, value, allowed }) }
-    };
-    let positive = |name, value: f64| {
-        let allowed = "positive and below 1e9";
-        if value > 0.0 && value < 1e9 { Ok(()) } else { Err(Error::Value { record, name, value, allowed }) }
-    };
-    let counted = |name, count: usize, least: usize, most: usize, allowed| {
-        if (least..=most).contains(&count) { Ok(()) } else { Err(Error::Count { record, count, name, allowed }) }
-    };
-    let rising = |name, before: Option<f64>, now: f64| match before {
-        Some(before) if now < before => {
-            Err(Error::Value { record, name, value: now, allowed: "after the one before it" })
-        }
-        _ => finite(name, now),
-    };
-    Ok(match measured {
-        Measured::Strikes { strikes, deviation_s } => {
-            counted("strikes", strikes.len(), 2, MOST_STRIKES, "2 to 4096")?;
-            let mut before = None;
-            for strike in strikes {
-                rising("time_s", before, strike.time_s)?;
-                before = Some(strike.time_s);
-            }
-            let span = strikes[strikes.len() - 1].time_s - strikes[0].time_s;
-            positive("time from the first to the last strike in s", span)?;
-            deviation_s.map_or(Ok(()), |s| positive("standard deviation in s", s))?;
-            let index = (0..strikes.len()).map(|n| Some(Which::Of(n))).collect();
-            // Where none is given, one as good as any: it cancels out.
-            Set::Strikes { strikes, index, deviation: deviation_s.unwrap_or(1e-3 * span) }
-        }
-        Measured::Heights { samples, deviation_m } => {
-            counted("samples", samples.len(), 4, MOST_SAMPLES, "4 to 1000000")?;
-            let mut before = None;
-            for sample in samples {
-                rising("time_s", before, sample.time_s)?;
-                sample.height_m.into_iter().try_for_each(|height| finite("height in m", height))?;
-                before = Some(sample.time_s);
-            }
-            deviation_m.map_or(Ok(()), |s| positive("standard deviation in m", s))?;
-            let every = samples.len().div_ceil(MOST_VALUES);
-            let samples = samples.iter().step_by(every).copied().collect();
-            Set::Heights { samples, deviation: deviation_m.unwrap_or(1e-3 * known.body.length_m()) }
-        }
-        Measured::Acceleration { position_m, start_s, step_s, values_m_s2 } => {
-            counted("values", values_m_s2.len(), 8, MOST_SAMPLES, "8 to 1000000")?;
-            finite("position in m", *position_m)?;
-            finite("start in s", *start_s)?;
-            positive("time step in s", *step_s)?;
-            values_m_s2.iter().try_for_each(|value| finite("acceleration in m/s2", *value))?;
-            let place = 2.0 * position_m / known.body.length_m();
-            if place.abs() > 1.0 + 1e-9 {
-                let allowed = "within the product";
-                return Err(Error::Value { record, name: "position in m", value: *position_m, allowed });
-            }
-            let largest = values_m_s2.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-            positive("largest acceleration in m/s2", largest)?;
-            let together = values_m_s2.len().div_ceil(MOST_VALUES);
-            #[expect(clippy::cast_precision_loss, reason = "at most a million")]
-            let (n, mean) = (together as f64, |chunk: &[f64]| chunk.iter().sum::<f64>() / chunk.len() as f64);
-            let values = values_m_s2.chunks_exact(together).map(mean).collect();
-            let start_s = start_s + 0.5 * (n - 1.0) * step_s;
-            Set::Acceleration { place, start_s, step_s: n * step_s, values, deviation: 1e-2 * largest }
-        }
-    })
-}
-
-/// A time of the drop: the mean one between strikes, or a share of a record.
-fn unit_s(sets: &[Set<'_>]) -> f64 {
-    let of = |set: &Set<'_>| match set {
-        #[expect(clippy::cast_precision_loss, reason = "at most 4096")]
-        Set::Strikes { strikes, .. } => {
-            (strikes[strikes.len() - 1].time_s - strikes[0].time_s) / (strikes.len() - 1) as f64
-        }
-        Set::Heights { .. } | Set::Acceleration { .. } => 1e-3,
-    };
-    sets.iter().map(of).fold(f64::INFINITY, f64::min)
 }
 
 impl Quantity {
