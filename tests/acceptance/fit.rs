@@ -175,6 +175,13 @@ fn bad_records_are_told_by_line() {
         assert!(outcome.stderr.contains(said) && outcome.stderr.lines().count() == 1, "{}, not {said}", outcome.stderr);
         assert!(outcome.stderr.contains("record.csv"), "{}", outcome.stderr);
     }
+    // No drop strikes so: nothing is told of the product, and nothing written.
+    let far = write(dir.path(), "far.csv", "time_s,end\n0,a\n0.00082,b\n0.00241,a\n0.00570,b\n0.0058,a\n0.0061,a\n");
+    let copy = dir.path().join("fitted.toml");
+    let outcome = clatter(["fit", &far, &product, "-o", copy.to_str().unwrap()]);
+    assert_eq!((outcome.exit, outcome.stdout.as_str()), (Exit::BadInput, ""), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("far.csv: no drop was found that comes near: strikes"), "{}", outcome.stderr);
+    assert!(!copy.exists(), "nothing is written");
     let uneven = write(dir.path(), "uneven.csv", "time [s],acceleration [g]\n0,0\n1,1\n2,0\n7,0\n");
     let outcome = clatter(["fit", &uneven, &product, "--position=0mm"]);
     assert!(outcome.stderr.contains("a fit needs samples that are even in time"), "{}", outcome.stderr);

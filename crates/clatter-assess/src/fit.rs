@@ -308,6 +308,23 @@ pub enum Error {
     /// No records.
     #[error("nothing was measured: give at least one record")]
     Nothing,
+    /// The nearest computed drop is far from the data.
+    #[error(
+        "record {record}: no drop was found that comes near: {name} of the nearest are off by {percent:.0} % of {of}, root mean \
+             square; allowed are {allowed:.0} %: check units, ends and the length in the product file"
+    )]
+    Far {
+        /// Which record, from 1.
+        record: usize,
+        /// What was measured.
+        name: &'static str,
+        /// How far it is off, root mean square,
+        percent: f64,
+        /// as a share of this.
+        of: &'static str,
+        /// How much of it is taken.
+        allowed: f64,
+    },
     /// No computed drop comes near the data.
     #[error("no drop was found whose {0} are as measured: check units, ends and the length in the product file")]
     NoDrop(&'static str),

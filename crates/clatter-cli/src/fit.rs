@@ -172,6 +172,10 @@ impl Args {
             fit::Error::Count { record, count, name: what, allowed } => {
                 format!("{}: {count} {what}; allowed: {allowed}", name(record))
             }
+            fit::Error::Far { record, .. } => {
+                // The name of the file in place of "record 1".
+                error.to_string().replacen(&format!("record {record}"), &name(record), 1)
+            }
             error => error.to_string(),
         })
     }

@@ -361,6 +361,8 @@ impl Drive {
                 let allowed = if n <= u128::from(SHORT) { FINAL.error } else { DURATION_LONG.error };
                 let Last { a, next, time } = self.last(n, 0.5 * allowed);
                 let count = u64::try_from(n).map_or(Count::Huge(to_f64(n)), Count::Finite);
+                // At one instant no time passes, also where velocities fade below the floats.
+                let time = if self.start.height_gap() == 0.0 { 0.0 } else { time };
                 Ending { count, time, velocity: Some(rebound(&self.bar, n % 2 == 1, a, next)) }
             }
             Steps::Endless => {

@@ -248,7 +248,8 @@ impl Train {
         let (then, doubt) = (held + steps.growth[I], steps.clear * held);
         self.number += 1;
         let impact = self.bar.impact(self.number, [End::A, End::B][I], approach, time);
-        steps.time -= steps.gap / (approach * steps.approach[1 - I]);
+        // At one instant no time passes, also where velocities fade below the floats.
+        steps.time -= if steps.gap == 0.0 { 0.0 } else { steps.gap / (approach * steps.approach[1 - I]) };
         if then >= doubt && self.number < steps.last {
             // The next impact is the last one; where the terms of a_{n+2} nearly cancel, more digits from that impact
             // on. It is left as it is now: what is not worked out needs no place.
@@ -375,6 +376,10 @@ impl Later {
                     self.ahead += 1;
                 }
             }
+        }
+        // At one instant no time passes; where velocities fade below the floats the closed form has 0/0 for it.
+        if self.start.height_gap() == 0.0 {
+            self.times[at..].fill(0.0);
         }
         // Roundings of times that hardly differ, or of two ways to the same time, may step back. Looked for all at
         // once: it is rare, and a running maximum is a chain of operations that wait for each other.
@@ -580,6 +585,21 @@ mod tests {
         });
         let starts = prop_oneof![Just(-1.0), Just(0.0), -2.0..2.0_f64];
         (bars, starts).prop_map(|(bar, vb)| bar.unwrap().train(&Start::new([-1.0, vb], 1.0).unwrap()))
+    }
+
+    #[test]
+    fn times_of_a_flat_drop_are_zero_where_velocities_fade() {
+        let zero = [0; 100];
+        for e in [1.632_834_255_935_002_4e-219, 1e-160, 1e-300, 1e-5] {
+            for q in [1.0, 0.999, 2.0 * libm::sqrt(e) / (1.0 + e)] {
+                let train = Bar::new(q, e).unwrap().train(&Start::new([-1.0, 1.0], 0.0).unwrap());
+                let times: Vec<_> = train.clone().take(100).map(|impact| impact.time.to_bits()).collect();
+                assert_eq!(times, zero[..times.len()], "q = {q:?}, e = {e:?}");
+                let summary = train.bar.summary(&train.start);
+                assert_eq!(summary.duration.to_bits(), 0, "q = {q:?}, e = {e:?}: {summary:?}");
+                assert!(train.take(100).fold(true, |all, impact| all && impact.time == 0.0), "folded");
+            }
+        }
     }
 
     proptest! {

@@ -14,8 +14,10 @@ use super::{
 };
 use crate::{First, Model};
 
-/// Strikes that are off by this share of the mean time between them are not explained.
+/// Strikes that are off by this share of the mean time between them are not explained, nor heights by this share of the length.
 const FAR_OFF: f64 = 0.1;
+/// Nor accelerations of which half is left: a sensor on a case that rings is off by less.
+const FAR_OFF_ACCELERATION: f64 = 0.5;
 /// Heights that are off by this share of the length, 0.3 mm of 140 mm, are met, and the other end is not tried.
 const MET: f64 = 0.002;
 /// Strikes shown beyond the last measured one.
@@ -98,7 +100,32 @@ pub fn fit(known: &Known, measured: &[Measured]) -> Result<Fit, Error> {
         }
     }
     let (drop, told) = best.unwrap_or(Err(Error::Nothing))?;
-    Ok(report(&drop, &told, given))
+    let fit = report(&drop, &told, given);
+    for (k, (record, set)) in fit.records.iter().zip(&drop.sets).enumerate() {
+        near(k + 1, record, set, &drop)?;
+    }
+    Ok(fit)
+}
+
+/// Refuses a drop that does not come near what was measured: intervals about it would say nothing of the product.
+fn near(number: usize, found: &RecordFit, set: &Set, drop: &Drop<'_>) -> Result<(), Error> {
+    let root_mean_square = |curve: &Vec<[f64; 3]>| {
+        #[expect(clippy::cast_precision_loss, reason = "at most a million")]
+        let count = curve.len().max(1) as f64;
+        (curve.iter().map(|[_, measured, _]| measured * measured).sum::<f64>() / count).sqrt()
+    };
+    let (unit, allowed, what, of) = match set {
+        Set::Strikes { .. } => (drop.unit_s, FAR_OFF, "strikes", "the mean time between them"),
+        Set::Heights { .. } => (drop.known.body.length_m(), FAR_OFF, "heights", "the length"),
+        Set::Acceleration { .. } => {
+            let size = found.curves.iter().map(root_mean_square).fold(0.0, f64::max);
+            (size, FAR_OFF_ACCELERATION, "accelerations", "their own root mean square")
+        }
+    };
+    if found.scatter <= allowed * unit {
+        return Ok(());
+    }
+    Err(Error::Far { record: number, name: what, percent: 100.0 * found.scatter / unit, of, allowed: 100.0 * allowed })
 }
 
 /// What the data tell if a given end touches first, and whether there is no need to try the other.
@@ -371,17 +398,6 @@ fn notes(drop: &Drop<'_>, told: &Told, records: &[RecordFit]) -> Vec<String> {
             notes.push(format!(
                 "{which}the strike at {:?} s was left out: it is no strike, or its time is wrong",
                 strike.measured.time_s
-            ));
-        }
-    }
-    for (k, (record, set)) in records.iter().zip(&drop.sets).enumerate() {
-        if let Set::Strikes { .. } = set
-            && record.scatter > FAR_OFF * drop.unit_s
-        {
-            let percent = 100.0 * record.scatter / drop.unit_s;
-            notes.push(format!(
-                "record {}: no drop was found that comes near: strikes are off by {percent:.0} % of the mean time between them",
-                k + 1
             ));
         }
     }
