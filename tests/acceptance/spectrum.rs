@@ -446,18 +446,22 @@ fn a_damage_boundary_comes_from_tests() {
         clatter(arguments.iter().chain(more))
     };
     let outcome = spectrum("--pulse=rectangle,900,0.004", &["--format=json"]);
+    assert_eq!(outcome.exit, Exit::Unsafe, "beyond the boundary");
     let got: Value = serde_json::from_str(&outcome.stdout).unwrap();
+    fs::write(&file, rows.replace("no", "No").replace("yes", "YES")).unwrap();
+    assert_eq!(spectrum("--pulse=rectangle,900,0.004", &["--format=json"]).stdout, outcome.stdout, "in capitals");
     let of = |name: &str| got["damage_boundary"][name].as_f64().unwrap();
     assert!(close(of("critical_velocity_change_m_s"), 2.5, 1e-14), "{got}");
     assert!(close(of("critical_acceleration_m_s2"), 300.0, 1e-14), "{got}");
     assert!(close(of("knee_velocity_change_m_s"), 2.5 * std::f64::consts::FRAC_PI_2, 1e-14), "{got}");
     assert_eq!(got["damage_boundary"]["safe"], json!(false), "beyond both");
     for safe in ["--pulse=rectangle,5000,0.00049", "--pulse=rectangle,299,1"] {
-        assert!(spectrum(safe, &[]).stdout.contains("dB: no damage"), "{safe}");
+        let outcome = spectrum(safe, &[]);
+        assert!(outcome.stdout.contains("dB: no damage") && outcome.exit == Exit::Done, "{safe}");
     }
     let svg = folder.path().join("boundary.svg");
     let drawn = spectrum("--pulse=rectangle,900,0.004", &["-o", svg.to_str().unwrap()]);
-    assert_eq!((drawn.exit, drawn.stderr.as_str()), (Exit::Done, ""));
+    assert_eq!((drawn.exit, drawn.stderr.as_str()), (Exit::Unsafe, ""));
     assert!(fs::read_to_string(svg).unwrap().contains("velocity change of the base"));
     for (text, said) in [
         ("test,level,damaged\nvelocity-change,NaN,no\n", "line 2: level = NaN is not finite"),

@@ -59,7 +59,7 @@ pub const MOST_SAMPLES: usize = 1_000_000;
 pub struct Known {
     /// Length and center of mass; the radius of gyration is where the search begins, and stays where the data do not tell it.
     pub body: Body,
-    /// Whether the radius of gyration is known and not looked for. Strike times tell it and the restitution mostly together, so that
+    /// Whether the radius of gyration is known and not fitted. Strike times tell it and the restitution mostly together, so that
     /// the restitution is then known several times better.
     pub gyration_known: bool,
     /// The end that touches first.

@@ -54,7 +54,7 @@ pub(crate) fn pulses(path: &Path) -> Result<Vec<Pulse>, Failure> {
 pub(crate) fn tests(path: &Path) -> Result<[Vec<Trial>; 2], Failure> {
     let mut lists = [Vec::new(), Vec::new()];
     rows(path, ["test", "level", "damaged"], |[test, level, damaged]| {
-        let list = match test {
+        let list = match test.to_ascii_lowercase().as_str() {
             "velocity-change" => 0,
             "acceleration" => 1,
             _ => {
@@ -68,7 +68,7 @@ pub(crate) fn tests(path: &Path) -> Result<[Vec<Trial>; 2], Failure> {
         if level <= 0.0 {
             return Err(format!("level = {level:?} is not > 0"));
         }
-        let damaged = match damaged {
+        let damaged = match damaged.to_ascii_lowercase().as_str() {
             "yes" => true,
             "no" => false,
             _ => return Err(format!("damaged '{}' is not yes or no", visible(damaged))),

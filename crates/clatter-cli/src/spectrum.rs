@@ -1,6 +1,7 @@
 //! `clatter spectrum`: shock response spectra of records, pulses and velocity shocks.
 
 mod answer;
+mod boundary;
 mod records;
 mod table;
 
@@ -12,18 +13,18 @@ use clatter_assess::units::{ACCELERATION, Dimension, LENGTH, SPEED, Unit};
 use clatter_figures::{Critical, FigureError};
 use clatter_record::{BAND, Between};
 use clatter_shock::{
-    DamageBoundary, Frequencies, Limit, LimitCurve, Margin, Pulse, Pulses, Quantity, Shape, Spectrum, Suspension,
-    VelocityShock, VelocityShocks,
+    Frequencies, LimitCurve, Margin, Pulse, Pulses, Quantity, Spectrum, VelocityShock, VelocityShocks,
 };
 
 use crate::condition_args::ConditionArgs;
-use crate::excitation::{self, FrequencyArg, LimitArg, PulseArg, shape_name};
+use crate::excitation::{self, FrequencyArg, LimitArg, PulseArg};
 use crate::inputs::{DampingListArgs, RowFormat};
 use crate::numbers::figures;
 use crate::output::{Files, Kind, Target, buffered};
 use crate::quantities::Show;
 use crate::record_args::RecordArgs;
 use crate::{Exit, Failure, Streams, lists, output, text};
+use boundary::Boundary;
 use records::{Measured, Several};
 
 /// Compute a shock response spectrum: the peak of a component over its natural frequency
@@ -68,14 +69,14 @@ Examples:
   clatter spectrum --shock=2.5m/s,0s --shock=-1m/s,4ms --frequency=180Hz --quantity=pseudo-velocity
   clatter spectrum --pulse=half-sine,1000g,1ms --frequency=100Hz --limit=200g \\
       --damage-boundary -o boundary.svg
-  clatter spectrum --pulse=rectangle,900,0.004 --damage-boundary --tests=tests.csv
+  clatter spectrum --pulse=rectangle,600,0.004 --damage-boundary --tests=tests.csv
   clatter spectrum --shocks-file=shocks.csv --frequency=180Hz
   clatter spectrum drop.csv --q-factor=5,10,25 --output-units=g --format=csv
 
 Numbers without a unit are in SI. A limit in g, or where there is none a pulse in g, has the table in
 g; JSON and CSV stay in SI. --output-units has all of them in one.
 
-Exit status: 0 done, 1 the limit is exceeded, 2 bad input."
+Exit status: 0 done, 1 the limit or the damage boundary is exceeded, 2 bad input."
 )]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -249,29 +250,10 @@ impl Part {
     }
 }
 
-/// The damage boundary, and where the shock stands.
-struct Boundary {
-    /// Of which shape, or of which record.
-    of: String,
-    /// None where velocities cancel.
-    critical_velocity_change: Option<f64>,
-    critical_acceleration: f64,
-    knee_velocity_change: Option<f64>,
-    curve: Vec<(f64, f64)>,
-    velocity_change: f64,
-    acceleration: f64,
-    margin: Margin,
-}
-
 /// Natural frequencies unless others are asked for, in Hz, and how many to the octave.
 const LOWEST_HZ: f64 = crate::record::LOWEST_HZ;
 const HIGHEST_HZ: f64 = 10_000.0;
 const PER_OCTAVE: f64 = 12.0;
-const BOUNDARY_OF: &str = "--damage-boundary goes with one --pulse with one start or one record of one channel, and with one \
-                           --frequency and one --q-factor or --tests";
-/// Points of the damage boundary between the critical velocity change and the knee.
-const BOUNDARY_POINTS: usize = 200;
-
 impl Args {
     pub(crate) fn files(&self) -> Files<'_> {
         let Excitation { record, pulses_file, shocks_file, .. } = &self.excitation;
@@ -326,7 +308,8 @@ impl Args {
             RowFormat::Csv => computed.csv(streams.out).map_err(Failure::Answer),
             RowFormat::Json => streams.json(&computed.answer()),
         }?;
-        Ok(if computed.parts.iter().any(Part::exceeds) { Exit::Unsafe } else { Exit::Done })
+        let damages = computed.boundary.as_ref().is_some_and(|boundary| !boundary.margin.is_safe());
+        Ok(if damages || computed.parts.iter().any(Part::exceeds) { Exit::Unsafe } else { Exit::Done })
     }
 
     /// Refuses a limit in a unit of another quantity.
@@ -398,59 +381,6 @@ impl Args {
                 Ok(self.excitation.pulse.iter().flat_map(|PulseArg { pulses, .. }| pulses.iter().copied()).collect())
             }
         }
-    }
-
-    /// The damage boundary of a pulse or a record.
-    fn boundary(&self, records: &[Measured], frequencies: &FrequencyArg) -> Result<Boundary, Failure> {
-        if let Some(path) = &self.tests {
-            let [pulse @ Pulse { shape: Shape::Rectangle, .. }] = self.pulses()?[..] else {
-                return Err(Failure::Usage(
-                    "--tests goes with one --pulse with one start, a rectangle, as the tests are",
-                ));
-            };
-            let [velocity, acceleration] = lists::tests(path)?;
-            let boundary = DamageBoundary::from_tests(&velocity, &acceleration);
-            return Boundary::of_pulse(
-                boundary.map_err(|reason| Failure::Tests { path: path.clone(), reason })?,
-                pulse,
-            );
-        }
-        let ([hz], [damping]) = (frequencies.list.hz(), &self.damping.ratios()?[..]) else {
-            return Err(Failure::Usage(BOUNDARY_OF));
-        };
-        let level = self.limit.as_ref().and_then(|limit| limit.level);
-        let limit = match (self.quantity, level) {
-            (_, None) => return Err(Failure::Usage("--damage-boundary needs a --limit of one value")),
-            (QuantityName::Acceleration, Some(level)) => Limit::Acceleration(level),
-            (QuantityName::RelativeDisplacement, Some(level)) => Limit::RattleSpace(level),
-            _ => {
-                return Err(Failure::Usage(
-                    "--damage-boundary goes with the quantities acceleration and relative-displacement alone",
-                ));
-            }
-        };
-        let suspension = Suspension::from_hz(*hz, *damping)?;
-        match (&self.pulses()?[..], records) {
-            ([pulse], _) => Boundary::of_pulse(DamageBoundary::new(suspension, limit, pulse.shape)?, *pulse),
-            ([], [measured]) => records::boundary(self, measured, suspension, limit),
-            _ => Err(Failure::Usage(BOUNDARY_OF)),
-        }
-    }
-}
-
-impl Boundary {
-    fn of_pulse(numbers: DamageBoundary, pulse: Pulse) -> Result<Self, Failure> {
-        let knee = numbers.knee_velocity_change();
-        Ok(Self {
-            of: shape_name(pulse.shape),
-            critical_velocity_change: Some(numbers.critical_velocity_change()),
-            critical_acceleration: numbers.critical_acceleration(),
-            knee_velocity_change: Some(knee),
-            curve: numbers.curve(BOUNDARY_POINTS)?,
-            velocity_change: pulse.velocity_change().abs(),
-            acceleration: pulse.amplitude.abs(),
-            margin: numbers.margin(pulse.amplitude, pulse.duration)?,
-        })
     }
 }
 

@@ -44,16 +44,14 @@ const TIMES: [&str; 13] = [
 const INDICES: [&str; 14] =
     ["index", "idx", "sample", "samples", "n", "no", "nr", "num", "number", "row", "#", "id", "count", "unnamed"];
 const ACCELERATIONS: [&str; 7] = ["ax", "ay", "az", "ar", "beschleunigung", "shock", "gforce"];
-const OTHERS: [&str; 23] = [
-    "height",
+/// Beside an acceleration they say where it was measured.
+const PLACES: [&str; 4] = ["height", "position", "distance", "displacement"];
+const OTHERS: [&str; 19] = [
     "mass",
     "masse",
     "weight",
     "velocity",
     "speed",
-    "displacement",
-    "position",
-    "distance",
     "force",
     "temperature",
     "temp",
@@ -75,8 +73,9 @@ impl Heading {
     pub(crate) fn of(cell: &str) -> Self {
         let cell = cell.trim().trim_matches(['"', '\'']).trim();
         bracketed(cell).unwrap_or_else(|| {
-            let whole =
-                Unit::of(cell).filter(|unit| unit.kind == Kind::Time || cell.chars().count() > 2 || cell == "g");
+            // `h` and `min` are names of other things as well.
+            let is_seconds = |unit: &Unit| unit.kind == Kind::Time && unit.size <= 1.0;
+            let whole = Unit::of(cell).filter(|unit| is_seconds(unit) || cell.chars().count() > 3 || cell == "g");
             if let Some(unit) = whole {
                 return Self { unit: Some(unit), spelled: Some(cell.to_owned()), ..Self::named_alone(cell) };
             }
@@ -117,6 +116,9 @@ impl Heading {
         let alone = words.first() == Some(&"a") && words.len() <= 2;
         if alone || any(&ACCELERATIONS) || within("acc") || within("beschl") {
             return Named::Acceleration;
+        }
+        if any(&PLACES) {
+            return Named::Other;
         }
         if any(&INDICES) {
             return Named::Index;
@@ -239,6 +241,9 @@ mod tests {
             ("timestamp (ns)", "timestamp", Some("ns"), Named::Time),
             ("X_Value", "X_Value", None, Named::Time),
             ("height_a_m", "height_a_m", None, Named::Other),
+            ("accel at position 2 [g]", "accel at position 2", Some("g"), Named::Acceleration),
+            ("h", "h", None, Named::Unknown),
+            ("min", "min", None, Named::Unknown),
             ("acceleration_at_0.5_m_s2", "acceleration_at_0.5", Some("m_s2"), Named::Acceleration),
             ("accel_x", "accel_x", None, Named::Acceleration),
             ("mass [g]", "mass", Some("g"), Named::Other),

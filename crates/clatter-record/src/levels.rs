@@ -2,7 +2,7 @@
 
 use crate::samples::float;
 
-/// Blocks to a duration that suffice for a first look.
+/// Blocks to a duration that suffice for a first estimate.
 const COARSE: f64 = 64.0;
 /// And for the result: a block average is off the value in its middle by (π/4096)²/24, below 1e-7.
 const FINE: f64 = 4096.0;

@@ -35,7 +35,7 @@ const SMALL: f64 = 1e-6;
 ///
 /// Each is the pulse a p((t − s)/D) with the least sum of squares Σ(aᵢ − a p)² over all samples, among those that hold the
 /// sample of largest size. For a start s and a duration D the amplitude is a = Σaᵢp/Σp², and Σaᵢ² falls by
-/// (Σaᵢp)²/Σp²; this gain is first looked for on a grid of all durations from 4 samples to the whole record, 9 % apart,
+/// (Σaᵢp)²/Σp²; this gain is first searched on a grid of all durations from 4 samples to the whole record, 9 % apart,
 /// and 33 starts each, and the best of them refined by Gauss–Newton steps (variable projection; Golub and Pereyra 1973),
 /// damped where a step gains nothing. A sawtooth ends between two samples: its end is taken halfway, and the one of all
 /// ends near the grid's is taken that gains most.

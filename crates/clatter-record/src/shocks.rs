@@ -151,7 +151,7 @@ pub fn find_shocks(acceleration: &[f64], step_s: f64, search: &Search) -> Result
                 Event { samples: event.samples.start..i + 1, peak }
             }
             Some(event) => {
-                // The samples up to the next shock are looked at twice at most.
+                // The samples up to the next shock are gone through twice at most.
                 let end = event.samples.end;
                 rows.add(event.measure(acceleration, step_s, free..i));
                 free = end;

@@ -14,7 +14,7 @@ const MEMORY: u64 = 1 << 20;
 /// A Zstandard frame may ask for a window of up to 100 MiB (ruzstd refuses more), which is never filled.
 const WINDOW: u64 = 100 << 20;
 
-/// Numbers that look like chance, the same in every run (Knuth's MMIX).
+/// Numbers as if by chance, the same in every run (Knuth's MMIX).
 struct Chance(u64);
 
 impl Chance {

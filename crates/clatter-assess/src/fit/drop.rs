@@ -28,7 +28,7 @@ pub(super) const OFFSET: usize = 7;
 
 /// Radius of gyration over half the length that flights with contacts take at least.
 const LEAST_GYRATION: f64 = 0.1;
-/// Unknowns are looked for within so many times of what the product file says: beyond, it is of another product or another drop.
+/// Unknowns are searched within so many times of what the product file says: beyond, it is of another product or another drop.
 const BEYOND: f64 = 4.0;
 /// The sine of the largest tilt of a product file, 30 degrees.
 const STEEPEST: f64 = 0.5;
@@ -84,7 +84,7 @@ impl Drop<'_> {
             (true, false) => CONTACT_STEP,
         }
     }
-    /// How long a minimum is looked for: flights with contacts take ten times as long.
+    /// How long a minimum is searched: flights with contacts take ten times as long.
     pub(super) fn patience(&self) -> usize {
         match (self.left.get(), self.contacts) {
             (0, _) => 1,

@@ -6,8 +6,9 @@ use clatter_record::Finding;
 use clatter_shock::{LimitCurve, Margin, Spectrum};
 use serde::Serialize;
 
+use super::boundary::Boundary;
 use super::records::{Measured, largest};
-use super::{Boundary, Computed, Part};
+use super::{Computed, Part};
 use crate::numbers::Json;
 use crate::quantities::Show;
 

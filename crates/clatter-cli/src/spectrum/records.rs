@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use clatter_record::{Channel, Record};
-use clatter_shock::{DampingRatio, Frequencies, HistoryBoundary, Limit, Margin, Spectrum, Summary, Suspension};
+use clatter_shock::{DampingRatio, Frequencies, Spectrum, Summary};
 
-use super::{Args, BOUNDARY_POINTS, Boundary};
+use super::Args;
 use crate::progress::Counted;
 use crate::{Failure, text};
 
@@ -111,43 +111,6 @@ fn called(path: &Path) -> String {
 }
 
 const RESULTANT: &str = "resultant";
-
-/// The damage boundary of a record of one channel.
-pub(super) fn boundary(
-    args: &Args,
-    measured: &Measured,
-    suspension: Suspension,
-    limit: Limit,
-) -> Result<Boundary, Failure> {
-    let Measured { path, record } = measured;
-    let [channel] = record.channels() else {
-        return Err(Failure::Usage("--damage-boundary goes with one channel: --acceleration picks one"));
-    };
-    let bad = |reason: clatter_shock::Error| Failure::Record { path: path.clone(), reason: reason.into() };
-    let points = record.history(channel, args.interpolation.into());
-    let numbers = HistoryBoundary::new(suspension, limit, &points).map_err(bad)?;
-    let hz = Frequencies::list(vec![suspension.omega() / std::f64::consts::TAU])?;
-    let (quantity, between) = (args.quantity.quantity(), args.interpolation.into());
-    let spectrum = record.spectrum(channel, &hz, suspension.damping(), quantity, between, |_| ());
-    let demand = spectrum.map_err(|reason| Failure::Record { path: path.clone(), reason })?.maximax[0];
-    let (Limit::Acceleration(allowed) | Limit::RattleSpace(allowed)) = limit;
-    let curve = if numbers.critical_velocity_change().is_some() { numbers.curve(BOUNDARY_POINTS)? } else { Vec::new() };
-    Ok(Boundary {
-        of: channel.name.clone(),
-        critical_velocity_change: numbers.critical_velocity_change(),
-        critical_acceleration: numbers.critical_acceleration(),
-        knee_velocity_change: numbers.knee_velocity_change(),
-        curve,
-        velocity_change: velocity_change(&points).abs(),
-        acceleration: largest(channel),
-        margin: Margin { allowed, demand },
-    })
-}
-
-/// The area below straight lines, in m/s.
-fn velocity_change(points: &[(f64, f64)]) -> f64 {
-    points.windows(2).map(|pair| (pair[1].0 - pair[0].0) * 0.5 * (pair[0].1 + pair[1].1)).sum()
-}
 
 pub(super) fn largest(channel: &Channel) -> f64 {
     channel.values.iter().fold(0.0_f64, |most, a| most.max(a.abs()))

@@ -6,7 +6,7 @@ use clatter_assess::units::ACCELERATION;
 use clatter_shock::{LimitCurve, Margin, Spectrum};
 
 use super::records::{Measured, largest};
-use super::{Boundary, Computed, Part};
+use super::{Computed, Part};
 use crate::numbers::{digits, figures, given};
 use crate::quantities::Show;
 use crate::text;
@@ -145,26 +145,4 @@ impl Computed<'_> {
 
 fn row(s: &Spectrum, i: usize) -> [f64; 6] {
     [s.frequency_hz[i], s.primary[i], s.residual[i], s.maximax[i], s.positive[i], s.negative[i]]
-}
-
-impl Boundary {
-    pub(super) fn table(&self, acceleration: Show, out: &mut dyn Write) -> io::Result<()> {
-        let line = |out: &mut dyn Write, name: &str, value: f64, unit: &str| {
-            writeln!(out, "{name:<28}{:>12} {unit}", figures(value))
-        };
-        writeln!(out, "\nDamage boundary for {}", self.of)?;
-        match self.critical_velocity_change {
-            Some(velocity) => line(out, "Critical velocity change", velocity, "m/s")?,
-            None => writeln!(out, "No critical velocity change: both directions cancel")?,
-        }
-        line(out, "Critical acceleration", acceleration.value(self.critical_acceleration), acceleration.name())?;
-        if let Some(knee) = self.knee_velocity_change {
-            line(out, "Knee at a velocity change of", knee, "m/s")?;
-        }
-        line(out, "This shock, velocity change", self.velocity_change, "m/s")?;
-        line(out, "            acceleration", acceleration.value(self.acceleration), acceleration.name())?;
-        let word = if self.margin.is_safe() { "dB: no damage" } else { "dB: damage" };
-        line(out, "            margin", self.margin.decibel(), word)?;
-        writeln!(out)
-    }
 }

@@ -1,6 +1,6 @@
 //! HDF5, and MATLAB 7.3, which is HDF5 with the sides of a matrix exchanged.
 //!
-//! Groups are walked; a column goes by the path of its data set. Attributes of a data set, or of a group it lies in,
+//! Groups are collectored; a column goes by the path of its data set. Attributes of a data set, or of a group it lies in,
 //! give its unit and its rate.
 
 use super::number::Number;
@@ -18,9 +18,9 @@ pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> 
     // MATLAB puts a header of its own before the file.
     let matlab = bytes.starts_with(b"MATLAB");
     let file = File::from_bytes(bytes.to_vec()).map_err(damaged)?;
-    let mut walk = Walk { matlab, room, objects: 0, columns: Vec::new() };
-    walk.group(&file.root(), "", 0, None)?;
-    Ok(walk.columns)
+    let mut collector = Collector { matlab, room, objects: 0, columns: Vec::new() };
+    collector.group(&file.root(), "", 0, None)?;
+    Ok(collector.columns)
 }
 
 fn damaged(error: impl std::fmt::Display) -> Error {
@@ -30,14 +30,14 @@ fn damaged(error: impl std::fmt::Display) -> Error {
 type Attributes = HashMap<String, AttrValue>;
 
 #[derive(Debug)]
-struct Walk<'a> {
+struct Collector<'a> {
     matlab: bool,
     room: &'a mut Room,
     objects: usize,
     columns: Vec<Column>,
 }
 
-impl Walk<'_> {
+impl Collector<'_> {
     fn count(&mut self) -> Result<(), Error> {
         self.objects += 1;
         if self.objects > MOST_OBJECTS {

@@ -169,7 +169,7 @@ impl Header {
     }
     fn fields(&self) -> Result<Vec<Field>, Error> {
         let mut fields = Vec::new();
-        walk(self.descr()?, "", &mut 0, &mut fields)?;
+        flatten(self.descr()?, "", &mut 0, &mut fields)?;
         Ok(fields)
     }
 }
@@ -220,7 +220,7 @@ fn repeats(shape: &[Literal]) -> Result<usize, Error> {
 const MOST_FIELDS: usize = 10_000;
 
 /// Adds the fields with numbers of a description, from byte `offset` of the row on.
-fn walk(descr: &Literal, name: &str, offset: &mut usize, fields: &mut Vec<Field>) -> Result<(), Error> {
+fn flatten(descr: &Literal, name: &str, offset: &mut usize, fields: &mut Vec<Field>) -> Result<(), Error> {
     let too_many = || refuse(format!("NPY file: a row has more than {MOST_FIELDS} fields"));
     match descr {
         Literal::Text(text) => {
@@ -251,10 +251,10 @@ fn walk(descr: &Literal, name: &str, offset: &mut usize, fields: &mut Vec<Field>
                         let skipped = size(descr)?.checked_mul(count).ok_or_else(damaged)?;
                         *offset = offset.checked_add(skipped).ok_or_else(damaged)?;
                     }
-                    (_, []) => walk(descr, &full, offset, fields)?,
+                    (_, []) => flatten(descr, &full, offset, fields)?,
                     (Literal::Text(_), _) if count <= MOST_FIELDS => {
                         for i in 0..count {
-                            walk(descr, &format!("{full}[{i}]"), offset, fields)?;
+                            flatten(descr, &format!("{full}[{i}]"), offset, fields)?;
                         }
                     }
                     (Literal::Text(_), _) => return Err(too_many()),
