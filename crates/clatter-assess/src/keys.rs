@@ -41,6 +41,7 @@ pub(crate) static FILE: &[Key] = &[
     key("product", true, Table(PRODUCT), "What falls: a flat body, seen from the side as a bar with ends a and b."),
     key("drop", true, Table(DROP), "How it falls."),
     key("component", true, Tables(COMPONENT), "The fragile parts, one table [[component]] each."),
+    key("record", false, Tables(RECORD), "Measured drops of the product, one table [[record]] for each file."),
 ];
 
 pub(crate) static PRODUCT: &[Key] = &[
@@ -192,6 +193,46 @@ pub(crate) static COMPONENT: &[Key] = &[
 pub(crate) static BOUNDARY: &[Key] = &[
     key("velocity_change", true, Spread(&units::SPEED, ["1e-3 mm/s", "1000 m/s"]), "Critical velocity change."),
     key("acceleration", true, Spread(&units::ACCELERATION, ["1e-3 gn", "1e7 gn"]), "Critical acceleration."),
+];
+
+pub(crate) static RECORD: &[Key] = &[
+    key(
+        "file",
+        true,
+        Text,
+        "The file, from where the product file is: strikes, heights of the ends, or an acceleration.",
+    ),
+    key(
+        "drop",
+        false,
+        Text,
+        "Name of the drop that was measured; records of one drop share it. A record without is of a drop of its own.",
+    ),
+    key(
+        "position",
+        false,
+        Quantity(&units::LENGTH, PLACES),
+        "Where an acceleration was measured, from the middle towards end b.",
+    ),
+    key(
+        "acceleration",
+        false,
+        Text,
+        "Column of the acceleration across the product, upward positive, by its name or number, where there are several.",
+    ),
+    key("units", false, Text, "Units where the file does not name them, such as \"ms,g\"."),
+    key(
+        "sample_rate",
+        false,
+        Quantity(&units::FREQUENCY, ["1 Hz", "1e6 kHz"]),
+        "Samples a second, where the file has no times.",
+    ),
+    key(
+        "timing",
+        false,
+        Quantity(&units::TIME, ["1e-9 s", "1 s"]),
+        "Standard deviation of the times of strikes; unless given, their scatter tells it.",
+    ),
 ];
 
 /// The key of a table by its name.

@@ -35,7 +35,7 @@ pub use engine::{Answer, Part, answer, respond};
 pub use error::Error;
 pub use fault::{Fault, Faults};
 pub use portrait::{Curve, Portrait};
-pub use product::{Boundary, Component, Damping, Drop, Fall, First, Limits, Mount, Product, ProductFile};
+pub use product::{Boundary, Component, Damping, Drop, Fall, First, Limits, Mount, Product, ProductFile, RecordFile};
 pub use quantity::{Limit, LimitKind, Unit};
 pub use read::LARGEST_FILE;
 pub use schema::schema;

@@ -17,6 +17,8 @@ pub struct ProductFile {
     pub drop: Drop,
     /// What must survive; at least one.
     pub components: Vec<Component>,
+    /// What was measured; none unless the file names some.
+    pub records: Vec<RecordFile>,
 }
 
 /// What falls.
@@ -189,6 +191,25 @@ pub struct Boundary {
     pub velocity_change_m_s: Spread,
     /// Critical acceleration of the pulse, in m/s².
     pub acceleration_m_s2: Spread,
+}
+
+/// A file in which a drop of the product was measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecordFile {
+    /// Its name, from where the product file is.
+    pub file: String,
+    /// The drop that was measured; records of one drop share it. A record without is of a drop of its own.
+    pub drop: Option<String>,
+    /// Where an acceleration was measured, in m from the middle towards end b.
+    pub position_m: Option<f64>,
+    /// Name or number of the column of acceleration.
+    pub acceleration: Option<String>,
+    /// Units of time and acceleration, where the file does not name them.
+    pub units: Option<String>,
+    /// Samples a second in Hz, where the file has no times.
+    pub sample_rate_hz: Option<f64>,
+    /// Standard deviation of the times of strikes, in s.
+    pub timing_s: Option<f64>,
 }
 
 impl Product {

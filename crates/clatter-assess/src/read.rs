@@ -14,7 +14,7 @@ use crate::fault::{Fault, Faults};
 use crate::keys::{self, Key, Kind};
 use crate::slip;
 use crate::units;
-use crate::{Boundary, Component, Damping, Drop, Fall, First, Limits, Mount, Product, ProductFile};
+use crate::{Boundary, Component, Damping, Drop, Fall, First, Limits, Mount, Product, ProductFile, RecordFile};
 use quantities::written;
 
 /// A file of more bytes is refused unread.
@@ -243,7 +243,9 @@ impl Reader {
         for section in sections {
             components.extend(self.component(&section, product.as_ref()));
         }
-        Some(ProductFile { product: product?, drop: drop?, components })
+        let records = self.tables(root, "record");
+        let records = records.iter().filter_map(|section| self.record(section, product.as_ref())).collect();
+        Some(ProductFile { product: product?, drop: drop?, components, records })
     }
 
     /// Refuses components of one name: answers could not be told apart.
@@ -458,6 +460,31 @@ impl Reader {
             self.fault(span, message, reason, "add contact_time = \"0.4 ms\" or whatever was measured to [product]");
         }
         Some(component)
+    }
+
+    fn record(&mut self, section: &Section<'_>, product: Option<&Product>) -> Option<RecordFile> {
+        let position = self.quantity(section, "position");
+        let half_m = product.map_or(f64::INFINITY, |product| 0.5 * product.body.length_m());
+        if let Some(At { value, span }) = position.clone().filter(|p| p.value.abs() > half_m * (1.0 + 1e-9)) {
+            let message = format!("the acceleration was measured {} mm from the middle", mm(value));
+            self.fault(
+                span,
+                message,
+                "this position",
+                format!("allowed: up to {} mm, half of the product's length", mm(half_m)),
+            );
+        }
+        let mut text = |name| self.text(section, name).map(|text| text.value);
+        let [file, drop, acceleration, units] = ["file", "drop", "acceleration", "units"].map(&mut text);
+        Some(RecordFile {
+            file: file?,
+            drop,
+            position_m: position.map(|position| position.value),
+            acceleration,
+            units,
+            sample_rate_hz: self.quantity(section, "sample_rate").map(|rate| rate.value),
+            timing_s: self.quantity(section, "timing").map(|timing| timing.value),
+        })
     }
 
     fn mount(&mut self, section: &Section<'_>) -> Option<Mount> {

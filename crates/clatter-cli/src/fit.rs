@@ -1,7 +1,6 @@
 //! `clatter fit`: from a measured drop to the data of the product.
 
 mod answer;
-mod picture;
 mod records;
 mod table;
 
@@ -118,7 +117,7 @@ impl Args {
         let answered = self.answered(file)?;
         for target in &self.output {
             if target.is_picture {
-                let picture = picture::draw(&answered)?;
+                let picture = clatter_figures::fit(&answered.fit)?;
                 output::replace(&target.path, |out| out.write_all(picture.as_bytes()))?;
             } else {
                 answered.copy(&target.path, streams)?;

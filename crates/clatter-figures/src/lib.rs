@@ -34,7 +34,7 @@ pub use bar::scheme;
 pub use component::{Share, history, over_tilt, shares};
 pub use design::{DesignBorder, DesignFronts, DesignPlane, fronts, plane as design_plane};
 pub use drop::{Drop, drop};
-pub use fit::{Panel as FitPanel, Strike as FitStrike, fit};
+pub use fit::fit;
 pub use heat::map;
 pub use ladder::{Panel as LadderPanel, panels as ladders, words as model_words};
 pub use orders::{Panel as OrderPanel, orders};

@@ -312,6 +312,7 @@ fn period(hz: f64) -> Result<f64, Error> {
 impl Raw {
     /// A record, where the times go forwards.
     fn finish(mut self, mut bad: Bad, options: &Options) -> Result<Record, Error> {
+        self.drop_unbounded(&mut bad);
         let mut step_s = self.step_s.or_else(|| self.times().step());
         if step_s.is_none() && !self.since_s.is_empty() {
             self.refuse_coarse()?;
@@ -330,6 +331,16 @@ impl Raw {
         let samples = self.channels[0].values.len();
         if samples < 2 {
             return Err(Error::Short { what: "a record", samples, needed: 2 });
+        }
+        #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
+        let last_s = step_s.map_or(0.0, |step_s| step_s * samples as f64);
+        for value in [self.start_s, last_s] {
+            if !(-LARGEST..=LARGEST).contains(&value) {
+                return Err(Error::Quantity { name: "time of a sample (s)", value, allowed: "within 1e100" });
+            }
+        }
+        if let Some(value) = step_s.filter(|step_s| *step_s < LARGEST.recip()) {
+            return Err(Error::Quantity { name: "time between samples (s)", value, allowed: "at least 1e-100" });
         }
         if step_s.is_none() {
             let numbering = &self.numbering;
@@ -363,6 +374,18 @@ impl Raw {
             "{same} of {count} times are those of the sample before: they are printed in steps of {unit_s:e} s, too coarse for \
              samples so close; give the sample rate"
         )))
+    }
+
+    /// Leaves out samples at times that no record reaches.
+    fn drop_unbounded(&mut self, bad: &mut Bad) {
+        let kept: Vec<bool> = self.since_s.iter().map(|since_s| since_s.abs() <= LARGEST).collect();
+        for i in (0..kept.len()).filter(|i| !kept[*i]) {
+            let since_s = self.since_s[i];
+            bad.add(At::of(&self.numbering, i), || {
+                format!("the time, {since_s:e} s after the first one, is beyond {LARGEST:e} s")
+            });
+        }
+        self.keep(&kept);
     }
 
     /// Leaves out samples whose time is before another one's that came earlier. Two samples at one time are a jump.

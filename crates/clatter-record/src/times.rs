@@ -94,9 +94,10 @@ impl Times<'_> {
     /// How far a time may be rounded if all have as many decimals, or as many significant digits.
     fn decimal(&self, i: usize) -> f64 {
         let Printed { finest, digits, .. } = *self.printed;
-        #[expect(clippy::cast_possible_truncation, reason = "a float has at most 308 digits")]
+        // A number may be too large for a float, in units that are small.
+        #[expect(clippy::cast_possible_truncation, reason = "within 400 of zero")]
         let place = if digits > 0 {
-            (self.number(i).abs().log10().floor().max(-400.0) as i32 + 1 - digits).max(finest)
+            (self.number(i).abs().log10().floor().clamp(-400.0, 400.0) as i32 + 1 - digits).max(finest)
         } else {
             finest
         };

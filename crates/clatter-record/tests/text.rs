@@ -256,6 +256,8 @@ fn faults_by_line_ten_of_them_and_the_number_of_the_rest() {
         ("t [s],a [g]\n0,1\nend\n1,1\n2,1\n", "line 3: 'end' is no line of numbers"),
         ("t [s],a [g]\n0,1\n1,2,3\n2,1\n", "line 3: '1,2,3' has 3 columns, and the lines above have 2"),
         ("t [s],a [g]\n0,1\n1,1e999\n2,1\n", "line 3: 1e999 in column 2 (a) is beyond 1e100 m/s²"),
+        ("t [s],a [g]\n0,1\n1,1\n1e308,1\n", "line 4: the time, 1e308 s after the first one, is beyond 1e100 s"),
+        ("t [s],a [g]\n1e-300,1\n2e-300,2\n3e-300,3\n", "time between samples (s) = 1e-300 is not at least 1e-100"),
         (
             "t [s],a [g]\n0,1\n2,1\n1.5,1\n3,1\n",
             "line 4: time 1.5 s does not come after 2.0 s, that of the sample before",

@@ -509,6 +509,6 @@ impl Case<'_> {
                 (Lever::Frequency | Lever::Damping, Mount::Hard) => return None,
             }
         }
-        Some(ProductFile { product, drop: self.file.drop, components: vec![component] })
+        Some(ProductFile { product, drop: self.file.drop, components: vec![component], records: Vec::new() })
     }
 }
