@@ -28,6 +28,7 @@
 //! by how well the unknown has to be known to be of use, say so. What is not told is held at the value of the product file, and what
 //! undoes its change in the data is named.
 
+mod beside;
 mod bounces;
 mod drop;
 mod matching;
@@ -44,6 +45,7 @@ use clatter_flight::{Body, ContactLaw};
 
 use crate::{First, Model, ProductFile};
 
+pub use beside::{Beside, MeasuredDrop};
 pub use bounces::bounces;
 pub use report::fit;
 use set::{Set, Which};

@@ -1,11 +1,13 @@
 //! `clatter assess`: which part of a product fails, in which drop, and by how much.
 
+mod measured;
 mod table;
 
 use std::io::{self, IsTerminal, Read};
 use std::path::{Path, PathBuf};
 
 use clap::ValueHint;
+use clatter_assess::fit::MeasuredDrop;
 use clatter_assess::{Accuracy, Assessment, LARGEST_FILE, ProductFile, Verdict};
 use clatter_report::Pages;
 use serde::Serialize;
@@ -25,6 +27,9 @@ use crate::{Exit, Failure, Streams, budget, input, output, text};
 /// A limit is UNSAFE where a drop was found that passes it; safe where energy allows no drop to pass it, or where the
 /// worst drop found leaves room for what the search may miss and its answer be off by ('good to'); else undecided, with
 /// the reason. 'clatter init' writes a product file.
+///
+/// Where the product file names records of measured drops, the computed drop nearest to each is found as by 'clatter fit', and what it
+/// tells of the product stands beside what the file states; a warning says where they contradict one another.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -89,6 +94,9 @@ impl Args {
         if !faults.is_empty() {
             return Err(Failure::Product(faults.join("\n\n")));
         }
+        let drops = files.iter().zip(&self.products).map(|(file, path)| crate::measured::drops(file, path));
+        let drops = drops.collect::<Result<Vec<_>, _>>()?;
+        files.iter().zip(&drops).for_each(|(file, drops)| measured::warn(file, drops, streams));
         let accuracy = Accuracy { tolerance: self.tolerance, model: self.model.map(Into::into) };
         let assessments = files
             .iter()
@@ -98,21 +106,25 @@ impl Args {
                     .map_err(|error| Failure::Product(format!("error: {}: {error}", text::path(path))))
             })
             .collect::<Result<Vec<_>, _>>()?;
+        let answer =
+            |i: usize, file, assessment| Answer { file, assessment, measured: measured::answers(&files[i], &drops[i]) };
         let shown = match (self.format, &assessments[..]) {
             // The report is the answer.
             _ if self.output.as_deref().is_some_and(is_standard) => Ok(()),
-            (Format::Json, [one]) => streams.json(one),
+            (Format::Json, [one]) => streams.json(&answer(0, None, one)),
             (Format::Json, all) => {
-                let named = self.products.iter().zip(all).map(|(file, assessment)| Named { file, assessment });
-                streams.json(&named.collect::<Vec<_>>())
+                let named = self.products.iter().zip(all).enumerate();
+                streams.json(&named.map(|(i, (path, one))| answer(i, Some(path), one)).collect::<Vec<_>>())
             }
-            (Format::Table, [one]) => table::of_one(&files[0], one, streams.out).map_err(Failure::Answer),
+            (Format::Table, [one]) => table::of_one(&files[0], one, streams.out)
+                .and_then(|()| measured::table(&files[0], &drops[0], streams.out))
+                .map_err(Failure::Answer),
             (Format::Table, all) => table::side_by_side(&self.products, all, streams.out).map_err(Failure::Answer),
         };
         // The answer does not wait for its print, which may take long or fail, nor the print for a reader of the answer.
         if let (Some(pdf), [file], [assessment]) = (&self.output, &files[..], &assessments[..]) {
             let _ = streams.out.flush(); // whoever writes next sees the same failure, and tells
-            self.print(file, assessment, pdf, streams)?;
+            self.print(file, assessment, &drops[0], pdf, streams)?;
         }
         shown?;
         let safe = assessments.iter().all(|a| a.verdict == Verdict::Safe);
@@ -124,6 +136,7 @@ impl Args {
         &self,
         file: &ProductFile,
         assessment: &Assessment,
+        measured: &[MeasuredDrop],
         pdf: &Path,
         streams: &mut Streams<'_>,
     ) -> Result<(), Failure> {
@@ -133,7 +146,8 @@ impl Args {
         let portraits = portraits.map_err(|error| Failure::Product(format!("error: {error}")))?;
         let name = self.products[0].file_name().map_or(&*self.products[0], Path::new);
         let path = text::path(name);
-        let pages = Pages { file, assessment, portraits: &portraits, path: &path, date: self.date.as_deref() };
+        let date = self.date.as_deref();
+        let pages = Pages { file, assessment, portraits: &portraits, measured, path: &path, date };
         let mut progress = |step: &str| {
             if streams.interactive {
                 streams.note("clatter", step);
@@ -180,12 +194,15 @@ pub(crate) fn watched(file: &ProductFile, accuracy: &Accuracy) -> Result<Assessm
     })
 }
 
-/// An assessment among several: products of one name are told apart by their files.
+/// An assessment for programs. Among several, products of one name are told apart by their files.
 #[derive(Serialize)]
-struct Named<'a> {
-    file: &'a Path,
+struct Answer<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<&'a PathBuf>,
     #[serde(flatten)]
     assessment: &'a Assessment,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    measured: Vec<measured::Answer<'a>>,
 }
 
 /// A product file, of a size that product files have; what is odd in it is told.

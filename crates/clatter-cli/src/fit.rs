@@ -1,7 +1,6 @@
 //! `clatter fit`: from a measured drop to the data of the product.
 
 mod answer;
-mod records;
 mod table;
 
 use std::fs::File;
@@ -9,16 +8,16 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
 use clap::{ArgAction, ValueHint};
-use clatter_assess::fit::{self, Fit, Known, Measured};
+use clatter_assess::fit::{self, Fit, Known};
 use clatter_assess::units::Quantity;
 use clatter_assess::{LARGEST_FILE, ProductFile};
 
 use crate::inputs::Format;
+use crate::measured::{self, Record};
 use crate::output::{Files, no_kind};
-use crate::quantities::{self, Place};
+use crate::quantities::{self, Place, positions};
 use crate::record_args::RecordArgs;
 use crate::{Failure, Streams, assess, input, output, text};
-use records::Record;
 
 /// Fit the data of a product to a measured drop: restitution, radius of gyration, contact time, how it fell
 ///
@@ -133,50 +132,24 @@ impl Args {
         let mut places = self.position.iter();
         let half_m = 0.5 * file.product.body.length_m();
         let timing_s = self.timing.map(|timing| timing.si);
-        let read = |path: &PathBuf| records::read(path, &mut places, half_m, timing_s, &self.reading);
+        let read = |path: &PathBuf| {
+            let position = || {
+                let Some(place) = places.next() else { return Ok(None) };
+                let s = positions(&[*place], "--position", half_m)?;
+                Ok(Some(s[0] * half_m))
+            };
+            measured::read(path, position, timing_s, &self.reading)
+        };
         let records = self.records.iter().map(read).collect::<Result<Vec<_>, _>>()?;
         if places.next().is_some() {
             return Err(Failure::Usage(
                 "--position goes with a record of an acceleration, one each: there are more of them",
             ));
         }
-        let fit = self.fit(&file, &records)?;
+        let known = Known { gyration_known: self.known_gyration, ..Known::from(&file) };
+        let fit = measured::fitted(&known, &records, timing_s)?;
+        let fit = fit.map_err(|error| Failure::Wrong(measured::why(&error, &self.records)))?;
         Ok(Answered { args: self, file, records, fit })
-    }
-
-    fn fit(&self, file: &ProductFile, records: &[Record]) -> Result<Fit, Failure> {
-        if let [Record::Bounces(times_s)] = records {
-            let timing_s = self.timing.map(|timing| timing.si);
-            return fit::bounces(times_s, file.drop.gravity_m_s2, timing_s).map_err(|error| self.failure(error));
-        }
-        let measured = |record: &Record| match record {
-            Record::Measured(measured) => Ok(measured.clone()),
-            Record::Bounces(_) => Err(Failure::Usage("a record of bounces is of another drop: fit it alone")),
-        };
-        let measured = records.iter().map(measured).collect::<Result<Vec<Measured>, _>>()?;
-        let known = Known { gyration_known: self.known_gyration, ..Known::from(file) };
-        fit::fit(&known, &measured).map_err(|error| self.failure(error))
-    }
-
-    /// The same with the name of the record.
-    fn failure(&self, error: fit::Error) -> Failure {
-        let name = |record: usize| {
-            let path = self.records.get(record.saturating_sub(1));
-            path.map_or_else(|| format!("record {record}"), |path| text::path(path))
-        };
-        Failure::Wrong(match error {
-            fit::Error::Value { record, name: what, value, allowed } => {
-                format!("{}: {what} = {value:?} is not {allowed}", name(record))
-            }
-            fit::Error::Count { record, count, name: what, allowed } => {
-                format!("{}: {count} {what}; allowed: {allowed}", name(record))
-            }
-            fit::Error::Far { record, .. } => {
-                // The name of the file in place of "record 1".
-                error.to_string().replacen(&format!("record {record}"), &name(record), 1)
-            }
-            error => error.to_string(),
-        })
     }
 }
 

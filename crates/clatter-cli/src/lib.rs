@@ -31,6 +31,7 @@ mod input;
 mod inputs;
 mod lists;
 mod map;
+mod measured;
 mod npy;
 mod numbers;
 mod one_drop;

@@ -17,6 +17,8 @@ const WIDE: f64 = 451.0;
 const HIGH: f64 = 112.0;
 const GAP: f64 = 44.0;
 const TOP: f64 = 30.0;
+/// Room between panels that the last one needs not.
+const LAST: f64 = 12.0;
 const MEASURED: Ink = Ink::line(GRAY, 1.6);
 const COMPUTED: Ink = Ink::line(RUST, 0.9);
 
@@ -30,7 +32,7 @@ const COMPUTED: Ink = Ink::line(RUST, 0.9);
 /// ```
 pub fn fit(fit: &Fit) -> Result<String, FigureError> {
     #[expect(clippy::cast_precision_loss, reason = "a few")]
-    let high = TOP + fit.records.len() as f64 * (HIGH + GAP);
+    let high = TOP + fit.records.len() as f64 * (HIGH + GAP) - LAST;
     let mut paper = Paper::new(520.0, high);
     legend(&mut paper, fit);
     let mut top = TOP;

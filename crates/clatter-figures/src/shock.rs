@@ -78,6 +78,11 @@ pub fn beside(s: &Spectrum, other: &Spectrum, name: &str) -> Result<String, Figu
     draw(s, None, None, &[(other, name)], true)
 }
 
+/// A smaller one of two spectra of one quantity by their maximax, each with its name: half as wide as a page.
+pub fn two(one: (&Spectrum, &str), other: (&Spectrum, &str)) -> Result<String, FigureError> {
+    draw(one.0, Some(one.1), None, &[other], true)
+}
+
 /// One spectrum, or by its name its maximax alone, and others.
 fn draw(
     s: &Spectrum,

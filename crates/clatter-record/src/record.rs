@@ -7,7 +7,8 @@ use crate::error::Bad;
 use crate::finding::{At, Finding, Judged, LISTED, gaps, is_of_events};
 use crate::heading::Heading;
 use crate::roles::{Roles, Seen};
-use crate::text::{self, BLOCK, LARGEST, Rows, SHOWN, decoded};
+use crate::samples::{LARGEST, check};
+use crate::text::{self, BLOCK, Rows, SHOWN, decoded};
 use crate::times::{Printed, Times};
 use crate::{Column, Error, Options, Table, Values};
 
@@ -104,6 +105,41 @@ impl Record {
             None => text::read(begin, &mut input, options, &mut progress)?,
         };
         Self::of_text(rows, roles, options)
+    }
+
+    /// A record of values that are there already, at even times from `start_s` on.
+    ///
+    /// ```
+    /// # use clatter_record::{Channel, Record};
+    /// let channel = Channel { name: "ax".to_owned(), unit: "m/s2".to_owned(), values: vec![0.0, 900.0, 0.0] };
+    /// assert_eq!(Record::from_samples(0.0, 1e-4, vec![channel])?.step_s(), Some(1e-4));
+    /// # Ok::<(), clatter_record::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error`] unless there is a channel, all have as many values, two at least, and all numbers are finite and below 1e100,
+    /// steps from 1e-15 to 1e9 s.
+    pub fn from_samples(start_s: f64, step_s: f64, channels: Vec<Channel>) -> Result<Self, Error> {
+        let Some(samples) = channels.first().map(|channel| channel.values.len()) else {
+            return Err(Error::Columns("a record has a channel at least".to_owned()));
+        };
+        for channel in &channels {
+            check(&channel.values, step_s, "a record", 2)?;
+            if channel.values.len() != samples {
+                return Err(Error::Columns("channels differ in length".to_owned()));
+            }
+        }
+        let raw = Raw {
+            channels,
+            start_s,
+            unit_s: 1.0,
+            since_s: Vec::new(),
+            printed: Printed::floats(),
+            step_s: Some(step_s),
+            numbering: Vec::new(),
+            found: Vec::new(),
+        };
+        raw.finish(Bad::default(), &Options::default())
     }
 
     fn of_text(mut rows: Rows, roles: Roles, options: &Options) -> Result<Self, Error> {

@@ -11,7 +11,7 @@ use crate::heading::Heading;
 use crate::roles::{Roles, Seen};
 use crate::{At, Error, Options};
 use layout::Layout;
-pub(crate) use rows::{LARGEST, Rows};
+pub(crate) use rows::Rows;
 
 /// Bytes that are read at a time, and before it is known what a file holds.
 pub(crate) const BLOCK: usize = 1 << 20;

@@ -2,6 +2,7 @@
 
 mod changes;
 mod inputs;
+mod measured;
 mod part;
 
 use clatter::End;
@@ -54,7 +55,7 @@ type Part<'a> = ((&'a Component, &'a ComponentAssessment), &'a Portrait);
 
 /// The files of the pages: figures and data.
 pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureError> {
-    let Pages { file, assessment, portraits, .. } = *pages;
+    let Pages { file, assessment, portraits, measured: drops, .. } = *pages;
     let parts: Vec<Part<'_>> = file.components.iter().zip(&assessment.components).zip(portraits).collect();
     let names: Vec<String> = parts.iter().map(|((_, assessed), _)| name(&assessed.name)).collect();
     let margins: Vec<String> = parts.iter().map(|((_, assessed), _)| percent(assessed.tightest().margin)).collect();
@@ -76,6 +77,7 @@ pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureEr
     }
     let shown: Vec<Share<'_>> = parts.iter().zip(&names).map(|(part, name)| share(part, name)).collect();
     files.push(("shares.svg".into(), shares(&shown)?));
+    files.extend(measured::figures(drops)?);
     let drawing = places.iter().map(|p| format!("{}: {}, margin {}.", p.name, p.verdict.name(), p.word));
     let with = |verdict| parts.iter().filter(|((_, assessed), _)| assessed.verdict == verdict).count();
     let data = json!({
@@ -87,6 +89,8 @@ pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureEr
         "hardest": hardest(assessment),
         "parts": parts.iter().map(|(of, portrait)| part::part(file, *of, portrait)).collect::<Vec<_>>(),
         "inputs": inputs::rows(file),
+        "contradictions": measured::contradictions(file, drops),
+        "measured": measured::sections(file, drops),
         "made": inputs::made(pages),
         "drawing": drawing.collect::<Vec<_>>().join(" "),
         "limits-of-the-model": NOT_COVERED,
@@ -160,8 +164,14 @@ mod tests {
         let file = ProductFile::read(text, "test.toml").unwrap();
         let assessment = file.assess().unwrap();
         let portraits = file.portraits(&assessment).unwrap();
-        let pages =
-            Pages { file: &file, assessment: &assessment, portraits: &portraits, path: "test.toml", date: None };
+        let pages = Pages {
+            file: &file,
+            assessment: &assessment,
+            portraits: &portraits,
+            measured: &[],
+            path: "test.toml",
+            date: None,
+        };
         crate::write_assessment(&pages, to, &mut |_| ()).unwrap();
         lopdf::Document::load(to).unwrap()
     }
@@ -179,8 +189,14 @@ mod tests {
         let file = ProductFile::read(include_str!("../../../reports/examples/phone.toml"), "phone.toml").unwrap();
         let assessment = file.assess().unwrap();
         let portraits = file.portraits(&assessment).unwrap();
-        let pages =
-            Pages { file: &file, assessment: &assessment, portraits: &portraits, path: "phone.toml", date: None };
+        let pages = Pages {
+            file: &file,
+            assessment: &assessment,
+            portraits: &portraits,
+            measured: &[],
+            path: "phone.toml",
+            date: None,
+        };
         let data = data(&files(&pages).unwrap());
         for (part, found) in data["parts"].as_array().unwrap().iter().zip(&assessment.components) {
             let changes = &part["changes"];
@@ -208,8 +224,14 @@ mod tests {
         let camera = &assessment.components[1];
         assert_eq!(camera.limits[0].verdict, Verdict::Undecided, "{camera:?}");
         let portraits = close.portraits(&assessment).unwrap();
-        let pages =
-            Pages { file: &close, assessment: &assessment, portraits: &portraits, path: "close.toml", date: None };
+        let pages = Pages {
+            file: &close,
+            assessment: &assessment,
+            portraits: &portraits,
+            measured: &[],
+            path: "close.toml",
+            date: None,
+        };
         let data = data(&files(&pages).unwrap());
         let part = &data["parts"][1];
         assert_eq!(part["limits"][0]["verdict"], "undecided");
@@ -257,8 +279,14 @@ mod tests {
         let file = ProductFile::read(&text, "test.toml").unwrap();
         let assessment = file.assess().unwrap();
         let portraits = file.portraits(&assessment).unwrap();
-        let pages =
-            Pages { file: &file, assessment: &assessment, portraits: &portraits, path: "C\u{485}.toml", date: None };
+        let pages = Pages {
+            file: &file,
+            assessment: &assessment,
+            portraits: &portraits,
+            measured: &[],
+            path: "C\u{485}.toml",
+            date: None,
+        };
         let warnings = crate::write_assessment(&pages, &to, &mut |_| ()).unwrap();
         assert!(warnings.iter().any(|warning| warning.contains("drawn as boxes")), "{warnings:?}");
         let first: String = said(&lopdf::Document::load(&to).unwrap(), 1).split_whitespace().collect();

@@ -154,6 +154,8 @@ pub struct Pages<'a> {
     pub assessment: &'a clatter_assess::Assessment,
     /// What there is to draw of each part.
     pub portraits: &'a [clatter_assess::Portrait],
+    /// What was measured of it; a section stands for each drop.
+    pub measured: &'a [clatter_assess::fit::MeasuredDrop],
     /// Where the product was read from, as it is to be told.
     pub path: &'a str,
     /// The day that is to be told, if any.
@@ -172,7 +174,7 @@ pub struct Pages<'a> {
 /// let file = ProductFile::read(EXAMPLE, "example.toml")?;
 /// let assessment = file.assess()?;
 /// let portraits = file.portraits(&assessment)?;
-/// let pages = clatter_report::Pages { file: &file, assessment: &assessment, portraits: &portraits, path: "example.toml", date: None };
+/// let pages = clatter_report::Pages { file: &file, assessment: &assessment, portraits: &portraits, measured: &[], path: "example.toml", date: None };
 /// clatter_report::write_assessment(&pages, "report.pdf".as_ref(), &mut |_| ())?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

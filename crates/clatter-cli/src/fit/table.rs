@@ -2,30 +2,12 @@
 
 use std::io::{self, Write};
 
-use clatter_assess::fit::{Estimate, Quantity};
+use clatter_assess::fit::Estimate;
 
 use super::{Answered, answer};
 use crate::inputs::letter;
 use crate::text::{self, shown};
 use crate::words::four;
-
-/// What a quantity is called, and the unit that people use for it with its factor.
-fn said(quantity: Quantity) -> (&'static str, f64, &'static str) {
-    match quantity {
-        Quantity::Restitution => ("restitution", 1.0, ""),
-        Quantity::RestitutionA => ("restitution of end a", 1.0, ""),
-        Quantity::RestitutionB => ("restitution of end b", 1.0, ""),
-        Quantity::RadiusOfGyration => ("radius of gyration", 1e3, "mm"),
-        Quantity::InertiaRatio => ("inertia ratio q", 1.0, ""),
-        Quantity::GapOverSpeed => ("gap over speed", 1e3, "ms"),
-        Quantity::Speed => ("speed", 1.0, "m/s"),
-        Quantity::DropHeight => ("drop height", 1e3, "mm"),
-        Quantity::Tilt => ("tilt", 180.0 / std::f64::consts::PI, "deg"),
-        Quantity::Spin => ("spin", 1.0, "rad/s"),
-        Quantity::ContactTime => ("contact time", 1e3, "ms"),
-        other => (other.name(), 1.0, other.unit()),
-    }
-}
 
 pub(super) fn table(answered: &Answered<'_>, out: &mut dyn Write) -> io::Result<()> {
     let fit = &answered.fit;
@@ -42,7 +24,7 @@ pub(super) fn table(answered: &Answered<'_>, out: &mut dyn Write) -> io::Result<
         writeln!(out, "\nThe data do not tell")?;
     }
     for untold in &fit.untold {
-        let (name, factor, unit) = said(untold.quantity);
+        let (name, factor, unit) = untold.quantity.said();
         let held = format!("{} {unit}", four(factor * untold.held_at));
         writeln!(out, "  {name}, held at {}: {}", held.trim_end(), untold.reason)?;
     }
@@ -71,7 +53,7 @@ pub(super) fn table(answered: &Answered<'_>, out: &mut dyn Write) -> io::Result<
 }
 
 fn line(estimate: &Estimate, out: &mut dyn Write) -> io::Result<()> {
-    let (name, factor, unit) = said(estimate.quantity);
+    let (name, factor, unit) = estimate.quantity.said();
     let interval = estimate
         .interval
         .map_or_else(|| "not known".to_owned(), |[lo, hi]| format!("{} to {}", four(factor * lo), four(factor * hi)));

@@ -7,11 +7,9 @@ use crate::decimal::Decimal;
 use crate::error::Bad;
 use crate::moment::{CLOCK, DAY_S};
 use crate::roles::Roles;
+use crate::samples::LARGEST;
 use crate::times::Printed;
 use crate::{At, Error, Options};
-
-/// Larger accelerations (m/s²) are refused: far beyond any that there are, and far within the floats.
-pub(crate) const LARGEST: f64 = 1e100;
 
 /// What is made of a column.
 #[derive(Debug, Clone, Copy)]

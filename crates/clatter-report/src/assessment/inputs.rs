@@ -115,6 +115,7 @@ mod tests {
             file: &file,
             assessment: &assessment,
             portraits: &[],
+            measured: &[],
             path: "a\u{485}.toml",
             date: Some("2026-03-31"),
         };

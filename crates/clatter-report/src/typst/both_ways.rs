@@ -131,8 +131,14 @@ fn both_ways_set_the_same_reports() {
     let product = clatter_assess::ProductFile::read(clatter_assess::EXAMPLE, "example.toml").unwrap();
     let assessed = product.assess().unwrap();
     let portraits = product.portraits(&assessed).unwrap();
-    let pages =
-        Pages { file: &product, assessment: &assessed, portraits: &portraits, path: "example.toml", date: None };
+    let pages = Pages {
+        file: &product,
+        assessment: &assessed,
+        portraits: &portraits,
+        measured: &[],
+        path: "example.toml",
+        date: None,
+    };
     let pages = assessment::files(&pages);
     let named =
         |files: Vec<paper::File>| files.into_iter().map(|(name, text)| (name.to_owned(), text)).collect::<Vec<_>>();

@@ -1,20 +1,22 @@
-//! Records of a drop, each kind told by the first line of its file.
+//! Measured drops: records, each kind told by the first line of its file, and those that a product file names.
 
 use std::io::{self, BufRead, BufReader, Cursor, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use clatter::End;
-use clatter_assess::fit::{MOST_SAMPLES, MOST_STRIKES, Measured, MeasuredHeights, MeasuredStrike};
+use clatter_assess::fit::{
+    self, Fit, Known, MOST_SAMPLES, MOST_STRIKES, Measured, MeasuredDrop, MeasuredHeights, MeasuredStrike,
+};
+use clatter_assess::{ProductFile, RecordFile};
 
 use crate::lists::{finite, rows_of};
-use crate::quantities::{Place, positions};
 use crate::record_args::RecordArgs;
 use crate::text::visible;
-use crate::{Failure, input};
+use crate::{Failure, input, text};
 
 /// What one file holds.
 #[derive(Debug, Clone)]
-pub(super) enum Record {
+pub(crate) enum Record {
     Measured(Measured),
     Bounces(Vec<f64>),
 }
@@ -22,11 +24,10 @@ pub(super) enum Record {
 /// Bytes that the lines before and with the header may have.
 const HEADER: usize = 1 << 16;
 
-/// Reads a file; the next of `places` is where an acceleration was measured.
-pub(super) fn read<'a>(
+/// Reads a file; `position_m` tells where an acceleration was measured, if it is one.
+pub(crate) fn read(
     path: &Path,
-    places: &mut impl Iterator<Item = &'a Place>,
-    half_m: f64,
+    position_m: impl FnOnce() -> Result<Option<f64>, Failure>,
     timing_s: Option<f64>,
     reading: &RecordArgs,
 ) -> Result<Record, Failure> {
@@ -44,15 +45,14 @@ pub(super) fn read<'a>(
     } else if has(&["time_s", "height_a_m", "height_b_m"]) {
         Measured::Heights { samples: heights(path, whole)?, deviation_m: None }
     } else {
-        let place = places.next().ok_or_else(|| {
+        let position_m = position_m()?.ok_or_else(|| {
             Failure::Wrong(format!(
                 "{} has neither strikes (time_s,end) nor heights (time_s,height_a_m,height_b_m) nor bounces (bounce_s) in its first \
-                 line: an acceleration needs --position, where it was measured",
-                crate::text::path(path)
+                 line: an acceleration needs the position where it was measured",
+                text::path(path)
             ))
         })?;
-        let s = positions(&[*place], "--position", half_m)?;
-        acceleration(path, whole, reading, s.first().map_or(0.0, |s| s * half_m))?
+        acceleration(path, whole, reading, position_m)?
     };
     Ok(Record::Measured(measured))
 }
@@ -138,8 +138,78 @@ fn acceleration(path: &Path, input: impl Read, reading: &RecordArgs, position_m:
         let samples = channel.values.len();
         return Err(Failure::Wrong(format!(
             "{}: {samples} samples; a fit takes {MOST_SAMPLES} at most",
-            crate::text::path(path)
+            text::path(path)
         )));
     }
     Ok(Measured::Acceleration { position_m, start_s: record.start_s(), step_s, values_m_s2: channel.values.clone() })
+}
+
+/// The drop that is nearest to records of one drop, or why there is none.
+pub(crate) fn fitted(
+    known: &Known,
+    records: &[Record],
+    timing_s: Option<f64>,
+) -> Result<Result<Fit, fit::Error>, Failure> {
+    if let [Record::Bounces(times_s)] = records {
+        return Ok(fit::bounces(times_s, known.gravity_m_s2, timing_s));
+    }
+    let measured = |record: &Record| match record {
+        Record::Measured(measured) => Ok(measured.clone()),
+        Record::Bounces(_) => Err(Failure::Usage("a record of bounces is of another drop: fit it alone")),
+    };
+    let measured = records.iter().map(measured).collect::<Result<Vec<Measured>, _>>()?;
+    Ok(fit::fit(known, &measured))
+}
+
+/// Why there is no fit, with the name of the record.
+pub(crate) fn why(error: &fit::Error, files: &[impl AsRef<Path>]) -> String {
+    let name = |record: usize| {
+        let path = files.get(record.saturating_sub(1)).map(|path| text::path(path.as_ref()));
+        path.unwrap_or_else(|| format!("record {record}"))
+    };
+    match error {
+        fit::Error::Value { record, name: what, value, allowed } => {
+            format!("{}: {what} = {value:?} is not {allowed}", name(*record))
+        }
+        fit::Error::Count { record, count, name: what, allowed } => {
+            format!("{}: {count} {what}; allowed: {allowed}", name(*record))
+        }
+        // The name of the file in place of "record 1".
+        fit::Error::Far { record, .. } => error.to_string().replacen(&format!("record {record}"), &name(*record), 1),
+        error => error.to_string(),
+    }
+}
+
+/// The drops whose records a product file names, from where that file is. A record that cannot be read is an error; that no drop
+/// comes near what was measured is an answer.
+pub(crate) fn drops(file: &ProductFile, product: &Path) -> Result<Vec<MeasuredDrop>, Failure> {
+    let beside = product.parent().unwrap_or(Path::new(""));
+    let mut groups: Vec<Vec<&RecordFile>> = Vec::new();
+    for record in &file.records {
+        let same = |group: &&mut Vec<&RecordFile>| record.drop.is_some() && group[0].drop == record.drop;
+        match groups.iter_mut().find(same) {
+            Some(group) => group.push(record),
+            None => groups.push(vec![record]),
+        }
+    }
+    groups.into_iter().map(|records| drop_of(file, beside, &records)).collect()
+}
+
+/// One drop of which there are these records.
+fn drop_of(file: &ProductFile, beside: &Path, records: &[&RecordFile]) -> Result<MeasuredDrop, Failure> {
+    let paths: Vec<PathBuf> = records.iter().map(|record| beside.join(&record.file)).collect();
+    let read = |(record, path): (&&RecordFile, &PathBuf)| {
+        read(path, || Ok(record.position_m), record.timing_s, &RecordArgs::of(record, path)?)
+    };
+    let all = records.iter().zip(&paths).map(read).collect::<Result<Vec<_>, _>>()?;
+    let found = match fitted(&Known::from(file), &all, records[0].timing_s)? {
+        Ok(fit) => Ok(fit),
+        Err(error @ (fit::Error::Far { .. } | fit::Error::NoDrop(_))) => Err(error.to_string()),
+        Err(error) => return Err(Failure::Wrong(why(&error, &paths))),
+    };
+    Ok(MeasuredDrop {
+        name: records[0].drop.clone().unwrap_or_else(|| records[0].file.clone()),
+        files: records.iter().map(|record| record.file.clone()).collect(),
+        found,
+    })
 }

@@ -1,0 +1,135 @@
+//! What was measured beside what the product file states.
+
+use super::{Estimate, Fit, Known, Quantity};
+use crate::ProductFile;
+
+/// A drop of the product that was measured, and the computed drop that is nearest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredDrop {
+    /// Its name, or that of its file.
+    pub name: String,
+    /// Files of its records, in the order of those of the fit.
+    pub files: Vec<String>,
+    /// The fit, or why there is none.
+    pub found: Result<Fit, String>,
+}
+
+/// An estimate beside what the product file states.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Beside<'a> {
+    /// What was measured.
+    pub estimate: &'a Estimate,
+    /// What the file states, as a range; of the drop it is what the worst case is searched over.
+    pub stated: Option<[f64; 2]>,
+    /// Whether they agree: the interval has a part of the range in it, and the estimate is within the range where that is more than
+    /// one value. Nothing where that cannot be told.
+    pub agrees: Option<bool>,
+}
+
+impl Fit {
+    /// Each estimate beside what a product file states.
+    #[must_use]
+    pub fn beside(&self, file: &ProductFile) -> Vec<Beside<'_>> {
+        let known = Known::from(file);
+        let beside = self.estimates.iter().map(|estimate| {
+            let stated = known.stated(estimate.quantity);
+            Beside { estimate, stated, agrees: stated.and_then(|stated| estimate.agrees(stated)) }
+        });
+        beside.collect()
+    }
+
+    /// Where what was measured of the product, not of how it fell, contradicts the file: a verdict is then made for another product.
+    #[must_use]
+    pub fn contradicts(&self, file: &ProductFile) -> Vec<Beside<'_>> {
+        let of_product = |beside: &Beside<'_>| beside.estimate.quantity.is_of_product();
+        self.beside(file).into_iter().filter(|beside| of_product(beside) && beside.agrees == Some(false)).collect()
+    }
+}
+
+impl Known {
+    /// What a file states of a quantity.
+    fn stated(&self, quantity: Quantity) -> Option<[f64; 2]> {
+        let height = |speed: f64| (self.gravity_m_s2 > 0.0).then(|| 0.5 * speed * speed / self.gravity_m_s2);
+        let [q_a, q_b] = self.body.inertia_ratios();
+        Some(match quantity {
+            Quantity::Restitution | Quantity::RestitutionA | Quantity::RestitutionB => self.restitution,
+            Quantity::RadiusOfGyration => [self.body.gyration_m(); 2],
+            Quantity::InertiaRatio => [(q_a * q_b).sqrt().copysign(q_a); 2],
+            Quantity::ContactTime => self.contact_time_s?,
+            Quantity::Speed => self.speed_m_s,
+            Quantity::DropHeight => [height(self.speed_m_s[0])?, height(self.speed_m_s[1])?],
+            Quantity::Tilt => self.tilt_rad,
+            Quantity::Spin | Quantity::GapOverSpeed => return None,
+        })
+    }
+}
+
+impl Estimate {
+    fn agrees(&self, [lo, hi]: [f64; 2]) -> Option<bool> {
+        let is_value = lo >= hi;
+        if !is_value && !(lo..=hi).contains(&self.value) {
+            return Some(false);
+        }
+        match self.interval {
+            Some([from, to]) => Some(from <= hi && lo <= to),
+            None => (!is_value).then_some(true),
+        }
+    }
+}
+
+impl Quantity {
+    /// Whether it is of the product, and not of how it fell.
+    #[must_use]
+    pub fn is_of_product(self) -> bool {
+        match self {
+            Self::Restitution
+            | Self::RestitutionA
+            | Self::RestitutionB
+            | Self::RadiusOfGyration
+            | Self::InertiaRatio
+            | Self::ContactTime => true,
+            Self::GapOverSpeed | Self::Speed | Self::DropHeight | Self::Tilt | Self::Spin => false,
+        }
+    }
+
+    /// What it is called in a text, how many of the unit that engineers use for it one SI unit is, and that unit.
+    #[must_use]
+    pub fn said(self) -> (&'static str, f64, &'static str) {
+        match self {
+            Self::Restitution => ("restitution", 1.0, ""),
+            Self::RestitutionA => ("restitution of end a", 1.0, ""),
+            Self::RestitutionB => ("restitution of end b", 1.0, ""),
+            Self::RadiusOfGyration => ("radius of gyration", 1e3, "mm"),
+            Self::InertiaRatio => ("inertia ratio q", 1.0, ""),
+            Self::GapOverSpeed => ("gap over speed", 1e3, "ms"),
+            Self::Speed => ("speed", 1.0, "m/s"),
+            Self::DropHeight => ("drop height", 1e3, "mm"),
+            Self::Tilt => ("tilt", 180.0 / std::f64::consts::PI, "deg"),
+            Self::Spin => ("spin", 1.0, "rad/s"),
+            Self::ContactTime => ("contact time", 1e3, "ms"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_estimate_agrees_with_what_it_holds() {
+        let of = |value, interval| Estimate { quantity: Quantity::Restitution, value, interval, note: None };
+        for (value, interval, stated, agrees) in [
+            (0.3, Some([0.2, 0.5]), [0.25, 0.4], Some(true)),
+            // The range may hold it, and does not hold what is most likely.
+            (0.45, Some([0.35, 0.55]), [0.25, 0.4], Some(false)),
+            (0.6, Some([0.55, 0.65]), [0.25, 0.4], Some(false)),
+            (0.6, None, [0.25, 0.4], Some(false)),
+            (0.3, None, [0.25, 0.4], Some(true)),
+            (0.3, Some([0.29, 0.32]), [0.31, 0.31], Some(true)),
+            (0.3, Some([0.29, 0.305]), [0.31, 0.31], Some(false)),
+            (0.3, None, [0.31, 0.31], None),
+        ] {
+            assert_eq!(of(value, interval).agrees(stated), agrees, "{value} {interval:?} in {stated:?}");
+        }
+    }
+}
