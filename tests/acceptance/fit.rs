@@ -217,3 +217,72 @@ fn the_examples_of_the_help_run() {
         assert_eq!((outcome.exit, outcome.stderr.as_str()), (Exit::Done, ""), "{example}: {}", outcome.stdout);
     }
 }
+
+/// A product file with a record of its drop.
+fn with_record(restitution: &str, record: &str) -> String {
+    PRODUCT.replace("[0.1, 0.9]", restitution) + "\n[[record]]\n" + record
+}
+
+#[test]
+fn records_of_a_product_file_stand_beside_its_verdict() {
+    let dir = tempfile::tempdir().unwrap();
+    write(dir.path(), "strikes.csv", STRIKES);
+    let record = "file = \"strikes.csv\"\ntiming = \"1 us\"\n";
+    let agrees = write(dir.path(), "agrees.toml", &with_record("[0.1, 0.9]", record));
+    let other = write(dir.path(), "other.toml", &with_record("[0.5, 0.9]", record));
+    for (product, expected) in [(&agrees, true), (&other, false)] {
+        let outcome = clatter(["assess", product, "--format=json"]);
+        let assessment: Value = serde_json::from_str(&outcome.stdout).unwrap();
+        let drop = &assessment["measured"][0];
+        assert_eq!((&drop["drop"], &drop["files"][0]), (&"strikes.csv".into(), &"strikes.csv".into()));
+        let e = estimate(drop, "restitution");
+        assert!((e["value"].as_f64().unwrap() - 0.3).abs() < 0.01, "{e}");
+        assert_eq!((&e["agrees"], &e["stated"][1]), (&expected.into(), &0.9.into()));
+        let warned =
+            outcome.stderr.contains("restitution was measured as 0.3") && outcome.stderr.contains("0.5000 to 0.9000");
+        assert_eq!(warned, !expected, "{}", outcome.stderr);
+        let table = clatter(["assess", product]).stdout;
+        let word = if expected { "agrees" } else { "contradicts" };
+        assert!(table.lines().any(|line| line.starts_with("restitution ") && line.ends_with(word)), "{table}");
+    }
+    let both = clatter(["assess", &agrees, &other, "--format=json"]).stdout;
+    let both: Value = serde_json::from_str(&both).unwrap();
+    assert!((0..2).all(|i| both[i]["measured"][0]["model"] == "finite-tilt"), "{both}");
+    // Without records nothing is said of them.
+    let none = write(dir.path(), "none.toml", PRODUCT);
+    assert!(!clatter(["assess", &none, "--format=json"]).stdout.contains("measured"));
+}
+
+#[test]
+fn records_of_a_product_file_are_of_one_drop_by_its_name() {
+    let dir = tempfile::tempdir().unwrap();
+    write(dir.path(), "strikes.csv", STRIKES);
+    let record = |drop: &str| format!("file = \"strikes.csv\"\n{drop}timing = \"1 us\"\n");
+    for (name, drops) in [("", 2), ("drop = \"3\"\n", 1)] {
+        let text = with_record("[0.1, 0.9]", &record(name)) + "[[record]]\n" + &record(name);
+        let product = write(dir.path(), "bar.toml", &text);
+        let assessment: Value = serde_json::from_str(&clatter(["assess", &product, "--format=json"]).stdout).unwrap();
+        assert_eq!(assessment["measured"].as_array().unwrap().len(), drops);
+    }
+}
+
+#[test]
+fn a_record_that_cannot_be_read_is_an_error_and_a_drop_that_nothing_explains_a_warning() {
+    let dir = tempfile::tempdir().unwrap();
+    write(dir.path(), "a.csv", "time [ms],a [g]\n0,0\n0.1,50\n0.2,0\n");
+    // Times that speed up and slow down are those of no drop.
+    write(dir.path(), "wild.csv", "time_s,end\n0,a\n0.1,a\n0.11,a\n0.9,b\n0.91,a\n7,b\n7.1,b\n7.2,b\n7.3,b\n");
+    for (record, exit, said) in [
+        ("file = \"none.csv\"\n", Exit::BadInput, "none.csv"),
+        ("file = \"a.csv\"\n", Exit::BadInput, "an acceleration needs --position (of [[record]], position)"),
+        ("file = \"a.csv\"\nposition = \"0.2 m\"\n", Exit::BadInput, "allowed: up to 100 mm"),
+        ("file = \"a.csv\"\nposition = \"0 mm\"\nunits = \"ms,m/s2\"\n", Exit::BadInput, "is in g by its heading"),
+        ("file = \"a.csv\"\nplace = \"0 mm\"\n", Exit::BadInput, "[[record]] 1 has no key `place`"),
+        ("file = \"wild.csv\"\n", Exit::Done, "warning: wild.csv: "),
+    ] {
+        let product = write(dir.path(), "bar.toml", &with_record("[0.1, 0.9]", record));
+        let outcome = clatter(["assess", &product]);
+        assert!(outcome.stderr.contains(said), "{record}: {}", outcome.stderr);
+        assert_eq!(outcome.exit, exit, "{record}: {}", outcome.stderr);
+    }
+}

@@ -1,5 +1,6 @@
 //! From the text of a product file to the product, or to everything that is wrong with it.
 
+mod parts;
 mod quantities;
 
 use std::collections::HashMap;
@@ -14,7 +15,7 @@ use crate::fault::{Fault, Faults};
 use crate::keys::{self, Key, Kind};
 use crate::slip;
 use crate::units;
-use crate::{Boundary, Component, Damping, Drop, Fall, First, Limits, Mount, Product, ProductFile, RecordFile};
+use crate::{Drop, Fall, First, Product, ProductFile};
 use quantities::written;
 
 /// A file of more bytes is refused unread.
@@ -426,131 +427,6 @@ impl Reader {
             (None, speed) => Fall::SpeedMS(speed?.value),
         };
         Some(Drop { fall, tilt_rad: tilt?.value, first, gravity_m_s2 })
-    }
-
-    fn component(&mut self, section: &Section<'_>, product: Option<&Product>) -> Option<Component> {
-        let name = self.name(section);
-        let position = self.spread(section, "position");
-        let extent = self.quantity(section, "extent");
-        let mount = self.mount(section);
-        let limits = self.limits(section);
-        let (position, extent_m) = (position?, extent.map_or(0.0, |e| e.value));
-        if let Some(product) = product {
-            let (half, reach) = (
-                0.5 * product.body.length_m(),
-                position.value.lo().abs().max(position.value.hi().abs()) + 0.5 * extent_m,
-            );
-            if reach > half * (1.0 + 1e-9) {
-                let message = format!("the component reaches {} mm from the middle", mm(reach));
-                let help = format!(
-                    "allowed: up to {} mm, half of the product's length; extent counts on both sides",
-                    mm(half)
-                );
-                self.fault(position.span, message, "this position", help);
-                return None;
-            }
-        }
-        let component = Component { name: name?, position_m: position.value, extent_m, mount: mount?, limits };
-        let stiff = product.and_then(|product| crate::quantity::lacks_contact_time(product, &component));
-        if let Some(reason) = stiff {
-            let message = format!("{} needs the contact time of the product", section.title);
-            let span =
-                section.table.get_key_value("mount").or_else(|| section.table.get_key_value("natural_frequency"));
-            let span = span.map_or(section.span.clone(), |(key, value)| key.span().start..value.span().end);
-            self.fault(span, message, reason, "add contact_time = \"0.4 ms\" or whatever was measured to [product]");
-        }
-        Some(component)
-    }
-
-    fn record(&mut self, section: &Section<'_>, product: Option<&Product>) -> Option<RecordFile> {
-        let position = self.quantity(section, "position");
-        let half_m = product.map_or(f64::INFINITY, |product| 0.5 * product.body.length_m());
-        if let Some(At { value, span }) = position.clone().filter(|p| p.value.abs() > half_m * (1.0 + 1e-9)) {
-            let message = format!("the acceleration was measured {} mm from the middle", mm(value));
-            self.fault(
-                span,
-                message,
-                "this position",
-                format!("allowed: up to {} mm, half of the product's length", mm(half_m)),
-            );
-        }
-        let mut text = |name| self.text(section, name).map(|text| text.value);
-        let [file, drop, acceleration, units] = ["file", "drop", "acceleration", "units"].map(&mut text);
-        Some(RecordFile {
-            file: file?,
-            drop,
-            position_m: position.map(|position| position.value),
-            acceleration,
-            units,
-            sample_rate_hz: self.quantity(section, "sample_rate").map(|rate| rate.value),
-            timing_s: self.quantity(section, "timing").map(|timing| timing.value),
-        })
-    }
-
-    fn mount(&mut self, section: &Section<'_>) -> Option<Mount> {
-        let mount = self.choice(section, "mount");
-        let frequency = self.spread(section, "natural_frequency");
-        let damping = self.spread(section, "damping_ratio");
-        let quality = self.spread(section, "quality_factor");
-        if section.table.contains_key("mount") && mount.is_none() {
-            return None;
-        }
-        if mount.is_some_and(|mount| mount.value == "hard") {
-            for name in ["natural_frequency", "damping_ratio", "quality_factor", "rattle_space"] {
-                if let Some((key, _)) = section.table.get_key_value(name) {
-                    let message = format!("a hard-mounted part has no `{name}`");
-                    self.fault(key.span(), message, "beside mount = \"hard\"", "leave one of both out");
-                }
-            }
-            return Some(Mount::Hard);
-        }
-        if !section.table.contains_key("natural_frequency") {
-            let message = format!("{} has no `natural_frequency`", section.title);
-            let help = "add natural_frequency = \"180 Hz\", or mount = \"hard\" for a part mounted rigidly";
-            self.fault(section.span.clone(), message, "in this table", help);
-            return None;
-        }
-        self.exactly_one(section, &["damping_ratio", "quality_factor"], true);
-        let damping = match (damping, quality) {
-            (Some(zeta), _) => Damping::Ratio(zeta.value),
-            (None, Some(q)) => Damping::Quality(q.value),
-            (None, None) => return None,
-        };
-        Some(Mount::Suspended { frequency_hz: frequency?.value, damping })
-    }
-
-    fn limits(&mut self, section: &Section<'_>) -> Limits {
-        const NAMES: [&str; 5] = [
-            "acceleration_limit",
-            "rattle_space",
-            "velocity_change_limit",
-            "angular_velocity_change_limit",
-            "damage_boundary",
-        ];
-        if NAMES.iter().all(|name| !section.table.contains_key(*name)) {
-            let message = format!("{} has no limit", section.title);
-            self.fault(
-                section.span.clone(),
-                message,
-                "in this table",
-                format!("give at least one of {}", NAMES.join(", ")),
-            );
-        }
-        let mut value = |name| self.spread(section, name).map(|q| q.value);
-        let [acceleration_m_s2, rattle_space_m, velocity_change_m_s, angular_velocity_change_rad_s] =
-            [NAMES[0], NAMES[1], NAMES[2], NAMES[3]].map(&mut value);
-        let boundary = self.table(section, NAMES[4]).and_then(|section| {
-            let velocity = self.spread(&section, "velocity_change");
-            let acceleration = self.spread(&section, "acceleration");
-            Some(Boundary { velocity_change_m_s: velocity?.value, acceleration_m_s2: acceleration?.value })
-        });
-        Limits {
-            acceleration_m_s2,
-            rattle_space_m,
-            velocity_change_m_s,
-            angular_velocity_change_rad_s,
-            damage_boundary: boundary,
-        }
     }
 }
 

@@ -48,7 +48,7 @@ pub(crate) fn read(
         let position_m = position_m()?.ok_or_else(|| {
             Failure::Wrong(format!(
                 "{} has neither strikes (time_s,end) nor heights (time_s,height_a_m,height_b_m) nor bounces (bounce_s) in its first \
-                 line: an acceleration needs the position where it was measured",
+                 line: an acceleration needs --position (of [[record]], position), where it was measured",
                 text::path(path)
             ))
         })?;

@@ -253,6 +253,45 @@ mod tests {
         }
     }
 
+    /// Strikes of the paper's reference bar at e = 0.3, as in the tests of `clatter-cli`; and what no computed drop explains.
+    #[test]
+    fn measured_drops_have_a_section_and_what_they_contradict_stands_on_the_first_page() {
+        use clatter_assess::fit::{Known, Measured, MeasuredDrop, MeasuredStrike, fit};
+        let file = ProductFile::read(EXAMPLE, "test.toml").unwrap();
+        let assessment = file.assess().unwrap();
+        let portraits = file.portraits(&assessment).unwrap();
+        let strike = |(time_s, end)| MeasuredStrike { time_s, end: Some(end) };
+        let times = [(0.0, End::A), (1.2121e-3, End::B), (1.682_85e-3, End::A), (34.386e-3, End::B)];
+        let measured = Measured::Strikes { strikes: times.map(strike).into(), deviation_s: Some(1e-6) };
+        let known = Known { contact_time_s: None, ..Known::from(&file) };
+        let found = |name: &str, found| MeasuredDrop { name: name.into(), files: vec![name.into()], found };
+        let drops = [
+            found("strikes\u{485}.csv", Ok(fit(&known, &[measured]).unwrap())),
+            found("wild.csv", Err("no drop was found".to_owned())),
+        ];
+        let pages = Pages {
+            file: &file,
+            assessment: &assessment,
+            portraits: &portraits,
+            measured: &drops,
+            path: "test.toml",
+            date: None,
+        };
+        let dir = tempfile::tempdir().unwrap();
+        let to = dir.path().join("report.pdf");
+        crate::write_assessment(&pages, &to, &mut |_| ()).unwrap();
+        let pdf = lopdf::Document::load(&to).unwrap();
+        let words = |page| said(&pdf, page).split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words(1).contains("Measured otherwise. wild.csv: no drop was found."), "{}", words(1));
+        let last = u32::try_from(pdf.get_pages().len()).unwrap();
+        let rest = (2..=last).map(words).collect::<Vec<_>>().join(" ");
+        for text in
+            ["Measured beside computed", "strikes□.csv", "Restitution 0.", "0.25 to 0.4", "The data do not tell"]
+        {
+            assert!(rest.contains(text), "{text}: {rest}");
+        }
+    }
+
     #[test]
     fn names_of_any_kind_print_as_they_are_or_as_boxes() {
         let dir = tempfile::tempdir().unwrap();

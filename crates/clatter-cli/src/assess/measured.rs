@@ -24,10 +24,10 @@ pub(super) fn warn(file: &ProductFile, drops: &[MeasuredDrop], streams: &mut Str
                         "{name}: {what} was measured as {measured}{interval} where the product file states {stated}: the verdict is not \
                          about the product that was measured"
                     );
-                    streams.note("warning", &message);
+                    streams.note("warning", message);
                 }
             }
-            Err(reason) => streams.note("warning", &format!("{name}: {reason}")),
+            Err(reason) => streams.note("warning", format!("{name}: {reason}")),
         }
     }
 }
