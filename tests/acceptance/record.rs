@@ -240,3 +240,30 @@ fn the_damage_boundary_of_a_record_is_that_of_its_pulse() {
         assert!(close(&got[name], want[name].as_f64().unwrap(), 5e-3), "{name}: {} and {}", got[name], want[name]);
     }
 }
+
+#[test]
+fn the_examples_of_the_help_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let no_units = plain().replacen("time [s],acceleration [g]", "time,acceleration", 1);
+    let three = half_sine("time [s],ax [g],az [g]", |i, a| format!("{:.4},{:.6},{a:.6}", f64::from(i) * 1e-4, 0.5 * a));
+    let plain = plain();
+    for (name, text) in [("drop.csv", &three), ("logger.txt", &no_units), ("day.csv", &plain), ("table.csv", &plain)] {
+        file(folder.path(), name, text);
+    }
+    let help = clatter(["record", "--help"]).stdout;
+    let examples: Vec<&str> = help.lines().filter(|line| line.trim().starts_with("clatter record ")).collect();
+    assert_eq!(examples.len(), 5, "{help}");
+    for example in examples {
+        let in_folder = |word: &str| {
+            let is_file = [".csv", ".txt", ".svg"].iter().any(|ending| word.ends_with(ending));
+            if is_file { folder.path().join(word).display().to_string() } else { word.to_owned() }
+        };
+        // What one example writes another may read.
+        let arguments = example.split_whitespace().skip(1).map(in_folder).chain(["--force".to_owned()]);
+        let outcome = clatter(arguments);
+        assert_eq!((outcome.exit, outcome.stdout.is_empty()), (Exit::Done, false), "{example}: {}", outcome.stderr);
+    }
+    for written in ["drop.svg", "pulse.svg"] {
+        assert!(fs::read_to_string(folder.path().join(written)).unwrap().starts_with("<svg"), "{written}");
+    }
+}

@@ -31,11 +31,10 @@ use records::{Measured, Several};
 ///
 /// What shakes the base of the component is a measured record, or pulses, or velocity shocks:
 ///
-///   RECORD.csv  two columns, time and acceleration, with a header that names the units, such as
-///               `time [ms],acceleration [g]`; even in time, as far as its printed digits tell, or
-///               not, of any length. Between samples the acceleration is taken as linear, and for
-///               that the spectrum is exact. Missing samples, offset, drift and columns beyond the
-///               two are told as warnings
+///   RECORD      a file of measured accelerations, of any kind that `clatter record` reads; a spectrum for
+///               each channel. Between even samples it is taken as band-limited, which holds to 0.1 % up to
+///               0.4 of the sampling rate; --interpolation=linear has straight lines, and is exact for them.
+///               Uneven samples have straight lines always. What is odd is told as warnings
 ///   --pulse     a pulse of a shape; may be given several times, and pulses may overlap
 ///   --shock     a change of velocity in no time, for pulses much shorter than a period
 ///   --pulses-file, --shocks-file
