@@ -263,7 +263,7 @@ fn what_is_found_when_the_time_is_over_is_told_and_nothing_is_safe_by_it() {
     let product = product(dir.path());
     fs::write(dir.path().join("long.toml"), long()).unwrap();
     let samples = ["scatter", product.to_str().unwrap(), "--samples=1000000000", "-o", "s.csv"];
-    let (code, stderr) = says(clatter().args(samples).arg("--time-limit=300ms").current_dir(dir.path()));
+    let (code, stderr) = says(clatter().args(samples).arg("--time-limit=3s").current_dir(dir.path()));
     assert_eq!(code, Some(0), "{stderr}");
     assert!(
         stderr.contains("warning: --time-limit is over: the answer is of what was done by then; fewer"),

@@ -68,10 +68,17 @@ const OTHERS: [&str; 19] = [
     "trigger",
 ];
 
+/// No heading with a unit has more bytes.
+const LONGEST: usize = 1000;
+
 impl Heading {
     /// Of the text of a cell: `time [ms]`, `Acceleration (g)`, `time, s`, `t / ms`, `acceleration_m_s2`, `Seconds`.
     pub(crate) fn of(cell: &str) -> Self {
         let cell = cell.trim().trim_matches(['"', '\'']).trim();
+        if cell.len() > LONGEST {
+            let begin: String = cell.chars().take(40).collect();
+            return Self::named_alone(&format!("{begin}…"));
+        }
         bracketed(cell).unwrap_or_else(|| {
             // `h` and `min` are names of other things as well.
             let is_seconds = |unit: &Unit| unit.kind == Kind::Time && unit.size <= 1.0;

@@ -135,8 +135,11 @@ impl Seen {
     }
 
     fn all(&self) -> String {
-        let all: Vec<_> = (0..self.headings.len()).map(|column| self.called(column)).collect();
-        format!("the columns are {}", all.join(", "))
+        const SHOWN: usize = 20;
+        let count = self.headings.len();
+        let all: Vec<_> = (0..count.min(SHOWN)).map(|column| self.called(column)).collect();
+        let more = if count > SHOWN { format!(" and {} more", count - SHOWN) } else { String::new() };
+        format!("the columns are {}{more}", all.join(", "))
     }
 
     fn channels(&self, time: Option<usize>, options: &Options) -> Result<Vec<usize>, Error> {

@@ -277,6 +277,12 @@ fn what_is_no_text_of_columns() {
     let mut long = b"t [s],a [g]\n0,1\n1,1\n".to_vec();
     long.extend(vec![b'1'; 3 << 20]);
     assert!(read(long).expect_err("a long line below").contains("longer than"));
+    // A heading of a quarter of a megabyte is looked at once, not from each of its blanks on.
+    let heading = format!("t [s],{}\n0,1\n1,1\n2,1\n", "a ".repeat(100_000));
+    let record = read(&heading).expect_err("no unit");
+    assert!(record.len() < 1000, "{}", record.len());
+    let wide: String = ["t [s]", "0", "1", "2"].map(|cell| cell.to_owned() + &",b".repeat(20_000) + "\n").concat();
+    assert!(read(&wide).expect_err("no acceleration").contains(" and 19981 more"));
     let few = Options { most_values: 1000, ..si() };
     let endless = std::io::Read::chain(&b"0,0\n"[..], std::io::repeat(b'1'));
     assert!(Record::read(endless, &few, |_| ()).is_err());
