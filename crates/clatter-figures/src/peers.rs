@@ -39,7 +39,7 @@ pub struct Tool<'a> {
 }
 
 /// Height of a row.
-const ROW: f64 = 19.0;
+const ROW: f64 = 11.5;
 const START: Label = Label { anchor: Anchor::Start, ..SMALL };
 const END: Label = Label { anchor: Anchor::End, ..SMALL };
 
@@ -58,7 +58,7 @@ pub fn tools(rows: &[Tool<'_>], designs: [[f64; 2]; 4]) -> Result<String, Figure
     };
     let columns = [312.0, 338.0, 364.0, 390.0];
     let bottom = axes.corner[1] + height;
-    let mut paper = Paper::new(465.0, bottom + 48.0);
+    let mut paper = Paper::new(465.0, bottom + 44.0);
     let chart = axes.on(&mut paper, 0.0);
     paper.text([0.5 * (columns[0] + columns[3]), 10.0], "impacts, bar by bar", LABEL);
     paper.text([462.0, 10.0], "largest shock", Label { anchor: Anchor::End, ..LABEL });
@@ -74,7 +74,7 @@ pub fn tools(rows: &[Tool<'_>], designs: [[f64; 2]; 4]) -> Result<String, Figure
         paper.plain([2.0, y + 2.8], row.name, START);
         for ((impacts, dot, ms), x) in row.bars.iter().zip(columns) {
             let at = [chart.at(*ms, 0.0)[0], y];
-            paper.circle(at, 2.8, Ink { stroke: INK, width: 0.7, ..Ink::fill(dot.fill()) });
+            paper.circle(at, 2.4, Ink { stroke: INK, width: 0.7, ..Ink::fill(dot.fill()) });
             let color = if *dot == Dot::Wrong { RUST } else { INK };
             let mark = if *dot == Dot::ByChance { "\u{2009}?" } else { "" };
             paper.text([x, y + 2.8], &format!("{impacts}{mark}"), Label { color, ..SMALL });
@@ -85,8 +85,8 @@ pub fn tools(rows: &[Tool<'_>], designs: [[f64; 2]; 4]) -> Result<String, Figure
     chart.border(&mut paper);
     let words = ["right count", "right, but not from every start within a step (?)", "wrong count"];
     for ((dot, word), x) in [Dot::Right, Dot::ByChance, Dot::Wrong].into_iter().zip(words).zip([110.0, 180.0, 366.0]) {
-        paper.circle([x, bottom + 39.2], 2.8, Ink { stroke: INK, width: 0.7, ..Ink::fill(dot.fill()) });
-        paper.text([x + 7.0, bottom + 42.0], word, START);
+        paper.circle([x, bottom + 37.2], 2.8, Ink { stroke: INK, width: 0.7, ..Ink::fill(dot.fill()) });
+        paper.text([x + 7.0, bottom + 40.0], word, START);
     }
     paper.finish("Tools side by side: time, impacts and the error of the largest shock on four bars")
 }
