@@ -510,3 +510,12 @@ fn lists_of_files_are_those_of_flags() {
         assert_eq!(answer(["spectrum", &file]), answer(["spectrum"].into_iter().chain(flags)), "{file}");
     }
 }
+
+/// Service condition B of JESD22-B110 is a half-sine of 1500 g and 0.5 ms.
+#[test]
+fn the_pulse_of_a_standard_is_that_of_its_numbers() {
+    let of = |pulse: &str| answer(["spectrum", &format!("--pulse={pulse}"), "--frequency=100,1000"]);
+    let [by_name, by_numbers] = ["jesd22-b110/b", "half-sine,1500g,0.5ms"].map(of);
+    assert_eq!(by_name["maximax"], by_numbers["maximax"]);
+    assert!(by_name["maximax"][1].as_f64().unwrap() > 1e4, "{by_name}");
+}

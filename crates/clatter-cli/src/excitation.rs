@@ -89,7 +89,11 @@ pub(crate) fn shape_name(shape: Shape) -> String {
     }
 }
 
+/// By the keyword of a standard, or by shape, amplitude, duration and starts.
 pub(crate) fn pulse(text: &str) -> Result<PulseArg, String> {
+    if let Some(standard) = clatter_record::standard_pulse(text) {
+        return Ok(PulseArg { pulses: vec![standard.pulse()], unit: plain_or_typed(&ACCELERATION, "1g")?.unit });
+    }
     let [name, amplitude, duration, starts @ ..] = &parts(text, ',')[..] else {
         return Err("a pulse is SHAPE,AMPLITUDE,DURATION,START, such as half-sine,1500g,0.5ms,0s; numbers without a unit are in \
                     SI: SHAPE,AMPLITUDE_M_S2,DURATION_S,START_S"

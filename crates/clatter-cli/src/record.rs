@@ -14,7 +14,7 @@ use clatter_record::{Channel, Motion, Record, Series, Shock, Shocks, integrate, 
 use clatter_shock::Pulse;
 
 use crate::condition_args::ConditionArgs;
-use crate::excitation::{self, PulseArg};
+use crate::excitation;
 use crate::inputs::RowFormat;
 use crate::numbers::{digits, figures};
 use crate::output::{self, Files, Kind, Target, buffered};
@@ -88,13 +88,8 @@ fn quiet(text: &str) -> Result<f64, String> {
     positive(&TIME, text)
 }
 
-/// A nominal pulse by the keyword of a standard, or by shape, amplitude and duration.
 fn nominal(text: &str) -> Result<Pulse, String> {
-    match (clatter_record::standard_pulse(text), excitation::pulse(text)) {
-        (Some(standard), _) => Ok(standard.pulse()),
-        (None, Ok(PulseArg { pulses, .. })) => pulses.first().copied().ok_or_else(|| "no pulse".to_owned()),
-        (None, Err(error)) => Err(error),
-    }
+    excitation::pulse(text)?.pulses.first().copied().ok_or_else(|| "no pulse".to_owned())
 }
 
 fn target(text: &str) -> Result<Target, String> {

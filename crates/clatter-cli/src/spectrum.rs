@@ -35,7 +35,7 @@ use records::{Measured, Several};
 ///               each channel. Between even samples it is taken as band-limited, which holds to 0.1 % up to
 ///               0.4 of the sampling rate; --interpolation=linear has straight lines, and is exact for them.
 ///               Uneven samples have straight lines always. What is odd is told as warnings
-///   --pulse     a pulse of a shape; may be given several times, and pulses may overlap
+///   --pulse     a pulse of a shape or a standard; may be given several times, and pulses may overlap
 ///   --shock     a change of velocity in no time, for pulses much shorter than a period
 ///   --pulses-file, --shocks-file
 ///               either of these from a CSV file, of any number: its first line names the columns,
@@ -133,7 +133,7 @@ struct Excitation {
     record: Vec<PathBuf>,
     /// A pulse: half-sine, haversine, triangle, initial-peak-sawtooth, terminal-peak-sawtooth, rectangle, trapezoid or
     /// trapezoid:RAMP (ramps over length, 0.1 unless given); amplitude, duration and one or more starts with their units, or in
-    /// m/s² and s
+    /// m/s² and s; or the pulse of a standard, such as JESD22-B110/B
     #[arg(long, value_name = "SHAPE,AMPLITUDE,DURATION,START…", allow_hyphen_values = true, value_parser = excitation::pulse)]
     pulse: Vec<PulseArg>,
     /// A velocity shock: change of velocity and time with their units, or in m/s and s; in order of time
