@@ -31,6 +31,7 @@
 mod bounces;
 mod drop;
 mod matching;
+mod region;
 mod report;
 mod set;
 mod solve;

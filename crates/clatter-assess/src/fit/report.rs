@@ -8,7 +8,8 @@ use clatter_flight::Body;
 
 use super::drop::{CONTACT, DATA, DIFFERENCE, Drop, FLIGHTS, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED, SPIN};
 use super::set::{sets, unit_s};
-use super::told::{self, Spreads, Told};
+use super::told::{self, Told};
+use super::region::Spreads;
 use super::{
     Error, Estimate, Fit, Known, Measured, MeasuredStrike, Quantity, RecordFit, Set, StrikeFit, Untold, Which, matching,
 };
@@ -242,11 +243,14 @@ fn report(drop: &Drop<'_>, told: &Told, given: bool) -> Fit {
     quantities.push(Quantity::Tilt);
     quantities.extend(is_free(SPIN).then_some(Quantity::Spin));
     quantities.extend(is_free(CONTACT).then_some(Quantity::ContactTime));
-    let spreads = told.spreads(drop, given);
     let gradients: Vec<Vec<f64>> = quantities.iter().map(|quantity| quantity.gradient(drop, x)).collect();
-    let estimates = quantities.iter().zip(&gradients).map(|(&quantity, gradient)| {
+    let evens: Vec<Box<dyn Fn(&[f64]) -> f64 + '_>> = quantities.iter().map(|q| Box::new(move |x: &[f64]| q.even(drop, x)) as Box<dyn Fn(&[f64]) -> f64 + '_>).collect();
+    let evens: Vec<&dyn Fn(&[f64]) -> f64> = evens.iter().map(|b| &**b).collect();
+    let found = told.spreads(drop, given, &evens);
+    let (spreads, reaches) = match found { Some((s, r)) => (Some(s), r), None => (None, vec![[0.0; 2]; quantities.len()]) };
+    let estimates = quantities.iter().zip(gradients.iter().zip(&reaches)).map(|(&quantity, (gradient, reach))| {
         let value = quantity.of(drop, x);
-        let half = spreads.as_ref().map(|spreads| spreads.of(gradient, gradient).sqrt());
+        let half = spreads.as_ref().map(|spreads| { let held = spreads.of_held(gradient, gradient); reach.map(|r| (r * r + held).sqrt()) });
         let note = (quantity == Quantity::Tilt && !is_free(SPEED)).then(|| WITH_SPEED.to_owned());
         Estimate { quantity, value, interval: half.map(|half| interval(quantity, value, half)), note }
     });
@@ -280,16 +284,16 @@ fn report(drop: &Drop<'_>, told: &Told, given: bool) -> Fit {
 }
 
 /// The interval of this half-width in what scatters evenly, within what there is.
-fn interval(quantity: Quantity, value: f64, half: f64) -> [f64; 2] {
+fn interval(quantity: Quantity, value: f64, [below, above]: [f64; 2]) -> [f64; 2] {
     if quantity.is_positive() {
-        return [value * libm::exp(-half), value * libm::exp(half)];
+        return [value * libm::exp(-below), value * libm::exp(above)];
     }
     let [least, most] = match quantity {
         Quantity::Restitution | Quantity::RestitutionA | Quantity::RestitutionB => [0.0, 1.0],
         Quantity::InertiaRatio => [-1.0, 1.0],
         _ => [f64::NEG_INFINITY, f64::INFINITY],
     };
-    [(value - half).max(least), (value + half).min(most)]
+    [(value - below).max(least), (value + above).min(most)]
 }
 
 fn correlations(spreads: &Spreads, gradients: &[Vec<f64>]) -> Vec<Vec<f64>> {

@@ -37,7 +37,9 @@ fn name(unknown: usize) -> &'static str {
 /// Part of a direction above which an unknown counts as part of it.
 const PART: f64 = 0.3;
 /// Confidence of the intervals is one less this.
-const ALPHA: f64 = 0.05;
+pub(super) const ALPHA: f64 = 0.05;
+/// CHANCE
+const CHANCE: f64 = 1e-3;
 
 /// The fit with all that the data tell left free.
 #[derive(Debug)]
@@ -224,13 +226,12 @@ impl Search<'_, '_> {
             }
             let mut more = told.free.clone();
             more.push(unknown);
-            if let Some((_, reason)) = self.untold(&told.minimum, &more, Some(unknown)) {
-                told.held.push((unknown, reason));
-                continue;
-            }
-            // At the new minimum it may be told less than at the old one.
             let minimum = self.with(|problem| problem.minimize(&told.minimum.x, &more));
-            if let Some((_, reason)) = self.untold(&minimum, &more, Some(unknown)) {
+            let untold = || {
+                let reason = self.untold(&told.minimum, &more, Some(unknown));
+                reason.or_else(|| self.untold(&minimum, &more, Some(unknown)))
+            };
+            if !self.contradicts(&told.minimum, &minimum, more.len(), CHANCE) && let Some((_, reason)) = untold() {
                 told.held.push((unknown, reason));
             } else {
                 (told.minimum, told.free) = (minimum, more);
@@ -241,11 +242,29 @@ impl Search<'_, '_> {
     /// Holds what turns out not to be told after all.
     fn hold_untold(&self, told: &mut Told) {
         while let Some((unknown, reason)) = self.untold(&told.minimum, &told.free, None) {
-            told.free.retain(|free| *free != unknown);
+            let mut x = told.minimum.x.clone();
+            x[unknown] = self.drop.given()[unknown];
+            let free: Vec<usize> = told.free.iter().copied().filter(|free| *free != unknown).collect();
+            let minimum = self.with(|problem| problem.minimize(&x, &free));
+            if self.contradicts(&minimum, &told.minimum, told.free.len(), ALPHA) || unknown == GYRATION && !self.drop.contacts {
+                break;
+            }
+            (told.minimum, told.free) = (minimum, free);
             told.held.push((unknown, reason));
-            told.minimum.x[unknown] = self.drop.given()[unknown];
-            self.refit(told);
         }
+    }
+
+    /// Whether the data contradict the value at which an unknown is held: chance makes the sum that much larger than with all of
+    /// `count` unknowns free less often than `alpha` (F test of one unknown, which is Student's t squared).
+    fn contradicts(&self, held: &Minimum, free: &Minimum, count: usize, alpha: f64) -> bool {
+        let degrees = self.count.saturating_sub(count);
+        let rise = held.sum() - free.sum();
+        if self.known {
+            return rise > student::two_sided(alpha, None).powi(2);
+        }
+        #[expect(clippy::cast_precision_loss, reason = "a count of data")]
+        let variance = free.sum() / degrees as f64;
+        degrees > 0 && rise > student::two_sided(alpha, Some(degrees)).powi(2) * variance
     }
 
     /// An unknown that the data do not tell beside the others, and why; `last` is the one to name if it is part of it.
@@ -290,53 +309,5 @@ impl Search<'_, '_> {
                 format!("what {} changes in the data, {} can change as well", name(unknown), others.join(" and "))
             }
         }
-    }
-}
-
-/// How far functions of the unknowns may be off.
-pub(super) struct Spreads {
-    /// Covariance of the free unknowns, from the data.
-    covariance: DMatrix<f64>,
-    /// Half-ranges of what is held, and what the free unknowns change by for each.
-    held: Vec<(usize, f64, DVector<f64>)>,
-    free: Vec<usize>,
-    t: f64,
-}
-
-impl Told {
-    /// Covariances; none where nothing tells the scatter.
-    pub(super) fn spreads(&self, drop: &Drop<'_>, known: bool) -> Option<Spreads> {
-        let scatter = self.scatter?;
-        let (bounds, residuals) = (drop.bounds(), |x: &[f64]| drop.residuals(x));
-        let problem = Problem { residuals: &residuals, bounds: &bounds, step: drop.step(), patience: drop.patience() };
-        let jacobian = problem.jacobian(&self.minimum.x, &self.free);
-        let inverse = jacobian.pseudo_inverse(0.0).ok()?;
-        let covariance = &inverse * inverse.transpose() * (scatter * scatter);
-        let ranges = (0..OFFSET).filter(|unknown| !self.free.contains(unknown));
-        let ranges = ranges.map(|unknown| (unknown, drop.half_range(unknown))).filter(|(_, range)| *range > 0.0);
-        let held = ranges
-            .map(|(unknown, range)| {
-                let column = problem.jacobian(&self.minimum.x, &[unknown]);
-                (unknown, range, (-(&inverse * column)).column(0).into_owned())
-            })
-            .collect();
-        let normal = known && self.excess.is_none();
-        let t = student::two_sided(ALPHA, (!normal).then_some(self.degrees.max(1)));
-        Some(Spreads { covariance, held, free: self.free.clone(), t })
-    }
-}
-
-impl Spreads {
-    /// Covariance of two functions with these gradients over all unknowns, times the square of the quantile: the half-width of an
-    /// interval is the root of a function's own.
-    pub(super) fn of(&self, one: &[f64], other: &[f64]) -> f64 {
-        let free = |gradient: &[f64]| DVector::from_iterator(self.free.len(), self.free.iter().map(|&i| gradient[i]));
-        let (g, h) = (free(one), free(other));
-        let data = self.t * self.t * (g.transpose() * &self.covariance * &h)[0];
-        let held = self
-            .held
-            .iter()
-            .map(|(i, range, shift)| range * range * (one[*i] + g.dot(shift)) * (other[*i] + h.dot(shift)));
-        data + held.sum::<f64>()
     }
 }
