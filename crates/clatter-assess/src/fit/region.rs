@@ -1,45 +1,63 @@
-//! How far functions of the unknowns may be off.
+//! How far a fit may be off: all unknowns with which the computed drop is nearly as near to the data as the nearest one.
 
 use nalgebra::{DMatrix, DVector};
 
-use super::drop::{Drop, OFFSET};
 use super::solve::{Minimum, Problem};
-use super::student;
-use super::told::{ALPHA, Told};
 
-/// The unknowns that explain the data about as well as those of the minimum: the sum of squares is larger by `rise`² at most.
+/// A value that is asked for is kept to so many times as strictly as a datum: the search then ends near it, within a percent.
+const STRICT: f64 = 10.0;
+/// The root of the rise is nearly a straight line: within this share of where it is to be, the line gives the rest.
+const NEAR: f64 = 0.05;
+/// Searches for an end at most: two or three are enough unless the sum jumps, where a strike changes places with another.
+const SEARCHES: usize = 12;
+
+/// All unknowns whose sum of squares is larger than the least one by at most `rise`².
 pub(super) struct Region<'a> {
     problem: &'a Problem<'a>,
     minimum: &'a Minimum,
     free: &'a [usize],
-    /// Covariance of the free unknowns times the square of the quantile, by the derivatives at the minimum.
-    covariance: DMatrix<f64>,
-    inverse: DMatrix<f64>,
     rise: f64,
+    /// Over all unknowns: g·data·g is the square of how far a function with the gradient g goes in the region, as the derivatives
+    /// at the minimum have it.
+    data: DMatrix<f64>,
+    /// The same of what is held at a value that has a range.
+    held: DMatrix<f64>,
 }
 
-const STRENGTH: f64 = 10.0;
-const POINTS: usize = 20;
-const SHARE: f64 = 0.01;
-
 impl<'a> Region<'a> {
-    pub(super) fn new(problem: &'a Problem<'a>, minimum: &'a Minimum, free: &'a [usize], rise: f64) -> Option<Self> {
+    /// About a minimum over free unknowns; each held one with the half of its range.
+    pub(super) fn new(
+        problem: &'a Problem<'a>,
+        minimum: &'a Minimum,
+        free: &'a [usize],
+        ranges: &[(usize, f64)],
+        rise: f64,
+    ) -> Option<Self> {
+        let count = minimum.x.len();
         let inverse = problem.jacobian(&minimum.x, free).pseudo_inverse(0.0).ok()?;
-        let covariance = &inverse * inverse.transpose() * (rise * rise);
-        Some(Self { problem, minimum, free, covariance, inverse, rise })
+        let over_all = |own: DVector<f64>| {
+            let mut all = DVector::zeros(count);
+            free.iter().zip(own.iter()).for_each(|(&unknown, value)| all[unknown] = *value);
+            all
+        };
+        let columns: Vec<DVector<f64>> = inverse.column_iter().map(|column| over_all(column.into_owned())).collect();
+        let data = DMatrix::from_columns(&columns) * rise;
+        let mut held = DMatrix::zeros(count, count);
+        for &(unknown, range) in ranges {
+            // What the free unknowns change by to make up for a change of this one.
+            let change = -(&inverse * problem.jacobian(&minimum.x, &[unknown]));
+            let mut change = over_all(change.column(0).into_owned());
+            change[unknown] = 1.0;
+            held += &change * change.transpose() * (range * range);
+        }
+        Some(Self { problem, minimum, free, rise, data: &data * data.transpose(), held })
     }
 
-    /// What the free unknowns change by for a change of one that is held.
-    pub(super) fn shift(&self, unknown: usize) -> DVector<f64> {
-        let column = self.problem.jacobian(&self.minimum.x, &[unknown]);
-        (-(&self.inverse * column)).column(0).into_owned()
-    }
-
-    /// Gradient over the free unknowns.
-    pub(super) fn gradient(&self, of: &dyn Fn(&[f64]) -> f64) -> DVector<f64> {
+    /// Derivatives of a function at the minimum.
+    fn gradient(&self, of: &dyn Fn(&[f64]) -> f64) -> DVector<f64> {
         let mut x = self.minimum.x.clone();
-        let step = self.problem.step;
-        let one = |&i: &usize| {
+        let step = 1e-6;
+        let one = |i: usize| {
             let at = x[i];
             x[i] = at + step;
             let above = of(&x);
@@ -48,111 +66,97 @@ impl<'a> Region<'a> {
             x[i] = at;
             (above - below) / (2.0 * step)
         };
-        DVector::from_iterator(self.free.len(), self.free.iter().map(one))
+        DVector::from_iterator(self.minimum.x.len(), (0..self.minimum.x.len()).map(one))
     }
 
-    /// Half-width by the derivatives.
-    pub(super) fn half(&self, of: &dyn Fn(&[f64]) -> f64) -> f64 {
+    /// How far a function may be off by what is held.
+    pub(super) fn held(&self, of: &dyn Fn(&[f64]) -> f64) -> f64 {
         let g = self.gradient(of);
-        (g.transpose() * &self.covariance * &g)[0].sqrt()
+        g.dot(&(&self.held * &g)).sqrt()
     }
 
-    /// How far below and above the minimum a function goes in the region.
-    pub(super) fn reach(&self, of: &dyn Fn(&[f64]) -> f64) -> [f64; 2] {
-        let half = self.half(of);
-        [-1.0, 1.0].map(|side| self.end(of, half, side))
+    /// Correlations of functions, by the derivatives at the minimum.
+    pub(super) fn correlations(&self, functions: &[&dyn Fn(&[f64]) -> f64]) -> Vec<Vec<f64>> {
+        let gradients: Vec<DVector<f64>> = functions.iter().map(|of| self.gradient(of)).collect();
+        let covariance = &self.data + &self.held;
+        let of = |i: usize, j: usize| gradients[i].dot(&(&covariance * &gradients[j]));
+        let correlation = |i: usize, j: usize| {
+            let product = (of(i, i) * of(j, j)).sqrt();
+            if i == j {
+                1.0
+            } else if product > 0.0 {
+                (of(i, j) / product).clamp(-1.0, 1.0)
+            } else {
+                0.0
+            }
+        };
+        (0..gradients.len()).map(|i| (0..gradients.len()).map(|j| correlation(i, j)).collect()).collect()
     }
 
-    fn end(&self, of: &dyn Fn(&[f64]) -> f64, half: f64, side: f64) -> f64 {
-        let (least, middle) = (self.minimum.sum(), of(&self.minimum.x));
-        if !(half > 0.0 && half.is_finite() && self.rise > 0.0) {
-            return half;
+    /// Where a function is least and largest in the region, as the derivatives at the minimum have it.
+    pub(super) fn straight_ends(&self, of: &dyn Fn(&[f64]) -> f64) -> [Vec<f64>; 2] {
+        let g = self.gradient(of);
+        let toward = &self.data * &g;
+        let half = g.dot(&toward).sqrt();
+        [-1.0, 1.0].map(|side| {
+            let share = if half > 0.0 { side / half } else { 0.0 };
+            self.minimum.x.iter().zip(toward.iter()).map(|(x, toward)| x + share * toward).collect()
+        })
+    }
+
+    /// Where a function is least and largest in the region: its profile.
+    pub(super) fn ends(&self, of: &dyn Fn(&[f64]) -> f64) -> [Vec<f64>; 2] {
+        let straight = self.straight_ends(of);
+        let middle = of(&self.minimum.x);
+        let [below, above] = straight.each_ref().map(|end| (of(end) - middle).abs());
+        [self.end(of, -1.0, below).unwrap_or(straight[0].clone()), self.end(of, 1.0, above).unwrap_or(straight[1].clone())]
+    }
+
+    /// The end on one side; `guess` is how far it may be. None where the function does not change.
+    fn end(&self, of: &dyn Fn(&[f64]) -> f64, side: f64, guess: f64) -> Option<Vec<f64>> {
+        if !(guess > 0.0 && guess.is_finite() && self.rise > 0.0) {
+            return None;
         }
-        let weight = STRENGTH * self.rise / half;
-        let (mut inside, mut outside) = ([0.0, 0.0], None::<[f64; 2]>);
-        let mut x = self.minimum.x.clone();
-        let mut ask = half;
-        for _ in 0..POINTS {
-            let residuals = |x: &[f64]| {
+        let (least, middle) = (self.minimum.sum(), of(&self.minimum.x));
+        let weight = STRICT * self.rise / guess;
+        let (mut inside, mut outside) = ((self.minimum.x.clone(), 0.0, 0.0), None::<(Vec<f64>, f64, f64)>);
+        let mut asked = guess;
+        for _ in 0..SEARCHES {
+            // The least sum of squares with the function near a value. Where the search ends, it is the least one with the value
+            // that the function has there, whether that is the one that was asked for or not.
+            let residuals = move |x: &[f64]| {
                 let mut all = (self.problem.residuals)(x);
-                all.push(weight * (side * (of(x) - middle) - ask));
+                all.push(weight * (side * (of(x) - middle) - asked));
                 all
             };
-            let problem = Problem { residuals: &residuals, ..*self.problem };
-            let found = problem.minimize(&x, self.free);
+            let problem =
+                Problem { residuals: Box::new(residuals), bounds: self.problem.bounds.clone(), ..*self.problem };
+            let found = problem.minimize(&inside.0, self.free);
             let reached = side * (of(&found.x) - middle);
-            let last = found.residuals.last().copied().unwrap_or(0.0);
-            let root = (found.sum() - last * last - least).max(0.0).sqrt();
-            if std::env::var("TRACE").is_ok() { println!("   side {side} half {half:.4e} ask {ask:.4e} reached {reached:.4e} root {root:.4e} of {:.4e}", self.rise); }
-            if (root - self.rise).abs() <= SHARE * self.rise {
-                return reached;
+            let own = found.residuals.last().map_or(0.0, |last| last * last);
+            let root = (found.sum() - own - least).max(0.0).sqrt();
+            if (root / self.rise - 1.0).abs() <= NEAR {
+                let along = |(x, middle): (&f64, &f64)| middle + (x - middle) * self.rise / root;
+                return Some(found.x.iter().zip(&self.minimum.x).map(along).collect());
             }
-            if root < self.rise {
-                // On a bound: it goes no further.
-                if reached <= inside[0] || reached < 0.5 * ask {
-                    return reached.max(inside[0]);
-                }
-                inside = [reached, root];
-                x = found.x;
+            if root > self.rise {
+                outside = Some((found.x, reached, root));
+            } else if reached <= inside.1 || reached < 0.5 * asked {
+                // An unknown is on its bound: the function goes no further.
+                return Some(if reached > inside.1 { found.x } else { inside.0 });
             } else {
-                outside = Some([reached, root]);
+                inside = (found.x, reached, root);
             }
-            ask = match outside {
-                Some([far, above]) => {
-                    if far - inside[0] <= SHARE * far {
-                        return far;
-                    }
-                    let line = inside[0] + (far - inside[0]) * (self.rise - inside[1]) / (above - inside[1]);
-                    line.clamp(inside[0] + 0.1 * (far - inside[0]), far - 0.1 * (far - inside[0]))
+            asked = match &outside {
+                Some((x, far, _)) if far - inside.1 <= NEAR * far => return Some(x.clone()),
+                Some((_, far, above)) => {
+                    let share = (self.rise - inside.2) / (above - inside.2);
+                    inside.1 + (far - inside.1) * share.clamp(0.1, 0.9)
                 }
-                None => inside[0] * (self.rise / inside[1]).min(3.0),
+                // No more than three times as far at once: further than that nothing is a straight line.
+                None => inside.1 * (self.rise / inside.2).min(3.0),
             };
         }
-        outside.map_or(inside[0], |far| far[0])
-    }
-}
-
-/// How far functions of the unknowns may be off.
-pub(super) struct Spreads {
-    /// Covariance of the free unknowns, from the data.
-    covariance: DMatrix<f64>,
-    /// Half-ranges of what is held, and what the free unknowns change by for each.
-    held: Vec<(usize, f64, DVector<f64>)>,
-    free: Vec<usize>,
-}
-
-impl Told {
-    /// Covariances; none where nothing tells the scatter. And how far each function may go.
-    pub(super) fn spreads(&self, drop: &Drop<'_>, known: bool, functions: &[&dyn Fn(&[f64]) -> f64]) -> Option<(Spreads, Vec<[f64; 2]>)> {
-        let scatter = self.scatter?;
-        let (bounds, residuals) = (drop.bounds(), |x: &[f64]| drop.residuals(x));
-        let problem = Problem { residuals: &residuals, bounds: &bounds, step: drop.step(), patience: 60 };
-        let normal = known && self.excess.is_none();
-        let t = student::two_sided(ALPHA, (!normal).then_some(self.degrees.max(1)));
-        let region = Region::new(&problem, &self.minimum, &self.free, t * scatter)?;
-        let ranges = (0..OFFSET).filter(|unknown| !self.free.contains(unknown));
-        let ranges = ranges.map(|unknown| (unknown, drop.half_range(unknown))).filter(|(_, range)| *range > 0.0);
-        let held = ranges.map(|(unknown, range)| (unknown, range, region.shift(unknown))).collect();
-        let reaches = functions.iter().map(|of| if drop.contacts || std::env::var("LINEAR").is_ok() { [region.half(of); 2] } else { region.reach(of) }).collect();
-        Some((Spreads { covariance: region.covariance, held, free: self.free.clone() }, reaches))
-    }
-}
-
-impl Spreads {
-    /// Covariance of two functions with these gradients over all unknowns, times the square of the quantile: the half-width of an
-    /// interval is the root of a function's own.
-    pub(super) fn of(&self, one: &[f64], other: &[f64]) -> f64 {
-        let free = |gradient: &[f64]| DVector::from_iterator(self.free.len(), self.free.iter().map(|&i| gradient[i]));
-        let (g, h) = (free(one), free(other));
-        (g.transpose() * &self.covariance * &h)[0] + self.of_held(one, other)
-    }
-    pub(super) fn of_held(&self, one: &[f64], other: &[f64]) -> f64 {
-        let free = |gradient: &[f64]| DVector::from_iterator(self.free.len(), self.free.iter().map(|&i| gradient[i]));
-        let (g, h) = (free(one), free(other));
-        let held = self
-            .held
-            .iter()
-            .map(|(i, range, shift)| range * range * (one[*i] + g.dot(shift)) * (other[*i] + h.dot(shift)));
-        held.sum::<f64>()
+        Some(outside.map_or(inside.0, |outside| outside.0))
     }
 }

@@ -8,8 +8,8 @@ use clatter_flight::Body;
 
 use super::drop::{CONTACT, DATA, DIFFERENCE, Drop, FLIGHTS, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED, SPIN};
 use super::set::{sets, unit_s};
+use super::region::Region;
 use super::told::{self, Told};
-use super::region::Spreads;
 use super::{
     Error, Estimate, Fit, Known, Measured, MeasuredStrike, Quantity, RecordFit, Set, StrikeFit, Untold, Which, matching,
 };
@@ -205,20 +205,23 @@ impl Quantity {
         let value = self.of(drop, x);
         if self.is_positive() { libm::log(value) } else { value }
     }
-    fn gradient(self, drop: &Drop<'_>, x: &[f64]) -> Vec<f64> {
-        let step = 1e-6;
-        let mut x = x.to_vec();
-        (0..x.len())
-            .map(|i| {
-                let at = x[i];
-                x[i] = at + step;
-                let above = self.even(drop, &x);
-                x[i] = at - step;
-                let below = self.even(drop, &x);
-                x[i] = at;
-                (above - below) / (2.0 * step)
-            })
-            .collect()
+    /// Of two numbers that scatter evenly, within what there is.
+    fn interval(self, lo: f64, hi: f64) -> [f64; 2] {
+        match self {
+            Self::Restitution | Self::RestitutionA | Self::RestitutionB => [lo.max(0.0), hi.min(1.0)],
+            Self::InertiaRatio => [lo.max(-1.0), hi.min(1.0)],
+            Self::Spin => [lo, hi],
+            _ => [lo, hi].map(libm::exp),
+        }
+    }
+    /// The quantity that it is least and largest with: of the same unknown alone.
+    fn leader(self, speed_is_free: bool) -> Self {
+        match self {
+            Self::InertiaRatio => Self::RadiusOfGyration,
+            Self::DropHeight => Self::Speed,
+            Self::Tilt if !speed_is_free => Self::GapOverSpeed,
+            own => own,
+        }
     }
 }
 
@@ -243,19 +246,19 @@ fn report(drop: &Drop<'_>, told: &Told, given: bool) -> Fit {
     quantities.push(Quantity::Tilt);
     quantities.extend(is_free(SPIN).then_some(Quantity::Spin));
     quantities.extend(is_free(CONTACT).then_some(Quantity::ContactTime));
-    let gradients: Vec<Vec<f64>> = quantities.iter().map(|quantity| quantity.gradient(drop, x)).collect();
-    let evens: Vec<Box<dyn Fn(&[f64]) -> f64 + '_>> = quantities.iter().map(|q| Box::new(move |x: &[f64]| q.even(drop, x)) as Box<dyn Fn(&[f64]) -> f64 + '_>).collect();
-    let evens: Vec<&dyn Fn(&[f64]) -> f64> = evens.iter().map(|b| &**b).collect();
-    let found = told.spreads(drop, given, &evens);
-    let (spreads, reaches) = match found { Some((s, r)) => (Some(s), r), None => (None, vec![[0.0; 2]; quantities.len()]) };
-    let estimates = quantities.iter().zip(gradients.iter().zip(&reaches)).map(|(&quantity, (gradient, reach))| {
-        let value = quantity.of(drop, x);
-        let half = spreads.as_ref().map(|spreads| { let held = spreads.of_held(gradient, gradient); reach.map(|r| (r * r + held).sqrt()) });
-        let note = (quantity == Quantity::Tilt && !is_free(SPEED)).then(|| WITH_SPEED.to_owned());
-        Estimate { quantity, value, interval: half.map(|half| interval(quantity, value, half)), note }
+    let problem = drop.problem();
+    let region = told.region(drop, &problem, given);
+    let intervals = region.as_ref().map(|region| intervals(drop, region, x, &quantities, is_free(SPEED)));
+    let estimates = quantities.iter().enumerate().map(|(k, &quantity)| Estimate {
+        quantity,
+        value: quantity.of(drop, x),
+        interval: intervals.as_ref().map(|intervals| intervals[k]),
+        note: (quantity == Quantity::Tilt && !is_free(SPEED)).then(|| WITH_SPEED.to_owned()),
     });
     let estimates = estimates.collect();
-    let correlations = spreads.as_ref().map_or_else(Vec::new, |spreads| correlations(spreads, &gradients));
+    let evens: Vec<_> = quantities.iter().map(|quantity| move |x: &[f64]| quantity.even(drop, x)).collect();
+    let evens: Vec<&dyn Fn(&[f64]) -> f64> = evens.iter().map(|even| even as _).collect();
+    let correlations = region.as_ref().map_or_else(Vec::new, |region| region.correlations(&evens));
     let untold = told.held.iter().filter_map(|(unknown, reason)| {
         let quantity = match *unknown {
             GYRATION => Quantity::RadiusOfGyration,
@@ -283,32 +286,33 @@ fn report(drop: &Drop<'_>, told: &Told, given: bool) -> Fit {
     }
 }
 
-/// The interval of this half-width in what scatters evenly, within what there is.
-fn interval(quantity: Quantity, value: f64, [below, above]: [f64; 2]) -> [f64; 2] {
-    if quantity.is_positive() {
-        return [value * libm::exp(-below), value * libm::exp(above)];
-    }
-    let [least, most] = match quantity {
-        Quantity::Restitution | Quantity::RestitutionA | Quantity::RestitutionB => [0.0, 1.0],
-        Quantity::InertiaRatio => [-1.0, 1.0],
-        _ => [f64::NEG_INFINITY, f64::INFINITY],
-    };
-    [(value - below).max(least), (value + above).min(most)]
-}
-
-fn correlations(spreads: &Spreads, gradients: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let own: Vec<f64> = gradients.iter().map(|g| spreads.of(g, g).sqrt()).collect();
-    let of = |i: usize, j: usize| {
-        let product = own[i] * own[j];
-        if i == j {
-            1.0
-        } else if product > 0.0 {
-            (spreads.of(&gradients[i], &gradients[j]) / product).clamp(-1.0, 1.0)
-        } else {
-            0.0
+/// How far each quantity may be off.
+fn intervals(
+    drop: &Drop<'_>,
+    region: &Region<'_>,
+    x: &[f64],
+    quantities: &[Quantity],
+    speed_is_free: bool,
+) -> Vec<[f64; 2]> {
+    // A search that was cut short has no flights left.
+    let by_profile = drop.is_quick() && drop.left.get() > 0;
+    let mut found: Vec<(Quantity, [Vec<f64>; 2])> = Vec::new();
+    let one = |&quantity: &Quantity| {
+        let leader = quantity.leader(speed_is_free);
+        if !found.iter().any(|(known, _)| *known == leader) {
+            let even = |x: &[f64]| leader.even(drop, x);
+            found.push((leader, if by_profile { region.ends(&even) } else { region.straight_ends(&even) }));
         }
+        let even = |x: &[f64]| quantity.even(drop, x);
+        let (middle, held) = (even(x), region.held(&even));
+        let ends = found.iter().filter(|(known, _)| *known == leader).flat_map(|(_, ends)| ends);
+        let [below, above] = ends.fold([0.0_f64; 2], |[below, above], end| {
+            let off = even(end) - middle;
+            [below.max(-off), above.max(off)]
+        });
+        quantity.interval(middle - below.hypot(held), middle + above.hypot(held))
     };
-    (0..gradients.len()).map(|i| (0..gradients.len()).map(|j| of(i, j)).collect()).collect()
+    quantities.iter().map(one).collect()
 }
 
 fn records(drop: &Drop<'_>, x: &[f64]) -> Vec<RecordFit> {

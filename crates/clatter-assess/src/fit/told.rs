@@ -1,8 +1,7 @@
 //! What the data tell: which unknowns are left free, and how far they may be off.
 
-use nalgebra::{DMatrix, DVector};
-
 use super::drop::{CONTACT, DIFFERENCE, Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED, SPIN};
+use super::region::Region;
 use super::solve::{Minimum, Problem};
 use super::starts::{TAKEN, starts};
 use super::student;
@@ -38,7 +37,8 @@ fn name(unknown: usize) -> &'static str {
 const PART: f64 = 0.3;
 /// Confidence of the intervals is one less this.
 pub(super) const ALPHA: f64 = 0.05;
-/// CHANCE
+/// Each end gets a restitution of its own, although the data do not tell it well, where one for both explains them less often than
+/// this: so many records of equal ends get two.
 const CHANCE: f64 = 1e-3;
 
 /// The fit with all that the data tell left free.
@@ -127,7 +127,6 @@ impl Drop<'_> {
     }
 }
 
-#[derive(Clone, Copy)]
 struct Search<'s, 'd> {
     drop: &'s Drop<'d>,
     known: bool,
@@ -135,16 +134,6 @@ struct Search<'s, 'd> {
 }
 
 impl Search<'_, '_> {
-    fn with<T>(&self, work: impl FnOnce(&Problem<'_>) -> T) -> T {
-        let (bounds, residuals) = (self.drop.bounds(), |x: &[f64]| self.drop.residuals(x));
-        work(&Problem {
-            residuals: &residuals,
-            bounds: &bounds,
-            step: self.drop.step(),
-            patience: self.drop.patience(),
-        })
-    }
-
     /// From the best of the starts, with the unknowns that such records tell at least.
     fn base(&self, starts: &[Vec<f64>]) -> Result<Told, Error> {
         let has = |is: fn(&Set<'_>) -> bool| self.drop.sets.iter().any(is);
@@ -170,10 +159,10 @@ impl Search<'_, '_> {
         // Each strike multiplies what is off before it: the early part of a record comes first.
         let staged = |x: &Vec<f64>| {
             let x = EARLY.iter().fold(x.clone(), |x, share| match self.drop.early(&x, *share) {
-                Some(early) => Search { drop: &early, ..*self }.with(|problem| problem.minimize(&x, &free).x),
+                Some(early) => early.problem().minimize(&x, &free).x,
                 None => x,
             });
-            self.with(|problem| problem.minimize(&x, &free))
+            self.drop.problem().minimize(&x, &free)
         };
         let minimum = starts.iter().map(staged).min_by(|a, b| a.sum().total_cmp(&b.sum()));
         let minimum = minimum.filter(|minimum| self.drop.path(&minimum.x).is_some()).ok_or(Error::NoDrop("data"))?;
@@ -183,7 +172,7 @@ impl Search<'_, '_> {
     }
 
     fn refit(&self, told: &mut Told) {
-        told.minimum = self.with(|problem| problem.minimize(&told.minimum.x, &told.free));
+        told.minimum = self.drop.problem().minimize(&told.minimum.x, &told.free);
     }
 
     /// Degrees of freedom and scatter.
@@ -226,12 +215,16 @@ impl Search<'_, '_> {
             }
             let mut more = told.free.clone();
             more.push(unknown);
-            let minimum = self.with(|problem| problem.minimize(&told.minimum.x, &more));
+            let minimum = self.drop.problem().minimize(&told.minimum.x, &more);
+            // At the new minimum it may be told less than at the old one. At the old one the scatter is not that of chance alone if
+            // the value that is held is wrong.
             let untold = || {
-                let reason = self.untold(&told.minimum, &more, Some(unknown));
-                reason.or_else(|| self.untold(&minimum, &more, Some(unknown)))
+                let before = self.untold(&told.minimum, &more, Some(unknown));
+                before.or_else(|| self.untold(&minimum, &more, Some(unknown)))
             };
-            if !self.contradicts(&told.minimum, &minimum, more.len(), CHANCE) && let Some((_, reason)) = untold() {
+            if !self.contradicts(&told.minimum, &minimum, more.len(), CHANCE)
+                && let Some((_, reason)) = untold()
+            {
                 told.held.push((unknown, reason));
             } else {
                 (told.minimum, told.free) = (minimum, more);
@@ -239,14 +232,19 @@ impl Search<'_, '_> {
         }
     }
 
-    /// Holds what turns out not to be told after all.
+    /// Holds what turns out not to be told after all, unless the data contradict the value of the product file.
     fn hold_untold(&self, told: &mut Told) {
         while let Some((unknown, reason)) = self.untold(&told.minimum, &told.free, None) {
+            // The file has no range of the radius of gyration that the others could be widened by: where the intervals can be as
+            // wide as the data leave them, it stays free.
+            if unknown == GYRATION && self.drop.is_quick() {
+                break;
+            }
             let mut x = told.minimum.x.clone();
             x[unknown] = self.drop.given()[unknown];
             let free: Vec<usize> = told.free.iter().copied().filter(|free| *free != unknown).collect();
-            let minimum = self.with(|problem| problem.minimize(&x, &free));
-            if self.contradicts(&minimum, &told.minimum, told.free.len(), ALPHA) || unknown == GYRATION && !self.drop.contacts {
+            let minimum = self.drop.problem().minimize(&x, &free);
+            if self.contradicts(&minimum, &told.minimum, told.free.len(), ALPHA) {
                 break;
             }
             (told.minimum, told.free) = (minimum, free);
@@ -254,8 +252,8 @@ impl Search<'_, '_> {
         }
     }
 
-    /// Whether the data contradict the value at which an unknown is held: chance makes the sum that much larger than with all of
-    /// `count` unknowns free less often than `alpha` (F test of one unknown, which is Student's t squared).
+    /// Whether the data contradict the value at which an unknown is held: so much larger than with all of `count` unknowns free the
+    /// sum of squares is by chance less often than `alpha` (the F test of one unknown, where F is the square of Student's t).
     fn contradicts(&self, held: &Minimum, free: &Minimum, count: usize, alpha: f64) -> bool {
         let degrees = self.count.saturating_sub(count);
         let rise = held.sum() - free.sum();
@@ -276,7 +274,7 @@ impl Search<'_, '_> {
         #[expect(clippy::cast_precision_loss, reason = "a count of data")]
         let scatter = if self.known { 1.0 } else { (minimum.sum() / degrees as f64).sqrt() };
         let t = student::two_sided(ALPHA, (!self.known).then_some(degrees));
-        let mut jacobian = self.with(|problem| problem.jacobian(&minimum.x, free));
+        let mut jacobian = self.drop.problem().jacobian(&minimum.x, free);
         for (mut column, unknown) in jacobian.column_iter_mut().zip(free) {
             column *= half_width(*unknown);
         }
@@ -309,5 +307,16 @@ impl Search<'_, '_> {
                 format!("what {} changes in the data, {} can change as well", name(unknown), others.join(" and "))
             }
         }
+    }
+}
+
+impl Told {
+    /// How far the unknowns may be off together; none where nothing tells the scatter.
+    pub(super) fn region<'a>(&'a self, drop: &Drop<'_>, problem: &'a Problem<'a>, known: bool) -> Option<Region<'a>> {
+        let normal = known && self.excess.is_none();
+        let t = student::two_sided(ALPHA, (!normal).then_some(self.degrees.max(1)));
+        let ranges = (0..OFFSET).filter(|unknown| !self.free.contains(unknown));
+        let ranges = ranges.map(|unknown| (unknown, drop.half_range(unknown))).filter(|(_, range)| *range > 0.0);
+        Region::new(problem, &self.minimum, &self.free, &ranges.collect::<Vec<_>>(), t * self.scatter?)
     }
 }
