@@ -312,7 +312,8 @@ pub enum Error {
     /// The nearest computed drop is far from the data.
     #[error(
         "record {record}: no drop was found that comes near: {name} of the nearest are off by {percent:.0} % of {of}, root mean \
-             square; allowed are {allowed:.0} %: check units, ends and the length in the product file"
+             square; allowed are {allowed:.0} %: check units, ends and the length in the product file; with contacts that take time \
+             missing strikes are not looked for"
     )]
     Far {
         /// Which record, from 1.

@@ -2,7 +2,7 @@
 
 use clatter::End;
 
-use super::region::Region;
+use super::region::{Function, Region};
 use super::solve::Problem;
 use super::student;
 use super::{Error, Estimate, Fit, MOST_STRIKES, MeasuredStrike, Quantity, RecordFit, StrikeFit};
@@ -48,8 +48,9 @@ pub fn bounces(times_s: &[f64], gravity_m_s2: f64, deviation_s: Option<f64>) -> 
         }
         at
     };
-    let residuals =
-        |x: &[f64]| times_s.iter().zip(computed(x)).map(|(measured, computed)| (measured - computed) / deviation).collect();
+    let residuals = |x: &[f64]| {
+        times_s.iter().zip(computed(x)).map(|(measured, computed)| (measured - computed) / deviation).collect()
+    };
     let bounds = vec![[f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, 30.0], [0.0, 1.0]];
     let problem = Problem { residuals: Box::new(residuals), bounds, step: 1e-6, patience: 100 };
     let start = [times_s[0] / unit_s, libm::log(unit_s), (flights[1] / flights[0]).clamp(0.01, 0.99)];
@@ -62,7 +63,7 @@ pub fn bounces(times_s: &[f64], gravity_m_s2: f64, deviation_s: Option<f64>) -> 
     };
     let t = student::two_sided(0.05, deviation_s.is_none().then_some(degrees.max(1)));
     let region = scatter.and_then(|scatter| Region::new(&problem, &minimum, &FREE, &[], t * scatter));
-    let interval = |of: &dyn Fn(&[f64]) -> f64| region.as_ref().map(|region| region.ends(of).map(|end| of(&end)));
+    let interval = |of: &Function<'_>| region.as_ref().map(|region| region.ends(of).map(|end| of(&end)));
     let e = minimum.x[2];
     let range = interval(&|x| x[2]).map(|[lo, hi]| [lo.max(0.0), hi.min(1.0)]);
     let mut estimates = vec![Estimate { quantity: Quantity::Restitution, value: e, interval: range, note: None }];

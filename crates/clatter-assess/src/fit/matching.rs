@@ -18,7 +18,7 @@ const ENOUGH_FOR_BOTH: usize = 6;
 /// Strikes may be missing before so many of the first measured ones.
 const PLACES: usize = 16;
 /// A fit is tried again where its scatter passes this share of the mean time between strikes: with so much, nothing is told.
-const SUSPECT: f64 = 0.05;
+pub(super) const SUSPECT: f64 = 0.05;
 /// A fit with strikes missing or left out counts where chance makes the scatter of the plain one so much larger with this
 /// probability, over all that was tried.
 const CHANCE: f64 = 1e-3;

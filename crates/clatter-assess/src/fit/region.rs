@@ -4,6 +4,9 @@ use nalgebra::{DMatrix, DVector};
 
 use super::solve::{Minimum, Problem};
 
+/// A function of the unknowns.
+pub(super) type Function<'a> = dyn Fn(&[f64]) -> f64 + 'a;
+
 /// A value that is asked for is kept to so many times as strictly as a datum: the search then ends near it, within a percent.
 const STRICT: f64 = 10.0;
 /// The root of the rise is nearly a straight line: within this share of where it is to be, the line gives the rest.
@@ -54,7 +57,7 @@ impl<'a> Region<'a> {
     }
 
     /// Derivatives of a function at the minimum.
-    fn gradient(&self, of: &dyn Fn(&[f64]) -> f64) -> DVector<f64> {
+    fn gradient(&self, of: &Function<'_>) -> DVector<f64> {
         let mut x = self.minimum.x.clone();
         let step = 1e-6;
         let one = |i: usize| {
@@ -70,13 +73,13 @@ impl<'a> Region<'a> {
     }
 
     /// How far a function may be off by what is held.
-    pub(super) fn held(&self, of: &dyn Fn(&[f64]) -> f64) -> f64 {
+    pub(super) fn held(&self, of: &Function<'_>) -> f64 {
         let g = self.gradient(of);
         g.dot(&(&self.held * &g)).sqrt()
     }
 
     /// Correlations of functions, by the derivatives at the minimum.
-    pub(super) fn correlations(&self, functions: &[&dyn Fn(&[f64]) -> f64]) -> Vec<Vec<f64>> {
+    pub(super) fn correlations(&self, functions: &[&Function<'_>]) -> Vec<Vec<f64>> {
         let gradients: Vec<DVector<f64>> = functions.iter().map(|of| self.gradient(of)).collect();
         let covariance = &self.data + &self.held;
         let of = |i: usize, j: usize| gradients[i].dot(&(&covariance * &gradients[j]));
@@ -94,7 +97,7 @@ impl<'a> Region<'a> {
     }
 
     /// Where a function is least and largest in the region, as the derivatives at the minimum have it.
-    pub(super) fn straight_ends(&self, of: &dyn Fn(&[f64]) -> f64) -> [Vec<f64>; 2] {
+    pub(super) fn straight_ends(&self, of: &Function<'_>) -> [Vec<f64>; 2] {
         let g = self.gradient(of);
         let toward = &self.data * &g;
         let half = g.dot(&toward).sqrt();
@@ -105,22 +108,21 @@ impl<'a> Region<'a> {
     }
 
     /// Where a function is least and largest in the region: its profile.
-    pub(super) fn ends(&self, of: &dyn Fn(&[f64]) -> f64) -> [Vec<f64>; 2] {
-        let straight = self.straight_ends(of);
-        let middle = of(&self.minimum.x);
-        let [below, above] = straight.each_ref().map(|end| (of(end) - middle).abs());
-        [self.end(of, -1.0, below).unwrap_or(straight[0].clone()), self.end(of, 1.0, above).unwrap_or(straight[1].clone())]
+    pub(super) fn ends(&self, of: &Function<'_>) -> [Vec<f64>; 2] {
+        let [below, above] = self.straight_ends(of);
+        [self.end(of, -1.0, below), self.end(of, 1.0, above)]
     }
 
-    /// The end on one side; `guess` is how far it may be. None where the function does not change.
-    fn end(&self, of: &dyn Fn(&[f64]) -> f64, side: f64, guess: f64) -> Option<Vec<f64>> {
-        if !(guess > 0.0 && guess.is_finite() && self.rise > 0.0) {
-            return None;
-        }
+    /// The end on one side; `straight` is where the derivatives have it.
+    fn end(&self, of: &Function<'_>, side: f64, straight: Vec<f64>) -> Vec<f64> {
         let (least, middle) = (self.minimum.sum(), of(&self.minimum.x));
-        let weight = STRICT * self.rise / guess;
+        let mut asked = side * (of(&straight) - middle);
+        if !(asked > 0.0 && asked.is_finite() && self.rise > 0.0) {
+            return straight;
+        }
+        let weight = STRICT * self.rise / asked;
+        let mut begin = straight;
         let (mut inside, mut outside) = ((self.minimum.x.clone(), 0.0, 0.0), None::<(Vec<f64>, f64, f64)>);
-        let mut asked = guess;
         for _ in 0..SEARCHES {
             // The least sum of squares with the function near a value. Where the search ends, it is the least one with the value
             // that the function has there, whether that is the one that was asked for or not.
@@ -131,24 +133,24 @@ impl<'a> Region<'a> {
             };
             let problem =
                 Problem { residuals: Box::new(residuals), bounds: self.problem.bounds.clone(), ..*self.problem };
-            let found = problem.minimize(&inside.0, self.free);
+            let found = problem.minimize(&begin, self.free);
             let reached = side * (of(&found.x) - middle);
             let own = found.residuals.last().map_or(0.0, |last| last * last);
             let root = (found.sum() - own - least).max(0.0).sqrt();
             if (root / self.rise - 1.0).abs() <= NEAR {
                 let along = |(x, middle): (&f64, &f64)| middle + (x - middle) * self.rise / root;
-                return Some(found.x.iter().zip(&self.minimum.x).map(along).collect());
+                return found.x.iter().zip(&self.minimum.x).map(along).collect();
             }
             if root > self.rise {
                 outside = Some((found.x, reached, root));
             } else if reached <= inside.1 || reached < 0.5 * asked {
                 // An unknown is on its bound: the function goes no further.
-                return Some(if reached > inside.1 { found.x } else { inside.0 });
+                return if reached > inside.1 { found.x } else { inside.0 };
             } else {
                 inside = (found.x, reached, root);
             }
             asked = match &outside {
-                Some((x, far, _)) if far - inside.1 <= NEAR * far => return Some(x.clone()),
+                Some((x, far, _)) if far - inside.1 <= NEAR * far => return x.clone(),
                 Some((_, far, above)) => {
                     let share = (self.rise - inside.2) / (above - inside.2);
                     inside.1 + (far - inside.1) * share.clamp(0.1, 0.9)
@@ -156,7 +158,8 @@ impl<'a> Region<'a> {
                 // No more than three times as far at once: further than that nothing is a straight line.
                 None => inside.1 * (self.rise / inside.2).min(3.0),
             };
+            begin.clone_from(&inside.0);
         }
-        Some(outside.map_or(inside.0, |outside| outside.0))
+        outside.map_or(inside.0, |outside| outside.0)
     }
 }

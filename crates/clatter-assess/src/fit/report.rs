@@ -7,8 +7,9 @@ use clatter::End;
 use clatter_flight::Body;
 
 use super::drop::{CONTACT, DATA, DIFFERENCE, Drop, FLIGHTS, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED, SPIN};
+use super::matching::SUSPECT;
+use super::region::{Function, Region};
 use super::set::{sets, unit_s};
-use super::region::Region;
 use super::told::{self, Told};
 use super::{
     Error, Estimate, Fit, Known, Measured, MeasuredStrike, Quantity, RecordFit, Set, StrikeFit, Untold, Which, matching,
@@ -257,7 +258,7 @@ fn report(drop: &Drop<'_>, told: &Told, given: bool) -> Fit {
     });
     let estimates = estimates.collect();
     let evens: Vec<_> = quantities.iter().map(|quantity| move |x: &[f64]| quantity.even(drop, x)).collect();
-    let evens: Vec<&dyn Fn(&[f64]) -> f64> = evens.iter().map(|even| even as _).collect();
+    let evens: Vec<&Function<'_>> = evens.iter().map(|even| even as _).collect();
     let correlations = region.as_ref().map_or_else(Vec::new, |region| region.correlations(&evens));
     let untold = told.held.iter().filter_map(|(unknown, reason)| {
         let quantity = match *unknown {
@@ -408,6 +409,17 @@ fn notes(drop: &Drop<'_>, told: &Told, records: &[RecordFit]) -> Vec<String> {
                 strike.measured.time_s
             ));
         }
+    }
+    let is_odd = |record: &RecordFit| {
+        let is_off = told.excess.is_some() || record.scatter > SUSPECT * drop.unit_s;
+        !record.strikes.is_empty() && is_off || record.strikes.iter().any(|strike| strike.number.is_none())
+    };
+    if drop.contacts && records.iter().any(is_odd) {
+        notes.push(
+            "strikes do not match well, and with contacts that take time missing strikes are not looked for: for that, fit the \
+             strikes alone with a product file without contact_time"
+                .to_owned(),
+        );
     }
     if let Some((_, reason)) = told.held.iter().find(|(unknown, _)| *unknown == DIFFERENCE) {
         notes.push(format!("one restitution for both ends: {reason}"));

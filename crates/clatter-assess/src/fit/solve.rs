@@ -3,10 +3,13 @@
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::{DMatrix, DVector, Dyn, Owned};
 
+/// Measured less computed over a standard deviation, as a function of all unknowns.
+type Residuals<'a> = Box<dyn Fn(&[f64]) -> Vec<f64> + 'a>;
+
 /// Residuals as a function of all unknowns, and where these may lie.
 pub(super) struct Problem<'a> {
-    /// Measured less computed over a standard deviation; as many for any unknowns within the bounds.
-    pub(super) residuals: Box<dyn Fn(&[f64]) -> Vec<f64> + 'a>,
+    /// As many for any unknowns within the bounds.
+    pub(super) residuals: Residuals<'a>,
     pub(super) bounds: Vec<[f64; 2]>,
     /// Half the step of a central difference.
     pub(super) step: f64,

@@ -39,7 +39,7 @@ const PART: f64 = 0.3;
 pub(super) const ALPHA: f64 = 0.05;
 /// Each end gets a restitution of its own, although the data do not tell it well, where one for both explains them less often than
 /// this: so many records of equal ends get two.
-const CHANCE: f64 = 1e-3;
+const CHANCE: f64 = 1e-2;
 
 /// The fit with all that the data tell left free.
 #[derive(Debug)]
