@@ -7,10 +7,10 @@ use super::solve::{Minimum, Problem};
 /// A function of the unknowns.
 pub(super) type Function<'a> = dyn Fn(&[f64]) -> f64 + 'a;
 
-/// A value that is asked for is kept to so many times as strictly as a datum: the search then ends near it, within a percent.
+/// A value that is asked for counts so many times as much as the data: the search then ends within a percent of it.
 const STRICT: f64 = 10.0;
 /// The root of the rise is nearly a straight line: within this share of where it is to be, the line gives the rest.
-const NEAR: f64 = 0.05;
+const NEAR: f64 = 0.02;
 /// Searches for an end at most: two or three are enough unless the sum jumps, where a strike changes places with another.
 const SEARCHES: usize = 12;
 
@@ -161,5 +161,39 @@ impl<'a> Region<'a> {
             begin.clone_from(&inside.0);
         }
         outside.map_or(inside.0, |outside| outside.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two unknowns x and y, and the data exp x = 1 and exp x + y = 1, both to 1/2: with y made up for, the sum of squares is
+    /// 4 (exp x − 1)², so that x reaches from ln(1/2) to ln(3/2) where it rises by 1. The derivatives have it from −1/2 to 1/2.
+    #[test]
+    fn ends_are_where_the_sum_of_squares_has_risen() {
+        let residuals = |x: &[f64]| vec![2.0 * (libm::exp(x[0]) - 1.0), 2.0 * (libm::exp(x[0]) + x[1] - 1.0)];
+        let problem = |least: f64| Problem {
+            residuals: Box::new(residuals),
+            bounds: vec![[least, 10.0], [-10.0, 10.0]],
+            step: 1e-6,
+            patience: 50,
+        };
+        let minimum = Minimum { x: vec![0.0, 0.0], residuals: vec![0.0, 0.0] };
+        let ends = |problem: &Problem<'_>| {
+            let region = Region::new(problem, &minimum, &[0, 1], &[], 1.0).expect("the test has derivatives");
+            let straight = region.straight_ends(&|x| x[0]).map(|end| end[0]);
+            assert!((straight[0] + 0.5).abs() < 1e-6 && (straight[1] - 0.5).abs() < 1e-6, "{straight:?}");
+            region.ends(&|x| x[0]).map(|end| end[0])
+        };
+        // As near as `NEAR` lets them be.
+        let [least, most] = ends(&problem(-10.0));
+        assert!(
+            (least / 0.5_f64.ln() - 1.0).abs() < 0.01 && (most / 1.5_f64.ln() - 1.0).abs() < 0.01,
+            "{least} {most}"
+        );
+        // A bound that comes before is the end.
+        let [least, _] = ends(&problem(-0.3));
+        assert!((least + 0.3).abs() < 1e-12, "{least}");
     }
 }

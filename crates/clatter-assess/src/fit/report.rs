@@ -35,7 +35,7 @@ const MORE: usize = 3;
 /// measured; else impacts are instant, at real tilt and with gravity.
 ///
 /// # Accuracy
-/// The intervals of 95 % hold the truth in 93 to 97 of 100 synthetic drops with normal noise (`tests/fit.rs`). They know of noise
+/// The intervals of 95 % hold the truth in 93 to 97 of 100 synthetic drops with normal noise (`tests/fit`). They know of noise
 /// alone: a bar that bends or an edge that is not flat is not in them.
 ///
 /// # Errors

@@ -37,8 +37,9 @@ fn name(unknown: usize) -> &'static str {
 const PART: f64 = 0.3;
 /// Confidence of the intervals is one less this.
 pub(super) const ALPHA: f64 = 0.05;
-/// Each end gets a restitution of its own, although the data do not tell it well, where one for both explains them less often than
-/// this: so many records of equal ends get two.
+/// An unknown is freed, although the data do not tell it well, where they contradict the value at which it is held: chance explains
+/// them less often than this. So many sound records get a restitution for each end. At a tenth of it, of records whose ends differ
+/// by up to 0.1 only 42 of 100 would get two, not 66.
 const CHANCE: f64 = 1e-2;
 
 /// The fit with all that the data tell left free.

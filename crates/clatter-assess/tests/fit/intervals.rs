@@ -52,10 +52,8 @@ fn told(drops: &Drops) -> [Told; 4] {
         };
         // Else the product file is wrong by a tenth.
         let body = Body::new(LENGTH_M, gyration_m(truth.q)).expect("as the test has it");
-        let known = match drops.gyration_known {
-            true => Known { gyration_known: true, body, ..known(truth.q) },
-            false => known(truth.q),
-        };
+        let known =
+            if drops.gyration_known { Known { gyration_known: true, body, ..known(truth.q) } } else { known(truth.q) };
         let deviation_s = drops.is_given.then_some(drops.deviation_s);
         let found =
             fit(&known, &[Measured::Strikes { strikes: strikes(&list), deviation_s }]).expect("as the test has it");
@@ -115,8 +113,7 @@ fn intervals_hold_the_truth_where_the_timing_is_given() {
 /// Ends that differ: each has its own restitution, and is told so in most records.
 #[test]
 fn intervals_hold_the_restitution_of_each_end() {
-    for (is_given, most) in [(true, 0.9), (false, 0.6)] {
-        let count = if is_given { 300 } else { 1000 };
+    for (is_given, count, most) in [(true, 200, 0.9), (false, 500, 0.6)] {
         let drops = Drops { seed: 16, count, least: 7, gyration_known: true, deviation_s: 2e-6, is_given, apart: 0.1 };
         let [a, b, _, _] = told(&drops);
         #[expect(clippy::cast_precision_loss, reason = "a thousand")]
