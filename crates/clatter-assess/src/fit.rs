@@ -27,15 +27,17 @@
 //! value of the product file widens the others by its range there. Correlations are those of the derivatives.
 //!
 //! Measured over a thousand drops of each kind (`tests/fit`): 94 to 97 of 100 hold the truth for strikes timed to 2 to 10 µs,
-//! with the radius of gyration known or fitted, the timing given or not; by the derivatives alone they would be as many, but three
-//! quarters of the misses on one side. Of heights 95 to 97 of 100 by the derivatives.
+//! with the radius of gyration known or fitted, the timing given or not. By the derivatives alone they would be about as many, but
+//! where the timing is given and the radius fitted three quarters of the restitutions that are missed would be above. Of 300 records
+//! of heights 95 to 97 of 100 by the derivatives.
 //!
 //! # Both ends
 //! They have one restitution unless the data tell the two apart to 0.02, or would contradict one less often than once in a hundred.
 //! Where the timing is given, 95 of 100 intervals of each end hold the truth. Where it is not, two are found more often in records
 //! that scatter little by chance, of which the intervals then are too narrow: 92 to 94 of 100 hold it where ends differ by up to
-//! 0.1, and of the one or two records in a hundred that are wrongly said to differ, half. One restitution for ends that differ by
-//! less than the data tell is between theirs, or off by more than its interval.
+//! 0.1; two or three records in a hundred of equal ends are wrongly said to differ where they are timed badly, and of these about half
+//! hold it, or fewer. Where ends differ and the data do not tell it, the one restitution misses their mean in a quarter to a half
+//! of the records; a note says that it is one for both.
 //!
 //! # What the data cannot tell
 //! An unknown is left free as long as every direction in the space of unknowns is told: the singular values of J, each column scaled
