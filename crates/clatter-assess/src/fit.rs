@@ -19,19 +19,38 @@
 //! time take too long for that: there one time may be wrong where all else fits (by its externally studentized residual).
 //!
 //! # Intervals
-//! From the Jacobian at the minimum and Student's t: with J the derivatives of the residuals over their standard deviation s,
-//! s² (JᵀJ)⁻¹ is the covariance, s² the sum of squares over the number of data less that of unknowns. Where the standard deviation of
-//! the data is given, s = 1 and t is normal. What is held at a value of the product file widens the others by its range there.
+//! An interval reaches as far as a quantity goes without the sum of squares, with all other free unknowns at their best, rising by
+//! more than s² t²: its profile (Bates and Watts 1988, chapter 6). t is the quantile of Student's t, s² the sum of squares over the
+//! number of data less that of unknowns; where the standard deviation of the data is given, s = 1 and t is normal. A quantity that is
+//! bound ends there. With heights, accelerations or contacts that take time a flight takes too long for that, and the derivatives
+//! at the minimum say how far it goes: the covariance is s² (JᵀJ)⁻¹, J the derivatives of the residuals over s. What is held at a
+//! value of the product file widens the others by its range there. Correlations are those of the derivatives.
+//!
+//! Measured over a thousand drops of each kind (`tests/fit`): 94 to 97 of 100 hold the truth for strikes timed to 2 to 10 µs,
+//! with the radius of gyration known or fitted, the timing given or not. By the derivatives alone they would be about as many, but
+//! where the timing is given and the radius fitted three quarters of the restitutions that are missed would be above. Of 300 records
+//! of heights 95 to 97 of 100 by the derivatives.
+//!
+//! # Both ends
+//! They have one restitution unless the data tell the two apart to 0.02, or would contradict one less often than once in a hundred.
+//! Where the timing is given, 95 of 100 intervals of each end hold the truth. Where it is not, two are found more often in records
+//! that scatter little by chance, of which the intervals then are too narrow: 92 to 94 of 100 hold it where ends differ by up to
+//! 0.1; two or three records in a hundred of equal ends are wrongly said to differ where they are timed badly, and of these about half
+//! hold it, or fewer. Where ends differ and the data do not tell it, the one restitution misses their mean in a quarter to a half
+//! of the records; a note says that it is one for both.
 //!
 //! # What the data cannot tell
 //! An unknown is left free as long as every direction in the space of unknowns is told: the singular values of J, each column scaled
-//! by how well the unknown has to be known to be of use, say so. What is not told is held at the value of the product file, and what
-//! undoes its change in the data is named.
+//! by how well the unknown has to be known to be of use, say so. What is not told is held at the value of the product file, unless
+//! the data contradict it, and what undoes its change in the data is named. Of strike times alone the radius of gyration stays free
+//! unless it is given as known: the file has no range of it by which the others could be widened, and a value that is a tenth
+//! off would leave every second interval wrong.
 
 mod beside;
 mod bounces;
 mod drop;
 mod matching;
+mod region;
 mod report;
 mod set;
 mod solve;
@@ -313,7 +332,8 @@ pub enum Error {
     /// The nearest computed drop is far from the data.
     #[error(
         "record {record}: no drop was found that comes near: {name} of the nearest are off by {percent:.0} % of {of}, root mean \
-             square; allowed are {allowed:.0} %: check units, ends and the length in the product file"
+             square; allowed are {allowed:.0} %: check units, ends and the length in the product file; with contacts that take time \
+             missing strikes are not looked for"
     )]
     Far {
         /// Which record, from 1.

@@ -2,6 +2,7 @@
 
 use clatter::End;
 
+use super::region::{Function, Region};
 use super::solve::Problem;
 use super::student;
 use super::{Error, Estimate, Fit, MOST_STRIKES, MeasuredStrike, Quantity, RecordFit, StrikeFit};
@@ -50,8 +51,8 @@ pub fn bounces(times_s: &[f64], gravity_m_s2: f64, deviation_s: Option<f64>) -> 
     let residuals = |x: &[f64]| {
         times_s.iter().zip(computed(x)).map(|(measured, computed)| (measured - computed) / deviation).collect()
     };
-    let bounds = [[f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, 30.0], [0.0, 1.0]];
-    let problem = Problem { residuals: &residuals, bounds: &bounds, step: 1e-6, patience: 100 };
+    let bounds = vec![[f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, 30.0], [0.0, 1.0]];
+    let problem = Problem { residuals: Box::new(residuals), bounds, step: 1e-6, patience: 100 };
     let start = [times_s[0] / unit_s, libm::log(unit_s), (flights[1] / flights[0]).clamp(0.01, 0.99)];
     let minimum = problem.minimize(&start, &FREE);
     let degrees = times_s.len() - FREE.len();
@@ -61,21 +62,16 @@ pub fn bounces(times_s: &[f64], gravity_m_s2: f64, deviation_s: Option<f64>) -> 
         None => (degrees > 0).then(|| (minimum.sum() / degrees as f64).sqrt()),
     };
     let t = student::two_sided(0.05, deviation_s.is_none().then_some(degrees.max(1)));
-    let inverse = problem.jacobian(&minimum.x, &FREE).pseudo_inverse(0.0).ok();
-    let covariance = inverse.map(|inverse| &inverse * inverse.transpose());
-    let half = |gradient: [f64; 3]| {
-        let (scatter, covariance) = (scatter?, covariance.as_ref()?);
-        let of = |i: usize| (0..3).map(|j| gradient[i] * covariance[(i, j)] * gradient[j]).sum::<f64>();
-        Some(t * scatter * (0..3).map(of).sum::<f64>().sqrt())
-    };
+    let region = scatter.and_then(|scatter| Region::new(&problem, &minimum, &FREE, &[], t * scatter));
+    let interval = |of: &Function<'_>| region.as_ref().map(|region| region.ends(of).map(|end| of(&end)));
     let e = minimum.x[2];
-    let interval = half([0.0, 0.0, 1.0]).map(|half| [(e - half).max(0.0), (e + half).min(1.0)]);
-    let mut estimates = vec![Estimate { quantity: Quantity::Restitution, value: e, interval, note: None }];
+    let range = interval(&|x| x[2]).map(|[lo, hi]| [lo.max(0.0), hi.min(1.0)]);
+    let mut estimates = vec![Estimate { quantity: Quantity::Restitution, value: e, interval: range, note: None }];
     if gravity_m_s2 > 0.0 && e > 0.0 {
-        let speed = 0.5 * gravity_m_s2 * libm::exp(minimum.x[1]) / e;
-        let value = 0.5 * speed * speed / gravity_m_s2;
-        // Of ln h = 2 ln f − 2 ln e.
-        let interval = half([0.0, 2.0, -2.0 / e]).map(|half| [value * libm::exp(-half), value * libm::exp(half)]);
+        // Of the logarithm, which scatters more evenly than the height.
+        let ln_height = |x: &[f64]| libm::log(0.125 * gravity_m_s2) + 2.0 * (x[1] - libm::log(x[2]));
+        let value = libm::exp(ln_height(&minimum.x));
+        let interval = interval(&ln_height).map(|ends| ends.map(libm::exp));
         let note = Some("if it was let go at rest".to_owned());
         estimates.push(Estimate { quantity: Quantity::DropHeight, value, interval, note });
     }

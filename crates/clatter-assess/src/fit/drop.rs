@@ -6,6 +6,7 @@ use std::rc::Rc;
 use clatter::End;
 use clatter_flight::{Body, Contact, ContactFlight, Flight, Model, Scene, Strike};
 
+use super::solve::Problem;
 use super::{Known, Set};
 
 // Where the unknowns stand. Those that are positive are their logarithms, so that a step is a share of them.
@@ -76,21 +77,25 @@ pub(super) enum Path {
 }
 
 impl Drop<'_> {
-    /// Half the step of a difference.
-    pub(super) fn step(&self) -> f64 {
-        match (self.contacts, self.is_rough) {
+    /// Least squares over its unknowns.
+    pub(super) fn problem(&self) -> Problem<'_> {
+        let step = match (self.contacts, self.is_rough) {
             (false, _) => STEP,
             (true, true) => 10.0 * CONTACT_STEP,
             (true, false) => CONTACT_STEP,
-        }
-    }
-    /// How long a minimum is searched: flights with contacts take ten times as long.
-    pub(super) fn patience(&self) -> usize {
-        match (self.left.get(), self.contacts) {
+        };
+        // Flights with contacts take ten times as long.
+        let patience = match (self.left.get(), self.contacts) {
             (0, _) => 1,
             (_, true) => 12,
             (_, false) => 60,
-        }
+        };
+        Problem { residuals: Box::new(|x| self.residuals(x)), bounds: self.bounds(), step, patience }
+    }
+    /// Whether strike times alone are fitted, with impacts that are instant: a flight is then so quick that hundreds more of them
+    /// count for nothing.
+    pub(super) fn is_quick(&self) -> bool {
+        !self.contacts && self.sets.iter().all(|set| matches!(set, Set::Strikes { .. }))
     }
     /// The values that the product file gives, a range in its middle.
     pub(super) fn given(&self) -> Vec<f64> {
@@ -116,7 +121,7 @@ impl Drop<'_> {
             _ => 0.0,
         }
     }
-    pub(super) fn bounds(&self) -> Vec<[f64; 2]> {
+    fn bounds(&self) -> Vec<[f64; 2]> {
         let ln = |[lo, hi]: [f64; 2]| [libm::log(lo), libm::log(hi)];
         let length = self.known.body.length_m();
         let arm = self.arms()[0];
@@ -217,12 +222,9 @@ impl Drop<'_> {
     /// Measured less computed over a standard deviation, of all records.
     pub(super) fn residuals(&self, x: &[f64]) -> Vec<f64> {
         let path = self.path(x);
-        self.residuals_of(x, path.as_ref())
-    }
-    pub(super) fn residuals_of(&self, x: &[f64], path: Option<&Path>) -> Vec<f64> {
         let mut all = Vec::new();
         for (k, set) in self.sets.iter().enumerate() {
-            set.residuals(self, path, self.offset_s(x, k), &mut all);
+            set.residuals(self, path.as_ref(), self.offset_s(x, k), &mut all);
         }
         all
     }

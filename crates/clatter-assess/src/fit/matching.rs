@@ -1,7 +1,7 @@
 //! Which computed strikes the measured ones are.
 
 use super::drop::{DIFFERENCE, Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION};
-use super::solve::{Minimum, Problem};
+use super::solve::Minimum;
 use super::starts::{TAKEN, starts};
 use super::student;
 use super::{Error, MeasuredStrike, Set, Which};
@@ -18,7 +18,7 @@ const ENOUGH_FOR_BOTH: usize = 6;
 /// Strikes may be missing before so many of the first measured ones.
 const PLACES: usize = 16;
 /// A fit is tried again where its scatter passes this share of the mean time between strikes: with so much, nothing is told.
-const SUSPECT: f64 = 0.05;
+pub(super) const SUSPECT: f64 = 0.05;
 /// A fit with strikes missing or left out counts where chance makes the scatter of the plain one so much larger with this
 /// probability, over all that was tried.
 const CHANCE: f64 = 1e-3;
@@ -100,11 +100,6 @@ pub(super) fn find(drop: &mut Drop<'_>, set: usize, known: bool) -> Result<Found
     Ok(found)
 }
 
-fn minimize(drop: &Drop<'_>, x: &[f64], free: &[usize]) -> Minimum {
-    let (bounds, residuals) = (drop.bounds(), |x: &[f64]| drop.residuals(x));
-    Problem { residuals: &residuals, bounds: &bounds, step: drop.step(), patience: drop.patience() }.minimize(x, free)
-}
-
 /// The search in one record.
 struct Search<'d> {
     /// With this record alone.
@@ -174,7 +169,7 @@ impl Search<'_> {
         if self.drop.contacts {
             self.drop.is_rough = false;
             self.take(&best.index);
-            best.minimum = minimize(&self.drop, &best.minimum.x, &self.free(best.free));
+            best.minimum = self.drop.problem().minimize(&best.minimum.x, &self.free(best.free));
         }
         let is_whole = best.index.iter().all(Option::is_some);
         if is_whole && let Some(k) = self.outlier(&best) {
@@ -221,8 +216,8 @@ impl Search<'_> {
         // Each strike multiplies what is off before it: the first ones come first, then more and more.
         let stages: Vec<Drop<'_>> = self.stages(&index, free.len());
         let minimum = |x: Vec<f64>| {
-            let x = stages.iter().fold(x, |x, stage| minimize(stage, &x, &free).x);
-            let minimum = minimize(&self.drop, &x, &free);
+            let x = stages.iter().fold(x, |x, stage| stage.problem().minimize(&x, &free).x);
+            let minimum = self.drop.problem().minimize(&x, &free);
             let path = self.drop.path(&minimum.x);
             let computed = path.as_ref().map_or(&[][..], |path| path.strikes());
             let is_wrong = |(strike, index): (&MeasuredStrike, &Option<Which>)| {
@@ -294,11 +289,8 @@ impl Search<'_> {
     fn outlier(&mut self, fit: &Candidate) -> Option<usize> {
         let spare = fit.degrees().checked_sub(usize::from(!self.known)).filter(|spare| *spare > 0)?;
         self.take(&fit.index);
-        let (bounds, residuals) = (self.drop.bounds(), |x: &[f64]| self.drop.residuals(x));
-        let problem =
-            Problem { residuals: &residuals, bounds: &bounds, step: self.drop.step(), patience: self.drop.patience() };
         let free = self.free(fit.free);
-        let q = problem.jacobian(&fit.minimum.x, &free).qr().q();
+        let q = self.drop.problem().jacobian(&fit.minimum.x, &free).qr().q();
         let sum = fit.minimum.sum();
         #[expect(clippy::cast_precision_loss, reason = "a count of strikes")]
         let (spare_count, count) = (spare as f64, fit.minimum.residuals.len() as f64);

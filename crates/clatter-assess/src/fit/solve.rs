@@ -3,11 +3,14 @@
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::{DMatrix, DVector, Dyn, Owned};
 
+/// Measured less computed over a standard deviation, as a function of all unknowns.
+type Residuals<'a> = Box<dyn Fn(&[f64]) -> Vec<f64> + 'a>;
+
 /// Residuals as a function of all unknowns, and where these may lie.
 pub(super) struct Problem<'a> {
-    /// Measured less computed over a standard deviation; as many for any unknowns within the bounds.
-    pub(super) residuals: &'a dyn Fn(&[f64]) -> Vec<f64>,
-    pub(super) bounds: &'a [[f64; 2]],
+    /// As many for any unknowns within the bounds.
+    pub(super) residuals: Residuals<'a>,
+    pub(super) bounds: Vec<[f64; 2]>,
     /// Half the step of a central difference.
     pub(super) step: f64,
     /// Residuals are computed so many times, at most, for each free unknown and one more.
@@ -37,7 +40,7 @@ const PRECISION: f64 = 1e-9;
 impl Problem<'_> {
     /// The minimum next to `x` over the free unknowns. One that comes to lie on its bound is held there, and the others go on.
     pub(super) fn minimize(&self, x: &[f64], free: &[usize]) -> Minimum {
-        let mut x: Vec<f64> = x.iter().zip(self.bounds).map(|(x, [lo, hi])| x.clamp(*lo, *hi)).collect();
+        let mut x: Vec<f64> = x.iter().zip(&self.bounds).map(|(x, [lo, hi])| x.clamp(*lo, *hi)).collect();
         let mut free = free.to_vec();
         while !free.is_empty() {
             let mut at = At { problem: self, x, free };
@@ -126,12 +129,12 @@ mod tests {
         let residuals =
             |x: &[f64]| [0.9, 3.2, 4.9].iter().zip([0.0, 1.0, 2.0]).map(|(y, t)| y - x[0] - x[1] * t).collect();
         let bounds = [[-10.0, 10.0], [-10.0, 10.0]];
-        let problem = Problem { residuals: &residuals, bounds: &bounds, step: 1e-4, patience: 50 };
+        let problem = Problem { residuals: Box::new(residuals), bounds: bounds.to_vec(), step: 1e-4, patience: 50 };
         let found = problem.minimize(&[5.0, -5.0], &[0, 1]);
         assert!((found.x[0] - 1.0).abs() < 1e-9 && (found.x[1] - 2.0).abs() < 1e-9, "{:?}", found.x);
         // With the slope at most 1, the intercept is the mean of what is left: 3 − 1.
         let bounds = [[-10.0, 10.0], [-10.0, 1.0]];
-        let problem = Problem { residuals: &residuals, bounds: &bounds, step: 1e-4, patience: 50 };
+        let problem = Problem { residuals: Box::new(residuals), bounds: bounds.to_vec(), step: 1e-4, patience: 50 };
         let found = problem.minimize(&[5.0, -5.0], &[0, 1]);
         assert!((found.x[0] - 2.0).abs() < 1e-9 && (found.x[1] - 1.0).abs() < 1e-15, "{:?}", found.x);
     }

@@ -1,8 +1,7 @@
 //! What the data tell: which unknowns are left free, and how far they may be off.
 
-use nalgebra::{DMatrix, DVector};
-
 use super::drop::{CONTACT, DIFFERENCE, Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED, SPIN};
+use super::region::Region;
 use super::solve::{Minimum, Problem};
 use super::starts::{TAKEN, starts};
 use super::student;
@@ -37,7 +36,11 @@ fn name(unknown: usize) -> &'static str {
 /// Part of a direction above which an unknown counts as part of it.
 const PART: f64 = 0.3;
 /// Confidence of the intervals is one less this.
-const ALPHA: f64 = 0.05;
+pub(super) const ALPHA: f64 = 0.05;
+/// An unknown is freed, although the data do not tell it well, where they contradict the value at which it is held: chance explains
+/// them less often than this. So many sound records get a restitution for each end. At a tenth of it, of records whose ends differ
+/// by up to 0.1 only 42 of 100 would get two, not 66.
+const CHANCE: f64 = 1e-2;
 
 /// The fit with all that the data tell left free.
 #[derive(Debug)]
@@ -125,7 +128,6 @@ impl Drop<'_> {
     }
 }
 
-#[derive(Clone, Copy)]
 struct Search<'s, 'd> {
     drop: &'s Drop<'d>,
     known: bool,
@@ -133,16 +135,6 @@ struct Search<'s, 'd> {
 }
 
 impl Search<'_, '_> {
-    fn with<T>(&self, work: impl FnOnce(&Problem<'_>) -> T) -> T {
-        let (bounds, residuals) = (self.drop.bounds(), |x: &[f64]| self.drop.residuals(x));
-        work(&Problem {
-            residuals: &residuals,
-            bounds: &bounds,
-            step: self.drop.step(),
-            patience: self.drop.patience(),
-        })
-    }
-
     /// From the best of the starts, with the unknowns that such records tell at least.
     fn base(&self, starts: &[Vec<f64>]) -> Result<Told, Error> {
         let has = |is: fn(&Set<'_>) -> bool| self.drop.sets.iter().any(is);
@@ -168,10 +160,10 @@ impl Search<'_, '_> {
         // Each strike multiplies what is off before it: the early part of a record comes first.
         let staged = |x: &Vec<f64>| {
             let x = EARLY.iter().fold(x.clone(), |x, share| match self.drop.early(&x, *share) {
-                Some(early) => Search { drop: &early, ..*self }.with(|problem| problem.minimize(&x, &free).x),
+                Some(early) => early.problem().minimize(&x, &free).x,
                 None => x,
             });
-            self.with(|problem| problem.minimize(&x, &free))
+            self.drop.problem().minimize(&x, &free)
         };
         let minimum = starts.iter().map(staged).min_by(|a, b| a.sum().total_cmp(&b.sum()));
         let minimum = minimum.filter(|minimum| self.drop.path(&minimum.x).is_some()).ok_or(Error::NoDrop("data"))?;
@@ -181,7 +173,7 @@ impl Search<'_, '_> {
     }
 
     fn refit(&self, told: &mut Told) {
-        told.minimum = self.with(|problem| problem.minimize(&told.minimum.x, &told.free));
+        told.minimum = self.drop.problem().minimize(&told.minimum.x, &told.free);
     }
 
     /// Degrees of freedom and scatter.
@@ -224,13 +216,16 @@ impl Search<'_, '_> {
             }
             let mut more = told.free.clone();
             more.push(unknown);
-            if let Some((_, reason)) = self.untold(&told.minimum, &more, Some(unknown)) {
-                told.held.push((unknown, reason));
-                continue;
-            }
-            // At the new minimum it may be told less than at the old one.
-            let minimum = self.with(|problem| problem.minimize(&told.minimum.x, &more));
-            if let Some((_, reason)) = self.untold(&minimum, &more, Some(unknown)) {
+            let minimum = self.drop.problem().minimize(&told.minimum.x, &more);
+            // At the new minimum it may be told less than at the old one. At the old one the scatter is not that of chance alone if
+            // the value that is held is wrong.
+            let untold = || {
+                let before = self.untold(&told.minimum, &more, Some(unknown));
+                before.or_else(|| self.untold(&minimum, &more, Some(unknown)))
+            };
+            if !self.contradicts(&told.minimum, &minimum, more.len(), CHANCE)
+                && let Some((_, reason)) = untold()
+            {
                 told.held.push((unknown, reason));
             } else {
                 (told.minimum, told.free) = (minimum, more);
@@ -238,14 +233,37 @@ impl Search<'_, '_> {
         }
     }
 
-    /// Holds what turns out not to be told after all.
+    /// Holds what turns out not to be told after all, unless the data contradict the value of the product file.
     fn hold_untold(&self, told: &mut Told) {
         while let Some((unknown, reason)) = self.untold(&told.minimum, &told.free, None) {
-            told.free.retain(|free| *free != unknown);
+            // The file has no range of the radius of gyration that the others could be widened by: where the intervals can be as
+            // wide as the data leave them, it stays free.
+            if unknown == GYRATION && self.drop.is_quick() {
+                break;
+            }
+            let mut x = told.minimum.x.clone();
+            x[unknown] = self.drop.given()[unknown];
+            let free: Vec<usize> = told.free.iter().copied().filter(|free| *free != unknown).collect();
+            let minimum = self.drop.problem().minimize(&x, &free);
+            if self.contradicts(&minimum, &told.minimum, told.free.len(), ALPHA) {
+                break;
+            }
+            (told.minimum, told.free) = (minimum, free);
             told.held.push((unknown, reason));
-            told.minimum.x[unknown] = self.drop.given()[unknown];
-            self.refit(told);
         }
+    }
+
+    /// Whether the data contradict the value at which an unknown is held: so much larger than with all of `count` unknowns free the
+    /// sum of squares is by chance less often than `alpha` (the F test of one unknown, where F is the square of Student's t).
+    fn contradicts(&self, held: &Minimum, free: &Minimum, count: usize, alpha: f64) -> bool {
+        let degrees = self.count.saturating_sub(count);
+        let rise = held.sum() - free.sum();
+        if self.known {
+            return rise > student::two_sided(alpha, None).powi(2);
+        }
+        #[expect(clippy::cast_precision_loss, reason = "a count of data")]
+        let variance = free.sum() / degrees as f64;
+        degrees > 0 && rise > student::two_sided(alpha, Some(degrees)).powi(2) * variance
     }
 
     /// An unknown that the data do not tell beside the others, and why; `last` is the one to name if it is part of it.
@@ -257,7 +275,7 @@ impl Search<'_, '_> {
         #[expect(clippy::cast_precision_loss, reason = "a count of data")]
         let scatter = if self.known { 1.0 } else { (minimum.sum() / degrees as f64).sqrt() };
         let t = student::two_sided(ALPHA, (!self.known).then_some(degrees));
-        let mut jacobian = self.with(|problem| problem.jacobian(&minimum.x, free));
+        let mut jacobian = self.drop.problem().jacobian(&minimum.x, free);
         for (mut column, unknown) in jacobian.column_iter_mut().zip(free) {
             column *= half_width(*unknown);
         }
@@ -293,50 +311,13 @@ impl Search<'_, '_> {
     }
 }
 
-/// How far functions of the unknowns may be off.
-pub(super) struct Spreads {
-    /// Covariance of the free unknowns, from the data.
-    covariance: DMatrix<f64>,
-    /// Half-ranges of what is held, and what the free unknowns change by for each.
-    held: Vec<(usize, f64, DVector<f64>)>,
-    free: Vec<usize>,
-    t: f64,
-}
-
 impl Told {
-    /// Covariances; none where nothing tells the scatter.
-    pub(super) fn spreads(&self, drop: &Drop<'_>, known: bool) -> Option<Spreads> {
-        let scatter = self.scatter?;
-        let (bounds, residuals) = (drop.bounds(), |x: &[f64]| drop.residuals(x));
-        let problem = Problem { residuals: &residuals, bounds: &bounds, step: drop.step(), patience: drop.patience() };
-        let jacobian = problem.jacobian(&self.minimum.x, &self.free);
-        let inverse = jacobian.pseudo_inverse(0.0).ok()?;
-        let covariance = &inverse * inverse.transpose() * (scatter * scatter);
-        let ranges = (0..OFFSET).filter(|unknown| !self.free.contains(unknown));
-        let ranges = ranges.map(|unknown| (unknown, drop.half_range(unknown))).filter(|(_, range)| *range > 0.0);
-        let held = ranges
-            .map(|(unknown, range)| {
-                let column = problem.jacobian(&self.minimum.x, &[unknown]);
-                (unknown, range, (-(&inverse * column)).column(0).into_owned())
-            })
-            .collect();
+    /// How far the unknowns may be off together; none where nothing tells the scatter.
+    pub(super) fn region<'a>(&'a self, drop: &Drop<'_>, problem: &'a Problem<'a>, known: bool) -> Option<Region<'a>> {
         let normal = known && self.excess.is_none();
         let t = student::two_sided(ALPHA, (!normal).then_some(self.degrees.max(1)));
-        Some(Spreads { covariance, held, free: self.free.clone(), t })
-    }
-}
-
-impl Spreads {
-    /// Covariance of two functions with these gradients over all unknowns, times the square of the quantile: the half-width of an
-    /// interval is the root of a function's own.
-    pub(super) fn of(&self, one: &[f64], other: &[f64]) -> f64 {
-        let free = |gradient: &[f64]| DVector::from_iterator(self.free.len(), self.free.iter().map(|&i| gradient[i]));
-        let (g, h) = (free(one), free(other));
-        let data = self.t * self.t * (g.transpose() * &self.covariance * &h)[0];
-        let held = self
-            .held
-            .iter()
-            .map(|(i, range, shift)| range * range * (one[*i] + g.dot(shift)) * (other[*i] + h.dot(shift)));
-        data + held.sum::<f64>()
+        let ranges = (0..OFFSET).filter(|unknown| !self.free.contains(unknown));
+        let ranges = ranges.map(|unknown| (unknown, drop.half_range(unknown))).filter(|(_, range)| *range > 0.0);
+        Region::new(problem, &self.minimum, &self.free, &ranges.collect::<Vec<_>>(), t * self.scatter?)
     }
 }
