@@ -10,6 +10,7 @@ use clatter_assess::fit::{
 use clatter_assess::{ProductFile, RecordFile};
 
 use crate::lists::{finite, rows_of};
+use crate::progress::Counted;
 use crate::record_args::RecordArgs;
 use crate::text::visible;
 use crate::{Failure, input, text};
@@ -158,6 +159,7 @@ pub(crate) fn fitted(
         Record::Bounces(_) => Err(Failure::Usage("a record of bounces is of another drop: fit it alone")),
     };
     let measured = records.iter().map(measured).collect::<Result<Vec<Measured>, _>>()?;
+    let _shown = Counted::begin("fitting", 0);
     Ok(fit::fit(known, &measured))
 }
 
