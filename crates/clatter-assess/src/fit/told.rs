@@ -202,7 +202,7 @@ impl Search<'_, '_> {
                 continue;
             }
             if unknown == DIFFERENCE && self.drop.contacts {
-                let reason = "contacts that take time have one restitution for both ends".to_owned();
+                let reason = "contacts that take time are computed with one".to_owned();
                 told.held.push((unknown, reason));
                 continue;
             }
