@@ -242,7 +242,7 @@ fn records_of_a_product_file_stand_beside_its_verdict() {
             outcome.stderr.contains("restitution was measured as 0.3") && outcome.stderr.contains("0.5000 to 0.9000");
         assert_eq!(warned, !expected, "{}", outcome.stderr);
         let table = clatter(["assess", product]).stdout;
-        let word = if expected { "agrees" } else { "contradicts" };
+        let word = if expected { "agrees" } else { "differs" };
         assert!(table.lines().any(|line| line.starts_with("restitution ") && line.ends_with(word)), "{table}");
     }
     let both = clatter(["assess", &agrees, &other, "--format=json"]).stdout;

@@ -29,7 +29,7 @@ use crate::{Exit, Failure, Streams, budget, input, output, text};
 /// the reason. 'clatter init' writes a product file.
 ///
 /// Where the product file names records of measured drops, the computed drop nearest to each is found as by 'clatter fit', and what it
-/// tells of the product stands beside what the file states; a warning says where they contradict one another.
+/// tells of the product stands beside what the file states; a warning says where they differ.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

@@ -89,7 +89,7 @@ pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureEr
         "hardest": hardest(assessment),
         "parts": parts.iter().map(|(of, portrait)| part::part(file, *of, portrait)).collect::<Vec<_>>(),
         "inputs": inputs::rows(file),
-        "contradictions": measured::contradictions(file, drops),
+        "differences": measured::differences(file, drops),
         "measured": measured::sections(file, drops),
         "made": inputs::made(pages),
         "drawing": drawing.collect::<Vec<_>>().join(" "),

@@ -38,9 +38,9 @@ impl Fit {
         beside.collect()
     }
 
-    /// Where what was measured of the product, not of how it fell, contradicts the file: a verdict is then made for another product.
+    /// Where what was measured of the product, not of how it fell, differs from the file: the verdict is for what the file states.
     #[must_use]
-    pub fn contradicts(&self, file: &ProductFile) -> Vec<Beside<'_>> {
+    pub fn differs(&self, file: &ProductFile) -> Vec<Beside<'_>> {
         let of_product = |beside: &Beside<'_>| beside.estimate.quantity.is_of_product();
         self.beside(file).into_iter().filter(|beside| of_product(beside) && beside.agrees == Some(false)).collect()
     }

@@ -17,12 +17,11 @@ pub(super) fn warn(file: &ProductFile, drops: &[MeasuredDrop], streams: &mut Str
         let name = shown(&drop.name, 60);
         match &drop.found {
             Ok(fit) => {
-                for beside in fit.contradicts(file) {
+                for beside in fit.differs(file) {
                     let (what, measured, interval, stated) = said(&beside);
                     let interval = if interval.is_empty() { interval } else { format!(" ({interval})") };
                     let message = format!(
-                        "{name}: {what} was measured as {measured}{interval} where the product file states {stated}: the verdict is not \
-                         about the product that was measured"
+                        "{name}: {what} was measured as {measured}{interval}; the verdict is for the {stated} that the product file states"
                     );
                     streams.note("warning", message);
                 }
@@ -60,7 +59,7 @@ pub(super) fn table(file: &ProductFile, drops: &[MeasuredDrop], out: &mut dyn Wr
         for beside in fit.beside(file) {
             let (what, measured, interval, stated) = said(&beside);
             let agrees = match beside.agrees {
-                Some(false) if beside.estimate.quantity.is_of_product() => "contradicts",
+                Some(false) if beside.estimate.quantity.is_of_product() => "differs",
                 Some(false) => "beyond",
                 Some(true) => "agrees",
                 None => "",

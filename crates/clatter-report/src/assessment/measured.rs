@@ -13,16 +13,16 @@ use crate::words::{end, minus, shown, span, sure_name};
 const Q: f64 = 10.0;
 const PER_OCTAVE: f64 = 24.0;
 
-/// Where a measured drop contradicts the file, a sentence each.
-pub(super) fn contradictions(file: &ProductFile, drops: &[MeasuredDrop]) -> Vec<String> {
+/// Where a measured drop differs from the file, a sentence each.
+pub(super) fn differences(file: &ProductFile, drops: &[MeasuredDrop]) -> Vec<String> {
     let mut said = Vec::new();
     for drop in drops {
         let name = sure_name(&drop.name);
         match &drop.found {
-            Ok(fit) => said.extend(fit.contradicts(file).iter().map(|beside| {
+            Ok(fit) => said.extend(fit.differs(file).iter().map(|beside| {
                 let [what, measured, interval, stated] = words(beside);
                 let interval = if interval.is_empty() { interval } else { format!(" (95 %: {interval})") };
-                format!("{name}: the {what} was measured as {measured}{interval}; the file states {stated}.")
+                format!("{name}: the {what} was measured as {measured}{interval}; the verdict is for the {stated} that the file states.")
             })),
             Err(reason) => said.push(format!("{name}: {}.", minus(reason))),
         }
@@ -108,7 +108,7 @@ fn words(beside: &Beside<'_>) -> [String; 4] {
 fn agreement(beside: &Beside<'_>) -> &'static str {
     match beside.agrees {
         Some(true) => "agrees",
-        Some(false) if beside.estimate.quantity.is_of_product() => "contradicts",
+        Some(false) if beside.estimate.quantity.is_of_product() => "differs",
         Some(false) => "beyond",
         None => "",
     }
