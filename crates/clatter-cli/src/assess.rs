@@ -96,7 +96,6 @@ impl Args {
         }
         let drops = files.iter().zip(&self.products).map(|(file, path)| crate::measured::drops(file, path));
         let drops = drops.collect::<Result<Vec<_>, _>>()?;
-        files.iter().zip(&drops).for_each(|(file, drops)| measured::warn(file, drops, streams));
         let accuracy = Accuracy { tolerance: self.tolerance, model: self.model.map(Into::into) };
         let assessments = files
             .iter()
@@ -106,6 +105,11 @@ impl Args {
                     .map_err(|error| Failure::Product(format!("error: {}: {error}", text::path(path))))
             })
             .collect::<Result<Vec<_>, _>>()?;
+        // After the assessments: whatever the records are, these come in their time.
+        let fitted = |(file, drops): (&ProductFile, Vec<crate::measured::Drop>)| {
+            drops.into_iter().map(|drop| drop.fitted(file)).collect::<Result<Vec<_>, _>>()
+        };
+        let drops = files.iter().zip(drops).map(fitted).collect::<Result<Vec<_>, _>>()?;
         let answer =
             |i: usize, file, assessment| Answer { file, assessment, measured: measured::answers(&files[i], &drops[i]) };
         let shown = match (self.format, &assessments[..]) {
@@ -121,6 +125,7 @@ impl Args {
                 .map_err(Failure::Answer),
             (Format::Table, all) => table::side_by_side(&self.products, all, streams.out).map_err(Failure::Answer),
         };
+        files.iter().zip(&drops).for_each(|(file, drops)| measured::warn(file, drops, streams));
         // The answer does not wait for its print, which may take long or fail, nor the print for a reader of the answer.
         if let (Some(pdf), [file], [assessment]) = (&self.output, &files[..], &assessments[..]) {
             let _ = streams.out.flush(); // whoever writes next sees the same failure, and tells

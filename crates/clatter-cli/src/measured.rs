@@ -13,7 +13,7 @@ use crate::lists::{finite, rows_of};
 use crate::progress::Counted;
 use crate::record_args::RecordArgs;
 use crate::text::visible;
-use crate::{Failure, input, text};
+use crate::{Failure, budget, input, text};
 
 /// What one file holds.
 #[derive(Debug, Clone)]
@@ -182,9 +182,17 @@ pub(crate) fn why(error: &fit::Error, files: &[impl AsRef<Path>]) -> String {
     }
 }
 
-/// The drops whose records a product file names, from where that file is. A record that cannot be read is an error; that no drop
-/// comes near what was measured is an answer.
-pub(crate) fn drops(file: &ProductFile, product: &Path) -> Result<Vec<MeasuredDrop>, Failure> {
+/// Records of one drop that a product file names.
+pub(crate) struct Drop {
+    name: String,
+    files: Vec<String>,
+    paths: Vec<PathBuf>,
+    records: Vec<Record>,
+    timing_s: Option<f64>,
+}
+
+/// The drops whose records a product file names, from where that file is.
+pub(crate) fn drops(file: &ProductFile, product: &Path) -> Result<Vec<Drop>, Failure> {
     let beside = product.parent().unwrap_or(Path::new(""));
     let mut groups: Vec<Vec<&RecordFile>> = Vec::new();
     for record in &file.records {
@@ -194,24 +202,34 @@ pub(crate) fn drops(file: &ProductFile, product: &Path) -> Result<Vec<MeasuredDr
             None => groups.push(vec![record]),
         }
     }
-    groups.into_iter().map(|records| drop_of(file, beside, &records)).collect()
+    let of_one = |records: Vec<&RecordFile>| {
+        let paths: Vec<PathBuf> = records.iter().map(|record| beside.join(&record.file)).collect();
+        let read = |(record, path): (&&RecordFile, &PathBuf)| {
+            read(path, || Ok(record.position_m), record.timing_s, &RecordArgs::of(record, path)?)
+        };
+        Ok(Drop {
+            name: records[0].drop.clone().unwrap_or_else(|| records[0].file.clone()),
+            files: records.iter().map(|record| record.file.clone()).collect(),
+            records: records.iter().zip(&paths).map(read).collect::<Result<_, _>>()?,
+            paths,
+            timing_s: records[0].timing_s,
+        })
+    };
+    groups.into_iter().map(of_one).collect()
 }
 
-/// One drop of which there are these records.
-fn drop_of(file: &ProductFile, beside: &Path, records: &[&RecordFile]) -> Result<MeasuredDrop, Failure> {
-    let paths: Vec<PathBuf> = records.iter().map(|record| beside.join(&record.file)).collect();
-    let read = |(record, path): (&&RecordFile, &PathBuf)| {
-        read(path, || Ok(record.position_m), record.timing_s, &RecordArgs::of(record, path)?)
-    };
-    let all = records.iter().zip(&paths).map(read).collect::<Result<Vec<_>, _>>()?;
-    let found = match fitted(&Known::from(file), &all, records[0].timing_s)? {
-        Ok(fit) => Ok(fit),
-        Err(error @ (fit::Error::Far { .. } | fit::Error::NoDrop(_))) => Err(error.to_string()),
-        Err(error) => return Err(Failure::Wrong(why(&error, &paths))),
-    };
-    Ok(MeasuredDrop {
-        name: records[0].drop.clone().unwrap_or_else(|| records[0].file.clone()),
-        files: records.iter().map(|record| record.file.clone()).collect(),
-        found,
-    })
+impl Drop {
+    /// The computed drop that is nearest. That none comes near what was measured, or that the time is over, is an answer.
+    pub(crate) fn fitted(self, file: &ProductFile) -> Result<MeasuredDrop, Failure> {
+        let found = if budget::go_on() {
+            match fitted(&Known::from(file), &self.records, self.timing_s)? {
+                Ok(fit) => Ok(fit),
+                Err(error @ (fit::Error::Far { .. } | fit::Error::NoDrop(_))) => Err(error.to_string()),
+                Err(error) => return Err(Failure::Wrong(why(&error, &self.paths))),
+            }
+        } else {
+            Err("not fitted, the time was over before".to_owned())
+        };
+        Ok(MeasuredDrop { name: self.name, files: self.files, found })
+    }
 }
