@@ -132,7 +132,11 @@ fn acceleration(path: &Path, input: impl Read, reading: &RecordArgs, position_m:
     let bad = |reason| Failure::Record { path: path.to_owned(), reason };
     let record = reading.read_from(path, input)?;
     let [channel] = record.channels() else {
-        return Err(Failure::Usage("a record of several channels: --acceleration picks the one of --position"));
+        return Err(Failure::Wrong(format!(
+            "{}: {} channels; --acceleration (of [[record]], acceleration) picks the one of the position",
+            text::path(path),
+            record.channels().len()
+        )));
     };
     let step_s = record.even("a fit").map_err(bad)?;
     if channel.values.len() > MOST_SAMPLES {
