@@ -26,8 +26,9 @@ pub(crate) enum Named {
     Unknown,
 }
 
-const TIMES: [&str; 13] = [
+const TIMES: [&str; 14] = [
     "t",
+    "uhrzeit",
     "time",
     "times",
     "zeit",
@@ -41,12 +42,47 @@ const TIMES: [&str; 13] = [
     "clock",
     "elapsed",
 ];
-const INDICES: [&str; 14] =
-    ["index", "idx", "sample", "samples", "n", "no", "nr", "num", "number", "row", "#", "id", "count", "unnamed"];
+const INDICES: [&str; 21] = [
+    "index",
+    "idx",
+    "sample",
+    "samples",
+    "n",
+    "no",
+    "nr",
+    "num",
+    "number",
+    "row",
+    "#",
+    "id",
+    "count",
+    "unnamed",
+    "frame",
+    "point",
+    "counter",
+    "packet",
+    "packetcounter",
+    "seq",
+    "sequence",
+];
 const ACCELERATIONS: [&str; 7] = ["ax", "ay", "az", "ar", "beschleunigung", "shock", "gforce"];
 /// Beside an acceleration they say where it was measured.
 const PLACES: [&str; 4] = ["height", "position", "distance", "displacement"];
-const OTHERS: [&str; 19] = [
+const OTHERS: [&str; 33] = [
+    "accuracy",
+    "accelerator",
+    "pedal",
+    "status",
+    "range",
+    "threshold",
+    "load",
+    "field",
+    "mag",
+    "magx",
+    "magy",
+    "magz",
+    "magnetometer",
+    "sensitivity",
     "mass",
     "masse",
     "weight",
@@ -97,7 +133,7 @@ impl Heading {
 
     /// The same with a unit that stands elsewhere.
     pub(crate) fn with_unit(mut self, unit: &str) -> Self {
-        let unit = unit.trim().trim_matches(['"', '[', ']', '(', ')']).trim();
+        let unit = unbracketed(unit.trim().trim_matches('"'));
         if !unit.is_empty() {
             (self.unit, self.spelled) = (Unit::of(unit), Some(unit.to_owned()));
         }
@@ -111,6 +147,10 @@ impl Heading {
             name.split(|c: char| !c.is_alphanumeric() && c != '#').filter(|w| !w.is_empty()).collect();
         let any = |list: &[&str]| words.iter().any(|word| list.contains(word));
         let within = |part: &str| words.iter().any(|word| word.starts_with(part));
+        // `acc`, `accx`, `acc12`, `accelerometer`, and not `account`.
+        let is_acc = |word: &&str| {
+            word.strip_prefix("acc").is_some_and(|rest| rest.starts_with("el") || rest.chars().count() <= 3)
+        };
         if words.is_empty() {
             return Named::Index;
         }
@@ -121,7 +161,7 @@ impl Heading {
             return Named::Time;
         }
         let alone = words.first() == Some(&"a") && words.len() <= 2;
-        if alone || any(&ACCELERATIONS) || within("acc") || within("beschl") {
+        if alone || any(&ACCELERATIONS) || words.iter().any(is_acc) || within("beschl") {
             return Named::Acceleration;
         }
         if any(&PLACES) {
@@ -140,6 +180,16 @@ impl Heading {
             _ => self.name.clone(),
         }
     }
+}
+
+/// A text without the brackets around all of it.
+pub(crate) fn unbracketed(text: &str) -> &str {
+    let text = text.trim();
+    let inner = [('[', ']'), ('(', ')')].into_iter().find_map(|(open, close)| {
+        let whole = text.starts_with(open) && closing(text, close) == Some(text.len() - 1);
+        whole.then(|| text[1..text.len() - 1].trim())
+    });
+    inner.unwrap_or(text)
 }
 
 /// A heading whose unit stands in brackets. Names of axes and the like may stand in brackets too; what stands in the last ones
@@ -188,7 +238,11 @@ fn closing(text: &str, close: char) -> Option<usize> {
 /// A heading that ends with its unit, after a comma, a colon, a slash, an underscore or a blank. The longest end that is a unit
 /// counts, and what is before it must be a name: no number, and no word for a factor.
 fn trailing(cell: &str) -> Option<Heading> {
-    // A number before an underscore is part of a name: `acceleration_at_0.5_m_s2`.
+    // A number before an underscore is part of a name: `acceleration_at_0.5_m_s2`; after such a word as well: `Channel 2 g`.
+    let counted = |name: &str| {
+        let before = name.split_whitespace().rev().nth(1).unwrap_or_default().to_lowercase();
+        ["channel", "ch", "chan", "kanal", "canal", "voie", "sensor", "drop", "test", "run"].contains(&before.as_str())
+    };
     let is_factor = |word: &str, blank: bool| {
         let word = word.to_lowercase();
         blank && word.starts_with(|c: char| c.is_ascii_digit())
@@ -209,13 +263,21 @@ fn trailing(cell: &str) -> Option<Heading> {
         if c == '/' && !cell[..at].ends_with(' ') && matches!(name_only.named(), Named::Unknown | Named::Index) {
             continue;
         }
+        // A number that no `x` stands before is the number of a channel or the range of a sensor.
+        if unit.starts_with(|c: char| c.is_ascii_digit()) {
+            continue;
+        }
         let last = name.rsplit([' ', '_', ',', '/']).next().unwrap_or_default();
+        if last.eq_ignore_ascii_case("per") {
+            let sensitivity = Unit { kind: Kind::Other("the sensitivity of a sensor"), size: 1.0 };
+            return Some(Heading { unit: Some(sensitivity), spelled: Some(format!("per {unit}")), ..name_only });
+        }
         // One letter after a blank or an underscore is the name of an axis or of a channel as well.
         let lone = unit.chars().count() == 1 && !matches!(unit, "s" | "g" | "G");
         if let Some(known) = Unit::of(unit)
             && !name.is_empty()
             && !lone
-            && !is_factor(last, c == ' ')
+            && !is_factor(last, c == ' ' && !counted(name))
         {
             return Some(Heading { unit: Some(known), spelled: Some(unit.to_owned()), ..name_only });
         }

@@ -161,7 +161,13 @@ impl Seen {
             (named, None) => named == Named::Acceleration,
         });
         let found = if found.is_empty() {
-            those(&|heading| heading.unit.is_none() && heading.named() == Named::Unknown)
+            let unknown = those(&|heading| heading.unit.is_none() && heading.named() == Named::Unknown);
+            let is = |column: &usize, names: &[&str]| {
+                names.iter().any(|name| self.headings[*column].name.eq_ignore_ascii_case(name))
+            };
+            // Beside x, y and z they are those of a gyroscope.
+            let turns = unknown.iter().any(|column| is(column, &["x"]));
+            unknown.into_iter().filter(|column| !turns || !is(column, &["gx", "gy", "gz"])).collect()
         } else {
             found
         };
@@ -217,9 +223,13 @@ impl Seen {
             }
             (Some(unit), spelled, _) => Ok((unit, spelled.clone().unwrap_or_default())),
             (None, _, Some((unit, name))) => Ok((*unit, name.clone())),
-            (None, Some(spelled), None) => Err(Error::Units(format!(
-                "column {called}: '{spelled}' is no unit of {what} that is known, such as {example}"
-            ))),
+            (None, Some(spelled), None) => {
+                let is_number = spelled.starts_with(|c: char| c.is_ascii_digit());
+                let hint = if is_number { "; its number may be a range: write x1000 for a factor" } else { "" };
+                Err(Error::Units(format!(
+                    "column {called}: '{spelled}' is no unit of {what} that is known, such as {example}{hint}"
+                )))
+            }
             (None, None, None) => Err(Error::Units(format!(
                 "the unit of column {called}, the {what}, is not named: give the units, or begin the file with a heading \
                  such as `time [s],acceleration [m/s2]`"

@@ -93,11 +93,9 @@ pub(crate) fn read(
         .take(SHOWN)
         .map(|line| form.cells(line))
         .collect();
-    // Times of day need no unit.
+    // Times of day are in seconds, whatever their heading says.
     for (column, heading) in layout.headings.iter_mut().enumerate() {
-        if heading.unit.is_none()
-            && data.first().and_then(|row| row.get(column)).is_some_and(|cell| crate::moment::seconds(cell).is_some())
-        {
+        if data.first().and_then(|row| row.get(column)).is_some_and(|cell| crate::moment::seconds(cell).is_some()) {
             *heading = heading.clone().with_unit("s");
         }
     }

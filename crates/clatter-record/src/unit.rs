@@ -19,9 +19,11 @@ pub(crate) struct Unit {
 }
 
 /// Seconds, by all their usual names.
-const TIMES: [(&str, f64); 37] = [
+const TIMES: [(&str, f64); 39] = [
     ("s", 1.0),
     ("sec", 1.0),
+    ("sec.", 1.0),
+    ("sek.", 1.0),
     ("secs", 1.0),
     ("second", 1.0),
     ("seconds", 1.0),
@@ -59,10 +61,13 @@ const TIMES: [(&str, f64); 37] = [
     ("hours", 3600.0),
 ];
 /// Standard gravity, by all its usual names; `kg` is a mass.
-const GRAVITIES: [(&str, f64); 15] = [
+const GRAVITIES: [(&str, f64); 18] = [
     ("g", 1.0),
     ("gs", 1.0),
     ("g's", 1.0),
+    ("g’s", 1.0),
+    ("g-force", 1.0),
+    ("milli-g", 1e-3),
     ("gn", 1.0),
     ("g_n", 1.0),
     ("g0", 1.0),
@@ -100,7 +105,7 @@ const LENGTHS: [(&str, f64); 20] = [
     ("'", 0.3048),
 ];
 const PER_SECOND: [&str; 6] = ["/s", "/sec", "/second", "ps", "s-1", "sec-1"];
-const PER_SECOND_SQUARED: [&str; 14] = [
+const PER_SECOND_SQUARED: [&str; 15] = [
     "/s2",
     "/s/s",
     "/sec2",
@@ -111,6 +116,7 @@ const PER_SECOND_SQUARED: [&str; 14] = [
     "/(s2)",
     "/(s/s)",
     "s-2",
+    ".s-2",
     "sec-2",
     "ps2",
     "/ssquared",
@@ -181,8 +187,13 @@ impl Unit {
             return Some(Self { kind: Kind::Other("the sensitivity of a sensor"), size: 1.0 });
         }
         let (number, rest) = factor(&spelled);
+        if text.contains("10^") {
+            return None;
+        }
         if let Some(unit) = Self::plain(rest) {
-            return Some(unit.times(number));
+            // `x1000 g` is a factor; of a sensor of 100 g the `100 g` is its range.
+            let is_range = unit.kind == Kind::Acceleration && number > 1.0 && !text.contains(['x', 'X', '×', '*', '·']);
+            return (!is_range).then(|| unit.times(number));
         }
         let (prefix, rest) = rest.split_once(' ')?;
         let size = PREFIXES.iter().find(|(name, _)| *name == prefix)?.1;
@@ -312,7 +323,7 @@ mod tests {
             ("in/s2", Kind::Acceleration, 0.0254),
             ("ft/s²", Kind::Acceleration, 0.3048),
             ("x1000 m/s^2", Kind::Acceleration, 1000.0),
-            ("1000 m/s2", Kind::Acceleration, 1000.0),
+            ("0.001 g", Kind::Acceleration, 1e-3 * g),
             ("× 1000 m/s2", Kind::Acceleration, 1000.0),
         ] {
             let unit = Unit::of(text).unwrap_or_else(|| panic!("{text} is no unit"));
@@ -335,9 +346,25 @@ mod tests {
                 unit => panic!("{text}: {unit:?}"),
             }
         }
-        for none in
-            ["", "x", "milli", "deka g", "foo g", "m/s3", "m/s2/Hz", "g2", "1000", "g/Hz", "g rms", "-3 g", "x m/s2 y"]
-        {
+        for none in [
+            "",
+            "x",
+            "milli",
+            "deka g",
+            "foo g",
+            "m/s3",
+            "m/s2/Hz",
+            "g2",
+            "1000",
+            "g/Hz",
+            "g rms",
+            "-3 g",
+            "x m/s2 y",
+            "100g",
+            "16 g",
+            "1000 m/s2",
+            "x10^3 m/s2",
+        ] {
             assert_eq!(Unit::of(none), None, "{none}");
         }
     }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::cells::Form;
 use crate::Error;
-use crate::heading::Heading;
+use crate::heading::{Heading, Named, unbracketed};
 use crate::unit::{Kind, Unit};
 
 /// What the beginning of a text tells.
@@ -191,7 +191,9 @@ fn begin(lines: &[String], form: Form) -> Option<Numbers> {
         i -= 1;
     }
     let cells = || last.iter().flat_map(|(_, cells)| cells);
-    let share = 1000 * cells().filter(|cell| form.number(cell).is_some()).count() / cells().count().max(1);
+    // A slow channel leaves cells empty.
+    let full = cells().filter(|cell| !cell.is_empty()).count().max(1);
+    let share = 1000 * cells().filter(|cell| form.number(cell).is_some()).count() / full;
     Some(Numbers { begin: rows[i].0, count: columns, columns: numbers, share })
 }
 
@@ -203,7 +205,9 @@ fn heading_cells(form: Form, text: &str, columns: usize) -> Option<Vec<String>> 
         cells.pop();
     }
     if form.separator.is_some() {
-        let fits = cells.len() == columns || cells.len() == columns + 1 && columns > 1;
+        let beyond = |cell: &String| cell.eq_ignore_ascii_case("comment");
+        let fits =
+            cells.len() == columns || cells.len() == columns + 1 && columns > 1 && cells.last().is_some_and(beyond);
         if fits {
             return Some(cells);
         }
@@ -234,12 +238,9 @@ fn joined(text: &str) -> Vec<String> {
 
 /// Whether every cell is a unit or empty, and one is a unit.
 fn all_units(cells: &[String]) -> bool {
-    let unit = |cell: &String| Unit::of(cell.trim_matches(['[', ']', '(', ')'])).is_some();
+    let unit = |cell: &String| Unit::of(unbracketed(cell)).is_some();
     // `t,a` are names, though `a` is a unit of current.
-    let telling = |cell: &String| {
-        let cell = cell.trim_matches(['[', ']', '(', ')']);
-        Unit::of(cell).is_some_and(|unit| !matches!(unit.kind, Kind::Other(_)))
-    };
+    let telling = |cell: &String| Unit::of(unbracketed(cell)).is_some_and(|unit| !matches!(unit.kind, Kind::Other(_)));
     cells.iter().all(|cell| cell.is_empty() || cell == "-" || unit(cell)) && cells.iter().any(telling)
 }
 
