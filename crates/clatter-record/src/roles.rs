@@ -45,6 +45,13 @@ impl Seen {
     pub(crate) fn roles(&self, options: &Options) -> Result<Roles, Error> {
         let time = self.time(options)?;
         let channels = self.channels(time, options)?;
+        if let Some(other) = time.filter(|_| options.time.is_none()).and_then(|time| self.other_time(time)) {
+            return Err(Error::Columns(format!(
+                "column {} runs at another rate than column {}: take channels of one of them, by --time and --acceleration",
+                self.called(other),
+                self.called(time.unwrap_or(0))
+            )));
+        }
         let left_out = (0..self.headings.len())
             .filter(|column| Some(*column) != time && !channels.contains(column))
             .filter(|column| self.named && self.headings[*column].named() != Named::Index)
@@ -113,6 +120,20 @@ impl Seen {
                 self.all()
             ))),
         }
+    }
+
+    /// Another column of times that does not go with the one that is taken.
+    fn other_time(&self, time: usize) -> Option<usize> {
+        let span = |column: usize| {
+            let heading = &self.headings[column];
+            let unit = heading.unit.filter(|unit| unit.kind == Kind::Time && heading.named() == Named::Time)?;
+            let at = |row: Option<&Vec<f64>>| row.and_then(|row| row.get(column)).map(|time| time * unit.size);
+            Some(at(self.rows.last())? - at(self.rows.first())?).filter(|span| *span > 0.0)
+        };
+        let own = span(time)?;
+        // Far more than what is rounded in a few rows.
+        let differs = |column: &usize| span(*column).is_some_and(|other| (other / own).ln().abs() > 0.3);
+        (0..self.headings.len()).find(differs)
     }
 
     fn time_by_place(&self, none: bool) -> Result<Option<usize>, Error> {

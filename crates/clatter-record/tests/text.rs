@@ -367,3 +367,82 @@ fn clipping_is_told_and_coarse_steps_are_not() {
     assert!(matches!(&clipped[..], [Finding::Clipped { samples: 41, value_m_s2: 80.0, .. }]), "{clipped:?}");
     assert_eq!(found(&|a| (20.0 * a).round()), [], "a converter of a few steps");
 }
+
+/// The channels of a record, each with its largest value in m/s², or why it is refused.
+fn peaks(text: &str, options: &Options) -> Result<Vec<(String, f64)>, String> {
+    let largest =
+        |channel: &clatter_record::Channel| channel.values.iter().fold(0.0_f64, |most, value| most.max(*value));
+    let record = with(text, options)?;
+    Ok(record.channels().iter().map(|channel| (channel.name.clone(), largest(channel))).collect())
+}
+
+/// Headings in which a number, a word or a count of columns is easily taken for what it is not.
+#[test]
+fn what_is_easily_misread() {
+    const G: f64 = 9.806_65;
+    let own = |text: &str| peaks(text, &Options::default());
+    let given = |text: &str, units: &str| {
+        peaks(text, &Options { units: Some(units.parse().expect(units)), ..Options::default() })
+    };
+    let close = |found: Result<Vec<(String, f64)>, String>, expected: &[(&str, f64)]| {
+        let found = found.expect("a record");
+        let same = found.len() == expected.len()
+            && found.iter().zip(expected).all(|(f, e)| f.0 == e.0 && (f.1 - e.1).abs() <= 1e-9 * e.1);
+        assert!(same, "{found:?} is not {expected:?}");
+    };
+    // Numbers of channels are no factors, nor are ranges of sensors.
+    let two = "Time s,Channel 1 g,Channel 2 g\n0,0,0\n0.001,100,100\n0.002,0,0\n";
+    close(own(two), &[("Channel 1", 100.0 * G), ("Channel 2", 100.0 * G)]);
+    let ranged = "time [s],X (100g)\n0,0\n0.001,50\n0.002,0\n";
+    assert!(own(ranged).expect_err("a range").contains("its number may be a range"));
+    close(given(ranged, "s,g"), &[("X", 50.0 * G)]);
+    for heading in ["adxl375_200g", "acc 16g", "Acc (500 g)", "Acc [x10^3 m/s2]", "accel_mV_per_g"] {
+        let text = format!("time [s],{heading}\n0,0\n0.001,50\n0.002,0\n");
+        assert!(own(&text).is_err(), "{heading}: {:?}", own(&text));
+    }
+    // A slow channel leaves cells empty, and the separator stays.
+    let slow = "Time (s)\tEvent\tAcc (g)\n0\t\t0\n0.001\t\t100\n0.002\t\t0\n";
+    close(own(slow), &[("Acc", 100.0 * G)]);
+    let last = "Time [s],Acc [g],Temp [C]\n0,50,21.5\n0.001,100,\n0.002,0,\n0.003,0,\n0.004,0,\n";
+    close(own(last), &[("Acc", 100.0 * G)]);
+    assert_eq!(read(last).expect("a record").samples(), 5);
+    // A clock is in seconds whatever stands above it.
+    let clock = "Time (ms),a (g)\n00:00:00.000,0\n00:00:00.001,100\n00:00:00.002,0\n";
+    assert!((read(clock).expect("a record").step_s().expect("even") - 1e-3).abs() < 1e-12);
+    // Names of other columns than there are.
+    for (text, reason) in [
+        ("Time [s],Temp, board [C],Acc top [m/s2],Acc low [g]\n0,21,1,1\n0.001,21,980,10\n", "names 5 columns"),
+        (
+            "Time (us),Acc (g)\n0,0,000\n50,98,500\n100,100,000\n",
+            "line 1 names 2 columns, and the lines of numbers below have 3",
+        ),
+        (
+            "Time (s),Acc fast (g),Time (s),Acc slow (g)\n0,0,0,0\n0.001,1,0.002,1\n0.002,0,0.004,0\n",
+            "runs at another rate",
+        ),
+        (
+            "Time (s);Acc (g)\n0;0\n0.001;9.9E37\n0.002;0\n",
+            "line 3: 9.9E37 in column 2 (Acc) is what instruments write for no value",
+        ),
+    ] {
+        let found = own(text).expect_err(text);
+        assert!(found.contains(reason), "{text}: {found}");
+        assert!(given(text, "s,g").is_err(), "{text}: units given do not mend it");
+    }
+    // Blocks in other units do not go on.
+    let blocks = "Time (s),Acc (g)\n0,0\n0.001,100\nTime (s),Acc (m/s2)\n0.002,980\n0.003,0\n";
+    let skip = Options { skip_bad: true, ..Options::default() };
+    assert!(peaks(blocks, &skip).expect_err("two units").contains("line 4 begins a second block, in other units"));
+    close(peaks(&blocks.replace("m/s2", "g"), &skip), &[("Acc", 980.0 * G)]);
+    // What is no acceleration, though it begins like one or is in such a unit.
+    let phone = "timestamp,accuracy,x,y,z\n0,3,0,0,1\n1,3,0,0,9\n2,3,0,0,1\n";
+    close(given(phone, "ms,m/s2"), &[("x", 0.0), ("y", 0.0), ("z", 9.0)]);
+    let compass = "Time [ms],AccX [mg],MagX [mG]\n0,0,410\n1,100,410\n2,0,410\n";
+    close(own(compass), &[("AccX", 0.1 * G)]);
+    let gyro = "t_ms,x,y,z,gx,gy,gz\n0,0,0,1,120,0,0\n1,0,0,9,120,0,0\n2,0,0,1,120,0,0\n";
+    close(given(gyro, "ms,g"), &[("x", 0.0), ("y", 0.0), ("z", 9.0 * G)]);
+    // A running number is no time.
+    assert!(given("Frame,Acc (g)\n1,0\n2,100\n3,0\n", "s,g").is_err());
+    // A unit that is in brackets itself.
+    close(own("Time,Acc\nms,m/(s^2)\n0,0\n1,980\n2,0\n"), &[("Acc", 980.0)]);
+}

@@ -70,7 +70,7 @@ impl Layout {
         };
         let (form, begin, columns) = (*form, found.begin, found.count);
         let mut layout = Self { form, begin, headings: Vec::new(), named: false, sampled_s: None };
-        layout.read_above(lines, columns);
+        layout.read_above(lines, columns)?;
         for (column, heading) in layout.headings.iter_mut().enumerate() {
             heading.is_text = !found.columns.contains(&column);
         }
@@ -78,10 +78,10 @@ impl Layout {
     }
 
     /// Names and units of the columns, from the lines above the numbers, the nearest first.
-    fn read_above(&mut self, lines: &[String], columns: usize) {
+    fn read_above(&mut self, lines: &[String], columns: usize) -> Result<(), Error> {
         let (mut names, mut units) = (None, None);
-        let above = lines[..self.begin].iter().rev().filter(|line| !line.trim().is_empty()).take(ABOVE);
-        for line in above {
+        let above = lines[..self.begin].iter().enumerate().rev().filter(|(_, line)| !line.trim().is_empty());
+        for (nearest, (number, line)) in above.take(ABOVE).enumerate() {
             let (text, commented) = uncommented(line);
             if separator_line(text).is_some() {
                 continue;
@@ -89,16 +89,24 @@ impl Layout {
             let listed = text.split_once(':').filter(|(word, _)| {
                 ["unit", "units", "einheit", "einheiten"].contains(&word.trim().to_lowercase().as_str())
             });
-            let cells = heading_cells(self.form, listed.map_or(text, |(_, list)| list.trim()), columns);
-            let Some(cells) = cells else { continue };
+            let cells = heading_cells(self.form, listed.map_or(text, |(_, list)| list.trim()), commented, columns);
+            let Some(cells) = cells else {
+                let count = other_names(self.form, text);
+                if let Some(count) = count.filter(|_| nearest == 0 && !commented) {
+                    let line = number + 1;
+                    return Err(Error::Columns(format!(
+                        "line {line} names {count} columns, and the lines of numbers below have {columns}"
+                    )));
+                }
+                continue;
+            };
             if units.is_none() && (listed.is_some() || all_units(&cells)) {
                 units = Some(cells);
                 continue;
             }
             // A line of text with as many cells is one of names; in a comment it has to say something of time or acceleration.
             let headings: Vec<Heading> = cells.iter().map(|cell| Heading::of(cell)).collect();
-            let telling =
-                |heading: &Heading| heading.unit.is_some() || heading.named() != crate::heading::Named::Unknown;
+            let telling = |heading: &Heading| heading.unit.is_some() || heading.named() != Named::Unknown;
             if !commented || headings.iter().filter(|heading| !heading.name.is_empty()).any(telling) {
                 names = Some(headings);
                 break;
@@ -122,7 +130,20 @@ impl Layout {
             self.sampled_s = sampled_s;
         }
         self.headings = headings;
+        Ok(())
     }
+}
+
+/// How many columns a line names that says something of time or acceleration.
+fn other_names(form: Form, line: &str) -> Option<usize> {
+    form.separator?;
+    let cells = form.cells(line);
+    let telling = |cell: &Cow<'_, str>| {
+        let heading = Heading::of(cell);
+        let is_number = cell.starts_with(|c: char| c.is_ascii_digit());
+        !is_number && (heading.unit.is_some() || matches!(heading.named(), Named::Time | Named::Acceleration))
+    };
+    (cells.len() > 1 && cells.iter().any(telling)).then_some(cells.len())
 }
 
 /// `sep=;`, by which spreadsheets tell the separator.
@@ -153,19 +174,19 @@ struct Numbers {
 /// numbers begin with the first line that has as many cells and nothing else in those columns; a line right above with a number
 /// in the first of them is one too, with a fault.
 fn begin(lines: &[String], form: Form) -> Option<Numbers> {
-    let rows: Vec<(usize, Vec<Cow<'_, str>>)> = lines
+    let mut rows: Vec<(usize, Vec<Cow<'_, str>>)> = lines
         .iter()
         .enumerate()
         .filter(|(_, line)| !line.trim().is_empty() && !uncommented(line).1)
-        .map(|(i, line)| {
-            let mut cells = form.cells(line);
-            // A separator at the end of each line makes no column.
-            while cells.len() > 1 && cells.last().is_some_and(|cell| cell.is_empty()) {
-                cells.pop();
-            }
-            (i, cells)
-        })
+        .map(|(i, line)| (i, form.cells(line)))
         .collect();
+    let full = |cells: &[Cow<'_, str>]| cells.iter().rposition(|cell| !cell.is_empty()).map_or(1, |last| last + 1);
+    // A separator at the end of each line makes no column, unless the names above have one there.
+    let is_text = |cells: &[Cow<'_, str>]| cells.iter().all(|cell| cell.is_empty() || !form.is_data(cell));
+    let named = rows.iter().take_while(|(_, cells)| is_text(cells)).last().map_or(0, |(_, cells)| full(cells));
+    for (_, cells) in &mut rows {
+        cells.truncate(full(cells).max(named));
+    }
     let last = &rows[rows.len().saturating_sub(LAST)..];
     let has = |columns: usize| last.iter().filter(|(_, cells)| cells.len() == columns).count();
     let columns = last.iter().map(|(_, cells)| cells.len()).max_by_key(|columns| (has(*columns), *columns))?;
@@ -198,7 +219,7 @@ fn begin(lines: &[String], form: Form) -> Option<Numbers> {
 }
 
 /// The cells of a line of names or units: as many as there are columns; those of blanks may have blanks in them.
-fn heading_cells(form: Form, text: &str, columns: usize) -> Option<Vec<String>> {
+fn heading_cells(form: Form, text: &str, commented: bool, columns: usize) -> Option<Vec<String>> {
     let owned = |cells: Vec<Cow<'_, str>>| cells.into_iter().map(Cow::into_owned).collect::<Vec<_>>();
     let mut cells = owned(form.cells(text));
     while cells.len() > columns && cells.last().is_some_and(String::is_empty) {
@@ -208,8 +229,8 @@ fn heading_cells(form: Form, text: &str, columns: usize) -> Option<Vec<String>> 
         let beyond = |cell: &String| cell.eq_ignore_ascii_case("comment");
         let fits =
             cells.len() == columns || cells.len() == columns + 1 && columns > 1 && cells.last().is_some_and(beyond);
-        if fits {
-            return Some(cells);
+        if fits || !commented {
+            return fits.then_some(cells);
         }
         // In comments, and above columns of blanks, names may be separated in another way.
     } else if cells.len() == columns {

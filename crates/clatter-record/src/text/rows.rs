@@ -5,11 +5,16 @@ use super::layout::uncommented;
 use super::text_of;
 use crate::decimal::Decimal;
 use crate::error::Bad;
+use crate::heading::Heading;
 use crate::moment::{CLOCK, DAY_S};
 use crate::roles::Roles;
 use crate::samples::LARGEST;
 use crate::times::Printed;
+use crate::unit::Kind;
 use crate::{At, Error, Options};
+
+/// Instruments write 9.9E37 for a value beyond their range and 9.91E37 for none (SCPI 1999).
+const NO_VALUE: f64 = 9.8e37;
 
 /// What is made of a column.
 #[derive(Debug, Clone, Copy)]
@@ -147,8 +152,9 @@ impl Rows {
                 at += length;
                 match use_of {
                     Use::Acceleration(k) => {
-                        let value = number.float() * self.sizes[*k];
-                        if value.abs() > LARGEST {
+                        let number = number.float();
+                        let value = number * self.sizes[*k];
+                        if value.abs() > LARGEST || number.abs() >= NO_VALUE {
                             return None;
                         }
                         self.row.push(value);
@@ -193,6 +199,12 @@ impl Rows {
             return Ok(());
         }
         if cells.iter().all(|cell| cell.is_empty() || !form.is_data(cell)) {
+            if cells.iter().zip(&self.uses).any(|(cell, use_of)| self.is_other_unit(cell, *use_of)) {
+                return Err(Error::File(format!(
+                    "line {} begins a second block, in other units: one file each",
+                    self.line
+                )));
+            }
             self.text.add(At::Line(self.line), || format!("'{}' is no line of numbers", visible(text)));
             return Ok(());
         }
@@ -215,6 +227,10 @@ impl Rows {
                 (Some(number), Some(cell)) => {
                     let size = if let Use::Acceleration(k) = use_of { self.sizes[k] } else { 1.0 };
                     let value = number.float() * size;
+                    if (NO_VALUE..1e38).contains(&number.float().abs()) {
+                        wrong = Some(format!("{} in {} is what instruments write for no value", visible(cell), what()));
+                        break;
+                    }
                     if value.abs() > LARGEST {
                         wrong = Some(format!("{} in {} is beyond {LARGEST:e} m/s²", visible(cell), what()));
                         break;
@@ -253,6 +269,16 @@ impl Rows {
             Some(what) => self.bad.add(At::Line(self.line), || what),
         }
         Ok(())
+    }
+
+    /// Whether a text is a heading by which a column goes on in another unit.
+    fn is_other_unit(&self, cell: &str, use_of: Use) -> bool {
+        let (kind, size) = match use_of {
+            Use::Nothing => return false,
+            Use::Time => (Kind::Time, self.time_size),
+            Use::Acceleration(k) => (Kind::Acceleration, self.sizes[k]),
+        };
+        Heading::of(cell).unit.is_some_and(|unit| unit.kind == kind && unit.size.to_bits() != size.to_bits())
     }
 
     /// Keeps the numbers of a line.
