@@ -61,13 +61,14 @@ const TIMES: [(&str, f64); 39] = [
     ("hours", 3600.0),
 ];
 /// Standard gravity, by all its usual names; `kg` is a mass.
-const GRAVITIES: [(&str, f64); 18] = [
+const GRAVITIES: [(&str, f64); 19] = [
     ("g", 1.0),
     ("gs", 1.0),
     ("g's", 1.0),
     ("g’s", 1.0),
     ("g-force", 1.0),
     ("milli-g", 1e-3),
+    ("millig", 1e-3),
     ("gn", 1.0),
     ("g_n", 1.0),
     ("g0", 1.0),
@@ -105,7 +106,7 @@ const LENGTHS: [(&str, f64); 20] = [
     ("'", 0.3048),
 ];
 const PER_SECOND: [&str; 6] = ["/s", "/sec", "/second", "ps", "s-1", "sec-1"];
-const PER_SECOND_SQUARED: [&str; 15] = [
+const PER_SECOND_SQUARED: [&str; 16] = [
     "/s2",
     "/s/s",
     "/sec2",
@@ -117,6 +118,7 @@ const PER_SECOND_SQUARED: [&str; 15] = [
     "/(s/s)",
     "s-2",
     ".s-2",
+    "/s/2",
     "sec-2",
     "ps2",
     "/ssquared",

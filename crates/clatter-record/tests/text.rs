@@ -406,6 +406,14 @@ fn what_is_easily_misread() {
     let last = "Time [s],Acc [g],Temp [C]\n0,50,21.5\n0.001,100,\n0.002,0,\n0.003,0,\n0.004,0,\n";
     close(own(last), &[("Acc", 100.0 * G)]);
     assert_eq!(read(last).expect("a record").samples(), 5);
+    let labview = "LabVIEW Measurement\t\nWriter_Version\t2\nX_Columns\tNo\n***End_of_Header***\t\n\t\nChannels\t1\t\n\
+                   Y_Unit_Label\tg\t\nX_Dimension\tTime\t\nX0\t0.0\t\nDelta_X\t5E-5\t\n***End_of_Header***\t\t\n\
+                   X_Value\tAcceleration\tComment\n\t100.0\n"
+        .to_owned()
+        + &"\t0.0\n".repeat(30);
+    close(own(&labview), &[("Acceleration", 100.0 * G)]);
+    assert!((read(&labview).expect("a record").step_s().expect("even") - 5e-5).abs() < 1e-15);
+    close(own("t,g\ns,m/s2\n0,0\n0.001,100\n0.002,0\n"), &[("g", 100.0)]);
     // A clock is in seconds whatever stands above it.
     let clock = "Time (ms),a (g)\n00:00:00.000,0\n00:00:00.001,100\n00:00:00.002,0\n";
     assert!((read(clock).expect("a record").step_s().expect("even") - 1e-3).abs() < 1e-12);
@@ -429,6 +437,8 @@ fn what_is_easily_misread() {
         assert!(found.contains(reason), "{text}: {found}");
         assert!(given(text, "s,g").is_err(), "{text}: units given do not mend it");
     }
+    let twice = "Time,Acc (g)\ns,m/s2\n0,0\n0.001,100\n0.002,0\n";
+    assert!(own(twice).expect_err("two units").contains("Acc [g] is in m/s2 by the line of units"));
     // Blocks in other units do not go on.
     let blocks = "Time (s),Acc (g)\n0,0\n0.001,100\nTime (s),Acc (m/s2)\n0.002,980\n0.003,0\n";
     let skip = Options { skip_bad: true, ..Options::default() };

@@ -119,6 +119,18 @@ impl Layout {
         // Names without numbers below them, as LabVIEW's `Comment`, are none of a column.
         headings.truncate(columns);
         if let Some(units) = units {
+            // A name alone, such as `g`, is no unit beside a line of units.
+            for (heading, spelled) in headings.iter().zip(&units) {
+                if let (Some(own), Some(unit)) = (heading.unit, Unit::of(unbracketed(spelled)))
+                    && own.size.to_bits() != unit.size.to_bits()
+                    && heading.spelled.as_ref() != Some(&heading.name)
+                {
+                    return Err(Error::Units(format!(
+                        "{} is in {spelled} by the line of units, and in another unit by its name",
+                        heading.shown()
+                    )));
+                }
+            }
             headings = headings.into_iter().zip(units).map(|(heading, unit)| heading.with_unit(&unit)).collect();
         }
         if let Some((units, sampled_s)) = of_labview {
@@ -198,12 +210,16 @@ fn begin(lines: &[String], form: Form) -> Option<Numbers> {
     };
     let numbers: Vec<usize> = (0..columns).filter(|column| is_number(*column)).collect();
     let first = *numbers.first()?;
+    // LabVIEW leaves the column of times empty where it writes none.
+    let is_empty = |column: &usize| last.iter().all(|(_, cells)| cells.get(*column).is_none_or(|cell| cell.is_empty()));
+    let empty: Vec<usize> = (0..columns).filter(is_empty).collect();
     let is_data = |cells: &[Cow<'_, str>]| {
         let cell = |column: usize| cells.get(column).map_or("", |cell| cell);
         // Cells at the end may be empty by a fault of one line.
         cells.len() <= columns
             && numbers.iter().all(|column| form.is_data(cell(*column)))
             && numbers.iter().any(|column| form.number(cell(*column)).is_some())
+            && empty.iter().all(|column| cell(*column).is_empty())
             && cells.len() + 1 >= columns
     };
     let mut i = rows.iter().position(|(_, cells)| is_data(cells))?;
