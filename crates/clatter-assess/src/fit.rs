@@ -232,7 +232,8 @@ pub struct Estimate {
     pub quantity: Quantity,
     /// Its value with which the computed drop is nearest to the measured one.
     pub value: f64,
-    /// Holds the true value in 95 of 100 such measurements; none where nothing tells the scatter of the data.
+    /// Holds the true value in 95 of 100 measurements of this drop with other noise, for which see [`fit`]; none where nothing tells the
+    /// scatter of the data.
     pub interval: Option<[f64; 2]>,
     /// What the value owes to the product file.
     pub note: Option<String>,

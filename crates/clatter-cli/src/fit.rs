@@ -33,6 +33,9 @@ use crate::{Failure, Streams, assess, input, output, text};
 /// wrong; the answer says so. Contacts take time in the fit where the product file gives their time or an acceleration was
 /// measured; else strikes are instant, at real tilt and with gravity.
 ///
+/// Intervals know of the noise of the record alone: from drop to drop a real product scatters more. Fit several, and take the range
+/// of all.
+///
 /// What the data cannot tell is held at the value of the product file. -o writes what was found into a copy of it (.toml), or draws
 /// measured beside computed (.svg).
 #[derive(Debug, clap::Args)]

@@ -194,7 +194,10 @@ impl Unit {
         }
         if let Some(unit) = Self::plain(rest) {
             // `x1000 g` is a factor; of a sensor of 100 g the `100 g` is its range.
-            let is_range = unit.kind == Kind::Acceleration && number > 1.0 && !text.contains(['x', 'X', '×', '*', '·']);
+            let mark = ['x', 'X', '×', '*', '·'];
+            let after = text.trim_start().trim_start_matches(|c: char| c.is_ascii_digit() || c == '.' || c == ' ');
+            let is_factor = text.trim_start().starts_with(mark) || after.starts_with(mark);
+            let is_range = unit.kind == Kind::Acceleration && number > 1.0 && !is_factor;
             return (!is_range).then(|| unit.times(number));
         }
         let (prefix, rest) = rest.split_once(' ')?;
@@ -327,6 +330,7 @@ mod tests {
             ("x1000 m/s^2", Kind::Acceleration, 1000.0),
             ("0.001 g", Kind::Acceleration, 1e-3 * g),
             ("× 1000 m/s2", Kind::Acceleration, 1000.0),
+            ("1000 × m/s2", Kind::Acceleration, 1000.0),
         ] {
             let unit = Unit::of(text).unwrap_or_else(|| panic!("{text} is no unit"));
             // A product of two roundings.
@@ -364,6 +368,7 @@ mod tests {
             "x m/s2 y",
             "100g",
             "16 g",
+            "16 m·s⁻²",
             "1000 m/s2",
             "x10^3 m/s2",
         ] {

@@ -35,8 +35,10 @@ const MORE: usize = 3;
 /// measured; else impacts are instant, at real tilt and with gravity.
 ///
 /// # Accuracy
-/// The intervals of 95 % hold the truth in 93 to 97 of 100 synthetic drops with normal noise (`tests/fit`). They know of noise
-/// alone: a bar that bends or an edge that is not flat is not in them.
+/// The intervals of 95 % hold the truth in 93 to 97 of 100 synthetic drops with normal noise, for strikes with instant
+/// impacts where both ends have one restitution (`tests/fit`); less often where they differ and the timing is not given, see
+/// [the module](super). Of accelerations it is not established. Intervals know of noise alone: a bar that bends, an edge that is not flat
+/// or slides, or a restitution that is another one in the next drop is not in them.
 ///
 /// # Errors
 /// [`Error`] for values that are no times, heights or accelerations, for too many or too few of them, and where no computed drop
