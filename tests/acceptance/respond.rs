@@ -342,6 +342,7 @@ fn drops_drive_components_as_in_an_assessment() {
         body: Body::off_center(0.07 * 1.2, 0.07 * 0.8, 0.045).unwrap(),
         first: clatter::End::A,
         tilt_rad: 4_f64.to_radians(),
+        flat: false,
         speed_m_s: 3.0,
         restitution: 0.3,
         gravity_m_s2: 9.806_65,

@@ -16,8 +16,6 @@ use crate::{
 
 /// What the search may miss of a worst case, as a share of it: tests hold single drops of the same ranges to this.
 pub(crate) const COVERAGE: f64 = 0.02;
-/// From this phase ωτ on a part feels the shape of a pulse.
-const FEELS_SHAPE: f64 = 1.0;
 
 impl ProductFile {
     /// The worst drop of every component over all stated ranges, and whether it stands it: [`assess_to`](Self::assess_to) 1 %.
@@ -75,13 +73,22 @@ impl ProductFile {
         let ranges = self.ranges(accuracy);
         let of_one = |component| Limit::of(component).into_iter().map(move |limit| Task { component, limit });
         let tasks: Vec<Task<'_>> = self.components.iter().flat_map(of_one).collect();
-        let worst = ranges.worst(&tasks, watch);
-        let mut all = tasks.iter().zip(worst);
+        let laws: Vec<Ranges<'_>> = match ranges.model {
+            Model::Compliant => [ranges.law, ranges.law.other()].map(|law| Ranges { law, ..ranges }).into(),
+            _ => vec![ranges],
+        };
+        let worst: Vec<Vec<Worst>> = (0..laws.len())
+            .map(|n| laws[n].worst(&tasks, &|done, all| watch(n * all + done, laws.len() * all)))
+            .collect();
+        let judged = |n: usize, task: &Task<'_>| -> Result<Vec<Judged>, Error> {
+            laws.iter().zip(&worst).map(|(ranges, worst)| self.judge(ranges, task, &worst[n])).collect()
+        };
+        let mut all = tasks.iter().enumerate();
         let mut components = Vec::with_capacity(self.components.len());
         for component in &self.components {
             let count = component.limits.kinds().len();
-            let limits: Result<Vec<_>, Error> =
-                all.by_ref().take(count).map(|(task, worst)| self.limit(&ranges, task, &worst)).collect();
+            let one = |(n, task): (usize, &Task<'_>)| Ok(self.limit(&ranges, task, judged(n, task)?));
+            let limits: Result<Vec<_>, Error> = all.by_ref().take(count).map(one).collect();
             components.push(verdict(component, limits?));
         }
         let verdict = Verdict::of(components.iter().map(|c| c.verdict));
@@ -92,150 +99,192 @@ impl ProductFile {
     pub(crate) fn ranges(&self, accuracy: &Accuracy) -> Ranges<'_> {
         let fullest = if self.product.contact_time_s.is_some() { Model::Compliant } else { Model::FiniteTilt };
         let model = accuracy.model.unwrap_or(fullest);
-        Ranges { product: &self.product, drop: &self.drop, model, tolerance: accuracy.tolerance }
+        let law = self.product.law();
+        let Accuracy { tolerance, merge_s, .. } = *accuracy;
+        Ranges { product: &self.product, drop: &self.drop, model, law, tolerance, merge_s }
     }
 
-    fn limit(&self, ranges: &Ranges<'_>, task: &Task<'_>, worst: &Worst) -> Result<LimitAssessment, Error> {
-        let bound = bound(&self.product, &self.drop, task.component, &task.limit);
-        let Some(asked) = &worst.asked else { return Ok(unanswered(ranges, task, worst, bound)) };
-        let drop = ranges.single(&asked.place);
-        let Asked { answer: found, .. } = asked;
-        let mut doubts = Vec::new();
-        let mut notes = Vec::new();
-        let part = asked.part;
-        let place = Part { position_m: asked.place.position_m, suspension: part };
-        let mut uncertainty = found.error.max(0.0) + COVERAGE;
-        if found.error.is_infinite() {
-            notes.push("how far off it is is not known: drops next to the worst are not answered".to_owned());
-        } else if found.error > 10.0 * ranges.tolerance {
-            let off = percent(found.error);
-            notes
+    /// What the worst drop by one contact law says of a limit.
+    fn judge(&self, ranges: &Ranges<'_>, task: &Task<'_>, worst: &Worst) -> Result<Judged, Error> {
+        let bound = bound(&self.product, &self.drop, task.component, &task.limit, ranges.law);
+        let held = bound.is_some_and(|bound| bound <= task.limit.allowed);
+        let Some(mut asked) = worst.asked else { return Ok(Judged::unanswered(worst, bound, held)) };
+        let flat = self.flat(ranges, task, &asked)?;
+        if let Some(flat) = flat.filter(|flat| ranges.hold(flat) && flat.exceeds(&asked)) {
+            asked = flat;
+        }
+        let found = asked.answer;
+        let utilization = found.utilization();
+        let mut of = Judged { most: utilization * (1.0 + COVERAGE) + found.off_by / found.allowed, ..Judged::new(bound) };
+        if found.off_by.is_infinite() {
+            of.notes.push("how far off it is is not known: drops next to the worst are not answered".to_owned());
+        } else if found.error().is_finite() && found.error() > 10.0 * ranges.tolerance {
+            let off = percent(found.error());
+            of.notes
                 .push(format!("it may be off by {off} %: later strikes add, and multiply what those before got wrong"));
         }
-        if worst.later > found.utilization() * (1.0 + uncertainty) {
-            uncertainty = worst.later / found.utilization() - 1.0;
-            let most = if uncertainty.is_finite() {
-                format!("by {} % at most", percent(uncertainty))
-            } else {
-                "how much more is not known".to_owned()
-            };
-            notes.push(format!(
-                "rebounds may ask for more, {most} by their energy: how the product lands again is sensitive to every input"
-            ));
+        if worst.later > of.most {
+            of.most = worst.later;
+            of.notes.push(rebounds_ask(of.most / utilization - 1.0));
         }
+        let drop = ranges.single(&asked.place);
         if ranges.model < drop.fullest() {
+            let place = Part { position_m: asked.place.position_m, suspension: asked.part };
             let full = answer(&drop, &place, &task.limit, drop.fullest(), ranges.tolerance)?;
-            let off = full.utilization() / found.utilization() - 1.0;
-            uncertainty += off.max(0.0);
-            notes.push(format!(
-                "{} was asked for; {} says {:+} % in this drop",
-                ranges.model.name(),
-                drop.fullest().name(),
-                tenth(100.0 * off)
-            ));
+            let off = full.utilization() - utilization;
+            of.most += off.max(0.0);
+            let (asked_for, fullest) = (ranges.model.name(), drop.fullest().name());
+            of.notes.push(format!("{asked_for} was asked for; {fullest} says {:+} % in this drop", percent(off / utilization)));
         }
         if let Some((count, error)) = &worst.refused {
-            doubts.push(format!("{count} of {} drops that were tried are not answered: {error}", worst.drops));
+            of.doubts.push(format!("{count} of {} drops that were tried are not answered: {error}", worst.drops));
         }
         if worst.stopped {
-            doubts.push(format!("{} its end", Error::Stopped));
+            of.doubts.push(format!("{} its end", Error::Stopped));
         }
-        let utilization = found.utilization();
-        let safe_by_energy = bound.is_some_and(|bound| bound <= task.limit.allowed);
-        if utilization <= 1.0 && uncertainty.is_infinite() {
-            doubts.push("how far other drops may pass the worst one found is not known".to_owned());
-        } else if utilization <= 1.0 && utilization * (1.0 + uncertainty) > 1.0 {
-            doubts.push(format!(
-                "the worst drop found is {} % below the limit, and others may pass it by up to {} %",
-                percent(1.0 / utilization - 1.0),
-                percent(uncertainty)
+        if utilization <= 1.0 && of.most.is_infinite() {
+            of.doubts.push("how far other drops may exceed the worst one found is not known".to_owned());
+        } else if utilization <= 1.0 && of.most > 1.0 {
+            of.doubts.push(format!(
+                "the worst drop found asks for {} % of the limit, and others may ask for up to {} %",
+                percent(utilization),
+                percent(of.most)
             ));
         }
-        let verdict = if utilization > 1.0 {
+        of.verdict = if utilization > 1.0 {
             Verdict::Unsafe
-        } else if safe_by_energy || doubts.is_empty() {
+        } else if held || of.doubts.is_empty() {
             Verdict::Safe
         } else {
             Verdict::Undecided
         };
-        let delta_v = (1.0 + drop.restitution) * drop.speed_m_s;
-        let clatter_free =
-            in_unit(&task.limit, found.unit).clatter_free(delta_v, drop.contact_time_s, part.as_ref())?;
-        let other_law = other_law(ranges, &task.limit, found.unit, &drop, &place);
-        Ok(LimitAssessment {
+        of.flat = flat.map(|flat| flat.answer.value);
+        of.asked = Some(asked);
+        Ok(of)
+    }
+
+    /// What the worst drop would ask if it landed flat, in the unit of the worst: where no drop of the ranges lands so, one at the same
+    /// place of them.
+    fn flat(&self, ranges: &Ranges<'_>, task: &Task<'_>, worst: &Asked) -> Result<Option<Asked>, Error> {
+        let drop = ranges.single(&worst.place).flattened();
+        let part = Part { position_m: worst.place.position_m, suspension: worst.part };
+        let limit = in_unit(&task.limit, worst.answer.unit);
+        let flat = match answer(&drop, &part, &limit, ranges.model, ranges.tolerance) {
+            Err(Error::Stopped) => return Err(Error::Stopped),
+            flat => flat.ok(),
+        };
+        let place = worst.place.flattened(drop.flat);
+        Ok(flat.map(|answer| Asked { place, part: worst.part, answer, late: false }))
+    }
+
+    /// The limit by its contact laws: its own first, and then the other one where contacts take time.
+    fn limit(&self, ranges: &Ranges<'_>, task: &Task<'_>, judged: Vec<Judged>) -> LimitAssessment {
+        let mut judged = judged.into_iter();
+        let Some(own) = judged.next() else { unreachable!("drops are followed by one law at least") };
+        let other = judged.next();
+        let Judged { asked, mut verdict, mut doubts, mut notes, most, bound, flat } = own;
+        let named = self.product.contact_law.is_some();
+        let other_law = other.as_ref().and_then(|other| Some(in_unit_of(asked.as_ref()?, other.asked.as_ref()?)));
+        if let Some(other) = other.filter(|other| !named && other.verdict != verdict) {
+            let [name, its] = [ranges.law, ranges.law.other()].map(ContactLaw::name);
+            let decided = |of: Verdict| of != Verdict::Undecided;
+            if decided(verdict) && decided(other.verdict) {
+                doubts = vec![format!("it depends on the contact law, which the file does not name: {}", both(
+                    [name, its],
+                    [asked.as_ref(), other.asked.as_ref()].map(|asked| asked.map(|asked| asked.answer)),
+                ))];
+            } else if decided(verdict) {
+                doubts = vec![format!("by the {its} contact law, which the file does not rule out: {}", other.doubts.join("; "))];
+            } else if other.verdict == Verdict::Unsafe {
+                doubts.push(format!("by the {its} contact law, which the file does not rule out, it is exceeded"));
+            }
+            verdict = Verdict::Undecided;
+        }
+        let (demand, unit) = (asked.map(|asked| asked.answer), task.limit.kind.unit());
+        let utilization = demand.map_or(0.0, |answer| answer.utilization());
+        let uncertainty = if demand.is_some() { most / utilization - 1.0 } else { f64::INFINITY };
+        if bound.is_some() && demand.is_some_and(|answer| answer.value == 0.0) {
+            notes.push("no drop asks for anything; what later strikes may ask is bounded by their energy".to_owned());
+        }
+        let shown = asked.map_or_else(|| ranges.middle(task.component), |asked| asked.place);
+        LimitAssessment {
             limit: task.limit.kind,
-            unit: found.unit,
-            allowed: found.allowed,
-            demand: found.value,
-            margin: found.allowed / found.value - 1.0,
+            unit: demand.map_or(unit, |answer| answer.unit),
+            allowed: demand.map_or(task.limit.allowed, |answer| answer.allowed),
+            demand: demand.map(|answer| answer.value),
+            margin: demand.map(|answer| answer.allowed / answer.value - 1.0),
             verdict,
-            bound: bound.filter(|_| found.unit == task.limit.kind.unit()),
-            uncertainty,
-            clatter_free,
+            bound: bound.filter(|_| demand.is_none_or(|answer| answer.unit == unit)),
+            uncertainty: if uncertainty.is_nan() { 0.0 } else { uncertainty },
+            clatter_free: flat,
             other_law,
-            worst_case: worst_case(&drop, asked, ranges),
-            model: model(ranges, task, accuracy_reason(ranges, &drop)),
+            worst_case: asked.map(|asked| worst_case(&ranges.single(&asked.place), &asked, ranges)),
+            model: model(ranges, task, accuracy_reason(ranges, &ranges.single(&shown))),
             undecided: (verdict == Verdict::Undecided).then(|| doubts.join("; ")),
             notes,
-        })
+        }
     }
 }
 
-/// A limit of which no drop was answered.
-fn unanswered(ranges: &Ranges<'_>, task: &Task<'_>, worst: &Worst, bound: Option<f64>) -> LimitAssessment {
-    let free = bound.is_some_and(|bound| bound <= task.limit.allowed);
-    let why = match &worst.refused {
-        Some((_, error)) => error.to_string(),
-        None if worst.stopped => format!("{} its end", Error::Stopped),
-        None => Error::Unfinished.to_string(),
-    };
-    let place = ranges.middle(task.component);
-    let drop = ranges.single(&place);
-    LimitAssessment {
-        limit: task.limit.kind,
-        unit: task.limit.kind.unit(),
-        allowed: task.limit.allowed,
-        demand: 0.0,
-        margin: f64::INFINITY,
-        verdict: if free { Verdict::Safe } else { Verdict::Undecided },
-        bound,
-        uncertainty: f64::INFINITY,
-        clatter_free: 0.0,
-        other_law: None,
-        worst_case: WorstCase {
-            first: drop.first,
-            tilt_deg: drop.tilt_rad.to_degrees(),
-            speed_m_s: drop.speed_m_s,
-            restitution: drop.restitution,
-            contact_time_s: drop.contact_time_s,
-            frequency_hz: None,
-            damping_ratio: None,
-            position_m: task.component.ends_m()[0],
-            impact: 1,
-            time_s: 0.0,
-            command: String::new(),
-        },
-        model: model(ranges, task, accuracy_reason(ranges, &drop)),
-        undecided: (!free).then(|| format!("no drop of the ranges is answered: {why}")),
-        notes: Vec::new(),
+/// What the search by one contact law says of a limit.
+struct Judged {
+    /// The drop that asks most.
+    asked: Option<Asked>,
+    verdict: Verdict,
+    /// Why it is not safe though nothing exceeds it.
+    doubts: Vec<String>,
+    notes: Vec<String>,
+    /// The utilization that other drops of the ranges may reach.
+    most: f64,
+    /// By energy.
+    bound: Option<f64>,
+    /// What the drop that asks most would ask if it landed flat.
+    flat: Option<f64>,
+}
+
+impl Judged {
+    fn new(bound: Option<f64>) -> Self {
+        let (doubts, notes) = (Vec::new(), Vec::new());
+        Self { asked: None, verdict: Verdict::Undecided, doubts, notes, most: f64::INFINITY, bound, flat: None }
+    }
+    /// No drop was answered.
+    fn unanswered(worst: &Worst, bound: Option<f64>, held: bool) -> Self {
+        let why = match &worst.refused {
+            _ if worst.stopped => format!("{} its end", Error::Stopped),
+            Some((_, error)) => error.to_string(),
+            None => Error::Unfinished.to_string(),
+        };
+        let verdict = if held { Verdict::Safe } else { Verdict::Undecided };
+        Self { verdict, doubts: vec![format!("no drop of the ranges is answered: {why}")], ..Self::new(bound) }
     }
 }
 
-/// What the worst drop asks by the other contact law, in the unit of the demand: of a place, and of a part that feels the shape of
-/// a pulse.
-fn other_law(ranges: &Ranges<'_>, limit: &Limit, unit: Unit, drop: &SingleDrop, place: &Part) -> Option<f64> {
-    let time = drop.contact_time_s.filter(|_| ranges.model == Model::Compliant)?;
-    // A place feels how contacts overlap, which depends on the law.
-    let feels = place.suspension.is_none_or(|part| part.omega() * time >= FEELS_SHAPE);
-    let contact_law = match drop.contact_law {
-        ContactLaw::Hysteretic => ContactLaw::Dashpot,
-        ContactLaw::Dashpot => ContactLaw::Hysteretic,
+/// What the worst drop by another law asks, in the unit of the demand.
+fn in_unit_of(own: &Asked, other: &Asked) -> f64 {
+    if own.answer.unit == other.answer.unit {
+        other.answer.value
+    } else {
+        // Of a damage boundary by its share: one law leaves more room by the velocity change, the other by the acceleration.
+        other.answer.utilization() * own.answer.allowed
+    }
+}
+
+/// What two laws ask, each by its own worst drop, over what is allowed.
+fn both(names: [&str; 2], answers: [Option<crate::Answer>; 2]) -> String {
+    let one = |(name, answer): (&str, Option<crate::Answer>)| {
+        let share = answer.map_or("an unknown share".to_owned(), |a| format!("{} %", percent(a.utilization())));
+        format!("{name} asks for {share} of the limit")
     };
-    let other = SingleDrop { contact_law, ..*drop };
-    let ask = |limit: &Limit| answer(&other, place, limit, Model::Compliant, ranges.tolerance).ok();
-    let asked = feels.then(|| ask(limit))??;
-    let asked = if asked.unit == unit { asked } else { ask(&in_unit(limit, unit))? };
-    Some(asked.value)
+    names.into_iter().zip(answers).map(one).collect::<Vec<_>>().join(", ")
+}
+
+fn rebounds_ask(more: f64) -> String {
+    let most = if more.is_finite() {
+        format!("by {} % at most", percent(more))
+    } else {
+        "how much more is not known".to_owned()
+    };
+    format!("rebounds may ask for more, {most} by their energy: how the product lands again is sensitive to every input")
 }
 
 /// The limit whose demand has this unit: of a damage boundary the velocity change or the acceleration.
@@ -281,6 +330,7 @@ fn worst_case(drop: &SingleDrop, asked: &Asked, ranges: &Ranges<'_>) -> WorstCas
     WorstCase {
         first: drop.first,
         tilt_deg: drop.tilt_rad.to_degrees(),
+        flat: drop.flat,
         speed_m_s: drop.speed_m_s,
         restitution: drop.restitution,
         contact_time_s: drop.contact_time_s,
@@ -307,7 +357,12 @@ fn command(drop: &SingleDrop, asked: &Asked, ranges: &Ranges<'_>) -> String {
     }
     add("e", drop.restitution);
     add("speed-m-s", drop.speed_m_s);
-    add("tilt-deg", drop.tilt_rad.to_degrees());
+    if drop.flat {
+        command.push_str(" --flat");
+    } else {
+        command.push_str(&format!(" --tilt-deg={:?}", drop.tilt_rad.to_degrees()));
+    }
+    let mut add = |flag: &str, value: f64| command.extend([" --", flag, "=", &format!("{value:?}")]);
     add("gravity-m-s2", drop.gravity_m_s2);
     add("at", drop.relative(asked.place.position_m) + 0.0);
     if let Some((hz, ratio)) = asked.part.map(|part| (part.omega() / TAU, part.damping().get())) {
@@ -331,8 +386,9 @@ fn verdict(component: &Component, mut limits: Vec<LimitAssessment>) -> Component
     let stop = limits.iter().find(|l| l.limit == LimitKind::RattleSpace && l.verdict != Verdict::Safe);
     if let Some(stop) = stop.map(|l| (l.verdict, l.margin)) {
         for limit in limits.iter_mut().filter(|l| l.limit == LimitKind::Acceleration) {
-            let (hits, more) = if stop.0 == Verdict::Unsafe { ("hits", "passes") } else { ("may hit", "may pass") };
-            let margin = if stop.1.is_finite() { format!(" (margin {:+} %)", percent(stop.1)) } else { String::new() };
+            let (hits, more) = if stop.0 == Verdict::Unsafe { ("hits", "exceeds") } else { ("may hit", "may exceed") };
+            let known = stop.1.filter(|margin| margin.is_finite());
+            let margin = known.map_or(String::new(), |margin| format!(" (margin {:+} %)", percent(margin)));
             limit.verdict = Verdict::Undecided;
             limit.undecided = Some(format!(
                 "the part {hits} its stop: its displacement {more} the rattle space{margin}, and what the stop does is not known; \
@@ -340,7 +396,7 @@ fn verdict(component: &Component, mut limits: Vec<LimitAssessment>) -> Component
             ));
         }
     }
-    let tightest = limits.iter().min_by(|a, b| a.margin.total_cmp(&b.margin));
+    let tightest = limits.iter().min_by(|a, b| a.room().total_cmp(&b.room()));
     let Some(tightest) = tightest else { unreachable!("a component has a limit") };
     let (worst_case, model) = (tightest.worst_case.clone(), tightest.model.clone());
     ComponentAssessment {

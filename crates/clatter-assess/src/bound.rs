@@ -1,4 +1,4 @@
-//! What no drop of the ranges passes, by the energy that the body has as it touches.
+//! What no drop of the ranges exceeds, by the energy that the body has as it touches.
 //!
 //! Per mass that is `E = ½ v₀² + g y`, y the height of the center of mass over where it lies. It bounds every speed from then on, whatever
 //! the order of the strikes, the tilt and the model: of a place at distance x from the center of mass by √(2E (1 + x²/ρ²)), of
@@ -16,7 +16,7 @@ use crate::{Component, Drop, Limit, LimitKind, Product};
 /// `(1 + e) u (1 + x_p x_i/ρ²)/μ_i`, largest for the level body or for lever arms of 0. With contacts that take time, a place may
 /// change its velocity from one bound to the other, and gains gτ within the contact time τ. A hysteretic contact holds at
 /// most E on its line of first loading: its force is at most √(2E) ω₁/√μ.
-pub(crate) fn bound(product: &Product, drop: &Drop, component: &Component, limit: &Limit) -> Option<f64> {
+pub(crate) fn bound(product: &Product, drop: &Drop, component: &Component, limit: &Limit, law: ContactLaw) -> Option<f64> {
     let [a, b] = product.body.arms_m();
     let rho = product.body.gyration_m();
     let [_, fastest] = drop.speeds_m_s();
@@ -45,8 +45,8 @@ pub(crate) fn bound(product: &Product, drop: &Drop, component: &Component, limit
         }
         (LimitKind::AngularVelocityChange, Some(_)) => Some(2.0 * speed / rho),
         (LimitKind::Acceleration, Some([shortest, _])) => {
-            let hard = matches!(component.mount, crate::Mount::Hard) && product.contact_law == ContactLaw::Hysteretic;
-            let contact = Contact::new(product.contact_law, e, shortest).ok().filter(|_| hard)?;
+            let hard = matches!(component.mount, crate::Mount::Hard) && law == ContactLaw::Hysteretic;
+            let contact = Contact::new(law, e, shortest).ok().filter(|_| hard)?;
             // Both ends at once; a lever arm of 0 gives every place the whole force, and is the largest for μ.
             let one = |place: f64| ends.iter().map(|&end| share(place, end).max(1.0)).sum::<f64>();
             Some(speed * contact.frequency_rad_s() * over(&one))

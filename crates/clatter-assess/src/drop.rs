@@ -1,7 +1,7 @@
 //! A single drop, followed by one of four models.
 
 use clatter::End;
-use clatter_flight::{Body, Contact, ContactFlight, ContactLaw, Flight, Model as Impacts, Scene, Stop, Stretch};
+use clatter_flight::{Body, Contact, ContactFlight, ContactLaw, Flight, Model as Impacts, Scene, Stop, Stretch, Strike};
 use serde::Serialize;
 
 use crate::Error;
@@ -62,6 +62,9 @@ pub struct SingleDrop {
     pub first: End,
     /// Angle to the ground at the first touch, in rad.
     pub tilt_rad: f64,
+    /// Whether both ends land as one: instant impacts that are closer than any contact lasts. Every place then gets (1 + e) v at
+    /// once, at the first landing and at each that follows; the tilt is 0.
+    pub flat: bool,
     /// Speed at the first touch, in m/s.
     pub speed_m_s: f64,
     /// Coefficient of restitution.
@@ -85,11 +88,10 @@ impl SingleDrop {
         let gap_m = self.body.length_m() * self.tilt_rad.sin();
         4.0 * (gap_m / self.speed_m_s + self.contact_time_s.unwrap_or(0.0))
     }
-    /// How long a contact takes at most: with both ends pressing, by their slower motion.
-    pub(crate) fn pressed_s(&self) -> f64 {
-        let ([a, b], rho2) = (self.body.arms_m(), self.body.gyration_m().powi(2));
-        let coupling = (rho2 - a * b) / ((rho2 + a * a) * (rho2 + b * b)).sqrt();
-        self.contact_time_s.unwrap_or(0.0) / (1.0 - coupling.abs()).sqrt()
+    /// The same drop landing flat.
+    #[must_use]
+    pub fn flattened(&self) -> Self {
+        Self { tilt_rad: 0.0, flat: self.contact_time_s.is_none(), ..*self }
     }
     /// When a body has bounced clear: after its clatter and a quarter of the flight of 2 e v0/g.
     pub(crate) fn clear_s(&self) -> f64 {
@@ -119,7 +121,7 @@ pub(crate) struct Followed {
     pub(crate) precision: f64,
     /// Whether it was left while shocks that count may come.
     early: bool,
-    /// Largest velocity shock of an end, and bound of what no later one passes.
+    /// Largest velocity shock of an end, and a bound of what comes after the motion was left.
     pub(crate) largest_m_s: f64,
     pub(crate) later_m_s: f64,
 }
@@ -173,6 +175,8 @@ impl Followed {
         let precision = PRECISION * tolerance;
         let share = tolerance * drop.restitution.max(LEAST_SHARE);
         let clatter_s = drop.clatter_s();
+        // A strike gives back the restitution's share of what it takes.
+        let given_back = 0.5 * (1.0 + drop.restitution);
         let is_over = |time_s: f64, later: f64, largest: f64, lands: bool| {
             later <= share * largest
                 || match until {
@@ -182,23 +186,26 @@ impl Followed {
                     Until::Over => false,
                 }
         };
+        if drop.flat {
+            return Ok(Self::flat(drop, scene, share));
+        }
         let mut later = f64::INFINITY;
         let motion = if model == Model::Compliant {
             let time = drop.contact_time_s.ok_or(Error::Contact)?;
             let contact = Contact::new(drop.contact_law, drop.restitution, time)?;
             let flight = scene.contacts_until(&contact, precision, |ahead| {
-                // A strike gives back the restitution's share of what it takes.
-                later = 0.5 * (1.0 + drop.restitution) * ahead.most_m_s;
-                is_over(ahead.time_s, later, ahead.largest_m_s, ahead.lands)
+                is_over(ahead.time_s, given_back * ahead.most_m_s, ahead.largest_m_s, ahead.lands)
             })?;
+            later = given_back * flight.later_m_s;
             Motion::Contacts(Box::new(flight))
         } else {
             let model = model.impacts();
             let flight = scene.simulate_until(model, |flight| {
                 let Some(last) = flight.strikes.last() else { return false };
-                later = scene.later_shock_m_s(model, last);
-                is_over(last.time_s, later, largest(flight), true)
+                is_over(last.time_s, scene.later_shock_m_s(model, last), largest(flight), true)
             });
+            let bounded = flight.strikes.last().filter(|_| !matches!(flight.stop, Stop::TurnedOver { .. }));
+            later = bounded.map_or(later, |last| scene.later_shock_m_s(model, last));
             Motion::Impacts(Box::new(scene), model, flight)
         };
         let (largest_m_s, stop) = match &motion {
@@ -210,8 +217,50 @@ impl Followed {
             Stop::BouncedClear { .. } => 0.0,
             _ => later,
         };
-        let early = later_m_s > share * largest_m_s && matches!(stop, Stop::Enough { .. });
+        let early = later_m_s > share * largest_m_s && !matches!(stop, Stop::AtRest { .. });
         Ok(Self { drop: *drop, motion, precision, early, largest_m_s, later_m_s })
+    }
+
+    /// A body that lands with both ends as one, and bounces so.
+    fn flat(drop: &SingleDrop, scene: Scene, share: f64) -> Self {
+        let SingleDrop { restitution, speed_m_s, gravity_m_s2, .. } = *drop;
+        let (mut strikes, mut time_s, mut approach) = (Vec::new(), 0.0, speed_m_s);
+        let largest_m_s = (1.0 + restitution) * speed_m_s;
+        let strike = |number: usize, time_s: f64, approach: f64| Strike {
+            number: number as u64 + 1,
+            point: 0,
+            time_s,
+            approach_m_s: -approach,
+            delta_v_m_s: [(1.0 + restitution) * approach; 2],
+            height_m: [0.0; 2],
+            velocity_m_s: [restitution * approach; 2],
+            tilt_rad: 0.0,
+            spin_rad_s: 0.0,
+        };
+        while approach > share * speed_m_s && strikes.len() < MOST_STRIKES {
+            strikes.push(strike(strikes.len(), time_s, approach));
+            approach *= restitution;
+            time_s += 2.0 * approach / gravity_m_s2;
+            if gravity_m_s2 == 0.0 {
+                break;
+            }
+        }
+        let later_m_s = (1.0 + restitution) * approach;
+        let stop = match strikes.last() {
+            Some(last) if gravity_m_s2 == 0.0 => Stop::BouncedClear { time_s: last.time_s },
+            _ if strikes.len() == MOST_STRIKES => Stop::ImpactLimit { time_s },
+            // All that are left together, each e times as long as the one before.
+            _ => Stop::AtRest {
+                time_s: time_s + 2.0 * restitution * approach / (gravity_m_s2 * (1.0 - restitution)),
+                time_bound_s: 0.0,
+                shock_bound_m_s: later_m_s,
+            },
+        };
+        let early = matches!(stop, Stop::ImpactLimit { .. });
+        let later_m_s = if gravity_m_s2 == 0.0 { 0.0 } else { later_m_s };
+        let flight = Flight { strikes, pivots: Vec::new(), stop };
+        let motion = Motion::Impacts(Box::new(scene), Impacts::Ballistic, flight);
+        Self { drop: *drop, motion, precision: 0.0, early, largest_m_s, later_m_s }
     }
 
     pub(crate) fn flight(&self) -> &Flight {
@@ -223,9 +272,14 @@ impl Followed {
     pub(crate) fn is_early(&self) -> bool {
         self.early
     }
-    /// Whether the flight was given up before nothing later counts.
+    /// Whether what comes after the motion was left is not even bounded.
     pub(crate) fn is_cut(&self) -> bool {
-        matches!(self.flight().stop, Stop::TimeLimit { .. } | Stop::ImpactLimit { .. } | Stop::TurnedOver { .. })
+        self.later_m_s == f64::INFINITY
+    }
+    /// What a place feels for ever after the motion: its weight where the product lies still.
+    pub(crate) fn carried_m_s2(&self) -> f64 {
+        let falls = !matches!(self.motion, Motion::Impacts(_, Impacts::Map, _));
+        if falls && matches!(self.flight().stop, Stop::AtRest { .. }) { self.drop.gravity_m_s2 } else { 0.0 }
     }
     /// What a place feels, section by section.
     pub(crate) fn felt(&self, position_m: f64) -> Vec<Stretch> {

@@ -37,16 +37,21 @@ pub struct Answer {
     pub time_s: f64,
     /// The strike that does it, or that the peak follows; from 1.
     pub impact: u64,
-    /// How far off the value may be for what the model leaves out of its own motion, as a share of it: what lever arms kept through a
-    /// phase get wrong, and what later strikes could still do. It says nothing of the physics that the model lacks.
-    pub error: f64,
+    /// How far off the value may be for what the model leaves out of its own motion, in the unit of the value: what lever arms kept
+    /// through a phase get wrong, and what later strikes could still do. It says nothing of the physics that the model lacks.
+    pub off_by: f64,
 }
 
 impl Answer {
-    /// Value over allowed: beyond 1 the limit is passed.
+    /// Value over allowed: beyond 1 the limit is exceeded.
     #[must_use]
     pub fn utilization(&self) -> f64 {
         self.value / self.allowed
+    }
+    /// How far off the value may be, as a share of it; infinite where the value is 0 and may be off.
+    #[must_use]
+    pub fn error(&self) -> f64 {
+        if self.off_by > 0.0 { self.off_by / self.value } else { 0.0 }
     }
 }
 
@@ -57,11 +62,11 @@ impl Answer {
 ///
 /// # Validity
 /// The part is light and linear; the product is rigid. Of instant impacts a suspended part feels velocity shocks, and the
-/// acceleration of a part mounted rigidly is that of half-sines of the contact time. From when the product lies still nothing is felt:
-/// the weight of the part on it, 1 g, is left out.
+/// acceleration of a part mounted rigidly is that of half-sines of the contact time. From when the product lies still a part on it
+/// feels its weight.
 ///
 /// # Accuracy
-/// [`Answer::error`]; within `tolerance` of independent integrations until the product lands again (tests). What each strike gets
+/// [`Answer::off_by`]; within `tolerance` of independent integrations until the product lands again (tests). What each strike gets
 /// wrong is then multiplied by the next ones, and the error is the difference to a drop followed ten times as exactly.
 ///
 /// # Errors
@@ -79,6 +84,7 @@ impl Answer {
 ///     body: Body::new(0.15, 0.15 / 12_f64.sqrt())?,
 ///     first: End::A,
 ///     tilt_rad: 0.05,
+///     flat: false,
 ///     speed_m_s: 4.0,
 ///     restitution: 0.3,
 ///     gravity_m_s2: 0.0,
@@ -126,7 +132,7 @@ impl Answer {
         // Where a drop next to this one is not answered, nothing tells how far off this one is.
         let off = |other: &SingleDrop, tolerance: f64| {
             let other = once(other, part, limit, model, tolerance);
-            other.map_or(f64::INFINITY, |other| (other.value / self.value - 1.0).abs())
+            other.map_or(f64::INFINITY, |other| (other.value - self.value).abs())
         };
         let mut most = off(drop, FINER * tolerance);
         for off_by in [-KEPT_ARMS, KEPT_ARMS].map(|arms| arms * PRECISION * tolerance) {
@@ -136,7 +142,7 @@ impl Answer {
             let steeper = SingleDrop { tilt_rad, ..*drop };
             most = most.max(off(&bounces, tolerance)).max(off(&steeper, tolerance));
         }
-        Self { error: self.error.max(SAFETY * most), ..self }
+        Self { off_by: self.off_by.max(SAFETY * most), ..self }
     }
 }
 
@@ -149,20 +155,24 @@ pub(crate) fn once(
     tolerance: f64,
 ) -> Result<Answer, Error> {
     let followed = Followed::new(drop, model, tolerance)?;
-    let asked = Felt::new(&followed, part.position_m)?.answer(limit, part.suspension.as_ref(), 0.0)?;
-    let nothing =
-        Answer { value: 0.0, allowed: limit.allowed, unit: limit.kind.unit(), time_s: 0.0, impact: 1, error: 0.0 };
-    Ok(asked.unwrap_or(nothing))
+    let felt = Felt::new(&followed, part.position_m)?;
+    let asked = felt.answer(limit, part.suspension.as_ref(), 0.0)?;
+    let (allowed, unit) = (limit.allowed, limit.kind.unit());
+    let nothing = || Answer { value: 0.0, allowed, unit, time_s: 0.0, impact: 1, off_by: felt.later_of(limit) };
+    Ok(asked.unwrap_or_else(nothing))
 }
 
 /// An answer from the largest shock or the net change of velocity alone, without following a strike.
 fn closed_form(drop: &SingleDrop, part: &Part, limit: &Limit, model: Model) -> Result<Answer, Error> {
     let [a, b] = drop.body.arms_m();
+    let flat_m_s = (1.0 + drop.restitution) * drop.speed_m_s;
     let bar = OffCenterBar::new([a, b], drop.body.gyration_m(), drop.restitution)?;
     let start = Start::new([-drop.speed_m_s; 2], drop.body.length_m() * libm::sin(drop.tilt_rad))?;
     let s = 2.0 * part.position_m / drop.body.length_m();
     let of_turn = 2.0 / drop.body.length_m();
-    let (shock, turn) = if model == Model::LargestShock {
+    let (shock, turn) = if drop.flat {
+        (flat_m_s, 0.0)
+    } else if model == Model::LargestShock {
         let EndPeaks { a, b } = bar.shocks(&start, drop.first).struck();
         let [qa, qb] = bar.inertia_ratios();
         let turn = 0.5 * of_turn * (a * (1.0 + qa)).max(b * (1.0 + qb));
@@ -187,7 +197,7 @@ fn closed_form(drop: &SingleDrop, part: &Part, limit: &Limit, model: Model) -> R
     };
     let acceleration = drop.contact_time_s.map(|time| shock * FRAC_PI_2 / time);
     let by_acceleration = acceleration.filter(|_| limit.kind == LimitKind::DamageBoundary);
-    let answer = Answer { value, allowed: limit.allowed, unit, time_s: 0.0, impact: 1, error: 0.0 };
+    let answer = Answer { value, allowed: limit.allowed, unit, time_s: 0.0, impact: 1, off_by: 0.0 };
     Ok(match by_acceleration {
         Some(value) if value / limit.critical_acceleration_m_s2 < answer.utilization() => {
             Answer { value, allowed: limit.critical_acceleration_m_s2, unit: Unit::MeterPerSecondSquared, ..answer }
@@ -235,7 +245,7 @@ impl<'a> Felt<'a> {
             return Err(Error::Unfinished);
         }
         let sections = followed.felt(position_m);
-        let pulses = pulses(&sections, SHORT / fastest_rad_s)?;
+        let pulses = pulses(&sections, SHORT / fastest_rad_s, followed.carried_m_s2())?;
         Ok(Self { followed, sections, pulses, position_m, fastest_rad_s, known: None })
     }
 
@@ -254,27 +264,29 @@ impl<'a> Felt<'a> {
         if self.known.is_some_and(|known| known.later_most(limit, suspension, above) <= above) {
             return Ok(None);
         }
-        let (value, time_s, error) = match (limit.kind, suspension) {
+        let (value, time_s, off_by) = match (limit.kind, suspension) {
             (LimitKind::Acceleration | LimitKind::RattleSpace, Some(part)) => {
                 let Some(peak) = self.peak(limit.kind, part, above * limit.allowed) else { return Ok(None) };
                 peak
             }
             (LimitKind::Acceleration | LimitKind::RattleSpace, None) => {
-                let (value, time_s) = self.largest_acceleration([f64::NEG_INFINITY, f64::INFINITY])?;
-                (value, time_s, self.error_of_shock(value * self.contact_s()? / FRAC_PI_2))
+                let contact_s = self.contact_s()?;
+                let Some((value, time_s)) = self.largest_acceleration(contact_s) else { return Ok(None) };
+                (value, time_s, self.off_by(value * contact_s / FRAC_PI_2) * FRAC_PI_2 / contact_s)
             }
             (LimitKind::VelocityChange, _) => {
-                let Some(&Shock { change, time_s, .. }) = largest(&self.shocks()) else { return Ok(None) };
-                (change, time_s, self.error_of_shock(change))
+                let Shock { change, time_s, .. } = largest(&self.shocks());
+                (change, time_s, self.off_by(change))
             }
             (LimitKind::AngularVelocityChange, _) => {
-                let Some(&Shock { change, time_s, .. }) = largest(&self.followed.turns()) else { return Ok(None) };
-                (change, time_s, self.error_of_shock(change * 0.5 * self.followed.drop.body.length_m()))
+                let Shock { change, time_s, .. } = largest(&self.followed.turns());
+                let half = 0.5 * self.followed.drop.body.length_m();
+                (change, time_s, self.off_by(change * half) / half)
             }
-            (LimitKind::DamageBoundary, _) => return self.boundary(limit, above),
+            (LimitKind::DamageBoundary, _) => return Ok(self.boundary(limit, above)),
         };
         let impact = self.followed.impact_at(time_s);
-        let answer = Answer { value, allowed: limit.allowed, unit: limit.kind.unit(), time_s, impact, error };
+        let answer = Answer { value, allowed: limit.allowed, unit: limit.kind.unit(), time_s, impact, off_by };
         Ok(Some(answer).filter(|answer| answer.utilization() > above))
     }
 
@@ -382,16 +394,23 @@ impl<'a> Felt<'a> {
         per_velocity * ((omega * rest.displacement).hypot(rest.velocity) + shock)
     }
     /// What a shock of this size may be off by: the share of the largest shock that lever arms get wrong, and what later ones
-    /// could pass it by.
-    fn error_of_shock(&self, value: f64) -> f64 {
-        if value <= 0.0 {
-            return f64::INFINITY;
-        }
+    /// could exceed it by.
+    fn off_by(&self, value: f64) -> f64 {
         let Followed { largest_m_s, later_m_s, .. } = self.followed;
-        (self.followed.kept_arms() * largest_m_s + (later_m_s - value).max(0.0)) / value
+        self.followed.kept_arms() * largest_m_s + (later_m_s - value).max(0.0)
+    }
+    /// What later strikes may ask where none that was followed asks for anything, in the unit of the limit.
+    fn later_of(&self, limit: &Limit) -> f64 {
+        let Later { turned_m_s, turn_rad_s, acceleration_m_s2, .. } = self.later();
+        match limit.kind {
+            LimitKind::AngularVelocityChange => turn_rad_s,
+            LimitKind::VelocityChange | LimitKind::DamageBoundary => turned_m_s,
+            LimitKind::Acceleration => acceleration_m_s2,
+            LimitKind::RattleSpace => f64::INFINITY,
+        }
     }
 
-    /// Peak of a suspended part where it passes `above`: value, time and error.
+    /// Peak of a suspended part where it passes `above`: value, time and what it may be off by.
     fn peak(&self, kind: LimitKind, part: &Suspension, above: f64) -> Option<(f64, f64, f64)> {
         let omega = part.omega();
         let (peaked, unit) = if kind == LimitKind::Acceleration {
@@ -419,63 +438,44 @@ impl<'a> Felt<'a> {
         // A part that is fast beside a contact follows its force and not its velocity.
         let follows = self.followed.drop.contact_time_s.map_or(0.0, |time| omega * time / FRAC_PI_2).max(1.0);
         let off = self.followed.kept_arms() * self.followed.largest_m_s / follows;
-        let error = (off + doubt.max(0.0)) / velocity;
-        Some((unit * velocity, peak.time, error))
+        Some((unit * velocity, peak.time, unit * (off + doubt.max(0.0))))
     }
 
     fn contact_s(&self) -> Result<f64, Error> {
         self.followed.drop.contact_time_s.ok_or(Error::Contact)
     }
 
-    /// Largest acceleration of the product at the place within a time, and when.
-    fn largest_acceleration(&self, [from_s, until_s]: [f64; 2]) -> Result<(f64, f64), Error> {
-        let mut most = (0.0, 0.0);
-        if let Motion::Impacts(..) = self.followed.motion {
-            // A half-sine of this velocity change: its largest value is that of hysteretic contacts as well.
-            let contact_s = self.contact_s()?;
-            for shock in self.shocks().iter().filter(|shock| (from_s..=until_s).contains(&shock.time_s)) {
-                if shock.change * FRAC_PI_2 / contact_s > most.0 {
-                    most = (shock.change * FRAC_PI_2 / contact_s, shock.time_s);
-                }
-            }
-            return Ok(most);
-        }
-        for section in self.sections.iter().filter(|s| s.from_s + s.length_s >= from_s && s.from_s <= until_s) {
-            let swing: f64 = section.waves.iter().map(|w| w.amplitude_m_s2.abs()).sum();
-            let line = section.acceleration_m_s2.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
-            if line + swing > most.0 {
-                let (value, t) = crest(section);
-                if value > most.0 {
-                    most = (value, section.from_s + t);
-                }
-            }
-        }
-        Ok(most)
+    /// Largest acceleration of the product at the place, and when. Instant impacts are half-sines of the contact time: their largest
+    /// value is that of hysteretic contacts as well.
+    fn largest_acceleration(&self, contact_s: f64) -> Option<(f64, f64)> {
+        let of = |shock: &Shock| if shock.peak.is_finite() { shock.peak } else { shock.change * FRAC_PI_2 / contact_s };
+        let all = self.shocks();
+        all.iter().map(|shock| (of(shock), shock.time_s)).reduce(|most, one| if one.0 > most.0 { one } else { most })
     }
 
     /// Of every shock, what leaves more room of velocity change and acceleration; the shock that leaves least.
-    fn boundary(&self, limit: &Limit, above: f64) -> Result<Option<Answer>, Error> {
+    fn boundary(&self, limit: &Limit, above: f64) -> Option<Answer> {
+        let contact_s = self.followed.drop.contact_time_s;
         let mut worst: Option<Answer> = None;
-        for Shock { change, time_s, span_s } in self.shocks() {
+        for Shock { change, peak, time_s, .. } in self.shocks() {
             if change / limit.allowed <= worst.map_or(above, |worst| worst.utilization()) {
                 continue;
             }
             let impact = self.followed.impact_at(time_s);
-            let error = self.error_of_shock(change);
-            let (unit, allowed) = (Unit::MeterPerSecond, limit.allowed);
-            let mut answer = Answer { value: change, allowed, unit, time_s, impact, error };
-            if self.followed.drop.contact_time_s.is_some() {
-                let (value, time_s) = self.largest_acceleration(span_s)?;
+            let (off_by, unit, allowed) = (self.off_by(change), Unit::MeterPerSecond, limit.allowed);
+            let mut answer = Answer { value: change, allowed, unit, time_s, impact, off_by };
+            if let Some(contact_s) = contact_s {
+                let value = if peak.is_finite() { peak } else { change * FRAC_PI_2 / contact_s };
                 let (unit, allowed) = (Unit::MeterPerSecondSquared, limit.critical_acceleration_m_s2);
                 if value / allowed < answer.utilization() {
-                    answer = Answer { value, allowed, unit, time_s, impact: self.followed.impact_at(time_s), error };
+                    answer = Answer { value, allowed, unit, off_by: off_by * FRAC_PI_2 / contact_s, ..answer };
                 }
             }
             if worst.is_none_or(|worst| answer.utilization() > worst.utilization()) {
                 worst = Some(answer);
             }
         }
-        Ok(worst.filter(|worst| worst.utilization() > above))
+        worst.filter(|worst| worst.utilization() > above)
     }
 }
 
@@ -511,19 +511,4 @@ impl Followed {
             Motion::Contacts(_) => KEPT_ARMS * self.precision,
         }
     }
-}
-
-/// The largest acceleration of a section without its sign, and when: the highest of close samples, and the parabola over it.
-fn crest(section: &Stretch) -> (f64, f64) {
-    let count = 2 * samples(section, section.length_s);
-    let step = section.length_s / f64::from(count);
-    let of = |k: u32| section.acceleration_at(f64::from(k) * step);
-    let highest = (0..=count).max_by(|&j, &k| of(j).abs().total_cmp(&of(k).abs())).unwrap_or(0);
-    let (t, value) = (f64::from(highest) * step, of(highest));
-    if highest == 0 || highest == count {
-        return (value.abs(), t);
-    }
-    let (before, after) = (of(highest - 1), of(highest + 1));
-    let (slope, bend) = (0.5 * (after - before), before - 2.0 * value + after);
-    if bend == 0.0 { (value.abs(), t) } else { ((value - 0.5 * slope * slope / bend).abs(), t - step * slope / bend) }
 }

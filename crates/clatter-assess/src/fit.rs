@@ -111,7 +111,7 @@ impl From<&ProductFile> for Known {
             speed_m_s: file.drop.speeds_m_s(),
             tilt_rad: range(&file.drop.tilt_rad),
             contact_time_s: file.product.contact_time_s.as_ref().map(range),
-            contact_law: file.product.contact_law,
+            contact_law: file.product.law(),
         }
     }
 }

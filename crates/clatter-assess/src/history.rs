@@ -15,7 +15,8 @@ const NARROW: f64 = 0.1;
 
 /// The history of a place as the response takes it; sections that together take no longer than `short_s` are two velocity shocks
 /// that do the same.
-pub(crate) fn pulses(sections: &[Stretch], short_s: f64) -> Result<Pulses, Error> {
+/// `carried_m_s2` acts from their end on.
+pub(crate) fn pulses(sections: &[Stretch], short_s: f64, carried_m_s2: f64) -> Result<Pulses, Error> {
     let mut pieces = Pieces {
         narrow_s: NARROW / SHORT * short_s,
         sines: Vec::with_capacity(2 * sections.len()),
@@ -42,7 +43,7 @@ pub(crate) fn pulses(sections: &[Stretch], short_s: f64) -> Result<Pulses, Error
         sines: &pieces.sines[piece.sines.clone()],
     };
     let start = sections.first().map_or(0.0, |section| section.from_s);
-    Ok(Pulses::of_sections(start, pieces.all.iter().map(one))?)
+    Ok(Pulses::of_sections(start, pieces.all.iter().map(one))?.carried(carried_m_s2)?)
 }
 
 /// A section, with the numbers of its sines.

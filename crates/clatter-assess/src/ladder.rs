@@ -229,12 +229,12 @@ impl ProductFile {
         let (mut limits, mut left_out) = (Vec::new(), Vec::new());
         for (component, assessed) in self.components.iter().zip(&assessment.components) {
             for (limit, found) in Limit::of(component).iter().zip(&assessed.limits) {
-                let (name, worst) = (component.name.clone(), &found.worst_case);
-                if found.demand <= 0.0 {
+                let name = component.name.clone();
+                let Some(worst) = found.worst_case.as_ref().filter(|_| found.demand.is_some_and(|demand| demand > 0.0)) else {
                     let reason = found.undecided.clone().unwrap_or_else(|| "nothing is asked of it".to_owned());
                     left_out.push(LeftOut { component: name, limit: limit.kind, reason });
                     continue;
-                }
+                };
                 let (drop, part) = self.worst_drop(worst)?;
                 let ladder = Ladder::measure(&drop, &part, limit, tolerance)?;
                 let (limit, worst_case) = (limit.kind, worst.clone());
@@ -251,11 +251,12 @@ impl ProductFile {
             body: self.product.body,
             first: worst.first,
             tilt_rad: worst.tilt_deg.to_radians(),
+            flat: worst.flat,
             speed_m_s: worst.speed_m_s,
             restitution: worst.restitution,
             gravity_m_s2: self.drop.gravity_m_s2,
             contact_time_s: worst.contact_time_s,
-            contact_law: self.product.contact_law,
+            contact_law: self.product.law(),
         };
         let part = worst.frequency_hz.zip(worst.damping_ratio);
         let part = part.map(|(hz, ratio)| Suspension::from_hz(hz, DampingRatio::new(ratio)?)).transpose()?;
@@ -277,6 +278,7 @@ pub fn bar(q: f64, e: f64) -> Result<(SingleDrop, Part, Limit), Error> {
         body: Body::new(0.14, gyration_m)?,
         first: clatter::End::A,
         tilt_rad: 5f64.to_radians(),
+        flat: false,
         speed_m_s: 4.43,
         restitution: e,
         gravity_m_s2: STANDARD_GRAVITY_M_S2,

@@ -78,7 +78,7 @@ impl ProductFile {
     }
 
     fn history(&self, limit: &LimitAssessment, ranges: &Ranges<'_>) -> Result<(Curve, Vec<f64>), Error> {
-        let worst = &limit.worst_case;
+        let Some(worst) = &limit.worst_case else { return Ok(Default::default()) };
         let (drop, part) = self.worst_drop(worst)?;
         let followed = Followed::new(&drop, ranges.model, ranges.tolerance)?;
         let felt = Felt::new(&followed, worst.position_m)?;
@@ -122,7 +122,8 @@ impl ProductFile {
 
     fn over_tilt(ranges: &Ranges<'_>, component: &Component, limit: &LimitAssessment) -> Vec<(End, Curve)> {
         let Some(asked) = Limit::of(component).into_iter().find(|l| l.kind == limit.limit) else { return Vec::new() };
-        let (task, worst) = (Task { component, limit: asked }, &limit.worst_case);
+        let Some(worst) = &limit.worst_case else { return Vec::new() };
+        let task = Task { component, limit: asked };
         let [lo, hi] = [ranges.drop.tilt_rad.lo(), ranges.drop.tilt_rad.hi()];
         let mut tilts: Vec<f64> =
             (0..=EVEN_TILTS).map(|i| lo + f64::from(i) / f64::from(EVEN_TILTS) * (hi - lo)).collect();
@@ -149,8 +150,8 @@ impl ProductFile {
         let zone = |(component, places): (&Component, &[crate::ComponentAssessment])| {
             // An undecided place is none to recommend.
             let used = |c: &crate::ComponentAssessment| match c.verdict {
-                Verdict::Undecided => (1.0 / (1.0 + c.tightest().margin) - 1.0).max(1e-3),
-                _ => 1.0 / (1.0 + c.tightest().margin) - 1.0,
+                Verdict::Undecided => (1.0 / (1.0 + c.tightest().room()) - 1.0).max(1e-3),
+                _ => 1.0 / (1.0 + c.tightest().room()) - 1.0,
             };
             let margins: Vec<f64> = places.iter().map(used).collect();
             let safe = |m: &f64| *m <= 0.0;

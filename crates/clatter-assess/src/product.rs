@@ -34,8 +34,16 @@ pub struct Product {
     pub restitution: Spread,
     /// How long a lone contact of an end takes.
     pub contact_time_s: Option<Spread>,
-    /// What the ground does to an end while it touches.
-    pub contact_law: ContactLaw,
+    /// What the ground does to an end while it touches; where none is named, no limit is decided by one law alone.
+    pub contact_law: Option<ContactLaw>,
+}
+
+impl Product {
+    /// The contact law by which drops are followed: the one that is named, else the hysteretic one.
+    #[must_use]
+    pub fn law(&self) -> ContactLaw {
+        self.contact_law.unwrap_or_default()
+    }
 }
 
 /// How it falls.

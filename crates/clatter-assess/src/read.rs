@@ -310,10 +310,7 @@ impl Reader {
             mass_kg: mass.map(|m| m.value).or(total),
             restitution: restitution?.value,
             contact_time_s: contact_time.map(|t| t.value),
-            contact_law: match contact_law.map(|law| law.value) {
-                Some("dashpot") => ContactLaw::Dashpot,
-                _ => ContactLaw::Hysteretic,
-            },
+            contact_law: contact_law.and_then(|law| ContactLaw::from_name(law.value)),
         })
     }
 

@@ -13,7 +13,7 @@ mod grid;
 mod ranges;
 
 use std::f64::consts::TAU;
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clatter::End;
 use clatter_shock::{DampingRatio, Suspension};
@@ -111,6 +111,11 @@ struct AllAsked {
 }
 
 impl AllAsked {
+    /// The largest utilization of each task so far.
+    fn best(&self) -> Vec<f64> {
+        let most = |found: &Vec<Asked>| found.iter().map(|asked| asked.answer.utilization()).fold(0.0, f64::max);
+        self.found.iter().map(most).collect()
+    }
     fn take(&mut self, answers: Vec<Result<OfDrop, Error>>) {
         for answer in answers.into_iter().filter(|answer| !matches!(answer, Err(Error::Stopped))) {
             self.drops += 1;
@@ -137,6 +142,8 @@ const GOLDEN: f64 = 0.618_033_988_749_895;
 const SAMPLE: u32 = 128;
 /// About as many drops are followed in a climb.
 const CLIMB: usize = 72;
+/// Drops that are followed side by side, knowing the worst of those before.
+const WAVE: usize = 64;
 /// Worst cases that are answered to the tolerance, early ones and late ones.
 const TRIES: usize = 8;
 
@@ -144,7 +151,6 @@ impl Ranges<'_> {
     /// The worst of each task; tasks of one component follow one another.
     pub(crate) fn worst(&self, tasks: &[Task<'_>], watch: Watch<'_>) -> Vec<Worst> {
         let steps = self.tilt_steps(tasks);
-        let best: Vec<AtomicU64> = tasks.iter().map(|_| AtomicU64::new(0)).collect();
         let mut all =
             AllAsked { found: vec![Vec::new(); tasks.len()], refused: None, later: vec![0.0; tasks.len()], drops: 0 };
         let grid: Vec<(u32, Place)> = (0..).zip(self.grid(steps)).collect();
@@ -153,17 +159,25 @@ impl Ranges<'_> {
         let climbing = CLIMB * CLIMBS * tasks.len();
         let count = grid.len() + overlaps.len() + SAMPLE as usize + climbing;
         let work = Work { watch, done: AtomicUsize::new(0), all: count };
-        let ask = |k: u32, drop: &Place, only: Option<&[bool]>| {
-            work.go_on(1).and_then(|()| self.ask(tasks, k, drop, &best, only))
+        // What comes near the worst so far is looked at more closely: the worst of the waves before, so that the same drops are on
+        // any number of threads.
+        let ask = |all: &mut AllAsked, drops: &[(u32, Place)], only: Option<&[bool]>| {
+            for wave in drops.chunks(WAVE) {
+                let best = all.best();
+                let of_one = |(k, drop): &(u32, Place)| {
+                    work.go_on(1).and_then(|()| self.ask(tasks, *k, drop, best.clone(), only))
+                };
+                all.take(wave.par_iter().map(of_one).collect());
+            }
         };
-        all.take(grid.par_iter().map(|(k, drop)| ask(*k, drop, None)).collect());
-        all.take(overlaps.par_iter().map(|(k, drop)| ask(*k, drop, Some(&shocks))).collect());
+        ask(&mut all, &grid, None);
+        ask(&mut all, &overlaps, Some(&shocks));
         // What rebounds ask is sensitive to every input: where the energy allows them more, drops all over the ranges are
         // followed for longer as well.
         if all.later.iter().any(|most| *most > 0.0) {
             let only: Vec<bool> = all.later.iter().map(|most| *most > 0.0).collect();
-            let sample = (1..=SAMPLE).into_par_iter().map(|k| ask(k, &self.spread_out(k), Some(&only)));
-            all.take(sample.collect());
+            let sample: Vec<(u32, Place)> = (1..=SAMPLE).map(|k| (k, self.spread_out(k))).collect();
+            ask(&mut all, &sample, Some(&only));
         }
         if work.go_on(0).is_ok() {
             work.done.fetch_max(count - climbing, Ordering::Relaxed);
@@ -214,7 +228,7 @@ impl Ranges<'_> {
         tasks: &[Task<'_>],
         k: u32,
         drop: &Place,
-        best: &[AtomicU64],
+        mut best: Vec<f64>,
         only: Option<&[bool]>,
     ) -> Result<OfDrop, Error> {
         let mut of_drop = OfDrop::default();
@@ -241,7 +255,7 @@ impl Ranges<'_> {
                     if again || only.is_some_and(|only| !only[number]) {
                         continue;
                     }
-                    let worst = f64::from_bits(best[number].load(Ordering::Relaxed));
+                    let worst = best[number];
                     let place = Place { position_m, ..*drop };
                     // That nothing is asked is an answer as well.
                     let near = if worst > 0.0 { NEAR * worst } else { -1.0 };
@@ -263,7 +277,7 @@ impl Ranges<'_> {
                     }
                     if let Some(mut asked) = asked {
                         asked.late = asked.answer.time_s > early.drop.clear_s();
-                        best[number].fetch_max(asked.answer.utilization().to_bits(), Ordering::Relaxed);
+                        best[number] = worst.max(asked.answer.utilization());
                         of_drop.asked.push((number, if n < own { asked } else { asked.turned() }));
                     }
                 }
@@ -412,7 +426,7 @@ impl Ranges<'_> {
                     let [.., frequency, damping] = found.shares;
                     let shares = [0.0, speed, restitution, contact, frequency, damping];
                     let place = Place { first, shares, ..found };
-                    let drop = SingleDrop { tilt_rad, ..self.single(&place) };
+                    let drop = SingleDrop { tilt_rad, flat: false, ..self.single(&place) };
                     let followed = Followed::until(&drop, self.model, self.tolerance.max(0.02), Until::Over);
                     let Ok(followed) = followed else { continue };
                     for position_m in task.component.ends_m() {
@@ -438,6 +452,10 @@ fn fastest_rad_s(component: &Component) -> f64 {
 }
 
 impl Asked {
+    /// Whether it asks for more of the limit than another drop.
+    pub(crate) fn exceeds(&self, other: &Self) -> bool {
+        self.answer.utilization() > other.answer.utilization()
+    }
     /// The same of the product turned around.
     fn turned(self) -> Self {
         let place = Place { first: self.place.first.other(), position_m: -self.place.position_m, ..self.place };

@@ -13,7 +13,7 @@ pub enum Verdict {
     Safe,
     /// What was found does not tell.
     Undecided,
-    /// A drop of the ranges passes a limit.
+    /// A drop of the ranges exceeds a limit.
     Unsafe,
 }
 
@@ -54,12 +54,15 @@ pub struct Accuracy {
     pub tolerance: f64,
     /// How drops are followed; with the most physics that the data allow if none is named.
     pub model: Option<Model>,
+    /// Instant impacts that are closer than this are one: where the ranges hold a tilt whose gap is shorter, the flat drop is one of
+    /// the drops. Of a product whose contact time is known that is told by the contacts.
+    pub merge_s: f64,
 }
 
 impl Default for Accuracy {
-    /// 1 %, by the model with the most physics.
+    /// 1 %, by the model with the most physics, 1 ms.
     fn default() -> Self {
-        Self { tolerance: 0.01, model: None }
+        Self { tolerance: 0.01, model: None, merge_s: 1e-3 }
     }
 }
 
@@ -72,7 +75,7 @@ impl Accuracy {
     /// ```
     /// use clatter_assess::Accuracy;
     /// assert!(Accuracy::default().check().is_ok());
-    /// assert!(Accuracy { tolerance: 0.0, model: None }.check().is_err());
+    /// assert!(Accuracy { tolerance: 0.0, ..Accuracy::default() }.check().is_err());
     /// ```
     pub fn check(&self) -> Result<(), crate::Error> {
         if (1e-4..=0.5).contains(&self.tolerance) { Ok(()) } else { Err(crate::Error::Tolerance(self.tolerance)) }
@@ -90,8 +93,8 @@ pub struct ComponentAssessment {
     pub verdict: Verdict,
     /// One for each limit of the file.
     pub limits: Vec<LimitAssessment>,
-    /// The drop behind the smallest margin.
-    pub worst_case: WorstCase,
+    /// The drop behind the smallest margin; null where no drop was answered.
+    pub worst_case: Option<WorstCase>,
     /// How that drop was followed, and why so.
     pub model: ModelChoice,
 }
@@ -100,8 +103,16 @@ impl ComponentAssessment {
     /// The limit with the smallest margin.
     #[must_use]
     pub fn tightest(&self) -> &LimitAssessment {
-        let tightest = self.limits.iter().min_by(|a, b| a.margin.total_cmp(&b.margin));
+        let tightest = self.limits.iter().min_by(|a, b| a.room().total_cmp(&b.room()));
         tightest.unwrap_or_else(|| unreachable!("a component has a limit"))
+    }
+}
+
+impl LimitAssessment {
+    /// The margin to order limits by: infinite where no drop was answered.
+    #[must_use]
+    pub fn room(&self) -> f64 {
+        self.margin.unwrap_or(f64::INFINITY)
     }
 }
 
@@ -114,28 +125,25 @@ pub struct LimitAssessment {
     pub unit: Unit,
     /// What the file allows.
     pub allowed: f64,
-    /// What the worst drop that was found asks for: it is `worst_case`, and can be repeated.
-    pub demand: f64,
+    /// What the worst drop that was found asks for: it is `worst_case`, and can be repeated. Null where no drop was answered.
+    pub demand: Option<f64>,
     /// allowed/demand − 1.
-    #[serde(serialize_with = "number")]
-    pub margin: f64,
+    #[serde(serialize_with = "number_or_null")]
+    pub margin: Option<f64>,
     /// Whether the limit holds.
     pub verdict: Verdict,
-    /// What no drop of the ranges passes, by the energy that the body has; null for the response of a suspended part.
+    /// What no drop of the ranges exceeds, by the energy that the body has; null for the response of a suspended part.
     pub bound: Option<f64>,
-    /// By how much at most drops of the ranges may pass the demand, as a share of it: what the answer may be off by and what
+    /// By how much at most drops of the ranges may exceed the demand, as a share of it: what the answer may be off by and what
     /// the search may miss.
     #[serde(serialize_with = "number")]
     pub uncertainty: f64,
-    /// What one clatter-free impact would ask in the worst drop, (1 + e) v0 at every place at once; with a contact time as a
-    /// half-sine of that length.
-    #[serde(serialize_with = "number")]
-    pub clatter_free: f64,
-    /// What the worst drop asks by the other contact law, where contacts take time: of a part on a suspension where it feels the
-    /// shape of a pulse; else null.
+    /// What the worst drop would ask if it landed flat: with both ends at once, and contacts where their time is known.
+    pub clatter_free: Option<f64>,
+    /// What the worst drop over the ranges by the other contact law asks, where contacts take time; else null.
     pub other_law: Option<f64>,
-    /// The drop that does it.
-    pub worst_case: WorstCase,
+    /// The drop that does it; null where no drop was answered.
+    pub worst_case: Option<WorstCase>,
     /// How it was followed, and why so.
     pub model: ModelChoice,
     /// Why the limit is undecided, and what would decide it; else null.
@@ -152,6 +160,8 @@ pub struct WorstCase {
     pub first: End,
     /// Angle to the ground at the first touch.
     pub tilt_deg: f64,
+    /// Whether both ends land as one, so close that no contact time tells them apart.
+    pub flat: bool,
     /// Speed at the first touch.
     pub speed_m_s: f64,
     /// Coefficient of restitution.
@@ -188,6 +198,14 @@ pub struct ModelChoice {
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature serde asks for")]
 pub(crate) fn number<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     if value.is_infinite() { serializer.serialize_str("infinite") } else { serializer.serialize_f64(*value) }
+}
+
+#[expect(clippy::ref_option, reason = "the signature serde asks for")]
+fn number_or_null<S: Serializer>(value: &Option<f64>, serializer: S) -> Result<S::Ok, S::Error> {
+    match value {
+        Some(value) => number(value, serializer),
+        None => serializer.serialize_none(),
+    }
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature serde asks for")]

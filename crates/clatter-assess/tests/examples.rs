@@ -66,6 +66,7 @@ fn drops(file: &ProductFile) -> Vec<SingleDrop> {
                     body: file.product.body,
                     first,
                     tilt_rad: file.drop.tilt_rad.at(f64::from(tilt) / f64::from(TILTS)),
+                    flat: false,
                     speed_m_s: slow + speed * (fast - slow),
                     restitution: file.product.restitution.at(e),
                     gravity_m_s2: file.drop.gravity_m_s2,

@@ -40,6 +40,7 @@ fn any_drop(r: &mut Random, tilt_deg: f64) -> SingleDrop {
         body: body.expect("a body"),
         first: if r.unit() < 0.5 { End::A } else { End::B },
         tilt_rad: r.even(0.0, tilt_deg).to_radians(),
+        flat: false,
         speed_m_s,
         restitution,
         gravity_m_s2: G,

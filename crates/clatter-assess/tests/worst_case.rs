@@ -109,6 +109,7 @@ fn single(file: &ProductFile, component: &Component, limit: &Limit, (shares, fir
         body: file.product.body,
         first: if ends.len() > 1 && *first < 0.5 { End::B } else { ends[0] },
         tilt_rad: file.drop.tilt_rad.at(shares[0]),
+        flat: false,
         speed_m_s: slow + shares[1] * (fast - slow),
         restitution: file.product.restitution.at(shares[2]),
         gravity_m_s2: file.drop.gravity_m_s2,

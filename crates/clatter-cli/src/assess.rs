@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueHint;
 use clatter_assess::fit::MeasuredDrop;
+use clatter_assess::units::Quantity;
 use clatter_assess::{Accuracy, Assessment, LARGEST_FILE, ProductFile, Verdict};
 use clatter_report::Pages;
 use serde::Serialize;
@@ -16,7 +17,7 @@ use crate::input::is_standard;
 use crate::inputs::{self, Format};
 use crate::output::Files;
 use crate::progress::Counted;
-use crate::{Exit, Failure, Streams, budget, input, output, text};
+use crate::{Exit, Failure, Streams, budget, input, output, quantities, text};
 
 /// Assess the parts of a product: which one fails, in which drop, by how much
 ///
@@ -59,6 +60,10 @@ pub(crate) struct Args {
     /// the worst drop found
     #[arg(long, value_enum)]
     model: Option<inputs::ModelName>,
+    /// Instant impacts closer than this are one: where the contact time is not known and the ranges hold a tilt that
+    /// leaves less between the ends, landing flat is one of the drops
+    #[arg(long, value_name = "TIME", default_value = "1ms", allow_hyphen_values = true, value_parser = quantities::contact_time)]
+    merge: Quantity,
     /// How to show the answer
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
@@ -96,7 +101,7 @@ impl Args {
         }
         let drops = files.iter().zip(&self.products).map(|(file, path)| crate::measured::drops(file, path));
         let drops = drops.collect::<Result<Vec<_>, _>>()?;
-        let accuracy = Accuracy { tolerance: self.tolerance, model: self.model.map(Into::into) };
+        let accuracy = Accuracy { tolerance: self.tolerance, model: self.model.map(Into::into), merge_s: self.merge.si };
         let assessments = files
             .iter()
             .zip(&self.products)

@@ -94,6 +94,8 @@ pub(crate) struct Beside<'a> {
     pub(crate) e: Option<f64>,
     pub(crate) gyration: Option<Quantity>,
     pub(crate) masses: &'a [Piece],
+    /// Whether both ends land as one, without a tilt.
+    pub(crate) flat: bool,
     /// Whether a contact time counts for instant impacts, too.
     pub(crate) instant_contacts: bool,
 }
@@ -176,7 +178,7 @@ impl DropArgs {
         let mut notes = self.slips(beside);
         let length = either(self.length, self.length_m);
         let length_m = length.map(|length| length.si).or(file.as_ref().map(OneDrop::length_m));
-        let tilt_deg = self.tilt_deg.or(self.tilt.map(|tilt| neat(tilt.si.to_degrees())));
+        let tilt_deg = self.tilt_deg.or(self.tilt.map(|tilt| neat(tilt.si.to_degrees()))).or(beside.flat.then_some(0.0));
         let contact_time = self.contact_time();
         let model = beside.model.unwrap_or(match (contact_time, &file) {
             (None, Some(file)) if !file.has_contact_time() => ModelName::FiniteTilt,
@@ -184,6 +186,9 @@ impl DropArgs {
         });
         self.check(model)?;
         let compliant = model == ModelName::Compliant;
+        if beside.flat && compliant {
+            return Err(Failure::Usage("--flat goes with instant impacts: contacts that take time land flat with --tilt=0deg"));
+        }
         let asked = compliant || beside.instant_contacts;
         let of_file = |file: &mut Option<OneDrop>| file.as_mut().filter(|_| asked)?.contact_time_s();
         let contact_time_s = contact_time.map(|time| time.si).or_else(|| of_file(&mut file));

@@ -244,7 +244,7 @@ pub(crate) fn parts(text: &str, between: char) -> Vec<&str> {
 
 pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
     let share = share(text)?;
-    Accuracy { tolerance: share, model: None }.check().map_err(|error| error.to_string())?;
+    Accuracy { tolerance: share, ..Accuracy::default() }.check().map_err(|error| error.to_string())?;
     Ok(share)
 }
 

@@ -115,7 +115,7 @@ impl OneDrop {
         Some(Self::take(&mut self.notes, "contact time", &spread, Taken::Least, "s"))
     }
     pub(crate) fn contact_law(&self) -> ContactLaw {
-        self.file.product.contact_law
+        self.file.product.law()
     }
     pub(crate) fn restitution(&mut self) -> f64 {
         Self::take(&mut self.notes, "restitution", &self.file.product.restitution, Taken::Largest, "")

@@ -108,6 +108,9 @@ pub(crate) struct Args {
     model: Option<ModelName>,
     #[command(flatten)]
     drop: DropArgs,
+    /// With --model: land flat, both ends as one, instant impacts that are closer than any contact lasts; in place of a tilt
+    #[arg(long, requires = "followed", conflicts_with_all = ["tilt", "tilt_deg"])]
+    flat: bool,
     /// With --model: how exact the answer is for the model, as a share of it: 0.01 or 1%
     #[arg(long, value_name = "SHARE", default_value = "1%", allow_hyphen_values = true, value_parser = inputs::tolerance, requires = "followed")]
     tolerance: f64,

@@ -192,6 +192,7 @@ impl Args {
     fn drop(&self, streams: &mut Streams<'_>) -> Result<Drop<'_>, Failure> {
         let Inertia { gyration, gyration_m, mass } = &self.inertia;
         let beside = Beside {
+            flat: false,
             model: self.model,
             e: self.e,
             gyration: gyration.or(gyration_m.map(Quantity::of_si)),

@@ -1,6 +1,6 @@
 //! Values as people say them: in common units, with as many digits as they are good for.
 
-use clatter_assess::{LimitAssessment, STANDARD_GRAVITY_M_S2, Unit, WorstCase, units};
+use clatter_assess::{STANDARD_GRAVITY_M_S2, Unit, WorstCase, units};
 
 use crate::inputs;
 use crate::numbers::figures;
@@ -76,11 +76,6 @@ pub(crate) fn drop(worst: &WorstCase) -> String {
         four(worst.restitution),
         four(1e3 * worst.position_m),
     )
-}
-
-/// Whether a drop was answered at all: what was not asks for nothing known.
-pub(crate) fn is_answered(limit: &LimitAssessment) -> bool {
-    !limit.worst_case.command.is_empty()
 }
 
 #[cfg(test)]

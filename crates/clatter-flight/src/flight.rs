@@ -117,6 +117,11 @@ pub enum Stop {
         /// thousand times or so), or where contacts take more than 20 000 phases and 128 for each strike that is allowed.
         time_s: f64,
     },
+    /// What follows is not known: the energy of the body has changed by more than 1 % without reason (contacts that take time).
+    EnergyLimit {
+        /// When it had.
+        time_s: f64,
+    },
     /// More strikes would follow than may be listed.
     ImpactLimit {
         /// When the last listed strike happened; of contacts that take time, when the next one would.
@@ -125,7 +130,7 @@ pub enum Stop {
 }
 
 impl Stop {
-    /// `at-rest`, `bounced-clear`, `turned-over`, `enough`, `time-limit` or `impact-limit`.
+    /// `at-rest`, `bounced-clear`, `turned-over`, `enough`, `time-limit`, `energy-limit` or `impact-limit`.
     #[must_use]
     pub fn reason(&self) -> &'static str {
         match self {
@@ -134,6 +139,7 @@ impl Stop {
             Self::TurnedOver { .. } => "turned-over",
             Self::Enough { .. } => "enough",
             Self::TimeLimit { .. } => "time-limit",
+            Self::EnergyLimit { .. } => "energy-limit",
             Self::ImpactLimit { .. } => "impact-limit",
         }
     }
@@ -146,6 +152,7 @@ impl Stop {
             | Self::TurnedOver { time_s }
             | Self::Enough { time_s }
             | Self::TimeLimit { time_s }
+            | Self::EnergyLimit { time_s }
             | Self::ImpactLimit { time_s } => time_s,
         }
     }

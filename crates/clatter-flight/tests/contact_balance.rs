@@ -62,18 +62,6 @@ fn held_by_springs(scene: &Scene, contact: &Contact, flight: &ContactFlight, tim
     (0..2).filter_map(last).map(one).sum()
 }
 
-/// How often a point comes to press: at each strike, and again where it has parted below the ground.
-fn times_pressed(flight: &ContactFlight) -> u32 {
-    let times: Vec<f64> = flight.phases_s().chain([flight.flight.stop.time_s()]).collect();
-    let (mut pressed, mut pressing) = (0, [false; 2]);
-    for pair in times.windows(2) {
-        let now = flight.sample(0.5 * (pair[0] + pair[1])).force_per_mass_m_s2.map(|force| force > 0.0);
-        pressed += (0..2).map(|i| u32::from(now[i] && !pressing[i])).sum::<u32>();
-        pressing = now;
-    }
-    pressed
-}
-
 /// Whether the body turns by more than a right angle in one flight.
 fn tumbles(flight: &ContactFlight) -> bool {
     let end_s = flight.flight.stop.time_s();
@@ -93,10 +81,10 @@ proptest! {
     #[test]
     fn energy_never_grows((scene, contact) in any_drop(), precision in prop_oneof![Just(1e-3), Just(1e-4), Just(1e-5)]) {
         let flight = scene.contacts_until(&contact, precision, |_| false).expect("a flight");
-        // Some of the precision for each time that a point presses, over the energy of the drop and not that of a faster turn. A
-        // strike is too coarse a count: a body may rock in its dents by hundreds of presses, without loss and without a new strike.
-        let pressed = f64::from(times_pressed(&flight));
-        prop_assert!(flight.energy_error < 4.0 * pressed * precision, "{:e} at {precision:e}", flight.energy_error);
+        // Some of the precision for each press, over the energy of the drop and not that of a faster turn; and 1 % whatever their number.
+        let pressed = f64::from(u32::try_from(flight.presses.len()).expect("presses"));
+        let most = (4.0 * pressed * precision).min(0.02);
+        prop_assert!(flight.energy_error < most, "{:e} at {precision:e}", flight.energy_error);
         let first = energy(&scene, &flight, 0.0);
         let end = flight.flight.stop.time_s();
         let mut held = first;
@@ -171,22 +159,5 @@ proptest! {
                 prop_assert!((one - other).abs() <= lines * largest.max(had) + 1e-9 * largest, "{one} {other} of {had}");
             }
         }
-    }
-}
-
-/// A drop that rocks in its dents: many presses of two strikes. Each gets far less wrong than the precision.
-#[test]
-fn rocking_in_dents_counts_each_press() {
-    let e = 0.255_805_269_8;
-    let body = Body::off_center(0.6018, 0.3982, 0.45922).expect("a bar");
-    let scene =
-        Scene::new(body, e, 99.9, 0.014_267_777_656_725_234_f64.to_degrees(), 7_266.212_578_633_645_5).expect("a drop");
-    let contact = Contact::new(ContactLaw::Hysteretic, e, TIME).expect("a contact");
-    for precision in [1e-4, 1e-5] {
-        let flight = scene.contacts_until(&contact, precision, |_| false).expect("a flight");
-        let (pressed, strikes) = (times_pressed(&flight), flight.presses.len());
-        assert!(pressed > 50 && strikes < 10, "{pressed} presses, {strikes} strikes");
-        // Measured: 0.06 and 0.02 of the precision for each.
-        assert!(flight.energy_error < 0.2 * f64::from(pressed) * precision, "{:e}", flight.energy_error);
     }
 }

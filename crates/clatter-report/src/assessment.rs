@@ -58,7 +58,7 @@ pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureEr
     let Pages { file, assessment, portraits, measured: drops, .. } = *pages;
     let parts: Vec<Part<'_>> = file.components.iter().zip(&assessment.components).zip(portraits).collect();
     let names: Vec<String> = parts.iter().map(|((_, assessed), _)| name(&assessed.name)).collect();
-    let margins: Vec<String> = parts.iter().map(|((_, assessed), _)| percent(assessed.tightest().margin)).collect();
+    let margins: Vec<String> = parts.iter().map(|((_, assessed), _)| assessed.tightest().margin.map_or("?".to_owned(), percent)).collect();
     let places = parts.iter().zip(names.iter().zip(&margins));
     let places: Vec<Place<'_>> = places
         .map(|(((component, assessed), portrait), (name, word))| Place {
@@ -111,12 +111,12 @@ pub(crate) fn surely_named(assessment: &Assessment) -> Option<Assessment> {
     changed.then_some(sure)
 }
 
-/// The limit that is passed by most: the part, the margin.
+/// The limit that is exceeded by most: the part, the margin.
 fn hardest(assessment: &Assessment) -> Option<Value> {
     let limits = assessment.components.iter().flat_map(|c| c.limits.iter().map(move |l| (c, l)));
-    let passed = limits.filter(|(_, l)| l.verdict == Verdict::Unsafe);
-    let worst = passed.min_by(|a, b| a.1.margin.total_cmp(&b.1.margin));
-    worst.map(|(c, l)| json!({ "name": name(&c.name), "limit": limit(l.limit), "margin": percent(l.margin) }))
+    let exceeded = limits.filter(|(_, l)| l.verdict == Verdict::Unsafe);
+    let worst = exceeded.min_by(|a, b| a.1.room().total_cmp(&b.1.room()));
+    worst.map(|(c, l)| json!({ "name": name(&c.name), "limit": limit(l.limit), "margin": percent(l.room()) }))
 }
 
 /// The response over time of one part, and its demand over the tilt.

@@ -141,6 +141,7 @@ mod tests {
                 body: Body::new(0.14, gyration_m).unwrap(),
                 first: clatter::End::A,
                 tilt_rad,
+                flat: false,
                 speed_m_s: 1.0,
                 restitution: e,
                 gravity_m_s2: 9.81,

@@ -137,6 +137,23 @@ impl Range {
         let seen = (self.low.value, self.high.value);
         modes.free_extremes(k, m, span, seen, |tau, value| self.note(interval, tau, value));
     }
+    /// The same of the motion under a constant forcing from now on, which tends to x = f.
+    pub(crate) fn note_carried(&mut self, modes: &Modes, k: usize, m: Motion, forcing: f64, interval: usize) {
+        if forcing == 0.0 {
+            return self.note_free(modes, k, m, f64::INFINITY, interval);
+        }
+        self.note(interval, 0.0, modes.quantity(k, m));
+        let swing = Motion { x: m.x - forcing, w: m.w - modes.sigma * forcing };
+        let about = match k {
+            Modes::DISPLACEMENT => forcing,
+            Modes::VELOCITY => 0.0,
+            _ => -forcing,
+        };
+        // Damped beyond critical it comes ever closer to that from one side.
+        self.note(interval, 0.0, about);
+        let seen = (self.low.value - about, self.high.value - about);
+        modes.free_extremes(k, swing, f64::INFINITY, seen, |tau, value| self.note(interval, tau, about + value));
+    }
     /// The extremes and their times; interval i begins at `start(i)`.
     pub(crate) fn peaks(&self, omega: f64, start: impl Fn(usize) -> f64) -> Peaks {
         let peak = |m: Mark| Peak { value: m.value, time: start(m.interval) + m.tau / omega };

@@ -73,12 +73,14 @@ impl Pulse {
 }
 
 /// A checked history of base acceleration: pulses that may overlap, a piecewise linear history, or sections with velocity
-/// shocks, straight lines and sinusoids. Zero before and after.
+/// shocks, straight lines and sinusoids. Zero before, and after unless it is [carried](Self::carried).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pulses {
     pieces: Vec<Piece>,
     sines: Vec<SinePiece>,
     end: Instant,
+    /// Acceleration from the end on.
+    carried: f64,
 }
 
 /// An instant as the unevaluated sum of two doubles: a short pulse late in time keeps its length.
@@ -197,7 +199,7 @@ impl Pulses {
             overlap::add_terms(p, &mut terms);
         }
         let (pieces, sines, end) = overlap::pieces(terms)?;
-        Ok(Self { pieces, sines, end })
+        Ok(Self { pieces, sines, end, carried: 0.0 })
     }
     /// A piecewise linear history of (time, acceleration); two points at one time are a jump.
     ///
@@ -271,7 +273,33 @@ impl Pulses {
             pieces.push(Piece { start: at, length, shock: delta_v, from, to, sines: (first, sines.len()) });
             at = Instant::after(at.hi, length + at.lo);
         }
-        if pieces.is_empty() { Err(Error::Empty("sections")) } else { Ok(Self { pieces, sines, end: at }) }
+        if pieces.is_empty() { Err(Error::Empty("sections")) } else { Ok(Self { pieces, sines, end: at, carried: 0.0 }) }
+    }
+    /// The same history with a constant acceleration from its end on, for ever: the weight of what has come to rest.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Entry`] unless it is finite.
+    ///
+    /// # Examples
+    ///
+    /// A weight that is on at once does twice what it does at rest:
+    ///
+    /// ```
+    /// # use clatter_shock::{DampingRatio, Pulses, Section, Suspension};
+    /// let fall = Section { length: 0.1, delta_v: 0.0, acceleration: [0.0; 2], sines: &[] };
+    /// let mount = Suspension::new(20.0, DampingRatio::new(0.0)?)?;
+    /// let response = Pulses::of_sections(0.0, [fall])?.carried(9.8)?.respond(&mount);
+    /// assert!((response.absolute_acceleration.peak().value - 2.0 * 9.8).abs() < 1e-12);
+    /// assert!((response.relative_displacement.peak().value + 2.0 * 9.8 / 400.0).abs() < 1e-12);
+    /// # Ok::<(), clatter_shock::Error>(())
+    /// ```
+    pub fn carried(self, acceleration: f64) -> Result<Self, Error> {
+        if !acceleration.is_finite() {
+            let (name, allowed) = ("acceleration after the end", "finite");
+            return Err(Error::Entry { list: "sections", entry: self.pieces.len() + 1, name, value: acceleration, allowed });
+        }
+        Ok(Self { carried: acceleration, ..self })
     }
     /// A piecewise linear history of points already checked: finite, in order of time.
     pub(crate) fn from_sorted(points: &[(f64, f64)]) -> Self {
@@ -284,7 +312,7 @@ impl Pulses {
             to: w[1].1,
             sines: (0, 0),
         }));
-        Self { pieces, sines: Vec::new(), end: Instant::at(points.last().map_or(0.0, |p| p.0)) }
+        Self { pieces, sines: Vec::new(), end: Instant::at(points.last().map_or(0.0, |p| p.0)), carried: 0.0 }
     }
     /// Peaks of the component's response, ring-down included. Interval i begins at the i-th begin or end of a part of a
     /// pulse.
@@ -318,7 +346,7 @@ impl Pulses {
         let omega = suspension.omega();
         let last = self.drive(&modes, omega, &[0, 1, 2], &mut ranges);
         for (k, range) in ranges.iter_mut().enumerate() {
-            range.note_free(&modes, k, last, f64::INFINITY, self.pieces.len());
+            range.note_carried(&modes, k, last, -self.carried / omega, self.pieces.len());
         }
         Response::from_ranges(omega, &ranges, |i| self.begin(i))
     }
@@ -357,7 +385,7 @@ impl Pulses {
         let last = self.drive(&modes, omega, &[row], &mut range);
         let [mut range] = range;
         if rings_down {
-            range.note_free(&modes, row, last, f64::INFINITY, self.pieces.len());
+            range.note_carried(&modes, row, last, -self.carried / omega, self.pieces.len());
         }
         range.peak_above(above, omega, |i| self.begin(i))
     }

@@ -213,7 +213,7 @@ impl ProductFile {
 
 /// Whether a part is safe with a margin.
 fn is_enough(found: &ComponentAssessment, margin: f64) -> bool {
-    found.verdict == Verdict::Safe && found.tightest().margin >= margin
+    found.verdict == Verdict::Safe && found.tightest().room() >= margin
 }
 
 impl Product {
@@ -261,7 +261,9 @@ impl Case<'_> {
         let (here, [lo, hi]) = (self.here(lever), self.reach(lever));
         // Where the present value is beyond the bounds, from the bound that is next to it.
         let start = here.clamp(lo, hi);
-        let mut breakers = vec![self.ranges(self.file).place_of(self.component, &found.worst_case)];
+        let ranges = self.ranges(self.file);
+        let mut breakers: Vec<Place> =
+            found.worst_case.iter().map(|worst| ranges.place_of(self.component, worst)).collect();
         let step = (hi - lo) / f64::from(STEPS);
         for k in 1..=STEPS {
             let mut best: Option<(f64, Box<ComponentAssessment>)> = None;
@@ -313,7 +315,7 @@ impl Case<'_> {
             if after.limits.iter().any(|limit| limit.verdict == Verdict::Undecided && limit.uncertainty.is_infinite()) {
                 return;
             }
-            let closer = |last: &Together| after.tightest().margin > last.after.tightest().margin;
+            let closer = |last: &Together| after.tightest().room() > last.after.tightest().room();
             if nearest.as_ref().is_none_or(closer) {
                 nearest = Some(Together { changes, after: Box::new(after) });
             }
@@ -362,7 +364,7 @@ impl Case<'_> {
             let x = lo + f64::from(k) / f64::from(TRIES) * (hi - lo);
             Some((lever, x, self.assessed(&[(lever, x)])?))
         });
-        tries.max_by(|a, b| a.2.tightest().margin.total_cmp(&b.2.tightest().margin))
+        tries.max_by(|a, b| a.2.tightest().room().total_cmp(&b.2.tightest().room()))
     }
 
     /// Whether a limit of the part depends on a lever.
@@ -397,7 +399,7 @@ impl Case<'_> {
         if is_enough(&found, self.margin) {
             return Some(found);
         }
-        breakers.push(ranges.place_of(component, &found.worst_case));
+        breakers.extend(found.worst_case.iter().map(|worst| ranges.place_of(component, worst)));
         None
     }
 

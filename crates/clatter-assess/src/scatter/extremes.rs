@@ -150,11 +150,12 @@ impl Corners {
                         body: product.body,
                         first,
                         tilt_rad: drop.tilt_rad.at(f64::from(k) / f64::from(steps.max(1))),
+                        flat: false,
                         speed_m_s,
                         restitution: 0.0,
                         gravity_m_s2: drop.gravity_m_s2,
                         contact_time_s,
-                        contact_law: product.contact_law,
+                        contact_law: product.law(),
                     }));
                 }
             }

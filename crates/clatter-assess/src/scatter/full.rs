@@ -91,7 +91,7 @@ fn of_part(followed: &Followed, part: &PartSample, above: f64) -> Result<(Asked,
             continue;
         }
         match felt.answer(limit, part.suspension.as_ref(), above)? {
-            Some(answer) if answer.error >= 0.0 => asked.raise(k, answer.utilization(), answer.error),
+            Some(answer) => asked.raise(k, answer.utilization(), answer.error()),
             None if above >= 0.0 => {}
             // It may have been left before the part began to move.
             _ if followed.is_early() => goes_on = true,

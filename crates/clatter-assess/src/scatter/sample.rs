@@ -249,11 +249,12 @@ impl Inputs {
             body: product.body,
             first: drop.first_ends()[0],
             tilt_rad: drop.tilt_rad.lo(),
+            flat: false,
             speed_m_s: drop.speeds_m_s()[0],
             restitution: product.restitution.lo(),
             gravity_m_s2: drop.gravity_m_s2,
             contact_time_s: product.contact_time_s.map(|time| time.lo()),
-            contact_law: product.contact_law,
+            contact_law: product.law(),
         };
         let Finder { varied, assumed_even } = finder;
         let firsts = drop.first_ends();

@@ -32,7 +32,7 @@ impl Ranges<'_> {
     /// Climbs from a place in all ranges, one after the other, each step half as long as the last.
     pub(super) fn climb(&self, task: &Task<'_>, start: Asked, tilt_step: f64) -> Asked {
         let (until, fastest) = (Until::Lands, fastest_rad_s(task.component));
-        let free = self.free(task);
+        let free = self.free_at(task, &start.place);
         let mut steps = [tilt_step, 0.25, 0.25, 0.25, 0.125, 0.5];
         let mut best = start;
         let Ok(mut here) = self.follow(&best.place, until) else { return best };
@@ -65,7 +65,7 @@ impl Ranges<'_> {
     /// The same in all ranges at once: tries all around, ever closer. After rebounds all ranges together decide in which phase a part
     /// is struck again, and what stiff and rigidly mounted parts feel has edges where contacts meet.
     pub(super) fn climb_around(&self, task: &Task<'_>, start: Asked, reach: f64, tries: u32) -> Asked {
-        let (free, fastest) = (self.free(task), fastest_rad_s(task.component));
+        let (free, fastest) = (self.free_at(task, &start.place), fastest_rad_s(task.component));
         // A climb is after the peak that it began with, not after those that elastic products have for minutes.
         let until = if start.late { Until::Past(LATER * start.answer.time_s) } else { Until::Lands };
         let mut best = start;
@@ -103,6 +103,7 @@ pub(super) fn starts(found: &mut [Asked]) -> Vec<Asked> {
                 (other.place.shares[axis] - asked.place.shares[axis]).abs() < reach
             };
             other.late == asked.late
+                && other.place.flat == asked.place.flat
                 && other.place.first == asked.place.first
                 && other.place.position_m.to_bits() == asked.place.position_m.to_bits()
                 && (0..AXES).all(close)

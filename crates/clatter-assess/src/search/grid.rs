@@ -71,12 +71,21 @@ impl Ranges<'_> {
                     let mut add = |tilt: f64, speed: f64| {
                         let k = grid.len();
                         let shares = [tilt, speed, restitution.of(k), contact.of(k), 0.0, 0.0];
-                        grid.push(Place { first, position_m: 0.0, shares });
+                        grid.push(Place { first, flat: false, position_m: 0.0, shares });
                     };
                     even(steps, tilted).for_each(|tilt| add(tilt, 1.0));
                     // Slower drops seldom do more; fewer of them are followed.
                     even((steps / 4.0).ceil(), tilted).filter(|_| slow < fast).for_each(|tilt| add(tilt, 0.0));
                 }
+            }
+        }
+        if self.hold_flat() {
+            let first = self.firsts()[0];
+            let levels = [Level::At(1.0), Level::At(0.0), Level::Spread(SQRT_2)];
+            let speeds = if slow < fast { &[1.0, 0.0, 0.5][..] } else { &[1.0] };
+            for (restitution, &speed) in levels.iter().flat_map(|e| speeds.iter().map(move |speed| (e, speed))) {
+                let shares = [0.0, speed, restitution.of(grid.len()), 0.0, 0.0, 0.0];
+                grid.push(Place { first, flat: true, position_m: 0.0, shares });
             }
         }
         grid
@@ -100,7 +109,7 @@ impl Ranges<'_> {
             self.firsts().iter().flat_map(move |&first| {
                 [1.0, spread(k, SQRT_2)].map(|restitution| {
                     let shares = [share(lo + f64::from(k) * step), 1.0, restitution, spread(k, SQRT_3), 0.0, 0.0];
-                    (k, Place { first, position_m: 0.0, shares })
+                    (k, Place { first, flat: false, position_m: 0.0, shares })
                 })
             })
         };
@@ -111,7 +120,7 @@ impl Ranges<'_> {
     pub(super) fn spread_out(&self, k: u32) -> Place {
         let firsts = self.firsts();
         let first = firsts[k as usize % firsts.len()];
-        Place { first, position_m: 0.0, shares: std::array::from_fn(|axis| halton(axis, k)) }
+        Place { first, flat: false, position_m: 0.0, shares: std::array::from_fn(|axis| halton(axis, k)) }
     }
 }
 

@@ -3,13 +3,15 @@
 use clatter::End;
 
 use crate::drop::{Model, SingleDrop};
-use crate::search::Task;
-use crate::{Component, Drop, Mount, Product, Spread, WorstCase};
+use crate::search::{Asked, Task};
+use crate::{Component, ContactLaw, Drop, Mount, Product, Spread, WorstCase};
 
 /// Where in the ranges a drop and a part are.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Place {
     pub(crate) first: End,
+    /// Whether both ends land as one.
+    pub(crate) flat: bool,
     pub(crate) position_m: f64,
     /// From 0 to 1 along each range: of the [axes](AXES).
     pub(crate) shares: [f64; AXES],
@@ -29,7 +31,10 @@ pub(crate) struct Ranges<'a> {
     pub(crate) product: &'a Product,
     pub(crate) drop: &'a Drop,
     pub(crate) model: Model,
+    pub(crate) law: ContactLaw,
     pub(crate) tolerance: f64,
+    /// Instant impacts closer than this are one.
+    pub(crate) merge_s: f64,
 }
 
 impl Ranges<'_> {
@@ -43,12 +48,13 @@ impl Ranges<'_> {
         SingleDrop {
             body: self.product.body,
             first: place.first,
-            tilt_rad: (root * root).clamp(tilt.lo(), tilt.hi()),
+            tilt_rad: if place.flat { 0.0 } else { (root * root).clamp(tilt.lo(), tilt.hi()) },
+            flat: place.flat,
             speed_m_s: (slow + speed * (fast - slow)).clamp(slow, fast),
             restitution: self.product.restitution.at(restitution),
             gravity_m_s2: self.drop.gravity_m_s2,
             contact_time_s: self.product.contact_time_s.map(|time| time.at(contact)),
-            contact_law: self.product.contact_law,
+            contact_law: self.law,
         }
     }
 
@@ -72,13 +78,33 @@ impl Ranges<'_> {
             part[0],
             part[1],
         ];
-        Place { first: worst.first, position_m: worst.position_m, shares }
+        Place { first: worst.first, flat: worst.flat, position_m: worst.position_m, shares }
     }
 
     /// The middle of all ranges.
     pub(crate) fn middle(&self, component: &Component) -> Place {
         let position_m = 0.5 * (component.position_m.lo() + component.position_m.hi());
-        Place { first: self.drop.first_ends()[0], position_m, shares: [0.5; AXES] }
+        Place { first: self.drop.first_ends()[0], flat: false, position_m, shares: [0.5; AXES] }
+    }
+
+    /// Whether the drops with the least tilt land as one: without a contact time, strikes closer than any contact lasts are not
+    /// apart.
+    pub(crate) fn hold_flat(&self) -> bool {
+        let [_, fast] = self.drop.speeds_m_s();
+        let gap_m = self.product.body.length_m() * self.drop.tilt_rad.lo().sin();
+        self.product.contact_time_s.is_none() && gap_m < self.merge_s * fast
+    }
+
+    /// Whether a flat drop is one of the ranges.
+    pub(crate) fn hold(&self, flat: &Asked) -> bool {
+        if flat.place.flat { self.hold_flat() } else { self.drop.tilt_rad.lo() == 0.0 }
+    }
+
+    /// Which axes have a range at a place: a flat drop has no tilt.
+    pub(super) fn free_at(&self, task: &Task<'_>, place: &Place) -> [bool; AXES] {
+        let mut free = self.free(task);
+        free[TILT] &= !place.flat;
+        free
     }
 
     /// Which axes have a range.
@@ -108,6 +134,12 @@ impl Ranges<'_> {
 }
 
 impl Place {
+    /// Landing flat: as one, or with the tilt at the least of its range.
+    pub(crate) fn flattened(mut self, as_one: bool) -> Self {
+        self.flat = as_one;
+        self.shares[TILT] = 0.0;
+        self
+    }
     pub(super) fn with(mut self, axis: usize, share: f64) -> Self {
         self.shares[axis] = share;
         self

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clatter_assess::{Assessment, ComponentAssessment, LimitAssessment, ProductFile, Verdict};
 
 use crate::text::{column, path, shown};
-use crate::words::{drop, four, in_words, is_answered, margin, percent};
+use crate::words::{drop, four, in_words, margin, percent};
 
 fn verdict(verdict: Verdict) -> &'static str {
     match verdict {
@@ -25,10 +25,10 @@ pub(super) fn of_one(file: &ProductFile, assessment: &Assessment, out: &mut dyn 
     limits(file, assessment, out)?;
     writeln!(out)?;
     writeln!(out, "Bound by energy: no drop of the ranges asks for more; parts on a suspension have none.")?;
-    writeln!(out, "Flat drop: one impact without clatter, (1 + e) v0 everywhere at once, as drop standards assume.")?;
+    writeln!(out, "Flat drop: what the worst drop would ask if both ends landed at once, as drop standards assume.")?;
     let all = assessment.components.iter().flat_map(|component| &component.limits);
     if all.clone().any(|limit| limit.other_law.is_some()) {
-        writeln!(out, "Other law: what the worst drop asks for by the other contact law.")?;
+        writeln!(out, "Other law: what the worst drop by the other contact law asks for.")?;
     }
     if let Some(limit) = all.clone().next() {
         writeln!(out, "\nWorst drops, by the model {}: {}", limit.model.bar.name(), limit.model.reason)?;
@@ -73,17 +73,16 @@ fn limits(file: &ProductFile, assessment: &Assessment, out: &mut dyn Write) -> i
             let first = if i == 0 { name(component) } else { String::new() };
             let written = given.limits.unit(limit.limit, limit.unit);
             let of = |value: Option<f64>| value.map_or("-".to_owned(), |value| in_words(limit.unit, written, value));
-            let answered = is_answered(limit);
             rows.push([
                 first,
                 limit.limit.name().to_owned(),
                 verdict(limit.verdict).to_owned(),
                 of(Some(limit.allowed)),
-                of(answered.then_some(limit.demand)),
-                if answered { margin(limit.margin) } else { "-".to_owned() },
-                if answered { percent(limit.uncertainty) } else { "-".to_owned() },
+                of(limit.demand),
+                limit.margin.map_or("-".to_owned(), margin),
+                limit.margin.map_or("-".to_owned(), |_| percent(limit.uncertainty)),
                 of(limit.bound),
-                of(answered.then_some(limit.clatter_free)),
+                of(limit.clatter_free),
                 of(limit.other_law),
             ]);
         }
@@ -105,17 +104,15 @@ fn limits(file: &ProductFile, assessment: &Assessment, out: &mut dyn Write) -> i
 /// The drop behind a demand: why the limit is undecided, what else is to be known, and the command that repeats it.
 fn worst_drop(component: &ComponentAssessment, limit: &LimitAssessment, out: &mut dyn Write) -> io::Result<()> {
     write!(out, "{}, {}: ", name(component), limit.limit.name())?;
-    let worst = &limit.worst_case;
-    if is_answered(limit) {
-        writeln!(out, "{}; impact {} at {} ms", drop(worst), worst.impact, four(1e3 * worst.time_s))?;
-    } else {
-        writeln!(out, "no drop is answered")?;
+    match &limit.worst_case {
+        Some(worst) => writeln!(out, "{}; impact {} at {} ms", drop(worst), worst.impact, four(1e3 * worst.time_s))?,
+        None => writeln!(out, "no drop is answered")?,
     }
     if let Some(reason) = &limit.undecided {
         writeln!(out, "  undecided: {reason}")?;
     }
     limit.notes.iter().try_for_each(|note| writeln!(out, "  note: {note}"))?;
-    if is_answered(limit) { writeln!(out, "  {}", worst.command) } else { Ok(()) }
+    limit.worst_case.iter().try_for_each(|worst| writeln!(out, "  {}", worst.command))
 }
 
 /// Margins of several products, a column each.
@@ -152,7 +149,7 @@ pub(super) fn side_by_side(files: &[PathBuf], assessments: &[Assessment], out: &
         let cell = |assessment: &Assessment| {
             let component = assessment.components.iter().find(|c| c.name == *name);
             let found = component.and_then(|c| c.limits.iter().find(|l| l.limit.name() == *limit));
-            found.map_or("-".to_owned(), |limit| if is_answered(limit) { margin(limit.margin) } else { "?".to_owned() })
+            found.map_or("-".to_owned(), |limit| limit.margin.map_or("?".to_owned(), margin))
         };
         let cells: Vec<_> = assessments.iter().map(cell).collect();
         writeln!(out, "{}", line(&shown(name, 24), limit, &cells))?;

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use clatter_assess::design::{Change, Lever, Outcome, Plane, Remedies, Remedy, Together};
-use clatter_assess::{Assessment, ComponentAssessment, ProductFile, Verdict};
+use clatter_assess::{Assessment, ComponentAssessment, LimitAssessment, ProductFile, Verdict};
 use serde::Serialize;
 
 use crate::numbers::{Json, digits, figures, given};
@@ -22,7 +22,7 @@ pub(super) struct Found<'a> {
 
 /// The smallest margin of a component.
 fn margin(component: &ComponentAssessment) -> f64 {
-    component.limits.iter().map(|limit| limit.margin).fold(f64::INFINITY, f64::min)
+    component.limits.iter().map(LimitAssessment::room).fold(f64::INFINITY, f64::min)
 }
 
 /// What a lever is called.

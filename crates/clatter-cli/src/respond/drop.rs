@@ -56,6 +56,7 @@ impl Args {
     pub(super) fn drop_by(&self, streams: &mut Streams<'_>) -> Result<Drop<'_>, Failure> {
         let Inertia { gyration, gyration_m, mass, .. } = &self.inertia;
         let beside = Beside {
+            flat: self.flat,
             model: self.model,
             e: self.e,
             gyration: gyration.or(gyration_m.map(Quantity::of_si)),
@@ -68,6 +69,7 @@ impl Args {
             body,
             first: End::A,
             tilt_rad: scene.tilt_rad(),
+            flat: self.flat,
             speed_m_s: scene.speed_m_s(),
             restitution: scene.e(),
             gravity_m_s2: scene.gravity_m_s2(),
@@ -281,7 +283,7 @@ impl Drop<'_> {
             ("the change of angular velocity", &self.place.angular_velocity_change),
         ];
         for (name, answer) in part.into_iter().flatten().chain(place) {
-            let error = answer.map_or(0.0, |answer| answer.error);
+            let error = answer.map_or(0.0, |answer| answer.error());
             if error > TOLD * self.args.tolerance {
                 let share = if error.is_infinite() { "?".to_owned() } else { figures(100.0 * error) };
                 writeln!(out, "Off by {share} % at most: {name}; strikes multiply what those before got wrong")?;
@@ -399,7 +401,7 @@ impl AnswerJson {
             unit: answer.unit.name(),
             time_s: Json(answer.time_s),
             impact: answer.impact,
-            error: Json(answer.error),
+            error: Json(answer.error()),
         })
     }
 }

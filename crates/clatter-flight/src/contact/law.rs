@@ -11,8 +11,8 @@ use crate::scene::within;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ContactLaw {
     /// Loading along F = k₁ d; unloading and reloading along F = k₂ (d − d₀) with k₂ = k₁/e² and d₀ = d_max (1 − e²), never
-    /// pulling; back at d_max the point is on the first line again, and once it has been above the ground all is
-    /// forgotten (Walton and Braun). With ω₁ = (π/2)(1 + e)/τ and k₁ = ω₁²/μ the pulse is a quarter sine of τ/(1 + e) and a quarter
+    /// pulling; back at d_max the point is on the first line again (after Walton and Braun). Parted below the ground, the next press
+    /// begins there as new, d₀ lower, until the point has been above the ground. With ω₁ = (π/2)(1 + e)/τ and k₁ = ω₁²/μ the pulse is a quarter sine of τ/(1 + e) and a quarter
     /// cosine of τ e/(1 + e): its largest force is that of the half-sine with the same length and velocity change, which
     /// shock tables and standards mean.
     #[default]
@@ -20,6 +20,32 @@ pub enum ContactLaw {
     /// A spring and a dashpot, F = κ (d + θ d′), never pulling. The force jumps as the point touches, and is largest there
     /// below e ≈ 0.3: right for some rubber.
     Dashpot,
+}
+
+impl ContactLaw {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Hysteretic, Self::Dashpot];
+    /// `hysteretic` or `dashpot`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Hysteretic => "hysteretic",
+            Self::Dashpot => "dashpot",
+        }
+    }
+    /// The law of this name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|law| law.name() == name)
+    }
+    /// The other one.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::Hysteretic => Self::Dashpot,
+            Self::Dashpot => Self::Hysteretic,
+        }
+    }
 }
 
 /// A contact law fitted to a lone contact.

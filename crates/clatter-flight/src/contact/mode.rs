@@ -74,6 +74,14 @@ impl Mode {
             (self.load * half - (motion[0] - self.z - self.dz * t)) / self.lambda,
         ]
     }
+    /// What its dashpot has taken since time 0, at the motion of time t: θ∫z′² dt, the loss of ½ z′² + ½ λ (z − rest)² over λ.
+    pub(super) fn taken(&self, motion: &Motion) -> f64 {
+        if self.theta == 0.0 {
+            return 0.0;
+        }
+        let held = |z: f64, dz: f64| 0.5 * (dz * dz / self.lambda + (z - self.rest()).powi(2));
+        held(self.z, self.dz) - held(motion[0], motion[1])
+    }
     /// Stiffness λ.
     pub(crate) fn lambda(&self) -> f64 {
         self.lambda

@@ -413,6 +413,10 @@ impl<const N: usize> Phase<N> {
             spin_rad_s: pose.spin,
         }
     }
+    /// What its dashpots have taken until time t, per mass.
+    pub(super) fn taken(&self, motions: &[Motion; N]) -> f64 {
+        self.modes().iter().zip(motions).map(|(mode, motion)| mode.taken(motion)).sum()
+    }
     /// Energy of the springs per mass, for these heights of the points that press.
     pub(super) fn springs(&self, height: &[f64; N]) -> f64 {
         let one = |i: usize| self.lines[i].map_or(0.0, |line| line.stiffness * (line.zero - height[i]).powi(2));

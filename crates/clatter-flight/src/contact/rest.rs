@@ -7,34 +7,25 @@ use super::run::Run;
 use super::touch::{Event, State};
 use crate::flight::Stop;
 
-/// A point that bounces more often in the dent that it has made is laid down: no motion so small goes on for so long
-/// without loss, whatever the law says.
-const BOUNCES: u32 = 256;
-
-/// Phases after the last strike from which on a body of which two points are below the ground is taken to be at rest.
-const PHASES: usize = 4 * BOUNCES as usize;
-
-/// Contact times for which a strike is followed though no point can rise above the ground any more: it is one shock until then.
-const WHOLE: f64 = 3.0;
-
 /// A depth must be so many times what heights are told apart by.
 const SUNK: f64 = 16.0;
 
-/// A point as a well of energy under its share of the weight.
-struct Well {
-    /// Energy over the least that it can have.
-    over: f64,
-    /// What it must have to rise above the ground; none where it may do so now, or where its weight loads it further.
-    escape: Option<f64>,
-}
+/// So many times the energy of a weight that comes to press at once do not rise from it: with that, both ends press in turn, each
+/// deeper in its dent, and no force is more than four times the weight that the point carries. (Between 2 and 3 times is what bodies
+/// with q = 0.7 keep up for ever, as the ground gives way.)
+const BY_WEIGHT: f64 = 4.0;
+
+/// A point whose force swings by its weight and this more does not part, or parts so slowly that it soon does not.
+const PARTS: f64 = 1.001;
 
 /// A body over the points that would carry its weight.
 struct Weighed<const N: usize> {
     on: [usize; 2],
     forces: [f64; N],
-    wells: [Well; 2],
     /// Its energy over that at rest there.
     left: f64,
+    /// What that is where both points come to press with their weight at once, from no depth and no speed.
+    by_weight: f64,
 }
 
 impl<const N: usize> Run<'_, N> {
@@ -62,7 +53,7 @@ impl<const N: usize> Run<'_, N> {
         (self.precision * self.fastest).max(SUNK * self.margins.height * self.contact.frequency_rad_s())
     }
 
-    /// Lays down a point that alone presses and rings too slowly to be followed.
+    /// Lays down a point that alone presses and rings too slowly to be followed, or by less than its weight.
     pub(super) fn lay_down(&mut self) {
         let mut pressing = (0..N).filter(|&i| self.touches[i].is_pressing());
         let (Some(i), None) = (pressing.next(), pressing.next()) else { return };
@@ -75,8 +66,8 @@ impl<const N: usize> Run<'_, N> {
         let (height, velocity) = self.pose.points();
         let rate = (line.stiffness * self.share(i, i)).sqrt();
         let rest = line.zero - fall / (rate * rate);
-        let slow = velocity[i].hypot(rate * (height[i] - rest)) <= self.slow();
-        if slow || self.touches[i].bounces > BOUNCES {
+        let by_weight = if self.contact.law() == ContactLaw::Hysteretic { PARTS * fall / rate } else { 0.0 };
+        if velocity[i].hypot(rate * (height[i] - rest)) <= self.slow().max(by_weight) {
             let (contact, told) = (self.contact, SUNK * self.margins.height);
             let force = fall / self.share(i, i);
             let touch = &mut self.touches[i];
@@ -110,7 +101,7 @@ impl<const N: usize> Run<'_, N> {
     /// What may still come.
     pub(super) fn ahead(&self, lands: bool) -> Ahead {
         let strikes = &self.log.flight.strikes;
-        let down = (0..N).filter(|&i| self.touches[i].state != State::Away);
+        let down = (0..N).filter(|&i| self.touches[i].is_pressing());
         // The body may yet come to lie on a lower side.
         let most = self.weighed().map(|Weighed { on, left, .. }| {
             let lower = self.pose.body.height_over(on).abs() - self.pose.body.lowest_m();
@@ -141,19 +132,10 @@ impl<const N: usize> Run<'_, N> {
             let lies = self.touches.iter().any(|touch| touch.state == State::Lying);
             return (lies && fastest <= slow).then_some(([0.0; N], 2.0 * fastest));
         }
-        let may_be_trapped =
-            self.touches.iter().filter(|t| !matches!(t.state, State::Away | State::Loading)).count() > 1;
-        if !may_be_trapped && self.fastest_by(kinetic) > slow {
-            return None;
-        }
-        let Weighed { on, forces, wells, left } = self.weighed()?;
+        let Weighed { on, forces, left, by_weight } = self.weighed()?;
         let fastest = self.fastest_by(left);
-        let touched = self.presses.last().map_or(0.0, |press| press.from_s);
-        let trapped = self.time.now() - touched > WHOLE * self.contact.time_s()
-            && wells.iter().all(|well| well.escape.is_some_and(|escape| left < escape));
-        let tired = self.phases.len() - self.since > PHASES && on.iter().all(|&i| self.touches[i].state != State::Away);
         let struck = |i: usize| self.log.flight.strikes.iter().any(|strike| strike.point == i);
-        ((fastest <= slow || trapped || tired) && on.into_iter().all(struck)).then_some((forces, 2.0 * fastest))
+        ((fastest <= slow || left <= BY_WEIGHT * by_weight) && on.into_iter().all(struck)).then_some((forces, 2.0 * fastest))
     }
 
     fn kinetic(&self) -> f64 {
@@ -173,34 +155,28 @@ impl<const N: usize> Run<'_, N> {
         let [i, j] = on;
         let mut forces = [0.0; N];
         (forces[i], forces[j]) = (pose.gravity * x[j] / (x[j] - x[i]), -pose.gravity * x[i] / (x[j] - x[i]));
-        let wells = on.map(|i| self.well(i, height[i], forces[i]));
-        let left = self.kinetic() + wells.iter().map(|well| well.over).sum::<f64>();
-        Some(Weighed { on, forces, wells, left })
+        let left = self.kinetic() + on.iter().map(|&i| self.over(i, height[i], forces[i])).sum::<f64>();
+        let by_weight = on.iter().map(|&i| 0.5 * forces[i] * forces[i] / self.stiffness(i)).sum::<f64>();
+        Some(Weighed { on, forces, left, by_weight })
     }
 
-    /// A point under a weight, by the line on which it is or would be.
+    /// Energy of a point under a weight over the least that it can have, by the line on which it is or would be.
     ///
-    /// What loads it deeper takes more energy than the ground there gives: from a force above its weight on, the energy
-    /// that is left never rises, nor does the ground come closer.
-    fn well(&self, i: usize, height: f64, weight: f64) -> Well {
+    /// What loads it deeper takes more energy than the ground there gives: from a force above twice its weight on, the energy
+    /// that is left never rises.
+    fn over(&self, i: usize, height: f64, weight: f64) -> f64 {
         let touch = &self.touches[i];
         let unloading = touch.stiffness * self.contact.unloading();
         let (stiffness, zero) = match (touch.state, self.contact.law()) {
             (State::Away, _) => (self.stiffness(i), 0.0),
             (State::Loading, _) | (State::Parted, ContactLaw::Dashpot) => (touch.stiffness, touch.ground),
-            (State::Parted | State::Elastic, _) => (unloading, touch.zero),
+            (State::Parted, ContactLaw::Hysteretic) => (self.stiffness(i), touch.zero),
+            (State::Elastic, _) => (unloading, touch.zero),
             (State::Lying, ContactLaw::Dashpot) => (touch.stiffness, height + weight / touch.stiffness),
             (State::Lying, ContactLaw::Hysteretic) => (unloading, height + weight / unloading),
         };
         let energy = |h: f64| weight * h + if h < zero { 0.5 * stiffness * (zero - h).powi(2) } else { 0.0 };
-        let least = energy(zero - weight / stiffness);
-        let over = (energy(height) - least).max(0.0);
-        let hysteretic = self.contact.law() == ContactLaw::Hysteretic;
-        let dented = hysteretic && matches!(touch.state, State::Elastic | State::Lying | State::Parted);
-        // The whole of its strike is over: it has parted once, or is too slow to.
-        let struck = touch.bounces > 0 || touch.state == State::Lying || over <= 0.5 * weight * weight / stiffness;
-        let escape = (dented && struck && touch.limit(self.contact) > weight).then_some(-least);
-        Well { over, escape }
+        (energy(height) - energy(zero - weight / stiffness)).max(0.0)
     }
 
     /// The forces on a body of which two points lie. Where they can not carry it, one of them parts or loads further.

@@ -12,12 +12,9 @@ use crate::rigid::Clock;
 use crate::roots::{Zero, far_step, first_zero, safe_step};
 use crate::scene::Scene;
 
-/// Refused is what has more unexplained energy than this share,
+/// A body is followed until its energy has changed by this share of what it was at the first touch without reason, whatever the
+/// number of its strikes. What changes it by as much in one phase is no motion of this body.
 const ENERGY: f64 = 0.01;
-/// and this many times the precision for each strike,
-const EACH: f64 = 4.0;
-/// and for each press again in its dent, which is slower.
-const AGAIN: f64 = 0.25;
 /// Turn of a phase over the lever arm, times what it pushes over the fastest approach, over the precision: a strike is then
 /// wrong by less than the precision (measured on random scenes by the tests).
 const KEPT: f64 = 4.0;
@@ -50,11 +47,7 @@ pub(super) struct Run<'a, const N: usize> {
     one_sided: bool,
     pub(super) log: Log<N>,
     pub(super) presses: Vec<Press>,
-    /// How often a point has pressed again in its dent.
-    again: usize,
     pub(super) phases: Vec<(f64, Phase<N>)>,
-    /// Number of phases at the last strike.
-    pub(super) since: usize,
     pub(super) time: Clock,
     pub(super) pose: Pose<N>,
     pub(super) touches: [Touch; N],
@@ -89,9 +82,7 @@ impl<'a, const N: usize> Run<'a, N> {
             one_sided: body.points_m().iter().all(|[_, z]| *z < 0.0),
             log: Log::new(scene),
             presses: Vec::with_capacity(16),
-            again: 0,
             phases: Vec::with_capacity(64),
-            since: 0,
             time: Clock::default(),
             pose,
             touches: [Touch::away(); N],
@@ -115,7 +106,7 @@ impl<'a, const N: usize> Run<'a, N> {
             }
             goes_on = self.step(&mut enough)?;
         }
-        self.finish()
+        Ok(self.finish())
     }
 
     /// The points that are on the ground and come down.
@@ -142,6 +133,10 @@ impl<'a, const N: usize> Run<'a, N> {
         }
         self.advance(&phase, dt)?;
         self.time.add(dt);
+        if self.misfit > ENERGY * self.opened {
+            self.log.flight.stop = Stop::EnergyLimit { time_s: self.time.now() };
+            return Ok(false);
+        }
         if self.turned_over() {
             self.log.turned_over(self.time.now());
             return Ok(false);
@@ -171,13 +166,14 @@ impl<'a, const N: usize> Run<'a, N> {
         self.log.flight.stop = Stop::BouncedClear { time_s: parted };
     }
 
-    fn finish(mut self) -> Result<ContactFlight<N>, Error> {
+    fn finish(mut self) -> ContactFlight<N> {
         let energy_error = self.misfit / self.opened;
-        #[expect(clippy::cast_precision_loss, reason = "at most a hundred million")]
-        let allowed = ENERGY + self.precision * (EACH * self.presses.len() as f64 + AGAIN * self.again as f64);
-        if energy_error > allowed {
-            return Err(Error::Energy { share: energy_error });
-        }
+        let later_m_s = match self.log.flight.stop {
+            Stop::AtRest { shock_bound_m_s, .. } => shock_bound_m_s,
+            Stop::BouncedClear { .. } => 0.0,
+            Stop::TurnedOver { .. } => f64::INFINITY,
+            _ => self.ahead(false).most_m_s,
+        };
         let (_, velocity) = self.pose.points();
         for (press, strike) in self.presses.iter().zip(&mut self.log.flight.strikes) {
             if press.until_s == f64::INFINITY {
@@ -187,7 +183,7 @@ impl<'a, const N: usize> Run<'a, N> {
         let contact_s = self.contact.time_s();
         let Self { log, presses, phases, pose, unrested, resting, .. } = self;
         let last = unrested.unwrap_or(pose);
-        Ok(ContactFlight { flight: log.flight, presses, energy_error, contact_s, phases, last, end: pose, resting })
+        ContactFlight { flight: log.flight, presses, energy_error, later_m_s, contact_s, phases, last, end: pose, resting }
     }
 
     fn next(&mut self) -> Lasting<N> {
@@ -263,7 +259,7 @@ impl<'a, const N: usize> Run<'a, N> {
         }
     }
 
-    /// By how much a point that presses again is not where its line begins, as the velocity that this is worth to its vibration:
+    /// By how much a dashpot that presses again is not where its line begins, as the velocity that this is worth to its vibration:
     /// the ground would pull, or push at once.
     fn pressed_off(
         &self,
@@ -273,11 +269,10 @@ impl<'a, const N: usize> Run<'a, N> {
         end: &Pose<N>,
     ) -> f64 {
         let Some((_, Some((i, watch)))) = event else { return 0.0 };
-        if watch.event != Event::Presses || self.contact.is_plastic() {
+        if watch.event != Event::Presses || self.contact.law() == ContactLaw::Hysteretic {
             return 0.0;
         }
-        let unloading = if self.contact.law() == ContactLaw::Hysteretic { self.contact.unloading() } else { 1.0 };
-        let rate = (self.touches[i].stiffness * unloading * self.share(i, i)).sqrt();
+        let rate = (self.touches[i].stiffness * self.share(i, i)).sqrt();
         rate * ((end.points().0[i] - phase.watched(i, dt)[0]).abs() - self.margins.height).max(0.0)
     }
 
@@ -363,15 +358,18 @@ impl<'a, const N: usize> Run<'a, N> {
             self.pose = self.pose.flown(dt);
             return Ok(());
         }
-        let pushes = phase.pushes(dt, &phase.motions(dt));
+        let motions = phase.motions(dt);
+        let pushes = phase.pushes(dt, &motions);
         let held = phase.start.energy() + phase.springs(&phase.start.points().0);
         self.pose = phase.pose(dt, &pushes);
         if !self.pose.y.is_finite() || !self.pose.spin.is_finite() {
             return Err(Error::Energy { share: f64::INFINITY });
         }
-        let change = self.pose.energy() + phase.springs(&self.pose.points().0) - held;
-        // A dashpot takes energy, and may not give any.
-        self.misfit += if self.contact.law() == ContactLaw::Dashpot { change.max(0.0) } else { change.abs() };
+        let change = (self.pose.energy() + phase.springs(&self.pose.points().0) + phase.taken(&motions) - held).abs();
+        if change > ENERGY * self.opened {
+            return Err(Error::Energy { share: change / self.opened });
+        }
+        self.misfit += change;
         for i in 0..N {
             if self.touches[i].is_pressing() {
                 self.book(i, phase.jumps(i, pushes.impulse[i]));
@@ -425,24 +423,21 @@ impl<'a, const N: usize> Run<'a, N> {
             }
             Event::Reloads => self.touches[i].reload(h),
             Event::Presses => {
-                if v < -self.slow() {
-                    self.rouse_others(i);
+                let dented = self.touches[i];
+                let goes_on = self.touch(i, h, v);
+                if self.contact.law() == ContactLaw::Dashpot {
+                    // It has no dent: it presses again from the ground, as stiff as before.
+                    let strike = self.touches[i].strike;
+                    self.touches[i] = Touch { state: State::Loading, strike, ..dented };
                 }
-                self.presses[self.touches[i].strike].until_s = f64::INFINITY;
-                self.again += 1;
-                if self.contact.is_plastic() {
-                    self.touches[i].reload(h);
-                } else {
-                    let dashpot = self.contact.law() == ContactLaw::Dashpot;
-                    self.touches[i].state = if dashpot { State::Loading } else { State::Elastic };
-                }
+                return goes_on;
             }
             Event::Clears => self.touches[i] = Touch { strike: self.touches[i].strike, ..Touch::away() },
         }
         true
     }
 
-    /// A new strike. Whether the flight goes on.
+    /// A new press, from the height at which it begins. Whether the flight goes on.
     fn touch(&mut self, i: usize, height: f64, velocity: f64) -> bool {
         self.rouse_others(i);
         // A touch that grazes has no approach, whatever rounding says.
@@ -459,11 +454,10 @@ impl<'a, const N: usize> Run<'a, N> {
             return false;
         }
         self.fastest = self.fastest.max(-approach);
-        self.since = self.phases.len();
         self.margins.velocity = MARGIN * self.fastest;
         let stiffness = self.stiffness(i);
         let [ground, crest, zero] = [height; 3];
-        self.touches[i] = Touch { state: State::Loading, stiffness, ground, crest, zero, bounces: 0, strike };
+        self.touches[i] = Touch { state: State::Loading, stiffness, ground, crest, zero, strike };
         self.presses.push(Press { from_s: self.time.now(), until_s: f64::INFINITY });
         true
     }

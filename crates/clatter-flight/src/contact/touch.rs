@@ -9,14 +9,12 @@ pub(super) struct Touch {
     pub(super) state: State,
     /// Stiffness of the first loading.
     pub(super) stiffness: f64,
-    /// Height from which the first loading counts its depth: the ground, but for what kept lever arms miss.
+    /// Height from which the first loading counts its depth: the ground, or where the last press in this dent left it.
     pub(super) ground: f64,
     /// Lowest height so far.
     pub(super) crest: f64,
-    /// Height at which the line of unloading has no force.
+    /// Height at which the line of unloading has no force; the ground from where it has parted there.
     pub(super) zero: f64,
-    /// How often it has parted since it touched.
-    pub(super) bounces: u32,
     /// The strike it belongs to.
     pub(super) strike: usize,
 }
@@ -31,7 +29,7 @@ pub(super) enum State {
     Elastic,
     /// Still: what it would ring with on the line of unloading is left out, or that line is upright.
     Lying,
-    /// Without force below the ground.
+    /// Without force in the dent that it has made.
     Parted,
 }
 
@@ -46,7 +44,7 @@ pub(super) enum Event {
     Parts,
     /// A reloaded point is back at its lowest, with the force it had there.
     Reloads,
-    /// A parted point presses again.
+    /// A parted point presses again, as a new press.
     Presses,
     /// A parted point is above the ground.
     Clears,
@@ -93,7 +91,7 @@ impl Watch {
 
 impl Touch {
     pub(super) fn away() -> Self {
-        Self { state: State::Away, stiffness: 0.0, ground: 0.0, crest: 0.0, zero: 0.0, bounces: 0, strike: 0 }
+        Self { state: State::Away, stiffness: 0.0, ground: 0.0, crest: 0.0, zero: 0.0, strike: 0 }
     }
     /// How the ground carries it.
     pub(super) fn hold(&self, contact: &Contact) -> Hold {
@@ -153,7 +151,6 @@ impl Touch {
         };
         self.shift(by);
         self.state = State::Parted;
-        self.bounces += 1;
     }
     /// Loads further, from the height and force at which it was at its lowest.
     pub(super) fn reload(&mut self, height: f64) {

@@ -25,10 +25,13 @@ enum Mode {
 struct Point {
     mode: Mode,
     stiffness: f64,
+    /// Depth from which this contact counts: where its last press left the ground, 0 once it has been above it.
+    ground: f64,
+    /// Deepest below that.
     deepest: f64,
 }
 
-/// A touch from above the ground.
+/// A touch: from above the ground, or a new press in the dent.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Touch {
     pub(crate) point: usize,
@@ -36,8 +39,7 @@ pub(crate) struct Touch {
     pub(crate) approach: f64,
 }
 
-/// A part on a spring and a damper at a place of the body, at rest in free fall before. From when the body lies still it feels
-/// nothing: its weight is left out.
+/// A part on a spring and a damper at a place of the body, at rest in free fall before.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Part {
     pub(crate) place: [f64; 2],
@@ -135,7 +137,7 @@ impl Plain {
                 (turn / time, 2.0 * zeta * time / turn)
             }
         };
-        let away = Point { mode: Mode::Away, stiffness: 0.0, deepest: 0.0 };
+        let away = Point { mode: Mode::Away, stiffness: 0.0, ground: 0.0, deepest: 0.0 };
         Self {
             points: points.to_vec(),
             gyration,
@@ -174,9 +176,12 @@ impl Plain {
     pub(crate) fn velocity(&self, s: &State, i: usize) -> f64 {
         s[1] + self.lever(s, i) * s[3]
     }
-    /// Depth at which the steeper line of a point has no force.
+    /// Depth at which the steeper line of a point has no force, and that of its deepest.
     fn plastic(&self, i: usize) -> f64 {
-        self.touching[i].deepest * (1.0 - self.e * self.e)
+        self.touching[i].ground + self.touching[i].deepest * (1.0 - self.e * self.e)
+    }
+    fn crest(&self, i: usize) -> f64 {
+        self.touching[i].ground + self.touching[i].deepest
     }
     /// Forces on all points over the mass.
     pub(crate) fn forces(&self, s: &State) -> Vec<f64> {
@@ -184,7 +189,7 @@ impl Plain {
             .map(|i| {
                 let (d, rate, k) = (-self.height(s, i), -self.velocity(s, i), self.touching[i].stiffness);
                 match self.touching[i].mode {
-                    Mode::Load => k * (d + self.theta * rate),
+                    Mode::Load => k * (d - self.touching[i].ground + self.theta * rate),
                     Mode::Unload => k / (self.e * self.e) * (d - self.plastic(i)),
                     Mode::Away | Mode::Gap | Mode::Held => 0.0,
                 }
@@ -250,28 +255,36 @@ impl Plain {
             Mode::Away => [(h, Mode::Load), never],
             Mode::Load if dashpot => [(press, Mode::Gap), never],
             Mode::Load => [(-v, if self.e > 0.0 { Mode::Unload } else { Mode::Held }), never],
-            Mode::Unload => [(-h - self.plastic(i), Mode::Gap), (p.deepest + h, Mode::Load)],
+            Mode::Unload => [(-h - self.plastic(i), Mode::Gap), (self.crest(i) + h, Mode::Load)],
             Mode::Held => {
                 let force = self.forces(s)[i];
                 [(force, Mode::Gap), (p.stiffness * p.deepest - force, Mode::Load)]
             }
             Mode::Gap if dashpot => [(-press, Mode::Load), (-h, Mode::Away)],
-            Mode::Gap if self.e > 0.0 => [(self.plastic(i) + h, Mode::Unload), (-h, Mode::Away)],
-            Mode::Gap => [(p.deepest + h, Mode::Load), (-h, Mode::Away)],
+            Mode::Gap => [(self.plastic(i) + h, Mode::Load), (-h, Mode::Away)],
         }
     }
     fn touch(&mut self, i: usize) {
         let mu = 1.0 + (self.lever(&self.state, i) / self.gyration).powi(2);
-        self.touching[i] = Point { mode: Mode::Load, stiffness: self.omega.powi(2) / mu, deepest: 0.0 };
-        self.touches.push(Touch { point: i, time: self.time, approach: self.velocity(&self.state, i) });
+        let dented = self.touching[i].mode == Mode::Gap;
+        // A dashpot that has parted presses again from the ground, as stiff as before.
+        self.touching[i] = match self.law {
+            ContactLaw::Dashpot if dented => Point { mode: Mode::Load, ..self.touching[i] },
+            _ => {
+                let ground = if dented { self.plastic(i) } else { 0.0 };
+                Point { mode: Mode::Load, stiffness: self.omega.powi(2) / mu, ground, deepest: 0.0 }
+            }
+        };
+        // A dashpot may press again as it rises ever more slowly.
+        self.touches.push(Touch { point: i, time: self.time, approach: self.velocity(&self.state, i).min(0.0) });
     }
     fn happens(&mut self, i: usize, mode: Mode) {
-        if self.touching[i].mode == Mode::Away {
+        if mode == Mode::Load && matches!(self.touching[i].mode, Mode::Away | Mode::Gap) {
             self.touch(i);
             return;
         }
         if matches!(mode, Mode::Unload | Mode::Held) && self.touching[i].mode == Mode::Load {
-            self.touching[i].deepest = -self.height(&self.state, i);
+            self.touching[i].deepest = -self.height(&self.state, i) - self.touching[i].ground;
         }
         self.touching[i].mode = mode;
     }
@@ -357,7 +370,7 @@ impl Plain {
     }
     fn carry(&mut self, from: &State, h: f64) {
         if let Some(part) = self.part {
-            let felt = |h: f64| if self.lies_still() { 0.0 } else { self.felt(&self.step(from, h), part.place) };
+            let felt = |h: f64| self.felt(&self.step(from, h), part.place);
             let felt = [0.0, 0.5 * h, h].map(felt);
             if let Some(part) = &mut self.part {
                 part.step(felt, h);

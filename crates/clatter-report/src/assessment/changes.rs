@@ -49,7 +49,7 @@ fn row(product: &Product, change: &Change, margin: &str) -> Value {
 
 /// The margin that is left, and the verdict where it is not safe.
 fn left(after: &ComponentAssessment) -> String {
-    let margin = percent(after.tightest().margin);
+    let margin = percent(after.tightest().room());
     match after.verdict {
         Verdict::Safe => margin,
         verdict => format!("{margin}, {}", verdict.name()),

@@ -15,7 +15,7 @@ pub(super) fn rows(file: &ProductFile) -> Vec<[String; 2]> {
     add("Restitution", range(&product.restitution, 1.0, ""));
     match product.contact_time_s {
         Some(time) => {
-            let law = match product.contact_law {
+            let law = match product.law() {
                 ContactLaw::Hysteretic => "hysteretic, with the largest force of a half-sine",
                 ContactLaw::Dashpot => "spring and dashpot",
             };

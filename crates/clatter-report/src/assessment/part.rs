@@ -11,11 +11,6 @@ use super::changes::changes;
 use super::inputs::held;
 use crate::words::{end, limit, millimeters, minus, name, percent, shown};
 
-/// Whether a drop of the ranges was answered.
-pub(super) fn is_answered(of: &LimitAssessment) -> bool {
-    of.demand > 0.0 || of.uncertainty.is_finite()
-}
-
 /// How the drop was followed, and what the part felt.
 fn followed(of: &LimitAssessment) -> String {
     let felt = match of.model.component {
@@ -35,7 +30,7 @@ fn said(file: &ProductFile, of: &LimitAssessment) -> Vec<String> {
         format!("{first}{}.", letters.as_str().trim_end_matches('.'))
     };
     let mut said = vec![followed(of)];
-    if is_answered(of) {
+    if of.demand.is_some() && of.uncertainty.is_finite() {
         let more = percent(of.uncertainty).replace('+', "");
         said.push(format!("Others may ask for up to {more} more."));
     }
@@ -43,24 +38,23 @@ fn said(file: &ProductFile, of: &LimitAssessment) -> Vec<String> {
         said.push(format!("The energy of the drops allows no more than {}.", shown(of.unit, bound)));
     }
     if let Some(other) = of.other_law {
-        let law = match file.product.contact_law {
+        let law = match file.product.law() {
             ContactLaw::Hysteretic => "spring and dashpot",
             ContactLaw::Dashpot => "hysteretic contact",
         };
-        said.push(format!("With the other contact law ({law}) this drop asks for {}.", shown(of.unit, other)));
+        said.push(format!("By the other contact law ({law}) the worst drop asks for {}.", shown(of.unit, other)));
     }
     said.extend(of.notes.iter().map(|note| sentence(&minus(note))));
     said
 }
 
 /// The worst drop as columns: first end, tilt, speed, restitution, contact, frequency, damping, place, impact.
-fn columns(of: &LimitAssessment) -> [String; 9] {
-    let worst = &of.worst_case;
+fn columns(of: &LimitAssessment, worst: &WorstCase) -> [String; 9] {
     let or_none = |value: Option<f64>, factor: f64| value.map_or("–".to_owned(), |v| three(factor * v));
     let contact = worst.contact_time_s.filter(|_| of.model.bar == Model::Compliant);
     [
         end(worst.first).to_owned(),
-        format!("{}°", three(worst.tilt_deg)),
+        if worst.flat { "flat".to_owned() } else { format!("{}°", three(worst.tilt_deg)) },
         format!("{} m/s", three(worst.speed_m_s)),
         three(worst.restitution),
         contact.map_or("–".to_owned(), |time| format!("{} ms", three(1e3 * time))),
@@ -73,32 +67,32 @@ fn columns(of: &LimitAssessment) -> [String; 9] {
 
 /// What the tables say of one limit.
 fn row(file: &ProductFile, of: &LimitAssessment) -> Value {
-    let known = |text: String| if is_answered(of) { text } else { "–".to_owned() };
+    let known = |value: Option<f64>| value.map_or("–".to_owned(), |value| shown(of.unit, value));
     json!({
         "name": limit(of.limit),
         "allowed": shown(of.unit, of.allowed),
-        "demand": known(shown(of.unit, of.demand)),
-        "flat": known(shown(of.unit, of.clatter_free)),
-        "bound": of.bound.map_or("–".to_owned(), |bound| shown(of.unit, bound)),
-        "margin": known(percent(of.margin)),
+        "demand": known(of.demand),
+        "flat": known(of.clatter_free),
+        "bound": known(of.bound),
+        "margin": of.margin.map_or("–".to_owned(), percent),
         "verdict": of.verdict.name(),
-        "worst": if is_answered(of) { Some(columns(of)) } else { None },
+        "worst": of.worst_case.as_ref().map(|worst| columns(of, worst)),
         "said": said(file, of),
         "undecided": of.undecided.as_deref().map(minus),
-        "command": of.worst_case.command,
+        "command": of.worst_case.as_ref().map_or("", |worst| &worst.command),
     })
 }
 
 /// The tightest limit and the drop behind it, in a few sentences.
 fn summary(component: &Component, of: &LimitAssessment, portrait: &Portrait) -> String {
     let what = limit(of.limit);
-    let tightest = if is_answered(of) {
+    let tightest = if let (Some(demand), Some(margin), Some(worst)) = (of.demand, of.margin, &of.worst_case) {
         format!(
             "The tightest limit is its {what}: {} is allowed, and the worst drop that was found asks for {} ({}). {}",
             shown(of.unit, of.allowed),
-            shown(of.unit, of.demand),
-            percent(of.margin),
-            drop(&of.worst_case),
+            shown(of.unit, demand),
+            percent(margin),
+            drop(worst),
         )
     } else {
         format!("No drop of the ranges is answered for its {what}.")
