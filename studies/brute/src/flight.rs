@@ -100,7 +100,7 @@ const LEAST_RESTITUTION: f64 = 0.01;
 /// Steps of time in radians of the fastest oscillation.
 const FINE: f64 = 0.08;
 /// The same while nothing but the weight is carried.
-const COARSE: f64 = 0.25;
+const COARSE: f64 = 0.5;
 /// Steps of free flight in radians that the bar turns.
 const TURN: f64 = 0.1;
 /// A drop that needs more is left.
@@ -296,12 +296,16 @@ impl Bar {
                 Phase::Unload => square += c.stiffness * mobility / (self.e * self.e),
             }
         }
-        let weak = |c: &Contact| match c.phase {
-            Phase::Free => true,
-            Phase::Load => false,
-            Phase::Unload => c.stiffness * c.deepest < 10.0 * self.drop.gravity,
+        let little = 10.0 * self.drop.gravity;
+        let weak = |end: usize| match (self.contacts[end].phase, &self.contacts[end]) {
+            (Phase::Free, _) => true,
+            (Phase::Load, c) => {
+                let (depth, velocity) = (self.height(end, s), self.velocity(end, s));
+                c.dashpot > 0.0 && c.stiffness * depth.abs() + c.dashpot * velocity.abs() < little
+            }
+            (Phase::Unload, c) => c.stiffness * c.deepest < little,
         };
-        let radians = if self.contacts.iter().all(weak) { COARSE } else { FINE };
+        let radians = if weak(0) && weak(1) { COARSE } else { FINE };
         radians / f64::sqrt(square).max(rate).max(self.omega / 4.0)
     }
 

@@ -37,14 +37,14 @@ pub struct Worst {
     pub suspension: Option<(f64, f64)>,
 }
 
-/// The value of a limit in one flight.
+/// The values of limits of one part in one flight.
 #[must_use]
-pub fn value(kind: Kind, flight: &Flight, place: f64, suspension: Option<(f64, f64)>) -> Peak {
-    match (kind, suspension) {
+pub fn values(kinds: &[Kind], flight: &Flight, place: f64, suspension: Option<(f64, f64)>) -> Vec<Peak> {
+    let response = suspension.map(|(omega, zeta)| respond(flight, place, omega, zeta, None));
+    let value = |kind: &Kind| match (*kind, response) {
         (Kind::Acceleration, None) => felt(flight, place),
-        (Kind::Acceleration, Some((omega, zeta))) => respond(flight, place, omega, zeta, None).acceleration,
-        (Kind::RattleSpace, Some((omega, zeta))) => respond(flight, place, omega, zeta, None).displacement,
-        (Kind::RattleSpace, None) => Peak::default(),
+        (Kind::Acceleration, Some(response)) => response.acceleration,
+        (Kind::RattleSpace, response) => response.unwrap_or_default().displacement,
         (Kind::VelocityChange, _) => largest(&shocks(flight, place, Motion::Velocity)),
         (Kind::AngularVelocityChange, _) => largest(&shocks(flight, place, Motion::Turning)),
         (Kind::DamageBoundary(velocity, acceleration), _) => {
@@ -54,7 +54,8 @@ pub fn value(kind: Kind, flight: &Flight, place: f64, suspension: Option<(f64, f
             }
             largest(&list)
         }
-    }
+    };
+    kinds.iter().map(value).collect()
 }
 
 /// The flights of a drop: its own and, without a contact time and nearly flat, the flat one.
@@ -72,7 +73,7 @@ fn worst(part: &Part, kind: Kind, product: &Product, sample: &Sample, until: Unt
     let (flight, flat, peak) = flights(&drop, until)
         .into_iter()
         .map(|(flight, flat)| {
-            let peak = value(kind, &flight, place, suspension);
+            let peak = values(&[kind], &flight, place, suspension)[0];
             (flight, flat, peak)
         })
         .max_by(|a, b| a.2.value.total_cmp(&b.2.value))
@@ -88,20 +89,26 @@ pub fn hunt(product: &Product, drops: usize, seed: u64) -> Vec<Worst> {
     let mut random = Random::new(seed);
     let limits: Vec<(&Part, Kind)> =
         product.parts.iter().flat_map(|part| part.limits.iter().map(move |&kind| (part, kind))).collect();
+    let draws = if product.parts.iter().any(Part::varies) { DRAWS } else { 1 };
     let mut best: Vec<Vec<(f64, Sample)>> = vec![Vec::new(); limits.len()];
     for _ in 0..drops / 2 {
         let base = draw(&mut random);
         let flights = flights(&product.drop(&base), ROUGH);
-        for _ in 0..DRAWS {
+        for _ in 0..draws {
             let mut sample = draw(&mut random);
             sample[..5].copy_from_slice(&base[..5]);
-            for ((part, kind), best) in limits.iter().zip(&mut best) {
+            let mut best = best.iter_mut();
+            for part in &product.parts {
                 let (place, suspension) = part.at(&sample);
-                let found = flights.iter().map(|(flight, _)| value(*kind, flight, place, suspension).value);
-                best.push((found.fold(0.0, f64::max), sample));
-                if best.len() > 4 * STARTS {
-                    best.sort_by(|a, b| b.0.total_cmp(&a.0));
-                    best.truncate(2 * STARTS);
+                let found = flights.iter().map(|(flight, _)| values(&part.limits, flight, place, suspension));
+                let highest =
+                    found.reduce(|a, b| a.iter().zip(b).map(|(&a, b)| if b.value > a.value { b } else { a }).collect());
+                for (peak, best) in highest.unwrap_or_default().iter().zip(&mut best) {
+                    best.push((peak.value, sample));
+                    if best.len() > 4 * STARTS {
+                        best.sort_by(|a, b| b.0.total_cmp(&a.0));
+                        best.truncate(STARTS);
+                    }
                 }
             }
         }

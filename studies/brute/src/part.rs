@@ -49,7 +49,7 @@ pub enum Motion {
 }
 
 /// Steps of time of a part, in its radians.
-const FINE: f64 = 0.1;
+const FINE: f64 = 0.25;
 /// Strikes that come closer than this are one.
 const INSTANT: f64 = 1e-7;
 

@@ -131,6 +131,13 @@ impl Product {
 }
 
 impl Part {
+    /// Whether anything of it is a range.
+    #[must_use]
+    pub fn varies(&self) -> bool {
+        let wide = |range: Range| range[1] > range[0];
+        wide(self.place) || self.suspension.is_some_and(|(omega, zeta)| wide(omega) || wide(zeta))
+    }
+
     /// Place from the center of mass, natural angular frequency and damping ratio of a sample.
     #[must_use]
     pub fn at(&self, sample: &Sample) -> (f64, Option<(f64, f64)>) {

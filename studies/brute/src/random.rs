@@ -122,7 +122,8 @@ fn part(r: &mut Random, kind: &str, i: usize, length: f64, contact: bool) -> Str
         let _ = writeln!(text, "extent = \"{} mm\"", digits(r.within(0.1, 1.0) * room));
     }
     if r.chance(0.7) {
-        let frequency = r.log(15.0, 4000.0);
+        // Without a contact time clatter refuses parts above 318 Hz.
+        let frequency = if contact { r.log(15.0, 4000.0) } else { r.log(8.0, 270.0) };
         let zeta = if kind == "damped" { r.log(0.3, 5.0) } else { r.log(0.005, 0.3) };
         let _ = writeln!(text, "natural_frequency = {}", spread(r, frequency, 0.15, 0.5, "Hz"));
         let _ = writeln!(text, "damping_ratio = {}", spread(r, zeta, 0.3, 0.3, "").replace(" \"", "").replace('"', ""));
