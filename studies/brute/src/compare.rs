@@ -20,6 +20,7 @@ const SLACK: f64 = 1e-3;
 #[derive(Debug, Default)]
 struct Counts {
     limits: usize,
+    reached: usize,
     above: usize,
     search: usize,
     broken: usize,
@@ -52,22 +53,27 @@ pub fn compare(
     if kinds.is_empty() {
         return Err(format!("--kind={kind}: one of {}", KINDS.join(", ")));
     }
-    let mut counts = Counts::default();
+    let mut reasons = BTreeMap::new();
     for kind in kinds {
+        let mut counts = Counts::default();
         for seed in seeds.clone() {
             let text = product(kind, seed).ok_or("no such kind")?;
             let lines = one(clatter, kind, seed, &text, drops, &mut counts)?;
             write!(out, "{lines}").and_then(|()| out.flush()).map_err(|error| error.to_string())?;
         }
+        let Counts { limits, reached, above, search, broken, room, undecided, .. } = counts;
+        writeln!(
+            out,
+            "== {kind}: {limits} limits, of {reached} a drop within 1 % of the demand; {above} with a drop above what was told, \
+             {search} of them though clatter answers that very drop as high; {broken} told safe that a drop exceeds; \
+             {undecided} of {room} with 10 to 30 % of room undecided"
+        )
+        .map_err(|error| error.to_string())?;
+        for (reason, count) in counts.reasons {
+            *reasons.entry(reason).or_insert(0) += count;
+        }
     }
-    let Counts { limits, above, search, broken, room, undecided, reasons } = counts;
-    let mut text = format!(
-        "{limits} limits: {above} with a drop above what was told, {search} of them though clatter answers that very drop as \
-         high; {broken} told safe that a drop exceeds\nof {room} limits with 10 to 30 % of room {undecided} undecided\n"
-    );
-    for (reason, count) in reasons {
-        text += &format!("{count:6}  {reason}\n");
-    }
+    let text: String = reasons.iter().map(|(reason, count)| format!("{count:6} undecided: {reason}\n")).collect();
     write!(out, "{text}").map_err(|error| error.to_string())
 }
 
@@ -105,6 +111,7 @@ fn one(clatter: &Path, kind: &str, seed: u64, text: &str, drops: usize, counts: 
         let over = found / (demand * (1.0 + uncertainty)) - 1.0;
         let broken = verdict == "safe" && found > allowed * (1.0 + SLACK);
         counts.broken += usize::from(broken);
+        counts.reached += usize::from(found > 0.99 * demand);
         if allowed / demand > 1.1 && allowed / demand < 1.3 {
             counts.room += 1;
             if verdict == "undecided" {
@@ -118,10 +125,11 @@ fn one(clatter: &Path, kind: &str, seed: u64, text: &str, drops: usize, counts: 
             let same = answer(clatter, &repeat, worst.kind);
             counts.search += usize::from(same.is_some_and(|same| same > found * (1.0 - 0.01)));
             lines += &format!(
-                "{kind} {seed}: {worst}\n  told {demand:.5} ± {:.1} % {verdict}, allowed {allowed:.5}: {:+.1} % beyond{}; the same drop by clatter: {}\n  {}\n",
+                "{kind} {seed}: {worst}\n  told {demand:.5} ± {:.1} % {verdict}, allowed {allowed:.5}: {:+.1} % beyond{}; without turning in flight {:.5}; the same drop by clatter: {}\n  {}\n",
                 uncertainty * 100.0,
                 over * 100.0,
                 if broken { ", NOT SAFE" } else { "" },
+                worst.still,
                 same.map_or("none".to_owned(), |same| format!("{same:.5} ({:+.2} %)", (same / found - 1.0) * 100.0)),
                 repeat.join(" ")
             );

@@ -507,6 +507,7 @@ pub fn flat(drop: &Drop, until: Until) -> Flight {
     let (mut time, mut speed) = (0.0, drop.speed);
     while time < until.time && speed > until.quiet.max(HOP) * drop.speed {
         let jump = (1.0 + drop.e) * speed;
+        flight.touches.push(Touch { time, end: 0, velocity: -speed, energy: speed * speed / 2.0 });
         flight.steps.push(Step { time, length: 0.0, flying: false, push: [jump; 3], lift: [0.0; 3], turn: [0.0; 3] });
         speed *= drop.e;
         time += 2.0 * speed / drop.gravity;

@@ -7,7 +7,7 @@ use crate::random::Random;
 
 /// Drops are followed so far while they are compared, and again when the worst is told.
 const ROUGH: Until = Until { time: 0.6, quiet: 1e-2 };
-/// See [`ROUGH`].
+/// See `ROUGH`.
 const WHOLE: Until = Until { time: 0.6, quiet: 1e-4 };
 /// Without a contact time, the ends of a tilt that land within this time land together as well.
 const MERGE: f64 = 1e-3;
@@ -27,6 +27,8 @@ pub struct Worst {
     pub peak: Peak,
     /// Which touch it comes after; micro-touches are not counted.
     pub impact: usize,
+    /// The value without what the turning of the bar does in free flight.
+    pub still: f64,
     /// Whether it was a flat landing of instant impacts.
     pub flat: bool,
     /// The drop.
@@ -67,10 +69,16 @@ fn flights(drop: &Drop, until: Until) -> Vec<(Flight, bool)> {
     list
 }
 
-fn worst(part: &Part, kind: Kind, product: &Product, sample: &Sample, until: Until) -> Worst {
+fn high(part: &Part, kind: Kind, product: &Product, sample: &Sample) -> f64 {
+    let (place, suspension) = part.at(sample);
+    let value = |(flight, _): &(Flight, bool)| values(&[kind], flight, place, suspension)[0].value;
+    flights(&product.drop(sample), ROUGH).iter().map(value).fold(0.0, f64::max)
+}
+
+fn told(part: &Part, kind: Kind, product: &Product, sample: &Sample) -> Worst {
     let drop = product.drop(sample);
     let (place, suspension) = part.at(sample);
-    let (flight, flat, peak) = flights(&drop, until)
+    let (mut flight, flat, peak) = flights(&drop, WHOLE)
         .into_iter()
         .map(|(flight, flat)| {
             let peak = values(&[kind], &flight, place, suspension)[0];
@@ -80,7 +88,9 @@ fn worst(part: &Part, kind: Kind, product: &Product, sample: &Sample, until: Unt
         .expect("a drop has a flight");
     let counts = |touch: &&crate::flight::Touch| touch.time <= peak.time && touch.velocity.abs() > 1e-3 * drop.speed;
     let impact = flight.touches.iter().filter(counts).count();
-    Worst { part: part.name.clone(), kind, peak, impact, flat, drop, place, suspension }
+    flight.steps.retain(|step| !step.flying);
+    let still = values(&[kind], &flight, place, suspension)[0].value;
+    Worst { part: part.name.clone(), kind, peak, impact, still, flat, drop, place, suspension }
 }
 
 /// Searches the worst drop of each limit among some thousand.
@@ -119,13 +129,11 @@ pub fn hunt(product: &Product, drops: usize, seed: u64) -> Vec<Worst> {
         starts.truncate(STARTS);
         let mut tops: Vec<(f64, Sample)> = starts
             .into_iter()
-            .map(|start| {
-                climb(start, tries, &mut random, |sample| worst(part, kind, product, sample, ROUGH).peak.value)
-            })
+            .map(|start| climb(start, tries, &mut random, |sample| high(part, kind, product, sample)))
             .collect();
         tops.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let top = climb(tops[0], 2 * tries, &mut random, |sample| worst(part, kind, product, sample, ROUGH).peak.value);
-        worst(part, kind, product, &top.1, WHOLE)
+        let top = climb(tops[0], 2 * tries, &mut random, |sample| high(part, kind, product, sample));
+        told(part, kind, product, &top.1)
     });
     climbed.collect()
 }
@@ -167,7 +175,7 @@ fn climb(start: (f64, Sample), tries: usize, random: &mut Random, value: impl Fn
 
 impl std::fmt::Display for Worst {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { part, kind, peak, impact, flat, drop, place, suspension } = self;
+        let Self { part, kind, peak, impact, still: _, flat, drop, place, suspension } = self;
         write!(
             f,
             "{part} {}: {:.6e} after touch {impact} at {:.3} ms; {}{} first, tilt {:.6} deg, {:.5} m/s, e {:.5}",

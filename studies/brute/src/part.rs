@@ -50,8 +50,9 @@ pub enum Motion {
 
 /// Steps of time of a part, in its radians.
 const FINE: f64 = 0.25;
-/// Strikes that come closer than this are one.
-const INSTANT: f64 = 1e-7;
+/// Strikes that come closer than this are one: longer than an end that hops in place of resting is off the ground when the
+/// other lands.
+const INSTANT: f64 = 2e-8;
 
 /// A mass on spring and dashpot.
 #[derive(Debug, Clone, Copy)]
