@@ -73,8 +73,10 @@ pub fn compare(
             *reasons.entry(reason).or_insert(0) += count;
         }
     }
-    let text: String = reasons.iter().map(|(reason, count)| format!("{count:6} undecided: {reason}\n")).collect();
-    write!(out, "{text}").map_err(|error| error.to_string())
+    for (reason, count) in reasons {
+        writeln!(out, "{count:6} undecided: {reason}").map_err(|error| error.to_string())?;
+    }
+    Ok(())
 }
 
 /// Compares one product: a first assessment tells the demands, a second has limits somewhat above them.
