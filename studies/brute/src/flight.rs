@@ -84,11 +84,7 @@ pub struct Flight {
     pub at_rest: bool,
     /// Gravity.
     pub gravity: f64,
-    /// Heights of the ends then.
-    pub heights: [f64; 2],
-    /// Velocities of the ends then.
-    pub velocities: [f64; 2],
-    /// Energy per mass then.
+    /// Energy per mass when it was left.
     pub energy: f64,
 }
 
@@ -108,8 +104,9 @@ const MOST_STEPS: usize = 1_000_000;
 /// Rebound speed below which an end that strikes at an instant hops on, as a share of the speed of the drop.
 const HOP: f64 = 1e-4;
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 enum Phase {
+    #[default]
     Free,
     /// Loading on the virgin line; the only phase of a dashpot.
     Load,
@@ -117,7 +114,7 @@ enum Phase {
     Unload,
 }
 
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 struct Contact {
     phase: Phase,
     /// Height of the ground under this end: 0, or below it where it was parted in its dent.
@@ -155,7 +152,6 @@ impl Bar {
             }
             None => (0.0, 0.0, drop.e),
         };
-        let none = Contact { phase: Phase::Free, ground: 0.0, stiffness: 0.0, dashpot: 0.0, deepest: 0.0, zero: 0.0 };
         Self {
             drop: *drop,
             ends: [-half - drop.center, half - drop.center],
@@ -163,7 +159,7 @@ impl Bar {
             e,
             omega,
             damping,
-            contacts: [none; 2],
+            contacts: [Contact::default(); 2],
         }
     }
 
@@ -341,8 +337,6 @@ impl Bar {
     fn leave(&self, mut flight: Flight, s: &State, time: f64, at_rest: bool) -> Flight {
         flight.end = time;
         (flight.at_rest, flight.gravity) = (at_rest, self.drop.gravity);
-        flight.heights = [self.height(0, s), self.height(1, s)];
-        flight.velocities = [self.velocity(0, s), self.velocity(1, s)];
         flight.energy = self.energy(s);
         flight
     }
