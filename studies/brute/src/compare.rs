@@ -22,6 +22,7 @@ struct Counts {
     limits: usize,
     reached: usize,
     above: usize,
+    turning: usize,
     search: usize,
     broken: usize,
     room: usize,
@@ -61,11 +62,11 @@ pub fn compare(
             let lines = one(clatter, kind, seed, &text, drops, &mut counts)?;
             write!(out, "{lines}").and_then(|()| out.flush()).map_err(|error| error.to_string())?;
         }
-        let Counts { limits, reached, above, search, broken, room, undecided, .. } = counts;
+        let Counts { limits, reached, above, turning, search, broken, room, undecided, .. } = counts;
         writeln!(
             out,
             "== {kind}: {limits} limits, of {reached} a drop within 1 % of the demand; {above} with a drop above what was told, \
-             {search} of them though clatter answers that very drop as high; {broken} told safe that a drop exceeds; \
+             {turning} of them by how the bar turns in free flight alone, {search} though clatter answers that very drop as high; {broken} told safe that a drop exceeds; \
              {undecided} of {room} with 10 to 30 % of room undecided"
         )
         .map_err(|error| error.to_string())?;
@@ -123,6 +124,7 @@ fn one(clatter: &Path, kind: &str, seed: u64, text: &str, drops: usize, counts: 
         }
         if over > SLACK || broken || demand.is_nan() {
             counts.above += 1;
+            counts.turning += usize::from(worst.still < demand * (1.0 + uncertainty) * (1.0 + SLACK));
             let repeat = repeat(&worst);
             let same = answer(clatter, &repeat, worst.kind);
             counts.search += usize::from(same.is_some_and(|same| same > found * (1.0 - 0.01)));
