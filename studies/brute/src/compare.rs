@@ -65,9 +65,9 @@ pub fn compare(
         let Counts { limits, reached, above, turning, search, broken, room, undecided, .. } = counts;
         writeln!(
             out,
-            "== {kind}: {limits} limits, of {reached} a drop within 1 % of the demand; {above} with a drop above what was told, \
-             {turning} of them by how the bar turns in free flight alone, {search} though clatter answers that very drop as high; {broken} told safe that a drop exceeds; \
-             {undecided} of {room} with 10 to 30 % of room undecided"
+            "== {kind}: {limits} limits; for {reached} a drop reaches 99 % of what was told, for {above} one exceeds it with its \
+             uncertainty ({turning} only by how the bar turns in free flight; {search} that clatter answers as high), {broken} \
+             were told safe and are exceeded; of {room} with 10 to 30 % of room {undecided} are undecided"
         )
         .map_err(|error| error.to_string())?;
         for (reason, count) in counts.reasons {

@@ -69,12 +69,14 @@ fn flights(drop: &Drop, until: Until) -> Vec<(Flight, bool)> {
     list
 }
 
+/// The highest value of a sample.
 fn high(part: &Part, kind: Kind, product: &Product, sample: &Sample) -> f64 {
     let (place, suspension) = part.at(sample);
     let value = |(flight, _): &(Flight, bool)| values(&[kind], flight, place, suspension)[0].value;
     flights(&product.drop(sample), ROUGH).iter().map(value).fold(0.0, f64::max)
 }
 
+/// A sample followed as far as it is told.
 fn told(part: &Part, kind: Kind, product: &Product, sample: &Sample) -> Worst {
     let drop = product.drop(sample);
     let (place, suspension) = part.at(sample);
@@ -101,7 +103,7 @@ pub fn hunt(product: &Product, drops: usize, seed: u64) -> Vec<Worst> {
         product.parts.iter().flat_map(|part| part.limits.iter().map(move |&kind| (part, kind))).collect();
     let draws = if product.parts.iter().any(Part::varies) { DRAWS } else { 1 };
     let mut best: Vec<Vec<(f64, Sample)>> = vec![Vec::new(); limits.len()];
-    for _ in 0..drops / 2 {
+    for _ in 0..drops.div_ceil(2).max(1) {
         let base = draw(&mut random);
         let flights = flights(&product.drop(&base), ROUGH);
         for _ in 0..draws {
