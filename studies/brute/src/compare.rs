@@ -1,0 +1,244 @@
+//! What `clatter assess` tells of random products, beside what the brute force finds.
+
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use serde_json::Value;
+
+use crate::flight::Law;
+use crate::hunt::{Worst, hunt};
+use crate::product::{Kind, Product};
+use crate::random::{KINDS, Random, product};
+
+/// A finding above what was told counts beyond this, the error of the integration here.
+const SLACK: f64 = 1e-3;
+
+/// What was counted.
+#[derive(Debug, Default)]
+struct Counts {
+    limits: usize,
+    reached: usize,
+    above: usize,
+    turning: usize,
+    search: usize,
+    broken: usize,
+    room: usize,
+    undecided: usize,
+    reasons: BTreeMap<String, usize>,
+}
+
+/// One limit as it was told.
+struct Told {
+    verdict: String,
+    demand: f64,
+    allowed: f64,
+    uncertainty: f64,
+    reason: String,
+}
+
+/// Compares products of a kind, or of all.
+///
+/// # Errors
+/// Where the command does not run or writes fail.
+pub fn compare(
+    clatter: &Path,
+    kind: &str,
+    seeds: RangeInclusive<u64>,
+    drops: usize,
+    out: &mut dyn Write,
+) -> Result<(), String> {
+    let kinds: Vec<&str> = KINDS.into_iter().filter(|&name| kind == "all" || kind == name).collect();
+    if kinds.is_empty() {
+        return Err(format!("--kind={kind}: one of {}", KINDS.join(", ")));
+    }
+    let mut reasons = BTreeMap::new();
+    for kind in kinds {
+        let mut counts = Counts::default();
+        for seed in seeds.clone() {
+            let text = product(kind, seed).ok_or("no such kind")?;
+            let lines = one(clatter, kind, seed, &text, drops, &mut counts)?;
+            write!(out, "{lines}").and_then(|()| out.flush()).map_err(|error| error.to_string())?;
+        }
+        let Counts { limits, reached, above, turning, search, broken, room, undecided, .. } = counts;
+        writeln!(
+            out,
+            "== {kind}: {limits} limits; for {reached} a drop reaches 99 % of what was told, for {above} one exceeds it with its \
+             uncertainty ({turning} only by how the bar turns in free flight; {search} that clatter answers as high), {broken} \
+             were told safe and are exceeded; of {room} with 10 to 30 % of room {undecided} are undecided"
+        )
+        .map_err(|error| error.to_string())?;
+        for (reason, count) in counts.reasons {
+            *reasons.entry(reason).or_insert(0) += count;
+        }
+    }
+    for (reason, count) in reasons {
+        writeln!(out, "{count:6} undecided: {reason}").map_err(|error| error.to_string())?;
+    }
+    Ok(())
+}
+
+/// Compares one product: a first assessment tells the demands, a second has limits somewhat above them.
+fn one(clatter: &Path, kind: &str, seed: u64, text: &str, drops: usize, counts: &mut Counts) -> Result<String, String> {
+    let first = assess(clatter, text)?;
+    let mut random = Random::new(seed + 77);
+    let mut limited = String::new();
+    let mut part = -1;
+    for line in text.lines() {
+        part += i32::from(line == "[[component]]");
+        let limit = first.iter().find(|((name, kind), _)| {
+            *name == format!("part {part}") && line.starts_with(&format!("{} = ", key(kind)))
+        });
+        match limit {
+            Some(((_, kind), told)) if told.demand > 0.0 => {
+                let allowed = told.demand * (1.0 + random.within(0.0, 0.3));
+                limited += &format!("{} = \"{allowed:.6e} {}\"\n", key(kind), unit(kind));
+            }
+            _ => limited += &format!("{line}\n"),
+        }
+    }
+    let told = assess(clatter, &limited)?;
+    let product = Product::read(&limited)?;
+    let mut lines = String::new();
+    for worst in hunt(&product, drops, seed) {
+        counts.limits += 1;
+        let name = (worst.part.clone(), worst.kind.name().to_owned());
+        let Some(told) = told.get(&name) else {
+            lines += &format!("{kind} {seed}: {worst}\n  not told\n");
+            continue;
+        };
+        let Told { verdict, demand, allowed, uncertainty, reason } = told;
+        let found = worst.peak.value;
+        let over = found / (demand * (1.0 + uncertainty)) - 1.0;
+        let broken = verdict == "safe" && found > allowed * (1.0 + SLACK);
+        counts.broken += usize::from(broken);
+        counts.reached += usize::from(found > 0.99 * demand);
+        if allowed / demand > 1.1 && allowed / demand < 1.3 {
+            counts.room += 1;
+            if verdict == "undecided" {
+                counts.undecided += 1;
+                *counts.reasons.entry(reason.clone()).or_default() += 1;
+            }
+        }
+        if over > SLACK || broken || demand.is_nan() {
+            counts.above += 1;
+            counts.turning += usize::from(worst.still < demand * (1.0 + uncertainty) * (1.0 + SLACK));
+            let repeat = repeat(&worst);
+            // A flat landing of instant impacts is none that can be given by its tilt.
+            let same = if worst.flat { None } else { answer(clatter, &repeat, worst.kind) };
+            counts.search += usize::from(same.is_some_and(|same| same > found * (1.0 - 0.01)));
+            lines += &format!(
+                "{kind} {seed}: {worst}\n  told {demand:.5} ± {:.1} % {verdict}, allowed {allowed:.5}: {:+.1} % beyond{}; without turning in flight {:.5}; the same drop by clatter: {}\n  {}\n",
+                uncertainty * 100.0,
+                over * 100.0,
+                if broken { ", NOT SAFE" } else { "" },
+                worst.still,
+                same.map_or("none".to_owned(), |same| format!("{same:.5} ({:+.2} %)", (same / found - 1.0) * 100.0)),
+                repeat.join(" ")
+            );
+        }
+    }
+    Ok(lines)
+}
+
+fn key(kind: &str) -> String {
+    let name = kind.replace('-', "_");
+    if kind == "rattle-space" { name } else { name + "_limit" }
+}
+
+fn unit(kind: &str) -> &str {
+    match kind {
+        "acceleration" => "m/s2",
+        "rattle-space" => "m",
+        "velocity-change" => "m/s",
+        _ => "rad/s",
+    }
+}
+
+/// Every limit by its part and kind.
+fn assess(clatter: &Path, text: &str) -> Result<BTreeMap<(String, String), Told>, String> {
+    let file: PathBuf = std::env::temp_dir().join(format!("clatter-brute-{}.toml", std::process::id()));
+    std::fs::write(&file, text).map_err(|error| format!("{}: {error}", file.display()))?;
+    let output = Command::new(clatter).arg("assess").arg("--format=json").arg(&file).output();
+    let output = output.map_err(|error| format!("{}: {error}", clatter.display()))?;
+    let _ = std::fs::remove_file(&file);
+    let answer: Value = serde_json::from_slice(&output.stdout)
+        .map_err(|_| format!("{}\n{text}", String::from_utf8_lossy(&output.stderr)))?;
+    let list = |value: &Value, key: &str| value[key].as_array().cloned().unwrap_or_default();
+    let number = |value: &Value, key: &str| value[key].as_f64().unwrap_or(f64::NAN);
+    let word = |value: &Value, key: &str| value[key].as_str().unwrap_or_default().to_owned();
+    let mut limits = BTreeMap::new();
+    for component in list(&answer, "components") {
+        for limit in list(&component, "limits") {
+            let reason = match &limit["undecided"] {
+                Value::String(text) => text.clone(),
+                Value::Object(map) => map.get("reason").unwrap_or(&Value::Null).to_string(),
+                other => other.to_string(),
+            };
+            let told = Told {
+                verdict: word(&limit, "verdict"),
+                demand: number(&limit, "demand"),
+                allowed: number(&limit, "allowed"),
+                uncertainty: number(&limit, "uncertainty"),
+                reason: without_numbers(&reason),
+            };
+            limits.insert((word(&component, "name"), word(&limit, "limit")), told);
+        }
+    }
+    Ok(limits)
+}
+
+/// Reasons differ from file to file by their numbers alone.
+fn without_numbers(text: &str) -> String {
+    let word = |word: &str| if word.contains(|c: char| c.is_ascii_digit()) { "#" } else { word }.to_owned();
+    text.split(' ').map(word).collect::<Vec<_>>().join(" ")
+}
+
+/// The arguments by which clatter answers the very drop; its end a is the one that touches first.
+#[must_use]
+pub fn repeat(worst: &Worst) -> Vec<String> {
+    let Worst { drop, place, suspension, .. } = worst;
+    let sign = if drop.b_first { -1.0 } else { 1.0 };
+    let half = sign * drop.length / 2.0;
+    let model = if drop.contact.is_some() { "compliant" } else { "finite-tilt" };
+    let mut args = vec![
+        "respond".to_owned(),
+        format!("--model={model}"),
+        format!("--length-m={}", drop.length),
+        format!("--gyration-m={}", drop.gyration),
+        format!("--center-of-mass={}", drop.center / half),
+        format!("--e={}", drop.e),
+        format!("--speed-m-s={}", drop.speed),
+        format!("--tilt-deg={}", if worst.flat { 0.0 } else { drop.tilt.to_degrees() }),
+        format!("--gravity-m-s2={}", drop.gravity),
+        format!("--at={}", ((place + drop.center) / half).clamp(-1.0, 1.0)),
+        "--tolerance=0.001".to_owned(),
+    ];
+    if let Some((law, time)) = drop.contact {
+        let law = if law == Law::Dashpot { "dashpot" } else { "hysteretic" };
+        args.extend([format!("--contact-law={law}"), format!("--contact-time-s={time}")]);
+    }
+    if let Some((omega, zeta)) = suspension {
+        args.extend([format!("--omega={omega}"), format!("--damping={zeta}")]);
+    }
+    args
+}
+
+fn answer(clatter: &Path, args: &[String], kind: Kind) -> Option<f64> {
+    let output = Command::new(clatter).args(args).arg("--format=json").stderr(Stdio::null()).output().ok()?;
+    let answer: Value = serde_json::from_slice(&output.stdout).ok()?;
+    let suspended = args.iter().any(|arg| arg.starts_with("--omega"));
+    let value = |key: &str| answer["answers"][key]["value"].as_f64();
+    match kind {
+        Kind::Acceleration if suspended => value("part_acceleration"),
+        Kind::Acceleration => value("acceleration"),
+        Kind::RattleSpace => value("part_displacement"),
+        Kind::VelocityChange => value("velocity_change"),
+        Kind::AngularVelocityChange => value("angular_velocity_change"),
+        Kind::DamageBoundary(velocity, acceleration) => {
+            Some((value("velocity_change")? / velocity).min(value("acceleration")? / acceleration))
+        }
+    }
+}

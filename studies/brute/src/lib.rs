@@ -1,0 +1,29 @@
+//! A brute force over the drops of a product: it finds the worst of each limit by following thousands of drops, without a
+//! formula or a line of code of `clatter`, and holds what `clatter assess` tells against it.
+//!
+//! ```sh
+//! cargo run --release -p clatter-brute -- hunt PRODUCT.toml --drops=4000
+//! cargo run --release -p clatter-brute -- random low-e 7
+//! cargo run --release -p clatter-brute -- compare --kind=contacts --seeds=1..40 --clatter=target/release/clatter
+//! ```
+//!
+//! `hunt` prints the worst value of each limit with its drop, `random` a product file as a designer would write one,
+//! `compare` what such files make `clatter assess` tell beside what was found. Each drop is integrated in small steps
+//! ([`flight`]): equations of motion at any angle, a law of force at each end, bisection where a phase ends. Parts and
+//! shocks are taken from the stored history ([`part`]).
+
+// Numbers are counted, and counts are small.
+#![allow(clippy::format_push_string, reason = "lines to read, not many")]
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    reason = "small counts"
+)]
+
+pub mod compare;
+pub mod flight;
+pub mod hunt;
+pub mod part;
+pub mod product;
+pub mod random;

@@ -1,0 +1,338 @@
+//! What a place of the bar and a suspended part there go through.
+
+use crate::flight::{Flight, Step};
+
+/// A largest value and when it came.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Peak {
+    /// Its magnitude.
+    pub value: f64,
+    /// When.
+    pub time: f64,
+}
+
+impl Peak {
+    fn see(&mut self, value: f64, time: f64) {
+        if value.abs() > self.value {
+            *self = Self { value: value.abs(), time };
+        }
+    }
+}
+
+/// Peaks of a suspended part.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Response {
+    /// Absolute acceleration.
+    pub acceleration: Peak,
+    /// Displacement relative to the place.
+    pub displacement: Peak,
+}
+
+/// One shock.
+#[derive(Debug, Clone, Copy)]
+pub struct Shock {
+    /// When it is largest.
+    pub time: f64,
+    /// Change of velocity, or of angular velocity.
+    pub change: f64,
+    /// Largest acceleration; infinite for an instant impact.
+    pub acceleration: f64,
+}
+
+/// What changes in a shock.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Motion {
+    /// The velocity of the place.
+    Velocity,
+    /// The angular velocity of the bar.
+    Turning,
+}
+
+/// Steps of time of a part, in its radians.
+const FINE: f64 = 0.25;
+/// Strikes that come closer than this are one: longer than an end that hops in place of resting is off the ground when the
+/// other lands.
+const INSTANT: f64 = 2e-8;
+
+/// A mass on spring and dashpot.
+#[derive(Debug, Clone, Copy)]
+struct Suspended {
+    omega: f64,
+    zeta: f64,
+    /// Displacement relative to the place, and its rate.
+    z: f64,
+    v: f64,
+    time: f64,
+    peaks: Response,
+}
+
+impl Suspended {
+    /// Absolute acceleration.
+    fn acceleration(&self, z: f64, v: f64) -> f64 {
+        -self.omega * (2.0 * self.zeta * v + self.omega * z)
+    }
+
+    fn see(&mut self) {
+        self.peaks.displacement.see(self.z, self.time);
+        self.peaks.acceleration.see(self.acceleration(self.z, self.v), self.time);
+    }
+
+    /// A step under a felt acceleration that is a parabola through three values.
+    fn push(&mut self, h: f64, felt: [f64; 3]) {
+        let parts = (self.omega * (1.0 + 2.0 * self.zeta) * h / FINE).ceil().max(1.0);
+        let (from, h) = (self.time, h / parts);
+        for i in 0..parts as u64 {
+            let at = |u: f64| {
+                let [p, q, r] = felt;
+                p + u * (4.0 * q - 3.0 * p - r + u * 2.0 * (p + r - 2.0 * q))
+            };
+            let [f0, f1, f2] = [0.0, 0.5, 1.0].map(|j| at((i as f64 + j) / parts));
+            let (z, v) = (self.z, self.v);
+            let (omega, zeta) = (self.omega, self.zeta);
+            let spring = |z: f64, v: f64| -omega * (2.0 * zeta * v + omega * z);
+            let a1 = spring(z, v) - f0;
+            let (v2, z2) = (v + h / 2.0 * a1, z + h / 2.0 * v);
+            let a2 = spring(z2, v2) - f1;
+            let (v3, z3) = (v + h / 2.0 * a2, z + h / 2.0 * v2);
+            let a3 = spring(z3, v3) - f1;
+            let (v4, z4) = (v + h * a3, z + h * v3);
+            let a4 = spring(z4, v4) - f2;
+            self.z += h / 6.0 * (v + 2.0 * (v2 + v3) + v4);
+            self.v += h / 6.0 * (a1 + 2.0 * (a2 + a3) + a4);
+            let time = from + i as f64 * h;
+            self.time = time + h;
+            self.see();
+            // Between the samples: the turning points of the cubics through values and slopes.
+            let (u, w) = (spring(z, v), spring(self.z, self.v));
+            self.peaks.displacement.see(turning(h, [z, v], [self.z, self.v]), time);
+            self.peaks.acceleration.see(turning(h, [u, spring(v, a1)], [w, spring(self.v, w - f2)]), time);
+        }
+        self.time = from + parts * h;
+    }
+
+    /// Rings for a time with a constant felt acceleration.
+    fn ring(&mut self, h: f64, felt: f64) {
+        let w = self.omega;
+        let rest = -felt / (w * w);
+        let (z, v) = (self.z - rest, self.v);
+        // The turning points: of the displacement, and of the acceleration, which obeys the same equation.
+        let (u, ut) = (self.acceleration(z, v), self.acceleration(v, self.acceleration(z, v)));
+        for (start, slope, displacement) in [(z, v, true), (u, ut, false)] {
+            let mut from = 0.0;
+            for t in turns(w, self.zeta, start, slope) {
+                from += t;
+                if from > h || !from.is_finite() {
+                    break;
+                }
+                let (at, _) = free(w, self.zeta, start, slope, from);
+                let peaks = &mut self.peaks;
+                if displacement {
+                    peaks.displacement.see(rest + at, self.time + from);
+                } else {
+                    peaks.acceleration.see(felt + at, self.time + from);
+                }
+            }
+        }
+        let (z, v) = free(w, self.zeta, z, v, h);
+        (self.z, self.v) = (rest + z, v);
+        self.time += h;
+        self.see();
+    }
+}
+
+/// Largest value of the cubic with these values and slopes, where it turns within; else 0.
+fn turning(h: f64, [u, ut]: [f64; 2], [w, wt]: [f64; 2]) -> f64 {
+    if ut * wt >= 0.0 {
+        return 0.0;
+    }
+    let t = ut / (ut - wt);
+    let (a, b) = (ut * h, wt * h);
+    let r = 1.0 - t;
+    u * r * r * (1.0 + 2.0 * t) + a * t * r * r + w * t * t * (3.0 - 2.0 * t) - b * t * t * r
+}
+
+/// Free motion of a part after a time.
+fn free(omega: f64, zeta: f64, z: f64, v: f64, t: f64) -> (f64, f64) {
+    let (a, d) = (omega * zeta, omega * omega * (1.0 - zeta * zeta));
+    let (c, s) = if d.abs() * t * t < 1e-12 {
+        ((-a * t).exp(), t * (-a * t).exp())
+    } else if d > 0.0 {
+        let w = d.sqrt();
+        ((-a * t).exp() * (w * t).cos(), (-a * t).exp() * (w * t).sin() / w)
+    } else {
+        let w = (-d).sqrt();
+        let (slow, fast) = (((w - a) * t).exp(), (-(w + a) * t).exp());
+        (f64::midpoint(slow, fast), (slow - fast) / (2.0 * w))
+    };
+    (z * c + (v + a * z) * s, v * c - (a * v + omega * omega * z) * s)
+}
+
+/// Times from one turning point of a free motion to the next, two of them.
+fn turns(omega: f64, zeta: f64, z: f64, v: f64) -> [f64; 2] {
+    let (a, d) = (omega * zeta, omega * omega * (1.0 - zeta * zeta));
+    let pull = a * v + omega * omega * z;
+    if d > 0.0 {
+        let w = d.sqrt();
+        // v cos(wt) = pull/w sin(wt)
+        let angle = (v * w).atan2(pull);
+        let first = if angle > 0.0 { angle } else { angle + std::f64::consts::PI };
+        [first / w, std::f64::consts::PI / w]
+    } else {
+        let w = (-d).sqrt();
+        let ratio = if w > 0.0 { v * w / pull } else { v / pull };
+        let first = if w > 0.0 { ratio.atanh() / w } else { ratio };
+        [if first > 0.0 { first } else { f64::INFINITY }, f64::INFINITY]
+    }
+}
+
+/// Answers a part at `place` from the center of mass; it is followed until a time, or for two of its periods after the
+/// drop was left.
+#[must_use]
+pub fn respond(flight: &Flight, place: f64, omega: f64, zeta: f64, until: Option<f64>) -> Response {
+    let mut part = Suspended { omega, zeta, z: 0.0, v: 0.0, time: 0.0, peaks: Response::default() };
+    for step in &flight.steps {
+        if step.time > part.time {
+            part.ring(step.time - part.time, 0.0);
+            part.time = step.time;
+        }
+        let felt: [f64; 3] = std::array::from_fn(|i| step.push[i] + place * step.lift[i]);
+        if step.length == 0.0 {
+            part.v -= felt[0];
+            part.see();
+        } else if step.flying && omega * step.length > 5.0 {
+            part.ring(step.length, felt[1]); // so slow for the part that steps do not shake it
+        } else {
+            part.push(step.length, felt);
+        }
+    }
+    if flight.end > part.time {
+        part.ring(flight.end - part.time, 0.0);
+    }
+    let felt = if flight.at_rest { flight.gravity } else { 0.0 };
+    let until = until.unwrap_or(flight.end + 2.0 * std::f64::consts::TAU / omega * (1.0 + zeta));
+    if until > part.time {
+        part.ring(until - part.time, felt);
+    }
+    part.peaks
+}
+
+/// The largest felt acceleration of a place from the center of mass; 0 for instant impacts, which have none.
+#[must_use]
+pub fn felt(flight: &Flight, place: f64) -> Peak {
+    let mut peak = Peak::default();
+    for step in flight.steps.iter().filter(|step| !step.flying && step.length > 0.0) {
+        peak.see(crest([0, 1, 2].map(|j| step.push[j] + place * step.lift[j])), step.time);
+    }
+    peak
+}
+
+/// The shocks of a place from the center of mass, from the largest peak down.
+#[must_use]
+pub fn shocks(flight: &Flight, place: f64, motion: Motion) -> Vec<Shock> {
+    let value = |step: &Step, j: usize| match motion {
+        Motion::Velocity => step.push[j] + place * step.lift[j],
+        Motion::Turning => step.turn[j],
+    };
+    let steps: Vec<(&Step, [f64; 3])> =
+        flight.steps.iter().filter(|step| !step.flying).map(|step| (step, [0, 1, 2].map(|j| value(step, j)))).collect();
+    if steps.iter().any(|(step, _)| step.length == 0.0) {
+        return strikes(&steps);
+    }
+    pulses(&steps, if motion == Motion::Velocity { flight.gravity } else { 0.0 })
+}
+
+/// The largest change of all shocks.
+#[must_use]
+pub fn largest(shocks: &[Shock]) -> Peak {
+    let mut peak = Peak::default();
+    for shock in shocks {
+        peak.see(shock.change, shock.time);
+    }
+    peak
+}
+
+/// Changes by instant impacts; those at one instant add up.
+fn strikes(steps: &[(&Step, [f64; 3])]) -> Vec<Shock> {
+    let mut list: Vec<Shock> = Vec::with_capacity(steps.len());
+    for (step, jump) in steps {
+        match list.last_mut() {
+            Some(last) if step.time - last.time < INSTANT => {
+                last.change += jump[0];
+                last.time = step.time;
+            }
+            _ => list.push(Shock { time: step.time, change: jump[0], acceleration: f64::INFINITY }),
+        }
+    }
+    list
+}
+
+/// The largest magnitude of a parabola through three values over its step.
+fn crest([p, q, r]: [f64; 3]) -> f64 {
+    let (bend, slope) = (p + r - 2.0 * q, (r - p) / 2.0);
+    let ends = if p.abs() > r.abs() { p } else { r };
+    let mut most = if q.abs() > ends.abs() { q } else { ends };
+    if slope.abs() < bend.abs() {
+        let top = q - slope * slope / (2.0 * bend);
+        if top.abs() > most.abs() {
+            most = top;
+        }
+    }
+    most
+}
+
+/// Shocks of a history: they are taken from the largest peak down; each reaches on both sides as
+/// long as the sign is kept and a tenth of its peak is exceeded, and from there as long as it goes on falling, never into
+/// an earlier one.
+fn pulses(steps: &[(&Step, [f64; 3])], gravity: f64) -> Vec<Shock> {
+    // Time, value, and what the integral grew by since the point before.
+    let mut points: Vec<[f64; 3]> = Vec::with_capacity(3 * steps.len() + 2);
+    for &(step, [p, q, r]) in steps {
+        let (h, t) = (step.length, step.time);
+        let before = points.last().map_or(t, |point| point[0]);
+        if t > before + 1e-12 {
+            points.extend([[before, 0.0, 0.0], [t, 0.0, 0.0]]);
+        }
+        let halves = [h / 24.0 * (5.0 * p + 8.0 * q - r), h / 24.0 * (5.0 * r + 8.0 * q - p)];
+        points.push([t, p, 0.0]);
+        for (from, to, end, area) in [(p, q, t + h / 2.0, halves[0]), (q, r, t + h, halves[1])] {
+            if from * to < 0.0 {
+                // Where the sign changes, between two triangles.
+                let share = from / (from - to);
+                points.push([end - h / 2.0 * (1.0 - share), 0.0, h / 4.0 * share * from]);
+                points.push([end, to, h / 4.0 * (1.0 - share) * to]);
+            } else {
+                points.push([end, to, area]);
+            }
+        }
+    }
+    let size = |i: usize| points[i][1].abs();
+    let mut crests: Vec<usize> = (0..points.len())
+        .filter(|&i| {
+            size(i) > 0.0 && (i == 0 || size(i) >= size(i - 1)) && (i + 1 == points.len() || size(i) >= size(i + 1))
+        })
+        .collect();
+    crests.sort_by(|&i, &j| size(j).total_cmp(&size(i)));
+    let mut taken = vec![false; points.len()];
+    let mut list = Vec::new();
+    for &top in &crests {
+        if taken[top] {
+            continue;
+        }
+        let goes_on = |from: usize, to: usize| {
+            let kept = !taken[to] && size(from) > 0.0 && points[to][1] * points[top][1] >= 0.0;
+            kept && (size(from) > 0.1 * size(top) || size(to) <= size(from))
+        };
+        let (mut low, mut high) = (top, top);
+        while low > 0 && goes_on(low, low - 1) {
+            low -= 1;
+        }
+        while high + 1 < points.len() && goes_on(high, high + 1) {
+            high += 1;
+        }
+        taken[low..=high].fill(true);
+        let area: f64 = points[low + 1..=high].iter().map(|point| point[2]).sum();
+        let change = area - gravity * (points[high][0] - points[low][0]);
+        list.push(Shock { time: points[top][0], change, acceleration: size(top) });
+    }
+    list
+}

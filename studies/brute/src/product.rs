@@ -1,0 +1,243 @@
+//! A product file: what falls, how, and what its parts stand.
+
+use crate::flight::{Drop, Law};
+use toml::{Table, Value};
+
+/// From, to.
+pub type Range = [f64; 2];
+
+/// What is limited.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Kind {
+    /// Absolute acceleration of a suspended part, felt acceleration of a hard-mounted one.
+    Acceleration,
+    /// Displacement of a suspended part.
+    RattleSpace,
+    /// Velocity change of one shock.
+    VelocityChange,
+    /// Change of the angular velocity of one shock.
+    AngularVelocityChange,
+    /// Velocity change and acceleration of one shock, as a share of these.
+    DamageBoundary(f64, f64),
+}
+
+impl Kind {
+    /// As `clatter assess` calls it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Acceleration => "acceleration",
+            Self::RattleSpace => "rattle-space",
+            Self::VelocityChange => "velocity-change",
+            Self::AngularVelocityChange => "angular-velocity-change",
+            Self::DamageBoundary(..) => "damage-boundary",
+        }
+    }
+}
+
+/// A fragile part.
+#[derive(Debug, Clone)]
+pub struct Part {
+    /// Its name.
+    pub name: String,
+    /// From the center of mass towards end b, with its extent.
+    pub place: Range,
+    /// Natural angular frequency and damping ratio; none of a part that is mounted hard.
+    pub suspension: Option<(Range, Range)>,
+    /// What is limited.
+    pub limits: Vec<Kind>,
+}
+
+/// A product and its drop; SI units.
+#[derive(Debug, Clone)]
+pub struct Product {
+    length: f64,
+    gyration: f64,
+    center: f64,
+    e: Range,
+    contact: Option<(Law, Range)>,
+    speed: Range,
+    tilt: Range,
+    first: Vec<bool>,
+    gravity: f64,
+    /// The parts.
+    pub parts: Vec<Part>,
+}
+
+/// A drop and a part within all ranges, each from 0 to 1: restitution, contact time, speed, tilt, first end, place,
+/// frequency, damping.
+pub type Sample = [f64; 8];
+
+fn between(range: Range, share: f64) -> f64 {
+    range[0] + (range[1] - range[0]) * share
+}
+
+impl Product {
+    /// The drop of a sample.
+    #[must_use]
+    pub fn drop(&self, sample: &Sample) -> Drop {
+        let end = ((sample[4] * self.first.len() as f64) as usize).min(self.first.len() - 1);
+        Drop {
+            length: self.length,
+            gyration: self.gyration,
+            center: self.center,
+            e: between(self.e, sample[0]),
+            contact: self.contact.map(|(law, time)| (law, between(time, sample[1]))),
+            speed: between(self.speed, sample[2]),
+            tilt: between(self.tilt, sample[3]),
+            b_first: self.first[end],
+            gravity: self.gravity,
+        }
+    }
+
+    /// Reads a product file.
+    ///
+    /// # Errors
+    /// What is missing or not understood.
+    pub fn read(text: &str) -> Result<Self, String> {
+        let file: Table = text.parse().map_err(|error: toml::de::Error| error.to_string())?;
+        let table = |key: &str| file.get(key).and_then(Value::as_table).ok_or(format!("no table [{key}]"));
+        let (product, drop) = (table("product")?, table("drop")?);
+        let length = one(product, "length")?;
+        let (gyration, center) = inertia(product)?;
+        let gravity = optional(drop, "gravity")?.map_or(9.806_65, |range| range[0]);
+        let speed = match optional(drop, "height")? {
+            Some(height) => height.map(|height| (2.0 * gravity * height).sqrt()),
+            None => range(drop, "speed")?,
+        };
+        let law = match product.get("contact_law").and_then(Value::as_str) {
+            Some("dashpot") => Law::Dashpot,
+            _ => Law::Hysteretic,
+        };
+        let first = match drop.get("first").and_then(Value::as_str) {
+            Some("a") => vec![false],
+            Some("b") => vec![true],
+            _ => vec![false, true],
+        };
+        let parts = file.get("component").and_then(Value::as_array).ok_or("no table [[component]]")?;
+        Ok(Self {
+            length,
+            gyration,
+            center,
+            e: range(product, "restitution")?,
+            contact: optional(product, "contact_time")?.map(|time| (law, time)),
+            speed,
+            tilt: range(drop, "tilt")?,
+            first,
+            gravity,
+            parts: parts.iter().filter_map(Value::as_table).map(|t| part(t, center)).collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+impl Part {
+    /// Whether anything of it is a range.
+    #[must_use]
+    pub fn varies(&self) -> bool {
+        let wide = |range: Range| range[1] > range[0];
+        wide(self.place) || self.suspension.is_some_and(|(omega, zeta)| wide(omega) || wide(zeta))
+    }
+
+    /// Place from the center of mass, natural angular frequency and damping ratio of a sample.
+    #[must_use]
+    pub fn at(&self, sample: &Sample) -> (f64, Option<(f64, f64)>) {
+        let suspension = self.suspension.map(|(omega, zeta)| (between(omega, sample[6]), between(zeta, sample[7])));
+        (between(self.place, sample[5]), suspension)
+    }
+}
+
+fn part(table: &Table, center: f64) -> Result<Part, String> {
+    let [from, to] = range(table, "position")?;
+    let half = optional(table, "extent")?.map_or(0.0, |extent| extent[0] / 2.0);
+    let suspension = match optional(table, "natural_frequency")? {
+        None => None,
+        Some(frequency) => {
+            let zeta = match optional(table, "quality_factor")? {
+                Some([low, high]) => [0.5 / high, 0.5 / low],
+                None => range(table, "damping_ratio")?,
+            };
+            Some((frequency.map(|f| f * std::f64::consts::TAU), zeta))
+        }
+    };
+    let kinds = [
+        ("acceleration_limit", Kind::Acceleration),
+        ("rattle_space", Kind::RattleSpace),
+        ("velocity_change_limit", Kind::VelocityChange),
+        ("angular_velocity_change_limit", Kind::AngularVelocityChange),
+    ];
+    let mut limits: Vec<Kind> =
+        kinds.into_iter().filter(|(key, _)| table.contains_key(*key)).map(|(_, kind)| kind).collect();
+    if let Some(boundary) = table.get("damage_boundary").and_then(Value::as_table) {
+        limits.push(Kind::DamageBoundary(one(boundary, "velocity_change")?, one(boundary, "acceleration")?));
+    }
+    let name = table.get("name").and_then(Value::as_str).ok_or("a component without a name")?.to_owned();
+    Ok(Part { name, place: [from - half - center, to + half - center], suspension, limits })
+}
+
+/// Radius of gyration and center of mass.
+fn inertia(product: &Table) -> Result<(f64, f64), String> {
+    let center = optional(product, "center_of_mass")?.map_or(0.0, |range| range[0]);
+    if product.contains_key("radius_of_gyration") {
+        return Ok((one(product, "radius_of_gyration")?, center));
+    }
+    if product.contains_key("moment_of_inertia") {
+        return Ok(((one(product, "moment_of_inertia")? / one(product, "mass")?).sqrt(), center));
+    }
+    // Mass, first and second moment about the middle.
+    let mut sums = [0.0; 3];
+    for piece in product.get("masses").and_then(Value::as_array).ok_or("no inertia")?.iter().filter_map(Value::as_table)
+    {
+        let mass = one(piece, "mass")?;
+        let (middle, width) = match optional(piece, "position")? {
+            Some(at) => (at[0], 0.0),
+            None => (f64::midpoint(one(piece, "from")?, one(piece, "to")?), one(piece, "to")? - one(piece, "from")?),
+        };
+        for (sum, add) in sums.iter_mut().zip([1.0, middle, middle * middle + width * width / 12.0]) {
+            *sum += mass * add;
+        }
+    }
+    let center = sums[1] / sums[0];
+    Ok(((sums[2] / sums[0] - center * center).sqrt(), center))
+}
+
+fn one(table: &Table, key: &str) -> Result<f64, String> {
+    range(table, key).map(|range| range[0])
+}
+
+fn range(table: &Table, key: &str) -> Result<Range, String> {
+    optional(table, key)?.ok_or(format!("no {key}"))
+}
+
+fn optional(table: &Table, key: &str) -> Result<Option<Range>, String> {
+    table.get(key).map(|value| spread(value).ok_or(format!("{key} = {value:?}: not understood"))).transpose()
+}
+
+/// A value, a range, or the bounds of a distribution.
+fn spread(value: &Value) -> Option<Range> {
+    match value {
+        Value::Array(list) => Some([quantity(list.first()?)?, quantity(list.last()?)?]),
+        Value::Table(table) => spread(table.get("range").or(table.get("uniform")).or(table.get("triangular"))?),
+        _ => quantity(value).map(|value| [value, value]),
+    }
+}
+
+/// A number with its unit, in SI.
+fn quantity(value: &Value) -> Option<f64> {
+    let text = match value {
+        Value::Float(number) => return Some(*number),
+        Value::Integer(number) => return Some(*number as f64),
+        _ => value.as_str()?,
+    };
+    let (number, unit) = text.trim().split_once(' ').unwrap_or((text, ""));
+    let factor = match unit.trim() {
+        "" | "m" | "kg" | "s" | "Hz" | "m/s" | "m/s2" | "rad" | "rad/s" | "kg m2" => 1.0,
+        "mm" | "g" | "ms" | "mm/s" => 1e-3,
+        "um" | "us" | "mg" => 1e-6,
+        "cm" | "%" => 1e-2,
+        "kHz" => 1e3,
+        "deg" | "deg/s" => std::f64::consts::PI / 180.0,
+        "gn" => 9.806_65,
+        _ => return None,
+    };
+    number.parse::<f64>().ok().map(|number| number * factor)
+}

@@ -1,0 +1,144 @@
+//! Random numbers, and random product files as a designer would write them.
+
+use std::fmt::Write;
+
+/// A generator of random numbers (`SplitMix64`).
+#[derive(Debug, Clone)]
+pub struct Random(u64);
+
+impl Random {
+    /// Begins with a seed.
+    #[must_use]
+    pub fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x2545_F491_4F6C_DD1D).wrapping_add(0x9E37_79B9))
+    }
+
+    /// Uniform from 0 to 1.
+    pub fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Uniform within bounds.
+    pub fn within(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    /// Uniform in the logarithm.
+    pub fn log(&mut self, low: f64, high: f64) -> f64 {
+        low * (high / low).powf(self.unit())
+    }
+
+    /// True with this probability.
+    pub fn chance(&mut self, share: f64) -> bool {
+        self.unit() < share
+    }
+
+    /// Near to normal, of standard deviation 1.
+    pub fn normal(&mut self) -> f64 {
+        (0..12).map(|_| self.unit()).sum::<f64>() - 6.0
+    }
+}
+
+/// Kinds of random products.
+pub const KINDS: [&str; 7] = ["instant", "contacts", "low-e", "high-e", "tiny-tilt", "steep", "damped"];
+
+/// A value with its unit, or a range about it; three digits, as one writes them.
+fn spread(random: &mut Random, middle: f64, share: f64, chance: f64, unit: &str) -> String {
+    if random.chance(chance) {
+        let half = middle * random.within(0.2, 1.0) * share;
+        format!("[\"{} {unit}\", \"{} {unit}\"]", digits(middle - half), digits(middle + half))
+    } else {
+        format!("\"{} {unit}\"", digits(middle))
+    }
+}
+
+fn digits(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
+}
+
+/// A random product file of a kind, its limits far above any demand; none for an unknown kind.
+#[must_use]
+pub fn product(kind: &str, seed: u64) -> Option<String> {
+    let index = KINDS.iter().position(|&name| name == kind)?;
+    let mut random = Random::new(seed.wrapping_mul(16).wrapping_add(index as u64));
+    let r = &mut random;
+    let length = digits(r.log(0.06, 0.4) * 1e3);
+    let contact = match kind {
+        "instant" => false,
+        "contacts" | "low-e" => true,
+        _ => r.chance(0.7),
+    };
+    let (low, high) = match kind {
+        "low-e" => (0.02, 0.12),
+        "high-e" => (0.55, 0.9),
+        _ => (0.1, 0.6),
+    };
+    let e = r.within(low, high);
+    let wide = if r.chance(0.5) { (e * r.within(1.05, 1.5)).min(high) } else { e };
+    let mut text = format!(
+        "[product]\nname = \"{kind} {seed}\"\nlength = \"{length} mm\"\nradius_of_gyration = \"{} mm\"\n\
+         restitution = [{}, {}]\n",
+        digits(length * r.within(0.2, 0.38)),
+        digits(e),
+        digits(wide)
+    );
+    if r.chance(0.4) {
+        let _ = writeln!(text, "center_of_mass = \"{} mm\"", digits(length * r.within(-0.12, 0.12)));
+    }
+    if contact {
+        let time = r.log(0.1, 2.0);
+        let law = if r.chance(0.25) { "dashpot" } else { "hysteretic" };
+        let _ = writeln!(text, "contact_time = {}\ncontact_law = \"{law}\"", spread(r, time, 0.3, 0.3, "ms"));
+    }
+    let (from, to) = match kind {
+        "tiny-tilt" => (0.0, r.log(0.05, 1.0)),
+        "steep" => (r.within(0.0, 15.0), r.within(15.0, 30.0)),
+        _ => (if r.chance(0.5) { 0.0 } else { r.within(0.5, 3.0) }, r.within(4.0, 15.0)),
+    };
+    let first = ["a", "b", "either"][(r.unit() * 3.0) as usize];
+    let height = r.within(0.3, 1.5);
+    let _ = writeln!(
+        text,
+        "[drop]\nheight = {}\ntilt = [\"{} deg\", \"{} deg\"]\nfirst = \"{first}\"",
+        spread(r, height, 0.3, 0.3, "m"),
+        digits(from),
+        digits(to)
+    );
+    for i in 0..=usize::from(r.chance(0.5)) {
+        text.push_str(&part(r, kind, i, length, contact));
+    }
+    Some(text)
+}
+
+fn part(r: &mut Random, kind: &str, i: usize, length: f64, contact: bool) -> String {
+    let at = r.within(-0.48, 0.48) * length;
+    let mut text = format!("[[component]]\nname = \"part {i}\"\nposition = \"{} mm\"\n", digits(at));
+    if r.chance(0.3) {
+        let room = length / 2.0 - at.abs();
+        let _ = writeln!(text, "extent = \"{} mm\"", digits(r.within(0.1, 1.0) * room));
+    }
+    if r.chance(0.7) {
+        // Without a contact time clatter refuses parts above 318 Hz.
+        let frequency = if contact { r.log(15.0, 4000.0) } else { r.log(8.0, 270.0) };
+        let zeta = if kind == "damped" { r.log(0.3, 5.0) } else { r.log(0.005, 0.3) };
+        let _ = writeln!(text, "natural_frequency = {}", spread(r, frequency, 0.15, 0.5, "Hz"));
+        let _ = writeln!(text, "damping_ratio = {}", spread(r, zeta, 0.3, 0.3, "").replace(" \"", "").replace('"', ""));
+        text.push_str("acceleration_limit = \"9e6 gn\"\n");
+        if r.chance(0.5) {
+            text.push_str("rattle_space = \"90 m\"\n");
+        }
+    } else {
+        text.push_str("mount = \"hard\"\nvelocity_change_limit = \"900 m/s\"\n");
+        if r.chance(0.5) {
+            text.push_str("angular_velocity_change_limit = \"9e5 rad/s\"\n");
+        }
+        if contact {
+            text.push_str("acceleration_limit = \"9e6 gn\"\n");
+        }
+    }
+    text
+}

@@ -1,0 +1,84 @@
+//! Drops that were integrated elsewhere.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+use clatter_brute::flight::{Drop, Law, Until, follow};
+use clatter_brute::part::{Motion, felt, largest, respond, shocks};
+use serde_json::Value;
+
+fn cases(text: &str) -> Vec<Value> {
+    let file: Value = serde_json::from_str(text).unwrap();
+    file["cases"].as_array().unwrap().clone()
+}
+
+fn number(case: &Value, key: &str) -> f64 {
+    case[key].as_f64().unwrap()
+}
+
+fn drop_of(case: &Value) -> Drop {
+    let length = number(case, "length_m");
+    Drop {
+        length,
+        gyration: number(case, "gyration_m"),
+        center: number(case, "center_of_mass") * length / 2.0,
+        e: number(case, "e"),
+        contact: Some((Law::Hysteretic, number(case, "contact_time_s"))),
+        speed: number(case, "speed_m_s"),
+        tilt: number(case, "tilt_deg").to_radians(),
+        b_first: false,
+        gravity: number(case, "gravity_m_s2"),
+    }
+}
+
+/// A place given in half-lengths from the middle, from the center of mass.
+fn place(drop: &Drop, at: f64) -> f64 {
+    at * drop.length / 2.0 - drop.center
+}
+
+/// Touches but those below a thousandth of the first speed, and the peaks of a part. The peaks there are samples, up to
+/// 2.5e-3 below the highest of the stiffest parts.
+#[test]
+fn contacts_and_parts_are_those_of_another_integration() {
+    let cases = cases(include_str!("data/contact-bar.json"));
+    assert_eq!(cases.len(), 26);
+    for (i, case) in cases.iter().enumerate() {
+        let (drop, until) = (drop_of(case), number(case, "until_s"));
+        let flight = follow(&drop, Until { time: until, quiet: 0.0 });
+        let micro = 1e-3 * drop.speed;
+        let got: Vec<_> = flight.touches.iter().filter(|touch| touch.velocity.abs() > micro).collect();
+        let told = case["touches"].as_array().unwrap();
+        let want: Vec<_> = told.iter().filter(|touch| number(touch, "approach_m_s").abs() > micro).collect();
+        assert_eq!(got.len(), want.len(), "case {i}: touches");
+        for (got, want) in got.iter().zip(&want) {
+            assert_eq!(["a", "b"][got.end], want["end"], "case {i}");
+            let speed = (got.velocity - number(want, "approach_m_s")) / drop.speed;
+            let time = (got.time - number(want, "time_s")) / until;
+            assert!(speed.abs() < 1e-4 && time.abs() < 1e-4, "case {i}: {got:?}, not {want}");
+        }
+        let part = &case["part"];
+        let omega = number(part, "omega_rad_s");
+        let response = respond(&flight, place(&drop, number(part, "at")), omega, number(part, "damping"), Some(until));
+        for (got, key) in [
+            (response.displacement.value * omega, "omega_peak_displacement"),
+            (response.acceleration.value / omega, "peak_acceleration_over_omega"),
+        ] {
+            let off = got / number(part, key) - 1.0;
+            assert!((-2e-4..2.5e-3).contains(&off), "case {i}: {key} is off by {off:e}");
+        }
+    }
+}
+
+#[test]
+fn shocks_are_those_of_another_integration() {
+    let cases = cases(include_str!("data/shocks.json"));
+    assert_eq!(cases.len(), 40);
+    for (i, case) in cases.iter().enumerate() {
+        let drop = drop_of(case);
+        let flight = follow(&drop, Until { time: 3.0, quiet: 1e-3 });
+        let place = place(&drop, number(case, "at"));
+        let velocity = largest(&shocks(&flight, place, Motion::Velocity)).value;
+        let off = velocity / number(case, "velocity_change_m_s") - 1.0;
+        assert!(off.abs() < 5e-5, "case {i}: velocity change off by {off:e}");
+        let off = felt(&flight, place).value / number(case, "acceleration_m_s2") - 1.0;
+        assert!(off.abs() < 5e-5, "case {i}: acceleration off by {off:e}");
+    }
+}
