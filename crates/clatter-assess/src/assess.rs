@@ -125,7 +125,10 @@ impl ProductFile {
         }
         if worst.later > of.most {
             of.most = worst.later;
-            of.notes.push(rebounds_ask(of.most / utilization - 1.0));
+            let most = if of.most.is_finite() { format!("{} %", percent(of.most)) } else { "an unknown share".to_owned() };
+            of.notes.push(format!(
+                "rebounds may ask for up to {most} of the limit, by their energy: how the product lands again is sensitive to every input"
+            ));
         }
         let drop = ranges.single(&asked.place);
         if ranges.model < drop.fullest() {
@@ -182,7 +185,7 @@ impl ProductFile {
         let mut judged = judged.into_iter();
         let Some(own) = judged.next() else { unreachable!("drops are followed by one law at least") };
         let other = judged.next();
-        let Judged { asked, mut verdict, mut doubts, mut notes, most, bound, flat } = own;
+        let Judged { asked, mut verdict, mut doubts, notes, most, bound, flat } = own;
         let named = self.product.contact_law.is_some();
         let other_law = other.as_ref().and_then(|other| Some(in_unit_of(asked.as_ref()?, other.asked.as_ref()?)));
         if let Some(other) = other.filter(|other| !named && other.verdict != verdict) {
@@ -203,9 +206,6 @@ impl ProductFile {
         let (demand, unit) = (asked.map(|asked| asked.answer), task.limit.kind.unit());
         let utilization = demand.map_or(0.0, |answer| answer.utilization());
         let uncertainty = if demand.is_some() { most / utilization - 1.0 } else { f64::INFINITY };
-        if bound.is_some() && demand.is_some_and(|answer| answer.value == 0.0) {
-            notes.push("no drop asks for anything; what later strikes may ask is bounded by their energy".to_owned());
-        }
         let shown = asked.map_or_else(|| ranges.middle(task.component), |asked| asked.place);
         LimitAssessment {
             limit: task.limit.kind,
@@ -276,15 +276,6 @@ fn both(names: [&str; 2], answers: [Option<crate::Answer>; 2]) -> String {
         format!("{name} asks for {share} of the limit")
     };
     names.into_iter().zip(answers).map(one).collect::<Vec<_>>().join(", ")
-}
-
-fn rebounds_ask(more: f64) -> String {
-    let most = if more.is_finite() {
-        format!("by {} % at most", percent(more))
-    } else {
-        "how much more is not known".to_owned()
-    };
-    format!("rebounds may ask for more, {most} by their energy: how the product lands again is sensitive to every input")
 }
 
 /// The limit whose demand has this unit: of a damage boundary the velocity change or the acceleration.

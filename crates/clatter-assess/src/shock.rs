@@ -4,7 +4,7 @@
 //! long as the sign is kept and a tenth of its peak is exceeded, and from there as long as it goes on falling; never into an
 //! earlier one. Its change of velocity is that of the place over it: the integral of what is felt, less g times its length. So a lone
 //! contact gives (1 + e) v, two presses are one shock where the push between them never falls below a tenth, and a long gentle tail
-//! is none. Instant impacts are each a shock; those at one instant add up.
+//! is none. In free flight nothing is felt. Instant impacts are each a shock; those at one instant add up.
 
 use clatter_flight::{Model, Stretch, Strike};
 
@@ -88,9 +88,10 @@ fn at_instants(changes: impl Iterator<Item = (f64, f64)>) -> Vec<Shock> {
     all.into_iter().map(shock).collect()
 }
 
-/// A sample of what is felt: time, acceleration, and the change of velocity until then.
+/// A sample of what is felt: its section, time, acceleration, and the change of velocity until then.
 #[derive(Debug, Clone, Copy)]
 struct Sample {
+    section: usize,
     time_s: f64,
     felt: f64,
     velocity: f64,
@@ -122,7 +123,7 @@ fn shocks(sections: &[Stretch], gravity: f64) -> Vec<Shock> {
             crossing(&samples[first], first.checked_sub(1).map(|k| &samples[k])),
             crossing(&samples[last], samples.get(last + 1)),
         ];
-        let (peak, time_s) = crest(&samples, peak);
+        let (peak, time_s) = crest(sections, &samples, peak);
         let change = (end.velocity - begin.velocity).abs();
         found.push(Shock { span_s: [begin.time_s, end.time_s], change, peak, time_s });
     }
@@ -154,31 +155,29 @@ fn crossing(last: &Sample, beyond: Option<&Sample>) -> Sample {
             let time_s = last.time_s + share * (beyond.time_s - last.time_s);
             // The velocity is flat there: by the parabola through both.
             let velocity = last.velocity + 0.5 * last.felt * (time_s - last.time_s);
-            Sample { time_s, felt: 0.0, velocity }
+            Sample { time_s, felt: 0.0, velocity, ..*last }
         }
         Some(beyond) if beyond.felt == 0.0 => *beyond,
         _ => *last,
     }
 }
 
-/// The largest value at a peak and its time, by the parabola through the samples around it.
-fn crest(samples: &[Sample], peak: usize) -> (f64, f64) {
+/// The largest value at a peak and its time: by the parabola through the section on both sides of the sample.
+fn crest(sections: &[Stretch], samples: &[Sample], peak: usize) -> (f64, f64) {
     let here = samples[peak];
-    let plain = (here.felt.abs(), here.time_s);
-    let (Some(before), Some(after)) = (peak.checked_sub(1).map(|k| samples[k]), samples.get(peak + 1)) else { return plain };
-    let [left, right] = [here.time_s - before.time_s, after.time_s - here.time_s];
-    // A jump has no parabola.
-    if left <= 0.0 || right <= 0.0 || left > 4.0 * right || right > 4.0 * left {
-        return plain;
-    }
-    let (down, up) = ((here.felt - before.felt) / left, (after.felt - here.felt) / right);
-    let bend = (up - down) / (0.5 * (left + right));
-    let slope = (down * right + up * left) / (left + right);
-    if bend * here.felt >= 0.0 {
-        return plain;
-    }
-    let step = (-slope / bend).clamp(-left, right);
-    ((here.felt + 0.5 * slope * step).abs().max(here.felt.abs()), here.time_s + step)
+    let most = (here.felt.abs(), here.time_s);
+    let beside = [peak.checked_sub(1), Some(peak + 1)].into_iter().flatten().filter_map(|k| samples.get(k));
+    let rises = |other: &Sample| {
+        let section = &sections[other.section.max(here.section)];
+        let [from, to] = [here, *other].map(|s| (s.time_s - section.from_s).clamp(0.0, section.length_s));
+        let step = to - from;
+        let at = |share: f64| section.acceleration_at(from + share * step).abs();
+        let (a, b, c) = (at(0.0), at(0.5), at(1.0));
+        let (slope, bend) = (4.0 * b - 3.0 * a - c, 4.0 * (a - 2.0 * b + c));
+        let share = if bend < 0.0 { (-slope / bend).clamp(0.0, 1.0) } else { 0.0 };
+        (a + share * (slope + 0.5 * bend * share), here.time_s + share * step)
+    };
+    beside.map(rises).fold(most, |most, one| if one.0 > most.0 { one } else { most })
 }
 
 /// Phase of the fastest wave between two samples of a section.
@@ -201,17 +200,17 @@ pub(crate) fn samples(section: &Stretch, length_s: f64) -> u32 {
 fn sampled(sections: &[Stretch], gravity: f64) -> Vec<Sample> {
     let mut all = Vec::with_capacity(8 * sections.len());
     let mut velocity = 0.0;
-    for section in sections {
-        let count = samples(section, section.length_s);
+    for (n, section) in sections.iter().enumerate() {
+        let count = if section.free { 1 } else { samples(section, section.length_s) };
         for k in 0..=count {
             let t = f64::from(k) / f64::from(count) * section.length_s;
             let fallen = section.velocity_after(t) - gravity * t;
-            let felt = section.acceleration_at(t);
+            let felt = if section.free { 0.0 } else { section.acceleration_at(t) };
             // Sections join but for what lever arms miss.
             if k == 0 && all.last().is_some_and(|last: &Sample| (last.felt - felt).abs() <= JOINS * last.felt.abs()) {
                 continue;
             }
-            all.push(Sample { time_s: section.from_s + t, felt, velocity: velocity + fallen });
+            all.push(Sample { section: n, time_s: section.from_s + t, felt, velocity: velocity + fallen });
         }
         velocity += section.velocity_after(section.length_s) - gravity * section.length_s;
     }

@@ -32,6 +32,8 @@ pub struct Stretch<const N: usize = 2> {
     pub acceleration_m_s2: [f64; 2],
     /// Sinusoids besides; those that are not there have amplitude 0.
     pub waves: [Wave; N],
+    /// Whether nothing presses all along it: what is felt then is the turning of the body alone, and no shock.
+    pub free: bool,
 }
 
 /// Turn of a free flight, in rad, from which on a body tumbles: a part turns with it, so that what turning does to the height
@@ -41,7 +43,7 @@ const TUMBLES: f64 = 0.5 * std::f64::consts::PI;
 impl<const N: usize> Stretch<N> {
     /// Nothing but a velocity shock.
     pub(crate) fn shock(from_s: f64, length_s: f64, delta_v_m_s: f64) -> Self {
-        Self { from_s, length_s, delta_v_m_s, acceleration_m_s2: [0.0; 2], waves: [Wave::default(); N] }
+        Self { from_s, length_s, delta_v_m_s, acceleration_m_s2: [0.0; 2], waves: [Wave::default(); N], free: false }
     }
     /// What turning at a spin does in free flight to a place at x, z on the body, from this tilt on: nothing where the body
     /// [tumbles](TUMBLES). Returns what it changes the velocity by in either case.

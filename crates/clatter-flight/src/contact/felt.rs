@@ -81,6 +81,7 @@ impl<const N: usize> Phase<N> {
         let mut stretch = Stretch::shock(from_s, length_s, 0.0);
         if self.is_free() {
             let changed = stretch.turning(place, self.start.tilt, self.start.spin);
+            stretch.free = true;
             felt.push(stretch);
             return changed;
         }
@@ -92,7 +93,7 @@ impl<const N: usize> Phase<N> {
     fn turned(&self, [from_s, length_s]: [f64; 2], lines: &mut Lines, turned: &mut Vec<Stretch<N>>) -> f64 {
         let stretch = Stretch::shock(from_s, length_s, 0.0);
         if self.is_free() {
-            turned.push(stretch);
+            turned.push(Stretch { free: true, ..stretch });
             return 0.0;
         }
         let (by_mode, steady) = self.turned_by();
