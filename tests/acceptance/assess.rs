@@ -85,7 +85,7 @@ fn an_unsafe_component_exits_with_1_and_the_json_says_why() {
     assert_eq!(components[2]["verdict"], "safe");
 }
 
-/// A part that passes its rattle space hits its stop, which no suspension knows.
+/// A part that exceeds its rattle space hits its stop, which no suspension knows.
 #[test]
 fn what_is_undecided_exits_with_1_and_says_why() {
     let (_dir, path) = changed(|text| text.replace("rattle_space = \"8 mm\"", "rattle_space = \"0.5 mm\""));

@@ -45,10 +45,10 @@ impl ProductFile {
     /// their time is known, else instant impacts at real tilt with gravity. The worst one is searched as the module of
     /// the search says.
     ///
-    /// A limit is *unsafe* where a drop was found that passes it. It is *safe* where the energy of the drops allows no more than
+    /// A limit is *unsafe* where a drop was found that exceeds it. It is *safe* where the energy of the drops allows no more than
     /// it, or where every drop of the search was answered and the worst leaves room for what its answer may be off by, for what
     /// the search may miss, 2 %, and for what rebounds may ask by their energy. Else it is *undecided*, and the reason is told.
-    /// The acceleration of a part that passes its rattle space is undecided: it hits its stop.
+    /// The acceleration of a part that exceeds its rattle space is undecided: it hits its stop.
     ///
     /// # Errors
     /// [`Error::Tolerance`] for a tolerance outside [1e-4, 0.5]; [`Error::ContactTime`] for a stiff or hard-mounted
@@ -143,10 +143,10 @@ impl ProductFile {
         let utilization = found.utilization();
         let safe_by_energy = bound.is_some_and(|bound| bound <= task.limit.allowed);
         if utilization <= 1.0 && uncertainty.is_infinite() {
-            doubts.push("how far other drops may pass the worst one found is not known".to_owned());
+            doubts.push("how far other drops may exceed the worst one found is not known".to_owned());
         } else if utilization <= 1.0 && utilization * (1.0 + uncertainty) > 1.0 {
             doubts.push(format!(
-                "the worst drop found is {} % below the limit, and others may pass it by up to {} %",
+                "the worst drop found is {} % below the limit, and others may exceed it by up to {} %",
                 percent(1.0 / utilization - 1.0),
                 percent(uncertainty)
             ));
@@ -327,11 +327,11 @@ fn command(drop: &SingleDrop, asked: &Asked, ranges: &Ranges<'_>) -> String {
 }
 
 fn verdict(component: &Component, mut limits: Vec<LimitAssessment>) -> ComponentAssessment {
-    // A part that passes its rattle space hits its stop, whatever the linear suspension says of its acceleration.
+    // A part that exceeds its rattle space hits its stop, whatever the linear suspension says of its acceleration.
     let stop = limits.iter().find(|l| l.limit == LimitKind::RattleSpace && l.verdict != Verdict::Safe);
     if let Some(stop) = stop.map(|l| (l.verdict, l.margin)) {
         for limit in limits.iter_mut().filter(|l| l.limit == LimitKind::Acceleration) {
-            let (hits, more) = if stop.0 == Verdict::Unsafe { ("hits", "passes") } else { ("may hit", "may pass") };
+            let (hits, more) = if stop.0 == Verdict::Unsafe { ("hits", "exceeds") } else { ("may hit", "may exceed") };
             let margin = if stop.1.is_finite() { format!(" (margin {:+} %)", percent(stop.1)) } else { String::new() };
             limit.verdict = Verdict::Undecided;
             limit.undecided = Some(format!(

@@ -1,4 +1,4 @@
-//! What no drop of the ranges passes, by the energy that the body has as it touches.
+//! What no drop of the ranges exceeds, by the energy that the body has as it touches.
 //!
 //! Per mass that is `E = ½ v₀² + g y`, y the height of the center of mass over where it lies. It bounds every speed from then on, whatever
 //! the order of the strikes, the tilt and the model: of a place at distance x from the center of mass by √(2E (1 + x²/ρ²)), of

@@ -43,7 +43,7 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// Value over allowed: beyond 1 the limit is passed.
+    /// Value over allowed: beyond 1 the limit is exceeded.
     #[must_use]
     pub fn utilization(&self) -> f64 {
         self.value / self.allowed

@@ -13,7 +13,7 @@ pub enum Verdict {
     Safe,
     /// What was found does not tell.
     Undecided,
-    /// A drop of the ranges passes a limit.
+    /// A drop of the ranges exceeds a limit.
     Unsafe,
 }
 
@@ -121,9 +121,9 @@ pub struct LimitAssessment {
     pub margin: f64,
     /// Whether the limit holds.
     pub verdict: Verdict,
-    /// What no drop of the ranges passes, by the energy that the body has; null for the response of a suspended part.
+    /// What no drop of the ranges exceeds, by the energy that the body has; null for the response of a suspended part.
     pub bound: Option<f64>,
-    /// By how much at most drops of the ranges may pass the demand, as a share of it: what the answer may be off by and what
+    /// By how much at most drops of the ranges may exceed the demand, as a share of it: what the answer may be off by and what
     /// the search may miss.
     #[serde(serialize_with = "number")]
     pub uncertainty: f64,

@@ -24,7 +24,7 @@ use crate::{Exit, Failure, Streams, budget, input, output, text};
 /// that the file allows: contacts that take time where it gives their time, else instant impacts at real tilt with
 /// gravity. The demand is what that drop asks for, and the command below it answers it once more.
 ///
-/// A limit is UNSAFE where a drop was found that passes it; safe where energy allows no drop to pass it, or where the
+/// A limit is UNSAFE where a drop was found that exceeds it; safe where energy allows no drop to exceed it, or where the
 /// worst drop found leaves room for what the search may miss and its answer be off by ('good to'); else undecided, with
 /// the reason. 'clatter init' writes a product file.
 ///

@@ -9,6 +9,7 @@ use clatter_flight::{Body, ContactLaw, Scene};
 
 use crate::inputs::{self, LawName, ModelName};
 use crate::one_drop::{OneDrop, PartSetup};
+use crate::numbers::given;
 use crate::quantities::{self, Piece, Place, Show, Shown, neat};
 use crate::{Failure, Streams};
 
@@ -45,8 +46,8 @@ pub(crate) struct DropArgs {
     /// Acceleration of gravity; the model map leaves it out [default: 1g]
     #[arg(long, value_name = "ACCELERATION", allow_hyphen_values = true, value_parser = quantities::gravity, requires = "followed", conflicts_with = "gravity_m_s2")]
     gravity: Option<Quantity>,
-    /// How long a lone contact presses; for compliant, and in `clatter respond` for the acceleration of a place by the
-    /// other models
+    /// How long a lone contact of one end takes, from touch to parting; for compliant, and in `clatter respond` for the
+    /// acceleration of a place by the other models. 'clatter init' names public values
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = quantities::contact_time, requires = "followed", conflicts_with = "contact_time_s")]
     contact_time: Option<Quantity>,
     /// What the ground does to an end while it touches, for compliant [default: hysteretic]
@@ -153,17 +154,17 @@ impl DropArgs {
         if self.thickness_m.is_some() { "--thickness-m" } else { "--thickness" }
     }
 
-    /// A flight with contacts that was refused, with the options as they were given.
-    pub(crate) fn named(&self, error: clatter_flight::Error, gyration_m: Option<f64>) -> Failure {
-        let in_si = self.contact_time_s.is_some();
-        match Failure::contacts(error) {
-            Failure::Flag { flag: "--contact-time-s", reason } if !in_si => {
-                Failure::Flag { flag: "--contact-time", reason }
-            }
-            Failure::Flag { flag: "--gyration-m", reason } if gyration_m.is_none() => {
-                Failure::Flag { flag: "--gyration", reason }
-            }
-            failure => failure,
+    /// A flight that was refused, with the option whose value it refuses where there is one.
+    pub(crate) fn named(&self, error: clatter_flight::Error, gyration: Option<Quantity>) -> Failure {
+        let clatter_flight::Error::Bound { name, .. } = &error else { return Failure::Flight(error) };
+        let (given, typed, plain) = match *name {
+            "contact time" => (self.contact_time(), "--contact-time", "--contact-time-s"),
+            _ => (gyration, "--gyration", "--gyration-m"),
+        };
+        match given {
+            Some(Quantity { unit: Some(_), .. }) => Failure::Wrong(format!("invalid value for '{typed}': {error}")),
+            Some(Quantity { si, unit: None }) => Failure::Wrong(format!("invalid value {si:?} for '{plain}': {error}")),
+            None => Failure::Flight(error),
         }
     }
 
@@ -294,11 +295,12 @@ impl DropArgs {
         let (a, b) = (half * (1.0 + center), half * (1.0 - center));
         Body::off_center(a, b, 0.0).map_err(Failure::flag(center_flag))?;
         let body = Body::off_center(a, b, gyration).map_err(Failure::flag(gyration_flag))?;
-        if gyration > MOST_GYRATION * 2.0 * half {
-            let (name, allowed) =
-                ("radius of gyration in m", "at most 2 lengths, as in product files: two masses at the ends have 0.5");
-            let reason = clatter::Error::Quantity { name, value: gyration, allowed };
-            return Err(Failure::Flag { flag: gyration_flag, reason });
+        let most = MOST_GYRATION * 2.0 * half;
+        if gyration > most {
+            let [given, most] = [gyration, most].map(|m| given(neat(1e3 * m)));
+            return Err(Failure::Wrong(format!(
+                "invalid value for '{gyration_flag}': radius of gyration {given} mm: at most {most} mm here, 2 lengths, as in product files; two masses at the ends have 0.5"
+            )));
         }
         let flag = self.thickness_flag();
         let body = body.with_thickness(self.thickness()).map_err(Failure::flag(flag))?;

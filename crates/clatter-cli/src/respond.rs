@@ -161,6 +161,10 @@ struct Inertia {
 }
 
 impl Inertia {
+    fn gyration(&self) -> Option<Quantity> {
+        self.gyration.or(self.gyration_m.map(Quantity::of_si))
+    }
+
     /// The paper's bar.
     fn bar(&self, e: f64) -> Result<Bar, Failure> {
         Ok(match (self.q, self.gyration_ratio, &self.mass[..]) {

@@ -111,11 +111,11 @@ pub(crate) fn surely_named(assessment: &Assessment) -> Option<Assessment> {
     changed.then_some(sure)
 }
 
-/// The limit that is passed by most: the part, the margin.
+/// The limit that is exceeded by most: the part, the margin.
 fn hardest(assessment: &Assessment) -> Option<Value> {
     let limits = assessment.components.iter().flat_map(|c| c.limits.iter().map(move |l| (c, l)));
-    let passed = limits.filter(|(_, l)| l.verdict == Verdict::Unsafe);
-    let worst = passed.min_by(|a, b| a.1.margin.total_cmp(&b.1.margin));
+    let exceeded = limits.filter(|(_, l)| l.verdict == Verdict::Unsafe);
+    let worst = exceeded.min_by(|a, b| a.1.margin.total_cmp(&b.1.margin));
     worst.map(|(c, l)| json!({ "name": name(&c.name), "limit": limit(l.limit), "margin": percent(l.margin) }))
 }
 

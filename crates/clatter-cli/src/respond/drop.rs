@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::peaks::{
     Equivalent, EquivalentJson, FactorsJson, ResponseJson, Shocks, at_once, equivalent, equivalent_table,
 };
-use super::{Args, Inertia};
+use super::Args;
 use crate::drop_args::{Beside, Setup};
 use crate::inputs::{ModelName, law_name};
 use crate::numbers::{Json, figures, given};
@@ -54,11 +54,11 @@ const TOLD: f64 = 10.0;
 
 impl Args {
     pub(super) fn drop_by(&self, streams: &mut Streams<'_>) -> Result<Drop<'_>, Failure> {
-        let Inertia { gyration, gyration_m, mass, .. } = &self.inertia;
+        let mass = &self.inertia.mass;
         let beside = Beside {
             model: self.model,
             e: self.e,
-            gyration: gyration.or(gyration_m.map(Quantity::of_si)),
+            gyration: self.inertia.gyration(),
             masses: mass,
             instant_contacts: true,
         };
@@ -92,14 +92,14 @@ impl Args {
     /// A drop that was refused, with the options as they were given.
     fn named(&self, error: clatter_assess::Error) -> Failure {
         match error {
-            clatter_assess::Error::Flight(error) => self.drop.named(error, self.inertia.gyration_m),
+            clatter_assess::Error::Flight(error) => self.drop.named(error, self.inertia.gyration()),
             error => Failure::Assess(error),
         }
     }
 
     fn suspended(&self, ask: &Ask<'_>, position_m: f64, suspension: Suspension) -> Result<Suspended, Failure> {
         let response = respond(ask.drop, position_m, &suspension, ask.model.into(), ask.tolerance);
-        let response = response.map_err(Failure::drop)?;
+        let response = response.map_err(Failure::Assess)?;
         let asked = self.equivalent_pulse.then(|| equivalent(&self.shock_table, &suspension, &response));
         Ok(Suspended {
             suspension,
@@ -139,7 +139,7 @@ impl Ask<'_> {
     ) -> Result<Option<Answer>, Failure> {
         match self.of(kind, position_m, suspension) {
             Err(clatter_assess::Error::Unfinished) => Ok(None),
-            answer => answer.map(Some).map_err(Failure::drop),
+            answer => answer.map(Some).map_err(Failure::Assess),
         }
     }
 
