@@ -292,7 +292,11 @@ fn a_drop_and_a_part_come_from_a_product_file() {
         "--frequency=100Hz",
         "--damping=0.1",
     ];
-    assert!(alike(&got, &json(&plain).0), "{got}");
+    let without_limits = |mut answer: Value| {
+        answer.as_object_mut().unwrap().remove("limits");
+        answer
+    };
+    assert!(alike(&without_limits(got.clone()), &json(&plain).0), "{got}");
     for said in [
         "note: Handheld: either end may touch first: taken is end a\n",
         "note: Handheld: restitution = 0.4, the largest of 0.25 to 0.4\n",

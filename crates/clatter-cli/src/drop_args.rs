@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use clap::ValueHint;
+use clatter::End;
 use clatter_assess::units::Quantity;
-use clatter_assess::{STANDARD_GRAVITY_M_S2, slip};
+use clatter_assess::{Accuracy, STANDARD_GRAVITY_M_S2, slip};
 use clatter_flight::{Body, ContactLaw, Scene};
 
 use crate::inputs::{self, LawName, ModelName};
@@ -97,11 +98,19 @@ pub(crate) struct Beside<'a> {
     pub(crate) masses: &'a [Piece],
     /// Whether a contact time counts for instant impacts, too.
     pub(crate) instant_contacts: bool,
+    /// The end that touches first, over that of the product file.
+    pub(crate) first: Option<End>,
+    /// Whether places that are typed are those of the product, whichever end touches first; else they are seen from the end that does.
+    pub(crate) of_product: bool,
+    /// The worst drop of a product file instead of one value of each range.
+    pub(crate) worst: Option<Accuracy>,
 }
 
 /// A drop with all that it needs.
 pub(crate) struct Setup {
     pub(crate) model: ModelName,
+    /// The end of the product that touches first; in the scene it is end a.
+    pub(crate) first: End,
     pub(crate) scene: Scene,
     /// Position of the center of mass on the body.
     pub(crate) center_of_mass: f64,
@@ -116,6 +125,18 @@ pub(crate) struct Setup {
     pub(crate) part: Option<PartSetup>,
     /// What is told beside the answer, after what it is.
     pub(crate) notes: Vec<(&'static str, String)>,
+}
+
+impl Setup {
+    /// The sign that turns a place of the product into one of the scene, or back.
+    pub(crate) fn side(&self) -> f64 {
+        if self.first == End::A { 1.0 } else { -1.0 }
+    }
+    /// Of the ends a and b of the product.
+    pub(crate) fn inertia_ratios(&self) -> [f64; 2] {
+        let [front, back] = self.scene.body().inertia_ratios();
+        if self.first == End::A { [front, back] } else { [back, front] }
+    }
 }
 
 /// A number that was given one way or the other.
@@ -171,10 +192,23 @@ impl DropArgs {
     /// The drop, over that of the product file where there is one.
     pub(crate) fn setup(&self, beside: &Beside<'_>, streams: &mut Streams<'_>) -> Result<Setup, Failure> {
         let mut file = match &self.product {
-            Some(path) => Some(OneDrop::read(path, self.component.as_deref(), streams)?),
+            Some(path) => {
+                let file = OneDrop::read(path, self.component.as_deref(), beside.first, streams)?;
+                Some(match &beside.worst {
+                    Some(accuracy) => file.at_worst(accuracy)?,
+                    None => file,
+                })
+            }
             None => None,
         };
         let mut notes = self.slips(beside);
+        let mirrored = file.as_ref().map_or(beside.first == Some(End::B), OneDrop::is_mirrored);
+        if let Some(file) = file.as_mut().filter(|_| mirrored && !beside.of_product) {
+            file.note(
+                "end b touches first and is called a here: places of the file are turned around; those of --at, \
+                 --center-of-mass and --mass are not, they count towards the end that strikes second",
+            );
+        }
         let length = either(self.length, self.length_m);
         let length_m = length.map(|length| length.si).or(file.as_ref().map(OneDrop::length_m));
         let tilt_deg = self.tilt_deg.or(self.tilt.map(|tilt| neat(tilt.si.to_degrees())));
@@ -214,7 +248,8 @@ impl DropArgs {
         let half = 0.5 * length_m;
         notes
             .extend(beside.masses.iter().flat_map(|piece| piece.slips(half)).map(|slip| ("warning", slip.to_string())));
-        let (center_of_mass, body) = self.body(half, beside, e, file.as_ref())?;
+        let turned = mirrored && beside.of_product;
+        let (center_of_mass, body) = self.body(half, beside, e, file.as_ref(), if turned { -1.0 } else { 1.0 })?;
         let scene = self.scene(body, e, [speed, height_m], tilt_deg, gravity)?;
         let part = file.as_mut().map(|file| file.part(half)).transpose()?.flatten();
         let shown = self.shown(length.and_then(|length| length.unit), beside, file.as_ref());
@@ -227,6 +262,7 @@ impl DropArgs {
         }
         Ok(Setup {
             model,
+            first: if mirrored { End::B } else { End::A },
             scene,
             center_of_mass,
             length_m,
@@ -274,8 +310,16 @@ impl DropArgs {
     }
 
     /// The body, and where its center of mass lies.
-    fn body(&self, half: f64, beside: &Beside<'_>, e: f64, file: Option<&OneDrop>) -> Result<(f64, Body), Failure> {
+    fn body(
+        &self,
+        half: f64,
+        beside: &Beside<'_>,
+        e: f64,
+        file: Option<&OneDrop>,
+        side: f64,
+    ) -> Result<(f64, Body), Failure> {
         let center = self.center_of_mass.map(|place| place.relative("--center-of-mass", Some(half))).transpose()?;
+        let center = center.map(|center| side * center + 0.0);
         let [(center, center_flag), (gyration, gyration_flag)] = match (beside.gyration, beside.masses) {
             (None, []) => {
                 // The file has the rest; its body takes another length as it is stretched.
@@ -289,7 +333,7 @@ impl DropArgs {
             }
             (None, pieces) => {
                 let bar = inputs::bar_of(&quantities::masses(pieces, Some(half))?, e)?;
-                [bar.center_of_mass(), half * bar.gyration_ratio()].map(|x| (x, "--mass"))
+                [side * bar.center_of_mass() + 0.0, half * bar.gyration_ratio()].map(|x| (x, "--mass"))
             }
         };
         let (a, b) = (half * (1.0 + center), half * (1.0 - center));

@@ -203,6 +203,9 @@ impl Args {
             gyration: self.inertia.gyration(),
             masses: mass,
             instant_contacts: false,
+            first: None,
+            of_product: false,
+            worst: None,
         };
         let mut setup = self.drop.setup(&beside, streams)?;
         let (spin, flag) = match (self.spin, self.spin_rad_s) {

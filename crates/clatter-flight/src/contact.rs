@@ -177,14 +177,16 @@ impl<const N: usize> Scene<N> {
         let of_time = |bound, most, reason| {
             Err(Error::Bound { name: "contact time", value: time, bound, most, unit: "s", reason })
         };
-        if gyration < 0.05 * length {
+        // What is told as the bound is allowed.
+        let beyond = 1.0 + 1e-12;
+        if gyration * beyond < 0.05 * length {
             let (name, reason) = ("radius of gyration", "0.05 of the length for contacts that take time");
             let (value, bound) = (gyration, 0.05 * length);
             return Err(Error::Bound { name, value, bound, most: false, unit: "m", reason });
         }
         let of_speed = 0.1 * length / (self.speed_m_s() + reach * self.spin_rad_s().abs());
         let of_gravity = 0.1 * (length / self.gravity_m_s2()).sqrt();
-        if time > of_speed.min(of_gravity) {
+        if time > of_speed.min(of_gravity) * beyond {
             let reason = if of_speed < of_gravity {
                 "a tenth of length/speed, so that the ends sink in little"
             } else {
@@ -193,7 +195,7 @@ impl<const N: usize> Scene<N> {
             return of_time(of_speed.min(of_gravity), true, reason);
         }
         let shortest = 1e-10 * length / self.speed_m_s();
-        if time < shortest {
+        if time * beyond < shortest {
             return of_time(shortest, false, "1e-10 length/speed, so that the ends sink in at all");
         }
         Ok(())
