@@ -564,6 +564,14 @@ fn a_product_that_stands_nearly_upright_is_answered() {
     }
 }
 
+/// The answer about a drop of a product file, with notes beside it.
+fn noted<S: AsRef<str>>(arguments: impl IntoIterator<Item = S>) -> Value {
+    let arguments: Vec<String> = arguments.into_iter().map(|argument| argument.as_ref().to_owned()).collect();
+    let outcome = clatter(arguments.iter().map(String::as_str).chain(["--format=json"]));
+    assert_eq!(outcome.exit, Exit::Done, "{}", outcome.stderr);
+    serde_json::from_str(&outcome.stdout).unwrap()
+}
+
 /// Ranges of everything, a part that extends, either end first, the center of mass off the middle.
 const RANGES: &str = r#"
 [product]
@@ -600,8 +608,12 @@ fn the_worst_drop_of_a_part_is_what_the_assessment_says() {
     let path = written(dir.path(), "ranges.toml", RANGES);
     let assessed: Value = serde_json::from_str(&clatter(["assess", &path, "--format=json"]).stdout).unwrap();
     for part in assessed["components"].as_array().unwrap() {
-        let arguments =
-            ["respond", &format!("--product={path}"), &format!("--component={}", part["name"].as_str().unwrap()), "--worst"];
+        let arguments = [
+            "respond",
+            &format!("--product={path}"),
+            &format!("--component={}", part["name"].as_str().unwrap()),
+            "--worst",
+        ];
         let outcome = clatter(arguments.iter().chain(&["--format=json"]));
         assert_eq!(outcome.exit, Exit::Done, "{}", outcome.stderr);
         let got: Value = serde_json::from_str(&outcome.stdout).unwrap();
@@ -622,7 +634,10 @@ fn the_worst_drop_of_a_part_is_what_the_assessment_says() {
             all.into_iter().max_by(|a, b| share(a).total_cmp(&share(b))).unwrap()
         };
         let (told, again) = (tightest(&part["limits"]), tightest(&got["limits"]));
-        assert_eq!((&again["limit"], &again["unit"], &again["allowed"]), (&told["limit"], &told["unit"], &told["allowed"]));
+        assert_eq!(
+            (&again["limit"], &again["unit"], &again["allowed"]),
+            (&told["limit"], &told["unit"], &told["allowed"])
+        );
         assert!((of(&again, "value") / of(&told, "demand") - 1.0).abs() < 1e-9, "{again}, not {told}");
         assert!((of(&again, "share") - of(&told, "demand") / of(&told, "allowed")).abs() < 1e-9, "{again}");
         assert_eq!(again["impact"], told["worst_case"]["impact"]);
@@ -642,7 +657,11 @@ fn the_worst_drop_of_a_part_is_what_the_assessment_says() {
     let table = clatter(["respond", &format!("--product={path}"), "--component=display", "--worst"]).stdout;
     assert!(table.contains(" gn") && table.contains("8.000 mm") && table.contains("1600 gn"), "{table}");
     let refused = clatter(["respond", &format!("--product={path}"), "--component=display", "--worst", "--tilt=2deg"]);
-    assert!(refused.exit == Exit::BadInput && refused.stderr.contains("'--worst' cannot be used with"), "{}", refused.stderr);
+    assert!(
+        refused.exit == Exit::BadInput && refused.stderr.contains("'--worst' cannot be used with"),
+        "{}",
+        refused.stderr
+    );
     let nameless = clatter(["respond", &format!("--product={path}"), "--worst"]);
     assert!(nameless.exit == Exit::BadInput && nameless.stderr.contains("--component=NAME"), "{}", nameless.stderr);
 }
@@ -652,7 +671,8 @@ fn the_worst_drop_of_a_part_is_what_the_assessment_says() {
 fn a_drop_onto_end_b_is_the_product_turned_around() {
     let dir = tempfile::tempdir().unwrap();
     let path = written(dir.path(), "ranges.toml", RANGES);
-    let around = RANGES.replace("\"6 mm\"", "\"-6 mm\"").replace("\"10 mm\"", "\"-10 mm\"").replace("\"-20 mm\"", "\"20 mm\"");
+    let around =
+        RANGES.replace("\"6 mm\"", "\"-6 mm\"").replace("\"10 mm\"", "\"-10 mm\"").replace("\"-20 mm\"", "\"20 mm\"");
     let around = written(dir.path(), "around.toml", &around);
     for (part, at) in [("display", None), ("gyroscope", None), ("display", Some(0.3))] {
         let ask = |path: &str, first: &str, at: Option<f64>| {
@@ -664,20 +684,27 @@ fn a_drop_onto_end_b_is_the_product_turned_around() {
                 format!("--first={first}"),
                 "--tilt-deg=4".to_owned(),
             ];
-            answer(arguments.into_iter().chain(at))
+            noted(arguments.into_iter().chain(at))
         };
         let (b, a) = (ask(&path, "b", at), ask(&around, "a", at.map(|at| -at)));
         assert_eq!((&b["first"], &a["first"]), (&json!("b"), &json!("a")));
-        assert!((of(&b, "at") + of(&a, "at")).abs() < 1e-12 && (of(&b, "center_of_mass") + of(&a, "center_of_mass")).abs() < 1e-12);
+        assert!(
+            (of(&b, "at") + of(&a, "at")).abs() < 1e-12
+                && (of(&b, "center_of_mass") + of(&a, "center_of_mass")).abs() < 1e-12
+        );
         for name in ["velocity_change_m_s", "acceleration_m_s2", "angular_velocity_change_rad_s"] {
             assert!((of(&b, name) / of(&a, name) - 1.0).abs() < 1e-12, "{name}: {b}, not {a}");
         }
         for (b, a) in b["limits"].as_array().unwrap().iter().zip(a["limits"].as_array().unwrap()) {
-            assert!((of(b, "value") / of(a, "value") - 1.0).abs() < 1e-12 && b["impact"] == a["impact"], "{b}, not {a}");
+            assert!(
+                (of(b, "value") / of(a, "value") - 1.0).abs() < 1e-12 && b["impact"] == a["impact"],
+                "{b}, not {a}"
+            );
             assert!((of(b, "position_m") + of(a, "position_m")).abs() < 1e-12, "{b}, {a}");
         }
         // The other end first asks for something else.
-        assert!(of(&ask(&path, "a", at), "velocity_change_m_s") != of(&b, "velocity_change_m_s"));
+        let ratio = of(&ask(&path, "a", at), "velocity_change_m_s") / of(&b, "velocity_change_m_s");
+        assert!((ratio - 1.0).abs() > 1e-3, "{ratio}");
     }
 }
 
@@ -688,7 +715,7 @@ fn an_extended_part_is_answered_at_its_worst_end() {
     let path = written(dir.path(), "ranges.toml", RANGES);
     let ask = |more: &[&str]| {
         let arguments = ["respond", &format!("--product={path}"), "--component=display", "--first=a", "--tilt-deg=5"];
-        answer(arguments.iter().chain(more))
+        noted(arguments.iter().chain(more))
     };
     let got = ask(&[]);
     let ends = [ask(&["--at=-30mm"]), ask(&["--at=50mm"])];

@@ -329,7 +329,10 @@ fn the_smallest_changes_of_a_hard_part_are_those_of_the_closed_form() {
         let short = short_by(1.0) * room;
         assert!(short_by(0.0) * room <= 3.2 && short > 3.2, "{remedy:?}: {short}");
         let wide = change.to.map(|x| x - change.to[0])[1] - (change.from[1] - change.from[0]);
-        assert!((-1e-9..2.0 * step).contains(&wide), "a range moves as a whole, and widens by roundings alone: {change:?}");
+        assert!(
+            (-1e-9..2.0 * step).contains(&wide),
+            "a range moves as a whole, and widens by roundings alone: {change:?}"
+        );
     }
 }
 
@@ -348,7 +351,7 @@ fn no_smaller_change_is_enough() {
                         Lever::InertiaRatio => 0.05,
                         Lever::Position => 2e-3,
                         Lever::Limit(LimitKind::Acceleration) => 2.0 * 9.806_65 * step(change.to[0] / 9.806_65),
-                        _ => 2.0 * step(change.to[0]),
+                        _ => 2.0 * step(change.to[1]),
                     };
                     (*change, 1.0 - back / (change.to[0] - change.from[0]).abs())
                 }

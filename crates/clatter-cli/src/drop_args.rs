@@ -9,8 +9,8 @@ use clatter_assess::{Accuracy, STANDARD_GRAVITY_M_S2, slip};
 use clatter_flight::{Body, ContactLaw, Scene};
 
 use crate::inputs::{self, LawName, ModelName};
-use crate::one_drop::{OneDrop, PartSetup};
 use crate::numbers::given;
+use crate::one_drop::{OneDrop, PartSetup};
 use crate::quantities::{self, Piece, Place, Show, Shown, neat};
 use crate::{Failure, Streams};
 

@@ -4,9 +4,7 @@ use std::path::Path;
 
 use clatter::End;
 use clatter_assess::units::{Quantity, Unit};
-use clatter_assess::{
-    Accuracy, Component, Damping, Fall, First, Limit, Limits, Mount, ProductFile, Spread, WorstCase,
-};
+use clatter_assess::{Accuracy, Component, Damping, Fall, First, Limit, Limits, Mount, ProductFile, Spread, WorstCase};
 use clatter_flight::ContactLaw;
 use clatter_shock::DampingRatio;
 
@@ -190,13 +188,12 @@ impl OneDrop {
     pub(crate) fn part(&mut self, half_m: f64) -> Result<Option<PartSetup>, Failure> {
         let Some(component) = self.component().cloned() else { return Ok(None) };
         let notes = &mut self.notes;
-        let (position_m, ends_m) = match &self.worst {
-            Some(worst) => (worst.position_m, component.ends_m()),
-            None => {
-                let middle = Self::take(notes, "position", &component.position_m, Taken::Middle, "m");
-                let half = 0.5 * component.extent_m;
-                (middle, if half > 0.0 { vec![middle - half, middle + half] } else { vec![middle] })
-            }
+        let (position_m, ends_m) = if let Some(worst) = &self.worst {
+            (worst.position_m, component.ends_m())
+        } else {
+            let middle = Self::take(notes, "position", &component.position_m, Taken::Middle, "m");
+            let half = 0.5 * component.extent_m;
+            (middle, if half > 0.0 { vec![middle - half, middle + half] } else { vec![middle] })
         };
         let side = if self.mirrored { -1.0 } else { 1.0 };
         let length = Quantity { si: side * position_m, unit: component.position_m.unit() };
@@ -205,12 +202,11 @@ impl OneDrop {
             Mount::Suspended { frequency_hz, damping } => {
                 let unit = frequency_hz.unit();
                 let worst = self.worst.as_ref().and_then(|worst| worst.frequency_hz.zip(worst.damping_ratio));
-                Some(match worst {
-                    Some((si, ratio)) => (Quantity { si, unit }, DampingRatio::new(ratio)?),
-                    None => {
-                        let si = Self::take(notes, "natural frequency", &frequency_hz, Taken::Middle, "Hz");
-                        (Quantity { si, unit }, Self::damping(notes, &damping)?)
-                    }
+                Some(if let Some((si, ratio)) = worst {
+                    (Quantity { si, unit }, DampingRatio::new(ratio)?)
+                } else {
+                    let si = Self::take(notes, "natural frequency", &frequency_hz, Taken::Middle, "Hz");
+                    (Quantity { si, unit }, Self::damping(notes, &damping)?)
                 })
             }
         };

@@ -76,9 +76,8 @@ Examples:
       --e=30% --height=1.2m --tilt=5deg --at=35mm                  a part that is mounted rigidly
   clatter respond --shocks-file=shocks.csv --omega=1131
 
-With a product file:
-  clatter respond --product=phone.toml --component=camera --worst             its worst drop again
-  clatter respond --product=phone.toml --component=camera --tilt=2deg --first=b   one of its drops
+With a product file: clatter respond --product=phone.toml --component=camera --worst answers its worst
+drop again, --tilt=2deg --first=b in place of --worst one of its drops.
 
 'clatter --help' tells what q, e and the units are."
 )]
@@ -151,9 +150,32 @@ const CLATTER: [&str; 10] =
 
 /// What says how a drop is, that of a product file apart.
 const OF_ONE_DROP: [&str; 26] = [
-    "first", "at", "e", "omega", "frequency", "damping", "q_factor", "gyration", "gyration_m", "mass", "length", "length_m",
-    "center_of_mass", "thickness", "thickness_m", "speed", "speed_m_s", "height", "height_m", "tilt", "tilt_deg", "gravity",
-    "gravity_m_s2", "contact_time", "contact_time_s", "contact_law",
+    "first",
+    "at",
+    "e",
+    "omega",
+    "frequency",
+    "damping",
+    "q_factor",
+    "gyration",
+    "gyration_m",
+    "mass",
+    "length",
+    "length_m",
+    "center_of_mass",
+    "thickness",
+    "thickness_m",
+    "speed",
+    "speed_m_s",
+    "height",
+    "height_m",
+    "tilt",
+    "tilt_deg",
+    "gravity",
+    "gravity_m_s2",
+    "contact_time",
+    "contact_time_s",
+    "contact_law",
 ];
 
 /// How the mass lies.

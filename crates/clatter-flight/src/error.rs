@@ -8,7 +8,7 @@ pub enum Error {
     #[error(transparent)]
     Given(#[from] clatter::Error),
     /// A contact time or a radius of gyration beyond what this body and this drop allow.
-    #[error("{name} {}: {} {} here, {reason}", milli(*.value, *unit), if *most { "at most" } else { "at least" }, milli(towards(*.bound, *most), *unit))]
+    #[error("{name} {}: {} {} here, {reason}", milli(*value, unit), if *most { "at most" } else { "at least" }, milli(towards(*bound, *most), unit))]
     Bound {
         /// What the value stands for.
         name: &'static str,
@@ -37,7 +37,11 @@ pub enum Error {
 /// In thousandths of the unit.
 fn milli(x: f64, unit: &str) -> String {
     let thousandths: f64 = format!("{:.12e}", 1e3 * x).parse().unwrap_or(x);
-    if (1e-3..1e6).contains(&thousandths) { format!("{thousandths} m{unit}") } else { format!("{thousandths:e} m{unit}") }
+    if (1e-3..1e6).contains(&thousandths) {
+        format!("{thousandths} m{unit}")
+    } else {
+        format!("{thousandths:e} m{unit}")
+    }
 }
 
 /// Three digits of a bound, on the side that is allowed.

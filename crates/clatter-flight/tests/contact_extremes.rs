@@ -282,7 +282,12 @@ fn a_bound_is_told_as_the_number_that_is_allowed_here() {
     };
     for (scene, value, told, bound_s) in [
         // 0.14 m/4.83 m/s/10 = 2.8985… ms
-        (drop(0.14, 0.04, 4.83, 9.81), 5e-3, "contact time 5 ms: at most 2.89 ms here, a tenth of length/speed", 2.89e-3),
+        (
+            drop(0.14, 0.04, 4.83, 9.81),
+            5e-3,
+            "contact time 5 ms: at most 2.89 ms here, a tenth of length/speed",
+            2.89e-3,
+        ),
         // √(0.14 m/9.81 m/s²)/10 = 11.946… ms
         (drop(0.14, 0.04, 1e-3, 9.81), 0.02, "contact time 20 ms: at most 11.9 ms here, a tenth of sqrt", 11.9e-3),
         (drop(0.1, 0.04, 5.0, 0.0), 2.5e-3, "contact time 2.5 ms: at most 2 ms here, a tenth of length/speed", 2e-3),

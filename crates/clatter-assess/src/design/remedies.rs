@@ -6,7 +6,9 @@ use rayon::prelude::*;
 
 use super::lever::{Bounds, Change, Lever, Outcome, Remedies, Remedy, Together};
 use crate::search::{Place, Ranges, Task, Watch};
-use crate::{Accuracy, Assessment, Component, ComponentAssessment, Error, Limit, LimitKind, Mount, ProductFile, Verdict};
+use crate::{
+    Accuracy, Assessment, Component, ComponentAssessment, Error, Limit, LimitKind, Mount, ProductFile, Verdict,
+};
 
 /// Steps from bound to bound in which safe values are looked for; an island of safety narrower than one may be missed.
 pub const STEPS: u32 = 48;
@@ -144,7 +146,7 @@ impl Case<'_> {
     ) -> (f64, Box<ComponentAssessment>) {
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (short + enough.0);
-            if self.value(lever, middle) == self.value(lever, enough.0) {
+            if self.value(lever, middle).map(f64::to_bits) == self.value(lever, enough.0).map(f64::to_bits) {
                 enough.0 = middle;
                 continue;
             }

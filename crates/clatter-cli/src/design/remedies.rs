@@ -175,13 +175,7 @@ impl Found<'_> {
         }
     }
 
-    fn together(
-        &self,
-        part: &Remedies,
-        head: &str,
-        together: &Together,
-        out: &mut dyn Write,
-    ) -> io::Result<()> {
+    fn together(&self, part: &Remedies, head: &str, together: &Together, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "  {head}")?;
         let width = together.changes.iter().map(|change| called(change.lever).len()).max().unwrap_or(0);
         for change in &together.changes {

@@ -8,11 +8,11 @@ use clatter_assess::{Accuracy, Answer, Limit, LimitKind, Part, SingleDrop, answe
 use clatter_shock::{ImpulseFactors, Response, Suspension};
 use serde::Serialize;
 
+use super::Args;
 use super::limits::{self, LimitJson, OfLimit};
 use super::peaks::{
     Equivalent, EquivalentJson, FactorsJson, ResponseJson, Shocks, at_once, equivalent, equivalent_table,
 };
-use super::Args;
 use crate::drop_args::{Beside, Setup};
 use crate::inputs::{ModelName, law_name, letter};
 use crate::numbers::{Json, figures, given};
@@ -100,7 +100,7 @@ impl Args {
         let limits = part.map_or(Ok(Vec::new()), |part| limits::of(part, &places, half_m, felt))?;
         let at = limits::worst(&limits).map_or(places[0], |limit| limit.at);
         let position_m = side * at * half_m;
-        let called = self.at.map_or_else(|| setup.shown.length.given(neat(at * half_m)), |place| place.said());
+        let called = self.at.map_or_else(|| setup.shown.length.given(neat(at * half_m)), quantities::Place::said);
         let place_felt = ask.place(position_m)?;
         let part = suspension.map(|suspension| self.suspended(&ask, position_m, suspension)).transpose()?;
         Ok(Drop { args: self, setup, at, called, single: drop, limits, place: place_felt, part })

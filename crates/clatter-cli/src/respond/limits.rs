@@ -67,7 +67,8 @@ pub(super) fn table(part: &PartSetup, limits: &[OfLimit], time: Show, out: &mut 
             continue;
         };
         let words = |value| in_words(answer.unit, part.limits.unit(row.limit.kind, answer.unit), value);
-        let (value, allowed, share) = (words(answer.value), words(answer.allowed), format!("{:.1} %", 100.0 * answer.utilization()));
+        let (value, allowed, share) =
+            (words(answer.value), words(answer.allowed), format!("{:.1} %", 100.0 * answer.utilization()));
         let place = if row.limit.kind == LimitKind::AngularVelocityChange {
             "-".to_owned()
         } else {

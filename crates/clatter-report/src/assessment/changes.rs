@@ -37,14 +37,13 @@ pub(super) struct Of<'a> {
 impl Of<'_> {
     /// A value, low and high end, in the unit of the file; of an inertia ratio the radius of gyration that has it.
     fn value(&self, lever: Lever, of: [f64; 2]) -> String {
-        let unit = lever.written_in(self.product, self.component);
-        let (mut numbers, name) = match lever {
-            Lever::InertiaRatio => (of.map(|q| self.gyration_mm(q)), " mm".to_owned()),
-            _ => {
-                let name = unit.map_or(lever.unit(), |unit| unit.name);
-                let space = if name.is_empty() { "" } else { " " };
-                (of.map(|x| unit.map_or(x, |unit| unit.of_si(x))), format!("{space}{name}"))
-            }
+        let (mut numbers, name) = if lever == Lever::InertiaRatio {
+            (of.map(|q| self.gyration_mm(q)), " mm".to_owned())
+        } else {
+            let unit = lever.written_in(self.product, self.component);
+            let name = unit.map_or(lever.unit(), |unit| unit.name);
+            let space = if name.is_empty() { "" } else { " " };
+            (of.map(|x| unit.map_or(x, |unit| unit.of_si(x))), format!("{space}{name}"))
         };
         numbers.sort_by(f64::total_cmp);
         let [lo, hi] = numbers.map(four);
