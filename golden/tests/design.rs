@@ -44,7 +44,7 @@ const MARGIN: f64 = 0.1;
 fn together(text: &mut String, name: &str, found: &Together) {
     let _ = writeln!(text, "  {name}: margin {:+.2}, {}", found.after.tightest().margin, found.after.verdict.name());
     for change in &found.changes {
-        let _ = writeln!(text, "    {:<18} {:.3?} -> {:.3?}", change.lever.name(), change.from, change.to);
+        let _ = writeln!(text, "    {:<21} {:.3?} -> {:.3?}", change.lever.name(), change.from, change.to);
     }
 }
 
@@ -66,7 +66,7 @@ fn changes_that_make_a_laptop_safe() {
                 Outcome::Nowhere { bounds } => format!("nowhere in {bounds:.3?}"),
                 Outcome::NoEffect => "no effect".to_owned(),
             };
-            let _ = writeln!(text, "  {:<18} {said}", remedy.lever.name());
+            let _ = writeln!(text, "  {:<21} {said}", remedy.lever.name());
         }
         if let Some(pair) = &part.pair {
             together(&mut text, "together", pair);

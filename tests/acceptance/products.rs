@@ -1,4 +1,4 @@
-//! Products that once were told the wrong thing: files with ranges of which a single drop passed the worst that was
+//! Products that once were told the wrong thing: files with ranges of which a single drop exceeded the worst that was
 //! told, or that contradicted themselves.
 
 use std::path::Path;
@@ -89,7 +89,7 @@ fn an_acceleration_limit_and_a_damage_boundary_agree() {
     let (_, all) = assessed("f10.toml");
     let limits = all["components"][0]["limits"].as_array().unwrap();
     assert_eq!((&limits[0]["limit"], &limits[1]["limit"]), (&"acceleration".into(), &"damage-boundary".into()));
-    assert_eq!(limits[1]["unit"], "m/s2", "its velocity change is passed by any drop: {all}");
+    assert_eq!(limits[1]["unit"], "m/s2", "its velocity change is exceeded by any drop: {all}");
     let [a, b] = [0, 1].map(|i| number(&limits[i], "demand"));
     assert!((a / b - 1.0).abs() < 0.02, "{a} and {b}");
     assert_eq!(limits[0]["verdict"], limits[1]["verdict"]);

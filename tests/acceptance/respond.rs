@@ -508,10 +508,12 @@ fn a_drop_explains_itself() {
     Component at 1 of a body of 0.14 m, e = 0.3; W = 1131 rad/s, damping ratio 0
     Model ballistic, to 1 %: end a strikes first, at 3.00000 m/s, tilt 4 degrees
 
-    Peak                                       m/s       when, s
-      relative displacement, W z           6.98025    0.00353120  after impact 3
-      relative velocity                    7.29512    0.00224462
-      absolute acceleration, A/W           6.98025    0.00353120  after impact 3
+    Peak of the part                                     when, s
+      acceleration                        805.0 gn    0.00353120  after impact 3
+      relative displacement               6.172 mm    0.00353120  after impact 3
+      relative displacement, W z       6.98025 m/s    0.00353120  after impact 3
+      relative velocity                7.29512 m/s    0.00224462
+      absolute acceleration, A/W       6.98025 m/s    0.00353120  after impact 3
 
     Largest at this position                             when, s
       change of velocity, m/s              6.03177    0.00210951  at impact 2
@@ -561,4 +563,172 @@ fn a_product_that_stands_nearly_upright_is_answered() {
         let answers = &answer(arguments)["answers"];
         assert!(answers["part_displacement"]["error"].as_f64().is_some_and(|error| error < 10.0), "{answers}");
     }
+}
+
+/// The answer about a drop of a product file, with notes beside it.
+fn noted<S: AsRef<str>>(arguments: impl IntoIterator<Item = S>) -> Value {
+    let arguments: Vec<String> = arguments.into_iter().map(|argument| argument.as_ref().to_owned()).collect();
+    let outcome = clatter(arguments.iter().map(String::as_str).chain(["--format=json"]));
+    assert_eq!(outcome.exit, Exit::Done, "{}", outcome.stderr);
+    serde_json::from_str(&outcome.stdout).unwrap()
+}
+
+/// Ranges of everything, a part that extends, either end first, the center of mass off the middle.
+const RANGES: &str = r#"
+[product]
+name = "Ranges"
+length = "140 mm"
+center_of_mass = "6 mm"
+radius_of_gyration = "38 mm"
+restitution = [0.25, 0.4]
+contact_time = ["0.3 ms", "0.5 ms"]
+contact_law = "hysteretic"
+[drop]
+height = ["0.9 m", "1.2 m"]
+tilt = ["2 deg", "9 deg"]
+[[component]]
+name = "display"
+position = "10 mm"
+extent = "80 mm"
+natural_frequency = ["200 Hz", "220 Hz"]
+quality_factor = 12
+acceleration_limit = "1600 gn"
+rattle_space = "8 mm"
+[[component]]
+name = "gyroscope"
+position = "-20 mm"
+mount = "hard"
+angular_velocity_change_limit = "180 rad/s"
+damage_boundary = { velocity_change = "3 m/s", acceleration = "5000 gn" }
+"#;
+
+/// The worst drop is answered again with the numbers of the assessment, each limit in its unit and at the worst end.
+#[test]
+fn the_worst_drop_of_a_part_is_what_the_assessment_says() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = written(dir.path(), "ranges.toml", RANGES);
+    let assessed: Value = serde_json::from_str(&clatter(["assess", &path, "--format=json"]).stdout).unwrap();
+    for part in assessed["components"].as_array().unwrap() {
+        let arguments = [
+            "respond",
+            &format!("--product={path}"),
+            &format!("--component={}", part["name"].as_str().unwrap()),
+            "--worst",
+        ];
+        let outcome = clatter(arguments.iter().chain(&["--format=json"]));
+        assert_eq!(outcome.exit, Exit::Done, "{}", outcome.stderr);
+        let got: Value = serde_json::from_str(&outcome.stdout).unwrap();
+        assert!(outcome.stderr.contains("note: Ranges: the worst drop of its ranges, for the "), "{}", outcome.stderr);
+        let worst = &part["worst_case"];
+        assert_eq!(got["first"], worst["first"]);
+        for (got, told) in [("speed_m_s", "speed_m_s"), ("tilt_deg", "tilt_deg"), ("e", "restitution")]
+            .map(|(here, there)| (of(&got, here), of(worst, there)))
+        {
+            assert!((got / told - 1.0).abs() < 1e-9, "{got}, not {told}");
+        }
+        let tightest = |limits: &'_ Value| {
+            let all = limits.as_array().unwrap().clone();
+            let share = |limit: &Value| {
+                let value = limit.get("demand").or(limit.get("value")).and_then(Value::as_f64);
+                value.map_or(-1.0, |value| value / of(limit, "allowed"))
+            };
+            all.into_iter().max_by(|a, b| share(a).total_cmp(&share(b))).unwrap()
+        };
+        let (told, again) = (tightest(&part["limits"]), tightest(&got["limits"]));
+        assert_eq!(
+            (&again["limit"], &again["unit"], &again["allowed"]),
+            (&told["limit"], &told["unit"], &told["allowed"])
+        );
+        assert!((of(&again, "value") / of(&told, "demand") - 1.0).abs() < 1e-9, "{again}, not {told}");
+        assert!((of(&again, "share") - of(&told, "demand") / of(&told, "allowed")).abs() < 1e-9, "{again}");
+        assert_eq!(again["impact"], told["worst_case"]["impact"]);
+        assert!((of(&again, "time_s") - of(&told["worst_case"], "time_s")).abs() < 1e-12, "{again}, not {told}");
+        if again["limit"] != "angular-velocity-change" {
+            assert!((of(&again, "position_m") - of(&told["worst_case"], "position_m")).abs() < 1e-12, "{again}");
+        }
+        // No limit asks for more in this drop than in its own worst one.
+        for (here, there) in got["limits"].as_array().unwrap().iter().zip(part["limits"].as_array().unwrap()) {
+            let most = of(there, "demand") * (1.0 + of(there, "uncertainty"));
+            assert!(here["unit"] != there["unit"] || of(here, "value") <= most, "{here}, {there}");
+        }
+        let table = clatter(arguments).stdout;
+        let (head, title) = (format!("end {} strikes first", worst["first"].as_str().unwrap()), "\nLimits of ");
+        assert!(table.contains(&head) && table.contains(title), "{table}");
+    }
+    let table = clatter(["respond", &format!("--product={path}"), "--component=display", "--worst"]).stdout;
+    assert!(table.contains(" gn") && table.contains("8.000 mm") && table.contains("1600 gn"), "{table}");
+    let refused = clatter(["respond", &format!("--product={path}"), "--component=display", "--worst", "--tilt=2deg"]);
+    assert!(
+        refused.exit == Exit::BadInput && refused.stderr.contains("'--worst' cannot be used with"),
+        "{}",
+        refused.stderr
+    );
+    let nameless = clatter(["respond", &format!("--product={path}"), "--worst"]);
+    assert!(nameless.exit == Exit::BadInput && nameless.stderr.contains("--component=NAME"), "{}", nameless.stderr);
+}
+
+/// With end b first the product is seen from behind, and its places stay those of the product: the same as the product turned around.
+#[test]
+fn a_drop_onto_end_b_is_the_product_turned_around() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = written(dir.path(), "ranges.toml", RANGES);
+    let around =
+        RANGES.replace("\"6 mm\"", "\"-6 mm\"").replace("\"10 mm\"", "\"-10 mm\"").replace("\"-20 mm\"", "\"20 mm\"");
+    let around = written(dir.path(), "around.toml", &around);
+    for (part, at) in [("display", None), ("gyroscope", None), ("display", Some(0.3))] {
+        let ask = |path: &str, first: &str, at: Option<f64>| {
+            let at = at.map(|at| format!("--at={at:?}"));
+            let arguments = [
+                "respond".to_owned(),
+                format!("--product={path}"),
+                format!("--component={part}"),
+                format!("--first={first}"),
+                "--tilt-deg=4".to_owned(),
+            ];
+            noted(arguments.into_iter().chain(at))
+        };
+        let (b, a) = (ask(&path, "b", at), ask(&around, "a", at.map(|at| -at)));
+        assert_eq!((&b["first"], &a["first"]), (&json!("b"), &json!("a")));
+        assert!(
+            (of(&b, "at") + of(&a, "at")).abs() < 1e-12
+                && (of(&b, "center_of_mass") + of(&a, "center_of_mass")).abs() < 1e-12
+        );
+        for name in ["velocity_change_m_s", "acceleration_m_s2", "angular_velocity_change_rad_s"] {
+            assert!((of(&b, name) / of(&a, name) - 1.0).abs() < 1e-12, "{name}: {b}, not {a}");
+        }
+        for (b, a) in b["limits"].as_array().unwrap().iter().zip(a["limits"].as_array().unwrap()) {
+            assert!(
+                (of(b, "value") / of(a, "value") - 1.0).abs() < 1e-12 && b["impact"] == a["impact"],
+                "{b}, not {a}"
+            );
+            assert!((of(b, "position_m") + of(a, "position_m")).abs() < 1e-12, "{b}, {a}");
+        }
+        // The other end first asks for something else.
+        let ratio = of(&ask(&path, "a", at), "velocity_change_m_s") / of(&b, "velocity_change_m_s");
+        assert!((ratio - 1.0).abs() > 1e-3, "{ratio}");
+    }
+}
+
+/// An extended part is answered at the end that asks most, each limit at its own.
+#[test]
+fn an_extended_part_is_answered_at_its_worst_end() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = written(dir.path(), "ranges.toml", RANGES);
+    let ask = |more: &[&str]| {
+        let arguments = ["respond", &format!("--product={path}"), "--component=display", "--first=a", "--tilt-deg=5"];
+        noted(arguments.iter().chain(more))
+    };
+    let got = ask(&[]);
+    let ends = [ask(&["--at=-30mm"]), ask(&["--at=50mm"])];
+    for (k, limit) in got["limits"].as_array().unwrap().iter().enumerate() {
+        let most = ends.iter().map(|end| of(&end["limits"][k], "value")).fold(0.0, f64::max);
+        assert!((of(limit, "value") / most - 1.0).abs() < 1e-12, "{limit}, not {most}");
+    }
+    let at = of(&got, "at");
+    let worst = ends.iter().max_by(|a, b| of(a, PEAKS[1]).total_cmp(&of(b, PEAKS[1]))).unwrap();
+    assert_eq!((at, of(&got, PEAKS[1])), (of(worst, "at"), of(worst, PEAKS[1])), "{got}");
+    // The share is that of the value of the part itself.
+    let limit = &got["limits"][0];
+    let acceleration = of(&got, "omega") * of(&got, PEAKS[1]);
+    assert!((of(limit, "share") / (acceleration / (1600.0 * 9.806_65)) - 1.0).abs() < 1e-9, "{limit}, {acceleration}");
 }

@@ -63,13 +63,13 @@ const REFUSED: &[(&str, &[&str], &[&str])] = &[
     ("compliant", &[], &["give --contact-time=TIME"]),
     ("compliant", &["--contact-time-s=0"], &["--contact-time-s", "0.0", "[1e-12, 1000]"]),
     ("compliant", &["--contact-time-s=1e-13"], &["--contact-time-s", "1e-13", "[1e-12, 1000]"]),
-    ("compliant", &["--contact-time-s=0.1"], &["--contact-time-s", "0.1", "at most 0.1 length/speed"]),
+    ("compliant", &["--contact-time-s=0.1"], &["--contact-time-s", "0.1", "at most 3.16 ms here, a tenth of length/speed"]),
     ("compliant", &["--contact-time-s=1e-3", "--e=1.001"], &["--e", "1.001", "[0, 1]"]),
     ("compliant", &["--contact-time-s=1e-3", "--contact-law=glue"], &["--contact-law", "glue", "hysteretic, dashpot"]),
     ("compliant", &["--contact-law=dashpot"], &["give --contact-time=TIME"]),
     ("map", &["--contact-law=dashpot"], &["--contact-law", "--model=compliant alone"]),
     ("map", &["--contact-time-s=1e-3", "--contact-law=dashpot"], &["--contact-law", "--model=compliant alone"]),
-    ("compliant", &["--contact-time-s=1e-4", "--gyration-m=0.001"], &["--gyration-m", "0.001", "at least 0.05 of the length"]),
+    ("compliant", &["--contact-time-s=1e-4", "--gyration-m=0.001"], &["--gyration-m", "0.001", "at least 7 mm here, 0.05 of the length"]),
 ];
 
 #[test]

@@ -114,7 +114,7 @@ fn what_is_no_product_or_no_figure_is_refused() {
         (arguments(&["tradeoff", "nowhere.toml"]), &["cannot read nowhere.toml"]),
         (arguments(&["tradeoff", "x.toml", "-o", "x.png"]), &["x.png", "must end in .svg"]),
         (arguments(&["tradeoff", "x.toml", "--format=xml"]), &["--format", "table, json, csv"]),
-        (arguments(&["tradeoff", &path]), &["\"kg\" is no unit of length", ":10:10"]),
+        (arguments(&["tradeoff", &path]), &["\"kg\" is no unit of length", ":11:10"]),
         (arguments(&["tradeoff", &stiff]), &["needs the contact time of the product", "318 Hz"]),
     ];
     are_refused(rows);

@@ -265,7 +265,9 @@ fn what_is_likely_a_slip_is_told_by_name() {
         {
             assert!(outcome.stderr.contains(said), "{said}: {}", outcome.stderr);
         }
-        assert!(outcome.stderr.contains(&format!("{path}:23:10")), "{}", outcome.stderr);
+        let text = fs::read_to_string(&path).unwrap();
+        let line = 1 + text.lines().position(|line| line.starts_with("height = ")).unwrap();
+        assert!(outcome.stderr.contains(&format!("{path}:{line}:10")), "{}", outcome.stderr);
     }
 }
 
@@ -292,7 +294,11 @@ fn a_drop_and_a_part_come_from_a_product_file() {
         "--frequency=100Hz",
         "--damping=0.1",
     ];
-    assert!(alike(&got, &json(&plain).0), "{got}");
+    let without_limits = |mut answer: Value| {
+        answer.as_object_mut().unwrap().remove("limits");
+        answer
+    };
+    assert!(alike(&without_limits(got.clone()), &json(&plain).0), "{got}");
     for said in [
         "note: Handheld: either end may touch first: taken is end a\n",
         "note: Handheld: restitution = 0.4, the largest of 0.25 to 0.4\n",

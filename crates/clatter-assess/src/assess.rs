@@ -43,10 +43,10 @@ impl ProductFile {
     /// their time is known, else instant impacts at real tilt with gravity. The worst one is searched as the module of
     /// the search says.
     ///
-    /// A limit is *unsafe* where a drop was found that passes it. It is *safe* where the energy of the drops allows no more than
+    /// A limit is *unsafe* where a drop was found that exceeds it. It is *safe* where the energy of the drops allows no more than
     /// it, or where every drop of the search was answered and the worst leaves room for what its answer may be off by, for what
     /// the search may miss, 2 %, and for what rebounds may ask by their energy. Else it is *undecided*, and the reason is told.
-    /// The acceleration of a part that passes its rattle space is undecided: it hits its stop.
+    /// The acceleration of a part that exceeds its rattle space is undecided: it hits its stop.
     ///
     /// # Errors
     /// [`Error::Tolerance`] for a tolerance outside [1e-4, 0.5]; [`Error::ContactTime`] for a stiff or hard-mounted
@@ -115,7 +115,8 @@ impl ProductFile {
         }
         let found = asked.answer;
         let utilization = found.utilization();
-        let mut of = Judged { most: utilization * (1.0 + COVERAGE) + found.off_by / found.allowed, ..Judged::new(bound) };
+        let mut of =
+            Judged { most: utilization * (1.0 + COVERAGE) + found.off_by / found.allowed, ..Judged::new(bound) };
         if found.off_by.is_infinite() {
             of.notes.push("how far off it is is not known: drops next to the worst are not answered".to_owned());
         } else if found.error().is_finite() && found.error() > 10.0 * ranges.tolerance {
@@ -125,7 +126,8 @@ impl ProductFile {
         }
         if worst.later > of.most {
             of.most = worst.later;
-            let most = if of.most.is_finite() { format!("{} %", percent(of.most)) } else { "an unknown share".to_owned() };
+            let most =
+                if of.most.is_finite() { format!("{} %", percent(of.most)) } else { "an unknown share".to_owned() };
             of.notes.push(format!(
                 "rebounds may ask for up to {most} of the limit, by their energy: how the product lands again is sensitive to every input"
             ));
@@ -137,7 +139,10 @@ impl ProductFile {
             let off = full.utilization() - utilization;
             of.most += off.max(0.0);
             let (asked_for, fullest) = (ranges.model.name(), drop.fullest().name());
-            of.notes.push(format!("{asked_for} was asked for; {fullest} says {:+} % in this drop", percent(off / utilization)));
+            of.notes.push(format!(
+                "{asked_for} was asked for; {fullest} says {:+} % in this drop",
+                percent(off / utilization)
+            ));
         }
         if let Some((count, error)) = &worst.refused {
             of.doubts.push(format!("{count} of {} drops that were tried are not answered: {error}", worst.drops));
@@ -192,12 +197,18 @@ impl ProductFile {
             let [name, its] = [ranges.law, ranges.law.other()].map(ContactLaw::name);
             let decided = |of: Verdict| of != Verdict::Undecided;
             if decided(verdict) && decided(other.verdict) {
-                doubts = vec![format!("it depends on the contact law, which the file does not name: {}", both(
-                    [name, its],
-                    [asked.as_ref(), other.asked.as_ref()].map(|asked| asked.map(|asked| asked.answer)),
-                ))];
+                doubts = vec![format!(
+                    "it depends on the contact law, which the file does not name: {}",
+                    both(
+                        [name, its],
+                        [asked.as_ref(), other.asked.as_ref()].map(|asked| asked.map(|asked| asked.answer)),
+                    )
+                )];
             } else if decided(verdict) {
-                doubts = vec![format!("by the {its} contact law, which the file does not rule out: {}", other.doubts.join("; "))];
+                doubts = vec![format!(
+                    "by the {its} contact law, which the file does not rule out: {}",
+                    other.doubts.join("; ")
+                )];
             } else if other.verdict == Verdict::Unsafe {
                 doubts.push(format!("by the {its} contact law, which the file does not rule out, it is exceeded"));
             }
@@ -373,7 +384,7 @@ fn command(drop: &SingleDrop, asked: &Asked, ranges: &Ranges<'_>) -> String {
 }
 
 fn verdict(component: &Component, mut limits: Vec<LimitAssessment>) -> ComponentAssessment {
-    // A part that passes its rattle space hits its stop, whatever the linear suspension says of its acceleration.
+    // A part that exceeds its rattle space hits its stop, whatever the linear suspension says of its acceleration.
     let stop = limits.iter().find(|l| l.limit == LimitKind::RattleSpace && l.verdict != Verdict::Safe);
     if let Some(stop) = stop.map(|l| (l.verdict, l.margin)) {
         for limit in limits.iter_mut().filter(|l| l.limit == LimitKind::Acceleration) {

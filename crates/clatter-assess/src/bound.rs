@@ -16,7 +16,13 @@ use crate::{Component, Drop, Limit, LimitKind, Product};
 /// `(1 + e) u (1 + x_p x_i/ρ²)/μ_i`, largest for the level body or for lever arms of 0. With contacts that take time, a place may
 /// change its velocity from one bound to the other, and gains gτ within the contact time τ. A hysteretic contact holds at
 /// most E on its line of first loading: its force is at most √(2E) ω₁/√μ.
-pub(crate) fn bound(product: &Product, drop: &Drop, component: &Component, limit: &Limit, law: ContactLaw) -> Option<f64> {
+pub(crate) fn bound(
+    product: &Product,
+    drop: &Drop,
+    component: &Component,
+    limit: &Limit,
+    law: ContactLaw,
+) -> Option<f64> {
     let [a, b] = product.body.arms_m();
     let rho = product.body.gyration_m();
     let [_, fastest] = drop.speeds_m_s();

@@ -1,7 +1,9 @@
 //! A single drop, followed by one of four models.
 
 use clatter::End;
-use clatter_flight::{Body, Contact, ContactFlight, ContactLaw, Flight, Model as Impacts, Scene, Stop, Stretch, Strike};
+use clatter_flight::{
+    Body, Contact, ContactFlight, ContactLaw, Flight, Model as Impacts, Scene, Stop, Stretch, Strike,
+};
 use serde::Serialize;
 
 use crate::Error;

@@ -84,13 +84,13 @@ pub(crate) static PRODUCT: &[Key] = &[
         "contact_time",
         false,
         Spread(&units::TIME, ["1 us", "100 ms"]),
-        "How long an end touches in one impact; needed where a part is hard-mounted or stiff.",
+        "How long a lone contact of one end takes, from touch to parting; needed where a part is hard-mounted or stiff.",
     ),
     key(
         "contact_law",
         false,
         Choice(&["hysteretic", "dashpot"]),
-        "What the force of an impact does: hysteretic (unless given) has the peak of a half-sine; dashpot is for some rubber.",
+        "What the force of an impact does: hysteretic has the peak of a half-sine; dashpot jumps at the touch, as with some rubber.",
     ),
 ];
 

@@ -79,12 +79,8 @@ fn at_instants(changes: impl Iterator<Item = (f64, f64)>) -> Vec<Shock> {
             _ => all.push((time_s, change)),
         }
     }
-    let shock = |(time_s, change): (f64, f64)| Shock {
-        span_s: [time_s; 2],
-        change: change.abs(),
-        peak: f64::INFINITY,
-        time_s,
-    };
+    let shock =
+        |(time_s, change): (f64, f64)| Shock { span_s: [time_s; 2], change: change.abs(), peak: f64::INFINITY, time_s };
     all.into_iter().map(shock).collect()
 }
 

@@ -154,3 +154,34 @@ fn a_search_that_is_stopped_calls_nothing_safe_but_by_energy() {
     }
     assert!(undecided > 6, "{undecided}");
 }
+
+/// What the file of `clatter init` says of restitution and contact times follows from what its sources say.
+#[test]
+fn the_numbers_of_the_example_are_those_of_their_sources() {
+    use clatter_flight::{Body, Contact, ContactLaw, Scene};
+    let text = clatter_assess::EXAMPLE;
+    let says = |what: &str| assert!(text.contains(what), "{what}");
+    assert_eq!(clatter_assess::STANDARD_GRAVITY_M_S2, 9.806_65);
+    says("standard gravity, 9.80665 m/s2");
+    // 53 % and 70 % of the energy, and 3 %.
+    for (share, told) in [(0.53_f64, "0.73 to 0.84 "), (0.7, "0.73 to 0.84 "), (0.03, "0.17 ")] {
+        assert!(told.contains(&format!("{:.2}", share.sqrt())), "{share}");
+        says(told);
+    }
+    // 30 000 gn from 1 m: the half-sine of (1 + e) v with that peak, e from 0 to 1.
+    let speed = (2.0 * 9.806_65_f64).sqrt();
+    let lasts_ms = |e: f64| 1e3 * std::f64::consts::FRAC_PI_2 * (1.0 + e) * speed / (30_000.0 * 9.806_65);
+    assert_eq!([0.0, 1.0].map(|e| format!("{:.2}", lasts_ms(e))), ["0.02", "0.05"]);
+    says("0.02 to 0.05 ms  accelerometer");
+    // An edge that gives by 2 mm: as a flight has it, with a level bar whose other end is far from the ground.
+    let (e, v, gives_m) = (0.3, 4.85, 2e-3);
+    let time_s = std::f64::consts::FRAC_PI_2 * (1.0 + e) * gives_m / v;
+    assert_eq!(format!("{:.2}", 1e3 * time_s), "0.84");
+    says("0.84 ms for 2 mm at 4.85 m/s and e = 0.3");
+    let scene = Scene::new(Body::new(1.0, 0.3).unwrap(), e, v, 10.0, 0.0).unwrap();
+    let flight = scene.contacts(&Contact::new(ContactLaw::Hysteretic, e, time_s).unwrap()).unwrap();
+    let lowest = (0..=1000).map(|k| flight.sample(time_s * f64::from(k) / 1000.0).height_m[0]).fold(0.0, f64::min);
+    assert!((lowest / -gives_m - 1.0).abs() < 0.01, "{lowest}");
+    // The law is nobody's choice.
+    assert!(text.contains("\n# contact_law = ") && !text.contains("\ncontact_law"), "{text}");
+}

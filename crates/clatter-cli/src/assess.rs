@@ -25,7 +25,7 @@ use crate::{Exit, Failure, Streams, budget, input, output, quantities, text};
 /// that the file allows: contacts that take time where it gives their time, else instant impacts at real tilt with
 /// gravity. The demand is what that drop asks for, and the command below it answers it once more.
 ///
-/// A limit is UNSAFE where a drop was found that passes it; safe where energy allows no drop to pass it, or where the
+/// A limit is UNSAFE where a drop was found that exceeds it; safe where energy allows no drop to exceed it, or where the
 /// worst drop found leaves room for what the search may miss and its answer be off by ('good to'); else undecided, with
 /// the reason. 'clatter init' writes a product file.
 ///
@@ -101,7 +101,8 @@ impl Args {
         }
         let drops = files.iter().zip(&self.products).map(|(file, path)| crate::measured::drops(file, path));
         let drops = drops.collect::<Result<Vec<_>, _>>()?;
-        let accuracy = Accuracy { tolerance: self.tolerance, model: self.model.map(Into::into), merge_s: self.merge.si };
+        let accuracy =
+            Accuracy { tolerance: self.tolerance, model: self.model.map(Into::into), merge_s: self.merge.si };
         let assessments = files
             .iter()
             .zip(&self.products)

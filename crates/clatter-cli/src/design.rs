@@ -18,14 +18,15 @@ use crate::input::is_standard;
 use crate::inputs::{self, RowFormat};
 use crate::output::Files;
 use crate::progress::Counted;
-use crate::{Failure, Streams, assess, output};
+use crate::{Failure, Streams, assess, output, quantities};
 
 /// Tell which q and e meet the limits, and what would make each failing part safe
 ///
 /// Of a product file: every part that 'clatter assess' does not find safe with the margin, and for each thing that can
-/// be changed alone (the mass layout q, the restitution e, the part's place, its natural frequency, its damping) the
-/// smallest change that makes it so, assessed again with the value as it is printed, or that none does within the
-/// bounds. Where no change alone is enough, two together, or how near one gets. Of goals (safe zones, in v0): where
+/// be changed alone (the radius of gyration, the restitution e, the part's place, its natural frequency, its damping,
+/// the contact time by a bumper, the room that the part has, what it stands) the smallest change that makes it so, or that
+/// none does within the bounds. Values are rounded to what can be specified, two digits (places and the radius of gyration
+/// to 1 mm of 140 mm), and assessed again as they are printed; no mass is put outside of the body. Where no change alone is enough, two together, or how near one gets. Of goals (safe zones, in v0): where
 /// in the plane of q and e they are met, and the front of the largest zone against q for each e. Without either, the
 /// goals are the paper's example: v0/2 in the middle tenth of the bar, 2 v0 in nearly all of it; the designs of its
 /// Table 1 stand beside the front.
@@ -62,6 +63,12 @@ pub(crate) struct Args {
     /// Damping ratios that can be had, in [0, 10]
     #[arg(long, value_name = "LO:HI", default_value = "0:0.5", allow_hyphen_values = true, value_parser = damping_range)]
     damping: [f64; 2],
+    /// Contact times that can be had; a bumper that gives by d at the speed v takes (π/2)(1 + e) d/v
+    #[arg(long, value_name = "LO:HI", default_value = "0.2ms:2ms", allow_hyphen_values = true, value_parser = contact_times)]
+    contact_time: [f64; 2],
+    /// Largest factor on what a part stands and on the room that it has, above 1
+    #[arg(long, value_name = "F", default_value = "4", allow_hyphen_values = true, value_parser = factor)]
+    limit_factor: f64,
     /// Margin allowed/demand - 1 that every limit of a part is to have: 0.2 or 20%
     #[arg(long, value_name = "SHARE", default_value = "10%", allow_hyphen_values = true, value_parser = margin)]
     margin: f64,
@@ -94,6 +101,12 @@ fn unit_range(text: &str) -> Result<[f64; 2], String> {
 
 fn damping_range(text: &str) -> Result<[f64; 2], String> {
     range(text, 10.0)
+}
+
+fn contact_times(text: &str) -> Result<[f64; 2], String> {
+    let (lo, hi) = text.split_once(':').ok_or("a range is LO:HI, such as 0.2ms:2ms")?;
+    let [lo, hi] = [quantities::contact_time(lo)?.si, quantities::contact_time(hi)?.si];
+    if lo <= hi { Ok([lo, hi]) } else { Err("a range LO:HI begins at its lower end, such as 0.2ms:2ms".to_owned()) }
 }
 
 fn range(text: &str, most: f64) -> Result<[f64; 2], String> {
@@ -167,7 +180,14 @@ impl Args {
     }
 
     fn of_product(&self, file: &ProductFile, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        let bounds = Bounds { q: self.q, e: self.e, frequency_factor: self.frequency_factor, damping: self.damping };
+        let bounds = Bounds {
+            q: self.q,
+            e: self.e,
+            frequency_factor: self.frequency_factor,
+            damping: self.damping,
+            contact_time_s: self.contact_time,
+            limit_factor: self.limit_factor,
+        };
         let assessment = assess::watched(file, &Accuracy::default())?;
         let remedies = {
             let changes = Counted::begin("changing", 0);

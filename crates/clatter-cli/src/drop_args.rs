@@ -3,11 +3,13 @@
 use std::path::PathBuf;
 
 use clap::ValueHint;
+use clatter::End;
 use clatter_assess::units::Quantity;
-use clatter_assess::{STANDARD_GRAVITY_M_S2, slip};
+use clatter_assess::{Accuracy, STANDARD_GRAVITY_M_S2, slip};
 use clatter_flight::{Body, ContactLaw, Scene};
 
 use crate::inputs::{self, LawName, ModelName};
+use crate::numbers::given;
 use crate::one_drop::{OneDrop, PartSetup};
 use crate::quantities::{self, Piece, Place, Show, Shown, neat};
 use crate::{Failure, Streams};
@@ -45,8 +47,8 @@ pub(crate) struct DropArgs {
     /// Acceleration of gravity; the model map leaves it out [default: 1g]
     #[arg(long, value_name = "ACCELERATION", allow_hyphen_values = true, value_parser = quantities::gravity, requires = "followed", conflicts_with = "gravity_m_s2")]
     gravity: Option<Quantity>,
-    /// How long a lone contact presses; for compliant, and in `clatter respond` for the acceleration of a place by the
-    /// other models
+    /// How long a lone contact of one end takes, from touch to parting; for compliant, and in `clatter respond` for the
+    /// acceleration of a place by the other models. 'clatter init' names public values
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = quantities::contact_time, requires = "followed", conflicts_with = "contact_time_s")]
     contact_time: Option<Quantity>,
     /// What the ground does to an end while it touches, for compliant [default: hysteretic]
@@ -98,11 +100,19 @@ pub(crate) struct Beside<'a> {
     pub(crate) flat: bool,
     /// Whether a contact time counts for instant impacts, too.
     pub(crate) instant_contacts: bool,
+    /// The end that touches first, over that of the product file.
+    pub(crate) first: Option<End>,
+    /// Whether places that are typed are those of the product, whichever end touches first; else they are seen from the end that does.
+    pub(crate) of_product: bool,
+    /// The worst drop of a product file instead of one value of each range.
+    pub(crate) worst: Option<Accuracy>,
 }
 
 /// A drop with all that it needs.
 pub(crate) struct Setup {
     pub(crate) model: ModelName,
+    /// The end of the product that touches first; in the scene it is end a.
+    pub(crate) first: End,
     pub(crate) scene: Scene,
     /// Position of the center of mass on the body.
     pub(crate) center_of_mass: f64,
@@ -110,6 +120,8 @@ pub(crate) struct Setup {
     pub(crate) thickness_m: f64,
     pub(crate) height_m: Option<f64>,
     pub(crate) tilt_deg: f64,
+    /// Whether both ends land as one.
+    pub(crate) flat: bool,
     pub(crate) contact_time_s: Option<f64>,
     pub(crate) contact_law: ContactLaw,
     pub(crate) shown: Shown,
@@ -117,6 +129,18 @@ pub(crate) struct Setup {
     pub(crate) part: Option<PartSetup>,
     /// What is told beside the answer, after what it is.
     pub(crate) notes: Vec<(&'static str, String)>,
+}
+
+impl Setup {
+    /// The sign that turns a place of the product into one of the scene, or back.
+    pub(crate) fn side(&self) -> f64 {
+        if self.first == End::A { 1.0 } else { -1.0 }
+    }
+    /// Of the ends a and b of the product.
+    pub(crate) fn inertia_ratios(&self) -> [f64; 2] {
+        let [front, back] = self.scene.body().inertia_ratios();
+        if self.first == End::A { [front, back] } else { [back, front] }
+    }
 }
 
 /// A number that was given one way or the other.
@@ -155,30 +179,44 @@ impl DropArgs {
         if self.thickness_m.is_some() { "--thickness-m" } else { "--thickness" }
     }
 
-    /// A flight with contacts that was refused, with the options as they were given.
-    pub(crate) fn named(&self, error: clatter_flight::Error, gyration_m: Option<f64>) -> Failure {
-        let in_si = self.contact_time_s.is_some();
-        match Failure::contacts(error) {
-            Failure::Flag { flag: "--contact-time-s", reason } if !in_si => {
-                Failure::Flag { flag: "--contact-time", reason }
-            }
-            Failure::Flag { flag: "--gyration-m", reason } if gyration_m.is_none() => {
-                Failure::Flag { flag: "--gyration", reason }
-            }
-            failure => failure,
+    /// A flight that was refused, with the option whose value it refuses where there is one.
+    pub(crate) fn named(&self, error: clatter_flight::Error, gyration: Option<Quantity>) -> Failure {
+        let clatter_flight::Error::Bound { name, .. } = &error else { return Failure::Flight(error) };
+        let (given, typed, plain) = match *name {
+            "contact time" => (self.contact_time(), "--contact-time", "--contact-time-s"),
+            _ => (gyration, "--gyration", "--gyration-m"),
+        };
+        match given {
+            Some(Quantity { unit: Some(_), .. }) => Failure::Wrong(format!("invalid value for '{typed}': {error}")),
+            Some(Quantity { si, unit: None }) => Failure::Wrong(format!("invalid value {si:?} for '{plain}': {error}")),
+            None => Failure::Flight(error),
         }
     }
 
     /// The drop, over that of the product file where there is one.
     pub(crate) fn setup(&self, beside: &Beside<'_>, streams: &mut Streams<'_>) -> Result<Setup, Failure> {
         let mut file = match &self.product {
-            Some(path) => Some(OneDrop::read(path, self.component.as_deref(), streams)?),
+            Some(path) => {
+                let file = OneDrop::read(path, self.component.as_deref(), beside.first, streams)?;
+                Some(match &beside.worst {
+                    Some(accuracy) => file.at_worst(accuracy)?,
+                    None => file,
+                })
+            }
             None => None,
         };
         let mut notes = self.slips(beside);
+        let mirrored = file.as_ref().map_or(beside.first == Some(End::B), OneDrop::is_mirrored);
+        if let Some(file) = file.as_mut().filter(|_| mirrored && !beside.of_product) {
+            file.note(
+                "end b touches first and is called a here: places of the file are turned around; those of --at, \
+                 --center-of-mass and --mass are not, they count towards the end that strikes second",
+            );
+        }
         let length = either(self.length, self.length_m);
         let length_m = length.map(|length| length.si).or(file.as_ref().map(OneDrop::length_m));
-        let tilt_deg = self.tilt_deg.or(self.tilt.map(|tilt| neat(tilt.si.to_degrees()))).or(beside.flat.then_some(0.0));
+        let tilt_deg =
+            self.tilt_deg.or(self.tilt.map(|tilt| neat(tilt.si.to_degrees()))).or(beside.flat.then_some(0.0));
         let contact_time = self.contact_time();
         let model = beside.model.unwrap_or(match (contact_time, &file) {
             (None, Some(file)) if !file.has_contact_time() => ModelName::FiniteTilt,
@@ -186,8 +224,11 @@ impl DropArgs {
         });
         self.check(model)?;
         let compliant = model == ModelName::Compliant;
+        let flat = beside.flat || file.as_ref().is_some_and(OneDrop::is_flat);
         if beside.flat && compliant {
-            return Err(Failure::Usage("--flat goes with instant impacts: contacts that take time land flat with --tilt=0deg"));
+            return Err(Failure::Usage(
+                "--flat goes with instant impacts: contacts that take time land flat with --tilt=0deg",
+            ));
         }
         let asked = compliant || beside.instant_contacts;
         let of_file = |file: &mut Option<OneDrop>| file.as_mut().filter(|_| asked)?.contact_time_s();
@@ -218,7 +259,8 @@ impl DropArgs {
         let half = 0.5 * length_m;
         notes
             .extend(beside.masses.iter().flat_map(|piece| piece.slips(half)).map(|slip| ("warning", slip.to_string())));
-        let (center_of_mass, body) = self.body(half, beside, e, file.as_ref())?;
+        let turned = mirrored && beside.of_product;
+        let (center_of_mass, body) = self.body(half, beside, e, file.as_ref(), if turned { -1.0 } else { 1.0 })?;
         let scene = self.scene(body, e, [speed, height_m], tilt_deg, gravity)?;
         let part = file.as_mut().map(|file| file.part(half)).transpose()?.flatten();
         let shown = self.shown(length.and_then(|length| length.unit), beside, file.as_ref());
@@ -231,12 +273,14 @@ impl DropArgs {
         }
         Ok(Setup {
             model,
+            first: if mirrored { End::B } else { End::A },
             scene,
             center_of_mass,
             length_m,
             thickness_m: self.thickness(),
             height_m,
             tilt_deg,
+            flat,
             contact_time_s,
             contact_law: law,
             shown,
@@ -278,8 +322,16 @@ impl DropArgs {
     }
 
     /// The body, and where its center of mass lies.
-    fn body(&self, half: f64, beside: &Beside<'_>, e: f64, file: Option<&OneDrop>) -> Result<(f64, Body), Failure> {
+    fn body(
+        &self,
+        half: f64,
+        beside: &Beside<'_>,
+        e: f64,
+        file: Option<&OneDrop>,
+        side: f64,
+    ) -> Result<(f64, Body), Failure> {
         let center = self.center_of_mass.map(|place| place.relative("--center-of-mass", Some(half))).transpose()?;
+        let center = center.map(|center| side * center + 0.0);
         let [(center, center_flag), (gyration, gyration_flag)] = match (beside.gyration, beside.masses) {
             (None, []) => {
                 // The file has the rest; its body takes another length as it is stretched.
@@ -293,17 +345,18 @@ impl DropArgs {
             }
             (None, pieces) => {
                 let bar = inputs::bar_of(&quantities::masses(pieces, Some(half))?, e)?;
-                [bar.center_of_mass(), half * bar.gyration_ratio()].map(|x| (x, "--mass"))
+                [side * bar.center_of_mass() + 0.0, half * bar.gyration_ratio()].map(|x| (x, "--mass"))
             }
         };
         let (a, b) = (half * (1.0 + center), half * (1.0 - center));
         Body::off_center(a, b, 0.0).map_err(Failure::flag(center_flag))?;
         let body = Body::off_center(a, b, gyration).map_err(Failure::flag(gyration_flag))?;
-        if gyration > MOST_GYRATION * 2.0 * half {
-            let (name, allowed) =
-                ("radius of gyration in m", "at most 2 lengths, as in product files: two masses at the ends have 0.5");
-            let reason = clatter::Error::Quantity { name, value: gyration, allowed };
-            return Err(Failure::Flag { flag: gyration_flag, reason });
+        let most = MOST_GYRATION * 2.0 * half;
+        if gyration > most {
+            let [given, most] = [gyration, most].map(|m| given(neat(1e3 * m)));
+            return Err(Failure::Wrong(format!(
+                "invalid value for '{gyration_flag}': radius of gyration {given} mm: at most {most} mm here, 2 lengths, as in product files; two masses at the ends have 0.5"
+            )));
         }
         let flag = self.thickness_flag();
         let body = body.with_thickness(self.thickness()).map_err(Failure::flag(flag))?;

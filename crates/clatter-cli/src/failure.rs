@@ -66,25 +66,6 @@ impl Failure {
         move |reason| Self::Flag { flag, reason }
     }
 
-    /// The same of a flight with contacts: it refuses quantities by name.
-    pub(crate) fn contacts(error: clatter_flight::Error) -> Self {
-        let clatter_flight::Error::Given(reason) = error else { return Self::Flight(error) };
-        let name = if let clatter::Error::Quantity { name, .. } = &reason { *name } else { "" };
-        match () {
-            () if name.starts_with("contact time") => Self::Flag { flag: "--contact-time-s", reason },
-            () if name.starts_with("radius of gyration") => Self::Flag { flag: "--gyration-m", reason },
-            () => Self::Input(reason),
-        }
-    }
-
-    /// The same of an assessment of one drop.
-    pub(crate) fn drop(error: clatter_assess::Error) -> Self {
-        match error {
-            clatter_assess::Error::Flight(error) => Self::contacts(error),
-            error => Self::Assess(error),
-        }
-    }
-
     pub(crate) fn exit(&self) -> Exit {
         match self {
             Self::Report(ReportError::Typst(_)) => Exit::Outside,

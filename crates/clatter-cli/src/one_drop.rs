@@ -4,19 +4,27 @@ use std::path::Path;
 
 use clatter::End;
 use clatter_assess::units::{Quantity, Unit};
-use clatter_assess::{Component, Damping, Fall, First, Mount, ProductFile, Spread};
+use clatter_assess::{Accuracy, Component, Damping, Fall, First, Limit, Limits, Mount, ProductFile, Spread, WorstCase};
 use clatter_flight::ContactLaw;
 use clatter_shock::DampingRatio;
 
 use crate::numbers::given;
 use crate::quantities::{Place, Show, neat};
 use crate::text::{shown, visible};
+use crate::words::drop;
 use crate::{Failure, Streams, assess};
 
 /// A part of a product file, each range at one value.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(crate) struct PartSetup {
+    pub(crate) name: String,
+    /// Its middle, as the drop is seen.
     pub(crate) place: Place,
+    /// Where its worst place is one of, in m from the middle of the product towards end b.
+    pub(crate) ends_m: Vec<f64>,
+    pub(crate) limits: Limits,
+    /// The same as numbers.
+    pub(crate) allowed: Vec<Limit>,
     /// Natural frequency and damping; none of a part that is mounted rigidly.
     pub(crate) suspension: Option<(Quantity, DampingRatio)>,
 }
@@ -25,8 +33,10 @@ pub(crate) struct PartSetup {
 pub(crate) struct OneDrop {
     file: ProductFile,
     component: Option<usize>,
-    /// The end that touches first is called a: where it is b, the product is seen from behind.
+    /// Whether end b touches first: the product is then seen from behind, so that the end in front is a.
     mirrored: bool,
+    /// The worst drop of the ranges, where that is the one.
+    worst: Option<WorstCase>,
     notes: Vec<String>,
 }
 
@@ -39,7 +49,12 @@ enum Taken {
 }
 
 impl OneDrop {
-    pub(crate) fn read(path: &Path, component: Option<&str>, streams: &mut Streams<'_>) -> Result<Self, Failure> {
+    pub(crate) fn read(
+        path: &Path,
+        component: Option<&str>,
+        first: Option<End>,
+        streams: &mut Streams<'_>,
+    ) -> Result<Self, Failure> {
         let file = assess::read(path, streams)?;
         let found = match component {
             Some(name) => {
@@ -58,19 +73,44 @@ impl OneDrop {
             }
             None => (file.components.len() == 1).then_some(0),
         };
-        let mirrored = file.drop.first == First::End(End::B);
         let mut notes = Vec::new();
-        if mirrored {
-            notes.push(
-                "end b touches first and is called a here: places of the file are turned around; those of --at, \
-                 --center-of-mass and --mass are not, they count towards the end that strikes second"
-                    .to_owned(),
-            );
-        }
-        if file.drop.first == First::Either {
-            notes.push("either end may touch first: taken is end a".to_owned());
-        }
-        Ok(Self { file, component: found, mirrored, notes })
+        let first = first.unwrap_or_else(|| match file.drop.first {
+            First::End(end) => end,
+            First::Either => {
+                notes.push("either end may touch first: taken is end a".to_owned());
+                End::A
+            }
+        });
+        Ok(Self { file, component: found, mirrored: first == End::B, worst: None, notes })
+    }
+
+    /// The drop of the ranges that asks most of the part, found as an assessment finds it.
+    pub(crate) fn at_worst(mut self, accuracy: &Accuracy) -> Result<Self, Failure> {
+        let Some(component) = self.component() else {
+            return Err(Failure::Usage("--worst is the drop that asks most of one part: give its --component=NAME"));
+        };
+        let file = ProductFile { components: vec![component.clone()], ..self.file.clone() };
+        let mut assessment = assess::watched(&file, accuracy)?;
+        let part = assessment.components.remove(0);
+        let tightest = part.tightest();
+        let Some(worst) = &tightest.worst_case else {
+            let why = tightest.undecided.clone().unwrap_or_default();
+            return Err(Failure::Wrong(format!("no worst drop is known: {why}")));
+        };
+        let limit = tightest.limit.name();
+        self.mirrored = worst.first == End::B;
+        self.notes = vec![format!("the worst drop of its ranges, for the {limit} limit: {}", drop(worst))];
+        self.worst = Some(worst.clone());
+        Ok(self)
+    }
+
+    /// Whether both ends land as one.
+    pub(crate) fn is_flat(&self) -> bool {
+        self.worst.as_ref().is_some_and(|worst| worst.flat)
+    }
+
+    pub(crate) fn is_mirrored(&self) -> bool {
+        self.mirrored
     }
 
     pub(crate) fn note(&mut self, note: &str) {
@@ -111,6 +151,9 @@ impl OneDrop {
         self.file.product.contact_time_s.is_some()
     }
     pub(crate) fn contact_time_s(&mut self) -> Option<f64> {
+        if let Some(worst) = &self.worst {
+            return worst.contact_time_s;
+        }
         let spread = self.file.product.contact_time_s?;
         Some(Self::take(&mut self.notes, "contact time", &spread, Taken::Least, "s"))
     }
@@ -118,9 +161,15 @@ impl OneDrop {
         self.file.product.law()
     }
     pub(crate) fn restitution(&mut self) -> f64 {
+        if let Some(worst) = &self.worst {
+            return worst.restitution;
+        }
         Self::take(&mut self.notes, "restitution", &self.file.product.restitution, Taken::Largest, "")
     }
     pub(crate) fn tilt_deg(&mut self) -> f64 {
+        if let Some(worst) = &self.worst {
+            return worst.tilt_deg;
+        }
         neat(Self::take(&mut self.notes, "tilt", &self.file.drop.tilt_rad, Taken::Middle, "rad").to_degrees())
     }
     pub(crate) fn gravity_m_s2(&self) -> f64 {
@@ -128,6 +177,9 @@ impl OneDrop {
     }
     /// Speed or height.
     pub(crate) fn fall(&mut self) -> (Option<f64>, Option<f64>) {
+        if let Some(worst) = &self.worst {
+            return (Some(worst.speed_m_s), None);
+        }
         match &self.file.drop.fall {
             Fall::SpeedMS(speed) => (Some(Self::take(&mut self.notes, "speed", speed, Taken::Largest, "m/s")), None),
             Fall::HeightM(height) => (None, Some(Self::take(&mut self.notes, "height", height, Taken::Largest, "m"))),
@@ -142,29 +194,44 @@ impl OneDrop {
     pub(crate) fn part(&mut self, half_m: f64) -> Result<Option<PartSetup>, Failure> {
         let Some(component) = self.component().cloned() else { return Ok(None) };
         let notes = &mut self.notes;
-        let position_m = Self::take(notes, "position", &component.position_m, Taken::Middle, "m");
-        if component.extent_m > 0.0 {
-            let extent = Show { unit: component.position_m.unit(), name: "m" }.given(component.extent_m);
-            notes.push(format!("the part extends over {extent}: taken is its middle"));
-        }
+        let (position_m, ends_m) = if let Some(worst) = &self.worst {
+            (worst.position_m, component.ends_m())
+        } else {
+            let middle = Self::take(notes, "position", &component.position_m, Taken::Middle, "m");
+            let half = 0.5 * component.extent_m;
+            (middle, if half > 0.0 { vec![middle - half, middle + half] } else { vec![middle] })
+        };
         let side = if self.mirrored { -1.0 } else { 1.0 };
         let length = Quantity { si: side * position_m, unit: component.position_m.unit() };
         let suspension = match component.mount {
             Mount::Hard => None,
             Mount::Suspended { frequency_hz, damping } => {
-                let hz = Self::take(notes, "natural frequency", &frequency_hz, Taken::Middle, "Hz");
-                let frequency = Quantity { si: hz, unit: frequency_hz.unit() };
-                Some((frequency, Self::damping(notes, &damping)?))
+                let unit = frequency_hz.unit();
+                let worst = self.worst.as_ref().and_then(|worst| worst.frequency_hz.zip(worst.damping_ratio));
+                Some(if let Some((si, ratio)) = worst {
+                    (Quantity { si, unit }, DampingRatio::new(ratio)?)
+                } else {
+                    let si = Self::take(notes, "natural frequency", &frequency_hz, Taken::Middle, "Hz");
+                    (Quantity { si, unit }, Self::damping(notes, &damping)?)
+                })
             }
         };
-        if length.si.abs() > half_m * (1.0 + 1e-9) {
+        let farthest = ends_m.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        if farthest > half_m * (1.0 + 1e-9) {
             return Err(Failure::Wrong(format!(
                 "the component is {} m from the middle of a body of {} m: its position is beyond the end",
-                given(neat(length.si.abs())),
+                given(neat(farthest)),
                 given(neat(2.0 * half_m))
             )));
         }
-        Ok(Some(PartSetup { place: Place::Length(length), suspension }))
+        Ok(Some(PartSetup {
+            place: Place::Length(length),
+            ends_m,
+            suspension,
+            allowed: Limit::of(&component),
+            limits: component.limits,
+            name: component.name,
+        }))
     }
 
     /// The least damping.

@@ -106,7 +106,7 @@ impl Place {
             ))),
         }
     }
-    fn unit(self) -> Option<&'static Unit> {
+    pub(crate) fn unit(self) -> Option<&'static Unit> {
         if let Self::Length(length) = self { length.unit } else { None }
     }
     /// As it is called in tables.

@@ -51,7 +51,7 @@ pub(crate) struct Args {
     /// Find the shocks: each with its start, peak, duration between the 10 % points and velocity change
     #[arg(long)]
     find: bool,
-    /// Acceleration that a shock passes [default: what noise passes in one record of a thousand, by the median of the record]
+    /// Acceleration that a shock exceeds [default: what noise exceeds in one record of a thousand, by the median of the record]
     #[arg(long, value_name = "ACCELERATION", requires = "find", value_parser = threshold)]
     threshold: Option<f64>,
     /// Time without passing it after which another shock begins, in s without a unit

@@ -1,6 +1,7 @@
 //! `clatter respond`: what one clatter does to one component.
 
 mod drop;
+mod limits;
 mod peaks;
 mod rule;
 mod train;
@@ -15,7 +16,7 @@ use clatter_assess::{Slip, slip};
 use clatter_shock::{DampingRatio, ShockTable, Suspension};
 
 use crate::drop_args::{DropArgs, IN_SI};
-use crate::inputs::{self, DampingArgs, Format, ModelName};
+use crate::inputs::{self, DampingArgs, EndName, Format, ModelName};
 use crate::output::{Files, Kind, Target};
 use crate::quantities::{self, Piece, Place};
 use crate::{Failure, Streams, excitation};
@@ -46,7 +47,9 @@ use crate::{Failure, Streams, excitation};
 ///                   `clatter simulate` alone. Without --omega the part is mounted rigidly, and the
 ///                   answer is what its place goes through
 ///   --product       the drop and the --component of a product file, each range at one value, which is
-///                   told; options given beside it count instead
+///                   told; options given beside it count instead. What the drop asks of each limit of
+///                   the part is told as `clatter assess` tells it, at the end of the part that asks
+///                   most. With --worst the drop is that of all ranges that asks most
 ///   --shocks-file   velocity shocks from a file in SI units, of any number, with the columns time_s
 ///                   and delta_v_m_s
 ///   --pulses-file   pulses, with the columns shape, amplitude_m_s2, duration_s and start_s; shapes
@@ -73,7 +76,8 @@ Examples:
       --e=30% --height=1.2m --tilt=5deg --at=35mm                  a part that is mounted rigidly
   clatter respond --shocks-file=shocks.csv --omega=1131
 
-With a product file: clatter respond --product=phone.toml --component=camera
+With a product file: clatter respond --product=phone.toml --component=camera --worst answers its worst
+drop again, --tilt=2deg --first=b in place of --worst one of its drops.
 
 'clatter --help' tells what q, e and the units are."
 )]
@@ -111,6 +115,12 @@ pub(crate) struct Args {
     /// With --model: land flat, both ends as one, instant impacts that are closer than any contact lasts; in place of a tilt
     #[arg(long, requires = "followed", conflicts_with_all = ["tilt", "tilt_deg"])]
     flat: bool,
+    /// With --product: of all its ranges the drop that asks most of the --component, found as by 'clatter assess'
+    #[arg(long, requires = "product", conflicts_with_all = OF_ONE_DROP)]
+    worst: bool,
+    /// The end that touches first [default: that of the product file, else a]
+    #[arg(long, value_name = "END", value_enum, requires = "followed")]
+    first: Option<EndName>,
     /// With --model: how exact the answer is for the model, as a share of it: 0.01 or 1%
     #[arg(long, value_name = "SHARE", default_value = "1%", allow_hyphen_values = true, value_parser = inputs::tolerance, requires = "followed")]
     tolerance: f64,
@@ -141,6 +151,36 @@ const GIVEN: [&str; 3] = ["shocks_file", "pulses_file", "followed"];
 const CLATTER: [&str; 10] =
     ["q", "gyration_ratio", "gyration", "gyration_m", "mass", "e", "at", "velocity", "height_gap", "followed"];
 
+/// What says how a drop is, that of a product file apart.
+const OF_ONE_DROP: [&str; 26] = [
+    "first",
+    "at",
+    "e",
+    "omega",
+    "frequency",
+    "damping",
+    "q_factor",
+    "gyration",
+    "gyration_m",
+    "mass",
+    "length",
+    "length_m",
+    "center_of_mass",
+    "thickness",
+    "thickness_m",
+    "speed",
+    "speed_m_s",
+    "height",
+    "height_m",
+    "tilt",
+    "tilt_deg",
+    "gravity",
+    "gravity_m_s2",
+    "contact_time",
+    "contact_time_s",
+    "contact_law",
+];
+
 /// How the mass lies.
 #[derive(Debug, clap::Args)]
 #[group(id = "inertia", multiple = false)]
@@ -164,6 +204,10 @@ struct Inertia {
 }
 
 impl Inertia {
+    fn gyration(&self) -> Option<Quantity> {
+        self.gyration.or(self.gyration_m.map(Quantity::of_si))
+    }
+
     /// The paper's bar.
     fn bar(&self, e: f64) -> Result<Bar, Failure> {
         Ok(match (self.q, self.gyration_ratio, &self.mass[..]) {

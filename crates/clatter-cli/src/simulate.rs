@@ -119,6 +119,12 @@ struct Inertia {
     gyration_m: Option<f64>,
 }
 
+impl Inertia {
+    fn gyration(&self) -> Option<Quantity> {
+        self.gyration.or(self.gyration_m.map(Quantity::of_si))
+    }
+}
+
 fn target(text: &str) -> Result<Target, String> {
     Target::of(text, &[Kind::Csv, Kind::Json, Kind::Svg])
 }
@@ -190,14 +196,17 @@ impl Args {
     }
 
     fn drop(&self, streams: &mut Streams<'_>) -> Result<Drop<'_>, Failure> {
-        let Inertia { gyration, gyration_m, mass } = &self.inertia;
+        let mass = &self.inertia.mass;
         let beside = Beside {
             flat: false,
             model: self.model,
             e: self.e,
-            gyration: gyration.or(gyration_m.map(Quantity::of_si)),
+            gyration: self.inertia.gyration(),
             masses: mass,
             instant_contacts: false,
+            first: None,
+            of_product: false,
+            worst: None,
         };
         let mut setup = self.drop.setup(&beside, streams)?;
         let (spin, flag) = match (self.spin, self.spin_rad_s) {
@@ -224,7 +233,7 @@ impl Args {
                 let time = setup.contact_time_s.unwrap_or(f64::NAN);
                 let contact = Contact::new(setup.contact_law, scene.e(), time)?;
                 let contacts =
-                    scene.contacts(&contact).map_err(|error| self.drop.named(error, self.inertia.gyration_m))?;
+                    scene.contacts(&contact).map_err(|error| self.drop.named(error, self.inertia.gyration()))?;
                 return Ok(Motion::Contacts(contact, Box::new(contacts)));
             }
             (_, Some(_)) => {

@@ -35,8 +35,6 @@ mod touch;
 
 pub use law::{Contact, ContactLaw};
 
-use clatter::Error as BarError;
-
 use crate::Error;
 use crate::flight::{Flight, Stop};
 use crate::scene::{Scene, within};
@@ -158,8 +156,8 @@ impl<const N: usize> Scene<N> {
     /// `precision`, and what is slower than `precision` is laid down.
     ///
     /// # Errors
-    /// [`Error::Given`] unless the precision is in [1e−8, 0.1], the radius of gyration is at least 0.05 of the length
-    /// (light ends would whirl it through large angles while they touch), and the contact time is so short that points sink
+    /// [`Error::Given`] unless the precision is in [1e−8, 0.1]; [`Error::Bound`] unless the radius of gyration is at least 0.05 of
+    /// the length (light ends would whirl it through large angles while they touch), and the contact time is so short that points sink
     /// in by a small part of the length, at most 0.1 length over the speed and 0.1 √(length/gravity), and so long that
     /// they sink in at all, 1e−10 length over the speed; [`Error::Energy`] where the motion does not keep its energy.
     pub fn contacts_until(
@@ -173,21 +171,32 @@ impl<const N: usize> Scene<N> {
         Run::new(self, contact, precision).run(enough)
     }
 
-    fn check(&self, contact: &Contact) -> Result<(), BarError> {
-        let refuse = |name, value, allowed| Err(BarError::Quantity { name, value, allowed });
+    fn check(&self, contact: &Contact) -> Result<(), Error> {
         let reach = self.body().reach();
         let (length, gyration, time) = (self.body().length_m().max(reach), self.body().gyration_m(), contact.time_s());
-        if gyration < 0.05 * length {
-            let allowed = "at least 0.05 of the length for contacts that take time";
-            return refuse("radius of gyration in m", gyration, allowed);
+        let of_time = |bound, most, reason| {
+            Err(Error::Bound { name: "contact time", value: time, bound, most, unit: "s", reason })
+        };
+        // What is told as the bound is allowed.
+        let beyond = 1.0 + 1e-12;
+        if gyration * beyond < 0.05 * length {
+            let (name, reason) = ("radius of gyration", "0.05 of the length for contacts that take time");
+            let (value, bound) = (gyration, 0.05 * length);
+            return Err(Error::Bound { name, value, bound, most: false, unit: "m", reason });
         }
-        let fastest = self.speed_m_s() + reach * self.spin_rad_s().abs();
-        if time * fastest > 0.1 * length || time * time * self.gravity_m_s2() > 0.01 * length {
-            let allowed = "at most 0.1 length/speed and 0.1 sqrt(length/gravity), so that the ends sink in little";
-            return refuse("contact time in s", time, allowed);
+        let of_speed = 0.1 * length / (self.speed_m_s() + reach * self.spin_rad_s().abs());
+        let of_gravity = 0.1 * (length / self.gravity_m_s2()).sqrt();
+        if time > of_speed.min(of_gravity) * beyond {
+            let reason = if of_speed < of_gravity {
+                "a tenth of length/speed, so that the ends sink in little"
+            } else {
+                "a tenth of sqrt(length/gravity), so that the ends sink in little"
+            };
+            return of_time(of_speed.min(of_gravity), true, reason);
         }
-        if time * self.speed_m_s() < 1e-10 * length {
-            return refuse("contact time in s", time, "at least 1e-10 length/speed, so that the ends sink in at all");
+        let shortest = 1e-10 * length / self.speed_m_s();
+        if time * beyond < shortest {
+            return of_time(shortest, false, "1e-10 length/speed, so that the ends sink in at all");
         }
         Ok(())
     }

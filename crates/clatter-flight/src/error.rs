@@ -7,6 +7,22 @@ pub enum Error {
     /// A value that describes no drop.
     #[error(transparent)]
     Given(#[from] clatter::Error),
+    /// A contact time or a radius of gyration beyond what this body and this drop allow.
+    #[error("{name} {}: {} {} here, {reason}", milli(*value, unit), if *most { "at most" } else { "at least" }, milli(towards(*bound, *most), unit))]
+    Bound {
+        /// What the value stands for.
+        name: &'static str,
+        /// The value, in SI.
+        value: f64,
+        /// The largest or smallest value that is allowed here, in SI.
+        bound: f64,
+        /// Whether it is the largest.
+        most: bool,
+        /// Its SI unit.
+        unit: &'static str,
+        /// Where the bound comes from.
+        reason: &'static str,
+    },
     /// A motion that does not keep its energy.
     #[error(
         "the motion changes its energy by {:.2} % without reason: it is no answer (contacts so long that they turn the body far, or so short that roundings of heights count)",
@@ -16,4 +32,21 @@ pub enum Error {
         /// What was made and lost, without regard to sign, over the energy at the first touch.
         share: f64,
     },
+}
+
+/// In thousandths of the unit.
+fn milli(x: f64, unit: &str) -> String {
+    let thousandths: f64 = format!("{:.12e}", 1e3 * x).parse().unwrap_or(x);
+    if (1e-3..1e6).contains(&thousandths) {
+        format!("{thousandths} m{unit}")
+    } else {
+        format!("{thousandths:e} m{unit}")
+    }
+}
+
+/// Three digits of a bound, on the side that is allowed.
+fn towards(bound: f64, most: bool) -> f64 {
+    let digit = 10_f64.powf(bound.abs().log10().floor() - 2.0);
+    let digits = bound / digit;
+    digit * if most { (digits + 1e-9).floor() } else { (digits - 1e-9).ceil() }
 }

@@ -58,7 +58,8 @@ pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureEr
     let Pages { file, assessment, portraits, measured: drops, .. } = *pages;
     let parts: Vec<Part<'_>> = file.components.iter().zip(&assessment.components).zip(portraits).collect();
     let names: Vec<String> = parts.iter().map(|((_, assessed), _)| name(&assessed.name)).collect();
-    let margins: Vec<String> = parts.iter().map(|((_, assessed), _)| assessed.tightest().margin.map_or("?".to_owned(), percent)).collect();
+    let margins: Vec<String> =
+        parts.iter().map(|((_, assessed), _)| assessed.tightest().margin.map_or("?".to_owned(), percent)).collect();
     let places = parts.iter().zip(names.iter().zip(&margins));
     let places: Vec<Place<'_>> = places
         .map(|(((component, assessed), portrait), (name, word))| Place {

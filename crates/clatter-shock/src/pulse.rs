@@ -273,7 +273,11 @@ impl Pulses {
             pieces.push(Piece { start: at, length, shock: delta_v, from, to, sines: (first, sines.len()) });
             at = Instant::after(at.hi, length + at.lo);
         }
-        if pieces.is_empty() { Err(Error::Empty("sections")) } else { Ok(Self { pieces, sines, end: at, carried: 0.0 }) }
+        if pieces.is_empty() {
+            Err(Error::Empty("sections"))
+        } else {
+            Ok(Self { pieces, sines, end: at, carried: 0.0 })
+        }
     }
     /// The same history with a constant acceleration from its end on, for ever: the weight of what has come to rest.
     ///
@@ -297,7 +301,13 @@ impl Pulses {
     pub fn carried(self, acceleration: f64) -> Result<Self, Error> {
         if !acceleration.is_finite() {
             let (name, allowed) = ("acceleration after the end", "finite");
-            return Err(Error::Entry { list: "sections", entry: self.pieces.len() + 1, name, value: acceleration, allowed });
+            return Err(Error::Entry {
+                list: "sections",
+                entry: self.pieces.len() + 1,
+                name,
+                value: acceleration,
+                allowed,
+            });
         }
         Ok(Self { carried: acceleration, ..self })
     }

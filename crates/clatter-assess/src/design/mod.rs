@@ -2,6 +2,9 @@
 
 mod lever;
 mod plane;
+mod remedies;
+mod values;
 
-pub use lever::{Bounds, Change, Lever, Outcome, Remedies, Remedy, STEPS, Together};
+pub use lever::{Bounds, Change, Lever, Outcome, Remedies, Remedy, Together};
 pub use plane::{Border, Plane, PlaneComponent};
+pub use remedies::STEPS;

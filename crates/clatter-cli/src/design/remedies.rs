@@ -1,13 +1,16 @@
 //! What would make each part of a product safe with a margin.
 
+use std::f64::consts::FRAC_PI_2;
 use std::io::{self, Write};
 
 use clatter_assess::design::{Change, Lever, Outcome, Plane, Remedies, Remedy, Together};
-use clatter_assess::{Assessment, ComponentAssessment, LimitAssessment, ProductFile, Verdict};
+use clatter_assess::{Assessment, ComponentAssessment, LimitAssessment, LimitKind, ProductFile, Verdict};
 use serde::Serialize;
 
 use crate::numbers::{Json, digits, figures, given};
+use crate::quantities::neat;
 use crate::text::{field, shown};
+use crate::words;
 
 /// The answer for one product.
 pub(super) struct Found<'a> {
@@ -28,38 +31,38 @@ fn margin(component: &ComponentAssessment) -> f64 {
 /// What a lever is called.
 fn called(lever: Lever) -> &'static str {
     match lever {
-        Lever::InertiaRatio => "inertia ratio q",
+        Lever::InertiaRatio => "radius of gyration",
         Lever::Restitution => "restitution e",
         Lever::Position => "place",
         Lever::Frequency => "natural frequency",
         Lever::Damping => "damping ratio",
+        Lever::ContactTime => "contact time",
+        Lever::Limit(LimitKind::Acceleration) => "acceleration limit",
+        Lever::Limit(LimitKind::RattleSpace) => "rattle space",
+        Lever::Limit(LimitKind::VelocityChange) => "velocity change limit",
+        Lever::Limit(LimitKind::AngularVelocityChange) => "angular velocity change limit",
+        Lever::Limit(LimitKind::DamageBoundary) => "critical velocity change",
     }
 }
 
-/// A value of a lever in words, each number as `show` has it: a range where it is one; lengths in mm.
-fn value(lever: Lever, [lo, hi]: [f64; 2], show: fn(f64) -> String) -> String {
-    let (lo, hi, unit) = match lever {
-        Lever::Position => (millimeters(lo), millimeters(hi), " mm"),
-        Lever::Frequency => (lo, hi, " Hz"),
-        _ => (lo, hi, ""),
-    };
-    let (lo, hi) = (show(lo), show(hi));
-    if lo == hi { format!("{lo}{unit}") } else { format!("{lo} to {hi}{unit}") }
-}
-
-/// A length in mm, without the digits that the multiplication adds.
-fn millimeters(meters: f64) -> f64 {
-    format!("{:.12e}", 1e3 * meters).parse().unwrap_or(1e3 * meters)
+/// At most so many significant digits.
+fn digits_of(x: f64, digits: usize) -> String {
+    given(format!("{x:.*e}", digits - 1).parse().unwrap_or(x))
 }
 
 /// At most six significant digits.
 fn short(x: f64) -> String {
-    given(format!("{x:.5e}").parse().unwrap_or(x))
+    digits_of(x, 6)
+}
+
+/// A range, or a value where it is one.
+fn either([lo, hi]: [String; 2], unit: &str) -> String {
+    if lo == hi { format!("{lo}{unit}") } else { format!("{lo} to {hi}{unit}") }
 }
 
 /// A margin in words.
 fn in_percent(margin: f64) -> String {
-    if margin.is_infinite() { "no margin known".to_owned() } else { format!("margin {} %", figures(100.0 * margin)) }
+    if margin.is_infinite() { "no margin known".to_owned() } else { format!("margin {}", words::margin(margin)) }
 }
 
 /// The margin of a changed part in words.
@@ -75,26 +78,44 @@ fn cells(outcome: &str, Change { from, to, .. }: &Change, after: &ComponentAsses
 }
 
 impl Found<'_> {
-    /// Radius of gyration in mm behind an inertia ratio, which is what can be built: it has four digits.
-    fn gyration_mm(&self, change: &Change) -> Option<f64> {
-        if change.lever != Lever::InertiaRatio {
-            return None;
+    /// Radius of gyration in mm behind an inertia ratio, which is what can be built.
+    fn gyration_mm(&self, q: f64) -> f64 {
+        let product = self.file.product.with_inertia_ratio(q);
+        product.map_or(f64::NAN, |product| neat(1e3 * product.body.gyration_m()))
+    }
+
+    /// A value of a lever of a part in words, a range where it is one, in the unit of the file.
+    fn value(&self, part: &Remedies, lever: Lever, value: [f64; 2]) -> String {
+        if lever == Lever::InertiaRatio {
+            let mut radii = value.map(|q| self.gyration_mm(q));
+            radii.sort_by(f64::total_cmp);
+            return either(radii.map(|mm| digits_of(mm, 4)), " mm");
         }
-        let product = self.file.product.with_inertia_ratio(change.to[0]).ok()?;
-        format!("{:.3e}", 1e3 * product.body.gyration_m()).parse().ok()
+        let unit = lever.written_in(&self.file.product, &self.file.components[part.component]);
+        let name = unit.map_or(lever.unit(), |unit| unit.name);
+        let name = if name.is_empty() { String::new() } else { format!(" {name}") };
+        either(value.map(|x| short(unit.map_or(x, |unit| unit.of_si(x)))), &name)
     }
 
     /// A change in words.
-    fn said(&self, change: &Change) -> String {
+    fn said(&self, part: &Remedies, change: &Change) -> String {
         let Change { lever, from, to } = *change;
-        let radius = self.gyration_mm(change);
-        let radius = radius.map_or(String::new(), |mm| format!(", a radius of gyration of {} mm", given(mm)));
-        format!("{} -> {}{radius}", value(lever, from, short), value(lever, to, given))
+        let more = match lever {
+            Lever::InertiaRatio => format!(", q {} -> {}", digits_of(from[0], 4), digits_of(to[0], 4)),
+            Lever::ContactTime => {
+                let [_, fastest] = self.file.drop.speeds_m_s();
+                // That of the hysteretic law: τ = (π/2)(1 + e) d/v.
+                let give_m = to[1] * fastest / (FRAC_PI_2 * (1.0 + self.file.product.restitution.lo()));
+                format!(", an edge that gives by {} mm", digits_of(1e3 * give_m, 2))
+            }
+            _ => String::new(),
+        };
+        format!("{} -> {}{more}", self.value(part, lever, from), self.value(part, lever, to))
     }
 
     pub(super) fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         let product = &self.file.product;
-        let e = value(Lever::Restitution, [product.restitution.lo(), product.restitution.hi()], short);
+        let e = either([product.restitution.lo(), product.restitution.hi()].map(short), "");
         let q = figures(product.inertia_ratio());
         writeln!(out, "{}: q = {q}, e = {e}", shown(&product.name, 60))?;
         let (wanted, count) = (given(100.0 * self.margin), self.assessment.components.len());
@@ -121,12 +142,13 @@ impl Found<'_> {
         let Some(component) = self.assessment.components.get(part.component) else { return Ok(()) };
         let (verdict, before) = (component.verdict.name(), in_percent(margin(component)));
         writeln!(out, "\n{} ({verdict}, {before})", shown(&component.name, 60))?;
+        let width = part.levers.iter().map(|remedy| called(remedy.lever).len()).max().unwrap_or(0);
         let mut notes: Vec<(&String, Vec<&str>)> = Vec::new();
         for Remedy { lever, outcome } in &part.levers {
             let name = called(*lever);
             match outcome {
                 Outcome::Change { change, after } => {
-                    writeln!(out, "  {name:<18} {}   ({})", self.said(change), left(after))?;
+                    writeln!(out, "  {name:<width$} {}   ({})", self.said(part, change), left(after))?;
                     for note in &after.tightest().notes {
                         match notes.iter_mut().find(|(known, _)| *known == note) {
                             Some((_, levers)) => levers.push(name),
@@ -135,28 +157,29 @@ impl Found<'_> {
                     }
                 }
                 Outcome::Nowhere { bounds: [lo, hi] } => {
-                    let (lo, hi) = (value(*lever, [*lo; 2], short), value(*lever, [*hi; 2], short));
-                    writeln!(out, "  {name:<18} no value from {lo} to {hi} is enough")?;
+                    let range = self.value(part, *lever, [*lo, *hi]);
+                    writeln!(out, "  {name:<width$} no value from {range} is enough")?;
                 }
-                Outcome::NoEffect => writeln!(out, "  {name:<18} has no effect on its limits")?,
+                Outcome::NoEffect => writeln!(out, "  {name:<width$} has no effect on its limits")?,
             }
         }
         for (note, levers) in notes {
             writeln!(out, "  note ({}): {note}", levers.join(", "))?;
         }
         if let Some(pair) = &part.pair {
-            self.together("No change alone is enough; these together are:", pair, out)?;
+            self.together(part, "No change alone is enough; these together are:", pair, out)?;
         }
         match &part.nearest {
-            Some(nearest) => self.together("Nothing is enough; nearest come:", nearest, out),
+            Some(nearest) => self.together(part, "Nothing is enough; nearest come:", nearest, out),
             None => Ok(()),
         }
     }
 
-    fn together(&self, head: &str, together: &Together, out: &mut dyn Write) -> io::Result<()> {
+    fn together(&self, part: &Remedies, head: &str, together: &Together, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "  {head}")?;
+        let width = together.changes.iter().map(|change| called(change.lever).len()).max().unwrap_or(0);
         for change in &together.changes {
-            writeln!(out, "    {:<18} {}", called(change.lever), self.said(change))?;
+            writeln!(out, "    {:<width$} {}", called(change.lever), self.said(part, change))?;
         }
         writeln!(out, "    ({})", left(&together.after))
     }
@@ -226,7 +249,8 @@ impl Found<'_> {
             unit: change.lever.unit(),
             from: change.from.map(Json),
             to: change.to.map(Json),
-            radius_of_gyration_m: self.gyration_mm(change).map(|mm| Json(mm / 1e3)),
+            radius_of_gyration_m: (change.lever == Lever::InertiaRatio)
+                .then(|| Json(neat(1e-3 * self.gyration_mm(change.to[0])))),
         }
     }
 

@@ -4,18 +4,20 @@ use std::io::{self, Write};
 
 use clatter::End;
 use clatter_assess::units::Quantity;
-use clatter_assess::{Answer, Limit, LimitKind, Part, SingleDrop, answer, respond};
+use clatter_assess::{Accuracy, Answer, Limit, LimitKind, Part, SingleDrop, answer, respond};
 use clatter_shock::{ImpulseFactors, Response, Suspension};
 use serde::Serialize;
 
+use super::Args;
+use super::limits::{self, LimitJson, OfLimit};
 use super::peaks::{
     Equivalent, EquivalentJson, FactorsJson, ResponseJson, Shocks, at_once, equivalent, equivalent_table,
 };
-use super::{Args, Inertia};
 use crate::drop_args::{Beside, Setup};
-use crate::inputs::{ModelName, law_name};
+use crate::inputs::{ModelName, law_name, letter};
 use crate::numbers::{Json, figures, given};
 use crate::quantities::{self, Show, neat};
+use crate::words::in_words;
 use crate::{Failure, Streams};
 
 /// A part in one drop.
@@ -26,6 +28,8 @@ pub(super) struct Drop<'a> {
     at: f64,
     called: String,
     single: SingleDrop,
+    /// What is asked of each limit of a part of a product file.
+    limits: Vec<OfLimit>,
     /// What the place goes through.
     place: Place,
     /// The part; none that is mounted rigidly.
@@ -54,14 +58,21 @@ const TOLD: f64 = 10.0;
 
 impl Args {
     pub(super) fn drop_by(&self, streams: &mut Streams<'_>) -> Result<Drop<'_>, Failure> {
-        let Inertia { gyration, gyration_m, mass, .. } = &self.inertia;
+        let mass = &self.inertia.mass;
         let beside = Beside {
             flat: self.flat,
             model: self.model,
             e: self.e,
-            gyration: gyration.or(gyration_m.map(Quantity::of_si)),
+            gyration: self.inertia.gyration(),
             masses: mass,
             instant_contacts: true,
+            first: self.first.map(Into::into),
+            of_product: true,
+            worst: self.worst.then(|| Accuracy {
+                tolerance: self.tolerance,
+                model: self.model.map(Into::into),
+                ..Accuracy::default()
+            }),
         };
         let setup = self.drop.setup(&beside, streams)?;
         let (scene, model, body) = (&setup.scene, setup.model, setup.scene.body());
@@ -69,39 +80,49 @@ impl Args {
             body,
             first: End::A,
             tilt_rad: scene.tilt_rad(),
-            flat: self.flat,
+            flat: setup.flat,
             speed_m_s: scene.speed_m_s(),
             restitution: scene.e(),
             gravity_m_s2: scene.gravity_m_s2(),
             contact_time_s: setup.contact_time_s,
             contact_law: setup.contact_law,
         };
-        let Some(place) = self.at.or(setup.part.map(|part| part.place)) else {
-            return Err(Failure::Usage("the place is missing: --at=S, or with --product the --component=NAME"));
+        let part = setup.part.as_ref();
+        let half_m = 0.5 * body.length_m();
+        // Places of the product, from end a at -1 to end b at 1.
+        let places = match (self.at, part) {
+            (Some(place), _) => quantities::positions(&[place], "--at", half_m)?,
+            (None, Some(part)) => part.ends_m.iter().map(|x| (x / half_m).clamp(-1.0, 1.0)).collect(),
+            (None, None) => {
+                return Err(Failure::Usage("the place is missing: --at=S, or with --product the --component=NAME"));
+            }
         };
-        let at = quantities::positions(&[place], "--at", 0.5 * setup.length_m)?.pop().unwrap_or(f64::NAN);
         let ask = Ask { drop: &drop, model, tolerance: self.tolerance };
         // The end that touches first feels every drop: where not even that is answered, none is.
-        ask.of(LimitKind::VelocityChange, -0.5 * body.length_m(), None).map_err(|error| self.named(error))?;
-        let position_m = 0.5 * at * body.length_m();
-        let of_file = setup.part.and_then(|part| part.suspension);
-        let suspension = self.suspension(of_file)?;
+        ask.of(&Limit::new(LimitKind::VelocityChange, 1.0), -half_m, None).map_err(|error| self.named(error))?;
+        let suspension = self.suspension(part.and_then(|part| part.suspension))?;
+        let side = setup.side();
+        let felt = |limit: &Limit, s: f64| ask.felt_of(limit, side * s * half_m, suspension);
+        let limits = part.map_or(Ok(Vec::new()), |part| limits::of(part, &places, half_m, felt))?;
+        let at = limits::worst(&limits).map_or(places[0], |limit| limit.at);
+        let position_m = side * at * half_m;
+        let called = self.at.map_or_else(|| setup.shown.length.given(neat(at * half_m)), quantities::Place::said);
         let place_felt = ask.place(position_m)?;
         let part = suspension.map(|suspension| self.suspended(&ask, position_m, suspension)).transpose()?;
-        Ok(Drop { args: self, setup, at, called: place.said(), single: drop, place: place_felt, part })
+        Ok(Drop { args: self, setup, at, called, single: drop, limits, place: place_felt, part })
     }
 
     /// A drop that was refused, with the options as they were given.
     fn named(&self, error: clatter_assess::Error) -> Failure {
         match error {
-            clatter_assess::Error::Flight(error) => self.drop.named(error, self.inertia.gyration_m),
+            clatter_assess::Error::Flight(error) => self.drop.named(error, self.inertia.gyration()),
             error => Failure::Assess(error),
         }
     }
 
     fn suspended(&self, ask: &Ask<'_>, position_m: f64, suspension: Suspension) -> Result<Suspended, Failure> {
         let response = respond(ask.drop, position_m, &suspension, ask.model.into(), ask.tolerance);
-        let response = response.map_err(Failure::drop)?;
+        let response = response.map_err(Failure::Assess)?;
         let asked = self.equivalent_pulse.then(|| equivalent(&self.shock_table, &suspension, &response));
         Ok(Suspended {
             suspension,
@@ -123,13 +144,12 @@ struct Ask<'a> {
 impl Ask<'_> {
     fn of(
         &self,
-        kind: LimitKind,
+        limit: &Limit,
         position_m: f64,
         suspension: Option<Suspension>,
     ) -> Result<Answer, clatter_assess::Error> {
-        // Nothing is allowed or forbidden here: the value alone counts.
-        let limit = Limit::new(kind, 1.0);
-        answer(self.drop, &Part { position_m, suspension }, &limit, self.model.into(), self.tolerance)
+        let suspension = suspension.filter(|_| limit.is_response());
+        answer(self.drop, &Part { position_m, suspension }, limit, self.model.into(), self.tolerance)
     }
 
     /// The same of a drop that is known to be answered: none where nothing is felt.
@@ -139,9 +159,19 @@ impl Ask<'_> {
         position_m: f64,
         suspension: Option<Suspension>,
     ) -> Result<Option<Answer>, Failure> {
-        match self.of(kind, position_m, suspension) {
-            Err(clatter_assess::Error::Unfinished) => Ok(None),
-            answer => answer.map(Some).map_err(Failure::drop),
+        // Nothing is allowed or forbidden here: the value alone counts.
+        self.felt_of(&Limit::new(kind, 1.0), position_m, suspension)
+    }
+
+    fn felt_of(
+        &self,
+        limit: &Limit,
+        position_m: f64,
+        suspension: Option<Suspension>,
+    ) -> Result<Option<Answer>, Failure> {
+        match self.of(limit, position_m, suspension) {
+            Err(clatter_assess::Error::Unfinished | clatter_assess::Error::Contact) => Ok(None),
+            answer => answer.map(Some).map_err(Failure::Assess),
         }
     }
 
@@ -174,14 +204,19 @@ impl Drop<'_> {
         &self.setup.notes
     }
 
+    /// An input: what was typed as it was, what a search found to six digits.
+    fn shortly(&self, x: f64) -> f64 {
+        if self.args.worst { format!("{x:.5e}").parse().unwrap_or(x) } else { x }
+    }
+
     fn headings(&self, out: &mut dyn Write) -> io::Result<()> {
         let (at, e, shown) = (&self.called, given(self.single.restitution), &self.setup.shown);
         let length = shown.length.given(self.setup.scene.body().length_m());
         let part = self.part.as_ref().map(|part| part.suspension);
         match part {
             Some(part) => {
-                let zeta = given(neat(part.damping().get()));
-                let of_file = self.setup.part.and_then(|part| part.suspension).map(|(frequency, _)| frequency);
+                let zeta = given(self.shortly(neat(part.damping().get())));
+                let of_file = self.setup.part.as_ref().and_then(|part| part.suspension).map(|(frequency, _)| frequency);
                 let of_file = of_file.filter(|_| self.args.omega.is_none());
                 let frequency = match self.args.frequency.or(of_file) {
                     Some(Quantity { si, unit }) => Show { unit, name: "Hz" }.given(si),
@@ -196,12 +231,16 @@ impl Drop<'_> {
             format!(", {} contacts of {}", law_name(self.single.contact_law), shown.time.given(time))
         });
         let (model, speed) = (self.setup.model.name(), shown.speed.said(self.single.speed_m_s));
-        let (tilt, tolerance) = (shown.tilt(self.setup.tilt_deg), given(100.0 * self.args.tolerance));
-        writeln!(out, "Model {model}, to {tolerance} %: end a strikes first, at {speed}, tilt {tilt}{contact}")
+        let (tilt, tolerance) = (shown.tilt(self.shortly(self.setup.tilt_deg)), given(100.0 * self.args.tolerance));
+        let first = letter(self.setup.first);
+        writeln!(out, "Model {model}, to {tolerance} %: end {first} strikes first, at {speed}, tilt {tilt}{contact}")
     }
 
     pub(super) fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         self.headings(out)?;
+        if let Some(part) = &self.setup.part {
+            limits::table(part, &self.limits, self.setup.shown.time, out)?;
+        }
         if let Some(part) = &self.part {
             self.peaks(part, out)?;
         }
@@ -218,17 +257,28 @@ impl Drop<'_> {
     fn peaks(&self, part: &Suspended, out: &mut dyn Write) -> io::Result<()> {
         let (response, time, speed) = (&part.response, self.setup.shown.time, self.setup.shown.speed);
         let when = format!("when, {}", time.name());
-        writeln!(out, "\n{:<34}{:>12} {when:>13}", "Peak", speed.name())?;
-        let rows = [
+        writeln!(out, "\n{:<34}{:>12} {when:>13}", "Peak of the part", "")?;
+        let mut line = |name: &str, size: String, at: f64, answer: Option<Answer>| {
+            let after = answer.map_or(String::new(), |answer| format!("  after impact {}", answer.impact));
+            writeln!(out, "  {name:<32}{size:>12} {:>13}{after}", time.figures(at))
+        };
+        // As an assessment tells it.
+        let limits = self.setup.part.as_ref().map(|part| part.limits);
+        for (name, kind, answer) in [
+            ("acceleration", LimitKind::Acceleration, part.acceleration),
+            ("relative displacement", LimitKind::RattleSpace, part.displacement),
+        ] {
+            let Some(Answer { value, unit, time_s, .. }) = answer else { continue };
+            let written = limits.and_then(|limits| limits.unit(kind, unit));
+            line(name, in_words(unit, written, value), time_s, answer)?;
+        }
+        for (name, extremes, answer) in [
             ("relative displacement, W z", response.pseudo_velocity(), part.displacement),
             ("relative velocity", response.relative_velocity, None),
             ("absolute acceleration, A/W", response.acceleration_over_omega(), part.acceleration),
-        ];
-        for (name, extremes, answer) in rows {
+        ] {
             let peak = extremes.peak();
-            let (size, time) = (speed.figures(peak.value.abs()), time.figures(peak.time));
-            let after = answer.map_or(String::new(), |answer| format!("  after impact {}", answer.impact));
-            writeln!(out, "  {name:<32}{size:>12} {time:>13}{after}")?;
+            line(name, speed.said(peak.value.abs()), peak.time, answer)?;
         }
         Ok(())
     }
@@ -301,10 +351,11 @@ impl Drop<'_> {
         let contact = self.single.contact_time_s.filter(|_| self.setup.model == ModelName::Compliant);
         DropJson {
             model: self.setup.model.name(),
+            first: letter(self.setup.first),
             length_m: Json(self.setup.scene.body().length_m()),
             gyration_m: Json(self.setup.scene.body().gyration_m()),
-            center_of_mass: Json(self.setup.center_of_mass),
-            inertia_ratios: self.setup.scene.body().inertia_ratios().map(Json),
+            center_of_mass: Json(self.setup.side() * self.setup.center_of_mass + 0.0),
+            inertia_ratios: self.setup.inertia_ratios().map(Json),
             e: Json(self.single.restitution),
             speed_m_s: Json(self.single.speed_m_s),
             tilt_deg: Json(self.setup.tilt_deg),
@@ -314,6 +365,7 @@ impl Drop<'_> {
             contact_law: contact.map(|_| law_name(self.single.contact_law)),
             tolerance: Json(self.args.tolerance),
             at: Json(self.at),
+            limits: self.setup.part.as_ref().map(|_| self.limits.iter().map(Into::into).collect()),
             response: part.map(|part| ResponseJson::new(&part.suspension, &part.response, |_| None)),
             velocity_change_m_s: Json(value(self.place.velocity_change.as_ref())),
             acceleration_m_s2: self.single.contact_time_s.map(|_| Json(value(self.place.acceleration.as_ref()))),
@@ -343,6 +395,8 @@ impl Suspended {
 #[derive(Serialize)]
 pub(super) struct DropJson {
     model: &'static str,
+    /// The end that touches first.
+    first: &'static str,
     length_m: Json,
     gyration_m: Json,
     center_of_mass: Json,
@@ -358,6 +412,9 @@ pub(super) struct DropJson {
     contact_law: Option<&'static str>,
     tolerance: Json,
     at: Json,
+    /// Of a part of a product file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    limits: Option<Vec<LimitJson>>,
     #[serde(flatten)]
     response: Option<ResponseJson>,
     velocity_change_m_s: Json,

@@ -20,7 +20,7 @@ pub(super) struct Measured {
 #[command(next_help_heading = "Of several channels or records")]
 pub(crate) struct Several {
     /// Also the resultant of the channels of each record: the root of the sum of their squares, which the length of the response
-    /// vector does not pass
+    /// vector does not exceed
     #[arg(long)]
     resultant: bool,
     /// Also the envelope: the largest of all channels of all records

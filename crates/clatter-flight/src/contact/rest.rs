@@ -135,7 +135,8 @@ impl<const N: usize> Run<'_, N> {
         let Weighed { on, forces, left, by_weight } = self.weighed()?;
         let fastest = self.fastest_by(left);
         let struck = |i: usize| self.log.flight.strikes.iter().any(|strike| strike.point == i);
-        ((fastest <= slow || left <= BY_WEIGHT * by_weight) && on.into_iter().all(struck)).then_some((forces, 2.0 * fastest))
+        ((fastest <= slow || left <= BY_WEIGHT * by_weight) && on.into_iter().all(struck))
+            .then_some((forces, 2.0 * fastest))
     }
 
     fn kinetic(&self) -> f64 {

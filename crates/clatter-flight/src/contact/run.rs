@@ -183,7 +183,17 @@ impl<'a, const N: usize> Run<'a, N> {
         let contact_s = self.contact.time_s();
         let Self { log, presses, phases, pose, unrested, resting, .. } = self;
         let last = unrested.unwrap_or(pose);
-        ContactFlight { flight: log.flight, presses, energy_error, later_m_s, contact_s, phases, last, end: pose, resting }
+        ContactFlight {
+            flight: log.flight,
+            presses,
+            energy_error,
+            later_m_s,
+            contact_s,
+            phases,
+            last,
+            end: pose,
+            resting,
+        }
     }
 
     fn next(&mut self) -> Lasting<N> {

@@ -7,7 +7,7 @@ use clatter_figures::model_words as model;
 use clatter_figures::three;
 use serde_json::{Value, json};
 
-use super::changes::changes;
+use super::changes::{Of, changes};
 use super::inputs::held;
 use crate::words::{end, limit, millimeters, minus, name, percent, shown};
 
@@ -150,7 +150,7 @@ pub(super) fn part(
         "summary": summary(component, tightest, portrait),
         "undecided": undecided.map(|l| json!({ "limit": limit(l.limit), "why": l.undecided.as_deref().map(minus) })).collect::<Vec<_>>(),
         "limits": assessed.limits.iter().map(|l| row(file, l)).collect::<Vec<_>>(),
-        "changes": portrait.remedies.as_ref().map(|remedies| changes(&file.product, remedies)),
+        "changes": portrait.remedies.as_ref().map(|remedies| changes(Of { product: &file.product, component }, remedies)),
         "drawn": !portrait.history.is_empty(),
         "history": format!("The {what} over time in that drop; red ticks are impacts.{}", seen(over_time)),
         "history-alt": format!("Curve of the {what} of this part over time in its worst drop, with the impacts marked at the foot."),

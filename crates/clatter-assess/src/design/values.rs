@@ -1,0 +1,160 @@
+//! Values of levers: where they are, how far they go, and as what they can be specified.
+
+use clatter_flight::Body;
+
+use super::lever::{Change, Lever};
+use super::remedies::Case;
+use crate::{Damping, Law, LimitKind, Limits, Mount, Product, ProductFile, Spread};
+
+impl Case<'_> {
+    /// The present value, low and high end.
+    fn present(&self, lever: Lever) -> [f64; 2] {
+        let of = |spread: &Spread| [spread.lo(), spread.hi()];
+        let (product, component) = (&self.file.product, self.component);
+        match (lever, &component.mount) {
+            (Lever::InertiaRatio, _) => [product.inertia_ratio(); 2],
+            (Lever::Restitution, _) => of(&product.restitution),
+            (Lever::Position, _) => of(&component.position_m),
+            (Lever::Frequency, Mount::Suspended { frequency_hz, .. }) => of(frequency_hz),
+            (Lever::Damping, Mount::Suspended { damping, .. }) => damping.ratios(),
+            (Lever::Frequency | Lever::Damping, Mount::Hard) => [0.0; 2],
+            (Lever::ContactTime, _) => product.contact_time_s.as_ref().map_or([0.0; 2], of),
+            (Lever::Limit(kind), _) => limit(&mut component.limits.clone(), kind).map_or([0.0; 2], |limit| of(limit)),
+        }
+    }
+
+    /// The same as the lever counts: a range by its low end, what is multiplied by the logarithm of its factor.
+    pub(super) fn here(&self, lever: Lever) -> f64 {
+        if multiplied(lever) { 0.0 } else { self.present(lever)[0] }
+    }
+
+    /// The bounds, as the lever counts.
+    pub(super) fn reach(&self, lever: Lever) -> [f64; 2] {
+        let [lo, hi] = self.present(lever);
+        match lever {
+            // With mass inside the body alone.
+            Lever::InertiaRatio => self.bounds.q.map(|q| q.max(0.0)),
+            // the range as a whole: until its high end is at the low bound, its low end at the high bound
+            Lever::Restitution => [self.bounds.e[0] - (hi - lo), self.bounds.e[1]],
+            Lever::Position => {
+                let most = 0.5 * (self.file.product.body.length_m() - self.component.extent_m).max(0.0);
+                [-most, (most - (hi - lo)).max(-most)]
+            }
+            Lever::Frequency => [-1.0, 1.0].map(|side| side * self.bounds.frequency_factor.ln()),
+            Lever::Damping => self.bounds.damping,
+            Lever::ContactTime => {
+                let [least, most] = self.bounds.contact_time_s;
+                let (down, up) = ((least / lo).ln(), (most / hi).ln());
+                [down.min(up), up.max(down)]
+            }
+            Lever::Limit(_) => [0.0, self.bounds.limit_factor.ln()],
+        }
+    }
+
+    /// A bound as it is shown.
+    pub(super) fn shown(&self, lever: Lever, x: f64) -> f64 {
+        match lever {
+            Lever::Restitution => x.clamp(self.bounds.e[0], self.bounds.e[1]),
+            _ if multiplied(lever) => self.value(lever, x)[usize::from(x > 0.0)],
+            _ => x,
+        }
+    }
+
+    pub(super) fn change(&self, lever: Lever, x: f64) -> Change {
+        Change { lever, from: self.present(lever), to: self.value(lever, x) }
+    }
+
+    /// What a value of the lever means, low and high end, as it can be specified.
+    pub(super) fn value(&self, lever: Lever, x: f64) -> [f64; 2] {
+        let [lo, hi] = self.present(lever);
+        let [lo, hi] = match lever {
+            Lever::InertiaRatio => return [self.with_ratio(x).map_or(x, |product| product.inertia_ratio()); 2],
+            Lever::Restitution => [x, x + (hi - lo)].map(|e| e.clamp(self.bounds.e[0], self.bounds.e[1])),
+            Lever::Position => [x, x + (hi - lo)],
+            Lever::Damping => [x; 2],
+            _ => [lo, hi].map(|value| value * x.exp()),
+        };
+        let rounded = if lo < hi {
+            [self.specified(lever, lo, f64::floor), self.specified(lever, hi, f64::ceil)]
+        } else {
+            [self.specified(lever, lo, f64::round); 2]
+        };
+        if lever == Lever::Restitution { rounded.map(|e| e.clamp(self.bounds.e[0], self.bounds.e[1])) } else { rounded }
+    }
+
+    /// To two digits in the unit of the file; a place to a hundredth of the decade of the length.
+    fn specified(&self, lever: Lever, si: f64, way: fn(f64) -> f64) -> f64 {
+        let unit = lever.written_in(&self.file.product, self.component);
+        let of_si = |x: f64| unit.map_or(x, |unit| unit.of_si(x));
+        let size = if lever == Lever::Position { 0.1 * self.file.product.body.length_m() } else { si };
+        let rounded = to_digits(of_si(si), of_si(size), way);
+        unit.map_or(rounded, |unit| unit.to_si(rounded))
+    }
+
+    /// The product with about this inertia ratio, its radius of gyration in mm as it can be specified, and within the body.
+    fn with_ratio(&self, q: f64) -> Option<Product> {
+        let product = self.file.product.with_inertia_ratio(q).ok()?;
+        let [a, b] = product.body.arms_m();
+        let specified = |way| 1e-3 * to_digits(1e3 * product.body.gyration_m(), 100.0 * (a + b), way);
+        let nearest = specified(f64::round);
+        let gyration = if nearest * nearest > a * b { specified(f64::floor) } else { nearest };
+        Some(Product { body: Body::off_center(a, b, gyration).ok()?, ..product })
+    }
+
+    /// The product with these values, and the part alone.
+    pub(super) fn changed(&self, values: &[(Lever, f64)]) -> Option<ProductFile> {
+        let mut component = self.component.clone();
+        let mut product = self.file.product.clone();
+        for &(lever, x) in values {
+            let [lo, hi] = self.value(lever, x);
+            let unit = lever.written_in(&self.file.product, self.component);
+            let range = Spread::new(lo, hi, if lo < hi { Law::Range } else { Law::Value }).ok()?.written_in(unit);
+            match (lever, &mut component.mount) {
+                (Lever::InertiaRatio, _) => product = Product { body: self.with_ratio(x)?.body, ..product },
+                (Lever::Restitution, _) => product.restitution = range,
+                (Lever::Position, _) => component.position_m = range,
+                (Lever::Frequency, Mount::Suspended { frequency_hz, .. }) => *frequency_hz = range,
+                (Lever::Damping, Mount::Suspended { damping, .. }) => *damping = Damping::Ratio(range),
+                (Lever::Frequency | Lever::Damping, Mount::Hard) => return None,
+                (Lever::ContactTime, _) => product.contact_time_s = Some(range),
+                (Lever::Limit(kind), _) => *limit(&mut component.limits, kind)? = range,
+            }
+        }
+        // Rounded outward it may reach beyond the ends.
+        let most = 0.5 * product.body.length_m() * (1.0 + 1e-9);
+        if component.ends_m().iter().any(|end| end.abs() > most) {
+            return None;
+        }
+        Some(ProductFile { product, drop: self.file.drop, components: vec![component], records: Vec::new() })
+    }
+}
+
+/// Whether a lever multiplies what is there.
+fn multiplied(lever: Lever) -> bool {
+    matches!(lever, Lever::Frequency | Lever::ContactTime | Lever::Limit(_))
+}
+
+/// The limit of a kind; of a damage boundary its critical velocity change.
+fn limit(limits: &mut Limits, kind: LimitKind) -> Option<&mut Spread> {
+    match kind {
+        LimitKind::Acceleration => limits.acceleration_m_s2.as_mut(),
+        LimitKind::RattleSpace => limits.rattle_space_m.as_mut(),
+        LimitKind::VelocityChange => limits.velocity_change_m_s.as_mut(),
+        LimitKind::AngularVelocityChange => limits.angular_velocity_change_rad_s.as_mut(),
+        LimitKind::DamageBoundary => limits.damage_boundary.as_mut().map(|boundary| &mut boundary.velocity_change_m_s),
+    }
+}
+
+/// A value to the second digit of a size.
+fn to_digits(value: f64, size: f64, way: fn(f64) -> f64) -> f64 {
+    if size == 0.0 {
+        return value;
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "a small exponent")]
+    let step = 10_f64.powi(size.abs().log10().floor() as i32 - 1);
+    let count = value / step;
+    // What is a multiple but for roundings is one.
+    let nearest = count.round();
+    let count = if (count - nearest).abs() < 1e-9 * nearest.abs().max(1.0) { nearest } else { way(count) };
+    format!("{:.12e}", count * step).parse().unwrap_or(value) + 0.0
+}
