@@ -335,13 +335,14 @@ impl Inputs {
                 _ => None,
             }));
         }
+        columns.push(Column::Model);
         columns.extend((0..self.parts.len()).map(Column::Utilization));
         columns
     }
 }
 
 impl Sample {
-    /// The value of a column, utilizations excepted.
+    /// The value of a column of what was drawn.
     pub(super) fn value(&self, column: Column) -> f64 {
         let suspension = |i: usize| self.parts[i].suspension.as_ref();
         let limit = |i: usize, kind| self.parts[i].limits.iter().find(|limit| limit.kind == kind);
@@ -358,7 +359,7 @@ impl Sample {
             Column::CriticalAccelerationMS2(i) => {
                 limit(i, LimitKind::DamageBoundary).map(|limit| limit.critical_acceleration_m_s2)
             }
-            Column::Utilization(_) => None,
+            Column::Model | Column::Utilization(_) => None,
         };
         value.unwrap_or(f64::NAN)
     }
