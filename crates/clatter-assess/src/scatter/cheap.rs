@@ -53,7 +53,6 @@ fn of_part(drop: &SingleDrop, train: &[Impact], part: &PartSample, factor: f64) 
                 (LimitKind::Acceleration, Some(omega)) => peak(Peaked::AccelerationOverOmega, omega),
                 (LimitKind::RattleSpace, Some(omega)) => peak(Peaked::PseudoVelocity, omega.recip()),
                 (LimitKind::Acceleration | LimitKind::RattleSpace, None) => half_sine,
-                (LimitKind::VelocityChange, _) => shocks.largest(),
                 (LimitKind::AngularVelocityChange, _) => {
                     let turn = |strike: &Impact| (strike.delta_v[1] - strike.delta_v[0]).abs();
                     train.iter().map(turn).fold(0.0, f64::max) / drop.body.length_m()
@@ -62,7 +61,7 @@ fn of_part(drop: &SingleDrop, train: &[Impact], part: &PartSample, factor: f64) 
                 (LimitKind::DamageBoundary, _) if drop.contact_time_s.is_some() => {
                     shocks.largest().min(half_sine / limit.critical_acceleration_m_s2 * limit.allowed)
                 }
-                (LimitKind::DamageBoundary, _) => shocks.largest(),
+                (LimitKind::VelocityChange | LimitKind::DamageBoundary, _) => shocks.largest(),
             };
             asked.raise(k, factor * value / limit.allowed, 0.0);
         }

@@ -13,6 +13,8 @@
 //!
 //! The batch also tells at which utilization by the cheap model a part fails: where the fewest of its verdicts are wrong.
 
+#![expect(clippy::option_option, reason = "not asked, without an answer, answered")]
+
 use rayon::prelude::*;
 
 use super::clopper_pearson;

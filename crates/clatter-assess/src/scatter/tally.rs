@@ -1,5 +1,7 @@
 //! What comes of many samples: counts of failures, what they are within, and what drives them.
 
+#![expect(clippy::option_option, reason = "not asked, without an answer, answered")]
+
 use super::drivers::Sums;
 use super::levels::{Count, float, round};
 use super::{Asked, ComponentScatter, Driver, Inputs, Probability, Settings};
