@@ -42,7 +42,7 @@ fn the_paper_s_example() {
 const MARGIN: f64 = 0.1;
 
 fn together(text: &mut String, name: &str, found: &Together) {
-    let _ = writeln!(text, "  {name}: margin {:+.2}, {}", found.after.tightest().margin, found.after.verdict.name());
+    let _ = writeln!(text, "  {name}: margin {:+.2}, {}", found.after.tightest().room(), found.after.verdict.name());
     for change in &found.changes {
         let _ = writeln!(text, "    {:<21} {:.3?} -> {:.3?}", change.lever.name(), change.from, change.to);
     }
@@ -60,7 +60,7 @@ fn changes_that_make_a_laptop_safe() {
             let said = match &remedy.outcome {
                 Outcome::Change { change, after } => {
                     assert_eq!(after.verdict, Verdict::Safe, "assessed again");
-                    assert!(after.tightest().margin >= MARGIN, "{after:?}");
+                    assert!(after.tightest().room() >= MARGIN, "{after:?}");
                     format!("{:.3?} -> {:.3?}", change.from, change.to)
                 }
                 Outcome::Nowhere { bounds } => format!("nowhere in {bounds:.3?}"),

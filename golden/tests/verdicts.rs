@@ -17,15 +17,15 @@ fn three(name: &str, value: Option<f64>) -> String {
 
 /// Three digits, more than any drop is known to: the search resolves no more.
 fn line(limit: &LimitAssessment) -> String {
-    let beside = [("clatter-free", Some(limit.clatter_free)), ("bound", limit.bound), ("other law", limit.other_law)];
+    let beside = [("flat", limit.clatter_free), ("bound", limit.bound), ("other law", limit.other_law)];
     format!(
         "    {:<24} {:<9} allowed {:.2e}, demand {:.2e} {:<6} margin {:+.2}, within {:.2}; {} {}{}",
         limit.limit.name(),
         limit.verdict.name(),
         limit.allowed,
-        limit.demand,
+        limit.demand.unwrap(),
         limit.unit.name(),
-        limit.margin,
+        limit.margin.unwrap(),
         limit.uncertainty,
         limit.model.bar.name(),
         limit.model.component,

@@ -138,29 +138,46 @@ fn contact_time_damping_place_and_limits_may_vary() {
     assert!(csv.lines().skip(1).all(|line| line.matches(',').count() == columns && !line.contains("NaN")), "{titles}");
 }
 
-/// Many drops: a pilot tells what the closed form gets wrong, and it is taken or left for that.
+/// Many drops: a first batch tells what the cheap model gets wrong, and it is taken or left for that.
 #[test]
-fn many_drops_are_answered_after_a_pilot() {
+fn many_drops_are_answered_on_two_levels() {
     let dir = tempfile::tempdir().unwrap();
     let path = file(&dir);
-    let found = answer(["scatter", path.as_str(), "--samples=10000"]);
-    let pilot = &found["model"]["pilot"];
-    let error = pilot["worst_error"].as_f64().unwrap();
-    assert!(pilot["drops"].as_u64().unwrap() >= 400 && pilot["confidence"].as_f64().unwrap() > 0.95, "{pilot}");
-    assert_eq!(pilot["taken"], error <= 0.05, "{pilot}");
-    assert_eq!(found["model"]["bar"], if error <= 0.05 { "map" } else { "finite-tilt" });
-    let table = clatter(["scatter", path.as_str(), "--samples=10000"]).stdout;
-    assert!(table.contains("the closed form is off by up to ") || table.contains("Answered in closed form"), "{table}");
-    // Without gravity and at small tilt it is the whole truth.
-    let free = HANDHELD.replace("first = \"either\"", "first = \"either\"\ngravity = \"0 gn\"");
-    let free = free.replace(
-        "height = { normal = [\"1.2 m\", \"0.2 m\"], range = [\"0.6 m\", \"1.8 m\"] }",
-        "speed = [\"4 m/s\", \"5 m/s\"]",
+    let target = dir.path().join("samples.csv");
+    let flags = ["--samples=2e4", "--format=json", "-o", target.to_str().unwrap()];
+    let outcome = clatter(["scatter", path.as_str()].iter().chain(&flags));
+    let found: serde_json::Value = serde_json::from_str(&outcome.stdout).unwrap();
+    let (model, pilot) = (&found["model"], &found["model"]["pilot"]);
+    assert_eq!((&model["bar"], &pilot["taken"]), (&"finite-tilt".into(), &true.into()), "{model}");
+    assert!(pilot["work"].as_f64().unwrap() < 1.0 && pilot["drops"].as_u64().unwrap() >= 1000, "{pilot}");
+    let [drawn, refined] = [&found["drawn"], &model["refined"]].map(|count| count.as_u64().unwrap());
+    assert!(
+        drawn > 20_000 && found["samples"] == 20_000 && refined == drawn.div_ceil(pilot["one_in"].as_u64().unwrap())
     );
-    let free = free.replace("{ triangular = [\"0.5 deg\", \"2 deg\", \"10 deg\"] }", "[\"0.5 deg\", \"1 deg\"]");
-    std::fs::write(dir.path().join("free.toml"), free).unwrap();
-    let found = answer(["scatter", dir.path().join("free.toml").to_str().unwrap(), "--samples=10000"]);
-    assert_eq!((&found["model"]["bar"], &found["model"]["pilot"]["taken"]), (&"map".into(), &true.into()), "{found}");
+    // Every drop is a row, with the model that answered it, and what both say adds up to the probability.
+    let csv = std::fs::read_to_string(&target).unwrap();
+    let mut lines = csv.lines();
+    assert!(lines.next().unwrap().contains(",model,\"utilization of camera, front\""), "{csv:.200}");
+    let models: Vec<&str> = lines.map(|line| line.rsplit(',').nth(2).unwrap()).collect();
+    assert_eq!(models.len() as u64, drawn);
+    assert_eq!(models.iter().filter(|model| **model == "finite-tilt").count() as u64, refined);
+    assert!(models.iter().all(|model| ["finite-tilt", "cheap"].contains(model)), "{models:?}");
+    let camera = &found["components"][0];
+    let failed = 20_000.0 * (1.0 - camera["survival"]["probability"].as_f64().unwrap());
+    assert!((camera["failed"].as_f64().unwrap() - failed).abs() <= 0.5, "{camera}");
+    let table = clatter(["scatter", path.as_str(), "--samples=20000"]).stdout;
+    assert!(
+        table.contains("for the intervals of 20000") && table.contains("All are answered by a cheap model"),
+        "{table}"
+    );
+    // Where nothing fails, it does not help.
+    let safe = HANDHELD.replace("500 gn", "50000 gn");
+    std::fs::write(dir.path().join("safe.toml"), safe).unwrap();
+    let safe = dir.path().join("safe.toml").display().to_string();
+    let found = answer(["scatter", safe.as_str(), "--samples=10000"]);
+    assert_eq!((&found["model"]["pilot"]["taken"], &found["drawn"]), (&false.into(), &10_000.into()), "{found}");
+    let table = clatter(["scatter", safe.as_str(), "--samples=10000"]).stdout;
+    assert!(table.contains("by the model finite-tilt: a cheap one saves nothing"), "{table}");
 }
 
 #[test]

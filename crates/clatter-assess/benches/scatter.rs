@@ -1,5 +1,5 @@
-//! What samples cost: of a part whose contacts overlap, by contacts that take time; of a part without a contact time, by the closed
-//! form that its pilot allows, with the pilot and the samples that the fuller model answers as well. On all threads.
+//! What samples cost: of a part whose contacts overlap, by contacts that take time; of a part without a contact time, on two
+//! levels, with the first batch. On all threads.
 
 use clatter_assess::ProductFile;
 use clatter_assess::scatter::{Sampler, Settings};
@@ -18,12 +18,12 @@ fn product(product: &str, drop: &str, part: &str) -> ProductFile {
     ProductFile::read(&text, "p").unwrap_or_else(|faults| panic!("{faults}"))
 }
 
-fn draw(bencher: Bencher<'_, '_>, file: &ProductFile, samples: u64, by_closed_form: bool) {
+fn draw(bencher: Bencher<'_, '_>, file: &ProductFile, samples: u64, two_levels: bool) {
     let settings = Settings { samples, seed: 1, confidence: 0.95 };
     let Ok(sampler) = Sampler::new(file, settings) else { panic!("the product is sound") };
     bencher.counter(ItemsCount::new(samples)).bench_local(|| {
         let Ok(scatter) = black_box(&sampler).run::<()>(false, |_| Ok(true)) else { panic!("nothing stops it") };
-        assert_eq!(scatter.pilot.is_some_and(|pilot| pilot.taken), by_closed_form, "{:?}", scatter.pilot);
+        assert_eq!(scatter.pilot.is_some_and(|pilot| pilot.one_in.is_some()), two_levels, "{:?}", scatter.pilot);
         scatter
     });
 }
@@ -36,7 +36,7 @@ fn contacts_that_overlap_1e5(bencher: Bencher<'_, '_>) {
 }
 
 #[divan::bench(sample_count = 3, sample_size = 1)]
-fn closed_form_1e6(bencher: Bencher<'_, '_>) {
+fn two_levels_1e6(bencher: Bencher<'_, '_>) {
     let drop = "height = { normal = [\"1 m\", \"0.2 m\"], range = [\"0.5 m\", \"1.5 m\"] }\n\
         tilt = { triangular = [\"1 deg\", \"2 deg\", \"4 deg\"] }";
     let part = "position = \"40 mm\"\nnatural_frequency = { uniform = [\"80 Hz\", \"120 Hz\"] }\n\

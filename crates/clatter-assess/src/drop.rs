@@ -65,7 +65,7 @@ pub struct SingleDrop {
     /// Angle to the ground at the first touch, in rad.
     pub tilt_rad: f64,
     /// Whether both ends land as one: instant impacts that are closer than any contact lasts. Every place then gets (1 + e) v at
-    /// once, at the first landing and at each that follows; the tilt is 0.
+    /// once, at the first landing and at each that follows, whatever the tilt.
     pub flat: bool,
     /// Speed at the first touch, in m/s.
     pub speed_m_s: f64,
@@ -89,6 +89,11 @@ impl SingleDrop {
     pub(crate) fn clatter_s(&self) -> f64 {
         let gap_m = self.body.length_m() * self.tilt_rad.sin();
         4.0 * (gap_m / self.speed_m_s + self.contact_time_s.unwrap_or(0.0))
+    }
+    /// Whether the ends land so close after one another that no contact tells them apart: within this time, where that of a contact
+    /// is not known.
+    pub(crate) fn lands_as_one(&self, merge_s: f64) -> bool {
+        self.contact_time_s.is_none() && self.body.length_m() * self.tilt_rad.sin() < merge_s * self.speed_m_s
     }
     /// The same drop landing flat.
     #[must_use]

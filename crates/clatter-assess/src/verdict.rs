@@ -59,10 +59,13 @@ pub struct Accuracy {
     pub merge_s: f64,
 }
 
+/// Instant impacts that are closer than this are one, unless said otherwise: twice what hard cases press.
+pub(crate) const MERGE_S: f64 = 1e-3;
+
 impl Default for Accuracy {
     /// 1 %, by the model with the most physics, 1 ms.
     fn default() -> Self {
-        Self { tolerance: 0.01, model: None, merge_s: 1e-3 }
+        Self { tolerance: 0.01, model: None, merge_s: MERGE_S }
     }
 }
 

@@ -104,7 +104,7 @@ impl Text {
     /// The part, assessed in the file with these changes, is what is told of it.
     fn is_told(&self, changes: &[Change], after: &ComponentAssessment, accuracy: &Accuracy) -> ComponentAssessment {
         let again = changes.iter().fold(self.clone(), |text, change| text.with(change)).assessed(accuracy);
-        let (now, told) = (again.tightest().margin, after.tightest().margin);
+        let (now, told) = (again.tightest().room(), after.tightest().room());
         // The same drops, of a file that has been written and read: but for roundings the same answers.
         assert!((now - told).abs() < 1e-9, "{changes:?}: {now}, told {told}");
         assert_eq!(again.verdict, after.verdict, "{changes:?}");
@@ -178,7 +178,7 @@ fn remedies_put_into_the_file_have_the_margin() {
             let has = |changes: &[Change], after: &ComponentAssessment| {
                 let again = text.is_told(changes, after, &Accuracy::default());
                 assert_eq!(again.verdict, Verdict::Safe, "{changes:?}");
-                assert!(again.tightest().margin >= margin, "{changes:?}: {} of {margin}", again.tightest().margin);
+                assert!(again.tightest().room() >= margin, "{changes:?}: {} of {margin}", again.tightest().room());
             };
             let mut found = 0;
             for remedy in &remedies.levers {
@@ -197,7 +197,7 @@ fn remedies_put_into_the_file_have_the_margin() {
             if let Some(Together { changes, after }) = &remedies.nearest {
                 assert!(found == 0 && remedies.pair.is_none());
                 let again = text.is_told(changes, after, &Accuracy::default());
-                assert!(again.verdict != Verdict::Safe || again.tightest().margin < margin, "{again:?}");
+                assert!(again.verdict != Verdict::Safe || again.tightest().room() < margin, "{again:?}");
                 nearest += 1;
             }
             assert!(found > 0 || remedies.pair.is_some() || remedies.nearest.is_some(), "{remedies:?}");
@@ -242,7 +242,7 @@ fn a_stronger_part_more_room_and_a_bumper_are_changes() {
         let remedies = text.remedies(&Bounds::default(), 0.0);
         let remedy = remedies.levers.iter().find(|remedy| remedy.lever == Lever::Limit(kind)).expect("its limit");
         let Outcome::Change { change, .. } = &remedy.outcome else { panic!("{remedy:?}") };
-        let needed = before.demand * (1.0 + before.uncertainty);
+        let needed = before.demand.unwrap() * (1.0 + before.uncertainty);
         let unit = if kind == LimitKind::Acceleration { 9.806_65 } else { 1.0 };
         let most = needed + step(needed / unit) * unit;
         // A hair: a range of drops is not searched alike where its limit is another.
@@ -252,7 +252,7 @@ fn a_stronger_part_more_room_and_a_bumper_are_changes() {
     let bumper = remedies.levers.iter().find(|remedy| remedy.lever == Lever::ContactTime).expect("contacts");
     let Outcome::Change { change, after } = &bumper.outcome else { panic!("{bumper:?}") };
     let before = hard.assessed(&Accuracy::default()).limits.remove(0).demand;
-    let (longer, less) = (change.to[0] / change.from[0], after.limits[0].demand / before);
+    let (longer, less) = (change.to[0] / change.from[0], after.limits[0].demand.unwrap() / before.unwrap());
     assert!(longer > 1.0 && (0.8..1.25).contains(&(longer * less)), "{longer} times as long, {less} of the demand");
     // More room alone: with twice the acceleration limit, and a rattle space that is too small.
     let limits = "acceleration_limit = \"2200 gn\"\nrattle_space = \"5 mm\"".to_owned();
@@ -323,7 +323,7 @@ fn the_smallest_changes_of_a_hard_part_are_those_of_the_closed_form() {
             }
         };
         let limit = &after.limits[0];
-        assert!((limit.demand / short_by(0.0) - 1.0).abs() < 1e-9, "{remedy:?}: {}", short_by(0.0));
+        assert!((limit.demand.unwrap() / short_by(0.0) - 1.0).abs() < 1e-9, "{remedy:?}: {}", short_by(0.0));
         let room = 1.0 + limit.uncertainty;
         assert!((1.02..1.03).contains(&room), "{remedy:?}");
         let short = short_by(1.0) * room;
@@ -367,7 +367,7 @@ fn no_smaller_change_is_enough() {
                 let share = ends * f64::from(k) / 12.0;
                 let to = std::array::from_fn(|n| change.from[n] + share * (change.to[n] - change.from[n]));
                 let tried = text.with(&Change { to, ..change }).assessed(&accuracy);
-                let enough = tried.verdict == Verdict::Safe && tried.tightest().margin >= margin;
+                let enough = tried.verdict == Verdict::Safe && tried.tightest().room() >= margin;
                 assert!(!enough, "{to:?} is short of {change:?}");
                 scanned += 1;
             }
@@ -382,7 +382,7 @@ fn changes_are_found_from_beyond_the_bounds() {
     let [_, drive, ..] = failing();
     let damped = |zeta: f64| Text { mount: Some(["\"40 Hz\"".to_owned(), format!("{zeta}")]), ..drive.clone() };
     // Too little damping and too much ask for more than some in between.
-    let demand = |zeta| damped(zeta).assessed(&Accuracy::default()).limits[0].demand / 9.806_65;
+    let demand = |zeta| damped(zeta).assessed(&Accuracy::default()).limits[0].demand.unwrap() / 9.806_65;
     let [some, much] = [0.25, 0.5].map(demand);
     assert!(much > 1.1 * some, "{some} {much}");
     // So that 0.25 is enough and 0.5 is not.
@@ -405,7 +405,7 @@ fn changes_are_found_from_beyond_the_bounds() {
 #[test]
 fn changes_are_of_the_model_that_was_asked_for() {
     let [_, drive, ..] = failing();
-    let (file, accuracy) = (drive.read(), Accuracy { tolerance: 0.05, model: Some(Model::Map) });
+    let (file, accuracy) = (drive.read(), Accuracy { tolerance: 0.05, model: Some(Model::Map), ..Accuracy::default() });
     let assessment = file.assess_to(&accuracy).expect("an assessment");
     let remedies = file.remedies(&assessment, &Bounds::default(), 0.1).expect("remedies").remove(0);
     let mut changes = 0;

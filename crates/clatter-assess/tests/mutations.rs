@@ -145,9 +145,9 @@ proptest! {
             && let Ok(assessment) = file.assess()
         {
             for limit in assessment.components.iter().flat_map(|c| &c.limits) {
-                prop_assert!(limit.demand >= 0.0 && !limit.margin.is_nan(), "{limit:?}");
-                prop_assert!(limit.bound.is_none_or(|bound| limit.demand <= bound), "{limit:?}");
-                prop_assert!(limit.verdict != Verdict::Safe || limit.margin >= 0.0, "{limit:?}");
+                prop_assert!(limit.demand.is_none_or(|demand| demand >= 0.0) && limit.margin.is_none_or(|margin| !margin.is_nan()), "{limit:?}");
+                prop_assert!(limit.bound.zip(limit.demand).is_none_or(|(bound, demand)| demand <= bound), "{limit:?}");
+                prop_assert!(limit.verdict != Verdict::Safe || limit.room() >= 0.0, "{limit:?}");
             }
         }
     }

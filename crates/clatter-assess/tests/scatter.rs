@@ -82,7 +82,7 @@ fn without_a_failure_the_bound_is_one_sided() {
 #[test]
 fn what_drives_a_part_is_found() {
     let (file, _) = known();
-    let part = &draw(&file, settings(20_000, 1)).components[0];
+    let part = &draw(&file, settings(7000, 1)).components[0];
     let driver = &part.drivers[0];
     assert_eq!(driver.input, Input::Speed);
     // bins of 1/32 lose 0.1 %
@@ -192,15 +192,20 @@ fn a_sample_is_the_same_whatever_the_number_of_samples() {
     assert_eq!(few, many[..10 * columns.len()]);
     let (_, other) = values(&file, settings(10, 6));
     assert_ne!(few, other, "another seed");
-    // Of many, the closed form may answer: its inputs are the same.
+    // Of many, the cheap model answers most: drops and parts are the same, and so is what the full one answers.
     let file = product(BODY, SPREAD, SOFT);
     let (columns, many) = values(&file, settings(9000, 5));
     let (_, few) = values(&file, settings(1000, 5));
+    let model = columns.iter().position(|column| *column == Column::Model).unwrap();
+    let mut followed = 0;
     for (few, many) in few.chunks(columns.len()).zip(many.chunks(columns.len())) {
-        let inputs = columns.len() - 1;
-        assert_eq!(few[..inputs], many[..inputs]);
-        assert!((few[inputs] / many[inputs] - 1.0).abs() < 0.05, "{few:?} {many:?}");
+        assert_eq!(few[..model], many[..model]);
+        if many[model] < 0.5 {
+            assert_eq!(few[model..], many[model..]);
+            followed += 1;
+        }
     }
+    assert!(followed > 10 && followed < 500, "{followed} of 1000");
 }
 
 /// The drop and the part of a row, and what it asks of each limit.
@@ -328,32 +333,85 @@ fn a_part_whose_contacts_overlap_fails_as_often_as_single_drops_do() {
     });
     let known = clopper_pearson(survivors.count() as u64, drops, 0.999);
     let found = draw(&file, settings(20_000, 1));
-    assert!(!found.pilot.unwrap().taken && found.model == Model::Compliant, "{:?}", found.pilot);
+    assert!(found.followed == found.drawn && found.pilot.unwrap().one_in.is_none(), "{:?}", found.pilot);
     let survival = found.survival;
     assert!(known.lo <= survival.estimate && survival.estimate <= known.hi, "{survival:?}, not {known:?}");
     assert!(survival.hi - survival.lo < 0.03 && survival.lo < survival.hi, "{survival:?}");
 }
 
+/// Six products: with and without a contact time, of every kind of limit, bouncy, and with contacts that overlap, where the cheap model
+/// is wrong by as much as it can be.
+fn six() -> [ProductFile; 6] {
+    let contact = format!("{BODY}\ncontact_time = {{ uniform = [\"0.2 ms\", \"0.9 ms\"] }}");
+    let bouncy = BODY.replace("0.3", "0.7");
+    let hard = "position = \"40 mm\"\nmount = \"hard\"\nacceleration_limit = \"1500 gn\"\nangular_velocity_change_limit = \"110 rad/s\"";
+    let boundary = "position = \"60 mm\"\nmount = \"hard\"\n\
+        damage_boundary = { velocity_change = { uniform = [\"4 m/s\", \"9 m/s\"] }, acceleration = \"500 gn\" }";
+    [
+        product(BODY, SPREAD, SOFT),
+        product(&contact, SPREAD, SOFT),
+        product(&contact, SPREAD, hard),
+        product(BODY, SPREAD, boundary),
+        product(&bouncy, SPREAD, &SOFT.replace("400 gn", "600 gn")),
+        overlapping(),
+    ]
+}
+
+/// Of runs with other seeds, those whose interval of 10 000 samples holds what the full model says of `many` others, which its own
+/// interval of `sure` widens; one of the runs.
+fn runs_that_hold(file: &ProductFile, runs: u64, many: u64, sure: f64) -> (usize, Scatter) {
+    // So few at a time that each is answered by the full model.
+    let plain = |k| draw(file, settings(7000, 1000 + k));
+    let survivors = (0..many / 7000).map(|k| 7000 - plain(k).components[0].failures).sum();
+    let truth = clopper_pearson(survivors, many, sure);
+    let holds = |seed: &u64| {
+        let survival = draw(file, settings(10_000, *seed)).survival;
+        survival.lo <= truth.hi && truth.lo <= survival.hi
+    };
+    ((0..runs).filter(holds).count(), draw(file, settings(10_000, 0)))
+}
+
 #[test]
-fn where_the_pilot_allows_it_the_closed_form_says_what_the_fullest_model_does() {
+fn intervals_of_two_levels_hold_what_the_full_model_says() {
+    for (i, file) in six().iter().enumerate() {
+        let (held, found) = runs_that_hold(file, 10, 21_000, 0.95);
+        assert!(held >= 9, "product {i}: {held} of 10, {:?}", found.pilot);
+    }
+}
+
+/// The same in earnest: the truth is that of so many samples that its own interval hardly counts.
+#[test]
+#[ignore = "takes many minutes"]
+fn intervals_of_two_levels_hold_in_95_of_100_runs() {
+    for (i, file) in six().iter().enumerate() {
+        let (held, found) = runs_that_hold(file, 100, 700_000, 0.05);
+        let Scatter { drawn, followed, survival, pilot, .. } = &found;
+        println!("product {i}: {held} of 100; {followed} of {drawn} followed, {survival:?}, {pilot:?}");
+        assert!(held >= 95, "product {i}: {held} of 100");
+    }
+}
+
+#[test]
+fn a_cheap_model_is_taken_where_it_saves_work_for_the_same_interval() {
     let file = product(BODY, SPREAD, SOFT);
-    // So few that no pilot is worth while.
-    let full = draw(&file, settings(7900, 11));
-    assert_eq!((full.model, full.pilot, full.refined), (Model::FiniteTilt, None, 0));
-    let cheap = draw(&file, settings(100_000, 12));
-    let pilot = cheap.pilot.unwrap();
-    assert!(pilot.taken && cheap.model == Model::Map, "{pilot:?}");
-    assert!(pilot.worst_error > 0.0 && pilot.worst_error < 0.05 && pilot.share > 0.0, "{pilot:?}");
-    assert!(cheap.refined > 0 && cheap.refined < 10_000, "{}", cheap.refined);
-    let (full, cheap) = (full.survival, cheap.survival);
-    assert!(cheap.lo <= full.hi && full.lo <= cheap.hi, "{full:?} and {cheap:?}");
-    // Without a failure the share that a pilot cannot see stays open.
-    let safe = product(BODY, SPREAD, &SOFT.replace("400 gn", "4000 gn").replace("9 mm", "90 mm"));
-    let safe = draw(&safe, settings(100_000, 1));
-    let pilot = safe.pilot.unwrap();
-    assert_eq!((pilot.taken, safe.components[0].failures), (true, 0));
-    assert!((1.0 - pilot.share).powf(5000.0) <= 0.025 + 1e-12, "{pilot:?}");
-    assert!(safe.survival.at_least <= 1.0 - pilot.share && safe.survival.at_least > 0.999, "{:?}", safe.survival);
+    // So few that no first batch is worth while.
+    let few = draw(&file, settings(7900, 11));
+    assert_eq!((few.model, few.pilot, few.drawn, few.followed), (Model::FiniteTilt, None, 7900, 7900));
+    let many = draw(&file, settings(100_000, 12));
+    let pilot = many.pilot.unwrap();
+    assert!(pilot.one_in.is_some() && pilot.work < 0.5 && pilot.differ > 0, "{pilot:?}");
+    assert!(many.drawn > 100_000 && many.followed < 25_000, "{} of {}", many.followed, many.drawn);
+    let (few, many) = (few.survival, many.survival);
+    assert!(many.lo <= few.hi && few.lo <= many.hi, "{few:?} and {many:?}");
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+    let plain = clopper_pearson((1e5 * many.estimate) as u64, 100_000, 0.95);
+    // The variance of the difference is known to a third from the first batch.
+    assert!(many.hi - many.lo < 1.15 * (plain.hi - plain.lo), "{many:?}, not {plain:?}");
+    // Where nothing fails, no share of the samples tells as much as all of them.
+    let safe =
+        draw(&product(BODY, SPREAD, &SOFT.replace("400 gn", "4000 gn").replace("9 mm", "90 mm")), settings(20_000, 1));
+    assert_eq!((safe.pilot.unwrap().one_in, safe.drawn, safe.followed), (None, 20_000, 20_000));
+    assert!((safe.survival.at_least - 0.05f64.powf(1.0 / 20_000.0)).abs() < 1e-15, "{:?}", safe.survival);
 }
 
 #[test]
@@ -400,10 +458,10 @@ fn extremes_are_next_to_the_worst_of_an_assessment() {
         let file = product(&body, SPREAD, &soft);
         let found = extremes(&file, &[(file.product.body, 0.3)]).unwrap();
         let contacts = body.contains("contact");
-        assert_eq!(found.model, if contacts { Model::Compliant } else { Model::Map }, "{:?}", found.pilot);
+        assert_eq!(found.model, if contacts { Model::Compliant } else { Model::Map }, "{}", found.closed_form_error);
         let worst = found.worst[0][0].unwrap();
         let limits = &file.assess().unwrap().components[0].limits;
-        let known = limits.iter().map(|limit| limit.demand / limit.allowed).fold(0.0, f64::max);
+        let known = limits.iter().map(|limit| limit.demand.unwrap() / limit.allowed).fold(0.0, f64::max);
         assert!(worst < 1.02 * known && worst > 0.97 * known, "{worst}, not {known}: {body}");
     }
 }

@@ -114,7 +114,7 @@ fn single(file: &ProductFile, component: &Component, limit: &Limit, (shares, fir
         restitution: file.product.restitution.at(shares[2]),
         gravity_m_s2: file.drop.gravity_m_s2,
         contact_time_s: file.product.contact_time_s.map(|time| time.at(shares[3])),
-        contact_law: file.product.contact_law,
+        contact_law: file.product.law(),
     };
     let suspension = match component.mount {
         Mount::Suspended { frequency_hz, damping } => {
@@ -156,7 +156,7 @@ fn told(r: &mut Random, singles: usize) -> (f64, Vec<Told>) {
             let near: Vec<Shares> = (0..singles / 4).map(|_| shares(r, Some(&far.1))).collect();
             let ((most, by), _) =
                 [far, worst(&near)].into_iter().reduce(|a, b| if b.0.0 > a.0.0 { b } else { a }).expect("two");
-            let over = most / (assessed.demand / assessed.allowed) - 1.0;
+            let over = most / (assessed.demand.unwrap() / assessed.allowed) - 1.0;
             told.push(Told { limit: assessed, over, by });
         }
     }

@@ -219,7 +219,7 @@ mod tests {
             let text = EXAMPLE.replace("\"1000 gn\"", &format!("\"{limit} m/s2\""));
             ProductFile::read(&text, "test.toml").unwrap()
         };
-        let asked = file(1e4).assess().unwrap().components[1].limits[0].demand;
+        let asked = file(1e4).assess().unwrap().components[1].limits[0].demand.unwrap();
         let close = file(1.005 * asked);
         let assessment = close.assess().unwrap();
         let camera = &assessment.components[1];

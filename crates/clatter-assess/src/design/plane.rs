@@ -6,7 +6,7 @@ use clatter::contour::Point;
 use clatter::design::{Goal, region};
 
 use super::lever::Bounds;
-use crate::scatter::{Error, Pilot, extremes};
+use crate::scatter::{Error, extremes};
 use crate::{Component, First, Limit, LimitKind, Model, ProductFile};
 
 /// The design plane 0 ≤ q ≤ 1, 0 ≤ e ≤ 1 of a product.
@@ -21,8 +21,8 @@ pub struct Plane {
     pub bounds: Bounds,
     /// The model that answered: [`Model::Map`] is the closed form.
     pub model: Model,
-    /// What the closed form gets wrong on drops all over the plane; none where it has no answer.
-    pub pilot: Option<Pilot>,
+    /// What the closed form gets wrong at most, in some drops all over the plane; infinite where it or the fullest model has no answer.
+    pub closed_form_error: f64,
     /// Values of q, and of e, of a grid.
     pub side: usize,
     /// In the order of the file.
@@ -105,7 +105,7 @@ impl Plane {
             e: [restitution.lo(), restitution.hi()],
             bounds: *bounds,
             model: found.model,
-            pilot: found.pilot,
+            closed_form_error: found.closed_form_error,
             side,
             components: file.components.iter().enumerate().map(border).collect(),
         })

@@ -5,12 +5,10 @@ use clatter_flight::Body;
 use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
-use super::Error;
-use super::closed::Closed;
 use super::full::{self, Followings, LEAST};
 use super::philox::Stream;
-use super::pilot::{self, Pilot};
 use super::sample::{PartSample, Sample};
+use super::{Asked, Error, cheap};
 use crate::quantity::lacks_contact_time;
 use crate::{Component, Limit, Model, Mount, ProductFile, SingleDrop, Spread};
 
@@ -20,8 +18,9 @@ use crate::{Component, Limit, Model, Mount, ProductFile, SingleDrop, Spread};
 pub struct Extremes {
     /// The model that answered: [`Model::Map`] is the closed form.
     pub model: Model,
-    /// What the closed form gets wrong on drops all over the points; none where it has no answer.
-    pub pilot: Option<Pilot>,
+    /// The largest factor, less 1, between both models' utilizations, in some drops all over the points; infinite where one of them
+    /// has no answer.
+    pub closed_form_error: f64,
     /// For each point the largest utilization of each component, in the order of the file; none where drops without an answer could
     /// change the verdict.
     pub worst: Vec<Vec<Option<f64>>>,
@@ -29,18 +28,18 @@ pub struct Extremes {
 
 /// Tilts by the closed form and by the model with the most physics, which asks for more time.
 const TILTS: [u32; 2] = [33, 9];
-/// Drops of the pilot.
-const PILOT: u64 = 400;
-/// Its confidence, which only the share that it tells depends on.
-const CONFIDENCE: f64 = 0.95;
+/// Drops that are answered by both models.
+const TRIED: u64 = 400;
+/// Up to this error the closed form is taken.
+const LARGEST_ERROR: f64 = 0.05;
 
 /// The largest utilization of each component over all ranges of a product but that of its restitution, for other bodies and
 /// restitutions. Limits are at their least values, as in an assessment.
 ///
 /// Drops: tilts all over their range, 33 by the closed form, else 9; the ends of the ranges of contact time and speed, by the closed form;
 /// else the highest speed; either end first. Parts: both ends of where they may be, the ends and the middle of the range of natural
-/// frequencies, both ends of that of damping. The closed form is taken where a pilot of 400 of these drops, of points drawn at random,
-/// shows errors of at most 5 % in all parts.
+/// frequencies, both ends of that of damping. The closed form is taken where 400 of these drops, of points drawn at random, show
+/// errors of at most 5 % in all parts.
 ///
 /// It is a picture and no proof: a worst case lies between drops.
 ///
@@ -59,8 +58,7 @@ pub fn extremes(file: &ProductFile, points: &[(Body, f64)]) -> Result<Extremes, 
     let turns = symmetric && file.drop.first_ends().len() > 1;
     let corners = |tilts, slow| Corners::new(file, &parts, turns, tilts, slow);
     let [many, few] = [corners(TILTS[0], true), corners(TILTS[1], false)];
-    let takes = points.iter().all(|(body, _)| body.gyration_m() > 0.0) && Closed::takes(file);
-    let error = |k| {
+    let off = |k| {
         let stream = Stream::new(0, k);
         let pick = |input, count: usize| {
             #[expect(
@@ -75,15 +73,30 @@ pub fn extremes(file: &ProductFile, points: &[(Body, f64)]) -> Result<Extremes, 
         let (body, e) = &points[pick(0, points.len())];
         let sample = few.sample(body, *e, pick(1, few.drops.len()));
         let (mut cheap, mut full) = (Vec::new(), Vec::new());
-        Closed::new(body).answer(&sample, &mut cheap);
+        cheap::answer(&sample, &vec![1.0; sample.parts.len()], &mut cheap);
         full::answer(&sample, &mut full);
-        pilot::error(&cheap, &full)
+        error(&cheap, &full)
     };
-    let pilot = (takes && !points.is_empty()).then(|| Pilot::of(PILOT, CONFIDENCE, error));
-    let closed = pilot.is_some_and(|pilot| pilot.taken);
+    let tried = if points.is_empty() { 0 } else { TRIED };
+    let closed_form_error = (0..tried).into_par_iter().map(off).reduce(|| 0.0, f64::max);
+    let closed = closed_form_error <= LARGEST_ERROR;
     let worst = points.par_iter().map(|(body, e)| if closed { many.closed(body, *e) } else { few.full(body, *e) });
     let fullest = few.drops.first().map_or(Model::FiniteTilt, SingleDrop::fullest);
-    Ok(Extremes { model: if closed { Model::Map } else { fullest }, pilot, worst: worst.collect() })
+    Ok(Extremes { model: if closed { Model::Map } else { fullest }, closed_form_error, worst: worst.collect() })
+}
+
+/// The largest factor, less 1, between what both models ask of the parts of a drop; infinite where the fuller one has no answer.
+fn error(cheap: &[Asked], full: &[Result<Asked, crate::Error>]) -> f64 {
+    let of = |(cheap, full): (&Asked, &Result<Asked, crate::Error>)| {
+        let Ok(full) = full else { return f64::INFINITY };
+        let [least, most] = full.within;
+        if most <= 0.0 && cheap.utilization <= 0.0 {
+            return 0.0;
+        }
+        let factor = (most / cheap.utilization).max(cheap.utilization / least);
+        if factor.is_nan() { f64::INFINITY } else { factor - 1.0 }
+    };
+    cheap.iter().zip(full).map(of).fold(0.0, f64::max)
 }
 
 /// The drops of the search and the parts in them.
@@ -170,11 +183,12 @@ impl Corners {
     }
 
     fn closed(&self, body: &Body, e: f64) -> Vec<Option<f64>> {
-        let (mut form, mut asked, mut sample) = (Closed::new(body), Vec::new(), self.sample(body, e, 0));
+        let (mut asked, mut sample) = (Vec::new(), self.sample(body, e, 0));
+        let even = vec![1.0; sample.parts.len()];
         let mut worst = Worst::new(&self.counts);
         for drop in &self.drops {
             sample.drop = SingleDrop { body: *body, restitution: e, ..*drop };
-            form.answer(&sample, &mut asked);
+            cheap::answer(&sample, &even, &mut asked);
             worst.raise(&asked, |asked, most| Some(asked.utilization.max(most)));
         }
         worst.verdicts()

@@ -8,21 +8,21 @@ use crate::{Error, Limit, LimitKind, SingleDrop};
 
 /// How exactly a sample is answered. A coarser answer costs no less: more samples are left open and followed once more.
 const TOLERANCE: f64 = 0.005;
-/// How exactly one is answered whose error leaves open whether a limit holds.
-const FINER: f64 = 0.0005;
+/// How exactly one is answered whose error leaves open whether a limit holds, one after the other.
+const FINER: [f64; 2] = [5e-4, 5e-5];
 /// How exactly a drop is answered of which only the largest of many counts.
 const COARSE: f64 = 0.02;
 
 /// One drop, followed as far as its parts ask for it.
 ///
 /// First until its energy allows no shock as large as the largest, then on where what comes later could still pass what a part was
-/// asked. Where the error told leaves open whether a limit holds, it is followed once more, finer.
+/// asked. Where the error told leaves open whether a limit holds, it is followed again, finer.
 #[derive(Debug)]
 pub(super) struct Followings<'a> {
     drop: &'a SingleDrop,
     early: Following,
     whole: Following,
-    fine: Following,
+    finer: [Following; 2],
 }
 
 /// A drop that is followed when a part first asks for it.
@@ -30,17 +30,21 @@ type Following = Option<Result<Followed, Error>>;
 
 impl<'a> Followings<'a> {
     pub(super) fn of(drop: &'a SingleDrop) -> Self {
-        Self { drop, early: None, whole: None, fine: None }
+        Self { drop, early: None, whole: None, finer: [None, None] }
     }
 
     /// What the drop asks of a part; why, where it is not answered.
     pub(super) fn answer(&mut self, part: &PartSample) -> Result<Asked, Error> {
-        let asked = self.passing(part, TOLERANCE, LEAST)?;
-        if asked.is_open() {
-            let fine = self.fine.get_or_insert_with(|| Followed::new(self.drop, self.drop.fullest(), FINER));
+        let mut asked = self.passing(part, TOLERANCE, LEAST)?;
+        for (following, tolerance) in self.finer.iter_mut().zip(FINER) {
+            if !asked.is_open() {
+                break;
+            }
+            let fine = following.get_or_insert_with(|| Followed::new(self.drop, self.drop.fullest(), tolerance));
             let finer = fine.as_ref().map_err(Clone::clone).and_then(|fine| of_part(fine, part, LEAST));
             // A motion that is too long to be followed finer stays open.
-            return Ok(finer.map_or(asked, |(finer, _)| finer));
+            let Ok((finer, _)) = finer else { break };
+            asked = finer;
         }
         Ok(asked)
     }

@@ -2,18 +2,15 @@
 //!
 //! # Model
 //! A sample is answered as any other drop is: by the model with the most physics that the data allow, contacts that take time
-//! where their time is known, else instant impacts at real tilt with gravity. Where many samples are drawn, a [`Pilot`] measures
-//! on some of them what the closed form gets wrong: instant impacts, small tilt, no gravity. It is taken only where its worst error
-//! is at most 5 %, and then only for parts whose utilization is farther than that error from 1. The others are answered by the
-//! fuller model as well.
+//! where their time is known, else instant impacts at real tilt with gravity. Where many samples are drawn, most are answered by a
+//! cheap model instead, and what that gets wrong is measured on a share of them: a [two-level estimate](levels), as wide as the
+//! interval of the samples asked for would be without it. Utilizations and what drives them are those of the samples that the full
+//! model answered.
 //!
 //! # Intervals
-//! An interval holds the probability by the model with the most physics with the stated confidence. Three things widen it:
-//! - the number of samples, by the interval of Clopper and Pearson;
-//! - what answers may be off by. A sample whose utilization is so near 1 that the error told by the model decides it counts as a
-//!   failure for the lower end and as none for the upper. A sample that is not answered is treated alike;
-//! - where the closed form is taken, the share of drops that may be off by more than all drops of the pilot were, on both sides. The
-//!   pilot and the samples each may be misled with half of the probability that the confidence leaves.
+//! An interval holds the probability by the model with the most physics with the stated confidence. A sample whose utilization is
+//! so near 1 that the error told by the model decides it counts as a failure for the lower end and as none for the upper. A sample
+//! that is not answered is treated alike.
 //!
 //! Where a body lands after it has bounced clear is sensitive to every input. What such a landing asks in one sample may differ from
 //! one tolerance to another; how many samples fail does not.
@@ -24,29 +21,27 @@
 //! and memory does not grow with the number of samples.
 
 mod binomial;
-mod closed;
+mod cheap;
 mod draw;
 mod drivers;
 mod extremes;
 mod full;
+mod levels;
 mod philox;
-mod pilot;
 mod sample;
-mod swing;
 mod tally;
 
 use rayon::prelude::*;
 
 use crate::{Component, LimitKind, Model, ProductFile};
-use closed::Closed;
-use full::Followings;
-use sample::Inputs;
-use tally::{Count, Tally};
+use levels::{Levels, float, round};
+use sample::{Inputs, Sample};
+use tally::Block;
 
 pub use binomial::{Probability, clopper_pearson};
 pub use drivers::Share;
 pub use extremes::{Extremes, extremes};
-pub use pilot::Pilot;
+pub use levels::Pilot;
 pub use sample::Input;
 
 /// Why nothing can be drawn.
@@ -79,7 +74,7 @@ pub enum Error {
 /// How to draw.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// How many drops.
+    /// How many drops answered by the full model the intervals are as wide as.
     pub samples: u64,
     /// Another seed, other drops.
     pub seed: u64,
@@ -91,13 +86,15 @@ pub struct Settings {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Scatter {
-    /// How they were drawn.
+    /// How they were drawn; where it was stopped before the end, as many samples as the intervals are as wide as.
     pub settings: Settings,
-    /// The model that answered them: [`Model::Map`] is the closed form.
+    /// The model with the most physics, which the probabilities are those of.
     pub model: Model,
-    /// Samples that the fuller model answered as well, being near a limit by the closed form.
-    pub refined: u64,
-    /// What the closed form gets wrong; none where it was not tried: for few samples, and for damping ratios from 0.95 on.
+    /// Samples drawn: more than asked for where most are answered by the cheap model.
+    pub drawn: u64,
+    /// Those of them that the full model answered.
+    pub followed: u64,
+    /// What the cheap model gets wrong, by a first batch; none where it was not tried, for few samples.
     pub pilot: Option<Pilot>,
     /// The inputs that vary; without any, all samples are one.
     pub inputs: Vec<Input>,
@@ -105,7 +102,7 @@ pub struct Scatter {
     pub assumed_even: Vec<Input>,
     /// Probability that every component survives; `at_least` is what a target is held against.
     pub survival: Probability,
-    /// Samples in which a component was not answered. They count as failures, except for the upper ends of intervals.
+    /// Samples in which a component was not answered, of those asked for. They count as failures, except for the upper ends of intervals.
     pub unanswered: u64,
     /// Why the first of them was not.
     pub reason: Option<crate::Error>,
@@ -113,7 +110,7 @@ pub struct Scatter {
     pub components: Vec<ComponentScatter>,
 }
 
-/// What came of one component.
+/// What came of one component. Counts are of the samples asked for; where not all are answered by the full model, as estimated.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct ComponentScatter {
@@ -129,7 +126,7 @@ pub struct ComponentScatter {
     pub survival: Probability,
     /// Failures by limit: one sample may count at several.
     pub limits: Vec<(LimitKind, u64)>,
-    /// Mean of the utilization, the largest demand over allowed, of the samples that were answered; NaN where none was.
+    /// Mean of the utilization, the largest demand over allowed, of the samples that the full model answered; NaN where it answered none.
     pub mean_utilization: f64,
     /// Its standard deviation.
     pub utilization_deviation: f64,
@@ -154,7 +151,7 @@ pub struct Driver {
 /// Values of some samples, and how far the sampling has come.
 #[derive(Debug)]
 pub struct Progress<'a> {
-    /// Samples drawn so far.
+    /// Samples drawn so far, as a part of those asked for.
     pub done: u64,
     /// One after the other, those since the last call: for each, the values of [`Sampler::columns`].
     pub values: &'a [f64],
@@ -184,7 +181,9 @@ pub enum Column {
     Limit(usize, LimitKind),
     /// The critical acceleration of the damage boundary of a part in m/s², where it varies.
     CriticalAccelerationMS2(usize),
-    /// Utilization of a part: the largest demand over allowed. It survives up to 1. NaN where the model has no answer.
+    /// 0: answered by the full model; 1: by the cheap one alone.
+    Model,
+    /// Utilization of a part; by the cheap model times a factor, so that as many drops fail in the first batch: the largest demand over allowed. It survives up to 1. NaN where the model has no answer.
     Utilization(usize),
 }
 
@@ -211,10 +210,6 @@ impl Asked {
     fn is_open(&self) -> bool {
         self.within[0] <= 1.0 && self.within[1] > 1.0
     }
-    /// The same, of an answer that may be off by this share.
-    fn off_by(self, error: f64) -> Self {
-        Self { within: [self.utilization / (1.0 + error), self.utilization * (1.0 + error)], ..self }
-    }
 }
 
 /// Samples of one block; sums are made within blocks and then over blocks, in order.
@@ -228,11 +223,11 @@ pub struct Sampler {
     settings: Settings,
     inputs: Inputs,
     components: Vec<Component>,
-    body: clatter_flight::Body,
     fullest: Model,
-    /// Whether the closed form has an answer for every sample.
-    takes_closed: bool,
 }
+
+/// Samples of the first batch are those from here on: none of them is drawn again.
+const BATCH: u64 = 1 << 63;
 
 impl Sampler {
     /// Checks everything before anything is drawn.
@@ -251,14 +246,7 @@ impl Sampler {
         }
         let inputs = Inputs::new(file)?;
         let fullest = inputs.blank().drop.fullest();
-        Ok(Self {
-            settings,
-            inputs,
-            components: file.components.clone(),
-            body: file.product.body,
-            fullest,
-            takes_closed: Closed::takes(file),
-        })
+        Ok(Self { settings, inputs, components: file.components.clone(), fullest })
     }
 
     /// What each sample of [`Progress::values`] consists of.
@@ -267,148 +255,119 @@ impl Sampler {
         self.inputs.columns()
     }
 
-    /// Draws all samples on the threads of the current pool, after the pilot where one is worth while. `watch` is called in
+    /// Draws all samples on the threads of the current pool, after a first batch where it is worth while. `watch` is called in
     /// order, on this thread, with all samples where `keep` asks for them. Where it says `false` no more are drawn: the answer is
     /// that of the samples so far, as many as its settings say.
     ///
     /// # Errors
     /// Those of `watch`.
     pub fn run<E>(&self, keep: bool, mut watch: impl FnMut(&Progress<'_>) -> Result<bool, E>) -> Result<Scatter, E> {
-        let Settings { samples, confidence, .. } = self.settings;
-        let pilot = self.pilot();
-        let taken = pilot.filter(|pilot| pilot.taken);
-        let near = self.near(taken.as_ref());
+        let asked_for = self.settings.samples;
+        let (pilot, levels) = self.pilot().unzip();
+        let levels = levels.flatten();
+        let samples = levels.as_ref().map_or(asked_for, |levels| levels.samples);
+        let near = self.near();
         let blocks = samples.div_ceil(BLOCK);
         let together = 4 * rayon::current_num_threads() as u64;
-        let mut total = self.tallies(&near);
-        let (mut all, mut refined, mut reason) = (Count::default(), 0, None);
-        let (mut next, mut drawn_so_far) = (0, 0);
+        let mut total = Block::new(&self.components, &self.inputs, &near);
+        let mut next = 0;
+        let done = |drawn| round(float(asked_for) * (float(drawn) / float(samples)));
         'drawing: while next < blocks {
             let until = blocks.min(next + together);
             let drawn: Vec<Block> = (next..until)
                 .into_par_iter()
-                .map(|b| self.block([b * BLOCK, samples.min((b + 1) * BLOCK)], taken.as_ref(), keep, &near))
+                .map(|b| self.block([b * BLOCK, samples.min((b + 1) * BLOCK)], levels.as_ref(), keep, &near))
                 .collect();
-            for (block, b) in drawn.into_iter().zip(next..) {
-                all.merge(&block.all);
-                refined += block.refined;
-                reason = reason.or(block.reason);
-                total.iter_mut().zip(&block.tallies).for_each(|(sum, later)| sum.merge(later));
-                drawn_so_far = samples.min((b + 1) * BLOCK);
-                if !watch(&Progress { done: drawn_so_far, values: &block.values })? {
+            for block in drawn {
+                total.merge(&block);
+                if !watch(&Progress { done: done(total.all.samples), values: &block.values })? {
                     break 'drawing;
                 }
             }
             next = until;
         }
-        let settings = Settings { samples: drawn_so_far, ..self.settings };
-        let [confidence, share] = taken.map_or([confidence, 0.0], |pilot| [pilot.confidence, pilot.share]);
-        let each = self.components.iter().zip(total.iter().zip(&self.inputs.of_part));
-        let summary = |(component, (tally, own)): (&Component, (&Tally, &Vec<usize>))| {
-            tally.summary(component, &self.inputs, own, &settings, [confidence, share])
-        };
+        let Block { tallies, all, reason, .. } = total;
+        let settings = Settings { samples: done(all.samples).max(1), ..self.settings };
+        let each = self.components.iter().zip(tallies.iter().zip(&self.inputs.of_part));
+        let components: Vec<_> =
+            each.map(|(component, (tally, own))| tally.summary(component, &self.inputs, own, &settings)).collect();
         Ok(Scatter {
             settings,
-            model: if taken.is_some() { Model::Map } else { self.fullest },
-            refined,
+            model: self.fullest,
+            drawn: all.samples,
+            followed: all.both,
             pilot,
             inputs: self.inputs.varied.clone(),
             assumed_even: self.inputs.assumed_even.clone(),
-            survival: all.survival(settings.samples, confidence, share),
-            unanswered: all.unanswered,
+            survival: all.survival(settings.confidence),
+            unanswered: round(float(all.unanswered) * float(settings.samples) / float(all.both.max(1))),
             reason,
-            components: each.map(summary).collect(),
+            components,
         })
     }
 
-    /// The closed form beside the fullest model, on the first samples; none where few are asked for or it takes none.
-    fn pilot(&self) -> Option<Pilot> {
-        let Settings { samples, seed, confidence } = self.settings;
-        let tried = self.takes_closed && samples >= pilot::LEAST_SAMPLES;
-        let error = |k| {
-            let mut sample = self.inputs.blank();
-            if self.inputs.draw(seed, k, &mut sample).is_err() {
-                return f64::INFINITY;
-            }
-            let (mut cheap, mut full) = (Vec::new(), Vec::new());
-            Closed::new(&self.body).answer(&sample, &mut cheap);
-            full::answer(&sample, &mut full);
-            pilot::error(&cheap, &full)
+    /// The cheap model beside the full one, on samples of its own, and how to go on from there; none where few are asked for.
+    fn pilot(&self) -> Option<(Pilot, Option<Levels>)> {
+        let Settings { samples, confidence, .. } = self.settings;
+        let parts = self.components.len();
+        let both = |k| {
+            let (mut sample, mut cheap, mut full) = (self.inputs.blank(), Vec::new(), Vec::new());
+            self.answer(BATCH + k, Some(&vec![1.0; parts]), true, &mut sample, &mut cheap, &mut full);
+            let fails = |full: &Result<Asked, _>| full.as_ref().map_or(true, |asked| asked.utilization > 1.0);
+            cheap.iter().zip(&full).map(|(cheap, full)| (cheap.utilization, fails(full))).collect()
         };
-        // Half of the doubt is left to the samples.
-        tried.then(|| Pilot::of(samples, 0.5 * (1.0 + confidence), error))
-    }
-
-    fn tallies(&self, near: &[f64]) -> Vec<Tally> {
-        let each = self.components.iter().zip(&self.inputs.of_part).zip(near);
-        each.map(|((component, own), near)| Tally::new(component, own.len(), *near)).collect()
+        (samples >= levels::LEAST_SAMPLES).then(|| levels::pilot(samples, confidence, parts, both))
     }
 
     /// The utilizations of the first sample: sums count from there.
-    fn near(&self, closed: Option<&Pilot>) -> Vec<f64> {
-        let none = vec![0.0; self.components.len()];
-        let values = self.block([0, 1], closed, true, &none).values;
-        let utilizations = &values[values.len() - none.len()..];
-        utilizations.iter().map(|y| if y.is_finite() { *y } else { 0.0 }).collect()
+    fn near(&self) -> Vec<f64> {
+        let (mut sample, mut full) = (self.inputs.blank(), Vec::new());
+        self.answer(0, None, true, &mut sample, &mut Vec::new(), &mut full);
+        let utilization = |asked: &Result<Asked, _>| asked.as_ref().map_or(0.0, |asked| asked.utilization);
+        full.iter().map(utilization).map(|used| if used.is_finite() { used } else { 0.0 }).collect()
     }
 
-    /// Samples from .. to, in closed form where a pilot allows it.
-    fn block(&self, [from, to]: [u64; 2], closed: Option<&Pilot>, keep: bool, near: &[f64]) -> Block {
-        let tallies = self.tallies(near);
-        let mut block = Block { tallies, all: Count::default(), refined: 0, reason: None, values: Vec::new() };
+    /// Draws a sample, and what it asks by the cheap model, times these factors, and by the full one; a list is left empty where that
+    /// one is not asked.
+    fn answer(
+        &self,
+        k: u64,
+        factors: Option<&[f64]>,
+        follow: bool,
+        sample: &mut Sample,
+        cheap: &mut Vec<Asked>,
+        full: &mut Vec<Result<Asked, crate::Error>>,
+    ) {
+        cheap.clear();
+        full.clear();
+        let drawn = self.inputs.draw(self.settings.seed, k, sample);
+        if let Some(factors) = factors {
+            cheap::answer(sample, factors, cheap);
+        }
+        match drawn {
+            _ if !follow => {}
+            Ok(()) => full::answer(sample, full),
+            Err(error) => full.resize(self.components.len(), Err(error)),
+        }
+    }
+
+    /// Samples from .. to.
+    fn block(&self, [from, to]: [u64; 2], levels: Option<&Levels>, keep: bool, near: &[f64]) -> Block {
+        let mut block = Block::new(&self.components, &self.inputs, near);
         let columns = if keep { self.columns() } else { Vec::new() };
-        let (mut sample, mut form) = (self.inputs.blank(), Closed::new(&self.body));
-        let (mut cheap, mut asked) = (Vec::new(), Vec::new());
+        let (mut sample, mut cheap, mut full) = (self.inputs.blank(), Vec::new(), Vec::new());
         for k in from..to {
-            if let Err(error) = self.inputs.draw(self.settings.seed, k, &mut sample) {
-                asked.clear();
-                asked.resize(self.components.len(), Err(error));
-            } else if let Some(pilot) = closed {
-                form.answer(&sample, &mut cheap);
-                let near = |asked: &Asked| asked.off_by(pilot.worst_error).is_open();
-                block.refined += u64::from(cheap.iter().any(near));
-                let mut fuller = Followings::of(&sample.drop);
-                asked.clear();
-                let each = cheap.iter().zip(&sample.parts);
-                asked.extend(each.map(|(asked, part)| if near(asked) { fuller.answer(part) } else { Ok(*asked) }));
-            } else {
-                full::answer(&sample, &mut asked);
-            }
-            block.take(k, &asked, &self.inputs, &sample.uniforms);
+            let follow = levels.is_none_or(|levels| k % levels.one_in == 0);
+            let factors = levels.map(|levels| &levels.factors[..]);
+            self.answer(k, factors, follow, &mut sample, &mut cheap, &mut full);
+            block.take(k, &cheap, &full, &self.inputs, &sample.uniforms);
             block.values.extend(columns.iter().map(|column| match column {
-                Column::Utilization(i) => asked[*i].as_ref().map_or(f64::NAN, |asked| asked.utilization),
+                Column::Model => f64::from(u8::from(!follow)),
+                Column::Utilization(i) if follow => full[*i].as_ref().map_or(f64::NAN, |asked| asked.utilization),
+                Column::Utilization(i) => cheap[*i].utilization,
                 other => sample.value(*other),
             }));
         }
         block
-    }
-}
-
-/// What came of one block.
-#[derive(Debug)]
-struct Block {
-    tallies: Vec<Tally>,
-    all: Count,
-    refined: u64,
-    reason: Option<crate::Error>,
-    values: Vec<f64>,
-}
-
-impl Block {
-    fn take(&mut self, k: u64, asked: &[Result<Asked, crate::Error>], inputs: &Inputs, uniforms: &[f64]) {
-        let mut most = Some(Asked::default());
-        for ((asked, tally), own) in asked.iter().zip(&mut self.tallies).zip(&inputs.of_part) {
-            if let (Err(error), None) = (asked, &self.reason) {
-                self.reason = Some(error.clone());
-            }
-            let asked = asked.as_ref().ok();
-            tally.add(k, asked, own.iter().map(|input| uniforms[*input]));
-            most = most.zip(asked).map(|(most, asked)| Asked {
-                utilization: most.utilization.max(asked.utilization),
-                within: [0, 1].map(|end| most.within[end].max(asked.within[end])),
-                ..most
-            });
-        }
-        self.all.add(most.as_ref());
     }
 }

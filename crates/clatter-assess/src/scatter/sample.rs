@@ -7,6 +7,7 @@ use super::draw::Quantile;
 use super::philox::Stream;
 use super::{Column, Error};
 use crate::quantity::lacks_contact_time;
+use crate::verdict::MERGE_S;
 use crate::{Component, Damping, Fall, First, Law, Limit, LimitKind, Mount, ProductFile, SingleDrop, Spread};
 
 /// What varies from sample to sample; parts by their index in the file.
@@ -320,6 +321,7 @@ impl Inputs {
         drop.tilt_rad = self.tilt.at(uniforms);
         drop.restitution = self.restitution.at(uniforms);
         drop.contact_time_s = self.contact_time.as_ref().map(|time| time.at(uniforms));
+        drop.flat = drop.lands_as_one(MERGE_S);
     }
 
     /// What a row of values holds.
@@ -336,13 +338,14 @@ impl Inputs {
                 _ => None,
             }));
         }
+        columns.push(Column::Model);
         columns.extend((0..self.parts.len()).map(Column::Utilization));
         columns
     }
 }
 
 impl Sample {
-    /// The value of a column, utilizations excepted.
+    /// The value of a column of what was drawn.
     pub(super) fn value(&self, column: Column) -> f64 {
         let suspension = |i: usize| self.parts[i].suspension.as_ref();
         let limit = |i: usize, kind| self.parts[i].limits.iter().find(|limit| limit.kind == kind);
@@ -359,7 +362,7 @@ impl Sample {
             Column::CriticalAccelerationMS2(i) => {
                 limit(i, LimitKind::DamageBoundary).map(|limit| limit.critical_acceleration_m_s2)
             }
-            Column::Utilization(_) => None,
+            Column::Model | Column::Utilization(_) => None,
         };
         value.unwrap_or(f64::NAN)
     }

@@ -220,7 +220,7 @@ impl Found<'_> {
             plane: self.plane.map(|plane| PlaneJson {
                 model: plane.model.name(),
                 side: plane.side,
-                closed_form_error: plane.pilot.map(|pilot| Json(pilot.worst_error)),
+                closed_form_error: Json(plane.closed_form_error),
             }),
             components: components.map(|(i, component)| self.part_json(i, component)).collect(),
         }
@@ -305,8 +305,8 @@ struct PlaneJson {
     model: &'static str,
     /// Values of q, and of e.
     side: usize,
-    /// The worst that the closed form got wrong on drops all over the plane; null where it has no answer.
-    closed_form_error: Option<Json>,
+    /// The worst that the closed form got wrong on drops all over the plane; null where one of the models has no answer.
+    closed_form_error: Json,
 }
 
 #[derive(Serialize)]

@@ -11,6 +11,8 @@ use crate::numbers::Json;
 pub(super) struct Answer<'a> {
     product: &'a str,
     samples: u64,
+    /// More than `samples` where most are answered by the cheap model.
+    drawn: u64,
     seed: u64,
     confidence: Json,
     model: ModelJson,
@@ -29,21 +31,26 @@ pub(super) struct Answer<'a> {
 struct ModelJson {
     bar: &'static str,
     reason: &'static str,
-    /// Drops near a limit that the model with the most physics answers as well.
+    /// Drops that this model answered, where most are answered by a cheap one.
     refined: u64,
-    /// Null where the closed form was not tried.
+    /// Null where the cheap model was not tried.
     pilot: Option<PilotJson>,
 }
 
 #[derive(Serialize)]
 struct PilotJson {
+    /// Drops of a first batch, answered by both models.
     drops: u64,
-    worst_error: Json,
-    /// At most this share of all drops is off by more than the worst error …
-    share: Json,
-    /// … with this confidence.
-    confidence: Json,
+    /// Those of them in which a part fails …
+    failed: u64,
+    /// … and in which the cheap model does not say the same.
+    differ: u64,
+    /// Least work for the same interval, as a share of that of plain sampling.
+    work: Json,
+    /// Whether the cheap model helps, and is taken.
     taken: bool,
+    /// One drop in so many is then answered by both.
+    one_in: Option<u64>,
 }
 
 #[derive(Serialize)]
@@ -118,18 +125,19 @@ impl SurvivalJson {
 impl ModelJson {
     fn new(scatter: &Scatter) -> Self {
         let reason = match scatter.model {
-            Model::Map => "the closed form: a pilot bounds what it gets wrong",
             Model::Compliant => "contacts that take time: how long is known",
             _ => "instant impacts at real tilt, with gravity: the contact time is not known",
         };
         let pilot = |pilot: Pilot| PilotJson {
             drops: pilot.drops,
-            worst_error: Json(pilot.worst_error),
-            share: Json(pilot.share),
-            confidence: Json(pilot.confidence),
-            taken: pilot.taken,
+            failed: pilot.failures,
+            differ: pilot.differ,
+            work: Json(pilot.work),
+            taken: pilot.one_in.is_some(),
+            one_in: pilot.one_in,
         };
-        Self { bar: scatter.model.name(), reason, refined: scatter.refined, pilot: scatter.pilot.map(pilot) }
+        let refined = if scatter.followed < scatter.drawn { scatter.followed } else { 0 };
+        Self { bar: scatter.model.name(), reason, refined, pilot: scatter.pilot.map(pilot) }
     }
 }
 
@@ -176,6 +184,7 @@ impl<'a> Answer<'a> {
         Self {
             product: &file.product.name,
             samples,
+            drawn: scatter.drawn,
             seed,
             confidence: Json(confidence),
             model: ModelJson::new(scatter),

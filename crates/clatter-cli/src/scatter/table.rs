@@ -2,13 +2,12 @@
 
 use std::io::{self, Write};
 
+use clatter_assess::ProductFile;
 use clatter_assess::scatter::{ComponentScatter, Driver, Input, Pilot, Probability, Scatter, Settings};
-use clatter_assess::{Model, ProductFile};
 
-use super::{Target, fullest, name_of};
+use super::{Target, name_of};
 use crate::numbers::{digits, figures, given};
 use crate::text::{column, field, shown};
-use crate::words::percent;
 
 /// Inputs that explain less than this share are not named.
 const NAMED: f64 = 0.01;
@@ -53,8 +52,13 @@ pub(super) fn table(
 ) -> io::Result<()> {
     let Settings { samples, seed, confidence } = scatter.settings;
     let (product, sure) = (shown(&file.product.name, 60), given(100.0 * confidence));
-    writeln!(out, "{product}: {samples} drops drawn with seed {seed}")?;
-    models(file, scatter, out)?;
+    let (drawn, followed) = (scatter.drawn, scatter.followed);
+    if followed < drawn {
+        writeln!(out, "{product}: {drawn} drops drawn with seed {seed}, for the intervals of {samples}")?;
+    } else {
+        writeln!(out, "{product}: {samples} drops drawn with seed {seed}")?;
+    }
+    models(scatter, out)?;
     let Probability { estimate, lo, at_least, .. } = scatter.survival;
     writeln!(
         out,
@@ -78,25 +82,23 @@ pub(super) fn table(
     parts(scatter, &sure, out)
 }
 
-/// The model, and what a pilot says of the closed form.
-fn models(file: &ProductFile, scatter: &Scatter, out: &mut dyn Write) -> io::Result<()> {
-    let full = fullest(file).name();
-    let Some(Pilot { drops, worst_error, share, confidence, taken, .. }) = scatter.pilot else {
-        return writeln!(out, "Each is answered by the model {}", scatter.model.name());
+/// The model, and what the first batch says of the cheap one.
+fn models(scatter: &Scatter, out: &mut dyn Write) -> io::Result<()> {
+    let (full, drawn, followed) = (scatter.model.name(), scatter.drawn, scatter.followed);
+    let Some(Pilot { drops, failures, differ, .. }) = scatter.pilot else {
+        return writeln!(out, "Each is answered by the model {full}");
     };
-    let (error, left, sure) = (percent(worst_error), percent(share), given(100.0 * confidence));
-    if taken && scatter.model == Model::Map {
-        writeln!(
-            out,
-            "Answered in closed form (map: small tilt, no gravity, instant impacts); {} near a limit by {full}",
-            scatter.refined
-        )?;
+    if followed < drawn {
         return writeln!(
             out,
-            "Against {full} it is off by {error} at most in {drops} drops; at most {left} of all are off by more ({sure} % confidence)"
+            "All are answered by a cheap model (instant impacts, small tilt, no gravity), {followed} of them by {full} as well: what the \
+             cheap one gets wrong is measured on these"
         );
     }
-    writeln!(out, "Each is answered by the model {full}: in {drops} drops the closed form is off by up to {error}")
+    writeln!(
+        out,
+        "Each is answered by the model {full}: a cheap one saves nothing, of {drops} drops {failures} fail and it gets {differ} wrong"
+    )
 }
 
 /// An input with the part that it belongs to.

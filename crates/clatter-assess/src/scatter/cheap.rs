@@ -1,0 +1,126 @@
+//! A sample by the cheap model: the bar without gravity at small tilt, whose strikes are velocity shocks.
+//!
+//! The train is that of `clatter`, the response that of `clatter-shock`. Of a contact time only the acceleration of a part mounted
+//! rigidly comes, as the half-sine of the shock. What that gets wrong is measured ([`super::levels`]), so that a train may be left
+//! where little comes.
+
+use std::f64::consts::FRAC_PI_2;
+
+use clatter::{End, Impact, OffCenterBar, Start};
+use clatter_shock::{Peaked, VelocityShock, VelocityShocks};
+
+use super::Asked;
+use super::sample::{PartSample, Sample};
+use crate::{Error, LimitKind, SingleDrop};
+
+/// A train is left where a strike is this share of the first, or after so many.
+const SMALL: f64 = 1e-3;
+const MOST_STRIKES: usize = 256;
+
+/// What a sample asks of every part, times a factor for each; nothing where the train has no answer.
+pub(super) fn answer(sample: &Sample, factors: &[f64], asked: &mut Vec<Asked>) {
+    let drop = &sample.drop;
+    let train = strikes(drop).unwrap_or_default();
+    let each = sample.parts.iter().zip(factors);
+    asked.clear();
+    asked.extend(each.map(|(part, factor)| of_part(drop, &train, part, *factor).unwrap_or_default()));
+}
+
+/// The strikes of a drop; end a of the train is the one that touches first.
+fn strikes(drop: &SingleDrop) -> Result<Vec<Impact>, Error> {
+    if drop.flat {
+        let (approach, delta_v) = (-drop.speed_m_s, [(1.0 + drop.restitution) * drop.speed_m_s; 2]);
+        return Ok(vec![Impact { number: 1, end: End::A, time: 0.0, approach, delta_v }]);
+    }
+    let bar = OffCenterBar::new(drop.body.arms_m(), drop.body.gyration_m(), drop.restitution)?;
+    let bar = if drop.first == End::A { bar } else { bar.exchanged() };
+    let start = Start::new([-drop.speed_m_s; 2], drop.body.length_m() * libm::sin(drop.tilt_rad))?;
+    let counts = |strike: &Impact| -strike.approach > SMALL * drop.speed_m_s;
+    Ok(bar.train(&start).take(MOST_STRIKES).take_while(counts).collect())
+}
+
+fn of_part(drop: &SingleDrop, train: &[Impact], part: &PartSample, factor: f64) -> Result<Asked, Error> {
+    let mut asked = Asked::default();
+    for place in part.places() {
+        let s = drop.relative(*place);
+        let shock = |strike: &Impact| VelocityShock { time: strike.time, delta_v: strike.delta_v_at(s) };
+        let shocks = VelocityShocks::new(train.iter().map(shock).collect())?;
+        let half_sine = shocks.largest() * FRAC_PI_2 / drop.contact_time_s.unwrap_or(f64::INFINITY);
+        for (k, limit) in part.limits.iter().enumerate() {
+            // What is below neither decides nor is the largest.
+            let above = asked.utilization.min(1.0) * limit.allowed / factor;
+            let peak = |peaked, unit: f64| {
+                let peak = part.suspension.as_ref().and_then(|part| shocks.peak_above(part, peaked, above / unit));
+                unit * peak.map_or(0.0, |peak| peak.value.abs())
+            };
+            let value = match (limit.kind, part.suspension.map(|part| part.omega())) {
+                (LimitKind::Acceleration, Some(omega)) => peak(Peaked::AccelerationOverOmega, omega),
+                (LimitKind::RattleSpace, Some(omega)) => peak(Peaked::PseudoVelocity, omega.recip()),
+                (LimitKind::Acceleration | LimitKind::RattleSpace, None) => half_sine,
+                (LimitKind::AngularVelocityChange, _) => {
+                    let turn = |strike: &Impact| (strike.delta_v[1] - strike.delta_v[0]).abs();
+                    train.iter().map(turn).fold(0.0, f64::max) / drop.body.length_m()
+                }
+                // Damage only beyond both; without a contact time the velocity change alone counts.
+                (LimitKind::DamageBoundary, _) if drop.contact_time_s.is_some() => {
+                    shocks.largest().min(half_sine / limit.critical_acceleration_m_s2 * limit.allowed)
+                }
+                (LimitKind::VelocityChange | LimitKind::DamageBoundary, _) => shocks.largest(),
+            };
+            asked.raise(k, factor * value / limit.allowed, 0.0);
+        }
+    }
+    Ok(asked)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{ContactLaw, Limit, Model, Part};
+    use clatter_flight::Body;
+    use clatter_shock::{DampingRatio, Suspension};
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 500, ..ProptestConfig::default() })]
+        /// Every limit, with either end first, as the engine answers it by the same model.
+        #[test]
+        fn it_is_the_map_of_the_engine(
+            center in -0.3..0.3_f64, gyration in 0.2..0.6_f64, e in 0.0..0.7_f64, first_a in any::<bool>(),
+            tilt_rad in 1e-3..0.3_f64, ends in (-0.07..0.07_f64, 0.0..0.03_f64), hz in 10.0..500.0_f64,
+            zeta in 0.01..2.0_f64, contact in proptest::option::of(1e-4..1e-3_f64), hard in any::<bool>(),
+        ) {
+            let length = 0.14;
+            let body = Body::off_center(0.5 * length * (1.0 + center), 0.5 * length * (1.0 - center), gyration * length).unwrap();
+            let drop = SingleDrop {
+                body, first: if first_a { End::A } else { End::B }, tilt_rad, speed_m_s: 3.0, restitution: e,
+                gravity_m_s2: 0.0, contact_time_s: contact, contact_law: ContactLaw::Hysteretic,
+            };
+            let ends_m = [ends.0, (ends.0 + ends.1).min(0.07)];
+            let suspension = (!hard).then(|| Suspension::from_hz(hz, DampingRatio::new(zeta).unwrap()).unwrap());
+            let boundary = Limit { critical_acceleration_m_s2: 2e4, ..Limit::new(LimitKind::DamageBoundary, 4.0) };
+            let mut limits =
+                vec![Limit::new(LimitKind::VelocityChange, 4.0), Limit::new(LimitKind::AngularVelocityChange, 80.0), boundary];
+            if !hard {
+                limits.push(Limit::new(LimitKind::RattleSpace, 0.01));
+            }
+            if !hard || contact.is_some() {
+                limits.push(Limit::new(LimitKind::Acceleration, 3000.0));
+            }
+            for limit in limits {
+                let part = PartSample { position_m: ends_m[0], ends_m, suspension, limits: vec![limit] };
+                let known = part.places().iter().map(|x| {
+                    let part = Part { position_m: *x, suspension };
+                    crate::answer(&drop, &part, &limit, Model::Map, 1e-6).unwrap().utilization()
+                });
+                let known = known.fold(0.0, f64::max);
+                let sample = Sample { uniforms: Vec::new(), drop, parts: vec![part] };
+                let mut asked = Vec::new();
+                answer(&sample, &[2.0], &mut asked);
+                let found = 0.5 * asked[0].utilization;
+                prop_assert!((found - known).abs() <= 0.01 * known.max(0.1), "{:?}: {found}, not {known}", limit.kind);
+                prop_assert_eq!(asked[0].fails[0], asked[0].utilization > 1.0);
+            }
+        }
+    }
+}
