@@ -26,7 +26,7 @@ fn is(file: &ProductFile, component: &str, kind: LimitKind, by_hand: f64) {
     let accuracy = Accuracy { model: Some(Model::Map), ..Accuracy::default() };
     let assessment = file.assess_to(&accuracy).expect("an assessment");
     let limit = limit(&assessment, component, kind);
-    assert!((limit.demand.unwrap() / by_hand - 1.0).abs() < 2e-4, "{}, by hand {by_hand}", limit.demand);
+    assert!((limit.demand.unwrap() / by_hand - 1.0).abs() < 2e-4, "{:?}, by hand {by_hand}", limit.demand);
     let worst = limit.worst_case.as_ref().unwrap();
     let [_, fastest] = file.drop.speeds_m_s();
     assert!(worst.restitution >= file.product.restitution.hi() && worst.speed_m_s >= fastest, "{worst:?}");

@@ -200,7 +200,7 @@ fn off(drop: &SingleDrop, part: &Part, kind: LimitKind, tolerance: f64) -> Optio
     let times = changed([SHAKEN, 0.0])?.max(changed([0.0, SHAKEN])?).max(1.0);
     // Where it is hundredfold the body all but misses the ground, or comes back from far above.
     (times < 100.0)
-        .then(|| (Compared { off: (asked.value / laws.value(kind) - 1.0).abs(), told: asked.error, times }, asked))
+        .then(|| (Compared { off: (asked.value / laws.value(kind) - 1.0).abs(), told: asked.error(), times }, asked))
 }
 
 /// Random answers are as exact as they tell, and as was asked: where a change of the drop is multiplied, by so much.
@@ -257,7 +257,7 @@ fn what_is_left_out_is_told() {
         let off = (coarse.value / fine.value - 1.0).abs();
         let multiplied = coarse.impact.max(fine.impact) > 2;
         let what = format!("seed {seed}, {model:?} {kind:?} {drop:?} {part:?} {coarse:?}");
-        Some((off, coarse.error, fine.error, multiplied, what))
+        Some((off, coarse.error(), fine.error(), multiplied, what))
     };
     let all: Vec<_> = (0..600).into_par_iter().filter_map(one).collect();
     let (mut worst, mut many) = ([0.0_f64; 2], 0);

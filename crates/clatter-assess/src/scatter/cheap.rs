@@ -93,7 +93,7 @@ mod tests {
             let length = 0.14;
             let body = Body::off_center(0.5 * length * (1.0 + center), 0.5 * length * (1.0 - center), gyration * length).unwrap();
             let drop = SingleDrop {
-                body, first: if first_a { End::A } else { End::B }, tilt_rad, speed_m_s: 3.0, restitution: e,
+                body, first: if first_a { End::A } else { End::B }, tilt_rad, flat: false, speed_m_s: 3.0, restitution: e,
                 gravity_m_s2: 0.0, contact_time_s: contact, contact_law: ContactLaw::Hysteretic,
             };
             let ends_m = [ends.0, (ends.0 + ends.1).min(0.07)];
