@@ -20,7 +20,7 @@ fn golden(name: &str, text: &str) {
 #[test]
 fn scatter_of_a_laptop() {
     let file = ProductFile::read(LAPTOP, "laptop.toml").unwrap();
-    let settings = Settings { samples: 20_000, seed: 1, confidence: 0.95 };
+    let settings = Settings { samples: 20_000, seed: 1, confidence: 0.95, merge_s: 1e-3 };
     let scatter = Sampler::new(&file, settings).unwrap().run::<()>(false, |_| Ok(true)).unwrap();
     let mut text = String::new();
     for part in scatter.components {

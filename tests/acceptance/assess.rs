@@ -165,18 +165,18 @@ fn what_stands_beside_a_demand_has_its_unit() {
     let limit = &json["components"][2]["limits"][0];
     let of = |key: &str| limit[key].as_f64().unwrap_or_else(|| panic!("{key} of {limit}"));
     assert_eq!((&limit["limit"], &limit["unit"]), (&"damage-boundary".into(), &"m/s2".into()));
-    // A half-sine of 0.4 ms with the area 1.4 v0, from 1.2 m.
-    let flat = 1.4 * (2.0 * 9.806_65 * 1.2_f64).sqrt() * std::f64::consts::FRAC_PI_2 / 0.4e-3;
+    // Flat, both ends at once: the same drop without tilt.
+    let flat = limit["worst_case"]["command"].as_str().unwrap().replace("--tilt-deg=10.0", "--tilt-deg=0");
+    let flat = answer(words(&flat))["acceleration_m_s2"].as_f64().unwrap();
     assert!((of("clatter_free") / flat - 1.0).abs() < 1e-9, "{limit}");
-    let command = format!("{} --contact-law=dashpot", limit["worst_case"]["command"].as_str().unwrap());
-    let other = answer(words(&command))["acceleration_m_s2"].as_f64().unwrap();
-    assert!((of("other_law") / other - 1.0).abs() < 1e-9, "{other}: {limit}");
-    // Contacts overlap by the law as well: changes of velocity have another one.
-    let turn = &json["components"][1]["limits"][1];
-    assert_eq!(turn["limit"], "angular-velocity-change");
-    let command = format!("{} --contact-law=dashpot", turn["worst_case"]["command"].as_str().unwrap());
-    let other = answer(words(&command))["angular_velocity_change_rad_s"].as_f64().unwrap();
-    assert!((turn["other_law"].as_f64().unwrap() / other - 1.0).abs() < 1e-9, "{other}: {turn}");
+    // By the other law what the worst drop of all asks, which is no less than that of this drop.
+    for (component, key) in [(2, "acceleration_m_s2"), (1, "angular_velocity_change_rad_s")] {
+        let limits = json["components"][component]["limits"].as_array().unwrap();
+        let limit = limits.last().unwrap();
+        let command = format!("{} --contact-law=dashpot", limit["worst_case"]["command"].as_str().unwrap());
+        let other = answer(words(&command))[key].as_f64().unwrap();
+        assert!(limit["other_law"].as_f64().unwrap() > 0.99 * other, "{other}: {limit}");
+    }
     let table = clatter(["assess", &path]).stdout;
     let row = table.lines().find(|line| line.starts_with("crystal ")).unwrap();
     assert!(row.matches(" gn").count() == 4 && !row.contains("m/s"), "{row}");

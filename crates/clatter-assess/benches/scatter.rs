@@ -19,7 +19,7 @@ fn product(product: &str, drop: &str, part: &str) -> ProductFile {
 }
 
 fn draw(bencher: Bencher<'_, '_>, file: &ProductFile, samples: u64, two_levels: bool) {
-    let settings = Settings { samples, seed: 1, confidence: 0.95 };
+    let settings = Settings { samples, seed: 1, confidence: 0.95, merge_s: 1e-3 };
     let Ok(sampler) = Sampler::new(file, settings) else { panic!("the product is sound") };
     bencher.counter(ItemsCount::new(samples)).bench_local(|| {
         let Ok(scatter) = black_box(&sampler).run::<()>(false, |_| Ok(true)) else { panic!("nothing stops it") };

@@ -28,7 +28,7 @@ impl ProductFile {
     /// use clatter_assess::{EXAMPLE, ProductFile};
     /// let assessment = ProductFile::read(EXAMPLE, "example.toml")?.assess()?;
     /// for limit in assessment.components.iter().flat_map(|c| &c.limits) {
-    ///     assert!(limit.bound.is_none_or(|bound| limit.demand <= bound));
+    ///     assert!(limit.bound.zip(limit.demand).is_none_or(|(bound, demand)| demand <= bound));
     /// }
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

@@ -180,7 +180,8 @@ impl Followed {
     pub(crate) fn until(drop: &SingleDrop, model: Model, tolerance: f64, until: Until) -> Result<Self, Error> {
         let scene = drop.scene()?.with_impact_limit(MOST_STRIKES)?;
         let precision = PRECISION * tolerance;
-        let share = tolerance * drop.restitution.max(LEAST_SHARE);
+        // Without restitution the strikes of one instant add up, and end by themselves.
+        let share = if drop.restitution == 0.0 { 0.0 } else { tolerance * drop.restitution.max(LEAST_SHARE) };
         let clatter_s = drop.clatter_s();
         // A strike gives back the restitution's share of what it takes.
         let given_back = 0.5 * (1.0 + drop.restitution);

@@ -93,9 +93,17 @@ struct Sample {
     velocity: f64,
 }
 
+/// A felt acceleration in sections, with the change of velocity of the place until each begins.
+struct History<'a> {
+    sections: &'a [Stretch],
+    velocity: Vec<f64>,
+    gravity: f64,
+}
+
 /// The shocks of a felt acceleration, which falls with `gravity` besides.
 fn shocks(sections: &[Stretch], gravity: f64) -> Vec<Shock> {
-    let samples = sampled(sections, gravity);
+    let history = History::new(sections, gravity);
+    let samples = history.sampled();
     let size = |k: usize| samples[k].felt.abs();
     let is_peak = |k: &usize| {
         let (k, before) = (*k, k.checked_sub(1));
@@ -112,14 +120,13 @@ fn shocks(sections: &[Stretch], gravity: f64) -> Vec<Shock> {
         if taken[peak] {
             continue;
         }
-        let first = reach(&samples, &taken, peak, |k| k.checked_sub(1));
-        let last = reach(&samples, &taken, peak, |k| Some(k + 1).filter(|k| *k < samples.len()));
+        let back = |k: usize| k.checked_sub(1);
+        let on = |k: usize| Some(k + 1).filter(|k| *k < samples.len());
+        let [first, last] = [reach(&samples, &taken, peak, back), reach(&samples, &taken, peak, on)];
+        let begin = history.end_of(&samples, &taken, first, [back(first), on(first).filter(|k| *k <= last)]);
+        let end = history.end_of(&samples, &taken, last, [on(last), back(last).filter(|k| *k >= first)]);
         taken[first..=last].fill(true);
-        let [begin, end] = [
-            crossing(&samples[first], first.checked_sub(1).map(|k| &samples[k])),
-            crossing(&samples[last], samples.get(last + 1)),
-        ];
-        let (peak, time_s) = crest(sections, &samples, peak);
+        let (peak, time_s) = history.crest(&samples, peak);
         let change = (end.velocity - begin.velocity).abs();
         found.push(Shock { span_s: [begin.time_s, end.time_s], change, peak, time_s });
     }
@@ -142,38 +149,110 @@ fn reach(samples: &[Sample], taken: &[bool], peak: usize, next: impl Fn(usize) -
     at
 }
 
-/// Where the acceleration falls to zero between the last sample of a shock and the one beyond, by a straight line; the sample itself
-/// where it does not.
-fn crossing(last: &Sample, beyond: Option<&Sample>) -> Sample {
-    match beyond {
-        Some(beyond) if last.felt * beyond.felt < 0.0 => {
-            let share = last.felt / (last.felt - beyond.felt);
-            let time_s = last.time_s + share * (beyond.time_s - last.time_s);
-            // The velocity is flat there: by the parabola through both.
-            let velocity = last.velocity + 0.5 * last.felt * (time_s - last.time_s);
-            Sample { time_s, felt: 0.0, velocity, ..*last }
-        }
-        Some(beyond) if beyond.felt == 0.0 => *beyond,
-        _ => *last,
-    }
-}
+/// Steps of a zero or a least value between two samples: each is at least halved, or brought to its third power.
+const STEPS: u32 = 48;
 
-/// The largest value at a peak and its time: by the parabola through the section on both sides of the sample.
-fn crest(sections: &[Stretch], samples: &[Sample], peak: usize) -> (f64, f64) {
-    let here = samples[peak];
-    let most = (here.felt.abs(), here.time_s);
-    let beside = [peak.checked_sub(1), Some(peak + 1)].into_iter().flatten().filter_map(|k| samples.get(k));
-    let rises = |other: &Sample| {
-        let section = &sections[other.section.max(here.section)];
-        let [from, to] = [here, *other].map(|s| (s.time_s - section.from_s).clamp(0.0, section.length_s));
-        let step = to - from;
-        let at = |share: f64| section.acceleration_at(from + share * step).abs();
-        let (a, b, c) = (at(0.0), at(0.5), at(1.0));
-        let (slope, bend) = (4.0 * b - 3.0 * a - c, 4.0 * (a - 2.0 * b + c));
-        let share = if bend < 0.0 { (-slope / bend).clamp(0.0, 1.0) } else { 0.0 };
-        (a + share * (slope + 0.5 * bend * share), here.time_s + share * step)
-    };
-    beside.map(rises).fold(most, |most, one| if one.0 > most.0 { one } else { most })
+impl<'a> History<'a> {
+    fn new(sections: &'a [Stretch], gravity: f64) -> Self {
+        let mut now = 0.0;
+        let begins = |section: &Stretch| {
+            let begin = now;
+            now += section.velocity_after(section.length_s) - gravity * section.length_s;
+            begin
+        };
+        Self { velocity: sections.iter().map(begins).collect(), sections, gravity }
+    }
+    /// A section at a time of it.
+    fn at(&self, section: usize, t: f64) -> Sample {
+        let of = &self.sections[section];
+        let felt = if of.free { 0.0 } else { of.acceleration_at(t) };
+        let velocity = self.velocity[section] + of.velocity_after(t) - self.gravity * t;
+        Sample { section, time_s: of.from_s + t, felt, velocity }
+    }
+    fn sampled(&self) -> Vec<Sample> {
+        let mut all: Vec<Sample> = Vec::with_capacity(8 * self.sections.len());
+        for (n, section) in self.sections.iter().enumerate() {
+            let count = if section.free { 1 } else { samples(section, section.length_s) };
+            for k in 0..=count {
+                let sample = self.at(n, f64::from(k) / f64::from(count) * section.length_s);
+                // Sections join but for what lever arms miss.
+                let joins = |last: &Sample| (last.felt - sample.felt).abs() <= JOINS * last.felt.abs();
+                if k > 0 || !all.last().is_some_and(joins) {
+                    all.push(sample);
+                }
+            }
+        }
+        all
+    }
+    /// The section in which two neighboring samples lie, and when in it.
+    fn between(&self, one: &Sample, other: &Sample) -> (usize, [f64; 2]) {
+        let n = one.section.max(other.section);
+        let section = &self.sections[n];
+        (n, [one, other].map(|sample| (sample.time_s - section.from_s).clamp(0.0, section.length_s)))
+    }
+    /// Where a shock ends whose last sample this is: where its acceleration falls to zero on the way to the sample beyond, or is least
+    /// on one side of the last.
+    fn end_of(&self, samples: &[Sample], taken: &[bool], last: usize, [beyond, before]: [Option<usize>; 2]) -> Sample {
+        let here = samples[last];
+        let Some(next) = beyond.filter(|k| !taken[*k]).map(|k| &samples[k]) else { return here };
+        if here.felt * next.felt <= 0.0 {
+            return self.zero(&here, next);
+        }
+        let sides = [Some(next), before.map(|k| &samples[k])].into_iter().flatten();
+        sides.map(|side| self.least(&here, side)).fold(here, |a, b| if b.felt.abs() < a.felt.abs() { b } else { a })
+    }
+    /// Where the acceleration falls to zero between two samples, by the Illinois method.
+    fn zero(&self, here: &Sample, beyond: &Sample) -> Sample {
+        let (n, [mut a, mut b]) = self.between(here, beyond);
+        let (mut fa, mut fb) = (here.felt, beyond.felt);
+        if fb == 0.0 {
+            // Without force from where the section begins.
+            return *beyond;
+        }
+        for _ in 0..STEPS {
+            let t = b - fb * (b - a) / (fb - fa);
+            if !(t > a.min(b) && t < a.max(b)) {
+                break;
+            }
+            let f = self.sections[n].acceleration_at(t);
+            if f * fb < 0.0 {
+                (a, fa) = (b, fb);
+            } else {
+                fa *= 0.5;
+            }
+            (b, fb) = (t, f);
+            if f == 0.0 {
+                break;
+            }
+        }
+        self.at(n, b)
+    }
+    /// The least acceleration without its sign from one sample to the next, by halves and thirds.
+    fn least(&self, here: &Sample, side: &Sample) -> Sample {
+        let (n, [mut a, mut b]) = self.between(here, side);
+        let of = |t: f64| self.sections[n].acceleration_at(t).abs();
+        for _ in 0..STEPS {
+            let [one, two] = [a + (b - a) / 3.0, b - (b - a) / 3.0];
+            if of(one) <= of(two) { b = two } else { a = one }
+        }
+        self.at(n, 0.5 * (a + b))
+    }
+    /// The largest value at a peak and its time: by the parabola through the section on both sides of the sample.
+    fn crest(&self, samples: &[Sample], peak: usize) -> (f64, f64) {
+        let here = samples[peak];
+        let most = (here.felt.abs(), here.time_s);
+        let beside = [peak.checked_sub(1), Some(peak + 1)].into_iter().flatten().filter_map(|k| samples.get(k));
+        let rises = |other: &Sample| {
+            let (n, [from, to]) = self.between(&here, other);
+            let step = to - from;
+            let at = |share: f64| self.sections[n].acceleration_at(from + share * step).abs();
+            let (a, b, c) = (at(0.0), at(0.5), at(1.0));
+            let (slope, bend) = (4.0 * b - 3.0 * a - c, 4.0 * (a - 2.0 * b + c));
+            let share = if bend < 0.0 { (-slope / bend).clamp(0.0, 1.0) } else { 0.0 };
+            (a + share * (slope + 0.5 * bend * share), here.time_s + share * step)
+        };
+        beside.map(rises).fold(most, |most, one| if one.0 > most.0 { one } else { most })
+    }
 }
 
 /// Phase of the fastest wave between two samples of a section.
@@ -191,24 +270,4 @@ pub(crate) fn samples(section: &Stretch, length_s: f64) -> u32 {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 512")]
     let count = (fastest * length_s / PHASE).clamp(1.0, MOST).ceil() as u32;
     count
-}
-
-fn sampled(sections: &[Stretch], gravity: f64) -> Vec<Sample> {
-    let mut all = Vec::with_capacity(8 * sections.len());
-    let mut velocity = 0.0;
-    for (n, section) in sections.iter().enumerate() {
-        let count = if section.free { 1 } else { samples(section, section.length_s) };
-        for k in 0..=count {
-            let t = f64::from(k) / f64::from(count) * section.length_s;
-            let fallen = section.velocity_after(t) - gravity * t;
-            let felt = if section.free { 0.0 } else { section.acceleration_at(t) };
-            // Sections join but for what lever arms miss.
-            if k == 0 && all.last().is_some_and(|last: &Sample| (last.felt - felt).abs() <= JOINS * last.felt.abs()) {
-                continue;
-            }
-            all.push(Sample { section: n, time_s: section.from_s + t, felt, velocity: velocity + fallen });
-        }
-        velocity += section.velocity_after(section.length_s) - gravity * section.length_s;
-    }
-    all
 }

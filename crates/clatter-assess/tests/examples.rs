@@ -22,8 +22,8 @@ fn limit<'a>(assessment: &'a Assessment, component: &str, kind: LimitKind) -> &'
 }
 
 /// What instant impacts without gravity demand, to the four digits of the comments.
-fn is(file: &ProductFile, component: &str, kind: LimitKind, by_hand: f64) {
-    let accuracy = Accuracy { model: Some(Model::Map), ..Accuracy::default() };
+fn is(file: &ProductFile, component: &str, kind: LimitKind, merge_s: f64, by_hand: f64) {
+    let accuracy = Accuracy { model: Some(Model::Map), merge_s, ..Accuracy::default() };
     let assessment = file.assess_to(&accuracy).expect("an assessment");
     let limit = limit(&assessment, component, kind);
     assert!((limit.demand.unwrap() / by_hand - 1.0).abs() < 2e-4, "{:?}, by hand {by_hand}", limit.demand);
@@ -34,7 +34,7 @@ fn is(file: &ProductFile, component: &str, kind: LimitKind, by_hand: f64) {
 
 #[test]
 fn phone_by_hand() {
-    is(&read(PHONE), "crystal oscillator", LimitKind::VelocityChange, 6.416);
+    is(&read(PHONE), "crystal oscillator", LimitKind::VelocityChange, 1e-3, 6.416);
 }
 
 #[test]
@@ -43,12 +43,13 @@ fn handheld_terminal_by_hand() {
     let [a, b] = file.product.body.arms_m();
     assert!((a - 0.101_071).abs() < 1e-6 && (b - 0.118_929).abs() < 1e-6, "{a} {b}");
     assert!((file.product.body.gyration_m() - 0.065_385).abs() < 1e-6, "{}", file.product.body.gyration_m());
-    is(&file, "gyroscope", LimitKind::AngularVelocityChange, 73.02);
+    is(&file, "gyroscope", LimitKind::AngularVelocityChange, 1e-3, 73.02);
 }
 
 #[test]
 fn laptop_by_hand() {
-    is(&read(LAPTOP), "hinge sensor", LimitKind::DamageBoundary, 2.766);
+    is(&read(LAPTOP), "hinge sensor", LimitKind::DamageBoundary, 1e-12, 2.766);
+    is(&read(LAPTOP), "hinge sensor", LimitKind::DamageBoundary, 1e-3, 5.212);
 }
 
 /// Steps of the grid in tilt, and in natural frequency.
@@ -60,13 +61,16 @@ fn drops(file: &ProductFile) -> Vec<SingleDrop> {
     let [slow, fast] = file.drop.speeds_m_s();
     let mut drops = Vec::new();
     for &first in file.drop.first_ends() {
-        for tilt in 0..=TILTS {
+        for tilt in (0..=TILTS).chain([0]) {
+            // Without a contact time the drop with the least tilt lands flat as well.
+            let again = tilt == 0 && drops.len() > 1;
+            let flat = again && file.product.contact_time_s.is_none() && file.drop.tilt_rad.lo() == 0.0;
             for (speed, e) in [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0), (1.0, 0.5), (0.5, 1.0)] {
                 drops.push(SingleDrop {
                     body: file.product.body,
                     first,
                     tilt_rad: file.drop.tilt_rad.at(f64::from(tilt) / f64::from(TILTS)),
-                    flat: false,
+                    flat,
                     speed_m_s: slow + speed * (fast - slow),
                     restitution: file.product.restitution.at(e),
                     gravity_m_s2: file.drop.gravity_m_s2,

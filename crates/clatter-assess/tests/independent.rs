@@ -70,14 +70,10 @@ const STEPS: u32 = 300_000;
 struct Run {
     plain: Plain,
     place: [f64; 2],
-    /// How long a strike counts as one shock: with both ends pressing, the slower of their two motions.
+    /// How long a press takes with both ends pressing, by the slower of their two motions.
     longest_s: f64,
-    /// Time, velocity of the place and spin after each step.
-    history: Vec<[f64; 3]>,
-    /// When each point that touched began to press and pressed last, for its longest time at most.
-    presses: Vec<[f64; 2]>,
-    /// The present one of each point.
-    present: [usize; 2],
+    /// Time, velocity of the place and spin after each step, and their rates, gravity apart.
+    history: Vec<[f64; 5]>,
     acceleration: f64,
 }
 
@@ -101,8 +97,7 @@ impl Run {
         });
         let coupling = (rho * rho - a * b) / ((rho * rho + a * a) * (rho * rho + b * b)).sqrt();
         let longest_s = time_s / (1.0 - coupling.abs()).sqrt();
-        let (history, presses) = (Vec::new(), Vec::new());
-        Self { plain, place: [x, 0.0], longest_s, history, presses, present: [0; 2], acceleration: 0.0 }
+        Self { plain, place: [x, 0.0], longest_s, history: Vec::new(), acceleration: 0.0 }
     }
 
     /// The drop until a time; none where that takes too many steps.
@@ -120,34 +115,43 @@ impl Run {
     fn note(&mut self) {
         let plain = &self.plain;
         self.acceleration = self.acceleration.max(plain.felt(&plain.state, self.place).abs());
-        self.history.push([plain.time, plain.velocity_of(self.place), plain.state[3]]);
-        for touch in &plain.touches[self.presses.len()..] {
-            self.present[touch.point] = self.presses.len();
-            self.presses.push([touch.time; 2]);
-        }
-        for point in (0..2).filter(|&point| plain.is_pressing(point)) {
-            let [from, until] = &mut self.presses[self.present[point]];
-            *until = plain.time.min(*from + self.longest_s);
-        }
+        // In free flight nothing is felt.
+        let presses = f64::from(u8::from(plain.presses()));
+        let turning = plain.rates(&plain.state, &plain.forces(&plain.state))[3];
+        let felt = plain.felt(&plain.state, self.place);
+        let rates = [presses * felt, presses * turning];
+        self.history.push([plain.time, plain.velocity_of(self.place), plain.state[3], rates[0], rates[1]]);
     }
 
-    /// Largest change of the velocity or the spin in one shock: strikes that overlap are one.
+    /// Largest change of the velocity or the spin in one shock. Shocks are taken from the largest peak down; each reaches as long as
+    /// the sign is kept and a tenth of its peak is exceeded, and from there as long as it goes on falling, never into an earlier one.
     fn change(&self, n: usize) -> f64 {
-        let mut shocks: Vec<[f64; 2]> = Vec::new();
-        for &[from, until] in &self.presses {
-            match shocks.last_mut() {
-                Some(last) if from <= last[1] => last[1] = last[1].max(until),
-                _ => shocks.push([from, until]),
+        let rate = |k: usize| self.history[k][n + 2];
+        let mut free = vec![true; self.history.len()];
+        let (mut most, mut highest) = (0.0_f64, 0.0_f64);
+        loop {
+            let open = (0..free.len()).filter(|&k| free[k]);
+            let Some(peak) = open.max_by(|&j, &k| rate(j).abs().total_cmp(&rate(k).abs())) else { return most };
+            highest = highest.max(rate(peak).abs());
+            if rate(peak).abs() <= 0.01 * highest {
+                return most;
             }
+            let reach = |step: isize| {
+                let mut at = peak;
+                while let Some(k) = at.checked_add_signed(step).filter(|&k| k < free.len() && free[k]) {
+                    let (here, there) = (rate(at).abs(), rate(k).abs());
+                    let tenth = 0.1 * rate(peak).abs();
+                    if rate(k) * rate(peak) <= 0.0 || !(here >= tenth && there >= tenth || there < here) {
+                        break;
+                    }
+                    at = k;
+                }
+                at
+            };
+            let (first, last) = (reach(-1), reach(1));
+            free[first..=last].fill(false);
+            most = most.max((self.history[last][n] - self.history[first][n]).abs());
         }
-        let change = |&[from, until]: &[f64; 2]| {
-            let first = self.history.partition_point(|now| now[0] < from);
-            let within = self.history[first..].iter().take_while(|now| now[0] <= until).map(|now| now[n]);
-            let [low, high] =
-                within.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [v.min(low), v.max(high)]);
-            high - low
-        };
-        shocks.iter().map(change).fold(0.0, f64::max)
     }
 
     fn value(&self, kind: LimitKind) -> f64 {

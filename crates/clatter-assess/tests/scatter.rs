@@ -15,7 +15,8 @@ fn product(product: &str, drop: &str, parts: &str) -> ProductFile {
 }
 
 fn settings(samples: u64, seed: u64) -> Settings {
-    Settings { samples, seed, confidence: 0.95 }
+    // Tilts here may be tiny: no two strikes are one.
+    Settings { samples, seed, confidence: 0.95, merge_s: 1e-12 }
 }
 
 fn draw(file: &ProductFile, settings: Settings) -> Scatter {
@@ -416,8 +417,8 @@ fn a_cheap_model_is_taken_where_it_saves_work_for_the_same_interval() {
 
 #[test]
 fn samples_without_an_answer_are_told_and_are_no_survivors() {
-    // With e = 1 a body bounces for ever.
-    let body = "radius_of_gyration = \"38 mm\"\nrestitution = 1.0";
+    // Contacts so long that the ends would sink in far.
+    let body = "radius_of_gyration = \"38 mm\"\nrestitution = 0.5\ncontact_time = \"50 ms\"";
     let hard = "position = \"70 mm\"\nmount = \"hard\"\nvelocity_change_limit = \"1000 m/s\"";
     let file = product(body, SPREAD, hard);
     let found = draw(&file, settings(50, 1));

@@ -9,6 +9,7 @@ use std::path::PathBuf;
 
 use clap::ValueHint;
 use clatter_assess::scatter::{Column, Progress, Sampler, Scatter, Settings};
+use clatter_assess::units::Quantity;
 use clatter_assess::{Model, ProductFile};
 
 use crate::input::is_standard;
@@ -17,7 +18,7 @@ use crate::numbers::digits;
 use crate::output::Files;
 use crate::progress::Counted;
 use crate::text::{field, visible};
-use crate::{Exit, Failure, Streams, assess, budget, output};
+use crate::{Exit, Failure, Streams, assess, budget, output, quantities};
 
 /// Tell how likely each part of a product survives, and what that hangs on
 ///
@@ -59,6 +60,10 @@ pub(crate) struct Args {
     /// How sure the intervals are, between 0 and 1
     #[arg(long, value_name = "P", default_value = "0.95", allow_hyphen_values = true, value_parser = confidence)]
     confidence: f64,
+    /// Instant impacts closer than this are one: where the contact time is not known, a sample whose ends land so closely
+    /// lands flat
+    #[arg(long, value_name = "TIME", default_value = "1ms", allow_hyphen_values = true, value_parser = quantities::contact_time)]
+    merge: Quantity,
     /// Survival of all parts that is to be sure, as a share: 0.999 or 99.9%; missed where the interval begins below it
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true, value_parser = target)]
     target: Option<f64>,
@@ -126,7 +131,8 @@ impl Args {
     }
 
     fn draw(&self, file: &ProductFile, streams: &mut Streams<'_>) -> Result<Scatter, Failure> {
-        let settings = Settings { samples: self.samples, seed: self.seed, confidence: self.confidence };
+        let settings =
+            Settings { samples: self.samples, seed: self.seed, confidence: self.confidence, merge_s: self.merge.si };
         let sampler = Sampler::new(file, settings)?;
         let counted = Counted::begin("drawing", self.samples);
         let go_on = |done| {

@@ -123,7 +123,7 @@ fn a_part_feels_the_same() {
         let steep = usize::from(get("tilt_deg") > 8.0001);
         for k in 0..2 {
             let off = (got[k] - want[k]) / want[k];
-            assert!(off > -2e-4 && off < 2.5e-3, "case {n}: {} {}", got[k], want[k]);
+            assert!(off > [-2e-4, -1e-3][steep] && off < 2.5e-3, "case {n}: {} {}", got[k], want[k]);
             let off = (got[k] - fine[k]).abs() / fine[k];
             worst[steep] = worst[steep].max(off);
         }

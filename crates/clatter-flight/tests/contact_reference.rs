@@ -127,7 +127,7 @@ proptest! {
             prop_assert!(late.max(fast) < 4.0 * precision * times, "touch {k}: {late:e} {fast:e}, {times}-fold, {drop:?}");
         }
         prop_assert_eq!(plain.touches.len(), strikes.len());
-        let ([a, b], now) = (drop.arms, flight.sample(strikes[strikes.len() - 1].time_s));
+        let ([a, b], now) = (drop.arms, flight.sample(plain.time));
         let [_, v, _, spin] = plain.state;
         let center = (b * now.velocity_m_s[0] + a * now.velocity_m_s[1]) / (a + b);
         let wrong = (center - v).abs().max(drop.gyration * (now.spin_rad_s - spin).abs()) / drop.speed;

@@ -237,7 +237,7 @@ mod tests {
         let part = &data["parts"][1];
         assert_eq!(part["limits"][0]["verdict"], "undecided");
         let why = part["undecided"][0]["why"].as_str().unwrap();
-        assert!(why.contains("below the limit"), "{why}");
+        assert!(why.contains("% of the limit, and others"), "{why}");
     }
 
     #[test]

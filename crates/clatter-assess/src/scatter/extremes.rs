@@ -10,6 +10,7 @@ use super::philox::Stream;
 use super::sample::{PartSample, Sample};
 use super::{Asked, Error, cheap};
 use crate::quantity::lacks_contact_time;
+use crate::verdict::MERGE_S;
 use crate::{Component, Limit, Model, Mount, ProductFile, SingleDrop, Spread};
 
 /// The worst at every point of a plane.
@@ -170,6 +171,9 @@ impl Corners {
                         contact_time_s,
                         contact_law: product.law(),
                     }));
+                    let least = drops.len() - 1 - steps as usize;
+                    let flat: Option<SingleDrop> = drops.get(least).filter(|drop| drop.lands_as_one(MERGE_S)).copied();
+                    drops.extend(flat.map(|drop| SingleDrop { flat: true, ..drop }));
                 }
             }
         }

@@ -80,6 +80,9 @@ pub struct Settings {
     pub seed: u64,
     /// Of all intervals, in (0, 1).
     pub confidence: f64,
+    /// Instant impacts that are closer than this are one, as of an [assessment](crate::Accuracy): a sample whose ends land so closely
+    /// lands flat.
+    pub merge_s: f64,
 }
 
 /// What came of all samples.
@@ -244,7 +247,7 @@ impl Sampler {
         if !(confidence > 0.0 && confidence < 1.0) {
             return Err(Error::Setting { name: "confidence", value: confidence, allowed: "in (0, 1)" });
         }
-        let inputs = Inputs::new(file)?;
+        let inputs = Inputs::new(file, settings.merge_s)?;
         let fullest = inputs.blank().drop.fullest();
         Ok(Self { settings, inputs, components: file.components.clone(), fullest })
     }

@@ -7,7 +7,6 @@ use super::draw::Quantile;
 use super::philox::Stream;
 use super::{Column, Error};
 use crate::quantity::lacks_contact_time;
-use crate::verdict::MERGE_S;
 use crate::{Component, Damping, Fall, First, Law, Limit, LimitKind, Mount, ProductFile, SingleDrop, Spread};
 
 /// What varies from sample to sample; parts by their index in the file.
@@ -111,6 +110,7 @@ impl Drawn {
 /// Everything that a sample is drawn from.
 #[derive(Debug)]
 pub(super) struct Inputs {
+    merge_s: f64,
     /// Those that vary.
     pub(super) varied: Vec<Input>,
     /// Those of them that are given as a range without a distribution.
@@ -222,7 +222,7 @@ impl Finder {
 
 impl Inputs {
     /// The inputs of a product, all checked.
-    pub(super) fn new(file: &ProductFile) -> Result<Self, Error> {
+    pub(super) fn new(file: &ProductFile, merge_s: f64) -> Result<Self, Error> {
         let (product, drop) = (&file.product, &file.drop);
         let mut finder = Finder::default();
         if drop.first == First::Either {
@@ -260,6 +260,7 @@ impl Inputs {
         let Finder { varied, assumed_even } = finder;
         let firsts = drop.first_ends();
         Ok(Self {
+            merge_s,
             varied,
             assumed_even,
             of_part,
@@ -321,7 +322,7 @@ impl Inputs {
         drop.tilt_rad = self.tilt.at(uniforms);
         drop.restitution = self.restitution.at(uniforms);
         drop.contact_time_s = self.contact_time.as_ref().map(|time| time.at(uniforms));
-        drop.flat = drop.lands_as_one(MERGE_S);
+        drop.flat = drop.lands_as_one(self.merge_s);
     }
 
     /// What a row of values holds.

@@ -174,7 +174,7 @@ impl<'a> ComponentJson<'a> {
 
 impl<'a> Answer<'a> {
     pub(super) fn new(file: &'a ProductFile, scatter: &'a Scatter, target: Option<&Target>) -> Self {
-        let Settings { samples, seed, confidence } = scatter.settings;
+        let Settings { samples, seed, confidence, .. } = scatter.settings;
         let input = |input: &Input| InputJson {
             input: input.name(),
             component: input.component(),

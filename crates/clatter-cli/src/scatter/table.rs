@@ -50,7 +50,7 @@ pub(super) fn table(
     target: Option<&Target>,
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    let Settings { samples, seed, confidence } = scatter.settings;
+    let Settings { samples, seed, confidence, .. } = scatter.settings;
     let (product, sure) = (shown(&file.product.name, 60), given(100.0 * confidence));
     let (drawn, followed) = (scatter.drawn, scatter.followed);
     if followed < drawn {

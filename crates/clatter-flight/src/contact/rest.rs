@@ -129,8 +129,8 @@ impl<const N: usize> Run<'_, N> {
         let (kinetic, slow) = (self.kinetic(), self.slow());
         if self.pose.gravity == 0.0 {
             let fastest = self.fastest_by(kinetic);
-            let lies = self.touches.iter().any(|touch| touch.state == State::Lying);
-            return (lies && fastest <= slow).then_some(([0.0; N], 2.0 * fastest));
+            let down = self.touches.iter().any(|touch| touch.state != State::Away);
+            return (down && fastest <= slow).then_some(([0.0; N], 2.0 * fastest));
         }
         let Weighed { on, forces, left, by_weight } = self.weighed()?;
         let fastest = self.fastest_by(left);
@@ -229,8 +229,8 @@ impl<const N: usize> Run<'_, N> {
             for k in [i, j] {
                 self.presses[self.touches[k].strike].until_s = f64::INFINITY;
             }
-        } else if let Some(i) = left {
-            // Without gravity one point lies alone.
+        } else if let Some(i) = left.or_else(|| (0..N).find(|&i| self.touches[i].state != State::Away)) {
+            // Without gravity one point lies alone, or both bounce in their dents ever more slowly.
             self.book(i, self.pose.points().1.map(|velocity| -velocity));
         }
         (self.pose.v, self.pose.spin) = (0.0, 0.0);

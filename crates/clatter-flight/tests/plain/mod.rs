@@ -229,7 +229,7 @@ impl Plain {
         let [_, a, _, turning] = self.rates(s, &self.forces(s));
         a + self.gravity + (x * cos - z * sin) * turning - s[3] * s[3] * (x * sin + z * cos)
     }
-    fn rates(&self, s: &State, forces: &[f64]) -> State {
+    pub(crate) fn rates(&self, s: &State, forces: &[f64]) -> State {
         let force: f64 = forces.iter().sum();
         let moment: f64 = forces.iter().enumerate().map(|(i, f)| f * self.lever(s, i)).sum();
         [s[1], force - self.gravity, s[3], moment / self.gyration.powi(2)]
