@@ -51,8 +51,8 @@ fn quantities_with_units_are_the_plain_numbers_in_si() {
     for (command, typed, plain) in [
         (
             "simulate",
-            &["--at=35mm", "--spin=60rpm", "--until=19ms"][..],
-            &["--at=0.5", "--spin-rad-s=6.283185307179586", "--time-limit-s=0.019"][..],
+            &["--at=35mm", "--spin=60rpm", "--until=7ms"][..],
+            &["--at=0.5", "--spin-rad-s=6.283185307179586", "--time-limit-s=0.007"][..],
         ),
         ("respond", &part[0], &part[1]),
         (

@@ -155,7 +155,12 @@ fn failing() -> [Text; 5] {
         limits: text("acceleration_limit = \"900 gn\""),
         ..board.clone()
     };
-    let hard = Text { mount: None, limits: text("acceleration_limit = \"900 gn\""), ..board.clone() };
+    let hard = Text {
+        contact: text("contact_time = \"0.4 ms\"\ncontact_law = \"hysteretic\""),
+        mount: None,
+        limits: text("acceleration_limit = \"900 gn\""),
+        ..board.clone()
+    };
     [panel, drive, board, stiff, hard]
 }
 

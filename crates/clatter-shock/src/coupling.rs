@@ -142,10 +142,10 @@ pub fn shocks_at(bar: &Bar, start: &Start, position: f64, omega_max: f64) -> Res
             let (struck, other) = (-e * impact.approach, next.approach);
             let toward = if impact.end == End::A { -position } else { position };
             let velocity = 0.5 * ((1.0 + toward) * struck + (1.0 - toward) * other);
-            list.push(VelocityShock { time: impact.time, delta_v: -velocity });
             let shrink = e / (limit_ratio * limit_ratio);
             let window = omega_max * resolution / (1.0 - shrink);
-            return Ok((VelocityShocks::new(list)?, 2.0 * window * -impact.approach));
+            let last = VelocityShock { time: impact.time, delta_v: -velocity };
+            return Ok((VelocityShocks::new(list)?.closed_by(last)?, 2.0 * window * -impact.approach));
         }
         if list.len() == MOST_IMPACTS {
             return Ok((VelocityShocks::new(list)?, if train.peek().is_some() { rest } else { 0.0 }));

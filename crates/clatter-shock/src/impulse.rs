@@ -24,6 +24,8 @@ pub struct VelocityShock {
 #[derive(Debug, Clone, PartialEq)]
 pub struct VelocityShocks {
     shocks: Vec<VelocityShock>,
+    /// Whether the last one is what many that come at one instant do together, and no shock of its own.
+    closes: bool,
 }
 
 const LIST: &str = "velocity shocks";
@@ -47,9 +49,19 @@ impl VelocityShocks {
             }
             previous = s.time;
         }
-        Ok(Self { shocks })
+        Ok(Self { shocks, closes: false })
     }
-    /// The shocks, in order.
+    /// The same with one more change of velocity, which an endless train does at one instant by ever smaller shocks.
+    pub(crate) fn closed_by(self, last: VelocityShock) -> Result<Self, Error> {
+        let shocks = self.shocks.into_iter().chain([last]).collect();
+        Ok(Self { closes: true, ..Self::new(shocks)? })
+    }
+    /// The single shocks, without what an endless train does in its last instant together.
+    #[must_use]
+    pub fn single(&self) -> &[VelocityShock] {
+        &self.shocks[..self.shocks.len() - usize::from(self.closes)]
+    }
+    /// The shocks, in order; of an endless train the last one may stand for all that are left.
     #[must_use]
     pub fn as_slice(&self) -> &[VelocityShock] {
         &self.shocks
@@ -71,7 +83,7 @@ impl VelocityShocks {
     /// The largest single velocity change, in absolute value.
     #[must_use]
     pub fn largest(&self) -> f64 {
-        self.shocks.iter().fold(0.0, |m, s| m.max(s.delta_v.abs()))
+        self.single().iter().fold(0.0, |m, s| m.max(s.delta_v.abs()))
     }
     /// Peaks of the component's response, ring-down included.
     ///

@@ -87,3 +87,17 @@ fn what_is_left_out_stays_within_its_bound() {
     }
     assert!(sharpest > 0.01, "a bound that is {sharpest:e} of itself bounds nothing");
 }
+
+/// An endless train near q = 1 ends in one instant, by ever smaller strikes: what they do together is no shock. The largest at the
+/// center of this bar is that of the second strike, ((1 − q)/2)(1 + e)(1 + T) v0, T = q (1 + e).
+#[test]
+fn what_ends_an_endless_train_is_no_shock() {
+    let (q, e) = (0.95, 0.05);
+    let bar = clatter::Bar::new(q, e).unwrap();
+    let (shocks, _) = clatter_shock::shocks_at(&bar, &clatter::Start::default(), 0.0, 1.0).unwrap();
+    let second = 0.5 * (1.0 - q) * (1.0 + e) * (1.0 + q * (1.0 + e));
+    assert!((shocks.largest() / second - 1.0).abs() < 1e-12, "{}, not {second}", shocks.largest());
+    assert_eq!(shocks.single().len() + 1, shocks.as_slice().len());
+    // All together stop the center.
+    assert!((shocks.net() - 1.0).abs() < 1e-9, "{}", shocks.net());
+}

@@ -217,7 +217,7 @@ impl Train<'_> {
         if self.is_pulses() {
             return self.shocks.as_slice().partition_point(|shock| shock.time <= extreme.time).max(1);
         }
-        extreme.interval + 1
+        (extreme.interval + 1).min(self.shocks.single().len())
     }
 
     /// The same in words.
@@ -243,7 +243,7 @@ impl Train<'_> {
             at: self.position.map(Json),
             response: ResponseJson::new(&self.suspension, &self.response, |extreme| Some(self.number(extreme))),
             shocks: ShocksJson {
-                count: shocks.as_slice().len(),
+                count: shocks.single().len(),
                 net: Json(shocks.net()),
                 largest: Json(shocks.largest()),
                 omitted: Json(self.omitted),
