@@ -141,10 +141,15 @@ impl Run {
                 while let Some(k) = at.checked_add_signed(step).filter(|&k| k < free.len() && free[k]) {
                     let (here, there) = (rate(at).abs(), rate(k).abs());
                     let tenth = 0.1 * rate(peak).abs();
-                    if rate(k) * rate(peak) <= 0.0 || !(here >= tenth && there >= tenth || there < here) {
+                    let ends = rate(k) * rate(peak) <= 0.0;
+                    if !ends && !(here >= tenth && there >= tenth || there < here) {
                         break;
                     }
+                    // A rate is noted just after what happens: the step until then is of the shock.
                     at = k;
+                    if ends {
+                        break;
+                    }
                 }
                 at
             };

@@ -94,20 +94,28 @@ fn acceleration(e: f64, speed: f64, tilt: f64, contact_s: f64, place_m: f64, ran
     let loading = (0.5 * std::f64::consts::PI * (1.0 + e) / contact_s).powi(2) / mu;
     let unloading = loading / (e * e);
     let (step, every) = (1e-8, 2000);
-    let (mut h, mut v, mut deepest) = ([0.0, BAR_M * tilt], [-speed; 2], [0.0_f64; 2]);
+    let (mut h, mut v, mut deepest, mut ground) = ([0.0, BAR_M * tilt], [-speed; 2], [0.0_f64; 2], [0.0_f64; 2]);
     let mut values = vec![0.0; 100];
     let mut mean = 0.0;
     for k in 0..every * 500 {
         let mut force = [0.0; 2];
         for i in 0..2 {
-            let depth = -h[i];
+            if h[i] > 0.0 {
+                ground[i] = 0.0;
+            }
+            let depth = ground[i] - h[i];
             if depth <= 0.0 {
                 deepest[i] = 0.0;
             } else if depth >= deepest[i] {
                 deepest[i] = depth;
                 force[i] = loading * depth;
             } else {
-                force[i] = (unloading * (depth - deepest[i] * (1.0 - e * e))).max(0.0);
+                let parts = deepest[i] * (1.0 - e * e);
+                force[i] = (unloading * (depth - parts)).max(0.0);
+                if depth <= parts {
+                    // The dent is the ground from here on.
+                    (ground[i], deepest[i]) = (ground[i] - parts, 0.0);
+                }
             }
         }
         let center = force[0] + force[1] - G;
