@@ -16,155 +16,61 @@ const LAPTOP: &str = include_str!("../../../reports/examples/laptop.toml");
 
 /// A soft part in the middle of a tablet that may land flat.
 const FLAT_SOFT: &str = r#"
-[product]
-name = "Tablet, part at the middle, no contact time"
-length = "240 mm"
-radius_of_gyration = "69.3 mm"
-restitution = [0.4, 0.5]
-[drop]
-height = "1 m"
-tilt = ["0 deg", "5 deg"]
-[[component]]
-name = "disk in the middle"
-position = "0 mm"
-natural_frequency = "60 Hz"
-damping_ratio = 0.05
-acceleration_limit = "230 gn"
-rattle_space = "18 mm"
+product = { name = "Tablet", length = "240 mm", radius_of_gyration = "69.3 mm", restitution = [0.4, 0.5] }
+drop = { height = "1 m", tilt = ["0 deg", "5 deg"] }
+component = [{ name = "disk", position = "0 mm", natural_frequency = "60 Hz", damping_ratio = 0.05, acceleration_limit = "230 gn", rattle_space = "18 mm" }]
 "#;
 
 /// Both ends press at once.
 const FLAT_500: &str = r#"
-[product]
-name = "Flat drop, one part hard in the middle"
-length = "400 mm"
-radius_of_gyration = "118 mm"
-restitution = 0.3
-contact_time = "1.5 ms"
-[drop]
-height = "1 m"
-tilt = "0 deg"
-[[component]]
-name = "crystal"
-position = "0 mm"
-mount = "hard"
-acceleration_limit = "500 gn"
+product = { name = "Flat 500", length = "400 mm", radius_of_gyration = "118 mm", restitution = 0.3, contact_time = "1.5 ms" }
+drop = { height = "1 m", tilt = "0 deg" }
+component = [{ name = "crystal", position = "0 mm", mount = "hard", acceleration_limit = "500 gn" }]
 "#;
 
 /// It does not turn before it lands again.
 const FLAT_TURN: &str = r#"
-[product]
-name = "Flat"
-length = "150 mm"
-radius_of_gyration = "43 mm"
-restitution = 0.3
-contact_time = "0.5 ms"
-[drop]
-height = "1 m"
-tilt = "0 deg"
-[[component]]
-name = "gyro"
-position = "0 mm"
-mount = "hard"
-angular_velocity_change_limit = "150 rad/s"
+product = { name = "Flat", length = "150 mm", radius_of_gyration = "43 mm", restitution = 0.3, contact_time = "0.5 ms" }
+drop = { height = "1 m", tilt = "0 deg" }
+component = [{ name = "gyro", position = "0 mm", mount = "hard", angular_velocity_change_limit = "150 rad/s" }]
 "#;
 
 /// One drop whose second press begins within the first one.
 const VELOCITY_CHANGE: &str = r#"
-[product]
-name = "Phone, nearly flat, hard part"
-length = "150 mm"
-radius_of_gyration = "42 mm"
-restitution = 0.3713
-contact_time = "0.4 ms"
-[drop]
-height = "1.2 m"
-tilt = "0.5738 deg"
-first = "a"
-[[component]]
-name = "xtal dv"
-position = "-20 mm"
-mount = "hard"
-velocity_change_limit = "6 m/s"
+product = { name = "Phone", length = "150 mm", radius_of_gyration = "42 mm", restitution = 0.3713, contact_time = "0.4 ms" }
+drop = { height = "1.2 m", tilt = "0.5738 deg", first = "a" }
+component = [{ name = "crystal", position = "-20 mm", mount = "hard", velocity_change_limit = "6 m/s" }]
 "#;
 
 /// A hard part that one contact law spares.
 const OTHER_LAW: &str = r#"
-[product]
-name = "Box Y3"
-length = "400 mm"
-radius_of_gyration = "118 mm"
-restitution = [0.1, 0.3]
-contact_time = ["1.5 ms", "4 ms"]
-[drop]
-height = ["0.5 m", "1 m"]
-tilt = ["0 deg", "15 deg"]
-[[component]]
-name = "crystal Y3 hard"
-position = "0 mm"
-mount = "hard"
-acceleration_limit = "500 gn"
+product = { name = "Box Y3", length = "400 mm", radius_of_gyration = "118 mm", restitution = [0.1, 0.3], contact_time = ["1.5 ms", "4 ms"] }
+drop = { height = ["0.5 m", "1 m"], tilt = ["0 deg", "15 deg"] }
+component = [{ name = "crystal", position = "0 mm", mount = "hard", acceleration_limit = "500 gn" }]
 "#;
 
 /// Contacts that are too long for the body in part of their range.
 const LONG_CONTACTS: &str = r#"
-[product]
-name = "Short and soft"
-length = "100 mm"
-radius_of_gyration = "29 mm"
-restitution = 0.3
-contact_time = ["0.5 ms", "9 ms"]
-contact_law = "hysteretic"
-[drop]
-height = "1 m"
-tilt = ["0 deg", "5 deg"]
-[[component]]
-name = "part"
-position = "0 mm"
-mount = "hard"
-acceleration_limit = "3000 gn"
+product = { name = "Short", length = "100 mm", radius_of_gyration = "29 mm", restitution = 0.3, contact_time = ["0.5 ms", "9 ms"], contact_law = "hysteretic" }
+drop = { height = "1 m", tilt = ["0 deg", "5 deg"] }
+component = [{ name = "part", position = "0 mm", mount = "hard", acceleration_limit = "3000 gn" }]
 "#;
 
 /// Elastic, and struck by both ends in turn for long.
 const ELASTIC: &str = r#"
-[product]
-name = "Elastic"
-length = "200 mm"
-radius_of_gyration = "98 mm"
-restitution = [0.75, 0.93]
-contact_time = ["0.3 ms", "0.6 ms"]
-[drop]
-height = "0.3 m"
-tilt = ["0 deg", "10 deg"]
-[[component]]
-name = "soft"
-position = "40 mm"
-natural_frequency = ["80 Hz", "120 Hz"]
-damping_ratio = 0.02
-rattle_space = "20 mm"
-[[component]]
-name = "hard"
-position = "-60 mm"
-mount = "hard"
-velocity_change_limit = "8 m/s"
+product = { name = "Elastic", length = "200 mm", radius_of_gyration = "98 mm", restitution = [0.75, 0.93], contact_time = ["0.3 ms", "0.6 ms"] }
+drop = { height = "0.3 m", tilt = ["0 deg", "10 deg"] }
+component = [
+    { name = "soft", position = "40 mm", natural_frequency = ["80 Hz", "120 Hz"], damping_ratio = 0.02, rattle_space = "20 mm" },
+    { name = "hard", position = "-60 mm", mount = "hard", velocity_change_limit = "8 m/s" },
+]
 "#;
 
 /// Its center of mass is off the middle.
 const OFF_CENTER: &str = r#"
-[product]
-name = "Off center"
-length = "200 mm"
-radius_of_gyration = "55 mm"
-center_of_mass = "25 mm"
-restitution = 0.3
-[drop]
-height = "1 m"
-tilt = ["1 deg", "5 deg"]
-[[component]]
-name = "part"
-position = "-80 mm"
-mount = "hard"
-velocity_change_limit = "9 m/s"
+product = { name = "Off center", length = "200 mm", radius_of_gyration = "55 mm", center_of_mass = "25 mm", restitution = 0.3 }
+drop = { height = "1 m", tilt = ["1 deg", "5 deg"] }
+component = [{ name = "part", position = "-80 mm", mount = "hard", velocity_change_limit = "9 m/s" }]
 "#;
 
 fn read(text: &str) -> ProductFile {
@@ -178,7 +84,7 @@ fn with(text: &str, from: &str, to: &str) -> String {
 }
 
 fn named(text: &str, law: &str) -> String {
-    with(text, "[drop]", &format!("contact_law = \"{law}\"\n[drop]"))
+    with(text, " }\ndrop", &format!(", contact_law = \"{law}\" }}\ndrop"))
 }
 
 fn assessed(text: &str, part: &str, accuracy: &Accuracy) -> Vec<LimitAssessment> {
@@ -223,8 +129,7 @@ fn a_flat_drop_is_one_of_the_drops() {
     assert!(!apart.worst_case.expect("a drop").flat);
 }
 
-/// The same of a soft part: V = 1.5 v₀ at once gives V ω exp(−tan β (π/2 − 3β)), sin β the damping ratio. Contacts of 0.3 ms do the
-/// same.
+/// The same of a soft part: V = 1.5 v₀ at once gives V ω exp(−tan β (π/2 − 3β)), sin β the damping ratio. So do contacts of 0.3 ms.
 #[test]
 fn a_soft_part_feels_a_flat_drop() {
     let beta = 0.05_f64.asin();
@@ -233,7 +138,7 @@ fn a_soft_part_feels_a_flat_drop() {
     let limit = only(FLAT_SOFT);
     assert_eq!(limit.verdict, Verdict::Unsafe);
     close(limit.demand.expect("a demand"), peak, 1e-3);
-    let contacts = only(&with(FLAT_SOFT, "[drop]", "contact_time = \"0.3 ms\"\n[drop]"));
+    let contacts = only(&with(FLAT_SOFT, " }\ndrop", ", contact_time = \"0.3 ms\" }\ndrop"));
     assert_eq!(contacts.verdict, Verdict::Unsafe);
     close(contacts.demand.expect("a demand"), peak, 5e-3);
 }
@@ -255,9 +160,9 @@ fn a_flat_drop_takes_both_contacts() {
     }
 }
 
-/// Length, radius of gyration and place in mm, restitution, contact time in ms, height in m, tilt in degrees, the end that is first, and what
-/// `clatter-brute hunt` finds of these files: acceleration in m/s² and velocity change in m/s. It shares no line of code with this
-/// crate and integrates in small steps.
+/// Length, radius of gyration and place in mm, restitution, contact time in ms, height in m, tilt in degrees, the end that is first, and
+/// what `clatter-brute hunt` finds of these files: acceleration in m/s² and velocity change in m/s. It shares no line of code with
+/// this crate and integrates in small steps.
 const LOW_RESTITUTION: [([f64; 3], [f64; 4], &str, [f64; 2]); 4] = [
     ([150.0, 42.0, 60.0], [0.05, 0.4, 0.8, 2.0], "a", [20_254.19, 5.468_212]),
     ([300.0, 80.0, -120.0], [0.08, 1.0, 1.0, 3.0], "b", [9_848.699, 6.467_047]),
@@ -270,10 +175,16 @@ const LOW_RESTITUTION: [([f64; 3], [f64; 4], &str, [f64; 2]); 4] = [
 fn ends_that_hardly_spring_back() {
     for ([length, gyration, place], [e, contact, height, tilt], first, brute) in LOW_RESTITUTION {
         let text = format!(
-            "[product]\nname = \"Dead\"\nlength = \"{length} mm\"\nradius_of_gyration = \"{gyration} mm\"\nrestitution = {e}\n\
-             contact_time = \"{contact} ms\"\n[drop]\nheight = \"{height} m\"\ntilt = \"{tilt} deg\"\nfirst = \"{first}\"\n\
-             [[component]]\nname = \"part\"\nposition = \"{place} mm\"\nmount = \"hard\"\nacceleration_limit = \"1e5 m/s2\"\n\
-             velocity_change_limit = \"100 m/s\"\n"
+            r#"
+product = {{ name = "Dead", length = "{length} mm", radius_of_gyration = "{gyration} mm", restitution = {e}, contact_time = "{contact} ms" }}
+drop = {{ height = "{height} m", tilt = "{tilt} deg", first = "{first}" }}
+[[component]]
+name = "part"
+position = "{place} mm"
+mount = "hard"
+acceleration_limit = "1e5 m/s2"
+velocity_change_limit = "100 m/s"
+"#
         );
         let found = limits(&text);
         for ((kind, limit), brute) in
@@ -379,8 +290,8 @@ fn an_off_center_product_falls_on_either_end() {
     let [either, mirrored, a, b] = [
         OFF_CENTER.to_owned(),
         with(&with(OFF_CENTER, "\"25 mm\"", "\"-25 mm\""), "\"-80 mm\"", "\"80 mm\""),
-        with(OFF_CENTER, "[[component]]", "first = \"a\"\n[[component]]"),
-        with(OFF_CENTER, "[[component]]", "first = \"b\"\n[[component]]"),
+        with(OFF_CENTER, " }\ncomponent", ", first = \"a\" }\ncomponent"),
+        with(OFF_CENTER, " }\ncomponent", ", first = \"b\" }\ncomponent"),
     ]
     .map(|text| only(&text));
     let first = |limit: &LimitAssessment| limit.worst_case.as_ref().expect("a drop").first;
@@ -509,10 +420,17 @@ const AT_REST: [([f64; 3], [f64; 2]); 2] =
 fn the_weight_is_on_after_a_tilted_drop() {
     for ([height, e, frequency], brute) in AT_REST {
         let text = format!(
-            "[product]\nname = \"Low\"\nlength = \"200 mm\"\nradius_of_gyration = \"58 mm\"\nrestitution = {e}\n\
-             contact_time = \"1 ms\"\n[drop]\nheight = \"{height} mm\"\ntilt = \"3 deg\"\nfirst = \"a\"\n[[component]]\n\
-             name = \"part\"\nposition = \"30 mm\"\nnatural_frequency = \"{frequency} Hz\"\ndamping_ratio = 0.05\n\
-             acceleration_limit = \"1e5 m/s2\"\nrattle_space = \"500 mm\"\n"
+            r#"
+product = {{ name = "Low", length = "200 mm", radius_of_gyration = "58 mm", restitution = {e}, contact_time = "1 ms" }}
+drop = {{ height = "{height} mm", tilt = "3 deg", first = "a" }}
+[[component]]
+name = "part"
+position = "30 mm"
+natural_frequency = "{frequency} Hz"
+damping_ratio = 0.05
+acceleration_limit = "1e5 m/s2"
+rattle_space = "500 mm"
+"#
         );
         for (limit, brute) in limits(&text).iter().zip(brute) {
             close(limit.demand.expect("a demand"), brute, 2e-3);
