@@ -109,7 +109,7 @@ impl ProductFile {
         let bound = bound(&self.product, &self.drop, task.component, &task.limit, ranges.law);
         let held = bound.is_some_and(|bound| bound <= task.limit.allowed);
         let Some(mut asked) = worst.asked else { return Ok(Judged::unanswered(worst, bound, held)) };
-        let flat = self.flat(ranges, task, &asked)?;
+        let flat = Self::flat(ranges, task, &asked)?;
         if let Some(flat) = flat.filter(|flat| ranges.hold(flat) && flat.exceeds(&asked)) {
             asked = flat;
         }
@@ -173,7 +173,7 @@ impl ProductFile {
 
     /// What the worst drop would ask if it landed flat, in the unit of the worst: where no drop of the ranges lands so, one at the same
     /// place of them.
-    fn flat(&self, ranges: &Ranges<'_>, task: &Task<'_>, worst: &Asked) -> Result<Option<Asked>, Error> {
+    fn flat(ranges: &Ranges<'_>, task: &Task<'_>, worst: &Asked) -> Result<Option<Asked>, Error> {
         let drop = ranges.single(&worst.place).flattened();
         let part = Part { position_m: worst.place.position_m, suspension: worst.part };
         let limit = in_unit(&task.limit, worst.answer.unit);
@@ -362,7 +362,8 @@ fn command(drop: &SingleDrop, asked: &Asked, ranges: &Ranges<'_>) -> String {
     if drop.flat {
         command.push_str(" --flat");
     } else {
-        command.push_str(&format!(" --tilt-deg={:?}", drop.tilt_rad.to_degrees()));
+        let tilt = format!("{:?}", drop.tilt_rad.to_degrees());
+        command.extend([" --tilt-deg=", &tilt]);
     }
     let mut add = |flag: &str, value: f64| command.extend([" --", flag, "=", &format!("{value:?}")]);
     add("gravity-m-s2", drop.gravity_m_s2);

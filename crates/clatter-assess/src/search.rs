@@ -132,10 +132,12 @@ impl AllAsked {
     }
 }
 
-/// Natural frequencies within a range in one drop, besides the end of it.
-const FREQUENCIES: u32 = 2;
-/// The same in drops that are followed for longer.
+/// Natural frequencies within a range in one drop, besides the end of it, at least and at most.
+const FREQUENCIES: [f64; 2] = [2.0, 16.0];
+/// The same in drops that are followed for longer, at least.
 const FREQUENCIES_LATE: u32 = 4;
+/// Frequencies in one turn of a part between the first two strikes: what it asks goes up and down with its phase at the second.
+const IN_A_TURN: f64 = 4.0;
 /// The golden ratio: multiples of it spread evenly from 0 to 1.
 const GOLDEN: f64 = 0.618_033_988_749_895;
 /// Drops that are followed besides those of the grid where rebounds count.
@@ -259,7 +261,9 @@ impl Ranges<'_> {
                     let place = Place { position_m, ..*drop };
                     // That nothing is asked is an answer as well.
                     let near = if worst > 0.0 { NEAR * worst } else { -1.0 };
-                    let mut asked = self.most(task, &place, &felt, k, FREQUENCIES, near)?;
+                    let frequencies = Self::frequencies(task, &early.drop);
+                    let late = frequencies.max(FREQUENCIES_LATE);
+                    let mut asked = self.most(task, &place, &felt, k, frequencies, near)?;
                     let reached =
                         |asked: Option<Asked>| asked.map_or(worst, |asked| worst.max(asked.answer.utilization()));
                     let parts = Self::softest_and_stiffest(task, &place)?;
@@ -269,10 +273,10 @@ impl Ranges<'_> {
                         let rebounded = self.followed(drop, Until::Rebounded, &mut rebounded)?;
                         let longer = felt.longer(rebounded)?;
                         let above = |asked: Option<Asked>| asked.map_or(near, |asked| asked.answer.utilization());
-                        asked = self.most(task, &place, &longer, k, FREQUENCIES_LATE, above(asked))?.or(asked);
+                        asked = self.most(task, &place, &longer, k, late, above(asked))?.or(asked);
                         if longer.later_most(&task.limit, &parts, reached(asked)) > 0.0 {
                             let longest = longer.longer(self.followed(drop, Until::Over, &mut over)?)?;
-                            asked = self.most(task, &place, &longest, k, FREQUENCIES_LATE, above(asked))?.or(asked);
+                            asked = self.most(task, &place, &longest, k, late, above(asked))?.or(asked);
                         }
                     }
                     if let Some(mut asked) = asked {
@@ -296,6 +300,17 @@ impl Ranges<'_> {
             Some(followed) => Ok(followed),
             none => Ok(none.insert(self.follow(place, until)?)),
         }
+    }
+
+    /// How many natural frequencies are tried in one drop: some in each turn that the ends of their range differ by.
+    fn frequencies(task: &Task<'_>, drop: &SingleDrop) -> u32 {
+        let Mount::Suspended { frequency_hz, .. } = task.component.mount else { return 0 };
+        let gap_s = 0.25 * drop.clatter_s();
+        let [least, most] = FREQUENCIES;
+        let turns = (frequency_hz.hi() - frequency_hz.lo()) * gap_s;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 16")]
+        let count = (IN_A_TURN * turns).ceil().clamp(least, most) as u32;
+        count
     }
 
     /// The part at a place, where the limit is on its response.

@@ -1,8 +1,7 @@
 //! Answers of contacts that take time against an integration that shares nothing with them: body and part together, step by
 //! step, from the contact laws and the exact geometry alone (the plain integration of the flights' tests).
 //!
-//! A part feels the vertical acceleration of its place above free fall, until the body lies still: its weight on a body at rest, 1 g, is
-//! left out of answers. Of a body that turns by more than a right angle in one flight it does
+//! A part feels the vertical acceleration of its place above free fall, 1 g where the body lies still. Of a body that turns by more than a right angle in one flight it does
 //! not feel that turn, by convention; such drops are left out here.
 
 #![expect(clippy::print_stdout, reason = "how far off the answers are, with --nocapture")]

@@ -375,20 +375,18 @@ fn runs_that_hold(file: &ProductFile, runs: u64, many: u64, sure: f64) -> (usize
 #[test]
 fn intervals_of_two_levels_hold_what_the_full_model_says() {
     for (i, file) in six().iter().enumerate() {
-        let (held, found) = runs_that_hold(file, 10, 21_000, 0.95);
-        assert!(held >= 9, "product {i}: {held} of 10, {:?}", found.pilot);
+        let (held, found) = runs_that_hold(file, 5, 21_000, 0.95);
+        assert!(held >= 4, "product {i}: {held} of 5, {:?}", found.pilot);
     }
 }
 
 /// The same in earnest: the truth is that of so many samples that its own interval hardly counts.
 #[test]
-#[ignore = "takes many minutes"]
+#[ignore = "takes many minutes: once a week"]
 fn intervals_of_two_levels_hold_in_95_of_100_runs() {
     for (i, file) in six().iter().enumerate() {
         let (held, found) = runs_that_hold(file, 100, 700_000, 0.05);
-        let Scatter { drawn, followed, survival, pilot, .. } = &found;
-        println!("product {i}: {held} of 100; {followed} of {drawn} followed, {survival:?}, {pilot:?}");
-        assert!(held >= 95, "product {i}: {held} of 100");
+        assert!(held >= 95, "product {i}: {held} of 100; {:?}, {:?}", found.survival, found.pilot);
     }
 }
 

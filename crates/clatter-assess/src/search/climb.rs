@@ -33,7 +33,8 @@ impl Ranges<'_> {
     pub(super) fn climb(&self, task: &Task<'_>, start: Asked, tilt_step: f64) -> Asked {
         let (until, fastest) = (Until::Lands, fastest_rad_s(task.component));
         let free = self.free_at(task, &start.place);
-        let mut steps = [tilt_step, 0.25, 0.25, 0.25, 0.125, 0.5];
+        let frequency_step = 0.5 / f64::from(Self::frequencies(task, &self.single(&start.place)).max(4));
+        let mut steps = [tilt_step, 0.25, 0.25, 0.25, frequency_step, 0.5];
         let mut best = start;
         let Ok(mut here) = self.follow(&best.place, until) else { return best };
         for _ in 0..HALVINGS {

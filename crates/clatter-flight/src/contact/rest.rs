@@ -4,7 +4,7 @@ use super::Ahead;
 use super::law::ContactLaw;
 use super::phase::Hold;
 use super::run::Run;
-use super::touch::{Event, State};
+use super::touch::{Event, State, Touch};
 use crate::flight::Stop;
 
 /// A depth must be so many times what heights are told apart by.
@@ -129,7 +129,9 @@ impl<const N: usize> Run<'_, N> {
         let (kinetic, slow) = (self.kinetic(), self.slow());
         if self.pose.gravity == 0.0 {
             let fastest = self.fastest_by(kinetic);
-            let down = self.touches.iter().any(|touch| touch.state != State::Away);
+            // Nothing on a line of its law, which would hold energy, and not all in the air.
+            let holds = |touch: &Touch| matches!(touch.state, State::Loading | State::Elastic);
+            let down = self.touches.iter().any(|touch| touch.state != State::Away) && !self.touches.iter().any(holds);
             return (down && fastest <= slow).then_some(([0.0; N], 2.0 * fastest));
         }
         let Weighed { on, forces, left, by_weight } = self.weighed()?;
