@@ -141,7 +141,8 @@ impl Run {
                     let (here, there) = (rate(at).abs(), rate(k).abs());
                     let tenth = 0.1 * rate(peak).abs();
                     let ends = rate(k) * rate(peak) <= 0.0;
-                    if !ends && !(here >= tenth && there >= tenth || there < here) {
+                    let goes_on = here >= tenth && there >= tenth || there < here;
+                    if !(ends || goes_on) {
                         break;
                     }
                     // A rate is noted just after what happens: the step until then is of the shock.

@@ -156,7 +156,7 @@ fn told(r: &mut Random, singles: usize) -> (f64, Vec<Told>) {
             let near: Vec<Shares> = (0..singles / 4).map(|_| shares(r, Some(&far.1))).collect();
             let ((most, by), _) =
                 [far, worst(&near)].into_iter().reduce(|a, b| if b.0.0 > a.0.0 { b } else { a }).expect("two");
-            let over = most / (assessed.demand.unwrap() / assessed.allowed) - 1.0;
+            let over = most / (assessed.demand.expect("an answer") / assessed.allowed) - 1.0;
             told.push(Told { limit: assessed, over, by });
         }
     }

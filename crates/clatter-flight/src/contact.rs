@@ -124,7 +124,7 @@ pub struct Ahead {
     /// No later strike that presses alone changes the velocity of a contact point by more, by the energy that is left, its weight
     /// apart; and none approaches at more than half of it.
     pub most_m_s: f64,
-    /// Whether a point is about to touch from above the ground; else one that is down parts or presses again.
+    /// Whether a press is about to begin; else one ends.
     pub lands: bool,
 }
 

@@ -148,7 +148,10 @@ impl<'a, const N: usize> Run<'a, N> {
         }
         let Some((point, watch)) = event else { return Ok(true) };
         let loads = self.touches.iter().any(|touch| touch.state == State::Loading);
-        if !loads && !self.presses.is_empty() && enough(&self.ahead(watch.event == Event::Touches)) {
+        if !loads
+            && !self.presses.is_empty()
+            && enough(&self.ahead(matches!(watch.event, Event::Touches | Event::Presses)))
+        {
             self.log.flight.stop = Stop::Enough { time_s: self.time.now() };
             return Ok(false);
         }
