@@ -1,7 +1,7 @@
 //! What is left out of endless trains near q = 1, against trains carried on until their gaps are below 10⁻²⁵⁰.
 
 use clatter::{Bar, Start};
-use clatter_shock::{DampingRatio, Suspension, VelocityShock, VelocityShocks, respond};
+use clatter_shock::{DampingRatio, Suspension, VelocityShock, VelocityShocks, respond, shocks_at};
 
 fn mount(omega: f64, zeta: f64) -> Suspension {
     Suspension::new(omega, DampingRatio::new(zeta).expect("damping")).expect("mount")
@@ -93,8 +93,8 @@ fn what_is_left_out_stays_within_its_bound() {
 #[test]
 fn what_ends_an_endless_train_is_no_shock() {
     let (q, e) = (0.95, 0.05);
-    let bar = clatter::Bar::new(q, e).unwrap();
-    let (shocks, _) = clatter_shock::shocks_at(&bar, &clatter::Start::default(), 0.0, 1.0).unwrap();
+    let bar = Bar::new(q, e).unwrap();
+    let (shocks, _) = shocks_at(&bar, &Start::default(), 0.0, 1.0).unwrap();
     let second = 0.5 * (1.0 - q) * (1.0 + e) * (1.0 + q * (1.0 + e));
     assert!((shocks.largest() / second - 1.0).abs() < 1e-12, "{}, not {second}", shocks.largest());
     assert_eq!(shocks.single().len() + 1, shocks.as_slice().len());

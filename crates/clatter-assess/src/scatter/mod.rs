@@ -3,7 +3,7 @@
 //! # Model
 //! A sample is answered as any other drop is: by the model with the most physics that the data allow, contacts that take time
 //! where their time is known, else instant impacts at real tilt with gravity. Where many samples are drawn, most are answered by a
-//! cheap model instead, and what that gets wrong is measured on a share of them: a [two-level estimate](levels), as wide as the
+//! cheap model instead, and what that gets wrong is measured on a share of them: a two-level estimate, as wide as the
 //! interval of the samples asked for would be without it. Utilizations and what drives them are those of the samples that the full
 //! model answered.
 //!
