@@ -225,7 +225,8 @@ fn answers_are_those_of_the_laws() {
         let compared = off(&drop, &part, kind, tolerance);
         if let Some((Compared { off, told, times }, answer)) = &compared {
             // The plain integration itself looks at steps of 0.02 of a radian, which miss a crest by 5e-5.
-            let allowed = tolerance * times + 5e-5;
+            // What is left out as the body comes to rest is told.
+            let allowed = (tolerance * times + 5e-5).max(*told);
             assert!(
                 *off <= allowed,
                 "seed {seed}: {off:e}, {told:e} told, {times}-fold: {kind:?} {drop:?} {part:?} {answer:?}"
