@@ -99,15 +99,13 @@ proptest! {
         precision in prop_oneof![Just(1e-3), Just(1e-4)],
     ) {
         let flight = drop.scene().contacts_until(&drop.contact(), precision, |_| false).expect("a flight");
+        let strikes = &flight.flight.strikes[..flight.flight.strikes.len().min(4)];
         // Touches that graze in the dent are told apart by roundings alone.
-        let grazes = |approach: f64| approach.abs() < 1e-3 * drop.speed;
-        let strikes: Vec<_> =
-            flight.flight.strikes.iter().filter(|strike| !grazes(strike.approach_m_s)).take(4).collect();
+        prop_assume!(strikes.iter().all(|strike| strike.approach_m_s.abs() > 1e-3 * drop.speed));
         let until = strikes[strikes.len() - 1].time_s * 1.01 + 1e-3 * drop.time;
         let run = |shaken| {
             let mut plain = drop.plain(shaken);
-            plain.run(usize::MAX, until, 2_000_000);
-            plain.touches.retain(|touch| !grazes(touch.approach));
+            plain.run(strikes.len(), until, 2_000_000);
             plain
         };
         let (plain, shaken) = (run([0.0; 2]), [run([1e-6, 0.0]), run([0.0, 1e-6])]);
@@ -127,7 +125,7 @@ proptest! {
             prop_assert!(late.max(fast) < 4.0 * precision * times, "touch {k}: {late:e} {fast:e}, {times}-fold, {drop:?}");
         }
         prop_assert_eq!(plain.touches.len(), strikes.len());
-        let ([a, b], now) = (drop.arms, flight.sample(plain.time));
+        let ([a, b], now) = (drop.arms, flight.sample(strikes[strikes.len() - 1].time_s));
         let [_, v, _, spin] = plain.state;
         let center = (b * now.velocity_m_s[0] + a * now.velocity_m_s[1]) / (a + b);
         let wrong = (center - v).abs().max(drop.gyration * (now.spin_rad_s - spin).abs()) / drop.speed;
