@@ -9,8 +9,9 @@ use super::{MeasuredHeights, MeasuredStrike, Set, Which};
 const RESTITUTIONS: [f64; 12] = [0.02, 0.08, 0.15, 0.22, 0.3, 0.38, 0.46, 0.55, 0.65, 0.75, 0.85, 0.95];
 /// Radii of gyration that are tried, over that of the product file.
 const GYRATIONS: [f64; 7] = [1.0, 0.7, 0.8, 0.9, 1.1, 1.25, 1.5];
-/// So many of the best go on at first.
+/// So many of the best go on at first; of heights and accelerations, where the best start is less often the one that leads there.
 pub(super) const TAKEN: usize = 4;
+pub(super) const TAKEN_BY_CURVES: usize = 8;
 /// Strikes and pulses that a start is found from, at most.
 const MOST: usize = 32;
 /// Of the first few, which gravity and contacts hardly change, and of all.

@@ -3,7 +3,7 @@
 use super::drop::{CONTACT, DIFFERENCE, Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED, SPIN};
 use super::region::Region;
 use super::solve::{Minimum, Problem};
-use super::starts::{TAKEN, starts};
+use super::starts::{TAKEN_BY_CURVES, starts};
 use super::student;
 use super::{Error, Set};
 
@@ -59,7 +59,7 @@ pub(super) struct Told {
 /// Finds it. `known`: whether the deviations of all records are given; `begin`: unknowns that explain the data already.
 pub(super) fn find(drop: &mut Drop<'_>, known: bool, begin: Option<Vec<f64>>) -> Result<Told, Error> {
     let count: usize = drop.sets.iter().map(Set::len).sum();
-    let begins = begin.map_or_else(|| starts(drop, TAKEN), |x| vec![x]);
+    let begins = begin.map_or_else(|| starts(drop, TAKEN_BY_CURVES), |x| vec![x]);
     drop.is_rough = true;
     let mut told = Search { drop, known, count }.base(&begins)?;
     drop.is_rough = false;
