@@ -284,6 +284,11 @@ impl Followed {
     pub(crate) fn is_cut(&self) -> bool {
         self.later_m_s == f64::INFINITY
     }
+    /// Whether the motion was left at a limit, though strikes that count may follow.
+    pub(crate) fn is_given_up(&self) -> bool {
+        let stop = self.flight().stop;
+        matches!(stop, Stop::ImpactLimit { .. } | Stop::TimeLimit { .. } | Stop::EnergyLimit { .. })
+    }
     /// What a place feels for ever after the motion: its weight where the product lies still.
     pub(crate) fn carried_m_s2(&self) -> f64 {
         let falls = !matches!(self.motion, Motion::Impacts(_, Impacts::Map, _));

@@ -367,7 +367,14 @@ impl<'a> Felt<'a> {
         let both = ends.map(|end| (1.0 + x * end) / mass(end));
         // A strike gives back the restitution's share of what it takes; several that overlap may turn all of the motion around.
         let turned = 2.0 / (1.0 + drop.restitution);
+        let given_up = self.followed.is_given_up().then(|| GivenUp {
+            in_turn: 2.0 / (1.0 - drop.restitution),
+            lever: 1.0 + x.abs() * ends[0].abs().max(ends[1].abs()),
+            center_m_s: center * turned,
+            gravity_m_s2: drop.gravity_m_s2,
+        });
         Later {
+            given_up,
             shock_m_s: center * mass(x),
             turned_m_s: center * mass(x) * turned,
             turn_rad_s: center / rho * turned,
@@ -379,15 +386,14 @@ impl<'a> Felt<'a> {
     /// The utilization to which a shock of this size brings a part that still rings as the motion was left; 0 where it was below
     /// `above` as the last contact ended, has decayed since, and stays below.
     fn rings_most(&self, limit: &Limit, part: &Suspension, shock: f64, above: f64) -> f64 {
-        let (omega, zeta, factors) = (part.omega(), part.damping().get(), part.damping().impulse_factors());
+        let (omega, factors) = (part.omega(), part.damping().impulse_factors());
         let unit = if limit.kind == LimitKind::Acceleration {
             omega * factors.acceleration
         } else {
             factors.displacement / omega
         };
         let per_velocity = unit / limit.allowed;
-        let slowest = if zeta < 1.0 { zeta } else { 1.0 / (zeta + (zeta * zeta - 1.0).sqrt()) };
-        if shock * per_velocity <= above * -(-slowest * omega * self.followed.quiet_s()).exp_m1() {
+        if shock * per_velocity <= above * -(-slowest(part) * omega * self.followed.quiet_s()).exp_m1() {
             return 0.0;
         }
         let rest = self.pulses.state_at_end(part);
@@ -481,6 +487,8 @@ impl<'a> Felt<'a> {
 
 /// What strikes may do at a place after a motion was left, by the energy left.
 struct Later {
+    /// Of a motion that was given up, with many strikes to come.
+    given_up: Option<GivenUp>,
     /// Of one strike, and of strikes that overlap.
     shock_m_s: f64,
     turned_m_s: f64,
@@ -492,12 +500,40 @@ struct Later {
 impl Later {
     /// The velocity shock that does as much to a part: one that is fast beside a contact feels no more than a pulse twice as high.
     fn shock_of(&self, part: &Suspension) -> f64 {
-        CHATTER * self.shock_m_s.min(2.0 * self.acceleration_m_s2 / part.omega())
+        let one = self.shock_m_s.min(2.0 * self.acceleration_m_s2 / part.omega());
+        let all = self.given_up.as_ref().map_or(0.0, |left| left.shock_of(part, one));
+        all.max(CHATTER * one)
     }
 }
 
+/// What bounds many strikes that are all in step with a part.
+struct GivenUp {
+    /// Ends that bounce one at a time do e times as much at each strike: so many times the first in all, of both.
+    in_turn: f64,
+    /// What an impulse does to the place over what it does to the center of mass, at most.
+    lever: f64,
+    /// Change of velocity of the center of mass, at most.
+    center_m_s: f64,
+    gravity_m_s2: f64,
+}
+
+impl GivenUp {
+    /// Momentum: within a time t the ground gives the center of mass no more than what turns it around and g t. A part forgets at its
+    /// rate of decay, so that of g t the weight over that rate counts.
+    fn shock_of(&self, part: &Suspension, one_m_s: f64) -> f64 {
+        let momentum = self.lever * (self.center_m_s + self.gravity_m_s2 / (slowest(part) * part.omega()));
+        momentum.min(self.in_turn * one_m_s)
+    }
+}
+
+/// Rate at which the free motion of a part decays, over ω.
+fn slowest(part: &Suspension) -> f64 {
+    let zeta = part.damping().get();
+    if zeta < 1.0 { zeta } else { 1.0 / (zeta + (zeta * zeta - 1.0).sqrt()) }
+}
+
 /// Strikes of both ends in step do this many times what one does that has all the energy, at most: of the drops of random
-/// products without damping, one in a thousand passes it.
+/// products without damping, one in a thousand exceeds it.
 const CHATTER: f64 = 1.5;
 
 /// What lever arms kept through a phase may get wrong of a shock, in precisions of the flight (clatter-flight).

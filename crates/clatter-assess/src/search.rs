@@ -442,6 +442,7 @@ impl Ranges<'_> {
                     let shares = [0.0, speed, restitution, contact, frequency, damping];
                     let place = Place { first, shares, ..found };
                     let drop = SingleDrop { tilt_rad, flat: false, ..self.single(&place) };
+                    let drop = SingleDrop { flat: drop.lands_as_one(self.merge_s), ..drop };
                     let followed = Followed::until(&drop, self.model, self.tolerance.max(0.02), Until::Over);
                     let Ok(followed) = followed else { continue };
                     for position_m in task.component.ends_m() {

@@ -68,10 +68,13 @@ pub(crate) fn drop(worst: &WorstCase) -> String {
     let contact = worst.contact_time_s.map_or(String::new(), |s| format!(", contacts of {} ms", four(1e3 * s)));
     let part = worst.frequency_hz.zip(worst.damping_ratio);
     let part = part.map_or(String::new(), |(hz, ratio)| format!(", {} Hz, damping ratio {}", four(hz), four(ratio)));
+    let lands = if worst.flat {
+        "flat".to_owned()
+    } else {
+        format!("{} first, {} deg", inputs::letter(worst.first), four(worst.tilt_deg))
+    };
     format!(
-        "{} first, {} deg, {} m/s, e {}{contact}; at {} mm{part}",
-        inputs::letter(worst.first),
-        four(worst.tilt_deg),
+        "{lands}, {} m/s, e {}{contact}; at {} mm{part}",
         four(worst.speed_m_s),
         four(worst.restitution),
         four(1e3 * worst.position_m),

@@ -114,13 +114,10 @@ fn drop(worst: &WorstCase) -> String {
     } else {
         "the peak comes after the first impact".to_owned()
     };
-    format!(
-        "That drop lands on end {} at {} m/s, tilted by {}°, with e = {}{frequency}; {peak}.",
-        end(worst.first),
-        three(worst.speed_m_s),
-        three(worst.tilt_deg),
-        three(worst.restitution),
-    )
+    let lands = if worst.flat { "flat, both ends as one,".to_owned() } else { format!("on end {}", end(worst.first)) };
+    let tilted = if worst.flat { String::new() } else { format!(", tilted by {}°", three(worst.tilt_deg)) };
+    let (speed, e) = (three(worst.speed_m_s), three(worst.restitution));
+    format!("That drop lands {lands} at {speed} m/s{tilted}, with e = {e}{frequency}; {peak}.")
 }
 
 /// What the page says of one part.
