@@ -86,6 +86,10 @@ impl Run {
         let law = (drop.contact_law, drop.restitution, time_s);
         let plain = Plain::new(&[[-a, 0.0], [b, 0.0]], rho, drop.gravity_m_s2, law);
         let mut plain = plain.start(drop.speed_m_s * (1.0 + faster), drop.tilt_rad, spin * drop.speed_m_s / a);
+        if part.suspension.is_none() {
+            // Where a shock ends is known to a step.
+            plain.fine = 400.0;
+        }
         plain.part = part.suspension.map(|part| plain::Part {
             place: [x, 0.0],
             omega: part.omega(),
@@ -225,8 +229,9 @@ fn answers_are_those_of_the_laws() {
         let compared = off(&drop, &part, kind, tolerance);
         if let Some((Compared { off, told, times }, answer)) = &compared {
             // The plain integration itself looks at steps of 0.02 of a radian, which miss a crest by 5e-5.
-            // What is left out as the body comes to rest is told.
-            let allowed = (tolerance * times + 5e-5).max(*told);
+            let exact = tolerance * times + 5e-5;
+            // In its dents a body may sink for ever by the law, where an answer says that it lies: that is told.
+            let allowed = if answer.impact > 2 { exact.max(*told) } else { exact };
             assert!(
                 *off <= allowed,
                 "seed {seed}: {off:e}, {told:e} told, {times}-fold: {kind:?} {drop:?} {part:?} {answer:?}"
