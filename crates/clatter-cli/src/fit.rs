@@ -29,9 +29,13 @@ use crate::{Failure, Streams, assess, input, output, text};
 ///   bounce_s                         times at which a flat product, or one point of it, bounces; alone
 ///   time and acceleration, with units, as 'clatter record' reads them: the acceleration at --position
 ///
-/// The time axis of each file begins anywhere. Strikes may be missing (two before the last, or any after it), and one time may be
-/// wrong; the answer says so. Contacts take time in the fit where the product file gives their time or an acceleration was
-/// measured; else strikes are instant, at real tilt and with gravity.
+/// The time axis of each file begins anywhere. Every strike is taken for one of the drop and none for missing, as long as that
+/// explains the data; else two may be missing before the last one, or one time may be wrong. The answer says so, and where several of
+/// these are about as good it has them all, in its intervals too. Contacts take time in the fit where the product file gives their
+/// time or an acceleration was measured; else strikes are instant, at real tilt and with gravity.
+///
+/// A speed, a restitution or a contact time that the data do not tell is taken from the range of the product file; one value counts
+/// as exact. What is found beyond those ranges is told. Times that scatter more than --timing explains are no fit.
 ///
 /// Intervals know of the noise of the record alone: from drop to drop a real product scatters more. Fit several, and take the range
 /// of all.

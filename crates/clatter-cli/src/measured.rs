@@ -181,7 +181,9 @@ pub(crate) fn why(error: &fit::Error, files: &[impl AsRef<Path>]) -> String {
             format!("{}: {count} {what}; allowed: {allowed}", name(*record))
         }
         // The name of the file in place of "record 1".
-        fit::Error::Far { record, .. } => error.to_string().replacen(&format!("record {record}"), &name(*record), 1),
+        fit::Error::Far { record, .. } | fit::Error::Scatter { record, .. } => {
+            error.to_string().replacen(&format!("record {record}"), &name(*record), 1)
+        }
         error => error.to_string(),
     }
 }
@@ -228,7 +230,9 @@ impl Drop {
         let found = if budget::go_on() {
             match fitted(&Known::from(file), &self.records, self.timing_s)? {
                 Ok(fit) => Ok(fit),
-                Err(error @ (fit::Error::Far { .. } | fit::Error::NoDrop(_))) => Err(error.to_string()),
+                Err(error @ (fit::Error::Far { .. } | fit::Error::Scatter { .. } | fit::Error::NoDrop(_))) => {
+                    Err(error.to_string())
+                }
                 Err(error) => return Err(Failure::Wrong(why(&error, &self.paths))),
             }
         } else {

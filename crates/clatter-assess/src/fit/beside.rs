@@ -48,7 +48,7 @@ impl Fit {
 
 impl Known {
     /// What a file states of a quantity.
-    fn stated(&self, quantity: Quantity) -> Option<[f64; 2]> {
+    pub(super) fn stated(&self, quantity: Quantity) -> Option<[f64; 2]> {
         let height = |speed: f64| (self.gravity_m_s2 > 0.0).then(|| 0.5 * speed * speed / self.gravity_m_s2);
         let [q_a, q_b] = self.body.inertia_ratios();
         Some(match quantity {
@@ -65,7 +65,7 @@ impl Known {
 }
 
 impl Estimate {
-    fn agrees(&self, [lo, hi]: [f64; 2]) -> Option<bool> {
+    pub(super) fn agrees(&self, [lo, hi]: [f64; 2]) -> Option<bool> {
         let is_value = lo >= hi;
         if !is_value && !(lo..=hi).contains(&self.value) {
             return Some(false);

@@ -3,7 +3,7 @@
 use clatter::End;
 
 use super::region::{Function, Region};
-use super::solve::Problem;
+use super::solve::{PRECISION, Problem};
 use super::student;
 use super::{Error, Estimate, Fit, MOST_STRIKES, MeasuredStrike, Quantity, RecordFit, StrikeFit};
 use crate::Model;
@@ -52,17 +52,25 @@ pub fn bounces(times_s: &[f64], gravity_m_s2: f64, deviation_s: Option<f64>) -> 
         times_s.iter().zip(computed(x)).map(|(measured, computed)| (measured - computed) / deviation).collect()
     };
     let bounds = vec![[f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, 30.0], [0.0, 1.0]];
-    let problem = Problem { residuals: Box::new(residuals), bounds, step: 1e-6, patience: 100 };
+    let problem = Problem {
+        residuals: Box::new(residuals),
+        bounds,
+        step: 1e-6,
+        one_sided: false,
+        patience: 100,
+        precision: PRECISION,
+    };
     let start = [times_s[0] / unit_s, libm::log(unit_s), (flights[1] / flights[0]).clamp(0.01, 0.99)];
     let minimum = problem.minimize(&start, &FREE);
     let degrees = times_s.len() - FREE.len();
     #[expect(clippy::cast_precision_loss, reason = "at most 4096")]
+    let degrees_count = degrees as f64;
     let scatter = match deviation_s {
         Some(_) => Some(1.0),
-        None => (degrees > 0).then(|| (minimum.sum() / degrees as f64).sqrt()),
+        None => (degrees > 0).then(|| (minimum.sum() / degrees_count).sqrt()),
     };
-    let t = student::two_sided(0.05, deviation_s.is_none().then_some(degrees.max(1)));
-    let region = scatter.and_then(|scatter| Region::new(&problem, &minimum, &FREE, &[], t * scatter));
+    let t = student::two_sided(0.05, deviation_s.is_none().then_some(degrees_count));
+    let region = scatter.and_then(|scatter| Region::new(&problem, &minimum, &FREE, t * scatter));
     let interval = |of: &Function<'_>| region.as_ref().map(|region| region.ends(of).map(|end| of(&end)));
     let e = minimum.x[2];
     let range = interval(&|x| x[2]).map(|[lo, hi]| [lo.max(0.0), hi.min(1.0)]);
@@ -102,6 +110,7 @@ pub fn bounces(times_s: &[f64], gravity_m_s2: f64, deviation_s: Option<f64>) -> 
         untold: Vec::new(),
         correlations: Vec::new(),
         degrees_of_freedom: degrees,
+        others: Vec::new(),
         records: vec![record],
         computed: at.iter().map(|time_s| (time_s - first_touch_s, End::A)).collect(),
         notes,

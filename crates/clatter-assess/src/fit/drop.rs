@@ -6,7 +6,7 @@ use std::rc::Rc;
 use clatter::End;
 use clatter_flight::{Body, Contact, ContactFlight, Flight, Model, Scene, Strike};
 
-use super::solve::Problem;
+use super::solve::{self, Minimum, Problem};
 use super::{Known, Set};
 
 // Where the unknowns stand. Those that are positive are their logarithms, so that a step is a share of them.
@@ -37,12 +37,22 @@ const STEEPEST: f64 = 0.5;
 const STEP: f64 = 1e-6;
 /// Flights with contacts are exact to [`PRECISION`] for each contact; steps are far above that.
 const CONTACT_STEP: f64 = 1e-4;
-/// Flights of a search, by whether contacts take time, for so many data: about two seconds of either.
-pub(super) const FLIGHTS: [usize; 2] = [200_000, 10_000];
+/// Flights of a search, by whether contacts take time, for so many data: some seconds of either.
+pub(super) const FLIGHTS: [usize; 2] = [100_000, 10_000];
 pub(super) const DATA: [usize; 2] = [16, 256];
 /// Precision of flights with contacts, and while a search is on.
 const PRECISION: f64 = 1e-5;
 const ROUGH: f64 = 1e-3;
+/// Searches at most until what the data scatter by and how much a range counts beside them agree, to this share.
+const SETTLES: usize = 6;
+const SETTLED: f64 = 0.02;
+/// With fewer degrees of freedom nothing tells the scatter.
+const LEAST_DEGREES: f64 = 0.5;
+/// Data that are met to this share of what they vary by are met exactly.
+const ROUNDING: f64 = 1e-9;
+/// Patience and precision of a search that only tells where to go on.
+const QUICK_PATIENCE: usize = 12;
+const QUICK_PRECISION: f64 = 1e-4;
 /// A flight is followed for so many times as long as strikes were measured.
 const HORIZON: f64 = 3.0;
 /// The same of contacts that take time, where no more were measured.
@@ -65,6 +75,10 @@ pub(super) struct Drop<'a> {
     pub(super) unit_s: f64,
     /// Whether flights with contacts are computed roughly, as a search needs them.
     pub(super) is_rough: bool,
+    /// Unknowns that the product file gives in a range and the data do not tell: the range is a datum.
+    pub(super) ranged: Vec<usize>,
+    /// What the data scatter by, over their deviations, where these are not given.
+    pub(super) scatter: f64,
     /// Flights that may still be computed for a search; beyond, each minimum is left where it is.
     pub(super) left: Rc<Cell<usize>>,
 }
@@ -90,12 +104,24 @@ impl Drop<'_> {
             (_, true) => 12,
             (_, false) => 60,
         };
-        Problem { residuals: Box::new(|x| self.residuals(x)), bounds: self.bounds(), step, patience }
+        Problem {
+            residuals: Box::new(|x| self.residuals(x)),
+            bounds: self.bounds(),
+            step,
+            one_sided: !self.contacts,
+            patience,
+            precision: solve::PRECISION,
+        }
+    }
+    /// The same as far as a search needs it that only tells where to go on.
+    pub(super) fn quick_problem(&self) -> Problem<'_> {
+        let problem = self.problem();
+        Problem { patience: problem.patience.min(QUICK_PATIENCE), precision: QUICK_PRECISION, ..problem }
     }
     /// Whether strike times alone are fitted, with impacts that are instant: a flight is then so quick that hundreds more of them
     /// count for nothing.
     pub(super) fn is_quick(&self) -> bool {
-        !self.contacts && self.sets.iter().all(|set| matches!(set, Set::Strikes { .. }))
+        !self.contacts && self.sets.iter().all(Set::is_strikes)
     }
     /// The values that the product file gives, a range in its middle.
     pub(super) fn given(&self) -> Vec<f64> {
@@ -111,17 +137,61 @@ impl Drop<'_> {
         x[CONTACT] = contact_time_s.map_or(0.0, ln_middle);
         x
     }
-    /// How far an unknown that is held may be off by its range in the product file.
-    pub(super) fn half_range(&self, unknown: usize) -> f64 {
-        let half = |[lo, hi]: [f64; 2]| 0.5 * (libm::log(hi) - libm::log(lo));
-        match unknown {
-            SPEED => half(self.known.speed_m_s),
-            CONTACT => self.known.contact_time_s.map_or(0.0, half),
-            RESTITUTION => 0.5 * (self.known.restitution[1] - self.known.restitution[0]),
-            _ => 0.0,
-        }
+    /// The middle of the range that the product file gives for an unknown, and half its width; none of a single value.
+    pub(super) fn range(&self, unknown: usize) -> Option<[f64; 2]> {
+        let ln = |[lo, hi]: [f64; 2]| [libm::log(lo), libm::log(hi)];
+        let [lo, hi] = match unknown {
+            SPEED => ln(self.known.speed_m_s),
+            CONTACT => ln(self.known.contact_time_s?),
+            RESTITUTION => self.known.restitution,
+            _ => return None,
+        };
+        (hi > lo).then(|| [0.5 * (lo + hi), 0.5 * (hi - lo)])
     }
-    fn bounds(&self) -> Vec<[f64; 2]> {
+    /// The minimum next to `x` over these unknowns, and within their ranges over those that the file gives in one. `known`: whether
+    /// the deviations of the data are given; else what they scatter by says how much a range counts beside them.
+    pub(super) fn settle(&mut self, x: &[f64], free: &[usize], known: bool) -> Minimum {
+        let all = self.with_ranged(free);
+        let mut minimum = self.problem().minimize(x, &all);
+        for _ in 0..SETTLES {
+            if known || self.ranged.is_empty() {
+                break;
+            }
+            let Some((scatter, _)) = self.scattered(&minimum, free) else { break };
+            let change = (scatter / self.scatter - 1.0).abs();
+            self.scatter = scatter;
+            if change < SETTLED {
+                break;
+            }
+            minimum = self.problem().minimize(&minimum.x, &all);
+        }
+        minimum
+    }
+    /// What the data scatter by over their deviations, and the degrees of freedom that tell it; none where these are too few.
+    ///
+    /// A range is no datum about the scatter: of an unknown that the data tell, and not its range, they have one degree of freedom less.
+    /// The leverage of the range says how much of it that is.
+    pub(super) fn scattered(&self, minimum: &Minimum, free: &[usize]) -> Option<(f64, f64)> {
+        let data = minimum.residuals.len() - self.ranged.len();
+        let all = self.with_ranged(free);
+        #[expect(clippy::cast_precision_loss, reason = "counts of data")]
+        let mut degrees = data as f64 - all.len() as f64;
+        if !self.ranged.is_empty() {
+            let q = self.problem().jacobian(&minimum.x, &all).qr().q();
+            degrees += (data..q.nrows()).map(|datum| q.row(datum).norm_squared()).sum::<f64>();
+        }
+        let sum: f64 = minimum.residuals[..data].iter().map(|r| r * r).sum();
+        (degrees > LEAST_DEGREES).then(|| ((sum / degrees).sqrt().max(self.least_scatter()), degrees))
+    }
+    /// Free unknowns, and those within a range.
+    pub(super) fn with_ranged(&self, free: &[usize]) -> Vec<usize> {
+        free.iter().chain(&self.ranged).copied().collect()
+    }
+    /// A scatter that is that of roundings.
+    pub(super) fn least_scatter(&self) -> f64 {
+        self.sets.iter().map(|set| ROUNDING * set.variation(self.unit_s)).fold(f64::MIN_POSITIVE, f64::max)
+    }
+    pub(super) fn bounds(&self) -> Vec<[f64; 2]> {
         let ln = |[lo, hi]: [f64; 2]| [libm::log(lo), libm::log(hi)];
         let length = self.known.body.length_m();
         let arm = self.arms()[0];
@@ -226,7 +296,27 @@ impl Drop<'_> {
         for (k, set) in self.sets.iter().enumerate() {
             set.residuals(self, path.as_ref(), self.offset_s(x, k), &mut all);
         }
+        // Any value of a range is as likely: its standard deviation is half its width over √3 (JCGM 100:2008, 4.3.7).
+        let datum = |&unknown: &usize| {
+            let [middle, half] = self.range(unknown)?;
+            Some(self.scatter * (x[unknown] - middle) * 3_f64.sqrt() / half)
+        };
+        all.extend(self.ranged.iter().filter_map(datum));
         all
+    }
+}
+
+impl Drop<'_> {
+    /// The record whose data scatter most, over their deviations.
+    pub(super) fn worst(&self, x: &[f64]) -> usize {
+        let mut residuals = self.residuals(x).into_iter();
+        let mean = |set: &Set<'_>| {
+            #[expect(clippy::cast_precision_loss, reason = "a count of data")]
+            let count = set.len().max(1) as f64;
+            residuals.by_ref().take(set.len()).map(|r| r * r).sum::<f64>() / count
+        };
+        let means: Vec<f64> = self.sets.iter().map(mean).collect();
+        (0..means.len()).max_by(|&a, &b| means[a].total_cmp(&means[b])).unwrap_or(0)
     }
 }
 

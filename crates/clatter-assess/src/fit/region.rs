@@ -20,22 +20,14 @@ pub(super) struct Region<'a> {
     minimum: &'a Minimum,
     free: &'a [usize],
     rise: f64,
-    /// Over all unknowns: g·data·g is the square of how far a function with the gradient g goes in the region, as the derivatives
+    /// Over all unknowns: g·covariance·g is the square of how far a function with the gradient g goes in the region, as the derivatives
     /// at the minimum have it.
-    data: DMatrix<f64>,
-    /// The same of what is held at a value that has a range.
-    held: DMatrix<f64>,
+    covariance: DMatrix<f64>,
 }
 
 impl<'a> Region<'a> {
-    /// About a minimum over free unknowns; each held one with the half of its range.
-    pub(super) fn new(
-        problem: &'a Problem<'a>,
-        minimum: &'a Minimum,
-        free: &'a [usize],
-        ranges: &[(usize, f64)],
-        rise: f64,
-    ) -> Option<Self> {
+    /// About a minimum over free unknowns.
+    pub(super) fn new(problem: &'a Problem<'a>, minimum: &'a Minimum, free: &'a [usize], rise: f64) -> Option<Self> {
         let count = minimum.x.len();
         let inverse = problem.jacobian(&minimum.x, free).pseudo_inverse(0.0).ok()?;
         let over_all = |own: DVector<f64>| {
@@ -45,15 +37,7 @@ impl<'a> Region<'a> {
         };
         let columns: Vec<DVector<f64>> = inverse.column_iter().map(|column| over_all(column.into_owned())).collect();
         let data = DMatrix::from_columns(&columns) * rise;
-        let mut held = DMatrix::zeros(count, count);
-        for &(unknown, range) in ranges {
-            // What the free unknowns change by to make up for a change of this one.
-            let change = -(&inverse * problem.jacobian(&minimum.x, &[unknown]));
-            let mut change = over_all(change.column(0).into_owned());
-            change[unknown] = 1.0;
-            held += &change * change.transpose() * (range * range);
-        }
-        Some(Self { problem, minimum, free, rise, data: &data * data.transpose(), held })
+        Some(Self { problem, minimum, free, rise, covariance: &data * data.transpose() })
     }
 
     /// Derivatives of a function at the minimum.
@@ -72,17 +56,10 @@ impl<'a> Region<'a> {
         DVector::from_iterator(self.minimum.x.len(), (0..self.minimum.x.len()).map(one))
     }
 
-    /// How far a function may be off by what is held.
-    pub(super) fn held(&self, of: &Function<'_>) -> f64 {
-        let g = self.gradient(of);
-        g.dot(&(&self.held * &g)).sqrt()
-    }
-
     /// Correlations of functions, by the derivatives at the minimum.
     pub(super) fn correlations(&self, functions: &[&Function<'_>]) -> Vec<Vec<f64>> {
         let gradients: Vec<DVector<f64>> = functions.iter().map(|of| self.gradient(of)).collect();
-        let covariance = &self.data + &self.held;
-        let of = |i: usize, j: usize| gradients[i].dot(&(&covariance * &gradients[j]));
+        let of = |i: usize, j: usize| gradients[i].dot(&(&self.covariance * &gradients[j]));
         let correlation = |i: usize, j: usize| {
             let product = (of(i, i) * of(j, j)).sqrt();
             if i == j {
@@ -99,7 +76,7 @@ impl<'a> Region<'a> {
     /// Where a function is least and largest in the region, as the derivatives at the minimum have it.
     pub(super) fn straight_ends(&self, of: &Function<'_>) -> [Vec<f64>; 2] {
         let g = self.gradient(of);
-        let toward = &self.data * &g;
+        let toward = &self.covariance * &g;
         let half = g.dot(&toward).sqrt();
         [-1.0, 1.0].map(|side| {
             let share = if half > 0.0 { side / half } else { 0.0 };
@@ -167,6 +144,7 @@ impl<'a> Region<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fit::solve::PRECISION;
 
     /// Two unknowns x and y, and the data exp x = 1 and exp x + y = 1, both to 1/2: with y made up for, the sum of squares is
     /// 4 (exp x − 1)², so that x reaches from ln(1/2) to ln(3/2) where it rises by 1. The derivatives have it from −1/2 to 1/2.
@@ -177,11 +155,13 @@ mod tests {
             residuals: Box::new(residuals),
             bounds: vec![[least, 10.0], [-10.0, 10.0]],
             step: 1e-6,
+            one_sided: false,
             patience: 50,
+            precision: PRECISION,
         };
         let minimum = Minimum { x: vec![0.0, 0.0], residuals: vec![0.0, 0.0] };
         let ends = |problem: &Problem<'_>| {
-            let region = Region::new(problem, &minimum, &[0, 1], &[], 1.0).expect("the test has derivatives");
+            let region = Region::new(problem, &minimum, &[0, 1], 1.0).expect("the test has derivatives");
             let straight = region.straight_ends(&|x| x[0]).map(|end| end[0]);
             assert!((straight[0] + 0.5).abs() < 1e-6 && (straight[1] - 0.5).abs() < 1e-6, "{straight:?}");
             region.ends(&|x| x[0]).map(|end| end[0])

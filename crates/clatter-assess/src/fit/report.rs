@@ -6,13 +6,15 @@ use std::rc::Rc;
 use clatter::End;
 use clatter_flight::Body;
 
+use super::criterion::{Faults, SIMILAR};
 use super::drop::{CONTACT, DATA, DIFFERENCE, Drop, FLIGHTS, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED, SPIN};
 use super::matching::SUSPECT;
 use super::region::{Function, Region};
 use super::set::{sets, unit_s};
 use super::told::{self, Told};
 use super::{
-    Error, Estimate, Fit, Known, Measured, MeasuredStrike, Quantity, RecordFit, Set, StrikeFit, Untold, Which, matching,
+    Error, Estimate, Explanation, Fit, Known, Measured, MeasuredStrike, Quantity, RecordFit, Set, StrikeFit, Untold,
+    Which, matching,
 };
 use crate::{First, Model};
 
@@ -80,35 +82,119 @@ pub fn fit(known: &Known, measured: &[Measured]) -> Result<Fit, Error> {
     let given = measured.iter().all(is_given);
     let contacts = known.contact_time_s.is_some() || sets.iter().any(|set| matches!(set, Set::Acceleration { .. }));
     let unit_s = unit_s(&sets);
-    let mut best: Option<Result<(Drop<'_>, Told), Error>> = None;
+    let (mut all, mut refused) = (Vec::new(), None);
     for &first in firsts(known, measured) {
         let count: usize = sets.iter().map(Set::len).sum();
         let kind = usize::from(contacts);
         let left = Rc::new(Cell::new(FLIGHTS[kind] * DATA[kind] / count.max(DATA[kind])));
-        let mut drop = Drop { known, sets: sets.clone(), first, contacts, unit_s, is_rough: false, left };
-        let (found, is_plain) = match told_of(&mut drop, measured, given) {
-            Ok((told, is_plain)) => (Ok((drop, told)), is_plain),
-            Err(error) => (Err(error), false),
-        };
-        let is_better = match (&best, &found) {
-            (None | Some(Err(_)), _) => true,
-            (Some(Ok((_, old))), Ok((_, new))) => new.minimum.sum() < old.minimum.sum(),
-            (Some(Ok(_)), Err(_)) => false,
-        };
-        if is_better {
-            best = Some(found);
-        }
-        // The end that was measured first, or that is lower as the product lands, and that explains all is the one.
-        if is_plain {
-            break;
+        let (sets, ranged) = (sets.clone(), Vec::new());
+        let drop = Drop { known, sets, first, contacts, unit_s, is_rough: false, ranged, scatter: 1.0, left };
+        match explanations(&drop, measured, given) {
+            Ok((of_first, is_plain)) => {
+                all.extend(of_first);
+                // The end that was measured first, or that is lower as the product lands, and that explains all is the one.
+                if is_plain {
+                    break;
+                }
+            }
+            Err(error) => refused = refused.or(Some(error)),
         }
     }
-    let (drop, told) = best.unwrap_or(Err(Error::Nothing))?;
-    let fit = report(&drop, &told, given);
-    for (k, (record, set)) in fit.records.iter().zip(&drop.sets).enumerate() {
-        near(k + 1, record, set, &drop)?;
+    let order = |a: &(Drop<'_>, Told), b: &(Drop<'_>, Told)| {
+        let is_odd = |told: &Told| told.excess.is_some();
+        is_odd(&a.1).cmp(&is_odd(&b.1)).then(a.1.score.above(&b.1.score).total_cmp(&0.0))
+    };
+    all.sort_by(order);
+    let Some((best, others)) = all.split_first() else { return Err(refused.unwrap_or(Error::Nothing)) };
+    if let Some(factor) = best.1.excess {
+        return Err(Error::Scatter { record: best.0.worst(&best.1.minimum.x) + 1, factor });
     }
+    let mut fit = report(&best.0, &best.1);
+    for (k, (record, set)) in fit.records.iter().zip(&best.0.sets).enumerate() {
+        near(k + 1, record, set, &best.0)?;
+    }
+    let about_as_good =
+        |(_, told): &&(Drop<'_>, Told)| told.excess.is_none() && told.score.above(&best.1.score) <= SIMILAR;
+    let others = others.iter().filter(about_as_good).map(|(drop, told)| report(drop, told));
+    let others: Vec<Fit> = others.filter(|other| !is_same(&fit, other)).collect();
+    join(&mut fit, others);
     Ok(fit)
+}
+
+/// Whether two fits take the strikes for the same and tell the same: the search of one ended a little aside.
+fn is_same(fit: &Fit, other: &Fit) -> bool {
+    let numbers = |fit: &Fit| -> Vec<Option<usize>> {
+        fit.records.iter().flat_map(|record| record.strikes.iter().map(|strike| strike.number)).collect()
+    };
+    let holds = |(a, b): (&Estimate, &Estimate)| {
+        a.quantity == b.quantity && a.interval.is_none_or(|[lo, hi]| (lo..=hi).contains(&b.value))
+    };
+    fit.first == other.first
+        && numbers(fit) == numbers(other)
+        && fit.estimates.len() == other.estimates.len()
+        && fit.estimates.iter().zip(&other.estimates).all(holds)
+}
+
+/// Widens intervals to hold those of other fits that are about as good, and says which these are.
+fn join(fit: &mut Fit, others: Vec<Fit>) {
+    let is_restitution =
+        |quantity| matches!(quantity, Quantity::Restitution | Quantity::RestitutionA | Quantity::RestitutionB);
+    for estimate in &mut fit.estimates {
+        let is_same = |other: &&Estimate| {
+            // One restitution is that of both ends.
+            let both = [other.quantity, estimate.quantity];
+            both[0] == both[1] || both.contains(&Quantity::Restitution) && both.into_iter().all(is_restitution)
+        };
+        let found = others.iter().flat_map(|other| other.estimates.iter().filter(is_same));
+        let found: Vec<[f64; 2]> = found.filter_map(|other| other.interval).collect();
+        let wider = |[lo, hi]: [f64; 2]| found.iter().fold([lo, hi], |[lo, hi], [a, b]| [lo.min(*a), hi.max(*b)]);
+        estimate.interval = estimate.interval.map(wider);
+    }
+    fit.others = others.into_iter().map(|fit| Explanation::of(fit)).collect();
+    if !fit.others.is_empty() {
+        let said: Vec<String> = fit.others.iter().map(Explanation::said).collect();
+        fit.notes.push(format!(
+            "other explanations are about as good: {}; the intervals hold those of all of them",
+            said.join(", or ")
+        ));
+    }
+}
+
+impl Explanation {
+    fn of(fit: Fit) -> Self {
+        let left_out = |record: &RecordFit| {
+            let out = record.strikes.iter().filter(|strike| strike.number.is_none());
+            out.map(|strike| strike.measured.time_s).collect()
+        };
+        Self {
+            first: fit.first,
+            left_out_s: fit.records.iter().map(left_out).collect(),
+            missing: fit.records.into_iter().map(|record| record.missing).collect(),
+            estimates: fit.estimates,
+        }
+    }
+
+    fn said(&self) -> String {
+        let record = |k: usize| if self.missing.len() > 1 { format!(" of record {}", k + 1) } else { String::new() };
+        let missing = self.missing.iter().enumerate();
+        let missing = missing.flat_map(|(k, all)| all.iter().map(move |n| format!("strike {n}{} missing", record(k))));
+        let out = self.left_out_s.iter().enumerate();
+        let out =
+            out.flat_map(|(k, all)| all.iter().map(move |s| format!("the strike at {s:?} s{} left out", record(k))));
+        let all: Vec<String> = missing.chain(out).collect();
+        let all = if all.is_empty() { "no strike missing or left out".to_owned() } else { all.join(" and ") };
+        let value = |quantity| self.estimates.iter().find(|estimate| estimate.quantity == quantity);
+        let values =
+            [Quantity::Restitution, Quantity::RestitutionA, Quantity::RadiusOfGyration].into_iter().filter_map(value);
+        let values: Vec<String> = values
+            .map(|estimate| {
+                let (name, factor, unit) = estimate.quantity.said();
+                format!("{name} {:.4} {unit}", factor * estimate.value).trim_end().to_owned()
+            })
+            .collect();
+        let first = if self.first == End::A { "a" } else { "b" };
+        format!("end {first} first, {all} ({})", values.join(", "))
+    }
 }
 
 /// Refuses a drop that does not come near what was measured: intervals about it would say nothing of the product.
@@ -132,21 +218,42 @@ fn near(number: usize, found: &RecordFit, set: &Set, drop: &Drop<'_>) -> Result<
     Err(Error::Far { record: number, name: what, percent: 100.0 * found.scatter / unit, of, allowed: 100.0 * allowed })
 }
 
-/// What the data tell if a given end touches first, and whether there is no need to try the other.
-fn told_of(drop: &mut Drop<'_>, measured: &[Measured], given: bool) -> Result<(Told, bool), Error> {
-    let (mut begin, mut is_plain) = (None, false);
+/// What explains the data if a given end touches first, and whether there is no need to try the other.
+fn explanations<'a>(
+    drop: &Drop<'a>,
+    measured: &[Measured],
+    given: bool,
+) -> Result<(Vec<(Drop<'a>, Told)>, bool), Error> {
+    let (mut matched, mut is_plain) = (Vec::new(), false);
     for (k, one) in measured.iter().enumerate() {
         if let Measured::Strikes { strikes, deviation_s } = one {
             let found = matching::find(drop, k, deviation_s.is_some())?;
-            is_plain |= found.is_plain && strikes.first().is_some_and(|strike| strike.end.is_some());
-            begin = (measured.len() == 1).then_some(found.x);
+            is_plain |= found.iter().all(|one| one.is_plain) && strikes[0].end.is_some();
+            matched.push((k, found));
         }
     }
-    let told = told::find(drop, given, begin)?;
-    let heights = drop.sets.iter().all(|set| matches!(set, Set::Heights { .. }));
-    let is_met = heights
-        && records(drop, &told.minimum.x).iter().all(|record| record.scatter < MET * drop.known.body.length_m());
-    Ok((told, is_plain || is_met))
+    // The best of each record, and each other one in its place.
+    let mut choices = vec![vec![0; matched.len()]];
+    for (i, (_, found)) in matched.iter().enumerate() {
+        choices.extend((1..found.len()).map(|j| (0..matched.len()).map(|k| if k == i { j } else { 0 }).collect()));
+    }
+    let mut all = Vec::new();
+    for choice in choices {
+        let (mut drop, mut begin, mut faults) = (drop.clone(), None, Faults::default());
+        for ((set, found), j) in matched.iter().zip(choice) {
+            if let Set::Strikes { index, .. } = &mut drop.sets[*set] {
+                index.clone_from(&found[j].index);
+            }
+            begin = (measured.len() == 1).then(|| (found[j].x.clone(), found[j].freed));
+            faults = faults.and(found[j].faults);
+        }
+        let told = told::find(&mut drop, given, begin, faults)?;
+        let heights = drop.sets.iter().all(|set| matches!(set, Set::Heights { .. }));
+        let met = MET * drop.known.body.length_m();
+        is_plain |= heights && records(&drop, &told.minimum.x).iter().all(|record| record.scatter < met);
+        all.push((drop, told));
+    }
+    Ok((all, is_plain))
 }
 
 /// The ends that may touch first: both where it matters and nothing says which.
@@ -218,11 +325,11 @@ impl Quantity {
         }
     }
     /// The quantity that it is least and largest with: of the same unknown alone.
-    fn leader(self, speed_is_free: bool) -> Self {
+    fn leader(self, speed_moves: bool) -> Self {
         match self {
             Self::InertiaRatio => Self::RadiusOfGyration,
             Self::DropHeight => Self::Speed,
-            Self::Tilt if !speed_is_free => Self::GapOverSpeed,
+            Self::Tilt if !speed_moves => Self::GapOverSpeed,
             own => own,
         }
     }
@@ -230,7 +337,7 @@ impl Quantity {
 
 const WITH_SPEED: &str = "with the speed of the product file";
 
-fn report(drop: &Drop<'_>, told: &Told, given: bool) -> Fit {
+fn report(drop: &Drop<'_>, told: &Told) -> Fit {
     let x = &told.minimum.x;
     let is_free = |unknown: usize| told.free.contains(&unknown);
     let mut quantities = Vec::new();
@@ -250,8 +357,9 @@ fn report(drop: &Drop<'_>, told: &Told, given: bool) -> Fit {
     quantities.extend(is_free(SPIN).then_some(Quantity::Spin));
     quantities.extend(is_free(CONTACT).then_some(Quantity::ContactTime));
     let problem = drop.problem();
-    let region = told.region(drop, &problem, given);
-    let intervals = region.as_ref().map(|region| intervals(drop, region, x, &quantities, is_free(SPEED)));
+    let all = drop.with_ranged(&told.free);
+    let region = told.region(&problem, &all);
+    let intervals = region.as_ref().map(|region| intervals(drop, region, &quantities, all.contains(&SPEED)));
     let estimates = quantities.iter().enumerate().map(|(k, &quantity)| Estimate {
         quantity,
         value: quantity.of(drop, x),
@@ -275,7 +383,9 @@ fn report(drop: &Drop<'_>, told: &Told, given: bool) -> Fit {
     });
     let untold = untold.collect();
     let records = records(drop, x);
-    let notes = notes(drop, told, &records);
+    let estimates: Vec<Estimate> = estimates;
+    let mut notes = notes(drop, told, &records);
+    notes.extend(estimates.iter().filter_map(|estimate| beyond(drop.known, estimate)));
     Fit {
         model: if drop.contacts { Model::Compliant } else { Model::FiniteTilt },
         first: drop.first,
@@ -283,6 +393,7 @@ fn report(drop: &Drop<'_>, told: &Told, given: bool) -> Fit {
         untold,
         correlations,
         degrees_of_freedom: told.degrees,
+        others: Vec::new(),
         computed: computed(drop, x),
         records,
         notes,
@@ -290,30 +401,22 @@ fn report(drop: &Drop<'_>, told: &Told, given: bool) -> Fit {
 }
 
 /// How far each quantity may be off.
-fn intervals(
-    drop: &Drop<'_>,
-    region: &Region<'_>,
-    x: &[f64],
-    quantities: &[Quantity],
-    speed_is_free: bool,
-) -> Vec<[f64; 2]> {
+fn intervals(drop: &Drop<'_>, region: &Region<'_>, quantities: &[Quantity], speed_moves: bool) -> Vec<[f64; 2]> {
     // A search that was cut short has no flights left.
     let by_profile = drop.is_quick() && drop.left.get() > 0;
     let mut found: Vec<(Quantity, [Vec<f64>; 2])> = Vec::new();
     let one = |&quantity: &Quantity| {
-        let leader = quantity.leader(speed_is_free);
+        let leader = quantity.leader(speed_moves);
         if !found.iter().any(|(known, _)| *known == leader) {
             let even = |x: &[f64]| leader.even(drop, x);
             found.push((leader, if by_profile { region.ends(&even) } else { region.straight_ends(&even) }));
         }
-        let even = |x: &[f64]| quantity.even(drop, x);
-        let (middle, held) = (even(x), region.held(&even));
         let ends = found.iter().filter(|(known, _)| *known == leader).flat_map(|(_, ends)| ends);
-        let [below, above] = ends.fold([0.0_f64; 2], |[below, above], end| {
-            let off = even(end) - middle;
-            [below.max(-off), above.max(off)]
+        let [lo, hi] = ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], end| {
+            let value = quantity.even(drop, end);
+            [lo.min(value), hi.max(value)]
         });
-        quantity.interval(middle - below.hypot(held), middle + above.hypot(held))
+        quantity.interval(lo, hi)
     };
     quantities.iter().map(one).collect()
 }
@@ -371,7 +474,7 @@ fn records(drop: &Drop<'_>, x: &[f64]) -> Vec<RecordFit> {
 
 /// Numbers of computed strikes before the last measured one that are not among the measured; the place of one that was left out as
 /// wrong is not missing.
-fn missing(places: &[Option<usize>]) -> Vec<usize> {
+pub(super) fn missing(places: &[Option<usize>]) -> Vec<usize> {
     let last = places.iter().flatten().max().copied().unwrap_or(0);
     let mut missing: Vec<usize> = (0..last).filter(|n| !places.contains(&Some(*n))).collect();
     for out in (0..places.len()).filter(|&k| places[k].is_none()) {
@@ -391,6 +494,26 @@ fn computed(drop: &Drop<'_>, x: &[f64]) -> Vec<(f64, End)> {
     };
     let path = if drop.contacts { None } else { more() }.unwrap_or(path);
     path.strikes().iter().map(|strike| (strike.time_s, drop.end(strike.point))).collect()
+}
+
+/// Says that what was found is not what the product file states.
+fn beyond(known: &Known, estimate: &Estimate) -> Option<String> {
+    if matches!(estimate.quantity, Quantity::InertiaRatio | Quantity::DropHeight) {
+        return None;
+    }
+    let [lo, hi] = known.stated(estimate.quantity)?;
+    if estimate.agrees([lo, hi]) != Some(false) {
+        return None;
+    }
+    let (name, factor, unit) = estimate.quantity.said();
+    let [value, lo, hi] = [estimate.value, lo, hi].map(|x| format!("{:.4}", factor * x));
+    let stated = if lo == hi { lo } else { format!("{lo} to {hi}") };
+    Some(
+        format!("the {name} found, {value} {unit}, is not what the product file states, {stated} {unit}")
+            .replace(" ,", ",")
+            .trim_end()
+            .to_owned(),
+    )
 }
 
 fn notes(drop: &Drop<'_>, told: &Told, records: &[RecordFit]) -> Vec<String> {
@@ -413,7 +536,7 @@ fn notes(drop: &Drop<'_>, told: &Told, records: &[RecordFit]) -> Vec<String> {
         }
     }
     let is_odd = |record: &RecordFit| {
-        let is_off = told.excess.is_some() || record.scatter > SUSPECT * drop.unit_s;
+        let is_off = record.scatter > SUSPECT * drop.unit_s;
         !record.strikes.is_empty() && is_off || record.strikes.iter().any(|strike| strike.number.is_none())
     };
     if drop.contacts && records.iter().any(is_odd) {
@@ -425,11 +548,6 @@ fn notes(drop: &Drop<'_>, told: &Told, records: &[RecordFit]) -> Vec<String> {
     }
     if let Some((_, reason)) = told.held.iter().find(|(unknown, _)| *unknown == DIFFERENCE) {
         notes.push(format!("one restitution for both ends: {reason}"));
-    }
-    if let Some(excess) = told.excess {
-        notes.push(format!(
-            "the data scatter by {excess:.1} times the standard deviation given about the nearest computed drop: intervals are widened by that, and the model may lack something"
-        ));
     }
     if told.scatter.is_none() {
         notes.push("there are as many unknowns as data, and nothing tells their scatter: no intervals".to_owned());

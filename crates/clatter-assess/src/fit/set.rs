@@ -105,6 +105,13 @@ impl Set<'_> {
             }
         }
     }
+    pub(super) fn is_strikes(&self) -> bool {
+        matches!(self, Self::Strikes { .. })
+    }
+    /// Measured strikes that are left out.
+    pub(super) fn left_out(&self) -> usize {
+        if let Self::Strikes { index, .. } = self { index.iter().filter(|index| index.is_none()).count() } else { 0 }
+    }
     /// Number of residuals.
     pub(super) fn len(&self) -> usize {
         match self {

@@ -9,9 +9,8 @@ use super::{MeasuredHeights, MeasuredStrike, Set, Which};
 const RESTITUTIONS: [f64; 12] = [0.02, 0.08, 0.15, 0.22, 0.3, 0.38, 0.46, 0.55, 0.65, 0.75, 0.85, 0.95];
 /// Radii of gyration that are tried, over that of the product file.
 const GYRATIONS: [f64; 7] = [1.0, 0.7, 0.8, 0.9, 1.1, 1.25, 1.5];
-/// So many of the best go on at first; of heights and accelerations, where the best start is less often the one that leads there.
-pub(super) const TAKEN: usize = 4;
-pub(super) const TAKEN_BY_CURVES: usize = 8;
+/// So many of the best go on.
+pub(super) const TAKEN: usize = 8;
 /// Strikes and pulses that a start is found from, at most.
 const MOST: usize = 32;
 /// Of the first few, which gravity and contacts hardly change, and of all.
@@ -36,7 +35,7 @@ pub(super) fn starts(drop: &Drop<'_>, taken: usize) -> Vec<Vec<f64>> {
 }
 
 /// How far a start is off: of each datum the logarithm, so that a start counts for what it explains, not for what it does not.
-fn misfit(drop: &Drop<'_>, x: &[f64]) -> f64 {
+pub(super) fn misfit(drop: &Drop<'_>, x: &[f64]) -> f64 {
     let residuals = drop.residuals(x);
     let mut from = 0;
     let mut sum = 0.0;
@@ -81,7 +80,7 @@ fn at(drop: &Drop<'_>, x: &[f64]) -> Vec<Vec<f64>> {
 }
 
 /// Gap over speed and first touch by linear regression on the train without gravity, over so many strikes.
-fn by_strikes(
+pub(super) fn by_strikes(
     drop: &Drop<'_>,
     set: usize,
     strikes: &[MeasuredStrike],

@@ -1,9 +1,11 @@
 //! What the data tell: which unknowns are left free, and how far they may be off.
 
+use super::criterion::{Faults, Score, chi_square};
 use super::drop::{CONTACT, DIFFERENCE, Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED, SPIN};
+use super::matching::CHANCE as ODD;
 use super::region::Region;
 use super::solve::{Minimum, Problem};
-use super::starts::{TAKEN_BY_CURVES, starts};
+use super::starts::{TAKEN, starts};
 use super::student;
 use super::{Error, Set};
 
@@ -47,29 +49,40 @@ const CHANCE: f64 = 1e-2;
 pub(super) struct Told {
     pub(super) minimum: Minimum,
     pub(super) free: Vec<usize>,
-    /// Unknowns that are held, and why.
+    /// Unknowns that are held, or within the range of the product file, and why.
     pub(super) held: Vec<(usize, String)>,
     pub(super) degrees: usize,
-    /// Standard deviation of a residual; none where nothing tells it.
-    pub(super) scatter: Option<f64>,
-    /// Residuals scatter more than the deviations given, by this factor.
+    /// Standard deviation of a residual, and the degrees of freedom that tell it; none where nothing does.
+    pub(super) scatter: Option<(f64, Option<f64>)>,
+    /// Residuals scatter more than the deviations given, by this factor: the drop does not explain the data.
     pub(super) excess: Option<f64>,
+    /// What it is worth among others.
+    pub(super) score: Score,
 }
 
-/// Finds it. `known`: whether the deviations of all records are given; `begin`: unknowns that explain the data already.
-pub(super) fn find(drop: &mut Drop<'_>, known: bool, begin: Option<Vec<f64>>) -> Result<Told, Error> {
+/// Finds it. `known`: whether the deviations of all records are given; `begin`: unknowns that explain the data already, and the one that
+/// is free beside those that such records tell at least; `faults`: what strikes were dropped or invented.
+pub(super) fn find(
+    drop: &mut Drop<'_>,
+    known: bool,
+    begin: Option<(Vec<f64>, Option<usize>)>,
+    faults: Faults,
+) -> Result<Told, Error> {
     let count: usize = drop.sets.iter().map(Set::len).sum();
-    let begins = begin.map_or_else(|| starts(drop, TAKEN_BY_CURVES), |x| vec![x]);
+    let (begins, freed) = match begin {
+        Some((x, freed)) => (vec![x], freed),
+        None => (starts(drop, TAKEN), None),
+    };
     drop.is_rough = true;
-    let mut told = Search { drop, known, count }.base(&begins)?;
-    drop.is_rough = false;
+    let mut search = Search { drop, known, count, faults };
+    let mut told = search.base(&begins, freed)?;
+    search.drop.is_rough = false;
     for again in [true, false] {
         // Records of several kinds count by how well each is explained.
-        if drop.sets.len() > 1 && !known {
-            drop.weigh(&told.minimum.x);
+        if search.drop.sets.len() > 1 && !known {
+            search.drop.weigh(&told.minimum.x);
         }
-        let search = Search { drop, known, count };
-        search.refit(&mut told);
+        told.minimum = search.drop.settle(&told.minimum.x, &told.free, known);
         if again {
             search.hold_untold(&mut told);
             search.free_more(&mut told);
@@ -129,14 +142,15 @@ impl Drop<'_> {
 }
 
 struct Search<'s, 'd> {
-    drop: &'s Drop<'d>,
+    drop: &'s mut Drop<'d>,
     known: bool,
     count: usize,
+    faults: Faults,
 }
 
 impl Search<'_, '_> {
     /// From the best of the starts, with the unknowns that such records tell at least.
-    fn base(&self, starts: &[Vec<f64>]) -> Result<Told, Error> {
+    fn base(&mut self, starts: &[Vec<f64>], freed: Option<usize>) -> Result<Told, Error> {
         let has = |is: fn(&Set<'_>) -> bool| self.drop.sets.iter().any(is);
         let heights = has(|set| matches!(set, Set::Heights { .. }));
         let acceleration = has(|set| matches!(set, Set::Acceleration { .. }));
@@ -153,88 +167,93 @@ impl Search<'_, '_> {
         if self.count > free.len() + usize::from(!self.known) && !self.drop.known.gyration_known {
             free.push(GYRATION);
         }
-        if starts.iter().any(|x| x[DIFFERENCE].abs() > 0.0) {
-            free.push(DIFFERENCE);
-        }
+        free.extend(freed.filter(|unknown| !free.contains(unknown)));
         free.truncate(self.count);
+        let ranged = [RESTITUTION, SPEED, CONTACT].into_iter().filter(|unknown| !free.contains(unknown));
+        self.drop.ranged = ranged.filter(|&unknown| unknown != CONTACT || self.drop.contacts).collect();
+        let drop = &*self.drop;
+        self.drop.ranged = drop.ranged.iter().copied().filter(|&unknown| drop.range(unknown).is_some()).collect();
+        let all = self.drop.with_ranged(&free);
         // Each strike multiplies what is off before it: the early part of a record comes first.
         let staged = |x: &Vec<f64>| {
             let x = EARLY.iter().fold(x.clone(), |x, share| match self.drop.early(&x, *share) {
-                Some(early) => early.problem().minimize(&x, &free).x,
+                Some(early) => early.problem().minimize(&x, &all).x,
                 None => x,
             });
-            self.drop.problem().minimize(&x, &free)
+            self.drop.problem().minimize(&x, &all)
         };
         let minimum = starts.iter().map(staged).min_by(|a, b| a.sum().total_cmp(&b.sum()));
         let minimum = minimum.filter(|minimum| self.drop.path(&minimum.x).is_some()).ok_or(Error::NoDrop("data"))?;
-        let mut told = Told { minimum, free, held: Vec::new(), degrees: 0, scatter: None, excess: None };
+        let score = Score::new(0.0, 1, 0, Faults::default(), true);
+        let mut told = Told { minimum, free, held: Vec::new(), degrees: 0, scatter: None, excess: None, score };
         self.judge(&mut told);
         Ok(told)
     }
 
-    fn refit(&self, told: &mut Told) {
-        told.minimum = self.drop.problem().minimize(&told.minimum.x, &told.free);
-    }
-
-    /// Degrees of freedom and scatter.
+    /// Degrees of freedom, scatter, and what it is worth.
     fn judge(&self, told: &mut Told) {
         told.degrees = self.count.saturating_sub(told.free.len());
         #[expect(clippy::cast_precision_loss, reason = "a count of data")]
-        let (degrees, sum) = (told.degrees as f64, told.minimum.sum());
-        let found = (told.degrees > 0).then(|| (sum / degrees).sqrt());
-        told.scatter = if self.known { Some(1.0) } else { found };
-        told.excess = None;
-        // Five standard deviations of χ²: what is given is not what the residuals scatter by.
-        if self.known && told.degrees > 0 && sum > degrees + 5.0 * (2.0 * degrees).sqrt() {
-            (told.scatter, told.excess) = (found, found);
-        }
+        let (degrees, count, sum) = (told.degrees as f64, self.count as f64, told.minimum.sum());
+        told.scatter = self.scatter(&told.minimum, &told.free);
+        let is_odd = self.known && told.degrees > 0 && sum > chi_square(ODD, told.degrees);
+        told.excess = is_odd.then(|| (sum / degrees).sqrt());
+        let sum = sum.max(count * self.drop.least_scatter().powi(2));
+        let dropped = self.drop.sets.iter().map(Set::left_out).sum::<usize>();
+        told.score = Score::new(sum, self.count + dropped, told.free.len(), self.faults, self.known);
     }
 
     /// Leaves unknowns free, one by one, as long as the data tell them.
-    fn free_more(&self, told: &mut Told) {
-        for unknown in [GYRATION, SPEED, CONTACT, SPIN, DIFFERENCE] {
+    fn free_more(&mut self, told: &mut Told) {
+        for unknown in [RESTITUTION, GYRATION, SPEED, CONTACT, SPIN, DIFFERENCE] {
             let is_held = told.held.iter().any(|(held, _)| *held == unknown);
             if told.free.contains(&unknown) || is_held || unknown == CONTACT && !self.drop.contacts {
                 continue;
             }
-            if unknown == GYRATION && self.drop.known.gyration_known {
-                told.held.push((unknown, "it was given as known".to_owned()));
-                continue;
-            }
-            if unknown == DIFFERENCE && self.drop.contacts {
-                let reason = "contacts that take time are computed with one".to_owned();
+            if let Err(reason) = self.free_one(told, unknown) {
                 told.held.push((unknown, reason));
-                continue;
-            }
-            // One datum more than unknowns: a second drop that explains the same would not be noticed without.
-            let needed = told.free.len() + 2;
-            if needed > self.count {
-                let reason = format!("{} data are too few to check {} unknowns", self.count, told.free.len() + 1);
-                let reason = if unknown == SPEED { self.reason(SPEED, &[], reason) } else { reason };
-                told.held.push((unknown, reason));
-                continue;
-            }
-            let mut more = told.free.clone();
-            more.push(unknown);
-            let minimum = self.drop.problem().minimize(&told.minimum.x, &more);
-            // At the new minimum it may be told less than at the old one. At the old one the scatter is not that of chance alone if
-            // the value that is held is wrong.
-            let untold = || {
-                let before = self.untold(&told.minimum, &more, Some(unknown));
-                before.or_else(|| self.untold(&minimum, &more, Some(unknown)))
-            };
-            if !self.contradicts(&told.minimum, &minimum, more.len(), CHANCE)
-                && let Some((_, reason)) = untold()
-            {
-                told.held.push((unknown, reason));
-            } else {
-                (told.minimum, told.free) = (minimum, more);
             }
         }
     }
 
-    /// Holds what turns out not to be told after all, unless the data contradict the value of the product file.
-    fn hold_untold(&self, told: &mut Told) {
+    /// Leaves one more free, or says why not.
+    fn free_one(&mut self, told: &mut Told, unknown: usize) -> Result<(), String> {
+        if unknown == GYRATION && self.drop.known.gyration_known {
+            return Err("it was given as known".to_owned());
+        }
+        if unknown == DIFFERENCE && self.drop.contacts {
+            return Err("contacts that take time are computed with one".to_owned());
+        }
+        // One datum more than unknowns: a second drop that explains the same would not be noticed without.
+        // Where the timing is not given, neither is one that a range would explain.
+        let ranged = if self.known { 0 } else { self.drop.ranged.iter().filter(|other| **other != unknown).count() };
+        if told.free.len() + ranged + 2 > self.count {
+            let few = format!("{} data are too few to check {} unknowns", self.count, told.free.len() + 1);
+            return Err(if unknown == SPEED { self.reason(SPEED, &[], few) } else { few });
+        }
+        let mut more = told.free.clone();
+        more.push(unknown);
+        let ranged = self.drop.ranged.clone();
+        self.drop.ranged.retain(|other| *other != unknown);
+        let minimum = self.drop.problem().minimize(&told.minimum.x, &self.drop.with_ranged(&more));
+        // At the new minimum it may be told less than at the old one. At the old one the scatter is not that of chance alone if
+        // the value that is held is wrong.
+        let untold = || {
+            let before = self.untold(&told.minimum, &more, Some(unknown));
+            before.or_else(|| self.untold(&minimum, &more, Some(unknown)))
+        };
+        if !self.contradicts(&told.minimum, &minimum, &more, CHANCE)
+            && let Some((_, reason)) = untold()
+        {
+            self.drop.ranged = ranged;
+            return Err(reason);
+        }
+        (told.minimum, told.free) = (minimum, more);
+        Ok(())
+    }
+
+    /// Holds what turns out not to be told after all, unless the data contradict the product file.
+    fn hold_untold(&mut self, told: &mut Told) {
         while let Some((unknown, reason)) = self.untold(&told.minimum, &told.free, None) {
             // The file has no range of the radius of gyration that the others could be widened by: where the intervals can be as
             // wide as the data leave them, it stays free.
@@ -244,8 +263,11 @@ impl Search<'_, '_> {
             let mut x = told.minimum.x.clone();
             x[unknown] = self.drop.given()[unknown];
             let free: Vec<usize> = told.free.iter().copied().filter(|free| *free != unknown).collect();
-            let minimum = self.drop.problem().minimize(&x, &free);
-            if self.contradicts(&minimum, &told.minimum, told.free.len(), ALPHA) {
+            let ranged = self.drop.ranged.clone();
+            self.drop.ranged.extend(self.drop.range(unknown).map(|_| unknown));
+            let minimum = self.drop.settle(&x, &free, self.known);
+            if self.contradicts(&minimum, &told.minimum, &told.free, ALPHA) {
+                self.drop.ranged = ranged;
                 break;
             }
             (told.minimum, told.free) = (minimum, free);
@@ -253,31 +275,28 @@ impl Search<'_, '_> {
         }
     }
 
-    /// Whether the data contradict the value at which an unknown is held: so much larger than with all of `count` unknowns free the
+    /// Whether the data contradict the value at which an unknown is held: so much larger than with all of `free` the
     /// sum of squares is by chance less often than `alpha` (the F test of one unknown, where F is the square of Student's t).
-    fn contradicts(&self, held: &Minimum, free: &Minimum, count: usize, alpha: f64) -> bool {
-        let degrees = self.count.saturating_sub(count);
-        let rise = held.sum() - free.sum();
+    fn contradicts(&self, held: &Minimum, minimum: &Minimum, free: &[usize], alpha: f64) -> bool {
+        let Some((scatter, degrees)) = self.scatter(minimum, free) else { return false };
+        held.sum() - minimum.sum() > (student::two_sided(alpha, degrees) * scatter).powi(2)
+    }
+
+    /// Standard deviation of a residual, and the degrees of freedom that tell it where it is not given; none where nothing tells it.
+    fn scatter(&self, minimum: &Minimum, free: &[usize]) -> Option<(f64, Option<f64>)> {
         if self.known {
-            return rise > student::two_sided(alpha, None).powi(2);
+            return Some((1.0, None));
         }
-        #[expect(clippy::cast_precision_loss, reason = "a count of data")]
-        let variance = free.sum() / degrees as f64;
-        degrees > 0 && rise > student::two_sided(alpha, Some(degrees)).powi(2) * variance
+        self.drop.scattered(minimum, free).map(|(scatter, degrees)| (scatter, Some(degrees)))
     }
 
     /// An unknown that the data do not tell beside the others, and why; `last` is the one to name if it is part of it.
     fn untold(&self, minimum: &Minimum, free: &[usize], last: Option<usize>) -> Option<(usize, String)> {
-        let degrees = self.count.checked_sub(free.len())?;
-        if degrees == 0 && !self.known {
-            return None;
-        }
-        #[expect(clippy::cast_precision_loss, reason = "a count of data")]
-        let scatter = if self.known { 1.0 } else { (minimum.sum() / degrees as f64).sqrt() };
-        let t = student::two_sided(ALPHA, (!self.known).then_some(degrees));
+        let (scatter, degrees) = self.scatter(minimum, free)?;
+        let t = student::two_sided(ALPHA, degrees);
         let mut jacobian = self.drop.problem().jacobian(&minimum.x, free);
         for (mut column, unknown) in jacobian.column_iter_mut().zip(free) {
-            column *= half_width(*unknown);
+            column *= self.half_width(*unknown);
         }
         let svd = jacobian.svd(false, true);
         let directions = svd.v_t?;
@@ -296,9 +315,16 @@ impl Search<'_, '_> {
         Some((free[k], self.reason(free[k], &others, little)))
     }
 
+    /// How well an unknown has to be known to be of use: strikes are to tell it better than the product file.
+    fn half_width(&self, unknown: usize) -> f64 {
+        let is_given = matches!(unknown, SPEED | CONTACT) && self.drop.sets.iter().all(Set::is_strikes);
+        let given = if is_given { self.drop.range(unknown).map_or(0.0, |[_, half]| half) } else { f64::INFINITY };
+        half_width(unknown).min(given)
+    }
+
     /// Why an unknown is not told: what undoes it, or else what is given.
     fn reason(&self, unknown: usize, others: &[&str], alone: String) -> String {
-        let strikes = self.drop.sets.iter().all(|set| matches!(set, Set::Strikes { .. }));
+        let strikes = self.drop.sets.iter().all(Set::is_strikes);
         match (unknown, others) {
             (SPEED, _) if strikes => {
                 "strike times alone tell the gap over the speed, not the gap and the speed".to_owned()
@@ -312,12 +338,13 @@ impl Search<'_, '_> {
 }
 
 impl Told {
-    /// How far the unknowns may be off together; none where nothing tells the scatter.
-    pub(super) fn region<'a>(&'a self, drop: &Drop<'_>, problem: &'a Problem<'a>, known: bool) -> Option<Region<'a>> {
-        let normal = known && self.excess.is_none();
-        let t = student::two_sided(ALPHA, (!normal).then_some(self.degrees.max(1)));
-        let ranges = (0..OFFSET).filter(|unknown| !self.free.contains(unknown));
-        let ranges = ranges.map(|unknown| (unknown, drop.half_range(unknown))).filter(|(_, range)| *range > 0.0);
-        Region::new(problem, &self.minimum, &self.free, &ranges.collect::<Vec<_>>(), t * self.scatter?)
+    /// How far the unknowns, `all` that are free or within a range, may be off together; none where nothing tells the scatter, or
+    /// where the drop does not explain the data.
+    pub(super) fn region<'a>(&'a self, problem: &'a Problem<'a>, all: &'a [usize]) -> Option<Region<'a>> {
+        if self.excess.is_some() {
+            return None;
+        }
+        let (scatter, degrees) = self.scatter?;
+        Region::new(problem, &self.minimum, all, scatter * student::two_sided(ALPHA, degrees))
     }
 }

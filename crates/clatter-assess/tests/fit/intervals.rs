@@ -7,7 +7,7 @@ use crate::synthetic::{LENGTH_M, Random, Truth, gyration_m, holds, known, noisy,
 
 /// 93 to 97 of 100: for a true 95 % and a thousand drops chance leaves these bounds once in 300 times, which is three standard
 /// deviations; so many are allowed of fewer drops.
-fn assert_covers(name: &str, held: usize, of: usize) {
+pub(crate) fn assert_covers(name: &str, held: usize, of: usize) {
     #[expect(clippy::cast_precision_loss, reason = "a thousand")]
     let (held_count, count) = (held as f64, of as f64);
     let allowed = (3.0 * (0.95 * 0.05 / count).sqrt()).max(0.02);

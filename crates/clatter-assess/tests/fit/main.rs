@@ -1,10 +1,12 @@
-//! Fits to synthetic drops whose truth is known. Strikes come from the plain recursion of the paper's Eqs. 1 to 3, heights and
-//! accelerations from small steps in time: nothing here shares code with the flights that the fit computes.
+//! Fits to synthetic drops whose truth is known. Strikes come from the plain recursion of the paper's Eqs. 1 to 3 or, with
+//! gravity and at real tilt, from parabolas; heights and accelerations from small steps in time: nothing here shares code with the flights that the fit computes.
 
 #![cfg(test)]
 
 mod curves;
+mod falling;
 mod intervals;
+mod real;
 mod strikes;
 mod synthetic;
 

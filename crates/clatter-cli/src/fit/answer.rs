@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use clatter::End;
-use clatter_assess::fit::{Estimate, Measured, RecordFit, StrikeFit, Untold};
+use clatter_assess::fit::{Estimate, Explanation, Measured, RecordFit, StrikeFit, Untold};
 use serde::Serialize;
 
 use super::{Answered, Record};
@@ -30,6 +30,7 @@ pub(super) struct Answer<'a> {
     untold: Vec<UntoldJson<'a>>,
     correlations: Vec<Vec<Json>>,
     records: Vec<RecordJson<'a>>,
+    others: Vec<OtherJson<'a>>,
     computed: Vec<ComputedJson>,
     notes: &'a [String],
 }
@@ -70,6 +71,14 @@ struct StrikeJson {
 }
 
 #[derive(Serialize)]
+struct OtherJson<'a> {
+    first: &'static str,
+    missing: &'a [Vec<usize>],
+    left_out_s: Vec<Vec<Json>>,
+    estimates: Vec<EstimateJson<'a>>,
+}
+
+#[derive(Serialize)]
 struct ComputedJson {
     time_s: Json,
     end: &'static str,
@@ -84,6 +93,12 @@ impl<'a> Answer<'a> {
             value: Json(estimate.value),
             interval: estimate.interval.map(|interval| interval.map(Json)),
             note: estimate.note.as_deref(),
+        };
+        let other = |other: &'a Explanation| OtherJson {
+            first: letter(other.first),
+            missing: &other.missing,
+            left_out_s: other.left_out_s.iter().map(|all| all.iter().copied().map(Json).collect()).collect(),
+            estimates: other.estimates.iter().map(estimate).collect(),
         };
         let untold = |untold: &'a Untold| UntoldJson {
             quantity: untold.quantity.name(),
@@ -116,6 +131,7 @@ impl<'a> Answer<'a> {
             untold: fit.untold.iter().map(untold).collect(),
             correlations: fit.correlations.iter().map(|row| row.iter().copied().map(Json).collect()).collect(),
             records: files.zip(&fit.records).map(record).collect(),
+            others: fit.others.iter().map(other).collect(),
             computed: fit.computed.iter().map(computed).collect(),
             notes: &fit.notes,
         }

@@ -1,0 +1,201 @@
+//! Where searches begin in the strikes of one record: drops that meet the first of them exactly.
+//!
+//! Each strike multiplies what is off before it, so that the sum of squares over all strikes has a valley that is long and
+//! narrow. Its floor is found first: for any restitution the times of the second and third strike tell the gap over the speed and the
+//! radius of gyration. Along the floor the next strike tells which restitutions there are.
+
+use super::drop::{Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED};
+use super::starts::{by_strikes, misfit};
+use super::{Set, Which};
+
+/// Radii of gyration from which the one is sought that the first strikes ask for, over that of the product file.
+const GYRATIONS: [f64; 3] = [1.0, 0.7, 1.4];
+/// Steps of a search at most.
+const STEPS: usize = 10;
+/// So many times the space between two restitutions is halved.
+const HALVED: usize = 6;
+/// Strikes are met that are off by this share of the mean time between them: far below what tells restitutions apart.
+const MET: f64 = 1e-6;
+/// A step of an unknown for its derivative, and the longest one of a search; both as shares.
+const SMALL: f64 = 1e-6;
+const LONGEST: f64 = 0.5;
+
+/// Where a search may begin; those that miss all strikes by the least come first.
+pub(super) struct Begin {
+    /// Drops that meet as many of the first strikes as there are unknowns.
+    pub(super) met: Vec<Vec<f64>>,
+    /// These and the drops that meet one strike less.
+    pub(super) near: Vec<Vec<f64>>,
+}
+
+/// Drops that meet the first strikes, for a speed as a logarithm and among so many restitutions. The second and third strike are met
+/// later by `late_s`, which noise may be.
+pub(super) fn meeting(drop: &Drop<'_>, free: &[usize], ln_speed: f64, restitutions: usize, late_s: [f64; 2]) -> Begin {
+    let mut rigid = Drop { is_rough: false, ..drop.clone() };
+    (rigid.contacts, rigid.ranged) = (false, Vec::new());
+    let solved: Vec<usize> = [GAP_TIME, GYRATION].into_iter().filter(|unknown| free.contains(unknown)).collect();
+    let floor = Floor { drop: rigid.first(solved.len() + 1), next: rigid.first(solved.len() + 2), solved, late_s };
+    let mut given = drop.given();
+    given[SPEED] = ln_speed;
+    let along = if free.contains(&RESTITUTION) {
+        floor.along(&given, restitutions)
+    } else {
+        vec![floor.at(given[RESTITUTION], None, &given)]
+    };
+    let met = if free.contains(&RESTITUTION) {
+        floor.met(&along, &given)
+    } else {
+        along.iter().flatten().map(|(x, _)| x.clone()).collect()
+    };
+    let sorted = |all: Vec<Vec<f64>>| {
+        let mut all: Vec<(f64, Vec<f64>)> = all.into_iter().map(|x| (misfit(&rigid, &x), x)).collect();
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        all.into_iter().map(|(_, x)| x).collect()
+    };
+    let near = met.iter().cloned().chain(along.into_iter().flatten().map(|(x, _)| x)).collect();
+    Begin { met: sorted(met), near: sorted(near) }
+}
+
+/// The drops that meet the first strikes.
+struct Floor<'a> {
+    /// With these strikes alone, and with the next one.
+    drop: Drop<'a>,
+    next: Drop<'a>,
+    solved: Vec<usize>,
+    late_s: [f64; 2],
+}
+
+impl Floor<'_> {
+    /// The drops with so many restitutions, and how far the next strike is off; none where the first strikes are not met.
+    fn along(&self, given: &[f64], count: usize) -> Vec<Option<(Vec<f64>, f64)>> {
+        let mut all: Vec<Option<(Vec<f64>, f64)>> = Vec::with_capacity(count);
+        for k in 0..count {
+            #[expect(clippy::cast_precision_loss, reason = "some dozen")]
+            let restitution = (k as f64 + 0.5) / count as f64;
+            let before = all.last().and_then(Option::as_ref);
+            all.push(self.at(restitution, before.map(|(x, _)| &x[..]), given));
+        }
+        all
+    }
+
+    /// Where the next strike is met too, and about where it is nearly met: the noise of the first strikes may hide that it is.
+    fn met(&self, all: &[Option<(Vec<f64>, f64)>], given: &[f64]) -> Vec<Vec<f64>> {
+        let met = all.windows(2).filter_map(|two| {
+            let [below, above] = [two[0].as_ref()?, two[1].as_ref()?];
+            (below.1.signum() != above.1.signum()).then(|| self.between(below.clone(), above.clone(), given))
+        });
+        let nearly = all.windows(3).filter_map(|three| {
+            let [before, at, after] = [three[0].as_ref()?, three[1].as_ref()?, three[2].as_ref()?];
+            let is_farther = |other: f64| at.1.signum() == other.signum() && at.1.abs() < other.abs();
+            (is_farther(before.1) && is_farther(after.1)).then(|| [before, at, after].map(|(x, _)| x.clone()))
+        });
+        met.chain(nearly.flatten()).collect()
+    }
+
+    /// Between two drops of which one is too early for the next strike and one too late.
+    fn between(&self, mut below: (Vec<f64>, f64), mut above: (Vec<f64>, f64), given: &[f64]) -> Vec<f64> {
+        for _ in 0..HALVED {
+            let restitution = 0.5 * (below.0[RESTITUTION] + above.0[RESTITUTION]);
+            let near = if below.1.is_finite() { &below.0 } else { &above.0 };
+            let Some(middle) = self.at(restitution, Some(near), given) else { break };
+            if middle.1.signum() == below.1.signum() {
+                below = middle;
+            } else {
+                above = middle;
+            }
+        }
+        if below.1.is_finite() && below.1.abs() <= above.1.abs() { below.0 } else { above.0 }
+    }
+
+    /// The one with a restitution, and how far the next strike is off; near a known one where there is one.
+    fn at(&self, restitution: f64, near: Option<&[f64]>, given: &[f64]) -> Option<(Vec<f64>, f64)> {
+        let from_given = || {
+            let factors = if self.solved.contains(&GYRATION) { &GYRATIONS[..] } else { &GYRATIONS[..1] };
+            factors.iter().find_map(|factor| {
+                let mut x = given.to_vec();
+                x[GYRATION] += libm::log(*factor);
+                x[RESTITUTION] = restitution;
+                let Set::Strikes { strikes, index, .. } = &self.drop.sets[0] else { return None };
+                self.meet(by_strikes(&self.drop, 0, strikes, index, strikes.len(), x))
+            })
+        };
+        let along = near.and_then(|near| {
+            let mut x = near.to_vec();
+            x[RESTITUTION] = restitution;
+            self.meet(x)
+        });
+        let x = along.or_else(from_given)?;
+        // One that never happens is infinitely late; where none was measured, nothing has to be met.
+        let off = self
+            .off(&self.next, &x)
+            .map_or(f64::NEG_INFINITY, |off| off.get(self.solved.len()).copied().unwrap_or(0.0));
+        Some((x, off))
+    }
+
+    /// Newton's method from unknowns near by.
+    fn meet(&self, mut x: Vec<f64>) -> Option<Vec<f64>> {
+        let count = self.solved.len();
+        let bounds = self.drop.bounds();
+        let mut least = f64::INFINITY;
+        for k in 0..STEPS {
+            let off = self.off(&self.drop, &x).filter(|off| off.len() == count)?;
+            if off.iter().all(|off| off.abs() <= MET) {
+                let Set::Strikes { deviation, .. } = &self.drop.sets[0] else { return None };
+                x[OFFSET] += self.drop.residuals(&x)[0] * deviation / self.drop.unit_s;
+                return Some(x);
+            }
+            let most = off.iter().fold(0.0_f64, |most, off| most.max(off.abs()));
+            // From afar the first step may lead away.
+            if k > 1 && most >= least {
+                return None;
+            }
+            least = most;
+            let mut slopes = nalgebra::DMatrix::zeros(count, count);
+            for (column, &unknown) in self.solved.iter().enumerate() {
+                let mut beside = x.clone();
+                beside[unknown] += SMALL;
+                let changed = self.off(&self.drop, &beside)?;
+                for (row, (changed, off)) in changed.iter().zip(&off).enumerate() {
+                    slopes[(row, column)] = (changed - off) / SMALL;
+                }
+            }
+            let step = slopes.lu().solve(&nalgebra::DVector::from_vec(off))?;
+            let shorten = (LONGEST / step.amax()).min(1.0);
+            for (&unknown, step) in self.solved.iter().zip(&step) {
+                x[unknown] -= shorten * step;
+                if !(bounds[unknown][0]..=bounds[unknown][1]).contains(&x[unknown]) {
+                    return None;
+                }
+            }
+        }
+        None
+    }
+
+    /// How far strikes after the first are off from it, over the mean time between strikes; none where one does not happen.
+    fn off(&self, drop: &Drop<'_>, x: &[f64]) -> Option<Vec<f64>> {
+        let path = drop.path(x)?;
+        let Set::Strikes { strikes, index, .. } = &drop.sets[0] else { return None };
+        let time = |(measured, which): (&super::MeasuredStrike, &Option<Which>)| {
+            let place = (*which)?.find(drop, path.strikes());
+            Some(place.map(|place| measured.time_s - path.strikes()[place].time_s))
+        };
+        let all: Option<Vec<f64>> = strikes.iter().zip(index).filter_map(time).collect();
+        let all = all?;
+        let (first, later) = all.split_first()?;
+        let late = self.late_s.iter().take(self.solved.len()).chain(std::iter::repeat(&0.0));
+        Some(later.iter().zip(late).map(|(off, late)| (off - first + late) / drop.unit_s).collect())
+    }
+}
+
+impl Drop<'_> {
+    /// The same with so many of the first strikes that are used.
+    pub(super) fn first(&self, count: usize) -> Self {
+        let mut first = self.clone();
+        if let Set::Strikes { index, .. } = &mut first.sets[0] {
+            let used = index.iter().enumerate().filter(|(_, which)| which.is_some());
+            let until = used.map(|(k, _)| k + 1).nth(count.saturating_sub(1)).unwrap_or(index.len());
+            index[until..].fill(None);
+        }
+        first
+    }
+}
