@@ -336,6 +336,7 @@ fn worst_case(drop: &SingleDrop, asked: &Asked, ranges: &Ranges<'_>) -> WorstCas
         speed_m_s: drop.speed_m_s,
         restitution: drop.restitution,
         contact_time_s: drop.contact_time_s,
+        gyration_m: (!ranges.product.gyration_m.is_value()).then(|| drop.body.gyration_m()),
         frequency_hz: asked.part.map(|part| part.omega() / TAU),
         damping_ratio: asked.part.map(|part| part.damping().get()),
         position_m: asked.place.position_m,

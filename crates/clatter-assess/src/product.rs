@@ -26,8 +26,10 @@ pub struct ProductFile {
 pub struct Product {
     /// As the file names it.
     pub name: String,
-    /// Length, center of mass and radius of gyration.
+    /// Length, center of mass and radius of gyration; where that has a range, of the middle of it.
     pub body: Body,
+    /// Radius of gyration about the center of mass, in m.
+    pub gyration_m: Spread,
     /// Mass, where the file gives it: it cancels out of every answer.
     pub mass_kg: Option<f64>,
     /// Coefficient of restitution of its ends, within [0, 1].
@@ -43,6 +45,19 @@ impl Product {
     #[must_use]
     pub fn law(&self) -> ContactLaw {
         self.contact_law.unwrap_or_default()
+    }
+    /// The body with this radius of gyration, in m.
+    ///
+    /// # Errors
+    /// [`Error::Bar`] unless it is finite and positive.
+    pub fn body_with(&self, gyration_m: f64) -> Result<Body, Error> {
+        let [a, b] = self.body.arms_m();
+        Ok(Body::off_center(a, b, gyration_m)?)
+    }
+    /// The body at `share` in [0, 1] of the range of its radius of gyration.
+    pub(crate) fn body_at(&self, share: f64) -> Body {
+        // Both ends of the range were checked as it was read.
+        self.body_with(self.gyration_m.at(share)).unwrap_or(self.body)
     }
 }
 

@@ -23,7 +23,7 @@ use crate::drop::{Followed, SingleDrop, Until};
 use crate::engine::{Answer, Felt, Part, once};
 use crate::{Component, Error, Limit, LimitKind, Mount, WorstCase};
 use climb::{CLIMBS, EDGES_REACH, EDGES_TRIES, LATE_REACH, LATE_TRIES, NEAR, starts};
-use ranges::{DAMPING, FREQUENCY, RESTITUTION};
+use ranges::{CONTACT, DAMPING, FREQUENCY, GYRATION, RESTITUTION, SPEED, TILT};
 pub(crate) use ranges::{Place, Ranges};
 
 /// Is told how much of how much is done, from any thread, and says whether to go on.
@@ -347,7 +347,7 @@ impl Ranges<'_> {
         others: u32,
         above: f64,
     ) -> Result<Option<Asked>, Error> {
-        let [.., frequency, damping] = self.free(task);
+        let free = self.free(task);
         let end = if task.limit.kind == LimitKind::Acceleration { 1.0 } else { 0.0 };
         let mut worst = Self::in_drop(task, &place.with(FREQUENCY, end), felt, above)?;
         let mut ask = |place: &Place| -> Result<(), Error> {
@@ -355,11 +355,11 @@ impl Ranges<'_> {
             worst = Self::in_drop(task, place, felt, above)?.or(worst);
             Ok(())
         };
-        for n in 0..if frequency { others } else { 0 } {
+        for n in 0..if free[FREQUENCY] { others } else { 0 } {
             let share = (GOLDEN * f64::from(k * others + n)).fract();
             ask(&place.with(FREQUENCY, share))?;
         }
-        if damping {
+        if free[DAMPING] {
             ask(&place.with(FREQUENCY, end).with(DAMPING, 1.0))?;
         }
         Ok(worst)
@@ -435,25 +435,27 @@ impl Ranges<'_> {
             if self.free(task)[axis] { vec![own, 0.0, 1.0] } else { vec![own] }
         };
         let mut most = 0.0_f64;
-        for speed in [found.shares[1], 1.0] {
-            for restitution in values(2) {
-                for contact in values(3) {
-                    let [.., frequency, damping] = found.shares;
-                    let shares = [0.0, speed, restitution, contact, frequency, damping];
-                    let place = Place { first, shares, ..found };
-                    let drop = SingleDrop { tilt_rad, flat: false, ..self.single(&place) };
-                    let drop = SingleDrop { flat: drop.lands_as_one(self.merge_s), ..drop };
-                    let followed = Followed::until(&drop, self.model, self.tolerance.max(0.02), Until::Over);
-                    let Ok(followed) = followed else { continue };
-                    for position_m in task.component.ends_m() {
-                        let Ok(felt) = Felt::new(&followed, position_m) else { continue };
-                        let place = Place { position_m, ..place };
-                        let found = Self::in_drop(task, &place, &felt, most).ok().flatten();
-                        let others = self.most(task, &place, &felt, 0, FREQUENCIES_LATE, most).ok().flatten();
-                        let all = found.into_iter().chain(others).map(|asked| asked.answer.utilization());
-                        most = all.fold(most, f64::max);
-                    }
-                }
+        let mut places = vec![Place { first, ..found }.with(TILT, 0.0)];
+        for (axis, values) in [
+            (SPEED, vec![found.shares[SPEED], 1.0]),
+            (RESTITUTION, values(RESTITUTION)),
+            (CONTACT, values(CONTACT)),
+            (GYRATION, values(GYRATION)),
+        ] {
+            places = places.iter().flat_map(|place| values.iter().map(|&share| place.with(axis, share))).collect();
+        }
+        for place in places {
+            let drop = SingleDrop { tilt_rad, flat: false, ..self.single(&place) };
+            let drop = SingleDrop { flat: drop.lands_as_one(self.merge_s), ..drop };
+            let followed = Followed::until(&drop, self.model, self.tolerance.max(0.02), Until::Over);
+            let Ok(followed) = followed else { continue };
+            for position_m in task.component.ends_m() {
+                let Ok(felt) = Felt::new(&followed, position_m) else { continue };
+                let place = Place { position_m, ..place };
+                let found = Self::in_drop(task, &place, &felt, most).ok().flatten();
+                let others = self.most(task, &place, &felt, 0, FREQUENCIES_LATE, most).ok().flatten();
+                let all = found.into_iter().chain(others).map(|asked| asked.answer.utilization());
+                most = all.fold(most, f64::max);
             }
         }
         most

@@ -441,3 +441,26 @@ rattle_space = "500 mm"
         }
     }
 }
+
+/// A part near the end of a product whose radius of gyration is known to ± 15 %.
+const GYRATION: &str = r#"
+product = { name = "Bar", length = "140 mm", radius_of_gyration = ["35 mm", "47 mm"], restitution = 0.4, contact_time = "0.3 ms", contact_law = "hysteretic" }
+drop = { height = "1 m", tilt = ["1 deg", "8 deg"] }
+component = [{ name = "board", position = "50 mm", natural_frequency = "230 Hz", damping_ratio = 0.05, acceleration_limit = "900 gn" }]
+"#;
+
+/// The worst of a range of radii of gyration is at least that of every radius in it, and is one of a product that has it.
+#[test]
+fn the_worst_radius_of_gyration_counts() {
+    let told = only(GYRATION);
+    let demand = told.demand.unwrap();
+    let with_radius = |mm: f64| only(&with(GYRATION, r#"["35 mm", "47 mm"]"#, &format!("\"{mm} mm\""))).demand.unwrap();
+    for mm in [35.0, 37.0, 39.5, 41.0, 43.0, 45.5, 47.0] {
+        let one = with_radius(mm);
+        assert!(one <= demand * (1.0 + told.uncertainty), "{mm} mm asks for {one}, the range for {demand}");
+    }
+    let worst = told.worst_case.unwrap().gyration_m.unwrap();
+    assert!((0.035..=0.047).contains(&worst), "{worst}");
+    close(with_radius(1e3 * worst), demand, 0.01);
+    assert!(with_radius(47.0) < 0.9 * demand, "it would not show here");
+}

@@ -260,7 +260,7 @@ impl DropArgs {
         notes
             .extend(beside.masses.iter().flat_map(|piece| piece.slips(half)).map(|slip| ("warning", slip.to_string())));
         let turned = mirrored && beside.of_product;
-        let (center_of_mass, body) = self.body(half, beside, e, file.as_ref(), if turned { -1.0 } else { 1.0 })?;
+        let (center_of_mass, body) = self.body(half, beside, e, file.as_mut(), if turned { -1.0 } else { 1.0 })?;
         let scene = self.scene(body, e, [speed, height_m], tilt_deg, gravity)?;
         let part = file.as_mut().map(|file| file.part(half)).transpose()?.flatten();
         let shown = self.shown(length.and_then(|length| length.unit), beside, file.as_ref());
@@ -327,7 +327,7 @@ impl DropArgs {
         half: f64,
         beside: &Beside<'_>,
         e: f64,
-        file: Option<&OneDrop>,
+        file: Option<&mut OneDrop>,
         side: f64,
     ) -> Result<(f64, Body), Failure> {
         let center = self.center_of_mass.map(|place| place.relative("--center-of-mass", Some(half))).transpose()?;
@@ -340,7 +340,7 @@ impl DropArgs {
             }
             (Some(gyration), _) => {
                 let flag = if gyration.unit.is_some() { "--gyration" } else { "--gyration-m" };
-                let center = center.or(file.map(|file| file.inertia().0)).unwrap_or(0.0);
+                let center = center.or(file.map(|file| file.center_of_mass())).unwrap_or(0.0);
                 [(center, "--center-of-mass"), (gyration.si, flag)]
             }
             (None, pieces) => {

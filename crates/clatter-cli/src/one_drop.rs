@@ -142,10 +142,15 @@ impl OneDrop {
         self.file.product.body.length_m()
     }
     /// Position of the center of mass, and radius of gyration over the half-length.
-    pub(crate) fn inertia(&self) -> (f64, f64) {
-        let body = &self.file.product.body;
-        let ([a, b], side) = (body.arms_m(), if self.mirrored { -1.0 } else { 1.0 });
-        (side * (a - b) / (a + b) + 0.0, 2.0 * body.gyration_m() / (a + b))
+    pub(crate) fn inertia(&mut self) -> (f64, f64) {
+        let gyration_m = self.worst.as_ref().and_then(|worst| worst.gyration_m).unwrap_or_else(|| {
+            Self::take(&mut self.notes, "radius of gyration", &self.file.product.gyration_m, Taken::Middle, "m")
+        });
+        (self.center_of_mass(), 2.0 * gyration_m / self.length_m())
+    }
+    pub(crate) fn center_of_mass(&self) -> f64 {
+        let ([a, b], side) = (self.file.product.body.arms_m(), if self.mirrored { -1.0 } else { 1.0 });
+        side * (a - b) / (a + b) + 0.0
     }
     pub(crate) fn has_contact_time(&self) -> bool {
         self.file.product.contact_time_s.is_some()

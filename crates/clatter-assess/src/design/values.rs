@@ -98,7 +98,8 @@ impl Case<'_> {
         let specified = |way| 1e-3 * to_digits(1e3 * product.body.gyration_m(), 100.0 * (a + b), way);
         let nearest = specified(f64::round);
         let gyration = if nearest * nearest > a * b { specified(f64::floor) } else { nearest };
-        Some(Product { body: Body::off_center(a, b, gyration).ok()?, ..product })
+        let gyration_m = Spread::value(gyration).ok()?;
+        Some(Product { body: Body::off_center(a, b, gyration).ok()?, gyration_m, ..product })
     }
 
     /// The product with these values, and the part alone.
@@ -110,7 +111,10 @@ impl Case<'_> {
             let unit = lever.written_in(&self.file.product, self.component);
             let range = Spread::new(lo, hi, if lo < hi { Law::Range } else { Law::Value }).ok()?.written_in(unit);
             match (lever, &mut component.mount) {
-                (Lever::InertiaRatio, _) => product = Product { body: self.with_ratio(x)?.body, ..product },
+                (Lever::InertiaRatio, _) => {
+                    let Product { body, gyration_m, .. } = self.with_ratio(x)?;
+                    product = Product { body, gyration_m, ..product };
+                }
                 (Lever::Restitution, _) => product.restitution = range,
                 (Lever::Position, _) => component.position_m = range,
                 (Lever::Frequency, Mount::Suspended { frequency_hz, .. }) => *frequency_hz = range,

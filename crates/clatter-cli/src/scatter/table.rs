@@ -22,6 +22,7 @@ fn called(input: &Input) -> &'static str {
         Input::CriticalAcceleration(_) => "own critical acceleration",
         Input::First => "first end",
         Input::ContactTime => "contact time",
+        Input::Gyration => "radius of gyration",
         other => other.name(),
     }
 }

@@ -59,7 +59,7 @@ fn body(file: &ProductFile) -> String {
     format!(
         "length {}, radius of gyration {}{off}{mass}: inertia ratio q = {}",
         millimeters(body.length_m()),
-        millimeters(body.gyration_m()),
+        range(&file.product.gyration_m, 1e-3, "mm"),
         three(file.product.inertia_ratio()).replace('-', "−"),
     )
 }
