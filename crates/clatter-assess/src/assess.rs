@@ -49,7 +49,8 @@ impl ProductFile {
     /// The acceleration of a part that exceeds its rattle space is undecided: it hits its stop.
     ///
     /// # Errors
-    /// [`Error::Tolerance`] for a tolerance outside [1e-4, 0.5]; [`Error::ContactTime`] for a stiff or hard-mounted
+    /// [`Error::Given`] for a value that product files do not allow; [`Error::Tolerance`] for a tolerance outside [1e-4, 0.5];
+    /// [`Error::ContactTime`] for a stiff or hard-mounted
     /// part of a product without contact time, [`Error::Contact`] for the compliant model of one.
     pub fn assess_to(&self, accuracy: &Accuracy) -> Result<Assessment, Error> {
         self.assess_watched(accuracy, &|_, _| true)
@@ -62,6 +63,7 @@ impl ProductFile {
     /// As [`assess_to`](Self::assess_to).
     pub fn assess_watched(&self, accuracy: &Accuracy, watch: Watch<'_>) -> Result<Assessment, Error> {
         accuracy.check()?;
+        self.check()?;
         if accuracy.model == Some(Model::Compliant) && self.product.contact_time_s.is_none() {
             return Err(Error::Contact);
         }

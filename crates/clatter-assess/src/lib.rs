@@ -5,6 +5,7 @@
 
 mod assess;
 mod bound;
+mod check;
 pub mod design;
 mod drop;
 mod engine;

@@ -11,6 +11,7 @@ use clatter_flight::{Body, ContactLaw};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use crate::check::{FARTHEST_CENTER, GYRATION};
 use crate::fault::{Fault, Faults};
 use crate::keys::{self, Key, Kind};
 use crate::slip;
@@ -337,7 +338,7 @@ impl Reader {
     fn body(&mut self, length_m: f64, center: Option<At<f64>>, gyration: &At<f64>) -> Option<Body> {
         let center_m = center.as_ref().map_or(0.0, |c| c.value);
         let half = 0.5 * length_m;
-        if center_m.abs() > 0.45 * length_m {
+        if center_m.abs() > FARTHEST_CENTER * length_m {
             let span = center.map_or(0..0, |c| c.span);
             let message = format!(
                 "the center of mass is {} mm from the middle of a product of {} mm",
@@ -347,9 +348,8 @@ impl Reader {
             self.fault(span, message, "this place", "allowed: within 0.45 of the length from the middle");
             return None;
         }
-        // Less mass at the ends than this no product has; more beyond them neither.
-        let ratio = gyration.value / length_m;
-        if !(0.05..=2.0).contains(&ratio) {
+        let [least, most] = GYRATION;
+        if !(least..=most).contains(&(gyration.value / length_m)) {
             let message =
                 format!("the radius of gyration is {} mm in a product of {} mm", mm(gyration.value), mm(length_m));
             self.fault(gyration.span.clone(), message, "from this", "allowed: from 0.05 to 2 times the length");

@@ -230,6 +230,7 @@ impl Finder {
 impl Inputs {
     /// The inputs of a product, all checked.
     pub(super) fn new(file: &ProductFile, merge_s: f64) -> Result<Self, Error> {
+        file.check()?;
         let (product, drop) = (&file.product, &file.drop);
         let mut finder = Finder::default();
         if drop.first == First::Either {
