@@ -56,7 +56,7 @@ impl Product {
         let length = self.body.length_m();
         let [a, b] = self.body.arms_m();
         let center = 0.5 * (a - b);
-        if !(center.abs() <= FARTHEST_CENTER * length) {
+        if center.is_nan() || center.abs() > FARTHEST_CENTER * length {
             return Err(given("center_of_mass", metres(center), "within 0.45 of the length from the middle"));
         }
         let [least, most] = GYRATION.map(|share| share * length);
