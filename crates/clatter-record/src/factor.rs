@@ -36,6 +36,11 @@ pub(crate) fn is_marked(word: &str) -> bool {
     digits.len() >= 3 && digits.bytes().all(|c| c.is_ascii_digit())
 }
 
+/// Whether brackets hold what is done with the numbers, and not a remark: `(/1000)`, `(* gain)`.
+pub(crate) fn is_operation(text: &str) -> bool {
+    alone(text).is_none() && text.trim().starts_with(['/', '÷', '*', '×', '·', '⋅', '^'])
+}
+
 /// A power of ten, or a plain number above zero.
 fn number(text: &str) -> Option<f64> {
     if let Some((power, "")) = power_of_ten(text) {
@@ -59,7 +64,10 @@ pub(crate) fn after(text: &str) -> Beside<'_> {
             None => refused,
         };
     }
-    let begins = text.starts_with(['^', '²', '³', '*', '×', '·', '⋅', '%']) || number(text).is_some();
+    let power = text.strip_prefix(['e', 'E']).is_some_and(|power| power.starts_with(['-', '+']));
+    let begins = text.starts_with(['^', '²', '³', '*', '×', '·', '⋅', '%'])
+        || text.starts_with(|c: char| c.is_ascii_digit())
+        || power;
     if begins { refused } else { Beside::name(text) }
 }
 
@@ -111,7 +119,7 @@ mod tests {
         ] {
             assert_eq!(of(after(text)), Ok((name.to_owned(), factor)), "{text}");
         }
-        for text in ["^2", "²", "/1000", "* foo", "1000"] {
+        for text in ["^2", "²", "/1000", "* foo", "1000", "1000x", "e-3"] {
             assert!(of(after(text)).is_err(), "{text}");
         }
         for (text, name, factor) in [

@@ -162,7 +162,7 @@ const BEGINNINGS: [&str; 7] = ["gyro", "motor", "vbat", "quat", "magn", "rcdata"
 const GRAMS: [&str; 10] =
     ["mass", "masse", "weight", "gewicht", "magx", "magy", "magz", "mag", "magnetometer", "magnetic"];
 /// What is made of accelerations and is none: functions of them, and bounds.
-const FUNCTIONS: [&str; 34] = [
+const FUNCTIONS: [&str; 36] = [
     "log",
     "log10",
     "ln",
@@ -197,6 +197,8 @@ const FUNCTIONS: [&str; 34] = [
     "stdev",
     "sigma",
     "kurtosis",
+    "negated",
+    "inverted",
 ];
 
 /// No heading with a unit has more bytes.
@@ -350,7 +352,7 @@ fn bracketed(cell: &str) -> Option<Heading> {
         let close = if rest[open..].starts_with('[') { ']' } else { ')' };
         let length = closing(&rest[open..], close)?;
         names.last_mut()?.push_str(&rest[..open]);
-        let group = rest[open + 1..open + length].trim();
+        let group = since_dropped(rest[open + 1..open + length].trim());
         // `accSmooth[0]` is a name; `(z)` may be an axis.
         let is_number = !group.is_empty() && group.bytes().all(|c| c.is_ascii_digit());
         if is_number || group.is_empty() {
@@ -369,7 +371,12 @@ fn bracketed(cell: &str) -> Option<Heading> {
     let places = |is: &dyn Fn(&&str) -> bool| (0..groups.len()).filter(|i| is(&groups[*i])).collect::<Vec<_>>();
     let measured = places(&used);
     let other = places(&|group| Unit::of(group).is_some() && !used(group));
-    let unknown = places(&|group| Unit::of(group).is_none() && factor::alone(group).is_none() && is_like_unit(group));
+    let is_unknown = |group: &&str| {
+        Unit::of(group).is_none()
+            && factor::alone(group).is_none()
+            && (is_like_unit(group) || factor::is_operation(group))
+    };
+    let unknown = places(&is_unknown);
     // A letter beside a unit is the name of an axis or a place.
     let is_letter = |place: &usize| groups[*place].chars().count() == 1;
     let place = match (&measured[..], &other[..], &unknown[..]) {
@@ -427,6 +434,14 @@ fn bracketed(cell: &str) -> Option<Heading> {
     };
     let unit = if refused.is_some() { None } else { Unit::of(groups[place]).map(|unit| unit.times(size)) };
     Some(Heading { unit, spelled: Some(spelled), ..Heading::named_alone(&name) })
+}
+
+/// A unit of time without what it counts from: `s since trigger`.
+fn since_dropped(group: &str) -> &str {
+    let end = [" since ", " after ", " from ", " relative "].iter().find_map(|word| group.find(word));
+    end.map(|end| &group[..end])
+        .filter(|unit| Unit::of(unit).is_some_and(|unit| unit.kind == Kind::Time))
+        .unwrap_or(group)
 }
 
 /// Whether a text that is no unit has a part that is one: `500g`, `g rms`, `deka g`, `m/s2/Hz`, and not `raw` or `CFC 1000`.

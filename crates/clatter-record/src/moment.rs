@@ -1,5 +1,7 @@
 //! Times of day and dates as numbers of seconds.
 
+use std::borrow::Cow;
+
 use crate::decimal::Decimal;
 
 /// Significant digits of a time of day: it has none that say how exact it is.
@@ -42,26 +44,33 @@ fn of_clock(clock: &str, day: i64, digits: i32) -> Option<Decimal> {
     let (clock, half) = half_of_day(clock);
     let (clock, east_s) = zone(clock)?;
     let dated = digits == DATED;
-    let parts: Vec<&str> = clock.split(':').collect();
+    let mut parts = [""; 5];
+    let mut found = 0;
+    for part in clock.split(':') {
+        *parts.get_mut(found)? = part;
+        found += 1;
+    }
     let count = |text: &str, most: usize| {
         let digits = !text.is_empty() && text.len() <= most && text.bytes().all(|c| c.is_ascii_digit());
         digits.then(|| text.parse::<i64>().ok()).flatten()
     };
     // Days before the hours, or digits of the second behind a colon, as many as milliseconds take at least: two are frames.
-    let (days, hour, minute, second) = match parts[..] {
-        [minute, second] => (0, 0, count(minute, 2)?, second.to_owned()),
-        [hour, minute, second] => (0, count(hour, if dated { 2 } else { 4 })?, count(minute, 2)?, second.to_owned()),
+    let (days, hour, minute, second) = match parts[..found] {
+        [minute, second] => (0, 0, count(minute, 2)?, Cow::Borrowed(second)),
+        [hour, minute, second] => {
+            (0, count(hour, if dated { 2 } else { 4 })?, count(minute, 2)?, Cow::Borrowed(second))
+        }
         [days, hour, minute, second] if second.contains(['.', ',']) && !dated => {
-            (count(days, 3)?, count(hour, 2)?, count(minute, 2)?, second.to_owned())
+            (count(days, 3)?, count(hour, 2)?, count(minute, 2)?, Cow::Borrowed(second))
         }
         [hour, minute, second, part] if (3..=9).contains(&part.len()) => {
             let second = count(second, 2).filter(|_| second.len() == 2)?;
-            (0, count(hour, 2)?, count(minute, 2)?, format!("{second}.{}", count(part, 9).map(|_| part)?))
+            (0, count(hour, 2)?, count(minute, 2)?, Cow::Owned(format!("{second}.{}", count(part, 9).map(|_| part)?)))
         }
         // 10.00.00.000, behind a date.
         [points] if dated => {
             let mut points = points.splitn(3, '.');
-            (0, count(points.next()?, 2)?, count(points.next()?, 2)?, points.next()?.to_owned())
+            (0, count(points.next()?, 2)?, count(points.next()?, 2)?, Cow::Borrowed(points.next()?))
         }
         _ => return None,
     };
@@ -70,7 +79,7 @@ fn of_clock(clock: &str, day: i64, digits: i32) -> Option<Decimal> {
         Some(half) if (1..=12).contains(&hour) => hour % 12 + 12 * i64::from(half),
         Some(_) => return None,
     };
-    let second = second.replace(',', ".");
+    let second = if second.contains(',') { Cow::Owned(second.replace(',', ".")) } else { second };
     let (second, length) = Decimal::scan(second.as_bytes(), b'.').filter(|(_, length)| *length == second.len())?;
     debug_assert!(length > 0, "a number has a digit");
     if second.negative || second.float() >= 61.0 || minute > 59 || hour > 24 && dated {
@@ -151,6 +160,16 @@ pub(crate) fn either(cell: &str) -> Option<&str> {
 
 /// The date that a text begins with, and the rest of it.
 fn dated(text: &str) -> Option<(Date, &str)> {
+    // 20230102T100000.5
+    if text.is_char_boundary(9)
+        && let (date, Some(clock)) = (text.get(..8)?, text.get(9..))
+        && date.bytes().all(|c| c.is_ascii_digit())
+        && text[8..].starts_with(['T', 't'])
+        && clock.contains(':')
+    {
+        let number = |text: &str| text.parse::<i64>().ok();
+        return Some((Date::Sure(number(&date[..4])?, number(&date[4..6])?, number(&date[6..])?), clock));
+    }
     let separator = text.find(['-', '/', '.', ' ', ':'])?;
     let mark = text[separator..].chars().next()?;
     let (first, rest) = (&text[..separator], &text[separator + 1..]);
@@ -178,6 +197,10 @@ fn dated(text: &str) -> Option<(Date, &str)> {
     let (sign, clock) = (clock.trim(), clock.trim_start_matches(['T', 't', ' ', '_', '/', ',']));
     if clock.is_empty() && !sign.is_empty() {
         return None;
+    }
+    // Jan 2 2023, Jan-2-2023
+    if let Some(month) = month(first) {
+        return Some((Date::Sure(year(third)?, month, short(second.trim_end_matches(','))?), clock));
     }
     // 12:34:56 is a time; 2023:01:02 is a date.
     let date = if first.len() == 4 && mark != ' ' {
@@ -213,6 +236,10 @@ fn month(name: &str) -> Option<i64> {
         &["nov"],
         &["dec", "dez"],
     ];
+    // Numbers are none, at once.
+    if !name.starts_with(char::is_alphabetic) {
+        return None;
+    }
     let name = name.to_lowercase();
     let is = |names: &&[&str]| names.iter().any(|begin| name.starts_with(begin));
     let month = MONTHS.iter().position(|names| is(names)).filter(|_| name.chars().all(char::is_alphabetic))?;
@@ -291,6 +318,8 @@ mod tests {
             ("02-Jan-1970 00:00:01", DAY_S + 1.0),
             ("1970:1:2/00:00:01", DAY_S + 1.0),
             ("1970-01-02T00.00.01.500", DAY_S + 1.5),
+            ("Jan 2, 1970 00:00:01", DAY_S + 1.0),
+            ("19700102T00:00:01", DAY_S + 1.0),
             // The order is not known, and the date does not count.
             ("5/4/2023 00:00:02", 2.0),
         ] {

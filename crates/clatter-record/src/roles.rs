@@ -122,7 +122,7 @@ impl Seen {
     }
 
     /// As messages call a column: its number and its heading.
-    fn called(&self, column: usize) -> String {
+    pub(crate) fn called(&self, column: usize) -> String {
         match self.headings[column].shown() {
             shown if shown.is_empty() => (column + 1).to_string(),
             shown => format!("{} ({shown})", column + 1),
@@ -327,6 +327,12 @@ impl Seen {
                 })
                 .collect();
             found = self.axes(&unknown).unwrap_or(unknown);
+        }
+        // By its name alone, a function of accelerations is one of the other columns.
+        let is_plain =
+            |column: &usize| self.headings[*column].unit.is_some() || self.headings[*column].function().is_none();
+        if found.iter().any(is_plain) {
+            found.retain(is_plain);
         }
         if let Some((column, what)) = found.iter().find_map(|column| Some((column, self.headings[*column].function()?)))
         {

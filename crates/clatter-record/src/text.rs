@@ -136,7 +136,19 @@ pub(crate) fn read(
     if !seen.named {
         series::refuse_lines(&seen.rows, &all, form)?;
     }
-    let roles = seen.roles(options)?;
+    let mut roles = seen.roles(options)?;
+    let date = sensors::date(&seen, &roles, form);
+    let beside = words
+        .iter()
+        .map(|word| (word.column, if word.tells { "sensor" } else { "unit" }))
+        .chain(date.map(|date| (date, "date")));
+    for (column, what) in beside {
+        let called = seen.called(column);
+        roles.left_out.retain(|other| *other != called);
+        if let Some((_, taken_for)) = roles.columns.get_mut(column) {
+            what.clone_into(taken_for);
+        }
+    }
     let shape = rows::Shape {
         form,
         letters,
@@ -145,7 +157,7 @@ pub(crate) fn read(
         told: layout.told_s,
         count: layout.count,
         measured: layout.measured,
-        date: sensors::date(&seen, &roles, form),
+        date,
         checked: seen.checked_time(&roles, options),
         words,
     };

@@ -328,6 +328,16 @@ fn units_factors_and_remarks() {
         ("a power of ten", scaled("acc [10^-3 g]", 1e3), "", Shock(1)),
         ("an axis behind the unit", of("acc [g] x"), "", Shock(1)),
         ("an exponent of the whole", of("acc [g]^2"), "", Refused("")),
+        ("a division in brackets", of("acc [g] (/1000)"), "", Refused("")),
+        ("a power behind the bracket", of("acc [g] e-3"), "", Refused("")),
+        (
+            "a function among channels, units given",
+            text("time,acc,acc^2\n", |_, t, a| format!("{t:.4},{a:.4},{:.4}", a * a)),
+            "units=s,g",
+            Shock(1),
+        ),
+        ("units in a line of the head", plain("Units: g\nTime unit: s\ntime,acceleration\n"), "", Shock(1)),
+        ("seconds since something", plain("time (s since trigger),acceleration [g]\n"), "", Shock(1)),
         ("a remark before the unit", of("az (raw) [g]"), "", Shock(1)),
         ("a remark behind the unit", of("\"Beschleunigung [g] (gefiltert, CFC 1000)\""), "", Shock(1)),
         ("a trigger that is a remark", of("Response (Trigger) [g]"), "", Shock(1)),
@@ -623,6 +633,34 @@ fn lines_that_fit_no_block() {
             text("time [s],sensor,value [g]\n", |_, t, a| format!("{t:.4},ACC,{a:.4}\n{t:.4},GYR,{:.4}", 7.0)),
             "",
             Refused("sensor"),
+        ),
+        (
+            "nodes in turns by number",
+            text("id,time [s],acc [g]\n", |_, t, a| format!("1,{t:.4},{a:.4}\n2,{t:.4},{:.4}", 7.0)),
+            "",
+            Refused("--sensor"),
+        ),
+        (
+            "axes in turns",
+            text("time [s],axis,acc [g]\n", |_, t, a| format!("{t:.4},x,{:.4}\n{t:.4},z,{a:.4}", 7.0)),
+            "sensor=z",
+            Shock(1),
+        ),
+        (
+            "sensors one after another",
+            format!(
+                "{}{}",
+                text("time [s],sensor,acc [g]\n", |_, t, a| format!("{t:.4},A,{a:.4}")),
+                text("", |_, t, _| format!("{:.4},B,7.0", t + 0.008))
+            ),
+            "",
+            Refused("come in turns"),
+        ),
+        (
+            "a name less than columns, and no names of rows",
+            text("time [ms],acc [g]\n", |i, t, a| format!("{i},{t:.4},{a:.4}")),
+            "",
+            Refused("names 2 columns"),
         ),
         (
             "sensors in turns, one taken",

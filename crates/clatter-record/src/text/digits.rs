@@ -24,15 +24,8 @@ pub(super) struct Digits {
 }
 
 impl Digits {
-    /// A number, of the sample that is next.
-    #[inline]
-    pub(super) fn note(&mut self, number: Decimal, sample: usize) {
-        if !self.has_point {
-            self.note_open(number, sample);
-        }
-    }
-
-    fn note_open(&mut self, number: Decimal, sample: usize) {
+    /// A number, of the sample that is next; whether it has a fraction that is no group of three.
+    pub(super) fn note(&mut self, number: Decimal, sample: usize) -> bool {
         if number.exponent >= 0 {
             self.has_whole |= number.mantissa < 1000;
             self.has_long |= number.mantissa >= 1000;
@@ -41,8 +34,8 @@ impl Digits {
             self.threes.push(sample);
         } else {
             self.has_point = true;
-            self.threes = Vec::new();
         }
+        self.has_point
     }
 
     /// A number with groups by the mark that is no point.

@@ -220,6 +220,36 @@ pub(super) fn axes(lines: &[String]) -> Option<[String; 2]> {
     Some([axis(lines, "Horizontal")?, axis(lines, "Vertical")?])
 }
 
+/// The units of time and acceleration that lines such as `Units: g` and `Time unit: ms` tell; empty where one is not told.
+pub(super) fn units(lines: &[String]) -> Option<[String; 2]> {
+    const KEYS: [&str; 9] = [
+        "unit",
+        "units",
+        "einheit",
+        "acceleration unit",
+        "acceleration units",
+        "unit of acceleration",
+        "units of acceleration",
+        "time unit",
+        "time units",
+    ];
+    let mut found = [String::new(), String::new()];
+    for line in lines.iter().take(60) {
+        let text = uncommented(line).0;
+        let Some((key, value)) = text.split_once([':', '=', ',', ';', '\t']) else { continue };
+        let (key, value) = (key.trim().to_lowercase(), value.trim().trim_matches(['"', ',', ';']).trim());
+        if !KEYS.contains(&key.as_str()) {
+            continue;
+        }
+        match Unit::of(value).map(|unit| unit.kind) {
+            Some(Kind::Time) => value.clone_into(&mut found[0]),
+            Some(Kind::Acceleration) => value.clone_into(&mut found[1]),
+            _ => {}
+        }
+    }
+    found.iter().any(|unit| !unit.is_empty()).then_some(found)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -95,7 +95,7 @@ impl Layout {
             measured: found.measured.clone(),
         };
         layout.count = layout.refuse_numbers(lines, columns)?;
-        layout.read_above(lines, columns, found.counts)?;
+        layout.read_above(lines, columns, found.counts, !found.columns.contains(&0))?;
         layout.refuse_heading_below(lines)?;
         for (column, heading) in layout.headings.iter_mut().enumerate() {
             heading.is_text = !found.columns.contains(&column);
@@ -145,8 +145,11 @@ impl Layout {
                 let name = if unit.is_empty() { "Sequence" } else { name };
                 *heading = Heading::named_alone(name).with_unit(unit);
             }
-        } else if let Some([time, value]) = head::axes(above) {
-            for heading in self.headings.iter_mut().filter(|heading| heading.spelled.is_none() && !heading.is_text) {
+        } else if let Some([time, value]) = head::axes(above).or_else(|| head::units(above)) {
+            let open = |heading: &&mut Heading| {
+                heading.spelled.is_none() && !heading.is_text && !matches!(heading.named(), Named::Other | Named::Index)
+            };
+            for heading in self.headings.iter_mut().filter(open) {
                 let unit = if heading.named() == Named::Time { &time } else { &value };
                 *heading = heading.clone().with_unit(unit);
             }
@@ -155,10 +158,16 @@ impl Layout {
 
     /// Refuses lines of numbers without names above a line of names: they are another record, or no record.
     fn refuse_heading_below(&self, lines: &[String]) -> Result<(), Error> {
+        if self.named {
+            return Ok(());
+        }
         let is_number = |cell: &Cow<'_, str>| self.form.number(cell).is_some();
-        let is_heading =
-            |line: &String| other_names(self.form, line).is_some() && !self.form.cells(line).iter().any(is_number);
-        let below = lines[self.begin..].iter().position(|line| is_heading(line)).filter(|_| !self.named);
+        let is_heading = |line: &String| {
+            line.contains(char::is_alphabetic)
+                && other_names(self.form, line).is_some()
+                && !self.form.cells(line).iter().any(is_number)
+        };
+        let below = lines[self.begin..].iter().position(is_heading);
         match below {
             None => Ok(()),
             Some(below) => Err(Error::Records(format!(
@@ -200,8 +209,9 @@ impl Layout {
 
     /// Names and units of the columns, from the lines above the numbers, the nearest first.
     ///
-    /// `counts` is whether the first column counts the rows or has words that do: rows may be named, and their names have no name.
-    fn read_above(&mut self, lines: &[String], columns: usize, counts: bool) -> Result<(), Error> {
+    /// `counts` is whether the first column counts the rows, or has a word for each, as `words` tells: rows may be named, and their
+    /// names have no name. Numbers that are names stand between quotes.
+    fn read_above(&mut self, lines: &[String], columns: usize, counts: bool, words: bool) -> Result<(), Error> {
         let (mut names, mut units) = (None, None);
         let above = lines[..self.begin].iter().enumerate().rev().filter(|(_, line)| !line.trim().is_empty());
         for (nearest, (number, line)) in above.take(ABOVE).enumerate() {
@@ -214,8 +224,9 @@ impl Layout {
             });
             let listed_text = listed.map_or(text, |(_, list)| list.trim());
             let of = |columns: usize| heading_cells(self.form, listed_text, commented, columns);
+            let quoted = lines[self.begin].trim_start().starts_with('"');
             let row_names = || {
-                let cells = of(columns - 1).filter(|_| counts && columns > 2)?;
+                let cells = of(columns - 1).filter(|_| counts && columns > 2 && (quoted || words))?;
                 Some(std::iter::once(String::new()).chain(cells).collect::<Vec<_>>())
             };
             let Some(cells) = of(columns).or_else(row_names) else {

@@ -104,8 +104,10 @@ pub(crate) struct Rows {
     /// The last empty line, and how many there are between lines of numbers.
     empty: Option<usize>,
     breaks: (usize, usize),
-    /// How the digits of all numbers are grouped, for the time and each channel.
+    /// How the digits of numbers are grouped, for the time and each channel, and whether that is open: no fraction was read that
+    /// tells its mark.
     digits: Vec<Digits>,
+    open: bool,
     lines: Lines,
     /// Samples whose line is the one before once more, and the line.
     pub(crate) doubled: Vec<(usize, usize)>,
@@ -155,6 +157,7 @@ impl Rows {
             empty: None,
             breaks: (0, 0),
             digits: vec![Digits::default(); roles.channels.len() + 1],
+            open: true,
             lines: Lines::default(),
             doubled: Vec::new(),
             sampled_s: shape.sampled_s,
@@ -254,7 +257,9 @@ impl Rows {
                 at += length;
                 match use_of {
                     Use::Acceleration(k) => {
-                        self.digits[*k + 1].note(number, self.channels[*k].len());
+                        if self.open {
+                            self.open = !self.digits[*k + 1].note(number, self.channels[*k].len());
+                        }
                         let number = number.float();
                         let value = number * self.sizes[*k];
                         if value.abs() > LARGEST || number.abs() >= NO_VALUE {
@@ -263,7 +268,9 @@ impl Rows {
                         self.row.push(value);
                     }
                     _ => {
-                        self.digits[0].note(number, self.times.len());
+                        if self.open {
+                            self.open = !self.digits[0].note(number, self.times.len());
+                        }
                         self.time = Some(number);
                     }
                 }
@@ -308,12 +315,13 @@ impl Rows {
             return Ok(());
         }
         let is_data = |cell: &str| form.is_data(cell) || form.measured(cell).is_some();
-        if head::numbers(text) > 1 && cells.iter().all(|cell| cell.is_empty() || !form.is_data(cell)) {
+        let is_text = cells.iter().all(|cell| cell.is_empty() || !is_data(cell));
+        if is_text && head::numbers(text) > 1 {
             self.bad
                 .add(At::Line(self.line), || format!("the numbers of '{}' do not fit the lines above", visible(text)));
             return Ok(());
         }
-        if cells.iter().all(|cell| cell.is_empty() || !is_data(cell)) || self.is_labelled(&cells) {
+        if is_text || self.is_labelled(&cells) {
             if cells.iter().zip(&self.uses).any(|(cell, use_of)| self.is_other_unit(cell, *use_of)) {
                 return Err(Error::File(format!(
                     "line {} begins a second block, in other units: one file each",
@@ -427,8 +435,8 @@ impl Rows {
                     };
                     if form.is_grouped(cell) {
                         self.digits[k + 1].note_grouped(cell);
-                    } else {
-                        self.digits[k + 1].note(number, self.channels[k].len());
+                    } else if self.open {
+                        self.open = !self.digits[k + 1].note(number, self.channels[k].len());
                     }
                     let value = number.float() * size;
                     if (NO_VALUE..1e38).contains(&number.float().abs()) {
@@ -469,8 +477,8 @@ impl Rows {
                     }
                     if form.is_grouped(cell) {
                         self.digits[0].note_grouped(cell);
-                    } else if !is_moment(number.digits) {
-                        self.digits[0].note(number, self.times.len());
+                    } else if self.open && !is_moment(number.digits) {
+                        self.open = !self.digits[0].note(number, self.times.len());
                     }
                     self.time = Some(number);
                 }
@@ -523,6 +531,9 @@ impl Rows {
     fn is_labelled(&self, cells: &[std::borrow::Cow<'_, str>]) -> bool {
         let time = self.uses.iter().position(|use_of| matches!(use_of, Use::Time | Use::Acceleration(_))).unwrap_or(0);
         let Some(cell) = cells.get(time).filter(|_| cells.len() > 1) else { return false };
+        if !cell.starts_with(char::is_alphabetic) {
+            return false;
+        }
         let is_word = |c: char| c.is_alphabetic() || matches!(c, ' ' | '.' | ':' | '_' | '-');
         let is_word = cell.chars().filter(|c| c.is_alphabetic()).count() > 2 && cell.chars().all(is_word);
         is_word && !is_missing(cell) && !is_beyond(cell)

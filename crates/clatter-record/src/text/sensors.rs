@@ -22,7 +22,7 @@ pub(super) struct Word {
 }
 
 /// Names of columns that tell sensors apart.
-const SENSORS: [&str; 11] = [
+const SENSORS: [&str; 26] = [
     "sensor",
     "sensortype",
     "sensorname",
@@ -33,7 +33,22 @@ const SENSORS: [&str; 11] = [
     "tag",
     "kanal",
     "channel",
+    "channelid",
+    "ch",
     "type",
+    "id",
+    "node",
+    "nodeid",
+    "axis",
+    "imu",
+    "address",
+    "addr",
+    "mac",
+    "name",
+    "signal",
+    "variable",
+    "quantity",
+    "parameter",
 ];
 const UNITS: [&str; 6] = ["unit", "units", "einheit", "unité", "unidad", "uom"];
 /// Rows that show whether words come in turns.
