@@ -1,7 +1,10 @@
 //! What a column is by its heading.
 
+mod words;
+
 use crate::factor;
 use crate::unit::{Kind, Unit};
+use words::{ACCELERATIONS, BEGINNINGS, DATES, FUNCTIONS, GRAMS, INDICES, OTHERS, PLACES, TIMES};
 
 /// A heading: the name of a column and its unit.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,180 +29,6 @@ pub(crate) enum Named {
     Other,
     Unknown,
 }
-
-const TIMES: [&str; 22] = [
-    "t",
-    "uhrzeit",
-    "time",
-    "times",
-    "zeit",
-    "zeitstempel",
-    "timestamp",
-    "temps",
-    "tiempo",
-    "tid",
-    "tijd",
-    "tempo",
-    "datetime",
-    "clock",
-    "elapsed",
-    "время",
-    "時間",
-    "時刻",
-    "时间",
-    "시간",
-    "epoch",
-    "epoc",
-];
-/// They count.
-const INDICES: [&str; 23] = [
-    "index",
-    "idx",
-    "sample",
-    "samples",
-    "n",
-    "no",
-    "nr",
-    "num",
-    "number",
-    "row",
-    "#",
-    "id",
-    "count",
-    "unnamed",
-    "frame",
-    "point",
-    "counter",
-    "packet",
-    "packetcounter",
-    "seq",
-    "sequence",
-    "record",
-    "loopiteration",
-];
-const ACCELERATIONS: [&str; 11] =
-    ["ax", "ay", "az", "ar", "beschleunigung", "shock", "gforce", "ускорение", "加速度", "가속도", "versnelling"];
-/// Beside an acceleration they say where it was measured.
-const PLACES: [&str; 4] = ["height", "position", "distance", "displacement"];
-/// What is measured beside an acceleration; a unit of acceleration outweighs them.
-const OTHERS: [&str; 70] = [
-    "accelerator",
-    "pedal",
-    "status",
-    "range",
-    "load",
-    "field",
-    "mag",
-    "magx",
-    "magy",
-    "magz",
-    "magnetometer",
-    "sensitivity",
-    "mass",
-    "masse",
-    "weight",
-    "velocity",
-    "speed",
-    "force",
-    "temperature",
-    "temp",
-    "voltage",
-    "current",
-    "power",
-    "pressure",
-    "angular",
-    "rotation",
-    "strain",
-    "magnetic",
-    "humidity",
-    "comment",
-    "trigger",
-    "roll",
-    "pitch",
-    "yaw",
-    "heading",
-    "azimuth",
-    "course",
-    "battery",
-    "batt",
-    "rssi",
-    "setpoint",
-    "throttle",
-    "lat",
-    "lon",
-    "lng",
-    "latitude",
-    "longitude",
-    "altitude",
-    "alt",
-    "baro",
-    "wx",
-    "wy",
-    "wz",
-    "omegax",
-    "omegay",
-    "omegaz",
-    "qw",
-    "qx",
-    "qy",
-    "qz",
-    "duration",
-    "dauer",
-    "delay",
-    "latency",
-    "width",
-    "flags",
-    "event",
-    "marker",
-    "angle",
-    "gyr",
-];
-/// A date beside a time of day.
-const DATES: [&str; 3] = ["date", "datum", "fecha"];
-/// Words that begin so name what is no acceleration: `gyroX`, `motor[0]`, `vbatLatest`, `quaternion`.
-const BEGINNINGS: [&str; 7] = ["gyro", "motor", "vbat", "quat", "magn", "rcdata", "baro"];
-/// In grams and gausses, whose signs are those of gravity.
-const GRAMS: [&str; 10] =
-    ["mass", "masse", "weight", "gewicht", "magx", "magy", "magz", "mag", "magnetometer", "magnetic"];
-/// What is made of accelerations and is none: functions of them, and bounds.
-const FUNCTIONS: [&str; 36] = [
-    "log",
-    "log10",
-    "ln",
-    "lg",
-    "db",
-    "psd",
-    "asd",
-    "fft",
-    "spectrum",
-    "spectral",
-    "srs",
-    "squared",
-    "square",
-    "sqrt",
-    "rms",
-    "variance",
-    "jerk",
-    "cumulative",
-    "integral",
-    "inverse",
-    "reciprocal",
-    "normalized",
-    "normalised",
-    "accuracy",
-    "uncertainty",
-    "limit",
-    "limits",
-    "grenze",
-    "grenzwert",
-    "threshold",
-    "tolerance",
-    "stdev",
-    "sigma",
-    "kurtosis",
-    "negated",
-    "inverted",
-];
 
 /// No heading with a unit has more bytes.
 const LONGEST: usize = 1000;
@@ -240,7 +69,7 @@ impl Heading {
     /// What the name says.
     pub(crate) fn named(&self) -> Named {
         let name = self.name.to_lowercase();
-        let words = words(&name);
+        let words = parts(&name);
         let any = |list: &[&str]| words.iter().any(|word| list.contains(word));
         let within = |part: &str| words.iter().any(|word| word.contains(part));
         // `acc`, `accx`, `acc12`, `accelerometer`, `accSmooth`, and not `account`.
@@ -282,10 +111,10 @@ impl Heading {
     /// Why a column with a unit of acceleration, or with such a name, is no plain acceleration, if its name says so.
     pub(crate) fn function(&self) -> Option<String> {
         let name = self.name.to_lowercase();
-        let word = words(&name).into_iter().find(|word| FUNCTIONS.contains(word));
+        let word = parts(&name).into_iter().find(|word| FUNCTIONS.contains(word));
         let begins = name.starts_with(['-', '−', '–', '|']) && name.len() > 1;
         let raised = ["^", "²", "³", "**", "d/dt", "/dt"].iter().find(|mark| name.contains(**mark));
-        let factor = words(&name).into_iter().find(|word| factor::is_marked(word));
+        let factor = parts(&name).into_iter().find(|word| factor::is_marked(word));
         word.map(|word| format!("'{word}'"))
             .or_else(|| raised.map(|mark| format!("'{mark}'")))
             .or_else(|| factor.map(|word| format!("'{word}'")))
@@ -297,7 +126,7 @@ impl Heading {
     /// Whether a unit such as g or mG is one of a mass or of a magnetic field, by the name.
     pub(crate) fn is_of_grams(&self) -> bool {
         let name = self.name.to_lowercase();
-        let words = words(&name);
+        let words = parts(&name);
         let is_acc = words.iter().any(|word| ACCELERATIONS.contains(word) || word.starts_with("acc"));
         let in_grams =
             self.spelled.as_deref().is_some_and(|unit| unit.to_lowercase().ends_with('g') && !unit.contains('/'));
@@ -339,7 +168,7 @@ fn plain(cell: &str) -> String {
 }
 
 /// Words of a name, in small letters.
-fn words(name: &str) -> Vec<&str> {
+fn parts(name: &str) -> Vec<&str> {
     name.split(|c: char| !c.is_alphanumeric() && c != '#').filter(|word| !word.is_empty()).collect()
 }
 
@@ -458,7 +287,7 @@ fn is_like_unit(group: &str) -> bool {
 /// A name that says its unit in words: `seconds_elapsed`, `millis since start`.
 fn spoken(cell: &str) -> Option<Heading> {
     let name = cell.to_lowercase();
-    let words = words(&name);
+    let words = parts(&name);
     let mut units =
         words.iter().filter(|word| word.chars().count() > 3).filter_map(|word| Some((word, Unit::of(word)?)));
     let (word, unit) = units.next().filter(|(_, unit)| unit.kind == Kind::Time && unit.size <= 1.0)?;

@@ -17,6 +17,7 @@ mod levels;
 mod limit;
 mod moment;
 mod options;
+mod plausible;
 mod pulse_fit;
 mod record;
 mod roles;

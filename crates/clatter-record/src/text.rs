@@ -1,5 +1,6 @@
 //! Records as text: whatever loggers and programs write.
 
+mod block;
 mod cells;
 mod digits;
 mod encoding;
