@@ -210,8 +210,7 @@ fn bracketed(cell: &str) -> Option<Heading> {
     let is_letter = |place: &usize| groups[*place].chars().count() == 1;
     let place = match (&measured[..], &other[..], &unknown[..]) {
         ([unit], others, []) if others.iter().all(is_letter) => Some(*unit),
-        ([], [unit], []) => Some(*unit),
-        ([], [], [unit]) => Some(*unit),
+        ([], [unit], []) | ([], [], [unit]) => Some(*unit),
         ([], [], []) => None,
         // One of them may be a unit and the others words, but no one can tell for all.
         _ => {

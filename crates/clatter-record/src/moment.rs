@@ -28,8 +28,10 @@ pub(crate) fn seconds(text: &str, order: Option<Order>) -> Option<Decimal> {
         return None;
     }
     let Some((date, clock)) = dated(text) else { return of_clock(text, 0, CLOCK) };
-    let date = date.days(order)?;
-    let (day, digits) = date.map_or((0, CLOCK), |day| (day, DATED));
+    let (day, digits) = match date.days(order)? {
+        Days::Known(day) => (day, DATED),
+        Days::Open => (0, CLOCK),
+    };
     if clock.is_empty() {
         return Some(Decimal { digits, ..whole(day * 86_400) });
     }
@@ -111,6 +113,13 @@ fn half_of_day(clock: &str) -> (&str, Option<bool>) {
     (clock, None)
 }
 
+/// Days since 1970, if they are known.
+#[derive(Debug, Clone, Copy)]
+enum Days {
+    Known(i64),
+    Open,
+}
+
 /// A date as it is written.
 #[derive(Debug, Clone, Copy)]
 enum Date {
@@ -121,19 +130,18 @@ enum Date {
 }
 
 impl Date {
-    /// Days since 1970; nothing inside where the order is not known and matters.
-    fn days(self, order: Option<Order>) -> Option<Option<i64>> {
-        match self {
-            Self::Sure(year, month, day) => days(year, month, day).map(Some),
-            Self::Either(year, a, b) => match (self.order(), order) {
-                (Some(Order::Day), _) => days(year, b, a).map(Some),
-                (Some(Order::Month), _) => days(year, a, b).map(Some),
-                (None, _) if a == b => days(year, a, b).map(Some),
-                (None, Some(Order::Day)) => days(year, b, a).map(Some),
-                (None, Some(Order::Month)) => days(year, a, b).map(Some),
-                (None, None) => (a > 0 && b > 0).then_some(None),
+    /// Days since 1970; not known where the order of day and month matters and is not known.
+    fn days(self, order: Option<Order>) -> Option<Days> {
+        let (year, month, day) = match self {
+            Self::Sure(year, month, day) => (year, month, day),
+            Self::Either(year, a, b) => match self.order().or(order) {
+                Some(Order::Day) => (year, b, a),
+                Some(Order::Month) => (year, a, b),
+                None if a == b => (year, a, b),
+                None => return (a > 0 && b > 0).then_some(Days::Open),
             },
-        }
+        };
+        days(year, month, day).map(Days::Known)
     }
     /// The order that is the only possible one.
     fn order(self) -> Option<Order> {
@@ -241,8 +249,10 @@ fn month(name: &str) -> Option<i64> {
         return None;
     }
     let name = name.to_lowercase();
-    let is = |names: &&[&str]| names.iter().any(|begin| name.starts_with(begin));
-    let month = MONTHS.iter().position(|names| is(names)).filter(|_| name.chars().all(char::is_alphabetic))?;
+    let month = MONTHS
+        .iter()
+        .position(|names| names.iter().any(|begin| name.starts_with(begin)))
+        .filter(|_| name.chars().all(char::is_alphabetic))?;
     i64::try_from(month + 1).ok()
 }
 

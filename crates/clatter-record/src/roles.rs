@@ -200,7 +200,7 @@ impl Seen {
     fn goes_on(&self, column: usize) -> bool {
         let values = || self.rows.iter().filter_map(|row| row.get(column)).filter(|value| value.is_finite());
         let rises = values().zip(values().skip(1)).all(|(a, b)| a <= b);
-        let moves = values().next().zip(values().last()).is_some_and(|(a, b)| a < b);
+        let moves = values().next().zip(values().next_back()).is_some_and(|(a, b)| a < b);
         self.rows.len() > 1 && rises && moves
     }
 

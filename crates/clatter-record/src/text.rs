@@ -22,6 +22,7 @@ use crate::roles::{Roles, Seen};
 use crate::{At, Error, Options};
 use layout::Layout;
 pub(crate) use rows::Rows;
+use rows::Shape;
 
 /// Bytes that are read at a time, and before it is known what a file holds.
 pub(crate) const BLOCK: usize = 1 << 20;
@@ -88,84 +89,22 @@ pub(crate) fn read(
     };
     let letters = encoding::of(&begin[..begin.len().min(HEAD.1)]);
     if let Some(number) = options.record {
-        rest.read_to_end(&mut begin).map_err(|error| Error::Read(error.to_string()))?;
+        to_end(&mut begin, rest, options)?;
         begin = records::only(&begin, number)?;
     }
     let lines = first_lines(&begin, letters)?;
     if let Some(series) = series::of(&lines) {
-        rest.read_to_end(&mut begin).map_err(|error| Error::Read(error.to_string()))?;
+        to_end(&mut begin, rest, options)?;
         progress(begin.len() as u64);
         return series.read(&begin, options);
     }
     let lines = head::join_quotes(lines);
-    let mut layout = Layout::of(&lines)?;
-    let all: Vec<Vec<Cow<'_, str>>> = lines[layout.begin..]
-        .iter()
-        .filter(|line| !line.trim().is_empty() && !layout::uncommented(line).1)
-        .map(|line| layout.form.cells(line))
-        .collect();
-    layout.form.order = all.iter().flatten().find_map(|cell| crate::moment::order(cell));
-    let form = layout.form;
-    let words = sensors::words(&layout, &all, options)?;
-    let is_of = |row: &&Vec<Cow<'_, str>>| {
-        words.iter().all(|word| !word.tells || row.get(word.column).is_some_and(|cell| **cell == *word.expected))
-    };
-    let data: Vec<&Vec<Cow<'_, str>>> = all.iter().filter(is_of).take(SHOWN).collect();
-    // Times of day are in seconds, whatever their heading says.
-    for (column, heading) in layout.headings.iter_mut().enumerate() {
-        if data
-            .first()
-            .and_then(|row| row.get(column))
-            .is_some_and(|cell| crate::moment::seconds(cell, form.order).is_some())
-        {
-            *heading = heading.clone().with_unit("s");
-        }
-    }
-    sensors::units_beside(&mut layout, &words);
-    let number = |cell: &Cow<'_, str>| {
-        form.number(cell).or_else(|| Some(form.measured(cell)?.0)).map_or(f64::NAN, crate::decimal::Decimal::float)
-    };
-    // A rate that is told stands for times that are not there.
-    let told_s = layout.told_s.map(|(step_s, _)| [0.0, step_s]);
-    let mut seen = Seen {
-        headings: layout.headings,
-        named: layout.named,
-        sampled: layout.sampled_s.is_some() || told_s.is_some(),
-        rows: data.iter().map(|row| row.iter().map(number).collect()).collect(),
-        cells: data.first().map_or(Vec::new(), |row| row.iter().map(|cell| (**cell).to_owned()).collect()),
-    };
-    if !seen.named {
-        series::refuse_lines(&seen.rows, &all, form)?;
-    }
-    let mut roles = seen.roles(options)?;
-    let date = sensors::date(&seen, &roles, form);
-    let beside = words
-        .iter()
-        .map(|word| (word.column, if word.tells { "sensor" } else { "unit" }))
-        .chain(date.map(|date| (date, "date")));
-    for (column, what) in beside {
-        let called = seen.called(column);
-        roles.left_out.retain(|other| *other != called);
-        if let Some((_, taken_for)) = roles.columns.get_mut(column) {
-            what.clone_into(taken_for);
-        }
-    }
-    let shape = rows::Shape {
-        form,
-        letters,
-        columns: seen.headings.len(),
-        sampled_s: layout.sampled_s.or(told_s),
-        told: layout.told_s,
-        count: layout.count,
-        measured: layout.measured,
-        date,
-        checked: seen.checked_time(&roles, options),
-        words,
-    };
-    seen.rows.clear();
+    let layout = Layout::of(&lines)?;
+    let first = layout.begin;
+    let (shape, roles) = shape(layout, &lines, letters, options)?;
     let mut rows = Rows::new(shape, &roles, options);
-    rows.skip_lines(&lines[..layout.begin]);
-    let mut at = begin.split_inclusive(|byte| *byte == b'\n').take(layout.begin).map(<[u8]>::len).sum::<usize>();
+    rows.skip_lines(&lines[..first]);
+    let mut at = begin.split_inclusive(|byte| *byte == b'\n').take(first).map(<[u8]>::len).sum::<usize>();
     let (mut buffer, mut bytes) = (begin, 0_u64);
     bytes += buffer.len() as u64;
     loop {
@@ -194,6 +133,86 @@ pub(crate) fn read(
     }
     rows.close()?;
     Ok((rows, roles))
+}
+
+/// What the lines of numbers are like, and what their columns are, by the first of them.
+fn shape(
+    mut layout: Layout,
+    lines: &[String],
+    letters: &'static Encoding,
+    options: &Options,
+) -> Result<(Shape, Roles), Error> {
+    let all: Vec<Vec<Cow<'_, str>>> = lines[layout.begin..]
+        .iter()
+        .filter(|line| !line.trim().is_empty() && !layout::uncommented(line).1)
+        .map(|line| layout.form.cells(line))
+        .collect();
+    layout.form.order = all.iter().flatten().find_map(|cell| crate::moment::order(cell));
+    let form = layout.form;
+    let words = sensors::words(&layout, &all, options)?;
+    let is_of = |row: &&Vec<Cow<'_, str>>| {
+        words.iter().all(|word| !word.tells || row.get(word.column).is_some_and(|cell| **cell == *word.expected))
+    };
+    let data: Vec<&Vec<Cow<'_, str>>> = all.iter().filter(is_of).take(SHOWN).collect();
+    // Times of day are in seconds, whatever their heading says.
+    for (column, heading) in layout.headings.iter_mut().enumerate() {
+        if data
+            .first()
+            .and_then(|row| row.get(column))
+            .is_some_and(|cell| crate::moment::seconds(cell, form.order).is_some())
+        {
+            *heading = heading.clone().with_unit("s");
+        }
+    }
+    sensors::units_beside(&mut layout, &words);
+    let number = |cell: &Cow<'_, str>| {
+        form.number(cell).or_else(|| Some(form.measured(cell)?.0)).map_or(f64::NAN, crate::decimal::Decimal::float)
+    };
+    // A rate that is told stands for times that are not there.
+    let told_s = layout.told_s.map(|(step_s, _)| [0.0, step_s]);
+    let seen = Seen {
+        headings: layout.headings,
+        named: layout.named,
+        sampled: layout.sampled_s.is_some() || told_s.is_some(),
+        rows: data.iter().map(|row| row.iter().map(number).collect()).collect(),
+        cells: data.first().map_or(Vec::new(), |row| row.iter().map(|cell| (**cell).to_owned()).collect()),
+    };
+    if !seen.named {
+        series::refuse_lines(&seen.rows, &all, form)?;
+    }
+    let mut roles = seen.roles(options)?;
+    let date = sensors::date(&seen, &roles, form);
+    let beside = words
+        .iter()
+        .map(|word| (word.column, if word.tells { "sensor" } else { "unit" }))
+        .chain(date.map(|date| (date, "date")));
+    for (column, what) in beside {
+        let called = seen.called(column);
+        roles.left_out.retain(|other| *other != called);
+        if let Some((_, taken_for)) = roles.columns.get_mut(column) {
+            what.clone_into(taken_for);
+        }
+    }
+    let shape = Shape {
+        form,
+        letters,
+        columns: seen.headings.len(),
+        sampled_s: layout.sampled_s.or(told_s),
+        told: layout.told_s,
+        count: layout.count,
+        measured: layout.measured,
+        date,
+        checked: seen.checked_time(&roles, options),
+        words,
+    };
+    Ok((shape, roles))
+}
+
+/// All of an input, as far as it may hold what is read at most.
+fn to_end(begin: &mut Vec<u8>, rest: &mut dyn Read, options: &Options) -> Result<(), Error> {
+    // No number takes more bytes.
+    let most = 64_u64.saturating_mul(options.most_values as u64);
+    rest.take(most).read_to_end(begin).map(|_| ()).map_err(|error| Error::Read(error.to_string()))
 }
 
 /// The lines that a text begins with, as far as they may tell what it is.

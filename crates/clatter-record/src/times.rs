@@ -117,7 +117,7 @@ impl Times<'_> {
         let spread = |step: f64| {
             let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
             let mut at = 0.0;
-            for time in &self.since_s[..] {
+            for time in self.since_s {
                 let left = time - at;
                 (low, high) = (low.min(left), high.max(left));
                 at += step;

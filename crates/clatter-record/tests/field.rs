@@ -1,5 +1,6 @@
 //! One shock in notations of the field, each file with what is right: `expected.json`.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
@@ -62,7 +63,7 @@ fn files_of_the_field() {
                     format!("read as {names:?}, {} samples, {:?}", record.samples(), record.step_s())
                 }
             };
-            faults += &format!("{name} {}: {fault}\n", one["args"]);
+            let _ = writeln!(faults, "{name} {}: {fault}", one["args"]);
         }
     }
     assert!(count > 60, "{count} files");

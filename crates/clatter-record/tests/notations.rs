@@ -1,5 +1,13 @@
 //! One shock as loggers, oscilloscopes, programs and field notes write it: read right, or refused with the reason.
 
+#![expect(clippy::too_many_lines, reason = "tables of notations")]
+#![expect(
+    clippy::cast_precision_loss,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "small numbers"
+)]
+
 use std::fmt::Write as _;
 
 use clatter_record::{Options, Record};
@@ -10,7 +18,6 @@ const SAMPLES: usize = 80;
 
 /// Sample `i` of the shock in g: a half-sine of 50 g and 2 ms, and one of −20 g and 1 ms after it.
 fn shock(i: usize) -> f64 {
-    #[expect(clippy::cast_precision_loss, reason = "small numbers")]
     let half_sine = |begin: usize, length: usize| (std::f64::consts::PI * (i - begin) as f64 / length as f64).sin();
     match i {
         20..=40 => 50.0 * half_sine(20, 20),
@@ -23,7 +30,6 @@ fn shock(i: usize) -> f64 {
 fn text(head: &str, line: impl Fn(usize, f64, f64) -> String) -> String {
     let mut text = head.to_owned();
     for i in 0..SAMPLES {
-        #[expect(clippy::cast_precision_loss, reason = "small numbers")]
         let time = i as f64 * 1e-4;
         // No negative zeros: no program prints them as such.
         let _ = writeln!(text, "{}", line(i, time, shock(i) + 0.0));
@@ -42,11 +48,11 @@ fn by(separator: &str, head: &str) -> String {
 }
 
 /// With decimal commas.
-fn commas(text: String) -> String {
-    text.replace('.', ",")
+fn commas(text: impl AsRef<str>) -> String {
+    text.as_ref().replace('.', ",")
 }
 
-/// In an encoding of the Far East.
+/// A time of day.
 fn clock(t: f64) -> String {
     format!("12:00:{:07.4}", 1.0 + t)
 }
@@ -424,7 +430,7 @@ fn numbers() {
             "",
             Shock(1),
         ),
-        ("1.500,0", commas(by(";", "")).replace("", "").clone(), "units=s,g", Shock(1)),
+        ("1.500,0", commas(by(";", "")), "units=s,g", Shock(1)),
         (
             "1.500,0 beside 0,0001",
             text("t [s];a [mg]\n", |_, t, a| {
@@ -518,7 +524,7 @@ fn times() {
         ("a.m., close", of("time;a [g]\n", &|t| format!("{}am", clock(t))), "", Shock(1)),
         (
             "a colon before milliseconds",
-            text("time;a [g]\n", |i, _, a| format!("12:00:01:{:03};{a:.4}", i)),
+            text("time;a [g]\n", |i, _, a| format!("12:00:01:{i:03};{a:.4}")),
             "",
             Every(1e-3),
         ),
@@ -534,8 +540,8 @@ fn times() {
         ("d/m/yyyy", of("Timestamp;a [g]\n", &|t| format!("13/05/2023 {}", clock(t))), "", Shock(1)),
         ("13-May-2023", of("Timestamp;a [g]\n", &|t| format!("13-May-2023 {}", clock(t))), "", Shock(1)),
         ("a date of its own", of("Date;Time;a [g]\n", &|t| format!("13/05/2023;{}", clock(t))), "", Shock(1)),
-        ("hours beyond 24", of("Time;a [g]\n", &|t| format!("124:00:{:07.4}", t)), "", Shock(1)),
-        ("minutes and seconds", of("Time;a [g]\n", &|t| format!("05:{:07.4}", t)), "", Shock(1)),
+        ("hours beyond 24", of("Time;a [g]\n", &|t| format!("124:00:{t:07.4}")), "", Shock(1)),
+        ("minutes and seconds", of("Time;a [g]\n", &|t| format!("05:{t:07.4}")), "", Shock(1)),
         ("no time of day", of("Time;a [g]\n", &|t| format!("{} noon", clock(t))), "", Refused("noon")),
         (
             "coarse milliseconds of 800 Hz",

@@ -9,6 +9,7 @@ const SURE: usize = 3;
 
 /// How the numbers of one column are written.
 #[derive(Debug, Clone, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "what was seen so far, each by itself")]
 pub(super) struct Digits {
     /// There is a fraction that is no group of three.
     has_point: bool,
@@ -30,7 +31,7 @@ impl Digits {
             self.has_whole |= number.mantissa < 1000;
             self.has_long |= number.mantissa >= 1000;
         } else if number.exponent == -3 && (1000..1_000_000).contains(&number.mantissa) && self.threes.len() < MOST {
-            self.ends_in_zero |= number.mantissa % 10 == 0;
+            self.ends_in_zero |= number.mantissa.is_multiple_of(10);
             self.threes.push(sample);
         } else {
             self.has_point = true;

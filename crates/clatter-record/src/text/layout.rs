@@ -70,7 +70,7 @@ impl Layout {
             .to_vec(),
         };
         if let Some(scope) = head::tektronix(lines) {
-            return Ok(Self::beside(scope));
+            return Ok(Self::beside(&scope));
         }
         let arrow =
             lines.iter().rev().filter(|line| !line.trim().is_empty()).take(LAST).all(|line| line.contains(ARROW));
@@ -116,7 +116,7 @@ impl Layout {
     }
 
     /// Of a file whose settings stand beside the numbers.
-    fn beside(scope: head::Scope) -> Self {
+    fn beside(scope: &head::Scope) -> Self {
         let heading = |(name, unit): (&String, &String)| Heading {
             is_text: unit.is_empty(),
             ..Heading::named_alone(name).with_unit(unit)

@@ -256,24 +256,21 @@ impl Rows {
             } else {
                 let (number, length) = Decimal::scan(&text[at..], point)?;
                 at += length;
-                match use_of {
-                    Use::Acceleration(k) => {
-                        if self.open {
-                            self.open = !self.digits[*k + 1].note(number, self.channels[*k].len());
-                        }
-                        let number = number.float();
-                        let value = number * self.sizes[*k];
-                        if value.abs() > LARGEST || number.abs() >= NO_VALUE {
-                            return None;
-                        }
-                        self.row.push(value);
+                if let Use::Acceleration(k) = use_of {
+                    if self.open {
+                        self.open = !self.digits[*k + 1].note(number, self.channels[*k].len());
                     }
-                    _ => {
-                        if self.open {
-                            self.open = !self.digits[0].note(number, self.times.len());
-                        }
-                        self.time = Some(number);
+                    let number = number.float();
+                    let value = number * self.sizes[*k];
+                    if value.abs() > LARGEST || number.abs() >= NO_VALUE {
+                        return None;
                     }
+                    self.row.push(value);
+                } else {
+                    if self.open {
+                        self.open = !self.digits[0].note(number, self.times.len());
+                    }
+                    self.time = Some(number);
                 }
             }
             let before = at;
@@ -329,7 +326,7 @@ impl Rows {
                     self.line
                 )));
             }
-            if self.heading.is_none() && self.is_heading(&cells) {
+            if self.heading.is_none() && Self::is_heading(&cells) {
                 self.heading = Some(self.line);
             }
             self.text.add(At::Line(self.line), || format!("'{}' is no line of numbers", visible(text)));

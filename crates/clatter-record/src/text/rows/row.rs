@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use super::{NO_VALUE, Rows, Use};
 use crate::Error;
+use crate::decimal::Decimal;
 use crate::heading::{Heading, Named};
 use crate::moment::{self, CLOCK, DATED};
 use crate::samples::LARGEST;
@@ -22,138 +23,18 @@ pub(super) enum Row {
 impl Rows {
     /// The numbers of a line by its cells.
     pub(super) fn cells_of_row(&mut self, text: &str, cells: &[Cow<'_, str>]) -> Result<Row, Error> {
-        let form = self.shape.form;
         for column in 0..self.uses.len() {
             let use_of = self.uses[column];
-            let what = || match use_of {
-                Use::Acceleration(k) => format!("column {} ({})", column + 1, visible(&self.names[k])),
-                Use::Time | Use::Checked => format!("column {} (time)", column + 1),
-                _ => format!("column {}", column + 1),
-            };
             if let Use::Nothing = use_of {
                 continue;
             }
-            let Some(cell) = cells.get(column).map(|cell| &**cell) else {
-                return Ok(Row::Bad(format!(
-                    "{} has {} of {} columns",
-                    visible(text),
-                    cells.len(),
-                    self.shape.columns
-                )));
+            let Some(cell) = cells.get(column) else {
+                let (text, count) = (visible(text), cells.len());
+                return Ok(Row::Bad(format!("{text} has {count} of {} columns", self.shape.columns)));
             };
-            if let Use::Word(word) = use_of {
-                let word = &self.shape.words[word];
-                match cell == word.expected {
-                    true => continue,
-                    false if word.chosen => return Ok(Row::OfOther),
-                    false if word.tells => {
-                        return Err(Error::Columns(format!(
-                            "line {} is of {}, and the lines above are of {}, by column {}: --sensor=NAME reads those of one",
-                            self.line,
-                            visible(cell),
-                            visible(&word.expected),
-                            column + 1
-                        )));
-                    }
-                    false => {
-                        let (cell, expected) = (visible(cell), visible(&word.expected));
-                        return Ok(Row::Bad(format!("'{cell}' stands in {}, and {expected} above", what())));
-                    }
-                }
-            }
-            if is_beyond(cell) && matches!(use_of, Use::Acceleration(_)) {
-                return Err(Error::File(format!(
-                    "line {}: {} in {} is a value beyond the range of the instrument: the largest values of the shock are not \
-                     in the file",
-                    self.line,
-                    visible(cell),
-                    what()
-                )));
-            }
-            if cell.is_empty() && !matches!(use_of, Use::Checked) {
-                return Ok(Row::Bad(format!("nothing stands in {}", what())));
-            }
-            if is_missing(cell) && !matches!(use_of, Use::Checked) {
-                return Ok(Row::Bad(format!("{cell} in {} is no finite number", what())));
-            }
-            let found = form.number(cell).map(|number| (number, None)).or_else(|| {
-                let (number, unit) = form.measured(cell)?;
-                Some((number, Some(unit)))
-            });
-            let Some((number, unit)) =
-                found.filter(|(number, _)| number.float().is_finite() || !matches!(use_of, Use::Time))
-            else {
-                if let Use::Checked = use_of {
-                    continue;
-                }
-                let kind = if matches!(use_of, Use::Time) && cell.contains(':') {
-                    "not a time of day that is known"
-                } else {
-                    "not a number"
-                };
-                return Ok(Row::Bad(format!("'{}' in {} is {kind}", visible(cell), what())));
-            };
-            match use_of {
-                Use::Date => {
-                    if let Some(wrong) = self.date_of(cell) {
-                        return Ok(Row::Bad(wrong));
-                    }
-                    self.day = Some(number);
-                }
-                Use::Acceleration(k) => {
-                    let size = match self.size_of(cell, unit, column, Kind::Acceleration, self.sizes[k]) {
-                        Ok(size) => size,
-                        Err(wrong) => return Ok(Row::Bad(wrong + &what())),
-                    };
-                    if form.is_grouped(cell) {
-                        self.digits[k + 1].note_grouped(cell);
-                    } else if self.open {
-                        self.open = !self.digits[k + 1].note(number, self.channels[k].len());
-                    }
-                    let value = number.float() * size;
-                    if (NO_VALUE..1e38).contains(&number.float().abs()) {
-                        return Ok(Row::Bad(format!(
-                            "{} in {} is what instruments write for no value",
-                            visible(cell),
-                            what()
-                        )));
-                    }
-                    if value.abs() > LARGEST {
-                        return Ok(Row::Bad(format!("{} in {} is beyond {LARGEST:e} m/s²", visible(cell), what())));
-                    }
-                    self.row.push(value);
-                }
-                _ => {
-                    let size = self.size_of(cell, unit, column, Kind::Time, self.time_size);
-                    match size {
-                        Ok(size) if size.to_bits() == self.time_size.to_bits() => {}
-                        Ok(_) => {
-                            return Ok(Row::Bad(format!(
-                                "'{}' in {} is in another unit than above",
-                                visible(cell),
-                                what()
-                            )));
-                        }
-                        Err(wrong) => return Ok(Row::Bad(wrong + &what())),
-                    }
-                    let is_moment = |digits: i32| digits == CLOCK || digits == DATED;
-                    if self.first_time.is_some_and(|first| is_moment(first.digits) != is_moment(number.digits)) {
-                        return Ok(Row::Bad(format!(
-                            "'{}' in {} is another kind of time than above",
-                            visible(cell),
-                            what()
-                        )));
-                    }
-                    if let Some(wrong) = self.date_of(cell) {
-                        return Ok(Row::Bad(wrong));
-                    }
-                    if form.is_grouped(cell) {
-                        self.digits[0].note_grouped(cell);
-                    } else if self.open && !is_moment(number.digits) {
-                        self.open = !self.digits[0].note(number, self.times.len());
-                    }
-                    self.time = Some(number);
-                }
+            let row = if let Use::Word(word) = use_of { self.word(cell, word)? } else { self.cell(cell, column)? };
+            if let Some(row) = row {
+                return Ok(row);
             }
         }
         let more = cells.iter().skip(self.shape.columns).filter(|cell| !cell.is_empty()).count();
@@ -166,6 +47,125 @@ impl Rows {
             )));
         }
         Ok(Row::Whole)
+    }
+
+    /// As messages call a column.
+    fn called(&self, column: usize) -> String {
+        match self.uses[column] {
+            Use::Acceleration(k) => format!("column {} ({})", column + 1, visible(&self.names[k])),
+            Use::Time | Use::Checked => format!("column {} (time)", column + 1),
+            _ => format!("column {}", column + 1),
+        }
+    }
+
+    /// What a line is by a word that has to be the same in all, if it is another one.
+    fn word(&self, cell: &str, word: usize) -> Result<Option<Row>, Error> {
+        let word = &self.shape.words[word];
+        let (shown, expected, number) = (visible(cell), visible(&word.expected), word.column + 1);
+        if cell == word.expected {
+            Ok(None)
+        } else if word.chosen {
+            Ok(Some(Row::OfOther))
+        } else if word.tells {
+            Err(Error::Columns(format!(
+                "line {} is of {shown}, and the lines above are of {expected}, by column {number}: --sensor=NAME reads those of one",
+                self.line
+            )))
+        } else {
+            Ok(Some(Row::Bad(format!("'{shown}' stands in column {number}, and {expected} above"))))
+        }
+    }
+
+    /// Takes in a cell of numbers, or says what its line is.
+    fn cell(&mut self, cell: &str, column: usize) -> Result<Option<Row>, Error> {
+        let (form, use_of) = (self.shape.form, self.uses[column]);
+        let bad = |text: String| Ok(Some(Row::Bad(text)));
+        if is_beyond(cell) && matches!(use_of, Use::Acceleration(_)) {
+            return Err(Error::File(format!(
+                "line {}: {} in {} is a value beyond the range of the instrument: the largest values of the shock are not in the \
+                 file",
+                self.line,
+                visible(cell),
+                self.called(column)
+            )));
+        }
+        let found = form.number(cell).map(|number| (number, None)).or_else(|| {
+            let (number, unit) = form.measured(cell)?;
+            Some((number, Some(unit)))
+        });
+        let is_used = |number: &Decimal| number.float().is_finite() || !matches!(use_of, Use::Time);
+        let Some((number, unit)) = found.filter(|(number, _)| is_used(number)) else {
+            let called = self.called(column);
+            return match use_of {
+                Use::Checked => Ok(None),
+                _ if cell.is_empty() => bad(format!("nothing stands in {called}")),
+                _ if is_missing(cell) => bad(format!("{cell} in {called} is no finite number")),
+                Use::Time if cell.contains(':') => {
+                    bad(format!("'{}' in {called} is not a time of day that is known", visible(cell)))
+                }
+                _ => bad(format!("'{}' in {called} is not a number", visible(cell))),
+            };
+        };
+        let wrong = match use_of {
+            Use::Date => {
+                self.day = Some(number);
+                self.date_of(cell)
+            }
+            Use::Acceleration(k) => self.acceleration(cell, number, unit, column, k),
+            _ => self.time_of(cell, number, unit, column),
+        };
+        Ok(wrong.map(Row::Bad))
+    }
+
+    /// Takes in an acceleration, or says why it is none.
+    fn acceleration(
+        &mut self,
+        cell: &str,
+        number: Decimal,
+        unit: Option<&str>,
+        column: usize,
+        k: usize,
+    ) -> Option<String> {
+        let size = match self.size_of(cell, unit, column, Kind::Acceleration, self.sizes[k]) {
+            Ok(size) => size,
+            Err(wrong) => return Some(wrong + &self.called(column)),
+        };
+        if self.shape.form.is_grouped(cell) {
+            self.digits[k + 1].note_grouped(cell);
+        } else if self.open {
+            self.open = !self.digits[k + 1].note(number, self.channels[k].len());
+        }
+        let value = number.float() * size;
+        let what = || format!("{} in {}", visible(cell), self.called(column));
+        if (NO_VALUE..1e38).contains(&number.float().abs()) {
+            return Some(format!("{} is what instruments write for no value", what()));
+        }
+        if value.abs() > LARGEST {
+            return Some(format!("{} is beyond {LARGEST:e} m/s²", what()));
+        }
+        self.row.push(value);
+        None
+    }
+
+    /// Takes in a time, or says why it is none.
+    fn time_of(&mut self, cell: &str, number: Decimal, unit: Option<&str>, column: usize) -> Option<String> {
+        let what = || format!("'{}' in {}", visible(cell), self.called(column));
+        match self.size_of(cell, unit, column, Kind::Time, self.time_size) {
+            Ok(size) if size.to_bits() == self.time_size.to_bits() => {}
+            Ok(_) => return Some(format!("{} is in another unit than above", what())),
+            Err(wrong) => return Some(wrong + &self.called(column)),
+        }
+        let is_moment = |digits: i32| digits == CLOCK || digits == DATED;
+        if self.first_time.is_some_and(|first| is_moment(first.digits) != is_moment(number.digits)) {
+            return Some(format!("{} is another kind of time than above", what()));
+        }
+        if self.shape.form.is_grouped(cell) {
+            self.digits[0].note_grouped(cell);
+        } else if self.open && !is_moment(number.digits) {
+            self.open = !self.digits[0].note(number, self.times.len());
+        }
+        self.time = Some(number);
+        self.date_of(cell)
     }
 
     /// Why a date is none that can be used: its day and month may be either, and it is another one than above.
@@ -212,7 +212,7 @@ impl Rows {
     }
 
     /// Whether cells are names of columns.
-    pub(super) fn is_heading(&self, cells: &[Cow<'_, str>]) -> bool {
+    pub(super) fn is_heading(cells: &[Cow<'_, str>]) -> bool {
         let telling = |cell: &Cow<'_, str>| {
             let heading = Heading::of(cell);
             heading.unit.is_some() || matches!(heading.named(), Named::Time | Named::Acceleration)
