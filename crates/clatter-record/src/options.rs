@@ -97,7 +97,7 @@ impl Units {
 /// The sensitivity of a sensor such as 100mV/g or 10.2 mV/(m/s2), in V s²/m.
 ///
 /// ```
-/// assert_eq!(clatter_record::sensitivity("98.0665mV/g").unwrap(), 0.0980665 / 9.80665);
+/// assert_eq!(clatter_record::sensitivity("2V/g").unwrap(), 2.0 / 9.80665);
 /// assert!(clatter_record::sensitivity("100 pC/g").is_err());
 /// ```
 ///
