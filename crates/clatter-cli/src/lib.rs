@@ -152,7 +152,7 @@ enum Command {
     Map(map::Args),
     Simulate(Box<simulate::Args>),
     Respond(Box<respond::Args>),
-    Record(record::Args),
+    Record(Box<record::Args>),
     Spectrum(Box<spectrum::Args>),
     Design(design::Args),
     Scatter(scatter::Args),
