@@ -356,7 +356,8 @@ fn bad_records_are_told_by_file_and_line() {
         ),
         (
             "0,0\ntime,acceleration\n1,1\n",
-            "line 2: 'time,acceleration' is no line of numbers\n--skip-bad goes on without them",
+            "line 2 names columns, below numbers from line 1 on that none is named of: --record=1 reads the first lines, --record=2 \
+             those below the names",
         ),
     ] {
         let file = record(folder.path(), text);
