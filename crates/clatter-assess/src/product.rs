@@ -242,12 +242,22 @@ impl Product {
         2.0 * position_m / self.body.length_m()
     }
     /// Inertia ratio (L² − ρ²)/(L² + ρ²) of the product; off center ±√(q_a q_b), that of the symmetric bar with the
-    /// same clatter.
+    /// same clatter; of the middle of the range of the radius of gyration.
     #[must_use]
     pub fn inertia_ratio(&self) -> f64 {
-        let [a, b] = self.body.inertia_ratios();
-        (a * b).sqrt().copysign(a)
+        ratio(&self.body)
     }
+    /// The same at `share` in [0, 1] of the range of the radius of gyration.
+    #[must_use]
+    pub fn inertia_ratio_at(&self, share: f64) -> f64 {
+        ratio(&self.body_at(share))
+    }
+}
+
+/// Inertia ratio of the symmetric bar with the same clatter.
+fn ratio(body: &Body) -> f64 {
+    let [a, b] = body.inertia_ratios();
+    (a * b).sqrt().copysign(a)
 }
 
 impl Drop {

@@ -60,8 +60,14 @@ fn body(file: &ProductFile) -> String {
         "length {}, radius of gyration {}{off}{mass}: inertia ratio q = {}",
         millimeters(body.length_m()),
         range(&file.product.gyration_m, 1e-3, "mm"),
-        three(file.product.inertia_ratio()).replace('-', "−"),
+        ratio(file),
     )
+}
+
+/// The inertia ratio, of a range of radii of gyration as a range.
+fn ratio(file: &ProductFile) -> String {
+    let [lo, hi] = [1.0, 0.0].map(|share| three(file.product.inertia_ratio_at(share)).replace('-', "−"));
+    if lo == hi { lo } else { format!("{lo} to {hi}") }
 }
 
 /// The fall.

@@ -44,6 +44,9 @@ fn said(file: &ProductFile, of: &LimitAssessment) -> Vec<String> {
         };
         said.push(format!("By the other contact law ({law}) the worst drop asks for {}.", shown(of.unit, other)));
     }
+    if let Some(gyration_m) = of.worst_case.as_ref().and_then(|worst| worst.gyration_m) {
+        said.push(format!("In the worst drop the radius of gyration is {}.", millimeters(gyration_m)));
+    }
     said.extend(of.notes.iter().map(|note| sentence(&minus(note))));
     said
 }
