@@ -24,6 +24,7 @@ mod map;
 mod motion;
 mod off_center;
 pub mod paper;
+mod plate;
 pub mod quadrature;
 pub mod reference;
 mod start;
@@ -35,6 +36,10 @@ pub use bar::{Bar, Mass, Restitution};
 pub use error::Error;
 pub use map::{Axis, Map, Quantity, Variable};
 pub use off_center::{OffCenterBar, OffCenterTrain, Safest, Shocks, center_and_gyration};
+pub use plate::{
+    Atlas, AtlasPeak, Corner, Plate, PlateCount, PlateImpact, PlatePeak, PlateShocks, PlateStart, PlateSummary, PlateTrain,
+    PlateZone, Word,
+};
 pub use quadrature::Integral;
 pub use start::{End, Start};
 pub use summary::{Count, Net, Peak, PeakImpact, Summary};
