@@ -38,7 +38,9 @@ pub(crate) struct Args {
 impl Args {
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
         let FallingBody::Plate(plate) = self.body.body()? else {
-            return Err(Failure::Usage("an atlas is that of a plate: give --gyration-ratio=KX,KY, its two gyration ratios"));
+            return Err(Failure::Usage(
+                "an atlas is that of a plate: give --gyration-ratio=KX,KY, its two gyration ratios",
+            ));
         };
         let atlas = plate.atlas(self.limit).map_err(Failure::flag("--limit"))?;
         match self.format {
@@ -65,7 +67,12 @@ fn table(plate: &Plate, atlas: &Atlas, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "Directions of a plate with gyration ratios {kx},{ky}{center}, e = {}", given(plate.e()))?;
     let AtlasPeak { corner, center, later, .. } = atlas.peak();
     let first = if plate.is_centered() { "any corner first" } else { "corner a first" };
-    writeln!(out, "Largest shocks of all directions, {first}: {} v0 at a corner, {} v0 at the center of mass", figures(corner), figures(center))?;
+    writeln!(
+        out,
+        "Largest shocks of all directions, {first}: {} v0 at a corner, {} v0 at the center of mass",
+        figures(corner),
+        figures(center)
+    )?;
     if later > 0.0 {
         writeln!(out, "Strikes that were not followed give a corner at most {} v0", figures(later))?;
     }

@@ -414,7 +414,9 @@ pub(crate) fn height_gaps(text: &str) -> Result<Values<1, 2>, String> {
 /// On a bar, or on a plate.
 pub(crate) fn positions(text: &str) -> Result<Values<1, 2>, String> {
     let on_plate = |[x, y]: [f64; 2]| {
-        let out = |name, value: f64| if value.abs() <= 1.0 { Ok(()) } else { Err(Error::Quantity { name, value, allowed: "in [-1, 1]" }) };
+        let out = |name, value: f64| {
+            if value.abs() <= 1.0 { Ok(()) } else { Err(Error::Quantity { name, value, allowed: "in [-1, 1]" }) }
+        };
         out("position x", x).and(out("position y", y))
     };
     values(text, |text| position(text).map(|s| [s]), on_plate)

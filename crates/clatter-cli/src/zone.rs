@@ -64,7 +64,9 @@ impl Args {
         let bar = match (self.bar.body()?, self.height_gap) {
             (FallingBody::Plate(plate), gap) => return self.plate(plate, gap, streams),
             (FallingBody::Bar(_), Some(_)) => {
-                return Err(Failure::Usage("--height-gap goes with a plate: the safe zone of a bar is the same for all"));
+                return Err(Failure::Usage(
+                    "--height-gap goes with a plate: the safe zone of a bar is the same for all",
+                ));
             }
             (FallingBody::Bar(bar), None) => bar,
         };

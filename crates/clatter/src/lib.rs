@@ -37,8 +37,8 @@ pub use error::Error;
 pub use map::{Axis, Map, Quantity, Variable};
 pub use off_center::{OffCenterBar, OffCenterTrain, Safest, Shocks, center_and_gyration};
 pub use plate::{
-    Atlas, AtlasPeak, Corner, Plate, PlateCount, PlateImpact, PlatePeak, PlateShocks, PlateStart, PlateSummary, PlateTrain,
-    PlateZone, Word,
+    Atlas, AtlasPeak, Corner, Plate, PlateCount, PlateImpact, PlatePeak, PlateShocks, PlateStart, PlateSummary,
+    PlateTrain, PlateZone, Word,
 };
 pub use quadrature::Integral;
 pub use start::{End, Start};

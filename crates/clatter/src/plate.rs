@@ -23,6 +23,7 @@
 //! Neither grows, because S_j takes kinetic energy out of both (or keeps it, for e = 1).
 
 mod atlas;
+mod endless;
 mod number;
 mod summary;
 mod train;
@@ -306,7 +307,8 @@ impl PlateStart {
             let allowed = "in [-1e60, -1e-60]: corner a must approach the ground";
             return Err(Error::Quantity { name, value: velocity[0], allowed });
         }
-        for (name, value) in ["velocity of corner b", "velocity of corner d"].into_iter().zip([velocity[1], velocity[2]])
+        for (name, value) in
+            ["velocity of corner b", "velocity of corner d"].into_iter().zip([velocity[1], velocity[2]])
         {
             if value != 0.0 && !SIZES.contains(&value.abs()) {
                 return Err(Error::Quantity { name, value, allowed: "0 or of a size in [1e-60, 1e60]" });

@@ -102,7 +102,8 @@ fn brute(k: [f64; 2], s: [f64; 2], e: f64, velocity: [f64; 3], gaps: [f64; 2], m
             return (list, false);
         }
         let approach = at(&rate, j);
-        let own = one.plus(&arm[j][0].times(&arm[j][0]).over(&square[0])).plus(&arm[j][1].times(&arm[j][1]).over(&square[1]));
+        let own =
+            one.plus(&arm[j][0].times(&arm[j][0]).over(&square[0])).plus(&arm[j][1].times(&arm[j][1]).over(&square[1]));
         let impulse = one.plus(&f(e)).times(&approach.negative()).over(&own);
         rate = [
             rate[0].plus(&impulse),
@@ -314,6 +315,66 @@ fn the_diagonal_is_a_bar_with_more_inertia() {
     assert!(matches!(count, PlateCount::Finite(_)), "{count:?}");
 }
 
+/// Round the corners of a uniform plate, a–d–c–b–a…, without end where λ³ + ((1 + e)/7 − 1) λ² + ((1 + e)/7 − e) λ + e has
+/// a positive root: for e up to 0.02955. Far along the train is where it tends to.
+#[test]
+fn words_round_the_corners_are_endless_below_their_restitution() {
+    let start = PlateStart::level([1.0, 0.3]).unwrap();
+    for e in [0.005, 0.02, 0.028] {
+        let plate = Plate::uniform(e).unwrap();
+        let summary = plate.summary(&start, 1000);
+        assert_eq!(summary.count, PlateCount::Endless, "e = {e}: {summary:?}");
+        let mut train = plate.train(&start);
+        let last = train.by_ref().take(400).last().unwrap();
+        assert!((last.time - summary.duration).abs() < 1e-9, "e = {e}: {summary:?}, not {last:?}");
+        assert!(train.velocities().iter().all(|v| v.abs() < 1e-9), "e = {e}: {:?}", train.velocities());
+        assert!(
+            plate.train(&start).take(400).all(|impact| summary.peak.corner >= -(1.0 + e) * impact.approach),
+            "peak"
+        );
+    }
+    assert_eq!(Plate::uniform(0.0295).unwrap().summary(&start, 1000).count, PlateCount::Endless);
+    for e in [0.0297, 0.04] {
+        let count = Plate::uniform(e).unwrap().summary(&start, 1000).count;
+        assert!(matches!(count, PlateCount::Finite(_)), "e = {e}: {count:?}");
+    }
+}
+
+/// Two corners of an edge that alternate without end, and the drops of other plates that the oracle gave up: where a
+/// train is said to be endless it is still going, at the time and with the velocities that it is said to tend to.
+#[test]
+fn endless_trains_tend_to_what_is_said() {
+    let mut endless = [0, 0];
+    for n in 0..60_u32 {
+        let x = |k: u32| f64::from((n * k + 7) % 59) / 59.0;
+        let plate = Plate::off_center(
+            [0.2 + 0.6 * x(3), 0.15 + 0.5 * x(11)],
+            [0.6 * x(17) - 0.3, 0.4 * x(23) - 0.2],
+            0.02 + 0.1 * x(31),
+        )
+        .unwrap();
+        let start = PlateStart::new([-1.0, -0.6 - x(37), -0.6 - x(41)], [0.1 + x(43), 0.1 + x(47)]).unwrap();
+        let summary = plate.summary(&start, 120);
+        if summary.count != PlateCount::Endless {
+            continue;
+        }
+        let mut train = plate.train(&start);
+        let impacts: Vec<_> = train.by_ref().take(120).collect();
+        assert_eq!(impacts.len(), 120, "{plate:?}, {start:?}");
+        let corners = Corner::ALL.iter().filter(|corner| impacts[80..].iter().any(|i| i.corner == **corner)).count();
+        endless[usize::from(corners > 2)] += 1;
+        let off = (impacts[119].time - summary.duration).abs();
+        assert!(off < 1e-6 * summary.duration, "{plate:?}, {start:?}: {summary:?}, not {:?}", impacts[119]);
+        for (got, want) in train.velocities().iter().zip(summary.final_velocity.unwrap()) {
+            assert!((got - want).abs() < 1e-6, "{plate:?}, {start:?}: {:?}, not {summary:?}", train.velocities());
+        }
+        let peak = impacts.iter().fold(0.0, |most: f64, i| most.max(-i.approach)) * (1.0 + plate.e());
+        assert!((summary.peak.corner - peak).abs() < 1e-12, "{plate:?}, {start:?}: {summary:?}, not {peak}");
+    }
+    eprintln!("endless: {} of two corners, {} of more", endless[0], endless[1]);
+    assert!(endless.iter().all(|n| *n > 2), "some of both kinds: {endless:?}");
+}
+
 #[test]
 fn ties_are_told_and_taken_as_a_tilt_that_differs_by_next_to_nothing() {
     let plate = Plate::uniform(0.5).unwrap();
@@ -354,7 +415,10 @@ fn values_out_of_range_are_refused_by_name() {
         (Plate::new([0.0, 1.0], 0.5), "gyration ratio along x = 0.0 is not in [1e-9, 1e9]"),
         (Plate::new([1.0, f64::NAN], 0.5), "gyration ratio along y = NaN is not in [1e-9, 1e9]"),
         (Plate::new([1.0, 1.0], 1.5), "restitution e = 1.5 is not in [0, 1]"),
-        (Plate::off_center([1.0; 2], [0.0, 1.0], 0.5), "center of mass along y = 1.0 is not in (-1, 1), between the edges"),
+        (
+            Plate::off_center([1.0; 2], [0.0, 1.0], 0.5),
+            "center of mass along y = 1.0 is not in (-1, 1), between the edges",
+        ),
     ] {
         assert_eq!(made.unwrap_err().to_string(), message);
     }

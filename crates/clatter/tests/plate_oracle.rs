@@ -86,7 +86,8 @@ fn drops_are_those_of_exact_arithmetic() {
         let name = format!("case {n}, {}", c.kind);
         let impacts: Vec<_> = plate.train(&start).take(c.order.len()).collect();
         assert_eq!(letters(impacts.iter().map(|impact| impact.corner)), c.order, "{name}: order");
-        for (impact, (time, (approach, delta_v))) in impacts.iter().zip(c.times.iter().zip(c.approach.iter().zip(&c.delta_v)))
+        for (impact, (time, (approach, delta_v))) in
+            impacts.iter().zip(c.times.iter().zip(c.approach.iter().zip(&c.delta_v)))
         {
             let name = format!("{name}, impact {}", impact.number);
             hold(&format!("{name}: time"), impact.time, time, 1e-10 * decimal(time).max(1.0));

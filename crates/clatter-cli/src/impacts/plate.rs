@@ -37,7 +37,10 @@ impl Args {
             RowFormat::Table => {
                 let tied = drop.table(streams.out).map_err(Failure::Answer)?;
                 if tied {
-                    streams.note("note", format_args!("two corners come down at one instant; the order is {}", drop.order()));
+                    streams.note(
+                        "note",
+                        format_args!("two corners come down at one instant; the order is {}", drop.order()),
+                    );
                 }
                 if let Some(warning) = drop.cut_short() {
                     streams.note("warning", warning);
@@ -80,11 +83,17 @@ impl Drop {
     fn table(&self, out: &mut dyn Write) -> io::Result<bool> {
         let PlateSummary { count, duration, peak, final_velocity, .. } = self.summary;
         let ([kx, ky], [sx, sy]) = (self.plate.gyration_ratios().map(given), self.plate.center_of_mass());
-        let center =
-            if self.plate.is_centered() { String::new() } else { format!(", center of mass {},{}", given(sx), given(sy)) };
+        let center = if self.plate.is_centered() {
+            String::new()
+        } else {
+            format!(", center of mass {},{}", given(sx), given(sy))
+        };
         writeln!(out, "Plate with gyration ratios {kx},{ky}{center}, e = {}", given(self.plate.e()))?;
         let ([a, b, c, d], [hx, hy]) = (self.start.velocities().map(given), self.start.gaps().map(given));
-        writeln!(out, "Corner a strikes first, at {a} v0; b comes with {b} v0 from {hx} h0, d with {d} v0 from {hy} h0, c with {c} v0\n")?;
+        writeln!(
+            out,
+            "Corner a strikes first, at {a} v0; b comes with {b} v0 from {hx} h0, d with {d} v0 from {hy} h0, c with {c} v0\n"
+        )?;
         let line = |out: &mut dyn Write, name: &str, value: &str, unit: &str| {
             writeln!(out, "{}", format!("{name:<24}{value:>12} {unit}").trim_end())
         };
@@ -103,7 +112,8 @@ impl Drop {
             line(out, "Later ones up to", &figures(peak.later), "v0      a bound of what was not followed")?;
         }
         if let Some(velocities) = final_velocity {
-            let names = ["Leaving,     corner a", "                    b", "                    c", "                    d"];
+            let names =
+                ["Leaving,     corner a", "                    b", "                    c", "                    d"];
             for (name, v) in names.into_iter().zip(velocities) {
                 line(out, name, &figures(v), "v0")?;
             }
@@ -112,7 +122,14 @@ impl Drop {
             return Ok(false);
         }
         let places = self.at.iter().map(|[x, y]| (format!("shock at {},{}", given(*x), given(*y)), "v0"));
-        let heads = [("time", "h0/v0"), ("approach", "v0"), ("shock at a", "v0"), ("at b", "v0"), ("at c", "v0"), ("at d", "v0")];
+        let heads = [
+            ("time", "h0/v0"),
+            ("approach", "v0"),
+            ("shock at a", "v0"),
+            ("at b", "v0"),
+            ("at c", "v0"),
+            ("at d", "v0"),
+        ];
         let heads: Vec<_> = heads.map(|(name, unit)| (name.to_owned(), unit)).into_iter().chain(places).collect();
         writeln!(out)?;
         columns::line(out, "   impact  corner", &heads, heads.iter().map(|(name, _)| name.as_str()))?;
@@ -161,7 +178,13 @@ impl Drop {
             count: CountJson(count),
             count_exact: !matches!(count, PlateCount::MoreThan(_)),
             duration: Json(duration),
-            peak: PeakJson { corner: Json(corner), impact, struck: struck.letter(), center: Json(center), later: Json(later) },
+            peak: PeakJson {
+                corner: Json(corner),
+                impact,
+                struck: struck.letter(),
+                center: Json(center),
+                later: Json(later),
+            },
             final_velocity: final_velocity.map(|velocities| velocities.map(Json)),
             impacts: List(self),
         }

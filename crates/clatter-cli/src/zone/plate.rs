@@ -23,9 +23,16 @@ struct Zones {
 }
 
 impl Args {
-    pub(super) fn plate(&self, plate: Plate, gap: Option<Values<1, 2>>, streams: &mut Streams<'_>) -> Result<(), Failure> {
+    pub(super) fn plate(
+        &self,
+        plate: Plate,
+        gap: Option<Values<1, 2>>,
+        streams: &mut Streams<'_>,
+    ) -> Result<(), Failure> {
         if self.first.is_some() {
-            return Err(Failure::Usage("--first goes with a bar; one drop of a plate, corner a first, is --height-gap=HX,HY"));
+            return Err(Failure::Usage(
+                "--first goes with a bar; one drop of a plate, corner a first, is --height-gap=HX,HY",
+            ));
         }
         let gaps = gap.map(|gap| gap.of_plate("--height-gap")).transpose()?;
         let shocks = match gaps {
@@ -41,7 +48,9 @@ impl Args {
         }
         if !zones.is_proven() {
             let later = figures(shocks.later());
-            let what = format_args!("impacts that were not followed may give a corner up to {later} v0: the zones may be smaller");
+            let what = format_args!(
+                "impacts that were not followed may give a corner up to {later} v0: the zones may be smaller"
+            );
             streams.note("warning", what);
         }
         Ok(())

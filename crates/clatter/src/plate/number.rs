@@ -57,7 +57,9 @@ pub(super) fn sooner<T: Number>(v: &[T; 4], p: &[T; 4], i: usize, j: usize) -> O
 }
 
 /// Digits of a float that a ball is made of.
-pub(super) trait Digits: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Into<f64> {
+pub(super) trait Digits:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Into<f64>
+{
     /// What an operation rounds at most, over its result.
     const UNIT: f64;
     fn of(x: Dd) -> Self;

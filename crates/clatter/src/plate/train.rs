@@ -62,7 +62,9 @@ struct Steps {
     v: [f64; 4],
     p: [f64; 4],
     next: Next,
+    /// Of the next strike, and of the latest.
     time: f64,
+    latest: f64,
     tie: bool,
     /// Strikes so far.
     strikes: f64,
@@ -119,6 +121,7 @@ impl Steps {
             self.p[i] -= jump[i] * s;
         }
         (self.v[j], self.p[j]) = (-plate.e * u, -plate.e * s);
+        self.latest = self.time;
         self.strikes += 1.0;
         self.choose(j);
     }
@@ -174,6 +177,13 @@ struct Exact {
     nudge: [Dyadic; 4],
     scale: Dyadic,
     done: usize,
+}
+
+/// Where the corners are at the latest strike, and by how much that may be off.
+pub(super) struct Heights {
+    pub(super) time: f64,
+    pub(super) heights: [f64; 4],
+    pub(super) off: f64,
 }
 
 /// What comes next, as far as it is known: none where the train has ended.
@@ -352,6 +362,30 @@ impl PlateTrain {
         self.later.as_ref().map_or(self.steps.p, |later| later.p.map(|ball| ball.middle.hi))
     }
 
+    /// Heights at the latest strike.
+    pub(super) fn heights(&self) -> Heights {
+        let largest = |p: &[f64; 4]| p.iter().fold(0.0, |most: f64, p| most.max(p.abs()));
+        let Some(later) = &self.later else {
+            let Steps { v, p, latest, .. } = &self.steps;
+            let heights = std::array::from_fn(|i| p[i] + v[i] * latest);
+            return Heights { time: *latest, heights, off: 1e-14 * largest(p) };
+        };
+        let (p, j) = (later.p.map(|ball| ball.middle), later.last().unwrap_or(0));
+        let time = if later.v[j].middle.hi > 0.0 {
+            Dd::ZERO - later.p[j].over(&later.v[j])
+        } else {
+            Dd::from(self.steps.latest)
+        };
+        let heights = std::array::from_fn(|i| (p[i] + later.v[i].middle * time).hi);
+        Heights { time: time.hi, heights, off: 1e-27 * largest(&p.map(|p| p.hi)) }
+    }
+
+    /// Whether the plate has bounced clear: no impact is left.
+    pub(super) fn ended(&self) -> bool {
+        let mut ahead = self.clone();
+        ahead.next().is_none() && !ahead.undecided
+    }
+
     #[cold]
     fn begin_later(&mut self) {
         let (plate, start) = (self.plate, self.start);
@@ -373,10 +407,10 @@ impl PlateTrain {
         let j = found.corner?;
         let approach = later.v[j].middle.hi;
         let flat = self.start.is_flat();
-        let time = if flat { 0.0 } else { later.time(j).max(self.steps.time) };
+        let time = if flat { 0.0 } else { later.time(j).max(self.steps.latest) };
         let tie = if flat { later.falling() > 1 } else { found.tie || (self.number == 0 && self.steps.tie) };
         later.strike(j);
-        self.steps.time = time;
+        self.steps.latest = time;
         Some(self.impact(j, time, approach, tie))
     }
 
@@ -439,7 +473,7 @@ impl Plate {
         let tie = start.is_flat() || at_once.iter().any(|(gap, v)| *gap == 0.0 && *v < 0.0);
         let next = if start.is_flat() { Next::Doubt } else { Next::Corner(0) };
         let spread = Spread::new(self, v, p, f64::EPSILON / 2.0);
-        let steps = Steps { v, p, next, time: 0.0, tie, strikes: 1.0, spread };
+        let steps = Steps { v, p, next, time: 0.0, latest: 0.0, tie, strikes: 1.0, spread };
         PlateTrain { plate: *self, start: *start, number: 0, steps, later: None, undecided: false }
     }
 }
