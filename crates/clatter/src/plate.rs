@@ -355,6 +355,3 @@ impl PlateStart {
         if hx == 0.0 { [1.0, 0.0] } else { [0.0, 1.0] }
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -186,3 +186,47 @@ impl Number for Dyadic {
         Strikes { keep: Some(keep), jump, rebound }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// The same sums and products in other numbers.
+    fn form<T: Number>(x: &[f64]) -> T {
+        let terms: Vec<T> = x.iter().map(|x| T::exactly(*x)).collect();
+        terms.iter().skip(1).enumerate().fold(terms[0].clone(), |sum, (k, term)| match k % 3 {
+            0 => sum.times(term),
+            1 => sum.plus(term),
+            _ => term.minus(&sum.times(term)),
+        })
+    }
+
+    fn holds<M: Digits>(ball: Ball<M>, exact: &Dyadic) -> bool {
+        let Dd { hi, lo } = ball.middle.wide();
+        let off = Dyadic::from(hi).plus(&Dyadic::from(lo)).minus(exact);
+        let most = Dyadic::from(ball.off);
+        [off.plus(&most), most.minus(&off)].iter().all(|x| Dyadic::sign(x) != Ordering::Less)
+    }
+
+    proptest! {
+        #[test]
+        fn a_ball_holds_the_exact_number(x in prop::collection::vec(-2.0..2.0_f64, 2..12)) {
+            let exact: Dyadic = form(&x);
+            let (plain, wide): (Ball<f64>, Ball<Dd>) = (form(&x), form(&x));
+            prop_assert!(holds(plain, &exact) && holds(wide, &exact), "{plain:?}, {wide:?}");
+            prop_assert!(wide.off < 1e-25, "{wide:?}");
+            for sign in [plain.sign(), wide.sign()].into_iter().flatten() {
+                prop_assert_eq!(sign, Dyadic::sign(&exact));
+            }
+        }
+
+        /// Numbers that cancel to nothing, and to next to nothing.
+        #[test]
+        fn no_sign_is_told_that_is_not_certain(x in 0.1..2.0_f64, y in 0.1..2.0_f64) {
+            prop_assert_eq!(form::<Ball<f64>>(&[x, y]).minus(&form(&[y, x])).sign(), None);
+            let exact = form::<Dyadic>(&[x, y]).minus(&form(&[y, x]));
+            prop_assert_eq!(Dyadic::sign(&exact), Ordering::Equal);
+        }
+    }
+}
