@@ -49,7 +49,7 @@ impl Args {
             RowFormat::Json => streams.long_json(&answer(&plate, &atlas, self.limit))?,
         }
         let AtlasPeak { corner, later, .. } = atlas.peak();
-        if later > corner {
+        if later > corner && self.format != RowFormat::Json {
             let later = figures(later);
             streams.note("warning", format_args!("strikes that were not followed may give a corner up to {later} v0"));
         }

@@ -94,8 +94,14 @@ pub struct Plate {
     e: f64,
     /// What a strike of unit speed at corner j changes at corner i, (1 + e) w_j(i)/w_j(j), at `[j][i]`.
     jump: [[f64; 4]; 4],
+    /// The same, but for e at the corner itself.
+    change: [[f64; 4]; 4],
     /// w_j(j).
     weight: [f64; 4],
+    /// The largest of them.
+    heaviest: f64,
+    /// 2K + 1 of the bound of roundings in `train`, K² = 1 + k_x² + k_y².
+    spread: f64,
 }
 
 /// Smallest and largest gyration ratio: α and β from 10⁻¹⁸ to 10¹⁸, whose products stay far within floats.
@@ -140,14 +146,21 @@ impl Plate {
             center: center_of_mass.map(|s| s + 0.0),
             e,
             jump: [[0.0; 4]; 4],
+            change: [[0.0; 4]; 4],
             weight: [0.0; 4],
+            heaviest: 0.0,
+            spread: 2.0
+                * (1.0 + gyration_ratios[0] * gyration_ratios[0] + gyration_ratios[1] * gyration_ratios[1]).sqrt()
+                + 1.0,
         };
         let coupling = plate.coupling();
         for j in 0..4 {
             let own = coupling[j][j].0;
             plate.jump[j] = coupling[j].map(|(w, _)| (two_sum(1.0, e) * (w / own)).hi);
-            plate.jump[j][j] = 1.0 + e;
+            plate.change[j] = plate.jump[j];
+            (plate.jump[j][j], plate.change[j][j]) = (1.0 + e, e);
             plate.weight[j] = (own / plate.squares()).hi;
+            plate.heaviest = plate.heaviest.max(plate.weight[j]);
         }
         Ok(plate)
     }
@@ -271,7 +284,8 @@ impl Plate {
     fn norm(&self, [a, b, _, d]: [f64; 4]) -> f64 {
         let [wx, wy] = [0.5 * (b - a), 0.5 * (d - a)];
         let v = a + (1.0 + self.center[0]) * wx + (1.0 + self.center[1]) * wy;
-        libm::hypot(v, libm::hypot(self.gyration[0] * wx, self.gyration[1] * wy))
+        let [x, y] = [self.gyration[0] * wx, self.gyration[1] * wy];
+        (v * v + x * x + y * y).sqrt()
     }
 }
 

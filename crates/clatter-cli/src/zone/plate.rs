@@ -46,7 +46,7 @@ impl Args {
             RowFormat::Csv => zones.csv(streams.out).map_err(Failure::Answer)?,
             RowFormat::Json => streams.json(&zones.answer())?,
         }
-        if !zones.is_proven() {
+        if !zones.is_proven() && self.format != RowFormat::Json {
             let later = figures(shocks.later());
             let what = format_args!(
                 "impacts that were not followed may give a corner up to {later} v0: the zones may be smaller"

@@ -35,7 +35,7 @@ const LONGEST: usize = 32;
 
 impl Plate {
     /// What a train tends to, if it is proven endless after this word.
-    pub(super) fn limit(&self, start: &PlateStart, word: &[usize], train: &PlateTrain) -> Option<Limit> {
+    pub(super) fn limit(&self, start: &PlateStart, word: &[usize], train: &PlateTrain<'_>) -> Option<Limit> {
         let n = word.len();
         let repeats = |period: usize| word[n - 3 * period..].windows(period + 1).all(|w| w[0] == w[period]);
         let period = (2..=LONGEST.min(n / 3)).find(|period| repeats(*period))?;

@@ -110,7 +110,6 @@ impl Plate {
 
     /// What no strike exceeds after these velocities.
     pub(super) fn later(&self, velocities: &[f64; 4]) -> f64 {
-        let weight = self.weight.iter().fold(0.0, |most: f64, w| most.max(*w));
-        (1.0 + self.e) * weight.sqrt() * self.norm(*velocities)
+        (1.0 + self.e) * self.heaviest.sqrt() * self.norm(*velocities)
     }
 }

@@ -145,7 +145,7 @@ impl Later {
         if let Some(j) = found.corner {
             let (time, [v, p]) = (self.time(j), [self.v[j], self.p[j]]);
             let off = 2.0 * (p.off + time * v.off) / v.middle.hi.abs();
-            if off > 1e-2 * TIME * time.max(self.spread.time) {
+            if off > 1e-5 * TIME * time.max(self.spread.time) {
                 return None;
             }
         }
