@@ -59,6 +59,10 @@ impl Dyadic {
         let zeros = self.m.trailing_zeros().unwrap_or(0);
         Self { m: self.m >> zeros, x: self.x + i128::from(zeros) }
     }
+    /// How many binary digits its significand has.
+    pub(crate) fn bits(&self) -> u64 {
+        self.m.bits()
+    }
     pub(crate) fn add(&self, o: &Self) -> Self {
         let (low, high) = if self.x <= o.x { (self, o) } else { (o, self) };
         if high.m.sign() == Sign::NoSign {

@@ -12,6 +12,8 @@
 //!
 //! Two numbers decide everything: the coefficient of restitution `e` and the inertia ratio
 //! `q = (L² − ρ²)/(L² + ρ²)` of half-length `L` and radius of gyration `ρ`.
+//!
+//! A product that is no bar is a [`Plate`], which lands on its four corners; the bar is its limit of large inertia across.
 
 pub mod accuracy;
 mod bar;

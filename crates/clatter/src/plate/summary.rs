@@ -1,5 +1,6 @@
 //! What the train of a plate amounts to.
 
+use super::endless::Limit;
 use super::{Corner, Plate, PlateImpact, PlateShocks, PlateStart};
 
 /// How many impacts a plate has.
@@ -44,6 +45,8 @@ pub struct PlateSummary {
     pub final_velocity: Option<[f64; 4]>,
     /// Largest shocks of every corner in its own strikes.
     struck: [f64; 4],
+    /// What strikes that were not followed give a corner at most, 0 where they are known to be less than `struck`.
+    open: f64,
 }
 
 /// Strikes after which a train is first asked whether it is endless; then at every power of two.
@@ -84,28 +87,37 @@ impl Plate {
             if number == ask {
                 ask *= 2;
                 let limit = self.limit(start, &word, &train);
-                if let Some(limit) = limit.filter(|limit| ask > most || (0..4).all(|j| limit.later[j] <= struck[j])) {
+                let less = |limit: &Limit| (0..4).all(|j| limit.later[j] <= struck[j]);
+                if let Some(limit) = limit.filter(|limit| ask > most || less(limit)) {
                     peak.later = limit.later.into_iter().fold(0.0, f64::max);
                     let duration = if start.is_flat() { 0.0 } else { limit.time };
                     let (count, final_velocity) = (PlateCount::Endless, Some(limit.velocity));
-                    return PlateSummary { count, duration, peak, final_velocity, struck };
+                    let open = if less(&limit) { 0.0 } else { peak.later };
+                    return PlateSummary { count, duration, peak, final_velocity, struck, open };
                 }
             }
         }
         let number = word.len() as u64;
         if train.ended() {
             let (count, final_velocity) = (PlateCount::Finite(number), Some(train.velocities()));
-            return PlateSummary { count, duration, peak, final_velocity, struck };
+            return PlateSummary { count, duration, peak, final_velocity, struck, open: 0.0 };
         }
         peak.later = self.later(&train.velocities());
-        PlateSummary { count: PlateCount::MoreThan(number), duration, peak, final_velocity: None, struck }
+        PlateSummary {
+            count: PlateCount::MoreThan(number),
+            duration,
+            peak,
+            final_velocity: None,
+            struck,
+            open: peak.later,
+        }
     }
 
     /// The largest shocks of one drop everywhere on the plate, of at most so many impacts.
     #[must_use]
     pub fn shocks(&self, start: &PlateStart, most: u64) -> PlateShocks {
         let summary = self.summary(start, most);
-        PlateShocks::new(*self, summary.struck, summary.peak.later)
+        PlateShocks::new(*self, summary.struck, summary.open)
     }
 
     /// What no strike exceeds after these velocities.

@@ -177,8 +177,8 @@ pub(super) struct Heights {
 }
 
 impl PlateTrain<'_> {
-    /// Whether the train was given up: more than 2000 strikes, and a doubt about the next corner that double-double
-    /// numbers leave.
+    /// Whether the train was given up: double-double numbers leave a doubt about the next corner, and whole ones have got
+    /// too long, after some 1000 strikes.
     #[must_use]
     pub fn undecided(&self) -> bool {
         self.undecided

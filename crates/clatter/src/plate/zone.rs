@@ -51,7 +51,7 @@ impl PlateShocks {
         self.struck
     }
 
-    /// What strikes that were not followed give a corner at most; 0 where all were followed.
+    /// What strikes that were not followed give a corner at most; 0 where all were followed, or are known to be less.
     #[must_use]
     pub fn later(&self) -> f64 {
         self.later

@@ -8,8 +8,8 @@ use crate::exact::Dyadic;
 use crate::plate::number::{Ball, Number, Strikes, sooner};
 use crate::plate::{Plate, PlateStart};
 
-/// Strikes that whole numbers follow: their digits grow by some 270 bits a strike.
-const EXACT: usize = 2000;
+/// Binary digits of whole numbers at most: some 270 a strike are added, for about 1000 strikes, in less than a second.
+const DIGITS: u64 = 300_000;
 
 /// The state with more digits, from the first strike on.
 #[derive(Debug, Clone)]
@@ -62,9 +62,12 @@ impl Exact {
         }
     }
 
-    /// On to the end of a word.
-    pub(super) fn follow(&mut self, word: &[u8]) {
+    /// On to the end of a word; whether that takes no more digits than are allowed.
+    pub(super) fn follow(&mut self, word: &[u8]) -> bool {
         for &j in &word[self.done..] {
+            if self.v.iter().any(|v| v.bits() > DIGITS) {
+                return false;
+            }
             let j = usize::from(j);
             for x in [&mut self.v, &mut self.p, &mut self.nudge] {
                 *x = self.strikes.strike(x, j);
@@ -72,8 +75,9 @@ impl Exact {
             if let Some(factor) = self.strikes.factor(j) {
                 self.scale = self.scale.mul(factor);
             }
+            self.done += 1;
         }
-        self.done = word.len();
+        true
     }
 
     pub(super) fn next(&self, last: Option<usize>) -> Found {
@@ -164,11 +168,10 @@ impl Later {
         if let Some(found) = self.clear() {
             return Some(found);
         }
-        if self.word.len() > EXACT {
+        let exact = self.exact.get_or_insert_with(|| Box::new(Exact::new(plate, start)));
+        if !exact.follow(&self.word) {
             return None;
         }
-        let exact = self.exact.get_or_insert_with(|| Box::new(Exact::new(plate, start)));
-        exact.follow(&self.word);
         // From here on with all digits again.
         (self.v, self.p) = (exact.rounded(&exact.v), exact.rounded(&exact.p));
         let last = self.word.last().map(|j| usize::from(*j));

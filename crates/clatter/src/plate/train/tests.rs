@@ -33,7 +33,7 @@ proptest! {
                 prop_assert_eq!(found.corner, Some(impact.corner as usize), "impact {} in whole numbers", n + 1);
             }
             word.push(impact.corner as u8);
-            exact.follow(&word);
+            prop_assert!(exact.follow(&word));
         }
     }
 
@@ -58,6 +58,15 @@ proptest! {
             }
         }
     }
+}
+
+/// So many digits that no more are allowed: the train is given up, and says so.
+#[test]
+fn a_train_of_too_many_digits_is_given_up() {
+    let plate = Plate::off_center([0.3, 0.8], [0.1, -0.1], 1e-300).unwrap();
+    let mut train = plate.train(&PlateStart::level([0.45, 0.65]).unwrap());
+    let listed = train.by_ref().take(5000).count();
+    assert!(train.undecided() && listed < 5000, "{listed}");
 }
 
 /// An edge that chatters without end shrinks beyond double-double numbers: whole numbers renew them.
