@@ -15,6 +15,7 @@
 //! ```
 
 mod assess;
+mod atlas;
 mod budget;
 mod columns;
 mod completions;
@@ -149,6 +150,7 @@ const SHORT_HELP: &str =
 enum Command {
     Impacts(impacts::Args),
     Zone(zone::Args),
+    Atlas(atlas::Args),
     Map(map::Args),
     Simulate(Box<simulate::Args>),
     Respond(Box<respond::Args>),
@@ -205,6 +207,7 @@ impl Command {
             Self::Spectrum(args) => return args.run(streams),
             Self::Impacts(args) => args.run(streams),
             Self::Zone(args) => args.run(streams),
+            Self::Atlas(args) => args.run(streams),
             Self::Map(args) => args.run(streams),
             Self::Simulate(args) => args.run(streams),
             Self::Respond(args) => args.run(streams),
