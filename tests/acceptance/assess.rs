@@ -154,7 +154,7 @@ fn the_command_below_a_worst_drop_says_the_same() {
     assert!((position_m - 0.0305).abs() < 1e-15, "{limit}");
     assert!((repeated(limit) / limit["demand"].as_f64().unwrap() - 1.0).abs() < 1e-9, "{limit}");
     let table = clatter(["assess", &path]).stdout;
-    assert_eq!(table.matches("\n  clatter respond --model=compliant ").count(), 5, "{table}");
+    assert_eq!(table.matches("\n  clatter respond --product=").count(), 5, "{table}");
 }
 
 /// A damage boundary whose acceleration leaves more room: what is told beside the demand has its unit.

@@ -9,7 +9,9 @@ use std::path::{Path, PathBuf};
 use clap::ValueHint;
 use clatter_assess::fit::MeasuredDrop;
 use clatter_assess::units::Quantity;
-use clatter_assess::{Accuracy, Assessment, LARGEST_FILE, ProductFile, Verdict};
+use clatter_assess::{
+    Accuracy, Assessment, Component, ComponentAssessment, LARGEST_FILE, ProductFile, Verdict,
+};
 use clatter_report::Pages;
 use serde::Serialize;
 
@@ -126,7 +128,7 @@ impl Args {
                 let named = self.products.iter().zip(all).enumerate();
                 streams.json(&named.map(|(i, (path, one))| answer(i, Some(path), one)).collect::<Vec<_>>())
             }
-            (Format::Table, [one]) => table::of_one(&files[0], one, streams.out)
+            (Format::Table, [one]) => table::of_one((self.products[0].to_str().unwrap_or("-"), &files[0]), one, streams.out)
                 .and_then(|()| measured::table(&files[0], &drops[0], streams.out))
                 .map_err(Failure::Answer),
             (Format::Table, all) => table::side_by_side(&self.products, all, streams.out).map_err(Failure::Answer),
@@ -200,6 +202,19 @@ fn date(text: &str) -> Result<String, &'static str> {
 pub(crate) fn watched(file: &ProductFile, accuracy: &Accuracy) -> Result<Assessment, clatter_assess::Error> {
     let search = Counted::begin("searching", 0);
     file.assess_watched(accuracy, &|done, all| {
+        search.of(done, all);
+        budget::go_on()
+    })
+}
+
+/// The same of one part alone.
+pub(crate) fn watched_one(
+    file: &ProductFile,
+    component: &Component,
+    accuracy: &Accuracy,
+) -> Result<ComponentAssessment, clatter_assess::Error> {
+    let search = Counted::begin("searching", 0);
+    file.assess_one(component, accuracy, &|done, all| {
         search.of(done, all);
         budget::go_on()
     })

@@ -26,7 +26,9 @@ impl Reader {
                 return None;
             }
         }
-        let component = Component { name: name?, position_m: position.value, extent_m, mount: mount?, limits };
+        let limit_source = self.text(section, "limit_source").map(|source| source.value);
+        let component =
+            Component { name: name?, position_m: position.value, extent_m, mount: mount?, limits, limit_source };
         let stiff = product.and_then(|product| crate::quantity::lacks_contact_time(product, &component));
         if let Some(reason) = stiff {
             let message = format!("{} needs the contact time of the product", section.title);
