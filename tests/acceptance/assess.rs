@@ -178,7 +178,9 @@ fn what_stands_beside_a_demand_has_its_unit() {
         assert!(limit["other_law"].as_f64().unwrap() > 0.99 * other, "{other}: {limit}");
     }
     let table = clatter(["assess", &path]).stdout;
-    let row = table.lines().find(|line| line.starts_with("crystal ")).unwrap();
+    // Columns that the table has no room for follow below.
+    let row: Vec<&str> = table.lines().filter(|line| line.starts_with("crystal ")).collect();
+    let row = row.join(" ");
     assert!(row.matches(" gn").count() == 4 && !row.contains("m/s"), "{row}");
 }
 

@@ -15,11 +15,14 @@ use clatter_shock::{State, Suspension};
 use rayon::prelude::*;
 
 use crate::design::{Bounds, Change, Lever};
-use crate::drop::{Followed, Motion, SingleDrop, Until};
+use crate::drop::{Followed, Model, Motion, SingleDrop, Until};
 use crate::engine::Felt;
 use crate::search::{Ranges, fastest_rad_s};
 use crate::shock::Shock;
-use crate::{Assessment, Error, Limit, LimitAssessment, LimitKind, Part, ProductFile, Unit, Verdict};
+use crate::{
+    Assessment, Component, ComponentAssessment, ContactLaw, Error, Limit, LimitAssessment, LimitKind, Part,
+    ProductFile, Unit, Verdict,
+};
 use changes::{Failing, Shared};
 use drops::{Drops, Places, corners, parts, tilts};
 use scale::Scale;
@@ -83,35 +86,44 @@ impl ProductFile {
     /// The curve over the tilt holds besides the drops with the speed, restitution and contact time of the worst case, and the worst
     /// case itself. Safe places and changes are those where no drop asks more than at the part's own place, but for what the
     /// assessment leaves room for there: they are as good as these drops, and an assessment decides.
-    ///
-    /// # Errors
-    /// None today: what is not answered is not drawn.
-    pub fn portraits(&self, assessment: &Assessment) -> Result<Vec<Portrait>, Error> {
+    /// What is not answered is not drawn.
+    #[must_use]
+    pub fn portraits(&self, assessment: &Assessment) -> Vec<Portrait> {
         let ranges = self.ranges(&assessment.accuracy);
         let (tilts, until) = (tilts(&ranges), self.until(assessment));
-        let drops = Drops::new(&ranges, &tilts, &corners(&ranges), until);
+        // Where the file names no contact law a verdict counts with both of them.
+        let laws = match (ranges.model, self.product.contact_law) {
+            (Model::Compliant, None) => vec![ranges.law, ranges.law.other()],
+            _ => vec![ranges.law],
+        };
+        let of_law = |&law: &ContactLaw| {
+            let ranges = Ranges { law, ..ranges };
+            Drops::new(&ranges, &tilts, &corners(&ranges), until)
+        };
+        let drops: Vec<Drops> = laws.iter().map(of_law).collect();
         let fastest = self.components.iter().map(fastest_rad_s).fold(0.0, f64::max);
-        let grid = Places::new(&drops, zone::grid(self.product.body.length_m()), fastest);
+        let places = zone::grid(self.product.body.length_m());
+        let grids: Vec<_> = drops.iter().map(|drops| Places::new(drops, places.clone(), fastest)).collect();
         let bounds = Bounds::default();
         let (file, accuracy) = (self, assessment.accuracy);
-        let (tilts, changed) = (&tilts[..], Default::default());
-        let shared = Shared { file, accuracy, bounds: &bounds, tilts, until, grid: &grid, changed }.with_room();
+        let (tilts, laws, grids, changed) = (&tilts[..], &laws[..], &grids[..], Default::default());
+        let shared = Shared { file, accuracy, bounds: &bounds, tilts, until, laws, grids, changed }.with_room();
         let each = self.components.par_iter().zip(&assessment.components);
         let portrait = |(component, assessed)| {
-            let tightest: &LimitAssessment = crate::ComponentAssessment::tightest(assessed);
+            let tightest: &LimitAssessment = ComponentAssessment::tightest(assessed);
             let (history, impacts_s) = self.history(tightest, &ranges).unwrap_or_default();
-            let over_tilt = curves::over_tilt(self, &ranges, &drops, (component, tightest), tilts, until);
+            let over_tilt = curves::over_tilt(self, &ranges, &drops[0], (component, tightest), tilts, until);
             let fastest = bounds.frequency_factor * fastest_rad_s(component);
-            let ends = Places::new(&drops, component.ends_m(), fastest);
+            let ends: Vec<_> = drops.iter().map(|drops| Places::new(drops, component.ends_m(), fastest)).collect();
             let (mut zone_m, mut changes) = (None, None);
-            if let Some(scales) = self.scales(component, assessed, &ends) {
-                zone_m = zone::zone(&grid, component, assessed, &scales, 0.0);
+            if let Some(scales) = scales(component, assessed, &ends) {
+                zone_m = zone::zone(grids, component, assessed, &scales, 0.0);
                 let failing = Failing { component, assessed, scales: &scales, ends: &ends };
                 changes = (assessed.verdict != Verdict::Safe).then(|| shared.changes(&failing));
             }
             Portrait { history, impacts_s, over_tilt, zone_m, changes }
         };
-        Ok(each.map(portrait).collect())
+        each.map(portrait).collect()
     }
 
     /// Past the peaks of the worst cases that come after the product has landed again.
@@ -119,22 +131,6 @@ impl ProductFile {
         let worst = assessment.components.iter().flat_map(|c| &c.limits).filter_map(|l| l.worst_case.as_ref());
         let late = worst.filter(|worst| self.worst_drop(worst).is_ok_and(|(drop, _)| worst.time_s > drop.clear_s()));
         late.map(|worst| worst.time_s).reduce(f64::max).map_or(Until::Lands, Until::Past)
-    }
-
-    /// Of each limit, what the assessment says beside the drops; none where it does not know how much may be asked.
-    fn scales(
-        &self,
-        component: &crate::Component,
-        assessed: &crate::ComponentAssessment,
-        ends: &Places<'_>,
-    ) -> Option<Vec<Scale>> {
-        let (views, at) = (ends.drops.stated(), (0..ends.positions_m.len()).collect::<Vec<_>>());
-        let of = |(limit, found): (&Limit, &LimitAssessment)| {
-            let parts = parts(component, limit, found.worst_case.as_ref());
-            let here = ends.most(&views, &at, limit, &parts);
-            Scale::of(assessed, found, self.product.contact_law.is_some(), here)
-        };
-        Limit::of(component).iter().zip(&assessed.limits).map(of).collect()
     }
 
     fn history(&self, limit: &LimitAssessment, ranges: &Ranges<'_>) -> Result<(Curve, Vec<f64>), Error> {
@@ -169,6 +165,19 @@ impl ProductFile {
         };
         Ok((history, impacts.into_iter().filter(|t| *t <= end).collect()))
     }
+}
+
+/// Of each limit and contact law, what the assessment says beside the drops; none where it does not know how much may be asked.
+fn scales(component: &Component, assessed: &ComponentAssessment, ends: &[Places<'_>]) -> Option<Vec<Vec<Scale>>> {
+    let of = |(limit, found): (&Limit, &LimitAssessment)| {
+        let parts = parts(component, limit, found.worst_case.as_ref());
+        let here = |ends: &Places<'_>| {
+            let at: Vec<usize> = (0..ends.positions_m.len()).collect();
+            ends.most(&ends.drops.stated(), &at, limit, &parts)
+        };
+        Scale::of(assessed, found, &ends.iter().map(here).collect::<Vec<_>>())
+    };
+    Limit::of(component).iter().zip(&assessed.limits).map(of).collect()
 }
 
 /// The motion of a part that is driven by small velocity shocks, sampled and right at every shock.

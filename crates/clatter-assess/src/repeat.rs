@@ -17,8 +17,12 @@ pub fn repeat(path: &str, component: &str, limit: LimitKind, accuracy: &Accuracy
     let own = Accuracy::default();
     let plain = |text: &str| visible(text) == text && text.trim() == text && text.chars().count() <= LONGEST;
     let said = plain(path) && plain(component) && path != "-" && accuracy.merge_s.to_bits() == own.merge_s.to_bits();
-    let mut command =
-        format!("clatter respond --product={} --component={} --worst={}", quoted(path), quoted(component), limit.name());
+    let mut command = format!(
+        "clatter respond --product={} --component={} --worst={}",
+        quoted(path),
+        quoted(component),
+        limit.name()
+    );
     if let Some(model) = accuracy.model {
         command.extend([" --model=", model.name()]);
     }

@@ -9,9 +9,7 @@ use std::path::{Path, PathBuf};
 use clap::ValueHint;
 use clatter_assess::fit::MeasuredDrop;
 use clatter_assess::units::Quantity;
-use clatter_assess::{
-    Accuracy, Assessment, Component, ComponentAssessment, LARGEST_FILE, ProductFile, Verdict,
-};
+use clatter_assess::{Accuracy, Assessment, Component, ComponentAssessment, LARGEST_FILE, ProductFile, Verdict};
 use clatter_report::Pages;
 use serde::Serialize;
 
@@ -128,9 +126,11 @@ impl Args {
                 let named = self.products.iter().zip(all).enumerate();
                 streams.json(&named.map(|(i, (path, one))| answer(i, Some(path), one)).collect::<Vec<_>>())
             }
-            (Format::Table, [one]) => table::of_one((self.products[0].to_str().unwrap_or("-"), &files[0]), one, streams.out)
-                .and_then(|()| measured::table(&files[0], &drops[0], streams.out))
-                .map_err(Failure::Answer),
+            (Format::Table, [one]) => {
+                table::of_one((self.products[0].to_str().unwrap_or("-"), &files[0]), one, streams.out)
+                    .and_then(|()| measured::table(&files[0], &drops[0], streams.out))
+                    .map_err(Failure::Answer)
+            }
             (Format::Table, all) => table::side_by_side(&self.products, all, streams.out).map_err(Failure::Answer),
         };
         files.iter().zip(&drops).for_each(|(file, drops)| measured::warn(file, drops, streams));
@@ -156,7 +156,6 @@ impl Args {
         let drawing = Counted::begin("drawing", 0);
         let portraits = file.portraits(assessment);
         drop(drawing);
-        let portraits = portraits.map_err(|error| Failure::Product(format!("error: {error}")))?;
         let name = self.products[0].file_name().map_or(&*self.products[0], Path::new);
         let path = text::path(name);
         let date = self.date.as_deref();

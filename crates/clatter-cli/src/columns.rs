@@ -6,7 +6,6 @@ use std::sync::OnceLock;
 
 use unicode_width::UnicodeWidthStr;
 
-
 /// Columns where there is no terminal, and the least that tables are made for.
 const WIDTH: usize = 100;
 const LEAST_WIDTH: usize = 60;
@@ -70,7 +69,8 @@ impl Table {
                 for i in (0..self.keys).chain(block.clone()) {
                     let gap = if line.is_empty() { "" } else { "  " };
                     let fill = " ".repeat(widths[i] - cell(i).width());
-                    let parts = if i < self.texts || last_text(i) { [cell(i), &fill] } else { [fill.as_str(), cell(i)] };
+                    let parts =
+                        if i < self.texts || last_text(i) { [cell(i), &fill] } else { [fill.as_str(), cell(i)] };
                     line.extend([gap, parts[0], parts[1]]);
                 }
                 writeln!(out, "{}", line.trim_end())?;
@@ -151,7 +151,8 @@ mod tests {
 
     fn table(width: usize) -> String {
         let row = |cells: [&str; 5]| cells.map(str::to_owned).to_vec();
-        let rows = vec![row(["part", "limit", "allowed", "demand", "bound"]), row(["display", "rattle", "6 mm", "14 mm", ""])];
+        let rows =
+            vec![row(["part", "limit", "allowed", "demand", "bound"]), row(["display", "rattle", "6 mm", "14 mm", ""])];
         let table = Table { keys: 2, headings: 1, texts: 2, last_is_text: false, least: 8, rows };
         let mut out = Vec::new();
         table.within(width, &mut out).unwrap();
@@ -163,7 +164,8 @@ mod tests {
         let whole = "part     limit    allowed    demand     bound\ndisplay  rattle      6 mm     14 mm\n";
         assert_eq!(table(45), whole);
         // One column less: the last one stands below, without the row that says nothing there.
-        let folded = "part     limit    allowed    demand\ndisplay  rattle      6 mm     14 mm\n\npart     limit      bound\n";
+        let folded =
+            "part     limit    allowed    demand\ndisplay  rattle      6 mm     14 mm\n\npart     limit      bound\n";
         assert_eq!(table(44), folded);
         assert_eq!(table(1).lines().filter(|line| line.contains("display")).count(), 2);
     }

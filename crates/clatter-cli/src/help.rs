@@ -67,7 +67,16 @@ mod tests {
         crate::run(["clatter", "help"], &mut streams);
         let text = String::from_utf8(out).unwrap();
         let at = |what: &str| text.find(what).unwrap_or_else(|| panic!("{what}: {text}"));
-        let order = ["Usage: clatter", "Assess a product:\n  assess", "\n  scatter", "Follow one drop:\n  simulate", "\n  fit", "Options:", "--force", "The bar."];
+        let order = [
+            "Usage: clatter",
+            "Assess a product:\n  assess",
+            "\n  scatter",
+            "Follow one drop:\n  simulate",
+            "\n  fit",
+            "Options:",
+            "--force",
+            "The bar.",
+        ];
         assert!(order.windows(2).all(|pair| at(pair[0]) < at(pair[1])), "{text}");
         assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
     }

@@ -85,7 +85,8 @@ fn the_short_command_repeats_the_demand() {
             let done = Command::new(BINARY).arg("assess").arg(&path).args(args).output().unwrap();
             String::from_utf8(done.stdout).unwrap()
         };
-        let commands: Vec<&str> = table.lines().filter(|line| line.starts_with("  clatter respond --product=")).collect();
+        let commands: Vec<&str> =
+            table.lines().filter(|line| line.starts_with("  clatter respond --product=")).collect();
         let limits = assessment["components"].as_array().unwrap().iter().flat_map(|c| c["limits"].as_array().unwrap());
         let limits: Vec<&Value> = limits.collect();
         assert_eq!(commands.len(), limits.len(), "{table}");

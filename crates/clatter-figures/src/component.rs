@@ -5,8 +5,8 @@ use clatter_assess::Verdict;
 use crate::FigureError;
 use crate::axis::Axis;
 use crate::chart::Axes;
-use crate::paper::{Paper, SMALL};
 use crate::drop::thinned;
+use crate::paper::{Paper, SMALL};
 use crate::product::{fit, shade};
 use crate::style::{Anchor, BLUES, GRAY, INK, Ink, Label, RUST, width};
 
@@ -52,10 +52,10 @@ pub fn history(points: &[(f64, f64)], impacts: &[f64], allowed: f64, titles: [&s
     let mut paper = Paper::new(FRAME[0] + 50.0, FRAME[1] + 46.0);
     let axes = axes.on(&mut paper, 36.0);
     axes.level(&mut paper, 0.0, Ink::line(GRAY, 0.5));
-    // Below the lowest line, so that no tick crosses it.
+    // Shorter than the room below the lower limit, so that no tick crosses it.
     for &t in impacts.iter().filter(|t| **t <= end) {
         let [x, y] = axes.at(t, -top);
-        paper.line([x, y], [x, y - 5.0], Ink::line(RUST, 0.9));
+        paper.line([x, y], [x, y - 3.5], Ink::line(RUST, 0.9));
     }
     let mut lines = vec![(Ink::line(RUST, 0.9), "impacts")];
     if shown {
@@ -78,12 +78,8 @@ pub fn over_tilt(curves: &[(&str, Vec<(f64, f64)>)], allowed: f64, titles: [&str
     let (lo, hi) = if lo < hi { (lo, hi) } else { (0.0, 1.0) };
     let shown = is_drawn(allowed, largest);
     let top = 1.12 * if shown { allowed.max(largest) } else { largest.max(f64::MIN_POSITIVE) };
-    let axes = Axes {
-        corner: CORNER,
-        size: FRAME,
-        x: Axis::linear(lo, hi, titles[0]),
-        y: Axis::linear(0.0, top, titles[1]),
-    };
+    let axes =
+        Axes { corner: CORNER, size: FRAME, x: Axis::linear(lo, hi, titles[0]), y: Axis::linear(0.0, top, titles[1]) };
     let inks = [Ink::line(BLUES[8], 1.1), Ink { dash: "3.5 2", ..Ink::line(RUST, 1.0) }];
     let mut paper = Paper::new(FRAME[0] + 50.0, FRAME[1] + 46.0);
     let axes = axes.on(&mut paper, 36.0);
@@ -122,7 +118,7 @@ pub fn shares(parts: &[Share<'_>]) -> Result<String, FigureError> {
     let axes = Axes {
         corner: [44.0, 8.0],
         size: [316.0, 108.0_f64.max(9.5 * rows)],
-        x: Axis::linear(lo, hi, "tilt, degrees"),
+        x: Axis::linear(lo, hi, "tilt at the first touch, degrees"),
         y: Axis::linear(0.0, 108.0 * largest, "demand, % of the limit"),
     };
     let right = axes.corner[0] + axes.size[0];

@@ -371,11 +371,7 @@ pub fn boundary(
     word(&mut paper, [0.5 * (vx + left + wide), ay + 0.5 * (top + high - ay)], &["no damage: too little acceleration"]);
     word(&mut paper, [vx + 0.6 * (left + wide - vx), top + 0.3 * (ay - top)], &["damage"]);
     let small = Label { color: GRAY, ..SMALL };
-    paper.text(
-        [left + 4.0, ay - 3.0],
-        &format!("critical {} g", three(a)),
-        Label { anchor: Anchor::Start, ..small },
-    );
+    paper.text([left + 4.0, ay - 3.0], &format!("critical {} g", three(a)), Label { anchor: Anchor::Start, ..small });
     paper.text(
         [vx + 3.0, top + high - 4.0],
         &format!("critical {} m/s", three(v)),

@@ -14,7 +14,7 @@ use crate::words::{customary, hundredths, limit, name, percent, quantity, sure_n
 use crate::{Pages, paper};
 
 /// What the models leave out, in plain words.
-const NOT_COVERED: [[&str; 2]; 9] = [
+const NOT_COVERED: [[&str; 2]; 10] = [
     [
         "Corners and edges",
         "The product is a bar seen from the side: it lands on one edge, then on the opposite one. A plate that lands on a corner has more ways to clatter, and a corner takes the blow of an edge alone. Both can be worse.",
@@ -46,6 +46,10 @@ const NOT_COVERED: [[&str; 2]; 9] = [
     [
         "Drops between those followed",
         "The worst drop is searched, and the share by which others may ask for more is told with it. How a product lands once more after it has bounced clear hangs on every input: such drops are a sample.",
+    ],
+    [
+        "Places and changes",
+        "Where a part could sit and what would make it safe is told of the drops of the figures. An assessment of the changed file decides; clatter design assesses changes, and two together.",
     ],
     ["Damage by repetition", "Each limit is on the worst moment of one drop. Fatigue over many drops is not counted."],
 ];
@@ -101,7 +105,7 @@ pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureEr
         "unsafe": with(Verdict::Unsafe),
         "hardest": hardest(assessment),
         "parts": parts.iter().map(|(of, portrait)| part::part(pages, *of, portrait)).collect::<Vec<_>>(),
-        "inputs": inputs::rows(file),
+        "inputs": inputs::rows(file, assessment),
         "differences": measured::differences(file, drops),
         "measured": measured::sections(file, drops),
         "made": inputs::made(pages),
@@ -155,7 +159,10 @@ fn figures(number: usize, ((_, assessed), portrait): &Part<'_>) -> Result<[(Stri
     });
     let curves: Vec<(&str, Vec<(f64, f64)>)> = curves.collect();
     Ok([
-        (format!("history-{number}.svg"), history(&points, &impacts, allowed, ["time since the first touch, ms", &title])?),
+        (
+            format!("history-{number}.svg"),
+            history(&points, &impacts, allowed, ["time since the first touch, ms", &title])?,
+        ),
         (format!("tilt-{number}.svg"), over_tilt(&curves, allowed, ["tilt at the first touch, degrees", &title])?),
     ])
 }
@@ -182,7 +189,7 @@ mod tests {
     fn pages(text: &str, to: &std::path::Path) -> lopdf::Document {
         let file = ProductFile::read(text, "test.toml").unwrap();
         let assessment = file.assess().unwrap();
-        let portraits = file.portraits(&assessment).unwrap();
+        let portraits = file.portraits(&assessment);
         let pages = Pages {
             file: &file,
             assessment: &assessment,
@@ -207,7 +214,7 @@ mod tests {
     fn a_failing_part_is_told_what_would_make_it_safe() {
         let file = ProductFile::read(include_str!("../../../reports/examples/phone.toml"), "phone.toml").unwrap();
         let assessment = file.assess().unwrap();
-        let portraits = file.portraits(&assessment).unwrap();
+        let portraits = file.portraits(&assessment);
         let pages = Pages {
             file: &file,
             assessment: &assessment,
@@ -242,7 +249,7 @@ mod tests {
         let assessment = close.assess().unwrap();
         let camera = &assessment.components[1];
         assert_eq!(camera.limits[0].verdict, Verdict::Undecided, "{camera:?}");
-        let portraits = close.portraits(&assessment).unwrap();
+        let portraits = close.portraits(&assessment);
         let pages = Pages {
             file: &close,
             assessment: &assessment,
@@ -261,14 +268,25 @@ mod tests {
     #[test]
     fn the_verdict_stands_on_the_first_page_and_every_part_has_a_section() {
         let dir = tempfile::tempdir().unwrap();
-        let text = EXAMPLE.replace("name = \"camera\"", "name = \"camera\"\nlimit_source = \"data sheet 12-3, rev. B\"");
+        let text =
+            EXAMPLE.replace("name = \"camera\"", "name = \"camera\"\nlimit_source = \"data sheet 12-3, rev. B\"");
         let pdf = pages(&text, &dir.path().join("report.pdf"));
         let first = said(&pdf, 1);
-        for word in ["Handheld", "display", "camera", "crystal", "Margin", "Flat drop", "Revision", "Author", "Signature"] {
+        for word in
+            ["Handheld", "display", "camera", "crystal", "Margin", "Flat drop", "Revision", "Author", "Signature"]
+        {
             assert!(first.contains(word), "{word} is not on the first page: {first}");
         }
         let rest: String = (2..=u32::try_from(pdf.get_pages().len()).unwrap()).map(|page| said(&pdf, page)).collect();
-        for word in ["display", "camera", "crystal", "does not cover", "--product=test.toml", "--worst=", "data sheet 12-3, rev. B"] {
+        for word in [
+            "display",
+            "camera",
+            "crystal",
+            "does not cover",
+            "--product=test.toml",
+            "--worst=",
+            "data sheet 12-3, rev. B",
+        ] {
             assert!(rest.contains(word), "{word} has no section: {rest}");
         }
     }
@@ -302,9 +320,10 @@ mod tests {
         let head = EXAMPLE.split("[[component]]").next().unwrap();
         let file = ProductFile::read(&(head.to_owned() + &many.collect::<String>()), "many.toml").unwrap();
         let assessment = file.assess().unwrap();
-        let portraits = file.portraits(&assessment).unwrap();
+        let portraits = file.portraits(&assessment);
         let (file, assessment, portraits) = (&file, &assessment, &portraits[..]);
-        let files = files(&Pages { file, assessment, portraits, measured: &[], path: "many.toml", date: None }).unwrap();
+        let files =
+            files(&Pages { file, assessment, portraits, measured: &[], path: "many.toml", date: None }).unwrap();
         let drawn = |name: &str| files.iter().find(|(file, _)| file == name).map(|(_, svg)| svg.as_str());
         let rows = (1..=3).map(|k| drawn(&format!("product-{k}.svg")).unwrap().matches(">part ").count());
         assert_eq!(rows.collect::<Vec<_>>(), [32, 32, 6]);
@@ -318,7 +337,7 @@ mod tests {
         use clatter_assess::fit::{Known, Measured, MeasuredDrop, MeasuredStrike, fit};
         let file = ProductFile::read(EXAMPLE, "test.toml").unwrap();
         let assessment = file.assess().unwrap();
-        let portraits = file.portraits(&assessment).unwrap();
+        let portraits = file.portraits(&assessment);
         let strike = |(time_s, end)| MeasuredStrike { time_s, end: Some(end) };
         let times = [(0.0, End::A), (1.2121e-3, End::B), (1.682_85e-3, End::A), (34.386e-3, End::B)];
         let measured = Measured::Strikes { strikes: times.map(strike).into(), deviation_s: Some(1e-6) };
@@ -376,7 +395,7 @@ mod tests {
             .replace("name = \"display\"", "name = \"display \u{488}\"");
         let file = ProductFile::read(&text, "test.toml").unwrap();
         let assessment = file.assess().unwrap();
-        let portraits = file.portraits(&assessment).unwrap();
+        let portraits = file.portraits(&assessment);
         let pages = Pages {
             file: &file,
             assessment: &assessment,

@@ -59,9 +59,7 @@ impl ProductFile {
         let levers = |i: usize| Lever::of(&self.product, &self.components[i]);
         let tasks: Vec<_> =
             failing.flat_map(|(i, found)| levers(i).into_iter().map(move |lever| (i, found, lever))).collect();
-        let case = |i: usize| {
-            Case::new(self, &self.components[i], assessment.accuracy, bounds, margin)
-        };
+        let case = |i: usize| Case::new(self, &self.components[i], assessment.accuracy, bounds, margin);
         // One lever after the other of each component, then at most one pair of them, which takes as long as a lever.
         let all = tasks.len() + tasks.chunk_by(|a, b| a.0 == b.0).count();
         let done = AtomicUsize::new(0);
@@ -104,7 +102,13 @@ pub(crate) struct Case<'a> {
 }
 
 impl<'a> Case<'a> {
-    pub(crate) fn new(file: &'a ProductFile, component: &'a Component, accuracy: Accuracy, bounds: &'a Bounds, margin: f64) -> Self {
+    pub(crate) fn new(
+        file: &'a ProductFile,
+        component: &'a Component,
+        accuracy: Accuracy,
+        bounds: &'a Bounds,
+        margin: f64,
+    ) -> Self {
         Self { file, component, accuracy, bounds, margin }
     }
 

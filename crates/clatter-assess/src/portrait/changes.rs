@@ -3,15 +3,14 @@
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-
 use super::drops::{Drops, Places, Tilt, View, corners, parts};
 use super::scale::Scale;
 use super::zone::zone;
 use super::{Changes, MARGIN};
 use crate::design::{Bounds, Case, Lever};
 use crate::drop::Until;
-use crate::search::fastest_rad_s;
-use crate::{Accuracy, Component, ComponentAssessment, Limit, ProductFile};
+use crate::search::{Ranges, fastest_rad_s};
+use crate::{Accuracy, Component, ComponentAssessment, ContactLaw, Limit, ProductFile};
 
 /// Values of a lever from bound to bound, and halvings of the step in which a part begins to hold.
 const STEPS: u32 = 16;
@@ -24,20 +23,21 @@ pub(super) struct Shared<'a> {
     pub(super) bounds: &'a Bounds,
     pub(super) tilts: &'a [Tilt],
     pub(super) until: Until,
-    /// Places all over the product, in its drops as it is.
-    pub(super) grid: &'a Places<'a>,
+    /// Contact laws that count, each with places all over the product in its drops as it is.
+    pub(super) laws: &'a [ContactLaw],
+    pub(super) grids: &'a [Places<'a>],
     /// The drops of the product with one thing changed, by the bits of the value: followed once for all parts.
-    pub(super) changed: [BTreeMap<u64, OnceLock<Option<Drops>>>; 3],
+    pub(super) changed: [BTreeMap<u64, OnceLock<Option<Vec<Drops>>>>; 3],
 }
 
 /// A part that does not hold.
 pub(super) struct Failing<'a> {
     pub(super) component: &'a Component,
     pub(super) assessed: &'a ComponentAssessment,
-    /// Of each limit.
-    pub(super) scales: &'a [Scale],
-    /// What its own ends feel in the drops as they are.
-    pub(super) ends: &'a Places<'a>,
+    /// Of each limit, by each law.
+    pub(super) scales: &'a [Vec<Scale>],
+    /// What its own ends feel in the drops as they are, by each law.
+    pub(super) ends: &'a [Places<'a>],
 }
 
 /// What is changed of the product and not of the part.
@@ -81,8 +81,10 @@ impl<'a> Shared<'a> {
             Lever::Limit(_) => Self::limit(case, of, lever),
             Lever::Position => self.place(case, of),
             Lever::Frequency | Lever::Damping => {
-                let mut views = self.grid.drops.stated();
-                let enough = |x: f64| self.part_holds(case, of, (lever, x), &mut views);
+                let mut views: Vec<_> = of.ends.iter().map(|ends| ends.drops.stated()).collect();
+                let enough = |x: f64| {
+                    case.changed(&[(lever, x)]).is_some_and(|file| holds(of, &file.components[0], of.ends, &mut views))
+                };
                 search(case, lever, HALVINGS, enough)
             }
             Lever::InertiaRatio | Lever::Restitution | Lever::ContactTime => {
@@ -93,10 +95,10 @@ impl<'a> Shared<'a> {
 
     /// A limit so high that the demand leaves the margin, where all others are kept.
     fn limit(case: &Case<'_>, of: &Failing<'_>, lever: Lever) -> Option<f64> {
-        let needs = |scale: &Scale| scale.counted.max((1.0 + MARGIN) * scale.demand);
+        let needs = |scales: &Vec<Scale>| scales.iter().map(|scale| scale.needs(MARGIN)).fold(0.0, f64::max);
         let (mut factor, mut others) = (1.0, true);
-        for (limit, scale) in Limit::of(of.component).iter().zip(of.scales) {
-            if lever == Lever::Limit(limit.kind) { factor = needs(scale) } else { others &= needs(scale) <= 1.0 }
+        for (limit, scales) in Limit::of(of.component).iter().zip(of.scales) {
+            if lever == Lever::Limit(limit.kind) { factor = needs(scales) } else { others &= needs(scales) <= 1.0 }
         }
         let [_, most] = case.reach(lever);
         let [before, _] = case.change(lever, 0.0).from;
@@ -107,7 +109,7 @@ impl<'a> Shared<'a> {
 
     /// The nearest place of the zone that leaves the margin.
     fn place(&self, case: &Case<'_>, of: &Failing<'_>) -> Option<f64> {
-        let [lo, hi] = zone(self.grid, of.component, of.assessed, of.scales, MARGIN)?;
+        let [lo, hi] = zone(self.grids, of.component, of.assessed, of.scales, MARGIN)?;
         let wide = of.component.position_m.hi() - of.component.position_m.lo();
         let (middle, edge) = (0.5 * (lo + hi - wide), of.component.position_m.lo().clamp(lo, (hi - wide).max(lo)));
         let inside = |x: &f64| {
@@ -117,35 +119,39 @@ impl<'a> Shared<'a> {
         (0..=16).map(|k| edge + f64::from(k) / 16.0 * (middle - edge)).find(inside)
     }
 
-    /// Whether the part with this value holds in the drops of the product.
-    fn part_holds(&self, case: &Case<'_>, of: &Failing<'_>, value: (Lever, f64), views: &mut [View]) -> bool {
-        case.changed(&[value]).is_some_and(|file| holds(of, &file.components[0], of.ends, views))
-    }
-
     /// Whether the part holds in the drops of the product with this value.
     fn product_holds(&self, case: &Case<'_>, of: &Failing<'_>, (lever, x): (Lever, f64)) -> bool {
         let followed = || {
             let file = case.changed(&[(lever, x)])?;
             let ranges = file.ranges(&self.accuracy);
-            Some(Drops::new(&ranges, self.tilts, &corners(&ranges), self.until))
+            let of = |&law: &ContactLaw| {
+                let ranges = Ranges { law, ..ranges };
+                Drops::new(&ranges, self.tilts, &corners(&ranges), self.until)
+            };
+            Some(self.laws.iter().map(of).collect())
         };
         let Some(kept) = OF_PRODUCT.iter().position(|l| *l == lever).map(|n| &self.changed[n]) else { return false };
         let Some(drops) = kept.get(&x.to_bits()).and_then(|drops| drops.get_or_init(followed).as_ref()) else {
             return false;
         };
-        let ends = Places::new(drops, of.component.ends_m(), fastest_rad_s(of.component));
-        holds(of, of.component, &ends, &mut drops.stated())
+        let fastest = fastest_rad_s(of.component);
+        let ends: Vec<_> = drops.iter().map(|drops| Places::new(drops, of.component.ends_m(), fastest)).collect();
+        let mut views: Vec<_> = drops.iter().map(Drops::stated).collect();
+        holds(of, of.component, &ends, &mut views)
     }
 }
 
 /// Whether no drop asks a part for more than leaves the margin, of any limit.
-fn holds(of: &Failing<'_>, component: &Component, ends: &Places<'_>, views: &mut [View]) -> bool {
-    let at: Vec<usize> = (0..ends.positions_m.len()).collect();
+fn holds(of: &Failing<'_>, component: &Component, ends: &[Places<'_>], views: &mut [Vec<View>]) -> bool {
+    let same = component.mount == of.component.mount;
     let mut limits = Limit::of(component).into_iter().zip(&of.assessed.limits).zip(of.scales);
-    limits.all(|((limit, found), scale)| {
-        let same = component.mount == of.component.mount;
+    limits.all(|((limit, found), scales)| {
         let parts = parts(component, &limit, found.worst_case.as_ref().filter(|_| same));
-        scale.most(MARGIN).is_some_and(|most| !ends.exceeds(views, &at, &limit, &parts, most))
+        let mut laws = ends.iter().zip(views.iter_mut()).zip(scales);
+        laws.all(|((ends, views), scale)| {
+            let at: Vec<usize> = (0..ends.positions_m.len()).collect();
+            !ends.exceeds(views, &at, &limit, &parts, scale.most(MARGIN))
+        })
     })
 }
 

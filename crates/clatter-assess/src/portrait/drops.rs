@@ -42,7 +42,7 @@ pub(super) struct View {
 }
 
 impl Drops {
-    /// Drops at these tilts with either end first, of each of these inputs.
+    /// Drops at these tilts with either end first, of each of these inputs, by the contact law of the ranges.
     pub(super) fn new(ranges: &Ranges<'_>, tilts: &[Tilt], inputs: &[Inputs], until: Until) -> Self {
         let mut all = Vec::with_capacity(tilts.len() * inputs.len() * 2);
         for &first in ranges.firsts() {
@@ -200,7 +200,8 @@ pub(super) fn tilts(ranges: &Ranges<'_>) -> Vec<Tilt> {
 /// The highest speed with the ends of the ranges of restitution and contact time.
 pub(super) fn corners(ranges: &Ranges<'_>) -> Vec<Inputs> {
     let [_, fast] = ranges.drop.speeds_m_s();
-    let ends = |spread: &crate::Spread| if spread.is_value() { vec![spread.lo()] } else { vec![spread.hi(), spread.lo()] };
+    let ends =
+        |spread: &crate::Spread| if spread.is_value() { vec![spread.lo()] } else { vec![spread.hi(), spread.lo()] };
     let times: Vec<Option<f64>> =
         ranges.product.contact_time_s.as_ref().map_or(vec![None], |time| ends(time).into_iter().map(Some).collect());
     let of = |e| times.iter().map(move |time| (fast, e, *time));
@@ -221,4 +222,3 @@ pub(super) fn parts(component: &Component, limit: &Limit, worst: Option<&WorstCa
     let part = |&(hz, ratio): &(f64, f64)| Suspension::from_hz(hz, DampingRatio::new(ratio).ok()?).ok();
     all.iter().map(part).filter(Option::is_some).collect()
 }
-

@@ -7,7 +7,7 @@ use crate::{ComponentAssessment, LimitAssessment, LimitKind, Verdict};
 /// and changed parts are held to the same.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Scale {
-    /// The share that the worst drop asks, by the contact law that asks more.
+    /// The share that the worst drop by one contact law asks.
     pub(super) demand: f64,
     /// The share that counts for the verdict.
     pub(super) counted: f64,
@@ -16,27 +16,38 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// Of a limit of which the drops ask `here`; none where the assessment does not know how much may be asked.
-    pub(super) fn of(assessed: &ComponentAssessment, limit: &LimitAssessment, law_is_named: bool, here: f64) -> Option<Self> {
-        let share = |value: f64| value / limit.allowed;
-        let other = limit.other_law.filter(|_| !law_is_named).map_or(0.0, share);
-        let demand = share(limit.demand?).max(other);
-        let counted = demand * (1.0 + limit.uncertainty);
+    /// Of a limit of which the drops of each contact law ask `here`; none where the assessment does not know how much may be asked.
+    pub(super) fn of(assessed: &ComponentAssessment, limit: &LimitAssessment, here: &[f64]) -> Option<Vec<Self>> {
+        let demands = [limit.demand, limit.other_law];
+        let mut scales = Vec::with_capacity(here.len());
+        for (here, demand) in here.iter().zip(demands) {
+            let demand = demand? / limit.allowed;
+            let counted = demand * (1.0 + limit.uncertainty);
+            let known = counted.is_finite() && (*here > 0.0 || demand == 0.0);
+            scales.push(known.then_some(Self { demand, counted, here: *here })?);
+        }
         // The acceleration of a part that hits its stop is undecided by its rattle space.
         let stops = |l: &LimitAssessment| l.limit == LimitKind::RattleSpace && l.verdict != Verdict::Safe;
         let by_stop = limit.limit == LimitKind::Acceleration && assessed.limits.iter().any(stops);
-        let counted = match limit.verdict {
-            Verdict::Safe => counted.min(1.0),
-            Verdict::Undecided if by_stop => counted,
-            Verdict::Undecided | Verdict::Unsafe => counted.max(1.0 + 1e-6),
-        };
-        (counted.is_finite() && (here > 0.0 || demand == 0.0)).then_some(Self { demand, counted, here })
+        // What the verdict says, the picture says as well.
+        match limit.verdict {
+            Verdict::Safe => scales.iter_mut().for_each(|scale| scale.counted = scale.counted.min(1.0)),
+            Verdict::Undecided | Verdict::Unsafe => {
+                let most = scales.iter_mut().max_by(|a, b| a.counted.total_cmp(&b.counted)).filter(|_| !by_stop);
+                most.into_iter().for_each(|scale| scale.counted = scale.counted.max(1.0 + 1e-6));
+            }
+        }
+        Some(scales)
     }
 
-    /// The most that a drop of the pictures may ask where the limit holds, with room of `margin` between the demand and what is allowed.
-    pub(super) fn most(&self, margin: f64) -> Option<f64> {
-        let most = self.here / self.counted.max((1.0 + margin) * self.demand);
+    /// The share that the limit has to be raised by, to leave room of `margin` between the demand and what is allowed.
+    pub(super) fn needs(&self, margin: f64) -> f64 {
+        self.counted.max((1.0 + margin) * self.demand)
+    }
+
+    /// The most that a drop of the pictures may ask where the limit holds with that margin.
+    pub(super) fn most(&self, margin: f64) -> f64 {
         // A demand of nothing holds anywhere.
-        if self.counted == 0.0 { Some(f64::INFINITY) } else { Some(most).filter(|most| most.is_finite()) }
+        if self.counted == 0.0 { f64::INFINITY } else { self.here / self.needs(margin) }
     }
 }

@@ -17,18 +17,20 @@ pub(super) fn grid(length_m: f64) -> Vec<f64> {
 /// What a drop asks is convex along the product, the largest absolute value of functions linear in the place. So the places that
 /// hold are one stretch, what lies between two of them holds, and the edges taken from straight lines lie within it.
 pub(super) fn zone(
-    grid: &Places<'_>,
+    grids: &[Places<'_>],
     component: &Component,
     assessed: &ComponentAssessment,
-    scales: &[Scale],
+    scales: &[Vec<Scale>],
     margin: f64,
 ) -> Option<[f64; 2]> {
     let half = 0.5 * component.extent_m;
-    let reach = 0.5 * grid.drops.length_m();
+    let reach = 0.5 * grids.first()?.drops.length_m();
     let (mut lo, mut hi) = (-reach, reach);
-    for ((limit, found), scale) in Limit::of(component).iter().zip(&assessed.limits).zip(scales) {
-        let [from, to] = stretch(grid, component, (limit, found), scale.most(margin)?)?;
-        (lo, hi) = (lo.max(from), hi.min(to));
+    for ((limit, found), scales) in Limit::of(component).iter().zip(&assessed.limits).zip(scales) {
+        for (grid, scale) in grids.iter().zip(scales) {
+            let [from, to] = stretch(grid, component, (limit, found), scale.most(margin))?;
+            (lo, hi) = (lo.max(from), hi.min(to));
+        }
     }
     (lo + half <= hi - half).then_some([lo + half, hi - half])
 }

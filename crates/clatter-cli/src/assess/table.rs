@@ -3,9 +3,7 @@
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-use clatter_assess::{
-    Accuracy, Assessment, ComponentAssessment, LimitAssessment, ProductFile, Verdict, repeat,
-};
+use clatter_assess::{Accuracy, Assessment, ComponentAssessment, LimitAssessment, ProductFile, Verdict, repeat};
 
 use crate::columns::{Table, sentence};
 use crate::text::{path, shown};

@@ -57,7 +57,9 @@ impl Drop<'_> {
     fn named(&self) -> Vec<String> {
         let millimeters = |s: &f64| format!("{} mm", clatter_figures::three(500.0 * self.setup.length_m * s));
         let part = self.setup.part.as_ref().filter(|_| self.args.at.is_empty());
-        let named = |s: &f64| part.map_or(format!("at {}", millimeters(s)), |part| format!("{}, {}", part.name, millimeters(s)));
+        let named = |s: &f64| {
+            part.map_or(format!("at {}", millimeters(s)), |part| format!("{}, {}", part.name, millimeters(s)))
+        };
         self.at.iter().map(named).collect()
     }
 

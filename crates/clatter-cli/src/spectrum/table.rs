@@ -74,7 +74,8 @@ impl Computed<'_> {
         let head = ["frequency", "primary", "residual", "maximax", "positive", "negative", "time of peak", margin[0]];
         let units = [hz.name(), unit, unit, unit, unit, unit, "s", margin[1]];
         let columns = if margins.is_some() { 8 } else { 7 };
-        let mut rows: Vec<Vec<String>> = [head, units].map(|row| row[..columns].iter().map(|c| (*c).to_owned()).collect()).into();
+        let mut rows: Vec<Vec<String>> =
+            [head, units].map(|row| row[..columns].iter().map(|c| (*c).to_owned()).collect()).into();
         for i in 0..spectrum.frequency_hz.len() {
             let [frequency, values @ ..] = row(spectrum, i);
             let mut cells = vec![hz.figures(frequency)];

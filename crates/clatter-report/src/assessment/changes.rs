@@ -39,7 +39,7 @@ impl Of<'_> {
             (of.map(|q| self.gyration_mm(q)), " mm".to_owned())
         } else {
             let unit = lever.written_in(self.product, self.component);
-            let name = unit.map_or(lever.unit(), |unit| unit.name);
+            let name = unit.map_or(lever.unit(), |unit| if unit.name == "gn" { "g" } else { unit.name });
             let space = if name.is_empty() { "" } else { " " };
             (of.map(|x| unit.map_or(x, |unit| unit.of_si(x))), format!("{space}{name}"))
         };
@@ -86,7 +86,7 @@ mod tests {
         assert_eq!(told(Lever::Position, [-1e-3 * 20.0; 2]), "−20 mm");
         assert_eq!(told(Lever::Damping, [0.05; 2]), "0.05");
         assert_eq!(told(Lever::ContactTime, [0.8e-3; 2]), "0.8 ms");
-        assert_eq!(told(Lever::Limit(LimitKind::Acceleration), [1200.0 * 9.806_65; 2]), "1200 gn");
+        assert_eq!(told(Lever::Limit(LimitKind::Acceleration), [1200.0 * 9.806_65; 2]), "1200 g");
         // ρ = 38 mm, L = 70 mm: (4900 − 1444)/(4900 + 1444)
         assert_eq!(told(Lever::InertiaRatio, [3456.0 / 6344.0; 2]), "38 mm");
     }

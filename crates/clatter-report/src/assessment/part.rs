@@ -1,26 +1,16 @@
 //! What the page says of one part.
 
 use clatter_assess::{
-    Component, ComponentAssessment, ContactLaw, LimitAssessment, Model, Portrait, ProductFile, Verdict, WorstCase, repeat,
+    Component, ComponentAssessment, ContactLaw, LimitAssessment, Model, Portrait, ProductFile, Verdict, WorstCase,
+    repeat,
 };
-use clatter_figures::{is_drawn, model_words as model, three};
+use clatter_figures::{is_drawn, three};
 use serde_json::{Value, json};
 
 use super::changes::{Of, changes};
 use super::inputs::held;
 use crate::Pages;
 use crate::words::{end, hundredths, limit, millimeters, minus, name, percent, quantity, shown};
-
-/// How the drop was followed, and what the part felt.
-fn followed(of: &LimitAssessment) -> String {
-    let felt = match of.model.component {
-        "largest-shock" => "the product's own shocks",
-        "impulse-train" => "the part driven by velocity shocks",
-        "pulse-train" => "the part driven by pulses",
-        _ => "the product's own acceleration",
-    };
-    format!("Model: {}, {felt}; {}.", model(of.model.bar), of.model.reason.trim_end_matches('.'))
-}
 
 /// What else is known of a limit, a sentence each.
 fn said(file: &ProductFile, of: &LimitAssessment) -> Vec<String> {
@@ -29,10 +19,10 @@ fn said(file: &ProductFile, of: &LimitAssessment) -> Vec<String> {
         let first = letters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();
         format!("{first}{}.", letters.as_str().trim_end_matches('.'))
     };
-    let mut said = vec![followed(of)];
+    let mut said = Vec::new();
     if of.demand.is_some() && of.uncertainty.is_finite() {
         let more = percent(of.uncertainty).replace('+', "");
-        said.push(format!("Others may ask for up to {more} more."));
+        said.push(format!("Other drops may ask for up to {more} more."));
     }
     if let Some(bound) = of.bound {
         said.push(format!("The energy of the drops allows no more than {}.", shown(of.unit, bound)));
@@ -102,7 +92,11 @@ fn summary(component: &Component, of: &LimitAssessment, portrait: &Portrait) -> 
     };
     let zone = match portrait.zone_m {
         Some([lo, hi]) if lo < hi => {
-            format!(" In the drops of the figures it holds with its middle anywhere from {} to {}.", millimeters(lo), millimeters(hi))
+            format!(
+                " In the drops of the figures it holds with its middle anywhere from {} to {}.",
+                millimeters(lo),
+                millimeters(hi)
+            )
         }
         Some(_) => String::new(),
         None => " In the drops of the figures it holds nowhere along the product.".to_owned(),
