@@ -173,7 +173,7 @@ fn scales(component: &Component, assessed: &ComponentAssessment, ends: &[Places<
         let parts = parts(component, limit, found.worst_case.as_ref());
         let here = |ends: &Places<'_>| {
             let at: Vec<usize> = (0..ends.positions_m.len()).collect();
-            ends.most(&ends.drops.stated(), &at, limit, &parts)
+            ends.most(&ends.drops.counted(), &at, limit, &parts)
         };
         Scale::of(assessed, found, &ends.iter().map(here).collect::<Vec<_>>())
     };

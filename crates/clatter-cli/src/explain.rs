@@ -84,7 +84,8 @@ pub(crate) fn left_out(ladders: &ProductLadder, out: &mut dyn Write) -> io::Resu
 
 fn table(file: &ProductFile, ladders: &ProductLadder, out: &mut dyn Write) -> io::Result<()> {
     let (name, tolerance) = (shown(&ladders.product, 60), given(100.0 * ladders.tolerance));
-    writeln!(out, "{name}: the cheapest model within {tolerance} % of the one with the most physics")?;
+    let head = format!("{name}: the cheapest model within {tolerance} % of the one with the most physics");
+    sentence(out, "", &head)?;
     ladders.limits.iter().try_for_each(|limit| of_limit(file, limit, out))?;
     left_out(ladders, out)
 }

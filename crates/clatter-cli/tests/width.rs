@@ -26,7 +26,7 @@ fn example(name: &str) -> String {
 /// A product with long names, every limit and wide numbers.
 fn wide(dir: &Path) -> String {
     let part = |name: &str, rest: &str| format!("[[component]]\nname = \"{name}\"\nposition = \"-60 mm\"\n{rest}\n");
-    let text = "[product]\nname = \"A product with a name as long as names of products are\"\nlength = \"150 mm\"\n\
+    let text = "[product]\nname = \"A product with a long name\"\nlength = \"150 mm\"\n\
         radius_of_gyration = \"41 mm\"\nrestitution = [0.3, 0.4]\ncontact_time = \"0.4 ms\"\n[drop]\nheight = \"1.2 m\"\n\
         tilt = [\"1 deg\", \"10 deg\"]\n"
         .to_owned()

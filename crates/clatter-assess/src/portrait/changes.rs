@@ -7,7 +7,7 @@ use super::drops::{Drops, Places, Tilt, View, corners, parts};
 use super::scale::Scale;
 use super::zone::zone;
 use super::{Changes, MARGIN};
-use crate::design::{Bounds, Case, Lever};
+use crate::design::{Bounds, Case, Change, Lever};
 use crate::drop::Until;
 use crate::search::{Ranges, fastest_rad_s};
 use crate::{Accuracy, Component, ComponentAssessment, ContactLaw, Limit, ProductFile};
@@ -43,7 +43,7 @@ pub(super) struct Failing<'a> {
 /// What is changed of the product and not of the part.
 const OF_PRODUCT: [Lever; 3] = [Lever::InertiaRatio, Lever::Restitution, Lever::ContactTime];
 
-impl<'a> Shared<'a> {
+impl Shared<'_> {
     fn case<'b>(&'b self, component: &'b Component) -> Case<'b> {
         Case::new(self.file, component, self.accuracy, self.bounds, MARGIN)
     }
@@ -72,7 +72,8 @@ impl<'a> Shared<'a> {
                 None => changes.not.push((lever, case.reach(lever).map(|x| case.shown(lever, x)))),
             }
         }
-        changes.enough.retain(|change| change.from != change.to);
+        let same = |change: &Change| change.from.map(f64::to_bits) == change.to.map(f64::to_bits);
+        changes.enough.retain(|change| !same(change));
         changes
     }
 
@@ -81,7 +82,7 @@ impl<'a> Shared<'a> {
             Lever::Limit(_) => Self::limit(case, of, lever),
             Lever::Position => self.place(case, of),
             Lever::Frequency | Lever::Damping => {
-                let mut views: Vec<_> = of.ends.iter().map(|ends| ends.drops.stated()).collect();
+                let mut views: Vec<_> = of.ends.iter().map(|ends| ends.drops.counted()).collect();
                 let enough = |x: f64| {
                     case.changed(&[(lever, x)]).is_some_and(|file| holds(of, &file.components[0], of.ends, &mut views))
                 };
@@ -136,7 +137,7 @@ impl<'a> Shared<'a> {
         };
         let fastest = fastest_rad_s(of.component);
         let ends: Vec<_> = drops.iter().map(|drops| Places::new(drops, of.component.ends_m(), fastest)).collect();
-        let mut views: Vec<_> = drops.iter().map(Drops::stated).collect();
+        let mut views: Vec<_> = drops.iter().map(Drops::counted).collect();
         holds(of, of.component, &ends, &mut views)
     }
 }

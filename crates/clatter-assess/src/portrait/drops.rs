@@ -12,7 +12,8 @@ use crate::{Component, Limit, Mount, Part, WorstCase};
 /// Steps of the tilt over its range; they are twice as close at its low end as at its high end.
 const STEPS: u32 = 40;
 
-/// A tilt in rad, and whether the file states it: of one stated tilt the curves show its neighbors as well.
+/// A tilt in rad, and whether places and changes count with it: of the tilts of a range every second one, and of one stated tilt, whose
+/// neighbors the curves show as well, itself.
 pub(super) type Tilt = (f64, bool);
 
 /// Speed, restitution and, where it is known, contact time of a drop.
@@ -75,8 +76,8 @@ impl Drops {
         (0..self.all.len()).flat_map(of).collect()
     }
 
-    /// Those that the ranges of the file hold.
-    pub(super) fn stated(&self) -> Vec<View> {
+    /// Those that places and changes count with.
+    pub(super) fn counted(&self) -> Vec<View> {
         self.views().into_iter().filter(|view| self.tilt(*view).1).collect()
     }
 
@@ -194,7 +195,9 @@ pub(super) fn tilts(ranges: &Ranges<'_>) -> Vec<Tilt> {
     }
     tilts.sort_by(f64::total_cmp);
     tilts.dedup_by(|a, b| a.to_bits() == b.to_bits());
-    tilts.into_iter().map(|tilt| (tilt, (stated.lo()..=stated.hi()).contains(&tilt))).collect()
+    let counts =
+        |i: usize, tilt: f64| (stated.lo()..=stated.hi()).contains(&tilt) && (stated.is_value() || i.is_multiple_of(2));
+    tilts.into_iter().enumerate().map(|(i, tilt)| (tilt, counts(i, tilt))).collect()
 }
 
 /// The highest speed with the ends of the ranges of restitution and contact time.
@@ -220,5 +223,5 @@ pub(super) fn parts(component: &Component, limit: &Limit, worst: Option<&WorstCa
     all.extend(worst.and_then(|worst| worst.frequency_hz.zip(worst.damping_ratio)));
     all.dedup();
     let part = |&(hz, ratio): &(f64, f64)| Suspension::from_hz(hz, DampingRatio::new(ratio).ok()?).ok();
-    all.iter().map(part).filter(Option::is_some).collect()
+    all.iter().filter_map(part).map(Some).collect()
 }

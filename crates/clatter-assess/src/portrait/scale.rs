@@ -34,7 +34,9 @@ impl Scale {
             Verdict::Safe => scales.iter_mut().for_each(|scale| scale.counted = scale.counted.min(1.0)),
             Verdict::Undecided | Verdict::Unsafe => {
                 let most = scales.iter_mut().max_by(|a, b| a.counted.total_cmp(&b.counted)).filter(|_| !by_stop);
-                most.into_iter().for_each(|scale| scale.counted = scale.counted.max(1.0 + 1e-6));
+                if let Some(scale) = most {
+                    scale.counted = scale.counted.max(1.0 + 1e-6);
+                }
             }
         }
         Some(scales)

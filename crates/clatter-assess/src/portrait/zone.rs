@@ -43,7 +43,7 @@ fn stretch(
     share: f64,
 ) -> Option<[f64; 2]> {
     let parts = parts(component, limit, found.worst_case.as_ref());
-    let mut views = grid.drops.stated();
+    let mut views = grid.drops.counted();
     let last = grid.positions_m.len() - 1;
     let holds = |views: &mut [View], at: usize| !grid.exceeds(views, &[at], limit, &parts, share);
     let here = component.position_m.at(0.5);
