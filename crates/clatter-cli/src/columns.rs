@@ -83,11 +83,11 @@ impl Table {
 /// The columns after the first `keys`, in as many blocks as there have to be, each beside those once more; one column at least.
 fn blocks(widths: &[usize], keys: usize, width: usize) -> Vec<Range<usize>> {
     let first: usize = widths.iter().take(keys).map(|w| w + 2).sum();
-    let (mut blocks, mut used) = (vec![keys..keys], first);
+    let (mut blocks, mut used) = (Vec::from([Range { start: keys, end: keys }]), first);
     for (i, wide) in widths.iter().enumerate().skip(keys) {
         let last = blocks.len() - 1;
         // Between columns are two blanks.
-        if used + wide > width && blocks[last].len() > 0 {
+        if used + wide > width && !blocks[last].is_empty() {
             blocks.push(i..i);
             used = first;
         }
