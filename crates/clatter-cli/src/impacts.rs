@@ -185,13 +185,19 @@ impl Drop<'_> {
         let heads = [("time", "h0/v0"), ("approach", "v0"), ("shock at a", "v0"), ("shock at b", "v0")];
         let heads: Vec<_> = heads.map(|(name, unit)| (name.to_owned(), unit)).into_iter().chain(places).collect();
         writeln!(out)?;
-        columns::line(out, "   impact  end", &heads, heads.iter().map(|(name, _)| name.as_str()))?;
-        columns::line(out, "              ", &heads, heads.iter().map(|(_, unit)| *unit))?;
-        for impact in self.impacts() {
-            let [a, b] = impact.delta_v;
-            let first = format!("{:>9}  {:<3}", impact.number, letter(impact.end));
-            let cells = [impact.time, impact.approach, a, b].into_iter().chain(self.shocks(&impact)).map(figures);
-            columns::line(out, &first, &heads, cells)?;
+        for (n, part) in columns::parts(14, &heads).into_iter().enumerate() {
+            if n > 0 {
+                writeln!(out)?;
+            }
+            let heads = &heads[part.clone()];
+            columns::line(out, "   impact  end", heads, heads.iter().map(|(name, _)| name.as_str()))?;
+            columns::line(out, "              ", heads, heads.iter().map(|(_, unit)| *unit))?;
+            for impact in self.impacts() {
+                let [a, b] = impact.delta_v;
+                let first = format!("{:>9}  {:<3}", impact.number, letter(impact.end));
+                let cells = [impact.time, impact.approach, a, b].into_iter().chain(self.shocks(&impact)).map(figures);
+                columns::line(out, &first, heads, cells.skip(part.start))?;
+            }
         }
         Ok(())
     }
