@@ -188,6 +188,7 @@ pub(crate) static COMPONENT: &[Key] = &[
         "Largest single change of the angular velocity of the product.",
     ),
     key("damage_boundary", false, Table(BOUNDARY), "Shocks at the part do damage beyond both of these alone."),
+    key("limit_source", false, Text, "Where its limits are from, such as a data sheet; the printed report tells it."),
 ];
 
 pub(crate) static BOUNDARY: &[Key] = &[

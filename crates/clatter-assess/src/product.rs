@@ -105,6 +105,8 @@ pub struct Component {
     pub mount: Mount,
     /// What it stands.
     pub limits: Limits,
+    /// Where its limits are from, as the file tells it.
+    pub limit_source: Option<String>,
 }
 
 /// How a part is held.

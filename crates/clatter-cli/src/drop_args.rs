@@ -10,7 +10,7 @@ use clatter_flight::{Body, ContactLaw, Scene};
 
 use crate::inputs::{self, LawName, ModelName};
 use crate::numbers::given;
-use crate::one_drop::{OneDrop, PartSetup};
+use crate::one_drop::{OneDrop, PartSetup, Worst};
 use crate::quantities::{self, Piece, Place, Show, Shown, neat};
 use crate::{Failure, Streams};
 
@@ -105,7 +105,7 @@ pub(crate) struct Beside<'a> {
     /// Whether places that are typed are those of the product, whichever end touches first; else they are seen from the end that does.
     pub(crate) of_product: bool,
     /// The worst drop of a product file instead of one value of each range.
-    pub(crate) worst: Option<Accuracy>,
+    pub(crate) worst: Option<(Worst, Accuracy)>,
 }
 
 /// A drop with all that it needs.
@@ -199,7 +199,7 @@ impl DropArgs {
             Some(path) => {
                 let file = OneDrop::read(path, self.component.as_deref(), beside.first, streams)?;
                 Some(match &beside.worst {
-                    Some(accuracy) => file.at_worst(accuracy)?,
+                    Some((of, accuracy)) => file.at_worst(*of, accuracy)?,
                     None => file,
                 })
             }

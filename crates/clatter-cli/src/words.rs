@@ -38,7 +38,7 @@ fn significant(x: f64, digits: i32) -> String {
 
 /// A margin, with its sign.
 pub(crate) fn margin(margin: f64) -> String {
-    if margin.is_infinite() { "infinite".to_owned() } else { format!("{:+.1} %", 100.0 * margin) }
+    if margin.is_infinite() { "none asked".to_owned() } else { format!("{:+.1} %", 100.0 * margin) }
 }
 
 /// A share of a hundred to two digits, which is what errors are good for.

@@ -11,7 +11,9 @@ impl Reader {
         let mount = self.mount(section);
         let limits = self.limits(section);
         let (position, extent_m) = (position?, extent.map_or(0.0, |e| e.value));
-        let component = Component { name: name?, position_m: position.value, extent_m, mount: mount?, limits };
+        let limit_source = self.text(section, "limit_source").map(|source| source.value);
+        let component =
+            Component { name: name?, position_m: position.value, extent_m, mount: mount?, limits, limit_source };
         if let Some(product) = product.filter(|product| !component.fits(product)) {
             let message = format!("the component reaches {} mm from the middle", mm(component.reach_m()));
             let half = mm(0.5 * product.body.length_m());

@@ -129,13 +129,13 @@ impl Ranges<'_> {
     }
 
     /// Of a symmetric product one end first is the other one turned around.
-    pub(super) fn turns(&self) -> bool {
+    pub(crate) fn turns(&self) -> bool {
         let [a, b] = self.product.body.arms_m();
         a.to_bits() == b.to_bits() && self.drop.first_ends().len() > 1
     }
 
     /// The ends that are let touch first.
-    pub(super) fn firsts(&self) -> &'static [End] {
+    pub(crate) fn firsts(&self) -> &'static [End] {
         if self.turns() { &self.drop.first_ends()[..1] } else { self.drop.first_ends() }
     }
 }
