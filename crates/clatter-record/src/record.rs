@@ -6,11 +6,12 @@ use crate::container::{self, Kind};
 use crate::error::Bad;
 use crate::finding::{At, Finding, Judged, LISTED, gaps, is_of_events};
 use crate::heading::Heading;
+use crate::plausible::{against_times, refuse_counts};
 use crate::roles::{Roles, Seen};
 use crate::samples::{LARGEST, check};
 use crate::text::{self, BLOCK, Rows, SHOWN, decoded};
 use crate::times::{Printed, Times};
-use crate::{Column, Error, Options, Table, Values};
+use crate::{Account, Column, Error, Options, Table, Values};
 
 /// A record of one or several channels, in seconds and m/s².
 #[derive(Debug, Clone, PartialEq)]
@@ -23,6 +24,8 @@ pub struct Record {
     pub(crate) numbering: Vec<(usize, At)>,
     /// What was found while reading.
     read: Vec<Finding>,
+    /// What became of each line and column of a text.
+    account: Option<Account>,
 }
 
 /// One channel of a record.
@@ -150,12 +153,33 @@ impl Record {
         if rows.below().count > 0 {
             found.push(Finding::Below(rows.below().clone()));
         }
-        let (start_s, unit_s) = (rows.start_s(), rows.time_size());
-        let (mut start, mut step_s) = (start_s, None);
+        let account = Account { lines: rows.lines(), columns: roles.columns };
+        if account.lines.missing() > 0 {
+            return Err(Error::File(format!(
+                "{} lines of the file are not accounted for: {account}",
+                account.lines.missing()
+            )));
+        }
+        let (mut start_s, unit_s) = (rows.start_s(), rows.time_size());
+        let mut step_s = None;
         if let Some(hz) = options.sample_rate_hz {
-            step_s = Some(period(hz)?);
+            let given_s = period(hz)?;
+            (start_s, step_s) = (0.0, Some(given_s));
+            let rounded_s = rows.printed.unit() * unit_s;
+            found.extend(against_times(
+                given_s,
+                &std::mem::take(&mut rows.times),
+                rounded_s,
+                "the rate that is given",
+            )?);
+            rows.printed = Printed::default();
         } else if let (Some([from_s, by_s]), None) = (rows.sampled_s, roles.time) {
-            (start, step_s) = (from_s, Some(by_s));
+            (start_s, step_s) = (from_s, Some(by_s));
+        } else if let Some((told_s, line)) = rows.told() {
+            let rounded_s = rows.printed.unit() * unit_s;
+            found.extend(
+                against_times(told_s, &rows.times, rounded_s, &format!("the rate of line {line}")).unwrap_or_default(),
+            );
         }
         let values = std::mem::take(&mut rows.channels);
         let channels = values.into_iter().zip(roles.channels).map(|(values, role)| Channel {
@@ -165,7 +189,7 @@ impl Record {
         });
         let raw = Raw {
             channels: channels.collect(),
-            start_s: start,
+            start_s,
             unit_s,
             since_s: std::mem::take(&mut rows.times),
             printed: std::mem::take(&mut rows.printed),
@@ -173,7 +197,21 @@ impl Record {
             numbering: std::mem::take(&mut rows.numbering),
             found,
         };
-        raw.finish(rows.bad, options)
+        let mut raw = raw;
+        if options.units.is_some() {
+            refuse_counts(&raw.channels)?;
+        }
+        if !raw.since_s.is_empty() && !rows.doubled.is_empty() {
+            raw.refuse_coarse()?;
+            let mut kept = vec![true; raw.since_s.len()];
+            for (sample, line) in &rows.doubled {
+                kept[*sample] = false;
+                rows.bad.add(At::Line(*line), || "is the line before once more".to_owned());
+            }
+            raw.keep(&kept);
+        }
+        let record = raw.finish(rows.bad, options)?;
+        Ok(Self { account: Some(account), ..record })
     }
 
     /// Of the columns of a file whose numbers are no text.
@@ -196,6 +234,7 @@ impl Record {
             sampled: columns.iter().any(|column| column.sampled_s.is_some()),
             rows: (0..SHOWN).map(|row| columns.iter().map(|column| number(column, row)).collect()).collect(),
             headings,
+            ..Seen::default()
         };
         let roles = seen.roles(options)?;
         let samples = columns[roles.channels[0].column].values.len();
@@ -264,6 +303,11 @@ impl Record {
     #[must_use]
     pub fn channels(&self) -> &[Channel] {
         &self.channels
+    }
+    /// What became of every line and every column, of a text.
+    #[must_use]
+    pub fn account(&self) -> Option<&Account> {
+        self.account.as_ref()
     }
     /// Samples of each channel.
     #[must_use]
@@ -389,6 +433,7 @@ impl Raw {
             samples,
             numbering: self.numbering,
             read: self.found,
+            account: None,
         })
     }
 
@@ -403,7 +448,8 @@ impl Raw {
         let unit_s = self.printed.unit() * self.unit_s;
         #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
         let coarse = unit_s * (count - 1) as f64 > 0.5 * self.since_s[count - 1].abs();
-        if same == 0 || !coarse {
+        // A few samples at one time are jumps, or there twice.
+        if 10 * same < count || !coarse {
             return Ok(());
         }
         Err(Error::Columns(format!(

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use clatter_record::{Channel, Finding, PulseCheck, Shocks, Within};
+use clatter_record::{Account, Channel, Finding, PulseCheck, Shocks, Within};
 use clatter_shock::Pulse;
 use serde::Serialize;
 
@@ -22,6 +22,45 @@ pub(super) struct Answer<'a> {
     sample_rate_hz: Option<Json>,
     channels: Vec<ChannelJson<'a>>,
     findings: Vec<String>,
+    /// What became of every line and column; null for files that are no text.
+    account: Option<AccountJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct AccountJson<'a> {
+    lines: usize,
+    heading: usize,
+    rows: usize,
+    other_sensors: usize,
+    not_used: usize,
+    empty: usize,
+    comments: usize,
+    below: usize,
+    columns: Vec<ColumnJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct ColumnJson<'a> {
+    column: &'a str,
+    taken_for: &'a str,
+}
+
+impl<'a> AccountJson<'a> {
+    fn new(account: &'a Account) -> Self {
+        let lines = account.lines;
+        let column = |(column, taken_for): &'a (String, String)| ColumnJson { column, taken_for };
+        Self {
+            lines: lines.all,
+            heading: lines.heading,
+            rows: lines.rows,
+            other_sensors: lines.others,
+            not_used: lines.bad,
+            empty: lines.empty,
+            comments: lines.comments,
+            below: lines.below,
+            columns: account.columns.iter().map(column).collect(),
+        }
+    }
 }
 
 impl<'a> Answer<'a> {
@@ -36,6 +75,7 @@ impl<'a> Answer<'a> {
             sample_rate_hz: record.step_s().map(|step_s| Json(step_s.recip())),
             channels: (0..record.channels().len()).map(|k| ChannelJson::new(whole, k)).collect(),
             findings: findings.iter().map(Finding::to_string).collect(),
+            account: record.account().map(AccountJson::new),
         }
     }
 }
