@@ -354,17 +354,24 @@ fn endless_trains_tend_to_what_is_said() {
         )
         .unwrap();
         let start = PlateStart::new([-1.0, -0.6 - x(37), -0.6 - x(41)], [0.1 + x(43), 0.1 + x(47)]).unwrap();
-        let summary = plate.summary(&start, 120);
+        let summary = plate.summary(&start, 200);
         if summary.count != PlateCount::Endless {
             continue;
         }
         let mut train = plate.train(&start);
-        let impacts: Vec<_> = train.by_ref().take(120).collect();
-        assert_eq!(impacts.len(), 120, "{plate:?}, {start:?}");
-        let corners = Corner::ALL.iter().filter(|corner| impacts[80..].iter().any(|i| i.corner == **corner)).count();
+        let impacts: Vec<_> = train.by_ref().take(200).collect();
+        assert_eq!(impacts.len(), 200, "{plate:?}, {start:?}");
+        let corners = Corner::ALL.iter().filter(|corner| impacts[150..].iter().any(|i| i.corner == **corner)).count();
         endless[usize::from(corners > 2)] += 1;
-        let off = (impacts[119].time - summary.duration).abs();
-        assert!(off < 1e-6 * summary.duration, "{plate:?}, {start:?}: {summary:?}, not {:?}", impacts[119]);
+        // What still comes down then strikes at that speed or more.
+        let down =
+            summary.final_velocity.unwrap().into_iter().fold(0.0, |most: f64, v| most.max(-v)) * (1.0 + plate.e());
+        assert!(
+            summary.peak.later >= down && plate.shocks(&start, 200).later() >= down,
+            "{plate:?}, {start:?}: {summary:?}"
+        );
+        let off = (impacts[199].time - summary.duration).abs();
+        assert!(off < 1e-6 * summary.duration, "{plate:?}, {start:?}: {summary:?}, not {:?}", impacts[199]);
         for (got, want) in train.velocities().iter().zip(summary.final_velocity.unwrap()) {
             assert!((got - want).abs() < 1e-6, "{plate:?}, {start:?}: {:?}, not {summary:?}", train.velocities());
         }

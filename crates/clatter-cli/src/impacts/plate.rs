@@ -42,6 +42,11 @@ impl Args {
                         format_args!("two corners come down at one instant; the order is {}", drop.order()),
                     );
                 }
+                if drop.falls_on() {
+                    let what =
+                        "a corner still comes down as the endless impacts end: its strikes are bounded, not followed";
+                    streams.note("warning", what);
+                }
                 if let Some(warning) = drop.cut_short() {
                     streams.note("warning", warning);
                 }
@@ -64,6 +69,12 @@ impl Drop {
 
     fn order(&self) -> &'static str {
         if self.start.gaps().iter().all(|gap| *gap == 0.0) { DIAGONAL } else { NUDGED }
+    }
+
+    /// Whether a corner is still to come down after an endless train.
+    fn falls_on(&self) -> bool {
+        let endless = self.summary.count == PlateCount::Endless;
+        endless && self.summary.final_velocity.is_some_and(|velocities| velocities.iter().any(|v| *v < 0.0))
     }
 
     fn cut_short(&self) -> Option<String> {

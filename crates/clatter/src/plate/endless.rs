@@ -26,6 +26,8 @@ pub(super) struct Limit {
     pub(super) velocity: [f64; 4],
     /// What no later shock of each corner exceeds; 0 for one that strikes no more.
     pub(super) later: [f64; 4],
+    /// What no shock after the limit exceeds: 0 unless a corner still comes down then.
+    pub(super) after: f64,
 }
 
 /// Velocities and intervals of time that decide it must differ by this share of themselves.
@@ -103,7 +105,8 @@ impl Plate {
         let most = (-v0).max(-fast / square.sqrt());
         let mut later = [0.0; 4];
         (later[i], later[j]) = ((1.0 + e) * root[0] * most, (1.0 + e) * root[1] * most);
-        Some(Limit { time, velocity, later })
+        let after = if velocity.iter().any(|v| *v < 0.0) { self.later(&velocity) } else { 0.0 };
+        Some(Limit { time, velocity, later, after })
     }
 
     /// Corner values after a strike at corner j.
@@ -150,7 +153,7 @@ impl Plate {
         }
         let later = self.later(v);
         let later = std::array::from_fn(|j| if word.contains(&j) { later } else { 0.0 });
-        Some(Limit { time: now.time + wait, velocity: [0.0; 4], later })
+        Some(Limit { time: now.time + wait, velocity: [0.0; 4], later, after: 0.0 })
     }
 }
 

@@ -41,7 +41,8 @@ pub struct PlateSummary {
     /// Largest shocks.
     pub peak: PlatePeak,
     /// Velocities of the corners after the last impact, or the limit they tend to; `None` where the train was not
-    /// followed to its end.
+    /// followed to its end. Where a corner still comes down in the limit, it strikes after the endless train, on a plate
+    /// that rests on two others: that is not followed, and bounded by [`PlatePeak::later`].
     pub final_velocity: Option<[f64; 4]>,
     /// Largest shocks of every corner in its own strikes.
     struck: [f64; 4],
@@ -89,10 +90,10 @@ impl Plate {
                 let limit = self.limit(start, &word, &train);
                 let less = |limit: &Limit| (0..4).all(|j| limit.later[j] <= struck[j]);
                 if let Some(limit) = limit.filter(|limit| ask > most || less(limit)) {
-                    peak.later = limit.later.into_iter().fold(0.0, f64::max);
+                    peak.later = limit.later.into_iter().fold(limit.after, f64::max);
                     let duration = if start.is_flat() { 0.0 } else { limit.time };
                     let (count, final_velocity) = (PlateCount::Endless, Some(limit.velocity));
-                    let open = if less(&limit) { 0.0 } else { peak.later };
+                    let open = if less(&limit) { limit.after } else { peak.later };
                     return PlateSummary { count, duration, peak, final_velocity, struck, open };
                 }
             }
