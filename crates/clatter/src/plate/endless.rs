@@ -131,7 +131,7 @@ impl Plate {
         }
         let vectors = [0, 1, 2].map(|k| null_vector(&(matrix - Matrix3::identity() * values[k])));
         let inverse = Matrix3::from_columns(&vectors).try_inverse()?;
-        let (xi, eta) = (inverse * plane(v), inverse * plane(&now.heights));
+        let (xi, eta) = (inverse * plane(v), inverse * plane(&now.corners));
         let wait = -eta[0] / xi[0];
         let sigma = [0.0, eta[1] + wait * xi[1], eta[2] + wait * xi[2]];
         // Heights must not be roundings.

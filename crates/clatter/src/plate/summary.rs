@@ -118,7 +118,7 @@ impl Plate {
     #[must_use]
     pub fn shocks(&self, start: &PlateStart, most: u64) -> PlateShocks {
         let summary = self.summary(start, most);
-        PlateShocks::new(*self, summary.struck, summary.open)
+        PlateShocks::new(self, summary.struck, summary.open)
     }
 
     /// What no strike exceeds after these velocities.
