@@ -1,6 +1,15 @@
 //! Laws of the plate, and random plates against a motion in fractions that shares nothing with the crate: it moves the
 //! plate from strike to strike by its center of mass and its two turns, and breaks ties by a tilt that differs by 2⁻⁵⁰⁰.
 
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    clippy::cast_sign_loss,
+    reason = "bit counts and whole numbers of moderate size"
+)]
+#![expect(clippy::disallowed_methods, reason = "powers of two, which are exact")]
+#![expect(clippy::float_cmp, reason = "what is the same is compared as such")]
+
 use std::cmp::Ordering;
 
 use clatter::{Bar, Corner, End, Extent, Plate, PlateCount, PlateStart, Start};
@@ -63,7 +72,7 @@ impl Fraction {
         let whole = (self.0.clone() << shift as usize) / &self.1;
         let cut = (whole.bits() as i64 - 64).max(0);
         let top: BigInt = whole >> cut as usize;
-        let digits: f64 = top.to_string().parse().unwrap();
+        let digits: f64 = top.to_string().parse().expect("digits");
         digits * 2f64.powi((cut - shift) as i32)
     }
 }
