@@ -85,11 +85,12 @@ impl Plate {
         let time = -of_p / fast;
         let now = if v[j] > 0.0 { -p[j] / v[j] } else { time };
         // What both give in all, each a multiple of its jumps, so that both come to rest.
-        let total = |x: &[f64; 4]| {
-            let (m, by_j, by_i) = (1.0 + e, self.jump[j][i], self.jump[i][j]);
-            let d = m * m - by_j * by_i;
-            [(m * x[i] - by_j * x[j]) / d, (m * x[j] - by_i * x[i]) / d]
-        };
+        let (m, by_j, by_i) = (1.0 + e, self.jump[j][i], self.jump[i][j]);
+        let d = m * m - by_j * by_i;
+        if d < CLEAR * m * m && !mirrored {
+            return None; // of so little mass away from the middle that floats do not tell what the others get
+        }
+        let total = |x: &[f64; 4]| [(m * x[i] - by_j * x[j]) / d, (m * x[j] - by_i * x[i]) / d];
         let of_v = total(v);
         let mut velocity = [0.0; 4];
         for k in (0..4).filter(|k| !mirrored && *k != i && *k != j) {
