@@ -66,7 +66,7 @@ impl Plate {
     /// use clatter::{Plate, PlateCount, PlateStart};
     /// let count = |e: f64| Ok::<_, clatter::Error>(Plate::uniform(e)?.summary(&PlateStart::default(), 1000).count);
     /// assert_eq!(count(0.176)?, PlateCount::Endless);
-    /// assert_eq!(count(0.3)?, PlateCount::Finite(5));
+    /// assert_eq!(count(0.3)?, PlateCount::Finite(6));
     /// # Ok::<(), clatter::Error>(())
     /// ```
     #[must_use]

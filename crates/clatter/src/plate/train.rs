@@ -295,7 +295,8 @@ impl Plate {
     /// A uniform plate that lands with b twice as high as d:
     /// ```
     /// use clatter::{Plate, PlateStart};
-    /// let train = Plate::uniform(0.5)?.train(&PlateStart::level([2.0, 1.0])?);
+    /// let plate = Plate::uniform(0.5)?;
+    /// let train = plate.train(&PlateStart::level([2.0, 1.0])?);
     /// let word: String = train.map(|impact| impact.corner.letter()).collect();
     /// assert_eq!(word, "adcbad");
     /// # Ok::<(), clatter::Error>(())
