@@ -298,7 +298,7 @@ impl Plate {
     /// let plate = Plate::uniform(0.5)?;
     /// let train = plate.train(&PlateStart::level([2.0, 1.0])?);
     /// let word: String = train.map(|impact| impact.corner.letter()).collect();
-    /// assert_eq!(word, "adcbad");
+    /// assert_eq!(word, "adcabc");
     /// # Ok::<(), clatter::Error>(())
     /// ```
     #[must_use]
