@@ -66,8 +66,12 @@ mod beside;
 mod bounces;
 mod criterion;
 mod drop;
+mod explain;
 mod first_strikes;
+mod join;
 mod matching;
+mod premise;
+mod records;
 mod region;
 mod report;
 mod set;
@@ -84,7 +88,7 @@ use crate::{First, Model, ProductFile};
 
 pub use beside::{Beside, MeasuredDrop};
 pub use bounces::bounces;
-pub use report::fit;
+pub use explain::fit;
 use set::{Set, Which};
 pub use write::{Written, written};
 
@@ -385,7 +389,9 @@ pub enum Error {
     #[error(
         "record {record}: no drop was found that explains it: the data scatter by {factor:.1} times the standard deviation given \
              about the nearest one. Either they are timed less well, or what is odd about them is not one of the things that are looked for; \
-             with contacts that take time missing strikes are not looked for. Without a standard deviation the scatter tells it"
+             with contacts that take time missing strikes are not looked for. Without a standard deviation the scatter tells it. \
+             Where strikes come within a millisecond of each other, what follows depends on them so much that it may not be found: leave \
+             later strikes out"
     )]
     Scatter {
         /// Which record, from 1.
@@ -394,6 +400,9 @@ pub enum Error {
         factor: f64,
     },
     /// No computed drop comes near the data.
-    #[error("no drop was found whose {0} are as measured: check units, ends and the length in the product file")]
+    #[error(
+        "no drop was found whose {0} are as measured: check units, ends and the length in the product file. Where strikes come within \
+             a millisecond of each other, what follows depends on them so much that it may not be found: leave later strikes out"
+    )]
     NoDrop(&'static str),
 }

@@ -11,6 +11,8 @@ pub(super) const SIMILAR: f64 = 5.991_464_547_107_98;
 pub(super) struct Score {
     misfit: f64,
     paid: f64,
+    /// Whether there are data enough for what is taken for granted.
+    is_supported: bool,
 }
 
 /// What an explanation takes for granted beside its free unknowns.
@@ -33,29 +35,28 @@ impl Score {
     /// Of a sum of squares over so many data with so many free unknowns.
     ///
     /// Where the standard deviation of the data is `known`, it is χ² + 2 k (Akaike 1974); where it is one unknown more,
-    /// n ln(χ²/n) + 2 k + 2 k (k + 1)/(n − k − 1) (Hurvich and Tsai 1989), and too few data explain nothing. One of many
+    /// n ln(χ²/n) + 2 k + 2 k (k + 1)/(n − k − 1) (Hurvich and Tsai 1989), with 1 for the last divisor at least. One of many
     /// ways pays 2 ln of their number for having been chosen among them (Foster and George 1994).
     #[expect(clippy::cast_precision_loss, reason = "counts of data")]
     pub(super) fn new(sum: f64, data: usize, free: usize, faults: Faults, known: bool) -> Self {
         let (n, k) = (data as f64, (free + faults.count + usize::from(!known)) as f64);
         let ways = 2.0 * faults.ln_ways;
         if known {
-            return Self { misfit: sum, paid: 2.0 * k + ways };
+            return Self { misfit: sum, paid: 2.0 * k + ways, is_supported: true };
         }
         let spare = n - k - 1.0;
-        let paid = if spare > 0.0 { 2.0 * k + 2.0 * k * (k + 1.0) / spare + ways } else { f64::INFINITY };
-        Self { misfit: n * (sum / n).ln(), paid }
+        let paid = 2.0 * k + 2.0 * k * (k + 1.0) / spare.max(1.0) + ways;
+        Self { misfit: n * (sum / n).ln(), paid, is_supported: spare > 0.0 }
     }
 
-    /// How far it is above another. Two that too few data support differ by what they leave unexplained.
+    /// How far it is above another.
     pub(super) fn above(&self, other: &Self) -> f64 {
-        let paid = if self.paid.is_infinite() && other.paid.is_infinite() { 0.0 } else { self.paid - other.paid };
-        self.misfit - other.misfit + paid
+        self.misfit + self.paid - (other.misfit + other.paid)
     }
 
     /// Whether there are data enough for what it takes for granted.
     pub(super) fn is_supported(&self) -> bool {
-        self.paid.is_finite()
+        self.is_supported
     }
 }
 

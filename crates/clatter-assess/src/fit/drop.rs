@@ -50,9 +50,6 @@ const SETTLED: f64 = 0.02;
 const LEAST_DEGREES: f64 = 0.5;
 /// Data that are met to this share of what they vary by are met exactly.
 const ROUNDING: f64 = 1e-9;
-/// Patience and precision of a search that only tells where to go on.
-const QUICK_PATIENCE: usize = 12;
-const QUICK_PRECISION: f64 = 1e-4;
 /// A flight is followed for so many times as long as strikes were measured.
 const HORIZON: f64 = 3.0;
 /// The same of contacts that take time, where no more were measured.
@@ -112,11 +109,6 @@ impl Drop<'_> {
             patience,
             precision: solve::PRECISION,
         }
-    }
-    /// The same as far as a search needs it that only tells where to go on.
-    pub(super) fn quick_problem(&self) -> Problem<'_> {
-        let problem = self.problem();
-        Problem { patience: problem.patience.min(QUICK_PATIENCE), precision: QUICK_PRECISION, ..problem }
     }
     /// Whether strike times alone are fitted, with impacts that are instant: a flight is then so quick that hundreds more of them
     /// count for nothing.
@@ -185,7 +177,7 @@ impl Drop<'_> {
     }
     /// Free unknowns, and those within a range.
     pub(super) fn with_ranged(&self, free: &[usize]) -> Vec<usize> {
-        free.iter().chain(&self.ranged).copied().collect()
+        free.iter().chain(self.ranged.iter().filter(|unknown| !free.contains(unknown))).copied().collect()
     }
     /// A scatter that is that of roundings.
     pub(super) fn least_scatter(&self) -> f64 {

@@ -4,76 +4,49 @@
 //! others tried, and these pay for every strike that they drop or invent ([`Score`]).
 
 use super::criterion::{Faults, SIMILAR, Score, chi_square};
-use super::drop::{DIFFERENCE, Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED};
+use super::drop::{Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED};
 use super::first_strikes::meeting;
-use super::report::missing;
-use super::solve::Minimum;
+use super::premise::Premise;
+use super::records::missing;
+use super::solve::{Minimum, Problem};
 use super::starts::{TAKEN, misfit, starts};
 use super::student;
+use super::told::ALPHA;
 use super::{Error, MeasuredStrike, Set, Which};
 use std::cmp::Ordering;
 
-use clatter::End;
-
-/// Restitutions among which starts are sought: between two of them the time of the next strike is mostly nearly a straight line. And
-/// where the plain explanation was not found among so few.
+/// Restitutions among which starts are sought: between two of them the time of the next strike is mostly nearly a straight line.
 const RESTITUTIONS: usize = 48;
-const MORE_RESTITUTIONS: usize = 96;
-/// So many drops go on there.
-const MORE_TAKEN: usize = 48;
+/// Drops are sought that meet so many of the first strikes.
+const MEETING: usize = 4;
+/// So many drops go on at most where the plain explanation was not found among few.
+const WIDELY_TAKEN: usize = 48;
+/// Patience and precision of a search that only tells where to go on.
+const QUICK_PATIENCE: usize = 12;
+const QUICK_PRECISION: f64 = 1e-4;
+/// Of the flights that are left that search takes this part.
+const WIDE_SHARE: usize = 3;
 /// The first strikes are met there as they were measured and as they may be: by two standard deviations or, where none is given, a
 /// hundredth of the time between them, which is as well as clatter is timed at least.
 const DEVIATIONS: f64 = 2.0;
 const UNTOLD: f64 = 0.01;
-/// More strikes than these can tell both ends apart and that they do.
-const ENOUGH_FOR_BOTH: usize = 6;
-/// Strikes may be missing before so many of the first measured ones.
-const PLACES: usize = 16;
 /// Data that scatter by more than this share of the mean time between strikes are not explained: with so much, nothing is told.
 pub(super) const SUSPECT: f64 = 0.05;
 /// Nor are data that scatter by more than is given, or of which one is further off than the others explain, where chance does that
 /// less often: so many sound records are taken for odd ones.
 pub(super) const CHANCE: f64 = 1e-4;
+/// What is left where chance leaves that much so seldom asks for another search.
+const UNLIKELY: f64 = 0.02;
+/// Half a range of the speed, as a share, from which on searches begin at its ends too.
+const WIDE: f64 = 0.02;
+/// So many of the best minima are gone on from with central differences where they do not explain the record.
+const POLISHED: usize = 3;
+/// A strike that alone tells an unknown is met whatever its time: where its leverage is less than this from 1, roundings are all that
+/// is left of its residual.
+const LEAST_ROOM: f64 = 1e-4;
 
 /// Minima are the same whose unknowns differ by no more.
 const SAME: f64 = 1e-3;
-
-/// What is taken for granted of a drop and its record.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-struct Premise {
-    /// Measured strikes, from 0, before each of which a computed one is missing.
-    missing: Vec<usize>,
-    /// A measured strike that is left out, and whether it is one at a wrong time; else it is none at all.
-    left_out: Option<(usize, bool)>,
-    /// An unknown that is free although the product file or a simpler product has it otherwise.
-    freed: Option<usize>,
-    /// In how many ways that many strikes may be dropped or invented.
-    ways: usize,
-}
-
-impl Premise {
-    fn faults(&self) -> Faults {
-        #[expect(clippy::cast_precision_loss, reason = "some hundred")]
-        let ln_ways = (self.ways.max(1) as f64).ln();
-        Faults { count: self.missing.len() + usize::from(self.left_out.is_some()), ln_ways }
-    }
-
-    /// Of each measured strike the computed one that it is: in the order of its end where all ends are known, else in that of all.
-    fn index(&self, strikes: &[MeasuredStrike]) -> Vec<Option<Which>> {
-        let ends_known = strikes.iter().all(|strike| strike.end.is_some());
-        let mut next = [0; 2];
-        let one = |(k, strike): (usize, &MeasuredStrike)| {
-            let end = strike.end.filter(|_| ends_known);
-            let count = &mut next[usize::from(end == Some(End::B))];
-            *count += self.missing.iter().filter(|place| **place == k).count();
-            let is_out = self.left_out.filter(|(out, _)| *out == k);
-            let now = *count;
-            *count += is_out.map_or(1, |(_, is_strike)| usize::from(is_strike));
-            is_out.is_none().then(|| end.map_or(Which::Of(now), |end| Which::OfEnd(end, now)))
-        };
-        strikes.iter().enumerate().map(one).collect()
-    }
-}
 
 /// A fit to one record of strikes, alone.
 struct Candidate {
@@ -121,7 +94,15 @@ pub(super) fn find(drop: &Drop<'_>, set: usize, known: bool) -> Result<Vec<Match
     let mut alone = Drop { sets: vec![drop.sets[set].clone()], is_rough: true, ..drop.clone() };
     alone.ranged = [SPEED].into_iter().filter(|&unknown| alone.range(unknown).is_some()).collect();
     let ranged = alone.ranged.clone();
-    Search { drop: alone, strikes, known, ranged, reach: 0 }.found()
+    Search { drop: alone, strikes, known, ranged, reach: 0, begins: Vec::new() }.found()
+}
+
+/// What the drops that meet the first strikes depend on: which strikes these are, what is free, and the speed.
+#[derive(PartialEq)]
+struct Of {
+    first: Vec<(usize, Option<Which>)>,
+    free: Vec<usize>,
+    ln_speed: f64,
 }
 
 /// The search in one record.
@@ -134,6 +115,8 @@ struct Search<'d> {
     ranged: Vec<usize>,
     /// With so many of the first strikes the plain explanation is none any more.
     reach: usize,
+    /// Drops that meet the first strikes, as they were found.
+    begins: Vec<(Of, Vec<Vec<f64>>)>,
 }
 
 impl<'d> Search<'d> {
@@ -147,45 +130,56 @@ impl<'d> Search<'d> {
 
     fn found(mut self) -> Result<Vec<Matched>, Error> {
         let premise = Premise::default();
-        let mut plain = self.staged(&premise);
-        if !self.is_met(&plain[0]) {
-            plain.extend(self.thorough(&premise));
-            plain.sort_by(Candidate::order);
+        let mut plain = self.staged(&premise, false);
+        let mut all = Vec::new();
+        if !self.is_likely(&plain[0]) {
+            // With more freedom strikes are met more easily, the plain explanation often with them.
+            let freed = if self.drop.contacts { Vec::new() } else { Premise::freed(self.strikes.len()) };
+            all = self.met(&freed);
+            if all.is_empty() {
+                // A part of the flights has to do, so that some are left for strikes that are odd.
+                let left = self.drop.left.get();
+                self.drop.left.set(left / WIDE_SHARE);
+                plain.extend(self.staged(&premise, true));
+                self.drop.left.set(left - left / WIDE_SHARE + self.drop.left.get());
+                plain.sort_by(Candidate::order);
+            }
         }
         self.drop.is_rough = false;
         self.settle(&mut plain[0]);
         let outlier = self.outlier(&plain[0]);
         let is_plain = self.is_met(&plain[0]) && outlier.is_none();
-        let mut all = plain;
         if !is_plain {
-            let near: Vec<Vec<f64>> = all.iter().map(|fit| fit.minimum.x.clone()).collect();
-            all.truncate(1);
-            for round in self.rounds(outlier) {
-                for premise in &round {
-                    if self.drop.left.get() > 0 && self.is_supported(premise) {
-                        let others = match premise.freed {
-                            Some(_) => self.from(premise, &near),
-                            None => self.staged(premise),
-                        };
-                        all.extend(others.into_iter().filter(|other| self.counts(other)));
-                    }
-                }
-                // Two strikes are missing only where one is not enough.
-                if all.len() > 1 {
+            // Two strikes are missing only where one is not enough.
+            let count = self.strikes.len();
+            // Flights with contacts take too long for more than one wrong time.
+            let rounds = if self.drop.contacts {
+                [outlier.map(|k| Premise::wrong(count, k)).into_iter().collect(), Vec::new()]
+            } else {
+                Premise::rounds(count, self.reach, outlier)
+            };
+            for round in rounds {
+                all.extend(self.met(&round));
+                if !all.is_empty() {
                     break;
                 }
             }
-            // What does not explain the record is no explanation beside one that does.
-            if all.len() > 1 && !self.is_met(&all[0]) {
-                all.remove(0);
-            }
+        }
+        // What does not explain the record is no explanation beside one that does.
+        if is_plain {
+            all.extend(plain);
+        } else if all.is_empty() || self.is_met(&plain[0]) {
+            all.push(plain.swap_remove(0));
         }
         if all[0].wrong > 0 {
             return Err(Error::NoDrop("strikes"));
         }
         all.sort_by(|a, b| a.score.above(&b.score).total_cmp(&0.0));
         let best = all[0].score;
-        all.retain(|other| other.wrong == 0 && other.score.above(&best) <= SIMILAR);
+        let least = (all[0].premise.clone(), all[0].minimum.sum(), all[0].degrees);
+        all.retain(|other| other.wrong == 0 && (other.score.above(&best) <= SIMILAR || self.is_within(&least, other)));
+        // Of those that are about as good the one comes first that drops and invents least.
+        all.sort_by_key(|other| other.premise.faults().count);
         let matched = |of: Candidate| Matched {
             index: of.index,
             x: of.minimum.x,
@@ -196,29 +190,16 @@ impl<'d> Search<'d> {
         Ok(all.into_iter().map(matched).collect())
     }
 
-    /// What else may be, in the order in which it is tried: all strikes with more freedom, or one that is missing or wrong; then two
-    /// that are missing. Flights with contacts take too long for more than one wrong time.
-    fn rounds(&self, outlier: Option<usize>) -> Vec<Vec<Premise>> {
-        let count = self.strikes.len();
-        if self.drop.contacts {
-            let wrong = |k| Premise { left_out: Some((k, true)), ways: count, ..Premise::default() };
-            return vec![outlier.map(wrong).into_iter().collect()];
+    /// The explanations that meet the record, of those that are supported.
+    fn met(&mut self, premises: &[Premise]) -> Vec<Candidate> {
+        let mut met = Vec::new();
+        for premise in premises {
+            if self.drop.left.get() > 0 && self.is_supported(premise) {
+                let found = self.staged(premise, false);
+                met.extend(found.into_iter().filter(|one| self.counts(one)));
+            }
         }
-        let freed = [SPEED, DIFFERENCE].into_iter().filter(|&unknown| unknown != DIFFERENCE || count > ENOUGH_FOR_BOTH);
-        let freed = freed.map(|unknown| Premise { freed: Some(unknown), ..Premise::default() });
-        // What is odd is among the strikes that do not go together; where a single time is off, it is that one.
-        let all = count.min(PLACES);
-        let places = all.min(self.reach.max(1));
-        let wrong = (0..places)
-            .flat_map(|k| [true, false].map(|is_strike| (k, is_strike)))
-            .filter(|wrong| *wrong != (count - 1, false))
-            .chain(outlier.filter(|k| *k >= places).map(|k| (k, true)));
-        let wrong = wrong.map(|left_out| Premise { left_out: Some(left_out), ways: 2 * all, ..Premise::default() });
-        let one = (0..places).map(|k| Premise { missing: vec![k], ways: all, ..Premise::default() });
-        let pairs = (0..places).flat_map(|k| (k..all).map(move |j| vec![k, j]));
-        let ways = all * (all + 1) / 2;
-        let two = pairs.map(|missing| Premise { missing, ways, ..Premise::default() });
-        vec![freed.chain(wrong).chain(one).collect(), two.collect()]
+        met
     }
 
     /// So many unknowns, the first that strikes tell.
@@ -230,14 +211,16 @@ impl<'d> Search<'d> {
     }
 
     /// Logarithms of the speed in the middle and at the ends of its range.
-    fn ln_speeds(&self) -> [f64; 3] {
+    fn ln_speeds(&self) -> Vec<f64> {
         let middle = self.drop.given()[SPEED];
-        let [_, half] = self.drop.range(SPEED).unwrap_or_default();
-        [middle, middle - half, middle + half]
+        match self.drop.range(SPEED) {
+            Some([_, half]) if half > WIDE => vec![middle, middle - half, middle + half],
+            _ => vec![middle],
+        }
     }
 
     /// By how much later the second and third of the strikes may have been than they were measured.
-    fn late_s(&self) -> [[f64; 2]; 5] {
+    fn late_s(&self) -> [[f64; 2]; 4] {
         let used: Vec<f64> = self.drop.sets[0].measured();
         let late = |k: usize| match (&self.drop.sets[0], used.get(k).zip(used.get(k + 1))) {
             (Set::Strikes { deviation, .. }, _) if self.known => DEVIATIONS * deviation,
@@ -245,7 +228,7 @@ impl<'d> Search<'d> {
             _ => 0.0,
         };
         let [second, third] = [0, 1].map(late);
-        [[0.0, 0.0], [second, 0.0], [-second, 0.0], [0.0, third], [0.0, -third]]
+        [[second, 0.0], [-second, 0.0], [0.0, third], [0.0, -third]]
     }
 
     /// Takes a premise: free unknowns, and those with the ones that the file gives in a range.
@@ -259,17 +242,42 @@ impl<'d> Search<'d> {
     }
 
     /// Fits under a premise: the minima that differ, the best first. From the drops that meet the first strikes, through more and more
-    /// of them, as long as they are explained.
-    fn staged(&mut self, premise: &Premise) -> Vec<Candidate> {
+    /// of them, as long as they are explained. `wide`: from those as well that meet the first strikes as they may be within their noise
+    /// and at other speeds of the range, and from drops that meet none exactly.
+    fn staged(&mut self, premise: &Premise, wide: bool) -> Vec<Candidate> {
         let (free, all) = self.assume(premise);
-        let mut begins = meeting(&self.drop, &free, self.drop.given()[SPEED], RESTITUTIONS, [0.0; 2]).met;
+        let is_plain = *premise == Premise::default();
+        let speeds = if is_plain { self.ln_speeds() } else { self.ln_speeds()[..1].to_vec() };
+        let late_s = self.late_s();
+        let late_s = if wide { &late_s[..] } else { &[] };
+        let ways =
+            speeds.iter().map(|speed| (*speed, [0.0; 2])).chain(late_s.iter().map(|late_s| (speeds[0], *late_s)));
+        let mut begins: Vec<(f64, Vec<f64>)> = Vec::new();
+        for (ln_speed, late_s) in ways {
+            let met = self.meeting(&free, ln_speed, late_s, wide);
+            begins.extend(met.into_iter().map(|x| (misfit(&self.drop, &x), x)));
+        }
+        begins.sort_by(|a, b| a.0.total_cmp(&b.0));
+        begins.truncate(if wide { WIDELY_TAKEN } else { TAKEN });
         if begins.is_empty() {
-            begins = starts(&self.drop, 1);
+            begins.extend(starts(&self.drop, 1).into_iter().map(|x| (0.0, x)));
+        }
+        let mut direct = Vec::new();
+        if wide {
+            let best: Vec<Vec<f64>> = begins.iter().take(2 * TAKEN).map(|(_, x)| x.clone()).collect();
+            direct = self.from(premise, &best);
+            if self.is_likely(&direct[0]) {
+                return direct;
+            }
+            self.assume(premise);
         }
         let used = self.drop.sets[0].len();
         let stages = self.stages(used, free.len());
         let (mut whole, mut furthest) = (Vec::new(), (0, Vec::new(), f64::INFINITY));
-        for x in begins.iter().take(TAKEN) {
+        for (k, (_, x)) in begins.iter().enumerate() {
+            if k > 0 && self.drop.left.get() == 0 {
+                break;
+            }
             let (count, x, sum) = self.through(&stages, x, &all, free.len());
             if count == used {
                 whole.push(x);
@@ -277,40 +285,37 @@ impl<'d> Search<'d> {
                 furthest = (count, x, sum);
             }
         }
-        if *premise == Premise::default() {
+        if is_plain && !wide {
             self.reach = if whole.is_empty() { furthest.0 } else { used };
         }
         if whole.is_empty() {
             whole.push(furthest.1);
         }
-        self.from(premise, &whole)
+        if wide && self.drop.left.get() > 0 {
+            let through = |x| stages.iter().fold(x, |x: Vec<f64>, (_, stage)| stage.problem().minimize(&x, &all).x);
+            whole.extend(starts(&self.drop, TAKEN).into_iter().map(through));
+        }
+        let mut found = self.from(premise, &whole);
+        found.extend(direct);
+        found.sort_by(Candidate::order);
+        found
     }
 
-    /// The same from more drops that meet some of the first strikes or nearly so, over the range of the speed too, and through all
-    /// strikes at once: where the noise of few strikes leads away from the minimum of all.
-    fn thorough(&mut self, premise: &Premise) -> Vec<Candidate> {
-        let (free, all) = self.assume(premise);
-        let mut begins: Vec<(f64, Vec<f64>)> = Vec::new();
-        for ln_speed in self.ln_speeds() {
-            for late_s in self.late_s() {
-                let near = meeting(&self.drop, &free, ln_speed, MORE_RESTITUTIONS, late_s).near;
-                begins.extend(near.into_iter().map(|x| (misfit(&self.drop, &x), x)));
-            }
+    /// Drops that meet the first strikes. Premises that are odd after these have the same ones.
+    fn meeting(&mut self, free: &[usize], ln_speed: f64, late_s: [f64; 2], wide: bool) -> Vec<Vec<f64>> {
+        let Set::Strikes { index, .. } = &self.drop.sets[0] else { return Vec::new() };
+        let used = index.iter().enumerate().filter(|(_, which)| which.is_some());
+        let of =
+            Of { first: used.map(|(k, which)| (k, *which)).take(MEETING).collect(), free: free.to_vec(), ln_speed };
+        if wide {
+            return meeting(&self.drop, free, ln_speed, RESTITUTIONS, late_s, true);
         }
-        begins.sort_by(|a, b| a.0.total_cmp(&b.0));
-        begins.truncate(MORE_TAKEN);
-        // Most lead nowhere: a few steps tell which.
-        let quick = self.drop.quick_problem();
-        let mut near: Vec<Minimum> = begins.iter().map(|(_, x)| quick.minimize(x, &all)).collect();
-        drop(quick);
-        near.sort_by(|a, b| a.sum().total_cmp(&b.sum()));
-        near.truncate(begins.len().div_ceil(3));
-        let mut begins: Vec<Vec<f64>> = near.into_iter().map(|minimum| minimum.x).collect();
-        // And from unknowns that meet none exactly, through more and more of the strikes, whether these are explained or not.
-        let stages = self.stages(self.drop.sets[0].len(), free.len());
-        let through = |x| stages.iter().fold(x, |x: Vec<f64>, (_, stage)| stage.problem().minimize(&x, &all).x);
-        begins.extend(starts(&self.drop, TAKEN).into_iter().map(through));
-        self.from(premise, &begins)
+        if let Some((_, known)) = self.begins.iter().find(|(known, _)| *known == of) {
+            return known.clone();
+        }
+        let found = meeting(&self.drop, free, ln_speed, RESTITUTIONS, late_s, false);
+        self.begins.push((of, found.clone()));
+        found
     }
 
     /// The same from these.
@@ -323,6 +328,14 @@ impl<'d> Search<'d> {
         let begins = begins.iter().enumerate().take_while(has_time);
         let mut found: Vec<Candidate> =
             begins.map(|(_, x)| self.rated(premise, &index, &free, problem.minimize(x, &all))).collect();
+        found.sort_by(Candidate::order);
+        // Where a strike is late since the end that strikes hardly moves, differences to one side are too coarse.
+        let central = Problem { one_sided: false, ..self.drop.problem() };
+        for one in found.iter_mut().take(POLISHED).take_while(|one| one.wrong == 0) {
+            if !self.is_likely(one) && self.drop.left.get() > 0 {
+                *one = self.rated(premise, &index, &free, central.minimize(&one.minimum.x, &all));
+            }
+        }
         found.sort_by(Candidate::order);
         found.dedup_by(|a, b| a.is_same(b));
         found
@@ -345,7 +358,10 @@ impl<'d> Search<'d> {
     fn through(&self, stages: &[(usize, Drop<'d>)], x: &[f64], all: &[usize], free: usize) -> (usize, Vec<f64>, f64) {
         let mut at = (0, x.to_vec(), f64::INFINITY);
         for (count, stage) in stages {
-            let minimum = stage.quick_problem().minimize(&at.1, all);
+            let problem = stage.problem();
+            let quick =
+                Problem { patience: problem.patience.min(QUICK_PATIENCE), precision: QUICK_PRECISION, ..problem };
+            let minimum = quick.minimize(&at.1, all);
             at = (*count, minimum.x.clone(), minimum.sum());
             if !self.explains(at.2, count.saturating_sub(free)) {
                 break;
@@ -395,6 +411,21 @@ impl<'d> Search<'d> {
         fit.wrong == 0 && self.explains(fit.minimum.sum(), fit.degrees)
     }
 
+    /// Whether another minimum of the same premise is within the interval of the best one.
+    fn is_within(&self, (premise, sum, degrees): &(Premise, f64, usize), other: &Candidate) -> bool {
+        #[expect(clippy::cast_precision_loss, reason = "a count of strikes")]
+        let degrees = *degrees as f64;
+        let variance = if self.known { 1.0 } else { sum / degrees };
+        let t = student::two_sided(ALPHA, (!self.known).then_some(degrees));
+        other.premise == *premise && degrees > 0.0 && other.minimum.sum() - sum <= variance * t * t
+    }
+
+    /// The same where less is left than chance leaves in one of many records: else there may be a better minimum.
+    fn is_likely(&self, fit: &Candidate) -> bool {
+        let is_known = self.known && !self.drop.contacts;
+        self.is_met(fit) && !(is_known && fit.degrees > 0 && fit.minimum.sum() > chi_square(UNLIKELY, fit.degrees))
+    }
+
     /// Whether a sum of squares is no more than clatter data leave.
     fn explains(&self, sum: f64, degrees: usize) -> bool {
         if degrees == 0 {
@@ -430,11 +461,14 @@ impl<'d> Search<'d> {
         let sum = fit.minimum.sum();
         #[expect(clippy::cast_precision_loss, reason = "a count of strikes")]
         let (spare_count, count) = (spare as f64, fit.index.len() as f64);
-        let studentized = fit.minimum.residuals.iter().take(fit.index.len()).enumerate().map(|(i, r)| {
-            let room = (1.0 - q.row(i).norm_squared()).max(f64::EPSILON);
+        let studentized = fit.minimum.residuals.iter().take(fit.index.len()).enumerate().filter_map(|(i, r)| {
+            let room = 1.0 - q.row(i).norm_squared();
+            if room < LEAST_ROOM {
+                return None;
+            }
             let found = ((sum - r * r / room).max(0.0) / spare_count).max(self.drop.least_scatter().powi(2));
             let variance = if self.known { 1.0 } else { found };
-            (i, r.abs() / (variance * room).sqrt())
+            Some((i, r.abs() / (variance * room).sqrt()))
         });
         let (worst, t) = studentized.max_by(|a, b| a.1.total_cmp(&b.1))?;
         (t > student::two_sided(CHANCE / count, (!self.known).then_some(spare_count))).then_some(worst)

@@ -1,6 +1,6 @@
 //! What the data tell: which unknowns are left free, and how far they may be off.
 
-use super::criterion::{Faults, Score, chi_square};
+use super::criterion::{Faults, SIMILAR, Score, chi_square};
 use super::drop::{CONTACT, DIFFERENCE, Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED, SPIN};
 use super::matching::CHANCE as ODD;
 use super::region::Region;
@@ -45,7 +45,7 @@ pub(super) const ALPHA: f64 = 0.05;
 const CHANCE: f64 = 1e-2;
 
 /// The fit with all that the data tell left free.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Told {
     pub(super) minimum: Minimum,
     pub(super) free: Vec<usize>,
@@ -58,6 +58,8 @@ pub(super) struct Told {
     pub(super) excess: Option<f64>,
     /// What it is worth among others.
     pub(super) score: Score,
+    /// Strikes that are dropped or invented.
+    pub(super) faults: usize,
 }
 
 /// Finds it. `known`: whether the deviations of all records are given; `begin`: unknowns that explain the data already, and the one that
@@ -185,14 +187,23 @@ impl Search<'_, '_> {
         let minimum = starts.iter().map(staged).min_by(|a, b| a.sum().total_cmp(&b.sum()));
         let minimum = minimum.filter(|minimum| self.drop.path(&minimum.x).is_some()).ok_or(Error::NoDrop("data"))?;
         let score = Score::new(0.0, 1, 0, Faults::default(), true);
-        let mut told = Told { minimum, free, held: Vec::new(), degrees: 0, scatter: None, excess: None, score };
+        let mut told = Told {
+            minimum,
+            free,
+            held: Vec::new(),
+            degrees: 0,
+            scatter: None,
+            excess: None,
+            score,
+            faults: self.faults.count,
+        };
         self.judge(&mut told);
         Ok(told)
     }
 
     /// Degrees of freedom, scatter, and what it is worth.
     fn judge(&self, told: &mut Told) {
-        told.degrees = self.count.saturating_sub(told.free.len());
+        told.degrees = (self.count + self.drop.ranged.len()).saturating_sub(self.drop.with_ranged(&told.free).len());
         #[expect(clippy::cast_precision_loss, reason = "a count of data")]
         let (degrees, count, sum) = (told.degrees as f64, self.count as f64, told.minimum.sum());
         told.scatter = self.scatter(&told.minimum, &told.free);
@@ -235,18 +246,24 @@ impl Search<'_, '_> {
         more.push(unknown);
         let ranged = self.drop.ranged.clone();
         self.drop.ranged.retain(|other| *other != unknown);
-        let minimum = self.drop.problem().minimize(&told.minimum.x, &self.drop.with_ranged(&more));
+        let mut minimum = self.drop.problem().minimize(&told.minimum.x, &self.drop.with_ranged(&more));
         // At the new minimum it may be told less than at the old one. At the old one the scatter is not that of chance alone if
         // the value that is held is wrong.
         let untold = || {
             let before = self.untold(&told.minimum, &more, Some(unknown));
             before.or_else(|| self.untold(&minimum, &more, Some(unknown)))
         };
-        if !self.contradicts(&told.minimum, &minimum, &more, CHANCE)
+        let is_kept = unknown == SPEED && ranged.contains(&SPEED);
+        if (is_kept || !self.contradicts(&told.minimum, &minimum, &more, CHANCE))
             && let Some((_, reason)) = untold()
         {
             self.drop.ranged = ranged;
             return Err(reason);
+        }
+        // The range of the speed stays a datum: of few strikes other speeds explain by chance what the true one does.
+        if is_kept {
+            self.drop.ranged = ranged;
+            minimum = self.drop.settle(&told.minimum.x, &more, self.known);
         }
         (told.minimum, told.free) = (minimum, more);
         Ok(())
@@ -338,6 +355,14 @@ impl Search<'_, '_> {
 }
 
 impl Told {
+    /// Whether it is about as good as the best one: by the criterion, or within its interval where the strikes are taken for the same.
+    pub(super) fn is_about_as_good(&self, best: &Self) -> bool {
+        let (scatter, degrees) = best.scatter.unwrap_or((1.0, None));
+        let rise = (scatter * student::two_sided(ALPHA, degrees)).powi(2);
+        let is_within = self.faults == best.faults && self.minimum.sum() - best.minimum.sum() <= rise;
+        self.excess.is_none() && (is_within || self.score.above(&best.score) <= SIMILAR)
+    }
+
     /// How far the unknowns, `all` that are free or within a range, may be off together; none where nothing tells the scatter, or
     /// where the drop does not explain the data.
     pub(super) fn region<'a>(&'a self, problem: &'a Problem<'a>, all: &'a [usize]) -> Option<Region<'a>> {

@@ -10,12 +10,12 @@ use crate::synthetic::{Random, holds, of, restitution_of_a, strikes};
 
 const DEVIATION_S: f64 = 5e-6;
 
-/// A drop with at least so many strikes, of which no two come within half a millisecond, a hundred times the noise.
+/// A drop with at least so many strikes, of which no two come within a quarter of a millisecond, fifty times the noise.
 fn drop(count: usize, random: &mut Random) -> (Falling, Vec<(f64, End)>) {
     loop {
         let truth = Falling::random(random);
         let list = truth.strikes(count);
-        if list.len() == count && list.windows(2).all(|pair| pair[1].0 - pair[0].0 > 5e-4) {
+        if list.len() == count && list.windows(2).all(|pair| pair[1].0 - pair[0].0 > 2.5e-4) {
             return (truth, list);
         }
     }
@@ -34,52 +34,66 @@ fn is_plain(found: &Fit) -> bool {
     found.records[0].strikes.iter().enumerate().all(|(k, strike)| strike.number == Some(k + 1))
 }
 
-/// The product file has the speed within a share of the truth.
-struct Drops {
-    seed: u64,
-    count: usize,
-    share: f64,
-    /// Whether the fit is told how well strikes are timed.
-    is_given: bool,
-}
+/// How well the speed is known: exactly, to a percent, to a tenth, hardly at all. And whether the fit is told how well strikes are
+/// timed.
+const KINDS: [(f64, bool); 7] =
+    [(0.0, true), (0.01, true), (0.1, true), (0.5, true), (0.01, false), (0.1, false), (0.5, false)];
 
-/// Six strikes and four unknowns leave two degrees of freedom. No true strike is left out, and intervals hold the truth.
-fn covers(drops: &Drops) {
-    let mut random = Random(drops.seed);
-    let mut held = [0; 3];
-    for _ in 0..drops.count {
+/// Six strikes and four or five unknowns leave one or two degrees of freedom. No true strike is left out, and intervals hold the truth.
+fn covers(seed: u64, count: usize, (share, is_given): (f64, bool)) {
+    let mut random = Random(seed);
+    let (mut held, mut told, mut refused) = ([0; 4], [0; 4], 0);
+    for _ in 0..count {
         let (truth, list) = drop(6, &mut random);
         let list = noisy(&list, DEVIATION_S, &mut random);
-        let known = truth.known(drops.share, &mut random);
-        let found = fitted(&known, &list, drops.is_given.then_some(DEVIATION_S));
+        let known = truth.known(share, &mut random);
+        let deviation_s = is_given.then_some(DEVIATION_S);
+        let found = match fit(&known, &[Measured::Strikes { strikes: strikes(&list), deviation_s }]) {
+            Ok(found) => found,
+            // Strikes may be too sensitive for the search. That it says so is an answer too.
+            Err(Error::NoDrop(_) | Error::Scatter { .. }) => {
+                refused += 1;
+                continue;
+            }
+            Err(other) => panic!("{truth:?} {list:?} {other}"),
+        };
         assert!(is_plain(&found), "a true strike is left out: {truth:?} {list:?} {found:#?}");
-        held[0] += usize::from(holds(restitution_of_a(&found), truth.e));
-        held[1] += usize::from(holds(of(&found, Quantity::RadiusOfGyration), truth.rho));
-        held[2] += usize::from(holds(of(&found, Quantity::Tilt), truth.tilt));
+        for estimate in &found.estimates {
+            let (k, true_value) = match estimate.quantity {
+                Quantity::Restitution | Quantity::RestitutionA => (0, truth.e),
+                Quantity::RadiusOfGyration => (1, truth.rho),
+                Quantity::Tilt => (2, truth.tilt),
+                Quantity::Speed => (3, truth.speed),
+                _ => continue,
+            };
+            told[k] += 1;
+            held[k] += usize::from(holds(estimate, true_value));
+        }
     }
-    for (name, held) in ["restitution", "radius of gyration", "tilt"].into_iter().zip(held) {
-        assert_covers(name, held, drops.count);
+    println!("speed to {share}, timing given: {is_given}: held {held:?} of {told:?}, refused {refused} of {count}");
+    assert!(20 * refused <= count, "{refused} of {count} are refused");
+    // Restitution, radius and tilt are told in all of them. The speed is told where strikes tell it better than its range, which is more
+    // often where they do so by chance.
+    assert!(told[..3].iter().all(|told| *told + refused == count), "{told:?}");
+    for (k, name) in ["restitution", "radius of gyration", "tilt"].into_iter().enumerate() {
+        assert_covers(name, held[k], told[k]);
     }
 }
 
 #[test]
-fn six_strikes_whose_timing_and_speed_are_known_keep_all_strikes() {
-    covers(&Drops { seed: 101, count: 200, share: 0.0, is_given: true });
+fn six_strikes_keep_all_strikes_and_intervals_hold_the_truth() {
+    for (seed, kind) in (101..).zip(KINDS) {
+        covers(seed, 20, kind);
+    }
 }
 
+/// The same in earnest.
 #[test]
-fn six_strikes_of_a_speed_known_to_a_percent_keep_all_strikes() {
-    covers(&Drops { seed: 102, count: 200, share: 0.01, is_given: true });
-}
-
-#[test]
-fn six_strikes_of_a_speed_known_to_a_tenth_keep_all_strikes() {
-    covers(&Drops { seed: 103, count: 200, share: 0.1, is_given: true });
-}
-
-#[test]
-fn six_strikes_whose_timing_is_not_told_keep_all_strikes() {
-    covers(&Drops { seed: 104, count: 200, share: 0.01, is_given: false });
+#[ignore = "a minute"]
+fn of_many_records_no_true_strike_is_left_out() {
+    for (seed, kind) in (201..).zip(KINDS) {
+        covers(seed, 200, kind);
+    }
 }
 
 /// Times to a tenth of a microsecond and better, by what is told and by themselves.

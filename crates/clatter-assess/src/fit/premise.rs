@@ -1,0 +1,77 @@
+//! What may be taken for granted of a record of strikes: which of them are none, or missing.
+
+use clatter::End;
+
+use super::criterion::Faults;
+use super::drop::{DIFFERENCE, SPEED};
+use super::{MeasuredStrike, Which};
+
+/// More strikes than these can tell both ends apart and that they do.
+const ENOUGH_FOR_BOTH: usize = 6;
+/// Strikes may be missing before so many of the first measured ones.
+const PLACES: usize = 16;
+
+/// What is taken for granted of a drop and its record.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(super) struct Premise {
+    /// Measured strikes, from 0, before each of which a computed one is missing.
+    pub(super) missing: Vec<usize>,
+    /// A measured strike that is left out, and whether it is one at a wrong time; else it is none at all.
+    pub(super) left_out: Option<(usize, bool)>,
+    /// An unknown that is free although the product file or a simpler product has it otherwise.
+    pub(super) freed: Option<usize>,
+    /// In how many ways that many strikes may be dropped or invented.
+    ways: usize,
+}
+
+impl Premise {
+    pub(super) fn faults(&self) -> Faults {
+        #[expect(clippy::cast_precision_loss, reason = "some hundred")]
+        let ln_ways = (self.ways.max(1) as f64).ln();
+        Faults { count: self.missing.len() + usize::from(self.left_out.is_some()), ln_ways }
+    }
+
+    /// Of each measured strike the computed one that it is: in the order of its end where all ends are known, else in that of all.
+    pub(super) fn index(&self, strikes: &[MeasuredStrike]) -> Vec<Option<Which>> {
+        let ends_known = strikes.iter().all(|strike| strike.end.is_some());
+        let mut next = [0; 2];
+        let one = |(k, strike): (usize, &MeasuredStrike)| {
+            let end = strike.end.filter(|_| ends_known);
+            let count = &mut next[usize::from(end == Some(End::B))];
+            *count += self.missing.iter().filter(|place| **place == k).count();
+            let is_out = self.left_out.filter(|(out, _)| *out == k);
+            let now = *count;
+            *count += is_out.map_or(1, |(_, is_strike)| usize::from(is_strike));
+            is_out.is_none().then(|| end.map_or(Which::Of(now), |end| Which::OfEnd(end, now)))
+        };
+        strikes.iter().enumerate().map(one).collect()
+    }
+
+    /// All strikes of so many, with more freedom.
+    pub(super) fn freed(count: usize) -> Vec<Self> {
+        let freed = [SPEED, DIFFERENCE].into_iter().filter(|&unknown| unknown != DIFFERENCE || count > ENOUGH_FOR_BOTH);
+        freed.map(|unknown| Self { freed: Some(unknown), ..Self::default() }).collect()
+    }
+
+    /// What else may be of so many strikes, in the order in which it is tried: one that is missing or wrong, then two that are missing.
+    /// What is odd is among the first `reach`, which do not go together, or it is the single time that is off, `outlier`.
+    pub(super) fn rounds(count: usize, reach: usize, outlier: Option<usize>) -> [Vec<Self>; 2] {
+        let all = count.min(PLACES);
+        let places = all.min(reach.max(1));
+        let wrong = (0..places)
+            .flat_map(|k| [true, false].map(|is_strike| (k, is_strike)))
+            .filter(|wrong| *wrong != (count - 1, false))
+            .chain(outlier.filter(|k| *k >= places).map(|k| (k, true)));
+        let wrong = wrong.map(|left_out| Self { left_out: Some(left_out), ways: 2 * all, ..Self::default() });
+        let one = (0..places).map(|k| Self { missing: vec![k], ways: all, ..Self::default() });
+        let pairs = (0..places).flat_map(|k| (k..all).map(move |j| vec![k, j]));
+        let ways = all * (all + 1) / 2;
+        let two = pairs.map(|missing| Self { missing, ways, ..Self::default() });
+        [wrong.chain(one).collect(), two.collect()]
+    }
+
+    /// One time is wrong, of so many strikes.
+    pub(super) fn wrong(count: usize, outlier: usize) -> Self {
+        Self { left_out: Some((outlier, true)), ways: count, ..Self::default() }
+    }
+}
