@@ -10,11 +10,12 @@
 //! several starts. Each strike multiplies what is off before it, so that the sum of squares has a long and narrow valley: for any
 //! restitution the first three strikes tell the radius of gyration and the gap over the speed, and where the fourth is met too, searches
 //! go down, over more and more of the strikes. Where that leads to no fit, the first strikes are met as they may be within their noise
-//! and at other speeds of the range.
+//! and at other speeds of the range, and the later strikes one by one.
 //!
 //! # What the product file gives in a range
 //! The speed, the contact time and the restitution are data as long as the records do not tell them better: any value of the range is
-//! as likely, with the standard deviation of half its width over √3 (JCGM 100:2008, 4.3.7). One value counts as exact, until the
+//! as likely, with the standard deviation of half its width over √3 (JCGM 100:2008, 4.3.7). The range of the speed stays a datum where
+//! strikes tell the speed as well. One value counts as exact, until the
 //! data contradict it. Where the scatter of the data is not given, a range counts beside it by its leverage.
 //!
 //! # Which strike is which
@@ -42,10 +43,9 @@
 //! of heights 95 to 97 of 100 by the derivatives. These drops have no gravity.
 //!
 //! With gravity (`tests/fit/real.rs`: an own simulation, tilts of 0.5 to 5 degrees, a center of mass off by up to 5 %, e of 0.25 to 0.6,
-//! six strikes timed to 5 µs, at least half a millisecond apart), of 200 drops each with the speed exact, known to 1 % and to 10 %, and with
-//! the timing not told, no true strike is left out, and 93 to 97 of 100 intervals hold the restitution, the radius of gyration and the
-//! tilt. Strikes that come closer, to fifty times the noise, are too sensitive for about one search in 200: then a true strike is left
-//! out, which the notes say, or the record is refused. Of eight strikes with one missing or one false it is found in 14 of 16 records.
+//! six strikes timed to 5 µs, at least a quarter of a millisecond apart), of 200 drops each with the speed exact, known to 1, 10 and 50 %, and with the timing not
+//! told, no true strike is left out, and 92 to 97 of 100 intervals hold the restitution, the radius of gyration and the tilt.
+//! Where strikes come closer the search may fail, and the record is then refused.
 //!
 //! # Both ends
 //! They have one restitution unless the data tell the two apart to 0.02, or would contradict one less often than once in a hundred.

@@ -138,7 +138,7 @@ impl Drop<'_> {
             RESTITUTION => self.known.restitution,
             _ => return None,
         };
-        (hi > lo).then(|| [0.5 * (lo + hi), 0.5 * (hi - lo)])
+        (hi > lo).then_some([0.5 * (lo + hi), 0.5 * (hi - lo)])
     }
     /// The minimum next to `x` over these unknowns, and within their ranges over those that the file gives in one. `known`: whether
     /// the deviations of the data are given; else what they scatter by says how much a range counts beside them.

@@ -33,7 +33,7 @@ pub(super) fn join(fit: &mut Fit, others: Vec<Fit>) {
         let wider = |[lo, hi]: [f64; 2]| found.iter().fold([lo, hi], |[lo, hi], [a, b]| [lo.min(*a), hi.max(*b)]);
         estimate.interval = estimate.interval.map(wider);
     }
-    fit.others = others.into_iter().map(|fit| Explanation::of(fit)).collect();
+    fit.others = others.into_iter().map(Explanation::of).collect();
     if !fit.others.is_empty() {
         let said: Vec<String> = fit.others.iter().map(Explanation::said).collect();
         fit.notes.push(format!(

@@ -171,13 +171,14 @@ impl<'d> Search<'d> {
         } else if all.is_empty() || self.is_met(&plain[0]) {
             all.push(plain.swap_remove(0));
         }
-        if all[0].wrong > 0 {
+        all.retain(|one| one.wrong == 0);
+        if all.is_empty() {
             return Err(Error::NoDrop("strikes"));
         }
         all.sort_by(|a, b| a.score.above(&b.score).total_cmp(&0.0));
         let best = all[0].score;
         let least = (all[0].premise.clone(), all[0].minimum.sum(), all[0].degrees);
-        all.retain(|other| other.wrong == 0 && (other.score.above(&best) <= SIMILAR || self.is_within(&least, other)));
+        all.retain(|other| other.score.above(&best) <= SIMILAR || self.is_within(&least, other));
         // Of those that are about as good the one comes first that drops and invents least.
         all.sort_by_key(|other| other.premise.faults().count);
         let matched = |of: Candidate| Matched {

@@ -70,7 +70,6 @@ fn covers(seed: u64, count: usize, (share, is_given): (f64, bool)) {
             held[k] += usize::from(holds(estimate, true_value));
         }
     }
-    println!("speed to {share}, timing given: {is_given}: held {held:?} of {told:?}, refused {refused} of {count}");
     assert!(20 * refused <= count, "{refused} of {count} are refused");
     // Restitution, radius and tilt are told in all of them. The speed is told where strikes tell it better than its range, which is more
     // often where they do so by chance.
