@@ -8,7 +8,7 @@ use crate::bound::bound;
 use crate::drop::{Model, SingleDrop};
 use crate::engine::{Part, answer};
 use crate::quantity::lacks_contact_time;
-use crate::search::{Asked, Ranges, Task, Watch, Worst};
+use crate::search::{Asked, Place, Ranges, Task, Watch, Worst};
 use crate::{
     Accuracy, Assessment, Component, ComponentAssessment, ContactLaw, Error, Limit, LimitAssessment, LimitKind,
     ModelChoice, Mount, ProductFile, Unit, Verdict, WorstCase,
@@ -16,6 +16,14 @@ use crate::{
 
 /// What the search may miss of a worst case, as a share of it: tests hold single drops of the same ranges to this.
 pub(crate) const COVERAGE: f64 = 0.02;
+
+/// A drop that asks for more than is of use.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Breaker {
+    /// By the other contact law than that of the product.
+    pub(crate) other_law: bool,
+    pub(crate) place: Place,
+}
 
 impl ProductFile {
     /// The worst drop of every component over all stated ranges, and whether it stands it: [`assess_to`](Self::assess_to) 1 %.
@@ -61,6 +69,17 @@ impl ProductFile {
     /// # Errors
     /// As [`assess_to`](Self::assess_to).
     pub fn assess_watched(&self, accuracy: &Accuracy, watch: Watch<'_>) -> Result<Assessment, Error> {
+        self.assess_within(accuracy, [f64::INFINITY; 2], watch)?.map_err(|_| unreachable!("nothing passes infinity"))
+    }
+
+    /// The same where only drops are of use that ask for no more than so much of any limit, by the first contact law and by the
+    /// other: the search is left as soon as a drop is answered that asks for more, which is told.
+    pub(crate) fn assess_within(
+        &self,
+        accuracy: &Accuracy,
+        most: [f64; 2],
+        watch: Watch<'_>,
+    ) -> Result<Result<Assessment, Breaker>, Error> {
         accuracy.check()?;
         if accuracy.model == Some(Model::Compliant) && self.product.contact_time_s.is_none() {
             return Err(Error::Contact);
@@ -77,9 +96,13 @@ impl ProductFile {
             Model::Compliant => [ranges.law, ranges.law.other()].map(|law| Ranges { law, ..ranges }).into(),
             _ => vec![ranges],
         };
-        let worst: Vec<Vec<Worst>> = (0..laws.len())
-            .map(|n| laws[n].worst(&tasks, &|done, all| watch(n * all + done, laws.len() * all)))
-            .collect();
+        let mut worst: Vec<Vec<Worst>> = Vec::with_capacity(laws.len());
+        for (n, ranges) in laws.iter().enumerate() {
+            match ranges.worst(&tasks, most[n], &|done, all| watch(n * all + done, laws.len() * all)) {
+                Ok(of_law) => worst.push(of_law),
+                Err(place) => return Ok(Err(Breaker { other_law: n > 0, place })),
+            }
+        }
         let judged = |n: usize, task: &Task<'_>| -> Result<Vec<Judged>, Error> {
             laws.iter().zip(&worst).map(|(ranges, worst)| self.judge(ranges, task, &worst[n])).collect()
         };
@@ -92,7 +115,7 @@ impl ProductFile {
             components.push(verdict(component, limits?));
         }
         let verdict = Verdict::of(components.iter().map(|c| c.verdict));
-        Ok(Assessment { product: self.product.name.clone(), verdict, components, accuracy: *accuracy })
+        Ok(Ok(Assessment { product: self.product.name.clone(), verdict, components, accuracy: *accuracy }))
     }
 
     /// The ranges as the search takes them.
@@ -109,7 +132,8 @@ impl ProductFile {
         let bound = bound(&self.product, &self.drop, task.component, &task.limit, ranges.law);
         let held = bound.is_some_and(|bound| bound <= task.limit.allowed);
         let Some(mut asked) = worst.asked else { return Ok(Judged::unanswered(worst, bound, held)) };
-        let flat = Self::flat(ranges, task, &asked)?;
+        // What takes further drops is left where the time is over.
+        let flat = if worst.stopped { None } else { Self::flat(ranges, task, &asked)? };
         if let Some(flat) = flat.filter(|flat| ranges.hold(flat) && flat.exceeds(&asked)) {
             asked = flat;
         }
@@ -117,7 +141,7 @@ impl ProductFile {
         let utilization = found.utilization();
         let mut of =
             Judged { most: utilization * (1.0 + COVERAGE) + found.off_by / found.allowed, ..Judged::new(bound) };
-        if found.off_by.is_infinite() {
+        if found.off_by.is_infinite() && !worst.stopped {
             of.notes.push("how far off it is is not known: drops next to the worst are not answered".to_owned());
         } else if found.error().is_finite() && found.error() > 10.0 * ranges.tolerance {
             let off = percent(found.error());
@@ -133,7 +157,7 @@ impl ProductFile {
             ));
         }
         let drop = ranges.single(&asked.place);
-        if ranges.model < drop.fullest() {
+        if ranges.model < drop.fullest() && !worst.stopped {
             let place = Part { position_m: asked.place.position_m, suspension: asked.part };
             let full = answer(&drop, &place, &task.limit, drop.fullest(), ranges.tolerance)?;
             let off = full.utilization() - utilization;

@@ -52,7 +52,15 @@ impl Typst {
         Self::find_with(&|name| std::env::var_os(name).filter(|value| !value.is_empty()), progress)
     }
 
+    /// Whatever stands in the way, a file of the cache or of the system, what is missing is typst.
     fn find_with(env: Env<'_>, progress: &mut dyn FnMut(&str)) -> Result<(Self, Vec<String>), ReportError> {
+        Self::look(env, progress).map_err(|error| match error {
+            ReportError::Io { path, source } => failed(format!("no typst: {}: {source}", path.display())),
+            error => error,
+        })
+    }
+
+    fn look(env: Env<'_>, progress: &mut dyn FnMut(&str)) -> Result<(Self, Vec<String>), ReportError> {
         if let Some(named) = find::named(env)? {
             let typst = Self::new(named);
             let warning = typst.asked()?;

@@ -73,6 +73,7 @@ impl Args {
                 model: self.model.map(Into::into),
                 ..Accuracy::default()
             }),
+            files: self.files(),
         };
         let setup = self.drop.setup(&beside, streams)?;
         let (scene, model, body) = (&setup.scene, setup.model, setup.scene.body());

@@ -86,7 +86,7 @@ pub(super) fn changes(of: Of<'_>, remedies: &Remedies) -> Value {
             Outcome::Nowhere { bounds } => {
                 not.push(format!("{} (from {})", what(remedy.lever), of.value(remedy.lever, *bounds)));
             }
-            Outcome::NoEffect => {}
+            Outcome::NoEffect | Outcome::Stopped => {}
         }
     }
     let alone = !enough.is_empty();
