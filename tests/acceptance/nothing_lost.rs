@@ -196,8 +196,8 @@ fn what_lists_and_limits_are_read_from_is_spared() {
         fs::hard_link(folder.at(read), folder.at(&format!("hard-{read}"))).unwrap_or_default();
         for output in [read.to_owned(), format!("sub/../{read}"), format!("hard-{read}")] {
             let placed = arguments.iter().map(|word| match word.split_once('=') {
-                Some((flag, file)) if file.ends_with(".csv") => format!("{flag}={}", folder.at(file)),
-                None if word.ends_with(".csv") => folder.at(word),
+                Some((flag, file)) if file.contains(".csv") => format!("{flag}={}", folder.at(file)),
+                None if word.contains(".csv") => folder.at(word),
                 _ => (*word).to_owned(),
             });
             let arguments: Vec<_> = placed.chain(["-o".to_owned(), folder.at(&output)]).collect();

@@ -129,7 +129,9 @@ impl Case<'_> {
         match found {
             Ok(Ok(assessment)) => {
                 let found = assessment.components.into_iter().next();
-                found.iter().for_each(|found| breakers.learn(&changed.file, self, found));
+                if let Some(found) = &found {
+                    breakers.learn(&changed.file, self, found);
+                }
                 Ok(found)
             }
             Ok(Err(breaker)) => {
