@@ -138,7 +138,8 @@ fn acceleration(path: &Path, input: impl Read, reading: &RecordArgs, position_m:
             record.channels().len()
         )));
     };
-    let step_s = record.even("a fit").map_err(bad)?;
+    let times = channel.times();
+    let step_s = times.even("a fit").map_err(bad)?;
     if channel.values.len() > MOST_SAMPLES {
         let samples = channel.values.len();
         return Err(Failure::Wrong(format!(
@@ -146,7 +147,7 @@ fn acceleration(path: &Path, input: impl Read, reading: &RecordArgs, position_m:
             text::path(path)
         )));
     }
-    Ok(Measured::Acceleration { position_m, start_s: record.start_s(), step_s, values_m_s2: channel.values.clone() })
+    Ok(Measured::Acceleration { position_m, start_s: times.start_s(), step_s, values_m_s2: channel.values.clone() })
 }
 
 /// The drop that is nearest to records of one drop, or why there is none.

@@ -31,6 +31,9 @@ pub(crate) struct RecordArgs {
     /// What full scale is, such as 50g, in a file that counts in shares of it
     #[arg(long, value_name = "ACCELERATION", value_parser = full_scale)]
     full_scale: Option<f64>,
+    /// Which record of a file that holds several, from 1
+    #[arg(long = "record", value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    number: Option<u32>,
     /// Leave out lines that cannot be used; each is told
     #[arg(long)]
     skip_bad: bool,
@@ -76,6 +79,7 @@ impl RecordArgs {
             (self.units.is_some(), "--units"),
             (self.sample_rate.is_some(), "--sample-rate"),
             (self.full_scale.is_some(), "--full-scale"),
+            (self.number.is_some(), "--record"),
             (self.skip_bad, "--skip-bad"),
         ];
         given.into_iter().find(|(given, _)| *given).map(|(_, flag)| flag)
@@ -101,6 +105,7 @@ impl RecordArgs {
             units: self.units.clone(),
             sample_rate_hz: self.sample_rate,
             full_scale_m_s2: self.full_scale,
+            record: self.number.map(|number| number as usize),
             skip_bad: self.skip_bad,
             ..Options::default()
         };
@@ -118,6 +123,8 @@ pub(crate) fn remedy(error: &clatter_record::Error) -> &'static str {
         clatter_record::Error::Columns(_) => {
             " (--time=COLUMN, --acceleration=COLUMN by name or number; --sample-rate=HZ in place of times)"
         }
+        clatter_record::Error::Times { .. } => " (--acceleration=COLUMN takes channels of one of them)",
+        clatter_record::Error::Records(_) => " (--record=N takes one)",
         clatter_record::Error::Units(_) => " (--units=TIME,ACCELERATION such as ms,g; --full-scale)",
         _ => "",
     }

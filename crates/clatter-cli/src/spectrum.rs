@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use clap::{ValueEnum, ValueHint};
 use clatter_assess::units::{ACCELERATION, Dimension, LENGTH, SPEED, Unit};
 use clatter_figures::{Critical, FigureError};
-use clatter_record::{BAND, Between};
+use clatter_record::{BAND, Between, TimeAxis};
 use clatter_shock::{
     Frequencies, LimitCurve, Margin, Pulse, Pulses, Quantity, Spectrum, VelocityShock, VelocityShocks,
 };
@@ -345,8 +345,9 @@ impl Args {
         if let Some(frequency) = &self.frequency {
             return Ok(frequency.clone());
         }
-        let third = |measured: &Measured| measured.record.step_s().map(|step_s| (3.0 * step_s).recip());
-        let high = records.iter().filter_map(third).fold(HIGHEST_HZ, f64::min);
+        let times = records.iter().flat_map(|measured| measured.record.times());
+        let third = |times: &TimeAxis| times.step_s().map(|step_s| (3.0 * step_s).recip());
+        let high = times.filter_map(third).fold(HIGHEST_HZ, f64::min);
         // Three decades, where the samples are few.
         let low = LOWEST_HZ.min(high * LOWEST_HZ / HIGHEST_HZ);
         Ok(FrequencyArg { list: Frequencies::per_octave(low, high, PER_OCTAVE)?, unit: None })
@@ -396,11 +397,12 @@ impl Computed<'_> {
         for Measured { path, record } in &self.records {
             let path = text::path(path);
             warnings.extend(record.findings(low).iter().map(|finding| format!("{path}: {finding}")));
-            let band_hz = record.step_s().map_or(f64::INFINITY, |step_s| BAND / step_s);
+            let slowest_s = record.times().iter().filter_map(|times| times.step_s()).fold(0.0, f64::max);
+            let band_hz = BAND / slowest_s;
             if high > band_hz && self.args.interpolation == Interpolation::BandLimited {
-                let band = figures(band_hz);
+                let (band, of) = (figures(band_hz), if record.times().len() > 1 { "lowest " } else { "" });
                 warnings.push(format!(
-                    "{path}: natural frequencies above {band} Hz, 0.4 of the sampling rate, are beyond what the samples tell for sure"
+                    "{path}: natural frequencies above {band} Hz, 0.4 of the {of}sampling rate, are beyond what the samples tell for sure"
                 ));
             }
         }

@@ -40,6 +40,19 @@ pub enum Error {
         /// and ends.
         end_s: f64,
     },
+    /// What goes with channels of one time alone.
+    #[error("{what} needs channels of one time: {first}; {other}")]
+    Times {
+        /// What is asked.
+        what: &'static str,
+        /// A channel and its times,
+        first: String,
+        /// and one with other times.
+        other: String,
+    },
+    /// Which of the records of a file is meant is not clear, or there is no such record.
+    #[error("{0}")]
+    Records(String),
     /// What goes with even samples alone.
     #[error("{0} needs samples that are even in time, and those of this record are not")]
     Uneven(&'static str),

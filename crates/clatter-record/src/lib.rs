@@ -1,8 +1,10 @@
 //! Measured shocks: from the files of loggers to channels in SI.
 
+mod axis;
 mod baseline;
 mod between;
 mod butterworth;
+mod columns;
 mod condition;
 mod container;
 mod decimal;
@@ -15,6 +17,7 @@ mod levels;
 mod limit;
 mod moment;
 mod options;
+mod pairs;
 mod pulse_fit;
 mod record;
 mod roles;
@@ -28,6 +31,7 @@ mod times;
 mod tolerance;
 mod unit;
 
+pub use axis::TimeAxis;
 pub use baseline::{Baseline, PRE_SHOCK_SHARE, Removed, remove_baseline};
 pub use between::BAND;
 pub use butterworth::{Pass, butterworth};

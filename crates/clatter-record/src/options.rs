@@ -23,6 +23,8 @@ pub struct Options {
     pub sample_rate_hz: Option<f64>,
     /// What full scale is in m/s², for files that count in shares of it.
     pub full_scale_m_s2: Option<f64>,
+    /// Which record of a file that holds several, from 1.
+    pub record: Option<usize>,
     /// Whether lines that cannot be used are left out; else they are an error.
     pub skip_bad: bool,
     /// Numbers that are read at most: what is larger is refused.
@@ -37,6 +39,7 @@ impl Default for Options {
             units: None,
             sample_rate_hz: None,
             full_scale_m_s2: None,
+            record: None,
             skip_bad: false,
             most_values: 100_000_000,
         }

@@ -1,28 +1,24 @@
 //! A record: channels of acceleration over time, in SI.
 
 use std::io::Read;
+use std::sync::Arc;
 
 use crate::container::{self, Kind};
 use crate::error::Bad;
 use crate::finding::{At, Finding, Judged, LISTED, gaps, is_of_events};
-use crate::heading::Heading;
-use crate::roles::{Roles, Seen};
+use crate::axis::{Spacing, TimeAxis};
+use crate::roles::Roles;
 use crate::samples::{LARGEST, check};
-use crate::text::{self, BLOCK, Rows, SHOWN, decoded};
+use crate::text::{self, BLOCK, Rows, decoded};
 use crate::times::{Printed, Times};
-use crate::{Column, Error, Options, Table, Values};
+use crate::{Error, Options};
 
 /// A record of one or several channels, in seconds and m/s².
 #[derive(Debug, Clone, PartialEq)]
 pub struct Record {
     pub(crate) channels: Vec<Channel>,
-    pub(crate) start_s: f64,
-    pub(crate) spacing: Spacing,
-    pub(crate) samples: usize,
-    /// Samples that follow no other at the place before, each with its place.
-    pub(crate) numbering: Vec<(usize, At)>,
     /// What was found while reading.
-    read: Vec<Finding>,
+    pub(crate) read: Vec<Finding>,
 }
 
 /// One channel of a record.
@@ -34,27 +30,36 @@ pub struct Channel {
     pub unit: String,
     /// Accelerations in m/s².
     pub values: Vec<f64>,
+    pub(crate) times: Arc<TimeAxis>,
 }
 
-/// When the samples are.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Spacing {
-    /// So many seconds from one to the next.
-    Even(f64),
-    /// Seconds since the first one.
-    Uneven(Vec<f64>),
+impl Channel {
+    /// When its samples are.
+    #[must_use]
+    pub fn times(&self) -> &TimeAxis {
+        &self.times
+    }
 }
 
-/// What a reader hands on.
-struct Raw {
-    channels: Vec<Channel>,
-    start_s: f64,
-    unit_s: f64,
-    since_s: Vec<f64>,
-    printed: Printed,
-    step_s: Option<f64>,
-    numbering: Vec<(usize, At)>,
-    found: Vec<Finding>,
+/// A channel before its times are known.
+pub(crate) struct Untimed {
+    pub(crate) name: String,
+    pub(crate) unit: String,
+    /// Accelerations in m/s².
+    pub(crate) values: Vec<f64>,
+}
+
+/// Channels of one time, as a reader hands them on.
+pub(crate) struct Raw {
+    pub(crate) channels: Vec<Untimed>,
+    pub(crate) start_s: f64,
+    pub(crate) unit_s: f64,
+    pub(crate) since_s: Vec<f64>,
+    pub(crate) printed: Printed,
+    pub(crate) step_s: Option<f64>,
+    /// Samples that follow no other at the place before, each with its place.
+    pub(crate) numbering: Vec<(usize, At)>,
+    pub(crate) found: Vec<Finding>,
 }
 
 impl Record {
@@ -88,13 +93,20 @@ impl Record {
         }
         let kind = Kind::of(&begin)?;
         if kind != Kind::Text {
+            one_record(options)?;
             let bytes = to_end(begin, &mut input, options)?;
             progress(bytes.len() as u64);
             let table = container::read(kind, &bytes, options.most_values)?;
             drop(bytes);
             return Self::of_table(table, options);
         }
-        let (rows, roles) = match decoded(&begin) {
+        if text::is_labview(&begin) {
+            let bytes = to_end(begin, &mut input, options)?;
+            progress(bytes.len() as u64);
+            return Self::of_texts(text::read_labview(&bytes, options)?, options);
+        }
+        one_record(options)?;
+        let parts = match decoded(&begin) {
             Some(decode) => {
                 let bytes = to_end(begin, &mut input, options)?;
                 progress(bytes.len() as u64);
@@ -104,33 +116,35 @@ impl Record {
             }
             None => text::read(begin, &mut input, options, &mut progress)?,
         };
-        Self::of_text(rows, roles, options)
+        Self::of_texts(parts, options)
     }
 
-    /// A record of values that are there already, at even times from `start_s` on.
+    /// A record of accelerations in m/s² that are there already, at even times from `start_s` on, each with its name.
     ///
     /// ```
-    /// # use clatter_record::{Channel, Record};
-    /// let channel = Channel { name: "ax".to_owned(), unit: "m/s2".to_owned(), values: vec![0.0, 900.0, 0.0] };
-    /// assert_eq!(Record::from_samples(0.0, 1e-4, vec![channel])?.step_s(), Some(1e-4));
+    /// # use clatter_record::Record;
+    /// let record = Record::from_samples(0.0, 1e-4, vec![("ax", vec![0.0, 900.0, 0.0])])?;
+    /// assert_eq!(record.step_s(), Some(1e-4));
     /// # Ok::<(), clatter_record::Error>(())
     /// ```
     ///
     /// # Errors
     /// [`Error`] unless there is a channel, all have as many values, two at least, and all numbers are finite and below 1e100,
     /// steps from 1e-15 to 1e9 s.
-    pub fn from_samples(start_s: f64, step_s: f64, channels: Vec<Channel>) -> Result<Self, Error> {
-        let Some(samples) = channels.first().map(|channel| channel.values.len()) else {
+    pub fn from_samples(start_s: f64, step_s: f64, channels: Vec<(&str, Vec<f64>)>) -> Result<Self, Error> {
+        let Some(samples) = channels.first().map(|(_, values)| values.len()) else {
             return Err(Error::Columns("a record has a channel at least".to_owned()));
         };
-        for channel in &channels {
-            check(&channel.values, step_s, "a record", 2)?;
-            if channel.values.len() != samples {
+        for (_, values) in &channels {
+            check(values, step_s, "a record", 2)?;
+            if values.len() != samples {
                 return Err(Error::Columns("channels differ in length".to_owned()));
             }
         }
+        let untimed =
+            |(name, values): (&str, _)| Untimed { name: name.to_owned(), unit: "m/s2".to_owned(), values };
         let raw = Raw {
-            channels,
+            channels: channels.into_iter().map(untimed).collect(),
             start_s,
             unit_s: 1.0,
             since_s: Vec::new(),
@@ -140,6 +154,15 @@ impl Record {
             found: Vec::new(),
         };
         raw.finish(Bad::default(), &Options::default())
+    }
+
+    /// Of lines of text, by their times.
+    fn of_texts(parts: Vec<(Rows, Roles)>, options: &Options) -> Result<Self, Error> {
+        let part = |(rows, roles): (Rows, Roles)| {
+            let places = roles.channels.iter().map(|role| role.column).collect();
+            Ok((places, Self::of_text(rows, roles, options)?))
+        };
+        parts.into_iter().map(part).collect::<Result<_, Error>>().map(Self::of_parts)
     }
 
     fn of_text(mut rows: Rows, roles: Roles, options: &Options) -> Result<Self, Error> {
@@ -158,7 +181,7 @@ impl Record {
             (start, step_s) = (from_s, Some(by_s));
         }
         let values = std::mem::take(&mut rows.channels);
-        let channels = values.into_iter().zip(roles.channels).map(|(values, role)| Channel {
+        let channels = values.into_iter().zip(roles.channels).map(|(values, role)| Untimed {
             name: role.name,
             unit: role.unit,
             values,
@@ -176,88 +199,34 @@ impl Record {
         raw.finish(rows.bad, options)
     }
 
-    /// Of the columns of a file whose numbers are no text.
-    fn of_table(table: Table, options: &Options) -> Result<Self, Error> {
-        let columns = table.columns;
-        let headings: Vec<Heading> = columns
-            .iter()
-            .map(|column| {
-                let heading = Heading::of(&column.name);
-                column.unit.iter().fold(heading, |heading, unit| heading.with_unit(unit))
-            })
-            .collect();
-        let number = |column: &Column, row: usize| match &column.values {
-            Values::Float(values) => values.get(row).copied().unwrap_or(f64::NAN),
-            #[expect(clippy::cast_precision_loss, reason = "the first rows tell times from indices")]
-            Values::Integer(values) => values.get(row).map_or(f64::NAN, |value| *value as f64),
-        };
-        let seen = Seen {
-            named: headings.iter().any(|heading| !heading.name.is_empty()),
-            sampled: columns.iter().any(|column| column.sampled_s.is_some()),
-            rows: (0..SHOWN).map(|row| columns.iter().map(|column| number(column, row)).collect()).collect(),
-            headings,
-        };
-        let roles = seen.roles(options)?;
-        let samples = columns[roles.channels[0].column].values.len();
-        for role in &roles.channels {
-            let other = columns[role.column].values.len();
-            if other != samples {
-                let first = &roles.channels[0].name;
-                return Err(Error::Columns(format!(
-                    "{} has {other} samples and {first} has {samples}: take one of them",
-                    role.name
-                )));
+    /// Channels of several times as one record, each with its place in the file.
+    pub(crate) fn of_parts(parts: Vec<(Vec<usize>, Self)>) -> Self {
+        let several = parts.len() > 1;
+        let (mut channels, mut read): (Vec<(usize, Channel)>, _) = (Vec::new(), Vec::new());
+        for (places, part) in parts {
+            let names = part.channels.iter().map(|channel| channel.name.as_str()).collect::<Vec<_>>().join(", ");
+            let of = |finding: Finding| match finding {
+                Finding::LeftOut(_) => finding,
+                finding if several => Finding::Of { channels: names.clone(), finding: Box::new(finding) },
+                finding => finding,
+            };
+            for finding in part.read.into_iter().map(of) {
+                if !read.contains(&finding) {
+                    read.push(finding);
+                }
+            }
+            channels.extend(places.into_iter().zip(part.channels));
+        }
+        channels.sort_by_key(|(place, _)| *place);
+        let mut channels: Vec<Channel> = channels.into_iter().map(|(_, channel)| channel).collect();
+        // Channels with times of their own that are the same share them.
+        for i in 1..channels.len() {
+            let same = channels[..i].iter().find(|other| other.times == channels[i].times);
+            if let Some(times) = same.map(|other| Arc::clone(&other.times)) {
+                channels[i].times = times;
             }
         }
-        let (mut start_s, mut step_s, mut unit_s, mut since_s, mut printed) =
-            (0.0, None, 1.0, Vec::new(), Printed::floats());
-        if let Some(hz) = options.sample_rate_hz {
-            step_s = Some(period(hz)?);
-        } else if let Some((time, size)) = roles.time {
-            unit_s = size;
-            let column = &columns[time];
-            if column.values.len() != samples {
-                return Err(Error::Columns(format!(
-                    "{} has {} values for {samples} samples",
-                    column.name,
-                    column.values.len()
-                )));
-            }
-            (start_s, since_s) = since_first(&column.values, size);
-            if let Values::Integer(_) = column.values {
-                printed = Printed::whole();
-            }
-        } else if let Some([from_s, by_s]) = columns[roles.channels[0].column].sampled_s {
-            (start_s, step_s) = (from_s, Some(by_s));
-        } else {
-            return Err(Error::Columns("the file tells no times: give the sample rate".to_owned()));
-        }
-        let mut bad = Bad::default();
-        let mut kept = vec![true; samples];
-        let channels: Vec<Channel> = roles
-            .channels
-            .into_iter()
-            .map(|role| {
-                let values: Vec<f64> = match &columns[role.column].values {
-                    Values::Float(values) => values.iter().map(|value| value * role.size).collect(),
-                    #[expect(clippy::cast_precision_loss, reason = "no converter has so many digits")]
-                    Values::Integer(values) => values.iter().map(|value| *value as f64 * role.size).collect(),
-                };
-                Channel { name: role.name, unit: role.unit, values }
-            })
-            .collect();
-        for (sample, kept) in kept.iter_mut().enumerate() {
-            let values = channels.iter().map(|channel| (channel.name.as_str(), channel.values[sample]));
-            let mut values = values.chain(since_s.get(sample).map(|since_s| ("time", *since_s)));
-            if let Some((name, value)) = values.find(|(_, value)| !value.is_finite() || value.abs() > LARGEST) {
-                *kept = false;
-                bad.add(At::Sample(sample + 1), || format!("{value} in {name} is no number up to {LARGEST:e}"));
-            }
-        }
-        let found = if roles.left_out.is_empty() { Vec::new() } else { vec![Finding::LeftOut(roles.left_out)] };
-        let mut raw = Raw { channels, start_s, unit_s, since_s, printed, step_s, numbering: Vec::new(), found };
-        raw.keep(&kept);
-        raw.finish(bad, options)
+        Self { channels, read }
     }
 
     /// The channels.
@@ -265,62 +234,48 @@ impl Record {
     pub fn channels(&self) -> &[Channel] {
         &self.channels
     }
-    /// Samples of each channel.
+    /// The times of the channels: one for all that were sampled together, in the order of their first channels.
     #[must_use]
-    pub fn samples(&self) -> usize {
-        self.samples
+    pub fn times(&self) -> Vec<&TimeAxis> {
+        let mut times: Vec<&TimeAxis> = Vec::new();
+        for channel in &self.channels {
+            if !times.iter().any(|other| other.is_that_of(&channel.times)) {
+                times.push(&channel.times);
+            }
+        }
+        times
     }
-    /// Time of the first sample in seconds, as the file has it.
-    #[must_use]
-    pub fn start_s(&self) -> f64 {
-        self.start_s
-    }
-    /// From the first sample to the last, in seconds.
-    #[must_use]
-    pub fn duration_s(&self) -> f64 {
-        self.since_s(self.samples - 1)
-    }
-    /// Time between samples, if they are even: every time is a whole number of steps after the first to within a thousandth of
-    /// a step, or as far as times were rounded in the file.
+    /// Time between samples, if they are even and of the same times for all channels.
     #[must_use]
     pub fn step_s(&self) -> Option<f64> {
-        match self.spacing {
-            Spacing::Even(step_s) => Some(step_s),
-            Spacing::Uneven(_) => None,
-        }
+        let [times] = self.times()[..] else { return None };
+        times.step_s()
     }
-    /// Time of a sample since the first one, in seconds.
+    /// The times that all channels have.
     ///
-    /// # Panics
-    /// If there is no such sample.
-    #[must_use]
-    pub fn since_s(&self, sample: usize) -> f64 {
-        match &self.spacing {
-            #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
-            Spacing::Even(step_s) => sample as f64 * step_s,
-            Spacing::Uneven(since_s) => since_s[sample],
+    /// # Errors
+    /// [`Error::Times`], which names two channels that differ and `what` needs one time.
+    pub fn one_time(&self, what: &'static str) -> Result<&TimeAxis, Error> {
+        let first = &self.channels[0];
+        match self.channels.iter().find(|channel| !channel.times.is_that_of(&first.times)) {
+            None => Ok(&first.times),
+            Some(other) => {
+                let [first, other] = [first, other].map(|channel| format!("{} has {}", channel.name, channel.times));
+                Err(Error::Times { what, first, other })
+            }
         }
-    }
-    /// Time of each sample since the first one, in seconds.
-    pub fn times_s(&self) -> impl Iterator<Item = f64> {
-        (0..self.samples).map(|sample| self.since_s(sample))
-    }
-    /// Place of a sample, from 0, in the file.
-    #[must_use]
-    pub fn at(&self, sample: usize) -> At {
-        At::of(&self.numbering, sample)
     }
     /// What is odd, for one who asks for a spectrum from `lowest_hz` on.
     #[must_use]
     pub fn findings(&self, lowest_hz: f64) -> Vec<Finding> {
         let mut findings = self.read.clone();
-        let at = |sample| self.at(sample);
-        let is_even = match &self.spacing {
-            Spacing::Even(_) => true,
-            Spacing::Uneven(since_s) => !is_of_events(since_s),
-        };
-        for Channel { name, values, .. } in &self.channels {
-            let duration_s = self.duration_s();
+        for Channel { name, values, times, .. } in &self.channels {
+            let is_even = match &times.spacing {
+                Spacing::Even(_) => true,
+                Spacing::Uneven(since_s) => !is_of_events(since_s),
+            };
+            let at = |sample| times.at(sample);
+            let duration_s = times.duration_s();
             Judged { channel: name, values, duration_s, is_even, lowest_hz, at: &at }.judge(&mut findings);
         }
         findings
@@ -336,8 +291,16 @@ fn to_end(mut begin: Vec<u8>, input: &mut dyn Read, options: &Options) -> Result
     Ok(begin)
 }
 
+/// Refuses another record than the first of a file that holds one.
+fn one_record(options: &Options) -> Result<(), Error> {
+    match options.record {
+        None | Some(1) => Ok(()),
+        Some(record) => Err(Error::Records(format!("the file holds one record, and no {record}."))),
+    }
+}
+
 /// Seconds from one sample to the next.
-fn period(hz: f64) -> Result<f64, Error> {
+pub(crate) fn period(hz: f64) -> Result<f64, Error> {
     let period_s = hz.recip();
     if hz > 0.0 && period_s.is_normal() {
         return Ok(period_s);
@@ -347,7 +310,7 @@ fn period(hz: f64) -> Result<f64, Error> {
 
 impl Raw {
     /// A record, where the times go forwards.
-    fn finish(mut self, mut bad: Bad, options: &Options) -> Result<Record, Error> {
+    pub(crate) fn finish(mut self, mut bad: Bad, options: &Options) -> Result<Record, Error> {
         self.drop_unbounded(&mut bad);
         let mut step_s = self.step_s.or_else(|| self.times().step());
         if step_s.is_none() && !self.since_s.is_empty() {
@@ -382,14 +345,14 @@ impl Raw {
             let numbering = &self.numbering;
             self.found.extend(gaps(&self.since_s, &|sample| At::of(numbering, sample)));
         }
-        Ok(Record {
-            channels: self.channels,
+        let times = Arc::new(TimeAxis {
             start_s: self.start_s,
             spacing: step_s.map_or(Spacing::Uneven(self.since_s), Spacing::Even),
             samples,
             numbering: self.numbering,
-            read: self.found,
-        })
+        });
+        let timed = |Untimed { name, unit, values }| Channel { name, unit, values, times: Arc::clone(&times) };
+        Ok(Record { channels: self.channels.into_iter().map(timed).collect(), read: self.found })
     }
 
     fn times(&self) -> Times<'_> {
@@ -456,7 +419,7 @@ impl Raw {
     }
 
     /// Leaves out samples.
-    fn keep(&mut self, kept: &[bool]) {
+    pub(crate) fn keep(&mut self, kept: &[bool]) {
         if kept.iter().all(|kept| *kept) {
             return;
         }
@@ -475,21 +438,5 @@ impl Raw {
             }
         }
         self.numbering = runs;
-    }
-}
-
-/// The first of some times in seconds, and all of them since it; exact for integers.
-fn since_first(values: &Values, size: f64) -> (f64, Vec<f64>) {
-    match values {
-        Values::Float(values) => {
-            let first = values.first().copied().unwrap_or(0.0);
-            (first * size, values.iter().map(|value| (value - first) * size).collect())
-        }
-        #[expect(clippy::cast_precision_loss, reason = "a record lasts less than 2^53 of its units")]
-        Values::Integer(values) => {
-            let first = values.first().copied().unwrap_or(0);
-            let since = |value: &i64| (i128::from(*value) - i128::from(first)) as f64 * size;
-            (first as f64 * size, values.iter().map(since).collect())
-        }
     }
 }

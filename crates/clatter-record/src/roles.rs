@@ -45,13 +45,6 @@ impl Seen {
     pub(crate) fn roles(&self, options: &Options) -> Result<Roles, Error> {
         let time = self.time(options)?;
         let channels = self.channels(time, options)?;
-        if let Some(other) = time.filter(|_| options.time.is_none()).and_then(|time| self.other_time(time)) {
-            return Err(Error::Columns(format!(
-                "column {} runs at another rate than column {}: take channels of one of them, by --time and --acceleration",
-                self.called(other),
-                self.called(time.unwrap_or(0))
-            )));
-        }
         let left_out = (0..self.headings.len())
             .filter(|column| Some(*column) != time && !channels.contains(column))
             .filter(|column| self.named && self.headings[*column].named() != Named::Index)
@@ -84,7 +77,7 @@ impl Seen {
     }
 
     /// As messages call a column: its number and its heading.
-    fn called(&self, column: usize) -> String {
+    pub(crate) fn called(&self, column: usize) -> String {
         match self.headings[column].shown() {
             shown if shown.is_empty() => (column + 1).to_string(),
             shown => format!("{} ({shown})", column + 1),
@@ -122,18 +115,25 @@ impl Seen {
         }
     }
 
-    /// Another column of times that does not go with the one that is taken.
-    fn other_time(&self, time: usize) -> Option<usize> {
+    /// Refuses columns where another one of times does not go with the one that is taken.
+    pub(crate) fn refuse_other_time(&self, time: usize) -> Result<(), Error> {
         let span = |column: usize| {
             let heading = &self.headings[column];
             let unit = heading.unit.filter(|unit| unit.kind == Kind::Time && heading.named() == Named::Time)?;
             let at = |row: Option<&Vec<f64>>| row.and_then(|row| row.get(column)).map(|time| time * unit.size);
             Some(at(self.rows.last())? - at(self.rows.first())?).filter(|span| *span > 0.0)
         };
-        let own = span(time)?;
+        let Some(own) = span(time) else { return Ok(()) };
         // Far more than what is rounded in a few rows.
         let differs = |column: &usize| span(*column).is_some_and(|other| (other / own).ln().abs() > 0.3);
-        (0..self.headings.len()).find(differs)
+        match (0..self.headings.len()).find(differs) {
+            None => Ok(()),
+            Some(other) => Err(Error::Columns(format!(
+                "column {} runs at another rate than column {}: take channels of one of them, by --time and --acceleration",
+                self.called(other),
+                self.called(time)
+            ))),
+        }
     }
 
     fn time_by_place(&self, none: bool) -> Result<Option<usize>, Error> {
@@ -163,11 +163,13 @@ impl Seen {
         format!("the columns are {}{more}", all.join(", "))
     }
 
-    fn channels(&self, time: Option<usize>, options: &Options) -> Result<Vec<usize>, Error> {
+    pub(crate) fn channels(&self, time: Option<usize>, options: &Options) -> Result<Vec<usize>, Error> {
         if !options.accelerations.is_empty() {
             return options.accelerations.iter().map(|pick| self.picked(pick, "acceleration")).collect();
         }
-        let rest: Vec<usize> = (0..self.headings.len()).filter(|column| Some(*column) != time).collect();
+        // Times of other channels are none.
+        let is_time = |column: usize| Some(column) == time || self.named && self.is_time(column);
+        let rest: Vec<usize> = (0..self.headings.len()).filter(|column| !is_time(*column)).collect();
         if !self.named {
             let skipped = time.filter(|time| *time == 1).map_or(0, |_| 1);
             return Ok(rest.into_iter().skip(skipped).collect());
@@ -198,7 +200,7 @@ impl Seen {
         Ok(found)
     }
 
-    fn time_size(&self, column: usize, options: &Options) -> Result<f64, Error> {
+    pub(crate) fn time_size(&self, column: usize, options: &Options) -> Result<f64, Error> {
         let given = options.units.as_ref().and_then(|units| units.time.as_ref());
         self.unit(column, given, Kind::Time, "time", "ms").map(|(unit, _)| unit.size)
     }

@@ -1,6 +1,8 @@
 //! Records as text: whatever loggers and programs write.
 
 mod cells;
+mod cut;
+mod labview;
 mod layout;
 mod rows;
 
@@ -10,6 +12,7 @@ use crate::error::Bad;
 use crate::heading::Heading;
 use crate::roles::{Roles, Seen};
 use crate::{At, Error, Options};
+pub(crate) use labview::{is_labview, read as read_labview};
 use layout::Layout;
 pub(crate) use rows::Rows;
 
@@ -61,13 +64,13 @@ fn text_of(bytes: &[u8]) -> String {
     }
 }
 
-/// Reads a text whose beginning is there already, handing on how many bytes are read.
+/// Reads a text whose beginning is there already, handing on how many bytes are read: its channels by their times.
 pub(crate) fn read(
     begin: Vec<u8>,
     rest: &mut dyn Read,
     options: &Options,
     progress: &mut dyn FnMut(u64),
-) -> Result<(Rows, Roles), Error> {
+) -> Result<Vec<(Rows, Roles)>, Error> {
     let begin = match begin.strip_prefix("\u{feff}".as_bytes()) {
         Some(text) => text.to_vec(),
         None => begin,
@@ -106,21 +109,36 @@ pub(crate) fn read(
         sampled: layout.sampled_s.is_some(),
         rows: data.iter().map(|row| row.iter().map(number).collect()).collect(),
     };
-    let roles = seen.roles(options)?;
-    let mut rows = Rows::new(form, &roles, options, seen.headings.len(), layout.sampled_s);
-    rows.skip_lines(layout.begin);
+    let parts = seen.by_time(options)?;
+    let several = parts.len() > 1;
+    let mut parts: Vec<(Rows, Roles)> = parts
+        .into_iter()
+        .map(|roles| {
+            let mut rows = Rows::new(form, &roles, options, seen.headings.len(), layout.sampled_s);
+            rows.skip_lines(layout.begin);
+            if several {
+                rows.may_end_early();
+            }
+            (rows, roles)
+        })
+        .collect();
     let mut at = begin.split_inclusive(|byte| *byte == b'\n').take(layout.begin).map(<[u8]>::len).sum::<usize>();
     let (mut buffer, mut bytes) = (begin, 0_u64);
     bytes += buffer.len() as u64;
+    let mut last = Vec::new();
     loop {
-        at += rows.take(&buffer[at..])?;
+        let begin = at;
+        for (rows, _) in &mut parts {
+            at = begin + rows.take(&buffer[begin..])?;
+        }
         progress(bytes);
+        last = cut::last_lines(&buffer[begin..at]).map_or(last, <[u8]>::to_vec);
         buffer.drain(..at);
         at = 0;
         if buffer.len() > LONGEST {
             return Err(Error::File(format!(
                 "line {} is longer than {LONGEST} bytes: this is no text of columns",
-                rows.line() + 1
+                parts[0].0.line() + 1
             )));
         }
         let kept = buffer.len();
@@ -132,11 +150,17 @@ pub(crate) fn read(
             break;
         }
     }
-    if !buffer.is_empty() {
-        buffer.push(b'\n');
-        rows.take(&buffer)?;
+    let cut = cut::within(&last, &buffer, form);
+    for (rows, _) in &mut parts {
+        match &cut {
+            Some(cut) => rows.refuse(cut),
+            None if buffer.is_empty() => {}
+            None => {
+                rows.take(&[&buffer[..], b"\n"].concat())?;
+            }
+        }
     }
-    Ok((rows, roles))
+    Ok(parts)
 }
 
 /// Reads until a buffer is full or the input ends.

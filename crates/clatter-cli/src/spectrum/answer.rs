@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use clatter_record::Finding;
+use clatter_record::{Channel, Finding, TimeAxis};
 use clatter_shock::{LimitCurve, Margin, Spectrum};
 use serde::Serialize;
 
@@ -105,24 +105,54 @@ impl<'a> ColumnsJson<'a> {
 #[derive(Serialize)]
 struct RecordJson<'a> {
     file: &'a Path,
-    samples: usize,
-    start_s: Json,
-    end_s: Json,
-    /// Null where the samples are uneven.
-    step_s: Option<Json>,
+    #[serde(flatten)]
+    times: TimesJson,
     largest_m_s2: Json,
+    /// The times of each channel, where they differ.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    channels: Vec<ChannelJson<'a>>,
     findings: Vec<String>,
+}
+
+/// Null where channels differ.
+#[derive(Serialize)]
+struct TimesJson {
+    samples: Option<usize>,
+    start_s: Option<Json>,
+    end_s: Option<Json>,
+    /// Null where the samples are uneven, too.
+    step_s: Option<Json>,
+}
+
+#[derive(Serialize)]
+struct ChannelJson<'a> {
+    name: &'a str,
+    #[serde(flatten)]
+    times: TimesJson,
+}
+
+impl TimesJson {
+    fn new(times: Option<&TimeAxis>) -> Self {
+        Self {
+            samples: times.map(TimeAxis::samples),
+            start_s: times.map(|times| Json(times.start_s())),
+            end_s: times.map(|times| Json(times.start_s() + times.duration_s())),
+            step_s: times.and_then(TimeAxis::step_s).map(Json),
+        }
+    }
 }
 
 impl<'a> RecordJson<'a> {
     fn new(Measured { path, record }: &'a Measured, lowest_hz: f64) -> Self {
+        let times = record.times();
+        let one = if let [times] = times[..] { Some(times) } else { None };
+        let channel =
+            |channel: &'a Channel| ChannelJson { name: &channel.name, times: TimesJson::new(Some(channel.times())) };
         Self {
             file: path,
-            samples: record.samples(),
-            start_s: Json(record.start_s()),
-            end_s: Json(record.start_s() + record.duration_s()),
-            step_s: record.step_s().map(Json),
+            times: TimesJson::new(one),
             largest_m_s2: Json(record.channels().iter().map(largest).fold(0.0, f64::max)),
+            channels: if one.is_none() { record.channels().iter().map(channel).collect() } else { Vec::new() },
             findings: record.findings(lowest_hz).iter().map(Finding::to_string).collect(),
         }
     }

@@ -54,8 +54,13 @@ pub(super) fn spectra(
     list: &Frequencies,
     dampings: &[DampingRatio],
 ) -> Result<Vec<(Option<String>, Spectrum)>, Failure> {
+    if args.several.resultant {
+        for Measured { path, record } in records {
+            record.one_time("a resultant").map_err(|reason| Failure::Record { path: path.clone(), reason })?;
+        }
+    }
     let count: usize = records.iter().map(|measured| measured.record.channels().len()).sum();
-    let all: usize = records.iter().map(|Measured { record, .. }| record.channels().len() * record.samples()).sum();
+    let all: usize = records.iter().flat_map(|measured| measured.record.channels()).map(|channel| channel.values.len()).sum();
     let filtering = Counted::begin("filtering", (all * dampings.len()) as u64);
     let mut done = 0;
     let mut found = Vec::new();
@@ -75,9 +80,9 @@ pub(super) fn spectra(
             for channel in record.channels() {
                 let quantity = args.quantity.quantity();
                 let progress = |samples| filtering.at(done + samples);
-                let spectrum = record.spectrum(channel, list, *damping, quantity, args.interpolation.into(), progress);
+                let spectrum = channel.spectrum(list, *damping, quantity, args.interpolation.into(), progress);
                 of_channels.push(spectrum.map_err(|reason| Failure::Record { path: path.clone(), reason })?);
-                done += record.samples() as u64;
+                done += channel.values.len() as u64;
                 names.push((count > 1).then(|| within(&text::visible(&channel.name))));
             }
             let axes: Vec<&Spectrum> = of_channels[first..].iter().collect();

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use clatter_assess::units::ACCELERATION;
+use clatter_record::Channel;
 use clatter_shock::{LimitCurve, Margin, Spectrum};
 
 use super::records::{Measured, largest};
@@ -50,13 +51,22 @@ impl Computed<'_> {
 
     fn about_excitation(&self, out: &mut dyn Write) -> io::Result<()> {
         for Measured { path, record } in &self.records {
-            let steps =
-                record.step_s().map_or("uneven in time".to_owned(), |step| format!("every {} s", figures(step)));
-            let (start, end) = (record.start_s(), record.start_s() + record.duration_s());
-            let (n, from, to) = (record.samples(), figures(start), figures(end));
             let file = if self.records.len() > 1 { format!("{}: ", text::path(path)) } else { String::new() };
-            let most = record.channels().iter().map(largest).fold(0.0, f64::max);
-            writeln!(out, "{file}{n} samples from {from} to {to} s, {steps}; largest {} m/s2", figures(most))?;
+            let several = record.times().len() > 1;
+            // Channels with times of their own have a line each.
+            let mut told: Vec<&[Channel]> = if several { record.channels().chunks(1).collect() } else { Vec::new() };
+            if !several {
+                told.push(record.channels());
+            }
+            for channels in told {
+                let times = channels[0].times();
+                let steps =
+                    times.step_s().map_or("uneven in time".to_owned(), |step| format!("every {} s", figures(step)));
+                let (from, to) = (figures(times.start_s()), figures(times.start_s() + times.duration_s()));
+                let name = if several { format!("{}: ", text::visible(&channels[0].name)) } else { String::new() };
+                let (n, most) = (times.samples(), figures(channels.iter().map(largest).fold(0.0, f64::max)));
+                writeln!(out, "{file}{name}{n} samples from {from} to {to} s, {steps}; largest {most} m/s2")?;
+            }
         }
         let Some(boundary) = &self.boundary else { return Ok(()) };
         let acceleration = self.args.quantity.dimension().name == ACCELERATION.name;

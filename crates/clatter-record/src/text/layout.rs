@@ -112,7 +112,6 @@ impl Layout {
                 break;
             }
         }
-        let of_labview = labview(&lines[..self.begin], columns);
         self.named = names.is_some();
         let unnamed = || vec![Heading::named_alone(""); columns];
         let mut headings = names.unwrap_or_else(unnamed);
@@ -132,14 +131,6 @@ impl Layout {
                 }
             }
             headings = headings.into_iter().zip(units).map(|(heading, unit)| heading.with_unit(&unit)).collect();
-        }
-        if let Some((units, sampled_s)) = of_labview {
-            headings = headings
-                .into_iter()
-                .zip(units)
-                .map(|(heading, unit)| if heading.spelled.is_none() { heading.with_unit(&unit) } else { heading })
-                .collect();
-            self.sampled_s = sampled_s;
         }
         self.headings = headings;
         Ok(())
@@ -203,15 +194,22 @@ fn begin(lines: &[String], form: Form) -> Option<Numbers> {
     let has = |columns: usize| last.iter().filter(|(_, cells)| cells.len() == columns).count();
     let columns = last.iter().map(|(_, cells)| cells.len()).max_by_key(|columns| (has(*columns), *columns))?;
     let is_number = |column: usize| {
-        let numbers = |(_, cells): &&(usize, Vec<Cow<'_, str>>)| {
-            cells.len() == columns && !cells[column].is_empty() && form.is_data(&cells[column])
+        let filled = |rows: &'_ [(usize, Vec<Cow<'_, str>>)], is: &dyn Fn(&str) -> bool| {
+            let cell = |cells: &Vec<Cow<'_, str>>| cells.len() == columns && !cells[column].is_empty() && is(&cells[column]);
+            rows.iter().filter(|(_, cells)| cell(cells)).count()
         };
-        2 * last.iter().filter(numbers).count() >= has(columns)
+        // A channel with times of its own may end before the others.
+        match filled(last, &|_| true) {
+            0 => 2 * filled(&rows, &|cell| form.is_data(cell)) > filled(&rows, &|_| true),
+            _ => 2 * filled(last, &|cell| form.is_data(cell)) >= has(columns),
+        }
     };
     let numbers: Vec<usize> = (0..columns).filter(|column| is_number(*column)).collect();
     let first = *numbers.first()?;
     // LabVIEW leaves the column of times empty where it writes none.
-    let is_empty = |column: &usize| last.iter().all(|(_, cells)| cells.get(*column).is_none_or(|cell| cell.is_empty()));
+    let is_empty = |column: &usize| {
+        !is_number(*column) && last.iter().all(|(_, cells)| cells.get(*column).is_none_or(|cell| cell.is_empty()))
+    };
     let empty: Vec<usize> = (0..columns).filter(is_empty).collect();
     let is_data = |cells: &[Cow<'_, str>]| {
         let cell = |column: usize| cells.get(column).map_or("", |cell| cell);
@@ -279,25 +277,4 @@ fn all_units(cells: &[String]) -> bool {
     // `t,a` are names, though `a` is a unit of current.
     let telling = |cell: &String| Unit::of(unbracketed(cell)).is_some_and(|unit| !matches!(unit.kind, Kind::Other(_)));
     cells.iter().all(|cell| cell.is_empty() || cell == "-" || unit(cell)) && cells.iter().any(telling)
-}
-
-/// What the lines above the numbers of a LabVIEW measurement file (.lvm) tell: units of the columns, and the times of samples
-/// where there is no column of them.
-fn labview(lines: &[String], columns: usize) -> Option<(Vec<String>, Option<[f64; 2]>)> {
-    lines.first().filter(|line| line.starts_with("LabVIEW Measurement"))?;
-    let values = |key: &str| -> Option<Vec<String>> {
-        let line =
-            lines.iter().rev().find(|line| line.split(['\t', ',', ';']).next().is_some_and(|k| k.trim() == key))?;
-        let all = line.split(['\t', ',', ';']).skip(1).map(|cell| cell.trim().to_owned());
-        Some(all.collect())
-    };
-    let has_times = values("X_Columns").is_none_or(|values| values.first().is_none_or(|v| v != "No"));
-    let mut units = vec![
-        if values("X_Dimension").is_none_or(|v| v.first().is_none_or(|v| v == "Time")) { "s" } else { "" }.to_owned(),
-    ];
-    units.extend(values("Y_Unit_Label").unwrap_or_default());
-    units.resize(columns, String::new());
-    let number = |key: &str| values(key)?.first()?.replace(',', ".").parse::<f64>().ok();
-    let sampled_s = (!has_times).then(|| Some([number("X0").unwrap_or(0.0), number("Delta_X")?])).flatten();
-    Some((units, sampled_s))
 }

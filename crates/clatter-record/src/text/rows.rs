@@ -36,6 +36,8 @@ pub(crate) struct Rows {
     time_size: f64,
     most_values: usize,
     line: usize,
+    /// Whether the channels may end before the lines do, as others have times of their own.
+    ends_early: bool,
     /// The numbers of one line, in the order of its columns.
     row: Vec<f64>,
     time: Option<Decimal>,
@@ -82,6 +84,7 @@ impl Rows {
             time_size: roles.time.map_or(1.0, |(_, size)| size),
             most_values: options.most_values,
             line: 0,
+            ends_early: false,
             row: Vec::new(),
             time: None,
             first_time: None,
@@ -99,6 +102,15 @@ impl Rows {
     /// Lines that were read before.
     pub(super) fn skip_lines(&mut self, lines: usize) {
         self.line = lines;
+    }
+    /// Lines without a number for any of the channels are none of a row: other channels go on.
+    pub(super) fn may_end_early(&mut self) {
+        self.ends_early = true;
+    }
+    /// The next line cannot be used.
+    pub(super) fn refuse(&mut self, what: &str) {
+        self.line += 1;
+        self.bad.add(At::Line(self.line), || what.to_owned());
     }
     /// The last line that was read.
     pub(super) fn line(&self) -> usize {
@@ -206,6 +218,15 @@ impl Rows {
                 )));
             }
             self.text.add(At::Line(self.line), || format!("'{}' is no line of numbers", visible(text)));
+            return Ok(());
+        }
+        let is_used = |column: &usize| !matches!(self.uses[*column], Use::Nothing);
+        let is_empty = |column: usize| cells.get(column).is_none_or(|cell| cell.is_empty() || is_missing(cell));
+        if self.ends_early && (0..self.uses.len()).filter(is_used).all(is_empty) {
+            // Without times a number that follows would be of another one.
+            if self.time.is_none() {
+                self.text.add(At::Line(self.line), || format!("nothing stands in the columns of {}", self.names.join(", ")));
+            }
             return Ok(());
         }
         self.row.clear();

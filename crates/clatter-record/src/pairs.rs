@@ -1,0 +1,78 @@
+//! Which column of times a channel goes with, where there are several, as in t1, a1, t2, a2.
+
+use crate::heading::{Heading, Named};
+use crate::roles::{Roles, Seen};
+use crate::unit::Kind;
+use crate::{Error, Options};
+
+impl Seen {
+    /// The columns by their times: more than one where channels have columns of times of their own.
+    ///
+    /// # Errors
+    /// Those of [`Seen::roles`], and [`Error::Columns`] for channels of two rates whose times are not told apart.
+    pub(crate) fn by_time(&self, options: &Options) -> Result<Vec<Roles>, Error> {
+        let mut roles = self.roles(options)?;
+        let times: Vec<usize> = (0..self.headings.len()).filter(|column| self.is_time(*column)).collect();
+        // By all channels, whichever are asked for.
+        let all = self.channels(times.first().copied(), &Options::default()).unwrap_or_default();
+        let owners = if self.named && options.time.is_none() { self.paired(&times, &all) } else { None };
+        let Some(owners) = owners else {
+            if let (None, Some((time, _))) = (&options.time, roles.time) {
+                self.refuse_other_time(time)?;
+            }
+            return Ok(vec![roles]);
+        };
+        let owner = |column: usize| match all.iter().position(|channel| *channel == column) {
+            Some(channel) => Some(owners[channel]),
+            None => times.iter().rfind(|time| **time < column).copied(),
+        };
+        let mut left_out = std::mem::take(&mut roles.left_out);
+        left_out.retain(|column| !owners.iter().any(|time| self.called(*time) == *column));
+        let mut groups: Vec<(Option<usize>, Roles)> = Vec::new();
+        for role in roles.channels {
+            let time = owner(role.column);
+            if let Some((_, group)) = groups.iter_mut().find(|(other, _)| *other == time) {
+                group.channels.push(role);
+                continue;
+            }
+            // A rate stands in place of times.
+            let timed = time.filter(|_| options.sample_rate_hz.is_none());
+            let timed = timed.map(|time| self.time_size(time, options).map(|size| (time, size))).transpose()?;
+            let left_out = std::mem::take(&mut left_out);
+            groups.push((time, Roles { time: timed, channels: vec![role], left_out }));
+        }
+        Ok(groups.into_iter().map(|(_, group)| group).collect())
+    }
+
+    /// The column of times of each of some channels, where not all have the same: the nearest before it, else that with the number
+    /// at the end of its name.
+    pub(crate) fn paired(&self, times: &[usize], channels: &[usize]) -> Option<Vec<usize>> {
+        let several = |owners: &Vec<usize>| owners.iter().any(|owner| *owner != owners[0]);
+        let before = |channel: &usize| times.iter().rfind(|time| *time < channel).copied();
+        let by_place: Option<Vec<usize>> = channels.iter().map(before).collect();
+        let number = |column: usize| {
+            let name = &self.headings[column].name;
+            name[name.trim_end_matches(|c: char| c.is_ascii_digit()).len()..].to_owned()
+        };
+        let numbered = |channel: &usize| {
+            let own = number(*channel);
+            let mut same = times.iter().filter(|time| !own.is_empty() && number(**time) == own);
+            same.next().copied().filter(|_| same.next().is_none())
+        };
+        let by_number = || channels.iter().map(numbered).collect::<Option<Vec<usize>>>();
+        by_place.filter(several).or_else(|| by_number().filter(several))
+    }
+
+    /// Whether a column is one of times, by its name or its unit; `t1` is, as `t`.
+    pub(crate) fn is_time(&self, column: usize) -> bool {
+        let heading = &self.headings[column];
+        let stem = heading.name.trim_end_matches(|c: char| c.is_ascii_digit());
+        let is_named = || [heading.named(), Heading::named_alone(stem).named()].contains(&Named::Time);
+        match heading.unit.map(|unit| unit.kind) {
+            _ if heading.is_text => false,
+            Some(Kind::Time) => heading.named() != Named::Other,
+            None => is_named(),
+            Some(_) => false,
+        }
+    }
+}

@@ -1,0 +1,398 @@
+//! LabVIEW measurement files (.lvm): a heading, then segments, each with a heading of its own and rows of numbers.
+//!
+//! Source: "Specification for the LabVIEW Measurement File (.lvm)", National Instruments. `***End_of_Header***` says where data
+//! begin; what the numbers are is told above, and nothing of it is guessed.
+
+use super::cells::Form;
+use super::{Rows, text_of};
+use crate::heading::Heading;
+use crate::roles::{Role, Roles, Seen};
+use crate::unit::{Kind, Unit};
+use crate::{At, Error, Options, Pick};
+
+const BEGINS: &[u8] = b"LabVIEW Measurement";
+const END: &str = "***End_of_Header***";
+/// Times that follow on others are a step after them, to this share of a step.
+const FOLLOWS: f64 = 0.01;
+
+/// Whether a text is such a file.
+pub(crate) fn is_labview(begin: &[u8]) -> bool {
+    begin.strip_prefix("\u{feff}".as_bytes()).unwrap_or(begin).starts_with(BEGINS)
+}
+
+/// The channels of such a file, by their times.
+///
+/// # Errors
+/// [`Error::File`] for a file without data, or with columns that its heading does not tell of, [`Error::Records`] where one of
+/// several records has to be chosen.
+pub(crate) fn read(bytes: &[u8], options: &Options) -> Result<Vec<(Rows, Roles)>, Error> {
+    let bytes = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
+    let lines: Vec<&[u8]> = bytes.split_inclusive(|byte| *byte == b'\n').collect();
+    let file = File::of(&lines)?;
+    let mut records = file.records(&lines)?;
+    let number = match options.record {
+        Some(number) => number,
+        None if records.len() > 1 => {
+            let told: Vec<String> = records.iter().map(Segment::told).collect();
+            return Err(Error::Records(format!(
+                "the file holds {} records that do not follow one on another: {}",
+                records.len(),
+                told.join("; ")
+            )));
+        }
+        None => 1,
+    };
+    if !(1..=records.len()).contains(&number) {
+        return Err(Error::Records(format!("there is no record {number}: the file holds {}", records.len())));
+    }
+    records.swap_remove(number - 1).read(&file, &lines, options)
+}
+
+/// What the heading of the file says.
+#[derive(Debug)]
+struct File {
+    form: Form,
+    columns: Columns,
+    segments: Vec<Segment>,
+}
+
+/// Columns of times.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Columns {
+    /// None; the first column is empty.
+    No,
+    /// The first.
+    One,
+    /// One before each channel.
+    Multi,
+}
+
+/// A segment, from its heading.
+#[derive(Debug, Clone, PartialEq)]
+struct Segment {
+    /// Lines of numbers: from here on, and behind the last.
+    lines: Vec<(usize, usize)>,
+    names: Vec<String>,
+    channels: Vec<Channel>,
+}
+
+/// What a segment says of a channel.
+#[derive(Debug, Clone, PartialEq)]
+struct Channel {
+    samples: Option<usize>,
+    unit: String,
+    /// Whether its abscissa is a time.
+    is_timed: bool,
+    /// Date and time of day, in seconds.
+    date_s: Option<f64>,
+    x0: Option<f64>,
+    delta: Option<f64>,
+}
+
+/// The cells of a line.
+fn cells(line: &[u8], form: Form) -> Vec<String> {
+    form.cells(text_of(line).trim_end_matches(['\r', '\n'])).into_iter().map(std::borrow::Cow::into_owned).collect()
+}
+
+fn is_blank(line: &[u8]) -> bool {
+    line.iter().all(u8::is_ascii_whitespace)
+}
+
+impl File {
+    fn of(lines: &[&[u8]]) -> Result<Self, Error> {
+        let end = lines.iter().position(|line| line.starts_with(END.as_bytes())).ok_or_else(|| {
+            Error::File(format!("the heading of this LabVIEW measurement does not end: there is no line {END}"))
+        })?;
+        let value = |key: &str| {
+            let line = lines[..end].iter().map(|line| text_of(line)).find(|line| {
+                line.strip_prefix(key).is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
+            })?;
+            Some(line[key.len()..].trim_matches(['\r', '\n', '\t', ' ']).to_owned())
+        };
+        let separator = match value("Separator").as_deref().map(|name| name.trim_matches([',', ';'])) {
+            Some("Comma") => b',',
+            Some("Semicolon") => b';',
+            _ => b'\t',
+        };
+        let point = match value("Decimal_Separator").as_deref() {
+            Some(",") => b',',
+            _ => b'.',
+        };
+        let form = Form { separator: Some(separator), point };
+        let word = value("X_Columns").unwrap_or_default();
+        let columns = match word.trim_matches([',', ';']).to_ascii_lowercase().as_str() {
+            "no" => Columns::No,
+            "multi" => Columns::Multi,
+            "one" | "" => Columns::One,
+            other => {
+                return Err(Error::File(format!("X_Columns is '{other}' in the heading; No, One and Multi are known")));
+            }
+        };
+        let mut file = Self { form, columns, segments: Vec::new() };
+        let mut at = end + 1;
+        while let Some(segment) = file.segment(lines, &mut at)? {
+            file.segments.push(segment);
+        }
+        if file.segments.is_empty() {
+            return Err(Error::File("the file has a heading of LabVIEW, and no data below it".to_owned()));
+        }
+        Ok(file)
+    }
+
+    /// The next segment from a line on.
+    fn segment(&self, lines: &[&[u8]], at: &mut usize) -> Result<Option<Segment>, Error> {
+        while lines.get(*at).is_some_and(|line| is_blank(line)) {
+            *at += 1;
+        }
+        let begin = *at;
+        if begin == lines.len() {
+            return Ok(None);
+        }
+        let end = (begin..lines.len()).find(|line| lines[*line].starts_with(END.as_bytes())).ok_or_else(|| {
+            let line = text_of(lines[begin]);
+            Error::File(format!("line {}: '{}' begins no segment: no line {END} follows", begin + 1, line.trim()))
+        })?;
+        let key = |key: &str| {
+            let of = |line: &&[u8]| Some(cells(line, self.form)).filter(|cells| cells[0] == key);
+            lines[begin..end].iter().find_map(of)
+        };
+        let names = lines.get(end + 1).map(|line| cells(line, self.form)).unwrap_or_default();
+        let named = names.iter().any(|name| !name.is_empty()) && !names.iter().all(|name| self.form.is_data(name));
+        let first = end + 1 + usize::from(named);
+        let last = (first..lines.len()).find(|line| is_blank(lines[*line])).unwrap_or(lines.len());
+        *at = last;
+        let count = key("Channels").and_then(|cells| cells.get(1)?.parse::<usize>().ok());
+        let width = if named { names.len() } else { (first..last).map(|i| cells(lines[i], self.form).len()).next().unwrap_or(0) };
+        // Channels with times of their own take two columns.
+        let each = if self.columns == Columns::Multi { 2 } else { 1 };
+        let most = width / each;
+        let Some(count) = count.filter(|count| (1..=most.max(1)).contains(count)) else {
+            return Err(Error::File(format!(
+                "line {}: a segment of {} channels does not go with {width} columns below",
+                begin + 1,
+                count.map_or("unknown".to_owned(), |count| count.to_string())
+            )));
+        };
+        // What is told of each channel stands in the column of the channel or, by some writers, side by side.
+        let value = |name: &str, channel: usize| {
+            let cells = key(name)?;
+            let place = if each == 2 && cells.iter().skip(1).filter(|cell| !cell.is_empty()).count() <= count {
+                cells.iter().skip(1).enumerate().filter(|(_, cell)| !cell.is_empty()).nth(channel).map(|(i, _)| i)?
+            } else {
+                channel
+            };
+            cells.get(1 + place).filter(|cell| !cell.is_empty()).cloned()
+        };
+        let number = |name: &str, channel: usize| {
+            let Some(text) = value(name, channel) else { return Ok(None) };
+            let number = self.form.number(&text).map(crate::decimal::Decimal::float).filter(|number| number.is_finite());
+            number.map(Some).ok_or_else(|| {
+                Error::File(format!("{name} is '{text}' for channel {} in the segment at line {}", channel + 1, begin + 1))
+            })
+        };
+        let channel = |channel: usize| {
+            let date_s = value("Date", channel).zip(value("Time", channel)).and_then(|(date, time)| date_s(&date, &time));
+            Ok(Channel {
+                samples: value("Samples", channel).and_then(|text| text.parse().ok()),
+                unit: value("Y_Unit_Label", channel).unwrap_or_default(),
+                is_timed: value("X_Dimension", channel).is_none_or(|dimension| dimension.eq_ignore_ascii_case("time")),
+                date_s,
+                x0: number("X0", channel)?,
+                delta: number("Delta_X", channel)?,
+            })
+        };
+        let channels = (0..count).map(channel).collect::<Result<_, Error>>()?;
+        let names = if named { names } else { vec![String::new(); width] };
+        Ok(Some(Segment { lines: vec![(first, last)], names, channels }))
+    }
+
+    /// The records: segments, joined where one follows on the other, or parts of one segment that follow without a heading.
+    fn records(&self, lines: &[&[u8]]) -> Result<Vec<Segment>, Error> {
+        let mut records: Vec<Segment> = Vec::new();
+        for segment in &self.segments {
+            for segment in self.parted(segment, lines)? {
+                match records.last_mut().filter(|last| self.follows(last, &segment, lines)) {
+                    Some(last) => last.append(&segment),
+                    None => records.push(segment),
+                }
+            }
+        }
+        Ok(records)
+    }
+
+    /// A segment whose rows are some times what `Samples` says holds as many parts, of which only the first has a heading: one
+    /// record where its rows have times.
+    fn parted(&self, segment: &Segment, lines: &[&[u8]]) -> Result<Vec<Segment>, Error> {
+        let (first, last) = segment.lines[0];
+        let rows = last - first;
+        let most = segment.channels.iter().filter_map(|channel| channel.samples).max();
+        let Some(samples) = most.filter(|most| self.columns == Columns::No && *most < rows) else {
+            return Ok(vec![segment.clone()]);
+        };
+        if samples == 0 || !rows.is_multiple_of(samples) || lines[last - 1].last() != Some(&b'\n') && rows % samples != 0 {
+            return Err(Error::File(format!(
+                "line {}: {rows} rows stand where Samples says {samples}: what the others are is not told",
+                first + 1
+            )));
+        }
+        let part = |begin: usize| Segment { lines: vec![(begin, begin + samples)], ..segment.clone() };
+        let mut parts: Vec<Segment> = (first..last).step_by(samples).map(part).collect();
+        // When they began is not told.
+        for part in &mut parts[1..] {
+            part.channels.iter_mut().for_each(|channel| channel.date_s = None);
+        }
+        Ok(parts)
+    }
+
+    /// Whether a segment goes on where another ends, with the same channels.
+    fn follows(&self, before: &Segment, after: &Segment, lines: &[&[u8]]) -> bool {
+        let rows = before.rows();
+        let time = |line: usize, column: usize| {
+            let cells = cells(lines[line], self.form);
+            cells.get(column).and_then(|cell| self.form.number(cell)).map(crate::decimal::Decimal::float)
+        };
+        let same = |(k, (one, other)): (usize, (&Channel, &Channel))| {
+            let step = one.delta.filter(|step| *step > 0.0 && one.delta == other.delta)?;
+            let gap = if self.columns == Columns::No {
+                let begins = one.x0? + one.date_s.zip(other.date_s).map_or(f64::NAN, |(a, b)| a - b);
+                other.x0? - begins - step * crate::samples::float(rows)
+            } else {
+                let column = if self.columns == Columns::Multi { 2 * k } else { 0 };
+                let last = before.lines.last().map(|(_, last)| last - 1)?;
+                time(after.lines[0].0, column)? - time(last, column)? - step
+            };
+            Some(one.unit == other.unit && gap.abs() <= FOLLOWS * step)
+        };
+        let channels = before.channels.iter().zip(&after.channels).enumerate();
+        before.names == after.names
+            && before.channels.len() == after.channels.len()
+            && channels.map(same).all(|same| same == Some(true))
+    }
+}
+
+impl Segment {
+    fn rows(&self) -> usize {
+        self.lines.iter().map(|(first, last)| last - first).sum()
+    }
+    /// As messages tell it.
+    fn told(&self) -> String {
+        format!("{} rows from line {} on", self.rows(), self.lines[0].0 + 1)
+    }
+    fn append(&mut self, other: &Self) {
+        self.lines.extend(&other.lines);
+        for (own, other) in self.channels.iter_mut().zip(&other.channels) {
+            own.samples = own.samples.zip(other.samples).map(|(own, other)| own + other);
+        }
+    }
+
+    /// Its columns: of times or empty, and of channels, each with its number there.
+    fn columns(&self, file: &File) -> (Seen, Vec<usize>) {
+        let place = |k: usize| if file.columns == Columns::Multi { 2 * k + 1 } else { k + 1 };
+        let places: Vec<usize> = (0..self.channels.len()).map(place).collect();
+        let heading = |(column, name): (usize, &String)| {
+            if let Some(k) = places.iter().position(|place| *place == column) {
+                let Channel { unit, .. } = &self.channels[k];
+                // The unit stands apart from the name.
+                return if unit.is_empty() { Heading::of(name) } else { Heading::named_alone(name).with_unit(unit) };
+            }
+            let channel = &self.channels[(column / 2).min(self.channels.len() - 1)];
+            match file.columns {
+                _ if name.eq_ignore_ascii_case("comment") => Heading { is_text: true, ..Heading::named_alone("") },
+                Columns::No => Heading::named_alone(""),
+                _ if channel.is_timed => Heading::named_alone("X_Value").with_unit("s"),
+                _ => Heading::named_alone(name),
+            }
+        };
+        let headings: Vec<Heading> = self.names.iter().enumerate().map(heading).collect();
+        (Seen { headings, named: true, sampled: file.columns == Columns::No, rows: Vec::new() }, places)
+    }
+
+    /// The channels by their times.
+    fn read(&self, file: &File, lines: &[&[u8]], options: &Options) -> Result<Vec<(Rows, Roles)>, Error> {
+        let (seen, places) = self.columns(file);
+        let mut options = options.clone();
+        let is_acceleration = |column: &&usize| {
+            seen.headings[**column].unit.is_some_and(|Unit { kind, .. }| kind == Kind::Acceleration)
+        };
+        // Each column below the heading is a channel, whatever its name says.
+        if options.accelerations.is_empty() {
+            options.accelerations = places.iter().filter(is_acceleration).map(|place| Pick::Number(place + 1)).collect();
+        }
+        let mut parts = Vec::new();
+        for roles in seen.by_time(&options)? {
+            // One time for all may begin and step otherwise for each.
+            for (sampled_s, samples, roles) in self.by_rate(roles, &places, file, &options)? {
+                let mut rows = Rows::new(file.form, &roles, &options, seen.headings.len(), sampled_s);
+                rows.may_end_early();
+                for (first, last) in &self.lines {
+                    rows.skip_lines(*first);
+                    for line in &lines[*first..*last] {
+                        let mut line = line.to_vec();
+                        if line.last() != Some(&b'\n') {
+                            line.push(b'\n');
+                        }
+                        rows.take(&line)?;
+                    }
+                }
+                let (count, end) = (rows.channels[0].len(), self.lines.last().map_or(0, |(_, last)| *last));
+                if let Some(samples) = samples.filter(|samples| *samples > count && rows.bad.count == 0) {
+                    rows.bad.add(At::Line(end), || {
+                        format!("the record ends after {count} of the {samples} samples that its heading tells of")
+                    });
+                }
+                parts.push((rows, roles));
+            }
+        }
+        Ok(parts)
+    }
+
+    /// Channels by the times that the heading tells: `X0`, `Delta_X`, when each began, and how many samples there are.
+    #[expect(clippy::type_complexity, reason = "a rate, a count and what it is of")]
+    fn by_rate(
+        &self,
+        roles: Roles,
+        places: &[usize],
+        file: &File,
+        options: &Options,
+    ) -> Result<Vec<(Option<[f64; 2]>, Option<usize>, Roles)>, Error> {
+        let channel = |role: &Role| {
+            places.iter().position(|place| *place == role.column).map_or(&self.channels[0], |k| &self.channels[k])
+        };
+        let first_s = self.channels.iter().filter_map(|channel| channel.date_s).fold(f64::INFINITY, f64::min);
+        let mut found: Vec<(Option<[f64; 2]>, Option<usize>, Roles)> = Vec::new();
+        for role in roles.channels {
+            let Channel { samples, is_timed, date_s, x0, delta, .. } = channel(&role);
+            let samples = if roles.time.is_some() && self.lines.len() == 1 && file.columns == Columns::One {
+                samples.filter(|samples| *samples > 1)
+            } else {
+                *samples
+            };
+            let sampled_s = if file.columns == Columns::No && options.sample_rate_hz.is_none() {
+                let Some(step) = delta.filter(|step| *step > 0.0 && *is_timed) else {
+                    return Err(Error::Columns(format!("the heading tells no times of {}: give the sample rate", role.name)));
+                };
+                Some([x0.unwrap_or(0.0) + date_s.map_or(0.0, |date_s| date_s - first_s), step])
+            } else {
+                None
+            };
+            let same = |(other_s, count, _): &&mut (Option<[f64; 2]>, Option<usize>, Roles)| {
+                *other_s == sampled_s && *count == samples
+            };
+            if let Some((.., group)) = found.iter_mut().find(same) {
+                group.channels.push(role);
+            } else {
+                let left_out = if found.is_empty() { roles.left_out.clone() } else { Vec::new() };
+                found.push((sampled_s, samples, Roles { time: roles.time, channels: vec![role], left_out }));
+            }
+        }
+        Ok(found)
+    }
+}
+
+/// Seconds of a date, `2023/01/02`, and a time of day with any mark of decimals and number of digits.
+fn date_s(date: &str, time: &str) -> Option<f64> {
+    let seconds = |text: &str| crate::moment::seconds(text).map(crate::decimal::Decimal::float);
+    let (clock, fraction) = time.split_once([',', '.']).unwrap_or((time, "0"));
+    let fraction: f64 = format!("0.{fraction}").parse().ok()?;
+    Some(seconds(date)? + seconds(clock)? + fraction)
+}
