@@ -212,7 +212,8 @@ impl Whole<'_> {
         for channel in record.channels() {
             let [high, low] = extremes(channel);
             let (name, _) = column(&shown(&channel.name, width - 1), width);
-            let (unit, cells) = (shown(&channel.unit, 9), [high, low].map(|i| (channel.values[i], channel.times().since_s(i))));
+            let (unit, cells) =
+                (shown(&channel.unit, 9), [high, low].map(|i| (channel.values[i], channel.times().since_s(i))));
             write!(out, "{name}{unit:>10}")?;
             for (value, since_s) in cells {
                 write!(out, "{:>14}{:>14}", figures(value), time.figures(since_s))?;
@@ -264,7 +265,8 @@ impl Whole<'_> {
                 if !channel.times().is_that_of(times) {
                     continue;
                 }
-                let mut add = |name, unit, values| columns.push(ColumnOut { name, unit, values: Cow::Borrowed(values) });
+                let mut add =
+                    |name, unit, values| columns.push(ColumnOut { name, unit, values: Cow::Borrowed(values) });
                 add(channel.name.clone(), "m/s2", &channel.values[..]);
                 if let Some(motions) = &self.found.motions {
                     add(format!("velocity of {}", channel.name), "m/s", &motions[k].velocity_m_s[..]);
@@ -308,7 +310,8 @@ impl Whole<'_> {
 
     fn parquet(&self) -> io::Result<Vec<u8>> {
         let columns = self.filled();
-        let series = columns.iter().map(|column| Series { name: &column.name, unit: column.unit, values: &column.values });
+        let series =
+            columns.iter().map(|column| Series { name: &column.name, unit: column.unit, values: &column.values });
         write_parquet(&series.collect::<Vec<_>>()).map_err(io::Error::other)
     }
 
@@ -332,8 +335,7 @@ impl Whole<'_> {
         for (k, channel) in record.channels().iter().enumerate() {
             let start_s = channel.times().start_s();
             let marks = self.found.shocks.as_ref().map_or(Vec::new(), |found| {
-                let mark =
-                    |shock: &Shock| (time.value(start_s + shock.peak_time_s), value.value(shock.peak_m_s2));
+                let mark = |shock: &Shock| (time.value(start_s + shock.peak_time_s), value.value(shock.peak_m_s2));
                 found[k].shocks.iter().map(mark).collect()
             });
             let beside = self.found.fits.as_ref().map(|fits| {
@@ -341,7 +343,13 @@ impl Whole<'_> {
                 let point = |(since_s, a)| (time.value(start_s + since_s), value.value(a));
                 ("nominal pulse", curve.map(point).collect::<Vec<_>>())
             });
-            traces.push(Trace { name: &channel.name, title, points: points(channel, &channel.values, &value), marks, beside });
+            traces.push(Trace {
+                name: &channel.name,
+                title,
+                points: points(channel, &channel.values, &value),
+                marks,
+                beside,
+            });
             if let Some(motions) = &self.found.motions {
                 let plain = |name, title, points| Trace { name, title, points, marks: Vec::new(), beside: None };
                 traces.push(plain("velocity", "m/s", points(channel, &motions[k].velocity_m_s, &velocity)));

@@ -2,7 +2,7 @@
 
 use crate::error::Bad;
 use crate::heading::Heading;
-use crate::record::{Raw, Untimed, period};
+use crate::record::{Raw, Untimed, one_scale, period};
 use crate::roles::{Role, Roles, Seen};
 use crate::samples::{LARGEST, float};
 use crate::text::SHOWN;
@@ -28,6 +28,7 @@ impl Record {
         let options = &by_number(options, &columns);
         let seen = seen(&columns, options);
         let Roles { time, channels, left_out: unused } = seen.roles(options)?;
+        one_scale(&channels, options)?;
         let sizes = |role: &Role| columns[role.column].values.len();
         let mut groups: Vec<(Source, Vec<Role>)> = Vec::new();
         let sought = Sought { columns: &columns, seen: &seen, options, time, channels: &channels };
@@ -43,7 +44,7 @@ impl Record {
                 None => groups.push((source, vec![role.clone()])),
             }
         }
-        let several = groups.len() > 1;
+        let several = (0..columns.len()).filter(|column| seen.is_time(*column)).count() > 1;
         let part = |(source, roles): (Source, Vec<Role>)| {
             let places = roles.iter().map(|role| role.column).collect();
             let size = if let Source::Column(time) = source { seen.time_size(time, options)? } else { 1.0 };
@@ -143,7 +144,9 @@ impl Sought<'_> {
             (None, None, Some((time, _))) => self.long_enough(time, role),
             (None, None, None) => {
                 let name = if column.name.is_empty() { "samples" } else { &column.name };
-                Err(Error::Columns(format!("the file tells no times of {name}, {samples} of them: give the sample rate")))
+                Err(Error::Columns(format!(
+                    "the file tells no times of {name}, {samples} of them: give the sample rate"
+                )))
             }
         }
     }
@@ -245,7 +248,8 @@ fn group(
         .collect();
     // A table fills up columns that end before others.
     if several && !since_s.is_empty() {
-        let is_filled = |row: usize| since_s[row].is_nan() && channels.iter().all(|channel| channel.values[row].is_nan());
+        let is_filled =
+            |row: usize| since_s[row].is_nan() && channels.iter().all(|channel| channel.values[row].is_nan());
         let end = (0..since_s.len()).rposition(|row| !is_filled(row)).map_or(0, |last| last + 1);
         since_s.truncate(end);
         channels.iter_mut().for_each(|channel| channel.values.truncate(end));
@@ -261,8 +265,7 @@ fn group(
         }
     }
     let found = Vec::new();
-    let mut raw =
-        Raw { channels, start_s, unit_s: time_size, since_s, printed, step_s, numbering: Vec::new(), found };
+    let mut raw = Raw { channels, start_s, unit_s: time_size, since_s, printed, step_s, numbering: Vec::new(), found };
     raw.keep(&kept);
     raw.finish(bad, options)
 }

@@ -74,7 +74,8 @@ pub fn read(kind: Kind, bytes: &[u8], most: usize) -> Result<Table, Error> {
     };
     let Beside { left_out, notes } = beside;
     if columns.is_empty() {
-        let why = left_out.first().map_or_else(|| "no column of numbers".to_owned(), |one| format!("nothing but {one}"));
+        let why =
+            left_out.first().map_or_else(|| "no column of numbers".to_owned(), |one| format!("nothing but {one}"));
         return Err(refuse(format!("{kind}: it holds {why}")));
     }
     Ok(Table { columns, left_out, notes })

@@ -39,7 +39,7 @@ impl Seen {
             let timed = time.filter(|_| options.sample_rate_hz.is_none());
             let timed = timed.map(|time| self.time_size(time, options).map(|size| (time, size))).transpose()?;
             let left_out = std::mem::take(&mut left_out);
-            groups.push((time, Roles { time: timed, channels: vec![role], left_out }));
+            groups.push((time, Roles { time: timed, channels: vec![role], left_out, beside_others: true }));
         }
         Ok(groups.into_iter().map(|(_, group)| group).collect())
     }

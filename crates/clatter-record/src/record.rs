@@ -3,15 +3,15 @@
 use std::io::Read;
 use std::sync::Arc;
 
+use crate::axis::{Spacing, TimeAxis};
 use crate::container::{self, Kind};
 use crate::error::Bad;
 use crate::finding::{At, Finding, Judged, LISTED, gaps, is_of_events};
-use crate::axis::{Spacing, TimeAxis};
-use crate::roles::Roles;
+use crate::roles::{Role, Roles};
 use crate::samples::{LARGEST, check};
 use crate::text::{self, BLOCK, Rows, decoded};
 use crate::times::{Printed, Times};
-use crate::{Error, Options};
+use crate::{Error, FULL_SCALE, Options};
 
 /// A record of one or several channels, in seconds and m/s².
 #[derive(Debug, Clone, PartialEq)]
@@ -141,8 +141,7 @@ impl Record {
                 return Err(Error::Columns("channels differ in length".to_owned()));
             }
         }
-        let untimed =
-            |(name, values): (&str, _)| Untimed { name: name.to_owned(), unit: "m/s2".to_owned(), values };
+        let untimed = |(name, values): (&str, _)| Untimed { name: name.to_owned(), unit: "m/s2".to_owned(), values };
         let raw = Raw {
             channels: channels.into_iter().map(untimed).collect(),
             start_s,
@@ -166,6 +165,7 @@ impl Record {
     }
 
     fn of_text(mut rows: Rows, roles: Roles, options: &Options) -> Result<Self, Error> {
+        one_scale(&roles.channels, options)?;
         let mut found = Vec::new();
         if !roles.left_out.is_empty() {
             found.push(Finding::LeftOut(roles.left_out));
@@ -289,6 +289,22 @@ fn to_end(mut begin: Vec<u8>, input: &mut dyn Read, options: &Options) -> Result
     let most = WIDEST.saturating_mul(options.most_values as u64);
     input.take(most).read_to_end(&mut begin).map_err(|error| Error::Read(error.to_string()))?;
     Ok(begin)
+}
+
+/// Refuses a full scale beside channels that have a unit, and a unit beside those that count in shares of full scale.
+pub(crate) fn one_scale(channels: &[Role], options: &Options) -> Result<(), Error> {
+    let shares = |role: &&Role| role.unit == FULL_SCALE;
+    let (with, without) = (channels.iter().find(shares), channels.iter().find(|role| !shares(role)));
+    match (options.full_scale_m_s2, &options.units, with, without) {
+        (Some(_), _, _, Some(role)) => Err(Error::Units(format!(
+            "{} is in {}: a full scale goes with channels that count in shares of it",
+            role.name, role.unit
+        ))),
+        (_, Some(_), Some(role), _) => {
+            Err(Error::Units(format!("{} counts in shares of full scale: units beside it have no meaning", role.name)))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Refuses another record than the first of a file that holds one.

@@ -12,6 +12,8 @@ pub(crate) struct Roles {
     pub(crate) channels: Vec<Role>,
     /// What is made of no other column, as messages call them.
     pub(crate) left_out: Vec<String>,
+    /// Whether other channels have other times, for which lines may go on.
+    pub(crate) beside_others: bool,
 }
 
 /// A column of accelerations.
@@ -56,6 +58,7 @@ impl Seen {
             time: time.filter(|_| options.sample_rate_hz.is_none()).map(size).transpose()?,
             channels: channels.iter().map(|column| self.channel(*column, options)).collect::<Result<_, _>>()?,
             left_out,
+            beside_others: false,
         })
     }
 
@@ -99,7 +102,8 @@ impl Seen {
         let find = |is: &dyn Fn(&Heading) -> bool| self.headings.iter().position(is);
         let found = find(&|heading| is_named(heading) && is_unit(heading))
             .or_else(|| find(&|heading| is_unit(heading) && heading.named() != Named::Other))
-            .or_else(|| find(&|heading| is_named(heading) && fits(heading)));
+            .or_else(|| find(&|heading| is_named(heading) && fits(heading)))
+            .or_else(|| (0..self.headings.len()).find(|column| self.is_time(*column)));
         if found.is_some() || none {
             return Ok(found);
         }

@@ -110,13 +110,12 @@ pub(crate) fn read(
         rows: data.iter().map(|row| row.iter().map(number).collect()).collect(),
     };
     let parts = seen.by_time(options)?;
-    let several = parts.len() > 1;
     let mut parts: Vec<(Rows, Roles)> = parts
         .into_iter()
         .map(|roles| {
             let mut rows = Rows::new(form, &roles, options, seen.headings.len(), layout.sampled_s);
             rows.skip_lines(layout.begin);
-            if several {
+            if roles.beside_others {
                 rows.may_end_early();
             }
             (rows, roles)

@@ -3,8 +3,8 @@
 use std::io::{self, Write};
 
 use clatter_record::{
-    Channel, EffectiveDuration, Error, PULSE_TOLERANCES, PulseCheck, PulseFit, Record, Within, check_pulse, effective_duration,
-    fit_pulses, pulse_at,
+    Channel, EffectiveDuration, Error, PULSE_TOLERANCES, PulseCheck, PulseFit, Record, Within, check_pulse,
+    effective_duration, fit_pulses, pulse_at,
 };
 use clatter_shock::Pulse;
 

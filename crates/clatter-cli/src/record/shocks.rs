@@ -32,7 +32,8 @@ pub(super) fn table(channel: &Channel, name: &str, found: &Shocks, out: &mut dyn
     line(out, ["start", "peak", "at", "duration", "velocity change"])?;
     line(out, ["s", "m/s2", "s", "s", "m/s"])?;
     for shock in &found.shocks {
-        let [start, at] = [shock.start_s, shock.peak_time_s].map(|since_s| figures(channel.times().start_s() + since_s));
+        let [start, at] =
+            [shock.start_s, shock.peak_time_s].map(|since_s| figures(channel.times().start_s() + since_s));
         let [peak, duration, velocity] = [shock.peak_m_s2, shock.duration_s, shock.velocity_change_m_s].map(figures);
         line(out, [&start, &peak, &at, &duration, &velocity])?;
     }

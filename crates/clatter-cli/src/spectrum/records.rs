@@ -60,7 +60,8 @@ pub(super) fn spectra(
         }
     }
     let count: usize = records.iter().map(|measured| measured.record.channels().len()).sum();
-    let all: usize = records.iter().flat_map(|measured| measured.record.channels()).map(|channel| channel.values.len()).sum();
+    let all: usize =
+        records.iter().flat_map(|measured| measured.record.channels()).map(|channel| channel.values.len()).sum();
     let filtering = Counted::begin("filtering", (all * dampings.len()) as u64);
     let mut done = 0;
     let mut found = Vec::new();

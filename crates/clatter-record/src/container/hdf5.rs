@@ -4,7 +4,7 @@
 //! give its unit and its rate.
 
 use super::number::Number;
-use super::{Matrix, Naming, Room, column, interval_s, refuse, agreed};
+use super::{Matrix, Naming, Room, agreed, column, interval_s, refuse};
 use crate::{Column, Error, Values};
 use hdf5_pure::{AttrValue, Dataset, Datatype, DatatypeByteOrder, File, FloatingPointLayout, Group};
 use std::collections::HashMap;

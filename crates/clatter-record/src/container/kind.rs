@@ -187,9 +187,5 @@ fn refused_text(beginning: &[u8]) -> Option<(&'static str, &'static str)> {
 fn refused_binary(beginning: &[u8]) -> Option<(&'static str, &'static str)> {
     // Protocols 2 to 5: the opcode PROTO, its number, and from 4 on the opcode FRAME.
     let pickle = matches!(beginning, [0x80, 2 | 3, ..] | [0x80, 4 | 5, 0x95, ..]);
-    if pickle {
-        Some(("a pickle of Python", "save the array with numpy.save or as CSV"))
-    } else {
-        None
-    }
+    if pickle { Some(("a pickle of Python", "save the array with numpy.save or as CSV")) } else { None }
 }

@@ -6,7 +6,7 @@ pub(super) mod level4;
 
 use super::bytes::Bytes;
 use super::number::Number;
-use super::{Beside, Matrix, Naming, Room, codec, interval_s, refuse, agreed};
+use super::{Beside, Matrix, Naming, Room, agreed, codec, interval_s, refuse};
 use crate::{Column, Error, Values};
 
 const PART: &str = "MAT file";
@@ -48,7 +48,9 @@ impl Found {
                     self.intervals_s.push((group.to_owned(), interval));
                 }
             }
-            Some(_) if is_complex => self.left_out.push(format!("{name:?}, which is complex; a record is real: save its real part")),
+            Some(_) if is_complex => {
+                self.left_out.push(format!("{name:?}, which is complex; a record is real: save its real part"))
+            }
             Some(_) => {
                 room.take_all(&[rows, columns])?;
                 let begin = self.columns.len();

@@ -131,6 +131,10 @@ impl File {
         let length = if unfinished { bytes.left() as u64 } else { next };
         let segment = bytes.take_u64(length)?;
         let Some((meta, raw)) = usize::try_from(data).ok().and_then(|data| segment.split_at_checked(data)) else {
+            if unfinished && self.has_data() {
+                self.is_cut = true;
+                return Ok(());
+            }
             return Err(refuse(format!("TDMS file: the data of the segment at byte {begins} begin beyond its end")));
         };
         if !meta.is_empty() {
@@ -281,7 +285,9 @@ impl File {
             .objects
             .iter_mut()
             .map(|object| (object.values.take(), std::mem::take(&mut object.scalers)))
-            .map(|(values, scalers)| if values.is_none() && scalers.is_empty() { None } else { Some((values, scalers)) })
+            .map(
+                |(values, scalers)| if values.is_none() && scalers.is_empty() { None } else { Some((values, scalers)) },
+            )
             .collect();
         let mut count: HashMap<&str, usize> = HashMap::new();
         for (object, _) in self.objects.iter().zip(&found).filter(|(_, values)| values.is_some()) {
@@ -311,6 +317,10 @@ impl File {
             let time = matches!(object.layout, Some(Layout { kind: Stored::Time, .. }));
             let unit = || object.text("unit_string").or_else(|| object.text("NI_UnitDescription"));
             let unit = if time { Some("ns".to_owned()) } else { unit() };
+            if values.is_empty() {
+                left_out.push(format!("{name}, which has no samples"));
+                continue;
+            }
             columns.push(Column { name, group: group.join("/"), unit, sampled_s, values });
         }
         Ok(columns)
@@ -347,7 +357,8 @@ impl Object {
     /// Time of the first sample, since the earliest of all channels began, and between samples; else the unit of what the channel
     /// is sampled over, where that is no time.
     fn sampled_s(&self, first: Option<i128>) -> Result<Option<[f64; 2]>, String> {
-        let Some(interval) = self.number("wf_increment").filter(|interval| interval.is_finite() && *interval > 0.0) else {
+        let Some(interval) = self.number("wf_increment").filter(|interval| interval.is_finite() && *interval > 0.0)
+        else {
             return Ok(None);
         };
         let unit = self.text("wf_xunit_string").unwrap_or_else(|| "s".to_owned());

@@ -4,6 +4,7 @@
 
 use super::number::Number;
 use super::{Beside, Room, column, refuse};
+use crate::unit::{Kind, Unit};
 use crate::{Column, Error, Values};
 use std::borrow::Cow;
 
@@ -149,7 +150,9 @@ impl Head {
         for _ in 0..5 {
             lines.expect()?;
         }
-        let place = place(&lines.expect()?);
+        let line = lines.expect()?;
+        let (function, place) =
+            (line.get(..5).and_then(|text| text.trim().parse::<u32>().ok()).unwrap_or(0), place(&line));
         let form = &lines.expect()?;
         let fields: Option<Vec<f64>> = fixed(form, &[10, 10, 10, 13, 13, 13]).or_else(|| blanks(form));
         let &[kind, count, even, start, step, ..] = fields.as_deref().unwrap_or_default() else {
@@ -187,10 +190,14 @@ impl Head {
                 time.kind
             ));
         }
+        // Where the abscissa is not told, the kind of function is: general or a response over time.
+        if time.kind == 0 && function > 1 {
+            return told(&format!("functions of kind {function} are no responses over time: a spectrum is no record"));
+        }
         let factor = if even { time.seconds() } else { Some(1.0) };
         let Some(factor) = factor else {
             return told(&format!(
-                "the unit {:?} of the times is not known; s, ms and us are",
+                "the unit {:?} of the abscissa is none of time, such as s, ms or us",
                 time.unit.unwrap_or_default()
             ));
         };
@@ -299,12 +306,8 @@ impl Axis {
     }
     /// Seconds of its unit. Data sets are in SI where they do not say otherwise.
     fn seconds(&self) -> Option<f64> {
-        match self.unit.as_deref().map(str::to_ascii_lowercase).as_deref() {
-            None | Some("s" | "sec" | "secs" | "second" | "seconds") => Some(1.0),
-            Some("ms" | "msec") => Some(1e-3),
-            Some("us" | "usec" | "µs") => Some(1e-6),
-            _ => None,
-        }
+        let Some(unit) = &self.unit else { return Some(1.0) };
+        Unit::of(unit).filter(|unit| unit.kind == Kind::Time).map(|unit| unit.size)
     }
 }
 

@@ -36,7 +36,8 @@ pub(super) fn last_lines(text: &[u8]) -> Option<&[u8]> {
         return None;
     }
     let from = text.len().saturating_sub(HELD);
-    let begin = if from == 0 { 0 } else { text[from..].iter().position(|byte| *byte == b'\n').map_or(0, |at| from + at + 1) };
+    let begin =
+        if from == 0 { 0 } else { text[from..].iter().position(|byte| *byte == b'\n').map_or(0, |at| from + at + 1) };
     Some(&text[begin..])
 }
 

@@ -4,7 +4,7 @@
 //! begin; what the numbers are is told above, and nothing of it is guessed.
 
 use super::cells::Form;
-use super::{Rows, text_of};
+use super::{Rows, cut, text_of};
 use crate::heading::Heading;
 use crate::roles::{Role, Roles, Seen};
 use crate::unit::{Kind, Unit};
@@ -162,7 +162,11 @@ impl File {
         let last = (first..lines.len()).find(|line| is_blank(lines[*line])).unwrap_or(lines.len());
         *at = last;
         let count = key("Channels").and_then(|cells| cells.get(1)?.parse::<usize>().ok());
-        let width = if named { names.len() } else { (first..last).map(|i| cells(lines[i], self.form).len()).next().unwrap_or(0) };
+        let width = if named {
+            names.len()
+        } else {
+            (first..last).map(|i| cells(lines[i], self.form).len()).next().unwrap_or(0)
+        };
         // Channels with times of their own take two columns.
         let each = if self.columns == Columns::Multi { 2 } else { 1 };
         let most = width / each;
@@ -185,13 +189,19 @@ impl File {
         };
         let number = |name: &str, channel: usize| {
             let Some(text) = value(name, channel) else { return Ok(None) };
-            let number = self.form.number(&text).map(crate::decimal::Decimal::float).filter(|number| number.is_finite());
+            let number =
+                self.form.number(&text).map(crate::decimal::Decimal::float).filter(|number| number.is_finite());
             number.map(Some).ok_or_else(|| {
-                Error::File(format!("{name} is '{text}' for channel {} in the segment at line {}", channel + 1, begin + 1))
+                Error::File(format!(
+                    "{name} is '{text}' for channel {} in the segment at line {}",
+                    channel + 1,
+                    begin + 1
+                ))
             })
         };
         let channel = |channel: usize| {
-            let date_s = value("Date", channel).zip(value("Time", channel)).and_then(|(date, time)| date_s(&date, &time));
+            let date_s =
+                value("Date", channel).zip(value("Time", channel)).and_then(|(date, time)| date_s(&date, &time));
             Ok(Channel {
                 samples: value("Samples", channel).and_then(|text| text.parse().ok()),
                 unit: value("Y_Unit_Label", channel).unwrap_or_default(),
@@ -229,7 +239,10 @@ impl File {
         let Some(samples) = most.filter(|most| self.columns == Columns::No && *most < rows) else {
             return Ok(vec![segment.clone()]);
         };
-        if samples == 0 || !rows.is_multiple_of(samples) || lines[last - 1].last() != Some(&b'\n') && rows % samples != 0 {
+        if samples == 0
+            || !rows.is_multiple_of(samples)
+            || lines[last - 1].last() != Some(&b'\n') && rows % samples != 0
+        {
             return Err(Error::File(format!(
                 "line {}: {rows} rows stand where Samples says {samples}: what the others are is not told",
                 first + 1
@@ -311,12 +324,12 @@ impl Segment {
     fn read(&self, file: &File, lines: &[&[u8]], options: &Options) -> Result<Vec<(Rows, Roles)>, Error> {
         let (seen, places) = self.columns(file);
         let mut options = options.clone();
-        let is_acceleration = |column: &&usize| {
-            seen.headings[**column].unit.is_some_and(|Unit { kind, .. }| kind == Kind::Acceleration)
-        };
+        let is_acceleration =
+            |column: &&usize| seen.headings[**column].unit.is_some_and(|Unit { kind, .. }| kind == Kind::Acceleration);
         // Each column below the heading is a channel, whatever its name says.
         if options.accelerations.is_empty() {
-            options.accelerations = places.iter().filter(is_acceleration).map(|place| Pick::Number(place + 1)).collect();
+            options.accelerations =
+                places.iter().filter(is_acceleration).map(|place| Pick::Number(place + 1)).collect();
         }
         let mut parts = Vec::new();
         for roles in seen.by_time(&options)? {
@@ -326,13 +339,7 @@ impl Segment {
                 rows.may_end_early();
                 for (first, last) in &self.lines {
                     rows.skip_lines(*first);
-                    for line in &lines[*first..*last] {
-                        let mut line = line.to_vec();
-                        if line.last() != Some(&b'\n') {
-                            line.push(b'\n');
-                        }
-                        rows.take(&line)?;
-                    }
+                    take(&mut rows, lines, *first, *last, file.form)?;
                 }
                 let (count, end) = (rows.channels[0].len(), self.lines.last().map_or(0, |(_, last)| *last));
                 if let Some(samples) = samples.filter(|samples| *samples > count && rows.bad.count == 0) {
@@ -360,7 +367,7 @@ impl Segment {
         };
         let first_s = self.channels.iter().filter_map(|channel| channel.date_s).fold(f64::INFINITY, f64::min);
         let mut found: Vec<(Option<[f64; 2]>, Option<usize>, Roles)> = Vec::new();
-        for role in roles.channels {
+        for role in roles.channels.clone() {
             let Channel { samples, is_timed, date_s, x0, delta, .. } = channel(&role);
             let samples = if roles.time.is_some() && self.lines.len() == 1 && file.columns == Columns::One {
                 samples.filter(|samples| *samples > 1)
@@ -369,7 +376,10 @@ impl Segment {
             };
             let sampled_s = if file.columns == Columns::No && options.sample_rate_hz.is_none() {
                 let Some(step) = delta.filter(|step| *step > 0.0 && *is_timed) else {
-                    return Err(Error::Columns(format!("the heading tells no times of {}: give the sample rate", role.name)));
+                    return Err(Error::Columns(format!(
+                        "the heading tells no times of {}: give the sample rate",
+                        role.name
+                    )));
                 };
                 Some([x0.unwrap_or(0.0) + date_s.map_or(0.0, |date_s| date_s - first_s), step])
             } else {
@@ -382,11 +392,31 @@ impl Segment {
                 group.channels.push(role);
             } else {
                 let left_out = if found.is_empty() { roles.left_out.clone() } else { Vec::new() };
-                found.push((sampled_s, samples, Roles { time: roles.time, channels: vec![role], left_out }));
+                found.push((sampled_s, samples, Roles { channels: vec![role], left_out, ..roles.clone() }));
             }
         }
         Ok(found)
     }
+}
+
+/// Takes in some lines, of which the last may have no end.
+fn take(rows: &mut Rows, lines: &[&[u8]], first: usize, last: usize, form: Form) -> Result<(), Error> {
+    /// Lines that are handed on at a time.
+    const LINES: usize = 1 << 12;
+    let is_whole = last < lines.len() || lines[last - 1].ends_with(b"\n");
+    for lines in lines[first..last - usize::from(!is_whole)].chunks(LINES) {
+        rows.take(&lines.concat())?;
+    }
+    if !is_whole {
+        let above = lines[first.max(last.saturating_sub(LINES))..last - 1].concat();
+        match cut::within(cut::last_lines(&above).unwrap_or_default(), lines[last - 1], form) {
+            Some(why) => rows.refuse(&why),
+            None => {
+                rows.take(&[lines[last - 1], b"\n"].concat())?;
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Seconds of a date, `2023/01/02`, and a time of day with any mark of decimals and number of digits.

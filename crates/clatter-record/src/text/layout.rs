@@ -195,7 +195,8 @@ fn begin(lines: &[String], form: Form) -> Option<Numbers> {
     let columns = last.iter().map(|(_, cells)| cells.len()).max_by_key(|columns| (has(*columns), *columns))?;
     let is_number = |column: usize| {
         let filled = |rows: &'_ [(usize, Vec<Cow<'_, str>>)], is: &dyn Fn(&str) -> bool| {
-            let cell = |cells: &Vec<Cow<'_, str>>| cells.len() == columns && !cells[column].is_empty() && is(&cells[column]);
+            let cell =
+                |cells: &Vec<Cow<'_, str>>| cells.len() == columns && !cells[column].is_empty() && is(&cells[column]);
             rows.iter().filter(|(_, cells)| cell(cells)).count()
         };
         // A channel with times of its own may end before the others.

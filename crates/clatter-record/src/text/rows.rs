@@ -225,7 +225,8 @@ impl Rows {
         if self.ends_early && (0..self.uses.len()).filter(is_used).all(is_empty) {
             // Without times a number that follows would be of another one.
             if self.time.is_none() {
-                self.text.add(At::Line(self.line), || format!("nothing stands in the columns of {}", self.names.join(", ")));
+                self.text
+                    .add(At::Line(self.line), || format!("nothing stands in the columns of {}", self.names.join(", ")));
             }
             return Ok(());
         }

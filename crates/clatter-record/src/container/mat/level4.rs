@@ -72,7 +72,8 @@ pub(in crate::container) fn read(bytes: &[u8], room: &mut Room, beside: &mut Bes
     while bytes.left() > 0 {
         let at = bytes.at();
         let head = words(bytes.take(20)?).and_then(Head::read);
-        let head = head.ok_or_else(|| refuse(format!("{PART}: no variable begins at byte {at}; the file is damaged")))?;
+        let head =
+            head.ok_or_else(|| refuse(format!("{PART}: no variable begins at byte {at}; the file is damaged")))?;
         let name = bytes.take_u64(head.name.into())?;
         let name = String::from_utf8_lossy(name.strip_suffix(b"\0").unwrap_or(name)).into_owned();
         let [rows, columns] = [head.rows, head.columns].map(|side| usize::try_from(side).unwrap_or(usize::MAX));

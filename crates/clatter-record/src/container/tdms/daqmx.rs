@@ -84,7 +84,9 @@ fn buffers(active: &[&Daqmx]) -> Result<Vec<(usize, usize)>, Error> {
     let mut buffers: Vec<(usize, usize)> = first.widths.iter().map(|width| (0, *width)).collect();
     for daqmx in active {
         if daqmx.widths != first.widths {
-            return Err(refuse(format!("{PART}: channels of DAQmx differ in the width of their rows; the file is damaged")));
+            return Err(refuse(format!(
+                "{PART}: channels of DAQmx differ in the width of their rows; the file is damaged"
+            )));
         }
         for scaler in &daqmx.scalers {
             buffers[scaler.buffer].0 = buffers[scaler.buffer].0.max(daqmx.count);
@@ -103,7 +105,9 @@ pub(super) fn chunks(
 ) -> Result<bool, Error> {
     let daqmx: Vec<Daqmx> = active.iter().filter_map(|index| objects[*index].daqmx.clone()).collect();
     if daqmx.len() < active.len() {
-        return Err(refuse(format!("{PART}: a segment mixes raw data of DAQmx with others; convert the file with LabVIEW")));
+        return Err(refuse(format!(
+            "{PART}: a segment mixes raw data of DAQmx with others; convert the file with LabVIEW"
+        )));
     }
     let buffers = buffers(&daqmx.iter().collect::<Vec<_>>())?;
     let bytes = |(rows, width): &(usize, usize)| rows.saturating_mul(*width);

@@ -143,8 +143,11 @@ impl Scales<'_> {
             let scaler = scaler.ok_or_else(|| self.fault(index, "has no type, and no source of that number"))?;
             return floats(scaler).ok_or_else(|| self.fault(index, "takes integers beyond 2^53"));
         };
-        let mut sources =
-            self.sources(index).into_iter().map(|source| self.source(index, source, done)).collect::<Result<Vec<_>, _>>()?;
+        let mut sources = self
+            .sources(index)
+            .into_iter()
+            .map(|source| self.source(index, source, done))
+            .collect::<Result<Vec<_>, _>>()?;
         let mut values = sources.swap_remove(0);
         match (kind, sources.pop()) {
             ("Add", Some(right)) => values.iter_mut().zip(right).for_each(|(left, right)| *left += right),
@@ -166,7 +169,9 @@ impl Scales<'_> {
             ("Table", _) => {
                 let size = |name: &str| self.number(index, name).and_then(whole);
                 let sizes = [size("Table_Pre_Scaled_Values_Size"), size("Table_Scaled_Values_Size")];
-                let [Some(count), Some(other)] = sizes else { return Err(self.fault(index, "has no size of its table")) };
+                let [Some(count), Some(other)] = sizes else {
+                    return Err(self.fault(index, "has no size of its table"));
+                };
                 if count != other || count == 0 {
                     return Err(self.fault(index, &format!("has a table of {count} and {other} values")));
                 }
