@@ -1,5 +1,7 @@
 //! Columns of a file whose numbers are no text, as channels: each with the times that the file gives it.
 
+use std::collections::{BTreeMap, HashMap, HashSet};
+
 use crate::error::Bad;
 use crate::heading::Heading;
 use crate::record::{Raw, Untimed, one_scale, period};
@@ -27,24 +29,29 @@ impl Record {
         let Table { columns, left_out, notes } = table;
         let options = &by_number(options, &columns);
         let seen = seen(&columns, options);
-        let Roles { time, channels, left_out: unused } = seen.roles(options)?;
+        let Roles { time, channels, left_out: unused, .. } = seen.roles(options)?;
         one_scale(&channels, options)?;
-        let sizes = |role: &Role| columns[role.column].values.len();
+        let sought = Sought::new(&columns, &seen, options, time, &channels)?;
         let mut groups: Vec<(Source, Vec<Role>)> = Vec::new();
-        let sought = Sought { columns: &columns, seen: &seen, options, time, channels: &channels };
-        let sources = channels.iter().map(|role| sought.source(role)).collect::<Result<Vec<_>, _>>()?;
-        let mut used: Vec<String> = Vec::new();
-        for (role, source) in channels.iter().zip(sources) {
+        let mut known: HashMap<[u64; 4], usize> = HashMap::new();
+        let mut used: HashSet<String> = HashSet::new();
+        for role in channels.iter().cloned() {
+            let source = sought.source(&role)?;
+            let key = match source {
+                Source::Even([start_s, step_s]) => [0, start_s.to_bits(), step_s.to_bits()],
+                Source::Column(time) => [1, time as u64, 0],
+            };
+            let samples = columns[role.column].values.len() as u64;
             if let Source::Column(time) = source {
-                used.push(seen.called(time));
+                used.insert(seen.called(time));
             }
-            let same = |(other, roles): &&mut (Source, Vec<Role>)| *other == source && sizes(&roles[0]) == sizes(role);
-            match groups.iter_mut().find(same) {
-                Some((_, roles)) => roles.push(role.clone()),
-                None => groups.push((source, vec![role.clone()])),
+            let group = *known.entry([key[0], key[1], key[2], samples]).or_insert(groups.len());
+            match groups.get_mut(group) {
+                Some((_, roles)) => roles.push(role),
+                None => groups.push((source, vec![role])),
             }
         }
-        let several = (0..columns.len()).filter(|column| seen.is_time(*column)).count() > 1;
+        let several = sought.times.len() > 1;
         let part = |(source, roles): (Source, Vec<Role>)| {
             let places = roles.iter().map(|role| role.column).collect();
             let size = if let Source::Column(time) = source { seen.time_size(time, options)? } else { 1.0 };
@@ -107,10 +114,67 @@ struct Sought<'a> {
     options: &'a Options,
     /// The column of times of the whole file, if it has one.
     time: Option<(usize, f64)>,
-    channels: &'a [Role],
+    /// All columns of times.
+    times: Vec<usize>,
+    /// For each channel a column of times that lies in the same group and is as long.
+    beside: HashMap<usize, usize>,
 }
 
-impl Sought<'_> {
+impl<'a> Sought<'a> {
+    fn new(
+        columns: &'a [Column],
+        seen: &'a Seen,
+        options: &'a Options,
+        time: Option<(usize, f64)>,
+        channels: &[Role],
+    ) -> Result<Self, Error> {
+        let times =
+            if seen.named { (0..columns.len()).filter(|column| seen.is_time(*column)).collect() } else { Vec::new() };
+        let mut sought = Self { columns, seen, options, time, times, beside: HashMap::new() };
+        if options.sample_rate_hz.is_some() || options.time.is_some() {
+            return Ok(sought);
+        }
+        let mut together: BTreeMap<(&str, usize), [Vec<usize>; 2]> = BTreeMap::new();
+        let place = |column: usize| (columns[column].group.as_str(), columns[column].values.len());
+        for role in channels {
+            together.entry(place(role.column)).or_default()[0].push(role.column);
+        }
+        // A column of times by its place where none is by its name.
+        let by_place = time.map(|(time, _)| time).filter(|time| !sought.times.contains(time));
+        for time in sought.times.iter().copied().chain(by_place) {
+            if let Some([_, times]) = together.get_mut(&place(time)) {
+                times.push(time);
+            }
+        }
+        for [channels, mut times] in together.into_values().filter(|[_, times]| !times.is_empty()) {
+            times.sort_unstable();
+            let owners = match times[..] {
+                [time] => vec![time; channels.len()],
+                _ => sought.seen.paired(&times, &channels).map_or_else(|| sought.one_clock(&times, &channels), Ok)?,
+            };
+            sought.beside.extend(channels.into_iter().zip(owners));
+        }
+        Ok(sought)
+    }
+
+    /// One of several columns of times that are those of one clock, in several units; else no one can tell.
+    fn one_clock(&self, times: &[usize], channels: &[usize]) -> Result<Vec<usize>, Error> {
+        let steps = times.iter().map(|time| self.mean_step(*time)).collect::<Result<Vec<_>, _>>()?;
+        let same = |step: &Option<f64>| {
+            step.zip(steps[0]).is_some_and(|(step, first): (f64, f64)| (step / first - 1.0).abs() <= SAME_RATE)
+        };
+        if !steps.iter().all(same) {
+            let all: Vec<String> = times.iter().take(SHOWN).map(|time| self.seen.called(*time)).collect();
+            return Err(Error::Columns(format!(
+                "which times are those of column {} is not clear: {}; name the column of times",
+                self.seen.called(channels[0]),
+                all.join(", ")
+            )));
+        }
+        let chosen = self.time.map(|(time, _)| time).filter(|time| times.contains(time)).unwrap_or(times[0]);
+        Ok(vec![chosen; channels.len()])
+    }
+
     /// The rate that the caller gives, else times beside the channel, else its own rate, else the times of the file.
     fn source(&self, role: &Role) -> Result<Source, Error> {
         let column = &self.columns[role.column];
@@ -124,7 +188,7 @@ impl Sought<'_> {
         if column.sampled_s.is_some_and(|[_, step_s]| step_s.is_nan()) {
             return Err(Error::Columns(format!("the file tells two rates of {}: give the sample rate", column.name)));
         }
-        let beside = self.beside(role)?;
+        let beside = self.beside.get(&role.column).copied();
         match (beside, column.sampled_s, self.time) {
             (Some(time), None, _) => Ok(Source::Column(time)),
             (Some(time), Some([_, step_s]), _) => {
@@ -161,46 +225,6 @@ impl Sought<'_> {
             self.seen.called(time),
             role.name
         )))
-    }
-
-    /// The column of times in the same group as a channel, as long as it is.
-    fn beside(&self, role: &Role) -> Result<Option<usize>, Error> {
-        let own = &self.columns[role.column];
-        let is_beside = |column: usize| {
-            let other = &self.columns[column];
-            other.group == own.group && other.values.len() == own.values.len()
-        };
-        if !self.seen.named {
-            return Ok(self.time.map(|(time, _)| time).filter(|time| is_beside(*time)));
-        }
-        let found: Vec<usize> =
-            (0..self.columns.len()).filter(|column| self.seen.is_time(*column) && is_beside(*column)).collect();
-        if found.len() < 2 {
-            // A column of times by its place.
-            return Ok(found.first().copied().or(self.time.map(|(time, _)| time).filter(|time| is_beside(*time))));
-        }
-        let channels: Vec<usize> =
-            self.channels.iter().map(|role| role.column).filter(|column| is_beside(*column)).collect();
-        let paired = self.seen.paired(&found, &channels);
-        if let Some(owners) = paired {
-            let at = channels.iter().position(|column| *column == role.column);
-            return Ok(at.map(|at| owners[at]));
-        }
-        // Times of one clock in several units, or else no one can tell.
-        let steps = found.iter().map(|time| self.mean_step(*time)).collect::<Result<Vec<_>, _>>()?;
-        let same = |step: &Option<f64>| {
-            step.zip(steps[0]).is_some_and(|(step, first): (f64, f64)| (step / first - 1.0).abs() <= SAME_RATE)
-        };
-        if !steps.iter().all(same) {
-            let all: Vec<String> = found.iter().map(|time| self.seen.called(*time)).collect();
-            return Err(Error::Columns(format!(
-                "which times are those of {} is not clear: {}; name the column of times",
-                role.name,
-                all.join(", ")
-            )));
-        }
-        let chosen = self.time.map(|(time, _)| time).filter(|time| found.contains(time));
-        Ok(chosen.or(Some(found[0])))
     }
 
     /// Seconds between samples by a column of times, on average.

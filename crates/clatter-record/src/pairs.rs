@@ -1,5 +1,7 @@
 //! Which column of times a channel goes with, where there are several, as in t1, a1, t2, a2.
 
+use std::collections::{HashMap, HashSet};
+
 use crate::heading::{Heading, Named};
 use crate::roles::{Roles, Seen};
 use crate::unit::Kind;
@@ -22,12 +24,14 @@ impl Seen {
             }
             return Ok(vec![roles]);
         };
-        let owner = |column: usize| match all.iter().position(|channel| *channel == column) {
-            Some(channel) => Some(owners[channel]),
+        let of_channel: HashMap<usize, usize> = all.iter().copied().zip(owners.iter().copied()).collect();
+        let owner = |column: usize| match of_channel.get(&column) {
+            Some(time) => Some(*time),
             None => times.iter().rfind(|time| **time < column).copied(),
         };
         let mut left_out = std::mem::take(&mut roles.left_out);
-        left_out.retain(|column| !owners.iter().any(|time| self.called(*time) == *column));
+        let called: HashSet<String> = owners.iter().map(|time| self.called(*time)).collect();
+        left_out.retain(|column| !called.contains(column));
         let mut groups: Vec<(Option<usize>, Roles)> = Vec::new();
         for role in roles.channels {
             let time = owner(role.column);
@@ -48,17 +52,20 @@ impl Seen {
     /// at the end of its name.
     pub(crate) fn paired(&self, times: &[usize], channels: &[usize]) -> Option<Vec<usize>> {
         let several = |owners: &Vec<usize>| owners.iter().any(|owner| *owner != owners[0]);
-        let before = |channel: &usize| times.iter().rfind(|time| *time < channel).copied();
+        // Columns come in their order.
+        let before =
+            |channel: &usize| times.partition_point(|time| time < channel).checked_sub(1).map(|last| times[last]);
         let by_place: Option<Vec<usize>> = channels.iter().map(before).collect();
         let number = |column: usize| {
-            let name = &self.headings[column].name;
-            name[name.trim_end_matches(|c: char| c.is_ascii_digit()).len()..].to_owned()
+            let name = self.headings[column].name.as_str();
+            &name[name.trim_end_matches(|c: char| c.is_ascii_digit()).len()..]
         };
-        let numbered = |channel: &usize| {
-            let own = number(*channel);
-            let mut same = times.iter().filter(|time| !own.is_empty() && number(**time) == own);
-            same.next().copied().filter(|_| same.next().is_none())
-        };
+        // None for a number that several have.
+        let mut numbered: HashMap<&str, Option<usize>> = HashMap::new();
+        for time in times.iter().filter(|time| !number(**time).is_empty()) {
+            numbered.entry(number(*time)).and_modify(|time| *time = None).or_insert(Some(*time));
+        }
+        let numbered = |channel: &usize| numbered.get(number(*channel)).copied().flatten();
         let by_number = || channels.iter().map(numbered).collect::<Option<Vec<usize>>>();
         by_place.filter(several).or_else(|| by_number().filter(several))
     }

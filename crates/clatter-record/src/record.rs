@@ -1,5 +1,6 @@
 //! A record: channels of acceleration over time, in SI.
 
+use std::collections::HashMap;
 use std::io::Read;
 use std::sync::Arc;
 
@@ -220,10 +221,14 @@ impl Record {
         channels.sort_by_key(|(place, _)| *place);
         let mut channels: Vec<Channel> = channels.into_iter().map(|(_, channel)| channel).collect();
         // Channels with times of their own that are the same share them.
-        for i in 1..channels.len() {
-            let same = channels[..i].iter().find(|other| other.times == channels[i].times);
-            if let Some(times) = same.map(|other| Arc::clone(&other.times)) {
-                channels[i].times = times;
+        let mut known: HashMap<[u64; 3], Vec<Arc<TimeAxis>>> = HashMap::new();
+        for channel in &mut channels {
+            let times = &channel.times;
+            let key = [times.samples as u64, times.start_s.to_bits(), times.duration_s().to_bits()];
+            let alike = known.entry(key).or_default();
+            match alike.iter().find(|other| Arc::ptr_eq(other, times) || ***other == **times) {
+                Some(other) => channel.times = Arc::clone(other),
+                None => alike.push(Arc::clone(times)),
             }
         }
         Self { channels, read }

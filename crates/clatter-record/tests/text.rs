@@ -23,6 +23,10 @@ fn with(text: impl AsRef<[u8]>, options: &Options) -> Result<Record, String> {
     Record::read(text.as_ref(), options, |_| ()).map_err(|error| error.to_string())
 }
 
+fn samples(record: &Record) -> usize {
+    record.channels()[0].values.len()
+}
+
 fn si() -> Options {
     Options { units: Some(Units::si()), ..Options::default() }
 }
@@ -114,7 +118,7 @@ fn files_that_are_refused_with_the_reason() {
     }
     // What was told goes on.
     let skipped = with(file("h_nanlast.csv"), &Options { skip_bad: true, ..Options::default() }).expect("the rest");
-    assert_eq!((skipped.samples(), skipped.step_s()), (300, Some(1e-4)));
+    assert_eq!((samples(&skipped), skipped.step_s()), (300, Some(1e-4)));
     assert!(matches!(&skipped.findings(10.0)[..], [Finding::Skipped(bad)] if bad.count == 1));
     let rate = Options { sample_rate_hz: Some(10_000.0), ..Options::default() };
     assert_eq!(with(file("h_dup.csv"), &rate).expect("a rate in place of times").step_s(), Some(1e-4));
@@ -124,7 +128,8 @@ fn files_that_are_refused_with_the_reason() {
 fn times_printed_in_two_ways_are_the_same() {
     let [exact, single] = ["time_exact.csv", "time_float32.csv"].map(|name| read(file(name)).expect(name));
     assert_eq!(exact.step_s(), Some(1.0 / 51_200.0));
-    assert_eq!((exact.step_s(), exact.channels()), (single.step_s(), single.channels()));
+    assert_eq!(exact.step_s(), single.step_s());
+    assert_eq!(exact.channels()[0].values, single.channels()[0].values);
 }
 
 #[test]
@@ -248,7 +253,7 @@ fn faults_by_line_ten_of_them_and_the_number_of_the_rest() {
     assert!(error.starts_with("line 4: 'x2' in column 2 (a) is not a number\nline 9: 'x7'"), "{error}");
     assert!(error.ends_with("\nand 10 more") && error.lines().count() == 11, "{error}");
     let skip = Options { skip_bad: true, ..Options::default() };
-    assert_eq!(with(&text, &skip).expect("the rest").samples(), 80);
+    assert_eq!(samples(&with(&text, &skip).expect("the rest")), 80);
     for (text, reason) in [
         ("t [s],a [g]\n0,\n1,1\n2,1\n", "line 2: nothing stands in column 2 (a)"),
         ("t [s],a [g]\n0,bad\n1,1\n2,1\n", "line 2: 'bad' in column 2 (a) is not a number"),
@@ -405,7 +410,7 @@ fn what_is_easily_misread() {
     close(own(slow), &[("Acc", 100.0 * G)]);
     let last = "Time [s],Acc [g],Temp [C]\n0,50,21.5\n0.001,100,\n0.002,0,\n0.003,0,\n0.004,0,\n";
     close(own(last), &[("Acc", 100.0 * G)]);
-    assert_eq!(read(last).expect("a record").samples(), 5);
+    assert_eq!(samples(&read(last).expect("a record")), 5);
     let labview = "LabVIEW Measurement\t\nWriter_Version\t2\nX_Columns\tNo\n***End_of_Header***\t\n\t\nChannels\t1\t\n\
                    Y_Unit_Label\tg\t\nX_Dimension\tTime\t\nX0\t0.0\t\nDelta_X\t5E-5\t\n***End_of_Header***\t\t\n\
                    X_Value\tAcceleration\tComment\n\t100.0\n"
@@ -425,7 +430,7 @@ fn what_is_easily_misread() {
             "line 1 names 2 columns, and the lines of numbers below have 3",
         ),
         (
-            "Time (s),Acc fast (g),Time (s),Acc slow (g)\n0,0,0,0\n0.001,1,0.002,1\n0.002,0,0.004,0\n",
+            "Time (s),Time slow (s),Acc fast (g),Acc slow (g)\n0,0,0,0\n0.001,0.002,1,1\n0.002,0.004,0,0\n",
             "runs at another rate",
         ),
         (
