@@ -58,12 +58,13 @@ impl Record {
             Ok((places, group(&columns, source, size, roles, several, options)?))
         };
         let mut record = Self::of_parts(groups.into_iter().map(part).collect::<Result<_, Error>>()?);
-        let left_out: Vec<String> =
-            unused.into_iter().filter(|column| !used.contains(column)).chain(left_out).collect();
-        if !left_out.is_empty() {
-            record.read.insert(0, Finding::LeftOut(left_out));
+        let unused: Vec<String> = unused.into_iter().filter(|column| !used.contains(column)).collect();
+        if !unused.is_empty() {
+            record.read.insert(0, Finding::LeftOut(unused));
         }
-        record.read.extend(notes.into_iter().map(Finding::Note));
+        let left_out = left_out.into_iter().map(|what| format!("nothing is made of {what}"));
+        let notes = left_out.chain(notes);
+        record.read.extend(notes.map(Finding::Note));
         Ok(record)
     }
 }
@@ -276,7 +277,9 @@ fn group(
             |row: usize| since_s[row].is_nan() && channels.iter().all(|channel| channel.values[row].is_nan());
         let end = (0..since_s.len()).rposition(|row| !is_filled(row)).map_or(0, |last| last + 1);
         since_s.truncate(end);
-        channels.iter_mut().for_each(|channel| channel.values.truncate(end));
+        for channel in &mut channels {
+            channel.values.truncate(end);
+        }
     }
     let mut bad = Bad::default();
     let mut kept = vec![true; channels[0].values.len()];

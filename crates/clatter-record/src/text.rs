@@ -110,6 +110,7 @@ pub(crate) fn read(
         rows: data.iter().map(|row| row.iter().map(number).collect()).collect(),
     };
     let parts = seen.by_time(options)?;
+    few_times(parts.len())?;
     let mut parts: Vec<(Rows, Roles)> = parts
         .into_iter()
         .map(|roles| {
@@ -160,6 +161,15 @@ pub(crate) fn read(
         }
     }
     Ok(parts)
+}
+
+/// Refuses more times than a text may have: each is one more look at every line.
+fn few_times(count: usize) -> Result<(), Error> {
+    const MOST: usize = 100;
+    if count <= MOST {
+        return Ok(());
+    }
+    Err(Error::Columns(format!("the channels have more than {MOST} times of their own: take some of the channels")))
 }
 
 /// Reads until a buffer is full or the input ends.

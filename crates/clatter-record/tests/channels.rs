@@ -62,8 +62,8 @@ fn containers_keep_the_times_of_each_channel() {
         assert!(message.starts_with("a resultant needs channels of one time: "), "{message}");
     }
     let spectrum = read(file("rates.tdms"), &Options::default()).expect("a record");
-    let [Finding::LeftOut(left_out), ..] = &spectrum.findings(10.0)[..] else { panic!("a channel is left out") };
-    assert_eq!(left_out[..], ["spectrum, whose abscissa is in Hz: it is no record over time"]);
+    let found: Vec<String> = spectrum.findings(10.0).iter().map(ToString::to_string).collect();
+    assert_eq!(found[0], "nothing is made of spectrum, whose abscissa is in Hz: it is no record over time");
 }
 
 #[cfg(feature = "hdf5")]
@@ -96,7 +96,8 @@ fn a_tdms_file_that_is_cut_short_is_read_to_its_end() {
     let whole = file("rates.tdms");
     let channels = |cut: usize| {
         let record = read(&whole[..whole.len() - cut], &Options::default()).expect("a record");
-        let notes = record.findings(10.0).iter().filter(|finding| matches!(finding, Finding::Note(_))).count();
+        let told = |finding: &Finding| matches!(finding, Finding::Note(note) if note.contains("ends within"));
+        let notes = record.findings(10.0).iter().filter(|finding| told(finding)).count();
         (record.channels().iter().map(|channel| channel.values.len()).collect::<Vec<_>>(), notes)
     };
     assert_eq!(channels(0), (vec![40, 20, 40], 0));

@@ -61,10 +61,9 @@ impl Collector<'_> {
             self.count()?;
             let full = if path.is_empty() { name.clone() } else { format!("{path}/{name}") };
             let begin = self.columns.len();
-            if let Some(value) = self.dataset(&dataset, &full)? {
-                if let Some(interval) = interval_s(&name, value) {
-                    told = Some(agreed(told, interval));
-                }
+            let single = self.dataset(&dataset, &full)?;
+            if let Some(interval) = single.and_then(|value| interval_s(&name, value)) {
+                told = Some(agreed(told, interval));
             }
             self.columns[begin..].iter_mut().for_each(|column| path.clone_into(&mut column.group));
         }

@@ -49,7 +49,7 @@ impl Found {
                 }
             }
             Some(_) if is_complex => {
-                self.left_out.push(format!("{name:?}, which is complex; a record is real: save its real part"))
+                self.left_out.push(format!("{name:?}, which is complex; a record is real: save its real part"));
             }
             Some(_) => {
                 room.take_all(&[rows, columns])?;

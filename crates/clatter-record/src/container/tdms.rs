@@ -362,10 +362,7 @@ impl Object {
             return Ok(None);
         };
         let unit = self.text("wf_xunit_string").unwrap_or_else(|| "s".to_owned());
-        let size = match Unit::of(&unit) {
-            Some(Unit { kind: Kind::Time, size }) => size,
-            _ => return Err(unit),
-        };
+        let Some(Unit { kind: Kind::Time, size }) = Unit::of(&unit) else { return Err(unit) };
         let start = self.number("wf_start_offset").filter(|start| start.is_finite()).unwrap_or(0.0);
         let later = self.began().zip(first).and_then(|(own, first)| own.checked_sub(first)).unwrap_or(0);
         #[expect(clippy::cast_precision_loss, reason = "to the precision of a float of its size")]

@@ -21,7 +21,7 @@ pub(super) fn read(bytes: &[u8], room: &mut Room, beside: &mut Beside) -> Result
         let (set, binary) = (head.get(..6).unwrap_or(&head).trim(), head.get(6..7) == Some("b"));
         if set == "58" {
             match block(&mut lines, binary.then_some(&head), room)? {
-                Block::Columns(times, mut values) => {
+                Ok((times, mut values)) => {
                     if values.name.is_empty() {
                         values.name = format!("channel {}", columns.len() + 1);
                     }
@@ -36,7 +36,7 @@ pub(super) fn read(bytes: &[u8], room: &mut Room, beside: &mut Beside) -> Result
                     }
                     columns.push(values);
                 }
-                Block::LeftOut(reason) => beside.left_out.push(reason),
+                Err(reason) => beside.left_out.push(reason),
             }
         }
         // Other data sets: to the line that ends them.
@@ -90,14 +90,8 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// What a data set gives.
-#[derive(Debug)]
-enum Block {
-    /// Times, where they are uneven, and values.
-    Columns(Option<Column>, Column),
-    /// It is no record of times: a spectrum, say.
-    LeftOut(String),
-}
+/// What a data set gives: times, where they are uneven, and values; else why it is no record of times: a spectrum, say.
+type Block = Result<(Option<Column>, Column), String>;
 
 /// The header of a data set 58.
 #[derive(Debug)]
@@ -131,7 +125,7 @@ fn block(lines: &mut Lines<'_>, binary: Option<&str>, room: &mut Room) -> Result
             if let Some(binary) = binary {
                 lines.take(Binary::read(binary, lines)?.bytes)?;
             }
-            return Ok(Block::LeftOut(reason));
+            return Ok(Err(reason));
         }
     };
     let per_value = if head.even { 1 } else { 2 };
@@ -140,8 +134,7 @@ fn block(lines: &mut Lines<'_>, binary: Option<&str>, room: &mut Room) -> Result
         Some(binary) => head.binary(lines, &Binary::read(binary, lines)?)?,
         None => head.text(lines)?,
     };
-    let (times, values) = head.columns(times, values);
-    Ok(Block::Columns(times, values))
+    Ok(Ok(head.columns(times, values)))
 }
 
 impl Head {

@@ -3,10 +3,12 @@
 //! Source: "Specification for the LabVIEW Measurement File (.lvm)", National Instruments. `***End_of_Header***` says where data
 //! begin; what the numbers are is told above, and nothing of it is guessed.
 
+use std::collections::HashMap;
+
 use super::cells::Form;
-use super::{Rows, cut, text_of};
+use super::{Rows, cut, few_times, text_of};
 use crate::heading::Heading;
-use crate::roles::{Role, Roles, Seen};
+use crate::roles::{Roles, Seen};
 use crate::unit::{Kind, Unit};
 use crate::{At, Error, Options, Pick};
 
@@ -94,6 +96,10 @@ fn cells(line: &[u8], form: Form) -> Vec<String> {
     form.cells(text_of(line).trim_end_matches(['\r', '\n'])).into_iter().map(std::borrow::Cow::into_owned).collect()
 }
 
+fn is_comment(name: &str) -> bool {
+    name.eq_ignore_ascii_case("comment")
+}
+
 fn is_blank(line: &[u8]) -> bool {
     line.iter().all(u8::is_ascii_whitespace)
 }
@@ -152,16 +158,11 @@ impl File {
             let line = text_of(lines[begin]);
             Error::File(format!("line {}: '{}' begins no segment: no line {END} follows", begin + 1, line.trim()))
         })?;
-        let key = |key: &str| {
-            let of = |line: &&[u8]| Some(cells(line, self.form)).filter(|cells| cells[0] == key);
-            lines[begin..end].iter().find_map(of)
-        };
         let names = lines.get(end + 1).map(|line| cells(line, self.form)).unwrap_or_default();
         let named = names.iter().any(|name| !name.is_empty()) && !names.iter().all(|name| self.form.is_data(name));
         let first = end + 1 + usize::from(named);
         let last = (first..lines.len()).find(|line| is_blank(lines[*line])).unwrap_or(lines.len());
         *at = last;
-        let count = key("Channels").and_then(|cells| cells.get(1)?.parse::<usize>().ok());
         let width = if named {
             names.len()
         } else {
@@ -170,6 +171,15 @@ impl File {
         // Channels with times of their own take two columns.
         let each = if self.columns == Columns::Multi { 2 } else { 1 };
         let most = width / each;
+        let told: HashMap<String, Vec<String>> = lines[begin..end]
+            .iter()
+            .map(|line| cells(line, self.form))
+            .map(|mut cells| (std::mem::take(&mut cells[0]), cells.split_off(1)))
+            .collect();
+        let channels = told.get("Channels").and_then(|cells| cells.first()?.parse::<usize>().ok());
+        let comments = usize::from(names.last().is_some_and(|name| is_comment(name)));
+        let beside = if each == 2 { comments } else { 1 + comments };
+        let count = channels.or(Some(width.saturating_sub(beside) / each).filter(|_| !told.contains_key("Channels")));
         let Some(count) = count.filter(|count| (1..=most.max(1)).contains(count)) else {
             return Err(Error::File(format!(
                 "line {}: a segment of {} channels does not go with {width} columns below",
@@ -178,14 +188,19 @@ impl File {
             )));
         };
         // What is told of each channel stands in the column of the channel or, by some writers, side by side.
+        let told: HashMap<String, Vec<String>> = told
+            .into_iter()
+            .map(|(name, mut cells)| {
+                if each == 2 && cells.iter().filter(|cell| !cell.is_empty()).count() <= count {
+                    cells.retain(|cell| !cell.is_empty());
+                } else if each == 2 {
+                    cells = cells.into_iter().step_by(2).collect();
+                }
+                (name, cells)
+            })
+            .collect();
         let value = |name: &str, channel: usize| {
-            let cells = key(name)?;
-            let place = if each == 2 && cells.iter().skip(1).filter(|cell| !cell.is_empty()).count() <= count {
-                cells.iter().skip(1).enumerate().filter(|(_, cell)| !cell.is_empty()).nth(channel).map(|(i, _)| i)?
-            } else {
-                channel
-            };
-            cells.get(1 + place).filter(|cell| !cell.is_empty()).cloned()
+            told.get(name).and_then(|cells| cells.get(channel)).filter(|cell| !cell.is_empty()).cloned()
         };
         let number = |name: &str, channel: usize| {
             let Some(text) = value(name, channel) else { return Ok(None) };
@@ -298,43 +313,53 @@ impl Segment {
         }
     }
 
-    /// Its columns: of times or empty, and of channels, each with its number there.
-    fn columns(&self, file: &File) -> (Seen, Vec<usize>) {
-        let place = |k: usize| if file.columns == Columns::Multi { 2 * k + 1 } else { k + 1 };
-        let places: Vec<usize> = (0..self.channels.len()).map(place).collect();
+    /// The channel in a column, from 0.
+    fn in_column(&self, file: &File, column: usize) -> Option<usize> {
+        let channel = match file.columns {
+            Columns::Multi => column.checked_sub(1).filter(|before| before % 2 == 0).map(|before| before / 2),
+            _ => column.checked_sub(1),
+        };
+        channel.filter(|channel| *channel < self.channels.len())
+    }
+
+    /// Its columns: of times or empty, and of channels.
+    fn columns(&self, file: &File) -> Seen {
         let heading = |(column, name): (usize, &String)| {
-            if let Some(k) = places.iter().position(|place| *place == column) {
-                let Channel { unit, .. } = &self.channels[k];
+            if let Some(channel) = self.in_column(file, column) {
+                let Channel { unit, .. } = &self.channels[channel];
                 // The unit stands apart from the name.
                 return if unit.is_empty() { Heading::of(name) } else { Heading::named_alone(name).with_unit(unit) };
             }
-            let channel = &self.channels[(column / 2).min(self.channels.len() - 1)];
+            // The channel that follows.
+            let is_timed = self.in_column(file, column + 1).is_some_and(|channel| self.channels[channel].is_timed);
             match file.columns {
-                _ if name.eq_ignore_ascii_case("comment") => Heading { is_text: true, ..Heading::named_alone("") },
-                Columns::No => Heading::named_alone(""),
-                _ if channel.is_timed => Heading::named_alone("X_Value").with_unit("s"),
+                _ if is_comment(name) => Heading { is_text: true, ..Heading::named_alone("") },
+                Columns::No if column == 0 => Heading::named_alone(""),
+                Columns::One | Columns::Multi if is_timed => Heading::named_alone("X_Value").with_unit("s"),
                 _ => Heading::named_alone(name),
             }
         };
         let headings: Vec<Heading> = self.names.iter().enumerate().map(heading).collect();
-        (Seen { headings, named: true, sampled: file.columns == Columns::No, rows: Vec::new() }, places)
+        Seen { headings, named: true, sampled: file.columns == Columns::No, rows: Vec::new() }
     }
 
     /// The channels by their times.
     fn read(&self, file: &File, lines: &[&[u8]], options: &Options) -> Result<Vec<(Rows, Roles)>, Error> {
-        let (seen, places) = self.columns(file);
+        let seen = self.columns(file);
         let mut options = options.clone();
-        let is_acceleration =
-            |column: &&usize| seen.headings[**column].unit.is_some_and(|Unit { kind, .. }| kind == Kind::Acceleration);
+        let is_acceleration = |column: &usize| {
+            let unit = seen.headings[*column].unit.filter(|_| self.in_column(file, *column).is_some());
+            unit.is_some_and(|Unit { kind, .. }| kind == Kind::Acceleration)
+        };
         // Each column below the heading is a channel, whatever its name says.
         if options.accelerations.is_empty() {
-            options.accelerations =
-                places.iter().filter(is_acceleration).map(|place| Pick::Number(place + 1)).collect();
+            let found = (0..seen.headings.len()).filter(is_acceleration);
+            options.accelerations = found.map(|column| Pick::Number(column + 1)).collect();
         }
         let mut parts = Vec::new();
         for roles in seen.by_time(&options)? {
             // One time for all may begin and step otherwise for each.
-            for (sampled_s, samples, roles) in self.by_rate(roles, &places, file, &options)? {
+            for Group { sampled_s, samples, roles } in self.by_rate(roles, file, &options)? {
                 let mut rows = Rows::new(file.form, &roles, &options, seen.headings.len(), sampled_s);
                 rows.may_end_early();
                 for (first, last) in &self.lines {
@@ -348,55 +373,50 @@ impl Segment {
                     });
                 }
                 parts.push((rows, roles));
+                few_times(parts.len())?;
             }
         }
         Ok(parts)
     }
 
     /// Channels by the times that the heading tells: `X0`, `Delta_X`, when each began, and how many samples there are.
-    #[expect(clippy::type_complexity, reason = "a rate, a count and what it is of")]
-    fn by_rate(
-        &self,
-        roles: Roles,
-        places: &[usize],
-        file: &File,
-        options: &Options,
-    ) -> Result<Vec<(Option<[f64; 2]>, Option<usize>, Roles)>, Error> {
-        let channel = |role: &Role| {
-            places.iter().position(|place| *place == role.column).map_or(&self.channels[0], |k| &self.channels[k])
-        };
+    fn by_rate(&self, roles: Roles, file: &File, options: &Options) -> Result<Vec<Group>, Error> {
         let first_s = self.channels.iter().filter_map(|channel| channel.date_s).fold(f64::INFINITY, f64::min);
-        let mut found: Vec<(Option<[f64; 2]>, Option<usize>, Roles)> = Vec::new();
-        for role in roles.channels.clone() {
-            let Channel { samples, is_timed, date_s, x0, delta, .. } = channel(&role);
-            let samples = if roles.time.is_some() && self.lines.len() == 1 && file.columns == Columns::One {
-                samples.filter(|samples| *samples > 1)
-            } else {
-                *samples
-            };
+        let Roles { time, channels, mut left_out, beside_others } = roles;
+        let mut groups: Vec<Group> = Vec::new();
+        for role in channels {
+            let channel = &self.channels[self.in_column(file, role.column).unwrap_or(0)];
+            let Channel { samples, is_timed, date_s, x0, delta, .. } = *channel;
             let sampled_s = if file.columns == Columns::No && options.sample_rate_hz.is_none() {
-                let Some(step) = delta.filter(|step| *step > 0.0 && *is_timed) else {
-                    return Err(Error::Columns(format!(
-                        "the heading tells no times of {}: give the sample rate",
-                        role.name
-                    )));
+                let Some(step) = delta.filter(|step| *step > 0.0 && is_timed) else {
+                    let name = role.name;
+                    return Err(Error::Columns(format!("the heading tells no times of {name}: give the sample rate")));
                 };
                 Some([x0.unwrap_or(0.0) + date_s.map_or(0.0, |date_s| date_s - first_s), step])
             } else {
                 None
             };
-            let same = |(other_s, count, _): &&mut (Option<[f64; 2]>, Option<usize>, Roles)| {
-                *other_s == sampled_s && *count == samples
-            };
-            if let Some((.., group)) = found.iter_mut().find(same) {
-                group.channels.push(role);
+            let same = |group: &&mut Group| group.sampled_s == sampled_s && group.samples == samples;
+            if let Some(group) = groups.iter_mut().find(same) {
+                group.roles.channels.push(role);
             } else {
-                let left_out = if found.is_empty() { roles.left_out.clone() } else { Vec::new() };
-                found.push((sampled_s, samples, Roles { channels: vec![role], left_out, ..roles.clone() }));
+                let left_out = std::mem::take(&mut left_out);
+                let roles = Roles { time, channels: vec![role], left_out, beside_others };
+                groups.push(Group { sampled_s, samples, roles });
             }
         }
-        Ok(found)
+        Ok(groups)
     }
+}
+
+/// Channels with the same times by the heading.
+#[derive(Debug)]
+struct Group {
+    /// Time of the first sample and between samples, where there is no column of times.
+    sampled_s: Option<[f64; 2]>,
+    /// How many there should be.
+    samples: Option<usize>,
+    roles: Roles,
 }
 
 /// Takes in some lines, of which the last may have no end.

@@ -157,14 +157,18 @@ impl Scales<'_> {
             ("Linear", _) => {
                 let offset = self.coefficient(index, "Linear_Y_Intercept")?;
                 let slope = self.coefficient(index, "Linear_Slope")?;
-                values.iter_mut().for_each(|value| *value = *value * slope + offset);
+                for value in &mut values {
+                    *value = *value * slope + offset;
+                }
             }
             ("Polynomial", _) => {
                 let count = self.number(index, "Polynomial_Coefficients_Size").map_or(Some(4), whole);
                 let count = count.ok_or_else(|| self.fault(index, "has no number of coefficients"))?;
                 let coefficients = self.list(index, "Polynomial_Coefficients", count)?;
                 let at = |x: f64| coefficients.iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient);
-                values.iter_mut().for_each(|value| *value = at(*value));
+                for value in &mut values {
+                    *value = at(*value);
+                }
             }
             ("Table", _) => {
                 let size = |name: &str| self.number(index, name).and_then(whole);
@@ -178,7 +182,9 @@ impl Scales<'_> {
                 let from = self.list(index, "Table_Pre_Scaled_Values", count)?;
                 let to = self.list(index, "Table_Scaled_Values", count)?;
                 let table = self.table(index, from, to)?;
-                values.iter_mut().for_each(|value| *value = between(&table, *value));
+                for value in &mut values {
+                    *value = between(&table, *value);
+                }
             }
             (other, _) => {
                 return Err(self.fault(
