@@ -1,6 +1,6 @@
 //! Channels with times of their own: each keeps the rate and the start that its file gives it.
 
-#![expect(clippy::cast_precision_loss, reason = "small numbers")]
+#![expect(clippy::cast_precision_loss, clippy::format_push_string, reason = "small numbers and texts")]
 
 use std::fmt::Write as _;
 use std::fs;
