@@ -5,7 +5,7 @@
 use clatter_cli::{Exit, Streams, run};
 use libfuzzer_sys::fuzz_target;
 
-const COMMANDS: [&str; 5] = ["zone", "impacts", "respond", "simulate", "spectrum"];
+const COMMANDS: [&str; 6] = ["zone", "impacts", "atlas", "respond", "simulate", "spectrum"];
 /// What writes files, or asks for work without end.
 const LEFT_OUT: [&str; 4] = ["-o", "--output", "--limit", "--impact-limit"];
 

@@ -154,7 +154,7 @@ fn the_command_below_a_worst_drop_says_the_same() {
     assert!((position_m - 0.0305).abs() < 1e-15, "{limit}");
     assert!((repeated(limit) / limit["demand"].as_f64().unwrap() - 1.0).abs() < 1e-9, "{limit}");
     let table = clatter(["assess", &path]).stdout;
-    assert_eq!(table.matches("\n  clatter respond --model=compliant ").count(), 5, "{table}");
+    assert_eq!(table.matches("\n  clatter respond --product=").count(), 5, "{table}");
 }
 
 /// A damage boundary whose acceleration leaves more room: what is told beside the demand has its unit.
@@ -178,7 +178,9 @@ fn what_stands_beside_a_demand_has_its_unit() {
         assert!(limit["other_law"].as_f64().unwrap() > 0.99 * other, "{other}: {limit}");
     }
     let table = clatter(["assess", &path]).stdout;
-    let row = table.lines().find(|line| line.starts_with("crystal ")).unwrap();
+    // Columns that the table has no room for follow below.
+    let row: Vec<&str> = table.lines().filter(|line| line.starts_with("crystal ")).collect();
+    let row = row.join(" ");
     assert!(row.matches(" gn").count() == 4 && !row.contains("m/s"), "{row}");
 }
 

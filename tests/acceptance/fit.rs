@@ -219,6 +219,34 @@ fn the_examples_of_the_help_run() {
 }
 
 /// A product file with a record of its drop.
+/// A range of the radius of gyration stands beside what was measured, is written as one, and is not known.
+#[test]
+fn a_range_of_the_radius_of_gyration_is_a_range() {
+    let dir = tempfile::tempdir().unwrap();
+    write(dir.path(), "strikes.csv", STRIKES);
+    let record = "\n[[record]]\nfile = \"strikes.csv\"\ntiming = \"1 us\"\n";
+    // The true one is 57.735 mm; the middle of the ranges is not.
+    for (range, agrees) in [(r#"["50 mm", "75 mm"]"#, true), (r#"["62 mm", "75 mm"]"#, false)] {
+        let product = write(dir.path(), "bar.toml", &(PRODUCT.replace("\"57.735 mm\"", range) + record));
+        let assessment: Value = serde_json::from_str(&clatter(["assess", &product, "--format=json"]).stdout).unwrap();
+        let drop = &assessment["measured"][0];
+        let radius = estimate(drop, "radius-of-gyration");
+        assert!((radius["value"].as_f64().unwrap() - 0.057_735).abs() < 1e-4, "{radius}");
+        assert_eq!((&radius["agrees"], &radius["stated"][1]), (&agrees.into(), &0.075.into()));
+    }
+    let product = write(dir.path(), "wide.toml", &PRODUCT.replace("\"57.735 mm\"", r#"["50 mm", "75 mm"]"#));
+    let strikes = dir.path().join("strikes.csv");
+    let (strikes, flag) = (strikes.to_str().unwrap(), format!("--product={product}"));
+    let copy = dir.path().join("copy.toml");
+    let outcome = clatter(["fit", strikes, &flag, "--timing=1us", &format!("-o{}", copy.display())]);
+    assert_eq!(outcome.exit, Exit::Done, "{}", outcome.stderr);
+    let text = fs::read_to_string(&copy).unwrap();
+    assert!(text.contains("radius_of_gyration = [\"57."), "{text}");
+    let known = clatter(["fit", strikes, &flag, "--known-gyration"]);
+    assert_eq!(known.exit, Exit::BadInput);
+    assert!(known.stderr.contains("it gives a range, 50 to 75 mm"), "{}", known.stderr);
+}
+
 fn with_record(restitution: &str, record: &str) -> String {
     PRODUCT.replace("[0.1, 0.9]", restitution) + "\n[[record]]\n" + record
 }

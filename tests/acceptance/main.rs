@@ -19,6 +19,7 @@ mod json;
 mod map;
 mod off_center;
 mod oracle;
+mod plate;
 mod products;
 mod record;
 mod respond;

@@ -51,6 +51,8 @@ fn a_record_is_shown_as_it_was_understood() {
                start            peak              at        duration velocity change
                    s            m/s2               s               s             m/s
           0.00506392         490.332      0.00600000      0.00187215        0.619892
+
+    301 lines: 1 heading, 300 rows; columns 1 (time [s]): time, 2 (acceleration [g]): acceleration
     ");
     let got = answer(["record", path.to_str().unwrap(), "--find", "--fit-pulse"]);
     assert_eq!(
@@ -70,6 +72,51 @@ fn a_record_is_shown_as_it_was_understood() {
     let large = answer(["record", path.to_str().unwrap(), "--fit-pulse", "--nominal=half-sine,80g,2ms"]);
     let tolerances = &large["channels"][0]["pulse"]["tolerances"];
     assert!(tolerances.as_array().unwrap().iter().any(|one| one["within"] == false), "{tolerances}");
+}
+
+/// Rows of one sensor, a voltage of known sensitivity, one of two records, and what every line and column was taken for.
+#[test]
+fn parts_of_a_file_are_picked() {
+    let folder = tempfile::tempdir().unwrap();
+    let sensors = half_sine("time [s],sensor,a [g]", |i, a| {
+        let t = f64::from(i) * 1e-4;
+        format!("{t:.4},top,{a:.6}\n{t:.4},floor,{:.6}", 2.0 * a)
+    });
+    let sensors = file(folder.path(), "sensors.csv", &sensors);
+    let refused = clatter(["record", sensors.to_str().unwrap()]);
+    assert_eq!(refused.exit, Exit::BadInput, "{}", refused.stderr);
+    assert!(
+        refused.stderr.contains("rows of several sensors come in turns, by column 2 (sensor): top, floor"),
+        "{}",
+        refused.stderr
+    );
+    let got = answer(["record", sensors.to_str().unwrap(), "--sensor=floor"]);
+    assert!(close(&got["channels"][0]["largest_m_s2"], 100.0 * G, 1e-9), "{got}");
+    assert_eq!(
+        (&got["account"]["rows"], &got["account"]["other_sensors"], &got["account"]["lines"]),
+        (&json!(300), &json!(300), &json!(601))
+    );
+    assert_eq!(got["account"]["columns"][1], json!({"column": "2 (sensor)", "taken_for": "sensor"}));
+
+    let volts = half_sine("time [s],CH1 [mV]", |i, a| format!("{:.4},{:.4}", f64::from(i) * 1e-4, 10.0 * a));
+    let volts = file(folder.path(), "volts.csv", &volts);
+    let refused = clatter(["record", volts.to_str().unwrap()]);
+    assert!(refused.stderr.contains("--sensitivity such as 100mV/g"), "{}", refused.stderr);
+    let got = answer(["record", volts.to_str().unwrap(), "--sensitivity=10mV/g"]);
+    assert!(close(&got["channels"][0]["largest_m_s2"], 50.0 * G, 1e-6), "{got}");
+
+    let two = plain() + "\n" + &plain().replace(",50.0", ",70.0");
+    let two = file(folder.path(), "two.csv", &two);
+    let refused = clatter(["record", two.to_str().unwrap()]);
+    assert!(
+        refused.stderr.contains("line 303 begins another record: --record=1 reads the first"),
+        "{}",
+        refused.stderr
+    );
+    let got = answer(["record", two.to_str().unwrap(), "--record=2"]);
+    assert!(close(&got["channels"][0]["largest_m_s2"], 70.0 * G, 1e-9), "{got}");
+    let none = clatter(["record", two.to_str().unwrap(), "--record=3"]);
+    assert!(none.stderr.contains("there is no record 3 in the file: there are 2 records"), "{}", none.stderr);
 }
 
 /// What is written reads back as the same record.

@@ -186,6 +186,7 @@ fn the_table_tells_what_drives_a_part() {
     let outcome = clatter(["scatter", &file(&dir), "--samples=20000"]);
     assert_eq!((outcome.exit, outcome.stderr.as_str()), (Exit::Done, ""));
     assert!(outcome.stdout.contains("Taken as equally likely all over the range: restitution"), "{}", outcome.stdout);
-    let line = outcome.stdout.lines().find(|line| line.starts_with("camera")).unwrap();
+    // Columns that the table has no room for follow below.
+    let line: String = outcome.stdout.lines().filter(|line| line.starts_with("camera")).collect();
     assert!(line.contains("height+") && line.contains('%'), "{line}");
 }

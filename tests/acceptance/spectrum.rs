@@ -79,10 +79,10 @@ fn spectrum_explains_itself() {
     Shock response spectrum: pseudo velocity in m/s, damping ratio 0 (Q = infinite)
     The limit holds: least margin 6.02060 dB at 10.0000 Hz
 
-        frequency      primary     residual      maximax     positive     negative time of peak       margin
-               Hz          m/s          m/s          m/s          m/s          m/s            s           dB
-          10.0000            0      2.00000      2.00000      2.00000      2.00000    0.0250000      6.02060
-          20.0000            0      2.00000      2.00000      2.00000      2.00000    0.0125000      6.02060
+     frequency     primary    residual     maximax    positive    negative  time of peak      margin
+            Hz         m/s         m/s         m/s         m/s         m/s             s          dB
+       10.0000           0     2.00000     2.00000     2.00000     2.00000     0.0250000     6.02060
+       20.0000           0     2.00000     2.00000     2.00000     2.00000     0.0125000     6.02060
     ");
 }
 
@@ -356,7 +356,8 @@ fn bad_records_are_told_by_file_and_line() {
         ),
         (
             "0,0\ntime,acceleration\n1,1\n",
-            "line 2: 'time,acceleration' is no line of numbers\n--skip-bad goes on without them",
+            "line 2 names columns, below numbers from line 1 on that none is named of: --record=1 reads the first lines, --record=2 \
+             those below the names",
         ),
     ] {
         let file = record(folder.path(), text);

@@ -49,7 +49,8 @@ impl ProductFile {
     /// The acceleration of a part that exceeds its rattle space is undecided: it hits its stop.
     ///
     /// # Errors
-    /// [`Error::Tolerance`] for a tolerance outside [1e-4, 0.5]; [`Error::ContactTime`] for a stiff or hard-mounted
+    /// [`Error::Given`] for a value that product files do not allow; [`Error::Tolerance`] for a tolerance outside [1e-4, 0.5];
+    /// [`Error::ContactTime`] for a stiff or hard-mounted
     /// part of a product without contact time, [`Error::Contact`] for the compliant model of one.
     pub fn assess_to(&self, accuracy: &Accuracy) -> Result<Assessment, Error> {
         self.assess_watched(accuracy, &|_, _| true)
@@ -61,7 +62,43 @@ impl ProductFile {
     /// # Errors
     /// As [`assess_to`](Self::assess_to).
     pub fn assess_watched(&self, accuracy: &Accuracy, watch: Watch<'_>) -> Result<Assessment, Error> {
+        let all: Vec<&Component> = self.components.iter().collect();
+        let components = self.assess_these(&all, accuracy, watch)?;
+        let verdict = Verdict::of(components.iter().map(|c| c.verdict));
+        Ok(Assessment { product: self.product.name.clone(), verdict, components, accuracy: *accuracy })
+    }
+
+    /// What [`assess_watched`](Self::assess_watched) says of one component, found in the same drops.
+    ///
+    /// # Errors
+    /// As [`assess_to`](Self::assess_to).
+    ///
+    /// # Examples
+    /// ```
+    /// use clatter_assess::{Accuracy, EXAMPLE, ProductFile};
+    /// let file = ProductFile::read(EXAMPLE, "example.toml")?;
+    /// let alone = file.assess_one(&file.components[1], &Accuracy::default(), &|_, _| true)?;
+    /// assert_eq!(alone, file.assess()?.components[1]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn assess_one(
+        &self,
+        component: &Component,
+        accuracy: &Accuracy,
+        watch: Watch<'_>,
+    ) -> Result<ComponentAssessment, Error> {
+        let mut found = self.assess_these(&[component], accuracy, watch)?;
+        Ok(found.remove(0))
+    }
+
+    fn assess_these(
+        &self,
+        these: &[&Component],
+        accuracy: &Accuracy,
+        watch: Watch<'_>,
+    ) -> Result<Vec<ComponentAssessment>, Error> {
         accuracy.check()?;
+        self.check()?;
         if accuracy.model == Some(Model::Compliant) && self.product.contact_time_s.is_none() {
             return Err(Error::Contact);
         }
@@ -71,28 +108,27 @@ impl ProductFile {
             }
         }
         let ranges = self.ranges(accuracy);
-        let of_one = |component| Limit::of(component).into_iter().map(move |limit| Task { component, limit });
-        let tasks: Vec<Task<'_>> = self.components.iter().flat_map(of_one).collect();
+        let tasks: Vec<Task<'_>> = these.iter().copied().flat_map(limits_of).collect();
+        let all_tasks: Vec<Task<'_>> = self.components.iter().flat_map(limits_of).collect();
         let laws: Vec<Ranges<'_>> = match ranges.model {
             Model::Compliant => [ranges.law, ranges.law.other()].map(|law| Ranges { law, ..ranges }).into(),
             _ => vec![ranges],
         };
         let worst: Vec<Vec<Worst>> = (0..laws.len())
-            .map(|n| laws[n].worst(&tasks, &|done, all| watch(n * all + done, laws.len() * all)))
+            .map(|n| laws[n].worst(&tasks, &all_tasks, &|done, all| watch(n * all + done, laws.len() * all)))
             .collect();
         let judged = |n: usize, task: &Task<'_>| -> Result<Vec<Judged>, Error> {
             laws.iter().zip(&worst).map(|(ranges, worst)| self.judge(ranges, task, &worst[n])).collect()
         };
         let mut all = tasks.iter().enumerate();
-        let mut components = Vec::with_capacity(self.components.len());
-        for component in &self.components {
+        let mut components = Vec::with_capacity(these.len());
+        for component in these {
             let count = component.limits.kinds().len();
             let one = |(n, task): (usize, &Task<'_>)| Ok(self.limit(&ranges, task, judged(n, task)?));
             let limits: Result<Vec<_>, Error> = all.by_ref().take(count).map(one).collect();
             components.push(verdict(component, limits?));
         }
-        let verdict = Verdict::of(components.iter().map(|c| c.verdict));
-        Ok(Assessment { product: self.product.name.clone(), verdict, components, accuracy: *accuracy })
+        Ok(components)
     }
 
     /// The ranges as the search takes them.
@@ -237,6 +273,11 @@ impl ProductFile {
     }
 }
 
+/// The limits of a component, each to be searched.
+fn limits_of(component: &Component) -> impl Iterator<Item = Task<'_>> {
+    Limit::of(component).into_iter().map(move |limit| Task { component, limit })
+}
+
 /// What the search by one contact law says of a limit.
 struct Judged {
     /// The drop that asks most.
@@ -336,6 +377,7 @@ fn worst_case(drop: &SingleDrop, asked: &Asked, ranges: &Ranges<'_>) -> WorstCas
         speed_m_s: drop.speed_m_s,
         restitution: drop.restitution,
         contact_time_s: drop.contact_time_s,
+        gyration_m: (!ranges.product.gyration_m.is_value()).then(|| drop.body.gyration_m()),
         frequency_hz: asked.part.map(|part| part.omega() / TAU),
         damping_ratio: asked.part.map(|part| part.damping().get()),
         position_m: asked.place.position_m,

@@ -13,9 +13,9 @@ use crate::{Component, Drop, Limit, LimitKind, Product};
 ///
 /// # Formula
 /// One instant strike of point i approaches with at most √(2E μ_i), μ = 1 + x²/ρ², and gives the place
-/// `(1 + e) u (1 + x_p x_i/ρ²)/μ_i`, largest for the level body or for lever arms of 0. With contacts that take time, a place may
-/// change its velocity from one bound to the other, and gains gτ within the contact time τ. A hysteretic contact holds at
-/// most E on its line of first loading: its force is at most √(2E) ω₁/√μ.
+/// `(1 + e) u (1 + x_p x_i/ρ²)/μ_i`, largest where the lever arm of the end is that of the place, or that of the level body.
+/// With contacts that take time, a place may change its velocity from one bound to the other, and gains gτ within the contact
+/// time τ. A hysteretic contact holds at most E on its line of first loading: its force is at most √(2E) ω₁/√μ.
 pub(crate) fn bound(
     product: &Product,
     drop: &Drop,
@@ -24,7 +24,8 @@ pub(crate) fn bound(
     law: ContactLaw,
 ) -> Option<f64> {
     let [a, b] = product.body.arms_m();
-    let rho = product.body.gyration_m();
+    // All that follows grows as the radius of gyration shrinks.
+    let rho = product.gyration_m.lo();
     let [_, fastest] = drop.speeds_m_s();
     let height = a.max(b) * drop.tilt_rad.hi().sin();
     let speed = (fastest * fastest + 2.0 * drop.gravity_m_s2 * height).sqrt(); // √(2E)
@@ -33,12 +34,17 @@ pub(crate) fn bound(
     let middle = 0.5 * (b - a);
     let places: Vec<f64> = component.ends_m().iter().map(|x| x + middle).collect();
     let ends = [-a, b];
-    let share = |place: f64, end: f64| (1.0 + place * end / (rho * rho)).abs() / (1.0 + end * end / (rho * rho)).sqrt();
+    // (1 + x l/ρ²)/√(1 + l²/ρ²) of a lever arm l from 0 to that of the level body: largest for l = x, or at its ends.
+    let share = |place: f64, end: f64| {
+        let (x, end) = (place / rho, end / rho);
+        let arm = if x * end > 0.0 && x.abs() < end.abs() { x } else { end };
+        ((1.0 + x * arm).abs() / (1.0 + arm * arm).sqrt()).max(1.0)
+    };
     let over = |of: &dyn Fn(f64) -> f64| places.iter().map(|&x| of(x)).fold(0.0, f64::max);
     let contact_s = product.contact_time_s.as_ref().map(|time| [time.lo(), time.hi()]);
     match (limit.kind, contact_s) {
         (LimitKind::VelocityChange | LimitKind::DamageBoundary, None) => {
-            let one = |place: f64| ends.iter().map(|&end| share(place, end).max(1.0)).fold(0.0, f64::max);
+            let one = |place: f64| ends.iter().map(|&end| share(place, end)).fold(0.0, f64::max);
             Some((1.0 + e) * speed * over(&one))
         }
         (LimitKind::VelocityChange | LimitKind::DamageBoundary, Some([_, longest])) => {
@@ -53,8 +59,8 @@ pub(crate) fn bound(
         (LimitKind::Acceleration, Some([shortest, _])) => {
             let hard = matches!(component.mount, crate::Mount::Hard) && law == ContactLaw::Hysteretic;
             let contact = Contact::new(law, e, shortest).ok().filter(|_| hard)?;
-            // Both ends at once; a lever arm of 0 gives every place the whole force, and is the largest for μ.
-            let one = |place: f64| ends.iter().map(|&end| share(place, end).max(1.0)).sum::<f64>();
+            // Both ends at once.
+            let one = |place: f64| ends.iter().map(|&end| share(place, end)).sum::<f64>();
             Some(speed * contact.frequency_rad_s() * over(&one))
         }
         (LimitKind::Acceleration | LimitKind::RattleSpace, _) => None,

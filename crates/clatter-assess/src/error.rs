@@ -6,6 +6,16 @@ use crate::Law;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
+    /// A value that no product has.
+    #[error("{name} is {value}; allowed: {allowed}")]
+    Given {
+        /// What it is, as product files call it.
+        name: String,
+        /// The value, in SI.
+        value: String,
+        /// What is allowed.
+        allowed: String,
+    },
     /// A number that is not finite.
     #[error("{0:?} is not a finite number")]
     Number(f64),

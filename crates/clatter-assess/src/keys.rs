@@ -51,9 +51,9 @@ pub(crate) static PRODUCT: &[Key] = &[
     key(
         "radius_of_gyration",
         false,
-        Quantity(&units::LENGTH, ["0.01 mm", "100 m"]),
-        "Radius of gyration about the center of mass (length/√12 = 0.289 length for evenly spread mass). One of three ways to \
-         give the inertia.",
+        Spread(&units::LENGTH, ["0.01 mm", "100 m"]),
+        "Radius of gyration about the center of mass (length/√12 = 0.289 length for evenly spread mass): a range where it is not \
+         known well. One of three ways to give the inertia.",
     ),
     key(
         "moment_of_inertia",
@@ -188,6 +188,7 @@ pub(crate) static COMPONENT: &[Key] = &[
         "Largest single change of the angular velocity of the product.",
     ),
     key("damage_boundary", false, Table(BOUNDARY), "Shocks at the part do damage beyond both of these alone."),
+    key("limit_source", false, Text, "Where its limits are from, such as a data sheet; the printed report tells it."),
 ];
 
 pub(crate) static BOUNDARY: &[Key] = &[

@@ -249,7 +249,7 @@ impl ProductFile {
     /// The drop and the part that a worst case names.
     pub(crate) fn worst_drop(&self, worst: &WorstCase) -> Result<(SingleDrop, Part), Error> {
         let drop = SingleDrop {
-            body: self.product.body,
+            body: worst.gyration_m.map_or(Ok(self.product.body), |rho| self.product.body_with(rho))?,
             first: worst.first,
             tilt_rad: worst.tilt_deg.to_radians(),
             flat: worst.flat,

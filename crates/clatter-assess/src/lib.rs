@@ -5,6 +5,7 @@
 
 mod assess;
 mod bound;
+mod check;
 pub mod design;
 mod drop;
 mod engine;
@@ -18,6 +19,7 @@ mod portrait;
 mod product;
 mod quantity;
 mod read;
+mod repeat;
 pub mod scatter;
 mod schema;
 mod search;
@@ -34,10 +36,11 @@ pub use drop::{Model, SingleDrop};
 pub use engine::{Answer, Part, answer, respond};
 pub use error::Error;
 pub use fault::{Fault, Faults};
-pub use portrait::{Curve, Portrait};
+pub use portrait::{Changes, Curve, Point, Portrait};
 pub use product::{Boundary, Component, Damping, Drop, Fall, First, Limits, Mount, Product, ProductFile, RecordFile};
 pub use quantity::{Limit, LimitKind, Unit};
 pub use read::LARGEST_FILE;
+pub use repeat::repeat;
 pub use schema::schema;
 pub use search::Watch;
 pub use slip::{Slip, outside, slip};

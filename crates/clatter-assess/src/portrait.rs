@@ -1,22 +1,56 @@
 //! What a page shows of a part beside its verdict: its response in the worst drop, its demand over the tilt, its safe
 //! places, what would make it safe.
+//!
+//! Curves, places and changes are taken from one set of drops over all tilts, each followed once for all parts. What they ask at a
+//! part's own place is held beside what the assessment says there, and all else is scaled alike.
+
+mod changes;
+mod curves;
+mod drops;
+mod scale;
+mod zone;
 
 use clatter::End;
 use clatter_shock::{State, Suspension};
 use rayon::prelude::*;
 
-use crate::design::{Bounds, Remedies};
-use crate::drop::{Followed, Motion};
+use crate::design::{Bounds, Change, Lever};
+use crate::drop::{Followed, Model, Motion, SingleDrop, Until};
 use crate::engine::Felt;
-use crate::search::{Ranges, Task};
+use crate::search::{Ranges, fastest_rad_s};
 use crate::shock::Shock;
 use crate::{
-    Accuracy, Assessment, Component, Drop, Error, Law, Limit, LimitAssessment, LimitKind, ProductFile, Spread, Unit,
-    Verdict,
+    Assessment, Component, ComponentAssessment, ContactLaw, Error, Limit, LimitAssessment, LimitKind, Part,
+    ProductFile, Unit, Verdict,
 };
+use changes::{Failing, Shared};
+use drops::{Drops, Places, corners, parts, tilts};
+use scale::Scale;
 
 /// Points (x, y) of a line.
 pub type Curve = Vec<(f64, f64)>;
+
+/// What a drop asks of a part.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Point {
+    /// The tilt that it stands at, in rad; a drop that lands as one is followed without it.
+    pub tilt_rad: f64,
+    /// The drop, which was followed.
+    pub drop: SingleDrop,
+    /// The place of the part, and its suspension where that is asked for.
+    pub part: Part,
+    /// The demand as a share of what is allowed.
+    pub share: f64,
+}
+
+/// What would make a part hold with a margin of 10 %, by the drops of the pictures. `clatter design` assesses such changes.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Changes {
+    /// Each is enough alone.
+    pub enough: Vec<Change>,
+    /// Those that are not enough alone, with the values between which they were tried.
+    pub not: Vec<(Lever, [f64; 2])>,
+}
 
 /// A part to be drawn.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,12 +59,14 @@ pub struct Portrait {
     pub history: Curve,
     /// When the ends strike in that drop, in s.
     pub impacts_s: Vec<f64>,
-    /// Tilt (rad) and the most that the tightest limit is asked there, a curve for each end that may touch first.
-    pub over_tilt: Vec<(End, Curve)>,
-    /// Where the middle of the part could be, and every limit hold in every drop, in m from the middle of the product.
+    /// By tilt, the drops that ask most of the tightest limit of those followed: a curve for each end that may touch first.
+    pub over_tilt: Vec<(End, Vec<Point>)>,
+    /// Where the middle of the part could be, and every limit hold in the drops that were followed, in m from the middle of the
+    /// product.
     pub zone_m: Option<[f64; 2]>,
-    /// The smallest changes that make it safe with a margin of 10 %, within [`Bounds::default`]; none for a part that is safe.
-    pub remedies: Option<Remedies>,
+    /// Changes within [`Bounds::default`]; none for a part that is safe, and for one of which the assessment does not know how much
+    /// may be asked.
+    pub changes: Option<Changes>,
 }
 
 /// Points of a history between two strikes and after the last, at least; in a period of the part, as far as there are
@@ -40,41 +76,61 @@ const IN_A_PERIOD: f64 = 16.0;
 const MOST_POINTS: f64 = 12_000.0;
 /// Margin that changes are to leave.
 const MARGIN: f64 = 0.1;
-/// Steps of a curve over the tilt.
-const EVEN_TILTS: u32 = 40;
-/// Places along the product that are assessed for the zone.
-const PLACES: u32 = 33;
 
 impl ProductFile {
     /// Portraits of all components of an assessment of this file.
     ///
-    /// The curves over the tilt take the largest over the ends of the ranges of restitution and contact time, at the
-    /// highest speed, and over those of the worst case. Zones are
-    /// interpolated between 33 places: the demand is convex along the bar (a largest absolute value of functions linear
-    /// in the place), so that the zone shown lies within the true one.
-    ///
-    /// # Errors
-    /// As [`ProductFile::assess`].
-    pub fn portraits(&self, assessment: &Assessment) -> Result<Vec<Portrait>, Error> {
-        let zones = self.zones(&assessment.accuracy)?;
-        let mut remedies = vec![None; self.components.len()];
-        for part in self.remedies(assessment, &Bounds::default(), MARGIN)? {
-            // Parts that are safe with less stay as they are.
-            if assessment.components[part.component].verdict != Verdict::Safe {
-                let component = part.component;
-                remedies[component] = Some(part);
-            }
-        }
-        let shown = self.shown()?;
-        let ranges = Ranges { drop: &shown, ..self.ranges(&assessment.accuracy) };
-        let each = self.components.par_iter().zip(&assessment.components).zip(zones).zip(remedies);
-        each.map(|(((component, assessed), zone_m), remedies)| {
-            let tightest = assessed.tightest();
+    /// # Method
+    /// Drops at some forty tilts with either end first are followed until the product lands again, or past the peak of the worst
+    /// cases: at the highest speed and the ends of the ranges of restitution and contact time. All parts are asked in the same drops.
+    /// The curve over the tilt holds besides the drops with the speed, restitution and contact time of the worst case, and the worst
+    /// case itself. Safe places and changes are those where no drop asks more than at the part's own place, but for what the
+    /// assessment leaves room for there: they are as good as these drops, and an assessment decides.
+    /// What is not answered is not drawn.
+    #[must_use]
+    pub fn portraits(&self, assessment: &Assessment) -> Vec<Portrait> {
+        let ranges = self.ranges(&assessment.accuracy);
+        let (tilts, until) = (tilts(&ranges), self.until(assessment));
+        // Where the file names no contact law a verdict counts with both of them.
+        let laws = match (ranges.model, self.product.contact_law) {
+            (Model::Compliant, None) => vec![ranges.law, ranges.law.other()],
+            _ => vec![ranges.law],
+        };
+        let of_law = |&law: &ContactLaw| {
+            let ranges = Ranges { law, ..ranges };
+            Drops::new(&ranges, &tilts, &corners(&ranges), until)
+        };
+        let drops: Vec<Drops> = laws.iter().map(of_law).collect();
+        let fastest = self.components.iter().map(fastest_rad_s).fold(0.0, f64::max);
+        let places = zone::grid(self.product.body.length_m());
+        let grids: Vec<_> = drops.iter().map(|drops| Places::new(drops, places.clone(), fastest)).collect();
+        let bounds = Bounds::default();
+        let (file, accuracy) = (self, assessment.accuracy);
+        let (tilts, laws, grids, changed) = (&tilts[..], &laws[..], &grids[..], Default::default());
+        let shared = Shared { file, accuracy, bounds: &bounds, tilts, until, laws, grids, changed }.with_room();
+        let each = self.components.par_iter().zip(&assessment.components);
+        let portrait = |(component, assessed)| {
+            let tightest: &LimitAssessment = ComponentAssessment::tightest(assessed);
             let (history, impacts_s) = self.history(tightest, &ranges).unwrap_or_default();
-            let over_tilt = Self::over_tilt(&ranges, component, tightest);
-            Ok(Portrait { history, impacts_s, over_tilt, zone_m, remedies })
-        })
-        .collect()
+            let over_tilt = curves::over_tilt(self, &ranges, &drops[0], (component, tightest), tilts, until);
+            let fastest = bounds.frequency_factor * fastest_rad_s(component);
+            let ends: Vec<_> = drops.iter().map(|drops| Places::new(drops, component.ends_m(), fastest)).collect();
+            let (mut zone_m, mut changes) = (None, None);
+            if let Some(scales) = scales(component, assessed, &ends) {
+                zone_m = zone::zone(grids, component, assessed, &scales, 0.0);
+                let failing = Failing { component, assessed, scales: &scales, ends: &ends };
+                changes = (assessed.verdict != Verdict::Safe).then(|| shared.changes(&failing));
+            }
+            Portrait { history, impacts_s, over_tilt, zone_m, changes }
+        };
+        each.map(portrait).collect()
+    }
+
+    /// Past the peaks of the worst cases that come after the product has landed again.
+    fn until(&self, assessment: &Assessment) -> Until {
+        let worst = assessment.components.iter().flat_map(|c| &c.limits).filter_map(|l| l.worst_case.as_ref());
+        let late = worst.filter(|worst| self.worst_drop(worst).is_ok_and(|(drop, _)| worst.time_s > drop.clear_s()));
+        late.map(|worst| worst.time_s).reduce(f64::max).map_or(Until::Lands, Until::Past)
     }
 
     fn history(&self, limit: &LimitAssessment, ranges: &Ranges<'_>) -> Result<(Curve, Vec<f64>), Error> {
@@ -109,64 +165,19 @@ impl ProductFile {
         };
         Ok((history, impacts.into_iter().filter(|t| *t <= end).collect()))
     }
+}
 
-    /// The drops with one end first over the tilts that are shown; one stated tilt is shown among its neighbors.
-    fn shown(&self) -> Result<Drop, Error> {
-        let tilt = &self.drop.tilt_rad;
-        if !tilt.is_value() {
-            return Ok(self.drop);
-        }
-        let [lo, hi] = [0.2 * tilt.lo(), (2.0 * tilt.hi()).clamp(1f64.to_radians(), 30f64.to_radians())];
-        Ok(Drop { tilt_rad: Spread::new(lo, hi, Law::Range)?, ..self.drop })
-    }
-
-    fn over_tilt(ranges: &Ranges<'_>, component: &Component, limit: &LimitAssessment) -> Vec<(End, Curve)> {
-        let Some(asked) = Limit::of(component).into_iter().find(|l| l.kind == limit.limit) else { return Vec::new() };
-        let Some(worst) = &limit.worst_case else { return Vec::new() };
-        let task = Task { component, limit: asked };
-        let [lo, hi] = [ranges.drop.tilt_rad.lo(), ranges.drop.tilt_rad.hi()];
-        let mut tilts: Vec<f64> =
-            (0..=EVEN_TILTS).map(|i| lo + f64::from(i) / f64::from(EVEN_TILTS) * (hi - lo)).collect();
-        tilts.push(worst.tilt_deg.to_radians());
-        tilts.sort_by(f64::total_cmp);
-        let most = |first: End, tilt: f64| (tilt, limit.allowed * ranges.most_at_tilt(&task, worst, first, tilt));
-        let curve = |first| tilts.par_iter().map(|&tilt| most(first, tilt)).collect();
-        ranges.drop.first_ends().iter().map(|&first| (first, curve(first))).collect()
-    }
-
-    /// The safe places of every component, as far as it is within the product.
-    fn zones(&self, accuracy: &Accuracy) -> Result<Vec<Option<[f64; 2]>>, Error> {
-        let length = self.product.body.length_m();
-        let place =
-            |c: &Component, i: u32| (length - c.extent_m).max(0.0) * (f64::from(i) / f64::from(PLACES - 1) - 0.5);
-        let moved = |c: &Component| {
-            let c = c.clone();
-            let at = move |i| Spread::value(place(&c, i)).map(|position_m| Component { position_m, ..c.clone() });
-            (0..PLACES).map(at)
+/// Of each limit and contact law, what the assessment says beside the drops; none where it does not know how much may be asked.
+fn scales(component: &Component, assessed: &ComponentAssessment, ends: &[Places<'_>]) -> Option<Vec<Vec<Scale>>> {
+    let of = |(limit, found): (&Limit, &LimitAssessment)| {
+        let parts = parts(component, limit, found.worst_case.as_ref());
+        let here = |ends: &Places<'_>| {
+            let at: Vec<usize> = (0..ends.positions_m.len()).collect();
+            ends.most(&ends.drops.counted(), &at, limit, &parts)
         };
-        let components = self.components.iter().flat_map(moved).collect::<Result<Vec<_>, _>>()?;
-        let all = Self { components, ..self.clone() };
-        let assessed = all.assess_to(accuracy)?;
-        let zone = |(component, places): (&Component, &[crate::ComponentAssessment])| {
-            // An undecided place is none to recommend.
-            let used = |c: &crate::ComponentAssessment| match c.verdict {
-                Verdict::Undecided => (1.0 / (1.0 + c.tightest().room()) - 1.0).max(1e-3),
-                _ => 1.0 / (1.0 + c.tightest().room()) - 1.0,
-            };
-            let margins: Vec<f64> = places.iter().map(used).collect();
-            let safe = |m: &f64| *m <= 0.0;
-            let (first, last) = (margins.iter().position(safe)?, margins.iter().rposition(safe)?);
-            let at = |i: usize| place(component, u32::try_from(i).unwrap_or(PLACES));
-            let cross = |inner: usize, outer: usize| {
-                let (m, n) = (margins[inner], margins[outer]);
-                at(inner) + (at(outer) - at(inner)) * (-m / (n - m))
-            };
-            let lo = if first == 0 { at(0) } else { cross(first, first - 1) };
-            let hi = if last + 1 == margins.len() { at(last) } else { cross(last, last + 1) };
-            Some([lo, hi])
-        };
-        Ok(self.components.iter().zip(assessed.components.chunks(PLACES as usize)).map(zone).collect())
-    }
+        Scale::of(assessed, found, &ends.iter().map(here).collect::<Vec<_>>())
+    };
+    Limit::of(component).iter().zip(&assessed.limits).map(of).collect()
 }
 
 /// The motion of a part that is driven by small velocity shocks, sampled and right at every shock.

@@ -26,8 +26,10 @@ pub struct ProductFile {
 pub struct Product {
     /// As the file names it.
     pub name: String,
-    /// Length, center of mass and radius of gyration.
+    /// Length, center of mass and radius of gyration; where that has a range, of the middle of it.
     pub body: Body,
+    /// Radius of gyration about the center of mass, in m.
+    pub gyration_m: Spread,
     /// Mass, where the file gives it: it cancels out of every answer.
     pub mass_kg: Option<f64>,
     /// Coefficient of restitution of its ends, within [0, 1].
@@ -43,6 +45,19 @@ impl Product {
     #[must_use]
     pub fn law(&self) -> ContactLaw {
         self.contact_law.unwrap_or_default()
+    }
+    /// The body with this radius of gyration, in m.
+    ///
+    /// # Errors
+    /// [`Error::Bar`] unless it is finite and positive.
+    pub fn body_with(&self, gyration_m: f64) -> Result<Body, Error> {
+        let [a, b] = self.body.arms_m();
+        Ok(Body::off_center(a, b, gyration_m)?)
+    }
+    /// The body at `share` in [0, 1] of the range of its radius of gyration.
+    pub(crate) fn body_at(&self, share: f64) -> Body {
+        // Both ends of the range were checked as it was read.
+        self.body_with(self.gyration_m.at(share)).unwrap_or(self.body)
     }
 }
 
@@ -90,6 +105,8 @@ pub struct Component {
     pub mount: Mount,
     /// What it stands.
     pub limits: Limits,
+    /// Where its limits are from, as the file tells it.
+    pub limit_source: Option<String>,
 }
 
 /// How a part is held.
@@ -227,12 +244,22 @@ impl Product {
         2.0 * position_m / self.body.length_m()
     }
     /// Inertia ratio (L² − ρ²)/(L² + ρ²) of the product; off center ±√(q_a q_b), that of the symmetric bar with the
-    /// same clatter.
+    /// same clatter; of the middle of the range of the radius of gyration.
     #[must_use]
     pub fn inertia_ratio(&self) -> f64 {
-        let [a, b] = self.body.inertia_ratios();
-        (a * b).sqrt().copysign(a)
+        ratio(&self.body)
     }
+    /// The same at `share` in [0, 1] of the range of the radius of gyration.
+    #[must_use]
+    pub fn inertia_ratio_at(&self, share: f64) -> f64 {
+        ratio(&self.body_at(share))
+    }
+}
+
+/// Inertia ratio of the symmetric bar with the same clatter.
+fn ratio(body: &Body) -> f64 {
+    let [a, b] = body.inertia_ratios();
+    (a * b).sqrt().copysign(a)
 }
 
 impl Drop {

@@ -11,11 +11,12 @@ use clatter_flight::{Body, ContactLaw};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use crate::check::{FARTHEST_CENTER, GYRATION};
 use crate::fault::{Fault, Faults};
 use crate::keys::{self, Key, Kind};
 use crate::slip;
 use crate::units;
-use crate::{Drop, Fall, First, Product, ProductFile};
+use crate::{Drop, Fall, First, Product, ProductFile, Spread};
 use quantities::written;
 
 /// A file of more bytes is refused unread.
@@ -276,7 +277,7 @@ impl Reader {
         let restitution = self.spread(section, "restitution");
         let contact_time = self.spread(section, "contact_time");
         let contact_law = self.choice(section, "contact_law");
-        let gyration = self.quantity(section, "radius_of_gyration");
+        let gyration = self.spread(section, "radius_of_gyration");
         let moment = self.quantity(section, "moment_of_inertia");
         let center = self.quantity(section, "center_of_mass");
         let masses = self.masses(section);
@@ -290,11 +291,10 @@ impl Reader {
                 }
                 return None;
             };
-            (center.clone(), At { value: (moment.value / mass.value).sqrt(), span: moment.span.clone() })
+            (center.clone(), single((moment.value / mass.value).sqrt(), moment.span.clone())?)
         } else if let Some(masses) = &masses {
             let (center_m, gyration_m) = center_and_gyration(&masses.value);
-            let at = |value| At { value, span: masses.span.clone() };
-            (Some(at(center_m)), at(gyration_m))
+            (Some(At { value: center_m, span: masses.span.clone() }), single(gyration_m, masses.span.clone())?)
         } else {
             (center.clone(), gyration?)
         };
@@ -303,10 +303,16 @@ impl Reader {
             self.outside(section, length_m);
         }
         let total = masses.map(|m| m.value.iter().map(mass_of).sum());
-        let body = self.body(length_m, center_m, &gyration)?;
+        let ends = [gyration.value.lo(), gyration.value.hi()];
+        for end in &ends[..if gyration.value.is_value() { 0 } else { 2 }] {
+            self.body(length_m, center_m.clone(), &At { value: *end, span: gyration.span.clone() })?;
+        }
+        let middle = At { value: gyration.value.at(0.5), span: gyration.span.clone() };
+        let body = self.body(length_m, center_m, &middle)?;
         Some(Product {
             name: name?,
             body,
+            gyration_m: gyration.value,
             mass_kg: mass.map(|m| m.value).or(total),
             restitution: restitution?.value,
             contact_time_s: contact_time.map(|t| t.value),
@@ -332,7 +338,7 @@ impl Reader {
     fn body(&mut self, length_m: f64, center: Option<At<f64>>, gyration: &At<f64>) -> Option<Body> {
         let center_m = center.as_ref().map_or(0.0, |c| c.value);
         let half = 0.5 * length_m;
-        if center_m.abs() > 0.45 * length_m {
+        if center_m.abs() > FARTHEST_CENTER * length_m {
             let span = center.map_or(0..0, |c| c.span);
             let message = format!(
                 "the center of mass is {} mm from the middle of a product of {} mm",
@@ -342,9 +348,8 @@ impl Reader {
             self.fault(span, message, "this place", "allowed: within 0.45 of the length from the middle");
             return None;
         }
-        // Less mass at the ends than this no product has; more beyond them neither.
-        let ratio = gyration.value / length_m;
-        if !(0.05..=2.0).contains(&ratio) {
+        let [least, most] = GYRATION;
+        if !(least..=most).contains(&(gyration.value / length_m)) {
             let message =
                 format!("the radius of gyration is {} mm in a product of {} mm", mm(gyration.value), mm(length_m));
             self.fault(gyration.span.clone(), message, "from this", "allowed: from 0.05 to 2 times the length");
@@ -435,6 +440,11 @@ fn shown(text: &str) -> String {
 
 fn shortened(text: &str) -> String {
     text.chars().take(40).collect()
+}
+
+/// A radius of gyration that was worked out; none where that is no number, which is told otherwise.
+fn single(value: f64, span: Range<usize>) -> Option<At<Spread>> {
+    Spread::value(value).ok().map(|value| At { value, span })
 }
 
 fn mm(length_m: f64) -> f64 {

@@ -15,13 +15,12 @@ mod ranges;
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use clatter::End;
 use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
 use crate::drop::{Followed, SingleDrop, Until};
 use crate::engine::{Answer, Felt, Part, once};
-use crate::{Component, Error, Limit, LimitKind, Mount, WorstCase};
+use crate::{Component, Error, Limit, LimitKind, Mount};
 use climb::{CLIMBS, EDGES_REACH, EDGES_TRIES, LATE_REACH, LATE_TRIES, NEAR, starts};
 use ranges::{DAMPING, FREQUENCY, RESTITUTION};
 pub(crate) use ranges::{Place, Ranges};
@@ -150,9 +149,10 @@ const WAVE: usize = 64;
 const TRIES: usize = 8;
 
 impl Ranges<'_> {
-    /// The worst of each task; tasks of one component follow one another.
-    pub(crate) fn worst(&self, tasks: &[Task<'_>], watch: Watch<'_>) -> Vec<Worst> {
-        let steps = self.tilt_steps(tasks);
+    /// The worst of each task; tasks of one component follow one another. They are searched in the drops in which `all_tasks` are,
+    /// so that some of them alone have the same worst drops.
+    pub(crate) fn worst(&self, tasks: &[Task<'_>], all_tasks: &[Task<'_>], watch: Watch<'_>) -> Vec<Worst> {
+        let steps = self.tilt_steps(all_tasks);
         let mut all =
             AllAsked { found: vec![Vec::new(); tasks.len()], refused: None, later: vec![0.0; tasks.len()], drops: 0 };
         let grid: Vec<(u32, Place)> = (0..).zip(self.grid(steps)).collect();
@@ -347,7 +347,7 @@ impl Ranges<'_> {
         others: u32,
         above: f64,
     ) -> Result<Option<Asked>, Error> {
-        let [.., frequency, damping] = self.free(task);
+        let free = self.free(task);
         let end = if task.limit.kind == LimitKind::Acceleration { 1.0 } else { 0.0 };
         let mut worst = Self::in_drop(task, &place.with(FREQUENCY, end), felt, above)?;
         let mut ask = |place: &Place| -> Result<(), Error> {
@@ -355,11 +355,11 @@ impl Ranges<'_> {
             worst = Self::in_drop(task, place, felt, above)?.or(worst);
             Ok(())
         };
-        for n in 0..if frequency { others } else { 0 } {
+        for n in 0..if free[FREQUENCY] { others } else { 0 } {
             let share = (GOLDEN * f64::from(k * others + n)).fract();
             ask(&place.with(FREQUENCY, share))?;
         }
-        if damping {
+        if free[DAMPING] {
             ask(&place.with(FREQUENCY, end).with(DAMPING, 1.0))?;
         }
         Ok(worst)
@@ -425,43 +425,10 @@ impl Ranges<'_> {
         let asked = task.component.ends_m().into_iter().filter_map(of);
         asked.map(|asked| asked.answer.utilization()).fold(0.0, f64::max)
     }
-
-    /// The largest utilization at one tilt with one end first: at the values of a worst case, and at the ends of the ranges of
-    /// restitution and contact time.
-    pub(crate) fn most_at_tilt(&self, task: &Task<'_>, worst: &WorstCase, first: End, tilt_rad: f64) -> f64 {
-        let found = self.place_of(task.component, worst);
-        let values = |axis: usize| {
-            let own = found.shares[axis];
-            if self.free(task)[axis] { vec![own, 0.0, 1.0] } else { vec![own] }
-        };
-        let mut most = 0.0_f64;
-        for speed in [found.shares[1], 1.0] {
-            for restitution in values(2) {
-                for contact in values(3) {
-                    let [.., frequency, damping] = found.shares;
-                    let shares = [0.0, speed, restitution, contact, frequency, damping];
-                    let place = Place { first, shares, ..found };
-                    let drop = SingleDrop { tilt_rad, flat: false, ..self.single(&place) };
-                    let drop = SingleDrop { flat: drop.lands_as_one(self.merge_s), ..drop };
-                    let followed = Followed::until(&drop, self.model, self.tolerance.max(0.02), Until::Over);
-                    let Ok(followed) = followed else { continue };
-                    for position_m in task.component.ends_m() {
-                        let Ok(felt) = Felt::new(&followed, position_m) else { continue };
-                        let place = Place { position_m, ..place };
-                        let found = Self::in_drop(task, &place, &felt, most).ok().flatten();
-                        let others = self.most(task, &place, &felt, 0, FREQUENCIES_LATE, most).ok().flatten();
-                        let all = found.into_iter().chain(others).map(|asked| asked.answer.utilization());
-                        most = all.fold(most, f64::max);
-                    }
-                }
-            }
-        }
-        most
-    }
 }
 
 /// The fastest that a part moves by itself; of one that is mounted rigidly no response is asked for.
-fn fastest_rad_s(component: &Component) -> f64 {
+pub(crate) fn fastest_rad_s(component: &Component) -> f64 {
     let Mount::Suspended { frequency_hz, damping } = component.mount else { return 0.0 };
     let [_, most] = damping.ratios();
     TAU * frequency_hz.hi() * if most > 1.0 { most + (most * most - 1.0).sqrt() } else { 1.0 }

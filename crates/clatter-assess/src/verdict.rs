@@ -171,6 +171,8 @@ pub struct WorstCase {
     pub restitution: f64,
     /// How long a lone contact takes; null where that is not known.
     pub contact_time_s: Option<f64>,
+    /// Radius of gyration, in m; null where the file gives one value.
+    pub gyration_m: Option<f64>,
     /// Natural frequency of the part; null for a hard-mounted one and where it does not matter.
     pub frequency_hz: Option<f64>,
     /// Its damping ratio, likewise.

@@ -4,8 +4,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use clatter::End;
 use clatter_assess::{
-    Accuracy, Answer, ContactLaw, Limit, LimitAssessment, LimitKind, Model, Part, ProductFile, SingleDrop, Verdict,
-    answer,
+    Accuracy, Answer, ContactLaw, Limit, LimitAssessment, LimitKind, Limits, Model, Part, ProductFile, SingleDrop,
+    Spread, Verdict, answer, scatter,
 };
 use clatter_flight::Body;
 use clatter_shock::{DampingRatio, Suspension};
@@ -439,5 +439,68 @@ rattle_space = "500 mm"
         for (limit, brute) in limits(&text).iter().zip(brute) {
             close(limit.demand.expect("a demand"), brute, 2e-3);
         }
+    }
+}
+
+/// A part near the end of a product whose radius of gyration is known to ± 15 %.
+const GYRATION: &str = r#"
+product = { name = "Bar", length = "140 mm", radius_of_gyration = ["35 mm", "47 mm"], restitution = 0.4, contact_time = "0.3 ms", contact_law = "hysteretic" }
+drop = { height = "1 m", tilt = ["1 deg", "8 deg"] }
+component = [{ name = "board", position = "50 mm", natural_frequency = "230 Hz", damping_ratio = 0.05, acceleration_limit = "900 gn" }]
+"#;
+
+/// The worst of a range of radii of gyration is at least that of every radius in it, and is one of a product that has it.
+#[test]
+fn the_worst_radius_of_gyration_counts() {
+    let told = only(GYRATION);
+    let demand = told.demand.unwrap();
+    let with_radius = |mm: f64| only(&with(GYRATION, r#"["35 mm", "47 mm"]"#, &format!("\"{mm} mm\""))).demand.unwrap();
+    for mm in [35.0, 37.0, 39.5, 41.0, 43.0, 45.5, 47.0] {
+        let one = with_radius(mm);
+        assert!(one <= demand * (1.0 + told.uncertainty), "{mm} mm asks for {one}, the range for {demand}");
+    }
+    let worst = told.worst_case.unwrap().gyration_m.unwrap();
+    assert!((0.035..=0.047).contains(&worst), "{worst}");
+    close(with_radius(1e3 * worst), demand, 0.01);
+    assert!(with_radius(47.0) < 0.9 * demand, "it would not show here");
+}
+
+/// What no product file says is refused of a product that is built in code as well, by its name and its value.
+#[test]
+fn products_built_in_code_obey_the_rules_of_files() {
+    type Change = fn(&mut ProductFile);
+    let changes: [(Change, &str); 10] = [
+        (|file| file.components.clear(), "number of components is 0; allowed: at least 1"),
+        (|file| file.drop.tilt_rad = Spread::value(0.7).unwrap(), "tilt is 0.7 rad; allowed: from 0 deg to 30 deg"),
+        (
+            |file| file.components[0].extent_m = -0.02,
+            "extent of component \"board\" is -0.02 m; allowed: from 0 mm to 100 m",
+        ),
+        (|file| file.product.restitution = Spread::value(1.7).unwrap(), "restitution is 1.7; allowed: from 0 to 1"),
+        (|file| file.drop.gravity_m_s2 = f64::NAN, "gravity is NaN m/s2; allowed: from 0 gn to 100 gn"),
+        (
+            |file| file.components[0].limits = Limits::default(),
+            "number of limits of component \"board\" is 0; allowed: at least 1",
+        ),
+        (|file| file.product.mass_kg = Some(-1.0), "mass is -1 kg; allowed: from 1 mg to 1000 kg"),
+        (
+            |file| file.components[0].position_m = Spread::value(0.071).unwrap(),
+            "reach of component \"board\" is 0.071 m; allowed: up to half of the product's length",
+        ),
+        (
+            |file| file.product.gyration_m = Spread::value(0.3).unwrap(),
+            "radius_of_gyration is 0.3 m; allowed: from 0.05 to 2 times the length",
+        ),
+        (
+            |file| file.product.contact_time_s = Some(Spread::value(0.0).unwrap()),
+            "contact_time is 0 s; allowed: from 1 us to 100 ms",
+        ),
+    ];
+    for (change, message) in changes {
+        let mut file = read(GYRATION);
+        change(&mut file);
+        assert_eq!(file.assess().expect_err(message).to_string(), message);
+        let settings = scatter::Settings { samples: 10, seed: 1, confidence: 0.95, merge_s: 1e-3 };
+        assert_eq!(scatter::Sampler::new(&file, settings).expect_err(message).to_string(), message);
     }
 }

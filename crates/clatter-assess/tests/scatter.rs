@@ -157,6 +157,20 @@ fn the_contact_time_may_vary() {
     half_survives(&body, &drop, &part, Input::CriticalAcceleration(0));
 }
 
+/// Without gravity the second strike asks most of the middle, (1 − q)/2 (1 + e)(1 + q (1 + e)) v0: the more, the larger the radius
+/// of gyration is.
+#[test]
+fn the_radius_of_gyration_may_vary() {
+    let at = |rho: f64| {
+        let q = (70.0 * 70.0 - rho * rho) / (70.0 * 70.0 + rho * rho);
+        0.5 * (1.0 - q) * 1.25 * (1.0 + q * 1.25) * 4.0
+    };
+    let body = "radius_of_gyration = { uniform = [\"25 mm\", \"50 mm\"] }\nrestitution = 0.25";
+    let drop = format!("speed = \"4 m/s\"\ntilt = \"0.05 deg\"\n{FREE}");
+    let part = format!("position = \"0 mm\"\nmount = \"hard\"\nvelocity_change_limit = \"{} m/s\"", at(37.5));
+    half_survives(body, &drop, &part, Input::Gyration);
+}
+
 const SPREAD: &str = "height = { normal = [\"1 m\", \"0.2 m\"], range = [\"0.5 m\", \"1.5 m\"] }\n\
     tilt = { triangular = [\"1 deg\", \"2 deg\", \"4 deg\"] }\nfirst = \"either\"";
 const BODY: &str = "radius_of_gyration = \"38 mm\"\nrestitution = 0.3";

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use clap::ValueHint;
 use clatter_assess::fit::MeasuredDrop;
 use clatter_assess::units::Quantity;
-use clatter_assess::{Accuracy, Assessment, LARGEST_FILE, ProductFile, Verdict};
+use clatter_assess::{Accuracy, Assessment, Component, ComponentAssessment, LARGEST_FILE, ProductFile, Verdict};
 use clatter_report::Pages;
 use serde::Serialize;
 
@@ -126,9 +126,11 @@ impl Args {
                 let named = self.products.iter().zip(all).enumerate();
                 streams.json(&named.map(|(i, (path, one))| answer(i, Some(path), one)).collect::<Vec<_>>())
             }
-            (Format::Table, [one]) => table::of_one(&files[0], one, streams.out)
-                .and_then(|()| measured::table(&files[0], &drops[0], streams.out))
-                .map_err(Failure::Answer),
+            (Format::Table, [one]) => {
+                table::of_one((self.products[0].to_str().unwrap_or("-"), &files[0]), one, streams.out)
+                    .and_then(|()| measured::table(&files[0], &drops[0], streams.out))
+                    .map_err(Failure::Answer)
+            }
             (Format::Table, all) => table::side_by_side(&self.products, all, streams.out).map_err(Failure::Answer),
         };
         files.iter().zip(&drops).for_each(|(file, drops)| measured::warn(file, drops, streams));
@@ -154,7 +156,6 @@ impl Args {
         let drawing = Counted::begin("drawing", 0);
         let portraits = file.portraits(assessment);
         drop(drawing);
-        let portraits = portraits.map_err(|error| Failure::Product(format!("error: {error}")))?;
         let name = self.products[0].file_name().map_or(&*self.products[0], Path::new);
         let path = text::path(name);
         let date = self.date.as_deref();
@@ -200,6 +201,19 @@ fn date(text: &str) -> Result<String, &'static str> {
 pub(crate) fn watched(file: &ProductFile, accuracy: &Accuracy) -> Result<Assessment, clatter_assess::Error> {
     let search = Counted::begin("searching", 0);
     file.assess_watched(accuracy, &|done, all| {
+        search.of(done, all);
+        budget::go_on()
+    })
+}
+
+/// The same of one part alone.
+pub(crate) fn watched_one(
+    file: &ProductFile,
+    component: &Component,
+    accuracy: &Accuracy,
+) -> Result<ComponentAssessment, clatter_assess::Error> {
+    let search = Counted::begin("searching", 0);
+    file.assess_one(component, accuracy, &|done, all| {
         search.of(done, all);
         budget::go_on()
     })

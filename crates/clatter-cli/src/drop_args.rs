@@ -10,7 +10,7 @@ use clatter_flight::{Body, ContactLaw, Scene};
 
 use crate::inputs::{self, LawName, ModelName};
 use crate::numbers::given;
-use crate::one_drop::{OneDrop, PartSetup};
+use crate::one_drop::{OneDrop, PartSetup, Worst};
 use crate::quantities::{self, Piece, Place, Show, Shown, neat};
 use crate::{Failure, Streams};
 
@@ -105,7 +105,7 @@ pub(crate) struct Beside<'a> {
     /// Whether places that are typed are those of the product, whichever end touches first; else they are seen from the end that does.
     pub(crate) of_product: bool,
     /// The worst drop of a product file instead of one value of each range.
-    pub(crate) worst: Option<Accuracy>,
+    pub(crate) worst: Option<(Worst, Accuracy)>,
 }
 
 /// A drop with all that it needs.
@@ -199,7 +199,7 @@ impl DropArgs {
             Some(path) => {
                 let file = OneDrop::read(path, self.component.as_deref(), beside.first, streams)?;
                 Some(match &beside.worst {
-                    Some(accuracy) => file.at_worst(accuracy)?,
+                    Some((of, accuracy)) => file.at_worst(*of, accuracy)?,
                     None => file,
                 })
             }
@@ -260,7 +260,7 @@ impl DropArgs {
         notes
             .extend(beside.masses.iter().flat_map(|piece| piece.slips(half)).map(|slip| ("warning", slip.to_string())));
         let turned = mirrored && beside.of_product;
-        let (center_of_mass, body) = self.body(half, beside, e, file.as_ref(), if turned { -1.0 } else { 1.0 })?;
+        let (center_of_mass, body) = self.body(half, beside, e, file.as_mut(), if turned { -1.0 } else { 1.0 })?;
         let scene = self.scene(body, e, [speed, height_m], tilt_deg, gravity)?;
         let part = file.as_mut().map(|file| file.part(half)).transpose()?.flatten();
         let shown = self.shown(length.and_then(|length| length.unit), beside, file.as_ref());
@@ -327,7 +327,7 @@ impl DropArgs {
         half: f64,
         beside: &Beside<'_>,
         e: f64,
-        file: Option<&OneDrop>,
+        file: Option<&mut OneDrop>,
         side: f64,
     ) -> Result<(f64, Body), Failure> {
         let center = self.center_of_mass.map(|place| place.relative("--center-of-mass", Some(half))).transpose()?;
@@ -340,7 +340,7 @@ impl DropArgs {
             }
             (Some(gyration), _) => {
                 let flag = if gyration.unit.is_some() { "--gyration" } else { "--gyration-m" };
-                let center = center.or(file.map(|file| file.inertia().0)).unwrap_or(0.0);
+                let center = center.or(file.map(|file| file.center_of_mass())).unwrap_or(0.0);
                 [(center, "--center-of-mass"), (gyration.si, flag)]
             }
             (None, pieces) => {

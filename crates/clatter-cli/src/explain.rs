@@ -8,6 +8,7 @@ use clatter_assess::ladder::{Groups, LeftOut, LimitLadder, Measured, ProductLadd
 use clatter_assess::{Accuracy, LimitKind, Model, ProductFile, Unit, WorstCase, units};
 use serde::Serialize;
 
+use crate::columns::sentence;
 use crate::inputs::{self, Format};
 use crate::numbers::{Json, figures, given};
 use crate::progress::Counted;
@@ -83,7 +84,8 @@ pub(crate) fn left_out(ladders: &ProductLadder, out: &mut dyn Write) -> io::Resu
 
 fn table(file: &ProductFile, ladders: &ProductLadder, out: &mut dyn Write) -> io::Result<()> {
     let (name, tolerance) = (shown(&ladders.product, 60), given(100.0 * ladders.tolerance));
-    writeln!(out, "{name}: the cheapest model within {tolerance} % of the one with the most physics")?;
+    let head = format!("{name}: the cheapest model within {tolerance} % of the one with the most physics");
+    sentence(out, "", &head)?;
     ladders.limits.iter().try_for_each(|limit| of_limit(file, limit, out))?;
     left_out(ladders, out)
 }
@@ -91,15 +93,15 @@ fn table(file: &ProductFile, ladders: &ProductLadder, out: &mut dyn Write) -> io
 fn of_limit(file: &ProductFile, limit: &LimitLadder, out: &mut dyn Write) -> io::Result<()> {
     let ladder = &limit.ladder;
     writeln!(out, "\n{}, {}", shown(&limit.component, 60), limit.limit.name())?;
-    writeln!(out, "  {:<11}{}", "worst drop", drop(&limit.worst_case))?;
+    sentence(out, "  worst drop ", &drop(&limit.worst_case))?;
     for Measured { model, value, error, .. } in &ladder.models {
         let mark = if *model == ladder.cheapest { "  cheapest within the tolerance" } else { "" };
         let value = in_words(ladder.unit, unit(file, limit), *value);
         let line = format!("  {:<14}{value:>14}  off by {:<8}{mark}", model.name(), percent(*error));
         writeln!(out, "{}", line.trim_end())?;
     }
-    writeln!(out, "  {:<11}{}", "because", ladder.reason)?;
-    writeln!(out, "  {:<11}{}", "groups", groups(&ladder.groups))
+    sentence(out, "  because    ", &ladder.reason)?;
+    sentence(out, "  groups     ", &groups(&ladder.groups))
 }
 
 /// The dimensionless groups that are known.

@@ -14,8 +14,9 @@ use clatter_assess::{LARGEST_FILE, ProductFile};
 
 use crate::inputs::Format;
 use crate::measured::{self, Record};
+use crate::numbers::given;
 use crate::output::{Files, no_kind};
-use crate::quantities::{self, Place, positions};
+use crate::quantities::{self, Place, neat, positions};
 use crate::record_args::RecordArgs;
 use crate::{Failure, Streams, assess, input, output, text};
 
@@ -148,6 +149,13 @@ impl Args {
             return Err(Failure::Usage(
                 "--position goes with a record of an acceleration, one each: there are more of them",
             ));
+        }
+        let gyration = &file.product.gyration_m;
+        if self.known_gyration && !gyration.is_value() {
+            let [lo, hi] = [gyration.lo(), gyration.hi()].map(|m| given(neat(1e3 * m)));
+            return Err(Failure::Wrong(format!(
+                "--known-gyration takes the radius of gyration of the file as known, and it gives a range, {lo} to {hi} mm"
+            )));
         }
         let known = Known { gyration_known: self.known_gyration, ..Known::from(&file) };
         let fit = measured::fitted(&known, &records, timing_s)?;

@@ -1,11 +1,13 @@
-//! `clatter impacts`: the train of impacts of one bar, its peak and what it amounts to.
+//! `clatter impacts`: the train of impacts of one bar or plate, its peak and what it amounts to.
+
+mod plate;
 
 use std::io::{self, Write};
 
 use clatter::{Count, End, Impact, OffCenterBar, PeakImpact, Start, Summary};
 use serde::{Serialize, Serializer};
 
-use crate::inputs::{self, OffCenterArgs, RowFormat, letter};
+use crate::inputs::{self, FallingBody, OffCenterArgs, RowFormat, Values, letter};
 use crate::numbers::{Json, JsonCount, digits, figures, given};
 use crate::{Failure, Streams, columns};
 
@@ -15,6 +17,11 @@ use crate::{Failure, Streams, columns};
 /// up to 2^64, and like the rest of the summary it comes at once: no impact is followed for it. The one exception are
 /// masses (--mass) so close to where the count changes that the rounding of their center of mass and radius of gyration
 /// decides: the count is then that of the rounded bar, and "count_exact" is false.
+///
+/// A plate (--gyration-ratio=KX,KY) is followed impact by impact, the order of its corners exact: for as many impacts as
+/// --limit asks, at least 1000. Where it has not ended by then, and two corners alternating for ever are not what it does,
+/// "count" is how many were followed and "count_exact" is false. Two corners that come down at one instant are a tie: it
+/// is told, and taken as a tilt that differs by next to nothing.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -23,21 +30,25 @@ Examples:
   clatter impacts --q=0.5 --e=0.3 --velocity=-1,0.5      it turns as it falls
   clatter impacts --mass=2@-1:1 --mass=1@0.5 --e=0.3     a uniform bar with a battery halfway to end b
   clatter impacts --gyration-ratio=0.01 --e=0.3 --limit=20 --format=json
+  clatter impacts --gyration-ratio=0.577,0.577 --e=0.3 --height-gap=2,1 --at=0,0
+                                                         a uniform plate, b twice as high as d
 
 'clatter --help' tells what q, e and the units are.")]
 pub(crate) struct Args {
     #[command(flatten)]
     bar: OffCenterArgs,
-    /// Velocities of ends a and b at first contact, upward positive, in v0; VA is negative: end a strikes
-    #[arg(long, value_name = "VA,VB", default_value = "-1,-1", allow_hyphen_values = true, value_parser = inputs::velocity)]
-    velocity: [f64; 2],
-    /// Height of end b when end a first touches, in h0; 0 for a flat drop, whose impacts come all at once
-    #[arg(long, value_name = "H0", default_value = "1", allow_hyphen_values = true, value_parser = inputs::height_gap)]
-    height_gap: f64,
-    /// Also give the velocity shocks at this position, in [-1, 1]: -1 is end a, 0 the middle, 1 end b; may be given
-    /// several times
-    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = inputs::position)]
-    at: Vec<f64>,
+    /// Velocities of ends a and b at first contact, upward positive, in v0; VA is negative: end a strikes; VA,VB,VD of three
+    /// corners for a plate [default: -1 each]
+    #[arg(long, value_name = "VA,VB", allow_hyphen_values = true, value_parser = inputs::velocities)]
+    velocity: Option<Values<2, 3>>,
+    /// Height of end b when end a first touches, in h0; 0 for a flat drop, whose impacts come all at once; HX,HY of corners b
+    /// and d for a plate [default: 1 each]
+    #[arg(long, value_name = "H0", allow_hyphen_values = true, value_parser = inputs::height_gaps)]
+    height_gap: Option<Values<1, 2>>,
+    /// Also give the velocity shocks at this position, in [-1, 1]: -1 is end a, 0 the middle, 1 end b; X,Y on a plate; may
+    /// be given several times
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = inputs::positions)]
+    at: Vec<Values<1, 2>>,
     /// List at most so many impacts
     #[arg(long, value_name = "N", default_value = "1000", allow_hyphen_values = true, value_parser = inputs::limit)]
     limit: usize,
@@ -57,9 +68,15 @@ struct Drop<'a> {
 
 impl Args {
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        let bar = self.bar.bar()?;
-        let start = Start::new(self.velocity, self.height_gap)?;
-        let drop = Drop { bar, start, summary: bar.summary(&start), at: &self.at, limit: self.limit };
+        let bar = match self.bar.body()? {
+            FallingBody::Bar(bar) => bar,
+            FallingBody::Plate(plate) => return self.plate(plate, streams),
+        };
+        let velocity = self.velocity.map_or(Ok([-1.0; 2]), |v| v.of_bar("--velocity"))?;
+        let [gap] = self.height_gap.map_or(Ok([1.0]), |gap| gap.of_bar("--height-gap"))?;
+        let at: Vec<f64> = self.at.iter().map(|s| s.of_bar("--at").map(|[s]| s)).collect::<Result<_, _>>()?;
+        let start = Start::new(velocity, gap)?;
+        let drop = Drop { bar, start, summary: bar.summary(&start), at: &at, limit: self.limit };
         match self.format {
             RowFormat::Table => {
                 drop.table(streams.out).map_err(Failure::Answer)?;
@@ -168,13 +185,19 @@ impl Drop<'_> {
         let heads = [("time", "h0/v0"), ("approach", "v0"), ("shock at a", "v0"), ("shock at b", "v0")];
         let heads: Vec<_> = heads.map(|(name, unit)| (name.to_owned(), unit)).into_iter().chain(places).collect();
         writeln!(out)?;
-        columns::line(out, "   impact  end", &heads, heads.iter().map(|(name, _)| name.as_str()))?;
-        columns::line(out, "              ", &heads, heads.iter().map(|(_, unit)| *unit))?;
-        for impact in self.impacts() {
-            let [a, b] = impact.delta_v;
-            let first = format!("{:>9}  {:<3}", impact.number, letter(impact.end));
-            let cells = [impact.time, impact.approach, a, b].into_iter().chain(self.shocks(&impact)).map(figures);
-            columns::line(out, &first, &heads, cells)?;
+        for (n, part) in columns::parts(14, &heads).into_iter().enumerate() {
+            if n > 0 {
+                writeln!(out)?;
+            }
+            let heads = &heads[part.clone()];
+            columns::line(out, "   impact  end", heads, heads.iter().map(|(name, _)| name.as_str()))?;
+            columns::line(out, "              ", heads, heads.iter().map(|(_, unit)| *unit))?;
+            for impact in self.impacts() {
+                let [a, b] = impact.delta_v;
+                let first = format!("{:>9}  {:<3}", impact.number, letter(impact.end));
+                let cells = [impact.time, impact.approach, a, b].into_iter().chain(self.shocks(&impact)).map(figures);
+                columns::line(out, &first, heads, cells.skip(part.start))?;
+            }
         }
         Ok(())
     }

@@ -3,13 +3,14 @@
 //! Every value is checked by the type that it becomes, so a range is written down once, in the model.
 
 use clap::ValueEnum;
-use clatter::{Axis, Bar, End, Error, Mass, OffCenterBar, Start};
+use clatter::{Axis, Bar, End, Error, Mass, OffCenterBar, Plate, PlateStart, Start};
 use clatter_assess::units::{Quantity, SHARE};
 use clatter_assess::{Accuracy, Model, Slip};
 use clatter_flight::{Body, Contact, ContactLaw, Scene};
 use clatter_shock::DampingRatio;
 
 use crate::Failure;
+use crate::numbers::given;
 use crate::quantities::{self, Piece, plain_or_typed};
 use crate::text::visible;
 
@@ -24,6 +25,12 @@ through 0 (the center) to 1 (end b). Two numbers decide everything:
   q  inertia ratio (L² - ρ²)/(L² + ρ²) of half-length L and radius of gyration
      ρ: 1 all mass at the center, 0.5 evenly spread, 0 all mass at the ends,
      below 0 mass beyond the ends
+
+The plate. Two values of --gyration-ratio, radii of gyration along x and y over
+half the length and half the width, make it a plate, with 'impacts', 'zone' and
+'atlas'. Positions X,Y run from -1 to 1 along both; corner a (-1,-1) strikes
+first, b (1,-1) is across its length, c (1,1) opposite, d (-1,1) across its
+width. An evenly spread mass has --gyration-ratio=0.577350269,0.577350269.
 
 Where the center of mass is not the middle, --center-of-mass with
 --gyration-ratio, or a list of --mass, says how the mass lies; q is then that
@@ -61,25 +68,62 @@ struct Inertia {
     /// Inertia ratio (L² - ρ²)/(L² + ρ²), in (-1, 1]: 0.5 for evenly spread mass, 1 for all mass at the center
     #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = inertia_ratio)]
     q: Option<f64>,
-    /// Instead of q: ρ/L, radius of gyration over half-length, exact also where q is within rounding of 1
-    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = gyration_ratio)]
-    gyration_ratio: Option<f64>,
+    /// Instead of q: ρ/L, radius of gyration over half-length, exact also where q is within rounding of 1; two values KX,KY,
+    /// over half the length and half the width, make a plate
+    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = gyration_ratios)]
+    gyration_ratio: Option<Values<1, 2>>,
     /// Instead of q: a mass M in any unit at position S, or spread evenly from S to T, in half-lengths from the middle;
     /// given once for each piece, like --mass=2@-1:1 --mass=1@0.5
     #[arg(long, value_name = "M@S[:T]", allow_hyphen_values = true, value_parser = quantities::mass)]
     mass: Vec<Piece>,
 }
 
-impl BarArgs {
-    /// The bar, which must be symmetric.
-    pub(crate) fn bar(&self) -> Result<Bar, Failure> {
-        Ok(match (self.inertia.q, self.inertia.gyration_ratio) {
-            (_, Some(k)) => Bar::from_gyration_ratio(k, self.e)?,
-            (Some(q), None) => Bar::new(q, self.e)?,
-            // The group requires one of the three.
-            (None, None) => Bar::from_masses(2.0, &quantities::masses(&self.inertia.mass, None)?, self.e)?,
-        })
+/// So many numbers for a bar, so many for a plate.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Values<const BAR: usize, const PLATE: usize> {
+    Bar([f64; BAR]),
+    Plate([f64; PLATE]),
+}
+
+impl<const BAR: usize, const PLATE: usize> Values<BAR, PLATE> {
+    pub(crate) fn of_bar(self, flag: &str) -> Result<[f64; BAR], Failure> {
+        match self {
+            Self::Bar(values) => Ok(values),
+            Self::Plate(values) => Err(Self::wrong(flag, &values, "bar", BAR)),
+        }
     }
+    pub(crate) fn of_plate(self, flag: &str) -> Result<[f64; PLATE], Failure> {
+        match self {
+            Self::Bar(values) => Err(Self::wrong(flag, &values, "plate", PLATE)),
+            Self::Plate(values) => Ok(values),
+        }
+    }
+    fn wrong(flag: &str, values: &[f64], body: &str, takes: usize) -> Failure {
+        let values: Vec<_> = values.iter().map(|x| given(*x)).collect();
+        Failure::Wrong(format!(
+            "invalid value '{}' for '{flag}': a {body} takes {takes} of them, not {}; two values of --gyration-ratio make a \
+             plate, one makes a bar",
+            values.join(","),
+            values.len(),
+        ))
+    }
+}
+
+/// Reads as many numbers as a bar takes by one function, as many as a plate takes by the other.
+fn values<const BAR: usize, const PLATE: usize>(
+    text: &str,
+    bar: impl Fn(&str) -> Result<[f64; BAR], String>,
+    plate: impl Fn([f64; PLATE]) -> Result<(), Error>,
+) -> Result<Values<BAR, PLATE>, String> {
+    let several = parts(text, ',');
+    if several.len() != PLATE {
+        return bar(text).map(Values::Bar);
+    }
+    let mut numbers = [0.0; PLATE];
+    for (number_of, text) in numbers.iter_mut().zip(several) {
+        *number_of = number(text)?;
+    }
+    plate(numbers).map(|()| Values::Plate(numbers)).map_err(|error| error.to_string())
 }
 
 /// How the mass lies, the center of mass anywhere between the ends, and how the ends rebound.
@@ -88,21 +132,36 @@ pub(crate) struct OffCenterArgs {
     #[command(flatten)]
     bar: BarArgs,
     /// Where the center of mass lies, between -1 (end a) and 1 (end b); goes with --gyration-ratio, whose ρ is then
-    /// about it
-    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = center_of_mass, conflicts_with_all = ["q", "mass"])]
-    center_of_mass: Option<f64>,
+    /// about it; SX,SY for a plate
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = centers_of_mass, conflicts_with_all = ["q", "mass"])]
+    center_of_mass: Option<Values<1, 2>>,
+}
+
+/// What falls.
+pub(crate) enum FallingBody {
+    Bar(OffCenterBar),
+    Plate(Plate),
 }
 
 impl OffCenterArgs {
-    pub(crate) fn bar(&self) -> Result<OffCenterBar, Failure> {
+    pub(crate) fn body(&self) -> Result<FallingBody, Failure> {
         let BarArgs { inertia, e } = &self.bar;
-        match (self.center_of_mass, inertia.gyration_ratio) {
-            (Some(c), Some(k)) => {
-                OffCenterBar::from_center_of_mass(c, 0.0, *e).map_err(Failure::flag("--center-of-mass"))?;
-                OffCenterBar::from_center_of_mass(c, k, *e).map_err(Failure::flag("--gyration-ratio"))
+        let (bar, center) = (FallingBody::Bar, "--center-of-mass");
+        match (inertia.gyration_ratio, inertia.q) {
+            (Some(Values::Plate(ratios)), _) => {
+                let offset = self.center_of_mass.map_or(Ok([0.0; 2]), |offset| offset.of_plate(center))?;
+                Ok(FallingBody::Plate(Plate::off_center(ratios, offset, *e)?))
             }
-            _ if inertia.mass.is_empty() => Ok(self.bar.bar()?.into()),
-            _ => bar_of(&quantities::masses(&inertia.mass, None)?, *e),
+            (Some(Values::Bar([k])), _) => match self.center_of_mass.map(|offset| offset.of_bar(center)).transpose()? {
+                Some([c]) => {
+                    OffCenterBar::from_center_of_mass(c, 0.0, *e).map_err(Failure::flag(center))?;
+                    OffCenterBar::from_center_of_mass(c, k, *e).map(bar).map_err(Failure::flag("--gyration-ratio"))
+                }
+                None => Ok(bar(Bar::from_gyration_ratio(k, *e)?.into())),
+            },
+            (None, Some(q)) => Ok(bar(Bar::new(q, *e)?.into())),
+            // The group requires one of the three.
+            (None, None) => bar_of(&quantities::masses(&inertia.mass, None)?, *e).map(bar),
         }
     }
 }
@@ -322,7 +381,7 @@ pub(crate) fn restitution(text: &str) -> Result<f64, String> {
     Bar::new(0.0, e).map(|_| e).map_err(|error| error.to_string())
 }
 
-pub(crate) fn inertia_ratio(text: &str) -> Result<f64, String> {
+fn inertia_ratio(text: &str) -> Result<f64, String> {
     let q = number(text)?;
     Bar::new(q, 0.0).map(|_| q).map_err(|error| error.to_string())
 }
@@ -332,7 +391,38 @@ pub(crate) fn gyration_ratio(text: &str) -> Result<f64, String> {
     Bar::from_gyration_ratio(k, 0.0).map(|_| k).map_err(|error| error.to_string())
 }
 
-pub(crate) fn velocity(text: &str) -> Result<[f64; 2], String> {
+fn gyration_ratios(text: &str) -> Result<Values<1, 2>, String> {
+    let plate = |ratios: [f64; 2]| Plate::new(ratios, 0.0).map(|_| ());
+    values(text, |text| gyration_ratio(text).map(|k| [k]), plate)
+}
+
+fn centers_of_mass(text: &str) -> Result<Values<1, 2>, String> {
+    let plate = |center: [f64; 2]| Plate::off_center([1.0; 2], center, 0.0).map(|_| ());
+    values(text, |text| center_of_mass(text).map(|c| [c]), plate)
+}
+
+/// Of the ends of a bar, or of corners a, b and d of a plate.
+pub(crate) fn velocities(text: &str) -> Result<Values<2, 3>, String> {
+    values(text, velocity, |velocity| PlateStart::new(velocity, [1.0; 2]).map(|_| ()))
+}
+
+/// Of end b of a bar, or of corners b and d of a plate.
+pub(crate) fn height_gaps(text: &str) -> Result<Values<1, 2>, String> {
+    values(text, |text| height_gap(text).map(|gap| [gap]), |gaps| PlateStart::level(gaps).map(|_| ()))
+}
+
+/// On a bar, or on a plate.
+pub(crate) fn positions(text: &str) -> Result<Values<1, 2>, String> {
+    let on_plate = |[x, y]: [f64; 2]| {
+        let out = |name, value: f64| {
+            if value.abs() <= 1.0 { Ok(()) } else { Err(Error::Quantity { name, value, allowed: "in [-1, 1]" }) }
+        };
+        out("position x", x).and(out("position y", y))
+    };
+    values(text, |text| position(text).map(|s| [s]), on_plate)
+}
+
+fn velocity(text: &str) -> Result<[f64; 2], String> {
     let (a, b) = text.split_once(',').ok_or("two velocities are needed, of ends a and b: VA,VB")?;
     let in_v0 =
         |text: &str| number(text.trim()).map_err(|error| format!("{error}; velocities are in v0, without a unit"));
@@ -340,7 +430,7 @@ pub(crate) fn velocity(text: &str) -> Result<[f64; 2], String> {
     Start::new(velocity, 1.0).map(|_| velocity).map_err(|error| error.to_string())
 }
 
-pub(crate) fn height_gap(text: &str) -> Result<f64, String> {
+fn height_gap(text: &str) -> Result<f64, String> {
     let gap = number(text)?;
     Start::new([-1.0, -1.0], gap).map(|_| gap).map_err(|error| error.to_string())
 }

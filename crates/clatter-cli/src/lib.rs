@@ -15,6 +15,7 @@
 //! ```
 
 mod assess;
+mod atlas;
 mod budget;
 mod columns;
 mod completions;
@@ -25,6 +26,7 @@ mod excitation;
 mod explain;
 mod failure;
 mod fit;
+mod help;
 mod impacts;
 mod init;
 mod input;
@@ -131,7 +133,7 @@ impl From<Exit> for ExitCode {
 /// clatter. Each impact changes the velocity of every part at once. These velocity shocks, not the drop alone,
 /// are what the parts have to survive.
 #[derive(Debug, Parser)]
-#[command(name = "clatter", version, after_help = SHORT_HELP, after_long_help = inputs::PRIMER, max_term_width = 100)]
+#[command(name = "clatter", version, after_help = SHORT_HELP, after_long_help = inputs::PRIMER, max_term_width = 100, help_template = help::template())]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -149,10 +151,11 @@ const SHORT_HELP: &str =
 enum Command {
     Impacts(impacts::Args),
     Zone(zone::Args),
+    Atlas(atlas::Args),
     Map(map::Args),
     Simulate(Box<simulate::Args>),
     Respond(Box<respond::Args>),
-    Record(record::Args),
+    Record(Box<record::Args>),
     Spectrum(Box<spectrum::Args>),
     Design(design::Args),
     Scatter(scatter::Args),
@@ -205,6 +208,7 @@ impl Command {
             Self::Spectrum(args) => return args.run(streams),
             Self::Impacts(args) => args.run(streams),
             Self::Zone(args) => args.run(streams),
+            Self::Atlas(args) => args.run(streams),
             Self::Map(args) => args.run(streams),
             Self::Simulate(args) => args.run(streams),
             Self::Respond(args) => args.run(streams),
@@ -243,6 +247,7 @@ impl Command {
 /// can be made.
 pub fn own_process() {
     budget::own_process();
+    columns::own_process();
     let processors = std::thread::available_parallelism().map_or(1, usize::from);
     let asked = std::env::var("RAYON_NUM_THREADS").ok().and_then(|text| text.parse().ok()).filter(|count| *count > 0);
     let count = asked.map_or(processors, |asked: usize| asked.min(processors));

@@ -4,7 +4,9 @@ use std::path::Path;
 
 use clatter::End;
 use clatter_assess::units::{Quantity, Unit};
-use clatter_assess::{Accuracy, Component, Damping, Fall, First, Limit, Limits, Mount, ProductFile, Spread, WorstCase};
+use clatter_assess::{
+    Accuracy, Component, Damping, Fall, First, Limit, LimitKind, Limits, Mount, ProductFile, Spread, WorstCase,
+};
 use clatter_flight::ContactLaw;
 use clatter_shock::DampingRatio;
 
@@ -27,6 +29,36 @@ pub(crate) struct PartSetup {
     pub(crate) allowed: Vec<Limit>,
     /// Natural frequency and damping; none of a part that is mounted rigidly.
     pub(crate) suspension: Option<(Quantity, DampingRatio)>,
+}
+
+/// Of which limit of a part the worst drop is taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Worst {
+    /// The one with the least margin
+    Tightest,
+    /// Peak absolute acceleration
+    Acceleration,
+    /// Peak displacement relative to the product
+    RattleSpace,
+    /// Largest change of velocity of one shock
+    VelocityChange,
+    /// Largest change of angular velocity of one shock
+    AngularVelocityChange,
+    /// Critical velocity change and acceleration
+    DamageBoundary,
+}
+
+impl Worst {
+    fn kind(self) -> Option<LimitKind> {
+        match self {
+            Self::Tightest => None,
+            Self::Acceleration => Some(LimitKind::Acceleration),
+            Self::RattleSpace => Some(LimitKind::RattleSpace),
+            Self::VelocityChange => Some(LimitKind::VelocityChange),
+            Self::AngularVelocityChange => Some(LimitKind::AngularVelocityChange),
+            Self::DamageBoundary => Some(LimitKind::DamageBoundary),
+        }
+    }
 }
 
 /// A product file of which one drop is taken.
@@ -84,20 +116,25 @@ impl OneDrop {
         Ok(Self { file, component: found, mirrored: first == End::B, worst: None, notes })
     }
 
-    /// The drop of the ranges that asks most of the part, found as an assessment finds it.
-    pub(crate) fn at_worst(mut self, accuracy: &Accuracy) -> Result<Self, Failure> {
+    /// The drop of the ranges that asks most of a limit of the part, found as an assessment finds it.
+    pub(crate) fn at_worst(mut self, of: Worst, accuracy: &Accuracy) -> Result<Self, Failure> {
         let Some(component) = self.component() else {
             return Err(Failure::Usage("--worst is the drop that asks most of one part: give its --component=NAME"));
         };
-        let file = ProductFile { components: vec![component.clone()], ..self.file.clone() };
-        let mut assessment = assess::watched(&file, accuracy)?;
-        let part = assessment.components.remove(0);
-        let tightest = part.tightest();
-        let Some(worst) = &tightest.worst_case else {
-            let why = tightest.undecided.clone().unwrap_or_default();
+        let part = assess::watched_one(&self.file, component, accuracy)?;
+        let found = match of.kind() {
+            None => part.tightest(),
+            Some(kind) => part.limits.iter().find(|limit| limit.limit == kind).ok_or_else(|| {
+                let has: Vec<_> = part.limits.iter().map(|limit| limit.limit.name()).collect();
+                let (name, has) = (shown(&part.name, 60), has.join(", "));
+                Failure::Wrong(format!("\"{name}\" has no limit {}: its limits are {has}", kind.name()))
+            })?,
+        };
+        let Some(worst) = &found.worst_case else {
+            let why = found.undecided.clone().unwrap_or_default();
             return Err(Failure::Wrong(format!("no worst drop is known: {why}")));
         };
-        let limit = tightest.limit.name();
+        let limit = found.limit.name();
         self.mirrored = worst.first == End::B;
         self.notes = vec![format!("the worst drop of its ranges, for the {limit} limit: {}", drop(worst))];
         self.worst = Some(worst.clone());
@@ -142,10 +179,15 @@ impl OneDrop {
         self.file.product.body.length_m()
     }
     /// Position of the center of mass, and radius of gyration over the half-length.
-    pub(crate) fn inertia(&self) -> (f64, f64) {
-        let body = &self.file.product.body;
-        let ([a, b], side) = (body.arms_m(), if self.mirrored { -1.0 } else { 1.0 });
-        (side * (a - b) / (a + b) + 0.0, 2.0 * body.gyration_m() / (a + b))
+    pub(crate) fn inertia(&mut self) -> (f64, f64) {
+        let gyration_m = self.worst.as_ref().and_then(|worst| worst.gyration_m).unwrap_or_else(|| {
+            Self::take(&mut self.notes, "radius of gyration", &self.file.product.gyration_m, Taken::Middle, "m")
+        });
+        (self.center_of_mass(), 2.0 * gyration_m / self.length_m())
+    }
+    pub(crate) fn center_of_mass(&self) -> f64 {
+        let ([a, b], side) = (self.file.product.body.arms_m(), if self.mirrored { -1.0 } else { 1.0 });
+        side * (a - b) / (a + b) + 0.0
     }
     pub(crate) fn has_contact_time(&self) -> bool {
         self.file.product.contact_time_s.is_some()

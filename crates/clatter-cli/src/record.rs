@@ -30,7 +30,8 @@ use crate::{Failure, Streams, npy};
 /// of each channel, and what is odd: lines that cannot be used, gaps, offset, drift, clipping, a shock that is cut off.
 ///
 /// Text is read as loggers and programs write it: with commas, semicolons, tabs or blanks between columns, decimal points or
-/// commas, lines above the numbers, units in brackets or below the names, comments, times of day and dates.
+/// commas, lines above the numbers, units in brackets, below the names or in the cells, comments, times of day and dates. The last
+/// line of the answer says what every line and every column was taken for.
 ///
 /// `-o FILE` writes the record anew, in s and m/s2: .csv, .parquet, .npy (a structured
 /// array, whose fields are named as the columns of the .csv, such as `time [s]`), or a picture as .svg. Channels with times of their
@@ -235,6 +236,10 @@ impl Whole<'_> {
             if let Some(fits) = &self.found.fits {
                 pulse::table(channel, &name, &fits[k], out)?;
             }
+        }
+        if let Some(account) = record.account() {
+            let account = account.to_string();
+            writeln!(out, "\n{}", text::visible(&account))?;
         }
         for target in &self.args.output {
             writeln!(out, "\n{}: written", text::path(&target.path))?;

@@ -31,9 +31,15 @@ pub(crate) struct RecordArgs {
     /// What full scale is, such as 50g, in a file that counts in shares of it
     #[arg(long, value_name = "ACCELERATION", value_parser = full_scale)]
     full_scale: Option<f64>,
-    /// Which record of a file that holds several, from 1
-    #[arg(long = "record", value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    number: Option<u32>,
+    /// What the sensor gives for an acceleration, such as 100mV/g, for channels in volts
+    #[arg(long, value_name = "VOLTAGE/ACCELERATION", value_parser = sensitivity)]
+    sensitivity: Option<f64>,
+    /// The sensor whose rows are read, where rows of several come in turns
+    #[arg(long, value_name = "NAME")]
+    sensor: Option<String>,
+    /// Which record of a file is read, from 1, where it holds several
+    #[arg(long, value_name = "NUMBER", value_parser = number)]
+    record: Option<usize>,
     /// Leave out lines that cannot be used; each is told
     #[arg(long)]
     skip_bad: bool,
@@ -53,6 +59,14 @@ fn rate(text: &str) -> Result<f64, String> {
 
 fn full_scale(text: &str) -> Result<f64, String> {
     positive(plain_or_typed(&ACCELERATION, text)?.si)
+}
+
+fn sensitivity(text: &str) -> Result<f64, String> {
+    clatter_record::sensitivity(text).map_err(|error| error.to_string())
+}
+
+fn number(text: &str) -> Result<usize, String> {
+    text.parse().ok().filter(|number| *number > 0).ok_or_else(|| format!("'{text}' is no whole number from 1 on"))
 }
 
 fn positive(value: f64) -> Result<f64, String> {
@@ -79,7 +93,9 @@ impl RecordArgs {
             (self.units.is_some(), "--units"),
             (self.sample_rate.is_some(), "--sample-rate"),
             (self.full_scale.is_some(), "--full-scale"),
-            (self.number.is_some(), "--record"),
+            (self.sensitivity.is_some(), "--sensitivity"),
+            (self.sensor.is_some(), "--sensor"),
+            (self.record.is_some(), "--record"),
             (self.skip_bad, "--skip-bad"),
         ];
         given.into_iter().find(|(given, _)| *given).map(|(_, flag)| flag)
@@ -105,7 +121,9 @@ impl RecordArgs {
             units: self.units.clone(),
             sample_rate_hz: self.sample_rate,
             full_scale_m_s2: self.full_scale,
-            record: self.number.map(|number| number as usize),
+            sensitivity_v_s2_m: self.sensitivity,
+            sensor: self.sensor.clone(),
+            record: self.record,
             skip_bad: self.skip_bad,
             ..Options::default()
         };

@@ -17,6 +17,7 @@ use clatter_shock::{DampingRatio, ShockTable, Suspension};
 
 use crate::drop_args::{DropArgs, IN_SI};
 use crate::inputs::{self, DampingArgs, EndName, Format, ModelName};
+use crate::one_drop::Worst;
 use crate::output::{Files, Kind, Target};
 use crate::quantities::{self, Piece, Place};
 use crate::{Failure, Streams, excitation};
@@ -77,7 +78,7 @@ Examples:
   clatter respond --shocks-file=shocks.csv --omega=1131
 
 With a product file: clatter respond --product=phone.toml --component=camera --worst answers its worst
-drop again, --tilt=2deg --first=b in place of --worst one of its drops.
+drop again, --worst=rattle-space that of one limit, --tilt=2deg --first=b in place of --worst one of its drops.
 
 'clatter --help' tells what q, e and the units are."
 )]
@@ -115,9 +116,10 @@ pub(crate) struct Args {
     /// With --model: land flat, both ends as one, instant impacts that are closer than any contact lasts; in place of a tilt
     #[arg(long, requires = "followed", conflicts_with_all = ["tilt", "tilt_deg"])]
     flat: bool,
-    /// With --product: of all its ranges the drop that asks most of the --component, found as by 'clatter assess'
-    #[arg(long, requires = "product", conflicts_with_all = OF_ONE_DROP)]
-    worst: bool,
+    /// With --product: of all its ranges the drop that asks most of the --component, found as by 'clatter assess'; of its
+    /// tightest limit, or of this one
+    #[arg(long, value_name = "LIMIT", value_enum, num_args = 0..=1, require_equals = true, default_missing_value = "tightest", requires = "product", conflicts_with_all = OF_ONE_DROP)]
+    worst: Option<Worst>,
     /// The end that touches first [default: that of the product file, else a]
     #[arg(long, value_name = "END", value_enum, requires = "followed")]
     first: Option<EndName>,

@@ -165,6 +165,7 @@ fn title(file: &ProductFile, column: Column) -> String {
         Column::TiltDeg => "tilt_deg".to_owned(),
         Column::Restitution => "restitution".to_owned(),
         Column::ContactTimeS => "contact_time_s".to_owned(),
+        Column::GyrationM => "gyration_m".to_owned(),
         Column::FrequencyHz(i) => format!("frequency_hz of {}", name_of(file, i)),
         Column::DampingRatio(i) => format!("damping_ratio of {}", name_of(file, i)),
         Column::PositionM(i) => format!("position_m of {}", name_of(file, i)),

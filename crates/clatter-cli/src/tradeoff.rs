@@ -7,6 +7,7 @@ use clap::ValueHint;
 use clatter_assess::ProductFile;
 use clatter_assess::ladder::{LimitLadder, Measured, ProductLadder};
 
+use crate::columns::sentence;
 use crate::input::is_standard;
 use crate::inputs::{self, RowFormat};
 use crate::numbers::{digits, given};
@@ -90,7 +91,7 @@ fn table(file: &ProductFile, ladders: &ProductLadder, out: &mut dyn Write) -> io
 fn of_limit(file: &ProductFile, limit: &LimitLadder, out: &mut dyn Write) -> io::Result<()> {
     let (ladder, reference, unit) = (&limit.ladder, &limit.ladder.reference, explain::unit(file, limit));
     writeln!(out, "\n{}, {}", shown(&limit.component, 24), limit.limit.name())?;
-    writeln!(out, "  drop       {}", drop(&limit.worst_case))?;
+    sentence(out, "  drop       ", &drop(&limit.worst_case))?;
     let (name, value) = (reference.model.name(), in_words(ladder.unit, unit, reference.value));
     writeln!(out, "  reference  {name}: {value}, worked out to {}\n", percent(reference.tolerance))?;
     writeln!(out, "  {:<13} {:>14} {:>9} {:>9} {:>7}", "model", "demand", "error", "time", "strikes")?;

@@ -38,7 +38,7 @@ fn significant(x: f64, digits: i32) -> String {
 
 /// A margin, with its sign.
 pub(crate) fn margin(margin: f64) -> String {
-    if margin.is_infinite() { "infinite".to_owned() } else { format!("{:+.1} %", 100.0 * margin) }
+    if margin.is_infinite() { "none asked".to_owned() } else { format!("{:+.1} %", 100.0 * margin) }
 }
 
 /// A share of a hundred to two digits, which is what errors are good for.
@@ -66,6 +66,7 @@ pub(crate) fn time(seconds: f64) -> String {
 /// A worst drop: how it falls, and the part in it.
 pub(crate) fn drop(worst: &WorstCase) -> String {
     let contact = worst.contact_time_s.map_or(String::new(), |s| format!(", contacts of {} ms", four(1e3 * s)));
+    let gyration = worst.gyration_m.map_or(String::new(), |m| format!(", radius of gyration {} mm", four(1e3 * m)));
     let part = worst.frequency_hz.zip(worst.damping_ratio);
     let part = part.map_or(String::new(), |(hz, ratio)| format!(", {} Hz, damping ratio {}", four(hz), four(ratio)));
     let lands = if worst.flat {
@@ -74,7 +75,7 @@ pub(crate) fn drop(worst: &WorstCase) -> String {
         format!("{} first, {} deg", inputs::letter(worst.first), four(worst.tilt_deg))
     };
     format!(
-        "{lands}, {} m/s, e {}{contact}; at {} mm{part}",
+        "{lands}, {} m/s, e {}{contact}{gyration}; at {} mm{part}",
         four(worst.speed_m_s),
         four(worst.restitution),
         four(1e3 * worst.position_m),

@@ -1,11 +1,13 @@
-//! `clatter zone`: where on the bar a threshold of velocity shock is not exceeded.
+//! `clatter zone`: where on the bar or plate a threshold of velocity shock is not exceeded.
+
+mod plate;
 
 use std::io::{self, Write};
 
 use clatter::{Extent, OffCenterBar, Shocks, Start, Zone};
 use serde::Serialize;
 
-use crate::inputs::{self, EndName, OffCenterArgs, RowFormat};
+use crate::inputs::{self, EndName, FallingBody, OffCenterArgs, RowFormat, Values};
 use crate::numbers::{Json, digits, figures, given};
 use crate::{Failure, Streams};
 
@@ -17,12 +19,16 @@ use crate::{Failure, Streams};
 ///
 /// Where the center of mass is not the middle, the safe zone reaches differently far to both sides of the safest place,
 /// which is neither. It is given by its two bounds, and s is half the distance between them, not clipped.
+///
+/// The safe zone of a plate (--gyration-ratio=KX,KY) is a polygon, and its size a share of the plate: what no drop without
+/// spin passes, in any direction of tilt and with any corner first, or with --height-gap one drop with corner a first.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   clatter zone --q=0.73 --e=0.2 --threshold=0.5 --threshold=1 --threshold=2
   clatter zone --q=0.73 --e=0.2 --threshold=0.5 --first=a --format=json
   clatter zone --mass=2@-1:1 --mass=1@0.5 --e=0.3 --threshold=1
+  clatter zone --gyration-ratio=0.577,0.577 --e=0.3 --threshold=0.5
 
 'clatter --help' tells what q, e and the units are.")]
 pub(crate) struct Args {
@@ -34,6 +40,9 @@ pub(crate) struct Args {
     /// Also give the interval of positions that is safe if this end strikes first
     #[arg(long, value_name = "END")]
     first: Option<EndName>,
+    /// For a plate: the safe zone of the one drop with these heights of corners b and d when a touches
+    #[arg(long, value_name = "HX,HY", allow_hyphen_values = true, value_parser = inputs::height_gaps)]
+    height_gap: Option<Values<1, 2>>,
     /// How to show the answer
     #[arg(long, value_enum, default_value_t = RowFormat::Table)]
     format: RowFormat,
@@ -52,7 +61,16 @@ struct Interval(Option<[f64; 2]>);
 
 impl Args {
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        let (bar, start) = (self.bar.bar()?, Start::default());
+        let bar = match (self.bar.body()?, self.height_gap) {
+            (FallingBody::Plate(plate), gap) => return self.plate(plate, gap, streams),
+            (FallingBody::Bar(_), Some(_)) => {
+                return Err(Failure::Usage(
+                    "--height-gap goes with a plate: the safe zone of a bar is the same for all",
+                ));
+            }
+            (FallingBody::Bar(bar), None) => bar,
+        };
+        let start = Start::default();
         let either = bar.shocks_either(&start);
         let first = self.first.map(|first| bar.shocks(&start, first.into()));
         let row = |&threshold: &f64| Row {

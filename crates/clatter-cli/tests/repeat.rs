@@ -67,3 +67,35 @@ fn the_printed_command_repeats_the_demand() {
         "{count} limits, {rigid} of them accelerations of rigid parts by instant impacts"
     );
 }
+
+/// The short command of the table, run by a shell, tells the demand of each limit once more.
+#[test]
+fn the_short_command_repeats_the_demand() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("a product's file.toml");
+    let text = std::fs::read_to_string(
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reports/examples/handheld-terminal.toml"),
+    );
+    std::fs::write(&path, text.unwrap()).unwrap();
+    for options in ["", " --tolerance=0.003", " --model=finite-tilt"] {
+        let quoted = format!("\"{}\"", path.display());
+        let assessment = shell(&format!("clatter assess {quoted}{options} --format=json"));
+        let table = {
+            let args: Vec<&str> = options.split_whitespace().collect();
+            let done = Command::new(BINARY).arg("assess").arg(&path).args(args).output().unwrap();
+            String::from_utf8(done.stdout).unwrap()
+        };
+        let commands: Vec<&str> =
+            table.lines().filter(|line| line.starts_with("  clatter respond --product=")).collect();
+        let limits = assessment["components"].as_array().unwrap().iter().flat_map(|c| c["limits"].as_array().unwrap());
+        let limits: Vec<&Value> = limits.collect();
+        assert_eq!(commands.len(), limits.len(), "{table}");
+        for (command, limit) in commands.into_iter().zip(limits) {
+            // What of its ranges the drop takes is told beside the answer.
+            let again = shell(&format!("{command} --format=json 2>/dev/null"));
+            let of_limit = again["limits"].as_array().unwrap().iter().find(|of| of["limit"] == limit["limit"]).unwrap();
+            let (got, told) = (of_limit["value"].as_f64().unwrap(), limit["demand"].as_f64().unwrap());
+            assert!((got / told - 1.0).abs() < 1e-9, "{command}: {got}, not {limit}");
+        }
+    }
+}

@@ -5,14 +5,34 @@ use clatter_assess::Verdict;
 use crate::FigureError;
 use crate::axis::Axis;
 use crate::chart::Axes;
+use crate::drop::thinned;
 use crate::paper::{Paper, SMALL};
 use crate::product::{fit, shade};
-use crate::style::{Anchor, BLUES, GRAY, INK, Ink, Label, RUST};
+use crate::style::{Anchor, BLUES, GRAY, INK, Ink, Label, RUST, width};
 
-/// Frame of both figures of a part: low, so that a page holds two parts.
+/// Frame of both figures of a part: low, so that a page holds two parts. Above it is what its lines mean.
 const FRAME: [f64; 2] = [176.0, 76.0];
+const CORNER: [f64; 2] = [44.0, 16.0];
 
 const LIMIT: Ink = Ink { dash: "8 2 1.5 2", ..Ink::line(INK, 1.0) };
+
+/// How far above the curves a limit may lie and be drawn: one far away would press them flat, and is named instead.
+const SEEN: f64 = 3.0;
+
+/// Whether figures whose largest value is this one draw the limit.
+#[must_use]
+pub fn is_drawn(allowed: f64, largest: f64) -> bool {
+    allowed <= SEEN * largest
+}
+
+/// What the lines above a frame mean, side by side.
+fn key(paper: &mut Paper, lines: &[(Ink<'_>, &str)]) {
+    let mut x = CORNER[0];
+    for (ink, text) in lines {
+        paper.key([x, CORNER[1] - 5.0], &[(*ink, text)]);
+        x += 33.0 + width(text, SMALL.size);
+    }
+}
 
 /// A response over time with its limit on both sides; impacts are ticks at the foot.
 ///
@@ -20,30 +40,32 @@ const LIMIT: Ink = Ink { dash: "8 2 1.5 2", ..Ink::line(INK, 1.0) };
 pub fn history(points: &[(f64, f64)], impacts: &[f64], allowed: f64, titles: [&str; 2]) -> Result<String, FigureError> {
     let end = points.last().map_or(1.0, |p| p.0).max(f64::MIN_POSITIVE);
     let largest = points.iter().map(|p| p.1.abs()).fold(0.0_f64, f64::max);
-    // a limit far away would press the curve flat: it is named instead
-    let shown = allowed <= 3.0 * largest;
+    let shown = is_drawn(allowed, largest);
     let top = 1.12 * if shown { allowed.max(largest) } else { largest.max(f64::MIN_POSITIVE) };
     let axes = Axes {
-        corner: [44.0, 8.0],
+        corner: CORNER,
         size: FRAME,
         // a shock at the first touch stands clear of the frame
         x: Axis::linear(-0.03 * end, end, titles[0]),
         y: Axis::linear(-top, top, titles[1]),
     };
-    let mut paper = Paper::new(FRAME[0] + 50.0, FRAME[1] + 38.0);
+    let mut paper = Paper::new(FRAME[0] + 50.0, FRAME[1] + 46.0);
     let axes = axes.on(&mut paper, 36.0);
     axes.level(&mut paper, 0.0, Ink::line(GRAY, 0.5));
-    for &t in impacts {
+    // Shorter than the room below the lower limit, so that no tick crosses it.
+    for &t in impacts.iter().filter(|t| **t <= end) {
         let [x, y] = axes.at(t, -top);
-        if t <= end {
-            paper.line([x, y], [x, y - 8.0], Ink::line(RUST, 0.9));
-        }
+        paper.line([x, y], [x, y - 3.5], Ink::line(RUST, 0.9));
     }
+    let mut lines = vec![(Ink::line(RUST, 0.9), "impacts")];
     if shown {
         axes.level(&mut paper, allowed, LIMIT);
         axes.level(&mut paper, -allowed, LIMIT);
+        lines.insert(0, (LIMIT, "limit"));
     }
-    axes.curve(&mut paper, points.iter().copied(), Ink::line(BLUES[8], 0.9));
+    let step = 1.03 * end / FRAME[0] / 3.0;
+    axes.curve(&mut paper, thinned(points, step).into_iter(), Ink::line(BLUES[8], 0.9));
+    key(&mut paper, &lines);
     axes.border(&mut paper);
     paper.finish("Response over time in the worst drop")
 }
@@ -54,32 +76,23 @@ pub fn over_tilt(curves: &[(&str, Vec<(f64, f64)>)], allowed: f64, titles: [&str
     let largest = all().map(|p| p.1).fold(0.0_f64, f64::max);
     let (lo, hi) = all().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p.0), b.max(p.0)));
     let (lo, hi) = if lo < hi { (lo, hi) } else { (0.0, 1.0) };
-    let shown = allowed <= 3.0 * largest;
-    let highest = if shown { allowed.max(largest) } else { largest.max(f64::MIN_POSITIVE) };
-    let lowest = all().map(|p| p.1).fold(if shown { allowed } else { largest }, f64::min);
-    // The key stands at the foot, or above all lines where they come down to it.
-    let above = curves.len() > 1 && lowest < 0.42 * highest;
-    let top = if above { 1.55 } else { 1.12 } * highest;
-    let axes = Axes {
-        corner: [44.0, 8.0],
-        size: FRAME,
-        x: Axis::linear(lo, hi, titles[0]),
-        y: Axis::linear(0.0, top, titles[1]),
-    };
+    let shown = is_drawn(allowed, largest);
+    let top = 1.12 * if shown { allowed.max(largest) } else { largest.max(f64::MIN_POSITIVE) };
+    let axes =
+        Axes { corner: CORNER, size: FRAME, x: Axis::linear(lo, hi, titles[0]), y: Axis::linear(0.0, top, titles[1]) };
     let inks = [Ink::line(BLUES[8], 1.1), Ink { dash: "3.5 2", ..Ink::line(RUST, 1.0) }];
-    let mut paper = Paper::new(FRAME[0] + 50.0, FRAME[1] + 38.0);
+    let mut paper = Paper::new(FRAME[0] + 50.0, FRAME[1] + 46.0);
     let axes = axes.on(&mut paper, 36.0);
+    let mut lines = Vec::new();
     if shown {
         axes.level(&mut paper, allowed, LIMIT);
+        lines.push((LIMIT, "limit"));
     }
-    let mut lines = Vec::new();
     for ((name, points), ink) in curves.iter().zip(inks) {
         axes.curve(&mut paper, points.iter().copied(), ink);
         lines.push((ink, *name));
     }
-    if curves.len() > 1 {
-        paper.key([54.0, if above { 18.0 } else { FRAME[1] - 6.0 }], &lines);
-    }
+    key(&mut paper, &lines);
     axes.border(&mut paper);
     paper.finish("Demand over the tilt")
 }
@@ -105,21 +118,21 @@ pub fn shares(parts: &[Share<'_>]) -> Result<String, FigureError> {
     let axes = Axes {
         corner: [44.0, 8.0],
         size: [316.0, 108.0_f64.max(9.5 * rows)],
-        x: Axis::linear(lo, hi, "tilt, degrees"),
-        y: Axis::linear(0.0, 1.08 * largest, "demand / allowed"),
+        x: Axis::linear(lo, hi, "tilt at the first touch, degrees"),
+        y: Axis::linear(0.0, 108.0 * largest, "demand, % of the limit"),
     };
     let right = axes.corner[0] + axes.size[0];
     let mut paper = Paper::new(464.0, axes.corner[1] + axes.size[1] + 30.0);
     let axes = axes.on(&mut paper, 32.0);
-    axes.level(&mut paper, 1.0, LIMIT);
+    axes.level(&mut paper, 100.0, LIMIT);
     let dashes = ["", "5 2", "1.5 1.5"];
     let mut ends: Vec<(f64, f64, Ink, &str)> = Vec::new();
     for (i, Share { name, verdict, points }) in parts.iter().enumerate() {
         let color = if *verdict == Verdict::Safe { BLUES[8 - 2 * (i / 3 % 3)] } else { shade(*verdict) };
         let ink = Ink { dash: dashes[i % 3], ..Ink::line(color, 1.1) };
-        axes.curve(&mut paper, points.iter().copied(), ink);
+        axes.curve(&mut paper, points.iter().map(|p| (p.0, 100.0 * p.1)), ink);
         let last = points.iter().rev().find(|p| p.1.is_finite());
-        let y = last.map_or(0.0, |p| axes.at(p.0, p.1)[1]);
+        let y = last.map_or(0.0, |p| axes.at(p.0, 100.0 * p.1)[1]);
         ends.push((y, y, ink, name));
     }
     // names apart, from the top down, then pushed back up from the foot
@@ -152,6 +165,19 @@ mod tests {
     fn a_limit_out_of_reach_is_not_drawn_and_a_near_one_is_on_both_sides() {
         let points = [(0.0, 0.0), (1.0, 2.0), (2.0, -1.0)];
         let limits = |allowed| history(&points, &[0.5], allowed, ["t", "a"]).unwrap().matches(LIMIT.dash).count();
-        assert_eq!([limits(100.0), limits(2.5)], [0, 2]);
+        // The third is that of the key.
+        assert_eq!([limits(100.0), limits(2.5)], [0, 3]);
+    }
+
+    #[test]
+    fn the_key_stands_above_the_frame() {
+        let curves = [("end *a* first", vec![(0.0, 1.0), (5.0, 2.0)]), ("end *b* first", vec![(0.0, 2.0), (5.0, 0.1)])];
+        let drawn = over_tilt(&curves, 1.5, ["tilt", "demand"]).unwrap();
+        let feet: Vec<f64> = ["limit", "first"]
+            .iter()
+            .flat_map(|word| drawn.match_indices(word).map(|(at, _)| at).collect::<Vec<_>>())
+            .filter_map(|at| drawn[..at].rsplit_once(" y=\"")?.1.split('"').next()?.parse().ok())
+            .collect();
+        assert!(feet.len() >= 3 && feet.iter().all(|y| *y < CORNER[1]), "{feet:?}: {drawn}");
     }
 }

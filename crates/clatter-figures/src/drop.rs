@@ -1,5 +1,6 @@
 //! One drop in time: heights, velocity shocks, and pulses where contacts take time.
 
+use clatter_assess::STANDARD_GRAVITY_M_S2;
 use clatter_flight::history::{Forces, Row};
 use clatter_flight::{Stop, Strike};
 
@@ -7,6 +8,7 @@ use crate::FigureError;
 use crate::axis::{Axis, three};
 use crate::chart::{Axes, Chart};
 use crate::paper::{Paper, SMALL};
+use crate::product::fit;
 use crate::style::{Anchor, BLUES, GRAY, INK, Ink, Label, RUST, SAND, width};
 
 /// One drop in time, as [`drop`] draws it.
@@ -24,6 +26,8 @@ pub struct Drop<'a> {
     pub stop: Stop,
     /// Positions on the body, in [−1, 1], whose shocks are shown too.
     pub at: &'a [f64],
+    /// What they are called, such as "camera, 55 mm".
+    pub called: &'a [String],
 }
 
 /// Lines of ends a and b.
@@ -88,7 +92,7 @@ impl Panel<'_> {
 }
 
 /// Of the points within each step, those that show: the first, the last, the lowest and the highest.
-fn thinned(points: &[(f64, f64)], step: f64) -> Vec<(f64, f64)> {
+pub(crate) fn thinned(points: &[(f64, f64)], step: f64) -> Vec<(f64, f64)> {
     let bucket = |p: &(f64, f64)| (p.0 / step).floor();
     let mut kept = Vec::new();
     for run in points.chunk_by(|a, b| (bucket(a) - bucket(b)).abs() < 0.5) {
@@ -141,7 +145,7 @@ fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
 /// let flight = scene.simulate(Model::FiniteTilt);
 /// let rows: Vec<_> = scene.history(Model::FiniteTilt, &flight).collect();
 /// let (strikes, stop) = (&flight.strikes, flight.stop);
-/// let drop = clatter_figures::Drop { model: "finite tilt", rows: &rows, strikes, pulses: &[], stop, at: &[0.0] };
+/// let drop = clatter_figures::Drop { model: "finite tilt", rows: &rows, strikes, pulses: &[], stop, at: &[0.0], called: &["middle".into()] };
 /// assert!(clatter_figures::drop(&drop)?.contains("at rest"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -197,14 +201,14 @@ fn heading(paper: &mut Paper, drop: &Drop<'_>, pressed: bool) {
         x += 20.0;
         words(paper, &mut x, end);
     }
-    for (k, s) in drop.at.iter().enumerate() {
+    for (k, name) in drop.called.iter().enumerate() {
         if pressed {
             paper.line([x, y - 2.8], [x + 16.0, y - 2.8], position_line(k));
             x += 8.0;
         }
         paper.circle([x, y - 2.8], 2.2, position_mark(k));
         x += if pressed { 12.0 } else { 5.0 };
-        words(paper, &mut x, &format!("at *s* = {}", three(*s)));
+        words(paper, &mut x, &fit(name, 130.0));
     }
     if pressed {
         let text = "last row: force on each end over the mass of the body";
@@ -321,10 +325,9 @@ fn pulses(paper: &mut Paper, drop: &Drop<'_>, column: Column, corner: [f64; 2], 
     let rows = || drop.rows.iter().filter_map(|row| row.forces.as_ref().map(|forces| (row.time_s, forces)));
     let positions = |forces: &Forces| drop.at.iter().map(|s| forces.acceleration_at(*s)).collect::<Vec<_>>();
     let bounds = range(rows().flat_map(|(_, forces)| forces.force_per_mass_m_s2.into_iter().chain(positions(forces))));
-    let unit = Unit::of(bounds[1]);
-    let title = format!("acceleration, {}m/s²", unit.prefix);
     let time = time_title(column);
-    let panel = panel(paper, column, corner, high, bounds, unit, [&time, &title]);
+    let unit = Unit { factor: 1.0 / STANDARD_GRAVITY_M_S2, prefix: "" };
+    let panel = panel(paper, column, corner, high, bounds, unit, [&time, "acceleration, g"]);
     panel.chart.level(paper, 0.0, Ink::line(GRAY, 0.6));
     for end in [1, 0] {
         panel.curve(paper, rows().map(|(t, forces)| (t, forces.force_per_mass_m_s2[end])), Ink::line(ENDS[end], 1.8));
@@ -346,7 +349,7 @@ mod tests {
         let flight = scene.simulate(Model::FiniteTilt);
         let rows: Vec<_> = scene.history(Model::FiniteTilt, &flight).collect();
         let until = |strikes: &[Strike]| {
-            let drop = Drop { model: "", rows: &rows, strikes, pulses: &[], stop: flight.stop, at: &[] };
+            let drop = Drop { model: "", rows: &rows, strikes, pulses: &[], stop: flight.stop, at: &[], called: &[] };
             early(&drop, flight.stop.time_s())
         };
         let first = until(&flight.strikes).expect("a long pause");

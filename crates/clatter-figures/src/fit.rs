@@ -1,6 +1,7 @@
 //! Measured beside computed: strikes, heights and accelerations of one drop.
 
 use clatter::End;
+use clatter_assess::STANDARD_GRAVITY_M_S2;
 use clatter_assess::fit::{Fit, RecordFit};
 
 use crate::FigureError;
@@ -40,7 +41,7 @@ pub fn fit(fit: &Fit) -> Result<String, FigureError> {
         match record.curves.len() {
             0 => strikes(&mut paper, top, record, &fit.computed),
             2 => values(&mut paper, top, record, 1e3, "height, mm"),
-            _ => values(&mut paper, top, record, 1.0, "acceleration, m/s²"),
+            _ => values(&mut paper, top, record, 1.0 / STANDARD_GRAVITY_M_S2, "acceleration, g"),
         }
         top += HIGH + GAP;
     }

@@ -10,7 +10,7 @@ use crate::axis::{Axis, three, tick};
 use crate::chart::Axes;
 use crate::grid::cells;
 use crate::paper::{Paper, SMALL, What};
-use crate::style::{Anchor, BLUES, INK, Ink, LABEL, Label, SAND, rgb};
+use crate::style::{Anchor, BLUES, INK, Ink, LABEL, Label, SAND, rgb, width};
 
 /// What a quantity is called on the color bar, in figure markup.
 fn name(quantity: Quantity) -> String {
@@ -130,7 +130,10 @@ pub fn map(map: &Map) -> Result<String, FigureError> {
         Variable::GyrationRatio => ("gyration ratio *ρ*/*L*", "Map over restitution and gyration ratio"),
         _ => ("inertia ratio *q*", "Map over restitution and inertia ratio"),
     };
-    let mut paper = Paper::new(390.0, 290.0);
+    let (scale, palette) = (Scale::of(&map.values), palette());
+    let beyond = beyond(map, &scale);
+    let words = beyond.iter().map(|(_, text)| WORDS + 1.1 * width(text, SMALL.size) + 4.0);
+    let mut paper = Paper::new(words.fold(390.0, f64::max), 290.0);
     let axes = Axes {
         corner: [46.0, 8.0],
         size: [250.0; 2],
@@ -138,7 +141,6 @@ pub fn map(map: &Map) -> Result<String, FigureError> {
         y: axis(map.q, inertia),
     };
     let chart = axes.without_grid(&mut paper, 30.0);
-    let (scale, palette) = (Scale::of(&map.values), palette());
     let (nq, ne) = (map.q.points(), map.e.points());
     let (wide, high) = (zoom(ne), zoom(nq));
     let mut pixels = Vec::with_capacity(3 * map.values.len() * wide * high);
@@ -160,18 +162,39 @@ pub fn map(map: &Map) -> Result<String, FigureError> {
         }
     }
     chart.border(&mut paper);
-    bar(&mut paper, map, &scale, &palette);
+    bar(&mut paper, map, &scale, &palette, beyond);
     paper.finish(title)
 }
 
+/// Where the color bar and its words begin.
+const BAR: f64 = 314.0;
+const WORDS: f64 = BAR + 17.0;
+
+/// What the bar does not hold: its color and its words.
+fn beyond(map: &Map, scale: &Scale) -> Vec<(&'static str, String)> {
+    let mut beyond = Vec::new();
+    if map.values.iter().any(|v| !v.is_finite()) {
+        beyond.push((SAND, if map.quantity == Quantity::Impacts { "endless" } else { "infinite" }.to_owned()));
+    }
+    if let Some(most) = scale.most {
+        beyond.push((BLUES[BLUES.len() - 1], format!("2 % above, to {}", three(most))));
+    }
+    beyond
+}
+
 /// The color bar with its ticks and title.
-fn bar(paper: &mut Paper, map: &Map, scale: &Scale, palette: &DerivedColorMap<RGBColor>) {
-    let (left, top, side) = (314.0, 8.0, 250.0);
+fn bar(
+    paper: &mut Paper,
+    map: &Map,
+    scale: &Scale,
+    palette: &DerivedColorMap<RGBColor>,
+    beyond: Vec<(&'static str, String)>,
+) {
+    let (left, top, side) = (BAR, 8.0, 250.0);
     let word = |paper: &mut Paper, y: f64, text: &str| {
-        paper.text([left + 17.0, y], text, Label { anchor: Anchor::Start, ..SMALL });
+        paper.text([WORDS, y], text, Label { anchor: Anchor::Start, ..SMALL });
     };
-    let apart = map.values.iter().any(|v| !v.is_finite());
-    let rows = 16.0 * f64::from(u8::from(apart) + u8::from(scale.most.is_some()));
+    let rows = beyond.iter().map(|_| 16.0).sum::<f64>();
     let (from, high) = if rows > 0.0 { (top + rows + 6.0, side - rows - 6.0) } else { (top, side) };
     let strip: Vec<u8> = (0..=255u8).rev().flat_map(|i| color(palette, f64::from(i) / 255.0)).collect();
     paper.image([left, from], [left + 12.0, from + high], &png(1, 256, &strip));
@@ -180,13 +203,6 @@ fn bar(paper: &mut Paper, map: &Map, scale: &Scale, palette: &DerivedColorMap<RG
         let y = from + high * (1.0 - scale.unit(v));
         paper.line([left + 12.0, y], [left + 15.0, y], Ink::line(INK, 0.5));
         word(paper, y + 2.6, &tick(v));
-    }
-    let mut beyond = Vec::new();
-    if apart {
-        beyond.push((SAND, if map.quantity == Quantity::Impacts { "endless" } else { "infinite" }.to_owned()));
-    }
-    if let Some(most) = scale.most {
-        beyond.push((BLUES[BLUES.len() - 1], format!("2 % above, to {}", three(most))));
     }
     for (k, (color, text)) in (0_u8..).zip(beyond) {
         let y = top + 16.0 * f64::from(k);
@@ -223,6 +239,21 @@ mod tests {
         let scale = Scale::of(&values);
         assert_eq!(scale.most, Some(500.0));
         assert!((1.9..2.1).contains(&scale.axis.high) && scale.unit(500.0) >= 1.0, "{:?}", scale.axis);
+    }
+
+    /// Words of the legend end within the picture, whatever they say.
+    #[test]
+    fn the_legend_is_not_cut() {
+        let mut values: Vec<f64> = (0..1000).map(|k| 1.0 + f64::from(k) / 1000.0).collect();
+        values[999] = 123_456.0;
+        let axis = |points| Of::q(0.0, 1.0, points).unwrap();
+        let (q, e) = (axis(10), Of::e(0.0, 1.0, 100).unwrap());
+        let drawn = map(&Map { quantity: Quantity::PeakEnd, q, e, values }).unwrap();
+        let wide: f64 = drawn.split("viewBox=\"0 0 ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+        assert!(drawn.contains("2 % above"), "{drawn}");
+        // The typeface is at most a tenth wider than reckoned.
+        let needs = WORDS + 1.1 * width("2 % above, to 123000", SMALL.size);
+        assert!(wide > needs, "{wide} for {needs}");
     }
 
     #[test]

@@ -46,7 +46,7 @@ pub fn panels(panels: &[Panel<'_>]) -> Result<String, FigureError> {
     let columns = if panels.len() < 2 { 1 } else { 2 };
     let rows = f64::from(u32::try_from(panels.len().div_ceil(columns)).unwrap_or(u32::MAX));
     let mut paper =
-        Paper::new(LEFT + FRAME[0] + if columns > 1 { COLUMN } else { 24.0 } + 4.0, (PANEL * rows).max(HEAD));
+        Paper::new(LEFT + FRAME[0] + if columns > 1 { COLUMN } else { 24.0 } + 12.0, (PANEL * rows).max(HEAD));
     if panels.is_empty() {
         paper.note([4.0, 14.0], "No limit has a drop that was answered.");
     }

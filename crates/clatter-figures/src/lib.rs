@@ -31,7 +31,7 @@ mod surface;
 
 pub use axis::{raised, three, tick};
 pub use bar::scheme;
-pub use component::{Share, history, over_tilt, shares};
+pub use component::{Share, history, is_drawn, over_tilt, shares};
 pub use design::{DesignBorder, DesignFronts, DesignPlane, fronts, plane as design_plane};
 pub use drop::{Drop, drop};
 pub use fit::fit;

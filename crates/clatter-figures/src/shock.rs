@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use clatter_shock::{DamageBoundary, LimitCurve, Quantity, Rule, Spectrum};
+use clatter_shock::{DamageBoundary, LimitCurve, Quantity, Rule, STANDARD_GRAVITY_M_S2, Spectrum};
 
 use crate::FigureError;
 use crate::axis::{Axis, three, tick};
@@ -33,11 +33,27 @@ const SLANT: Ink = Ink::line("#c6ced6", 0.4);
 /// The quantity and its unit, in figure markup.
 fn title(quantity: Quantity) -> &'static str {
     match quantity {
-        Quantity::AbsoluteAcceleration => "absolute acceleration, m/s²",
+        Quantity::AbsoluteAcceleration => "absolute acceleration, g",
         Quantity::RelativeDisplacement => "relative displacement, m",
         Quantity::RelativeVelocity => "relative velocity, m/s",
         Quantity::PseudoVelocity => "pseudo-velocity, m/s",
-        Quantity::EquivalentStaticAcceleration => "equivalent static acceleration, m/s²",
+        Quantity::EquivalentStaticAcceleration => "equivalent static acceleration, g",
+    }
+}
+
+/// A spectrum in the unit of its title: accelerations in g.
+fn shown(spectrum: &Spectrum) -> Spectrum {
+    let mut shown = spectrum.clone();
+    let factor = factor(spectrum.quantity);
+    let all = [&mut shown.primary, &mut shown.residual, &mut shown.maximax, &mut shown.positive, &mut shown.negative];
+    all.into_iter().flatten().for_each(|value| *value *= factor);
+    shown
+}
+
+fn factor(quantity: Quantity) -> f64 {
+    match quantity {
+        Quantity::AbsoluteAcceleration | Quantity::EquivalentStaticAcceleration => 1.0 / STANDARD_GRAVITY_M_S2,
+        _ => 1.0,
     }
 }
 
@@ -93,7 +109,13 @@ fn draw(
 ) -> Result<String, FigureError> {
     let mut order: Vec<usize> = (0..s.frequency_hz.len()).collect();
     order.sort_by(|a, b| s.frequency_hz[*a].total_cmp(&s.frequency_hz[*b]));
-    let margins = limit.map(|limit| limit.margins(s)).unwrap_or_default();
+    let factor = factor(s.quantity);
+    let mut margins = limit.map(|limit| limit.margins(s)).unwrap_or_default();
+    for margin in margins.iter_mut().flatten() {
+        (margin.demand, margin.allowed) = (factor * margin.demand, factor * margin.allowed);
+    }
+    let own = shown(s);
+    let (s, others) = (&own, others.iter().map(|(other, name)| (shown(other), *name)).collect::<Vec<_>>());
     let allowed = margins.iter().flatten().map(|m| m.allowed);
     let x = Axis::log_over(s.frequency_hz.iter().copied(), 600.0, "natural frequency, Hz");
     let x = match (order.first(), order.last()) {
@@ -150,7 +172,7 @@ fn draw(
     }
     let worst = LimitCurve::worst(&margins).and_then(|i| Some((s.frequency_hz[i], margins[i]?)));
     if let Some(limit) = limit {
-        axes.curve(&mut paper, limit.corners(x.low, x.high).into_iter(), LIMIT);
+        axes.curve(&mut paper, limit.corners(x.low, x.high).into_iter().map(|p| (p.0, factor * p.1)), LIMIT);
         lines.push((LIMIT, "limit"));
     }
     axes.border(&mut paper);
@@ -252,11 +274,12 @@ fn slants(paper: &mut Paper, axes: &Chart<'_>, drawn: &[Pt]) {
             label(paper, hz / inset, TAU * hz * d / inset, &length(d), -turn);
         }
     }
-    for a in decades(y.low * TAU * x.low, y.high * TAU * x.high) {
+    for g in decades(y.low * TAU * x.low / STANDARD_GRAVITY_M_S2, y.high * TAU * x.high / STANDARD_GRAVITY_M_S2) {
+        let a = g * STANDARD_GRAVITY_M_S2;
         line(paper, &|hz| a / (TAU * hz));
         let hz = (a / (TAU * y.low)).min(x.high);
         if hz > x.low * 2.5 && a / (TAU * hz) < y.high / 2.5 {
-            label(paper, hz / inset, a / (TAU * hz) * inset, &format!("{} m/s²", tick(a)), turn);
+            label(paper, hz / inset, a / (TAU * hz) * inset, &format!("{} g", tick(g)), turn);
         }
     }
 }
@@ -306,7 +329,11 @@ pub fn boundary(
     pulses: &[([f64; 2], &str, &'static str)],
     size: Pt,
 ) -> Result<String, FigureError> {
-    let Critical { velocity_change: v, acceleration: a, knee } = critical;
+    let Critical { velocity_change: v, acceleration, knee } = critical;
+    let in_g = |a: f64| a / STANDARD_GRAVITY_M_S2;
+    let a = in_g(acceleration);
+    let curve: Vec<(f64, f64)> = curve.iter().map(|p| (p.0, in_g(p.1))).collect();
+    let pulses: Vec<_> = pulses.iter().map(|([v, a], name, color)| ([*v, in_g(*a)], *name, *color)).collect();
     let last = curve.last().map_or(v, |p| p.0);
     // without a knee the boundary comes down for ever, and the paper ends where it was followed to
     let drawn = |k: usize| pulses.iter().map(move |(at, ..)| at[k]).filter(|x| *x > 0.0 && x.is_finite());
@@ -317,7 +344,7 @@ pub fn boundary(
         corner: [52.0, 12.0],
         size,
         x: Axis::log(least(0, v / 5.0), right, "velocity change of the base, m/s"),
-        y: Axis::log(least(1, a / 5.0), most(1, 30.0 * a), "peak acceleration of the base, m/s²"),
+        y: Axis::log(least(1, a / 5.0), most(1, 30.0 * a), "peak acceleration of the base, g"),
     };
     let mut paper = Paper::new(size[0] + 66.0, size[1] + 42.0);
     let axes = axes.on(&mut paper, 38.0);
@@ -344,17 +371,13 @@ pub fn boundary(
     word(&mut paper, [0.5 * (vx + left + wide), ay + 0.5 * (top + high - ay)], &["no damage: too little acceleration"]);
     word(&mut paper, [vx + 0.6 * (left + wide - vx), top + 0.3 * (ay - top)], &["damage"]);
     let small = Label { color: GRAY, ..SMALL };
-    paper.text(
-        [left + 4.0, ay - 3.0],
-        &format!("critical {} m/s²", three(a)),
-        Label { anchor: Anchor::Start, ..small },
-    );
+    paper.text([left + 4.0, ay - 3.0], &format!("critical {} g", three(a)), Label { anchor: Anchor::Start, ..small });
     paper.text(
         [vx + 3.0, top + high - 4.0],
         &format!("critical {} m/s", three(v)),
         Label { anchor: Anchor::Start, ..small },
     );
-    for (at, name, color) in pulses {
+    for (at, name, color) in &pulses {
         axes.mark(&mut paper, at[0], at[1], color);
         let [x, y] = axes.at(at[0], at[1]);
         if !(x.is_finite() && y.is_finite()) {

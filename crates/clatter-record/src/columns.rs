@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use crate::error::Bad;
 use crate::heading::Heading;
-use crate::record::{Raw, Untimed, one_scale, period};
+use crate::raw::{Raw, Untimed};
+use crate::record::{one_scale, period};
 use crate::roles::{Role, Roles, Seen};
 use crate::samples::{LARGEST, float};
 use crate::text::SHOWN;
@@ -105,6 +106,7 @@ fn seen(columns: &[Column], options: &Options) -> Seen {
         sampled: columns.iter().any(|column| column.sampled_s.is_some()),
         rows: (0..SHOWN).map(|row| columns.iter().map(|column| number(column, row)).collect()).collect(),
         headings,
+        ..Seen::default()
     }
 }
 
@@ -129,8 +131,11 @@ impl<'a> Sought<'a> {
         time: Option<(usize, f64)>,
         channels: &[Role],
     ) -> Result<Self, Error> {
-        let times =
-            if seen.named { (0..columns.len()).filter(|column| seen.is_time(*column)).collect() } else { Vec::new() };
+        let times = if seen.named {
+            (0..columns.len()).filter(|column| seen.headings[*column].is_time()).collect()
+        } else {
+            Vec::new()
+        };
         let mut sought = Self { columns, seen, options, time, times, beside: HashMap::new() };
         if options.sample_rate_hz.is_some() || options.time.is_some() {
             return Ok(sought);

@@ -117,6 +117,14 @@ pub struct Bad {
     pub count: usize,
 }
 
+impl Error {
+    /// There is no such record in a file that holds so many.
+    pub(crate) fn no_record(number: usize, count: usize) -> Self {
+        let there = if count == 1 { "there is one record".to_owned() } else { format!("there are {count} records") };
+        Self::Records(format!("there is no record {number} in the file: {there}"))
+    }
+}
+
 impl Bad {
     /// Listed one by one at most.
     const LISTED: usize = 10;

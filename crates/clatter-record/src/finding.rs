@@ -23,6 +23,15 @@ pub enum Finding {
     Skipped(Bad),
     /// Lines of text below the numbers.
     Below(Bad),
+    /// A rate that is told, and times that say another one.
+    Rate {
+        /// Who tells it.
+        what: String,
+        /// The rate that is told, in Hz.
+        told_hz: f64,
+        /// The rate of the times, in Hz.
+        times_hz: f64,
+    },
     /// Steps in time that lack samples: longer than the usual ones by more than these differ. At most ten are listed.
     Gaps {
         /// Where each ends, and its length in seconds.
@@ -148,6 +157,9 @@ impl std::fmt::Display for Finding {
                 let first = bad.first.first().map(|(at, what)| format!(": {at}: {what}")).unwrap_or_default();
                 write!(f, "text below the numbers{first}")
             }
+            Self::Rate { what, told_hz, times_hz } => {
+                write!(f, "{what}, {} Hz, is not that of the times, {} Hz", three(*told_hz), three(*times_hz))
+            }
             Self::Gaps { first, count, usual_s } => {
                 let listed: Vec<_> = first.iter().map(|(at, gap_s)| format!("{at}: {} s", three(*gap_s))).collect();
                 write!(
@@ -232,8 +244,10 @@ const ABRUPT: f64 = 8.0;
 const LONGER: usize = 6;
 /// Places that are listed, of one kind.
 pub(crate) const LISTED: usize = 10;
+/// Steps are whole numbers of the usual one where they are off them by no more than this share of it.
+const WHOLE: f64 = 0.05;
 /// Where more than one step in so many is long, the record is uneven, and nothing is missing.
-const MOST_GAPS: usize = 10;
+const MOST_GAPS: usize = 6;
 /// A step is a gap where it is longer than the usual one by half of it, and by so many times what nine of ten differ by: beyond
 /// what a normal distribution gives once in a million.
 const GAP: (f64, f64) = (0.5, 3.0);
@@ -245,6 +259,12 @@ fn usual(steps: &[f64]) -> [f64; 2] {
         *values.select_nth_unstable_by(nth, f64::total_cmp).1
     };
     let usual_s = share(steps.to_vec(), 5);
+    // Where all steps are whole numbers of the usual one, and few are more than one, the long ones lack samples.
+    let off = |step: &f64| step / usual_s - (step / usual_s).round();
+    let is_whole = usual_s > 0.0 && steps.iter().all(|step| off(step).abs() < WHOLE);
+    if is_whole && MOST_GAPS * steps.iter().filter(|step| **step > 1.5 * usual_s).count() <= steps.len() {
+        return [usual_s, WHOLE * usual_s];
+    }
     [usual_s, share(steps.iter().map(|step| (step - usual_s).abs()).collect(), 9)]
 }
 

@@ -1,6 +1,10 @@
 //! What a column is by its heading.
 
+mod words;
+
+use crate::factor;
 use crate::unit::{Kind, Unit};
+use words::{ACCELERATIONS, BEGINNINGS, DATES, FUNCTIONS, GRAMS, INDICES, OTHERS, PLACES, TIMES};
 
 /// A heading: the name of a column and its unit.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,91 +30,13 @@ pub(crate) enum Named {
     Unknown,
 }
 
-const TIMES: [&str; 14] = [
-    "t",
-    "uhrzeit",
-    "time",
-    "times",
-    "zeit",
-    "timestamp",
-    "temps",
-    "tiempo",
-    "tid",
-    "tijd",
-    "tempo",
-    "datetime",
-    "clock",
-    "elapsed",
-];
-const INDICES: [&str; 21] = [
-    "index",
-    "idx",
-    "sample",
-    "samples",
-    "n",
-    "no",
-    "nr",
-    "num",
-    "number",
-    "row",
-    "#",
-    "id",
-    "count",
-    "unnamed",
-    "frame",
-    "point",
-    "counter",
-    "packet",
-    "packetcounter",
-    "seq",
-    "sequence",
-];
-const ACCELERATIONS: [&str; 7] = ["ax", "ay", "az", "ar", "beschleunigung", "shock", "gforce"];
-/// Beside an acceleration they say where it was measured.
-const PLACES: [&str; 4] = ["height", "position", "distance", "displacement"];
-const OTHERS: [&str; 33] = [
-    "accuracy",
-    "accelerator",
-    "pedal",
-    "status",
-    "range",
-    "threshold",
-    "load",
-    "field",
-    "mag",
-    "magx",
-    "magy",
-    "magz",
-    "magnetometer",
-    "sensitivity",
-    "mass",
-    "masse",
-    "weight",
-    "velocity",
-    "speed",
-    "force",
-    "temperature",
-    "temp",
-    "voltage",
-    "pressure",
-    "gyro",
-    "gyroscope",
-    "angular",
-    "rotation",
-    "strain",
-    "magnetic",
-    "humidity",
-    "comment",
-    "trigger",
-];
-
 /// No heading with a unit has more bytes.
 const LONGEST: usize = 1000;
 
 impl Heading {
     /// Of the text of a cell: `time [ms]`, `Acceleration (g)`, `time, s`, `t / ms`, `acceleration_m_s2`, `Seconds`.
     pub(crate) fn of(cell: &str) -> Self {
-        let cell = cell.trim().trim_matches(['"', '\'']).trim();
+        let cell = &plain(cell.trim().trim_matches(['"', '\'']).trim());
         if cell.len() > LONGEST {
             let begin: String = cell.chars().take(40).collect();
             return Self::named_alone(&format!("{begin}…"));
@@ -122,7 +48,7 @@ impl Heading {
             if let Some(unit) = whole {
                 return Self { unit: Some(unit), spelled: Some(cell.to_owned()), ..Self::named_alone(cell) };
             }
-            trailing(cell).unwrap_or_else(|| Self::named_alone(cell))
+            trailing(cell).or_else(|| spoken(cell)).unwrap_or_else(|| Self::named_alone(cell))
         })
     }
 
@@ -143,22 +69,26 @@ impl Heading {
     /// What the name says.
     pub(crate) fn named(&self) -> Named {
         let name = self.name.to_lowercase();
-        let words: Vec<&str> =
-            name.split(|c: char| !c.is_alphanumeric() && c != '#').filter(|w| !w.is_empty()).collect();
+        let words = parts(&name);
         let any = |list: &[&str]| words.iter().any(|word| list.contains(word));
-        let within = |part: &str| words.iter().any(|word| word.starts_with(part));
-        // `acc`, `accx`, `acc12`, `accelerometer`, and not `account`.
+        let within = |part: &str| words.iter().any(|word| word.contains(part));
+        // `acc`, `accx`, `acc12`, `accelerometer`, `accSmooth`, and not `account`.
         let is_acc = |word: &&str| {
-            word.strip_prefix("acc").is_some_and(|rest| rest.starts_with("el") || rest.chars().count() <= 3)
+            word.strip_prefix("acc").is_some_and(|rest| {
+                ["el", "smooth", "raw"].iter().any(|part| rest.starts_with(part)) || rest.chars().count() <= 3
+            })
         };
         if words.is_empty() {
             return Named::Index;
         }
-        if self.is_text || any(&OTHERS) {
+        if self.is_text || any(&OTHERS) || words.iter().any(|word| BEGINNINGS.iter().any(|b| word.starts_with(b))) {
             return Named::Other;
         }
         if any(&TIMES) || name == "x_value" || within("timestamp") || words == ["x", "value"] {
             return Named::Time;
+        }
+        if any(&DATES) {
+            return Named::Other;
         }
         let alone = words.first() == Some(&"a") && words.len() <= 2;
         if alone || any(&ACCELERATIONS) || words.iter().any(is_acc) || within("beschl") {
@@ -171,6 +101,48 @@ impl Heading {
             return Named::Index;
         }
         Named::Unknown
+    }
+
+    /// Whether the name alone says that a column is of times, whatever stands in it.
+    pub(crate) fn is_time_by_name(&self) -> bool {
+        Self::named_alone(&self.name).named() == Named::Time
+    }
+
+    /// Whether a column is one of times, by its name or its unit; `t1` is, as `t`.
+    pub(crate) fn is_time(&self) -> bool {
+        let stem = self.name.trim_end_matches(|c: char| c.is_ascii_digit());
+        let is_named = || [self.named(), Self::named_alone(stem).named()].contains(&Named::Time);
+        match self.unit.map(|unit| unit.kind) {
+            _ if self.is_text => false,
+            Some(Kind::Time) => self.named() != Named::Other,
+            None => is_named(),
+            Some(_) => false,
+        }
+    }
+
+    /// Why a column with a unit of acceleration, or with such a name, is no plain acceleration, if its name says so.
+    pub(crate) fn function(&self) -> Option<String> {
+        let name = self.name.to_lowercase();
+        let word = parts(&name).into_iter().find(|word| FUNCTIONS.contains(word));
+        let begins = name.starts_with(['-', '−', '–', '|']) && name.len() > 1;
+        let raised = ["^", "²", "³", "**", "d/dt", "/dt"].iter().find(|mark| name.contains(**mark));
+        let factor = parts(&name).into_iter().find(|word| factor::is_marked(word));
+        word.map(|word| format!("'{word}'"))
+            .or_else(|| raised.map(|mark| format!("'{mark}'")))
+            .or_else(|| factor.map(|word| format!("'{word}'")))
+            .or_else(|| {
+                begins.then(|| format!("'{}' before its name", &name[..name.chars().next().map_or(0, char::len_utf8)]))
+            })
+    }
+
+    /// Whether a unit such as g or mG is one of a mass or of a magnetic field, by the name.
+    pub(crate) fn is_of_grams(&self) -> bool {
+        let name = self.name.to_lowercase();
+        let words = parts(&name);
+        let is_acc = words.iter().any(|word| ACCELERATIONS.contains(word) || word.starts_with("acc"));
+        let in_grams =
+            self.spelled.as_deref().is_some_and(|unit| unit.to_lowercase().ends_with('g') && !unit.contains('/'));
+        in_grams && !is_acc && words.iter().any(|word| GRAMS.contains(word) || word.starts_with("magn"))
     }
 
     /// As messages call it.
@@ -192,31 +164,146 @@ pub(crate) fn unbracketed(text: &str) -> &str {
     inner.unwrap_or(text)
 }
 
-/// A heading whose unit stands in brackets. Names of axes and the like may stand in brackets too; what stands in the last ones
-/// and is neither is a unit that is not known.
+/// Brackets as keyboards of the west have them, and one blank for all that is blank.
+fn plain(cell: &str) -> String {
+    let plain = |c: char| match c {
+        '（' | '﹙' => '(',
+        '）' | '﹚' => ')',
+        '［' | '【' => '[',
+        '］' | '】' => ']',
+        '：' => ':',
+        c if c.is_whitespace() => ' ',
+        c => c,
+    };
+    let text: String = cell.chars().map(plain).collect();
+    if text.contains("  ") { text.split_whitespace().collect::<Vec<_>>().join(" ") } else { text }
+}
+
+/// Words of a name, in small letters.
+fn parts(name: &str) -> Vec<&str> {
+    name.split(|c: char| !c.is_alphanumeric() && c != '#').filter(|word| !word.is_empty()).collect()
+}
+
+/// A heading whose unit stands in brackets, with the factor that stands beside or in brackets of its own. What stands in brackets
+/// and names no unit is part of the name; what has a part that is a unit, and is none as a whole, is a unit that is not known.
 fn bracketed(cell: &str) -> Option<Heading> {
-    let mut groups = Vec::new();
+    let (mut groups, mut names) = (Vec::new(), vec![String::new()]);
     let mut rest = cell;
-    let mut name = String::new();
     while let Some(open) = rest.find(['[', '(']) {
         let close = if rest[open..].starts_with('[') { ']' } else { ')' };
         let length = closing(&rest[open..], close)?;
-        name.push_str(&rest[..open]);
-        groups.push(rest[open + 1..open + length].trim());
+        names.last_mut()?.push_str(&rest[..open]);
+        let group = since_dropped(rest[open + 1..open + length].trim());
+        // `accSmooth[0]` is a name; `(z)` may be an axis.
+        let is_number = !group.is_empty() && group.bytes().all(|c| c.is_ascii_digit());
+        if is_number || group.is_empty() {
+            names.last_mut()?.push_str(&rest[open..=open + length]);
+        } else {
+            groups.push(group);
+            names.push(String::new());
+        }
         rest = &rest[open + length + 1..];
     }
-    name.push_str(rest);
-    let aside = |group: &&str| group.is_empty() || group.chars().count() == 1 && Unit::of(group).is_none();
-    let named: Vec<_> = groups.iter().filter(|group| aside(group)).copied().collect();
-    let units: Vec<_> = groups.iter().filter(|group| !aside(group)).copied().collect();
-    let spelled = match units[..] {
-        [] => return None,
-        [unit] => unit.to_owned(),
-        // One of them may be a unit and the others words, but no one can tell for all.
-        _ => units.join("; "),
+    names.last_mut()?.push_str(rest);
+    if groups.is_empty() {
+        return None;
+    }
+    let used = |group: &&str| Unit::of(group).is_some_and(|unit| matches!(unit.kind, Kind::Time | Kind::Acceleration));
+    let places = |is: &dyn Fn(&&str) -> bool| (0..groups.len()).filter(|i| is(&groups[*i])).collect::<Vec<_>>();
+    let measured = places(&used);
+    let other = places(&|group| Unit::of(group).is_some() && !used(group));
+    let is_unknown = |group: &&str| {
+        Unit::of(group).is_none()
+            && factor::alone(group).is_none()
+            && (is_like_unit(group) || factor::is_operation(group))
     };
-    let words: Vec<_> = name.split_whitespace().chain(named).collect();
-    Some(Heading { unit: Unit::of(&spelled), spelled: Some(spelled), ..Heading::named_alone(&words.join(" ")) })
+    let unknown = places(&is_unknown);
+    // A letter beside a unit is the name of an axis or a place.
+    let is_letter = |place: &usize| groups[*place].chars().count() == 1;
+    let place = match (&measured[..], &other[..], &unknown[..]) {
+        ([unit], others, []) if others.iter().all(is_letter) => Some(*unit),
+        ([], [unit], []) | ([], [], [unit]) => Some(*unit),
+        ([], [], []) => None,
+        // One of them may be a unit and the others words, but no one can tell for all.
+        _ => {
+            let name = names.concat();
+            let name = name.split_whitespace().collect::<Vec<_>>().join(" ");
+            return Some(Heading { spelled: Some(groups.join("; ")), ..Heading::named_alone(&name) });
+        }
+    };
+    let mut size = 1.0;
+    let mut kept: Vec<String> = Vec::new();
+    // What is divided by 9.81 was in m/s².
+    let in_si =
+        place.and_then(|place| Unit::of(groups[place])).is_some_and(|unit| unit.size.to_bits() == 1.0_f64.to_bits());
+    let divided = place.map(|place| names[place + 1].trim()).filter(|beside| beside.starts_with('/') && !in_si);
+    let mut refused = divided;
+    for (i, name) in names.iter().enumerate() {
+        let (before, after) = (place == Some(i), i > 0 && place == Some(i - 1));
+        let found = if after {
+            factor::after(name)
+        } else if before {
+            factor::before(name)
+        } else {
+            factor::Beside::name(name)
+        };
+        size *= found.factor;
+        refused = refused.or(found.refused);
+        kept.extend(found.name.split_whitespace().map(str::to_owned));
+        if let Some(group) = groups.get(i).filter(|_| place != Some(i)) {
+            match factor::alone(group) {
+                Some(factor) => size *= factor,
+                None => kept.push(if group.chars().count() == 1 { (*group).to_owned() } else { format!("({group})") }),
+            }
+        }
+    }
+    let name = kept.join(" ");
+    let Some(place) = place else {
+        // A factor without a unit has none to go with.
+        let is_factor = size.to_bits() != 1.0_f64.to_bits();
+        return Some(if is_factor {
+            Heading { spelled: Some(groups.join("; ")), ..Heading::named_alone(&name) }
+        } else {
+            Heading::named_alone(&name)
+        });
+    };
+    let spelled = match refused {
+        Some(beside) => format!("{} {beside}", groups[place]),
+        None if size.to_bits() == 1.0_f64.to_bits() => groups[place].to_owned(),
+        None => format!("{} × {size}", groups[place]),
+    };
+    let unit = if refused.is_some() { None } else { Unit::of(groups[place]).map(|unit| unit.times(size)) };
+    Some(Heading { unit, spelled: Some(spelled), ..Heading::named_alone(&name) })
+}
+
+/// A unit of time without what it counts from: `s since trigger`.
+fn since_dropped(group: &str) -> &str {
+    let end = [" since ", " after ", " from ", " relative "].iter().find_map(|word| group.find(word));
+    end.map(|end| &group[..end])
+        .filter(|unit| Unit::of(unit).is_some_and(|unit| unit.kind == Kind::Time))
+        .unwrap_or(group)
+}
+
+/// Whether a text that is no unit has a part that is one: `500g`, `g rms`, `deka g`, `m/s2/Hz`, and not `raw` or `CFC 1000`.
+fn is_like_unit(group: &str) -> bool {
+    let parts = group.split(|c: char| c.is_whitespace() || matches!(c, '/' | '*' | '·' | ',' | ';' | '^' | '²'));
+    parts.map(|part| part.trim_start_matches(|c: char| c.is_ascii_digit() || matches!(c, '.' | '±' | '+' | '-'))).any(
+        |part| {
+            let telling = |unit: Unit| matches!(unit.kind, Kind::Time | Kind::Acceleration) || part.chars().count() > 1;
+            Unit::of(part).is_some_and(telling)
+        },
+    )
+}
+
+/// A name that says its unit in words: `seconds_elapsed`, `millis since start`.
+fn spoken(cell: &str) -> Option<Heading> {
+    let name = cell.to_lowercase();
+    let words = parts(&name);
+    let mut units =
+        words.iter().filter(|word| word.chars().count() > 3).filter_map(|word| Some((word, Unit::of(word)?)));
+    let (word, unit) = units.next().filter(|(_, unit)| unit.kind == Kind::Time && unit.size <= 1.0)?;
+    let is_time = Heading::named_alone(cell).named() == Named::Time || words.contains(&"since");
+    is_time.then(|| Heading { unit: Some(unit), spelled: Some((*word).to_owned()), ..Heading::named_alone(cell) })
 }
 
 /// Bytes up to the bracket that closes the one a text begins with.
@@ -273,7 +360,7 @@ fn trailing(cell: &str) -> Option<Heading> {
             return Some(Heading { unit: Some(sensitivity), spelled: Some(format!("per {unit}")), ..name_only });
         }
         // One letter after a blank or an underscore is the name of an axis or of a channel as well.
-        let lone = unit.chars().count() == 1 && !matches!(unit, "s" | "g" | "G");
+        let lone = unit.chars().count() == 1 && !matches!(unit, "s" | "g" | "G" | "с" | "秒");
         if let Some(known) = Unit::of(unit)
             && !name.is_empty()
             && !lone
@@ -320,6 +407,12 @@ mod tests {
             ("", "", None, Named::Index),
             ("Unnamed: 0", "Unnamed: 0", None, Named::Index),
             ("Channel 1", "Channel 1", None, Named::Unknown),
+            ("az (raw) [g]", "az (raw)", Some("g"), Named::Acceleration),
+            ("Response (Trigger)", "Response (Trigger)", None, Named::Other),
+            ("時間（秒）", "時間", Some("秒"), Named::Time),
+            ("accSmooth[2]", "accSmooth[2]", None, Named::Acceleration),
+            ("seconds_elapsed", "seconds_elapsed", Some("seconds"), Named::Time),
+            ("gyroX", "gyroX", None, Named::Other),
             ("ch1 g", "ch1", Some("g"), Named::Unknown),
         ] {
             let heading = Heading::of(cell);

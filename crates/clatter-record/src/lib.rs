@@ -1,5 +1,6 @@
 //! Measured shocks: from the files of loggers to channels in SI.
 
+mod account;
 mod axis;
 mod baseline;
 mod between;
@@ -10,6 +11,7 @@ mod container;
 mod decimal;
 mod duration;
 mod error;
+mod factor;
 mod finding;
 mod heading;
 mod integrate;
@@ -18,7 +20,9 @@ mod limit;
 mod moment;
 mod options;
 mod pairs;
+mod plausible;
 mod pulse_fit;
+mod raw;
 mod record;
 mod roles;
 mod samples;
@@ -31,6 +35,7 @@ mod times;
 mod tolerance;
 mod unit;
 
+pub use account::{Account, Lines};
 pub use axis::TimeAxis;
 pub use baseline::{Baseline, PRE_SHOCK_SHARE, Removed, remove_baseline};
 pub use between::BAND;
@@ -43,7 +48,7 @@ pub use error::{Bad, Error};
 pub use finding::{At, Finding};
 pub use integrate::{Motion, integrate};
 pub use limit::{LimitPoints, read_limit};
-pub use options::{Options, Pick, Units};
+pub use options::{Options, Pick, Units, sensitivity};
 pub use pulse_fit::{PulseFit, fit_pulses, pulse_at};
 pub use record::{Channel, Record};
 pub use shocks::{MOST_SHOCKS, Search, Shock, Shocks, find_shocks, noise_threshold};

@@ -1,7 +1,7 @@
 //! What is told of a file beside the file.
 
 use crate::Error;
-use crate::unit::{Kind, Unit};
+use crate::unit::{Kind, Unit, VOLTAGE};
 
 /// What is told of a file beside the file.
 ///
@@ -23,6 +23,10 @@ pub struct Options {
     pub sample_rate_hz: Option<f64>,
     /// What full scale is in m/s², for files that count in shares of it.
     pub full_scale_m_s2: Option<f64>,
+    /// What a sensor gives for an acceleration, in V s²/m, for channels in volts.
+    pub sensitivity_v_s2_m: Option<f64>,
+    /// The sensor whose rows are read, where rows of several come in turns.
+    pub sensor: Option<String>,
     /// Which record of a file that holds several, from 1.
     pub record: Option<usize>,
     /// Whether lines that cannot be used are left out; else they are an error.
@@ -39,6 +43,8 @@ impl Default for Options {
             units: None,
             sample_rate_hz: None,
             full_scale_m_s2: None,
+            sensitivity_v_s2_m: None,
+            sensor: None,
             record: None,
             skip_bad: false,
             most_values: 100_000_000,
@@ -86,6 +92,32 @@ impl Units {
         let unit = |kind, name: &str| (Unit { kind, size: 1.0 }, name.to_owned());
         Self { time: Some(unit(Kind::Time, "s")), acceleration: unit(Kind::Acceleration, "m/s2") }
     }
+}
+
+/// The sensitivity of a sensor such as 100mV/g or 10.2 mV/(m/s2), in V s²/m.
+///
+/// ```
+/// assert_eq!(clatter_record::sensitivity("2V/g").unwrap(), 2.0 / 9.80665);
+/// assert!(clatter_record::sensitivity("100 pC/g").is_err());
+/// ```
+///
+/// # Errors
+/// [`Error::Units`] for anything else than a voltage over an acceleration.
+pub fn sensitivity(text: &str) -> Result<f64, Error> {
+    let of = || {
+        let (volts, acceleration) = text.split_once('/')?;
+        let end = volts.rfind(|c: char| c.is_ascii_digit() || c == '.')? + 1;
+        let number: f64 =
+            volts[..end].trim().parse().ok().filter(|number: &f64| *number > 0.0 && number.is_finite())?;
+        let volt = Unit::of(&volts[end..]).filter(|unit| unit.kind == VOLTAGE)?;
+        let acceleration = acceleration.trim();
+        let inner = acceleration.strip_prefix('(').and_then(|text| text.strip_suffix(')')).unwrap_or(acceleration);
+        let per = Unit::of(inner).filter(|unit| unit.kind == Kind::Acceleration)?;
+        Some(number * volt.size / per.size)
+    };
+    of().ok_or_else(|| {
+        Error::Units(format!("'{text}' is no voltage for an acceleration, such as 100mV/g or 10.2mV/(m/s2)"))
+    })
 }
 
 impl std::str::FromStr for Units {

@@ -2,9 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::heading::{Heading, Named};
 use crate::roles::{Roles, Seen};
-use crate::unit::Kind;
 use crate::{Error, Options};
 
 impl Seen {
@@ -14,7 +12,7 @@ impl Seen {
     /// Those of [`Seen::roles`], and [`Error::Columns`] for channels of two rates whose times are not told apart.
     pub(crate) fn by_time(&self, options: &Options) -> Result<Vec<Roles>, Error> {
         let mut roles = self.roles(options)?;
-        let times: Vec<usize> = (0..self.headings.len()).filter(|column| self.is_time(*column)).collect();
+        let times: Vec<usize> = (0..self.headings.len()).filter(|column| self.headings[*column].is_time()).collect();
         // By all channels, whichever are asked for.
         let all = self.channels(times.first().copied(), &Options::default()).unwrap_or_default();
         let owners = if self.named && options.time.is_none() { self.paired(&times, &all) } else { None };
@@ -29,21 +27,28 @@ impl Seen {
             Some(time) => Some(*time),
             None => times.iter().rfind(|time| **time < column).copied(),
         };
-        let mut left_out = std::mem::take(&mut roles.left_out);
         let called: HashSet<String> = owners.iter().map(|time| self.called(*time)).collect();
-        left_out.retain(|column| !called.contains(column));
+        roles.left_out.retain(|column| !called.contains(column));
+        for time in &owners {
+            "time".clone_into(&mut roles.columns[*time].1);
+        }
         let mut groups: Vec<(Option<usize>, Roles)> = Vec::new();
-        for role in roles.channels {
+        for role in std::mem::take(&mut roles.channels) {
             let time = owner(role.column);
             if let Some((_, group)) = groups.iter_mut().find(|(other, _)| *other == time) {
                 group.channels.push(role);
                 continue;
             }
+            let sized = time.map(|time| self.time_size(time, options).map(|size| (time, size)));
+            let mut group = Roles { channels: vec![role], beside_others: true, ..roles.clone() };
             // A rate stands in place of times.
-            let timed = time.filter(|_| options.sample_rate_hz.is_none());
-            let timed = timed.map(|time| self.time_size(time, options).map(|size| (time, size))).transpose()?;
-            let left_out = std::mem::take(&mut left_out);
-            groups.push((time, Roles { time: timed, channels: vec![role], left_out, beside_others: true }));
+            if options.sample_rate_hz.is_none() {
+                group.time = sized.transpose()?;
+            } else {
+                group.checked = sized.and_then(Result::ok).filter(|(time, _)| self.goes_on(*time));
+            }
+            roles.left_out.clear();
+            groups.push((time, group));
         }
         Ok(groups.into_iter().map(|(_, group)| group).collect())
     }
@@ -68,18 +73,5 @@ impl Seen {
         let numbered = |channel: &usize| numbered.get(number(*channel)).copied().flatten();
         let by_number = || channels.iter().map(numbered).collect::<Option<Vec<usize>>>();
         by_place.filter(several).or_else(|| by_number().filter(several))
-    }
-
-    /// Whether a column is one of times, by its name or its unit; `t1` is, as `t`.
-    pub(crate) fn is_time(&self, column: usize) -> bool {
-        let heading = &self.headings[column];
-        let stem = heading.name.trim_end_matches(|c: char| c.is_ascii_digit());
-        let is_named = || [heading.named(), Heading::named_alone(stem).named()].contains(&Named::Time);
-        match heading.unit.map(|unit| unit.kind) {
-            _ if heading.is_text => false,
-            Some(Kind::Time) => heading.named() != Named::Other,
-            None => is_named(),
-            Some(_) => false,
-        }
     }
 }

@@ -7,12 +7,14 @@ use std::sync::Arc;
 use crate::axis::{Spacing, TimeAxis};
 use crate::container::{self, Kind};
 use crate::error::Bad;
-use crate::finding::{At, Finding, Judged, LISTED, gaps, is_of_events};
+use crate::finding::{At, Finding, Judged, is_of_events};
+use crate::plausible::{against_times, refuse_counts};
+use crate::raw::{Raw, Untimed};
 use crate::roles::{Role, Roles};
-use crate::samples::{LARGEST, check};
+use crate::samples::check;
 use crate::text::{self, BLOCK, Rows, decoded};
-use crate::times::{Printed, Times};
-use crate::{Error, FULL_SCALE, Options};
+use crate::times::Printed;
+use crate::{Account, Error, FULL_SCALE, Options};
 
 /// A record of one or several channels, in seconds and m/s².
 #[derive(Debug, Clone, PartialEq)]
@@ -20,6 +22,8 @@ pub struct Record {
     pub(crate) channels: Vec<Channel>,
     /// What was found while reading.
     pub(crate) read: Vec<Finding>,
+    /// What became of each line and column of a text.
+    pub(crate) account: Option<Account>,
 }
 
 /// One channel of a record.
@@ -40,27 +44,6 @@ impl Channel {
     pub fn times(&self) -> &TimeAxis {
         &self.times
     }
-}
-
-/// A channel before its times are known.
-pub(crate) struct Untimed {
-    pub(crate) name: String,
-    pub(crate) unit: String,
-    /// Accelerations in m/s².
-    pub(crate) values: Vec<f64>,
-}
-
-/// Channels of one time, as a reader hands them on.
-pub(crate) struct Raw {
-    pub(crate) channels: Vec<Untimed>,
-    pub(crate) start_s: f64,
-    pub(crate) unit_s: f64,
-    pub(crate) since_s: Vec<f64>,
-    pub(crate) printed: Printed,
-    pub(crate) step_s: Option<f64>,
-    /// Samples that follow no other at the place before, each with its place.
-    pub(crate) numbering: Vec<(usize, At)>,
-    pub(crate) found: Vec<Finding>,
 }
 
 impl Record {
@@ -101,12 +84,6 @@ impl Record {
             drop(bytes);
             return Self::of_table(table, options);
         }
-        if text::is_labview(&begin) {
-            let bytes = to_end(begin, &mut input, options)?;
-            progress(bytes.len() as u64);
-            return Self::of_texts(text::read_labview(&bytes, options)?, options);
-        }
-        one_record(options)?;
         let parts = match decoded(&begin) {
             Some(decode) => {
                 let bytes = to_end(begin, &mut input, options)?;
@@ -158,11 +135,19 @@ impl Record {
 
     /// Of lines of text, by their times.
     fn of_texts(parts: Vec<(Rows, Roles)>, options: &Options) -> Result<Self, Error> {
+        // A line that cannot be used for one of the channels is none of the rows.
+        let worst = parts.iter().max_by_key(|(rows, _)| (rows.lines().bad, rows.lines().rows));
+        let account = worst.map(|(rows, roles)| Account { lines: rows.lines(), columns: roles.columns.clone() });
+        if let Some(account) = account.as_ref().filter(|account| account.lines.missing() > 0) {
+            let missing = account.lines.missing();
+            return Err(Error::File(format!("{missing} lines of the file are not accounted for: {account}")));
+        }
         let part = |(rows, roles): (Rows, Roles)| {
             let places = roles.channels.iter().map(|role| role.column).collect();
             Ok((places, Self::of_text(rows, roles, options)?))
         };
-        parts.into_iter().map(part).collect::<Result<_, Error>>().map(Self::of_parts)
+        let parts = parts.into_iter().map(part).collect::<Result<_, Error>>()?;
+        Ok(Self { account, ..Self::of_parts(parts) })
     }
 
     fn of_text(mut rows: Rows, roles: Roles, options: &Options) -> Result<Self, Error> {
@@ -174,12 +159,20 @@ impl Record {
         if rows.below().count > 0 {
             found.push(Finding::Below(rows.below().clone()));
         }
-        let (start_s, unit_s) = (rows.start_s(), rows.time_size());
-        let (mut start, mut step_s) = (start_s, None);
+        let (mut start_s, unit_s) = (rows.start_s(), rows.time_size());
+        let rounded_s = rows.printed.unit() * unit_s;
+        let mut step_s = None;
         if let Some(hz) = options.sample_rate_hz {
-            step_s = Some(period(hz)?);
+            let given_s = period(hz)?;
+            (start_s, step_s) = (0.0, Some(given_s));
+            let times = std::mem::take(&mut rows.times);
+            found.extend(against_times(given_s, &times, rounded_s, "the rate that is given")?);
+            rows.printed = Printed::default();
         } else if let (Some([from_s, by_s]), None) = (rows.sampled_s, roles.time) {
-            (start, step_s) = (from_s, Some(by_s));
+            (start_s, step_s) = (from_s, Some(by_s));
+        } else if let Some((told_s, line)) = rows.told() {
+            let what = format!("the rate of line {line}");
+            found.extend(against_times(told_s, &rows.times, rounded_s, &what).unwrap_or_default());
         }
         let values = std::mem::take(&mut rows.channels);
         let channels = values.into_iter().zip(roles.channels).map(|(values, role)| Untimed {
@@ -187,9 +180,9 @@ impl Record {
             unit: role.unit,
             values,
         });
-        let raw = Raw {
+        let mut raw = Raw {
             channels: channels.collect(),
-            start_s: start,
+            start_s,
             unit_s,
             since_s: std::mem::take(&mut rows.times),
             printed: std::mem::take(&mut rows.printed),
@@ -197,6 +190,18 @@ impl Record {
             numbering: std::mem::take(&mut rows.numbering),
             found,
         };
+        if options.units.is_some() {
+            refuse_counts(&raw.channels)?;
+        }
+        if !raw.since_s.is_empty() && !rows.doubled.is_empty() {
+            raw.refuse_coarse()?;
+            let mut kept = vec![true; raw.since_s.len()];
+            for (sample, line) in &rows.doubled {
+                kept[*sample] = false;
+                rows.bad.add(At::Line(*line), || "is the line before once more".to_owned());
+            }
+            raw.keep(&kept);
+        }
         raw.finish(rows.bad, options)
     }
 
@@ -231,13 +236,18 @@ impl Record {
                 None => alike.push(Arc::clone(times)),
             }
         }
-        Self { channels, read }
+        Self { channels, read, account: None }
     }
 
     /// The channels.
     #[must_use]
     pub fn channels(&self) -> &[Channel] {
         &self.channels
+    }
+    /// What became of every line and every column, of a text.
+    #[must_use]
+    pub fn account(&self) -> Option<&Account> {
+        self.account.as_ref()
     }
     /// The times of the channels: one for all that were sampled together, in the order of their first channels.
     #[must_use]
@@ -316,7 +326,7 @@ pub(crate) fn one_scale(channels: &[Role], options: &Options) -> Result<(), Erro
 fn one_record(options: &Options) -> Result<(), Error> {
     match options.record {
         None | Some(1) => Ok(()),
-        Some(record) => Err(Error::Records(format!("the file holds one record, and no {record}."))),
+        Some(number) => Err(Error::no_record(number, 1)),
     }
 }
 
@@ -327,137 +337,4 @@ pub(crate) fn period(hz: f64) -> Result<f64, Error> {
         return Ok(period_s);
     }
     Err(Error::Quantity { name: "sample rate (Hz)", value: hz, allowed: "finite and > 0" })
-}
-
-impl Raw {
-    /// A record, where the times go forwards.
-    pub(crate) fn finish(mut self, mut bad: Bad, options: &Options) -> Result<Record, Error> {
-        self.drop_unbounded(&mut bad);
-        let mut step_s = self.step_s.or_else(|| self.times().step());
-        if step_s.is_none() && !self.since_s.is_empty() {
-            self.refuse_coarse()?;
-            self.drop_backward(&mut bad);
-            step_s = self.times().step();
-        }
-        if bad.count > 0 {
-            // Where samples have no times each of them counts, but for those at the end.
-            let last = self.channels[0].values.len().checked_sub(1).map(|last| At::of(&self.numbering, last));
-            let in_between = || bad.first.iter().any(|(at, _)| last.is_none_or(|last| at.number() < last.number()));
-            if !options.skip_bad || self.since_s.is_empty() && in_between() {
-                return Err(Error::Lines(bad));
-            }
-            self.found.push(Finding::Skipped(bad));
-        }
-        let samples = self.channels[0].values.len();
-        if samples < 2 {
-            return Err(Error::Short { what: "a record", samples, needed: 2 });
-        }
-        #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
-        let last_s = step_s.map_or(0.0, |step_s| step_s * samples as f64);
-        for value in [self.start_s, last_s] {
-            if !(-LARGEST..=LARGEST).contains(&value) {
-                return Err(Error::Quantity { name: "time of a sample (s)", value, allowed: "within 1e100" });
-            }
-        }
-        if let Some(value) = step_s.filter(|step_s| *step_s < LARGEST.recip()) {
-            return Err(Error::Quantity { name: "time between samples (s)", value, allowed: "at least 1e-100" });
-        }
-        if step_s.is_none() {
-            let numbering = &self.numbering;
-            self.found.extend(gaps(&self.since_s, &|sample| At::of(numbering, sample)));
-        }
-        let times = Arc::new(TimeAxis {
-            start_s: self.start_s,
-            spacing: step_s.map_or(Spacing::Uneven(self.since_s), Spacing::Even),
-            samples,
-            numbering: self.numbering,
-        });
-        let timed = |Untimed { name, unit, values }| Channel { name, unit, values, times: Arc::clone(&times) };
-        Ok(Record { channels: self.channels.into_iter().map(timed).collect(), read: self.found })
-    }
-
-    fn times(&self) -> Times<'_> {
-        Times { since_s: &self.since_s, start_s: self.start_s, unit_s: self.unit_s, printed: &self.printed }
-    }
-
-    /// Refuses times that are printed so coarsely that samples have one and the same.
-    fn refuse_coarse(&self) -> Result<(), Error> {
-        let count = self.since_s.len();
-        let same = self.since_s.windows(2).filter(|pair| pair[0].to_bits() == pair[1].to_bits()).count();
-        let unit_s = self.printed.unit() * self.unit_s;
-        #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
-        let coarse = unit_s * (count - 1) as f64 > 0.5 * self.since_s[count - 1].abs();
-        if same == 0 || !coarse {
-            return Ok(());
-        }
-        Err(Error::Columns(format!(
-            "{same} of {count} times are those of the sample before: they are printed in steps of {unit_s:e} s, too coarse for \
-             samples so close; give the sample rate"
-        )))
-    }
-
-    /// Leaves out samples at times that no record reaches.
-    fn drop_unbounded(&mut self, bad: &mut Bad) {
-        let kept: Vec<bool> = self.since_s.iter().map(|since_s| since_s.abs() <= LARGEST).collect();
-        for i in (0..kept.len()).filter(|i| !kept[*i]) {
-            let since_s = self.since_s[i];
-            bad.add(At::of(&self.numbering, i), || {
-                format!("the time, {since_s:e} s after the first one, is beyond {LARGEST:e} s")
-            });
-        }
-        self.keep(&kept);
-    }
-
-    /// Leaves out samples whose time is before another one's that came earlier. Two samples at one time are a jump.
-    fn drop_backward(&mut self, bad: &mut Bad) {
-        let mut kept = vec![true; self.since_s.len()];
-        let mut jumps = (Vec::new(), 0);
-        let mut latest: Option<(f64, usize)> = None;
-        for (i, &time) in self.since_s.iter().enumerate() {
-            let at = At::of(&self.numbering, i);
-            match latest {
-                Some((last, times)) if time < last || time <= last && times > 1 => {
-                    kept[i] = false;
-                    let [time, last] = [time, last].map(|since_s| self.start_s + since_s);
-                    bad.add(at, || {
-                        format!("time {time:?} s does not come after {last:?} s, that of the sample before")
-                    });
-                }
-                Some((last, times)) if time <= last => {
-                    latest = Some((time, times + 1));
-                    if jumps.0.len() < LISTED {
-                        jumps.0.push(at);
-                    }
-                    jumps.1 += 1;
-                }
-                _ => latest = Some((time, 1)),
-            }
-        }
-        if jumps.1 > 0 {
-            self.found.push(Finding::Jumps { first: jumps.0, count: jumps.1 });
-        }
-        self.keep(&kept);
-    }
-
-    /// Leaves out samples.
-    pub(crate) fn keep(&mut self, kept: &[bool]) {
-        if kept.iter().all(|kept| *kept) {
-            return;
-        }
-        let keep = |values: &mut Vec<f64>| {
-            let mut kept = kept.iter();
-            values.retain(|_| kept.next().copied().unwrap_or(true));
-        };
-        keep(&mut self.since_s);
-        self.channels.iter_mut().for_each(|channel| keep(&mut channel.values));
-        self.printed.keep(kept);
-        let mut runs: Vec<(usize, At)> = Vec::new();
-        let places = (0..kept.len()).filter(|i| kept[*i]).map(|i| At::of(&self.numbering, i));
-        for (sample, at) in places.enumerate() {
-            if runs.last().is_none_or(|(first, begin)| begin.after(sample - first) != at) {
-                runs.push((sample, at));
-            }
-        }
-        self.numbering = runs;
-    }
 }

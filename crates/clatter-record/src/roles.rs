@@ -1,7 +1,7 @@
 //! Which column is time, and which are accelerations: by name and unit, then by place.
 
 use crate::heading::{Heading, Named};
-use crate::unit::{Kind, Unit};
+use crate::unit::{Kind, Unit, VOLTAGE};
 use crate::{Error, Options, Pick};
 
 /// What the columns of a file are.
@@ -10,8 +10,12 @@ pub(crate) struct Roles {
     /// The column of time and the size of its unit in seconds; none where samples come at a given rate.
     pub(crate) time: Option<(usize, f64)>,
     pub(crate) channels: Vec<Role>,
+    /// The column of times that a given rate stands in place of, and the size of its unit.
+    pub(crate) checked: Option<(usize, f64)>,
     /// What is made of no other column, as messages call them.
     pub(crate) left_out: Vec<String>,
+    /// Every column, as messages call it, and what it is taken for.
+    pub(crate) columns: Vec<(String, String)>,
     /// Whether other channels have other times, for which lines may go on.
     pub(crate) beside_others: bool,
 }
@@ -37,6 +41,8 @@ pub(crate) struct Seen {
     pub(crate) sampled: bool,
     /// The first rows, for columns without names.
     pub(crate) rows: Vec<Vec<f64>>,
+    /// The cells of the first row of a text.
+    pub(crate) cells: Vec<String>,
 }
 
 impl Seen {
@@ -49,17 +55,51 @@ impl Seen {
         let channels = self.channels(time, options)?;
         let left_out = (0..self.headings.len())
             .filter(|column| Some(*column) != time && !channels.contains(column))
-            .filter(|column| self.named && self.headings[*column].named() != Named::Index)
+            .filter(|column| self.named && !self.is_index(*column))
             .map(|column| self.called(column));
         let left_out = left_out.collect();
+        let columns =
+            (0..self.headings.len()).map(|column| (self.called(column), self.taken_for(column, time, &channels)));
+        let columns = columns.collect();
         let size = |column: usize| self.time_size(column, options).map(|size| (column, size));
         Ok(Roles {
             // A rate stands in place of times.
             time: time.filter(|_| options.sample_rate_hz.is_none()).map(size).transpose()?,
             channels: channels.iter().map(|column| self.channel(*column, options)).collect::<Result<_, _>>()?,
+            checked: self.checked_time(&channels, options),
             left_out,
+            columns,
             beside_others: false,
         })
+    }
+
+    /// What a column is taken for, or why it is nothing.
+    fn taken_for(&self, column: usize, time: Option<usize>, channels: &[usize]) -> String {
+        let heading = &self.headings[column];
+        let is = match heading.unit.map(|unit| unit.kind) {
+            _ if time == Some(column) => "time",
+            _ if channels.contains(&column) => "acceleration",
+            _ if heading.is_text => "words",
+            _ if self.is_index(column) => "number of the row",
+            Some(Kind::Acceleration) if heading.is_of_grams() => "no acceleration by its name",
+            Some(Kind::Acceleration) => "not asked for",
+            Some(Kind::Time) => "another time",
+            Some(Kind::Other(what)) => what,
+            None => "no acceleration by its name",
+        };
+        is.to_owned()
+    }
+
+    /// The column of times that a given rate stands in place of, and the size of its unit, if it can be read.
+    fn checked_time(&self, channels: &[usize], options: &Options) -> Option<(usize, f64)> {
+        options.sample_rate_hz?;
+        let without = Options { sample_rate_hz: None, ..options.clone() };
+        let time = self.time(&without).ok()??;
+        let heading = &self.headings[time];
+        let is_time =
+            heading.unit.is_some_and(|unit| unit.kind == Kind::Time) || heading.named() == Named::Time || !self.named;
+        let size = self.time_size(time, &without).ok()?;
+        (is_time && !channels.contains(&time) && self.goes_on(time)).then_some((time, size))
     }
 
     /// The column that a caller picks.
@@ -89,7 +129,14 @@ impl Seen {
 
     fn time(&self, options: &Options) -> Result<Option<usize>, Error> {
         if let Some(pick) = &options.time {
-            return self.picked(pick, "time").map(Some);
+            let column = self.picked(pick, "time")?;
+            if self.sampled && self.named && self.is_index(column) && options.sample_rate_hz.is_none() {
+                return Err(Error::Columns(format!(
+                    "column {} counts the samples, and the lines above tell their times",
+                    self.called(column)
+                )));
+            }
+            return Ok(Some(column));
         }
         let none = self.sampled || options.sample_rate_hz.is_some();
         if !self.named {
@@ -99,16 +146,31 @@ impl Seen {
         let is_named = |heading: &Heading| heading.named() == Named::Time;
         let is_unit = |heading: &Heading| kind(heading) == Some(Kind::Time);
         let fits = |heading: &Heading| matches!(kind(heading), None | Some(Kind::Time));
-        let find = |is: &dyn Fn(&Heading) -> bool| self.headings.iter().position(is);
+        // One that goes on, where there is one: what is told of a whole file may be a time as well.
+        let find = |is: &dyn Fn(&Heading) -> bool| {
+            let all = || (0..self.headings.len()).filter(|column| is(&self.headings[*column]));
+            all().find(|column| self.goes_on(*column)).or_else(|| all().next())
+        };
         let found = find(&|heading| is_named(heading) && is_unit(heading))
+            .filter(|column| self.goes_on(*column) || self.rows.len() < 2)
             .or_else(|| find(&|heading| is_unit(heading) && heading.named() != Named::Other))
             .or_else(|| find(&|heading| is_named(heading) && fits(heading)))
-            .or_else(|| (0..self.headings.len()).find(|column| self.is_time(*column)));
+            .or_else(|| find(&Heading::is_time));
+        if found.is_none()
+            && !none
+            && let Some(column) = self.headings.iter().position(|heading| heading.is_text && heading.is_time_by_name())
+        {
+            let cell = self.cells.get(column).map_or("", String::as_str);
+            return Err(Error::Columns(format!(
+                "'{cell}' in column {} is no number and no time of day that is known",
+                self.called(column)
+            )));
+        }
         if found.is_some() || none {
             return Ok(found);
         }
         // By place: a first column that is named as nothing else.
-        let first = self.headings.iter().position(|heading| heading.named() != Named::Index);
+        let first = (0..self.headings.len()).find(|column| !self.is_index(*column));
         let unknown = |heading: &Heading| heading.unit.is_none() && heading.named() == Named::Unknown;
         match first {
             Some(column) if self.headings.len() > 1 && unknown(&self.headings[column]) => Ok(Some(column)),
@@ -140,6 +202,75 @@ impl Seen {
         }
     }
 
+    /// Whether the first rows of a column rise, or stay for a while and rise, or are too few to tell.
+    pub(crate) fn goes_on(&self, column: usize) -> bool {
+        let values = || self.rows.iter().filter_map(|row| row.get(column)).filter(|value| value.is_finite());
+        let rises = values().zip(values().skip(1)).all(|(a, b)| a <= b);
+        let moves = values().next().zip(values().next_back()).is_some_and(|(a, b)| a < b);
+        self.rows.len() > 1 && rises && moves
+    }
+
+    /// Whether a column counts its rows, or is named as one that tells rows apart.
+    fn is_index(&self, column: usize) -> bool {
+        let heading = &self.headings[column];
+        if heading.named() != Named::Index || heading.unit.is_some_and(|unit| unit.kind == Kind::Acceleration) {
+            return false;
+        }
+        let values = || self.rows.iter().filter_map(|row| row.get(column));
+        let counts = values().zip(values().skip(1)).all(|(a, b)| b > a && a.fract() == 0.0);
+        // `N`, `sample 1` and the like are names of channels as well.
+        let name = heading.name.to_lowercase();
+        let may_be_channel = ["n", "no", "nr", "sample", "samples", "point", "number", "num"]
+            .contains(&name.split(|c: char| !c.is_alphabetic()).next().unwrap_or_default());
+        counts && self.rows.len() > 1 || !may_be_channel
+    }
+
+    /// Of columns that nothing else is known of those of x, y and z, where all three are there and other ones beside.
+    fn axes(&self, columns: &[usize]) -> Option<Vec<usize>> {
+        let find =
+            |axis: &str| columns.iter().copied().find(|column| self.headings[*column].name.eq_ignore_ascii_case(axis));
+        let three = ["x", "y", "z"].iter().map(|axis| find(axis)).collect::<Option<Vec<_>>>()?;
+        Some(columns.iter().copied().filter(|column| three.contains(column)).collect())
+    }
+
+    /// Refuses columns without names that are not sure to be one time and channels.
+    fn refuse_unclear(&self, time: Option<usize>) -> Result<(), Error> {
+        /// Rows that tell a time from a signal that rises.
+        const SURE: usize = 6;
+        /// So many columns may be two records side by side, or, without times, one channel that goes on from line to line.
+        const MANY: usize = 4;
+        let count = self.headings.len();
+        let rises = |column: &usize| {
+            let values = || self.rows.iter().filter_map(|row| row.get(*column));
+            values().zip(values().skip(1)).all(|(a, b)| a < b)
+        };
+        let span = |column: usize| {
+            let at = |row: Option<&Vec<f64>>| row.and_then(|row| row.get(column)).copied();
+            Some(at(self.rows.last())? - at(self.rows.first())?)
+        };
+        let is_like = |column: &usize| {
+            let ratio = time.and_then(|time| Some(span(*column)? / span(time)?));
+            rises(column) && ratio.is_some_and(|ratio| (0.5..2.0).contains(&ratio))
+        };
+        let other = (time.map_or(count, |time| time + 1)..count).find(is_like);
+        let sure = count >= MANY && self.rows.len() >= SURE && time.is_some_and(|time| rises(&time));
+        if let Some(other) = other.filter(|_| sure) {
+            return Err(Error::Columns(format!(
+                "column {} rises from line to line as a time does, beside column {}: name the columns of one record, by --time and \
+                 --acceleration",
+                other + 1,
+                time.unwrap_or(0) + 1
+            )));
+        }
+        if time.is_none() && count >= MANY && !self.cells.is_empty() {
+            return Err(Error::Columns(format!(
+                "{count} numbers a line without names may be {count} channels, or one that goes on from line to line: name the \
+                 channels, by --acceleration=1 and so on"
+            )));
+        }
+        Ok(())
+    }
+
     fn time_by_place(&self, none: bool) -> Result<Option<usize>, Error> {
         let count = self.headings.len();
         let rises = |column: usize| {
@@ -153,6 +284,7 @@ impl Seen {
         match count {
             1 if none => Ok(None),
             1 => Err(Error::Columns("the file has one column: give the sample rate of its samples".to_owned())),
+            _ if self.headings[0].is_text => Ok(Some(1)),
             _ if none && !rises(0) => Ok(None),
             _ if count > 2 && is_index(0) && rises(1) => Ok(Some(1)),
             _ => Ok(Some(0)),
@@ -172,34 +304,55 @@ impl Seen {
             return options.accelerations.iter().map(|pick| self.picked(pick, "acceleration")).collect();
         }
         // Times of other channels are none.
-        let is_time = |column: usize| Some(column) == time || self.named && self.is_time(column);
+        let is_time = |column: usize| Some(column) == time || self.named && self.headings[column].is_time();
         let rest: Vec<usize> = (0..self.headings.len()).filter(|column| !is_time(*column)).collect();
         if !self.named {
-            let skipped = time.filter(|time| *time == 1).map_or(0, |_| 1);
+            self.refuse_unclear(time)?;
+            let rest: Vec<usize> = rest.into_iter().filter(|column| !self.headings[*column].is_text).collect();
+            let skipped = time.filter(|time| *time == 1 && !self.headings[0].is_text).map_or(0, |_| 1);
             return Ok(rest.into_iter().skip(skipped).collect());
         }
         let those = |is: &dyn Fn(&Heading) -> bool| -> Vec<usize> {
             rest.iter().copied().filter(|column| is(&self.headings[*column])).collect()
         };
-        // What has a unit of acceleration, or one that is not understood below such a name, is one.
-        let found = those(&|heading| match (heading.named(), heading.unit.map(|unit| unit.kind)) {
-            (Named::Other | Named::Time, _) => false,
-            (_, Some(kind)) => kind == Kind::Acceleration || heading.named() == Named::Acceleration,
-            (named, None) => named == Named::Acceleration,
+        let kind = |heading: &Heading| heading.unit.map(|unit| unit.kind);
+        let volts = |heading: &Heading| options.sensitivity_v_s2_m.is_some() && kind(heading) == Some(VOLTAGE);
+        // Words drop no column that has a unit of acceleration, but for grams and gausses. Below a name of an acceleration a unit
+        // that is not understood, or one of something else, has to be cleared up.
+        let mut found = those(&|heading| match (heading.named(), kind(heading)) {
+            (_, Some(Kind::Acceleration)) => !heading.is_text && !heading.is_of_grams(),
+            (Named::Other | Named::Time, _) => volts(heading),
+            (named, _) => volts(heading) || named == Named::Acceleration,
         });
-        let found = if found.is_empty() {
-            let unknown = those(&|heading| heading.unit.is_none() && heading.named() == Named::Unknown);
-            let is = |column: &usize, names: &[&str]| {
-                names.iter().any(|name| self.headings[*column].name.eq_ignore_ascii_case(name))
-            };
-            // Beside x, y and z they are those of a gyroscope.
-            let turns = unknown.iter().any(|column| is(column, &["x"]));
-            unknown.into_iter().filter(|column| !turns || !is(column, &["gx", "gy", "gz"])).collect()
-        } else {
-            found
-        };
         if found.is_empty() {
-            return Err(Error::Columns(format!("no column is an acceleration: {}", self.all())));
+            let unknown: Vec<usize> = rest
+                .iter()
+                .copied()
+                .filter(|column| {
+                    let heading = &self.headings[*column];
+                    let is_unknown = matches!(heading.named(), Named::Unknown | Named::Index);
+                    heading.unit.is_none() && is_unknown && !self.is_index(*column)
+                })
+                .collect();
+            found = self.axes(&unknown).unwrap_or(unknown);
+        }
+        // By its name alone, a function of accelerations is one of the other columns.
+        let is_plain =
+            |column: &usize| self.headings[*column].unit.is_some() || self.headings[*column].function().is_none();
+        if found.iter().any(is_plain) {
+            found.retain(is_plain);
+        }
+        if let Some((column, what)) = found.iter().find_map(|column| Some((column, self.headings[*column].function()?)))
+        {
+            return Err(Error::Columns(format!(
+                "column {} is no plain acceleration by {what} in its heading: take the others, by --acceleration",
+                self.called(*column)
+            )));
+        }
+        if found.is_empty() {
+            let in_volts = self.headings.iter().any(|heading| kind(heading) == Some(VOLTAGE));
+            let hint = if in_volts { "; --sensitivity such as 100mV/g makes accelerations of a voltage" } else { "" };
+            return Err(Error::Columns(format!("no column is an acceleration: {}{hint}", self.all())));
         }
         Ok(found)
     }
@@ -217,6 +370,24 @@ impl Seen {
                 Error::Units("the file counts in shares of full scale: say what full scale is, such as 50g".to_owned())
             })?;
             return Ok(Role { column, name, size, unit: crate::FULL_SCALE.to_owned() });
+        }
+        if let Some(function) = heading.function().filter(|_| options.accelerations.is_empty()) {
+            return Err(Error::Columns(format!(
+                "column {} is no plain acceleration by {function}",
+                self.called(column)
+            )));
+        }
+        if let Some(per) = options.sensitivity_v_s2_m {
+            return match heading.unit {
+                Some(unit) if unit.kind == VOLTAGE => {
+                    let unit_name = heading.spelled.clone().unwrap_or_default();
+                    Ok(Role { column, name, size: unit.size / per, unit: unit_name })
+                }
+                _ => Err(Error::Units(format!(
+                    "a sensitivity is for volts, and column {} is in none by its heading",
+                    self.called(column)
+                ))),
+            };
         }
         let given = options.units.as_ref().map(|units| &units.acceleration);
         let (unit, spelled) = self.unit(column, given, Kind::Acceleration, "acceleration", "g or m/s2")?;

@@ -1,20 +1,30 @@
 //! Records as text: whatever loggers and programs write.
 
+mod block;
 mod cells;
 mod cut;
+mod digits;
+mod encoding;
+mod head;
 mod labview;
 mod layout;
+mod records;
 mod rows;
+mod sensors;
+mod series;
 
+use std::borrow::Cow;
 use std::io::Read;
+
+use encoding_rs::Encoding;
 
 use crate::error::Bad;
 use crate::heading::Heading;
 use crate::roles::{Roles, Seen};
 use crate::{At, Error, Options};
-pub(crate) use labview::{is_labview, read as read_labview};
 use layout::Layout;
 pub(crate) use rows::Rows;
+use rows::Shape;
 
 /// Bytes that are read at a time, and before it is known what a file holds.
 pub(crate) const BLOCK: usize = 1 << 20;
@@ -41,6 +51,7 @@ pub(crate) fn decoded(first: &[u8]) -> Option<Decode> {
     }
     let zeros = |odd: usize| first.iter().skip(odd).step_by(2).take(32).filter(|byte| **byte == 0).count();
     match first {
+        [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] => None,
         [0xff, 0xfe, ..] => Some(little),
         [0xfe, 0xff, ..] => Some(big),
         _ if zeros(1) > 24 && zeros(0) == 0 => Some(little),
@@ -56,12 +67,12 @@ fn utf16(bytes: &[u8], word: fn([u8; 2]) -> u16) -> Vec<u8> {
     text.replace("\r\n", "\n").replace('\r', "\n").into_bytes()
 }
 
-/// Bytes as text: UTF-8, or else Latin-1, of which µ and ² are in headings.
-fn text_of(bytes: &[u8]) -> String {
-    match std::str::from_utf8(bytes) {
-        Ok(text) => text.to_owned(),
-        Err(_) => bytes.iter().map(|byte| char::from(*byte)).collect(),
-    }
+/// What a message shows of a text from outside: its beginning, without what a terminal would act on.
+fn visible(text: &str) -> String {
+    const SHOWN: usize = 40;
+    let plain = |c: char| if c.is_control() { '□' } else { c };
+    let shown: String = text.chars().take(SHOWN).map(plain).collect();
+    if text.chars().count() > SHOWN { format!("{shown}…") } else { shown }
 }
 
 /// Reads a text whose beginning is there already, handing on how many bytes are read: its channels by their times.
@@ -71,64 +82,60 @@ pub(crate) fn read(
     options: &Options,
     progress: &mut dyn FnMut(u64),
 ) -> Result<Vec<(Rows, Roles)>, Error> {
-    let begin = match begin.strip_prefix("\u{feff}".as_bytes()) {
+    if matches!(begin[..], [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..]) {
+        return Err(Error::File("this is a text in UTF-32: save it as UTF-8".to_owned()));
+    }
+    let mut begin = match begin.strip_prefix("\u{feff}".as_bytes()) {
         Some(text) => text.to_vec(),
         None => begin,
     };
-    let lines: Vec<String> =
-        begin[..begin.len().min(HEAD.1)].split(|byte| *byte == b'\n').take(HEAD.0).map(text_of).collect();
-    let lines = match begin.len() > HEAD.1 && lines.len() < HEAD.0 {
-        // The last one may be cut.
-        true if lines.len() == 1 => {
-            return Err(Error::File(format!(
-                "the first line is longer than {} bytes: this is no text of columns",
-                HEAD.1
-            )));
-        }
-        true => lines[..lines.len() - 1].to_vec(),
-        false => lines,
-    };
-    let mut layout = Layout::of(&lines)?;
-    let form = layout.form;
-    let data: Vec<Vec<_>> = lines[layout.begin..]
-        .iter()
-        .filter(|line| !line.trim().is_empty())
-        .take(SHOWN)
-        .map(|line| form.cells(line))
-        .collect();
-    // Times of day are in seconds, whatever their heading says.
-    for (column, heading) in layout.headings.iter_mut().enumerate() {
-        if data.first().and_then(|row| row.get(column)).is_some_and(|cell| crate::moment::seconds(cell).is_some()) {
-            *heading = heading.clone().with_unit("s");
-        }
+    let letters = encoding::of(&begin[..begin.len().min(HEAD.1)]);
+    if labview::is_labview(&begin) {
+        to_end(&mut begin, rest, options)?;
+        progress(begin.len() as u64);
+        return labview::read(&begin, letters, options);
     }
-    let number = |cell: &std::borrow::Cow<'_, str>| form.number(cell).map_or(f64::NAN, crate::decimal::Decimal::float);
-    let seen = Seen {
-        headings: layout.headings,
-        named: layout.named,
-        sampled: layout.sampled_s.is_some(),
-        rows: data.iter().map(|row| row.iter().map(number).collect()).collect(),
-    };
-    let parts = seen.by_time(options)?;
+    if let Some(number) = options.record {
+        to_end(&mut begin, rest, options)?;
+        begin = records::only(&begin, number)?;
+    }
+    let lines = first_lines(&begin, letters)?;
+    if let Some(series) = series::of(&lines) {
+        to_end(&mut begin, rest, options)?;
+        progress(begin.len() as u64);
+        return Ok(vec![series.read(&begin, options)?]);
+    }
+    let lines = head::join_quotes(lines);
+    let layout = Layout::of(&lines)?;
+    let first = layout.begin;
+    let (shape, parts) = shape(layout, &lines, letters, options)?;
     few_times(parts.len())?;
-    let mut parts: Vec<(Rows, Roles)> = parts
-        .into_iter()
-        .map(|roles| {
-            let mut rows = Rows::new(form, &roles, options, seen.headings.len(), layout.sampled_s);
-            rows.skip_lines(layout.begin);
-            if roles.beside_others {
-                rows.may_end_early();
-            }
-            (rows, roles)
-        })
-        .collect();
-    let mut at = begin.split_inclusive(|byte| *byte == b'\n').take(layout.begin).map(<[u8]>::len).sum::<usize>();
-    let (mut buffer, mut bytes) = (begin, 0_u64);
-    bytes += buffer.len() as u64;
-    let mut last = Vec::new();
+    let mut parts: Vec<(Rows, Roles)> =
+        parts.into_iter().map(|roles| (Rows::new(shape.clone(), &roles, options), roles)).collect();
+    for (rows, _) in &mut parts {
+        rows.skip_heading(&lines[..first]);
+    }
+    let at = begin.split_inclusive(|byte| *byte == b'\n').take(first).map(<[u8]>::len).sum::<usize>();
+    take_all(&mut parts, begin, at, rest, progress)?;
+    for (rows, _) in &mut parts {
+        rows.close()?;
+    }
+    Ok(parts)
+}
+
+/// Takes in all lines of an input, of which the beginning is there already, from a place in it on.
+fn take_all(
+    parts: &mut [(Rows, Roles)],
+    begin: Vec<u8>,
+    mut at: usize,
+    rest: &mut dyn Read,
+    progress: &mut dyn FnMut(u64),
+) -> Result<(), Error> {
+    let mut bytes = begin.len() as u64;
+    let (mut buffer, mut last) = (begin, Vec::new());
     loop {
         let begin = at;
-        for (rows, _) in &mut parts {
+        for (rows, _) in &mut *parts {
             at = begin + rows.take(&buffer[begin..])?;
         }
         progress(bytes);
@@ -150,17 +157,10 @@ pub(crate) fn read(
             break;
         }
     }
-    let cut = cut::within(&last, &buffer, form);
-    for (rows, _) in &mut parts {
-        match &cut {
-            Some(cut) => rows.refuse(cut),
-            None if buffer.is_empty() => {}
-            None => {
-                rows.take(&[&buffer[..], b"\n"].concat())?;
-            }
-        }
+    for (rows, _) in &mut *parts {
+        rows.take_end(&last, &buffer)?;
     }
-    Ok(parts)
+    Ok(())
 }
 
 /// Refuses more times than a text may have: each is one more look at every line.
@@ -170,6 +170,102 @@ fn few_times(count: usize) -> Result<(), Error> {
         return Ok(());
     }
     Err(Error::Columns(format!("the channels have more than {MOST} times of their own: take some of the channels")))
+}
+
+/// What the lines of numbers are like, and what their columns are, by the first of them: each time with its channels.
+fn shape(
+    mut layout: Layout,
+    lines: &[String],
+    letters: &'static Encoding,
+    options: &Options,
+) -> Result<(Shape, Vec<Roles>), Error> {
+    let all: Vec<Vec<Cow<'_, str>>> = lines[layout.begin..]
+        .iter()
+        .filter(|line| !line.trim().is_empty() && !layout::uncommented(line).1)
+        .map(|line| layout.form.cells(line))
+        .collect();
+    layout.form.order = all.iter().flatten().find_map(|cell| crate::moment::order(cell));
+    let form = layout.form;
+    let words = sensors::words(&layout, &all, options)?;
+    let is_of = |row: &&Vec<Cow<'_, str>>| {
+        words.iter().all(|word| !word.tells || row.get(word.column).is_some_and(|cell| **cell == *word.expected))
+    };
+    let data: Vec<&Vec<Cow<'_, str>>> = all.iter().filter(is_of).take(SHOWN).collect();
+    // Times of day are in seconds, whatever their heading says.
+    for (column, heading) in layout.headings.iter_mut().enumerate() {
+        if data
+            .first()
+            .and_then(|row| row.get(column))
+            .is_some_and(|cell| crate::moment::seconds(cell, form.order).is_some())
+        {
+            *heading = heading.clone().with_unit("s");
+        }
+    }
+    sensors::units_beside(&mut layout, &words);
+    let number = |cell: &Cow<'_, str>| {
+        form.number(cell).or_else(|| Some(form.measured(cell)?.0)).map_or(f64::NAN, crate::decimal::Decimal::float)
+    };
+    // A rate that is told stands for times that are not there.
+    let told_s = layout.told_s.map(|(step_s, _)| [0.0, step_s]);
+    let seen = Seen {
+        headings: layout.headings,
+        named: layout.named,
+        sampled: layout.sampled_s.is_some() || told_s.is_some(),
+        rows: data.iter().map(|row| row.iter().map(number).collect()).collect(),
+        cells: data.first().map_or(Vec::new(), |row| row.iter().map(|cell| (**cell).to_owned()).collect()),
+    };
+    if !seen.named {
+        series::refuse_lines(&seen.rows, &all, form)?;
+    }
+    let mut parts = seen.by_time(options)?;
+    let date = parts.iter().find_map(|roles| sensors::date(&seen, roles, form));
+    let beside = words
+        .iter()
+        .map(|word| (word.column, if word.tells { "sensor" } else { "unit" }))
+        .chain(date.map(|date| (date, "date")));
+    for (column, what) in beside {
+        let called = seen.called(column);
+        for roles in &mut parts {
+            roles.left_out.retain(|other| *other != called);
+            what.clone_into(&mut roles.columns[column].1);
+        }
+    }
+    let shape = Shape {
+        form,
+        letters,
+        columns: seen.headings.len(),
+        sampled_s: layout.sampled_s.or(told_s),
+        told: layout.told_s,
+        count: layout.count,
+        measured: layout.measured,
+        date,
+        words,
+    };
+    Ok((shape, parts))
+}
+
+/// All of an input, as far as it may hold what is read at most.
+fn to_end(begin: &mut Vec<u8>, rest: &mut dyn Read, options: &Options) -> Result<(), Error> {
+    // No number takes more bytes.
+    let most = 64_u64.saturating_mul(options.most_values as u64);
+    rest.take(most).read_to_end(begin).map(|_| ()).map_err(|error| Error::Read(error.to_string()))
+}
+
+/// The lines that a text begins with, as far as they may tell what it is.
+fn first_lines(begin: &[u8], letters: &'static Encoding) -> Result<Vec<String>, Error> {
+    let lines: Vec<String> = begin[..begin.len().min(HEAD.1)]
+        .split(|byte| *byte == b'\n')
+        .take(HEAD.0)
+        .map(|line| encoding::text(line, letters))
+        .collect();
+    match begin.len() > HEAD.1 && lines.len() < HEAD.0 {
+        // The last one may be cut.
+        true if lines.len() == 1 => {
+            Err(Error::File(format!("the first line is longer than {} bytes: this is no text of columns", HEAD.1)))
+        }
+        true => Ok(lines[..lines.len() - 1].to_vec()),
+        false => Ok(lines),
+    }
 }
 
 /// Reads until a buffer is full or the input ends.
@@ -190,11 +286,13 @@ pub(crate) fn fill(input: &mut dyn Read, buffer: &mut [u8]) -> Result<usize, Err
 pub(crate) fn table(input: impl Read, most: usize) -> Result<(Vec<Heading>, Vec<Vec<f64>>), Error> {
     let mut bytes = Vec::new();
     input.take(HEAD.1 as u64).read_to_end(&mut bytes).map_err(|error| Error::Read(error.to_string()))?;
+    let letters = encoding::of(&bytes);
     let text = match decoded(&bytes) {
-        Some(decode) => text_of(&decode(&bytes)),
-        None => text_of(&bytes),
+        Some(decode) => encoding::text(&decode(&bytes), letters),
+        None => encoding::text(&bytes, letters),
     };
     let lines: Vec<String> = text.trim_start_matches('\u{feff}').lines().map(str::to_owned).collect();
+    let lines = head::join_quotes(lines);
     if bytes.len() == HEAD.1 || lines.len() > most {
         return Err(Error::Many(most));
     }

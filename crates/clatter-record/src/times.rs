@@ -84,7 +84,67 @@ impl Times<'_> {
         }
         // What rounding explains in full is meant, before what is a little off.
         let found: Vec<Even> = found.into_iter().flatten().collect();
-        found.iter().find(|found| found.exact).or(found.first()).map(|found| found.step_s)
+        found.iter().find(|found| found.exact).or(found.first()).map(|found| found.step_s).or_else(|| self.coarse(mean))
+    }
+
+    /// The step of times in whole units not much shorter than a step, if one rate explains every digit: all are rounded, or all are cut
+    /// off.
+    fn coarse(&self, mean: f64) -> Option<f64> {
+        /// Where fewer steps are the long ones, samples are missing.
+        const LONG: f64 = 1.0 / 6.0;
+        /// Samples that show a rate.
+        const LEAST: usize = 32;
+        let unit = 10_f64.powi(self.printed.finest) * self.unit_s;
+        let count = self.since_s.len();
+        if count < LEAST || !(COARSEST * mean..=mean).contains(&unit) {
+            return None;
+        }
+        // A step is one unit or two.
+        let mut long = 0.0;
+        for pair in self.since_s.windows(2) {
+            let units = (pair[1] - pair[0]) / unit;
+            if (units - units.round()).abs() > 1e-3 || !(1.0..=2.0).contains(&units.round()) {
+                return None;
+            }
+            long += units.round() - 1.0;
+        }
+        #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
+        let steps = (count - 1) as f64;
+        if long < LONG * steps {
+            return None;
+        }
+        // What times leave above and below a line of some step: convex in the step.
+        let spread = |step: f64| {
+            let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+            let mut at = 0.0;
+            for time in self.since_s {
+                let left = time - at;
+                (low, high) = (low.min(left), high.max(left));
+                at += step;
+            }
+            high - low
+        };
+        let explains = |step: f64| spread(step) < unit * (1.0 - 1e-9);
+        let (mut low, mut high) = (mean - unit / steps, mean + unit / steps);
+        let ends = (low, high);
+        for _ in 0..60 {
+            let third = (high - low) / 3.0;
+            if spread(low + third) < spread(high - third) { high -= third } else { low += third }
+        }
+        let best = low.midpoint(high);
+        if !explains(best) {
+            return None;
+        }
+        // From there to both sides, as far as it explains all.
+        let bound = |mut outside: f64| {
+            let mut inside = best;
+            for _ in 0..50 {
+                let middle = inside.midpoint(outside);
+                if explains(middle) { inside = middle } else { outside = middle }
+            }
+            inside
+        };
+        Some(Within { low: bound(ends.0), high: bound(ends.1) }.simplest().unwrap_or(best))
     }
 
     /// A time as the number in the file.
@@ -245,6 +305,37 @@ mod tests {
             // A round rate is meant where it is within what the digits allow.
             assert_eq!(step.to_bits(), 51_200_f64.recip().to_bits(), "{name}: {step}");
         }
+    }
+
+    /// Milliseconds of 800 and of 833 Hz, cut off and rounded; single samples that are missing are no rounding.
+    #[test]
+    fn coarse_times_whose_rate_explains_every_digit() {
+        for hz in [800.0_f64, 833.0] {
+            for phase in [0.0, 0.3, 0.5, 0.9] {
+                let texts: Vec<String> =
+                    (0..400).map(|i| format!("{:.3}", (1e3 * f64::from(i) / hz + phase).floor() * 1e-3)).collect();
+                let step = step_of(&texts).unwrap_or_else(|| panic!("{hz} {phase}"));
+                // One printed unit over the whole length.
+                assert!((step * hz - 1.0).abs() < 1e-3 * hz / 1e3 / 400.0 * 1e3, "{hz} {phase}: {step}");
+                assert!(hz > 800.0 || step.to_bits() == hz.recip().to_bits(), "the simplest rate: {step}");
+            }
+        }
+        let missing =
+            |is: &dyn Fn(i32) -> bool| (0..300).filter(|i| !is(*i)).map(|i| format!("{i}")).collect::<Vec<_>>();
+        assert_eq!(step_of(&missing(&|i| i == 77)), None, "one");
+        assert_eq!(step_of(&missing(&|i| i % 10 == 9)), None, "every tenth");
+        assert_eq!(step_of(&missing(&|i| i % 4 == 3 && i < 150)), None, "every fourth of one half");
+    }
+
+    /// Times of many digits that single samples are off by half a percent of a step.
+    #[test]
+    fn half_a_percent_of_a_step_is_uneven() {
+        let off = |share: f64| {
+            let time = |i: i32| f64::from(i) + if i % 100 == 50 { share } else { 0.0 };
+            (0..1200).map(|i| format!("{:.9}", time(i) / 51_200.0)).collect::<Vec<_>>()
+        };
+        assert_eq!(step_of(&off(5e-3)), None);
+        assert!(step_of(&off(5e-4)).is_some(), "a twentieth of a percent is nothing");
     }
 
     #[test]

@@ -19,7 +19,7 @@ pub(crate) struct Unit {
 }
 
 /// Seconds, by all their usual names.
-const TIMES: [(&str, f64); 39] = [
+const TIMES: [(&str, f64); 56] = [
     ("s", 1.0),
     ("sec", 1.0),
     ("sec.", 1.0),
@@ -59,9 +59,26 @@ const TIMES: [(&str, f64); 39] = [
     ("hr", 3600.0),
     ("hour", 3600.0),
     ("hours", 3600.0),
+    ("d", 86_400.0),
+    ("day", 86_400.0),
+    ("days", 86_400.0),
+    ("秒", 1.0),
+    ("ミリ秒", 1e-3),
+    ("毫秒", 1e-3),
+    ("マイクロ秒", 1e-6),
+    ("微秒", 1e-6),
+    ("초", 1.0),
+    ("с", 1.0),
+    ("сек", 1.0),
+    ("сек.", 1.0),
+    ("мс", 1e-3),
+    ("мсек", 1e-3),
+    ("мкс", 1e-6),
+    ("мксек", 1e-6),
+    ("segundos", 1.0),
 ];
 /// Standard gravity, by all its usual names; `kg` is a mass.
-const GRAVITIES: [(&str, f64); 19] = [
+const GRAVITIES: [(&str, f64); 20] = [
     ("g", 1.0),
     ("gs", 1.0),
     ("g's", 1.0),
@@ -81,9 +98,12 @@ const GRAVITIES: [(&str, f64); 19] = [
     ("mgn", 1e-3),
     ("milligs", 1e-3),
     ("ug", 1e-6),
+    ("kgn", 1e3),
 ];
+/// cm/s², by the names that seismology has for it.
+const GALS: [(&str, f64); 4] = [("gal", 1e-2), ("gals", 1e-2), ("mgal", 1e-5), ("milligal", 1e-5)];
 /// Meters.
-const LENGTHS: [(&str, f64); 20] = [
+const LENGTHS: [(&str, f64); 24] = [
     ("m", 1.0),
     ("meter", 1.0),
     ("meters", 1.0),
@@ -104,9 +124,13 @@ const LENGTHS: [(&str, f64); 20] = [
     ("foot", 0.3048),
     ("feet", 0.3048),
     ("'", 0.3048),
+    ("м", 1.0),
+    ("мм", 1e-3),
+    ("см", 1e-2),
+    ("米", 1.0),
 ];
 const PER_SECOND: [&str; 6] = ["/s", "/sec", "/second", "ps", "s-1", "sec-1"];
-const PER_SECOND_SQUARED: [&str; 16] = [
+const PER_SECOND_SQUARED: [&str; 22] = [
     "/s2",
     "/s/s",
     "/sec2",
@@ -123,11 +147,21 @@ const PER_SECOND_SQUARED: [&str; 16] = [
     "ps2",
     "/ssquared",
     "/secsquared",
+    "/(ss)",
+    "/(s.s)",
+    "/с2",
+    "/с/с",
+    "/сек2",
+    "/秒2",
 ];
 /// Hertz.
 const FREQUENCIES: [(&str, f64); 3] = [("hz", 1.0), ("khz", 1e3), ("cps", 1.0)];
+/// What a unit of voltage is of.
+pub(crate) const VOLTAGE: Kind = Kind::Other("a voltage");
+const VOLTAGES: [(&str, f64); 7] =
+    [("v", 1.0), ("mv", 1e-3), ("uv", 1e-6), ("volt", 1.0), ("volts", 1.0), ("millivolt", 1e-3), ("millivolts", 1e-3)];
 /// Units of what is no time and no acceleration.
-const OTHERS: [(&str, &str); 34] = [
+const OTHERS: [(&str, &str); 29] = [
     ("kg", "a mass"),
     ("gram", "a mass"),
     ("grams", "a mass"),
@@ -136,11 +170,6 @@ const OTHERS: [(&str, &str); 34] = [
     ("n", "a force"),
     ("kn", "a force"),
     ("lbf", "a force"),
-    ("v", "a voltage"),
-    ("mv", "a voltage"),
-    ("uv", "a voltage"),
-    ("volt", "a voltage"),
-    ("volts", "a voltage"),
     ("a", "a current"),
     ("ma", "a current"),
     ("rad", "an angle"),
@@ -178,10 +207,13 @@ const PREFIXES: [(&str, f64); 8] = [
 impl Unit {
     /// Of a whole text, factors and all; none if it is no unit that is known.
     pub(crate) fn of(text: &str) -> Option<Self> {
-        let spelled = spelled(text);
-        if spelled.len() > LONGEST {
+        if text.len() > LONGEST {
             return None;
         }
+        if let Some((power, unit)) = power_of_ten(text) {
+            return Some(Self::of(unit)?.times(power));
+        }
+        let spelled = spelled(text);
         if let Some((before, after)) = spelled.split_once('/')
             && voltage(before)
             && Self::of(after).is_some()
@@ -189,9 +221,6 @@ impl Unit {
             return Some(Self { kind: Kind::Other("the sensitivity of a sensor"), size: 1.0 });
         }
         let (number, rest) = factor(&spelled);
-        if text.contains("10^") {
-            return None;
-        }
         if let Some(unit) = Self::plain(rest) {
             // `x1000 g` is a factor; of a sensor of 100 g the `100 g` is its range.
             let mark = ['x', 'X', '×', '*', '·'];
@@ -219,24 +248,27 @@ impl Unit {
         };
         of(Kind::Time, &TIMES, 1.0)
             .or_else(|| of(Kind::Acceleration, &GRAVITIES, STANDARD_GRAVITY_M_S2))
+            .or_else(|| of(Kind::Acceleration, &GALS, 1.0))
             .or_else(|| over(&PER_SECOND_SQUARED).map(|size| Self { kind: Kind::Acceleration, size }))
             .or_else(|| over(&PER_SECOND).map(|size| Self { size, ..other("a velocity") }))
             .or_else(|| of(Kind::Other("a length"), &LENGTHS, 1.0))
             .or_else(|| of(Kind::Other("a frequency"), &FREQUENCIES, 1.0))
+            .or_else(|| of(VOLTAGE, &VOLTAGES, 1.0))
             .or_else(|| OTHERS.iter().find(|(name, _)| *name == text).map(|(_, what)| other(what)))
     }
 
-    fn times(self, factor: f64) -> Self {
+    pub(crate) fn times(self, factor: f64) -> Self {
         Self { size: self.size * factor, ..self }
     }
 }
 
 /// No unit is longer.
-const LONGEST: usize = 40;
+const LONGEST: usize = 80;
 
 /// In small letters, with digits for raised ones, `/` for underscores between units, and without signs of products.
 fn spelled(text: &str) -> String {
-    let text = text.trim().to_lowercase();
+    // Some loggers mark a unit with a star.
+    let text = text.trim().trim_end_matches('*').to_lowercase();
     // Names of their own, and our own columns: m_s2.
     let text = if GRAVITIES.iter().any(|(name, _)| *name == text) { text } else { text.replace('_', "/") };
     let mut spelled = String::with_capacity(text.len());
@@ -275,6 +307,30 @@ fn factor(text: &str) -> (f64, &str) {
     }
 }
 
+/// A power of ten that a text begins with, as in `10^-3 g`, `x10³ m/s²` and `×10**3 g`, and the rest.
+pub(crate) fn power_of_ten(text: &str) -> Option<(f64, &str)> {
+    let text = text.trim().trim_start_matches(['x', 'X', '×', '*', '·']).trim_start().strip_prefix("10")?;
+    let raised =
+        |c: char| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|digit| digit == c).and_then(|digit| u32::try_from(digit).ok());
+    let (marked, text) = match text.strip_prefix('^').or_else(|| text.strip_prefix("**")) {
+        Some(text) => (true, text.trim_start_matches(['(', '{'])),
+        None => (false, text),
+    };
+    let (negative, text) = match text.strip_prefix(['-', '−', '⁻']) {
+        Some(text) => (true, text),
+        None => (false, text.trim_start_matches('+')),
+    };
+    let digit = |c: char| if marked { c.to_digit(10).or_else(|| raised(c)) } else { raised(c) };
+    let end = text.find(|c: char| digit(c).is_none()).unwrap_or(text.len());
+    let power = text[..end]
+        .chars()
+        .filter_map(digit)
+        .fold(None, |power: Option<u32>, digit| Some(power.unwrap_or(0).saturating_mul(10).saturating_add(digit)))?;
+    let rest = text[end..].trim_start_matches([')', '}']).trim_start_matches([' ', '*', '·', '×', 'x']);
+    let power = i32::try_from(power).ok().filter(|power| *power <= 30)?;
+    Some((10_f64.powi(if negative { -power } else { power }), rest))
+}
+
 /// Whether a text, with or without a number, is a unit of voltage, current or charge.
 fn voltage(text: &str) -> bool {
     ["v", "mv", "uv", "ma", "pc"].contains(&factor(text).1)
@@ -283,6 +339,56 @@ fn voltage(text: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Every name of the tables above, by a list of its own: its size in SI.
+    #[test]
+    fn sizes_of_all_names() {
+        let g = 9.806_65;
+        let lists: [(Kind, f64, &str); 22] = [
+            (Kind::Time, 1.0, "s sec sec. sek. secs second seconds sekunde sekunden 秒 초 с сек сек. segundos"),
+            (Kind::Time, 1e-3, "ms msec msecs millisec millisecs millisecond milliseconds millis ミリ秒 毫秒 мс мсек"),
+            (
+                Kind::Time,
+                1e-6,
+                "us usec usecs microsec microsecs microsecond microseconds micros マイクロ秒 微秒 мкс мксек",
+            ),
+            (Kind::Time, 1e-9, "ns nsec nsecs nanosecond nanoseconds nanos"),
+            (Kind::Time, 60.0, "min mins minute minutes"),
+            (Kind::Time, 3600.0, "h hr hour hours"),
+            (Kind::Time, 86_400.0, "d day days"),
+            (Kind::Acceleration, g, "g gs g's g’s g-force gn g_n g0 g_0 gee gees grav"),
+            (Kind::Acceleration, 1e-3 * g, "mg mgs mgn milligs milli-g millig"),
+            (Kind::Acceleration, 1e-6 * g, "ug"),
+            (Kind::Acceleration, 1e3 * g, "kgn"),
+            (Kind::Acceleration, 1e-2, "gal gals"),
+            (Kind::Acceleration, 1e-5, "mgal milligal"),
+            (Kind::Other("a length"), 1.0, "m meter meters metre metres м 米"),
+            (Kind::Other("a length"), 1e-3, "mm millimeter millimeters millimetres мм"),
+            (Kind::Other("a length"), 1e-2, "cm см"),
+            (Kind::Other("a length"), 0.0254, "in inch inches \""),
+            (Kind::Other("a length"), 0.3048, "ft foot feet '"),
+            (VOLTAGE, 1.0, "v volt volts"),
+            (VOLTAGE, 1e-3, "mv millivolt millivolts"),
+            (Kind::Other("a frequency"), 1.0, "hz cps"),
+            (Kind::Other("a frequency"), 1e3, "khz"),
+        ];
+        let more = [("um", 1e-6, "a length"), ("km", 1e3, "a length"), ("uv", 1e-6, "a voltage")];
+        let mut checked = 0;
+        let mut check = |name: &str, kind: Kind, size: f64| {
+            let unit = Unit::of(name).unwrap_or_else(|| panic!("{name} is no unit"));
+            // A product of two roundings.
+            assert!(unit.kind == kind && (unit.size / size - 1.0).abs() < 3e-16, "{name}: {unit:?}, not {size}");
+            checked += 1;
+        };
+        for (kind, size, names) in lists {
+            names.split_whitespace().for_each(|name| check(name, kind, size));
+        }
+        for (name, size, what) in more {
+            check(name, Kind::Other(what), size);
+        }
+        let all = [TIMES.len(), GRAVITIES.len(), GALS.len(), LENGTHS.len(), VOLTAGES.len(), FREQUENCIES.len()];
+        assert_eq!(checked, all.iter().sum::<usize>(), "every name is here once");
+    }
 
     #[test]
     fn units_by_every_usual_name() {
@@ -331,6 +437,14 @@ mod tests {
             ("0.001 g", Kind::Acceleration, 1e-3 * g),
             ("× 1000 m/s2", Kind::Acceleration, 1000.0),
             ("1000 × m/s2", Kind::Acceleration, 1000.0),
+            ("x10^3 m/s2", Kind::Acceleration, 1000.0),
+            ("×10³ m/s²", Kind::Acceleration, 1000.0),
+            ("10⁻³ g", Kind::Acceleration, 1e-3 * g),
+            ("10**-3 g", Kind::Acceleration, 1e-3 * g),
+            ("m/(s*s)", Kind::Acceleration, 1.0),
+            ("m/(s·s)", Kind::Acceleration, 1.0),
+            ("m/(s^2)*", Kind::Acceleration, 1.0),
+            ("м/с²", Kind::Acceleration, 1.0),
         ] {
             let unit = Unit::of(text).unwrap_or_else(|| panic!("{text} is no unit"));
             // A product of two roundings.
@@ -370,7 +484,9 @@ mod tests {
             "16 g",
             "16 m·s⁻²",
             "1000 m/s2",
-            "x10^3 m/s2",
+            "103 g",
+            "x103 m/s2 y",
+            "10^ g",
         ] {
             assert_eq!(Unit::of(none), None, "{none}");
         }

@@ -229,11 +229,11 @@ fn segments_are_records_unless_they_go_on() {
         assert_eq!((told(&second.channels()[0]).1, second.channels()[0].times().start_s()), (20, 0.5), "{x_columns}");
         assert_eq!(
             message(&apart, &Options { record: Some(3), ..Options::default() }),
-            "there is no record 3: the file holds 2"
+            "there is no record 3 in the file: there are 2 records"
         );
     }
     let text = "t [s],a [g]\n0,0\n1,1\n";
-    assert!(message(text, &Options { record: Some(2), ..Options::default() }).contains("the file holds one record"));
+    assert!(message(text, &Options { record: Some(2), ..Options::default() }).contains("there is one record"));
 }
 
 #[test]

@@ -373,6 +373,122 @@ fn clipping_is_told_and_coarse_steps_are_not() {
     assert_eq!(found(&|a| (20.0 * a).round()), [], "a converter of a few steps");
 }
 
+/// A clock without dates goes round at midnight, as often as it is passed; with dates it does not.
+#[test]
+fn clocks_over_midnight() {
+    let clock = |i: u32| {
+        let minutes = 23 * 60 + 20 * i;
+        format!("{:02}:{:02}:00,{i}", minutes / 60 % 24, minutes % 60)
+    };
+    let lines: String = (0..160).map(|i| clock(i) + "\n").collect();
+    let record = read(format!("time,a [g]\n{lines}")).expect("over three midnights");
+    assert_eq!((record.step_s(), record.times()[0].duration_s()), (Some(1200.0), 159.0 * 1200.0));
+    let dated = "date,time,a [g]\n2023-12-31,23:59:59.5,0\n2024-01-01,00:00:00.0,1\n2024-01-01,00:00:00.5,0\n";
+    assert_eq!(read(dated).expect("over new year").step_s(), Some(0.5));
+    let gap = "date,time,a [g]\n2023-12-31,23:59:59.5,0\n2024-01-03,00:00:00.0,1\n2024-01-03,00:00:00.5,0\n";
+    assert_eq!(read(gap).expect("two days on").times()[0].duration_s(), 2.0 * 86_400.0 + 1.0);
+    let back = "time,a [g]\n2023-01-02 23:59:59,0\n2023-01-01 00:00:00,1\n2023-01-01 00:00:01,0\n";
+    assert!(read(back).expect_err("a day back").contains("does not come after"), "with a date there is no going round");
+}
+
+/// Where day and month may be either the date does not count, and must stay the same.
+#[test]
+fn dates_of_either_order() {
+    let of = |dates: [&str; 3]| {
+        read(format!("time,a [g]\n{} 10:00:00,0\n{} 10:00:01,1\n{} 10:00:02,0\n", dates[0], dates[1], dates[2]))
+    };
+    let record = of(["5/4/2023"; 3]).expect("one day");
+    assert_eq!((record.step_s(), record.times()[0].start_s()), (Some(1.0), 36_000.0));
+    let changed = of(["5/4/2023", "5/4/2023", "6/4/2023"]).expect_err("another date");
+    assert!(
+        changed.contains("day and month of '6/4/2023', and of '5/4/2023' above, may be the one or the other"),
+        "{changed}"
+    );
+    let day_first = of(["13/4/2023", "13/4/2023", "14/4/2023"]).expect("days first");
+    assert_eq!(day_first.times()[0].duration_s(), 86_402.0);
+}
+
+/// A rate in the head, or given, beside times that say another one.
+#[test]
+fn rates_against_times() {
+    let times = |step: f64, missing: u32| -> String {
+        (0..100)
+            .filter(|i| missing == 0 || i % missing != missing - 1)
+            .map(|i| format!("{:.4},{}\n", f64::from(i) * step, i % 7))
+            .collect()
+    };
+    let told = |head: &str, step| read(format!("{head}\ntime [s],a [g]\n{}", times(step, 0))).expect("a record");
+    let rates = |record: &Record| {
+        record.findings(10.0).iter().filter(|finding| matches!(finding, Finding::Rate { .. })).count()
+    };
+    assert_eq!((rates(&told("Sample rate: 1000 Hz", 1e-3)), rates(&told("Sample rate: 2000 Hz", 1e-3))), (0, 1));
+    assert!(
+        told("fs = 2 kHz", 1e-3).findings(10.0)[0]
+            .to_string()
+            .starts_with("the rate of line 1, 2000 Hz, is not that of the times, 1000 Hz")
+    );
+    let given = |text: &str| with(text, &Options { sample_rate_hz: Some(1e3), ..Options::default() });
+    assert_eq!(rates(&given(&format!("time [s],a [g]\n{}", times(2e-3, 0))).expect("told")), 1);
+    let missing = given(&format!("time [s],a [g]\n{}", times(1e-3, 10))).expect_err("every tenth is missing");
+    assert!(missing.contains("samples are missing"), "{missing}");
+    let gaps = read(format!("time [s],a [g]\n{}", times(1e-3, 10))).expect("told").findings(10.0);
+    assert!(matches!(gaps[0], Finding::Gaps { count: 9, .. }), "{gaps:?}");
+}
+
+/// Every line and every column is something.
+#[test]
+fn the_account_closes() {
+    let text = "# drop 5\nlogger 3\n\ntime [s],a [g],U [V],n,state\n0,0,5,1,idle\n1,x,5,2,idle\n# here\n\n2,9,5,3,hit\n3,0,5,4,hit\nend\n";
+    let record = with(text, &Options { skip_bad: true, ..Options::default() }).expect("a record");
+    let account = record.account().expect("a text");
+    let lines = account.lines;
+    assert_eq!((lines.all, lines.heading, lines.rows, lines.bad), (11, 3, 3, 1));
+    assert_eq!((lines.empty, lines.comments, lines.below, lines.missing()), (2, 1, 1, 0));
+    let taken: Vec<_> = account.columns.iter().map(|(_, what)| what.as_str()).collect();
+    assert_eq!(taken, ["time", "acceleration", "a voltage", "number of the row", "words"]);
+    assert_eq!(
+        account.to_string(),
+        "11 lines: 3 heading, 3 rows, 1 not used, 2 empty, 1 comments, 1 text below; columns 1 (time [s]): time, 2 (a [g]): acceleration, \
+         3 (U [V]): a voltage, 4 (n): number of the row, 5 (state): words"
+    );
+}
+
+/// What a file counts in is no acceleration, whatever unit is given for it.
+#[test]
+fn counts_of_a_converter() {
+    let text =
+        |rest: i32| -> String { (0..40).map(|i| format!("{i},{}\n", if i == 20 { 9000 } else { rest })).collect() };
+    let of = |rest: i32| {
+        with(
+            format!("t,az\n{}", text(rest)),
+            &Options { units: Some("ms,g".parse().expect("units")), ..Options::default() },
+        )
+    };
+    assert!(of(2048).expect_err("2048 g at rest").contains("counts of a converter"));
+    assert!(of(1).is_ok(), "1 g at rest");
+    // A volt in place of a g of sensitivity.
+    let volts = Options { sensitivity_v_s2_m: clatter_record::sensitivity("100mV/g").ok(), ..Options::default() };
+    let record = with("t [s],ch1 [mV]\n0,0\n1,500\n2,0\n", &volts).expect("a voltage");
+    assert!((record.channels()[0].values[1] / (5.0 * G) - 1.0).abs() < 1e-12);
+    assert!(
+        with("t [s],ch1 [g]\n0,0\n1,500\n2,0\n", &volts)
+            .expect_err("no voltage")
+            .contains("a sensitivity is for volts")
+    );
+}
+
+/// LabVIEW without a column of times: those of X0 and Delta_X.
+#[test]
+fn labview_starts_at_its_x0() {
+    let text = "LabVIEW Measurement\t\nWriter_Version\t2\nX_Columns\tNo\n***End_of_Header***\t\n\t\nChannels\t1\t\n\
+                Y_Unit_Label\tg\t\nX_Dimension\tTime\t\nX0\t-0.25\t\nDelta_X\t5E-5\t\n***End_of_Header***\t\t\n\
+                X_Value\tAcceleration\tComment\n\t100.0\n"
+        .to_owned()
+        + &"\t0.0\n".repeat(30);
+    let record = read(text).expect("a record");
+    assert_eq!((record.times()[0].start_s(), record.step_s()), (-0.25, Some(5e-5)));
+}
+
 /// The channels of a record, each with its largest value in m/s², or why it is refused.
 fn peaks(text: &str, options: &Options) -> Result<Vec<(String, f64)>, String> {
     let largest =
@@ -401,10 +517,11 @@ fn what_is_easily_misread() {
     let ranged = "time [s],X (100g)\n0,0\n0.001,50\n0.002,0\n";
     assert!(own(ranged).expect_err("a range").contains("its number may be a range"));
     close(given(ranged, "s,g"), &[("X", 50.0 * G)]);
-    for heading in ["adxl375_200g", "acc 16g", "Acc (500 g)", "Acc [x10^3 m/s2]", "accel_mV_per_g"] {
+    for heading in ["adxl375_200g", "acc 16g", "Acc (500 g)", "accel_mV_per_g"] {
         let text = format!("time [s],{heading}\n0,0\n0.001,50\n0.002,0\n");
         assert!(own(&text).is_err(), "{heading}: {:?}", own(&text));
     }
+    close(own("time [s],Acc [x10^3 m/s2]\n0,0\n0.001,50\n0.002,0\n"), &[("Acc", 50e3)]);
     // A slow channel leaves cells empty, and the separator stays.
     let slow = "Time (s)\tEvent\tAcc (g)\n0\t\t0\n0.001\t\t100\n0.002\t\t0\n";
     close(own(slow), &[("Acc", 100.0 * G)]);

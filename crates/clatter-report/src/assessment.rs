@@ -10,11 +10,11 @@ use clatter_assess::{Assessment, Component, ComponentAssessment, LimitKind, Port
 use clatter_figures::{FigureError, Place, Share, history, over_tilt, product, shares};
 use serde_json::{Value, json};
 
-use crate::words::{customary, limit, name, percent, sure_name};
+use crate::words::{customary, hundredths, limit, name, percent, quantity, sure_name};
 use crate::{Pages, paper};
 
 /// What the models leave out, in plain words.
-const NOT_COVERED: [[&str; 2]; 9] = [
+const NOT_COVERED: [[&str; 2]; 10] = [
     [
         "Corners and edges",
         "The product is a bar seen from the side: it lands on one edge, then on the opposite one. A plate that lands on a corner has more ways to clatter, and a corner takes the blow of an edge alone. Both can be worse.",
@@ -47,8 +47,16 @@ const NOT_COVERED: [[&str; 2]; 9] = [
         "Drops between those followed",
         "The worst drop is searched, and the share by which others may ask for more is told with it. How a product lands once more after it has bounced clear hangs on every input: such drops are a sample.",
     ],
+    [
+        "Places and changes",
+        "Where a part could sit and what would make it safe is told of the drops of the figures. An assessment of the changed file decides; clatter design assesses changes, and two together.",
+    ],
     ["Damage by repetition", "Each limit is on the worst moment of one drop. Fatigue over many drops is not counted."],
 ];
+
+/// Rows of one drawing of the product, and curves of one figure, at most: more are neither read nor hold on a page.
+const ROWS: usize = 32;
+const CURVES: usize = 16;
 
 /// A part of the file, what was found of it, and what is drawn.
 type Part<'a> = ((&'a Component, &'a ComponentAssessment), &'a Portrait);
@@ -72,14 +80,22 @@ pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureEr
         })
         .collect();
     let body = &file.product.body;
-    let mut files = vec![("product.svg".to_owned(), product(body.arms_m(), body.gyration_m(), &places)?)];
+    let mut files = Vec::new();
+    let rows: Vec<_> = places.chunks(ROWS).collect();
+    for (i, rows) in rows.iter().enumerate() {
+        files.push((format!("product-{}.svg", i + 1), product(body.arms_m(), body.gyration_m(), rows)?));
+    }
     for (i, part) in parts.iter().enumerate() {
         files.extend(figures(i + 1, part)?);
     }
-    let shown: Vec<Share<'_>> = parts.iter().zip(&names).map(|(part, name)| share(part, name)).collect();
+    let mut tightest: Vec<_> = parts.iter().zip(&names).collect();
+    tightest.sort_by(|a, b| a.0.0.1.tightest().room().total_cmp(&b.0.0.1.tightest().room()));
+    tightest.truncate(CURVES);
+    let shown: Vec<Share<'_>> = tightest.into_iter().map(|(part, name)| share(part, name)).collect();
     files.push(("shares.svg".into(), shares(&shown)?));
     files.extend(measured::figures(drops)?);
-    let drawing = places.iter().map(|p| format!("{}: {}, margin {}.", p.name, p.verdict.name(), p.word));
+    let said = |p: &Place<'_>| format!("{}: {}, margin {}.", p.name, p.verdict.name(), p.word);
+    let drawings = rows.iter().map(|rows| rows.iter().map(said).collect::<Vec<_>>().join(" "));
     let with = |verdict| parts.iter().filter(|((_, assessed), _)| assessed.verdict == verdict).count();
     let data = json!({
         "product": name(&assessment.product),
@@ -88,12 +104,13 @@ pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureEr
         "undecided": with(Verdict::Undecided),
         "unsafe": with(Verdict::Unsafe),
         "hardest": hardest(assessment),
-        "parts": parts.iter().map(|(of, portrait)| part::part(file, *of, portrait)).collect::<Vec<_>>(),
-        "inputs": inputs::rows(file),
+        "parts": parts.iter().map(|(of, portrait)| part::part(pages, *of, portrait)).collect::<Vec<_>>(),
+        "inputs": inputs::rows(file, assessment),
         "differences": measured::differences(file, drops),
         "measured": measured::sections(file, drops),
         "made": inputs::made(pages),
-        "drawing": drawing.collect::<Vec<_>>().join(" "),
+        "drawings": drawings.collect::<Vec<_>>(),
+        "curves": shown.len(),
         "limits-of-the-model": NOT_COVERED,
     });
     files.push(("assessment.json".into(), data.to_string()));
@@ -117,7 +134,10 @@ fn hardest(assessment: &Assessment) -> Option<Value> {
     let limits = assessment.components.iter().flat_map(|c| c.limits.iter().map(move |l| (c, l)));
     let exceeded = limits.filter(|(_, l)| l.verdict == Verdict::Unsafe);
     let worst = exceeded.min_by(|a, b| a.1.room().total_cmp(&b.1.room()));
-    worst.map(|(c, l)| json!({ "name": name(&c.name), "limit": limit(l.limit), "margin": percent(l.room()) }))
+    worst.map(|(c, l)| {
+        let share = l.demand.map_or(f64::INFINITY, |demand| demand / l.allowed);
+        json!({ "name": name(&c.name), "limit": limit(l.limit), "share": hundredths(share) })
+    })
 }
 
 /// The response over time of one part, and its demand over the tilt.
@@ -125,28 +145,33 @@ fn figures(number: usize, ((_, assessed), portrait): &Part<'_>) -> Result<[(Stri
     let tightest = assessed.tightest();
     let (factor, unit) = customary(tightest.unit);
     // The figures are too low for the longest of the words.
-    let what = if tightest.limit == LimitKind::AngularVelocityChange { "Δ*ω*" } else { limit(tightest.limit) };
+    let what = match tightest.limit {
+        LimitKind::AngularVelocityChange => "change of *ω*",
+        kind => quantity(kind, tightest.unit),
+    };
     let title = format!("{what}, {unit}");
     let points: Vec<(f64, f64)> = portrait.history.iter().map(|p| (1e3 * p.0, p.1 / factor)).collect();
     let impacts: Vec<f64> = portrait.impacts_s.iter().map(|t| 1e3 * t).collect();
     let allowed = tightest.allowed / factor;
     let curves = portrait.over_tilt.iter().map(|(first, curve)| {
-        let points: Vec<_> = curve.iter().map(|p| (p.0.to_degrees(), p.1 / factor)).collect();
+        let points: Vec<_> = curve.iter().map(|p| (p.tilt_rad.to_degrees(), allowed * p.share)).collect();
         (if *first == End::A { "end *a* first" } else { "end *b* first" }, points)
     });
     let curves: Vec<(&str, Vec<(f64, f64)>)> = curves.collect();
     Ok([
-        (format!("history-{number}.svg"), history(&points, &impacts, allowed, ["time, ms", &title])?),
-        (format!("tilt-{number}.svg"), over_tilt(&curves, allowed, ["tilt, degrees", &title])?),
+        (
+            format!("history-{number}.svg"),
+            history(&points, &impacts, allowed, ["time since the first touch, ms", &title])?,
+        ),
+        (format!("tilt-{number}.svg"), over_tilt(&curves, allowed, ["tilt at the first touch, degrees", &title])?),
     ])
 }
 
 /// What the tightest limit of a part is asked over the tilt, the worse of both first ends, as a share of what it allows.
 fn share<'a>(((_, assessed), portrait): &Part<'_>, name: &'a str) -> Share<'a> {
-    let tightest = assessed.tightest();
     let mut points: Vec<(f64, f64)> = Vec::new();
     for (_, curve) in &portrait.over_tilt {
-        let curve = curve.iter().map(|p| (p.0.to_degrees(), p.1 / tightest.allowed));
+        let curve = curve.iter().map(|p| (p.tilt_rad.to_degrees(), p.share));
         if points.is_empty() {
             points = curve.collect();
         } else {
@@ -164,7 +189,7 @@ mod tests {
     fn pages(text: &str, to: &std::path::Path) -> lopdf::Document {
         let file = ProductFile::read(text, "test.toml").unwrap();
         let assessment = file.assess().unwrap();
-        let portraits = file.portraits(&assessment).unwrap();
+        let portraits = file.portraits(&assessment);
         let pages = Pages {
             file: &file,
             assessment: &assessment,
@@ -189,7 +214,7 @@ mod tests {
     fn a_failing_part_is_told_what_would_make_it_safe() {
         let file = ProductFile::read(include_str!("../../../reports/examples/phone.toml"), "phone.toml").unwrap();
         let assessment = file.assess().unwrap();
-        let portraits = file.portraits(&assessment).unwrap();
+        let portraits = file.portraits(&assessment);
         let pages = Pages {
             file: &file,
             assessment: &assessment,
@@ -224,7 +249,7 @@ mod tests {
         let assessment = close.assess().unwrap();
         let camera = &assessment.components[1];
         assert_eq!(camera.limits[0].verdict, Verdict::Undecided, "{camera:?}");
-        let portraits = close.portraits(&assessment).unwrap();
+        let portraits = close.portraits(&assessment);
         let pages = Pages {
             file: &close,
             assessment: &assessment,
@@ -243,15 +268,67 @@ mod tests {
     #[test]
     fn the_verdict_stands_on_the_first_page_and_every_part_has_a_section() {
         let dir = tempfile::tempdir().unwrap();
-        let pdf = pages(EXAMPLE, &dir.path().join("report.pdf"));
+        let text =
+            EXAMPLE.replace("name = \"camera\"", "name = \"camera\"\nlimit_source = \"data sheet 12-3, rev. B\"");
+        let pdf = pages(&text, &dir.path().join("report.pdf"));
         let first = said(&pdf, 1);
-        for word in ["Handheld", "display", "camera", "crystal", "Margin", "Flat drop"] {
+        for word in
+            ["Handheld", "display", "camera", "crystal", "Margin", "Flat drop", "Revision", "Author", "Signature"]
+        {
             assert!(first.contains(word), "{word} is not on the first page: {first}");
         }
         let rest: String = (2..=u32::try_from(pdf.get_pages().len()).unwrap()).map(|page| said(&pdf, page)).collect();
-        for word in ["display", "camera", "crystal", "does not cover", "respond", "--tilt-deg="] {
+        for word in [
+            "display",
+            "camera",
+            "crystal",
+            "does not cover",
+            "--product=test.toml",
+            "--worst=",
+            "data sheet 12-3, rev. B",
+        ] {
             assert!(rest.contains(word), "{word} has no section: {rest}");
         }
+    }
+
+    /// The share is that of the assessment: demand over allowed.
+    #[test]
+    fn what_exceeds_its_limit_is_told_on_the_first_page_with_its_share() {
+        let dir = tempfile::tempdir().unwrap();
+        let text = include_str!("../../../reports/examples/laptop.toml");
+        let found = ProductFile::read(text, "laptop.toml").unwrap().assess().unwrap();
+        let shares = found.components.iter().flat_map(|c| &c.limits).map(|l| l.demand.unwrap() / l.allowed);
+        let share = clatter_figures::three(100.0 * shares.fold(0.0, f64::max));
+        let pdf = pages(text, &dir.path().join("report.pdf"));
+        let first: String = said(&pdf, 1).split_whitespace().collect();
+        assert!(first.contains(&format!("therattlespaceofdiskdrive:theworstdropasksfor{share}%ofit")), "{first}");
+        // The last page is no page of a few lines.
+        let last = u32::try_from(pdf.get_pages().len()).unwrap();
+        assert!(said(&pdf, last).len() > 800, "{}", said(&pdf, last));
+    }
+
+    /// Rows of many parts go on in further drawings, and one figure has a few curves.
+    #[test]
+    fn many_parts_are_drawn_in_pieces() {
+        let many = (0..70).map(|k| {
+            format!(
+                "[[component]]\nname = \"part {k}\"\nposition = \"{} mm\"\nmount = \"hard\"\nvelocity_change_limit = \"{} m/s\"\n",
+                k - 35,
+                6.0 + 0.1 * f64::from(k)
+            )
+        });
+        let head = EXAMPLE.split("[[component]]").next().unwrap();
+        let file = ProductFile::read(&(head.to_owned() + &many.collect::<String>()), "many.toml").unwrap();
+        let assessment = file.assess().unwrap();
+        let portraits = file.portraits(&assessment);
+        let (file, assessment, portraits) = (&file, &assessment, &portraits[..]);
+        let files =
+            files(&Pages { file, assessment, portraits, measured: &[], path: "many.toml", date: None }).unwrap();
+        let drawn = |name: &str| files.iter().find(|(file, _)| file == name).map(|(_, svg)| svg.as_str());
+        let rows = (1..=3).map(|k| drawn(&format!("product-{k}.svg")).unwrap().matches(">part ").count());
+        assert_eq!(rows.collect::<Vec<_>>(), [32, 32, 6]);
+        assert_eq!(drawn("shares.svg").unwrap().matches(">part ").count(), CURVES);
+        assert_eq!(data(&files)["drawings"].as_array().unwrap().len(), 3);
     }
 
     /// Strikes of the paper's reference bar at e = 0.3, as in the tests of `clatter-cli`; and what no computed drop explains.
@@ -260,7 +337,7 @@ mod tests {
         use clatter_assess::fit::{Known, Measured, MeasuredDrop, MeasuredStrike, fit};
         let file = ProductFile::read(EXAMPLE, "test.toml").unwrap();
         let assessment = file.assess().unwrap();
-        let portraits = file.portraits(&assessment).unwrap();
+        let portraits = file.portraits(&assessment);
         let strike = |(time_s, end)| MeasuredStrike { time_s, end: Some(end) };
         let times = [(0.0, End::A), (1.2121e-3, End::B), (1.682_85e-3, End::A), (34.386e-3, End::B)];
         let measured = Measured::Strikes { strikes: times.map(strike).into(), deviation_s: Some(1e-6) };
@@ -318,7 +395,7 @@ mod tests {
             .replace("name = \"display\"", "name = \"display \u{488}\"");
         let file = ProductFile::read(&text, "test.toml").unwrap();
         let assessment = file.assess().unwrap();
-        let portraits = file.portraits(&assessment).unwrap();
+        let portraits = file.portraits(&assessment);
         let pages = Pages {
             file: &file,
             assessment: &assessment,

@@ -173,7 +173,7 @@ pub struct Pages<'a> {
 /// use clatter_assess::{EXAMPLE, ProductFile};
 /// let file = ProductFile::read(EXAMPLE, "example.toml")?;
 /// let assessment = file.assess()?;
-/// let portraits = file.portraits(&assessment)?;
+/// let portraits = file.portraits(&assessment);
 /// let pages = clatter_report::Pages { file: &file, assessment: &assessment, portraits: &portraits, measured: &[], path: "example.toml", date: None };
 /// clatter_report::write_assessment(&pages, "report.pdf".as_ref(), &mut |_| ())?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())

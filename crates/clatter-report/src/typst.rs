@@ -52,7 +52,20 @@ impl Typst {
         Self::find_with(&|name| std::env::var_os(name).filter(|value| !value.is_empty()), progress)
     }
 
+    /// Whatever keeps it from being found is one failure, that of the outside program: a full disk and a directory that cannot be
+    /// written as well.
     fn find_with(env: Env<'_>, progress: &mut dyn FnMut(&str)) -> Result<(Self, Vec<String>), ReportError> {
+        Self::search(env, progress).map_err(|error| {
+            let text = match error {
+                ReportError::Io { path, source } => format!("{}: {source}", path.display()),
+                error => error.to_string(),
+            };
+            let said = text.strip_prefix("no typst: ").unwrap_or(&text);
+            failed(format!("no typst: {said}"))
+        })
+    }
+
+    fn search(env: Env<'_>, progress: &mut dyn FnMut(&str)) -> Result<(Self, Vec<String>), ReportError> {
         if let Some(named) = find::named(env)? {
             let typst = Self::new(named);
             let warning = typst.asked()?;
@@ -246,6 +259,27 @@ pub(crate) mod tests {
         let missing = empty.path().join("nowhere");
         let error = Typst::find_with(&only("CLATTER_TYPST", &missing), &mut |_| ()).unwrap_err().to_string();
         assert!(error.contains("nowhere"), "{error}");
+    }
+
+    /// A cache that is a file, a name without a file, a program that is no typst, no home: one kind of failure, one beginning.
+    #[test]
+    fn whatever_keeps_typst_away_is_one_failure() {
+        let dir = tempfile::tempdir().unwrap();
+        let file = dir.path().join("file");
+        fs::write(&file, "").unwrap();
+        let (_dir, hello) = typst("echo hello");
+        let all = |name: &'static str, value: PathBuf| {
+            move |asked: &str| (asked == name).then(|| value.clone().into_os_string())
+        };
+        for env in [
+            &all("XDG_CACHE_HOME", file.clone()) as Env<'_>,
+            &all("CLATTER_TYPST", dir.path().join("nowhere")),
+            &all("CLATTER_TYPST", hello),
+            &all("NOTHING", PathBuf::new()),
+        ] {
+            let error = Typst::find_with(env, &mut |_| ()).unwrap_err();
+            assert!(matches!(&error, ReportError::Typst(text) if text.starts_with("no typst: ")), "{error:?}");
+        }
     }
 
     #[test]

@@ -17,7 +17,7 @@ pub(crate) fn shown(unit: Unit, value: f64) -> String {
 /// What one customary unit is in SI, and its name.
 pub(crate) fn customary(unit: Unit) -> (f64, &'static str) {
     match unit {
-        Unit::MeterPerSecondSquared => (STANDARD_GRAVITY_M_S2, "gn"),
+        Unit::MeterPerSecondSquared => (STANDARD_GRAVITY_M_S2, "g"),
         Unit::Meter => (1e-3, "mm"),
         Unit::MeterPerSecond => (1.0, "m/s"),
         Unit::RadianPerSecond => (1.0, "rad/s"),
@@ -32,6 +32,21 @@ pub(crate) fn limit(kind: LimitKind) -> &'static str {
         LimitKind::AngularVelocityChange => "angular velocity change",
         LimitKind::DamageBoundary => "damage boundary",
     }
+}
+
+/// What is measured against a limit, in its unit.
+pub(crate) fn quantity(kind: LimitKind, unit: Unit) -> &'static str {
+    match (kind, unit) {
+        (LimitKind::RattleSpace, _) => "displacement",
+        (LimitKind::DamageBoundary, Unit::MeterPerSecondSquared) => "acceleration",
+        (LimitKind::DamageBoundary, _) => "velocity change",
+        _ => limit(kind),
+    }
+}
+
+/// A share as one of a hundred.
+pub(crate) fn hundredths(share: f64) -> String {
+    format!("{}\u{a0}%", three(100.0 * share))
 }
 
 /// As a signed share of a hundred.

@@ -6,7 +6,7 @@
 #![expect(clippy::disallowed_methods, reason = "the last digit of a case or a reference may differ between machines")]
 #![expect(clippy::print_stdout, clippy::cast_precision_loss, reason = "a table of counts and times is what is wanted")]
 
-use clatter::{Axis, Bar, Count, Impact, Map, Quantity, Start};
+use clatter::{Axis, Bar, Count, Impact, Map, Plate, PlateStart, Quantity, Start};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -242,11 +242,89 @@ fn maps() {
     }
 }
 
+/// The loop anyone would write for a plate: heights and velocities in f64, from strike to strike, without a look at
+/// roundings.
+fn plain_plate(jump: &[[f64; 4]; 4], e: f64, [hx, hy]: [f64; 2], list: &mut [[f64; 3]]) -> usize {
+    let (mut h, mut v) = ([0.0, hx, hx + hy, hy], [-1.0_f64; 4]);
+    let (mut j, mut time) = (0, 0.0);
+    for (n, row) in list.iter_mut().enumerate() {
+        let u = v[j];
+        *row = [time, u, -jump[j][0] * u];
+        (0..4).for_each(|i| v[i] -= jump[j][i] * u);
+        v[j] = -e * u;
+        let mut wait = f64::INFINITY;
+        for i in 0..4 {
+            if v[i] < 0.0 && -h[i] / v[i] < wait {
+                (wait, j) = (-h[i] / v[i], i);
+            }
+        }
+        if wait.is_infinite() {
+            return n + 1;
+        }
+        (0..4).for_each(|i| h[i] += v[i] * wait);
+        (h[j], time) = (0.0, time + wait);
+    }
+    list.len()
+}
+
+/// Trains of plates, an impact, and atlases against one plain train in each of their words.
+fn plates() {
+    let mut random = random();
+    for (name, k, e) in [
+        ("uniform, e = 0.3", [(1.0_f64 / 3.0).sqrt(); 2], 0.3),
+        ("uniform, e = 0.5", [(1.0_f64 / 3.0).sqrt(); 2], 0.5),
+        ("mass in the middle, e = 0.8", [0.1, 0.15], 0.8),
+    ] {
+        let plate = Plate::new(k, e).expect("gyration ratios in range");
+        let one = PlateStart::default();
+        let own = |j: usize| plate.train(&one).find(|impact| impact.corner as usize == j);
+        let [alpha, beta] = k.map(|k| 1.0 / k / k);
+        let share = |x: f64, y: f64| (1.0 + e) * (1.0 + x * alpha + y * beta) / (1.0 + alpha + beta);
+        let jump: [[f64; 4]; 4] = std::array::from_fn(|j| {
+            let side = |i: usize| [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]][i];
+            std::array::from_fn(|i| share(side(i)[0] * side(j)[0], side(i)[1] * side(j)[1]))
+        });
+        assert!(own(0).is_some_and(|first| (first.delta_v[2] - jump[0][2]).abs() < 1e-14), "the same plate");
+        let gaps: Vec<[f64; 2]> = (0..2000).map(|_| [random(), random()]).collect();
+        let starts: Vec<PlateStart> = gaps.iter().map(|gaps| PlateStart::level(*gaps).expect("gaps")).collect();
+        let mut list = vec![[0.0; 3]; 400];
+        let impacts = starts.iter().map(|start| plate.train(start).take(400).count()).sum();
+        let ours = || {
+            for start in &starts {
+                for (row, impact) in list.iter_mut().zip(black_box(&plate).train(start)) {
+                    *row = [impact.time, impact.approach, impact.delta_v[0]];
+                }
+            }
+            black_box(&list);
+        };
+        let mut other = vec![[0.0; 3]; 400];
+        let naive = || {
+            for gaps in &gaps {
+                black_box(plain_plate(black_box(&jump), e, *gaps, &mut other));
+            }
+        };
+        row(&format!("plate, {name}, an impact"), impacts, "25 ns", ours, naive);
+        let words = plate.atlas(40).expect("a limit in range").words().to_vec();
+        let repeat = 20;
+        let ours = || (0..repeat).for_each(|_| drop(black_box(black_box(&plate).atlas(40))));
+        let mut other = vec![[0.0; 3]; 400];
+        let naive = || {
+            for word in (0..repeat).flat_map(|_| &words) {
+                let r = 0.5 * (word.from + word.to);
+                black_box(plain_plate(black_box(&jump), e, [1.0 - r, r], &mut other));
+            }
+        };
+        let allowed = if (e - 0.3).abs() < 1e-9 { "20 µs" } else { "" };
+        row(&format!("atlas, {name}, {} words", words.len()), repeat, allowed, ours, naive);
+    }
+}
+
 fn main() {
     println!("{:44} {:>10} {:>10} {:>7}   allowed", "", "ours [ns]", "plain [ns]", "ratio");
     summaries();
     long_trains();
     singly();
     trains();
+    plates();
     maps();
 }

@@ -54,6 +54,15 @@ impl From<Dd> for Dyadic {
 }
 
 impl Dyadic {
+    /// The same number without the zeros at the end of its significand, which products would carry along.
+    pub(crate) fn odd(self) -> Self {
+        let zeros = self.m.trailing_zeros().unwrap_or(0);
+        Self { m: self.m >> zeros, x: self.x + i128::from(zeros) }
+    }
+    /// How many binary digits its significand has.
+    pub(crate) fn bits(&self) -> u64 {
+        self.m.bits()
+    }
     pub(crate) fn add(&self, o: &Self) -> Self {
         let (low, high) = if self.x <= o.x { (self, o) } else { (o, self) };
         if high.m.sign() == Sign::NoSign {

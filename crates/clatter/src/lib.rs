@@ -12,6 +12,8 @@
 //!
 //! Two numbers decide everything: the coefficient of restitution `e` and the inertia ratio
 //! `q = (L² − ρ²)/(L² + ρ²)` of half-length `L` and radius of gyration `ρ`.
+//!
+//! A product that is no bar is a [`Plate`], which lands on its four corners; the bar is its limit of large inertia across.
 
 pub mod accuracy;
 mod bar;
@@ -24,6 +26,7 @@ mod map;
 mod motion;
 mod off_center;
 pub mod paper;
+mod plate;
 pub mod quadrature;
 pub mod reference;
 mod start;
@@ -35,6 +38,10 @@ pub use bar::{Bar, Mass, Restitution};
 pub use error::Error;
 pub use map::{Axis, Map, Quantity, Variable};
 pub use off_center::{OffCenterBar, OffCenterTrain, Safest, Shocks, center_and_gyration};
+pub use plate::{
+    Atlas, AtlasPeak, Corner, Plate, PlateCount, PlateImpact, PlatePeak, PlateShocks, PlateStart, PlateSummary,
+    PlateTrain, PlateZone, Word,
+};
 pub use quadrature::Integral;
 pub use start::{End, Start};
 pub use summary::{Count, Net, Peak, PeakImpact, Summary};

@@ -27,6 +27,7 @@ struct Counts {
     broken: usize,
     room: usize,
     undecided: usize,
+    unanswered: usize,
     reasons: BTreeMap<String, usize>,
 }
 
@@ -62,12 +63,12 @@ pub fn compare(
             let lines = one(clatter, kind, seed, &text, drops, &mut counts)?;
             write!(out, "{lines}").and_then(|()| out.flush()).map_err(|error| error.to_string())?;
         }
-        let Counts { limits, reached, above, turning, search, broken, room, undecided, .. } = counts;
+        let Counts { limits, reached, above, turning, search, broken, room, undecided, unanswered, .. } = counts;
         writeln!(
             out,
             "== {kind}: {limits} limits; for {reached} a drop reaches 99 % of what was told, for {above} one exceeds it with its \
              uncertainty ({turning} only by how the bar turns in free flight; {search} that clatter answers as high), {broken} \
-             were told safe and are exceeded; of {room} with 10 to 30 % of room {undecided} are undecided"
+             were told safe and are exceeded; of {room} with 10 to 30 % of room {undecided} are undecided; {unanswered} are not answered"
         )
         .map_err(|error| error.to_string())?;
         for (reason, count) in counts.reasons {
@@ -110,6 +111,11 @@ fn one(clatter: &Path, kind: &str, seed: u64, text: &str, drops: usize, counts: 
             continue;
         };
         let Told { verdict, demand, allowed, uncertainty, reason } = told;
+        if demand.is_nan() {
+            lines += &format!("{kind} {seed}: {worst}\n  {verdict}, no drop is answered: {reason}\n");
+            counts.unanswered += 1;
+            continue;
+        }
         let found = worst.peak.value;
         let over = found / (demand * (1.0 + uncertainty)) - 1.0;
         let broken = verdict == "safe" && found > allowed * (1.0 + SLACK);
@@ -122,7 +128,7 @@ fn one(clatter: &Path, kind: &str, seed: u64, text: &str, drops: usize, counts: 
                 *counts.reasons.entry(reason.clone()).or_default() += 1;
             }
         }
-        if over > SLACK || broken || demand.is_nan() {
+        if over > SLACK || broken {
             counts.above += 1;
             counts.turning += usize::from(worst.still < demand * (1.0 + uncertainty) * (1.0 + SLACK));
             let repeat = repeat(&worst);

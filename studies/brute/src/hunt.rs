@@ -1,7 +1,7 @@
 //! The worst drop of each limit by sampling and climbing.
 
 use crate::flight::{Drop, Flight, Until, flat, follow};
-use crate::part::{Motion, Peak, felt, largest, respond, shocks};
+use crate::part::{INSTANT, Motion, Peak, felt, largest, respond, shocks};
 use crate::product::{Kind, Part, Product, Sample};
 use crate::random::Random;
 
@@ -60,10 +60,15 @@ pub fn values(kinds: &[Kind], flight: &Flight, place: f64, suspension: Option<(f
     kinds.iter().map(value).collect()
 }
 
-/// The flights of a drop: its own and, without a contact time and nearly flat, the flat one.
+/// The flights of a drop: its own and, without a contact time and nearly flat, the flat one; that alone where strikes are so close
+/// that the motion does not tell them apart.
 fn flights(drop: &Drop, until: Until) -> Vec<(Flight, bool)> {
-    let mut list = vec![(follow(drop, until), false)];
-    if drop.contact.is_none() && drop.length * drop.tilt.sin() / drop.speed < MERGE {
+    let gap = drop.length * drop.tilt.sin() / drop.speed;
+    let mut list = Vec::with_capacity(2);
+    if drop.contact.is_some() || gap > 100.0 * INSTANT {
+        list.push((follow(drop, until), false));
+    }
+    if drop.contact.is_none() && gap < MERGE {
         list.push((flat(drop, until), true));
     }
     list

@@ -52,7 +52,7 @@ pub enum Motion {
 const FINE: f64 = 0.25;
 /// Strikes that come closer than this are one: longer than an end that hops in place of resting is off the ground when the
 /// other lands.
-const INSTANT: f64 = 2e-8;
+pub const INSTANT: f64 = 2e-8;
 
 /// A mass on spring and dashpot.
 #[derive(Debug, Clone, Copy)]

@@ -2,7 +2,7 @@
 
 use clatter_flight::Body;
 
-use crate::{Component, ComponentAssessment, Error, LimitKind, Mount, Product, units};
+use crate::{Component, ComponentAssessment, Error, LimitKind, Mount, Product, Spread, units};
 
 /// One thing that a designer can change while all else stays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -189,6 +189,7 @@ impl Product {
         let root = (0.5 * q * q * squares + product * q * q).max(0.0).sqrt() * (half + product * less).max(0.0).sqrt();
         let larger = half + root;
         let square = if q > 0.0 { product * product * less / larger } else { larger / less };
-        Ok(Self { body: Body::off_center(a, b, square.sqrt())?, ..self.clone() })
+        let rho = square.sqrt();
+        Ok(Self { body: Body::off_center(a, b, rho)?, gyration_m: Spread::value(rho)?, ..self.clone() })
     }
 }

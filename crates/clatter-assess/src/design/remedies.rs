@@ -59,10 +59,7 @@ impl ProductFile {
         let levers = |i: usize| Lever::of(&self.product, &self.components[i]);
         let tasks: Vec<_> =
             failing.flat_map(|(i, found)| levers(i).into_iter().map(move |lever| (i, found, lever))).collect();
-        let case = |i: usize| {
-            let component = &self.components[i];
-            Case { file: self, component, accuracy: assessment.accuracy, bounds, margin }
-        };
+        let case = |i: usize| Case::new(self, &self.components[i], assessment.accuracy, bounds, margin);
         // One lever after the other of each component, then at most one pair of them, which takes as long as a lever.
         let all = tasks.len() + tasks.chunk_by(|a, b| a.0 == b.0).count();
         let done = AtomicUsize::new(0);
@@ -96,7 +93,7 @@ fn is_enough(found: &ComponentAssessment, margin: f64) -> bool {
 
 /// One part that is to be made safe.
 #[derive(Clone, Copy)]
-pub(super) struct Case<'a> {
+pub(crate) struct Case<'a> {
     pub(super) file: &'a ProductFile,
     pub(super) component: &'a Component,
     accuracy: Accuracy,
@@ -104,7 +101,17 @@ pub(super) struct Case<'a> {
     margin: f64,
 }
 
-impl Case<'_> {
+impl<'a> Case<'a> {
+    pub(crate) fn new(
+        file: &'a ProductFile,
+        component: &'a Component,
+        accuracy: Accuracy,
+        bounds: &'a Bounds,
+        margin: f64,
+    ) -> Self {
+        Self { file, component, accuracy, bounds, margin }
+    }
+
     fn solve(&self, lever: Lever, found: &ComponentAssessment) -> Outcome {
         if !self.matters(lever) {
             return Outcome::NoEffect;
@@ -223,7 +230,7 @@ impl Case<'_> {
     }
 
     /// Whether a limit of the part depends on a lever.
-    fn matters(&self, lever: Lever) -> bool {
+    pub(crate) fn matters(&self, lever: Lever) -> bool {
         let kinds = self.component.limits.kinds();
         let suspended = matches!(self.component.mount, Mount::Suspended { .. });
         let responds = kinds.iter().any(|kind| matches!(kind, LimitKind::Acceleration | LimitKind::RattleSpace));

@@ -24,12 +24,12 @@ impl Case<'_> {
     }
 
     /// The same as the lever counts: a range by its low end, what is multiplied by the logarithm of its factor.
-    pub(super) fn here(&self, lever: Lever) -> f64 {
+    pub(crate) fn here(&self, lever: Lever) -> f64 {
         if multiplied(lever) { 0.0 } else { self.present(lever)[0] }
     }
 
     /// The bounds, as the lever counts.
-    pub(super) fn reach(&self, lever: Lever) -> [f64; 2] {
+    pub(crate) fn reach(&self, lever: Lever) -> [f64; 2] {
         let [lo, hi] = self.present(lever);
         match lever {
             // With mass inside the body alone.
@@ -52,7 +52,7 @@ impl Case<'_> {
     }
 
     /// A bound as it is shown.
-    pub(super) fn shown(&self, lever: Lever, x: f64) -> f64 {
+    pub(crate) fn shown(&self, lever: Lever, x: f64) -> f64 {
         match lever {
             Lever::Restitution => x.clamp(self.bounds.e[0], self.bounds.e[1]),
             _ if multiplied(lever) => self.value(lever, x)[usize::from(x > 0.0)],
@@ -60,12 +60,12 @@ impl Case<'_> {
         }
     }
 
-    pub(super) fn change(&self, lever: Lever, x: f64) -> Change {
+    pub(crate) fn change(&self, lever: Lever, x: f64) -> Change {
         Change { lever, from: self.present(lever), to: self.value(lever, x) }
     }
 
     /// What a value of the lever means, low and high end, as it can be specified.
-    pub(super) fn value(&self, lever: Lever, x: f64) -> [f64; 2] {
+    pub(crate) fn value(&self, lever: Lever, x: f64) -> [f64; 2] {
         let [lo, hi] = self.present(lever);
         let [lo, hi] = match lever {
             Lever::InertiaRatio => return [self.with_ratio(x).map_or(x, |product| product.inertia_ratio()); 2],
@@ -98,11 +98,12 @@ impl Case<'_> {
         let specified = |way| 1e-3 * to_digits(1e3 * product.body.gyration_m(), 100.0 * (a + b), way);
         let nearest = specified(f64::round);
         let gyration = if nearest * nearest > a * b { specified(f64::floor) } else { nearest };
-        Some(Product { body: Body::off_center(a, b, gyration).ok()?, ..product })
+        let gyration_m = Spread::value(gyration).ok()?;
+        Some(Product { body: Body::off_center(a, b, gyration).ok()?, gyration_m, ..product })
     }
 
     /// The product with these values, and the part alone.
-    pub(super) fn changed(&self, values: &[(Lever, f64)]) -> Option<ProductFile> {
+    pub(crate) fn changed(&self, values: &[(Lever, f64)]) -> Option<ProductFile> {
         let mut component = self.component.clone();
         let mut product = self.file.product.clone();
         for &(lever, x) in values {
@@ -110,7 +111,10 @@ impl Case<'_> {
             let unit = lever.written_in(&self.file.product, self.component);
             let range = Spread::new(lo, hi, if lo < hi { Law::Range } else { Law::Value }).ok()?.written_in(unit);
             match (lever, &mut component.mount) {
-                (Lever::InertiaRatio, _) => product = Product { body: self.with_ratio(x)?.body, ..product },
+                (Lever::InertiaRatio, _) => {
+                    let Product { body, gyration_m, .. } = self.with_ratio(x)?;
+                    product = Product { body, gyration_m, ..product };
+                }
                 (Lever::Restitution, _) => product.restitution = range,
                 (Lever::Position, _) => component.position_m = range,
                 (Lever::Frequency, Mount::Suspended { frequency_hz, .. }) => *frequency_hz = range,

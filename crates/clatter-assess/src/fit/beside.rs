@@ -32,7 +32,12 @@ impl Fit {
     pub fn beside(&self, file: &ProductFile) -> Vec<Beside<'_>> {
         let known = Known::from(file);
         let beside = self.estimates.iter().map(|estimate| {
-            let stated = known.stated(estimate.quantity);
+            let stated = match estimate.quantity {
+                Quantity::RadiusOfGyration => Some([file.product.gyration_m.lo(), file.product.gyration_m.hi()]),
+                // The larger the radius, the smaller the ratio.
+                Quantity::InertiaRatio => Some([1.0, 0.0].map(|share| file.product.inertia_ratio_at(share))),
+                quantity => known.stated(quantity),
+            };
             Beside { estimate, stated, agrees: stated.and_then(|stated| estimate.agrees(stated)) }
         });
         beside.collect()
@@ -47,19 +52,18 @@ impl Fit {
 }
 
 impl Known {
-    /// What a file states of a quantity.
+    /// What a file states of a quantity, the inertia apart.
     fn stated(&self, quantity: Quantity) -> Option<[f64; 2]> {
         let height = |speed: f64| (self.gravity_m_s2 > 0.0).then(|| 0.5 * speed * speed / self.gravity_m_s2);
-        let [q_a, q_b] = self.body.inertia_ratios();
         Some(match quantity {
             Quantity::Restitution | Quantity::RestitutionA | Quantity::RestitutionB => self.restitution,
-            Quantity::RadiusOfGyration => [self.body.gyration_m(); 2],
-            Quantity::InertiaRatio => [(q_a * q_b).sqrt().copysign(q_a); 2],
             Quantity::ContactTime => self.contact_time_s?,
             Quantity::Speed => self.speed_m_s,
             Quantity::DropHeight => [height(self.speed_m_s[0])?, height(self.speed_m_s[1])?],
             Quantity::Tilt => self.tilt_rad,
-            Quantity::Spin | Quantity::GapOverSpeed => return None,
+            Quantity::RadiusOfGyration | Quantity::InertiaRatio | Quantity::Spin | Quantity::GapOverSpeed => {
+                return None;
+            }
         })
     }
 }

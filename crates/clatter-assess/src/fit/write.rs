@@ -4,6 +4,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::{Estimate, Fit, Quantity};
 use crate::ProductFile;
+use crate::check::GYRATION;
 
 /// Tilts that a product file takes, in degrees.
 const MOST_TILT_DEG: f64 = 30.0;
@@ -17,8 +18,8 @@ pub struct Written {
     pub notes: Vec<String>,
 }
 
-/// Writes the ranges of a fit into the text of a product file: restitution, contact time, tilt, height or speed as ranges of 95 %, the
-/// radius of gyration as a value. All else stays as it is, comments and order too.
+/// Writes the ranges of a fit into the text of a product file: restitution, contact time, tilt, height or speed as ranges of 95 %, and the
+/// radius of gyration within what a file takes. All else stays as it is, comments and order too.
 ///
 /// # Errors
 /// What is wrong with the text, or why it cannot take what was found.
@@ -52,13 +53,18 @@ pub fn written(text: &str, fit: &Fit) -> Result<Written, String> {
     if let Some(range) = restitution(fit) {
         set(product, "restitution", plain(range));
     }
-    if let Some(found) = of(Quantity::RadiusOfGyration)
-        && !set(product, "radius_of_gyration", format!("\"{} mm\"", four(1e3 * found.value, Round::Nearest)))
-    {
-        notes.push(format!(
-            "the radius of gyration, {} mm, is not written: the file gives the inertia in another way",
-            four(1e3 * found.value, Round::Nearest)
-        ));
+    if let Some(found) = of(Quantity::RadiusOfGyration) {
+        let length_m =
+            ProductFile::read(text, "the file").map_err(|faults| faults.to_string())?.product.body.length_m();
+        // Rounded outward to four digits it is within what a file takes.
+        let [least, most] = GYRATION.map(|share| 1e3 * share * length_m);
+        let radius = quantity(range(found).map(|m| (1e3 * m).clamp(least * 1.001, most * 0.999)), "mm");
+        if !set(product, "radius_of_gyration", radius) {
+            notes.push(format!(
+                "the radius of gyration, {} mm, is not written: the file gives the inertia in another way",
+                four(1e3 * found.value, Round::Nearest)
+            ));
+        }
     }
     if let Some(found) = of(Quantity::Tilt) {
         let [lo, hi] = range(found).map(f64::to_degrees);

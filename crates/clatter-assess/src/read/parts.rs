@@ -11,22 +11,16 @@ impl Reader {
         let mount = self.mount(section);
         let limits = self.limits(section);
         let (position, extent_m) = (position?, extent.map_or(0.0, |e| e.value));
-        if let Some(product) = product {
-            let (half, reach) = (
-                0.5 * product.body.length_m(),
-                position.value.lo().abs().max(position.value.hi().abs()) + 0.5 * extent_m,
-            );
-            if reach > half * (1.0 + 1e-9) {
-                let message = format!("the component reaches {} mm from the middle", mm(reach));
-                let help = format!(
-                    "allowed: up to {} mm, half of the product's length; extent counts on both sides",
-                    mm(half)
-                );
-                self.fault(position.span, message, "this position", help);
-                return None;
-            }
+        let limit_source = self.text(section, "limit_source").map(|source| source.value);
+        let component =
+            Component { name: name?, position_m: position.value, extent_m, mount: mount?, limits, limit_source };
+        if let Some(product) = product.filter(|product| !component.fits(product)) {
+            let message = format!("the component reaches {} mm from the middle", mm(component.reach_m()));
+            let half = mm(0.5 * product.body.length_m());
+            let help = format!("allowed: up to {half} mm, half of the product's length; extent counts on both sides");
+            self.fault(position.span, message, "this position", help);
+            return None;
         }
-        let component = Component { name: name?, position_m: position.value, extent_m, mount: mount?, limits };
         let stiff = product.and_then(|product| crate::quantity::lacks_contact_time(product, &component));
         if let Some(reason) = stiff {
             let message = format!("{} needs the contact time of the product", section.title);

@@ -174,6 +174,8 @@ pub enum Column {
     Restitution,
     /// Contact time in s, of a product that has one.
     ContactTimeS,
+    /// Radius of gyration of the product, in m.
+    GyrationM,
     /// Natural frequency of a part on a suspension, in Hz.
     FrequencyHz(usize),
     /// Damping ratio of a part, where it varies.

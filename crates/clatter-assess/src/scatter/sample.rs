@@ -1,6 +1,7 @@
 //! What varies from sample to sample, and one sample.
 
 use clatter::End;
+use clatter_flight::Body;
 use clatter_shock::Suspension;
 
 use super::draw::Quantile;
@@ -25,6 +26,8 @@ pub enum Input {
     Restitution,
     /// How long a lone contact takes.
     ContactTime,
+    /// Radius of gyration of the product.
+    Gyration,
     /// Natural frequency of a part.
     Frequency(usize),
     /// Damping ratio or quality factor of a part, whichever the file gives.
@@ -38,7 +41,7 @@ pub enum Input {
 }
 
 impl Input {
-    /// `first`, `height`, `speed`, `tilt`, `restitution`, `contact-time`, `natural-frequency`, `damping`, `position`, `limit` or
+    /// `first`, `height`, `speed`, `tilt`, `restitution`, `contact-time`, `radius-of-gyration`, `natural-frequency`, `damping`, `position`, `limit` or
     /// `critical-acceleration`.
     #[must_use]
     pub fn name(&self) -> &'static str {
@@ -49,6 +52,7 @@ impl Input {
             Self::Tilt => "tilt",
             Self::Restitution => "restitution",
             Self::ContactTime => "contact-time",
+            Self::Gyration => "radius-of-gyration",
             Self::Frequency(_) => "natural-frequency",
             Self::Damping(_) => "damping",
             Self::Position(_) => "position",
@@ -78,6 +82,8 @@ impl Input {
             Self::Tilt => return 2,
             Self::Restitution => return 3,
             Self::ContactTime => return 4,
+            // Beyond those of the last part that a file may have.
+            Self::Gyration => return u32::MAX,
             Self::Frequency(_) => 0,
             Self::Damping(_) => 1,
             Self::Position(_) => 2,
@@ -125,6 +131,7 @@ pub(super) struct Inputs {
     tilt: Drawn,
     restitution: Drawn,
     contact_time: Option<Drawn>,
+    gyration: Option<Drawn>,
     parts: Vec<PartInputs>,
 }
 
@@ -223,6 +230,7 @@ impl Finder {
 impl Inputs {
     /// The inputs of a product, all checked.
     pub(super) fn new(file: &ProductFile, merge_s: f64) -> Result<Self, Error> {
+        file.check()?;
         let (product, drop) = (&file.product, &file.drop);
         let mut finder = Finder::default();
         if drop.first == First::Either {
@@ -236,6 +244,9 @@ impl Inputs {
         let restitution = finder.drawn(Input::Restitution, &product.restitution, "")?;
         let contact_time =
             product.contact_time_s.map(|time| finder.drawn(Input::ContactTime, &time, "")).transpose()?;
+        let gyration = (!product.gyration_m.is_value())
+            .then(|| finder.drawn(Input::Gyration, &product.gyration_m, ""))
+            .transpose()?;
         let shared = finder.varied.len();
         let (mut parts, mut of_part) = (Vec::new(), Vec::new());
         for (i, component) in file.components.iter().enumerate() {
@@ -271,6 +282,7 @@ impl Inputs {
             tilt,
             restitution,
             contact_time,
+            gyration,
             parts,
         })
     }
@@ -293,7 +305,7 @@ impl Inputs {
             *uniform = stream.at(input.number());
         }
         let Sample { uniforms, drop, parts } = sample;
-        self.drop(uniforms, drop);
+        self.drop(uniforms, drop)?;
         for (inputs, part) in self.parts.iter().zip(parts) {
             part.position_m = inputs.position.at(uniforms);
             let half = 0.5 * inputs.extent_m;
@@ -311,7 +323,7 @@ impl Inputs {
     }
 
     /// The drop that these uniform numbers give.
-    pub(super) fn drop(&self, uniforms: &[f64], drop: &mut SingleDrop) {
+    pub(super) fn drop(&self, uniforms: &[f64], drop: &mut SingleDrop) -> Result<(), crate::Error> {
         drop.first = match *self.firsts {
             [end] => end,
             _ if uniforms[0] < 0.5 => End::A,
@@ -322,13 +334,19 @@ impl Inputs {
         drop.tilt_rad = self.tilt.at(uniforms);
         drop.restitution = self.restitution.at(uniforms);
         drop.contact_time_s = self.contact_time.as_ref().map(|time| time.at(uniforms));
+        if let Some(gyration) = &self.gyration {
+            let [a, b] = drop.body.arms_m();
+            drop.body = Body::off_center(a, b, gyration.at(uniforms))?;
+        }
         drop.flat = drop.lands_as_one(self.merge_s);
+        Ok(())
     }
 
     /// What a row of values holds.
     pub(super) fn columns(&self) -> Vec<Column> {
         let mut columns = vec![Column::First, Column::SpeedMS, Column::TiltDeg, Column::Restitution];
         columns.extend(self.contact_time.map(|_| Column::ContactTimeS));
+        columns.extend(self.gyration.map(|_| Column::GyrationM));
         for (i, part) in self.parts.iter().enumerate() {
             columns.extend(part.mount.map(|_| Column::FrequencyHz(i)));
             columns.extend(self.varied.iter().filter_map(|input| match *input {
@@ -356,6 +374,7 @@ impl Sample {
             Column::TiltDeg => Some(self.drop.tilt_rad.to_degrees()),
             Column::Restitution => Some(self.drop.restitution),
             Column::ContactTimeS => self.drop.contact_time_s,
+            Column::GyrationM => Some(self.drop.body.gyration_m()),
             Column::FrequencyHz(i) => suspension(i).map(|part| part.omega() / std::f64::consts::TAU),
             Column::DampingRatio(i) => suspension(i).map(|part| part.damping().get()),
             Column::PositionM(i) => Some(self.parts[i].position_m),

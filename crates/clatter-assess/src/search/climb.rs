@@ -1,7 +1,7 @@
 //! From drops that ask much to those that ask most.
 
 use super::grid::halton;
-use super::ranges::{AXES, FREQUENCY, Ranges, TILT};
+use super::ranges::{AXES, DAMPING, FREQUENCY, Ranges, TILT};
 use super::{Asked, Task, fastest_rad_s};
 use crate::drop::Until;
 use crate::engine::Felt;
@@ -34,7 +34,7 @@ impl Ranges<'_> {
         let (until, fastest) = (Until::Lands, fastest_rad_s(task.component));
         let free = self.free_at(task, &start.place);
         let frequency_step = 0.5 / f64::from(Self::frequencies(task, &self.single(&start.place)).max(4));
-        let mut steps = [tilt_step, 0.25, 0.25, 0.25, frequency_step, 0.5];
+        let mut steps = [tilt_step, 0.25, 0.25, 0.25, frequency_step, 0.5, 0.25];
         let mut best = start;
         let Ok(mut here) = self.follow(&best.place, until) else { return best };
         for _ in 0..HALVINGS {
@@ -45,8 +45,9 @@ impl Ranges<'_> {
                         continue;
                     }
                     let place = best.place.with(axis, share);
-                    let moved = if axis < FREQUENCY { self.follow(&place, until).ok() } else { None };
-                    if axis < FREQUENCY && moved.is_none() {
+                    let same = axis == FREQUENCY || axis == DAMPING;
+                    let moved = if same { None } else { self.follow(&place, until).ok() };
+                    if !same && moved.is_none() {
                         continue;
                     }
                     let followed = moved.as_ref().unwrap_or(&here);

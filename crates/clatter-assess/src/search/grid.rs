@@ -11,6 +11,7 @@ const TILTS: [f64; 2] = [12.0, 128.0];
 /// Phase by which the stiffest part turns between the first strikes of neighboring tilts, in rad.
 const PHASE: f64 = 0.8;
 const SQRT_3: f64 = 1.732_050_807_568_877;
+const SQRT_5: f64 = 2.236_067_977_499_79;
 /// Tilts in a contact time, and contact times over which tilts lie so closely: where contacts overlap, velocity shocks change by steps.
 const OVERLAPS: [f64; 2] = [12.0, 4.0];
 /// Where along a range the drops of the grid are.
@@ -68,14 +69,18 @@ impl Ranges<'_> {
                     self.product.contact_time_s.as_ref(),
                     &[Level::At(0.0), Level::At(1.0), Level::Spread(SQRT_3)],
                 ) {
-                    let mut add = |tilt: f64, speed: f64| {
-                        let k = grid.len();
-                        let shares = [tilt, speed, restitution.of(k), contact.of(k), 0.0, 0.0];
-                        grid.push(Place { first, flat: false, position_m: 0.0, shares });
-                    };
-                    even(steps, tilted).for_each(|tilt| add(tilt, 1.0));
-                    // Slower drops seldom do more; fewer of them are followed.
-                    even((steps / 4.0).ceil(), tilted).filter(|_| slow < fast).for_each(|tilt| add(tilt, 0.0));
+                    for gyration in
+                        levels(Some(&self.product.gyration_m), &[Level::At(0.0), Level::At(1.0), Level::Spread(SQRT_5)])
+                    {
+                        let mut add = |tilt: f64, speed: f64| {
+                            let k = grid.len();
+                            let shares = [tilt, speed, restitution.of(k), contact.of(k), 0.0, 0.0, gyration.of(k)];
+                            grid.push(Place { first, flat: false, position_m: 0.0, shares });
+                        };
+                        even(steps, tilted).for_each(|tilt| add(tilt, 1.0));
+                        // Slower drops seldom do more; fewer of them are followed.
+                        even((steps / 4.0).ceil(), tilted).filter(|_| slow < fast).for_each(|tilt| add(tilt, 0.0));
+                    }
                 }
             }
         }
@@ -84,7 +89,7 @@ impl Ranges<'_> {
             let levels = [Level::At(1.0), Level::At(0.0), Level::Spread(SQRT_2)];
             let speeds = if slow < fast { &[1.0, 0.0, 0.5][..] } else { &[1.0] };
             for (restitution, &speed) in levels.iter().flat_map(|e| speeds.iter().map(move |speed| (e, speed))) {
-                let shares = [0.0, speed, restitution.of(grid.len()), 0.0, 0.0, 0.0];
+                let shares = [0.0, speed, restitution.of(grid.len()), 0.0, 0.0, 0.0, 0.0];
                 grid.push(Place { first, flat: true, position_m: 0.0, shares });
             }
         }
@@ -108,7 +113,15 @@ impl Ranges<'_> {
         let drops = |k: u32| {
             self.firsts().iter().flat_map(move |&first| {
                 [1.0, spread(k, SQRT_2)].map(|restitution| {
-                    let shares = [share(lo + f64::from(k) * step), 1.0, restitution, spread(k, SQRT_3), 0.0, 0.0];
+                    let shares = [
+                        share(lo + f64::from(k) * step),
+                        1.0,
+                        restitution,
+                        spread(k, SQRT_3),
+                        0.0,
+                        0.0,
+                        spread(k, SQRT_5),
+                    ];
                     (k, Place { first, flat: false, position_m: 0.0, shares })
                 })
             })
@@ -126,7 +139,7 @@ impl Ranges<'_> {
 
 /// Number k of Halton's sequence along an axis.
 pub(super) fn halton(axis: usize, mut k: u32) -> f64 {
-    let base = [2, 3, 5, 7, 11, 13][axis];
+    let base = [2, 3, 5, 7, 11, 13, 17][axis];
     let (mut share, mut digit) = (0.0, 1.0);
     while k > 0 {
         digit /= f64::from(base);

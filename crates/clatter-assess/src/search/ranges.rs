@@ -17,13 +17,16 @@ pub(crate) struct Place {
     pub(crate) shares: [f64; AXES],
 }
 
-/// Square root of the tilt, speed, restitution, contact time, natural frequency, damping ratio.
-pub(super) const AXES: usize = 6;
+/// Square root of the tilt, speed, restitution, contact time, natural frequency, damping ratio, radius of gyration.
+pub(super) const AXES: usize = 7;
 pub(super) const TILT: usize = 0;
+pub(super) const SPEED: usize = 1;
 pub(super) const RESTITUTION: usize = 2;
-/// The axes from here on are those of the part.
+pub(super) const CONTACT: usize = 3;
+/// Those of the part.
 pub(super) const FREQUENCY: usize = 4;
 pub(super) const DAMPING: usize = 5;
+pub(super) const GYRATION: usize = 6;
 
 /// The ranges of a product's drops, and how they are followed.
 #[derive(Debug, Clone, Copy)]
@@ -46,7 +49,7 @@ impl Ranges<'_> {
         let [share, speed, restitution, contact, ..] = place.shares;
         let root = lo + share * (hi - lo);
         SingleDrop {
-            body: self.product.body,
+            body: self.product.body_at(place.shares[GYRATION]),
             first: place.first,
             tilt_rad: if place.flat { 0.0 } else { (root * root).clamp(tilt.lo(), tilt.hi()) },
             flat: place.flat,
@@ -77,6 +80,7 @@ impl Ranges<'_> {
             contact,
             part[0],
             part[1],
+            worst.gyration_m.map_or(0.0, |rho| of(&self.product.gyration_m, rho)),
         ];
         Place { first: worst.first, flat: worst.flat, position_m: worst.position_m, shares }
     }
@@ -118,17 +122,20 @@ impl Ranges<'_> {
             }
             _ => [false; 2],
         };
-        [!self.drop.tilt_rad.is_value(), slow < fast, !self.product.restitution.is_value(), contact, frequency, damping]
+        let varies = |spread: &Spread| !spread.is_value();
+        let [tilt, restitution, gyration] =
+            [&self.drop.tilt_rad, &self.product.restitution, &self.product.gyration_m].map(varies);
+        [tilt, slow < fast, restitution, contact, frequency, damping, gyration]
     }
 
     /// Of a symmetric product one end first is the other one turned around.
-    pub(super) fn turns(&self) -> bool {
+    pub(crate) fn turns(&self) -> bool {
         let [a, b] = self.product.body.arms_m();
         a.to_bits() == b.to_bits() && self.drop.first_ends().len() > 1
     }
 
     /// The ends that are let touch first.
-    pub(super) fn firsts(&self) -> &'static [End] {
+    pub(crate) fn firsts(&self) -> &'static [End] {
         if self.turns() { &self.drop.first_ends()[..1] } else { self.drop.first_ends() }
     }
 }

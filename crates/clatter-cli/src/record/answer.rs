@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use clatter_record::{Channel, Finding, PulseCheck, Shocks, TimeAxis, Within};
+use clatter_record::{Account, Channel, Finding, PulseCheck, Shocks, TimeAxis, Within};
 use clatter_shock::Pulse;
 use serde::Serialize;
 
@@ -19,6 +19,45 @@ pub(super) struct Answer<'a> {
     times: TimesJson,
     channels: Vec<ChannelJson<'a>>,
     findings: Vec<String>,
+    /// What became of every line and column; null for files that are no text.
+    account: Option<AccountJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct AccountJson<'a> {
+    lines: usize,
+    heading: usize,
+    rows: usize,
+    not_asked_for: usize,
+    not_used: usize,
+    empty: usize,
+    comments: usize,
+    below: usize,
+    columns: Vec<ColumnJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct ColumnJson<'a> {
+    column: &'a str,
+    taken_for: &'a str,
+}
+
+impl<'a> AccountJson<'a> {
+    fn new(account: &'a Account) -> Self {
+        let lines = account.lines;
+        let column = |(column, taken_for): &'a (String, String)| ColumnJson { column, taken_for };
+        Self {
+            lines: lines.all,
+            heading: lines.heading,
+            rows: lines.rows,
+            not_asked_for: lines.others,
+            not_used: lines.bad,
+            empty: lines.empty,
+            comments: lines.comments,
+            below: lines.below,
+            columns: account.columns.iter().map(column).collect(),
+        }
+    }
 }
 
 impl<'a> Answer<'a> {
@@ -30,6 +69,7 @@ impl<'a> Answer<'a> {
             times: TimesJson::new(one),
             channels: (0..record.channels().len()).map(|k| ChannelJson::new(whole, k)).collect(),
             findings: findings.iter().map(Finding::to_string).collect(),
+            account: record.account().map(AccountJson::new),
         }
     }
 }

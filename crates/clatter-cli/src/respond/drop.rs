@@ -68,10 +68,9 @@ impl Args {
             instant_contacts: true,
             first: self.first.map(Into::into),
             of_product: true,
-            worst: self.worst.then(|| Accuracy {
-                tolerance: self.tolerance,
-                model: self.model.map(Into::into),
-                ..Accuracy::default()
+            worst: self.worst.map(|of| {
+                let model = self.model.map(Into::into);
+                (of, Accuracy { tolerance: self.tolerance, model, ..Accuracy::default() })
             }),
         };
         let setup = self.drop.setup(&beside, streams)?;
@@ -206,7 +205,7 @@ impl Drop<'_> {
 
     /// An input: what was typed as it was, what a search found to six digits.
     fn shortly(&self, x: f64) -> f64 {
-        if self.args.worst { format!("{x:.5e}").parse().unwrap_or(x) } else { x }
+        if self.args.worst.is_some() { format!("{x:.5e}").parse().unwrap_or(x) } else { x }
     }
 
     fn headings(&self, out: &mut dyn Write) -> io::Result<()> {

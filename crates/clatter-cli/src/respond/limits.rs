@@ -6,6 +6,7 @@ use clatter_assess::{Answer, Limit, LimitKind, Unit};
 use serde::Serialize;
 
 use crate::Failure;
+use crate::columns::Table;
 use crate::numbers::Json;
 use crate::one_drop::PartSetup;
 use crate::quantities::Show;
@@ -58,27 +59,26 @@ impl OfLimit {
 
 pub(super) fn table(part: &PartSetup, limits: &[OfLimit], time: Show, out: &mut dyn Write) -> io::Result<()> {
     let (title, when) = (format!("Limits of {}", shown(&part.name, 24)), format!("when, {}", time.name()));
-    let heads = ["value", "allowed", "of limit", "at"];
-    writeln!(out, "\n{title:<34}{:>12} {:>13} {:>9} {:>10} {when:>13}", heads[0], heads[1], heads[2], heads[3])?;
+    let mut rows = vec![[&title, "value", "allowed", "of limit", "at", &when, ""].map(str::to_owned).to_vec()];
     for row in limits {
-        let name = row.limit.kind.name();
+        let name = format!("  {}", row.limit.kind.name());
         let Some(answer) = row.answer else {
-            writeln!(out, "  {name:<32}{:>12}", "-")?;
+            rows.push(vec![name, "-".to_owned()]);
             continue;
         };
         let words = |value| in_words(answer.unit, part.limits.unit(row.limit.kind, answer.unit), value);
-        let (value, allowed, share) =
-            (words(answer.value), words(answer.allowed), format!("{:.1} %", 100.0 * answer.utilization()));
+        let share = format!("{:.1} %", 100.0 * answer.utilization());
         let place = if row.limit.kind == LimitKind::AngularVelocityChange {
             "-".to_owned()
         } else {
             in_words(Unit::Meter, part.place.unit(), row.position_m)
         };
         let over = if answer.utilization() > 1.0 { ", EXCEEDED" } else { "" };
-        let (at, impact) = (time.figures(answer.time_s), answer.impact);
-        writeln!(out, "  {name:<32}{value:>12} {allowed:>13} {share:>9} {place:>10} {at:>13}  impact {impact}{over}")?;
+        let (at, impact) = (time.figures(answer.time_s), format!("impact {}{over}", answer.impact));
+        rows.push(vec![name, words(answer.value), words(answer.allowed), share, place, at, impact]);
     }
-    Ok(())
+    writeln!(out)?;
+    Table { keys: 1, headings: 1, texts: 1, last_is_text: true, least: 8, rows }.write(out)
 }
 
 /// As in the answer of `clatter assess`, whose `demand` is the value here; null where nothing is known.

@@ -6,8 +6,9 @@ use clatter_assess::ProductFile;
 use clatter_assess::scatter::{ComponentScatter, Driver, Input, Pilot, Probability, Scatter, Settings};
 
 use super::{Target, name_of};
+use crate::columns::Table;
 use crate::numbers::{digits, figures, given};
-use crate::text::{column, field, shown};
+use crate::text::{field, shown};
 
 /// Inputs that explain less than this share are not named.
 const NAMED: f64 = 0.01;
@@ -22,6 +23,7 @@ fn called(input: &Input) -> &'static str {
         Input::CriticalAcceleration(_) => "own critical acceleration",
         Input::First => "first end",
         Input::ContactTime => "contact time",
+        Input::Gyration => "radius of gyration",
         other => other.name(),
     }
 }
@@ -112,18 +114,12 @@ fn in_full(file: &ProductFile, input: &Input) -> String {
 
 /// A row for each part.
 fn parts(scatter: &Scatter, sure: &str, out: &mut dyn Write) -> io::Result<()> {
-    let wide = scatter.components.iter().map(|c| column(&shown(&c.name, 24), 0).1).max().unwrap_or(0).max(4);
-    writeln!(
-        out,
-        "{:<wide$}  {:>10}  {:>10}  {:>21}  {:>11}  {:>10}   driven by",
-        "part",
-        "survives",
-        "at least",
-        format!("{sure} % interval"),
-        "utilization",
-        "largest"
-    )?;
-    writeln!(out, "{:<wide$}  {:>10}  {:>10}  {:>21}  {:>11}", "", "%", "%", "%", "mean")?;
+    let row = |cells: [&str; 8]| cells.map(str::to_owned).to_vec();
+    let interval = format!("{sure} % interval");
+    let mut rows = vec![
+        row(["part", "survives", "at least", &interval, "", "utilization", "largest", "driven by"]),
+        row(["", "%", "%", "from, %", "to, %", "mean", "", ""]),
+    ];
     for component in &scatter.components {
         let Probability { estimate, lo, hi, at_least } = component.survival;
         let named = component.drivers.iter().filter(|driver| driver.share.variance >= NAMED).take(4);
@@ -131,20 +127,18 @@ fn parts(scatter: &Scatter, sure: &str, out: &mut dyn Write) -> io::Result<()> {
         let drivers: Vec<String> = named.map(driver).collect();
         let answered = component.worst_sample.is_some();
         let of = |utilization: f64| if answered { figures(utilization) } else { "-".to_owned() };
-        let line = format!(
-            "{}  {:>10}  {:>10}  {:>10} {:>10}  {:>11}  {:>10}   {}",
-            column(&shown(&component.name, 24), wide).0,
+        rows.push(vec![
+            shown(&component.name, 24),
             hundredths(estimate),
             hundredths(at_least),
             hundredths(lo),
             hundredths(hi),
             of(component.mean_utilization),
             of(component.largest_utilization),
-            drivers.join(", ")
-        );
-        writeln!(out, "{}", line.trim_end())?;
+            drivers.join(", "),
+        ]);
     }
-    Ok(())
+    Table { keys: 1, headings: 2, texts: 1, last_is_text: true, least: 8, rows }.write(out)
 }
 
 pub(super) fn csv(scatter: &Scatter, out: &mut dyn Write) -> io::Result<()> {

@@ -49,7 +49,18 @@ impl Drop<'_> {
             pulses: self.motion.presses(),
             stop: flight.stop,
             at: &self.at,
+            called: &self.named(),
         })
+    }
+
+    /// What the places are called in the picture: the part of the product, or else the length from the middle.
+    fn named(&self) -> Vec<String> {
+        let millimeters = |s: &f64| format!("{} mm", clatter_figures::three(500.0 * self.setup.length_m * s));
+        let part = self.setup.part.as_ref().filter(|_| self.args.at.is_empty());
+        let named = |s: &f64| {
+            part.map_or(format!("at {}", millimeters(s)), |part| format!("{}, {}", part.name, millimeters(s)))
+        };
+        self.at.iter().map(named).collect()
     }
 
     fn history_csv(&self, out: &mut dyn Write) -> io::Result<()> {

@@ -38,16 +38,22 @@ impl Drop<'_> {
         heads.extend(["approach", "shock at a", "shock at b"].map(|name| (name.to_owned(), speed.name())));
         heads.extend(self.called.iter().map(|place| (format!("shock at {place}"), speed.name())));
         writeln!(out)?;
-        columns::line(out, "   impact  end", &heads, heads.iter().map(|(name, _)| name.as_str()))?;
-        columns::line(out, "              ", &heads, heads.iter().map(|(_, unit)| *unit))?;
         let strikes = &self.motion.flight().strikes;
         let largest = self.largest().into_iter().fold(0.0, f64::max);
         let shock = |strike: &Strike| strike.delta_v_m_s.into_iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         let matters = |i: usize| self.args.all || self.is_unfinished(i) || shock(&strikes[i]) >= MATTERS * largest;
-        for (i, strike) in strikes.iter().enumerate().filter(|(i, _)| matters(*i)) {
-            let cells = self.cells(i, strike, |x| time.figures(x), |x| speed.figures(x));
-            let first = format!("{:>9}  {:<3}", strike.number, end(strike.point));
-            columns::line(out, &first, &heads, cells.iter())?;
+        for (n, part) in columns::parts(14, &heads).into_iter().enumerate() {
+            if n > 0 {
+                writeln!(out)?;
+            }
+            let heads = &heads[part.clone()];
+            columns::line(out, "   impact  end", heads, heads.iter().map(|(name, _)| name.as_str()))?;
+            columns::line(out, "              ", heads, heads.iter().map(|(_, unit)| *unit))?;
+            for (i, strike) in strikes.iter().enumerate().filter(|(i, _)| matters(*i)) {
+                let cells = self.cells(i, strike, |x| time.figures(x), |x| speed.figures(x));
+                let first = format!("{:>9}  {:<3}", strike.number, end(strike.point));
+                columns::line(out, &first, heads, cells[part.start..].iter())?;
+            }
         }
         let left: Vec<_> = (0..strikes.len()).filter(|i| !matters(*i)).map(|i| &strikes[i]).collect();
         let Some(last) = left.last() else { return Ok(()) };

@@ -8,6 +8,7 @@ use clatter_shock::{LimitCurve, Margin, Spectrum};
 
 use super::records::{Measured, largest};
 use super::{Computed, Part};
+use crate::columns::Table;
 use crate::numbers::{digits, figures, given};
 use crate::quantities::Show;
 use crate::text;
@@ -82,23 +83,20 @@ impl Computed<'_> {
         let margin = if margins.is_some() { ["margin", "dB"] } else { [""; 2] };
         let head = ["frequency", "primary", "residual", "maximax", "positive", "negative", "time of peak", margin[0]];
         let units = [hz.name(), unit, unit, unit, unit, unit, "s", margin[1]];
-        writeln!(out)?;
-        for cells in [head, units] {
-            let line = cells.map(|cell| format!("{cell:>13}")).concat();
-            writeln!(out, "{}", line.trim_end())?;
-        }
+        let columns = if margins.is_some() { 8 } else { 7 };
+        let mut rows: Vec<Vec<String>> =
+            [head, units].map(|row| row[..columns].iter().map(|c| (*c).to_owned()).collect()).into();
         for i in 0..spectrum.frequency_hz.len() {
             let [frequency, values @ ..] = row(spectrum, i);
-            let cells = std::iter::once(hz.figures(frequency)).chain(values.map(|x| show.figures(x)));
+            let mut cells = vec![hz.figures(frequency)];
+            cells.extend(values.map(|x| show.figures(x)));
             let time = spectrum.time_of_peak_s[i];
-            let cells = cells.chain([if time.is_nan() { "-".to_owned() } else { figures(time) }]);
-            let row = cells.fold(String::new(), |row, cell| format!("{row}{cell:>13}"));
-            let margin = margins.map_or(String::new(), |margins| {
-                format!("{:>13}", margins[i].map_or("-".to_owned(), |m| figures(m.decibel())))
-            });
-            writeln!(out, "{row}{margin}")?;
+            cells.push(if time.is_nan() { "-".to_owned() } else { figures(time) });
+            cells.extend(margins.map(|margins| margins[i].map_or("-".to_owned(), |m| figures(m.decibel()))));
+            rows.push(cells);
         }
-        Ok(())
+        writeln!(out)?;
+        Table { keys: 1, headings: 2, texts: 0, last_is_text: false, least: 10, rows }.write(out)
     }
 
     fn worst(&self, spectrum: &Spectrum, margins: &[Option<Margin>], out: &mut dyn Write) -> io::Result<()> {

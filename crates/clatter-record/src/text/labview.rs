@@ -5,8 +5,11 @@
 
 use std::collections::HashMap;
 
+use encoding_rs::Encoding;
+
 use super::cells::Form;
-use super::{Rows, cut, few_times, text_of};
+use super::rows::Shape;
+use super::{Rows, cut, encoding, few_times};
 use crate::heading::Heading;
 use crate::roles::{Roles, Seen};
 use crate::unit::{Kind, Unit};
@@ -18,8 +21,8 @@ const END: &str = "***End_of_Header***";
 const FOLLOWS: f64 = 0.01;
 
 /// Whether a text is such a file.
-pub(crate) fn is_labview(begin: &[u8]) -> bool {
-    begin.strip_prefix("\u{feff}".as_bytes()).unwrap_or(begin).starts_with(BEGINS)
+pub(super) fn is_labview(begin: &[u8]) -> bool {
+    begin.starts_with(BEGINS)
 }
 
 /// The channels of such a file, by their times.
@@ -27,10 +30,9 @@ pub(crate) fn is_labview(begin: &[u8]) -> bool {
 /// # Errors
 /// [`Error::File`] for a file without data, or with columns that its heading does not tell of, [`Error::Records`] where one of
 /// several records has to be chosen.
-pub(crate) fn read(bytes: &[u8], options: &Options) -> Result<Vec<(Rows, Roles)>, Error> {
-    let bytes = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
+pub(super) fn read(bytes: &[u8], letters: &'static Encoding, options: &Options) -> Result<Vec<(Rows, Roles)>, Error> {
     let lines: Vec<&[u8]> = bytes.split_inclusive(|byte| *byte == b'\n').collect();
-    let file = File::of(&lines)?;
+    let file = File::of(&lines, letters)?;
     let mut records = file.records(&lines)?;
     let number = match options.record {
         Some(number) => number,
@@ -45,7 +47,7 @@ pub(crate) fn read(bytes: &[u8], options: &Options) -> Result<Vec<(Rows, Roles)>
         None => 1,
     };
     if !(1..=records.len()).contains(&number) {
-        return Err(Error::Records(format!("there is no record {number}: the file holds {}", records.len())));
+        return Err(Error::no_record(number, records.len()));
     }
     records.swap_remove(number - 1).read(&file, &lines, options)
 }
@@ -54,6 +56,7 @@ pub(crate) fn read(bytes: &[u8], options: &Options) -> Result<Vec<(Rows, Roles)>
 #[derive(Debug)]
 struct File {
     form: Form,
+    letters: &'static Encoding,
     columns: Columns,
     segments: Vec<Segment>,
 }
@@ -91,11 +94,6 @@ struct Channel {
     delta: Option<f64>,
 }
 
-/// The cells of a line.
-fn cells(line: &[u8], form: Form) -> Vec<String> {
-    form.cells(text_of(line).trim_end_matches(['\r', '\n'])).into_iter().map(std::borrow::Cow::into_owned).collect()
-}
-
 fn is_comment(name: &str) -> bool {
     name.eq_ignore_ascii_case("comment")
 }
@@ -105,12 +103,12 @@ fn is_blank(line: &[u8]) -> bool {
 }
 
 impl File {
-    fn of(lines: &[&[u8]]) -> Result<Self, Error> {
+    fn of(lines: &[&[u8]], letters: &'static Encoding) -> Result<Self, Error> {
         let end = lines.iter().position(|line| line.starts_with(END.as_bytes())).ok_or_else(|| {
             Error::File(format!("the heading of this LabVIEW measurement does not end: there is no line {END}"))
         })?;
         let value = |key: &str| {
-            let line = lines[..end].iter().map(|line| text_of(line)).find(|line| {
+            let line = lines[..end].iter().map(|line| encoding::text(line, letters)).find(|line| {
                 line.strip_prefix(key).is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
             })?;
             Some(line[key.len()..].trim_matches(['\r', '\n', '\t', ' ']).to_owned())
@@ -124,7 +122,7 @@ impl File {
             Some(",") => b',',
             _ => b'.',
         };
-        let form = Form { separator: Some(separator), point };
+        let form = Form::new(Some(separator), point);
         let word = value("X_Columns").unwrap_or_default();
         let columns = match word.trim_matches([',', ';']).to_ascii_lowercase().as_str() {
             "no" => Columns::No,
@@ -134,7 +132,7 @@ impl File {
                 return Err(Error::File(format!("X_Columns is '{other}' in the heading; No, One and Multi are known")));
             }
         };
-        let mut file = Self { form, columns, segments: Vec::new() };
+        let mut file = Self { form, letters, columns, segments: Vec::new() };
         let mut at = end + 1;
         while let Some(segment) = file.segment(lines, &mut at)? {
             file.segments.push(segment);
@@ -143,6 +141,12 @@ impl File {
             return Err(Error::File("the file has a heading of LabVIEW, and no data below it".to_owned()));
         }
         Ok(file)
+    }
+
+    /// The cells of a line.
+    fn cells(&self, line: &[u8]) -> Vec<String> {
+        let text = encoding::text(line, self.letters);
+        self.form.cells(text.trim_end_matches(['\r', '\n'])).into_iter().map(std::borrow::Cow::into_owned).collect()
     }
 
     /// The next segment from a line on.
@@ -155,25 +159,22 @@ impl File {
             return Ok(None);
         }
         let end = (begin..lines.len()).find(|line| lines[*line].starts_with(END.as_bytes())).ok_or_else(|| {
-            let line = text_of(lines[begin]);
+            let line = encoding::text(lines[begin], self.letters);
             Error::File(format!("line {}: '{}' begins no segment: no line {END} follows", begin + 1, line.trim()))
         })?;
-        let names = lines.get(end + 1).map(|line| cells(line, self.form)).unwrap_or_default();
+        let names = lines.get(end + 1).map(|line| self.cells(line)).unwrap_or_default();
         let named = names.iter().any(|name| !name.is_empty()) && !names.iter().all(|name| self.form.is_data(name));
         let first = end + 1 + usize::from(named);
         let last = (first..lines.len()).find(|line| is_blank(lines[*line])).unwrap_or(lines.len());
         *at = last;
-        let width = if named {
-            names.len()
-        } else {
-            (first..last).map(|i| cells(lines[i], self.form).len()).next().unwrap_or(0)
-        };
+        let width =
+            if named { names.len() } else { (first..last).map(|i| self.cells(lines[i]).len()).next().unwrap_or(0) };
         // Channels with times of their own take two columns.
         let each = if self.columns == Columns::Multi { 2 } else { 1 };
         let most = width / each;
         let told: HashMap<String, Vec<String>> = lines[begin..end]
             .iter()
-            .map(|line| cells(line, self.form))
+            .map(|line| self.cells(line))
             .map(|mut cells| (std::mem::take(&mut cells[0]), cells.split_off(1)))
             .collect();
         let channels = told.get("Channels").and_then(|cells| cells.first()?.parse::<usize>().ok());
@@ -231,6 +232,18 @@ impl File {
         Ok(Some(Segment { lines: vec![(first, last)], names, channels }))
     }
 
+    /// Passes over lines up to one: headings, and rows of other records.
+    fn pass_over(&self, rows: &mut Rows, lines: &[&[u8]], end: usize) {
+        let mut at = rows.line();
+        for (first, last) in self.segments.iter().flat_map(|segment| &segment.lines) {
+            let [first, last] = [first, last].map(|line| (*line).clamp(at, end));
+            rows.skip_heading(&lines[at..first]);
+            rows.skip_rows(&lines[first..last]);
+            at = last;
+        }
+        rows.skip_heading(&lines[at..end]);
+    }
+
     /// The records: segments, joined where one follows on the other, or parts of one segment that follow without a heading.
     fn records(&self, lines: &[&[u8]]) -> Result<Vec<Segment>, Error> {
         let mut records: Vec<Segment> = Vec::new();
@@ -276,7 +289,7 @@ impl File {
     fn follows(&self, before: &Segment, after: &Segment, lines: &[&[u8]]) -> bool {
         let rows = before.rows();
         let time = |line: usize, column: usize| {
-            let cells = cells(lines[line], self.form);
+            let cells = self.cells(lines[line]);
             cells.get(column).and_then(|cell| self.form.number(cell)).map(crate::decimal::Decimal::float)
         };
         let same = |(k, (one, other)): (usize, (&Channel, &Channel))| {
@@ -340,7 +353,7 @@ impl Segment {
             }
         };
         let headings: Vec<Heading> = self.names.iter().enumerate().map(heading).collect();
-        Seen { headings, named: true, sampled: file.columns == Columns::No, rows: Vec::new() }
+        Seen { headings, named: true, sampled: file.columns == Columns::No, ..Seen::default() }
     }
 
     /// The channels by their times.
@@ -360,12 +373,15 @@ impl Segment {
         for roles in seen.by_time(&options)? {
             // One time for all may begin and step otherwise for each.
             for Group { sampled_s, samples, roles } in self.by_rate(roles, file, &options)? {
-                let mut rows = Rows::new(file.form, &roles, &options, seen.headings.len(), sampled_s);
-                rows.may_end_early();
+                let roles = Roles { beside_others: true, ..roles };
+                let shape = Shape { sampled_s, ..Shape::plain(file.form, file.letters, seen.headings.len()) };
+                let mut rows = Rows::new(shape, &roles, &options);
                 for (first, last) in &self.lines {
-                    rows.skip_lines(*first);
-                    take(&mut rows, lines, *first, *last, file.form)?;
+                    file.pass_over(&mut rows, lines, *first);
+                    take(&mut rows, lines, *first, *last)?;
                 }
+                file.pass_over(&mut rows, lines, lines.len());
+                rows.close()?;
                 let (count, end) = (rows.channels[0].len(), self.lines.last().map_or(0, |(_, last)| *last));
                 if let Some(samples) = samples.filter(|samples| *samples > count && rows.bad.count == 0) {
                     rows.bad.add(At::Line(end), || {
@@ -380,11 +396,11 @@ impl Segment {
     }
 
     /// Channels by the times that the heading tells: `X0`, `Delta_X`, when each began, and how many samples there are.
-    fn by_rate(&self, roles: Roles, file: &File, options: &Options) -> Result<Vec<Group>, Error> {
+    fn by_rate(&self, mut roles: Roles, file: &File, options: &Options) -> Result<Vec<Group>, Error> {
         let first_s = self.channels.iter().filter_map(|channel| channel.date_s).fold(f64::INFINITY, f64::min);
-        let Roles { time, channels, mut left_out, beside_others } = roles;
+        let Roles { channels, .. } = &mut roles;
         let mut groups: Vec<Group> = Vec::new();
-        for role in channels {
+        for role in std::mem::take(channels) {
             let channel = &self.channels[self.in_column(file, role.column).unwrap_or(0)];
             let Channel { samples, is_timed, date_s, x0, delta, .. } = *channel;
             let sampled_s = if file.columns == Columns::No && options.sample_rate_hz.is_none() {
@@ -400,9 +416,8 @@ impl Segment {
             if let Some(group) = groups.iter_mut().find(same) {
                 group.roles.channels.push(role);
             } else {
-                let left_out = std::mem::take(&mut left_out);
-                let roles = Roles { time, channels: vec![role], left_out, beside_others };
-                groups.push(Group { sampled_s, samples, roles });
+                groups.push(Group { sampled_s, samples, roles: Roles { channels: vec![role], ..roles.clone() } });
+                roles.left_out.clear();
             }
         }
         Ok(groups)
@@ -420,7 +435,7 @@ struct Group {
 }
 
 /// Takes in some lines, of which the last may have no end.
-fn take(rows: &mut Rows, lines: &[&[u8]], first: usize, last: usize, form: Form) -> Result<(), Error> {
+fn take(rows: &mut Rows, lines: &[&[u8]], first: usize, last: usize) -> Result<(), Error> {
     /// Lines that are handed on at a time.
     const LINES: usize = 1 << 12;
     let is_whole = last < lines.len() || lines[last - 1].ends_with(b"\n");
@@ -429,19 +444,14 @@ fn take(rows: &mut Rows, lines: &[&[u8]], first: usize, last: usize, form: Form)
     }
     if !is_whole {
         let above = lines[first.max(last.saturating_sub(LINES))..last - 1].concat();
-        match cut::within(cut::last_lines(&above).unwrap_or_default(), lines[last - 1], form) {
-            Some(why) => rows.refuse(&why),
-            None => {
-                rows.take(&[lines[last - 1], b"\n"].concat())?;
-            }
-        }
+        rows.take_end(cut::last_lines(&above).unwrap_or_default(), lines[last - 1])?;
     }
     Ok(())
 }
 
 /// Seconds of a date, `2023/01/02`, and a time of day with any mark of decimals and number of digits.
 fn date_s(date: &str, time: &str) -> Option<f64> {
-    let seconds = |text: &str| crate::moment::seconds(text).map(crate::decimal::Decimal::float);
+    let seconds = |text: &str| crate::moment::seconds(text, None).map(crate::decimal::Decimal::float);
     let (clock, fraction) = time.split_once([',', '.']).unwrap_or((time, "0"));
     let fraction: f64 = format!("0.{fraction}").parse().ok()?;
     Some(seconds(date)? + seconds(clock)? + fraction)

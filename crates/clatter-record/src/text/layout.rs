@@ -2,7 +2,9 @@
 
 use std::borrow::Cow;
 
-use super::cells::Form;
+use super::block::{Numbers, begin};
+use super::cells::{ARROW, Form};
+use super::head;
 use crate::Error;
 use crate::heading::{Heading, Named, unbracketed};
 use crate::unit::{Kind, Unit};
@@ -18,12 +20,18 @@ pub(super) struct Layout {
     pub(super) named: bool,
     /// Time of the first sample and between samples, where lines above tell it and there is no column of times.
     pub(super) sampled_s: Option<[f64; 2]>,
+    /// Time between samples that a line above tells, and the number of the line, from 1.
+    pub(super) told_s: Option<(f64, usize)>,
+    /// How many samples there are by a line above, from 1, that is one number.
+    pub(super) count: Option<(usize, usize)>,
+    /// Columns in which the unit stands behind each number.
+    pub(super) measured: Vec<bool>,
 }
 
 /// Lines that begin so are comments.
 const COMMENTS: [&str; 4] = ["#", "%", "//", "!"];
 /// Lines that tell what columns there are.
-const LAST: usize = 20;
+pub(super) const LAST: usize = 20;
 /// Lines above the numbers that are read for headings.
 const ABOVE: usize = 8;
 
@@ -42,7 +50,7 @@ impl Layout {
         let forced = lines.iter().find_map(|line| separator_line(line));
         let forms: Vec<Form> = match forced {
             Some(separator) => [b'.', b',']
-                .map(|point| Form { separator: Some(separator), point })
+                .map(|point| Form::new(Some(separator), point))
                 .into_iter()
                 .filter(|f| f.separator != Some(f.point))
                 .collect(),
@@ -55,10 +63,18 @@ impl Layout {
                 (Some(b'|'), b'.'),
                 (None, b'.'),
                 (None, b','),
+                // Between quotes.
+                (Some(b','), b','),
             ]
-            .map(|(separator, point)| Form { separator, point })
+            .map(|(separator, point)| Form::new(separator, point))
             .to_vec(),
         };
+        if let Some(scope) = head::tektronix(lines) {
+            return Ok(Self::beside(&scope));
+        }
+        let arrow =
+            lines.iter().rev().filter(|line| !line.trim().is_empty()).take(LAST).all(|line| line.contains(ARROW));
+        let forms: Vec<Form> = forms.into_iter().map(|form| Form { arrow, ..form }).collect();
         // Several columns before one: a separator that is not in the numbers makes one column of every line. Of several the one that
         // leaves the fewest cells that are no numbers.
         let found: Vec<_> =
@@ -69,16 +85,134 @@ impl Layout {
             return Err(Error::File(format!("no line of numbers is found in the first {} lines", lines.len())));
         };
         let (form, begin, columns) = (*form, found.begin, found.count);
-        let mut layout = Self { form, begin, headings: Vec::new(), named: false, sampled_s: None };
-        layout.read_above(lines, columns)?;
+        let mut layout = Self {
+            form,
+            begin,
+            headings: Vec::new(),
+            named: false,
+            sampled_s: None,
+            told_s: head::step(&lines[..begin]),
+            count: None,
+            measured: found.measured.clone(),
+        };
+        layout.count = layout.refuse_numbers(lines, columns)?;
+        layout.read_above(lines, columns, found.counts, !found.columns.contains(&0))?;
+        layout.refuse_heading_below(lines)?;
         for (column, heading) in layout.headings.iter_mut().enumerate() {
             heading.is_text = !found.columns.contains(&column);
+        }
+        layout.read_scope(lines);
+        let first: Vec<Cow<'_, str>> = form.cells(&lines[begin]);
+        for (column, heading) in layout.headings.iter_mut().enumerate() {
+            // Where the heading names a unit as well it has to be the same.
+            layout.measured[column] &= heading.spelled.is_none();
+            let cell = first.get(column).filter(|_| layout.measured[column]);
+            let unit = cell.and_then(|cell| form.measured(cell)).map(|(_, unit)| unit);
+            if let Some(unit) = unit.filter(|_| heading.spelled.is_none()) {
+                *heading = heading.clone().with_unit(unit);
+            }
         }
         Ok(layout)
     }
 
+    /// Of a file whose settings stand beside the numbers.
+    fn beside(scope: &head::Scope) -> Self {
+        let heading = |(name, unit): (&String, &String)| Heading {
+            is_text: unit.is_empty(),
+            ..Heading::named_alone(name).with_unit(unit)
+        };
+        let headings: Vec<Heading> = scope.names.iter().zip(&scope.units).map(heading).collect();
+        Self {
+            form: Form::new(Some(b','), b'.'),
+            begin: 0,
+            measured: vec![false; headings.len()],
+            headings,
+            named: true,
+            sampled_s: None,
+            told_s: None,
+            count: None,
+        }
+    }
+
+    /// What oscilloscopes tell of units and times.
+    fn read_scope(&mut self, lines: &[String]) {
+        let above = &lines[..self.begin];
+        if let Some(scope) = head::rigol(above) {
+            self.headings.truncate(scope.units.len());
+            self.measured.truncate(scope.units.len());
+            self.named = true;
+            self.sampled_s = scope.sampled_s;
+            for (heading, (name, unit)) in self.headings.iter_mut().zip(scope.names.iter().zip(&scope.units)) {
+                let name = if unit.is_empty() { "Sequence" } else { name };
+                *heading = Heading::named_alone(name).with_unit(unit);
+            }
+        } else if let Some([time, value]) = head::axes(above).or_else(|| head::units(above)) {
+            let open = |heading: &&mut Heading| {
+                heading.spelled.is_none() && !heading.is_text && !matches!(heading.named(), Named::Other | Named::Index)
+            };
+            for heading in self.headings.iter_mut().filter(open) {
+                let unit = if heading.named() == Named::Time { &time } else { &value };
+                *heading = heading.clone().with_unit(unit);
+            }
+        }
+    }
+
+    /// Refuses lines of numbers without names above a line of names: they are another record, or no record.
+    fn refuse_heading_below(&self, lines: &[String]) -> Result<(), Error> {
+        if self.named {
+            return Ok(());
+        }
+        let is_number = |cell: &Cow<'_, str>| self.form.number(cell).is_some();
+        let is_heading = |line: &String| {
+            line.contains(char::is_alphabetic)
+                && other_names(self.form, line).is_some()
+                && !self.form.cells(line).iter().any(is_number)
+        };
+        let below = lines[self.begin..].iter().position(is_heading);
+        match below {
+            None => Ok(()),
+            Some(below) => Err(Error::Records(format!(
+                "line {} names columns, below numbers from line {} on that none is named of: --record=1 reads the first lines, \
+                 --record=2 those below the names",
+                self.begin + below + 1,
+                self.begin + 1
+            ))),
+        }
+    }
+
+    /// Refuses lines of numbers above those that are read, but for one number apart from them, which may be their count.
+    fn refuse_numbers(&self, lines: &[String], columns: usize) -> Result<Option<(usize, usize)>, Error> {
+        let mut single = None;
+        let mut apart = false;
+        for (i, line) in lines[..self.begin].iter().enumerate().rev() {
+            if line.trim().is_empty() {
+                continue;
+            }
+            let count = if uncommented(line).1 { 0 } else { head::numbers(line) };
+            // A line of numbers as names of columns stands below no other ones.
+            if count == 0 {
+                apart = true;
+                continue;
+            }
+            if count > 1 || columns == 1 || !apart || single.is_some() {
+                return Err(Error::File(format!(
+                    "line {} is one of numbers ({}) above those that begin with line {}, and does not fit them: one record a file, \
+                     or a # before what is none of it",
+                    i + 1,
+                    super::visible(line.trim()),
+                    self.begin + 1
+                )));
+            }
+            single = Some((line.trim().parse().unwrap_or(0), i + 1));
+        }
+        Ok(single)
+    }
+
     /// Names and units of the columns, from the lines above the numbers, the nearest first.
-    fn read_above(&mut self, lines: &[String], columns: usize) -> Result<(), Error> {
+    ///
+    /// `counts` is whether the first column counts the rows, or has a word for each, as `words` tells: rows may be named, and their
+    /// names have no name. Numbers that are names stand between quotes.
+    fn read_above(&mut self, lines: &[String], columns: usize, counts: bool, words: bool) -> Result<(), Error> {
         let (mut names, mut units) = (None, None);
         let above = lines[..self.begin].iter().enumerate().rev().filter(|(_, line)| !line.trim().is_empty());
         for (nearest, (number, line)) in above.take(ABOVE).enumerate() {
@@ -89,8 +223,14 @@ impl Layout {
             let listed = text.split_once(':').filter(|(word, _)| {
                 ["unit", "units", "einheit", "einheiten"].contains(&word.trim().to_lowercase().as_str())
             });
-            let cells = heading_cells(self.form, listed.map_or(text, |(_, list)| list.trim()), commented, columns);
-            let Some(cells) = cells else {
+            let listed_text = listed.map_or(text, |(_, list)| list.trim());
+            let of = |columns: usize| heading_cells(self.form, listed_text, commented, columns);
+            let quoted = lines[self.begin].trim_start().starts_with('"');
+            let row_names = || {
+                let cells = of(columns - 1).filter(|_| counts && columns > 2 && (quoted || words))?;
+                Some(std::iter::once(String::new()).chain(cells).collect::<Vec<_>>())
+            };
+            let Some(cells) = of(columns).or_else(row_names) else {
                 let count = other_names(self.form, text);
                 if let Some(count) = count.filter(|_| nearest == 0 && !commented) {
                     let line = number + 1;
@@ -100,8 +240,19 @@ impl Layout {
                 }
                 continue;
             };
-            if units.is_none() && (listed.is_some() || all_units(&cells)) {
+            let next = || {
+                let above = lines[..number].iter().rev().find(|line| !line.trim().is_empty())?;
+                let cells = heading_cells(self.form, uncommented(above).0, false, columns)?;
+                Some(!self.is_setting(&cells) && cells.iter().all(|cell| self.form.number(cell).is_none()))
+            };
+            if units.is_none()
+                && (listed.is_some() || all_units(&cells) || self.some_units(&cells) && next() == Some(true))
+            {
                 units = Some(cells);
+                continue;
+            }
+            // What is said of columns in numbers is no name: `Min,-20`, `10000 Hz`, `Float64`.
+            if names.is_none() && self.is_setting(&cells) {
                 continue;
             }
             // A line of text with as many cells is one of names; in a comment it has to say something of time or acceleration.
@@ -115,7 +266,7 @@ impl Layout {
         self.named = names.is_some();
         let unnamed = || vec![Heading::named_alone(""); columns];
         let mut headings = names.unwrap_or_else(unnamed);
-        // Names without numbers below them, as LabVIEW's `Comment`, are none of a column.
+        // Names without numbers below them, as `Comment`, are none of a column.
         headings.truncate(columns);
         if let Some(units) = units {
             // A name alone, such as `g`, is no unit beside a line of units.
@@ -134,6 +285,28 @@ impl Layout {
         }
         self.headings = headings;
         Ok(())
+    }
+}
+
+impl Layout {
+    /// Whether cells are settings of columns, and no names.
+    fn is_setting(&self, cells: &[String]) -> bool {
+        let types = ["float64", "float32", "double", "single", "int16", "int32", "real", "float", "f64", "smp", "avg"];
+        let is_type = |cell: &String| types.contains(&cell.to_lowercase().as_str());
+        let is_number = |cell: &String| self.form.number(cell).is_some() || self.form.measured(cell).is_some();
+        let is_labelled = |cell: &String| {
+            let told = cell.split_once([':', '=']).map(|(_, told)| told.trim()).filter(|told| !told.is_empty());
+            told.is_some_and(|told| self.form.number(told).is_some() || self.form.measured(told).is_some())
+        };
+        let is_rule = |cell: &String| cell.len() > 1 && cell.chars().all(|c| matches!(c, '-' | '+' | '=' | '_' | ':'));
+        let filled = || cells.iter().filter(|cell| !cell.is_empty());
+        let telling = |cell: &String| {
+            let heading = Heading::of(cell);
+            heading.unit.is_some() || matches!(heading.named(), Named::Time | Named::Acceleration)
+        };
+        let numbers = filled().filter(|cell| is_number(cell)).count();
+        filled().all(|cell| is_type(cell) || is_labelled(cell) || is_rule(cell))
+            || numbers > 0 && !filled().any(|cell| !is_number(cell) && telling(cell))
     }
 }
 
@@ -157,80 +330,6 @@ fn separator_line(line: &str) -> Option<u8> {
         [] if line.contains("sep=\t") => Some(b'\t'),
         _ => None,
     }
-}
-
-/// Where numbers are, by one way to separate them.
-struct Numbers {
-    /// The line that they begin with.
-    begin: usize,
-    /// How many columns there are.
-    count: usize,
-    /// Those of numbers.
-    columns: Vec<usize>,
-    /// Cells that are numbers, in 1000 of the last lines.
-    share: usize,
-}
-
-/// Where the numbers are.
-///
-/// What the columns are is told by the last lines: as many cells as most have, and those columns that are numbers in most. The
-/// numbers begin with the first line that has as many cells and nothing else in those columns; a line right above with a number
-/// in the first of them is one too, with a fault.
-fn begin(lines: &[String], form: Form) -> Option<Numbers> {
-    let mut rows: Vec<(usize, Vec<Cow<'_, str>>)> = lines
-        .iter()
-        .enumerate()
-        .filter(|(_, line)| !line.trim().is_empty() && !uncommented(line).1)
-        .map(|(i, line)| (i, form.cells(line)))
-        .collect();
-    let full = |cells: &[Cow<'_, str>]| cells.iter().rposition(|cell| !cell.is_empty()).map_or(1, |last| last + 1);
-    // A separator at the end of each line makes no column, unless the names above have one there.
-    let is_text = |cells: &[Cow<'_, str>]| cells.iter().all(|cell| cell.is_empty() || !form.is_data(cell));
-    let named = rows.iter().take_while(|(_, cells)| is_text(cells)).last().map_or(0, |(_, cells)| full(cells));
-    for (_, cells) in &mut rows {
-        cells.truncate(full(cells).max(named));
-    }
-    let last = &rows[rows.len().saturating_sub(LAST)..];
-    let has = |columns: usize| last.iter().filter(|(_, cells)| cells.len() == columns).count();
-    let columns = last.iter().map(|(_, cells)| cells.len()).max_by_key(|columns| (has(*columns), *columns))?;
-    let is_number = |column: usize| {
-        let filled = |rows: &'_ [(usize, Vec<Cow<'_, str>>)], is: &dyn Fn(&str) -> bool| {
-            let cell =
-                |cells: &Vec<Cow<'_, str>>| cells.len() == columns && !cells[column].is_empty() && is(&cells[column]);
-            rows.iter().filter(|(_, cells)| cell(cells)).count()
-        };
-        // A channel with times of its own may end before the others.
-        match filled(last, &|_| true) {
-            0 => 2 * filled(&rows, &|cell| form.is_data(cell)) > filled(&rows, &|_| true),
-            _ => 2 * filled(last, &|cell| form.is_data(cell)) >= has(columns),
-        }
-    };
-    let numbers: Vec<usize> = (0..columns).filter(|column| is_number(*column)).collect();
-    let first = *numbers.first()?;
-    // LabVIEW leaves the column of times empty where it writes none.
-    let is_empty = |column: &usize| {
-        !is_number(*column) && last.iter().all(|(_, cells)| cells.get(*column).is_none_or(|cell| cell.is_empty()))
-    };
-    let empty: Vec<usize> = (0..columns).filter(is_empty).collect();
-    let is_data = |cells: &[Cow<'_, str>]| {
-        let cell = |column: usize| cells.get(column).map_or("", |cell| cell);
-        // Cells at the end may be empty by a fault of one line.
-        cells.len() <= columns
-            && numbers.iter().all(|column| form.is_data(cell(*column)))
-            && numbers.iter().any(|column| form.number(cell(*column)).is_some())
-            && empty.iter().all(|column| cell(*column).is_empty())
-            && cells.len() + 1 >= columns
-    };
-    let mut i = rows.iter().position(|(_, cells)| is_data(cells))?;
-    let starts = |cells: &[Cow<'_, str>]| cells.len() == columns && columns > 1 && form.number(&cells[first]).is_some();
-    while i.checked_sub(1).is_some_and(|above| starts(&rows[above].1)) {
-        i -= 1;
-    }
-    let cells = || last.iter().flat_map(|(_, cells)| cells);
-    // A slow channel leaves cells empty.
-    let full = cells().filter(|cell| !cell.is_empty()).count().max(1);
-    let share = 1000 * cells().filter(|cell| form.number(cell).is_some()).count() / full;
-    Some(Numbers { begin: rows[i].0, count: columns, columns: numbers, share })
 }
 
 /// The cells of a line of names or units: as many as there are columns; those of blanks may have blanks in them.
@@ -278,4 +377,20 @@ fn all_units(cells: &[String]) -> bool {
     // `t,a` are names, though `a` is a unit of current.
     let telling = |cell: &String| Unit::of(unbracketed(cell)).is_some_and(|unit| !matches!(unit.kind, Kind::Other(_)));
     cells.iter().all(|cell| cell.is_empty() || cell == "-" || unit(cell)) && cells.iter().any(telling)
+}
+
+impl Layout {
+    /// Whether some cells are units, and no other one is a number, or a name that says something.
+    fn some_units(&self, cells: &[String]) -> bool {
+        let is_unit = |cell: &&String| {
+            Unit::of(unbracketed(cell)).is_some_and(|unit| matches!(unit.kind, Kind::Time | Kind::Acceleration))
+        };
+        let telling = |cell: &String| {
+            let heading = Heading::of(cell);
+            heading.spelled.as_ref().is_some_and(|unit| *unit != heading.name)
+                || matches!(heading.named(), Named::Time | Named::Acceleration)
+        };
+        let said = |cell: &&String| self.form.number(cell).is_some() || !is_unit(cell) && telling(cell);
+        cells.iter().any(|cell| is_unit(&cell)) && !cells.iter().any(|cell| said(&cell))
+    }
 }

@@ -1,17 +1,23 @@
 //! The lines of numbers of a text.
 
+mod row;
+
+use encoding_rs::Encoding;
+
 use super::cells::{Form, is_missing};
+use super::digits::Digits;
 use super::layout::uncommented;
-use super::text_of;
+use super::sensors::Word;
+use super::{cut, encoding, head, visible};
+use crate::account::Lines;
 use crate::decimal::Decimal;
 use crate::error::Bad;
-use crate::heading::Heading;
 use crate::moment::{CLOCK, DAY_S};
 use crate::roles::Roles;
 use crate::samples::LARGEST;
 use crate::times::Printed;
-use crate::unit::Kind;
 use crate::{At, Error, Options};
+use row::Row;
 
 /// Instruments write 9.9E37 for a value beyond their range and 9.91E37 for none (SCPI 1999).
 const NO_VALUE: f64 = 9.8e37;
@@ -21,31 +27,90 @@ const NO_VALUE: f64 = 9.8e37;
 enum Use {
     Nothing,
     Time,
+    /// A time that a given rate stands in place of: held against it where it can be read.
+    Checked,
+    /// The date of a time of day.
+    Date,
+    /// A word that has to be the same in every line.
+    Word(usize),
     Acceleration(usize),
+}
+
+/// What the lines of numbers are like.
+#[derive(Debug, Clone)]
+pub(super) struct Shape {
+    pub(super) form: Form,
+    /// What text is written in that is no UTF-8.
+    pub(super) letters: &'static Encoding,
+    pub(super) columns: usize,
+    /// Time of the first sample, and between samples, where lines above the numbers tell it.
+    pub(super) sampled_s: Option<[f64; 2]>,
+    /// Time between samples that a line above tells, and the line.
+    pub(super) told: Option<(f64, usize)>,
+    /// How many samples there are by a line above, and the line.
+    pub(super) count: Option<(usize, usize)>,
+    /// Columns in which a unit stands behind each number.
+    pub(super) measured: Vec<bool>,
+    /// The column of dates beside times of day.
+    pub(super) date: Option<usize>,
+    pub(super) words: Vec<Word>,
+}
+
+impl Shape {
+    /// Numbers alone.
+    pub(super) fn plain(form: Form, letters: &'static Encoding, columns: usize) -> Self {
+        Self {
+            form,
+            letters,
+            columns,
+            sampled_s: None,
+            told: None,
+            count: None,
+            measured: vec![false; columns],
+            date: None,
+            words: Vec::new(),
+        }
+    }
 }
 
 /// Lines of numbers, as far as they are read.
 #[derive(Debug)]
 pub(crate) struct Rows {
-    form: Form,
+    shape: Shape,
     /// What is made of each column, up to the last that is used.
     uses: Vec<Use>,
-    columns: usize,
     sizes: Vec<f64>,
     names: Vec<String>,
     time_size: f64,
     most_values: usize,
+    skip_bad: bool,
     line: usize,
     /// Whether the channels may end before the lines do, as others have times of their own.
     ends_early: bool,
     /// The numbers of one line, in the order of its columns.
     row: Vec<f64>,
     time: Option<Decimal>,
+    day: Option<Decimal>,
     first_time: Option<Decimal>,
+    first_day: Option<Decimal>,
+    /// The first date of which day and month may be either.
+    first_date: Option<String>,
     /// Seconds of whole days by which a clock has gone round.
     days_s: f64,
     /// Lines of nothing but text that no number follows so far.
     text: Bad,
+    /// The first of them that is a heading.
+    heading: Option<usize>,
+    /// The last empty line, and how many there are between lines of numbers.
+    empty: Option<usize>,
+    breaks: (usize, usize),
+    /// How the digits of numbers are grouped, for the time and each channel, and whether that is open: no fraction was read that
+    /// tells its mark.
+    digits: Vec<Digits>,
+    open: bool,
+    lines: Lines,
+    /// Samples whose line is the one before once more, and the line.
+    pub(crate) doubled: Vec<(usize, usize)>,
     /// Time of the first sample, and between samples, where lines above the numbers tell it.
     pub(crate) sampled_s: Option<[f64; 2]>,
     /// Seconds since the first sample.
@@ -60,57 +125,82 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    pub(super) fn new(
-        form: Form,
-        roles: &Roles,
-        options: &Options,
-        columns: usize,
-        sampled_s: Option<[f64; 2]>,
-    ) -> Self {
-        let last = roles.channels.iter().map(|role| role.column).chain(roles.time.map(|(column, _)| column)).max();
+    pub(super) fn new(shape: Shape, roles: &Roles, options: &Options) -> Self {
+        let mut used: Vec<(usize, Use)> =
+            shape.words.iter().enumerate().map(|(i, word)| (word.column, Use::Word(i))).collect();
+        used.extend(shape.date.map(|column| (column, Use::Date)));
+        used.extend(roles.checked.map(|(column, _)| (column, Use::Checked)));
+        used.extend(roles.time.map(|(column, _)| (column, Use::Time)));
+        used.extend(roles.channels.iter().enumerate().map(|(k, role)| (role.column, Use::Acceleration(k))));
+        let last = used.iter().map(|(column, _)| *column).max();
         let mut uses = vec![Use::Nothing; last.map_or(0, |last| last + 1)];
-        if let Some((column, _)) = roles.time {
-            uses[column] = Use::Time;
-        }
-        for (k, role) in roles.channels.iter().enumerate() {
-            uses[role.column] = Use::Acceleration(k);
+        for (column, use_of) in used {
+            uses[column] = use_of;
         }
         Self {
-            form,
             uses,
-            columns,
             sizes: roles.channels.iter().map(|role| role.size).collect(),
             names: roles.channels.iter().map(|role| role.name.clone()).collect(),
-            time_size: roles.time.map_or(1.0, |(_, size)| size),
+            time_size: roles.time.or(roles.checked).map_or(1.0, |(_, size)| size),
             most_values: options.most_values,
+            skip_bad: options.skip_bad,
             line: 0,
-            ends_early: false,
+            ends_early: roles.beside_others,
             row: Vec::new(),
             time: None,
+            day: None,
             first_time: None,
+            first_day: None,
+            first_date: None,
             days_s: 0.0,
             text: Bad::default(),
-            sampled_s,
+            heading: None,
+            empty: None,
+            breaks: (0, 0),
+            digits: vec![Digits::default(); roles.channels.len() + 1],
+            open: true,
+            lines: Lines::default(),
+            doubled: Vec::new(),
+            sampled_s: shape.sampled_s,
             times: Vec::new(),
             printed: Printed::default(),
             channels: vec![Vec::new(); roles.channels.len()],
             bad: Bad::default(),
             numbering: Vec::new(),
+            shape,
         }
     }
 
-    /// Lines that were read before.
-    pub(super) fn skip_lines(&mut self, lines: usize) {
-        self.line = lines;
+    /// Lines of a heading, that are read elsewhere.
+    pub(super) fn skip_heading<T: AsRef<[u8]>>(&mut self, lines: &[T]) {
+        let filled = self.skip(lines);
+        self.lines.heading += filled;
     }
-    /// Lines without a number for any of the channels are none of a row: other channels go on.
-    pub(super) fn may_end_early(&mut self) {
-        self.ends_early = true;
+    /// Rows that were not asked for.
+    pub(super) fn skip_rows<T: AsRef<[u8]>>(&mut self, lines: &[T]) {
+        let filled = self.skip(lines);
+        self.lines.others += filled;
     }
-    /// The next line cannot be used.
-    pub(super) fn refuse(&mut self, what: &str) {
-        self.line += 1;
-        self.bad.add(At::Line(self.line), || what.to_owned());
+    /// Passes over lines, and says how many are not empty.
+    fn skip<T: AsRef<[u8]>>(&mut self, lines: &[T]) -> usize {
+        let empty = lines.iter().filter(|line| line.as_ref().trim_ascii().is_empty()).count();
+        self.line += lines.len();
+        self.lines.empty += empty;
+        lines.len() - empty
+    }
+    /// Takes in a last line that has no end, below others, unless it is cut within a number.
+    pub(super) fn take_end(&mut self, above: &[u8], line: &[u8]) -> Result<(), Error> {
+        if line.is_empty() {
+            return Ok(());
+        }
+        match cut::within(above, line, self.shape.form, self.shape.letters) {
+            Some(why) => {
+                self.line += 1;
+                self.bad.add(At::Line(self.line), || why);
+                Ok(())
+            }
+            None => self.take(&[line, b"\n"].concat()).map(|_| ()),
+        }
     }
     /// The last line that was read.
     pub(super) fn line(&self) -> usize {
@@ -120,22 +210,40 @@ impl Rows {
     pub(crate) fn below(&self) -> &Bad {
         &self.text
     }
+    /// Time between samples that a line above the numbers tells, and the line, where there are times as well.
+    pub(crate) fn told(&self) -> Option<(f64, usize)> {
+        self.shape.told.filter(|_| !self.times.is_empty())
+    }
+    /// What became of each line.
+    pub(crate) fn lines(&self) -> Lines {
+        self.lines
+    }
 
     /// Takes in all whole lines of a text, and says how many bytes they have.
     pub(super) fn take(&mut self, text: &[u8]) -> Result<usize, Error> {
         let Some(end) = text.iter().rposition(|byte| *byte == b'\n').map(|last| last + 1) else { return Ok(0) };
         let mut at = 0;
+        let mut before = &text[..0];
         while at < end {
             self.line += 1;
             if let Some(length) = self.plain(&text[at..end]) {
-                at += length;
                 self.note_row()?;
+                let line = &text[at..at + length];
+                self.note_doubled(before, line);
+                before = line;
+                at += length;
                 continue;
             }
             let length = text[at..end].iter().position(|byte| *byte == b'\n').unwrap_or(end - at - 1);
-            let line = text_of(&text[at..at + length]);
-            at += length + 1;
+            let line = encoding::text(&text[at..at + length], self.shape.letters);
+            let rows = self.lines.rows;
             self.any(&line)?;
+            let line = &text[at..at + length];
+            if self.lines.rows > rows {
+                self.note_doubled(before, line);
+                before = line;
+            }
+            at += length + 1;
         }
         Ok(end)
     }
@@ -143,7 +251,12 @@ impl Rows {
     /// A line of plain numbers, the usual one, straight from its bytes: how many they are, or nothing where it is not so plain.
     #[inline]
     fn plain(&mut self, text: &[u8]) -> Option<usize> {
-        let Form { separator, point } = self.form;
+        let Form { separator, point, .. } = self.shape.form;
+        let columns = self.shape.columns;
+        // Between quotes alone.
+        if separator == Some(point) {
+            return None;
+        }
         let is_blank = |byte: u8| byte == b' ' || byte == b'\t' && separator != Some(b'\t');
         let mut at = 0;
         self.row.clear();
@@ -151,27 +264,38 @@ impl Rows {
             while is_blank(text[at]) {
                 at += 1;
             }
-            if let Use::Nothing = use_of {
+            if let Use::Nothing | Use::Word(_) | Use::Date = use_of {
                 let ends = |byte: u8| separator.map_or(is_blank(byte), |separator| byte == separator);
+                let begin = at;
                 while !ends(text[at]) {
                     if text[at] == b'\n' || text[at] == b'"' {
                         return None;
                     }
                     at += 1;
                 }
+                if let Use::Word(word) = use_of
+                    && text[begin..at] != *self.shape.words[*word].expected.as_bytes()
+                {
+                    return None;
+                }
             } else {
                 let (number, length) = Decimal::scan(&text[at..], point)?;
                 at += length;
-                match use_of {
-                    Use::Acceleration(k) => {
-                        let number = number.float();
-                        let value = number * self.sizes[*k];
-                        if value.abs() > LARGEST || number.abs() >= NO_VALUE {
-                            return None;
-                        }
-                        self.row.push(value);
+                if let Use::Acceleration(k) = use_of {
+                    if self.open {
+                        self.open = !self.digits[*k + 1].note(number, self.channels[*k].len());
                     }
-                    _ => self.time = Some(number),
+                    let number = number.float();
+                    let value = number * self.sizes[*k];
+                    if value.abs() > LARGEST || number.abs() >= NO_VALUE {
+                        return None;
+                    }
+                    self.row.push(value);
+                } else {
+                    if self.open {
+                        self.open = !self.digits[0].note(number, self.times.len());
+                    }
+                    self.time = Some(number);
                 }
             }
             let before = at;
@@ -183,13 +307,13 @@ impl Rows {
                 (b'\n', _) if last => return Some(at + 1),
                 (b'\r', _) if last => {}
                 // More columns than there are is a fault, and nothing beyond the last separator is none.
-                (byte, Some(separator)) if byte == separator && last && column + 1 == self.columns => {
+                (byte, Some(separator)) if byte == separator && last && column + 1 == columns => {
                     at += 1;
                     return (text[at..].starts_with(b"\n") || text[at..].starts_with(b"\r\n"))
                         .then(|| at + if text[at] == b'\n' { 1 } else { 2 });
                 }
                 (byte, Some(separator)) if byte == separator => at += 1,
-                (_, None) if last && column + 1 == self.columns => return None,
+                (_, None) if last && column + 1 == columns => return None,
                 (_, None) if at > before => {}
                 _ => return None,
             }
@@ -202,20 +326,33 @@ impl Rows {
     /// Any other line.
     fn any(&mut self, line: &str) -> Result<(), Error> {
         let (text, commented) = uncommented(line);
-        if text.is_empty() || commented {
+        if commented {
+            self.lines.comments += 1;
             return Ok(());
         }
-        let cells = self.form.cells(line);
-        let form = self.form;
-        if cells.iter().all(|cell| cell.is_empty()) {
+        let form = self.shape.form;
+        let cells = form.cells(line);
+        if text.is_empty() || cells.iter().all(|cell| cell.is_empty()) {
+            self.lines.empty += 1;
+            self.empty = Some(self.line);
             return Ok(());
         }
-        if cells.iter().all(|cell| cell.is_empty() || !form.is_data(cell)) {
+        let is_data = |cell: &str| form.is_data(cell) || form.measured(cell).is_some();
+        let is_text = cells.iter().all(|cell| cell.is_empty() || !is_data(cell));
+        if is_text && head::numbers(text) > 1 {
+            self.bad
+                .add(At::Line(self.line), || format!("the numbers of '{}' do not fit the lines above", visible(text)));
+            return Ok(());
+        }
+        if is_text || self.is_labelled(&cells) {
             if cells.iter().zip(&self.uses).any(|(cell, use_of)| self.is_other_unit(cell, *use_of)) {
                 return Err(Error::File(format!(
                     "line {} begins a second block, in other units: one file each",
                     self.line
                 )));
+            }
+            if self.heading.is_none() && Self::is_heading(&cells) {
+                self.heading = Some(self.line);
             }
             self.text.add(At::Line(self.line), || format!("'{}' is no line of numbers", visible(text)));
             return Ok(());
@@ -224,96 +361,107 @@ impl Rows {
         let is_empty = |column: usize| cells.get(column).is_none_or(|cell| cell.is_empty() || is_missing(cell));
         if self.ends_early && (0..self.uses.len()).filter(is_used).all(is_empty) {
             // Without times a number that follows would be of another one.
-            if self.time.is_none() {
-                self.text
-                    .add(At::Line(self.line), || format!("nothing stands in the columns of {}", self.names.join(", ")));
+            if self.uses.iter().any(|use_of| matches!(use_of, Use::Time)) {
+                self.lines.rows += 1;
+            } else {
+                let names = self.names.join(", ");
+                self.text.add(At::Line(self.line), || format!("nothing stands in the columns of {names}"));
             }
             return Ok(());
         }
         self.row.clear();
-        let mut wrong = None;
-        for column in 0..self.uses.len() {
-            let use_of = self.uses[column];
-            let what = || match use_of {
-                Use::Acceleration(k) => format!("column {} ({})", column + 1, visible(&self.names[k])),
-                _ => format!("column {} (time)", column + 1),
-            };
-            if let Use::Nothing = use_of {
-                continue;
+        match self.cells_of_row(text, &cells)? {
+            Row::Whole => self.note_row(),
+            Row::OfOther => {
+                self.lines.others += 1;
+                Ok(())
             }
-            let number = cells.get(column).and_then(|cell| form.number(cell));
-            match (number, cells.get(column).map(|cell| &**cell)) {
-                (Some(number), _) if matches!(use_of, Use::Time) && number.float().is_finite() => {
-                    self.time = Some(number);
-                }
-                (Some(number), Some(cell)) => {
-                    let size = if let Use::Acceleration(k) = use_of { self.sizes[k] } else { 1.0 };
-                    let value = number.float() * size;
-                    if (NO_VALUE..1e38).contains(&number.float().abs()) {
-                        wrong = Some(format!("{} in {} is what instruments write for no value", visible(cell), what()));
-                        break;
-                    }
-                    if value.abs() > LARGEST {
-                        wrong = Some(format!("{} in {} is beyond {LARGEST:e} m/s²", visible(cell), what()));
-                        break;
-                    }
-                    self.row.push(value);
-                }
-                (_, None) => {
-                    wrong = Some(format!("{} has {} of {} columns", visible(text), cells.len(), self.columns));
-                    break;
-                }
-                (_, Some("")) => {
-                    wrong = Some(format!("nothing stands in {}", what()));
-                    break;
-                }
-                (_, Some(cell)) if is_missing(cell) => {
-                    wrong = Some(format!("{cell} in {} is no finite number", what()));
-                    break;
-                }
-                (_, Some(cell)) => {
-                    wrong = Some(format!("'{}' in {} is not a number", visible(cell), what()));
-                    break;
-                }
+            Row::Bad(what) => {
+                self.bad.add(At::Line(self.line), || what);
+                Ok(())
             }
         }
-        let more = cells.iter().skip(self.columns).filter(|cell| !cell.is_empty()).count();
-        if wrong.is_none() && more > 0 && self.columns > 1 {
-            wrong = Some(format!(
-                "'{}' has {} columns, and the lines above have {}",
-                visible(text),
-                cells.len(),
-                self.columns
-            ));
+    }
+
+    /// The numbers of a line of several values of the one channel.
+    pub(super) fn values(&mut self, line: &str) -> Result<(), Error> {
+        self.line += 1;
+        if line.trim().is_empty() {
+            self.lines.empty += 1;
+            return Ok(());
         }
-        match wrong {
-            None => return self.note_row(),
-            Some(what) => self.bad.add(At::Line(self.line), || what),
+        let cells = self.shape.form.cells(line);
+        let read: Option<Vec<Decimal>> = cells.iter().map(|cell| self.shape.form.number(cell)).collect();
+        let Some(read) = read.filter(|_| self.text.count == 0) else {
+            self.text.add(At::Line(self.line), || format!("'{}' is no line of numbers", visible(line.trim())));
+            if head::numbers(line) > 0 {
+                self.bad.add(At::Line(self.line), || format!("numbers below text: '{}'", visible(line.trim())));
+            }
+            return Ok(());
+        };
+        for number in read {
+            self.row.clear();
+            self.row.push(number.float() * self.sizes[0]);
+            self.note_row()?;
+            self.lines.rows -= 1;
         }
+        self.lines.rows += 1;
         Ok(())
     }
 
-    /// Whether a text is a heading by which a column goes on in another unit.
-    fn is_other_unit(&self, cell: &str, use_of: Use) -> bool {
-        let (kind, size) = match use_of {
-            Use::Nothing => return false,
-            Use::Time => (Kind::Time, self.time_size),
-            Use::Acceleration(k) => (Kind::Acceleration, self.sizes[k]),
-        };
-        Heading::of(cell).unit.is_some_and(|unit| unit.kind == kind && unit.size.to_bits() != size.to_bits())
+    /// Whether all lines that were read go together.
+    pub(super) fn close(&mut self) -> Result<(), Error> {
+        let has_point = self.digits.iter().any(Digits::has_point);
+        for (k, digits) in self.digits.iter().enumerate() {
+            let values = k.checked_sub(1).map(|k| (&mut self.channels[k], self.sizes[k]));
+            digits.close(has_point, values).map_err(|what| {
+                let name = k.checked_sub(1).map_or("time", |k| &self.names[k]);
+                Error::Columns(format!("in column '{}' {what}", visible(name)))
+            })?;
+        }
+        let samples = self.channels[0].len();
+        if let Some((count, line)) = self.shape.count.filter(|(count, _)| *count != samples) {
+            return Err(Error::File(format!(
+                "line {line} is a number, {count}, apart from the {samples} lines of numbers below, and not their count: a # before \
+                 what is none of them"
+            )));
+        }
+        let (breaks, line) = self.breaks;
+        if self.times.is_empty() && breaks > 0 && 2 * breaks < samples {
+            return Err(Error::File(format!(
+                "line {line} is empty, and numbers without times stand above and below: one record a file"
+            )));
+        }
+        self.lines.below = self.text.count;
+        self.lines.bad = self.bad.count;
+        self.lines.all = self.line;
+        Ok(())
+    }
+
+    /// Notes a row at the time of the one before whose line is the same.
+    #[inline]
+    fn note_doubled(&mut self, before: &[u8], line: &[u8]) {
+        if let [.., a, b] = self.times[..]
+            && a.to_bits() == b.to_bits()
+            && before.trim_ascii() == line.trim_ascii()
+        {
+            self.doubled.push((self.times.len() - 1, self.line));
+        }
     }
 
     /// Keeps the numbers of a line.
     #[inline]
     fn note_row(&mut self) -> Result<(), Error> {
         if self.text.count > 0 {
-            let text = std::mem::take(&mut self.text);
-            for (at, what) in &text.first {
-                self.bad.add(*at, || what.clone());
-            }
-            self.bad.count += text.count - text.first.len();
+            self.go_on()?;
         }
         let sample = self.channels[0].len();
+        if let Some(empty) = self.empty.take()
+            && sample > 0
+        {
+            self.breaks = (self.breaks.0 + 1, if self.breaks.0 == 0 { empty } else { self.breaks.1 });
+        }
+        self.lines.rows += 1;
         let at = At::Line(self.line);
         if self.numbering.last().is_none_or(|(first, begin)| begin.after(sample - first) != at) {
             self.numbering.push((sample, at));
@@ -321,8 +469,10 @@ impl Rows {
         if let Some(time) = self.time {
             let first = *self.first_time.get_or_insert(time);
             let mut since_s = time.above(first) * self.time_size + self.days_s;
-            // A clock goes round at midnight.
-            if time.digits == CLOCK && self.times.last().is_some_and(|last| since_s < last - 0.5 * DAY_S) {
+            if let Some(day) = self.day {
+                since_s += day.above(*self.first_day.get_or_insert(day));
+            } else if time.digits == CLOCK && self.times.last().is_some_and(|last| since_s < last - 0.5 * DAY_S) {
+                // A clock goes round at midnight.
                 self.days_s += DAY_S;
                 since_s += DAY_S;
             }
@@ -338,6 +488,21 @@ impl Rows {
         Ok(())
     }
 
+    /// Numbers follow on lines of text: those are no footer, or another record begins.
+    fn go_on(&mut self) -> Result<(), Error> {
+        if let Some(line) = self.heading.take().filter(|_| !self.skip_bad && !self.channels[0].is_empty()) {
+            return Err(Error::Records(format!(
+                "line {line} begins another record: --record=1 reads the first, --record=2 the next"
+            )));
+        }
+        let text = std::mem::take(&mut self.text);
+        for (at, what) in &text.first {
+            self.bad.add(*at, || what.clone());
+        }
+        self.bad.count += text.count - text.first.len();
+        Ok(())
+    }
+
     /// Time of the first sample in seconds.
     pub(crate) fn start_s(&self) -> f64 {
         self.first_time.map_or(0.0, |time| time.float() * self.time_size)
@@ -346,12 +511,4 @@ impl Rows {
     pub(crate) fn time_size(&self) -> f64 {
         self.time_size
     }
-}
-
-/// What a message shows of a text from outside: its beginning, without what a terminal would act on.
-fn visible(text: &str) -> String {
-    const SHOWN: usize = 40;
-    let plain = |c: char| if c.is_control() { '□' } else { c };
-    let shown: String = text.chars().take(SHOWN).map(plain).collect();
-    if text.chars().count() > SHOWN { format!("{shown}…") } else { shown }
 }

@@ -1,13 +1,13 @@
 //! What an assessment was made from, in words: the product, its drop, how a part is held.
 
-use clatter_assess::{Component, ContactLaw, Damping, Fall, First, Mount, ProductFile};
-use clatter_figures::three;
+use clatter_assess::{Assessment, Component, ContactLaw, Damping, Fall, First, Mount, ProductFile};
+use clatter_figures::{model_words as model, three};
 
 use crate::Pages;
 use crate::words::{end, millimeters, range, span, sure_name};
 
 /// Rows of what was given: its name and its value.
-pub(super) fn rows(file: &ProductFile) -> Vec<[String; 2]> {
+pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 2]> {
     let product = &file.product;
     let mut rows = Vec::new();
     let mut add = |what: &str, value: String| rows.push([what.to_owned(), value]);
@@ -35,6 +35,10 @@ pub(super) fn rows(file: &ProductFile) -> Vec<[String; 2]> {
         "Gravity",
         if gravity > 0.0 { format!("{} m/s²", three(gravity)) } else { "none after the first touch".to_owned() },
     );
+    // It is the same for all limits.
+    if let Some(limit) = assessment.components.iter().flat_map(|c| &c.limits).next() {
+        rows.push(["Model".to_owned(), model(limit.model.bar).to_owned()]);
+    }
     rows
 }
 
@@ -59,9 +63,15 @@ fn body(file: &ProductFile) -> String {
     format!(
         "length {}, radius of gyration {}{off}{mass}: inertia ratio q = {}",
         millimeters(body.length_m()),
-        millimeters(body.gyration_m()),
-        three(file.product.inertia_ratio()).replace('-', "−"),
+        range(&file.product.gyration_m, 1e-3, "mm"),
+        ratio(file),
     )
+}
+
+/// The inertia ratio, of a range of radii of gyration as a range.
+fn ratio(file: &ProductFile) -> String {
+    let [lo, hi] = [1.0, 0.0].map(|share| three(file.product.inertia_ratio_at(share)).replace('-', "−"));
+    if lo == hi { lo } else { format!("{lo} to {hi}") }
 }
 
 /// The fall.
@@ -119,7 +129,8 @@ mod tests {
             path: "a\u{485}.toml",
             date: Some("2026-03-31"),
         };
-        let told: Vec<String> = rows(&file).into_iter().map(|[what, value]| format!("{what}: {value}")).collect();
+        let told: Vec<String> =
+            rows(&file, &assessment).into_iter().map(|[what, value]| format!("{what}: {value}")).collect();
         assert_eq!(
             told,
             [
@@ -129,6 +140,7 @@ mod tests {
                 "Drop: from 1.2 m, which gives 4.85 m/s",
                 "Tilt: 1 to 10° at the first touch, either end first",
                 "Gravity: 9.81 m/s²",
+                "Model: compliant",
             ]
         );
         assert_eq!(made(&pages), "assessed on 2026-03-31 from a□.toml, each drop to 1 %,");

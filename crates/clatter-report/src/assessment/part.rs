@@ -2,25 +2,15 @@
 
 use clatter_assess::{
     Component, ComponentAssessment, ContactLaw, LimitAssessment, Model, Portrait, ProductFile, Verdict, WorstCase,
+    repeat,
 };
-use clatter_figures::model_words as model;
-use clatter_figures::three;
+use clatter_figures::{is_drawn, three};
 use serde_json::{Value, json};
 
 use super::changes::{Of, changes};
 use super::inputs::held;
-use crate::words::{end, limit, millimeters, minus, name, percent, shown};
-
-/// How the drop was followed, and what the part felt.
-fn followed(of: &LimitAssessment) -> String {
-    let felt = match of.model.component {
-        "largest-shock" => "the product's own shocks",
-        "impulse-train" => "the part driven by velocity shocks",
-        "pulse-train" => "the part driven by pulses",
-        _ => "the product's own acceleration",
-    };
-    format!("Model: {}, {felt}; {}.", model(of.model.bar), of.model.reason.trim_end_matches('.'))
-}
+use crate::Pages;
+use crate::words::{end, hundredths, limit, millimeters, minus, name, percent, quantity, shown};
 
 /// What else is known of a limit, a sentence each.
 fn said(file: &ProductFile, of: &LimitAssessment) -> Vec<String> {
@@ -29,10 +19,10 @@ fn said(file: &ProductFile, of: &LimitAssessment) -> Vec<String> {
         let first = letters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();
         format!("{first}{}.", letters.as_str().trim_end_matches('.'))
     };
-    let mut said = vec![followed(of)];
+    let mut said = Vec::new();
     if of.demand.is_some() && of.uncertainty.is_finite() {
         let more = percent(of.uncertainty).replace('+', "");
-        said.push(format!("Others may ask for up to {more} more."));
+        said.push(format!("Other drops may ask for up to {more} more."));
     }
     if let Some(bound) = of.bound {
         said.push(format!("The energy of the drops allows no more than {}.", shown(of.unit, bound)));
@@ -43,6 +33,9 @@ fn said(file: &ProductFile, of: &LimitAssessment) -> Vec<String> {
             ContactLaw::Dashpot => "hysteretic contact",
         };
         said.push(format!("By the other contact law ({law}) the worst drop asks for {}.", shown(of.unit, other)));
+    }
+    if let Some(gyration_m) = of.worst_case.as_ref().and_then(|worst| worst.gyration_m) {
+        said.push(format!("In the worst drop the radius of gyration is {}.", millimeters(gyration_m)));
     }
     said.extend(of.notes.iter().map(|note| sentence(&minus(note))));
     said
@@ -65,8 +58,10 @@ fn columns(of: &LimitAssessment, worst: &WorstCase) -> [String; 9] {
     ]
 }
 
-/// What the tables say of one limit.
-fn row(file: &ProductFile, of: &LimitAssessment) -> Value {
+/// What the tables say of one limit of a part.
+fn row(pages: &Pages<'_>, part: &str, of: &LimitAssessment) -> Value {
+    let file = pages.file;
+    let short = repeat(pages.path, part, of.limit, &pages.assessment.accuracy);
     let known = |value: Option<f64>| value.map_or("–".to_owned(), |value| shown(of.unit, value));
     json!({
         "name": limit(of.limit),
@@ -79,7 +74,7 @@ fn row(file: &ProductFile, of: &LimitAssessment) -> Value {
         "worst": of.worst_case.as_ref().map(|worst| columns(of, worst)),
         "said": said(file, of),
         "undecided": of.undecided.as_deref().map(minus),
-        "command": of.worst_case.as_ref().map_or("", |worst| &worst.command),
+        "command": of.worst_case.as_ref().map(|worst| short.unwrap_or_else(|| worst.command.clone())),
     })
 }
 
@@ -88,9 +83,10 @@ fn summary(component: &Component, of: &LimitAssessment, portrait: &Portrait) -> 
     let what = limit(of.limit);
     let tightest = if let (Some(demand), Some(margin), Some(worst)) = (of.demand, of.margin, &of.worst_case) {
         format!(
-            "The tightest limit is its {what}: {} is allowed, and the worst drop that was found asks for {} ({}). {}",
+            "The tightest limit is its {what}: {} is allowed, and the worst drop that was found asks for {}, {} of it (margin {}). {}",
             shown(of.unit, of.allowed),
             shown(of.unit, demand),
+            hundredths(demand / of.allowed),
             percent(margin),
             drop(worst),
         )
@@ -99,10 +95,14 @@ fn summary(component: &Component, of: &LimitAssessment, portrait: &Portrait) -> 
     };
     let zone = match portrait.zone_m {
         Some([lo, hi]) if lo < hi => {
-            format!(" Its middle could sit anywhere from {} to {} and be safe.", millimeters(lo), millimeters(hi))
+            format!(
+                " In the drops of the figures it holds with its middle anywhere from {} to {}.",
+                millimeters(lo),
+                millimeters(hi)
+            )
         }
         Some(_) => String::new(),
-        None => " Nowhere along the product was it found safe.".to_owned(),
+        None => " In the drops of the figures it holds nowhere along the product.".to_owned(),
     };
     format!("{} {tightest}{zone}", held(component))
 }
@@ -120,25 +120,31 @@ fn drop(worst: &WorstCase) -> String {
     format!("That drop lands {lands} at {speed} m/s{tilted}, with e = {e}{frequency}; {peak}.")
 }
 
+/// Up to which tilt both ends land as one.
+fn flat_until(portrait: &Portrait) -> String {
+    let flat = portrait.over_tilt.iter().flat_map(|(_, points)| points).filter(|point| point.drop.flat);
+    let most = flat.map(|point| point.tilt_rad.to_degrees()).reduce(f64::max);
+    most.map_or_else(String::new, |tilt| format!(" Up to {}° both ends land as one.", three(tilt)))
+}
+
 /// What the page says of one part.
 pub(super) fn part(
-    file: &ProductFile,
+    pages: &Pages<'_>,
     (component, assessed): (&Component, &ComponentAssessment),
     portrait: &Portrait,
 ) -> Value {
     let tightest = assessed.tightest();
-    let what = limit(tightest.limit);
+    let what = quantity(tightest.limit, tightest.unit);
     let allowed = shown(tightest.unit, tightest.allowed);
     let seen = |largest: f64| {
-        // As the figures have it: a limit far away would press the curve flat.
-        if tightest.allowed <= 3.0 * largest {
-            format!(" Dash-dotted: the limit of {allowed}.")
+        if is_drawn(tightest.allowed, largest) {
+            format!(" The limit is {allowed}.")
         } else {
             format!(" The limit, {allowed}, lies outside the figure.")
         }
     };
     let over_time = portrait.history.iter().map(|p| p.1.abs()).fold(0.0, f64::max);
-    let over_tilt = portrait.over_tilt.iter().flat_map(|(_, curve)| curve).map(|p| p.1).filter(|v| v.is_finite());
+    let over_tilt = portrait.over_tilt.iter().flat_map(|(_, curve)| curve).map(|p| tightest.allowed * p.share);
     let undecided = assessed.limits.iter().filter(|l| l.verdict == Verdict::Undecided);
     json!({
         "name": name(&assessed.name),
@@ -146,12 +152,17 @@ pub(super) fn part(
         "position": millimeters(assessed.position_m),
         "summary": summary(component, tightest, portrait),
         "undecided": undecided.map(|l| json!({ "limit": limit(l.limit), "why": l.undecided.as_deref().map(minus) })).collect::<Vec<_>>(),
-        "limits": assessed.limits.iter().map(|l| row(file, l)).collect::<Vec<_>>(),
-        "changes": portrait.remedies.as_ref().map(|remedies| changes(Of { product: &file.product, component }, remedies)),
+        "limits": assessed.limits.iter().map(|l| row(pages, &component.name, l)).collect::<Vec<_>>(),
+        "changes": portrait.changes.as_ref().map(|of| changes(Of { product: &pages.file.product, component }, of)),
         "drawn": !portrait.history.is_empty(),
-        "history": format!("The {what} over time in that drop; red ticks are impacts.{}", seen(over_time)),
+        "history": format!("The {what} over time in the worst drop.{}", seen(over_time)),
         "history-alt": format!("Curve of the {what} of this part over time in its worst drop, with the impacts marked at the foot."),
-        "tilt": format!("The {what} asked at each tilt, at the worst speed and restitution.{}", seen(over_tilt.fold(0.0, f64::max))),
+        "tilt": format!(
+            "The most {what} at each tilt, of the drops that were followed.{}{}",
+            seen(over_tilt.fold(0.0, f64::max)),
+            flat_until(portrait)
+        ),
+        "source": component.limit_source.as_deref().map(name),
         "tilt-alt": format!("Curve of the worst {what} over the tilt at the first touch."),
     })
 }

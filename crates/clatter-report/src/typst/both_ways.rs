@@ -130,7 +130,7 @@ fn both_ways_set_the_same_reports() {
     let (Some(command), Some(wheel)) = (&*COMMAND, &*WHEEL) else { return };
     let product = clatter_assess::ProductFile::read(clatter_assess::EXAMPLE, "example.toml").unwrap();
     let assessed = product.assess().unwrap();
-    let portraits = product.portraits(&assessed).unwrap();
+    let portraits = product.portraits(&assessed);
     let pages = Pages {
         file: &product,
         assessment: &assessed,

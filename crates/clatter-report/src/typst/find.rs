@@ -31,7 +31,7 @@ pub(super) fn on_path(env: Env<'_>, name: &str) -> Vec<PathBuf> {
 /// Where the project keeps typst.
 pub(super) fn root(env: Env<'_>) -> Result<PathBuf, ReportError> {
     let Some(cache) = cache(env) else {
-        return Err(failed("no typst on PATH, and no home directory to keep one in; set CLATTER_TYPST"));
+        return Err(failed("none on PATH, and no home directory to keep one in; set CLATTER_TYPST"));
     };
     Ok(absolute(&cache)?.join("clatter").join(format!("typst-{VERSION}")))
 }

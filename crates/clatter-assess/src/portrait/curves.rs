@@ -1,0 +1,58 @@
+//! What a limit is asked over the tilt.
+
+use clatter::End;
+
+use super::Point;
+use super::drops::{Drops, Inputs, Places, Tilt, corners, parts};
+use crate::drop::{SingleDrop, Until};
+use crate::search::Ranges;
+use crate::{Component, Limit, LimitAssessment, Part, ProductFile};
+
+/// A curve for each end that may touch first: at each tilt the drop that asks most of those followed. These are the `shared` ones, at
+/// the ends of the ranges, and those with the speed, restitution and contact time of the worst case; the worst case is one of the
+/// points.
+pub(super) fn over_tilt(
+    file: &ProductFile,
+    ranges: &Ranges<'_>,
+    shared: &Drops,
+    (component, limit): (&Component, &LimitAssessment),
+    tilts: &[Tilt],
+    until: Until,
+) -> Vec<(End, Vec<Point>)> {
+    let Some(asked) = Limit::of(component).into_iter().find(|l| l.kind == limit.limit) else { return Vec::new() };
+    let Some(worst) = &limit.worst_case else { return Vec::new() };
+    let corners = corners(ranges);
+    let own: Inputs = (worst.speed_m_s, worst.restitution, ranges.product.contact_time_s.and(worst.contact_time_s));
+    // At the tilt of the worst case all of them, at the others what is not shared.
+    let here = if worst.flat { Vec::new() } else { vec![(worst.tilt_deg.to_radians(), true)] };
+    let at_worst = Drops::new(ranges, &here, &corners, until);
+    let of_worst = Drops::new(ranges, if corners.contains(&own) { &[] } else { tilts }, &[own], until);
+    let parts = parts(component, &asked, Some(worst));
+    let mut found: Vec<Point> = Vec::new();
+    for drops in [shared, &at_worst, &of_worst] {
+        let places = Places::new(drops, component.ends_m(), f64::INFINITY);
+        for view in drops.views() {
+            let of = |at| places.share(view, at, &asked, &parts, -1.0);
+            let most = (0..places.positions_m.len()).filter_map(of).reduce(|a, b| if b.0 > a.0 { b } else { a });
+            if let Some((share, part)) = most {
+                found.push(Point { tilt_rad: drops.tilt(view).0, drop: drops.drop(view), part, share });
+            }
+        }
+    }
+    found.extend(of_worst_case(file, limit));
+    let curve = |first: End| {
+        let mut points: Vec<Point> = found.iter().filter(|point| point.drop.first == first).copied().collect();
+        points.sort_by(|a, b| a.tilt_rad.total_cmp(&b.tilt_rad));
+        let same = |a: &Point, b: &Point| b.tilt_rad - a.tilt_rad < 1e-12;
+        let most = |at: &[Point]| at.iter().copied().reduce(|a, b| if b.share > a.share { b } else { a });
+        points.chunk_by(same).filter_map(most).collect::<Vec<Point>>()
+    };
+    ranges.drop.first_ends().iter().map(|&first| (first, curve(first))).collect()
+}
+
+/// The worst case, as it is told; a flat one has no tilt of its own.
+fn of_worst_case(file: &ProductFile, limit: &LimitAssessment) -> Option<Point> {
+    let (worst, demand) = limit.worst_case.as_ref().zip(limit.demand)?;
+    let (drop, part): (SingleDrop, Part) = file.worst_drop(worst).ok()?;
+    (!worst.flat).then_some(Point { tilt_rad: drop.tilt_rad, drop, part, share: demand / limit.allowed })
+}

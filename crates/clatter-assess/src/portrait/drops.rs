@@ -1,0 +1,227 @@
+//! Drops over all tilts, each followed once for all parts: curves, safe places and changes are taken from them.
+
+use std::sync::OnceLock;
+
+use clatter_shock::{DampingRatio, Suspension};
+
+use crate::drop::{Followed, Model, SingleDrop, Until};
+use crate::engine::Felt;
+use crate::search::Ranges;
+use crate::{Component, Limit, Mount, Part, WorstCase};
+
+/// Steps of the tilt over its range; they are twice as close at its low end as at its high end.
+const STEPS: u32 = 40;
+
+/// A tilt in rad, and whether places and changes count with it: of the tilts of a range every second one, and of one stated tilt, whose
+/// neighbors the curves show as well, itself.
+pub(super) type Tilt = (f64, bool);
+
+/// Speed, restitution and, where it is known, contact time of a drop.
+pub(super) type Inputs = (f64, f64, Option<f64>);
+
+/// Drops, followed as they are asked for.
+pub(super) struct Drops {
+    model: Model,
+    tolerance: f64,
+    until: Until,
+    /// Whether each drop of a symmetric product stands for the one that is turned around as well.
+    turns: bool,
+    all: Vec<Kept>,
+}
+
+struct Kept {
+    drop: SingleDrop,
+    tilt: Tilt,
+    followed: OnceLock<Option<Followed>>,
+}
+
+/// One drop of them, or the same turned around.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct View {
+    index: usize,
+    turned: bool,
+}
+
+impl Drops {
+    /// Drops at these tilts with either end first, of each of these inputs, by the contact law of the ranges.
+    pub(super) fn new(ranges: &Ranges<'_>, tilts: &[Tilt], inputs: &[Inputs], until: Until) -> Self {
+        let mut all = Vec::with_capacity(tilts.len() * inputs.len() * 2);
+        for &first in ranges.firsts() {
+            for &tilt in tilts {
+                for &(speed_m_s, restitution, contact_time_s) in inputs {
+                    let drop = SingleDrop {
+                        body: ranges.product.body,
+                        first,
+                        tilt_rad: tilt.0,
+                        flat: false,
+                        speed_m_s,
+                        restitution,
+                        gravity_m_s2: ranges.drop.gravity_m_s2,
+                        contact_time_s,
+                        contact_law: ranges.law,
+                    };
+                    let drop = SingleDrop { flat: drop.lands_as_one(ranges.merge_s), ..drop };
+                    all.push(Kept { drop, tilt, followed: OnceLock::new() });
+                }
+            }
+        }
+        let Ranges { model, tolerance, .. } = *ranges;
+        Self { model, tolerance: tolerance.max(0.02), until, turns: ranges.turns(), all }
+    }
+
+    /// All of them.
+    pub(super) fn views(&self) -> Vec<View> {
+        let turned: &[bool] = if self.turns { &[false, true] } else { &[false] };
+        let of = |index| turned.iter().map(move |&turned| View { index, turned });
+        (0..self.all.len()).flat_map(of).collect()
+    }
+
+    /// Those that places and changes count with.
+    pub(super) fn counted(&self) -> Vec<View> {
+        self.views().into_iter().filter(|view| self.tilt(*view).1).collect()
+    }
+
+    pub(super) fn length_m(&self) -> f64 {
+        self.all.first().map_or(0.0, |kept| kept.drop.body.length_m())
+    }
+
+    pub(super) fn tilt(&self, view: View) -> Tilt {
+        self.all[view.index].tilt
+    }
+
+    pub(super) fn drop(&self, view: View) -> SingleDrop {
+        let drop = self.all[view.index].drop;
+        let first = if view.turned { drop.first.other() } else { drop.first };
+        SingleDrop { first, ..drop }
+    }
+
+    /// What a place feels in a drop, for parts up to a natural frequency; none where the drop is not answered.
+    fn felt(&self, view: View, position_m: f64, fastest_rad_s: f64) -> Option<Felt<'_>> {
+        let kept = &self.all[view.index];
+        let follow = || Followed::until(&kept.drop, self.model, self.tolerance, self.until).ok();
+        let followed = kept.followed.get_or_init(follow).as_ref()?;
+        let position_m = if view.turned { -position_m } else { position_m };
+        Felt::rough(followed, position_m, fastest_rad_s).ok()
+    }
+}
+
+/// What places feel in the drops, made as it is asked for.
+pub(super) struct Places<'d> {
+    pub(super) drops: &'d Drops,
+    pub(super) positions_m: Vec<f64>,
+    fastest_rad_s: f64,
+    cells: Vec<OnceLock<Option<Felt<'d>>>>,
+}
+
+impl<'d> Places<'d> {
+    /// Of these places, for parts up to a natural frequency.
+    pub(super) fn new(drops: &'d Drops, positions_m: Vec<f64>, fastest_rad_s: f64) -> Self {
+        let count = 2 * drops.all.len() * positions_m.len();
+        let cells = std::iter::repeat_with(OnceLock::new).take(count).collect();
+        Self { drops, positions_m, fastest_rad_s, cells }
+    }
+
+    /// What one drop asks of a limit at place number `at`, as a share of what is allowed, where that passes `above`: the most of
+    /// these parts, and which of them.
+    pub(super) fn share(
+        &self,
+        view: View,
+        at: usize,
+        limit: &Limit,
+        parts: &[Option<Suspension>],
+        above: f64,
+    ) -> Option<(f64, Part)> {
+        let cell = (2 * view.index + usize::from(view.turned)) * self.positions_m.len() + at;
+        let position_m = self.positions_m[at];
+        let felt = self.cells[cell].get_or_init(|| self.drops.felt(view, position_m, self.fastest_rad_s)).as_ref()?;
+        let mut most: Option<(f64, Part)> = None;
+        for &suspension in parts {
+            let above = most.map_or(above, |most| most.0);
+            let answer = felt.answer(limit, suspension.as_ref(), above).ok().flatten();
+            most = answer.map(|answer| (answer.utilization(), Part { position_m, suspension })).or(most);
+        }
+        most
+    }
+
+    /// The most that these drops ask at some of the places.
+    pub(super) fn most(&self, views: &[View], at: &[usize], limit: &Limit, parts: &[Option<Suspension>]) -> f64 {
+        let mut most = 0.0;
+        for &view in views {
+            for &at in at {
+                most = self.share(view, at, limit, parts, most).map_or(most, |found| found.0);
+            }
+        }
+        most
+    }
+
+    /// Whether one of these drops asks for more than a share at some of the places. The one that does comes to the front: it is likely
+    /// to do so again.
+    pub(super) fn exceeds(
+        &self,
+        views: &mut [View],
+        at: &[usize],
+        limit: &Limit,
+        parts: &[Option<Suspension>],
+        share: f64,
+    ) -> bool {
+        let one = |view: &View| at.iter().any(|&at| self.share(*view, at, limit, parts, share).is_some());
+        let found = views.iter().position(one);
+        if let Some(found) = found {
+            views[..=found].rotate_right(1);
+        }
+        found.is_some()
+    }
+}
+
+/// Tilts over the range that is shown, which is around one stated tilt; where both ends begin to land as one, on both sides.
+pub(super) fn tilts(ranges: &Ranges<'_>) -> Vec<Tilt> {
+    let stated = &ranges.drop.tilt_rad;
+    let [lo, hi] = if stated.is_value() {
+        [0.2 * stated.lo(), (2.0 * stated.hi()).clamp(1f64.to_radians(), 30f64.to_radians())]
+    } else {
+        [stated.lo(), stated.hi()]
+    };
+    let at = |k: u32| {
+        let share = f64::from(k) / f64::from(STEPS);
+        lo + (hi - lo) * share * (2.0 + share) / 3.0
+    };
+    let mut tilts: Vec<f64> = (0..=STEPS).map(at).collect();
+    tilts.push(stated.lo());
+    if ranges.product.contact_time_s.is_none() {
+        let [_, fast] = ranges.drop.speeds_m_s();
+        let edge = (ranges.merge_s * fast / ranges.product.body.length_m()).min(1.0).asin();
+        let sides = [-1.0, 1.0].map(|side| edge * (1.0 + side * 1e-9));
+        tilts.extend(sides.into_iter().filter(|tilt| (lo..=hi).contains(tilt)));
+    }
+    tilts.sort_by(f64::total_cmp);
+    tilts.dedup_by(|a, b| a.to_bits() == b.to_bits());
+    let counts =
+        |i: usize, tilt: f64| (stated.lo()..=stated.hi()).contains(&tilt) && (stated.is_value() || i.is_multiple_of(2));
+    tilts.into_iter().enumerate().map(|(i, tilt)| (tilt, counts(i, tilt))).collect()
+}
+
+/// The highest speed with the ends of the ranges of restitution and contact time.
+pub(super) fn corners(ranges: &Ranges<'_>) -> Vec<Inputs> {
+    let [_, fast] = ranges.drop.speeds_m_s();
+    let ends =
+        |spread: &crate::Spread| if spread.is_value() { vec![spread.lo()] } else { vec![spread.hi(), spread.lo()] };
+    let times: Vec<Option<f64>> =
+        ranges.product.contact_time_s.as_ref().map_or(vec![None], |time| ends(time).into_iter().map(Some).collect());
+    let of = |e| times.iter().map(move |time| (fast, e, *time));
+    ends(&ranges.product.restitution).into_iter().flat_map(of).collect()
+}
+
+/// The parts that a limit is asked of: of a response those at the ends of the range of natural frequencies with the least damping, and
+/// that of the worst case.
+pub(super) fn parts(component: &Component, limit: &Limit, worst: Option<&WorstCase>) -> Vec<Option<Suspension>> {
+    let Mount::Suspended { frequency_hz, damping } = component.mount else { return vec![None] };
+    if !limit.is_response() {
+        return vec![None];
+    }
+    let [least, _] = damping.ratios();
+    let mut all = vec![(frequency_hz.lo(), least), (frequency_hz.hi(), least)];
+    all.extend(worst.and_then(|worst| worst.frequency_hz.zip(worst.damping_ratio)));
+    all.dedup();
+    let part = |&(hz, ratio): &(f64, f64)| Suspension::from_hz(hz, DampingRatio::new(ratio).ok()?).ok();
+    all.iter().filter_map(part).map(Some).collect()
+}

@@ -1,0 +1,55 @@
+//! What the assessment says of a limit beside the drops of the pictures.
+
+use crate::{ComponentAssessment, LimitAssessment, LimitKind, Verdict};
+
+/// How much more the assessment counts with than the most that the drops of the pictures ask at the part's own place: its search
+/// climbs to the worst drop, and it adds what that may miss, what rebounds may ask and what another contact law asks. Other places
+/// and changed parts are held to the same.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scale {
+    /// The share that the worst drop by one contact law asks.
+    pub(super) demand: f64,
+    /// The share that counts for the verdict.
+    pub(super) counted: f64,
+    /// The most that the drops ask at the part's own place.
+    pub(super) here: f64,
+}
+
+impl Scale {
+    /// Of a limit of which the drops of each contact law ask `here`; none where the assessment does not know how much may be asked.
+    pub(super) fn of(assessed: &ComponentAssessment, limit: &LimitAssessment, here: &[f64]) -> Option<Vec<Self>> {
+        let demands = [limit.demand, limit.other_law];
+        let mut scales = Vec::with_capacity(here.len());
+        for (here, demand) in here.iter().zip(demands) {
+            let demand = demand? / limit.allowed;
+            let counted = demand * (1.0 + limit.uncertainty);
+            let known = counted.is_finite() && (*here > 0.0 || demand == 0.0);
+            scales.push(known.then_some(Self { demand, counted, here: *here })?);
+        }
+        // The acceleration of a part that hits its stop is undecided by its rattle space.
+        let stops = |l: &LimitAssessment| l.limit == LimitKind::RattleSpace && l.verdict != Verdict::Safe;
+        let by_stop = limit.limit == LimitKind::Acceleration && assessed.limits.iter().any(stops);
+        // What the verdict says, the picture says as well.
+        match limit.verdict {
+            Verdict::Safe => scales.iter_mut().for_each(|scale| scale.counted = scale.counted.min(1.0)),
+            Verdict::Undecided | Verdict::Unsafe => {
+                let most = scales.iter_mut().max_by(|a, b| a.counted.total_cmp(&b.counted)).filter(|_| !by_stop);
+                if let Some(scale) = most {
+                    scale.counted = scale.counted.max(1.0 + 1e-6);
+                }
+            }
+        }
+        Some(scales)
+    }
+
+    /// The share that the limit has to be raised by, to leave room of `margin` between the demand and what is allowed.
+    pub(super) fn needs(&self, margin: f64) -> f64 {
+        self.counted.max((1.0 + margin) * self.demand)
+    }
+
+    /// The most that a drop of the pictures may ask where the limit holds with that margin.
+    pub(super) fn most(&self, margin: f64) -> f64 {
+        // A demand of nothing holds anywhere.
+        if self.counted == 0.0 { f64::INFINITY } else { self.here / self.needs(margin) }
+    }
+}

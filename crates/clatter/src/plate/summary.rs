@@ -1,0 +1,127 @@
+//! What the train of a plate amounts to.
+
+use super::endless::Limit;
+use super::{Corner, Plate, PlateImpact, PlateShocks, PlateStart};
+
+/// How many impacts a plate has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum PlateCount {
+    /// Exactly so many.
+    Finite(u64),
+    /// Proven without end: some corners strike in the same order for ever.
+    Endless,
+    /// More than were followed.
+    MoreThan(u64),
+}
+
+/// The largest velocity shock of a train.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlatePeak {
+    /// Largest shock of a corner in its own strike, (1 + e)|v_j|.
+    pub corner: f64,
+    /// The impact that holds it, from 1; the first if several tie.
+    pub impact: u64,
+    /// The corner that strikes then.
+    pub struck: Corner,
+    /// Largest shock of the center of mass, (1 + e)|v_j|/w_j(j).
+    pub center: f64,
+    /// What no later strike exceeds, where the train was not followed to its end: (1 + e) √w_j(j) times the root of twice
+    /// the kinetic energy that is left, per mass. 0 after the last strike.
+    pub later: f64,
+}
+
+/// A train of a plate without the list of its impacts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlateSummary {
+    /// Number of impacts.
+    pub count: PlateCount,
+    /// Time of the last impact followed, or the limit it tends to where the train is endless.
+    pub duration: f64,
+    /// Largest shocks.
+    pub peak: PlatePeak,
+    /// Velocities of the corners after the last impact, or the limit they tend to; `None` where the train was not
+    /// followed to its end.
+    pub final_velocity: Option<[f64; 4]>,
+    /// Largest shocks of every corner in its own strikes.
+    struck: [f64; 4],
+    /// What strikes that were not followed give a corner at most, 0 where they are known to be less than `struck`.
+    open: f64,
+}
+
+/// Strikes after which a train is first asked whether it is endless; then at every power of two.
+const FIRST_ASKED: u64 = 8;
+
+impl Plate {
+    /// Count, peaks, final velocities and duration, following at most so many impacts.
+    ///
+    /// # Method
+    /// The train is followed, and asked after 8, 16, 32 … strikes whether what it does has no end: two corners that
+    /// alternate as an endless bar, or a word of three or four corners that repeats itself and shrinks as it does.
+    ///
+    /// # Examples
+    /// The diagonal of a uniform plate is a bar with q = 5/7, endless from e = 0.17657 down:
+    /// ```
+    /// use clatter::{Plate, PlateCount, PlateStart};
+    /// let count = |e: f64| Ok::<_, clatter::Error>(Plate::uniform(e)?.summary(&PlateStart::default(), 1000).count);
+    /// assert_eq!(count(0.176)?, PlateCount::Endless);
+    /// assert_eq!(count(0.3)?, PlateCount::Finite(5));
+    /// # Ok::<(), clatter::Error>(())
+    /// ```
+    #[must_use]
+    pub fn summary(&self, start: &PlateStart, most: u64) -> PlateSummary {
+        let mut train = self.train(start);
+        let mut struck = [0.0_f64; 4];
+        let mut peak = PlatePeak { corner: 0.0, impact: 0, struck: Corner::A, center: 0.0, later: 0.0 };
+        let (mut word, mut duration, mut ask) = (Vec::new(), 0.0, FIRST_ASKED);
+        while (word.len() as u64) < most {
+            let Some(PlateImpact { number, corner, approach, time, .. }) = train.next() else { break };
+            duration = time;
+            let (shock, j) = ((-1.0 - self.e) * approach, corner as usize);
+            word.push(j);
+            struck[j] = struck[j].max(shock);
+            peak.center = peak.center.max(shock / self.weight[j]);
+            if shock > peak.corner {
+                (peak.corner, peak.impact, peak.struck) = (shock, number, corner);
+            }
+            if number == ask {
+                ask *= 2;
+                let limit = self.limit(start, &word, &train);
+                let less = |limit: &Limit| (0..4).all(|j| limit.later[j] <= struck[j]);
+                if let Some(limit) = limit.filter(|limit| ask > most || less(limit)) {
+                    peak.later = limit.later.into_iter().fold(0.0, f64::max);
+                    let duration = if start.is_flat() { 0.0 } else { limit.time };
+                    let (count, final_velocity) = (PlateCount::Endless, Some(limit.velocity));
+                    let open = if less(&limit) { 0.0 } else { peak.later };
+                    return PlateSummary { count, duration, peak, final_velocity, struck, open };
+                }
+            }
+        }
+        let number = word.len() as u64;
+        if train.ended() {
+            let (count, final_velocity) = (PlateCount::Finite(number), Some(train.velocities()));
+            return PlateSummary { count, duration, peak, final_velocity, struck, open: 0.0 };
+        }
+        peak.later = self.later(&train.velocities());
+        PlateSummary {
+            count: PlateCount::MoreThan(number),
+            duration,
+            peak,
+            final_velocity: None,
+            struck,
+            open: peak.later,
+        }
+    }
+
+    /// The largest shocks of one drop everywhere on the plate, of at most so many impacts.
+    #[must_use]
+    pub fn shocks(&self, start: &PlateStart, most: u64) -> PlateShocks {
+        let summary = self.summary(start, most);
+        PlateShocks::new(*self, summary.struck, summary.open)
+    }
+
+    /// What no strike exceeds after these velocities.
+    pub(super) fn later(&self, velocities: &[f64; 4]) -> f64 {
+        (1.0 + self.e) * self.heaviest.sqrt() * self.norm(*velocities)
+    }
+}
