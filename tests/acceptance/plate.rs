@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use crate::{answer, clatter};
 
 /// 1/√3 in all its digits: an evenly spread mass.
-const UNIFORM: &str = "--gyration-ratio=0.5773502691896258,0.5773502691896258";
+const UNIFORM: &str = "--gyration-ratio=0.5773502691896257,0.5773502691896257";
 
 fn names(object: &Value) -> String {
     let mut names: Vec<_> = object.as_object().unwrap().keys().map(String::as_str).collect();

@@ -60,7 +60,7 @@ mod tests {
 
     #[test]
     fn what_a_command_line_cannot_say_is_not_said() {
-        let of = |path, name, accuracy: &Accuracy| repeat(path, name, LimitKind::Acceleration, accuracy);
+        let of = |path: &str, name: &str, accuracy: &Accuracy| repeat(path, name, LimitKind::Acceleration, accuracy);
         let own = Accuracy::default();
         assert!(of("a.toml", "part", &own).is_some());
         assert_eq!(of("-", "part", &own), None);

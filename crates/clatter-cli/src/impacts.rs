@@ -70,7 +70,7 @@ impl Args {
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
         let bar = match self.bar.body()? {
             FallingBody::Bar(bar) => bar,
-            FallingBody::Plate(plate) => return self.plate(plate, streams),
+            FallingBody::Plate(plate) => return self.plate(&plate, streams),
         };
         let velocity = self.velocity.map_or(Ok([-1.0; 2]), |v| v.of_bar("--velocity"))?;
         let [gap] = self.height_gap.map_or(Ok([1.0]), |gap| gap.of_bar("--height-gap"))?;

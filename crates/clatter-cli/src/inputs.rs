@@ -381,7 +381,7 @@ pub(crate) fn restitution(text: &str) -> Result<f64, String> {
     Bar::new(0.0, e).map(|_| e).map_err(|error| error.to_string())
 }
 
-fn inertia_ratio(text: &str) -> Result<f64, String> {
+pub(crate) fn inertia_ratio(text: &str) -> Result<f64, String> {
     let q = number(text)?;
     Bar::new(q, 0.0).map(|_| q).map_err(|error| error.to_string())
 }

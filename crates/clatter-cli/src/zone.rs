@@ -62,7 +62,7 @@ struct Interval(Option<[f64; 2]>);
 impl Args {
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
         let bar = match (self.bar.body()?, self.height_gap) {
-            (FallingBody::Plate(plate), gap) => return self.plate(plate, gap, streams),
+            (FallingBody::Plate(plate), gap) => return self.plate(&plate, gap, streams),
             (FallingBody::Bar(_), Some(_)) => {
                 return Err(Failure::Usage(
                     "--height-gap goes with a plate: the safe zone of a bar is the same for all",

@@ -154,9 +154,9 @@ impl Plate {
                 + 1.0,
         };
         let coupling = plate.coupling();
-        for j in 0..4 {
-            let own = coupling[j][j].0;
-            plate.jump[j] = coupling[j].map(|(w, _)| (two_sum(1.0, e) * (w / own)).hi);
+        for (j, row) in coupling.iter().enumerate() {
+            let own = row[j].0;
+            plate.jump[j] = row.map(|(w, _)| (two_sum(1.0, e) * (w / own)).hi);
             plate.change[j] = plate.jump[j];
             (plate.jump[j][j], plate.change[j][j]) = (1.0 + e, e);
             plate.weight[j] = (own / plate.squares()).hi;

@@ -13,7 +13,7 @@ struct Cases<T> {
 }
 
 fn cases<T: DeserializeOwned>(text: &str) -> Vec<T> {
-    serde_json::from_str::<Cases<T>>(text).unwrap().cases
+    serde_json::from_str::<Cases<T>>(text).expect("cases in JSON").cases
 }
 
 #[derive(Deserialize)]
@@ -62,7 +62,7 @@ struct WordCase {
 }
 
 fn decimal(text: &str) -> f64 {
-    text.parse().unwrap()
+    text.parse().expect("a decimal number")
 }
 
 fn letters(corners: impl Iterator<Item = Corner>) -> String {

@@ -20,9 +20,7 @@ pub(crate) struct Place {
 /// Square root of the tilt, speed, restitution, contact time, natural frequency, damping ratio, radius of gyration.
 pub(super) const AXES: usize = 7;
 pub(super) const TILT: usize = 0;
-pub(super) const SPEED: usize = 1;
 pub(super) const RESTITUTION: usize = 2;
-pub(super) const CONTACT: usize = 3;
 /// Those of the part.
 pub(super) const FREQUENCY: usize = 4;
 pub(super) const DAMPING: usize = 5;

@@ -26,13 +26,13 @@ const NUDGED: &str = "as if corner d were higher, or with HX = 0 corner b, by ne
 const DIAGONAL: &str = "as if tilted along the diagonal by next to nothing";
 
 impl Args {
-    pub(super) fn plate(&self, plate: Plate, streams: &mut Streams<'_>) -> Result<(), Failure> {
+    pub(super) fn plate(&self, plate: &Plate, streams: &mut Streams<'_>) -> Result<(), Failure> {
         let velocity = self.velocity.map_or(Ok([-1.0; 3]), |v| v.of_plate("--velocity"))?;
         let gaps = self.height_gap.map_or(Ok([1.0; 2]), |gaps| gaps.of_plate("--height-gap"))?;
         let at = self.at.iter().map(|place| place.of_plate("--at")).collect::<Result<_, _>>()?;
         let start = PlateStart::new(velocity, gaps)?;
         let summary = plate.summary(&start, self.limit.max(FOLLOWED) as u64);
-        let drop = Drop { plate, start, summary, at, limit: self.limit };
+        let drop = Drop { plate: *plate, start, summary, at, limit: self.limit };
         match self.format {
             RowFormat::Table => {
                 let tied = drop.table(streams.out).map_err(Failure::Answer)?;
@@ -41,6 +41,11 @@ impl Args {
                         "note",
                         format_args!("two corners come down at one instant; the order is {}", drop.order()),
                     );
+                }
+                if drop.falls_on() {
+                    let what =
+                        "a corner still comes down as the endless impacts end: its strikes are bounded, not followed";
+                    streams.note("warning", what);
                 }
                 if let Some(warning) = drop.cut_short() {
                     streams.note("warning", warning);
@@ -64,6 +69,12 @@ impl Drop {
 
     fn order(&self) -> &'static str {
         if self.start.gaps().iter().all(|gap| *gap == 0.0) { DIAGONAL } else { NUDGED }
+    }
+
+    /// Whether a corner is still to come down after an endless train.
+    fn falls_on(&self) -> bool {
+        let endless = self.summary.count == PlateCount::Endless;
+        endless && self.summary.final_velocity.is_some_and(|velocities| velocities.iter().any(|v| *v < 0.0))
     }
 
     fn cut_short(&self) -> Option<String> {

@@ -19,13 +19,13 @@ struct Zones {
     plate: Plate,
     shocks: PlateShocks,
     gaps: Option<[f64; 2]>,
-    zones: Vec<PlateZone>,
+    of_each: Vec<PlateZone>,
 }
 
 impl Args {
     pub(super) fn plate(
         &self,
-        plate: Plate,
+        plate: &Plate,
         gap: Option<Values<1, 2>>,
         streams: &mut Streams<'_>,
     ) -> Result<(), Failure> {
@@ -39,8 +39,8 @@ impl Args {
             Some(gaps) => plate.shocks(&PlateStart::level(gaps)?, OF_ONE),
             None => plate.worst(OF_EACH)?,
         };
-        let zones = self.threshold.iter().map(|threshold| shocks.safe_zone(*threshold)).collect();
-        let zones = Zones { plate, shocks, gaps, zones };
+        let of_each = self.threshold.iter().map(|threshold| shocks.safe_zone(*threshold)).collect();
+        let zones = Zones { plate: *plate, shocks, gaps, of_each };
         match self.format {
             RowFormat::Table => zones.table(streams.out).map_err(Failure::Answer)?,
             RowFormat::Csv => zones.csv(streams.out).map_err(Failure::Answer)?,
@@ -77,8 +77,8 @@ impl Zones {
         writeln!(out, "Corners see: {}", seen.join(", "))?;
         writeln!(out, "\n{:>12} {:>10}   corners of the safe zone", "threshold", "safe")?;
         writeln!(out, "{:>12} {:>10}   half-lengths,half-widths", "v0", "of the area")?;
-        for zone in &self.zones {
-            let places: Vec<_> = zone.polygon.iter().map(|[x, y]| format!("{x:.4},{y:.4}")).collect();
+        for zone in &self.of_each {
+            let places: Vec<_> = zone.polygon.iter().map(|[x, y]| format!("{:.4},{:.4}", x + 0.0, y + 0.0)).collect();
             let meaning = match zone.extent {
                 Extent::None => "none: every place sees more".to_owned(),
                 Extent::Part => places.join("  "),
@@ -91,7 +91,7 @@ impl Zones {
 
     fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "threshold,extent,share,x,y")?;
-        for zone in &self.zones {
+        for zone in &self.of_each {
             let head = format!("{},{},{}", digits(zone.threshold), extent(zone.extent), digits(zone.share));
             if zone.polygon.is_empty() {
                 writeln!(out, "{head},,")?;
@@ -118,7 +118,7 @@ impl Zones {
             struck: self.shocks.struck().map(Json),
             later: Json(self.shocks.later()),
             proven: self.is_proven(),
-            zones: self.zones.iter().map(zone).collect(),
+            zones: self.of_each.iter().map(zone).collect(),
         }
     }
 }

@@ -84,7 +84,7 @@ impl Atlas {
     #[must_use]
     pub fn shocks(&self) -> PlateShocks {
         let struck = std::array::from_fn(|j| self.words.iter().map(|word| word.struck[j]).fold(0.0, f64::max));
-        PlateShocks::new(self.plate, struck, self.peak().later)
+        PlateShocks::new(&self.plate, struck, self.peak().later)
     }
 }
 
@@ -132,7 +132,7 @@ impl Plate {
         let first = self.atlas(limit)?.shocks();
         if self.is_centered() {
             let most = first.struck().into_iter().fold(0.0, f64::max);
-            return Ok(PlateShocks::new(*self, [most; 4], first.later()));
+            return Ok(PlateShocks::new(self, [most; 4], first.later()));
         }
         // Seen in a mirror, another corner is a.
         let (x, y) = (self.mirrored_x(), self.mirrored_y());
@@ -144,7 +144,7 @@ impl Plate {
             }
             later = shocks.later().max(later);
         }
-        Ok(PlateShocks::new(*self, struck, later))
+        Ok(PlateShocks::new(self, struck, later))
     }
 }
 
@@ -277,7 +277,7 @@ impl<'a, T: Number> Survey<'a, T> {
 
     /// Where the lowest line meets the next one before `hi`, and the corner of that. One that is lower at `hi` and was not
     /// before meets it on the way.
-    #[expect(clippy::type_complexity, reason = "a doubt, none, or both")]
+    #[expect(clippy::option_option, reason = "a doubt, none, or where and which")]
     fn overtaken(
         state: &State<T>,
         falling: &[usize],

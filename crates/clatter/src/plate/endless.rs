@@ -26,6 +26,8 @@ pub(super) struct Limit {
     pub(super) velocity: [f64; 4],
     /// What no later shock of each corner exceeds; 0 for one that strikes no more.
     pub(super) later: [f64; 4],
+    /// What no shock after the limit exceeds: 0 unless a corner still comes down then.
+    pub(super) after: f64,
 }
 
 /// Velocities and intervals of time that decide it must differ by this share of themselves.
@@ -83,11 +85,12 @@ impl Plate {
         let time = -of_p / fast;
         let now = if v[j] > 0.0 { -p[j] / v[j] } else { time };
         // What both give in all, each a multiple of its jumps, so that both come to rest.
-        let total = |x: &[f64; 4]| {
-            let (m, by_j, by_i) = (1.0 + e, self.jump[j][i], self.jump[i][j]);
-            let d = m * m - by_j * by_i;
-            [(m * x[i] - by_j * x[j]) / d, (m * x[j] - by_i * x[i]) / d]
-        };
+        let (m, by_j, by_i) = (1.0 + e, self.jump[j][i], self.jump[i][j]);
+        let d = m * m - by_j * by_i;
+        if d < CLEAR * m * m && !mirrored {
+            return None; // of so little mass away from the middle that floats do not tell what the others get
+        }
+        let total = |x: &[f64; 4]| [(m * x[i] - by_j * x[j]) / d, (m * x[j] - by_i * x[i]) / d];
         let of_v = total(v);
         let mut velocity = [0.0; 4];
         for k in (0..4).filter(|k| !mirrored && *k != i && *k != j) {
@@ -103,7 +106,8 @@ impl Plate {
         let most = (-v0).max(-fast / square.sqrt());
         let mut later = [0.0; 4];
         (later[i], later[j]) = ((1.0 + e) * root[0] * most, (1.0 + e) * root[1] * most);
-        Some(Limit { time, velocity, later })
+        let after = if velocity.iter().any(|v| *v < 0.0) { self.later(&velocity) } else { 0.0 };
+        Some(Limit { time, velocity, later, after })
     }
 
     /// Corner values after a strike at corner j.
@@ -128,7 +132,7 @@ impl Plate {
         }
         let vectors = [0, 1, 2].map(|k| null_vector(&(matrix - Matrix3::identity() * values[k])));
         let inverse = Matrix3::from_columns(&vectors).try_inverse()?;
-        let (xi, eta) = (inverse * plane(v), inverse * plane(&now.heights));
+        let (xi, eta) = (inverse * plane(v), inverse * plane(&now.corners));
         let wait = -eta[0] / xi[0];
         let sigma = [0.0, eta[1] + wait * xi[1], eta[2] + wait * xi[2]];
         // Heights must not be roundings.
@@ -150,7 +154,7 @@ impl Plate {
         }
         let later = self.later(v);
         let later = std::array::from_fn(|j| if word.contains(&j) { later } else { 0.0 });
-        Some(Limit { time: now.time + wait, velocity: [0.0; 4], later })
+        Some(Limit { time: now.time + wait, velocity: [0.0; 4], later, after: 0.0 })
     }
 }
 

@@ -41,7 +41,8 @@ pub struct PlateSummary {
     /// Largest shocks.
     pub peak: PlatePeak,
     /// Velocities of the corners after the last impact, or the limit they tend to; `None` where the train was not
-    /// followed to its end.
+    /// followed to its end. Where a corner still comes down in the limit, it strikes after the endless train, on a plate
+    /// that rests on two others: that is not followed, and bounded by [`PlatePeak::later`].
     pub final_velocity: Option<[f64; 4]>,
     /// Largest shocks of every corner in its own strikes.
     struck: [f64; 4],
@@ -65,7 +66,7 @@ impl Plate {
     /// use clatter::{Plate, PlateCount, PlateStart};
     /// let count = |e: f64| Ok::<_, clatter::Error>(Plate::uniform(e)?.summary(&PlateStart::default(), 1000).count);
     /// assert_eq!(count(0.176)?, PlateCount::Endless);
-    /// assert_eq!(count(0.3)?, PlateCount::Finite(5));
+    /// assert_eq!(count(0.3)?, PlateCount::Finite(6));
     /// # Ok::<(), clatter::Error>(())
     /// ```
     #[must_use]
@@ -89,10 +90,10 @@ impl Plate {
                 let limit = self.limit(start, &word, &train);
                 let less = |limit: &Limit| (0..4).all(|j| limit.later[j] <= struck[j]);
                 if let Some(limit) = limit.filter(|limit| ask > most || less(limit)) {
-                    peak.later = limit.later.into_iter().fold(0.0, f64::max);
+                    peak.later = limit.later.into_iter().fold(limit.after, f64::max);
                     let duration = if start.is_flat() { 0.0 } else { limit.time };
                     let (count, final_velocity) = (PlateCount::Endless, Some(limit.velocity));
-                    let open = if less(&limit) { 0.0 } else { peak.later };
+                    let open = if less(&limit) { limit.after } else { peak.later };
                     return PlateSummary { count, duration, peak, final_velocity, struck, open };
                 }
             }
@@ -117,7 +118,7 @@ impl Plate {
     #[must_use]
     pub fn shocks(&self, start: &PlateStart, most: u64) -> PlateShocks {
         let summary = self.summary(start, most);
-        PlateShocks::new(*self, summary.struck, summary.open)
+        PlateShocks::new(self, summary.struck, summary.open)
     }
 
     /// What no strike exceeds after these velocities.

@@ -140,6 +140,7 @@ impl Steps {
     /// The next corner after a strike at `last`, and whether no other may come before it. Which is next is a branch, so
     /// that the processor goes on with the likely one while roundings are looked at.
     #[inline(always)]
+    #[expect(clippy::needless_bitwise_bool, reason = "each is cheaper than a branch")]
     #[expect(clippy::inline_always, reason = "as `next`")]
     fn choose(&mut self, last: usize) {
         let (v, p, [dv, dp]) = (&self.v, &self.p, self.spread.after(self.strikes).map(|off| 2.0 * off));
@@ -172,7 +173,7 @@ impl Steps {
 /// Where the corners are at the latest strike, and by how much that may be off.
 pub(super) struct Heights {
     pub(super) time: f64,
-    pub(super) heights: [f64; 4],
+    pub(super) corners: [f64; 4],
     pub(super) off: f64,
 }
 
@@ -201,7 +202,7 @@ impl PlateTrain<'_> {
         let Some(later) = &self.later else {
             let Steps { v, p, latest, .. } = &self.steps;
             let heights = std::array::from_fn(|i| p[i] + v[i] * latest);
-            return Heights { time: *latest, heights, off: 1e-14 * largest(p) };
+            return Heights { time: *latest, corners: heights, off: 1e-14 * largest(p) };
         };
         let (p, j) = (later.p.map(|ball| ball.middle), later.last().unwrap_or(0));
         let time = if later.v[j].middle.hi > 0.0 {
@@ -210,7 +211,7 @@ impl PlateTrain<'_> {
             Dd::from(self.steps.latest)
         };
         let heights = std::array::from_fn(|i| (p[i] + later.v[i].middle * time).hi);
-        Heights { time: time.hi, heights, off: 1e-27 * largest(&p.map(|p| p.hi)) }
+        Heights { time: time.hi, corners: heights, off: 1e-27 * largest(&p.map(|p| p.hi)) }
     }
 
     /// Whether the plate has bounced clear: no impact is left.
@@ -294,9 +295,10 @@ impl Plate {
     /// A uniform plate that lands with b twice as high as d:
     /// ```
     /// use clatter::{Plate, PlateStart};
-    /// let train = Plate::uniform(0.5)?.train(&PlateStart::level([2.0, 1.0])?);
+    /// let plate = Plate::uniform(0.5)?;
+    /// let train = plate.train(&PlateStart::level([2.0, 1.0])?);
     /// let word: String = train.map(|impact| impact.corner.letter()).collect();
-    /// assert_eq!(word, "adcbad");
+    /// assert_eq!(word, "adcabc");
     /// # Ok::<(), clatter::Error>(())
     /// ```
     #[must_use]

@@ -41,8 +41,8 @@ pub struct PlateZone {
 }
 
 impl PlateShocks {
-    pub(super) fn new(plate: Plate, struck: [f64; 4], later: f64) -> Self {
-        Self { plate, struck, later }
+    pub(super) fn new(plate: &Plate, struck: [f64; 4], later: f64) -> Self {
+        Self { plate: *plate, struck, later }
     }
 
     /// Largest shocks of corners a, b, c and d in their own strikes, S_j; 0 for a corner that never strikes.
