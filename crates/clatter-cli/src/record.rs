@@ -16,6 +16,7 @@ use clatter_shock::Pulse;
 
 use crate::condition_args::ConditionArgs;
 use crate::excitation;
+use crate::find_args::FindArgs;
 use crate::inputs::RowFormat;
 use crate::numbers::{digits, figures};
 use crate::output::{self, Files, Kind, Target, buffered};
@@ -52,15 +53,8 @@ pub(crate) struct Args {
     reading: RecordArgs,
     #[command(flatten)]
     condition: ConditionArgs,
-    /// Find the shocks: each with its start, peak, duration between the 10 % points and velocity change
-    #[arg(long)]
-    find: bool,
-    /// Acceleration that a shock exceeds [default: what noise exceeds in one record of a thousand, by the median of the record]
-    #[arg(long, value_name = "ACCELERATION", requires = "find", value_parser = threshold)]
-    threshold: Option<f64>,
-    /// Time without passing it after which another shock begins, in s without a unit
-    #[arg(long, value_name = "TIME", default_value = "5ms", value_parser = quiet)]
-    quiet: f64,
+    #[command(flatten)]
+    finding: FindArgs,
     /// Fit a half-sine, a haversine and a terminal-peak sawtooth to the largest shock, and hold it against the tolerances of
     /// standards
     #[arg(long)]
@@ -77,19 +71,6 @@ pub(crate) struct Args {
     /// How to show the answer
     #[arg(long, value_enum, default_value_t = RowFormat::Table)]
     format: RowFormat,
-}
-
-fn positive(dimension: &'static Dimension, text: &str) -> Result<f64, String> {
-    let value = plain_or_typed(dimension, text)?.si;
-    if value > 0.0 && value.is_finite() { Ok(value) } else { Err(format!("{value:?} is not finite and > 0")) }
-}
-
-fn threshold(text: &str) -> Result<f64, String> {
-    positive(&ACCELERATION, text)
-}
-
-fn quiet(text: &str) -> Result<f64, String> {
-    positive(&TIME, text)
 }
 
 fn nominal(text: &str) -> Result<Pulse, String> {
@@ -112,7 +93,7 @@ impl Args {
         let record = self.condition.apply(self.reading.read(&self.file)?, &self.file)?;
         let bad = |reason| Failure::Record { path: self.file.clone(), reason };
         let found = Found {
-            shocks: if self.find { Some(shocks::find(self, &record).map_err(bad)?) } else { None },
+            shocks: self.finding.search().map(|search| shocks::find(&search, &record)).transpose().map_err(bad)?,
             fits: if self.fit_pulse { Some(pulse::fit(&record, self.nominal.as_ref()).map_err(bad)?) } else { None },
             motions: if self.integrate { Some(motions(&record).map_err(bad)?) } else { None },
         };

@@ -4,14 +4,12 @@ use std::io::{self, Write};
 
 use clatter_record::{Channel, Error, Record, Search, Shocks, find_shocks};
 
-use super::Args;
 use crate::numbers::{digits, figures};
 use crate::text;
 
 /// Those of each channel.
-pub(super) fn find(args: &Args, record: &Record) -> Result<Vec<Shocks>, Error> {
-    let search = Search { threshold_m_s2: args.threshold, quiet_s: args.quiet };
-    let one = |channel: &Channel| find_shocks(&channel.values, channel.times().even("a search for shocks")?, &search);
+pub(super) fn find(search: &Search, record: &Record) -> Result<Vec<Shocks>, Error> {
+    let one = |channel: &Channel| find_shocks(&channel.values, channel.times().even("a search for shocks")?, search);
     record.channels().iter().map(one).collect()
 }
 

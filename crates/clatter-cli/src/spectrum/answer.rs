@@ -3,12 +3,14 @@
 use std::path::Path;
 
 use clatter_record::{Channel, Finding, TimeAxis};
-use clatter_shock::{LimitCurve, Margin, Spectrum};
+use clatter_shock::{Deviation, EnvelopingPulse, LimitCurve, Margin, Spectrum};
 use serde::Serialize;
 
 use super::boundary::Boundary;
 use super::records::{Measured, largest};
+use super::table::outermost;
 use super::{Computed, Part};
+use crate::excitation::shape_name;
 use crate::numbers::Json;
 use crate::quantities::Show;
 
@@ -74,6 +76,10 @@ struct ColumnsJson<'a> {
     time_of_peak_s: Vec<Option<Json>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     limit: Option<LimitJson>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    required: Option<RequiredJson>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    enveloping_pulse: Option<EnvelopingJson>,
 }
 
 impl<'a> ColumnsJson<'a> {
@@ -98,6 +104,8 @@ impl<'a> ColumnsJson<'a> {
             residual_negative: all(&s.residual_negative),
             time_of_peak_s: s.time_of_peak_s.iter().map(time).collect(),
             limit: part.margins.as_ref().map(|margins| LimitJson::new(margins, s, show)),
+            enveloping_pulse: part.enveloping.as_ref().map(EnvelopingJson::new),
+            required: part.deviations.as_ref().map(|off| RequiredJson::new(part, off, show)),
         }
     }
 }
@@ -143,7 +151,7 @@ impl TimesJson {
 }
 
 impl<'a> RecordJson<'a> {
-    fn new(Measured { path, record }: &'a Measured, lowest_hz: f64) -> Self {
+    fn new(Measured { path, record, .. }: &'a Measured, lowest_hz: f64) -> Self {
         let times = record.times();
         let one = if let [times] = times[..] { Some(times) } else { None };
         let channel =
@@ -188,6 +196,79 @@ impl LimitJson {
                 margin_db: Json(margin.decibel()),
                 safe: margin.is_safe(),
             }),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct EnvelopingJson {
+    shape: String,
+    amplitude_m_s2: Json,
+    duration_s: Json,
+    velocity_change_m_s: Json,
+    /// By how much its spectrum is above.
+    mean_db: Json,
+    most_db: Json,
+    most_frequency_hz: Json,
+}
+
+impl EnvelopingJson {
+    fn new(EnvelopingPulse { pulse, most_db, most_hz, mean_db }: &EnvelopingPulse) -> Self {
+        Self {
+            shape: shape_name(pulse.shape),
+            amplitude_m_s2: Json(pulse.amplitude),
+            duration_s: Json(pulse.duration),
+            velocity_change_m_s: Json(pulse.velocity_change()),
+            mean_db: Json(*mean_db),
+            most_db: Json(*most_db),
+            most_frequency_hz: Json(*most_hz),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct RequiredJson {
+    /// Null outside of the required curve, as the deviation is.
+    level: Vec<Option<Json>>,
+    deviation_db: Vec<Option<Json>>,
+    lowest: Option<DeviationJson>,
+    highest: Option<DeviationJson>,
+    /// Frequencies that are judged, and how many of them are below and above by more than the tolerance.
+    frequencies: usize,
+    below: usize,
+    above: usize,
+    reached: bool,
+}
+
+#[derive(Serialize)]
+struct DeviationJson {
+    frequency_hz: Json,
+    level: Json,
+    maximax: Json,
+    deviation_db: Json,
+}
+
+impl RequiredJson {
+    fn new(part: &Part, deviations: &[Option<Deviation>], show: &Show) -> Self {
+        let ends = outermost(deviations).map(|ends| {
+            ends.map(|(i, of)| DeviationJson {
+                frequency_hz: Json(part.spectrum.frequency_hz[i]),
+                level: Json(show.value(of.required)),
+                maximax: Json(show.value(of.reached)),
+                deviation_db: Json(of.decibel()),
+            })
+        });
+        let (lowest, highest) = ends.map_or((None, None), |[lowest, highest]| (Some(lowest), Some(highest)));
+        let told = || deviations.iter().flatten();
+        Self {
+            level: deviations.iter().map(|of| of.map(|of| Json(show.value(of.required)))).collect(),
+            deviation_db: deviations.iter().map(|of| of.map(|of| Json(of.decibel()))).collect(),
+            lowest,
+            highest,
+            frequencies: told().count(),
+            below: told().filter(|of| of.is_below).count(),
+            above: told().filter(|of| of.is_above).count(),
+            reached: part.reaches(),
         }
     }
 }

@@ -109,7 +109,7 @@ impl Boundary {
 
 /// The damage boundary of a record of one channel.
 fn of_record(args: &Args, measured: &Measured, suspension: Suspension, limit: Limit) -> Result<Boundary, Failure> {
-    let Measured { path, record } = measured;
+    let Measured { path, record, .. } = measured;
     let [channel] = record.channels() else {
         return Err(Failure::Usage("--damage-boundary goes with one channel: --acceleration picks one"));
     };
