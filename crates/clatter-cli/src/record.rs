@@ -9,7 +9,7 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use clap::ValueHint;
-use clatter_assess::units::{ACCELERATION, Dimension, FREQUENCY, TIME, Unit};
+use clatter_assess::units::{ACCELERATION, FREQUENCY, TIME, Unit};
 use clatter_figures::{FigureError, Trace};
 use clatter_record::{Channel, Motion, Record, Series, Shock, Shocks, TimeAxis, integrate, write_parquet};
 use clatter_shock::Pulse;
@@ -20,7 +20,7 @@ use crate::find_args::FindArgs;
 use crate::inputs::RowFormat;
 use crate::numbers::{digits, figures};
 use crate::output::{self, Files, Kind, Target, buffered};
-use crate::quantities::{Show, plain_or_typed};
+use crate::quantities::Show;
 use crate::record_args::RecordArgs;
 use crate::text::{self, column, shown};
 use crate::{Failure, Streams, npy};

@@ -14,8 +14,8 @@ use clatter_assess::units::{ACCELERATION, Dimension, LENGTH, SPEED, Unit};
 use clatter_figures::{Against, Critical, FigureError};
 use clatter_record::{BAND, Between, TimeAxis};
 use clatter_shock::{
-    Deviation, EnvelopingPulse, Frequencies, LimitCurve, Margin, Pulse, Pulses, Quantity, RequiredSpectrum, Shape,
-    Spectrum, VelocityShock, VelocityShocks,
+    Deviation, EnvelopingPulse, Frequencies, Margin, Pulse, Pulses, Quantity, RequiredSpectrum, Shape, Spectrum,
+    VelocityShock, VelocityShocks,
 };
 
 use crate::condition_args::ConditionArgs;

@@ -75,7 +75,7 @@ pub struct Against<'a> {
 
 impl<'a> Against<'a> {
     /// Its curves with their names; that of the tolerance, where there is one, has one name.
-    fn curves(&self) -> Vec<(&'a LimitCurve, Ink, Option<&'static str>)> {
+    fn curves(self) -> Vec<(&'a LimitCurve, Ink<'static>, Option<&'static str>)> {
         let mut curves = Vec::new();
         if let Some(required) = self.required {
             curves.push((required.curve(), REQUIRED, Some("required")));
