@@ -17,6 +17,7 @@ mod fit;
 mod hostile;
 mod json;
 mod map;
+mod nothing_lost;
 mod off_center;
 mod oracle;
 mod plate;
@@ -27,6 +28,7 @@ mod scatter;
 mod simulate;
 mod spectrum;
 mod tables;
+mod threads;
 mod tradeoff;
 mod typed;
 

@@ -690,7 +690,7 @@ fn the_worst_drop_of_a_part_is_what_the_assessment_says() {
     assert!(table.contains(" gn") && table.contains("8.000 mm") && table.contains("1600 gn"), "{table}");
     let refused = clatter(["respond", &format!("--product={path}"), "--component=display", "--worst", "--tilt=2deg"]);
     assert!(
-        refused.exit == Exit::BadInput && refused.stderr.contains("'--worst' cannot be used with"),
+        refused.exit == Exit::BadInput && refused.stderr.contains("'--worst[=<LIMIT>]' cannot be used with"),
         "{}",
         refused.stderr
     );

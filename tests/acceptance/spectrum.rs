@@ -416,7 +416,7 @@ fn rows_and_pictures_can_be_written() {
     assert!(limited.starts_with(&header.replace("negative,primary", "negative,margin_db,primary")), "{limited}");
     assert_eq!(limited.lines().nth(1).unwrap().split(',').nth(6), Some(""), "no limit at 10 Hz: {limited}");
     for (name, more, words) in [
-        ("a.svg", &["--limit=2000"][..], ["absolute acceleration, m/s²", "least margin"]),
+        ("a.svg", &["--limit=2000"][..], ["absolute acceleration, g", "least margin"]),
         ("v.svg", &["--quantity=pseudo-velocity"], ["pseudo-velocity, m/s", "10 mm"]),
         (
             "b.svg",

@@ -43,6 +43,12 @@ pub(crate) enum Failure {
     File { path: PathBuf, reason: io::Error },
     #[error("{} is read by this command and would be lost: choose another name for the output, or give --force", text::path(.0))]
     Overwrites(PathBuf),
+    #[error("{} is write-protected: choose another name for the output, or give --force", text::path(.0))]
+    Protected(PathBuf),
+    #[error("{} is a record that {} names and would be lost: choose another name for the output", text::path(.path), text::path(.product))]
+    NamedRecord { path: PathBuf, product: PathBuf },
+    #[error("{} is where {stream} goes: what is written to it would be lost; choose another name for the output", text::path(.path))]
+    Stream { path: PathBuf, stream: &'static str },
     #[error("a map of {points} points takes more than --memory allows: allowed are {most} points")]
     Large { points: u128, most: u128 },
     #[error("{} is to be written twice: choose another name for one output", text::path(.0))]

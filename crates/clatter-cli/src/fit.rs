@@ -119,7 +119,7 @@ impl Args {
         if wants_copy && input::is_standard(&self.product) {
             return Err(Failure::Usage("a copy of the product file needs it as a file: give its name with --product"));
         }
-        let file = assess::read(&self.product, streams)?;
+        let file = assess::read(&self.product, &self.files(), streams)?;
         let answered = self.answered(file)?;
         for target in &self.output {
             if target.is_picture {

@@ -199,9 +199,13 @@ pub(crate) struct Drop {
     timing_s: Option<f64>,
 }
 
-/// The drops whose records a product file names, from where that file is.
+/// The file of a record that a product file names, from where that file is.
+pub(crate) fn path_of(record: &RecordFile, product: &Path) -> PathBuf {
+    product.parent().unwrap_or(Path::new("")).join(&record.file)
+}
+
+/// The drops whose records a product file names.
 pub(crate) fn drops(file: &ProductFile, product: &Path) -> Result<Vec<Drop>, Failure> {
-    let beside = product.parent().unwrap_or(Path::new(""));
     let mut groups: Vec<Vec<&RecordFile>> = Vec::new();
     for record in &file.records {
         let same = |group: &&mut Vec<&RecordFile>| record.drop.is_some() && group[0].drop == record.drop;
@@ -211,7 +215,7 @@ pub(crate) fn drops(file: &ProductFile, product: &Path) -> Result<Vec<Drop>, Fai
         }
     }
     let of_one = |records: Vec<&RecordFile>| {
-        let paths: Vec<PathBuf> = records.iter().map(|record| beside.join(&record.file)).collect();
+        let paths: Vec<PathBuf> = records.iter().map(|record| path_of(record, product)).collect();
         let read = |(record, path): (&&RecordFile, &PathBuf)| {
             read(path, || Ok(record.position_m), record.timing_s, &RecordArgs::of(record, path)?)
         };
@@ -226,17 +230,23 @@ pub(crate) fn drops(file: &ProductFile, product: &Path) -> Result<Vec<Drop>, Fai
     groups.into_iter().map(of_one).collect()
 }
 
+const TOO_LATE: &str = "not fitted, the time was over before";
+
 impl Drop {
     /// The computed drop that is nearest. That none comes near what was measured, or that the time is over, is an answer.
     pub(crate) fn fitted(self, file: &ProductFile) -> Result<MeasuredDrop, Failure> {
         let found = if budget::go_on() {
-            match fitted(&Known::from(file), &self.records, self.timing_s)? {
+            let (known, records, timing_s) = (Known::from(file), self.records, self.timing_s);
+            let Some(found) = budget::in_time(move || fitted(&known, &records, timing_s)) else {
+                return Ok(MeasuredDrop { name: self.name, files: self.files, found: Err(TOO_LATE.to_owned()) });
+            };
+            match found? {
                 Ok(fit) => Ok(fit),
                 Err(error @ (fit::Error::Far { .. } | fit::Error::NoDrop(_))) => Err(error.to_string()),
                 Err(error) => return Err(Failure::Wrong(why(&error, &self.paths))),
             }
         } else {
-            Err("not fitted, the time was over before".to_owned())
+            Err(TOO_LATE.to_owned())
         };
         Ok(MeasuredDrop { name: self.name, files: self.files, found })
     }

@@ -72,6 +72,7 @@ impl Args {
                 let model = self.model.map(Into::into);
                 (of, Accuracy { tolerance: self.tolerance, model, ..Accuracy::default() })
             }),
+            files: self.files(),
         };
         let setup = self.drop.setup(&beside, streams)?;
         let (scene, model, body) = (&setup.scene, setup.model, setup.scene.body());

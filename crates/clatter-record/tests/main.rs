@@ -1,0 +1,11 @@
+//! Tests of files of measured shocks, in one program.
+
+#![cfg(test)]
+
+mod between;
+mod container;
+mod field;
+mod notations;
+mod text;
+mod times;
+mod torn_container;
