@@ -59,7 +59,7 @@ pub fn read_list<const N: usize>(
         while let Some(length) = length_of_row(&buffer[at..]) {
             let row = &buffer[at..at + length];
             rows += usize::from(list.take(row, line, &mut each)?);
-            line += row.iter().filter(|byte| **byte == b'\n').count();
+            line += count(row, b'\n');
             at += length;
         }
         buffer.drain(..at);
@@ -178,9 +178,8 @@ impl<const N: usize> List<N> {
                 let wanted = Wanted::of(name);
                 let is_same = |column: &usize| cells[*column] == *name;
                 let exact = (0..cells.len()).any(|column| is_same(&column));
-                let size = |column: &usize| match exact {
-                    true => is_same(column).then_some(1.0),
-                    false => wanted.size(&cells[*column], unit(*column)),
+                let size = |column: &usize| {
+                    if exact { is_same(column).then_some(1.0) } else { wanted.size(&cells[*column], unit(*column)) }
                 };
                 let mut all = (0..cells.len()).filter(|column| size(column).is_some());
                 let Some(column) = all.next() else {
@@ -231,18 +230,18 @@ impl<const N: usize> List<N> {
         if line < self.above || !is_row(text) {
             return Ok(false);
         }
-        if text.matches('"').count() % 2 > 0 {
+        if !count(text.as_bytes(), b'"').is_multiple_of(2) {
             return Err(told(line + 1, "a quote is opened and not closed".to_owned()));
         }
         let cells = self.form.cells(text);
         if cells.len() != self.columns {
-            let count = |n: usize| if n == 1 { "1 cell".to_owned() } else { format!("{n} cells") };
+            let told_cells = |n: usize| if n == 1 { "1 cell".to_owned() } else { format!("{n} cells") };
             return Err(told(
                 line + 1,
                 format!(
                     "{}, and the header has {}: each row must have as many, a cell with a comma in quotes",
-                    count(cells.len()),
-                    count(self.columns)
+                    told_cells(cells.len()),
+                    told_cells(self.columns)
                 ),
             ));
         }
@@ -283,8 +282,8 @@ impl<const N: usize> List<N> {
 /// Bytes of the next row with its end: more than one line where a quote is open at the end of one.
 fn length_of_row(text: &[u8]) -> Option<usize> {
     let end = text.iter().position(|byte| *byte == b'\n')?;
-    let is_open = |quotes: usize| quotes % 2 > 0;
-    let mut quotes = text[..end].iter().filter(|byte| **byte == b'"').count();
+    let is_open = |quotes: usize| !quotes.is_multiple_of(2);
+    let mut quotes = count(&text[..end], b'"');
     if !is_open(quotes) || !is_row(&String::from_utf8_lossy(&text[..end])) {
         return Some(end + 1);
     }
@@ -293,6 +292,10 @@ fn length_of_row(text: &[u8]) -> Option<usize> {
         *byte == b'\n' && !is_open(quotes)
     })?;
     Some(end + 1 + more + 1)
+}
+
+fn count(text: &[u8], byte: u8) -> usize {
+    text.split(|other| *other == byte).count() - 1
 }
 
 /// Whether a line is one of names or a row.
