@@ -142,7 +142,6 @@ pub(crate) fn remedy(error: &clatter_record::Error) -> &'static str {
             " (--time=COLUMN, --acceleration=COLUMN by name or number; --sample-rate=HZ in place of times)"
         }
         clatter_record::Error::Times { .. } => " (--acceleration=COLUMN takes channels of one of them)",
-        clatter_record::Error::Records(_) => " (--record=N takes one)",
         clatter_record::Error::Units(_) => " (--units=TIME,ACCELERATION such as ms,g; --full-scale)",
         _ => "",
     }

@@ -41,8 +41,9 @@ use records::{Measured, Several};
 ///   --pulse     a pulse of a shape or a standard; may be given several times, and pulses may overlap
 ///   --shock     a change of velocity in no time, for pulses much shorter than a period
 ///   --pulses-file, --shocks-file
-///               either of these from a CSV file, of any number: its first line names the columns,
-///               shape,amplitude_m_s2,duration_s,start_s or time_s,delta_v_m_s, among others or not
+///               either of these from a table, of any number, in any notation of records: its first line
+///               names the columns, shape,amplitude_m_s2,duration_s,start_s or time_s,delta_v_m_s, or the
+///               same in other units, such as `delta v [mm/s]`, among others or not
 ///
 /// For each frequency: `primary`, the largest absolute value from the first start to the last end;
 /// `residual`, after it, the ring-down complete; `maximax` over both, and when it is reached; and
@@ -58,8 +59,8 @@ use records::{Measured, Several};
 /// pseudo-velocity on four-coordinate paper. With --damage-boundary the picture is the damage
 /// boundary with the pulse on it.
 ///
-/// A damage boundary comes from one frequency and a limit, or with --tests from shock tests: a CSV
-/// file with the columns test (velocity-change, in m/s, or acceleration, in m/s2), level and damaged
+/// A damage boundary comes from one frequency and a limit, or with --tests from shock tests: a
+/// table with the columns test (velocity-change, in m/s, or acceleration, in m/s2), level and damaged
 /// (yes or no). Critical is the highest level of either below all damage, as in ASTM D3332; between
 /// them the boundary is that of an undamped component, for rectangles.
 #[derive(Debug, clap::Args)]
@@ -114,7 +115,7 @@ pub(crate) struct Args {
     /// straight on log-log paper
     #[arg(long, value_name = "X|HZ:X,…", allow_hyphen_values = true, value_parser = excitation::limit)]
     limit: Option<LimitArg>,
-    /// What the component stands from a CSV file: frequency and level, with units in its headings
+    /// What the component stands from a table: frequency and level, with units in its headings
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with = "limit")]
     limit_file: Option<PathBuf>,
     /// What the spectrum was to reach, as --limit has it: a value, points of a curve or the curve of a standard
@@ -141,7 +142,7 @@ pub(crate) struct Args {
     /// displacement, or from --tests
     #[arg(long)]
     damage_boundary: bool,
-    /// Take the damage boundary from these shock tests, for a pulse that is a rectangle: a CSV file with the columns
+    /// Take the damage boundary from these shock tests, for a pulse that is a rectangle: a table with the columns
     /// test, level and damaged
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "damage_boundary", conflicts_with = "limit")]
     tests: Option<PathBuf>,
@@ -167,10 +168,10 @@ struct Excitation {
     /// A velocity shock: change of velocity and time with their units, or in m/s and s; in order of time
     #[arg(long, value_name = "DELTA_V,TIME", allow_hyphen_values = true, value_parser = excitation::shock)]
     shock: Vec<VelocityShock>,
-    /// Pulses from a CSV file with the columns shape, amplitude_m_s2, duration_s and start_s
+    /// Pulses from a table with the columns shape, amplitude_m_s2, duration_s and start_s
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pulses_file: Option<PathBuf>,
-    /// Velocity shocks from a CSV file with the columns time_s and delta_v_m_s, in order of time
+    /// Velocity shocks from a table with the columns time_s and delta_v_m_s, in order of time
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     shocks_file: Option<PathBuf>,
 }

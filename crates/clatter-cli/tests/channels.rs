@@ -1,7 +1,5 @@
 //! Records whose channels have times of their own, through the command line: every kind of file that is written reads back.
 
-#![cfg(test)]
-
 use std::fs;
 use std::path::Path;
 use std::process::Command;

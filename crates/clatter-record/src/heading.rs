@@ -387,6 +387,7 @@ mod tests {
             ("time_ms", "time", Some("ms"), Named::Time),
             ("acceleration_m_s2", "acceleration", Some("m_s2"), Named::Acceleration),
             ("ax [g]", "ax", Some("g"), Named::Acceleration),
+            ("v_mm_s", "v", Some("mm_s"), Named::Unknown),
             ("a_x (m/s²)", "a_x", Some("m/s²"), Named::Acceleration),
             ("Linear Acceleration x (m/s^2)", "Linear Acceleration x", Some("m/s^2"), Named::Acceleration),
             ("Acceleration (z) [g]", "Acceleration z", Some("g"), Named::Acceleration),

@@ -55,6 +55,7 @@ pub use shocks::{MOST_SHOCKS, Search, Shock, Shocks, find_shocks, noise_threshol
 pub use spectrum::Between;
 pub use standard::{STANDARD_CURVES, STANDARD_PULSES, StandardCurve, StandardPulse, standard_curve, standard_pulse};
 pub use table::{Column, Table, Values};
+pub use text::{Cell, names_columns, read_list};
 pub use tolerance::{Distortion, PULSE_TOLERANCES, PulseCheck, PulseTolerance, Within, check_pulse, pulse_tolerance};
 
 /// The unit of columns that count in shares of full scale, from −1 to 1.

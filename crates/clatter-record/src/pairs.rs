@@ -2,7 +2,9 @@
 
 use std::collections::{HashMap, HashSet};
 
+use crate::heading::Named;
 use crate::roles::{Roles, Seen};
+use crate::unit::Kind;
 use crate::{Error, Options};
 
 impl Seen {
@@ -51,6 +53,27 @@ impl Seen {
             groups.push((time, group));
         }
         Ok(groups.into_iter().map(|(_, group)| group).collect())
+    }
+
+    /// Refuses columns where another one of times does not go with the one that is taken.
+    fn refuse_other_time(&self, time: usize) -> Result<(), Error> {
+        let span = |column: usize| {
+            let heading = &self.headings[column];
+            let unit = heading.unit.filter(|unit| unit.kind == Kind::Time && heading.named() == Named::Time)?;
+            let at = |row: Option<&Vec<f64>>| row.and_then(|row| row.get(column)).map(|time| time * unit.size);
+            Some(at(self.rows.last())? - at(self.rows.first())?).filter(|span| *span > 0.0)
+        };
+        let Some(own) = span(time) else { return Ok(()) };
+        // Far more than what is rounded in a few rows.
+        let differs = |column: &usize| span(*column).is_some_and(|other| (other / own).ln().abs() > 0.3);
+        match (0..self.headings.len()).find(differs) {
+            None => Ok(()),
+            Some(other) => Err(Error::Columns(format!(
+                "column {} runs at another rate than column {}: take channels of one of them, by --time and --acceleration",
+                self.called(other),
+                self.called(time)
+            ))),
+        }
     }
 
     /// The column of times of each of some channels, where not all have the same: the nearest before it, else that with the number

@@ -78,18 +78,18 @@ impl Record {
         let kind = Kind::of(&begin)?;
         if kind != Kind::Text {
             one_record(options)?;
-            let bytes = to_end(begin, &mut input, options)?;
-            progress(bytes.len() as u64);
-            let table = container::read(kind, &bytes, options.most_values)?;
-            drop(bytes);
+            text::to_end(&mut begin, &mut input, options)?;
+            progress(begin.len() as u64);
+            let table = container::read(kind, &begin, options.most_values)?;
+            drop(begin);
             return Self::of_table(table, options);
         }
         let parts = match decoded(&begin) {
             Some(decode) => {
-                let bytes = to_end(begin, &mut input, options)?;
-                progress(bytes.len() as u64);
-                let text = decode(&bytes);
-                drop(bytes);
+                text::to_end(&mut begin, &mut input, options)?;
+                progress(begin.len() as u64);
+                let text = decode(&begin);
+                drop(begin);
                 text::read(text, &mut std::io::empty(), options, &mut |_| ())?
             }
             None => text::read(begin, &mut input, options, &mut progress)?,
@@ -295,15 +295,6 @@ impl Record {
         }
         findings
     }
-}
-
-/// The rest of an input, as far as it may hold what is read at most.
-fn to_end(mut begin: Vec<u8>, input: &mut dyn Read, options: &Options) -> Result<Vec<u8>, Error> {
-    // No number takes more bytes, in any text or container.
-    const WIDEST: u64 = 64;
-    let most = WIDEST.saturating_mul(options.most_values as u64);
-    input.take(most).read_to_end(&mut begin).map_err(|error| Error::Read(error.to_string()))?;
-    Ok(begin)
 }
 
 /// Refuses a full scale beside channels that have a unit, and a unit beside those that count in shares of full scale.

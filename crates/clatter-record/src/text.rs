@@ -8,6 +8,7 @@ mod encoding;
 mod head;
 mod labview;
 mod layout;
+mod list;
 mod records;
 mod rows;
 mod sensors;
@@ -23,6 +24,7 @@ use crate::heading::Heading;
 use crate::roles::{Roles, Seen};
 use crate::{At, Error, Options};
 use layout::Layout;
+pub use list::{Cell, names_columns, read_list};
 pub(crate) use rows::Rows;
 use rows::Shape;
 
@@ -245,8 +247,8 @@ fn shape(
 }
 
 /// All of an input, as far as it may hold what is read at most.
-fn to_end(begin: &mut Vec<u8>, rest: &mut dyn Read, options: &Options) -> Result<(), Error> {
-    // No number takes more bytes.
+pub(crate) fn to_end(begin: &mut Vec<u8>, rest: &mut dyn Read, options: &Options) -> Result<(), Error> {
+    // No number takes more bytes, in any text or container.
     let most = 64_u64.saturating_mul(options.most_values as u64);
     rest.take(most).read_to_end(begin).map(|_| ()).map_err(|error| Error::Read(error.to_string()))
 }

@@ -3,14 +3,15 @@
 //! Source: "TDMS File Format Internal Structure", National Instruments, 2024.
 
 mod daqmx;
+mod meta;
 mod scale;
 
 use super::bytes::Bytes;
-use super::number::Number;
 use super::{Beside, Room, joined, refuse};
 use crate::unit::{Kind, Unit};
 use crate::{Column, Error, Values};
 use daqmx::Daqmx;
+use meta::{Layout, Properties, Property, Stored, layout, property, stamp, text};
 use scale::scaled;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -24,46 +25,6 @@ const BIG_ENDIAN: u32 = 1 << 6;
 const LEAD_IN: usize = 28;
 /// The length of a segment that was not finished.
 const UNFINISHED: u64 = u64::MAX;
-
-/// A property, as far as it is used.
-#[derive(Debug, Clone)]
-enum Property {
-    Number(f64),
-    Text(String),
-    /// In 2⁻⁶⁴ s since 1904.
-    Time(i128),
-    Other,
-}
-
-type Properties = HashMap<String, Property>;
-
-/// How the raw data of a channel lie in a chunk.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Layout {
-    kind: Stored,
-    count: usize,
-    /// Bytes of all.
-    bytes: usize,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Stored {
-    Number(Number),
-    /// Seconds since 1904 and 2⁻⁶⁴ of one.
-    Time,
-    /// Text and what else is no number: of so many bytes each, where that is fixed.
-    Skipped(Option<usize>),
-}
-
-impl Stored {
-    fn size(self) -> Option<usize> {
-        match self {
-            Self::Number(number) => Some(number.size()),
-            Self::Time => Some(16),
-            Self::Skipped(size) => size,
-        }
-    }
-}
 
 #[derive(Debug, Default)]
 struct Object {
@@ -371,80 +332,10 @@ impl Object {
     }
 }
 
-fn text(bytes: &mut Bytes<'_>) -> Result<String, Error> {
-    let length = bytes.u32()?;
-    Ok(String::from_utf8_lossy(bytes.take_u64(length.into())?).into_owned())
-}
-
 /// The parts of `/'group'/'channel'`, in which a quote stands twice.
 fn parts(path: &str) -> Vec<String> {
     let inner = path.strip_prefix("/'").and_then(|path| path.strip_suffix('\''));
     inner.map(|path| path.split("'/'").map(|part| part.replace("''", "'")).collect()).unwrap_or_default()
-}
-
-fn layout(meta: &mut Bytes<'_>) -> Result<Layout, Error> {
-    let kind = stored(meta.u32()?)?;
-    let dimension = meta.u32()?;
-    let count = meta.u64()?;
-    if dimension != 1 {
-        return Err(refuse(format!("TDMS file: a channel has {dimension} dimensions; the format allows 1")));
-    }
-    let bytes = match kind.size() {
-        Some(size) => count.saturating_mul(size as u64),
-        None => meta.u64()?,
-    };
-    let beyond = |_| refuse(format!("TDMS file: a channel of {count} values is beyond the file"));
-    Ok(Layout { kind, count: count.try_into().map_err(beyond)?, bytes: bytes.try_into().map_err(beyond)? })
-}
-
-/// A type of data by its number.
-fn stored(kind: u32) -> Result<Stored, Error> {
-    Ok(match kind {
-        0 => Stored::Skipped(Some(0)),
-        1 => Stored::Number(Number::I8),
-        2 => Stored::Number(Number::I16),
-        3 => Stored::Number(Number::I32),
-        4 => Stored::Number(Number::I64),
-        5 | 0x21 => Stored::Number(Number::U8),
-        6 => Stored::Number(Number::U16),
-        7 => Stored::Number(Number::U32),
-        8 => Stored::Number(Number::U64),
-        9 | 0x19 => Stored::Number(Number::F32),
-        10 | 0x1a => Stored::Number(Number::F64),
-        // Extended floats, with a unit or without, and two complex types.
-        0x0b | 0x1b | 0x10_000d => Stored::Skipped(Some(16)),
-        0x08_000c => Stored::Skipped(Some(8)),
-        0x20 => Stored::Skipped(None),
-        0x44 => Stored::Time,
-        other => return Err(refuse(format!("TDMS file: data of the type {other:#x} are not known"))),
-    })
-}
-
-fn property(meta: &mut Bytes<'_>) -> Result<Property, Error> {
-    let kind = stored(meta.u32()?)?;
-    let Some(size) = kind.size() else { return Ok(Property::Text(text(meta)?)) };
-    let bytes = meta.take(size)?;
-    if let Stored::Time = kind {
-        let mut time = Bytes::new(bytes, "TDMS file, a property");
-        time.big_endian = meta.big_endian;
-        let (seconds, fraction) = stamp(&mut time)?;
-        return Ok(Property::Time((i128::from(seconds) << 64) + i128::from(fraction)));
-    }
-    let Stored::Number(number) = kind else { return Ok(Property::Other) };
-    Ok(match number.values(bytes, meta.big_endian) {
-        Values::Float(value) => value.first().map_or(Property::Other, |value| Property::Number(*value)),
-        Values::Integer(_) => Property::Other,
-    })
-}
-
-/// Seconds since 1904, and 2⁻⁶⁴ of one.
-fn stamp(bytes: &mut Bytes<'_>) -> Result<(i64, u64), Error> {
-    if bytes.big_endian {
-        let seconds = bytes.i64()?;
-        return Ok((seconds, bytes.u64()?));
-    }
-    let fraction = bytes.u64()?;
-    Ok((bytes.i64()?, fraction))
 }
 
 /// Nanoseconds since 1970.

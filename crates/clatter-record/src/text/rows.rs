@@ -1,23 +1,22 @@
 //! The lines of numbers of a text.
 
+mod plain;
 mod row;
+mod shape;
 
-use encoding_rs::Encoding;
-
-use super::cells::{Form, is_missing};
+use super::cells::is_missing;
 use super::digits::Digits;
 use super::layout::uncommented;
-use super::sensors::Word;
 use super::{cut, encoding, head, visible};
 use crate::account::Lines;
 use crate::decimal::Decimal;
 use crate::error::Bad;
 use crate::moment::{CLOCK, DAY_S};
 use crate::roles::Roles;
-use crate::samples::LARGEST;
 use crate::times::Printed;
 use crate::{At, Error, Options};
 use row::Row;
+pub(super) use shape::Shape;
 
 /// Instruments write 9.9E37 for a value beyond their range and 9.91E37 for none (SCPI 1999).
 const NO_VALUE: f64 = 9.8e37;
@@ -34,43 +33,6 @@ enum Use {
     /// A word that has to be the same in every line.
     Word(usize),
     Acceleration(usize),
-}
-
-/// What the lines of numbers are like.
-#[derive(Debug, Clone)]
-pub(super) struct Shape {
-    pub(super) form: Form,
-    /// What text is written in that is no UTF-8.
-    pub(super) letters: &'static Encoding,
-    pub(super) columns: usize,
-    /// Time of the first sample, and between samples, where lines above the numbers tell it.
-    pub(super) sampled_s: Option<[f64; 2]>,
-    /// Time between samples that a line above tells, and the line.
-    pub(super) told: Option<(f64, usize)>,
-    /// How many samples there are by a line above, and the line.
-    pub(super) count: Option<(usize, usize)>,
-    /// Columns in which a unit stands behind each number.
-    pub(super) measured: Vec<bool>,
-    /// The column of dates beside times of day.
-    pub(super) date: Option<usize>,
-    pub(super) words: Vec<Word>,
-}
-
-impl Shape {
-    /// Numbers alone.
-    pub(super) fn plain(form: Form, letters: &'static Encoding, columns: usize) -> Self {
-        Self {
-            form,
-            letters,
-            columns,
-            sampled_s: None,
-            told: None,
-            count: None,
-            measured: vec![false; columns],
-            date: None,
-            words: Vec::new(),
-        }
-    }
 }
 
 /// Lines of numbers, as far as they are read.
@@ -246,81 +208,6 @@ impl Rows {
             at += length + 1;
         }
         Ok(end)
-    }
-
-    /// A line of plain numbers, the usual one, straight from its bytes: how many they are, or nothing where it is not so plain.
-    #[inline]
-    fn plain(&mut self, text: &[u8]) -> Option<usize> {
-        let Form { separator, point, .. } = self.shape.form;
-        let columns = self.shape.columns;
-        // Between quotes alone.
-        if separator == Some(point) {
-            return None;
-        }
-        let is_blank = |byte: u8| byte == b' ' || byte == b'\t' && separator != Some(b'\t');
-        let mut at = 0;
-        self.row.clear();
-        for (column, use_of) in self.uses.iter().enumerate() {
-            while is_blank(text[at]) {
-                at += 1;
-            }
-            if let Use::Nothing | Use::Word(_) | Use::Date = use_of {
-                let ends = |byte: u8| separator.map_or(is_blank(byte), |separator| byte == separator);
-                let begin = at;
-                while !ends(text[at]) {
-                    if text[at] == b'\n' || text[at] == b'"' {
-                        return None;
-                    }
-                    at += 1;
-                }
-                if let Use::Word(word) = use_of
-                    && text[begin..at] != *self.shape.words[*word].expected.as_bytes()
-                {
-                    return None;
-                }
-            } else {
-                let (number, length) = Decimal::scan(&text[at..], point)?;
-                at += length;
-                if let Use::Acceleration(k) = use_of {
-                    if self.open {
-                        self.open = !self.digits[*k + 1].note(number, self.channels[*k].len());
-                    }
-                    let number = number.float();
-                    let value = number * self.sizes[*k];
-                    if value.abs() > LARGEST || number.abs() >= NO_VALUE {
-                        return None;
-                    }
-                    self.row.push(value);
-                } else {
-                    if self.open {
-                        self.open = !self.digits[0].note(number, self.times.len());
-                    }
-                    self.time = Some(number);
-                }
-            }
-            let before = at;
-            while is_blank(text[at]) {
-                at += 1;
-            }
-            let last = column + 1 == self.uses.len();
-            match (text[at], separator) {
-                (b'\n', _) if last => return Some(at + 1),
-                (b'\r', _) if last => {}
-                // More columns than there are is a fault, and nothing beyond the last separator is none.
-                (byte, Some(separator)) if byte == separator && last && column + 1 == columns => {
-                    at += 1;
-                    return (text[at..].starts_with(b"\n") || text[at..].starts_with(b"\r\n"))
-                        .then(|| at + if text[at] == b'\n' { 1 } else { 2 });
-                }
-                (byte, Some(separator)) if byte == separator => at += 1,
-                (_, None) if last && column + 1 == columns => return None,
-                (_, None) if at > before => {}
-                _ => return None,
-            }
-        }
-        // Whatever else is on the line is of no use.
-        let rest = text[at..].iter().position(|byte| *byte == b'\n')?;
-        Some(at + rest + 1)
     }
 
     /// Any other line.
