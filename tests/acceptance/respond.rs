@@ -563,7 +563,7 @@ fn a_drop_explains_itself() {
     assert_eq!((rigid.exit, rigid.stderr.as_str()), (Exit::Done, ""));
     for said in [
         "Place 0.5 of a body of 0.14 m, e = 0.3; a part there is mounted rigidly\n",
-        "Model compliant, to 0.1 %: end a strikes first, at 3.00000 m/s, tilt 4 degrees, hysteretic contacts of 0.0002 s\n",
+        "Model compliant, to 0.1 %: end a strikes first, at 3.00000 m/s, tilt 4 degrees\nContacts of 0.0002 s, hysteretic\n",
         "\n  change of velocity, m/s ",
         "\n  acceleration, m/s² ",
         "\n  change of angular velocity, rad/s ",
