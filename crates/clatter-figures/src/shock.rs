@@ -2,7 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use clatter_shock::{DamageBoundary, LimitCurve, Quantity, RequiredSpectrum, Rule, STANDARD_GRAVITY_M_S2, Spectrum};
+use clatter_shock::{
+    DamageBoundary, LimitCurve, Margin, Quantity, RequiredSpectrum, Rule, STANDARD_GRAVITY_M_S2, Spectrum,
+};
 
 use crate::FigureError;
 use crate::axis::{Axis, three, tick};
@@ -217,14 +219,7 @@ fn draw(
     }
     let mut down = paper.key([right + 12.0, 20.0], &lines);
     if let Some((hz, margin)) = worst {
-        let (from, to) = (axes.at(hz, margin.demand), axes.at(hz, margin.allowed));
-        if from.iter().chain(&to).all(|c| c.is_finite()) && (from[1] - to[1]).abs() > 6.0 {
-            paper.arrow(from, to, if margin.is_safe() { INK } else { RUST }, 0.9);
-        }
-        let db = margin.decibel();
-        let db = format!("{db:+.*} dB", if db.abs() < 1.0 { 2 } else { 1 }).replace('-', "−");
-        paper.note([right + 12.0, down + 4.0], &format!("least margin {db}"));
-        paper.note([right + 12.0, down + 15.0], &format!("at {} Hz", three(hz)));
+        least_margin(&mut paper, &axes, [right + 12.0, down + 4.0], hz, margin);
         down += 26.0;
     }
     let zeta = s.damping.get();
@@ -238,6 +233,18 @@ fn draw(
         note_at(&mut paper, 3.6, "acceleration");
     }
     paper.finish(&format!("Shock response spectrum: {}", title(s.quantity)))
+}
+
+/// An arrow from the spectrum to its limit where the margin is least, and what it is.
+fn least_margin(paper: &mut Paper, axes: &Chart<'_>, [x, y]: Pt, hz: f64, margin: Margin) {
+    let (from, to) = (axes.at(hz, margin.demand), axes.at(hz, margin.allowed));
+    if from.iter().chain(&to).all(|c| c.is_finite()) && (from[1] - to[1]).abs() > 6.0 {
+        paper.arrow(from, to, if margin.is_safe() { INK } else { RUST }, 0.9);
+    }
+    let db = margin.decibel();
+    let db = format!("{db:+.*} dB", if db.abs() < 1.0 { 2 } else { 1 }).replace('-', "−");
+    paper.note([x, y], &format!("least margin {db}"));
+    paper.note([x, y + 11.0], &format!("at {} Hz", three(hz)));
 }
 
 /// Axes whose decades are of one length, so that the other two coordinates run at 45°.
