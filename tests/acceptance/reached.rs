@@ -74,7 +74,7 @@ fn what_is_not_judged_is_told() {
     let (exit, _, stderr) = run(&["--tolerance=3"]);
     assert!(exit == Exit::BadInput && stderr.contains("--tolerance goes with --required"), "{stderr}");
     let (exit, _, stderr) = run(&["--required=3m/s"]);
-    assert!(exit == Exit::BadInput && stderr.contains("--required in m/s is a speed"), "{stderr}");
+    assert!(exit == Exit::BadInput && stderr.contains("--required in m/s is a velocity"), "{stderr}");
 }
 
 #[test]
