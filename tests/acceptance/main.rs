@@ -22,6 +22,7 @@ mod off_center;
 mod oracle;
 mod plate;
 mod products;
+mod reached;
 mod record;
 mod respond;
 mod scatter;

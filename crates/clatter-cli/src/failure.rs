@@ -22,9 +22,9 @@ pub(crate) enum Failure {
     Tests { path: PathBuf, reason: clatter_shock::Error },
     #[error("{}: {}{}", text::path(.path), text::visible_lines(&.reason.to_string()), remedy(.reason))]
     Record { path: PathBuf, reason: clatter_record::Error },
-    /// A line of a list that is no entry of it.
-    #[error("{}: line {line}: {}", text::path(.path), text::visible(.what))]
-    Line { path: PathBuf, line: usize, what: String },
+    /// A list that is none.
+    #[error("{}: {}", text::path(.path), text::visible(&.reason.to_string()))]
+    List { path: PathBuf, reason: clatter_record::Error },
     #[error(transparent)]
     Assess(#[from] clatter_assess::Error),
     #[error(transparent)]

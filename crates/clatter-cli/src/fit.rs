@@ -28,7 +28,10 @@ use crate::{Failure, Streams, assess, input, output, text};
 ///   time_s,end                       times of strikes; end a or b, or nothing where it is not known
 ///   time_s,height_a_m,height_b_m     heights of both ends over the ground, from a video
 ///   bounce_s                         times at which a flat product, or one point of it, bounces; alone
+///   interval_s                       the same by the times between bounces
 ///   time and acceleration, with units, as 'clatter record' reads them: the acceleration at --position
+///
+/// Each may be in any notation of records and in other units: `time [ms];end`, `height a [mm]`.
 ///
 /// The time axis of each file begins anywhere. Strikes may be missing (two before the last, or any after it), and one time may be
 /// wrong; the answer says so. Contacts take time in the fit where the product file gives their time or an acceleration was

@@ -25,6 +25,7 @@ mod drop_args;
 mod excitation;
 mod explain;
 mod failure;
+mod find_args;
 mod fit;
 mod help;
 mod impacts;

@@ -2,6 +2,7 @@
 
 #![cfg(test)]
 
+mod channels;
 mod command;
 mod files;
 mod repeat;

@@ -3,6 +3,7 @@
 #![cfg(test)]
 
 mod between;
+mod channels;
 mod container;
 mod field;
 mod notations;
