@@ -65,6 +65,7 @@ fn changes_that_make_a_laptop_safe() {
                 }
                 Outcome::Nowhere { bounds } => format!("nowhere in {bounds:.3?}"),
                 Outcome::NoEffect => "no effect".to_owned(),
+                Outcome::Stopped => "stopped".to_owned(),
             };
             let _ = writeln!(text, "  {:<21} {said}", remedy.lever.name());
         }

@@ -21,7 +21,7 @@ fn golden(name: &str, text: &str) {
 fn scatter_of_a_laptop() {
     let file = ProductFile::read(LAPTOP, "laptop.toml").unwrap();
     let settings = Settings { samples: 20_000, seed: 1, confidence: 0.95, merge_s: 1e-3 };
-    let scatter = Sampler::new(&file, settings).unwrap().run::<()>(false, |_| Ok(true)).unwrap();
+    let scatter = Sampler::new(&file, settings).unwrap().run::<()>(false, &|| true, |_| Ok(())).unwrap();
     let mut text = String::new();
     for part in scatter.components {
         let p = part.survival;

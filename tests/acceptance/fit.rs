@@ -116,6 +116,13 @@ fn bounces_give_the_restitution() {
     // 2 e v/g = 0.4 s: v = 3.2689 m/s.
     let height = estimate(&found, "drop-height")["value"].as_f64().unwrap();
     assert!((height - 3.268_883_f64.powi(2) / (2.0 * 9.80665)).abs() < 1e-5, "{height}");
+    // The same by the times between them, in another notation.
+    let intervals = write(dir.path(), "intervals.csv", "interval [ms];note\n400,0;first\n240,0;\n144,0;\n");
+    let same = answer(["fit", &intervals, &flag, "--timing=0.1ms"]);
+    let other = estimate(&same, "restitution")["value"].as_f64().unwrap();
+    assert!((other - e).abs() < 1e-9, "{other}");
+    let none = clatter(["fit", &write(dir.path(), "none.csv", "interval_s\n0.4\n0\n0.1\n"), &flag]);
+    assert!(none.stderr.contains("line 3: interval_s = 0.0 is not > 0"), "{}", none.stderr);
     let beside = clatter(["fit", &bounces, &write(dir.path(), "strikes.csv", STRIKES), &flag]);
     assert!(beside.stderr.contains("fit it alone"), "{}", beside.stderr);
 }
@@ -164,7 +171,7 @@ fn bad_records_are_told_by_line() {
         ("time_s,end\n0,a\nsoon,b\n", "line 3: time_s: 'soon' is not a number"),
         ("time_s,end\n0,a\n", "1 strikes; allowed: 2 to 4096"),
         ("time_s,end\n", "no rows"),
-        ("time_s,height_a_m,height_b_m\n0,1,inf\n", "line 2: height_b_m = inf is not finite"),
+        ("time_s,height_a_m,height_b_m\n0,1,inf\n", "line 2: height_b_m: 'inf' is not a number such as 0.5"),
         ("bounce_s\n1\n", "1 bounces; allowed: 3 to 4096"),
         ("time [s],acceleration [g]\n0,0\n1,0\n", "an acceleration needs --position"),
         ("", "an acceleration needs --position"),

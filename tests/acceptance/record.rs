@@ -93,7 +93,7 @@ fn parts_of_a_file_are_picked() {
     let got = answer(["record", sensors.to_str().unwrap(), "--sensor=floor"]);
     assert!(close(&got["channels"][0]["largest_m_s2"], 100.0 * G, 1e-9), "{got}");
     assert_eq!(
-        (&got["account"]["rows"], &got["account"]["other_sensors"], &got["account"]["lines"]),
+        (&got["account"]["rows"], &got["account"]["not_asked_for"], &got["account"]["lines"]),
         (&json!(300), &json!(300), &json!(601))
     );
     assert_eq!(got["account"]["columns"][1], json!({"column": "2 (sensor)", "taken_for": "sensor"}));

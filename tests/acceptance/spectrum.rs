@@ -416,7 +416,7 @@ fn rows_and_pictures_can_be_written() {
     assert!(limited.starts_with(&header.replace("negative,primary", "negative,margin_db,primary")), "{limited}");
     assert_eq!(limited.lines().nth(1).unwrap().split(',').nth(6), Some(""), "no limit at 10 Hz: {limited}");
     for (name, more, words) in [
-        ("a.svg", &["--limit=2000"][..], ["absolute acceleration, m/s²", "least margin"]),
+        ("a.svg", &["--limit=2000"][..], ["absolute acceleration, g", "least margin"]),
         ("v.svg", &["--quantity=pseudo-velocity"], ["pseudo-velocity, m/s", "10 mm"]),
         (
             "b.svg",
@@ -465,7 +465,7 @@ fn a_damage_boundary_comes_from_tests() {
     assert_eq!((drawn.exit, drawn.stderr.as_str()), (Exit::Unsafe, ""));
     assert!(fs::read_to_string(svg).unwrap().contains("velocity change of the base"));
     for (text, said) in [
-        ("test,level,damaged\nvelocity-change,NaN,no\n", "line 2: level = NaN is not finite"),
+        ("test,level,damaged\nvelocity-change,NaN,no\n", "line 2: level: 'NaN' is not a number such as 0.5"),
         ("test,level,damaged\nvelocity-change,-1,no\n", "line 2: level = -1.0 is not > 0"),
         ("test,level,damaged\nvelocity-change,1,maybe\n", "line 2: damaged 'maybe' is not yes or no"),
         (

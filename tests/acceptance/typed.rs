@@ -148,7 +148,7 @@ fn tables_are_in_the_units_that_were_typed() {
     let spectrum = ["spectrum", "--pulse=half-sine,1000g,1ms", "--frequency=0.1kHz", "--limit=200g"];
     let spectrum = clatter(spectrum.iter().chain(&["--damage-boundary"])).stdout;
     for said in
-        ["acceleration in g,", "kHz            g", " 0.100000 ", "acceleration         1000.00 g\n", "at 0.100000 kHz"]
+        ["acceleration in g,", "kHz           g", " 0.100000 ", "acceleration         1000.00 g\n", "at 0.100000 kHz"]
     {
         assert!(spectrum.contains(said), "{said}:\n{spectrum}");
     }

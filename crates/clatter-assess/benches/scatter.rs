@@ -22,7 +22,9 @@ fn draw(bencher: Bencher<'_, '_>, file: &ProductFile, samples: u64, two_levels: 
     let settings = Settings { samples, seed: 1, confidence: 0.95, merge_s: 1e-3 };
     let Ok(sampler) = Sampler::new(file, settings) else { panic!("the product is sound") };
     bencher.counter(ItemsCount::new(samples)).bench_local(|| {
-        let Ok(scatter) = black_box(&sampler).run::<()>(false, |_| Ok(true)) else { panic!("nothing stops it") };
+        let Ok(scatter) = black_box(&sampler).run::<()>(false, &|| true, |_| Ok(())) else {
+            panic!("nothing stops it")
+        };
         assert_eq!(scatter.pilot.is_some_and(|pilot| pilot.one_in.is_some()), two_levels, "{:?}", scatter.pilot);
         scatter
     });

@@ -8,7 +8,7 @@ use crate::bound::bound;
 use crate::drop::{Model, SingleDrop};
 use crate::engine::{Part, answer};
 use crate::quantity::lacks_contact_time;
-use crate::search::{Asked, Ranges, Task, Watch, Worst};
+use crate::search::{Asked, Place, Ranges, Task, Watch, Worst};
 use crate::{
     Accuracy, Assessment, Component, ComponentAssessment, ContactLaw, Error, Limit, LimitAssessment, LimitKind,
     ModelChoice, Mount, ProductFile, Unit, Verdict, WorstCase,
@@ -16,6 +16,17 @@ use crate::{
 
 /// What the search may miss of a worst case, as a share of it: tests hold single drops of the same ranges to this.
 pub(crate) const COVERAGE: f64 = 0.02;
+
+/// A drop that asks for more than is of use.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Breaker {
+    /// By the other contact law than that of the product.
+    pub(crate) other_law: bool,
+    pub(crate) place: Place,
+}
+
+/// What no drop exceeds, by either contact law.
+const NOTHING_BREAKS: [f64; 2] = [f64::INFINITY; 2];
 
 impl ProductFile {
     /// The worst drop of every component over all stated ranges, and whether it stands it: [`assess_to`](Self::assess_to) 1 %.
@@ -62,10 +73,23 @@ impl ProductFile {
     /// # Errors
     /// As [`assess_to`](Self::assess_to).
     pub fn assess_watched(&self, accuracy: &Accuracy, watch: Watch<'_>) -> Result<Assessment, Error> {
+        self.assess_within(accuracy, NOTHING_BREAKS, watch)?.map_err(|_| unreachable!("nothing exceeds infinity"))
+    }
+
+    /// The same where only drops are of use that ask for no more than so much of any limit, by the first contact law and by the
+    /// other: the search is left as soon as a drop is answered that asks for more, which is told.
+    pub(crate) fn assess_within(
+        &self,
+        accuracy: &Accuracy,
+        most: [f64; 2],
+        watch: Watch<'_>,
+    ) -> Result<Result<Assessment, Breaker>, Error> {
         let all: Vec<&Component> = self.components.iter().collect();
-        let components = self.assess_these(&all, accuracy, watch)?;
-        let verdict = Verdict::of(components.iter().map(|c| c.verdict));
-        Ok(Assessment { product: self.product.name.clone(), verdict, components, accuracy: *accuracy })
+        let found = self.assess_these(&all, accuracy, most, watch)?;
+        Ok(found.map(|components| {
+            let verdict = Verdict::of(components.iter().map(|c| c.verdict));
+            Assessment { product: self.product.name.clone(), verdict, components, accuracy: *accuracy }
+        }))
     }
 
     /// What [`assess_watched`](Self::assess_watched) says of one component, found in the same drops.
@@ -87,16 +111,17 @@ impl ProductFile {
         accuracy: &Accuracy,
         watch: Watch<'_>,
     ) -> Result<ComponentAssessment, Error> {
-        let mut found = self.assess_these(&[component], accuracy, watch)?;
-        Ok(found.remove(0))
+        let found = self.assess_these(&[component], accuracy, NOTHING_BREAKS, watch)?;
+        Ok(found.map_or_else(|_| unreachable!("nothing exceeds infinity"), |mut one| one.remove(0)))
     }
 
     fn assess_these(
         &self,
         these: &[&Component],
         accuracy: &Accuracy,
+        most: [f64; 2],
         watch: Watch<'_>,
-    ) -> Result<Vec<ComponentAssessment>, Error> {
+    ) -> Result<Result<Vec<ComponentAssessment>, Breaker>, Error> {
         accuracy.check()?;
         self.check()?;
         if accuracy.model == Some(Model::Compliant) && self.product.contact_time_s.is_none() {
@@ -114,9 +139,13 @@ impl ProductFile {
             Model::Compliant => [ranges.law, ranges.law.other()].map(|law| Ranges { law, ..ranges }).into(),
             _ => vec![ranges],
         };
-        let worst: Vec<Vec<Worst>> = (0..laws.len())
-            .map(|n| laws[n].worst(&tasks, &all_tasks, &|done, all| watch(n * all + done, laws.len() * all)))
-            .collect();
+        let mut worst: Vec<Vec<Worst>> = Vec::with_capacity(laws.len());
+        for (n, ranges) in laws.iter().enumerate() {
+            match ranges.worst(&tasks, &all_tasks, most[n], &|done, all| watch(n * all + done, laws.len() * all)) {
+                Ok(of_law) => worst.push(of_law),
+                Err(place) => return Ok(Err(Breaker { other_law: n > 0, place })),
+            }
+        }
         let judged = |n: usize, task: &Task<'_>| -> Result<Vec<Judged>, Error> {
             laws.iter().zip(&worst).map(|(ranges, worst)| self.judge(ranges, task, &worst[n])).collect()
         };
@@ -128,7 +157,7 @@ impl ProductFile {
             let limits: Result<Vec<_>, Error> = all.by_ref().take(count).map(one).collect();
             components.push(verdict(component, limits?));
         }
-        Ok(components)
+        Ok(Ok(components))
     }
 
     /// The ranges as the search takes them.
@@ -145,7 +174,8 @@ impl ProductFile {
         let bound = bound(&self.product, &self.drop, task.component, &task.limit, ranges.law);
         let held = bound.is_some_and(|bound| bound <= task.limit.allowed);
         let Some(mut asked) = worst.asked else { return Ok(Judged::unanswered(worst, bound, held)) };
-        let flat = Self::flat(ranges, task, &asked)?;
+        // What takes further drops is left where the time is over.
+        let flat = if worst.stopped { None } else { Self::flat(ranges, task, &asked)? };
         if let Some(flat) = flat.filter(|flat| ranges.hold(flat) && flat.exceeds(&asked)) {
             asked = flat;
         }
@@ -153,7 +183,7 @@ impl ProductFile {
         let utilization = found.utilization();
         let mut of =
             Judged { most: utilization * (1.0 + COVERAGE) + found.off_by / found.allowed, ..Judged::new(bound) };
-        if found.off_by.is_infinite() {
+        if found.off_by.is_infinite() && !worst.stopped {
             of.notes.push("how far off it is is not known: drops next to the worst are not answered".to_owned());
         } else if found.error().is_finite() && found.error() > 10.0 * ranges.tolerance {
             let off = percent(found.error());
@@ -169,7 +199,7 @@ impl ProductFile {
             ));
         }
         let drop = ranges.single(&asked.place);
-        if ranges.model < drop.fullest() {
+        if ranges.model < drop.fullest() && !worst.stopped {
             let place = Part { position_m: asked.place.position_m, suspension: asked.part };
             let full = answer(&drop, &place, &task.limit, drop.fullest(), ranges.tolerance)?;
             let off = full.utilization() - utilization;

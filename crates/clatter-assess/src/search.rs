@@ -150,8 +150,15 @@ const TRIES: usize = 8;
 
 impl Ranges<'_> {
     /// The worst of each task; tasks of one component follow one another. They are searched in the drops in which `all_tasks` are,
-    /// so that some of them alone have the same worst drops.
-    pub(crate) fn worst(&self, tasks: &[Task<'_>], all_tasks: &[Task<'_>], watch: Watch<'_>) -> Vec<Worst> {
+    /// so that some of them alone have the same worst drops. Where only drops that ask for no more than `most` of any limit are of
+    /// use, the search is left as soon as one is answered that asks for more: that one.
+    pub(crate) fn worst(
+        &self,
+        tasks: &[Task<'_>],
+        all_tasks: &[Task<'_>],
+        most: f64,
+        watch: Watch<'_>,
+    ) -> Result<Vec<Worst>, Place> {
         let steps = self.tilt_steps(all_tasks);
         let mut all =
             AllAsked { found: vec![Vec::new(); tasks.len()], refused: None, later: vec![0.0; tasks.len()], drops: 0 };
@@ -170,16 +177,18 @@ impl Ranges<'_> {
                     work.go_on(1).and_then(|()| self.ask(tasks, *k, drop, best.clone(), only))
                 };
                 all.take(wave.par_iter().map(of_one).collect());
+                self.passes(tasks, all, &best, most).map_or(Ok(()), Err)?;
             }
+            Ok(())
         };
-        ask(&mut all, &grid, None);
-        ask(&mut all, &overlaps, Some(&shocks));
+        ask(&mut all, &grid, None)?;
+        ask(&mut all, &overlaps, Some(&shocks))?;
         // What rebounds ask is sensitive to every input: where the energy allows them more, drops all over the ranges are
         // followed for longer as well.
         if all.later.iter().any(|most| *most > 0.0) {
             let only: Vec<bool> = all.later.iter().map(|most| *most > 0.0).collect();
             let sample: Vec<(u32, Place)> = (1..=SAMPLE).map(|k| (k, self.spread_out(k))).collect();
-            ask(&mut all, &sample, Some(&only));
+            ask(&mut all, &sample, Some(&only))?;
         }
         if work.go_on(0).is_ok() {
             work.done.fetch_max(count - climbing, Ordering::Relaxed);
@@ -197,10 +206,14 @@ impl Ranges<'_> {
                 return (n, start);
             }
             let reached = if start.late {
-                self.climb_around(task, start, LATE_REACH, LATE_TRIES)
+                self.climb_around(task, start, (LATE_REACH, LATE_TRIES), &work)
             } else {
-                let climbed = self.climb(task, start, 0.5 / steps);
-                if self.has_edges(task) { self.climb_around(task, climbed, EDGES_REACH, EDGES_TRIES) } else { climbed }
+                let climbed = self.climb(task, start, 0.5 / steps, &work);
+                if self.has_edges(task) {
+                    self.climb_around(task, climbed, (EDGES_REACH, EDGES_TRIES), &work)
+                } else {
+                    climbed
+                }
             };
             (n, reached)
         };
@@ -208,7 +221,9 @@ impl Ranges<'_> {
         let each = (0..tasks.len()).into_par_iter().map(|n| {
             let mut reached: Vec<Asked> = climbed.iter().filter(|(of, _)| *of == n).map(|(_, asked)| *asked).collect();
             reached.extend_from_slice(&found[n]);
-            let mut worst = self.settle(&tasks[n], reached, if work.go_on(0).is_ok() { TRIES } else { 1 });
+            let in_time = work.go_on(0).is_ok();
+            let mut worst =
+                if in_time { self.settle(&tasks[n], reached) } else { self.settle_at_once(&tasks[n], reached) };
             (worst.drops, worst.later) = (drops, later[n]);
             if let Some((count, error)) = &refused {
                 worst.refuse(*count, error);
@@ -221,7 +236,19 @@ impl Ranges<'_> {
         for worst in &mut all {
             worst.stopped = stopped;
         }
-        all
+        Ok(all)
+    }
+
+    /// A drop of the last wave that asks for more than `most` of a limit, answered to the tolerance; `best` are those before it.
+    fn passes(&self, tasks: &[Task<'_>], all: &AllAsked, best: &[f64], most: f64) -> Option<Place> {
+        let of_one = |(n, task): (usize, &Task<'_>)| {
+            let highest =
+                all.found[n].iter().max_by(|a, b| a.answer.utilization().total_cmp(&b.answer.utilization()))?;
+            let rough = highest.answer.utilization();
+            let exact = || self.exactly(task, highest).is_ok_and(|exact| exact.answer.utilization() > most);
+            (rough > most && rough > best[n] && exact()).then_some(highest.place)
+        };
+        tasks.iter().enumerate().find_map(of_one)
     }
 
     /// What drop k asks of each task, or of those marked in `only`, where that comes near the worst.
@@ -367,7 +394,7 @@ impl Ranges<'_> {
 
     /// The worst of what was reached, answered to the tolerance. What comes after rebounds is so sensitive that it may not come up
     /// again; so the next are tried until none may be worse.
-    fn settle(&self, task: &Task<'_>, mut reached: Vec<Asked>, most_tries: usize) -> Worst {
+    fn settle(&self, task: &Task<'_>, mut reached: Vec<Asked>) -> Worst {
         reached.sort_by(|a, b| b.answer.utilization().total_cmp(&a.answer.utilization()));
         let mut worst = Worst { asked: None, later: 0.0, refused: None, drops: 0, stopped: false };
         // A drop that bounces on and on is not followed to its end, nor are those that bounce more.
@@ -377,7 +404,7 @@ impl Ranges<'_> {
             let mut tries = 0;
             for found in such {
                 let most = worst.asked.map_or(0.0, |asked: Asked| asked.answer.utilization());
-                if found.answer.utilization() < most || tries == most_tries {
+                if found.answer.utilization() < most || tries == TRIES {
                     break;
                 }
                 if found.place.shares[RESTITUTION] >= bounces {
@@ -408,11 +435,39 @@ impl Ranges<'_> {
         worst
     }
 
+    /// The worst of what was reached as it was found, where the time is over: to the tolerance if it decides, and nobody knows how far
+    /// off.
+    fn settle_at_once(&self, task: &Task<'_>, reached: Vec<Asked>) -> Worst {
+        let mut worst = Worst { asked: None, later: 0.0, refused: None, drops: 0, stopped: true };
+        let found = reached.into_iter().max_by(|a, b| a.answer.utilization().total_cmp(&b.answer.utilization()));
+        let exact =
+            |found: Asked| if found.answer.utilization() > 1.0 { self.exactly(task, &found) } else { Ok(found) };
+        match found.map(exact) {
+            Some(Ok(asked)) => {
+                let answer = Answer { off_by: f64::INFINITY, ..asked.answer };
+                worst.asked = Some(Asked { answer, ..asked });
+            }
+            Some(Err(error)) => worst.refuse(1, &error),
+            None => {}
+        }
+        worst
+    }
+
     /// What a drop that was found asks to the tolerance, of the part that was found.
     fn exactly(&self, task: &Task<'_>, found: &Asked) -> Result<Asked, Error> {
         let part = Part { position_m: found.place.position_m, suspension: found.part };
         let answer = once(&self.single(&found.place), &part, &task.limit, self.model, self.tolerance)?;
         Ok(Asked { answer, ..*found })
+    }
+
+    /// Whether a part at a place of the ranges is asked for more than `most` of a limit there, answered to the tolerance.
+    pub(crate) fn asks_more(&self, task: &Task<'_>, place: &Place, most: f64) -> bool {
+        let of = |position_m: f64| {
+            let place = Place { position_m, ..*place };
+            let part = Part { position_m, suspension: Self::part(task, &place)? };
+            once(&self.single(&place), &part, &task.limit, self.model, self.tolerance)
+        };
+        task.component.ends_m().into_iter().any(|x| of(x).is_ok_and(|answer| answer.utilization() > most))
     }
 
     /// What one drop of the ranges asks of a task, as a utilization; 0 where it is not answered.

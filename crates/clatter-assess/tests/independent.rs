@@ -8,16 +8,15 @@
 
 #[path = "../../clatter-flight/tests/plain/mod.rs"]
 mod plain;
-mod random;
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use crate::random::Random;
 use clatter::End;
 use clatter_assess::{Answer, ContactLaw, Limit, LimitKind, Model, Part, SingleDrop, answer};
 use clatter_flight::Body;
 use clatter_shock::{DampingRatio, Suspension};
 use plain::Plain;
-use random::Random;
 use rayon::prelude::*;
 
 const G: f64 = 9.80665;

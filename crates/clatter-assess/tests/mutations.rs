@@ -109,7 +109,7 @@ fn reads(text: &str) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// For a long run: `PROPTEST_CASES=1000000 cargo test --release -p clatter-assess --test mutations`.
+/// For a long run: `PROPTEST_CASES=1000000 cargo test --release -p clatter-assess --test all mutations::`.
 fn cases(default: u32) -> ProptestConfig {
     let cases = std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(default);
     ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(cases) }

@@ -20,7 +20,7 @@ fn settings(samples: u64, seed: u64) -> Settings {
 }
 
 fn draw(file: &ProductFile, settings: Settings) -> Scatter {
-    Sampler::new(file, settings).unwrap().run::<()>(false, |_| Ok(true)).unwrap()
+    Sampler::new(file, settings).unwrap().run::<()>(false, &|| true, |_| Ok(())).unwrap()
 }
 
 fn values(file: &ProductFile, settings: Settings) -> (Vec<Column>, Vec<f64>) {
@@ -28,9 +28,9 @@ fn values(file: &ProductFile, settings: Settings) -> (Vec<Column>, Vec<f64>) {
     let mut all = Vec::new();
     let keep = |progress: &Progress<'_>| {
         all.extend_from_slice(progress.values);
-        Ok::<_, ()>(true)
+        Ok::<_, ()>(())
     };
-    sampler.run(true, keep).unwrap();
+    sampler.run(true, &|| true, keep).unwrap();
     (sampler.columns(), all)
 }
 

@@ -1,18 +1,16 @@
 //! The worst drop of random products against thousands of single drops of the same ranges, by the same engine.
 //!
-//! For a long run: `PRODUCTS=200 SINGLES=4000 SEED=2 cargo test --release -p clatter-assess --test worst_case -- --nocapture`.
+//! For a long run: `PRODUCTS=200 SINGLES=4000 SEED=2 cargo test --release -p clatter-assess --test all worst_case:: -- --nocapture`.
 
 #![expect(clippy::print_stdout, reason = "a long run tells what it found")]
-
-mod random;
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
+use crate::random::Random;
 use clatter::End;
 use clatter_assess::{Component, Limit, LimitAssessment, Model, Mount, Part, ProductFile, SingleDrop, Verdict, answer};
 use clatter_shock::{DampingRatio, Suspension};
-use random::Random;
 use rayon::prelude::*;
 
 fn one_of<T: Copy>(r: &mut Random, list: &[T]) -> T {

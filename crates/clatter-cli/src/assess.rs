@@ -90,7 +90,7 @@ impl Args {
         let mut files = Vec::with_capacity(self.products.len());
         let mut faults = Vec::new();
         for path in &self.products {
-            match read(path, streams) {
+            match read(path, &self.files(), streams) {
                 Ok(file) => files.push(file),
                 Err(Failure::Product(fault)) => faults.push(fault),
                 Err(failure) => return Err(failure),
@@ -135,13 +135,22 @@ impl Args {
         };
         files.iter().zip(&drops).for_each(|(file, drops)| measured::warn(file, drops, streams));
         // The answer does not wait for its print, which may take long or fail, nor the print for a reader of the answer.
+        let safe = assessments.iter().all(|a| a.verdict == Verdict::Safe);
+        let exit = if safe { Exit::Done } else { Exit::Unsafe };
         if let (Some(pdf), [file], [assessment]) = (&self.output, &files[..], &assessments[..]) {
-            let _ = streams.out.flush(); // whoever writes next sees the same failure, and tells
-            self.print(file, assessment, &drops[0], pdf, streams)?;
+            let flushed = streams.out.flush(); // whoever writes next sees the same failure, and tells
+            let unwritten = format!("{} is not written", text::path(pdf));
+            if !is_standard(pdf) && !budget::go_on() {
+                streams.note("warning", format_args!("--time-limit is over: {unwritten}"));
+            } else {
+                if shown.is_ok() && flushed.is_ok() && !is_standard(pdf) {
+                    budget::is_told(exit, unwritten);
+                }
+                self.print(file, assessment, &drops[0], pdf, streams)?;
+            }
         }
         shown?;
-        let safe = assessments.iter().all(|a| a.verdict == Verdict::Safe);
-        Ok(if safe { Exit::Done } else { Exit::Unsafe })
+        Ok(exit)
     }
 
     /// The printed report.
@@ -160,7 +169,9 @@ impl Args {
         let path = text::path(name);
         let date = self.date.as_deref();
         let pages = Pages { file, assessment, portraits: &portraits, measured, path: &path, date };
+        let printing = Counted::begin("making the printed report", 0);
         let mut progress = |step: &str| {
+            printing.step(step);
             if streams.interactive {
                 streams.note("clatter", step);
             }
@@ -230,8 +241,8 @@ struct Answer<'a> {
     measured: Vec<measured::Answer<'a>>,
 }
 
-/// A product file, of a size that product files have; what is odd in it is told.
-pub(crate) fn read(path: &Path, streams: &mut Streams<'_>) -> Result<ProductFile, Failure> {
+/// A product file, of a size that product files have; what is odd in it is told. No file of the command is to be a record that it names.
+pub(crate) fn read(path: &Path, files: &Files<'_>, streams: &mut Streams<'_>) -> Result<ProductFile, Failure> {
     let unreadable = |reason: io::Error| Failure::Unreadable { path: path.to_owned(), reason };
     let mut bytes = Vec::new();
     let file = input::open(path).map_err(unreadable)?;
@@ -243,5 +254,6 @@ pub(crate) fn read(path: &Path, streams: &mut Streams<'_>) -> Result<ProductFile
     if !odd.warnings().is_empty() {
         streams.beside(&format!("{odd}\n"));
     }
+    files.spare_records(&file, path)?;
     Ok(file)
 }

@@ -3,12 +3,15 @@
 //! A thread checks the process some fifty times a second, and shows how far the work is where somebody watches. When the time is
 //! over, searches and samples are asked to end: their answer is of what was done by then, undecided where that is not enough.
 //! Where they don't, and where other work goes on, or the memory is used up, temporary files are removed, the command says why
-//! it stopped, how far it had come and what would take less, and the process ends with exit code 2.
+//! it stopped, how far it had come and what would take less, and the process ends with exit code 2; with that of its answer, where
+//! that is whole and only what comes beside it was cut.
 
 use std::io::{self, Write as _};
+use std::panic::resume_unwind;
 use std::process::exit;
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -22,8 +25,8 @@ pub(crate) struct Budget {
     /// Memory that the command may take, such as 4GiB or 500MB; beyond it stops [default: 1GiB]
     #[arg(long, global = true, value_name = "BYTES", allow_hyphen_values = true, value_parser = bytes)]
     memory: Option<u64>,
-    /// How long the command may run, such as 90s, 5min or 2h; then it stops, 'assess' and 'scatter' with the answer that
-    /// they have by then [default: no limit]
+    /// How long the command may run, such as 90s, 5min or 2h; then it stops, 'assess', 'scatter' and 'design' with the answer
+    /// that they have by then [default: no limit]
     #[arg(long, global = true, value_name = "TIME", allow_hyphen_values = true, value_parser = seconds)]
     time_limit: Option<Duration>,
 }
@@ -36,11 +39,17 @@ static OVER: AtomicBool = AtomicBool::new(false);
 static CUT: AtomicBool = AtomicBool::new(false);
 /// The memory of the command that runs.
 static MEMORY: OnceLock<u64> = OnceLock::new();
+/// What is beside an answer that was told whole, and how that ends.
+static BESIDE: Mutex<Option<(Exit, String)>> = Mutex::new(None);
 /// Unless another is given: 1 GiB.
 const DEFAULT: u64 = 1 << 30;
 /// Time between two checks, and checks between two pictures of the progress.
 const INTERVAL: Duration = Duration::from_millis(20);
 const PICTURE: u32 = 10;
+/// The search for an answer ends so much before the time does, a quarter of it at most, and the answer that there is by then is told so
+/// much after it at the latest.
+const BEFORE: Duration = Duration::from_secs(1);
+const GRACE: Duration = Duration::from_millis(200);
 
 /// The process is the command's own from here on.
 pub(crate) fn own_process() {
@@ -62,6 +71,37 @@ pub(crate) fn go_on() -> bool {
 /// Whether work was told not to.
 pub(crate) fn was_cut() -> bool {
     CUT.load(Ordering::Relaxed)
+}
+
+fn told() -> Option<(Exit, String)> {
+    BESIDE.lock().unwrap_or_else(PoisonError::into_inner).clone()
+}
+
+/// The answer is told, and ends so; what comes beside it may be cut, with these words.
+pub(crate) fn is_told(exit: Exit, beside: String) {
+    *BESIDE.lock().unwrap_or_else(PoisonError::into_inner) = Some((exit, beside));
+}
+
+/// What work gives that cannot be asked whether to go on; none where the time is over before, and then it is left. Where no thread can be
+/// made nothing is watched, and it goes to its end.
+pub(crate) fn in_time<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> Option<T> {
+    let work = Arc::new(Mutex::new(Some(work)));
+    let (sender, receiver) = mpsc::channel();
+    let take = |work: &Mutex<Option<_>>| work.lock().unwrap_or_else(PoisonError::into_inner).take();
+    let its = Arc::clone(&work);
+    let beside = move || take(&its).map(|work| sender.send(work()));
+    let Ok(beside) = thread::Builder::new().spawn(beside) else { return take(&work).map(|work| work()) };
+    loop {
+        match receiver.recv_timeout(INTERVAL) {
+            Ok(done) => return Some(done),
+            Err(RecvTimeoutError::Timeout) if go_on() => {}
+            Err(RecvTimeoutError::Timeout) => return None,
+            Err(RecvTimeoutError::Disconnected) => match beside.join() {
+                Err(panic) => resume_unwind(panic),
+                Ok(_) => return None,
+            },
+        }
+    }
 }
 
 /// Amounts of memory.
@@ -93,8 +133,8 @@ fn seconds(text: &str) -> Result<Duration, String> {
 }
 
 impl Budget {
-    /// Watches until the process ends; `less` says what would take less. Work that asks whether to go on has a quarter of its
-    /// time and a second more to come to an answer. Nothing is watched in a process that is not the command's own, or where no
+    /// Watches until the process ends; `less` says what would take less. Work that asks whether to go on has a little more to come to
+    /// an answer. Nothing is watched in a process that is not the command's own, or where no
     /// thread can be made.
     pub(crate) fn watch(self, less: &'static str, asks: bool, interactive: bool) {
         if !OWN_PROCESS.load(Ordering::Relaxed) {
@@ -109,10 +149,12 @@ impl Budget {
                     stop(&format!("--memory={} MiB is used up", memory >> 20), less);
                 }
                 if let Some(limit) = self.time_limit {
-                    let grace = if asks { limit / 4 + Duration::from_secs(1) } else { Duration::ZERO };
+                    let asks = asks && told().is_none();
+                    let [before, grace] = if asks { [BEFORE.min(limit / 4), GRACE] } else { [Duration::ZERO; 2] };
                     let passed = begin.elapsed();
-                    OVER.store(passed > limit, Ordering::Relaxed);
+                    OVER.store(passed > limit.saturating_sub(before), Ordering::Relaxed);
                     if passed > limit.saturating_add(grace) {
+                        leave_beside();
                         stop("--time-limit is over", less);
                     }
                 }
@@ -124,6 +166,15 @@ impl Budget {
         };
         let _ = thread::Builder::new().name("budget".into()).spawn(check);
     }
+}
+
+/// Ends the process where its answer is told and only what comes beside it is cut.
+fn leave_beside() {
+    let Some((answer, beside)) = told() else { return };
+    clatter_report::remove_leftovers();
+    let so_far = progress::so_far();
+    let _ = writeln!(io::stderr(), "warning: stopped, --time-limit is over: {so_far}{beside}; the answer is whole");
+    exit(answer as i32)
 }
 
 fn stop(what: &str, less: &str) -> ! {

@@ -18,7 +18,7 @@ use crate::input::is_standard;
 use crate::inputs::{self, RowFormat};
 use crate::output::Files;
 use crate::progress::Counted;
-use crate::{Failure, Streams, assess, output, quantities};
+use crate::{Failure, Streams, assess, budget, output, quantities, text};
 
 /// Tell which q and e meet the limits, and what would make each failing part safe
 ///
@@ -172,7 +172,7 @@ impl Args {
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
         match &self.product {
             Some(path) => {
-                let file = assess::read(path, streams)?;
+                let file = assess::read(path, &self.files(), streams)?;
                 self.of_product(&file, streams)
             }
             None => self.of_goals(streams),
@@ -193,13 +193,20 @@ impl Args {
             let changes = Counted::begin("changing", 0);
             file.remedies_watched(&assessment, &bounds, self.margin, &|done, all| {
                 changes.of(done, all);
-                true
+                budget::go_on()
             })?
         };
         let plane = {
             let _drawing = Counted::begin("drawing the plane", 0);
-            self.output.as_ref().map(|_| Plane::of(file, &bounds)).transpose()?
+            let of = |_: &PathBuf| {
+                let file = file.clone();
+                budget::in_time(move || Plane::of(&file, &bounds))
+            };
+            self.output.as_ref().filter(|_| budget::go_on()).and_then(of).transpose()?
         };
+        if let (Some(path), None) = (&self.output, &plane) {
+            streams.note("warning", format_args!("--time-limit is over: {} is not written", text::path(path)));
+        }
         if let (Some(path), Some(plane)) = (&self.output, &plane) {
             plane::write(path, plane)?;
         }

@@ -11,6 +11,7 @@ use clatter_flight::{Body, ContactLaw, Scene};
 use crate::inputs::{self, LawName, ModelName};
 use crate::numbers::given;
 use crate::one_drop::{OneDrop, PartSetup, Worst};
+use crate::output::Files;
 use crate::quantities::{self, Piece, Place, Show, Shown, neat};
 use crate::{Failure, Streams};
 
@@ -106,6 +107,7 @@ pub(crate) struct Beside<'a> {
     pub(crate) of_product: bool,
     /// The worst drop of a product file instead of one value of each range.
     pub(crate) worst: Option<(Worst, Accuracy)>,
+    pub(crate) files: Files<'a>,
 }
 
 /// A drop with all that it needs.
@@ -197,7 +199,7 @@ impl DropArgs {
     pub(crate) fn setup(&self, beside: &Beside<'_>, streams: &mut Streams<'_>) -> Result<Setup, Failure> {
         let mut file = match &self.product {
             Some(path) => {
-                let file = OneDrop::read(path, self.component.as_deref(), beside.first, streams)?;
+                let file = OneDrop::read(path, self.component.as_deref(), beside.first, &beside.files, streams)?;
                 Some(match &beside.worst {
                     Some((of, accuracy)) => file.at_worst(*of, accuracy)?,
                     None => file,

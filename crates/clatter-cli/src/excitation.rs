@@ -216,6 +216,34 @@ pub(crate) fn limit(text: &str) -> Result<LimitArg, String> {
     Ok(LimitArg { curve, level: None, typed })
 }
 
+/// By how much a spectrum may be below the required one, and above it if that is held at all.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Tolerance {
+    pub(crate) below_db: f64,
+    pub(crate) above_db: Option<f64>,
+}
+
+/// `3` is 3 dB on either side, `-1.5` is 1.5 dB below and anything above, `-1.5,6` has both.
+pub(crate) fn tolerance(text: &str) -> Result<Tolerance, String> {
+    let form =
+        "a tolerance in dB is one number for both sides, such as 3, or -BELOW,ABOVE, such as -1.5,6, or -BELOW alone";
+    let db = |text: &str| {
+        let value = number(text.trim().strip_suffix("dB").unwrap_or(text).trim().trim_start_matches('+'))?;
+        if value.abs() <= 60.0 { Ok(value) } else { Err(format!("{value:?} dB is not in [-60, 60]; {form}")) }
+    };
+    match parts(text, ',')[..] {
+        [one] => match db(one)? {
+            value if value < 0.0 => Ok(Tolerance { below_db: -value, above_db: None }),
+            value => Ok(Tolerance { below_db: value, above_db: Some(value) }),
+        },
+        [below, above] => match (db(below)?, db(above)?) {
+            (below, above) if below <= 0.0 && above >= 0.0 => Ok(Tolerance { below_db: -below, above_db: Some(above) }),
+            _ => Err(form.to_owned()),
+        },
+        _ => Err(form.to_owned()),
+    }
+}
+
 /// What a shock table can do; in ms, g and m/s where no unit is given.
 pub(crate) fn shock_table(text: &str) -> Result<ShockTable, String> {
     let form = "a shock table is SHORTEST:LONGEST,ACCELERATION,VELOCITY_CHANGE in ms, g and m/s, such as 0.2:20,5000,20 or \
@@ -245,4 +273,21 @@ pub(crate) fn shock_table(text: &str) -> Result<ShockTable, String> {
         return Err(format!("the shortest half-sine, {shortest} ms, is longer than the longest, {longest} ms"));
     }
     Ok(table)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tolerances_have_a_side_or_two() {
+        let of = |text| tolerance(text).map(|Tolerance { below_db, above_db }| (below_db, above_db));
+        assert_eq!(of("3"), Ok((3.0, Some(3.0))));
+        assert_eq!(of("-1.5dB, +6 dB"), Ok((1.5, Some(6.0))));
+        assert_eq!(of("-1.5"), Ok((1.5, None)));
+        assert_eq!(of("0"), Ok((0.0, Some(0.0))));
+        for bad in ["1,2", "-1,-2", "70", "", "a", "1,2,3", "nan"] {
+            assert!(of(bad).is_err(), "{bad}");
+        }
+    }
 }

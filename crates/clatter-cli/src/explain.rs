@@ -11,6 +11,7 @@ use serde::Serialize;
 use crate::columns::sentence;
 use crate::inputs::{self, Format};
 use crate::numbers::{Json, figures, given};
+use crate::output::Files;
 use crate::progress::Counted;
 use crate::text::shown;
 use crate::words::{drop, in_words, percent};
@@ -45,7 +46,7 @@ pub(crate) struct Args {
 
 impl Args {
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        let (file, ladders) = measure(&self.product, self.tolerance, streams)?;
+        let (file, ladders) = measure(&self.product, self.tolerance, &Files::default(), streams)?;
         match self.format {
             Format::Json => streams.json(&Answer::new(&ladders)),
             Format::Table => table(&file, &ladders, streams.out).map_err(Failure::Answer),
@@ -57,9 +58,10 @@ impl Args {
 pub(crate) fn measure(
     path: &Path,
     tolerance: f64,
+    files: &Files<'_>,
     streams: &mut Streams<'_>,
 ) -> Result<(ProductFile, ProductLadder), Failure> {
-    let file = assess::read(path, streams)?;
+    let file = assess::read(path, files, streams)?;
     let ladders = assess::watched(&file, &Accuracy::default()).and_then(|assessment| {
         let _measuring = Counted::begin("measuring models", 0);
         file.ladders(&assessment, tolerance)

@@ -22,9 +22,9 @@ pub(crate) enum Failure {
     Tests { path: PathBuf, reason: clatter_shock::Error },
     #[error("{}: {}{}", text::path(.path), text::visible_lines(&.reason.to_string()), remedy(.reason))]
     Record { path: PathBuf, reason: clatter_record::Error },
-    /// A line of a list that is no entry of it.
-    #[error("{}: line {line}: {}", text::path(.path), text::visible(.what))]
-    Line { path: PathBuf, line: usize, what: String },
+    /// A list that is none.
+    #[error("{}: {}", text::path(.path), text::visible(&.reason.to_string()))]
+    List { path: PathBuf, reason: clatter_record::Error },
     #[error(transparent)]
     Assess(#[from] clatter_assess::Error),
     #[error(transparent)]
@@ -43,6 +43,12 @@ pub(crate) enum Failure {
     File { path: PathBuf, reason: io::Error },
     #[error("{} is read by this command and would be lost: choose another name for the output, or give --force", text::path(.0))]
     Overwrites(PathBuf),
+    #[error("{} is write-protected: choose another name for the output, or give --force", text::path(.0))]
+    Protected(PathBuf),
+    #[error("{} is a record that {} names and would be lost: choose another name for the output", text::path(.path), text::path(.product))]
+    NamedRecord { path: PathBuf, product: PathBuf },
+    #[error("{} is where {stream} goes: what is written to it would be lost; choose another name for the output", text::path(.path))]
+    Stream { path: PathBuf, stream: &'static str },
     #[error("a map of {points} points takes more than --memory allows: allowed are {most} points")]
     Large { points: u128, most: u128 },
     #[error("{} is to be written twice: choose another name for one output", text::path(.0))]

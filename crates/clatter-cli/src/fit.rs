@@ -28,7 +28,10 @@ use crate::{Failure, Streams, assess, input, output, text};
 ///   time_s,end                       times of strikes; end a or b, or nothing where it is not known
 ///   time_s,height_a_m,height_b_m     heights of both ends over the ground, from a video
 ///   bounce_s                         times at which a flat product, or one point of it, bounces; alone
+///   interval_s                       the same by the times between bounces
 ///   time and acceleration, with units, as 'clatter record' reads them: the acceleration at --position
+///
+/// Each may be in any notation of records and in other units: `time [ms];end`, `height a [mm]`.
 ///
 /// The time axis of each file begins anywhere. Every strike is taken for one of the drop and none for missing, as long as that
 /// explains the data; else two may be missing before the last one, or one time may be wrong. The answer says so, and where several of
@@ -120,7 +123,7 @@ impl Args {
         if wants_copy && input::is_standard(&self.product) {
             return Err(Failure::Usage("a copy of the product file needs it as a file: give its name with --product"));
         }
-        let file = assess::read(&self.product, streams)?;
+        let file = assess::read(&self.product, &self.files(), streams)?;
         let answered = self.answered(file)?;
         for target in &self.output {
             if target.is_picture {

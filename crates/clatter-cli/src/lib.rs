@@ -25,6 +25,7 @@ mod drop_args;
 mod excitation;
 mod explain;
 mod failure;
+mod find_args;
 mod fit;
 mod help;
 mod impacts;
@@ -137,7 +138,7 @@ impl From<Exit> for ExitCode {
 struct Cli {
     #[command(subcommand)]
     command: Command,
-    /// Write over a file that the command reads as well
+    /// Write over a file that the command reads as well, or that is write-protected
     #[arg(long, global = true)]
     force: bool,
     #[command(flatten)]
@@ -172,11 +173,9 @@ enum Command {
 impl Cli {
     fn run(self, streams: &mut Streams<'_>) -> Result<Exit, Failure> {
         self.command.files().check_input()?;
-        if !self.force {
-            self.command.files().check()?;
-        }
+        self.command.files().check(self.force)?;
         let less = self.command.less();
-        let asks = matches!(self.command, Command::Assess(_) | Command::Scatter(_));
+        let asks = matches!(self.command, Command::Assess(_) | Command::Scatter(_) | Command::Design(_));
         self.budget.watch(less, asks, streams.interactive);
         let exit = self.command.run(streams)?;
         if budget::was_cut() {
@@ -197,6 +196,7 @@ impl Command {
             Self::Respond(_) | Self::Spectrum(_) => "shorter lists and fewer natural frequencies take less",
             Self::Scatter(_) => "fewer samples take less",
             Self::Fit(_) => "shorter records take less",
+            Self::Report(_) => "one report at a time takes less",
             _ => "narrower ranges and fewer components take less",
         }
     }

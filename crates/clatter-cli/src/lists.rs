@@ -1,19 +1,16 @@
 //! Lists of shocks, pulses and tests that come as files: a header that names the columns, in any order, and a row for
-//! each.
+//! each, in any notation of records.
 
-mod rows;
-
+use std::io::Read;
 use std::path::Path;
 
 use clatter_assess::units::Dimension;
+use clatter_record::Cell;
 use clatter_shock::{LimitCurve, Pulse, Trial, VelocityShock};
 
 use crate::excitation::{self, LimitArg};
-use crate::inputs::number;
 use crate::text::visible;
 use crate::{Failure, input};
-use rows::rows;
-pub(crate) use rows::rows_of;
 
 /// Velocity shocks, in order of time.
 pub(crate) fn shocks(path: &Path) -> Result<Vec<VelocityShock>, Failure> {
@@ -33,10 +30,10 @@ pub(crate) fn shocks(path: &Path) -> Result<Vec<VelocityShock>, Failure> {
 pub(crate) fn pulses(path: &Path) -> Result<Vec<Pulse>, Failure> {
     let mut list = Vec::new();
     rows(path, ["shape", "amplitude_m_s2", "duration_s", "start_s"], |[shape, amplitude, duration, start]| {
-        let shape = excitation::shape(shape)?;
+        let shape = excitation::shape(shape.text)?;
         let [amplitude, duration, start] =
             [("amplitude_m_s2", amplitude), ("duration_s", duration), ("start_s", start)]
-                .map(|(name, text)| finite(name, text));
+                .map(|(name, cell)| finite(name, cell));
         let pulse = Pulse { shape, amplitude: amplitude?, duration: duration?, start: start? };
         if pulse.duration == 0.0 {
             return Err("a pulse of zero duration is a velocity shock: give its velocity change in a file of shocks \
@@ -54,13 +51,13 @@ pub(crate) fn pulses(path: &Path) -> Result<Vec<Pulse>, Failure> {
 pub(crate) fn tests(path: &Path) -> Result<[Vec<Trial>; 2], Failure> {
     let mut lists = [Vec::new(), Vec::new()];
     rows(path, ["test", "level", "damaged"], |[test, level, damaged]| {
-        let list = match test.to_ascii_lowercase().as_str() {
+        let list = match test.text.to_ascii_lowercase().as_str() {
             "velocity-change" => 0,
             "acceleration" => 1,
             _ => {
                 return Err(format!(
                     "test '{}' is not velocity-change (in m/s) or acceleration (in m/s2)",
-                    visible(test)
+                    visible(test.text)
                 ));
             }
         };
@@ -68,10 +65,10 @@ pub(crate) fn tests(path: &Path) -> Result<[Vec<Trial>; 2], Failure> {
         if level <= 0.0 {
             return Err(format!("level = {level:?} is not > 0"));
         }
-        let damaged = match damaged.to_ascii_lowercase().as_str() {
+        let damaged = match damaged.text.to_ascii_lowercase().as_str() {
             "yes" => true,
             "no" => false,
-            _ => return Err(format!("damaged '{}' is not yes or no", visible(damaged))),
+            _ => return Err(format!("damaged '{}' is not yes or no", visible(damaged.text))),
         };
         lists[list].push(Trial { level, damaged });
         Ok(())
@@ -94,7 +91,27 @@ pub(crate) fn limit(path: &Path, dimension: &'static Dimension) -> Result<LimitA
     Ok(LimitArg { curve, level: None, typed: unit.map(|unit| (dimension, unit)) })
 }
 
-pub(crate) fn finite(name: &str, text: &str) -> Result<f64, String> {
-    let value = number(text).map_err(|error| format!("{name}: {error}"))?;
-    if value.is_finite() { Ok(value) } else { Err(format!("{name} = {value:?} is not finite")) }
+/// Hands on the columns of these names row by row.
+fn rows<const N: usize>(
+    path: &Path,
+    names: [&str; N],
+    each: impl FnMut([Cell<'_>; N]) -> Result<(), String>,
+) -> Result<(), Failure> {
+    let unreadable = |reason| Failure::Unreadable { path: path.to_owned(), reason };
+    rows_of(path, input::open(path).map_err(unreadable)?, names, each)
+}
+
+/// The same of a file that is open already.
+pub(crate) fn rows_of<const N: usize>(
+    path: &Path,
+    input: impl Read,
+    names: [&str; N],
+    each: impl FnMut([Cell<'_>; N]) -> Result<(), String>,
+) -> Result<(), Failure> {
+    clatter_record::read_list(input, names, each).map_err(|reason| Failure::List { path: path.to_owned(), reason })
+}
+
+/// The number of a cell.
+pub(crate) fn finite(name: &str, cell: Cell<'_>) -> Result<f64, String> {
+    cell.number.ok_or_else(|| format!("{name}: '{}' is not a number such as 0.5", visible(cell.text)))
 }

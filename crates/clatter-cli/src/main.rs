@@ -1,6 +1,8 @@
 //! The `clatter` command. Everything it does is in the library.
 
-use std::io::{self, BufWriter, IsTerminal};
+#[cfg(unix)]
+use std::fs::File;
+use std::io::{self, BufWriter, IsTerminal, Write};
 use std::process::ExitCode;
 
 use clatter_cli::{Streams, own_process, run};
@@ -10,9 +12,40 @@ fn main() -> ExitCode {
     tidy_on_signals();
     own_process();
     // Standard error is not kept locked: other threads must be able to say why they end.
-    let (mut out, mut err) = (BufWriter::new(io::stdout().lock()), io::stderr());
+    let (mut out, mut err) = (BufWriter::new(stdout()), io::stderr());
     let interactive = err.is_terminal();
     run(std::env::args_os(), &mut Streams { out: &mut out, err: &mut err, interactive }).into()
+}
+
+/// Standard output that tells where it is closed or not open for writing: that of the standard library takes what is written then as
+/// if it were. Where the system, or the library at the start of the process, puts the null device in the place of a closed one, there
+/// is nothing to tell.
+#[cfg(unix)]
+fn stdout() -> Box<dyn Write> {
+    use std::os::fd::AsFd as _;
+    match io::stdout().as_fd().try_clone_to_owned() {
+        Ok(own) => Box::new(File::from(own)),
+        Err(error) => Box::new(Gone(error.raw_os_error().unwrap_or_default())),
+    }
+}
+
+#[cfg(not(unix))]
+fn stdout() -> Box<dyn Write> {
+    Box::new(io::stdout().lock())
+}
+
+/// Takes nothing, for the reason that the system gave.
+#[cfg(unix)]
+struct Gone(i32);
+
+#[cfg(unix)]
+impl Write for Gone {
+    fn write(&mut self, _: &[u8]) -> io::Result<usize> {
+        Err(io::Error::from_raw_os_error(self.0))
+    }
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
 }
 
 /// Ctrl-C and SIGTERM end the process as they always do, after temporary files are removed. Where no thread can be made for that,

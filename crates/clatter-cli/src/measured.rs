@@ -1,6 +1,6 @@
 //! Measured drops: records, each kind told by the first line of its file, and those that a product file names.
 
-use std::io::{self, BufRead, BufReader, Cursor, Read};
+use std::io::{Cursor, Read};
 use std::path::{Path, PathBuf};
 
 use clatter::End;
@@ -8,6 +8,7 @@ use clatter_assess::fit::{
     self, Fit, Known, MOST_SAMPLES, MOST_STRIKES, Measured, MeasuredDrop, MeasuredHeights, MeasuredStrike,
 };
 use clatter_assess::{ProductFile, RecordFile};
+use clatter_record::{Cell, names_columns};
 
 use crate::lists::{finite, rows_of};
 use crate::progress::Counted;
@@ -22,8 +23,8 @@ pub(crate) enum Record {
     Bounces(Vec<f64>),
 }
 
-/// Bytes that the lines before and with the header may have.
-const HEADER: usize = 1 << 16;
+/// Bytes that the lines down to the names of the columns may have.
+const HEADER: u64 = 1 << 16;
 
 /// Reads a file; `position_m` tells where an acceleration was measured, if it is one.
 pub(crate) fn read(
@@ -33,23 +34,24 @@ pub(crate) fn read(
     reading: &RecordArgs,
 ) -> Result<Record, Failure> {
     let unreadable = |reason| Failure::Unreadable { path: path.to_owned(), reason };
-    let mut file = BufReader::with_capacity(1 << 16, input::open(path).map_err(unreadable)?);
-    let (before, header) = header(&mut file).map_err(unreadable)?;
-    let whole = BufReader::new(Cursor::new(before).chain(file));
-    let columns: Vec<&str> = header.split(',').map(|name| name.trim().trim_matches('"')).collect();
-    let has = |names: &[&str]| names.iter().all(|name| columns.contains(name));
-    if has(&["bounce_s"]) {
+    let (mut file, mut begin) = (input::open(path).map_err(unreadable)?, Vec::new());
+    (&mut file).take(HEADER).read_to_end(&mut begin).map_err(unreadable)?;
+    let whole = Cursor::new(&begin).chain(file);
+    if names_columns(&begin, ["bounce_s"]) {
         return bounces(path, whole).map(Record::Bounces);
     }
-    let measured = if has(&["time_s", "end"]) {
+    if names_columns(&begin, ["interval_s"]) {
+        return intervals(path, whole).map(Record::Bounces);
+    }
+    let measured = if names_columns(&begin, ["time_s", "end"]) {
         Measured::Strikes { strikes: strikes(path, whole)?, deviation_s: timing_s }
-    } else if has(&["time_s", "height_a_m", "height_b_m"]) {
+    } else if names_columns(&begin, ["time_s", "height_a_m", "height_b_m"]) {
         Measured::Heights { samples: heights(path, whole)?, deviation_m: None }
     } else {
         let position_m = position_m()?.ok_or_else(|| {
             Failure::Wrong(format!(
-                "{} has neither strikes (time_s,end) nor heights (time_s,height_a_m,height_b_m) nor bounces (bounce_s) in its first \
-                 line: an acceleration needs --position (of [[record]], position), where it was measured",
+                "{} has neither strikes (time_s,end) nor heights (time_s,height_a_m,height_b_m) nor bounces (bounce_s or interval_s) \
+                 in its first line: an acceleration needs --position (of [[record]], position), where it was measured",
                 text::path(path)
             ))
         })?;
@@ -58,29 +60,15 @@ pub(crate) fn read(
     Ok(Record::Measured(measured))
 }
 
-/// The lines up to the first that says something, and that one as text.
-fn header(input: &mut impl BufRead) -> io::Result<(Vec<u8>, String)> {
-    let mut before = Vec::new();
-    loop {
-        let begin = before.len();
-        let room = (HEADER - begin) as u64;
-        let n = input.take(room).read_until(b'\n', &mut before)?;
-        let line = String::from_utf8_lossy(&before[begin..]).trim().trim_start_matches('\u{feff}').to_owned();
-        if n == 0 || !line.is_empty() && !line.starts_with('#') {
-            return Ok((before, line));
-        }
-    }
-}
-
-fn strikes(path: &Path, input: impl BufRead) -> Result<Vec<MeasuredStrike>, Failure> {
+fn strikes(path: &Path, input: impl Read) -> Result<Vec<MeasuredStrike>, Failure> {
     let mut list: Vec<MeasuredStrike> = Vec::new();
     rows_of(path, input, ["time_s", "end"], |[time, end]| {
         let time_s = rising("time_s", time, list.last().map(|strike| strike.time_s))?;
-        let end = match end {
+        let end = match end.text {
             "a" => Some(End::A),
             "b" => Some(End::B),
             "" => None,
-            _ => return Err(format!("end '{}' is not a, b or empty", visible(end))),
+            _ => return Err(format!("end '{}' is not a, b or empty", visible(end.text))),
         };
         below(list.len(), MOST_STRIKES, "strikes")?;
         list.push(MeasuredStrike { time_s, end });
@@ -89,7 +77,7 @@ fn strikes(path: &Path, input: impl BufRead) -> Result<Vec<MeasuredStrike>, Fail
     Ok(list)
 }
 
-fn bounces(path: &Path, input: impl BufRead) -> Result<Vec<f64>, Failure> {
+fn bounces(path: &Path, input: impl Read) -> Result<Vec<f64>, Failure> {
     let mut list: Vec<f64> = Vec::new();
     rows_of(path, input, ["bounce_s"], |[time]| {
         let time_s = rising("bounce_s", time, list.last().copied())?;
@@ -100,7 +88,22 @@ fn bounces(path: &Path, input: impl BufRead) -> Result<Vec<f64>, Failure> {
     Ok(list)
 }
 
-fn heights(path: &Path, input: impl BufRead) -> Result<Vec<MeasuredHeights>, Failure> {
+/// Times of bounces by those between them, from the first bounce on.
+fn intervals(path: &Path, input: impl Read) -> Result<Vec<f64>, Failure> {
+    let mut list = vec![0.0];
+    rows_of(path, input, ["interval_s"], |[interval]| {
+        let interval_s = finite("interval_s", interval)?;
+        if interval_s <= 0.0 {
+            return Err(format!("interval_s = {interval_s:?} is not > 0"));
+        }
+        below(list.len(), MOST_STRIKES, "bounces")?;
+        list.extend(list.last().map(|last| last + interval_s));
+        Ok(())
+    })?;
+    Ok(list)
+}
+
+fn heights(path: &Path, input: impl Read) -> Result<Vec<MeasuredHeights>, Failure> {
     let mut list: Vec<MeasuredHeights> = Vec::new();
     rows_of(path, input, ["time_s", "height_a_m", "height_b_m"], |[time, a, b]| {
         let time_s = rising("time_s", time, list.last().map(|sample| sample.time_s))?;
@@ -113,8 +116,8 @@ fn heights(path: &Path, input: impl BufRead) -> Result<Vec<MeasuredHeights>, Fai
 }
 
 /// A time, not before the one in the row above.
-fn rising(name: &str, text: &str, before: Option<f64>) -> Result<f64, String> {
-    let time = finite(name, text)?;
+fn rising(name: &str, cell: Cell<'_>, before: Option<f64>) -> Result<f64, String> {
+    let time = finite(name, cell)?;
     match before {
         Some(before) if time < before => {
             Err(format!("{name} {time:?} is before {before:?}, the row above; sort by time"))
@@ -138,7 +141,8 @@ fn acceleration(path: &Path, input: impl Read, reading: &RecordArgs, position_m:
             record.channels().len()
         )));
     };
-    let step_s = record.even("a fit").map_err(bad)?;
+    let times = channel.times();
+    let step_s = times.even("a fit").map_err(bad)?;
     if channel.values.len() > MOST_SAMPLES {
         let samples = channel.values.len();
         return Err(Failure::Wrong(format!(
@@ -146,7 +150,7 @@ fn acceleration(path: &Path, input: impl Read, reading: &RecordArgs, position_m:
             text::path(path)
         )));
     }
-    Ok(Measured::Acceleration { position_m, start_s: record.start_s(), step_s, values_m_s2: channel.values.clone() })
+    Ok(Measured::Acceleration { position_m, start_s: times.start_s(), step_s, values_m_s2: channel.values.clone() })
 }
 
 /// The drop that is nearest to records of one drop, or why there is none.
@@ -197,9 +201,13 @@ pub(crate) struct Drop {
     timing_s: Option<f64>,
 }
 
-/// The drops whose records a product file names, from where that file is.
+/// The file of a record that a product file names, from where that file is.
+pub(crate) fn path_of(record: &RecordFile, product: &Path) -> PathBuf {
+    product.parent().unwrap_or(Path::new("")).join(&record.file)
+}
+
+/// The drops whose records a product file names.
 pub(crate) fn drops(file: &ProductFile, product: &Path) -> Result<Vec<Drop>, Failure> {
-    let beside = product.parent().unwrap_or(Path::new(""));
     let mut groups: Vec<Vec<&RecordFile>> = Vec::new();
     for record in &file.records {
         let same = |group: &&mut Vec<&RecordFile>| record.drop.is_some() && group[0].drop == record.drop;
@@ -209,7 +217,7 @@ pub(crate) fn drops(file: &ProductFile, product: &Path) -> Result<Vec<Drop>, Fai
         }
     }
     let of_one = |records: Vec<&RecordFile>| {
-        let paths: Vec<PathBuf> = records.iter().map(|record| beside.join(&record.file)).collect();
+        let paths: Vec<PathBuf> = records.iter().map(|record| path_of(record, product)).collect();
         let read = |(record, path): (&&RecordFile, &PathBuf)| {
             read(path, || Ok(record.position_m), record.timing_s, &RecordArgs::of(record, path)?)
         };
@@ -224,11 +232,17 @@ pub(crate) fn drops(file: &ProductFile, product: &Path) -> Result<Vec<Drop>, Fai
     groups.into_iter().map(of_one).collect()
 }
 
+const TOO_LATE: &str = "not fitted, the time was over before";
+
 impl Drop {
     /// The computed drop that is nearest. That none comes near what was measured, or that the time is over, is an answer.
     pub(crate) fn fitted(self, file: &ProductFile) -> Result<MeasuredDrop, Failure> {
         let found = if budget::go_on() {
-            match fitted(&Known::from(file), &self.records, self.timing_s)? {
+            let (known, records, timing_s) = (Known::from(file), self.records, self.timing_s);
+            let Some(found) = budget::in_time(move || fitted(&known, &records, timing_s)) else {
+                return Ok(MeasuredDrop { name: self.name, files: self.files, found: Err(TOO_LATE.to_owned()) });
+            };
+            match found? {
                 Ok(fit) => Ok(fit),
                 Err(error @ (fit::Error::Far { .. } | fit::Error::Scatter { .. } | fit::Error::NoDrop(_))) => {
                     Err(error.to_string())
@@ -236,7 +250,7 @@ impl Drop {
                 Err(error) => return Err(Failure::Wrong(why(&error, &self.paths))),
             }
         } else {
-            Err("not fitted, the time was over before".to_owned())
+            Err(TOO_LATE.to_owned())
         };
         Ok(MeasuredDrop { name: self.name, files: self.files, found })
     }

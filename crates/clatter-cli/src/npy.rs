@@ -1,4 +1,4 @@
-//! The `.npy` file: a matrix of f64 as numpy reads it.
+//! The `.npy` file: a matrix of f64, or columns with names, as numpy reads them.
 //!
 //! Format version 1.0 (numpy.lib.format): a magic string, the length of the header, the header as a Python dictionary
 //! padded with blanks until the data start at a multiple of 64 bytes, then the values, little-endian, row by row.
@@ -22,6 +22,46 @@ pub(crate) fn write(out: &mut impl Write, rows: usize, values: &[f64]) -> io::Re
         out.write_all(bytes)?;
     }
     Ok(())
+}
+
+/// Writes columns of equal length as a structured array: a row of f64 for each sample, whose fields have these names.
+pub(crate) fn write_columns(out: &mut impl Write, columns: &[(String, &[f64])]) -> io::Result<()> {
+    let rows = columns.first().map_or(0, |(_, values)| values.len());
+    // Two fields of one name are none.
+    let mut names: Vec<String> = Vec::new();
+    for (name, _) in columns {
+        let plain: String = name.chars().map(|c| if c.is_control() || "\\'\"".contains(c) { '_' } else { c }).collect();
+        let other = (2..).map(|n| format!("{n} {plain}"));
+        names.extend(std::iter::once(plain.clone()).chain(other).find(|name| !names.contains(name)));
+    }
+    let fields: Vec<String> = names.iter().map(|name| format!("('{name}', '<f8')")).collect();
+    out.write_all(&structured(rows, &fields.join(", ")))?;
+    let mut bytes = Vec::with_capacity(8 * CHUNK);
+    for row in 0..rows {
+        for (_, values) in columns {
+            bytes.extend_from_slice(&values[row].to_le_bytes());
+        }
+        if bytes.len() >= 8 * CHUNK {
+            out.write_all(&bytes)?;
+            bytes.clear();
+        }
+    }
+    out.write_all(&bytes)
+}
+
+/// A header of version 1.0, or of 3.0 where names are not ASCII, which it has in UTF-8, or long.
+fn structured(rows: usize, fields: &str) -> Vec<u8> {
+    let dictionary = format!("{{'descr': [{fields}], 'fortran_order': False, 'shape': ({rows},), }}");
+    let long = !dictionary.is_ascii() || dictionary.len() > 60_000;
+    let before = if long { 12 } else { 10 };
+    let length = (before + dictionary.len() + 1).next_multiple_of(64) - before;
+    let mut header = b"\x93NUMPY".to_vec();
+    let size = u32::try_from(length).unwrap_or(u32::MAX).to_le_bytes();
+    header.extend(if long { [&[3, 0], &size[..]].concat() } else { [&[1, 0], &size[..2]].concat() });
+    header.extend(dictionary.as_bytes());
+    header.resize(before + length - 1, b' ');
+    header.push(b'\n');
+    header
 }
 
 fn header(rows: usize, columns: usize) -> Vec<u8> {

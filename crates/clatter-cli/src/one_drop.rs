@@ -11,6 +11,7 @@ use clatter_flight::ContactLaw;
 use clatter_shock::DampingRatio;
 
 use crate::numbers::given;
+use crate::output::Files;
 use crate::quantities::{Place, Show, neat};
 use crate::text::{shown, visible};
 use crate::words::drop;
@@ -85,9 +86,10 @@ impl OneDrop {
         path: &Path,
         component: Option<&str>,
         first: Option<End>,
+        files: &Files<'_>,
         streams: &mut Streams<'_>,
     ) -> Result<Self, Failure> {
-        let file = assess::read(path, streams)?;
+        let file = assess::read(path, files, streams)?;
         let found = match component {
             Some(name) => {
                 let found = file

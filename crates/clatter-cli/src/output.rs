@@ -4,10 +4,11 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
+use clatter_assess::ProductFile;
 use same_file::Handle;
 
-use crate::Failure;
 use crate::input::is_standard;
+use crate::{Failure, measured};
 
 /// A file to write, and what its ending says it is.
 #[derive(Debug, Clone)]
@@ -118,22 +119,71 @@ impl Files<'_> {
         }
     }
 
-    /// What would go wrong after the work is told before it: a directory that is not there, and an output that would be written
-    /// over an input or another output, by whatever name.
-    pub(crate) fn check(&self) -> Result<(), Failure> {
-        for (n, output) in self.writes.iter().enumerate().filter(|(_, output)| !is_standard(output)) {
-            let there = clatter_report::directory_of(output);
-            there.map_err(|reason| Failure::File { path: output.to_path_buf(), reason })?;
-            let same = |other: &&Path| same_file::is_same_file(output, other).unwrap_or(output == other);
-            // Standard input may be a file that has a name as well.
-            let is_input = || Handle::from_path(output).ok().zip(Handle::stdin().ok()).is_some_and(|(a, b)| a == b);
-            if self.reads.iter().any(|input| if is_standard(input) { is_input() } else { same(input) }) {
+    /// What would go wrong after the work is told before it: an output that cannot be written, or that would be written over an input,
+    /// another output or a file that is write-protected, by whatever name. The first and the last of these may be `forced`.
+    pub(crate) fn check(&self, forced: bool) -> Result<(), Failure> {
+        let mut places: Vec<PathBuf> = Vec::new();
+        for output in self.writes.iter().filter(|output| !is_standard(output)) {
+            let place = place_of(output)?;
+            if !forced && self.reads.iter().any(|input| is_input(&place, input)) {
                 return Err(Failure::Overwrites(output.to_path_buf()));
             }
-            if self.writes[..n].iter().filter(|other| !is_standard(other)).any(same) {
+            if places.iter().any(|other| is_same(&place, other)) {
                 return Err(Failure::Twice(output.to_path_buf()));
+            }
+            if let Some(stream) = stream_to(&place) {
+                return Err(Failure::Stream { path: output.to_path_buf(), stream });
+            }
+            if !forced && clatter_report::is_protected(&place) {
+                return Err(Failure::Protected(output.to_path_buf()));
+            }
+            places.push(place);
+        }
+        Ok(())
+    }
+
+    /// Refuses an output that is a record which a product file names: what was measured is never written over.
+    pub(crate) fn spare_records(&self, file: &ProductFile, product: &Path) -> Result<(), Failure> {
+        for output in self.writes.iter().filter(|output| !is_standard(output)) {
+            let place = place_of(output)?;
+            let named = file.records.iter().map(|record| measured::path_of(record, product));
+            if named.into_iter().any(|record| is_input(&place, &record)) {
+                return Err(Failure::NamedRecord { path: output.to_path_buf(), product: product.to_owned() });
             }
         }
         Ok(())
     }
+}
+
+/// Where an output is to stand, if it can.
+fn place_of(output: &Path) -> Result<PathBuf, Failure> {
+    let place = clatter_report::place_of(output).and_then(|place| {
+        clatter_report::takes_files(clatter_report::directory_of(&place)?)?;
+        Ok(place)
+    });
+    place.map_err(|reason| Failure::File { path: output.to_owned(), reason })
+}
+
+/// Whether an output is a file that is read. Pipes and devices are none, and are not opened: that would take from them, or wait.
+fn is_input(place: &Path, input: &Path) -> bool {
+    if is_standard(input) {
+        // Standard input may be a file that has a name as well.
+        return leads_to(place, Handle::stdin());
+    }
+    clatter_report::place_of(input).is_ok_and(|input| is_same(place, &input))
+}
+
+/// Whether two places, of files that are there or not, are one.
+fn is_same(a: &Path, b: &Path) -> bool {
+    a == b || same_file::is_same_file(a, b).unwrap_or(false) || clatter_report::differ_by_case_alone(a, b)
+}
+
+/// The stream of the process that a file takes, if any.
+fn stream_to(place: &Path) -> Option<&'static str> {
+    let streams = [(Handle::stdout(), "standard output"), (Handle::stderr(), "standard error")];
+    streams.into_iter().find_map(|(stream, name)| leads_to(place, stream).then_some(name))
+}
+
+fn leads_to(place: &Path, stream: io::Result<Handle>) -> bool {
+    place.is_file() && Handle::from_path(place).ok().zip(stream.ok()).is_some_and(|(a, b)| a == b)
 }

@@ -4,9 +4,13 @@ use std::io::{self, Write};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use crate::text::visible;
+
 /// Work that takes long.
 struct Work {
     what: &'static str,
+    /// The step that it is at, where it has such.
+    step: String,
     done: u64,
     /// 0 where it is not counted.
     total: u64,
@@ -32,7 +36,7 @@ pub(crate) struct Counted(());
 impl Counted {
     /// Begins `what`, such as "drawing", of which there are `total` parts; 0 where they are not counted.
     pub(crate) fn begin(what: &'static str, total: u64) -> Self {
-        *work() = Some(Work { what, done: 0, total, begin: Instant::now(), shown: false });
+        *work() = Some(Work { what, step: String::new(), done: 0, total, begin: Instant::now(), shown: false });
         Self(())
     }
 
@@ -41,6 +45,14 @@ impl Counted {
     pub(crate) fn at(&self, done: u64) {
         if let Some(work) = &mut *work() {
             work.done = work.done.max(done);
+        }
+    }
+
+    /// It is at this step.
+    #[expect(clippy::unused_self, reason = "without it nothing is begun")]
+    pub(crate) fn step(&self, step: &str) {
+        if let Some(work) = &mut *work() {
+            work.step = visible(step).into_owned();
         }
     }
 
@@ -73,12 +85,11 @@ pub(crate) fn show() {
     }
 }
 
-/// How far the work of now has come, as part of a sentence, for the last words of a process that is stopped.
+/// What was cut and how far it had come, as part of a sentence, for the last words of a process that is stopped.
 pub(crate) fn so_far() -> String {
     let work = work();
     wipe(work.as_ref());
-    let counted = work.as_ref().and_then(|work| Some((work.what, work.percent()?)));
-    counted.map_or_else(String::new, |(what, percent)| format!("{what} had come to {percent} %, "))
+    work.as_ref().map_or_else(String::new, Work::cut)
 }
 
 /// The line of the terminal as it was found.
@@ -89,6 +100,14 @@ fn wipe(work: Option<&Work>) {
 }
 
 impl Work {
+    fn cut(&self) -> String {
+        match self.percent() {
+            Some(percent) => format!("{} had come to {percent} %, ", self.what),
+            None if self.step.is_empty() => format!("{} was cut, ", self.what),
+            None => format!("{} was cut ({}), ", self.what, self.step),
+        }
+    }
+
     fn percent(&self) -> Option<u64> {
         let percent = (u128::from(self.done.min(self.total)) * 100).checked_div(u128::from(self.total))?;
         u64::try_from(percent).ok()
@@ -113,12 +132,22 @@ mod tests {
 
     #[test]
     fn the_line_says_what_is_done_and_left() {
-        let work = |done, total| Work { what: "drawing", done, total, begin: Instant::now(), shown: false };
+        let work = |done, total| Work {
+            what: "drawing",
+            step: String::new(),
+            done,
+            total,
+            begin: Instant::now(),
+            shown: false,
+        };
         let at = |done, total| work(done, total).line(Duration::from_secs(30));
         assert_eq!(at(25, 100), format!("drawing    [=======                       ]  25 %, {:<14}", "90 s left"));
         assert!(at(100, 100).contains("100 %, 0 s left"), "{}", at(100, 100));
         assert!(at(u64::MAX, u64::MAX).contains("100 %"));
         assert!(!at(0, 100).contains("left"), "nothing is known yet");
         assert_eq!(at(7, 0).trim_end(), "drawing, 30 s so far");
+        assert_eq!(work(25, 100).cut(), "drawing had come to 25 %, ");
+        assert_eq!(work(7, 0).cut(), "drawing was cut, ");
+        assert_eq!(Work { step: "the last page".to_owned(), ..work(7, 0) }.cut(), "drawing was cut (the last page), ");
     }
 }

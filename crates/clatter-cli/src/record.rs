@@ -4,21 +4,23 @@ mod answer;
 mod pulse;
 mod shocks;
 
+use std::borrow::Cow;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
 use clap::ValueHint;
-use clatter_assess::units::{ACCELERATION, Dimension, FREQUENCY, TIME, Unit};
+use clatter_assess::units::{ACCELERATION, FREQUENCY, TIME, Unit};
 use clatter_figures::{FigureError, Trace};
-use clatter_record::{Channel, Motion, Record, Series, Shock, Shocks, integrate, write_parquet};
+use clatter_record::{Channel, Motion, Record, Series, Shock, Shocks, TimeAxis, integrate, write_parquet};
 use clatter_shock::Pulse;
 
 use crate::condition_args::ConditionArgs;
 use crate::excitation;
+use crate::find_args::FindArgs;
 use crate::inputs::RowFormat;
 use crate::numbers::{digits, figures};
 use crate::output::{self, Files, Kind, Target, buffered};
-use crate::quantities::{Show, plain_or_typed};
+use crate::quantities::Show;
 use crate::record_args::RecordArgs;
 use crate::text::{self, column, shown};
 use crate::{Failure, Streams, npy};
@@ -32,7 +34,9 @@ use crate::{Failure, Streams, npy};
 /// commas, lines above the numbers, units in brackets, below the names or in the cells, comments, times of day and dates. The last
 /// line of the answer says what every line and every column was taken for.
 ///
-/// `-o FILE` writes the record anew, in s and m/s2: .csv, .parquet, .npy (time and channels as columns), or a picture as .svg.
+/// `-o FILE` writes the record anew, in s and m/s2: .csv, .parquet, .npy (a structured
+/// array, whose fields are named as the columns of the .csv, such as `time [s]`), or a picture as .svg. Channels with times of their
+/// own follow on a column of them, `time 2 [s]`; what is shorter than others is filled up with nothing, or with NaN.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -49,15 +53,8 @@ pub(crate) struct Args {
     reading: RecordArgs,
     #[command(flatten)]
     condition: ConditionArgs,
-    /// Find the shocks: each with its start, peak, duration between the 10 % points and velocity change
-    #[arg(long)]
-    find: bool,
-    /// Acceleration that a shock exceeds [default: what noise exceeds in one record of a thousand, by the median of the record]
-    #[arg(long, value_name = "ACCELERATION", requires = "find", value_parser = threshold)]
-    threshold: Option<f64>,
-    /// Time without passing it after which another shock begins, in s without a unit
-    #[arg(long, value_name = "TIME", default_value = "5ms", value_parser = quiet)]
-    quiet: f64,
+    #[command(flatten)]
+    finding: FindArgs,
     /// Fit a half-sine, a haversine and a terminal-peak sawtooth to the largest shock, and hold it against the tolerances of
     /// standards
     #[arg(long)]
@@ -74,19 +71,6 @@ pub(crate) struct Args {
     /// How to show the answer
     #[arg(long, value_enum, default_value_t = RowFormat::Table)]
     format: RowFormat,
-}
-
-fn positive(dimension: &'static Dimension, text: &str) -> Result<f64, String> {
-    let value = plain_or_typed(dimension, text)?.si;
-    if value > 0.0 && value.is_finite() { Ok(value) } else { Err(format!("{value:?} is not finite and > 0")) }
-}
-
-fn threshold(text: &str) -> Result<f64, String> {
-    positive(&ACCELERATION, text)
-}
-
-fn quiet(text: &str) -> Result<f64, String> {
-    positive(&TIME, text)
 }
 
 fn nominal(text: &str) -> Result<Pulse, String> {
@@ -109,14 +93,14 @@ impl Args {
         let record = self.condition.apply(self.reading.read(&self.file)?, &self.file)?;
         let bad = |reason| Failure::Record { path: self.file.clone(), reason };
         let found = Found {
-            shocks: if self.find { Some(shocks::find(self, &record).map_err(bad)?) } else { None },
+            shocks: self.finding.search().map(|search| shocks::find(&search, &record)).transpose().map_err(bad)?,
             fits: if self.fit_pulse { Some(pulse::fit(&record, self.nominal.as_ref()).map_err(bad)?) } else { None },
             motions: if self.integrate { Some(motions(&record).map_err(bad)?) } else { None },
         };
         let whole = Whole { args: self, record, found };
         for target in &self.output {
             output::replace(&target.path, |file| match target.kind {
-                Kind::Npy => buffered(file, |out| npy::write(out, whole.record.samples(), &whole.rows())),
+                Kind::Npy => buffered(file, |out| whole.npy(out)),
                 Kind::Svg => file.write_all(whole.picture()?.as_bytes()),
                 Kind::Parquet => file.write_all(&whole.parquet()?),
                 _ => buffered(file, |out| whole.csv(out)),
@@ -153,29 +137,55 @@ struct Whole<'a> {
 }
 
 fn motions(record: &Record) -> Result<Vec<Motion>, clatter_record::Error> {
-    let step_s = record.even("integration")?;
-    record.channels().iter().map(|channel| integrate(&channel.values, step_s)).collect()
+    let one = |channel: &Channel| integrate(&channel.values, channel.times().even("integration")?);
+    record.channels().iter().map(one).collect()
+}
+
+/// Time of a sample, on the axis of the file.
+fn time_s(channel: &Channel, sample: usize) -> f64 {
+    channel.times().start_s() + channel.times().since_s(sample)
+}
+
+/// How many samples in what time and from when on.
+fn said(times: &TimeAxis) -> String {
+    let time = Show { unit: time_unit(times.duration_s()), name: "s" };
+    let steps = match times.step_s() {
+        Some(step_s) => {
+            let rate = Show { unit: rate_unit(step_s.recip()), name: "Hz" };
+            let step = Show { unit: time_unit(step_s), name: "s" };
+            format!("every {}: {}", step.said(step_s), rate.said(step_s.recip()))
+        }
+        None => "uneven in time".to_owned(),
+    };
+    let (n, duration) = (times.samples(), time.said(times.duration_s()));
+    format!("{n} samples in {duration} from {} s on, {steps}", figures(times.start_s()))
+}
+
+/// A column of a file.
+struct ColumnOut<'a> {
+    name: String,
+    unit: &'static str,
+    values: Cow<'a, [f64]>,
+}
+
+impl ColumnOut<'_> {
+    /// As headings have it.
+    fn heading(&self) -> String {
+        format!("{} [{}]", self.name, self.unit)
+    }
 }
 
 impl Whole<'_> {
     fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         let record = &self.record;
-        let time = Show { unit: time_unit(record.duration_s()), name: "s" };
-        let steps = match record.step_s() {
-            Some(step_s) => {
-                let rate = Show { unit: rate_unit(step_s.recip()), name: "Hz" };
-                let step = Show { unit: time_unit(step_s), name: "s" };
-                format!("every {}: {}", step.said(step_s), rate.said(step_s.recip()))
-            }
-            None => "uneven in time".to_owned(),
-        };
-        let (n, duration) = (record.samples(), time.said(record.duration_s()));
-        writeln!(
-            out,
-            "{}: {n} samples in {duration} from {} s on, {steps}\n",
-            text::path(&self.args.file),
-            figures(record.start_s())
-        )?;
+        let times = record.times();
+        let longest_s = times.iter().map(|times| times.duration_s()).fold(0.0, f64::max);
+        let time = Show { unit: time_unit(longest_s), name: "s" };
+        let file = text::path(&self.args.file);
+        match times[..] {
+            [times] => writeln!(out, "{file}: {}\n", said(times))?,
+            _ => writeln!(out, "{file}: channels with times of their own\n")?,
+        }
         let width = 24;
         let (heading, _) = column("channel", width);
         writeln!(out, "{heading}{:>10}{:>14}{:>14}{:>14}{:>14}", "unit", "largest", "at", "smallest", "at")?;
@@ -184,12 +194,16 @@ impl Whole<'_> {
         for channel in record.channels() {
             let [high, low] = extremes(channel);
             let (name, _) = column(&shown(&channel.name, width - 1), width);
-            let (unit, cells) = (shown(&channel.unit, 9), [high, low].map(|i| (channel.values[i], record.since_s(i))));
+            let (unit, cells) =
+                (shown(&channel.unit, 9), [high, low].map(|i| (channel.values[i], channel.times().since_s(i))));
             write!(out, "{name}{unit:>10}")?;
             for (value, since_s) in cells {
                 write!(out, "{:>14}{:>14}", figures(value), time.figures(since_s))?;
             }
             writeln!(out)?;
+            if times.len() > 1 {
+                writeln!(out, "    {}", said(channel.times()))?;
+            }
         }
         for (k, channel) in record.channels().iter().enumerate() {
             let name = shown(&channel.name, 40);
@@ -198,10 +212,10 @@ impl Whole<'_> {
                 writeln!(out, "\n{name}: at the end {velocity} m/s and {displacement} m, from rest")?;
             }
             if let Some(found) = &self.found.shocks {
-                shocks::table(record, &name, &found[k], out)?;
+                shocks::table(channel, &name, &found[k], out)?;
             }
             if let Some(fits) = &self.found.fits {
-                pulse::table(record, &name, &fits[k], out)?;
+                pulse::table(channel, &name, &fits[k], out)?;
             }
         }
         if let Some(account) = record.account() {
@@ -219,58 +233,72 @@ impl Whole<'_> {
         for channel in self.record.channels() {
             write!(out, "{},{}", text::field(&channel.name), text::field(&channel.unit))?;
             for i in extremes(channel) {
-                write!(out, ",{},{}", digits(channel.values[i]), digits(self.time_s(i)))?;
+                write!(out, ",{},{}", digits(channel.values[i]), digits(time_s(channel, i)))?;
             }
             writeln!(out)?;
         }
         Ok(())
     }
 
-    /// Time of a sample, on the axis of the file.
-    fn time_s(&self, sample: usize) -> f64 {
-        self.record.start_s() + self.record.since_s(sample)
-    }
-
-    /// The columns beside time: name, unit and values.
-    fn columns(&self) -> Vec<(String, &'static str, &[f64])> {
+    /// The columns of a file: of each time the seconds, then what was sampled together.
+    fn columns(&self) -> Vec<ColumnOut<'_>> {
         let mut columns = Vec::new();
-        for (k, channel) in self.record.channels().iter().enumerate() {
-            columns.push((channel.name.clone(), "m/s2", &channel.values[..]));
-            if let Some(motions) = &self.found.motions {
-                columns.push((format!("velocity of {}", channel.name), "m/s", &motions[k].velocity_m_s[..]));
-                columns.push((format!("displacement of {}", channel.name), "m", &motions[k].displacement_m[..]));
+        for (n, times) in self.record.times().into_iter().enumerate() {
+            let name = if n == 0 { "time".to_owned() } else { format!("time {}", n + 1) };
+            let seconds = times.times_s().map(|since_s| times.start_s() + since_s).collect();
+            columns.push(ColumnOut { name, unit: "s", values: Cow::Owned(seconds) });
+            for (k, channel) in self.record.channels().iter().enumerate() {
+                if !channel.times().is_that_of(times) {
+                    continue;
+                }
+                let mut add =
+                    |name, unit, values| columns.push(ColumnOut { name, unit, values: Cow::Borrowed(values) });
+                add(channel.name.clone(), "m/s2", &channel.values[..]);
+                if let Some(motions) = &self.found.motions {
+                    add(format!("velocity of {}", channel.name), "m/s", &motions[k].velocity_m_s[..]);
+                    add(format!("displacement of {}", channel.name), "m", &motions[k].displacement_m[..]);
+                }
             }
         }
         columns
     }
 
-    /// Time and columns of each sample.
-    fn rows(&self) -> Vec<f64> {
-        let columns = self.columns();
-        let row = |i: usize| std::iter::once(self.time_s(i)).chain(columns.iter().map(move |(.., values)| values[i]));
-        (0..self.record.samples()).flat_map(row).collect()
+    /// The columns filled up with NaN to the length of the longest, for files that have one length.
+    fn filled(&self) -> Vec<ColumnOut<'_>> {
+        let mut columns = self.columns();
+        let rows = columns.iter().map(|column| column.values.len()).max().unwrap_or(0);
+        for column in columns.iter_mut().filter(|column| column.values.len() < rows) {
+            column.values.to_mut().resize(rows, f64::NAN);
+        }
+        columns
     }
 
     fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
         let columns = self.columns();
-        let names = columns.iter().map(|(name, unit, _)| text::field(&format!("{name} [{unit}]")));
-        writeln!(out, "time [s],{}", names.collect::<Vec<_>>().join(","))?;
-        for i in 0..self.record.samples() {
-            write!(out, "{}", digits(self.time_s(i)))?;
-            for (.., values) in &columns {
-                write!(out, ",{}", digits(values[i]))?;
+        let names = columns.iter().map(|column| text::field(&column.heading()));
+        writeln!(out, "{}", names.collect::<Vec<_>>().join(","))?;
+        let rows = columns.iter().map(|column| column.values.len()).max().unwrap_or(0);
+        for i in 0..rows {
+            for (k, column) in columns.iter().enumerate() {
+                let comma = if k > 0 { "," } else { "" };
+                write!(out, "{comma}{}", column.values.get(i).map_or_else(String::new, |value| digits(*value)))?;
             }
             writeln!(out)?;
         }
         Ok(())
     }
 
+    fn npy(&self, out: &mut impl Write) -> io::Result<()> {
+        let columns = self.filled();
+        let named: Vec<_> = columns.iter().map(|column| (column.heading(), &column.values[..])).collect();
+        npy::write_columns(out, &named)
+    }
+
     fn parquet(&self) -> io::Result<Vec<u8>> {
-        let times: Vec<f64> = (0..self.record.samples()).map(|i| self.time_s(i)).collect();
-        let columns = self.columns();
-        let time = Series { name: "time", unit: "s", values: &times };
-        let others = columns.iter().map(|(name, unit, values)| Series { name, unit, values });
-        write_parquet(&std::iter::once(time).chain(others).collect::<Vec<_>>()).map_err(io::Error::other)
+        let columns = self.filled();
+        let series =
+            columns.iter().map(|column| Series { name: &column.name, unit: column.unit, values: &column.values });
+        write_parquet(&series.collect::<Vec<_>>()).map_err(io::Error::other)
     }
 
     /// All channels over time; in g where the file is. With a fitted pulse the part around it, and the pulse beside.
@@ -280,44 +308,52 @@ impl Whole<'_> {
         let unit = if in_g { ACCELERATION.units.iter().find(|unit| unit.name == "g") } else { None };
         let value = Show { unit, name: "m/s²" };
         let span = self.span();
-        let time = Show { unit: time_unit(span[1] - span[0]), name: "s" };
-        let place = |i: usize| (time.value(self.time_s(i)), record.since_s(i));
-        let points = |values: &[f64], show: &Show| -> Vec<(f64, f64)> {
-            let within = (0..values.len()).filter(|i| (span[0]..=span[1]).contains(&record.since_s(*i)));
-            within.map(|i| (place(i).0, show.value(values[i]))).collect()
+        let longest_s = record.times().iter().map(|times| times.duration_s()).fold(0.0, f64::max);
+        let time = Show { unit: time_unit(longest_s.min(span[1] - span[0])), name: "s" };
+        let points = |channel: &Channel, values: &[f64], show: &Show| -> Vec<(f64, f64)> {
+            let within = (0..values.len()).map(|i| (time_s(channel, i), values[i]));
+            let within = within.filter(|(time_s, _)| (span[0]..=span[1]).contains(time_s));
+            within.map(|(time_s, value)| (time.value(time_s), show.value(value))).collect()
         };
         let (title, velocity, length) =
             (value.name(), Show { unit: None, name: "m/s" }, Show { unit: None, name: "m" });
         let mut traces = Vec::new();
         for (k, channel) in record.channels().iter().enumerate() {
+            let start_s = channel.times().start_s();
             let marks = self.found.shocks.as_ref().map_or(Vec::new(), |found| {
-                let mark =
-                    |shock: &Shock| (time.value(record.start_s() + shock.peak_time_s), value.value(shock.peak_m_s2));
+                let mark = |shock: &Shock| (time.value(start_s + shock.peak_time_s), value.value(shock.peak_m_s2));
                 found[k].shocks.iter().map(mark).collect()
             });
             let beside = self.found.fits.as_ref().map(|fits| {
                 let curve = pulse::curve(&fits[k]).into_iter();
-                let point = |(since_s, a)| (time.value(record.start_s() + since_s), value.value(a));
+                let point = |(since_s, a)| (time.value(start_s + since_s), value.value(a));
                 ("nominal pulse", curve.map(point).collect::<Vec<_>>())
             });
-            traces.push(Trace { name: &channel.name, title, points: points(&channel.values, &value), marks, beside });
+            traces.push(Trace {
+                name: &channel.name,
+                title,
+                points: points(channel, &channel.values, &value),
+                marks,
+                beside,
+            });
             if let Some(motions) = &self.found.motions {
                 let plain = |name, title, points| Trace { name, title, points, marks: Vec::new(), beside: None };
-                traces.push(plain("velocity", "m/s", points(&motions[k].velocity_m_s, &velocity)));
-                traces.push(plain("displacement", "m", points(&motions[k].displacement_m, &length)));
+                traces.push(plain("velocity", "m/s", points(channel, &motions[k].velocity_m_s, &velocity)));
+                traces.push(plain("displacement", "m", points(channel, &motions[k].displacement_m, &length)));
             }
         }
         clatter_figures::record(&traces, &format!("time, {}", time.name()))
     }
 
-    /// What is drawn, in seconds since the first sample.
+    /// What is drawn, in seconds on the axis of the file.
     fn span(&self) -> [f64; 2] {
-        match self.found.fits.as_deref() {
-            Some([fitted, ..]) => {
+        match (self.found.fits.as_deref(), self.record.channels()) {
+            (Some([fitted, ..]), [channel, ..]) => {
                 let Pulse { start, duration, .. } = fitted.nominal;
-                [start - duration, start + 2.0 * duration]
+                let begin_s = channel.times().start_s() + start;
+                [begin_s - duration, begin_s + 2.0 * duration]
             }
-            _ => [0.0, self.record.duration_s()],
+            _ => [f64::NEG_INFINITY, f64::INFINITY],
         }
     }
 }

@@ -141,6 +141,7 @@ pub(crate) fn remedy(error: &clatter_record::Error) -> &'static str {
         clatter_record::Error::Columns(_) => {
             " (--time=COLUMN, --acceleration=COLUMN by name or number; --sample-rate=HZ in place of times)"
         }
+        clatter_record::Error::Times { .. } => " (--acceleration=COLUMN takes channels of one of them)",
         clatter_record::Error::Units(_) => " (--units=TIME,ACCELERATION such as ms,g; --full-scale)",
         _ => "",
     }

@@ -7,6 +7,7 @@ use clatter_report::Report;
 use serde::Serialize;
 
 use crate::inputs::Format;
+use crate::progress::Counted;
 use crate::text::visible;
 use crate::{Failure, Streams};
 
@@ -72,7 +73,9 @@ impl Args {
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
         let mut answer = Answer { files: Vec::new(), warnings: Vec::new() };
         for &report in self.which.reports() {
+            let making = Counted::begin("making the report", 0);
             let mut progress = |step: &str| {
+                making.step(step);
                 if streams.interactive {
                     streams.note("clatter", step);
                 }

@@ -126,10 +126,10 @@ pub(crate) struct Args {
     /// With --model: how exact the answer is for the model, as a share of it: 0.01 or 1%
     #[arg(long, value_name = "SHARE", default_value = "1%", allow_hyphen_values = true, value_parser = inputs::tolerance, requires = "followed")]
     tolerance: f64,
-    /// Velocity shocks instead of a clatter: a CSV file with the columns time_s and delta_v_m_s, in order of time
+    /// Velocity shocks instead of a clatter: a table with the columns time_s and delta_v_m_s, in order of time
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = CLATTER)]
     shocks_file: Option<PathBuf>,
-    /// Pulses instead of a clatter: a CSV file with the columns shape, amplitude_m_s2, duration_s and start_s
+    /// Pulses instead of a clatter: a table with the columns shape, amplitude_m_s2, duration_s and start_s
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = CLATTER, conflicts_with = "shocks_file")]
     pulses_file: Option<PathBuf>,
     /// Also give the half-sine of a shock table that does the same to the component, or that there is none; in SI units

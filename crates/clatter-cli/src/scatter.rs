@@ -114,7 +114,7 @@ impl Args {
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<Exit, Failure> {
         output::in_place_of_answer(self.output.as_deref(), matches!(self.format, RowFormat::Table))?;
-        let file = assess::read(&self.product, streams)?;
+        let file = assess::read(&self.product, &self.files(), streams)?;
         let scatter = self.draw(&file, streams)?;
         let target = self.target.map(|share| Target { share });
         match self.format {
@@ -135,21 +135,21 @@ impl Args {
             Settings { samples: self.samples, seed: self.seed, confidence: self.confidence, merge_s: self.merge.si };
         let sampler = Sampler::new(file, settings)?;
         let counted = Counted::begin("drawing", self.samples);
-        let go_on = |done| {
-            counted.at(done);
-            budget::go_on()
-        };
         let Some(path) = &self.output else {
-            let Ok(scatter) = sampler.run(false, |progress| Ok::<_, Infallible>(go_on(progress.done)));
+            let count = |progress: &Progress<'_>| {
+                counted.at(progress.done);
+                Ok::<_, Infallible>(())
+            };
+            let Ok(scatter) = sampler.run(false, &budget::go_on, count);
             return Ok(scatter);
         };
         if is_standard(path) {
-            return rows(&sampler, file, &mut streams.out, go_on).map_err(Failure::Answer);
+            return rows(&sampler, file, &mut streams.out, &counted).map_err(Failure::Answer);
         }
         let mut drawn = None;
         output::replace(path, |target| {
             let mut out = BufWriter::with_capacity(1 << 16, target);
-            drawn = Some(rows(&sampler, file, &mut out, go_on)?);
+            drawn = Some(rows(&sampler, file, &mut out, &counted)?);
             out.flush()
         })?;
         let Some(scatter) = drawn else { unreachable!("a file that was written was drawn") };
@@ -178,12 +178,7 @@ fn title(file: &ProductFile, column: Column) -> String {
 }
 
 /// Draws and writes every sample, as long as it may go on.
-fn rows(
-    sampler: &Sampler,
-    file: &ProductFile,
-    out: &mut impl Write,
-    go_on: impl Fn(u64) -> bool,
-) -> io::Result<Scatter> {
+fn rows(sampler: &Sampler, file: &ProductFile, out: &mut impl Write, counted: &Counted) -> io::Result<Scatter> {
     let columns = sampler.columns();
     write!(out, "sample")?;
     for column in &columns {
@@ -191,7 +186,7 @@ fn rows(
     }
     writeln!(out)?;
     let (full, mut sample) = (fullest(file).name(), 0_u64);
-    sampler.run(true, |progress: &Progress<'_>| {
+    sampler.run(true, &budget::go_on, |progress: &Progress<'_>| {
         for row in progress.values.chunks(columns.len()) {
             write!(out, "{sample}")?;
             for (column, value) in columns.iter().zip(row) {
@@ -206,7 +201,8 @@ fn rows(
             writeln!(out)?;
             sample += 1;
         }
-        Ok::<_, io::Error>(go_on(progress.done))
+        counted.at(progress.done);
+        Ok::<_, io::Error>(())
     })
 }
 

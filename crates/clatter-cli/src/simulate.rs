@@ -207,6 +207,7 @@ impl Args {
             first: None,
             of_product: false,
             worst: None,
+            files: self.files(),
         };
         let mut setup = self.drop.setup(&beside, streams)?;
         let (spin, flag) = match (self.spin, self.spin_rad_s) {

@@ -2,22 +2,25 @@
 
 mod answer;
 mod boundary;
+mod history;
 mod records;
 mod table;
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{ValueEnum, ValueHint};
 use clatter_assess::units::{ACCELERATION, Dimension, LENGTH, SPEED, Unit};
-use clatter_figures::{Critical, FigureError};
-use clatter_record::{BAND, Between};
+use clatter_figures::{Against, Critical, FigureError};
+use clatter_record::{BAND, Between, TimeAxis};
 use clatter_shock::{
-    Frequencies, LimitCurve, Margin, Pulse, Pulses, Quantity, Spectrum, VelocityShock, VelocityShocks,
+    Deviation, EnvelopingPulse, Frequencies, Margin, Pulse, Pulses, Quantity, RequiredSpectrum, Shape, Spectrum,
+    VelocityShock, VelocityShocks,
 };
 
 use crate::condition_args::ConditionArgs;
-use crate::excitation::{self, FrequencyArg, LimitArg, PulseArg};
+use crate::excitation::{self, FrequencyArg, LimitArg, PulseArg, Tolerance};
+use crate::find_args::FindArgs;
 use crate::inputs::{DampingListArgs, RowFormat};
 use crate::numbers::figures;
 use crate::output::{Files, Kind, Target, buffered};
@@ -38,8 +41,9 @@ use records::{Measured, Several};
 ///   --pulse     a pulse of a shape or a standard; may be given several times, and pulses may overlap
 ///   --shock     a change of velocity in no time, for pulses much shorter than a period
 ///   --pulses-file, --shocks-file
-///               either of these from a CSV file, of any number: its first line names the columns,
-///               shape,amplitude_m_s2,duration_s,start_s or time_s,delta_v_m_s, among others or not
+///               either of these from a table, of any number, in any notation of records: its first line
+///               names the columns, shape,amplitude_m_s2,duration_s,start_s or time_s,delta_v_m_s, or the
+///               same in other units, such as `delta v [mm/s]`, among others or not
 ///
 /// For each frequency: `primary`, the largest absolute value from the first start to the last end;
 /// `residual`, after it, the ring-down complete; `maximax` over both, and when it is reached; and
@@ -48,12 +52,15 @@ use records::{Measured, Several};
 /// With --limit the margin 20 log10(limit/maximax) is given in decibel; below 0 the limit is exceeded,
 /// and the exit status is 1.
 ///
+/// With --required the spectrum that a test was to reach is held beside each channel: at every frequency the maximax is at least
+/// that, and within --tolerance of it where one is given, or the exit status is 1. How far it is off is told in decibel.
+///
 /// `-o FILE` writes the rows as .csv, the whole answer as .json, or a picture as .svg: log-log, the
 /// pseudo-velocity on four-coordinate paper. With --damage-boundary the picture is the damage
 /// boundary with the pulse on it.
 ///
-/// A damage boundary comes from one frequency and a limit, or with --tests from shock tests: a CSV
-/// file with the columns test (velocity-change, in m/s, or acceleration, in m/s2), level and damaged
+/// A damage boundary comes from one frequency and a limit, or with --tests from shock tests: a
+/// table with the columns test (velocity-change, in m/s, or acceleration, in m/s2), level and damaged
 /// (yes or no). Critical is the highest level of either below all damage, as in ASTM D3332; between
 /// them the boundary is that of an undamped component, for rectangles.
 #[derive(Debug, clap::Args)]
@@ -70,12 +77,16 @@ Examples:
       --damage-boundary -o boundary.svg
   clatter spectrum --pulse=rectangle,600,0.004 --damage-boundary --tests=tests.csv
   clatter spectrum --shocks-file=shocks.csv --frequency=180Hz
+  clatter spectrum day.csv --find --envelope --enveloping-pulse=half-sine
+  clatter spectrum drop.csv --frequency=180Hz --history=felt.csv
+  clatter spectrum drop.csv --required=10:9g,80:75g,2000:75g --tolerance=-1.5,6
   clatter spectrum drop.csv --q-factor=5,10,25 --output-units=g --format=csv
 
 Numbers without a unit are in SI. A limit in g, or where there is none a pulse in g, has the table in
 g; JSON and CSV stay in SI. --output-units has all of them in one.
 
-Exit status: 0 done, 1 the limit or the damage boundary is exceeded, 2 bad input."
+Exit status: 0 done, 1 the limit or the damage boundary is exceeded or the required spectrum not
+reached, 2 bad input."
 )]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -86,6 +97,8 @@ pub(crate) struct Args {
     condition: ConditionArgs,
     #[command(flatten)]
     several: Several,
+    #[command(flatten)]
+    finding: FindArgs,
     /// What the acceleration of a record is between its samples
     #[arg(long, value_enum, default_value_t = Interpolation::BandLimited)]
     interpolation: Interpolation,
@@ -102,9 +115,25 @@ pub(crate) struct Args {
     /// straight on log-log paper
     #[arg(long, value_name = "X|HZ:X,…", allow_hyphen_values = true, value_parser = excitation::limit)]
     limit: Option<LimitArg>,
-    /// What the component stands from a CSV file: frequency and level, with units in its headings
+    /// What the component stands from a table: frequency and level, with units in its headings
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with = "limit")]
     limit_file: Option<PathBuf>,
+    /// What the spectrum was to reach, as --limit has it: a value, points of a curve or the curve of a standard
+    #[arg(long, value_name = "X|HZ:X,…", allow_hyphen_values = true, value_parser = excitation::limit)]
+    required: Option<LimitArg>,
+    /// The same from a CSV file, as --limit-file has it
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with = "required")]
+    required_file: Option<PathBuf>,
+    /// How far it may be off the required one, in dB: 3 is 3 dB on both sides, -1.5,6 is 1.5 dB below and 6 dB above, -1.5 has
+    /// nothing above it [default: nothing below it, and anything above]
+    #[arg(long, value_name = "DB|-BELOW,ABOVE", allow_hyphen_values = true, value_parser = excitation::tolerance)]
+    tolerance: Option<Tolerance>,
+    /// Also the pulse of this shape, such as half-sine, whose spectrum is nowhere below, and above by least on average
+    #[arg(long, value_name = "SHAPE", value_parser = excitation::shape)]
+    enveloping_pulse: Option<Shape>,
+    /// Write to this CSV file what the component of one --frequency feels over time, of each channel of a record
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = history)]
+    history: Option<Target>,
     /// Unit of accelerations in the answer: of the table, CSV and JSON [default: that of the limit or the pulse in the
     /// table, SI elsewhere]
     #[arg(long, value_enum)]
@@ -113,7 +142,7 @@ pub(crate) struct Args {
     /// displacement, or from --tests
     #[arg(long)]
     damage_boundary: bool,
-    /// Take the damage boundary from these shock tests, for a pulse that is a rectangle: a CSV file with the columns
+    /// Take the damage boundary from these shock tests, for a pulse that is a rectangle: a table with the columns
     /// test, level and damaged
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "damage_boundary", conflicts_with = "limit")]
     tests: Option<PathBuf>,
@@ -139,10 +168,10 @@ struct Excitation {
     /// A velocity shock: change of velocity and time with their units, or in m/s and s; in order of time
     #[arg(long, value_name = "DELTA_V,TIME", allow_hyphen_values = true, value_parser = excitation::shock)]
     shock: Vec<VelocityShock>,
-    /// Pulses from a CSV file with the columns shape, amplitude_m_s2, duration_s and start_s
+    /// Pulses from a table with the columns shape, amplitude_m_s2, duration_s and start_s
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pulses_file: Option<PathBuf>,
-    /// Velocity shocks from a CSV file with the columns time_s and delta_v_m_s, in order of time
+    /// Velocity shocks from a table with the columns time_s and delta_v_m_s, in order of time
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     shocks_file: Option<PathBuf>,
 }
@@ -219,6 +248,10 @@ impl QuantityName {
     }
 }
 
+fn history(text: &str) -> Result<Target, String> {
+    Target::of(text, &[Kind::Csv])
+}
+
 fn target(text: &str) -> Result<Target, String> {
     Target::of(text, &[Kind::Csv, Kind::Json, Kind::Svg])
 }
@@ -229,6 +262,7 @@ struct Computed<'a> {
     /// Its frequencies, in the unit that was typed.
     frequencies: FrequencyArg,
     limit: Option<LimitArg>,
+    required: Option<RequiredSpectrum>,
     /// One for each channel and damping ratio, and those made of several; at least one.
     parts: Vec<Part>,
     records: Vec<Measured>,
@@ -241,11 +275,21 @@ struct Part {
     name: Option<String>,
     spectrum: Spectrum,
     margins: Option<Vec<Option<Margin>>>,
+    /// From what was to be reached.
+    deviations: Option<Vec<Option<Deviation>>>,
+    enveloping: Option<EnvelopingPulse>,
 }
 
 impl Part {
     fn exceeds(&self) -> bool {
         self.margins.iter().flatten().flatten().any(|margin| !margin.is_safe())
+    }
+
+    /// Whether it reaches what it was to, at one frequency at least and wherever that is told.
+    fn reaches(&self) -> bool {
+        let Some(deviations) = &self.deviations else { return true };
+        let mut told = deviations.iter().flatten().peekable();
+        told.peek().is_some() && told.all(Deviation::is_reached)
     }
 }
 
@@ -256,16 +300,21 @@ const PER_OCTAVE: f64 = 12.0;
 impl Args {
     pub(crate) fn files(&self) -> Files<'_> {
         let Excitation { record, pulses_file, shocks_file, .. } = &self.excitation;
-        let reads = [pulses_file, shocks_file, &self.tests, &self.limit_file];
+        let reads = [pulses_file, shocks_file, &self.tests, &self.limit_file, &self.required_file];
         Files {
             reads: record.iter().chain(reads.into_iter().flatten()).map(AsRef::as_ref).collect(),
-            writes: self.output.iter().map(|target| target.path.as_path()).collect(),
+            writes: self.output.iter().chain(&self.history).map(|target| target.path.as_path()).collect(),
         }
     }
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<Exit, Failure> {
         if self.excitation.record.is_empty()
-            && let Some(flag) = self.reading.given().or_else(|| self.condition.given()).or_else(|| self.several.given())
+            && let Some(flag) = self
+                .reading
+                .given()
+                .or_else(|| self.condition.given())
+                .or_else(|| self.several.given())
+                .or_else(|| self.finding.search().map(|_| "--find"))
         {
             return Err(Failure::Wrong(format!("{flag} goes with records alone")));
         }
@@ -275,11 +324,12 @@ impl Args {
                 "--output-units=g goes with the quantities acceleration and equivalent-static-acceleration alone",
             ));
         }
-        let limit = match &self.limit_file {
-            Some(path) => Some(lists::limit(path, self.quantity.dimension())?),
-            None => self.limit.clone(),
-        };
-        self.check_limit(limit.as_ref())?;
+        if self.history.is_some() && self.excitation.record.is_empty() {
+            return Err(Failure::Usage("--history goes with records alone"));
+        }
+        let limit = self.curve("--limit", self.limit.as_ref(), self.limit_file.as_deref())?;
+        let required = self.curve("--required", self.required.as_ref(), self.required_file.as_deref())?;
+        let required = self.required_within(required)?;
         let records = records::read(self)?;
         let frequencies = self.frequencies(&records)?;
         let boundary = if self.damage_boundary { Some(self.boundary(&records, &frequencies)?) } else { None };
@@ -289,10 +339,21 @@ impl Args {
             return Err(Failure::Usage("both directions of the record cancel: there is no damage boundary to draw"));
         }
         let spectra = self.spectra(&records, &frequencies.list)?;
-        let margins = |spectrum: &Spectrum| limit.as_ref().map(|limit| limit.curve.margins(spectrum));
-        let part = |(name, spectrum): (_, Spectrum)| Part { name, margins: margins(&spectrum), spectrum };
-        let parts = spectra.into_iter().map(part).collect();
-        let computed = Computed { args: self, frequencies, limit, parts, records, boundary };
+        let part = |(name, spectrum): (_, Spectrum)| {
+            let enveloping = self.enveloping_pulse.map(|shape| EnvelopingPulse::of(&spectrum, shape)).transpose()?;
+            Ok::<_, Failure>(Part {
+                name,
+                margins: limit.as_ref().map(|limit| limit.curve.margins(&spectrum)),
+                deviations: required.as_ref().map(|required| required.deviations(&spectrum)),
+                enveloping: enveloping.flatten(),
+                spectrum,
+            })
+        };
+        let parts = spectra.into_iter().map(part).collect::<Result<_, _>>()?;
+        if let Some(target) = &self.history {
+            self.write_history(&records, &frequencies, target)?;
+        }
+        let computed = Computed { args: self, frequencies, limit, required, parts, records, boundary };
         if let Some(target) = &self.output {
             computed.write(target)?;
         }
@@ -308,18 +369,33 @@ impl Args {
             RowFormat::Json => streams.json(&computed.answer()),
         }?;
         let damages = computed.boundary.as_ref().is_some_and(|boundary| !boundary.margin.is_safe());
-        Ok(if damages || computed.parts.iter().any(Part::exceeds) { Exit::Unsafe } else { Exit::Done })
+        let wants = |part: &Part| part.exceeds() || !part.reaches();
+        Ok(if damages || computed.parts.iter().any(wants) { Exit::Unsafe } else { Exit::Done })
     }
 
-    /// Refuses a limit in a unit of another quantity.
-    fn check_limit(&self, limit: Option<&LimitArg>) -> Result<(), Failure> {
-        let Some((dimension, unit)) = limit.and_then(|limit| limit.typed) else { return Ok(()) };
-        let ([name, _], own) = (self.quantity.name(), self.quantity.dimension());
-        if dimension.name == own.name {
-            return Ok(());
-        }
-        let (what, own) = (dimension.one(), own.names());
-        Err(Failure::Wrong(format!("--limit in {} is {what}, and the quantity is {name}, in one of {own}", unit.name)))
+    /// A curve as it was typed or from its file; refused in a unit of another quantity.
+    fn curve(&self, flag: &str, typed: Option<&LimitArg>, file: Option<&Path>) -> Result<Option<LimitArg>, Failure> {
+        let own = self.quantity.dimension();
+        let curve = match file {
+            Some(path) => Some(lists::limit(path, own)?),
+            None => typed.cloned(),
+        };
+        let unit = curve.as_ref().and_then(|curve| curve.typed).filter(|(dimension, _)| dimension.name != own.name);
+        let Some((dimension, unit)) = unit else { return Ok(curve) };
+        let ([name, _], what, own) = (self.quantity.name(), dimension.one(), own.names());
+        Err(Failure::Wrong(format!("{flag} in {} is {what}, and the quantity is {name}, in one of {own}", unit.name)))
+    }
+
+    /// The required curve with its tolerance.
+    fn required_within(&self, curve: Option<LimitArg>) -> Result<Option<RequiredSpectrum>, Failure> {
+        let Some(LimitArg { curve, .. }) = curve else {
+            return match self.tolerance {
+                Some(_) => Err(Failure::Usage("--tolerance goes with --required or --required-file")),
+                None => Ok(None),
+            };
+        };
+        let Tolerance { below_db, above_db } = self.tolerance.unwrap_or(Tolerance { below_db: 0.0, above_db: None });
+        Ok(Some(RequiredSpectrum::new(curve, below_db, above_db)?))
     }
 
     /// How the quantity is shown: in the unit asked for, else of the limit, else of a pulse.
@@ -345,8 +421,9 @@ impl Args {
         if let Some(frequency) = &self.frequency {
             return Ok(frequency.clone());
         }
-        let third = |measured: &Measured| measured.record.step_s().map(|step_s| (3.0 * step_s).recip());
-        let high = records.iter().filter_map(third).fold(HIGHEST_HZ, f64::min);
+        let times = records.iter().flat_map(|measured| measured.record.times());
+        let third = |times: &TimeAxis| times.step_s().map(|step_s| (3.0 * step_s).recip());
+        let high = times.filter_map(third).fold(HIGHEST_HZ, f64::min);
         // Three decades, where the samples are few.
         let low = LOWEST_HZ.min(high * LOWEST_HZ / HIGHEST_HZ);
         Ok(FrequencyArg { list: Frequencies::per_octave(low, high, PER_OCTAVE)?, unit: None })
@@ -384,8 +461,8 @@ impl Args {
 }
 
 impl Computed<'_> {
-    fn limit(&self) -> Option<&LimitCurve> {
-        self.limit.as_ref().map(|limit| &limit.curve)
+    fn against(&self) -> Against<'_> {
+        Against { limit: self.limit.as_ref().map(|limit| &limit.curve), required: self.required.as_ref() }
     }
 
     /// What is odd about the records, and frequencies that they don't tell of.
@@ -393,14 +470,23 @@ impl Computed<'_> {
         let hz = self.frequencies.list.hz();
         let (low, high) = hz.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), hz| (low.min(*hz), high.max(*hz)));
         let mut warnings = Vec::new();
-        for Measured { path, record } in &self.records {
+        if let Some([from, to]) = self.required.as_ref().and_then(|required| required.curve().range_hz())
+            && (from < low || to > high)
+        {
+            let [from, to, low, high] = [from, to, low, high].map(figures);
+            warnings.push(format!(
+                "the required spectrum goes from {from} to {to} Hz, and is judged from {low} to {high} Hz alone: --frequency says where"
+            ));
+        }
+        for Measured { path, record, .. } in &self.records {
             let path = text::path(path);
             warnings.extend(record.findings(low).iter().map(|finding| format!("{path}: {finding}")));
-            let band_hz = record.step_s().map_or(f64::INFINITY, |step_s| BAND / step_s);
+            let slowest_s = record.times().iter().filter_map(|times| times.step_s()).fold(0.0, f64::max);
+            let band_hz = BAND / slowest_s;
             if high > band_hz && self.args.interpolation == Interpolation::BandLimited {
-                let band = figures(band_hz);
+                let (band, of) = (figures(band_hz), if record.times().len() > 1 { "lowest " } else { "" });
                 warnings.push(format!(
-                    "{path}: natural frequencies above {band} Hz, 0.4 of the sampling rate, are beyond what the samples tell for sure"
+                    "{path}: natural frequencies above {band} Hz, 0.4 of the {of}sampling rate, are beyond what the samples tell for sure"
                 ));
             }
         }
@@ -425,11 +511,11 @@ impl Computed<'_> {
             return clatter_figures::damage_boundary(critical, &b.curve, [b.velocity_change, b.acceleration]);
         }
         if let [part] = &self.parts[..] {
-            return clatter_figures::spectrum(&part.spectrum, self.limit());
+            return clatter_figures::spectrum(&part.spectrum, self.against());
         }
         let names: Vec<String> = self.parts.iter().map(|part| self.name(part)).collect();
         let all: Vec<_> = self.parts.iter().zip(&names).map(|(part, name)| (&part.spectrum, name.as_str())).collect();
-        clatter_figures::spectra(&all, self.limit())
+        clatter_figures::spectra(&all, self.against())
     }
 
     /// The channel and the quality factor of a part, as far as there are several.

@@ -56,7 +56,7 @@ impl Args {
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
         output::in_place_of_answer(self.output.as_deref(), matches!(self.format, RowFormat::Table))?;
-        let (file, ladders) = explain::measure(&self.product, self.tolerance, streams)?;
+        let (file, ladders) = explain::measure(&self.product, self.tolerance, &self.files(), streams)?;
         if let Some(path) = &self.output {
             let svg = clatter_report::ladder_svg(&ladders)?;
             if is_standard(path) {

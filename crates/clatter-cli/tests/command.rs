@@ -67,6 +67,22 @@ fn an_answer_that_nobody_wants_is_no_error() {
     }
 }
 
+/// The system tells of a standard output that is not open for writing.
+#[cfg(unix)]
+#[test]
+fn an_answer_that_has_nowhere_to_go_is_an_error() {
+    for arguments in [&["impacts", "--q=0.5", "--e=0.3"][..], &["--version"], &["init", "-"]] {
+        let done = Command::new("sh")
+            .args(["-c", "exec \"$@\" 1< /dev/null", "sh", env!("CARGO_BIN_EXE_clatter")])
+            .args(arguments)
+            .output()
+            .unwrap();
+        let stderr = String::from_utf8(done.stderr).unwrap();
+        assert_eq!(done.status.code(), Some(2), "{stderr}");
+        assert!(stderr.starts_with("error: cannot write the answer: "), "{stderr}");
+    }
+}
+
 /// A limit on the size of files stands in for a full disk; the shell's `trap` decides whether reaching it is an error
 /// or kills the process on the spot.
 #[cfg(target_os = "linux")]

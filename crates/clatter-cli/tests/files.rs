@@ -269,7 +269,7 @@ fn what_is_found_when_the_time_is_over_is_told_and_nothing_is_safe_by_it() {
         "{stderr}"
     );
     assert!(fs::read_to_string(dir.path().join("s.csv")).unwrap().ends_with('\n'), "whole rows");
-    let assess = ["assess", "long.toml", "--time-limit=100ms"];
+    let assess = ["assess", "long.toml", "--time-limit=2s"];
     let done = clatter().args(assess).current_dir(dir.path()).output().unwrap();
     let (stdout, stderr) = (String::from_utf8(done.stdout).unwrap(), String::from_utf8(done.stderr).unwrap());
     assert_eq!(done.status.code(), Some(1), "{stderr}");
@@ -285,7 +285,7 @@ fn a_budget_ends_a_command_that_cannot_say_so() {
     fs::write(dir.path().join("long.toml"), long()).unwrap();
     let full = fs::File::options().write(true).open("/dev/full").unwrap();
     let mut child = clatter()
-        .args(["design", "long.toml", "--time-limit=300ms"])
+        .args(["explain", "long.toml", "--time-limit=300ms"])
         .current_dir(dir.path())
         .stdout(Stdio::null())
         .stderr(full)

@@ -117,7 +117,7 @@ pub fn shares(parts: &[Share<'_>]) -> Result<String, FigureError> {
     let rows = f64::from(u32::try_from(parts.len()).unwrap_or(u32::MAX));
     let axes = Axes {
         corner: [44.0, 8.0],
-        size: [316.0, 108.0_f64.max(9.5 * rows)],
+        size: [316.0, 92.0_f64.max(9.5 * rows)],
         x: Axis::linear(lo, hi, "tilt at the first touch, degrees"),
         y: Axis::linear(0.0, 108.0 * largest, "demand, % of the limit"),
     };

@@ -252,7 +252,7 @@ mod tests {
         let wide: f64 = drawn.split("viewBox=\"0 0 ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
         assert!(drawn.contains("2 % above"), "{drawn}");
         // The typeface is at most a tenth wider than reckoned.
-        let needs = WORDS + 1.1 * width("2 % above, to 123000", SMALL.size);
+        let needs = WORDS + 1.1 * width(&format!("2 % above, to {}", three(123_456.0)), SMALL.size);
         assert!(wide > needs, "{wide} for {needs}");
     }
 

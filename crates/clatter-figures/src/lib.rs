@@ -42,7 +42,7 @@ pub use peers::{Dot, Tool, tools};
 pub use plane::{Impacts, Zones, impacts, zones};
 pub use product::{Place, product};
 pub use record::{Trace, record};
-pub use shock::{Critical, beside, boundary, damage_boundary, rule, spectra, spectrum, two};
+pub use shock::{Against, Critical, beside, boundary, damage_boundary, rule, spectra, spectrum, two};
 pub use style::RUST;
 pub use surface::{Sheet, Surface, surface};
 

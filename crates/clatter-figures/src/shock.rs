@@ -2,7 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use clatter_shock::{DamageBoundary, LimitCurve, Quantity, Rule, STANDARD_GRAVITY_M_S2, Spectrum};
+use clatter_shock::{
+    DamageBoundary, LimitCurve, Margin, Quantity, RequiredSpectrum, Rule, STANDARD_GRAVITY_M_S2, Spectrum,
+};
 
 use crate::FigureError;
 use crate::axis::{Axis, three, tick};
@@ -15,6 +17,8 @@ const POSITIVE: Ink = Ink::line(BLUES[8], 1.1);
 const NEGATIVE: Ink = Ink { dash: "4 2", ..POSITIVE };
 const PRIMARY: Ink = Ink::line(RUST, 0.8);
 const RESIDUAL: Ink = Ink { dash: "1.5 1.5", ..PRIMARY };
+const REQUIRED: Ink = Ink { dash: "5 2", ..Ink::line("#8a6d1f", 1.4) };
+const TOLERANCE: Ink = Ink { dash: "2 2", ..Ink::line("#8a6d1f", 0.8) };
 const LIMIT: Ink = Ink { dash: "8 2 1.5 2", ..Ink::line(INK, 1.2) };
 /// Spectra beside the one that is shown, in turn.
 const OTHERS: [Ink; 6] = [
@@ -62,6 +66,32 @@ fn pairs<'a>(spectrum: &'a Spectrum, values: &'a [f64], order: &'a [usize]) -> i
     order.iter().map(|&i| (spectrum.frequency_hz[i], values[i]))
 }
 
+/// What a spectrum is held against.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Against<'a> {
+    /// What it may not exceed.
+    pub limit: Option<&'a LimitCurve>,
+    /// What it is to reach, with its tolerance.
+    pub required: Option<&'a RequiredSpectrum>,
+}
+
+impl<'a> Against<'a> {
+    /// Its curves with their names; that of the tolerance, where there is one, has one name.
+    fn curves(self) -> Vec<(&'a LimitCurve, Ink<'static>, Option<&'static str>)> {
+        let mut curves = Vec::new();
+        if let Some(required) = self.required {
+            curves.push((required.curve(), REQUIRED, Some("required")));
+            let (lowest, highest) = required.band();
+            let edges = [Some(lowest).filter(|lowest| *lowest != required.curve()), highest];
+            for (n, edge) in edges.into_iter().flatten().enumerate() {
+                curves.push((edge, TOLERANCE, (n == 0).then_some("tolerance")));
+            }
+        }
+        curves.extend(self.limit.map(|limit| (limit, LIMIT, Some("limit"))));
+        curves
+    }
+}
+
 /// A shock response spectrum on log-log paper, with a limit and the least margin if there is one; the pseudo-velocity
 /// on four-coordinate paper, whose diagonals are relative displacement and acceleration.
 ///
@@ -70,53 +100,57 @@ fn pairs<'a>(spectrum: &'a Spectrum, values: &'a [f64], order: &'a [usize]) -> i
 /// let shock = VelocityShocks::new(vec![VelocityShock { time: 0.0, delta_v: 2.0 }])?;
 /// let frequencies = Frequencies::per_octave(10.0, 1000.0, 12.0)?;
 /// let spectrum = shock.spectrum(&frequencies, DampingRatio::new(0.05)?, Quantity::PseudoVelocity);
-/// assert!(clatter_figures::spectrum(&spectrum, None)?.contains("pseudo-velocity"));
+/// assert!(clatter_figures::spectrum(&spectrum, clatter_figures::Against::default())?.contains("pseudo-velocity"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn spectrum(s: &Spectrum, limit: Option<&LimitCurve>) -> Result<String, FigureError> {
-    draw(s, None, limit, &[], false)
+pub fn spectrum(s: &Spectrum, against: Against<'_>) -> Result<String, FigureError> {
+    draw(s, None, against, &[], false)
 }
 
 /// Several spectra of one quantity by their maximax, each with its name; the margin is that of the one that leaves least.
-pub fn spectra(all: &[(&Spectrum, &str)], limit: Option<&LimitCurve>) -> Result<String, FigureError> {
+pub fn spectra(all: &[(&Spectrum, &str)], against: Against<'_>) -> Result<String, FigureError> {
     let least = |spectrum: &Spectrum| {
-        let margins = limit.map(|limit| limit.margins(spectrum)).unwrap_or_default();
+        let margins = against.limit.map(|limit| limit.margins(spectrum)).unwrap_or_default();
         LimitCurve::worst(&margins).and_then(|i| margins[i]).map_or(f64::INFINITY, |margin| margin.decibel())
     };
     let worst = (0..all.len()).min_by(|a, b| least(all[*a].0).total_cmp(&least(all[*b].0)));
     let Some(worst) = worst else { return Err(FigureError("there is no spectrum".to_owned())) };
     let others: Vec<_> = all.iter().enumerate().filter(|(i, _)| *i != worst).map(|(_, other)| *other).collect();
-    draw(all[worst].0, Some(all[worst].1), limit, &others, false)
+    draw(all[worst].0, Some(all[worst].1), against, &others, false)
 }
 
 /// A smaller one with another spectrum of the quantity beside it, by its maximax, and its name: half as wide as a page.
 pub fn beside(s: &Spectrum, other: &Spectrum, name: &str) -> Result<String, FigureError> {
-    draw(s, None, None, &[(other, name)], true)
+    draw(s, None, Against::default(), &[(other, name)], true)
 }
 
 /// A smaller one of two spectra of one quantity by their maximax, each with its name: half as wide as a page.
 pub fn two(one: (&Spectrum, &str), other: (&Spectrum, &str)) -> Result<String, FigureError> {
-    draw(one.0, Some(one.1), None, &[other], true)
+    draw(one.0, Some(one.1), Against::default(), &[other], true)
 }
 
 /// One spectrum, or by its name its maximax alone, and others.
 fn draw(
     s: &Spectrum,
     name: Option<&str>,
-    limit: Option<&LimitCurve>,
+    against: Against<'_>,
     others: &[(&Spectrum, &str)],
     small: bool,
 ) -> Result<String, FigureError> {
     let mut order: Vec<usize> = (0..s.frequency_hz.len()).collect();
     order.sort_by(|a, b| s.frequency_hz[*a].total_cmp(&s.frequency_hz[*b]));
     let factor = factor(s.quantity);
-    let mut margins = limit.map(|limit| limit.margins(s)).unwrap_or_default();
+    let mut margins = against.limit.map(|limit| limit.margins(s)).unwrap_or_default();
+    let edges = against.curves();
     for margin in margins.iter_mut().flatten() {
         (margin.demand, margin.allowed) = (factor * margin.demand, factor * margin.allowed);
     }
     let own = shown(s);
     let (s, others) = (&own, others.iter().map(|(other, name)| (shown(other), *name)).collect::<Vec<_>>());
-    let allowed = margins.iter().flatten().map(|m| m.allowed);
+    let at = |(curve, ..): &(&LimitCurve, Ink, _)| {
+        own.frequency_hz.iter().filter_map(|hz| Some(factor * curve.at(*hz)?)).collect::<Vec<_>>()
+    };
+    let allowed: Vec<f64> = edges.iter().flat_map(at).collect();
     let x = Axis::log_over(s.frequency_hz.iter().copied(), 600.0, "natural frequency, Hz");
     let x = match (order.first(), order.last()) {
         // the ends of a range are the ends of the paper
@@ -126,7 +160,8 @@ fn draw(
         _ => x,
     };
     let beside = others.iter().flat_map(|(other, _)| other.maximax.iter().copied());
-    let y = Axis::log_over(s.maximax.iter().copied().chain(allowed).chain(beside), 5.0, title(s.quantity));
+    let y =
+        Axis::log_over(s.maximax.iter().copied().chain(allowed.iter().copied()).chain(beside), 5.0, title(s.quantity));
     let four = s.quantity == Quantity::PseudoVelocity;
     let room = if small { [172.0, 146.0] } else { [300.0, 230.0] };
     let (x, y, size) = if four { squared(x, y, room) } else { (x, y, room) };
@@ -171,9 +206,9 @@ fn draw(
         lines.push((ink, *name));
     }
     let worst = LimitCurve::worst(&margins).and_then(|i| Some((s.frequency_hz[i], margins[i]?)));
-    if let Some(limit) = limit {
-        axes.curve(&mut paper, limit.corners(x.low, x.high).into_iter().map(|p| (p.0, factor * p.1)), LIMIT);
-        lines.push((LIMIT, "limit"));
+    for (curve, ink, name) in edges {
+        axes.curve(&mut paper, curve.corners(x.low, x.high).into_iter().map(|p| (p.0, factor * p.1)), ink);
+        lines.extend(name.map(|name| (ink, name)));
     }
     axes.border(&mut paper);
     if small {
@@ -184,14 +219,7 @@ fn draw(
     }
     let mut down = paper.key([right + 12.0, 20.0], &lines);
     if let Some((hz, margin)) = worst {
-        let (from, to) = (axes.at(hz, margin.demand), axes.at(hz, margin.allowed));
-        if from.iter().chain(&to).all(|c| c.is_finite()) && (from[1] - to[1]).abs() > 6.0 {
-            paper.arrow(from, to, if margin.is_safe() { INK } else { RUST }, 0.9);
-        }
-        let db = margin.decibel();
-        let db = format!("{db:+.*} dB", if db.abs() < 1.0 { 2 } else { 1 }).replace('-', "−");
-        paper.note([right + 12.0, down + 4.0], &format!("least margin {db}"));
-        paper.note([right + 12.0, down + 15.0], &format!("at {} Hz", three(hz)));
+        least_margin(&mut paper, &axes, [right + 12.0, down + 4.0], hz, margin);
         down += 26.0;
     }
     let zeta = s.damping.get();
@@ -205,6 +233,18 @@ fn draw(
         note_at(&mut paper, 3.6, "acceleration");
     }
     paper.finish(&format!("Shock response spectrum: {}", title(s.quantity)))
+}
+
+/// An arrow from the spectrum to its limit where the margin is least, and what it is.
+fn least_margin(paper: &mut Paper, axes: &Chart<'_>, [x, y]: Pt, hz: f64, margin: Margin) {
+    let (from, to) = (axes.at(hz, margin.demand), axes.at(hz, margin.allowed));
+    if from.iter().chain(&to).all(|c| c.is_finite()) && (from[1] - to[1]).abs() > 6.0 {
+        paper.arrow(from, to, if margin.is_safe() { INK } else { RUST }, 0.9);
+    }
+    let db = margin.decibel();
+    let db = format!("{db:+.*} dB", if db.abs() < 1.0 { 2 } else { 1 }).replace('-', "−");
+    paper.note([x, y], &format!("least margin {db}"));
+    paper.note([x, y + 11.0], &format!("at {} Hz", three(hz)));
 }
 
 /// Axes whose decades are of one length, so that the other two coordinates run at 45°.

@@ -1,10 +1,8 @@
 //! Bars with hysteretic contacts against drops that were integrated elsewhere, to 1e-6, from the law and the exact
 //! geometry alone (`data/contact-bar.json`).
 
-mod plain;
-
+use crate::plain::{Part, Plain};
 use clatter_flight::{Body, Contact, ContactFlight, ContactLaw, Scene, Stop, Stretch};
-use plain::{Part, Plain};
 use serde_json::Value;
 
 fn cases() -> Vec<Value> {

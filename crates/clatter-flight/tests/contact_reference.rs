@@ -1,9 +1,7 @@
 //! Random bodies, contacts and tilts against a plain integration of the laws in exact geometry (`plain`).
 
-mod plain;
-
+use crate::plain::Plain;
 use clatter_flight::{Body, Contact, ContactLaw, Scene};
-use plain::Plain;
 use proptest::prelude::*;
 
 #[derive(Clone, Copy, Debug)]

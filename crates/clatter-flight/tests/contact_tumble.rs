@@ -1,9 +1,7 @@
 //! Bodies of more than two contact points.
 
-mod plain;
-
+use crate::plain::Plain;
 use clatter_flight::{Body, Contact, ContactFlight, ContactLaw, Scene, Stop};
-use plain::Plain;
 use proptest::prelude::*;
 
 const G: f64 = 9.81;

@@ -18,7 +18,7 @@ pub struct Lines {
     pub heading: usize,
     /// Rows of numbers.
     pub rows: usize,
-    /// Rows of sensors that were not asked for.
+    /// Rows of sensors and records that were not asked for.
     pub others: usize,
     /// Lines that cannot be used.
     pub bad: usize,
@@ -45,7 +45,7 @@ impl std::fmt::Display for Account {
         let counts = [
             (heading, "heading"),
             (rows, "rows"),
-            (others, "of other sensors"),
+            (others, "not asked for"),
             (bad, "not used"),
             (empty, "empty"),
             (comments, "comments"),

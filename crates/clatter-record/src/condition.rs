@@ -1,39 +1,30 @@
 //! A record made ready: a part of it, without its baseline, within a band.
 
-use crate::record::Spacing;
-use crate::{Baseline, Channel, Error, Pass, Record, Removed, butterworth, remove_baseline};
+use std::sync::Arc;
+
+use crate::{Baseline, Channel, Error, Pass, Record, Removed, TimeAxis, butterworth, remove_baseline};
 
 impl Record {
-    /// The samples from one time to another, both on the time axis of the file, in seconds.
+    /// The samples of each channel from one time to another, both on the time axis of the file, in seconds.
     ///
     /// # Errors
     /// [`Error::Window`] where fewer than two samples are left.
     pub fn window(mut self, from_s: f64, to_s: f64) -> Result<Self, Error> {
-        let is_in = |since_s: f64| (from_s..=to_s).contains(&(self.start_s + since_s));
-        let first = self.times_s().position(is_in).unwrap_or(self.samples);
-        let count = self.times_s().skip(first).take_while(|since_s| is_in(*since_s)).count();
-        if count < 2 {
-            let end_s = self.start_s + self.duration_s();
-            return Err(Error::Window { from_s, to_s, samples: count, start_s: self.start_s, end_s });
-        }
-        let begin_s = self.since_s(first);
+        let mut cut: Vec<(Arc<TimeAxis>, usize, Arc<TimeAxis>)> = Vec::new();
         for channel in &mut self.channels {
-            channel.values.truncate(first + count);
+            let known = cut.iter().find(|(whole, ..)| Arc::ptr_eq(whole, &channel.times));
+            let (first, part) = if let Some((_, first, part)) = known {
+                (*first, Arc::clone(part))
+            } else {
+                let (first, part) = channel.times.window(from_s, to_s)?;
+                let part = Arc::new(part);
+                cut.push((Arc::clone(&channel.times), first, Arc::clone(&part)));
+                (first, part)
+            };
+            channel.values.truncate(first + part.samples);
             channel.values.drain(..first);
+            channel.times = part;
         }
-        if let Spacing::Uneven(since_s) = &mut self.spacing {
-            since_s.truncate(first + count);
-            since_s.drain(..first);
-            for time in since_s {
-                *time -= begin_s;
-            }
-        }
-        let at = self.at(first);
-        let numbering = self.numbering.iter().filter(|(sample, _)| (first + 1..first + count).contains(sample));
-        let numbering = numbering.map(|(sample, at)| (sample - first, *at));
-        self.numbering = std::iter::once((0, at)).chain(numbering).collect();
-        self.start_s += begin_s;
-        self.samples = count;
         Ok(self)
     }
 
@@ -42,8 +33,10 @@ impl Record {
     /// # Errors
     /// [`Error::Uneven`], and those of [`remove_baseline`].
     pub fn without_baseline(&mut self, baseline: Baseline) -> Result<Vec<Removed>, Error> {
-        let step_s = self.even("taking out a baseline")?;
-        self.channels.iter_mut().map(|channel| remove_baseline(&mut channel.values, step_s, baseline)).collect()
+        let remove = |Channel { values, times, .. }: &mut Channel| {
+            remove_baseline(values, times.even("taking out a baseline")?, baseline)
+        };
+        self.channels.iter_mut().map(remove).collect()
     }
 
     /// Filters every channel; see [`butterworth`].
@@ -51,19 +44,10 @@ impl Record {
     /// # Errors
     /// [`Error::Uneven`], and those of [`butterworth`].
     pub fn filter(&mut self, pass: Pass, cutoff_hz: f64, order: u32) -> Result<(), Error> {
-        let step_s = self.even("a filter")?;
-        for Channel { values, .. } in &mut self.channels {
-            *values = butterworth(values, step_s, pass, cutoff_hz, order)?;
+        for Channel { values, times, .. } in &mut self.channels {
+            *values = butterworth(values, times.even("a filter")?, pass, cutoff_hz, order)?;
         }
         Ok(())
-    }
-
-    /// The time between samples, for what goes with even samples alone.
-    ///
-    /// # Errors
-    /// [`Error::Uneven`].
-    pub fn even(&self, what: &'static str) -> Result<f64, Error> {
-        self.step_s().ok_or(Error::Uneven(what))
     }
 }
 
@@ -77,9 +61,10 @@ mod tests {
         let text = "t [s],a [g]\n1,0\n2,1\n\n3,2\n4,3\n5,4\n";
         let record = Record::read(text.as_bytes(), &Options::default(), |_| ()).expect("a record");
         let part = record.clone().window(1.5, 4.0).expect("three samples");
-        assert_eq!((part.samples(), part.start_s(), part.duration_s()), (3, 2.0, 2.0));
+        let times = part.channels()[0].times();
+        assert_eq!((times.samples(), times.start_s(), times.duration_s()), (3, 2.0, 2.0));
         assert_eq!(part.channels()[0].values, record.channels()[0].values[1..4]);
-        assert_eq!([0, 1, 2].map(|sample| part.at(sample)), [3, 5, 6].map(At::Line));
+        assert_eq!([0, 1, 2].map(|sample| times.at(sample)), [3, 5, 6].map(At::Line));
         let error = record.window(4.5, 9.0).expect_err("one sample").to_string();
         assert_eq!(
             error,
@@ -93,6 +78,6 @@ mod tests {
         let mut record = Record::read(text.as_bytes(), &Options::default(), |_| ()).expect("a record");
         assert!(matches!(record.filter(Pass::Low, 0.1, 2), Err(Error::Uneven(_))));
         let part = record.window(1.0, 3.5).expect("a window");
-        assert_eq!(part.times_s().collect::<Vec<_>>(), [0.0, 2.0, 2.5]);
+        assert_eq!(part.channels()[0].times().times_s().collect::<Vec<_>>(), [0.0, 2.0, 2.5]);
     }
 }

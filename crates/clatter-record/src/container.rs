@@ -54,13 +54,15 @@ use number::Number;
 /// ```
 pub fn read(kind: Kind, bytes: &[u8], most: usize) -> Result<Table, Error> {
     let room = &mut Room { left: most, most };
+    let mut beside = Beside::default();
     let columns = match kind {
         Kind::Text => return Err(refuse("a text file is not read as a binary one")),
         Kind::Npy => npy::read(bytes, room)?,
         Kind::Wav => wav::read(bytes, room)?,
-        Kind::Mat5 => mat::read(bytes, room)?,
-        Kind::Tdms => tdms::read(bytes, room)?,
-        Kind::Uff => uff::read(bytes, room)?,
+        Kind::Mat5 => mat::read(bytes, room, &mut beside)?,
+        Kind::Mat4 => mat::level4::read(bytes, room, &mut beside)?,
+        Kind::Tdms => tdms::read(bytes, room, &mut beside)?,
+        Kind::Uff => uff::read(bytes, room, &mut beside)?,
         #[cfg(feature = "hdf5")]
         Kind::Hdf5 => hdf5::read(bytes, room)?,
         #[cfg(feature = "parquet")]
@@ -70,14 +72,24 @@ pub fn read(kind: Kind, bytes: &[u8], most: usize) -> Result<Table, Error> {
         #[cfg(not(all(feature = "hdf5", feature = "parquet")))]
         other => return Err(refuse(format!("this build does not read {other}"))),
     };
+    let Beside { left_out, notes } = beside;
     if columns.is_empty() {
-        return Err(refuse(format!("{kind}: it holds no column of numbers")));
+        let why =
+            left_out.first().map_or_else(|| "no column of numbers".to_owned(), |one| format!("nothing but {one}"));
+        return Err(refuse(format!("{kind}: it holds {why}")));
     }
-    Ok(Table { columns })
+    Ok(Table { columns, left_out, notes })
 }
 
 fn refuse(message: impl Into<String>) -> Error {
     Error::File(message.into())
+}
+
+/// What a file holds beside its columns.
+#[derive(Debug, Default)]
+struct Beside {
+    left_out: Vec<String>,
+    notes: Vec<String>,
 }
 
 /// How many values may still be read.
@@ -111,7 +123,7 @@ impl Room {
 
 /// A column without a rate of its own.
 fn column(name: impl Into<String>, unit: Option<String>, values: Values) -> Column {
-    Column { name: name.into(), unit, sampled_s: None, values }
+    Column { name: name.into(), group: String::new(), unit, sampled_s: None, values }
 }
 
 /// The number of rows of columns that are written.
@@ -221,6 +233,11 @@ fn interval_s(name: &str, value: f64) -> Option<f64> {
         return None;
     };
     (interval.is_finite() && interval > 0.0).then_some(interval)
+}
+
+/// A time between samples beside one that was told before in the same place: NaN where they contradict each other.
+fn agreed(before: Option<f64>, interval_s: f64) -> f64 {
+    before.map_or(interval_s, |before| if (before / interval_s - 1.0).abs() <= 1e-3 { interval_s } else { f64::NAN })
 }
 
 /// As integers, which they are.

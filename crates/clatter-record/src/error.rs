@@ -40,6 +40,16 @@ pub enum Error {
         /// and ends.
         end_s: f64,
     },
+    /// What goes with channels of one time alone.
+    #[error("{what} needs channels of one time: {first}; {other}")]
+    Times {
+        /// What is asked.
+        what: &'static str,
+        /// A channel and its times,
+        first: String,
+        /// and one with other times.
+        other: String,
+    },
     /// Which of the records of a file is meant is not clear, or there is no such record.
     #[error("{0}")]
     Records(String),
@@ -105,6 +115,14 @@ pub struct Bad {
     pub first: Vec<(At, String)>,
     /// How many there are.
     pub count: usize,
+}
+
+impl Error {
+    /// There is no such record in a file that holds so many.
+    pub(crate) fn no_record(number: usize, count: usize) -> Self {
+        let there = if count == 1 { "there is one record".to_owned() } else { format!("there are {count} records") };
+        Self::Records(format!("there is no record {number} in the file: {there}"))
+    }
 }
 
 impl Bad {

@@ -10,6 +10,15 @@ use std::ops::Range;
 pub enum Finding {
     /// Columns that nothing is made of.
     LeftOut(Vec<String>),
+    /// What the reader has to say of the file.
+    Note(String),
+    /// Something about channels of one time, where others have another.
+    Of {
+        /// Names of the channels.
+        channels: String,
+        /// What it is.
+        finding: Box<Self>,
+    },
     /// Lines that were left out, as they cannot be used.
     Skipped(Bad),
     /// Lines of text below the numbers.
@@ -138,6 +147,8 @@ impl std::fmt::Display for Finding {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let percent = |share: f64| three(100.0 * share);
         match self {
+            Self::Note(note) => f.write_str(note),
+            Self::Of { channels, finding } => write!(f, "{channels}: {finding}"),
             Self::LeftOut(columns) => write!(f, "nothing is made of column {}", columns.join(", ")),
             Self::Skipped(bad) => {
                 write!(f, "left out: {}", crate::Error::Lines(bad.clone()).to_string().replace('\n', "; "))

@@ -108,6 +108,18 @@ impl Heading {
         Self::named_alone(&self.name).named() == Named::Time
     }
 
+    /// Whether a column is one of times, by its name or its unit; `t1` is, as `t`.
+    pub(crate) fn is_time(&self) -> bool {
+        let stem = self.name.trim_end_matches(|c: char| c.is_ascii_digit());
+        let is_named = || [self.named(), Self::named_alone(stem).named()].contains(&Named::Time);
+        match self.unit.map(|unit| unit.kind) {
+            _ if self.is_text => false,
+            Some(Kind::Time) => self.named() != Named::Other,
+            None => is_named(),
+            Some(_) => false,
+        }
+    }
+
     /// Why a column with a unit of acceleration, or with such a name, is no plain acceleration, if its name says so.
     pub(crate) fn function(&self) -> Option<String> {
         let name = self.name.to_lowercase();
@@ -375,6 +387,7 @@ mod tests {
             ("time_ms", "time", Some("ms"), Named::Time),
             ("acceleration_m_s2", "acceleration", Some("m_s2"), Named::Acceleration),
             ("ax [g]", "ax", Some("g"), Named::Acceleration),
+            ("v_mm_s", "v", Some("mm_s"), Named::Unknown),
             ("a_x (m/s²)", "a_x", Some("m/s²"), Named::Acceleration),
             ("Linear Acceleration x (m/s^2)", "Linear Acceleration x", Some("m/s^2"), Named::Acceleration),
             ("Acceleration (z) [g]", "Acceleration z", Some("g"), Named::Acceleration),

@@ -1,9 +1,11 @@
 //! Measured shocks: from the files of loggers to channels in SI.
 
 mod account;
+mod axis;
 mod baseline;
 mod between;
 mod butterworth;
+mod columns;
 mod condition;
 mod container;
 mod decimal;
@@ -17,8 +19,10 @@ mod levels;
 mod limit;
 mod moment;
 mod options;
+mod pairs;
 mod plausible;
 mod pulse_fit;
+mod raw;
 mod record;
 mod roles;
 mod samples;
@@ -32,6 +36,7 @@ mod tolerance;
 mod unit;
 
 pub use account::{Account, Lines};
+pub use axis::TimeAxis;
 pub use baseline::{Baseline, PRE_SHOCK_SHARE, Removed, remove_baseline};
 pub use between::BAND;
 pub use butterworth::{Pass, butterworth};
@@ -50,6 +55,7 @@ pub use shocks::{MOST_SHOCKS, Search, Shock, Shocks, find_shocks, noise_threshol
 pub use spectrum::Between;
 pub use standard::{STANDARD_CURVES, STANDARD_PULSES, StandardCurve, StandardPulse, standard_curve, standard_pulse};
 pub use table::{Column, Table, Values};
+pub use text::{Cell, names_columns, read_list};
 pub use tolerance::{Distortion, PULSE_TOLERANCES, PulseCheck, PulseTolerance, Within, check_pulse, pulse_tolerance};
 
 /// The unit of columns that count in shares of full scale, from −1 to 1.

@@ -1,7 +1,8 @@
 //! Whether what is told of a record goes with its numbers.
 
+use crate::raw::Untimed;
 use crate::unit::Unit;
-use crate::{Channel, Error, Finding};
+use crate::{Error, Finding};
 
 /// What a rate says against times that a file has as well, which may be rounded by so much. Samples that are missing by both are an
 /// error.
@@ -37,7 +38,7 @@ pub(crate) fn against_times(
 }
 
 /// Refuses whole numbers that are large at rest, for which units are given: counts of a converter.
-pub(crate) fn refuse_counts(channels: &[Channel]) -> Result<(), Error> {
+pub(crate) fn refuse_counts(channels: &[Untimed]) -> Result<(), Error> {
     /// Nothing at rest is accelerated so, in m/s².
     const REST: f64 = 30.0;
     /// Samples that show a rest.

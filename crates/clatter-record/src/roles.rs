@@ -1,5 +1,7 @@
 //! Which column is time, and which are accelerations: by name and unit, then by place.
 
+mod by_place;
+
 use crate::heading::{Heading, Named};
 use crate::unit::{Kind, Unit, VOLTAGE};
 use crate::{Error, Options, Pick};
@@ -10,10 +12,14 @@ pub(crate) struct Roles {
     /// The column of time and the size of its unit in seconds; none where samples come at a given rate.
     pub(crate) time: Option<(usize, f64)>,
     pub(crate) channels: Vec<Role>,
+    /// The column of times that a given rate stands in place of, and the size of its unit.
+    pub(crate) checked: Option<(usize, f64)>,
     /// What is made of no other column, as messages call them.
     pub(crate) left_out: Vec<String>,
     /// Every column, as messages call it, and what it is taken for.
     pub(crate) columns: Vec<(String, String)>,
+    /// Whether other channels have other times, for which lines may go on.
+    pub(crate) beside_others: bool,
 }
 
 /// A column of accelerations.
@@ -49,13 +55,6 @@ impl Seen {
     pub(crate) fn roles(&self, options: &Options) -> Result<Roles, Error> {
         let time = self.time(options)?;
         let channels = self.channels(time, options)?;
-        if let Some(other) = time.filter(|_| options.time.is_none()).and_then(|time| self.other_time(time)) {
-            return Err(Error::Columns(format!(
-                "column {} runs at another rate than column {}: take channels of one of them, by --time and --acceleration",
-                self.called(other),
-                self.called(time.unwrap_or(0))
-            )));
-        }
         let left_out = (0..self.headings.len())
             .filter(|column| Some(*column) != time && !channels.contains(column))
             .filter(|column| self.named && !self.is_index(*column))
@@ -69,8 +68,10 @@ impl Seen {
             // A rate stands in place of times.
             time: time.filter(|_| options.sample_rate_hz.is_none()).map(size).transpose()?,
             channels: channels.iter().map(|column| self.channel(*column, options)).collect::<Result<_, _>>()?,
+            checked: self.checked_time(&channels, options),
             left_out,
             columns,
+            beside_others: false,
         })
     }
 
@@ -92,16 +93,15 @@ impl Seen {
     }
 
     /// The column of times that a given rate stands in place of, and the size of its unit, if it can be read.
-    pub(crate) fn checked_time(&self, roles: &Roles, options: &Options) -> Option<(usize, f64)> {
+    fn checked_time(&self, channels: &[usize], options: &Options) -> Option<(usize, f64)> {
         options.sample_rate_hz?;
         let without = Options { sample_rate_hz: None, ..options.clone() };
         let time = self.time(&without).ok()??;
         let heading = &self.headings[time];
         let is_time =
             heading.unit.is_some_and(|unit| unit.kind == Kind::Time) || heading.named() == Named::Time || !self.named;
-        let is_channel = roles.channels.iter().any(|role| role.column == time);
         let size = self.time_size(time, &without).ok()?;
-        (is_time && !is_channel && self.goes_on(time)).then_some((time, size))
+        (is_time && !channels.contains(&time) && self.goes_on(time)).then_some((time, size))
     }
 
     /// The column that a caller picks.
@@ -156,7 +156,8 @@ impl Seen {
         let found = find(&|heading| is_named(heading) && is_unit(heading))
             .filter(|column| self.goes_on(*column) || self.rows.len() < 2)
             .or_else(|| find(&|heading| is_unit(heading) && heading.named() != Named::Other))
-            .or_else(|| find(&|heading| is_named(heading) && fits(heading)));
+            .or_else(|| find(&|heading| is_named(heading) && fits(heading)))
+            .or_else(|| find(&Heading::is_time));
         if found.is_none()
             && !none
             && let Some(column) = self.headings.iter().position(|heading| heading.is_text && heading.is_time_by_name())
@@ -182,22 +183,8 @@ impl Seen {
         }
     }
 
-    /// Another column of times that does not go with the one that is taken.
-    fn other_time(&self, time: usize) -> Option<usize> {
-        let span = |column: usize| {
-            let heading = &self.headings[column];
-            let unit = heading.unit.filter(|unit| unit.kind == Kind::Time && heading.named() == Named::Time)?;
-            let at = |row: Option<&Vec<f64>>| row.and_then(|row| row.get(column)).map(|time| time * unit.size);
-            Some(at(self.rows.last())? - at(self.rows.first())?).filter(|span| *span > 0.0)
-        };
-        let own = span(time)?;
-        // Far more than what is rounded in a few rows.
-        let differs = |column: &usize| span(*column).is_some_and(|other| (other / own).ln().abs() > 0.3);
-        (0..self.headings.len()).find(differs)
-    }
-
     /// Whether the first rows of a column rise, or stay for a while and rise, or are too few to tell.
-    fn goes_on(&self, column: usize) -> bool {
+    pub(crate) fn goes_on(&self, column: usize) -> bool {
         let values = || self.rows.iter().filter_map(|row| row.get(column)).filter(|value| value.is_finite());
         let rises = values().zip(values().skip(1)).all(|(a, b)| a <= b);
         let moves = values().next().zip(values().next_back()).is_some_and(|(a, b)| a < b);
@@ -227,64 +214,6 @@ impl Seen {
         Some(columns.iter().copied().filter(|column| three.contains(column)).collect())
     }
 
-    /// Refuses columns without names that are not sure to be one time and channels.
-    fn refuse_unclear(&self, time: Option<usize>) -> Result<(), Error> {
-        /// Rows that tell a time from a signal that rises.
-        const SURE: usize = 6;
-        /// So many columns may be two records side by side, or, without times, one channel that goes on from line to line.
-        const MANY: usize = 4;
-        let count = self.headings.len();
-        let rises = |column: &usize| {
-            let values = || self.rows.iter().filter_map(|row| row.get(*column));
-            values().zip(values().skip(1)).all(|(a, b)| a < b)
-        };
-        let span = |column: usize| {
-            let at = |row: Option<&Vec<f64>>| row.and_then(|row| row.get(column)).copied();
-            Some(at(self.rows.last())? - at(self.rows.first())?)
-        };
-        let is_like = |column: &usize| {
-            let ratio = time.and_then(|time| Some(span(*column)? / span(time)?));
-            rises(column) && ratio.is_some_and(|ratio| (0.5..2.0).contains(&ratio))
-        };
-        let other = (time.map_or(count, |time| time + 1)..count).find(is_like);
-        let sure = count >= MANY && self.rows.len() >= SURE && time.is_some_and(|time| rises(&time));
-        if let Some(other) = other.filter(|_| sure) {
-            return Err(Error::Columns(format!(
-                "column {} rises from line to line as a time does, beside column {}: name the columns of one record, by --time and \
-                 --acceleration",
-                other + 1,
-                time.unwrap_or(0) + 1
-            )));
-        }
-        if time.is_none() && count >= MANY && !self.cells.is_empty() {
-            return Err(Error::Columns(format!(
-                "{count} numbers a line without names may be {count} channels, or one that goes on from line to line: name the \
-                 channels, by --acceleration=1 and so on"
-            )));
-        }
-        Ok(())
-    }
-
-    fn time_by_place(&self, none: bool) -> Result<Option<usize>, Error> {
-        let count = self.headings.len();
-        let rises = |column: usize| {
-            let values = || self.rows.iter().filter_map(|row| row.get(column));
-            self.rows.len() > 1 && values().zip(values().skip(1)).all(|(a, b)| a < b)
-        };
-        let is_index = |column: usize| {
-            let values = || self.rows.iter().filter_map(|row| row.get(column));
-            self.rows.len() > 1 && values().zip(values().skip(1)).all(|(a, b)| (b - a).to_bits() == 1.0_f64.to_bits())
-        };
-        match count {
-            1 if none => Ok(None),
-            1 => Err(Error::Columns("the file has one column: give the sample rate of its samples".to_owned())),
-            _ if self.headings[0].is_text => Ok(Some(1)),
-            _ if none && !rises(0) => Ok(None),
-            _ if count > 2 && is_index(0) && rises(1) => Ok(Some(1)),
-            _ => Ok(Some(0)),
-        }
-    }
-
     fn all(&self) -> String {
         const SHOWN: usize = 20;
         let count = self.headings.len();
@@ -293,11 +222,13 @@ impl Seen {
         format!("the columns are {}{more}", all.join(", "))
     }
 
-    fn channels(&self, time: Option<usize>, options: &Options) -> Result<Vec<usize>, Error> {
+    pub(crate) fn channels(&self, time: Option<usize>, options: &Options) -> Result<Vec<usize>, Error> {
         if !options.accelerations.is_empty() {
             return options.accelerations.iter().map(|pick| self.picked(pick, "acceleration")).collect();
         }
-        let rest: Vec<usize> = (0..self.headings.len()).filter(|column| Some(*column) != time).collect();
+        // Times of other channels are none.
+        let is_time = |column: usize| Some(column) == time || self.named && self.headings[column].is_time();
+        let rest: Vec<usize> = (0..self.headings.len()).filter(|column| !is_time(*column)).collect();
         if !self.named {
             self.refuse_unclear(time)?;
             let rest: Vec<usize> = rest.into_iter().filter(|column| !self.headings[*column].is_text).collect();
@@ -349,7 +280,7 @@ impl Seen {
         Ok(found)
     }
 
-    fn time_size(&self, column: usize, options: &Options) -> Result<f64, Error> {
+    pub(crate) fn time_size(&self, column: usize, options: &Options) -> Result<f64, Error> {
         let given = options.units.as_ref().and_then(|units| units.time.as_ref());
         self.unit(column, given, Kind::Time, "time", "ms").map(|(unit, _)| unit.size)
     }

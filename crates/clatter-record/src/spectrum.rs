@@ -3,7 +3,7 @@
 use clatter_shock::{DampingRatio, Frequencies, Quantity, Spectrum, SpectrumFilter, UnevenFilter};
 
 use crate::between::{BAND, UpSampler};
-use crate::{Channel, Error, Record};
+use crate::{Channel, Error};
 
 /// What the acceleration is between samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -18,8 +18,8 @@ pub enum Between {
 /// Samples that are handed to a filter at a time.
 const PIECE: usize = 1 << 14;
 
-impl Record {
-    /// The shock response spectrum of a channel, its times on the axis of the file; `progress` is told how many samples are done.
+impl Channel {
+    /// The shock response spectrum of the channel, its times on the axis of the file; `progress` is told how many samples are done.
     ///
     /// # Accuracy
     /// Straight lines: exact for what they say, but for rounding. Band-limited: within 0.1 % for a record
@@ -30,32 +30,30 @@ impl Record {
     /// Those of [`SpectrumFilter::new`].
     pub fn spectrum(
         &self,
-        channel: &Channel,
         frequencies: &Frequencies,
         damping: DampingRatio,
         quantity: Quantity,
         between: Between,
         mut progress: impl FnMut(u64),
     ) -> Result<Spectrum, Error> {
-        let mut spectrum = self.since_first(channel, frequencies, damping, quantity, between, &mut progress)?;
-        spectrum.time_of_peak_s.iter_mut().for_each(|time| *time += self.start_s());
+        let mut spectrum = self.since_first(frequencies, damping, quantity, between, &mut progress)?;
+        spectrum.time_of_peak_s.iter_mut().for_each(|time| *time += self.times.start_s());
         Ok(spectrum)
     }
 
     /// The same with times since the first sample.
     fn since_first(
         &self,
-        channel: &Channel,
         frequencies: &Frequencies,
         damping: DampingRatio,
         quantity: Quantity,
         between: Between,
         progress: &mut impl FnMut(u64),
     ) -> Result<Spectrum, Error> {
-        let values = &channel.values;
-        let Some(step_s) = self.step_s() else {
+        let values = &self.values;
+        let Some(step_s) = self.times.step_s() else {
             let mut filter = UnevenFilter::new(frequencies.clone(), damping, quantity);
-            let times_s: Vec<f64> = self.times_s().collect();
+            let times_s: Vec<f64> = self.times.times_s().collect();
             for (i, (times_s, piece)) in times_s.chunks(PIECE).zip(values.chunks(PIECE)).enumerate() {
                 filter.push(times_s, piece)?;
                 progress((i * PIECE + piece.len()) as u64);
@@ -86,16 +84,16 @@ impl Record {
     }
 }
 
-impl Record {
-    /// The history of a channel as points with straight lines between them, in seconds since the first sample and m/s²: the samples,
+impl Channel {
+    /// The history of the channel as points with straight lines between them, in seconds since the first sample and m/s²: the samples,
     /// or where they are even and the record is band-limited 16 points for each.
     #[must_use]
-    pub fn history(&self, channel: &Channel, between: Between) -> Vec<(f64, f64)> {
+    pub fn history(&self, between: Between) -> Vec<(f64, f64)> {
         const POINTS: usize = 16;
-        let (Some(step_s), Between::BandLimited) = (self.step_s(), between) else {
-            return self.times_s().zip(channel.values.iter().copied()).collect();
+        let (Some(step_s), Between::BandLimited) = (self.times.step_s(), between) else {
+            return self.times.times_s().zip(self.values.iter().copied()).collect();
         };
-        let mut points = Vec::with_capacity(POINTS * self.samples());
+        let mut points = Vec::with_capacity(POINTS * self.values.len());
         let mut more = UpSampler::<POINTS>::new();
         let mut each = |values: &[f64]| {
             for value in values {
@@ -104,7 +102,7 @@ impl Record {
                 points.push((time_s, *value));
             }
         };
-        more.push(&channel.values, &mut each);
+        more.push(&self.values, &mut each);
         more.finish(&mut each);
         points
     }

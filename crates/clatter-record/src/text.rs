@@ -2,10 +2,13 @@
 
 mod block;
 mod cells;
+mod cut;
 mod digits;
 mod encoding;
 mod head;
+mod labview;
 mod layout;
+mod list;
 mod records;
 mod rows;
 mod sensors;
@@ -21,6 +24,7 @@ use crate::heading::Heading;
 use crate::roles::{Roles, Seen};
 use crate::{At, Error, Options};
 use layout::Layout;
+pub use list::{Cell, names_columns, read_list};
 pub(crate) use rows::Rows;
 use rows::Shape;
 
@@ -73,13 +77,13 @@ fn visible(text: &str) -> String {
     if text.chars().count() > SHOWN { format!("{shown}…") } else { shown }
 }
 
-/// Reads a text whose beginning is there already, handing on how many bytes are read.
+/// Reads a text whose beginning is there already, handing on how many bytes are read: its channels by their times.
 pub(crate) fn read(
     begin: Vec<u8>,
     rest: &mut dyn Read,
     options: &Options,
     progress: &mut dyn FnMut(u64),
-) -> Result<(Rows, Roles), Error> {
+) -> Result<Vec<(Rows, Roles)>, Error> {
     if matches!(begin[..], [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..]) {
         return Err(Error::File("this is a text in UTF-32: save it as UTF-8".to_owned()));
     }
@@ -88,6 +92,11 @@ pub(crate) fn read(
         None => begin,
     };
     let letters = encoding::of(&begin[..begin.len().min(HEAD.1)]);
+    if labview::is_labview(&begin) {
+        to_end(&mut begin, rest, options)?;
+        progress(begin.len() as u64);
+        return labview::read(&begin, letters, options);
+    }
     if let Some(number) = options.record {
         to_end(&mut begin, rest, options)?;
         begin = records::only(&begin, number)?;
@@ -96,26 +105,49 @@ pub(crate) fn read(
     if let Some(series) = series::of(&lines) {
         to_end(&mut begin, rest, options)?;
         progress(begin.len() as u64);
-        return series.read(&begin, options);
+        return Ok(vec![series.read(&begin, options)?]);
     }
     let lines = head::join_quotes(lines);
     let layout = Layout::of(&lines)?;
     let first = layout.begin;
-    let (shape, roles) = shape(layout, &lines, letters, options)?;
-    let mut rows = Rows::new(shape, &roles, options);
-    rows.skip_lines(&lines[..first]);
-    let mut at = begin.split_inclusive(|byte| *byte == b'\n').take(first).map(<[u8]>::len).sum::<usize>();
-    let (mut buffer, mut bytes) = (begin, 0_u64);
-    bytes += buffer.len() as u64;
+    let (shape, parts) = shape(layout, &lines, letters, options)?;
+    few_times(parts.len())?;
+    let mut parts: Vec<(Rows, Roles)> =
+        parts.into_iter().map(|roles| (Rows::new(shape.clone(), &roles, options), roles)).collect();
+    for (rows, _) in &mut parts {
+        rows.skip_heading(&lines[..first]);
+    }
+    let at = begin.split_inclusive(|byte| *byte == b'\n').take(first).map(<[u8]>::len).sum::<usize>();
+    take_all(&mut parts, begin, at, rest, progress)?;
+    for (rows, _) in &mut parts {
+        rows.close()?;
+    }
+    Ok(parts)
+}
+
+/// Takes in all lines of an input, of which the beginning is there already, from a place in it on.
+fn take_all(
+    parts: &mut [(Rows, Roles)],
+    begin: Vec<u8>,
+    mut at: usize,
+    rest: &mut dyn Read,
+    progress: &mut dyn FnMut(u64),
+) -> Result<(), Error> {
+    let mut bytes = begin.len() as u64;
+    let (mut buffer, mut last) = (begin, Vec::new());
     loop {
-        at += rows.take(&buffer[at..])?;
+        let begin = at;
+        for (rows, _) in &mut *parts {
+            at = begin + rows.take(&buffer[begin..])?;
+        }
         progress(bytes);
+        last = cut::last_lines(&buffer[begin..at]).map_or(last, <[u8]>::to_vec);
         buffer.drain(..at);
         at = 0;
         if buffer.len() > LONGEST {
             return Err(Error::File(format!(
                 "line {} is longer than {LONGEST} bytes: this is no text of columns",
-                rows.line() + 1
+                parts[0].0.line() + 1
             )));
         }
         let kept = buffer.len();
@@ -127,21 +159,28 @@ pub(crate) fn read(
             break;
         }
     }
-    if !buffer.is_empty() {
-        buffer.push(b'\n');
-        rows.take(&buffer)?;
+    for (rows, _) in &mut *parts {
+        rows.take_end(&last, &buffer)?;
     }
-    rows.close()?;
-    Ok((rows, roles))
+    Ok(())
 }
 
-/// What the lines of numbers are like, and what their columns are, by the first of them.
+/// Refuses more times than a text may have: each is one more look at every line.
+fn few_times(count: usize) -> Result<(), Error> {
+    const MOST: usize = 100;
+    if count <= MOST {
+        return Ok(());
+    }
+    Err(Error::Columns(format!("the channels have more than {MOST} times of their own: take some of the channels")))
+}
+
+/// What the lines of numbers are like, and what their columns are, by the first of them: each time with its channels.
 fn shape(
     mut layout: Layout,
     lines: &[String],
     letters: &'static Encoding,
     options: &Options,
-) -> Result<(Shape, Roles), Error> {
+) -> Result<(Shape, Vec<Roles>), Error> {
     let all: Vec<Vec<Cow<'_, str>>> = lines[layout.begin..]
         .iter()
         .filter(|line| !line.trim().is_empty() && !layout::uncommented(line).1)
@@ -180,17 +219,17 @@ fn shape(
     if !seen.named {
         series::refuse_lines(&seen.rows, &all, form)?;
     }
-    let mut roles = seen.roles(options)?;
-    let date = sensors::date(&seen, &roles, form);
+    let mut parts = seen.by_time(options)?;
+    let date = parts.iter().find_map(|roles| sensors::date(&seen, roles, form));
     let beside = words
         .iter()
         .map(|word| (word.column, if word.tells { "sensor" } else { "unit" }))
         .chain(date.map(|date| (date, "date")));
     for (column, what) in beside {
         let called = seen.called(column);
-        roles.left_out.retain(|other| *other != called);
-        if let Some((_, taken_for)) = roles.columns.get_mut(column) {
-            what.clone_into(taken_for);
+        for roles in &mut parts {
+            roles.left_out.retain(|other| *other != called);
+            what.clone_into(&mut roles.columns[column].1);
         }
     }
     let shape = Shape {
@@ -202,15 +241,14 @@ fn shape(
         count: layout.count,
         measured: layout.measured,
         date,
-        checked: seen.checked_time(&roles, options),
         words,
     };
-    Ok((shape, roles))
+    Ok((shape, parts))
 }
 
 /// All of an input, as far as it may hold what is read at most.
-fn to_end(begin: &mut Vec<u8>, rest: &mut dyn Read, options: &Options) -> Result<(), Error> {
-    // No number takes more bytes.
+pub(crate) fn to_end(begin: &mut Vec<u8>, rest: &mut dyn Read, options: &Options) -> Result<(), Error> {
+    // No number takes more bytes, in any text or container.
     let most = 64_u64.saturating_mul(options.most_values as u64);
     rest.take(most).read_to_end(begin).map(|_| ()).map_err(|error| Error::Read(error.to_string()))
 }

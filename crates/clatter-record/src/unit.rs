@@ -214,7 +214,9 @@ impl Unit {
             return Some(Self::of(unit)?.times(power));
         }
         let spelled = spelled(text);
+        // `v_m_s` is a velocity.
         if let Some((before, after)) = spelled.split_once('/')
+            && !text.contains('_')
             && voltage(before)
             && Self::of(after).is_some()
         {

@@ -35,7 +35,7 @@ fn of(
     quantity: Quantity,
     between: Between,
 ) -> Spectrum {
-    record.spectrum(&record.channels()[0], frequencies, damping, quantity, between, |_| ()).expect("a spectrum")
+    record.channels()[0].spectrum(frequencies, damping, quantity, between, |_| ()).expect("a spectrum")
 }
 
 /// The largest error of a spectrum, over all quantities, damping ratios and natural frequencies up to `highest` of the sampling
@@ -49,7 +49,7 @@ fn largest_error(fine: &[f64], highest: f64, between: Between) -> f64 {
         for quantity in QUANTITIES {
             let mut filter =
                 SpectrumFilter::new(frequencies.clone(), damping, quantity, 1.0 / FINE as f64).expect("a filter");
-            filter.push(&fine[..=(record.samples() - 1) * FINE]);
+            filter.push(&fine[..=(record.channels()[0].values.len() - 1) * FINE]);
             let exact = filter.finish().expect("a spectrum");
             let got = of(&record, &frequencies, damping, quantity, between);
             for (got, exact) in got.maximax.iter().zip(&exact.maximax) {

@@ -110,7 +110,12 @@ fn fault(bytes: &[u8], given: &str, want: &Want) -> Option<String> {
     let of = |best: fn(f64, f64) -> f64| channel.values.iter().copied().fold(0.0, best);
     // Five digits at least are printed.
     let close = |got: f64, want: f64| (got / want - 1.0).abs() < 1e-5;
-    let got = (record.channels().len(), record.samples(), of(f64::max) / (size * G), of(f64::min) / (size * G));
+    let got = (
+        record.channels().len(),
+        record.channels()[0].values.len(),
+        of(f64::max) / (size * G),
+        of(f64::min) / (size * G),
+    );
     let is_right = got.0 == channels
         && got.1 == SAMPLES
         && close(got.2, 50.0)

@@ -154,8 +154,8 @@ fn even_and_uneven_records_of_one_history_agree() {
     let damping = DampingRatio::new(0.05).expect("damping");
     let [a, b] = [&even, &uneven].map(|record| {
         let channel = &record.channels()[0];
-        record
-            .spectrum(channel, &frequencies, damping, Quantity::AbsoluteAcceleration, Between::Linear, |_| ())
+        channel
+            .spectrum(&frequencies, damping, Quantity::AbsoluteAcceleration, Between::Linear, |_| ())
             .expect("a spectrum")
     });
     for (i, (a, b)) in a.maximax.iter().zip(&b.maximax).enumerate() {

@@ -1,6 +1,6 @@
 //! Files as outputs: whole, or as they were.
 
-use std::fs::{self, File};
+use std::fs::{self, File, Permissions};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -24,13 +24,8 @@ use tempfile::{Builder, NamedTempFile, TempPath};
 /// # Ok::<(), std::io::Error>(())
 /// ```
 pub fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
+    let permissions = regular(path)?;
     let target = followed(path)?;
-    let permissions = match fs::metadata(&target) {
-        Ok(old) if old.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
-        Ok(old) if !old.is_file() => return Err(io::Error::other("not a regular file")),
-        Ok(old) => Some(old.permissions()),
-        Err(_) => None,
-    };
     let (_listed, beside) = beside(&target, write)?;
     if let Some(permissions) = permissions {
         fs::set_permissions(&beside, permissions)?;
@@ -38,6 +33,60 @@ pub fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> 
     beside.persist(&target).map_err(|error| error.error)?;
     settle(&target);
     Ok(())
+}
+
+/// The permissions of the regular file that a path leads to; none where nothing is there. It is looked at and not opened: who opens a
+/// pipe waits for its other end.
+fn regular(path: &Path) -> io::Result<Option<Permissions>> {
+    match fs::metadata(path) {
+        Ok(old) if old.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
+        Ok(old) if !old.is_file() => Err(io::Error::other("it is a pipe, a socket or a device, not a regular file")),
+        Ok(old) => Ok(Some(old.permissions())),
+        Err(_) => Ok(None),
+    }
+}
+
+/// The one name of a file that is to be written, whichever of its names is given: links are followed, and its directory has its full name.
+///
+/// # Errors
+/// Where what is there is no regular file, or there is no such directory.
+pub fn place_of(path: &Path) -> io::Result<PathBuf> {
+    regular(path)?;
+    let target = followed(path)?;
+    let name = target.file_name().ok_or(io::ErrorKind::InvalidInput)?;
+    Ok(directory_of(&target)?.canonicalize()?.join(name))
+}
+
+/// Whether a new file can be made in a directory, as [`replace`] does; for what takes long, told before it begins.
+///
+/// # Errors
+/// What the system says.
+pub fn takes_files(directory: &Path) -> io::Result<()> {
+    tempfile::tempfile_in(directory).map(drop).map_err(|error| error.kind().into())
+}
+
+/// Whether a file is there that its user may not write.
+#[must_use]
+pub fn is_protected(path: &Path) -> bool {
+    let Ok(Some(permissions)) = regular(path) else { return false };
+    let denied = |error: io::Error| error.kind() == io::ErrorKind::PermissionDenied;
+    permissions.readonly() || File::options().write(true).open(path).is_err_and(denied)
+}
+
+/// Whether two [places](place_of) in one directory have names that differ by capitals alone, and the directory takes them as one.
+#[must_use]
+pub fn differ_by_case_alone(a: &Path, b: &Path) -> bool {
+    let lower = |path: &Path| path.file_name().map(|name| name.to_string_lossy().to_lowercase());
+    if a == b || a.parent() != b.parent() || lower(a) != lower(b) {
+        return false;
+    }
+    let Ok(probe) =
+        directory_of(a).and_then(|there| Builder::new().prefix(".clatter-").suffix(".tmp").tempfile_in(there))
+    else {
+        return false;
+    };
+    let capitals = probe.path().file_name().map(|name| name.to_string_lossy().to_uppercase());
+    capitals.is_some_and(|name| probe.path().with_file_name(name).exists())
 }
 
 /// Where a path leads, also where nothing is there yet.

@@ -20,7 +20,7 @@ use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 pub use accuracy::{Measured, measured};
-pub use file::{create, directory_of, replace};
+pub use file::{create, differ_by_case_alone, directory_of, is_protected, place_of, replace, takes_files};
 pub use leftovers::remove_leftovers;
 pub use shock::shock_numbers;
 pub use trade::trade_files;

@@ -7,7 +7,7 @@ use std::thread;
 
 use crate::leftovers::Listed;
 use crate::typst::{Typst, failed};
-use crate::{ReportError, Written, paper, replace};
+use crate::{ReportError, Written, is_protected, paper, replace};
 
 /// The shared style of all pages.
 const STYLE: &str = include_str!("../../../reports/style.typ");
@@ -79,6 +79,10 @@ pub(crate) fn set<'a>(
 /// Writes a file into `dir`.
 fn place(dir: &Path, name: &str, content: &[u8]) -> Result<PathBuf, ReportError> {
     let target = dir.join(name);
+    if is_protected(&target) {
+        let source = io::Error::other("it is write-protected: remove it, or choose another directory");
+        return Err(ReportError::Io { path: target, source });
+    }
     match replace(&target, |file| file.write_all(content)) {
         Ok(()) => Ok(target),
         Err(source) => Err(ReportError::Io { path: target, source }),

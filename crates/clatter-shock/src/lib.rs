@@ -38,16 +38,19 @@
 pub mod accuracy;
 mod coupling;
 mod eight;
+mod enveloping;
 mod error;
 mod filter;
 mod forced;
 mod fragility;
+mod history;
 mod history_boundary;
 mod impulse;
 mod integrals;
 mod limit_curve;
 mod peaks;
 mod pulse;
+mod required;
 mod side_by_side;
 mod spectrum;
 mod study;
@@ -55,6 +58,7 @@ mod suspension;
 mod uneven;
 
 pub use coupling::{ImpulseFactors, Rule, RulePoint, TrainResponse, respond, shocks_at, three_way_rule};
+pub use enveloping::EnvelopingPulse;
 pub use error::Error;
 pub use filter::SpectrumFilter;
 pub use fragility::{DamageBoundary, EquivalentPulse, Limit, Margin, ShockTable, Trial};
@@ -63,6 +67,7 @@ pub use impulse::{VelocityShock, VelocityShocks};
 pub use limit_curve::LimitCurve;
 pub use peaks::{Extreme, Extremes, Peaked, Response};
 pub use pulse::{Pulse, Pulses, Section, Shape, Sine};
+pub use required::{Deviation, RequiredSpectrum};
 pub use spectrum::{Frequencies, Quantity, Spectrum, Summary};
 pub use study::{
     GainMap, Holders, OMEGAS, ShapeFigures, SuspendedZones, Worst, amplification, half_sine_train, impact_of_peak,

@@ -74,6 +74,23 @@ impl LimitCurve {
             }),
         }
     }
+    /// The curve with all its levels times a factor.
+    /// # Errors
+    /// Those of [`new`](Self::new), where a level leaves the floats.
+    pub fn times(&self, factor: f64) -> Result<Self, Error> {
+        match &self.0 {
+            Law::Level(allowed) => Self::constant(factor * allowed),
+            Law::Points(points) => Self::new(points.iter().map(|&(hz, allowed)| (hz, factor * allowed)).collect()),
+        }
+    }
+    /// Its first and last frequency; none where it is the same at all.
+    #[must_use]
+    pub fn range_hz(&self) -> Option<[f64; 2]> {
+        match &self.0 {
+            Law::Level(_) => None,
+            Law::Points(points) => Some([points.first()?.0, points.last()?.0]),
+        }
+    }
     /// The corners of the curve from one frequency to another, and both ends there; straight lines on log-log paper in between.
     #[must_use]
     pub fn corners(&self, low_hz: f64, high_hz: f64) -> Vec<(f64, f64)> {

@@ -1,9 +1,7 @@
 //! The summary and the train against exact rational arithmetic (212 cases, 25 digits).
 #![expect(clippy::float_cmp, reason = "exact answers are compared exactly")]
 
-mod cases;
-
-use cases::{cases, decimal};
+use crate::cases::{cases, decimal};
 use clatter::accuracy::{APPROACH, Allowance, DURATION, DURATION_LONG, FINAL, JUMP, NEAR_ENDLESS, PEAK, TIME};
 use clatter::{Bar, Count, End, PeakImpact, Start};
 

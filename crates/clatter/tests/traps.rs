@@ -1,7 +1,6 @@
 //! Where plain floats go wrong: one test a trap, expected values derived on the spot in integers.
 #![expect(clippy::disallowed_methods, reason = "the last digit of a case or a reference may differ between machines")]
 #![expect(clippy::float_cmp, reason = "exact answers are compared exactly")]
-#![expect(clippy::unwrap_used, reason = "in helpers of tests too, where clippy.toml does not allow it")]
 #![expect(clippy::cast_precision_loss, reason = "counts that are compared with floats")]
 
 use clatter::accuracy::{APPROACH, DURATION, DURATION_LONG, PEAK, TIME};

@@ -138,6 +138,8 @@ pub enum Outcome {
     },
     /// No limit of the part depends on it.
     NoEffect,
+    /// It was not tried to its end: the time was over.
+    Stopped,
 }
 
 /// One lever and what it can do.

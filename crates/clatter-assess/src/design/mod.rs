@@ -3,6 +3,7 @@
 mod lever;
 mod plane;
 mod remedies;
+mod trial;
 mod values;
 
 pub use lever::{Bounds, Change, Lever, Outcome, Remedies, Remedy, Together};

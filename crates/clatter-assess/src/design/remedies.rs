@@ -5,15 +5,14 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::lever::{Bounds, Change, Lever, Outcome, Remedies, Remedy, Together};
-use crate::search::{Place, Ranges, Task, Watch};
-use crate::{
-    Accuracy, Assessment, Component, ComponentAssessment, Error, Limit, LimitKind, Mount, ProductFile, Verdict,
-};
+use super::trial::{Breakers, is_enough};
+use crate::search::Watch;
+use crate::{Accuracy, Assessment, Component, ComponentAssessment, Error, LimitKind, Mount, ProductFile, Verdict};
 
 /// Steps from bound to bound in which safe values are looked for; an island of safety narrower than one may be missed.
 pub const STEPS: u32 = 48;
-/// Bisections of the step in which safety begins: its place is then known to 1/2⁸ of a step.
-const BISECTIONS: u32 = 8;
+/// Parts of the step in which safety begins: its place is known to one of them.
+const PARTS: u32 = 256;
 /// Values of a lever from which the best one is taken where none is enough.
 const TRIES: u32 = 8;
 /// Steps from the present values to the best ones of two levers together.
@@ -25,10 +24,11 @@ impl ProductFile {
     ///
     /// # Method
     /// Values are tried outward from the present one, in steps of 1/48 of the bounds (frequencies: of their logarithm); the
-    /// step in which safety begins is bisected eight times. Every value is rounded before it is assessed to what can be specified,
+    /// step in which safety begins is bisected to 1/256. Every value is rounded before it is assessed to what can be specified,
     /// as [`Change::to`] says: [`assess_to`](Self::assess_to) finds the part safe with the margin, of the file with the value as it is
-    /// printed. No mass is put outside of the body, ρ² ≤ `L_a L_b`. A value is passed over at once where a drop that broke the part before still does. Two levers go from their present values to
-    /// the best of each together.
+    /// printed. No mass is put outside of the body, ρ² ≤ `L_a L_b`. A value is passed over at once where a drop that broke the part before still does, and a search for its worst drop
+    /// is left as soon as one breaks it: what takes its time is to find nothing. So the first value that no known drop breaks is
+    /// searched, and what breaks it tells of the next. Two levers go from their present values to the best of each together.
     ///
     /// # Limitation
     /// A safe stretch narrower than a step may be missed. Of pairs only those on the way to the best value of each lever are
@@ -40,10 +40,11 @@ impl ProductFile {
         self.remedies_watched(assessment, bounds, margin, &|_, _| true)
     }
 
-    /// The same, watched.
+    /// The same, watched. Where `watch` says to stop, what was found by then is answered: levers that were not tried to their end are
+    /// [`Outcome::Stopped`].
     ///
     /// # Errors
-    /// As [`remedies`](Self::remedies); [`Error::Stopped`] where `watch` says so.
+    /// As [`remedies`](Self::remedies).
     pub fn remedies_watched(
         &self,
         assessment: &Assessment,
@@ -59,69 +60,67 @@ impl ProductFile {
         let levers = |i: usize| Lever::of(&self.product, &self.components[i]);
         let tasks: Vec<_> =
             failing.flat_map(|(i, found)| levers(i).into_iter().map(move |lever| (i, found, lever))).collect();
-        let case = |i: usize| Case::new(self, &self.components[i], assessment.accuracy, bounds, margin);
-        // One lever after the other of each component, then at most one pair of them, which takes as long as a lever.
-        let all = tasks.len() + tasks.chunk_by(|a, b| a.0 == b.0).count();
-        let done = AtomicUsize::new(0);
-        let go_on = || if watch(done.fetch_add(1, Ordering::Relaxed), all) { Ok(()) } else { Err(Error::Stopped) };
-        let solve =
-            |&(i, found, lever): &(usize, &ComponentAssessment, Lever)| go_on().map(|()| case(i).solve(lever, found));
-        let outcomes = tasks.par_iter().map(solve).collect::<Result<Vec<Outcome>, Error>>()?;
-        let mut list: Vec<Remedies> = Vec::new();
-        for ((component, _, lever), outcome) in tasks.into_iter().zip(outcomes) {
-            if list.last().is_none_or(|last| last.component != component) {
-                list.push(Remedies { component, levers: Vec::new(), pair: None, nearest: None });
+        // Each lever of each component alone, and then beside the others.
+        let (all, done) = (2 * tasks.len(), AtomicUsize::new(0));
+        let go_on = || watch(done.load(Ordering::Relaxed).min(all), all);
+        let does = |steps: usize| {
+            done.fetch_add(steps, Ordering::Relaxed);
+        };
+        let case = |i: usize| {
+            let component = &self.components[i];
+            Case { file: self, component, accuracy: assessment.accuracy, bounds, margin, go_on: &go_on }
+        };
+        let solve = |&(i, found, lever): &(usize, &ComponentAssessment, Lever)| {
+            let outcome = if go_on() { case(i).solve(lever, found) } else { Err(Error::Stopped) };
+            does(1);
+            Remedy { lever, outcome: outcome.unwrap_or(Outcome::Stopped) }
+        };
+        let solved: Vec<Remedy> = tasks.par_iter().map(solve).collect();
+        let mut solved = solved.into_iter();
+        let of_part = |of_one: &[(usize, &ComponentAssessment, Lever)]| {
+            let levers = solved.by_ref().take(of_one.len()).collect();
+            Remedies { component: of_one[0].0, levers, pair: None, nearest: None }
+        };
+        let parts: Vec<_> = tasks.chunk_by(|a, b| a.0 == b.0).map(of_part).collect();
+        let together = |part: Remedies| {
+            let found = &assessment.components[part.component];
+            let settled = |remedy: &Remedy| matches!(remedy.outcome, Outcome::Change { .. } | Outcome::Stopped);
+            let (mut pair, mut nearest) = (None, None);
+            if !part.levers.iter().any(settled) && go_on() {
+                (pair, nearest) = case(part.component).together(&part.levers, found).unwrap_or_default();
             }
-            if let Some(last) = list.last_mut() {
-                last.levers.push(Remedy { lever, outcome });
-            }
-        }
-        for remedies in &mut list {
-            go_on()?;
-            if !remedies.levers.iter().any(|remedy| matches!(remedy.outcome, Outcome::Change { .. })) {
-                (remedies.pair, remedies.nearest) = case(remedies.component).together(&remedies.levers);
-            }
-        }
-        Ok(list)
+            does(part.levers.len());
+            Remedies { pair, nearest, ..part }
+        };
+        Ok(parts.into_par_iter().map(together).collect())
     }
-}
-
-/// Whether a part is safe with a margin.
-fn is_enough(found: &ComponentAssessment, margin: f64) -> bool {
-    found.verdict == Verdict::Safe && found.tightest().room() >= margin
 }
 
 /// One part that is to be made safe.
 #[derive(Clone, Copy)]
 pub(crate) struct Case<'a> {
-    pub(super) file: &'a ProductFile,
-    pub(super) component: &'a Component,
-    accuracy: Accuracy,
-    pub(super) bounds: &'a Bounds,
-    margin: f64,
+    pub(crate) file: &'a ProductFile,
+    pub(crate) component: &'a Component,
+    pub(crate) accuracy: Accuracy,
+    pub(crate) bounds: &'a Bounds,
+    pub(crate) margin: f64,
+    /// Whether there is time.
+    pub(crate) go_on: &'a (dyn Fn() -> bool + Sync),
 }
 
-impl<'a> Case<'a> {
-    pub(crate) fn new(
-        file: &'a ProductFile,
-        component: &'a Component,
-        accuracy: Accuracy,
-        bounds: &'a Bounds,
-        margin: f64,
-    ) -> Self {
-        Self { file, component, accuracy, bounds, margin }
-    }
-
-    fn solve(&self, lever: Lever, found: &ComponentAssessment) -> Outcome {
+impl Case<'_> {
+    /// What one lever can do.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`].
+    fn solve(&self, lever: Lever, found: &ComponentAssessment) -> Result<Outcome, Error> {
         if !self.matters(lever) {
-            return Outcome::NoEffect;
+            return Ok(Outcome::NoEffect);
         }
         let (here, [lo, hi]) = (self.here(lever), self.reach(lever));
         // Where the present value is beyond the bounds, from the bound that is next to it.
         let start = here.clamp(lo, hi);
-        let ranges = self.ranges(self.file);
-        let mut breakers: Vec<Place> =
-            found.worst_case.iter().map(|worst| ranges.place_of(self.component, worst)).collect();
+        let mut breakers = Breakers::of(self.file, self, found);
         let step = (hi - lo) / f64::from(STEPS);
         for k in 1..=STEPS {
             let mut best: Option<(f64, Box<ComponentAssessment>)> = None;
@@ -132,59 +131,38 @@ impl<'a> Case<'a> {
                 if (outer - inner).abs() <= 0.0 && k > 1 {
                     continue;
                 }
-                let Some(after) = self.enough(&[(lever, outer)], &mut breakers) else { continue };
-                let begin = self.begin(lever, inner, (outer, Box::new(after)), &mut breakers);
-                if best.as_ref().is_none_or(|(x, _)| (begin.0 - here).abs() < (x - here).abs()) {
-                    best = Some(begin);
+                let at = |n: u32| inner + f64::from(n) / f64::from(PARTS) * (outer - inner);
+                let first = self.first(PARTS, None, &|n| vec![(lever, at(n))], &mut breakers)?;
+                let Some((x, after)) = first.map(|(n, after)| (at(n), after)) else { continue };
+                if best.as_ref().is_none_or(|(other, _)| (x - here).abs() < (other - here).abs()) {
+                    best = Some((x, after));
                 }
             }
             if let Some((x, after)) = best {
-                return Outcome::Change { change: self.change(lever, x), after };
+                return Ok(Outcome::Change { change: self.change(lever, x), after });
             }
         }
-        Outcome::Nowhere { bounds: [self.shown(lever, lo), self.shown(lever, hi)] }
-    }
-
-    /// The enough value nearest to `short`, which is not, from one that is.
-    fn begin(
-        &self,
-        lever: Lever,
-        mut short: f64,
-        mut enough: (f64, Box<ComponentAssessment>),
-        breakers: &mut Vec<Place>,
-    ) -> (f64, Box<ComponentAssessment>) {
-        for _ in 0..BISECTIONS {
-            let middle = 0.5 * (short + enough.0);
-            if self.value(lever, middle).map(f64::to_bits) == self.value(lever, enough.0).map(f64::to_bits) {
-                enough.0 = middle;
-                continue;
-            }
-            match self.enough(&[(lever, middle)], breakers) {
-                Some(after) => enough = (middle, Box::new(after)),
-                None => short = middle,
-            }
-        }
-        enough
+        Ok(Outcome::Nowhere { bounds: [self.shown(lever, lo), self.shown(lever, hi)] })
     }
 
     /// The best pair that is enough, and else how near one gets.
-    fn together(&self, levers: &[Remedy]) -> (Option<Together>, Option<Together>) {
-        let useful = levers.iter().filter(|remedy| remedy.outcome != Outcome::NoEffect).map(|remedy| remedy.lever);
-        let best: Vec<_> = useful.filter_map(|lever| self.best_of(lever)).collect();
+    ///
+    /// # Errors
+    /// [`Error::Stopped`].
+    fn together(
+        &self,
+        levers: &[Remedy],
+        found: &ComponentAssessment,
+    ) -> Result<(Option<Together>, Option<Together>), Error> {
+        let mut breakers = Breakers::of(self.file, self, found);
+        let mut best = Vec::new();
+        for remedy in levers.iter().filter(|remedy| remedy.outcome != Outcome::NoEffect) {
+            best.extend(self.best_of(remedy.lever, &mut breakers)?);
+        }
         let mut nearest: Option<Together> = None;
-        let mut near = |changes: Vec<Change>, after: ComponentAssessment| {
-            // Of a limit without an answer nobody knows how near it is.
-            if after.limits.iter().any(|limit| limit.verdict == Verdict::Undecided && limit.uncertainty.is_infinite()) {
-                return;
-            }
-            let closer = |last: &Together| after.tightest().room() > last.after.tightest().room();
-            if nearest.as_ref().is_none_or(closer) {
-                nearest = Some(Together { changes, after: Box::new(after) });
-            }
-        };
         let mut pair: Option<(u32, Together)> = None;
         for (i, (one, x, after)) in best.iter().enumerate() {
-            near(vec![self.change(*one, *x)], after.clone());
+            nearer(&mut nearest, &[self.change(*one, *x)], after);
             for (two, y, _) in &best[i + 1..] {
                 let at = |k: u32| {
                     let share = f64::from(k) / f64::from(SHARES);
@@ -192,41 +170,58 @@ impl<'a> Case<'a> {
                         let here = self.here(lever);
                         (lever, here + share * (to - here))
                     };
-                    [along(*one, *x), along(*two, *y)]
+                    vec![along(*one, *x), along(*two, *y)]
                 };
-                let Some(all) = self.assessed(&at(SHARES)) else { continue };
                 let changes = |k: u32| at(k).iter().map(|&(lever, x)| self.change(lever, x)).collect::<Vec<_>>();
-                if !is_enough(&all, self.margin) {
-                    near(changes(SHARES), all);
-                    continue;
-                }
-                let (mut short, mut enough, mut after) = (0, SHARES, all);
-                while enough - short > 1 {
-                    let middle = u32::midpoint(short, enough);
-                    match self.assessed(&at(middle)).filter(|found| is_enough(found, self.margin)) {
-                        Some(found) => (enough, after) = (middle, found),
-                        None => short = middle,
+                let first = if let Some((least, _)) = &pair {
+                    // Of use where it takes a smaller share.
+                    if *least > 1 { self.first(least - 1, None, &at, &mut breakers)? } else { None }
+                } else {
+                    let room = nearest.as_ref().map(|nearest| nearest.after.tightest().room().min(self.margin));
+                    let Some(all) = self.with_room(&at(SHARES), room, &mut breakers)? else { continue };
+                    if !is_enough(&all, self.margin) {
+                        nearer(&mut nearest, &changes(SHARES), &all);
+                        continue;
                     }
-                }
-                if pair.as_ref().is_none_or(|(least, _)| enough < *least) {
-                    pair = Some((enough, Together { changes: changes(enough), after: Box::new(after) }));
+                    self.first(SHARES, Some(all), &at, &mut breakers)?
+                };
+                if let Some((enough, after)) = first {
+                    pair = Some((enough, Together { changes: changes(enough), after }));
                 }
             }
         }
-        match pair {
+        Ok(match pair {
             Some((_, pair)) => (Some(pair), None),
             None => (None, nearest),
-        }
+        })
     }
 
     /// The value of a lever, among some from bound to bound, that leaves the largest margin.
-    fn best_of(&self, lever: Lever) -> Option<(Lever, f64, ComponentAssessment)> {
+    fn best_of(
+        &self,
+        lever: Lever,
+        breakers: &mut Breakers,
+    ) -> Result<Option<(Lever, f64, ComponentAssessment)>, Error> {
         let [lo, hi] = self.reach(lever);
-        let tries = (0..=TRIES).filter_map(|k| {
-            let x = lo + f64::from(k) / f64::from(TRIES) * (hi - lo);
-            Some((lever, x, self.assessed(&[(lever, x)])?))
-        });
-        tries.max_by(|a, b| a.2.tightest().room().total_cmp(&b.2.tightest().room()))
+        let at = |k: u32| lo + f64::from(k) / f64::from(TRIES) * (hi - lo);
+        // The most hopeful first; the others are left as soon as a drop shows that they are worse.
+        let asked = |k: u32| (self.asked(&[(lever, at(k))], breakers), k);
+        let mut order: Vec<(f64, u32)> = (0..=TRIES).rev().map(asked).collect();
+        order.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut best: Option<(u32, ComponentAssessment)> = None;
+        let room = |after: &ComponentAssessment| after.tightest().room();
+        for (_, k) in order {
+            let least = best.as_ref().map(|(_, best)| room(best));
+            let Some(after) = self.with_room(&[(lever, at(k))], least, breakers)? else { continue };
+            // Of two that are alike the one nearer to the upper bound.
+            let better = |(other, best): &(u32, ComponentAssessment)| {
+                room(&after).total_cmp(&room(best)).then(k.cmp(other)).is_gt()
+            };
+            if best.as_ref().is_none_or(better) {
+                best = Some((k, after));
+            }
+        }
+        Ok(best.map(|(k, after)| (lever, at(k), after)))
     }
 
     /// Whether a limit of the part depends on a lever.
@@ -240,36 +235,13 @@ impl<'a> Case<'a> {
             Lever::InertiaRatio | Lever::Restitution | Lever::ContactTime | Lever::Limit(_) => true,
         }
     }
+}
 
-    fn ranges<'b>(&self, file: &'b ProductFile) -> Ranges<'b> {
-        file.ranges(&self.accuracy)
-    }
-
-    /// The part with these values, if it is safe with the margin. What cannot be assessed is not known to be safe.
-    fn enough(&self, values: &[(Lever, f64)], breakers: &mut Vec<Place>) -> Option<ComponentAssessment> {
-        let file = self.changed(values)?;
-        let (ranges, component) = (self.ranges(&file), file.components.first()?);
-        let breaks = |place: &Place| {
-            Limit::of(component)
-                .into_iter()
-                .any(|limit| ranges.in_one(&Task { component, limit }, place) * (1.0 + self.margin) > 1.0)
-        };
-        if breakers.iter().rev().any(breaks) {
-            return None;
-        }
-        let found = self.assess(&file)?;
-        if is_enough(&found, self.margin) {
-            return Some(found);
-        }
-        breakers.extend(found.worst_case.iter().map(|worst| ranges.place_of(component, worst)));
-        None
-    }
-
-    fn assessed(&self, values: &[(Lever, f64)]) -> Option<ComponentAssessment> {
-        self.assess(&self.changed(values)?)
-    }
-
-    fn assess(&self, file: &ProductFile) -> Option<ComponentAssessment> {
-        file.assess_to(&self.accuracy).ok()?.components.into_iter().next()
+/// Keeps the changes that leave the largest margin. Of a limit without an answer nobody knows how near it is.
+fn nearer(nearest: &mut Option<Together>, changes: &[Change], after: &ComponentAssessment) {
+    let unknown = after.limits.iter().any(|l| l.verdict == Verdict::Undecided && l.uncertainty.is_infinite());
+    let closer = |last: &Together| after.tightest().room() > last.after.tightest().room();
+    if !unknown && nearest.as_ref().is_none_or(closer) {
+        *nearest = Some(Together { changes: changes.to_vec(), after: Box::new(after.clone()) });
     }
 }

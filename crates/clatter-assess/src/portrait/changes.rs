@@ -45,7 +45,14 @@ const OF_PRODUCT: [Lever; 3] = [Lever::InertiaRatio, Lever::Restitution, Lever::
 
 impl Shared<'_> {
     fn case<'b>(&'b self, component: &'b Component) -> Case<'b> {
-        Case::new(self.file, component, self.accuracy, self.bounds, MARGIN)
+        Case {
+            file: self.file,
+            component,
+            accuracy: self.accuracy,
+            bounds: self.bounds,
+            margin: MARGIN,
+            go_on: &|| true,
+        }
     }
 
     /// Makes room for the drops of the product with other values of the levers that are not of a part.

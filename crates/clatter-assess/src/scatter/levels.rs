@@ -58,16 +58,18 @@ pub(super) struct Levels {
 }
 
 /// Tries the cheap model on a first batch: `both` gives, of each part in drop k, the utilization by the cheap model and whether it fails
-/// by the full one.
+/// by the full one. Where it may not go on, what it tells is of no use.
 pub(super) fn pilot(
     samples: u64,
     confidence: f64,
     parts: usize,
+    go_on: &(dyn Fn() -> bool + Sync),
     both: impl Fn(u64) -> Vec<(f64, bool)> + Sync,
 ) -> (Pilot, Option<Levels>) {
     let (mut batch, mut factors, mut count) = (Vec::new(), Vec::new(), Count::default());
     let most = (samples / ONE_OF).clamp(1, MOST_DROPS);
-    while count.samples < most && count.more[0] + count.fewer[0] < ENOUGH {
+    let first = |count: &Count| count.samples == 0;
+    while count.samples < most && count.more[0] + count.fewer[0] < ENOUGH && (first(&count) || go_on()) {
         let until = (2 * count.samples).max(FIRST).min(most);
         batch.par_extend((count.samples..until).into_par_iter().map(&both));
         factors = (0..parts).map(|i| threshold(batch.iter().map(|drop| drop[i])).recip()).collect();
@@ -325,7 +327,7 @@ mod tests {
             for seed in 0..runs {
                 let batch: Vec<(f64, bool)> = (0..1000).map(|k| drop(&Stream::new(seed, (1 << 63) + k))).collect();
                 let both = |k: u64| vec![batch[usize::try_from(k).unwrap()]];
-                let levels = pilot(samples, 0.95, 1, both).1;
+                let levels = pilot(samples, 0.95, 1, &|| true, both).1;
                 taken += u32::from(levels.is_some());
                 let (factor, one_in, all) = levels.map_or((0.0, 1, samples), |l| (l.factors[0], l.one_in, l.samples));
                 let mut count = Count::default();

@@ -261,14 +261,20 @@ impl Sampler {
     }
 
     /// Draws all samples on the threads of the current pool, after a first batch where it is worth while. `watch` is called in
-    /// order, on this thread, with all samples where `keep` asks for them. Where it says `false` no more are drawn: the answer is
-    /// that of the samples so far, as many as its settings say.
+    /// order, on this thread, with all samples where `keep` asks for them. Where `go_on`, which any thread may ask, says `false`, no
+    /// more are drawn than the first: the answer is that of the samples so far, as many as its settings say.
     ///
     /// # Errors
     /// Those of `watch`.
-    pub fn run<E>(&self, keep: bool, mut watch: impl FnMut(&Progress<'_>) -> Result<bool, E>) -> Result<Scatter, E> {
+    pub fn run<E>(
+        &self,
+        keep: bool,
+        go_on: &(dyn Fn() -> bool + Sync),
+        mut watch: impl FnMut(&Progress<'_>) -> Result<(), E>,
+    ) -> Result<Scatter, E> {
         let asked_for = self.settings.samples;
-        let (pilot, levels) = self.pilot().unzip();
+        // A first batch that was cut short tells nothing.
+        let (pilot, levels) = self.pilot(go_on).filter(|_| go_on()).unzip();
         let levels = levels.flatten();
         let samples = levels.as_ref().map_or(asked_for, |levels| levels.samples);
         let near = self.near();
@@ -281,15 +287,16 @@ impl Sampler {
             let until = blocks.min(next + together);
             let drawn: Vec<Block> = (next..until)
                 .into_par_iter()
-                .map(|b| self.block([b * BLOCK, samples.min((b + 1) * BLOCK)], levels.as_ref(), keep, &near))
+                .map(|b| self.block([b * BLOCK, samples.min((b + 1) * BLOCK)], levels.as_ref(), keep, &near, go_on))
                 .collect();
             for block in drawn {
                 total.merge(&block);
-                if !watch(&Progress { done: done(total.all.samples), values: &block.values })? {
+                watch(&Progress { done: done(total.all.samples), values: &block.values })?;
+                next += 1;
+                if total.all.samples < samples.min(next * BLOCK) {
                     break 'drawing;
                 }
             }
-            next = until;
         }
         let Block { tallies, all, reason, .. } = total;
         let settings = Settings { samples: done(all.samples).max(1), ..self.settings };
@@ -312,16 +319,19 @@ impl Sampler {
     }
 
     /// The cheap model beside the full one, on samples of its own, and how to go on from there; none where few are asked for.
-    fn pilot(&self) -> Option<(Pilot, Option<Levels>)> {
+    fn pilot(&self, go_on: &(dyn Fn() -> bool + Sync)) -> Option<(Pilot, Option<Levels>)> {
         let Settings { samples, confidence, .. } = self.settings;
         let parts = self.components.len();
         let both = |k| {
+            if !go_on() {
+                return vec![(0.0, false); parts];
+            }
             let (mut sample, mut cheap, mut full) = (self.inputs.blank(), Vec::new(), Vec::new());
             self.answer(BATCH + k, Some(&vec![1.0; parts]), true, &mut sample, &mut cheap, &mut full);
             let fails = |full: &Result<Asked, _>| full.as_ref().map_or(true, |asked| asked.utilization > 1.0);
             cheap.iter().zip(&full).map(|(cheap, full)| (cheap.utilization, fails(full))).collect()
         };
-        (samples >= levels::LEAST_SAMPLES).then(|| levels::pilot(samples, confidence, parts, both))
+        (samples >= levels::LEAST_SAMPLES).then(|| levels::pilot(samples, confidence, parts, go_on, both))
     }
 
     /// The utilizations of the first sample: sums count from there.
@@ -356,12 +366,22 @@ impl Sampler {
         }
     }
 
-    /// Samples from .. to.
-    fn block(&self, [from, to]: [u64; 2], levels: Option<&Levels>, keep: bool, near: &[f64]) -> Block {
+    /// Samples from .. to, as long as it may go on; the first of all is drawn in any case.
+    fn block(
+        &self,
+        [from, to]: [u64; 2],
+        levels: Option<&Levels>,
+        keep: bool,
+        near: &[f64],
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Block {
         let mut block = Block::new(&self.components, &self.inputs, near);
         let columns = if keep { self.columns() } else { Vec::new() };
         let (mut sample, mut cheap, mut full) = (self.inputs.blank(), Vec::new(), Vec::new());
         for k in from..to {
+            if k > 0 && !go_on() {
+                break;
+            }
             let follow = levels.is_none_or(|levels| k % levels.one_in == 0);
             let factors = levels.map(|levels| &levels.factors[..]);
             self.answer(k, factors, follow, &mut sample, &mut cheap, &mut full);

@@ -2,7 +2,7 @@
 
 use super::grid::halton;
 use super::ranges::{AXES, DAMPING, FREQUENCY, Ranges, TILT};
-use super::{Asked, Task, fastest_rad_s};
+use super::{Asked, Task, Work, fastest_rad_s};
 use crate::drop::Until;
 use crate::engine::Felt;
 use crate::{Mount, Spread};
@@ -30,7 +30,7 @@ impl Ranges<'_> {
     }
 
     /// Climbs from a place in all ranges, one after the other, each step half as long as the last.
-    pub(super) fn climb(&self, task: &Task<'_>, start: Asked, tilt_step: f64) -> Asked {
+    pub(super) fn climb(&self, task: &Task<'_>, start: Asked, tilt_step: f64, work: &Work<'_>) -> Asked {
         let (until, fastest) = (Until::Lands, fastest_rad_s(task.component));
         let free = self.free_at(task, &start.place);
         let frequency_step = 0.5 / f64::from(Self::frequencies(task, &self.single(&start.place)).max(4));
@@ -39,6 +39,9 @@ impl Ranges<'_> {
         let Ok(mut here) = self.follow(&best.place, until) else { return best };
         for _ in 0..HALVINGS {
             for axis in (0..AXES).filter(|&axis| free[axis]) {
+                if work.go_on(0).is_err() {
+                    return best;
+                }
                 for sign in [-1.0, 1.0] {
                     let share = (best.place.shares[axis] + sign * steps[axis]).clamp(0.0, 1.0);
                     if (share - best.place.shares[axis]).abs() < 1e-12 {
@@ -66,7 +69,13 @@ impl Ranges<'_> {
 
     /// The same in all ranges at once: tries all around, ever closer. After rebounds all ranges together decide in which phase a part
     /// is struck again, and what stiff and rigidly mounted parts feel has edges where contacts meet.
-    pub(super) fn climb_around(&self, task: &Task<'_>, start: Asked, reach: f64, tries: u32) -> Asked {
+    pub(super) fn climb_around(
+        &self,
+        task: &Task<'_>,
+        start: Asked,
+        (reach, tries): (f64, u32),
+        work: &Work<'_>,
+    ) -> Asked {
         let (free, fastest) = (self.free_at(task, &start.place), fastest_rad_s(task.component));
         // A climb is after the peak that it began with, not after those that elastic products have for minutes.
         let until = if start.late { Until::Past(LATER * start.answer.time_s) } else { Until::Lands };
@@ -74,6 +83,9 @@ impl Ranges<'_> {
         // A step that went up is taken once more.
         let mut again = None;
         for k in 1..=tries {
+            if work.go_on(0).is_err() {
+                break;
+            }
             let reach = reach * CLOSER.powf(f64::from(k) / f64::from(tries));
             let around =
                 || std::array::from_fn(|axis| if free[axis] { reach * (2.0 * halton(axis, k) - 1.0) } else { 0.0 });

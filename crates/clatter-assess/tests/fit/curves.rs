@@ -4,7 +4,7 @@ use clatter_assess::First;
 use clatter_assess::fit::{Known, Measured, MeasuredHeights, Quantity, fit};
 use clatter_flight::{Body, ContactLaw};
 
-use crate::synthetic::{Random, holds, of, restitution_of_a};
+use super::synthetic::{Random, holds, of, restitution_of_a};
 
 /// The body of what follows: a bar of 140 mm.
 const BAR_M: f64 = 0.14;

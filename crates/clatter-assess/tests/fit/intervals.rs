@@ -3,7 +3,7 @@
 use clatter_assess::fit::{Known, Measured, Quantity, bounces, fit};
 use clatter_flight::Body;
 
-use crate::synthetic::{LENGTH_M, Random, Truth, gyration_m, holds, known, noisy, strikes};
+use super::synthetic::{LENGTH_M, Random, Truth, gyration_m, holds, known, noisy, strikes};
 
 /// 93 to 97 of 100: for a true 95 % and a thousand drops chance leaves these bounds once in 300 times, which is three standard
 /// deviations; so many are allowed of fewer drops.

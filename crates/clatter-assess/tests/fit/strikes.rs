@@ -4,7 +4,7 @@ use clatter::End;
 use clatter_assess::fit::{Fit, Known, Measured, Quantity, fit};
 use clatter_flight::Body;
 
-use crate::synthetic::{LENGTH_M, Random, Truth, gyration_m, known, noisy, of, restitution_of_a, strikes};
+use super::synthetic::{LENGTH_M, Random, Truth, gyration_m, known, noisy, of, restitution_of_a, strikes};
 
 /// Four strikes timed to 10 µs give e within 0.01 where the radius of gyration is known.
 #[test]

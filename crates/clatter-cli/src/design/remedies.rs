@@ -161,6 +161,7 @@ impl Found<'_> {
                     writeln!(out, "  {name:<width$} no value from {range} is enough")?;
                 }
                 Outcome::NoEffect => writeln!(out, "  {name:<width$} has no effect on its limits")?,
+                Outcome::Stopped => writeln!(out, "  {name:<width$} not known: the time was over before")?,
             }
         }
         for (note, levers) in notes {
@@ -195,6 +196,7 @@ impl Found<'_> {
                     Outcome::Change { change, after } => cells("change", change, after),
                     Outcome::Nowhere { .. } => "nowhere,,,,,".to_owned(),
                     Outcome::NoEffect => "no-effect,,,,,".to_owned(),
+                    Outcome::Stopped => "stopped,,,,,".to_owned(),
                 };
                 writeln!(out, "{before},{},{},{rest}", lever.name(), lever.unit())?;
             }
@@ -282,6 +284,7 @@ impl Found<'_> {
             }
             Outcome::Nowhere { bounds } => RemedyJson { outcome: "nowhere", bounds: Some(bounds.map(Json)), ..none },
             Outcome::NoEffect => none,
+            Outcome::Stopped => RemedyJson { outcome: "stopped", ..none },
         }
     }
 }

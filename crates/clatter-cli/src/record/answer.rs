@@ -2,24 +2,21 @@
 
 use std::path::Path;
 
-use clatter_record::{Account, Channel, Finding, PulseCheck, Shocks, Within};
+use clatter_record::{Account, Channel, Finding, PulseCheck, Shocks, TimeAxis, Within};
 use clatter_shock::Pulse;
 use serde::Serialize;
 
 use super::pulse::Fitted;
-use super::{Whole, extremes, last};
+use super::{Whole, extremes, last, time_s};
 use crate::excitation::shape_name;
 use crate::numbers::Json;
 
 #[derive(Serialize)]
 pub(super) struct Answer<'a> {
     file: &'a Path,
-    samples: usize,
-    start_s: Json,
-    duration_s: Json,
-    /// Null where the samples are uneven.
-    step_s: Option<Json>,
-    sample_rate_hz: Option<Json>,
+    /// Of all channels; null where they differ.
+    #[serde(flatten)]
+    times: TimesJson,
     channels: Vec<ChannelJson<'a>>,
     findings: Vec<String>,
     /// What became of every line and column; null for files that are no text.
@@ -31,7 +28,7 @@ struct AccountJson<'a> {
     lines: usize,
     heading: usize,
     rows: usize,
-    other_sensors: usize,
+    not_asked_for: usize,
     not_used: usize,
     empty: usize,
     comments: usize,
@@ -53,7 +50,7 @@ impl<'a> AccountJson<'a> {
             lines: lines.all,
             heading: lines.heading,
             rows: lines.rows,
-            other_sensors: lines.others,
+            not_asked_for: lines.others,
             not_used: lines.bad,
             empty: lines.empty,
             comments: lines.comments,
@@ -66,13 +63,10 @@ impl<'a> AccountJson<'a> {
 impl<'a> Answer<'a> {
     pub(super) fn new(whole: &'a Whole<'_>, findings: &[Finding]) -> Self {
         let record = &whole.record;
+        let one = if let [times] = record.times()[..] { Some(times) } else { None };
         Self {
             file: &whole.args.file,
-            samples: record.samples(),
-            start_s: Json(record.start_s()),
-            duration_s: Json(record.duration_s()),
-            step_s: record.step_s().map(Json),
-            sample_rate_hz: record.step_s().map(|step_s| Json(step_s.recip())),
+            times: TimesJson::new(one),
             channels: (0..record.channels().len()).map(|k| ChannelJson::new(whole, k)).collect(),
             findings: findings.iter().map(Finding::to_string).collect(),
             account: record.account().map(AccountJson::new),
@@ -81,9 +75,34 @@ impl<'a> Answer<'a> {
 }
 
 #[derive(Serialize)]
+struct TimesJson {
+    samples: Option<usize>,
+    start_s: Option<Json>,
+    duration_s: Option<Json>,
+    /// Null where the samples are uneven, too.
+    step_s: Option<Json>,
+    sample_rate_hz: Option<Json>,
+}
+
+impl TimesJson {
+    fn new(times: Option<&TimeAxis>) -> Self {
+        let step_s = times.and_then(TimeAxis::step_s);
+        Self {
+            samples: times.map(TimeAxis::samples),
+            start_s: times.map(|times| Json(times.start_s())),
+            duration_s: times.map(|times| Json(times.duration_s())),
+            step_s: step_s.map(Json),
+            sample_rate_hz: step_s.map(|step_s| Json(step_s.recip())),
+        }
+    }
+}
+
+#[derive(Serialize)]
 struct ChannelJson<'a> {
     name: &'a str,
     unit: &'a str,
+    #[serde(flatten)]
+    times: TimesJson,
     largest_m_s2: Json,
     largest_time_s: Json,
     smallest_m_s2: Json,
@@ -104,14 +123,15 @@ impl<'a> ChannelJson<'a> {
         let [high, low] = extremes(channel);
         let found = &whole.found;
         let ends = found.motions.as_ref().map(|motions| last(&motions[k]).map(Json));
-        let start_s = whole.record.start_s();
+        let start_s = channel.times().start_s();
         Self {
             name: &channel.name,
             unit: &channel.unit,
+            times: TimesJson::new(Some(channel.times())),
             largest_m_s2: Json(channel.values[high]),
-            largest_time_s: Json(whole.time_s(high)),
+            largest_time_s: Json(time_s(channel, high)),
             smallest_m_s2: Json(channel.values[low]),
-            smallest_time_s: Json(whole.time_s(low)),
+            smallest_time_s: Json(time_s(channel, low)),
             last_velocity_m_s: ends.map(|[velocity, _]| velocity),
             last_displacement_m: ends.map(|[_, displacement]| displacement),
             shocks: found.shocks.as_ref().map(|found| ShocksJson::new(start_s, &found[k])),

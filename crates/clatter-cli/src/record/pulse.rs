@@ -3,8 +3,8 @@
 use std::io::{self, Write};
 
 use clatter_record::{
-    EffectiveDuration, Error, PULSE_TOLERANCES, PulseCheck, PulseFit, Record, Within, check_pulse, effective_duration,
-    fit_pulses, pulse_at,
+    Channel, EffectiveDuration, Error, PULSE_TOLERANCES, PulseCheck, PulseFit, Record, Within, check_pulse,
+    effective_duration, fit_pulses, pulse_at,
 };
 use clatter_shock::Pulse;
 
@@ -24,8 +24,8 @@ pub(super) struct Fitted {
 
 /// That of each channel.
 pub(super) fn fit(record: &Record, nominal: Option<&Pulse>) -> Result<Vec<Fitted>, Error> {
-    let step_s = record.even("a pulse")?;
-    let one = |values: &[f64]| {
+    let one = |channel: &Channel| {
+        let (values, step_s) = (&channel.values, channel.times().even("a pulse")?);
         let fits = fit_pulses(values, step_s)?;
         let against = nominal.copied().unwrap_or(fits[0].pulse);
         let check = |tolerance| Ok((tolerance, check_pulse(values, step_s, &against, tolerance)?));
@@ -34,10 +34,10 @@ pub(super) fn fit(record: &Record, nominal: Option<&Pulse>) -> Result<Vec<Fitted
         let checks = checks.into_iter().map(|(tolerance, check)| (tolerance.keyword, check)).collect();
         Ok(Fitted { fits, durations: effective_duration(values, step_s)?, nominal, checks })
     };
-    record.channels().iter().map(|channel| one(&channel.values)).collect()
+    record.channels().iter().map(one).collect()
 }
 
-pub(super) fn table(record: &Record, name: &str, fitted: &Fitted, out: &mut dyn Write) -> io::Result<()> {
+pub(super) fn table(channel: &Channel, name: &str, fitted: &Fitted, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "\n{name}: pulses that fit, best first")?;
     let line = |out: &mut dyn Write, cells: [&str; 5]| {
         let [shape, cells @ ..] = cells;
@@ -46,7 +46,7 @@ pub(super) fn table(record: &Record, name: &str, fitted: &Fitted, out: &mut dyn 
     line(out, ["", "amplitude", "duration", "start", "residual"])?;
     line(out, ["", "m/s2", "s", "s", ""])?;
     for PulseFit { pulse, residual } in &fitted.fits {
-        let start = record.start_s() + pulse.start;
+        let start = channel.times().start_s() + pulse.start;
         let [amplitude, duration, start, residual] = [pulse.amplitude, pulse.duration, start, *residual].map(figures);
         line(out, [&shape_name(pulse.shape), &amplitude, &duration, &start, &residual])?;
     }
@@ -72,7 +72,7 @@ pub(super) fn table(record: &Record, name: &str, fitted: &Fitted, out: &mut dyn 
         say("duration", check.duration_s, "s");
         say("largest difference", check.distortion.map(|distortion| distortion.largest_m_s2), "m/s2");
         if let Some(leaves_s) = check.distortion.and_then(|distortion| distortion.leaves_s) {
-            said.push(format!("leaves the band at {} s", figures(record.start_s() + leaves_s)));
+            said.push(format!("leaves the band at {} s", figures(channel.times().start_s() + leaves_s)));
         }
         writeln!(out, "  {keyword}: {}", said.join("; "))?;
     }

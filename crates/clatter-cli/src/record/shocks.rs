@@ -2,20 +2,18 @@
 
 use std::io::{self, Write};
 
-use clatter_record::{Error, Record, Search, Shocks, find_shocks};
+use clatter_record::{Channel, Error, Record, Search, Shocks, find_shocks};
 
-use super::Args;
 use crate::numbers::{digits, figures};
 use crate::text;
 
 /// Those of each channel.
-pub(super) fn find(args: &Args, record: &Record) -> Result<Vec<Shocks>, Error> {
-    let step_s = record.even("a search for shocks")?;
-    let search = Search { threshold_m_s2: args.threshold, quiet_s: args.quiet };
-    record.channels().iter().map(|channel| find_shocks(&channel.values, step_s, &search)).collect()
+pub(super) fn find(search: &Search, record: &Record) -> Result<Vec<Shocks>, Error> {
+    let one = |channel: &Channel| find_shocks(&channel.values, channel.times().even("a search for shocks")?, search);
+    record.channels().iter().map(one).collect()
 }
 
-pub(super) fn table(record: &Record, name: &str, found: &Shocks, out: &mut dyn Write) -> io::Result<()> {
+pub(super) fn table(channel: &Channel, name: &str, found: &Shocks, out: &mut dyn Write) -> io::Result<()> {
     let (count, beyond) = (found.shocks.len() + found.omitted, figures(found.threshold_m_s2));
     let plural = if count == 1 { "" } else { "s" };
     writeln!(out, "\n{name}: {count} shock{plural} beyond {beyond} m/s2")?;
@@ -32,7 +30,8 @@ pub(super) fn table(record: &Record, name: &str, found: &Shocks, out: &mut dyn W
     line(out, ["start", "peak", "at", "duration", "velocity change"])?;
     line(out, ["s", "m/s2", "s", "s", "m/s"])?;
     for shock in &found.shocks {
-        let [start, at] = [shock.start_s, shock.peak_time_s].map(|since_s| figures(record.start_s() + since_s));
+        let [start, at] =
+            [shock.start_s, shock.peak_time_s].map(|since_s| figures(channel.times().start_s() + since_s));
         let [peak, duration, velocity] = [shock.peak_m_s2, shock.duration_s, shock.velocity_change_m_s].map(figures);
         line(out, [&start, &peak, &at, &duration, &velocity])?;
     }
@@ -43,7 +42,7 @@ pub(super) fn csv(record: &Record, found: &[Shocks], out: &mut dyn Write) -> io:
     writeln!(out, "channel,start_s,peak_m_s2,peak_time_s,duration_s,velocity_change_m_s")?;
     for (channel, found) in record.channels().iter().zip(found) {
         for shock in &found.shocks {
-            let [start, at] = [shock.start_s, shock.peak_time_s].map(|since_s| record.start_s() + since_s);
+            let [start, at] = [shock.start_s, shock.peak_time_s].map(|since_s| channel.times().start_s() + since_s);
             let numbers = [start, shock.peak_m_s2, at, shock.duration_s, shock.velocity_change_m_s];
             writeln!(out, "{},{}", text::field(&channel.name), numbers.map(digits).join(","))?;
         }

@@ -72,6 +72,7 @@ impl Args {
                 let model = self.model.map(Into::into);
                 (of, Accuracy { tolerance: self.tolerance, model, ..Accuracy::default() })
             }),
+            files: self.files(),
         };
         let setup = self.drop.setup(&beside, streams)?;
         let (scene, model, body) = (&setup.scene, setup.model, setup.scene.body());
@@ -226,13 +227,17 @@ impl Drop<'_> {
             None => writeln!(out, "Place {at} of a body of {length}, e = {e}; a part there is mounted rigidly")?,
         }
         let contact = self.single.contact_time_s.filter(|_| self.setup.model == ModelName::Compliant);
-        let contact = contact.map_or(String::new(), |time| {
-            format!(", {} contacts of {}", law_name(self.single.contact_law), shown.time.given(time))
-        });
         let (model, speed) = (self.setup.model.name(), shown.speed.said(self.single.speed_m_s));
         let (tilt, tolerance) = (shown.tilt(self.shortly(self.setup.tilt_deg)), given(100.0 * self.args.tolerance));
         let first = letter(self.setup.first);
-        writeln!(out, "Model {model}, to {tolerance} %: end {first} strikes first, at {speed}, tilt {tilt}{contact}")
+        writeln!(out, "Model {model}, to {tolerance} %: end {first} strikes first, at {speed}, tilt {tilt}")?;
+        match contact {
+            Some(time) => {
+                let law = law_name(self.single.contact_law);
+                writeln!(out, "Contacts of {}, {law}", shown.time.given(time))
+            }
+            None => Ok(()),
+        }
     }
 
     pub(super) fn table(&self, out: &mut dyn Write) -> io::Result<()> {

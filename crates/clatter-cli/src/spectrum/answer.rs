@@ -2,13 +2,15 @@
 
 use std::path::Path;
 
-use clatter_record::Finding;
-use clatter_shock::{LimitCurve, Margin, Spectrum};
+use clatter_record::{Channel, Finding, TimeAxis};
+use clatter_shock::{Deviation, EnvelopingPulse, LimitCurve, Margin, Spectrum};
 use serde::Serialize;
 
 use super::boundary::Boundary;
 use super::records::{Measured, largest};
+use super::table::outermost;
 use super::{Computed, Part};
+use crate::excitation::shape_name;
 use crate::numbers::Json;
 use crate::quantities::Show;
 
@@ -74,6 +76,10 @@ struct ColumnsJson<'a> {
     time_of_peak_s: Vec<Option<Json>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     limit: Option<LimitJson>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    required: Option<RequiredJson>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    enveloping_pulse: Option<EnvelopingJson>,
 }
 
 impl<'a> ColumnsJson<'a> {
@@ -98,6 +104,8 @@ impl<'a> ColumnsJson<'a> {
             residual_negative: all(&s.residual_negative),
             time_of_peak_s: s.time_of_peak_s.iter().map(time).collect(),
             limit: part.margins.as_ref().map(|margins| LimitJson::new(margins, s, show)),
+            enveloping_pulse: part.enveloping.as_ref().map(EnvelopingJson::new),
+            required: part.deviations.as_ref().map(|off| RequiredJson::new(part, off, show)),
         }
     }
 }
@@ -105,24 +113,54 @@ impl<'a> ColumnsJson<'a> {
 #[derive(Serialize)]
 struct RecordJson<'a> {
     file: &'a Path,
-    samples: usize,
-    start_s: Json,
-    end_s: Json,
-    /// Null where the samples are uneven.
-    step_s: Option<Json>,
+    #[serde(flatten)]
+    times: TimesJson,
     largest_m_s2: Json,
+    /// The times of each channel, where they differ.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    channels: Vec<ChannelJson<'a>>,
     findings: Vec<String>,
 }
 
+/// Null where channels differ.
+#[derive(Serialize)]
+struct TimesJson {
+    samples: Option<usize>,
+    start_s: Option<Json>,
+    end_s: Option<Json>,
+    /// Null where the samples are uneven, too.
+    step_s: Option<Json>,
+}
+
+#[derive(Serialize)]
+struct ChannelJson<'a> {
+    name: &'a str,
+    #[serde(flatten)]
+    times: TimesJson,
+}
+
+impl TimesJson {
+    fn new(times: Option<&TimeAxis>) -> Self {
+        Self {
+            samples: times.map(TimeAxis::samples),
+            start_s: times.map(|times| Json(times.start_s())),
+            end_s: times.map(|times| Json(times.start_s() + times.duration_s())),
+            step_s: times.and_then(TimeAxis::step_s).map(Json),
+        }
+    }
+}
+
 impl<'a> RecordJson<'a> {
-    fn new(Measured { path, record }: &'a Measured, lowest_hz: f64) -> Self {
+    fn new(Measured { path, record, .. }: &'a Measured, lowest_hz: f64) -> Self {
+        let times = record.times();
+        let one = if let [times] = times[..] { Some(times) } else { None };
+        let channel =
+            |channel: &'a Channel| ChannelJson { name: &channel.name, times: TimesJson::new(Some(channel.times())) };
         Self {
             file: path,
-            samples: record.samples(),
-            start_s: Json(record.start_s()),
-            end_s: Json(record.start_s() + record.duration_s()),
-            step_s: record.step_s().map(Json),
+            times: TimesJson::new(one),
             largest_m_s2: Json(record.channels().iter().map(largest).fold(0.0, f64::max)),
+            channels: if one.is_none() { record.channels().iter().map(channel).collect() } else { Vec::new() },
             findings: record.findings(lowest_hz).iter().map(Finding::to_string).collect(),
         }
     }
@@ -158,6 +196,79 @@ impl LimitJson {
                 margin_db: Json(margin.decibel()),
                 safe: margin.is_safe(),
             }),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct EnvelopingJson {
+    shape: String,
+    amplitude_m_s2: Json,
+    duration_s: Json,
+    velocity_change_m_s: Json,
+    /// By how much its spectrum is above.
+    mean_db: Json,
+    most_db: Json,
+    most_frequency_hz: Json,
+}
+
+impl EnvelopingJson {
+    fn new(EnvelopingPulse { pulse, most_db, most_hz, mean_db }: &EnvelopingPulse) -> Self {
+        Self {
+            shape: shape_name(pulse.shape),
+            amplitude_m_s2: Json(pulse.amplitude),
+            duration_s: Json(pulse.duration),
+            velocity_change_m_s: Json(pulse.velocity_change()),
+            mean_db: Json(*mean_db),
+            most_db: Json(*most_db),
+            most_frequency_hz: Json(*most_hz),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct RequiredJson {
+    /// Null outside of the required curve, as the deviation is.
+    level: Vec<Option<Json>>,
+    deviation_db: Vec<Option<Json>>,
+    lowest: Option<DeviationJson>,
+    highest: Option<DeviationJson>,
+    /// Frequencies that are judged, and how many of them are below and above by more than the tolerance.
+    frequencies: usize,
+    below: usize,
+    above: usize,
+    reached: bool,
+}
+
+#[derive(Serialize)]
+struct DeviationJson {
+    frequency_hz: Json,
+    level: Json,
+    maximax: Json,
+    deviation_db: Json,
+}
+
+impl RequiredJson {
+    fn new(part: &Part, deviations: &[Option<Deviation>], show: &Show) -> Self {
+        let ends = outermost(deviations).map(|ends| {
+            ends.map(|(i, of)| DeviationJson {
+                frequency_hz: Json(part.spectrum.frequency_hz[i]),
+                level: Json(show.value(of.required)),
+                maximax: Json(show.value(of.reached)),
+                deviation_db: Json(of.decibel()),
+            })
+        });
+        let (lowest, highest) = ends.map_or((None, None), |[lowest, highest]| (Some(lowest), Some(highest)));
+        let told = || deviations.iter().flatten();
+        Self {
+            level: deviations.iter().map(|of| of.map(|of| Json(show.value(of.required)))).collect(),
+            deviation_db: deviations.iter().map(|of| of.map(|of| Json(of.decibel()))).collect(),
+            lowest,
+            highest,
+            frequencies: told().count(),
+            below: told().filter(|of| of.is_below).count(),
+            above: told().filter(|of| of.is_above).count(),
+            reached: part.reaches(),
         }
     }
 }

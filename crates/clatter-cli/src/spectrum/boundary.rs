@@ -109,16 +109,16 @@ impl Boundary {
 
 /// The damage boundary of a record of one channel.
 fn of_record(args: &Args, measured: &Measured, suspension: Suspension, limit: Limit) -> Result<Boundary, Failure> {
-    let Measured { path, record } = measured;
+    let Measured { path, record, .. } = measured;
     let [channel] = record.channels() else {
         return Err(Failure::Usage("--damage-boundary goes with one channel: --acceleration picks one"));
     };
     let bad = |reason: clatter_shock::Error| Failure::Record { path: path.clone(), reason: reason.into() };
-    let points = record.history(channel, args.interpolation.into());
+    let points = channel.history(args.interpolation.into());
     let numbers = HistoryBoundary::new(suspension, limit, &points).map_err(bad)?;
     let hz = Frequencies::list(vec![suspension.omega() / std::f64::consts::TAU])?;
     let (quantity, between) = (args.quantity.quantity(), args.interpolation.into());
-    let spectrum = record.spectrum(channel, &hz, suspension.damping(), quantity, between, |_| ());
+    let spectrum = channel.spectrum(&hz, suspension.damping(), quantity, between, |_| ());
     let demand = spectrum.map_err(|reason| Failure::Record { path: path.clone(), reason })?.maximax[0];
     let (Limit::Acceleration(allowed) | Limit::RattleSpace(allowed)) = limit;
     let curve = if numbers.critical_velocity_change().is_some() { numbers.curve(BOUNDARY_POINTS)? } else { Vec::new() };

@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use clatter_record::{Channel, Record};
+use clatter_record::{Channel, Record, Search, find_shocks};
 use clatter_shock::{DampingRatio, Frequencies, Spectrum, Summary};
 
 use super::Args;
+use crate::numbers::figures;
 use crate::progress::Counted;
 use crate::{Failure, text};
 
@@ -13,6 +14,39 @@ use crate::{Failure, text};
 pub(super) struct Measured {
     pub(super) path: PathBuf,
     pub(super) record: Record,
+    /// Which of its shocks, where they are told apart.
+    pub(super) shock: Option<String>,
+}
+
+/// Shocks of one record that have spectra at most.
+const MOST: usize = 100;
+
+/// A record as its shocks, as `clatter record --find` finds them on the channel with the largest one: of all channels, from half the
+/// quiet time before a shock to the next one.
+fn apart(search: &Search, Measured { path, record, .. }: &Measured) -> Result<Vec<Measured>, Failure> {
+    let bad = |reason| Failure::Record { path: path.clone(), reason };
+    let Some(channel) = record.channels().iter().max_by(|a, b| largest(a).total_cmp(&largest(b))) else {
+        return Ok(Vec::new());
+    };
+    let times = channel.times();
+    let found = find_shocks(&channel.values, times.even("a search for shocks").map_err(bad)?, search).map_err(bad)?;
+    let count = found.shocks.len() + found.omitted;
+    if count == 0 || count > MOST {
+        let beyond = figures(found.threshold_m_s2);
+        let path = text::path(path);
+        return Err(Failure::Wrong(format!(
+            "{path}: {count} shocks beyond {beyond} m/s2; spectra are made of 1 to {MOST}: see --threshold and --quiet"
+        )));
+    }
+    let starts: Vec<f64> =
+        found.shocks.iter().map(|shock| times.start_s() + shock.start_s - 0.5 * search.quiet_s).collect();
+    let ends = starts.iter().copied().skip(1).chain([f64::INFINITY]);
+    let one = |(n, (from_s, to_s)): (usize, (f64, f64))| {
+        let at = figures(times.start_s() + found.shocks[n].peak_time_s);
+        let shock = Some(format!("shock {} at {at} s", n + 1));
+        Ok(Measured { path: path.clone(), record: record.clone().window(from_s, to_s).map_err(bad)?, shock })
+    };
+    starts.iter().copied().zip(ends).enumerate().map(one).collect()
 }
 
 /// What is made of several spectra.
@@ -42,9 +76,14 @@ impl Several {
 pub(super) fn read(args: &Args) -> Result<Vec<Measured>, Failure> {
     let one = |path: &PathBuf| {
         let record = args.condition.apply(args.reading.read(path)?, path)?;
-        Ok(Measured { path: path.clone(), record })
+        let whole = Measured { path: path.clone(), record, shock: None };
+        match args.finding.search() {
+            Some(search) => apart(&search, &whole),
+            None => Ok(vec![whole]),
+        }
     };
-    args.excitation.record.iter().map(one).collect()
+    let records: Vec<Vec<Measured>> = args.excitation.record.iter().map(one).collect::<Result<_, _>>()?;
+    Ok(records.into_iter().flatten().collect())
 }
 
 /// A spectrum for each channel and damping ratio, then those made of several.
@@ -54,8 +93,14 @@ pub(super) fn spectra(
     list: &Frequencies,
     dampings: &[DampingRatio],
 ) -> Result<Vec<(Option<String>, Spectrum)>, Failure> {
+    if args.several.resultant {
+        for Measured { path, record, .. } in records {
+            record.one_time("a resultant").map_err(|reason| Failure::Record { path: path.clone(), reason })?;
+        }
+    }
     let count: usize = records.iter().map(|measured| measured.record.channels().len()).sum();
-    let all: usize = records.iter().map(|Measured { record, .. }| record.channels().len() * record.samples()).sum();
+    let all: usize =
+        records.iter().flat_map(|measured| measured.record.channels()).map(|channel| channel.values.len()).sum();
     let filtering = Counted::begin("filtering", (all * dampings.len()) as u64);
     let mut done = 0;
     let mut found = Vec::new();
@@ -63,21 +108,23 @@ pub(super) fn spectra(
         let mut of_channels: Vec<Spectrum> = Vec::with_capacity(count);
         let mut resultants = Vec::new();
         let mut names = Vec::new();
-        for Measured { path, record } in records {
+        for Measured { path, record, shock } in records {
             let first = of_channels.len();
-            // A record by its file where there are several of them.
-            let file = (records.len() > 1).then(|| called(path));
-            let within = |name: &str| match &file {
-                Some(file) if record.channels().len() > 1 || name == RESULTANT => format!("{file}: {name}"),
-                Some(file) => file.clone(),
-                None => name.to_owned(),
+            // A record by its file where there are several of them, and a shock by its number.
+            let file = (args.excitation.record.len() > 1).then(|| called(path));
+            let within = |name: &str| {
+                let named = record.channels().len() > 1 || name == RESULTANT || file.is_none() && shock.is_none();
+                let parts = [file.clone(), named.then(|| name.to_owned())];
+                let name = parts.into_iter().flatten().collect::<Vec<_>>().join(": ");
+                let shock = shock.clone().into_iter();
+                Some(name).filter(|name| !name.is_empty()).into_iter().chain(shock).collect::<Vec<_>>().join(", ")
             };
             for channel in record.channels() {
                 let quantity = args.quantity.quantity();
                 let progress = |samples| filtering.at(done + samples);
-                let spectrum = record.spectrum(channel, list, *damping, quantity, args.interpolation.into(), progress);
+                let spectrum = channel.spectrum(list, *damping, quantity, args.interpolation.into(), progress);
                 of_channels.push(spectrum.map_err(|reason| Failure::Record { path: path.clone(), reason })?);
-                done += record.samples() as u64;
+                done += channel.values.len() as u64;
                 names.push((count > 1).then(|| within(&text::visible(&channel.name))));
             }
             let axes: Vec<&Spectrum> = of_channels[first..].iter().collect();

@@ -3,11 +3,13 @@
 use std::io::{self, Write};
 
 use clatter_assess::units::ACCELERATION;
-use clatter_shock::{LimitCurve, Margin, Spectrum};
+use clatter_record::Channel;
+use clatter_shock::{Deviation, EnvelopingPulse, LimitCurve, Margin, Spectrum};
 
 use super::records::{Measured, largest};
 use super::{Computed, Part};
 use crate::columns::Table;
+use crate::excitation::shape_name;
 use crate::numbers::{digits, figures, given};
 use crate::quantities::Show;
 use crate::text;
@@ -19,9 +21,6 @@ impl Computed<'_> {
 
     pub(super) fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         for (i, part) in self.parts.iter().enumerate() {
-            if i > 0 {
-                writeln!(out)?;
-            }
             self.heading(part, out)?;
             if i == 0 {
                 self.about_excitation(out)?;
@@ -29,9 +28,18 @@ impl Computed<'_> {
             if let Some(margins) = &part.margins {
                 self.worst(&part.spectrum, margins, out)?;
             }
-            if self.args.output.is_none() {
-                self.rows(&part.spectrum, part.margins.as_deref(), out)?;
+            if let Some(deviations) = &part.deviations {
+                self.reached(part, deviations, out)?;
             }
+            if let Some(enveloping) = &part.enveloping {
+                self.enveloped(enveloping, out)?;
+            }
+            if self.args.output.is_none() && self.parts.len() == 1 {
+                self.rows(part, out)?;
+            }
+        }
+        if self.args.output.is_none() && self.parts.len() > 1 {
+            self.side_by_side(out)?;
         }
         match &self.args.output {
             Some(target) => {
@@ -50,14 +58,23 @@ impl Computed<'_> {
     }
 
     fn about_excitation(&self, out: &mut dyn Write) -> io::Result<()> {
-        for Measured { path, record } in &self.records {
-            let steps =
-                record.step_s().map_or("uneven in time".to_owned(), |step| format!("every {} s", figures(step)));
-            let (start, end) = (record.start_s(), record.start_s() + record.duration_s());
-            let (n, from, to) = (record.samples(), figures(start), figures(end));
+        for Measured { path, record, .. } in &self.records {
             let file = if self.records.len() > 1 { format!("{}: ", text::path(path)) } else { String::new() };
-            let most = record.channels().iter().map(largest).fold(0.0, f64::max);
-            writeln!(out, "{file}{n} samples from {from} to {to} s, {steps}; largest {} m/s2", figures(most))?;
+            let several = record.times().len() > 1;
+            // Channels with times of their own have a line each.
+            let mut told: Vec<&[Channel]> = if several { record.channels().chunks(1).collect() } else { Vec::new() };
+            if !several {
+                told.push(record.channels());
+            }
+            for channels in told {
+                let times = channels[0].times();
+                let steps =
+                    times.step_s().map_or("uneven in time".to_owned(), |step| format!("every {} s", figures(step)));
+                let (from, to) = (figures(times.start_s()), figures(times.start_s() + times.duration_s()));
+                let name = if several { format!("{}: ", text::visible(&channels[0].name)) } else { String::new() };
+                let (n, most) = (times.samples(), figures(channels.iter().map(largest).fold(0.0, f64::max)));
+                writeln!(out, "{file}{name}{n} samples from {from} to {to} s, {steps}; largest {most} m/s2")?;
+            }
         }
         let Some(boundary) = &self.boundary else { return Ok(()) };
         let acceleration = self.args.quantity.dimension().name == ACCELERATION.name;
@@ -67,26 +84,81 @@ impl Computed<'_> {
         boundary.table(Show { unit, name: "m/s2" }, out)
     }
 
-    fn rows(&self, spectrum: &Spectrum, margins: Option<&[Option<Margin>]>, out: &mut dyn Write) -> io::Result<()> {
+    fn rows(&self, part: &Part, out: &mut dyn Write) -> io::Result<()> {
+        let Part { spectrum, margins, deviations, .. } = part;
         let (show, hz) = (self.show(), Show { unit: self.frequencies.unit, name: "Hz" });
         let unit = show.name();
-        let margin = if margins.is_some() { ["margin", "dB"] } else { [""; 2] };
-        let head = ["frequency", "primary", "residual", "maximax", "positive", "negative", "time of peak", margin[0]];
-        let units = [hz.name(), unit, unit, unit, unit, unit, "s", margin[1]];
-        let columns = if margins.is_some() { 8 } else { 7 };
-        let mut rows: Vec<Vec<String>> =
-            [head, units].map(|row| row[..columns].iter().map(|c| (*c).to_owned()).collect()).into();
+        let mut heads = vec!["frequency", "primary", "residual", "maximax", "positive", "negative", "time of peak"];
+        let mut units = vec![hz.name(), unit, unit, unit, unit, unit, "s"];
+        for (name, _) in [("margin", margins.is_some()), ("deviation", deviations.is_some())].iter().filter(|of| of.1) {
+            heads.push(name);
+            units.push("dB");
+        }
+        let mut rows: Vec<Vec<String>> = [heads, units].map(|row| row.into_iter().map(str::to_owned).collect()).into();
+        let db = |value: Option<f64>| value.map_or("-".to_owned(), figures);
         for i in 0..spectrum.frequency_hz.len() {
             let [frequency, values @ ..] = row(spectrum, i);
             let mut cells = vec![hz.figures(frequency)];
             cells.extend(values.map(|x| show.figures(x)));
             let time = spectrum.time_of_peak_s[i];
             cells.push(if time.is_nan() { "-".to_owned() } else { figures(time) });
-            cells.extend(margins.map(|margins| margins[i].map_or("-".to_owned(), |m| figures(m.decibel()))));
+            cells.extend(margins.as_ref().map(|margins| db(margins[i].map(|m| m.decibel()))));
+            cells.extend(deviations.as_ref().map(|off| db(off[i].map(|of| of.decibel()))));
             rows.push(cells);
         }
         writeln!(out)?;
         Table { keys: 1, headings: 2, texts: 0, last_is_text: false, least: 10, rows }.write(out)
+    }
+
+    /// The maximax of several spectra, a column each.
+    fn side_by_side(&self, out: &mut dyn Write) -> io::Result<()> {
+        let (show, hz) = (self.show(), Show { unit: self.frequencies.unit, name: "Hz" });
+        let names = self.parts.iter().map(|part| self.name(part));
+        let units = self.parts.iter().map(|_| show.name().to_owned());
+        let mut rows: Vec<Vec<String>> = vec![
+            std::iter::once("frequency".to_owned()).chain(names).collect(),
+            std::iter::once(hz.name().to_owned()).chain(units).collect(),
+        ];
+        rows.extend(self.frequencies.list.hz().iter().enumerate().map(|(i, frequency)| {
+            let values = self.parts.iter().map(|part| show.figures(part.spectrum.maximax[i]));
+            std::iter::once(hz.figures(*frequency)).chain(values).collect()
+        }));
+        writeln!(out)?;
+        Table { keys: 1, headings: 2, texts: 0, last_is_text: false, least: 10, rows }.write(out)
+    }
+
+    fn enveloped(&self, of: &EnvelopingPulse, out: &mut dyn Write) -> io::Result<()> {
+        let acceleration = self.args.quantity.dimension().name == ACCELERATION.name;
+        let show = Show { unit: self.show().unit.filter(|_| acceleration), name: "m/s2" };
+        let (shape, amplitude) = (shape_name(of.pulse.shape), show.said(of.pulse.amplitude));
+        let [ms, v, mean, most, hz] =
+            [1e3 * of.pulse.duration, of.pulse.velocity_change(), of.mean_db, of.most_db, of.most_hz].map(figures);
+        writeln!(
+            out,
+            "Enveloped by a {shape} of {amplitude} and {ms} ms, {v} m/s: above by {mean} dB on average, by {most} dB at most, at {hz} Hz"
+        )
+    }
+
+    /// Whether a spectrum reached what it was to, and where it is off most on either side.
+    fn reached(&self, part: &Part, deviations: &[Option<Deviation>], out: &mut dyn Write) -> io::Result<()> {
+        let Some([low, high]) = outermost(deviations) else {
+            return writeln!(out, "The required spectrum covers none of these frequencies");
+        };
+        let at = |(i, of): (usize, Deviation)| {
+            let hz = Show { unit: self.frequencies.unit, name: "Hz" }.said(part.spectrum.frequency_hz[i]);
+            format!("{} dB at {hz}", figures(of.decibel()))
+        };
+        let told = deviations.iter().flatten();
+        let [below, above] =
+            [told.clone().filter(|of| of.is_below).count(), told.clone().filter(|of| of.is_above).count()];
+        let all = told.count();
+        let word = match (below, above) {
+            (0, 0) => "is reached".to_owned(),
+            (0, above) => format!("is exceeded by more than the tolerance at {above} of {all} frequencies"),
+            (below, 0) => format!("is not reached at {below} of {all} frequencies"),
+            (below, above) => format!("is not reached at {below} and exceeded at {above} of {all} frequencies"),
+        };
+        writeln!(out, "The required spectrum {word}: from {} to {}", at(low), at(high))
     }
 
     fn worst(&self, spectrum: &Spectrum, margins: &[Option<Margin>], out: &mut dyn Write) -> io::Result<()> {
@@ -109,9 +181,10 @@ impl Computed<'_> {
         let q = if several { "q_factor," } else { "" };
         let of = if named { "of," } else { "" };
         let margin = if self.limit.is_some() { ",margin_db" } else { "" };
+        let deviation = if self.required.is_some() { ",deviation_db" } else { "" };
         writeln!(
             out,
-            "{of}{q}frequency_hz,primary,residual,maximax,positive,negative{margin},primary_positive,primary_negative,\
+            "{of}{q}frequency_hz,primary,residual,maximax,positive,negative{margin}{deviation},primary_positive,primary_negative,\
              residual_positive,residual_negative,time_of_peak_s"
         )?;
         let show = self.args.written();
@@ -127,10 +200,10 @@ impl Computed<'_> {
                 }
                 let [hz, values @ ..] = row(s, i);
                 write!(out, "{},{}", digits(hz), values.map(written).join(","))?;
-                match part.margins.as_ref().map(|margins| margins[i]) {
-                    Some(Some(margin)) => write!(out, ",{}", digits(margin.decibel()))?,
-                    Some(None) => write!(out, ",")?,
-                    None => {}
+                let margin = part.margins.as_ref().map(|margins| margins[i].map(|m| m.decibel()));
+                let deviation = part.deviations.as_ref().map(|off| off[i].map(|of| of.decibel()));
+                for db in [margin, deviation].into_iter().flatten() {
+                    write!(out, ",{}", db.map(digits).unwrap_or_default())?;
                 }
                 let signs = [&s.primary_positive, &s.primary_negative, &s.residual_positive, &s.residual_negative];
                 let time = if s.time_of_peak_s[i].is_nan() { String::new() } else { digits(s.time_of_peak_s[i]) };
@@ -139,6 +212,15 @@ impl Computed<'_> {
         }
         Ok(())
     }
+}
+
+/// The lowest and the highest of the deviations, with their places.
+pub(super) fn outermost(deviations: &[Option<Deviation>]) -> Option<[(usize, Deviation); 2]> {
+    let told = || deviations.iter().enumerate().filter_map(|(i, of)| Some((i, (*of)?)));
+    let share = |of: &Deviation| of.reached / of.required;
+    let low = told().min_by(|a, b| share(&a.1).total_cmp(&share(&b.1)))?;
+    let high = told().max_by(|a, b| share(&a.1).total_cmp(&share(&b.1)))?;
+    Some([low, high])
 }
 
 fn row(s: &Spectrum, i: usize) -> [f64; 6] {

@@ -521,3 +521,6 @@ fn first(cap: f64, [second, third]: [f64; 2], at: impl Fn(f64) -> [f64; 3], clea
     }
     first_zero(begin, cap, at, |t, now| far_step(now, second, third).max(clear(t)))
 }
+
+#[cfg(test)]
+mod tests;

@@ -4,7 +4,7 @@
 //! give its unit and its rate.
 
 use super::number::Number;
-use super::{Matrix, Naming, Room, column, interval_s, refuse};
+use super::{Matrix, Naming, Room, agreed, column, interval_s, refuse};
 use crate::{Column, Error, Values};
 use hdf5_pure::{AttrValue, Dataset, Datatype, DatatypeByteOrder, File, FloatingPointLayout, Group};
 use std::collections::HashMap;
@@ -54,15 +54,18 @@ impl Collector<'_> {
         let interval = rate(&group.attrs().map_err(damaged)?).or(interval);
         let first = self.columns.len();
         let mut told = None;
-        let mut names = group.datasets().map_err(damaged)?;
-        names.sort_unstable();
-        for name in names {
+        // Opened in one walk: by name each would be a walk of its own.
+        let mut datasets: Vec<_> = group.iter_datasets().map_err(damaged)?.collect();
+        datasets.sort_unstable_by(|(one, _), (other, _)| one.cmp(other));
+        for (name, dataset) in datasets {
             self.count()?;
-            let dataset = group.dataset(&name).map_err(damaged)?;
             let full = if path.is_empty() { name.clone() } else { format!("{path}/{name}") };
-            if let Some(value) = self.dataset(&dataset, &full)? {
-                told = interval_s(&name, value).or(told);
+            let begin = self.columns.len();
+            let single = self.dataset(&dataset, &full)?;
+            if let Some(interval) = single.and_then(|value| interval_s(&name, value)) {
+                told = Some(agreed(told, interval));
             }
+            self.columns[begin..].iter_mut().for_each(|column| path.clone_into(&mut column.group));
         }
         // A single number of the group holds for its columns, after what they say themselves.
         if let Some(interval) = told.or(interval) {
@@ -70,12 +73,12 @@ impl Collector<'_> {
                 column.sampled_s = column.sampled_s.or(Some([0.0, interval]));
             }
         }
-        let mut names = group.groups().map_err(damaged)?;
-        names.sort_unstable();
+        let mut groups: Vec<_> = group.iter_groups().map_err(damaged)?.collect();
+        groups.sort_unstable_by(|(one, _), (other, _)| one.cmp(other));
         // What MATLAB keeps for itself.
-        for name in names.into_iter().filter(|name| !name.starts_with('#')) {
+        for (name, group) in groups.into_iter().filter(|(name, _)| !name.starts_with('#')) {
             let full = if path.is_empty() { name.clone() } else { format!("{path}/{name}") };
-            self.group(&group.group(&name).map_err(damaged)?, &full, depth + 1, told.or(interval))?;
+            self.group(&group, &full, depth + 1, told.or(interval))?;
         }
         Ok(())
     }
@@ -255,11 +258,17 @@ fn as_number(value: &AttrValue) -> Option<f64> {
     })
 }
 
-/// Seconds between samples by the attributes; of several, by the first in the order of their names.
+/// Seconds between samples by the attributes.
 fn rate(attributes: &Attributes) -> Option<f64> {
     let mut names: Vec<&String> = attributes.keys().collect();
     names.sort_unstable();
-    names.into_iter().find_map(|name| interval_s(name, as_number(&attributes[name])?))
+    let mut told = None;
+    for name in names {
+        if let Some(interval) = as_number(&attributes[name]).and_then(|number| interval_s(name, number)) {
+            told = Some(agreed(told, interval));
+        }
+    }
+    told
 }
 
 /// Packed numbers by the CF conventions (NetCDF): times `scale_factor`, plus `add_offset`.

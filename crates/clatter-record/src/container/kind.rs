@@ -1,5 +1,6 @@
 //! What a file is, by its first bytes.
 
+use super::mat::level4::is_level4;
 use super::refuse;
 use crate::Error;
 use std::fmt;
@@ -16,6 +17,8 @@ pub enum Kind {
     Wav,
     /// Variables of MATLAB as its versions 5 to 7.2 write them.
     Mat5,
+    /// Variables of MATLAB 4.
+    Mat4,
     /// HDF5, which MATLAB 7.3 writes too.
     Hdf5,
     /// Channels of National Instruments.
@@ -34,7 +37,7 @@ impl fmt::Display for Kind {
             Self::Text => "text",
             Self::Npy => "NPY file",
             Self::Wav => "WAV file",
-            Self::Mat5 => "MAT file",
+            Self::Mat5 | Self::Mat4 => "MAT file",
             Self::Hdf5 => "HDF5 file",
             Self::Tdms => "TDMS file",
             Self::Uff => "universal file",
@@ -136,6 +139,9 @@ impl Kind {
         if is_universal(beginning) {
             return Ok(Self::Uff);
         }
+        if is_level4(beginning) {
+            return Ok(Self::Mat4);
+        }
         if let Some((what, advice)) = refused_text(beginning).or_else(|| refused_binary(beginning)) {
             return Err(refuse(format!("this is {what}: {advice}")));
         }
@@ -181,20 +187,5 @@ fn refused_text(beginning: &[u8]) -> Option<(&'static str, &'static str)> {
 fn refused_binary(beginning: &[u8]) -> Option<(&'static str, &'static str)> {
     // Protocols 2 to 5: the opcode PROTO, its number, and from 4 on the opcode FRAME.
     let pickle = matches!(beginning, [0x80, 2 | 3, ..] | [0x80, 4 | 5, 0x95, ..]);
-    // MATLAB 4 begins with five numbers of 32 bits: the type of data, rows, columns, imaginary or not, length of the name.
-    let word = |i: usize| beginning.get(4 * i..4 * i + 4).map(|word| [word[0], word[1], word[2], word[3]]);
-    let mat4 = (|| {
-        let read =
-            if matches!(word(0)?, [_, _, 0, 0]) && word(0)?[1] < 5 { u32::from_le_bytes } else { u32::from_be_bytes };
-        let [kind, rows, columns, imaginary, name] = [0, 1, 2, 3, 4].map(|i| word(i).map(read));
-        let zero_terminated = beginning.get(19 + usize::try_from(name?).ok()?)? == &0;
-        Some(kind? < 5000 && rows? > 0 && columns? > 0 && imaginary? < 2 && (2..64).contains(&name?) && zero_terminated)
-    })();
-    if pickle {
-        Some(("a pickle of Python", "save the array with numpy.save or as CSV"))
-    } else if mat4 == Some(true) {
-        Some(("a MAT file of version 4", "save it with -v7"))
-    } else {
-        None
-    }
+    if pickle { Some(("a pickle of Python", "save the array with numpy.save or as CSV")) } else { None }
 }

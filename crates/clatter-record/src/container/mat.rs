@@ -1,10 +1,12 @@
-//! MAT files of MATLAB 5 to 7.2: elements with a tag, compressed or not.
+//! MAT files of MATLAB 5 to 7.2: elements with a tag, compressed or not; and of MATLAB 4, in [`level4`].
 //!
 //! Source: MAT-File Format, The MathWorks, chapter 1 (Level 5).
 
+pub(super) mod level4;
+
 use super::bytes::Bytes;
 use super::number::Number;
-use super::{Matrix, Naming, Room, codec, interval_s, refuse};
+use super::{Beside, Matrix, Naming, Room, agreed, codec, interval_s, refuse};
 use crate::{Column, Error, Values};
 
 const PART: &str = "MAT file";
@@ -17,12 +19,64 @@ const DEEPEST: usize = 8;
 #[derive(Debug, Default)]
 struct Found {
     columns: Vec<Column>,
-    interval_s: Option<f64>,
-    /// Why a variable of numbers is left out.
-    left_out: Option<Error>,
+    /// Structures, or the file by an empty name, and the time between samples that each tells.
+    intervals_s: Vec<(String, f64)>,
+    /// Why variables of numbers are left out.
+    left_out: Vec<String>,
 }
 
-pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> {
+impl Found {
+    /// Adds a variable of numbers.
+    fn numbers(&mut self, name: &str, matrix: Matrix<'_>, is_complex: bool, room: &mut Room) -> Result<(), Error> {
+        let Matrix { rows, columns, bytes, number, big_endian, .. } = matrix;
+        let values = rows.checked_mul(columns);
+        if values.and_then(|values| values.checked_mul(number.size())) != Some(bytes.len()) {
+            return Err(refuse(format!(
+                "MAT file: {name:?} should hold {rows} times {columns} numbers, but has {} bytes",
+                bytes.len()
+            )));
+        }
+        let (group, own) = name.rsplit_once('.').unwrap_or(("", name));
+        match values {
+            None | Some(0) => {}
+            Some(1) => {
+                if let Values::Float(value) = number.values(bytes, big_endian)
+                    && let Some(interval) = interval_s(own, value[0])
+                {
+                    let before = self.intervals_s.iter().rfind(|(other, _)| other == group);
+                    let interval = agreed(before.map(|(_, before)| *before), interval);
+                    self.intervals_s.push((group.to_owned(), interval));
+                }
+            }
+            Some(_) if is_complex => {
+                self.left_out.push(format!("{name:?}, which is complex; a record is real: save its real part"));
+            }
+            Some(_) => {
+                room.take_all(&[rows, columns])?;
+                let begin = self.columns.len();
+                self.columns.extend(matrix.split(name, Naming::Matlab));
+                self.columns[begin..].iter_mut().for_each(|column| group.clone_into(&mut column.group));
+            }
+        }
+        Ok(())
+    }
+
+    /// The columns, each with the rate that its structure tells, or one around it.
+    fn columns(mut self, beside: &mut Beside) -> Vec<Column> {
+        for column in &mut self.columns {
+            let holds = |group: &str| {
+                let rest = column.group.strip_prefix(group);
+                group.is_empty() || rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+            };
+            let around = self.intervals_s.iter().filter(|(group, _)| holds(group));
+            column.sampled_s = around.max_by_key(|(group, _)| group.len()).map(|(_, interval_s)| [0.0, *interval_s]);
+        }
+        beside.left_out.append(&mut self.left_out);
+        self.columns
+    }
+}
+
+pub(super) fn read(bytes: &[u8], room: &mut Room, beside: &mut Beside) -> Result<Vec<Column>, Error> {
     let mut bytes = Bytes::new(bytes, PART);
     bytes.take(126)?;
     bytes.big_endian = bytes.take(2)? == b"MI";
@@ -41,16 +95,7 @@ pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> 
             variable(data, bytes.big_endian, None, 0, &mut found, room)?;
         }
     }
-    let Found { mut columns, interval_s, left_out } = found;
-    if let (true, Some(reason)) = (columns.is_empty(), left_out) {
-        return Err(reason);
-    }
-    if let Some(interval) = interval_s {
-        for column in &mut columns {
-            column.sampled_s = Some([0.0, interval]);
-        }
-    }
-    Ok(columns)
+    Ok(found.columns(beside))
 }
 
 /// A tagged part of the file.
@@ -156,35 +201,8 @@ fn variable(
             let real = Element::read(&mut bytes)?;
             let number =
                 real.number().ok_or_else(|| refuse(format!("MAT file: {name:?} has no numbers of a known kind")))?;
-            let values = rows.checked_mul(columns);
-            if values.and_then(|values| values.checked_mul(number.size())) != Some(real.data.len()) {
-                return Err(refuse(format!(
-                    "MAT file: {name:?} should hold {rows} times {columns} numbers, but has {} bytes",
-                    real.data.len()
-                )));
-            }
-            match values {
-                None | Some(0) => Ok(()),
-                Some(1) => {
-                    if let Values::Float(value) = number.values(real.data, big_endian)
-                        && let Some(interval) = interval_s(name.rsplit('.').next().unwrap_or(name), value[0])
-                    {
-                        found.interval_s = Some(interval);
-                    }
-                    Ok(())
-                }
-                Some(_) if flags & COMPLEX != 0 => {
-                    let reason = format!("MAT file: {name:?} is complex; a record is real: save its real part");
-                    found.left_out = Some(refuse(reason));
-                    Ok(())
-                }
-                Some(_) => {
-                    room.take_all(&[rows, columns])?;
-                    let matrix = Matrix { rows, columns, column_by_column: true, bytes: real.data, number, big_endian };
-                    found.columns.extend(matrix.split(name, Naming::Matlab));
-                    Ok(())
-                }
-            }
+            let matrix = Matrix { rows, columns, column_by_column: true, bytes: real.data, number, big_endian };
+            found.numbers(name, matrix, flags & COMPLEX != 0, room)
         }
         // Text, cells, sparse matrices, arrays of structures.
         _ => Ok(()),

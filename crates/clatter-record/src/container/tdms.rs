@@ -2,14 +2,18 @@
 //!
 //! Source: "TDMS File Format Internal Structure", National Instruments, 2024.
 
+mod daqmx;
+mod meta;
 mod scale;
 
 use super::bytes::Bytes;
-use super::number::Number;
-use super::{Room, joined, refuse};
+use super::{Beside, Room, joined, refuse};
+use crate::unit::{Kind, Unit};
 use crate::{Column, Error, Values};
+use daqmx::Daqmx;
+use meta::{Layout, Properties, Property, Stored, layout, property, stamp, text};
 use scale::scaled;
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 const PART: &str = "TDMS file";
 /// Bits of a lead-in.
@@ -17,47 +21,10 @@ const NEW_LIST: u32 = 1 << 2;
 const RAW_DATA: u32 = 1 << 3;
 const INTERLEAVED: u32 = 1 << 5;
 const BIG_ENDIAN: u32 = 1 << 6;
-const DAQMX: u32 = 1 << 7;
+/// Bytes before the list of channels of a segment.
+const LEAD_IN: usize = 28;
 /// The length of a segment that was not finished.
 const UNFINISHED: u64 = u64::MAX;
-
-/// A property, as far as it is used.
-#[derive(Debug, Clone)]
-enum Property {
-    Number(f64),
-    Text(String),
-    Other,
-}
-
-type Properties = HashMap<String, Property>;
-
-/// How the raw data of a channel lie in a chunk.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Layout {
-    kind: Stored,
-    count: usize,
-    /// Bytes of all.
-    bytes: usize,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Stored {
-    Number(Number),
-    /// Seconds since 1904 and 2⁻⁶⁴ of one.
-    Time,
-    /// Text and what else is no number: of so many bytes each, where that is fixed.
-    Skipped(Option<usize>),
-}
-
-impl Stored {
-    fn size(self) -> Option<usize> {
-        match self {
-            Self::Number(number) => Some(number.size()),
-            Self::Time => Some(16),
-            Self::Skipped(size) => size,
-        }
-    }
-}
 
 #[derive(Debug, Default)]
 struct Object {
@@ -65,6 +32,9 @@ struct Object {
     properties: Properties,
     layout: Option<Layout>,
     values: Option<Values>,
+    /// Where the data are raw ones of DAQmx, how they lie, and what was read of each source.
+    daqmx: Option<Daqmx>,
+    scalers: BTreeMap<u32, Values>,
 }
 
 /// All that is known so far.
@@ -77,20 +47,29 @@ struct File {
     is_active: HashSet<usize>,
     /// How often a channel was gone to in a segment.
     visits: usize,
+    /// Whether data are missing at the end of a segment.
+    is_cut: bool,
 }
 
-pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> {
+pub(super) fn read(bytes: &[u8], room: &mut Room, beside: &mut Beside) -> Result<Vec<Column>, Error> {
     let mut bytes = Bytes::new(bytes, PART);
     let mut file = File::default();
     // Channels have bytes in each segment, save empty ones: only a made-up file has many more channels than bytes.
     let most_visits = bytes.left().saturating_mul(16);
     while bytes.left() > 0 {
+        if bytes.left() < LEAD_IN && file.has_data() {
+            file.is_cut = true;
+            break;
+        }
         file.segment(&mut bytes, room)?;
         if file.visits > most_visits {
             return Err(refuse("TDMS file: its segments list more channels than they have bytes; the file is damaged"));
         }
     }
-    file.columns()
+    if file.is_cut {
+        beside.notes.push("the file ends within its last segment: samples are missing there".to_owned());
+    }
+    file.columns(&mut beside.left_out)
 }
 
 impl File {
@@ -108,9 +87,15 @@ impl File {
         }
         let (next, data) = (bytes.u64()?, bytes.u64()?);
         let big_endian = bytes.big_endian;
-        let length = if next == UNFINISHED { bytes.left() as u64 } else { next };
+        // A segment that is longer than the file was not finished either.
+        let unfinished = next == UNFINISHED || next > bytes.left() as u64;
+        let length = if unfinished { bytes.left() as u64 } else { next };
         let segment = bytes.take_u64(length)?;
         let Some((meta, raw)) = usize::try_from(data).ok().and_then(|data| segment.split_at_checked(data)) else {
+            if unfinished && self.has_data() {
+                self.is_cut = true;
+                return Ok(());
+            }
             return Err(refuse(format!("TDMS file: the data of the segment at byte {begins} begin beyond its end")));
         };
         if !meta.is_empty() {
@@ -121,11 +106,13 @@ impl File {
         if contents & RAW_DATA == 0 || raw.is_empty() {
             return Ok(());
         }
-        if contents & DAQMX != 0 {
-            return Err(daqmx());
-        }
-        let unfinished = next == UNFINISHED;
+        // Where the length was never entered, nothing says that all is there.
+        self.is_cut |= next != UNFINISHED && unfinished;
         self.chunks(raw, Order { big_endian, interleaved: contents & INTERLEAVED != 0, unfinished }, room)
+    }
+
+    fn has_data(&self) -> bool {
+        self.objects.iter().any(|object| object.values.is_some() || !object.scalers.is_empty())
     }
 
     /// The objects of a segment.
@@ -148,9 +135,16 @@ impl File {
                 u32::MAX => false,
                 // As in the segment before.
                 0 => object.layout.is_some(),
-                0x6912_0000..=0x6912_ffff | 0x6913_0000..=0x6913_ffff | 0x1269 | 0x1369 => return Err(daqmx()),
+                // 0x126a is what files have for digital lines, 0x1369 what NI describes.
+                kind @ (0x1269 | 0x126a | 0x1369) => {
+                    let daqmx = Daqmx::read(meta, kind != 0x1269)?;
+                    object.layout = Some(Layout { count: daqmx.count, ..NOTHING });
+                    object.daqmx = Some(daqmx);
+                    true
+                }
                 _ => {
                     object.layout = Some(layout(meta)?);
+                    object.daqmx = None;
                     true
                 }
             };
@@ -169,22 +163,41 @@ impl File {
         Ok(())
     }
 
-    /// The raw data of a segment: chunks of one layout, one behind the other.
+    /// The raw data of a segment: chunks of one layout, one behind the other. The last one may be cut short: then channels have as
+    /// many values of it as are there where the segment was not finished, else all the same share.
     fn chunks(&mut self, raw: &[u8], order: Order, room: &mut Room) -> Result<(), Error> {
         self.visits += self.active.len();
+        if self.active.iter().any(|object| self.objects[*object].daqmx.is_some()) {
+            let whole = daqmx::chunks(raw, &mut self.objects, &self.active, order.big_endian, room)?;
+            self.is_cut |= !whole;
+            return Ok(());
+        }
         let layouts: Vec<Layout> =
             self.active.iter().map(|object| self.objects[*object].layout.unwrap_or(NOTHING)).collect();
         let size = layouts.iter().try_fold(0_usize, |sum, layout| sum.checked_add(layout.bytes)).unwrap_or(usize::MAX);
         if size == 0 {
             return Err(refuse("TDMS file: a segment has data of no channel; the file is damaged"));
         }
-        if !raw.len().is_multiple_of(size) && !order.unfinished {
-            return Err(refuse(format!(
-                "TDMS file: the {} bytes of a segment are no whole number of chunks of {size}; the file is damaged",
-                raw.len()
-            )));
-        }
         for chunk in raw.chunks(size) {
+            if chunk.len() == size {
+                self.chunk(chunk, &layouts, order, room)?;
+                continue;
+            }
+            self.is_cut = true;
+            // Of text no one can tell how much is there.
+            if layouts.iter().any(|layout| layout.bytes > 0 && layout.kind.size().is_none()) {
+                continue;
+            }
+            if order.unfinished && !order.interleaved {
+                self.chunk(chunk, &layouts, order, room)?;
+                continue;
+            }
+            let share = |count: usize| count as u128 * chunk.len() as u128 / size as u128;
+            let part = |layout: &Layout| {
+                let count = usize::try_from(share(layout.count)).unwrap_or(0);
+                Layout { count, bytes: count.saturating_mul(layout.kind.size().unwrap_or(0)), ..*layout }
+            };
+            let layouts: Vec<Layout> = layouts.iter().map(part).collect();
             self.chunk(chunk, &layouts, order, room)?;
         }
         Ok(())
@@ -228,25 +241,48 @@ impl File {
         Ok(())
     }
 
-    fn columns(mut self) -> Result<Vec<Column>, Error> {
-        let found: Vec<Option<Values>> = self.objects.iter_mut().map(|object| object.values.take()).collect();
+    fn columns(mut self, left_out: &mut Vec<String>) -> Result<Vec<Column>, Error> {
+        let found: Vec<_> = self
+            .objects
+            .iter_mut()
+            .map(|object| (object.values.take(), std::mem::take(&mut object.scalers)))
+            .map(
+                |(values, scalers)| if values.is_none() && scalers.is_empty() { None } else { Some((values, scalers)) },
+            )
+            .collect();
         let mut count: HashMap<&str, usize> = HashMap::new();
         for (object, _) in self.objects.iter().zip(&found).filter(|(_, values)| values.is_some()) {
             *count.entry(object.name()).or_default() += 1;
         }
         let properties: HashMap<&[String], &Properties> =
             self.objects.iter().map(|object| (object.path.as_slice(), &object.properties)).collect();
+        // Channels that began later than others did.
+        let began = self.objects.iter().zip(&found).filter(|(_, values)| values.is_some());
+        let first = began.filter_map(|(object, _)| object.began()).min();
         let mut columns = Vec::new();
         for (object, values) in self.objects.iter().zip(found) {
-            let Some(values) = values else { continue };
+            let Some((values, scalers)) = values else { continue };
             // A name that several groups have goes with its group.
             let name = if count[object.name()] > 1 { object.path.join("/") } else { object.name().to_owned() };
-            let group = object.path.split_last().and_then(|(_, group)| properties.get(group));
-            let sources = [Some(&object.properties), group.copied(), properties.get([].as_slice()).copied()];
-            let values = scaled(values, &sources, &name)?;
+            let group = object.path.split_last().map_or(&[][..], |(_, group)| group);
+            let sampled_s = match object.sampled_s(first) {
+                Ok(sampled_s) => sampled_s,
+                Err(unit) => {
+                    left_out.push(format!("{name}, whose abscissa is in {unit}: it is no record over time"));
+                    continue;
+                }
+            };
+            let of_group = properties.get(group).copied();
+            let sources = [Some(&object.properties), of_group, properties.get([].as_slice()).copied()];
+            let values = scaled(values, &scalers, &sources, &name)?;
             let time = matches!(object.layout, Some(Layout { kind: Stored::Time, .. }));
-            let unit = if time { Some("ns".to_owned()) } else { object.text("unit_string") };
-            columns.push(Column { name, unit, sampled_s: object.sampled_s(), values });
+            let unit = || object.text("unit_string").or_else(|| object.text("NI_UnitDescription"));
+            let unit = if time { Some("ns".to_owned()) } else { unit() };
+            if values.is_empty() {
+                left_out.push(format!("{name}, which has no samples"));
+                continue;
+            }
+            columns.push(Column { name, group: group.join("/"), unit, sampled_s, values });
         }
         Ok(columns)
     }
@@ -275,21 +311,25 @@ impl Object {
             _ => None,
         }
     }
-    fn sampled_s(&self) -> Option<[f64; 2]> {
-        let interval = self.number("wf_increment").filter(|interval| interval.is_finite() && *interval > 0.0)?;
-        Some([self.number("wf_start_offset").filter(|start| start.is_finite()).unwrap_or(0.0), interval])
+    /// When the channel began.
+    fn began(&self) -> Option<i128> {
+        if let Some(Property::Time(time)) = self.properties.get("wf_start_time") { Some(*time) } else { None }
     }
-}
-
-fn daqmx() -> Error {
-    refuse(
-        "TDMS file: it holds raw data of DAQmx; save it once more with the TDMS convert function of LabVIEW, or as CSV",
-    )
-}
-
-fn text(bytes: &mut Bytes<'_>) -> Result<String, Error> {
-    let length = bytes.u32()?;
-    Ok(String::from_utf8_lossy(bytes.take_u64(length.into())?).into_owned())
+    /// Time of the first sample, since the earliest of all channels began, and between samples; else the unit of what the channel
+    /// is sampled over, where that is no time.
+    fn sampled_s(&self, first: Option<i128>) -> Result<Option<[f64; 2]>, String> {
+        let Some(interval) = self.number("wf_increment").filter(|interval| interval.is_finite() && *interval > 0.0)
+        else {
+            return Ok(None);
+        };
+        let unit = self.text("wf_xunit_string").unwrap_or_else(|| "s".to_owned());
+        let Some(Unit { kind: Kind::Time, size }) = Unit::of(&unit) else { return Err(unit) };
+        let start = self.number("wf_start_offset").filter(|start| start.is_finite()).unwrap_or(0.0);
+        let later = self.began().zip(first).and_then(|(own, first)| own.checked_sub(first)).unwrap_or(0);
+        #[expect(clippy::cast_precision_loss, reason = "to the precision of a float of its size")]
+        let later_s = later as f64 * 2_f64.powi(-64);
+        Ok(Some([start * size + later_s, interval * size]))
+    }
 }
 
 /// The parts of `/'group'/'channel'`, in which a quote stands twice.
@@ -298,68 +338,14 @@ fn parts(path: &str) -> Vec<String> {
     inner.map(|path| path.split("'/'").map(|part| part.replace("''", "'")).collect()).unwrap_or_default()
 }
 
-fn layout(meta: &mut Bytes<'_>) -> Result<Layout, Error> {
-    let kind = stored(meta.u32()?)?;
-    let dimension = meta.u32()?;
-    let count = meta.u64()?;
-    if dimension != 1 {
-        return Err(refuse(format!("TDMS file: a channel has {dimension} dimensions; the format allows 1")));
-    }
-    let bytes = match kind.size() {
-        Some(size) => count.saturating_mul(size as u64),
-        None => meta.u64()?,
-    };
-    let beyond = |_| refuse(format!("TDMS file: a channel of {count} values is beyond the file"));
-    Ok(Layout { kind, count: count.try_into().map_err(beyond)?, bytes: bytes.try_into().map_err(beyond)? })
-}
-
-/// A type of data by its number.
-fn stored(kind: u32) -> Result<Stored, Error> {
-    Ok(match kind {
-        0 => Stored::Skipped(Some(0)),
-        1 => Stored::Number(Number::I8),
-        2 => Stored::Number(Number::I16),
-        3 => Stored::Number(Number::I32),
-        4 => Stored::Number(Number::I64),
-        5 | 0x21 => Stored::Number(Number::U8),
-        6 => Stored::Number(Number::U16),
-        7 => Stored::Number(Number::U32),
-        8 => Stored::Number(Number::U64),
-        9 | 0x19 => Stored::Number(Number::F32),
-        10 | 0x1a => Stored::Number(Number::F64),
-        // Extended floats, with a unit or without, and two complex types.
-        0x0b | 0x1b | 0x10_000d => Stored::Skipped(Some(16)),
-        0x08_000c => Stored::Skipped(Some(8)),
-        0x20 => Stored::Skipped(None),
-        0x44 => Stored::Time,
-        other => return Err(refuse(format!("TDMS file: data of the type {other:#x} are not known"))),
-    })
-}
-
-fn property(meta: &mut Bytes<'_>) -> Result<Property, Error> {
-    let kind = stored(meta.u32()?)?;
-    let Some(size) = kind.size() else { return Ok(Property::Text(text(meta)?)) };
-    let bytes = meta.take(size)?;
-    let Stored::Number(number) = kind else { return Ok(Property::Other) };
-    Ok(match number.values(bytes, meta.big_endian) {
-        Values::Float(value) => value.first().map_or(Property::Other, |value| Property::Number(*value)),
-        Values::Integer(_) => Property::Other,
-    })
-}
-
 /// Nanoseconds since 1970.
 fn times(bytes: &[u8], big_endian: bool, stride: usize, count: usize) -> Result<Values, Error> {
     const FROM_1904_TO_1970_S: i64 = 2_082_844_800;
     let mut times = Vec::with_capacity(count);
-    for stamp in bytes.chunks(stride).take(count) {
-        let mut stamp = Bytes::new(stamp, "TDMS file, a time");
-        stamp.big_endian = big_endian;
-        let (fraction, seconds) = if big_endian {
-            let seconds = stamp.i64()?;
-            (stamp.u64()?, seconds)
-        } else {
-            (stamp.u64()?, stamp.i64()?)
-        };
+    for stamp_bytes in bytes.chunks(stride).take(count) {
+        let mut stamp_bytes = Bytes::new(stamp_bytes, "TDMS file, a time");
+        stamp_bytes.big_endian = big_endian;
+        let (seconds, fraction) = stamp(&mut stamp_bytes)?;
         // To the nearest; at most 10⁹, so that it fits.
         let fraction_ns = ((u128::from(fraction) * 1_000_000_000 + (1 << 63)) >> 64) as i64;
         let time = seconds

@@ -3,16 +3,16 @@
 //! Source: Universal File Dataset 58, Structural Dynamics Research Laboratory, University of Cincinnati.
 
 use super::number::Number;
-use super::{Room, column, refuse};
+use super::{Beside, Room, column, refuse};
+use crate::unit::{Kind, Unit};
 use crate::{Column, Error, Values};
 use std::borrow::Cow;
 
-pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> {
+pub(super) fn read(bytes: &[u8], room: &mut Room, beside: &mut Beside) -> Result<Vec<Column>, Error> {
     let mut lines = Lines { bytes, at: 0, line: 0 };
-    let mut columns = Vec::new();
-    let mut left_out = None;
-    // Blocks of one recorder share their times.
-    let mut last_times = None;
+    let mut columns: Vec<Column> = Vec::new();
+    // Blocks of one recorder share their times, and lie in a group with them.
+    let (mut last_times, mut groups) = (None, 0_usize);
     while let Some(line) = lines.next() {
         if line.trim() != "-1" {
             continue;
@@ -21,23 +21,31 @@ pub(super) fn read(bytes: &[u8], room: &mut Room) -> Result<Vec<Column>, Error> 
         let (set, binary) = (head.get(..6).unwrap_or(&head).trim(), head.get(6..7) == Some("b"));
         if set == "58" {
             match block(&mut lines, binary.then_some(&head), room)? {
-                Block::Columns(Some(times), values) if last_times.as_ref() == Some(&times) => columns.push(values),
-                Block::Columns(Some(times), values) => {
-                    last_times = Some(times.clone());
-                    columns.extend([times, values]);
+                Ok((times, mut values)) => {
+                    if values.name.is_empty() {
+                        values.name = format!("channel {}", columns.len() + 1);
+                    }
+                    if let Some(mut times) = times {
+                        if last_times.as_ref() != Some(&times) {
+                            last_times = Some(times.clone());
+                            groups += 1;
+                            times.group = groups.to_string();
+                            columns.push(times);
+                        }
+                        values.group = groups.to_string();
+                    }
+                    columns.push(values);
                 }
-                Block::Columns(None, values) => columns.push(values),
-                Block::LeftOut(reason) => left_out = Some(reason),
+                Err(reason) => beside.left_out.push(reason),
             }
         }
         // Other data sets: to the line that ends them.
         while lines.next().is_some_and(|line| line.trim() != "-1") {}
     }
-    match left_out {
-        Some(reason) if columns.is_empty() => Err(reason),
-        None if columns.is_empty() => Err(refuse("universal file: it has no data set 58 or 58b, which holds records")),
-        _ => Ok(columns),
+    if columns.is_empty() && beside.left_out.is_empty() {
+        return Err(refuse("universal file: it has no data set 58 or 58b, which holds records"));
     }
+    Ok(columns)
 }
 
 /// Lines of a file that may hold binary parts.
@@ -82,14 +90,8 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// What a data set gives.
-#[derive(Debug)]
-enum Block {
-    /// Times, where they are uneven, and values.
-    Columns(Option<Column>, Column),
-    /// It is no record of times: a spectrum, say.
-    LeftOut(Error),
-}
+/// What a data set gives: times, where they are uneven, and values; else why it is no record of times: a spectrum, say.
+type Block = Result<(Option<Column>, Column), String>;
 
 /// The header of a data set 58.
 #[derive(Debug)]
@@ -123,7 +125,7 @@ fn block(lines: &mut Lines<'_>, binary: Option<&str>, room: &mut Room) -> Result
             if let Some(binary) = binary {
                 lines.take(Binary::read(binary, lines)?.bytes)?;
             }
-            return Ok(Block::LeftOut(reason));
+            return Ok(Err(reason));
         }
     };
     let per_value = if head.even { 1 } else { 2 };
@@ -132,17 +134,18 @@ fn block(lines: &mut Lines<'_>, binary: Option<&str>, room: &mut Room) -> Result
         Some(binary) => head.binary(lines, &Binary::read(binary, lines)?)?,
         None => head.text(lines)?,
     };
-    let (times, values) = head.columns(times, values);
-    Ok(Block::Columns(times, values))
+    Ok(Ok(head.columns(times, values)))
 }
 
 impl Head {
     /// The eleven lines before the numbers; within, why a data set is left out.
-    fn read(lines: &mut Lines<'_>) -> Result<Result<Self, Error>, Error> {
+    fn read(lines: &mut Lines<'_>) -> Result<Result<Self, String>, Error> {
         for _ in 0..5 {
             lines.expect()?;
         }
-        let place = place(&lines.expect()?);
+        let line = lines.expect()?;
+        let (function, place) =
+            (line.get(..5).and_then(|text| text.trim().parse::<u32>().ok()).unwrap_or(0), place(&line));
         let form = &lines.expect()?;
         let fields: Option<Vec<f64>> = fixed(form, &[10, 10, 10, 13, 13, 13]).or_else(|| blanks(form));
         let &[kind, count, even, start, step, ..] = fields.as_deref().unwrap_or_default() else {
@@ -170,7 +173,7 @@ impl Head {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole and within 0 to 1e15")]
         let count = count as usize;
         let double = matches!(kind, 4.0 | 6.0);
-        let told = |fault: &str| Ok(Err(refuse(format!("universal file, line {at}: {fault}"))));
+        let told = |fault: &str| Ok(Err(format!("the data set with line {at}: {fault}")));
         if matches!(kind, 5.0 | 6.0) {
             return told("the values are complex; a record is real");
         }
@@ -180,10 +183,14 @@ impl Head {
                 time.kind
             ));
         }
+        // Where the abscissa is not told, the kind of function is: general or a response over time.
+        if time.kind == 0 && function > 1 {
+            return told(&format!("functions of kind {function} are no responses over time: a spectrum is no record"));
+        }
         let factor = if even { time.seconds() } else { Some(1.0) };
         let Some(factor) = factor else {
             return told(&format!(
-                "the unit {:?} of the times is not known; s, ms and us are",
+                "the unit {:?} of the abscissa is none of time, such as s, ms or us",
                 time.unit.unwrap_or_default()
             ));
         };
@@ -261,8 +268,10 @@ impl Head {
             values.sampled_s = Some([self.start, self.step]);
             return (None, values);
         }
-        let name = if self.time.label.is_empty() { "time".to_owned() } else { self.time.label };
-        (Some(column(name, self.time.unit, Values::Float(times))), values)
+        // Its kind says that it is a time; in seconds unless a unit is told.
+        let is_named = self.time.label.to_lowercase().contains("time");
+        let name = if is_named { self.time.label } else { "time".to_owned() };
+        (Some(column(name, self.time.unit.or_else(|| Some("s".to_owned())), Values::Float(times))), values)
     }
 }
 
@@ -290,12 +299,8 @@ impl Axis {
     }
     /// Seconds of its unit. Data sets are in SI where they do not say otherwise.
     fn seconds(&self) -> Option<f64> {
-        match self.unit.as_deref().map(str::to_ascii_lowercase).as_deref() {
-            None | Some("s" | "sec" | "secs" | "second" | "seconds") => Some(1.0),
-            Some("ms" | "msec") => Some(1e-3),
-            Some("us" | "usec" | "µs") => Some(1e-6),
-            _ => None,
-        }
+        let Some(unit) = &self.unit else { return Some(1.0) };
+        Unit::of(unit).filter(|unit| unit.kind == Kind::Time).map(|unit| unit.size)
     }
 }
 

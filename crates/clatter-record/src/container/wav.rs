@@ -132,6 +132,7 @@ impl Format {
         Ok((0..channels)
             .map(|channel| Column {
                 name: format!("channel {}", channel + 1),
+                group: String::new(),
                 unit: unit.clone(),
                 sampled_s: Some([0.0, 1.0 / f64::from(rate_hz)]),
                 values: coding.channel(data, big_endian, channel, channels, length),

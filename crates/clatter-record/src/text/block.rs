@@ -43,19 +43,28 @@ pub(super) fn begin(lines: &[String], form: Form) -> Option<Numbers> {
     let last = &rows[rows.len().saturating_sub(LAST)..];
     let has = |columns: usize| last.iter().filter(|(_, cells)| cells.len() == columns).count();
     let columns = last.iter().map(|(_, cells)| cells.len()).max_by_key(|columns| (has(*columns), *columns))?;
-    let share_of = |column: usize, is: &dyn Fn(&str) -> bool| {
-        let those = |(_, cells): &&(usize, Vec<Cow<'_, str>>)| cells.len() == columns && is(&cells[column]);
-        2 * last.iter().filter(those).count() >= has(columns)
+    let those = |rows: &[(usize, Vec<Cow<'_, str>>)], column: usize, is: &dyn Fn(&str) -> bool| {
+        rows.iter().filter(|(_, cells)| cells.len() == columns && is(&cells[column])).count()
     };
+    let share_of = |column: usize, is: &dyn Fn(&str) -> bool| 2 * those(last, column, is) >= has(columns);
     let measured: Vec<bool> =
         (0..columns).map(|column| share_of(column, &|cell| form.measured(cell).is_some())).collect();
     let is_data_of =
         |column: usize, cell: &str| form.is_data(cell) || measured[column] && form.measured(cell).is_some();
-    let is_number = |column: usize| share_of(column, &|cell| !cell.is_empty() && is_data_of(column, cell));
+    let is_filled = |cell: &str| !cell.is_empty();
+    let is_number = |column: usize| {
+        let is = |cell: &str| is_filled(cell) && is_data_of(column, cell);
+        // A channel with times of its own may end before the others.
+        match those(last, column, &is_filled) {
+            0 => 2 * those(&rows, column, &is) > those(&rows, column, &is_filled),
+            _ => share_of(column, &is),
+        }
+    };
     let numbers: Vec<usize> = (0..columns).filter(|column| is_number(*column)).collect();
     let first = *numbers.first()?;
-    // LabVIEW leaves the column of times empty where it writes none.
-    let is_empty = |column: &usize| last.iter().all(|(_, cells)| cells.get(*column).is_none_or(|cell| cell.is_empty()));
+    let is_empty = |column: &usize| {
+        !numbers.contains(column) && last.iter().all(|(_, cells)| cells.get(*column).is_none_or(|cell| cell.is_empty()))
+    };
     let empty: Vec<usize> = (0..columns).filter(is_empty).collect();
     let is_data = |cells: &[Cow<'_, str>]| {
         let cell = |column: usize| cells.get(column).map_or("", |cell| cell);

@@ -263,11 +263,10 @@ impl Layout {
                 break;
             }
         }
-        let of_labview = labview(&lines[..self.begin], columns);
         self.named = names.is_some();
         let unnamed = || vec![Heading::named_alone(""); columns];
         let mut headings = names.unwrap_or_else(unnamed);
-        // Names without numbers below them, as LabVIEW's `Comment`, are none of a column.
+        // Names without numbers below them, as `Comment`, are none of a column.
         headings.truncate(columns);
         if let Some(units) = units {
             // A name alone, such as `g`, is no unit beside a line of units.
@@ -283,14 +282,6 @@ impl Layout {
                 }
             }
             headings = headings.into_iter().zip(units).map(|(heading, unit)| heading.with_unit(&unit)).collect();
-        }
-        if let Some((units, sampled_s)) = of_labview {
-            headings = headings
-                .into_iter()
-                .zip(units)
-                .map(|(heading, unit)| if heading.spelled.is_none() { heading.with_unit(&unit) } else { heading })
-                .collect();
-            self.sampled_s = sampled_s;
         }
         self.headings = headings;
         Ok(())
@@ -402,25 +393,4 @@ impl Layout {
         let said = |cell: &&String| self.form.number(cell).is_some() || !is_unit(cell) && telling(cell);
         cells.iter().any(|cell| is_unit(&cell)) && !cells.iter().any(|cell| said(&cell))
     }
-}
-
-/// What the lines above the numbers of a LabVIEW measurement file (.lvm) tell: units of the columns, and the times of samples
-/// where there is no column of them.
-fn labview(lines: &[String], columns: usize) -> Option<(Vec<String>, Option<[f64; 2]>)> {
-    lines.first().filter(|line| line.starts_with("LabVIEW Measurement"))?;
-    let values = |key: &str| -> Option<Vec<String>> {
-        let line =
-            lines.iter().rev().find(|line| line.split(['\t', ',', ';']).next().is_some_and(|k| k.trim() == key))?;
-        let all = line.split(['\t', ',', ';']).skip(1).map(|cell| cell.trim().to_owned());
-        Some(all.collect())
-    };
-    let has_times = values("X_Columns").is_none_or(|values| values.first().is_none_or(|v| v != "No"));
-    let mut units = vec![
-        if values("X_Dimension").is_none_or(|v| v.first().is_none_or(|v| v == "Time")) { "s" } else { "" }.to_owned(),
-    ];
-    units.extend(values("Y_Unit_Label").unwrap_or_default());
-    units.resize(columns, String::new());
-    let number = |key: &str| values(key)?.first()?.replace(',', ".").parse::<f64>().ok();
-    let sampled_s = (!has_times).then(|| Some([number("X0").unwrap_or(0.0), number("Delta_X")?])).flatten();
-    Some((units, sampled_s))
 }

@@ -12,9 +12,7 @@ pub(super) fn only(text: &[u8], number: usize) -> Result<Vec<u8>, Error> {
     let lines: Vec<&[u8]> = text.split(|byte| *byte == b'\n').collect();
     let records = parts(&lines);
     let Some((begin, end)) = number.checked_sub(1).and_then(|part| records.get(part)) else {
-        let count = records.len();
-        let there = if count == 1 { "there is one record".to_owned() } else { format!("there are {count} records") };
-        return Err(Error::Records(format!("there is no record {number} in the file: {there}")));
+        return Err(Error::no_record(number, records.len()));
     };
     let heading = lines.iter().take_while(|line| !is_numbers(line)).count();
     let mut kept = Vec::with_capacity(text.len());

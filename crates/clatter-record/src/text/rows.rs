@@ -1,23 +1,22 @@
 //! The lines of numbers of a text.
 
+mod plain;
 mod row;
+mod shape;
 
-use encoding_rs::Encoding;
-
-use super::cells::Form;
+use super::cells::is_missing;
 use super::digits::Digits;
 use super::layout::uncommented;
-use super::sensors::Word;
-use super::{encoding, head, visible};
+use super::{cut, encoding, head, visible};
 use crate::account::Lines;
 use crate::decimal::Decimal;
 use crate::error::Bad;
 use crate::moment::{CLOCK, DAY_S};
 use crate::roles::Roles;
-use crate::samples::LARGEST;
 use crate::times::Printed;
 use crate::{At, Error, Options};
 use row::Row;
+pub(super) use shape::Shape;
 
 /// Instruments write 9.9E37 for a value beyond their range and 9.91E37 for none (SCPI 1999).
 const NO_VALUE: f64 = 9.8e37;
@@ -36,46 +35,6 @@ enum Use {
     Acceleration(usize),
 }
 
-/// What the lines of numbers are like.
-#[derive(Debug, Clone)]
-pub(super) struct Shape {
-    pub(super) form: Form,
-    /// What text is written in that is no UTF-8.
-    pub(super) letters: &'static Encoding,
-    pub(super) columns: usize,
-    /// Time of the first sample, and between samples, where lines above the numbers tell it.
-    pub(super) sampled_s: Option<[f64; 2]>,
-    /// Time between samples that a line above tells, and the line.
-    pub(super) told: Option<(f64, usize)>,
-    /// How many samples there are by a line above, and the line.
-    pub(super) count: Option<(usize, usize)>,
-    /// Columns in which a unit stands behind each number.
-    pub(super) measured: Vec<bool>,
-    /// The column of dates beside times of day.
-    pub(super) date: Option<usize>,
-    /// The column of times that a given rate stands in place of.
-    pub(super) checked: Option<(usize, f64)>,
-    pub(super) words: Vec<Word>,
-}
-
-impl Shape {
-    /// Numbers alone.
-    pub(super) fn plain(form: Form, letters: &'static Encoding, columns: usize) -> Self {
-        Self {
-            form,
-            letters,
-            columns,
-            sampled_s: None,
-            told: None,
-            count: None,
-            measured: vec![false; columns],
-            date: None,
-            checked: None,
-            words: Vec::new(),
-        }
-    }
-}
-
 /// Lines of numbers, as far as they are read.
 #[derive(Debug)]
 pub(crate) struct Rows {
@@ -88,6 +47,8 @@ pub(crate) struct Rows {
     most_values: usize,
     skip_bad: bool,
     line: usize,
+    /// Whether the channels may end before the lines do, as others have times of their own.
+    ends_early: bool,
     /// The numbers of one line, in the order of its columns.
     row: Vec<f64>,
     time: Option<Decimal>,
@@ -130,7 +91,7 @@ impl Rows {
         let mut used: Vec<(usize, Use)> =
             shape.words.iter().enumerate().map(|(i, word)| (word.column, Use::Word(i))).collect();
         used.extend(shape.date.map(|column| (column, Use::Date)));
-        used.extend(shape.checked.map(|(column, _)| (column, Use::Checked)));
+        used.extend(roles.checked.map(|(column, _)| (column, Use::Checked)));
         used.extend(roles.time.map(|(column, _)| (column, Use::Time)));
         used.extend(roles.channels.iter().enumerate().map(|(k, role)| (role.column, Use::Acceleration(k))));
         let last = used.iter().map(|(column, _)| *column).max();
@@ -142,10 +103,11 @@ impl Rows {
             uses,
             sizes: roles.channels.iter().map(|role| role.size).collect(),
             names: roles.channels.iter().map(|role| role.name.clone()).collect(),
-            time_size: roles.time.or(shape.checked).map_or(1.0, |(_, size)| size),
+            time_size: roles.time.or(roles.checked).map_or(1.0, |(_, size)| size),
             most_values: options.most_values,
             skip_bad: options.skip_bad,
             line: 0,
+            ends_early: roles.beside_others,
             row: Vec::new(),
             time: None,
             day: None,
@@ -171,11 +133,36 @@ impl Rows {
         }
     }
 
-    /// Lines that were read before: the heading.
-    pub(super) fn skip_lines(&mut self, lines: &[String]) {
-        self.line = lines.len();
-        self.lines.empty = lines.iter().filter(|line| line.trim().is_empty()).count();
-        self.lines.heading = lines.len() - self.lines.empty;
+    /// Lines of a heading, that are read elsewhere.
+    pub(super) fn skip_heading<T: AsRef<[u8]>>(&mut self, lines: &[T]) {
+        let filled = self.skip(lines);
+        self.lines.heading += filled;
+    }
+    /// Rows that were not asked for.
+    pub(super) fn skip_rows<T: AsRef<[u8]>>(&mut self, lines: &[T]) {
+        let filled = self.skip(lines);
+        self.lines.others += filled;
+    }
+    /// Passes over lines, and says how many are not empty.
+    fn skip<T: AsRef<[u8]>>(&mut self, lines: &[T]) -> usize {
+        let empty = lines.iter().filter(|line| line.as_ref().trim_ascii().is_empty()).count();
+        self.line += lines.len();
+        self.lines.empty += empty;
+        lines.len() - empty
+    }
+    /// Takes in a last line that has no end, below others, unless it is cut within a number.
+    pub(super) fn take_end(&mut self, above: &[u8], line: &[u8]) -> Result<(), Error> {
+        if line.is_empty() {
+            return Ok(());
+        }
+        match cut::within(above, line, self.shape.form, self.shape.letters) {
+            Some(why) => {
+                self.line += 1;
+                self.bad.add(At::Line(self.line), || why);
+                Ok(())
+            }
+            None => self.take(&[line, b"\n"].concat()).map(|_| ()),
+        }
     }
     /// The last line that was read.
     pub(super) fn line(&self) -> usize {
@@ -223,81 +210,6 @@ impl Rows {
         Ok(end)
     }
 
-    /// A line of plain numbers, the usual one, straight from its bytes: how many they are, or nothing where it is not so plain.
-    #[inline]
-    fn plain(&mut self, text: &[u8]) -> Option<usize> {
-        let Form { separator, point, .. } = self.shape.form;
-        let columns = self.shape.columns;
-        // Between quotes alone.
-        if separator == Some(point) {
-            return None;
-        }
-        let is_blank = |byte: u8| byte == b' ' || byte == b'\t' && separator != Some(b'\t');
-        let mut at = 0;
-        self.row.clear();
-        for (column, use_of) in self.uses.iter().enumerate() {
-            while is_blank(text[at]) {
-                at += 1;
-            }
-            if let Use::Nothing | Use::Word(_) | Use::Date = use_of {
-                let ends = |byte: u8| separator.map_or(is_blank(byte), |separator| byte == separator);
-                let begin = at;
-                while !ends(text[at]) {
-                    if text[at] == b'\n' || text[at] == b'"' {
-                        return None;
-                    }
-                    at += 1;
-                }
-                if let Use::Word(word) = use_of
-                    && text[begin..at] != *self.shape.words[*word].expected.as_bytes()
-                {
-                    return None;
-                }
-            } else {
-                let (number, length) = Decimal::scan(&text[at..], point)?;
-                at += length;
-                if let Use::Acceleration(k) = use_of {
-                    if self.open {
-                        self.open = !self.digits[*k + 1].note(number, self.channels[*k].len());
-                    }
-                    let number = number.float();
-                    let value = number * self.sizes[*k];
-                    if value.abs() > LARGEST || number.abs() >= NO_VALUE {
-                        return None;
-                    }
-                    self.row.push(value);
-                } else {
-                    if self.open {
-                        self.open = !self.digits[0].note(number, self.times.len());
-                    }
-                    self.time = Some(number);
-                }
-            }
-            let before = at;
-            while is_blank(text[at]) {
-                at += 1;
-            }
-            let last = column + 1 == self.uses.len();
-            match (text[at], separator) {
-                (b'\n', _) if last => return Some(at + 1),
-                (b'\r', _) if last => {}
-                // More columns than there are is a fault, and nothing beyond the last separator is none.
-                (byte, Some(separator)) if byte == separator && last && column + 1 == columns => {
-                    at += 1;
-                    return (text[at..].starts_with(b"\n") || text[at..].starts_with(b"\r\n"))
-                        .then(|| at + if text[at] == b'\n' { 1 } else { 2 });
-                }
-                (byte, Some(separator)) if byte == separator => at += 1,
-                (_, None) if last && column + 1 == columns => return None,
-                (_, None) if at > before => {}
-                _ => return None,
-            }
-        }
-        // Whatever else is on the line is of no use.
-        let rest = text[at..].iter().position(|byte| *byte == b'\n')?;
-        Some(at + rest + 1)
-    }
-
     /// Any other line.
     fn any(&mut self, line: &str) -> Result<(), Error> {
         let (text, commented) = uncommented(line);
@@ -330,6 +242,18 @@ impl Rows {
                 self.heading = Some(self.line);
             }
             self.text.add(At::Line(self.line), || format!("'{}' is no line of numbers", visible(text)));
+            return Ok(());
+        }
+        let is_used = |column: &usize| !matches!(self.uses[*column], Use::Nothing);
+        let is_empty = |column: usize| cells.get(column).is_none_or(|cell| cell.is_empty() || is_missing(cell));
+        if self.ends_early && (0..self.uses.len()).filter(is_used).all(is_empty) {
+            // Without times a number that follows would be of another one.
+            if self.uses.iter().any(|use_of| matches!(use_of, Use::Time)) {
+                self.lines.rows += 1;
+            } else {
+                let names = self.names.join(", ");
+                self.text.add(At::Line(self.line), || format!("nothing stands in the columns of {names}"));
+            }
             return Ok(());
         }
         self.row.clear();

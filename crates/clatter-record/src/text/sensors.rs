@@ -137,5 +137,5 @@ pub(super) fn date(seen: &Seen, roles: &Roles, form: Form) -> Option<usize> {
         let cell = &seen.cells[*column];
         !cell.contains(':') && (digits(*column) == Some(DATED) || moment::either(cell).is_some())
     };
-    (0..seen.cells.len()).filter(|column| *column != time).find(is_date)
+    (0..seen.cells.len().min(seen.headings.len())).filter(|column| *column != time).find(is_date)
 }

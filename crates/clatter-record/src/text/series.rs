@@ -75,7 +75,7 @@ impl Series {
         let mut rows = Rows::new(shape, &roles, options);
         let lines: Vec<String> =
             text.split(|byte| *byte == b'\n').map(|line| encoding::text(line, WINDOWS_1252)).collect();
-        rows.skip_lines(&lines[..self.begin]);
+        rows.skip_heading(&lines[..self.begin]);
         for line in &lines[self.begin..] {
             rows.values(&apart(line))?;
         }

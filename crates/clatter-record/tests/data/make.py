@@ -1,7 +1,7 @@
 """Makes the files of this folder, each by the tool that defines or knows its kind.
 
     pip install numpy==2.4.6 scipy==1.17.1 h5py==3.16.0 hdf5storage==0.2.2 npTDMS==1.13.0 pyuff==2.5.8 pyarrow==26.0.1
-    python make.py
+    python make.py [npy wav …]
 
 All hold the same numbers, which every kind of float and 16-bit integers hold exactly:
 t[i] = i/1024, a[i] = (37 i mod 101 - 50)/4, b[i] = (53 i mod 97 - 48)*2, c[i] = 4 a[i], for i = 0 .. 39.
@@ -269,5 +269,56 @@ def bombs():
         writer.write_table(table)
 
 
-for make in (npy, wav, mat, hdf5, tdms, uff, columnar, bombs):
-    make()
+def channels():
+    """Channels that each have times of their own: a at 1024 Hz, half of b at 512 Hz."""
+    half = b[: N // 2]
+    def tdms_channel(name, values, increment, start=0.0, **more):
+        return nptdms.ChannelObject("run", name, values, {"wf_increment": increment, "wf_start_offset": start, "unit_string": "g"} | more)
+    began = np.datetime64("2024-01-02T03:04:05")
+    with nptdms.TdmsWriter("rates.tdms") as writer:
+        later = began + np.timedelta64(500, "ms")
+        writer.write_segment([
+            tdms_channel("a", a, 1 / 1024, wf_start_time=began), tdms_channel("b", half, 1000 / 512, 250.0, wf_xunit_string="ms", wf_start_time=began),
+            tdms_channel("later", a, 1 / 1024, wf_start_time=later), tdms_channel("spectrum", a, 0.5, wf_xunit_string="Hz"),
+        ])
+    # Raw data of DAQmx: rows of a, c as 16 bits and a byte of lines, in two chunks; a scale on each.
+    for name, order, bit in [("daqmx.tdms", "<", 0), ("daqmx_big.tdms", ">", 64)]:
+        text = lambda word: struct.pack(order + "I", len(word)) + word.encode()
+        number = lambda name, value: text(name) + struct.pack(order + "Id", 10, value)
+        whole = lambda name, value: text(name) + struct.pack(order + "II", 7, value)
+        word = lambda name, value: text(name) + struct.pack(order + "I", 0x20) + text(value)
+        def scaler(kind, code, at):
+            out = struct.pack(order + "I", kind) + struct.pack(order + "IIQI", 1 if kind == 0x126A else 2**32 - 1, 1, N // 2, 1)
+            out += struct.pack(order + ("IIIBI" if kind == 0x126A else "IIIII"), code, 0, at, 0, 0)
+            return out + struct.pack(order + "II", 1, 5)
+        meta = struct.pack(order + "I", 3)
+        for channel, at, slope in [("a", 0, 0.25), ("c", 2, 1.0)]:
+            meta += text(f"/'card'/'{channel}'") + scaler(0x1269, 3, at) + struct.pack(order + "I", 7) + whole("NI_Number_Of_Scales", 2)
+            meta += word("NI_Scale[1]_Scale_Type", "Linear") + number("NI_Scale[1]_Linear_Slope", slope) + number("NI_Scale[1]_Linear_Y_Intercept", 0.0)
+            meta += whole("NI_Scale[1]_Linear_Input_Source", 0) + number("wf_increment", 1 / 1024) + word("NI_UnitDescription", "g")
+        meta += text("/'card'/'line'") + scaler(0x126A, 1, 8 * 4 + 3) + struct.pack(order + "I", 0)
+        rows = b"".join(struct.pack(order + "hhB", x, x, (k % 2) << 3 | 0x55 & ~8) for k, x in enumerate(c))
+        write(name, b"TDSm" + struct.pack("<I", 2 | 4 | 8 | 128 | bit) + struct.pack(order + "IQQ", 4713, len(meta) + len(rows), len(meta)) + meta + rows)
+        card = nptdms.TdmsFile.read(name)["card"]
+        assert np.array_equal(card["a"][:], a) and np.array_equal(card["c"][:], c) and np.array_equal(card["line"][:], i % 2)
+    # MATLAB 4 on a big-endian machine.
+    def level4(name, values, code):
+        values = np.asfortranarray(np.atleast_2d(values.T).T)
+        head = struct.pack(">5I", 1000 + 10 * code, *values.shape, 0, len(name) + 1) + name.encode() + b"\0"
+        return head + values.astype({0: ">f8", 3: ">i2"}[code]).tobytes(order="F")
+    write("level4_big.mat", level4("a", a, 0) + level4("m", np.column_stack([c, b]), 3) + level4("fs", np.array([1024.0]), 0))
+    assert np.array_equal(scipy.io.loadmat("level4_big.mat")["m"], np.column_stack([c, b]))
+    scipy.io.savemat("structs.mat", {"one": {"acc": a, "fs": 1024.0}, "two": {"acc": half, "dt": 1 / 512}})
+    data = open("structs.mat", "rb").read()
+    write("structs.mat", b"MATLAB 5.0 MAT-file, made by scipy".ljust(116) + data[116:])
+    with h5py.File("numbered.h5", "w") as file:
+        file["acc1"], file["acc2"], file["t1"], file["t2"] = a, half, t, t[::2]
+        group = file.create_group("run time")
+        group["acc"], group["time"] = half, t[::2]
+
+
+makes = (npy, wav, mat, hdf5, tdms, uff, columnar, bombs, channels)
+for make in makes:
+    # Some alone by their names.
+    if not sys.argv[1:] or make.__name__ in sys.argv[1:]:
+        make()

@@ -133,20 +133,16 @@ fn said_of_peaks(drop: usize, record: usize, found: &RecordFit) -> Value {
 fn both(curve: &[[f64; 3]]) -> Option<[Spectrum; 2]> {
     #[expect(clippy::cast_precision_loss, reason = "at most a million samples")]
     let step_s = (curve.last()?[0] - curve.first()?[0]) / (curve.len() - 1) as f64;
-    let channel = |i: usize| Channel {
-        name: String::new(),
-        unit: "m/s2".to_owned(),
-        values: curve.iter().map(|row| row[i]).collect(),
-    };
+    let channel = |i: usize| ("", curve.iter().map(|row| row[i]).collect());
     let record = Record::from_samples(0.0, step_s, vec![channel(1), channel(2)]).ok()?;
     let high = (3.0 * step_s).recip();
     // Below, a record says more of what is around it than of the shock.
-    let low = record.duration_s().recip().max(10.0);
+    let low = record.channels()[0].times().duration_s().recip().max(10.0);
     let frequencies = Frequencies::per_octave(low, high, PER_OCTAVE).ok()?;
     let damping = DampingRatio::from_quality_factor(Q).ok()?;
     let of = |channel: &Channel| {
         let quantity = Quantity::AbsoluteAcceleration;
-        record.spectrum(channel, &frequencies, damping, quantity, Between::BandLimited, |_| ()).ok()
+        channel.spectrum(&frequencies, damping, quantity, Between::BandLimited, |_| ()).ok()
     };
     Some([of(&record.channels()[0])?, of(&record.channels()[1])?])
 }

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::changes::{Of, changes};
 use super::inputs::held;
 use crate::Pages;
-use crate::words::{end, hundredths, limit, millimeters, minus, name, percent, quantity, shown};
+use crate::words::{end, hundredths, limit, millimeters, minus, name, percent, quantity, shown, sure_name};
 
 /// What else is known of a limit, a sentence each.
 fn said(file: &ProductFile, of: &LimitAssessment) -> Vec<String> {
@@ -61,7 +61,8 @@ fn columns(of: &LimitAssessment, worst: &WorstCase) -> [String; 9] {
 /// What the tables say of one limit of a part.
 fn row(pages: &Pages<'_>, part: &str, of: &LimitAssessment) -> Value {
     let file = pages.file;
-    let short = repeat(pages.path, part, of.limit, &pages.assessment.accuracy);
+    // A name that is drawn as boxes is no name that a command finds.
+    let short = repeat(pages.path, part, of.limit, &pages.assessment.accuracy).filter(|said| sure_name(said) == *said);
     let known = |value: Option<f64>| value.map_or("–".to_owned(), |value| shown(of.unit, value));
     json!({
         "name": limit(of.limit),
@@ -162,7 +163,7 @@ pub(super) fn part(
             seen(over_tilt.fold(0.0, f64::max)),
             flat_until(portrait)
         ),
-        "source": component.limit_source.as_deref().map(name),
+        "source": component.limit_source.as_deref().map(sure_name),
         "tilt-alt": format!("Curve of the worst {what} over the tilt at the first touch."),
     })
 }

@@ -191,7 +191,10 @@ mod tests {
         ] {
             let cache = Cache::with(&python);
             let error = cache.find().unwrap_err().to_string();
-            assert!(error.starts_with("typst could not be built") && error.contains(says), "{python}: {error}");
+            assert!(
+                error.starts_with("no typst: typst could not be built") && error.contains(says),
+                "{python}: {error}"
+            );
             assert_eq!(cache.names(), ["lock"], "{python}");
             assert!(cache.noted().ends_with("cargo\n"), "{python}");
         }

@@ -1,0 +1,208 @@
+//! Whether values of levers make a part safe, found by what breaks it.
+
+use super::lever::Lever;
+use super::remedies::Case;
+use crate::assess::Breaker;
+use crate::search::{Ranges, Task};
+use crate::{ComponentAssessment, Error, Limit, ProductFile, Verdict};
+
+/// Whether a part is safe with a margin.
+pub(super) fn is_enough(found: &ComponentAssessment, margin: f64) -> bool {
+    found.verdict == Verdict::Safe && found.tightest().room() >= margin
+}
+
+/// The same share but for roundings.
+const ALIKE: f64 = 1.0 + 1e-12;
+
+/// Drops that broke the part, those that did so last at the end.
+pub(super) struct Breakers(Vec<Breaker>);
+
+impl Breakers {
+    /// The worst cases of an assessment.
+    pub(super) fn of(file: &ProductFile, case: &Case<'_>, found: &ComponentAssessment) -> Self {
+        let mut breakers = Self(Vec::new());
+        breakers.learn(file, case, found);
+        breakers
+    }
+    /// The tightest limit tells most, and is the last.
+    fn learn(&mut self, file: &ProductFile, case: &Case<'_>, found: &ComponentAssessment) {
+        let ranges = case.ranges(file);
+        let mut limits: Vec<_> = found.limits.iter().collect();
+        limits.sort_by(|a, b| b.room().total_cmp(&a.room()));
+        let worst = limits.into_iter().filter_map(|limit| limit.worst_case.as_ref());
+        let place = |worst| Breaker { other_law: false, place: ranges.place_of(case.component, worst) };
+        self.0.extend(worst.map(place));
+    }
+}
+
+/// A product with the part alone, and what is asked of that.
+struct Changed {
+    file: ProductFile,
+    limits: Vec<Limit>,
+}
+
+impl Changed {
+    fn tasks(&self) -> impl Iterator<Item = Task<'_>> {
+        let component = &self.file.components[0];
+        self.limits.iter().map(move |limit| Task { component, limit: *limit })
+    }
+}
+
+/// What may be asked, as a share of the limit, that leaves a margin.
+fn most(margin: f64) -> f64 {
+    (1.0 + margin).recip()
+}
+
+impl Case<'_> {
+    fn with(&self, values: &[(Lever, f64)]) -> Option<Changed> {
+        let file = self.changed(values)?;
+        let limits = Limit::of(file.components.first()?);
+        Some(Changed { file, limits })
+    }
+
+    fn ranges<'b>(&self, file: &'b ProductFile) -> Ranges<'b> {
+        file.ranges(&self.accuracy)
+    }
+
+    /// The law by which a drop breaks the part, and what it may ask by it: where the file names no law, the part is to be safe by both.
+    fn by_law<'b>(&self, file: &'b ProductFile, breaker: &Breaker) -> (Ranges<'b>, f64) {
+        let own = self.ranges(file);
+        if breaker.other_law { (Ranges { law: own.law.other(), ..own }, 1.0) } else { (own, most(self.margin)) }
+    }
+
+    /// Whether a drop that is known breaks the part with these values, or they cannot be had.
+    fn is_broken(&self, values: &[(Lever, f64)], breakers: &mut Breakers) -> bool {
+        let Some(changed) = self.with(values) else { return true };
+        let breaks = |breaker: &Breaker| {
+            let (ranges, most) = self.by_law(&changed.file, breaker);
+            changed.tasks().any(|task| ranges.in_one(&task, &breaker.place) > most)
+        };
+        let by = breakers.0.iter().rposition(breaks);
+        if let Some(n) = by {
+            // It is tried first the next time.
+            breakers.0[n..].rotate_left(1);
+        }
+        by.is_some()
+    }
+
+    /// The most that known drops ask of the part with these values, by its own law.
+    pub(super) fn asked(&self, values: &[(Lever, f64)], breakers: &Breakers) -> f64 {
+        let Some(changed) = self.with(values) else { return f64::INFINITY };
+        let ranges = self.ranges(&changed.file);
+        let own = breakers.0.iter().filter(|breaker| !breaker.other_law);
+        let asked = own.flat_map(|b| changed.tasks().map(move |task| ranges.in_one(&task, &b.place)));
+        asked.fold(0.0, f64::max)
+    }
+
+    /// The part with these values, unless its margin is below `room`. What cannot be assessed is nothing to know of.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`].
+    pub(super) fn with_room(
+        &self,
+        values: &[(Lever, f64)],
+        room: Option<f64>,
+        breakers: &mut Breakers,
+    ) -> Result<Option<ComponentAssessment>, Error> {
+        let most = room.map_or(f64::INFINITY, |room| most(room) * ALIKE);
+        let Some(changed) = self.with(values) else { return Ok(None) };
+        let ranges = self.ranges(&changed.file);
+        let own = |breaker: &&Breaker| !breaker.other_law;
+        let mut known = breakers.0.iter().rev().filter(own);
+        if known.any(|breaker| changed.tasks().any(|task| ranges.asks_more(&task, &breaker.place, most))) {
+            return Ok(None);
+        }
+        self.searched(&changed, [most, f64::INFINITY], breakers)
+    }
+
+    /// The part with these values, unless a drop is found that asks for more, by its own law and by the other.
+    fn searched(
+        &self,
+        changed: &Changed,
+        most: [f64; 2],
+        breakers: &mut Breakers,
+    ) -> Result<Option<ComponentAssessment>, Error> {
+        let found = changed.file.assess_within(&self.accuracy, most, &|_, _| (self.go_on)());
+        if !(self.go_on)() {
+            return Err(Error::Stopped);
+        }
+        match found {
+            Ok(Ok(assessment)) => {
+                let found = assessment.components.into_iter().next();
+                if let Some(found) = &found {
+                    breakers.learn(&changed.file, self, found);
+                }
+                Ok(found)
+            }
+            Ok(Err(breaker)) => {
+                breakers.0.push(breaker);
+                Ok(None)
+            }
+            Err(_) => Ok(None),
+        }
+    }
+
+    /// The part with these values, if it is safe with the margin.
+    fn enough(
+        &self,
+        values: &[(Lever, f64)],
+        breakers: &mut Breakers,
+    ) -> Result<Option<Box<ComponentAssessment>>, Error> {
+        let Some(changed) = self.with(values) else { return Ok(None) };
+        let by_other = if self.file.product.contact_law.is_some() { f64::INFINITY } else { 1.0 };
+        let found = self.searched(&changed, [most(self.margin) * ALIKE, by_other], breakers)?;
+        Ok(found.filter(|found| is_enough(found, self.margin)).map(Box::new))
+    }
+
+    /// The first step of those up to `last` that makes the part safe with the margin, where the steps before fail and those after do not;
+    /// `last` may be known. None where that one fails.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`].
+    pub(super) fn first(
+        &self,
+        last: u32,
+        known: Option<ComponentAssessment>,
+        at: &dyn Fn(u32) -> Vec<(Lever, f64)>,
+        breakers: &mut Breakers,
+    ) -> Result<Option<(u32, Box<ComponentAssessment>)>, Error> {
+        let (mut short, mut enough) = (0, known.map(|after| (last, Box::new(after))));
+        // Whether the drops that are known tell where to look.
+        let mut guided = true;
+        loop {
+            let end = enough.as_ref().map_or(last, |(n, _)| *n);
+            if enough.is_none() && self.is_broken(&at(end), breakers) {
+                return Ok(None);
+            }
+            let mut open = end;
+            while open - short > 1 {
+                let middle = u32::midpoint(short, open);
+                if self.is_broken(&at(middle), breakers) { short = middle } else { open = middle }
+            }
+            if enough.is_some() && open == end {
+                return Ok(enough);
+            }
+            let next = match &enough {
+                _ if guided => open,
+                None => end,
+                Some(_) => open + (end - open) / 2,
+            };
+            if let Some((n, _)) = enough.as_mut().filter(|(n, _)| self.is_same(&at(next), &at(*n))) {
+                *n = next;
+            } else if let Some(after) = self.enough(&at(next), breakers)? {
+                enough = Some((next, after));
+            } else if next == last {
+                return Ok(None);
+            } else {
+                short = next;
+                guided = self.is_broken(&at(next), breakers);
+            }
+        }
+    }
+
+    /// Whether values are the same as they can be specified.
+    fn is_same(&self, some: &[(Lever, f64)], others: &[(Lever, f64)]) -> bool {
+        let value = |&(lever, x): &(Lever, f64)| self.value(lever, x).map(f64::to_bits);
+        some.iter().map(value).eq(others.iter().map(value))
+    }
+}

@@ -1,0 +1,45 @@
+//! What the ground may not do to the energy of a body.
+
+use super::*;
+use crate::Body;
+
+/// A flight whose end a has just touched, and the phase in which it presses.
+fn pressing<'a>(scene: &Scene<2>, contact: &'a Contact) -> (Run<'a, 2>, Phase<2>, f64) {
+    let mut run = Run::new(scene, contact, 1e-4);
+    assert!(run.first_touches(), "end a is on the ground and comes down");
+    let Lasting { phase, dt, .. } = run.next();
+    (run, phase, dt)
+}
+
+fn scene() -> Scene<2> {
+    Scene::new(Body::new(0.15, 0.045).unwrap(), 0.3, 4.0, 3.0, 9.81).unwrap()
+}
+
+/// A phase whose springs are said to be half as stiff again as those that the motion is of gives the body energy that nothing put in.
+#[test]
+fn a_phase_that_makes_energy_is_no_motion() {
+    let contact = Contact::new(ContactLaw::Hysteretic, 0.3, 1e-3).unwrap();
+    let (mut run, phase, dt) = pressing(&scene(), &contact);
+    // As the spring is pressed.
+    let dt = 0.5 * dt;
+    run.advance(&phase, dt).unwrap();
+    assert!(run.misfit < 1e-6 * run.opened, "a sound phase keeps it: {}", run.misfit / run.opened);
+    let (mut run, mut phase, _) = pressing(&scene(), &contact);
+    for line in phase.lines.iter_mut().flatten() {
+        line.stiffness *= 1.5;
+    }
+    let Err(Error::Energy { share }) = run.advance(&phase, dt) else { panic!("it passes") };
+    assert!(share > 0.01 && share < 1.0, "{share}");
+}
+
+/// Each of many phases may be off by little: their sum ends the flight.
+#[test]
+fn a_flight_ends_where_its_energy_is_off_by_a_hundredth() {
+    let contact = Contact::new(ContactLaw::Hysteretic, 0.3, 1e-3).unwrap();
+    for (off, ends) in [(0.0099, false), (0.0101, true)] {
+        let (mut run, ..) = pressing(&scene(), &contact);
+        run.misfit = off * run.opened;
+        assert_eq!(run.step(&mut |_| false).unwrap(), !ends, "off by {off}");
+        assert_eq!(matches!(run.log.flight.stop, Stop::EnergyLimit { .. }), ends, "off by {off}");
+    }
+}

@@ -1,0 +1,21 @@
+//! Tests of bodies that fall in time, in one program.
+
+#![cfg(test)]
+
+mod contact_ahead;
+mod contact_balance;
+mod contact_extremes;
+mod contact_laws;
+mod contact_oracle;
+mod contact_reference;
+mod contact_tumble;
+mod corners;
+mod cost;
+mod ends;
+mod energy;
+mod extremes;
+mod independent;
+mod orders;
+mod plain;
+mod reference;
+mod rest;

@@ -1,0 +1,319 @@
+//! Columns of a file whose numbers are no text, as channels: each with the times that the file gives it.
+
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+use crate::error::Bad;
+use crate::heading::Heading;
+use crate::raw::{Raw, Untimed};
+use crate::record::{one_scale, period};
+use crate::roles::{Role, Roles, Seen};
+use crate::samples::{LARGEST, float};
+use crate::text::SHOWN;
+use crate::times::Printed;
+use crate::{At, Column, Error, FULL_SCALE, Finding, Options, Pick, Record, Table, Values};
+
+/// Rates that a file tells twice are the same where they differ by no more than this share.
+const SAME_RATE: f64 = 1e-3;
+
+/// Where the times of a channel are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Source {
+    /// Time of the first sample and between samples, in seconds.
+    Even([f64; 2]),
+    /// A column.
+    Column(usize),
+}
+
+impl Record {
+    /// Of the columns of a file whose numbers are no text.
+    pub(crate) fn of_table(table: Table, options: &Options) -> Result<Self, Error> {
+        let Table { columns, left_out, notes } = table;
+        let options = &by_number(options, &columns);
+        let seen = seen(&columns, options);
+        let Roles { time, channels, left_out: unused, .. } = seen.roles(options)?;
+        one_scale(&channels, options)?;
+        let sought = Sought::new(&columns, &seen, options, time, &channels)?;
+        let mut groups: Vec<(Source, Vec<Role>)> = Vec::new();
+        let mut known: HashMap<[u64; 4], usize> = HashMap::new();
+        let mut used: HashSet<String> = HashSet::new();
+        for role in channels.iter().cloned() {
+            let source = sought.source(&role)?;
+            let key = match source {
+                Source::Even([start_s, step_s]) => [0, start_s.to_bits(), step_s.to_bits()],
+                Source::Column(time) => [1, time as u64, 0],
+            };
+            let samples = columns[role.column].values.len() as u64;
+            if let Source::Column(time) = source {
+                used.insert(seen.called(time));
+            }
+            let group = *known.entry([key[0], key[1], key[2], samples]).or_insert(groups.len());
+            match groups.get_mut(group) {
+                Some((_, roles)) => roles.push(role),
+                None => groups.push((source, vec![role])),
+            }
+        }
+        let several = sought.times.len() > 1;
+        let part = |(source, roles): (Source, Vec<Role>)| {
+            let places = roles.iter().map(|role| role.column).collect();
+            let size = if let Source::Column(time) = source { seen.time_size(time, options)? } else { 1.0 };
+            Ok((places, group(&columns, source, size, roles, several, options)?))
+        };
+        let mut record = Self::of_parts(groups.into_iter().map(part).collect::<Result<_, Error>>()?);
+        let unused: Vec<String> = unused.into_iter().filter(|column| !used.contains(column)).collect();
+        if !unused.is_empty() {
+            record.read.insert(0, Finding::LeftOut(unused));
+        }
+        let left_out = left_out.into_iter().map(|what| format!("nothing is made of {what}"));
+        let notes = left_out.chain(notes);
+        record.read.extend(notes.map(Finding::Note));
+        Ok(record)
+    }
+}
+
+/// Columns that are picked by their whole names, with the groups that they lie in, by their numbers.
+fn by_number(options: &Options, columns: &[Column]) -> Options {
+    let number = |pick: &Pick| match pick {
+        Pick::Name(name) => {
+            let found = columns.iter().position(|column| column.name.eq_ignore_ascii_case(name));
+            found.map_or_else(|| pick.clone(), |column| Pick::Number(column + 1))
+        }
+        Pick::Number(_) => pick.clone(),
+    };
+    Options {
+        time: options.time.as_ref().map(number),
+        accelerations: options.accelerations.iter().map(number).collect(),
+        ..options.clone()
+    }
+}
+
+/// The columns by their names without those of groups, which say nothing of what a column is.
+fn seen(columns: &[Column], options: &Options) -> Seen {
+    let heading = |column: &Column| {
+        let heading = Heading::of(column.own_name());
+        let heading = column.unit.iter().fold(heading, |heading, unit| heading.with_unit(unit));
+        let plain = heading.spelled.is_none() && heading.named() != crate::heading::Named::Time;
+        // Floats have no scale of their own.
+        if options.full_scale_m_s2.is_some() && plain { heading.with_unit(FULL_SCALE) } else { heading }
+    };
+    let number = |column: &Column, row: usize| match &column.values {
+        Values::Float(values) => values.get(row).copied().unwrap_or(f64::NAN),
+        #[expect(clippy::cast_precision_loss, reason = "the first rows tell times from indices")]
+        Values::Integer(values) => values.get(row).map_or(f64::NAN, |value| *value as f64),
+    };
+    let headings: Vec<Heading> = columns.iter().map(heading).collect();
+    Seen {
+        named: headings.iter().any(|heading| !heading.name.is_empty()),
+        sampled: columns.iter().any(|column| column.sampled_s.is_some()),
+        rows: (0..SHOWN).map(|row| columns.iter().map(|column| number(column, row)).collect()).collect(),
+        headings,
+        ..Seen::default()
+    }
+}
+
+/// What the times of a channel are sought in.
+struct Sought<'a> {
+    columns: &'a [Column],
+    seen: &'a Seen,
+    options: &'a Options,
+    /// The column of times of the whole file, if it has one.
+    time: Option<(usize, f64)>,
+    /// All columns of times.
+    times: Vec<usize>,
+    /// For each channel a column of times that lies in the same group and is as long.
+    beside: HashMap<usize, usize>,
+}
+
+impl<'a> Sought<'a> {
+    fn new(
+        columns: &'a [Column],
+        seen: &'a Seen,
+        options: &'a Options,
+        time: Option<(usize, f64)>,
+        channels: &[Role],
+    ) -> Result<Self, Error> {
+        let times = if seen.named {
+            (0..columns.len()).filter(|column| seen.headings[*column].is_time()).collect()
+        } else {
+            Vec::new()
+        };
+        let mut sought = Self { columns, seen, options, time, times, beside: HashMap::new() };
+        if options.sample_rate_hz.is_some() || options.time.is_some() {
+            return Ok(sought);
+        }
+        let mut together: BTreeMap<(&str, usize), [Vec<usize>; 2]> = BTreeMap::new();
+        let place = |column: usize| (columns[column].group.as_str(), columns[column].values.len());
+        for role in channels {
+            together.entry(place(role.column)).or_default()[0].push(role.column);
+        }
+        // A column of times by its place where none is by its name.
+        let by_place = time.map(|(time, _)| time).filter(|time| !sought.times.contains(time));
+        for time in sought.times.iter().copied().chain(by_place) {
+            if let Some([_, times]) = together.get_mut(&place(time)) {
+                times.push(time);
+            }
+        }
+        for [channels, mut times] in together.into_values().filter(|[_, times]| !times.is_empty()) {
+            times.sort_unstable();
+            let owners = match times[..] {
+                [time] => vec![time; channels.len()],
+                _ => sought.seen.paired(&times, &channels).map_or_else(|| sought.one_clock(&times, &channels), Ok)?,
+            };
+            sought.beside.extend(channels.into_iter().zip(owners));
+        }
+        Ok(sought)
+    }
+
+    /// One of several columns of times that are those of one clock, in several units; else no one can tell.
+    fn one_clock(&self, times: &[usize], channels: &[usize]) -> Result<Vec<usize>, Error> {
+        let steps = times.iter().map(|time| self.mean_step(*time)).collect::<Result<Vec<_>, _>>()?;
+        let same = |step: &Option<f64>| {
+            step.zip(steps[0]).is_some_and(|(step, first): (f64, f64)| (step / first - 1.0).abs() <= SAME_RATE)
+        };
+        if !steps.iter().all(same) {
+            let all: Vec<String> = times.iter().take(SHOWN).map(|time| self.seen.called(*time)).collect();
+            return Err(Error::Columns(format!(
+                "which times are those of column {} is not clear: {}; name the column of times",
+                self.seen.called(channels[0]),
+                all.join(", ")
+            )));
+        }
+        let chosen = self.time.map(|(time, _)| time).filter(|time| times.contains(time)).unwrap_or(times[0]);
+        Ok(vec![chosen; channels.len()])
+    }
+
+    /// The rate that the caller gives, else times beside the channel, else its own rate, else the times of the file.
+    fn source(&self, role: &Role) -> Result<Source, Error> {
+        let column = &self.columns[role.column];
+        let samples = column.values.len();
+        if let Some(hz) = self.options.sample_rate_hz {
+            return Ok(Source::Even([0.0, period(hz)?]));
+        }
+        if let (Some(_), Some((time, _))) = (&self.options.time, self.time) {
+            return self.long_enough(time, role);
+        }
+        if column.sampled_s.is_some_and(|[_, step_s]| step_s.is_nan()) {
+            return Err(Error::Columns(format!("the file tells two rates of {}: give the sample rate", column.name)));
+        }
+        let beside = self.beside.get(&role.column).copied();
+        match (beside, column.sampled_s, self.time) {
+            (Some(time), None, _) => Ok(Source::Column(time)),
+            (Some(time), Some([_, step_s]), _) => {
+                let mean_s = self.mean_step(time)?;
+                if mean_s.is_some_and(|mean_s| (mean_s / step_s - 1.0).abs() <= SAME_RATE) {
+                    return Ok(Source::Column(time));
+                }
+                Err(Error::Columns(format!(
+                    "{} has a sample every {step_s} s by what the file tells, and every {} s by its times {}: say which \
+                     holds, by the column of times or a sample rate",
+                    column.name,
+                    mean_s.unwrap_or(f64::NAN),
+                    self.columns[time].name
+                )))
+            }
+            (None, Some(sampled_s), _) => Ok(Source::Even(sampled_s)),
+            (None, None, Some((time, _))) => self.long_enough(time, role),
+            (None, None, None) => {
+                let name = if column.name.is_empty() { "samples" } else { &column.name };
+                Err(Error::Columns(format!(
+                    "the file tells no times of {name}, {samples} of them: give the sample rate"
+                )))
+            }
+        }
+    }
+
+    fn long_enough(&self, time: usize, role: &Role) -> Result<Source, Error> {
+        let [count, samples] = [time, role.column].map(|column| self.columns[column].values.len());
+        if count == samples {
+            return Ok(Source::Column(time));
+        }
+        Err(Error::Columns(format!(
+            "column {} has {count} values for {samples} samples of {}: take columns that go together",
+            self.seen.called(time),
+            role.name
+        )))
+    }
+
+    /// Seconds between samples by a column of times, on average.
+    fn mean_step(&self, time: usize) -> Result<Option<f64>, Error> {
+        let size = self.seen.time_size(time, self.options)?;
+        let (_, since_s) = since_first(&self.columns[time].values, size);
+        let steps = float(since_s.len().saturating_sub(1));
+        Ok(since_s.last().map(|last| last / steps).filter(|step_s| *step_s > 0.0))
+    }
+}
+
+/// Channels that share their times.
+fn group(
+    columns: &[Column],
+    source: Source,
+    time_size: f64,
+    roles: Vec<Role>,
+    several: bool,
+    options: &Options,
+) -> Result<Record, Error> {
+    let (mut step_s, mut since_s, mut printed) = (None, Vec::new(), Printed::floats());
+    let start_s;
+    match source {
+        Source::Even([from_s, by_s]) => (start_s, step_s) = (from_s, Some(by_s)),
+        Source::Column(time) => {
+            (start_s, since_s) = since_first(&columns[time].values, time_size);
+            if let Values::Integer(_) = columns[time].values {
+                printed = Printed::whole();
+            }
+        }
+    }
+    let mut channels: Vec<Untimed> = roles
+        .into_iter()
+        .map(|role| {
+            let values: Vec<f64> = match &columns[role.column].values {
+                Values::Float(values) => values.iter().map(|value| value * role.size).collect(),
+                #[expect(clippy::cast_precision_loss, reason = "no converter has so many digits")]
+                Values::Integer(values) => values.iter().map(|value| *value as f64 * role.size).collect(),
+            };
+            // The whole name where the file has groups.
+            let name = &columns[role.column].name;
+            let name = if columns[role.column].group.is_empty() { role.name } else { name.clone() };
+            Untimed { name, unit: role.unit, values }
+        })
+        .collect();
+    // A table fills up columns that end before others.
+    if several && !since_s.is_empty() {
+        let is_filled =
+            |row: usize| since_s[row].is_nan() && channels.iter().all(|channel| channel.values[row].is_nan());
+        let end = (0..since_s.len()).rposition(|row| !is_filled(row)).map_or(0, |last| last + 1);
+        since_s.truncate(end);
+        for channel in &mut channels {
+            channel.values.truncate(end);
+        }
+    }
+    let mut bad = Bad::default();
+    let mut kept = vec![true; channels[0].values.len()];
+    for (sample, kept) in kept.iter_mut().enumerate() {
+        let values = channels.iter().map(|channel| (channel.name.as_str(), channel.values[sample]));
+        let mut values = values.chain(since_s.get(sample).map(|since_s| ("time", *since_s)));
+        if let Some((name, value)) = values.find(|(_, value)| !value.is_finite() || value.abs() > LARGEST) {
+            *kept = false;
+            bad.add(At::Sample(sample + 1), || format!("{value} in {name} is no number up to {LARGEST:e}"));
+        }
+    }
+    let found = Vec::new();
+    let mut raw = Raw { channels, start_s, unit_s: time_size, since_s, printed, step_s, numbering: Vec::new(), found };
+    raw.keep(&kept);
+    raw.finish(bad, options)
+}
+
+/// The first of some times in seconds, and all of them since it; exact for integers.
+fn since_first(values: &Values, size: f64) -> (f64, Vec<f64>) {
+    match values {
+        Values::Float(values) => {
+            let first = values.first().copied().unwrap_or(0.0);
+            (first * size, values.iter().map(|value| (value - first) * size).collect())
+        }
+        #[expect(clippy::cast_precision_loss, reason = "a record lasts less than 2^53 of its units")]
+        Values::Integer(values) => {
+            let first = values.first().copied().unwrap_or(0);
+            let since = |value: &i64| (i128::from(*value) - i128::from(first)) as f64 * size;
+            (first as f64 * size, values.iter().map(since).collect())
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! What a reader hands on of channels that share their times, before it is known what the times are.
+
+use std::sync::Arc;
+
+use crate::axis::{Spacing, TimeAxis};
+use crate::error::Bad;
+use crate::finding::{At, Finding, LISTED, gaps};
+use crate::samples::LARGEST;
+use crate::times::{Printed, Times};
+use crate::{Channel, Error, Options, Record};
+
+/// A channel before its times are known.
+pub(crate) struct Untimed {
+    pub(crate) name: String,
+    pub(crate) unit: String,
+    /// Accelerations in m/s².
+    pub(crate) values: Vec<f64>,
+}
+
+/// Channels of one time, as a reader hands them on.
+pub(crate) struct Raw {
+    pub(crate) channels: Vec<Untimed>,
+    pub(crate) start_s: f64,
+    pub(crate) unit_s: f64,
+    pub(crate) since_s: Vec<f64>,
+    pub(crate) printed: Printed,
+    pub(crate) step_s: Option<f64>,
+    /// Samples that follow no other at the place before, each with its place.
+    pub(crate) numbering: Vec<(usize, At)>,
+    pub(crate) found: Vec<Finding>,
+}
+
+impl Raw {
+    /// A record, where the times go forwards.
+    pub(crate) fn finish(mut self, mut bad: Bad, options: &Options) -> Result<Record, Error> {
+        self.drop_unbounded(&mut bad);
+        let mut step_s = self.step_s.or_else(|| self.times().step());
+        if step_s.is_none() && !self.since_s.is_empty() {
+            self.refuse_coarse()?;
+            self.drop_backward(&mut bad);
+            step_s = self.times().step();
+        }
+        if bad.count > 0 {
+            // Where samples have no times each of them counts, but for those at the end.
+            let last = self.channels[0].values.len().checked_sub(1).map(|last| At::of(&self.numbering, last));
+            let in_between = || bad.first.iter().any(|(at, _)| last.is_none_or(|last| at.number() < last.number()));
+            if !options.skip_bad || self.since_s.is_empty() && in_between() {
+                return Err(Error::Lines(bad));
+            }
+            self.found.push(Finding::Skipped(bad));
+        }
+        let samples = self.channels[0].values.len();
+        if samples < 2 {
+            return Err(Error::Short { what: "a record", samples, needed: 2 });
+        }
+        #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
+        let last_s = step_s.map_or(0.0, |step_s| step_s * samples as f64);
+        for value in [self.start_s, last_s] {
+            if !(-LARGEST..=LARGEST).contains(&value) {
+                return Err(Error::Quantity { name: "time of a sample (s)", value, allowed: "within 1e100" });
+            }
+        }
+        if let Some(value) = step_s.filter(|step_s| *step_s < LARGEST.recip()) {
+            return Err(Error::Quantity { name: "time between samples (s)", value, allowed: "at least 1e-100" });
+        }
+        if step_s.is_none() {
+            let numbering = &self.numbering;
+            self.found.extend(gaps(&self.since_s, &|sample| At::of(numbering, sample)));
+        }
+        let times = Arc::new(TimeAxis {
+            start_s: self.start_s,
+            spacing: step_s.map_or(Spacing::Uneven(self.since_s), Spacing::Even),
+            samples,
+            numbering: self.numbering,
+        });
+        let timed = |Untimed { name, unit, values }| Channel { name, unit, values, times: Arc::clone(&times) };
+        Ok(Record { channels: self.channels.into_iter().map(timed).collect(), read: self.found, account: None })
+    }
+
+    fn times(&self) -> Times<'_> {
+        Times { since_s: &self.since_s, start_s: self.start_s, unit_s: self.unit_s, printed: &self.printed }
+    }
+
+    /// Refuses times that are printed so coarsely that samples have one and the same.
+    pub(crate) fn refuse_coarse(&self) -> Result<(), Error> {
+        let count = self.since_s.len();
+        let same = self.since_s.windows(2).filter(|pair| pair[0].to_bits() == pair[1].to_bits()).count();
+        let unit_s = self.printed.unit() * self.unit_s;
+        #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
+        let coarse = unit_s * (count - 1) as f64 > 0.5 * self.since_s[count - 1].abs();
+        // A few samples at one time are jumps, or there twice.
+        if 10 * same < count || !coarse {
+            return Ok(());
+        }
+        Err(Error::Columns(format!(
+            "{same} of {count} times are those of the sample before: they are printed in steps of {unit_s:e} s, too coarse for \
+             samples so close; give the sample rate"
+        )))
+    }
+
+    /// Leaves out samples at times that no record reaches.
+    fn drop_unbounded(&mut self, bad: &mut Bad) {
+        let kept: Vec<bool> = self.since_s.iter().map(|since_s| since_s.abs() <= LARGEST).collect();
+        for i in (0..kept.len()).filter(|i| !kept[*i]) {
+            let since_s = self.since_s[i];
+            bad.add(At::of(&self.numbering, i), || {
+                format!("the time, {since_s:e} s after the first one, is beyond {LARGEST:e} s")
+            });
+        }
+        self.keep(&kept);
+    }
+
+    /// Leaves out samples whose time is before another one's that came earlier. Two samples at one time are a jump.
+    fn drop_backward(&mut self, bad: &mut Bad) {
+        let mut kept = vec![true; self.since_s.len()];
+        let mut jumps = (Vec::new(), 0);
+        let mut latest: Option<(f64, usize)> = None;
+        for (i, &time) in self.since_s.iter().enumerate() {
+            let at = At::of(&self.numbering, i);
+            match latest {
+                Some((last, times)) if time < last || time <= last && times > 1 => {
+                    kept[i] = false;
+                    let [time, last] = [time, last].map(|since_s| self.start_s + since_s);
+                    bad.add(at, || {
+                        format!("time {time:?} s does not come after {last:?} s, that of the sample before")
+                    });
+                }
+                Some((last, times)) if time <= last => {
+                    latest = Some((time, times + 1));
+                    if jumps.0.len() < LISTED {
+                        jumps.0.push(at);
+                    }
+                    jumps.1 += 1;
+                }
+                _ => latest = Some((time, 1)),
+            }
+        }
+        if jumps.1 > 0 {
+            self.found.push(Finding::Jumps { first: jumps.0, count: jumps.1 });
+        }
+        self.keep(&kept);
+    }
+
+    /// Leaves out samples.
+    pub(crate) fn keep(&mut self, kept: &[bool]) {
+        if kept.iter().all(|kept| *kept) {
+            return;
+        }
+        let keep = |values: &mut Vec<f64>| {
+            let mut kept = kept.iter();
+            values.retain(|_| kept.next().copied().unwrap_or(true));
+        };
+        keep(&mut self.since_s);
+        self.channels.iter_mut().for_each(|channel| keep(&mut channel.values));
+        self.printed.keep(kept);
+        let mut runs: Vec<(usize, At)> = Vec::new();
+        let places = (0..kept.len()).filter(|i| kept[*i]).map(|i| At::of(&self.numbering, i));
+        for (sample, at) in places.enumerate() {
+            if runs.last().is_none_or(|(first, begin)| begin.after(sample - first) != at) {
+                runs.push((sample, at));
+            }
+        }
+        self.numbering = runs;
+    }
+}

@@ -1,0 +1,43 @@
+//! What the lines of numbers of a text are like.
+
+use encoding_rs::Encoding;
+
+use crate::text::cells::Form;
+use crate::text::sensors::Word;
+
+/// What the lines of numbers are like.
+#[derive(Debug, Clone)]
+pub(in crate::text) struct Shape {
+    pub(in crate::text) form: Form,
+    /// What text is written in that is no UTF-8.
+    pub(in crate::text) letters: &'static Encoding,
+    pub(in crate::text) columns: usize,
+    /// Time of the first sample, and between samples, where lines above the numbers tell it.
+    pub(in crate::text) sampled_s: Option<[f64; 2]>,
+    /// Time between samples that a line above tells, and the line.
+    pub(in crate::text) told: Option<(f64, usize)>,
+    /// How many samples there are by a line above, and the line.
+    pub(in crate::text) count: Option<(usize, usize)>,
+    /// Columns in which a unit stands behind each number.
+    pub(in crate::text) measured: Vec<bool>,
+    /// The column of dates beside times of day.
+    pub(in crate::text) date: Option<usize>,
+    pub(in crate::text) words: Vec<Word>,
+}
+
+impl Shape {
+    /// Numbers alone.
+    pub(in crate::text) fn plain(form: Form, letters: &'static Encoding, columns: usize) -> Self {
+        Self {
+            form,
+            letters,
+            columns,
+            sampled_s: None,
+            told: None,
+            count: None,
+            measured: vec![false; columns],
+            date: None,
+            words: Vec::new(),
+        }
+    }
+}

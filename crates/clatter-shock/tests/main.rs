@@ -1,0 +1,16 @@
+//! Tests of the component and its spectra, in one program.
+
+#![cfg(test)]
+
+mod extremes;
+mod filter;
+mod fragility;
+mod history_boundary;
+mod integrator;
+mod long_pulses;
+mod omitted;
+mod peak_above;
+mod response;
+mod sections;
+mod spectrum;
+mod uneven;
