@@ -5,7 +5,7 @@ use clatter_assess::First;
 use clatter_assess::fit::Known;
 use clatter_flight::{Body, ContactLaw};
 
-use crate::synthetic::Random;
+use super::synthetic::Random;
 
 pub(crate) const G: f64 = 9.806_65;
 
