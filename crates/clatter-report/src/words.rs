@@ -114,8 +114,12 @@ pub(crate) fn name(text: &str) -> String {
 /// A name with a box for every character but those that the pages' serif has in itself, beside any other of them:
 /// letters of Latin, Greek and Cyrillic without marks that combine.
 pub(crate) fn sure_name(text: &str) -> String {
-    let sure = |c: char| matches!(u32::from(c), 0x20..=0x7e | 0xa0..=0x17f | 0x370..=0x482 | 0x48a..=0x4ff | 0x25a1);
-    name(text).chars().map(|c| if sure(c) { c } else { '□' }).collect()
+    name(text).chars().map(|c| if is_sure(c) { c } else { '□' }).collect()
+}
+
+/// Whether the pages' typefaces have a character.
+pub(crate) fn is_sure(c: char) -> bool {
+    matches!(u32::from(c), 0x20..=0x7e | 0xa0..=0x17f | 0x370..=0x482 | 0x48a..=0x4ff | 0x25a1)
 }
 
 pub(crate) fn end(end: End) -> &'static str {

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::changes::{Of, changes};
 use super::inputs::held;
 use crate::Pages;
-use crate::words::{end, hundredths, limit, millimeters, minus, name, percent, quantity, shown, sure_name};
+use crate::words::{end, hundredths, is_sure, limit, millimeters, minus, name, percent, quantity, shown, sure_name};
 
 /// What else is known of a limit, a sentence each.
 fn said(file: &ProductFile, of: &LimitAssessment) -> Vec<String> {
@@ -62,7 +62,7 @@ fn columns(of: &LimitAssessment, worst: &WorstCase) -> [String; 9] {
 fn row(pages: &Pages<'_>, part: &str, of: &LimitAssessment) -> Value {
     let file = pages.file;
     // A name that is drawn as boxes is no name that a command finds.
-    let short = repeat(pages.path, part, of.limit, &pages.assessment.accuracy).filter(|said| sure_name(said) == *said);
+    let short = repeat(pages.path, part, of.limit, &pages.assessment.accuracy).filter(|said| said.chars().all(is_sure));
     let known = |value: Option<f64>| value.map_or("–".to_owned(), |value| shown(of.unit, value));
     json!({
         "name": limit(of.limit),
