@@ -267,7 +267,7 @@ fn lists_come_in_any_notation() {
         "shape\tstart [s]\tduration [ms]\tamplitude [m/s^2]\nhalf-sine\t0,5\t2,5\t500\n",
     );
     same(
-        &["spectrum", "--pulse=rectangle,900,0.004", "--damage-boundary", "--frequency=100"],
+        &["spectrum", "--pulse=rectangle,300,0.004", "--damage-boundary", "--frequency=100"],
         "tests",
         "test,level,damaged\nvelocity-change,2.5,no\nvelocity-change,3,yes\nacceleration,500,no\nacceleration,600,yes\n",
         "# tests\ntest;level;damaged\nvelocity-change;2,5;no\nvelocity-change;3;yes\nacceleration;500;no\nacceleration;600;yes\n",

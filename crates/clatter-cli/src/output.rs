@@ -50,8 +50,13 @@ impl Target {
             return Ok(Self { path, kind });
         }
         let names: Vec<_> = kinds.iter().map(|kind| format!(".{}", kind.ending())).collect();
-        let (last, others) = names.split_last().map_or(("", &[][..]), |(last, others)| (last.as_str(), others));
-        Err(format!("the file must end in {} or {last}", others.join(", ")))
+        Err(format!(
+            "the file must end in {}",
+            match names.split_last() {
+                Some((last, others)) if !others.is_empty() => format!("{} or {last}", others.join(", ")),
+                _ => names.concat(),
+            }
+        ))
     }
 }
 

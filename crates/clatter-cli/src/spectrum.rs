@@ -77,7 +77,7 @@ Examples:
       --damage-boundary -o boundary.svg
   clatter spectrum --pulse=rectangle,600,0.004 --damage-boundary --tests=tests.csv
   clatter spectrum --shocks-file=shocks.csv --frequency=180Hz
-  clatter spectrum day.csv --find --envelope --enveloping-pulse=half-sine
+  clatter spectrum drop.csv --find --envelope --enveloping-pulse=half-sine
   clatter spectrum drop.csv --frequency=180Hz --history=felt.csv
   clatter spectrum drop.csv --required=10:9g,80:75g,2000:75g --tolerance=-1.5,6
   clatter spectrum drop.csv --q-factor=5,10,25 --output-units=g --format=csv
