@@ -56,7 +56,7 @@ fn no_table_is_wider_than_a_hundred_columns() {
         vec!["design", &laptop],
         vec!["respond", &product, "--component=display with its backlight and frame", "--worst"],
         vec!["spectrum", "--pulse=half-sine,5000,0.0005", "--frequency=100,180", "--limit=400"],
-        vec!["zone", "--q=0.5", "--e=0.3"],
+        vec!["zone", "--q=0.5", "--e=0.3", "--threshold=0.5"],
         vec!["help"],
     ];
     commands.push([&["impacts", "--q=0.5", "--e=0.3"][..], &places].concat());

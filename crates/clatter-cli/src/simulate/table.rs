@@ -62,7 +62,7 @@ impl Drop<'_> {
         let strikes = if count == 1 { "strike" } else { "strikes" };
         writeln!(
             out,
-            "{count} more {strikes} below 1 % of the largest shock, until {until}, the largest of them {most}; --all lists every one"
+            "{count} more {strikes} below 1 % of the largest shock, until {until}, the largest of them {most};\n--all lists every one"
         )
     }
 
