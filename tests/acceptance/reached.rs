@@ -161,6 +161,21 @@ fn one_component_is_told_over_time() {
     assert!(none.exit == Exit::BadInput && none.stderr.contains("goes with records alone"), "{}", none.stderr);
 }
 
+/// A number of a record beside the names of files.
+#[test]
+fn one_record_of_a_file_of_several_has_its_spectrum() {
+    let folder = tempfile::tempdir().unwrap();
+    let rows = |a: f64| format!("time_s,z [m/s2]\n0,0\n0.001,{a}\n0.002,0\n0.003,0\n0.004,0\n");
+    let file = folder.path().join("two.csv");
+    fs::write(&file, format!("{}\n{}", rows(100.0), rows(300.0))).unwrap();
+    let of = |number: &str| {
+        let outcome = clatter(["spectrum", file.to_str().unwrap(), number, "--frequency=100", "--format=json"]);
+        let told: Value = serde_json::from_str(&outcome.stdout).unwrap_or_else(|_| panic!("{}", outcome.stderr));
+        told["maximax"][0].as_f64().unwrap()
+    };
+    assert!((of("--record=2") / of("--record=1") - 3.0).abs() < 1e-9);
+}
+
 /// Two half-sines of 2 ms, 100 ms apart, the second twice the first.
 #[test]
 fn the_shocks_of_a_record_have_a_spectrum_each() {

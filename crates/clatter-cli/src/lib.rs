@@ -313,3 +313,25 @@ where
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory as _;
+
+    /// Two arguments of one name would take each other's values; clap itself looks for that in debug builds alone.
+    #[test]
+    fn every_argument_of_a_command_has_its_own_name() {
+        let mut cli = Cli::command();
+        cli.build();
+        let mut count = 0;
+        for command in cli.get_subcommands() {
+            let mut ids: Vec<&str> = command.get_arguments().map(|argument| argument.get_id().as_str()).collect();
+            count += ids.len();
+            ids.sort_unstable();
+            let twice: Vec<_> = ids.windows(2).filter(|pair| pair[0] == pair[1]).collect();
+            assert!(twice.is_empty(), "{}: {twice:?}", command.get_name());
+        }
+        assert!(count > 100, "{count}");
+    }
+}

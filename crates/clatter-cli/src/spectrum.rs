@@ -159,7 +159,7 @@ pub(crate) struct Args {
 struct Excitation {
     /// Files of measured accelerations, as `clatter record` reads them
     #[arg(value_name = "RECORD", value_hint = ValueHint::FilePath)]
-    record: Vec<PathBuf>,
+    records: Vec<PathBuf>,
     /// A pulse: half-sine, haversine, triangle, initial-peak-sawtooth, terminal-peak-sawtooth, rectangle, trapezoid or
     /// trapezoid:RAMP (ramps over length, 0.1 unless given); amplitude, duration and one or more starts with their units, or in
     /// m/s² and s; or the pulse of a standard, such as JESD22-B110/B
@@ -299,16 +299,16 @@ const HIGHEST_HZ: f64 = 10_000.0;
 const PER_OCTAVE: f64 = 12.0;
 impl Args {
     pub(crate) fn files(&self) -> Files<'_> {
-        let Excitation { record, pulses_file, shocks_file, .. } = &self.excitation;
+        let Excitation { records, pulses_file, shocks_file, .. } = &self.excitation;
         let reads = [pulses_file, shocks_file, &self.tests, &self.limit_file, &self.required_file];
         Files {
-            reads: record.iter().chain(reads.into_iter().flatten()).map(AsRef::as_ref).collect(),
+            reads: records.iter().chain(reads.into_iter().flatten()).map(AsRef::as_ref).collect(),
             writes: self.output.iter().chain(&self.history).map(|target| target.path.as_path()).collect(),
         }
     }
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<Exit, Failure> {
-        if self.excitation.record.is_empty()
+        if self.excitation.records.is_empty()
             && let Some(flag) = self
                 .reading
                 .given()
@@ -324,7 +324,7 @@ impl Args {
                 "--output-units=g goes with the quantities acceleration and equivalent-static-acceleration alone",
             ));
         }
-        if self.history.is_some() && self.excitation.record.is_empty() {
+        if self.history.is_some() && self.excitation.records.is_empty() {
             return Err(Failure::Usage("--history goes with records alone"));
         }
         let limit = self.curve("--limit", self.limit.as_ref(), self.limit_file.as_deref())?;

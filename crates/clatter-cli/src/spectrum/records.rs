@@ -82,7 +82,7 @@ pub(super) fn read(args: &Args) -> Result<Vec<Measured>, Failure> {
             None => Ok(vec![whole]),
         }
     };
-    let records: Vec<Vec<Measured>> = args.excitation.record.iter().map(one).collect::<Result<_, _>>()?;
+    let records: Vec<Vec<Measured>> = args.excitation.records.iter().map(one).collect::<Result<_, _>>()?;
     Ok(records.into_iter().flatten().collect())
 }
 
@@ -111,7 +111,7 @@ pub(super) fn spectra(
         for Measured { path, record, shock } in records {
             let first = of_channels.len();
             // A record by its file where there are several of them, and a shock by its number.
-            let file = (args.excitation.record.len() > 1).then(|| called(path));
+            let file = (args.excitation.records.len() > 1).then(|| called(path));
             let within = |name: &str| {
                 let named = record.channels().len() > 1 || name == RESULTANT || file.is_none() && shock.is_none();
                 let parts = [file.clone(), named.then(|| name.to_owned())];
