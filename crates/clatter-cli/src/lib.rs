@@ -317,7 +317,6 @@ where
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::CommandFactory as _;
 
     /// Two arguments of one name would take each other's values; clap itself looks for that in debug builds alone.
     #[test]
