@@ -62,7 +62,10 @@ fn a_required_spectrum_is_reached_or_not_within_its_tolerance() {
 #[test]
 fn what_is_not_judged_is_told() {
     let (exit, told, stderr) = run(&["--required=10:2000,200:2000"]);
-    assert_eq!((exit, &told["required"]["frequencies"]), (Exit::Done, &Value::from(2)), "{stderr}");
+    assert_eq!((exit, &told["required"]["frequencies"]), (Exit::Unsafe, &Value::from(2)), "{stderr}");
+    assert_eq!(told["required"]["reached"], Value::Null, "{told}");
+    let table = clatter(RECTANGLE.iter().chain(&["--required=10:2000,200:2000"])).stdout;
+    assert!(table.contains("is reached where it is judged, and not judged all over its range"), "{table}");
     assert!(told["required"]["level"][2].is_null(), "{told}");
     assert!(
         stderr.contains("goes from 10.0000 to 200.000 Hz, and is judged from 100.000 to 400.000 Hz alone"),
@@ -70,7 +73,7 @@ fn what_is_not_judged_is_told() {
     );
     // Where nothing is judged, nothing is reached.
     let (exit, told, _) = run(&["--required=1000:1,2000:1"]);
-    assert_eq!((exit, &told["required"]["reached"]), (Exit::Unsafe, &Value::from(false)));
+    assert_eq!((exit, &told["required"]["reached"]), (Exit::Unsafe, &Value::Null));
     let (exit, _, stderr) = run(&["--tolerance=3"]);
     assert!(exit == Exit::BadInput && stderr.contains("--tolerance goes with --required"), "{stderr}");
     let (exit, _, stderr) = run(&["--required=3m/s"]);

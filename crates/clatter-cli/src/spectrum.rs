@@ -86,7 +86,7 @@ Numbers without a unit are in SI. A limit in g, or where there is none a pulse i
 g; JSON and CSV stay in SI. --output-units has all of them in one.
 
 Exit status: 0 done, 1 the limit or the damage boundary is exceeded or the required spectrum not
-reached, 2 bad input."
+seen to be reached all over its range, 2 bad input."
 )]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -285,12 +285,20 @@ impl Part {
         self.margins.iter().flatten().flatten().any(|margin| !margin.is_safe())
     }
 
-    /// Whether it reaches what it was to, at one frequency at least and wherever that is told.
-    fn reaches(&self) -> bool {
-        let Some(deviations) = &self.deviations else { return true };
-        let mut told = deviations.iter().flatten().peekable();
-        told.peek().is_some() && told.all(Deviation::is_reached)
+    /// Whether it reaches a required spectrum; not known where a part of that is not judged.
+    fn reaches(&self, required: &RequiredSpectrum) -> Option<bool> {
+        let mut told = self.deviations.iter().flatten().flatten().peekable();
+        told.peek()?;
+        let is_reached = told.all(Deviation::is_reached);
+        if is_reached && beyond(required, &self.spectrum.frequency_hz).is_some() { None } else { Some(is_reached) }
     }
+}
+
+/// The range of a required spectrum and that of the frequencies, where these do not cover it.
+fn beyond(required: &RequiredSpectrum, hz: &[f64]) -> Option<[f64; 4]> {
+    let [from, to] = required.curve().range_hz()?;
+    let (low, high) = hz.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), hz| (low.min(*hz), high.max(*hz)));
+    (from < low || to > high).then_some([from, to, low, high])
 }
 
 /// Natural frequencies unless others are asked for, in Hz, and how many to the octave.
@@ -369,7 +377,8 @@ impl Args {
             RowFormat::Json => streams.json(&computed.answer()),
         }?;
         let damages = computed.boundary.as_ref().is_some_and(|boundary| !boundary.margin.is_safe());
-        let wants = |part: &Part| part.exceeds() || !part.reaches();
+        let reaches = |part: &Part| computed.required.as_ref().is_none_or(|of| part.reaches(of) == Some(true));
+        let wants = |part: &Part| part.exceeds() || !reaches(part);
         Ok(if damages || computed.parts.iter().any(wants) { Exit::Unsafe } else { Exit::Done })
     }
 
@@ -470,10 +479,8 @@ impl Computed<'_> {
         let hz = self.frequencies.list.hz();
         let (low, high) = hz.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), hz| (low.min(*hz), high.max(*hz)));
         let mut warnings = Vec::new();
-        if let Some([from, to]) = self.required.as_ref().and_then(|required| required.curve().range_hz())
-            && (from < low || to > high)
-        {
-            let [from, to, low, high] = [from, to, low, high].map(figures);
+        if let Some(ranges) = self.required.as_ref().and_then(|required| beyond(required, hz)) {
+            let [from, to, low, high] = ranges.map(figures);
             warnings.push(format!(
                 "the required spectrum goes from {from} to {to} Hz, and is judged from {low} to {high} Hz alone: --frequency says where"
             ));

@@ -98,10 +98,10 @@ fn radius_known(count: usize) {
 /// The radius of gyration is fitted: strikes timed so well that they tell most of it, and so badly that the restitution is told to a
 /// tenth on the mean; then two or three of a hundred records do not tell it.
 fn radius_fitted(count: usize) {
-    for (seed, deviation_s) in [(11, 2e-6), (13, 1e-5)] {
+    for (seed, deviation_s, least) in [(11, 2e-6, 98), (13, 1e-5, 97)] {
         let drops = Drops { seed, count, least: 6, gyration_known: false, deviation_s, is_given: false, apart: 0.0 };
         let [e, _, gap, q] = told(&drops);
-        let enough = |of: Told| 100 * of.told >= 97 * count;
+        let enough = |of: Told| 100 * of.told >= least * count;
         assert!(enough(e) && enough(q), "{e:?} {q:?} at {deviation_s:e} s");
         assert_covers("restitution", e.held, e.told);
         assert_covers("gap over speed", gap.held, gap.told);

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use clatter_record::{Channel, Finding, TimeAxis};
-use clatter_shock::{Deviation, EnvelopingPulse, LimitCurve, Margin, Spectrum};
+use clatter_shock::{EnvelopingPulse, LimitCurve, Margin, RequiredSpectrum, Spectrum};
 use serde::Serialize;
 
 use super::boundary::Boundary;
@@ -17,7 +17,7 @@ use crate::quantities::Show;
 impl Computed<'_> {
     pub(super) fn answer(&self) -> Answer<'_> {
         let show = self.args.written();
-        let columns = || self.parts.iter().map(|part| ColumnsJson::new(part, &show));
+        let columns = || self.parts.iter().map(|part| ColumnsJson::new(part, self.required.as_ref(), &show));
         // Where there are several channels, none of them is the first.
         let is_one = self.parts.iter().all(|part| part.name.is_none());
         let lowest_hz = self.frequencies.list.hz().iter().fold(f64::INFINITY, |least, hz| least.min(*hz));
@@ -83,7 +83,7 @@ struct ColumnsJson<'a> {
 }
 
 impl<'a> ColumnsJson<'a> {
-    fn new(part: &'a Part, show: &Show) -> Self {
+    fn new(part: &'a Part, required: Option<&RequiredSpectrum>, show: &Show) -> Self {
         let s = &part.spectrum;
         let plain = |values: &[f64]| values.iter().copied().map(Json).collect::<Vec<_>>();
         let all = |values: &[f64]| values.iter().map(|x| Json(show.value(*x))).collect::<Vec<_>>();
@@ -105,7 +105,7 @@ impl<'a> ColumnsJson<'a> {
             time_of_peak_s: s.time_of_peak_s.iter().map(time).collect(),
             limit: part.margins.as_ref().map(|margins| LimitJson::new(margins, s, show)),
             enveloping_pulse: part.enveloping.as_ref().map(EnvelopingJson::new),
-            required: part.deviations.as_ref().map(|off| RequiredJson::new(part, off, show)),
+            required: required.map(|required| RequiredJson::new(part, required, show)),
         }
     }
 }
@@ -237,7 +237,8 @@ struct RequiredJson {
     frequencies: usize,
     below: usize,
     above: usize,
-    reached: bool,
+    /// Null where a part of the required curve is not judged, and what is judged is reached.
+    reached: Option<bool>,
 }
 
 #[derive(Serialize)]
@@ -249,7 +250,8 @@ struct DeviationJson {
 }
 
 impl RequiredJson {
-    fn new(part: &Part, deviations: &[Option<Deviation>], show: &Show) -> Self {
+    fn new(part: &Part, required: &RequiredSpectrum, show: &Show) -> Self {
+        let deviations = part.deviations.as_deref().unwrap_or_default();
         let ends = outermost(deviations).map(|ends| {
             ends.map(|(i, of)| DeviationJson {
                 frequency_hz: Json(part.spectrum.frequency_hz[i]),
@@ -268,7 +270,7 @@ impl RequiredJson {
             frequencies: told().count(),
             below: told().filter(|of| of.is_below).count(),
             above: told().filter(|of| of.is_above).count(),
-            reached: part.reaches(),
+            reached: part.reaches(required),
         }
     }
 }

@@ -153,7 +153,10 @@ impl Computed<'_> {
             [told.clone().filter(|of| of.is_below).count(), told.clone().filter(|of| of.is_above).count()];
         let all = told.count();
         let word = match (below, above) {
-            (0, 0) => "is reached".to_owned(),
+            (0, 0) if self.required.as_ref().and_then(|required| part.reaches(required)) == Some(true) => {
+                "is reached".to_owned()
+            }
+            (0, 0) => "is reached where it is judged, and not judged all over its range".to_owned(),
             (0, above) => format!("is exceeded by more than the tolerance at {above} of {all} frequencies"),
             (below, 0) => format!("is not reached at {below} of {all} frequencies"),
             (below, above) => format!("is not reached at {below} and exceeded at {above} of {all} frequencies"),
