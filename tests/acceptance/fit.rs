@@ -147,9 +147,10 @@ fn heights_come_back() {
     let flags = ["--model=finite-tilt", "--length=200mm", "--gyration=60mm", "--e=0.4", "--speed=3m/s", "--tilt=3deg"];
     let simulated = clatter(["simulate", "--until=60ms", "-o", &rows].iter().chain(&flags));
     assert_eq!(simulated.exit, Exit::Done, "{}", simulated.stderr);
-    let mut csv = "time_s,height_a_m,height_b_m\n".to_owned();
+    // As a tracker writes it.
+    let mut csv = "t [s];y a [mm];y b [mm]\n".to_owned();
     for row in columns(&fs::read_to_string(&rows).unwrap(), &["time_s", "height_a_m", "height_b_m"]) {
-        writeln!(csv, "{},{},{}", 5.0 + row[0], row[1], row[2]).unwrap();
+        writeln!(csv, "{};{};{}", 5.0 + row[0], 1e3 * row[1], 1e3 * row[2]).unwrap();
     }
     let product = PRODUCT.replace("gravity = \"0 gn\"\n", "").replace("\"0.1 m/s\"", "[\"2.5 m/s\", \"3.4 m/s\"]");
     let product = product.replace("\"1 deg\"", "\"10 deg\"");

@@ -115,6 +115,8 @@ fn parts_of_a_file_are_picked() {
     );
     let got = answer(["record", two.to_str().unwrap(), "--record=2"]);
     assert!(close(&got["channels"][0]["largest_m_s2"], 70.0 * G, 1e-9), "{got}");
+    let account = &got["account"];
+    assert_eq!((&account["rows"], &account["not_asked_for"], &account["empty"]), (&json!(300), &json!(300), &json!(1)));
     let none = clatter(["record", two.to_str().unwrap(), "--record=3"]);
     assert!(none.stderr.contains("there is no record 3 in the file: there are 2 records"), "{}", none.stderr);
 }

@@ -31,7 +31,7 @@ use crate::{Failure, Streams, assess, input, output, text};
 ///   interval_s                       the same by the times between bounces
 ///   time and acceleration, with units, as 'clatter record' reads them: the acceleration at --position
 ///
-/// Each may be in any notation of records and in other units: `time [ms];end`, `height a [mm]`.
+/// Each may be in any notation of records and in other units: `time [ms];end`, `t [s],y a [mm],y b [mm]`.
 ///
 /// The time axis of each file begins anywhere. Every strike is taken for one of the drop and none for missing, as long as that
 /// explains the data; else two may be missing before the last one, or one time may be wrong. The answer says so, and where several of

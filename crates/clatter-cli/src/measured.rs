@@ -23,6 +23,8 @@ pub(crate) enum Record {
     Bounces(Vec<f64>),
 }
 
+/// Columns of heights: as tables of trackers call them too.
+const HEIGHTS: [[&str; 3]; 2] = [["time_s", "height_a_m", "height_b_m"], ["time_s", "y_a_m", "y_b_m"]];
 /// Bytes that the lines down to the names of the columns may have.
 const HEADER: u64 = 1 << 16;
 
@@ -45,8 +47,8 @@ pub(crate) fn read(
     }
     let measured = if names_columns(&begin, ["time_s", "end"]) {
         Measured::Strikes { strikes: strikes(path, whole)?, deviation_s: timing_s }
-    } else if names_columns(&begin, ["time_s", "height_a_m", "height_b_m"]) {
-        Measured::Heights { samples: heights(path, whole)?, deviation_m: None }
+    } else if let Some(names) = HEIGHTS.into_iter().find(|names| names_columns(&begin, *names)) {
+        Measured::Heights { samples: heights(path, whole, names)?, deviation_m: None }
     } else {
         let position_m = position_m()?.ok_or_else(|| {
             Failure::Wrong(format!(
@@ -103,11 +105,11 @@ fn intervals(path: &Path, input: impl Read) -> Result<Vec<f64>, Failure> {
     Ok(list)
 }
 
-fn heights(path: &Path, input: impl Read) -> Result<Vec<MeasuredHeights>, Failure> {
+fn heights(path: &Path, input: impl Read, names: [&str; 3]) -> Result<Vec<MeasuredHeights>, Failure> {
     let mut list: Vec<MeasuredHeights> = Vec::new();
-    rows_of(path, input, ["time_s", "height_a_m", "height_b_m"], |[time, a, b]| {
-        let time_s = rising("time_s", time, list.last().map(|sample| sample.time_s))?;
-        let height_m = [finite("height_a_m", a)?, finite("height_b_m", b)?];
+    rows_of(path, input, names, |[time, a, b]| {
+        let time_s = rising(names[0], time, list.last().map(|sample| sample.time_s))?;
+        let height_m = [finite(names[1], a)?, finite(names[2], b)?];
         below(list.len(), MOST_SAMPLES, "samples")?;
         list.push(MeasuredHeights { time_s, height_m });
         Ok(())

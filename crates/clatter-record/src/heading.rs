@@ -359,6 +359,15 @@ fn trailing(cell: &str) -> Option<Heading> {
             let sensitivity = Unit { kind: Kind::Other("the sensitivity of a sensor"), size: 1.0 };
             return Some(Heading { unit: Some(sensitivity), spelled: Some(format!("per {unit}")), ..name_only });
         }
+        // `t_in_s` is a time in seconds, not one in inches a second.
+        let in_words = unit.strip_prefix("in_").and_then(Unit::of).is_some_and(|known| known.kind == Kind::Time);
+        if in_words && name_only.named() == Named::Time {
+            continue;
+        }
+        let name_only = match name.strip_suffix(" in").or_else(|| name.strip_suffix("_in")) {
+            Some(name) if !name.is_empty() => Heading::named_alone(name),
+            _ => name_only,
+        };
         // One letter after a blank or an underscore is the name of an axis or of a channel as well.
         let lone = unit.chars().count() == 1 && !matches!(unit, "s" | "g" | "G" | "с" | "秒");
         if let Some(known) = Unit::of(unit)
@@ -385,6 +394,11 @@ mod tests {
             ("t / ms", "t", Some("ms"), Named::Time),
             ("t/ms", "t", Some("ms"), Named::Time),
             ("time_ms", "time", Some("ms"), Named::Time),
+            ("t_in_s", "t", Some("s"), Named::Time),
+            ("time in ms", "time", Some("ms"), Named::Time),
+            ("a_in_g", "a", Some("g"), Named::Acceleration),
+            ("a_in_s2", "a", Some("in_s2"), Named::Acceleration),
+            ("v_in_s", "v", Some("in_s"), Named::Unknown),
             ("acceleration_m_s2", "acceleration", Some("m_s2"), Named::Acceleration),
             ("ax [g]", "ax", Some("g"), Named::Acceleration),
             ("v_mm_s", "v", Some("mm_s"), Named::Unknown),

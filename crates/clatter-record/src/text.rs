@@ -97,9 +97,10 @@ pub(crate) fn read(
         progress(begin.len() as u64);
         return labview::read(&begin, letters, options);
     }
+    let mut hidden = 0;
     if let Some(number) = options.record {
         to_end(&mut begin, rest, options)?;
-        begin = records::only(&begin, number)?;
+        (begin, hidden) = records::only(&begin, number)?;
     }
     let lines = first_lines(&begin, letters)?;
     if let Some(series) = series::of(&lines) {
@@ -120,6 +121,7 @@ pub(crate) fn read(
     let at = begin.split_inclusive(|byte| *byte == b'\n').take(first).map(<[u8]>::len).sum::<usize>();
     take_all(&mut parts, begin, at, rest, progress)?;
     for (rows, _) in &mut parts {
+        rows.of_other_records(hidden);
         rows.close()?;
     }
     Ok(parts)

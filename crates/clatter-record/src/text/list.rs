@@ -9,7 +9,7 @@ use super::digits::Digits;
 use super::layout::uncommented;
 use super::{BLOCK, LONGEST, decoded, encoding, fill, first_lines, head, to_end};
 use crate::error::Bad;
-use crate::heading::{Heading, unbracketed};
+use crate::heading::{Heading, Named, unbracketed};
 use crate::unit::Unit;
 use crate::{At, Error, Options};
 
@@ -26,7 +26,8 @@ pub struct Cell<'a> {
 }
 
 /// Reads a list in any notation that records may have: the cells of these columns are handed to `each` row by row, and other columns
-/// are left out. A column is found by its name, `delta_v_m_s`, or by the same name in any unit of the kind, `delta v [mm/s]`.
+/// are left out. A column is found by its name, `delta_v_m_s`, or by the same name in any unit of the kind, `delta v [mm/s]`; a time
+/// by any name that times have, `t [ms]`.
 ///
 /// ```
 /// let (text, mut times_s) = ("time [ms];end\n0,5;a\n2;b\n", Vec::new());
@@ -123,8 +124,10 @@ impl Wanted {
     fn size(&self, cell: &str, below: Option<&str>) -> Option<f64> {
         let heading = Heading::of(cell);
         let own = heading.unit.or_else(|| Unit::of(unbracketed(below?)).filter(|_| heading.spelled.is_none()));
+        // A time has many names: t, Zeit, seconds.
+        let is_time = self.stem == "time" && heading.named() == Named::Time;
         match (self.unit, own) {
-            _ if plain(&heading.name) != self.stem => None,
+            _ if plain(&heading.name) != self.stem && !is_time => None,
             (Some(wanted), Some(own)) => (own.kind == wanted.kind).then(|| own.size / wanted.size),
             (None, None) if heading.spelled.is_none() => Some(1.0),
             _ => None,
@@ -342,6 +345,8 @@ mod tests {
             "Time [s];end;note\n0,5;a;\n1,25;b, c;\"two\nlines\"\n",
             "drop 5, at 23 degrees\ntime\tend\nms\t\n500\ta\n1.250,0\tb, c\n",
             "time_s|end\r0.5|a\r1.25|b, c\r",
+            "t [ms];end\n500;a\n1250;b, c\n",
+            "end;Zeit in s\na;0,5\nb, c;1,25\n",
         ] {
             assert_eq!(of(text), expected, "{text:?}");
         }

@@ -181,6 +181,13 @@ impl Rows {
         self.lines
     }
 
+    /// Says of so many lines, which were taken for empty ones, that they are of records that were not asked for.
+    pub(super) fn of_other_records(&mut self, lines: usize) {
+        let lines = lines.min(self.lines.empty);
+        self.lines.empty -= lines;
+        self.lines.others += lines;
+    }
+
     /// Takes in all whole lines of a text, and says how many bytes they have.
     pub(super) fn take(&mut self, text: &[u8]) -> Result<usize, Error> {
         let Some(end) = text.iter().rposition(|byte| *byte == b'\n').map(|last| last + 1) else { return Ok(0) };
