@@ -36,6 +36,7 @@
 //! # Ok::<(), clatter::Error>(())
 //! ```
 
+mod block;
 mod body;
 mod contact;
 mod error;
@@ -47,6 +48,7 @@ mod rigid;
 mod roots;
 mod scene;
 
+pub use block::{Block, BlockDrop, BlockFlight, BlockStep, BlockStrike};
 pub use body::Body;
 pub use contact::{Ahead, Contact, ContactFlight, ContactLaw, Press, Sample};
 pub use error::Error;

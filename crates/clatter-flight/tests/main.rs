@@ -2,6 +2,7 @@
 
 #![cfg(test)]
 
+mod block;
 mod contact_ahead;
 mod contact_balance;
 mod contact_extremes;

@@ -1,0 +1,140 @@
+//! A box that falls in any orientation, with spin, on contacts that take time at its eight corners.
+//!
+//! Forces are vertical, as the ground has no friction: neither the place of the box over the ground nor its turn about the vertical
+//! does anything. So its state is the height z of the center of mass, the direction n of the vertical in axes of the box, and the
+//! spin ω in these axes. With the corners r_i from the center of mass, the principal radii of gyration k and forces F_i over the mass:
+//!
+//! ```text
+//! z″ = Σ F_i − g,    n′ = n × ω,    k² ω′ = Σ F_i r_i × n − ω × k² ω
+//! height and velocity of a place p:  z + n·p,  z′ + n·(ω × p)
+//! ```
+//!
+//! Motions are integrated by the embedded Runge–Kutta method of Dormand and Prince, 5(4), whose steps end where a corner
+//! touches, is at its lowest or parts: rotations of a body with three moments of inertia have no closed form that is worth its price.
+
+mod dormand_prince;
+mod drop;
+mod run;
+
+pub use drop::BlockDrop;
+pub use run::{BlockFlight, BlockStep, BlockStrike};
+
+use clatter::Error;
+
+use crate::scene::within;
+
+/// A rectangular box: its corners, center of mass and principal radii of gyration, all along its own axes x, y, z.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Block {
+    half: [f64; 3],
+    center: [f64; 3],
+    gyration: [f64; 3],
+}
+
+impl Block {
+    /// A box of this size (from face to face), with its center of mass so far from its middle and these radii of gyration about axes
+    /// through the center of mass: k_x² = ∫(y² + z²) dm/m.
+    ///
+    /// # Errors
+    /// [`Error::Quantity`] unless sizes are in [1e−6, 1e6] m and in ratios up to 1000, the center of mass is within the box, and the
+    /// radii are those of a body: each at least a hundredth of the size, and the square of none more than the sum of the other
+    /// two squares.
+    ///
+    /// # Examples
+    /// Evenly spread mass of 120 mm × 60 mm × 20 mm:
+    /// ```
+    /// use clatter_flight::Block;
+    /// let [a, b, c] = [0.12_f64, 0.06, 0.02];
+    /// let gyration = [b.hypot(c), a.hypot(c), a.hypot(b)].map(|diagonal| diagonal / 12_f64.sqrt());
+    /// let block = Block::new([a, b, c], [0.0; 3], gyration)?;
+    /// assert_eq!(block.corners_m()[0], [-0.06, -0.03, -0.01]);
+    /// assert_eq!(Block::corner_name(0), "---");
+    /// # Ok::<(), clatter::Error>(())
+    /// ```
+    pub fn new(size_m: [f64; 3], center_of_mass_m: [f64; 3], gyration_m: [f64; 3]) -> Result<Self, Error> {
+        let largest = size_m.iter().fold(0.0_f64, |most, size| most.max(*size));
+        for size in size_m {
+            within("size of the box in m", size, 1e-6, 1e6, "in [1e-6, 1e6]")?;
+            within("size of the box in m", size, 1e-3 * largest, largest, "at least a thousandth of the largest")?;
+        }
+        let half = size_m.map(|size| 0.5 * size);
+        for (center, half) in center_of_mass_m.into_iter().zip(half) {
+            within("center of mass in m from the middle", center, -half, half, "within the box")?;
+        }
+        for radius in gyration_m {
+            let allowed = "between 0.01 and 100 times the largest size";
+            within("radius of gyration in m", radius, 0.01 * largest, 100.0 * largest, allowed)?;
+        }
+        let [x, y, z] = gyration_m.map(|radius| radius * radius);
+        for (own, others) in [(x, y + z), (y, z + x), (z, x + y)] {
+            let allowed = "such that no square is more than the sum of the other two: no body has such moments";
+            within("radius of gyration in m", own.sqrt(), 0.0, (others * (1.0 + 1e-9)).sqrt(), allowed)?;
+        }
+        Ok(Self { half, center: center_of_mass_m, gyration: gyration_m })
+    }
+
+    /// Corners from the center of mass: `---`, `+--`, `-+-`, `++-`, `--+` and so on, x first.
+    #[must_use]
+    pub fn corners_m(&self) -> [[f64; 3]; 8] {
+        std::array::from_fn(|corner| {
+            std::array::from_fn(|axis| {
+                let side = if corner >> axis & 1 == 1 { self.half[axis] } else { -self.half[axis] };
+                side - self.center[axis]
+            })
+        })
+    }
+
+    /// Signs of x, y and z of a corner.
+    #[must_use]
+    pub fn corner_name(corner: usize) -> &'static str {
+        ["---", "+--", "-+-", "++-", "--+", "+-+", "-++", "+++"][corner & 7]
+    }
+
+    /// Where a place is from the center of mass that is so far from the middle of the box.
+    #[must_use]
+    pub fn place(&self, from_middle_m: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|axis| from_middle_m[axis] - self.center[axis])
+    }
+
+    /// Radii of gyration about the center of mass.
+    #[must_use]
+    pub fn gyration_m(&self) -> [f64; 3] {
+        self.gyration
+    }
+
+    /// Size from face to face.
+    #[must_use]
+    pub fn size_m(&self) -> [f64; 3] {
+        self.half.map(|half| 2.0 * half)
+    }
+
+    /// The center of mass from the middle.
+    #[must_use]
+    pub fn center_of_mass_m(&self) -> [f64; 3] {
+        self.center
+    }
+
+    /// Distance of the center of mass from a face, the one on the side −1 or +1 of an axis.
+    fn to_face(&self, axis: usize, side: f64) -> f64 {
+        self.half[axis] - side * self.center[axis]
+    }
+
+    /// Height of the center of mass over the face on which a box whose vertical is `n` comes to lie, and over the lowest edge of that
+    /// face. It is the face that a plumb line from the center of mass goes through.
+    fn lies_on(&self, n: [f64; 3]) -> [f64; 2] {
+        let side = |axis: usize| -1.0_f64.copysign(n[axis]);
+        let along = |axis: usize| {
+            if n[axis] == 0.0 { f64::INFINITY } else { self.to_face(axis, side(axis)) / n[axis].abs() }
+        };
+        let face = (0..3).min_by(|&a, &b| along(a).total_cmp(&along(b))).unwrap_or(2);
+        let over = self.to_face(face, side(face));
+        let aside =
+            (0..3).filter(|axis| *axis != face).flat_map(|axis| [-1.0, 1.0].map(|side| self.to_face(axis, side)));
+        [over, over.hypot(aside.fold(f64::INFINITY, f64::min))]
+    }
+
+    /// Height of the center of mass over the face next to it.
+    fn lowest(&self) -> f64 {
+        (0..3).flat_map(|axis| [-1.0, 1.0].map(|side| self.to_face(axis, side))).fold(f64::INFINITY, f64::min)
+    }
+}

@@ -1,0 +1,147 @@
+//! A drop of a box at the moment of its first touch.
+
+use clatter::Error;
+
+use super::Block;
+use crate::scene::within;
+
+/// A box at the moment when its lowest corner touches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BlockDrop {
+    pub(super) block: Block,
+    /// The vertical in axes of the box.
+    pub(super) upward: [f64; 3],
+    pub(super) spin: [f64; 3],
+    pub(super) speed: f64,
+    pub(super) gravity: f64,
+    pub(super) time_limit: f64,
+    pub(super) impact_limit: usize,
+}
+
+impl BlockDrop {
+    /// A box whose axes are turned into those of the world, z upward, by the unit quaternion w, x, y, z; its center of mass comes
+    /// down at a speed.
+    ///
+    /// # Errors
+    /// [`Error::Quantity`] unless the quaternion has the length 1 to 1e−6, the speed is in [1e−6, 1e6] m/s, and gravity is 0 or in
+    /// [1e−6, 1e6] m/s².
+    pub fn new(block: Block, orientation: [f64; 4], speed_m_s: f64, gravity_m_s2: f64) -> Result<Self, Error> {
+        let length = orientation.iter().map(|x| x * x).sum::<f64>().sqrt();
+        within("length of the quaternion", length, 1.0 - 1e-6, 1.0 + 1e-6, "1: a rotation is a unit quaternion")?;
+        let [w, x, y, z] = orientation.map(|part| part / length);
+        Self::toward(
+            block,
+            [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
+            speed_m_s,
+            gravity_m_s2,
+        )
+    }
+
+    /// A box whose bottom is tilted by an angle, highest in a direction that turns from x towards y.
+    ///
+    /// # Errors
+    /// [`Error::Quantity`] unless the tilt is in [0, π] and the direction within a turn; else as [`BlockDrop::new`].
+    pub fn tilted(
+        block: Block,
+        tilt_rad: f64,
+        direction_rad: f64,
+        speed_m_s: f64,
+        gravity_m_s2: f64,
+    ) -> Result<Self, Error> {
+        use std::f64::consts::{PI, TAU};
+        within("tilt in rad", tilt_rad, 0.0, PI, "in [0, pi]")?;
+        within("direction in rad", direction_rad, -TAU, TAU, "within a turn")?;
+        let (sin, cos) = (libm::sin(tilt_rad), libm::cos(tilt_rad));
+        let upward = [sin * libm::cos(direction_rad), sin * libm::sin(direction_rad), cos];
+        Self::toward(block, upward, speed_m_s, gravity_m_s2)
+    }
+
+    fn toward(block: Block, upward: [f64; 3], speed_m_s: f64, gravity_m_s2: f64) -> Result<Self, Error> {
+        within("speed in m/s", speed_m_s, 1e-6, 1e6, "in [1e-6, 1e6]")?;
+        if gravity_m_s2 != 0.0 {
+            within("gravity in m/s²", gravity_m_s2, 1e-6, 1e6, "0 or in [1e-6, 1e6]")?;
+        }
+        Ok(Self {
+            block,
+            upward,
+            spin: [0.0; 3],
+            speed: speed_m_s,
+            gravity: gravity_m_s2 + 0.0,
+            time_limit: f64::INFINITY,
+            impact_limit: 100_000,
+        })
+    }
+
+    /// Already turning at the first touch, in axes of the box.
+    ///
+    /// # Errors
+    /// [`Error::Quantity`] unless each is within 10⁵ rad/s and a lowest corner still approaches.
+    pub fn with_spin(mut self, spin_rad_s: [f64; 3]) -> Result<Self, Error> {
+        for spin in spin_rad_s {
+            within("spin in rad/s", spin, -1e5, 1e5, "in [-1e5, 1e5]")?;
+        }
+        self.spin = spin_rad_s;
+        let heights = self.block.corners_m().map(|corner| super::run::dot(self.upward, corner));
+        let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
+        let near = 1e-12 * self.block.half.iter().sum::<f64>();
+        let slowest = (0..8)
+            .filter(|&i| heights[i] <= lowest + near)
+            .map(|i| {
+                super::run::dot(self.upward, super::run::cross(spin_rad_s, self.block.corners_m()[i])) - self.speed
+            })
+            .fold(f64::INFINITY, f64::min);
+        within(
+            "velocity of the lowest corner in m/s",
+            slowest,
+            -1e9,
+            -1e-9,
+            "downward: with this spin it does not land",
+        )?;
+        Ok(self)
+    }
+
+    /// No strike after this time since the first touch.
+    ///
+    /// # Errors
+    /// [`Error::Quantity`] unless positive; infinity is no limit.
+    pub fn with_time_limit_s(mut self, time_s: f64) -> Result<Self, Error> {
+        if time_s > 0.0 {
+            self.time_limit = time_s;
+            return Ok(self);
+        }
+        Err(Error::Quantity { name: "time limit in s", value: time_s, allowed: "positive" })
+    }
+
+    /// No more strikes than this.
+    #[must_use]
+    pub fn with_impact_limit(mut self, impacts: usize) -> Self {
+        self.impact_limit = impacts.max(1);
+        self
+    }
+
+    /// The box.
+    #[must_use]
+    pub fn block(&self) -> Block {
+        self.block
+    }
+    /// The vertical in axes of the box.
+    #[must_use]
+    pub fn upward(&self) -> [f64; 3] {
+        self.upward
+    }
+    /// Speed of the center of mass at the first touch, downward.
+    #[must_use]
+    pub fn speed_m_s(&self) -> f64 {
+        self.speed
+    }
+    /// Acceleration of gravity.
+    #[must_use]
+    pub fn gravity_m_s2(&self) -> f64 {
+        self.gravity
+    }
+    /// Spin at the first touch, in axes of the box.
+    #[must_use]
+    pub fn spin_rad_s(&self) -> [f64; 3] {
+        self.spin
+    }
+}
