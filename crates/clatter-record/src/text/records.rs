@@ -64,7 +64,8 @@ mod tests {
     #[test]
     fn each_record_below_its_heading() {
         let text = b"t,a\n0,1\n1,2\n\nt,a\n0,3\n1,4\nend\n";
-        let of = |number| only(text, number).map(|(text, hidden)| (String::from_utf8_lossy(&text).into_owned(), hidden));
+        let of =
+            |number| only(text, number).map(|(text, hidden)| (String::from_utf8_lossy(&text).into_owned(), hidden));
         assert_eq!(of(1), Ok(("t,a\n0,1\n1,2\n\n\n\n\n\n".to_owned(), 4)));
         assert_eq!(of(2), Ok(("t,a\n\n\n\nt,a\n0,3\n1,4\nend\n".to_owned(), 2)));
         assert_eq!(of(3).expect_err("two").to_string(), "there is no record 3 in the file: there are 2 records");
