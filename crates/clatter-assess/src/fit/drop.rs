@@ -343,3 +343,51 @@ impl Path {
         0.5 * ((1.0 - s) * a + (1.0 + s) * b) + gravity * time_s.max(0.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::First;
+    use crate::fit::{Measured, MeasuredStrike};
+    use clatter_flight::ContactLaw;
+
+    /// A value at the end of a range of any value is √3 of its standard deviation from the middle.
+    #[test]
+    fn a_range_counts_as_a_datum_of_its_standard_deviation() {
+        let known = Known {
+            body: Body::new(0.15, 0.04).expect("a body"),
+            gyration_known: true,
+            first: First::End(End::A),
+            gravity_m_s2: 0.0,
+            restitution: [0.2, 0.5],
+            speed_m_s: [3.0, 5.0],
+            tilt_rad: [0.0, 0.05],
+            contact_time_s: None,
+            contact_law: ContactLaw::Hysteretic,
+        };
+        let strikes = [0.0, 1e-3].map(|time_s| MeasuredStrike { time_s, end: None }).to_vec();
+        let measured = [Measured::Strikes { strikes, deviation_s: Some(1e-6) }];
+        let sets = crate::fit::set::sets(&known, &measured).expect("two strikes");
+        let left = Rc::new(Cell::new(100));
+        let mut drop = Drop {
+            known: &known,
+            sets,
+            first: End::A,
+            contacts: false,
+            unit_s: 1e-3,
+            is_rough: false,
+            ranged: vec![SPEED],
+            scatter: 1.0,
+            left,
+        };
+        let mut x = drop.given();
+        let last = |drop: &Drop<'_>, x: &[f64]| drop.residuals(x).last().copied().expect("three of them");
+        assert_eq!(drop.residuals(&x).len(), 3);
+        assert!(last(&drop, &x).abs() < 1e-12);
+        x[SPEED] = libm::log(5.0);
+        assert!((last(&drop, &x) - 3_f64.sqrt()).abs() < 1e-12);
+        // Beside residuals that scatter by 2, the range keeps its weight.
+        drop.scatter = 2.0;
+        assert!((last(&drop, &x) - 2.0 * 3_f64.sqrt()).abs() < 1e-12);
+    }
+}

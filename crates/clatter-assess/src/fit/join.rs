@@ -79,3 +79,44 @@ impl Explanation {
         format!("end {first} first, {all} ({})", values.join(", "))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Bounces whose flights are 0.4, 0.2 and 0.1 s.
+    fn found() -> Fit {
+        super::super::bounces(&[1.0, 1.4, 1.6, 1.7], 9.81, Some(1e-4)).expect("times that rise")
+    }
+
+    #[test]
+    fn intervals_hold_those_of_all_explanations() {
+        for (own, other, joined) in [
+            ([0.4, 0.5], [0.45, 0.6], [0.4, 0.6]),
+            ([0.4, 0.5], [0.2, 0.45], [0.2, 0.5]),
+            ([0.4, 0.5], [0.7, 0.8], [0.4, 0.8]),
+        ] {
+            let [mut fit, mut beside] = [found(), found()];
+            fit.estimates[0].interval = Some(own);
+            beside.estimates[0].interval = Some(other);
+            // Of one end alone it is the restitution too, of another quantity it is not.
+            beside.estimates[0].quantity = Quantity::RestitutionB;
+            let height = fit.estimates[1].interval;
+            join(&mut fit, vec![beside]);
+            assert_eq!((fit.estimates[0].interval, fit.estimates[1].interval), (Some(joined), height));
+            assert_eq!(fit.others.len(), 1);
+            assert!(fit.notes[0].contains("other explanations are about as good"), "{:?}", fit.notes);
+        }
+    }
+
+    #[test]
+    fn what_tells_the_same_is_no_other_explanation() {
+        let [fit, mut other] = [found(), found()];
+        assert!(is_same(&fit, &other));
+        other.estimates[0].value = fit.estimates[0].interval.expect("a timing is given")[1] + 1e-6;
+        assert!(!is_same(&fit, &other));
+        let mut other = found();
+        other.records[0].strikes[1].number = None;
+        assert!(!is_same(&fit, &other));
+    }
+}

@@ -197,7 +197,7 @@ impl<'d> Search<'d> {
         for premise in premises {
             if self.drop.left.get() > 0 && self.is_supported(premise) {
                 let found = self.staged(premise, false);
-                met.extend(found.into_iter().filter(|one| self.counts(one)));
+                met.extend(found.into_iter().filter(|one| self.is_met(one)));
             }
         }
         met
@@ -440,16 +440,11 @@ impl<'d> Search<'d> {
         scatter <= SUSPECT * self.drop.sets[0].variation(self.drop.unit_s)
     }
 
-    /// Whether there are data enough for a premise.
+    /// Whether there are data enough for a premise: with as many unknowns as data anything is explained.
     fn is_supported(&self, premise: &Premise) -> bool {
         let used = self.strikes.len() - usize::from(premise.left_out.is_some());
         let free = self.free(premise, used).len();
         free < used && Score::new(1.0, self.strikes.len(), free, premise.faults(), self.known).is_supported()
-    }
-
-    /// Whether an explanation other than the plain one is one: with as many unknowns as data anything is.
-    fn counts(&self, fit: &Candidate) -> bool {
-        fit.degrees > 0 && self.is_met(fit)
     }
 
     /// A time that is further off than chance explains: the externally studentized residual t_i = r_i/(s_(i) √(1 − h_i)) with the

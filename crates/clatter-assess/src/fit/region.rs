@@ -173,7 +173,9 @@ mod tests {
             "{least} {most}"
         );
         // A bound that comes before is the end.
-        let [least, _] = ends(&problem(-0.3));
-        assert!((least + 0.3).abs() < 1e-12, "{least}");
+        for bound in [-0.3, -0.1] {
+            let [least, _] = ends(&problem(bound));
+            assert!((least - bound).abs() < 1e-12, "{least}");
+        }
     }
 }

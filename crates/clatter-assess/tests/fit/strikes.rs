@@ -1,7 +1,7 @@
 //! Strike times: what they tell, and which strike is which.
 
 use clatter::End;
-use clatter_assess::fit::{Fit, Known, Measured, Quantity, fit};
+use clatter_assess::fit::{Fit, Known, Measured, MeasuredStrike, Quantity, fit};
 use clatter_flight::Body;
 
 use super::synthetic::{LENGTH_M, Random, Truth, gyration_m, known, noisy, of, restitution_of_a, strikes};
@@ -115,6 +115,22 @@ fn missing_merged_and_wrong_strikes_are_found() {
         assert!((restitution_of_a(&wrong).value - 0.55).abs() < 0.01, "{place}: {:?}", restitution_of_a(&wrong));
         assert!(wrong.notes.iter().any(|note| note.contains("was left out")), "{:?}", wrong.notes);
     }
+}
+
+/// A strike is of the end that it was measured at: where one is named wrongly, the strikes are not all explained.
+#[test]
+fn a_strike_of_the_wrong_end_is_not_explained() {
+    let truth = Truth { q: 0.86, e: [0.55; 2], gap_s: 8e-3 };
+    let mut list: Vec<_> = truth.strikes(8).into_iter().map(|(time_s, end)| (time_s, Some(end))).collect();
+    list[4..].iter_mut().for_each(|strike| strike.1 = None);
+    let taken = |list: &[(f64, Option<End>)]| {
+        let strikes = list.iter().map(|&(time_s, end)| MeasuredStrike { time_s, end }).collect();
+        let found = fit(&known(0.86), &[Measured::Strikes { strikes, deviation_s: Some(2e-6) }]);
+        found.map_or(0, |found| found.records[0].strikes.iter().filter(|strike| strike.number.is_some()).count())
+    };
+    assert_eq!(taken(&list), list.len());
+    list[3].1 = list[3].1.map(End::other);
+    assert!(taken(&list) < list.len());
 }
 
 /// With contacts that take time missing strikes are not looked for. Where one is missing, the answer says so.
