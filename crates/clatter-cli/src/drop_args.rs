@@ -1,5 +1,7 @@
 //! A drop as arguments of a command say it, alone or over what a product file says.
 
+mod block;
+
 use std::path::PathBuf;
 
 use clap::ValueHint;
@@ -7,6 +9,9 @@ use clatter::End;
 use clatter_assess::units::Quantity;
 use clatter_assess::{Accuracy, STANDARD_GRAVITY_M_S2, slip};
 use clatter_flight::{Body, ContactLaw, Scene};
+
+pub(crate) use block::Beside as BesideBlock;
+use block::BlockArgs;
 
 use crate::inputs::{self, LawName, ModelName};
 use crate::numbers::given;
@@ -40,6 +45,8 @@ pub(crate) struct DropArgs {
     /// center of mass; for finite-tilt, small tilts do not feel it
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = quantities::any_length, requires = "followed", conflicts_with = "thickness_m")]
     thickness: Option<Quantity>,
+    #[command(flatten)]
+    block: BlockArgs,
     #[command(flatten)]
     fall: Fall,
     /// Tilt when end a touches, below 90deg; 0deg for a flat drop, in which end a counts as the first

@@ -292,6 +292,60 @@ pub(crate) fn number(text: &str) -> Result<f64, String> {
     text.parse().map_err(|_| format!("'{}' is not a number such as 0.5", visible(text)))
 }
 
+/// One to three numbers: of a bar, a plate or a box.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Numbers {
+    count: usize,
+    values: [f64; 3],
+}
+
+impl Numbers {
+    pub(crate) fn three(self) -> Option<[f64; 3]> {
+        (self.count == 3).then_some(self.values)
+    }
+    /// Of a bar the only one.
+    pub(crate) fn first(self) -> f64 {
+        self.values[0]
+    }
+    /// Refuses values of a box where a bar is given.
+    pub(crate) fn of_bar(self, flag: &'static str) -> Result<(), Failure> {
+        if self.count == 1 {
+            return Ok(());
+        }
+        Err(Failure::Wrong(format!(
+            "{flag} has {} values: one is of a bar, three of a box, which has --width and --thickness",
+            self.count
+        )))
+    }
+}
+
+pub(crate) fn numbers(text: &str) -> Result<Numbers, String> {
+    let parts = parts(text, ',');
+    let mut values = [0.0; 3];
+    if parts.len() > values.len() {
+        return Err(format!("'{}' has {} numbers, not up to 3", visible(text), parts.len()));
+    }
+    for (value, part) in values.iter_mut().zip(&parts) {
+        *value = number(part)?;
+    }
+    Ok(Numbers { count: parts.len(), values })
+}
+
+/// So many numbers.
+fn list<const N: usize>(text: &str, what: &str) -> Result<[f64; N], String> {
+    let found: Vec<f64> = parts(text, ',').into_iter().map(number).collect::<Result<_, _>>()?;
+    let count = found.len();
+    found.try_into().map_err(|_| format!("'{}' has {count} numbers, not {N}: {what}", visible(text)))
+}
+
+pub(crate) fn triple(text: &str) -> Result<[f64; 3], String> {
+    list(text, "X,Y,Z")
+}
+
+pub(crate) fn quaternion(text: &str) -> Result<[f64; 4], String> {
+    list(text, "W,X,Y,Z, the unit quaternion of a rotation")
+}
+
 /// A share, or a percentage with its sign.
 pub(crate) fn share(text: &str) -> Result<f64, String> {
     let share =

@@ -16,6 +16,7 @@
 
 mod assess;
 mod atlas;
+mod block;
 mod budget;
 mod columns;
 mod completions;

@@ -47,6 +47,10 @@ pub(crate) fn tilt(text: &str) -> Result<Quantity, String> {
     checked(&ANGLE, text, |si| part_of(neat(si.to_degrees()), inputs::tilt_of).map(|_| si))
 }
 
+pub(crate) fn direction(text: &str) -> Result<Quantity, String> {
+    ANGLE.read(text)
+}
+
 pub(crate) fn gravity(text: &str) -> Result<Quantity, String> {
     checked(&ACCELERATION, text, |si| part_of(si, inputs::gravity_of))
 }

@@ -1,5 +1,6 @@
 //! `clatter respond`: what one clatter does to one component.
 
+mod block;
 mod drop;
 mod limits;
 mod peaks;
@@ -15,8 +16,9 @@ use clatter_assess::units::Quantity;
 use clatter_assess::{Slip, slip};
 use clatter_shock::{DampingRatio, ShockTable, Suspension};
 
+use crate::block::Axis;
 use crate::drop_args::{DropArgs, IN_SI};
-use crate::inputs::{self, DampingArgs, EndName, Format, ModelName};
+use crate::inputs::{self, DampingArgs, EndName, Format, ModelName, Numbers};
 use crate::one_drop::Worst;
 use crate::output::{Files, Kind, Target};
 use crate::quantities::{self, Piece, Place};
@@ -99,6 +101,15 @@ pub(crate) struct Args {
     /// Instead of --omega, with --model or a file: natural frequency of the component, such as 180Hz
     #[arg(long, value_name = "FREQUENCY", allow_hyphen_values = true, value_parser = quantities::frequency, conflicts_with = "omega")]
     frequency: Option<Quantity>,
+    /// Where the part of a box is, in m from the middle along its axes
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = inputs::triple, requires = "followed", conflicts_with = "at")]
+    at_m: Option<[f64; 3]>,
+    /// Along which axis of the box the part moves, or, mounted rigidly, is shaken: any is the magnitude [default: z]
+    #[arg(long, value_enum, requires = "at_m")]
+    axis: Option<Axis>,
+    /// Angular velocity of a box as it lands, about its axes, in rad/s
+    #[arg(long, value_name = "WX,WY,WZ", allow_hyphen_values = true, value_parser = inputs::triple, requires = "at_m", help_heading = IN_SI, hide_short_help = true)]
+    spin_rad_s: Option<[f64; 3]>,
     #[command(flatten)]
     damping: DampingArgs,
     /// Velocities of ends a and b at first contact, upward positive; VA is negative: end a strikes; in v0, or with their
@@ -200,14 +211,14 @@ struct Inertia {
     /// also as lengths; given once for each piece, like --mass=2@-1:1 --mass=1@0.5; symmetric unless with --model
     #[arg(long, value_name = "M@S[:T]", allow_hyphen_values = true, value_parser = quantities::mass)]
     mass: Vec<Piece>,
-    /// --gyration in m
-    #[arg(long, value_name = "M", allow_hyphen_values = true, value_parser = inputs::number, requires = "followed", help_heading = IN_SI, hide_short_help = true)]
-    gyration_m: Option<f64>,
+    /// --gyration in m; of a box KX,KY,KZ, about axes through its center of mass
+    #[arg(long, value_name = "M", allow_hyphen_values = true, value_parser = inputs::numbers, requires = "followed", help_heading = IN_SI, hide_short_help = true)]
+    gyration_m: Option<Numbers>,
 }
 
 impl Inertia {
     fn gyration(&self) -> Option<Quantity> {
-        self.gyration.or(self.gyration_m.map(Quantity::of_si))
+        self.gyration.or(self.gyration_m.map(|given| Quantity::of_si(given.first())))
     }
 
     /// The paper's bar.
@@ -244,6 +255,10 @@ impl Args {
     }
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        if self.drop.is_block() {
+            return self.block(streams);
+        }
+        self.inertia.gyration_m.map_or(Ok(()), |radii| radii.of_bar("--gyration-m"))?;
         if self.model.is_some() || self.drop.product.is_some() {
             return self.run_drop(streams);
         }

@@ -1,6 +1,7 @@
 //! `clatter simulate`: one drop in time, by a model of the user's choice.
 
 mod answer;
+mod block;
 mod file;
 mod table;
 
@@ -9,7 +10,7 @@ use clatter_assess::units::Quantity;
 use clatter_flight::{Contact, ContactFlight, Flight, Model, Press, Stop, Strike};
 
 use crate::drop_args::{Beside, DropArgs, IN_SI, Setup};
-use crate::inputs::{self, ModelName, RowFormat};
+use crate::inputs::{self, ModelName, Numbers, RowFormat};
 use crate::output::{Files, Kind, Target};
 use crate::quantities::{self, Piece, Place};
 use crate::{Failure, Streams};
@@ -78,9 +79,9 @@ pub(crate) struct Args {
     /// Follow the motion until this time after the first touch
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = quantities::until, conflicts_with = "time_limit_s")]
     until: Option<Quantity>,
-    /// --spin in rad/s
-    #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = inputs::number, help_heading = IN_SI, hide_short_help = true)]
-    spin_rad_s: Option<f64>,
+    /// --spin in rad/s; of a box WX,WY,WZ about its axes
+    #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = inputs::numbers, help_heading = IN_SI, hide_short_help = true)]
+    spin_rad_s: Option<Numbers>,
     /// --until in s
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = inputs::time_limit_s, help_heading = IN_SI, hide_short_help = true)]
     time_limit_s: Option<f64>,
@@ -114,14 +115,14 @@ struct Inertia {
     /// lengths; given once for each piece, like --mass=200g@-1:1 --mass=100g@35mm
     #[arg(long, value_name = "M@S[:T]", allow_hyphen_values = true, value_parser = quantities::mass)]
     mass: Vec<Piece>,
-    /// --gyration in m
-    #[arg(long, value_name = "M", allow_hyphen_values = true, value_parser = inputs::number, help_heading = IN_SI, hide_short_help = true)]
-    gyration_m: Option<f64>,
+    /// --gyration in m; of a box KX,KY,KZ, about axes through its center of mass
+    #[arg(long, value_name = "M", allow_hyphen_values = true, value_parser = inputs::numbers, help_heading = IN_SI, hide_short_help = true)]
+    gyration_m: Option<Numbers>,
 }
 
 impl Inertia {
     fn gyration(&self) -> Option<Quantity> {
-        self.gyration.or(self.gyration_m.map(Quantity::of_si))
+        self.gyration.or(self.gyration_m.map(|given| Quantity::of_si(given.first())))
     }
 }
 
@@ -173,6 +174,11 @@ impl Args {
     }
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        if self.drop.is_block() {
+            return self.block(streams);
+        }
+        self.inertia.gyration_m.map_or(Ok(()), |radii| radii.of_bar("--gyration-m"))?;
+        self.spin_rad_s.map_or(Ok(()), |spin| spin.of_bar("--spin-rad-s"))?;
         let drop = self.drop(streams)?;
         if let Some(target) = &self.output {
             drop.write(target)?;
@@ -212,7 +218,7 @@ impl Args {
         let mut setup = self.drop.setup(&beside, streams)?;
         let (spin, flag) = match (self.spin, self.spin_rad_s) {
             (Some(spin), _) => (spin.si, "--spin"),
-            (None, spin) => (spin.unwrap_or(0.0), "--spin-rad-s"),
+            (None, spin) => (spin.map_or(0.0, Numbers::first), "--spin-rad-s"),
         };
         setup.shown.spin.unit = self.spin.and_then(|spin| spin.unit);
         setup.shown.time.unit = setup.shown.time.unit.or(self.until.and_then(|until| until.unit));

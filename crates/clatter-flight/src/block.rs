@@ -119,22 +119,33 @@ impl Block {
         self.half[axis] - side * self.center[axis]
     }
 
-    /// Height of the center of mass over the face on which a box whose vertical is `n` comes to lie, and over the lowest edge of that
-    /// face. It is the face that a plumb line from the center of mass goes through.
-    fn lies_on(&self, n: [f64; 3]) -> [f64; 2] {
+    /// The axis across the face on which a box whose vertical is `n` comes to lie, and the heights of the center of mass over that face
+    /// and over the lowest of its edges. It is the face that a plumb line from the center of mass goes through.
+    fn lies_on(&self, n: [f64; 3]) -> (usize, f64, f64) {
         let side = |axis: usize| -1.0_f64.copysign(n[axis]);
         let along = |axis: usize| {
             if n[axis] == 0.0 { f64::INFINITY } else { self.to_face(axis, side(axis)) / n[axis].abs() }
         };
         let face = (0..3).min_by(|&a, &b| along(a).total_cmp(&along(b))).unwrap_or(2);
         let over = self.to_face(face, side(face));
-        let aside =
-            (0..3).filter(|axis| *axis != face).flat_map(|axis| [-1.0, 1.0].map(|side| self.to_face(axis, side)));
-        [over, over.hypot(aside.fold(f64::INFINITY, f64::min))]
+        let others = (0..3).filter(|axis| *axis != face);
+        let aside = others.flat_map(|axis| [-1.0, 1.0].map(|side| self.to_face(axis, side)));
+        (face, over, over.hypot(aside.fold(f64::INFINITY, f64::min)))
     }
 
-    /// Height of the center of mass over the face next to it.
-    fn lowest(&self) -> f64 {
-        (0..3).flat_map(|axis| [-1.0, 1.0].map(|side| self.to_face(axis, side))).fold(f64::INFINITY, f64::min)
+    /// The energy over the mass that no motion gets rid of: of a body that lies and turns about the vertical, with this angular momentum
+    /// over the mass, which nothing changes. `energy` is what it has: where that does not lift it over an edge, it stays on its face.
+    fn kept(&self, n: [f64; 3], energy: f64, gravity: f64, momentum: f64) -> f64 {
+        let turning = |axis: usize| 0.5 * (momentum / self.gyration[axis]).powi(2);
+        let (face, over, ridge) = self.lies_on(n);
+        let least = (0..3).map(turning).fold(f64::INFINITY, f64::min);
+        if energy < gravity * ridge + least {
+            return gravity * over + turning(face);
+        }
+        let on = |axis: usize| {
+            let height = self.to_face(axis, 1.0).min(self.to_face(axis, -1.0));
+            gravity * height + turning(axis)
+        };
+        (0..3).map(on).fold(f64::INFINITY, f64::min)
     }
 }

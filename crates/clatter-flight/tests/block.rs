@@ -367,6 +367,19 @@ fn a_box_comes_to_rest_on_the_face_under_its_center() {
     }
 }
 
+/// A turn about the vertical goes on for ever and keeps no box from coming to rest.
+#[test]
+fn a_box_that_turns_about_the_vertical_comes_to_rest() {
+    let case = Case { turned: [0.999_949_998_75, 0.01, 0.0, 0.0], spin: [0.5, 0.5, 4.0], ..EVEN };
+    let flight = case.drop().contacts(&case.contact(), |_| ()).unwrap();
+    assert!(matches!(flight.stop, Stop::AtRest { time_s, .. } if time_s < 2.0), "{:?}", flight.stop);
+    assert!((flight.spin_rad_s[2] - 4.0).abs() < 0.2, "{:?}", flight.spin_rad_s);
+    // At a corner it is felt as an acceleration towards the middle, and the weight with it.
+    let felt = flight.at_rest_m_s2([0.06, 0.0, 0.0], GRAVITY);
+    let turn = flight.spin_rad_s[2].powi(2) * 0.06;
+    assert!((felt[0] + turn).abs() < 0.05 * turn && (felt[2] - GRAVITY).abs() < 0.01 * GRAVITY, "{felt:?}");
+}
+
 #[test]
 fn what_is_no_box_is_refused() {
     let of = |size, center, gyration| Block::new(size, center, gyration).expect_err("no box").to_string();

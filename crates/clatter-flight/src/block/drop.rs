@@ -134,6 +134,11 @@ impl BlockDrop {
     pub fn speed_m_s(&self) -> f64 {
         self.speed
     }
+    /// Limit of time since the first touch.
+    #[must_use]
+    pub fn time_limit_s(&self) -> f64 {
+        self.time_limit
+    }
     /// Acceleration of gravity.
     #[must_use]
     pub fn gravity_m_s2(&self) -> f64 {

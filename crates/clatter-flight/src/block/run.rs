@@ -71,6 +71,17 @@ pub struct BlockFlight {
     pub spin_rad_s: [f64; 3],
 }
 
+impl BlockFlight {
+    /// What a place from the center of mass feels along the axes of a box that lies and turns on about the vertical.
+    #[must_use]
+    pub fn at_rest_m_s2(&self, place_m: [f64; 3], gravity_m_s2: f64) -> [f64; 3] {
+        let turn = dot(self.spin_rad_s, self.upward);
+        let around = self.upward.map(|n| turn * n);
+        let outward = cross(around, cross(around, place_m));
+        std::array::from_fn(|axis| gravity_m_s2 * self.upward[axis] + outward[axis])
+    }
+}
+
 /// How the ground carries a corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Hold {
@@ -384,7 +395,7 @@ impl<'a> Run<'a> {
 
     /// Whether nothing of weight can follow.
     fn ends(&self) -> Option<Stop> {
-        let (z, v, n, _) = parts(&self.y);
+        let (z, v, n, spin) = parts(&self.y);
         if self.misfit > ENERGY * self.opened {
             return Some(Stop::EnergyLimit { time_s: self.now });
         }
@@ -395,9 +406,8 @@ impl<'a> Run<'a> {
             return is_clear.then_some(Stop::BouncedClear { time_s: self.now });
         }
         let energy = self.system.energy(&self.y) + self.system.stored(&self.y);
-        let [over, ridge] = self.drop.block.lies_on(n);
-        let rest = if energy < gravity * ridge { over } else { self.drop.block.lowest() };
-        let left = (energy - gravity * rest).max(0.0);
+        let momentum = (0..3).map(|axis| n[axis] * self.system.inertia[axis] * spin[axis]).sum();
+        let left = (energy - self.drop.block.kept(n, energy, gravity, momentum)).max(0.0);
         let bound = (1.0 + self.restitution) * (2.0 * left * self.most_coupling).sqrt();
         let weight = WEIGHT * gravity * self.contact.time_s();
         (bound <= (REST * self.fastest).max(weight)).then_some(Stop::AtRest {
