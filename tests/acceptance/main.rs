@@ -7,6 +7,7 @@
 
 mod assess;
 mod bad_input;
+mod block;
 #[path = "../../crates/clatter/tests/cases/mod.rs"]
 mod cases;
 mod design;

@@ -1,0 +1,107 @@
+//! `clatter simulate` and `clatter respond` of a box.
+
+use clatter_cli::Exit;
+
+use crate::{answer, clatter};
+
+const BOX: [&str; 8] = [
+    "--model=compliant",
+    "--length-m=0.12",
+    "--width-m=0.06",
+    "--thickness-m=0.02",
+    "--gyration-m=0.018257,0.035119,0.038730",
+    "--e=0.5",
+    "--contact-time-s=4e-4",
+    "--speed-m-s=3",
+];
+
+fn with<'a>(command: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    std::iter::once(command).chain(BOX).chain(more.iter().copied()).collect()
+}
+
+/// Four corners touch at once, and the middle gets (1 + e) v, from four presses of the same force.
+#[test]
+fn a_box_that_lands_flat_presses_all_four_corners() {
+    let found = answer(with("simulate", &["--tilt-deg=0", "--time-limit-s=0.01"]));
+    let impacts = found["impacts"].as_array().unwrap();
+    let corners: Vec<&str> = impacts.iter().map(|impact| impact["corner"].as_str().unwrap()).collect();
+    assert_eq!(corners, ["---", "+--", "-+-", "++-"]);
+    let sum: f64 = impacts.iter().map(|impact| impact["delta_v_m_s"][7].as_f64().unwrap()).sum();
+    assert!((sum - 4.5).abs() < 0.01, "{sum}");
+    assert_eq!(found["stop"]["reason"], "time-limit");
+    // A rigid part: the half of a sine of 4/μ of the stiffness, about (π/2)(1 + e) v/τ √(4/μ) at most.
+    let felt = answer(with("respond", &["--tilt-deg=0", "--at-m=0,0,0"]));
+    let own = 1.0 + (0.03_f64 / 0.018_257).powi(2) + (0.06_f64 / 0.035_119).powi(2);
+    let peak = std::f64::consts::FRAC_PI_2 * 1.5 * 3.0 / 4e-4 * (4.0 / own).sqrt();
+    let value = felt["acceleration"]["value_m_s2"].as_f64().unwrap();
+    assert!((value / peak - 1.0).abs() < 5e-3, "{value}, not {peak}");
+}
+
+/// A part that is far slower than all of it gets the change of velocity, one that is far stiffer the acceleration of its place.
+#[test]
+fn soft_and_stiff_parts_are_those_of_the_limits() {
+    let of = |omega: &str| {
+        let flat = ["--orientation=1,0,0,0", "--gravity-m-s2=0", "--at-m=0,0,0", "--damping=0", omega];
+        answer(with("respond", &flat))
+    };
+    let soft = of("--omega=60");
+    let value = soft["omega_peak_relative_displacement"].as_f64().unwrap();
+    assert!((value / 4.5 - 1.0).abs() < 0.01, "{value}");
+    let stiff = of("--omega=500000");
+    let felt = stiff["acceleration"]["value_m_s2"].as_f64().unwrap();
+    let value = 5e5 * stiff["peak_absolute_acceleration_over_omega"].as_f64().unwrap();
+    assert!((value / felt - 1.0).abs() < 0.01, "{value} {felt}");
+}
+
+/// A quarter turn about the long axis: what was felt along z is felt along y.
+#[test]
+fn a_part_moves_along_its_axis() {
+    let root = "0.7071067811865476";
+    let turned = format!("--orientation={root},{root},0,0");
+    let of = |axis| {
+        let found = answer(with("respond", &[&turned, "--at-m=0,0,0", axis]));
+        found["acceleration"]["value_m_s2"].as_f64().unwrap()
+    };
+    let [x, y, z, any] = ["--axis=x", "--axis=y", "--axis=z", "--axis=any"].map(of);
+    assert!(y > 1e3 && x < 1e-6 * y, "{x} {y}");
+    assert!((any / y - 1.0).abs() < 1e-3 && z < 0.5 * y, "{any} {y} {z}");
+}
+
+#[test]
+fn what_is_no_drop_of_a_box_is_told() {
+    for (arguments, said) in [
+        (
+            vec!["simulate", "--model=compliant", "--width=60mm", "--length=120mm"],
+            "the drop of the box is not whole: give --thickness",
+        ),
+        (with("simulate", &["--orientation=1,1,0,0"]), "unit quaternion"),
+        (with("simulate", &["--orientation=1,0,0"]), "3 numbers, not 4"),
+        (with("simulate", &["--tilt-deg=10", "--spin-rad-s=1"]), "three values"),
+        (with("simulate", &["--tilt-deg=10", "--center-of-mass-m=0.1,0,0"]), "within the box"),
+        (with("simulate", &["--tilt-deg=10", "-o", "x.csv"]), "not written to a file"),
+        (with("simulate", &["--tilt-deg=10", "--spin-rad-s=0,-1e4,0"]), "contact time"),
+        (with("respond", &["--tilt-deg=10"]), "--at-m=X,Y,Z"),
+        (with("respond", &["--tilt-deg=10", "--at-m=0,0.04,0"]), "y = 0.04 m is not within the box"),
+        (with("respond", &["--tilt-deg=10", "--at-m=0,0,0", "--axis=any", "--omega=100"]), "along one axis"),
+        (vec!["simulate", "--model=compliant", "--length-m=1", "--gyration-m=1,1,1", "--e=0.5"], "three of a box"),
+    ] {
+        let outcome = clatter(&arguments);
+        assert_eq!((outcome.exit, outcome.stdout.as_str()), (Exit::BadInput, ""), "{arguments:?}: {}", outcome.stderr);
+        assert!(outcome.stderr.contains(said), "{}, not {said}", outcome.stderr);
+    }
+}
+
+#[test]
+fn tables_and_rows_have_every_press() {
+    let table = clatter(with("simulate", &["--tilt-deg=35", "--direction-deg=60"]));
+    assert_eq!(table.exit, Exit::Done, "{}", table.stderr);
+    assert!(
+        table.stdout.contains("Box of 120 x 60 x 20 mm") && table.stdout.contains("At rest at"),
+        "{}",
+        table.stdout
+    );
+    let rows = clatter(with("simulate", &["--tilt-deg=35", "--direction-deg=60", "--format=csv"]));
+    let found = answer(with("simulate", &["--tilt-deg=35", "--direction-deg=60"]));
+    assert_eq!(rows.stdout.lines().count(), 1 + found["impacts"].as_array().unwrap().len());
+    assert!(rows.stdout.starts_with("number,corner,time_s,until_s,approach_m_s,delta_v_---_m_s,"), "{}", rows.stdout);
+}
