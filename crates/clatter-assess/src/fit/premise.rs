@@ -75,3 +75,39 @@ impl Premise {
         Self { left_out: Some((outlier, true)), ways: count, ..Self::default() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is chosen among many ways pays for at least as many.
+    #[test]
+    fn as_many_ways_are_paid_for_as_there_are() {
+        for count in [3, 8] {
+            for outlier in [None, Some(count - 1)] {
+                let [one, two] = Premise::rounds(count, count, outlier);
+                let is_missing = |premise: &&Premise| premise.left_out.is_none();
+                assert_eq!(two.len(), two[0].ways, "{count}");
+                let (missing, out): (Vec<&Premise>, Vec<&Premise>) = one.iter().partition(is_missing);
+                assert!(missing.len() == missing[0].ways && out.len() <= out[0].ways, "{count}");
+                assert!(out.len() + 1 >= out[0].ways);
+            }
+        }
+        assert!((Premise::rounds(8, 8, None)[1][0].faults().ln_ways - 36_f64.ln()).abs() < 1e-15);
+    }
+
+    /// A strike at a wrong time is one of the computed, a strike that is none is not.
+    #[test]
+    fn computed_strikes_are_counted_past_what_is_left_out() {
+        let strikes: Vec<MeasuredStrike> = (0..4).map(|k| MeasuredStrike { time_s: f64::from(k), end: None }).collect();
+        let index = |premise: Premise| premise.index(&strikes);
+        let of = |all: [Option<usize>; 4]| all.map(|n| n.map(Which::Of)).to_vec();
+        assert_eq!(index(Premise::default()), of([Some(0), Some(1), Some(2), Some(3)]));
+        let wrong = Premise { left_out: Some((1, true)), ..Premise::default() };
+        assert_eq!(index(wrong), of([Some(0), None, Some(2), Some(3)]));
+        let none = Premise { left_out: Some((1, false)), ..Premise::default() };
+        assert_eq!(index(none), of([Some(0), None, Some(1), Some(2)]));
+        let missing = Premise { missing: vec![1, 1], ..Premise::default() };
+        assert_eq!(index(missing), of([Some(0), Some(3), Some(4), Some(5)]));
+    }
+}

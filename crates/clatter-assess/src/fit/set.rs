@@ -282,3 +282,30 @@ pub(super) fn unit_s(sets: &[Set<'_>]) -> f64 {
     };
     sets.iter().map(of).fold(f64::INFINITY, f64::min)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of two values taken together the time is midway between theirs.
+    #[test]
+    fn values_of_a_long_record_are_taken_together() {
+        let known = Known {
+            body: clatter_flight::Body::new(0.15, 0.04).expect("a body"),
+            gyration_known: true,
+            first: crate::First::Either,
+            gravity_m_s2: 0.0,
+            restitution: [0.2, 0.5],
+            speed_m_s: [3.0, 5.0],
+            tilt_rad: [0.0, 0.05],
+            contact_time_s: None,
+            contact_law: clatter_flight::ContactLaw::Hysteretic,
+        };
+        let values_m_s2 = (0..2 * MOST_VALUES).map(|k| if k % 2 == 0 { 1.0 } else { 3.0 }).collect();
+        let measured = [Measured::Acceleration { position_m: 0.0, start_s: 7.0, step_s: 0.5, values_m_s2 }];
+        let Set::Acceleration { start_s, step_s, values, .. } = &sets(&known, &measured).expect("a record")[0] else {
+            panic!("it is one of accelerations")
+        };
+        assert_eq!((*start_s, *step_s, values.len(), values[1]), (7.25, 1.0, MOST_VALUES, 2.0));
+    }
+}

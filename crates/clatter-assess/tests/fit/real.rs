@@ -2,7 +2,7 @@
 //! hold the truth.
 
 use clatter::End;
-use clatter_assess::fit::{Error, Fit, Known, Measured, Quantity, fit};
+use clatter_assess::fit::{Error, Fit, Known, Measured, MeasuredStrike, Quantity, fit};
 
 use super::falling::Falling;
 use super::intervals::assert_covers;
@@ -111,6 +111,19 @@ fn exact_strikes_of_a_real_drop_give_the_truth() {
             // Speed, spin and each end's restitution may be free: together they are known less well than the times.
             assert!((e - truth.e).abs() < 5e-3 && (rho / truth.rho - 1.0).abs() < 5e-3, "{truth:?} {e} {rho}");
         }
+    }
+}
+
+/// Where no end is named, the bar whose mass is off the center says which one touched first, and the other is no explanation.
+#[test]
+fn the_end_that_touches_first_is_found() {
+    let mut random = Random(110);
+    for _ in 0..3 {
+        let (truth, list) = drop(7, &mut random);
+        let known = truth.known(0.01, &mut random);
+        let strikes = list.iter().map(|(time_s, _)| MeasuredStrike { time_s: *time_s, end: None }).collect();
+        let found = fit(&known, &[Measured::Strikes { strikes, deviation_s: Some(1e-8) }]).expect("as the test has it");
+        assert_eq!((found.first, found.others.len()), (list[0].1, 0), "{truth:?} {:?}", found.notes);
     }
 }
 

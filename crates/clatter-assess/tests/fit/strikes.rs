@@ -52,6 +52,12 @@ fn each_end_has_its_restitution() {
         .expect("as the test has it");
     let [a, b] = [Quantity::RestitutionA, Quantity::RestitutionB].map(|quantity| of(&found, quantity));
     assert!((a.value - 0.35).abs() < 1e-3 && (b.value - 0.25).abs() < 1e-3, "{a:?} {b:?}");
+    // Seen from the other side it is end b that touches first and rebounds more.
+    let list: Vec<_> = list.into_iter().map(|(time_s, end)| (time_s, end.other())).collect();
+    let found = fit(&known(0.75), &[Measured::Strikes { strikes: strikes(&list), deviation_s: Some(1e-7) }])
+        .expect("as the test has it");
+    let [a, b] = [Quantity::RestitutionA, Quantity::RestitutionB].map(|quantity| of(&found, quantity));
+    assert!((a.value - 0.25).abs() < 1e-3 && (b.value - 0.35).abs() < 1e-3, "{a:?} {b:?}");
 }
 
 /// Gap and speed, both doubled, give the same strikes: the data cannot tell them apart, and that is said.
