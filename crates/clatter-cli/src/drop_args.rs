@@ -1,5 +1,7 @@
 //! A drop as arguments of a command say it, alone or over what a product file says.
 
+mod plate;
+
 use std::path::PathBuf;
 
 use clap::ValueHint;
@@ -12,8 +14,10 @@ use crate::inputs::{self, LawName, ModelName};
 use crate::numbers::given;
 use crate::one_drop::{OneDrop, PartSetup, Worst};
 use crate::output::Files;
-use crate::quantities::{self, Piece, Place, Show, Shown, neat};
+use crate::quantities::{self, OneOrTwo, Piece, Place, Show, Shown, neat};
 use crate::{Failure, Streams};
+
+pub(crate) use plate::{PlateArgs, PlateSetup};
 
 /// Largest radius of gyration over the length. A body beyond hardly turns, and clatters for hours.
 const MOST_GYRATION: f64 = 2.0;
@@ -32,10 +36,12 @@ pub(crate) struct DropArgs {
     /// Length of the body from end to end, 2L, such as 150mm
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = quantities::length, requires = "followed", conflicts_with = "length_m")]
     length: Option<Quantity>,
+    #[command(flatten)]
+    plate: PlateArgs,
     /// Where the center of mass lies, between -1 (end a) and 1 (end b), or as a length from the middle; goes with
     /// --gyration
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantities::center_of_mass, conflicts_with = "mass", requires = "followed")]
-    center_of_mass: Option<Place>,
+    center_of_mass: Option<OneOrTwo<Place>>,
     /// Thickness of the body, at most its length: at a tilt it stands on a corner, half of it below the line through the
     /// center of mass; for finite-tilt, small tilts do not feel it
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = quantities::any_length, requires = "followed", conflicts_with = "thickness_m")]
@@ -197,6 +203,7 @@ impl DropArgs {
 
     /// The drop, over that of the product file where there is one.
     pub(crate) fn setup(&self, beside: &Beside<'_>, streams: &mut Streams<'_>) -> Result<Setup, Failure> {
+        self.plate.refuse()?;
         let mut file = match &self.product {
             Some(path) => {
                 let file = OneDrop::read(path, self.component.as_deref(), beside.first, &beside.files, streams)?;
@@ -332,7 +339,8 @@ impl DropArgs {
         file: Option<&mut OneDrop>,
         side: f64,
     ) -> Result<(f64, Body), Failure> {
-        let center = self.center_of_mass.map(|place| place.relative("--center-of-mass", Some(half))).transpose()?;
+        let flag = "--center-of-mass";
+        let center = self.center_of_mass.map(|place| place.of_bar(flag)?.relative(flag, Some(half))).transpose()?;
         let center = center.map(|center| side * center + 0.0);
         let [(center, center_flag), (gyration, gyration_flag)] = match (beside.gyration, beside.masses) {
             (None, []) => {

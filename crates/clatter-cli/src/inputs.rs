@@ -28,7 +28,7 @@ through 0 (the center) to 1 (end b). Two numbers decide everything:
 
 The plate. Two values of --gyration-ratio, radii of gyration along x and y over
 half the length and half the width, make it a plate, with 'impacts', 'zone' and
-'atlas'. Positions X,Y run from -1 to 1 along both; corner a (-1,-1) strikes
+'atlas'; --width with 'simulate' and 'respond'. Positions X,Y run from -1 to 1 along both; corner a (-1,-1) strikes
 first, b (1,-1) is across its length, c (1,1) opposite, d (-1,1) across its
 width. An evenly spread mass has --gyration-ratio=0.577350269,0.577350269.
 
@@ -515,6 +515,20 @@ pub(crate) fn height_m(text: &str) -> Result<f64, String> {
 
 pub(crate) fn tilt_deg(text: &str) -> Result<f64, String> {
     part_of(number(text)?, tilt_of)
+}
+
+/// In degrees, so that corner a is the lowest.
+pub(crate) fn direction_of(degrees: f64) -> Result<f64, String> {
+    let (name, allowed) = ("direction in degrees", "in [0, 90]: else it is not corner a that touches first");
+    if (0.0..=90.0).contains(&degrees) {
+        Ok(degrees)
+    } else {
+        Err(Error::Quantity { name, value: degrees, allowed }.to_string())
+    }
+}
+
+pub(crate) fn direction_deg(text: &str) -> Result<f64, String> {
+    direction_of(number(text)?)
 }
 
 pub(crate) fn gravity_m_s2(text: &str) -> Result<f64, String> {

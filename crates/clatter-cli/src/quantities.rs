@@ -118,6 +118,66 @@ impl Place {
     }
 }
 
+/// One value for a bar, two for a plate: along its length and along its width.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum OneOrTwo<T> {
+    Bar(T),
+    Plate([T; 2]),
+}
+
+impl<T> OneOrTwo<T> {
+    pub(crate) fn of_bar(self, flag: &'static str) -> Result<T, Failure> {
+        match self {
+            Self::Bar(value) => Ok(value),
+            Self::Plate(_) => {
+                Err(Failure::Wrong(format!("'{flag}' takes one value for a bar, not two: --width makes it a plate")))
+            }
+        }
+    }
+    pub(crate) fn of_plate(self, flag: &'static str) -> Result<[T; 2], Failure> {
+        match self {
+            Self::Plate(values) => Ok(values),
+            Self::Bar(_) => Err(Failure::Wrong(format!(
+                "'{flag}' takes two values for a plate, along its length and its width, such as {flag}=X,Y"
+            ))),
+        }
+    }
+}
+
+/// Two values of a list, each read alike.
+fn two<T>(text: &str, read: impl Fn(&str) -> Result<T, String>) -> Result<[T; 2], String> {
+    let [x, y] = inputs::parts(text, ',')[..] else {
+        return Err("two values are needed, X,Y".to_owned());
+    };
+    Ok([read(x)?, read(y)?])
+}
+
+fn one_or_two<T>(text: &str, read: impl Fn(&str) -> Result<T, String>) -> Result<OneOrTwo<T>, String> {
+    if text.contains(',') { two(text, read).map(OneOrTwo::Plate) } else { read(text).map(OneOrTwo::Bar) }
+}
+
+/// A radius of gyration, or two.
+pub(crate) fn gyration(text: &str) -> Result<OneOrTwo<Quantity>, String> {
+    one_or_two(text, any_length)
+}
+
+pub(crate) fn gyration_m(text: &str) -> Result<OneOrTwo<Quantity>, String> {
+    one_or_two(text, |text| number(text).map(Quantity::of_si))
+}
+
+/// Heights of two corners.
+pub(crate) fn gaps(text: &str) -> Result<[Quantity; 2], String> {
+    two(text, any_length)
+}
+
+pub(crate) fn gaps_m(text: &str) -> Result<[f64; 2], String> {
+    two(text, number)
+}
+
+pub(crate) fn direction(text: &str) -> Result<Quantity, String> {
+    checked(&ANGLE, text, |si| inputs::direction_of(neat(si.to_degrees())).map(|_| si))
+}
+
 /// A length, or else a position as it is read where there are no lengths.
 fn place_or(text: &str, relative: impl Fn(&str) -> Result<f64, String>) -> Result<Place, String> {
     let length = LENGTH.read(text).ok().filter(|length| length.unit.is_some());
@@ -125,12 +185,12 @@ fn place_or(text: &str, relative: impl Fn(&str) -> Result<f64, String>) -> Resul
 }
 
 /// A position in [-1, 1], or a length.
-pub(crate) fn place(text: &str) -> Result<Place, String> {
-    place_or(text, inputs::worked_out_position)
+pub(crate) fn place(text: &str) -> Result<OneOrTwo<Place>, String> {
+    one_or_two(text, |text| place_or(text, inputs::worked_out_position))
 }
 
-pub(crate) fn center_of_mass(text: &str) -> Result<Place, String> {
-    place_or(text, inputs::center_of_mass)
+pub(crate) fn center_of_mass(text: &str) -> Result<OneOrTwo<Place>, String> {
+    one_or_two(text, |text| place_or(text, inputs::center_of_mass))
 }
 
 /// Positions on a body of this half-length, an end that is missed by roundings taken for it.
