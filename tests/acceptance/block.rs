@@ -80,7 +80,7 @@ fn what_is_no_drop_of_a_box_is_told() {
         (with("simulate", &["--tilt-deg=10", "--center-of-mass-m=0.1,0,0"]), "within the box"),
         (with("simulate", &["--tilt-deg=10", "-o", "x.csv"]), "not written to a file"),
         (with("simulate", &["--tilt-deg=10", "--spin-rad-s=0,-1e4,0"]), "contact time"),
-        (with("respond", &["--tilt-deg=10"]), "--at-m=X,Y,Z"),
+        (with("respond", &["--tilt-deg=10"]), "--at=X,Y,Z"),
         (with("respond", &["--tilt-deg=10", "--at-m=0,0.04,0"]), "y = 0.04 m is not within the box"),
         (with("respond", &["--tilt-deg=10", "--at-m=0,0,0", "--axis=any", "--omega=100"]), "along one axis"),
         (vec!["simulate", "--model=compliant", "--length-m=1", "--gyration-m=1,1,1", "--e=0.5"], "three of a box"),

@@ -22,6 +22,7 @@ mod nothing_lost;
 mod off_center;
 mod oracle;
 mod plate;
+mod plate_drop;
 mod products;
 mod reached;
 mod record;

@@ -141,7 +141,7 @@ pub(crate) enum Motion {
 
 /// A hysteretic contact that is pushed again unloads and reloads along a line that is stiffer by 1/e²: the force of a slow shock
 /// is larger by 1/e. Drops are followed so much longer, down to this restitution.
-const LEAST_SHARE: f64 = 0.02;
+pub(crate) const LEAST_SHARE: f64 = 0.02;
 /// Drops are left after rebounds once the energy allows no later shock above this share of the largest.
 const LATE: f64 = 0.25;
 /// Strikes followed at most.

@@ -108,9 +108,9 @@ pub fn answer(drop: &SingleDrop, part: &Part, limit: &Limit, model: Model, toler
 
 /// Differences are told so many times as large as they are: the factor of the grid convergence index (Roache 1994) for three runs
 /// and more.
-const SAFETY: f64 = 1.25;
+pub(crate) const SAFETY: f64 = 1.25;
 /// A drop is followed again by so much more exactly.
-const FINER: f64 = 0.1;
+pub(crate) const FINER: f64 = 0.1;
 /// Tilts are below this.
 const UPRIGHT: f64 = FRAC_PI_2 * (1.0 - 1e-9);
 
@@ -534,7 +534,7 @@ fn slowest(part: &Suspension) -> f64 {
 
 /// Strikes of both ends in step do this many times what one does that has all the energy, at most: of the drops of random
 /// products without damping, one in a thousand exceeds it.
-const CHATTER: f64 = 1.5;
+pub(crate) const CHATTER: f64 = 1.5;
 
 /// What lever arms kept through a phase may get wrong of a shock, in precisions of the flight (clatter-flight).
 const KEPT_ARMS: f64 = 4.0;

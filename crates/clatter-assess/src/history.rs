@@ -16,7 +16,11 @@ const NARROW: f64 = 0.1;
 /// The history of a place as the response takes it; sections that together take no longer than `short_s` are two velocity shocks
 /// that do the same.
 /// `carried_m_s2` acts from their end on.
-pub(crate) fn pulses(sections: &[Stretch], short_s: f64, carried_m_s2: f64) -> Result<Pulses, Error> {
+pub(crate) fn pulses<const N: usize>(
+    sections: &[Stretch<N>],
+    short_s: f64,
+    carried_m_s2: f64,
+) -> Result<Pulses, Error> {
     let mut pieces = Pieces {
         narrow_s: NARROW / SHORT * short_s,
         sines: Vec::with_capacity(2 * sections.len()),
@@ -63,7 +67,7 @@ struct Pieces {
 }
 
 impl Pieces {
-    fn add(&mut self, section: &Stretch) {
+    fn add<const N: usize>(&mut self, section: &Stretch<N>) {
         let first = self.sines.len();
         let waves = section.waves.iter().filter(|w| w.amplitude_m_s2 != 0.0 && w.rate_rad_s > 0.0);
         self.sines.extend(waves.map(|w| Sine { amplitude: w.amplitude_m_s2, rate: w.rate_rad_s, phase: w.phase_rad }));
@@ -76,7 +80,7 @@ impl Pieces {
     }
     /// Half of the impulse before and half after its mean time, as far apart as it spreads, or all at once; the sections themselves
     /// where they push to both sides.
-    fn join(&mut self, joined: &Moments, sections: &[Stretch]) {
+    fn join<const N: usize>(&mut self, joined: &Moments, sections: &[Stretch<N>]) {
         let Moments { length_s, change_m_s, first, second } = *joined;
         let mean = first / change_m_s;
         let spread = (second / change_m_s - mean * mean).max(0.0).sqrt();
@@ -105,7 +109,7 @@ struct Moments {
 }
 
 impl Moments {
-    fn add(&mut self, section: &Stretch) {
+    fn add<const N: usize>(&mut self, section: &Stretch<N>) {
         let (begun, length) = (self.length_s, section.length_s);
         let [begin, middle, end] = [0.0, 0.5, 1.0].map(|share| section.velocity_after(share * length));
         // By parts, and Simpson's rule: pulses are no more than half a period of a wave.

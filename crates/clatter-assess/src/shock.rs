@@ -94,14 +94,14 @@ struct Sample {
 }
 
 /// A felt acceleration in sections, with the change of velocity of the place until each begins.
-struct History<'a> {
-    sections: &'a [Stretch],
+struct History<'a, const N: usize> {
+    sections: &'a [Stretch<N>],
     velocity: Vec<f64>,
     gravity: f64,
 }
 
 /// The shocks of a felt acceleration, which falls with `gravity` besides.
-fn shocks(sections: &[Stretch], gravity: f64) -> Vec<Shock> {
+pub(crate) fn shocks<const N: usize>(sections: &[Stretch<N>], gravity: f64) -> Vec<Shock> {
     let history = History::new(sections, gravity);
     let samples = history.sampled();
     let size = |k: usize| samples[k].felt.abs();
@@ -152,10 +152,10 @@ fn reach(samples: &[Sample], taken: &[bool], peak: usize, next: impl Fn(usize) -
 /// Steps of a zero or a least value between two samples: each is at least halved, or brought to its third power.
 const STEPS: u32 = 48;
 
-impl<'a> History<'a> {
-    fn new(sections: &'a [Stretch], gravity: f64) -> Self {
+impl<'a, const N: usize> History<'a, N> {
+    fn new(sections: &'a [Stretch<N>], gravity: f64) -> Self {
         let mut now = 0.0;
-        let begins = |section: &Stretch| {
+        let begins = |section: &Stretch<N>| {
             let begin = now;
             now += section.velocity_after(section.length_s) - gravity * section.length_s;
             begin
@@ -264,7 +264,7 @@ const MOST: f64 = 512.0;
 const JOINS: f64 = 0.01;
 
 /// Samples of a section over a time.
-pub(crate) fn samples(section: &Stretch, length_s: f64) -> u32 {
+pub(crate) fn samples<const N: usize>(section: &Stretch<N>, length_s: f64) -> u32 {
     let fastest =
         section.waves.iter().filter(|w| w.amplitude_m_s2 != 0.0).fold(0.0, |most: f64, w| most.max(w.rate_rad_s));
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 512")]

@@ -1,6 +1,7 @@
 //! A drop as arguments of a command say it, alone or over what a product file says.
 
 mod block;
+mod plate;
 
 use std::path::PathBuf;
 
@@ -10,15 +11,17 @@ use clatter_assess::units::Quantity;
 use clatter_assess::{Accuracy, STANDARD_GRAVITY_M_S2, slip};
 use clatter_flight::{Body, ContactLaw, Scene};
 
-pub(crate) use block::Beside as BesideBlock;
-use block::BlockArgs;
-
 use crate::inputs::{self, LawName, ModelName};
 use crate::numbers::given;
 use crate::one_drop::{OneDrop, PartSetup, Worst};
 use crate::output::Files;
-use crate::quantities::{self, Piece, Place, Show, Shown, neat};
+use crate::quantities::{self, PerAxis, Piece, Place, Show, Shown, neat};
 use crate::{Failure, Streams};
+
+pub(crate) use block::Beside as BesideBlock;
+use block::BlockArgs;
+use plate::PlateArgs;
+pub(crate) use plate::PlateSetup;
 
 /// Largest radius of gyration over the length. A body beyond hardly turns, and clatters for hours.
 const MOST_GYRATION: f64 = 2.0;
@@ -37,16 +40,18 @@ pub(crate) struct DropArgs {
     /// Length of the body from end to end, 2L, such as 150mm
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = quantities::length, requires = "followed", conflicts_with = "length_m")]
     length: Option<Quantity>,
+    #[command(flatten)]
+    plate: PlateArgs,
+    #[command(flatten)]
+    block: BlockArgs,
     /// Where the center of mass lies, between -1 (end a) and 1 (end b), or as a length from the middle; goes with
     /// --gyration
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantities::center_of_mass, conflicts_with = "mass", requires = "followed")]
-    center_of_mass: Option<Place>,
+    center_of_mass: Option<PerAxis<Place>>,
     /// Thickness of the body, at most its length: at a tilt it stands on a corner, half of it below the line through the
     /// center of mass; for finite-tilt, small tilts do not feel it
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = quantities::any_length, requires = "followed", conflicts_with = "thickness_m")]
     thickness: Option<Quantity>,
-    #[command(flatten)]
-    block: BlockArgs,
     #[command(flatten)]
     fall: Fall,
     /// Tilt when end a touches, below 90deg; 0deg for a flat drop, in which end a counts as the first
@@ -204,6 +209,7 @@ impl DropArgs {
 
     /// The drop, over that of the product file where there is one.
     pub(crate) fn setup(&self, beside: &Beside<'_>, streams: &mut Streams<'_>) -> Result<Setup, Failure> {
+        self.plate.refuse()?;
         let mut file = match &self.product {
             Some(path) => {
                 let file = OneDrop::read(path, self.component.as_deref(), beside.first, &beside.files, streams)?;
@@ -339,7 +345,8 @@ impl DropArgs {
         file: Option<&mut OneDrop>,
         side: f64,
     ) -> Result<(f64, Body), Failure> {
-        let center = self.center_of_mass.map(|place| place.relative("--center-of-mass", Some(half))).transpose()?;
+        let flag = "--center-of-mass";
+        let center = self.center_of_mass.map(|place| place.of_bar(flag)?.relative(flag, Some(half))).transpose()?;
         let center = center.map(|center| side * center + 0.0);
         let [(center, center_flag), (gyration, gyration_flag)] = match (beside.gyration, beside.masses) {
             (None, []) => {

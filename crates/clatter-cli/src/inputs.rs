@@ -28,7 +28,7 @@ through 0 (the center) to 1 (end b). Two numbers decide everything:
 
 The plate. Two values of --gyration-ratio, radii of gyration along x and y over
 half the length and half the width, make it a plate, with 'impacts', 'zone' and
-'atlas'. Positions X,Y run from -1 to 1 along both; corner a (-1,-1) strikes
+'atlas'; --width with 'simulate' and 'respond'. Positions X,Y run from -1 to 1 along both; corner a (-1,-1) strikes
 first, b (1,-1) is across its length, c (1,1) opposite, d (-1,1) across its
 width. An evenly spread mass has --gyration-ratio=0.577350269,0.577350269.
 
@@ -290,45 +290,6 @@ pub(crate) fn letter(end: End) -> &'static str {
 
 pub(crate) fn number(text: &str) -> Result<f64, String> {
     text.parse().map_err(|_| format!("'{}' is not a number such as 0.5", visible(text)))
-}
-
-/// One to three numbers: of a bar, a plate or a box.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Numbers {
-    count: usize,
-    values: [f64; 3],
-}
-
-impl Numbers {
-    pub(crate) fn three(self) -> Option<[f64; 3]> {
-        (self.count == 3).then_some(self.values)
-    }
-    /// Of a bar the only one.
-    pub(crate) fn first(self) -> f64 {
-        self.values[0]
-    }
-    /// Refuses values of a box where a bar is given.
-    pub(crate) fn of_bar(self, flag: &'static str) -> Result<(), Failure> {
-        if self.count == 1 {
-            return Ok(());
-        }
-        Err(Failure::Wrong(format!(
-            "{flag} has {} values: one is of a bar, three of a box, which has --width and --thickness",
-            self.count
-        )))
-    }
-}
-
-pub(crate) fn numbers(text: &str) -> Result<Numbers, String> {
-    let parts = parts(text, ',');
-    let mut values = [0.0; 3];
-    if parts.len() > values.len() {
-        return Err(format!("'{}' has {} numbers, not up to 3", visible(text), parts.len()));
-    }
-    for (value, part) in values.iter_mut().zip(&parts) {
-        *value = number(part)?;
-    }
-    Ok(Numbers { count: parts.len(), values })
 }
 
 /// So many numbers.

@@ -122,6 +122,81 @@ impl Place {
     }
 }
 
+/// One value for a bar, two for a plate, along its length and its width, three for a box, across it too.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum PerAxis<T> {
+    Bar(T),
+    Plate([T; 2]),
+    Block([T; 3]),
+}
+
+impl<T> PerAxis<T> {
+    pub(crate) fn of_bar(self, flag: &'static str) -> Result<T, Failure> {
+        if let Self::Bar(value) = self {
+            Ok(value)
+        } else {
+            Err(self.told(flag, "one value for a bar: --width makes it a plate"))
+        }
+    }
+    pub(crate) fn of_plate(self, flag: &'static str) -> Result<[T; 2], Failure> {
+        let what = "two values for a plate, along its length and its width";
+        if let Self::Plate(values) = self { Ok(values) } else { Err(self.told(flag, what)) }
+    }
+    pub(crate) fn of_block(self, flag: &'static str) -> Result<[T; 3], Failure> {
+        let what = "three values for a box, along its length, width and thickness";
+        if let Self::Block(values) = self { Ok(values) } else { Err(self.told(flag, what)) }
+    }
+    fn told(&self, flag: &str, what: &str) -> Failure {
+        let count = match self {
+            Self::Bar(_) => "one",
+            Self::Plate(_) => "two",
+            Self::Block(_) => "three",
+        };
+        Failure::Wrong(format!("'{flag}' takes {what}, not {count}"))
+    }
+}
+
+/// Two values of a list, each read alike.
+fn two<T>(text: &str, read: impl Fn(&str) -> Result<T, String>) -> Result<[T; 2], String> {
+    let [x, y] = inputs::parts(text, ',')[..] else {
+        return Err("two values are needed, X,Y".to_owned());
+    };
+    Ok([read(x)?, read(y)?])
+}
+
+fn per_axis<T>(text: &str, read: impl Fn(&str) -> Result<T, String>) -> Result<PerAxis<T>, String> {
+    let parts = inputs::parts(text, ',');
+    match parts[..] {
+        [one] => read(one).map(PerAxis::Bar),
+        [x, y] => Ok(PerAxis::Plate([read(x)?, read(y)?])),
+        [x, y, z] => Ok(PerAxis::Block([read(x)?, read(y)?, read(z)?])),
+        _ => Err(format!("{} values are given: one is of a bar, two are of a plate, three of a box", parts.len())),
+    }
+}
+
+/// Plain numbers.
+pub(crate) fn numbers(text: &str) -> Result<PerAxis<f64>, String> {
+    per_axis(text, number)
+}
+
+/// A radius of gyration, or one an axis.
+pub(crate) fn gyration(text: &str) -> Result<PerAxis<Quantity>, String> {
+    per_axis(text, any_length)
+}
+
+pub(crate) fn gyration_m(text: &str) -> Result<PerAxis<Quantity>, String> {
+    per_axis(text, |text| number(text).map(Quantity::of_si))
+}
+
+/// Heights of two corners.
+pub(crate) fn gaps(text: &str) -> Result<[Quantity; 2], String> {
+    two(text, any_length)
+}
+
+pub(crate) fn gaps_m(text: &str) -> Result<[f64; 2], String> {
+    two(text, number)
+}
+
 /// A length, or else a position as it is read where there are no lengths.
 fn place_or(text: &str, relative: impl Fn(&str) -> Result<f64, String>) -> Result<Place, String> {
     let length = LENGTH.read(text).ok().filter(|length| length.unit.is_some());
@@ -129,12 +204,12 @@ fn place_or(text: &str, relative: impl Fn(&str) -> Result<f64, String>) -> Resul
 }
 
 /// A position in [-1, 1], or a length.
-pub(crate) fn place(text: &str) -> Result<Place, String> {
-    place_or(text, inputs::worked_out_position)
+pub(crate) fn place(text: &str) -> Result<PerAxis<Place>, String> {
+    per_axis(text, |text| place_or(text, inputs::worked_out_position))
 }
 
-pub(crate) fn center_of_mass(text: &str) -> Result<Place, String> {
-    place_or(text, inputs::center_of_mass)
+pub(crate) fn center_of_mass(text: &str) -> Result<PerAxis<Place>, String> {
+    per_axis(text, |text| place_or(text, inputs::center_of_mass))
 }
 
 /// Positions on a body of this half-length, an end that is missed by roundings taken for it.

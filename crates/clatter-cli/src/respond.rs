@@ -4,6 +4,7 @@ mod block;
 mod drop;
 mod limits;
 mod peaks;
+mod plate;
 mod rule;
 mod train;
 
@@ -18,10 +19,10 @@ use clatter_shock::{DampingRatio, ShockTable, Suspension};
 
 use crate::block::Axis;
 use crate::drop_args::{DropArgs, IN_SI};
-use crate::inputs::{self, DampingArgs, EndName, Format, ModelName, Numbers};
+use crate::inputs::{self, DampingArgs, EndName, Format, ModelName};
 use crate::one_drop::Worst;
 use crate::output::{Files, Kind, Target};
-use crate::quantities::{self, Piece, Place};
+use crate::quantities::{self, PerAxis, Piece, Place};
 use crate::{Failure, Streams, excitation};
 
 /// Tell what a clatter does to a component on its suspension
@@ -48,7 +49,8 @@ use crate::{Failure, Streams, excitation};
 ///                   answered as `clatter assess` answers it, to the --tolerance, and followed until
 ///                   nothing later counts: a spin and limits of time and number are options of
 ///                   `clatter simulate` alone. Without --omega the part is mounted rigidly, and the
-///                   answer is what its place goes through
+///                   answer is what its place goes through. With --width, by compliant, the body is
+///                   a plate: --gyration, --center-of-mass and --at take two values
 ///   --product       the drop and the --component of a product file, each range at one value, which is
 ///                   told; options given beside it count instead. What the drop asks of each limit of
 ///                   the part is told as `clatter assess` tells it, at the end of the part that asks
@@ -77,6 +79,9 @@ Examples:
       --tilt=5deg --at=70mm --frequency=180Hz --equivalent-pulse   the same board, with gravity
   clatter respond --model=compliant --contact-time=0.4ms --length=140mm --gyration=40mm \\
       --e=30% --height=1.2m --tilt=5deg --at=35mm                  a part that is mounted rigidly
+  clatter respond --model=compliant --contact-time=0.4ms --length=150mm --width=70mm \
+      --gyration=43mm,20mm --e=30% --height=1m --tilt=2deg --direction=30deg \
+      --at=35mm,0mm --frequency=180Hz                              a part on a plate
   clatter respond --shocks-file=shocks.csv --omega=1131
 
 With a product file: clatter respond --product=phone.toml --component=camera --worst answers its worst
@@ -93,7 +98,7 @@ pub(crate) struct Args {
     /// Position of the component, in [-1, 1]: -1 is end a, which strikes first, 0 the middle, 1 end b; or with --model a
     /// length from the middle
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantities::place, required_unless_present_any = GIVEN)]
-    at: Option<Place>,
+    at: Option<PerAxis<Place>>,
     /// Natural angular frequency of the component (2π times its frequency), in v0/h0; in rad/s with --model or a file;
     /// with --model alone it may be left out
     #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = inputs::omega, required_unless_present_any = ["model", "product", "frequency"])]
@@ -105,10 +110,10 @@ pub(crate) struct Args {
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = inputs::triple, requires = "followed", conflicts_with = "at")]
     at_m: Option<[f64; 3]>,
     /// Along which axis of the box the part moves, or, mounted rigidly, is shaken: any is the magnitude [default: z]
-    #[arg(long, value_enum, requires = "at_m")]
+    #[arg(long, value_enum, requires = "followed")]
     axis: Option<Axis>,
     /// Angular velocity of a box as it lands, about its axes, in rad/s
-    #[arg(long, value_name = "WX,WY,WZ", allow_hyphen_values = true, value_parser = inputs::triple, requires = "at_m", help_heading = IN_SI, hide_short_help = true)]
+    #[arg(long, value_name = "WX,WY,WZ", allow_hyphen_values = true, value_parser = inputs::triple, requires = "followed", help_heading = IN_SI, hide_short_help = true)]
     spin_rad_s: Option<[f64; 3]>,
     #[command(flatten)]
     damping: DampingArgs,
@@ -205,20 +210,26 @@ struct Inertia {
     #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = inputs::gyration_ratio, conflicts_with = "followed")]
     gyration_ratio: Option<f64>,
     /// Instead of q, with --model: radius of gyration about the center of mass; length/√12 for evenly spread mass
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = quantities::any_length, requires = "followed")]
-    gyration: Option<Quantity>,
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = quantities::gyration, requires = "followed")]
+    gyration: Option<PerAxis<Quantity>>,
     /// Instead of q: a mass M at position S, or spread evenly from S to T, in half-lengths from the middle, with --model
     /// also as lengths; given once for each piece, like --mass=2@-1:1 --mass=1@0.5; symmetric unless with --model
     #[arg(long, value_name = "M@S[:T]", allow_hyphen_values = true, value_parser = quantities::mass)]
     mass: Vec<Piece>,
-    /// --gyration in m; of a box KX,KY,KZ, about axes through its center of mass
-    #[arg(long, value_name = "M", allow_hyphen_values = true, value_parser = inputs::numbers, requires = "followed", help_heading = IN_SI, hide_short_help = true)]
-    gyration_m: Option<Numbers>,
+    /// --gyration in m
+    #[arg(long, value_name = "M", allow_hyphen_values = true, value_parser = quantities::gyration_m, requires = "followed", help_heading = IN_SI, hide_short_help = true)]
+    gyration_m: Option<PerAxis<Quantity>>,
 }
 
 impl Inertia {
-    fn gyration(&self) -> Option<Quantity> {
-        self.gyration.or(self.gyration_m.map(|given| Quantity::of_si(given.first())))
+    fn given(&self) -> Option<PerAxis<Quantity>> {
+        self.gyration.or(self.gyration_m)
+    }
+    fn flag(&self) -> &'static str {
+        if self.gyration_m.is_some() { "--gyration-m" } else { "--gyration" }
+    }
+    fn gyration(&self) -> Result<Option<Quantity>, Failure> {
+        self.given().map(|gyration| gyration.of_bar(self.flag())).transpose()
     }
 
     /// The paper's bar.
@@ -258,7 +269,9 @@ impl Args {
         if self.drop.is_block() {
             return self.block(streams);
         }
-        self.inertia.gyration_m.map_or(Ok(()), |radii| radii.of_bar("--gyration-m"))?;
+        if self.drop.is_plate() {
+            return self.run_plate(streams);
+        }
         if self.model.is_some() || self.drop.product.is_some() {
             return self.run_drop(streams);
         }
@@ -300,9 +313,13 @@ impl Args {
     fn e(&self) -> f64 {
         self.e.unwrap_or(f64::NAN)
     }
+    /// The place on a bar.
+    fn bar_at(&self) -> Result<Option<Place>, Failure> {
+        self.at.map(|at| at.of_bar("--at")).transpose()
+    }
     /// The position on the paper's bar.
     fn position(&self) -> Result<Option<f64>, Failure> {
-        self.at.map(|at| at.relative("--at", None)).transpose()
+        self.bar_at()?.map(|at| at.relative("--at", None)).transpose()
     }
     /// Whether the paper's bar has units: all of its numbers, or none.
     fn has_units(&self) -> Result<bool, Failure> {

@@ -3,6 +3,7 @@
 mod answer;
 mod block;
 mod file;
+mod plate;
 mod table;
 
 use clap::ValueHint;
@@ -10,9 +11,9 @@ use clatter_assess::units::Quantity;
 use clatter_flight::{Contact, ContactFlight, Flight, Model, Press, Stop, Strike};
 
 use crate::drop_args::{Beside, DropArgs, IN_SI, Setup};
-use crate::inputs::{self, ModelName, Numbers, RowFormat};
+use crate::inputs::{self, ModelName, RowFormat};
 use crate::output::{Files, Kind, Target};
-use crate::quantities::{self, Piece, Place};
+use crate::quantities::{self, PerAxis, Piece, Place};
 use crate::{Failure, Streams};
 
 /// Follow one drop in time: its strikes, how hard they are, and how it comes to rest
@@ -29,6 +30,10 @@ use crate::{Failure, Streams};
 /// A body of length 2L falls with its end a lower, which touches at time 0; end b is 2L sin(tilt)
 /// higher then. Quantities are numbers with their unit; heights and velocities are vertical, upward
 /// positive, and positions run from -1 (end a) to 1 (end b).
+///
+/// With --width the body is a plate, followed by map or compliant at small tilt: corner a touches first, b
+/// is the one along its length, d along its width, c opposite. Its mass, center and places take two values,
+/// along the length and along the width.
 ///
 /// The table lists the strikes that matter, whose largest shock is at least 1 % of the largest of all,
 /// and sums up the others; --all lists every one, as JSON and CSV do.
@@ -51,6 +56,8 @@ Examples:
       --tilt=5deg
   clatter simulate --model=compliant --contact-time=0.5ms --length=200mm --mass=200g@-1:1 \\
       --mass=100g@50mm --e=30% --speed=4m/s --tilt=5deg
+  clatter simulate --model=compliant --contact-time=0.5ms --length=150mm --width=70mm \
+      --gyration=43mm,20mm --e=30% --height=1m --tilt=2deg --direction=30deg --at=0,0
 
 Add --at=0 -o drop.svg for a picture, with the shocks of the middle. 'clatter simulate
 --product=phone.toml --component=camera' takes the drop and the part from a product file.
@@ -80,8 +87,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = quantities::until, conflicts_with = "time_limit_s")]
     until: Option<Quantity>,
     /// --spin in rad/s; of a box WX,WY,WZ about its axes
-    #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = inputs::numbers, help_heading = IN_SI, hide_short_help = true)]
-    spin_rad_s: Option<Numbers>,
+    #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = quantities::numbers, help_heading = IN_SI, hide_short_help = true)]
+    spin_rad_s: Option<PerAxis<f64>>,
     /// --until in s
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = inputs::time_limit_s, help_heading = IN_SI, hide_short_help = true)]
     time_limit_s: Option<f64>,
@@ -91,7 +98,7 @@ pub(crate) struct Args {
     /// Also give the velocity shocks at this position, in [-1, 1]: -1 is end a, 0 the middle, 1 end b; or a length from
     /// the middle; may be given several times
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantities::place)]
-    at: Vec<Place>,
+    at: Vec<PerAxis<Place>>,
     /// List every strike in the table
     #[arg(long)]
     all: bool,
@@ -109,20 +116,26 @@ pub(crate) struct Args {
 #[group(multiple = false)]
 struct Inertia {
     /// Radius of gyration about the center of mass: length/√12 for evenly spread mass; it may exceed the half-length
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = quantities::any_length)]
-    gyration: Option<Quantity>,
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = quantities::gyration)]
+    gyration: Option<PerAxis<Quantity>>,
     /// Instead of it: a mass M at position S, or spread evenly from S to T, in half-lengths from the middle or as
     /// lengths; given once for each piece, like --mass=200g@-1:1 --mass=100g@35mm
     #[arg(long, value_name = "M@S[:T]", allow_hyphen_values = true, value_parser = quantities::mass)]
     mass: Vec<Piece>,
-    /// --gyration in m; of a box KX,KY,KZ, about axes through its center of mass
-    #[arg(long, value_name = "M", allow_hyphen_values = true, value_parser = inputs::numbers, help_heading = IN_SI, hide_short_help = true)]
-    gyration_m: Option<Numbers>,
+    /// --gyration in m
+    #[arg(long, value_name = "M", allow_hyphen_values = true, value_parser = quantities::gyration_m, help_heading = IN_SI, hide_short_help = true)]
+    gyration_m: Option<PerAxis<Quantity>>,
 }
 
 impl Inertia {
-    fn gyration(&self) -> Option<Quantity> {
-        self.gyration.or(self.gyration_m.map(|given| Quantity::of_si(given.first())))
+    fn given(&self) -> Option<PerAxis<Quantity>> {
+        self.gyration.or(self.gyration_m)
+    }
+    fn flag(&self) -> &'static str {
+        if self.gyration_m.is_some() { "--gyration-m" } else { "--gyration" }
+    }
+    fn gyration(&self) -> Result<Option<Quantity>, Failure> {
+        self.given().map(|gyration| gyration.of_bar(self.flag())).transpose()
     }
 }
 
@@ -177,8 +190,9 @@ impl Args {
         if self.drop.is_block() {
             return self.block(streams);
         }
-        self.inertia.gyration_m.map_or(Ok(()), |radii| radii.of_bar("--gyration-m"))?;
-        self.spin_rad_s.map_or(Ok(()), |spin| spin.of_bar("--spin-rad-s"))?;
+        if self.drop.is_plate() {
+            return self.run_plate(streams);
+        }
         let drop = self.drop(streams)?;
         if let Some(target) = &self.output {
             drop.write(target)?;
@@ -207,7 +221,7 @@ impl Args {
             flat: false,
             model: self.model,
             e: self.e,
-            gyration: self.inertia.gyration(),
+            gyration: self.inertia.gyration()?,
             masses: mass,
             instant_contacts: false,
             first: None,
@@ -218,7 +232,8 @@ impl Args {
         let mut setup = self.drop.setup(&beside, streams)?;
         let (spin, flag) = match (self.spin, self.spin_rad_s) {
             (Some(spin), _) => (spin.si, "--spin"),
-            (None, spin) => (spin.map_or(0.0, Numbers::first), "--spin-rad-s"),
+            (None, Some(spin)) => (spin.of_bar("--spin-rad-s")?, "--spin-rad-s"),
+            (None, None) => (0.0, "--spin-rad-s"),
         };
         setup.shown.spin.unit = self.spin.and_then(|spin| spin.unit);
         setup.shown.time.unit = setup.shown.time.unit.or(self.until.and_then(|until| until.unit));
@@ -226,7 +241,8 @@ impl Args {
         setup.scene = self.time_limit_s().map_or(Ok(scene), |limit| scene.with_time_limit_s(limit))?;
         let motion = self.motion(&setup)?;
         let of_part = setup.part.iter().map(|part| part.place).filter(|_| self.at.is_empty());
-        let places: Vec<Place> = self.at.iter().copied().chain(of_part).collect();
+        let at = self.at.iter().map(|place| place.of_bar("--at")).collect::<Result<Vec<_>, _>>()?;
+        let places: Vec<Place> = at.into_iter().chain(of_part).collect();
         let at = quantities::positions(&places, "--at", 0.5 * setup.length_m)?;
         let called = places.iter().map(|place| place.said()).collect();
         Ok(Drop { args: self, setup, at, called, motion })
@@ -239,8 +255,8 @@ impl Args {
                 // That there is one was checked before.
                 let time = setup.contact_time_s.unwrap_or(f64::NAN);
                 let contact = Contact::new(setup.contact_law, scene.e(), time)?;
-                let contacts =
-                    scene.contacts(&contact).map_err(|error| self.drop.named(error, self.inertia.gyration()))?;
+                let gyration = self.inertia.gyration()?;
+                let contacts = scene.contacts(&contact).map_err(|error| self.drop.named(error, gyration))?;
                 return Ok(Motion::Contacts(contact, Box::new(contacts)));
             }
             (_, Some(_)) => {

@@ -26,8 +26,10 @@
 mod eigen;
 mod felt;
 mod law;
+mod level;
 mod mode;
 mod phase;
+mod planar;
 mod pose;
 mod rest;
 mod run;
@@ -36,9 +38,12 @@ mod touch;
 pub use law::{Contact, ContactLaw};
 
 use crate::Error;
-use crate::flight::{Flight, Stop};
+use crate::flight::{Flight, Log, Stop};
+use crate::plate::PlateScene;
 use crate::scene::{Scene, within};
+use level::Level;
 use phase::Phase;
+use planar::Planar;
 use pose::Pose;
 use run::Run;
 
@@ -53,7 +58,7 @@ pub struct Press {
 
 /// A flight with contacts that take time, and its whole history.
 #[derive(Debug, Clone)]
-pub struct ContactFlight<const N: usize = 2> {
+pub struct ContactFlight<const N: usize = 2, P: Pose<N> = Planar<N>> {
     /// Strikes and stop. A strike is one press, from touch to parting; its time is that of the touch, its Δv what the force of
     /// that contact does in all, its velocities are those as it parts.
     pub flight: Flight<N>,
@@ -65,12 +70,27 @@ pub struct ContactFlight<const N: usize = 2> {
     /// No press after the flight changes the velocity of a contact point by more: by the energy that is left, its weight apart.
     pub later_m_s: f64,
     contact_s: f64,
-    phases: Vec<(f64, Phase<N>)>,
+    phases: Vec<(f64, Phase<P, N>)>,
     /// The body just before the flight ends, and as it ends, at rest without what was left of its motion.
-    last: Pose<N>,
-    end: Pose<N>,
+    last: P,
+    end: P,
     /// The forces on it if it is at rest.
     resting: [f64; N],
+}
+
+/// A flight of a plate with contacts that take time.
+pub type PlateFlight = ContactFlight<4, Level>;
+
+impl PlateFlight {
+    pub(crate) fn follow(
+        scene: &PlateScene,
+        contact: &Contact,
+        precision: f64,
+        enough: impl FnMut(&Ahead) -> bool,
+    ) -> Result<Self, Error> {
+        let (time_limit_s, impact_limit) = scene.limits();
+        Run::new(Level::start(scene), Log::new(time_limit_s, impact_limit), contact, precision).run(enough)
+    }
 }
 
 /// The body at one time.
@@ -90,7 +110,7 @@ pub struct Sample<const N: usize = 2> {
     pub spin_rad_s: f64,
 }
 
-impl<const N: usize> ContactFlight<N> {
+impl<const N: usize, P: Pose<N>> ContactFlight<N, P> {
     /// The body at a time since the first touch; beyond the end of the flight it stays at rest, or goes on as it was.
     #[must_use]
     pub fn sample(&self, time_s: f64) -> Sample<N> {
@@ -100,7 +120,7 @@ impl<const N: usize> ContactFlight<N> {
                 velocity_m_s: [0.0; N],
                 acceleration_m_s2: [0.0; N],
                 force_per_mass_m_s2: self.resting,
-                tilt_rad: self.end.tilt,
+                tilt_rad: self.end.angles()[0],
                 spin_rad_s: 0.0,
             };
         }
@@ -168,7 +188,8 @@ impl<const N: usize> Scene<N> {
     ) -> Result<ContactFlight<N>, Error> {
         within("precision", precision, 1e-8, 0.1, "in [1e-8, 0.1]")?;
         self.check(contact)?;
-        Run::new(self, contact, precision).run(enough)
+        let log = Log::new(self.time_limit_s(), self.impact_limit());
+        Run::new(Planar::start(self), log, contact, precision).run(enough)
     }
 
     fn check(&self, contact: &Contact) -> Result<(), Error> {

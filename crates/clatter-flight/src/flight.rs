@@ -1,7 +1,5 @@
 //! What a model says of a drop: strikes, times at rest on a point, and why the motion ends.
 
-use crate::scene::Scene;
-
 /// Share of the largest velocity shock below which shocks may be left out of the list once a bound on all of
 /// them, and on the time they take, is proven: 2⁻⁵².
 pub const SHARE: f64 = f64::EPSILON;
@@ -188,14 +186,8 @@ pub(crate) struct Log<const N: usize> {
 }
 
 impl<const N: usize> Log<N> {
-    pub(crate) fn new(scene: &Scene<N>) -> Self {
-        Self {
-            flight: Flight::NONE,
-            time_limit_s: scene.time_limit_s(),
-            impact_limit: scene.impact_limit(),
-            largest_m_s: 0.0,
-            omitted_m_s: 0.0,
-        }
+    pub(crate) fn new(time_limit_s: f64, impact_limit: usize) -> Self {
+        Self { flight: Flight::NONE, time_limit_s, impact_limit, largest_m_s: 0.0, omitted_m_s: 0.0 }
     }
     /// Takes the strike down, or the stop that its time, its number or `enough` means; false ends the simulation.
     pub(crate) fn strike(

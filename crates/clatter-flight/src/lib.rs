@@ -44,15 +44,17 @@ mod excitation;
 mod flight;
 pub mod history;
 mod orders;
+mod plate;
 mod rigid;
 mod roots;
 mod scene;
 
 pub use block::{Block, BlockDrop, BlockFlight, BlockStep, BlockStrike};
 pub use body::Body;
-pub use contact::{Ahead, Contact, ContactFlight, ContactLaw, Press, Sample};
+pub use contact::{Ahead, Contact, ContactFlight, ContactLaw, PlateFlight, Press, Sample};
 pub use error::Error;
 pub use excitation::{Stretch, Wave};
 pub use flight::{Flight, LiftOff, Model, Pivot, SHARE, Stop, Strike};
 pub use orders::{Order, Residue, orders, residues};
+pub use plate::{LEAST_OF_PLATES, Plate, PlateScene};
 pub use scene::Scene;

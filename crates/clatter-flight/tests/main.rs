@@ -8,6 +8,7 @@ mod contact_balance;
 mod contact_extremes;
 mod contact_laws;
 mod contact_oracle;
+mod contact_plate;
 mod contact_reference;
 mod contact_tumble;
 mod corners;

@@ -13,23 +13,36 @@ use crate::numbers::{Json, figures, given};
 use crate::{Failure, Streams};
 
 impl Args {
-    pub(super) fn block(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        let Some(at_m) = self.at_m else {
-            return Err(Failure::Usage(
-                "where the part of a box is has to be given: --at-m=X,Y,Z, in m from its middle",
-            ));
+    /// Where the part is, from the middle.
+    fn at_of_block(&self, size_m: [f64; 3]) -> Result<[f64; 3], Failure> {
+        if let Some(at_m) = self.at_m {
+            return Ok(at_m);
+        }
+        let Some(at) = self.at else {
+            return Err(Failure::Usage("where the part of a box is has to be given: --at=X,Y,Z from its middle"));
         };
+        let mut at_m = size_m;
+        for (at, place) in at_m.iter_mut().zip(at.of_block("--at")?) {
+            let half = 0.5 * *at;
+            *at = half * place.relative("--at", Some(half))?;
+        }
+        Ok(at_m)
+    }
+
+    pub(super) fn block(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
         if self.output.is_some() || self.flat || self.equivalent_pulse {
             return Err(Failure::Usage("-o, --flat and --equivalent-pulse go with bars alone"));
         }
+        let gyration = self.inertia.given().map(|radii| radii.of_block(self.inertia.flag())).transpose()?;
         let setup = self.drop.block(&BesideBlock {
             model: self.model,
             e: self.e,
-            gyration_m: self.inertia.gyration_m,
+            gyration,
             spin_rad_s: self.spin_rad_s.unwrap_or_default(),
             time_limit_s: None,
             impact_limit: usize::MAX,
         })?;
+        let at_m = self.at_of_block(setup.drop.block().size_m())?;
         setup.within(at_m)?;
         let axis = self.axis.unwrap_or(Axis::Z);
         let felt = setup.felt(at_m)?;

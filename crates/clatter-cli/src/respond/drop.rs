@@ -63,7 +63,7 @@ impl Args {
             flat: self.flat,
             model: self.model,
             e: self.e,
-            gyration: self.inertia.gyration(),
+            gyration: self.inertia.gyration()?,
             masses: mass,
             instant_contacts: true,
             first: self.first.map(Into::into),
@@ -90,7 +90,8 @@ impl Args {
         let part = setup.part.as_ref();
         let half_m = 0.5 * body.length_m();
         // Places of the product, from end a at -1 to end b at 1.
-        let places = match (self.at, part) {
+        let asked = self.bar_at()?;
+        let places = match (asked, part) {
             (Some(place), _) => quantities::positions(&[place], "--at", half_m)?,
             (None, Some(part)) => part.ends_m.iter().map(|x| (x / half_m).clamp(-1.0, 1.0)).collect(),
             (None, None) => {
@@ -106,7 +107,7 @@ impl Args {
         let limits = part.map_or(Ok(Vec::new()), |part| limits::of(part, &places, half_m, felt))?;
         let at = limits::worst(&limits).map_or(places[0], |limit| limit.at);
         let position_m = side * at * half_m;
-        let called = self.at.map_or_else(|| setup.shown.length.given(neat(at * half_m)), quantities::Place::said);
+        let called = asked.map_or_else(|| setup.shown.length.given(neat(at * half_m)), quantities::Place::said);
         let place_felt = ask.place(position_m)?;
         let part = suspension.map(|suspension| self.suspended(&ask, position_m, suspension)).transpose()?;
         Ok(Drop { args: self, setup, at, called, single: drop, limits, place: place_felt, part })
@@ -115,7 +116,9 @@ impl Args {
     /// A drop that was refused, with the options as they were given.
     fn named(&self, error: clatter_assess::Error) -> Failure {
         match error {
-            clatter_assess::Error::Flight(error) => self.drop.named(error, self.inertia.gyration()),
+            clatter_assess::Error::Flight(error) => {
+                self.inertia.gyration().map_or_else(|failure| failure, |gyration| self.drop.named(error, gyration))
+            }
             error => Failure::Assess(error),
         }
     }
@@ -374,13 +377,10 @@ impl Drop<'_> {
             velocity_change_m_s: Json(value(self.place.velocity_change.as_ref())),
             acceleration_m_s2: self.single.contact_time_s.map(|_| Json(value(self.place.acceleration.as_ref()))),
             angular_velocity_change_rad_s: Json(value(self.place.angular_velocity_change.as_ref())),
-            answers: AnswersJson {
-                velocity_change: AnswerJson::new(self.place.velocity_change),
-                acceleration: AnswerJson::new(self.place.acceleration),
-                angular_velocity_change: AnswerJson::new(self.place.angular_velocity_change),
-                part_acceleration: AnswerJson::new(part.and_then(|part| part.acceleration)),
-                part_displacement: AnswerJson::new(part.and_then(|part| part.displacement)),
-            },
+            answers: AnswersJson::new(
+                [self.place.velocity_change, self.place.acceleration, self.place.angular_velocity_change],
+                [part.and_then(|part| part.acceleration), part.and_then(|part| part.displacement)],
+            ),
             clatter_free: standard(0).map(Into::into),
             standard: standard(1).map(Into::into),
             gain: part.zip(standard(1)).map(|(part, standard)| Json(part.gain(standard))),
@@ -438,12 +438,21 @@ pub(super) struct DropJson {
 
 /// When each largest value comes and how far off it may be; null where nothing is felt.
 #[derive(Serialize)]
-struct AnswersJson {
+pub(super) struct AnswersJson {
     velocity_change: Option<AnswerJson>,
     acceleration: Option<AnswerJson>,
     angular_velocity_change: Option<AnswerJson>,
     part_acceleration: Option<AnswerJson>,
     part_displacement: Option<AnswerJson>,
+}
+
+impl AnswersJson {
+    /// Of the place its change of velocity, acceleration and change of angular velocity; of the part acceleration and displacement.
+    pub(super) fn new(place: [Option<Answer>; 3], part: [Option<Answer>; 2]) -> Self {
+        let [velocity_change, acceleration, angular_velocity_change] = place.map(AnswerJson::new);
+        let [part_acceleration, part_displacement] = part.map(AnswerJson::new);
+        Self { velocity_change, acceleration, angular_velocity_change, part_acceleration, part_displacement }
+    }
 }
 
 #[derive(Serialize)]

@@ -106,7 +106,7 @@ struct PivotJson {
 }
 
 #[derive(Serialize)]
-struct StopJson {
+pub(super) struct StopJson {
     reason: &'static str,
     time_s: Json,
     /// At rest only: what is left takes no longer, and no shock left out is larger.
@@ -117,7 +117,7 @@ struct StopJson {
 }
 
 impl StopJson {
-    fn new(stop: &Stop) -> Self {
+    pub(super) fn new(stop: &Stop) -> Self {
         let bounds = match *stop {
             Stop::AtRest { time_bound_s, shock_bound_m_s, .. } => Some([time_bound_s, shock_bound_m_s].map(Json)),
             _ => None,

@@ -23,7 +23,7 @@ impl Args {
             ));
         }
         let spin = match self.spin_rad_s {
-            Some(spin) => spin.three().ok_or(Failure::Usage("--spin-rad-s of a box has three values, WX,WY,WZ"))?,
+            Some(spin) => spin.of_block("--spin-rad-s")?,
             None if self.spin.is_some() => {
                 return Err(Failure::Usage("--spin turns a bar; of a box it is --spin-rad-s=WX,WY,WZ"));
             }
@@ -34,10 +34,11 @@ impl Args {
                 "--at is a place of a bar: 'clatter respond --at-m=X,Y,Z' answers one of a box",
             ));
         }
+        let gyration = self.inertia.given().map(|radii| radii.of_block(self.inertia.flag())).transpose()?;
         let setup = self.drop.block(&BesideBlock {
             model: self.model,
             e: self.e,
-            gyration_m: self.inertia.gyration_m,
+            gyration,
             spin_rad_s: spin,
             time_limit_s: self.time_limit_s(),
             impact_limit: self.impact_limit,

@@ -1,9 +1,10 @@
 //! What a place of the body feels in a flight with contacts.
 
-use super::ContactFlight;
+use super::level::Level;
 use super::mode::{Mode, Motion};
 use super::phase::Phase;
 use super::pose::Pose;
+use super::{ContactFlight, PlateFlight};
 use crate::excitation::{Stretch, Wave};
 
 /// Over a contact, what is so short that nothing is spread over it.
@@ -19,8 +20,9 @@ struct Lines {
     most: f64,
 }
 
-impl<const N: usize> ContactFlight<N> {
-    /// What a place at x, z in m from the center of mass feels; [`Body::place`](crate::Body::place) is a position on a bar.
+impl<const N: usize, P: Pose<N>> ContactFlight<N, P> {
+    /// What a place feels, in m from the center of mass: of a body seen from the side x and z ([`Body::place`](crate::Body::place)
+    /// is a position on a bar), of a plate x and y.
     ///
     /// `straight` is by how much straight lines may miss a damped vibration (of [`Dashpot`](crate::ContactLaw::Dashpot)
     /// contacts), over the largest acceleration so far.
@@ -31,24 +33,46 @@ impl<const N: usize> ContactFlight<N> {
     /// flight, nothing is felt of that turn: the axis of a part has turned with it.
     #[must_use]
     pub fn felt(&self, place: [f64; 2], straight: f64) -> Vec<Stretch<N>> {
-        let velocity = |pose: &Pose<N>| pose.velocity_of(place);
-        self.sections(straight, velocity, self.end.gravity, |phase, span, lines, felt| {
-            phase.felt(place, span, lines, felt)
+        let velocity = |pose: &P| pose.velocity_of(place);
+        self.sections(straight, velocity, self.end.gravity(), |phase, span, lines, felt| {
+            let mut stretch = Stretch::shock(span[0], span[1], 0.0);
+            if phase.is_free() {
+                let changed = phase.start.flying_felt(place, &mut stretch);
+                stretch.free = true;
+                felt.push(stretch);
+                return changed;
+            }
+            let of = phase.halfway.couplings_of(&phase.arms, place);
+            let steady = phase.halfway.turning(place) + phase.steady(&of);
+            phase.sum_of_modes(&phase.felt_by(&of), steady, stretch, lines, felt)
         })
     }
-    /// The angular acceleration of the body, in rad where [`felt`](Self::felt) has m.
-    #[must_use]
-    pub fn turned(&self, straight: f64) -> Vec<Stretch<N>> {
-        self.sections(straight, |pose| pose.spin, 0.0, Phase::turned)
+    /// What an angular velocity goes through, in rad where [`felt`](Self::felt) has m, by what a force of 1 over the mass at each
+    /// point does to it.
+    pub(super) fn turned_by(
+        &self,
+        straight: f64,
+        spin: impl Fn(&P) -> f64,
+        of: impl Fn(&Phase<P, N>) -> [f64; N],
+    ) -> Vec<Stretch<N>> {
+        self.sections(straight, spin, 0.0, |phase, span, lines, turned| {
+            let stretch = Stretch::shock(span[0], span[1], 0.0);
+            if phase.is_free() {
+                turned.push(Stretch { free: true, ..stretch });
+                return 0.0;
+            }
+            let of = of(phase);
+            phase.sum_of_modes(&phase.felt_by(&of), phase.steady(&of), stretch, lines, turned)
+        })
     }
     /// Of every phase what `add` appends, which returns what that changes `velocity` by, besides gravity. What is missing to the
     /// motion is spread over the phase, or over the next one that is not far shorter than a contact.
     fn sections(
         &self,
         straight: f64,
-        velocity: impl Fn(&Pose<N>) -> f64,
+        velocity: impl Fn(&P) -> f64,
         gravity: f64,
-        add: impl Fn(&Phase<N>, [f64; 2], &mut Lines, &mut Vec<Stretch<N>>) -> f64,
+        add: impl Fn(&Phase<P, N>, [f64; 2], &mut Lines, &mut Vec<Stretch<N>>) -> f64,
     ) -> Vec<Stretch<N>> {
         let mut sections: Vec<Stretch<N>> = Vec::with_capacity(self.phases.len() + 1);
         let (until, mut lines, mut short) = (self.flight.stop.time_s(), Lines { straight, most: 0.0 }, 0.0);
@@ -69,36 +93,24 @@ impl<const N: usize> ContactFlight<N> {
     }
 }
 
-impl<const N: usize> Phase<N> {
-    /// Appends what a place at x, z on the body feels in the phase; returns the change of velocity.
-    fn felt(
-        &self,
-        place: [f64; 2],
-        [from_s, length_s]: [f64; 2],
-        lines: &mut Lines,
-        felt: &mut Vec<Stretch<N>>,
-    ) -> f64 {
-        let mut stretch = Stretch::shock(from_s, length_s, 0.0);
-        if self.is_free() {
-            let changed = stretch.turning(place, self.start.tilt, self.start.spin);
-            stretch.free = true;
-            felt.push(stretch);
-            return changed;
-        }
-        let [x, z] = place;
-        let (sin, cos) = self.halfway.tilt.sin_cos();
-        self.sum_of_modes(&self.felt_at(x * cos - z * sin), self.steady_at(place), stretch, lines, felt)
+impl<const N: usize> ContactFlight<N> {
+    /// The angular acceleration of the body, in rad where [`felt`](Self::felt) has m.
+    #[must_use]
+    pub fn turned(&self, straight: f64) -> Vec<Stretch<N>> {
+        self.turned_by(straight, |pose| pose.spin, |phase| phase.halfway.turned_by(&phase.arms))
     }
-    /// The same of the angular acceleration.
-    fn turned(&self, [from_s, length_s]: [f64; 2], lines: &mut Lines, turned: &mut Vec<Stretch<N>>) -> f64 {
-        let stretch = Stretch::shock(from_s, length_s, 0.0);
-        if self.is_free() {
-            turned.push(Stretch { free: true, ..stretch });
-            return 0.0;
-        }
-        let (by_mode, steady) = self.turned_by();
-        self.sum_of_modes(&by_mode, steady, stretch, lines, turned)
+}
+
+impl PlateFlight {
+    /// The acceleration of the slope along a direction x, y, in rad where [`felt`](Self::felt) has m.
+    #[must_use]
+    pub fn turned(&self, direction: [f64; 2], straight: f64) -> Vec<Stretch<4>> {
+        let by = |phase: &Phase<Level, 4>| phase.halfway.slope_by(direction);
+        self.turned_by(straight, |pose| pose.rate_along(direction), by)
     }
+}
+
+impl<P: Pose<N>, const N: usize> Phase<P, N> {
     /// Appends a steady part and what each mode's press adds to it; returns its integral.
     fn sum_of_modes(
         &self,

@@ -1,9 +1,9 @@
 //! A phase: the same points press all along it, each on one straight line of its contact law, or one of them lies.
 //!
-//! With the lever arms x and the heights over the center of mass of one moment within the phase, ω the spin there,
+//! With the lever arms of one moment within the phase, which say how points are coupled and with what acceleration each falls,
 //!
 //! ```text
-//! h_i″ = −g − ω² over_i + Σ_j M_ij F_j,    M_ij = 1 + x_i x_j/ρ²,    F_j = −k_j (h_j − zero_j + θ h_j′)
+//! h_i″ = −fall_i + Σ_j M_ij F_j,    F_j = −k_j (h_j − zero_j + θ h_j′)
 //! ```
 //!
 //! For the points that press, q = √k (h − zero) has the symmetric stiffness √k_i M_ij √k_j; its modes are damped in
@@ -14,15 +14,15 @@
 //! It stays where it is: its force is the one that makes its acceleration 0,
 //!
 //! ```text
-//! F_l = (g + ω² over_l − Σ_j M_lj F_j)/M_ll
+//! F_l = (fall_l − Σ_j M_lj F_j)/M_ll
 //! ```
 //!
-//! so that for all other points M_ij is less by M_il M_lj/M_ll, and g + ω² over_i by M_il/M_ll of that of the point.
+//! so that for all other points M_ij is less by M_il M_lj/M_ll, and fall_i by M_il/M_ll of that of the point.
 
 use super::Sample;
 use super::eigen::eigen;
 use super::mode::{Mode, Motion};
-use super::pose::{Levers, Pose};
+use super::pose::{Pose, Pushes};
 use super::touch::Watch;
 
 /// The straight line of the force on a point that presses: `F = k (zero − h − θ h′)`.
@@ -47,14 +47,16 @@ pub(super) enum Hold {
 const STILL: f64 = 1e-6;
 
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Phase<const N: usize> {
-    pub(crate) start: Pose<N>,
+pub(crate) struct Phase<P: Pose<N>, const N: usize> {
+    pub(crate) start: P,
     /// Where the lever arms are taken.
-    pub(crate) halfway: Pose<N>,
+    pub(crate) halfway: P,
+    pub(crate) arms: P::Arms,
     pub(super) lines: [Option<Line>; N],
     /// The point that lies.
     pub(crate) lies: Option<usize>,
-    x: [f64; N],
+    /// M_ij by these lever arms; of a free phase nothing.
+    coupling: [[f64; N]; N],
     /// Downward accelerations without contact: gravity and turning.
     fall: [f64; N],
     height: [f64; N],
@@ -72,26 +74,21 @@ pub(crate) struct Phase<const N: usize> {
     felt: [[f64; N]; N],
 }
 
-/// What the ground has done since a phase began: ∫F dt and ∬F dt² of each point, per mass.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Pushes<const N: usize> {
-    pub(super) impulse: [f64; N],
-    pub(super) path: [f64; N],
-}
-
-impl<const N: usize> Phase<N> {
+impl<P: Pose<N>, const N: usize> Phase<P, N> {
     /// From a pose, with the lever arms of `halfway`.
-    pub(super) fn new(start: Pose<N>, halfway: &Pose<N>, holds: [Hold; N], delay: f64) -> Self {
-        let Levers { x, over } = halfway.levers();
-        let fall = over.map(|h| start.gravity + halfway.spin * halfway.spin * h);
+    pub(super) fn new(start: P, halfway: &P, holds: [Hold; N], delay: f64) -> Self {
+        let arms = halfway.arms();
+        let coupling = std::array::from_fn(|i| std::array::from_fn(|j| halfway.coupling(&arms, i.max(j), i.min(j))));
+        let fall = halfway.falls(&arms);
         let (height, velocity) = start.points();
         let lines = holds.map(|hold| if let Hold::On(line) = hold { Some(line) } else { None });
         let mut phase = Self {
             start,
             halfway: *halfway,
+            arms,
             lines,
             lies: holds.iter().position(|hold| matches!(hold, Hold::Lies)),
-            x,
+            coupling,
             fall,
             height,
             velocity,
@@ -104,22 +101,24 @@ impl<const N: usize> Phase<N> {
             felt: [[0.0; N]; N],
         };
         if let Some(l) = phase.lies {
-            phase.fall = std::array::from_fn(|i| if i == l { 0.0 } else { fall[i] - phase.carried(x[i], l) * fall[l] });
-            phase.fall[l] = fall[l];
+            for i in (0..N).filter(|&i| i != l) {
+                phase.fall[i] = fall[i] - phase.carried(&coupling[i], l) * fall[l];
+            }
         }
         phase.find_modes();
         phase
     }
     /// A phase in which nothing touches.
-    pub(super) fn free(start: Pose<N>) -> Self {
-        let none = [0.0; N];
-        let (height, velocity) = start.points();
+    pub(super) fn free(start: P) -> Self {
+        let (none, arms) = ([0.0; N], start.arms());
+        let (height, velocity) = start.points_by(&arms);
         Self {
             start,
             halfway: start,
+            arms,
             lines: [None; N],
             lies: None,
-            x: none,
+            coupling: [none; N],
             fall: none,
             height,
             velocity,
@@ -137,7 +136,7 @@ impl<const N: usize> Phase<N> {
         let mut stiffness = [[0.0; N]; N];
         for i in (0..N).filter(|&i| lines[i].is_some()) {
             for j in (0..=i).filter(|&j| lines[j].is_some()) {
-                stiffness[i][j] = self.root[i] * self.share(self.x[i], j) * self.root[j];
+                stiffness[i][j] = self.root[i] * self.share(&self.coupling[i], j) * self.root[j];
                 stiffness[j][i] = stiffness[i][j];
             }
         }
@@ -159,7 +158,7 @@ impl<const N: usize> Phase<N> {
             }
             self.count += 1;
         }
-        self.felt = self.x.map(|x| self.felt_at(x));
+        self.felt = self.coupling.map(|of_point| self.felt_by(&of_point));
     }
     pub(crate) fn is_free(&self) -> bool {
         self.count == 0 && self.lies.is_none()
@@ -168,48 +167,28 @@ impl<const N: usize> Phase<N> {
     pub(super) fn is_still(&self) -> bool {
         self.modes().iter().all(|mode| mode.bounds()[0] <= STILL * mode.rest().abs())
     }
-    /// What a force at point i does to a place at lever arm x, where nothing lies.
-    fn raw(&self, x: f64, i: usize) -> f64 {
-        1.0 + x * self.x[i] / self.start.rho2
+    /// What moves as the point l that lies is pushed, over what moves that point: of what forces do to it where nothing lies.
+    fn carried(&self, of: &[f64; N], l: usize) -> f64 {
+        of[l] / self.coupling[l][l]
     }
-    /// What moves a place at lever arm x as the point l that lies is pushed, over what moves that point.
-    fn carried(&self, x: f64, l: usize) -> f64 {
-        self.raw(x, l) / self.raw(self.x[l], l)
+    /// What a force at point i does to it.
+    fn share(&self, of: &[f64; N], i: usize) -> f64 {
+        of[i] - self.lies.map_or(0.0, |l| self.carried(of, l) * self.coupling[l][i])
     }
-    /// What a force at point i does to a place at lever arm x.
-    fn share(&self, x: f64, i: usize) -> f64 {
-        self.raw(x, i) - self.lies.map_or(0.0, |l| self.carried(x, l) * self.raw(self.x[l], i))
-    }
-    /// Acceleration of a place at lever arm x by each mode's press: `Σ_m of[m] (z_m + θ z_m′)`.
-    pub(crate) fn felt_at(&self, x: f64) -> [f64; N] {
+    /// Acceleration by each mode's press, `Σ_m felt[m] (z_m + θ z_m′)`, of what forces at the points do so much to.
+    pub(crate) fn felt_by(&self, of: &[f64; N]) -> [f64; N] {
         let mut felt = [0.0; N];
         for i in (0..N).filter(|&i| self.lines[i].is_some()) {
-            let share = self.share(x, i) * self.root[i];
+            let share = self.share(of, i) * self.root[i];
             for (m, felt) in felt.iter_mut().enumerate().take(self.count) {
                 *felt -= share * self.shape[i][m];
             }
         }
         felt
     }
-    /// Acceleration above free fall of a place at x, z on the body, besides that by the modes.
-    pub(crate) fn steady_at(&self, [x, z]: [f64; 2]) -> f64 {
-        let (sin, cos) = self.halfway.tilt.sin_cos();
-        let lever = x * cos - z * sin;
-        let turning = -self.halfway.spin * self.halfway.spin * (x * sin + z * cos);
-        turning + self.lies.map_or(0.0, |l| self.carried(lever, l) * self.fall[l])
-    }
-    /// Angular acceleration by each mode's press, and besides: what a lever arm adds, which is 0 where both sides press alike.
-    pub(crate) fn turned_by(&self) -> ([f64; N], f64) {
-        let of_force = |i: usize| self.x[i] / self.start.rho2;
-        let carried = |l: usize| of_force(l) / self.raw(self.x[l], l);
-        let mut turned = [0.0; N];
-        for i in (0..N).filter(|&i| self.lines[i].is_some()) {
-            let share = of_force(i) - self.lies.map_or(0.0, |l| carried(l) * self.raw(self.x[l], i));
-            for (m, turned) in turned.iter_mut().enumerate().take(self.count) {
-                *turned -= share * self.root[i] * self.shape[i][m];
-            }
-        }
-        (turned, self.lies.map_or(0.0, |l| carried(l) * self.fall[l]))
+    /// Its acceleration above free fall besides: that of the point that lies.
+    pub(crate) fn steady(&self, of: &[f64; N]) -> f64 {
+        self.lies.map_or(0.0, |l| self.carried(of, l) * self.fall[l])
     }
     /// The modes that are there.
     pub(crate) fn modes(&self) -> &[Mode] {
@@ -300,7 +279,7 @@ impl<const N: usize> Phase<N> {
     fn reaction_by(&self, l: usize) -> [f64; N] {
         let mut by = [0.0; N];
         for i in (0..N).filter(|&i| self.lines[i].is_some()) {
-            let share = self.raw(self.x[l], i) * self.root[i] / self.raw(self.x[l], l);
+            let share = self.coupling[l][i] * self.root[i] / self.coupling[l][l];
             for (m, by) in by.iter_mut().enumerate().take(self.count) {
                 *by += share * self.shape[i][m];
             }
@@ -312,9 +291,9 @@ impl<const N: usize> Phase<N> {
     pub(super) fn reaction(&self, l: usize, motions: &[Motion; N]) -> [f64; 4] {
         let by = self.reaction_by(l);
         let of = |n: usize| (0..self.count).map(|m| by[m] * motions[m][n]).sum::<f64>();
-        let idle = |i: usize| self.raw(self.x[l], i) * self.root[i] * self.idle[i];
+        let idle = |i: usize| self.coupling[l][i] * self.root[i] * self.idle[i];
         let fall = if self.count == 0 { self.start.fall(l) } else { self.fall[l] };
-        let without = (fall + (0..N).map(idle).sum::<f64>()) / self.raw(self.x[l], l);
+        let without = (fall + (0..N).map(idle).sum::<f64>()) / self.coupling[l][l];
         [without + of(0), of(1), of(2), of(3)]
     }
     /// Bounds of its second, third and fourth derivative.
@@ -347,8 +326,8 @@ impl<const N: usize> Phase<N> {
             }
         }
         if let Some(l) = self.lies {
-            let own = self.raw(self.x[l], l);
-            let others = |of: &[f64; N]| (0..N).map(|i| self.raw(self.x[l], i) * of[i]).sum::<f64>();
+            let own = self.coupling[l][l];
+            let others = |of: &[f64; N]| (0..N).map(|i| self.coupling[l][i] * of[i]).sum::<f64>();
             let impulse = (self.fall[l] * t - others(&pushes.impulse)) / own;
             let path = (0.5 * self.fall[l] * t * t - others(&pushes.path)) / own;
             (pushes.impulse[l], pushes.path[l]) = (impulse, path);
@@ -356,27 +335,19 @@ impl<const N: usize> Phase<N> {
         pushes
     }
     /// The pose at time t in exact geometry.
-    pub(super) fn pose(&self, t: f64, pushes: &Pushes<N>) -> Pose<N> {
-        let mut pose = self.start.flown(t);
-        let rho2 = self.start.rho2;
-        for i in 0..N {
-            pose.y += pushes.path[i];
-            pose.v += pushes.impulse[i];
-            pose.tilt += self.x[i] * pushes.path[i] / rho2;
-            pose.spin += self.x[i] * pushes.impulse[i] / rho2;
-        }
-        pose
+    pub(super) fn pose(&self, t: f64, pushes: &Pushes<N>) -> P {
+        self.start.after(t, &self.arms, pushes)
     }
     /// What impulses at point i do to the velocities of all points.
     pub(super) fn jumps(&self, i: usize, impulse: f64) -> [f64; N] {
-        self.x.map(|x| self.raw(x, i) * impulse)
+        self.coupling[i].map(|share| share * impulse)
     }
     /// By how much more than a rounding a point that presses is not where its line has it, as the velocity that this is worth
     /// to its vibration.
-    pub(super) fn mismatch(&self, t: f64, motions: &[Motion; N], end: &Pose<N>, rounding: f64) -> f64 {
+    pub(super) fn mismatch(&self, t: f64, motions: &[Motion; N], end: &P, rounding: f64) -> f64 {
         let (height, _) = end.points();
         let off = |i: usize| {
-            let rate = self.root[i] * self.raw(self.x[i], i).sqrt();
+            let rate = self.root[i] * self.coupling[i][i].sqrt();
             let gap = || ((height[i] - self.point(i, t, motions)[0]).abs() - rounding).max(0.0);
             if self.lines[i].is_some() { rate * gap() } else { 0.0 }
         };
@@ -384,16 +355,14 @@ impl<const N: usize> Phase<N> {
     }
     /// The largest change of velocity of a point by what has pressed on it.
     pub(super) fn pushed(&self, pushes: &Pushes<N>) -> f64 {
-        (0..N).map(|i| self.raw(self.x[i], i) * pushes.impulse[i].abs()).fold(0.0, f64::max)
+        (0..N).map(|i| self.coupling[i][i] * pushes.impulse[i].abs()).fold(0.0, f64::max)
     }
     /// A pose in which the point that lies is where it was and stands still, and the impulse for that: kept lever arms have moved it
     /// a little.
-    pub(super) fn held(&self, l: usize, pose: &Pose<N>) -> (Pose<N>, f64) {
-        let x = pose.levers().x[l];
-        let pose = pose.moved(self.height[l] - pose.points().0[l], x);
-        let x = pose.levers().x[l];
-        let impulse = -(pose.v + x * pose.spin) / (1.0 + x * x / pose.rho2);
-        (pose.pushed(impulse, x), impulse)
+    pub(super) fn held(&self, l: usize, pose: &P) -> (P, f64) {
+        let pose = pose.moved(l, self.height[l] - pose.points().0[l]);
+        let impulse = -pose.points().1[l] / pose.coupled(l, l);
+        (pose.pushed(l, impulse), impulse)
     }
     pub(crate) fn sample(&self, t: f64) -> Sample<N> {
         let motions = self.motions(t);
@@ -403,14 +372,15 @@ impl<const N: usize> Phase<N> {
             pose = self.held(l, &pose).0;
         }
         let (height_m, velocity_m_s) = pose.points();
+        let [tilt_rad, spin_rad_s] = pose.angles();
         let acceleration = |i| if free { self.start.flying(i, t)[2] } else { self.point(i, t, &motions)[2] };
         Sample {
             height_m,
             velocity_m_s,
             acceleration_m_s2: std::array::from_fn(acceleration),
             force_per_mass_m_s2: self.forces(&motions),
-            tilt_rad: pose.tilt,
-            spin_rad_s: pose.spin,
+            tilt_rad,
+            spin_rad_s,
         }
     }
     /// What its dashpots have taken until time t, per mass.

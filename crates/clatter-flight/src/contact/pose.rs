@@ -1,94 +1,153 @@
-//! The body in exact geometry: height and velocity of its center of mass, angle and spin.
+//! What the engine asks of a body in motion: the one place where it meets a shape.
 
-use crate::body::Body;
-use crate::roots::safe_step;
-use crate::scene::Scene;
+use std::fmt::Debug;
 
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Pose<const N: usize> {
-    pub(super) body: Body<N>,
-    pub(crate) gravity: f64,
-    /// Square of the radius of gyration.
-    pub(super) rho2: f64,
-    /// Height and velocity of the center of mass.
-    pub(super) y: f64,
-    pub(super) v: f64,
-    pub(crate) tilt: f64,
-    pub(crate) spin: f64,
-}
+use crate::excitation::Stretch;
 
-/// Lever arms, and heights over the center of mass, of all contact points.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Levers<const N: usize> {
-    pub(super) x: [f64; N],
-    pub(super) over: [f64; N],
-}
+/// A body in motion. All that the engine knows of its shape it knows from here, the coupling
+///
+/// ```text
+/// M_ij    what a force of 1 over the mass at point i does to the vertical acceleration of point j
+/// ```
+///
+/// first. Heights and velocities are vertical, upward positive, forces and energies per mass of the body.
+///
+/// What has a body of its own below holds where lever arms never change and nothing turns over.
+pub trait Pose<const N: usize>: Copy + Debug {
+    /// Lever arms of one position, which a phase keeps.
+    type Arms: Copy + Debug;
 
-impl<const N: usize> Pose<N> {
-    /// The first touch: the lowest point is on the ground.
-    pub(super) fn start(scene: &Scene<N>) -> Self {
-        let body = scene.body();
-        let tilt = scene.tilt_rad();
-        let (_, over) = body.levers(tilt.sin(), tilt.cos());
-        let lowest = over.iter().fold(f64::INFINITY, |low, h| low.min(*h));
-        let (gravity, v, spin) = (scene.gravity_m_s2(), -scene.speed_m_s(), scene.spin_rad_s());
-        Self { body, gravity, rho2: body.gyration_m().powi(2), y: -lowest, v, tilt, spin }
-    }
-    pub(super) fn levers(&self) -> Levers<N> {
-        let (sin, cos) = self.tilt.sin_cos();
-        let (x, over) = self.body.levers(sin, cos);
-        Levers { x, over }
-    }
-    /// Velocity of a place at x, z on the body.
-    pub(crate) fn velocity_of(&self, [x, z]: [f64; 2]) -> f64 {
-        let (sin, cos) = self.tilt.sin_cos();
-        self.v + (x * cos - z * sin) * self.spin
-    }
-    /// Acceleration with which a point falls where nothing presses.
-    pub(super) fn fall(&self, point: usize) -> f64 {
-        self.gravity + self.spin * self.spin * self.levers().over[point]
-    }
-    /// Heights and vertical velocities of all points.
-    pub(super) fn points(&self) -> ([f64; N], [f64; N]) {
-        let Levers { x, over } = self.levers();
-        (over.map(|h| self.y + h), x.map(|x| self.v + x * self.spin))
-    }
+    /// How large it is.
+    fn extent(&self) -> Extent;
+    /// Acceleration of gravity.
+    fn gravity(&self) -> f64;
+    /// Heights and vertical velocities of all points, by the lever arms of now.
+    fn points_by(&self, arms: &Self::Arms) -> ([f64; N], [f64; N]);
+    /// Velocity of a place on the body.
+    fn velocity_of(&self, place: [f64; 2]) -> f64;
+    /// Tilt and angular velocity, as [`Strike`](crate::Strike) tells them.
+    fn angles(&self) -> [f64; 2];
+    /// Energy of its motion.
+    fn kinetic(&self) -> f64;
+    /// The same and that of its height, the center of mass at height 0 without any.
+    fn energy(&self) -> f64;
+
     /// The pose after a free flight of time t.
-    pub(super) fn flown(&self, t: f64) -> Self {
-        let g = self.gravity;
-        let (y, v) = (self.y + t * (self.v - 0.5 * g * t), self.v - g * t);
-        Self { y, v, tilt: self.tilt + self.spin * t, ..*self }
-    }
+    fn flown(&self, t: f64) -> Self;
     /// Height of a point after a free flight of time t, and its first three derivatives.
-    pub(super) fn flying(&self, point: usize, t: f64) -> [f64; 4] {
-        let [x0, z0] = self.body.points_m()[point];
-        let (sin, cos) = (self.tilt + self.spin * t).sin_cos();
-        let (x, over, w, g) = (x0 * cos - z0 * sin, x0 * sin + z0 * cos, self.spin, self.gravity);
-        [self.y + t * (self.v - 0.5 * g * t) + over, self.v - g * t + w * x, -g - w * w * over, -w * w * w * x]
-    }
+    fn flying(&self, point: usize, t: f64) -> [f64; 4];
     /// Bounds of the second, third and fourth derivative of the height of a point in free flight.
-    pub(super) fn flying_bounds(&self, point: usize) -> [f64; 3] {
-        let w = self.spin.abs();
-        let turning = self.body.radius(point) * w * w;
-        [self.gravity + turning, turning * w, turning * w * w]
+    fn flying_bounds(&self, point: usize) -> [f64; 3];
+    /// What a place feels of the turning in a free flight, added to its stretch; returns what that changes its velocity by.
+    fn flying_felt(&self, _place: [f64; 2], _stretch: &mut Stretch<N>) -> f64 {
+        0.0
     }
-    /// Time after t in which no angle lets a point touch: the center of mass is higher than its distance.
-    pub(super) fn clear(&self, point: usize, t: f64) -> f64 {
-        let g = self.gravity;
-        let clear = self.y + t * (self.v - 0.5 * g * t) - self.body.radius(point);
-        if clear > 0.0 { safe_step(clear, self.v - g * t, g) } else { 0.0 }
+    /// Time after t in which no angle lets a point touch.
+    fn clear(&self, _point: usize, _t: f64) -> f64 {
+        0.0
     }
-    /// The pose after an impulse over the mass at a lever arm.
-    pub(super) fn pushed(&self, impulse: f64, x: f64) -> Self {
-        Self { v: self.v + impulse, spin: self.spin + x * impulse / self.rho2, ..*self }
+
+    /// The lever arms of now.
+    fn arms(&self) -> Self::Arms;
+    /// M_ij by these lever arms.
+    fn coupling(&self, arms: &Self::Arms, i: usize, j: usize) -> f64;
+    /// What a force of 1 over the mass at each point does to a place.
+    fn couplings_of(&self, arms: &Self::Arms, place: [f64; 2]) -> [f64; N];
+    /// Acceleration with which each point falls where nothing presses: gravity and turning.
+    fn falls(&self, arms: &Self::Arms) -> [f64; N];
+    /// Upward acceleration of a place by turning alone.
+    fn turning(&self, _place: [f64; 2]) -> f64 {
+        0.0
     }
-    /// The pose after a push at a lever arm that moves that point by so much.
-    pub(super) fn moved(&self, by: f64, x: f64) -> Self {
-        let own = 1.0 + x * x / self.rho2;
-        Self { y: self.y + by / own, tilt: self.tilt + by / own * x / self.rho2, ..*self }
+    /// The pose a time t later, the ground having done meanwhile ∫F dt and ∬F dt² at these lever arms.
+    fn after(&self, t: f64, arms: &Self::Arms, pushes: &Pushes<N>) -> Self;
+    /// The pose after an impulse over the mass at a point.
+    fn pushed(&self, point: usize, impulse: f64) -> Self;
+    /// The pose after a push at a point that moves it by so much.
+    fn moved(&self, point: usize, by: f64) -> Self;
+
+    /// The pose in the middle of a phase, with the angles that its forces weigh those of its begin, middle and end by.
+    fn mean(_begin: &Self, middle: &Self, _end: &Self, _weigh: impl Fn([f64; 3]) -> f64) -> Self {
+        *middle
     }
-    /// Energy per mass, the center of mass at height 0 without any.
-    pub(super) fn energy(&self) -> f64 {
-        0.5 * (self.v * self.v + self.rho2 * self.spin * self.spin) + self.gravity * self.y
+    /// The angle from another pose that changes lever arms.
+    fn turned_from(&self, _other: &Self) -> f64 {
+        0.0
     }
+    /// What a turn changes the lever arm of a point by, over itself.
+    fn steepness(&self, _arms: &Self::Arms, _point: usize) -> f64 {
+        0.0
+    }
+
+    /// How the ground bears the weight at these lever arms and heights, where it can; each point on the straight line of its force,
+    /// by stiffness and height without force.
+    fn borne(&self, arms: &Self::Arms, height: &[f64; N], line: impl Fn(usize) -> [f64; 2]) -> Option<Borne<N>>;
+    /// Energy that it may yet give by coming to lie on a lower side.
+    fn lower(&self) -> f64 {
+        0.0
+    }
+    /// Where the points that lie hold the body, the forces on them beside these of the others.
+    fn held_by(&self, _lying: &[bool; N], _forces: &[f64; N]) -> Option<[f64; N]> {
+        None
+    }
+    /// Impulses at points that carry it that stop it; none where they can not.
+    fn stopping(&self, carrying: &[bool; N]) -> Option<[Option<f64>; N]>;
+
+    /// The same without motion.
+    #[must_use]
+    fn still(&self) -> Self;
+
+    /// Time until it stands upright and may turn over to a side without points.
+    fn upright(&self) -> f64 {
+        f64::INFINITY
+    }
+    /// Whether it has turned over.
+    fn is_over(&self) -> bool {
+        false
+    }
+    /// The same without whole turns, which have done their part and take digits.
+    #[must_use]
+    fn unwound(self) -> Self {
+        self
+    }
+
+    /// Heights and vertical velocities of all points.
+    fn points(&self) -> ([f64; N], [f64; N]) {
+        self.points_by(&self.arms())
+    }
+    /// M_ij of now.
+    fn coupled(&self, i: usize, j: usize) -> f64 {
+        self.coupling(&self.arms(), i, j)
+    }
+    /// Acceleration with which a point falls now where nothing presses.
+    fn fall(&self, point: usize) -> f64 {
+        self.falls(&self.arms())[point]
+    }
+}
+
+/// How large a body is.
+#[derive(Debug, Clone, Copy)]
+pub struct Extent {
+    /// Its length, or twice how far it reaches if that is shorter.
+    pub(super) size: f64,
+    /// From the center of mass to the farthest point.
+    pub(super) reach: f64,
+    /// The largest M_ii at any angle.
+    pub(super) coupling: f64,
+}
+
+/// What the ground has done since a phase began: ∫F dt and ∬F dt² of each point, per mass.
+#[derive(Debug, Clone, Copy)]
+pub struct Pushes<const N: usize> {
+    pub(super) impulse: [f64; N],
+    pub(super) path: [f64; N],
+}
+
+/// A body whose weight the ground bears.
+#[derive(Debug, Clone, Copy)]
+pub struct Borne<const N: usize> {
+    /// The points that may do so.
+    pub(super) on: [bool; N],
+    /// Their forces.
+    pub(super) forces: [f64; N],
 }

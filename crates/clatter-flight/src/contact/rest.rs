@@ -3,6 +3,7 @@
 use super::Ahead;
 use super::law::ContactLaw;
 use super::phase::Hold;
+use super::pose::{Borne, Pose};
 use super::run::Run;
 use super::touch::{Event, State, Touch};
 use crate::flight::Stop;
@@ -20,32 +21,26 @@ const PARTS: f64 = 1.001;
 
 /// A body over the points that would carry its weight.
 struct Weighed<const N: usize> {
-    on: [usize; 2],
     forces: [f64; N],
     /// Its energy over that at rest there.
     left: f64,
-    /// What that is where both points come to press with their weight at once, from no depth and no speed.
+    /// What that is where these points come to press with their weight at once, from no depth and no speed.
     by_weight: f64,
 }
 
-impl<const N: usize> Run<'_, N> {
-    /// What a force at point i does to point j.
-    pub(super) fn share(&self, i: usize, j: usize) -> f64 {
-        let x = self.pose.levers().x;
-        1.0 + x[i] * x[j] / self.pose.rho2
-    }
-
+impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
     /// Takes the velocity of a point that lies.
     pub(super) fn stop_point(&mut self, i: usize) {
         let (_, velocity) = self.pose.points();
-        let impulse = -velocity[i] / self.share(i, i);
+        let impulse = -velocity[i] / self.pose.coupled(i, i);
         self.pushed(i, impulse);
-        self.pose = self.pose.pushed(impulse, self.pose.levers().x[i]);
+        self.pose = self.pose.pushed(i, impulse);
     }
 
     /// Books an impulse over the mass.
     pub(super) fn pushed(&mut self, i: usize, impulse: f64) {
-        self.book(i, std::array::from_fn(|j| self.share(i, j) * impulse));
+        let arms = self.pose.arms();
+        self.book(i, std::array::from_fn(|j| self.pose.coupling(&arms, i, j) * impulse));
     }
 
     /// The speed that is not followed: by the precision, or because roundings of heights are deeper than it sinks in.
@@ -64,12 +59,12 @@ impl<const N: usize> Run<'_, N> {
             return;
         }
         let (height, velocity) = self.pose.points();
-        let rate = (line.stiffness * self.share(i, i)).sqrt();
+        let rate = (line.stiffness * self.pose.coupled(i, i)).sqrt();
         let rest = line.zero - fall / (rate * rate);
         let by_weight = if self.contact.law() == ContactLaw::Hysteretic { PARTS * fall / rate } else { 0.0 };
         if velocity[i].hypot(rate * (height[i] - rest)) <= self.slow().max(by_weight) {
             let (contact, told) = (self.contact, SUNK * self.margins.height);
-            let force = fall / self.share(i, i);
+            let force = fall / self.pose.coupled(i, i);
             let touch = &mut self.touches[i];
             touch.state = State::Lying;
             // What sinks in by less than heights tell carries its weight.
@@ -90,10 +85,10 @@ impl<const N: usize> Run<'_, N> {
                 continue;
             }
             let pushed = |j: usize| match self.touches[j].hold(self.contact) {
-                Hold::On(line) => self.share(i, j) * line.stiffness * (line.zero - height[j]).max(0.0),
+                Hold::On(line) => self.pose.coupled(i, j) * line.stiffness * (line.zero - height[j]).max(0.0),
                 Hold::No | Hold::Lies => 0.0,
             };
-            let force = (self.pose.fall(i) - (0..N).map(pushed).sum::<f64>()) / self.share(i, i);
+            let force = (self.pose.fall(i) - (0..N).map(pushed).sum::<f64>()) / self.pose.coupled(i, i);
             self.touches[i].rouse(height[i], force.max(0.0), self.contact);
         }
     }
@@ -103,10 +98,7 @@ impl<const N: usize> Run<'_, N> {
         let strikes = &self.log.flight.strikes;
         let down = (0..N).filter(|&i| self.touches[i].is_pressing());
         // The body may yet come to lie on a lower side.
-        let most = self.weighed().map(|Weighed { on, left, .. }| {
-            let lower = self.pose.body.height_over(on).abs() - self.pose.body.lowest_m();
-            2.0 * self.fastest_by(left + self.pose.gravity * lower.max(0.0))
-        });
+        let most = self.weighed().map(|Weighed { left, .. }| 2.0 * self.fastest_by(left + self.pose.lower()));
         let unfinished = down.flat_map(|i| strikes[self.touches[i].strike].delta_v_m_s);
         Ahead {
             time_s: self.time.now(),
@@ -118,7 +110,7 @@ impl<const N: usize> Run<'_, N> {
 
     /// No point of the body is faster with this energy.
     fn fastest_by(&self, energy: f64) -> f64 {
-        (2.0 * energy.max(0.0) * (1.0 + self.reach * self.reach / self.pose.rho2)).sqrt()
+        (2.0 * energy.max(0.0) * self.extent.coupling).sqrt()
     }
 
     /// The forces of the ground on the body where it is at rest, and a bound of the velocity shocks that may still come.
@@ -126,85 +118,63 @@ impl<const N: usize> Run<'_, N> {
         if let Some(forces) = self.lies_still() {
             return Some((forces, 0.0));
         }
-        let (kinetic, slow) = (self.kinetic(), self.slow());
-        if self.pose.gravity == 0.0 {
-            let fastest = self.fastest_by(kinetic);
+        let slow = self.slow();
+        if self.pose.gravity() == 0.0 {
+            let fastest = self.fastest_by(self.pose.kinetic());
             // Nothing on a line of its law, which would hold energy, and not all in the air.
             let holds = |touch: &Touch| matches!(touch.state, State::Loading | State::Elastic);
             let down = self.touches.iter().any(|touch| touch.state != State::Away) && !self.touches.iter().any(holds);
             return (down && fastest <= slow).then_some(([0.0; N], 2.0 * fastest));
         }
-        let Weighed { on, forces, left, by_weight } = self.weighed()?;
+        let Weighed { forces, left, by_weight } = self.weighed()?;
         let fastest = self.fastest_by(left);
         let struck = |i: usize| self.log.flight.strikes.iter().any(|strike| strike.point == i);
-        ((fastest <= slow || left <= BY_WEIGHT * by_weight) && on.into_iter().all(struck))
+        ((fastest <= slow || left <= BY_WEIGHT * by_weight) && (0..N).all(|i| forces[i] <= 0.0 || struck(i)))
             .then_some((forces, 2.0 * fastest))
     }
 
-    fn kinetic(&self) -> f64 {
-        let turning = self.pose.rho2 * self.pose.spin * self.pose.spin;
-        0.5 * (self.pose.v * self.pose.v + turning)
-    }
-
-    /// The body on its lowest points on both sides of its center of mass; none where there is none on one side.
+    /// The body on the points that would bear its weight; none where they can not.
     fn weighed(&self) -> Option<Weighed<N>> {
-        let pose = &self.pose;
-        let (x, (height, _)) = (pose.levers().x, pose.points());
-        let lowest = |side: f64| {
-            let there = (0..N).filter(|&i| side * x[i] > 0.0);
-            there.min_by(|&i, &j| height[i].total_cmp(&height[j]))
-        };
-        let on = [lowest(-1.0)?, lowest(1.0)?];
-        let [i, j] = on;
-        let mut forces = [0.0; N];
-        (forces[i], forces[j]) = (pose.gravity * x[j] / (x[j] - x[i]), -pose.gravity * x[i] / (x[j] - x[i]));
-        let left = self.kinetic() + on.iter().map(|&i| self.over(i, height[i], forces[i])).sum::<f64>();
-        let by_weight = on.iter().map(|&i| 0.5 * forces[i] * forces[i] / self.stiffness(i)).sum::<f64>();
-        Some(Weighed { on, forces, left, by_weight })
+        let arms = self.pose.arms();
+        let (height, _) = self.pose.points_by(&arms);
+        let line = |i: usize| self.line(&arms, i, height[i]);
+        let Borne { on, forces } = self.pose.borne(&arms, &height, line)?;
+        let those = || (0..N).filter(|&i| on[i]);
+        let left = self.pose.kinetic() + those().map(|i| over(line(i), height[i], forces[i])).sum::<f64>();
+        let by_weight = those().map(|i| 0.5 * forces[i] * forces[i] / self.stiffness(&arms, i)).sum::<f64>();
+        Some(Weighed { forces, left, by_weight })
     }
 
-    /// Energy of a point under a weight over the least that it can have, by the line on which it is or would be.
-    ///
-    /// What loads it deeper takes more energy than the ground there gives: from a force above twice its weight on, the energy
-    /// that is left never rises.
-    fn over(&self, i: usize, height: f64, weight: f64) -> f64 {
+    /// Stiffness of the line on which a point at this height is or would be, and where that has no force. A point that lies stays
+    /// where it is under any weight.
+    fn line(&self, arms: &P::Arms, i: usize, height: f64) -> [f64; 2] {
         let touch = &self.touches[i];
-        let unloading = touch.stiffness * self.contact.unloading();
-        let (stiffness, zero) = match (touch.state, self.contact.law()) {
-            (State::Away, _) => (self.stiffness(i), 0.0),
-            (State::Loading, _) | (State::Parted, ContactLaw::Dashpot) => (touch.stiffness, touch.ground),
-            (State::Parted, ContactLaw::Hysteretic) => (self.stiffness(i), touch.zero),
-            (State::Elastic, _) => (unloading, touch.zero),
-            (State::Lying, ContactLaw::Dashpot) => (touch.stiffness, height + weight / touch.stiffness),
-            (State::Lying, ContactLaw::Hysteretic) => (unloading, height + weight / unloading),
-        };
-        let energy = |h: f64| weight * h + if h < zero { 0.5 * stiffness * (zero - h).powi(2) } else { 0.0 };
-        (energy(height) - energy(zero - weight / stiffness)).max(0.0)
+        match (touch.state, self.contact.law()) {
+            (State::Away, _) => [self.stiffness(arms, i), 0.0],
+            (State::Loading, _) | (State::Parted, ContactLaw::Dashpot) => [touch.stiffness, touch.ground],
+            (State::Parted, ContactLaw::Hysteretic) => [self.stiffness(arms, i), touch.zero],
+            (State::Elastic, _) => [touch.stiffness * self.contact.unloading(), touch.zero],
+            (State::Lying, _) => [f64::INFINITY, height],
+        }
     }
 
-    /// The forces on a body of which two points lie. Where they can not carry it, one of them parts or loads further.
+    /// The forces on a body that points which lie hold. Where they can not carry it, one of them parts or loads further.
     fn lies_still(&mut self) -> Option<[f64; N]> {
         loop {
-            let (x, (height, _)) = (self.pose.levers().x, self.pose.points());
-            let lying = || (0..N).filter(|&i| self.touches[i].state == State::Lying);
-            let i = lying().min_by(|&i, &j| x[i].total_cmp(&x[j]))?;
-            let j = lying().max_by(|&i, &j| x[i].total_cmp(&x[j]))?;
-            if i == j {
+            let lying = self.touches.map(|touch| touch.state == State::Lying);
+            if !lying.contains(&true) {
                 return None;
             }
-            let mut forces = [0.0; N];
-            for k in 0..N {
-                if let Hold::On(line) = self.touches[k].hold(self.contact) {
-                    forces[k] = line.stiffness * (line.zero - height[k]).max(0.0);
-                }
-            }
-            let (weight, moment) =
-                (0..N).fold((self.pose.gravity, 0.0), |(w, m), k| (w - forces[k], m - x[k] * forces[k]));
-            forces[j] = (moment - x[i] * weight) / (x[j] - x[i]);
-            forces[i] = weight - forces[j];
-            if let Some(k) = [i, j].into_iter().find(|&k| forces[k] < 0.0) {
+            let (height, _) = self.pose.points();
+            let forces = std::array::from_fn(|k| match self.touches[k].hold(self.contact) {
+                Hold::On(line) => line.stiffness * (line.zero - height[k]).max(0.0),
+                Hold::No | Hold::Lies => 0.0,
+            });
+            let forces = self.pose.held_by(&lying, &forces)?;
+            let those = || (0..N).filter(|&k| lying[k]);
+            if let Some(k) = those().find(|&k| forces[k] < 0.0) {
                 self.apply(k, Event::Parts);
-            } else if let Some(k) = [i, j].into_iter().find(|&k| forces[k] > self.touches[k].limit(self.contact)) {
+            } else if let Some(k) = those().find(|&k| forces[k] > self.touches[k].limit(self.contact)) {
                 self.apply(k, Event::Reloads);
             } else {
                 return Some(forces);
@@ -216,27 +186,32 @@ impl<const N: usize> Run<'_, N> {
     /// one that lies.
     pub(super) fn rest(&mut self, forces: [f64; N], shock_bound_m_s: f64) {
         self.unrested = Some(self.pose);
-        let x = self.pose.levers().x;
-        let carries = |i: &usize| forces[*i] > 0.0 || self.touches[*i].state == State::Lying;
-        let left = (0..N).filter(carries).min_by(|&i, &j| x[i].total_cmp(&x[j]));
-        let right = (0..N).filter(carries).max_by(|&i, &j| x[i].total_cmp(&x[j]));
-        if let (Some(i), Some(j)) = (left, right)
-            && i != j
-        {
-            let pose = &self.pose;
-            let impulse = (x[i] * pose.v - pose.rho2 * pose.spin) / (x[j] - x[i]);
-            let other = -pose.v - impulse;
-            self.pushed(i, other);
-            self.pushed(j, impulse);
-            for k in [i, j] {
-                self.presses[self.touches[k].strike].until_s = f64::INFINITY;
+        let carrying: [bool; N] = std::array::from_fn(|i| forces[i] > 0.0 || self.touches[i].state == State::Lying);
+        let lone = || (0..N).find(|&i| self.touches[i].state != State::Away);
+        if let Some(impulses) = self.pose.stopping(&carrying) {
+            for (i, impulse) in impulses.into_iter().enumerate() {
+                let Some(impulse) = impulse else { continue };
+                self.pushed(i, impulse);
+                self.presses[self.touches[i].strike].until_s = f64::INFINITY;
             }
-        } else if let Some(i) = left.or_else(|| (0..N).find(|&i| self.touches[i].state != State::Away)) {
+        } else if let Some(i) = (0..N).find(|&i| carrying[i]).or_else(lone) {
             // Without gravity one point lies alone, or both bounce in their dents ever more slowly.
             self.book(i, self.pose.points().1.map(|velocity| -velocity));
         }
-        (self.pose.v, self.pose.spin) = (0.0, 0.0);
+        self.pose = self.pose.still();
         self.resting = forces;
         self.log.flight.stop = Stop::AtRest { time_s: self.time.now(), time_bound_s: 0.0, shock_bound_m_s };
     }
+}
+
+/// Energy of a point under a weight over the least that it can have, by its line.
+///
+/// What loads it deeper takes more energy than the ground there gives: from a force above twice its weight on, the energy
+/// that is left never rises.
+fn over([stiffness, zero]: [f64; 2], height: f64, weight: f64) -> f64 {
+    if stiffness == f64::INFINITY {
+        return 0.0;
+    }
+    let energy = |h: f64| weight * h + if h < zero { 0.5 * stiffness * (zero - h).powi(2) } else { 0.0 };
+    (energy(height) - energy(zero - weight / stiffness)).max(0.0)
 }

@@ -3,14 +3,13 @@
 use super::law::{Contact, ContactLaw};
 use super::mode::Motion;
 use super::phase::{Hold, Phase};
-use super::pose::Pose;
+use super::pose::{Extent, Pose};
 use super::touch::{Event, Margins, State, Touch, Watch};
 use super::{Ahead, ContactFlight, Press};
 use crate::Error;
 use crate::flight::{After, Log, State as Heights, Stop};
 use crate::rigid::Clock;
 use crate::roots::{Zero, far_step, first_zero, safe_step};
-use crate::scene::Scene;
 
 /// A body is followed until its energy has changed by this share of what it was at the first touch without reason, whatever the
 /// number of its strikes. What changes it by as much in one phase is no motion of this body.
@@ -38,18 +37,16 @@ const EACH_STRIKE: usize = 128;
 /// where an event has just happened.
 const MARGIN: f64 = 1e-14;
 
-pub(super) struct Run<'a, const N: usize> {
+pub(super) struct Run<'a, P: Pose<N>, const N: usize> {
     pub(super) contact: &'a Contact,
     pub(super) precision: f64,
     pub(super) margins: Margins,
-    pub(super) reach: f64,
-    /// Whether all points are on one side: what turns over comes down on others.
-    one_sided: bool,
+    pub(super) extent: Extent,
     pub(super) log: Log<N>,
     pub(super) presses: Vec<Press>,
-    pub(super) phases: Vec<(f64, Phase<N>)>,
+    pub(super) phases: Vec<(f64, Phase<P, N>)>,
     pub(super) time: Clock,
-    pub(super) pose: Pose<N>,
+    pub(super) pose: P,
     pub(super) touches: [Touch; N],
     /// Largest approach so far.
     pub(super) fastest: f64,
@@ -60,27 +57,28 @@ pub(super) struct Run<'a, const N: usize> {
     idle: u32,
     most_phases: usize,
     /// The body just before it comes to rest.
-    pub(super) unrested: Option<Pose<N>>,
+    pub(super) unrested: Option<P>,
     pub(super) resting: [f64; N],
 }
 
 /// A phase, how long it lasts, and what ends it.
-struct Lasting<const N: usize> {
-    phase: Phase<N>,
+struct Lasting<P: Pose<N>, const N: usize> {
+    phase: Phase<P, N>,
     dt: f64,
     event: Option<(usize, Watch)>,
 }
 
-impl<'a, const N: usize> Run<'a, N> {
-    pub(super) fn new(scene: &Scene<N>, contact: &'a Contact, precision: f64) -> Self {
-        let (body, pose) = (scene.body(), Pose::start(scene));
+impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
+    /// From the first touch.
+    pub(super) fn new(pose: P, log: Log<N>, contact: &'a Contact, precision: f64) -> Self {
+        let extent = pose.extent();
         Self {
             contact,
             precision,
-            margins: Margins { height: MARGIN * body.length_m().max(body.reach()), velocity: 0.0, force: precision },
-            reach: body.reach(),
-            one_sided: body.points_m().iter().all(|[_, z]| *z < 0.0),
-            log: Log::new(scene),
+            margins: Margins { height: MARGIN * extent.size, velocity: 0.0, force: precision },
+            extent,
+            most_phases: PHASES + EACH_STRIKE * log.impact_limit.min(1 << 20),
+            log,
             presses: Vec::with_capacity(16),
             phases: Vec::with_capacity(64),
             time: Clock::default(),
@@ -91,13 +89,12 @@ impl<'a, const N: usize> Run<'a, N> {
             opened: pose.energy(),
             misfit: 0.0,
             idle: 0,
-            most_phases: PHASES + EACH_STRIKE * scene.impact_limit().min(1 << 20),
             unrested: None,
             resting: [0.0; N],
         }
     }
 
-    pub(super) fn run(mut self, mut enough: impl FnMut(&Ahead) -> bool) -> Result<ContactFlight<N>, Error> {
+    pub(super) fn run(mut self, mut enough: impl FnMut(&Ahead) -> bool) -> Result<ContactFlight<N, P>, Error> {
         let mut goes_on = self.first_touches();
         while goes_on {
             if let Some((forces, bound)) = self.rests() {
@@ -137,7 +134,7 @@ impl<'a, const N: usize> Run<'a, N> {
             self.log.flight.stop = Stop::EnergyLimit { time_s: self.time.now() };
             return Ok(false);
         }
-        if self.turned_over() {
+        if self.pose.is_over() {
             self.log.turned_over(self.time.now());
             return Ok(false);
         }
@@ -169,7 +166,7 @@ impl<'a, const N: usize> Run<'a, N> {
         self.log.flight.stop = Stop::BouncedClear { time_s: parted };
     }
 
-    fn finish(mut self) -> ContactFlight<N> {
+    fn finish(mut self) -> ContactFlight<N, P> {
         let energy_error = self.misfit / self.opened;
         let later_m_s = match self.log.flight.stop {
             Stop::AtRest { shock_bound_m_s, .. } => shock_bound_m_s,
@@ -177,10 +174,10 @@ impl<'a, const N: usize> Run<'a, N> {
             Stop::TurnedOver { .. } => f64::INFINITY,
             _ => self.ahead(false).most_m_s,
         };
-        let (_, velocity) = self.pose.points();
+        let ((_, velocity), [_, spin]) = (self.pose.points(), self.pose.angles());
         for (press, strike) in self.presses.iter().zip(&mut self.log.flight.strikes) {
             if press.until_s == f64::INFINITY {
-                (strike.velocity_m_s, strike.spin_rad_s) = (velocity, self.pose.spin);
+                (strike.velocity_m_s, strike.spin_rad_s) = (velocity, spin);
             }
         }
         let contact_s = self.contact.time_s();
@@ -199,7 +196,7 @@ impl<'a, const N: usize> Run<'a, N> {
         }
     }
 
-    fn next(&mut self) -> Lasting<N> {
+    fn next(&mut self) -> Lasting<P, N> {
         let holds = self.touches.map(|touch| touch.hold(self.contact));
         if holds.iter().any(|hold| !matches!(hold, Hold::No)) {
             self.lay_down();
@@ -209,30 +206,30 @@ impl<'a, const N: usize> Run<'a, N> {
             return self.pressed(self.touches.map(|touch| touch.hold(self.contact)));
         }
         let phase = Phase::free(self.pose);
-        let upright = self.upright();
+        let upright = self.pose.upright();
         let event = self.first_event(&phase, upright);
         let dt = event.map_or(upright, |(t, _)| t);
         Lasting { phase, dt, event: event.and_then(|(_, event)| event) }
     }
 
     /// A phase with forces, with lever arms and of a length as its precision asks.
-    fn pressed(&mut self, holds: [Hold; N]) -> Lasting<N> {
+    fn pressed(&mut self, holds: [Hold; N]) -> Lasting<P, N> {
         let delay = self.contact.delay_s();
-        let levers = self.pose.levers();
+        let arms = self.pose.arms();
         // What a turn changes the lever arms by, over themselves.
-        let steep = (0..N).filter(|&i| self.touches[i].is_pressing()).fold(0.1_f64, |most, i| {
-            most.max(levers.over[i].abs() / levers.x[i].abs().max(0.1 * self.pose.body.gyration_m()))
-        });
+        let steep = (0..N)
+            .filter(|&i| self.touches[i].is_pressing())
+            .fold(0.1_f64, |most, i| most.max(self.pose.steepness(&arms, i)));
         let budget = self.precision.min(self.contact.springs_back()) * self.fastest;
         let mut longest = self.stride;
         let mut halfway = self.pose.flown(0.5 * longest.min(0.5 * self.contact.time_s()));
-        halfway.spin = self.pose.spin;
+        let ([_, spin], reach) = (self.pose.angles(), self.extent.reach);
         let (mut passes, mut cuts) = (0, 0);
         // Whether the lever arms are those of now, and how long the phase was by the last lever arms.
         let (mut early, mut before) = (false, f64::INFINITY);
         loop {
             let phase = Phase::new(self.pose, &halfway, holds, delay);
-            let slowest = (self.reach / self.pose.gravity).sqrt().min(self.pose.spin.abs().recip());
+            let slowest = (reach / self.pose.gravity()).sqrt().min(spin.abs().recip());
             let swing = if phase.is_still() && slowest < f64::INFINITY { 0.1 * slowest } else { 0.0 };
             longest = longest.min(swing.max(LONG * self.contact.time_s()));
             let event = self.first_event(&phase, longest);
@@ -252,7 +249,7 @@ impl<'a, const N: usize> Run<'a, N> {
                 continue;
             }
             let gap = gap.max(self.pressed_off(&phase, dt, event, &end));
-            let wrong = turn * steep * (pushed + turn * steep * self.reach * pose.spin.abs());
+            let wrong = turn * steep * (pushed + turn * steep * reach * pose.angles()[1].abs());
             let over = (wrong / KEPT + gap) / budget;
             if over > 1.5 && cuts < CUTS {
                 cuts += 1;
@@ -261,7 +258,7 @@ impl<'a, const N: usize> Run<'a, N> {
                 continue;
             }
             passes += 1;
-            let off = (pose.tilt - halfway.tilt).abs() * steep * pushed;
+            let off = pose.turned_from(&halfway) * steep * pushed;
             if off > 0.1 * budget && passes < PASSES {
                 (halfway, early, before) = (pose, false, dt);
                 continue;
@@ -274,23 +271,17 @@ impl<'a, const N: usize> Run<'a, N> {
 
     /// By how much a dashpot that presses again is not where its line begins, as the velocity that this is worth to its vibration:
     /// the ground would pull, or push at once.
-    fn pressed_off(
-        &self,
-        phase: &Phase<N>,
-        dt: f64,
-        event: Option<(f64, Option<(usize, Watch)>)>,
-        end: &Pose<N>,
-    ) -> f64 {
+    fn pressed_off(&self, phase: &Phase<P, N>, dt: f64, event: Option<(f64, Option<(usize, Watch)>)>, end: &P) -> f64 {
         let Some((_, Some((i, watch)))) = event else { return 0.0 };
         if watch.event != Event::Presses || self.contact.law() == ContactLaw::Hysteretic {
             return 0.0;
         }
-        let rate = (self.touches[i].stiffness * self.share(i, i)).sqrt();
+        let rate = (self.touches[i].stiffness * self.pose.coupled(i, i)).sqrt();
         rate * ((end.points().0[i] - phase.watched(i, dt)[0]).abs() - self.margins.height).max(0.0)
     }
 
     /// The share of a phase after which turning lifts a point that alone presses and lies, and a little more.
-    fn lets_go(&self, phase: &Phase<N>, end: &Pose<N>) -> Option<f64> {
+    fn lets_go(&self, phase: &Phase<P, N>, end: &P) -> Option<f64> {
         let l = phase.lies.filter(|_| phase.modes().is_empty())?;
         let (now, then) = (self.pose.fall(l), end.fall(l));
         let share = 1.02 * now / (now - then);
@@ -299,7 +290,7 @@ impl<'a, const N: usize> Run<'a, N> {
 
     /// The mean pose of a phase of length dt as its forces weigh it, by Simpson's rule; how far the body turns, and by how much a
     /// point that presses is pushed.
-    fn mean(&self, phase: &Phase<N>, dt: f64) -> Mean<N> {
+    fn mean(&self, phase: &Phase<P, N>, dt: f64) -> Mean<P> {
         let at = |t: f64, motions: &[Motion; N]| {
             let pushes = phase.pushes(t, motions);
             (phase.forces(motions).iter().sum::<f64>(), phase.pose(t, &pushes), pushes)
@@ -308,19 +299,15 @@ impl<'a, const N: usize> Run<'a, N> {
         let (begins, (middles, middle, _), (ends, end, pushes)) =
             (phase.forces(&phase.motions(0.0)).iter().sum::<f64>(), at(0.5 * dt, &half), at(dt, &end));
         let sum = begins + 4.0 * middles + ends;
-        let mut pose = middle;
-        if sum > 0.0 {
-            let weighed = |a: f64, b: f64, c: f64| (begins * a + 4.0 * middles * b + ends * c) / sum;
-            pose.tilt = weighed(self.pose.tilt, middle.tilt, end.tilt);
-            pose.spin = weighed(self.pose.spin, middle.spin, end.spin);
-        }
-        let turn = (end.tilt - self.pose.tilt).abs().max((middle.tilt - self.pose.tilt).abs());
+        let weigh = |[a, b, c]: [f64; 3]| (begins * a + 4.0 * middles * b + ends * c) / sum;
+        let pose = if sum > 0.0 { P::mean(&self.pose, &middle, &end, weigh) } else { middle };
+        let turn = end.turned_from(&self.pose).max(middle.turned_from(&self.pose));
         let off = phase.mismatch(dt, &phase.motions(dt), &end, self.margins.height);
         Mean { pose, turn, pushed: phase.pushed(&pushes), off, end }
     }
 
     /// The first event of a phase before `cap`, or the time until which none is proven to happen.
-    fn first_event(&self, phase: &Phase<N>, cap: f64) -> Option<(f64, Option<(usize, Watch)>)> {
+    fn first_event(&self, phase: &Phase<P, N>, cap: f64) -> Option<(f64, Option<(usize, Watch)>)> {
         let modes = phase.mode_bounds();
         let mut found: Option<(f64, Option<(usize, Watch)>)> = None;
         // Points that press first: what they end is short.
@@ -339,7 +326,7 @@ impl<'a, const N: usize> Run<'a, N> {
     }
 
     /// When what is watched at a point happens, if before `cap`.
-    fn when(&self, phase: &Phase<N>, i: usize, watch: &Watch, modes: &[[f64; 4]; N], cap: f64) -> Zero {
+    fn when(&self, phase: &Phase<P, N>, i: usize, watch: &Watch, modes: &[[f64; 4]; N], cap: f64) -> Zero {
         if let Some(known) = phase.falls(i, watch) {
             return known.filter(|t| *t < cap).map_or(Zero::Never, Zero::At);
         }
@@ -366,7 +353,7 @@ impl<'a, const N: usize> Run<'a, N> {
     }
 
     /// Moves the pose to the end of a phase, and books what the ground has done.
-    fn advance(&mut self, phase: &Phase<N>, dt: f64) -> Result<(), Error> {
+    fn advance(&mut self, phase: &Phase<P, N>, dt: f64) -> Result<(), Error> {
         if phase.is_free() {
             self.pose = self.pose.flown(dt);
             return Ok(());
@@ -375,10 +362,11 @@ impl<'a, const N: usize> Run<'a, N> {
         let pushes = phase.pushes(dt, &motions);
         let held = phase.start.energy() + phase.springs(&phase.start.points().0);
         self.pose = phase.pose(dt, &pushes);
-        if !self.pose.y.is_finite() || !self.pose.spin.is_finite() {
+        let energy = self.pose.energy();
+        if !energy.is_finite() {
             return Err(Error::Energy { share: f64::INFINITY });
         }
-        let change = (self.pose.energy() + phase.springs(&self.pose.points().0) + phase.taken(&motions) - held).abs();
+        let change = (energy + phase.springs(&self.pose.points().0) + phase.taken(&motions) - held).abs();
         if change > ENERGY * self.opened {
             return Err(Error::Energy { share: change / self.opened });
         }
@@ -405,7 +393,7 @@ impl<'a, const N: usize> Run<'a, N> {
     }
 
     /// An event, and all others of its kind that come with it by symmetry. Whether the flight goes on.
-    fn happens(&mut self, phase: &Phase<N>, dt: f64, point: usize, watch: Watch) -> bool {
+    fn happens(&mut self, phase: &Phase<P, N>, dt: f64, point: usize, watch: Watch) -> bool {
         let [value, ..] = watch.at(phase.watched(point, dt));
         let mut due = [None; N];
         for (i, due) in due.iter_mut().enumerate() {
@@ -430,7 +418,7 @@ impl<'a, const N: usize> Run<'a, N> {
                 let strike = self.touches[i].strike;
                 self.presses[strike].until_s = self.time.now();
                 let strike = &mut self.log.flight.strikes[strike];
-                (strike.velocity_m_s, strike.spin_rad_s) = (velocity, self.pose.spin);
+                (strike.velocity_m_s, strike.spin_rad_s) = (velocity, self.pose.angles()[1]);
                 self.log.largest_m_s =
                     strike.delta_v_m_s.iter().fold(self.log.largest_m_s, |most, dv| most.max(dv.abs()));
             }
@@ -456,9 +444,9 @@ impl<'a, const N: usize> Run<'a, N> {
         // A touch that grazes has no approach, whatever rounding says.
         let approach = velocity.min(0.0);
         let (h, v) = self.pose.points();
-        // Whole turns have done their part, and take digits.
-        self.pose.tilt = self.pose.tilt.sin().atan2(self.pose.tilt.cos());
-        let after = After { ends: Heights { h, v }, tilt: self.pose.tilt, spin: self.pose.spin };
+        self.pose = self.pose.unwound();
+        let [tilt, spin] = self.pose.angles();
+        let after = After { ends: Heights { h, v }, tilt, spin };
         let strike = self.log.flight.strikes.len();
         if !self.log.strike(i, self.time.now(), approach, [0.0; N], &after, &mut |_| false) {
             if let Stop::ImpactLimit { time_s } = &mut self.log.flight.stop {
@@ -468,7 +456,7 @@ impl<'a, const N: usize> Run<'a, N> {
         }
         self.fastest = self.fastest.max(-approach);
         self.margins.velocity = MARGIN * self.fastest;
-        let stiffness = self.stiffness(i);
+        let stiffness = self.stiffness(&self.pose.arms(), i);
         let [ground, crest, zero] = [height; 3];
         self.touches[i] = Touch { state: State::Loading, stiffness, ground, crest, zero, strike };
         self.presses.push(Press { from_s: self.time.now(), until_s: f64::INFINITY });
@@ -476,32 +464,17 @@ impl<'a, const N: usize> Run<'a, N> {
     }
 
     /// Stiffness that a lone contact of a point has at this angle as it loads.
-    pub(super) fn stiffness(&self, i: usize) -> f64 {
-        let x = self.pose.levers().x[i];
-        self.contact.frequency_rad_s().powi(2) / (1.0 + x * x / self.pose.rho2)
-    }
-
-    /// Time until a body that has points on one side alone stands at a right angle.
-    fn upright(&self) -> f64 {
-        let Pose { tilt, spin, .. } = self.pose;
-        if self.one_sided && spin != 0.0 {
-            ((0.5 * std::f64::consts::PI - tilt * spin.signum()) / spin.abs()).max(0.0)
-        } else {
-            f64::INFINITY
-        }
-    }
-
-    fn turned_over(&self) -> bool {
-        self.one_sided && self.pose.tilt.abs() >= 0.5 * std::f64::consts::PI
+    pub(super) fn stiffness(&self, arms: &P::Arms, i: usize) -> f64 {
+        self.contact.frequency_rad_s().powi(2) / self.pose.coupling(arms, i, i)
     }
 }
 
-struct Mean<const N: usize> {
-    pose: Pose<N>,
+struct Mean<P> {
+    pose: P,
     turn: f64,
     pushed: f64,
     off: f64,
-    end: Pose<N>,
+    end: P,
 }
 
 /// First time before `cap` at which what is watched falls to zero; where it begins at zero and rises, not then.

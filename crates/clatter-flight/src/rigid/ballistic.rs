@@ -26,7 +26,7 @@ pub(super) fn simulate(scene: &Scene, mut enough: impl FnMut(&Flight) -> bool) -
     let length = scene.body().length_m();
     let settling = Settling::new(&scene.body(), e, g, 0.0);
     let scale_s = scene.speed_m_s() / g;
-    let mut log = Log::new(scene);
+    let mut log = Log::new(scene.time_limit_s(), scene.impact_limit());
     let mut state = State { h: [0.0, scene.height_gap_m()], v: scene.level_velocities() };
     let mut time = Clock::default();
     loop {

@@ -270,7 +270,7 @@ const IDLE: u32 = 64;
 pub(super) fn simulate(scene: &Scene, e: [f64; 2], horizon_s: f64, mut enough: impl FnMut(&Flight) -> bool) -> Flight {
     let g = scene.gravity_m_s2();
     let rest = Rest::new(scene, e);
-    let mut log = Log::new(scene);
+    let mut log = Log::new(scene.time_limit_s(), scene.impact_limit());
     let mut pose = Pose::start(scene);
     let mut time = Clock::default();
     let mut leaving = [false; 2];

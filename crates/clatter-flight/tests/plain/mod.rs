@@ -3,6 +3,8 @@
 
 #![allow(dead_code, reason = "each test program uses its part")]
 
+pub(crate) mod plate;
+
 use clatter_flight::ContactLaw;
 
 /// Height and angle of the center of mass and their rates: y, v, φ, ω.

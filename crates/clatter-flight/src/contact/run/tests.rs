@@ -1,11 +1,13 @@
 //! What the ground may not do to the energy of a body.
 
+use super::super::planar::Planar;
 use super::*;
-use crate::Body;
+use crate::{Body, Scene};
 
 /// A flight whose end a has just touched, and the phase in which it presses.
-fn pressing<'a>(scene: &Scene<2>, contact: &'a Contact) -> (Run<'a, 2>, Phase<2>, f64) {
-    let mut run = Run::new(scene, contact, 1e-4);
+fn pressing<'a>(scene: &Scene<2>, contact: &'a Contact) -> (Run<'a, Planar<2>, 2>, Phase<Planar<2>, 2>, f64) {
+    let log = Log::new(f64::INFINITY, 100_000);
+    let mut run = Run::new(Planar::start(scene), log, contact, 1e-4);
     assert!(run.first_touches(), "end a is on the ground and comes down");
     let Lasting { phase, dt, .. } = run.next();
     (run, phase, dt)

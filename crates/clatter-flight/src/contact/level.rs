@@ -1,0 +1,181 @@
+//! A plate that is almost level: height of its center of mass and slopes along x and y, with lever arms that do not change.
+//!
+//! With the positions x, y of the corners about the center of mass and the radii of gyration k_x, k_y,
+//! M_ij = 1 + x_i x_j/k_x² + y_i y_j/k_y².
+
+use super::pose::{Borne, Extent, Pose, Pushes};
+use crate::plate::{Plate, PlateScene};
+
+/// A [`Plate`] in motion.
+#[derive(Debug, Clone, Copy)]
+pub struct Level {
+    plate: Plate,
+    gravity: f64,
+    /// Height and velocity of the center of mass.
+    y: f64,
+    v: f64,
+    /// Slopes along x and y, and their rates.
+    slopes: [f64; 2],
+    rates: [f64; 2],
+}
+
+/// Round the plate: forces of these signs do nothing to it.
+const AROUND: [f64; 4] = [1.0, -1.0, 1.0, -1.0];
+
+impl Level {
+    /// The first touch: the lowest corner is on the ground.
+    pub(super) fn start(scene: &PlateScene) -> Self {
+        let plate = scene.plate();
+        let ([length, width], [x, y]) = (plate.sides_m(), scene.gaps_m());
+        let slopes = [x / length, y / width];
+        let (gravity, v) = (scene.gravity_m_s2(), -scene.speed_m_s());
+        let mut level = Self { plate, gravity, y: 0.0, v, slopes, rates: [0.0; 2] };
+        level.y = -level.points().0.into_iter().fold(f64::INFINITY, f64::min);
+        level
+    }
+    /// What grows along x and y like this, at a place.
+    fn along(of: [f64; 2], [x, y]: [f64; 2]) -> f64 {
+        x * of[0] + y * of[1]
+    }
+    /// What a force of 1 over the mass at one place does to the velocity of another by turning the plate.
+    fn turned(&self, [x, y]: [f64; 2], [x2, y2]: [f64; 2]) -> [f64; 2] {
+        let [kx, ky] = self.plate.gyration_m();
+        [x * x2 / (kx * kx), y * y2 / (ky * ky)]
+    }
+    fn share(&self, one: [f64; 2], other: [f64; 2]) -> f64 {
+        let [x, y] = self.turned(one, other);
+        1.0 + x + y
+    }
+    /// What a force of 1 over the mass at each corner does to the slope along a direction.
+    pub(super) fn slope_by(&self, direction: [f64; 2]) -> [f64; 4] {
+        self.plate.corners_m().map(|corner| {
+            let [x, y] = self.turned(direction, corner);
+            x + y
+        })
+    }
+    /// The rate of the slope along a direction.
+    pub(super) fn rate_along(&self, direction: [f64; 2]) -> f64 {
+        Self::along(self.rates, direction)
+    }
+    /// Forces on the corners of 1 in all and without moment.
+    fn even(&self) -> [f64; 4] {
+        let ([left, right, front, back], [length, width]) = (self.plate.edges_m(), self.plate.sides_m());
+        let ([left, right], [front, back]) = ([right / length, left / length], [back / width, front / width]);
+        [left * front, right * front, right * back, left * back]
+    }
+}
+
+impl Pose<4> for Level {
+    type Arms = ();
+
+    fn extent(&self) -> Extent {
+        let corners = self.plate.corners_m();
+        let reach = corners.iter().fold(0.0_f64, |most, [x, y]| most.max(x.hypot(*y)));
+        let [length, width] = self.plate.sides_m();
+        let coupling = corners.iter().fold(1.0_f64, |most, corner| most.max(self.share(*corner, *corner)));
+        Extent { size: length.max(width).max(reach), reach, coupling }
+    }
+    fn gravity(&self) -> f64 {
+        self.gravity
+    }
+    fn points_by(&self, (): &()) -> ([f64; 4], [f64; 4]) {
+        let corners = self.plate.corners_m();
+        let height = corners.map(|corner| self.y + Self::along(self.slopes, corner));
+        (height, corners.map(|corner| self.velocity_of(corner)))
+    }
+    /// At x, y on the plate.
+    fn velocity_of(&self, place: [f64; 2]) -> f64 {
+        self.v + Self::along(self.rates, place)
+    }
+    fn angles(&self) -> [f64; 2] {
+        [self.slopes, self.rates].map(|[x, y]| x.hypot(y))
+    }
+    fn kinetic(&self) -> f64 {
+        let [kx, ky] = self.plate.gyration_m();
+        let [x, y] = [kx * self.rates[0], ky * self.rates[1]];
+        0.5 * (self.v * self.v + x * x + y * y)
+    }
+    fn energy(&self) -> f64 {
+        self.kinetic() + self.gravity * self.y
+    }
+
+    fn flown(&self, t: f64) -> Self {
+        let g = self.gravity;
+        let slopes = [0, 1].map(|i| self.slopes[i] + self.rates[i] * t);
+        Self { y: self.y + t * (self.v - 0.5 * g * t), v: self.v - g * t, slopes, ..*self }
+    }
+    fn flying(&self, point: usize, t: f64) -> [f64; 4] {
+        let (then, corner) = (self.flown(t), self.plate.corners_m()[point]);
+        [then.y + Self::along(then.slopes, corner), then.velocity_of(corner), -self.gravity, 0.0]
+    }
+    fn flying_bounds(&self, _: usize) -> [f64; 3] {
+        [self.gravity, 0.0, 0.0]
+    }
+
+    fn arms(&self) {}
+    fn coupling(&self, (): &(), i: usize, j: usize) -> f64 {
+        let corners = self.plate.corners_m();
+        self.share(corners[i], corners[j])
+    }
+    fn couplings_of(&self, (): &(), place: [f64; 2]) -> [f64; 4] {
+        self.plate.corners_m().map(|corner| self.share(place, corner))
+    }
+    fn falls(&self, (): &()) -> [f64; 4] {
+        [self.gravity; 4]
+    }
+    fn after(&self, t: f64, (): &(), pushes: &Pushes<4>) -> Self {
+        (0..4).fold(self.flown(t), |pose, i| pose.by(i, pushes.path[i], pushes.impulse[i]))
+    }
+    fn pushed(&self, point: usize, impulse: f64) -> Self {
+        self.by(point, 0.0, impulse)
+    }
+    fn moved(&self, point: usize, by: f64) -> Self {
+        self.by(point, by / self.coupled(point, point), 0.0)
+    }
+
+    /// By the forces that leave least of its energy over that at rest, F and F + s (1, −1, 1, −1) doing the same to the plate:
+    /// nothing else is left where it rests on lines like these.
+    fn borne(&self, (): &(), height: &[f64; 4], line: impl Fn(usize) -> [f64; 2]) -> Option<Borne<4>> {
+        let even = self.even().map(|share| share * self.gravity);
+        let [mut off, mut yields] = [0.0; 2];
+        for i in 0..4 {
+            let [stiffness, zero] = line(i);
+            if stiffness < f64::INFINITY {
+                off += AROUND[i] * (height[i] - zero + even[i] / stiffness);
+                yields += stiffness.recip();
+            }
+        }
+        let s = if yields > 0.0 { (-off / yields).clamp(-even[0].min(even[2]), even[1].min(even[3])) } else { 0.0 };
+        let forces = std::array::from_fn(|i| even[i] + s * AROUND[i]);
+        Some(Borne { on: [true; 4], forces })
+    }
+    /// Where more than one corner does not carry, what the others can not stop is left out.
+    fn stopping(&self, carrying: &[bool; 4]) -> Option<[Option<f64>; 4]> {
+        if !carrying.contains(&true) {
+            return None;
+        }
+        let (even, [length, width], [kx, ky]) = (self.even(), self.plate.sides_m(), self.plate.gyration_m());
+        let moments = [kx * kx * self.rates[0] / (2.0 * length), ky * ky * self.rates[1] / (2.0 * width)];
+        let each: [f64; 4] = std::array::from_fn(|i| {
+            let [x, y] = self.plate.corners_m()[i];
+            -self.v * even[i] - moments[0] * x.signum() - moments[1] * y.signum()
+        });
+        let idle: Vec<usize> = (0..4).filter(|&i| !carrying[i]).collect();
+        let s = if let [i] = idle[..] { -each[i] * AROUND[i] } else { 0.0 };
+        Some(std::array::from_fn(|i| carrying[i].then(|| each[i] + s * AROUND[i])))
+    }
+    fn still(&self) -> Self {
+        Self { v: 0.0, rates: [0.0; 2], ..*self }
+    }
+}
+
+impl Level {
+    /// After a push at a corner that does so much to height and velocity of the center of mass.
+    fn by(&self, point: usize, path: f64, impulse: f64) -> Self {
+        let ([x, y], [kx, ky]) = (self.plate.corners_m()[point], self.plate.gyration_m());
+        let turns = [x / (kx * kx), y / (ky * ky)];
+        let slopes = [0, 1].map(|i| self.slopes[i] + turns[i] * path);
+        let rates = [0, 1].map(|i| self.rates[i] + turns[i] * impulse);
+        Self { y: self.y + path, v: self.v + impulse, slopes, rates, ..*self }
+    }
+}

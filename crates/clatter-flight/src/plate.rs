@@ -1,0 +1,251 @@
+//! A plate that falls almost level, with contacts that take time at its four corners.
+
+use clatter::Error as Given;
+
+use crate::contact::{Ahead, Contact, ContactLaw, PlateFlight};
+use crate::scene::within;
+use crate::{Error, Stop};
+
+/// A rigid rectangular plate, its center of mass anywhere between the edges and its principal axes along them.
+///
+/// Positions x, y are in m from the center of mass. The corners are a (−x, −y), b (+x, −y), c (+x, +y) and d (−x, +y); a is the one
+/// that touches first.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plate {
+    edges: [f64; 4],
+    gyration: [f64; 2],
+}
+
+impl Plate {
+    /// From the distances of the edges from the center of mass, \[−x, +x, −y, +y\], and the radii of gyration k_x, k_y, of the mass
+    /// along x and along y.
+    ///
+    /// # Errors
+    /// [`Error::Quantity`](clatter::Error::Quantity) unless the distances are in [1e−31, 1e30] m and opposite ones at most in the
+    /// ratio 10⁶, and each radius of gyration is between 10⁻¹² and 10⁶ times the side along it.
+    ///
+    /// # Examples
+    /// ```
+    /// use clatter_flight::Plate;
+    /// let side = [0.15, 0.07];
+    /// let uniform = Plate::new([0.075, 0.075, 0.035, 0.035], side.map(|l| l / 12_f64.sqrt()))?;
+    /// assert_eq!(uniform.sides_m(), side);
+    /// # Ok::<(), clatter::Error>(())
+    /// ```
+    pub fn new(edges_m: [f64; 4], gyration_m: [f64; 2]) -> Result<Self, Given> {
+        for distance in edges_m {
+            within("distance of an edge in m", distance, 1e-31, 1e30, "in [1e-31, 1e30]")?;
+        }
+        let [left, right, front, back] = edges_m;
+        for ratio in [left / right, front / back] {
+            within("ratio of the distances of two edges", ratio, 1e-6, 1e6, "in [1e-6, 1e6]")?;
+        }
+        let plate = Self { edges: edges_m, gyration: gyration_m };
+        let names = ["radius of gyration along x in m", "radius of gyration along y in m"];
+        for ((name, k), side) in names.into_iter().zip(gyration_m).zip(plate.sides_m()) {
+            within(name, k, 1e-12 * side, 1e6 * side, "between 1e-12 and 1e6 times the side along it")?;
+        }
+        Ok(plate)
+    }
+    /// Distances of the edges from the center of mass, \[−x, +x, −y, +y\].
+    #[must_use]
+    pub fn edges_m(&self) -> [f64; 4] {
+        self.edges
+    }
+    /// Length along x and width along y.
+    #[must_use]
+    pub fn sides_m(&self) -> [f64; 2] {
+        let [left, right, front, back] = self.edges;
+        [left + right, front + back]
+    }
+    /// Radii of gyration k_x and k_y.
+    #[must_use]
+    pub fn gyration_m(&self) -> [f64; 2] {
+        self.gyration
+    }
+    /// Corners a, b, c and d, from the center of mass.
+    #[must_use]
+    pub fn corners_m(&self) -> [[f64; 2]; 4] {
+        let [left, right, front, back] = self.edges;
+        [[-left, -front], [right, -front], [right, back], [-left, back]]
+    }
+    /// Where a place in half-sides from the middle is, as positions of [`clatter::Plate`] are: in m from the center of mass.
+    #[must_use]
+    pub fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let [left, right, front, back] = self.edges;
+        [0.5 * ((1.0 + x) * right - (1.0 - x) * left), 0.5 * ((1.0 + y) * back - (1.0 - y) * front)]
+    }
+}
+
+/// A drop of a plate at the moment when corner a touches, without turning.
+///
+/// # Validity
+/// Small tilt: lever arms are those of a level plate. Hard, level ground without friction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlateScene {
+    plate: Plate,
+    speed: f64,
+    gaps: [f64; 2],
+    gravity: f64,
+    time_limit: f64,
+    impact_limit: usize,
+}
+
+impl PlateScene {
+    /// A plate that comes down at this speed, with corner b and d so high as a touches; c is as high as both together.
+    ///
+    /// No limit of time until set otherwise, and 100 000 strikes.
+    ///
+    /// # Errors
+    /// [`Error::Quantity`](clatter::Error::Quantity) unless the speed is in [1e−30, 1e30] m/s, gaps are 0 or more and at most the side
+    /// along which they open, and gravity is 0 or in [1e−60, 1e30] m/s².
+    pub fn new(plate: Plate, speed_m_s: f64, gaps_m: [f64; 2], gravity_m_s2: f64) -> Result<Self, Given> {
+        within("speed in m/s", speed_m_s, 1e-30, 1e30, "in [1e-30, 1e30]")?;
+        for ((name, gap), side) in
+            ["height of corner b in m", "height of corner d in m"].into_iter().zip(gaps_m).zip(plate.sides_m())
+        {
+            within(name, gap, 0.0, side, "from 0 to the side along which it rises")?;
+        }
+        if gravity_m_s2 != 0.0 {
+            within("gravity in m/s²", gravity_m_s2, 1e-60, 1e30, "0 or in [1e-60, 1e30]")?;
+        }
+        Ok(Self {
+            plate,
+            speed: speed_m_s,
+            gaps: gaps_m.map(|gap| gap + 0.0),
+            gravity: gravity_m_s2 + 0.0,
+            time_limit: f64::INFINITY,
+            impact_limit: 100_000,
+        })
+    }
+    /// No strike after this time since the first touch.
+    ///
+    /// # Errors
+    /// [`Error::Quantity`](clatter::Error::Quantity) unless positive; infinity is no limit.
+    pub fn with_time_limit_s(mut self, time_s: f64) -> Result<Self, Given> {
+        if time_s > 0.0 {
+            self.time_limit = time_s;
+            Ok(self)
+        } else {
+            Err(Given::Quantity { name: "time limit in s", value: time_s, allowed: "positive" })
+        }
+    }
+    /// No more strikes than this.
+    #[must_use]
+    pub fn with_impact_limit(mut self, impacts: usize) -> Self {
+        self.impact_limit = impacts;
+        self
+    }
+    /// The plate.
+    #[must_use]
+    pub fn plate(&self) -> Plate {
+        self.plate
+    }
+    /// Speed of the center of mass at the first touch, downward.
+    #[must_use]
+    pub fn speed_m_s(&self) -> f64 {
+        self.speed
+    }
+    /// Heights of corners b and d when a touches.
+    #[must_use]
+    pub fn gaps_m(&self) -> [f64; 2] {
+        self.gaps
+    }
+    /// Acceleration of gravity.
+    #[must_use]
+    pub fn gravity_m_s2(&self) -> f64 {
+        self.gravity
+    }
+
+    /// The flight with contacts that take time, until rest, to a precision of 1e−4.
+    ///
+    /// # Errors
+    /// As [`contacts_until`](Self::contacts_until).
+    ///
+    /// # Examples
+    /// A plate that lands flat is pressed at all corners along one half-sine, and rises with the restitution.
+    /// ```
+    /// use clatter_flight::{Contact, ContactLaw, Plate, PlateScene};
+    /// let plate = Plate::new([0.07, 0.07, 0.035, 0.035], [0.04, 0.02])?;
+    /// let flight = PlateScene::new(plate, 2.0, [0.0; 2], 0.0)?.contacts(&Contact::new(ContactLaw::Hysteretic, 0.5, 1e-3)?)?;
+    /// assert_eq!(flight.flight.strikes.len(), 4);
+    /// assert!(flight.flight.strikes.iter().all(|strike| (strike.velocity_m_s[0] - 1.0).abs() < 1e-12));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn contacts(&self, contact: &Contact) -> Result<PlateFlight, Error> {
+        self.contacts_until(contact, 1e-4, |_| false)
+    }
+
+    /// The same to a precision, as far as it is needed: as [`Scene::contacts_until`](crate::Scene::contacts_until).
+    ///
+    /// # Accuracy
+    /// Lever arms do not change, so that a phase is exact; what is slower than `precision` is laid down. A hysteretic contact with e
+    /// below [`LEAST_OF_PLATES`] rebounds with that.
+    ///
+    /// # Errors
+    /// [`Error::Given`] unless the precision is in [1e−8, 0.1]; [`Error::Bound`] unless each radius of gyration is at least 0.05 of the
+    /// side along it, and the contact time at most a fifth of the longer side over the speed and a tenth of √(longer side/gravity), and
+    /// at least 1e−10 of the longer side over the speed; [`Error::Energy`] where the motion does not keep its energy.
+    pub fn contacts_until(
+        &self,
+        contact: &Contact,
+        precision: f64,
+        enough: impl FnMut(&Ahead) -> bool,
+    ) -> Result<PlateFlight, Error> {
+        within("precision", precision, 1e-8, 0.1, "in [1e-8, 0.1]")?;
+        self.check(contact)?;
+        let e = match contact.law() {
+            ContactLaw::Hysteretic => contact.restitution().max(LEAST_OF_PLATES),
+            ContactLaw::Dashpot => contact.restitution(),
+        };
+        let contact = Contact::new(contact.law(), e, contact.time_s())?;
+        PlateFlight::follow(self, &contact, precision, enough)
+    }
+
+    pub(crate) fn limits(&self) -> (f64, usize) {
+        (self.time_limit, self.impact_limit)
+    }
+
+    fn check(&self, contact: &Contact) -> Result<(), Error> {
+        // What is told as the bound is allowed.
+        let beyond = 1.0 + 1e-12;
+        let sides = self.plate.sides_m();
+        for (value, side) in self.plate.gyration.into_iter().zip(sides) {
+            if value * beyond < 0.05 * side {
+                let (name, bound) = ("radius of gyration", 0.05 * side);
+                let reason = "0.05 of the side along it for contacts that take time";
+                return Err(Error::Bound { name, value, bound, most: false, unit: "m", reason });
+            }
+        }
+        let (length, value) = (sides[0].max(sides[1]), contact.time_s());
+        let bound_of =
+            |bound, most, reason| Error::Bound { name: "contact time", value, bound, most, unit: "s", reason };
+        let of_speed = 0.2 * length / self.speed;
+        let of_gravity = 0.1 * (length / self.gravity).sqrt();
+        if value > of_speed.min(of_gravity) * beyond {
+            let reason = if of_speed < of_gravity {
+                "a fifth of longer side/speed, so that the corners sink in little"
+            } else {
+                "a tenth of sqrt(longer side/gravity), so that the corners sink in little"
+            };
+            return Err(bound_of(of_speed.min(of_gravity), true, reason));
+        }
+        let shortest = 1e-10 * length / self.speed;
+        if value * beyond < shortest {
+            return Err(bound_of(shortest, false, "1e-10 longer side/speed, so that the corners sink in at all"));
+        }
+        Ok(())
+    }
+}
+
+/// A hysteretic contact of a plate rebounds with this restitution at least: corners that stay where they have loaded are followed for
+/// bars alone.
+pub const LEAST_OF_PLATES: f64 = 0.01;
+
+impl PlateFlight {
+    /// Whether a limit has cut the flight off.
+    #[must_use]
+    pub fn is_cut(&self) -> bool {
+        !matches!(self.flight.stop, Stop::AtRest { .. } | Stop::BouncedClear { .. })
+    }
+}
