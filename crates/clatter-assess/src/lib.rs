@@ -6,6 +6,7 @@
 mod assess;
 mod bound;
 mod check;
+mod data_fault;
 pub mod design;
 mod drop;
 mod engine;
@@ -32,6 +33,7 @@ mod visible;
 
 pub use clatter_flight::ContactLaw;
 pub use clatter_shock::STANDARD_GRAVITY_M_S2;
+pub use data_fault::DataFault;
 pub use drop::{Model, SingleDrop};
 pub use engine::{Answer, Part, answer, respond};
 pub use error::Error;
