@@ -7,7 +7,6 @@ use clatter::End;
 use crate::bound::bound;
 use crate::drop::{Model, SingleDrop};
 use crate::engine::{Part, answer};
-use crate::quantity::lacks_contact_time;
 use crate::search::{Asked, Place, Ranges, Task, Watch, Worst};
 use crate::{
     Accuracy, Assessment, Component, ComponentAssessment, ContactLaw, Error, Limit, LimitAssessment, LimitKind,
@@ -60,9 +59,9 @@ impl ProductFile {
     /// The acceleration of a part that exceeds its rattle space is undecided: it hits its stop.
     ///
     /// # Errors
-    /// [`Error::Given`] for a value that product files do not allow; [`Error::Tolerance`] for a tolerance outside [1e-4, 0.5];
-    /// [`Error::ContactTime`] for a stiff or hard-mounted
-    /// part of a product without contact time, [`Error::Contact`] for the compliant model of one.
+    /// Those of [`check`](Self::check) for data that product files do not allow; [`Error::Tolerance`] for a tolerance outside
+    /// [1e-4, 0.5], [`Error::Merge`] for a time that is none; [`Error::Contact`] for the compliant model of a product without contact
+    /// time.
     pub fn assess_to(&self, accuracy: &Accuracy) -> Result<Assessment, Error> {
         self.assess_watched(accuracy, &|_, _| true)
     }
@@ -95,7 +94,7 @@ impl ProductFile {
     /// What [`assess_watched`](Self::assess_watched) says of one component, found in the same drops.
     ///
     /// # Errors
-    /// As [`assess_to`](Self::assess_to).
+    /// As [`assess_to`](Self::assess_to); [`Error::OtherProduct`] for a component that is none of this product.
     ///
     /// # Examples
     /// ```
@@ -111,6 +110,9 @@ impl ProductFile {
         accuracy: &Accuracy,
         watch: Watch<'_>,
     ) -> Result<ComponentAssessment, Error> {
+        if !self.components.contains(component) {
+            return Err(Error::OtherProduct(component.name.clone()));
+        }
         let found = self.assess_these(&[component], accuracy, NOTHING_BREAKS, watch)?;
         Ok(found.map_or_else(|_| unreachable!("nothing exceeds infinity"), |mut one| one.remove(0)))
     }
@@ -126,11 +128,6 @@ impl ProductFile {
         self.check()?;
         if accuracy.model == Some(Model::Compliant) && self.product.contact_time_s.is_none() {
             return Err(Error::Contact);
-        }
-        for component in &self.components {
-            if let Some(reason) = lacks_contact_time(&self.product, component) {
-                return Err(Error::ContactTime { component: component.name.clone(), reason });
-            }
         }
         let ranges = self.ranges(accuracy);
         let tasks: Vec<Task<'_>> = these.iter().copied().flat_map(limits_of).collect();

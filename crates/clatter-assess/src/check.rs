@@ -1,22 +1,26 @@
 //! What a product must be to be assessed: the same for one from a file and for one that was built in code.
 
-use std::fmt::Display;
+use std::collections::HashSet;
 
-use crate::keys::{self, Key, Kind};
-use crate::{Component, Damping, Error, Fall, Mount, Product, ProductFile, Spread};
+use clatter_flight::Body;
+
+use crate::keys::{self, Key, Kind, MOST_COMPONENTS};
+use crate::quantity::lacks_contact_time;
+use crate::{Component, Damping, DataFault, Drop, Error, Fall, Law, Mount, Product, ProductFile, RecordFile, Spread};
 
 /// How far the center of mass may lie from the middle, over the length.
-pub(crate) const FARTHEST_CENTER: f64 = 0.45;
+const FARTHEST_CENTER: f64 = 0.45;
 /// Radius of gyration over the length: less mass at the ends no product has, more beyond them neither.
 pub(crate) const GYRATION: [f64; 2] = [0.05, 2.0];
-/// Places are compared to this share of the length.
+/// Places are compared to this share of the length, radii of gyration to this share of them.
 const ROUNDINGS: f64 = 1e-9;
 
 impl ProductFile {
-    /// Checks that every value is within what a product file allows.
+    /// Checks everything that a product file would be refused for. What assesses, scatters, or designs a product calls it.
     ///
     /// # Errors
-    /// [`Error::Given`] for the first one that is not.
+    /// [`Error::Data`] for the first value that is not allowed, with the component that has it; [`Error::ContactTime`] for a stiff
+    /// or hard-mounted part of a product without contact time.
     ///
     /// # Examples
     /// ```
@@ -24,125 +28,186 @@ impl ProductFile {
     /// let mut file = ProductFile::read(EXAMPLE, "example.toml")?;
     /// assert!(file.check().is_ok());
     /// file.product.restitution = Spread::value(1.7)?;
-    /// assert_eq!(file.check().unwrap_err().to_string(), "restitution is 1.7; allowed: from 0 to 1");
+    /// let said = file.check().unwrap_err().to_string();
+    /// assert_eq!(said, "`restitution` = 1.7 is out of its range; allowed: from 0 to 1");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn check(&self) -> Result<(), Error> {
-        let Self { product, drop, components, .. } = self;
-        let body = &product.body;
-        one(keys::PRODUCT, "length", body.length_m(), "")?;
-        spread(keys::PRODUCT, "restitution", Some(&product.restitution), "")?;
-        spread(keys::PRODUCT, "contact_time", product.contact_time_s.as_ref(), "")?;
-        if let Some(mass) = product.mass_kg {
-            one(keys::PRODUCT, "mass", mass, "")?;
+        self.product.check()?;
+        self.drop.check()?;
+        number_of_components(self.components.len())?;
+        let mut names = HashSet::new();
+        for component in &self.components {
+            component.check(&self.product)?;
+            if !names.insert(told_apart(&component.name)) {
+                return Err(DataFault::SameName(component.name.clone()).into());
+            }
         }
-        product.check_body()?;
-        match &drop.fall {
-            Fall::HeightM(height) => spread(keys::DROP, "height", Some(height), "")?,
-            Fall::SpeedMS(speed) => spread(keys::DROP, "speed", Some(speed), "")?,
-        }
-        spread(keys::DROP, "tilt", Some(&drop.tilt_rad), "")?;
-        one(keys::DROP, "gravity", drop.gravity_m_s2, "")?;
-        if components.is_empty() {
-            return Err(given("number of components", 0, "at least 1"));
-        }
-        components.iter().try_for_each(|component| component.check(product))
+        Ok(self.records.iter().try_for_each(|record| record.check(&self.product))?)
     }
 }
 
 impl Product {
-    /// Center of mass and radius of gyration within the body.
-    pub(crate) fn check_body(&self) -> Result<(), Error> {
-        let length = self.body.length_m();
-        let [a, b] = self.body.arms_m();
-        let center = 0.5 * (a - b);
-        if center.is_nan() || center.abs() > FARTHEST_CENTER * length {
-            return Err(given("center_of_mass", metres(center), "within 0.45 of the length from the middle"));
+    fn check(&self) -> Result<(), DataFault> {
+        named(&self.name)?;
+        one(keys::PRODUCT, "length", self.body.length_m())?;
+        spread(keys::PRODUCT, "restitution", Some(&self.restitution))?;
+        spread(keys::PRODUCT, "contact_time", self.contact_time_s.as_ref())?;
+        self.mass_kg.map_or(Ok(()), mass)?;
+        let points_m = self.body.points_m();
+        let [[a, below_a], [b, below_b]] = points_m;
+        if !(a < 0.0 && b > 0.0 && below_a == 0.0 && below_b == 0.0) {
+            return Err(DataFault::Ends { points_m });
         }
-        let [least, most] = GYRATION.map(|share| share * length);
-        for gyration in [self.gyration_m.lo(), self.gyration_m.hi(), self.body.gyration_m()] {
-            if !(least..=most).contains(&gyration) {
-                return Err(given("radius_of_gyration", metres(gyration), "from 0.05 to 2 times the length"));
-            }
+        for gyration_m in [self.gyration_m.lo(), self.gyration_m.hi()] {
+            body_of(self.body.length_m(), -0.5 * (a + b), gyration_m)?;
+        }
+        let (gyration_m, middle_m) = (self.body.gyration_m(), self.gyration_m.at(0.5));
+        if (gyration_m - middle_m).abs() > ROUNDINGS * middle_m {
+            return Err(DataFault::OtherGyration { gyration_m, middle_m });
+        }
+        Ok(())
+    }
+}
+
+pub(crate) fn mass(mass_kg: f64) -> Result<(), DataFault> {
+    one(keys::PRODUCT, "mass", mass_kg)
+}
+
+/// The body with its center of mass so far from the middle, towards end b.
+pub(crate) fn body_of(length_m: f64, center_m: f64, gyration_m: f64) -> Result<Body, DataFault> {
+    if center_m.is_nan() || center_m.abs() > FARTHEST_CENTER * length_m {
+        return Err(DataFault::CenterOfMass { center_m, length_m });
+    }
+    let half = 0.5 * length_m;
+    let body = if center_m == 0.0 {
+        Body::new(length_m, gyration_m)
+    } else {
+        Body::off_center(half + center_m, half - center_m, gyration_m)
+    };
+    let [least, most] = GYRATION;
+    let within = (least..=most).contains(&(gyration_m / length_m));
+    body.ok().filter(|_| within).ok_or(DataFault::Gyration { gyration_m, length_m })
+}
+
+impl Drop {
+    fn check(&self) -> Result<(), DataFault> {
+        match &self.fall {
+            Fall::HeightM(height) => spread(keys::DROP, "height", Some(height))?,
+            Fall::SpeedMS(speed) => spread(keys::DROP, "speed", Some(speed))?,
+        }
+        spread(keys::DROP, "tilt", Some(&self.tilt_rad))?;
+        one(keys::DROP, "gravity", self.gravity_m_s2)?;
+        if matches!(self.fall, Fall::HeightM(_)) && self.gravity_m_s2 == 0.0 {
+            return Err(DataFault::NoGravity);
         }
         Ok(())
     }
 }
 
 impl Component {
-    /// How far it reaches from the middle of the product.
-    pub(crate) fn reach_m(&self) -> f64 {
-        self.position_m.lo().abs().max(self.position_m.hi().abs()) + 0.5 * self.extent_m
-    }
-
     /// Whether it is within the product.
-    pub(crate) fn fits(&self, product: &Product) -> bool {
-        self.reach_m() <= 0.5 * product.body.length_m() * (1.0 + ROUNDINGS)
+    pub(crate) fn fits(&self, product: &Product) -> Result<(), DataFault> {
+        let reach_m = self.position_m.lo().abs().max(self.position_m.hi().abs()) + 0.5 * self.extent_m;
+        let half_m = 0.5 * product.body.length_m();
+        if reach_m <= half_m * (1.0 + ROUNDINGS) { Ok(()) } else { Err(DataFault::Reach { reach_m, half_m }) }
     }
 
-    fn check(&self, product: &Product) -> Result<(), Error> {
-        let of = format!(" of component {:?}", self.name);
-        let component = |name, value: Option<&Spread>| spread(keys::COMPONENT, name, value, &of);
-        component("position", Some(&self.position_m))?;
-        one(keys::COMPONENT, "extent", self.extent_m, &of)?;
-        if !self.fits(product) {
-            return Err(given(&format!("reach{of}"), metres(self.reach_m()), "up to half of the product's length"));
-        }
+    /// Everything but whether its name is its own.
+    pub(crate) fn check(&self, product: &Product) -> Result<(), Error> {
+        let own = || -> Result<(), DataFault> {
+            named(&self.name)?;
+            let of = |name, value: Option<&Spread>| spread(keys::COMPONENT, name, value);
+            of("position", Some(&self.position_m))?;
+            one(keys::COMPONENT, "extent", self.extent_m)?;
+            self.fits(product)?;
+            self.check_mount()?;
+            let limits = &self.limits;
+            if limits.kinds().is_empty() {
+                return Err(DataFault::NoLimit);
+            }
+            of("acceleration_limit", limits.acceleration_m_s2.as_ref())?;
+            of("rattle_space", limits.rattle_space_m.as_ref())?;
+            of("velocity_change_limit", limits.velocity_change_m_s.as_ref())?;
+            of("angular_velocity_change_limit", limits.angular_velocity_change_rad_s.as_ref())?;
+            let boundary = limits.damage_boundary.as_ref();
+            spread(keys::BOUNDARY, "velocity_change", boundary.map(|boundary| &boundary.velocity_change_m_s))?;
+            spread(keys::BOUNDARY, "acceleration", boundary.map(|boundary| &boundary.acceleration_m_s2))
+        };
+        own().map_err(|fault| Error::Data { component: Some(self.name.clone()), fault })?;
+        let lacks = lacks_contact_time(product, self);
+        lacks.map_or(Ok(()), |reason| Err(Error::ContactTime { component: self.name.clone(), reason }))
+    }
+
+    fn check_mount(&self) -> Result<(), DataFault> {
         match &self.mount {
-            Mount::Hard if self.limits.rattle_space_m.is_some() => {
-                return Err(given(&format!("rattle_space{of}"), "given", "not for a part that is mounted rigidly"));
-            }
-            Mount::Hard => {}
+            Mount::Hard if self.limits.rattle_space_m.is_some() => Err(DataFault::Hard { field: "rattle_space" }),
+            Mount::Hard => Ok(()),
             Mount::Suspended { frequency_hz, damping } => {
-                component("natural_frequency", Some(frequency_hz))?;
-                match damping {
-                    Damping::Ratio(ratio) => component("damping_ratio", Some(ratio))?,
-                    Damping::Quality(quality) => component("quality_factor", Some(quality))?,
-                }
+                spread(keys::COMPONENT, "natural_frequency", Some(frequency_hz))?;
+                let name = match damping {
+                    Damping::Ratio(_) => "damping_ratio",
+                    Damping::Quality(_) => "quality_factor",
+                };
+                spread(keys::COMPONENT, name, Some(damping.spread()))
             }
         }
-        let limits = &self.limits;
-        if limits.kinds().is_empty() {
-            return Err(given(&format!("number of limits{of}"), 0, "at least 1"));
-        }
-        component("acceleration_limit", limits.acceleration_m_s2.as_ref())?;
-        component("rattle_space", limits.rattle_space_m.as_ref())?;
-        component("velocity_change_limit", limits.velocity_change_m_s.as_ref())?;
-        component("angular_velocity_change_limit", limits.angular_velocity_change_rad_s.as_ref())?;
-        let boundary = limits.damage_boundary.as_ref();
-        spread(keys::BOUNDARY, "velocity_change", boundary.map(|boundary| &boundary.velocity_change_m_s), &of)?;
-        spread(keys::BOUNDARY, "acceleration", boundary.map(|boundary| &boundary.acceleration_m_s2), &of)
     }
 }
 
-fn given(name: &str, value: impl Display, allowed: &str) -> Error {
-    Error::Given { name: name.to_owned(), value: value.to_string(), allowed: allowed.to_owned() }
+impl RecordFile {
+    fn check(&self, product: &Product) -> Result<(), DataFault> {
+        optional(keys::RECORD, "position", self.position_m)?;
+        optional(keys::RECORD, "sample_rate", self.sample_rate_hz)?;
+        optional(keys::RECORD, "timing", self.timing_s)?;
+        self.position_m.map_or(Ok(()), |position_m| sensor(position_m, product))
+    }
 }
 
-fn metres(value: f64) -> String {
-    format!("{value} m")
+/// Whether an acceleration was measured at a place of the product.
+pub(crate) fn sensor(position_m: f64, product: &Product) -> Result<(), DataFault> {
+    let half_m = 0.5 * product.body.length_m();
+    let within = position_m.abs() <= half_m * (1.0 + ROUNDINGS);
+    if within { Ok(()) } else { Err(DataFault::Sensor { position_m, half_m }) }
 }
 
-/// A range within the bounds of its key.
-fn spread(table: &'static [Key], name: &str, value: Option<&Spread>, of: &str) -> Result<(), Error> {
-    let ends = value.map_or([None; 2], |value| [Some(value.lo()), Some(value.hi())]);
-    ends.into_iter().flatten().try_for_each(|end| one(table, name, end, of))
+pub(crate) fn named(name: &str) -> Result<(), DataFault> {
+    if name.trim().is_empty() { Err(DataFault::NoName) } else { Ok(()) }
+}
+
+/// What of a name tells a component from others: blanks around it do not.
+pub(crate) fn told_apart(name: &str) -> &str {
+    name.trim_matches(' ')
+}
+
+fn number_of_components(count: usize) -> Result<(), DataFault> {
+    if (1..=MOST_COMPONENTS).contains(&count) { Ok(()) } else { Err(DataFault::Components(count)) }
+}
+
+/// A range or a distribution, all of whose numbers are within the bounds of its key.
+fn spread(table: &'static [Key], name: &'static str, value: Option<&Spread>) -> Result<(), DataFault> {
+    let Some(value) = value else { return Ok(()) };
+    let own = match value.law() {
+        Law::Normal { mean, deviation } => [mean, deviation],
+        Law::Value | Law::Range | Law::Uniform | Law::Triangular { .. } => [value.lo(), value.hi()],
+    };
+    [value.lo(), value.hi()].into_iter().chain(own).try_for_each(|number| one(table, name, number))
+}
+
+fn optional(table: &'static [Key], name: &'static str, value: Option<f64>) -> Result<(), DataFault> {
+    value.map_or(Ok(()), |value| one(table, name, value))
 }
 
 /// A value in SI within the bounds of its key.
-fn one(table: &'static [Key], name: &str, value: f64, of: &str) -> Result<(), Error> {
+fn one(table: &'static [Key], name: &'static str, value: f64) -> Result<(), DataFault> {
     let Some(Key { kind: Kind::Quantity(dimension, bounds) | Kind::Spread(dimension, bounds), .. }) =
         keys::find(table, name)
     else {
         unreachable!("{name} is a quantity")
     };
-    let [lo, hi] = bounds.map(|bound| dimension.value(bound));
-    // What was worked out, as an angle from degrees, is a bound but for roundings.
-    let most = hi.abs().max(lo.abs()) * 1e-12;
-    if (lo - most..=hi + most).contains(&value) {
+    if keys::within(dimension, *bounds, value) {
         return Ok(());
     }
-    let si = dimension.units.first().filter(|_| !dimension.plain);
-    let unit = si.map_or(String::new(), |unit| format!(" {}", unit.name));
-    Err(given(&format!("{name}{of}"), format!("{value}{unit}"), &format!("from {} to {}", bounds[0], bounds[1])))
+    let unit = dimension.si_unit().map_or("", |unit| unit.name);
+    Err(DataFault::Value { field: name, value, unit, allowed: keys::allowed(*bounds) })
 }

@@ -85,6 +85,22 @@ impl SingleDrop {
     pub fn fullest(&self) -> Model {
         if self.contact_time_s.is_some() { Model::Compliant } else { Model::FiniteTilt }
     }
+    /// Checks what no model would refuse: the contact time, which instant impacts do not ask for, and the place of a part.
+    ///
+    /// # Errors
+    /// [`Error::Setting`].
+    pub(crate) fn check(&self, position_m: f64) -> Result<(), Error> {
+        if let Some(value) = self.contact_time_s.filter(|time| !(1e-12..=1e3).contains(time)) {
+            return Err(Error::Setting { name: "contact time in s", value, allowed: "in [1e-12, 1000]" });
+        }
+        // Places are rounded as they are converted.
+        let most = 0.5 * self.body.length_m() * (1.0 + 1e-9);
+        if position_m.is_nan() || position_m.abs() > most {
+            let (name, allowed) = ("position of the part in m", "up to half of the length on both sides");
+            return Err(Error::Setting { name, value: position_m, allowed });
+        }
+        Ok(())
+    }
     /// How long the clatter takes, about: four times what the raised end needs to come down, and some contacts.
     pub(crate) fn clatter_s(&self) -> f64 {
         let gap_m = self.body.length_m() * self.tilt_rad.sin();

@@ -71,7 +71,8 @@ impl Answer {
 ///
 /// # Errors
 /// [`Error::Tolerance`]; [`Error::Contact`] where the contact time is needed and not known; [`Error::Flight`], [`Error::Bar`] and
-/// [`Error::Shock`] for what a model does not take; [`Error::Unfinished`] for a motion that was given up before nothing later
+/// [`Error::Shock`] for what a model does not take; [`Error::Setting`] for a place outside of the product, a contact time that is none,
+/// and a limit that is not positive; [`Error::Unfinished`] for a motion that was given up before nothing later
 /// counts.
 ///
 /// # Examples
@@ -100,6 +101,8 @@ pub fn answer(drop: &SingleDrop, part: &Part, limit: &Limit, model: Model, toler
     if !(1e-6..=0.5).contains(&tolerance) {
         return Err(Error::Tolerance(tolerance));
     }
+    drop.check(part.position_m)?;
+    limit.check()?;
     if model < Model::Map {
         return closed_form(drop, part, limit, model);
     }
@@ -217,6 +220,7 @@ pub fn respond(
     model: Model,
     tolerance: f64,
 ) -> Result<Response, Error> {
+    drop.check(position_m)?;
     let followed = Followed::new(drop, model, tolerance)?;
     Ok(Felt::new(&followed, position_m)?.pulses.respond(part))
 }

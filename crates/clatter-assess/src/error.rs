@@ -1,21 +1,35 @@
 //! What can be wrong with a product that was not read from a file, and with an assessment.
 
-use crate::Law;
+use crate::{DataFault, Law};
 
 /// A value that describes no product, and what is allowed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A value that no product has.
-    #[error("{name} is {value}; allowed: {allowed}")]
-    Given {
-        /// What it is, as product files call it.
-        name: String,
-        /// The value, in SI.
-        value: String,
-        /// What is allowed.
-        allowed: String,
+    /// Data that product files do not allow.
+    #[error("{}{fault}", of(component.as_ref()))]
+    Data {
+        /// The component that has them, by name; none of what all share.
+        component: Option<String>,
+        /// What is wrong.
+        fault: DataFault,
     },
+    /// A time within which impacts are one that is negative or not finite.
+    #[error("impacts within {0:?} s are one; allowed: a finite time, not below 0")]
+    Merge(f64),
+    /// A setting of a design or of a drop that cannot be.
+    #[error("{name} is {value:?}; allowed: {allowed}")]
+    Setting {
+        /// What it is.
+        name: &'static str,
+        /// Its value, in SI.
+        value: f64,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// A component that is none of the product, or an assessment of another one.
+    #[error("{0:?} is no component of this product with these limits")]
+    OtherProduct(String),
     /// A number that is not finite.
     #[error("{0:?} is not a finite number")]
     Number(f64),
@@ -28,7 +42,9 @@ pub enum Error {
         hi: f64,
     },
     /// An invalid distribution.
-    #[error("{0:?} is no distribution over its range: a deviation is positive, a mode within the range")]
+    #[error(
+        "{0:?} is no distribution over its range: a deviation is positive, a mode within the range, one value has no range"
+    )]
     Law(Law),
     /// A tolerance that no model could be held to, or that says nothing.
     #[error("the tolerance is {0:?}; allowed: a share in [1e-4, 0.5]")]
@@ -59,4 +75,14 @@ pub enum Error {
     /// A model of the contact, in a product without contact time.
     #[error("this model needs the contact time, and none is known")]
     Contact,
+}
+
+impl From<DataFault> for Error {
+    fn from(fault: DataFault) -> Self {
+        Self::Data { component: None, fault }
+    }
+}
+
+fn of(component: Option<&String>) -> String {
+    component.map_or(String::new(), |name| format!("component {name:?}: "))
 }

@@ -82,6 +82,8 @@ mod student;
 mod told;
 mod write;
 
+use std::f64::consts::FRAC_PI_6;
+
 use clatter::End;
 use clatter_flight::{Body, ContactLaw};
 
@@ -136,6 +138,34 @@ impl From<&ProductFile> for Known {
             contact_time_s: file.product.contact_time_s.as_ref().map(range),
             contact_law: file.product.law(),
         }
+    }
+}
+
+impl Known {
+    /// Checks that every range is one that a product may have.
+    ///
+    /// # Errors
+    /// [`Error::Known`] for the first value that is not.
+    pub fn check(&self) -> Result<(), Error> {
+        const POSITIVE: [f64; 2] = [f64::MIN_POSITIVE, 1e6];
+        // Angles come from degrees.
+        let most_tilt = FRAC_PI_6 * (1.0 + 4.0 * f64::EPSILON);
+        let contact_time_s = self.contact_time_s.unwrap_or([1e-3; 2]);
+        let ranges = [
+            ("restitution", self.restitution, [0.0, 1.0], "within [0, 1], from the lower end"),
+            ("speed in m/s", self.speed_m_s, POSITIVE, "positive and at most 1e6, from the lower end"),
+            ("tilt in rad", self.tilt_rad, [0.0, most_tilt], "within [0, pi/6], from the lower end"),
+            ("contact time in s", contact_time_s, [1e-12, 1e3], "within [1e-12, 1000], from the lower end"),
+            ("gravity in m/s2", [self.gravity_m_s2; 2], [0.0, 1e3], "in [0, 1000]"),
+        ];
+        for (name, [lo, hi], [least, most], allowed) in ranges {
+            for (value, within) in [(lo, least..=most), (hi, lo..=most)] {
+                if !within.contains(&value) {
+                    return Err(Error::Known { name, value, allowed });
+                }
+            }
+        }
+        Ok(())
     }
 }
 
@@ -346,6 +376,16 @@ pub enum Error {
     Value {
         /// Which record, from 1.
         record: usize,
+        /// What it is.
+        name: &'static str,
+        /// As it is.
+        value: f64,
+        /// What it may be.
+        allowed: &'static str,
+    },
+    /// A value of the product or its drop that none has.
+    #[error("{name} = {value:?} is not {allowed}")]
+    Known {
         /// What it is.
         name: &'static str,
         /// As it is.

@@ -37,6 +37,12 @@ use Kind::{Choice, Quantity, Spread, Table, Tables, Text};
 const PLACES: [&str; 2] = ["-100 m", "100 m"];
 const MASSES: [&str; 2] = ["1 mg", "1000 kg"];
 
+/// Tables of one kind at most.
+pub(crate) const MOST_COMPONENTS: usize = 1000;
+/// The limits of a component.
+pub(crate) const LIMITS: [&str; 5] =
+    ["acceleration_limit", "rattle_space", "velocity_change_limit", "angular_velocity_change_limit", "damage_boundary"];
+
 pub(crate) static FILE: &[Key] = &[
     key("product", true, Table(PRODUCT), "What falls: a flat body, seen from the side as a bar with ends a and b."),
     key("drop", true, Table(DROP), "How it falls."),
@@ -239,4 +245,16 @@ pub(crate) static RECORD: &[Key] = &[
 /// The key of a table by its name.
 pub(crate) fn find(table: &'static [Key], name: &str) -> Option<&'static Key> {
     table.iter().find(|key| key.name == name)
+}
+
+/// Whether a value in SI is within bounds as a key has them. One with a unit was converted: it is a bound but for roundings.
+pub(crate) fn within(dimension: &Dimension, bounds: [&str; 2], si: f64) -> bool {
+    let roundings = if dimension.plain { 0.0 } else { 4.0 * f64::EPSILON };
+    let [lo, hi] = bounds.map(|bound| dimension.value(bound));
+    (lo - roundings * lo.abs()..=hi + roundings * hi.abs()).contains(&si)
+}
+
+/// What messages say of bounds.
+pub(crate) fn allowed(bounds: [&str; 2]) -> String {
+    format!("from {} to {}", bounds[0], bounds[1])
 }

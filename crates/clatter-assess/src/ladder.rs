@@ -215,7 +215,7 @@ impl ProductFile {
     /// Every model on the worst drop of each limit, as an assessment of this file found it.
     ///
     /// # Errors
-    /// As [`Ladder::measure`].
+    /// As [`Ladder::measure`]; [`Error::OtherProduct`] for an assessment of another product.
     ///
     /// # Examples
     /// ```
@@ -226,6 +226,8 @@ impl ProductFile {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn ladders(&self, assessment: &Assessment, tolerance: f64) -> Result<ProductLadder, Error> {
+        self.check()?;
+        assessment.is_of(self)?;
         let (mut limits, mut left_out) = (Vec::new(), Vec::new());
         for (component, assessed) in self.components.iter().zip(&assessment.components) {
             for (limit, found) in Limit::of(component).iter().zip(&assessed.limits) {

@@ -86,9 +86,13 @@ impl ProductFile {
     /// The curve over the tilt holds besides the drops with the speed, restitution and contact time of the worst case, and the worst
     /// case itself. Safe places and changes are those where no drop asks more than at the part's own place, but for what the
     /// assessment leaves room for there: they are as good as these drops, and an assessment decides.
-    /// What is not answered is not drawn.
+    /// What is not answered is not drawn; nothing is of an assessment of another product, or of data that [`check`](Self::check)
+    /// refuses.
     #[must_use]
     pub fn portraits(&self, assessment: &Assessment) -> Vec<Portrait> {
+        if self.check().and(assessment.accuracy.check()).and(assessment.is_of(self)).is_err() {
+            return Vec::new();
+        }
         let ranges = self.ranges(&assessment.accuracy);
         let (tilts, until) = (tilts(&ranges), self.until(assessment));
         // Where the file names no contact law a verdict counts with both of them.

@@ -21,6 +21,37 @@ pub struct ProductFile {
     pub records: Vec<RecordFile>,
 }
 
+impl ProductFile {
+    /// A product built in code, checked as a file is; without records. Its fields are public: what assesses it checks it again.
+    ///
+    /// # Errors
+    /// Those of [`check`](Self::check).
+    ///
+    /// # Examples
+    /// A display on its frame, in a phone that is dropped from a meter at up to 10 degrees:
+    /// ```
+    /// use clatter_assess::{Component, Drop, Fall, Law, Limits, Mount, Product, ProductFile, Spread};
+    /// use clatter_flight::Body;
+    /// let phone = Product::new("phone", Body::new(0.15, 0.045)?, Spread::new(0.3, 0.5, Law::Range)?);
+    /// let fall = Fall::HeightM(Spread::value(1.0)?);
+    /// let drop = Drop::new(fall, Spread::new(0.0, 10_f64.to_radians(), Law::Range)?);
+    /// let limits = Limits { velocity_change_m_s: Some(Spread::value(12.0)?), ..Limits::default() };
+    /// let display = Component::new("display", Spread::value(0.03)?, Mount::Hard, limits);
+    /// let file = ProductFile::new(phone.clone(), drop, vec![display.clone()])?;
+    /// assert!(file.check().is_ok());
+    ///
+    /// let long = Component { extent_m: -0.02, ..display };
+    /// let said = ProductFile::new(phone, drop, vec![long]).unwrap_err().to_string();
+    /// assert_eq!(said, "component \"display\": `extent` = -0.02 m is out of its range; allowed: from 0 mm to 100 m");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn new(product: Product, drop: Drop, components: Vec<Component>) -> Result<Self, Error> {
+        let file = Self { product, drop, components, records: Vec::new() };
+        file.check()?;
+        Ok(file)
+    }
+}
+
 /// What falls.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Product {
@@ -41,6 +72,26 @@ pub struct Product {
 }
 
 impl Product {
+    /// A product with one radius of gyration, that of the body; mass, contact time and contact law are not known.
+    #[must_use]
+    pub fn new(name: impl Into<String>, body: Body, restitution: Spread) -> Self {
+        Self {
+            name: name.into(),
+            body,
+            gyration_m: Spread::finite(body.gyration_m()),
+            mass_kg: None,
+            restitution,
+            contact_time_s: None,
+            contact_law: None,
+        }
+    }
+    /// The same with this range of the radius of gyration, and the body of the middle of it.
+    ///
+    /// # Errors
+    /// [`Error::Bar`] unless that is a radius of gyration.
+    pub fn with_gyration(self, gyration_m: Spread) -> Result<Self, Error> {
+        Ok(Self { body: self.body_with(gyration_m.at(0.5))?, gyration_m, ..self })
+    }
     /// The contact law by which drops are followed: the one that is named, else the hysteretic one.
     #[must_use]
     pub fn law(&self) -> ContactLaw {
@@ -263,6 +314,11 @@ fn ratio(body: &Body) -> f64 {
 }
 
 impl Drop {
+    /// A drop on either end, with standard gravity.
+    #[must_use]
+    pub fn new(fall: Fall, tilt_rad: Spread) -> Self {
+        Self { fall, tilt_rad, first: First::Either, gravity_m_s2: clatter_shock::STANDARD_GRAVITY_M_S2 }
+    }
     /// The range of speeds at the first touch, in m/s.
     #[must_use]
     pub fn speeds_m_s(&self) -> [f64; 2] {
@@ -288,6 +344,11 @@ impl Drop {
 }
 
 impl Component {
+    /// A part without extent, whose limits are from nowhere that is told.
+    #[must_use]
+    pub fn new(name: impl Into<String>, position_m: Spread, mount: Mount, limits: Limits) -> Self {
+        Self { name: name.into(), position_m, extent_m: 0.0, mount, limits, limit_source: None }
+    }
     /// Both ends of where the part may be along the bar; one where it is a point.
     ///
     /// The worst place is always one of them: for one drop the motion of the bar is linear in the position, so is the

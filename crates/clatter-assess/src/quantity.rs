@@ -118,6 +118,12 @@ impl Limit {
         }));
         list
     }
+    /// Checks that what is allowed is positive; infinity is no limit.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let all = [("what a limit allows", self.allowed), ("critical acceleration", self.critical_acceleration_m_s2)];
+        let wrong = all.into_iter().find(|(_, value)| value.is_nan() || *value <= 0.0);
+        wrong.map_or(Ok(()), |(name, value)| Err(Error::Setting { name, value, allowed: "positive" }))
+    }
     /// Whether it is on the response of a suspended part.
     #[must_use]
     pub fn is_response(&self) -> bool {

@@ -11,18 +11,16 @@ use clatter_flight::{Body, ContactLaw};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::check::{FARTHEST_CENTER, GYRATION};
+use crate::check::{self, body_of, named, told_apart};
 use crate::fault::{Fault, Faults};
-use crate::keys::{self, Key, Kind};
+use crate::keys::{self, Key, Kind, MOST_COMPONENTS};
 use crate::slip;
 use crate::units;
-use crate::{Drop, Fall, First, Product, ProductFile, Spread};
+use crate::{DataFault, Drop, Fall, First, Product, ProductFile, Spread};
 use quantities::written;
 
 /// A file of more bytes is refused unread.
 pub const LARGEST_FILE: usize = 1 << 20;
-/// Components at most.
-const MOST_COMPONENTS: usize = 1000;
 
 /// A value and where it stands.
 #[derive(Debug, Clone)]
@@ -73,6 +71,10 @@ impl ProductFile {
         let section =
             Section { keys: keys::FILE, table: root.get_ref(), span: root.span(), title: "the file".to_owned() };
         let file = reader.file(&section);
+        // Faults that the reader has no place for.
+        if let (Some(Err(error)), true) = (file.as_ref().map(ProductFile::check), reader.faults.is_empty()) {
+            reader.fault(0..0, error.to_string(), "", "");
+        }
         if syntax {
             // What the parser made up to go on is not to be told of.
             reader.faults.retain(|fault| fault.message.starts_with("invalid TOML"));
@@ -111,6 +113,12 @@ impl Reader {
         help: impl Into<String>,
     ) {
         self.faults.push(Fault { span, message: message.into(), label: label.into(), help: help.into(), also: None });
+    }
+
+    /// What one of the rules of the product says, where it stands.
+    fn data(&mut self, span: Range<usize>, fault: &DataFault, label: &str) {
+        let [message, help] = fault.told();
+        self.fault(span, message, label, help);
     }
 
     fn warn(&mut self, span: Range<usize>, message: String, label: String) {
@@ -255,13 +263,14 @@ impl Reader {
         let mut known: HashMap<&str, Range<usize>> = HashMap::new();
         for section in sections {
             let Some(value) = section.table.get("name") else { continue };
-            let Some(name) = value.get_ref().as_str().map(|name| name.trim_matches(' ')) else { continue };
+            let Some(name) = value.get_ref().as_str().map(told_apart) else { continue };
             if let Some(first) = known.get(name) {
+                let [message, help] = DataFault::SameName(shown(name)).told();
                 self.faults.push(Fault {
                     span: value.span(),
-                    message: format!("two components are named {:?}", shown(name)),
+                    message,
                     label: "the second".to_owned(),
-                    help: "give each component a name of its own".to_owned(),
+                    help,
                     also: Some((first.clone(), "the first".to_owned())),
                 });
             } else {
@@ -302,7 +311,12 @@ impl Reader {
         if masses.is_some() {
             self.outside(section, length_m);
         }
-        let total = masses.map(|m| m.value.iter().map(mass_of).sum());
+        let total = masses.as_ref().map(|m| m.value.iter().map(mass_of).sum());
+        if let (Some(total), Some(masses)) = (total, &masses)
+            && let Err(fault) = check::mass(total)
+        {
+            self.data(masses.span.clone(), &fault, "these together");
+        }
         let ends = [gyration.value.lo(), gyration.value.hi()];
         for end in &ends[..if gyration.value.is_value() { 0 } else { 2 }] {
             self.body(length_m, center_m.clone(), &At { value: *end, span: gyration.span.clone() })?;
@@ -337,36 +351,19 @@ impl Reader {
     /// The body, with what it asks of center of mass and radius of gyration told in the file's terms.
     fn body(&mut self, length_m: f64, center: Option<At<f64>>, gyration: &At<f64>) -> Option<Body> {
         let center_m = center.as_ref().map_or(0.0, |c| c.value);
-        let half = 0.5 * length_m;
-        if center_m.abs() > FARTHEST_CENTER * length_m {
-            let span = center.map_or(0..0, |c| c.span);
-            let message = format!(
-                "the center of mass is {} mm from the middle of a product of {} mm",
-                mm(center_m),
-                mm(length_m)
-            );
-            self.fault(span, message, "this place", "allowed: within 0.45 of the length from the middle");
-            return None;
-        }
-        let [least, most] = GYRATION;
-        if !(least..=most).contains(&(gyration.value / length_m)) {
-            let message =
-                format!("the radius of gyration is {} mm in a product of {} mm", mm(gyration.value), mm(length_m));
-            self.fault(gyration.span.clone(), message, "from this", "allowed: from 0.05 to 2 times the length");
-            return None;
-        }
-        let body = if center_m == 0.0 {
-            Body::new(length_m, gyration.value)
-        } else {
-            Body::off_center(half + center_m, half - center_m, gyration.value)
-        };
-        body.map_err(|error| self.fault(gyration.span.clone(), error.to_string(), "from this", "")).ok()
+        body_of(length_m, center_m, gyration.value)
+            .map_err(|fault| match fault {
+                DataFault::CenterOfMass { .. } => self.data(center.map_or(0..0, |c| c.span), &fault, "this place"),
+                _ => self.data(gyration.span.clone(), &fault, "from this"),
+            })
+            .ok()
     }
 
     fn name(&mut self, section: &Section<'_>) -> Option<String> {
         let name = self.text(section, "name")?;
-        if name.value.trim().is_empty() {
-            self.fault(name.span, "`name` is empty", "expected a name", "");
+        if let Err(fault) = named(&name.value) {
+            let [message, expected] = fault.told();
+            self.fault(name.span, message, expected, "");
             return None;
         }
         Some(name.value)
@@ -416,8 +413,7 @@ impl Reader {
         self.exactly_one(section, &["height", "speed"], true);
         let gravity_m_s2 = gravity.as_ref().map_or(clatter_shock::STANDARD_GRAVITY_M_S2, |g| g.value);
         if let (Some(height), true) = (&height, gravity_m_s2 == 0.0) {
-            let message = "without gravity nothing falls from a `height`";
-            self.fault(height.span.clone(), message, "this height", "give the `speed` at the first touch instead");
+            self.data(height.span.clone(), &DataFault::NoGravity, "this height");
         }
         let first = match first.map(|f| f.value) {
             Some("a") => First::End(End::A),
@@ -445,10 +441,6 @@ fn shortened(text: &str) -> String {
 /// A radius of gyration that was worked out; none where that is no number, which is told otherwise.
 fn single(value: f64, span: Range<usize>) -> Option<At<Spread>> {
     Spread::value(value).ok().map(|value| At { value, span })
-}
-
-fn mm(length_m: f64) -> f64 {
-    (1e6 * length_m).round() / 1e3
 }
 
 fn mass_of(piece: &Mass) -> f64 {

@@ -55,16 +55,22 @@ impl Spread {
         Self::new(value, value, Law::Value)
     }
 
+    /// One value that is known to be finite.
+    pub(crate) fn finite(value: f64) -> Self {
+        Self { lo: value, hi: value, law: Law::Value, unit: None }
+    }
+
     /// A range with its law; one of no length is a value.
     ///
     /// # Errors
     /// [`Error::Number`] unless all numbers are finite, [`Error::Range`] where the range runs backwards, [`Error::Law`]
-    /// for a deviation that is not positive or a mode outside the range.
+    /// for a deviation that is not positive, a mode outside the range, or [`Law::Value`] of a range.
     pub fn new(lo: f64, hi: f64, law: Law) -> Result<Self, Error> {
         let (own, allowed) = match law {
             Law::Normal { mean, deviation } => ([mean, deviation], deviation > 0.0),
             Law::Triangular { mode } => ([mode, mode], lo <= mode && mode <= hi),
-            Law::Value | Law::Range | Law::Uniform => ([lo, hi], true),
+            Law::Value => ([lo, hi], lo >= hi),
+            Law::Range | Law::Uniform => ([lo, hi], true),
         };
         if let Some(&value) = [lo, hi, own[0], own[1]].iter().find(|v| !v.is_finite()) {
             return Err(Error::Number(value));

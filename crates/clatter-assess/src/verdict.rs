@@ -3,7 +3,7 @@
 use clatter::End;
 use serde::{Serialize, Serializer};
 
-use crate::{LimitKind, Model, Unit};
+use crate::{Component, LimitKind, Model, ProductFile, Unit};
 
 /// Whether every limit holds in the worst drop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -47,6 +47,26 @@ pub struct Assessment {
     pub accuracy: Accuracy,
 }
 
+impl Assessment {
+    /// Whether it has the components and limits of this product.
+    ///
+    /// # Errors
+    /// [`Error::OtherProduct`](crate::Error::OtherProduct) with the first component that differs.
+    pub(crate) fn is_of(&self, file: &ProductFile) -> Result<(), crate::Error> {
+        let differs = |(component, assessed): (&Component, &ComponentAssessment)| {
+            let limits = assessed.limits.iter().map(|limit| limit.limit);
+            component.name != assessed.name || !component.limits.kinds().into_iter().eq(limits)
+        };
+        let known = file.components.len().min(self.components.len());
+        let mut both = file.components.iter().zip(&self.components);
+        let other = both.position(differs).or((file.components.len() != self.components.len()).then_some(known));
+        let Some(k) = other else { return Ok(()) };
+        let assessed = self.components.get(k).map(|component| &component.name);
+        let name = assessed.or(file.components.get(k).map(|component| &component.name));
+        Err(crate::Error::OtherProduct(name.cloned().unwrap_or_default()))
+    }
+}
+
 /// How well an assessment is worked out, and by which model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Accuracy {
@@ -70,10 +90,11 @@ impl Default for Accuracy {
 }
 
 impl Accuracy {
-    /// Checks that the tolerance is in range.
+    /// Checks that the tolerance and the time within which impacts are one are in range.
     ///
     /// # Errors
-    /// [`Error::Tolerance`](crate::Error::Tolerance) for one outside [1e-4, 0.5].
+    /// [`Error::Tolerance`](crate::Error::Tolerance) outside [1e-4, 0.5], [`Error::Merge`](crate::Error::Merge) unless finite and not
+    /// negative.
     ///
     /// ```
     /// use clatter_assess::Accuracy;
@@ -81,8 +102,16 @@ impl Accuracy {
     /// assert!(Accuracy { tolerance: 0.0, ..Accuracy::default() }.check().is_err());
     /// ```
     pub fn check(&self) -> Result<(), crate::Error> {
-        if (1e-4..=0.5).contains(&self.tolerance) { Ok(()) } else { Err(crate::Error::Tolerance(self.tolerance)) }
+        if !(1e-4..=0.5).contains(&self.tolerance) {
+            return Err(crate::Error::Tolerance(self.tolerance));
+        }
+        merge(self.merge_s)
     }
+}
+
+/// Whether impacts may be one within so many seconds.
+pub(crate) fn merge(time_s: f64) -> Result<(), crate::Error> {
+    if time_s >= 0.0 && time_s.is_finite() { Ok(()) } else { Err(crate::Error::Merge(time_s)) }
 }
 
 /// The verdict on one component.
@@ -104,6 +133,9 @@ pub struct ComponentAssessment {
 
 impl ComponentAssessment {
     /// The limit with the smallest margin.
+    ///
+    /// # Panics
+    /// Without limits, which no assessment leaves out.
     #[must_use]
     pub fn tightest(&self) -> &LimitAssessment {
         let tightest = self.limits.iter().min_by(|a, b| a.room().total_cmp(&b.room()));

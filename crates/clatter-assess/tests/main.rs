@@ -3,6 +3,7 @@
 #![cfg(test)]
 
 mod bad_files;
+mod data;
 mod design;
 mod examples;
 mod fit;

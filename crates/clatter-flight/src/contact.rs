@@ -176,7 +176,8 @@ impl<const N: usize> Scene<N> {
     /// `precision`, and what is slower than `precision` is laid down.
     ///
     /// # Errors
-    /// [`Error::Given`] unless the precision is in [1e−8, 0.1]; [`Error::Bound`] unless the radius of gyration is at least 0.05 of
+    /// [`Error::Given`] unless the precision is in [1e−8, 0.1]; [`Error::Restitution`] unless the contact has the restitution of the
+    /// drop; [`Error::Bound`] unless the radius of gyration is at least 0.05 of
     /// the length (light ends would whirl it through large angles while they touch), and the contact time is so short that points sink
     /// in by a small part of the length, at most 0.1 length over the speed and 0.1 √(length/gravity), and so long that
     /// they sink in at all, 1e−10 length over the speed; [`Error::Energy`] where the motion does not keep its energy.
@@ -193,6 +194,10 @@ impl<const N: usize> Scene<N> {
     }
 
     fn check(&self, contact: &Contact) -> Result<(), Error> {
+        let (of_contact, scene) = (contact.restitution(), self.e());
+        if of_contact.to_bits() != scene.to_bits() {
+            return Err(Error::Restitution { contact: of_contact, scene });
+        }
         let reach = self.body().reach();
         let (length, gyration, time) = (self.body().length_m().max(reach), self.body().gyration_m(), contact.time_s());
         let of_time = |bound, most, reason| {

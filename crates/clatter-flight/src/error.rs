@@ -23,6 +23,14 @@ pub enum Error {
         /// Where the bound comes from.
         reason: &'static str,
     },
+    /// A contact whose restitution is not that of the drop.
+    #[error("the restitution of the contact is {contact:?}, that of the drop {scene:?}; allowed: the same for both")]
+    Restitution {
+        /// That of the contact.
+        contact: f64,
+        /// That of the drop.
+        scene: f64,
+    },
     /// A motion that does not keep its energy.
     #[error(
         "the motion changes its energy by {:.2} % without reason: it is no answer (contacts so long that they turn the body far, or so short that roundings of heights count)",

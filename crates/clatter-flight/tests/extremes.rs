@@ -260,6 +260,9 @@ fn bad_scenes_are_refused_with_the_value() {
     refused(good.with_time_limit_s(f64::NAN), ["time limit", "NaN"]);
     refused(good.with_impact_limit(0), ["impact limit", "0"]);
     refused(good.with_spin(-15.0), ["spin", "-15"]);
+    let other = Contact::new(ContactLaw::Hysteretic, 0.3, 1e-4).expect("a contact");
+    let error = good.contacts(&other).expect_err("two restitutions");
+    assert!(matches!(error, clatter_flight::Error::Restitution { contact: 0.3, scene: 0.5 }), "{error}");
     refused(good.with_spin(f64::NAN), ["spin", "NaN"]);
 }
 

@@ -109,6 +109,37 @@ impl Default for Bounds {
     }
 }
 
+impl Bounds {
+    /// Checks that every bound can be had and every range runs upward.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] unless q is within [−1, 1], e within [0, 1], damping ratios within [0, 100] and contact times within
+    /// [1e−12, 1000] s, each from its lower end, and both factors are in [1, 1000].
+    pub fn check(&self) -> Result<(), Error> {
+        let ranges = [
+            ("the bound of q", self.q, [-1.0, 1.0], "within [-1, 1], from the lower end"),
+            ("the bound of e", self.e, [0.0, 1.0], "within [0, 1], from the lower end"),
+            ("the bound of the damping ratio", self.damping, [0.0, 100.0], "within [0, 100], from the lower end"),
+            (
+                "the bound of the contact time in s",
+                self.contact_time_s,
+                [1e-12, 1e3],
+                "within [1e-12, 1000], from the lower end",
+            ),
+            ("the factor on a frequency", [self.frequency_factor; 2], [1.0, 1e3], "in [1, 1000]"),
+            ("the factor on a limit", [self.limit_factor; 2], [1.0, 1e3], "in [1, 1000]"),
+        ];
+        for (name, [lo, hi], [least, most], allowed) in ranges {
+            for (value, within) in [(lo, least..=most), (hi, lo..=most)] {
+                if !within.contains(&value) {
+                    return Err(Error::Setting { name, value, allowed });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
 /// A change of one lever: low and high end of its value before and after, the same where it is one value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Change {

@@ -64,7 +64,7 @@ impl Plane {
     /// restitution are those of the file.
     ///
     /// # Errors
-    /// As [`extremes`].
+    /// As [`extremes`] and [`Bounds::check`].
     ///
     /// # Examples
     /// ```
@@ -76,6 +76,8 @@ impl Plane {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn of(file: &ProductFile, bounds: &Bounds) -> Result<Self, Error> {
+        file.check()?;
+        bounds.check()?;
         let side = if file.product.contact_time_s.is_some() { Self::SIDE_OF_CONTACTS } else { Self::SIDE };
         let [qs, es] = [bounds.q, bounds.e].map(|range| within(range, side));
         let mut points = Vec::with_capacity(qs.len() * es.len());

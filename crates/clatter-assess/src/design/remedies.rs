@@ -35,7 +35,8 @@ impl ProductFile {
     /// looked at.
     ///
     /// # Errors
-    /// As [`assess`](Self::assess), for the product as it is; [`Error::Number`] for a margin that is negative or not finite.
+    /// Those of [`check`](Self::check), [`Bounds::check`] and [`Accuracy::check`]; [`Error::OtherProduct`] for an assessment of another
+    /// product; [`Error::Number`] for a margin that is negative or not finite.
     pub fn remedies(&self, assessment: &Assessment, bounds: &Bounds, margin: f64) -> Result<Vec<Remedies>, Error> {
         self.remedies_watched(assessment, bounds, margin, &|_, _| true)
     }
@@ -55,6 +56,10 @@ impl ProductFile {
         if !(margin >= 0.0 && margin.is_finite()) {
             return Err(Error::Number(margin));
         }
+        self.check()?;
+        bounds.check()?;
+        assessment.accuracy.check()?;
+        assessment.is_of(self)?;
         let wanting = |c: &ComponentAssessment| !is_enough(c, margin);
         let failing = assessment.components.iter().enumerate().filter(|(_, found)| wanting(found));
         let levers = |i: usize| Lever::of(&self.product, &self.components[i]);

@@ -22,7 +22,7 @@ const FREE: [usize; 3] = [0, 1, 2];
 /// One restitution at any speed; contacts short beside flights; no air; gravity in m/s².
 ///
 /// # Errors
-/// [`Error`] unless 3 to 4096 finite times rise.
+/// [`Error`] unless 3 to 4096 finite times rise, and gravity is in [0, 1000] m/s².
 ///
 /// # Examples
 /// Flights of 0.4, 0.2 and 0.1 s:
@@ -34,6 +34,9 @@ const FREE: [usize; 3] = [0, 1, 2];
 /// ```
 pub fn bounces(times_s: &[f64], gravity_m_s2: f64, deviation_s: Option<f64>) -> Result<Fit, Error> {
     check(times_s, deviation_s)?;
+    if !(0.0..=1e3).contains(&gravity_m_s2) {
+        return Err(Error::Known { name: "gravity in m/s2", value: gravity_m_s2, allowed: "in [0, 1000]" });
+    }
     let flights: Vec<f64> = times_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let unit_s = flights[0];
     let deviation = deviation_s.unwrap_or(1e-3 * unit_s);

@@ -38,7 +38,7 @@ const MET: f64 = 0.002;
 /// or slides, or a restitution that is another one in the next drop is not in them.
 ///
 /// # Errors
-/// [`Error`] for values that are no times, heights or accelerations, for too many or too few of them, and where no computed drop
+/// [`Error`] for what [`Known::check`] refuses, for values that are no times, heights or accelerations, for too many or too few of them, and where no computed drop
 /// has the strikes that were measured.
 ///
 /// # Examples
@@ -68,6 +68,7 @@ const MET: f64 = 0.002;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn fit(known: &Known, measured: &[Measured]) -> Result<Fit, Error> {
+    known.check()?;
     let sets = sets(known, measured)?;
     let is_given = |one: &Measured| match one {
         Measured::Strikes { deviation_s, .. } => deviation_s.is_some(),

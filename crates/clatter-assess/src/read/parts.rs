@@ -1,7 +1,9 @@
 //! Parts of a product, and records of its drops.
 
-use super::{At, Reader, Section, mm};
-use crate::{Boundary, Component, Damping, Limits, Mount, Product, RecordFile};
+use super::{At, Reader, Section};
+use crate::check::sensor;
+use crate::keys::LIMITS;
+use crate::{Boundary, Component, Damping, DataFault, Limits, Mount, Product, RecordFile};
 
 impl Reader {
     pub(super) fn component(&mut self, section: &Section<'_>, product: Option<&Product>) -> Option<Component> {
@@ -14,11 +16,8 @@ impl Reader {
         let limit_source = self.text(section, "limit_source").map(|source| source.value);
         let component =
             Component { name: name?, position_m: position.value, extent_m, mount: mount?, limits, limit_source };
-        if let Some(product) = product.filter(|product| !component.fits(product)) {
-            let message = format!("the component reaches {} mm from the middle", mm(component.reach_m()));
-            let half = mm(0.5 * product.body.length_m());
-            let help = format!("allowed: up to {half} mm, half of the product's length; extent counts on both sides");
-            self.fault(position.span, message, "this position", help);
+        if let Some(Err(fault)) = product.map(|product| component.fits(product)) {
+            self.data(position.span, &fault, "this position");
             return None;
         }
         let stiff = product.and_then(|product| crate::quantity::lacks_contact_time(product, &component));
@@ -34,15 +33,10 @@ impl Reader {
 
     pub(super) fn record(&mut self, section: &Section<'_>, product: Option<&Product>) -> Option<RecordFile> {
         let position = self.quantity(section, "position");
-        let half_m = product.map_or(f64::INFINITY, |product| 0.5 * product.body.length_m());
-        if let Some(At { value, span }) = position.clone().filter(|p| p.value.abs() > half_m * (1.0 + 1e-9)) {
-            let message = format!("the acceleration was measured {} mm from the middle", mm(value));
-            self.fault(
-                span,
-                message,
-                "this position",
-                format!("allowed: up to {} mm, half of the product's length", mm(half_m)),
-            );
+        if let (Some(At { value, span }), Some(product)) = (position.clone(), product)
+            && let Err(fault) = sensor(value, product)
+        {
+            self.data(span, &fault, "this position");
         }
         let mut text = |name| self.text(section, name).map(|text| text.value);
         let [file, drop, acceleration, units] = ["file", "drop", "acceleration", "units"].map(&mut text);
@@ -68,8 +62,7 @@ impl Reader {
         if mount.is_some_and(|mount| mount.value == "hard") {
             for name in ["natural_frequency", "damping_ratio", "quality_factor", "rattle_space"] {
                 if let Some((key, _)) = section.table.get_key_value(name) {
-                    let message = format!("a hard-mounted part has no `{name}`");
-                    self.fault(key.span(), message, "beside mount = \"hard\"", "leave one of both out");
+                    self.data(key.span(), &DataFault::Hard { field: name }, "beside mount = \"hard\"");
                 }
             }
             return Some(Mount::Hard);
@@ -90,26 +83,14 @@ impl Reader {
     }
 
     fn limits(&mut self, section: &Section<'_>) -> Limits {
-        const NAMES: [&str; 5] = [
-            "acceleration_limit",
-            "rattle_space",
-            "velocity_change_limit",
-            "angular_velocity_change_limit",
-            "damage_boundary",
-        ];
-        if NAMES.iter().all(|name| !section.table.contains_key(*name)) {
-            let message = format!("{} has no limit", section.title);
-            self.fault(
-                section.span.clone(),
-                message,
-                "in this table",
-                format!("give at least one of {}", NAMES.join(", ")),
-            );
+        if LIMITS.iter().all(|name| !section.table.contains_key(*name)) {
+            let [_, help] = DataFault::NoLimit.told();
+            self.fault(section.span.clone(), format!("{} has no limit", section.title), "in this table", help);
         }
         let mut value = |name| self.spread(section, name).map(|q| q.value);
         let [acceleration_m_s2, rattle_space_m, velocity_change_m_s, angular_velocity_change_rad_s] =
-            [NAMES[0], NAMES[1], NAMES[2], NAMES[3]].map(&mut value);
-        let boundary = self.table(section, NAMES[4]).and_then(|section| {
+            [LIMITS[0], LIMITS[1], LIMITS[2], LIMITS[3]].map(&mut value);
+        let boundary = self.table(section, LIMITS[4]).and_then(|section| {
             let velocity = self.spread(&section, "velocity_change");
             let acceleration = self.spread(&section, "acceleration");
             Some(Boundary { velocity_change_m_s: velocity?.value, acceleration_m_s2: acceleration?.value })

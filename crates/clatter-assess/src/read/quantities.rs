@@ -4,7 +4,8 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::{At, Reader, Section, shown};
-use crate::keys::{Key, Kind};
+use crate::data_fault::out_of_range;
+use crate::keys::{self, Key, Kind};
 use crate::slip::slip;
 use crate::units::{Dimension, Quantity};
 use crate::{Law, Spread};
@@ -27,7 +28,7 @@ impl Reader {
         dimension: &Dimension,
         bounds: [&str; 2],
     ) -> Option<Quantity> {
-        let allowed = format!("from {} to {}", bounds[0], bounds[1]);
+        let allowed = keys::allowed(bounds);
         let digits = match value.get_ref() {
             DeValue::Integer(i) if i.radix() == 10 => Some(i.as_str().replace('_', "")),
             DeValue::Float(f) => Some(f.as_str().replace('_', "")),
@@ -56,8 +57,7 @@ impl Reader {
                 return None;
             }
         };
-        let [lo, hi] = bounds.map(|bound| dimension.value(bound));
-        if (lo..=hi).contains(&quantity.si) {
+        if keys::within(dimension, bounds, quantity.si) {
             return Some(quantity);
         }
         let what = match value.get_ref() {
@@ -65,8 +65,7 @@ impl Reader {
             DeValue::Float(text) => shown(text.as_str()),
             _ => quantity.si.to_string(),
         };
-        let message = format!("`{name}` = {what} is out of its range");
-        self.fault(value.span(), message, format!("allowed: {allowed}"), "");
+        self.fault(value.span(), out_of_range(name, what), format!("allowed: {allowed}"), "");
         None
     }
 

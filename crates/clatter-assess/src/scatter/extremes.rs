@@ -9,7 +9,6 @@ use super::full::{self, Followings, LEAST};
 use super::philox::Stream;
 use super::sample::{PartSample, Sample};
 use super::{Asked, Error, cheap};
-use crate::quantity::lacks_contact_time;
 use crate::verdict::MERGE_S;
 use crate::{Component, Limit, Model, Mount, ProductFile, SingleDrop, Spread};
 
@@ -47,11 +46,12 @@ const LARGEST_ERROR: f64 = 0.05;
 /// # Errors
 /// [`Error::Product`].
 pub fn extremes(file: &ProductFile, points: &[(Body, f64)]) -> Result<Extremes, Error> {
+    file.check()?;
+    for &(_, e) in points {
+        clatter::Restitution::new(e).map_err(crate::Error::from)?;
+    }
     let mut parts = Vec::new();
     for component in &file.components {
-        if let Some(reason) = lacks_contact_time(&file.product, component) {
-            return Err(crate::Error::ContactTime { component: component.name.clone(), reason }.into());
-        }
         parts.push(variants(component)?);
     }
     // Of a symmetric body one end first is the other one turned around.

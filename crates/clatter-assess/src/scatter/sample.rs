@@ -7,7 +7,6 @@ use clatter_shock::Suspension;
 use super::draw::Quantile;
 use super::philox::Stream;
 use super::{Column, Error};
-use crate::quantity::lacks_contact_time;
 use crate::{Component, Damping, Fall, First, Law, Limit, LimitKind, Mount, ProductFile, SingleDrop, Spread};
 
 /// What varies from sample to sample; parts by their index in the file.
@@ -231,6 +230,7 @@ impl Inputs {
     /// The inputs of a product, all checked.
     pub(super) fn new(file: &ProductFile, merge_s: f64) -> Result<Self, Error> {
         file.check()?;
+        crate::verdict::merge(merge_s)?;
         let (product, drop) = (&file.product, &file.drop);
         let mut finder = Finder::default();
         if drop.first == First::Either {
@@ -250,9 +250,6 @@ impl Inputs {
         let shared = finder.varied.len();
         let (mut parts, mut of_part) = (Vec::new(), Vec::new());
         for (i, component) in file.components.iter().enumerate() {
-            if let Some(reason) = lacks_contact_time(product, component) {
-                return Err(crate::Error::ContactTime { component: component.name.clone(), reason }.into());
-            }
             let own = finder.varied.len();
             parts.push(finder.part(i, component)?);
             of_part.push((0..shared).chain(own..finder.varied.len()).collect());

@@ -1,0 +1,148 @@
+//! What data of a product may be wrong by: the words that messages of product files and errors of the library share.
+
+use crate::keys::{LIMITS, MOST_COMPONENTS};
+
+/// What is wrong with data of a product.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum DataFault {
+    /// A value that is out of the range of its key.
+    Value {
+        /// The key of product files, such as `natural_frequency`.
+        field: &'static str,
+        /// The value, in SI.
+        value: f64,
+        /// Its SI unit; empty for a plain number.
+        unit: &'static str,
+        /// What is allowed.
+        allowed: String,
+    },
+    /// A center of mass too far out.
+    CenterOfMass {
+        /// Its place, from the middle.
+        center_m: f64,
+        /// Length of the product.
+        length_m: f64,
+    },
+    /// A radius of gyration that a body of this length does not have.
+    Gyration {
+        /// The radius.
+        gyration_m: f64,
+        /// Length of the product.
+        length_m: f64,
+    },
+    /// A body whose end a is not left of its center of mass and end b right of it, both level with it.
+    Ends {
+        /// Both ends from the center of mass, \[x, z\].
+        points_m: [[f64; 2]; 2],
+    },
+    /// A body with another radius of gyration than the middle of the range of the product.
+    OtherGyration {
+        /// That of the body.
+        gyration_m: f64,
+        /// The middle of the range.
+        middle_m: f64,
+    },
+    /// A drop from a height without gravity.
+    NoGravity,
+    /// No component, or too many.
+    Components(usize),
+    /// A component without a name.
+    NoName,
+    /// Two components of one name: answers could not be told apart.
+    SameName(String),
+    /// A component that reaches beyond the ends of the product.
+    Reach {
+        /// How far it reaches from the middle.
+        reach_m: f64,
+        /// Half of the length of the product.
+        half_m: f64,
+    },
+    /// A component without a limit.
+    NoLimit,
+    /// A key that a part that is mounted rigidly does not have.
+    Hard {
+        /// The key.
+        field: &'static str,
+    },
+    /// A record of an acceleration that was measured beyond the ends of the product.
+    Sensor {
+        /// Where, from the middle.
+        position_m: f64,
+        /// Half of the length of the product.
+        half_m: f64,
+    },
+}
+
+impl DataFault {
+    /// What is wrong, with the value, and what is allowed.
+    #[must_use]
+    pub fn told(&self) -> [String; 2] {
+        match self {
+            Self::Value { field, value, unit, allowed } => {
+                let blank = if unit.is_empty() { "" } else { " " };
+                [out_of_range(field, format_args!("{value}{blank}{unit}")), format!("allowed: {allowed}")]
+            }
+            Self::CenterOfMass { center_m, length_m } => [
+                format!(
+                    "the center of mass is {} mm from the middle of a product of {} mm",
+                    mm(*center_m),
+                    mm(*length_m)
+                ),
+                "allowed: within 0.45 of the length from the middle".to_owned(),
+            ],
+            Self::Gyration { gyration_m, length_m } => [
+                format!("the radius of gyration is {} mm in a product of {} mm", mm(*gyration_m), mm(*length_m)),
+                "allowed: from 0.05 to 2 times the length".to_owned(),
+            ],
+            Self::Ends { points_m } => [
+                format!("the ends of the body are at {points_m:?} m from its center of mass"),
+                "allowed: end a at [-x, 0], end b at [x, 0], x above 0".to_owned(),
+            ],
+            Self::OtherGyration { gyration_m, middle_m } => [
+                format!("the radius of gyration of the body is {} mm", mm(*gyration_m)),
+                format!("allowed: {} mm, the middle of the range that the product gives", mm(*middle_m)),
+            ],
+            Self::NoGravity => [
+                "without gravity nothing falls from a `height`".to_owned(),
+                "give the `speed` at the first touch instead".to_owned(),
+            ],
+            Self::Components(count) => {
+                [format!("`component` has {count} entries"), format!("expected 1 to {MOST_COMPONENTS}")]
+            }
+            Self::NoName => ["`name` is empty".to_owned(), "expected a name".to_owned()],
+            Self::SameName(name) => {
+                [format!("two components are named {name:?}"), "give each component a name of its own".to_owned()]
+            }
+            Self::Reach { reach_m, half_m } => [
+                format!("the component reaches {} mm from the middle", mm(*reach_m)),
+                format!("allowed: up to {} mm, half of the product's length; extent counts on both sides", mm(*half_m)),
+            ],
+            Self::NoLimit => ["it has no limit".to_owned(), format!("give at least one of {}", LIMITS.join(", "))],
+            Self::Hard { field } => {
+                [format!("a hard-mounted part has no `{field}`"), "leave one of both out".to_owned()]
+            }
+            Self::Sensor { position_m, half_m } => [
+                format!("the acceleration was measured {} mm from the middle", mm(*position_m)),
+                format!("allowed: up to {} mm, half of the product's length", mm(*half_m)),
+            ],
+        }
+    }
+}
+
+impl std::fmt::Display for DataFault {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let [wrong, allowed] = self.told();
+        write!(f, "{wrong}; {allowed}")
+    }
+}
+
+/// What messages say of a value as it was written.
+pub(crate) fn out_of_range(field: &str, value: impl std::fmt::Display) -> String {
+    format!("`{field}` = {value} is out of its range")
+}
+
+/// Millimeters to the micrometer, as messages have them.
+fn mm(length_m: f64) -> f64 {
+    (1e6 * length_m).round() / 1e3
+}
