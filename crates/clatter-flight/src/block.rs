@@ -115,7 +115,7 @@ impl Block {
     }
 
     /// Distance of the center of mass from a face, the one on the side −1 or +1 of an axis.
-    fn to_face(&self, axis: usize, side: f64) -> f64 {
+    fn face_at(&self, axis: usize, side: f64) -> f64 {
         self.half[axis] - side * self.center[axis]
     }
 
@@ -124,12 +124,12 @@ impl Block {
     fn lies_on(&self, n: [f64; 3]) -> (usize, f64, f64) {
         let side = |axis: usize| -1.0_f64.copysign(n[axis]);
         let along = |axis: usize| {
-            if n[axis] == 0.0 { f64::INFINITY } else { self.to_face(axis, side(axis)) / n[axis].abs() }
+            if n[axis] == 0.0 { f64::INFINITY } else { self.face_at(axis, side(axis)) / n[axis].abs() }
         };
         let face = (0..3).min_by(|&a, &b| along(a).total_cmp(&along(b))).unwrap_or(2);
-        let over = self.to_face(face, side(face));
+        let over = self.face_at(face, side(face));
         let others = (0..3).filter(|axis| *axis != face);
-        let aside = others.flat_map(|axis| [-1.0, 1.0].map(|side| self.to_face(axis, side)));
+        let aside = others.flat_map(|axis| [-1.0, 1.0].map(|side| self.face_at(axis, side)));
         (face, over, over.hypot(aside.fold(f64::INFINITY, f64::min)))
     }
 
@@ -143,7 +143,7 @@ impl Block {
             return gravity * over + turning(face);
         }
         let on = |axis: usize| {
-            let height = self.to_face(axis, 1.0).min(self.to_face(axis, -1.0));
+            let height = self.face_at(axis, 1.0).min(self.face_at(axis, -1.0));
             gravity * height + turning(axis)
         };
         (0..3).map(on).fold(f64::INFINITY, f64::min)

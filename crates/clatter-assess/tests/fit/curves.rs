@@ -101,7 +101,9 @@ fn heights_tell_how_it_fell() {
 #[test]
 fn heights_of_the_mirror_image_tell_the_same() {
     let (mut samples, _) = heights(0.3, 4.2, 0.03, 2.0, &mut Random(22));
-    samples.iter_mut().for_each(|sample| sample.height_m.reverse());
+    for sample in &mut samples {
+        sample.height_m.reverse();
+    }
     let found = fit(&bar(None), &[Measured::Heights { samples, deviation_m: None }]).expect("as the test has it");
     assert_eq!(found.first, End::B);
     // By noise of 0.2 mm: the spin to a tenth.

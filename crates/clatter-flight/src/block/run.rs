@@ -515,7 +515,6 @@ impl<'a> Run<'a> {
         let depth = corner.ground - height;
         match corner.hold {
             Hold::Up if height > 0.0 => corner.ground = 0.0,
-            Hold::Up => self.touch(i, velocity),
             Hold::Loads if self.system.delay > 0.0 => self.parts(i, if depth > 0.0 { Hold::Slack } else { Hold::Up }),
             Hold::Loads => corner.hold = Hold::Unloads(depth),
             Hold::Unloads(deepest) if depth > deepest => corner.hold = Hold::Loads,
@@ -524,7 +523,7 @@ impl<'a> Run<'a> {
                 self.parts(i, Hold::Up);
             }
             Hold::Slack if depth <= 0.0 => corner.hold = Hold::Up,
-            Hold::Slack => self.touch(i, velocity),
+            Hold::Up | Hold::Slack => self.touch(i, velocity),
         }
     }
 
