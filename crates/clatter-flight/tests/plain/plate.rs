@@ -160,12 +160,10 @@ impl PlainPlate {
             })
             .collect();
         for p in 0..n {
-            for i in (0..n).filter(|i| *i != p) {
-                let share = rows[i][p] / rows[p][p];
-                for k in 0..=n {
-                    let of = rows[p][k];
-                    rows[i][k] -= share * of;
-                }
+            let pivot = rows[p].clone();
+            for (_, row) in rows.iter_mut().enumerate().filter(|(i, _)| *i != p) {
+                let share = row[p] / pivot[p];
+                row.iter_mut().zip(&pivot).for_each(|(of, from)| *of -= share * from);
             }
         }
         for (p, &i) in held[..n].iter().enumerate() {
