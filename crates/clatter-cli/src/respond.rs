@@ -79,8 +79,8 @@ Examples:
       --tilt=5deg --at=70mm --frequency=180Hz --equivalent-pulse   the same board, with gravity
   clatter respond --model=compliant --contact-time=0.4ms --length=140mm --gyration=40mm \\
       --e=30% --height=1.2m --tilt=5deg --at=35mm                  a part that is mounted rigidly
-  clatter respond --model=compliant --contact-time=0.4ms --length=150mm --width=70mm \
-      --gyration=43mm,20mm --e=30% --height=1m --tilt=2deg --direction=30deg \
+  clatter respond --model=compliant --contact-time=0.4ms --length=150mm --width=70mm \\
+      --gyration=43mm,20mm --e=30% --height=1m --tilt=2deg --direction=30deg \\
       --at=35mm,0mm --frequency=180Hz                              a part on a plate
   clatter respond --shocks-file=shocks.csv --omega=1131
 

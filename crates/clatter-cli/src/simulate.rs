@@ -56,7 +56,7 @@ Examples:
       --tilt=5deg
   clatter simulate --model=compliant --contact-time=0.5ms --length=200mm --mass=200g@-1:1 \\
       --mass=100g@50mm --e=30% --speed=4m/s --tilt=5deg
-  clatter simulate --model=compliant --contact-time=0.5ms --length=150mm --width=70mm \
+  clatter simulate --model=compliant --contact-time=0.5ms --length=150mm --width=70mm \\
       --gyration=43mm,20mm --e=30% --height=1m --tilt=2deg --direction=30deg --at=0,0
 
 Add --at=0 -o drop.svg for a picture, with the shocks of the middle. 'clatter simulate

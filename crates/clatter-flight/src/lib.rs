@@ -56,5 +56,5 @@ pub use error::Error;
 pub use excitation::{Stretch, Wave};
 pub use flight::{Flight, LiftOff, Model, Pivot, SHARE, Stop, Strike};
 pub use orders::{Order, Residue, orders, residues};
-pub use plate::{LEAST_OF_PLATES, Plate, PlateScene};
+pub use plate::{Plate, PlateScene};
 pub use scene::Scene;

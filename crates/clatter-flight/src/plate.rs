@@ -2,7 +2,7 @@
 
 use clatter::Error as Given;
 
-use crate::contact::{Ahead, Contact, ContactLaw, PlateFlight};
+use crate::contact::{Ahead, Contact, PlateFlight};
 use crate::scene::within;
 use crate::{Error, Stop};
 
@@ -179,8 +179,7 @@ impl PlateScene {
     /// The same to a precision, as far as it is needed: as [`Scene::contacts_until`](crate::Scene::contacts_until).
     ///
     /// # Accuracy
-    /// Lever arms do not change, so that a phase is exact; what is slower than `precision` is laid down. A hysteretic contact with e
-    /// below [`LEAST_OF_PLATES`] rebounds with that.
+    /// Lever arms do not change, so that a phase is exact; what is slower than `precision` is laid down.
     ///
     /// # Errors
     /// [`Error::Given`] unless the precision is in [1e−8, 0.1]; [`Error::Bound`] unless each radius of gyration is at least 0.05 of the
@@ -194,12 +193,7 @@ impl PlateScene {
     ) -> Result<PlateFlight, Error> {
         within("precision", precision, 1e-8, 0.1, "in [1e-8, 0.1]")?;
         self.check(contact)?;
-        let e = match contact.law() {
-            ContactLaw::Hysteretic => contact.restitution().max(LEAST_OF_PLATES),
-            ContactLaw::Dashpot => contact.restitution(),
-        };
-        let contact = Contact::new(contact.law(), e, contact.time_s())?;
-        PlateFlight::follow(self, &contact, precision, enough)
+        PlateFlight::follow(self, contact, precision, enough)
     }
 
     pub(crate) fn limits(&self) -> (f64, usize) {
@@ -237,10 +231,6 @@ impl PlateScene {
         Ok(())
     }
 }
-
-/// A hysteretic contact of a plate rebounds with this restitution at least: corners that stay where they have loaded are followed for
-/// bars alone.
-pub const LEAST_OF_PLATES: f64 = 0.01;
 
 impl PlateFlight {
     /// Whether a limit has cut the flight off.

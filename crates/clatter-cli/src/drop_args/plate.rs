@@ -2,7 +2,7 @@
 
 use clatter_assess::STANDARD_GRAVITY_M_S2;
 use clatter_assess::units::Quantity;
-use clatter_flight::{Contact, LEAST_OF_PLATES, Plate, PlateScene};
+use clatter_flight::{Contact, Plate, PlateScene};
 
 use super::{DropArgs, IN_SI, MOST_GYRATION, either};
 use crate::Failure;
@@ -164,7 +164,7 @@ impl DropArgs {
             tilt_deg,
             direction_deg: (tilt > 0.0).then_some(direction_deg),
             shown: self.shown_of_plate(length),
-            notes: plate_notes(tilt_deg, contact.as_ref()),
+            notes: plate_notes(tilt_deg),
         })
     }
 
@@ -265,17 +265,12 @@ enum Tilted {
     Angles([f64; 2]),
 }
 
-fn plate_notes(tilt_deg: f64, contact: Option<&Contact>) -> Vec<(&'static str, String)> {
-    let mut notes = Vec::new();
-    if tilt_deg > STEEP_DEG {
-        let tilt = given(neat(format!("{tilt_deg:.3e}").parse().unwrap_or(tilt_deg)));
-        let what =
-            format!("a plate is followed as if almost level: at a tilt of {tilt} degrees its lever arms are shorter");
-        notes.push(("warning", what));
+fn plate_notes(tilt_deg: f64) -> Vec<(&'static str, String)> {
+    if tilt_deg <= STEEP_DEG {
+        return Vec::new();
     }
-    let dead = |contact: &&Contact| contact.restitution() < LEAST_OF_PLATES;
-    if contact.filter(dead).is_some_and(|contact| contact.law() == clatter_flight::ContactLaw::Hysteretic) {
-        notes.push(("note", format!("hysteretic contacts of a plate rebound with e = {LEAST_OF_PLATES} at least")));
-    }
-    notes
+    let tilt = given(neat(format!("{tilt_deg:.3e}").parse().unwrap_or(tilt_deg)));
+    let what =
+        format!("a plate is followed as if almost level: at a tilt of {tilt} degrees its lever arms are shorter");
+    vec![("warning", what)]
 }

@@ -124,13 +124,16 @@ impl Pose<4> for Level {
         [self.gravity; 4]
     }
     fn after(&self, t: f64, (): &(), pushes: &Pushes<4>) -> Self {
-        (0..4).fold(self.flown(t), |pose, i| pose.by(i, pushes.path[i], pushes.impulse[i]))
-    }
-    fn pushed(&self, point: usize, impulse: f64) -> Self {
-        self.by(point, 0.0, impulse)
-    }
-    fn moved(&self, point: usize, by: f64) -> Self {
-        self.by(point, by / self.coupled(point, point), 0.0)
+        let [kx, ky] = self.plate.gyration_m();
+        let mut pose = self.flown(t);
+        for (i, [x, y]) in self.plate.corners_m().into_iter().enumerate() {
+            let turns = [x / (kx * kx), y / (ky * ky)];
+            pose.y += pushes.path[i];
+            pose.v += pushes.impulse[i];
+            pose.slopes = [0, 1].map(|k| pose.slopes[k] + turns[k] * pushes.path[i]);
+            pose.rates = [0, 1].map(|k| pose.rates[k] + turns[k] * pushes.impulse[i]);
+        }
+        pose
     }
 
     /// By the forces that leave least of its energy over that at rest, F and F + s (1, −1, 1, −1) doing the same to the plate:
@@ -149,6 +152,17 @@ impl Pose<4> for Level {
         let forces = std::array::from_fn(|i| even[i] + s * AROUND[i]);
         Some(Borne { on: [true; 4], forces })
     }
+    /// By three corners that lie or four; of four each alike, as their own yielding would tell.
+    fn held_by(&self, lying: &[bool; 4], forces: &[f64; 4]) -> Option<[f64; 4]> {
+        let even = self.even().map(|share| share * self.gravity);
+        let others: Vec<usize> = (0..4).filter(|&i| !lying[i]).collect();
+        let s = match others[..] {
+            [] => 0.0,
+            [i] => (forces[i] - even[i]) * AROUND[i],
+            _ => return None,
+        };
+        Some(std::array::from_fn(|i| even[i] + s * AROUND[i]))
+    }
     /// Where more than one corner does not carry, what the others can not stop is left out.
     fn stopping(&self, carrying: &[bool; 4]) -> Option<[Option<f64>; 4]> {
         if !carrying.contains(&true) {
@@ -166,16 +180,5 @@ impl Pose<4> for Level {
     }
     fn still(&self) -> Self {
         Self { v: 0.0, rates: [0.0; 2], ..*self }
-    }
-}
-
-impl Level {
-    /// After a push at a corner that does so much to height and velocity of the center of mass.
-    fn by(&self, point: usize, path: f64, impulse: f64) -> Self {
-        let ([x, y], [kx, ky]) = (self.plate.corners_m()[point], self.plate.gyration_m());
-        let turns = [x / (kx * kx), y / (ky * ky)];
-        let slopes = [0, 1].map(|i| self.slopes[i] + turns[i] * path);
-        let rates = [0, 1].map(|i| self.rates[i] + turns[i] * impulse);
-        Self { y: self.y + path, v: self.v + impulse, slopes, rates, ..*self }
     }
 }

@@ -10,19 +10,20 @@
 //! proportion to their stiffness. Heights, forces, and what they do to the center of mass and to the angle are sums of
 //! these modes. At the end of the phase the pose follows in exact geometry.
 //!
-//! # A point that lies
-//! It stays where it is: its force is the one that makes its acceleration 0,
+//! # Points that lie
+//! A point that lies stays where it is: its force is the one that makes its acceleration 0,
 //!
 //! ```text
 //! F_l = (fall_l − Σ_j M_lj F_j)/M_ll
 //! ```
 //!
-//! so that for all other points M_ij is less by M_il M_lj/M_ll, and fall_i by M_il/M_ll of that of the point.
+//! so that for all other points M_ij is less by M_il M_lj/M_ll, and fall_i by M_il/M_ll of that of the point; where
+//! several lie, one after the other.
 
 use super::Sample;
 use super::eigen::eigen;
 use super::mode::{Mode, Motion};
-use super::pose::{Pose, Pushes};
+use super::pose::{Pose, Pushes, moves_freely, solve};
 use super::touch::Watch;
 
 /// The straight line of the force on a point that presses: `F = k (zero − h − θ h′)`.
@@ -53,8 +54,8 @@ pub(crate) struct Phase<P: Pose<N>, const N: usize> {
     pub(crate) halfway: P,
     pub(crate) arms: P::Arms,
     pub(super) lines: [Option<Line>; N],
-    /// The point that lies.
-    pub(crate) lies: Option<usize>,
+    /// The points that lie.
+    pub(crate) lies: [bool; N],
     /// M_ij by these lever arms; of a free phase nothing.
     coupling: [[f64; N]; N],
     /// Downward accelerations without contact: gravity and turning.
@@ -87,7 +88,7 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
             halfway: *halfway,
             arms,
             lines,
-            lies: holds.iter().position(|hold| matches!(hold, Hold::Lies)),
+            lies: holds.map(|hold| matches!(hold, Hold::Lies)),
             coupling,
             fall,
             height,
@@ -100,10 +101,9 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
             idle: [0.0; N],
             felt: [[0.0; N]; N],
         };
-        if let Some(l) = phase.lies {
-            for i in (0..N).filter(|&i| i != l) {
-                phase.fall[i] = fall[i] - phase.carried(&coupling[i], l) * fall[l];
-            }
+        if phase.lies.contains(&true) {
+            let reduced = |i: usize| if phase.lies[i] { fall[i] } else { fall[i] - phase.steady(&coupling[i]) };
+            phase.fall = std::array::from_fn(reduced);
         }
         phase.find_modes();
         phase
@@ -117,7 +117,7 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
             halfway: start,
             arms,
             lines: [None; N],
-            lies: None,
+            lies: [false; N],
             coupling: [none; N],
             fall: none,
             height,
@@ -135,8 +135,9 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
         let (lines, height, velocity, fall) = (self.lines, self.height, self.velocity, self.fall);
         let mut stiffness = [[0.0; N]; N];
         for i in (0..N).filter(|&i| lines[i].is_some()) {
+            let (share, _) = self.reduced(&self.coupling[i], N);
             for j in (0..=i).filter(|&j| lines[j].is_some()) {
-                stiffness[i][j] = self.root[i] * self.share(&self.coupling[i], j) * self.root[j];
+                stiffness[i][j] = self.root[i] * share[j] * self.root[j];
                 stiffness[j][i] = stiffness[i][j];
             }
         }
@@ -161,34 +162,41 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
         self.felt = self.coupling.map(|of_point| self.felt_by(&of_point));
     }
     pub(crate) fn is_free(&self) -> bool {
-        self.count == 0 && self.lies.is_none()
+        self.count == 0 && !self.lies.contains(&true)
     }
     /// Whether nothing vibrates.
     pub(super) fn is_still(&self) -> bool {
         self.modes().iter().all(|mode| mode.bounds()[0] <= STILL * mode.rest().abs())
     }
-    /// What moves as the point l that lies is pushed, over what moves that point: of what forces do to it where nothing lies.
-    fn carried(&self, of: &[f64; N], l: usize) -> f64 {
-        of[l] / self.coupling[l][l]
-    }
-    /// What a force at point i does to it.
-    fn share(&self, of: &[f64; N], i: usize) -> f64 {
-        of[i] - self.lies.map_or(0.0, |l| self.carried(of, l) * self.coupling[l][i])
+    /// What forces do to something, each with the points before `end` that lie holding against it; and the acceleration that those
+    /// give it as they carry themselves. Of what forces do to it where nothing lies.
+    fn reduced(&self, of: &[f64; N], end: usize) -> ([f64; N], f64) {
+        let (mut of, mut steady) = (*of, 0.0);
+        for l in (0..end).filter(|&l| self.lies[l]) {
+            let (row, carried) = self.reduced(&self.coupling[l], l);
+            if moves_freely(row[l], self.coupling[l][l]) {
+                let share = of[l] / row[l];
+                of = std::array::from_fn(|i| of[i] - share * row[i]);
+                steady += share * (self.fall[l] - carried);
+            }
+        }
+        (of, steady)
     }
     /// Acceleration by each mode's press, `Σ_m felt[m] (z_m + θ z_m′)`, of what forces at the points do so much to.
     pub(crate) fn felt_by(&self, of: &[f64; N]) -> [f64; N] {
         let mut felt = [0.0; N];
+        let (share, _) = self.reduced(of, N);
         for i in (0..N).filter(|&i| self.lines[i].is_some()) {
-            let share = self.share(of, i) * self.root[i];
+            let share = share[i] * self.root[i];
             for (m, felt) in felt.iter_mut().enumerate().take(self.count) {
                 *felt -= share * self.shape[i][m];
             }
         }
         felt
     }
-    /// Its acceleration above free fall besides: that of the point that lies.
+    /// Its acceleration above free fall besides: that of the points that lie.
     pub(crate) fn steady(&self, of: &[f64; N]) -> f64 {
-        self.lies.map_or(0.0, |l| self.carried(of, l) * self.fall[l])
+        self.reduced(of, N).1
     }
     /// The modes that are there.
     pub(crate) fn modes(&self) -> &[Mode] {
@@ -207,7 +215,7 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
             let of = |n: usize| (0..self.count).map(|m| self.shape[i][m] * motions[m][n]).sum::<f64>() / self.root[i];
             return [line.zero + self.idle[i] / self.root[i] + of(0), of(1), of(2), of(3)];
         }
-        if self.lies == Some(i) {
+        if self.lies[i] {
             return [self.height[i], 0.0, 0.0, 0.0];
         }
         let felt = self.felt[i];
@@ -228,7 +236,7 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
     }
     /// Height and velocity of a point as the phase begins; none for one that lies.
     pub(super) fn begins(&self, i: usize) -> Option<[f64; 2]> {
-        (self.lies != Some(i)).then_some([self.height[i], self.velocity[i]])
+        (!self.lies[i]).then_some([self.height[i], self.velocity[i]])
     }
     /// Height of a point, or force on one that lies, at time t and the first three derivatives.
     pub(super) fn watched(&self, i: usize, t: f64) -> [f64; 4] {
@@ -236,7 +244,7 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
             return self.start.flying(i, t);
         }
         let motions = self.motions(t);
-        if self.lies == Some(i) { self.reaction(i, &motions) } else { self.point(i, t, &motions) }
+        if self.lies[i] { self.reaction(i, &motions) } else { self.point(i, t, &motions) }
     }
     /// When a watch on a point that presses falls to zero, where there is a closed form: none where it never does.
     #[expect(clippy::option_option, reason = "no closed form, or never")]
@@ -275,26 +283,32 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
         let rest = line.zero + self.idle[i] / self.root[i] + each(&|m| self.shape[i][m] * self.modes[m].rest());
         Some([rest, each(&|m| self.shape[i][m].abs() * modes[m][0])])
     }
-    /// What moves point l, which lies, by each mode's press.
+    /// Forces per mass at the points that lie that give them these accelerations.
+    fn moving(&self, b: [f64; N]) -> [f64; N] {
+        solve(|i, j| self.coupling[i][j], &self.lies, b)
+    }
+    /// Force on point l, which lies, by each mode's motion.
     fn reaction_by(&self, l: usize) -> [f64; N] {
         let mut by = [0.0; N];
         for i in (0..N).filter(|&i| self.lines[i].is_some()) {
-            let share = self.coupling[l][i] * self.root[i] / self.coupling[l][l];
+            let share = self.moving(self.coupling[i].map(|of| of * self.root[i]))[l];
             for (m, by) in by.iter_mut().enumerate().take(self.count) {
                 *by += share * self.shape[i][m];
             }
         }
         by
     }
-    /// Force per mass on point l, which lies, and its first three derivatives; no damping. Where it alone presses, turning is
-    /// that of the begin: it parts when its force has fallen to zero, and not when it is about to.
+    /// Force per mass on point l, which lies, and its first three derivatives; no damping. Where points that lie press alone, turning
+    /// is that of the begin: one parts when its force has fallen to zero, and not when it is about to.
     pub(super) fn reaction(&self, l: usize, motions: &[Motion; N]) -> [f64; 4] {
         let by = self.reaction_by(l);
         let of = |n: usize| (0..self.count).map(|m| by[m] * motions[m][n]).sum::<f64>();
-        let idle = |i: usize| self.coupling[l][i] * self.root[i] * self.idle[i];
-        let fall = if self.count == 0 { self.start.fall(l) } else { self.fall[l] };
-        let without = (fall + (0..N).map(idle).sum::<f64>()) / self.coupling[l][l];
-        [without + of(0), of(1), of(2), of(3)]
+        let fall = |l: usize| if self.count == 0 { self.start.fall(l) } else { self.fall[l] };
+        let idle = |l: usize, i: usize| self.coupling[l][i] * self.root[i] * self.idle[i];
+        let without = self.moving(std::array::from_fn(|l| {
+            if self.lies[l] { fall(l) + (0..N).map(|i| idle(l, i)).sum::<f64>() } else { 0.0 }
+        }));
+        [without[l] + of(0), of(1), of(2), of(3)]
     }
     /// Bounds of its second, third and fourth derivative.
     pub(super) fn reaction_bounds(&self, l: usize, modes: &[[f64; 4]; N]) -> [f64; 3] {
@@ -304,7 +318,7 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
     /// Forces of the ground on all points over the mass.
     pub(super) fn forces(&self, motions: &[Motion; N]) -> [f64; N] {
         std::array::from_fn(|i| {
-            if self.lies == Some(i) {
+            if self.lies[i] {
                 return self.reaction(i, motions)[0].max(0.0);
             }
             let press = |m: usize| self.shape[i][m] * self.modes[m].press(&motions[m]);
@@ -325,12 +339,13 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
                 pushes.path[i] += of * path;
             }
         }
-        if let Some(l) = self.lies {
-            let own = self.coupling[l][l];
-            let others = |of: &[f64; N]| (0..N).map(|i| self.coupling[l][i] * of[i]).sum::<f64>();
-            let impulse = (self.fall[l] * t - others(&pushes.impulse)) / own;
-            let path = (0.5 * self.fall[l] * t * t - others(&pushes.path)) / own;
-            (pushes.impulse[l], pushes.path[l]) = (impulse, path);
+        if self.lies.contains(&true) {
+            let others = |l: usize, of: &[f64; N]| (0..N).map(|i| self.coupling[l][i] * of[i]).sum::<f64>();
+            let impulse = self.moving(std::array::from_fn(|l| self.fall[l] * t - others(l, &pushes.impulse)));
+            let path = self.moving(std::array::from_fn(|l| 0.5 * self.fall[l] * t * t - others(l, &pushes.path)));
+            for l in (0..N).filter(|&l| self.lies[l]) {
+                (pushes.impulse[l], pushes.path[l]) = (impulse[l], path[l]);
+            }
         }
         pushes
     }
@@ -357,19 +372,21 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
     pub(super) fn pushed(&self, pushes: &Pushes<N>) -> f64 {
         (0..N).map(|i| self.coupling[i][i] * pushes.impulse[i].abs()).fold(0.0, f64::max)
     }
-    /// A pose in which the point that lies is where it was and stands still, and the impulse for that: kept lever arms have moved it
-    /// a little.
-    pub(super) fn held(&self, l: usize, pose: &P) -> (P, f64) {
-        let pose = pose.moved(l, self.height[l] - pose.points().0[l]);
-        let impulse = -pose.points().1[l] / pose.coupled(l, l);
-        (pose.pushed(l, impulse), impulse)
+    /// A pose in which the points that lie are where they were and stand still, and the impulses for that: kept lever arms have moved
+    /// them a little.
+    pub(super) fn held(&self, pose: &P) -> (P, [f64; N]) {
+        let (height, _) = pose.points();
+        let off = std::array::from_fn(|i| self.height[i] - height[i]);
+        let pose = pose.pushed(&Pushes { impulse: [0.0; N], path: pose.moving(&self.lies, off) });
+        let impulse = pose.moving(&self.lies, pose.points().1.map(|velocity| -velocity));
+        (pose.pushed(&Pushes { impulse, path: [0.0; N] }), impulse)
     }
     pub(crate) fn sample(&self, t: f64) -> Sample<N> {
         let motions = self.motions(t);
         let free = self.is_free();
         let mut pose = if free { self.start.flown(t) } else { self.pose(t, &self.pushes(t, &motions)) };
-        if let Some(l) = self.lies {
-            pose = self.held(l, &pose).0;
+        if self.lies.contains(&true) {
+            pose = self.held(&pose).0;
         }
         let (height_m, velocity_m_s) = pose.points();
         let [tilt_rad, spin_rad_s] = pose.angles();

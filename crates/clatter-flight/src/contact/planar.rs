@@ -154,15 +154,6 @@ impl<const N: usize> Pose<N> for Planar<N> {
         }
         pose
     }
-    fn pushed(&self, point: usize, impulse: f64) -> Self {
-        let x = self.arms().x[point];
-        Self { v: self.v + impulse, spin: self.spin + x * impulse / self.rho2, ..*self }
-    }
-    fn moved(&self, point: usize, by: f64) -> Self {
-        let x = self.arms().x[point];
-        let own = self.share(x, x);
-        Self { y: self.y + by / own, tilt: self.tilt + by / own * x / self.rho2, ..*self }
-    }
 
     fn mean(begin: &Self, middle: &Self, end: &Self, weigh: impl Fn([f64; 3]) -> f64) -> Self {
         let tilt = weigh([begin.tilt, middle.tilt, end.tilt]);

@@ -61,10 +61,6 @@ pub trait Pose<const N: usize>: Copy + Debug {
     }
     /// The pose a time t later, the ground having done meanwhile ∫F dt and ∬F dt² at these lever arms.
     fn after(&self, t: f64, arms: &Self::Arms, pushes: &Pushes<N>) -> Self;
-    /// The pose after an impulse over the mass at a point.
-    fn pushed(&self, point: usize, impulse: f64) -> Self;
-    /// The pose after a push at a point that moves it by so much.
-    fn moved(&self, point: usize, by: f64) -> Self;
 
     /// The pose in the middle of a phase, with the angles that its forces weigh those of its begin, middle and end by.
     fn mean(_begin: &Self, middle: &Self, _end: &Self, _weigh: impl Fn([f64; 3]) -> f64) -> Self {
@@ -115,6 +111,15 @@ pub trait Pose<const N: usize>: Copy + Debug {
     fn points(&self) -> ([f64; N], [f64; N]) {
         self.points_by(&self.arms())
     }
+    /// The pose after such pushes now, at once.
+    fn pushed(&self, pushes: &Pushes<N>) -> Self {
+        self.after(0.0, &self.arms(), pushes)
+    }
+    /// Pushes over the mass that move these points so.
+    fn moving(&self, points: &[bool; N], by: [f64; N]) -> [f64; N] {
+        let arms = self.arms();
+        solve(|i, j| self.coupling(&arms, i, j), points, by)
+    }
     /// M_ij of now.
     fn coupled(&self, i: usize, j: usize) -> f64 {
         self.coupling(&self.arms(), i, j)
@@ -141,6 +146,37 @@ pub struct Extent {
 pub struct Pushes<const N: usize> {
     pub(super) impulse: [f64; N],
     pub(super) path: [f64; N],
+}
+
+/// What pushes at some points are worth to move these points so: x of M x = b, of as many of them as move independently.
+///
+/// Corners of a plate are four, and have three ways to move: what is no more than a rounding is left out.
+pub(super) fn solve<const N: usize>(
+    coupling: impl Fn(usize, usize) -> f64,
+    points: &[bool; N],
+    mut b: [f64; N],
+) -> [f64; N] {
+    let mut m: [[f64; N]; N] = std::array::from_fn(|i| std::array::from_fn(|j| coupling(i, j)));
+    let mut moves = *points;
+    for p in 0..N {
+        moves[p] &= moves_freely(m[p][p], coupling(p, p));
+        for i in (p + 1..N).filter(|i| moves[p] && points[*i]) {
+            let share = m[i][p] / m[p][p];
+            b[i] -= share * b[p];
+            m[i] = std::array::from_fn(|j| m[i][j] - share * m[p][j]);
+        }
+    }
+    let mut x = [0.0; N];
+    for p in (0..N).rev().filter(|p| moves[*p]) {
+        let others: f64 = (p + 1..N).map(|j| m[p][j] * x[j]).sum();
+        x[p] = (b[p] - others) / m[p][p];
+    }
+    x
+}
+
+/// Whether a point moves where others are held: its own coupling then, over that where nothing is held, is no rounding.
+pub(super) fn moves_freely(held: f64, own: f64) -> bool {
+    held > 1e-10 * own
 }
 
 /// A body whose weight the ground bears.

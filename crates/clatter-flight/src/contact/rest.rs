@@ -3,7 +3,7 @@
 use super::Ahead;
 use super::law::ContactLaw;
 use super::phase::Hold;
-use super::pose::{Borne, Pose};
+use super::pose::{Borne, Pose, Pushes};
 use super::run::Run;
 use super::touch::{Event, State, Touch};
 use crate::flight::Stop;
@@ -29,18 +29,23 @@ struct Weighed<const N: usize> {
 }
 
 impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
-    /// Takes the velocity of a point that lies.
-    pub(super) fn stop_point(&mut self, i: usize) {
-        let (_, velocity) = self.pose.points();
-        let impulse = -velocity[i] / self.pose.coupled(i, i);
-        self.pushed(i, impulse);
-        self.pose = self.pose.pushed(i, impulse);
+    /// Takes the velocity of points that lie.
+    pub(super) fn stop_lying(&mut self) {
+        let lying = self.touches.map(|touch| touch.state == State::Lying);
+        if lying.contains(&true) {
+            let (_, velocity) = self.pose.points();
+            let impulse = self.pose.moving(&lying, velocity.map(|velocity| -velocity));
+            self.pushed(&lying, impulse);
+            self.pose = self.pose.pushed(&Pushes { impulse, path: [0.0; N] });
+        }
     }
 
-    /// Books an impulse over the mass.
-    pub(super) fn pushed(&mut self, i: usize, impulse: f64) {
+    /// Books impulses over the mass at some points.
+    pub(super) fn pushed(&mut self, points: &[bool; N], impulses: [f64; N]) {
         let arms = self.pose.arms();
-        self.book(i, std::array::from_fn(|j| self.pose.coupling(&arms, i, j) * impulse));
+        for i in (0..N).filter(|&i| points[i]) {
+            self.book(i, std::array::from_fn(|j| self.pose.coupling(&arms, i, j) * impulses[i]));
+        }
     }
 
     /// The speed that is not followed: by the precision, or because roundings of heights are deeper than it sinks in.
@@ -189,9 +194,8 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         let carrying: [bool; N] = std::array::from_fn(|i| forces[i] > 0.0 || self.touches[i].state == State::Lying);
         let lone = || (0..N).find(|&i| self.touches[i].state != State::Away);
         if let Some(impulses) = self.pose.stopping(&carrying) {
-            for (i, impulse) in impulses.into_iter().enumerate() {
-                let Some(impulse) = impulse else { continue };
-                self.pushed(i, impulse);
+            self.pushed(&impulses.map(|impulse| impulse.is_some()), impulses.map(|impulse| impulse.unwrap_or(0.0)));
+            for i in (0..N).filter(|&i| impulses[i].is_some()) {
                 self.presses[self.touches[i].strike].until_s = f64::INFINITY;
             }
         } else if let Some(i) = (0..N).find(|&i| carrying[i]).or_else(lone) {

@@ -19,6 +19,8 @@ const ENERGY: f64 = 0.01;
 const KEPT: f64 = 4.0;
 /// How often a phase is worked out anew with better lever arms.
 const PASSES: usize = 6;
+/// Share of the force that a point has borne by which it may be pulled or pushed on by roundings.
+const BEARS: f64 = 1e-9;
 /// Contact times within which an event happens at once.
 const AT_ONCE: f64 = 1e-6;
 /// How often it is cut shorter.
@@ -200,9 +202,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         let holds = self.touches.map(|touch| touch.hold(self.contact));
         if holds.iter().any(|hold| !matches!(hold, Hold::No)) {
             self.lay_down();
-            if let Some(i) = self.touches.iter().position(|touch| touch.state == State::Lying) {
-                self.stop_point(i);
-            }
+            self.stop_lying();
             return self.pressed(self.touches.map(|touch| touch.hold(self.contact)));
         }
         let phase = Phase::free(self.pose);
@@ -282,7 +282,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
 
     /// The share of a phase after which turning lifts a point that alone presses and lies, and a little more.
     fn lets_go(&self, phase: &Phase<P, N>, end: &P) -> Option<f64> {
-        let l = phase.lies.filter(|_| phase.modes().is_empty())?;
+        let l = phase.lies.iter().position(|lies| *lies).filter(|_| phase.modes().is_empty())?;
         let (now, then) = (self.pose.fall(l), end.fall(l));
         let share = 1.02 * now / (now - then);
         (now > 0.0 && then < 0.0 && share < 0.9).then_some(share)
@@ -325,6 +325,11 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         found
     }
 
+    /// Whether a point that lies bears more or less than it can as a phase begins: what holds it has changed with the last event.
+    fn is_overcome(&self, phase: &Phase<P, N>, i: usize, watched: f64) -> bool {
+        phase.lies[i] && watched < -BEARS * self.touches[i].limit(self.contact)
+    }
+
     /// When what is watched at a point happens, if before `cap`.
     fn when(&self, phase: &Phase<P, N>, i: usize, watch: &Watch, modes: &[[f64; 4]; N], cap: f64) -> Zero {
         if let Some(known) = phase.falls(i, watch) {
@@ -333,10 +338,13 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         if phase.swing(i, modes).is_some_and(|swing| watch.never(swing)) {
             return Zero::Never;
         }
+        if cap > 0.0 && self.is_overcome(phase, i, watch.at(phase.watched(i, 0.0))[0]) {
+            return Zero::At(0.0);
+        }
         let free = phase.is_free();
         let bounds = if free {
             self.pose.flying_bounds(i)
-        } else if phase.lies == Some(i) {
+        } else if phase.lies[i] {
             phase.reaction_bounds(i, modes)
         } else {
             phase.bounds(i, modes)
@@ -376,10 +384,10 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
                 self.book(i, phase.jumps(i, pushes.impulse[i]));
             }
         }
-        if let Some(l) = phase.lies {
-            let (pose, impulse) = phase.held(l, &self.pose);
+        if phase.lies.contains(&true) {
+            let (pose, impulses) = phase.held(&self.pose);
             self.pose = pose;
-            self.pushed(l, impulse);
+            self.pushed(&phase.lies, impulses);
         }
         Ok(())
     }
@@ -399,7 +407,8 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         for (i, due) in due.iter_mut().enumerate() {
             let comes_too = |other: &Watch| {
                 let [v, slope, _] = other.at(phase.watched(i, dt));
-                other.event == watch.event && v <= value && slope <= 0.0
+                let falls = slope <= 0.0 || dt == 0.0 && self.is_overcome(phase, i, v);
+                other.event == watch.event && v <= value && falls
             };
             let mut watches = self.touches[i].watches(self.contact, &self.margins).into_iter().flatten();
             *due = if i == point { Some(watch.event) } else { watches.find(comes_too).map(|w| w.event) };

@@ -13,6 +13,8 @@ enum Mode {
     Away,
     Load,
     Unload,
+    /// Where the steeper line is upright: the corner stands still.
+    Held,
     Gap,
 }
 
@@ -139,12 +141,46 @@ impl PlainPlate {
     pub(crate) fn velocities(&self) -> [f64; 4] {
         std::array::from_fn(|i| self.velocity(&self.state, i))
     }
-    fn force(&self, s: &State, i: usize) -> f64 {
+    /// Of all corners; those that are held have what keeps them where they are.
+    fn forces(&self, s: &State) -> [f64; 4] {
+        let mut forces: [f64; 4] = std::array::from_fn(|i| self.pressed(s, i));
+        let held: Vec<usize> = (0..4).filter(|&i| self.corners[i].mode == Mode::Held).collect();
+        // Rows of (what a force at j does to i | what is missing), by Gauss.
+        let moves = |f: &[f64; 4], i: usize| {
+            let [.., a, x, y] = self.rates_by(s, f);
+            a + x * self.corners[i].at[0] + y * self.corners[i].at[1]
+        };
+        let unit = |j: usize| std::array::from_fn(|k| f64::from(u8::from(k == j)));
+        let n = held.len().min(3);
+        let mut rows: Vec<Vec<f64>> = held[..n]
+            .iter()
+            .map(|&i| {
+                let by = |j: &usize| moves(&unit(*j), i) + self.gravity;
+                held[..n].iter().map(by).chain([-moves(&forces, i)]).collect()
+            })
+            .collect();
+        for p in 0..n {
+            let pivot = rows[p].clone();
+            for (_, row) in rows.iter_mut().enumerate().filter(|(i, _)| *i != p) {
+                let share = row[p] / pivot[p];
+                row.iter_mut().zip(&pivot).for_each(|(of, from)| *of -= share * from);
+            }
+        }
+        for (p, &i) in held[..n].iter().enumerate() {
+            forces[i] = rows[p][n] / rows[p][p];
+        }
+        forces
+    }
+    /// Whether so many corners stand still that the plate does.
+    pub(crate) fn lies_still(&self) -> bool {
+        self.corners.iter().filter(|corner| corner.mode == Mode::Held).count() > 2
+    }
+    fn pressed(&self, s: &State, i: usize) -> f64 {
         let (corner, depth, sinking) = (&self.corners[i], -self.height(s, i), -self.velocity(s, i));
         match corner.mode {
             Mode::Load => corner.stiffness * (depth - corner.ground + self.theta * sinking),
             Mode::Unload => corner.stiffness / (self.e * self.e) * (depth - self.rest(i)),
-            Mode::Away | Mode::Gap => 0.0,
+            Mode::Away | Mode::Held | Mode::Gap => 0.0,
         }
     }
     /// Depth at which the steeper line has no force.
@@ -152,9 +188,11 @@ impl PlainPlate {
         self.corners[i].ground + self.corners[i].deepest * (1.0 - self.e * self.e)
     }
     fn rates(&self, s: &State) -> State {
+        self.rates_by(s, &self.forces(s))
+    }
+    fn rates_by(&self, s: &State, forces: &[f64; 4]) -> State {
         let (mut force, mut moments) = (0.0, [0.0; 2]);
-        for i in 0..4 {
-            let f = self.force(s, i);
+        for (i, f) in forces.iter().enumerate() {
             force += f;
             moments[0] += f * self.corners[i].at[0];
             moments[1] += f * self.corners[i].at[1];
@@ -178,7 +216,11 @@ impl PlainPlate {
         match (corner.mode, self.law) {
             (Mode::Away, _) => [(h, Mode::Load), never],
             (Mode::Load, ContactLaw::Dashpot) => [(press, Mode::Gap), never],
-            (Mode::Load, ContactLaw::Hysteretic) => [(-v, Mode::Unload), never],
+            (Mode::Load, ContactLaw::Hysteretic) => [(-v, if self.e > 0.0 { Mode::Unload } else { Mode::Held }), never],
+            (Mode::Held, _) => {
+                let force = self.forces(s)[i];
+                [(force, Mode::Gap), (corner.stiffness * corner.deepest - force, Mode::Load)]
+            }
             (Mode::Unload, _) => [(-h - self.rest(i), Mode::Gap), (corner.ground + corner.deepest + h, Mode::Load)],
             (Mode::Gap, ContactLaw::Dashpot) => [(-press, Mode::Load), (-h, Mode::Away)],
             (Mode::Gap, ContactLaw::Hysteretic) => [(self.rest(i) + h, Mode::Load), (-h, Mode::Away)],
@@ -198,13 +240,13 @@ impl PlainPlate {
         if mode == Mode::Load && matches!(from, Mode::Away | Mode::Gap) {
             return self.touch(i);
         }
-        if mode == Mode::Unload {
+        if matches!(mode, Mode::Unload | Mode::Held) {
             self.corners[i].deepest = -self.height(&self.state, i) - self.corners[i].ground;
         }
         self.corners[i].mode = mode;
     }
     fn length(&self) -> f64 {
-        let pressing = |corner: &&Corner| matches!(corner.mode, Mode::Load | Mode::Unload);
+        let pressing = |corner: &&Corner| matches!(corner.mode, Mode::Load | Mode::Unload | Mode::Held);
         let mut rate = 0.0_f64;
         for corner in self.corners.iter().filter(pressing) {
             let lone = self.omega * if corner.mode == Mode::Unload { 1.0 / self.e } else { 1.0 };
@@ -260,10 +302,10 @@ impl PlainPlate {
             self.happens(i, mode);
         }
     }
-    /// Goes on until this time, or so many steps.
+    /// Goes on until this time, until it lies still, or so many steps.
     pub(crate) fn run(&mut self, until: f64, steps: usize) -> bool {
         for _ in 0..steps {
-            if self.time >= until {
+            if self.time >= until || self.lies_still() {
                 return true;
             }
             self.advance(until);
