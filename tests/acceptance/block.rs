@@ -71,19 +71,19 @@ fn a_part_moves_along_its_axis() {
 fn what_is_no_drop_of_a_box_is_told() {
     for (arguments, said) in [
         (
-            vec!["simulate", "--model=compliant", "--width=60mm", "--length=120mm"],
+            vec!["simulate", "--model=compliant", "--width=60mm", "--length=120mm", "--orientation=1,0,0,0"],
             "the drop of the box is not whole: give --thickness",
         ),
         (with("simulate", &["--orientation=1,1,0,0"]), "unit quaternion"),
         (with("simulate", &["--orientation=1,0,0"]), "3 numbers, not 4"),
-        (with("simulate", &["--tilt-deg=10", "--spin-rad-s=1"]), "three values"),
+        (with("simulate", &["--tilt-deg=10", "--spin-rad-s=1"]), "takes three values"),
         (with("simulate", &["--tilt-deg=10", "--center-of-mass-m=0.1,0,0"]), "within the box"),
         (with("simulate", &["--tilt-deg=10", "-o", "x.csv"]), "not written to a file"),
         (with("simulate", &["--tilt-deg=10", "--spin-rad-s=0,-1e4,0"]), "contact time"),
         (with("respond", &["--tilt-deg=10"]), "--at=X,Y,Z"),
         (with("respond", &["--tilt-deg=10", "--at-m=0,0.04,0"]), "y = 0.04 m is not within the box"),
         (with("respond", &["--tilt-deg=10", "--at-m=0,0,0", "--axis=any", "--omega=100"]), "along one axis"),
-        (vec!["simulate", "--model=compliant", "--length-m=1", "--gyration-m=1,1,1", "--e=0.5"], "three of a box"),
+        (vec!["simulate", "--model=compliant", "--length-m=1", "--gyration-m=1,1,1", "--e=0.5"], "not three"),
     ] {
         let outcome = clatter(&arguments);
         assert_eq!((outcome.exit, outcome.stdout.as_str()), (Exit::BadInput, ""), "{arguments:?}: {}", outcome.stderr);

@@ -206,7 +206,7 @@ fn what_a_plate_has_not_is_refused() {
         ("simulate", &["--model=map", GAPS, "--center-of-mass=0.1"], &["--center-of-mass", "two values for a plate"]),
         ("simulate", &["--model=map", GAPS, "--center-of-mass=0.1,1"], &["--center-of-mass", "1"]),
         ("simulate", &["--model=map", GAPS, "--spin-rad-s=1"], &["--spin", "plate"]),
-        ("simulate", &["--model=map", GAPS, "--thickness-m=0.01"], &["--thickness", "plate"]),
+        ("simulate", &["--model=map", GAPS, "--thickness-m=0.01"], &["three values for a box", "not two"]),
         ("simulate", &["--model=map", GAPS, "-o", "x.svg"], &["-o", "plate"]),
         ("respond", &["--model=map", GAPS, "--at=0,0"], &["--model=compliant alone"]),
         ("respond", &["--model=compliant", "--contact-time-s=1e-3", GAPS], &["--at=X,Y"]),

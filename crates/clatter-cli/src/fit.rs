@@ -67,7 +67,7 @@ pub(crate) struct Args {
     product: PathBuf,
     /// Where an acceleration was measured: a length from the middle towards end b, or a position in [-1, 1]; once for each record of an
     /// acceleration, in their order
-    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantities::place)]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = quantities::place_of_bar)]
     position: Vec<Place>,
     #[command(flatten)]
     reading: RecordArgs,

@@ -205,7 +205,11 @@ fn place_or(text: &str, relative: impl Fn(&str) -> Result<f64, String>) -> Resul
 
 /// A position in [-1, 1], or a length.
 pub(crate) fn place(text: &str) -> Result<PerAxis<Place>, String> {
-    per_axis(text, |text| place_or(text, inputs::worked_out_position))
+    per_axis(text, place_of_bar)
+}
+
+pub(crate) fn place_of_bar(text: &str) -> Result<Place, String> {
+    place_or(text, inputs::worked_out_position)
 }
 
 pub(crate) fn center_of_mass(text: &str) -> Result<PerAxis<Place>, String> {

@@ -269,6 +269,11 @@ impl Args {
         if self.drop.is_block() {
             return self.block(streams);
         }
+        if self.spin_rad_s.is_some() || self.at_m.is_some() || self.axis.is_some() {
+            return Err(Failure::Usage(
+                "--spin-rad-s, --at-m and --axis are of a box, which has --width and --thickness",
+            ));
+        }
         if self.drop.is_plate() {
             return self.run_plate(streams);
         }
