@@ -42,8 +42,8 @@ impl<const N: usize, P: Pose<N>> ContactFlight<N, P> {
                 felt.push(stretch);
                 return changed;
             }
-            let of = phase.halfway.couplings_of(&phase.arms, place);
-            let steady = phase.halfway.turning(place) + phase.steady(&of);
+            let of = phase.start.couplings_of(&phase.arms, place);
+            let steady = phase.start.turning(&phase.arms, place) + phase.steady(&of);
             phase.sum_of_modes(&phase.felt_by(&of), steady, stretch, lines, felt)
         })
     }
@@ -97,7 +97,7 @@ impl<const N: usize> ContactFlight<N> {
     /// The angular acceleration of the body, in rad where [`felt`](Self::felt) has m.
     #[must_use]
     pub fn turned(&self, straight: f64) -> Vec<Stretch<N>> {
-        self.turned_by(straight, |pose| pose.spin, |phase| phase.halfway.turned_by(&phase.arms))
+        self.turned_by(straight, |pose| pose.spin, |phase| phase.start.turned_by(&phase.arms))
     }
 }
 
@@ -105,7 +105,7 @@ impl PlateFlight {
     /// The acceleration of the slope along a direction x, y, in rad where [`felt`](Self::felt) has m.
     #[must_use]
     pub fn turned(&self, direction: [f64; 2], straight: f64) -> Vec<Stretch<4>> {
-        let by = |phase: &Phase<Level, 4>| phase.halfway.slope_by(direction);
+        let by = |phase: &Phase<Level, 4>| phase.start.slope_by(direction);
         self.turned_by(straight, |pose| pose.rate_along(direction), by)
     }
 }

@@ -50,8 +50,7 @@ const STILL: f64 = 1e-6;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Phase<P: Pose<N>, const N: usize> {
     pub(crate) start: P,
-    /// Where the lever arms are taken.
-    pub(crate) halfway: P,
+    /// Lever arms of where they are taken.
     pub(crate) arms: P::Arms,
     pub(super) lines: [Option<Line>; N],
     /// The points that lie.
@@ -85,7 +84,6 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
         let lines = holds.map(|hold| if let Hold::On(line) = hold { Some(line) } else { None });
         let mut phase = Self {
             start,
-            halfway: *halfway,
             arms,
             lines,
             lies: holds.map(|hold| matches!(hold, Hold::Lies)),
@@ -114,7 +112,6 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
         let (height, velocity) = start.points_by(&arms);
         Self {
             start,
-            halfway: start,
             arms,
             lines: [None; N],
             lies: [false; N],
@@ -135,7 +132,7 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
         let (lines, height, velocity, fall) = (self.lines, self.height, self.velocity, self.fall);
         let mut stiffness = [[0.0; N]; N];
         for i in (0..N).filter(|&i| lines[i].is_some()) {
-            let (share, _) = self.reduced(&self.coupling[i], N);
+            let (share, _) = self.reduced(&self.coupling[i]);
             for j in (0..=i).filter(|&j| lines[j].is_some()) {
                 stiffness[i][j] = self.root[i] * share[j] * self.root[j];
                 stiffness[j][i] = stiffness[i][j];
@@ -168,12 +165,17 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
     pub(super) fn is_still(&self) -> bool {
         self.modes().iter().all(|mode| mode.bounds()[0] <= STILL * mode.rest().abs())
     }
-    /// What forces do to something, each with the points before `end` that lie holding against it; and the acceleration that those
-    /// give it as they carry themselves. Of what forces do to it where nothing lies.
-    fn reduced(&self, of: &[f64; N], end: usize) -> ([f64; N], f64) {
+    /// What forces do to something, each with the points that lie holding against it; and the acceleration that those give it as they
+    /// carry themselves. Of what forces do to it where nothing lies.
+    fn reduced(&self, of: &[f64; N]) -> ([f64; N], f64) {
+        if self.lies.contains(&true) { self.reduced_by(of, N) } else { (*of, 0.0) }
+    }
+    /// The same by the points before `end`.
+    fn reduced_by(&self, of: &[f64; N], end: usize) -> ([f64; N], f64) {
         let (mut of, mut steady) = (*of, 0.0);
         for l in (0..end).filter(|&l| self.lies[l]) {
-            let (row, carried) = self.reduced(&self.coupling[l], l);
+            let first = !self.lies[..l].contains(&true);
+            let (row, carried) = if first { (self.coupling[l], 0.0) } else { self.reduced_by(&self.coupling[l], l) };
             if moves_freely(row[l], self.coupling[l][l]) {
                 let share = of[l] / row[l];
                 of = std::array::from_fn(|i| of[i] - share * row[i]);
@@ -185,7 +187,10 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
     /// Acceleration by each mode's press, `Σ_m felt[m] (z_m + θ z_m′)`, of what forces at the points do so much to.
     pub(crate) fn felt_by(&self, of: &[f64; N]) -> [f64; N] {
         let mut felt = [0.0; N];
-        let (share, _) = self.reduced(of, N);
+        if self.count == 0 {
+            return felt;
+        }
+        let (share, _) = self.reduced(of);
         for i in (0..N).filter(|&i| self.lines[i].is_some()) {
             let share = share[i] * self.root[i];
             for (m, felt) in felt.iter_mut().enumerate().take(self.count) {
@@ -196,7 +201,7 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
     }
     /// Its acceleration above free fall besides: that of the points that lie.
     pub(crate) fn steady(&self, of: &[f64; N]) -> f64 {
-        self.reduced(of, N).1
+        self.reduced(of).1
     }
     /// The modes that are there.
     pub(crate) fn modes(&self) -> &[Mode] {
@@ -375,11 +380,15 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
     /// A pose in which the points that lie are where they were and stand still, and the impulses for that: kept lever arms have moved
     /// them a little.
     pub(super) fn held(&self, pose: &P) -> (P, [f64; N]) {
-        let (height, _) = pose.points();
-        let off = std::array::from_fn(|i| self.height[i] - height[i]);
-        let pose = pose.pushed(&Pushes { impulse: [0.0; N], path: pose.moving(&self.lies, off) });
-        let impulse = pose.moving(&self.lies, pose.points().1.map(|velocity| -velocity));
-        (pose.pushed(&Pushes { impulse, path: [0.0; N] }), impulse)
+        let none = [0.0; N];
+        let by = |pose: &P, arms: &P::Arms, b: [f64; N]| solve(|i, j| pose.coupling(arms, i, j), &self.lies, b);
+        let arms = pose.arms();
+        let (height, _) = pose.points_by(&arms);
+        let path = by(pose, &arms, std::array::from_fn(|i| self.height[i] - height[i]));
+        let pose = pose.after(0.0, &arms, &Pushes { impulse: none, path });
+        let arms = pose.arms();
+        let impulse = by(&pose, &arms, pose.points_by(&arms).1.map(|velocity| -velocity));
+        (pose.after(0.0, &arms, &Pushes { impulse, path: none }), impulse)
     }
     pub(crate) fn sample(&self, t: f64) -> Sample<N> {
         let motions = self.motions(t);

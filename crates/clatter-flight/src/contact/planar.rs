@@ -24,11 +24,14 @@ pub struct Planar<const N: usize> {
     pub(crate) spin: f64,
 }
 
-/// Lever arms, and heights over the center of mass, of all contact points.
+/// Lever arms, and heights over the center of mass, of all contact points, at one angle and spin.
 #[derive(Debug, Clone, Copy)]
 pub struct Levers<const N: usize> {
     x: [f64; N],
     over: [f64; N],
+    sin: f64,
+    cos: f64,
+    spin: f64,
 }
 
 impl<const N: usize> Planar<N> {
@@ -80,7 +83,7 @@ impl<const N: usize> Pose<N> for Planar<N> {
     fn gravity(&self) -> f64 {
         self.gravity
     }
-    fn points_by(&self, Levers { x, over }: &Levers<N>) -> ([f64; N], [f64; N]) {
+    fn points_by(&self, Levers { x, over, .. }: &Levers<N>) -> ([f64; N], [f64; N]) {
         (over.map(|h| self.y + h), x.map(|x| self.v + x * self.spin))
     }
     /// At x, z on the body.
@@ -127,22 +130,20 @@ impl<const N: usize> Pose<N> for Planar<N> {
     fn arms(&self) -> Levers<N> {
         let (sin, cos) = self.tilt.sin_cos();
         let (x, over) = self.body.levers(sin, cos);
-        Levers { x, over }
+        Levers { x, over, sin, cos, spin: self.spin }
     }
     fn coupling(&self, arms: &Levers<N>, i: usize, j: usize) -> f64 {
         self.share(arms.x[i], arms.x[j])
     }
     fn couplings_of(&self, arms: &Levers<N>, [x, z]: [f64; 2]) -> [f64; N] {
-        let (sin, cos) = self.tilt.sin_cos();
-        let lever = x * cos - z * sin;
+        let lever = x * arms.cos - z * arms.sin;
         arms.x.map(|x| self.share(lever, x))
     }
     fn falls(&self, arms: &Levers<N>) -> [f64; N] {
-        arms.over.map(|h| self.gravity + self.spin * self.spin * h)
+        arms.over.map(|h| self.gravity + arms.spin * arms.spin * h)
     }
-    fn turning(&self, [x, z]: [f64; 2]) -> f64 {
-        let (sin, cos) = self.tilt.sin_cos();
-        -self.spin * self.spin * (x * sin + z * cos)
+    fn turning(&self, &Levers { sin, cos, spin, .. }: &Levers<N>, [x, z]: [f64; 2]) -> f64 {
+        -spin * spin * (x * sin + z * cos)
     }
     fn after(&self, t: f64, arms: &Levers<N>, pushes: &Pushes<N>) -> Self {
         let mut pose = self.flown(t);

@@ -56,7 +56,7 @@ pub trait Pose<const N: usize>: Copy + Debug {
     /// Acceleration with which each point falls where nothing presses: gravity and turning.
     fn falls(&self, arms: &Self::Arms) -> [f64; N];
     /// Upward acceleration of a place by turning alone.
-    fn turning(&self, _place: [f64; 2]) -> f64 {
+    fn turning(&self, _arms: &Self::Arms, _place: [f64; 2]) -> f64 {
         0.0
     }
     /// The pose a time t later, the ground having done meanwhile ∫F dt and ∬F dt² at these lever arms.
@@ -111,15 +111,6 @@ pub trait Pose<const N: usize>: Copy + Debug {
     fn points(&self) -> ([f64; N], [f64; N]) {
         self.points_by(&self.arms())
     }
-    /// The pose after such pushes now, at once.
-    fn pushed(&self, pushes: &Pushes<N>) -> Self {
-        self.after(0.0, &self.arms(), pushes)
-    }
-    /// Pushes over the mass that move these points so.
-    fn moving(&self, points: &[bool; N], by: [f64; N]) -> [f64; N] {
-        let arms = self.arms();
-        solve(|i, j| self.coupling(&arms, i, j), points, by)
-    }
     /// M_ij of now.
     fn coupled(&self, i: usize, j: usize) -> f64 {
         self.coupling(&self.arms(), i, j)
@@ -156,6 +147,12 @@ pub(super) fn solve<const N: usize>(
     points: &[bool; N],
     mut b: [f64; N],
 ) -> [f64; N] {
+    let mut those = (0..N).filter(|i| points[*i]);
+    if let (Some(p), None) = (those.next(), those.next()) {
+        let mut x = [0.0; N];
+        x[p] = b[p] / coupling(p, p);
+        return x;
+    }
     let mut m: [[f64; N]; N] = std::array::from_fn(|i| std::array::from_fn(|j| coupling(i, j)));
     let mut moves = *points;
     for p in 0..N {

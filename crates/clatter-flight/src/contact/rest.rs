@@ -3,7 +3,7 @@
 use super::Ahead;
 use super::law::ContactLaw;
 use super::phase::Hold;
-use super::pose::{Borne, Pose, Pushes};
+use super::pose::{Borne, Pose, Pushes, solve};
 use super::run::Run;
 use super::touch::{Event, State, Touch};
 use crate::flight::Stop;
@@ -33,10 +33,11 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
     pub(super) fn stop_lying(&mut self) {
         let lying = self.touches.map(|touch| touch.state == State::Lying);
         if lying.contains(&true) {
-            let (_, velocity) = self.pose.points();
-            let impulse = self.pose.moving(&lying, velocity.map(|velocity| -velocity));
+            let arms = self.pose.arms();
+            let stopped = self.pose.points_by(&arms).1.map(|velocity| -velocity);
+            let impulse = solve(|i, j| self.pose.coupling(&arms, i, j), &lying, stopped);
             self.pushed(&lying, impulse);
-            self.pose = self.pose.pushed(&Pushes { impulse, path: [0.0; N] });
+            self.pose = self.pose.after(0.0, &arms, &Pushes { impulse, path: [0.0; N] });
         }
     }
 

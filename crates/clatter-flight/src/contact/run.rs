@@ -325,9 +325,10 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         found
     }
 
-    /// Whether a point that lies bears more or less than it can as a phase begins: what holds it has changed with the last event.
-    fn is_overcome(&self, phase: &Phase<P, N>, i: usize, watched: f64) -> bool {
-        phase.lies[i] && watched < -BEARS * self.touches[i].limit(self.contact)
+    /// What is watched at a point that lies and is below this as a phase begins is no rounding: what holds it has changed with the last
+    /// event, and it bears more or less than it can.
+    fn overcome(&self, phase: &Phase<P, N>, i: usize) -> f64 {
+        if phase.lies[i] { -BEARS * self.touches[i].limit(self.contact) } else { f64::NEG_INFINITY }
     }
 
     /// When what is watched at a point happens, if before `cap`.
@@ -337,9 +338,6 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         }
         if phase.swing(i, modes).is_some_and(|swing| watch.never(swing)) {
             return Zero::Never;
-        }
-        if cap > 0.0 && self.is_overcome(phase, i, watch.at(phase.watched(i, 0.0))[0]) {
-            return Zero::At(0.0);
         }
         let free = phase.is_free();
         let bounds = if free {
@@ -357,7 +355,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
             return Zero::Never;
         }
         let clear = |t: f64| if free && watch.event == Event::Touches { self.pose.clear(i, t) } else { 0.0 };
-        first(cap, [second, third], |t| watch.at(phase.watched(i, t)), clear)
+        first(cap, [second, third], self.overcome(phase, i), |t| watch.at(phase.watched(i, t)), clear)
     }
 
     /// Moves the pose to the end of a phase, and books what the ground has done.
@@ -407,7 +405,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         for (i, due) in due.iter_mut().enumerate() {
             let comes_too = |other: &Watch| {
                 let [v, slope, _] = other.at(phase.watched(i, dt));
-                let falls = slope <= 0.0 || dt == 0.0 && self.is_overcome(phase, i, v);
+                let falls = slope <= 0.0 || dt == 0.0 && v < self.overcome(phase, i);
                 other.event == watch.event && v <= value && falls
             };
             let mut watches = self.touches[i].watches(self.contact, &self.margins).into_iter().flatten();
@@ -486,14 +484,20 @@ struct Mean<P> {
     end: P,
 }
 
-/// First time before `cap` at which what is watched falls to zero; where it begins at zero and rises, not then.
-fn first(cap: f64, [second, third]: [f64; 2], at: impl Fn(f64) -> [f64; 3], clear: impl Fn(f64) -> f64) -> Zero {
+/// First time before `cap` at which what is watched falls to zero; where it begins at zero, not far below, and rises, not then.
+fn first(
+    cap: f64,
+    [second, third]: [f64; 2],
+    below: f64,
+    at: impl Fn(f64) -> [f64; 3],
+    clear: impl Fn(f64) -> f64,
+) -> Zero {
     let [value, slope, bend] = at(0.0);
     let begin = if value > 0.0 {
         0.0
-    } else if slope > 0.0 {
+    } else if slope > 0.0 && value >= below {
         slope / second
-    } else if slope == 0.0 && bend > 0.0 {
+    } else if slope == 0.0 && bend > 0.0 && value >= below {
         bend / third
     } else {
         return if cap > 0.0 { Zero::At(0.0) } else { Zero::Never };
