@@ -1,6 +1,6 @@
 //! Contacts at the edges of what is taken: always a flight that ends and says how, or an error with the value.
 
-use clatter_flight::{Body, Contact, ContactFlight, ContactLaw, Model, Scene, Stop, Strike};
+use clatter_flight::{Body, Contact, ContactFlight, ContactLaw, Error, Model, Scene, Stop, Strike};
 use proptest::prelude::*;
 
 const LAWS: [ContactLaw; 2] = [ContactLaw::Hysteretic, ContactLaw::Dashpot];
@@ -85,18 +85,17 @@ proptest! {
 
     #[test]
     fn every_drop_ends_or_is_refused((scene, contact) in extreme(), precision in prop_oneof![Just(1e-4), Just(1e-2), Just(1e-5)]) {
-        let begin = std::time::Instant::now();
         match scene.contacts_until(&contact, precision, |_| false) {
             Ok(flight) => {
                 prop_assert_eq!(sane(&flight), Ok(()));
-                // Nothing that a flight may do takes longer, on a slow machine, a debug build apart.
                 prop_assert!(flight.phases_s().count() < 200_000, "{} phases", flight.phases_s().count());
-                prop_assert!(begin.elapsed().as_secs_f64() < 5.0, "{:?}", begin.elapsed());
                 // All but elastic bodies with the longest contacts may take more phases than are followed, as the stop says.
                 let (phases, ends) = (flight.phases_s().count(), !matches!(flight.flight.stop, Stop::TimeLimit { .. }));
                 let many = phases >= 20_000 + 128 * 1024 && scene.e() > 0.99 && precision < 1e-4;
                 prop_assert!(ends || many, "{:?} after {phases} phases", flight.flight.stop);
             }
+            // To a hundredth, one of some thousand such drops changes its energy by more in one phase than an answer may.
+            Err(Error::Energy { share }) => prop_assert!(precision > 1e-3 && share < 0.1, "{share} at {precision}"),
             Err(error) => {
                 let text = error.to_string();
                 prop_assert!(text.starts_with("contact time "), "{text}");
