@@ -42,22 +42,29 @@ fn a_report_that_is_cut_leaves_a_whole_answer() {
     let path = format!("{}:/bin", at("bin").display());
     let setting = ("setting the pages", vec![("CLATTER_TYPST", at("typst").into_os_string())]);
     let fetching = ("fetching its wheel", vec![("PATH", path.into()), ("XDG_CACHE_HOME", at("cache").into())]);
-    for (step, set) in [setting, fetching] {
+    // All wait for their time at once.
+    std::thread::scope(|scope| {
+        for (step, set) in [setting, fetching] {
+            let (alone, dir) = (&alone, dir.path());
+            scope.spawn(move || {
+                let mut command = clatter(dir);
+                let name = if step.starts_with("setting") { "p.pdf" } else { "q.pdf" };
+                command.args(["assess", "p.toml", "-o", name, "--time-limit=20s"]).envs(set);
+                let (code, stdout, stderr) = told(&command.output().unwrap());
+                assert_eq!((code, &stdout), (Some(0), &alone.1), "{stderr}");
+                let cut = "warning: stopped, --time-limit is over: making the printed report was cut (";
+                assert!(stderr.starts_with(cut) && stderr.contains(step) && stderr.lines().count() == 1, "{stderr}");
+                assert!(stderr.ends_with(&format!("{name} is not written; the answer is whole\n")), "{stderr}");
+                assert!(!dir.join(name).exists());
+            });
+        }
+        // On standard output the report is the answer.
         let mut command = clatter(dir.path());
-        command.args(["assess", "p.toml", "-o", "p.pdf", "--time-limit=20s"]).envs(set);
+        command.args(["assess", "p.toml", "-o", "-", "--time-limit=20s"]).env("CLATTER_TYPST", at("typst"));
         let (code, stdout, stderr) = told(&command.output().unwrap());
-        assert_eq!((code, &stdout), (Some(0), &alone.1), "{stderr}");
-        let cut = "warning: stopped, --time-limit is over: making the printed report was cut (";
-        assert!(stderr.starts_with(cut) && stderr.contains(step) && stderr.lines().count() == 1, "{stderr}");
-        assert!(stderr.ends_with("p.pdf is not written; the answer is whole\n"), "{stderr}");
-        assert!(!at("p.pdf").exists());
-    }
-    // On standard output the report is the answer.
-    let mut command = clatter(dir.path());
-    command.args(["assess", "p.toml", "-o", "-", "--time-limit=20s"]).env("CLATTER_TYPST", at("typst"));
-    let (code, stdout, stderr) = told(&command.output().unwrap());
-    assert_eq!((code, stdout.as_str()), (Some(2), ""), "{stderr}");
-    assert!(stderr.contains("the answer is not whole"), "{stderr}");
+        assert_eq!((code, stdout.as_str()), (Some(2), ""), "{stderr}");
+        assert!(stderr.contains("the answer is not whole"), "{stderr}");
+    });
 }
 
 /// Stiff parts that fail on an elastic product: minutes of changes.
