@@ -15,6 +15,7 @@
 mod dormand_prince;
 mod drop;
 mod run;
+mod system;
 
 pub use drop::BlockDrop;
 pub use run::{BlockFlight, BlockStep, BlockStrike};

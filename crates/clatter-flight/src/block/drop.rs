@@ -3,6 +3,7 @@
 use clatter::Error;
 
 use super::Block;
+use super::system::{cross, dot};
 use crate::scene::within;
 
 /// A box at the moment when its lowest corner touches.
@@ -81,14 +82,12 @@ impl BlockDrop {
             within("spin in rad/s", spin, -1e5, 1e5, "in [-1e5, 1e5]")?;
         }
         self.spin = spin_rad_s;
-        let heights = self.block.corners_m().map(|corner| super::run::dot(self.upward, corner));
+        let heights = self.block.corners_m().map(|corner| dot(self.upward, corner));
         let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
         let near = 1e-12 * self.block.half.iter().sum::<f64>();
         let slowest = (0..8)
             .filter(|&i| heights[i] <= lowest + near)
-            .map(|i| {
-                super::run::dot(self.upward, super::run::cross(spin_rad_s, self.block.corners_m()[i])) - self.speed
-            })
+            .map(|i| dot(self.upward, cross(spin_rad_s, self.block.corners_m()[i])) - self.speed)
             .fold(f64::INFINITY, f64::min);
         within(
             "velocity of the lowest corner in m/s",

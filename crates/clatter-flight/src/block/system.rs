@@ -1,0 +1,135 @@
+//! A box and what presses on it: forces at its corners, and what they accelerate it by.
+
+use super::dormand_prince::Vector;
+
+pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// How the ground carries a corner.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Hold {
+    Up,
+    Loads,
+    /// Down from the largest depth.
+    Unloads(f64),
+    /// A dashpot that would pull.
+    Slack,
+}
+
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Corner {
+    pub(super) hold: Hold,
+    /// Height of the ground of this corner: 0, or where it was left.
+    pub(super) ground: f64,
+    /// Stiffness of loading over the mass.
+    pub(super) stiffness: f64,
+    /// The number of its press, from 0.
+    pub(super) strike: usize,
+}
+
+/// A box and what presses on it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct System {
+    pub(super) corners: [[f64; 3]; 8],
+    /// Squares of the radii of gyration.
+    pub(super) inertia: [f64; 3],
+    pub(super) gravity: f64,
+    /// θ of a dashpot, and e² of a hysteretic contact.
+    pub(super) delay: f64,
+    pub(super) loss: f64,
+    pub(super) holds: [Corner; 8],
+}
+
+pub(super) fn parts(y: &Vector) -> (f64, f64, [f64; 3], [f64; 3]) {
+    (y[0], y[1], [y[2], y[3], y[4]], [y[5], y[6], y[7]])
+}
+
+impl System {
+    /// Height and vertical velocity of a place from the center of mass.
+    pub(super) fn place(y: &Vector, place: [f64; 3]) -> (f64, f64) {
+        let (z, v, n, spin) = parts(y);
+        (z + dot(n, place), v + dot(n, cross(spin, place)))
+    }
+    pub(super) fn force(&self, corner: usize, y: &Vector) -> f64 {
+        let Corner { hold, ground, stiffness, .. } = self.holds[corner];
+        if matches!(hold, Hold::Up | Hold::Slack) {
+            return 0.0;
+        }
+        self.press(hold, stiffness, ground, Self::place(y, self.corners[corner]))
+    }
+    pub(super) fn press(&self, hold: Hold, stiffness: f64, ground: f64, (height, velocity): (f64, f64)) -> f64 {
+        let depth = ground - height;
+        match hold {
+            Hold::Unloads(deepest) => stiffness / self.loss * (depth - deepest * (1.0 - self.loss)),
+            _ => stiffness * (depth - self.delay * velocity),
+        }
+    }
+    /// Force over the mass, and moment over the mass.
+    pub(super) fn load(&self, y: &Vector) -> (f64, [f64; 3]) {
+        let (_, _, n, _) = parts(y);
+        let (mut force, mut moment) = (0.0, [0.0; 3]);
+        for i in 0..8 {
+            let own = self.force(i, y);
+            if own != 0.0 {
+                let arm = cross(self.corners[i], n);
+                force += own;
+                (0..3).for_each(|axis| moment[axis] += own * arm[axis]);
+            }
+        }
+        (force, moment)
+    }
+    /// Angular acceleration.
+    pub(super) fn turning(&self, spin: [f64; 3], moment: [f64; 3]) -> [f64; 3] {
+        let momentum = std::array::from_fn(|axis| self.inertia[axis] * spin[axis]);
+        let gyration = cross(spin, momentum);
+        std::array::from_fn(|axis| (moment[axis] - gyration[axis]) / self.inertia[axis])
+    }
+    pub(super) fn slope(&self, y: &Vector) -> Vector {
+        let (_, v, n, spin) = parts(y);
+        let (force, moment) = self.load(y);
+        let (turn, spun) = (cross(n, spin), self.turning(spin, moment));
+        [v, force - self.gravity, turn[0], turn[1], turn[2], spun[0], spun[1], spun[2]]
+    }
+    /// What a force on a corner over the mass accelerates another corner by.
+    pub(super) fn coupling(&self, n: [f64; 3], i: usize, j: usize) -> f64 {
+        let [a, b] = [i, j].map(|k| cross(self.corners[k], n));
+        1.0 + (0..3).map(|axis| a[axis] * b[axis] / self.inertia[axis]).sum::<f64>()
+    }
+    /// Kinetic and potential energy over the mass.
+    pub(super) fn energy(&self, y: &Vector) -> f64 {
+        let (z, v, _, spin) = parts(y);
+        let turning: f64 = (0..3).map(|axis| self.inertia[axis] * spin[axis] * spin[axis]).sum();
+        0.5 * (v * v + turning) + self.gravity * z
+    }
+    /// What pressed corners may give back.
+    pub(super) fn stored(&self, y: &Vector) -> f64 {
+        let one = |i: usize| {
+            let Corner { hold, ground, stiffness, .. } = self.holds[i];
+            let depth = ground - Self::place(y, self.corners[i]).0;
+            match hold {
+                Hold::Up | Hold::Slack => 0.0,
+                Hold::Loads => 0.5 * self.loss * stiffness * depth * depth,
+                Hold::Unloads(deepest) => 0.5 * stiffness / self.loss * (depth - deepest * (1.0 - self.loss)).powi(2),
+            }
+        };
+        (0..8).map(one).sum()
+    }
+    /// Whether a corner has come to its next event.
+    pub(super) fn has_happened(&self, i: usize, y: &Vector) -> bool {
+        let Corner { hold, ground, stiffness, .. } = self.holds[i];
+        let motion @ (height, velocity) = Self::place(y, self.corners[i]);
+        let depth = ground - height;
+        match hold {
+            Hold::Up => depth > 0.0 && velocity < 0.0 || ground < 0.0 && height > 0.0,
+            Hold::Loads if self.delay > 0.0 => self.press(hold, stiffness, ground, motion) <= 0.0,
+            Hold::Loads => velocity >= 0.0,
+            Hold::Unloads(deepest) => depth <= deepest * (1.0 - self.loss) || depth > deepest && velocity < 0.0,
+            Hold::Slack => depth <= 0.0 || self.press(hold, stiffness, ground, motion) > 0.0,
+        }
+    }
+}
