@@ -54,7 +54,7 @@ prop_compose! {
         small in any::<bool>(),
         spin in prop::array::uniform3(-4.0..4.0_f64),
         e in 0.05..0.95_f64,
-        time in 2e-4..1e-3_f64,
+        time in 2e-3..2e-2_f64,
         dashpot in any::<bool>(),
     ) -> Case {
         // Moments of masses that are spread over a part of the box.
@@ -65,6 +65,8 @@ prop_compose! {
         let mut turned = turned.map(|x| x / length);
         turned[0] = (1.0 - turned[1..].iter().map(|x| x * x).sum::<f64>()).max(0.0).sqrt();
         let center = std::array::from_fn(|i| center[i] * size[i]);
+        // Of the largest size: corners sink in little at any of these spins.
+        let time = (time * size.iter().fold(0.0_f64, |most, size| most.max(*size))).min(1e-3);
         let law = if dashpot { ContactLaw::Dashpot } else { ContactLaw::Hysteretic };
         Case { size, center, gyration, turned, spin, e, time, law }
     }
@@ -144,7 +146,7 @@ enum Line {
     Back(f64),
 }
 
-/// Touches until a time, by Runge and Kutta's classical steps: a thousandth of a contact while one presses or is near, more in flight.
+/// Touches until a time, by Runge and Kutta's classical steps: a five-thousandth of a contact while one presses or is near, more in flight.
 fn brute(case: &Case, until: f64) -> (Vec<Touch>, World) {
     let (corners, contact) = (case.block().corners_m(), case.contact());
     let (omega, zeta) = (contact.frequency_rad_s(), contact.damping_ratio());
@@ -210,7 +212,7 @@ fn brute(case: &Case, until: f64) -> (Vec<Touch>, World) {
         let fall = SPEED + world.velocity.abs() + 0.4 * dot(spin, spin).sqrt();
         let lowest = corners.iter().enumerate().map(|(i, c)| world.corner(case, *c).0 - ground[i]);
         let near = 0.3 * lowest.fold(f64::INFINITY, f64::min).max(0.0) / fall;
-        let fine = 1e-3 * case.time * case.e.clamp(0.1, 1.0);
+        let fine = 2e-4 * case.time * case.e.clamp(0.1, 1.0);
         let h = if pressed { fine } else { near.clamp(fine, 0.1 * case.time) };
         let k1 = world.slope(case, &corners, &force);
         let k2 = world.plus(0.5 * h, &k1).slope(case, &corners, &force);
@@ -233,11 +235,15 @@ fn agrees(case: &Case) -> Result<(), TestCaseError> {
         touches.iter().any(|touch| is_light(touch.2)) || flight.strikes.iter().any(|s| is_light(s.approach_m_s));
     let first = touches.iter().zip(&flight.strikes).take_while(|(touch, _)| !is_light(touch.2));
     for (n, (&(corner, time, approach), strike)) in first.enumerate() {
-        if n > 5 || is_light(strike.approach_m_s) {
+        // Two corners that come down as one are in no order.
+        let is_tied = touches.get(n + 1).is_some_and(|next| next.1 - time < 0.1 * case.time);
+        if n > 3 || is_light(strike.approach_m_s) || is_tied {
             break;
         }
         prop_assert_eq!(corner, strike.corner, "touch {} of {:?}: {:?}", n + 1, case, touches);
-        prop_assert!((time - strike.time_s).abs() < 0.02 * case.time, "{time} {} {case:?}", strike.time_s);
+        // What is off by a thousandth of a speed is so by as much of the time that it flies.
+        let late = (time - strike.time_s).abs();
+        prop_assert!(late < 0.02 * case.time + 1e-3 * time, "{time} {} {case:?}", strike.time_s);
         prop_assert!(
             (approach - strike.approach_m_s).abs() < 5e-3 * SPEED,
             "{approach} {} {case:?}",
