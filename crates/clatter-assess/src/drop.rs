@@ -305,10 +305,25 @@ impl Followed {
         let stop = self.flight().stop;
         matches!(stop, Stop::ImpactLimit { .. } | Stop::TimeLimit { .. } | Stop::EnergyLimit { .. })
     }
-    /// What a place feels for ever after the motion: its weight where the product lies still.
+    /// What a place feels for ever after the motion: its weight where the product lies still, or where nothing that is left counts, which
+    /// is a weight as well on the mean over what it still bounces.
     pub(crate) fn carried_m_s2(&self) -> f64 {
+        let lies = matches!(self.flight().stop, Stop::AtRest { .. }) || self.is_left_bouncing();
+        if lies && !self.early { self.weight_m_s2() } else { 0.0 }
+    }
+    /// Whether the motion was left, though strikes may follow.
+    fn is_left_bouncing(&self) -> bool {
+        matches!(self.flight().stop, Stop::Enough { .. })
+    }
+    /// What a place will come to feel for ever, that is not among what it feels yet.
+    pub(crate) fn weight_to_come_m_s2(&self) -> f64 {
+        let flies = matches!(self.flight().stop, Stop::BouncedClear { .. });
+        if flies || self.carried_m_s2() > 0.0 { 0.0 } else { self.weight_m_s2() }
+    }
+    /// The weight of what does not fly on for ever.
+    fn weight_m_s2(&self) -> f64 {
         let falls = !matches!(self.motion, Motion::Impacts(_, Impacts::Map, _));
-        if falls && matches!(self.flight().stop, Stop::AtRest { .. }) { self.drop.gravity_m_s2 } else { 0.0 }
+        if falls { self.drop.gravity_m_s2 } else { 0.0 }
     }
     /// What a place feels, section by section.
     pub(crate) fn felt(&self, position_m: f64) -> Vec<Stretch> {

@@ -157,8 +157,12 @@ pub(crate) fn once(
     model: Model,
     tolerance: f64,
 ) -> Result<Answer, Error> {
-    let followed = Followed::new(drop, model, tolerance)?;
-    let felt = Felt::new(&followed, part.position_m)?;
+    of_followed(&Followed::new(drop, model, tolerance)?, part, limit)
+}
+
+/// The same of a drop that is followed already.
+pub(crate) fn of_followed(followed: &Followed, part: &Part, limit: &Limit) -> Result<Answer, Error> {
+    let felt = Felt::new(followed, part.position_m)?;
     let asked = felt.answer(limit, part.suspension.as_ref(), 0.0)?;
     let (allowed, unit) = (limit.allowed, limit.kind.unit());
     let nothing = || Answer { value: 0.0, allowed, unit, time_s: 0.0, impact: 1, off_by: felt.later_of(limit) };
@@ -379,6 +383,7 @@ impl<'a> Felt<'a> {
         });
         Later {
             given_up,
+            weight_m_s2: self.followed.weight_to_come_m_s2(),
             shock_m_s: center * mass(x),
             turned_m_s: center * mass(x) * turned,
             turn_rad_s: center / rho * turned,
@@ -436,7 +441,7 @@ impl<'a> Felt<'a> {
         };
         let velocity = peak.value.abs();
         // What rings on as the motion is left, and the later shocks, as if all came at its crest.
-        let doubt = if self.followed.later_m_s > 0.0 {
+        let doubt = if self.followed.later_m_s > 0.0 || self.followed.weight_to_come_m_s2() > 0.0 {
             let rest = self.pulses.state_at_end(part);
             // What state and shock give as they are, of acceleration with the force of damping.
             let force = if kind == LimitKind::Acceleration { 2.0 * part.damping().get() } else { 0.0 };
@@ -493,6 +498,8 @@ impl<'a> Felt<'a> {
 struct Later {
     /// Of a motion that was given up, with many strikes to come.
     given_up: Option<GivenUp>,
+    /// What the place will come to feel for ever.
+    weight_m_s2: f64,
     /// Of one strike, and of strikes that overlap.
     shock_m_s: f64,
     turned_m_s: f64,
@@ -502,11 +509,12 @@ struct Later {
 }
 
 impl Later {
-    /// The velocity shock that does as much to a part: one that is fast beside a contact feels no more than a pulse twice as high.
+    /// The velocity shock that does as much to a part: one that is fast beside a contact feels no more than a pulse twice as high, and a
+    /// weight that comes on at once moves it by no more than twice its static deflection.
     fn shock_of(&self, part: &Suspension) -> f64 {
         let one = self.shock_m_s.min(2.0 * self.acceleration_m_s2 / part.omega());
         let all = self.given_up.as_ref().map_or(0.0, |left| left.shock_of(part, one));
-        all.max(CHATTER * one)
+        all.max(CHATTER * one) + 2.0 * self.weight_m_s2 / part.omega()
     }
 }
 

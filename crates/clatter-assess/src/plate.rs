@@ -133,9 +133,9 @@ impl Followed {
         Ok(Self { flight, gravity_m_s2, precision, largest_m_s, later_m_s })
     }
 
-    /// What a place feels for ever after the motion.
+    /// What a place feels for ever after the motion: its weight, on the mean too over what the plate still bounces.
     fn carried_m_s2(&self) -> f64 {
-        if matches!(self.flight.flight.stop, Stop::AtRest { .. }) { self.gravity_m_s2 } else { 0.0 }
+        if matches!(self.flight.flight.stop, Stop::AtRest { .. } | Stop::Enough { .. }) { self.gravity_m_s2 } else { 0.0 }
     }
 
     /// A largest value; `unit` is what a velocity shock of 1 m/s of a corner is of it at most.

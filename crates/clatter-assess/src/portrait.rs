@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use crate::design::{Bounds, Change, Lever};
 use crate::drop::{Followed, Model, Motion, SingleDrop, Until};
 use crate::engine::Felt;
-use crate::search::{Ranges, fastest_rad_s};
+use crate::search::{Ranges, rough_to_rad_s};
 use crate::shock::Shock;
 use crate::{
     Assessment, Component, ComponentAssessment, ContactLaw, Error, Limit, LimitAssessment, LimitKind, Part,
@@ -105,7 +105,7 @@ impl ProductFile {
             Drops::new(&ranges, &tilts, &corners(&ranges), until)
         };
         let drops: Vec<Drops> = laws.iter().map(of_law).collect();
-        let fastest = self.components.iter().map(fastest_rad_s).fold(0.0, f64::max);
+        let fastest = self.components.iter().map(rough_to_rad_s).fold(0.0, f64::max);
         let places = zone::grid(self.product.body.length_m());
         let grids: Vec<_> = drops.iter().map(|drops| Places::new(drops, places.clone(), fastest)).collect();
         let bounds = Bounds::default();
@@ -117,8 +117,8 @@ impl ProductFile {
             let tightest: &LimitAssessment = ComponentAssessment::tightest(assessed);
             let (history, impacts_s) = self.history(tightest, &ranges).unwrap_or_default();
             let over_tilt = curves::over_tilt(self, &ranges, &drops[0], (component, tightest), tilts, until);
-            let fastest = bounds.frequency_factor * fastest_rad_s(component);
-            let ends: Vec<_> = drops.iter().map(|drops| Places::new(drops, component.ends_m(), fastest)).collect();
+            let fastest = bounds.frequency_factor * rough_to_rad_s(component);
+            let ends: Vec<_> = drops.iter().map(|drops| Places::new(drops, component.places_m(), fastest)).collect();
             let (mut zone_m, mut changes) = (None, None);
             if let Some(scales) = scales(component, assessed, &ends) {
                 zone_m = zone::zone(grids, component, assessed, &scales, 0.0);

@@ -351,15 +351,41 @@ impl Component {
     }
     /// Both ends of where the part may be along the bar; one where it is a point.
     ///
-    /// The worst place is always one of them: for one drop the motion of the bar is linear in the position, so is the
-    /// response to it, and the largest absolute value of linear functions is convex, which has its maximum at an end of
-    /// the interval.
+    /// The worst place is one of them for all but changes of velocity, see [`places_m`](Self::places_m): for one drop the motion of the
+    /// bar is linear in the position, so is the response to it, and the largest absolute value of linear functions is convex, which
+    /// has its maximum at an end of the interval.
     #[must_use]
     pub fn ends_m(&self) -> Vec<f64> {
         let half = 0.5 * self.extent_m;
         let (lo, hi) = (self.position_m.lo() - half, self.position_m.hi() + half);
         if lo < hi { vec![lo, hi] } else { vec![lo] }
     }
+    /// Places at which a drop is answered: both ends first and, where a change of velocity limits the part, some between. Whether contacts
+    /// that overlap are one shock differs from place to place, so that the largest change of velocity may lie between the ends.
+    #[must_use]
+    pub fn places_m(&self) -> Vec<f64> {
+        self.with_between(self.ends_m())
+    }
+    /// The same of a part that is at one place of its range.
+    #[must_use]
+    pub fn places_at_m(&self, position_m: f64) -> Vec<f64> {
+        let half = 0.5 * self.extent_m;
+        self.with_between(if half > 0.0 { vec![position_m - half, position_m + half] } else { vec![position_m] })
+    }
+    fn with_between(&self, ends_m: Vec<f64>) -> Vec<f64> {
+        if self.limits.kinds().into_iter().any(LimitKind::is_largest_between) { with_between(ends_m) } else { ends_m }
+    }
+}
+
+/// Places between both ends.
+const BETWEEN: u32 = 7;
+
+/// Both ends, and places that lie evenly between them.
+pub(crate) fn with_between(mut ends_m: Vec<f64>) -> Vec<f64> {
+    if let [lo, hi] = ends_m[..] {
+        ends_m.extend((1..=BETWEEN).map(|k| lo + (hi - lo) * f64::from(k) / f64::from(BETWEEN + 1)));
+    }
+    ends_m
 }
 
 impl Mount {

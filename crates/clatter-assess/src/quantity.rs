@@ -53,6 +53,13 @@ impl LimitKind {
             Self::DamageBoundary => "damage-boundary",
         }
     }
+    /// Whether the worst place of an extended part may lie between its ends.
+    pub(crate) fn is_largest_between(self) -> bool {
+        match self {
+            Self::VelocityChange | Self::DamageBoundary => true,
+            Self::Acceleration | Self::RattleSpace | Self::AngularVelocityChange => false,
+        }
+    }
     /// The unit of the limit; of a damage boundary that of its velocity change.
     #[must_use]
     pub fn unit(self) -> Unit {

@@ -19,7 +19,7 @@ use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
 use crate::drop::{Followed, SingleDrop, Until};
-use crate::engine::{Answer, Felt, Part, once};
+use crate::engine::{Answer, Felt, Part, of_followed, once};
 use crate::{Component, Error, Limit, LimitKind, Mount};
 use climb::{CLIMBS, EDGES_REACH, EDGES_TRIES, LATE_REACH, LATE_TRIES, NEAR, starts};
 use ranges::{DAMPING, FREQUENCY, RESTITUTION};
@@ -147,6 +147,8 @@ const CLIMB: usize = 72;
 const WAVE: usize = 64;
 /// Worst cases that are answered to the tolerance, early ones and late ones.
 const TRIES: usize = 8;
+/// So many times the space between two places of an extended part is halved about the worst.
+const NARROWED: usize = 7;
 
 impl Ranges<'_> {
     /// The worst of each task; tasks of one component follow one another. They are searched in the drops in which `all_tasks` are,
@@ -270,18 +272,19 @@ impl Ranges<'_> {
             if only.is_some_and(|only| !only[numbers.clone()].contains(&true)) {
                 continue;
             }
-            let mut positions: Vec<f64> = of_one[0].component.ends_m();
-            let own = positions.len();
+            let mut positions: Vec<f64> = of_one[0].component.places_m();
+            let (own, ends) = (positions.len(), of_one[0].component.ends_m().len());
             if self.turns() {
                 positions.extend_from_within(..);
                 positions[own..].iter_mut().for_each(|x| *x = -*x);
             }
             for (n, &position_m) in positions.iter().enumerate() {
-                let felt = Felt::rough(&early, position_m, fastest_rad_s(of_one[0].component))?;
+                let felt = Felt::rough(&early, position_m, rough_to_rad_s(of_one[0].component))?;
                 for (task, number) in of_one.iter().zip(numbers.clone()) {
                     // Turns are the same everywhere.
                     let again = n > 0 && task.limit.kind == LimitKind::AngularVelocityChange;
-                    if again || only.is_some_and(|only| !only[number]) {
+                    let between = n % own >= ends && !task.limit.kind.is_largest_between();
+                    if again || between || only.is_some_and(|only| !only[number]) {
                         continue;
                     }
                     let worst = best[number];
@@ -455,9 +458,29 @@ impl Ranges<'_> {
 
     /// What a drop that was found asks to the tolerance, of the part that was found.
     fn exactly(&self, task: &Task<'_>, found: &Asked) -> Result<Asked, Error> {
-        let part = Part { position_m: found.place.position_m, suspension: found.part };
-        let answer = once(&self.single(&found.place), &part, &task.limit, self.model, self.tolerance)?;
-        Ok(Asked { answer, ..*found })
+        let followed = Followed::new(&self.single(&found.place), self.model, self.tolerance)?;
+        let at = |position_m: f64| {
+            let part = Part { position_m, suspension: found.part };
+            let answer = of_followed(&followed, &part, &task.limit)?;
+            Ok::<_, Error>(Asked { answer, place: Place { position_m, ..found.place }, ..*found })
+        };
+        let mut worst = at(found.place.position_m)?;
+        let places = task.component.places_m();
+        let ([lo, hi, between @ ..], true) = (&places[..], task.limit.kind.is_largest_between()) else {
+            return Ok(worst);
+        };
+        // Where two shocks become one lies anywhere between two places.
+        let mut step = 0.5 * (hi - lo) / f64::from(u32::try_from(between.len()).unwrap_or(0) + 1);
+        for _ in 0..NARROWED {
+            for by in [-step, step] {
+                let next = at((worst.place.position_m + by).clamp(*lo, *hi))?;
+                if next.exceeds(&worst) {
+                    worst = next;
+                }
+            }
+            step *= 0.5;
+        }
+        Ok(worst)
     }
 
     /// Whether a part at a place of the ranges is asked for more than `most` of a limit there, answered to the tolerance.
@@ -467,7 +490,7 @@ impl Ranges<'_> {
             let part = Part { position_m, suspension: Self::part(task, &place)? };
             once(&self.single(&place), &part, &task.limit, self.model, self.tolerance)
         };
-        task.component.ends_m().into_iter().any(|x| of(x).is_ok_and(|answer| answer.utilization() > most))
+        task.component.places_m().into_iter().any(|x| of(x).is_ok_and(|answer| answer.utilization() > most))
     }
 
     /// What one drop of the ranges asks of a task, as a utilization; 0 where it is not answered.
@@ -477,8 +500,20 @@ impl Ranges<'_> {
             let felt = Felt::new(&followed, position_m).ok()?;
             Self::in_drop(task, &Place { position_m, ..*place }, &felt, 0.0).ok()?
         };
-        let asked = task.component.ends_m().into_iter().filter_map(of);
+        let asked = task.component.places_m().into_iter().filter_map(of);
         asked.map(|asked| asked.answer.utilization()).fold(0.0, f64::max)
+    }
+}
+
+/// Above this damping ratio a part is asked for pulse by pulse: its damper passes on what velocity it has in between, 2ζ of it, which
+/// pulses taken together do not show.
+const DAMPED: f64 = 0.1;
+
+/// Up to which natural frequency a rough history has to hold for a part.
+pub(crate) fn rough_to_rad_s(component: &Component) -> f64 {
+    match component.mount {
+        Mount::Suspended { damping, .. } if damping.ratios()[1] > DAMPED => f64::INFINITY,
+        _ => fastest_rad_s(component),
     }
 }
 

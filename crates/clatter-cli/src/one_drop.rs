@@ -24,7 +24,7 @@ pub(crate) struct PartSetup {
     /// Its middle, as the drop is seen.
     pub(crate) place: Place,
     /// Where its worst place is one of, in m from the middle of the product towards end b.
-    pub(crate) ends_m: Vec<f64>,
+    pub(crate) places_m: Vec<f64>,
     pub(crate) limits: Limits,
     /// The same as numbers.
     pub(crate) allowed: Vec<Limit>,
@@ -238,12 +238,13 @@ impl OneDrop {
     pub(crate) fn part(&mut self, half_m: f64) -> Result<Option<PartSetup>, Failure> {
         let Some(component) = self.component().cloned() else { return Ok(None) };
         let notes = &mut self.notes;
-        let (position_m, ends_m) = if let Some(worst) = &self.worst {
-            (worst.position_m, component.ends_m())
+        let (position_m, places_m) = if let Some(worst) = &self.worst {
+            let mut places_m = component.places_m();
+            places_m.push(worst.position_m);
+            (worst.position_m, places_m)
         } else {
             let middle = Self::take(notes, "position", &component.position_m, Taken::Middle, "m");
-            let half = 0.5 * component.extent_m;
-            (middle, if half > 0.0 { vec![middle - half, middle + half] } else { vec![middle] })
+            (middle, component.places_at_m(middle))
         };
         let side = if self.mirrored { -1.0 } else { 1.0 };
         let length = Quantity { si: side * position_m, unit: component.position_m.unit() };
@@ -260,7 +261,7 @@ impl OneDrop {
                 })
             }
         };
-        let farthest = ends_m.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let farthest = places_m.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         if farthest > half_m * (1.0 + 1e-9) {
             return Err(Failure::Wrong(format!(
                 "the component is {} m from the middle of a body of {} m: its position is beyond the end",
@@ -270,7 +271,7 @@ impl OneDrop {
         }
         Ok(Some(PartSetup {
             place: Place::Length(length),
-            ends_m,
+            places_m,
             suspension,
             allowed: Limit::of(&component),
             limits: component.limits,

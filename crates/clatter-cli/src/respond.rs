@@ -53,7 +53,7 @@ use crate::{Failure, Streams, excitation};
 ///                   a plate: --gyration, --center-of-mass and --at take two values
 ///   --product       the drop and the --component of a product file, each range at one value, which is
 ///                   told; options given beside it count instead. What the drop asks of each limit of
-///                   the part is told as `clatter assess` tells it, at the end of the part that asks
+///                   the part is told as `clatter assess` tells it, at the place of the part that asks
 ///                   most. With --worst the drop is that of all ranges that asks most
 ///   --shocks-file   velocity shocks from a file in SI units, of any number, with the columns time_s
 ///                   and delta_v_m_s

@@ -9,7 +9,7 @@ use super::zone::zone;
 use super::{Changes, MARGIN};
 use crate::design::{Bounds, Case, Change, Lever};
 use crate::drop::Until;
-use crate::search::{Ranges, fastest_rad_s};
+use crate::search::{Ranges, rough_to_rad_s};
 use crate::{Accuracy, Component, ComponentAssessment, ContactLaw, Limit, ProductFile};
 
 /// Values of a lever from bound to bound, and halvings of the step in which a part begins to hold.
@@ -142,8 +142,8 @@ impl Shared<'_> {
         let Some(drops) = kept.get(&x.to_bits()).and_then(|drops| drops.get_or_init(followed).as_ref()) else {
             return false;
         };
-        let fastest = fastest_rad_s(of.component);
-        let ends: Vec<_> = drops.iter().map(|drops| Places::new(drops, of.component.ends_m(), fastest)).collect();
+        let fastest = rough_to_rad_s(of.component);
+        let ends: Vec<_> = drops.iter().map(|drops| Places::new(drops, of.component.places_m(), fastest)).collect();
         let mut views: Vec<_> = drops.iter().map(Drops::counted).collect();
         holds(of, of.component, &ends, &mut views)
     }

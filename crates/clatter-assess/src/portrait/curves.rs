@@ -30,7 +30,7 @@ pub(super) fn over_tilt(
     let parts = parts(component, &asked, Some(worst));
     let mut found: Vec<Point> = Vec::new();
     for drops in [shared, &at_worst, &of_worst] {
-        let places = Places::new(drops, component.ends_m(), f64::INFINITY);
+        let places = Places::new(drops, component.places_m(), f64::INFINITY);
         for view in drops.views() {
             let of = |at| places.share(view, at, &asked, &parts, -1.0);
             let most = (0..places.positions_m.len()).filter_map(of).reduce(|a, b| if b.0 > a.0 { b } else { a });

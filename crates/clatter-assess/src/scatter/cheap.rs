@@ -41,7 +41,8 @@ fn strikes(drop: &SingleDrop) -> Result<Vec<Impact>, Error> {
 
 fn of_part(drop: &SingleDrop, train: &[Impact], part: &PartSample, factor: f64) -> Result<Asked, Error> {
     let mut asked = Asked::default();
-    for place in part.places() {
+    // Of instant impacts all is linear in the place.
+    for place in part.ends() {
         let s = drop.relative(*place);
         let shock = |strike: &Impact| VelocityShock { time: strike.time, delta_v: strike.delta_v_at(s) };
         let shocks = VelocityShocks::new(train.iter().map(shock).collect())?;
@@ -109,7 +110,7 @@ mod tests {
             }
             for limit in limits {
                 let part = PartSample { position_m: ends_m[0], ends_m, suspension, limits: vec![limit] };
-                let known = part.places().iter().map(|x| {
+                let known = part.ends().iter().map(|x| {
                     let part = Part { position_m: *x, suspension };
                     crate::answer(&drop, &part, &limit, Model::Map, 1e-6).unwrap().utilization()
                 });

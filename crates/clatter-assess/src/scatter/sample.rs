@@ -7,6 +7,7 @@ use clatter_shock::Suspension;
 use super::draw::Quantile;
 use super::philox::Stream;
 use super::{Column, Error};
+use crate::product::with_between;
 use crate::{Component, Damping, Fall, First, Law, Limit, LimitKind, Mount, ProductFile, SingleDrop, Spread};
 
 /// What varies from sample to sample; parts by their index in the file.
@@ -163,8 +164,14 @@ pub(super) struct PartSample {
 
 impl PartSample {
     /// Both ends, or the point.
-    pub(super) fn places(&self) -> &[f64] {
+    pub(super) fn ends(&self) -> &[f64] {
         if self.ends_m[0] < self.ends_m[1] { &self.ends_m } else { &self.ends_m[..1] }
+    }
+    /// Places at which a drop with contacts is answered, as [`Component::places_m`](crate::Component::places_m).
+    pub(super) fn places(&self) -> Vec<f64> {
+        let between = self.limits.iter().any(|limit| limit.kind.is_largest_between());
+        let ends_m = self.ends().to_vec();
+        if between { with_between(ends_m) } else { ends_m }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::grid::halton;
 use super::ranges::{AXES, DAMPING, FREQUENCY, Ranges, TILT};
-use super::{Asked, Task, Work, fastest_rad_s};
+use super::{Asked, Task, Work, fastest_rad_s, rough_to_rad_s};
 use crate::drop::Until;
 use crate::engine::Felt;
 use crate::{Mount, Spread};
@@ -31,7 +31,7 @@ impl Ranges<'_> {
 
     /// Climbs from a place in all ranges, one after the other, each step half as long as the last.
     pub(super) fn climb(&self, task: &Task<'_>, start: Asked, tilt_step: f64, work: &Work<'_>) -> Asked {
-        let (until, fastest) = (Until::Lands, fastest_rad_s(task.component));
+        let (until, fastest) = (Until::Lands, rough_to_rad_s(task.component));
         let free = self.free_at(task, &start.place);
         let frequency_step = 0.5 / f64::from(Self::frequencies(task, &self.single(&start.place)).max(4));
         let mut steps = [tilt_step, 0.25, 0.25, 0.25, frequency_step, 0.5, 0.25];
@@ -76,7 +76,7 @@ impl Ranges<'_> {
         (reach, tries): (f64, u32),
         work: &Work<'_>,
     ) -> Asked {
-        let (free, fastest) = (self.free_at(task, &start.place), fastest_rad_s(task.component));
+        let (free, fastest) = (self.free_at(task, &start.place), rough_to_rad_s(task.component));
         // A climb is after the peak that it began with, not after those that elastic products have for minutes.
         let until = if start.late { Until::Past(LATER * start.answer.time_s) } else { Until::Lands };
         let mut best = start;

@@ -93,7 +93,7 @@ impl Args {
         let asked = self.bar_at()?;
         let places = match (asked, part) {
             (Some(place), _) => quantities::positions(&[place], "--at", half_m)?,
-            (None, Some(part)) => part.ends_m.iter().map(|x| (x / half_m).clamp(-1.0, 1.0)).collect(),
+            (None, Some(part)) => part.places_m.iter().map(|x| (x / half_m).clamp(-1.0, 1.0)).collect(),
             (None, None) => {
                 return Err(Failure::Usage("the place is missing: --at=S, or with --product the --component=NAME"));
             }

@@ -16,7 +16,7 @@ use crate::words::in_words;
 /// One limit in one drop.
 pub(super) struct OfLimit {
     limit: Limit,
-    /// The end of the part that asks most: position s of the product, and from its middle.
+    /// The place of the part that asks most: position s of the product, and from its middle.
     pub(super) at: f64,
     position_m: f64,
     /// What is asked there; none where nothing is felt, or where it is not known.
