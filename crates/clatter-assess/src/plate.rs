@@ -135,7 +135,11 @@ impl Followed {
 
     /// What a place feels for ever after the motion: its weight, on the mean too over what the plate still bounces.
     fn carried_m_s2(&self) -> f64 {
-        if matches!(self.flight.flight.stop, Stop::AtRest { .. } | Stop::Enough { .. }) { self.gravity_m_s2 } else { 0.0 }
+        if matches!(self.flight.flight.stop, Stop::AtRest { .. } | Stop::Enough { .. }) {
+            self.gravity_m_s2
+        } else {
+            0.0
+        }
     }
 
     /// A largest value; `unit` is what a velocity shock of 1 m/s of a corner is of it at most.

@@ -8,6 +8,7 @@ mod design;
 mod examples;
 mod fit;
 mod independent;
+mod late;
 mod mutations;
 mod portrait;
 mod random;

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::io::{self, Write};
 
-use clatter_flight::{BlockDrop, BlockFlight, Contact, Stop};
+use clatter_flight::{BlockDrop, BlockFlight, Contact, ContactLaw, LEAST_OF_BLOCKS, Stop};
 use clatter_shock::{DampingRatio, Frequencies, Quantity, Spectrum, UnevenFilter};
 use serde::Serialize;
 
@@ -43,7 +43,7 @@ pub(crate) enum Axis {
 }
 
 impl Axis {
-    fn index(self) -> Option<usize> {
+    pub(crate) fn index(self) -> Option<usize> {
         match self {
             Self::X => Some(0),
             Self::Y => Some(1),
@@ -103,8 +103,11 @@ impl Setup {
     /// A restitution that is not followed as it stands.
     pub(crate) fn warning(&self) -> Option<String> {
         let e = self.contact.restitution();
-        (e < 0.01)
-            .then(|| format!("e = {e:?} is followed as 0.01: contacts of a box rebound with a hundredth at least"))
+        (self.contact.law() == ContactLaw::Hysteretic && e < LEAST_OF_BLOCKS).then(|| {
+            format!(
+                "e = {e:?} is followed as {LEAST_OF_BLOCKS}: hysteretic contacts of a box rebound with that at least"
+            )
+        })
     }
 
     /// Where a flight ends by itself before it is at rest.
@@ -165,15 +168,14 @@ impl Felt {
         largest.map_or([0.0; 2], |k| [size(k), self.times_s[k]])
     }
 
-    /// Largest values of a quantity of a part that moves along an axis, over the whole flight; at rest the weight is on.
+    /// Largest values of a quantity of a part that moves along an axis, from 0, over the whole flight; at rest the weight is on.
     pub(crate) fn peak(
         &self,
-        axis: Axis,
+        axis: usize,
         omega: f64,
         damping: DampingRatio,
         quantity: Quantity,
     ) -> Result<[f64; 2], Failure> {
-        let axis = axis.index().unwrap_or(2);
         let mut filter = UnevenFilter::new(Frequencies::list(vec![omega / TAU])?, damping, quantity);
         filter.push(&self.times_s, &self.along_m_s2[axis])?;
         if let (Stop::AtRest { .. }, Some(end_s)) = (self.flight.stop, self.times_s.last()) {

@@ -18,7 +18,7 @@ mod run;
 mod system;
 
 pub use drop::BlockDrop;
-pub use run::{BlockFlight, BlockStep, BlockStrike};
+pub use run::{BlockFlight, BlockStep, BlockStrike, LEAST_OF_BLOCKS};
 
 use clatter::Error;
 

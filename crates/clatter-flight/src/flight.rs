@@ -89,7 +89,8 @@ pub enum Stop {
     AtRest {
         /// When the last listed strike happened, or the limit that strikes summed in closed form tend to.
         time_s: f64,
-        /// The motion ends at most this much later: proven, and below an ulp of the time.
+        /// The motion ends at most this much later: proven, and below an ulp of the time. Infinite of contacts that take time, which die
+        /// away and never end.
         time_bound_s: f64,
         /// No shock left out of the list is larger: proven, and at most [`SHARE`] of the largest.
         shock_bound_m_s: f64,

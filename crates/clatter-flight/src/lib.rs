@@ -49,7 +49,7 @@ mod rigid;
 mod roots;
 mod scene;
 
-pub use block::{Block, BlockDrop, BlockFlight, BlockStep, BlockStrike};
+pub use block::{Block, BlockDrop, BlockFlight, BlockStep, BlockStrike, LEAST_OF_BLOCKS};
 pub use body::Body;
 pub use contact::{Ahead, Contact, ContactFlight, ContactLaw, PlateFlight, Press, Sample};
 pub use error::Error;

@@ -47,13 +47,13 @@ impl Args {
         let axis = self.axis.unwrap_or(Axis::Z);
         let felt = setup.felt(at_m)?;
         let damping = self.damping.ratio()?;
-        let part = match (self.omega(), axis) {
-            (Some(_), Axis::Any) => {
+        let part = match (self.omega(), axis.index()) {
+            (Some(_), None) => {
                 return Err(Failure::Usage(
                     "a part that swings does so along one axis: --axis=x, y or z, or no --omega",
                 ));
             }
-            (Some(omega), _) => Some(Part::new(&felt, axis, omega, damping)?),
+            (Some(omega), Some(axis)) => Some(Part::new(&felt, axis, omega, damping)?),
             (None, _) => None,
         };
         let answer = Answer {
@@ -115,7 +115,7 @@ struct Part {
 }
 
 impl Part {
-    fn new(felt: &Felt, axis: Axis, omega: f64, damping: DampingRatio) -> Result<Self, Failure> {
+    fn new(felt: &Felt, axis: usize, omega: f64, damping: DampingRatio) -> Result<Self, Failure> {
         let [displacement, when] = felt.peak(axis, omega, damping, Quantity::PseudoVelocity)?;
         let [acceleration, time] = felt.peak(axis, omega, damping, Quantity::AbsoluteAcceleration)?;
         Ok(Self {

@@ -101,8 +101,12 @@ impl Drop<'_> {
         };
         let bounds = match flight.stop {
             Stop::AtRest { time_bound_s, shock_bound_m_s, .. } if time_bound_s + shock_bound_m_s > 0.0 => {
-                let (time, shock) = (time.said(time_bound_s), speed.said(shock_bound_m_s));
-                format!("      within {time}; no shock left out exceeds {shock}")
+                let within = if time_bound_s.is_finite() {
+                    format!("within {}; ", time.said(time_bound_s))
+                } else {
+                    String::new()
+                };
+                format!("      {within}no shock left out exceeds {}", speed.said(shock_bound_m_s))
             }
             _ => String::new(),
         };

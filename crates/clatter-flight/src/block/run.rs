@@ -25,8 +25,10 @@ const REST: f64 = 1e-3;
 const WEIGHT: f64 = 4.0;
 /// A flight ends where its energy has changed by this share without reason.
 const ENERGY: f64 = 0.01;
-/// Restitutions below are taken for this one: unloading is a hundred times as fast as loading then, and what rebounds a hundredth.
-const LEAST: f64 = 0.01;
+/// Hysteretic contacts of a box rebound with this at least: unloading is a hundred times as fast as loading then.
+pub const LEAST_OF_BLOCKS: f64 = 0.01;
+/// Corners sink in by no more than this share of the smallest size.
+const SUNK: f64 = 0.25;
 
 /// One press of a corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -122,10 +124,11 @@ impl BlockDrop {
     ///
     /// # Accuracy
     /// Steps are wrong by 1e−8 of depths and velocities; peaks of parts beside an independent integration by 1e−5 (`tests/block`).
-    /// A restitution below 0.01 is taken for 0.01.
+    /// The restitution of a hysteretic contact is [`LEAST_OF_BLOCKS`] at least.
     ///
     /// # Errors
-    /// [`Error::Bound`] unless the contact time is at most a tenth of the largest size over the speed and at least 1e−7 of it.
+    /// [`Error::Bound`] unless the contact time is at most a tenth of the largest size over the speed and at least 1e−7 of it, and where
+    /// a corner sinks in by more than a quarter of the smallest size.
     ///
     /// # Examples
     /// A flat drop with e = 1 and no gravity: four corners press along one half-sine and the box rises as fast as it came.
@@ -191,14 +194,18 @@ struct Run<'a> {
     opened: f64,
     misfit: f64,
     most_coupling: f64,
+    /// How deep a corner has been.
+    sunk: f64,
 }
 
 impl<'a> Run<'a> {
     fn new(drop: &'a BlockDrop, contact: &'a Contact) -> Self {
-        let (block, restitution) = (drop.block, contact.restitution().max(LEAST));
+        let block = drop.block;
+        let is_hysteretic = contact.law() == ContactLaw::Hysteretic;
+        let restitution = contact.restitution().max(if is_hysteretic { LEAST_OF_BLOCKS } else { 0.0 });
         let (corners, reach) = (block.corners_m(), block.reach());
         let inertia = block.gyration_m().map(|radius| radius * radius);
-        let loss = if contact.law() == ContactLaw::Hysteretic { restitution * restitution } else { 1.0 };
+        let loss = if is_hysteretic { restitution * restitution } else { 1.0 };
         let delay = 2.0 * contact.damping_ratio() / contact.frequency_rad_s();
         let up = Corner { hold: Hold::Up, ground: 0.0, stiffness: 0.0, strike: 0 };
         let system = System { corners, inertia, gravity: drop.gravity, delay, loss, holds: [up; 8] };
@@ -223,6 +230,7 @@ impl<'a> Run<'a> {
             opened: system.energy(&y) + drop.gravity * reach,
             misfit: 0.0,
             most_coupling: 1.0 + reach * reach / least,
+            sunk: 0.0,
         }
     }
 
@@ -242,7 +250,7 @@ impl<'a> Run<'a> {
         let mut idle = 0;
         for _ in 0..STEPS {
             if let Some(stop) = self.ends() {
-                return Ok(self.finish(stop));
+                return self.finish(stop);
             }
             let before = self.now;
             if self.step(&mut each) {
@@ -252,14 +260,25 @@ impl<'a> Run<'a> {
             if self.strikes.len() > self.drop.impact_limit {
                 self.strikes.truncate(self.drop.impact_limit);
                 let time_s = self.now;
-                return Ok(self.finish(Stop::ImpactLimit { time_s }));
+                return self.finish(Stop::ImpactLimit { time_s });
             }
             if idle > IDLE {
                 break;
             }
         }
         let time_s = self.now;
-        Ok(self.finish(Stop::TimeLimit { time_s }))
+        self.finish(Stop::TimeLimit { time_s })
+    }
+
+    /// Refuses corners that sink in so far that the face above them would touch too.
+    fn check_depth(&self) -> Result<(), Error> {
+        let most = SUNK * self.drop.block.size_m().into_iter().fold(f64::INFINITY, f64::min);
+        if self.sunk <= most {
+            return Ok(());
+        }
+        let (name, value, unit) = ("contact time", self.contact.time_s(), "s");
+        let reason = "so that corners sink in by a quarter of the smallest size at most";
+        Err(Error::Bound { name, value, bound: value * most / self.sunk, most: true, unit, reason })
     }
 
     /// Whether nothing of weight can follow.
@@ -281,7 +300,7 @@ impl<'a> Run<'a> {
         let weight = WEIGHT * gravity * self.contact.time_s();
         (bound <= (REST * self.fastest).max(weight)).then_some(Stop::AtRest {
             time_s: self.now,
-            time_bound_s: 0.0,
+            time_bound_s: f64::INFINITY,
             shock_bound_m_s: bound,
         })
     }
@@ -354,6 +373,9 @@ impl<'a> Run<'a> {
         }
         let before = self.system.energy(&self.y);
         self.y = states[2];
+        for corner in self.system.corners {
+            self.sunk = self.sunk.max(-System::place(&self.y, corner).0);
+        }
         self.misfit += (self.system.energy(&self.y) - before - work).abs();
         // What roundings do to the length of the vertical.
         let n = [self.y[2], self.y[3], self.y[4]];
@@ -401,9 +423,10 @@ impl<'a> Run<'a> {
         self.strikes[self.system.holds[i].strike].until_s = self.now;
     }
 
-    fn finish(self, stop: Stop) -> BlockFlight {
+    fn finish(self, stop: Stop) -> Result<BlockFlight, Error> {
+        self.check_depth()?;
         let (center_m, center_m_s, upward, spin_rad_s) = parts(&self.y);
         let energy_error = self.misfit / self.opened;
-        BlockFlight { strikes: self.strikes, stop, energy_error, center_m, center_m_s, upward, spin_rad_s }
+        Ok(BlockFlight { strikes: self.strikes, stop, energy_error, center_m, center_m_s, upward, spin_rad_s })
     }
 }

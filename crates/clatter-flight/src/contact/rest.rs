@@ -205,7 +205,7 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         }
         self.pose = self.pose.still();
         self.resting = forces;
-        self.log.flight.stop = Stop::AtRest { time_s: self.time.now(), time_bound_s: 0.0, shock_bound_m_s };
+        self.log.flight.stop = Stop::AtRest { time_s: self.time.now(), time_bound_s: f64::INFINITY, shock_bound_m_s };
     }
 }
 
