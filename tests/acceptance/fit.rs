@@ -147,18 +147,22 @@ fn heights_come_back() {
     let flags = ["--model=finite-tilt", "--length=200mm", "--gyration=60mm", "--e=0.4", "--speed=3m/s", "--tilt=3deg"];
     let simulated = clatter(["simulate", "--until=60ms", "-o", &rows].iter().chain(&flags));
     assert_eq!(simulated.exit, Exit::Done, "{}", simulated.stderr);
-    // As a tracker writes it.
-    let mut csv = "t [s];y a [mm];y b [mm]\n".to_owned();
-    for row in columns(&fs::read_to_string(&rows).unwrap(), &["time_s", "height_a_m", "height_b_m"]) {
-        writeln!(csv, "{};{};{}", 5.0 + row[0], 1e3 * row[1], 1e3 * row[2]).unwrap();
-    }
+    let rows = columns(&fs::read_to_string(&rows).unwrap(), &["time_s", "height_a_m", "height_b_m"]);
     let product = PRODUCT.replace("gravity = \"0 gn\"\n", "").replace("\"0.1 m/s\"", "[\"2.5 m/s\", \"3.4 m/s\"]");
     let product = product.replace("\"1 deg\"", "\"10 deg\"");
     let product = write(dir.path(), "bar.toml", &product);
-    let found = answer(["fit", &write(dir.path(), "video.csv", &csv), &format!("--product={product}")]);
-    for (name, truth) in [("radius-of-gyration", 0.06), ("speed", 3.0), ("tilt", 3f64.to_radians())] {
-        let value = estimate(&found, name)["value"].as_f64().unwrap();
-        assert!((value / truth - 1.0).abs() < 1e-3, "{name}: {value}, not {truth}");
+    // As `simulate` writes it, and as a tracker does.
+    for (heading, by, separator) in [("time_s,height_a_m,height_b_m", 1.0, ','), ("t [s];y a [mm];y b [mm]", 1e3, ';')]
+    {
+        let mut csv = format!("{heading}\n");
+        for row in &rows {
+            writeln!(csv, "{}{separator}{}{separator}{}", 5.0 + row[0], by * row[1], by * row[2]).unwrap();
+        }
+        let found = answer(["fit", &write(dir.path(), "video.csv", &csv), &format!("--product={product}")]);
+        for (name, truth) in [("radius-of-gyration", 0.06), ("speed", 3.0), ("tilt", 3f64.to_radians())] {
+            let value = estimate(&found, name)["value"].as_f64().unwrap();
+            assert!((value / truth - 1.0).abs() < 1e-3, "{heading}: {name}: {value}, not {truth}");
+        }
     }
 }
 

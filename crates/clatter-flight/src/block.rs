@@ -136,17 +136,38 @@ impl Block {
 
     /// The energy over the mass that no motion gets rid of: of a body that lies and turns about the vertical, with this angular momentum
     /// over the mass, which nothing changes. `energy` is what it has: where that does not lift it over an edge, it stays on its face.
-    fn kept(&self, n: [f64; 3], energy: f64, gravity: f64, momentum: f64) -> f64 {
+    /// Corners stand on `ground`, at 0 or in their dents below it.
+    fn kept(&self, n: [f64; 3], energy: f64, gravity: f64, momentum: f64, ground: [f64; 8]) -> f64 {
         let turning = |axis: usize| 0.5 * (momentum / self.gyration[axis]).powi(2);
         let (face, over, ridge) = self.lies_on(n);
         let least = (0..3).map(turning).fold(f64::INFINITY, f64::min);
         if energy < gravity * ridge + least {
-            return gravity * over + turning(face);
+            return gravity * (over + self.height_on(face, n, ground)) + turning(face);
         }
+        let deepest = ground.into_iter().fold(0.0, f64::min);
         let on = |axis: usize| {
             let height = self.face_at(axis, 1.0).min(self.face_at(axis, -1.0));
-            gravity * height + turning(axis)
+            gravity * (height + deepest) + turning(axis)
         };
         (0..3).map(on).fold(f64::INFINITY, f64::min)
+    }
+
+    /// How high the center of mass lies over a face that stands on uneven ground, less what it does on even ground at 0: on three
+    /// corners around the plumb line, those that hold it highest. The vertical is `n`.
+    fn height_on(&self, face: usize, n: [f64; 3], ground: [f64; 8]) -> f64 {
+        let (across, along) = ((face + 1) % 3, (face + 2) % 3);
+        let lower = usize::from(n[face] < 0.0) << face;
+        let at = |u: usize, v: usize| ground[lower | u << across | v << along];
+        let share = |axis: usize| self.face_at(axis, -1.0) / (2.0 * self.half[axis]);
+        let (u, v) = (share(across), share(along));
+        let one = if u >= v { (u - v) * at(1, 0) } else { (v - u) * at(0, 1) };
+        let one = one + u.min(v) * at(1, 1) + (1.0 - u.max(v)) * at(0, 0);
+        let rest = u + v - 1.0;
+        let other = if rest <= 0.0 {
+            u * at(1, 0) + v * at(0, 1) - rest * at(0, 0)
+        } else {
+            (1.0 - v) * at(1, 0) + (1.0 - u) * at(0, 1) + rest * at(1, 1)
+        };
+        one.max(other)
     }
 }

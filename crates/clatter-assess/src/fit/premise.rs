@@ -62,7 +62,8 @@ impl Premise {
             .flat_map(|k| [true, false].map(|is_strike| (k, is_strike)))
             .filter(|wrong| *wrong != (count - 1, false))
             .chain(outlier.filter(|k| *k >= places).map(|k| (k, true)));
-        let wrong = wrong.map(|left_out| Self { left_out: Some(left_out), ways: 2 * all, ..Self::default() });
+        let ways = 2 * all + usize::from(outlier.is_some_and(|k| k >= all));
+        let wrong = wrong.map(|left_out| Self { left_out: Some(left_out), ways, ..Self::default() });
         let one = (0..places).map(|k| Self { missing: vec![k], ways: all, ..Self::default() });
         let pairs = (0..places).flat_map(|k| (k..all).map(move |j| vec![k, j]));
         let ways = all * (all + 1) / 2;
@@ -83,10 +84,12 @@ mod tests {
     /// What is chosen among many ways pays for at least as many.
     #[test]
     fn as_many_ways_are_paid_for_as_there_are() {
-        for count in [3, 8] {
+        for count in [3, 8, 40] {
             for outlier in [None, Some(count - 1)] {
                 let [one, two] = Premise::rounds(count, count, outlier);
                 let is_missing = |premise: &&Premise| premise.left_out.is_none();
+                let places = count.min(PLACES);
+                assert_eq!(two[0].ways, places * (places + 1) / 2, "{count}");
                 assert_eq!(two.len(), two[0].ways, "{count}");
                 let (missing, out): (Vec<&Premise>, Vec<&Premise>) = one.iter().partition(is_missing);
                 assert!(missing.len() == missing[0].ways && out.len() <= out[0].ways, "{count}");

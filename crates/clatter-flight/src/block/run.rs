@@ -295,7 +295,8 @@ impl<'a> Run<'a> {
         }
         let energy = self.system.energy(&self.y) + self.system.stored(&self.y);
         let momentum = (0..3).map(|axis| n[axis] * self.system.inertia[axis] * spin[axis]).sum();
-        let left = (energy - self.drop.block.kept(n, energy, gravity, momentum)).max(0.0);
+        let ground = std::array::from_fn(|i| self.system.dent(i, &self.y));
+        let left = (energy - self.drop.block.kept(n, energy, gravity, momentum, ground)).max(0.0);
         let bound = (1.0 + self.restitution) * (2.0 * left * self.most_coupling).sqrt();
         let weight = WEIGHT * gravity * self.contact.time_s();
         (bound <= (REST * self.fastest).max(weight)).then_some(Stop::AtRest {

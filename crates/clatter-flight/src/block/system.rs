@@ -100,6 +100,16 @@ impl System {
         let [a, b] = [i, j].map(|k| cross(self.corners[k], n));
         1.0 + (0..3).map(|axis| a[axis] * b[axis] / self.inertia[axis]).sum::<f64>()
     }
+    /// Height at which a corner parts from the ground, as far as it is pressed in now.
+    pub(super) fn dent(&self, i: usize, y: &Vector) -> f64 {
+        let Corner { hold, ground, .. } = self.holds[i];
+        let deepest = match hold {
+            Hold::Up | Hold::Slack => 0.0,
+            Hold::Loads => (ground - Self::place(y, self.corners[i]).0).max(0.0),
+            Hold::Unloads(deepest) => deepest,
+        };
+        ground - deepest * (1.0 - self.loss)
+    }
     /// Kinetic and potential energy over the mass.
     pub(super) fn energy(&self, y: &Vector) -> f64 {
         let (z, v, _, spin) = parts(y);
