@@ -63,9 +63,9 @@ fn a_handheld_terminal() {
             "{}, {}: {:.2} deg, e = {:.3}, {:.1} mm",
             limit.component,
             limit.limit.name(),
-            worst.tilt_deg,
-            worst.restitution,
-            1e3 * worst.position_m
+            worst.tilt_deg(),
+            worst.drop.restitution,
+            1e3 * worst.part.position_m
         );
         text.push_str(&rows(&limit.ladder));
     }

@@ -1,12 +1,9 @@
 //! From a product to its verdict.
 
-use std::f64::consts::TAU;
-
-use clatter::End;
-
 use crate::bound::bound;
 use crate::drop::{Model, SingleDrop};
 use crate::engine::{Part, answer};
+use crate::quantity::Source;
 use crate::search::{Asked, Place, Ranges, Task, Watch, Worst};
 use crate::{
     Accuracy, Assessment, Component, ComponentAssessment, ContactLaw, Error, Limit, LimitAssessment, LimitKind,
@@ -292,7 +289,7 @@ impl ProductFile {
             uncertainty: if uncertainty.is_nan() { 0.0 } else { uncertainty },
             clatter_free: flat,
             other_law,
-            worst_case: asked.map(|asked| worst_case(&ranges.single(&asked.place), &asked, ranges)),
+            worst_case: asked.map(|asked| worst_case(&asked, ranges)),
             model: model(ranges, task, accuracy_reason(ranges, &ranges.single(&shown))),
             undecided: (verdict == Verdict::Undecided).then(|| doubts.join("; ")),
             notes,
@@ -359,12 +356,12 @@ fn both(names: [&str; 2], answers: [Option<crate::Answer>; 2]) -> String {
 
 /// The limit whose demand has this unit: of a damage boundary the velocity change or the acceleration.
 fn in_unit(limit: &Limit, unit: Unit) -> Limit {
-    match (limit.kind, unit) {
-        (LimitKind::DamageBoundary, Unit::MeterPerSecondSquared) => {
+    match limit.kind.source() {
+        Source::Boundary if unit != limit.kind.unit() => {
             Limit::new(LimitKind::Acceleration, limit.critical_acceleration_m_s2)
         }
-        (LimitKind::DamageBoundary, _) => Limit::new(LimitKind::VelocityChange, limit.allowed),
-        _ => *limit,
+        Source::Boundary => Limit::new(LimitKind::VelocityChange, limit.allowed),
+        Source::Response(_) | Source::Shock | Source::Turn => *limit,
     }
 }
 
@@ -396,61 +393,16 @@ fn model(ranges: &Ranges<'_>, task: &Task<'_>, reason: String) -> ModelChoice {
     ModelChoice { bar: ranges.model, component, reason }
 }
 
-fn worst_case(drop: &SingleDrop, asked: &Asked, ranges: &Ranges<'_>) -> WorstCase {
+fn worst_case(asked: &Asked, ranges: &Ranges<'_>) -> WorstCase {
     WorstCase {
-        first: drop.first,
-        tilt_deg: drop.tilt_rad.to_degrees(),
-        flat: drop.flat,
-        speed_m_s: drop.speed_m_s,
-        restitution: drop.restitution,
-        contact_time_s: drop.contact_time_s,
-        gyration_m: (!ranges.product.gyration_m.is_value()).then(|| drop.body.gyration_m()),
-        frequency_hz: asked.part.map(|part| part.omega() / TAU),
-        damping_ratio: asked.part.map(|part| part.damping().get()),
-        position_m: asked.place.position_m,
+        drop: ranges.single(&asked.place),
+        part: Part { position_m: asked.place.position_m, suspension: asked.part },
+        gyration_varies: !ranges.product.gyration_m.is_value(),
         impact: asked.answer.impact,
         time_s: asked.answer.time_s,
-        command: command(drop, asked, ranges),
+        model: ranges.model,
+        tolerance: ranges.tolerance,
     }
-}
-
-/// The command that answers a drop once more.
-fn command(drop: &SingleDrop, asked: &Asked, ranges: &Ranges<'_>) -> String {
-    let [a, b] = drop.body.arms_m();
-    let side = if drop.first == End::A { 1.0 } else { -1.0 };
-    let length = a + b;
-    let mut command = format!("clatter respond --model={} --length-m={length:?}", ranges.model.name());
-    let mut add = |flag: &str, value: f64| command.extend([" --", flag, "=", &format!("{value:?}")]);
-    add("gyration-m", drop.body.gyration_m());
-    let center = side * (a - b) / length;
-    if center != 0.0 {
-        add("center-of-mass", center);
-    }
-    add("e", drop.restitution);
-    add("speed-m-s", drop.speed_m_s);
-    if drop.flat {
-        command.push_str(" --flat");
-    } else {
-        let tilt = format!("{:?}", drop.tilt_rad.to_degrees());
-        command.extend([" --tilt-deg=", &tilt]);
-    }
-    let mut add = |flag: &str, value: f64| command.extend([" --", flag, "=", &format!("{value:?}")]);
-    add("gravity-m-s2", drop.gravity_m_s2);
-    add("at", drop.relative(asked.place.position_m) + 0.0);
-    if let Some((hz, ratio)) = asked.part.map(|part| (part.omega() / TAU, part.damping().get())) {
-        add("omega", TAU * hz);
-        add("damping", ratio);
-    }
-    add("tolerance", ranges.tolerance);
-    let contacts = ranges.model == Model::Compliant;
-    // The acceleration of a part that is mounted rigidly is that of the contact time, by any model.
-    if let Some(time) = drop.contact_time_s.filter(|_| contacts || asked.part.is_none()) {
-        add("contact-time-s", time);
-        if contacts && drop.contact_law == ContactLaw::Dashpot {
-            command.push_str(" --contact-law=dashpot");
-        }
-    }
-    command
 }
 
 fn verdict(component: &Component, mut limits: Vec<LimitAssessment>) -> ComponentAssessment {
@@ -470,7 +422,7 @@ fn verdict(component: &Component, mut limits: Vec<LimitAssessment>) -> Component
     }
     let tightest = limits.iter().min_by(|a, b| a.room().total_cmp(&b.room()));
     let Some(tightest) = tightest else { unreachable!("a component has a limit") };
-    let (worst_case, model) = (tightest.worst_case.clone(), tightest.model.clone());
+    let (worst_case, model) = (tightest.worst_case, tightest.model.clone());
     ComponentAssessment {
         name: component.name.clone(),
         position_m: component.position_m.at(0.5),

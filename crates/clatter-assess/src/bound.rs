@@ -6,6 +6,7 @@
 
 use clatter_flight::{Contact, ContactLaw};
 
+use crate::quantity::Source;
 use crate::{Component, Drop, Limit, LimitKind, Product};
 
 /// The largest value of a limited quantity that the energy of the drops allows; none for the response of a suspended part and for
@@ -42,27 +43,27 @@ pub(crate) fn bound(
     };
     let over = |of: &dyn Fn(f64) -> f64| places.iter().map(|&x| of(x)).fold(0.0, f64::max);
     let contact_s = product.contact_time_s.as_ref().map(|time| [time.lo(), time.hi()]);
-    match (limit.kind, contact_s) {
-        (LimitKind::VelocityChange | LimitKind::DamageBoundary, None) => {
+    match (limit.kind.source(), contact_s) {
+        (Source::Shock | Source::Boundary, None) => {
             let one = |place: f64| ends.iter().map(|&end| share(place, end)).fold(0.0, f64::max);
             Some((1.0 + e) * speed * over(&one))
         }
-        (LimitKind::VelocityChange | LimitKind::DamageBoundary, Some([_, longest])) => {
+        (Source::Shock | Source::Boundary, Some([_, longest])) => {
             let fastest = over(&|x| (1.0 + (x / rho).powi(2)).sqrt());
             Some(2.0 * speed * fastest + drop.gravity_m_s2 * longest)
         }
-        (LimitKind::AngularVelocityChange, None) => {
+        (Source::Turn, None) => {
             let one = ends.iter().map(|end| end.abs() / (rho * (rho * rho + end * end).sqrt())).fold(0.0, f64::max);
             Some((1.0 + e) * speed * one)
         }
-        (LimitKind::AngularVelocityChange, Some(_)) => Some(2.0 * speed / rho),
-        (LimitKind::Acceleration, Some([shortest, _])) => {
+        (Source::Turn, Some(_)) => Some(2.0 * speed / rho),
+        (Source::Response(_), Some([shortest, _])) if limit.kind == LimitKind::Acceleration => {
             let hard = matches!(component.mount, crate::Mount::Hard) && law == ContactLaw::Hysteretic;
             let contact = Contact::new(law, e, shortest).ok().filter(|_| hard)?;
             // Both ends at once.
             let one = |place: f64| ends.iter().map(|&end| share(place, end)).sum::<f64>();
             Some(speed * contact.frequency_rad_s() * over(&one))
         }
-        (LimitKind::Acceleration | LimitKind::RattleSpace, _) => None,
+        (Source::Response(_), _) => None,
     }
 }

@@ -5,8 +5,11 @@ use std::collections::HashSet;
 use clatter_flight::Body;
 
 use crate::keys::{self, Key, Kind, MOST_COMPONENTS};
+use crate::quantity::Source;
 use crate::quantity::lacks_contact_time;
-use crate::{Component, Damping, DataFault, Drop, Error, Fall, Law, Mount, Product, ProductFile, RecordFile, Spread};
+use crate::{
+    Component, Damping, DataFault, Drop, Error, Fall, Law, LimitKind, Mount, Product, ProductFile, RecordFile, Spread,
+};
 
 /// How far the center of mass may lie from the middle, over the length.
 const FARTHEST_CENTER: f64 = 0.45;
@@ -122,26 +125,34 @@ impl Component {
             one(keys::COMPONENT, "extent", self.extent_m)?;
             self.fits(product)?;
             self.check_mount()?;
-            let limits = &self.limits;
-            if limits.kinds().is_empty() {
+            if self.limits.kinds().is_empty() {
                 return Err(DataFault::NoLimit);
             }
-            of("acceleration_limit", limits.acceleration_m_s2.as_ref())?;
-            of("rattle_space", limits.rattle_space_m.as_ref())?;
-            of("velocity_change_limit", limits.velocity_change_m_s.as_ref())?;
-            of("angular_velocity_change_limit", limits.angular_velocity_change_rad_s.as_ref())?;
-            let boundary = limits.damage_boundary.as_ref();
-            spread(keys::BOUNDARY, "velocity_change", boundary.map(|boundary| &boundary.velocity_change_m_s))?;
-            spread(keys::BOUNDARY, "acceleration", boundary.map(|boundary| &boundary.acceleration_m_s2))
+            LimitKind::ALL.into_iter().try_for_each(|kind| self.check_limit(kind))
         };
         own().map_err(|fault| Error::Data { component: Some(self.name.clone()), fault })?;
         let lacks = lacks_contact_time(product, self);
         lacks.map_or(Ok(()), |reason| Err(Error::ContactTime { component: self.name.clone(), reason }))
     }
 
+    fn check_limit(&self, kind: LimitKind) -> Result<(), DataFault> {
+        let limit = self.limits.get(kind);
+        if kind.source() != Source::Boundary {
+            return spread(keys::COMPONENT, kind.key(), limit);
+        }
+        let critical = self.limits.critical_acceleration_m_s2();
+        if limit.is_some() && critical.is_none() {
+            return Err(DataFault::NoAcceleration);
+        }
+        spread(keys::BOUNDARY, "velocity_change", limit)?;
+        spread(keys::BOUNDARY, "acceleration", critical)
+    }
+
     fn check_mount(&self) -> Result<(), DataFault> {
         match &self.mount {
-            Mount::Hard if self.limits.rattle_space_m.is_some() => Err(DataFault::Hard { field: "rattle_space" }),
+            Mount::Hard if self.limits.get(LimitKind::RattleSpace).is_some() => {
+                Err(DataFault::Hard { field: "rattle_space" })
+            }
             Mount::Hard => Ok(()),
             Mount::Suspended { frequency_hz, damping } => {
                 spread(keys::COMPONENT, "natural_frequency", Some(frequency_hz))?;

@@ -1,6 +1,7 @@
 //! What data of a product may be wrong by: the words that messages of product files and errors of the library share.
 
-use crate::keys::{LIMITS, MOST_COMPONENTS};
+use crate::LimitKind;
+use crate::keys::MOST_COMPONENTS;
 
 /// What is wrong with data of a product.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,6 +61,8 @@ pub enum DataFault {
     },
     /// A component without a limit.
     NoLimit,
+    /// A damage boundary without an acceleration.
+    NoAcceleration,
     /// A key that a part that is mounted rigidly does not have.
     Hard {
         /// The key.
@@ -118,7 +121,13 @@ impl DataFault {
                 format!("the component reaches {} mm from the middle", mm(*reach_m)),
                 format!("allowed: up to {} mm, half of the product's length; extent counts on both sides", mm(*half_m)),
             ],
-            Self::NoLimit => ["it has no limit".to_owned(), format!("give at least one of {}", LIMITS.join(", "))],
+            Self::NoLimit => {
+                let keys = LimitKind::ALL.map(LimitKind::key).join(", ");
+                ["it has no limit".to_owned(), format!("give at least one of {keys}")]
+            }
+            Self::NoAcceleration => {
+                ["its damage boundary has a velocity change alone".to_owned(), "give its acceleration too".to_owned()]
+            }
             Self::Hard { field } => {
                 [format!("a hard-mounted part has no `{field}`"), "leave one of both out".to_owned()]
             }

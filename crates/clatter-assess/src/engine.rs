@@ -7,10 +7,11 @@ use std::f64::consts::FRAC_PI_2;
 
 use clatter::{End, EndPeaks, OffCenterBar, Start};
 use clatter_flight::Stretch;
-use clatter_shock::{Peaked, Pulses, Response, Suspension};
+use clatter_shock::{Pulses, Response, Suspension};
 
 use crate::drop::{Followed, Model, Motion, PRECISION, SingleDrop};
 use crate::history::{SHORT, pulses};
+use crate::quantity::{ResponsePeak, Source};
 use crate::shock::{Shock, largest, samples};
 use crate::{Error, Limit, LimitKind, Unit};
 
@@ -189,12 +190,11 @@ fn closed_form(drop: &SingleDrop, part: &Part, limit: &Limit, model: Model) -> R
         let net = bar.summary(&start).net.ok_or(Error::Unfinished)?;
         (0.5 * ((1.0 - s) * net.a + (1.0 + s) * net.b).abs(), 0.5 * of_turn * (net.b - net.a).abs())
     };
-    let (value, unit) = match (limit.kind, part.suspension) {
-        (LimitKind::AngularVelocityChange, _) => (turn, limit.kind.unit()),
-        (LimitKind::Acceleration | LimitKind::RattleSpace, _) => {
-            (limit.clatter_free(shock, None, part.suspension.as_ref())?, limit.kind.unit())
-        }
-        (LimitKind::VelocityChange | LimitKind::DamageBoundary, _) => (shock, limit.kind.unit()),
+    let (unit, source) = (limit.kind.unit(), limit.kind.source());
+    let value = match source {
+        Source::Turn => turn,
+        Source::Response(_) => limit.clatter_free(shock, None, part.suspension.as_ref())?,
+        Source::Shock | Source::Boundary => shock,
     };
     let value = if value.is_finite() {
         value
@@ -203,7 +203,7 @@ fn closed_form(drop: &SingleDrop, part: &Part, limit: &Limit, model: Model) -> R
         shock * FRAC_PI_2 / drop.contact_time_s.ok_or(Error::Contact)?
     };
     let acceleration = drop.contact_time_s.map(|time| shock * FRAC_PI_2 / time);
-    let by_acceleration = acceleration.filter(|_| limit.kind == LimitKind::DamageBoundary);
+    let by_acceleration = acceleration.filter(|_| source == Source::Boundary);
     let answer = Answer { value, allowed: limit.allowed, unit, time_s: 0.0, impact: 1, off_by: 0.0 };
     Ok(match by_acceleration {
         Some(value) if value / limit.critical_acceleration_m_s2 < answer.utilization() => {
@@ -272,26 +272,26 @@ impl<'a> Felt<'a> {
         if self.known.is_some_and(|known| known.later_most(limit, suspension, above) <= above) {
             return Ok(None);
         }
-        let (value, time_s, off_by) = match (limit.kind, suspension) {
-            (LimitKind::Acceleration | LimitKind::RattleSpace, Some(part)) => {
-                let Some(peak) = self.peak(limit.kind, part, above * limit.allowed) else { return Ok(None) };
-                peak
+        let (value, time_s, off_by) = match (limit.kind.source(), suspension) {
+            (Source::Response(peak), Some(part)) => {
+                let Some(found) = self.peak(peak, part, above * limit.allowed) else { return Ok(None) };
+                found
             }
-            (LimitKind::Acceleration | LimitKind::RattleSpace, None) => {
+            (Source::Response(_), None) => {
                 let contact_s = self.contact_s()?;
                 let Some((value, time_s)) = self.largest_acceleration(contact_s) else { return Ok(None) };
                 (value, time_s, self.off_by(value * contact_s / FRAC_PI_2) * FRAC_PI_2 / contact_s)
             }
-            (LimitKind::VelocityChange, _) => {
+            (Source::Shock, _) => {
                 let Shock { change, time_s, .. } = largest(&self.shocks());
                 (change, time_s, self.off_by(change))
             }
-            (LimitKind::AngularVelocityChange, _) => {
+            (Source::Turn, _) => {
                 let Shock { change, time_s, .. } = largest(&self.followed.turns());
                 let half = 0.5 * self.followed.drop.body.length_m();
                 (change, time_s, self.off_by(change * half) / half)
             }
-            (LimitKind::DamageBoundary, _) => return Ok(self.boundary(limit, above)),
+            (Source::Boundary, _) => return Ok(self.boundary(limit, above)),
         };
         let impact = self.followed.impact_at(time_s);
         let answer = Answer { value, allowed: limit.allowed, unit: limit.kind.unit(), time_s, impact, off_by };
@@ -347,16 +347,19 @@ impl<'a> Felt<'a> {
             return 0.0;
         }
         let later = self.later();
-        let most = match limit.kind {
-            LimitKind::Acceleration | LimitKind::RattleSpace => {
-                let of = |part: &Suspension| self.rings_most(limit, part, later.shock_of(part), above);
+        let most = match limit.kind.source() {
+            Source::Response(peak) => {
+                let of = |part: &Suspension| {
+                    let unit = peak.of_velocity(peak.after_impulse(part.damping()), part.omega());
+                    self.rings_most(unit / limit.allowed, part, later.shock_of(part), above)
+                };
                 let most = parts.into_iter().map(of).reduce(f64::max);
                 most.unwrap_or(later.acceleration_m_s2 / limit.allowed)
             }
-            LimitKind::AngularVelocityChange => later.turn_rad_s / limit.allowed,
-            LimitKind::VelocityChange => later.turned_m_s / limit.allowed,
+            Source::Turn => later.turn_rad_s / limit.allowed,
+            Source::Shock => later.turned_m_s / limit.allowed,
             // It takes both.
-            LimitKind::DamageBoundary => {
+            Source::Boundary => {
                 let acceleration = later.acceleration_m_s2 / limit.critical_acceleration_m_s2;
                 (later.turned_m_s / limit.allowed).min(acceleration)
             }
@@ -394,14 +397,8 @@ impl<'a> Felt<'a> {
     }
     /// The utilization to which a shock of this size brings a part that still rings as the motion was left; 0 where it was below
     /// `above` as the last contact ended, has decayed since, and stays below.
-    fn rings_most(&self, limit: &Limit, part: &Suspension, shock: f64, above: f64) -> f64 {
-        let (omega, factors) = (part.omega(), part.damping().impulse_factors());
-        let unit = if limit.kind == LimitKind::Acceleration {
-            omega * factors.acceleration
-        } else {
-            factors.displacement / omega
-        };
-        let per_velocity = unit / limit.allowed;
+    fn rings_most(&self, per_velocity: f64, part: &Suspension, shock: f64, above: f64) -> f64 {
+        let omega = part.omega();
         if shock * per_velocity <= above * -(-slowest(part) * omega * self.followed.quiet_s()).exp_m1() {
             return 0.0;
         }
@@ -417,22 +414,18 @@ impl<'a> Felt<'a> {
     /// What later strikes may ask where none that was followed asks for anything, in the unit of the limit.
     fn later_of(&self, limit: &Limit) -> f64 {
         let Later { turned_m_s, turn_rad_s, acceleration_m_s2, .. } = self.later();
-        match limit.kind {
-            LimitKind::AngularVelocityChange => turn_rad_s,
-            LimitKind::VelocityChange | LimitKind::DamageBoundary => turned_m_s,
-            LimitKind::Acceleration => acceleration_m_s2,
-            LimitKind::RattleSpace => f64::INFINITY,
+        match limit.kind.source() {
+            Source::Turn => turn_rad_s,
+            Source::Shock | Source::Boundary => turned_m_s,
+            Source::Response(_) if limit.kind == LimitKind::Acceleration => acceleration_m_s2,
+            Source::Response(_) => f64::INFINITY,
         }
     }
 
     /// Peak of a suspended part where it passes `above`: value, time and what it may be off by.
-    fn peak(&self, kind: LimitKind, part: &Suspension, above: f64) -> Option<(f64, f64, f64)> {
-        let omega = part.omega();
-        let (peaked, unit) = if kind == LimitKind::Acceleration {
-            (Peaked::AccelerationOverOmega, omega)
-        } else {
-            (Peaked::PseudoVelocity, omega.recip())
-        };
+    fn peak(&self, of: ResponsePeak, part: &Suspension, above: f64) -> Option<(f64, f64, f64)> {
+        let (omega, peaked) = (part.omega(), of.peaked);
+        let unit = of.of_velocity(1.0, omega);
         // What comes after a motion that was left early is no ring-down.
         let peak = if self.followed.is_early() {
             self.pulses.peak_within(part, peaked, above / unit)?
@@ -443,10 +436,8 @@ impl<'a> Felt<'a> {
         // What rings on as the motion is left, and the later shocks, as if all came at its crest.
         let doubt = if self.followed.later_m_s > 0.0 || self.followed.weight_to_come_m_s2() > 0.0 {
             let rest = self.pulses.state_at_end(part);
-            // What state and shock give as they are, of acceleration with the force of damping.
-            let force = if kind == LimitKind::Acceleration { 2.0 * part.damping().get() } else { 0.0 };
             let most = (omega * rest.displacement).hypot(rest.velocity) + self.later().shock_of(part);
-            most * force.hypot(1.0) - velocity
+            most * of.of_damper(part.damping()).hypot(1.0) - velocity
         } else {
             0.0
         };

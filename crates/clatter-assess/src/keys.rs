@@ -39,10 +39,6 @@ const MASSES: [&str; 2] = ["1 mg", "1000 kg"];
 
 /// Tables of one kind at most.
 pub(crate) const MOST_COMPONENTS: usize = 1000;
-/// The limits of a component.
-pub(crate) const LIMITS: [&str; 5] =
-    ["acceleration_limit", "rattle_space", "velocity_change_limit", "angular_velocity_change_limit", "damage_boundary"];
-
 pub(crate) static FILE: &[Key] = &[
     key("product", true, Table(PRODUCT), "What falls: a flat body, seen from the side as a bar with ends a and b."),
     key("drop", true, Table(DROP), "How it falls."),
@@ -95,7 +91,7 @@ pub(crate) static PRODUCT: &[Key] = &[
     key(
         "contact_law",
         false,
-        Choice(&["hysteretic", "dashpot"]),
+        Choice(&clatter_flight::ContactLaw::NAMES),
         "What the force of an impact does: hysteretic has the peak of a half-sine; dashpot jumps at the touch, as with some rubber.",
     ),
 ];

@@ -238,32 +238,13 @@ impl ProductFile {
                     left_out.push(LeftOut { component: name, limit: limit.kind, reason });
                     continue;
                 };
-                let (drop, part) = self.worst_drop(worst)?;
-                let ladder = Ladder::measure(&drop, &part, limit, tolerance)?;
-                let (limit, worst_case) = (limit.kind, worst.clone());
+                let ladder = Ladder::measure(&worst.drop, &worst.part, limit, tolerance)?;
+                let (limit, worst_case) = (limit.kind, *worst);
                 limits.push(LimitLadder { component: name, limit, worst_case, ladder });
             }
         }
         let (product, machine) = (assessment.product.clone(), Machine::here());
         Ok(ProductLadder { product, tolerance, machine, limits, left_out })
-    }
-
-    /// The drop and the part that a worst case names.
-    pub(crate) fn worst_drop(&self, worst: &WorstCase) -> Result<(SingleDrop, Part), Error> {
-        let drop = SingleDrop {
-            body: worst.gyration_m.map_or(Ok(self.product.body), |rho| self.product.body_with(rho))?,
-            first: worst.first,
-            tilt_rad: worst.tilt_deg.to_radians(),
-            flat: worst.flat,
-            speed_m_s: worst.speed_m_s,
-            restitution: worst.restitution,
-            gravity_m_s2: self.drop.gravity_m_s2,
-            contact_time_s: worst.contact_time_s,
-            contact_law: self.product.law(),
-        };
-        let part = worst.frequency_hz.zip(worst.damping_ratio);
-        let part = part.map(|(hz, ratio)| Suspension::from_hz(hz, DampingRatio::new(ratio)?)).transpose()?;
-        Ok((drop, Part { position_m: worst.position_m, suspension: part }))
     }
 }
 

@@ -27,13 +27,13 @@
 //! A board on a soft mount in a handheld that falls from a meter on either end; its limit is that of the data sheet.
 //! ```
 //! use clatter_assess::{
-//!     Component, Damping, DataFault, Drop, Error, Fall, Law, Limits, Mount, Product, ProductFile, Spread, Verdict,
+//!     Component, Damping, DataFault, Drop, Error, Fall, Law, LimitKind, Limits, Mount, Product, ProductFile, Spread, Verdict,
 //! };
 //! use clatter_flight::Body;
 //! let handheld = Product::new("handheld", Body::new(0.15, 0.045)?, Spread::value(0.3)?);
 //! let drop = Drop::new(Fall::HeightM(Spread::value(1.0)?), Spread::new(0.02, 0.1, Law::Range)?);
 //! let mount = Mount::Suspended { frequency_hz: Spread::value(40.0)?, damping: Damping::Ratio(Spread::value(0.05)?) };
-//! let limits = Limits { acceleration_m_s2: Some(Spread::value(300.0)?), ..Limits::default() };
+//! let limits = Limits::default().with(LimitKind::Acceleration, Spread::value(300.0)?);
 //! let board = Component::new("board", Spread::value(0.05)?, mount, limits);
 //! let mut file = ProductFile::new(handheld, drop, vec![board])?;
 //! assert_eq!(file.assess()?.verdict, Verdict::Unsafe);
@@ -83,7 +83,7 @@ pub use error::Error;
 pub use fault::{Fault, Faults};
 pub use plate::{PlateAnswers, PlateDrop, PlatePart};
 pub use portrait::{Changes, Curve, Point, Portrait};
-pub use product::{Boundary, Component, Damping, Drop, Fall, First, Limits, Mount, Product, ProductFile, RecordFile};
+pub use product::{Component, Damping, Drop, Fall, First, Limits, Mount, Product, ProductFile, RecordFile};
 pub use quantity::{Limit, LimitKind, Unit};
 pub use read::LARGEST_FILE;
 pub use repeat::repeat;

@@ -1,11 +1,12 @@
 //! One drop of a plate with contacts that take time, and what it does to a part.
 
 use clatter_flight::{Contact, PlateFlight, PlateScene, Stop, Strike};
-use clatter_shock::{Peaked, Pulses, Response, Suspension};
+use clatter_shock::{Pulses, Response, Suspension};
 
 use crate::drop::{LEAST_SHARE, PRECISION};
 use crate::engine::{Answer, CHATTER, FINER, SAFETY};
 use crate::history::pulses;
+use crate::quantity::Source;
 use crate::shock::{largest, shocks};
 use crate::{Error, LimitKind};
 
@@ -157,21 +158,16 @@ impl Followed {
         let response = pulses.respond(part);
         let rest = pulses.state_at_end(part);
         let rings = if self.later_m_s > 0.0 { (omega * rest.displacement).hypot(rest.velocity) } else { 0.0 };
-        let answer = |kind, peaked: Peaked, unit: f64| {
-            let extremes = match peaked {
-                Peaked::AccelerationOverOmega => response.acceleration_over_omega(),
-                Peaked::PseudoVelocity => response.pseudo_velocity(),
-            };
-            // Acceleration is that of spring and damper.
-            let force = if kind == LimitKind::Acceleration { 2.0 * part.damping().get() } else { 0.0 };
-            let most = (rings + CHATTER * follows * self.later_m_s) * force.hypot(1.0);
-            let peak = extremes.peak();
+        let answer = |kind: LimitKind| {
+            let Source::Response(of) = kind.source() else { unreachable!("the limit is on a response") };
+            let unit = of.of_velocity(1.0, omega);
+            let most = (rings + CHATTER * follows * self.later_m_s) * of.of_damper(part.damping()).hypot(1.0);
+            let peak = of.of(&response).peak();
             let value = peak.value.abs();
             let off_by = unit * (follows * self.precision * self.largest_m_s + (most - value).max(0.0));
             Answer { off_by, ..self.answer(kind, unit * value, peak.time, 0.0) }
         };
-        let acceleration = answer(LimitKind::Acceleration, Peaked::AccelerationOverOmega, omega);
-        let displacement = answer(LimitKind::RattleSpace, Peaked::PseudoVelocity, omega.recip());
+        let [acceleration, displacement] = [LimitKind::Acceleration, LimitKind::RattleSpace].map(answer);
         PlatePart { response, acceleration, displacement }
     }
 }

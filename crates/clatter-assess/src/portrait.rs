@@ -17,11 +17,12 @@ use rayon::prelude::*;
 use crate::design::{Bounds, Change, Lever};
 use crate::drop::{Followed, Model, Motion, SingleDrop, Until};
 use crate::engine::Felt;
+use crate::quantity::Source;
 use crate::search::{Ranges, rough_to_rad_s};
 use crate::shock::Shock;
 use crate::{
-    Assessment, Component, ComponentAssessment, ContactLaw, Error, Limit, LimitAssessment, LimitKind, Part,
-    ProductFile, Unit, Verdict,
+    Assessment, Component, ComponentAssessment, ContactLaw, Error, Limit, LimitAssessment, Part, ProductFile, Unit,
+    Verdict, WorstCase,
 };
 use changes::{Failing, Shared};
 use drops::{Drops, Places, corners, parts, tilts};
@@ -116,7 +117,7 @@ impl ProductFile {
         let portrait = |(component, assessed)| {
             let tightest: &LimitAssessment = ComponentAssessment::tightest(assessed);
             let (history, impacts_s) = self.history(tightest, &ranges).unwrap_or_default();
-            let over_tilt = curves::over_tilt(self, &ranges, &drops[0], (component, tightest), tilts, until);
+            let over_tilt = curves::over_tilt(&ranges, &drops[0], (component, tightest), tilts, until);
             let fastest = bounds.frequency_factor * rough_to_rad_s(component);
             let ends: Vec<_> = drops.iter().map(|drops| Places::new(drops, component.places_m(), fastest)).collect();
             let (mut zone_m, mut changes) = (None, None);
@@ -133,15 +134,15 @@ impl ProductFile {
     /// Past the peaks of the worst cases that come after the product has landed again.
     fn until(&self, assessment: &Assessment) -> Until {
         let worst = assessment.components.iter().flat_map(|c| &c.limits).filter_map(|l| l.worst_case.as_ref());
-        let late = worst.filter(|worst| self.worst_drop(worst).is_ok_and(|(drop, _)| worst.time_s > drop.clear_s()));
+        let late = worst.filter(|worst| worst.time_s > worst.drop.clear_s());
         late.map(|worst| worst.time_s).reduce(f64::max).map_or(Until::Lands, Until::Past)
     }
 
     fn history(&self, limit: &LimitAssessment, ranges: &Ranges<'_>) -> Result<(Curve, Vec<f64>), Error> {
         let Some(worst) = &limit.worst_case else { return Ok(Default::default()) };
-        let (drop, part) = self.worst_drop(worst)?;
-        let followed = Followed::new(&drop, ranges.model, ranges.tolerance)?;
-        let felt = Felt::new(&followed, worst.position_m)?;
+        let WorstCase { drop, part, .. } = worst;
+        let followed = Followed::new(drop, ranges.model, ranges.tolerance)?;
+        let felt = Felt::new(&followed, part.position_m)?;
         let impacts: Vec<f64> = followed.flight().strikes.iter().map(|s| s.time_s).collect();
         let period = part.suspension.map_or(0.0, |s| std::f64::consts::TAU / s.omega());
         // to the peak and a little on; what comes long after it is far weaker
@@ -150,17 +151,14 @@ impl ProductFile {
         let late = worst.time_s.max(0.25 * clatter);
         let strikes = impacts.iter().copied().filter(|t| *t <= 4.0 * late).fold(late, f64::max);
         let end = (1.25 * strikes).max(worst.time_s + 2.5 * period).max(1e-9);
-        let history = match (limit.limit, part.suspension) {
-            (LimitKind::Acceleration | LimitKind::RattleSpace, Some(suspension)) => {
-                let acceleration = limit.limit == LimitKind::Acceleration;
+        let history = match (limit.limit.source(), part.suspension) {
+            (Source::Response(peak), Some(suspension)) => {
                 let slices = felt.slices((end / POINTS).min(period / 64.0), end);
-                respond(&suspension, &slices, end, |state| {
-                    if acceleration { suspension.absolute_acceleration(state) } else { state.displacement }
-                })
+                respond(&suspension, &slices, end, |state| peak.of_state(&suspension, state))
             }
-            (LimitKind::AngularVelocityChange, _) => spikes(&followed.turns(), 1.0, end),
-            (LimitKind::VelocityChange, _) => spikes(&felt.shocks(), 1.0, end),
-            (LimitKind::DamageBoundary, _) if limit.unit == Unit::MeterPerSecond => spikes(&felt.shocks(), 1.0, end),
+            (Source::Turn, _) => spikes(&followed.turns(), 1.0, end),
+            (Source::Shock, _) => spikes(&felt.shocks(), 1.0, end),
+            (Source::Boundary, _) if limit.unit == Unit::MeterPerSecond => spikes(&felt.shocks(), 1.0, end),
             _ if matches!(followed.motion, Motion::Impacts(..)) => {
                 let factor = std::f64::consts::FRAC_PI_2 / drop.contact_time_s.ok_or(Error::Contact)?;
                 spikes(&felt.shocks(), factor, end)

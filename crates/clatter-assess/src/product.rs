@@ -213,60 +213,68 @@ impl Damping {
 
 /// What a part stands; at least one limit is set. Each is finite and positive. Where one has a range, its least value is held
 /// against the worst drop.
+///
+/// # Examples
+/// ```
+/// use clatter_assess::{LimitKind, Limits, Spread};
+/// let limits = Limits::default()
+///     .with(LimitKind::RattleSpace, Spread::value(2e-3)?)
+///     .with_damage_boundary(Spread::value(3.0)?, Spread::value(5e3)?);
+/// assert_eq!(limits.kinds(), [LimitKind::RattleSpace, LimitKind::DamageBoundary]);
+/// # Ok::<(), clatter_assess::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Limits {
-    /// Peak absolute acceleration of the part, in m/s².
-    pub acceleration_m_s2: Option<Spread>,
-    /// Peak displacement relative to the bar, in m.
-    pub rattle_space_m: Option<Spread>,
-    /// Largest single velocity shock of the bar at the part, in m/s.
-    pub velocity_change_m_s: Option<Spread>,
-    /// Largest single change of the bar's angular velocity, in rad/s.
-    pub angular_velocity_change_rad_s: Option<Spread>,
-    /// Critical velocity change and acceleration of shocks of the bar at the part.
-    pub damage_boundary: Option<Boundary>,
+    allowed: [Option<Spread>; LimitKind::ALL.len()],
+    critical_acceleration_m_s2: Option<Spread>,
 }
 
 impl Limits {
+    /// The same with what is allowed of a kind, in its SI unit ([`LimitKind::unit`]). A damage boundary needs its acceleration too: see
+    /// [`with_damage_boundary`](Self::with_damage_boundary).
+    #[must_use]
+    pub fn with(mut self, kind: LimitKind, allowed: Spread) -> Self {
+        self.allowed[kind as usize] = Some(allowed);
+        self
+    }
+    /// The same with a damage boundary: a shock of the product at the part does damage only beyond both, a velocity change and an
+    /// acceleration.
+    #[must_use]
+    pub fn with_damage_boundary(self, velocity_change_m_s: Spread, acceleration_m_s2: Spread) -> Self {
+        let with = self.with(LimitKind::DamageBoundary, velocity_change_m_s);
+        Self { critical_acceleration_m_s2: Some(acceleration_m_s2), ..with }
+    }
+    /// The same without a limit of a kind.
+    #[must_use]
+    pub fn without(mut self, kind: LimitKind) -> Self {
+        self.allowed[kind as usize] = None;
+        self
+    }
+    /// What is allowed of a kind; of a damage boundary the critical velocity change.
+    #[must_use]
+    pub fn get(&self, kind: LimitKind) -> Option<&Spread> {
+        self.allowed[kind as usize].as_ref()
+    }
+    pub(crate) fn get_mut(&mut self, kind: LimitKind) -> Option<&mut Spread> {
+        self.allowed[kind as usize].as_mut()
+    }
+    /// The critical acceleration of a damage boundary.
+    #[must_use]
+    pub fn critical_acceleration_m_s2(&self) -> Option<&Spread> {
+        self.critical_acceleration_m_s2.as_ref().filter(|_| self.get(LimitKind::DamageBoundary).is_some())
+    }
     /// Those that are set, in a fixed order.
     #[must_use]
     pub fn kinds(&self) -> Vec<LimitKind> {
-        let all = [
-            (LimitKind::Acceleration, self.acceleration_m_s2.is_some()),
-            (LimitKind::RattleSpace, self.rattle_space_m.is_some()),
-            (LimitKind::VelocityChange, self.velocity_change_m_s.is_some()),
-            (LimitKind::AngularVelocityChange, self.angular_velocity_change_rad_s.is_some()),
-            (LimitKind::DamageBoundary, self.damage_boundary.is_some()),
-        ];
-        all.into_iter().filter(|(_, set)| *set).map(|(kind, _)| kind).collect()
+        LimitKind::ALL.into_iter().filter(|kind| self.get(*kind).is_some()).collect()
     }
-}
-
-impl Limits {
     /// The unit in which the file gives a limit; of a damage boundary that of its velocity change or, by the SI unit, of its
     /// acceleration.
     #[must_use]
     pub fn unit(&self, kind: LimitKind, si: Unit) -> Option<&'static units::Unit> {
-        let boundary = self.damage_boundary.as_ref();
-        let spread = match kind {
-            LimitKind::Acceleration => self.acceleration_m_s2.as_ref(),
-            LimitKind::RattleSpace => self.rattle_space_m.as_ref(),
-            LimitKind::VelocityChange => self.velocity_change_m_s.as_ref(),
-            LimitKind::AngularVelocityChange => self.angular_velocity_change_rad_s.as_ref(),
-            LimitKind::DamageBoundary if si == Unit::MeterPerSecondSquared => boundary.map(|b| &b.acceleration_m_s2),
-            LimitKind::DamageBoundary => boundary.map(|b| &b.velocity_change_m_s),
-        };
+        let spread = if si == kind.unit() { self.get(kind) } else { self.critical_acceleration_m_s2() };
         spread.and_then(Spread::unit)
     }
-}
-
-/// A damage boundary: a shock does damage only beyond both.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Boundary {
-    /// Critical velocity change, in m/s.
-    pub velocity_change_m_s: Spread,
-    /// Critical acceleration of the pulse, in m/s².
-    pub acceleration_m_s2: Spread,
 }
 
 /// A file in which a drop of the product was measured.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use clatter_shock::{Pulse, Pulses, Shape, Suspension};
+use clatter_shock::{DampingRatio, Extremes, Peaked, Pulse, Pulses, Response, Shape, State, Suspension};
 use serde::Serialize;
 
 use crate::{Component, Error, Mount, Product};
@@ -41,34 +41,204 @@ pub enum Unit {
     RadianPerSecond,
 }
 
+/// What a limited quantity is taken from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Source {
+    /// The response of a suspended part; of one that is mounted rigidly the acceleration of its place.
+    Response(ResponsePeak),
+    /// Velocity shocks of the place.
+    Shock,
+    /// Changes of the angular velocity of the product, the same everywhere.
+    Turn,
+    /// Velocity change and acceleration of a shock, of which the one counts that leaves more room.
+    Boundary,
+}
+
+/// A peak of the response of a part, times a power of its natural frequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ResponsePeak {
+    /// As a velocity.
+    pub(crate) peaked: Peaked,
+    power: i32,
+}
+
+impl ResponsePeak {
+    /// The quantity that a peak is, told as a velocity, of a part with this natural frequency.
+    pub(crate) fn of_velocity(self, velocity: f64, omega: f64) -> f64 {
+        if self.power < 0 { velocity / omega.powi(-self.power) } else { velocity * omega.powi(self.power) }
+    }
+    /// Of a response, as velocities.
+    pub(crate) fn of(self, response: &Response) -> Extremes {
+        match self.peaked {
+            Peaked::AccelerationOverOmega => response.acceleration_over_omega(),
+            Peaked::PseudoVelocity => response.pseudo_velocity(),
+        }
+    }
+    /// Of a state of the part.
+    pub(crate) fn of_state(self, part: &Suspension, state: State) -> f64 {
+        let omega = part.omega();
+        let velocity = match self.peaked {
+            Peaked::AccelerationOverOmega => part.absolute_acceleration(state) / omega,
+            Peaked::PseudoVelocity => omega * state.displacement,
+        };
+        self.of_velocity(velocity, omega)
+    }
+    /// Whether stiffer parts are asked for more as a rule.
+    pub(crate) fn grows_with_frequency(self) -> bool {
+        self.power > 0
+    }
+    /// The peak after a velocity shock of 1, from rest.
+    pub(crate) fn after_impulse(self, damping: DampingRatio) -> f64 {
+        let factors = damping.impulse_factors();
+        match self.peaked {
+            Peaked::AccelerationOverOmega => factors.acceleration,
+            Peaked::PseudoVelocity => factors.displacement,
+        }
+    }
+    /// What a velocity gives beside a displacement of the same size: the force of the damper.
+    pub(crate) fn of_damper(self, damping: DampingRatio) -> f64 {
+        match self.peaked {
+            Peaked::AccelerationOverOmega => 2.0 * damping.get(),
+            Peaked::PseudoVelocity => 0.0,
+        }
+    }
+}
+
+/// A kind of limit: everything that differs from kind to kind.
+#[derive(Debug)]
+struct Row {
+    kind: LimitKind,
+    name: &'static str,
+    /// Its key in product files.
+    key: &'static str,
+    /// Its name among what can be changed.
+    lever: &'static str,
+    words: &'static str,
+    /// What is measured against it.
+    measured: &'static str,
+    /// What is allowed.
+    allowed: &'static str,
+    unit: Unit,
+    source: Source,
+}
+
+const ROWS: [Row; 5] = [
+    Row {
+        kind: LimitKind::Acceleration,
+        name: "acceleration",
+        key: "acceleration_limit",
+        lever: "acceleration-limit",
+        words: "acceleration",
+        measured: "acceleration",
+        allowed: "acceleration limit",
+        unit: Unit::MeterPerSecondSquared,
+        source: Source::Response(ResponsePeak { peaked: Peaked::AccelerationOverOmega, power: 1 }),
+    },
+    Row {
+        kind: LimitKind::RattleSpace,
+        name: "rattle-space",
+        key: "rattle_space",
+        lever: "rattle-space",
+        words: "rattle space",
+        measured: "displacement",
+        allowed: "rattle space",
+        unit: Unit::Meter,
+        source: Source::Response(ResponsePeak { peaked: Peaked::PseudoVelocity, power: -1 }),
+    },
+    Row {
+        kind: LimitKind::VelocityChange,
+        name: "velocity-change",
+        key: "velocity_change_limit",
+        lever: "velocity-change-limit",
+        words: "velocity change",
+        measured: "velocity change",
+        allowed: "velocity change limit",
+        unit: Unit::MeterPerSecond,
+        source: Source::Shock,
+    },
+    Row {
+        kind: LimitKind::AngularVelocityChange,
+        name: "angular-velocity-change",
+        key: "angular_velocity_change_limit",
+        lever: "angular-velocity-change-limit",
+        words: "angular velocity change",
+        measured: "angular velocity change",
+        allowed: "angular velocity change limit",
+        unit: Unit::RadianPerSecond,
+        source: Source::Turn,
+    },
+    Row {
+        kind: LimitKind::DamageBoundary,
+        name: "damage-boundary",
+        key: "damage_boundary",
+        lever: "damage-boundary",
+        words: "damage boundary",
+        measured: "velocity change",
+        allowed: "critical velocity change",
+        unit: Unit::MeterPerSecond,
+        source: Source::Boundary,
+    },
+];
+
 impl LimitKind {
+    /// Every kind, in the order in which limits of a part are told.
+    pub const ALL: [Self; ROWS.len()] = {
+        let mut all = [Self::Acceleration; ROWS.len()];
+        let mut k = 0;
+        while k < ROWS.len() {
+            // A row stands where its kind does.
+            assert!(ROWS[k].kind as usize == k);
+            all[k] = ROWS[k].kind;
+            k += 1;
+        }
+        all
+    };
+    fn row(self) -> &'static Row {
+        &ROWS[self as usize]
+    }
     /// `acceleration`, `rattle-space`, …
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Acceleration => "acceleration",
-            Self::RattleSpace => "rattle-space",
-            Self::VelocityChange => "velocity-change",
-            Self::AngularVelocityChange => "angular-velocity-change",
-            Self::DamageBoundary => "damage-boundary",
-        }
+        self.row().name
     }
-    /// Whether the worst place of an extended part may lie between its ends.
-    pub(crate) fn is_largest_between(self) -> bool {
-        match self {
-            Self::VelocityChange | Self::DamageBoundary => true,
-            Self::Acceleration | Self::RattleSpace | Self::AngularVelocityChange => false,
-        }
+    /// Its key in product files: `acceleration_limit`, `rattle_space`, …
+    #[must_use]
+    pub fn key(self) -> &'static str {
+        self.row().key
+    }
+    pub(crate) fn lever(self) -> &'static str {
+        self.row().lever
+    }
+    /// In running text: `acceleration`, `rattle space`, …
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        self.row().words
+    }
+    /// What is measured against it, in running text: `acceleration`, `displacement`, …; of a damage boundary by the unit.
+    #[must_use]
+    pub fn measured(self, unit: Unit) -> &'static str {
+        if unit == self.unit() { self.row().measured } else { LimitKind::Acceleration.row().measured }
+    }
+    /// What is allowed, in running text: `acceleration limit`, `rattle space`, …; of a damage boundary its critical velocity change.
+    #[must_use]
+    pub fn allowed(self) -> &'static str {
+        self.row().allowed
     }
     /// The unit of the limit; of a damage boundary that of its velocity change.
     #[must_use]
     pub fn unit(self) -> Unit {
-        match self {
-            Self::Acceleration => Unit::MeterPerSecondSquared,
-            Self::RattleSpace => Unit::Meter,
-            Self::VelocityChange | Self::DamageBoundary => Unit::MeterPerSecond,
-            Self::AngularVelocityChange => Unit::RadianPerSecond,
-        }
+        self.row().unit
+    }
+    pub(crate) fn source(self) -> Source {
+        self.row().source
+    }
+    /// Whether it is on the response of a suspended part.
+    pub(crate) fn is_response(self) -> bool {
+        matches!(self.source(), Source::Response(_))
+    }
+    /// Whether the worst place of an extended part may lie between its ends.
+    pub(crate) fn is_largest_between(self) -> bool {
+        matches!(self.source(), Source::Shock | Source::Boundary)
     }
 }
 
@@ -109,21 +279,12 @@ impl Limit {
     }
     /// The same at other values of their ranges.
     pub(crate) fn at(component: &Component, mut value: impl FnMut(&crate::Spread) -> f64) -> Vec<Self> {
-        let limits = &component.limits;
-        let mut list = Vec::new();
-        let mut add = |kind, spread: &Option<crate::Spread>| {
-            list.extend(spread.as_ref().map(|spread| Self::new(kind, value(spread))));
+        let mut of = |kind| {
+            let allowed = value(component.limits.get(kind)?);
+            let critical = component.limits.critical_acceleration_m_s2().filter(|_| kind == LimitKind::DamageBoundary);
+            Some(Self { kind, allowed, critical_acceleration_m_s2: critical.map_or(f64::INFINITY, &mut value) })
         };
-        add(LimitKind::Acceleration, &limits.acceleration_m_s2);
-        add(LimitKind::RattleSpace, &limits.rattle_space_m);
-        add(LimitKind::VelocityChange, &limits.velocity_change_m_s);
-        add(LimitKind::AngularVelocityChange, &limits.angular_velocity_change_rad_s);
-        list.extend(limits.damage_boundary.as_ref().map(|boundary| Self {
-            kind: LimitKind::DamageBoundary,
-            allowed: value(&boundary.velocity_change_m_s),
-            critical_acceleration_m_s2: value(&boundary.acceleration_m_s2),
-        }));
-        list
+        LimitKind::ALL.into_iter().filter_map(&mut of).collect()
     }
     /// Checks that what is allowed is positive; infinity is no limit.
     pub(crate) fn check(&self) -> Result<(), Error> {
@@ -134,7 +295,7 @@ impl Limit {
     /// Whether it is on the response of a suspended part.
     #[must_use]
     pub fn is_response(&self) -> bool {
-        matches!(self.kind, LimitKind::Acceleration | LimitKind::RattleSpace)
+        self.kind.is_response()
     }
     /// What one impact without clatter, (1 + e) v0 at every place at once, would ask, and of what is allowed; with a contact time
     /// as a half-sine of that length.
@@ -148,24 +309,17 @@ impl Limit {
         suspension: Option<&Suspension>,
     ) -> Result<f64, Error> {
         let amplitude = |duration: f64| delta_v_m_s / (Shape::HalfSine.area() * duration);
-        let acceleration = self.kind == LimitKind::Acceleration;
-        Ok(match (self.kind, suspension, contact_time_s) {
-            (LimitKind::AngularVelocityChange, ..) => 0.0,
-            (LimitKind::VelocityChange | LimitKind::DamageBoundary, ..) => delta_v_m_s,
-            (_, None, time) => time.map_or(f64::INFINITY, amplitude),
-            (_, Some(part), None) => {
-                let factors = part.damping().impulse_factors();
-                if acceleration {
-                    delta_v_m_s * part.omega() * factors.acceleration
-                } else {
-                    delta_v_m_s / part.omega() * factors.displacement
-                }
+        Ok(match (self.kind.source(), suspension, contact_time_s) {
+            (Source::Turn, ..) => 0.0,
+            (Source::Shock | Source::Boundary, ..) => delta_v_m_s,
+            (Source::Response(_), None, time) => time.map_or(f64::INFINITY, amplitude),
+            (Source::Response(peak), Some(part), None) => {
+                peak.of_velocity(delta_v_m_s, part.omega()) * peak.after_impulse(part.damping())
             }
-            (_, Some(part), Some(duration)) => {
+            (Source::Response(peak), Some(part), Some(duration)) => {
                 let pulse = Pulse { shape: Shape::HalfSine, amplitude: amplitude(duration), duration, start: 0.0 };
                 let response = Pulses::new(&[pulse])?.respond(part);
-                let peak = if acceleration { response.absolute_acceleration } else { response.relative_displacement };
-                peak.magnitude()
+                peak.of_velocity(peak.of(&response).magnitude(), part.omega())
             }
         })
     }
@@ -179,8 +333,8 @@ const SHORT_PULSE: f64 = 1.0;
 
 /// Why a component cannot be assessed without the product's contact time; `None` where it can.
 pub(crate) fn lacks_contact_time(product: &Product, component: &Component) -> Option<String> {
-    let limits = &component.limits;
-    if product.contact_time_s.is_some() || (limits.acceleration_m_s2.is_none() && limits.rattle_space_m.is_none()) {
+    let responds = component.limits.kinds().into_iter().any(LimitKind::is_response);
+    if product.contact_time_s.is_some() || !responds {
         return None;
     }
     match component.mount {

@@ -1,6 +1,11 @@
 //! The short command that answers a worst drop once more, from the product file.
 
-use crate::{Accuracy, LimitKind, visible};
+use std::f64::consts::TAU;
+
+use clatter::End;
+use clatter_flight::ContactLaw;
+
+use crate::{Accuracy, LimitKind, Model, WorstCase, visible};
 
 /// `clatter respond --product=… --component=… --worst=…`, which searches the worst drop of a limit again and answers it; with the model
 /// and the tolerance, where they are not those that an assessment has by itself. None where the command line cannot say it: for a file
@@ -30,6 +35,49 @@ pub fn repeat(path: &str, component: &str, limit: LimitKind, accuracy: &Accuracy
         command.extend([" --tolerance=", &format!("{:?}", accuracy.tolerance)]);
     }
     said.then_some(command)
+}
+
+impl WorstCase {
+    /// The command that answers the drop once more.
+    #[must_use]
+    pub fn command(&self) -> String {
+        let drop = &self.drop;
+        let [a, b] = drop.body.arms_m();
+        let side = if drop.first == End::A { 1.0 } else { -1.0 };
+        let length = a + b;
+        let mut command = format!("clatter respond --model={} --length-m={length:?}", self.model.name());
+        let mut add = |flag: &str, value: f64| command.extend([" --", flag, "=", &format!("{value:?}")]);
+        add("gyration-m", drop.body.gyration_m());
+        let center = side * (a - b) / length;
+        if center != 0.0 {
+            add("center-of-mass", center);
+        }
+        add("e", drop.restitution);
+        add("speed-m-s", drop.speed_m_s);
+        if drop.flat {
+            command.push_str(" --flat");
+        } else {
+            let tilt = format!("{:?}", drop.tilt_rad.to_degrees());
+            command.extend([" --tilt-deg=", &tilt]);
+        }
+        let mut add = |flag: &str, value: f64| command.extend([" --", flag, "=", &format!("{value:?}")]);
+        add("gravity-m-s2", drop.gravity_m_s2);
+        add("at", drop.relative(self.part.position_m) + 0.0);
+        if let Some((hz, ratio)) = self.part.suspension.map(|part| (part.omega() / TAU, part.damping().get())) {
+            add("omega", TAU * hz);
+            add("damping", ratio);
+        }
+        add("tolerance", self.tolerance);
+        let contacts = self.model == Model::Compliant;
+        // The acceleration of a part that is mounted rigidly is that of the contact time, by any model.
+        if let Some(time) = drop.contact_time_s.filter(|_| contacts || self.part.suspension.is_none()) {
+            add("contact-time-s", time);
+            if contacts && drop.contact_law == ContactLaw::Dashpot {
+                command.push_str(" --contact-law=dashpot");
+            }
+        }
+        command
+    }
 }
 
 /// Longer names make no short command.

@@ -20,7 +20,8 @@ use rayon::prelude::*;
 
 use crate::drop::{Followed, SingleDrop, Until};
 use crate::engine::{Answer, Felt, Part, of_followed, once};
-use crate::{Component, Error, Limit, LimitKind, Mount};
+use crate::quantity::Source;
+use crate::{Component, Error, Limit, Mount};
 use climb::{CLIMBS, EDGES_REACH, EDGES_TRIES, LATE_REACH, LATE_TRIES, NEAR, starts};
 use ranges::{DAMPING, FREQUENCY, RESTITUTION};
 pub(crate) use ranges::{Place, Ranges};
@@ -282,7 +283,7 @@ impl Ranges<'_> {
                 let felt = Felt::rough(&early, position_m, rough_to_rad_s(of_one[0].component))?;
                 for (task, number) in of_one.iter().zip(numbers.clone()) {
                     // Turns are the same everywhere.
-                    let again = n > 0 && task.limit.kind == LimitKind::AngularVelocityChange;
+                    let again = n > 0 && task.limit.kind.source() == Source::Turn;
                     let between = n % own >= ends && !task.limit.kind.is_largest_between();
                     if again || between || only.is_some_and(|only| !only[number]) {
                         continue;
@@ -378,7 +379,8 @@ impl Ranges<'_> {
         above: f64,
     ) -> Result<Option<Asked>, Error> {
         let free = self.free(task);
-        let end = if task.limit.kind == LimitKind::Acceleration { 1.0 } else { 0.0 };
+        let grows = matches!(task.limit.kind.source(), Source::Response(peak) if peak.grows_with_frequency());
+        let end = if grows { 1.0 } else { 0.0 };
         let mut worst = Self::in_drop(task, &place.with(FREQUENCY, end), felt, above)?;
         let mut ask = |place: &Place| -> Result<(), Error> {
             let above = worst.map_or(above, |worst| worst.answer.utilization());

@@ -1,9 +1,11 @@
 //! What an assessment says.
 
+use std::f64::consts::TAU;
+
 use clatter::End;
 use serde::{Serialize, Serializer};
 
-use crate::{Component, LimitKind, Model, ProductFile, Unit};
+use crate::{Component, LimitKind, Model, Part, ProductFile, SingleDrop, Unit};
 
 /// Whether every limit holds in the worst drop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -188,35 +190,86 @@ pub struct LimitAssessment {
 }
 
 /// A drop, and where in the component and when it does the worst.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WorstCase {
-    /// The end that touches first.
-    #[serde(serialize_with = "letter")]
-    pub first: End,
-    /// Angle to the ground at the first touch.
-    pub tilt_deg: f64,
-    /// Whether both ends land as one, so close that no contact time tells them apart.
-    pub flat: bool,
-    /// Speed at the first touch.
-    pub speed_m_s: f64,
-    /// Coefficient of restitution.
-    pub restitution: f64,
-    /// How long a lone contact takes; null where that is not known.
-    pub contact_time_s: Option<f64>,
-    /// Radius of gyration, in m; null where the file gives one value.
-    pub gyration_m: Option<f64>,
-    /// Natural frequency of the part; null for a hard-mounted one and where it does not matter.
-    pub frequency_hz: Option<f64>,
-    /// Its damping ratio, likewise.
-    pub damping_ratio: Option<f64>,
-    /// Where in the part.
-    pub position_m: f64,
+    /// The drop.
+    pub drop: SingleDrop,
+    /// The place in the component, and the suspension that it has in this drop; none where it does not matter.
+    pub part: Part,
+    /// Whether the file gives a range of radii of gyration, of which this drop has one.
+    pub gyration_varies: bool,
     /// The impact that does it, or that the peak follows; from 1.
     pub impact: u64,
     /// When, since the first touch.
     pub time_s: f64,
-    /// The command that repeats this drop.
-    pub command: String,
+    /// The model that answers the drop.
+    pub model: Model,
+    /// To which tolerance it does.
+    pub tolerance: f64,
+}
+
+impl WorstCase {
+    /// Angle to the ground at the first touch.
+    #[must_use]
+    pub fn tilt_deg(&self) -> f64 {
+        self.drop.tilt_rad.to_degrees()
+    }
+    /// Radius of gyration; none where the file gives one value.
+    #[must_use]
+    pub fn gyration_m(&self) -> Option<f64> {
+        self.gyration_varies.then(|| self.drop.body.gyration_m())
+    }
+    /// Natural frequency of the part; none for a hard-mounted one and where it does not matter.
+    #[must_use]
+    pub fn frequency_hz(&self) -> Option<f64> {
+        self.part.suspension.map(|part| part.omega() / TAU)
+    }
+    /// Its damping ratio, likewise.
+    #[must_use]
+    pub fn damping_ratio(&self) -> Option<f64> {
+        self.part.suspension.map(|part| part.damping().get())
+    }
+}
+
+/// A worst case as it is written for programs.
+#[derive(Serialize)]
+struct WorstCaseRow {
+    #[serde(serialize_with = "letter")]
+    first: End,
+    tilt_deg: f64,
+    flat: bool,
+    speed_m_s: f64,
+    restitution: f64,
+    contact_time_s: Option<f64>,
+    gyration_m: Option<f64>,
+    frequency_hz: Option<f64>,
+    damping_ratio: Option<f64>,
+    position_m: f64,
+    impact: u64,
+    time_s: f64,
+    command: String,
+}
+
+impl Serialize for WorstCase {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let SingleDrop { first, flat, speed_m_s, restitution, contact_time_s, .. } = self.drop;
+        let row = WorstCaseRow {
+            first,
+            tilt_deg: self.tilt_deg(),
+            flat,
+            speed_m_s,
+            restitution,
+            contact_time_s,
+            gyration_m: self.gyration_m(),
+            frequency_hz: self.frequency_hz(),
+            damping_ratio: self.damping_ratio(),
+            position_m: self.part.position_m,
+            impact: self.impact,
+            time_s: self.time_s,
+            command: self.command(),
+        };
+        row.serialize(serializer)
+    }
 }
 
 /// The model behind a demand.

@@ -1,6 +1,6 @@
 //! Bad product files: every fault is told, with the value, its place and what is allowed, all at once.
 
-use clatter_assess::{EXAMPLE, Faults, ProductFile};
+use clatter_assess::{EXAMPLE, Faults, LimitKind, ProductFile};
 
 fn faults(text: &str) -> Faults {
     ProductFile::read(text, "product.toml").expect_err("a bad file")
@@ -75,7 +75,7 @@ fn units_are_read_as_people_write_them() {
     let read = |line: &str, other: &str| ProductFile::read(&with(line, other), "p").unwrap_or_else(|f| panic!("{f}"));
     let limit = |text: &str| {
         let file = read("acceleration_limit = \"1600 gn\"", &format!("acceleration_limit = \"{text}\""));
-        file.components[0].limits.acceleration_m_s2.unwrap()
+        *file.components[0].limits.get(LimitKind::Acceleration).unwrap()
     };
     for text in ["1600 g", "1600G", "1600 gn", "15690.64 m/s^2", "15690.64 m/s²", "15690.64 m/s2"] {
         assert!((limit(text).lo() / 15_690.64 - 1.0).abs() < 1e-12, "{text}");

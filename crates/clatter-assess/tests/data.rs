@@ -6,8 +6,8 @@ use clatter::End;
 use clatter_assess::design::{Bounds, Plane};
 use clatter_assess::fit::{self, Known, Measured, MeasuredStrike};
 use clatter_assess::{
-    Accuracy, Boundary, Component, Damping, DataFault, Drop, EXAMPLE, Error, Fall, First, Law, Limit, LimitKind,
-    Limits, Model, Mount, Part, Product, ProductFile, RecordFile, SingleDrop, Spread, answer, respond, scatter,
+    Accuracy, Component, Damping, DataFault, Drop, EXAMPLE, Error, Fall, First, Law, Limit, LimitKind, Limits, Model,
+    Mount, Part, Product, ProductFile, RecordFile, SingleDrop, Spread, answer, respond, scatter,
 };
 use clatter_flight::Body;
 use clatter_shock::{DampingRatio, Suspension};
@@ -24,19 +24,22 @@ fn phone() -> ProductFile {
     product.contact_time_s = Some(value(0.4e-3));
     product.mass_kg = Some(0.19);
     let drop = Drop::new(Fall::HeightM(value(1.0)), Spread::new(0.0, 0.1, Law::Range).unwrap());
-    let boundary = Boundary { velocity_change_m_s: value(9.0), acceleration_m_s2: value(5e3) };
-    let limits = Limits {
-        acceleration_m_s2: Some(value(9e3)),
-        velocity_change_m_s: Some(value(12.0)),
-        angular_velocity_change_rad_s: Some(value(90.0)),
-        damage_boundary: Some(boundary),
-        rattle_space_m: None,
-    };
+    let limits = Limits::default()
+        .with(LimitKind::Acceleration, value(9e3))
+        .with(LimitKind::VelocityChange, value(12.0))
+        .with(LimitKind::AngularVelocityChange, value(90.0))
+        .with_damage_boundary(value(9.0), value(5e3));
     let hard = Component::new("display", value(-0.02), Mount::Hard, limits);
     let mount = Mount::Suspended { frequency_hz: value(180.0), damping: Damping::Ratio(value(0.05)) };
-    let limits = Limits { rattle_space_m: Some(value(2e-3)), ..limits };
+    let limits = limits.with(LimitKind::RattleSpace, value(2e-3));
     let board = Component { extent_m: 0.01, ..Component::new("board", value(0.05), mount, limits) };
     ProductFile::new(product, drop, vec![hard, board]).expect("it is sound")
+}
+
+fn limit(file: &mut ProductFile, component: usize, kind: LimitKind, x: f64) -> Result<(), Error> {
+    let limits = &mut file.components[component].limits;
+    *limits = limits.with(kind, Spread::value(x)?);
+    Ok(())
 }
 
 /// Of a field its key, the SI unit, how it is set, values that are allowed and values that are not.
@@ -152,33 +155,33 @@ const FIELDS: &[Field] = &[
     },
     Field {
         key: "acceleration_limit",
-        set: spread!(file, x => file.components[0].limits.acceleration_m_s2),
+        set: |file, x| limit(file, 0, LimitKind::Acceleration, x),
         allowed: &[100.0, 1e6],
         refused: &[0.0, -100.0, 9e-3, 1e9],
     },
     Field {
         key: "rattle_space",
-        set: spread!(file, x => file.components[1].limits.rattle_space_m),
+        set: |file, x| limit(file, 1, LimitKind::RattleSpace, x),
         allowed: &[1e-4, 0.1],
         refused: &[0.0, -1e-3, 101.0],
     },
     Field {
         key: "velocity_change_limit",
-        set: spread!(file, x => file.components[0].limits.velocity_change_m_s),
+        set: |file, x| limit(file, 0, LimitKind::VelocityChange, x),
         allowed: &[0.1, 100.0],
         refused: &[0.0, -1.0, 1001.0],
     },
     Field {
         key: "angular_velocity_change_limit",
-        set: spread!(file, x => file.components[0].limits.angular_velocity_change_rad_s),
+        set: |file, x| limit(file, 0, LimitKind::AngularVelocityChange, x),
         allowed: &[0.1, 1e3],
         refused: &[0.0, -1.0, 1.1e6],
     },
     Field {
         key: "velocity_change",
         set: |file, x| {
-            let boundary = Boundary { velocity_change_m_s: Spread::value(x)?, acceleration_m_s2: value(5e3) };
-            file.components[0].limits.damage_boundary = Some(boundary);
+            let limits = &mut file.components[0].limits;
+            *limits = limits.with_damage_boundary(Spread::value(x)?, value(5e3));
             Ok(())
         },
         allowed: &[0.1, 100.0],
@@ -187,8 +190,8 @@ const FIELDS: &[Field] = &[
     Field {
         key: "acceleration",
         set: |file, x| {
-            let boundary = Boundary { velocity_change_m_s: value(9.0), acceleration_m_s2: Spread::value(x)? };
-            file.components[0].limits.damage_boundary = Some(boundary);
+            let limits = &mut file.components[0].limits;
+            *limits = limits.with_damage_boundary(value(9.0), Spread::value(x)?);
             Ok(())
         },
         allowed: &[100.0, 1e6],
@@ -297,7 +300,11 @@ fn rules_between_fields_hold_in_code() {
              angular_velocity_change_limit, damage_boundary",
         ),
         (
-            |file| file.components[0].limits.rattle_space_m = Some(value(1e-3)),
+            |file| file.components[1].limits = Limits::default().with(LimitKind::DamageBoundary, value(3.0)),
+            "component \"board\": its damage boundary has a velocity change alone; give its acceleration too",
+        ),
+        (
+            |file| limit(file, 0, LimitKind::RattleSpace, 1e-3).unwrap(),
             "component \"display\": a hard-mounted part has no `rattle_space`; leave one of both out",
         ),
         (
@@ -465,7 +472,7 @@ fn an_assessment_belongs_to_its_product() {
     let mut others = vec![file.clone(); 3];
     others[0].components.remove(1);
     others[1].components[1].name = "battery".to_owned();
-    others[2].components[1].limits.rattle_space_m = None;
+    others[2].components[1].limits = file.components[1].limits.without(LimitKind::RattleSpace);
     for other in others {
         let error = other.remedies(&assessment, &Bounds::default(), 0.0).expect_err("another product");
         assert_eq!(error, Error::OtherProduct("board".to_owned()));

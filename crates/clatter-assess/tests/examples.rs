@@ -29,7 +29,7 @@ fn is(file: &ProductFile, component: &str, kind: LimitKind, merge_s: f64, by_han
     assert!((limit.demand.expect("an answer") / by_hand - 1.0).abs() < 2e-4, "{:?}, by hand {by_hand}", limit.demand);
     let worst = limit.worst_case.as_ref().expect("an answer");
     let [_, fastest] = file.drop.speeds_m_s();
-    assert!(worst.restitution >= file.product.restitution.hi() && worst.speed_m_s >= fastest, "{worst:?}");
+    assert!(worst.drop.restitution >= file.product.restitution.hi() && worst.drop.speed_m_s >= fastest, "{worst:?}");
 }
 
 #[test]

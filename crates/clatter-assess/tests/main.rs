@@ -9,6 +9,7 @@ mod examples;
 mod fit;
 mod independent;
 mod late;
+mod limits;
 mod mutations;
 mod portrait;
 mod random;

@@ -121,7 +121,7 @@ fn a_flat_drop_is_one_of_the_drops() {
     assert!(hinge(&tilted, 1e-3).demand.expect("a demand") >= flat * (1.0 - 1e-9));
     let apart = hinge(&tilted, 1e-12);
     assert!(apart.demand.expect("a demand") < 0.6 * flat, "{apart:?}");
-    assert!(!apart.worst_case.expect("a drop").flat);
+    assert!(!apart.worst_case.expect("a drop").drop.flat);
 }
 
 /// The same of a soft part: V = 1.5 v₀ at once gives V ω exp(−tan β (π/2 − 3β)), sin β the damping ratio. So do contacts of 0.3 ms.
@@ -292,7 +292,7 @@ fn an_off_center_product_falls_on_either_end() {
         with(OFF_CENTER, " }\ncomponent", ", first = \"b\" }\ncomponent"),
     ]
     .map(|text| only(&text));
-    let first = |limit: &LimitAssessment| limit.worst_case.as_ref().expect("a drop").first;
+    let first = |limit: &LimitAssessment| limit.worst_case.as_ref().expect("a drop").drop.first;
     assert_eq!((first(&either), first(&mirrored)), (End::B, End::A));
     assert_eq!(either.verdict, Verdict::Unsafe);
     let demand = |limit: &LimitAssessment| limit.demand.expect("a demand");
@@ -318,7 +318,7 @@ fn the_worst_radius_of_gyration_counts() {
         let one = with_radius(mm);
         assert!(one <= demand * (1.0 + told.uncertainty), "{mm} mm asks for {one}, the range for {demand}");
     }
-    let worst = told.worst_case.unwrap().gyration_m.unwrap();
+    let worst = told.worst_case.unwrap().gyration_m().unwrap();
     assert!((0.035..=0.047).contains(&worst), "{worst}");
     close(with_radius(1e3 * worst), demand, 0.01);
     assert!(with_radius(47.0) < 0.9 * demand, "it would not show here");
@@ -337,7 +337,7 @@ fn the_worst_place_may_lie_between_the_ends() {
     let limit = only(EXTENDED);
     assert_eq!(limit.verdict, Verdict::Unsafe);
     assert!(limit.demand.expect("a demand") >= 4.967, "{limit:?}");
-    let at = limit.worst_case.expect("a drop").position_m;
+    let at = limit.worst_case.expect("a drop").part.position_m;
     assert!((at - 0.000_482).abs() < 0.5 * 0.0524, "{at}");
 }
 
@@ -354,5 +354,5 @@ fn overdamped_parts_feel_every_strike() {
     let limit = only(OVERDAMPED);
     close(limit.demand.expect("a demand"), 2827.0, 2e-3);
     assert_eq!(limit.verdict, Verdict::Unsafe);
-    assert_eq!(limit.worst_case.expect("a drop").first, End::B);
+    assert_eq!(limit.worst_case.expect("a drop").drop.first, End::B);
 }

@@ -8,7 +8,6 @@ use clatter_shock::{DampingRatio, Frequencies, Quantity, Spectrum, UnevenFilter}
 use serde::Serialize;
 
 use crate::Failure;
-use crate::inputs::law_name;
 use crate::numbers::{Json, figures, given};
 use crate::quantities::neat;
 
@@ -80,7 +79,7 @@ impl Setup {
         let block = self.drop.block();
         let [length, width, thickness] = block.size_m().map(|x| given(neat(1e3 * x)));
         let [x, y, z] = block.gyration_m().map(|x| figures(1e3 * x));
-        let (law, time) = (law_name(self.contact.law()), given(neat(1e3 * self.contact.time_s())));
+        let (law, time) = (self.contact.law().name(), given(neat(1e3 * self.contact.time_s())));
         writeln!(
             out,
             "Any orientation, gravity {} m/s2, {law} contacts of {time} ms",

@@ -11,7 +11,7 @@ use clatter_assess::units::Quantity;
 use clatter_assess::{Accuracy, STANDARD_GRAVITY_M_S2, slip};
 use clatter_flight::{Body, ContactLaw, Scene};
 
-use crate::inputs::{self, LawName, ModelName};
+use crate::inputs::{self, Law, ModelName};
 use crate::numbers::given;
 use crate::one_drop::{OneDrop, PartSetup, Worst};
 use crate::output::Files;
@@ -66,7 +66,7 @@ pub(crate) struct DropArgs {
     contact_time: Option<Quantity>,
     /// What the ground does to an end while it touches, for compliant [default: hysteretic]
     #[arg(long, value_enum, value_name = "LAW", requires = "followed")]
-    contact_law: Option<LawName>,
+    contact_law: Option<Law>,
 
     /// --length in m
     #[arg(long, value_name = "M", allow_hyphen_values = true, value_parser = inputs::length_m, requires = "followed", help_heading = IN_SI, hide_short_help = true)]
@@ -279,7 +279,7 @@ impl DropArgs {
         let scene = self.scene(body, e, [speed, height_m], tilt_deg, gravity)?;
         let part = file.as_mut().map(|file| file.part(half)).transpose()?.flatten();
         let shown = self.shown(length.and_then(|length| length.unit), beside, file.as_ref());
-        let law = self.contact_law.map(Into::into).or(file.as_ref().map(OneDrop::contact_law)).unwrap_or_default();
+        let law = self.contact_law.map(|law| law.0).or(file.as_ref().map(OneDrop::contact_law)).unwrap_or_default();
         if let Some(mut file) = file {
             if length.is_some() && beside.gyration.is_none() && beside.masses.is_empty() {
                 file.note("the radius of gyration and the center of mass go with the length");

@@ -3,6 +3,7 @@
 //! Every value is checked by the type that it becomes, so a range is written down once, in the model.
 
 use clap::ValueEnum;
+use clap::builder::PossibleValue;
 use clatter::{Axis, Bar, End, Error, Mass, OffCenterBar, Plate, PlateStart, Start};
 use clatter_assess::units::{Quantity, SHARE};
 use clatter_assess::{Accuracy, Model, Slip};
@@ -356,28 +357,20 @@ impl From<ModelName> for Model {
 }
 
 /// What the ground does to an end while it touches.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum LawName {
-    /// The force rises and falls like a half-sine, as in shock tables and standards
-    Hysteretic,
-    /// A spring and a dashpot: the force jumps at the touch; for some rubber
-    Dashpot,
-}
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Law(pub(crate) ContactLaw);
 
-impl From<LawName> for ContactLaw {
-    fn from(name: LawName) -> Self {
-        match name {
-            LawName::Hysteretic => Self::Hysteretic,
-            LawName::Dashpot => Self::Dashpot,
-        }
+impl ValueEnum for Law {
+    fn value_variants<'a>() -> &'a [Self] {
+        const ALL: [Law; 2] = [Law(ContactLaw::ALL[0]), Law(ContactLaw::ALL[1])];
+        &ALL
     }
-}
-
-/// The name of a contact law, as it is given.
-pub(crate) fn law_name(law: ContactLaw) -> &'static str {
-    match law {
-        ContactLaw::Hysteretic => "hysteretic",
-        ContactLaw::Dashpot => "dashpot",
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let help = match self.0 {
+            ContactLaw::Hysteretic => "The force rises and falls like a half-sine, as in shock tables and standards",
+            ContactLaw::Dashpot => "A spring and a dashpot: the force jumps at the touch; for some rubber",
+        };
+        Some(PossibleValue::new(self.0.name()).help(help))
     }
 }
 

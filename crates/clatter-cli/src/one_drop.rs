@@ -32,33 +32,27 @@ pub(crate) struct PartSetup {
     pub(crate) suspension: Option<(Quantity, DampingRatio)>,
 }
 
-/// Of which limit of a part the worst drop is taken.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum Worst {
-    /// The one with the least margin
-    Tightest,
-    /// Peak absolute acceleration
-    Acceleration,
-    /// Peak displacement relative to the product
-    RattleSpace,
-    /// Largest change of velocity of one shock
-    VelocityChange,
-    /// Largest change of angular velocity of one shock
-    AngularVelocityChange,
-    /// Critical velocity change and acceleration
-    DamageBoundary,
-}
+/// Of which limit of a part the worst drop is taken: of this kind, or of the one with the least margin.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Worst(Option<LimitKind>);
 
-impl Worst {
-    fn kind(self) -> Option<LimitKind> {
-        match self {
-            Self::Tightest => None,
-            Self::Acceleration => Some(LimitKind::Acceleration),
-            Self::RattleSpace => Some(LimitKind::RattleSpace),
-            Self::VelocityChange => Some(LimitKind::VelocityChange),
-            Self::AngularVelocityChange => Some(LimitKind::AngularVelocityChange),
-            Self::DamageBoundary => Some(LimitKind::DamageBoundary),
-        }
+impl clap::ValueEnum for Worst {
+    fn value_variants<'a>() -> &'a [Self] {
+        const ALL: [Worst; LimitKind::ALL.len() + 1] = {
+            let mut all = [Worst(None); LimitKind::ALL.len() + 1];
+            let mut k = 0;
+            while k < LimitKind::ALL.len() {
+                all[k + 1] = Worst(Some(LimitKind::ALL[k]));
+                k += 1;
+            }
+            all
+        };
+        &ALL
+    }
+    fn to_possible_value(&self) -> Option<clap::builder::PossibleValue> {
+        let (name, help) =
+            self.0.map_or(("tightest", "the one with the least margin"), |kind| (kind.name(), kind.allowed()));
+        Some(clap::builder::PossibleValue::new(name).help(help))
     }
 }
 
@@ -124,7 +118,7 @@ impl OneDrop {
             return Err(Failure::Usage("--worst is the drop that asks most of one part: give its --component=NAME"));
         };
         let part = assess::watched_one(&self.file, component, accuracy)?;
-        let found = match of.kind() {
+        let found = match of.0 {
             None => part.tightest(),
             Some(kind) => part.limits.iter().find(|limit| limit.limit == kind).ok_or_else(|| {
                 let has: Vec<_> = part.limits.iter().map(|limit| limit.limit.name()).collect();
@@ -137,15 +131,15 @@ impl OneDrop {
             return Err(Failure::Wrong(format!("no worst drop is known: {why}")));
         };
         let limit = found.limit.name();
-        self.mirrored = worst.first == End::B;
+        self.mirrored = worst.drop.first == End::B;
         self.notes = vec![format!("the worst drop of its ranges, for the {limit} limit: {}", drop(worst))];
-        self.worst = Some(worst.clone());
+        self.worst = Some(*worst);
         Ok(self)
     }
 
     /// Whether both ends land as one.
     pub(crate) fn is_flat(&self) -> bool {
-        self.worst.as_ref().is_some_and(|worst| worst.flat)
+        self.worst.as_ref().is_some_and(|worst| worst.drop.flat)
     }
 
     pub(crate) fn is_mirrored(&self) -> bool {
@@ -182,7 +176,7 @@ impl OneDrop {
     }
     /// Position of the center of mass, and radius of gyration over the half-length.
     pub(crate) fn inertia(&mut self) -> (f64, f64) {
-        let gyration_m = self.worst.as_ref().and_then(|worst| worst.gyration_m).unwrap_or_else(|| {
+        let gyration_m = self.worst.as_ref().and_then(WorstCase::gyration_m).unwrap_or_else(|| {
             Self::take(&mut self.notes, "radius of gyration", &self.file.product.gyration_m, Taken::Middle, "m")
         });
         (self.center_of_mass(), 2.0 * gyration_m / self.length_m())
@@ -196,7 +190,7 @@ impl OneDrop {
     }
     pub(crate) fn contact_time_s(&mut self) -> Option<f64> {
         if let Some(worst) = &self.worst {
-            return worst.contact_time_s;
+            return worst.drop.contact_time_s;
         }
         let spread = self.file.product.contact_time_s?;
         Some(Self::take(&mut self.notes, "contact time", &spread, Taken::Least, "s"))
@@ -206,13 +200,13 @@ impl OneDrop {
     }
     pub(crate) fn restitution(&mut self) -> f64 {
         if let Some(worst) = &self.worst {
-            return worst.restitution;
+            return worst.drop.restitution;
         }
         Self::take(&mut self.notes, "restitution", &self.file.product.restitution, Taken::Largest, "")
     }
     pub(crate) fn tilt_deg(&mut self) -> f64 {
         if let Some(worst) = &self.worst {
-            return worst.tilt_deg;
+            return worst.tilt_deg();
         }
         neat(Self::take(&mut self.notes, "tilt", &self.file.drop.tilt_rad, Taken::Middle, "rad").to_degrees())
     }
@@ -222,7 +216,7 @@ impl OneDrop {
     /// Speed or height.
     pub(crate) fn fall(&mut self) -> (Option<f64>, Option<f64>) {
         if let Some(worst) = &self.worst {
-            return (Some(worst.speed_m_s), None);
+            return (Some(worst.drop.speed_m_s), None);
         }
         match &self.file.drop.fall {
             Fall::SpeedMS(speed) => (Some(Self::take(&mut self.notes, "speed", speed, Taken::Largest, "m/s")), None),
@@ -240,8 +234,8 @@ impl OneDrop {
         let notes = &mut self.notes;
         let (position_m, places_m) = if let Some(worst) = &self.worst {
             let mut places_m = component.places_m();
-            places_m.push(worst.position_m);
-            (worst.position_m, places_m)
+            places_m.push(worst.part.position_m);
+            (worst.part.position_m, places_m)
         } else {
             let middle = Self::take(notes, "position", &component.position_m, Taken::Middle, "m");
             (middle, component.places_at_m(middle))
@@ -252,7 +246,7 @@ impl OneDrop {
             Mount::Hard => None,
             Mount::Suspended { frequency_hz, damping } => {
                 let unit = frequency_hz.unit();
-                let worst = self.worst.as_ref().and_then(|worst| worst.frequency_hz.zip(worst.damping_ratio));
+                let worst = self.worst.as_ref().and_then(|worst| worst.frequency_hz().zip(worst.damping_ratio()));
                 Some(if let Some((si, ratio)) = worst {
                     (Quantity { si, unit }, DampingRatio::new(ratio)?)
                 } else {
@@ -299,6 +293,7 @@ impl OneDrop {
         self.file.product.contact_time_s.and_then(|time| time.unit())
     }
     pub(crate) fn acceleration_unit(&self) -> Option<&'static Unit> {
-        self.component().and_then(|component| component.limits.acceleration_m_s2).and_then(|limit| limit.unit())
+        self.component()
+            .and_then(|component| component.limits.unit(LimitKind::Acceleration, LimitKind::Acceleration.unit()))
     }
 }

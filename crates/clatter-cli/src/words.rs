@@ -65,20 +65,20 @@ pub(crate) fn time(seconds: f64) -> String {
 
 /// A worst drop: how it falls, and the part in it.
 pub(crate) fn drop(worst: &WorstCase) -> String {
-    let contact = worst.contact_time_s.map_or(String::new(), |s| format!(", contacts of {} ms", four(1e3 * s)));
-    let gyration = worst.gyration_m.map_or(String::new(), |m| format!(", radius of gyration {} mm", four(1e3 * m)));
-    let part = worst.frequency_hz.zip(worst.damping_ratio);
+    let contact = worst.drop.contact_time_s.map_or(String::new(), |s| format!(", contacts of {} ms", four(1e3 * s)));
+    let gyration = worst.gyration_m().map_or(String::new(), |m| format!(", radius of gyration {} mm", four(1e3 * m)));
+    let part = worst.frequency_hz().zip(worst.damping_ratio());
     let part = part.map_or(String::new(), |(hz, ratio)| format!(", {} Hz, damping ratio {}", four(hz), four(ratio)));
-    let lands = if worst.flat {
+    let lands = if worst.drop.flat {
         "flat".to_owned()
     } else {
-        format!("{} first, {} deg", inputs::letter(worst.first), four(worst.tilt_deg))
+        format!("{} first, {} deg", inputs::letter(worst.drop.first), four(worst.tilt_deg()))
     };
     format!(
         "{lands}, {} m/s, e {}{contact}{gyration}; at {} mm{part}",
-        four(worst.speed_m_s),
-        four(worst.restitution),
-        four(1e3 * worst.position_m),
+        four(worst.drop.speed_m_s),
+        four(worst.drop.restitution),
+        four(1e3 * worst.part.position_m),
     )
 }
 

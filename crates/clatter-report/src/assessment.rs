@@ -10,7 +10,7 @@ use clatter_assess::{Assessment, Component, ComponentAssessment, LimitKind, Port
 use clatter_figures::{FigureError, Place, Share, history, over_tilt, product, shares};
 use serde_json::{Value, json};
 
-use crate::words::{customary, hundredths, limit, name, percent, quantity, sure_name};
+use crate::words::{customary, hundredths, name, percent, sure_name};
 use crate::{Pages, paper};
 
 /// What the models leave out, in plain words.
@@ -136,7 +136,7 @@ fn hardest(assessment: &Assessment) -> Option<Value> {
     let worst = exceeded.min_by(|a, b| a.1.room().total_cmp(&b.1.room()));
     worst.map(|(c, l)| {
         let share = l.demand.map_or(f64::INFINITY, |demand| demand / l.allowed);
-        json!({ "name": name(&c.name), "limit": limit(l.limit), "share": hundredths(share) })
+        json!({ "name": name(&c.name), "limit": l.limit.words(), "share": hundredths(share) })
     })
 }
 
@@ -147,7 +147,7 @@ fn figures(number: usize, ((_, assessed), portrait): &Part<'_>) -> Result<[(Stri
     // The figures are too low for the longest of the words.
     let what = match tightest.limit {
         LimitKind::AngularVelocityChange => "change of *ω*",
-        kind => quantity(kind, tightest.unit),
+        kind => kind.measured(tightest.unit),
     };
     let title = format!("{what}, {unit}");
     let points: Vec<(f64, f64)> = portrait.history.iter().map(|p| (1e3 * p.0, p.1 / factor)).collect();

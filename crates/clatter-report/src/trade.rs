@@ -91,13 +91,13 @@ pub(crate) fn of_product(product: &ProductLadder) -> Result<String, FigureError>
 fn of_limit(limit: &LimitLadder, tolerance: f64) -> Panel<'_> {
     let LimitLadder { component, limit: kind, worst_case: worst, ladder } = limit;
     Panel {
-        title: format!("{}: {}", words::name(component), words::limit(*kind)),
+        title: format!("{}: {}", words::name(component), kind.words()),
         drop: format!(
             "end {} first at {} m/s, {}°, e = {}",
-            words::end(worst.first),
-            three(worst.speed_m_s),
-            three(worst.tilt_deg),
-            three(worst.restitution)
+            words::end(worst.drop.first),
+            three(worst.drop.speed_m_s),
+            three(worst.tilt_deg()),
+            three(worst.drop.restitution)
         ),
         ladder,
         reason: words::reason(&ladder.reason),

@@ -1,7 +1,7 @@
 //! How numbers, limits and names are told in running text.
 
 use clatter::End;
-use clatter_assess::{LimitKind, Model, STANDARD_GRAVITY_M_S2, Spread, Unit};
+use clatter_assess::{Model, STANDARD_GRAVITY_M_S2, Spread, Unit};
 
 use clatter_figures::three;
 
@@ -21,26 +21,6 @@ pub(crate) fn customary(unit: Unit) -> (f64, &'static str) {
         Unit::Meter => (1e-3, "mm"),
         Unit::MeterPerSecond => (1.0, "m/s"),
         Unit::RadianPerSecond => (1.0, "rad/s"),
-    }
-}
-
-pub(crate) fn limit(kind: LimitKind) -> &'static str {
-    match kind {
-        LimitKind::Acceleration => "acceleration",
-        LimitKind::RattleSpace => "rattle space",
-        LimitKind::VelocityChange => "velocity change",
-        LimitKind::AngularVelocityChange => "angular velocity change",
-        LimitKind::DamageBoundary => "damage boundary",
-    }
-}
-
-/// What is measured against a limit, in its unit.
-pub(crate) fn quantity(kind: LimitKind, unit: Unit) -> &'static str {
-    match (kind, unit) {
-        (LimitKind::RattleSpace, _) => "displacement",
-        (LimitKind::DamageBoundary, Unit::MeterPerSecondSquared) => "acceleration",
-        (LimitKind::DamageBoundary, _) => "velocity change",
-        _ => limit(kind),
     }
 }
 

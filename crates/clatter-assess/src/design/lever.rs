@@ -45,11 +45,7 @@ impl Lever {
             Self::Frequency => "natural-frequency",
             Self::Damping => "damping-ratio",
             Self::ContactTime => "contact-time",
-            Self::Limit(LimitKind::Acceleration) => "acceleration-limit",
-            Self::Limit(LimitKind::RattleSpace) => "rattle-space",
-            Self::Limit(LimitKind::VelocityChange) => "velocity-change-limit",
-            Self::Limit(LimitKind::AngularVelocityChange) => "angular-velocity-change-limit",
-            Self::Limit(LimitKind::DamageBoundary) => "damage-boundary",
+            Self::Limit(kind) => kind.lever(),
         }
     }
     /// SI unit of its values: empty, `m`, `Hz`, `s` or that of the limit.

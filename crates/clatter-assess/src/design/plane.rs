@@ -6,8 +6,9 @@ use clatter::contour::Point;
 use clatter::design::{Goal, region};
 
 use super::lever::Bounds;
+use crate::quantity::Source;
 use crate::scatter::{Error, extremes};
-use crate::{Component, First, Limit, LimitKind, Model, ProductFile};
+use crate::{Component, First, Limit, Model, ProductFile};
 
 /// The design plane 0 ≤ q ≤ 1, 0 ≤ e ≤ 1 of a product.
 #[derive(Debug, Clone, PartialEq)]
@@ -147,10 +148,10 @@ fn goals(file: &ProductFile, component: &Component) -> Option<Vec<Goal>> {
     }
     let [_, fastest] = file.drop.speeds_m_s();
     let s = component.ends_m().iter().fold(0.0_f64, |most, x| most.max(file.product.relative(*x).abs())).min(1.0);
-    let goal = |limit: Limit| match limit.kind {
-        LimitKind::VelocityChange => Goal::zone(limit.allowed / fastest, s).ok(),
-        LimitKind::AngularVelocityChange => Goal::turn(limit.allowed * 0.5 * body.length_m() / fastest).ok(),
-        LimitKind::DamageBoundary | LimitKind::Acceleration | LimitKind::RattleSpace => None,
+    let goal = |limit: Limit| match limit.kind.source() {
+        Source::Shock => Goal::zone(limit.allowed / fastest, s).ok(),
+        Source::Turn => Goal::turn(limit.allowed * 0.5 * body.length_m() / fastest).ok(),
+        Source::Boundary | Source::Response(_) => None,
     };
     Limit::of(component).into_iter().map(goal).collect()
 }

@@ -6,8 +6,9 @@ use rayon::prelude::*;
 
 use super::lever::{Bounds, Change, Lever, Outcome, Remedies, Remedy, Together};
 use super::trial::{Breakers, is_enough};
+use crate::quantity::Source;
 use crate::search::Watch;
-use crate::{Accuracy, Assessment, Component, ComponentAssessment, Error, LimitKind, Mount, ProductFile, Verdict};
+use crate::{Accuracy, Assessment, Component, ComponentAssessment, Error, Mount, ProductFile, Verdict};
 
 /// Steps from bound to bound in which safe values are looked for; an island of safety narrower than one may be missed.
 pub const STEPS: u32 = 48;
@@ -233,10 +234,10 @@ impl Case<'_> {
     pub(crate) fn matters(&self, lever: Lever) -> bool {
         let kinds = self.component.limits.kinds();
         let suspended = matches!(self.component.mount, Mount::Suspended { .. });
-        let responds = kinds.iter().any(|kind| matches!(kind, LimitKind::Acceleration | LimitKind::RattleSpace));
+        let responds = kinds.iter().any(|kind| kind.is_response());
         match lever {
             Lever::Frequency | Lever::Damping => suspended && responds,
-            Lever::Position => kinds.iter().any(|kind| *kind != LimitKind::AngularVelocityChange),
+            Lever::Position => kinds.iter().any(|kind| kind.source() != Source::Turn),
             Lever::InertiaRatio | Lever::Restitution | Lever::ContactTime | Lever::Limit(_) => true,
         }
     }

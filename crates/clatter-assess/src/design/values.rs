@@ -4,7 +4,7 @@ use clatter_flight::Body;
 
 use super::lever::{Change, Lever};
 use super::remedies::Case;
-use crate::{Damping, Law, LimitKind, Limits, Mount, Product, ProductFile, Spread};
+use crate::{Damping, Law, Mount, Product, ProductFile, Spread};
 
 impl Case<'_> {
     /// The present value, low and high end.
@@ -19,7 +19,7 @@ impl Case<'_> {
             (Lever::Damping, Mount::Suspended { damping, .. }) => damping.ratios(),
             (Lever::Frequency | Lever::Damping, Mount::Hard) => [0.0; 2],
             (Lever::ContactTime, _) => product.contact_time_s.as_ref().map_or([0.0; 2], of),
-            (Lever::Limit(kind), _) => limit(&mut component.limits.clone(), kind).map_or([0.0; 2], |limit| of(limit)),
+            (Lever::Limit(kind), _) => component.limits.get(kind).map_or([0.0; 2], of),
         }
     }
 
@@ -121,7 +121,7 @@ impl Case<'_> {
                 (Lever::Damping, Mount::Suspended { damping, .. }) => *damping = Damping::Ratio(range),
                 (Lever::Frequency | Lever::Damping, Mount::Hard) => return None,
                 (Lever::ContactTime, _) => product.contact_time_s = Some(range),
-                (Lever::Limit(kind), _) => *limit(&mut component.limits, kind)? = range,
+                (Lever::Limit(kind), _) => *component.limits.get_mut(kind)? = range,
             }
         }
         // Rounded outward it may reach beyond the ends.
@@ -136,17 +136,6 @@ impl Case<'_> {
 /// Whether a lever multiplies what is there.
 fn multiplied(lever: Lever) -> bool {
     matches!(lever, Lever::Frequency | Lever::ContactTime | Lever::Limit(_))
-}
-
-/// The limit of a kind; of a damage boundary its critical velocity change.
-fn limit(limits: &mut Limits, kind: LimitKind) -> Option<&mut Spread> {
-    match kind {
-        LimitKind::Acceleration => limits.acceleration_m_s2.as_mut(),
-        LimitKind::RattleSpace => limits.rattle_space_m.as_mut(),
-        LimitKind::VelocityChange => limits.velocity_change_m_s.as_mut(),
-        LimitKind::AngularVelocityChange => limits.angular_velocity_change_rad_s.as_mut(),
-        LimitKind::DamageBoundary => limits.damage_boundary.as_mut().map(|boundary| &mut boundary.velocity_change_m_s),
-    }
 }
 
 /// A value to the second digit of a size.

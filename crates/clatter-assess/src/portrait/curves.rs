@@ -4,15 +4,14 @@ use clatter::End;
 
 use super::Point;
 use super::drops::{Drops, Inputs, Places, Tilt, corners, parts};
-use crate::drop::{SingleDrop, Until};
+use crate::drop::Until;
 use crate::search::Ranges;
-use crate::{Component, Limit, LimitAssessment, Part, ProductFile};
+use crate::{Component, Limit, LimitAssessment, WorstCase};
 
 /// A curve for each end that may touch first: at each tilt the drop that asks most of those followed. These are the `shared` ones, at
 /// the ends of the ranges, and those with the speed, restitution and contact time of the worst case; the worst case is one of the
 /// points.
 pub(super) fn over_tilt(
-    file: &ProductFile,
     ranges: &Ranges<'_>,
     shared: &Drops,
     (component, limit): (&Component, &LimitAssessment),
@@ -22,9 +21,9 @@ pub(super) fn over_tilt(
     let Some(asked) = Limit::of(component).into_iter().find(|l| l.kind == limit.limit) else { return Vec::new() };
     let Some(worst) = &limit.worst_case else { return Vec::new() };
     let corners = corners(ranges);
-    let own: Inputs = (worst.speed_m_s, worst.restitution, ranges.product.contact_time_s.and(worst.contact_time_s));
+    let own: Inputs = (worst.drop.speed_m_s, worst.drop.restitution, worst.drop.contact_time_s);
     // At the tilt of the worst case all of them, at the others what is not shared.
-    let here = if worst.flat { Vec::new() } else { vec![(worst.tilt_deg.to_radians(), true)] };
+    let here = if worst.drop.flat { Vec::new() } else { vec![(worst.drop.tilt_rad, true)] };
     let at_worst = Drops::new(ranges, &here, &corners, until);
     let of_worst = Drops::new(ranges, if corners.contains(&own) { &[] } else { tilts }, &[own], until);
     let parts = parts(component, &asked, Some(worst));
@@ -39,7 +38,7 @@ pub(super) fn over_tilt(
             }
         }
     }
-    found.extend(of_worst_case(file, limit));
+    found.extend(of_worst_case(limit));
     let curve = |first: End| {
         let mut points: Vec<Point> = found.iter().filter(|point| point.drop.first == first).copied().collect();
         points.sort_by(|a, b| a.tilt_rad.total_cmp(&b.tilt_rad));
@@ -51,8 +50,7 @@ pub(super) fn over_tilt(
 }
 
 /// The worst case, as it is told; a flat one has no tilt of its own.
-fn of_worst_case(file: &ProductFile, limit: &LimitAssessment) -> Option<Point> {
-    let (worst, demand) = limit.worst_case.as_ref().zip(limit.demand)?;
-    let (drop, part): (SingleDrop, Part) = file.worst_drop(worst).ok()?;
-    (!worst.flat).then_some(Point { tilt_rad: drop.tilt_rad, drop, part, share: demand / limit.allowed })
+fn of_worst_case(limit: &LimitAssessment) -> Option<Point> {
+    let (WorstCase { drop, part, .. }, demand) = limit.worst_case.zip(limit.demand)?;
+    (!drop.flat).then_some(Point { tilt_rad: drop.tilt_rad, drop, part, share: demand / limit.allowed })
 }

@@ -220,7 +220,7 @@ pub(super) fn parts(component: &Component, limit: &Limit, worst: Option<&WorstCa
     }
     let [least, _] = damping.ratios();
     let mut all = vec![(frequency_hz.lo(), least), (frequency_hz.hi(), least)];
-    all.extend(worst.and_then(|worst| worst.frequency_hz.zip(worst.damping_ratio)));
+    all.extend(worst.and_then(|worst| worst.frequency_hz().zip(worst.damping_ratio())));
     all.dedup();
     let part = |&(hz, ratio): &(f64, f64)| Suspension::from_hz(hz, DampingRatio::new(ratio).ok()?).ok();
     all.iter().filter_map(part).map(Some).collect()

@@ -2,8 +2,8 @@
 
 use super::{At, Reader, Section};
 use crate::check::sensor;
-use crate::keys::LIMITS;
-use crate::{Boundary, Component, Damping, DataFault, Limits, Mount, Product, RecordFile};
+use crate::quantity::Source;
+use crate::{Component, Damping, DataFault, LimitKind, Limits, Mount, Product, RecordFile};
 
 impl Reader {
     pub(super) fn component(&mut self, section: &Section<'_>, product: Option<&Product>) -> Option<Component> {
@@ -83,24 +83,23 @@ impl Reader {
     }
 
     fn limits(&mut self, section: &Section<'_>) -> Limits {
-        if LIMITS.iter().all(|name| !section.table.contains_key(*name)) {
+        if LimitKind::ALL.iter().all(|kind| !section.table.contains_key(kind.key())) {
             let [_, help] = DataFault::NoLimit.told();
             self.fault(section.span.clone(), format!("{} has no limit", section.title), "in this table", help);
         }
-        let mut value = |name| self.spread(section, name).map(|q| q.value);
-        let [acceleration_m_s2, rattle_space_m, velocity_change_m_s, angular_velocity_change_rad_s] =
-            [LIMITS[0], LIMITS[1], LIMITS[2], LIMITS[3]].map(&mut value);
-        let boundary = self.table(section, LIMITS[4]).and_then(|section| {
-            let velocity = self.spread(&section, "velocity_change");
-            let acceleration = self.spread(&section, "acceleration");
-            Some(Boundary { velocity_change_m_s: velocity?.value, acceleration_m_s2: acceleration?.value })
-        });
-        Limits {
-            acceleration_m_s2,
-            rattle_space_m,
-            velocity_change_m_s,
-            angular_velocity_change_rad_s,
-            damage_boundary: boundary,
+        let mut limits = Limits::default();
+        for kind in LimitKind::ALL {
+            if kind.source() == Source::Boundary {
+                let Some(section) = self.table(section, kind.key()) else { continue };
+                let velocity = self.spread(&section, "velocity_change");
+                let acceleration = self.spread(&section, "acceleration");
+                if let (Some(velocity), Some(acceleration)) = (velocity, acceleration) {
+                    limits = limits.with_damage_boundary(velocity.value, acceleration.value);
+                }
+            } else if let Some(limit) = self.spread(section, kind.key()) {
+                limits = limits.with(kind, limit.value);
+            }
         }
+        limits
     }
 }

@@ -7,11 +7,12 @@
 use std::f64::consts::FRAC_PI_2;
 
 use clatter::{End, Impact, OffCenterBar, Start};
-use clatter_shock::{Peaked, VelocityShock, VelocityShocks};
+use clatter_shock::{VelocityShock, VelocityShocks};
 
 use super::Asked;
 use super::sample::{PartSample, Sample};
-use crate::{Error, LimitKind, SingleDrop};
+use crate::quantity::Source;
+use crate::{Error, SingleDrop};
 
 /// A train is left where a strike is this share of the first, or after so many.
 const SMALL: f64 = 1e-3;
@@ -50,23 +51,22 @@ fn of_part(drop: &SingleDrop, train: &[Impact], part: &PartSample, factor: f64) 
         for (k, limit) in part.limits.iter().enumerate() {
             // What is below neither decides nor is the largest.
             let above = asked.utilization.min(1.0) * limit.allowed / factor;
-            let peak = |peaked, unit: f64| {
-                let peak = part.suspension.as_ref().and_then(|part| shocks.peak_above(part, peaked, above / unit));
-                unit * peak.map_or(0.0, |peak| peak.value.abs())
-            };
-            let value = match (limit.kind, part.suspension.map(|part| part.omega())) {
-                (LimitKind::Acceleration, Some(omega)) => peak(Peaked::AccelerationOverOmega, omega),
-                (LimitKind::RattleSpace, Some(omega)) => peak(Peaked::PseudoVelocity, omega.recip()),
-                (LimitKind::Acceleration | LimitKind::RattleSpace, None) => half_sine,
-                (LimitKind::AngularVelocityChange, _) => {
+            let value = match (limit.kind.source(), &part.suspension) {
+                (Source::Response(of), Some(part)) => {
+                    let unit = of.of_velocity(1.0, part.omega());
+                    let peak = shocks.peak_above(part, of.peaked, above / unit);
+                    unit * peak.map_or(0.0, |peak| peak.value.abs())
+                }
+                (Source::Response(_), None) => half_sine,
+                (Source::Turn, _) => {
                     let turn = |strike: &Impact| (strike.delta_v[1] - strike.delta_v[0]).abs();
                     train.iter().map(turn).fold(0.0, f64::max) / drop.body.length_m()
                 }
                 // Damage only beyond both; without a contact time the velocity change alone counts.
-                (LimitKind::DamageBoundary, _) if drop.contact_time_s.is_some() => {
+                (Source::Boundary, _) if drop.contact_time_s.is_some() => {
                     shocks.largest().min(half_sine / limit.critical_acceleration_m_s2 * limit.allowed)
                 }
-                (LimitKind::VelocityChange | LimitKind::DamageBoundary, _) => shocks.largest(),
+                (Source::Shock | Source::Boundary, _) => shocks.largest(),
             };
             asked.raise(k, factor * value / limit.allowed, 0.0);
         }
@@ -77,7 +77,7 @@ fn of_part(drop: &SingleDrop, train: &[Impact], part: &PartSample, factor: f64) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{ContactLaw, Limit, Model, Part};
+    use crate::{ContactLaw, Limit, LimitKind, Model, Part};
     use clatter_flight::Body;
     use clatter_shock::{DampingRatio, Suspension};
     use proptest::prelude::*;

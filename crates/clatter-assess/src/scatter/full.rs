@@ -4,6 +4,7 @@ use super::Asked;
 use super::sample::{PartSample, Sample};
 use crate::drop::{Followed, Until};
 use crate::engine::Felt;
+use crate::quantity::Source;
 use crate::{Error, Limit, LimitKind, SingleDrop};
 
 /// How exactly a sample is answered. A coarser answer costs no less: more samples are left open and followed once more.
@@ -111,7 +112,7 @@ fn of_part(followed: &Followed, part: &PartSample, above: f64) -> Result<(Asked,
 /// The acceleration that a damage boundary asks for besides its velocity change, as a limit of its own; without a contact time no
 /// acceleration is known, and the velocity change alone counts.
 fn critical_acceleration(limit: &Limit, drop: &SingleDrop) -> Option<Limit> {
-    let of_boundary = limit.kind == LimitKind::DamageBoundary && drop.contact_time_s.is_some();
+    let of_boundary = limit.kind.source() == Source::Boundary && drop.contact_time_s.is_some();
     of_boundary.then(|| Limit::new(LimitKind::Acceleration, limit.critical_acceleration_m_s2))
 }
 

@@ -8,6 +8,7 @@ use super::draw::Quantile;
 use super::philox::Stream;
 use super::{Column, Error};
 use crate::product::with_between;
+use crate::quantity::Source;
 use crate::{Component, Damping, Fall, First, Law, Limit, LimitKind, Mount, ProductFile, SingleDrop, Spread};
 
 /// What varies from sample to sample; parts by their index in the file.
@@ -72,27 +73,23 @@ impl Input {
             _ => None,
         }
     }
-    /// Which of the uniform numbers of a sample it is drawn from, whatever else is drawn.
+    /// Which of the uniform numbers of a sample it is drawn from, whatever else is drawn. There is room for other inputs and kinds of
+    /// limits, so that they move no number of these.
     fn number(self) -> u32 {
-        const SHARED: u32 = 5;
-        const OWN: u32 = 9;
+        const SHARED: u32 = 16;
+        const OWN: u32 = 32;
         let own = match self {
             Self::First => return 0,
             Self::Height | Self::Speed => return 1,
             Self::Tilt => return 2,
             Self::Restitution => return 3,
             Self::ContactTime => return 4,
-            // Beyond those of the last part that a file may have.
-            Self::Gyration => return u32::MAX,
+            Self::Gyration => return 5,
             Self::Frequency(_) => 0,
             Self::Damping(_) => 1,
             Self::Position(_) => 2,
-            Self::Limit(_, LimitKind::Acceleration) => 3,
-            Self::Limit(_, LimitKind::RattleSpace) => 4,
-            Self::Limit(_, LimitKind::VelocityChange) => 5,
-            Self::Limit(_, LimitKind::AngularVelocityChange) => 6,
-            Self::Limit(_, LimitKind::DamageBoundary) => 7,
-            Self::CriticalAcceleration(_) => 8,
+            Self::CriticalAcceleration(_) => 3,
+            Self::Limit(_, kind) => 8 + kind as u32,
         };
         #[expect(clippy::cast_possible_truncation, reason = "a file has at most 1000 parts")]
         let component = self.component().unwrap_or_default() as u32;
@@ -212,22 +209,14 @@ impl Finder {
             }
         };
         let position = self.drawn(Input::Position(i), &component.position_m, &of)?;
-        let given = &component.limits;
         let mut limits = Vec::new();
-        for (kind, spread) in [
-            (LimitKind::Acceleration, given.acceleration_m_s2),
-            (LimitKind::RattleSpace, given.rattle_space_m),
-            (LimitKind::VelocityChange, given.velocity_change_m_s),
-            (LimitKind::AngularVelocityChange, given.angular_velocity_change_rad_s),
-        ] {
-            let Some(spread) = spread else { continue };
-            limits.push((kind, self.drawn(Input::Limit(i, kind), &spread, &of)?, None));
-        }
-        if let Some(boundary) = given.damage_boundary {
-            let kind = LimitKind::DamageBoundary;
-            let allowed = self.drawn(Input::Limit(i, kind), &boundary.velocity_change_m_s, &of)?;
-            let critical = self.drawn(Input::CriticalAcceleration(i), &boundary.acceleration_m_s2, &of)?;
-            limits.push((kind, allowed, Some(critical)));
+        for kind in component.limits.kinds() {
+            let Some(spread) = component.limits.get(kind) else { continue };
+            let allowed = self.drawn(Input::Limit(i, kind), spread, &of)?;
+            let critical = component.limits.critical_acceleration_m_s2().filter(|_| kind.source() == Source::Boundary);
+            let critical =
+                critical.map(|spread| self.drawn(Input::CriticalAcceleration(i), spread, &of)).transpose()?;
+            limits.push((kind, allowed, critical));
         }
         Ok(PartInputs { position, extent_m: component.extent_m, mount, limits })
     }

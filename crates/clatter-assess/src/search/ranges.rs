@@ -1,5 +1,7 @@
 //! The ranges of a product's drops, and where in them a drop is.
 
+use std::f64::consts::TAU;
+
 use clatter::End;
 
 use crate::drop::{Model, SingleDrop};
@@ -63,24 +65,25 @@ impl Ranges<'_> {
     pub(crate) fn place_of(&self, component: &Component, worst: &WorstCase) -> Place {
         let share = |[lo, hi]: [f64; 2], x: f64| if hi > lo { ((x - lo) / (hi - lo)).clamp(0.0, 1.0) } else { 0.0 };
         let of = |spread: &Spread, x: f64| share([spread.lo(), spread.hi()], x);
-        let contact = self.product.contact_time_s.zip(worst.contact_time_s).map_or(0.0, |(time, t)| of(&time, t));
+        let drop = &worst.drop;
+        let contact = self.product.contact_time_s.zip(drop.contact_time_s).map_or(0.0, |(time, t)| of(&time, t));
         let tilt = [self.drop.tilt_rad.lo(), self.drop.tilt_rad.hi()].map(f64::sqrt);
-        let part = match (component.mount, worst.frequency_hz.zip(worst.damping_ratio)) {
-            (Mount::Suspended { frequency_hz, damping }, Some((hz, ratio))) => {
-                [of(&frequency_hz, hz), share(damping.ratios(), ratio)]
+        let part = match (component.mount, worst.part.suspension) {
+            (Mount::Suspended { frequency_hz, damping }, Some(part)) => {
+                [of(&frequency_hz, part.omega() / TAU), share(damping.ratios(), part.damping().get())]
             }
             _ => [0.0; 2],
         };
         let shares = [
-            share(tilt, worst.tilt_deg.to_radians().sqrt()),
-            share(self.drop.speeds_m_s(), worst.speed_m_s),
-            of(&self.product.restitution, worst.restitution),
+            share(tilt, drop.tilt_rad.sqrt()),
+            share(self.drop.speeds_m_s(), drop.speed_m_s),
+            of(&self.product.restitution, drop.restitution),
             contact,
             part[0],
             part[1],
-            worst.gyration_m.map_or(0.0, |rho| of(&self.product.gyration_m, rho)),
+            worst.gyration_m().map_or(0.0, |rho| of(&self.product.gyration_m, rho)),
         ];
-        Place { first: worst.first, flat: worst.flat, position_m: worst.position_m, shares }
+        Place { first: drop.first, flat: drop.flat, position_m: worst.part.position_m, shares }
     }
 
     /// The middle of all ranges.

@@ -122,7 +122,7 @@ fn worst_drop(
     limit.notes.iter().try_for_each(|note| sentence(out, "  note: ", note))?;
     let Some(worst) = &limit.worst_case else { return Ok(()) };
     let short = repeat(path, &component.name, limit.limit, accuracy);
-    writeln!(out, "  {}", short.as_ref().unwrap_or(&worst.command))
+    writeln!(out, "  {}", short.unwrap_or_else(|| worst.command()))
 }
 
 /// Margins of several products, a column each.

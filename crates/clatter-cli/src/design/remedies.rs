@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::io::{self, Write};
 
 use clatter_assess::design::{Change, Lever, Outcome, Plane, Remedies, Remedy, Together};
-use clatter_assess::{Assessment, ComponentAssessment, LimitAssessment, LimitKind, ProductFile, Verdict};
+use clatter_assess::{Assessment, ComponentAssessment, LimitAssessment, ProductFile, Verdict};
 use serde::Serialize;
 
 use crate::numbers::{Json, digits, figures, given};
@@ -37,11 +37,7 @@ fn called(lever: Lever) -> &'static str {
         Lever::Frequency => "natural frequency",
         Lever::Damping => "damping ratio",
         Lever::ContactTime => "contact time",
-        Lever::Limit(LimitKind::Acceleration) => "acceleration limit",
-        Lever::Limit(LimitKind::RattleSpace) => "rattle space",
-        Lever::Limit(LimitKind::VelocityChange) => "velocity change limit",
-        Lever::Limit(LimitKind::AngularVelocityChange) => "angular velocity change limit",
-        Lever::Limit(LimitKind::DamageBoundary) => "critical velocity change",
+        Lever::Limit(kind) => kind.allowed(),
     }
 }
 

@@ -85,7 +85,7 @@ impl DropArgs {
         };
         let drop = drop.with_spin(beside.spin_rad_s)?.with_impact_limit(beside.impact_limit);
         let drop = beside.time_limit_s.map_or(Ok(drop), |limit| drop.with_time_limit_s(limit))?;
-        let law = self.contact_law.map(Into::into).unwrap_or_default();
+        let law = self.contact_law.map(|law| law.0).unwrap_or_default();
         Ok(Setup { drop, contact: Contact::new(law, e, time)? })
     }
 

@@ -151,7 +151,7 @@ impl DropArgs {
             Tilted::Angles(angles) => angles,
             Tilted::Gaps(_) => [neat(tilt.asin().to_degrees()), neat(slopes[1].atan2(slopes[0]).to_degrees())],
         };
-        let law = self.contact_law.map(Into::into).unwrap_or_default();
+        let law = self.contact_law.map(|law| law.0).unwrap_or_default();
         let contact = contact_time.filter(|_| model == ModelName::Compliant);
         let contact = contact.map(|time| Contact::new(law, e, time.si)).transpose()?;
         Ok(PlateSetup {

@@ -58,7 +58,7 @@ impl Args {
         };
         let answer = Answer {
             drop: setup.answer(),
-            contact_law: crate::inputs::law_name(setup.contact.law()),
+            contact_law: setup.contact.law().name(),
             at_m: at_m.map(Json),
             axis: axis.name(),
             part,

@@ -14,7 +14,7 @@ use super::peaks::{
     Equivalent, EquivalentJson, FactorsJson, ResponseJson, Shocks, at_once, equivalent, equivalent_table,
 };
 use crate::drop_args::{Beside, Setup};
-use crate::inputs::{ModelName, law_name, letter};
+use crate::inputs::{ModelName, letter};
 use crate::numbers::{Json, figures, given};
 use crate::quantities::{self, Show, neat};
 use crate::words::in_words;
@@ -236,7 +236,7 @@ impl Drop<'_> {
         writeln!(out, "Model {model}, to {tolerance} %: end {first} strikes first, at {speed}, tilt {tilt}")?;
         match contact {
             Some(time) => {
-                let law = law_name(self.single.contact_law);
+                let law = self.single.contact_law.name();
                 writeln!(out, "Contacts of {}, {law}", shown.time.given(time))
             }
             None => Ok(()),
@@ -369,7 +369,7 @@ impl Drop<'_> {
             height_gap_m: Json(self.setup.scene.height_gap_m()),
             gravity_m_s2: Json(self.single.gravity_m_s2),
             contact_time_s: self.single.contact_time_s.map(Json),
-            contact_law: contact.map(|_| law_name(self.single.contact_law)),
+            contact_law: contact.map(|_| self.single.contact_law.name()),
             tolerance: Json(self.args.tolerance),
             at: Json(self.at),
             limits: self.setup.part.as_ref().map(|_| self.limits.iter().map(Into::into).collect()),

@@ -13,7 +13,7 @@ use super::peaks::{
     Equivalent, EquivalentJson, FactorsJson, ResponseJson, Shocks, at_once, equivalent, equivalent_table,
 };
 use crate::drop_args::PlateSetup;
-use crate::inputs::{Format, ModelName, law_name};
+use crate::inputs::{Format, ModelName};
 use crate::numbers::{Json, figures, given};
 use crate::quantities::{Show, neat};
 use crate::{Failure, Streams};
@@ -114,7 +114,7 @@ impl Drop<'_> {
         let ([hx, hy], speed) = (scene.gaps_m().map(|gap| shown.length.said(gap)), shown.speed.said(scene.speed_m_s()));
         let tolerance = given(100.0 * self.args.tolerance);
         writeln!(out, "To {tolerance} %: corner a touches at {speed}; b is {hx} higher, d {hy}, c both together")?;
-        writeln!(out, "Contacts of {}, {}", shown.time.given(self.contact.time_s()), law_name(self.contact.law()))
+        writeln!(out, "Contacts of {}, {}", shown.time.given(self.contact.time_s()), self.contact.law().name())
     }
 
     fn table(&self, out: &mut dyn Write) -> io::Result<()> {
@@ -198,7 +198,7 @@ impl Drop<'_> {
             gaps_m: scene.gaps_m().map(Json),
             gravity_m_s2: Json(scene.gravity_m_s2()),
             contact_time_s: Json(self.contact.time_s()),
-            contact_law: law_name(self.contact.law()),
+            contact_law: self.contact.law().name(),
             tolerance: Json(self.args.tolerance),
             at: self.at.map(Json),
             response: self.suspension.zip(part).map(|(of, part)| ResponseJson::new(&of, &part.response, |_| None)),

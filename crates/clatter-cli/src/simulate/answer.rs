@@ -5,7 +5,7 @@ use clatter_flight::Stop;
 use serde::{Serialize, Serializer};
 
 use super::{Drop, Motion};
-use crate::inputs::{law_name, letter};
+use crate::inputs::letter;
 use crate::numbers::Json;
 
 impl Drop<'_> {
@@ -92,7 +92,7 @@ impl ContactJson {
         let Motion::Contacts(contact, contacts) = motion else { return None };
         Some(Self {
             contact_time_s: Json(contact.time_s()),
-            contact_law: law_name(contact.law()),
+            contact_law: contact.law().name(),
             energy_error: Json(contacts.energy_error),
         })
     }

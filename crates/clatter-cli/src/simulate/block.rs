@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::Args;
 use crate::block::Setup;
 use crate::drop_args::BesideBlock;
-use crate::inputs::{RowFormat, law_name};
+use crate::inputs::RowFormat;
 use crate::numbers::{Json, digits, figures, given};
 use crate::{Failure, Streams};
 
@@ -143,7 +143,7 @@ impl Drop {
         };
         Answer {
             drop: self.setup.answer(),
-            contact_law: law_name(self.setup.contact.law()),
+            contact_law: self.setup.contact.law().name(),
             energy_error: Json(self.flight.energy_error),
             impacts: self.flight.strikes.iter().map(impact).collect(),
             stop: crate::block::StopJson::new(&self.flight.stop),

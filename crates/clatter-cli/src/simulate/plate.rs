@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::answer::StopJson;
 use super::{Args, IMPACTS};
 use crate::drop_args::PlateSetup;
-use crate::inputs::{ModelName, RowFormat, law_name};
+use crate::inputs::{ModelName, RowFormat};
 use crate::numbers::{Json, digits, given};
 use crate::{Failure, Streams, columns};
 
@@ -187,7 +187,7 @@ impl Drop<'_> {
         match &setup.contact {
             None => writeln!(out, "Small tilt, no gravity, instant impacts")?,
             Some(contact) => {
-                let (law, time) = (law_name(contact.law()), shown.time.given(contact.time_s()));
+                let (law, time) = (contact.law().name(), shown.time.given(contact.time_s()));
                 writeln!(out, "Small tilt, gravity {gravity}, {law} contacts of {time}")?;
             }
         }
@@ -295,7 +295,7 @@ impl Drop<'_> {
             gaps_m: scene.gaps_m().map(Json),
             gravity_m_s2: Json(scene.gravity_m_s2()),
             contact_time_s: setup.contact.map(|contact| Json(contact.time_s())),
-            contact_law: setup.contact.map(|contact| law_name(contact.law())),
+            contact_law: setup.contact.map(|contact| contact.law().name()),
             energy_error: self.energy_error.map(Json),
             time_limit_s: self.args.time_limit_s().map(Json),
             impact_limit: self.args.impact_limit,

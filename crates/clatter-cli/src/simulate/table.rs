@@ -7,7 +7,6 @@ use clatter_flight::{Model, Stop, Strike};
 use super::answer::end;
 use super::{Drop, ModelName, Motion};
 use crate::columns;
-use crate::inputs::law_name;
 use crate::numbers::{digits, figures, given};
 
 /// Strikes whose largest shock is below this share of the largest of all are summed up.
@@ -23,7 +22,7 @@ impl Drop<'_> {
             Motion::Instant(Model::Ballistic, _) => format!("Small tilt, gravity {gravity}, instant impacts"),
             Motion::Instant(Model::FiniteTilt, _) => format!("Any tilt, gravity {gravity}, instant impacts"),
             Motion::Contacts(contact, _) => {
-                let (law, time) = (law_name(contact.law()), shown.time.given(contact.time_s()));
+                let (law, time) = (contact.law().name(), shown.time.given(contact.time_s()));
                 format!("Any tilt, gravity {gravity}, {law} contacts of {time}")
             }
         }

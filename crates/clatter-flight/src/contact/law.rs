@@ -25,12 +25,19 @@ pub enum ContactLaw {
 impl ContactLaw {
     /// All of them.
     pub const ALL: [Self; 2] = [Self::Hysteretic, Self::Dashpot];
+    /// Their names.
+    pub const NAMES: [&'static str; 2] = ["hysteretic", "dashpot"];
     /// `hysteretic` or `dashpot`.
     #[must_use]
     pub fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
+    /// In running text.
+    #[must_use]
+    pub fn words(self) -> &'static str {
         match self {
-            Self::Hysteretic => "hysteretic",
-            Self::Dashpot => "dashpot",
+            Self::Hysteretic => "hysteretic, with the largest force of a half-sine",
+            Self::Dashpot => "spring and dashpot",
         }
     }
     /// The law of this name.

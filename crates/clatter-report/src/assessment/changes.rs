@@ -1,7 +1,7 @@
 //! What would make a failing part safe: each change alone.
 
 use clatter_assess::design::{Change, Lever};
-use clatter_assess::{Changes, Component, LimitKind, Product};
+use clatter_assess::{Changes, Component, Product};
 use serde_json::{Value, json};
 
 /// A number to four digits: changes have fewer.
@@ -17,11 +17,7 @@ fn what(lever: Lever) -> &'static str {
         Lever::Frequency => "natural frequency",
         Lever::Damping => "damping ratio",
         Lever::ContactTime => "contact time",
-        Lever::Limit(LimitKind::Acceleration) => "acceleration limit",
-        Lever::Limit(LimitKind::RattleSpace) => "rattle space",
-        Lever::Limit(LimitKind::VelocityChange) => "velocity change limit",
-        Lever::Limit(LimitKind::AngularVelocityChange) => "angular velocity change limit",
-        Lever::Limit(LimitKind::DamageBoundary) => "critical velocity change",
+        Lever::Limit(kind) => kind.allowed(),
     }
 }
 
@@ -75,7 +71,7 @@ pub(super) fn changes(of: Of<'_>, changes: &Changes) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clatter_assess::ProductFile;
+    use clatter_assess::{LimitKind, ProductFile};
 
     #[test]
     fn values_have_the_digits_and_units_of_the_file() {

@@ -1,6 +1,6 @@
 //! What an assessment was made from, in words: the product, its drop, how a part is held.
 
-use clatter_assess::{Assessment, Component, ContactLaw, Damping, Fall, First, Mount, ProductFile};
+use clatter_assess::{Assessment, Component, Damping, Fall, First, Mount, ProductFile};
 use clatter_figures::{model_words as model, three};
 
 use crate::Pages;
@@ -15,11 +15,7 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 
     add("Restitution", range(&product.restitution, 1.0, ""));
     match product.contact_time_s {
         Some(time) => {
-            let law = match product.law() {
-                ContactLaw::Hysteretic => "hysteretic, with the largest force of a half-sine",
-                ContactLaw::Dashpot => "spring and dashpot",
-            };
-            add("Contact", format!("an end touches for {}; {law}", range(&time, 1e-3, "ms")));
+            add("Contact", format!("an end touches for {}; {}", range(&time, 1e-3, "ms"), product.law().words()));
         }
         None => add("Contact", "no contact time is given: impacts are instants".to_owned()),
     }

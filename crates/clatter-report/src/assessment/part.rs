@@ -1,8 +1,7 @@
 //! What the page says of one part.
 
 use clatter_assess::{
-    Component, ComponentAssessment, ContactLaw, LimitAssessment, Model, Portrait, ProductFile, Verdict, WorstCase,
-    repeat,
+    Component, ComponentAssessment, LimitAssessment, Model, Portrait, ProductFile, Verdict, WorstCase, repeat,
 };
 use clatter_figures::{is_drawn, three};
 use serde_json::{Value, json};
@@ -10,7 +9,7 @@ use serde_json::{Value, json};
 use super::changes::{Of, changes};
 use super::inputs::held;
 use crate::Pages;
-use crate::words::{end, hundredths, is_sure, limit, millimeters, minus, name, percent, quantity, shown, sure_name};
+use crate::words::{end, hundredths, is_sure, millimeters, minus, name, percent, shown, sure_name};
 
 /// What else is known of a limit, a sentence each.
 fn said(file: &ProductFile, of: &LimitAssessment) -> Vec<String> {
@@ -28,13 +27,10 @@ fn said(file: &ProductFile, of: &LimitAssessment) -> Vec<String> {
         said.push(format!("The energy of the drops allows no more than {}.", shown(of.unit, bound)));
     }
     if let Some(other) = of.other_law {
-        let law = match file.product.law() {
-            ContactLaw::Hysteretic => "spring and dashpot",
-            ContactLaw::Dashpot => "hysteretic contact",
-        };
+        let law = file.product.law().other().words();
         said.push(format!("By the other contact law ({law}) the worst drop asks for {}.", shown(of.unit, other)));
     }
-    if let Some(gyration_m) = of.worst_case.as_ref().and_then(|worst| worst.gyration_m) {
+    if let Some(gyration_m) = of.worst_case.as_ref().and_then(WorstCase::gyration_m) {
         said.push(format!("In the worst drop the radius of gyration is {}.", millimeters(gyration_m)));
     }
     said.extend(of.notes.iter().map(|note| sentence(&minus(note))));
@@ -44,16 +40,16 @@ fn said(file: &ProductFile, of: &LimitAssessment) -> Vec<String> {
 /// The worst drop as columns: first end, tilt, speed, restitution, contact, frequency, damping, place, impact.
 fn columns(of: &LimitAssessment, worst: &WorstCase) -> [String; 9] {
     let or_none = |value: Option<f64>, factor: f64| value.map_or("–".to_owned(), |v| three(factor * v));
-    let contact = worst.contact_time_s.filter(|_| of.model.bar == Model::Compliant);
+    let contact = worst.drop.contact_time_s.filter(|_| of.model.bar == Model::Compliant);
     [
-        end(worst.first).to_owned(),
-        if worst.flat { "flat".to_owned() } else { format!("{}°", three(worst.tilt_deg)) },
-        format!("{} m/s", three(worst.speed_m_s)),
-        three(worst.restitution),
+        end(worst.drop.first).to_owned(),
+        if worst.drop.flat { "flat".to_owned() } else { format!("{}°", three(worst.tilt_deg())) },
+        format!("{} m/s", three(worst.drop.speed_m_s)),
+        three(worst.drop.restitution),
         contact.map_or("–".to_owned(), |time| format!("{} ms", three(1e3 * time))),
-        worst.frequency_hz.map_or("–".to_owned(), |hz| format!("{} Hz", three(hz))),
-        or_none(worst.damping_ratio, 1.0),
-        millimeters(worst.position_m),
+        worst.frequency_hz().map_or("–".to_owned(), |hz| format!("{} Hz", three(hz))),
+        or_none(worst.damping_ratio(), 1.0),
+        millimeters(worst.part.position_m),
         worst.impact.to_string(),
     ]
 }
@@ -65,7 +61,7 @@ fn row(pages: &Pages<'_>, part: &str, of: &LimitAssessment) -> Value {
     let short = repeat(pages.path, part, of.limit, &pages.assessment.accuracy).filter(|said| said.chars().all(is_sure));
     let known = |value: Option<f64>| value.map_or("–".to_owned(), |value| shown(of.unit, value));
     json!({
-        "name": limit(of.limit),
+        "name": of.limit.words(),
         "allowed": shown(of.unit, of.allowed),
         "demand": known(of.demand),
         "flat": known(of.clatter_free),
@@ -75,13 +71,13 @@ fn row(pages: &Pages<'_>, part: &str, of: &LimitAssessment) -> Value {
         "worst": of.worst_case.as_ref().map(|worst| columns(of, worst)),
         "said": said(file, of),
         "undecided": of.undecided.as_deref().map(minus),
-        "command": of.worst_case.as_ref().map(|worst| short.unwrap_or_else(|| worst.command.clone())),
+        "command": of.worst_case.as_ref().map(|worst| short.unwrap_or_else(|| worst.command())),
     })
 }
 
 /// The tightest limit and the drop behind it, in a few sentences.
 fn summary(component: &Component, of: &LimitAssessment, portrait: &Portrait) -> String {
-    let what = limit(of.limit);
+    let what = of.limit.words();
     let tightest = if let (Some(demand), Some(margin), Some(worst)) = (of.demand, of.margin, &of.worst_case) {
         format!(
             "The tightest limit is its {what}: {} is allowed, and the worst drop that was found asks for {}, {} of it (margin {}). {}",
@@ -109,15 +105,19 @@ fn summary(component: &Component, of: &LimitAssessment, portrait: &Portrait) -> 
 }
 
 fn drop(worst: &WorstCase) -> String {
-    let frequency = worst.frequency_hz.map(|hz| format!(", the part at {} Hz", three(hz))).unwrap_or_default();
+    let frequency = worst.frequency_hz().map(|hz| format!(", the part at {} Hz", three(hz))).unwrap_or_default();
     let peak = if worst.impact > 1 {
         format!("the peak comes after impact {}, not after the first", worst.impact)
     } else {
         "the peak comes after the first impact".to_owned()
     };
-    let lands = if worst.flat { "flat, both ends as one,".to_owned() } else { format!("on end {}", end(worst.first)) };
-    let tilted = if worst.flat { String::new() } else { format!(", tilted by {}°", three(worst.tilt_deg)) };
-    let (speed, e) = (three(worst.speed_m_s), three(worst.restitution));
+    let lands = if worst.drop.flat {
+        "flat, both ends as one,".to_owned()
+    } else {
+        format!("on end {}", end(worst.drop.first))
+    };
+    let tilted = if worst.drop.flat { String::new() } else { format!(", tilted by {}°", three(worst.tilt_deg())) };
+    let (speed, e) = (three(worst.drop.speed_m_s), three(worst.drop.restitution));
     format!("That drop lands {lands} at {speed} m/s{tilted}, with e = {e}{frequency}; {peak}.")
 }
 
@@ -135,7 +135,7 @@ pub(super) fn part(
     portrait: &Portrait,
 ) -> Value {
     let tightest = assessed.tightest();
-    let what = quantity(tightest.limit, tightest.unit);
+    let what = tightest.limit.measured(tightest.unit);
     let allowed = shown(tightest.unit, tightest.allowed);
     let seen = |largest: f64| {
         if is_drawn(tightest.allowed, largest) {
@@ -152,7 +152,7 @@ pub(super) fn part(
         "verdict": assessed.verdict.name(),
         "position": millimeters(assessed.position_m),
         "summary": summary(component, tightest, portrait),
-        "undecided": undecided.map(|l| json!({ "limit": limit(l.limit), "why": l.undecided.as_deref().map(minus) })).collect::<Vec<_>>(),
+        "undecided": undecided.map(|l| json!({ "limit": l.limit.words(), "why": l.undecided.as_deref().map(minus) })).collect::<Vec<_>>(),
         "limits": assessed.limits.iter().map(|l| row(pages, &component.name, l)).collect::<Vec<_>>(),
         "changes": portrait.changes.as_ref().map(|of| changes(Of { product: &pages.file.product, component }, of)),
         "drawn": !portrait.history.is_empty(),
