@@ -43,7 +43,7 @@ fn the_worked_products() {
             let _ = writeln!(text, "  {}: {}", component.name, component.verdict.name());
             for limit in &component.limits {
                 let _ = writeln!(text, "{}", line(limit));
-                if let Some(why) = &limit.undecided {
+                if let Some(why) = limit.why_undecided() {
                     let _ = writeln!(text, "      {why}");
                 }
             }

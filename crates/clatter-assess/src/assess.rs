@@ -4,10 +4,11 @@ use crate::bound::bound;
 use crate::drop::{Model, SingleDrop};
 use crate::engine::{Part, answer};
 use crate::quantity::Source;
+use crate::reason::{Doubt, Note, Reason};
 use crate::search::{Asked, Place, Ranges, Task, Watch, Worst};
 use crate::{
-    Accuracy, Assessment, Component, ComponentAssessment, ContactLaw, Error, Limit, LimitAssessment, LimitKind,
-    ModelChoice, Mount, ProductFile, Unit, Verdict, WorstCase,
+    Accuracy, Assessment, Component, ComponentAssessment, Error, Limit, LimitAssessment, LimitKind, ModelChoice, Mount,
+    ProductFile, Unit, Verdict, WorstCase,
 };
 
 /// What the search may miss of a worst case, as a share of it: tests hold single drops of the same ranges to this.
@@ -178,19 +179,13 @@ impl ProductFile {
         let mut of =
             Judged { most: utilization * (1.0 + COVERAGE) + found.off_by / found.allowed, ..Judged::new(bound) };
         if found.off_by.is_infinite() && !worst.stopped {
-            of.notes.push("how far off it is is not known: drops next to the worst are not answered".to_owned());
+            of.notes.push(Note::NoError);
         } else if found.error().is_finite() && found.error() > 10.0 * ranges.tolerance {
-            let off = percent(found.error());
-            of.notes
-                .push(format!("it may be off by {off} %: later strikes add, and multiply what those before got wrong"));
+            of.notes.push(Note::Error(found.error()));
         }
         if worst.later > of.most {
             of.most = worst.later;
-            let most =
-                if of.most.is_finite() { format!("{} %", percent(of.most)) } else { "an unknown share".to_owned() };
-            of.notes.push(format!(
-                "rebounds may ask for up to {most} of the limit, by their energy: how the product lands again is sensitive to every input"
-            ));
+            of.notes.push(Note::Rebounds(of.most));
         }
         let drop = ranges.single(&asked.place);
         if ranges.model < drop.fullest() && !worst.stopped {
@@ -198,26 +193,19 @@ impl ProductFile {
             let full = answer(&drop, &place, &task.limit, drop.fullest(), ranges.tolerance)?;
             let off = full.utilization() - utilization;
             of.most += off.max(0.0);
-            let (asked_for, fullest) = (ranges.model.name(), drop.fullest().name());
-            of.notes.push(format!(
-                "{asked_for} was asked for; {fullest} says {:+} % in this drop",
-                percent(off / utilization)
-            ));
+            let (asked, fullest) = (ranges.model, drop.fullest());
+            of.notes.push(Note::Model { asked, fullest, off: off / utilization });
         }
-        if let Some((count, error)) = &worst.refused {
-            of.doubts.push(format!("{count} of {} drops that were tried are not answered: {error}", worst.drops));
+        if let Some((count, error)) = worst.refused.clone() {
+            of.doubts.push(Doubt::Refused { count, drops: worst.drops, error });
         }
         if worst.stopped {
-            of.doubts.push(format!("{} its end", Error::Stopped));
+            of.doubts.push(Doubt::Stopped);
         }
         if utilization <= 1.0 && of.most.is_infinite() {
-            of.doubts.push("how far other drops may exceed the worst one found is not known".to_owned());
+            of.doubts.push(Doubt::NoBound);
         } else if utilization <= 1.0 && of.most > 1.0 {
-            of.doubts.push(format!(
-                "the worst drop found asks for {} % of the limit, and others may ask for up to {} %",
-                percent(utilization),
-                percent(of.most)
-            ));
+            of.doubts.push(Doubt::Others { found: utilization, most: of.most });
         }
         of.verdict = if utilization > 1.0 {
             Verdict::Unsafe
@@ -254,23 +242,15 @@ impl ProductFile {
         let named = self.product.contact_law.is_some();
         let other_law = other.as_ref().and_then(|other| Some(in_unit_of(asked.as_ref()?, other.asked.as_ref()?)));
         if let Some(other) = other.filter(|other| !named && other.verdict != verdict) {
-            let [name, its] = [ranges.law, ranges.law.other()].map(ContactLaw::name);
+            let law = ranges.law.other();
             let decided = |of: Verdict| of != Verdict::Undecided;
             if decided(verdict) && decided(other.verdict) {
-                doubts = vec![format!(
-                    "it depends on the contact law, which the file does not name: {}",
-                    both(
-                        [name, its],
-                        [asked.as_ref(), other.asked.as_ref()].map(|asked| asked.map(|asked| asked.answer)),
-                    )
-                )];
+                let share = |asked: Option<Asked>| asked.map(|asked| asked.answer.utilization());
+                doubts = vec![Doubt::Laws([(ranges.law, share(asked)), (law, share(other.asked))])];
             } else if decided(verdict) {
-                doubts = vec![format!(
-                    "by the {its} contact law, which the file does not rule out: {}",
-                    other.doubts.join("; ")
-                )];
+                doubts = vec![Doubt::OtherLaw { law, doubts: other.doubts }];
             } else if other.verdict == Verdict::Unsafe {
-                doubts.push(format!("by the {its} contact law, which the file does not rule out, it is exceeded"));
+                doubts.push(Doubt::ExceededByOtherLaw(law));
             }
             verdict = Verdict::Undecided;
         }
@@ -291,7 +271,7 @@ impl ProductFile {
             other_law,
             worst_case: asked.map(|asked| worst_case(&asked, ranges)),
             model: model(ranges, task, accuracy_reason(ranges, &ranges.single(&shown))),
-            undecided: (verdict == Verdict::Undecided).then(|| doubts.join("; ")),
+            undecided: if verdict == Verdict::Undecided { doubts } else { Vec::new() },
             notes,
         }
     }
@@ -308,8 +288,8 @@ struct Judged {
     asked: Option<Asked>,
     verdict: Verdict,
     /// Why it is not safe though nothing exceeds it.
-    doubts: Vec<String>,
-    notes: Vec<String>,
+    doubts: Vec<Doubt>,
+    notes: Vec<Note>,
     /// The utilization that other drops of the ranges may reach.
     most: f64,
     /// By energy.
@@ -325,13 +305,13 @@ impl Judged {
     }
     /// No drop was answered.
     fn unanswered(worst: &Worst, bound: Option<f64>, held: bool) -> Self {
-        let why = match &worst.refused {
-            _ if worst.stopped => format!("{} its end", Error::Stopped),
-            Some((_, error)) => error.to_string(),
-            None => Error::Unfinished.to_string(),
+        let why = match worst.refused.clone() {
+            _ if worst.stopped => Error::Stopped,
+            Some((_, error)) => error,
+            None => Error::Unfinished,
         };
         let verdict = if held { Verdict::Safe } else { Verdict::Undecided };
-        Self { verdict, doubts: vec![format!("no drop of the ranges is answered: {why}")], ..Self::new(bound) }
+        Self { verdict, doubts: vec![Doubt::Unanswered(why)], ..Self::new(bound) }
     }
 }
 
@@ -345,15 +325,6 @@ fn in_unit_of(own: &Asked, other: &Asked) -> f64 {
     }
 }
 
-/// What two laws ask, each by its own worst drop, over what is allowed.
-fn both(names: [&str; 2], answers: [Option<crate::Answer>; 2]) -> String {
-    let one = |(name, answer): (&str, Option<crate::Answer>)| {
-        let share = answer.map_or("an unknown share".to_owned(), |a| format!("{} %", percent(a.utilization())));
-        format!("{name} asks for {share} of the limit")
-    };
-    names.into_iter().zip(answers).map(one).collect::<Vec<_>>().join(", ")
-}
-
 /// The limit whose demand has this unit: of a damage boundary the velocity change or the acceleration.
 fn in_unit(limit: &Limit, unit: Unit) -> Limit {
     match limit.kind.source() {
@@ -365,24 +336,15 @@ fn in_unit(limit: &Limit, unit: Unit) -> Limit {
     }
 }
 
-/// A share of a hundred to one decimal, for messages.
-fn percent(share: f64) -> f64 {
-    tenth(100.0 * share)
-}
-
-fn tenth(x: f64) -> f64 {
-    (10.0 * x).round() / 10.0
-}
-
-fn accuracy_reason(ranges: &Ranges<'_>, drop: &SingleDrop) -> String {
+fn accuracy_reason(ranges: &Ranges<'_>, drop: &SingleDrop) -> Reason {
     match (ranges.model, drop.fullest()) {
-        (Model::Compliant, _) => "contacts that take time: how long is known".to_owned(),
-        (model, fullest) if model < fullest => format!("{} was asked for", model.name()),
-        _ => "instant impacts at real tilt, with gravity: the contact time is not known".to_owned(),
+        (Model::Compliant, _) => Reason::ContactTime,
+        (model, fullest) if model < fullest => Reason::Asked(model),
+        _ => Reason::NoContactTime,
     }
 }
 
-fn model(ranges: &Ranges<'_>, task: &Task<'_>, reason: String) -> ModelChoice {
+fn model(ranges: &Ranges<'_>, task: &Task<'_>, reason: Reason) -> ModelChoice {
     let contacts = ranges.model == Model::Compliant;
     let component = match (task.limit.is_response(), task.component.mount) {
         (false, _) => "largest-shock",
@@ -410,14 +372,9 @@ fn verdict(component: &Component, mut limits: Vec<LimitAssessment>) -> Component
     let stop = limits.iter().find(|l| l.limit == LimitKind::RattleSpace && l.verdict != Verdict::Safe);
     if let Some(stop) = stop.map(|l| (l.verdict, l.margin)) {
         for limit in limits.iter_mut().filter(|l| l.limit == LimitKind::Acceleration) {
-            let (hits, more) = if stop.0 == Verdict::Unsafe { ("hits", "exceeds") } else { ("may hit", "may exceed") };
-            let known = stop.1.filter(|margin| margin.is_finite());
-            let margin = known.map_or(String::new(), |margin| format!(" (margin {:+} %)", percent(margin)));
+            let margin = stop.1.filter(|margin| margin.is_finite());
             limit.verdict = Verdict::Undecided;
-            limit.undecided = Some(format!(
-                "the part {hits} its stop: its displacement {more} the rattle space{margin}, and what the stop does is not known; \
-                 more room or a stiffer mount decides it"
-            ));
+            limit.undecided = vec![Doubt::Stop { hits: stop.0 == Verdict::Unsafe, margin }];
         }
     }
     let tightest = limits.iter().min_by(|a, b| a.room().total_cmp(&b.room()));

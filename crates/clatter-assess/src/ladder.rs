@@ -234,7 +234,7 @@ impl ProductFile {
                 let name = component.name.clone();
                 let Some(worst) = found.worst_case.as_ref().filter(|_| found.demand.is_some_and(|demand| demand > 0.0))
                 else {
-                    let reason = found.undecided.clone().unwrap_or_else(|| "nothing is asked of it".to_owned());
+                    let reason = found.why_undecided().unwrap_or_else(|| "nothing is asked of it".to_owned());
                     left_out.push(LeftOut { component: name, limit: limit.kind, reason });
                     continue;
                 };

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use clatter::End;
 use serde::{Serialize, Serializer};
 
+use crate::reason::{Doubt, Note, Reason, as_sentence, as_text, as_texts, joined};
 use crate::{Component, LimitKind, Model, Part, ProductFile, SingleDrop, Unit};
 
 /// Whether every limit holds in the worst drop.
@@ -146,6 +147,11 @@ impl ComponentAssessment {
 }
 
 impl LimitAssessment {
+    /// Why the limit is undecided, in a sentence.
+    #[must_use]
+    pub fn why_undecided(&self) -> Option<String> {
+        joined(&self.undecided)
+    }
     /// The margin to order limits by: infinite where no drop was answered.
     #[must_use]
     pub fn room(&self) -> f64 {
@@ -183,10 +189,12 @@ pub struct LimitAssessment {
     pub worst_case: Option<WorstCase>,
     /// How it was followed, and why so.
     pub model: ModelChoice,
-    /// Why the limit is undecided, and what would decide it; else null.
-    pub undecided: Option<String>,
+    /// Why the limit is undecided; else empty.
+    #[serde(serialize_with = "as_sentence")]
+    pub undecided: Vec<Doubt>,
     /// What else is to be known, each with by how much; may be empty.
-    pub notes: Vec<String>,
+    #[serde(serialize_with = "as_texts")]
+    pub notes: Vec<Note>,
 }
 
 /// A drop, and where in the component and when it does the worst.
@@ -280,8 +288,9 @@ pub struct ModelChoice {
     /// What the component answers to: `largest-shock` (the product's own shocks), `impulse-train`, `pulse-train`, or `base` (the pulses of
     /// the product at a hard-mounted part).
     pub component: &'static str,
-    /// Why these, in a sentence.
-    pub reason: String,
+    /// Why these.
+    #[serde(serialize_with = "as_text")]
+    pub reason: Reason,
 }
 
 /// Infinity is a string: JSON has no number for it.

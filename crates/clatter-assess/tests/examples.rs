@@ -149,7 +149,7 @@ fn a_search_that_is_stopped_calls_nothing_safe_but_by_energy() {
                     }
                     Verdict::Unsafe => assert_eq!(whole.verdict, Verdict::Unsafe, "{most} drops"),
                     Verdict::Undecided => {
-                        let why = cut.undecided.as_deref().unwrap_or_default();
+                        let why = cut.why_undecided().unwrap_or_default();
                         assert!(why.contains("stopped") || whole.verdict == Verdict::Undecided, "{most} drops: {why}");
                         undecided += 1;
                     }

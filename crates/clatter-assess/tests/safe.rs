@@ -205,7 +205,7 @@ fn presses_that_overlap_are_one_shock() {
 fn the_law_that_nobody_chose_decides_nothing() {
     let limit = only(OTHER_LAW);
     assert_eq!(limit.verdict, Verdict::Undecided);
-    let reason = limit.undecided.expect("a reason");
+    let reason = limit.why_undecided().expect("a reason");
     assert!(["contact law", "hysteretic", "dashpot"].iter().all(|part| reason.contains(part)), "{reason}");
     close(limit.demand.expect("a demand"), 442.8 * G, 0.01);
     close(limit.other_law.expect("the other law"), 715.9 * G, 0.01);
@@ -233,7 +233,7 @@ fn nothing_answered_is_no_demand() {
     let refused = with(LONG_CONTACTS, "[\"0.5 ms\", \"9 ms\"]", "\"9 ms\"");
     let limit = only(&with(&refused, "3000 gn", "100 gn"));
     assert_eq!((limit.verdict, limit.demand, limit.margin), (Verdict::Undecided, None, None));
-    let reason = limit.undecided.as_ref().expect("a reason");
+    let reason = limit.why_undecided().expect("a reason");
     assert!(reason.contains("no drop of the ranges is answered: contact time 9 ms"), "{reason}");
     let json = serde_json::to_value(&limit).expect("JSON");
     for key in ["demand", "margin", "worst_case", "clatter_free", "other_law"] {
@@ -256,7 +256,7 @@ fn a_refused_drop_leaves_the_limit_undecided() {
     let limit = only(LONG_CONTACTS);
     assert!(limit.demand.expect("a demand") * 1.2 < limit.allowed, "{limit:?}");
     assert_eq!(limit.verdict, Verdict::Undecided);
-    assert!(limit.undecided.expect("a reason").contains("drops that were tried are not answered"));
+    assert!(limit.why_undecided().expect("a reason").contains("drops that were tried are not answered"));
     let answered = only(&with(LONG_CONTACTS, "\"9 ms\"", "\"2 ms\""));
     assert_eq!(answered.verdict, Verdict::Safe);
 }
@@ -269,7 +269,7 @@ fn a_limit_within_the_uncertainty_is_undecided() {
     let at = |share: f64| only(&with(&text, "6 m/s", &format!("{} m/s", share * demand)));
     assert_eq!([0.99, 1.01, 1.05].map(|share| at(share).verdict), [Verdict::Unsafe, Verdict::Undecided, Verdict::Safe]);
     let limit = at(1.01);
-    assert!(limit.uncertainty > 0.01 && limit.undecided.expect("a reason").contains("others may ask for up to"));
+    assert!(limit.uncertainty > 0.01 && limit.why_undecided().expect("a reason").contains("others may ask for up to"));
 }
 
 /// A part that may hit its stop: what it feels then is not known.
@@ -278,7 +278,7 @@ fn an_undecided_rattle_space_leaves_the_acceleration_undecided() {
     let text = with(&with(FLAT_SOFT, "230 gn", "400 gn"), "0 deg", "0.1 deg");
     let near = limits(&with(&text, "18 mm", "16.4 mm"));
     assert_eq!([near[0].verdict, near[1].verdict], [Verdict::Undecided; 2], "{near:?}");
-    assert!(near[0].undecided.as_ref().expect("a reason").contains("may hit its stop"));
+    assert!(near[0].why_undecided().expect("a reason").contains("may hit its stop"));
     assert_eq!(limits(&text).iter().map(|limit| limit.verdict).collect::<Vec<_>>(), [Verdict::Safe; 2]);
 }
 

@@ -127,7 +127,7 @@ impl OneDrop {
             })?,
         };
         let Some(worst) = &found.worst_case else {
-            let why = found.undecided.clone().unwrap_or_default();
+            let why = found.why_undecided().unwrap_or_default();
             return Err(Failure::Wrong(format!("no worst drop is known: {why}")));
         };
         let limit = found.limit.name();

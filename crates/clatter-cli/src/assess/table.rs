@@ -116,10 +116,10 @@ fn worst_drop(
         }
         None => sentence(out, &first, "no drop is answered")?,
     }
-    if let Some(reason) = &limit.undecided {
-        sentence(out, "  undecided: ", reason)?;
+    if let Some(reason) = limit.why_undecided() {
+        sentence(out, "  undecided: ", &reason)?;
     }
-    limit.notes.iter().try_for_each(|note| sentence(out, "  note: ", note))?;
+    limit.notes.iter().try_for_each(|note| sentence(out, "  note: ", &note.to_string()))?;
     let Some(worst) = &limit.worst_case else { return Ok(()) };
     let short = repeat(path, &component.name, limit.limit, accuracy);
     writeln!(out, "  {}", short.unwrap_or_else(|| worst.command()))

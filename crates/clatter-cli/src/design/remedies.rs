@@ -139,13 +139,13 @@ impl Found<'_> {
         let (verdict, before) = (component.verdict.name(), in_percent(margin(component)));
         writeln!(out, "\n{} ({verdict}, {before})", shown(&component.name, 60))?;
         let width = part.levers.iter().map(|remedy| called(remedy.lever).len()).max().unwrap_or(0);
-        let mut notes: Vec<(&String, Vec<&str>)> = Vec::new();
+        let mut notes: Vec<(String, Vec<&str>)> = Vec::new();
         for Remedy { lever, outcome } in &part.levers {
             let name = called(*lever);
             match outcome {
                 Outcome::Change { change, after } => {
                     writeln!(out, "  {name:<width$} {}   ({})", self.said(part, change), left(after))?;
-                    for note in &after.tightest().notes {
+                    for note in after.tightest().notes.iter().map(ToString::to_string) {
                         match notes.iter_mut().find(|(known, _)| *known == note) {
                             Some((_, levers)) => levers.push(name),
                             None => notes.push((note, vec![name])),
@@ -267,7 +267,7 @@ impl Found<'_> {
         match outcome {
             Outcome::Change { change, after } => {
                 let ChangeJson { from, to, radius_of_gyration_m, .. } = self.change_json(change);
-                let notes = &after.tightest().notes;
+                let notes: Vec<_> = after.tightest().notes.iter().map(ToString::to_string).collect();
                 RemedyJson {
                     outcome: "change",
                     from: Some(from),

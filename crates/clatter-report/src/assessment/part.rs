@@ -33,7 +33,7 @@ fn said(file: &ProductFile, of: &LimitAssessment) -> Vec<String> {
     if let Some(gyration_m) = of.worst_case.as_ref().and_then(WorstCase::gyration_m) {
         said.push(format!("In the worst drop the radius of gyration is {}.", millimeters(gyration_m)));
     }
-    said.extend(of.notes.iter().map(|note| sentence(&minus(note))));
+    said.extend(of.notes.iter().map(|note| sentence(&minus(&note.to_string()))));
     said
 }
 
@@ -70,7 +70,7 @@ fn row(pages: &Pages<'_>, part: &str, of: &LimitAssessment) -> Value {
         "verdict": of.verdict.name(),
         "worst": of.worst_case.as_ref().map(|worst| columns(of, worst)),
         "said": said(file, of),
-        "undecided": of.undecided.as_deref().map(minus),
+        "undecided": of.why_undecided().as_deref().map(minus),
         "command": of.worst_case.as_ref().map(|worst| short.unwrap_or_else(|| worst.command())),
     })
 }
@@ -152,7 +152,7 @@ pub(super) fn part(
         "verdict": assessed.verdict.name(),
         "position": millimeters(assessed.position_m),
         "summary": summary(component, tightest, portrait),
-        "undecided": undecided.map(|l| json!({ "limit": l.limit.words(), "why": l.undecided.as_deref().map(minus) })).collect::<Vec<_>>(),
+        "undecided": undecided.map(|l| json!({ "limit": l.limit.words(), "why": l.why_undecided().as_deref().map(minus) })).collect::<Vec<_>>(),
         "limits": assessed.limits.iter().map(|l| row(pages, &component.name, l)).collect::<Vec<_>>(),
         "changes": portrait.changes.as_ref().map(|of| changes(Of { product: &pages.file.product, component }, of)),
         "drawn": !portrait.history.is_empty(),

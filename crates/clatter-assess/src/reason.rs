@@ -1,0 +1,193 @@
+//! Why an assessment says what it says: data, and the sentences that show it.
+
+use std::fmt::{Display, Formatter};
+
+use serde::Serializer;
+
+use crate::{ContactLaw, Error, Model};
+
+/// Why a limit is undecided, or would be if nothing exceeded it. Shares are of what is allowed.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Doubt {
+    /// No drop of the ranges is answered, for this.
+    Unanswered(Error),
+    /// Some of the drops that were tried are not answered.
+    Refused {
+        /// So many of them.
+        count: usize,
+        /// All that were tried.
+        drops: usize,
+        /// Why one of them is not.
+        error: Error,
+    },
+    /// The search was stopped.
+    Stopped,
+    /// Nothing tells how far other drops may exceed the worst one found.
+    NoBound,
+    /// Other drops of the ranges may exceed the limit.
+    Others {
+        /// The share that the worst drop found asks for.
+        found: f64,
+        /// The share that others may ask for.
+        most: f64,
+    },
+    /// One contact law says safe and the other one unsafe, and the file names none.
+    Laws([(ContactLaw, Option<f64>); 2]),
+    /// The file names no contact law, and the limit is undecided by this one.
+    OtherLaw {
+        /// The law.
+        law: ContactLaw,
+        /// Why it is.
+        doubts: Vec<Doubt>,
+    },
+    /// The file names no contact law, and the limit is exceeded by this one.
+    ExceededByOtherLaw(ContactLaw),
+    /// The part may hit its stop, after which the suspension is not linear.
+    Stop {
+        /// Whether it does for sure.
+        hits: bool,
+        /// The margin of the rattle space, where it is known.
+        margin: Option<f64>,
+    },
+}
+
+impl Display for Doubt {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Unanswered(Error::Stopped) => write!(f, "no drop of the ranges is answered: {}", Self::Stopped),
+            Self::Unanswered(error) => write!(f, "no drop of the ranges is answered: {error}"),
+            Self::Refused { count, drops, error } => {
+                write!(f, "{count} of {drops} drops that were tried are not answered: {error}")
+            }
+            Self::Stopped => write!(f, "{} its end", Error::Stopped),
+            Self::NoBound => f.write_str("how far other drops may exceed the worst one found is not known"),
+            Self::Others { found, most } => write!(
+                f,
+                "the worst drop found asks for {} % of the limit, and others may ask for up to {} %",
+                percent(*found),
+                percent(*most)
+            ),
+            Self::Laws(laws) => {
+                let one = |(law, share): (ContactLaw, Option<f64>)| {
+                    let share = share.map_or("an unknown share".to_owned(), |share| format!("{} %", percent(share)));
+                    format!("{} asks for {share} of the limit", law.name())
+                };
+                let both = laws.map(one).join(", ");
+                write!(f, "it depends on the contact law, which the file does not name: {both}")
+            }
+            Self::OtherLaw { law, doubts } => {
+                let why = joined(doubts).unwrap_or_default();
+                write!(f, "by the {} contact law, which the file does not rule out: {why}", law.name())
+            }
+            Self::ExceededByOtherLaw(law) => {
+                write!(f, "by the {} contact law, which the file does not rule out, it is exceeded", law.name())
+            }
+            Self::Stop { hits, margin } => {
+                let (hits, more) = if *hits { ("hits", "exceeds") } else { ("may hit", "may exceed") };
+                let margin = margin.map_or(String::new(), |margin| format!(" (margin {:+} %)", percent(margin)));
+                write!(
+                    f,
+                    "the part {hits} its stop: its displacement {more} the rattle space{margin}, and what the stop does is not known; \
+                     more room or a stiffer mount decides it"
+                )
+            }
+        }
+    }
+}
+
+/// What else is to be known of a limit. Shares are of what is allowed.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Note {
+    /// Drops next to the worst one are not answered, so that nothing tells how far off it is.
+    NoError,
+    /// The answer may be off by this share of itself.
+    Error(f64),
+    /// Rebounds may ask for up to this share, by their energy.
+    Rebounds(f64),
+    /// The model that was asked for is not the one with the most physics.
+    Model {
+        /// The one that was asked for.
+        asked: Model,
+        /// The one with the most physics.
+        fullest: Model,
+        /// What that one says of the worst drop, less what this one says, as a share of it.
+        off: f64,
+    },
+}
+
+impl Display for Note {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::NoError => f.write_str("how far off it is is not known: drops next to the worst are not answered"),
+            Self::Error(share) => write!(
+                f,
+                "it may be off by {} %: later strikes add, and multiply what those before got wrong",
+                percent(*share)
+            ),
+            Self::Rebounds(most) => {
+                let most =
+                    if most.is_finite() { format!("{} %", percent(*most)) } else { "an unknown share".to_owned() };
+                write!(
+                    f,
+                    "rebounds may ask for up to {most} of the limit, by their energy: how the product lands again is sensitive to \
+                     every input"
+                )
+            }
+            Self::Model { asked, fullest, off } => {
+                write!(f, "{} was asked for; {} says {:+} % in this drop", asked.name(), fullest.name(), percent(*off))
+            }
+        }
+    }
+}
+
+/// Why a drop is followed by its model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Reason {
+    /// Contacts take a time that is known.
+    ContactTime,
+    /// The model was asked for.
+    Asked(Model),
+    /// The contact time is not known.
+    NoContactTime,
+}
+
+impl Display for Reason {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::ContactTime => f.write_str("contacts that take time: how long is known"),
+            Self::Asked(model) => write!(f, "{} was asked for", model.name()),
+            Self::NoContactTime => {
+                f.write_str("instant impacts at real tilt, with gravity: the contact time is not known")
+            }
+        }
+    }
+}
+
+/// One after the other in a sentence; none of none.
+pub(crate) fn joined(doubts: &[Doubt]) -> Option<String> {
+    let all: Vec<_> = doubts.iter().map(Doubt::to_string).collect();
+    (!all.is_empty()).then(|| all.join("; "))
+}
+
+/// A share of a hundred to one decimal.
+fn percent(share: f64) -> f64 {
+    (10.0 * (100.0 * share)).round() / 10.0
+}
+
+pub(crate) fn as_text<T: Display, S: Serializer>(value: &T, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(value)
+}
+
+pub(crate) fn as_texts<T: Display, S: Serializer>(list: &[T], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(list.iter().map(ToString::to_string))
+}
+
+pub(crate) fn as_sentence<S: Serializer>(doubts: &[Doubt], serializer: S) -> Result<S::Ok, S::Error> {
+    match joined(doubts) {
+        Some(text) => serializer.serialize_some(&text),
+        None => serializer.serialize_none(),
+    }
+}
