@@ -67,7 +67,7 @@ pub enum Error {
     #[error(transparent)]
     Flight(#[from] clatter_flight::Error),
     /// A motion that was given up while more was to come.
-    #[error("the motion goes on beyond 1024 strikes or 20 000 phases, and was left there")]
+    #[error("the motion goes on beyond 1024 strikes or 150 000 phases, and was left there")]
     Unfinished,
     /// A search that was told to stop.
     #[error("the search for the worst drop was stopped before")]

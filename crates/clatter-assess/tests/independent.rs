@@ -238,10 +238,10 @@ fn answers_are_those_of_the_laws() {
         }
         compared.map(|(off, _)| (off.off / off.times, off.told))
     };
-    let all: Vec<_> = (0..160).into_par_iter().filter_map(one).collect();
+    let all: Vec<_> = (0..100).into_par_iter().filter_map(one).collect();
     let worst = all.iter().fold([0.0_f64; 2], |worst, (off, told)| [worst[0].max(*off), worst[1].max(*told)]);
     println!("{} drops: off by {:.1e} at most, {:.1e} told at most", all.len(), worst[0], worst[1]);
-    assert!(all.len() >= 140, "{} drops compared", all.len());
+    assert!(all.len() >= 85, "{} drops compared", all.len());
 }
 
 /// An answer at 1 % differs from one at 1e-5 by what both tell at most; contacts and instant impacts, half of the parts with a period
@@ -273,7 +273,7 @@ fn what_is_left_out_is_told() {
         let what = format!("seed {seed}, {model:?} {kind:?} {drop:?} {part:?} {coarse:?}");
         Some((off, coarse.error(), fine.error(), multiplied, what))
     };
-    let all: Vec<_> = (0..600).into_par_iter().filter_map(one).collect();
+    let all: Vec<_> = (0..300).into_par_iter().filter_map(one).collect();
     let (mut worst, mut many) = ([0.0_f64; 2], 0);
     for (off, told, finer, multiplied, what) in &all {
         let allowed = told + finer.max(1e-5);
@@ -287,5 +287,5 @@ fn what_is_left_out_is_told() {
         "{count} answers, {many} after the second strike, off by {:.1e} at most, {:.2} of what is told",
         worst[0], worst[1]
     );
-    assert!(count - many >= 300 && many >= 100, "{many} of {count} peak after the second strike");
+    assert!(count - many >= 150 && many >= 50, "{many} of {count} peak after the second strike");
 }

@@ -169,7 +169,7 @@ fn setting(name: &str, default: usize) -> usize {
 /// may do more. Few limits are undecided.
 #[test]
 fn no_single_drop_is_worse() {
-    let (products, singles, seed) = (setting("PRODUCTS", 16), setting("SINGLES", 400), setting("SEED", 1));
+    let (products, singles, seed) = (setting("PRODUCTS", 10), setting("SINGLES", 400), setting("SEED", 1));
     let (mut limits, mut passed, mut passed_more, mut undecided) = (0, 0, 0, 0);
     let (mut slowest, mut all) = (0.0_f64, 0.0);
     for n in 0..products {

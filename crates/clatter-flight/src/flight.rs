@@ -113,7 +113,7 @@ pub enum Stop {
     /// More strikes would follow after the time limit.
     TimeLimit {
         /// The limit; earlier where a body at finite tilt turns more often before it comes down than can be followed (a
-        /// thousand times or so), or where contacts take more than 20 000 phases and 128 for each strike that is allowed.
+        /// thousand times or so), or where contacts take more than 150 000 phases and 128 for each strike.
         time_s: f64,
     },
     /// What follows is not known: the energy of the body has changed by more than 1 % without reason (contacts that take time).

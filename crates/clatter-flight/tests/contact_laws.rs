@@ -1,6 +1,6 @@
 //! What each contact law says of a lone contact, of symmetry, and of its limits.
 
-use clatter_flight::{Body, Contact, ContactLaw, Model, Scene, Strike};
+use clatter_flight::{Body, Contact, ContactLaw, Model, Scene, Stop, Strike};
 use proptest::prelude::*;
 
 const LAWS: [ContactLaw; 2] = [ContactLaw::Hysteretic, ContactLaw::Dashpot];
@@ -141,6 +141,8 @@ fn without_restitution_nothing_rebounds() {
     let lone = Scene::new(lone, 0.0, 2.0, 0.0, 9.81).expect("a drop");
     let flight = lone.contacts(&contact(ContactLaw::Hysteretic, 0.0, 1e-3)).expect("a flight").flight;
     assert!(flight.strikes.len() == 1 && flight.strikes[0].velocity_m_s == [0.0], "{flight:?}");
+    // Nothing holds it upright but that it does not move: no time is its rest, and it is left.
+    assert!(matches!(flight.stop, Stop::TimeLimit { .. }), "{flight:?}");
     for (q, g) in [(0.5, 9.81), (-0.5, 9.81), (0.5, 0.0)] {
         let scene = Scene::new(body(q), 0.0, 2.0, 0.0, g).expect("a drop");
         let flight = scene.contacts(&contact(ContactLaw::Hysteretic, 0.0, 1e-3)).expect("a flight");

@@ -67,7 +67,9 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         let (height, velocity) = self.pose.points();
         let rate = (line.stiffness * self.pose.coupled(i, i)).sqrt();
         let rest = line.zero - fall / (rate * rate);
-        let by_weight = if self.contact.law() == ContactLaw::Hysteretic { PARTS * fall / rate } else { 0.0 };
+        // Below its rest, where its spring holds no less than its weight: else it would be given what it lacks.
+        let rings_by_weight = self.contact.law() == ContactLaw::Hysteretic && height[i] <= rest;
+        let by_weight = if rings_by_weight { PARTS * fall / rate } else { 0.0 };
         if velocity[i].hypot(rate * (height[i] - rest)) <= self.slow().max(by_weight) {
             let (contact, told) = (self.contact, SUNK * self.margins.height);
             let force = fall / self.pose.coupled(i, i);

@@ -32,8 +32,8 @@ const IDLE: u32 = 64;
 /// Longest phase in contact times where anything vibrates, else a tenth of √(reach/gravity) or of a turn by 1 if that is
 /// longer.
 const LONG: f64 = 64.0;
-/// Phases at most beyond those for each strike that is allowed: a body that neither rests nor strikes is left then.
-const PHASES: usize = 20_000;
+/// Phases at most beyond those for each strike so far: a body that neither rests nor strikes is left then.
+const PHASES: usize = 150_000;
 const EACH_STRIKE: usize = 128;
 /// Heights within this share of the body's length, and velocities within this share of the largest approach, are the same
 /// where an event has just happened.
@@ -57,7 +57,6 @@ pub(super) struct Run<'a, P: Pose<N>, const N: usize> {
     opened: f64,
     misfit: f64,
     idle: u32,
-    most_phases: usize,
     /// The body just before it comes to rest.
     pub(super) unrested: Option<P>,
     pub(super) resting: [f64; N],
@@ -79,7 +78,6 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
             precision,
             margins: Margins { height: MARGIN * extent.size, velocity: 0.0, force: precision },
             extent,
-            most_phases: PHASES + EACH_STRIKE * log.impact_limit.min(1 << 20),
             log,
             presses: Vec::with_capacity(16),
             phases: Vec::with_capacity(64),
@@ -141,7 +139,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
             return Ok(false);
         }
         self.idle = if dt > 0.0 { 0 } else { self.idle + 1 };
-        if self.phases.len() >= self.most_phases || self.idle > IDLE {
+        if self.phases.len() >= PHASES + EACH_STRIKE * self.presses.len() || self.idle > IDLE {
             self.log.lost(self.time.now());
             return Ok(false);
         }
