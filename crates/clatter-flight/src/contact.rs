@@ -8,7 +8,7 @@
 //! A phase has constant lever arms, and a constant acceleration by turning: those of the mean angle as its forces weigh it.
 //! At its end the pose follows in exact geometry. What that gets wrong is measured beside each phase, by how far the body
 //! turns and how much it is pushed; phases are cut where it would be more than the precision asked allows. What the energy
-//! of the body changes by without reason is summed in [`ContactFlight::energy_error`]; a flight ends where that is no longer
+//! of the body changes by without reason is summed in [`Motion::energy_error`]; a flight ends where that is no longer
 //! small, and one phase that changes it by as much is an error.
 //!
 //! # A point in its dent
@@ -21,7 +21,7 @@
 //!
 //! # Rest
 //! The flight is at rest where the energy left allows no point to be faster than the precision times the largest
-//! approach, or no more force than some times the weight. [`Stop::AtRest`] bounds what rings on.
+//! approach, or no more force than some times the weight. [`Stop::AtRest`](crate::Stop::AtRest) bounds what rings on.
 
 mod eigen;
 mod felt;
@@ -38,14 +38,16 @@ mod touch;
 pub use law::{Contact, ContactLaw};
 
 use crate::Error;
-use crate::flight::{Flight, Log, Stop};
+use crate::flight::Log;
+use crate::motion::{Ahead, Course, Motion, PlateMotion};
 use crate::plate::PlateScene;
 use crate::scene::{Scene, within};
-use level::Level;
 use phase::Phase;
-use planar::Planar;
-use pose::Pose;
 use run::Run;
+
+pub(crate) use level::Level;
+pub(crate) use planar::Planar;
+pub(crate) use pose::Pose;
 
 /// How long a strike presses.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,37 +58,28 @@ pub struct Press {
     pub until_s: f64,
 }
 
-/// A flight with contacts that take time, and its whole history.
+/// What a body with contacts that take time does between its strikes.
 #[derive(Debug, Clone)]
-pub struct ContactFlight<const N: usize = 2, P: Pose<N> = Planar<N>> {
-    /// Strikes and stop. A strike is one press, from touch to parting; its time is that of the touch, its Δv what the force of
-    /// that contact does in all, its velocities are those as it parts.
-    pub flight: Flight<N>,
-    /// Beginning and end of each strike's contact.
-    pub presses: Vec<Press>,
-    /// What the energy of the body has changed by without reason, summed without regard to sign, over that of the body at the first
-    /// touch: at most 1 %, where [`Stop::EnergyLimit`] ends the flight.
-    pub energy_error: f64,
-    /// No press after the flight changes the velocity of a contact point by more: by the energy that is left, its weight apart.
-    pub later_m_s: f64,
+pub(crate) struct Phases<const N: usize, P: Pose<N>> {
+    precision: f64,
     contact_s: f64,
-    phases: Vec<(f64, Phase<P, N>)>,
-    /// The body just before the flight ends, and as it ends, at rest without what was left of its motion.
+    /// When the motion ends, and whether at rest.
+    end_s: f64,
+    rests: bool,
+    list: Vec<(f64, Phase<P, N>)>,
+    /// The body just before the motion ends, and as it ends, at rest without what was left of its motion.
     last: P,
-    end: P,
+    pub(crate) end: P,
     /// The forces on it if it is at rest.
     resting: [f64; N],
 }
 
-/// A flight of a plate with contacts that take time.
-pub type PlateFlight = ContactFlight<4, Level>;
-
-impl PlateFlight {
+impl PlateMotion {
     pub(crate) fn follow(
         scene: &PlateScene,
         contact: &Contact,
         precision: f64,
-        enough: impl FnMut(&Ahead) -> bool,
+        enough: impl FnMut(&Ahead<4>) -> bool,
     ) -> Result<Self, Error> {
         let (time_limit_s, impact_limit) = scene.limits();
         Run::new(Level::start(scene), Log::new(time_limit_s, impact_limit), contact, precision).run(enough)
@@ -110,11 +103,12 @@ pub struct Sample<const N: usize = 2> {
     pub spin_rad_s: f64,
 }
 
-impl<const N: usize, P: Pose<N>> ContactFlight<N, P> {
-    /// The body at a time since the first touch; beyond the end of the flight it stays at rest, or goes on as it was.
-    #[must_use]
-    pub fn sample(&self, time_s: f64) -> Sample<N> {
-        if matches!(self.flight.stop, Stop::AtRest { time_s: rest, .. } if time_s >= rest) {
+impl<const N: usize, P: Pose<N>> Phases<N, P> {
+    pub(crate) fn gravity_m_s2(&self) -> f64 {
+        self.end.gravity()
+    }
+    pub(crate) fn sample(&self, time_s: f64) -> Sample<N> {
+        if self.rests && time_s >= self.end_s {
             return Sample {
                 height_m: self.end.points().0,
                 velocity_m_s: [0.0; N],
@@ -124,52 +118,39 @@ impl<const N: usize, P: Pose<N>> ContactFlight<N, P> {
                 spin_rad_s: 0.0,
             };
         }
-        let n = self.phases.partition_point(|(from, _)| *from <= time_s).saturating_sub(1);
-        let (from, phase) = &self.phases[n];
+        let n = self.list.partition_point(|(from, _)| *from <= time_s).saturating_sub(1);
+        let (from, phase) = &self.list[n];
         phase.sample((time_s - from).max(0.0))
     }
-    /// When each phase begins, in order from 0. Within a phase every force is smooth.
-    pub fn phases_s(&self) -> impl Iterator<Item = f64> + '_ {
-        self.phases.iter().map(|(from, _)| *from)
+    /// How long a lone contact takes.
+    pub(crate) fn contact_s(&self) -> f64 {
+        self.contact_s
+    }
+    /// When each phase begins.
+    pub(crate) fn begins_s(&self) -> impl Iterator<Item = f64> + '_ {
+        self.list.iter().map(|(from, _)| *from)
     }
 }
 
-/// What may still come, as asked while a flight goes on.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ahead {
-    /// Now.
-    pub time_s: f64,
-    /// Largest velocity shock of a contact point so far.
-    pub largest_m_s: f64,
-    /// No later strike that presses alone changes the velocity of a contact point by more, by the energy that is left, its weight
-    /// apart; and none approaches at more than half of it.
-    pub most_m_s: f64,
-    /// Whether a press is about to begin; else one ends.
-    pub lands: bool,
+impl<const N: usize, P: Pose<N>> Motion<N, P> {
+    /// The body at a time since the first touch; beyond the end of the motion it stays at rest, or goes on as it was. None of instant
+    /// impacts.
+    #[must_use]
+    pub fn sample(&self, time_s: f64) -> Option<Sample<N>> {
+        self.phases().map(|phases| phases.sample(time_s))
+    }
+    /// When each phase of contacts that take time begins, in order from 0. Within a phase every force is smooth.
+    pub fn phases_s(&self) -> impl Iterator<Item = f64> + '_ {
+        self.phases().into_iter().flat_map(Phases::begins_s)
+    }
+    fn phases(&self) -> Option<&Phases<N, P>> {
+        if let Course::Contacts(phases) = &self.course { Some(phases) } else { None }
+    }
 }
 
 impl<const N: usize> Scene<N> {
-    /// The flight with contacts that take time, until rest, to a precision of 1e−4.
-    ///
-    /// # Errors
-    /// As [`contacts_until`](Self::contacts_until).
-    ///
-    /// # Examples
-    /// A flat, even drop with e = 1: both ends press along one half-sine and rise together.
-    /// ```
-    /// use clatter_flight::{Body, Contact, ContactLaw, Scene};
-    /// let scene = Scene::new(Body::new(0.14, 0.04)?, 1.0, 2.0, 0.0, 0.0)?;
-    /// let flight = scene.contacts(&Contact::new(ContactLaw::Hysteretic, 1.0, 1e-3)?)?;
-    /// assert_eq!(flight.presses[0], flight.presses[1]);
-    /// assert!((flight.flight.strikes[0].velocity_m_s[0] - 2.0).abs() < 1e-12);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn contacts(&self, contact: &Contact) -> Result<ContactFlight<N>, Error> {
-        self.contacts_until(contact, 1e-4, |_| false)
-    }
-
-    /// The same to a precision, as far as it is needed: `enough` is asked before each event at which no point
-    /// loads, and ends the flight there.
+    /// The motion of a body with any number of contact points, all of which take time; that of a bar is [`fly_until`](Scene::fly_until).
+    /// `enough` is asked before each event at which no point loads, and ends the motion there.
     ///
     /// # Accuracy
     /// Over the largest approach, each time that a point presses leaves the body with velocities that are wrong by less than
@@ -181,12 +162,24 @@ impl<const N: usize> Scene<N> {
     /// the length (light ends would whirl it through large angles while they touch), and the contact time is so short that points sink
     /// in by a small part of the length, at most 0.1 length over the speed and 0.1 √(length/gravity), and so long that
     /// they sink in at all, 1e−10 length over the speed; [`Error::Energy`] where the motion does not keep its energy.
+    ///
+    /// # Examples
+    /// A flat, even drop with e = 1: both ends press along one half-sine and rise together.
+    /// ```
+    /// use clatter_flight::{Body, Contact, ContactLaw, Scene};
+    /// let scene = Scene::new(Body::new(0.14, 0.04)?, 1.0, 2.0, 0.0, 0.0)?;
+    /// let contact = Contact::new(ContactLaw::Hysteretic, 1.0, 1e-3)?;
+    /// let motion = scene.contacts_until(&contact, 1e-4, |_| false)?;
+    /// assert_eq!(motion.presses[0], motion.presses[1]);
+    /// assert!((motion.strikes[0].velocity_m_s[0] - 2.0).abs() < 1e-12);
+    /// # Ok::<(), clatter_flight::Error>(())
+    /// ```
     pub fn contacts_until(
         &self,
         contact: &Contact,
         precision: f64,
-        enough: impl FnMut(&Ahead) -> bool,
-    ) -> Result<ContactFlight<N>, Error> {
+        enough: impl FnMut(&Ahead<N>) -> bool,
+    ) -> Result<Motion<N>, Error> {
         within("precision", precision, 1e-8, 0.1, "in [1e-8, 0.1]")?;
         self.check(contact)?;
         let log = Log::new(self.time_limit_s(), self.impact_limit());

@@ -2,7 +2,8 @@
 
 use clatter::Error as Given;
 
-use crate::contact::{Ahead, Contact, PlateFlight};
+use crate::contact::Contact;
+use crate::motion::{Ahead, PlateMotion};
 use crate::scene::within;
 use crate::{Error, Stop};
 
@@ -167,12 +168,12 @@ impl PlateScene {
     /// ```
     /// use clatter_flight::{Contact, ContactLaw, Plate, PlateScene};
     /// let plate = Plate::new([0.07, 0.07, 0.035, 0.035], [0.04, 0.02])?;
-    /// let flight = PlateScene::new(plate, 2.0, [0.0; 2], 0.0)?.contacts(&Contact::new(ContactLaw::Hysteretic, 0.5, 1e-3)?)?;
-    /// assert_eq!(flight.flight.strikes.len(), 4);
-    /// assert!(flight.flight.strikes.iter().all(|strike| (strike.velocity_m_s[0] - 1.0).abs() < 1e-12));
+    /// let motion = PlateScene::new(plate, 2.0, [0.0; 2], 0.0)?.contacts(&Contact::new(ContactLaw::Hysteretic, 0.5, 1e-3)?)?;
+    /// assert_eq!(motion.strikes.len(), 4);
+    /// assert!(motion.strikes.iter().all(|strike| (strike.velocity_m_s[0] - 1.0).abs() < 1e-12));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn contacts(&self, contact: &Contact) -> Result<PlateFlight, Error> {
+    pub fn contacts(&self, contact: &Contact) -> Result<PlateMotion, Error> {
         self.contacts_until(contact, 1e-4, |_| false)
     }
 
@@ -189,11 +190,11 @@ impl PlateScene {
         &self,
         contact: &Contact,
         precision: f64,
-        enough: impl FnMut(&Ahead) -> bool,
-    ) -> Result<PlateFlight, Error> {
+        enough: impl FnMut(&Ahead<4>) -> bool,
+    ) -> Result<PlateMotion, Error> {
         within("precision", precision, 1e-8, 0.1, "in [1e-8, 0.1]")?;
         self.check(contact)?;
-        PlateFlight::follow(self, contact, precision, enough)
+        PlateMotion::follow(self, contact, precision, enough)
     }
 
     pub(crate) fn limits(&self) -> (f64, usize) {
@@ -232,10 +233,10 @@ impl PlateScene {
     }
 }
 
-impl PlateFlight {
-    /// Whether a limit has cut the flight off.
+impl PlateMotion {
+    /// Whether a limit has cut the motion off.
     #[must_use]
     pub fn is_cut(&self) -> bool {
-        !matches!(self.flight.stop, Stop::AtRest { .. } | Stop::BouncedClear { .. })
+        !matches!(self.stop, Stop::AtRest { .. } | Stop::BouncedClear { .. })
     }
 }

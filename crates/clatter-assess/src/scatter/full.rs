@@ -88,7 +88,8 @@ pub(super) const LEAST: f64 = -1.0;
 fn of_part(followed: &Followed, part: &PartSample, above: f64) -> Result<(Asked, bool), Error> {
     let mut asked = Asked::default();
     let mut goes_on = false;
-    let felt: Vec<Felt<'_>> = part.places().into_iter().map(|x| Felt::new(followed, x)).collect::<Result<_, Error>>()?;
+    let felt: Vec<Felt<'_>> =
+        part.places().into_iter().map(|x| Felt::new(followed, x)).collect::<Result<_, Error>>()?;
     let each = || felt.iter().flat_map(|felt| part.limits.iter().enumerate().map(move |(k, limit)| (k, felt, limit)));
     for (k, felt, limit) in each() {
         if above >= 0.0 && !may_pass(felt, limit, &followed.drop, above)? {
