@@ -1,6 +1,6 @@
 //! A single drop, followed by one of four models.
 
-use clatter::{End, Excitation};
+use clatter::End;
 use clatter_flight::{Ahead, Body, Contact, ContactLaw, Model as Physics, Motion, Scene, Stop};
 use serde::Serialize;
 
@@ -42,11 +42,6 @@ impl Model {
             Self::FiniteTilt => "finite-tilt",
             Self::Compliant => "compliant",
         }
-    }
-    /// The model of this name.
-    #[must_use]
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|model| model.name() == name)
     }
     /// What a flight keeps of a drop; of a closed form that of the map.
     fn physics(self, drop: &SingleDrop) -> Result<Physics, Error> {
@@ -244,10 +239,6 @@ impl Followed {
     pub(crate) fn weight_to_come_m_s2(&self) -> f64 {
         let flies = matches!(self.motion.stop, Stop::BouncedClear { .. });
         if flies || self.carried_m_s2() > 0.0 { 0.0 } else { self.motion.gravity_m_s2() }
-    }
-    /// What a place feels.
-    pub(crate) fn felt(&self, position_m: f64) -> Excitation {
-        self.motion.felt(self.drop.relative(position_m))
     }
     /// How long nothing has pressed as the motion was left.
     pub(crate) fn quiet_s(&self) -> f64 {

@@ -251,9 +251,9 @@ impl<'a> Felt<'a> {
         if followed.is_cut() {
             return Err(Error::Unfinished);
         }
-        let felt = followed.felt(position_m);
-        let pulses = pulses(&felt, SHORT / fastest_rad_s, followed.carried_m_s2())?;
-        Ok(Self { followed, history: felt, pulses, position_m, fastest_rad_s, known: None })
+        let history = followed.motion.felt(followed.drop.relative(position_m));
+        let pulses = pulses(&history, SHORT / fastest_rad_s, followed.carried_m_s2())?;
+        Ok(Self { followed, history, pulses, position_m, fastest_rad_s, known: None })
     }
 
     /// The same place in the same drop, followed for longer.

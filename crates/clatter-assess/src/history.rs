@@ -17,11 +17,10 @@ const NARROW: f64 = 0.1;
 /// that do the same.
 /// `carried_m_s2` acts from their end on.
 pub(crate) fn pulses(felt: &Excitation, short_s: f64, carried_m_s2: f64) -> Result<Pulses, Error> {
-    let start = felt.sections().next().map_or(0.0, |section| section.from);
     let pulses = if short_s > 0.0 {
-        Pulses::of_sections(start, joined(felt, short_s).sections())
+        Pulses::of_sections(joined(felt, short_s).sections())
     } else {
-        Pulses::of_sections(start, felt.sections())
+        Pulses::of_sections(felt.sections())
     };
     Ok(pulses?.carried(carried_m_s2)?)
 }

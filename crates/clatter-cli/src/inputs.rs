@@ -335,7 +335,8 @@ pub(crate) fn model() -> impl TypedValueParser<Value = Model> {
         _ => "Small tilt, no gravity, instant impacts: the paper's bar",
     };
     let names = Model::FOLLOWED.map(|model| PossibleValue::new(model.name()).help(help(model)));
-    PossibleValuesParser::new(names).try_map(|name| Model::from_name(&name).ok_or("no model"))
+    PossibleValuesParser::new(names)
+        .try_map(|name| Model::FOLLOWED.into_iter().find(|model| model.name() == name).ok_or("no model"))
 }
 
 /// What the ground does to an end while it touches.

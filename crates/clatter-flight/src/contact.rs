@@ -39,15 +39,14 @@ pub use law::{Contact, ContactLaw};
 
 use crate::Error;
 use crate::flight::Log;
-use crate::motion::{Ahead, Course, Motion, PlateMotion};
-use crate::plate::PlateScene;
+use crate::motion::{Ahead, Course, Motion};
 use crate::scene::{Scene, within};
 use phase::Phase;
-use run::Run;
 
 pub(crate) use level::Level;
 pub(crate) use planar::Planar;
 pub(crate) use pose::Pose;
+pub(crate) use run::Run;
 
 /// How long a strike presses.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,7 +61,8 @@ pub struct Press {
 #[derive(Debug, Clone)]
 pub(crate) struct Phases<const N: usize, P: Pose<N>> {
     precision: f64,
-    contact_s: f64,
+    /// How long a lone contact takes.
+    pub(crate) contact_s: f64,
     /// When the motion ends, and whether at rest.
     end_s: f64,
     rests: bool,
@@ -72,18 +72,6 @@ pub(crate) struct Phases<const N: usize, P: Pose<N>> {
     pub(crate) end: P,
     /// The forces on it if it is at rest.
     resting: [f64; N],
-}
-
-impl PlateMotion {
-    pub(crate) fn follow(
-        scene: &PlateScene,
-        contact: &Contact,
-        precision: f64,
-        enough: impl FnMut(&Ahead<4>) -> bool,
-    ) -> Result<Self, Error> {
-        let (time_limit_s, impact_limit) = scene.limits();
-        Run::new(Level::start(scene), Log::new(time_limit_s, impact_limit), contact, precision).run(enough)
-    }
 }
 
 /// The body at one time.
@@ -104,9 +92,6 @@ pub struct Sample<const N: usize = 2> {
 }
 
 impl<const N: usize, P: Pose<N>> Phases<N, P> {
-    pub(crate) fn gravity_m_s2(&self) -> f64 {
-        self.end.gravity()
-    }
     pub(crate) fn sample(&self, time_s: f64) -> Sample<N> {
         if self.rests && time_s >= self.end_s {
             return Sample {
@@ -122,14 +107,6 @@ impl<const N: usize, P: Pose<N>> Phases<N, P> {
         let (from, phase) = &self.list[n];
         phase.sample((time_s - from).max(0.0))
     }
-    /// How long a lone contact takes.
-    pub(crate) fn contact_s(&self) -> f64 {
-        self.contact_s
-    }
-    /// When each phase begins.
-    pub(crate) fn begins_s(&self) -> impl Iterator<Item = f64> + '_ {
-        self.list.iter().map(|(from, _)| *from)
-    }
 }
 
 impl<const N: usize, P: Pose<N>> Motion<N, P> {
@@ -141,7 +118,7 @@ impl<const N: usize, P: Pose<N>> Motion<N, P> {
     }
     /// When each phase of contacts that take time begins, in order from 0. Within a phase every force is smooth.
     pub fn phases_s(&self) -> impl Iterator<Item = f64> + '_ {
-        self.phases().into_iter().flat_map(Phases::begins_s)
+        self.phases().into_iter().flat_map(|phases| phases.list.iter().map(|(from, _)| *from))
     }
     fn phases(&self) -> Option<&Phases<N, P>> {
         if let Course::Contacts(phases) = &self.course { Some(phases) } else { None }
@@ -162,18 +139,6 @@ impl<const N: usize> Scene<N> {
     /// the length (light ends would whirl it through large angles while they touch), and the contact time is so short that points sink
     /// in by a small part of the length, at most 0.1 length over the speed and 0.1 √(length/gravity), and so long that
     /// they sink in at all, 1e−10 length over the speed; [`Error::Energy`] where the motion does not keep its energy.
-    ///
-    /// # Examples
-    /// A flat, even drop with e = 1: both ends press along one half-sine and rise together.
-    /// ```
-    /// use clatter_flight::{Body, Contact, ContactLaw, Scene};
-    /// let scene = Scene::new(Body::new(0.14, 0.04)?, 1.0, 2.0, 0.0, 0.0)?;
-    /// let contact = Contact::new(ContactLaw::Hysteretic, 1.0, 1e-3)?;
-    /// let motion = scene.contacts_until(&contact, 1e-4, |_| false)?;
-    /// assert_eq!(motion.presses[0], motion.presses[1]);
-    /// assert!((motion.strikes[0].velocity_m_s[0] - 2.0).abs() < 1e-12);
-    /// # Ok::<(), clatter_flight::Error>(())
-    /// ```
     pub fn contacts_until(
         &self,
         contact: &Contact,
@@ -192,31 +157,37 @@ impl<const N: usize> Scene<N> {
             return Err(Error::Restitution { contact: of_contact, scene });
         }
         let reach = self.body().reach();
-        let (length, gyration, time) = (self.body().length_m().max(reach), self.body().gyration_m(), contact.time_s());
-        let of_time = |bound, most, reason| {
-            Err(Error::Bound { name: "contact time", value: time, bound, most, unit: "s", reason })
-        };
+        let (length, gyration) = (self.body().length_m().max(reach), self.body().gyration_m());
         // What is told as the bound is allowed.
-        let beyond = 1.0 + 1e-12;
-        if gyration * beyond < 0.05 * length {
+        if gyration * (1.0 + 1e-12) < 0.05 * length {
             let (name, reason) = ("radius of gyration", "0.05 of the length for contacts that take time");
             let (value, bound) = (gyration, 0.05 * length);
             return Err(Error::Bound { name, value, bound, most: false, unit: "m", reason });
         }
         let of_speed = 0.1 * length / (self.speed_m_s() + reach * self.spin_rad_s().abs());
-        let of_gravity = 0.1 * (length / self.gravity_m_s2()).sqrt();
-        if time > of_speed.min(of_gravity) * beyond {
-            let reason = if of_speed < of_gravity {
-                "a tenth of length/speed, so that the ends sink in little"
-            } else {
-                "a tenth of sqrt(length/gravity), so that the ends sink in little"
-            };
-            return of_time(of_speed.min(of_gravity), true, reason);
-        }
-        let shortest = 1e-10 * length / self.speed_m_s();
-        if time * beyond < shortest {
-            return of_time(shortest, false, "1e-10 length/speed, so that the ends sink in at all");
-        }
-        Ok(())
+        let most = [of_speed, 0.1 * (length / self.gravity_m_s2()).sqrt()];
+        let reasons = [
+            "a tenth of length/speed, so that the ends sink in little",
+            "a tenth of sqrt(length/gravity), so that the ends sink in little",
+            "1e-10 length/speed, so that the ends sink in at all",
+        ];
+        check_time(contact.time_s(), most, 1e-10 * length / self.speed_m_s(), reasons)
     }
+}
+
+/// Refuses a contact time beyond what speed and gravity allow at most, and below the shortest; for these reasons.
+pub(crate) fn check_time(
+    value: f64,
+    [of_speed, of_gravity]: [f64; 2],
+    shortest: f64,
+    [by_speed, by_gravity, by_depth]: [&'static str; 3],
+) -> Result<(), Error> {
+    let refused =
+        |bound, most, reason| Err(Error::Bound { name: "contact time", value, bound, most, unit: "s", reason });
+    // What is told as the bound is allowed.
+    let (longest, beyond) = (of_speed.min(of_gravity), 1.0 + 1e-12);
+    if value > longest * beyond {
+        return refused(longest, true, if of_speed < of_gravity { by_speed } else { by_gravity });
+    }
+    if value * beyond < shortest { refused(shortest, false, by_depth) } else { Ok(()) }
 }

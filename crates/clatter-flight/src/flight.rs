@@ -168,12 +168,6 @@ pub(crate) struct Flight<const N: usize = 2> {
     pub(crate) stop: Stop,
 }
 
-impl<const N: usize> Flight<N> {
-    /// Nothing followed yet.
-    pub(crate) const NONE: Self =
-        Self { strikes: Vec::new(), pivots: Vec::new(), stop: Stop::ImpactLimit { time_s: 0.0 } };
-}
-
 /// The list under construction, with its limits.
 #[derive(Debug)]
 pub(crate) struct Log<const N: usize> {
@@ -190,7 +184,9 @@ pub(crate) struct Log<const N: usize> {
 
 impl<const N: usize> Log<N> {
     pub(crate) fn new(time_limit_s: f64, impact_limit: usize) -> Self {
-        Self { flight: Flight::NONE, time_limit_s, impact_limit, struck: [0; N], largest_m_s: 0.0, omitted_m_s: 0.0 }
+        let stop = Stop::ImpactLimit { time_s: 0.0 };
+        let flight = Flight { strikes: Vec::new(), pivots: Vec::new(), stop };
+        Self { flight, time_limit_s, impact_limit, struck: [0; N], largest_m_s: 0.0, omitted_m_s: 0.0 }
     }
     /// Takes the strike down, or the stop that its time, its number or `enough` means; false ends the simulation.
     pub(crate) fn strike(

@@ -151,7 +151,7 @@ impl Motion {
 
     fn rows_of_contacts(&self, phases: &Phases<2, Planar<2>>) -> impl Iterator<Item = Row> + '_ {
         let at = |time_s: f64| self.at(time_s);
-        let contact_time_s = phases.contact_s();
+        let contact_time_s = phases.contact_s;
         let end = self.stop.time_s()
             + match self.stop {
                 Stop::AtRest { .. } => 2.0 * contact_time_s,
@@ -165,7 +165,7 @@ impl Motion {
                 knots.extend((0..=PULSE).map(|k| from + f64::from(k) * step));
             }
         }
-        knots.extend(phases.begins_s());
+        knots.extend(self.phases_s());
         knots.retain(|t| (0.0..=end).contains(t));
         knots.sort_by(f64::total_cmp);
         knots.dedup();

@@ -99,18 +99,6 @@ impl Scene {
     ///
     /// # Errors
     /// [`Error::Restitution`](Given::Restitution) unless both are in [0, 1].
-    ///
-    /// # Examples
-    /// A dead end a, and an end b that gives back all of its speed: e = 0, then e = 1.
-    /// ```
-    /// use clatter_flight::{Body, Scene};
-    /// let scene = Scene::new(Body::new(0.14, 0.04)?, 0.5, 2.0, 1.0, 9.81)?;
-    /// let motion = scene.fly_by_ends([0.0, 1.0], |ahead| ahead.struck == [1, 1])?;
-    /// let [first, second] = &motion.strikes[..] else { panic!("two strikes") };
-    /// assert!((first.point, second.point) == (0, 1) && first.velocity_m_s[0] == 0.0);
-    /// assert!((second.velocity_m_s[1] + second.approach_m_s).abs() < 1e-15);
-    /// # Ok::<(), clatter::Error>(())
-    /// ```
     pub fn fly_by_ends(&self, restitution: [f64; 2], enough: impl FnMut(&Ahead) -> bool) -> Result<Motion, Given> {
         for e in restitution {
             Restitution::new(e)?;
@@ -198,7 +186,7 @@ impl<const N: usize, P: Pose<N>> Motion<N, P> {
         match &self.course {
             Course::Impacts(scene) if self.model != Model::Map => scene.gravity_m_s2(),
             Course::Impacts(_) => 0.0,
-            Course::Contacts(phases) => phases.gravity_m_s2(),
+            Course::Contacts(phases) => phases.end.gravity(),
         }
     }
     /// When the last strike ended; infinite where it presses still.
@@ -230,7 +218,7 @@ impl Motion {
     pub fn felt(&self, s: f64) -> Excitation {
         match &self.course {
             Course::Impacts(scene) => self.felt_of_impacts(scene, s),
-            Course::Contacts(phases) => phases.felt(phases.end.place(s)),
+            Course::Contacts(phases) => phases.felt(phases.end.body.place(s)),
         }
     }
     /// The angular acceleration of the bar, in rad where [`felt`](Self::felt) has m; of instant impacts a shock at each strike.

@@ -51,7 +51,7 @@ fn contact(drop: &Drop) -> Contact {
 
 fn until(drop: &Drop, time_s: f64) -> PlateMotion {
     let scene = scene(drop).with_time_limit_s(time_s).expect("a limit");
-    scene.contacts(&contact(drop)).expect("a flight")
+    scene.contacts_until(&contact(drop), 1e-4, |_| false).expect("a flight")
 }
 
 /// Touches that graze are told apart by roundings alone.
@@ -245,7 +245,7 @@ proptest! {
     /// more energy than before, and a flight ends.
     #[test]
     fn momenta_add_up_and_energy_never_grows(drop in any_drop(any_e())) {
-        let flight = scene(&drop).with_impact_limit(2000).contacts(&contact(&drop)).expect("a flight");
+        let flight = scene(&drop).with_impact_limit(2000).contacts_until(&contact(&drop), 1e-4, |_| false).expect("a flight");
         prop_assert!(matches!(flight.stop, Stop::AtRest { .. }) || drop.e > 0.9, "{:?} {drop:?}", flight.stop);
         prop_assert!(flight.energy_error < 1e-9, "{:e} {drop:?}", flight.energy_error);
         let plate = scene(&drop).plate();
@@ -273,7 +273,7 @@ proptest! {
     /// At rest the forces carry the weight about the center of mass, and all strikes together have stopped the drop.
     #[test]
     fn at_rest_the_weight_is_carried(drop in any_drop(0.0..0.8_f64)) {
-        let flight = scene(&drop).contacts(&contact(&drop)).expect("a flight");
+        let flight = scene(&drop).contacts_until(&contact(&drop), 1e-4, |_| false).expect("a flight");
         let Stop::AtRest { time_s, shock_bound_m_s, .. } = flight.stop else { return Err(TestCaseError::fail(format!("{:?} {drop:?}", flight.stop))) };
         let forces = flight.sample(2.0 * time_s).expect("contacts").force_per_mass_m_s2;
         let corners = scene(&drop).plate().corners_m();
@@ -391,7 +391,7 @@ fn a_flat_plate_rises_with_the_restitution() {
                 e,
                 time: 1e-3,
             };
-            let flight = scene(&drop).contacts(&contact(&drop)).expect("a flight");
+            let flight = scene(&drop).contacts_until(&contact(&drop), 1e-4, |_| false).expect("a flight");
             let weight = 1.0 + (7.0_f64 / 4.0).powi(2) + (3.5_f64 / 2.0).powi(2);
             assert!(matches!(flight.stop, Stop::BouncedClear { .. }), "{law:?} {e}");
             assert_eq!(flight.presses.len(), 4, "{law:?} {e}");
@@ -424,12 +424,18 @@ fn bad_plates_are_refused_with_the_value() {
     }
     let scene = PlateScene::new(plate, 1.0, [1e-3; 2], G).unwrap();
     for time in [1e-12, 0.05] {
-        let error = scene.contacts(&Contact::new(ContactLaw::Hysteretic, 0.3, time).unwrap()).unwrap_err().to_string();
+        let error = scene
+            .contacts_until(&Contact::new(ContactLaw::Hysteretic, 0.3, time).unwrap(), 1e-4, |_| false)
+            .unwrap_err()
+            .to_string();
         assert!(error.contains("contact time"), "{error}");
     }
     let thin = Plate::new([0.1; 4], [0.05, 0.009]).unwrap();
     let scene = PlateScene::new(thin, 1.0, [1e-3; 2], G).unwrap();
-    let error = scene.contacts(&Contact::new(ContactLaw::Hysteretic, 0.3, 1e-3).unwrap()).unwrap_err().to_string();
+    let error = scene
+        .contacts_until(&Contact::new(ContactLaw::Hysteretic, 0.3, 1e-3).unwrap(), 1e-4, |_| false)
+        .unwrap_err()
+        .to_string();
     assert!(error.contains("radius of gyration 9 mm"), "{error}");
 }
 

@@ -203,7 +203,7 @@ impl Pulses {
         let history = Self::from_sorted(points);
         if history.pieces.is_empty() { Err(Error::ZeroDuration) } else { Ok(history) }
     }
-    /// A history of sections, one after the other from `start` on; when they begin by themselves does not count.
+    /// A history of sections, one after the other from when the first begins.
     ///
     /// # Errors
     ///
@@ -218,15 +218,15 @@ impl Pulses {
     /// use clatter_shock::{DampingRatio, Pulses, Suspension};
     /// let shock = Section::shock(0.0, 0.0, 2.0);
     /// let mount = Suspension::new(100.0, DampingRatio::new(0.0)?)?;
-    /// let peak = Pulses::of_sections(0.0, [shock])?.respond(&mount).absolute_acceleration.peak();
+    /// let peak = Pulses::of_sections([shock])?.respond(&mount).absolute_acceleration.peak();
     /// assert!((peak.value - 200.0).abs() < 1e-12);
     /// # Ok::<(), clatter_shock::Error>(())
     /// ```
-    pub fn of_sections<'a>(start: f64, sections: impl IntoIterator<Item = Section<'a>>) -> Result<Self, Error> {
-        let sections = sections.into_iter();
+    pub fn of_sections<'a>(sections: impl IntoIterator<Item = Section<'a>>) -> Result<Self, Error> {
+        let mut sections = sections.into_iter().peekable();
         let many = sections.size_hint().0;
         let (mut pieces, mut sines) = (Vec::with_capacity(many), Vec::with_capacity(2 * many));
-        let mut at = Instant::at(start);
+        let mut at = Instant::at(sections.peek().map_or(0.0, |section| section.from));
         for (i, section) in sections.enumerate() {
             let entry = |name, value, allowed| Error::Entry { list: "sections", entry: i + 1, name, value, allowed };
             let Section { length, delta_v, acceleration: [from, to], .. } = section;
@@ -272,7 +272,7 @@ impl Pulses {
     /// # use clatter_shock::{DampingRatio, Pulses, Suspension};
     /// let fall = Section::shock(0.0, 0.1, 0.0);
     /// let mount = Suspension::new(20.0, DampingRatio::new(0.0)?)?;
-    /// let response = Pulses::of_sections(0.0, [fall])?.carried(9.8)?.respond(&mount);
+    /// let response = Pulses::of_sections([fall])?.carried(9.8)?.respond(&mount);
     /// assert!((response.absolute_acceleration.peak().value - 2.0 * 9.8).abs() < 1e-12);
     /// assert!((response.relative_displacement.peak().value + 2.0 * 9.8 / 400.0).abs() < 1e-12);
     /// # Ok::<(), clatter_shock::Error>(())

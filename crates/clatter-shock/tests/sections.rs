@@ -37,7 +37,7 @@ fn history(list: &[Own]) -> Pulses {
         sines: &own.sines,
         ..Section::shock(0.0, own.length, own.delta_v)
     });
-    Pulses::of_sections(0.0, sections).expect("sections")
+    Pulses::of_sections(sections).expect("sections")
 }
 
 /// Largest |ωz| and |A/ω| at the ends of steps within the sections, and how much a value may rise between two ends.
@@ -187,8 +187,8 @@ fn sections_of_no_sense_are_refused() {
         (Section { acceleration: [0.0, f64::INFINITY], ..good }, "acceleration"),
         (Section { sines: &wrong, ..good }, "rate"),
     ] {
-        let refused = Pulses::of_sections(0.0, [good, section]).expect_err(said).to_string();
+        let refused = Pulses::of_sections([good, section]).expect_err(said).to_string();
         assert!(refused.contains(said) && refused.contains('2'), "{refused}");
     }
-    assert!(Pulses::of_sections(0.0, []).is_err());
+    assert!(Pulses::of_sections([]).is_err());
 }

@@ -92,7 +92,9 @@ impl Args {
         let Some(contact) = &setup.contact else {
             return Err(Failure::Usage("--model=compliant needs a --contact-time"));
         };
-        scene.contacts(contact).map_err(|error| self.drop.named_plate(error, self.inertia.flag()))
+        scene
+            .contacts_until(contact, 1e-4, |_| false)
+            .map_err(|error| self.drop.named_plate(error, self.inertia.flag()))
     }
 
     /// Without gravity: straight lines and impulses.

@@ -15,7 +15,7 @@ use crate::scene::Scene;
 /// A [`Body`] in motion.
 #[derive(Debug, Clone, Copy)]
 pub struct Planar<const N: usize> {
-    body: Body<N>,
+    pub(crate) body: Body<N>,
     gravity: f64,
     /// Square of the radius of gyration.
     rho2: f64,
@@ -72,13 +72,6 @@ impl<const N: usize> Planar<N> {
         let left = those().min_by(|&i, &j| x[i].total_cmp(&x[j]))?;
         let right = those().max_by(|&i, &j| x[i].total_cmp(&x[j]))?;
         (left != right).then_some([left, right])
-    }
-}
-
-impl Planar<2> {
-    /// Where position `s` of a bar is.
-    pub(crate) fn place(&self, s: f64) -> [f64; 2] {
-        self.body.place(s)
     }
 }
 

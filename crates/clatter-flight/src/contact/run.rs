@@ -40,7 +40,7 @@ const EACH_STRIKE: usize = 128;
 /// where an event has just happened.
 const MARGIN: f64 = 1e-14;
 
-pub(super) struct Run<'a, P: Pose<N>, const N: usize> {
+pub(crate) struct Run<'a, P: Pose<N>, const N: usize> {
     pub(super) contact: &'a Contact,
     pub(super) precision: f64,
     pub(super) margins: Margins,
@@ -73,7 +73,7 @@ struct Lasting<P: Pose<N>, const N: usize> {
 
 impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
     /// From the first touch.
-    pub(super) fn new(pose: P, log: Log<N>, contact: &'a Contact, precision: f64) -> Self {
+    pub(crate) fn new(pose: P, log: Log<N>, contact: &'a Contact, precision: f64) -> Self {
         let extent = pose.extent();
         Self {
             contact,
@@ -97,7 +97,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         }
     }
 
-    pub(super) fn run(mut self, mut enough: impl FnMut(&Ahead<N>) -> bool) -> Result<crate::Motion<N, P>, Error> {
+    pub(crate) fn run(mut self, mut enough: impl FnMut(&Ahead<N>) -> bool) -> Result<crate::Motion<N, P>, Error> {
         let mut goes_on = self.first_touches();
         while goes_on {
             if let Some((forces, bound)) = self.rests() {
