@@ -1,9 +1,7 @@
 //! A single drop, followed by one of four models.
 
 use clatter::End;
-use clatter_flight::{
-    Body, Contact, ContactFlight, ContactLaw, Flight, Model as Impacts, Scene, Stop, Stretch, Strike,
-};
+use clatter_flight::{Ahead, Body, Contact, ContactLaw, Model as Physics, Motion, Scene, Stop};
 use serde::Serialize;
 
 use crate::Error;
@@ -45,13 +43,17 @@ impl Model {
             Self::Compliant => "compliant",
         }
     }
-    /// The model of instant impacts; of contacts the one that they tend to.
-    pub(crate) fn impacts(self) -> Impacts {
-        match self {
-            Self::NetChange | Self::LargestShock | Self::Map => Impacts::Map,
-            Self::Ballistic => Impacts::Ballistic,
-            Self::FiniteTilt | Self::Compliant => Impacts::FiniteTilt,
-        }
+    /// What a flight keeps of a drop; of a closed form that of the map.
+    fn physics(self, drop: &SingleDrop) -> Result<Physics, Error> {
+        Ok(match self {
+            Self::NetChange | Self::LargestShock | Self::Map => Physics::Map,
+            Self::Ballistic => Physics::Ballistic,
+            Self::FiniteTilt => Physics::FiniteTilt,
+            Self::Compliant => {
+                let time_s = drop.contact_time_s.ok_or(Error::Contact)?;
+                Physics::Contacts(Contact::new(drop.contact_law, drop.restitution, time_s)?)
+            }
+        })
     }
 }
 
@@ -144,15 +146,8 @@ pub(crate) struct Followed {
     pub(crate) precision: f64,
     /// Whether it was left while shocks that count may come.
     early: bool,
-    /// Largest velocity shock of an end, and a bound of what comes after the motion was left.
+    /// Largest velocity shock of an end.
     pub(crate) largest_m_s: f64,
-    pub(crate) later_m_s: f64,
-}
-
-#[derive(Debug, Clone)]
-pub(crate) enum Motion {
-    Impacts(Box<Scene>, Impacts, Flight),
-    Contacts(Box<ContactFlight>),
 }
 
 /// A hysteretic contact that is pushed again unloads and reloads along a line that is stiffer by 1/e²: the force of a slow shock
@@ -210,155 +205,49 @@ impl Followed {
                     Until::Over => false,
                 }
         };
-        if drop.flat {
-            return Ok(Self::flat(drop, scene, share));
-        }
-        let mut later = f64::INFINITY;
-        let motion = if model == Model::Compliant {
-            let time = drop.contact_time_s.ok_or(Error::Contact)?;
-            let contact = Contact::new(drop.contact_law, drop.restitution, time)?;
-            let flight = scene.contacts_until(&contact, precision, |ahead| {
-                is_over(ahead.time_s, given_back * ahead.most_m_s, ahead.largest_m_s, ahead.lands)
-            })?;
-            later = given_back * flight.later_m_s;
-            Motion::Contacts(Box::new(flight))
+        let (motion, precision) = if drop.flat {
+            (scene.fly_flat(share), 0.0)
         } else {
-            let model = model.impacts();
-            let flight = scene.simulate_until(model, |flight| {
-                let Some(last) = flight.strikes.last() else { return false };
-                is_over(last.time_s, scene.later_shock_m_s(model, last), largest(flight), true)
-            });
-            let bounded = flight.strikes.last().filter(|_| !matches!(flight.stop, Stop::TurnedOver { .. }));
-            later = bounded.map_or(later, |last| scene.later_shock_m_s(model, last));
-            Motion::Impacts(Box::new(scene), model, flight)
+            let enough =
+                |ahead: &Ahead| is_over(ahead.time_s, given_back * ahead.most_m_s, ahead.largest_m_s, ahead.lands);
+            (scene.fly_until(model.physics(drop)?, precision, enough)?, precision)
         };
-        let (largest_m_s, stop) = match &motion {
-            Motion::Contacts(flight) => (largest(&flight.flight), flight.flight.stop),
-            Motion::Impacts(_, _, flight) => (largest(flight), flight.stop),
-        };
-        let later_m_s = match stop {
-            Stop::AtRest { shock_bound_m_s, .. } => shock_bound_m_s,
-            Stop::BouncedClear { .. } => 0.0,
-            _ => later,
-        };
-        let early = later_m_s > share * largest_m_s && !matches!(stop, Stop::AtRest { .. });
-        Ok(Self { drop: *drop, motion, precision, early, largest_m_s, later_m_s })
+        let largest_m_s = motion.largest_m_s();
+        let early = motion.later_m_s > share * largest_m_s && !matches!(motion.stop, Stop::AtRest { .. });
+        Ok(Self { drop: *drop, motion, precision, early, largest_m_s })
     }
 
-    /// A body that lands with both ends as one, and bounces so.
-    fn flat(drop: &SingleDrop, scene: Scene, share: f64) -> Self {
-        let SingleDrop { restitution, speed_m_s, gravity_m_s2, .. } = *drop;
-        let (mut strikes, mut time_s, mut approach) = (Vec::new(), 0.0, speed_m_s);
-        let largest_m_s = (1.0 + restitution) * speed_m_s;
-        let strike = |number: usize, time_s: f64, approach: f64| Strike {
-            number: number as u64 + 1,
-            point: 0,
-            time_s,
-            approach_m_s: -approach,
-            delta_v_m_s: [(1.0 + restitution) * approach; 2],
-            height_m: [0.0; 2],
-            velocity_m_s: [restitution * approach; 2],
-            tilt_rad: 0.0,
-            spin_rad_s: 0.0,
-        };
-        while approach > share * speed_m_s && strikes.len() < MOST_STRIKES {
-            strikes.push(strike(strikes.len(), time_s, approach));
-            approach *= restitution;
-            time_s += 2.0 * approach / gravity_m_s2;
-            if gravity_m_s2 == 0.0 {
-                break;
-            }
-        }
-        let later_m_s = (1.0 + restitution) * approach;
-        let stop = match strikes.last() {
-            Some(last) if gravity_m_s2 == 0.0 => Stop::BouncedClear { time_s: last.time_s },
-            _ if strikes.len() == MOST_STRIKES => Stop::ImpactLimit { time_s },
-            // All that are left together, each e times as long as the one before.
-            _ => Stop::AtRest {
-                time_s: time_s + 2.0 * restitution * approach / (gravity_m_s2 * (1.0 - restitution)),
-                time_bound_s: 0.0,
-                shock_bound_m_s: later_m_s,
-            },
-        };
-        let early = matches!(stop, Stop::ImpactLimit { .. });
-        let later_m_s = if gravity_m_s2 == 0.0 { 0.0 } else { later_m_s };
-        let flight = Flight { strikes, pivots: Vec::new(), stop };
-        let motion = Motion::Impacts(Box::new(scene), Impacts::Ballistic, flight);
-        Self { drop: *drop, motion, precision: 0.0, early, largest_m_s, later_m_s }
-    }
-
-    pub(crate) fn flight(&self) -> &Flight {
-        match &self.motion {
-            Motion::Impacts(_, _, flight) => flight,
-            Motion::Contacts(contacts) => &contacts.flight,
-        }
-    }
     pub(crate) fn is_early(&self) -> bool {
         self.early
     }
     /// Whether what comes after the motion was left is not even bounded.
     pub(crate) fn is_cut(&self) -> bool {
-        self.later_m_s == f64::INFINITY
+        self.motion.later_m_s == f64::INFINITY
     }
     /// Whether the motion was left at a limit, though strikes that count may follow.
     pub(crate) fn is_given_up(&self) -> bool {
-        let stop = self.flight().stop;
+        let stop = self.motion.stop;
         matches!(stop, Stop::ImpactLimit { .. } | Stop::TimeLimit { .. } | Stop::EnergyLimit { .. })
     }
     /// What a place feels for ever after the motion: its weight where the product lies still, or where nothing that is left counts, which
     /// is a weight as well on the mean over what it still bounces.
     pub(crate) fn carried_m_s2(&self) -> f64 {
-        let lies = matches!(self.flight().stop, Stop::AtRest { .. }) || self.is_left_bouncing();
-        if lies && !self.early { self.weight_m_s2() } else { 0.0 }
-    }
-    /// Whether the motion was left, though strikes may follow.
-    fn is_left_bouncing(&self) -> bool {
-        matches!(self.flight().stop, Stop::Enough { .. })
+        let lies = matches!(self.motion.stop, Stop::AtRest { .. } | Stop::Enough { .. });
+        if lies && !self.early { self.motion.gravity_m_s2() } else { 0.0 }
     }
     /// What a place will come to feel for ever, that is not among what it feels yet.
     pub(crate) fn weight_to_come_m_s2(&self) -> f64 {
-        let flies = matches!(self.flight().stop, Stop::BouncedClear { .. });
-        if flies || self.carried_m_s2() > 0.0 { 0.0 } else { self.weight_m_s2() }
-    }
-    /// The weight of what does not fly on for ever.
-    fn weight_m_s2(&self) -> f64 {
-        let falls = !matches!(self.motion, Motion::Impacts(_, Impacts::Map, _));
-        if falls { self.drop.gravity_m_s2 } else { 0.0 }
-    }
-    /// What a place feels, section by section.
-    pub(crate) fn felt(&self, position_m: f64) -> Vec<Stretch> {
-        let s = self.drop.relative(position_m);
-        match &self.motion {
-            Motion::Impacts(scene, model, flight) => scene.felt(*model, flight, s),
-            Motion::Contacts(flight) => {
-                let place = self.place(s);
-                flight.felt(place, self.precision)
-            }
-        }
-    }
-    fn place(&self, s: f64) -> [f64; 2] {
-        let [a, b] = self.drop.body.arms_m();
-        let [a, b] = if self.drop.first == End::A { [a, b] } else { [b, a] };
-        [0.5 * ((1.0 + s) * b - (1.0 - s) * a), 0.0]
+        let flies = matches!(self.motion.stop, Stop::BouncedClear { .. });
+        if flies || self.carried_m_s2() > 0.0 { 0.0 } else { self.motion.gravity_m_s2() }
     }
     /// How long nothing has pressed as the motion was left.
     pub(crate) fn quiet_s(&self) -> f64 {
-        let flight = self.flight();
-        let last = match &self.motion {
-            Motion::Impacts(..) => flight.strikes.last().map_or(0.0, |strike| strike.time_s),
-            Motion::Contacts(contacts) => contacts.presses.iter().fold(0.0, |last: f64, press| last.max(press.until_s)),
-        };
-        (flight.stop.time_s() - last).max(0.0)
+        (self.motion.stop.time_s() - self.motion.parted_s()).max(0.0)
     }
     /// Number, from 1, of the last strike that began by a time; contacts do nothing as they begin.
     pub(crate) fn impact_at(&self, time_s: f64) -> u64 {
-        let instant = matches!(self.motion, Motion::Impacts(..));
+        let instant = self.motion.contact().is_none();
         let begun = |touch_s: f64| touch_s < time_s || instant && touch_s <= time_s;
-        self.flight().strikes.partition_point(|s| begun(s.time_s)).max(1) as u64
+        self.motion.strikes.partition_point(|s| begun(s.time_s)).max(1) as u64
     }
-}
-
-/// Largest velocity shock of an end.
-fn largest(flight: &Flight) -> f64 {
-    flight.strikes.iter().flat_map(|s| s.delta_v_m_s).fold(0.0, |most, v| most.max(v.abs()))
 }

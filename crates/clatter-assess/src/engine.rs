@@ -5,11 +5,10 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use clatter::{End, EndPeaks, OffCenterBar, Start};
-use clatter_flight::Stretch;
+use clatter::{End, EndPeaks, Excitation, OffCenterBar, Start};
 use clatter_shock::{Pulses, Response, Suspension};
 
-use crate::drop::{Followed, Model, Motion, PRECISION, SingleDrop};
+use crate::drop::{Followed, Model, PRECISION, SingleDrop};
 use crate::history::{SHORT, pulses};
 use crate::quantity::{ResponsePeak, Source};
 use crate::shock::{Shock, largest, samples};
@@ -233,7 +232,7 @@ pub fn respond(
 #[derive(Debug)]
 pub(crate) struct Felt<'a> {
     followed: &'a Followed,
-    pub(crate) sections: Vec<Stretch>,
+    history: Excitation,
     pulses: Pulses,
     position_m: f64,
     fastest_rad_s: f64,
@@ -252,9 +251,9 @@ impl<'a> Felt<'a> {
         if followed.is_cut() {
             return Err(Error::Unfinished);
         }
-        let sections = followed.felt(position_m);
-        let pulses = pulses(&sections, SHORT / fastest_rad_s, followed.carried_m_s2())?;
-        Ok(Self { followed, sections, pulses, position_m, fastest_rad_s, known: None })
+        let history = followed.motion.felt(followed.drop.relative(position_m));
+        let pulses = pulses(&history, SHORT / fastest_rad_s, followed.carried_m_s2())?;
+        Ok(Self { followed, history, pulses, position_m, fastest_rad_s, known: None })
     }
 
     /// The same place in the same drop, followed for longer.
@@ -301,18 +300,18 @@ impl<'a> Felt<'a> {
     /// Changes of velocity at the place in steps of time, each in its middle, up to a time: what a curve is drawn from.
     pub(crate) fn slices(&self, step_s: f64, end_s: f64) -> Vec<(f64, f64)> {
         let mut slices = Vec::new();
-        for section in self.sections.iter().take_while(|section| section.from_s < end_s) {
-            if section.delta_v_m_s != 0.0 {
-                slices.push((section.from_s, section.delta_v_m_s));
+        for section in self.history.sections().take_while(|section| section.from < end_s) {
+            if section.delta_v != 0.0 {
+                slices.push((section.from, section.delta_v));
             }
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-            let steps = (section.length_s / step_s).ceil().clamp(1.0, 1e4) as u32;
-            let h = section.length_s / f64::from(steps);
-            let mut before = section.delta_v_m_s;
+            let steps = (section.length / step_s).ceil().clamp(1.0, 1e4) as u32;
+            let h = section.length / f64::from(steps);
+            let mut before = section.delta_v;
             for k in 1..=steps {
                 let now = section.velocity_after(f64::from(k) * h);
                 if now - before != 0.0 {
-                    slices.push((section.from_s + (f64::from(k) - 0.5) * h, now - before));
+                    slices.push((section.from + (f64::from(k) - 0.5) * h, now - before));
                 }
                 before = now;
             }
@@ -321,19 +320,19 @@ impl<'a> Felt<'a> {
     }
     /// Times and accelerations of the place, to be joined by straight lines.
     pub(crate) fn acceleration(&self) -> Vec<(f64, f64)> {
-        let of = |section: &Stretch| {
-            let section = *section;
-            let steps = samples(&section, section.length_s);
-            (0..=steps).map(move |k| {
-                let t = f64::from(k) / f64::from(steps) * section.length_s;
-                (section.from_s + t, section.acceleration_at(t))
-            })
-        };
-        self.sections.iter().flat_map(of).collect()
+        let mut all = Vec::new();
+        for section in self.history.sections() {
+            let steps = samples(&section);
+            all.extend((0..=steps).map(|k| {
+                let t = f64::from(k) / f64::from(steps) * section.length;
+                (section.from + t, section.acceleration_at(t))
+            }));
+        }
+        all
     }
     /// The velocity shocks.
     pub(crate) fn shocks(&self) -> Vec<Shock> {
-        self.followed.shocks(self.position_m, &self.sections)
+        self.followed.shocks(self.position_m, &self.history)
     }
     /// The utilization that strikes after the motion was left may reach, by the energy that is left and what a part still rings
     /// with; 0 where that is not above `above`. Of the parts given, or of a limit that is no response.
@@ -374,7 +373,7 @@ impl<'a> Felt<'a> {
         let ends = [-a / rho, b / rho];
         let mass = |x: f64| (1.0 + x * x).sqrt();
         // All energy in the motion of the center of mass, over all of it in what moves the farther end fastest.
-        let center = self.followed.later_m_s / mass(a.max(b) / rho);
+        let center = self.followed.motion.later_m_s / mass(a.max(b) / rho);
         let both = ends.map(|end| (1.0 + x * end) / mass(end));
         // A strike gives back the restitution's share of what it takes; several that overlap may turn all of the motion around.
         let turned = 2.0 / (1.0 + drop.restitution);
@@ -408,8 +407,8 @@ impl<'a> Felt<'a> {
     /// What a shock of this size may be off by: the share of the largest shock that lever arms get wrong, and what later ones
     /// could exceed it by.
     fn off_by(&self, value: f64) -> f64 {
-        let Followed { largest_m_s, later_m_s, .. } = self.followed;
-        self.followed.kept_arms() * largest_m_s + (later_m_s - value).max(0.0)
+        let Followed { largest_m_s, motion, .. } = self.followed;
+        self.followed.kept_arms() * largest_m_s + (motion.later_m_s - value).max(0.0)
     }
     /// What later strikes may ask where none that was followed asks for anything, in the unit of the limit.
     fn later_of(&self, limit: &Limit) -> f64 {
@@ -434,7 +433,7 @@ impl<'a> Felt<'a> {
         };
         let velocity = peak.value.abs();
         // What rings on as the motion is left, and the later shocks, as if all came at its crest.
-        let doubt = if self.followed.later_m_s > 0.0 || self.followed.weight_to_come_m_s2() > 0.0 {
+        let doubt = if self.followed.motion.later_m_s > 0.0 || self.followed.weight_to_come_m_s2() > 0.0 {
             let rest = self.pulses.state_at_end(part);
             let most = (omega * rest.displacement).hypot(rest.velocity) + self.later().shock_of(part);
             most * of.of_damper(part.damping()).hypot(1.0) - velocity
@@ -545,9 +544,6 @@ const KEPT_ARMS: f64 = 4.0;
 impl Followed {
     /// Share of the largest shock that lever arms kept through a phase may get wrong.
     fn kept_arms(&self) -> f64 {
-        match &self.motion {
-            Motion::Impacts(..) => 0.0,
-            Motion::Contacts(_) => KEPT_ARMS * self.precision,
-        }
+        if self.motion.contact().is_some() { KEPT_ARMS * self.precision } else { 0.0 }
     }
 }

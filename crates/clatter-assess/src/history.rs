@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use clatter_flight::Stretch;
-use clatter_shock::{Pulses, Section, Sine};
+use clatter::{Excitation, Section};
+use clatter_shock::Pulses;
 
 use crate::Error;
 
@@ -16,87 +16,33 @@ const NARROW: f64 = 0.1;
 /// The history of a place as the response takes it; sections that together take no longer than `short_s` are two velocity shocks
 /// that do the same.
 /// `carried_m_s2` acts from their end on.
-pub(crate) fn pulses<const N: usize>(
-    sections: &[Stretch<N>],
-    short_s: f64,
-    carried_m_s2: f64,
-) -> Result<Pulses, Error> {
-    let mut pieces = Pieces {
-        narrow_s: NARROW / SHORT * short_s,
-        sines: Vec::with_capacity(2 * sections.len()),
-        all: Vec::with_capacity(2 * sections.len()),
+pub(crate) fn pulses(felt: &Excitation, short_s: f64, carried_m_s2: f64) -> Result<Pulses, Error> {
+    let pulses = if short_s > 0.0 {
+        Pulses::of_sections(joined(felt, short_s).sections())
+    } else {
+        Pulses::of_sections(felt.sections())
     };
-    let (mut joined, mut first) = (Moments::default(), 0);
-    for (k, section) in sections.iter().enumerate() {
-        if joined.length_s + section.length_s > short_s {
-            pieces.join(&joined, &sections[first..k]);
-            (joined, first) = (Moments::default(), k);
+    Ok(pulses?.carried(carried_m_s2)?)
+}
+
+/// The same motion with sections that are short joined.
+fn joined(felt: &Excitation, short_s: f64) -> Excitation {
+    let mut all = Excitation::with_capacity(2 * felt.sections().len());
+    let (mut moments, mut first) = (Moments::default(), 0);
+    for (k, section) in felt.sections().enumerate() {
+        if moments.length_s + section.length > short_s {
+            moments.join(felt, first..k, NARROW / SHORT * short_s, &mut all);
+            (moments, first) = (Moments::default(), k);
         }
-        if section.length_s <= short_s {
-            joined.add(section);
+        if section.length <= short_s {
+            moments.add(&section);
         } else {
-            pieces.add(section);
+            all.push(section);
             first = k + 1;
         }
     }
-    pieces.join(&joined, &sections[first..]);
-    let one = |piece: &Piece| Section {
-        length: piece.length_s,
-        delta_v: piece.delta_v_m_s,
-        acceleration: piece.line_m_s2,
-        sines: &pieces.sines[piece.sines.clone()],
-    };
-    let start = sections.first().map_or(0.0, |section| section.from_s);
-    Ok(Pulses::of_sections(start, pieces.all.iter().map(one))?.carried(carried_m_s2)?)
-}
-
-/// A section, with the numbers of its sines.
-#[derive(Default)]
-struct Piece {
-    length_s: f64,
-    delta_v_m_s: f64,
-    line_m_s2: [f64; 2],
-    sines: Range<usize>,
-}
-
-struct Pieces {
-    /// Less of a spread does not count.
-    narrow_s: f64,
-    sines: Vec<Sine>,
-    all: Vec<Piece>,
-}
-
-impl Pieces {
-    fn add<const N: usize>(&mut self, section: &Stretch<N>) {
-        let first = self.sines.len();
-        let waves = section.waves.iter().filter(|w| w.amplitude_m_s2 != 0.0 && w.rate_rad_s > 0.0);
-        self.sines.extend(waves.map(|w| Sine { amplitude: w.amplitude_m_s2, rate: w.rate_rad_s, phase: w.phase_rad }));
-        self.all.push(Piece {
-            length_s: section.length_s,
-            delta_v_m_s: section.delta_v_m_s,
-            line_m_s2: section.acceleration_m_s2,
-            sines: first..self.sines.len(),
-        });
-    }
-    /// Half of the impulse before and half after its mean time, as far apart as it spreads, or all at once; the sections themselves
-    /// where they push to both sides.
-    fn join<const N: usize>(&mut self, joined: &Moments, sections: &[Stretch<N>]) {
-        let Moments { length_s, change_m_s, first, second } = *joined;
-        let mean = first / change_m_s;
-        let spread = (second / change_m_s - mean * mean).max(0.0).sqrt();
-        if !(mean - spread >= 0.0 && mean + spread <= length_s) || length_s == 0.0 {
-            return sections.iter().for_each(|section| self.add(section));
-        }
-        let quiet = |length_s: f64, delta_v_m_s: f64| Piece { length_s, delta_v_m_s, ..Piece::default() };
-        if spread < self.narrow_s {
-            self.all.extend([quiet(mean, 0.0), quiet(length_s - mean, change_m_s)]);
-            return;
-        }
-        let half = 0.5 * change_m_s;
-        self.all.push(quiet(mean - spread, 0.0));
-        self.all.push(quiet(2.0 * spread, half));
-        self.all.push(quiet(length_s - mean - spread, half));
-    }
+    moments.join(felt, first..felt.sections().len(), NARROW / SHORT * short_s, &mut all);
+    all
 }
 
 /// Of sections that follow one another: the change of velocity, and its first and second moments in time.
@@ -109,8 +55,8 @@ struct Moments {
 }
 
 impl Moments {
-    fn add<const N: usize>(&mut self, section: &Stretch<N>) {
-        let (begun, length) = (self.length_s, section.length_s);
+    fn add(&mut self, section: &Section<'_>) {
+        let (begun, length) = (self.length_s, section.length);
         let [begin, middle, end] = [0.0, 0.5, 1.0].map(|share| section.velocity_after(share * length));
         // By parts, and Simpson's rule: pulses are no more than half a period of a wave.
         let first = length * (end - (begin + 4.0 * middle + end) / 6.0);
@@ -119,5 +65,25 @@ impl Moments {
         self.first += begun * end + first;
         self.second += begun * begun * end + 2.0 * begun * first + second;
         self.length_s += length;
+    }
+    /// Half of the impulse before and half after its mean time, as far apart as it spreads, or all at once where that is within
+    /// `narrow_s`; the sections themselves where they push to both sides.
+    fn join(&self, felt: &Excitation, those: Range<usize>, narrow_s: f64, all: &mut Excitation) {
+        let Self { length_s, change_m_s, first, second } = *self;
+        let mean = first / change_m_s;
+        let spread = (second / change_m_s - mean * mean).max(0.0).sqrt();
+        if !(mean - spread >= 0.0 && mean + spread <= length_s) || length_s == 0.0 {
+            return those.for_each(|k| all.push(felt.section(k)));
+        }
+        let from = felt.section(those.start).from;
+        let mut quiet = |begun: f64, length_s: f64, change| all.push(Section::shock(from + begun, length_s, change));
+        if spread < narrow_s {
+            quiet(0.0, mean, 0.0);
+            quiet(mean, length_s - mean, change_m_s);
+            return;
+        }
+        quiet(0.0, mean - spread, 0.0);
+        quiet(mean - spread, 2.0 * spread, 0.5 * change_m_s);
+        quiet(mean + spread, length_s - mean - spread, 0.5 * change_m_s);
     }
 }

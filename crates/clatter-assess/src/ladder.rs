@@ -148,7 +148,7 @@ impl Ladder {
             // What a model refuses is left out: an endless train has no net change.
             let Ok((found, seconds)) = time::measured(|| answer(drop, part, limit, model, tolerance)) else { continue };
             let strikes =
-                if model < Model::Map { 0 } else { Followed::new(drop, model, tolerance)?.flight().strikes.len() };
+                if model < Model::Map { 0 } else { Followed::new(drop, model, tolerance)?.motion.strikes.len() };
             let error = (found.utilization() / exact.utilization() - 1.0).abs();
             models.push(Measured { model, value: found.value, error, seconds, strikes });
         }
@@ -165,7 +165,7 @@ impl Groups {
     fn of(drop: &SingleDrop, part: &Part) -> Result<Self, Error> {
         let h0 = drop.body.length_m() * libm::sin(drop.tilt_rad);
         let map = Followed::new(drop, Model::Map, 0.01)?;
-        let times: Vec<f64> = map.flight().strikes.iter().map(|s| s.time_s).collect();
+        let times: Vec<f64> = map.motion.strikes.iter().map(|s| s.time_s).collect();
         let gap = times.get(1).copied().unwrap_or(f64::INFINITY);
         let last = times.last().copied().unwrap_or(0.0);
         let omega = part.suspension.map(|part| part.omega());

@@ -1,6 +1,6 @@
 //! One drop of a plate with contacts that take time, and what it does to a part.
 
-use clatter_flight::{Contact, PlateFlight, PlateScene, Stop, Strike};
+use clatter_flight::{Contact, PlateMotion, PlateScene, Stop};
 use clatter_shock::{Pulses, Response, Suspension};
 
 use crate::drop::{LEAST_SHARE, PRECISION};
@@ -87,8 +87,8 @@ impl PlateDrop {
 
     fn once(&self, place: [f64; 2], suspension: Option<&Suspension>, tolerance: f64) -> Result<PlateAnswers, Error> {
         let followed = Followed::new(self, tolerance)?;
-        let felt = followed.flight.felt(place, followed.precision);
-        let all = shocks(&felt, followed.gravity_m_s2);
+        let felt = followed.motion.felt(place);
+        let all = shocks(&felt, followed.motion.gravity_m_s2());
         let shock = largest(&all);
         let velocity_change = followed.answer(LimitKind::VelocityChange, shock.change, shock.time_s, 1.0);
         let higher = |most: (f64, f64), one: (f64, f64)| if one.0 > most.0 { one } else { most };
@@ -97,7 +97,7 @@ impl PlateDrop {
         let per_shock = self.contact.frequency_rad_s();
         let acceleration = followed.answer(LimitKind::Acceleration, peak, time_s, per_shock);
         let turns = [[1.0, 0.0], [0.0, 1.0]].map(|along| {
-            let turned = followed.flight.turned(along, followed.precision);
+            let turned = followed.motion.turned(along);
             largest(&shocks(&turned, 0.0))
         });
         let turn = if turns[1].change > turns[0].change { turns[1] } else { turns[0] };
@@ -112,42 +112,35 @@ impl PlateDrop {
 
 /// A drop as far as it was followed.
 struct Followed {
-    flight: PlateFlight,
-    gravity_m_s2: f64,
+    motion: PlateMotion,
     precision: f64,
-    /// Largest velocity shock of a corner, and a bound of what comes after the motion was left.
+    /// Largest velocity shock of a corner.
     largest_m_s: f64,
-    later_m_s: f64,
 }
 
 impl Followed {
     fn new(drop: &PlateDrop, tolerance: f64) -> Result<Self, Error> {
         let (precision, e) = (PRECISION * tolerance, drop.contact.restitution());
         let share = tolerance * e.max(LEAST_SHARE);
-        let flight = drop
+        let motion = drop
             .scene
             .with_impact_limit(MOST_STRIKES)
             .contacts_until(&drop.contact, precision, |ahead| ahead.most_m_s <= share * ahead.largest_m_s)?;
-        let shock = |strike: &Strike<4>| strike.delta_v_m_s.into_iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-        let largest_m_s = flight.flight.strikes.iter().map(shock).fold(0.0, f64::max);
-        let (gravity_m_s2, later_m_s) = (drop.scene.gravity_m_s2(), flight.later_m_s);
-        Ok(Self { flight, gravity_m_s2, precision, largest_m_s, later_m_s })
+        let largest_m_s = motion.largest_m_s();
+        Ok(Self { motion, precision, largest_m_s })
     }
 
     /// What a place feels for ever after the motion: its weight, on the mean too over what the plate still bounces.
     fn carried_m_s2(&self) -> f64 {
-        if matches!(self.flight.flight.stop, Stop::AtRest { .. } | Stop::Enough { .. }) {
-            self.gravity_m_s2
-        } else {
-            0.0
-        }
+        let lies = matches!(self.motion.stop, Stop::AtRest { .. } | Stop::Enough { .. });
+        if lies { self.motion.gravity_m_s2() } else { 0.0 }
     }
 
     /// A largest value; `unit` is what a velocity shock of 1 m/s of a corner is of it at most.
     fn answer(&self, kind: LimitKind, value: f64, time_s: f64, unit: f64) -> Answer {
-        let strikes = &self.flight.flight.strikes;
+        let strikes = &self.motion.strikes;
         let impact = strikes.partition_point(|strike| strike.time_s < time_s).max(1) as u64;
-        let off_by = unit * self.precision * self.largest_m_s + (unit * self.later_m_s - value).max(0.0);
+        let off_by = unit * self.precision * self.largest_m_s + (unit * self.motion.later_m_s - value).max(0.0);
         Answer { value, allowed: 1.0, unit: kind.unit(), time_s, impact, off_by }
     }
 
@@ -157,11 +150,11 @@ impl Followed {
         let follows = (2.0 * contact.frequency_rad_s() / omega).min(1.0);
         let response = pulses.respond(part);
         let rest = pulses.state_at_end(part);
-        let rings = if self.later_m_s > 0.0 { (omega * rest.displacement).hypot(rest.velocity) } else { 0.0 };
+        let rings = if self.motion.later_m_s > 0.0 { (omega * rest.displacement).hypot(rest.velocity) } else { 0.0 };
         let answer = |kind: LimitKind| {
             let Source::Response(of) = kind.source() else { unreachable!("the limit is on a response") };
             let unit = of.of_velocity(1.0, omega);
-            let most = (rings + CHATTER * follows * self.later_m_s) * of.of_damper(part.damping()).hypot(1.0);
+            let most = (rings + CHATTER * follows * self.motion.later_m_s) * of.of_damper(part.damping()).hypot(1.0);
             let peak = of.of(&response).peak();
             let value = peak.value.abs();
             let off_by = unit * (follows * self.precision * self.largest_m_s + (most - value).max(0.0));

@@ -15,7 +15,7 @@ use clatter_shock::{State, Suspension};
 use rayon::prelude::*;
 
 use crate::design::{Bounds, Change, Lever};
-use crate::drop::{Followed, Model, Motion, SingleDrop, Until};
+use crate::drop::{Followed, Model, SingleDrop, Until};
 use crate::engine::Felt;
 use crate::quantity::Source;
 use crate::search::{Ranges, rough_to_rad_s};
@@ -143,7 +143,7 @@ impl ProductFile {
         let WorstCase { drop, part, .. } = worst;
         let followed = Followed::new(drop, ranges.model, ranges.tolerance)?;
         let felt = Felt::new(&followed, part.position_m)?;
-        let impacts: Vec<f64> = followed.flight().strikes.iter().map(|s| s.time_s).collect();
+        let impacts: Vec<f64> = followed.motion.strikes.iter().map(|s| s.time_s).collect();
         let period = part.suspension.map_or(0.0, |s| std::f64::consts::TAU / s.omega());
         // to the peak and a little on; what comes long after it is far weaker
         let second = impacts.get(1).copied().unwrap_or(0.0);
@@ -159,7 +159,7 @@ impl ProductFile {
             (Source::Turn, _) => spikes(&followed.turns(), 1.0, end),
             (Source::Shock, _) => spikes(&felt.shocks(), 1.0, end),
             (Source::Boundary, _) if limit.unit == Unit::MeterPerSecond => spikes(&felt.shocks(), 1.0, end),
-            _ if matches!(followed.motion, Motion::Impacts(..)) => {
+            _ if followed.motion.contact().is_none() => {
                 let factor = std::f64::consts::FRAC_PI_2 / drop.contact_time_s.ok_or(Error::Contact)?;
                 spikes(&felt.shocks(), factor, end)
             }

@@ -6,9 +6,9 @@
 //! contact gives (1 + e) v, two presses are one shock where the push between them never falls below a tenth, and a long gentle tail
 //! is none. In free flight nothing is felt. Instant impacts are each a shock; those at one instant add up.
 
-use clatter_flight::{Model, Stretch, Strike};
+use clatter::{Excitation, Section};
 
-use crate::drop::{Followed, Motion};
+use crate::drop::Followed;
 
 /// One shock.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,36 +27,22 @@ pub(crate) struct Shock {
 const TENTH: f64 = 0.1;
 
 impl Followed {
-    /// The shocks of a place that feels these sections, in order of time.
-    pub(crate) fn shocks(&self, position_m: f64, sections: &[Stretch]) -> Vec<Shock> {
-        match &self.motion {
-            Motion::Impacts(_, _, flight) => {
-                let s = self.drop.relative(position_m);
-                at_instants(flight.strikes.iter().map(|k| (k.time_s, k.delta_v_at(s))))
-            }
-            Motion::Contacts(_) => shocks(sections, self.drop.gravity_m_s2),
+    /// The shocks of a place that feels this, in order of time.
+    pub(crate) fn shocks(&self, position_m: f64, felt: &Excitation) -> Vec<Shock> {
+        if self.motion.contact().is_some() {
+            return shocks(felt, self.drop.gravity_m_s2);
         }
+        let s = self.drop.relative(position_m);
+        at_instants(self.motion.strikes.iter().map(|k| (k.time_s, k.delta_v_at(s))))
     }
 
     /// The same of the turning of the product.
     pub(crate) fn turns(&self) -> Vec<Shock> {
-        match &self.motion {
-            Motion::Impacts(scene, model, flight) => {
-                let [a, b] = scene.body().arms_m();
-                let real = *model == Model::FiniteTilt;
-                let mut before = scene.spin_rad_s();
-                let turn = |k: &Strike| {
-                    let cos = if real { k.tilt_rad.cos().abs() } else { 1.0 };
-                    // Next to upright the velocities of both ends say little of the turn; in flight the spin stays.
-                    let [da, db] = k.delta_v_m_s;
-                    let turn = if cos > 0.1 { (db - da) / ((a + b) * cos) } else { k.spin_rad_s - before };
-                    before = k.spin_rad_s;
-                    (k.time_s, turn)
-                };
-                at_instants(flight.strikes.iter().map(turn))
-            }
-            Motion::Contacts(flight) => shocks(&flight.turned(self.precision), 0.0),
+        let turned = self.motion.turned();
+        if self.motion.contact().is_some() {
+            return shocks(&turned, 0.0);
         }
+        at_instants(turned.sections().map(|k| (k.from, k.delta_v)))
     }
 }
 
@@ -94,15 +80,15 @@ struct Sample {
 }
 
 /// A felt acceleration in sections, with the change of velocity of the place until each begins.
-struct History<'a, const N: usize> {
-    sections: &'a [Stretch<N>],
+struct History<'a> {
+    felt: &'a Excitation,
     velocity: Vec<f64>,
     gravity: f64,
 }
 
 /// The shocks of a felt acceleration, which falls with `gravity` besides.
-pub(crate) fn shocks<const N: usize>(sections: &[Stretch<N>], gravity: f64) -> Vec<Shock> {
-    let history = History::new(sections, gravity);
+pub(crate) fn shocks(felt: &Excitation, gravity: f64) -> Vec<Shock> {
+    let history = History::new(felt, gravity);
     let samples = history.sampled();
     let size = |k: usize| samples[k].felt.abs();
     let is_peak = |k: &usize| {
@@ -152,29 +138,29 @@ fn reach(samples: &[Sample], taken: &[bool], peak: usize, next: impl Fn(usize) -
 /// Steps of a zero or a least value between two samples: each is at least halved, or brought to its third power.
 const STEPS: u32 = 48;
 
-impl<'a, const N: usize> History<'a, N> {
-    fn new(sections: &'a [Stretch<N>], gravity: f64) -> Self {
+impl<'a> History<'a> {
+    fn new(felt: &'a Excitation, gravity: f64) -> Self {
         let mut now = 0.0;
-        let begins = |section: &Stretch<N>| {
+        let begins = |section: Section<'_>| {
             let begin = now;
-            now += section.velocity_after(section.length_s) - gravity * section.length_s;
+            now += section.velocity_after(section.length) - gravity * section.length;
             begin
         };
-        Self { velocity: sections.iter().map(begins).collect(), sections, gravity }
+        Self { velocity: felt.sections().map(begins).collect(), felt, gravity }
     }
     /// A section at a time of it.
     fn at(&self, section: usize, t: f64) -> Sample {
-        let of = &self.sections[section];
+        let of = self.felt.section(section);
         let felt = if of.free { 0.0 } else { of.acceleration_at(t) };
         let velocity = self.velocity[section] + of.velocity_after(t) - self.gravity * t;
-        Sample { section, time_s: of.from_s + t, felt, velocity }
+        Sample { section, time_s: of.from + t, felt, velocity }
     }
     fn sampled(&self) -> Vec<Sample> {
-        let mut all: Vec<Sample> = Vec::with_capacity(8 * self.sections.len());
-        for (n, section) in self.sections.iter().enumerate() {
-            let count = if section.free { 1 } else { samples(section, section.length_s) };
+        let mut all: Vec<Sample> = Vec::with_capacity(8 * self.velocity.len());
+        for (n, section) in self.felt.sections().enumerate() {
+            let count = if section.free { 1 } else { samples(&section) };
             for k in 0..=count {
-                let sample = self.at(n, f64::from(k) / f64::from(count) * section.length_s);
+                let sample = self.at(n, f64::from(k) / f64::from(count) * section.length);
                 // Sections join but for what lever arms miss.
                 let joins = |last: &Sample| (last.felt - sample.felt).abs() <= JOINS * last.felt.abs();
                 if k > 0 || !all.last().is_some_and(joins) {
@@ -187,8 +173,8 @@ impl<'a, const N: usize> History<'a, N> {
     /// The section in which two neighboring samples lie, and when in it.
     fn between(&self, one: &Sample, other: &Sample) -> (usize, [f64; 2]) {
         let n = one.section.max(other.section);
-        let section = &self.sections[n];
-        (n, [one, other].map(|sample| (sample.time_s - section.from_s).clamp(0.0, section.length_s)))
+        let section = self.felt.section(n);
+        (n, [one, other].map(|sample| (sample.time_s - section.from).clamp(0.0, section.length)))
     }
     /// Where a shock ends whose last sample this is: where its acceleration falls to zero on the way to the sample beyond, or is least
     /// on one side of the last.
@@ -204,6 +190,7 @@ impl<'a, const N: usize> History<'a, N> {
     /// Where the acceleration falls to zero between two samples, by the Illinois method.
     fn zero(&self, here: &Sample, beyond: &Sample) -> Sample {
         let (n, [mut a, mut b]) = self.between(here, beyond);
+        let section = self.felt.section(n);
         let (mut fa, mut fb) = (here.felt, beyond.felt);
         if fb == 0.0 {
             // Without force from where the section begins.
@@ -214,7 +201,7 @@ impl<'a, const N: usize> History<'a, N> {
             if !(t > a.min(b) && t < a.max(b)) {
                 break;
             }
-            let f = self.sections[n].acceleration_at(t);
+            let f = section.acceleration_at(t);
             if f * fb < 0.0 {
                 (a, fa) = (b, fb);
             } else {
@@ -230,7 +217,8 @@ impl<'a, const N: usize> History<'a, N> {
     /// The least acceleration without its sign from one sample to the next, by halves and thirds.
     fn least(&self, here: &Sample, side: &Sample) -> Sample {
         let (n, [mut a, mut b]) = self.between(here, side);
-        let of = |t: f64| self.sections[n].acceleration_at(t).abs();
+        let section = self.felt.section(n);
+        let of = |t: f64| section.acceleration_at(t).abs();
         for _ in 0..STEPS {
             let [one, two] = [a + (b - a) / 3.0, b - (b - a) / 3.0];
             if of(one) <= of(two) { b = two } else { a = one }
@@ -244,8 +232,8 @@ impl<'a, const N: usize> History<'a, N> {
         let beside = [peak.checked_sub(1), Some(peak + 1)].into_iter().flatten().filter_map(|k| samples.get(k));
         let rises = |other: &Sample| {
             let (n, [from, to]) = self.between(&here, other);
-            let step = to - from;
-            let at = |share: f64| self.sections[n].acceleration_at(from + share * step).abs();
+            let (step, section) = (to - from, self.felt.section(n));
+            let at = |share: f64| section.acceleration_at(from + share * step).abs();
             let (a, b, c) = (at(0.0), at(0.5), at(1.0));
             let (slope, bend) = (4.0 * b - 3.0 * a - c, 4.0 * (a - 2.0 * b + c));
             let share = if bend < 0.0 { (-slope / bend).clamp(0.0, 1.0) } else { 0.0 };
@@ -263,11 +251,10 @@ const MOST: f64 = 512.0;
 /// Share of an acceleration by which two sections may differ where they join.
 const JOINS: f64 = 0.01;
 
-/// Samples of a section over a time.
-pub(crate) fn samples<const N: usize>(section: &Stretch<N>, length_s: f64) -> u32 {
-    let fastest =
-        section.waves.iter().filter(|w| w.amplitude_m_s2 != 0.0).fold(0.0, |most: f64, w| most.max(w.rate_rad_s));
+/// Samples of a section.
+pub(crate) fn samples(section: &Section<'_>) -> u32 {
+    let fastest = section.sines.iter().fold(0.0, |most: f64, sine| most.max(sine.rate));
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 512")]
-    let count = (fastest * length_s / PHASE).clamp(1.0, MOST).ceil() as u32;
+    let count = (fastest * section.length / PHASE).clamp(1.0, MOST).ceil() as u32;
     count
 }

@@ -151,7 +151,7 @@ fn followed(drop: &SingleDrop, part: &Suspension) -> f64 {
     let (omega, zeta) = (part.omega(), part.damping().get());
     let scene = Scene::new(drop.body, drop.restitution, drop.speed_m_s, drop.tilt_rad.to_degrees(), G).unwrap();
     let contact = Contact::new(drop.contact_law, drop.restitution, drop.contact_time_s.unwrap()).unwrap();
-    let flight = scene.contacts(&contact).unwrap().flight;
+    let flight = scene.fly(clatter_flight::Model::Contacts(contact)).unwrap();
     let rest = flight.stop.time_s();
     let h = (1e-3 / omega).min(1e-4);
     let mut strikes = flight.strikes.iter().peekable();

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use clap::ValueHint;
 use clatter_assess::fit::MeasuredDrop;
 use clatter_assess::units::Quantity;
-use clatter_assess::{Accuracy, Assessment, Component, ComponentAssessment, LARGEST_FILE, ProductFile, Verdict};
+use clatter_assess::{Accuracy, Assessment, Component, ComponentAssessment, LARGEST_FILE, Model, ProductFile, Verdict};
 use clatter_report::Pages;
 use serde::Serialize;
 
@@ -58,8 +58,8 @@ pub(crate) struct Args {
     tolerance: f64,
     /// Follow every drop by this model rather than by the one with the most physics; a note says what that one makes of
     /// the worst drop found
-    #[arg(long, value_enum)]
-    model: Option<inputs::ModelName>,
+    #[arg(long, value_parser = inputs::model())]
+    model: Option<Model>,
     /// Instant impacts closer than this are one: where the contact time is not known and the ranges hold a tilt that
     /// leaves less between the ends, landing flat is one of the drops
     #[arg(long, value_name = "TIME", default_value = "1ms", allow_hyphen_values = true, value_parser = quantities::contact_time)]
@@ -101,8 +101,7 @@ impl Args {
         }
         let drops = files.iter().zip(&self.products).map(|(file, path)| crate::measured::drops(file, path));
         let drops = drops.collect::<Result<Vec<_>, _>>()?;
-        let accuracy =
-            Accuracy { tolerance: self.tolerance, model: self.model.map(Into::into), merge_s: self.merge.si };
+        let accuracy = Accuracy { tolerance: self.tolerance, model: self.model, merge_s: self.merge.si };
         let assessments = files
             .iter()
             .zip(&self.products)

@@ -8,10 +8,10 @@ use std::path::PathBuf;
 use clap::ValueHint;
 use clatter::End;
 use clatter_assess::units::Quantity;
-use clatter_assess::{Accuracy, STANDARD_GRAVITY_M_S2, slip};
+use clatter_assess::{Accuracy, Model, STANDARD_GRAVITY_M_S2, slip};
 use clatter_flight::{Body, ContactLaw, Scene};
 
-use crate::inputs::{self, Law, ModelName};
+use crate::inputs::{self, Law};
 use crate::numbers::given;
 use crate::one_drop::{OneDrop, PartSetup, Worst};
 use crate::output::Files;
@@ -105,7 +105,7 @@ struct Fall {
 
 /// What a command has of a drop beside [`DropArgs`].
 pub(crate) struct Beside<'a> {
-    pub(crate) model: Option<ModelName>,
+    pub(crate) model: Option<Model>,
     pub(crate) e: Option<f64>,
     pub(crate) gyration: Option<Quantity>,
     pub(crate) masses: &'a [Piece],
@@ -124,7 +124,7 @@ pub(crate) struct Beside<'a> {
 
 /// A drop with all that it needs.
 pub(crate) struct Setup {
-    pub(crate) model: ModelName,
+    pub(crate) model: Model,
     /// The end of the product that touches first; in the scene it is end a.
     pub(crate) first: End,
     pub(crate) scene: Scene,
@@ -173,8 +173,8 @@ impl DropArgs {
     }
 
     /// Refuses what the model would leave aside.
-    fn check(&self, model: ModelName) -> Result<(), Failure> {
-        if model != ModelName::Compliant {
+    fn check(&self, model: Model) -> Result<(), Failure> {
+        if model != Model::Compliant {
             return match self.contact_law {
                 Some(_) => Err(Failure::Usage("--contact-law goes with --model=compliant alone")),
                 None => Ok(()),
@@ -234,11 +234,11 @@ impl DropArgs {
             self.tilt_deg.or(self.tilt.map(|tilt| neat(tilt.si.to_degrees()))).or(beside.flat.then_some(0.0));
         let contact_time = self.contact_time();
         let model = beside.model.unwrap_or(match (contact_time, &file) {
-            (None, Some(file)) if !file.has_contact_time() => ModelName::FiniteTilt,
-            _ => ModelName::Compliant,
+            (None, Some(file)) if !file.has_contact_time() => Model::FiniteTilt,
+            _ => Model::Compliant,
         });
         self.check(model)?;
-        let compliant = model == ModelName::Compliant;
+        let compliant = model == Model::Compliant;
         let flat = beside.flat || file.as_ref().is_some_and(OneDrop::is_flat);
         if beside.flat && compliant {
             return Err(Failure::Usage(

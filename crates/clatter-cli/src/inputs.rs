@@ -3,7 +3,7 @@
 //! Every value is checked by the type that it becomes, so a range is written down once, in the model.
 
 use clap::ValueEnum;
-use clap::builder::PossibleValue;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clatter::{Axis, Bar, End, Error, Mass, OffCenterBar, Plate, PlateStart, Start};
 use clatter_assess::units::{Quantity, SHARE};
 use clatter_assess::{Accuracy, Model, Slip};
@@ -327,33 +327,16 @@ pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
 }
 
 /// How a drop is followed, from the least physics.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ModelName {
-    /// Small tilt, no gravity, instant impacts: the paper's bar
-    Map,
-    /// Small tilt, gravity, instant impacts: what bounced clear comes back
-    Ballistic,
-    /// Any tilt, gravity, instant impacts
-    FiniteTilt,
-    /// Any tilt, gravity, contacts that take time
-    Compliant,
-}
-
-impl ModelName {
-    pub(crate) fn name(self) -> &'static str {
-        Model::from(self).name()
-    }
-}
-
-impl From<ModelName> for Model {
-    fn from(name: ModelName) -> Self {
-        match name {
-            ModelName::Map => Self::Map,
-            ModelName::Ballistic => Self::Ballistic,
-            ModelName::FiniteTilt => Self::FiniteTilt,
-            ModelName::Compliant => Self::Compliant,
-        }
-    }
+pub(crate) fn model() -> impl TypedValueParser<Value = Model> {
+    let help = |model| match model {
+        Model::Ballistic => "Small tilt, gravity, instant impacts: what bounced clear comes back",
+        Model::FiniteTilt => "Any tilt, gravity, instant impacts",
+        Model::Compliant => "Any tilt, gravity, contacts that take time",
+        _ => "Small tilt, no gravity, instant impacts: the paper's bar",
+    };
+    let names = Model::FOLLOWED.map(|model| PossibleValue::new(model.name()).help(help(model)));
+    PossibleValuesParser::new(names)
+        .try_map(|name| Model::FOLLOWED.into_iter().find(|model| model.name() == name).ok_or("no model"))
 }
 
 /// What the ground does to an end while it touches.

@@ -14,12 +14,12 @@ use std::path::PathBuf;
 use clap::ValueHint;
 use clatter::Bar;
 use clatter_assess::units::Quantity;
-use clatter_assess::{Slip, slip};
+use clatter_assess::{Model, Slip, slip};
 use clatter_shock::{DampingRatio, ShockTable, Suspension};
 
 use crate::block::Axis;
 use crate::drop_args::{DropArgs, IN_SI};
-use crate::inputs::{self, DampingArgs, EndName, Format, ModelName};
+use crate::inputs::{self, DampingArgs, EndName, Format};
 use crate::one_drop::Worst;
 use crate::output::{Files, Kind, Target};
 use crate::quantities::{self, PerAxis, Piece, Place};
@@ -125,8 +125,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "H0", default_value = "1", allow_hyphen_values = true, value_parser = quantities::height_gap, conflicts_with = "followed")]
     height_gap: Quantity,
     /// Follow a drop by this model; with --product alone by the one with the most physics that the file allows
-    #[arg(long, value_enum, group = "followed")]
-    model: Option<ModelName>,
+    #[arg(long, value_parser = inputs::model(), group = "followed")]
+    model: Option<Model>,
     #[command(flatten)]
     drop: DropArgs,
     /// With --model: land flat, both ends as one, instant impacts that are closer than any contact lasts; in place of a tilt

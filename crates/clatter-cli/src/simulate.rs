@@ -7,11 +7,12 @@ mod plate;
 mod table;
 
 use clap::ValueHint;
+use clatter_assess::Model;
 use clatter_assess::units::Quantity;
-use clatter_flight::{Contact, ContactFlight, Flight, Model, Press, Stop, Strike};
+use clatter_flight::{Contact, Model as Physics, Motion, Stop, Strike};
 
 use crate::drop_args::{Beside, DropArgs, IN_SI, Setup};
-use crate::inputs::{self, ModelName, RowFormat};
+use crate::inputs::{self, RowFormat};
 use crate::output::{Files, Kind, Target};
 use crate::quantities::{self, PerAxis, Piece, Place};
 use crate::{Failure, Streams};
@@ -71,8 +72,8 @@ A contact that a limit cuts off is told as unfinished: what it does in all is no
 )]
 pub(crate) struct Args {
     /// Which physics to keep
-    #[arg(long, value_enum, required_unless_present = "product", group = "followed")]
-    model: Option<ModelName>,
+    #[arg(long, value_parser = inputs::model(), required_unless_present = "product", group = "followed")]
+    model: Option<Model>,
     #[command(flatten)]
     inertia: Inertia,
     /// Coefficient of restitution, in [0, 1]: rebound speed of an end over its approach speed, such as 0.3 or 30%
@@ -141,28 +142,6 @@ impl Inertia {
 
 fn target(text: &str) -> Result<Target, String> {
     Target::of(text, &[Kind::Csv, Kind::Json, Kind::Svg])
-}
-
-/// What a model says of a scene.
-enum Motion {
-    Instant(Model, Flight),
-    Contacts(Contact, Box<ContactFlight>),
-}
-
-impl Motion {
-    fn flight(&self) -> &Flight {
-        match self {
-            Self::Instant(_, flight) => flight,
-            Self::Contacts(_, contacts) => &contacts.flight,
-        }
-    }
-    /// How long each strike presses; of instant strikes nothing.
-    fn presses(&self) -> &[Press] {
-        match self {
-            Self::Instant(..) => &[],
-            Self::Contacts(_, contacts) => &contacts.presses,
-        }
-    }
 }
 
 /// A drop and what came of it.
@@ -250,23 +229,21 @@ impl Args {
 
     fn motion(&self, setup: &Setup) -> Result<Motion, Failure> {
         let scene = &setup.scene;
-        let model = match (setup.model, self.drop.contact_time()) {
-            (ModelName::Compliant, _) => {
+        let physics = match setup.model {
+            Model::Compliant => {
                 // That there is one was checked before.
                 let time = setup.contact_time_s.unwrap_or(f64::NAN);
-                let contact = Contact::new(setup.contact_law, scene.e(), time)?;
-                let gyration = self.inertia.gyration()?;
-                let contacts = scene.contacts(&contact).map_err(|error| self.drop.named(error, gyration))?;
-                return Ok(Motion::Contacts(contact, Box::new(contacts)));
+                Physics::Contacts(Contact::new(setup.contact_law, scene.e(), time)?)
             }
-            (_, Some(_)) => {
+            _ if self.drop.contact_time().is_some() => {
                 return Err(Failure::Usage("--contact-time and --contact-time-s go with --model=compliant alone"));
             }
-            (ModelName::Map, None) => Model::Map,
-            (ModelName::Ballistic, None) => Model::Ballistic,
-            (ModelName::FiniteTilt, None) => Model::FiniteTilt,
+            Model::Ballistic => Physics::Ballistic,
+            Model::FiniteTilt => Physics::FiniteTilt,
+            Model::NetChange | Model::LargestShock | Model::Map => Physics::Map,
         };
-        Ok(Motion::Instant(model, scene.simulate(model)))
+        let gyration = self.inertia.gyration()?;
+        scene.fly(physics).map_err(|error| self.drop.named(error, gyration))
     }
 }
 
@@ -286,24 +263,24 @@ impl Drop<'_> {
     }
 
     fn largest_of(&self, s: f64) -> f64 {
-        self.motion.flight().strikes.iter().map(|strike| strike.delta_v_at(s).abs()).fold(0.0, f64::max)
+        self.motion.strikes.iter().map(|strike| strike.delta_v_at(s).abs()).fold(0.0, f64::max)
     }
 
     /// When the contact of a strike ends, where contacts take time; infinite where the end stays down.
     fn until_s(&self, strike: usize) -> Option<f64> {
-        self.motion.presses().get(strike).map(|press| press.until_s)
+        self.motion.presses.get(strike).map(|press| press.until_s)
     }
 
     /// Whether a limit has cut off the contact of a strike, so that its shock is not known.
     fn is_unfinished(&self, strike: usize) -> bool {
-        let cut = !matches!(self.motion.flight().stop, Stop::AtRest { .. } | Stop::BouncedClear { .. });
+        let cut = !matches!(self.motion.stop, Stop::AtRest { .. } | Stop::BouncedClear { .. });
         cut && self.until_s(strike).is_some_and(f64::is_infinite)
     }
 
     /// How many strikes begin while the other end still presses, and the number of the first of them.
     fn overlaps(&self) -> Option<(usize, u64)> {
         let (mut parted_s, mut found) = (f64::NEG_INFINITY, None);
-        for (press, strike) in self.motion.presses().iter().zip(&self.motion.flight().strikes) {
+        for (press, strike) in self.motion.presses.iter().zip(&self.motion.strikes) {
             if press.from_s < parted_s {
                 found = Some(found.map_or((1, strike.number), |(count, first)| (count + 1, first)));
             }
@@ -321,7 +298,7 @@ impl Drop<'_> {
                  the impulses of such strikes depend on the contact time"
             ));
         }
-        let flight = self.motion.flight();
+        let flight = &self.motion;
         match flight.stop {
             Stop::ImpactLimit { .. } => {
                 let n = flight.strikes.len();

@@ -142,9 +142,9 @@ fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
 /// ```
 /// use clatter_flight::{Body, Model, Scene};
 /// let scene = Scene::new(Body::new(0.14, 0.04)?, 0.3, 4.43, 5.0, 9.81)?;
-/// let flight = scene.simulate(Model::FiniteTilt);
-/// let rows: Vec<_> = scene.history(Model::FiniteTilt, &flight).collect();
-/// let (strikes, stop) = (&flight.strikes, flight.stop);
+/// let motion = scene.fly(Model::FiniteTilt)?;
+/// let rows: Vec<_> = motion.rows().collect();
+/// let (strikes, stop) = (&motion.strikes, motion.stop);
 /// let drop = clatter_figures::Drop { model: "finite tilt", rows: &rows, strikes, pulses: &[], stop, at: &[0.0], called: &["middle".into()] };
 /// assert!(clatter_figures::drop(&drop)?.contains("at rest"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -346,8 +346,8 @@ mod tests {
     #[test]
     fn the_hardest_strike_is_magnified_with_those_before_it() {
         let scene = Scene::new(Body::new(0.14, 0.04).unwrap(), 0.3, 4.43, 5.0, 9.81).unwrap();
-        let flight = scene.simulate(Model::FiniteTilt);
-        let rows: Vec<_> = scene.history(Model::FiniteTilt, &flight).collect();
+        let flight = scene.fly(Model::FiniteTilt).unwrap();
+        let rows: Vec<_> = flight.rows().collect();
         let until = |strikes: &[Strike]| {
             let drop = Drop { model: "", rows: &rows, strikes, pulses: &[], stop: flight.stop, at: &[], called: &[] };
             early(&drop, flight.stop.time_s())

@@ -16,8 +16,8 @@ fn scene(q: f64, e: f64, impacts: usize) -> Scene {
 }
 
 fn bench(bencher: Bencher, model: Model, scene: Scene) {
-    let strikes = scene.simulate(model).strikes.len();
-    bencher.counter(ItemsCount::new(strikes)).bench(|| black_box(scene).simulate(model));
+    let strikes = scene.fly(model).expect("a motion").strikes.len();
+    bencher.counter(ItemsCount::new(strikes)).bench(|| black_box(scene).fly(model).expect("a motion"));
 }
 
 /// To rest: few strikes at large angles, then many at small ones.
@@ -43,8 +43,8 @@ fn elastic_finite_tilt(bencher: Bencher, strikes: usize) {
 fn contacts<const LAW: usize>(bencher: Bencher, impacts: usize) {
     let scene = scene(0.5, 0.3, impacts);
     let contact = Contact::new([ContactLaw::Hysteretic, ContactLaw::Dashpot][LAW], 0.3, 3e-4).expect("a contact");
-    let strikes = scene.contacts(&contact).expect("a flight").flight.strikes.len();
-    bencher.counter(ItemsCount::new(strikes)).bench(|| black_box(scene).contacts(&contact));
+    let strikes = scene.fly(Model::Contacts(contact)).expect("a flight").strikes.len();
+    bencher.counter(ItemsCount::new(strikes)).bench(|| black_box(scene).fly(Model::Contacts(contact)));
 }
 
 /// The same to a precision, until rest; the counter gives phases.

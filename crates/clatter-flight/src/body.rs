@@ -166,10 +166,10 @@ impl Body<2> {
     /// // Length 2, thickness 1 and radius of gyration 1 at 45°: lever arms −½/√2 and 1½/√2. The free end gets
     /// // (1 + x_a x_b/ρ²)/(1 + x_a²/ρ²) = (1 − 3/8)/(1 + 1/8) = 5/9 of the jump of the struck one.
     /// let body = Body::new(2.0, 1.0)?.with_thickness(1.0)?;
-    /// let strike = Scene::new(body, 0.5, 1.0, 45.0, 0.0)?.simulate(Model::FiniteTilt).strikes[0];
+    /// let strike = Scene::new(body, 0.5, 1.0, 45.0, 0.0)?.fly(Model::FiniteTilt)?.strikes[0];
     /// assert!((strike.delta_v_m_s[0] - 1.5).abs() < 1e-15);
     /// assert!((strike.delta_v_m_s[1] / strike.delta_v_m_s[0] - 5.0 / 9.0).abs() < 1e-15);
-    /// # Ok::<(), clatter::Error>(())
+    /// # Ok::<(), clatter_flight::Error>(())
     /// ```
     pub fn with_thickness(mut self, thickness_m: f64) -> Result<Self, Error> {
         if thickness_m != 0.0 {

@@ -8,7 +8,7 @@
 //! A phase has constant lever arms, and a constant acceleration by turning: those of the mean angle as its forces weigh it.
 //! At its end the pose follows in exact geometry. What that gets wrong is measured beside each phase, by how far the body
 //! turns and how much it is pushed; phases are cut where it would be more than the precision asked allows. What the energy
-//! of the body changes by without reason is summed in [`ContactFlight::energy_error`]; a flight ends where that is no longer
+//! of the body changes by without reason is summed in [`Motion::energy_error`]; a flight ends where that is no longer
 //! small, and one phase that changes it by as much is an error.
 //!
 //! # A point in its dent
@@ -21,7 +21,7 @@
 //!
 //! # Rest
 //! The flight is at rest where the energy left allows no point to be faster than the precision times the largest
-//! approach, or no more force than some times the weight. [`Stop::AtRest`] bounds what rings on.
+//! approach, or no more force than some times the weight. [`Stop::AtRest`](crate::Stop::AtRest) bounds what rings on.
 
 mod eigen;
 mod felt;
@@ -38,14 +38,15 @@ mod touch;
 pub use law::{Contact, ContactLaw};
 
 use crate::Error;
-use crate::flight::{Flight, Log, Stop};
-use crate::plate::PlateScene;
+use crate::flight::Log;
+use crate::motion::{Ahead, Course, Motion};
 use crate::scene::{Scene, within};
-use level::Level;
 use phase::Phase;
-use planar::Planar;
-use pose::Pose;
-use run::Run;
+
+pub(crate) use level::Level;
+pub(crate) use planar::Planar;
+pub(crate) use pose::Pose;
+pub(crate) use run::Run;
 
 /// How long a strike presses.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,41 +57,21 @@ pub struct Press {
     pub until_s: f64,
 }
 
-/// A flight with contacts that take time, and its whole history.
+/// What a body with contacts that take time does between its strikes.
 #[derive(Debug, Clone)]
-pub struct ContactFlight<const N: usize = 2, P: Pose<N> = Planar<N>> {
-    /// Strikes and stop. A strike is one press, from touch to parting; its time is that of the touch, its Δv what the force of
-    /// that contact does in all, its velocities are those as it parts.
-    pub flight: Flight<N>,
-    /// Beginning and end of each strike's contact.
-    pub presses: Vec<Press>,
-    /// What the energy of the body has changed by without reason, summed without regard to sign, over that of the body at the first
-    /// touch: at most 1 %, where [`Stop::EnergyLimit`] ends the flight.
-    pub energy_error: f64,
-    /// No press after the flight changes the velocity of a contact point by more: by the energy that is left, its weight apart.
-    pub later_m_s: f64,
-    contact_s: f64,
-    phases: Vec<(f64, Phase<P, N>)>,
-    /// The body just before the flight ends, and as it ends, at rest without what was left of its motion.
+pub(crate) struct Phases<const N: usize, P: Pose<N>> {
+    precision: f64,
+    /// How long a lone contact takes.
+    pub(crate) contact_s: f64,
+    /// When the motion ends, and whether at rest.
+    end_s: f64,
+    rests: bool,
+    list: Vec<(f64, Phase<P, N>)>,
+    /// The body just before the motion ends, and as it ends, at rest without what was left of its motion.
     last: P,
-    end: P,
+    pub(crate) end: P,
     /// The forces on it if it is at rest.
     resting: [f64; N],
-}
-
-/// A flight of a plate with contacts that take time.
-pub type PlateFlight = ContactFlight<4, Level>;
-
-impl PlateFlight {
-    pub(crate) fn follow(
-        scene: &PlateScene,
-        contact: &Contact,
-        precision: f64,
-        enough: impl FnMut(&Ahead) -> bool,
-    ) -> Result<Self, Error> {
-        let (time_limit_s, impact_limit) = scene.limits();
-        Run::new(Level::start(scene), Log::new(time_limit_s, impact_limit), contact, precision).run(enough)
-    }
 }
 
 /// The body at one time.
@@ -110,11 +91,9 @@ pub struct Sample<const N: usize = 2> {
     pub spin_rad_s: f64,
 }
 
-impl<const N: usize, P: Pose<N>> ContactFlight<N, P> {
-    /// The body at a time since the first touch; beyond the end of the flight it stays at rest, or goes on as it was.
-    #[must_use]
-    pub fn sample(&self, time_s: f64) -> Sample<N> {
-        if matches!(self.flight.stop, Stop::AtRest { time_s: rest, .. } if time_s >= rest) {
+impl<const N: usize, P: Pose<N>> Phases<N, P> {
+    pub(crate) fn sample(&self, time_s: f64) -> Sample<N> {
+        if self.rests && time_s >= self.end_s {
             return Sample {
                 height_m: self.end.points().0,
                 velocity_m_s: [0.0; N],
@@ -124,52 +103,31 @@ impl<const N: usize, P: Pose<N>> ContactFlight<N, P> {
                 spin_rad_s: 0.0,
             };
         }
-        let n = self.phases.partition_point(|(from, _)| *from <= time_s).saturating_sub(1);
-        let (from, phase) = &self.phases[n];
+        let n = self.list.partition_point(|(from, _)| *from <= time_s).saturating_sub(1);
+        let (from, phase) = &self.list[n];
         phase.sample((time_s - from).max(0.0))
-    }
-    /// When each phase begins, in order from 0. Within a phase every force is smooth.
-    pub fn phases_s(&self) -> impl Iterator<Item = f64> + '_ {
-        self.phases.iter().map(|(from, _)| *from)
     }
 }
 
-/// What may still come, as asked while a flight goes on.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ahead {
-    /// Now.
-    pub time_s: f64,
-    /// Largest velocity shock of a contact point so far.
-    pub largest_m_s: f64,
-    /// No later strike that presses alone changes the velocity of a contact point by more, by the energy that is left, its weight
-    /// apart; and none approaches at more than half of it.
-    pub most_m_s: f64,
-    /// Whether a press is about to begin; else one ends.
-    pub lands: bool,
+impl<const N: usize, P: Pose<N>> Motion<N, P> {
+    /// The body at a time since the first touch; beyond the end of the motion it stays at rest, or goes on as it was. None of instant
+    /// impacts.
+    #[must_use]
+    pub fn sample(&self, time_s: f64) -> Option<Sample<N>> {
+        self.phases().map(|phases| phases.sample(time_s))
+    }
+    /// When each phase of contacts that take time begins, in order from 0. Within a phase every force is smooth.
+    pub fn phases_s(&self) -> impl Iterator<Item = f64> + '_ {
+        self.phases().into_iter().flat_map(|phases| phases.list.iter().map(|(from, _)| *from))
+    }
+    fn phases(&self) -> Option<&Phases<N, P>> {
+        if let Course::Contacts(phases) = &self.course { Some(phases) } else { None }
+    }
 }
 
 impl<const N: usize> Scene<N> {
-    /// The flight with contacts that take time, until rest, to a precision of 1e−4.
-    ///
-    /// # Errors
-    /// As [`contacts_until`](Self::contacts_until).
-    ///
-    /// # Examples
-    /// A flat, even drop with e = 1: both ends press along one half-sine and rise together.
-    /// ```
-    /// use clatter_flight::{Body, Contact, ContactLaw, Scene};
-    /// let scene = Scene::new(Body::new(0.14, 0.04)?, 1.0, 2.0, 0.0, 0.0)?;
-    /// let flight = scene.contacts(&Contact::new(ContactLaw::Hysteretic, 1.0, 1e-3)?)?;
-    /// assert_eq!(flight.presses[0], flight.presses[1]);
-    /// assert!((flight.flight.strikes[0].velocity_m_s[0] - 2.0).abs() < 1e-12);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn contacts(&self, contact: &Contact) -> Result<ContactFlight<N>, Error> {
-        self.contacts_until(contact, 1e-4, |_| false)
-    }
-
-    /// The same to a precision, as far as it is needed: `enough` is asked before each event at which no point
-    /// loads, and ends the flight there.
+    /// The motion of a body with any number of contact points, all of which take time; that of a bar is [`fly_until`](Scene::fly_until).
+    /// `enough` is asked before each event at which no point loads, and ends the motion there.
     ///
     /// # Accuracy
     /// Over the largest approach, each time that a point presses leaves the body with velocities that are wrong by less than
@@ -185,8 +143,8 @@ impl<const N: usize> Scene<N> {
         &self,
         contact: &Contact,
         precision: f64,
-        enough: impl FnMut(&Ahead) -> bool,
-    ) -> Result<ContactFlight<N>, Error> {
+        enough: impl FnMut(&Ahead<N>) -> bool,
+    ) -> Result<Motion<N>, Error> {
         within("precision", precision, 1e-8, 0.1, "in [1e-8, 0.1]")?;
         self.check(contact)?;
         let log = Log::new(self.time_limit_s(), self.impact_limit());
@@ -199,31 +157,37 @@ impl<const N: usize> Scene<N> {
             return Err(Error::Restitution { contact: of_contact, scene });
         }
         let reach = self.body().reach();
-        let (length, gyration, time) = (self.body().length_m().max(reach), self.body().gyration_m(), contact.time_s());
-        let of_time = |bound, most, reason| {
-            Err(Error::Bound { name: "contact time", value: time, bound, most, unit: "s", reason })
-        };
+        let (length, gyration) = (self.body().length_m().max(reach), self.body().gyration_m());
         // What is told as the bound is allowed.
-        let beyond = 1.0 + 1e-12;
-        if gyration * beyond < 0.05 * length {
+        if gyration * (1.0 + 1e-12) < 0.05 * length {
             let (name, reason) = ("radius of gyration", "0.05 of the length for contacts that take time");
             let (value, bound) = (gyration, 0.05 * length);
             return Err(Error::Bound { name, value, bound, most: false, unit: "m", reason });
         }
         let of_speed = 0.1 * length / (self.speed_m_s() + reach * self.spin_rad_s().abs());
-        let of_gravity = 0.1 * (length / self.gravity_m_s2()).sqrt();
-        if time > of_speed.min(of_gravity) * beyond {
-            let reason = if of_speed < of_gravity {
-                "a tenth of length/speed, so that the ends sink in little"
-            } else {
-                "a tenth of sqrt(length/gravity), so that the ends sink in little"
-            };
-            return of_time(of_speed.min(of_gravity), true, reason);
-        }
-        let shortest = 1e-10 * length / self.speed_m_s();
-        if time * beyond < shortest {
-            return of_time(shortest, false, "1e-10 length/speed, so that the ends sink in at all");
-        }
-        Ok(())
+        let most = [of_speed, 0.1 * (length / self.gravity_m_s2()).sqrt()];
+        let reasons = [
+            "a tenth of length/speed, so that the ends sink in little",
+            "a tenth of sqrt(length/gravity), so that the ends sink in little",
+            "1e-10 length/speed, so that the ends sink in at all",
+        ];
+        check_time(contact.time_s(), most, 1e-10 * length / self.speed_m_s(), reasons)
     }
+}
+
+/// Refuses a contact time beyond what speed and gravity allow at most, and below the shortest; for these reasons.
+pub(crate) fn check_time(
+    value: f64,
+    [of_speed, of_gravity]: [f64; 2],
+    shortest: f64,
+    [by_speed, by_gravity, by_depth]: [&'static str; 3],
+) -> Result<(), Error> {
+    let refused =
+        |bound, most, reason| Err(Error::Bound { name: "contact time", value, bound, most, unit: "s", reason });
+    // What is told as the bound is allowed.
+    let (longest, beyond) = (of_speed.min(of_gravity), 1.0 + 1e-12);
+    if value > longest * beyond {
+        return refused(longest, true, if of_speed < of_gravity { by_speed } else { by_gravity });
+    }
+    if value * beyond < shortest { refused(shortest, false, by_depth) } else { Ok(()) }
 }

@@ -1,11 +1,13 @@
-//! What a model says of a drop: strikes, times at rest on a point, and why the motion ends.
+//! Models, strikes, times at rest on a point, and why a motion ends.
+
+use crate::contact::Contact;
 
 /// Share of the largest velocity shock below which shocks may be left out of the list once a bound on all of
 /// them, and on the time they take, is proven: 2⁻⁵².
 pub const SHARE: f64 = f64::EPSILON;
 
-/// Which physics a flight of instant impacts keeps.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Which physics a motion keeps.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Model {
     /// Small tilt, no gravity: the map of the paper. The scene's gravity is not used.
     Map,
@@ -13,6 +15,8 @@ pub enum Model {
     Ballistic,
     /// Any tilt, gravity.
     FiniteTilt,
+    /// Any tilt, gravity, contacts that take time.
+    Contacts(Contact),
 }
 
 /// One strike of a contact point.
@@ -157,21 +161,12 @@ impl Stop {
     }
 }
 
-/// What a model says of a scene.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Flight<const N: usize = 2> {
-    /// The strikes in order of time; at one instant, in the order in which a vanishing tilt makes them happen.
-    pub strikes: Vec<Strike<N>>,
-    /// The times in which one end lay on the ground.
-    pub pivots: Vec<Pivot>,
-    /// Why it ends.
-    pub stop: Stop,
-}
-
-impl<const N: usize> Flight<N> {
-    /// Nothing followed yet.
-    pub(crate) const NONE: Self =
-        Self { strikes: Vec::new(), pivots: Vec::new(), stop: Stop::ImpactLimit { time_s: 0.0 } };
+/// Strikes and pivots, and why there are no more.
+#[derive(Debug)]
+pub(crate) struct Flight<const N: usize = 2> {
+    pub(crate) strikes: Vec<Strike<N>>,
+    pub(crate) pivots: Vec<Pivot>,
+    pub(crate) stop: Stop,
 }
 
 /// The list under construction, with its limits.
@@ -180,6 +175,8 @@ pub(crate) struct Log<const N: usize> {
     pub(crate) flight: Flight<N>,
     pub(crate) time_limit_s: f64,
     pub(crate) impact_limit: usize,
+    /// Strikes of each point so far.
+    pub(crate) struck: [usize; N],
     /// Largest velocity shock at an end so far.
     pub(crate) largest_m_s: f64,
     /// Largest shock summed in closed form instead of being listed.
@@ -188,7 +185,9 @@ pub(crate) struct Log<const N: usize> {
 
 impl<const N: usize> Log<N> {
     pub(crate) fn new(time_limit_s: f64, impact_limit: usize) -> Self {
-        Self { flight: Flight::NONE, time_limit_s, impact_limit, largest_m_s: 0.0, omitted_m_s: 0.0 }
+        let stop = Stop::ImpactLimit { time_s: 0.0 };
+        let flight = Flight { strikes: Vec::new(), pivots: Vec::new(), stop };
+        Self { flight, time_limit_s, impact_limit, struck: [0; N], largest_m_s: 0.0, omitted_m_s: 0.0 }
     }
     /// Takes the strike down, or the stop that its time, its number or `enough` means; false ends the simulation.
     pub(crate) fn strike(
@@ -198,7 +197,7 @@ impl<const N: usize> Log<N> {
         approach: f64,
         delta_v: [f64; N],
         after: &After<N>,
-        enough: &mut impl FnMut(&Flight<N>) -> bool,
+        enough: &mut impl FnMut(&Self) -> bool,
     ) -> bool {
         if time_s > self.time_limit_s {
             self.flight.stop = Stop::TimeLimit { time_s: self.time_limit_s };
@@ -212,10 +211,11 @@ impl<const N: usize> Log<N> {
             self.flight.stop = Stop::ImpactLimit { time_s: last_s.unwrap_or(time_s) };
             return false;
         }
-        if strikes > 0 && enough(&self.flight) {
+        if strikes > 0 && enough(self) {
             self.flight.stop = Stop::Enough { time_s };
             return false;
         }
+        self.struck[point] += 1;
         self.flight.strikes.push(Strike {
             number: strikes as u64 + 1,
             point,

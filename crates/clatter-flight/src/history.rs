@@ -1,4 +1,4 @@
-//! A flight as rows over time, for drawing and for tables: every strike, and between strikes as many rows as the curves
+//! A motion as rows over time, for drawing and for tables: every strike, and between strikes as many rows as the curves
 //! need.
 //!
 //! A strike is two rows at one time, just before and just after it, so that no line drawn through the rows rounds a
@@ -8,15 +8,17 @@
 //! ```
 //! use clatter_flight::{Body, Model, Scene};
 //! let scene = Scene::new(Body::new(0.14, 0.04)?, 0.3, 4.43, 5.0, 9.81)?;
-//! let flight = scene.simulate(Model::Map);
-//! let rows: Vec<_> = scene.history(Model::Map, &flight).collect();
-//! assert_eq!(rows.len(), 2 * flight.strikes.len() + 1); // straight lines, until it has bounced clear
+//! let motion = scene.fly(Model::Map)?;
+//! let rows: Vec<_> = motion.rows().collect();
+//! assert_eq!(rows.len(), 2 * motion.strikes.len() + 1); // straight lines, until it has bounced clear
 //! assert_eq!(rows[0].velocity_m_s, [-4.43, -4.43]);
 //! assert!((rows[1].velocity_m_s[0] - 0.3 * 4.43).abs() < 1e-15);
-//! # Ok::<(), clatter::Error>(())
+//! # Ok::<(), clatter_flight::Error>(())
 //! ```
 
-use crate::{ContactFlight, Flight, Model, Scene, Stop, Strike};
+use crate::contact::{Phases, Planar};
+use crate::motion::Course;
+use crate::{Motion, Scene, Stop, Strike};
 
 /// The body at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,30 +72,58 @@ const HALVINGS: u32 = 12;
 /// Rows a compliant contact gets at least, over the time that a lone one takes.
 const PULSE: u32 = 16;
 
-impl Scene {
-    /// The rows of a flight of instant impacts.
-    ///
-    /// They go on until the body lies still or the limit is reached; one that has bounced clear is followed for a
-    /// while.
+impl Motion {
+    /// Both ends at a time since the first touch, just after what happens then; beyond the end of the motion the body stays at rest, or
+    /// goes on as it was.
     ///
     /// # Accuracy
-    /// At a strike that of the model. Between strikes exact in flight; while the body pivots at finite tilt, as
-    /// [`heights_m`](Self::heights_m). Straight lines between the rows: [`STRAIGHT`].
-    pub fn history<'a>(&'a self, model: Model, flight: &'a Flight) -> impl Iterator<Item = Row> + 'a {
-        let at = move |time_s: f64| {
-            let (height_m, velocity_m_s) = self.ends(model, flight, time_s);
-            Row { time_s, height_m, velocity_m_s, forces: None }
-        };
-        let end = at(self.end_s(flight));
-        let strikes = &flight.strikes;
+    /// Of instant impacts exact in flight, and to 1e−9 of the length while the body turns about an end that lies.
+    #[must_use]
+    pub fn at(&self, time_s: f64) -> Row {
+        match &self.course {
+            Course::Impacts(scene) => {
+                let (height_m, velocity_m_s) = self.ends_of_impacts(scene, time_s);
+                Row { time_s, height_m, velocity_m_s, forces: None }
+            }
+            Course::Contacts(phases) => {
+                let sample = phases.sample(time_s);
+                let forces = Forces {
+                    acceleration_m_s2: sample.acceleration_m_s2,
+                    force_per_mass_m_s2: sample.force_per_mass_m_s2,
+                };
+                Row { time_s, height_m: sample.height_m, velocity_m_s: sample.velocity_m_s, forces: Some(forces) }
+            }
+        }
+    }
+
+    /// The rows of the motion.
+    ///
+    /// They go on until the body lies still or the limit is reached; one that has bounced clear is followed for a seventh of the whole
+    /// more, and one that has come to rest on its springs for two contact times. A touch of contacts that take time is two rows at one
+    /// time too, because a dashpot's force begins with a jump.
+    ///
+    /// # Accuracy
+    /// At a strike that of the model, between strikes that of [`at`](Self::at). Straight lines between the rows: [`STRAIGHT`].
+    #[must_use]
+    pub fn rows(&self) -> Box<dyn Iterator<Item = Row> + '_> {
+        match &self.course {
+            Course::Impacts(scene) => Box::new(self.rows_of_impacts(scene)),
+            Course::Contacts(phases) => Box::new(self.rows_of_contacts(phases)),
+        }
+    }
+
+    fn rows_of_impacts(&self, scene: &Scene) -> impl Iterator<Item = Row> + '_ {
+        let at = |time_s: f64| self.at(time_s);
+        let end = at(self.drawn_until_s(scene));
+        let strikes = &self.strikes;
         let first = strikes.iter().take(1).map(before);
         first.chain(strikes.iter().enumerate().flat_map(move |(i, strike)| {
             let from = after(strike);
             let to = strikes.get(i + 1).map_or(end, before);
             let mut rows = vec![from];
             let inside = |t: &f64| from.time_s < *t && *t < to.time_s;
-            let past = flight.pivots.partition_point(|p| p.until_s <= from.time_s);
-            let pivots = flight.pivots[past..].iter().take_while(|p| p.from_s < to.time_s);
+            let past = self.pivots.partition_point(|p| p.until_s <= from.time_s);
+            let pivots = self.pivots[past..].iter().take_while(|p| p.from_s < to.time_s);
             let mut last = from;
             for knot in pivots.flat_map(|p| [p.from_s, p.until_s]).filter(inside).map(at) {
                 refine(&last, &knot, &at, HALVINGS, &mut rows);
@@ -106,33 +136,24 @@ impl Scene {
         }))
     }
 
-    /// Until when the history of a flight goes.
-    fn end_s(&self, flight: &Flight) -> f64 {
-        match flight.stop {
+    /// Until when the rows of instant impacts go.
+    fn drawn_until_s(&self, scene: &Scene) -> f64 {
+        match self.stop {
             // A seventh more; where all strikes fall on one instant, the time of a fall through the gap or the length.
             Stop::BouncedClear { time_s } if time_s > 0.0 => time_s * (8.0 / 7.0),
             Stop::BouncedClear { .. } => {
-                let gap = self.height_gap_m();
-                (if gap > 0.0 { gap } else { self.body().length_m() }) / self.speed_m_s()
+                let gap = scene.height_gap_m();
+                (if gap > 0.0 { gap } else { scene.body().length_m() }) / scene.speed_m_s()
             }
             stop => stop.time_s(),
         }
     }
-}
 
-impl ContactFlight {
-    /// The rows of a flight with contacts that take `contact_time_s`, until the last contact has parted.
-    ///
-    /// A touch is two rows at one time, because a dashpot's force begins with a jump. A body that has come to rest on its
-    /// springs is followed for two contact times more, one that has bounced clear for a seventh of the whole.
-    ///
-    /// # Accuracy
-    /// Straight lines between the rows: [`STRAIGHT`].
-    pub fn history(&self, contact_time_s: f64) -> impl Iterator<Item = Row> + '_ {
-        let at = |time_s: f64| self.row(time_s);
-        let stop = self.flight.stop;
-        let end = stop.time_s()
-            + match stop {
+    fn rows_of_contacts(&self, phases: &Phases<2, Planar<2>>) -> impl Iterator<Item = Row> + '_ {
+        let at = |time_s: f64| self.at(time_s);
+        let contact_time_s = phases.contact_s;
+        let end = self.stop.time_s()
+            + match self.stop {
                 Stop::AtRest { .. } => 2.0 * contact_time_s,
                 Stop::BouncedClear { time_s } => (time_s / 7.0).max(contact_time_s),
                 _ => 0.0,
@@ -148,7 +169,7 @@ impl ContactFlight {
         knots.retain(|t| (0.0..=end).contains(t));
         knots.sort_by(f64::total_cmp);
         knots.dedup();
-        let mut touches = self.flight.strikes.iter().map(|s| s.time_s).peekable();
+        let mut touches = self.strikes.iter().map(|s| s.time_s).peekable();
         let mut last: Option<Row> = None;
         knots.into_iter().flat_map(move |t| {
             let mut rows = Vec::new();
@@ -164,13 +185,6 @@ impl ContactFlight {
             last = Some(row);
             rows
         })
-    }
-
-    fn row(&self, time_s: f64) -> Row {
-        let sample = self.sample(time_s);
-        let forces =
-            Forces { acceleration_m_s2: sample.acceleration_m_s2, force_per_mass_m_s2: sample.force_per_mass_m_s2 };
-        Row { time_s, height_m: sample.height_m, velocity_m_s: sample.velocity_m_s, forces: Some(forces) }
     }
 }
 

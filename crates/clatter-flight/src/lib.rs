@@ -1,14 +1,14 @@
 //! The clatter in time: gravity, real tilt, an off-center mass, contact that takes time.
 //!
-//! Four models of one drop, each the cheapest that keeps its physics, all answering with the same kind of
-//! [`Flight`], so that they can be compared strike by strike:
+//! Four models of one drop, each the cheapest that keeps its physics. [`Scene::fly`] follows a drop by any of them, and all answer
+//! with a [`Motion`], so that they can be compared strike by strike:
 //!
 //! | model | between strikes | a strike |
 //! |---|---|---|
 //! | [`Model::Map`] | straight lines, small tilt, no gravity | impulse |
 //! | [`Model::Ballistic`] | parabolas, small tilt | impulse |
 //! | [`Model::FiniteTilt`] | parabola of the center, uniform rotation, any angle | impulse, lever arm L cos φ, of corners where the body has a thickness |
-//! | [`Scene::contacts`] | as `FiniteTilt` | contacts that take time, by one of two [laws](ContactLaw) |
+//! | [`Model::Contacts`] | as `FiniteTilt` | contacts that take time, by one of two [laws](ContactLaw) |
 //!
 //! # The picture
 //!
@@ -28,12 +28,12 @@
 //! use clatter_flight::{Body, Model, Scene, Stop};
 //! // A uniform bar with e = 0 and no tilt: both ends strike in turn at one instant, T = q = ½ each, until all is still.
 //! let body = Body::new(0.14, 0.07 / 3.0_f64.sqrt())?;
-//! let flight = Scene::new(body, 0.0, 1.0, 0.0, 9.81)?.simulate(Model::Ballistic);
-//! assert_eq!(flight.strikes[0].approach_m_s, -1.0);
-//! assert!((flight.strikes[1].approach_m_s + 1.5).abs() < 1e-15); // v_b − q v0
-//! assert!((flight.strikes[2].approach_m_s + 0.75).abs() < 1e-15);
-//! assert!(matches!(flight.stop, Stop::AtRest { time_s: 0.0, .. }));
-//! # Ok::<(), clatter::Error>(())
+//! let motion = Scene::new(body, 0.0, 1.0, 0.0, 9.81)?.fly(Model::Ballistic)?;
+//! assert_eq!(motion.strikes[0].approach_m_s, -1.0);
+//! assert!((motion.strikes[1].approach_m_s + 1.5).abs() < 1e-15); // v_b − q v0
+//! assert!((motion.strikes[2].approach_m_s + 0.75).abs() < 1e-15);
+//! assert!(matches!(motion.stop, Stop::AtRest { time_s: 0.0, .. }));
+//! # Ok::<(), clatter_flight::Error>(())
 //! ```
 
 mod block;
@@ -43,6 +43,7 @@ mod error;
 mod excitation;
 mod flight;
 pub mod history;
+mod motion;
 mod orders;
 mod plate;
 mod rigid;
@@ -51,10 +52,10 @@ mod scene;
 
 pub use block::{Block, BlockDrop, BlockFlight, BlockStep, BlockStrike, LEAST_OF_BLOCKS};
 pub use body::Body;
-pub use contact::{Ahead, Contact, ContactFlight, ContactLaw, PlateFlight, Press, Sample};
+pub use contact::{Contact, ContactLaw, Press, Sample};
 pub use error::Error;
-pub use excitation::{Stretch, Wave};
-pub use flight::{Flight, LiftOff, Model, Pivot, SHARE, Stop, Strike};
+pub use flight::{LiftOff, Model, Pivot, SHARE, Stop, Strike};
+pub use motion::{Ahead, Motion, PlateMotion};
 pub use orders::{Order, Residue, orders, residues};
 pub use plate::{Plate, PlateScene};
 pub use scene::Scene;

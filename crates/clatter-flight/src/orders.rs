@@ -1,6 +1,6 @@
 //! How the models tend to one another, measured: rows for the accuracy table.
 
-use crate::{Body, Contact, ContactLaw, Error, Flight, Model, Scene, Strike};
+use crate::{Body, Contact, ContactLaw, Error, Model, Motion, Scene, Strike};
 
 /// One model against the one it tends to, as a parameter goes to zero.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,7 +47,7 @@ fn phone(q: f64, e: f64, tilt_deg: f64, gravity: f64) -> Result<Scene, clatter::
 
 /// Largest difference of times (relative) and of shocks (over the drop speed) of the first strikes; infinite if the
 /// ends differ.
-fn distance(a: &Flight, b: &Flight, speed: f64, strikes: usize) -> f64 {
+fn distance(a: &Motion, b: &Motion, speed: f64, strikes: usize) -> f64 {
     let off = |(a, b): (&Strike, &Strike)| {
         let time = (a.time_s - b.time_s).abs() / b.time_s.max(f64::MIN_POSITIVE);
         let shock = (0..2).map(|k| (a.delta_v_m_s[k] - b.delta_v_m_s[k]).abs() / speed).fold(0.0, f64::max);
@@ -56,9 +56,9 @@ fn distance(a: &Flight, b: &Flight, speed: f64, strikes: usize) -> f64 {
     a.strikes.iter().zip(&b.strikes).take(strikes).map(off).fold(0.0, f64::max)
 }
 
-/// The flight with hysteretic contacts.
-fn hysteretic(drop: &Scene, contact_time_s: f64) -> Result<Flight, Error> {
-    Ok(drop.contacts(&Contact::new(ContactLaw::Hysteretic, drop.e(), contact_time_s)?)?.flight)
+/// The motion with hysteretic contacts.
+fn hysteretic(drop: &Scene, contact_time_s: f64) -> Result<Motion, Error> {
+    drop.fly(Model::Contacts(Contact::new(ContactLaw::Hysteretic, drop.e(), contact_time_s)?))
 }
 
 /// The orders in which the models tend to one another, measured on a train of four (q = ½, e = 0.3) over its first
@@ -74,7 +74,8 @@ fn hysteretic(drop: &Scene, contact_time_s: f64) -> Result<Flight, Error> {
 /// # Errors
 /// None: the scenes are valid.
 pub fn orders() -> Result<Vec<Order>, Error> {
-    let early = |a: (Scene, Model), b: (Scene, Model)| distance(&a.0.simulate(a.1), &b.0.simulate(b.1), 4.43, 3);
+    let early =
+        |a: (Scene, Model), b: (Scene, Model)| Ok::<_, Error>(distance(&a.0.fly(a.1)?, &b.0.fly(b.1)?, 4.43, 3));
     let steps = |parameters: &[f64], of: &dyn Fn(f64) -> Result<f64, Error>| {
         parameters.iter().map(|&p| Ok((p, of(p)?))).collect::<Result<Vec<_>, Error>>()
     };
@@ -89,7 +90,7 @@ pub fn orders() -> Result<Vec<Order>, Error> {
             parameter: "tilt in degrees, no gravity",
             compared,
             expected: 2.0,
-            steps: steps(&tilts, &|t| Ok(early((scene(t, 0.0)?, Model::FiniteTilt), (scene(t, 0.0)?, Model::Map))))?,
+            steps: steps(&tilts, &|t| early((scene(t, 0.0)?, Model::FiniteTilt), (scene(t, 0.0)?, Model::Map)))?,
         },
         Order {
             model: "finite tilt",
@@ -98,7 +99,7 @@ pub fn orders() -> Result<Vec<Order>, Error> {
             compared,
             expected: 2.0,
             steps: steps(&tilts, &|t| {
-                Ok(early((scene(t, 9.81)?, Model::FiniteTilt), (scene(t, 9.81)?, Model::Ballistic)))
+                early((scene(t, 9.81)?, Model::FiniteTilt), (scene(t, 9.81)?, Model::Ballistic))
             })?,
         },
         Order {
@@ -112,7 +113,7 @@ pub fn orders() -> Result<Vec<Order>, Error> {
                 .map(|g| {
                     let drop = scene(5.0, g)?;
                     let group = g * drop.height_gap_m() / drop.speed_m_s().powi(2);
-                    Ok((group, early((drop, Model::Ballistic), (drop, Model::Map))))
+                    Ok((group, early((drop, Model::Ballistic), (drop, Model::Map))?))
                 })
                 .collect::<Result<Vec<_>, Error>>()?,
         },
@@ -125,7 +126,7 @@ pub fn orders() -> Result<Vec<Order>, Error> {
             steps: steps(&contacts, &|share| {
                 let drop = scene(1e-3, 0.0)?;
                 let contact = share * drop.height_gap_m() / drop.speed_m_s();
-                let (soft, hard) = (hysteretic(&drop, contact)?, drop.simulate(Model::Map));
+                let (soft, hard) = (hysteretic(&drop, contact)?, drop.fly(Model::Map)?);
                 Ok(soft
                     .strikes
                     .iter()
@@ -143,7 +144,7 @@ pub fn orders() -> Result<Vec<Order>, Error> {
             steps: steps(&contacts, &|share| {
                 let drop = scene(45.0, 9.81)?;
                 let contact = share * drop.height_gap_m() / drop.speed_m_s();
-                let (soft, hard) = (hysteretic(&drop, contact)?, drop.simulate(Model::FiniteTilt));
+                let (soft, hard) = (hysteretic(&drop, contact)?, drop.fly(Model::FiniteTilt)?);
                 Ok(distance(&soft, &hard, drop.speed_m_s(), 2))
             })?,
         },
@@ -160,7 +161,7 @@ pub fn residues() -> Result<Vec<Residue>, Error> {
     for (q, e) in [(0.73, 0.2), (0.5, 0.3), (0.5, 0.5), (0.9, 0.5), (0.95, 0.9), (-0.4, 0.7)] {
         // Gravity 1e-40 acts on no digit, but takes the way of the parabolas where none takes that of the map.
         let drop = |g| phone(q, e, 5.0, g)?.with_impact_limit(40);
-        weak = weak.max(distance(&drop(1e-40)?.simulate(Model::Ballistic), &drop(0.0)?.simulate(Model::Map), 4.43, 40));
+        weak = weak.max(distance(&drop(1e-40)?.fly(Model::Ballistic)?, &drop(0.0)?.fly(Model::Map)?, 4.43, 40));
     }
     let mut fitted = 0.0_f64;
     for e in [0.01, 0.05, 0.13, 0.136, 0.3, 0.7, 0.99, 1.0] {
@@ -168,14 +169,14 @@ pub fn residues() -> Result<Vec<Residue>, Error> {
         {
             // A body that touches with one point below its center of mass does not turn.
             let lone = Scene::new(Body::of_points([[0.0, -1.0]], 0.5)?, e, 4.43, 0.0, 0.0)?;
-            let lone = lone.contacts(&Contact::new(law, e, contact)?)?;
-            let had = lone.flight.strikes.first().map_or(f64::NAN, |s| -(s.delta_v_m_s[0] / s.approach_m_s) - 1.0);
+            let lone = lone.contacts_until(&Contact::new(law, e, contact)?, 1e-4, |_| false)?;
+            let had = lone.strikes.first().map_or(f64::NAN, |s| -(s.delta_v_m_s[0] / s.approach_m_s) - 1.0);
             fitted = fitted.max((had - e).abs());
         }
     }
     let drift = |model, q| {
         let drop = phone(q, 1.0, 5.0, 9.81)?.with_impact_limit(10_000)?;
-        Ok::<_, Error>(energy_drift(&drop, &drop.simulate(model)))
+        Ok::<_, Error>(energy_drift(&drop, &drop.fly(model)?))
     };
     Ok(vec![
         Residue { compared: "ballistic without gravity and the map, 40 strikes", value: weak, allowed: 1e-12 },
@@ -195,7 +196,7 @@ pub fn residues() -> Result<Vec<Residue>, Error> {
 }
 
 /// Largest relative change of the energy after a strike from that before the first.
-fn energy_drift(scene: &Scene, flight: &Flight) -> f64 {
+fn energy_drift(scene: &Scene, flight: &Motion) -> f64 {
     let [a, b] = scene.body().arms_m();
     let center = |of: [f64; 2]| (b * of[0] + a * of[1]) / (a + b);
     let g = scene.gravity_m_s2();

@@ -2,9 +2,11 @@
 
 use clatter::Error as Given;
 
-use crate::contact::{Ahead, Contact, PlateFlight};
+use crate::Error;
+use crate::contact::{Contact, Level, Run, check_time};
+use crate::flight::Log;
+use crate::motion::{Ahead, PlateMotion};
 use crate::scene::within;
-use crate::{Error, Stop};
 
 /// A rigid rectangular plate, its center of mass anywhere between the edges and its principal axes along them.
 ///
@@ -157,26 +159,8 @@ impl PlateScene {
         self.gravity
     }
 
-    /// The flight with contacts that take time, until rest, to a precision of 1e−4.
-    ///
-    /// # Errors
-    /// As [`contacts_until`](Self::contacts_until).
-    ///
-    /// # Examples
-    /// A plate that lands flat is pressed at all corners along one half-sine, and rises with the restitution.
-    /// ```
-    /// use clatter_flight::{Contact, ContactLaw, Plate, PlateScene};
-    /// let plate = Plate::new([0.07, 0.07, 0.035, 0.035], [0.04, 0.02])?;
-    /// let flight = PlateScene::new(plate, 2.0, [0.0; 2], 0.0)?.contacts(&Contact::new(ContactLaw::Hysteretic, 0.5, 1e-3)?)?;
-    /// assert_eq!(flight.flight.strikes.len(), 4);
-    /// assert!(flight.flight.strikes.iter().all(|strike| (strike.velocity_m_s[0] - 1.0).abs() < 1e-12));
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn contacts(&self, contact: &Contact) -> Result<PlateFlight, Error> {
-        self.contacts_until(contact, 1e-4, |_| false)
-    }
-
-    /// The same to a precision, as far as it is needed: as [`Scene::contacts_until`](crate::Scene::contacts_until).
+    /// The motion with contacts that take time to a precision, as far as it is needed: as
+    /// [`Scene::contacts_until`](crate::Scene::contacts_until).
     ///
     /// # Accuracy
     /// Lever arms do not change, so that a phase is exact; what is slower than `precision` is laid down.
@@ -185,19 +169,27 @@ impl PlateScene {
     /// [`Error::Given`] unless the precision is in [1e−8, 0.1]; [`Error::Bound`] unless each radius of gyration is at least 0.05 of the
     /// side along it, and the contact time at most a fifth of the longer side over the speed and a tenth of √(longer side/gravity), and
     /// at least 1e−10 of the longer side over the speed; [`Error::Energy`] where the motion does not keep its energy.
+    ///
+    /// # Examples
+    /// A plate that lands flat is pressed at all corners along one half-sine, and rises with the restitution.
+    /// ```
+    /// use clatter_flight::{Contact, ContactLaw, Plate, PlateScene};
+    /// let scene = PlateScene::new(Plate::new([0.07, 0.07, 0.035, 0.035], [0.04, 0.02])?, 2.0, [0.0; 2], 0.0)?;
+    /// let motion = scene.contacts_until(&Contact::new(ContactLaw::Hysteretic, 0.5, 1e-3)?, 1e-4, |_| false)?;
+    /// assert_eq!(motion.strikes.len(), 4);
+    /// assert!(motion.strikes.iter().all(|strike| (strike.velocity_m_s[0] - 1.0).abs() < 1e-12));
+    /// # Ok::<(), clatter_flight::Error>(())
+    /// ```
     pub fn contacts_until(
         &self,
         contact: &Contact,
         precision: f64,
-        enough: impl FnMut(&Ahead) -> bool,
-    ) -> Result<PlateFlight, Error> {
+        enough: impl FnMut(&Ahead<4>) -> bool,
+    ) -> Result<PlateMotion, Error> {
         within("precision", precision, 1e-8, 0.1, "in [1e-8, 0.1]")?;
         self.check(contact)?;
-        PlateFlight::follow(self, contact, precision, enough)
-    }
-
-    pub(crate) fn limits(&self) -> (f64, usize) {
-        (self.time_limit, self.impact_limit)
+        let log = Log::new(self.time_limit, self.impact_limit);
+        Run::new(Level::start(self), log, contact, precision).run(enough)
     }
 
     fn check(&self, contact: &Contact) -> Result<(), Error> {
@@ -211,31 +203,13 @@ impl PlateScene {
                 return Err(Error::Bound { name, value, bound, most: false, unit: "m", reason });
             }
         }
-        let (length, value) = (sides[0].max(sides[1]), contact.time_s());
-        let bound_of =
-            |bound, most, reason| Error::Bound { name: "contact time", value, bound, most, unit: "s", reason };
-        let of_speed = 0.2 * length / self.speed;
-        let of_gravity = 0.1 * (length / self.gravity).sqrt();
-        if value > of_speed.min(of_gravity) * beyond {
-            let reason = if of_speed < of_gravity {
-                "a fifth of longer side/speed, so that the corners sink in little"
-            } else {
-                "a tenth of sqrt(longer side/gravity), so that the corners sink in little"
-            };
-            return Err(bound_of(of_speed.min(of_gravity), true, reason));
-        }
-        let shortest = 1e-10 * length / self.speed;
-        if value * beyond < shortest {
-            return Err(bound_of(shortest, false, "1e-10 longer side/speed, so that the corners sink in at all"));
-        }
-        Ok(())
-    }
-}
-
-impl PlateFlight {
-    /// Whether a limit has cut the flight off.
-    #[must_use]
-    pub fn is_cut(&self) -> bool {
-        !matches!(self.flight.stop, Stop::AtRest { .. } | Stop::BouncedClear { .. })
+        let length = sides[0].max(sides[1]);
+        let most = [0.2 * length / self.speed, 0.1 * (length / self.gravity).sqrt()];
+        let reasons = [
+            "a fifth of longer side/speed, so that the corners sink in little",
+            "a tenth of sqrt(longer side/gravity), so that the corners sink in little",
+            "1e-10 longer side/speed, so that the corners sink in at all",
+        ];
+        check_time(contact.time_s(), most, 1e-10 * length / self.speed, reasons)
     }
 }

@@ -6,72 +6,47 @@ mod map;
 mod pivot;
 mod settling;
 
-use clatter::{Error, Restitution};
-
-use crate::flight::{Flight, Model, State, Stop, Strike};
+use crate::flight::{Flight, Log, Model, State, Stop, Strike};
+use crate::motion::{Ahead, Motion};
 use crate::scene::Scene;
 
 pub(crate) use ballistic::Clock;
 
-impl Scene {
-    /// The strikes of this scene and why they end.
-    #[must_use]
-    pub fn simulate(&self, model: Model) -> Flight {
-        self.simulate_until(model, |_| false)
-    }
-
-    /// The same, as far as it is needed: before each strike but the first `enough` is asked of the flight up to there,
-    /// and ends it if so.
-    ///
-    /// ```
-    /// use clatter_flight::{Body, Model, Scene};
-    /// let scene = Scene::new(Body::new(0.14, 0.05)?, 0.5, 2.0, 5.0, 9.81)?;
-    /// let three = scene.simulate_until(Model::FiniteTilt, |flight| flight.strikes.len() == 3);
-    /// assert_eq!(three.strikes, scene.with_impact_limit(3)?.simulate(Model::FiniteTilt).strikes);
-    /// # Ok::<(), clatter::Error>(())
-    /// ```
-    #[must_use]
-    pub fn simulate_until(&self, model: Model, enough: impl FnMut(&Flight) -> bool) -> Flight {
-        match model {
-            Model::Map => map::simulate(self, enough),
-            // Without gravity the small-tilt motion is the map, which has closed forms where iteration drifts.
-            Model::Ballistic if self.gravity_m_s2() == 0.0 => map::simulate(self, enough),
-            Model::Ballistic => ballistic::simulate(self, enough),
-            Model::FiniteTilt => finite_tilt::simulate(self, [self.e(); 2], f64::INFINITY, enough),
+/// The strikes by a model of instant impacts, as far as they are needed: before each but the first `enough` is asked. `ends`: the
+/// restitution of each end at real tilt, where it is not that of the scene.
+pub(crate) fn strikes(
+    scene: &Scene,
+    model: Model,
+    ends: Option<[f64; 2]>,
+    mut enough: impl FnMut(&Ahead) -> bool,
+) -> Flight {
+    let enough = |log: &Log<2>| enough(&scene.ahead(model, log));
+    match model {
+        // Without gravity the small-tilt motion is the map, which has closed forms where iteration drifts.
+        Model::Ballistic if scene.gravity_m_s2() > 0.0 => ballistic::simulate(scene, enough),
+        Model::Map | Model::Ballistic => map::simulate(scene, enough),
+        Model::FiniteTilt | Model::Contacts(_) => {
+            let horizon_s = ends.map_or(f64::INFINITY, |_| scene.time_limit_s());
+            finite_tilt::simulate(scene, ends.unwrap_or([scene.e(); 2]), horizon_s, enough)
         }
-    }
-
-    /// The same at any tilt, of a body whose ends rebound differently: `restitution` of ends a and b counts in place of that
-    /// of the scene. Beyond the time limit of the scene no strike is looked for: the flight ends with [`Stop::TimeLimit`] also where
-    /// none would follow.
-    ///
-    /// # Errors
-    /// [`Error::Restitution`] unless both are in [0, 1].
-    ///
-    /// # Examples
-    /// A dead end a, and an end b that gives back all of its speed: e = 0, then e = 1.
-    /// ```
-    /// use clatter_flight::{Body, Scene};
-    /// let scene = Scene::new(Body::new(0.14, 0.04)?, 0.5, 2.0, 1.0, 9.81)?;
-    /// let flight = scene.simulate_ends([0.0, 1.0], |flight| flight.strikes.len() == 2)?;
-    /// let [first, second] = &flight.strikes[..] else { panic!("two strikes") };
-    /// assert!((first.point, second.point) == (0, 1) && first.velocity_m_s[0] == 0.0);
-    /// assert!((second.velocity_m_s[1] + second.approach_m_s).abs() < 1e-15);
-    /// # Ok::<(), clatter::Error>(())
-    /// ```
-    pub fn simulate_ends(&self, restitution: [f64; 2], enough: impl FnMut(&Flight) -> bool) -> Result<Flight, Error> {
-        for e in restitution {
-            Restitution::new(e)?;
-        }
-        Ok(finite_tilt::simulate(self, restitution, self.time_limit_s(), enough))
     }
 }
 
 impl Scene {
-    /// No velocity shock of an end after this strike is larger, by the energy that the strike leaves: the approach of the end
-    /// that is farther from the center of mass, doubled for what a rebound gives back, if all energy were in it.
-    #[must_use]
-    pub fn later_shock_m_s(&self, model: Model, strike: &Strike) -> f64 {
+    fn ahead(&self, model: Model, log: &Log<2>) -> Ahead {
+        let last = log.flight.strikes.last();
+        Ahead {
+            time_s: last.map_or(0.0, |strike| strike.time_s),
+            struck: log.struck,
+            largest_m_s: log.largest_m_s,
+            most_m_s: last.map_or(f64::INFINITY, |strike| self.most_m_s(model, strike)),
+            lands: true,
+        }
+    }
+
+    /// Twice the fastest approach after a strike, by the energy that the strike leaves: that of the end that is farther from the center
+    /// of mass, if all energy were in it.
+    pub(crate) fn most_m_s(&self, model: Model, strike: &Strike) -> f64 {
         let body = self.body();
         let [a, b] = body.arms_m();
         let g = if model == Model::Map { 0.0 } else { self.gravity_m_s2() };
@@ -79,45 +54,37 @@ impl Scene {
         let (v, turning) = (center(strike.velocity_m_s), body.gyration_m() * strike.spin_rad_s);
         let energy = 0.5 * (v * v + turning * turning) + g * center(strike.height_m);
         let mass = 1.0 / (1.0 + (a.max(b) / body.gyration_m()).powi(2));
-        (1.0 + self.e()) * (2.0 * energy / mass).sqrt()
+        2.0 * (2.0 * energy / mass).sqrt()
     }
 }
 
-impl Scene {
-    /// Heights of ends a and b at a time of a flight of instant impacts, for drawing.
-    ///
-    /// Exact in flight, and to 1e−9 of the length while the body turns about an end that lies.
-    #[must_use]
-    pub fn heights_m(&self, model: Model, flight: &Flight, time_s: f64) -> [f64; 2] {
-        self.ends(model, flight, time_s).0
-    }
-
-    /// Heights as [`heights_m`](Self::heights_m) and their rates, just after what happens at this time.
-    pub(crate) fn ends(&self, model: Model, flight: &Flight, time_s: f64) -> ([f64; 2], [f64; 2]) {
-        if matches!(flight.stop, Stop::AtRest { time_s: rest, .. } if time_s >= rest) {
+impl Motion {
+    /// Heights of both ends by instant impacts, and their rates, just after what happens at this time.
+    pub(crate) fn ends_of_impacts(&self, scene: &Scene, time_s: f64) -> ([f64; 2], [f64; 2]) {
+        if matches!(self.stop, Stop::AtRest { time_s: rest, .. } if time_s >= rest) {
             return ([0.0; 2], [0.0; 2]);
         }
-        let past = flight.pivots.partition_point(|p| p.from_s <= time_s);
-        let pivot = flight.pivots[..past].last();
+        let past = self.pivots.partition_point(|p| p.from_s <= time_s);
+        let pivot = self.pivots[..past].last();
         if let Some(p) = pivot.filter(|p| time_s < p.until_s) {
             let t = time_s - p.from_s;
             let (mut h, mut v) = ([0.0; 2], [0.0; 2]);
             let j = 1 - p.point;
-            if model == Model::FiniteTilt {
+            if self.model == Model::FiniteTilt {
                 let begin = [p.tilt_rad, p.spin_rad_s];
                 let whole = p.until_s - p.from_s;
-                let [tilt, spin] = pivot::along(&self.body(), self.gravity_m_s2(), p.point, begin, t, whole);
-                let (x, over) = self.body().levers(tilt.sin(), tilt.cos());
+                let [tilt, spin] = pivot::along(&scene.body(), scene.gravity_m_s2(), p.point, begin, t, whole);
+                let (x, over) = scene.body().levers(tilt.sin(), tilt.cos());
                 (h[j], v[j]) = ((over[j] - over[p.point]).max(0.0), (x[j] - x[p.point]) * spin);
             } else {
-                let fall = self.gravity_m_s2() * (1.0 + self.body().inertia_ratios()[p.point]);
+                let fall = scene.gravity_m_s2() * (1.0 + scene.body().inertia_ratios()[p.point]);
                 (h[j], v[j]) =
                     ((p.height_m + t * (p.velocity_m_s - 0.5 * fall * t)).max(0.0), p.velocity_m_s - fall * t);
             }
             return (h, v);
         }
-        let past = flight.strikes.partition_point(|s| s.time_s <= time_s);
-        let strike = flight.strikes[..past].last();
+        let past = self.strikes.partition_point(|s| s.time_s <= time_s);
+        let strike = self.strikes[..past].last();
         let lifted = pivot.filter(|p| strike.is_none_or(|s| s.time_s < p.until_s));
         let (from, ends, tilt, spin) = match (lifted.and_then(|p| p.lift_off.map(|off| (p, off))), strike) {
             (Some((p, off)), _) => {
@@ -128,15 +95,15 @@ impl Scene {
             }
             (None, Some(s)) => (s.time_s, State { h: s.height_m, v: s.velocity_m_s }, s.tilt_rad, s.spin_rad_s),
             (None, None) => {
-                let levers = self.body().levers(self.tilt_rad().sin(), self.tilt_rad().cos()).0;
-                return ([0.0, self.height_gap_m()], self.end_velocities(levers));
+                let levers = scene.body().levers(scene.tilt_rad().sin(), scene.tilt_rad().cos()).0;
+                return ([0.0, scene.height_gap_m()], scene.end_velocities(levers));
             }
         };
         let t = time_s - from;
-        let g = if model == Model::Map { 0.0 } else { self.gravity_m_s2() };
-        let (h, v) = if model == Model::FiniteTilt {
+        let g = self.gravity_m_s2();
+        let (h, v) = if self.model == Model::FiniteTilt {
             let (sin, cos) = tilt.sin_cos();
-            let pose = finite_tilt::Pose { body: self.body(), gravity: g, ends, sin, cos, spin };
+            let pose = finite_tilt::Airborne { body: scene.body(), gravity: g, ends, sin, cos, spin };
             ([0, 1].map(|i| pose.end(i, t)[0]), [0, 1].map(|i| pose.end(i, t)[1]))
         } else {
             ([0, 1].map(|i| ends.h[i] + t * (ends.v[i] - 0.5 * g * t)), ends.v.map(|v| v - g * t))

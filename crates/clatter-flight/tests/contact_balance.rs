@@ -1,6 +1,6 @@
 //! What no contact may break: energy never grows, momentum adds up, and what a place feels is its motion.
 
-use clatter_flight::{Body, Contact, ContactFlight, ContactLaw, Scene, Stop, Strike};
+use clatter_flight::{Body, Contact, ContactLaw, Model, Motion, Scene, Stop, Strike};
 use proptest::prelude::*;
 
 const TIME: f64 = 1e-3;
@@ -39,35 +39,35 @@ fn center(scene: &Scene, of: [f64; 2]) -> f64 {
 }
 
 /// ½ v² + ½ ρ² ω² + g y, without what springs hold.
-fn energy(scene: &Scene, flight: &ContactFlight, time_s: f64) -> f64 {
-    let now = flight.sample(time_s);
+fn energy(scene: &Scene, flight: &Motion, time_s: f64) -> f64 {
+    let now = flight.sample(time_s).expect("contacts");
     let turning = scene.body().gyration_m() * now.spin_rad_s;
     0.5 * (center(scene, now.velocity_m_s).powi(2) + turning * turning)
         + scene.gravity_m_s2() * center(scene, now.height_m)
 }
 
 /// What the springs of dashpots hold below the ground, also of a point that has parted there: it may press again, and get that back.
-fn held_by_springs(scene: &Scene, contact: &Contact, flight: &ContactFlight, time_s: f64) -> f64 {
+fn held_by_springs(scene: &Scene, contact: &Contact, flight: &Motion, time_s: f64) -> f64 {
     if contact.law() == ContactLaw::Hysteretic {
         return 0.0;
     }
-    let heights = flight.sample(time_s).height_m;
+    let heights = flight.sample(time_s).expect("contacts").height_m;
     let one = |strike: &Strike| {
         let [x, _] = scene.body().points_m()[strike.point];
         let lever = x * strike.tilt_rad.cos() / scene.body().gyration_m();
         let stiffness = contact.frequency_rad_s().powi(2) / (1.0 + lever * lever);
         0.5 * stiffness * heights[strike.point].min(0.0).powi(2)
     };
-    let last = |i: usize| flight.flight.strikes.iter().rev().find(|s| s.point == i && s.time_s <= time_s);
+    let last = |i: usize| flight.strikes.iter().rev().find(|s| s.point == i && s.time_s <= time_s);
     (0..2).filter_map(last).map(one).sum()
 }
 
 /// Whether the body turns by more than a right angle in one flight.
-fn tumbles(flight: &ContactFlight) -> bool {
-    let end_s = flight.flight.stop.time_s();
+fn tumbles(flight: &Motion) -> bool {
+    let end_s = flight.stop.time_s();
     let times: Vec<f64> = flight.phases_s().chain([end_s]).collect();
     times.windows(2).any(|pair| {
-        let middle = flight.sample(0.5 * (pair[0] + pair[1]));
+        let middle = flight.sample(0.5 * (pair[0] + pair[1])).expect("contacts");
         let flies = middle.force_per_mass_m_s2.iter().all(|force| *force == 0.0);
         flies && middle.spin_rad_s.abs() * (pair[1] - pair[0]) > 0.5 * std::f64::consts::PI
     })
@@ -86,13 +86,13 @@ proptest! {
         let most = (4.0 * pressed * precision).min(0.02);
         prop_assert!(flight.energy_error < most, "{:e} at {precision:e}", flight.energy_error);
         let first = energy(&scene, &flight, 0.0);
-        let end = flight.flight.stop.time_s();
+        let end = flight.stop.time_s();
         let mut held = first;
         let mut free: Vec<f64> = flight.presses.iter().map(|press| press.until_s).filter(|t| *t < end).collect();
         free.sort_by(f64::total_cmp);
         for t in free {
             let t = t * (1.0 + 4.0 * f64::EPSILON);
-            if flight.sample(t).force_per_mass_m_s2.iter().any(|force| *force > 0.0) {
+            if flight.sample(t).expect("contacts").force_per_mass_m_s2.iter().any(|force| *force > 0.0) {
                 continue;
             }
             let now = energy(&scene, &flight, t);
@@ -104,13 +104,13 @@ proptest! {
     /// The shocks of all strikes together stop the center of mass, and what gravity gives it until then.
     #[test]
     fn all_shocks_together_stop_the_drop((scene, contact) in any_drop()) {
-        let ContactFlight { flight, presses, .. } = scene.contacts(&contact).expect("a flight");
+        let flight = scene.fly(Model::Contacts(contact)).expect("a flight");
         let Stop::AtRest { time_s, .. } = flight.stop else { return Ok(()) };
         let stopped: f64 = flight.strikes.iter().map(|strike| center(&scene, strike.delta_v_m_s)).sum();
         let fallen = scene.speed_m_s() + scene.gravity_m_s2() * time_s;
         prop_assert!((stopped / fallen - 1.0).abs() < 1e-9, "{stopped} {fallen}");
         // The last strike to touch may have parted before; without gravity one point lies alone.
-        let mut pressing = presses.iter().zip(&flight.strikes).filter(|(press, _)| press.until_s == f64::INFINITY).peekable();
+        let mut pressing = flight.presses.iter().zip(&flight.strikes).filter(|(press, _)| press.until_s == f64::INFINITY).peekable();
         prop_assert!(pressing.peek().is_some() || scene.gravity_m_s2() == 0.0);
         for (_, strike) in pressing {
             prop_assert_eq!((strike.velocity_m_s, strike.spin_rad_s), ([0.0; 2], 0.0));
@@ -119,40 +119,40 @@ proptest! {
     /// What a place feels is how its velocity changes, gravity apart, all in all and moment by moment; of bodies that turn by
     /// less than a right angle in one flight.
     #[test]
-    fn what_is_felt_adds_up((scene, contact) in any_drop(), s in -1.2..1.2_f64, up in -0.2..0.2_f64, share in 0.0..1.0_f64) {
-        let scene = scene.with_time_limit_s(0.3).expect("a limit");
+    fn what_is_felt_adds_up((scene, contact) in any_drop(), s in -1.2..1.2_f64, thickness in prop_oneof![Just(0.0), 0.0..0.3_f64], share in 0.0..1.0_f64) {
+        let body = scene.body().with_thickness(thickness).expect("a bar");
+        let thick = Scene::new(body, scene.e(), scene.speed_m_s(), scene.tilt_rad().to_degrees(), scene.gravity_m_s2());
+        let scene = thick.and_then(|scene| scene.with_time_limit_s(0.3)).expect("a drop");
         let precision = 1e-3;
         let flight = scene.contacts_until(&contact, precision, |_| false).expect("a flight");
         if tumbles(&flight) {
             return Ok(());
         }
-        let [x, z] = scene.body().place(s);
-        let place = [x, z + up];
-        let felt = flight.felt(place, 1e-3);
-        let sum: f64 = felt.iter().map(|stretch| stretch.velocity_after(stretch.length_s)).sum();
-        let end_s = flight.flight.stop.time_s();
+        let [x, _] = scene.body().place(s);
+        let felt = flight.felt(s);
+        let sum: f64 = felt.sections().map(|section| section.velocity_after(section.length)).sum();
+        let end_s = flight.stop.time_s();
         let velocity = |t: f64| {
-            let now = flight.sample(t);
-            let (sin, cos) = now.tilt_rad.sin_cos();
-            center(&scene, now.velocity_m_s) + (place[0] * cos - place[1] * sin) * now.spin_rad_s
+            let now = flight.sample(t).expect("contacts");
+            center(&scene, now.velocity_m_s) + x * now.tilt_rad.cos() * now.spin_rad_s
         };
         let changed = velocity(end_s) - velocity(0.0) + scene.gravity_m_s2() * end_s;
         let size = scene.speed_m_s() + scene.gravity_m_s2() * end_s;
         prop_assert!((sum - changed).abs() < 1e-9 * size, "{sum} felt, {changed} moved");
-        for (k, stretch) in felt.iter().enumerate() {
-            let next = felt.get(k + 1).map_or(end_s, |next| next.from_s);
-            prop_assert!((stretch.from_s + stretch.length_s - next).abs() <= 1e-12 * end_s, "{stretch:?} until {next}");
+        for (k, section) in felt.sections().enumerate() {
+            let next = felt.sections().nth(k + 1).map_or(end_s, |next| next.from);
+            prop_assert!((section.from + section.length - next).abs() <= 1e-12 * end_s, "{section:?} until {next}");
         }
         // An end feels the acceleration that the samples have, and what is spread evenly over a phase; straight lines of a dashpot
         // miss it by their share.
         for (end, place) in [(0, -1.0), (1, 1.0)] {
-            let felt = flight.felt(scene.body().place(place), 1e-3);
-            let largest = felt.iter().fold(0.0_f64, |most, stretch| most.max(stretch.acceleration_at(0.0).abs()));
-            for stretch in felt.iter().filter(|stretch| stretch.length_s > 1e-9 * end_s).step_by(7) {
+            let felt = flight.felt(place);
+            let largest = felt.sections().fold(0.0_f64, |most, section| most.max(section.acceleration_at(0.0).abs()));
+            for section in felt.sections().filter(|section| section.length > 1e-9 * end_s).step_by(7) {
                 let off = |share: f64| {
-                    let after = share * stretch.length_s;
-                    let had = flight.sample(stretch.from_s + after).acceleration_m_s2[end] + scene.gravity_m_s2();
-                    (stretch.acceleration_at(after) - had, had.abs())
+                    let after = share * section.length;
+                    let had = flight.sample(section.from + after).expect("contacts").acceleration_m_s2[end] + scene.gravity_m_s2();
+                    (section.acceleration_at(after) - had, had.abs())
                 };
                 let ((one, had), (other, _)) = (off(share), off(1.0 - share));
                 let lines = if contact.law() == ContactLaw::Dashpot { 2.0 * precision } else { 1e-9 };

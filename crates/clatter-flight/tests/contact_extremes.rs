@@ -1,6 +1,6 @@
 //! Contacts at the edges of what is taken: always a flight that ends and says how, or an error with the value.
 
-use clatter_flight::{Body, Contact, ContactFlight, ContactLaw, Error, Model, Scene, Stop, Strike};
+use clatter_flight::{Body, Contact, ContactLaw, Error, Model, Motion, Scene, Stop, Strike};
 use proptest::prelude::*;
 
 const LAWS: [ContactLaw; 2] = [ContactLaw::Hysteretic, ContactLaw::Dashpot];
@@ -14,8 +14,8 @@ fn contact(law: ContactLaw, e: f64, time_s: f64) -> Contact {
 }
 
 /// What holds for any flight whatever.
-fn sane(flight: &ContactFlight) -> Result<(), String> {
-    let strikes = &flight.flight.strikes;
+fn sane(flight: &Motion) -> Result<(), String> {
+    let strikes = &flight.strikes;
     let finite = |s: &Strike| {
         let numbers = [s.time_s, s.approach_m_s, s.tilt_rad, s.spin_rad_s].into_iter();
         numbers.chain(s.delta_v_m_s).chain(s.velocity_m_s).chain(s.height_m).all(f64::is_finite)
@@ -35,11 +35,11 @@ fn sane(flight: &ContactFlight) -> Result<(), String> {
                 .all(|(p, s)| p.from_s.to_bits() == s.time_s.to_bits() && p.until_s >= p.from_s),
             "pressing",
         ),
-        (flight.energy_error.is_finite() && flight.flight.stop.time_s() >= 0.0, "with an end"),
+        (flight.energy_error.is_finite() && flight.stop.time_s() >= 0.0, "with an end"),
         (flight.phases_s().is_sorted(), "phases in order"),
     ];
     let failed: Vec<_> = checks.into_iter().filter(|(holds, _)| !holds).map(|(_, what)| what).collect();
-    if failed.is_empty() { Ok(()) } else { Err(format!("not {failed:?}: {:?}", flight.flight.stop)) }
+    if failed.is_empty() { Ok(()) } else { Err(format!("not {failed:?}: {:?}", flight.stop)) }
 }
 
 /// In units of the body: contact times from the shortest to the longest, all restitutions, tilts from none to 89.9°,
@@ -90,9 +90,9 @@ proptest! {
                 prop_assert_eq!(sane(&flight), Ok(()));
                 prop_assert!(flight.phases_s().count() < 200_000, "{} phases", flight.phases_s().count());
                 // All but elastic bodies with the longest contacts may take more phases than are followed, as the stop says.
-                let (phases, ends) = (flight.phases_s().count(), !matches!(flight.flight.stop, Stop::TimeLimit { .. }));
+                let (phases, ends) = (flight.phases_s().count(), !matches!(flight.stop, Stop::TimeLimit { .. }));
                 let many = phases >= 150_000 && scene.e() > 0.99 && precision < 1e-4;
-                prop_assert!(ends || many, "{:?} after {phases} phases", flight.flight.stop);
+                prop_assert!(ends || many, "{:?} after {phases} phases", flight.stop);
             }
             // To a hundredth, one of some thousand such drops changes its energy by more in one phase than an answer may.
             Err(Error::Energy { share }) => prop_assert!(precision > 1e-3 && share < 0.1, "{share} at {precision}"),
@@ -116,10 +116,13 @@ fn bad_contacts_are_refused_with_the_value() {
             assert!(Contact::new(law, bad, 1e-3).unwrap_err().to_string().contains("restitution"), "{bad}");
         }
         // So short that roundings of heights are all there is.
-        let text = scene.contacts(&contact(law, 0.5, 2e-12)).unwrap_err().to_string();
+        let text = scene.fly(Model::Contacts(contact(law, 0.5, 2e-12))).unwrap_err().to_string();
         assert!(text.starts_with("contact time 2e-9 ms: at least ") && text.contains("1e-10 length/speed"), "{text}");
         let massless = Scene::new(body(1.0), 0.5, 4.43, 5.0, 9.81).expect("a drop");
-        assert!(massless.contacts(&contact(law, 0.5, 1e-3)).unwrap_err().to_string().contains("gyration"), "{law:?}");
+        assert!(
+            massless.fly(Model::Contacts(contact(law, 0.5, 1e-3))).unwrap_err().to_string().contains("gyration"),
+            "{law:?}"
+        );
         for bad in [0.0, -1e-4, 1e-9, 0.5, f64::NAN] {
             let text = scene.contacts_until(&contact(law, 0.5, 1e-3), bad, |_| false).unwrap_err().to_string();
             assert!(text.contains("precision") && text.contains(&format!("{bad:?}")), "{text}");
@@ -133,9 +136,9 @@ fn a_drop_comes_to_rest_on_its_contacts() {
     for law in LAWS {
         for e in [0.05, 0.3, 0.6] {
             let scene = Scene::new(body(0.5), e, 1.0, 5.0, 9.81).expect("a drop");
-            let flight = scene.contacts(&contact(law, e, 3e-5)).expect("a flight").flight;
+            let flight = scene.fly(Model::Contacts(contact(law, e, 3e-5))).expect("a flight");
             assert_eq!(flight.stop.reason(), "at-rest", "{:?}", flight.stop);
-            let hard = scene.simulate(Model::FiniteTilt).stop.time_s();
+            let hard = scene.fly(Model::FiniteTilt).expect("a motion").stop.time_s();
             if e < 0.5 {
                 continue; // strikes that are at one instant if contact takes no time overlap, and lift the body once more
             }
@@ -145,8 +148,8 @@ fn a_drop_comes_to_rest_on_its_contacts() {
         let scene =
             Scene::new(body(-0.9), 0.05, 1.0, 80.0, 1000.0).and_then(|s| s.with_impact_limit(50)).expect("a drop");
         let land = |strikes: &[Strike]| *strikes.iter().find(|s| s.point == 1).expect("it lands");
-        let soft = land(&scene.contacts(&contact(law, 0.05, 1e-6)).expect("a flight").flight.strikes);
-        let hard = land(&scene.simulate(Model::FiniteTilt).strikes);
+        let soft = land(&scene.fly(Model::Contacts(contact(law, 0.05, 1e-6))).expect("a flight").strikes);
+        let hard = land(&scene.fly(Model::FiniteTilt).expect("a motion").strikes);
         assert!((soft.time_s / hard.time_s - 1.0).abs() < 1e-4, "{law:?}: {} {}", soft.time_s, hard.time_s);
         assert!((soft.approach_m_s / hard.approach_m_s - 1.0).abs() < 1e-4, "{law:?}: {soft:?} {hard:?}");
     }
@@ -159,7 +162,7 @@ fn an_end_that_lies_is_not_struck_again() {
     let body = Body::new(0.3656, 0.2452).expect("a bar");
     let scene = Scene::new(body, 0.1176, 7.473, 0.2666, 9.81).expect("a drop");
     for law in LAWS {
-        let flight = scene.contacts(&contact(law, 0.1176, 1.311e-4)).expect("a flight").flight;
+        let flight = scene.fly(Model::Contacts(contact(law, 0.1176, 1.311e-4))).expect("a flight");
         assert_eq!(flight.stop.reason(), "at-rest", "{law:?}: {:?}", flight.stop);
         assert!(flight.strikes.len() < 30, "{law:?}: {}", flight.strikes.len());
     }
@@ -173,9 +176,9 @@ fn ends_that_part_together_do_not_take_turns() {
     let e = 0.211_645_007_649_507_44;
     let scene = Scene::new(body, e, 1.056_038_848_610_071_6, 8.618_710_303_569_253, 9.81).expect("a drop");
     for law in LAWS {
-        let flight = scene.contacts(&contact(law, e, 9.940_110_752_429_448e-4)).expect("a flight");
-        assert_eq!(flight.flight.stop.reason(), "at-rest", "{law:?}: {:?}", flight.flight.stop);
-        let (phases, strikes) = (flight.phases_s().count(), flight.flight.strikes.len());
+        let flight = scene.fly(Model::Contacts(contact(law, e, 9.940_110_752_429_448e-4))).expect("a flight");
+        assert_eq!(flight.stop.reason(), "at-rest", "{law:?}: {:?}", flight.stop);
+        let (phases, strikes) = (flight.phases_s().count(), flight.strikes.len());
         assert!(phases < 8 * strikes, "{law:?}: {phases} phases of {strikes} strikes");
     }
 }
@@ -189,7 +192,7 @@ fn all_shocks_together_stop_the_drop() {
             [(0.09, 0.0114, 3.3, 17.4, 5e-4), (0.5, 0.05, 1.0, 5.0, 3e-5), (0.1, 0.3, 2.8, 25.0, 7e-5)]
         {
             let scene = Scene::new(body(q), e, speed, tilt_deg, 9.81).expect("a drop");
-            let flight = scene.contacts(&contact(law, e, time)).expect("a flight").flight;
+            let flight = scene.fly(Model::Contacts(contact(law, e, time))).expect("a flight");
             assert_eq!(flight.stop.reason(), "at-rest", "{law:?}: {:?}", flight.stop);
             let stopped: f64 = flight.strikes.iter().map(|s| s.delta_v_at(0.0)).sum();
             let fallen = speed + 9.81 * flight.stop.time_s();
@@ -207,12 +210,12 @@ fn a_limit_within_a_contact_cuts_it() {
         let scene = Scene::new(body(0.5), 0.4, 4.43, 5.0, 9.81).expect("a drop");
         let (contact, limit) = (contact(law, 0.4, 3e-4), 1e-4);
         let (whole, cut) =
-            (scene.contacts(&contact).expect("a flight"), scene.with_time_limit_s(limit).expect("a limit"));
-        let cut = cut.contacts(&contact).expect("a flight");
-        assert_eq!(cut.flight.stop, Stop::TimeLimit { time_s: limit }, "{law:?}");
-        let (one, other) = (whole.sample(limit), cut.sample(limit));
+            (scene.fly(Model::Contacts(contact)).expect("a flight"), scene.with_time_limit_s(limit).expect("a limit"));
+        let cut = cut.fly(Model::Contacts(contact)).expect("a flight");
+        assert_eq!(cut.stop, Stop::TimeLimit { time_s: limit }, "{law:?}");
+        let (one, other) = (whole.sample(limit).expect("contacts"), cut.sample(limit).expect("contacts"));
         assert!((one.velocity_m_s[0] - other.velocity_m_s[0]).abs() < 1e-9 * 4.43, "{law:?}: {one:?} {other:?}");
-        let strike = cut.flight.strikes[0];
+        let strike = cut.strikes[0];
         assert!(
             (strike.velocity_m_s[0] - other.velocity_m_s[0]).abs() < 1e-12,
             "{law:?}: as it is when the flight ends"
@@ -236,9 +239,10 @@ fn nothing_later_is_larger_than_told() {
             false
         });
         let flight = flight.expect("a flight");
-        let end = flight.flight.stop.time_s();
+        let end = flight.stop.time_s();
         for ahead in told {
-            let velocities = |share: f64| flight.sample(ahead.time_s + share * (end - ahead.time_s)).velocity_m_s;
+            let velocities =
+                |share: f64| flight.sample(ahead.time_s + share * (end - ahead.time_s)).expect("contacts").velocity_m_s;
             let all: Vec<_> = (0..500).map(|k| velocities(f64::from(k) / 500.0)).collect();
             for point in 0..2 {
                 let range = all
@@ -246,11 +250,11 @@ fn nothing_later_is_larger_than_told() {
                     .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v[point]), hi.max(v[point])));
                 assert!(range.1 - range.0 <= ahead.most_m_s * (1.0 + 1e-3), "{law:?}: {range:?} {ahead:?}");
             }
-            let before = flight.flight.strikes.iter().filter(|s| s.time_s < ahead.time_s);
+            let before = flight.strikes.iter().filter(|s| s.time_s < ahead.time_s);
             let largest = before.flat_map(|s| s.delta_v_m_s).fold(0.0, |most: f64, dv| most.max(dv.abs()));
             assert!(ahead.largest_m_s <= largest * (1.0 + 1e-9), "{law:?}: {ahead:?} {largest}");
         }
-        let first = scene.contacts_until(&contact(law, e, 3e-4), 1e-4, |_| true).expect("a flight").flight;
+        let first = scene.contacts_until(&contact(law, e, 3e-4), 1e-4, |_| true).expect("a flight");
         assert_eq!((first.strikes.len(), first.stop.reason()), (1, "enough"), "{law:?}");
     }
 }
@@ -265,9 +269,9 @@ fn an_elastic_drop_goes_on_to_its_limit() {
             Scene::new(body, 1.0, 4.43, tilt_deg, 100.0).and_then(|s| s.with_impact_limit(1024)).expect("a drop");
         let contact = contact(ContactLaw::Hysteretic, 1.0, 3.157_110_609_480_813_3e-3);
         let flight = scene.contacts_until(&contact, 1e-2, |_| false).expect("a flight");
-        let stop = flight.flight.stop;
+        let stop = flight.stop;
         assert!(matches!(stop, Stop::ImpactLimit { .. } | Stop::EnergyLimit { .. }), "{stop:?}");
-        let (phases, strikes) = (flight.phases_s().count(), flight.flight.strikes.len());
+        let (phases, strikes) = (flight.phases_s().count(), flight.strikes.len());
         assert!(phases < 20 * strikes, "{phases} phases of {strikes} strikes");
     }
 }
@@ -280,7 +284,7 @@ fn a_bound_is_told_as_the_number_that_is_allowed_here() {
         Scene::new(body, 0.5, speed_m_s, 5.0, gravity_m_s2).expect("a drop")
     };
     let refused = |scene: &Scene, time_s: f64| {
-        scene.contacts(&contact(ContactLaw::Hysteretic, 0.5, time_s)).err().map(|error| error.to_string())
+        scene.fly(Model::Contacts(contact(ContactLaw::Hysteretic, 0.5, time_s))).err().map(|error| error.to_string())
     };
     for (scene, value, told, bound_s) in [
         // 0.14 m/4.83 m/s/10 = 2.8985… ms

@@ -21,8 +21,8 @@ fn the_restitution_fitted_is_the_restitution_had() {
                 // Straight down on one point under the center of mass, as a body without tilt does not turn.
                 let body = Body::of_points([[0.0, -0.07]], 0.05).expect("a body");
                 let scene = Scene::new(body, e, 2.0, 0.0, 0.0).expect("a drop");
-                let flight = scene.contacts(&contact(law, e, time)).expect("a flight");
-                let strike = flight.flight.strikes[0];
+                let flight = scene.contacts_until(&contact(law, e, time), 1e-4, |_| false).expect("a flight");
+                let strike = flight.strikes[0];
                 let had = strike.delta_v_m_s[0] / 2.0 - 1.0;
                 // But for the last digits of heights, 1e-17 m, beside the depth.
                 let allowed = 1e-11 + 2e-17 / time;
@@ -46,7 +46,7 @@ fn a_tilted_contact_has_its_restitution_too() {
             let off = [1e-4, 1e-5, 1e-6].map(|time| {
                 let scene = Scene::new(body(-0.3), e, 2.0, 60.0, 0.0).expect("a drop");
                 let flight = scene.contacts_until(&contact(law, e, time), 1e-7, |_| false).expect("a flight");
-                let strike = flight.flight.strikes[0];
+                let strike = flight.strikes[0];
                 let had = -(strike.approach_m_s + strike.delta_v_m_s[0]) / strike.approach_m_s;
                 ((had - e).abs(), ((flight.presses[0].until_s - flight.presses[0].from_s) / time - 1.0).abs())
             });
@@ -68,7 +68,7 @@ fn the_pulse_of_a_hysteretic_contact_is_a_quarter_sine_and_a_quarter_cosine() {
     for e in [0.0, 0.1, 0.5, 1.0] {
         let (time, speed) = (1e-3, 2.0);
         let scene = Scene::new(body(0.5), e, speed, 0.0, 0.0).expect("a drop");
-        let flight = scene.contacts(&contact(ContactLaw::Hysteretic, e, time)).expect("a flight");
+        let flight = scene.fly(Model::Contacts(contact(ContactLaw::Hysteretic, e, time))).expect("a flight");
         // Of both ends together the center of mass feels what a lone contact at it would: μ is 1 − q there. So much stiffer is
         // the pair, so much shorter its pulse.
         let share = (1.0 - 0.5) / (1.0 + 0.5_f64) * 2.0;
@@ -76,7 +76,7 @@ fn the_pulse_of_a_hysteretic_contact_is_a_quarter_sine_and_a_quarter_cosine() {
         let faster = (2.0 / mu).sqrt();
         assert!((share - 2.0 / (1.0 + 2.0)).abs() < 1e-12 && (mu - 4.0).abs() < 1e-12, "{share} {mu}");
         let loading = time / (1.0 + e) / faster;
-        let force = |t: f64| flight.sample(t).force_per_mass_m_s2.iter().sum::<f64>();
+        let force = |t: f64| flight.sample(t).expect("contacts").force_per_mass_m_s2.iter().sum::<f64>();
         let largest = std::f64::consts::FRAC_PI_2 * speed / loading;
         for k in 1..10 {
             let share = f64::from(k) / 10.0;
@@ -94,10 +94,12 @@ fn the_pulse_of_a_hysteretic_contact_is_a_quarter_sine_and_a_quarter_cosine() {
         let lone = Body::of_points([[-0.07, -0.02]], 0.05).expect("a body");
         let scene = Scene::new(lone, e, 2.0, tilt, 0.0).expect("a drop");
         let time = 1e-7;
-        let flight = scene.contacts(&contact(ContactLaw::Hysteretic, e, time)).expect("a flight");
+        let flight =
+            scene.contacts_until(&contact(ContactLaw::Hysteretic, e, time), 1e-4, |_| false).expect("a flight");
         let mu = 1.0 + (0.07_f64 / 0.05).powi(2);
-        let largest =
-            (1..1000).map(|k| flight.sample(1e-3 * f64::from(k) * time).force_per_mass_m_s2[0]).fold(0.0, f64::max);
+        let largest = (1..1000)
+            .map(|k| flight.sample(1e-3 * f64::from(k) * time).expect("contacts").force_per_mass_m_s2[0])
+            .fold(0.0, f64::max);
         let want = std::f64::consts::FRAC_PI_2 * (1.0 + e) * 2.0 / time / mu;
         assert!((largest / want - 1.0).abs() < 1e-5, "e {e}: {largest} {want}");
     }
@@ -111,10 +113,10 @@ fn a_flat_even_drop_stays_even_bit_by_bit() {
             for q in [-0.5, 0.0, 0.5, 0.9] {
                 let scene =
                     Scene::new(body(q), e, 2.0, 0.0, 9.81).and_then(|s| s.with_impact_limit(100)).expect("a drop");
-                let flight = scene.contacts(&contact(law, e, 5e-4)).expect("a flight");
+                let flight = scene.fly(Model::Contacts(contact(law, e, 5e-4))).expect("a flight");
                 let bits = |v: [f64; 2]| v[0].to_bits() == v[1].to_bits();
-                assert!(flight.flight.strikes.len().is_multiple_of(2), "{law:?} {e} {q}: an end strikes alone");
-                for (n, pair) in flight.flight.strikes.chunks(2).enumerate() {
+                assert!(flight.strikes.len().is_multiple_of(2), "{law:?} {e} {q}: an end strikes alone");
+                for (n, pair) in flight.strikes.chunks(2).enumerate() {
                     let [a, b] = pair else { panic!("{law:?} {e} {q}: an end strikes alone") };
                     assert!((a.point, b.point) == (0, 1) && bits([a.time_s, b.time_s]), "{law:?} {e} {q}: {a:?} {b:?}");
                     assert!(bits([a.approach_m_s, b.approach_m_s]) && bits(a.velocity_m_s), "{law:?} {e} {q}: {a:?}");
@@ -123,7 +125,7 @@ fn a_flat_even_drop_stays_even_bit_by_bit() {
                     assert_eq!(flight.presses[2 * n], flight.presses[2 * n + 1], "{law:?} {e} {q}");
                 }
                 for t in flight.phases_s() {
-                    let now = flight.sample(t);
+                    let now = flight.sample(t).expect("contacts");
                     assert!(
                         bits(now.height_m) && bits(now.force_per_mass_m_s2) && now.tilt_rad == 0.0,
                         "{law:?} {e} {q}"
@@ -139,21 +141,17 @@ fn without_restitution_nothing_rebounds() {
     // A point under the center of mass, and a flat bar: still from the moment of the lowest point on.
     let lone = Body::of_points([[0.0, -0.07]], 0.05).expect("a body");
     let lone = Scene::new(lone, 0.0, 2.0, 0.0, 9.81).expect("a drop");
-    let flight = lone.contacts(&contact(ContactLaw::Hysteretic, 0.0, 1e-3)).expect("a flight").flight;
+    let flight = lone.contacts_until(&contact(ContactLaw::Hysteretic, 0.0, 1e-3), 1e-4, |_| false).expect("a flight");
     assert!(flight.strikes.len() == 1 && flight.strikes[0].velocity_m_s == [0.0], "{flight:?}");
     // Nothing holds it upright but that it does not move: no time is its rest, and it is left.
     assert!(matches!(flight.stop, Stop::TimeLimit { .. }), "{flight:?}");
     for (q, g) in [(0.5, 9.81), (-0.5, 9.81), (0.5, 0.0)] {
         let scene = Scene::new(body(q), 0.0, 2.0, 0.0, g).expect("a drop");
-        let flight = scene.contacts(&contact(ContactLaw::Hysteretic, 0.0, 1e-3)).expect("a flight");
-        assert_eq!((flight.flight.strikes.len(), flight.flight.stop.reason()), (2, "at-rest"), "{:?}", flight.flight);
-        assert!(
-            flight.flight.strikes.iter().all(|s| s.velocity_m_s.iter().all(|v| v.abs() <= 0.0)),
-            "{:?}",
-            flight.flight
-        );
+        let flight = scene.fly(Model::Contacts(contact(ContactLaw::Hysteretic, 0.0, 1e-3))).expect("a flight");
+        assert_eq!((flight.strikes.len(), flight.stop.reason()), (2, "at-rest"), "{flight:?}");
+        assert!(flight.strikes.iter().all(|s| s.velocity_m_s.iter().all(|v| v.abs() <= 0.0)), "{:?}", flight.strikes);
         // Then the ground carries the weight, and nothing moves.
-        let rest = flight.sample(1.0);
+        let rest = flight.sample(1.0).expect("contacts");
         assert!(
             (rest.force_per_mass_m_s2.iter().sum::<f64>() - g).abs() < 1e-12
                 && rest.velocity_m_s.iter().all(|v| v.abs() <= 0.0)
@@ -161,11 +159,11 @@ fn without_restitution_nothing_rebounds() {
     }
     // An end that has struck stays where it is while the other one falls.
     let scene = Scene::new(body(-0.5), 0.0, 0.5, 20.0, 9.81).expect("a drop");
-    let flight = scene.contacts(&contact(ContactLaw::Hysteretic, 0.0, 1e-4)).expect("a flight");
-    let [first, second] = [0, 1].map(|n| flight.flight.strikes[n].time_s);
-    let held = flight.sample(first + 2e-4).height_m[0];
+    let flight = scene.fly(Model::Contacts(contact(ContactLaw::Hysteretic, 0.0, 1e-4))).expect("a flight");
+    let [first, second] = [0, 1].map(|n| flight.strikes[n].time_s);
+    let held = flight.sample(first + 2e-4).expect("contacts").height_m[0];
     for share in [0.1, 0.5, 0.9] {
-        let now = flight.sample(first + share * (second - first));
+        let now = flight.sample(first + share * (second - first)).expect("contacts");
         assert!((now.height_m[0] / held - 1.0).abs() < 1e-9 && now.velocity_m_s[0].abs() < 1e-12, "{now:?}");
         assert!(now.force_per_mass_m_s2[0] > 0.0, "{now:?}");
     }
@@ -176,11 +174,8 @@ fn without_restitution_nothing_rebounds() {
 fn small_restitutions_tend_to_none() {
     let time = |e: f64, end: usize| {
         let scene = Scene::new(body(0.6), e, 3.0, 10.0, 9.81).expect("a drop");
-        let strikes = scene
-            .contacts_until(&contact(ContactLaw::Hysteretic, e, 3e-4), 1e-6, |_| false)
-            .expect("a flight")
-            .flight
-            .strikes;
+        let strikes =
+            scene.contacts_until(&contact(ContactLaw::Hysteretic, e, 3e-4), 1e-6, |_| false).expect("a flight").strikes;
         let first = strikes.iter().find(|strike| strike.point == end).expect("it lands");
         (first.time_s, first.approach_m_s)
     };
@@ -204,8 +199,8 @@ proptest! {
         let fly = |points: [[f64; 2]; 2]| {
             let body = Body::of_points(points, gyration).expect("a body");
             let scene = Scene::new(body, e, 2.0, tilt, 9.81).and_then(|s| s.with_impact_limit(20)).expect("a drop");
-            let flight = scene.contacts(&contact(law, e, 3e-4)).expect("a flight");
-            flight.flight.strikes.into_iter().zip(flight.presses).collect::<Vec<_>>()
+            let flight = scene.fly(Model::Contacts(contact(law, e, 3e-4))).expect("a flight");
+            flight.strikes.into_iter().zip(flight.presses).collect::<Vec<_>>()
         };
         let (one, other) = (fly(points), fly([points[1], points[0]]));
         // Roundings grow from strike to strike, and by hundreds of bounces in the dent of one.
@@ -231,12 +226,12 @@ fn short_contacts_tend_to_instant_impacts_in_proportion_to_their_time() {
     for law in LAWS {
         for (q, e, tilt) in [(0.5, 0.3, 45.0), (0.2, 0.6, 20.0), (-0.4, 0.5, 30.0)] {
             let scene = Scene::new(body(q), e, 4.43, tilt, 9.81).expect("a drop");
-            let hard = scene.simulate(Model::FiniteTilt).strikes;
+            let hard = scene.fly(Model::FiniteTilt).expect("a motion").strikes;
             let runs = [1e-5, 1e-6, 1e-7].map(|time| {
                 // A touch is late by the time of the contact before.
                 let until = hard[1].time_s + 2.0 * time;
                 let soft = scene.contacts_until(&contact(law, e, time), 1e-8, |ahead| ahead.time_s > until);
-                let soft = soft.expect("a flight").flight.strikes;
+                let soft = soft.expect("a flight").strikes;
                 assert_eq!(soft[1].point, hard[1].point, "{law:?} {q} {e} {tilt}");
                 off(&soft[0], &hard[0]).max(off(&soft[1], &hard[1]))
             });
@@ -254,10 +249,11 @@ fn short_contacts_tend_to_instant_impacts_in_proportion_to_their_time() {
 fn shocks_that_do_not_overlap_are_those_of_instant_impacts() {
     let scene = Scene::new(body(0.5), 0.3, 4.43, 1e-3, 0.0).expect("a drop");
     let unit = scene.height_gap_m() / scene.speed_m_s();
-    let (map, finite) = (scene.simulate(Model::Map).strikes, scene.simulate(Model::FiniteTilt).strikes);
+    let (map, finite) =
+        (scene.fly(Model::Map).expect("a motion").strikes, scene.fly(Model::FiniteTilt).expect("a motion").strikes);
     for law in LAWS {
         let late = [2, 3, 4, 5].map(|k| {
-            let flight = scene.contacts(&contact(law, 0.3, unit * 0.1_f64.powi(k))).expect("a flight").flight;
+            let flight = scene.fly(Model::Contacts(contact(law, 0.3, unit * 0.1_f64.powi(k)))).expect("a flight");
             assert_eq!(flight.strikes.len(), map.len(), "strikes");
             for (c, m) in flight.strikes.iter().zip(&map) {
                 assert_eq!(c.point, m.point, "strike {}", m.number);
@@ -274,7 +270,7 @@ fn shocks_that_do_not_overlap_are_those_of_instant_impacts() {
             assert!(((pair[0] / pair[1]).log10() - 1.0).abs() < 0.01, "{law:?}: {late:?}");
         }
         // Contacts that overlap are another matter: of four strikes, fewer are left.
-        let overlap = scene.contacts(&contact(law, 0.3, unit)).expect("a flight").flight.strikes.len();
+        let overlap = scene.fly(Model::Contacts(contact(law, 0.3, unit))).expect("a flight").strikes.len();
         assert!(overlap < map.len(), "{law:?}: {overlap}");
     }
 }

@@ -2,7 +2,8 @@
 //! geometry alone (`data/contact-bar.json`).
 
 use crate::plain::{Part, Plain};
-use clatter_flight::{Body, Contact, ContactFlight, ContactLaw, Scene, Stop, Stretch};
+use clatter::Section;
+use clatter_flight::{Body, Contact, ContactLaw, Model, Motion, Scene, Stop};
 use serde_json::Value;
 
 fn cases() -> Vec<Value> {
@@ -20,12 +21,12 @@ fn body(case: &Value) -> Body {
 }
 
 /// As the library follows it by default.
-fn flight(case: &Value) -> ContactFlight {
+fn flight(case: &Value) -> Motion {
     let get = |name| number(case, name);
     let scene = Scene::new(body(case), get("e"), get("speed_m_s"), get("tilt_deg"), get("gravity_m_s2"));
     let scene = scene.and_then(|scene| scene.with_time_limit_s(get("until_s"))).expect("a drop");
     let contact = Contact::new(ContactLaw::Hysteretic, get("e"), get("contact_time_s")).expect("a contact");
-    scene.contacts(&contact).expect("a flight")
+    scene.fly(Model::Contacts(contact)).expect("a flight")
 }
 
 /// By tilt: at small tilt lever arms hardly change, at large tilt they are kept through a phase.
@@ -45,7 +46,7 @@ fn the_first_touches_agree() {
     for (n, case) in cases.iter().enumerate() {
         let wanted = case["touches"].as_array().expect("touches");
         let first = wanted.len().min(4);
-        let flight = flight(case).flight;
+        let flight = flight(case);
         assert!(flight.strikes.len() >= first, "case {n}: {} strikes", flight.strikes.len());
         for (k, (strike, want)) in flight.strikes.iter().zip(wanted).take(first).enumerate() {
             assert_eq!(["a", "b"][strike.point], want["end"], "case {n}, touch {k}");
@@ -63,21 +64,20 @@ fn the_first_touches_agree() {
 
 /// A part as z″ + 2ζω z′ + ω² z = −a, by Runge and Kutta's fourth order through what a place feels: ω times the largest
 /// displacement, and the largest acceleration of spring and damper over ω. At rest it carries its weight.
-fn peaks(flight: &ContactFlight, place: [f64; 2], gravity: f64, (omega, zeta, until): (f64, f64, f64)) -> [f64; 2] {
+fn peaks(flight: &Motion, s: f64, gravity: f64, (omega, zeta, until): (f64, f64, f64)) -> [f64; 2] {
     let (mut z, mut v, mut peaks) = (0.0_f64, 0.0_f64, [0.0_f64; 2]);
-    let mut felt = flight.felt(place, 1e-4);
-    if let (Stop::AtRest { time_s, .. }, Some(last)) = (flight.flight.stop, felt.last().copied()) {
-        let rest = Stretch { delta_v_m_s: 0.0, acceleration_m_s2: [gravity; 2], length_s: until, ..last };
-        felt.push(Stretch { from_s: time_s, ..rest });
+    let mut felt = flight.felt(s);
+    if let Stop::AtRest { time_s, .. } = flight.stop {
+        felt.push(Section { acceleration: [gravity; 2], ..Section::shock(time_s, until, 0.0) });
     }
-    for stretch in felt.iter().filter(|stretch| stretch.from_s <= until) {
-        v -= stretch.delta_v_m_s;
-        let fastest = stretch.waves.iter().fold(omega, |most, wave| most.max(wave.rate_rad_s));
-        let length = stretch.length_s.min(until - stretch.from_s);
+    for section in felt.sections().filter(|section| section.from <= until) {
+        v -= section.delta_v;
+        let fastest = section.sines.iter().fold(omega, |most, sine| most.max(sine.rate));
+        let length = section.length.min(until - section.from);
         let steps = (length * fastest * 100.0).ceil().max(1.0);
         let h = length / steps;
         let rate =
-            |t: f64, [z, v]: [f64; 2]| [v, -stretch.acceleration_at(t) - 2.0 * zeta * omega * v - omega * omega * z];
+            |t: f64, [z, v]: [f64; 2]| [v, -section.acceleration_at(t) - 2.0 * zeta * omega * v - omega * omega * z];
         let mut t = 0.0;
         while t < length - 0.5 * h {
             let at = |k: [f64; 2], h: f64| [z + h * k[0], v + h * k[1]];
@@ -104,9 +104,9 @@ fn a_part_feels_the_same() {
     for (n, case) in cases().iter().enumerate() {
         let get = |name| number(case, name);
         let part = &case["part"];
-        let x = (number(part, "at") - get("center_of_mass")) * 0.5 * get("length_m");
         let (omega, zeta) = (number(part, "omega_rad_s"), number(part, "damping"));
-        let got = peaks(&flight(case), [x, 0.0], get("gravity_m_s2"), (omega, zeta, get("until_s")));
+        let x = (number(part, "at") - get("center_of_mass")) * 0.5 * get("length_m");
+        let got = peaks(&flight(case), number(part, "at"), get("gravity_m_s2"), (omega, zeta, get("until_s")));
         let want = ["omega_peak_displacement", "peak_acceleration_over_omega"].map(|name| number(part, name));
         let law = (ContactLaw::Hysteretic, get("e"), get("contact_time_s"));
         let mut plain = Plain::new(&body(case).points_m(), get("gyration_m"), get("gravity_m_s2"), law);

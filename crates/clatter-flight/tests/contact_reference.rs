@@ -82,7 +82,7 @@ proptest! {
         let [_, v, _, spin] = plain.state;
         for precision in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
             let limited = drop.scene().with_time_limit_s(plain.time).expect("a limit");
-            let now = limited.contacts_until(&drop.contact(), precision, |_| false).expect("a flight").sample(plain.time);
+            let now = limited.contacts_until(&drop.contact(), precision, |_| false).expect("a flight").sample(plain.time).expect("contacts");
             let center = (b * now.velocity_m_s[0] + a * now.velocity_m_s[1]) / (a + b);
             let wrong = (center - v).abs().max(drop.gyration * (now.spin_rad_s - spin).abs()) / drop.speed;
             prop_assert!(wrong < precision, "{precision:e}: {wrong:e} of {drop:?}");
@@ -99,7 +99,7 @@ proptest! {
         let flight = drop.scene().contacts_until(&drop.contact(), precision, |_| false).expect("a flight");
         // Touches that graze in a dent are told apart by roundings alone.
         let grazes = |approach: f64| approach.abs() < 1e-3 * drop.speed;
-        let strikes: Vec<_> = flight.flight.strikes.iter().filter(|s| !grazes(s.approach_m_s)).take(4).collect();
+        let strikes: Vec<_> = flight.strikes.iter().filter(|s| !grazes(s.approach_m_s)).take(4).collect();
         let last_s = strikes[strikes.len() - 1].time_s;
         let run = |shaken, until| {
             let mut plain = drop.plain(shaken);
@@ -127,7 +127,7 @@ proptest! {
         }
         // The plain one goes on a little after the last.
         prop_assert!(plain.touches.len() >= strikes.len(), "{} touches", plain.touches.len());
-        let ([a, b], now) = (drop.arms, flight.sample(last_s));
+        let ([a, b], now) = (drop.arms, flight.sample(last_s).expect("contacts"));
         let [_, v, _, spin] = run([0.0; 2], plain.touches[strikes.len() - 1].time).state;
         let center = (b * now.velocity_m_s[0] + a * now.velocity_m_s[1]) / (a + b);
         let wrong = (center - v).abs().max(drop.gyration * (now.spin_rad_s - spin).abs()) / drop.speed;

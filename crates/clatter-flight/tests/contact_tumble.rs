@@ -1,7 +1,7 @@
 //! Bodies of more than two contact points.
 
 use crate::plain::Plain;
-use clatter_flight::{Body, Contact, ContactFlight, ContactLaw, Scene, Stop};
+use clatter_flight::{Body, Contact, ContactLaw, Model, Motion, Scene, Stop};
 use proptest::prelude::*;
 
 const G: f64 = 9.81;
@@ -12,14 +12,14 @@ fn block(length: f64, height: f64, gyration: f64) -> Body<4> {
     Body::of_points([[-x, -z], [x, -z], [x, z], [-x, z]], gyration).expect("a block")
 }
 
-fn fly<const N: usize>(body: Body<N>, law: ContactLaw, e: f64, speed: f64, tilt: f64) -> ContactFlight<N> {
+fn fly<const N: usize>(body: Body<N>, law: ContactLaw, e: f64, speed: f64, tilt: f64) -> Motion<N> {
     let scene = Scene::new(body, e, speed, tilt, G).and_then(|s| s.with_impact_limit(200)).expect("a drop");
-    scene.contacts(&Contact::new(law, e, 3e-4).expect("a contact")).expect("a flight")
+    scene.contacts_until(&Contact::new(law, e, 3e-4).expect("a contact"), 1e-4, |_| false).expect("a flight")
 }
 
 /// Velocity of the center of mass, by two points that are apart.
-fn energy<const N: usize>(flight: &ContactFlight<N>, body: &Body<N>, t: f64) -> f64 {
-    let now = flight.sample(t);
+fn energy<const N: usize>(flight: &Motion<N>, body: &Body<N>, t: f64) -> f64 {
+    let now = flight.sample(t).expect("contacts");
     let [x, z] = body.points_m()[0];
     let (sin, cos) = now.tilt_rad.sin_cos();
     let y = now.height_m[0] - x * sin - z * cos;
@@ -27,18 +27,13 @@ fn energy<const N: usize>(flight: &ContactFlight<N>, body: &Body<N>, t: f64) -> 
     0.5 * (v * v + (body.gyration_m() * now.spin_rad_s).powi(2)) + G * y
 }
 
-fn never_grows<const N: usize>(
-    flight: &ContactFlight<N>,
-    body: &Body<N>,
-    law: ContactLaw,
-) -> Result<(), TestCaseError> {
+fn never_grows<const N: usize>(flight: &Motion<N>, body: &Body<N>, law: ContactLaw) -> Result<(), TestCaseError> {
     let first = energy(flight, body, 0.0);
     let mut held = first;
-    let mut free: Vec<f64> =
-        flight.presses.iter().map(|p| p.until_s).filter(|t| *t < flight.flight.stop.time_s()).collect();
+    let mut free: Vec<f64> = flight.presses.iter().map(|p| p.until_s).filter(|t| *t < flight.stop.time_s()).collect();
     free.sort_by(f64::total_cmp);
     for t in free.into_iter().map(|t| t * (1.0 + 4.0 * f64::EPSILON)) {
-        let now = flight.sample(t);
+        let now = flight.sample(t).expect("contacts");
         if now.force_per_mass_m_s2.iter().all(|force| *force == 0.0) {
             // A dashpot that has parted below the ground may press again, and give what its spring holds.
             let above = law == ContactLaw::Hysteretic || now.height_m.iter().all(|h| *h >= 0.0);
@@ -62,16 +57,16 @@ proptest! {
         let body = block(0.2, 0.2 * height, 0.1 * gyration * 1.0_f64.hypot(height));
         let flight = fly(body, law, e, speed, tilt);
         never_grows(&flight, &body, law)?;
-        prop_assert!(flight.flight.strikes.iter().all(|s| s.tilt_rad.abs() <= std::f64::consts::PI));
-        if let Stop::AtRest { time_s, .. } = flight.flight.stop {
-            let rest = flight.sample(time_s);
+        prop_assert!(flight.strikes.iter().all(|s| s.tilt_rad.abs() <= std::f64::consts::PI));
+        if let Stop::AtRest { time_s, .. } = flight.stop {
+            let rest = flight.sample(time_s).expect("contacts");
             // Two corners of one side carry the weight, and the others are above them.
             let carries: Vec<_> = (0..4).filter(|&i| rest.force_per_mass_m_s2[i] > 0.0).collect();
             prop_assert_eq!(carries.len(), 2, "{:?}", rest);
             prop_assert!((rest.force_per_mass_m_s2.iter().sum::<f64>() - G).abs() < 1e-12);
             prop_assert!((0..4).filter(|i| !carries.contains(i)).all(|i| rest.height_m[i] > 0.01), "{:?}", rest);
         } else {
-            prop_assert!(matches!(flight.flight.stop, Stop::ImpactLimit { .. }), "{:?}", flight.flight.stop);
+            prop_assert!(matches!(flight.stop, Stop::ImpactLimit { .. }), "{:?}", flight.stop);
         }
     }
 }
@@ -83,7 +78,7 @@ fn a_corner_that_lies_and_loads_takes_no_turns() {
     let (height, gyration) = (0.884_620_092_667_451_8, 0.314_594_423_919_700_16);
     let body = block(0.2, 0.2 * height, 0.1 * gyration * 1.0_f64.hypot(height));
     let flight = fly(body, ContactLaw::Hysteretic, 0.0, 5.988_344_336_143_666, 88.855_591_618_875_89);
-    assert_eq!(flight.flight.stop.reason(), "at-rest", "{:?}", flight.flight.stop);
+    assert_eq!(flight.stop.reason(), "at-rest", "{:?}", flight.stop);
     assert!(flight.phases_s().count() < 100, "{}", flight.phases_s().count());
 }
 
@@ -92,8 +87,8 @@ fn a_block_strikes_with_more_than_two_of_its_points() {
     let mut most = 0;
     for (tilt, speed) in [(30.0, 5.0), (40.0, 4.0), (60.0, 3.0), (80.0, 6.0)] {
         let flight = fly(block(0.2, 0.15, 0.06), ContactLaw::Hysteretic, 0.5, speed, tilt);
-        assert_eq!(flight.flight.stop.reason(), "at-rest", "{:?}", flight.flight.stop);
-        most = most.max((0..4).filter(|&i| flight.flight.strikes.iter().any(|s| s.point == i)).count());
+        assert_eq!(flight.stop.reason(), "at-rest", "{:?}", flight.stop);
+        most = most.max((0..4).filter(|&i| flight.strikes.iter().any(|s| s.point == i)).count());
     }
     assert_eq!(most, 4, "none tumbled over all its corners");
 }
@@ -113,14 +108,14 @@ fn a_row_of_points_presses_as_the_laws_say() {
             let mut plain = plain.start(2.0, f64::to_radians(tilt), 0.0);
             for share in [0.1, 0.2, 0.3, 0.5, 0.8, 1.0, 1.5, 2.0] {
                 assert!(plain.run(usize::MAX, share * time, 10_000_000), "{law:?} {e} {tilt}");
-                let (now, s) = (flight.sample(plain.time), plain.state);
+                let (now, s) = (flight.sample(plain.time).expect("contacts"), plain.state);
                 for i in 0..4 {
                     let [h, v] = [plain.height(&s, i), plain.velocity(&s, i)];
                     let off = (now.height_m[i] - h).abs() / (2.0 * time) + (now.velocity_m_s[i] - v).abs() / 2.0;
                     assert!(off < 1e-5, "{law:?} {e} {tilt} at {share}: {off:e}");
                 }
             }
-            assert!(flight.flight.strikes.len() >= 4, "{law:?} {e} {tilt}");
+            assert!(flight.strikes.len() >= 4, "{law:?} {e} {tilt}");
         }
     }
 }
@@ -133,9 +128,12 @@ fn a_bar_with_corners_turns_over() {
     for law in [ContactLaw::Hysteretic, ContactLaw::Dashpot] {
         let flight =
             scene.contacts_until(&Contact::new(law, 1.0, 1e-5).expect("a contact"), 1e-6, |_| false).expect("a flight");
-        let Stop::TurnedOver { time_s } = flight.flight.stop else { panic!("{:?}", flight.flight.stop) };
-        assert!((flight.sample(time_s).tilt_rad.abs() - 0.5 * std::f64::consts::PI).abs() < 1e-9, "{time_s}");
-        let hard = scene.simulate(clatter_flight::Model::FiniteTilt).stop.time_s();
+        let Stop::TurnedOver { time_s } = flight.stop else { panic!("{:?}", flight.stop) };
+        assert!(
+            (flight.sample(time_s).expect("contacts").tilt_rad.abs() - 0.5 * std::f64::consts::PI).abs() < 1e-9,
+            "{time_s}"
+        );
+        let hard = scene.fly(Model::FiniteTilt).expect("a motion").stop.time_s();
         assert!((time_s / hard - 1.0).abs() < 1e-2, "{time_s} {hard}");
     }
 }

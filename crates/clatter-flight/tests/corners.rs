@@ -57,7 +57,7 @@ proptest! {
     fn a_strike_keeps_the_angular_momentum_about_its_corner(scene in thick_scene()) {
         let (body, e) = (scene.body(), scene.e());
         let rho2 = body.gyration_m().powi(2);
-        let flight = scene.simulate(Model::FiniteTilt);
+        let flight = scene.fly(Model::FiniteTilt).expect("a motion");
         let mut kept: Option<f64> = None;
         for s in &flight.strikes {
             if s.tilt_rad.abs() > 1.4 {
@@ -90,7 +90,7 @@ proptest! {
     /// However a thick body ends, it says how.
     #[test]
     fn thick_bodies_rest_or_turn_over(scene in thick_scene()) {
-        let flight = scene.with_impact_limit(3000).expect("a limit").simulate(Model::FiniteTilt);
+        let flight = scene.with_impact_limit(3000).expect("a limit").fly(Model::FiniteTilt).expect("a motion");
         let ordered = flight.strikes.windows(2).all(|p| p[0].time_s <= p[1].time_s);
         prop_assert!(ordered && flight.strikes.iter().all(|s| s.tilt_rad.abs() <= 0.5 * std::f64::consts::PI));
         prop_assert!(flight.strikes.iter().all(|s| s.delta_v_m_s.iter().chain(&s.height_m).all(|x| x.is_finite())));
@@ -111,7 +111,7 @@ fn brick(thickness: f64) -> Body {
 fn a_flat_drop_knows_no_corners() {
     let strikes = |thickness| {
         let scene = Scene::new(brick(thickness), 0.3, 1.0, 0.0, 9.81).expect("a drop");
-        let strikes = scene.simulate(Model::FiniteTilt).strikes;
+        let strikes = scene.fly(Model::FiniteTilt).expect("a motion").strikes;
         strikes.into_iter().take_while(|s| s.time_s == 0.0).collect::<Vec<_>>()
     };
     let (thin, thick) = (strikes(0.0), strikes(0.1));
@@ -126,7 +126,7 @@ fn a_flat_drop_knows_no_corners() {
 fn thin_corners_tend_to_none_in_proportion() {
     let far = |thickness| {
         let scene = Scene::new(brick(thickness), 0.3, 1.0, 20.0, 9.81).expect("a drop");
-        scene.simulate(Model::FiniteTilt).strikes[0].delta_v_m_s[1]
+        scene.fly(Model::FiniteTilt).expect("a motion").strikes[0].delta_v_m_s[1]
     };
     let thin = far(0.0);
     let off = [4e-3, 2e-3, 1e-3].map(|t| far(t) - thin);
@@ -140,18 +140,18 @@ fn thin_corners_tend_to_none_in_proportion() {
 #[test]
 fn a_body_that_turns_past_its_end_says_when() {
     let scene = Scene::new(brick(0.02), 1.0, 1.0, 60.0, 0.0).and_then(|s| s.with_spin(80.0)).expect("a drop");
-    let flight = scene.simulate(Model::FiniteTilt);
+    let flight = scene.fly(Model::FiniteTilt).expect("a motion");
     let Stop::TurnedOver { time_s } = flight.stop else { panic!("{:?}", flight.stop) };
     let last = flight.strikes.last().expect("a strike");
     let turn = 0.5 * std::f64::consts::PI - last.tilt_rad * last.spin_rad_s.signum();
     assert!((time_s - last.time_s - turn / last.spin_rad_s.abs()).abs() < 1e-14, "{flight:?}");
     assert_eq!(flight.stop.reason(), "turned-over", "{flight:?}");
 
-    let tall = Scene::new(brick(0.1), 0.0, 0.1, 80.0, 9.81).expect("a drop").simulate(Model::FiniteTilt);
+    let tall = Scene::new(brick(0.1), 0.0, 0.1, 80.0, 9.81).expect("a drop").fly(Model::FiniteTilt).expect("a motion");
     assert!(matches!(tall.stop, Stop::TurnedOver { .. }), "{:?}", tall.stop);
     assert!(!tall.pivots.is_empty(), "it stands on its corner first");
     // Before that, a time limit.
-    let soon = scene.with_time_limit_s(0.5 * time_s).expect("a limit").simulate(Model::FiniteTilt);
+    let soon = scene.with_time_limit_s(0.5 * time_s).expect("a limit").fly(Model::FiniteTilt).expect("a motion");
     assert_eq!(soon.stop, Stop::TimeLimit { time_s: 0.5 * time_s }, "{soon:?}");
 }
 

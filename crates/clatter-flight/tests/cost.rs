@@ -20,7 +20,7 @@ fn a_strike_allocates_nothing_but_its_line_in_the_list() {
         let [few, many] = [1_000, 100_000].map(|strikes| {
             let scene = scene(strikes);
             let mut listed = 0;
-            let count = measure(|| listed = black_box(scene.simulate(model)).strikes.len()).count_total;
+            let count = measure(|| listed = black_box(scene.fly(model).expect("a motion")).strikes.len()).count_total;
             assert_eq!(listed, strikes, "{model:?}");
             count
         });
@@ -31,7 +31,7 @@ fn a_strike_allocates_nothing_but_its_line_in_the_list() {
         let contact = Contact::new(law, 1.0, 1e-5).expect("a contact");
         let [few, many] = [10, 1_000].map(|strikes| {
             let scene = scene(strikes);
-            measure(|| drop(black_box(scene.contacts(&contact)))).count_total
+            measure(|| drop(black_box(scene.fly(Model::Contacts(contact))))).count_total
         });
         assert!(few > 0 && many <= few + 3 * 7, "{law:?}: {few} allocations for 10 strikes, {many} for 10^3");
     }

@@ -9,7 +9,8 @@ use clatter_flight::{Body, Model, Scene, Stop};
 fn ends_alike_are_one_restitution() {
     for (e, tilt, gravity) in [(0.3, 5.0, 9.81), (0.0, 1.0, 9.81), (0.6, 20.0, 0.0), (0.45, 0.0, 9.81)] {
         let scene = Scene::new(Body::off_center(0.06, 0.08, 0.04).unwrap(), e, 4.0, tilt, gravity).unwrap();
-        assert_eq!(scene.simulate_ends([e, e], |_| false).unwrap(), scene.simulate(Model::FiniteTilt), "{e}, {tilt}");
+        let (both, one) = (scene.fly_by_ends([e, e], |_| false).unwrap(), scene.fly(Model::FiniteTilt).unwrap());
+        assert_eq!((both.strikes, both.pivots, both.stop), (one.strikes, one.pivots, one.stop), "{e}, {tilt}");
     }
 }
 
@@ -18,7 +19,7 @@ fn ends_alike_are_one_restitution() {
 fn each_end_rebounds_by_its_own() {
     let e = [0.2, 0.7];
     let scene = Scene::new(Body::new(0.14, 0.038).unwrap(), 0.5, 4.0, 3.0, 9.81).unwrap();
-    let flight = scene.simulate_ends(e, |flight| flight.strikes.len() == 40).unwrap();
+    let flight = scene.fly_by_ends(e, |flight| flight.struck.iter().sum::<usize>() == 40).unwrap();
     let [a, b] = [0, 1].map(|point| flight.strikes.iter().filter(|strike| strike.point == point).count());
     assert!(a > 3 && b > 3, "{a} and {b} strikes");
     for strike in &flight.strikes {
@@ -29,15 +30,15 @@ fn each_end_rebounds_by_its_own() {
         let ratio = (x2 - rho2) / (x2 + rho2);
         assert!((strike.delta_v_m_s[j] + ratio * strike.delta_v_m_s[i]).abs() < 1e-12, "{strike:?}");
     }
-    assert!(scene.simulate_ends([0.5, 1.1], |_| false).is_err(), "beyond 1");
+    assert!(scene.fly_by_ends([0.5, 1.1], |_| false).is_err(), "beyond 1");
 }
 
 /// Nothing is looked for beyond the time limit.
 #[test]
 fn a_time_limit_ends_the_search() {
     let scene = Scene::new(Body::new(0.14, 0.04).unwrap(), 0.3, 4.0, 3.0, 9.81).unwrap();
-    let whole = scene.simulate_ends([0.3, 0.3], |_| false).unwrap();
+    let whole = scene.fly_by_ends([0.3, 0.3], |_| false).unwrap();
     let limit = 0.5 * (whole.strikes[2].time_s + whole.strikes[3].time_s);
-    let cut = scene.with_time_limit_s(limit).unwrap().simulate_ends([0.3, 0.3], |_| false).unwrap();
+    let cut = scene.with_time_limit_s(limit).unwrap().fly_by_ends([0.3, 0.3], |_| false).unwrap();
     assert_eq!((&cut.strikes[..], cut.stop), (&whole.strikes[..3], Stop::TimeLimit { time_s: limit }));
 }

@@ -1,6 +1,6 @@
 //! Energy: lost at strikes alone, exactly (1 − e²) of what the strike's normal speed carries.
 
-use clatter_flight::{Body, Flight, Model, Scene, Strike};
+use clatter_flight::{Body, Model, Motion, Scene, Strike};
 use proptest::prelude::*;
 
 /// Energy per unit mass, `½ v_y² + ½ ρ² ω² + g y`, with the given velocities of the ends and angular velocity.
@@ -22,7 +22,7 @@ fn scene(q: f64, e: f64, tilt: f64) -> Scene {
 }
 
 /// Largest relative drift of the energy over the flight of an elastic body.
-fn drift(flight: &Flight, scene: &Scene) -> f64 {
+fn drift(flight: &Motion, scene: &Scene) -> f64 {
     let e0 = 0.5 * scene.speed_m_s().powi(2) + scene.gravity_m_s2() * scene.body().arms_m()[0] * scene.tilt_rad().sin();
     let of = |s: &Strike| energy(&scene.body(), scene.gravity_m_s2(), s, s.velocity_m_s, s.spin_rad_s);
     flight.strikes.iter().map(|s| (of(s) / e0 - 1.0).abs()).fold(0.0, f64::max)
@@ -34,7 +34,7 @@ fn ten_thousand_elastic_strikes_keep_the_energy() {
         for q in [-0.6, 0.0, 0.3, 0.5, 0.8, 0.95, 0.995, 0.9995] {
             for tilt in [1e-6, 1.0, 5.0, 30.0, 80.0] {
                 let scene = scene(q, 1.0, tilt).with_impact_limit(10_000).expect("as the test has it");
-                let flight = scene.simulate(model);
+                let flight = scene.fly(model).expect("a motion");
                 assert_eq!(flight.strikes.len(), 10_000);
                 let drift = drift(&flight, &scene);
                 let allowed = 1e-13 * (0.05 / (1.0 - q)).max(1.0);
@@ -54,7 +54,7 @@ proptest! {
     ) {
         let scene = scene(q, e, tilt).with_impact_limit(200).expect("as the test has it");
         let (body, g, finite) = (scene.body(), scene.gravity_m_s2(), model == Model::FiniteTilt);
-        let flight = scene.simulate(model);
+        let flight = scene.fly(model).expect("a motion");
         let rho2 = body.gyration_m().powi(2);
         let e0 = 0.5 * 4.43 * 4.43;
         let mut kept = 0.5 * 4.43_f64.powi(2) + g * 0.07 * scene.tilt_rad().sin();

@@ -1,7 +1,7 @@
 //! The flights at the edges of what a scene may be.
 
 use clatter::Error;
-use clatter_flight::{Body, Contact, ContactLaw, Flight, Model, Scene, Stop, Strike};
+use clatter_flight::{Body, Contact, ContactLaw, Model, Motion, Scene, Stop, Strike};
 
 const MODELS: [Model; 3] = [Model::Map, Model::Ballistic, Model::FiniteTilt];
 
@@ -10,7 +10,7 @@ fn body(q: f64) -> Body {
 }
 
 /// What holds for any flight whatever.
-fn sane(flight: &Flight, what: &str) {
+fn sane(flight: &Motion, what: &str) {
     let mut last = 0.0;
     for (n, s) in flight.strikes.iter().enumerate() {
         let numbers = [s.time_s, s.approach_m_s, s.delta_v_m_s[0], s.delta_v_m_s[1], s.height_m[0], s.height_m[1]];
@@ -41,7 +41,10 @@ fn every_corner_gives_an_answer() {
                                 .expect("as the test has it")
                                 .with_impact_limit(300)
                                 .expect("as the test has it");
-                            sane(&scene.simulate(model), &format!("{model:?} q {q} e {e} tilt {tilt} g {g} v {speed}"));
+                            sane(
+                                &scene.fly(model).expect("a motion"),
+                                &format!("{model:?} q {q} e {e} tilt {tilt} g {g} v {speed}"),
+                            );
                         }
                     }
                 }
@@ -63,7 +66,7 @@ fn a_start_already_spinning_gives_an_answer() {
                                 .and_then(|s| s.with_impact_limit(200))
                                 .expect("as the test has it");
                             let what = format!("{model:?} q {q} e {e} tilt {tilt} g {g} spin {spin}");
-                            sane(&scene.simulate(model), &what);
+                            sane(&scene.fly(model).expect("a motion"), &what);
                         }
                     }
                 }
@@ -86,13 +89,14 @@ fn every_corner_of_a_contact_gives_an_answer() {
                         let scene = scene.expect("as the test has it");
                         let what = format!("q {q} e {e} tilt {tilt} g {g} {law:?} {time}");
                         let contact = Contact::new(law, e, time).expect("as the test has it");
-                        let flight = scene.contacts(&contact).unwrap_or_else(|error| panic!("{what}: {error}"));
+                        let flight =
+                            scene.fly(Model::Contacts(contact)).unwrap_or_else(|error| panic!("{what}: {error}"));
                         let finite = |s: &Strike| s.delta_v_m_s.iter().chain(&s.velocity_m_s).all(|x| x.is_finite());
-                        assert!(flight.flight.strikes.iter().all(finite), "{what}");
-                        assert!(flight.flight.strikes.windows(2).all(|p| p[0].time_s <= p[1].time_s), "{what}");
-                        assert!(flight.energy_error.is_finite() && flight.flight.stop.time_s() >= 0.0, "{what}");
-                        let idle = matches!(flight.flight.stop, Stop::TimeLimit { .. });
-                        assert!(!idle, "{what}: {:?}", flight.flight.stop);
+                        assert!(flight.strikes.iter().all(finite), "{what}");
+                        assert!(flight.strikes.windows(2).all(|p| p[0].time_s <= p[1].time_s), "{what}");
+                        assert!(flight.energy_error.is_finite() && flight.stop.time_s() >= 0.0, "{what}");
+                        let idle = matches!(flight.stop, Stop::TimeLimit { .. });
+                        assert!(!idle, "{what}: {:?}", flight.stop);
                     }
                 }
             }
@@ -105,7 +109,7 @@ fn heights_from_a_micrometer_to_a_kilometer() {
     for height in [1e-6, 1e-3, 1.2, 1e3] {
         for model in [Model::Ballistic, Model::FiniteTilt] {
             let scene = Scene::from_height(body(0.5), 0.5, height, 1.0, 9.81).expect("as the test has it");
-            let flight = scene.simulate(model);
+            let flight = scene.fly(model).expect("a motion");
             sane(&flight, &format!("{model:?} from {height} m"));
             assert!(matches!(flight.stop, Stop::AtRest { .. }), "{model:?} from {height} m: {:?}", flight.stop);
         }
@@ -117,7 +121,7 @@ fn a_flat_drop_strikes_end_a_first_and_all_at_one_instant() {
     for model in MODELS {
         // c = T/(2√e) = 0.53: four strikes as the map has them, before anything can move.
         let scene = Scene::new(body(0.5), 0.3, 1.0, 0.0, 9.81).expect("as the test has it");
-        let flight = scene.simulate(model);
+        let flight = scene.fly(model).expect("a motion");
         let first: Vec<_> = flight.strikes.iter().take_while(|s| s.time_s == 0.0).collect();
         assert_eq!(first.len(), 4, "{model:?}");
         let ends: Vec<_> = first.iter().map(|s| s.point).collect();
@@ -133,7 +137,8 @@ fn a_flat_drop_strikes_end_a_first_and_all_at_one_instant() {
 fn an_endless_train_at_one_instant_is_rest() {
     for model in [Model::Ballistic, Model::FiniteTilt] {
         for g in [9.81, 0.0] {
-            let flight = Scene::new(body(0.9), 0.1, 1.0, 0.0, g).expect("as the test has it").simulate(model);
+            let flight =
+                Scene::new(body(0.9), 0.1, 1.0, 0.0, g).expect("as the test has it").fly(model).expect("a motion");
             assert!(flight.strikes.len() > 10, "{model:?} g {g}");
             assert!(matches!(flight.stop, Stop::AtRest { time_s: 0.0, .. }), "{model:?} g {g}: {:?}", flight.stop);
         }
@@ -148,7 +153,7 @@ fn both_ends_at_one_instant_later_on() {
         .with_impact_limit(100)
         .expect("as the test has it");
     for model in [Model::Ballistic, Model::FiniteTilt] {
-        let flight = flight.simulate(model);
+        let flight = flight.fly(model).expect("a motion");
         assert_eq!(flight.strikes.len(), 100);
         for pair in flight.strikes.chunks(2) {
             assert_eq!([pair[0].point, pair[1].point], [0, 1], "{model:?}");
@@ -166,7 +171,7 @@ fn a_million_strikes() {
             .expect("as the test has it")
             .with_impact_limit(1_000_000)
             .expect("as the test has it");
-        let flight = scene.simulate(model);
+        let flight = scene.fly(model).expect("a motion");
         assert_eq!(flight.strikes.len(), 1_000_000, "{model:?}");
         assert!(matches!(flight.stop, Stop::ImpactLimit { .. }), "{model:?}: {:?}", flight.stop);
     }
@@ -176,16 +181,16 @@ fn a_million_strikes() {
 fn limits_are_kept_and_said() {
     for model in MODELS {
         let scene = Scene::new(body(0.5), 0.5, 4.43, 5.0, 9.81).expect("as the test has it");
-        let two = scene.with_impact_limit(2).expect("as the test has it").simulate(model);
+        let two = scene.with_impact_limit(2).expect("as the test has it").fly(model).expect("a motion");
         assert_eq!((two.strikes.len(), two.stop.reason()), (2, "impact-limit"), "{model:?}");
-        let early = scene.with_time_limit_s(1e-3).expect("as the test has it").simulate(model);
+        let early = scene.with_time_limit_s(1e-3).expect("as the test has it").fly(model).expect("a motion");
         assert_eq!((early.strikes.len(), early.stop.reason()), (1, "time-limit"), "{model:?}");
         assert_eq!(early.stop.time_s().to_bits(), 1e-3_f64.to_bits(), "{model:?}");
     }
     // A train of three within a limit of three has bounced clear.
     let scene = Scene::new(body(0.5), 0.5, 4.43, 5.0, 0.0).expect("as the test has it");
     for model in MODELS {
-        let flight = scene.with_impact_limit(3).expect("as the test has it").simulate(model);
+        let flight = scene.with_impact_limit(3).expect("as the test has it").fly(model).expect("a motion");
         assert_eq!((flight.strikes.len(), flight.stop.reason()), (3, "bounced-clear"), "{model:?}");
     }
 }
@@ -197,7 +202,7 @@ fn a_turn_that_time_cannot_tell_ends_the_flight() {
     let body = Body::new(1.0, 0.6).expect("as the test has it");
     for speed in [1e9, 1e12, 1e16] {
         let scene = Scene::new(body, 0.9, speed, 0.3, 0.3).expect("as the test has it");
-        let flight = scene.with_impact_limit(10).expect("as the test has it").simulate(Model::FiniteTilt);
+        let flight = scene.with_impact_limit(10).expect("as the test has it").fly(Model::FiniteTilt).expect("a motion");
         assert_eq!(flight.stop.reason(), "time-limit", "{speed:e}: {:?}", flight.stop);
         assert!(flight.strikes.len() < 10, "{speed:e}: {}", flight.strikes.len());
     }
@@ -210,7 +215,7 @@ fn a_spin_that_lifts_end_b_away_leaves_it_there_without_gravity() {
         .with_spin(200.0)
         .expect("as the test has it");
     for model in [Model::Map, Model::Ballistic] {
-        let flight = scene.simulate(model);
+        let flight = scene.fly(model).expect("a motion");
         assert_eq!((flight.strikes.len(), flight.stop.reason()), (1, "bounced-clear"), "{model:?}");
     }
 }
@@ -220,7 +225,7 @@ fn an_off_center_mass_is_the_symmetric_map_in_disguise() {
     // Without gravity and at vanishing tilt the finite-tilt simulation knows nothing of that reduction.
     let body = Body::off_center(0.05, 0.09, 0.03).expect("as the test has it");
     let scene = Scene::new(body, 0.4, 1.0, 1e-9, 0.0).expect("as the test has it");
-    let (map, finite) = (scene.simulate(Model::Map), scene.simulate(Model::FiniteTilt));
+    let (map, finite) = (scene.fly(Model::Map).expect("a motion"), scene.fly(Model::FiniteTilt).expect("a motion"));
     assert!(map.strikes.len() > 3, "{}", map.strikes.len());
     assert_eq!(map.strikes.len(), finite.strikes.len());
     for (m, f) in map.strikes.iter().zip(&finite.strikes) {
@@ -261,7 +266,7 @@ fn bad_scenes_are_refused_with_the_value() {
     refused(good.with_impact_limit(0), ["impact limit", "0"]);
     refused(good.with_spin(-15.0), ["spin", "-15"]);
     let other = Contact::new(ContactLaw::Hysteretic, 0.3, 1e-4).expect("a contact");
-    let error = good.contacts(&other).expect_err("two restitutions");
+    let error = good.fly(Model::Contacts(other)).expect_err("two restitutions");
     assert!(matches!(error, clatter_flight::Error::Restitution { contact: 0.3, scene: 0.5 }), "{error}");
     refused(good.with_spin(f64::NAN), ["spin", "NaN"]);
 }
@@ -270,7 +275,7 @@ fn bad_scenes_are_refused_with_the_value() {
 fn the_drawing_meets_the_ground_at_the_strikes() {
     for model in MODELS {
         let scene = Scene::new(body(0.5), 0.3, 4.43, 5.0, 9.81).expect("a scene");
-        let flight = scene.simulate(model);
+        let flight = scene.fly(model).expect("a motion");
         for pair in flight.strikes.windows(2) {
             let dt = pair[1].time_s - pair[0].time_s;
             if dt < 1e-9 {
@@ -278,7 +283,7 @@ fn the_drawing_meets_the_ground_at_the_strikes() {
             }
             // Just before it strikes, the end is its approach times a moment high.
             let moment = 1e-6 * dt;
-            let h = scene.heights_m(model, &flight, pair[1].time_s - moment)[pair[1].point];
+            let h = flight.at(pair[1].time_s - moment).height_m[pair[1].point];
             let want = -pair[1].approach_m_s * moment;
             // After a pivot at 5° the parabola lands half a percent off the pendulum's speed.
             assert!((h - want).abs() <= 1e-2 * want + 1e-15, "{model:?}, strike {}: {h} not {want}", pair[1].number);
@@ -312,7 +317,10 @@ fn the_least_spin_that_is_taken_leaves_an_approach() {
             match scene.with_spin(spin) {
                 Ok(scene) => {
                     taken += 1;
-                    sane(&scene.with_impact_limit(20).expect("some").simulate(Model::Map), &format!("{length} {spin}"));
+                    sane(
+                        &scene.with_impact_limit(20).expect("some").fly(Model::Map).expect("a motion"),
+                        &format!("{length} {spin}"),
+                    );
                 }
                 Err(error) => {
                     refused += 1;

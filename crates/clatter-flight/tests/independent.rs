@@ -244,7 +244,7 @@ fn any_scene(restitution: std::ops::Range<f64>) -> impl Strategy<Value = Scene> 
 }
 
 fn hold_strikes(scene: &Scene, model: Model) -> Result<(), TestCaseError> {
-    let flight = scene.with_impact_limit(8).expect("as the test has it").simulate(model);
+    let flight = scene.with_impact_limit(8).expect("as the test has it").fly(model).expect("a motion");
     let v0 = scene.speed_m_s();
     let plain = Plain::new(scene, model == Model::FiniteTilt);
     let hits = plain.run(flight.strikes.len(), 0.0);
@@ -301,7 +301,7 @@ proptest! {
     #[test]
     fn rest(scene in any_scene(0.0..0.5), finite in any::<bool>()) {
         let model = if finite { Model::FiniteTilt } else { Model::Ballistic };
-        let flight = scene.simulate(model);
+        let flight = scene.fly(model).expect("a motion");
         let largest = flight.strikes.iter().flat_map(|s| s.delta_v_m_s).fold(0.0, |m: f64, d| m.max(d.abs()));
         match flight.stop {
             Stop::AtRest { time_s, time_bound_s, shock_bound_m_s } => {

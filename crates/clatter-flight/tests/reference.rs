@@ -1,6 +1,6 @@
 //! The flights against figures computed elsewhere.
 
-use clatter_flight::{Body, Flight, Model, Scene, Stop};
+use clatter_flight::{Body, Model, Motion, Scene, Stop};
 use serde_json::Value;
 
 /// Times are held to 1e-7 of themselves (of 0.1 ms at least), shocks to 1e-7 of the drop speed: the digits that the
@@ -20,7 +20,7 @@ fn hold(model_name: &str, model: Model) {
         let body = Body::new(get("length_m"), get("gyration_m")).expect("as the test has it");
         let v0 = get("speed_m_s");
         let scene = Scene::new(body, get("e"), v0, get("tilt_deg"), get("gravity_m_s2")).expect("as the test has it");
-        let flight = scene.simulate(model);
+        let flight = scene.fly(model).expect("a motion");
         let wanted = case["impacts"].as_array().expect("as the test has it");
         assert!(flight.strikes.len() >= wanted.len(), "case {n}: {} strikes", flight.strikes.len());
         for (s, w) in flight.strikes.iter().zip(wanted) {
@@ -55,16 +55,16 @@ fn finite_tilt_agrees_with_the_reference() {
 }
 
 /// A phone: half-length 70 mm, 4.43 m/s, in units of h0/v0.
-fn phone(q: f64, e: f64, model: Model) -> (Flight, f64) {
+fn phone(q: f64, e: f64, model: Model) -> (Motion, f64) {
     let half = 0.07;
     let gyration = half * ((1.0 - q) / (1.0 + q)).sqrt();
     let scene = Scene::new(Body::new(2.0 * half, gyration).expect("as the test has it"), e, 4.43, 5.0, 9.81)
         .expect("as the test has it");
-    (scene.simulate(model), scene.height_gap_m() / scene.speed_m_s())
+    (scene.fly(model).expect("a motion"), scene.height_gap_m() / scene.speed_m_s())
 }
 
 /// The first strikes after number 1, to the digits printed.
-fn hold_times(got: &(Flight, f64), wanted: &[(usize, f64)]) {
+fn hold_times(got: &(Motion, f64), wanted: &[(usize, f64)]) {
     let (flight, unit) = got;
     for (s, &(point, time)) in flight.strikes[1..].iter().zip(wanted) {
         assert_eq!(s.point, point, "strike {}", s.number);

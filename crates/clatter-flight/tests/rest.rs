@@ -24,7 +24,7 @@ fn scene(case: &Value) -> (Scene, Model) {
 /// Largest difference of times and speeds from those of the 50 digits.
 fn off(case: &Value) -> (f64, f64, f64) {
     let (scene, model) = scene(case);
-    let flight = scene.simulate(model);
+    let flight = scene.fly(model).expect("a motion");
     let Stop::AtRest { time_s, .. } = flight.stop else { panic!("{model:?} {scene:?}: {:?}", flight.stop) };
     let want = case["strikes"].as_array().expect("strikes");
     let got: Vec<_> = flight.strikes.iter().filter(|s| s.approach_m_s < -1e-3 * scene.speed_m_s()).collect();
@@ -55,7 +55,7 @@ fn every_strike_and_the_rest_agree_with_fifty_digits() {
 fn a_body_that_all_but_stands_on_its_end_topples_in_time() {
     let case = &cases()[1];
     let (scene, model) = scene(case);
-    let topples = scene.simulate(model).strikes.into_iter().find(|s| s.point == 1).expect("end b lands");
+    let topples = scene.fly(model).expect("a motion").strikes.into_iter().find(|s| s.point == 1).expect("end b lands");
     assert!((topples.time_s - 0.872_038_901_621_01).abs() < 2e-12, "{}", topples.time_s);
     assert!((topples.approach_m_s + 2.698_427_724_127_46).abs() < 1e-13, "{}", topples.approach_m_s);
     // It has turned over.
@@ -69,7 +69,7 @@ fn an_end_that_turning_lifts_does_not_strike_by_rounding() {
     let q = -0.714_473_844_725_967_2_f64;
     let body = Body::new(0.14, 0.07 * ((1.0 - q) / (1.0 + q)).sqrt()).expect("a body");
     let scene = Scene::new(body, 0.422_075_375_734_257, 4.43, 0.217_530_068_644_558_34, 9.81).expect("a drop");
-    let flight = scene.simulate(Model::FiniteTilt);
+    let flight = scene.fly(Model::FiniteTilt).expect("a motion");
     let pivot = flight.pivots[0];
     let [before, after] = [0, 1].map(|k| {
         let first = flight.strikes.partition_point(|s| s.time_s < pivot.until_s - 1e-12);
@@ -89,7 +89,7 @@ fn without_gravity_the_endless_train_ends_where_the_closed_form_says() {
         let body = Body::new(0.14, 0.07 * f64::sqrt((1.0 - q) / (1.0 + q))).expect("a body");
         for tilt in [1e-9_f64, 0.1, 0.5] {
             let scene = Scene::new(body, e, 4.43, tilt, 0.0).expect("a drop");
-            let flight = scene.simulate(Model::FiniteTilt);
+            let flight = scene.fly(Model::FiniteTilt).expect("a motion");
             assert_eq!(flight.stop.reason(), "at-rest", "q {q} e {e} tilt {tilt}: {:?}", flight.stop);
             let off = flight.stop.time_s() * scene.speed_m_s() / scene.height_gap_m() / limit - 1.0;
             // Largest seen: 40 φ² at (0.95, 0.3).

@@ -321,7 +321,7 @@ mod tests {
             assert_eq!(bar.train(&Start::default()).count() as u64, truth, "({q}, {e})");
             let body = Body::new(2.0 * results.bars.half_length_m, results.bars.half_length_m * bar.gyration_ratio());
             let scene = Scene::new(body.unwrap(), e, results.bars.speed_m_s, results.bars.tilt_deg, 0.0).unwrap();
-            let strikes = scene.simulate(Model::FiniteTilt).strikes;
+            let strikes = scene.fly(Model::FiniteTilt).unwrap().strikes;
             assert_eq!(strikes.len() as u64, truth, "({q}, {e}) at real tilt");
             let largest = strikes.iter().flat_map(|s| s.delta_v_m_s).fold(0.0_f64, |m, v| m.max(v.abs()));
             off = off.max((largest / (results.bars.speed_m_s * summary.peak.end) - 1.0).abs());

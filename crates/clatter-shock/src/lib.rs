@@ -66,7 +66,7 @@ pub use history_boundary::HistoryBoundary;
 pub use impulse::{VelocityShock, VelocityShocks};
 pub use limit_curve::LimitCurve;
 pub use peaks::{Extreme, Extremes, Peaked, Response};
-pub use pulse::{Pulse, Pulses, Section, Shape, Sine};
+pub use pulse::{Pulse, Pulses, Shape};
 pub use required::{Deviation, RequiredSpectrum};
 pub use spectrum::{Frequencies, Quantity, Spectrum, Summary};
 pub use study::{

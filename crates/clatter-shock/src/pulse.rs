@@ -6,6 +6,7 @@ use crate::forced::Segment;
 use crate::peaks::{Extreme, Range, Response};
 use crate::suspension::{Modes, Motion};
 use crate::{Error, Peaked, State, Suspension};
+use clatter::{Section, Sine};
 use num_complex::Complex64;
 use std::cmp::Ordering;
 use std::f64::consts::PI;
@@ -108,30 +109,6 @@ impl Instant {
     }
 }
 
-/// A part of a history of base acceleration: a velocity shock, then a straight line and sinusoids besides.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Section<'a> {
-    /// How long it lasts; 0 for the shock alone.
-    pub length: f64,
-    /// Velocity shock as it begins.
-    pub delta_v: f64,
-    /// Acceleration at its begin and its end, on a straight line between.
-    pub acceleration: [f64; 2],
-    /// What swings besides.
-    pub sines: &'a [Sine],
-}
-
-/// A sinusoid of a [`Section`], `amplitude · sin(phase + rate t)` with t from its begin.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sine {
-    /// With its sign.
-    pub amplitude: f64,
-    /// Positive.
-    pub rate: f64,
-    /// In rad.
-    pub phase: f64,
-}
-
 /// What acts between two breakpoints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Piece {
@@ -226,7 +203,7 @@ impl Pulses {
         let history = Self::from_sorted(points);
         if history.pieces.is_empty() { Err(Error::ZeroDuration) } else { Ok(history) }
     }
-    /// A history of sections, one after the other from `start` on.
+    /// A history of sections, one after the other from when the first begins.
     ///
     /// # Errors
     ///
@@ -237,18 +214,19 @@ impl Pulses {
     /// A velocity shock of 2 as a section of no length:
     ///
     /// ```
-    /// use clatter_shock::{DampingRatio, Pulses, Section, Suspension};
-    /// let shock = Section { length: 0.0, delta_v: 2.0, acceleration: [0.0; 2], sines: &[] };
+    /// use clatter::Section;
+    /// use clatter_shock::{DampingRatio, Pulses, Suspension};
+    /// let shock = Section::shock(0.0, 0.0, 2.0);
     /// let mount = Suspension::new(100.0, DampingRatio::new(0.0)?)?;
-    /// let peak = Pulses::of_sections(0.0, [shock])?.respond(&mount).absolute_acceleration.peak();
+    /// let peak = Pulses::of_sections([shock])?.respond(&mount).absolute_acceleration.peak();
     /// assert!((peak.value - 200.0).abs() < 1e-12);
     /// # Ok::<(), clatter_shock::Error>(())
     /// ```
-    pub fn of_sections<'a>(start: f64, sections: impl IntoIterator<Item = Section<'a>>) -> Result<Self, Error> {
-        let sections = sections.into_iter();
+    pub fn of_sections<'a>(sections: impl IntoIterator<Item = Section<'a>>) -> Result<Self, Error> {
+        let mut sections = sections.into_iter().peekable();
         let many = sections.size_hint().0;
         let (mut pieces, mut sines) = (Vec::with_capacity(many), Vec::with_capacity(2 * many));
-        let mut at = Instant::at(start);
+        let mut at = Instant::at(sections.peek().map_or(0.0, |section| section.from));
         for (i, section) in sections.enumerate() {
             let entry = |name, value, allowed| Error::Entry { list: "sections", entry: i + 1, name, value, allowed };
             let Section { length, delta_v, acceleration: [from, to], .. } = section;
@@ -290,10 +268,11 @@ impl Pulses {
     /// A weight that is on at once does twice what it does at rest:
     ///
     /// ```
-    /// # use clatter_shock::{DampingRatio, Pulses, Section, Suspension};
-    /// let fall = Section { length: 0.1, delta_v: 0.0, acceleration: [0.0; 2], sines: &[] };
+    /// # use clatter::Section;
+    /// # use clatter_shock::{DampingRatio, Pulses, Suspension};
+    /// let fall = Section::shock(0.0, 0.1, 0.0);
     /// let mount = Suspension::new(20.0, DampingRatio::new(0.0)?)?;
-    /// let response = Pulses::of_sections(0.0, [fall])?.carried(9.8)?.respond(&mount);
+    /// let response = Pulses::of_sections([fall])?.carried(9.8)?.respond(&mount);
     /// assert!((response.absolute_acceleration.peak().value - 2.0 * 9.8).abs() < 1e-12);
     /// assert!((response.relative_displacement.peak().value + 2.0 * 9.8 / 400.0).abs() < 1e-12);
     /// # Ok::<(), clatter_shock::Error>(())

@@ -2,9 +2,8 @@
 
 #![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small counts of steps")]
 
-use clatter_shock::{
-    DampingRatio, Peaked, Pulse, Pulses, Response, Section, Shape, Sine, Suspension, VelocityShock, VelocityShocks,
-};
+use clatter::{Section, Sine};
+use clatter_shock::{DampingRatio, Peaked, Pulse, Pulses, Response, Shape, Suspension, VelocityShock, VelocityShocks};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -34,12 +33,11 @@ impl Own {
 
 fn history(list: &[Own]) -> Pulses {
     let sections = list.iter().map(|own| Section {
-        length: own.length,
-        delta_v: own.delta_v,
         acceleration: own.acceleration,
         sines: &own.sines,
+        ..Section::shock(0.0, own.length, own.delta_v)
     });
-    Pulses::of_sections(0.0, sections).expect("sections")
+    Pulses::of_sections(sections).expect("sections")
 }
 
 /// Largest |ωz| and |A/ω| at the ends of steps within the sections, and how much a value may rise between two ends.
@@ -180,7 +178,7 @@ fn pulses_and_shocks_as_sections() {
 
 #[test]
 fn sections_of_no_sense_are_refused() {
-    let good = Section { length: 1.0, delta_v: 0.0, acceleration: [0.0; 2], sines: &[] };
+    let good = Section::shock(0.0, 1.0, 0.0);
     let wrong = [Sine { amplitude: 1.0, rate: 0.0, phase: 0.0 }];
     for (section, said) in [
         (Section { length: -1.0, ..good }, "length"),
@@ -189,8 +187,8 @@ fn sections_of_no_sense_are_refused() {
         (Section { acceleration: [0.0, f64::INFINITY], ..good }, "acceleration"),
         (Section { sines: &wrong, ..good }, "rate"),
     ] {
-        let refused = Pulses::of_sections(0.0, [good, section]).expect_err(said).to_string();
+        let refused = Pulses::of_sections([good, section]).expect_err(said).to_string();
         assert!(refused.contains(said) && refused.contains('2'), "{refused}");
     }
-    assert!(Pulses::of_sections(0.0, []).is_err());
+    assert!(Pulses::of_sections([]).is_err());
 }

@@ -22,6 +22,7 @@ mod dd;
 pub mod design;
 mod error;
 mod exact;
+mod excitation;
 mod map;
 mod motion;
 mod off_center;
@@ -36,6 +37,7 @@ mod zone;
 
 pub use bar::{Bar, Mass, Restitution};
 pub use error::Error;
+pub use excitation::{Excitation, Section, Sine};
 pub use map::{Axis, Map, Quantity, Variable};
 pub use off_center::{OffCenterBar, OffCenterTrain, Safest, Shocks, center_and_gyration};
 pub use plate::{

@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 use clatter::End;
-use clatter_flight::{Body, Contact, ContactFlight, Flight, Model, Scene, Strike};
+use clatter_flight::{Ahead, Body, Contact, Model, Motion, Scene};
 
 use super::solve::{self, Minimum, Problem};
 use super::{Known, Set};
@@ -82,9 +82,9 @@ pub(super) struct Drop<'a> {
 
 /// A drop as it was computed.
 #[derive(Debug, Clone)]
-pub(super) enum Path {
-    Rigid(Box<Scene>, Flight),
-    Contacts(Box<Scene>, Box<ContactFlight>),
+pub(super) struct Path {
+    scene: Scene,
+    pub(super) motion: Motion,
 }
 
 impl Drop<'_> {
@@ -233,11 +233,11 @@ impl Drop<'_> {
             .with_spin(x[SPIN] * speed * 2.0 / length)
     }
     /// The flight of the rigid body until `enough`.
-    pub(super) fn rigid(&self, x: &[f64], horizon_s: f64, enough: impl FnMut(&Flight) -> bool) -> Option<Path> {
+    pub(super) fn rigid(&self, x: &[f64], horizon_s: f64, enough: impl FnMut(&Ahead) -> bool) -> Option<Path> {
         let most = self.sets.iter().map(Set::strikes).max().unwrap_or(0).max(MOST_STRIKES);
         let scene = self.scene(x).ok()?.with_impact_limit(most).ok()?.with_time_limit_s(horizon_s).ok()?;
-        let flight = scene.simulate_ends(self.restitutions(x), enough).ok()?;
-        Some(Path::Rigid(Box::new(scene), flight))
+        let motion = scene.fly_by_ends(self.restitutions(x), enough).ok()?;
+        Some(Path { scene, motion })
     }
     /// The flight by the model of the fit, as far as the records need it.
     pub(super) fn path(&self, x: &[f64]) -> Option<Path> {
@@ -246,12 +246,11 @@ impl Drop<'_> {
         let horizon_s = self.horizon_s().max(until_s);
         if !self.contacts {
             let needed: Vec<[usize; 3]> = self.sets.iter().map(Set::needed).collect();
-            return self.rigid(x, horizon_s, |flight| {
-                let strikes = &flight.strikes;
-                let count = |end: End| strikes.iter().filter(|strike| self.end(strike.point) == end).count();
-                let has =
-                    |[all, a, b]: &[usize; 3]| strikes.len() >= *all && count(End::A) >= *a && count(End::B) >= *b;
-                strikes.last().is_some_and(|s| s.time_s > until_s) && needed.iter().all(has)
+            return self.rigid(x, horizon_s, |ahead| {
+                let [first, second] = ahead.struck;
+                let [of_a, of_b] = if self.first == End::A { [first, second] } else { [second, first] };
+                let has = |[all, a, b]: &[usize; 3]| first + second >= *all && of_a >= *a && of_b >= *b;
+                ahead.time_s > until_s && needed.iter().all(has)
             });
         }
         let needed = self.sets.iter().map(Set::strikes).max().unwrap_or(0);
@@ -261,12 +260,12 @@ impl Drop<'_> {
         let (mut touches, mut events) = (1, 0);
         let most = EVENTS * needed.max(MOST_CONTACTS);
         let precision = if self.is_rough { ROUGH } else { PRECISION };
-        let flight = scene.contacts_until(&contact, precision, |ahead| {
+        let motion = scene.fly_until(Model::Contacts(contact), precision, |ahead| {
             touches += usize::from(ahead.lands);
             events += 1;
             ahead.time_s > horizon_s || ahead.time_s > until_s && touches > needed || events > most
         });
-        Some(Path::Contacts(Box::new(scene), Box::new(flight.ok()?)))
+        Some(Path { scene, motion: motion.ok()? })
     }
     /// No strike that was measured is later after the first touch: what is computed later never happens.
     pub(super) fn horizon_s(&self) -> f64 {
@@ -313,34 +312,26 @@ impl Drop<'_> {
 }
 
 impl Path {
-    pub(super) fn strikes(&self) -> &[Strike] {
-        match self {
-            Self::Rigid(_, flight) => &flight.strikes,
-            Self::Contacts(_, flight) => &flight.flight.strikes,
-        }
-    }
     /// Heights of the first and the second end at a time since the first touch; before it in free flight.
     pub(super) fn heights_m(&self, time_s: f64) -> [f64; 2] {
-        match self {
-            Self::Rigid(scene, _) | Self::Contacts(scene, _) if time_s < 0.0 => {
-                let body = scene.body();
-                let [a, b] = body.arms_m();
-                let tilt = scene.tilt_rad();
-                let center = a * libm::sin(tilt) - time_s * (scene.speed_m_s() + 0.5 * scene.gravity_m_s2() * time_s);
-                let sin = libm::sin(tilt + scene.spin_rad_s() * time_s);
-                [center - a * sin, center + b * sin]
-            }
-            Self::Rigid(scene, flight) => scene.heights_m(Model::FiniteTilt, flight, time_s),
-            Self::Contacts(_, flight) => flight.sample(time_s).height_m,
+        if time_s >= 0.0 {
+            return self.motion.at(time_s).height_m;
         }
+        let scene = &self.scene;
+        let [a, b] = scene.body().arms_m();
+        let tilt = scene.tilt_rad();
+        let center = a * libm::sin(tilt) - time_s * (scene.speed_m_s() + 0.5 * scene.gravity_m_s2() * time_s);
+        let sin = libm::sin(tilt + scene.spin_rad_s() * time_s);
+        [center - a * sin, center + b * sin]
     }
     /// Velocity of a place, at `s` in [−1, 1] from the first end to the second, less that of a free fall from the first touch on: what
     /// the contacts have given it.
     pub(super) fn given_m_s(&self, s: f64, time_s: f64) -> f64 {
-        let Self::Contacts(scene, flight) = self else { return 0.0 };
-        let gravity = scene.gravity_m_s2();
-        let [a, b] = if time_s <= 0.0 { flight.sample(0.0).velocity_m_s } else { flight.sample(time_s).velocity_m_s };
-        0.5 * ((1.0 - s) * a + (1.0 + s) * b) + gravity * time_s.max(0.0)
+        if self.motion.contact().is_none() {
+            return 0.0;
+        }
+        let time_s = time_s.max(0.0);
+        self.motion.at(time_s).velocity_at(s) + self.scene.gravity_m_s2() * time_s
     }
 }
 

@@ -191,8 +191,8 @@ impl Floor<'_> {
         let path = drop.path(x)?;
         let Set::Strikes { strikes, index, .. } = &drop.sets[0] else { return None };
         let time = |(measured, which): (&super::MeasuredStrike, &Option<Which>)| {
-            let place = (*which)?.find(drop, path.strikes());
-            Some(place.map(|place| measured.time_s - path.strikes()[place].time_s))
+            let place = (*which)?.find(drop, &path.motion.strikes);
+            Some(place.map(|place| measured.time_s - path.motion.strikes[place].time_s))
         };
         let all: Vec<Option<f64>> = strikes.iter().zip(index).filter_map(time).collect();
         let (first, later) = all.split_first()?;

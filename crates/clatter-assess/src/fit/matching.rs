@@ -374,7 +374,7 @@ impl<'d> Search<'d> {
     /// A minimum and what it is worth.
     fn rated(&self, premise: &Premise, index: &[Option<Which>], free: &[usize], minimum: Minimum) -> Candidate {
         let path = self.drop.path(&minimum.x);
-        let computed = path.as_ref().map_or(&[][..], |path| path.strikes());
+        let computed = path.as_ref().map_or(&[][..], |path| &path.motion.strikes[..]);
         let places: Vec<Option<usize>> =
             index.iter().map(|which| which.and_then(|which| which.find(&self.drop, computed))).collect();
         let is_wrong = |(strike, place): &(&MeasuredStrike, &Option<usize>)| {

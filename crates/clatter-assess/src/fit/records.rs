@@ -30,7 +30,7 @@ pub(super) fn records(drop: &Drop<'_>, x: &[f64]) -> Vec<RecordFit> {
             Set::Strikes { strikes, index, .. } => {
                 let mut computed = computed.iter();
                 let places: Vec<Option<usize>> =
-                    index.iter().map(|which| which.and_then(|which| which.find(drop, path.strikes()))).collect();
+                    index.iter().map(|which| which.and_then(|which| which.find(drop, &path.motion.strikes))).collect();
                 let one =
                     |((&measured, which), place): ((&MeasuredStrike, &Option<Which>), &Option<usize>)| StrikeFit {
                         measured,
@@ -74,11 +74,13 @@ pub(super) fn missing(places: &[Option<usize>]) -> Vec<usize> {
 /// The computed strikes that are shown.
 pub(super) fn computed(drop: &Drop<'_>, x: &[f64]) -> Vec<(f64, End)> {
     let Some(path) = drop.path(x) else { return Vec::new() };
-    let needed = path.strikes().len();
+    let needed = path.motion.strikes.len();
     let more = || {
-        let last_s = path.strikes().last().map_or(0.0, |strike| strike.time_s);
-        drop.rigid(x, drop.horizon_s().max(last_s + drop.unit_s), |flight| flight.strikes.len() >= needed + MORE)
+        let last_s = path.motion.strikes.last().map_or(0.0, |strike| strike.time_s);
+        drop.rigid(x, drop.horizon_s().max(last_s + drop.unit_s), |ahead| {
+            ahead.struck.iter().sum::<usize>() >= needed + MORE
+        })
     };
     let path = if drop.contacts { None } else { more() }.unwrap_or(path);
-    path.strikes().iter().map(|strike| (strike.time_s, drop.end(strike.point))).collect()
+    path.motion.strikes.iter().map(|strike| (strike.time_s, drop.end(strike.point))).collect()
 }

@@ -124,7 +124,7 @@ impl Set<'_> {
     pub(super) fn computed(&self, drop: &Drop<'_>, path: &Path, offset_s: f64) -> Vec<f64> {
         match self {
             Self::Strikes { index, .. } => {
-                let computed = path.strikes();
+                let computed = &path.motion.strikes;
                 let never = drop.horizon_s();
                 let of_end = |end: End| -> Vec<usize> {
                     (0..computed.len()).filter(|k| drop.end(computed[*k].point) == end).collect()

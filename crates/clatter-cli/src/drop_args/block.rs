@@ -1,13 +1,13 @@
 //! A drop of a box, as options say it.
 
-use clatter_assess::STANDARD_GRAVITY_M_S2;
 use clatter_assess::units::Quantity;
+use clatter_assess::{Model, STANDARD_GRAVITY_M_S2};
 use clatter_flight::{Block, BlockDrop, Contact};
 
 use super::{DropArgs, IN_SI, either};
 use crate::Failure;
 use crate::block::Setup;
-use crate::inputs::{self, ModelName};
+use crate::inputs;
 
 /// What a box has beside a plate.
 #[derive(Debug, clap::Args)]
@@ -23,7 +23,7 @@ pub(crate) struct BlockArgs {
 
 /// What a command has of a box beside [`DropArgs`].
 pub(crate) struct Beside {
-    pub(crate) model: Option<ModelName>,
+    pub(crate) model: Option<Model>,
     pub(crate) e: Option<f64>,
     pub(crate) gyration: Option<[Quantity; 3]>,
     pub(crate) spin_rad_s: [f64; 3],
@@ -44,7 +44,7 @@ impl DropArgs {
         if self.product.is_some() {
             return Err(Failure::Usage("a product file says a bar: the options of a box do not go with --product"));
         }
-        if beside.model.is_some_and(|model| model != ModelName::Compliant) {
+        if beside.model.is_some_and(|model| model != Model::Compliant) {
             return Err(Failure::Usage(
                 "a box is followed with contacts that take time alone: --model=compliant with a short --contact-time",
             ));

@@ -1,12 +1,12 @@
 //! A drop of a plate as arguments say it.
 
-use clatter_assess::STANDARD_GRAVITY_M_S2;
 use clatter_assess::units::Quantity;
+use clatter_assess::{Model, STANDARD_GRAVITY_M_S2};
 use clatter_flight::{Contact, Plate, PlateScene};
 
 use super::{DropArgs, IN_SI, MOST_GYRATION, either};
 use crate::Failure;
-use crate::inputs::{self, ModelName};
+use crate::inputs;
 use crate::numbers::given;
 use crate::quantities::{self, PerAxis, Place, Show, Shown, neat};
 
@@ -52,7 +52,7 @@ impl PlateArgs {
 
 /// A drop of a plate with all that it needs.
 pub(crate) struct PlateSetup {
-    pub(crate) model: ModelName,
+    pub(crate) model: Model,
     pub(crate) scene: PlateScene,
     pub(crate) e: f64,
     /// Of contacts that take time.
@@ -94,7 +94,7 @@ impl DropArgs {
     /// The drop of a plate.
     pub(crate) fn plate_setup(
         &self,
-        model: Option<ModelName>,
+        model: Option<Model>,
         e: Option<f64>,
         gyration: Option<PerAxis<Quantity>>,
         gyration_flag: &'static str,
@@ -111,7 +111,7 @@ impl DropArgs {
             (e.is_some(), "--e=E"),
             (speed.is_some() || height.is_some(), "--speed=SPEED or --height=LENGTH"),
             (tilted.is_some(), "--tilt=ANGLE and --direction=ANGLE, or --gaps=HX,HY"),
-            (model != ModelName::Compliant || contact_time.is_some(), "--contact-time=TIME"),
+            (model != Model::Compliant || contact_time.is_some(), "--contact-time=TIME"),
         ];
         let missing: Vec<_> = missing.iter().filter(|(is_given, _)| !is_given).map(|(_, name)| *name).collect();
         let (Some(length), Some(width), Some(gyration), Some(e), Some(tilted), []) =
@@ -152,7 +152,7 @@ impl DropArgs {
             Tilted::Gaps(_) => [neat(tilt.asin().to_degrees()), neat(slopes[1].atan2(slopes[0]).to_degrees())],
         };
         let law = self.contact_law.map(|law| law.0).unwrap_or_default();
-        let contact = contact_time.filter(|_| model == ModelName::Compliant);
+        let contact = contact_time.filter(|_| model == Model::Compliant);
         let contact = contact.map(|time| Contact::new(law, e, time.si)).transpose()?;
         Ok(PlateSetup {
             model,
@@ -169,14 +169,14 @@ impl DropArgs {
     }
 
     /// Refuses what a plate has not.
-    fn plate_model(&self, model: Option<ModelName>) -> Result<ModelName, Failure> {
+    fn plate_model(&self, model: Option<Model>) -> Result<Model, Failure> {
         match model {
-            Some(model @ ModelName::Compliant) => Ok(model),
-            Some(ModelName::Map) if self.contact_time().is_some() || self.contact_law.is_some() => {
+            Some(model @ Model::Compliant) => Ok(model),
+            Some(Model::Map) if self.contact_time().is_some() || self.contact_law.is_some() => {
                 Err(Failure::Usage("--contact-time and --contact-law go with --model=compliant alone"))
             }
-            Some(ModelName::Map) => Ok(ModelName::Map),
-            Some(ModelName::Ballistic | ModelName::FiniteTilt) => Err(Failure::Usage(
+            Some(Model::Map) => Ok(Model::Map),
+            Some(_) => Err(Failure::Usage(
                 "--model=ballistic and --model=finite-tilt follow bars: a plate is followed by map, without gravity, or by compliant",
             )),
             None => Err(Failure::Usage("a plate needs a --model: map or compliant")),

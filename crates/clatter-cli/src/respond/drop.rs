@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use clatter::End;
 use clatter_assess::units::Quantity;
-use clatter_assess::{Accuracy, Answer, Limit, LimitKind, Part, SingleDrop, answer, respond};
+use clatter_assess::{Accuracy, Answer, Limit, LimitKind, Model, Part, SingleDrop, answer, respond};
 use clatter_shock::{ImpulseFactors, Response, Suspension};
 use serde::Serialize;
 
@@ -14,7 +14,7 @@ use super::peaks::{
     Equivalent, EquivalentJson, FactorsJson, ResponseJson, Shocks, at_once, equivalent, equivalent_table,
 };
 use crate::drop_args::{Beside, Setup};
-use crate::inputs::{ModelName, letter};
+use crate::inputs::letter;
 use crate::numbers::{Json, figures, given};
 use crate::quantities::{self, Show, neat};
 use crate::words::in_words;
@@ -68,10 +68,9 @@ impl Args {
             instant_contacts: true,
             first: self.first.map(Into::into),
             of_product: true,
-            worst: self.worst.map(|of| {
-                let model = self.model.map(Into::into);
-                (of, Accuracy { tolerance: self.tolerance, model, ..Accuracy::default() })
-            }),
+            worst: self
+                .worst
+                .map(|of| (of, Accuracy { tolerance: self.tolerance, model: self.model, ..Accuracy::default() })),
             files: self.files(),
         };
         let setup = self.drop.setup(&beside, streams)?;
@@ -124,7 +123,7 @@ impl Args {
     }
 
     fn suspended(&self, ask: &Ask<'_>, position_m: f64, suspension: Suspension) -> Result<Suspended, Failure> {
-        let response = respond(ask.drop, position_m, &suspension, ask.model.into(), ask.tolerance);
+        let response = respond(ask.drop, position_m, &suspension, ask.model, ask.tolerance);
         let response = response.map_err(Failure::Assess)?;
         let asked = self.equivalent_pulse.then(|| equivalent(&self.shock_table, &suspension, &response));
         Ok(Suspended {
@@ -140,7 +139,7 @@ impl Args {
 /// A drop, and how it is answered.
 struct Ask<'a> {
     drop: &'a SingleDrop,
-    model: ModelName,
+    model: Model,
     tolerance: f64,
 }
 
@@ -152,7 +151,7 @@ impl Ask<'_> {
         suspension: Option<Suspension>,
     ) -> Result<Answer, clatter_assess::Error> {
         let suspension = suspension.filter(|_| limit.is_response());
-        answer(self.drop, &Part { position_m, suspension }, limit, self.model.into(), self.tolerance)
+        answer(self.drop, &Part { position_m, suspension }, limit, self.model, self.tolerance)
     }
 
     /// The same of a drop that is known to be answered: none where nothing is felt.
@@ -229,7 +228,7 @@ impl Drop<'_> {
             }
             None => writeln!(out, "Place {at} of a body of {length}, e = {e}; a part there is mounted rigidly")?,
         }
-        let contact = self.single.contact_time_s.filter(|_| self.setup.model == ModelName::Compliant);
+        let contact = self.single.contact_time_s.filter(|_| self.setup.model == Model::Compliant);
         let (model, speed) = (self.setup.model.name(), shown.speed.said(self.single.speed_m_s));
         let (tilt, tolerance) = (shown.tilt(self.shortly(self.setup.tilt_deg)), given(100.0 * self.args.tolerance));
         let first = letter(self.setup.first);
@@ -307,7 +306,7 @@ impl Drop<'_> {
         line("change of velocity", shown.speed, velocity_change.as_ref(), "")?;
         if let Some(time) = self.single.contact_time_s {
             let half_sine = format!(", taken for a half-sine of {}", shown.time.given(time));
-            let note = if self.setup.model == ModelName::Compliant { "" } else { &half_sine };
+            let note = if self.setup.model == Model::Compliant { "" } else { &half_sine };
             line("acceleration", shown.acceleration, acceleration.as_ref(), note)?;
         }
         line("change of angular velocity", shown.spin, angular_velocity_change.as_ref(), "")?;
@@ -355,7 +354,7 @@ impl Drop<'_> {
             let shock = self.at_once()[i];
             part.map(|part| part.suspension.damping().impulse_factors().times(shock))
         };
-        let contact = self.single.contact_time_s.filter(|_| self.setup.model == ModelName::Compliant);
+        let contact = self.single.contact_time_s.filter(|_| self.setup.model == Model::Compliant);
         DropJson {
             model: self.setup.model.name(),
             first: letter(self.setup.first),

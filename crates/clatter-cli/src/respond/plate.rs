@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use clatter_assess::{Answer, PlateAnswers, PlateDrop, PlatePart};
+use clatter_assess::{Answer, Model, PlateAnswers, PlateDrop, PlatePart};
 use clatter_flight::Contact;
 use clatter_shock::Suspension;
 use serde::Serialize;
@@ -13,7 +13,7 @@ use super::peaks::{
     Equivalent, EquivalentJson, FactorsJson, ResponseJson, Shocks, at_once, equivalent, equivalent_table,
 };
 use crate::drop_args::PlateSetup;
-use crate::inputs::{Format, ModelName};
+use crate::inputs::Format;
 use crate::numbers::{Json, figures, given};
 use crate::quantities::{Show, neat};
 use crate::{Failure, Streams};
@@ -58,7 +58,7 @@ impl Args {
                 "--flat and --first are those of a bar: a plate lands flat with --tilt=0deg, corner a first",
             ));
         }
-        if matches!(self.model, Some(model) if model != ModelName::Compliant) {
+        if matches!(self.model, Some(model) if model != Model::Compliant) {
             return Err(Failure::Usage("a part on a plate is answered by --model=compliant alone"));
         }
         let flag = self.inertia.flag();

@@ -1,10 +1,10 @@
 //! The answer for programs.
 
 use clatter::End;
-use clatter_flight::Stop;
+use clatter_flight::{Motion, Stop};
 use serde::{Serialize, Serializer};
 
-use super::{Drop, Motion};
+use super::Drop;
 use crate::inputs::letter;
 use crate::numbers::Json;
 
@@ -12,9 +12,9 @@ impl Drop<'_> {
     pub(super) fn answer(&self) -> Answer<'_> {
         let (setup, scene) = (&self.setup, &self.setup.scene);
         let body = scene.body();
-        let flight = self.motion.flight();
+        let motion = &self.motion;
         let limit = scene.time_limit_s();
-        let pivots = flight.pivots.iter();
+        let pivots = motion.pivots.iter();
         Answer {
             model: setup.model.name(),
             length_m: Json(setup.length_m),
@@ -29,7 +29,7 @@ impl Drop<'_> {
             height_gap_m: Json(scene.height_gap_m()),
             gravity_m_s2: Json(scene.gravity_m_s2()),
             spin_rad_s: Json(scene.spin_rad_s()),
-            contact: ContactJson::new(&self.motion),
+            contact: ContactJson::new(motion),
             time_limit_s: limit.is_finite().then_some(Json(limit)),
             impact_limit: scene.impact_limit(),
             at: self.at.iter().copied().map(Json).collect(),
@@ -39,7 +39,7 @@ impl Drop<'_> {
             pivots: pivots
                 .map(|p| PivotJson { end: end(p.point), from_s: Json(p.from_s), until_s: Json(p.until_s) })
                 .collect(),
-            stop: StopJson::new(&flight.stop),
+            stop: StopJson::new(&motion.stop),
         }
     }
 }
@@ -89,11 +89,10 @@ struct ContactJson {
 
 impl ContactJson {
     fn new(motion: &Motion) -> Option<Self> {
-        let Motion::Contacts(contact, contacts) = motion else { return None };
-        Some(Self {
+        motion.contact().map(|contact| Self {
             contact_time_s: Json(contact.time_s()),
             contact_law: contact.law().name(),
-            energy_error: Json(contacts.energy_error),
+            energy_error: Json(motion.energy_error),
         })
     }
 }
@@ -154,7 +153,7 @@ struct Impacts<'a>(&'a Drop<'a>);
 impl Serialize for Impacts<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let drop = self.0;
-        serializer.collect_seq(drop.motion.flight().strikes.iter().enumerate().map(|(i, strike)| {
+        serializer.collect_seq(drop.motion.strikes.iter().enumerate().map(|(i, strike)| {
             let unfinished = drop.is_unfinished(i);
             let shock = |x: f64| (!unfinished).then_some(Json(x));
             ImpactJson {

@@ -3,10 +3,9 @@
 use std::io::{self, Write};
 
 use clatter_figures::FigureError;
-use clatter_flight::history::Row;
 use serde::Serialize;
 
-use super::{Drop, IMPACTS, Motion};
+use super::{Drop, IMPACTS};
 use crate::Failure;
 use crate::numbers::{Json, digits};
 use crate::output::{self, Kind, Target};
@@ -17,7 +16,7 @@ const MOST_ROWS: usize = 4_000_000;
 impl Drop<'_> {
     pub(super) fn write(&self, Target { path, kind }: &Target) -> Result<(), Failure> {
         let unasked = self.args.time_limit_s().is_none() && self.args.impact_limit == IMPACTS;
-        if unasked && self.rows().nth(MOST_ROWS).is_some() {
+        if unasked && self.motion.rows().nth(MOST_ROWS).is_some() {
             return Err(Failure::Usage(
                 "the motion has more than 4 million rows, some hundred megabytes: --time-limit-s or --impact-limit says how far it is wanted",
             ));
@@ -32,22 +31,14 @@ impl Drop<'_> {
         })
     }
 
-    /// The rows of the motion, one by one.
-    fn rows(&self) -> Box<dyn Iterator<Item = Row> + '_> {
-        match &self.motion {
-            Motion::Instant(model, flight) => Box::new(self.setup.scene.history(*model, flight)),
-            Motion::Contacts(contact, flight) => Box::new(flight.history(contact.time_s())),
-        }
-    }
-
     fn svg(&self) -> Result<String, FigureError> {
-        let (flight, rows) = (self.motion.flight(), self.rows().collect::<Vec<_>>());
+        let (motion, rows) = (&self.motion, self.motion.rows().collect::<Vec<_>>());
         clatter_figures::drop(&clatter_figures::Drop {
             model: &self.physics(),
             rows: &rows,
-            strikes: &flight.strikes,
-            pulses: self.motion.presses(),
-            stop: flight.stop,
+            strikes: &motion.strikes,
+            pulses: &motion.presses,
+            stop: motion.stop,
             at: &self.at,
             called: &self.named(),
         })
@@ -69,14 +60,14 @@ impl Drop<'_> {
         for s in at {
             write!(out, ",velocity_at_{}_m_s", digits(*s))?;
         }
-        if matches!(self.motion, Motion::Contacts(..)) {
+        if self.motion.contact().is_some() {
             write!(out, ",force_per_mass_a_m_s2,force_per_mass_b_m_s2,acceleration_a_m_s2,acceleration_b_m_s2")?;
             for s in at {
                 write!(out, ",acceleration_at_{}_m_s2", digits(*s))?;
             }
         }
         writeln!(out)?;
-        for row in self.rows() {
+        for row in self.motion.rows() {
             write!(out, "{}", digits(row.time_s))?;
             let velocities = row.velocity_m_s.into_iter().chain(at.iter().map(|s| row.velocity_at(*s)));
             for x in row.height_m.into_iter().chain(velocities) {
@@ -107,7 +98,7 @@ struct Rows<'a>(&'a Drop<'a>);
 impl Serialize for Rows<'_> {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let at = &self.0.at;
-        serializer.collect_seq(self.0.rows().map(|row| RowJson {
+        serializer.collect_seq(self.0.motion.rows().map(|row| RowJson {
             time_s: Json(row.time_s),
             height_m: row.height_m.map(Json),
             velocity_m_s: row.velocity_m_s.map(Json),

@@ -3,13 +3,14 @@
 use std::io::{self, Write};
 
 use clatter::{Corner, PlateStart};
-use clatter_flight::{PlateFlight, Stop};
+use clatter_assess::Model;
+use clatter_flight::{PlateMotion, Stop};
 use serde::Serialize;
 
 use super::answer::StopJson;
 use super::{Args, IMPACTS};
 use crate::drop_args::PlateSetup;
-use crate::inputs::{ModelName, RowFormat};
+use crate::inputs::RowFormat;
 use crate::numbers::{Json, digits, given};
 use crate::{Failure, Streams, columns};
 
@@ -72,17 +73,17 @@ impl Args {
         let (inertia, flag) = (self.inertia.given(), self.inertia.flag());
         let setup = self.drop.plate_setup(self.model, self.e, inertia, flag)?;
         let at = setup.places(&self.at)?;
-        let (strikes, stop, energy_error) = if setup.model == ModelName::Map {
+        let (strikes, stop, energy_error) = if setup.model == Model::Map {
             let (strikes, stop) = self.by_map(&setup)?;
             (strikes, stop, None)
         } else {
-            let flight = self.by_contacts(&setup)?;
-            (of_contacts(&flight), flight.flight.stop, Some(flight.energy_error))
+            let motion = self.by_contacts(&setup)?;
+            (of_contacts(&motion), motion.stop, Some(motion.energy_error))
         };
         Ok(Drop { args: self, setup, at, strikes, stop, energy_error })
     }
 
-    fn by_contacts(&self, setup: &PlateSetup) -> Result<PlateFlight, Failure> {
+    fn by_contacts(&self, setup: &PlateSetup) -> Result<PlateMotion, Failure> {
         let mut scene = setup.scene.with_impact_limit(self.impact_limit);
         if let Some(limit) = self.time_limit_s() {
             scene = scene.with_time_limit_s(limit)?;
@@ -91,7 +92,9 @@ impl Args {
         let Some(contact) = &setup.contact else {
             return Err(Failure::Usage("--model=compliant needs a --contact-time"));
         };
-        scene.contacts(contact).map_err(|error| self.drop.named_plate(error, self.inertia.flag()))
+        scene
+            .contacts_until(contact, 1e-4, |_| false)
+            .map_err(|error| self.drop.named_plate(error, self.inertia.flag()))
     }
 
     /// Without gravity: straight lines and impulses.
@@ -126,8 +129,8 @@ impl Args {
     }
 }
 
-fn of_contacts(flight: &PlateFlight) -> Vec<Strike> {
-    let pressed = flight.flight.strikes.iter().zip(&flight.presses);
+fn of_contacts(motion: &PlateMotion) -> Vec<Strike> {
+    let pressed = motion.strikes.iter().zip(&motion.presses);
     let one = pressed.map(|(strike, press)| Strike {
         corner: strike.point,
         time_s: strike.time_s,

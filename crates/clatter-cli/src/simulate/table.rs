@@ -2,10 +2,11 @@
 
 use std::io::{self, Write};
 
-use clatter_flight::{Model, Stop, Strike};
+use clatter_assess::Model;
+use clatter_flight::{Model as Physics, Stop, Strike};
 
+use super::Drop;
 use super::answer::end;
-use super::{Drop, ModelName, Motion};
 use crate::columns;
 use crate::numbers::{digits, figures, given};
 
@@ -17,11 +18,11 @@ impl Drop<'_> {
     pub(super) fn physics(&self) -> String {
         let shown = &self.setup.shown;
         let gravity = shown.acceleration.given(self.setup.scene.gravity_m_s2());
-        match &self.motion {
-            Motion::Instant(Model::Map, _) => "Small tilt, no gravity, instant impacts".to_owned(),
-            Motion::Instant(Model::Ballistic, _) => format!("Small tilt, gravity {gravity}, instant impacts"),
-            Motion::Instant(Model::FiniteTilt, _) => format!("Any tilt, gravity {gravity}, instant impacts"),
-            Motion::Contacts(contact, _) => {
+        match self.motion.model() {
+            Physics::Map => "Small tilt, no gravity, instant impacts".to_owned(),
+            Physics::Ballistic => format!("Small tilt, gravity {gravity}, instant impacts"),
+            Physics::FiniteTilt => format!("Any tilt, gravity {gravity}, instant impacts"),
+            Physics::Contacts(contact) => {
                 let (law, time) = (contact.law().name(), shown.time.given(contact.time_s()));
                 format!("Any tilt, gravity {gravity}, {law} contacts of {time}")
             }
@@ -33,11 +34,11 @@ impl Drop<'_> {
         self.totals(out)?;
         let (time, speed) = (self.setup.shown.time, self.setup.shown.speed);
         let mut heads = vec![("time".to_owned(), time.name())];
-        heads.extend((self.setup.model == ModelName::Compliant).then(|| ("until".to_owned(), time.name())));
+        heads.extend((self.setup.model == Model::Compliant).then(|| ("until".to_owned(), time.name())));
         heads.extend(["approach", "shock at a", "shock at b"].map(|name| (name.to_owned(), speed.name())));
         heads.extend(self.called.iter().map(|place| (format!("shock at {place}"), speed.name())));
         writeln!(out)?;
-        let strikes = &self.motion.flight().strikes;
+        let strikes = &self.motion.strikes;
         let largest = self.largest().into_iter().fold(0.0, f64::max);
         let shock = |strike: &Strike| strike.delta_v_m_s.into_iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         let matters = |i: usize| self.args.all || self.is_unfinished(i) || shock(&strikes[i]) >= MATTERS * largest;
@@ -90,15 +91,15 @@ impl Drop<'_> {
     }
 
     fn totals(&self, out: &mut dyn Write) -> io::Result<()> {
-        let (flight, time, speed) = (self.motion.flight(), self.setup.shown.time, self.setup.shown.speed);
-        let stop = match flight.stop {
+        let (motion, time, speed) = (&self.motion, self.setup.shown.time, self.setup.shown.speed);
+        let stop = match motion.stop {
             Stop::AtRest { .. } => "At rest at",
             Stop::BouncedClear { .. } => "Bounced clear at",
             Stop::TurnedOver { .. } => "Turned over at",
             Stop::ImpactLimit { .. } => "Stopped by limit at",
             _ => "Left at",
         };
-        let bounds = match flight.stop {
+        let bounds = match motion.stop {
             Stop::AtRest { time_bound_s, shock_bound_m_s, .. } if time_bound_s + shock_bound_m_s > 0.0 => {
                 let within = if time_bound_s.is_finite() {
                     format!("within {}; ", time.said(time_bound_s))
@@ -113,8 +114,8 @@ impl Drop<'_> {
         let names: Vec<_> =
             ends.into_iter().chain(self.called.iter().map(|place| format!("               at {place}"))).collect();
         let wide = names.iter().map(String::len).max().unwrap_or(0).max(22);
-        writeln!(out, "{:<wide$}{:>14}", "Impacts", flight.strikes.len())?;
-        writeln!(out, "{stop:<wide$}{:>14} {}{bounds}", time.figures(flight.stop.time_s()), time.name())?;
+        writeln!(out, "{:<wide$}{:>14}", "Impacts", motion.strikes.len())?;
+        writeln!(out, "{stop:<wide$}{:>14} {}{bounds}", time.figures(motion.stop.time_s()), time.name())?;
         for (name, shock) in names.iter().zip(self.largest().into_iter().chain(self.largest_at())) {
             writeln!(out, "{name:<wide$}{:>14} {}", speed.figures(shock), speed.name())?;
         }
@@ -140,13 +141,13 @@ impl Drop<'_> {
     }
 
     pub(super) fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
-        let until = if self.setup.model == ModelName::Compliant { ",until_s" } else { "" };
+        let until = if self.setup.model == Model::Compliant { ",until_s" } else { "" };
         write!(out, "number,end,time_s{until},approach_m_s,delta_v_a_m_s,delta_v_b_m_s")?;
         for s in &self.at {
             write!(out, ",delta_v_at_{}_m_s", digits(*s))?;
         }
         writeln!(out)?;
-        for (i, strike) in self.motion.flight().strikes.iter().enumerate() {
+        for (i, strike) in self.motion.strikes.iter().enumerate() {
             let cells = self.cells(i, strike, digits, digits).join(",");
             writeln!(out, "{},{},{cells}", strike.number, end(strike.point))?;
         }

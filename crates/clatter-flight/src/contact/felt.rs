@@ -1,11 +1,11 @@
 //! What a place of the body feels in a flight with contacts.
 
-use super::level::Level;
+use clatter::{Excitation, Section, Sine};
+
 use super::mode::{Mode, Motion};
 use super::phase::Phase;
-use super::pose::Pose;
-use super::{ContactFlight, PlateFlight};
-use crate::excitation::{Stretch, Wave};
+use super::{Level, Phases, Planar, Pose};
+use crate::motion::PlateMotion;
 
 /// Over a contact, what is so short that nothing is spread over it.
 const SHORT: f64 = 0.1;
@@ -20,93 +20,80 @@ struct Lines {
     most: f64,
 }
 
-impl<const N: usize, P: Pose<N>> ContactFlight<N, P> {
-    /// What a place feels, in m from the center of mass: of a body seen from the side x and z ([`Body::place`](crate::Body::place)
-    /// is a position on a bar), of a plate x and y.
-    ///
-    /// `straight` is by how much straight lines may miss a damped vibration (of [`Dashpot`](crate::ContactLaw::Dashpot)
-    /// contacts), over the largest acceleration so far.
-    ///
-    /// # Accuracy
-    /// It adds up to the motion of the flight: what lever arms kept through a phase leave out is spread over it, and what is left of
-    /// the motion as the flight ends at rest is a velocity shock then. Where the body turns by more than a right angle in one
-    /// flight, nothing is felt of that turn: the axis of a part has turned with it.
-    #[must_use]
-    pub fn felt(&self, place: [f64; 2], straight: f64) -> Vec<Stretch<N>> {
+impl<const N: usize, P: Pose<N>> Phases<N, P> {
+    /// What a place feels, in m from the center of mass: of a body seen from the side x and z, of a plate x and y.
+    pub(crate) fn felt(&self, place: [f64; 2]) -> Excitation {
         let velocity = |pose: &P| pose.velocity_of(place);
-        self.sections(straight, velocity, self.end.gravity(), |phase, span, lines, felt| {
-            let mut stretch = Stretch::shock(span[0], span[1], 0.0);
+        self.sections(velocity, self.end.gravity(), |phase, span, lines, felt| {
+            let section = Section::shock(span[0], span[1], 0.0);
             if phase.is_free() {
-                let changed = phase.start.flying_felt(place, &mut stretch);
-                stretch.free = true;
-                felt.push(stretch);
+                let (turns, changed) = phase.start.flying_felt(place, section.length);
+                felt.push(Section { sines: &[turns], free: true, ..section });
                 return changed;
             }
             let of = phase.start.couplings_of(&phase.arms, place);
             let steady = phase.start.turning(&phase.arms, place) + phase.steady(&of);
-            phase.sum_of_modes(&phase.felt_by(&of), steady, stretch, lines, felt)
+            phase.sum_of_modes(&phase.felt_by(&of), steady, section, lines, felt)
         })
     }
     /// What an angular velocity goes through, in rad where [`felt`](Self::felt) has m, by what a force of 1 over the mass at each
     /// point does to it.
-    pub(super) fn turned_by(
-        &self,
-        straight: f64,
-        spin: impl Fn(&P) -> f64,
-        of: impl Fn(&Phase<P, N>) -> [f64; N],
-    ) -> Vec<Stretch<N>> {
-        self.sections(straight, spin, 0.0, |phase, span, lines, turned| {
-            let stretch = Stretch::shock(span[0], span[1], 0.0);
+    fn turned_by(&self, spin: impl Fn(&P) -> f64, of: impl Fn(&Phase<P, N>) -> [f64; N]) -> Excitation {
+        self.sections(spin, 0.0, |phase, span, lines, turned| {
+            let section = Section::shock(span[0], span[1], 0.0);
             if phase.is_free() {
-                turned.push(Stretch { free: true, ..stretch });
+                turned.push(Section { free: true, ..section });
                 return 0.0;
             }
             let of = of(phase);
-            phase.sum_of_modes(&phase.felt_by(&of), phase.steady(&of), stretch, lines, turned)
+            phase.sum_of_modes(&phase.felt_by(&of), phase.steady(&of), section, lines, turned)
         })
     }
     /// Of every phase what `add` appends, which returns what that changes `velocity` by, besides gravity. What is missing to the
     /// motion is spread over the phase, or over the next one that is not far shorter than a contact.
     fn sections(
         &self,
-        straight: f64,
         velocity: impl Fn(&P) -> f64,
         gravity: f64,
-        add: impl Fn(&Phase<P, N>, [f64; 2], &mut Lines, &mut Vec<Stretch<N>>) -> f64,
-    ) -> Vec<Stretch<N>> {
-        let mut sections: Vec<Stretch<N>> = Vec::with_capacity(self.phases.len() + 1);
-        let (until, mut lines, mut short) = (self.flight.stop.time_s(), Lines { straight, most: 0.0 }, 0.0);
-        for (k, (from_s, phase)) in self.phases.iter().enumerate() {
-            let (next, first) = (self.phases.get(k + 1), sections.len());
+        add: impl Fn(&Phase<P, N>, [f64; 2], &mut Lines, &mut Excitation) -> f64,
+    ) -> Excitation {
+        let mut sections = Excitation::with_capacity(self.list.len() + 1);
+        let (until, mut lines, mut short) = (self.end_s, Lines { straight: self.precision, most: 0.0 }, 0.0);
+        for (k, (from_s, phase)) in self.list.iter().enumerate() {
+            let (next, first) = (self.list.get(k + 1), sections.sections().len());
             let length_s = (next.map_or(until, |(from, _)| *from) - from_s).max(0.0);
             let then = next.map_or(&self.last, |(_, next)| &next.start);
             let changed = velocity(then) - velocity(&phase.start) + gravity * length_s;
             short += changed - add(phase, [*from_s, length_s], &mut lines, &mut sections);
             if length_s > SHORT * self.contact_s {
-                let spread = short / length_s;
-                sections[first..].iter_mut().flat_map(|s| &mut s.acceleration_m_s2).for_each(|a| *a += spread);
+                sections.lift(first, short / length_s);
                 short = 0.0;
             }
         }
-        sections.push(Stretch::shock(until, 0.0, short + velocity(&self.end) - velocity(&self.last)));
+        sections.push(Section::shock(until, 0.0, short + velocity(&self.end) - velocity(&self.last)));
         sections
     }
 }
 
-impl<const N: usize> ContactFlight<N> {
+impl<const N: usize> Phases<N, Planar<N>> {
     /// The angular acceleration of the body, in rad where [`felt`](Self::felt) has m.
-    #[must_use]
-    pub fn turned(&self, straight: f64) -> Vec<Stretch<N>> {
-        self.turned_by(straight, |pose| pose.spin, |phase| phase.start.turned_by(&phase.arms))
+    pub(crate) fn turned(&self) -> Excitation {
+        self.turned_by(|pose| pose.spin, |phase| phase.start.turned_by(&phase.arms))
     }
 }
 
-impl PlateFlight {
+impl PlateMotion {
+    /// What a place x, y feels, in m from the center of mass: its acceleration above free fall, as [`Motion::felt`](crate::Motion::felt).
+    #[must_use]
+    pub fn felt(&self, place: [f64; 2]) -> Excitation {
+        self.phases().map_or_else(Excitation::default, |phases| phases.felt(place))
+    }
     /// The acceleration of the slope along a direction x, y, in rad where [`felt`](Self::felt) has m.
     #[must_use]
-    pub fn turned(&self, direction: [f64; 2], straight: f64) -> Vec<Stretch<4>> {
+    pub fn turned(&self, direction: [f64; 2]) -> Excitation {
         let by = |phase: &Phase<Level, 4>| phase.start.slope_by(direction);
-        self.turned_by(straight, |pose| pose.rate_along(direction), by)
+        let turned = |phases: &Phases<4, Level>| phases.turned_by(|pose| pose.rate_along(direction), by);
+        self.phases().map_or_else(Excitation::default, turned)
     }
 }
 
@@ -116,30 +103,31 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
         &self,
         by_mode: &[f64; N],
         mut steady: f64,
-        mut stretch: Stretch<N>,
+        section: Section<'_>,
         lines: &mut Lines,
-        felt: &mut Vec<Stretch<N>>,
+        felt: &mut Excitation,
     ) -> f64 {
         if self.delay > 0.0 && !self.modes().is_empty() {
-            return self.straight_lines(by_mode, steady, stretch, lines, felt);
+            return self.straight_lines(by_mode, steady, section, lines, felt);
         }
+        let mut sines = [Sine::default(); N];
         for (m, mode) in self.modes().iter().enumerate() {
             steady += by_mode[m] * mode.rest();
-            let [amplitude, rate_rad_s, phase_rad] = mode.wave();
-            stretch.waves[m] = Wave { amplitude_m_s2: by_mode[m] * amplitude, rate_rad_s, phase_rad };
+            let [amplitude, rate, phase] = mode.wave();
+            sines[m] = Sine { amplitude: by_mode[m] * amplitude, rate, phase };
         }
-        stretch.acceleration_m_s2 = [steady; 2];
-        felt.push(stretch);
-        stretch.velocity_after(stretch.length_s)
+        let section = Section { acceleration: [steady; 2], sines: &sines, ..section };
+        felt.push(section);
+        section.velocity_after(section.length)
     }
     /// A damped vibration as straight lines.
     fn straight_lines(
         &self,
         by_mode: &[f64; N],
         steady: f64,
-        whole: Stretch<N>,
+        whole: Section<'_>,
         lines: &mut Lines,
-        felt: &mut Vec<Stretch<N>>,
+        felt: &mut Excitation,
     ) -> f64 {
         let at = |motions: &[Motion; N]| {
             let press = self.modes().iter().zip(motions).zip(by_mode).map(|((mode, m), by)| by * mode.press(m));
@@ -153,22 +141,22 @@ impl<P: Pose<N>, const N: usize> Phase<P, N> {
             };
             self.modes().iter().zip(motions).zip(by_mode).map(one).sum::<f64>()
         };
-        let three = [0.0, 0.5, 1.0].map(|share| at(&self.motions(share * whole.length_s)).abs());
+        let three = [0.0, 0.5, 1.0].map(|share| at(&self.motions(share * whole.length)).abs());
         lines.most = three.into_iter().fold(lines.most, f64::max);
         let (mut t, mut motions, mut sum) = (0.0, self.motions(0.0), 0.0);
         let (mut bend, mut begin) = (bends(&motions), at(&motions));
-        let least = whole.length_s / MOST_LINES;
-        while t < whole.length_s || t == 0.0 {
+        let least = whole.length / MOST_LINES;
+        while t < whole.length || t == 0.0 {
             // A straight line over h misses h²/8 of the bend; nothing bends where both sides press alike.
             let most = (8.0 * lines.straight * lines.most / bend).sqrt().max(least);
-            let step = if bend > 0.0 { most } else { whole.length_s };
-            let then = if t + step < whole.length_s { t + step } else { whole.length_s };
+            let step = if bend > 0.0 { most } else { whole.length };
+            let then = if t + step < whole.length { t + step } else { whole.length };
             motions = self.motions(then);
             let end = at(&motions);
-            let line = Stretch::shock(whole.from_s + t, then - t, 0.0);
-            felt.push(Stretch { acceleration_m_s2: [begin, end], ..line });
+            let line = Section::shock(whole.from + t, then - t, 0.0);
+            felt.push(Section { acceleration: [begin, end], ..line });
             sum += 0.5 * (begin + end) * (then - t);
-            if then >= whole.length_s {
+            if then >= whole.length {
                 break;
             }
             (t, begin, bend) = (then, end, bends(&motions));

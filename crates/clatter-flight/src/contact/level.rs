@@ -24,7 +24,7 @@ const AROUND: [f64; 4] = [1.0, -1.0, 1.0, -1.0];
 
 impl Level {
     /// The first touch: the lowest corner is on the ground.
-    pub(super) fn start(scene: &PlateScene) -> Self {
+    pub(crate) fn start(scene: &PlateScene) -> Self {
         let plate = scene.plate();
         let ([length, width], [x, y]) = (plate.sides_m(), scene.gaps_m());
         let slopes = [x / length, y / width];

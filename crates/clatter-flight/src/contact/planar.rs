@@ -4,16 +4,18 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use clatter::Sine;
+
 use super::pose::{Borne, Extent, Pose, Pushes};
 use crate::body::Body;
-use crate::excitation::Stretch;
+use crate::excitation::turning;
 use crate::roots::safe_step;
 use crate::scene::Scene;
 
 /// A [`Body`] in motion.
 #[derive(Debug, Clone, Copy)]
 pub struct Planar<const N: usize> {
-    body: Body<N>,
+    pub(crate) body: Body<N>,
     gravity: f64,
     /// Square of the radius of gyration.
     rho2: f64,
@@ -117,8 +119,8 @@ impl<const N: usize> Pose<N> for Planar<N> {
         let turning = self.body.radius(point) * w * w;
         [self.gravity + turning, turning * w, turning * w * w]
     }
-    fn flying_felt(&self, place: [f64; 2], stretch: &mut Stretch<N>) -> f64 {
-        stretch.turning(place, self.tilt, self.spin)
+    fn flying_felt(&self, place: [f64; 2], length_s: f64) -> (Sine, f64) {
+        turning(place, self.tilt, self.spin, length_s)
     }
     /// The center of mass is higher than the distance of the point.
     fn clear(&self, point: usize, t: f64) -> f64 {

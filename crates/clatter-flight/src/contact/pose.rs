@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use crate::excitation::Stretch;
+use clatter::Sine;
 
 /// A body in motion. All that the engine knows of its shape it knows from here, the coupling
 ///
@@ -38,9 +38,9 @@ pub trait Pose<const N: usize>: Copy + Debug {
     fn flying(&self, point: usize, t: f64) -> [f64; 4];
     /// Bounds of the second, third and fourth derivative of the height of a point in free flight.
     fn flying_bounds(&self, point: usize) -> [f64; 3];
-    /// What a place feels of the turning in a free flight, added to its stretch; returns what that changes its velocity by.
-    fn flying_felt(&self, _place: [f64; 2], _stretch: &mut Stretch<N>) -> f64 {
-        0.0
+    /// What a place feels of the turning in a free flight of this length, and what that changes its velocity by.
+    fn flying_felt(&self, _place: [f64; 2], _length_s: f64) -> (Sine, f64) {
+        (Sine::default(), 0.0)
     }
     /// Time after t in which no angle lets a point touch.
     fn clear(&self, _point: usize, _t: f64) -> f64 {

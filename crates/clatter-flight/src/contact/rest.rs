@@ -1,12 +1,12 @@
 //! What lies, what rests, and what may still come.
 
-use super::Ahead;
 use super::law::ContactLaw;
 use super::phase::Hold;
 use super::pose::{Borne, Pose, Pushes, solve};
 use super::run::Run;
 use super::touch::{Event, State, Touch};
 use crate::flight::Stop;
+use crate::motion::Ahead;
 
 /// A depth must be so many times what heights are told apart by.
 const SUNK: f64 = 16.0;
@@ -102,7 +102,7 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
     }
 
     /// What may still come.
-    pub(super) fn ahead(&self, lands: bool) -> Ahead {
+    pub(super) fn ahead(&self, lands: bool) -> Ahead<N> {
         let strikes = &self.log.flight.strikes;
         let down = (0..N).filter(|&i| self.touches[i].is_pressing());
         // The body may yet come to lie on a lower side.
@@ -110,6 +110,7 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         let unfinished = down.flat_map(|i| strikes[self.touches[i].strike].delta_v_m_s);
         Ahead {
             time_s: self.time.now(),
+            struck: self.log.struck,
             largest_m_s: unfinished.fold(self.log.largest_m_s, |most, dv| most.max(dv.abs())),
             most_m_s: most.unwrap_or(f64::INFINITY),
             lands,

@@ -5,9 +5,10 @@ use super::mode::Motion;
 use super::phase::{Hold, Phase};
 use super::pose::{Extent, Pose};
 use super::touch::{Event, Margins, State, Touch, Watch};
-use super::{Ahead, ContactFlight, Press};
+use super::{Phases, Press};
 use crate::Error;
-use crate::flight::{After, Log, State as Heights, Stop};
+use crate::flight::{After, Flight, Log, Model, State as Heights, Stop};
+use crate::motion::{Ahead, Course};
 use crate::rigid::Clock;
 use crate::roots::{Zero, far_step, first_zero, safe_step};
 
@@ -39,7 +40,7 @@ const EACH_STRIKE: usize = 128;
 /// where an event has just happened.
 const MARGIN: f64 = 1e-14;
 
-pub(super) struct Run<'a, P: Pose<N>, const N: usize> {
+pub(crate) struct Run<'a, P: Pose<N>, const N: usize> {
     pub(super) contact: &'a Contact,
     pub(super) precision: f64,
     pub(super) margins: Margins,
@@ -71,7 +72,7 @@ struct Lasting<P: Pose<N>, const N: usize> {
 
 impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
     /// From the first touch.
-    pub(super) fn new(pose: P, log: Log<N>, contact: &'a Contact, precision: f64) -> Self {
+    pub(crate) fn new(pose: P, log: Log<N>, contact: &'a Contact, precision: f64) -> Self {
         let extent = pose.extent();
         Self {
             contact,
@@ -94,7 +95,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         }
     }
 
-    pub(super) fn run(mut self, mut enough: impl FnMut(&Ahead) -> bool) -> Result<ContactFlight<N, P>, Error> {
+    pub(crate) fn run(mut self, mut enough: impl FnMut(&Ahead<N>) -> bool) -> Result<crate::Motion<N, P>, Error> {
         let mut goes_on = self.first_touches();
         while goes_on {
             if let Some((forces, bound)) = self.rests() {
@@ -113,7 +114,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
     }
 
     /// A phase and the event at its end. Whether the flight goes on.
-    fn step(&mut self, enough: &mut impl FnMut(&Ahead) -> bool) -> Result<bool, Error> {
+    fn step(&mut self, enough: &mut impl FnMut(&Ahead<N>) -> bool) -> Result<bool, Error> {
         let Lasting { phase, dt, event } = self.next();
         if dt > 0.0 {
             self.phases.push((self.time.now(), phase));
@@ -166,7 +167,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
         self.log.flight.stop = Stop::BouncedClear { time_s: parted };
     }
 
-    fn finish(mut self) -> ContactFlight<N, P> {
+    fn finish(mut self) -> crate::Motion<N, P> {
         let energy_error = self.misfit / self.opened;
         let later_m_s = match self.log.flight.stop {
             Stop::AtRest { shock_bound_m_s, .. } => shock_bound_m_s,
@@ -180,20 +181,20 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
                 (strike.velocity_m_s, strike.spin_rad_s) = (velocity, spin);
             }
         }
-        let contact_s = self.contact.time_s();
-        let Self { log, presses, phases, pose, unrested, resting, .. } = self;
-        let last = unrested.unwrap_or(pose);
-        ContactFlight {
-            flight: log.flight,
-            presses,
-            energy_error,
-            later_m_s,
-            contact_s,
-            phases,
-            last,
-            end: pose,
+        let Self { log, presses, phases, pose: end, unrested, resting, precision, .. } = self;
+        let Flight { strikes, pivots, stop } = log.flight;
+        let course = Course::Contacts(Phases {
+            precision,
+            contact_s: self.contact.time_s(),
+            end_s: stop.time_s(),
+            rests: matches!(stop, Stop::AtRest { .. }),
+            list: phases,
+            last: unrested.unwrap_or(end),
+            end,
             resting,
-        }
+        });
+        let model = Model::Contacts(*self.contact);
+        crate::Motion { strikes, pivots, presses, stop, later_m_s, energy_error, model, course }
     }
 
     fn next(&mut self) -> Lasting<P, N> {

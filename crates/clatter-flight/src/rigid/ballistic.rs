@@ -20,7 +20,7 @@ use super::settling::Settling;
 use crate::flight::{After, Flight, Log, SHARE, State, short};
 use crate::scene::Scene;
 
-pub(super) fn simulate(scene: &Scene, mut enough: impl FnMut(&Flight) -> bool) -> Flight {
+pub(super) fn simulate(scene: &Scene, mut enough: impl FnMut(&Log<2>) -> bool) -> Flight {
     let (e, g) = (scene.e(), scene.gravity_m_s2());
     let q = scene.body().inertia_ratios();
     let length = scene.body().length_m();

@@ -39,7 +39,7 @@ use crate::scene::Scene;
 
 /// The body in flight, or at the moment of a strike.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Pose {
+pub(super) struct Airborne {
     pub(super) body: Body,
     pub(super) gravity: f64,
     /// Heights and vertical velocities of the ends.
@@ -70,7 +70,7 @@ fn theta_minus_sin(theta: f64, sin: f64) -> f64 {
     theta * t2 / 6.0 * sum
 }
 
-impl Pose {
+impl Airborne {
     pub(super) fn start(scene: &Scene) -> Self {
         let (sin, cos) = scene.tilt_rad().sin_cos();
         let (levers, _) = scene.body().levers(sin, cos);
@@ -238,12 +238,12 @@ struct Ledger {
 }
 
 impl Ledger {
-    fn open(pose: &Pose) -> Self {
+    fn open(pose: &Airborne) -> Self {
         let energy = pose.energy();
         Self { energy, opened: energy }
     }
     /// Corrects the velocities of a body in flight by what rounding has done to its energy.
-    fn settle(&self, pose: &mut Pose) {
+    fn settle(&self, pose: &mut Airborne) {
         let (y, _) = pose.center();
         let now = pose.energy();
         let share = 0.5 * (self.energy - now) / (now - pose.gravity * y);
@@ -254,7 +254,7 @@ impl Ledger {
         }
     }
     /// Books the loss of a strike at effective mass `mass`; opens anew once the old account is twice as large.
-    fn strike(&mut self, pose: &Pose, mass: f64, e: f64, u: f64) {
+    fn strike(&mut self, pose: &Airborne, mass: f64, e: f64, u: f64) {
         self.energy -= 0.5 * mass * (1.0 - e) * (1.0 + e) * u * u;
         if self.energy < 0.5 * self.opened {
             *self = Self::open(pose);
@@ -267,11 +267,11 @@ impl Ledger {
 const IDLE: u32 = 64;
 
 /// `e` of ends a and b. Strikes are looked for until `horizon_s`.
-pub(super) fn simulate(scene: &Scene, e: [f64; 2], horizon_s: f64, mut enough: impl FnMut(&Flight) -> bool) -> Flight {
+pub(super) fn simulate(scene: &Scene, e: [f64; 2], horizon_s: f64, mut enough: impl FnMut(&Log<2>) -> bool) -> Flight {
     let g = scene.gravity_m_s2();
     let rest = Rest::new(scene, e);
     let mut log = Log::new(scene.time_limit_s(), scene.impact_limit());
-    let mut pose = Pose::start(scene);
+    let mut pose = Airborne::start(scene);
     let mut time = Clock::default();
     let mut leaving = [false; 2];
     let mut ledger = Ledger::open(&pose);
@@ -369,7 +369,7 @@ pub(super) fn simulate(scene: &Scene, e: [f64; 2], horizon_s: f64, mut enough: i
 }
 
 /// Sums the chatter of end `i` alone, if it is negligible, proven to contract, and the other end provably stays up.
-fn chatter(pose: &mut Pose, time: &mut Clock, log: &mut Log<2>, i: usize, e: f64) {
+fn chatter(pose: &mut Airborne, time: &mut Clock, log: &mut Log<2>, i: usize, e: f64) {
     let j = 1 - i;
     let gamma = -pose.acceleration(i);
     let s = pose.ends.v[i] / (1.0 - e);
@@ -434,7 +434,7 @@ impl Rest {
         }
     }
     /// Largest time and shock left after a strike of end i, where a proof is at hand.
-    fn left(&self, before: &Pose, after: &Pose, i: usize) -> Option<(f64, f64)> {
+    fn left(&self, before: &Airborne, after: &Airborne, i: usize) -> Option<(f64, f64)> {
         let [a, b] = after.body.arms_m();
         // A center half a thickness over the ends moves them as a tilt does.
         if after.sin.abs() * (1.0 + after.body.thickness_m() / a.min(b)) > 1e-3 {

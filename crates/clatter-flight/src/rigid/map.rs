@@ -31,7 +31,7 @@ impl Scene {
     }
 }
 
-pub(super) fn simulate(scene: &Scene, mut enough: impl FnMut(&Flight) -> bool) -> Flight {
+pub(super) fn simulate(scene: &Scene, mut enough: impl FnMut(&Log<2>) -> bool) -> Flight {
     let mut log = Log::new(scene.time_limit_s(), scene.impact_limit());
     let e = scene.e();
     let body = scene.body();

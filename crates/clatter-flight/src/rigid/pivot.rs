@@ -14,7 +14,7 @@
 //! The time is the integral of `√(I/2K)`, K the kinetic energy, by adaptive quadrature; near a turning point `ψ_m` in
 //! `x = √(ψ_m − ψ)`, where the integrand is smooth.
 
-use super::finite_tilt::Pose;
+use super::finite_tilt::Airborne;
 use crate::body::Body;
 use clatter::quadrature::integrate;
 
@@ -33,7 +33,7 @@ pub(super) enum Event {
 }
 
 /// Runs the pivot about end `i`, which lies still; returns the pose after, the time taken and what ended it.
-pub(super) fn run(pose: &Pose, i: usize) -> (Pose, f64, Event) {
+pub(super) fn run(pose: &Airborne, i: usize) -> (Airborne, f64, Event) {
     let g = pose.gravity;
     let arm = pose.body.radius(i);
     let rho2 = pose.body.gyration_m().powi(2);

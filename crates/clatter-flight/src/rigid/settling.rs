@@ -95,7 +95,7 @@ impl Settling {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Flight, Model, Scene, Stop};
+    use crate::{Model, Motion, Scene, Stop};
 
     const G: f64 = 9.81;
 
@@ -163,10 +163,10 @@ mod tests {
     }
 
     /// Drops until rest, low enough that the body stays near the ground, high enough for strikes of every pattern.
-    fn drops(body: Body, e: f64) -> impl Iterator<Item = Flight> {
+    fn drops(body: Body, e: f64) -> impl Iterator<Item = Motion> {
         [(0.0, 0.0), (0.3, 0.0), (3.0, 0.0), (0.3, 6.0), (3.0, -5.0)].into_iter().map(move |(tilt, spin)| {
             let scene = Scene::new(body, e, 1.5, tilt, G).and_then(|s| s.with_spin(spin)).expect("a drop");
-            scene.simulate(Model::Ballistic)
+            scene.fly(Model::Ballistic).expect("a motion")
         })
     }
 

@@ -1,6 +1,6 @@
 //! The flight models beside one another, and the contact engine beside itself at a finer precision.
 
-use clatter_flight::{Body, Contact, ContactLaw, Flight, Model, Order, Residue, Scene, orders, residues};
+use clatter_flight::{Body, Contact, ContactLaw, Model, Motion, Order, Residue, Scene, orders, residues};
 
 use crate::ReportError;
 
@@ -45,7 +45,7 @@ pub(super) struct Flights {
     pub(super) orders: Vec<Order>,
     pub(super) residues: Vec<Residue>,
     /// One drop by all models.
-    pub(super) models: Vec<(&'static str, Flight)>,
+    pub(super) models: Vec<(&'static str, Motion)>,
     /// h0/v0 of that drop, in seconds, and its contact time.
     pub(super) unit_s: f64,
     pub(super) contact_s: f64,
@@ -60,11 +60,12 @@ fn scene(tilt_deg: f64) -> Result<Scene, ReportError> {
 impl Flights {
     pub(super) fn compute() -> Result<Self, ReportError> {
         let drop = scene(TILT_DEG)?;
-        let rigid = [("map", Model::Map), ("ballistic", Model::Ballistic), ("finite tilt", Model::FiniteTilt)];
-        let mut models: Vec<_> = rigid.into_iter().map(|(name, model)| (name, drop.simulate(model))).collect();
+        let mut models = vec![("map", Model::Map), ("ballistic", Model::Ballistic), ("finite tilt", Model::FiniteTilt)];
         for (_, name, law) in LAWS {
-            models.push((name, drop.contacts(&Contact::new(law, RESTITUTION, CONTACT_S)?)?.flight));
+            models.push((name, Model::Contacts(Contact::new(law, RESTITUTION, CONTACT_S)?)));
         }
+        let models = models.into_iter().map(|(name, model)| Ok((name, drop.fly(model)?)));
+        let models = models.collect::<Result<_, ReportError>>()?;
         Ok(Self {
             orders: orders()?,
             residues: residues()?,
@@ -81,19 +82,19 @@ fn steps() -> Result<Vec<Step>, ReportError> {
     let drop = scene(STEEP_DEG)?;
     let mut steps = Vec::new();
     for (name, _, law) in LAWS {
-        let contact = Contact::new(law, RESTITUTION, LONG_CONTACT_S)?;
-        let finest = drop.contacts_until(&contact, FINEST, |_| false)?.flight;
+        let model = Model::Contacts(Contact::new(law, RESTITUTION, LONG_CONTACT_S)?);
+        let finest = drop.fly_until(model, FINEST, |_| false)?;
         for (precision, value) in PRECISIONS {
-            let flight = drop.contacts_until(&contact, value, |_| false)?;
-            let [time, approach, shock] = off(&flight.flight, &finest);
-            steps.push(Step { law: name, precision, time, approach, shock, phases: flight.phases_s().count() });
+            let motion = drop.fly_until(model, value, |_| false)?;
+            let [time, approach, shock] = off(&motion, &finest);
+            steps.push(Step { law: name, precision, time, approach, shock, phases: motion.phases_s().count() });
         }
     }
     Ok(steps)
 }
 
 /// Largest differences of times, approach speeds and velocity shocks; infinite where another point strikes, or none.
-fn off(flight: &Flight, finest: &Flight) -> [f64; 3] {
+fn off(flight: &Motion, finest: &Motion) -> [f64; 3] {
     let mut most = [0.0_f64; 3];
     for (k, want) in finest.strikes.iter().take(COMPARED).enumerate() {
         let Some(got) = flight.strikes.get(k).filter(|got| got.point == want.point) else { return [f64::INFINITY; 3] };
@@ -124,7 +125,7 @@ mod tests {
     #[test]
     fn another_order_of_strikes_is_no_small_error() {
         let drop = scene(TILT_DEG).unwrap();
-        let flight = drop.simulate(Model::Map);
+        let flight = drop.fly(Model::Map).unwrap();
         let mut other = flight.clone();
         other.strikes.swap(0, 1);
         assert!(off(&other, &flight).iter().all(|error| error.is_infinite()), "{other:?}");
