@@ -95,7 +95,7 @@ impl ProductFile {
             return Vec::new();
         }
         let ranges = self.ranges(&assessment.accuracy);
-        let (tilts, until) = (tilts(&ranges), self.until(assessment));
+        let (tilts, until) = (tilts(&ranges), Self::until(assessment));
         // Where the file names no contact law a verdict counts with both of them.
         let laws = match (ranges.model, self.product.contact_law) {
             (Model::Compliant, None) => vec![ranges.law, ranges.law.other()],
@@ -116,7 +116,7 @@ impl ProductFile {
         let each = self.components.par_iter().zip(&assessment.components);
         let portrait = |(component, assessed)| {
             let tightest: &LimitAssessment = ComponentAssessment::tightest(assessed);
-            let (history, impacts_s) = self.history(tightest, &ranges).unwrap_or_default();
+            let (history, impacts_s) = Self::history(tightest, &ranges).unwrap_or_default();
             let over_tilt = curves::over_tilt(&ranges, &drops[0], (component, tightest), tilts, until);
             let fastest = bounds.frequency_factor * rough_to_rad_s(component);
             let ends: Vec<_> = drops.iter().map(|drops| Places::new(drops, component.places_m(), fastest)).collect();
@@ -132,13 +132,13 @@ impl ProductFile {
     }
 
     /// Past the peaks of the worst cases that come after the product has landed again.
-    fn until(&self, assessment: &Assessment) -> Until {
+    fn until(assessment: &Assessment) -> Until {
         let worst = assessment.components.iter().flat_map(|c| &c.limits).filter_map(|l| l.worst_case.as_ref());
         let late = worst.filter(|worst| worst.time_s > worst.drop.clear_s());
         late.map(|worst| worst.time_s).reduce(f64::max).map_or(Until::Lands, Until::Past)
     }
 
-    fn history(&self, limit: &LimitAssessment, ranges: &Ranges<'_>) -> Result<(Curve, Vec<f64>), Error> {
+    fn history(limit: &LimitAssessment, ranges: &Ranges<'_>) -> Result<(Curve, Vec<f64>), Error> {
         let Some(worst) = &limit.worst_case else { return Ok(Default::default()) };
         let WorstCase { drop, part, .. } = worst;
         let followed = Followed::new(drop, ranges.model, ranges.tolerance)?;

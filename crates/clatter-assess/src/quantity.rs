@@ -186,8 +186,7 @@ impl LimitKind {
         let mut all = [Self::Acceleration; ROWS.len()];
         let mut k = 0;
         while k < ROWS.len() {
-            // A row stands where its kind does.
-            assert!(ROWS[k].kind as usize == k);
+            assert!(ROWS[k].kind as usize == k, "a row stands where its kind does");
             all[k] = ROWS[k].kind;
             k += 1;
         }

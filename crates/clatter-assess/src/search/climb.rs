@@ -3,7 +3,7 @@
 use super::grid::halton;
 use super::ranges::{AXES, DAMPING, FREQUENCY, Ranges, TILT};
 use super::{Asked, Task, Work, fastest_rad_s, rough_to_rad_s};
-use crate::drop::Until;
+use crate::drop::{Followed, Until};
 use crate::engine::Felt;
 use crate::{Mount, Spread};
 
@@ -38,6 +38,9 @@ impl Ranges<'_> {
         let mut best = start;
         let Ok(mut here) = self.follow(&best.place, until) else { return best };
         for _ in 0..HALVINGS {
+            if free[FREQUENCY] {
+                best = Self::at_ends_of_frequency(task, best, &here, fastest);
+            }
             for axis in (0..AXES).filter(|&axis| free[axis]) {
                 if work.go_on(0).is_err() {
                     return best;
@@ -65,6 +68,17 @@ impl Ranges<'_> {
             steps = steps.map(|step| 0.5 * step);
         }
         best
+    }
+
+    /// The part at both ends of its natural frequencies in the same drop, where that asks more: strikes that come in step with it have their
+    /// crests far from one another, which no step of a climb goes over.
+    fn at_ends_of_frequency(task: &Task<'_>, best: Asked, here: &Followed, fastest_rad_s: f64) -> Asked {
+        let Ok(felt) = Felt::rough(here, best.place.position_m, fastest_rad_s) else { return best };
+        [0.0, 1.0].into_iter().fold(best, |best, share| {
+            let place = best.place.with(FREQUENCY, share);
+            let next = Self::in_drop(task, &place, &felt, best.answer.utilization());
+            next.ok().flatten().map_or(best, |next| Asked { late: best.late, ..next })
+        })
     }
 
     /// The same in all ranges at once: tries all around, ever closer. After rebounds all ranges together decide in which phase a part
