@@ -30,12 +30,12 @@ impl ProductFile {
     /// # Examples
     /// A display on its frame, in a phone that is dropped from a meter at up to 10 degrees:
     /// ```
-    /// use clatter_assess::{Component, Drop, Fall, Law, Limits, Mount, Product, ProductFile, Spread};
+    /// use clatter_assess::{Component, Drop, Fall, Law, LimitKind, Limits, Mount, Product, ProductFile, Spread};
     /// use clatter_flight::Body;
     /// let phone = Product::new("phone", Body::new(0.15, 0.045)?, Spread::new(0.3, 0.5, Law::Range)?);
     /// let fall = Fall::HeightM(Spread::value(1.0)?);
     /// let drop = Drop::new(fall, Spread::new(0.0, 10_f64.to_radians(), Law::Range)?);
-    /// let limits = Limits { velocity_change_m_s: Some(Spread::value(12.0)?), ..Limits::default() };
+    /// let limits = Limits::default().with(LimitKind::VelocityChange, Spread::value(12.0)?);
     /// let display = Component::new("display", Spread::value(0.03)?, Mount::Hard, limits);
     /// let file = ProductFile::new(phone.clone(), drop, vec![display.clone()])?;
     /// assert!(file.check().is_ok());
