@@ -86,6 +86,16 @@ fn elastic_products_are_answered() {
     }
 }
 
+/// One of Runge and Kutta's classical steps.
+fn stepped(state: [f64; 2], h: f64, rate: impl Fn([f64; 2]) -> [f64; 2]) -> [f64; 2] {
+    let after = |by: f64, k: [f64; 2]| [state[0] + by * h * k[0], state[1] + by * h * k[1]];
+    let k1 = rate(state);
+    let k2 = rate(after(0.5, k1));
+    let k3 = rate(after(0.5, k2));
+    let k4 = rate(after(1.0, k3));
+    std::array::from_fn(|i| state[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]))
+}
+
 /// The largest displacement of a part in a product that carries it from now on, by steps (Runge-Kutta) of a thousandth of a radian.
 fn carried(velocity_m_s: f64, part: &Suspension) -> f64 {
     let (omega, zeta) = (part.omega(), part.damping().get());
@@ -93,12 +103,7 @@ fn carried(velocity_m_s: f64, part: &Suspension) -> f64 {
     let h = 1e-3 / omega;
     let (mut state, mut most) = ([0.0, velocity_m_s], 0.0_f64);
     for _ in 0..7000 {
-        let after = |by: f64, k: [f64; 2]| [state[0] + by * h * k[0], state[1] + by * h * k[1]];
-        let k1 = rate(state);
-        let k2 = rate(after(0.5, k1));
-        let k3 = rate(after(0.5, k2));
-        let k4 = rate(after(1.0, k3));
-        state = std::array::from_fn(|i| state[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
+        state = stepped(state, h, rate);
         most = most.max(state[0]);
     }
     most
@@ -162,12 +167,7 @@ fn followed(drop: &SingleDrop, part: &Suspension) -> f64 {
         }
         let weight = if time >= rest { G } else { 0.0 };
         let rate = |[z, v]: [f64; 2]| [v, -weight - 2.0 * zeta * omega * v - omega * omega * z];
-        let after = |by: f64, k: [f64; 2]| [state[0] + by * h * k[0], state[1] + by * h * k[1]];
-        let k1 = rate(state);
-        let k2 = rate(after(0.5, k1));
-        let k3 = rate(after(0.5, k2));
-        let k4 = rate(after(1.0, k3));
-        state = std::array::from_fn(|i| state[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
+        state = stepped(state, h, rate);
         most = most.max(state[0].abs());
         time += h;
     }
