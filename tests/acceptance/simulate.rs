@@ -118,6 +118,13 @@ fn the_answer_has_the_fields_of_the_contract() {
     assert_eq!(first["delta_v_at_m_s"], json!([0.5 * (a + b)]));
     assert_eq!(got["stop"]["reason"], "at-rest");
     assert!(got["stop"]["time_bound_s"].as_f64().unwrap() <= f64::EPSILON * got["stop"]["time_s"].as_f64().unwrap());
+    // Contacts that take time die away: nothing bounds how long that takes.
+    let soft = clatter(arguments("compliant", &["--contact-time-s=3e-4"]));
+    let soft: Value = serde_json::from_str(&soft.stdout).unwrap();
+    assert_eq!((&soft["stop"]["reason"], &soft["stop"]["time_bound_s"]), (&json!("at-rest"), &Value::Null));
+    assert!(
+        soft["stop"]["shock_bound_m_s"].is_number() && soft["stop"].as_object().unwrap().contains_key("time_bound_s")
+    );
     let clear = answer(arguments("map", &[]));
     assert_eq!(clear["stop"]["reason"], "bounced-clear");
     assert_eq!(clear["stop"]["time_s"], clear["impacts"][3]["time_s"]);

@@ -7,7 +7,7 @@
 use clatter_flight::{Contact, ContactLaw};
 
 use crate::quantity::Source;
-use crate::{Component, Drop, Limit, LimitKind, Product};
+use crate::{Component, Drop, Limit, Product};
 
 /// The largest value of a limited quantity that the energy of the drops allows; none for the response of a suspended part and for
 /// contacts without a bound.
@@ -57,7 +57,7 @@ pub(crate) fn bound(
             Some((1.0 + e) * speed * one)
         }
         (Source::Turn, Some(_)) => Some(2.0 * speed / rho),
-        (Source::Response(_), Some([shortest, _])) if limit.kind == LimitKind::Acceleration => {
+        (Source::Response(peak), Some([shortest, _])) if peak.is_acceleration() => {
             let hard = matches!(component.mount, crate::Mount::Hard) && law == ContactLaw::Hysteretic;
             let contact = Contact::new(law, e, shortest).ok().filter(|_| hard)?;
             // Both ends at once.

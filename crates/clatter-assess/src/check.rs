@@ -150,10 +150,10 @@ impl Component {
 
     fn check_mount(&self) -> Result<(), DataFault> {
         match &self.mount {
-            Mount::Hard if self.limits.get(LimitKind::RattleSpace).is_some() => {
-                Err(DataFault::Hard { field: "rattle_space" })
+            Mount::Hard => {
+                let wrong = self.limits.kinds().into_iter().find(|kind| kind.needs_suspension());
+                wrong.map_or(Ok(()), |kind| Err(DataFault::Hard { field: kind.key() }))
             }
-            Mount::Hard => Ok(()),
             Mount::Suspended { frequency_hz, damping } => {
                 spread(keys::COMPONENT, "natural_frequency", Some(frequency_hz))?;
                 let name = match damping {

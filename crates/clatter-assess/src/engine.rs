@@ -12,7 +12,7 @@ use crate::drop::{Followed, Model, PRECISION, SingleDrop};
 use crate::history::{SHORT, pulses};
 use crate::quantity::{ResponsePeak, Source};
 use crate::shock::{Shock, largest, samples};
-use crate::{Error, Limit, LimitKind, Unit};
+use crate::{DataFault, Error, Limit, Unit};
 
 /// A part at one place of the product.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,7 +71,7 @@ impl Answer {
 ///
 /// # Errors
 /// [`Error::Tolerance`]; [`Error::Contact`] where the contact time is needed and not known; [`Error::Flight`], [`Error::Bar`] and
-/// [`Error::Shock`] for what a model does not take; [`Error::Setting`] for a place outside of the product, a contact time that is none,
+/// [`Error::Shock`] for what a model does not take; [`Error::Data`] for a limit that a part mounted rigidly does not have; [`Error::Setting`] for a place outside of the product, a contact time that is none,
 /// and a limit that is not positive; [`Error::Unfinished`] for a motion that was given up before nothing later
 /// counts.
 ///
@@ -103,6 +103,9 @@ pub fn answer(drop: &SingleDrop, part: &Part, limit: &Limit, model: Model, toler
     }
     drop.check(part.position_m)?;
     limit.check()?;
+    if part.suspension.is_none() && limit.kind.needs_suspension() {
+        return Err(DataFault::Hard { field: limit.kind.key() }.into());
+    }
     if model < Model::Map {
         return closed_form(drop, part, limit, model);
     }
@@ -416,7 +419,7 @@ impl<'a> Felt<'a> {
         match limit.kind.source() {
             Source::Turn => turn_rad_s,
             Source::Shock | Source::Boundary => turned_m_s,
-            Source::Response(_) if limit.kind == LimitKind::Acceleration => acceleration_m_s2,
+            Source::Response(peak) if peak.is_acceleration() => acceleration_m_s2,
             Source::Response(_) => f64::INFINITY,
         }
     }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use clatter_shock::{DampingRatio, Extremes, Peaked, Pulse, Pulses, Response, Shape, State, Suspension};
 use serde::Serialize;
 
-use crate::{Component, Error, Mount, Product};
+use crate::{Component, DataFault, Error, Mount, Product};
 
 /// What is limited.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -82,6 +82,10 @@ impl ResponsePeak {
             Peaked::PseudoVelocity => omega * state.displacement,
         };
         self.of_velocity(velocity, omega)
+    }
+    /// Whether it is the absolute acceleration of the part, which one that is mounted rigidly has too.
+    pub(crate) fn is_acceleration(self) -> bool {
+        self.peaked == Peaked::AccelerationOverOmega && self.power == 1
     }
     /// Whether stiffer parts are asked for more as a rule.
     pub(crate) fn grows_with_frequency(self) -> bool {
@@ -231,6 +235,10 @@ impl LimitKind {
     pub(crate) fn source(self) -> Source {
         self.row().source
     }
+    /// Whether a part that is mounted rigidly has no such limit: it does not move by itself.
+    pub(crate) fn needs_suspension(self) -> bool {
+        matches!(self.source(), Source::Response(peak) if !peak.is_acceleration())
+    }
     /// Whether it is on the response of a suspended part.
     pub(crate) fn is_response(self) -> bool {
         matches!(self.source(), Source::Response(_))
@@ -266,7 +274,7 @@ pub struct Limit {
 }
 
 impl Limit {
-    /// A limit of one number.
+    /// A limit of one number; a damage boundary needs its critical acceleration too.
     #[must_use]
     pub fn new(kind: LimitKind, allowed: f64) -> Self {
         Self { kind, allowed, critical_acceleration_m_s2: f64::INFINITY }
@@ -285,11 +293,17 @@ impl Limit {
         };
         LimitKind::ALL.into_iter().filter_map(&mut of).collect()
     }
-    /// Checks that what is allowed is positive; infinity is no limit.
+    /// Checks that what is allowed is positive, infinity being no limit; and that a damage boundary has both of its numbers, as one alone
+    /// would never be exceeded.
     pub(crate) fn check(&self) -> Result<(), Error> {
         let all = [("what a limit allows", self.allowed), ("critical acceleration", self.critical_acceleration_m_s2)];
-        let wrong = all.into_iter().find(|(_, value)| value.is_nan() || *value <= 0.0);
-        wrong.map_or(Ok(()), |(name, value)| Err(Error::Setting { name, value, allowed: "positive" }))
+        if let Some((name, value)) = all.into_iter().find(|(_, value)| value.is_nan() || *value <= 0.0) {
+            return Err(Error::Setting { name, value, allowed: "positive" });
+        }
+        if self.kind.source() == Source::Boundary && self.critical_acceleration_m_s2 == f64::INFINITY {
+            return Err(DataFault::NoAcceleration.into());
+        }
+        Ok(())
     }
     /// Whether it is on the response of a suspended part.
     #[must_use]

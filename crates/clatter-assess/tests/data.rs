@@ -504,6 +504,14 @@ fn single_drops_are_checked() {
     let suspension = Suspension::from_hz(200.0, DampingRatio::new(0.05).unwrap()).unwrap();
     for model in Model::ALL.into_iter().filter(|model| *model != Model::Compliant) {
         assert!(answer(&sound, &part, &limit, model, 0.01).is_ok(), "{model:?}");
+        // A part that does not move by itself, and a boundary of one number, which nothing would exceed.
+        for (kind, said) in [
+            (LimitKind::RattleSpace, "a hard-mounted part has no `rattle_space`"),
+            (LimitKind::DamageBoundary, "its damage boundary has a velocity change alone"),
+        ] {
+            let error = answer(&sound, &part, &Limit::new(kind, 9.0), model, 0.01).unwrap_err().to_string();
+            assert!(error.starts_with(said), "{error}");
+        }
         for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0] {
             let drops = [
                 SingleDrop { tilt_rad: x, ..sound },

@@ -345,7 +345,15 @@ pub(crate) struct Law(pub(crate) ContactLaw);
 
 impl ValueEnum for Law {
     fn value_variants<'a>() -> &'a [Self] {
-        const ALL: [Law; 2] = [Law(ContactLaw::ALL[0]), Law(ContactLaw::ALL[1])];
+        const ALL: [Law; ContactLaw::ALL.len()] = {
+            let mut all = [Law(ContactLaw::ALL[0]); ContactLaw::ALL.len()];
+            let mut k = 0;
+            while k < all.len() {
+                all[k] = Law(ContactLaw::ALL[k]);
+                k += 1;
+            }
+            all
+        };
         &ALL
     }
     fn to_possible_value(&self) -> Option<PossibleValue> {

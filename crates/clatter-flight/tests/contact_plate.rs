@@ -179,21 +179,24 @@ impl std::fmt::Debug for Drop {
 }
 
 fn config(cases: u32) -> ProptestConfig {
-    let rng_seed = proptest::test_runner::RngSeed::Fixed(1);
-    ProptestConfig { cases, failure_persistence: None, rng_seed, max_shrink_iters: 0, ..ProptestConfig::default() }
+    ProptestConfig { cases, failure_persistence: None, max_shrink_iters: 0, ..ProptestConfig::default() }
 }
 
 proptest! {
     #![proptest_config(config(600))]
 
-    /// Touches of a random plate over six contact times and what its corners need to come down.
+    /// A random plate over six contact times and what its corners need to come down, until it rests, a corner lies, or touches so slowly that its
+    /// weight does as much: from there on it chatters in its dent, and where it is in that decides when another one comes down.
     #[test]
     fn random_plates_move_as_newton_has_it(drop in any_drop(0.05..=1.0_f64)) {
         let until_s = 6.0 * drop.time + 2.0 * (drop.gaps[0] + drop.gaps[1]) / drop.speed;
         let flight = until(&drop, until_s);
+        let slow = |strike: &&Strike<4>| strike.approach_m_s.abs() < SLOW * G * drop.time;
+        let until_s = flight.strikes.iter().find(slow).map_or(until_s, |strike| until_s.min(strike.time_s));
+        let until_s = 0.999 * until_s.min(first_lies(&flight)).min(flight.stop.time_s());
         let run = |faster: f64| {
             let mut plain = PlainPlate::new(&Drop { speed: drop.speed * (1.0 + faster), ..drop });
-            prop_assert!(plain.run(until_s, 3_000_000), "{drop:?}");
+            prop_assume!(plain.run(until_s, 3_000_000)); // else it chatters without end
             Ok(plain)
         };
         // What the drop multiplies a small change by: where that is much, corners all but miss the ground or one another.
@@ -201,23 +204,23 @@ proptest! {
         let fast = |a: [f64; 4], b: [f64; 4]| (0..4).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max) / drop.speed;
         let times = (fast(plain.velocities(), shaken.velocities()) / 1e-7).max(1.0);
         let now = flight.sample(until_s).expect("contacts");
-        // A corner that is laid down no longer rings by up to its weight, and at rest nothing moves: what rings on is told.
-        let lies = |t: f64| {
-            let now = flight.sample(t).expect("contacts");
-            (0..4).any(|i| now.force_per_mass_m_s2[i] > 0.0 && now.acceleration_m_s2[i] == 0.0)
-        };
-        let ring = G * drop.e * drop.time / drop.speed;
-        let rung = match flight.stop {
-            Stop::AtRest { shock_bound_m_s, .. } => shock_bound_m_s / drop.speed,
-            _ => 0.0,
-        };
-        let laid = if flight.phases_s().any(lies) { 1e-4 + ring } else { 0.0 };
-        let allowed = times * (1e-8 + rung + laid);
         let off = fast(now.velocity_m_s, plain.velocities());
-        prop_assert!(times > 1e3 || off < allowed, "{off:e}, {times}-fold, {allowed:e} of {drop:?}");
+        prop_assert!(times > 1e3 || off < 1e-8 * times, "{off:e}, {times}-fold of {drop:?}");
         let high = (0..4).map(|i| (now.height_m[i] - plain.heights()[i]).abs()).fold(0.0, f64::max);
-        prop_assert!(times > 1e3 || high < allowed * drop.speed * until_s, "{high:e}, {times}-fold of {drop:?}");
+        prop_assert!(times > 1e3 || high < 1e-8 * times * drop.speed * until_s, "{high:e}, {times}-fold of {drop:?}");
     }
+}
+
+/// A touch is slow below so many times what its weight does to a corner in a contact time.
+const SLOW: f64 = 4.0;
+
+/// When a corner is laid down first.
+fn first_lies(flight: &PlateMotion) -> f64 {
+    let lies = |t: &f64| {
+        let now = flight.sample(*t).expect("contacts");
+        (0..4).any(|i| now.force_per_mass_m_s2[i] > 0.0 && now.acceleration_m_s2[i] == 0.0)
+    };
+    flight.phases_s().find(lies).unwrap_or(f64::INFINITY)
 }
 
 /// Velocity of the center of mass and the rates of both slopes.
@@ -245,7 +248,7 @@ proptest! {
     /// more energy than before, and a flight ends.
     #[test]
     fn momenta_add_up_and_energy_never_grows(drop in any_drop(any_e())) {
-        let flight = scene(&drop).with_impact_limit(2000).contacts_until(&contact(&drop), 1e-4, |_| false).expect("a flight");
+        let flight = scene(&drop).with_impact_limit(20_000).contacts_until(&contact(&drop), 1e-4, |_| false).expect("a flight");
         prop_assert!(matches!(flight.stop, Stop::AtRest { .. }) || drop.e > 0.9, "{:?} {drop:?}", flight.stop);
         prop_assert!(flight.energy_error < 1e-9, "{:e} {drop:?}", flight.energy_error);
         let plate = scene(&drop).plate();

@@ -26,9 +26,10 @@ impl Scale {
             let known = counted.is_finite() && (*here > 0.0 || demand == 0.0);
             scales.push(known.then_some(Self { demand, counted, here: *here })?);
         }
-        // The acceleration of a part that hits its stop is undecided by its rattle space.
+        // What a part that hits its stop does besides is undecided by its rattle space.
         let stops = |l: &LimitAssessment| l.limit == LimitKind::RattleSpace && l.verdict != Verdict::Safe;
-        let by_stop = limit.limit == LimitKind::Acceleration && assessed.limits.iter().any(stops);
+        let responds = limit.limit.is_response() && limit.limit != LimitKind::RattleSpace;
+        let by_stop = responds && assessed.limits.iter().any(stops);
         // What the verdict says, the picture says as well.
         match limit.verdict {
             Verdict::Safe => scales.iter_mut().for_each(|scale| scale.counted = scale.counted.min(1.0)),

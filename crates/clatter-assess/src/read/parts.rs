@@ -60,7 +60,8 @@ impl Reader {
             return None;
         }
         if mount.is_some_and(|mount| mount.value == "hard") {
-            for name in ["natural_frequency", "damping_ratio", "quality_factor", "rattle_space"] {
+            let limits = LimitKind::ALL.into_iter().filter(|kind| kind.needs_suspension()).map(LimitKind::key);
+            for name in ["natural_frequency", "damping_ratio", "quality_factor"].into_iter().chain(limits) {
                 if let Some((key, _)) = section.table.get_key_value(name) {
                     self.data(key.span(), &DataFault::Hard { field: name }, "beside mount = \"hard\"");
                 }

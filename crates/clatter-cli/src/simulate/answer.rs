@@ -108,25 +108,27 @@ struct PivotJson {
 pub(super) struct StopJson {
     reason: &'static str,
     time_s: Json,
-    /// At rest only: what is left takes no longer, and no shock left out is larger.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(flatten)]
+    rest: Option<RestJson>,
+}
+
+/// What is left takes no longer, null where nothing bounds it, and no shock left out is larger.
+#[derive(Serialize)]
+struct RestJson {
     time_bound_s: Option<Json>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    shock_bound_m_s: Option<Json>,
+    shock_bound_m_s: Json,
 }
 
 impl StopJson {
     pub(super) fn new(stop: &Stop) -> Self {
-        let bounds = match *stop {
-            Stop::AtRest { time_bound_s, shock_bound_m_s, .. } => Some([time_bound_s, shock_bound_m_s].map(Json)),
+        let rest = match *stop {
+            Stop::AtRest { time_bound_s, shock_bound_m_s, .. } => {
+                let time_bound_s = time_bound_s.is_finite().then_some(Json(time_bound_s));
+                Some(RestJson { time_bound_s, shock_bound_m_s: Json(shock_bound_m_s) })
+            }
             _ => None,
         };
-        Self {
-            reason: stop.reason(),
-            time_s: Json(stop.time_s()),
-            time_bound_s: bounds.map(|[time, _]| time),
-            shock_bound_m_s: bounds.map(|[_, shock]| shock),
-        }
+        Self { reason: stop.reason(), time_s: Json(stop.time_s()), rest }
     }
 }
 

@@ -26,7 +26,7 @@ impl ContactLaw {
     /// All of them.
     pub const ALL: [Self; 2] = [Self::Hysteretic, Self::Dashpot];
     /// Their names.
-    pub const NAMES: [&'static str; 2] = ["hysteretic", "dashpot"];
+    pub const NAMES: [&'static str; Self::ALL.len()] = ["hysteretic", "dashpot"];
     /// `hysteretic` or `dashpot`.
     #[must_use]
     pub fn name(self) -> &'static str {
