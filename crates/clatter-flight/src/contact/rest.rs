@@ -22,8 +22,11 @@ const PARTS: f64 = 1.001;
 /// A body over the points that would carry its weight.
 struct Weighed<const N: usize> {
     forces: [f64; N],
-    /// Its energy over that at rest there.
+    /// Its energy over that at rest there, on the lines on which they are.
     left: f64,
+    /// The same where one of them may leave its line: what parts from its dent loads it further when it comes down again, and what
+    /// bears more than ever before does too.
+    yielding: f64,
     /// What that is where these points come to press with their weight at once, from no depth and no speed.
     by_weight: f64,
 }
@@ -106,7 +109,7 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         let strikes = &self.log.flight.strikes;
         let down = (0..N).filter(|&i| self.touches[i].is_pressing());
         // The body may yet come to lie on a lower side.
-        let most = self.weighed().map(|Weighed { left, .. }| 2.0 * self.fastest_by(left + self.pose.lower()));
+        let most = self.weighed().map(|of| 2.0 * self.fastest_by(of.yielding + self.pose.lower()));
         let unfinished = down.flat_map(|i| strikes[self.touches[i].strike].delta_v_m_s);
         Ahead {
             time_s: self.time.now(),
@@ -135,11 +138,11 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
             let down = self.touches.iter().any(|touch| touch.state != State::Away) && !self.touches.iter().any(holds);
             return (down && fastest <= slow).then_some(([0.0; N], 2.0 * fastest));
         }
-        let Weighed { forces, left, by_weight } = self.weighed()?;
-        let fastest = self.fastest_by(left);
+        let Weighed { forces, left, yielding, by_weight } = self.weighed()?;
         let struck = |i: usize| self.log.flight.strikes.iter().any(|strike| strike.point == i);
-        ((fastest <= slow || left <= BY_WEIGHT * by_weight) && (0..N).all(|i| forces[i] <= 0.0 || struck(i)))
-            .then_some((forces, 2.0 * fastest))
+        ((self.fastest_by(left) <= slow || left <= BY_WEIGHT * by_weight)
+            && (0..N).all(|i| forces[i] <= 0.0 || struck(i)))
+        .then_some((forces, 2.0 * self.fastest_by(yielding)))
     }
 
     /// The body on the points that would bear its weight; none where they can not.
@@ -151,7 +154,16 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         let those = || (0..N).filter(|&i| on[i]);
         let left = self.pose.kinetic() + those().map(|i| over(line(i), height[i], forces[i])).sum::<f64>();
         let by_weight = those().map(|i| 0.5 * forces[i] * forces[i] / self.stiffness(&arms, i)).sum::<f64>();
-        Some(Weighed { forces, left, by_weight })
+        let unloaded = || those().filter(|&i| matches!(self.touches[i].state, State::Elastic | State::Lying));
+        let pressed = |i: usize| 0.5 * forces[i] * forces[i] / self.touches[i].stiffness;
+        let unloading = self.contact.unloading().recip();
+        let stays = |i: usize| left < pressed(i) * unloading && forces[i] <= self.touches[i].limit(self.contact);
+        let yielding = if unloaded().all(stays) {
+            left
+        } else {
+            left + unloaded().map(|i| pressed(i) * (1.0 - unloading)).sum::<f64>()
+        };
+        Some(Weighed { forces, left, yielding, by_weight })
     }
 
     /// Stiffness of the line on which a point at this height is or would be, and where that has no force. A point that lies stays
