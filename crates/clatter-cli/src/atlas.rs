@@ -2,11 +2,11 @@
 
 use std::io::{self, Write};
 
-use clatter::{Atlas, AtlasPeak, Plate, Word};
-use serde::Serialize;
+use clatter::Plate;
+use clatter_answer::atlas::{self, Answer, Peak, Question};
 
 use crate::inputs::{FallingBody, OffCenterArgs, RowFormat};
-use crate::numbers::{Json, digits, figures, given};
+use crate::numbers::{digits, figures, given};
 use crate::{Failure, Streams};
 
 /// List what every direction of tilt of a plate leads to: its words of corners, and the worst of all
@@ -42,30 +42,32 @@ impl Args {
                 "an atlas is that of a plate: give --gyration-ratio=KX,KY, its two gyration ratios",
             ));
         };
-        let atlas = plate.atlas(self.limit).map_err(Failure::flag("--limit"))?;
+        let mut question = Question::new(plate);
+        question.limit = self.limit;
+        let answer = atlas::answer(&question).map_err(Failure::flag("--limit"))?;
         match self.format {
-            RowFormat::Table => table(&plate, &atlas, streams.out).map_err(Failure::Answer)?,
-            RowFormat::Csv => csv(&atlas, streams.out).map_err(Failure::Answer)?,
-            RowFormat::Json => streams.long_json(&answer(&plate, &atlas, self.limit))?,
+            RowFormat::Table => table(&plate, &answer, streams.out).map_err(Failure::Answer)?,
+            RowFormat::Csv => csv(&answer, streams.out).map_err(Failure::Answer)?,
+            RowFormat::Json => streams.long_json(&answer)?,
         }
-        let AtlasPeak { corner, later, .. } = atlas.peak();
-        if later > corner && self.format != RowFormat::Json {
-            let later = figures(later);
+        let Peak { corner, later, .. } = answer.peak;
+        if later.0 > corner.0 && self.format != RowFormat::Json {
+            let later = figures(later.0);
             streams.note("warning", format_args!("strikes that were not followed may give a corner up to {later} v0"));
         }
         Ok(())
     }
 }
 
-fn letters(word: &Word) -> String {
-    word.corners.iter().map(|corner| corner.letter()).collect()
+fn shocks(peak: &Peak) -> [f64; 3] {
+    [peak.corner, peak.center, peak.later].map(|shock| shock.0)
 }
 
-fn table(plate: &Plate, atlas: &Atlas, out: &mut dyn Write) -> io::Result<()> {
+fn table(plate: &Plate, answer: &Answer, out: &mut dyn Write) -> io::Result<()> {
     let ([kx, ky], [sx, sy]) = (plate.gyration_ratios().map(given), plate.center_of_mass().map(given));
     let center = if plate.is_centered() { String::new() } else { format!(", center of mass {sx},{sy}") };
     writeln!(out, "Directions of a plate with gyration ratios {kx},{ky}{center}, e = {}", given(plate.e()))?;
-    let AtlasPeak { corner, center, later, .. } = atlas.peak();
+    let [corner, center, later] = shocks(&answer.peak);
     let first = if plate.is_centered() { "any corner first" } else { "corner a first" };
     writeln!(
         out,
@@ -78,66 +80,20 @@ fn table(plate: &Plate, atlas: &Atlas, out: &mut dyn Write) -> io::Result<()> {
     }
     writeln!(out, "\n{:>12} {:>12} {:>12} {:>12}   word", "from r", "to r", "corner", "center")?;
     writeln!(out, "{:>12} {:>12} {:>12} {:>12}", "", "", "v0", "v0")?;
-    for word in atlas.words() {
+    for word in &answer.words {
         let more = if word.ended { "" } else { " …" };
-        let [from, to, corner, center] = [word.from, word.to, word.peak(), word.center].map(figures);
-        writeln!(out, "{from:>12} {to:>12} {corner:>12} {center:>12}   {}{more}", letters(word))?;
+        let [corner, center, _] = shocks(&word.peak);
+        let [from, to, corner, center] = [word.from.0, word.to.0, corner, center].map(figures);
+        writeln!(out, "{from:>12} {to:>12} {corner:>12} {center:>12}   {}{more}", word.word)?;
     }
     Ok(())
 }
 
-fn csv(atlas: &Atlas, out: &mut dyn Write) -> io::Result<()> {
+fn csv(answer: &Answer, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "from,to,word,ended,peak_corner,peak_center,later")?;
-    for word in atlas.words() {
-        let [from, to, corner, center, later] = [word.from, word.to, word.peak(), word.center, word.later].map(digits);
-        writeln!(out, "{from},{to},{},{},{corner},{center},{later}", letters(word), word.ended)?;
+    for word in &answer.words {
+        let ([from, to], shocks) = ([word.from, word.to].map(|r| digits(r.0)), shocks(&word.peak).map(digits));
+        writeln!(out, "{from},{to},{},{},{}", word.word, word.ended, shocks.join(","))?;
     }
     Ok(())
-}
-
-fn answer(plate: &Plate, atlas: &Atlas, limit: usize) -> Answer {
-    let word = |word: &Word| WordJson {
-        from: Json(word.from),
-        to: Json(word.to),
-        word: letters(word),
-        ended: word.ended,
-        peak: PeakJson { corner: Json(word.peak()), center: Json(word.center), later: Json(word.later) },
-    };
-    let AtlasPeak { corner, center, later, .. } = atlas.peak();
-    Answer {
-        gyration_ratio: plate.gyration_ratios().map(Json),
-        center_of_mass: plate.center_of_mass().map(Json),
-        e: Json(plate.e()),
-        limit,
-        words: atlas.words().iter().map(word).collect(),
-        peak: PeakJson { corner: Json(corner), center: Json(center), later: Json(later) },
-    }
-}
-
-#[derive(Serialize)]
-struct Answer {
-    gyration_ratio: [Json; 2],
-    center_of_mass: [Json; 2],
-    e: Json,
-    limit: usize,
-    words: Vec<WordJson>,
-    /// Of all directions.
-    peak: PeakJson,
-}
-
-#[derive(Serialize)]
-struct WordJson {
-    from: Json,
-    to: Json,
-    word: String,
-    ended: bool,
-    peak: PeakJson,
-}
-
-#[derive(Serialize)]
-struct PeakJson {
-    corner: Json,
-    center: Json,
-    /// What no strike that was not followed gives a corner.
-    later: Json,
 }

@@ -5,6 +5,7 @@
 use clap::ValueEnum;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clatter::{Axis, Bar, End, Error, Mass, OffCenterBar, Plate, PlateStart, Start};
+pub(crate) use clatter_answer::letter;
 use clatter_assess::units::{Quantity, SHARE};
 use clatter_assess::{Accuracy, Model, Slip};
 use clatter_flight::{Body, Contact, ContactLaw, Scene};
@@ -278,14 +279,6 @@ impl From<EndName> for End {
             EndName::A => Self::A,
             EndName::B => Self::B,
         }
-    }
-}
-
-/// The letter of an end.
-pub(crate) fn letter(end: End) -> &'static str {
-    match end {
-        End::A => "a",
-        End::B => "b",
     }
 }
 

@@ -1,7 +1,6 @@
 //! Numbers as they are shown: to people with six significant digits, to machines with all of them.
 
-use clatter::Count;
-use serde::{Serialize, Serializer};
+pub(crate) use clatter_answer::{Json, JsonWhole, whole};
 
 /// Six significant digits, so that a column tells at a glance how exact it is; −0 is 0.
 ///
@@ -30,57 +29,6 @@ pub(crate) fn given(x: f64) -> String {
 /// The shortest digits that read back as the same f64, for csv: `inf` is what readers of tables expect.
 pub(crate) fn digits(x: f64) -> String {
     format!("{:?}", x + 0.0)
-}
-
-/// An f64 in JSON: the shortest digits that read back the same, `"infinite"` for what JSON has no number for.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Json(pub(crate) f64);
-
-impl Serialize for Json {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self.0 {
-            // serde_json would write null, and a reader would take it for "does not apply".
-            x if x.is_nan() => Err(serde::ser::Error::custom("a value came out as not a number; please report this")),
-            x if x.is_infinite() => serializer.serialize_str(if x > 0.0 { "infinite" } else { "-infinite" }),
-            x => serializer.serialize_f64(x + 0.0),
-        }
-    }
-}
-
-/// A count that is kept as a float, for csv: without a fraction as long as every whole number has its own float.
-pub(crate) fn whole(x: f64) -> String {
-    if x.abs() < TWO_TO_53 { format!("{x:.0}") } else { digits(x) }
-}
-
-const TWO_TO_53: f64 = 9_007_199_254_740_992.0;
-
-/// The same in JSON.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct JsonWhole(pub(crate) f64);
-
-impl Serialize for JsonWhole {
-    #[expect(clippy::cast_possible_truncation, reason = "whole and below 2^53")]
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        if self.0.abs() < TWO_TO_53 {
-            serializer.serialize_i64(self.0 as i64)
-        } else {
-            Json(self.0).serialize(serializer)
-        }
-    }
-}
-
-/// A count in JSON: an integer up to 2⁶⁴, a float beyond, `"endless"`.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct JsonCount(pub(crate) Count);
-
-impl Serialize for JsonCount {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self.0 {
-            Count::Finite(n) => serializer.serialize_u64(n),
-            Count::Huge(n) => serializer.serialize_f64(n),
-            Count::Endless => serializer.serialize_str("endless"),
-        }
-    }
 }
 
 #[cfg(test)]
@@ -124,26 +72,5 @@ mod tests {
         assert_eq!(digits(f64::INFINITY), "inf");
         assert_eq!(digits(-0.0), "0.0");
         assert_eq!([-1.0, 0.5, 1e-300, -0.0].map(given), ["-1", "0.5", "1e-300", "0"]);
-    }
-
-    #[test]
-    fn not_a_number_never_reaches_json() {
-        assert!(serde_json::to_string(&Json(f64::NAN)).unwrap_err().to_string().contains("not a number"));
-    }
-
-    #[test]
-    fn counts_are_integers_as_long_as_they_are_exact() {
-        let json = |count| serde_json::to_string(&JsonCount(count)).unwrap();
-        assert_eq!(json(Count::Finite(u64::MAX)), "18446744073709551615");
-        assert_eq!(json(Count::Huge(2.0_f64.powi(65))), "3.6893488147419103e+19");
-        assert_eq!(json(Count::Endless), "\"endless\"");
-        for (x, text, in_json) in [
-            (4.0, "4", "4"),
-            (9_007_199_254_740_991.0, "9007199254740991", "9007199254740991"),
-            (9_007_199_254_740_992.0, "9007199254740992.0", "9007199254740992.0"),
-            (f64::INFINITY, "inf", "\"infinite\""),
-        ] {
-            assert_eq!((whole(x).as_str(), serde_json::to_string(&JsonWhole(x)).unwrap().as_str()), (text, in_json));
-        }
     }
 }

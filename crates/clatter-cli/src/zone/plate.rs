@@ -3,9 +3,10 @@
 use std::io::{self, Write};
 
 use clatter::{Corner, Extent, Plate, PlateShocks, PlateStart, PlateZone};
+use clatter_answer::zone::name as extent;
 use serde::Serialize;
 
-use super::{Args, extent};
+use super::Args;
 use crate::inputs::{RowFormat, Values};
 use crate::numbers::{Json, digits, figures, given};
 use crate::{Failure, Streams};

@@ -1,0 +1,105 @@
+//! What every direction of tilt of a plate leads to.
+//!
+//! ```
+//! use clatter::Plate;
+//! use clatter_answer::atlas;
+//! let question = atlas::Question::new(Plate::uniform(0.3)?);
+//! let answer = atlas::answer(&question)?;
+//! // Directions from 0 to 1, without a gap.
+//! assert_eq!((answer.words[0].from.0, answer.words.last().map(|word| word.to.0)), (0.0, Some(1.0)));
+//! # Ok::<(), clatter::Error>(())
+//! ```
+
+use clatter::{AtlasPeak, Error, Plate, Word};
+use serde::Serialize;
+
+use crate::Json;
+
+/// A plate that falls without spin, corner a first, in every direction.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Question {
+    /// The plate.
+    pub plate: Plate,
+    /// Strikes followed in each direction at most, from 1 to 100.
+    pub limit: usize,
+}
+
+impl Question {
+    /// With 40 strikes followed in each direction.
+    #[must_use]
+    pub fn new(plate: Plate) -> Self {
+        Self { plate, limit: 40 }
+    }
+}
+
+/// The words of a plate, and the largest shocks of all directions.
+#[derive(Debug, Clone, Serialize)]
+#[non_exhaustive]
+pub struct Answer {
+    /// Radii of gyration along x and y, over half the length and half the width.
+    pub gyration_ratio: [Json; 2],
+    /// Center of mass, in half-lengths and half-widths from the middle.
+    pub center_of_mass: [Json; 2],
+    /// Coefficient of restitution.
+    pub e: Json,
+    /// Strikes followed in each direction at most.
+    pub limit: usize,
+    /// One for each interval of directions.
+    pub words: Vec<Directions>,
+    /// Of all directions.
+    pub peak: Peak,
+}
+
+/// An interval of directions with one order of corners. A direction is r = HY/(HX + HY), from heights HX of b and HY of d.
+#[derive(Debug, Clone, Serialize)]
+#[non_exhaustive]
+pub struct Directions {
+    /// First direction, in [0, 1].
+    pub from: Json,
+    /// Last direction, in [0, 1].
+    pub to: Json,
+    /// The corners in the order of their strikes.
+    pub word: String,
+    /// Whether the plate bounced clear within the limit.
+    pub ended: bool,
+    /// Largest shocks of these directions.
+    pub peak: Peak,
+}
+
+/// Largest velocity shocks, in v0.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[non_exhaustive]
+pub struct Peak {
+    /// At a corner.
+    pub corner: Json,
+    /// At the center of mass.
+    pub center: Json,
+    /// What no strike that was not followed gives a corner.
+    pub later: Json,
+}
+
+/// Follows every direction of tilt.
+///
+/// # Errors
+/// A limit that is not from 1 to 100.
+pub fn answer(question: &Question) -> Result<Answer, Error> {
+    let Question { plate, limit } = question;
+    let atlas = plate.atlas(*limit)?;
+    let directions = |word: &Word| Directions {
+        from: Json(word.from),
+        to: Json(word.to),
+        word: word.corners.iter().map(|corner| corner.letter()).collect(),
+        ended: word.ended,
+        peak: Peak { corner: Json(word.peak()), center: Json(word.center), later: Json(word.later) },
+    };
+    let AtlasPeak { corner, center, later, .. } = atlas.peak();
+    Ok(Answer {
+        gyration_ratio: plate.gyration_ratios().map(Json),
+        center_of_mass: plate.center_of_mass().map(Json),
+        e: Json(plate.e()),
+        limit: *limit,
+        words: atlas.words().iter().map(directions).collect(),
+        peak: Peak { corner: Json(corner), center: Json(center), later: Json(later) },
+    })
+}

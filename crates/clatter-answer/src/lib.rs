@@ -1,0 +1,43 @@
+//! What the commands answer: typed questions in, answers out that serialize to what `--format json` prints.
+//!
+//! No arguments, no printing, no files. A module a question:
+//!
+//! - If you have a bar and how it falls, call [`impacts::answer`] for its impacts.
+//! - If you have a bar and what velocity shock a part survives, call [`zone::answer`].
+//! - If you have a plate and ask what every direction of tilt leads to, call [`atlas::answer`].
+//!
+//! Velocities are in v0, the drop speed; times in h0/v0, where h0 is the height of end b when end a touches; positions in
+//! half-lengths from the middle. Numbers are [`Json`], which writes every digit and has a word for infinity.
+
+pub mod atlas;
+pub mod impacts;
+mod numbers;
+pub mod zone;
+
+use clatter::{End, Error};
+pub use numbers::{Json, JsonCount, JsonWhole, whole};
+
+/// The letter of an end.
+#[must_use]
+pub fn letter(end: End) -> &'static str {
+    match end {
+        End::A => "a",
+        End::B => "b",
+    }
+}
+
+/// That all positions lie on the body.
+fn on_body(positions: impl IntoIterator<Item = f64>) -> Result<(), Error> {
+    match positions.into_iter().find(|s| !(-1.0..=1.0).contains(s)) {
+        Some(value) => Err(Error::Quantity { name: "position", value, allowed: "in [-1, 1]" }),
+        None => Ok(()),
+    }
+}
+
+/// That all thresholds are in the bounds of velocities, so that no safe zone overflows.
+fn in_bounds(thresholds: &[f64]) -> Result<(), Error> {
+    match thresholds.iter().find(|x| !(1e-150..=1e150).contains(*x)) {
+        Some(value) => Err(Error::Quantity { name: "threshold", value: *value, allowed: "in [1e-150, 1e150], in v0" }),
+        None => Ok(()),
+    }
+}
