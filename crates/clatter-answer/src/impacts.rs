@@ -10,6 +10,8 @@
 //! # Ok::<(), clatter::Error>(())
 //! ```
 
+pub mod plate;
+
 use clatter::{End, Error, OffCenterBar, PeakImpact, Start, Summary};
 use serde::{Serialize, Serializer};
 

@@ -2,8 +2,9 @@
 //!
 //! No arguments, no printing, no files. A module a question:
 //!
-//! - If you have a bar and how it falls, call [`impacts::answer`] for its impacts.
-//! - If you have a bar and what velocity shock a part survives, call [`zone::answer`].
+//! - If you have a bar and how it falls, call [`impacts::answer`] for its impacts; of a plate [`impacts::plate::answer`].
+//! - If you have a bar and what velocity shock a part survives, call [`zone::answer`]; of a plate [`zone::plate::answer`].
+//! - If you want one quantity over all bars, call [`map::answer`].
 //! - If you have a plate and ask what every direction of tilt leads to, call [`atlas::answer`].
 //!
 //! Velocities are in v0, the drop speed; times in h0/v0, where h0 is the height of end b when end a touches; positions in
@@ -11,6 +12,7 @@
 
 pub mod atlas;
 pub mod impacts;
+pub mod map;
 mod numbers;
 pub mod zone;
 
@@ -32,6 +34,11 @@ fn on_body(positions: impl IntoIterator<Item = f64>) -> Result<(), Error> {
         Some(value) => Err(Error::Quantity { name: "position", value, allowed: "in [-1, 1]" }),
         None => Ok(()),
     }
+}
+
+/// That all places lie on the plate.
+fn on_plate(places: &[[f64; 2]]) -> Result<(), Error> {
+    on_body(places.iter().flatten().copied())
 }
 
 /// That all thresholds are in the bounds of velocities, so that no safe zone overflows.

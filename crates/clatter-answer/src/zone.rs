@@ -11,6 +11,8 @@
 //! # Ok::<(), clatter::Error>(())
 //! ```
 
+pub mod plate;
+
 use clatter::{End, Error, Extent, OffCenterBar, Start};
 use serde::{Serialize, Serializer};
 

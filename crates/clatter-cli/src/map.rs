@@ -5,10 +5,12 @@ use std::path::Path;
 
 use clap::{ValueEnum, ValueHint};
 use clatter::{Axis, Map, Quantity, Variable};
-use serde::{Serialize, Serializer};
+use clatter_answer::map::{self, Question};
+use clatter_answer::whole;
+use serde::Serialize;
 
 use crate::inputs::{self, Format};
-use crate::numbers::{Json, JsonWhole, digits, given, whole};
+use crate::numbers::{digits, given};
 use crate::output::{Files, Kind, Target, buffered};
 use crate::progress::Counted;
 use crate::{Failure, Streams, budget, npy, output, text};
@@ -115,18 +117,6 @@ impl QuantityName {
     }
 }
 
-fn name(quantity: Quantity) -> &'static str {
-    match quantity {
-        Quantity::Impacts => "impacts",
-        Quantity::PeakEnd => "peak-end",
-        Quantity::PeakCenter => "peak-center",
-        Quantity::PeakAngular => "peak-angular",
-        Quantity::NetCenter => "net-center",
-        Quantity::Duration => "duration",
-        Quantity::Zone(_) => "zone",
-    }
-}
-
 impl Args {
     pub(crate) fn files(&self) -> Files<'_> {
         Files { reads: Vec::new(), writes: vec![&self.output.path] }
@@ -140,16 +130,17 @@ impl Args {
         if 2 * 8 * points > u128::from(budget::memory()) {
             return Err(Failure::Large { points, most: u128::from(budget::memory()) / 16 });
         }
-        let map = {
+        let answer = {
             let _computing = Counted::begin("computing", 0);
-            Map::compute(quantity, axis, self.e)?
+            map::answer(&Question::new(quantity, axis, self.e))?
         };
+        let map = &answer.map;
         let Target { path, kind } = &self.output;
         output::replace(path, |file| match kind {
             Kind::Npy => npy::write(file, map.q.points(), &map.values),
-            Kind::Csv => buffered(file, |out| csv(&map, out)),
-            Kind::Json => buffered(file, |out| Ok(serde_json::to_writer(out, &MapJson::new(&map))?)),
-            Kind::Svg | Kind::Parquet => file.write_all(clatter_figures::map(&map)?.as_bytes()),
+            Kind::Csv => buffered(file, |out| csv(map, out)),
+            Kind::Json => buffered(file, |out| Ok(serde_json::to_writer(out, &answer)?)),
+            Kind::Svg | Kind::Parquet => file.write_all(clatter_figures::map(map)?.as_bytes()),
         })?;
         match self.format {
             Format::Table => {
@@ -158,20 +149,15 @@ impl Args {
                     format!("{n} values of {name} from {lo} to {hi}")
                 };
                 let (file, name, q, e) =
-                    (text::path(path), name(quantity), axis(&inertia(&map).replace('_', " "), map.q), axis("e", map.e));
+                    (text::path(path), answer.quantity, axis(&inertia(map).replace('_', " "), map.q), axis("e", map.e));
                 writeln!(streams.out, "{file}: {name} over {q} and {e}").map_err(Failure::Answer)
             }
             Format::Json => {
-                let (axes, points) = ([inertia(&map), "e"], [map.q.points(), map.e.points()]);
-                streams.json(&WrittenJson { file: path, quantity: name(quantity), axes, points })
+                let (axes, points) = ([inertia(map), "e"], [map.q.points(), map.e.points()]);
+                streams.json(&WrittenJson { file: path, quantity: answer.quantity, axes, points })
             }
         }
     }
-}
-
-/// Whether the values are whole numbers.
-fn counts(map: &Map) -> bool {
-    map.quantity == Quantity::Impacts
 }
 
 /// What the slow axis is called in headings.
@@ -180,11 +166,12 @@ fn inertia(map: &Map) -> &'static str {
 }
 
 fn csv(map: &Map, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "{},e,{}", inertia(map), name(map.quantity))?;
+    let counts = map.quantity == Quantity::Impacts;
+    writeln!(out, "{},e,{}", inertia(map), map::name(map.quantity))?;
     for (i, row) in map.values.chunks(map.e.points()).enumerate() {
         let q = digits(map.q.value(i));
         for (j, &value) in row.iter().enumerate() {
-            writeln!(out, "{q},{},{}", digits(map.e.value(j)), if counts(map) { whole(value) } else { digits(value) })?;
+            writeln!(out, "{q},{},{}", digits(map.e.value(j)), if counts { whole(value) } else { digits(value) })?;
         }
     }
     Ok(())
@@ -196,58 +183,4 @@ struct WrittenJson<'a> {
     quantity: &'static str,
     axes: [&'static str; 2],
     points: [usize; 2],
-}
-
-#[derive(Serialize)]
-struct MapJson<'a> {
-    quantity: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    threshold: Option<Json>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    q: Option<Vec<Json>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    gyration_ratio: Option<Vec<Json>>,
-    e: Vec<Json>,
-    values: Rows<'a>,
-}
-
-impl<'a> MapJson<'a> {
-    fn new(map: &'a Map) -> Self {
-        let threshold = if let Quantity::Zone(threshold) = map.quantity { Some(Json(threshold)) } else { None };
-        let axis = |axis: Axis| (0..axis.points()).map(|i| Json(axis.value(i))).collect();
-        let of = |variable| (map.q.variable() == variable).then(|| axis(map.q));
-        Self {
-            quantity: name(map.quantity),
-            threshold,
-            q: of(Variable::InertiaRatio),
-            gyration_ratio: of(Variable::GyrationRatio),
-            e: axis(map.e),
-            values: Rows(map),
-        }
-    }
-}
-
-/// The values of a map, a row for each value of the slow axis.
-struct Rows<'a>(&'a Map);
-
-impl Serialize for Rows<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self(map) = *self;
-        serializer.collect_seq(map.values.chunks(map.e.points()).map(|values| Row { values, counts: counts(map) }))
-    }
-}
-
-struct Row<'a> {
-    values: &'a [f64],
-    counts: bool,
-}
-
-impl Serialize for Row<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        if self.counts {
-            serializer.collect_seq(self.values.iter().copied().map(JsonWhole))
-        } else {
-            serializer.collect_seq(self.values.iter().copied().map(Json))
-        }
-    }
 }

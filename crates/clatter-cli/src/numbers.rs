@@ -1,6 +1,6 @@
 //! Numbers as they are shown: to people with six significant digits, to machines with all of them.
 
-pub(crate) use clatter_answer::{Json, JsonWhole, whole};
+pub(crate) use clatter_answer::Json;
 
 /// Six significant digits, so that a column tells at a glance how exact it is; −0 is 0.
 ///
