@@ -5,6 +5,8 @@
 //! - If you have a bar and how it falls, call [`impacts::answer`] for its impacts; of a plate [`impacts::plate::answer`].
 //! - If you have a bar and what velocity shock a part survives, call [`zone::answer`]; of a plate [`zone::plate::answer`].
 //! - If you want one quantity over all bars, call [`map::answer`].
+//! - If you have a drop in m and m/s and want its strikes in time, call [`simulate::answer`]; of a plate
+//!   [`simulate::plate::answer`], of a box [`simulate::block::answer`].
 //! - If you have a plate and ask what every direction of tilt leads to, call [`atlas::answer`].
 //!
 //! Velocities are in v0, the drop speed; times in h0/v0, where h0 is the height of end b when end a touches; positions in
@@ -14,6 +16,7 @@ pub mod atlas;
 pub mod impacts;
 pub mod map;
 mod numbers;
+pub mod simulate;
 pub mod zone;
 
 use clatter::{End, Error};

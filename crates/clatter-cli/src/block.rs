@@ -3,12 +3,12 @@
 use std::f64::consts::{PI, TAU};
 use std::io::{self, Write};
 
+use clatter_answer::simulate::block::DropAnswer;
 use clatter_flight::{BlockDrop, BlockFlight, Contact, ContactLaw, LEAST_OF_BLOCKS, Stop};
 use clatter_shock::{DampingRatio, Frequencies, Quantity, Spectrum, UnevenFilter};
-use serde::Serialize;
 
 use crate::Failure;
-use crate::numbers::{Json, figures, given};
+use crate::numbers::{figures, given};
 use crate::quantities::neat;
 
 /// A drop of a box.
@@ -56,10 +56,6 @@ impl Axis {
 }
 
 impl Setup {
-    pub(crate) fn flight(&self) -> Result<BlockFlight, Failure> {
-        Ok(self.drop.contacts(&self.contact, |_| ())?)
-    }
-
     /// Refuses a place beyond the box.
     pub(crate) fn within(&self, at_m: [f64; 3]) -> Result<(), Failure> {
         let size = self.drop.block().size_m();
@@ -110,8 +106,8 @@ impl Setup {
     }
 
     /// Where a flight ends by itself before it is at rest.
-    pub(crate) fn left(&self, flight: &BlockFlight) -> Option<String> {
-        match flight.stop {
+    pub(crate) fn left(&self, stop: &Stop) -> Option<String> {
+        match *stop {
             Stop::TimeLimit { time_s } if time_s < self.drop.time_limit_s() => {
                 Some(format!("left at {time_s:?} s, where the box still moves: what follows is not in the answer"))
             }
@@ -121,20 +117,8 @@ impl Setup {
         }
     }
 
-    pub(crate) fn answer(&self) -> DropJson {
-        let block = self.drop.block();
-        DropJson {
-            model: "compliant",
-            size_m: block.size_m().map(Json),
-            gyration_m: block.gyration_m().map(Json),
-            center_of_mass_m: block.center_of_mass_m().map(Json),
-            e: Json(self.contact.restitution()),
-            speed_m_s: Json(self.drop.speed_m_s()),
-            upward: self.drop.upward().map(Json),
-            spin_rad_s: self.drop.spin_rad_s().map(Json),
-            gravity_m_s2: Json(self.drop.gravity_m_s2()),
-            contact_time_s: Json(self.contact.time_s()),
-        }
+    pub(crate) fn answer(&self) -> DropAnswer {
+        DropAnswer::new(&self.drop, &self.contact)
     }
 
     /// At a place from the middle of the box.
@@ -184,38 +168,6 @@ impl Felt {
         }
         let Spectrum { maximax, time_of_peak_s, .. } = filter.finish()?;
         Ok([maximax[0], time_of_peak_s[0]])
-    }
-}
-
-/// What a drop of a box is, for programs.
-#[derive(Serialize)]
-pub(crate) struct DropJson {
-    model: &'static str,
-    size_m: [Json; 3],
-    gyration_m: [Json; 3],
-    center_of_mass_m: [Json; 3],
-    e: Json,
-    speed_m_s: Json,
-    /// The vertical in axes of the box.
-    upward: [Json; 3],
-    spin_rad_s: [Json; 3],
-    gravity_m_s2: Json,
-    contact_time_s: Json,
-}
-
-#[derive(Serialize)]
-pub(crate) struct StopJson {
-    reason: &'static str,
-    time_s: Json,
-    /// At rest only: no later press changes a velocity by more.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    shock_bound_m_s: Option<Json>,
-}
-
-impl StopJson {
-    pub(crate) fn new(stop: &Stop) -> Self {
-        let bound = if let Stop::AtRest { shock_bound_m_s, .. } = stop { Some(Json(*shock_bound_m_s)) } else { None };
-        Self { reason: stop.reason(), time_s: Json(stop.time_s()), shock_bound_m_s: bound }
     }
 }
 

@@ -1,15 +1,15 @@
 //! `clatter simulate`: one drop in time, by a model of the user's choice.
 
-mod answer;
 mod block;
 mod file;
 mod plate;
 mod table;
 
 use clap::ValueHint;
+use clatter_answer::simulate::{self, Answer, Question};
 use clatter_assess::Model;
 use clatter_assess::units::Quantity;
-use clatter_flight::{Contact, Model as Physics, Motion, Stop, Strike};
+use clatter_flight::{Contact, Model as Physics, Stop};
 
 use crate::drop_args::{Beside, DropArgs, IN_SI, Setup};
 use crate::inputs::{self, RowFormat};
@@ -151,7 +151,7 @@ struct Drop<'a> {
     /// Positions asked for, and how they are called.
     at: Vec<f64>,
     called: Vec<String>,
-    motion: Motion,
+    answer: Answer,
 }
 
 /// Impacts followed unless more are asked for.
@@ -179,7 +179,7 @@ impl Args {
         match self.format {
             RowFormat::Table => drop.table(streams.out).map_err(Failure::Answer)?,
             RowFormat::Csv => drop.csv(streams.out).map_err(Failure::Answer)?,
-            RowFormat::Json => streams.json(&drop.answer())?,
+            RowFormat::Json => streams.json(&drop.answer)?,
         }
         for (kind, note) in &drop.setup.notes {
             streams.note(kind, note);
@@ -218,22 +218,28 @@ impl Args {
         setup.shown.time.unit = setup.shown.time.unit.or(self.until.and_then(|until| until.unit));
         let scene = setup.scene.with_spin(spin).map_err(Failure::flag(flag))?.with_impact_limit(self.impact_limit)?;
         setup.scene = self.time_limit_s().map_or(Ok(scene), |limit| scene.with_time_limit_s(limit))?;
-        let motion = self.motion(&setup)?;
         let of_part = setup.part.iter().map(|part| part.place).filter(|_| self.at.is_empty());
         let at = self.at.iter().map(|place| place.of_bar("--at")).collect::<Result<Vec<_>, _>>()?;
         let places: Vec<Place> = at.into_iter().chain(of_part).collect();
         let at = quantities::positions(&places, "--at", 0.5 * setup.length_m)?;
         let called = places.iter().map(|place| place.said()).collect();
-        Ok(Drop { args: self, setup, at, called, motion })
+        let mut question = Question::new(setup.scene, self.physics(&setup)?);
+        question.at = at.clone();
+        question.length_m = setup.length_m;
+        question.center_of_mass = setup.center_of_mass;
+        question.tilt_deg = setup.tilt_deg;
+        question.height_m = setup.height_m;
+        let gyration = self.inertia.gyration()?;
+        let answer = simulate::answer(&question).map_err(|error| self.drop.named(error, gyration))?;
+        Ok(Drop { args: self, setup, at, called, answer })
     }
 
-    fn motion(&self, setup: &Setup) -> Result<Motion, Failure> {
-        let scene = &setup.scene;
-        let physics = match setup.model {
+    fn physics(&self, setup: &Setup) -> Result<Physics, Failure> {
+        Ok(match setup.model {
             Model::Compliant => {
                 // That there is one was checked before.
                 let time = setup.contact_time_s.unwrap_or(f64::NAN);
-                Physics::Contacts(Contact::new(setup.contact_law, scene.e(), time)?)
+                Physics::Contacts(Contact::new(setup.contact_law, setup.scene.e(), time)?)
             }
             _ if self.drop.contact_time().is_some() => {
                 return Err(Failure::Usage("--contact-time and --contact-time-s go with --model=compliant alone"));
@@ -241,67 +247,24 @@ impl Args {
             Model::Ballistic => Physics::Ballistic,
             Model::FiniteTilt => Physics::FiniteTilt,
             Model::NetChange | Model::LargestShock | Model::Map => Physics::Map,
-        };
-        let gyration = self.inertia.gyration()?;
-        scene.fly(physics).map_err(|error| self.drop.named(error, gyration))
+        })
     }
 }
 
 impl Drop<'_> {
-    /// Velocity shocks at the positions asked for, of each strike.
-    fn shocks(&self, strike: &Strike) -> impl Iterator<Item = f64> {
-        self.at.iter().map(|&s| strike.delta_v_at(s))
-    }
-
-    /// Largest velocity shock of each end, in its own strikes and those of the other.
-    fn largest(&self) -> [f64; 2] {
-        [-1.0, 1.0].map(|s| self.largest_of(s))
-    }
-
-    fn largest_at(&self) -> impl Iterator<Item = f64> {
-        self.at.iter().map(|&s| self.largest_of(s))
-    }
-
-    fn largest_of(&self, s: f64) -> f64 {
-        self.motion.strikes.iter().map(|strike| strike.delta_v_at(s).abs()).fold(0.0, f64::max)
-    }
-
-    /// When the contact of a strike ends, where contacts take time; infinite where the end stays down.
-    fn until_s(&self, strike: usize) -> Option<f64> {
-        self.motion.presses.get(strike).map(|press| press.until_s)
-    }
-
-    /// Whether a limit has cut off the contact of a strike, so that its shock is not known.
-    fn is_unfinished(&self, strike: usize) -> bool {
-        let cut = !matches!(self.motion.stop, Stop::AtRest { .. } | Stop::BouncedClear { .. });
-        cut && self.until_s(strike).is_some_and(f64::is_infinite)
-    }
-
-    /// How many strikes begin while the other end still presses, and the number of the first of them.
-    fn overlaps(&self) -> Option<(usize, u64)> {
-        let (mut parted_s, mut found) = (f64::NEG_INFINITY, None);
-        for (press, strike) in self.motion.presses.iter().zip(&self.motion.strikes) {
-            if press.from_s < parted_s {
-                found = Some(found.map_or((1, strike.number), |(count, first)| (count + 1, first)));
-            }
-            parted_s = parted_s.max(press.until_s);
-        }
-        found
-    }
-
     fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
-        if let Some((count, first)) = self.overlaps() {
+        if let Some((count, first)) = self.answer.impacts.overlaps() {
             let touches = if count == 1 { "strike begins" } else { "strikes begin" };
             warnings.push(format!(
                 "{count} {touches} while the other end still presses, the first is number {first}: \
                  the impulses of such strikes depend on the contact time"
             ));
         }
-        let flight = &self.motion;
-        match flight.stop {
+        let motion = self.answer.impacts.motion();
+        match motion.stop {
             Stop::ImpactLimit { .. } => {
-                let n = flight.strikes.len();
+                let n = motion.strikes.len();
                 warnings.push(format!("stopped after {n} impacts, more would follow; --impact-limit=N follows more"));
             }
             Stop::TimeLimit { time_s } if self.args.time_limit_s().is_none_or(|limit| time_s < limit) => {
@@ -310,9 +273,9 @@ impl Drop<'_> {
             }
             _ => {}
         }
-        let unfinished: Vec<_> = (0..flight.strikes.len()).filter(|&i| self.is_unfinished(i)).collect();
-        if let [first, ..] = unfinished[..] {
-            let (count, first) = (unfinished.len(), flight.strikes[first].number);
+        let mut unfinished = self.answer.impacts.iter().filter(|impact| impact.unfinished).map(|impact| impact.number);
+        if let Some(first) = unfinished.next() {
+            let count = 1 + unfinished.count();
             let contacts = if count == 1 { "contact is" } else { "contacts are" };
             warnings.push(format!(
                 "{count} {contacts} cut off there, the first is that of number {first}: what it does in all is not known"

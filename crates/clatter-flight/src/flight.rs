@@ -19,6 +19,19 @@ pub enum Model {
     Contacts(Contact),
 }
 
+impl Model {
+    /// `map`, `ballistic`, `finite-tilt` or `compliant`.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Map => "map",
+            Self::Ballistic => "ballistic",
+            Self::FiniteTilt => "finite-tilt",
+            Self::Contacts(_) => "compliant",
+        }
+    }
+}
+
 /// One strike of a contact point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strike<const N: usize = 2> {

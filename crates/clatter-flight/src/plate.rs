@@ -158,6 +158,16 @@ impl PlateScene {
     pub fn gravity_m_s2(&self) -> f64 {
         self.gravity
     }
+    /// No strike is after this time; infinite where there is no limit.
+    #[must_use]
+    pub fn time_limit_s(&self) -> f64 {
+        self.time_limit
+    }
+    /// Strikes followed at most.
+    #[must_use]
+    pub fn impact_limit(&self) -> usize {
+        self.impact_limit
+    }
 
     /// The motion with contacts that take time to a precision, as far as it is needed: as
     /// [`Scene::contacts_until`](crate::Scene::contacts_until).

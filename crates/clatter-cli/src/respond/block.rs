@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use clatter_answer::simulate::block::{DropAnswer, StopAnswer};
 use clatter_shock::{DampingRatio, Quantity};
 use serde::Serialize;
 
@@ -63,13 +64,13 @@ impl Args {
             axis: axis.name(),
             part,
             acceleration: felt.largest(axis).into(),
-            stop: crate::block::StopJson::new(&felt.flight.stop),
+            stop: StopAnswer::new(&felt.flight.stop),
         };
         match self.format {
             Format::Table => answer.table(&setup, streams.out).map_err(Failure::Answer)?,
             Format::Json => streams.json(&answer)?,
         }
-        for warning in setup.warning().into_iter().chain(setup.left(&felt.flight)) {
+        for warning in setup.warning().into_iter().chain(setup.left(&felt.flight.stop)) {
             streams.note("warning", warning);
         }
         self.warn(std::iter::empty(), streams);
@@ -80,7 +81,7 @@ impl Args {
 #[derive(Serialize)]
 struct Answer {
     #[serde(flatten)]
-    drop: crate::block::DropJson,
+    drop: DropAnswer,
     contact_law: &'static str,
     at_m: [Json; 3],
     axis: &'static str,
@@ -88,7 +89,7 @@ struct Answer {
     part: Option<Part>,
     /// What an accelerometer at the place feels at most along the axis.
     acceleration: Value,
-    stop: crate::block::StopJson,
+    stop: StopAnswer,
 }
 
 #[derive(Serialize)]

@@ -2,14 +2,14 @@
 
 use std::io::{self, Write};
 
-use clatter_flight::{Block, BlockFlight, BlockStrike, Stop};
-use serde::Serialize;
+use clatter_answer::simulate::block::{self, Answer, Impact, Question};
+use clatter_flight::Block;
 
 use super::Args;
 use crate::block::Setup;
 use crate::drop_args::BesideBlock;
 use crate::inputs::RowFormat;
-use crate::numbers::{Json, digits, figures, given};
+use crate::numbers::{digits, figures, given};
 use crate::{Failure, Streams};
 
 /// Presses whose largest shock is below this share of the largest of all are left out of the table.
@@ -43,11 +43,12 @@ impl Args {
             time_limit_s: self.time_limit_s(),
             impact_limit: self.impact_limit,
         })?;
-        let drop = Drop { flight: setup.flight()?, setup, all: self.all };
+        let answer = block::answer(&Question::new(setup.drop, setup.contact))?;
+        let drop = Drop { setup, answer, all: self.all };
         match self.format {
             RowFormat::Table => drop.table(streams.out).map_err(Failure::Answer)?,
             RowFormat::Csv => drop.csv(streams.out).map_err(Failure::Answer)?,
-            RowFormat::Json => streams.json(&drop.answer())?,
+            RowFormat::Json => streams.json(&drop.answer)?,
         }
         drop.warnings().into_iter().for_each(|warning| streams.note("warning", warning));
         Ok(())
@@ -56,56 +57,47 @@ impl Args {
 
 struct Drop {
     setup: Setup,
-    flight: BlockFlight,
+    answer: Answer,
     all: bool,
 }
 
-fn shock(strike: &BlockStrike) -> f64 {
-    strike.delta_v_m_s.into_iter().fold(0.0, |most, v| most.max(v.abs()))
-}
-
 impl Drop {
-    /// Whether a limit has cut off a press, so that its shock is not known.
-    fn is_unfinished(&self, strike: &BlockStrike) -> bool {
-        let is_over = matches!(self.flight.stop, Stop::AtRest { .. } | Stop::BouncedClear { .. });
-        !is_over && strike.until_s.is_infinite()
-    }
-
     fn warnings(&self) -> Vec<String> {
         let mut warnings: Vec<String> = self.setup.warning().into_iter().collect();
-        let unfinished = self.flight.strikes.iter().filter(|strike| self.is_unfinished(strike)).count();
+        let unfinished = self.answer.impacts.iter().filter(|impact| impact.is_unfinished()).count();
         if unfinished > 0 {
             warnings.push(format!("{unfinished} contacts are cut off there: what they do in all is not known"));
         }
-        warnings.extend(self.setup.left(&self.flight));
+        warnings.extend(self.setup.left(&self.answer.stop));
         warnings
     }
 
     fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         self.setup.heading(out)?;
-        writeln!(out, "Impacts {:>26}", self.flight.strikes.len())?;
-        writeln!(out, "{:<14} {:>19} s", crate::block::stopped(&self.flight.stop), digits(self.flight.stop.time_s()))?;
-        let largest = self.flight.strikes.iter().map(shock).fold(0.0, f64::max);
+        writeln!(out, "Impacts {:>26}", self.answer.impacts.len())?;
+        writeln!(out, "{:<14} {:>19} s", crate::block::stopped(&self.answer.stop), digits(self.answer.stop.time_s()))?;
+        let largest = self.answer.impacts.iter().map(Impact::largest_m_s).fold(0.0, f64::max);
         writeln!(out)?;
         writeln!(out, "   impact  corner        time         until      approach   shock there  largest shock")?;
         writeln!(out, "                             s             s           m/s           m/s            m/s")?;
         let mut left = 0;
-        for strike in &self.flight.strikes {
-            if !self.all && shock(strike) < MATTERS * largest && !self.is_unfinished(strike) {
+        for impact in &self.answer.impacts {
+            let largest_of = impact.largest_m_s();
+            if !self.all && largest_of < MATTERS * largest && !impact.is_unfinished() {
                 left += 1;
                 continue;
             }
-            let until = if strike.until_s.is_finite() { figures(strike.until_s) } else { "-".to_owned() };
-            let known = |x: f64| if self.is_unfinished(strike) { "-".to_owned() } else { figures(x) };
+            let until = if impact.until_s.0.is_finite() { figures(impact.until_s.0) } else { "-".to_owned() };
+            let known = |x: f64| if impact.is_unfinished() { "-".to_owned() } else { figures(x) };
             writeln!(
                 out,
                 "{:>9}  {:<6}{:>14}{until:>14}{:>14}{:>14}{:>15}",
-                strike.number,
-                Block::corner_name(strike.corner),
-                figures(strike.time_s),
-                figures(strike.approach_m_s),
-                known(strike.delta_v_m_s[strike.corner]),
-                known(shock(strike)),
+                impact.number,
+                impact.corner,
+                figures(impact.time_s.0),
+                figures(impact.approach_m_s.0),
+                known(impact.delta_v_m_s[impact.index].map_or(0.0, |shock| shock.0)),
+                known(largest_of),
             )?;
         }
         if left > 0 {
@@ -118,58 +110,15 @@ impl Drop {
         write!(out, "number,corner,time_s,until_s,approach_m_s")?;
         (0..8).try_for_each(|corner| write!(out, ",delta_v_{}_m_s", Block::corner_name(corner)))?;
         writeln!(out)?;
-        for strike in &self.flight.strikes {
-            let BlockStrike { number, corner, time_s, until_s, approach_m_s, delta_v_m_s } = strike;
-            let until = if until_s.is_finite() { given(*until_s) } else { "infinite".to_owned() };
-            let corner = Block::corner_name(*corner);
-            write!(out, "{number},{corner},{},{until},{}", given(*time_s), given(*approach_m_s))?;
-            for v in delta_v_m_s {
-                let known = if self.is_unfinished(strike) { String::new() } else { given(*v) };
-                write!(out, ",{known}")?;
+        for impact in &self.answer.impacts {
+            let Impact { number, corner, time_s, until_s, approach_m_s, .. } = impact;
+            let until = if until_s.0.is_finite() { given(until_s.0) } else { "infinite".to_owned() };
+            write!(out, "{number},{corner},{},{until},{}", given(time_s.0), given(approach_m_s.0))?;
+            for shock in impact.delta_v_m_s {
+                write!(out, ",{}", shock.map_or_else(String::new, |shock| given(shock.0)))?;
             }
             writeln!(out)?;
         }
         Ok(())
     }
-
-    fn answer(&self) -> Answer {
-        let impact = |strike: &BlockStrike| ImpactJson {
-            number: strike.number,
-            corner: Block::corner_name(strike.corner),
-            time_s: Json(strike.time_s),
-            approach_m_s: Json(strike.approach_m_s),
-            delta_v_m_s: strike.delta_v_m_s.map(|v| (!self.is_unfinished(strike)).then_some(Json(v))),
-            until_s: Json(strike.until_s),
-        };
-        Answer {
-            drop: self.setup.answer(),
-            contact_law: self.setup.contact.law().name(),
-            energy_error: Json(self.flight.energy_error),
-            impacts: self.flight.strikes.iter().map(impact).collect(),
-            stop: crate::block::StopJson::new(&self.flight.stop),
-        }
-    }
-}
-
-#[derive(Serialize)]
-struct Answer {
-    #[serde(flatten)]
-    drop: crate::block::DropJson,
-    contact_law: &'static str,
-    /// What the energy of the body changes by without reason, over that at the first touch.
-    energy_error: Json,
-    impacts: Vec<ImpactJson>,
-    stop: crate::block::StopJson,
-}
-
-#[derive(Serialize)]
-struct ImpactJson {
-    number: u64,
-    /// The signs of x, y and z.
-    corner: &'static str,
-    time_s: Json,
-    approach_m_s: Json,
-    /// Of the corners ---, +--, -+-, ++-, --+, +-+, -++, +++; null where a limit has cut off the contact.
-    delta_v_m_s: [Option<Json>; 8],
-    until_s: Json,
 }

@@ -2,13 +2,11 @@
 
 use std::io::{self, Write};
 
-use clatter_figures::FigureError;
-use serde::Serialize;
-
 use super::{Drop, IMPACTS};
 use crate::Failure;
-use crate::numbers::{Json, digits};
+use crate::numbers::digits;
 use crate::output::{self, Kind, Target};
+use clatter_figures::FigureError;
 
 /// Rows that nobody wants unless they ask for them.
 const MOST_ROWS: usize = 4_000_000;
@@ -16,23 +14,21 @@ const MOST_ROWS: usize = 4_000_000;
 impl Drop<'_> {
     pub(super) fn write(&self, Target { path, kind }: &Target) -> Result<(), Failure> {
         let unasked = self.args.time_limit_s().is_none() && self.args.impact_limit == IMPACTS;
-        if unasked && self.motion.rows().nth(MOST_ROWS).is_some() {
+        if unasked && self.answer.impacts.motion().rows().nth(MOST_ROWS).is_some() {
             return Err(Failure::Usage(
                 "the motion has more than 4 million rows, some hundred megabytes: --time-limit-s or --impact-limit says how far it is wanted",
             ));
         }
         output::replace(path, |file| match kind {
             Kind::Csv => output::buffered(file, |out| self.history_csv(out)),
-            Kind::Json => output::buffered(file, |out| {
-                let history = Rows(self);
-                Ok(serde_json::to_writer(out, &Whole { answer: self.answer(), history })?)
-            }),
+            Kind::Json => output::buffered(file, |out| Ok(serde_json::to_writer(out, &self.answer.with_history())?)),
             _ => output::buffered(file, |out| out.write_all(self.svg()?.as_bytes())),
         })
     }
 
     fn svg(&self) -> Result<String, FigureError> {
-        let (motion, rows) = (&self.motion, self.motion.rows().collect::<Vec<_>>());
+        let motion = self.answer.impacts.motion();
+        let rows: Vec<_> = motion.rows().collect();
         clatter_figures::drop(&clatter_figures::Drop {
             model: &self.physics(),
             rows: &rows,
@@ -55,19 +51,19 @@ impl Drop<'_> {
     }
 
     fn history_csv(&self, out: &mut dyn Write) -> io::Result<()> {
-        let at = &self.at;
+        let (at, motion) = (&self.at, self.answer.impacts.motion());
         write!(out, "time_s,height_a_m,height_b_m,velocity_a_m_s,velocity_b_m_s")?;
         for s in at {
             write!(out, ",velocity_at_{}_m_s", digits(*s))?;
         }
-        if self.motion.contact().is_some() {
+        if motion.contact().is_some() {
             write!(out, ",force_per_mass_a_m_s2,force_per_mass_b_m_s2,acceleration_a_m_s2,acceleration_b_m_s2")?;
             for s in at {
                 write!(out, ",acceleration_at_{}_m_s2", digits(*s))?;
             }
         }
         writeln!(out)?;
-        for row in self.motion.rows() {
+        for row in motion.rows() {
             write!(out, "{}", digits(row.time_s))?;
             let velocities = row.velocity_m_s.into_iter().chain(at.iter().map(|s| row.velocity_at(*s)));
             for x in row.height_m.into_iter().chain(velocities) {
@@ -83,49 +79,4 @@ impl Drop<'_> {
         }
         Ok(())
     }
-}
-
-/// The answer, and the rows after it.
-#[derive(Serialize)]
-struct Whole<'a> {
-    #[serde(flatten)]
-    answer: super::answer::Answer<'a>,
-    history: Rows<'a>,
-}
-
-struct Rows<'a>(&'a Drop<'a>);
-
-impl Serialize for Rows<'_> {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let at = &self.0.at;
-        serializer.collect_seq(self.0.motion.rows().map(|row| RowJson {
-            time_s: Json(row.time_s),
-            height_m: row.height_m.map(Json),
-            velocity_m_s: row.velocity_m_s.map(Json),
-            velocity_at_m_s: at.iter().map(|s| Json(row.velocity_at(*s))).collect(),
-            forces: row.forces.map(|forces| ForcesJson {
-                force_per_mass_m_s2: forces.force_per_mass_m_s2.map(Json),
-                acceleration_m_s2: forces.acceleration_m_s2.map(Json),
-                acceleration_at_m_s2: at.iter().map(|s| Json(forces.acceleration_at(*s))).collect(),
-            }),
-        }))
-    }
-}
-
-#[derive(Serialize)]
-struct RowJson {
-    time_s: Json,
-    height_m: [Json; 2],
-    velocity_m_s: [Json; 2],
-    velocity_at_m_s: Vec<Json>,
-    #[serde(flatten)]
-    forces: Option<ForcesJson>,
-}
-
-#[derive(Serialize)]
-#[expect(clippy::struct_field_names, reason = "each name ends in its unit")]
-struct ForcesJson {
-    force_per_mass_m_s2: [Json; 2],
-    acceleration_m_s2: [Json; 2],
-    acceleration_at_m_s2: Vec<Json>,
 }

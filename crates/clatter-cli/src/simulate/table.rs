@@ -2,13 +2,13 @@
 
 use std::io::{self, Write};
 
+use clatter_answer::simulate::Impact;
 use clatter_assess::Model;
-use clatter_flight::{Model as Physics, Stop, Strike};
+use clatter_flight::{Model as Physics, Stop};
 
 use super::Drop;
-use super::answer::end;
 use crate::columns;
-use crate::numbers::{digits, figures, given};
+use crate::numbers::{Json, digits, figures, given};
 
 /// Strikes whose largest shock is below this share of the largest of all are summed up.
 const MATTERS: f64 = 0.01;
@@ -18,7 +18,7 @@ impl Drop<'_> {
     pub(super) fn physics(&self) -> String {
         let shown = &self.setup.shown;
         let gravity = shown.acceleration.given(self.setup.scene.gravity_m_s2());
-        match self.motion.model() {
+        match self.answer.impacts.motion().model() {
             Physics::Map => "Small tilt, no gravity, instant impacts".to_owned(),
             Physics::Ballistic => format!("Small tilt, gravity {gravity}, instant impacts"),
             Physics::FiniteTilt => format!("Any tilt, gravity {gravity}, instant impacts"),
@@ -38,10 +38,8 @@ impl Drop<'_> {
         heads.extend(["approach", "shock at a", "shock at b"].map(|name| (name.to_owned(), speed.name())));
         heads.extend(self.called.iter().map(|place| (format!("shock at {place}"), speed.name())));
         writeln!(out)?;
-        let strikes = &self.motion.strikes;
-        let largest = self.largest().into_iter().fold(0.0, f64::max);
-        let shock = |strike: &Strike| strike.delta_v_m_s.into_iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-        let matters = |i: usize| self.args.all || self.is_unfinished(i) || shock(&strikes[i]) >= MATTERS * largest;
+        let most = MATTERS * self.largest().fold(0.0, f64::max);
+        let matters = |impact: &Impact| self.args.all || impact.unfinished || impact.largest_m_s() >= most;
         for (n, part) in columns::parts(14, &heads).into_iter().enumerate() {
             if n > 0 {
                 writeln!(out)?;
@@ -49,16 +47,16 @@ impl Drop<'_> {
             let heads = &heads[part.clone()];
             columns::line(out, "   impact  end", heads, heads.iter().map(|(name, _)| name.as_str()))?;
             columns::line(out, "              ", heads, heads.iter().map(|(_, unit)| *unit))?;
-            for (i, strike) in strikes.iter().enumerate().filter(|(i, _)| matters(*i)) {
-                let cells = self.cells(i, strike, |x| time.figures(x), |x| speed.figures(x));
-                let first = format!("{:>9}  {:<3}", strike.number, end(strike.point));
+            for impact in self.answer.impacts.iter().filter(matters) {
+                let cells = cells(&impact, |x| time.figures(x), |x| speed.figures(x));
+                let first = format!("{:>9}  {:<3}", impact.number, impact.end);
                 columns::line(out, &first, heads, cells[part.start..].iter())?;
             }
         }
-        let left: Vec<_> = (0..strikes.len()).filter(|i| !matters(*i)).map(|i| &strikes[i]).collect();
+        let left: Vec<_> = self.answer.impacts.iter().filter(|impact| !matters(impact)).collect();
         let Some(last) = left.last() else { return Ok(()) };
-        let most = left.iter().map(|strike| shock(strike)).fold(0.0, f64::max);
-        let (count, until, most) = (left.len(), time.said(last.time_s), speed.said(most));
+        let most = left.iter().map(Impact::largest_m_s).fold(0.0, f64::max);
+        let (count, until, most) = (left.len(), time.said(last.time_s.0), speed.said(most));
         let strikes = if count == 1 { "strike" } else { "strikes" };
         writeln!(
             out,
@@ -91,7 +89,7 @@ impl Drop<'_> {
     }
 
     fn totals(&self, out: &mut dyn Write) -> io::Result<()> {
-        let (motion, time, speed) = (&self.motion, self.setup.shown.time, self.setup.shown.speed);
+        let (motion, time, speed) = (self.answer.impacts.motion(), self.setup.shown.time, self.setup.shown.speed);
         let stop = match motion.stop {
             Stop::AtRest { .. } => "At rest at",
             Stop::BouncedClear { .. } => "Bounced clear at",
@@ -116,28 +114,19 @@ impl Drop<'_> {
         let wide = names.iter().map(String::len).max().unwrap_or(0).max(22);
         writeln!(out, "{:<wide$}{:>14}", "Impacts", motion.strikes.len())?;
         writeln!(out, "{stop:<wide$}{:>14} {}{bounds}", time.figures(motion.stop.time_s()), time.name())?;
-        for (name, shock) in names.iter().zip(self.largest().into_iter().chain(self.largest_at())) {
+        for (name, shock) in names.iter().zip(self.largest().chain(self.largest_at())) {
             writeln!(out, "{name:<wide$}{:>14} {}", speed.figures(shock), speed.name())?;
         }
         Ok(())
     }
 
-    /// Time, end of the contact where it takes time, approach and shocks of a strike.
-    fn cells(
-        &self,
-        i: usize,
-        strike: &Strike,
-        time: impl Fn(f64) -> String,
-        speed: impl Fn(f64) -> String,
-    ) -> Vec<String> {
-        let known = |shown: String| if self.is_unfinished(i) { UNFINISHED.to_owned() } else { shown };
-        let shock = |x: f64| known(speed(x));
-        let mut cells = vec![time(strike.time_s)];
-        cells.extend(self.until_s(i).map(|x| known(time(x))));
-        cells.push(speed(strike.approach_m_s));
-        cells.extend(strike.delta_v_m_s.map(shock));
-        cells.extend(self.shocks(strike).map(shock));
-        cells
+    /// Largest velocity shock of each end.
+    fn largest(&self) -> impl Iterator<Item = f64> {
+        self.answer.largest_delta_v_m_s.iter().map(|shock| shock.0)
+    }
+
+    fn largest_at(&self) -> impl Iterator<Item = f64> {
+        self.answer.largest_delta_v_at_m_s.iter().map(|shock| shock.0)
     }
 
     pub(super) fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
@@ -147,9 +136,9 @@ impl Drop<'_> {
             write!(out, ",delta_v_at_{}_m_s", digits(*s))?;
         }
         writeln!(out)?;
-        for (i, strike) in self.motion.strikes.iter().enumerate() {
-            let cells = self.cells(i, strike, digits, digits).join(",");
-            writeln!(out, "{},{},{cells}", strike.number, end(strike.point))?;
+        for impact in self.answer.impacts.iter() {
+            let cells = cells(&impact, digits, digits).join(",");
+            writeln!(out, "{},{},{cells}", impact.number, impact.end)?;
         }
         Ok(())
     }
@@ -157,3 +146,28 @@ impl Drop<'_> {
 
 /// What stands for a shock that a limit has cut off.
 const UNFINISHED: &str = "unfinished";
+
+/// Time, end of the contact where it takes time, approach and shocks of a strike.
+fn cells(impact: &Impact, time: impl Fn(f64) -> String, speed: impl Fn(f64) -> String) -> Vec<String> {
+    let Impact { time_s, until_s, approach_m_s, delta_v_m_s, delta_v_at_m_s, .. } = impact;
+    let shocks = delta_v_m_s.iter().chain(delta_v_at_m_s);
+    of_strike([*time_s, *approach_m_s], *until_s, shocks.copied(), time, speed)
+}
+
+/// The same of a strike of any body; a shock is none where the contact is unfinished.
+pub(super) fn of_strike(
+    [time_s, approach_m_s]: [Json; 2],
+    until_s: Option<Json>,
+    shocks: impl Iterator<Item = Option<Json>>,
+    time: impl Fn(f64) -> String,
+    speed: impl Fn(f64) -> String,
+) -> Vec<String> {
+    let mut shocks = shocks.map(|shock| shock.map_or_else(|| UNFINISHED.to_owned(), |shock| speed(shock.0))).peekable();
+    let unfinished = shocks.peek().is_some_and(|shock| shock == UNFINISHED);
+    let until = until_s.map(|until| if unfinished { UNFINISHED.to_owned() } else { time(until.0) });
+    let mut cells = vec![time(time_s.0)];
+    cells.extend(until);
+    cells.push(speed(approach_m_s.0));
+    cells.extend(shocks);
+    cells
+}
