@@ -5,7 +5,7 @@
 //! use clatter_flight::{Block, BlockDrop, Contact, ContactLaw};
 //! // A handheld of 150 by 70 by 15 mm lands on its long edge.
 //! let handheld = Block::new([0.15, 0.07, 0.015], [0.0; 3], [0.0207, 0.0435, 0.0478])?;
-//! let drop = BlockDrop::new(handheld, [0.924, 0.383, 0.0, 0.0], 4.43, 9.806_65)?;
+//! let drop = BlockDrop::new(handheld, [0.923_879_532_511_286_7, 0.382_683_432_365_089_8, 0.0, 0.0], 4.43, 9.806_65)?;
 //! let contact = Contact::new(ContactLaw::Hysteretic, 0.3, 1e-3)?;
 //! let answer = block::answer(&block::Question::new(drop, contact))?;
 //! assert_eq!((answer.impacts[0].number, answer.stop.reason()), (1, "at-rest"));

@@ -1,0 +1,106 @@
+//! Questions that no drop answers are refused with the value, and answers serialize to what programs read.
+
+use clatter::{Axis, Bar, Plate, PlateStart, Quantity, Start};
+use clatter_answer::{atlas, impacts, map, simulate, zone};
+use clatter_flight::{Body, Contact, ContactLaw, Model, PlateScene, Scene};
+use serde_json::{Value, json};
+
+fn bar() -> clatter::OffCenterBar {
+    Bar::new(0.5, 0.3).expect("a bar").into()
+}
+
+fn plate() -> Plate {
+    Plate::uniform(0.3).expect("a plate")
+}
+
+fn scene() -> Scene {
+    let body = Body::new(0.14, 0.0404).expect("a body");
+    Scene::new(body, 0.3, 4.43, 5.0, 9.806_65).expect("a drop")
+}
+
+fn plate_scene() -> PlateScene {
+    let phone = clatter_flight::Plate::new([0.075, 0.075, 0.035, 0.035], [0.0433, 0.0202]).expect("a plate");
+    PlateScene::new(phone, 4.43, [2e-3, 1e-3], 9.806_65).expect("a drop")
+}
+
+#[test]
+fn places_off_the_body_are_refused() {
+    for s in [1.5, f64::NAN, f64::INFINITY] {
+        let says = |error: String| assert!(error.contains(&format!("position = {s:?}")), "{error}");
+        let mut question = impacts::Question::new(bar(), Start::default());
+        question.at = vec![0.0, s];
+        says(impacts::answer(&question).expect_err("off the bar").to_string());
+        let mut question = impacts::plate::Question::new(plate(), PlateStart::level([1.0; 2]).expect("a start"));
+        question.at = vec![[0.0, s]];
+        says(impacts::plate::answer(&question).expect_err("off the plate").to_string());
+        let mut question = simulate::Question::new(scene(), Model::Map);
+        question.at = vec![s];
+        says(simulate::answer(&question).expect_err("off the bar").to_string());
+        let mut question = simulate::plate::Question::new(plate_scene(), simulate::plate::Model::Map { e: 0.3 });
+        question.at = vec![[s, 0.0]];
+        says(simulate::plate::answer(&question).expect_err("off the plate").to_string());
+    }
+}
+
+#[test]
+fn thresholds_that_are_no_velocity_are_refused() {
+    for x in [0.0, -1.0, f64::NAN, 1e151] {
+        let says =
+            |error: clatter::Error| assert!(error.to_string().contains(&format!("threshold = {x:?}")), "{error}");
+        says(zone::answer(&zone::Question::new(bar(), vec![1.0, x])).expect_err("no threshold"));
+        says(zone::plate::answer(&zone::plate::Question::new(plate(), vec![x])).expect_err("no threshold"));
+        let (q, e) = (Axis::q(0.0, 1.0, 2).expect("an axis"), Axis::e(0.0, 1.0, 2).expect("an axis"));
+        says(map::answer(&map::Question::new(Quantity::Zone(x), q, e)).expect_err("no threshold"));
+    }
+}
+
+#[test]
+fn other_bad_questions_are_refused() {
+    let mut question = atlas::Question::new(plate());
+    question.limit = 101;
+    assert!(atlas::answer(&question).expect_err("too many").to_string().contains("101"));
+    let question = simulate::plate::Question::new(plate_scene(), simulate::plate::Model::Map { e: 1.5 });
+    assert!(simulate::plate::answer(&question).expect_err("no restitution").to_string().contains("1.5"));
+    let contact = Contact::new(ContactLaw::Hysteretic, 0.5, 1e-3).expect("a contact");
+    let question = simulate::Question::new(scene(), Model::Contacts(contact));
+    assert!(simulate::answer(&question).expect_err("another restitution").to_string().contains("0.5"));
+}
+
+/// By hand: the first strike of a uniform bar with e = 0.3 changes the velocities of its ends by 1.3 and −0.65.
+#[test]
+fn an_answer_is_what_programs_read() {
+    let question = impacts::Question::new(bar(), Start::default());
+    let got = serde_json::to_value(impacts::answer(&question).expect("an answer")).expect("JSON");
+    assert_eq!(
+        (&got["count"], &got["q"], &got["impacts"][0]["delta_v"]),
+        (&json!(4), &json!(0.5), &json!([1.3, -0.65]))
+    );
+    assert!(got.get("center_of_mass").is_none(), "a bar whose center of mass is the middle tells none");
+}
+
+/// What a body at rest leaves out is told, and null where nothing bounds it; a contact that a limit cuts off has no shock.
+#[test]
+fn what_is_not_known_is_null() {
+    let contact = Contact::new(ContactLaw::Hysteretic, 0.3, 1e-3).expect("a contact");
+    let of = |scene| {
+        let answer = simulate::answer(&simulate::Question::new(scene, Model::Contacts(contact))).expect("an answer");
+        serde_json::to_value(&answer).expect("JSON")
+    };
+    let rests = of(scene());
+    assert_eq!((&rests["stop"]["reason"], &rests["stop"]["time_bound_s"]), (&json!("at-rest"), &Value::Null));
+    assert!(rests["stop"]["shock_bound_m_s"].is_number());
+    let cut = of(scene().with_time_limit_s(5e-4).expect("a limit"));
+    let last = &cut["impacts"][0];
+    assert_eq!((&last["unfinished"], &last["delta_v_m_s"]), (&json!(true), &json!([null, null])), "{cut}");
+}
+
+/// The rows of a motion follow the answer, and begin at the first touch.
+#[test]
+fn the_history_follows_the_answer() {
+    let answer = simulate::answer(&simulate::Question::new(scene(), Model::FiniteTilt)).expect("an answer");
+    let (alone, whole) = (serde_json::to_value(&answer), serde_json::to_value(answer.with_history()));
+    let (alone, mut whole) = (alone.expect("JSON"), whole.expect("JSON"));
+    let rows = whole.as_object_mut().and_then(|whole| whole.remove("history")).expect("rows");
+    assert_eq!(whole, alone);
+    assert_eq!((&rows[0]["time_s"], &rows[0]["velocity_m_s"]), (&json!(0.0), &json!([-4.43, -4.43])));
+}
