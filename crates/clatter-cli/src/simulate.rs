@@ -224,7 +224,7 @@ impl Args {
         let at = quantities::positions(&places, "--at", 0.5 * setup.length_m)?;
         let called = places.iter().map(|place| place.said()).collect();
         let mut question = Question::new(setup.scene, self.physics(&setup)?);
-        question.at = at.clone();
+        question.at.clone_from(&at);
         question.length_m = setup.length_m;
         question.center_of_mass = setup.center_of_mass;
         question.tilt_deg = setup.tilt_deg;

@@ -148,7 +148,6 @@ fn order(start: &PlateStart) -> &'static str {
     }
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
 fn count<S: Serializer>(count: &PlateCount, serializer: S) -> Result<S::Ok, S::Error> {
     match *count {
         PlateCount::Finite(n) | PlateCount::MoreThan(n) => serializer.serialize_u64(n),

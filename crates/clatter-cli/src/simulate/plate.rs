@@ -66,7 +66,7 @@ impl Args {
             scene = scene.with_time_limit_s(limit)?;
         }
         let mut question = Question::new(scene, model);
-        question.at = at.clone();
+        question.at.clone_from(&at);
         question.center_of_mass = setup.center_of_mass;
         question.tilt_deg = setup.tilt_deg;
         question.direction_deg = setup.direction_deg;
