@@ -2,7 +2,8 @@
 
 #![no_main]
 
-use clatter_record::{Baseline, Options, Pass, Record, Search, Units, fit_pulses, find_shocks, read_limit};
+use clatter_record::{Baseline, Options, Pass, Record, Units, read_limit};
+use clatter_shock::{Search, find_shocks, fit_pulses};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

@@ -91,7 +91,7 @@ pub(crate) fn shape_name(shape: Shape) -> String {
 
 /// By the keyword of a standard, or by shape, amplitude, duration and starts.
 pub(crate) fn pulse(text: &str) -> Result<PulseArg, String> {
-    if let Some(standard) = clatter_record::standard_pulse(text) {
+    if let Some(standard) = clatter_shock::standard_pulse(text) {
         return Ok(PulseArg { pulses: vec![standard.pulse()], unit: plain_or_typed(&ACCELERATION, "1g")?.unit });
     }
     let [name, amplitude, duration, starts @ ..] = &parts(text, ',')[..] else {
@@ -189,7 +189,7 @@ fn allowed(text: &str) -> Result<(f64, Option<Typed>), String> {
 }
 
 pub(crate) fn limit(text: &str) -> Result<LimitArg, String> {
-    if let Some(standard) = clatter_record::standard_curve(text) {
+    if let Some(standard) = clatter_shock::standard_curve(text) {
         let curve = standard.limit_curve().map_err(|error| error.to_string())?;
         let unit = ACCELERATION.units.iter().find(|unit| unit.name == standard.unit);
         return Ok(LimitArg { curve, level: None, typed: unit.map(|unit| (&ACCELERATION, unit)) });

@@ -1,7 +1,7 @@
 //! How the shocks of a record are found.
 
 use clatter_assess::units::{ACCELERATION, Dimension, TIME};
-use clatter_record::Search;
+use clatter_shock::Search;
 
 use crate::quantities::plain_or_typed;
 

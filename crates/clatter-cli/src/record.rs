@@ -11,8 +11,8 @@ use std::path::PathBuf;
 use clap::ValueHint;
 use clatter_assess::units::{ACCELERATION, FREQUENCY, TIME, Unit};
 use clatter_figures::{FigureError, Trace};
-use clatter_record::{Channel, Motion, Record, Series, Shock, Shocks, TimeAxis, integrate, write_parquet};
-use clatter_shock::Pulse;
+use clatter_record::{Channel, Motion, Record, Series, TimeAxis, integrate, write_parquet};
+use clatter_shock::{Pulse, Shock, Shocks};
 
 use crate::condition_args::ConditionArgs;
 use crate::excitation;

@@ -1,6 +1,7 @@
 //! When the samples of a channel are.
 
-use crate::samples::float;
+use clatter_shock::samples::float;
+
 use crate::{At, Error};
 
 /// The times of a channel; channels that were sampled together share them.

@@ -1,7 +1,7 @@
 //! The baseline of a record: the offset and the drift of the sensor, taken out before anything is integrated.
 
 use crate::Error;
-use crate::samples::{check, float, peak, sum};
+use clatter_shock::samples::{check, float, peak, sum};
 
 /// Which baseline is taken out.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,9 +56,9 @@ pub struct Removed {
 ///
 /// # Errors
 ///
-/// [`Error::Quantity`] for a share outside (0, 1) or a time between samples outside [1e-15, 1e9] s; [`Error::Sample`];
-/// [`Error::Short`] for no sample, or one for a line; [`Error::NoShock`] and [`Error::NoQuiet`] for a mean
-/// before the shock where all samples are alike, or fewer than 16 come before it. The record is then as it was.
+/// [`Error::Quantity`] for a share outside (0, 1); [`Error::Shock`] for a time between samples outside [1e-15, 1e9] s, a sample
+/// that is not usable, no sample, or one for a line; for a mean before the shock [`Error::Shock`] where all samples are alike, and
+/// [`Error::NoQuiet`] where fewer than 16 come before it. The record is then as it was.
 ///
 /// # Examples
 ///
@@ -116,7 +116,7 @@ fn quiet(samples: &[f64], share: f64) -> Result<usize, Error> {
     let away: Vec<f64> = samples.iter().map(|a| a - level).collect();
     let largest = away[peak(&away)].abs();
     if largest == 0.0 {
-        return Err(Error::NoShock);
+        return Err(clatter_shock::Error::NoShock.into());
     }
     let begin = away.iter().position(|a| a.abs() > share * largest).unwrap_or(away.len());
     if begin < FEWEST {
@@ -128,6 +128,7 @@ fn quiet(samples: &[f64], share: f64) -> Result<usize, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use clatter_shock::Error::{NoShock, Quantity, Sample, Short};
     use std::f64::consts::PI;
 
     /// Sums in whole numbers are exact: the samples are whole, and what is removed is compared as a fraction.
@@ -206,16 +207,16 @@ mod tests {
         };
         // The mean of the first 16 lies at 37.5; the first sample is 0.6 of the furthest away.
         assert_eq!(refused(&shock, 1e-3, pre), Error::NoQuiet { samples: 0, needed: 16, share: 0.05 });
-        assert_eq!(refused(&[5.0; 100], 1e-3, pre), Error::NoShock);
-        assert!(matches!(refused(&[1.0; 16], 1e-3, pre), Error::Short { samples: 16, needed: 17, .. }));
-        assert!(matches!(refused(&[], 1e-3, Baseline::Mean), Error::Short { samples: 0, needed: 1, .. }));
-        assert!(matches!(refused(&[1.0], 1e-3, Baseline::Linear), Error::Short { samples: 1, needed: 2, .. }));
-        assert!(matches!(refused(&[0.0, f64::NAN], 1e-3, Baseline::Mean), Error::Sample { sample: 2, .. }));
+        assert_eq!(refused(&[5.0; 100], 1e-3, pre), Error::Shock(NoShock));
+        assert!(matches!(refused(&[1.0; 16], 1e-3, pre), Error::Shock(Short { samples: 16, needed: 17, .. })));
+        assert!(matches!(refused(&[], 1e-3, Baseline::Mean), Error::Shock(Short { samples: 0, needed: 1, .. })));
+        assert!(matches!(refused(&[1.0], 1e-3, Baseline::Linear), Error::Shock(Short { samples: 1, needed: 2, .. })));
+        assert!(matches!(refused(&[0.0, f64::NAN], 1e-3, Baseline::Mean), Error::Shock(Sample { sample: 2, .. })));
         for share in [0.0, 1.0, -1.0, f64::NAN] {
             assert!(matches!(refused(&shock, 1e-3, Baseline::PreShock { share }), Error::Quantity { .. }), "{share}");
         }
         for step in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-16] {
-            assert!(matches!(refused(&shock, step, Baseline::Mean), Error::Quantity { .. }), "{step}");
+            assert!(matches!(refused(&shock, step, Baseline::Mean), Error::Shock(Quantity { .. })), "{step}");
         }
     }
 }

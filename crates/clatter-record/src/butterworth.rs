@@ -1,7 +1,7 @@
 //! Butterworth filters that shift nothing in time: forward and backward over the record.
 
 use crate::Error;
-use crate::samples::{check, float};
+use clatter_shock::samples::{check, float};
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 
 /// What a filter lets through.
@@ -52,8 +52,8 @@ const SHORTEST: f64 = 10.0;
 ///
 /// # Errors
 ///
-/// [`Error::Quantity`] for an order outside 1 to 8, a cutoff outside [1e-6, 0.5) of the sampling rate, or a time between
-/// samples outside [1e-15, 1e9] s; [`Error::Sample`]; [`Error::Short`] for no sample.
+/// [`Error::Quantity`] for an order outside 1 to 8, or a cutoff outside [1e-6, 0.5) of the sampling rate; [`Error::Shock`] for a
+/// time between samples outside [1e-15, 1e9] s, a sample that is not usable, or none.
 ///
 /// # Examples
 ///
@@ -218,6 +218,7 @@ impl Single {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use clatter_shock::Error::{Sample, Short};
     use serde_json::Value;
 
     /// The stated amplitude, written down on its own.
@@ -327,8 +328,8 @@ mod tests {
         for order in [0, 9, u32::MAX] {
             assert!(matches!(low(&[1.0; 9], 1.0, 0.1, order), Err(Error::Quantity { .. })), "{order}");
         }
-        assert!(matches!(low(&[], 1.0, 0.1, 2), Err(Error::Short { .. })));
-        assert!(matches!(low(&[1.0, f64::INFINITY], 1.0, 0.1, 2), Err(Error::Sample { sample: 2, .. })));
+        assert!(matches!(low(&[], 1.0, 0.1, 2), Err(Error::Shock(Short { .. }))));
+        assert!(matches!(low(&[1.0, f64::INFINITY], 1.0, 0.1, 2), Err(Error::Shock(Sample { sample: 2, .. }))));
         // The shortest, and the closest to half the sampling rate.
         assert_eq!(low(&[4.0], 1.0, 0.1, 8), Ok(vec![4.0]));
         let wild: Vec<f64> = (0..1000).map(|i| if i % 2 == 0 { 1e100 } else { -1e100 }).collect();

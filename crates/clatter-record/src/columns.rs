@@ -2,12 +2,13 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
+use clatter_shock::samples::{LARGEST, float};
+
 use crate::error::Bad;
 use crate::heading::Heading;
 use crate::raw::{Raw, Untimed};
 use crate::record::{one_scale, period};
 use crate::roles::{Role, Roles, Seen};
-use crate::samples::{LARGEST, float};
 use crate::text::SHOWN;
 use crate::times::Printed;
 use crate::{At, Column, Error, FULL_SCALE, Finding, Options, Pick, Record, Table, Values};

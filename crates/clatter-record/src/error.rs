@@ -59,7 +59,7 @@ pub enum Error {
     /// More numbers than are to be read.
     #[error("the record has more than {0} numbers: take a part of it, or fewer channels")]
     Many(usize),
-    /// What makes no spectrum.
+    /// What makes no spectrum, or samples that make no history.
     #[error(transparent)]
     Shock(#[from] clatter_shock::Error),
     /// A number outside of its range.
@@ -72,27 +72,6 @@ pub enum Error {
         /// The range that makes sense.
         allowed: &'static str,
     },
-    /// A sample that is not usable; samples count from 1.
-    #[error("sample {sample}: acceleration (m/s²) = {value:?} is not finite and at most 1e100 in size")]
-    Sample {
-        /// Its place in the record, from 1.
-        sample: usize,
-        /// Its value.
-        value: f64,
-    },
-    /// A record too short for what is asked.
-    #[error("{what} needs {needed} samples at least; the record has {samples}")]
-    Short {
-        /// What is asked.
-        what: &'static str,
-        /// How many samples there are.
-        samples: usize,
-        /// How many it takes.
-        needed: usize,
-    },
-    /// A record that never changes.
-    #[error("every sample of the record is alike: there is no shock in it")]
-    NoShock,
     /// A record without quiet before the shock.
     #[error(
         "{samples} samples come before the shock, which begins where the record is {share:?} of its peak away from its first \

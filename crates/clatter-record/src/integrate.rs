@@ -1,7 +1,7 @@
 //! Velocity and displacement of a record.
 
 use crate::Error;
-use crate::samples::{Sum, check};
+use clatter_shock::samples::{Sum, check};
 
 /// Velocity and displacement at the samples, from rest at the first one.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,8 +27,7 @@ pub struct Motion {
 ///
 /// # Errors
 ///
-/// [`Error::Quantity`] for a time between samples outside [1e-15, 1e9] s; [`Error::Sample`]; [`Error::Short`] for no
-/// sample.
+/// [`Error::Shock`] for a time between samples outside [1e-15, 1e9] s, a sample that is not usable, or none.
 ///
 /// # Examples
 ///
@@ -68,7 +67,8 @@ pub fn integrate(acceleration: &[f64], step_s: f64) -> Result<Motion, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::samples::float;
+    use clatter_shock::Error::{Quantity, Sample, Short};
+    use clatter_shock::samples::float;
     use std::f64::consts::PI;
 
     /// Against integrals in whole numbers, 2v/h and 6x/h². The samples are negative, then positive, so that velocity and
@@ -123,9 +123,9 @@ mod tests {
 
     #[test]
     fn what_is_no_record_is_refused() {
-        assert!(matches!(integrate(&[], 1.0), Err(Error::Short { .. })));
-        assert_eq!(integrate(&[1.0, 2e100], 1.0), Err(Error::Sample { sample: 2, value: 2e100 }));
-        assert!(matches!(integrate(&[1.0], -1.0), Err(Error::Quantity { .. })));
+        assert!(matches!(integrate(&[], 1.0), Err(Error::Shock(Short { .. }))));
+        assert_eq!(integrate(&[1.0, 2e100], 1.0), Err(Error::Shock(Sample { sample: 2, value: 2e100 })));
+        assert!(matches!(integrate(&[1.0], -1.0), Err(Error::Shock(Quantity { .. }))));
         // The largest that is taken stays finite.
         let motion = integrate(&[1e100; 1000], 1e9).expect("a record");
         assert!(motion.displacement_m[999].is_finite() && motion.velocity_m_s[999].is_finite());

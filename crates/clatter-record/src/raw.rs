@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
+use clatter_shock::samples::LARGEST;
+
 use crate::axis::{Spacing, TimeAxis};
 use crate::error::Bad;
 use crate::finding::{At, Finding, LISTED, gaps};
-use crate::samples::LARGEST;
 use crate::times::{Printed, Times};
 use crate::{Channel, Error, Options, Record};
 
@@ -51,7 +52,7 @@ impl Raw {
         }
         let samples = self.channels[0].values.len();
         if samples < 2 {
-            return Err(Error::Short { what: "a record", samples, needed: 2 });
+            return Err(clatter_shock::Error::Short { what: "a record", samples, needed: 2 }.into());
         }
         #[expect(clippy::cast_precision_loss, reason = "a count of samples stays below 2^53")]
         let last_s = step_s.map_or(0.0, |step_s| step_s * samples as f64);

@@ -4,6 +4,8 @@ use std::collections::HashMap;
 use std::io::Read;
 use std::sync::Arc;
 
+use clatter_shock::samples::check;
+
 use crate::axis::{Spacing, TimeAxis};
 use crate::container::{self, Kind};
 use crate::error::Bad;
@@ -11,7 +13,6 @@ use crate::finding::{At, Finding, Judged, is_of_events};
 use crate::plausible::{against_times, refuse_counts};
 use crate::raw::{Raw, Untimed};
 use crate::roles::{Role, Roles};
-use crate::samples::check;
 use crate::text::{self, BLOCK, Rows, decoded};
 use crate::times::Printed;
 use crate::{Account, Error, FULL_SCALE, Options};

@@ -1,6 +1,6 @@
 //! The one error type of the crate: what was given, where, and what is allowed.
 
-/// A value that describes no suspension and no shock. Each message names the value and the range.
+/// A value that describes no suspension and no shock, or samples that are no history. Each message names the value and the range.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -88,6 +88,27 @@ pub enum Error {
         "the velocity change of the history is zero, both directions cancel: it has no damage boundary over velocity change, only a critical acceleration"
     )]
     NoVelocityChange,
+    /// A sample that is not usable; samples count from 1.
+    #[error("sample {sample}: acceleration (m/s²) = {value:?} is not finite and at most 1e100 in size")]
+    Sample {
+        /// Its place in the history, from 1.
+        sample: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// A history too short for what is asked.
+    #[error("{what} needs {needed} samples at least; the record has {samples}")]
+    Short {
+        /// What is asked.
+        what: &'static str,
+        /// How many samples there are.
+        samples: usize,
+        /// How many it takes.
+        needed: usize,
+    },
+    /// A history that never changes.
+    #[error("every sample of the record is alike: there is no shock in it")]
+    NoShock,
     /// Shock tests that show no critical level.
     #[error("the {0} trials show no critical level: some level without damage must lie below the lowest with damage")]
     Trials(&'static str),

@@ -1,4 +1,4 @@
-//! What a train of shocks does to a suspended component.
+//! What a train of shocks does to a suspended component, and what shocks a history holds.
 //!
 //! A component on a suspension is a single-degree-of-freedom system whose base is shaken:
 //!
@@ -7,7 +7,7 @@
 //! ```
 //!
 //! z is its displacement relative to the base, A its absolute acceleration, ω its natural angular frequency, ζ ≥ 0 its
-//! damping ratio, of any size. Everything here is exact for the excitation given, but for rounding: peaks come from
+//! damping ratio, of any size. Its response is exact for the excitation given, but for rounding: peaks come from
 //! turning points, never from samples, and the ring-down is always complete.
 //!
 //! | excitation | type | when |
@@ -19,6 +19,10 @@
 //!
 //! Each gives a [`Response`] of one component or a [`Spectrum`] over many; [`Limit`], [`DamageBoundary`],
 //! [`HistoryBoundary`] and [`ShockTable`] turn these into margins.
+//!
+//! In a history of even samples [`find_shocks`] finds the shocks; of one shock [`effective_duration`] tells how long it lasts,
+//! [`fit_pulses`] which pulses fit it, and [`check_pulse`] whether it is the pulse that a standard asks for.
+//! [`STANDARD_PULSES`], [`PULSE_TOLERANCES`] and [`STANDARD_CURVES`] hold what standards state.
 //!
 //! ```
 //! use clatter::{Bar, Start};
@@ -37,6 +41,7 @@
 
 pub mod accuracy;
 mod coupling;
+mod duration;
 mod eight;
 mod enveloping;
 mod error;
@@ -47,17 +52,24 @@ mod history;
 mod history_boundary;
 mod impulse;
 mod integrals;
+mod levels;
 mod limit_curve;
 mod peaks;
 mod pulse;
+mod pulse_fit;
 mod required;
+pub mod samples;
+mod shocks;
 mod side_by_side;
 mod spectrum;
+mod standard;
 mod study;
 mod suspension;
+mod tolerance;
 mod uneven;
 
 pub use coupling::{ImpulseFactors, Rule, RulePoint, TrainResponse, respond, shocks_at, three_way_rule};
+pub use duration::{EffectiveDuration, effective_duration};
 pub use enveloping::EnvelopingPulse;
 pub use error::Error;
 pub use filter::SpectrumFilter;
@@ -67,13 +79,17 @@ pub use impulse::{VelocityShock, VelocityShocks};
 pub use limit_curve::LimitCurve;
 pub use peaks::{Extreme, Extremes, Peaked, Response};
 pub use pulse::{Pulse, Pulses, Shape};
+pub use pulse_fit::{PulseFit, fit_pulses, pulse_at};
 pub use required::{Deviation, RequiredSpectrum};
+pub use shocks::{MOST_SHOCKS, Search, Shock, Shocks, find_shocks, noise_threshold};
 pub use spectrum::{Frequencies, Quantity, Spectrum, Summary};
+pub use standard::{STANDARD_CURVES, STANDARD_PULSES, StandardCurve, StandardPulse, standard_curve, standard_pulse};
 pub use study::{
     GainMap, Holders, OMEGAS, ShapeFigures, SuspendedZones, Worst, amplification, half_sine_train, impact_of_peak,
     omegas, rule_either_end, suspended_zone, worst,
 };
 pub use suspension::{DampingRatio, State, Suspension};
+pub use tolerance::{Distortion, PULSE_TOLERANCES, PulseCheck, PulseTolerance, Within, check_pulse, pulse_tolerance};
 pub use uneven::UnevenFilter;
 
 /// Standard acceleration of free fall, 9.80665 m/s² exactly (3rd CGPM, 1901).

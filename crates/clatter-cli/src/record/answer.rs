@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use clatter_record::{Account, Channel, Finding, PulseCheck, Shocks, TimeAxis, Within};
-use clatter_shock::Pulse;
+use clatter_record::{Account, Channel, Finding, TimeAxis};
+use clatter_shock::{Pulse, PulseCheck, Shocks, Within};
 use serde::Serialize;
 
 use super::pulse::Fitted;

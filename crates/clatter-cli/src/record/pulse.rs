@@ -2,11 +2,11 @@
 
 use std::io::{self, Write};
 
-use clatter_record::{
-    Channel, EffectiveDuration, Error, PULSE_TOLERANCES, PulseCheck, PulseFit, Record, Within, check_pulse,
-    effective_duration, fit_pulses, pulse_at,
+use clatter_record::{Channel, Error, Record};
+use clatter_shock::{
+    EffectiveDuration, PULSE_TOLERANCES, Pulse, PulseCheck, PulseFit, Within, check_pulse, effective_duration,
+    fit_pulses, pulse_at,
 };
-use clatter_shock::Pulse;
 
 use crate::excitation::shape_name;
 use crate::numbers::figures;

@@ -2,14 +2,16 @@
 
 use std::io::{self, Write};
 
-use clatter_record::{Channel, Error, Record, Search, Shocks, find_shocks};
+use clatter_record::{Channel, Error, Record};
+use clatter_shock::{Search, Shocks, find_shocks};
 
 use crate::numbers::{digits, figures};
 use crate::text;
 
 /// Those of each channel.
 pub(super) fn find(search: &Search, record: &Record) -> Result<Vec<Shocks>, Error> {
-    let one = |channel: &Channel| find_shocks(&channel.values, channel.times().even("a search for shocks")?, search);
+    let one =
+        |channel: &Channel| Ok(find_shocks(&channel.values, channel.times().even("a search for shocks")?, search)?);
     record.channels().iter().map(one).collect()
 }
 

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use clatter_record::{Channel, Record, Search, find_shocks};
-use clatter_shock::{DampingRatio, Frequencies, Spectrum, Summary};
+use clatter_record::{Channel, Record};
+use clatter_shock::{DampingRatio, Frequencies, Search, Spectrum, Summary, find_shocks};
 
 use super::Args;
 use crate::numbers::figures;
@@ -29,7 +29,8 @@ fn apart(search: &Search, Measured { path, record, .. }: &Measured) -> Result<Ve
         return Ok(Vec::new());
     };
     let times = channel.times();
-    let found = find_shocks(&channel.values, times.even("a search for shocks").map_err(bad)?, search).map_err(bad)?;
+    let step_s = times.even("a search for shocks").map_err(bad)?;
+    let found = find_shocks(&channel.values, step_s, search).map_err(|error| bad(error.into()))?;
     let count = found.shocks.len() + found.omitted;
     if count == 0 || count > MOST {
         let beyond = figures(found.threshold_m_s2);

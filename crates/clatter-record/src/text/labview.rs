@@ -7,6 +7,7 @@ mod segment;
 
 use std::collections::HashMap;
 
+use clatter_shock::samples::float;
 use encoding_rs::Encoding;
 
 use super::cells::Form;
@@ -295,7 +296,7 @@ impl File {
             let step = one.delta.filter(|step| *step > 0.0 && one.delta == other.delta)?;
             let gap = if self.columns == Columns::No {
                 let begins = one.x0? + one.date_s.zip(other.date_s).map_or(f64::NAN, |(a, b)| a - b);
-                other.x0? - begins - step * crate::samples::float(rows)
+                other.x0? - begins - step * float(rows)
             } else {
                 let column = if self.columns == Columns::Multi { 2 * k } else { 0 };
                 let last = before.lines.last().map(|(_, last)| last - 1)?;

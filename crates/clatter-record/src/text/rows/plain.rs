@@ -1,8 +1,9 @@
 //! A line of plain numbers, straight from its bytes.
 
+use clatter_shock::samples::LARGEST;
+
 use super::{NO_VALUE, Rows, Use};
 use crate::decimal::Decimal;
-use crate::samples::LARGEST;
 use crate::text::cells::Form;
 
 impl Rows {

@@ -2,12 +2,13 @@
 
 use std::borrow::Cow;
 
+use clatter_shock::samples::LARGEST;
+
 use super::{NO_VALUE, Rows, Use};
 use crate::Error;
 use crate::decimal::Decimal;
 use crate::heading::{Heading, Named};
 use crate::moment::{self, CLOCK, DATED};
-use crate::samples::LARGEST;
 use crate::text::cells::{is_beyond, is_missing};
 use crate::text::visible;
 use crate::unit::{Kind, Unit};

@@ -25,7 +25,7 @@ const MIDDLE: f64 = 0.15;
 /// Trials of the averaging time. Each next one moves T_E by less than half as much, unless another shock comes in.
 const TRIALS: usize = 20;
 
-/// Effective durations of the shock in a record that holds one shock.
+/// Effective durations of the shock in a history that holds one shock.
 ///
 /// ```text
 /// Tₑ    the shortest time that holds all |a| above a third of the largest one        (MIL-STD-810F, method 516.5)
@@ -33,7 +33,7 @@ const TRIALS: usize = 20;
 ///       largest one, with an averaging time of 10 to 20 % of T_E                     (MIL-STD-810G and H, method 516)
 /// ```
 /// Tₑ counts on straight lines between the samples. The root mean square at a time is that of the samples around it; the
-/// record is zero before and after. The averaging time begins with 15 % of Tₑ and becomes 15 % of the T_E found until it
+/// history is zero before and after. The averaging time begins with 15 % of Tₑ and becomes 15 % of the T_E found until it
 /// lies in 10 to 20 % of it; where that does not come about in 20 trials, or one sample is longer, the last one holds, and
 /// `averaging_s` tells. For an exponential decay T_E is 2.1 Tₑ and the part of an averaging time.
 ///
@@ -57,9 +57,9 @@ const TRIALS: usize = 20;
 ///
 /// ```
 /// let triangle = [0.0, 1.0, 2.0, 3.0, 2.0, 1.0, 0.0];
-/// let duration = clatter_record::effective_duration(&triangle, 0.5)?;
+/// let duration = clatter_shock::effective_duration(&triangle, 0.5)?;
 /// assert_eq!(duration.third_of_peak_s, 2.0);
-/// # Ok::<(), clatter_record::Error>(())
+/// # Ok::<(), clatter_shock::Error>(())
 /// ```
 pub fn effective_duration(acceleration: &[f64], step_s: f64) -> Result<EffectiveDuration, Error> {
     check(acceleration, step_s, "a duration", 1)?;
@@ -114,7 +114,7 @@ fn above(acceleration: &[f64], level: f64) -> f64 {
 /// Samples from the first to the last running root mean square of `window` samples above a tenth of the largest.
 fn active(sums: &[f64], window: usize) -> f64 {
     let n = sums.len() - 1;
-    // The window that ends before sample `end`, cut where the record begins and ends.
+    // The window that ends before sample `end`, cut where the history begins and ends.
     let energy = |end: usize| sums[end.min(n)] - sums[end.saturating_sub(window)];
     let ends = 1..n + window;
     let level = TENTH * TENTH * ends.clone().map(energy).fold(0.0, f64::max);

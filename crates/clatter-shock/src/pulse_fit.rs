@@ -1,17 +1,16 @@
-//! The classical pulse that fits the main shock of a record best.
+//! The classical pulse that fits the main shock of a history best.
 
-use crate::Error;
 use crate::levels::{Level, Levels};
 use crate::samples::{check, float, peak, sum};
-use clatter_shock::{Pulse, Shape};
+use crate::{Error, Pulse, Shape};
 use std::f64::consts::{PI, TAU};
 
-/// A pulse fitted to a record.
+/// A pulse fitted to a history.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PulseFit {
     /// Amplitude in m/s² with its sign; duration and start in seconds, from the first sample.
     pub pulse: Pulse,
-    /// What is left: root mean square of record less pulse over that of the record, from half a duration before the
+    /// What is left: root mean square of history less pulse over that of the history, from half a duration before the
     /// earliest of the three fits to half a duration after the last.
     pub residual: f64,
 }
@@ -31,11 +30,11 @@ const LINE_STEPS: usize = 12;
 /// Steps, in durations, of which the gain is hardly above its rounding: their squares are below 1e-12.
 const SMALL: f64 = 1e-6;
 
-/// Fits a half-sine, a haversine and a terminal-peak sawtooth to the main shock of a record; the best one first.
+/// Fits a half-sine, a haversine and a terminal-peak sawtooth to the main shock of a history; the best one first.
 ///
 /// Each is the pulse a p((t − s)/D) with the least sum of squares Σ(aᵢ − a p)² over all samples, among those that hold the
 /// sample of largest size. For a start s and a duration D the amplitude is a = Σaᵢp/Σp², and Σaᵢ² falls by
-/// (Σaᵢp)²/Σp²; this gain is first searched on a grid of all durations from 4 samples to the whole record, 9 % apart,
+/// (Σaᵢp)²/Σp²; this gain is first searched on a grid of all durations from 4 samples to the whole history, 9 % apart,
 /// and 33 starts each, and the best of them refined by Gauss–Newton steps (variable projection; Golub and Pereyra 1973),
 /// damped where a step gains nothing. A sawtooth ends between two samples: its end is taken halfway, and the one of all
 /// ends near the grid's is taken that gains most.
@@ -46,7 +45,7 @@ const SMALL: f64 = 1e-6;
 ///
 /// A clean half-sine or haversine of 4 to 4096 samples comes back to 1e-12 in amplitude, duration and start (of the
 /// duration), a longer one to 2e-7. A sawtooth comes back within half a sample in duration and end, and within half a
-/// sample over its duration in amplitude; beyond 4096 samples, within half a block. Equal records give equal fits.
+/// sample over its duration in amplitude; beyond 4096 samples, within half a block. Equal histories give equal fits.
 ///
 /// # Errors
 ///
@@ -56,8 +55,7 @@ const SMALL: f64 = 1e-6;
 /// # Examples
 ///
 /// ```
-/// use clatter_record::fit_pulses;
-/// use clatter_shock::Shape;
+/// use clatter_shock::{Shape, fit_pulses};
 /// // 500 m/s² for 2 ms, from 1.005 ms on, a sample every 50 µs
 /// let record: Vec<f64> = (0..100)
 ///     .map(|i| {
@@ -70,7 +68,7 @@ const SMALL: f64 = 1e-6;
 /// assert!((best.pulse.amplitude - 500.0).abs() < 1e-6 && (best.pulse.duration - 2e-3).abs() < 1e-11);
 /// assert!((best.pulse.start - 1.005e-3).abs() < 1e-11 && best.residual < 1e-8);
 /// assert!(second.residual > 0.05);
-/// # Ok::<(), clatter_record::Error>(())
+/// # Ok::<(), clatter_shock::Error>(())
 /// ```
 pub fn fit_pulses(acceleration: &[f64], step_s: f64) -> Result<[PulseFit; 3], Error> {
     check(acceleration, step_s, "a fit", 5)?;
@@ -114,7 +112,7 @@ struct Trial {
 /// ```
 /// use clatter_shock::{Pulse, Shape};
 /// let pulse = Pulse { shape: Shape::Triangle, amplitude: 10.0, duration: 2.0, start: 1.0 };
-/// assert_eq!([0.5, 1.5, 2.0].map(|time_s| clatter_record::pulse_at(&pulse, time_s)), [0.0, 5.0, 10.0]);
+/// assert_eq!([0.5, 1.5, 2.0].map(|time_s| clatter_shock::pulse_at(&pulse, time_s)), [0.0, 5.0, 10.0]);
 /// ```
 #[must_use]
 pub fn pulse_at(pulse: &Pulse, time_s: f64) -> f64 {
@@ -191,7 +189,7 @@ impl Trial {
             let level = levels.coarse(duration);
             for i in 0..=STARTS {
                 let start = top - duration * f64::from(i) / f64::from(STARTS);
-                // No further than a sample beyond the record.
+                // No further than a sample beyond the history.
                 if start >= -1.0 && start + duration <= longest {
                     let trial = Self::at(&level, shape, start, duration);
                     if trial.gain > best.gain {
@@ -278,7 +276,7 @@ impl Trial {
                 if !by.is_finite() {
                     break;
                 }
-                // Short of the end and within the record, whatever the noise.
+                // Short of the end and within the history, whatever the noise.
                 let next = (start + by).clamp(-1.0, latest);
                 let moved = (next - start).abs();
                 start = next;
@@ -293,7 +291,7 @@ impl Trial {
         }
         best
     }
-    /// Root mean square of what is left, over that of the record, between two times.
+    /// Root mean square of what is left, over that of the history, between two times.
     fn residual(&self, record: &Level, first: f64, last: f64) -> f64 {
         let rest = |(t, a)| {
             let [p, _] = value(self.shape, (t - self.start) / self.duration);
@@ -385,7 +383,7 @@ mod tests {
         (0..record.len()).map(|i| (record[i] - amplitude * p(i)).powi(2)).sum()
     }
 
-    /// Against every start and duration on a grid four times as fine, on records with noise, ringing and a second shock.
+    /// Against every start and duration on a grid four times as fine, on histories with noise, ringing and a second shock.
     #[test]
     fn no_other_pulse_fits_better() {
         let mut seed = 99_u64;

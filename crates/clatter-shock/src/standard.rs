@@ -1,6 +1,6 @@
 //! Pulses and limit curves that standards state, as data with their sources.
 
-use clatter_shock::{LimitCurve, Pulse, Quantity, STANDARD_GRAVITY_M_S2, Shape};
+use crate::{Error, LimitCurve, Pulse, Quantity, STANDARD_GRAVITY_M_S2, Shape};
 
 /// A limit curve of a standard: a shock response spectrum that a test has to reach.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,7 +26,7 @@ impl StandardCurve {
     /// The curve in SI units, to hold a spectrum against.
     ///
     /// ```
-    /// # use clatter_record::standard_curve;
+    /// # use clatter_shock::standard_curve;
     /// let curve = standard_curve("MIL-STD-810/516/crash-ground").unwrap().limit_curve()?;
     /// assert!((curve.at(1000.0).unwrap() - 75.0 * 9.80665).abs() < 1e-9);
     /// assert!((curve.at(40.0).unwrap() - 37.5 * 9.80665).abs() < 1e-9); // 6 dB an octave
@@ -36,7 +36,7 @@ impl StandardCurve {
     /// # Errors
     ///
     /// None for the curves of [`STANDARD_CURVES`].
-    pub fn limit_curve(&self) -> Result<LimitCurve, clatter_shock::Error> {
+    pub fn limit_curve(&self) -> Result<LimitCurve, Error> {
         LimitCurve::new(self.points.iter().map(|&(hz, level)| (hz, level * STANDARD_GRAVITY_M_S2)).collect())
     }
 }
@@ -102,7 +102,7 @@ impl StandardPulse {
     /// The pulse in SI units, from time zero.
     ///
     /// ```
-    /// let pulse = clatter_record::standard_pulse("JESD22-B110/B").unwrap().pulse();
+    /// let pulse = clatter_shock::standard_pulse("JESD22-B110/B").unwrap().pulse();
     /// assert!((pulse.velocity_change() - 4.68).abs() < 0.005); // 468 cm/s in the table of the standard
     /// ```
     #[must_use]
@@ -148,8 +148,8 @@ pub const STANDARD_PULSES: [StandardPulse; 12] = [
 /// A built-in curve by its keyword, in capital letters or not.
 ///
 /// ```
-/// assert_eq!(clatter_record::standard_curve("mil-std-810/516/functional-flight").unwrap().points[1], (45.0, 20.0));
-/// assert!(clatter_record::standard_curve("MIL-STD-810").is_none());
+/// assert_eq!(clatter_shock::standard_curve("mil-std-810/516/functional-flight").unwrap().points[1], (45.0, 20.0));
+/// assert!(clatter_shock::standard_curve("MIL-STD-810").is_none());
 /// ```
 #[must_use]
 pub fn standard_curve(keyword: &str) -> Option<&'static StandardCurve> {
@@ -160,7 +160,7 @@ pub fn standard_curve(keyword: &str) -> Option<&'static StandardCurve> {
 /// A built-in pulse by its keyword, in capital letters or not.
 ///
 /// ```
-/// let pulse = clatter_record::standard_pulse("jesd22-b111a").unwrap();
+/// let pulse = clatter_shock::standard_pulse("jesd22-b111a").unwrap();
 /// assert_eq!((pulse.peak_g, pulse.duration_ms), (1500.0, 0.5));
 /// ```
 #[must_use]

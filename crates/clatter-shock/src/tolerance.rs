@@ -1,11 +1,10 @@
 //! Whether a measured shock is the pulse that a standard asks for, within its tolerances.
 
-use crate::Error;
 use crate::levels::{Level, Levels};
 use crate::pulse_fit::value;
 use crate::samples::{LARGEST, check, float, peak, sum};
 use crate::shocks::tenths;
-use clatter_shock::{Pulse, Shape};
+use crate::{Error, Pulse, Shape};
 use std::f64::consts::PI;
 
 /// What a standard allows a measured pulse to differ from the nominal one. What it does not limit, or limits by a figure
@@ -55,14 +54,14 @@ pub const PULSE_TOLERANCES: [PulseTolerance; 3] = [
 /// Where the velocity change counts from, in durations before the nominal pulse, and to, after it.
 const INTEGRATED: [f64; 2] = [0.4, 0.1];
 
-/// The shortest pulse that is held against a record, in samples, and the longest, in seconds.
+/// The shortest pulse that is held against a history, in samples, and the longest, in seconds.
 const FEWEST: f64 = 4.0;
 const LONGEST_S: f64 = 1e9;
 
 /// A built-in tolerance by its keyword, in capital letters or not.
 ///
 /// ```
-/// assert_eq!(clatter_record::pulse_tolerance("iec 60068-2-27").unwrap().velocity_change, Some(0.15));
+/// assert_eq!(clatter_shock::pulse_tolerance("iec 60068-2-27").unwrap().velocity_change, Some(0.15));
 /// ```
 #[must_use]
 pub fn pulse_tolerance(keyword: &str) -> Option<&'static PulseTolerance> {
@@ -73,7 +72,7 @@ pub fn pulse_tolerance(keyword: &str) -> Option<&'static PulseTolerance> {
 /// A measured value and the range that is allowed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Within {
-    /// As measured, with the sign of the record.
+    /// As measured, with the sign of the history.
     pub measured: f64,
     /// The least and the most.
     pub allowed: [f64; 2],
@@ -91,23 +90,23 @@ impl Within {
     }
 }
 
-/// How far a record is from the nominal pulse while that lasts.
+/// How far a history is from the nominal pulse while that lasts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Distortion {
-    /// The largest difference, record less pulse, m/s².
+    /// The largest difference, history less pulse, m/s².
     pub largest_m_s2: Within,
     /// When that is, s.
     pub largest_s: f64,
     /// How many samples are outside of what is allowed.
     pub outside: usize,
-    /// When the first of them is, s: where the record leaves the band.
+    /// When the first of them is, s: where the history leaves the band.
     pub leaves_s: Option<f64>,
 }
 
-/// How a record compares with a nominal pulse.
+/// How a history compares with a nominal pulse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PulseCheck {
-    /// The nominal pulse where it fits the record best, as its base: it begins and ends at zero.
+    /// The nominal pulse where it fits the history best, as its base: it begins and ends at zero.
     pub nominal: Pulse,
     /// Difference from the nominal pulse, if it is limited.
     pub distortion: Option<Distortion>,
@@ -118,7 +117,7 @@ pub struct PulseCheck {
 }
 
 impl PulseCheck {
-    /// Whether the record keeps all that is limited.
+    /// Whether the history keeps all that is limited.
     #[must_use]
     pub fn holds(&self) -> bool {
         let largest = self.distortion.map(|distortion| distortion.largest_m_s2);
@@ -126,7 +125,7 @@ impl PulseCheck {
     }
 }
 
-/// Holds the main shock of a record against a nominal pulse within the tolerances of a standard.
+/// Holds the main shock of a history against a nominal pulse within the tolerances of a standard.
 ///
 /// The start of the nominal pulse is not used: the pulse is laid where the sum of squares Σ(aᵢ − a p)² is least, of all
 /// starts at which it holds the sample of largest size, to 10⁻⁶ of its duration.
@@ -148,8 +147,7 @@ impl PulseCheck {
 /// A half-sine 12 % too large is too much for MIL-STD-202 and within IEC 60068-2-27:
 ///
 /// ```
-/// use clatter_record::{check_pulse, pulse_tolerance};
-/// use clatter_shock::{Pulse, Shape};
+/// use clatter_shock::{Pulse, Shape, check_pulse, pulse_tolerance};
 /// let record: Vec<f64> = (0..=300)
 ///     .map(|i| if (100..200).contains(&i) { 112.0 * (f64::from(i - 100) * 0.01 * std::f64::consts::PI).sin() } else { 0.0 })
 ///     .collect();
@@ -158,7 +156,7 @@ impl PulseCheck {
 /// assert!(iec.holds() && (iec.nominal.start - 0.01).abs() < 1e-7);
 /// let mil = check_pulse(&record, 1e-4, &nominal, pulse_tolerance("MIL-STD-202/213").unwrap())?;
 /// assert!(!mil.holds());
-/// # Ok::<(), clatter_record::Error>(())
+/// # Ok::<(), clatter_shock::Error>(())
 /// ```
 pub fn check_pulse(
     acceleration: &[f64],
@@ -267,7 +265,7 @@ fn distortion(record: &Level, pulse: &Pulse, step_s: f64, by: f64) -> Distortion
     Distortion { largest_m_s2: Within::around(largest, 0.0, by), largest_s, outside, leaves_s }
 }
 
-/// Integral of the straight lines from one time to another, in samples; the record is zero before and after.
+/// Integral of the straight lines from one time to another, in samples; the history is zero before and after.
 fn integral(acceleration: &[f64], first: f64, last: f64) -> f64 {
     let lines = acceleration.windows(2).enumerate().map(|(i, w)| {
         let from = (first - float(i)).clamp(0.0, 1.0);

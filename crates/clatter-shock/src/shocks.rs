@@ -1,7 +1,8 @@
-//! The shocks of a long record: where they are, how large, how long.
+//! The shocks of a long history: where they are, how large, how long.
 
 use crate::Error;
-use crate::samples::{check, float, peak, positive, sum};
+use crate::error::positive;
+use crate::samples::{check, float, peak, sum};
 use std::ops::Range;
 
 /// How shocks are told apart from noise and from each other.
@@ -13,7 +14,7 @@ pub struct Search {
     pub quiet_s: f64,
 }
 
-/// The shocks of a record.
+/// The shocks of a history.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shocks {
     /// The threshold that was taken, m/s².
@@ -50,7 +51,7 @@ const POINT: f64 = 0.1;
 /// The median of |a| of normal noise, in standard deviations: the upper quartile of the normal distribution.
 const QUARTILE: f64 = 0.674_489_750_196_081_7;
 
-/// In how many records of noise alone one sample passes the threshold, at most.
+/// In how many histories of noise alone one sample passes the threshold, at most.
 const FALSE_ALARMS: f64 = 1e-3;
 
 /// Share of the peak that is taken where most samples are zero and tell no noise: above the steps of an 8-bit converter,
@@ -59,19 +60,19 @@ const CLEAN: f64 = 0.01;
 
 /// The threshold that noise does not pass, m/s²; by default that of [`find_shocks`].
 ///
-/// The standard deviation of the noise is taken from the median, which shocks in less than half of the record hardly
+/// The standard deviation of the noise is taken from the median, which shocks in less than half of the history hardly
 /// move: σ = median|a|/0.6745. Normal noise passes x σ either way with a probability below exp(−x²/2), so that in n
 /// samples of noise alone
 /// ```text
 /// threshold = σ √(2 ln(1000 n))
 /// ```
-/// is passed in less than one record of 1000: 5.7 σ for 10⁴ samples, 6.8 σ for 10⁷. Where half of the samples are exactly
+/// is passed in less than one history of 1000: 5.7 σ for 10⁴ samples, 6.8 σ for 10⁷. Where half of the samples are exactly
 /// zero, it is 1 % of the peak.
 ///
 /// # Validity
 ///
-/// Take the offset out first. The record has to be quiet for more than half of its samples, and its noise normal: a
-/// record that a shock fills, or with impulsive noise, needs a threshold that the user gives.
+/// Take the offset out first. The history has to be quiet for more than half of its samples, and its noise normal: a
+/// history that a shock fills, or with impulsive noise, needs a threshold that the user gives.
 ///
 /// # Errors
 ///
@@ -81,9 +82,9 @@ const CLEAN: f64 = 0.01;
 ///
 /// ```
 /// let quiet = [0.5, -0.5].repeat(500);
-/// let threshold = clatter_record::noise_threshold(&quiet)?;
+/// let threshold = clatter_shock::noise_threshold(&quiet)?;
 /// assert!((threshold - 0.5 / 0.674_489_75 * (2.0 * 1e6_f64.ln()).sqrt()).abs() < 1e-7);
-/// # Ok::<(), clatter_record::Error>(())
+/// # Ok::<(), clatter_shock::Error>(())
 /// ```
 pub fn noise_threshold(acceleration: &[f64]) -> Result<f64, Error> {
     check(acceleration, 1.0, "a threshold", 1)?;
@@ -96,12 +97,12 @@ pub fn noise_threshold(acceleration: &[f64]) -> Result<f64, Error> {
     Ok(median / QUARTILE * (2.0 * (float(acceleration.len()) / FALSE_ALARMS).ln()).sqrt())
 }
 
-/// Finds the shocks of a record.
+/// Finds the shocks of a history.
 ///
 /// A shock lasts from the first sample beyond the threshold to the last one that is not followed by another within the
 /// quiet time. Its peak is its sample of largest size; duration and velocity change are those of the pulse that the peak
 /// belongs to, between its 10 % points, on straight lines between the samples. Where the acceleration does not come down
-/// to a tenth before the next shock or the end of the record, the point is there.
+/// to a tenth before the next shock or the end of the history, the point is there.
 ///
 /// One pass over the samples, at most [`MOST_SHOCKS`] rows: 10⁷ samples of noise take no longer than 10⁷ of rest.
 ///
@@ -117,7 +118,7 @@ pub fn noise_threshold(acceleration: &[f64]) -> Result<f64, Error> {
 /// # Examples
 ///
 /// ```
-/// use clatter_record::{Search, find_shocks};
+/// use clatter_shock::{Search, find_shocks};
 /// let mut record = vec![0.0; 1000];
 /// record[400..405].copy_from_slice(&[0.0, 500.0, 1000.0, 500.0, 0.0]);
 /// record[700..703].copy_from_slice(&[-100.0, -200.0, -100.0]);
@@ -128,7 +129,7 @@ pub fn noise_threshold(acceleration: &[f64]) -> Result<f64, Error> {
 /// assert!((first.duration_s - 0.0036).abs() < 1e-12); // from 0.4002 s to 0.4038 s
 /// assert!((first.velocity_change_m_s - 1.98).abs() < 1e-12); // 2 m/s less the two ends
 /// assert_eq!(second.peak_m_s2, -200.0);
-/// # Ok::<(), clatter_record::Error>(())
+/// # Ok::<(), clatter_shock::Error>(())
 /// ```
 pub fn find_shocks(acceleration: &[f64], step_s: f64, search: &Search) -> Result<Shocks, Error> {
     check(acceleration, step_s, "a search", 1)?;

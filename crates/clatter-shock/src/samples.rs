@@ -1,15 +1,21 @@
-//! What all the functions on evenly sampled accelerations share: the check at the door, sums, the peak.
+//! What functions on evenly sampled accelerations share: the check at the door, sums, the peak.
 
 use crate::Error;
 
 /// Larger accelerations (m/s²) are refused: far beyond any that there are, and their squares add up far within the
 /// floats.
-pub(crate) const LARGEST: f64 = 1e100;
+pub const LARGEST: f64 = 1e100;
 /// Times between samples (s), far beyond those of any recorder; displacements stay far within the floats.
 const STEPS: std::ops::RangeInclusive<f64> = 1e-15..=1e9;
 
-/// Refuses what is no record: a time between samples out of range, too few samples, a sample that is not finite.
-pub(crate) fn check(acceleration: &[f64], step_s: f64, what: &'static str, needed: usize) -> Result<(), Error> {
+/// Refuses what is no history: a time between samples out of range, too few samples, a sample that is not finite.
+/// `what` is asked of the samples, such as "a fit", and takes `needed` of them.
+///
+/// # Errors
+///
+/// [`Error::Quantity`] for a time between samples outside [1e-15, 1e9] s; [`Error::Short`]; [`Error::Sample`] for one beyond
+/// [`LARGEST`].
+pub fn check(acceleration: &[f64], step_s: f64, what: &'static str, needed: usize) -> Result<(), Error> {
     if !STEPS.contains(&step_s) {
         return Err(Error::Quantity { name: "time between samples (s)", value: step_s, allowed: "in [1e-15, 1e9]" });
     }
@@ -23,23 +29,16 @@ pub(crate) fn check(acceleration: &[f64], step_s: f64, what: &'static str, neede
     }
 }
 
-/// `value` if it is finite and greater than zero.
-pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, Error> {
-    if value > 0.0 && value.is_finite() {
-        Ok(value)
-    } else {
-        Err(Error::Quantity { name, value, allowed: "finite and > 0" })
-    }
-}
-
-/// A count as a number.
-#[expect(clippy::cast_precision_loss, reason = "no record has 2^53 samples")]
-pub(crate) fn float(count: usize) -> f64 {
+/// A count of samples as a number.
+#[must_use]
+#[expect(clippy::cast_precision_loss, reason = "no history has 2^53 samples")]
+pub fn float(count: usize) -> f64 {
     count as f64
 }
 
 /// Index of the first sample of largest size.
-pub(crate) fn peak(acceleration: &[f64]) -> usize {
+#[must_use]
+pub fn peak(acceleration: &[f64]) -> usize {
     let mut best = 0;
     for (i, a) in acceleration.iter().enumerate() {
         if a.abs() > acceleration[best].abs() {
@@ -52,7 +51,7 @@ pub(crate) fn peak(acceleration: &[f64]) -> usize {
 /// A sum that keeps what rounding takes off it (Neumaier 1974): its error is that of one rounding of the result and
 /// ε² of the sum of sizes for each term.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Sum {
+pub struct Sum {
     total: f64,
     rest: f64,
 }
@@ -60,7 +59,7 @@ pub(crate) struct Sum {
 impl Sum {
     /// Adds a term.
     #[inline]
-    pub(crate) fn add(&mut self, term: f64) {
+    pub fn add(&mut self, term: f64) {
         // Knuth's two-sum, without a branch on which one is larger.
         let total = self.total + term;
         let added = total - self.total;
@@ -69,18 +68,20 @@ impl Sum {
     }
     /// Both parts of the sum.
     #[inline]
-    pub(crate) fn parts(self) -> [f64; 2] {
+    #[must_use]
+    pub fn parts(self) -> [f64; 2] {
         [self.total, self.rest]
     }
     /// The sum.
     #[inline]
-    pub(crate) fn value(self) -> f64 {
+    #[must_use]
+    pub fn value(self) -> f64 {
         self.total + self.rest
     }
 }
 
 /// The sum of terms.
-pub(crate) fn sum(terms: impl IntoIterator<Item = f64>) -> f64 {
+pub fn sum(terms: impl IntoIterator<Item = f64>) -> f64 {
     let mut sum = Sum::default();
     for term in terms {
         sum.add(term);

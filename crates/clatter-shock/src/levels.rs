@@ -1,4 +1,4 @@
-//! A record at several rates: averages over blocks of 2, 4, 8, … samples.
+//! A history at several rates: averages over blocks of 2, 4, 8, … samples.
 
 use crate::samples::float;
 
@@ -7,13 +7,13 @@ const COARSE: f64 = 64.0;
 /// And for the result: a block average is off the value in its middle by (π/4096)²/24, below 1e-7.
 const FINE: f64 = 4096.0;
 
-/// A record and its block averages.
+/// A history and its block averages.
 pub(crate) struct Levels<'a> {
     record: &'a [f64],
     averages: Vec<Vec<f64>>,
 }
 
-/// Samples or averages, evenly in time; times in samples of the record.
+/// Samples or averages, evenly in time; times in samples of the history.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Level<'a> {
     values: &'a [f64],
@@ -26,14 +26,14 @@ impl<'a> Levels<'a> {
         let mut averages: Vec<Vec<f64>> = Vec::new();
         loop {
             let below = averages.last().map_or(record, Vec::as_slice);
-            // A pulse as long as the record has still blocks enough.
+            // A pulse as long as the history has still blocks enough.
             if float(below.len()) <= COARSE {
                 return Self { record, averages };
             }
             averages.push(below.chunks_exact(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect());
         }
     }
-    /// A record as a level of its own.
+    /// A history as a level of its own.
     pub(crate) fn of_record(record: &'a [f64]) -> Level<'a> {
         Level { values: record, width: 1.0 }
     }
@@ -41,11 +41,11 @@ impl<'a> Levels<'a> {
     pub(crate) fn length(&self) -> f64 {
         float(self.record.len() - 1)
     }
-    /// The record itself.
+    /// The history itself.
     pub(crate) fn finest(&self) -> Level<'_> {
         Levels::of_record(self.record)
     }
-    /// The level that has some 32 to 64 blocks in a duration, or fewer where the record has.
+    /// The level that has some 32 to 64 blocks in a duration, or fewer where the history has.
     pub(crate) fn coarse(&self, duration: f64) -> Level<'_> {
         self.with_blocks(duration, COARSE)
     }
