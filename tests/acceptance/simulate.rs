@@ -119,7 +119,7 @@ fn the_answer_has_the_fields_of_the_contract() {
     assert_eq!(got["stop"]["reason"], "at-rest");
     assert!(got["stop"]["time_bound_s"].as_f64().unwrap() <= f64::EPSILON * got["stop"]["time_s"].as_f64().unwrap());
     // Contacts that take time die away: nothing bounds how long that takes.
-    let soft = clatter(arguments("compliant", &["--contact-time-s=3e-4"]));
+    let soft = clatter(arguments("compliant", &["--contact-time-s=3e-4", "--format=json"]));
     let soft: Value = serde_json::from_str(&soft.stdout).unwrap();
     assert_eq!((&soft["stop"]["reason"], &soft["stop"]["time_bound_s"]), (&json!("at-rest"), &Value::Null));
     assert!(

@@ -46,7 +46,7 @@ fn by_steps(list: &[Own], omega: f64, zeta: f64) -> [f64; 2] {
     for own in list {
         v -= own.delta_v;
         let swing = own.length * omega.max(own.fastest()) * (1.0 + zeta);
-        let steps = (swing / 0.01).ceil().clamp(1.0, 1e6);
+        let steps = (swing / 0.01).ceil().clamp(64.0, 1e6);
         let h = own.length / steps;
         let slope = |t: f64, x: f64, v: f64| (v, -own.base(t) - 2.0 * zeta * omega * v - omega * omega * x);
         let mut note = |x: f64, v: f64| {
@@ -87,7 +87,7 @@ proptest! {
 
     /// Peaks within the history, of any rates, slow ones against the component and fast ones. Steps of 0.01 rad err by
     /// 1e-10 in all, and a peak between two of them rises by (0.01)²/8 of the acceleration of the value, at most twenty
-    /// times the largest here.
+    /// times the largest here; damping that follows a short line of length L adds 2ζ |Δa| L/(8·64²), 1.3e-4 of its size at most.
     #[test]
     fn peaks_are_those_of_small_steps(
         list in prop::collection::vec(any_section(), 1..5),
