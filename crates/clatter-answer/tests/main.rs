@@ -5,6 +5,20 @@ use clatter_answer::{atlas, impacts, map, simulate, zone};
 use clatter_flight::{Body, Contact, ContactLaw, Model, PlateScene, Scene};
 use serde_json::{Value, json};
 
+#[path = "../examples/answers.rs"]
+mod answers;
+
+/// The same input gives the same bytes on every machine. The answers were written by the example, as its text says; the gate runs this
+/// test natively and as WebAssembly.
+#[test]
+fn answers_are_the_same_to_the_last_byte() {
+    let (got, want) = (answers::answers().expect("answers"), include_str!("data/answers.jsonl"));
+    for (n, (got, want)) in got.lines().zip(want.lines()).enumerate() {
+        assert!(got == want, "line {}:\n{got}\nnot\n{want}", n + 1);
+    }
+    assert_eq!(got.lines().count(), want.lines().count());
+}
+
 fn bar() -> clatter::OffCenterBar {
     Bar::new(0.5, 0.3).expect("a bar").into()
 }

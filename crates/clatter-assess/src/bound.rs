@@ -28,7 +28,7 @@ pub(crate) fn bound(
     // All that follows grows as the radius of gyration shrinks.
     let rho = product.gyration_m.lo();
     let [_, fastest] = drop.speeds_m_s();
-    let height = a.max(b) * drop.tilt_rad.hi().sin();
+    let height = a.max(b) * libm::sin(drop.tilt_rad.hi());
     let speed = (fastest * fastest + 2.0 * drop.gravity_m_s2 * height).sqrt(); // √(2E)
     let e = product.restitution.hi();
     // Places and ends from the center of mass.

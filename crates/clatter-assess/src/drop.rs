@@ -105,13 +105,13 @@ impl SingleDrop {
     }
     /// How long the clatter takes, about: four times what the raised end needs to come down, and some contacts.
     pub(crate) fn clatter_s(&self) -> f64 {
-        let gap_m = self.body.length_m() * self.tilt_rad.sin();
+        let gap_m = self.body.length_m() * libm::sin(self.tilt_rad);
         4.0 * (gap_m / self.speed_m_s + self.contact_time_s.unwrap_or(0.0))
     }
     /// Whether the ends land so close after one another that no contact tells them apart: within this time, where that of a contact
     /// is not known.
     pub(crate) fn lands_as_one(&self, merge_s: f64) -> bool {
-        self.contact_time_s.is_none() && self.body.length_m() * self.tilt_rad.sin() < merge_s * self.speed_m_s
+        self.contact_time_s.is_none() && self.body.length_m() * libm::sin(self.tilt_rad) < merge_s * self.speed_m_s
     }
     /// The same drop landing flat.
     #[must_use]

@@ -394,18 +394,18 @@ impl<'a> Felt<'a> {
             turn_rad_s: center / rho * turned,
             acceleration_m_s2: drop
                 .contact_time_s
-                .map_or(f64::INFINITY, |time| center * both[0].hypot(both[1]).max(mass(x)) * FRAC_PI_2 / time),
+                .map_or(f64::INFINITY, |time| center * libm::hypot(both[0], both[1]).max(mass(x)) * FRAC_PI_2 / time),
         }
     }
     /// The utilization to which a shock of this size brings a part that still rings as the motion was left; 0 where it was below
     /// `above` as the last contact ended, has decayed since, and stays below.
     fn rings_most(&self, per_velocity: f64, part: &Suspension, shock: f64, above: f64) -> f64 {
         let omega = part.omega();
-        if shock * per_velocity <= above * -(-slowest(part) * omega * self.followed.quiet_s()).exp_m1() {
+        if shock * per_velocity <= above * -libm::expm1(-slowest(part) * omega * self.followed.quiet_s()) {
             return 0.0;
         }
         let rest = self.pulses.state_at_end(part);
-        per_velocity * ((omega * rest.displacement).hypot(rest.velocity) + shock)
+        per_velocity * (libm::hypot(omega * rest.displacement, rest.velocity) + shock)
     }
     /// What a shock of this size may be off by: the share of the largest shock that lever arms get wrong, and what later ones
     /// could exceed it by.
@@ -438,8 +438,8 @@ impl<'a> Felt<'a> {
         // What rings on as the motion is left, and the later shocks, as if all came at its crest.
         let doubt = if self.followed.motion.later_m_s > 0.0 || self.followed.weight_to_come_m_s2() > 0.0 {
             let rest = self.pulses.state_at_end(part);
-            let most = (omega * rest.displacement).hypot(rest.velocity) + self.later().shock_of(part);
-            most * of.of_damper(part.damping()).hypot(1.0) - velocity
+            let most = libm::hypot(omega * rest.displacement, rest.velocity) + self.later().shock_of(part);
+            most * libm::hypot(of.of_damper(part.damping()), 1.0) - velocity
         } else {
             0.0
         };

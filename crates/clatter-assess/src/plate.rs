@@ -150,11 +150,13 @@ impl Followed {
         let follows = (2.0 * contact.frequency_rad_s() / omega).min(1.0);
         let response = pulses.respond(part);
         let rest = pulses.state_at_end(part);
-        let rings = if self.motion.later_m_s > 0.0 { (omega * rest.displacement).hypot(rest.velocity) } else { 0.0 };
+        let rings =
+            if self.motion.later_m_s > 0.0 { libm::hypot(omega * rest.displacement, rest.velocity) } else { 0.0 };
         let answer = |kind: LimitKind| {
             let Source::Response(of) = kind.source() else { unreachable!("the limit is on a response") };
             let unit = of.of_velocity(1.0, omega);
-            let most = (rings + CHATTER * follows * self.motion.later_m_s) * of.of_damper(part.damping()).hypot(1.0);
+            let most =
+                (rings + CHATTER * follows * self.motion.later_m_s) * libm::hypot(of.of_damper(part.damping()), 1.0);
             let peak = of.of(&response).peak();
             let value = peak.value.abs();
             let off_by = unit * (follows * self.precision * self.largest_m_s + (most - value).max(0.0));

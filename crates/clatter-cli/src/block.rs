@@ -86,7 +86,7 @@ impl Setup {
             "Box of {length} x {width} x {thickness} mm, radii of gyration {x}, {y}, {z} mm; e = {}",
             given(self.contact.restitution())
         )?;
-        let [x, y, z] = self.drop.upward().map(|x| figures(x.clamp(-1.0, 1.0).acos() * 180.0 / PI));
+        let [x, y, z] = self.drop.upward().map(|x| figures(libm::acos(x.clamp(-1.0, 1.0)) * 180.0 / PI));
         let speed = figures(self.drop.speed_m_s());
         writeln!(
             out,

@@ -131,7 +131,7 @@ impl Block {
         let over = self.face_at(face, side(face));
         let others = (0..3).filter(|axis| *axis != face);
         let aside = others.flat_map(|axis| [-1.0, 1.0].map(|side| self.face_at(axis, side)));
-        (face, over, over.hypot(aside.fold(f64::INFINITY, f64::min)))
+        (face, over, libm::hypot(over, aside.fold(f64::INFINITY, f64::min)))
     }
 
     /// The energy over the mass that no motion gets rid of: of a body that lies and turns about the vertical, with this angular momentum

@@ -37,10 +37,10 @@ impl<const N: usize> Body<N> {
         for x in points_m.into_iter().flatten() {
             within("coordinate of a contact point in m", x, -1e30, 1e30, "in [-1e30, 1e30]")?;
         }
-        let reach = points_m.iter().fold(0.0_f64, |most, [x, z]| most.max(x.hypot(*z)));
+        let reach = points_m.iter().fold(0.0_f64, |most, [x, z]| most.max(libm::hypot(*x, *z)));
         for (i, [x, z]) in points_m.iter().enumerate() {
             for [x2, z2] in &points_m[..i] {
-                let apart = (x - x2).hypot(z - z2);
+                let apart = libm::hypot(x - x2, z - z2);
                 within(
                     "distance of two contact points in m",
                     apart,
@@ -80,7 +80,7 @@ impl<const N: usize> Body<N> {
     /// Distance of a point from the center of mass.
     pub(crate) fn radius(&self, point: usize) -> f64 {
         let [x, z] = self.points[point];
-        x.hypot(z)
+        libm::hypot(x, z)
     }
     /// The largest of those distances.
     pub(crate) fn reach(&self) -> f64 {
@@ -89,7 +89,7 @@ impl<const N: usize> Body<N> {
     /// Height of the center of mass over two points that lie, positive where it is on the left of the way from one to the other.
     pub(crate) fn height_over(&self, [i, j]: [usize; 2]) -> f64 {
         let ([x1, z1], [x2, z2]) = (self.points[i], self.points[j]);
-        (x1 * (z2 - z1) - z1 * (x2 - x1)) / (x2 - x1).hypot(z2 - z1)
+        (x1 * (z2 - z1) - z1 * (x2 - x1)) / libm::hypot(x2 - x1, z2 - z1)
     }
     /// The same as the body lies, the lowest where it may lie on several sides.
     pub(crate) fn lowest_m(&self) -> f64 {
@@ -97,7 +97,7 @@ impl<const N: usize> Body<N> {
         for (i, [x1, z1]) in self.points.iter().enumerate() {
             for (j, [x2, z2]) in self.points.iter().enumerate().skip(i + 1) {
                 let center = self.height_over([i, j]);
-                let length = (x2 - x1).hypot(z2 - z1);
+                let length = libm::hypot(x2 - x1, z2 - z1);
                 let off = |x: f64, z: f64| ((x2 - x1) * (z - z1) - (z2 - z1) * (x - x1)) / length;
                 let beyond = |[x, z]: &[f64; 2]| off(*x, *z) * center.signum() < -1e-12 * length;
                 if !self.points.iter().any(beyond) {

@@ -54,7 +54,7 @@ fn milli(x: f64, unit: &str) -> String {
 
 /// Three digits of a bound, on the side that is allowed.
 fn towards(bound: f64, most: bool) -> f64 {
-    let digit = 10_f64.powf(bound.abs().log10().floor() - 2.0);
+    let digit = libm::pow(10.0, libm::log10(bound.abs()).floor() - 2.0);
     let digits = bound / digit;
     digit * if most { (digits + 1e-9).floor() } else { (digits - 1e-9).ceil() }
 }

@@ -18,9 +18,9 @@ const TUMBLES: f64 = 0.5 * std::f64::consts::PI;
 /// nothing where the body [tumbles](TUMBLES), and what it changes the velocity by in either case.
 pub(crate) fn turning([x, z]: [f64; 2], tilt: f64, spin: f64, length_s: f64) -> (Sine, f64) {
     // −ω² (x sin φ + z cos φ) = −ω² r sin(φ + ψ)
-    let (square, phase) = (spin * spin, tilt + z.atan2(x));
+    let (square, phase) = (spin * spin, tilt + libm::atan2(z, x));
     let side = if spin < 0.0 { -1.0 } else { 1.0 };
-    let sine = Sine { amplitude: -side * square * x.hypot(z), rate: spin.abs(), phase: side * phase };
+    let sine = Sine { amplitude: -side * square * libm::hypot(x, z), rate: spin.abs(), phase: side * phase };
     let change = Section { sines: &[sine], ..Section::shock(0.0, length_s, 0.0) }.velocity_after(length_s);
     (if spin.abs() * length_s > TUMBLES { Sine::default() } else { sine }, change)
 }
@@ -81,7 +81,7 @@ impl Motion {
         let real = self.model == Model::FiniteTilt;
         let (mut before, mut turned) = (scene.spin_rad_s(), Excitation::with_capacity(self.strikes.len()));
         for strike in &self.strikes {
-            let cos = if real { strike.tilt_rad.cos().abs() } else { 1.0 };
+            let cos = if real { libm::cos(strike.tilt_rad).abs() } else { 1.0 };
             // Next to upright the velocities of both ends say little of the turn; in flight the spin stays.
             let [da, db] = strike.delta_v_m_s;
             let turn = if cos > 0.1 { (db - da) / ((a + b) * cos) } else { strike.spin_rad_s - before };

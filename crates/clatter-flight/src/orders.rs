@@ -24,7 +24,7 @@ impl Order {
     #[must_use]
     pub fn measured(&self) -> f64 {
         let [.., (p, x), (q, y)] = self.steps.as_slice() else { return f64::NAN };
-        (x / y).ln() / (p / q).ln()
+        libm::log(x / y) / libm::log(p / q)
     }
 }
 

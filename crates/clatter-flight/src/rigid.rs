@@ -74,7 +74,7 @@ impl Motion {
                 let begin = [p.tilt_rad, p.spin_rad_s];
                 let whole = p.until_s - p.from_s;
                 let [tilt, spin] = pivot::along(&scene.body(), scene.gravity_m_s2(), p.point, begin, t, whole);
-                let (x, over) = scene.body().levers(tilt.sin(), tilt.cos());
+                let (x, over) = scene.body().levers(libm::sin(tilt), libm::cos(tilt));
                 (h[j], v[j]) = ((over[j] - over[p.point]).max(0.0), (x[j] - x[p.point]) * spin);
             } else {
                 let fall = scene.gravity_m_s2() * (1.0 + scene.body().inertia_ratios()[p.point]);
@@ -95,14 +95,14 @@ impl Motion {
             }
             (None, Some(s)) => (s.time_s, State { h: s.height_m, v: s.velocity_m_s }, s.tilt_rad, s.spin_rad_s),
             (None, None) => {
-                let levers = scene.body().levers(scene.tilt_rad().sin(), scene.tilt_rad().cos()).0;
+                let levers = scene.body().levers(libm::sin(scene.tilt_rad()), libm::cos(scene.tilt_rad())).0;
                 return ([0.0, scene.height_gap_m()], scene.end_velocities(levers));
             }
         };
         let t = time_s - from;
         let g = self.gravity_m_s2();
         let (h, v) = if self.model == Model::FiniteTilt {
-            let (sin, cos) = tilt.sin_cos();
+            let (sin, cos) = libm::sincos(tilt);
             let pose = finite_tilt::Airborne { body: scene.body(), gravity: g, ends, sin, cos, spin };
             ([0, 1].map(|i| pose.end(i, t)[0]), [0, 1].map(|i| pose.end(i, t)[1]))
         } else {

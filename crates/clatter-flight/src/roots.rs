@@ -12,7 +12,7 @@
 pub(crate) fn safe_step(f: f64, slope: f64, bound: f64) -> f64 {
     // `hypot` takes five times as long, and only tiny speeds need it.
     let square = slope * slope + 2.0 * bound * f;
-    let root = if square.is_normal() { square.sqrt() } else { slope.hypot((2.0 * bound * f).sqrt()) };
+    let root = if square.is_normal() { square.sqrt() } else { libm::hypot(slope, (2.0 * bound * f).sqrt()) };
     if slope > 0.0 { (slope + root) / bound } else { 2.0 * f / (root - slope) }
 }
 

@@ -43,7 +43,7 @@ impl<const N: usize> Scene<N> {
             e,
             speed: speed_m_s,
             tilt,
-            gap: body.length_m() * tilt.sin(),
+            gap: body.length_m() * libm::sin(tilt),
             gravity: gravity_m_s2 + 0.0,
             spin: 0.0,
             time_limit: f64::INFINITY,
@@ -140,7 +140,7 @@ impl Scene<2> {
     /// at most 1e30 m/s.
     pub fn with_spin(mut self, spin_rad_s: f64) -> Result<Self, Error> {
         let far = 1e30 / self.body.length_m();
-        let (sin, cos) = self.tilt.sin_cos();
+        let (sin, cos) = libm::sincos(self.tilt);
         let ([x, _], _) = self.body.levers(sin, cos);
         self.spin = spin_rad_s + 0.0;
         // As it rounds: next to -speed/arm nothing may be left of the approach.

@@ -35,7 +35,7 @@ pub(crate) struct UpSampler<const POINTS: usize> {
 
 /// sin(πx)/(πx)
 fn sinc(x: f64) -> f64 {
-    if x == 0.0 { 1.0 } else { (PI * x).sin() / (PI * x) }
+    if x == 0.0 { 1.0 } else { libm::sin(PI * x) / (PI * x) }
 }
 
 /// The modified Bessel function I₀, by its power series.

@@ -115,19 +115,19 @@ struct Cascade {
 impl Cascade {
     fn new(pass: Pass, relative: f64, order: u32) -> Self {
         // Each pass leaves the square root of 1/√2 at the cutoff given.
-        let shift = (SQRT_2 - 1.0).powf(0.5 / f64::from(order));
-        let at = (PI * relative).tan();
+        let shift = libm::pow(SQRT_2 - 1.0, 0.5 / f64::from(order));
+        let at = libm::tan(PI * relative);
         let g = match pass {
             Pass::Low => at / shift,
             Pass::High => at * shift,
         };
         let angle = |i| FRAC_PI_2 * f64::from(2 * i + 1) / f64::from(order);
-        let damping = (0..order / 2).map(|i| 2.0 * angle(i).sin()).collect();
+        let damping = (0..order / 2).map(|i| 2.0 * libm::sin(angle(i))).collect();
         Self { pass, g, damping, single: order % 2 == 1, order }
     }
     /// By how many samples a record of `n` is continued.
     fn edge(&self, n: usize) -> usize {
-        let slowest = (FRAC_PI_2 / f64::from(self.order)).sin();
+        let slowest = libm::sin(FRAC_PI_2 / f64::from(self.order));
         // 2g radians a sample; near half the sampling rate the poles lie as far from the other end.
         let time_constant = self.g.max(self.g.recip()) / (2.0 * slowest);
         let wanted = (CONTINUED * time_constant).ceil() + SHORTEST;

@@ -216,7 +216,7 @@ fn three(value: f64) -> String {
         return value.to_string();
     }
     #[expect(clippy::cast_possible_truncation, reason = "a float has at most 308 digits")]
-    let place = value.abs().log10().floor() as i32;
+    let place = libm::log10(value.abs()).floor() as i32;
     if (-3..6).contains(&place) {
         let text = format!("{value:.*}", usize::try_from(2 - place).unwrap_or(0));
         if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
@@ -302,7 +302,7 @@ fn level(values: &[f64]) -> Option<f64> {
     let (all, error) = with_error(&means);
     let (first, second) = means.split_at(PARTS / 2);
     let ((first, of_first), (second, of_second)) = (with_error(first), with_error(second));
-    let flat = (second - first).abs() < 0.5 * all.abs() + 2.0 * of_first.hypot(of_second);
+    let flat = (second - first).abs() < 0.5 * all.abs() + 2.0 * libm::hypot(of_first, of_second);
     (flat && all.abs() > SURE * error).then_some(all)
 }
 

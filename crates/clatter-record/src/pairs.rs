@@ -65,7 +65,7 @@ impl Seen {
         };
         let Some(own) = span(time) else { return Ok(()) };
         // Far more than what is rounded in a few rows.
-        let differs = |column: &usize| span(*column).is_some_and(|other| (other / own).ln().abs() > 0.3);
+        let differs = |column: &usize| span(*column).is_some_and(|other| libm::log(other / own).abs() > 0.3);
         match (0..self.headings.len()).find(differs) {
             None => Ok(()),
             Some(other) => Err(Error::Columns(format!(

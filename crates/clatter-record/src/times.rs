@@ -157,7 +157,7 @@ impl Times<'_> {
         // A number may be too large for a float, in units that are small.
         #[expect(clippy::cast_possible_truncation, reason = "within 400 of zero")]
         let place = if digits > 0 {
-            (self.number(i).abs().log10().floor().clamp(-400.0, 400.0) as i32 + 1 - digits).max(finest)
+            (libm::log10(self.number(i).abs()).floor().clamp(-400.0, 400.0) as i32 + 1 - digits).max(finest)
         } else {
             finest
         };
@@ -249,7 +249,7 @@ impl Within {
 
 /// The distance between floats of 32 bits around a number.
 fn single(number: f64) -> f64 {
-    number.abs().max(f64::from(f32::MIN_POSITIVE)).log2().floor().exp2() * f64::from(f32::EPSILON)
+    libm::exp2(libm::log2(number.abs().max(f64::from(f32::MIN_POSITIVE))).floor()) * f64::from(f32::EPSILON)
 }
 
 #[cfg(test)]

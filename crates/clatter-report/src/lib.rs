@@ -3,6 +3,8 @@
 //! A report computes nothing: it is handed what `clatter` computed and says how it is drawn, worded and set. Figures
 //! are SVG, tables JSON and CSV; the page is a typst file that reads them. One module alone starts typst.
 
+#![allow(clippy::disallowed_methods, reason = "what is shown has few digits")]
+
 mod accuracy;
 mod assessment;
 mod file;

@@ -1,7 +1,7 @@
 //! Eight numbers at a time: sine, cosine and exponential without branches, for the vector instructions of the machine.
 //!
 //! Power series after an exact reduction, in fused multiply-adds throughout: the results do not depend on how many
-//! numbers one instruction takes. Only for machines that have such instructions.
+//! numbers one instruction takes, nor on the machine; one without such instructions is slower.
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, LN_2, LOG2_E};
 

@@ -66,7 +66,7 @@ impl EnvelopingPulse {
             let over = asked
                 .iter()
                 .zip(&answer.maximax)
-                .map(|((hz, level), of_unit)| (*hz, 20.0 * (amplitude * of_unit / level).log10()));
+                .map(|((hz, level), of_unit)| (*hz, 20.0 * libm::log10(amplitude * of_unit / level)));
             let (mut most, mut sum) = ((f64::NAN, f64::NEG_INFINITY), 0.0);
             for (hz, db) in over {
                 sum += db;
@@ -80,7 +80,7 @@ impl EnvelopingPulse {
             Ok::<_, Error>(Self { pulse, most_db: most.1, most_hz: most.0, mean_db })
         };
         let [shortest, longest] = [1e-2 / high, 10.0 / low];
-        let octaves = (longest / shortest).log2();
+        let octaves = libm::log2(longest / shortest);
         let mut best: Option<Self> = None;
         let mut take = |duration: f64| {
             let found = of(duration)?;
@@ -92,7 +92,7 @@ impl EnvelopingPulse {
         let mut center = shortest;
         let mut k = 0.0;
         while k <= octaves * PER_OCTAVE {
-            center = take(shortest * (k / PER_OCTAVE).exp2())?;
+            center = take(shortest * libm::exp2(k / PER_OCTAVE))?;
             k += 1.0;
         }
         let mut step = 1.0 / PER_OCTAVE;
@@ -100,7 +100,7 @@ impl EnvelopingPulse {
             step /= f64::from(CLOSER);
             let from = center;
             for k in (-CLOSER..=CLOSER).filter(|k| *k != 0) {
-                center = take(from * (f64::from(k) * step).exp2())?;
+                center = take(from * libm::exp2(f64::from(k) * step))?;
             }
         }
         Ok(best)

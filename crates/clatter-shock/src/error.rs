@@ -139,7 +139,7 @@ pub enum Error {
 /// A share in percent, three digits of it; what is above a limit is rounded up, not to look as if it held.
 fn percent(share: f64, round: fn(f64) -> f64) -> f64 {
     let percent = 100.0 * share;
-    let digit = 10_f64.powf(percent.log10().floor() - 2.0);
+    let digit = libm::pow(10.0, libm::log10(percent).floor() - 2.0);
     format!("{:.2e}", round(percent / digit) * digit).parse().unwrap_or(percent)
 }
 

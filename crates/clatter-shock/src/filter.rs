@@ -92,7 +92,7 @@ impl Reach {
             Modes::VELOCITY => ([0.0, 1.0], 1.0 + damp),
             _ => ([-1.0, -damp], 1.0 + damp + damp * damp),
         };
-        Self { of, most: of[0].hypot(of[1]), drift: [slope * STEPS; WIDTH], push: of[1].abs(), dt }
+        Self { of, most: libm::hypot(of[0], of[1]), drift: [slope * STEPS; WIDTH], push: of[1].abs(), dt }
     }
 }
 
@@ -191,7 +191,7 @@ impl Oscillator {
             let less = -ramp.x0 - modes.zeta * step.s;
             (less, less)
         } else {
-            ((-modes.sigma * theta).exp_m1(), (-modes.rho * theta).exp_m1())
+            (libm::expm1(-modes.sigma * theta), libm::expm1(-modes.rho * theta))
         };
         let free = [[c, step.s], [-modes.p * step.s, k]];
         let [r0, r1] = modes.rows[row];
@@ -389,19 +389,18 @@ impl Group {
     /// within reach of where it begins.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
-    fn stays<const FUSED: bool>(&self, input: &Input, high: &Many, low: &Many) -> bool {
+    fn stays(&self, input: &Input, high: &Many, low: &Many) -> bool {
         let Reach { of, most, drift, push, dt } = &self.reach;
         let added = dt * input.sum;
         // Numbers, that no oscillator waits for another.
         let mut stays = [0; WIDTH];
         for l in 0..WIDTH {
-            let coordinate = |[u, v, a]: &[Many; 3]| {
-                add::<FUSED>(u[l], self.u[l], add::<FUSED>(v[l], self.v[l], a[l] * input.before))
-            };
+            let coordinate =
+                |[u, v, a]: &[Many; 3]| u[l].mul_add(self.u[l], v[l].mul_add(self.v[l], a[l] * input.before));
             let (x, y) = (coordinate(&self.back[0]), coordinate(&self.back[1]));
-            let size = add::<FUSED>(x, x, y * y).sqrt() + added;
+            let size = x.mul_add(x, y * y).sqrt() + added;
             let (q, far) = (of[0] * x + of[1] * y, most * size);
-            let near = add::<FUSED>(drift[l], size, push * added);
+            let near = drift[l].mul_add(size, push * added);
             let up = if q + near < far { q + near } else { far };
             let down = if q - near > -far { q - near } else { -far };
             stays[l] = u64::from(size > SMALLEST) & u64::from(up <= high[l]) & u64::from(down >= low[l]);
@@ -424,12 +423,12 @@ impl Group {
                 for (j, (w, sum)) in w.iter().zip(&mut sums).enumerate() {
                     let a = if k + j == 0 { before } else { samples[SUMS * k + j - 1] };
                     let (w, a) = (S::as_simd_f64s(w).0, simd.splat_f64s(a));
-                    *sum = [simd.mul_add_e_f64s(w[i], a, sum[0]), simd.mul_add_e_f64s(w[across + i], a, sum[1])];
+                    *sum = [simd.mul_add_f64s(w[i], a, sum[0]), simd.mul_add_f64s(w[across + i], a, sum[1])];
                 }
             }
             let add = |a, b| simd.add_f64s(a, b);
             let [sum_u, sum_v] = [0, 1].map(|h| add(add(sums[0][h], sums[1][h]), add(sums[2][h], sums[3][h])));
-            let by = |a, b, c, d| simd.mul_add_e_f64s(a, b, simd.mul_f64s(c, d));
+            let by = |a, b, c, d| simd.mul_add_f64s(a, b, simd.mul_f64s(c, d));
             let next_u = add(u[i], add(by(n[0][i], u[i], n[1][i], v[i]), sum_u));
             let next_v = add(v[i], add(by(n[3][i], v[i], n[2][i], u[i]), sum_v));
             let flush = |a| simd.select_f64s(simd.less_than_f64s(simd.abs_f64s(a), tiny), zero, a);
@@ -448,10 +447,10 @@ impl Group {
     /// The recursion over one block.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
-    fn scan<const FUSED: bool>(&mut self, index: usize, before: f64, samples: &[f64]) -> Block {
+    fn scan(&mut self, index: usize, before: f64, samples: &[f64]) -> Block {
         let (u, v) = (self.u, self.v);
         let mut block = Block { index, u, v, high: [f64::NEG_INFINITY; WIDTH], low: [f64::INFINITY; WIDTH] };
-        (self.u, self.v) = self.step_through::<FUSED>([u, v], before, samples, |_, _, _, q| {
+        (self.u, self.v) = self.step_through([u, v], before, samples, |_, _, _, q| {
             for (l, &q) in q.iter().enumerate() {
                 block.high[l] = if q > block.high[l] { q } else { block.high[l] };
                 block.low[l] = if q < block.low[l] { q } else { block.low[l] };
@@ -464,7 +463,7 @@ impl Group {
     /// quantity are there, at number 0 those at the sample before.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
-    fn step_through<const FUSED: bool>(
+    fn step_through(
         &self,
         [mut u, mut v]: [Many; 2],
         mut before: f64,
@@ -473,16 +472,16 @@ impl Group {
     ) -> (Many, Many) {
         let [n00, n01, n10, n11] = self.n;
         let ([c0, c1], d) = (self.c, self.d);
-        let mut q: Many = std::array::from_fn(|l| add::<FUSED>(d[l], before, u[l]));
+        let mut q: Many = std::array::from_fn(|l| d[l].mul_add(before, u[l]));
         each(0, &u, &v, &q);
         for (k, &a) in samples.iter().enumerate() {
             for l in 0..WIDTH {
                 // Grouped for the shortest chain from one sample to the next.
-                let from_v = add::<FUSED>(n01[l], v[l], c0[l] * before);
-                let from_u = add::<FUSED>(n10[l], u[l], c1[l] * before);
-                u[l] = add::<FUSED>(n00[l], u[l], u[l]) + from_v;
-                v[l] = add::<FUSED>(n11[l], v[l], v[l]) + from_u;
-                q[l] = add::<FUSED>(d[l], a, u[l]);
+                let from_v = n01[l].mul_add(v[l], c0[l] * before);
+                let from_u = n10[l].mul_add(u[l], c1[l] * before);
+                u[l] = n00[l].mul_add(u[l], u[l]) + from_v;
+                v[l] = n11[l].mul_add(v[l], v[l]) + from_u;
+                q[l] = d[l].mul_add(a, u[l]);
             }
             each(k + 1, &u, &v, &q);
             before = a;
@@ -522,16 +521,16 @@ impl pulp::WithSimd for Retrace<'_> {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn with_simd<S: pulp::Simd>(self, _: S) {
-        if S::IS_SCALAR { self.run::<false>() } else { self.run::<true>() }
+        self.run();
     }
 }
 
 impl Retrace<'_> {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
-    fn run<const FUSED: bool>(self) {
+    fn run(self) {
         let Self { group, block, samples, steps } = self;
-        group.step_through::<FUSED>([block.u, block.v], steps.before, samples, |k, u, v, q| {
+        group.step_through([block.u, block.v], steps.before, samples, |k, u, v, q| {
             (steps.u[k], steps.v[k], steps.q[k]) = (*u, *v, *q);
         });
     }
@@ -563,27 +562,26 @@ impl pulp::WithSimd for Scan<'_> {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn with_simd<S: pulp::Simd>(self, simd: S) -> Scanned {
-        if S::IS_SCALAR { self.run::<S, false>(simd) } else { self.run::<S, true>(simd) }
+        self.run(simd)
     }
 }
 
 impl Scan<'_> {
-    /// With fused multiply-adds where the machine has them.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
-    fn run<S: pulp::Simd, const FUSED: bool>(self, simd: S) -> Scanned {
+    fn run<S: pulp::Simd>(self, simd: S) -> Scanned {
         let mut blocks = Vec::with_capacity(self.samples.len().div_ceil(BLOCK));
         let (mut highest, mut lowest) = ([0; WIDTH], [0; WIDTH]);
         let (mut high, mut low) = (self.group.high, self.group.low);
-        let leap = (self.samples.len() >= WORTH).then(|| Leap::new::<FUSED>(self.group));
+        let leap = (self.samples.len() >= WORTH).then(|| Leap::new(self.group));
         let mut before = self.previous;
         for (i, block) in self.samples.chunks(BLOCK).enumerate() {
             match &leap {
-                Some(leap) if block.len() == BLOCK && self.group.stays::<FUSED>(&self.inputs[i], &high, &low) => {
+                Some(leap) if block.len() == BLOCK && self.group.stays(&self.inputs[i], &high, &low) => {
                     self.group.leap(simd, leap, before, block);
                 }
                 _ => {
-                    let b = self.group.scan::<FUSED>(i, before, block);
+                    let b = self.group.scan(i, before, block);
                     for l in 0..WIDTH {
                         let (higher, lower) = (b.high[l] > high[l], b.low[l] < low[l]);
                         (high[l], highest[l]) = if higher { (b.high[l], blocks.len()) } else { (high[l], highest[l]) };
@@ -610,17 +608,15 @@ struct Leap {
 impl Leap {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
-    fn new<const FUSED: bool>(group: &Group) -> Self {
+    fn new(group: &Group) -> Self {
         let (mut n, mut w) = (group.n, [[0.0; 2 * WIDTH]; BLOCK]);
         let [mut u, mut v] = group.c;
         for w in w.iter_mut().rev() {
             w[..WIDTH].copy_from_slice(&u);
             w[WIDTH..].copy_from_slice(&v);
             for l in 0..WIDTH {
-                (u[l], v[l]) = (
-                    u[l] + add::<FUSED>(n[0][l], u[l], n[1][l] * v[l]),
-                    v[l] + add::<FUSED>(n[3][l], v[l], n[2][l] * u[l]),
-                );
+                (u[l], v[l]) =
+                    (u[l] + n[0][l].mul_add(u[l], n[1][l] * v[l]), v[l] + n[3][l].mul_add(v[l], n[2][l] * u[l]));
             }
         }
         // (1 + N)² = 1 + 2N + N²
@@ -628,8 +624,8 @@ impl Leap {
         for _ in 0..BLOCK.ilog2() {
             for l in 0..WIDTH {
                 let (across, trace) = (b[l] * c[l], a[l] + d[l]);
-                a[l] = 2.0 * a[l] + add::<FUSED>(a[l], a[l], across);
-                d[l] = 2.0 * d[l] + add::<FUSED>(d[l], d[l], across);
+                a[l] = 2.0 * a[l] + a[l].mul_add(a[l], across);
+                d[l] = 2.0 * d[l] + d[l].mul_add(d[l], across);
                 b[l] = 2.0 * b[l] + b[l] * trace;
                 c[l] = 2.0 * c[l] + c[l] * trace;
             }
@@ -643,13 +639,6 @@ impl Leap {
 pub(crate) fn share_of_bend(theta: f64) -> f64 {
     let share = 0.125 * theta * theta;
     if share < 0.5 { share / (1.0 - share) } else { f64::INFINITY }
-}
-
-/// a b + c
-#[inline(always)]
-#[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
-fn add<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
-    if FUSED { a.mul_add(b, c) } else { a * b + c }
 }
 
 impl SpectrumFilter {

@@ -110,9 +110,9 @@ impl Modes {
         }
         // Two decays in a row, each integrated on its own.
         let slow = self.sigma * tau;
-        let rise = -(-slow).exp_m1() / self.sigma;
+        let rise = -libm::expm1(-slow) / self.sigma;
         let rise_of_ramp = if slow < 0.5 { tau * tau * psi2(slow) } else { (tau - rise) / self.sigma };
-        let w0 = -(-self.rho * tau).exp_m1() / self.rho;
+        let w0 = -libm::expm1(-self.rho * tau) / self.rho;
         let x0 = (rise - step.s) / self.rho;
         Ramp { x0, w0, x1: (rise_of_ramp - x0) / self.rho, w1: (tau - w0) / self.rho }
     }
@@ -475,7 +475,7 @@ impl<'a> Segment<'a> {
         let mut next = modes.zero(k + 2, swing).map_or(span, |(tau, _)| tau);
         loop {
             if modes.beta > 0.0 {
-                let reach = amplitude * (-modes.zeta * a.tau).exp();
+                let reach = amplitude * libm::exp(-modes.zeta * a.tau);
                 let here = about(a.tau);
                 if here.max(last) + reach <= range.high.value && here.min(last) - reach >= range.low.value {
                     return;
@@ -708,8 +708,8 @@ impl Sine {
 
 /// e^z − 1 without cancellation at small z.
 fn exp_m1(z: Complex64) -> Complex64 {
-    let (sin, half) = (z.im.sin(), (0.5 * z.im).sin());
-    Complex64::new(z.re.exp_m1() * z.im.cos() - 2.0 * half * half, z.re.exp() * sin)
+    let (sin, half) = (libm::sin(z.im), libm::sin(0.5 * z.im));
+    Complex64::new(libm::expm1(z.re) * libm::cos(z.im) - 2.0 * half * half, libm::exp(z.re) * sin)
 }
 
 #[cfg(test)]

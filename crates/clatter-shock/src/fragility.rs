@@ -59,7 +59,7 @@ impl Margin {
     /// 20 log₁₀(allowed/demand).
     #[must_use]
     pub fn decibel(&self) -> f64 {
-        20.0 * (self.allowed / self.demand).log10()
+        20.0 * libm::log10(self.allowed / self.demand)
     }
     /// Whether the limit holds.
     #[must_use]
@@ -186,7 +186,7 @@ impl DamageBoundary {
             .map(|i| {
                 #[expect(clippy::cast_precision_loss, reason = "a number of points on a curve")]
                 let share = i as f64 / steps as f64;
-                let duration = first * (last / first).powf(share);
+                let duration = first * libm::pow(last / first, share);
                 let unit = Pulse { shape: self.shape, amplitude: 1.0, duration, start: 0.0 };
                 let amplitude = allowed / self.limit.demand(&Pulses::new(&[unit])?.respond(&self.suspension));
                 Ok((self.shape.area() * amplitude * duration, amplitude))
@@ -229,7 +229,7 @@ fn largest_amplification(damping: DampingRatio, limit: Limit, shape: Shape) -> R
     // Very long pulses act like their steepest part: a step for the initial peak, else a slow rise.
     let long = if shape == Shape::InitialPeakSawtooth { step_peak.value.max(1.0) } else { 1.0 };
     let mut best = (0.0, 0.0);
-    let ratio = 2_f64.powf(1.0 / STEPS);
+    let ratio = libm::pow(2.0, 1.0 / STEPS);
     let mut phase = 0.1;
     while phase < longest {
         let a = amplification(damping, limit, shape, phase)?;
@@ -390,7 +390,7 @@ impl Match<'_> {
     fn durations(&self) -> Result<Vec<EquivalentPulse>, Error> {
         let ShockTable { shortest, longest, .. } = *self.table;
         let period = TAU / self.suspension.omega();
-        let ratio = 2_f64.powf(((longest / shortest).log2() / MOST_DURATIONS).max(1.0 / DURATIONS));
+        let ratio = libm::pow(2.0, (libm::log2(longest / shortest) / MOST_DURATIONS).max(1.0 / DURATIONS));
         let (mut list, mut duration) = (Vec::new(), shortest);
         while duration < longest {
             list.push(self.at(duration)?);

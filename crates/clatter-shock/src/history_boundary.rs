@@ -145,7 +145,7 @@ impl HistoryBoundary {
             .map(|i| {
                 #[expect(clippy::cast_precision_loss, reason = "a number of points on a curve")]
                 let share = i as f64 / steps as f64;
-                first * (last / first).powf(share)
+                first * libm::pow(last / first, share)
             })
             .collect();
         let asked = history.spectrum(scales.iter().map(|s| s * omega / TAU).collect())?;
@@ -229,7 +229,7 @@ impl History {
     fn frequencies(&self) -> Vec<f64> {
         #[expect(clippy::cast_precision_loss, reason = "a number of samples")]
         let highest = 4.0 * self.times_s.len() as f64;
-        let (ratio, mut periods, mut hz) = (2_f64.powf(1.0 / PER_OCTAVE) - 1.0, 0.01, Vec::new());
+        let (ratio, mut periods, mut hz) = (libm::pow(2.0, 1.0 / PER_OCTAVE) - 1.0, 0.01, Vec::new());
         while periods < highest {
             hz.push(periods / self.duration);
             let fine = if periods < PERIODS { 1.0 / PER_PERIOD } else { f64::INFINITY };

@@ -155,11 +155,11 @@ impl VelocityShocks {
         for chunk in omegas.chunks(WIDTH) {
             let omega = std::array::from_fn(|l| chunk[l.min(chunk.len() - 1)]);
             let tame = TAME.contains(&self.largest()) && chunk.iter().all(|w| w * span < LARGEST_ANGLE);
-            let together =
-                if tame { arch.dispatch(SideBySide { shocks: &self.shocks, modes, omega, k }) } else { None };
-            match together {
-                Some(peaks) => list.extend(&peaks[..chunk.len()]),
-                None => list.extend(chunk.iter().map(|&w| self.peaks(modes, w, k))),
+            if tame {
+                let peaks = arch.dispatch(SideBySide { shocks: &self.shocks, modes, omega, k });
+                list.extend(&peaks[..chunk.len()]);
+            } else {
+                list.extend(chunk.iter().map(|&w| self.peaks(modes, w, k)));
             }
         }
         list

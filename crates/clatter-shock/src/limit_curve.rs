@@ -18,7 +18,7 @@ const LIST: &str = "limit curve";
 /// log₂(b/a), also where the quotient is out of range.
 fn octaves(a: f64, b: f64) -> f64 {
     let ratio = b / a;
-    if ratio.is_normal() { ratio.log2() } else { b.log2() - a.log2() }
+    if ratio.is_normal() { libm::log2(ratio) } else { libm::log2(b) - libm::log2(a) }
 }
 
 impl LimitCurve {
@@ -69,7 +69,11 @@ impl LimitCurve {
                 let [(f, a), (g, b)] = [w[0], w[1]];
                 (f <= hz && hz <= g).then(|| {
                     let (share, ratio) = (octaves(f, hz) / octaves(f, g), b / a);
-                    if ratio.is_normal() { a * ratio.powf(share) } else { (a.log2() + share * octaves(a, b)).exp2() }
+                    if ratio.is_normal() {
+                        a * libm::pow(ratio, share)
+                    } else {
+                        libm::exp2(libm::log2(a) + share * octaves(a, b))
+                    }
                 })
             }),
         }

@@ -126,11 +126,11 @@ pub(crate) fn value(shape: Shape, u: f64) -> [f64; 2] {
     }
     match shape {
         Shape::HalfSine => {
-            let (sin, cos) = (PI * u).sin_cos();
+            let (sin, cos) = libm::sincos(PI * u);
             [sin, PI * cos]
         }
         Shape::Haversine => {
-            let (sin, cos) = (TAU * u).sin_cos();
+            let (sin, cos) = libm::sincos(TAU * u);
             [0.5 - 0.5 * cos, PI * sin]
         }
         Shape::Triangle => {
@@ -182,7 +182,7 @@ impl Trial {
         let longest = levels.length() + 1.0;
         let mut best = Self { shape, start: top - 0.5 * SHORTEST, duration: SHORTEST, amplitude: 0.0, gain: -1.0 };
         for k in 0.. {
-            let duration = SHORTEST * (f64::from(k) / f64::from(PER_OCTAVE)).exp2();
+            let duration = SHORTEST * libm::exp2(f64::from(k) / f64::from(PER_OCTAVE));
             if duration > longest {
                 return best;
             }

@@ -44,7 +44,7 @@ impl Deviation {
     /// 20 log₁₀(reached/required).
     #[must_use]
     pub fn decibel(&self) -> f64 {
-        20.0 * (self.reached / self.required).log10()
+        20.0 * libm::log10(self.reached / self.required)
     }
 
     /// Whether it is within the tolerance.
@@ -67,8 +67,8 @@ impl RequiredSpectrum {
                 Err(Error::Quantity { name: "tolerance (dB)", value, allowed: "in [0, 60]" })
             }
         };
-        let lowest = curve.times(10f64.powf(-checked(below_db)? / 20.0))?;
-        let highest = above_db.map(|above_db| curve.times(10f64.powf(checked(above_db)? / 20.0))).transpose()?;
+        let lowest = curve.times(libm::pow(10f64, -checked(below_db)? / 20.0))?;
+        let highest = above_db.map(|above_db| curve.times(libm::pow(10f64, checked(above_db)? / 20.0))).transpose()?;
         Ok(Self { curve, lowest, highest })
     }
 

@@ -94,7 +94,7 @@ pub fn noise_threshold(acceleration: &[f64]) -> Result<f64, Error> {
     if median == 0.0 {
         return Ok(CLEAN * acceleration[peak(acceleration)].abs());
     }
-    Ok(median / QUARTILE * (2.0 * (float(acceleration.len()) / FALSE_ALARMS).ln()).sqrt())
+    Ok(median / QUARTILE * (2.0 * libm::log(float(acceleration.len()) / FALSE_ALARMS)).sqrt())
 }
 
 /// Finds the shocks of a history.

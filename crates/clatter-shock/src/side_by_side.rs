@@ -176,19 +176,16 @@ impl SideBySide<'_> {
 }
 
 impl pulp::WithSimd for SideBySide<'_> {
-    type Output = Option<[[Peaks; 2]; WIDTH]>;
+    type Output = [[Peaks; 2]; WIDTH];
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "it must take on the instruction set of the caller")]
     fn with_simd<S: pulp::Simd>(self, _: S) -> Self::Output {
-        if S::IS_SCALAR {
-            return None;
-        }
         let (found, x, w) = self.run();
         let end = self.shocks[self.shocks.len() - 1].time;
-        Some(std::array::from_fn(|l| {
+        std::array::from_fn(|l| {
             let mut after = Range::default();
             after.note_free(self.modes, self.k, Motion { x: x[l], w: w[l] }, f64::INFINITY, 0);
             [found.peaks(l), after.peaks(self.omega[l], |_| end)]
-        }))
+        })
     }
 }

@@ -83,14 +83,14 @@ impl Frequencies {
             });
         }
         // A whole number of steps that rounding made a little larger stays that number.
-        let steps = ((high / low).log2() * per_octave * (1.0 - 4.0 * f64::EPSILON)).ceil();
+        let steps = (libm::log2(high / low) * per_octave * (1.0 - 4.0 * f64::EPSILON)).ceil();
         if steps > 1e7 {
             return Err(Error::Quantity { name: "number of frequencies", value: steps, allowed: "at most 1e7" });
         }
         let mut hz = vec![low];
         let mut i = 1.0;
         while i < steps {
-            hz.push(low * (high / low).powf(i / steps));
+            hz.push(low * libm::pow(high / low, i / steps));
             i += 1.0;
         }
         if high > low {
@@ -181,9 +181,9 @@ impl Spectrum {
                 #[expect(clippy::cast_precision_loss, reason = "a count of spectra")]
                 let count = spectra.len() as f64;
                 *value = match summary {
-                    Summary::RootSumSquare => all().fold(0.0, f64::hypot),
+                    Summary::RootSumSquare => all().fold(0.0, libm::hypot),
                     Summary::Envelope => all().fold(0.0, f64::max),
-                    Summary::MeanPlus3Db => all().sum::<f64>() / count * 10_f64.powf(0.15),
+                    Summary::MeanPlus3Db => all().sum::<f64>() / count * libm::pow(10.0, 0.15),
                 };
             }
         };

@@ -248,7 +248,7 @@ impl Modes {
                 beta,
                 beta_lo,
                 kappa: 0.0,
-                half_swing: (-zeta * PI / beta).exp(),
+                half_swing: libm::exp(-zeta * PI / beta),
                 tilt: 0.0,
                 rows: [[0.0; 2]; 7],
             }
@@ -291,16 +291,16 @@ impl Modes {
         let tau = phase.hi;
         if self.kappa == 0.0 {
             let (theta, decay) = if phase.lo == 0.0 && tau <= PLAIN_PHASE {
-                ((self.beta * tau).sin_cos(), (-self.zeta * tau).exp())
+                (libm::sincos(self.beta * tau), libm::exp(-self.zeta * tau))
             } else {
                 self.long(phase)
             };
             let s = if self.beta == 0.0 { tau } else { theta.0 / self.beta };
             Propagator { c: decay * theta.1, s: decay * s, k: decay * theta.1 }
         } else {
-            let slow = (-self.sigma * tau).exp();
-            let phi = -(-self.kappa * tau).exp_m1() / self.kappa;
-            Propagator { c: slow, s: slow * phi, k: (-self.rho * tau).exp() }
+            let slow = libm::exp(-self.sigma * tau);
+            let phi = -libm::expm1(-self.kappa * tau) / self.kappa;
+            Propagator { c: slow, s: slow * phi, k: libm::exp(-self.rho * tau) }
         }
     }
     /// Sine and cosine of βτ and the decay, with phase and exponent in two doubles.
@@ -313,16 +313,16 @@ impl Modes {
         };
         let (angle, angle_lo) = product(self.beta, self.beta_lo);
         let (exponent, exponent_lo) = product(self.zeta, 0.0);
-        let (sin, cos) = angle.sin_cos();
-        let (small_sin, small_cos) = if angle_lo.abs() < 1e-8 { (angle_lo, 1.0) } else { angle_lo.sin_cos() };
-        let decay = (-exponent).exp() * (1.0 - exponent_lo.clamp(-0.5, 0.5));
+        let (sin, cos) = libm::sincos(angle);
+        let (small_sin, small_cos) = if angle_lo.abs() < 1e-8 { (angle_lo, 1.0) } else { libm::sincos(angle_lo) };
+        let decay = libm::exp(-exponent) * (1.0 - exponent_lo.clamp(-0.5, 0.5));
         ((sin * small_cos + cos * small_sin, cos * small_cos - sin * small_sin), decay)
     }
     /// Upper bound on each of the three quantities at turning points to come, for ζ ≤ 1: √(w² + (1−ζ²)x²), their common
     /// amplitude.
     #[inline]
     pub(crate) fn amplitude(&self, m: Motion) -> f64 {
-        root_of(m.w * m.w + self.p * m.x * m.x, || m.w.hypot(self.beta * m.x))
+        root_of(m.w * m.w + self.p * m.x * m.x, || libm::hypot(m.w, self.beta * m.x))
     }
     /// The terms of quantity `k` without their signs: what its rounding is relative to.
     pub(crate) fn size(&self, k: usize, m: Motion) -> f64 {
@@ -331,7 +331,7 @@ impl Modes {
     /// √(x² + y²), which free motion never raises.
     pub(crate) fn energy(&self, m: Motion) -> f64 {
         let y = m.w - self.sigma * m.x;
-        root_of(m.x * m.x + y * y, || m.x.hypot(y))
+        root_of(m.x * m.x + y * y, || libm::hypot(m.x, y))
     }
     /// Upper bound on quantity `k` in all free motion from `m`.
     pub(crate) fn reach(&self, k: usize, m: Motion) -> f64 {
@@ -361,14 +361,14 @@ impl Modes {
         let start = self.quantity(j, m);
         let bend = self.quantity(j + 1, m) + self.sigma * start;
         if self.beta > 0.0 {
-            let angle = if start == 0.0 { PI } else { (self.beta * start.abs()).atan2(-bend * start.signum()) };
+            let angle = if start == 0.0 { PI } else { libm::atan2(self.beta * start.abs(), -bend * start.signum()) };
             return Some((angle / self.beta, 0.0));
         }
         let phi = -start / bend;
         if !(phi > 0.0 && phi < f64::INFINITY && self.kappa * phi < 1.0) {
             return None;
         }
-        Some((if self.kappa == 0.0 { phi } else { -(-self.kappa * phi).ln_1p() / self.kappa }, phi))
+        Some((if self.kappa == 0.0 { phi } else { -libm::log1p(-self.kappa * phi) / self.kappa }, phi))
     }
     /// The first turning point of quantity `k` after the start of free motion from `m`.
     ///
@@ -380,10 +380,10 @@ impl Modes {
         let slope = self.quantity(k + 1, m);
         let value = if self.beta > 0.0 {
             let sign = if slope == 0.0 { self.quantity(k + 2, m) } else { slope };
-            (-self.zeta * tau).exp() * self.amplitude(m).copysign(sign)
+            libm::exp(-self.zeta * tau) * self.amplitude(m).copysign(sign)
         } else {
             let value = self.quantity(k, m);
-            (value + (slope + self.sigma * value) * phi) * (-self.sigma * tau).exp()
+            (value + (slope + self.sigma * value) * phi) * libm::exp(-self.sigma * tau)
         };
         Some(Turn { tau, value })
     }

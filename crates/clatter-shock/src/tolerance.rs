@@ -206,8 +206,8 @@ pub fn check_pulse(
 /// The pulse whose duration between the 10 % points is the nominal one.
 fn base(nominal: &Pulse) -> Pulse {
     let between = match nominal.shape {
-        Shape::HalfSine => 1.0 - 2.0 * 0.1_f64.asin() / PI,
-        Shape::Haversine => 1.0 - 2.0 * 0.1_f64.sqrt().asin() / PI,
+        Shape::HalfSine => 1.0 - 2.0 * libm::asin(0.1) / PI,
+        Shape::Haversine => 1.0 - 2.0 * libm::asin(0.1_f64.sqrt()) / PI,
         Shape::Triangle | Shape::InitialPeakSawtooth | Shape::TerminalPeakSawtooth => 0.9,
         Shape::Rectangle => 1.0,
         Shape::Trapezoid { ramp } => 1.0 - 0.2 * ramp,

@@ -2,6 +2,7 @@
 //!
 //! Needs valgrind and `cargo install gungraun-runner`, of the version that Cargo.lock names.
 #![expect(missing_docs, unused_qualifications, reason = "of items that the macros make")]
+#![allow(clippy::disallowed_methods, reason = "cases and references may differ in the last digit between machines")]
 
 use clatter::{Axis, Bar, Count, Map, Quantity, Start, Summary};
 use gungraun::{library_benchmark, library_benchmark_group, main};

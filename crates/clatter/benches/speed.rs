@@ -3,8 +3,8 @@
 //! Ours and the plain way take turns, so that a machine that slows down slows both; the table gives the least time of
 //! each and the median of the ratios round by round. The bench `instructions` counts instructions, which repeat
 //! exactly.
-#![expect(clippy::disallowed_methods, reason = "the last digit of a case or a reference may differ between machines")]
 #![expect(clippy::print_stdout, clippy::cast_precision_loss, reason = "a table of counts and times is what is wanted")]
+#![allow(clippy::disallowed_methods, reason = "cases and references may differ in the last digit between machines")]
 
 use clatter::{Axis, Bar, Count, Impact, Map, Plate, PlateStart, Quantity, Start};
 use std::hint::black_box;

@@ -265,7 +265,6 @@ pub(crate) fn refine(at: &impl Fn(f64) -> Point, a: Point, b: Point, flatness: f
 }
 
 #[cfg(test)]
-#[expect(clippy::disallowed_methods, reason = "the last digit of a case or a reference may differ between machines")]
 mod tests {
     use super::*;
     use crate::{Count, Restitution};

@@ -236,7 +236,6 @@ fn fold(angle: Dd, steep: bool, half_turn: bool) -> Dd {
 }
 
 #[cfg(test)]
-#[expect(clippy::disallowed_methods, reason = "the last digit of a case or a reference may differ between machines")]
 mod tests {
     use super::*;
     use num_bigint::BigInt;

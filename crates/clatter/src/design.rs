@@ -261,7 +261,6 @@ fn intervals(good: impl Fn(f64) -> bool) -> Vec<[f64; 2]> {
 }
 
 #[cfg(test)]
-#[expect(clippy::disallowed_methods, reason = "the last digit of a case or a reference may differ between machines")]
 mod tests {
     use super::*;
     use crate::paper::DESIGNS;

@@ -2,9 +2,6 @@
 //!
 //! A part that falls with the body and is then carried by it feels the acceleration of its place above free fall, `a + g`.
 
-// A history is that of a flight or a record, whose digits the platform decides.
-#![expect(clippy::disallowed_methods, reason = "a history of what was computed elsewhere")]
-
 use std::ops::Range;
 
 /// A sinusoid of a [`Section`], `amplitude · sin(phase + rate t)` with t from its begin.
@@ -49,7 +46,7 @@ impl Section<'_> {
     pub fn acceleration_at(&self, t: f64) -> f64 {
         let [a, b] = self.acceleration;
         let share = if self.length > 0.0 { t / self.length } else { 0.0 };
-        a + (b - a) * share + self.sines.iter().map(|s| s.amplitude * (s.phase + s.rate * t).sin()).sum::<f64>()
+        a + (b - a) * share + self.sines.iter().map(|s| s.amplitude * libm::sin(s.phase + s.rate * t)).sum::<f64>()
     }
     /// Change of velocity from its begin, shock included, until a time after it.
     ///
@@ -67,8 +64,8 @@ impl Section<'_> {
         let one = |s: &Sine| {
             // cos ψ − cos(ψ + νt) without cancellation.
             let half = 0.5 * s.rate * t;
-            let over_rate = if s.rate > 0.0 { half.sin() / s.rate } else { 0.5 * t };
-            s.amplitude * 2.0 * over_rate * (s.phase + half).sin()
+            let over_rate = if s.rate > 0.0 { libm::sin(half) / s.rate } else { 0.5 * t };
+            s.amplitude * 2.0 * over_rate * libm::sin(s.phase + half)
         };
         self.delta_v + t * (a + 0.5 * (b - a) * share) + self.sines.iter().map(one).sum::<f64>()
     }

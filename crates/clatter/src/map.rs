@@ -305,7 +305,6 @@ fn count(count: Count) -> f64 {
 }
 
 #[cfg(test)]
-#[expect(clippy::disallowed_methods, reason = "the last digit of a case or a reference may differ between machines")]
 mod tests {
     use super::*;
     use crate::accuracy::PEAK;

@@ -594,7 +594,6 @@ impl Shocks {
 }
 
 #[cfg(test)]
-#[expect(clippy::disallowed_methods, reason = "the last digit of a case or a reference may differ between machines")]
 mod tests {
     use super::*;
     use crate::exact::Dyadic;

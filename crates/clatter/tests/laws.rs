@@ -1,5 +1,4 @@
 //! What must hold whatever the bar and the start: physics, symmetry, scaling, and that all ways agree.
-#![expect(clippy::disallowed_methods, reason = "the last digit of a case or a reference may differ between machines")]
 #![expect(clippy::float_cmp, reason = "exact answers are compared exactly")]
 
 use clatter::accuracy::{APPROACH, FINAL, PEAK, TIME};

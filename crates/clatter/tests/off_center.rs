@@ -1,6 +1,4 @@
 //! The off-center bar against its own matrices, impulses on a rigid body, the symmetric bar, and a search along the bar.
-#![expect(clippy::disallowed_methods, reason = "the last digit of a case or a reference may differ between machines")]
-
 use clatter::{Bar, Count, End, Error, Extent, Impact, Mass, OffCenterBar, Start};
 use nalgebra::{Matrix2, Vector2};
 use proptest::prelude::*;

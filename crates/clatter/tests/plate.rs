@@ -7,7 +7,6 @@
     clippy::cast_sign_loss,
     reason = "bit counts and whole numbers of moderate size"
 )]
-#![expect(clippy::disallowed_methods, reason = "powers of two, which are exact")]
 #![expect(clippy::float_cmp, reason = "what is the same is compared as such")]
 
 use std::cmp::Ordering;

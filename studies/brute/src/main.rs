@@ -1,5 +1,7 @@
 //! The command of the brute force; see the library.
 
+#![allow(clippy::disallowed_methods, reason = "cases and references may differ in the last digit between machines")]
+
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;

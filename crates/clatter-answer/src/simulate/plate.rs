@@ -77,14 +77,14 @@ impl Question {
         let (plate, [hx, hy]) = (scene.plate(), scene.gaps_m());
         let ([left, right, front, back], [length, width]) = (plate.edges_m(), plate.sides_m());
         let slopes = [hx / length, hy / width];
-        let tilt = slopes[0].hypot(slopes[1]);
+        let tilt = libm::hypot(slopes[0], slopes[1]);
         Self {
             scene,
             model,
             at: Vec::new(),
             center_of_mass: [(left - right) / length, (front - back) / width],
-            tilt_deg: tilt.asin().to_degrees(),
-            direction_deg: (tilt > 0.0).then(|| slopes[1].atan2(slopes[0]).to_degrees()),
+            tilt_deg: libm::asin(tilt).to_degrees(),
+            direction_deg: (tilt > 0.0).then(|| libm::atan2(slopes[1], slopes[0]).to_degrees()),
             height_m: None,
         }
     }

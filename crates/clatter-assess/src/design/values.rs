@@ -40,14 +40,14 @@ impl Case<'_> {
                 let most = 0.5 * (self.file.product.body.length_m() - self.component.extent_m).max(0.0);
                 [-most, (most - (hi - lo)).max(-most)]
             }
-            Lever::Frequency => [-1.0, 1.0].map(|side| side * self.bounds.frequency_factor.ln()),
+            Lever::Frequency => [-1.0, 1.0].map(|side| side * libm::log(self.bounds.frequency_factor)),
             Lever::Damping => self.bounds.damping,
             Lever::ContactTime => {
                 let [least, most] = self.bounds.contact_time_s;
-                let (down, up) = ((least / lo).ln(), (most / hi).ln());
+                let (down, up) = (libm::log(least / lo), libm::log(most / hi));
                 [down.min(up), up.max(down)]
             }
-            Lever::Limit(_) => [0.0, self.bounds.limit_factor.ln()],
+            Lever::Limit(_) => [0.0, libm::log(self.bounds.limit_factor)],
         }
     }
 
@@ -72,7 +72,7 @@ impl Case<'_> {
             Lever::Restitution => [x, x + (hi - lo)].map(|e| e.clamp(self.bounds.e[0], self.bounds.e[1])),
             Lever::Position => [x, x + (hi - lo)],
             Lever::Damping => [x; 2],
-            _ => [lo, hi].map(|value| value * x.exp()),
+            _ => [lo, hi].map(|value| value * libm::exp(x)),
         };
         let rounded = if lo < hi {
             [self.specified(lever, lo, f64::floor), self.specified(lever, hi, f64::ceil)]
@@ -144,7 +144,7 @@ fn to_digits(value: f64, size: f64, way: fn(f64) -> f64) -> f64 {
         return value;
     }
     #[expect(clippy::cast_possible_truncation, reason = "a small exponent")]
-    let step = 10_f64.powi(size.abs().log10().floor() as i32 - 1);
+    let step = 10_f64.powi(libm::log10(size.abs()).floor() as i32 - 1);
     let count = value / step;
     // What is a multiple but for roundings is one.
     let nearest = count.round();

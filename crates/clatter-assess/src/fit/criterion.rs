@@ -46,7 +46,7 @@ impl Score {
         }
         let spare = n - k - 1.0;
         let paid = 2.0 * k + 2.0 * k * (k + 1.0) / spare.max(1.0) + ways;
-        Self { misfit: n * (sum / n).ln(), paid, is_supported: spare > 0.0 }
+        Self { misfit: n * libm::log(sum / n), paid, is_supported: spare > 0.0 }
     }
 
     /// How far it is above another.

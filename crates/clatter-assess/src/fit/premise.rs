@@ -27,7 +27,7 @@ pub(super) struct Premise {
 impl Premise {
     pub(super) fn faults(&self) -> Faults {
         #[expect(clippy::cast_precision_loss, reason = "some hundred")]
-        let ln_ways = (self.ways.max(1) as f64).ln();
+        let ln_ways = libm::log(self.ways.max(1) as f64);
         Faults { count: self.missing.len() + usize::from(self.left_out.is_some()), ln_ways }
     }
 

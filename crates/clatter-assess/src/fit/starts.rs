@@ -44,7 +44,7 @@ pub(super) fn misfit(drop: &Drop<'_>, x: &[f64]) -> f64 {
         from += own.len();
         // A tenth of what such data vary by.
         let scale = 0.1 * set.variation(drop.unit_s);
-        sum += own.iter().map(|r| (1.0 + (r / scale).powi(2)).ln()).sum::<f64>();
+        sum += own.iter().map(|r| libm::log(1.0 + (r / scale).powi(2))).sum::<f64>();
     }
     sum
 }

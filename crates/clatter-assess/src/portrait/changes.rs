@@ -111,7 +111,7 @@ impl Shared<'_> {
         let [_, most] = case.reach(lever);
         let [before, _] = case.change(lever, 0.0).from;
         // Rounded to the nearest that can be specified, it may fall short.
-        let mut tries = (0..16).map(|k| factor.ln() + 0.01 * f64::from(k)).filter(|x| *x <= most);
+        let mut tries = (0..16).map(|k| libm::log(factor) + 0.01 * f64::from(k)).filter(|x| *x <= most);
         tries.find(|x| others && case.value(lever, *x)[0] >= factor * before)
     }
 

@@ -189,7 +189,7 @@ pub(super) fn tilts(ranges: &Ranges<'_>) -> Vec<Tilt> {
     tilts.push(stated.lo());
     if ranges.product.contact_time_s.is_none() {
         let [_, fast] = ranges.drop.speeds_m_s();
-        let edge = (ranges.merge_s * fast / ranges.product.body.length_m()).min(1.0).asin();
+        let edge = libm::asin((ranges.merge_s * fast / ranges.product.body.length_m()).min(1.0));
         let sides = [-1.0, 1.0].map(|side| edge * (1.0 + side * 1e-9));
         tilts.extend(sides.into_iter().filter(|tilt| (lo..=hi).contains(tilt)));
     }

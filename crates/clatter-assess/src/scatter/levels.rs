@@ -98,7 +98,7 @@ fn threshold(batch: impl Iterator<Item = (f64, bool)>) -> f64 {
     let survivors = batch.iter().filter(|(_, fails)| !fails).count();
     let Some((least, _)) = batch.first() else { return 1.0 };
     // Wrong verdicts, and how far from 1 the threshold is.
-    let rank = |wrong: usize, at: f64| (wrong, at.ln().abs(), at);
+    let rank = |wrong: usize, at: f64| (wrong, libm::log(at).abs(), at);
     let mut best = rank(survivors, (0.5 * least).min(1.0));
     let mut wrong = survivors;
     for (i, (used, fails)) in batch.iter().enumerate() {

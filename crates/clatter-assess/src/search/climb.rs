@@ -100,7 +100,7 @@ impl Ranges<'_> {
             if work.go_on(0).is_err() {
                 break;
             }
-            let reach = reach * CLOSER.powf(f64::from(k) / f64::from(tries));
+            let reach = reach * libm::pow(CLOSER, f64::from(k) / f64::from(tries));
             let around =
                 || std::array::from_fn(|axis| if free[axis] { reach * (2.0 * halton(axis, k) - 1.0) } else { 0.0 });
             let step: [f64; AXES] = again.take().unwrap_or_else(around);

@@ -35,7 +35,8 @@ impl Ranges<'_> {
     /// Steps of the tilt: as many as the stiffest of the parts asks.
     pub(super) fn tilt_steps(&self, tasks: &[Task<'_>]) -> f64 {
         let [_, fast] = self.drop.speeds_m_s();
-        let gap = self.product.body.length_m() * (self.drop.tilt_rad.hi().sin() - self.drop.tilt_rad.lo().sin());
+        let gap =
+            self.product.body.length_m() * (libm::sin(self.drop.tilt_rad.hi()) - libm::sin(self.drop.tilt_rad.lo()));
         let highest = tasks.iter().filter_map(|task| match task.component.mount {
             // Beyond some swings a contact, pulses are felt one by one.
             Mount::Suspended { frequency_hz, .. } => Some(frequency_hz.hi()),

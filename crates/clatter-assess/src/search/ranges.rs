@@ -96,7 +96,7 @@ impl Ranges<'_> {
     /// apart.
     pub(crate) fn hold_flat(&self) -> bool {
         let [_, fast] = self.drop.speeds_m_s();
-        let gap_m = self.product.body.length_m() * self.drop.tilt_rad.lo().sin();
+        let gap_m = self.product.body.length_m() * libm::sin(self.drop.tilt_rad.lo());
         self.product.contact_time_s.is_none() && gap_m < self.merge_s * fast
     }
 

@@ -140,16 +140,21 @@ impl DropArgs {
             }
             Tilted::Angles([tilt, direction]) => {
                 let [tilt, direction] = [tilt, direction].map(f64::to_radians);
-                [2.0 * halves[0] * tilt.sin() * direction.cos(), 2.0 * halves[1] * tilt.sin() * direction.sin()]
+                [
+                    2.0 * halves[0] * libm::sin(tilt) * libm::cos(direction),
+                    2.0 * halves[1] * libm::sin(tilt) * libm::sin(direction),
+                ]
             }
         };
         let gaps_flag = if matches!(tilted, Tilted::Gaps(_)) { "--gaps" } else { "--tilt" };
         let scene = PlateScene::new(plate, speed, gaps, gravity).map_err(Failure::flag(gaps_flag))?;
         let slopes = [gaps[0] / (2.0 * halves[0]), gaps[1] / (2.0 * halves[1])];
-        let tilt = slopes[0].hypot(slopes[1]);
+        let tilt = libm::hypot(slopes[0], slopes[1]);
         let [tilt_deg, direction_deg] = match tilted {
             Tilted::Angles(angles) => angles,
-            Tilted::Gaps(_) => [neat(tilt.asin().to_degrees()), neat(slopes[1].atan2(slopes[0]).to_degrees())],
+            Tilted::Gaps(_) => {
+                [neat(libm::asin(tilt).to_degrees()), neat(libm::atan2(slopes[1], slopes[0]).to_degrees())]
+            }
         };
         let law = self.contact_law.map(|law| law.0).unwrap_or_default();
         let contact = contact_time.filter(|_| model == Model::Compliant);

@@ -39,11 +39,11 @@ pub(super) fn write(
 /// W h0/v0 of the points.
 fn omegas(ratio: f64) -> Vec<f64> {
     let (low, high) = (DRAWN[0].min(0.1 * ratio).max(1e-300), DRAWN[1].max(10.0 * ratio).min(1e300));
-    let steps = (POINTS[0] * (high / low).log10()).ceil().min(POINTS[1]);
+    let steps = (POINTS[0] * libm::log10(high / low)).ceil().min(POINTS[1]);
     let mut omegas = Vec::new();
     let mut i = 0.0;
     while i <= steps {
-        omegas.push(low * (high / low).powf(i / steps));
+        omegas.push(low * libm::pow(high / low, i / steps));
         i += 1.0;
     }
     omegas

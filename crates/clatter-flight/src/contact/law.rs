@@ -159,10 +159,10 @@ fn dashpot(e: f64) -> (f64, f64) {
     /// β, sin β and cos β of β² = x; sinh and cosh where x is negative.
     fn angle(x: f64) -> (f64, f64, f64) {
         let b = x.abs().sqrt();
-        let (sine, cosine) = if x > 0.0 { b.sin_cos() } else { (b.sinh(), b.cosh()) };
+        let (sine, cosine) = if x > 0.0 { libm::sincos(b) } else { (libm::sinh(b), libm::cosh(b)) };
         (b, sine, cosine)
     }
-    let loss = -e.ln(); // ζ ω τ
+    let loss = -libm::log(e); // ζ ω τ
     // β cot β, and β coth β with x = −β², are one function of x = β², 1 − x/3 − …, which falls and is concave: Newton's
     // steps from where its tangent at 0 has the value stay on one side of x.
     let mut x = 3.0 - 1.5 * loss;

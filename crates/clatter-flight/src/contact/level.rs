@@ -70,7 +70,7 @@ impl Pose<4> for Level {
 
     fn extent(&self) -> Extent {
         let corners = self.plate.corners_m();
-        let reach = corners.iter().fold(0.0_f64, |most, [x, y]| most.max(x.hypot(*y)));
+        let reach = corners.iter().fold(0.0_f64, |most, [x, y]| most.max(libm::hypot(*x, *y)));
         let [length, width] = self.plate.sides_m();
         let coupling = corners.iter().fold(1.0_f64, |most, corner| most.max(self.share(*corner, *corner)));
         Extent { size: length.max(width).max(reach), reach, coupling }
@@ -88,7 +88,7 @@ impl Pose<4> for Level {
         self.v + Self::along(self.rates, place)
     }
     fn angles(&self) -> [f64; 2] {
-        [self.slopes, self.rates].map(|[x, y]| x.hypot(y))
+        [self.slopes, self.rates].map(|[x, y]| libm::hypot(x, y))
     }
     fn kinetic(&self) -> f64 {
         let [kx, ky] = self.plate.gyration_m();

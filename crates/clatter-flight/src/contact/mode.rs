@@ -46,18 +46,18 @@ impl Mode {
     fn turn(&self, t: f64) -> (f64, f64) {
         let Self { s, nu, lambda, .. } = *self;
         if s == 0.0 {
-            let (sin, cos) = (nu * t).sin_cos();
+            let (sin, cos) = libm::sincos(nu * t);
             (cos, sin / nu)
         } else if s * s < lambda {
-            let decay = (-s * t).exp();
-            let (sin, cos) = (nu * t).sin_cos();
+            let decay = libm::exp(-s * t);
+            let (sin, cos) = libm::sincos(nu * t);
             (decay * cos, decay * sin / nu)
         } else {
             // The slow exponent by the product of both, without cancellation.
-            let decay = (-lambda / (s + nu) * t).exp();
+            let decay = libm::exp(-lambda / (s + nu) * t);
             let x = 2.0 * nu * t;
             // e^(−x) − 1, which cancels for small x alone.
-            let less = if x < 1.0 { (-x).exp_m1() } else { (-x).exp() - 1.0 };
+            let less = if x < 1.0 { libm::expm1(-x) } else { libm::exp(-x) - 1.0 };
             let sn = if x > 0.0 { -less / x } else { 1.0 };
             (decay * (1.0 + 0.5 * less), decay * t * sn)
         }
@@ -108,14 +108,14 @@ impl Mode {
         let (swing, begin) =
             if of_rate == 0.0 { (of_z * amplitude, phase) } else { (of_rate * amplitude * rate, phase + 0.5 * PI) };
         let (swing, begin) = if swing < 0.0 { (-swing, begin + PI) } else { (swing, begin) };
-        let (value, slope) = (level + swing * begin.sin(), swing * begin.cos());
+        let (value, slope) = (level + swing * libm::sin(begin), swing * libm::cos(begin));
         if value <= 0.0 && slope <= 0.0 {
             return Some(0.0);
         }
         if level > swing {
             return None;
         }
-        let turn = (PI + (level / swing).max(-1.0).asin() - begin).rem_euclid(2.0 * PI);
+        let turn = (PI + libm::asin((level / swing).max(-1.0)) - begin).rem_euclid(2.0 * PI);
         // Falling, and zero but for rounding.
         let over = slope < 0.0 && turn > 2.0 * PI - ROUNDING;
         Some(if over { 0.0 } else { turn / rate })
@@ -128,6 +128,6 @@ impl Mode {
     pub(crate) fn wave(&self) -> [f64; 3] {
         let u = self.z - self.rest();
         let across = self.dz / self.nu;
-        [u.hypot(across), self.nu, u.atan2(across)]
+        [libm::hypot(u, across), self.nu, libm::atan2(u, across)]
     }
 }

@@ -41,7 +41,7 @@ impl<const N: usize> Planar<N> {
     pub(super) fn start(scene: &Scene<N>) -> Self {
         let body = scene.body();
         let tilt = scene.tilt_rad();
-        let (_, over) = body.levers(tilt.sin(), tilt.cos());
+        let (_, over) = body.levers(libm::sin(tilt), libm::cos(tilt));
         let lowest = over.iter().fold(f64::INFINITY, |low, h| low.min(*h));
         let (gravity, v, spin) = (scene.gravity_m_s2(), -scene.speed_m_s(), scene.spin_rad_s());
         Self { body, gravity, rho2: body.gyration_m().powi(2), y: -lowest, v, tilt, spin }
@@ -90,7 +90,7 @@ impl<const N: usize> Pose<N> for Planar<N> {
     }
     /// At x, z on the body.
     fn velocity_of(&self, [x, z]: [f64; 2]) -> f64 {
-        let (sin, cos) = self.tilt.sin_cos();
+        let (sin, cos) = libm::sincos(self.tilt);
         self.v + (x * cos - z * sin) * self.spin
     }
     fn angles(&self) -> [f64; 2] {
@@ -110,7 +110,7 @@ impl<const N: usize> Pose<N> for Planar<N> {
     }
     fn flying(&self, point: usize, t: f64) -> [f64; 4] {
         let [x0, z0] = self.body.points_m()[point];
-        let (sin, cos) = (self.tilt + self.spin * t).sin_cos();
+        let (sin, cos) = libm::sincos(self.tilt + self.spin * t);
         let (x, over, w, g) = (x0 * cos - z0 * sin, x0 * sin + z0 * cos, self.spin, self.gravity);
         [self.y + t * (self.v - 0.5 * g * t) + over, self.v - g * t + w * x, -g - w * w * over, -w * w * w * x]
     }
@@ -130,7 +130,7 @@ impl<const N: usize> Pose<N> for Planar<N> {
     }
 
     fn arms(&self) -> Levers<N> {
-        let (sin, cos) = self.tilt.sin_cos();
+        let (sin, cos) = libm::sincos(self.tilt);
         let (x, over) = self.body.levers(sin, cos);
         Levers { x, over, sin, cos, spin: self.spin }
     }
@@ -224,6 +224,6 @@ impl<const N: usize> Pose<N> for Planar<N> {
         self.tilt.abs() >= FRAC_PI_2 && self.one_sided()
     }
     fn unwound(self) -> Self {
-        Self { tilt: self.tilt.sin().atan2(self.tilt.cos()), ..self }
+        Self { tilt: libm::atan2(libm::sin(self.tilt), libm::cos(self.tilt)), ..self }
     }
 }

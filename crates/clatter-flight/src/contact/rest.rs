@@ -73,7 +73,7 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         // Below its rest, where its spring holds no less than its weight: else it would be given what it lacks.
         let rings_by_weight = self.contact.law() == ContactLaw::Hysteretic && height[i] <= rest;
         let by_weight = if rings_by_weight { PARTS * fall / rate } else { 0.0 };
-        if velocity[i].hypot(rate * (height[i] - rest)) <= self.slow().max(by_weight) {
+        if libm::hypot(velocity[i], rate * (height[i] - rest)) <= self.slow().max(by_weight) {
             let (contact, told) = (self.contact, SUNK * self.margins.height);
             let force = fall / self.pose.coupled(i, i);
             let touch = &mut self.touches[i];

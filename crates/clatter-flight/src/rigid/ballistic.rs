@@ -105,7 +105,7 @@ fn still(state: &State, i: usize) -> bool {
 /// Time until height h ≥ 0 with velocity v comes to 0 under gravity g > 0: `h + v t − ½ g t² = 0`, t ≥ 0, the later
 /// root where h = 0 and v > 0.
 fn fall(h: f64, v: f64, g: f64) -> f64 {
-    let root = v.hypot((2.0 * g * h).sqrt());
+    let root = libm::hypot(v, (2.0 * g * h).sqrt());
     if v > 0.0 {
         (v + root) / g
     } else if h == 0.0 {
@@ -117,7 +117,7 @@ fn fall(h: f64, v: f64, g: f64) -> f64 {
 
 /// Velocity on landing from height h with velocity v.
 fn landing(h: f64, v: f64, g: f64) -> f64 {
-    -v.hypot((2.0 * g * h).sqrt())
+    -libm::hypot(v, (2.0 * g * h).sqrt())
 }
 
 /// Time as a sum of many terms, kept in two words so that 10⁶ small ones add up.

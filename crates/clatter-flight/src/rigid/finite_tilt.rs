@@ -72,7 +72,7 @@ fn theta_minus_sin(theta: f64, sin: f64) -> f64 {
 
 impl Airborne {
     pub(super) fn start(scene: &Scene) -> Self {
-        let (sin, cos) = scene.tilt_rad().sin_cos();
+        let (sin, cos) = libm::sincos(scene.tilt_rad());
         let (levers, _) = scene.body().levers(sin, cos);
         let ends = State { h: [0.0, scene.height_gap_m()], v: scene.end_velocities(levers) };
         Self { body: scene.body(), gravity: scene.gravity_m_s2(), ends, sin, cos, spin: scene.spin_rad_s() }
@@ -93,7 +93,7 @@ impl Airborne {
     /// What a turn by θ takes from the height of end i beyond its lever arm x, `x (θ − sin θ) + H (1 − cos θ)` for an
     /// end at height H over the center, and from the lever arm; and the height over the center then.
     pub(super) fn bend(&self, i: usize, theta: f64) -> [f64; 3] {
-        let (half_sin, half_cos) = (0.5 * theta).sin_cos();
+        let (half_sin, half_cos) = libm::sincos(0.5 * theta);
         let sin = 2.0 * half_sin * half_cos;
         let versine = 2.0 * half_sin * half_sin;
         let (x, over) = self.body.levers(self.sin, self.cos);
@@ -101,7 +101,7 @@ impl Airborne {
         [theta_minus_sin(theta, sin) * x + versine * over, versine * x + sin * over, over - versine * over + sin * x]
     }
     pub(super) fn after(&self) -> After {
-        After { ends: self.ends, tilt: self.sin.atan2(self.cos), spin: self.spin }
+        After { ends: self.ends, tilt: libm::atan2(self.sin, self.cos), spin: self.spin }
     }
     /// Free vertical acceleration of end i.
     pub(super) fn acceleration(&self, i: usize) -> f64 {
@@ -142,7 +142,7 @@ impl Airborne {
             if up == 0.0 && rate <= 0.0 {
                 return None; // level and turned downward: the other end strikes at once
             }
-            let root = rate.hypot((3.0 * bound * up).sqrt());
+            let root = libm::hypot(rate, (3.0 * bound * up).sqrt());
             if rate > 0.0 { 2.0 * (rate + root) / bound } else { 6.0 * up / (root - rate) }
         } else if v == 0.0 {
             return None; // lies still
@@ -159,7 +159,7 @@ impl Airborne {
     /// The pose after a flight of time t that ends with end i on the ground, before the strike.
     pub(super) fn landed(&self, i: usize, t: f64) -> Self {
         let j = 1 - i;
-        let (turn_sin, turn_cos) = (self.spin * t).sin_cos();
+        let (turn_sin, turn_cos) = libm::sincos(self.spin * t);
         let sin = self.sin * turn_cos + self.cos * turn_sin;
         let cos = self.cos * turn_cos - self.sin * turn_sin;
         let length = self.body.length_m();
@@ -173,7 +173,7 @@ impl Airborne {
             next.sin = sigma(j) * next.ends.h[j] / length;
             next.cos = ((1.0 - next.sin) * (1.0 + next.sin)).sqrt().copysign(cos);
         } else {
-            let norm = sin.hypot(cos);
+            let norm = libm::hypot(sin, cos);
             (next.sin, next.cos) = (sin / norm, cos / norm);
             next.ends.h[j] = (sigma(j) * length * next.sin).max(0.0);
         }
@@ -200,7 +200,7 @@ impl Airborne {
     }
     /// Time until a body of thickness stands at a right angle; never for one without, which has no other corners.
     fn upright(&self) -> f64 {
-        let turn = self.sin.atan2(self.cos) * self.spin.signum();
+        let turn = libm::atan2(self.sin, self.cos) * self.spin.signum();
         if self.body.thickness_m() > 0.0 && self.spin != 0.0 {
             (0.5 * std::f64::consts::PI - turn) / self.spin.abs()
         } else {

@@ -44,14 +44,14 @@ pub(super) fn run(pose: &Airborne, i: usize) -> (Airborne, f64, Event) {
     let (s0, c0) = (-over_center[i] / arm, x.abs() / arm);
     let p0 = side * pose.spin * 1.0_f64.copysign(x);
     // Angles at which the body lies, and (mirrored) at which it has turned over; a body with corners stands there.
-    let slope = (0.5 * pose.body.thickness_m()).atan2(pose.body.arms_m()[i]);
+    let slope = libm::atan2(0.5 * pose.body.thickness_m(), pose.body.arms_m()[i]);
     let corners = slope > 0.0;
     let beyond = x < 0.0 && corners;
     let other_side = if corners { 0.5 * std::f64::consts::PI - slope } else { 0.0 };
     // Angles count from where the body lies, which they know to the last digit however small.
     let base = if beyond { 0.0 } else { slope };
     let about = Turn { gl: g * arm, rho2, arm2: arm * arm, base };
-    let tilt0 = if beyond { s0.atan2(c0) } else { (side * pose.sin).atan2(pose.cos.abs()) };
+    let tilt0 = if beyond { libm::atan2(s0, c0) } else { libm::atan2(side * pose.sin, pose.cos.abs()) };
     let [near, far] = if beyond { [other_side, slope] } else { [0.0, other_side] };
     let kinetic0 = 0.5 * about.inertia(c0) * p0 * p0;
     let energy = kinetic0 + about.gl * s0;
@@ -62,14 +62,14 @@ pub(super) fn run(pose: &Airborne, i: usize) -> (Airborne, f64, Event) {
     let length = pose.body.length_m();
     let lift = if p0 > 0.0 && !beyond { about.lift_off(energy) } else { None };
     if let Some(s) = lift.filter(|&s| s > s0 && s < 1.0) {
-        let psi = s.asin();
-        let p = (2.0 * (energy - about.gl * s) / about.inertia(psi.cos())).sqrt();
+        let psi = libm::asin(s);
+        let p = (2.0 * (energy - about.gl * s) / about.inertia(libm::cos(psi))).sqrt();
         let tilt = psi - base;
-        next.sin = side * tilt.sin();
-        next.cos = tilt.cos().copysign(pose.cos);
+        next.sin = side * libm::sin(tilt);
+        next.cos = libm::cos(tilt).copysign(pose.cos);
         next.spin = side * p * 1.0_f64.copysign(pose.cos);
-        next.ends.h[1 - i] = length * tilt.sin();
-        next.ends.v[1 - i] = length * tilt.cos() * p;
+        next.ends.h[1 - i] = length * libm::sin(tilt);
+        next.ends.v[1 - i] = length * libm::cos(tilt) * p;
         return (next, about.direct(tilt0, tilt, kinetic0), Event::LiftOff);
     }
     let over = p0 > 0.0 && energy >= about.gl;
@@ -78,7 +78,7 @@ pub(super) fn run(pose: &Airborne, i: usize) -> (Airborne, f64, Event) {
         // Over the top: up to 90°, then down as a mirror image of going up from the other side.
         let mirror = Turn { base: 0.0, ..about };
         let up = about.direct(tilt0, upright - base, kinetic0);
-        up + mirror.direct(far, upright, energy - about.gl * far.sin())
+        up + mirror.direct(far, upright, energy - about.gl * libm::sin(far))
     } else if energy < about.gl && (p0 > 0.0 || kinetic0 < 0.5 * landing) {
         let rise = about.rise(tilt0, c0, kinetic0);
         let top = tilt0 + rise;
@@ -92,8 +92,8 @@ pub(super) fn run(pose: &Airborne, i: usize) -> (Airborne, f64, Event) {
         (next.sin, next.cos) = (side, 0.0);
         return (next, time, Event::Upright);
     }
-    let landing = if over { energy - about.gl * slope.sin() } else { landing };
-    let p = (2.0 * landing / about.inertia(slope.cos())).sqrt();
+    let landing = if over { energy - about.gl * libm::sin(slope) } else { landing };
+    let p = (2.0 * landing / about.inertia(libm::cos(slope))).sqrt();
     next.sin = 0.0;
     next.cos = if over && !corners { -1.0_f64.copysign(pose.cos) } else { 1.0_f64.copysign(pose.cos) };
     next.ends.v[1 - i] = -length * p;
@@ -107,7 +107,7 @@ pub(super) fn run(pose: &Airborne, i: usize) -> (Airborne, f64, Event) {
 /// With the lever arm x and the height over the center of mass of that end, `ω′ = x (g + over ω²)/(ρ² + x²)`.
 pub(super) fn along(body: &Body, gravity: f64, i: usize, begin: [f64; 2], t: f64, whole: f64) -> [f64; 2] {
     let rate = |[tilt, spin]: [f64; 2]| {
-        let (x, over) = body.levers(tilt.sin(), tilt.cos());
+        let (x, over) = body.levers(libm::sin(tilt), libm::cos(tilt));
         [spin, x[i] * (gravity + over[i] * spin * spin) / body.inertia(x[i])]
     };
     let mut now = begin;
@@ -140,7 +140,7 @@ impl Turn {
     }
     /// Gain of potential energy between two angles, `g L (sin ψ − sin ψ0)`.
     fn gain(&self, from: f64, to: f64) -> f64 {
-        2.0 * self.gl * (self.base + 0.5 * (from + to)).cos() * (0.5 * (to - from)).sin()
+        2.0 * self.gl * libm::cos(self.base + 0.5 * (from + to)) * libm::sin(0.5 * (to - from))
     }
     /// sin ψ where the force on the end vanishes on the way up.
     fn lift_off(&self, energy: f64) -> Option<f64> {
@@ -155,8 +155,8 @@ impl Turn {
         let mut delta = k / c0;
         // The sine is concave: Newton's tangents stay below the root and rise to it.
         for _ in 0..60 {
-            let miss = k - 2.0 * (self.base + from + 0.5 * delta).cos() * (0.5 * delta).sin();
-            let next = delta + miss / (self.base + from + delta).cos();
+            let miss = k - 2.0 * libm::cos(self.base + from + 0.5 * delta) * libm::sin(0.5 * delta);
+            let next = delta + miss / libm::cos(self.base + from + delta);
             if next.is_nan() || next <= delta {
                 break;
             }
@@ -167,7 +167,7 @@ impl Turn {
     /// Time between angles `lo < hi` below any turning point, with kinetic energy `k_lo` at `lo`.
     fn direct(&self, lo: f64, hi: f64, k_lo: f64) -> f64 {
         let f = |at: f64| {
-            let inertia = self.inertia((self.base + at).cos());
+            let inertia = self.inertia(libm::cos(self.base + at));
             (inertia / (2.0 * (k_lo - self.gain(lo, at)))).sqrt()
         };
         integrate(f, &[lo, hi], ROUNDING).value
@@ -177,9 +177,9 @@ impl Turn {
         let top = self.base + top;
         let f = |x: f64| {
             let d = 0.5 * x * x;
-            let sinc = if d == 0.0 { 1.0 } else { d.sin() / d };
+            let sinc = if d == 0.0 { 1.0 } else { libm::sin(d) / d };
             // K = 2 g L cos(ψ_m − d) sin d and dψ = 2 x dx.
-            (2.0 * self.inertia((top - x * x).cos()) / (self.gl * (top - d).cos() * sinc)).sqrt()
+            (2.0 * self.inertia(libm::cos(top - x * x)) / (self.gl * libm::cos(top - d) * sinc)).sqrt()
         };
         integrate(f, &[x0, x1], ROUNDING).value
     }

@@ -72,11 +72,11 @@ pub const OMEGAS: [f64; 2] = [1e-2, 1e3];
 #[must_use]
 pub fn omegas(per_octave: u16) -> Vec<f64> {
     let [low, high] = OMEGAS;
-    let steps = ((high / low).log2() * f64::from(per_octave)).ceil().max(1.0);
+    let steps = (libm::log2(high / low) * f64::from(per_octave)).ceil().max(1.0);
     let mut list = Vec::new();
     let mut i = 0.0;
     while i <= steps {
-        list.push(low * (high / low).powf(i / steps));
+        list.push(low * libm::pow(high / low, i / steps));
         i += 1.0;
     }
     list

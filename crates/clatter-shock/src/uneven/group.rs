@@ -105,7 +105,7 @@ impl Group {
                 let [h, x0, ramp] = &trace.integrals[k];
                 let (h, x0, ramp) = (S::as_simd_f64s(h).0[i], S::as_simd_f64s(x0).0[i], S::as_simd_f64s(ramp).0[i]);
                 (x, w) = self.step(simd, c, s, i, [h, x0, ramp], (x, w));
-                let q = simd.mul_add_e_f64s(r0, x, simd.mul_f64s(r1, w));
+                let q = simd.mul_add_f64s(r0, x, simd.mul_f64s(r1, w));
                 (top, bottom) = (simd.max_f64s(top, q), simd.min_f64s(bottom, q));
                 S::as_mut_simd_f64s(&mut trace.x[k + 1]).0[i] = x;
                 S::as_mut_simd_f64s(&mut trace.w[k + 1]).0[i] = w;
@@ -139,7 +139,7 @@ impl Group {
         }
         (x, w)
     }
-    /// One step at any frequencies and on any machine.
+    /// One step at any frequencies.
     #[inline(never)]
     fn one_by_one(&self, modes: &Modes, s: &Step) -> (Many, Many) {
         let (mut x, mut w) = (self.x, self.w);
@@ -170,7 +170,7 @@ impl Group {
                 }
             }
             if short.contains(&false) {
-                let long = if S::IS_SCALAR { self.one_by_one(modes, s) } else { self.long(modes, s) };
+                let long = self.long(modes, s);
                 for (l, short) in short.into_iter().enumerate() {
                     (next.0[l], next.1[l]) = if short { (next.0[l], next.1[l]) } else { (long.0[l], long.1[l]) };
                 }
@@ -195,7 +195,7 @@ impl Group {
         let x0 = series::<S, N>(simd, &c.series.x0, tau, square);
         let x1 = series::<S, N>(simd, &c.series.x1, tau, square);
         let (x0, x1) = (simd.mul_f64s(x0, square), simd.mul_f64s(x1, simd.mul_f64s(square, tau)));
-        let h = simd.mul_add_e_f64s(simd.splat_f64s(-2.0 * c.modes.zeta), x0, simd.sub_f64s(tau, x1));
+        let h = simd.mul_add_f64s(simd.splat_f64s(-2.0 * c.modes.zeta), x0, simd.sub_f64s(tau, x1));
         let f1 = simd.mul_f64s(simd.splat_f64s(-s.slope), square_inverse);
         [h, x0, simd.mul_f64s(f1, x1)]
     }
@@ -217,13 +217,13 @@ impl Group {
         let (plus, minus) = (simd.splat_f64s(sigma), simd.splat_f64s(-sigma));
         let f0 = simd.mul_f64s(simd.splat_f64s(-s.from), inverse);
         let f1 = simd.mul_f64s(simd.splat_f64s(-s.slope), square_inverse);
-        let y = simd.mul_add_e_f64s(minus, x, w);
-        let pull = simd.mul_add_e_f64s(simd.splat_f64s(-p), x, f0);
-        let pull = simd.mul_add_e_f64s(simd.splat_f64s(-rho), w, pull);
-        let push = simd.mul_add_e_f64s(plus, f0, simd.sub_f64s(f1, w));
-        let dx = simd.mul_add_e_f64s(x0, simd.sub_f64s(f0, x), simd.mul_add_e_f64s(h, y, ramp));
-        let dw = simd.mul_add_e_f64s(x0, push, simd.mul_f64s(plus, ramp));
-        (simd.add_f64s(x, dx), simd.add_f64s(w, simd.mul_add_e_f64s(h, pull, dw)))
+        let y = simd.mul_add_f64s(minus, x, w);
+        let pull = simd.mul_add_f64s(simd.splat_f64s(-p), x, f0);
+        let pull = simd.mul_add_f64s(simd.splat_f64s(-rho), w, pull);
+        let push = simd.mul_add_f64s(plus, f0, simd.sub_f64s(f1, w));
+        let dx = simd.mul_add_f64s(x0, simd.sub_f64s(f0, x), simd.mul_add_f64s(h, y, ramp));
+        let dw = simd.mul_add_f64s(x0, push, simd.mul_f64s(plus, ramp));
+        (simd.add_f64s(x, dx), simd.add_f64s(w, simd.mul_add_f64s(h, pull, dw)))
     }
     /// All steps of a block; what there is at the ends of each goes into `trace`. The largest and smallest samples.
     #[inline(always)]
@@ -265,7 +265,7 @@ impl Group {
         let (most, slope, push) = match self.row {
             Modes::DISPLACEMENT => (1.0, 1.0, 0.0),
             Modes::VELOCITY => (1.0, 1.0 + damp, 1.0),
-            _ => (1.0_f64.hypot(damp), 1.0 + damp + damp * damp, damp),
+            _ => (libm::hypot(1.0, damp), 1.0 + damp + damp * damp, damp),
         };
         let span = block.span();
         let mut stays = [0_u64; WIDTH];
@@ -311,11 +311,11 @@ impl Group {
                 let driven_w = powers::<S, N>(simd, &leap.w, tau, square);
                 let (x0, h) = (simd.mul_f64s(x0, square), simd.mul_f64s(h, tau));
                 let (x, w) = (S::as_simd_f64s(&self.x).0[i], S::as_simd_f64s(&self.w).0[i]);
-                let y = simd.mul_add_e_f64s(simd.splat_f64s(-sigma), x, w);
-                let pull = simd.mul_add_e_f64s(simd.splat_f64s(rho), w, simd.mul_f64s(simd.splat_f64s(p), x));
-                let less_x = simd.mul_add_e_f64s(x0, x, simd.mul_f64s(tau, driven_x));
+                let y = simd.mul_add_f64s(simd.splat_f64s(-sigma), x, w);
+                let pull = simd.mul_add_f64s(simd.splat_f64s(rho), w, simd.mul_f64s(simd.splat_f64s(p), x));
+                let less_x = simd.mul_add_f64s(x0, x, simd.mul_f64s(tau, driven_x));
                 let dx = simd.sub_f64s(simd.mul_f64s(h, y), less_x);
-                let less_w = simd.mul_add_e_f64s(h, pull, simd.mul_add_e_f64s(x0, w, driven_w));
+                let less_w = simd.mul_add_f64s(h, pull, simd.mul_add_f64s(x0, w, driven_w));
                 S::as_mut_simd_f64s(&mut self.x).0[i] = simd.add_f64s(x, dx);
                 S::as_mut_simd_f64s(&mut self.w).0[i] = simd.sub_f64s(w, less_w);
             }
@@ -408,10 +408,10 @@ fn series<S: pulp::Simd, const N: usize>(simd: S, terms: &[Many; TERMS], t: S::f
     let mut sums = [S::as_simd_f64s(&terms[N - 1]).0[0], S::as_simd_f64s(&terms[N - 2]).0[0]];
     for k in (0..N - 2).rev() {
         let sum = &mut sums[(N - 1 - k) % 2];
-        *sum = simd.mul_add_e_f64s(*sum, square, S::as_simd_f64s(&terms[k]).0[0]);
+        *sum = simd.mul_add_f64s(*sum, square, S::as_simd_f64s(&terms[k]).0[0]);
     }
     let [odd, even] = if N.is_multiple_of(2) { sums } else { [sums[1], sums[0]] };
-    simd.mul_add_e_f64s(odd, t, even)
+    simd.mul_add_f64s(odd, t, even)
 }
 
 /// The same of terms that are there once.
@@ -422,10 +422,10 @@ fn powers<S: pulp::Simd, const N: usize>(simd: S, terms: &[f64; TERMS], t: S::f6
     let mut sums = [simd.splat_f64s(terms[N - 1]), simd.splat_f64s(terms[N - 2])];
     for k in (0..N - 2).rev() {
         let sum = &mut sums[(N - 1 - k) % 2];
-        *sum = simd.mul_add_e_f64s(*sum, square, simd.splat_f64s(terms[k]));
+        *sum = simd.mul_add_f64s(*sum, square, simd.splat_f64s(terms[k]));
     }
     let [odd, even] = if N.is_multiple_of(2) { sums } else { [sums[1], sums[0]] };
-    simd.mul_add_e_f64s(odd, t, even)
+    simd.mul_add_f64s(odd, t, even)
 }
 
 /// One group through some blocks, on the widest instructions of the machine.
