@@ -8,6 +8,10 @@ report:
 test:
     cargo test --release --workspace
 
+# The same answers as WebAssembly, to the last byte; needs node and `rustup target add wasm32-wasip1`
+wasm:
+    CARGO_TARGET_WASM32_WASIP1_RUNNER="node --no-warnings $PWD/.ci/wasi.mjs" cargo test --release -p clatter-answer --lib --test all --target wasm32-wasip1
+
 # Format, lints and docs
 check:
     cargo fmt --all --check && cargo clippy --workspace --all-targets -- -D warnings && RUSTDOCFLAGS=-Dwarnings cargo doc --workspace --no-deps

@@ -5,6 +5,7 @@
 //! ```
 
 use std::error::Error;
+use std::io::Write;
 
 use clatter::{Axis, Bar, OffCenterBar, Plate, PlateStart, Quantity, Start};
 use clatter_answer::{atlas, impacts, map, simulate, zone};
@@ -94,6 +95,5 @@ fn of_parts(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
 
 #[allow(dead_code, reason = "the tests take the answers alone")]
 fn main() -> Result<(), Box<dyn Error>> {
-    print!("{}", answers()?);
-    Ok(())
+    Ok(std::io::stdout().write_all(answers()?.as_bytes())?)
 }

@@ -1,5 +1,7 @@
 //! What holds for any drop.
 
+#![allow(clippy::disallowed_methods, reason = "cases and references may differ in the last digit between machines")]
+
 use std::f64::consts::PI;
 
 use clatter_brute::flight::{Drop, Law, Until, flat, follow};
