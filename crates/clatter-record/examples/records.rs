@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (low, high, count, rounds): (f64, f64, u32, u32) =
         (low.parse()?, high.parse()?, count.parse()?, rounds.parse()?);
     let share = |i: u32| f64::from(i) / f64::from((count - 1).max(1));
-    let frequencies = Frequencies::list((0..count).map(|i| low * (high / low).powf(share(i))).collect())?;
+    let frequencies = Frequencies::list((0..count).map(|i| low * libm::pow(high / low, share(i))).collect())?;
     let read = || Record::read(std::fs::File::open(file)?, &Options::default(), |_| ()).map_err(std::io::Error::other);
     let (record, reading) = smallest_time(rounds, read);
     let record = record?;
