@@ -1,8 +1,16 @@
 //! Measured shocks: from the files of loggers to channels in SI, conditioned.
 //!
-//! [`Record::read`] reads what loggers and programs write; [`Record::window`], [`Record::without_baseline`] and
+//! [`Record::open`] reads what loggers and programs write, [`Record::read`] with what a caller may tell of it; [`Record::window`], [`Record::without_baseline`] and
 //! [`Record::filter`] make it ready, and [`Channel::spectrum`] makes its spectra. What shocks its samples hold, which
 //! pulses fit them and what standards ask of these is for [`clatter_shock`], which takes slices of numbers.
+//!
+//! ```
+//! use clatter_record::{Options, Record};
+//! let csv = "time [ms],a_x [g],a_z [g]\n0,0,0\n0.1,1,-40\n0.2,2,30\n0.3,0,0\n";
+//! let drop = Record::read(csv.as_bytes(), &Options::default(), |_| ())?;
+//! assert_eq!(drop.channel("a_z").expect("a channel").peak(), (1e-4, -40.0 * 9.80665));
+//! # Ok::<(), clatter_record::Error>(())
+//! ```
 
 #![cfg_attr(
     test,

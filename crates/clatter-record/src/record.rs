@@ -1,7 +1,9 @@
 //! A record: channels of acceleration over time, in SI.
 
 use std::collections::HashMap;
+use std::fs::File;
 use std::io::Read;
+use std::path::Path;
 use std::sync::Arc;
 
 use clatter_shock::samples::check;
@@ -45,9 +47,32 @@ impl Channel {
     pub fn times(&self) -> &TimeAxis {
         &self.times
     }
+    /// When its sample of largest size is, in seconds as the file counts them, and its value in m/s²; the first of several.
+    #[must_use]
+    pub fn peak(&self) -> (f64, f64) {
+        let sample = clatter_shock::samples::peak(&self.values);
+        (self.times.start_s() + self.times.since_s(sample), self.values[sample])
+    }
 }
 
 impl Record {
+    /// Reads the file of this name, as [`read`](Self::read) does where nothing is told about it.
+    ///
+    /// ```no_run
+    /// use clatter_record::Record;
+    /// let drop = Record::open("drop.csv")?;
+    /// let (time_s, peak_m_s2) = drop.channel("a_x").ok_or("no channel a_x")?.peak();
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Read`] where there is no such file or it may not be read, else those of [`read`](Self::read).
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        let file = File::open(path).map_err(|error| Error::Read(format!("{}: {error}", path.display())))?;
+        Self::read(file, &Options::default(), |_| ())
+    }
+
     /// Reads a record from a file of any kind that is known.
     ///
     /// Columns of time and acceleration are found by their names and units, then by their places; see [`Options`] for what a
@@ -244,6 +269,11 @@ impl Record {
     #[must_use]
     pub fn channels(&self) -> &[Channel] {
         &self.channels
+    }
+    /// The first channel of this name, as the file has it.
+    #[must_use]
+    pub fn channel(&self, name: &str) -> Option<&Channel> {
+        self.channels.iter().find(|channel| channel.name == name)
     }
     /// What became of every line and every column, of a text.
     #[must_use]
