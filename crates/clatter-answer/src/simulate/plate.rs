@@ -60,7 +60,7 @@ pub struct Question {
     pub model: Model,
     /// Places whose velocity shocks are asked for, in half-lengths and half-widths from the middle.
     pub at: Vec<[f64; 2]>,
-    /// Center of mass in half-lengths and half-widths, as it is told.
+    /// Center of mass in half-lengths and half-widths, as it is told and as the map takes it.
     pub center_of_mass: [f64; 2],
     /// The steepest slope at the first touch in degrees, as it is told.
     pub tilt_deg: f64,
