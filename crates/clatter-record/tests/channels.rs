@@ -308,12 +308,12 @@ fn floats_of_sound_take_a_full_scale_or_a_unit() {
 #[test]
 fn a_file_is_opened_by_its_name() {
     let path = std::env::temp_dir().join(format!("clatter-record-{}.csv", std::process::id()));
-    std::fs::write(&path, "t [s],up [m/s2]\n2.0000,0\n2.0010,-30\n2.0020,30\n2.0030,0\n").expect("a file");
+    fs::write(&path, "t [s],up [m/s2]\n2.0000,0\n2.0010,-30\n2.0020,30\n2.0030,0\n").expect("a file");
     let record = Record::open(&path);
-    std::fs::remove_file(&path).expect("the file");
+    fs::remove_file(&path).expect("the file");
     let record = record.expect("a record");
     // The first of two samples of the same size, at the time that the file has.
-    assert_eq!(record.channel("up").map(clatter_record::Channel::peak), Some((2.001, -30.0)));
+    assert_eq!(record.channel("up").map(Channel::peak), Some((2.001, -30.0)));
     assert!(record.channel("down").is_none());
     let error = Record::open(&path).expect_err("no file").to_string();
     assert!(error.contains(&path.display().to_string()), "{error}");
