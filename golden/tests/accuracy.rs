@@ -4,7 +4,7 @@ mod common;
 
 use std::fmt::Write as _;
 
-use clatter_flight::orders;
+use clatter_studies::orders;
 use common::{digits, golden, page};
 
 /// The power of ten that an error stays below; what is only rounding is told as such.

@@ -6,7 +6,8 @@ use std::fmt::Write as _;
 
 use clatter::Bar;
 use clatter::paper::DESIGNS;
-use clatter_shock::{DampingRatio, GainMap, Holders, Shape, ShapeFigures, SuspendedZones, rule_either_end, worst};
+use clatter_shock::{DampingRatio, Shape};
+use clatter_studies::suspended::{GainMap, Holders, ShapeFigures, SuspendedZones, rule_either_end, worst};
 use common::{digits, golden, page};
 use serde_json::Value;
 

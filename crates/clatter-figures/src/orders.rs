@@ -1,6 +1,6 @@
 //! How fast the flight models tend to one another: differences over the group that decides.
 
-use clatter_flight::Order;
+use clatter_studies::Order;
 
 use crate::FigureError;
 use crate::axis::Axis;

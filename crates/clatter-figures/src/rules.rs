@@ -1,6 +1,7 @@
 //! Figures of the shock report: what a clatter does to parts of any frequency, anywhere.
 
-use clatter_shock::{GainMap, Holders, OMEGAS, Rule, SuspendedZones};
+use clatter_shock::Rule;
+use clatter_studies::suspended::{GainMap, Holders, OMEGAS, SuspendedZones};
 
 use crate::FigureError;
 use crate::axis::{Axis, step_up};

@@ -17,7 +17,6 @@ mod ends;
 mod energy;
 mod extremes;
 mod independent;
-mod orders;
 mod plain;
 mod reference;
 mod rest;

@@ -7,9 +7,12 @@ use clatter::{Bar, Start};
 use clatter_figures::rules::{self, BarRules};
 use clatter_figures::{RUST, beside, boundary};
 use clatter_shock::{
-    DamageBoundary, DampingRatio, EquivalentPulse, Frequencies, GainMap, Holders, Limit, Margin, OMEGAS, Pulse, Pulses,
-    Quantity, Response, Rule, STANDARD_GRAVITY_M_S2, Shape, ShapeFigures, ShockTable, Spectrum, SuspendedZones,
-    Suspension, VelocityShock, VelocityShocks, Worst, amplification, half_sine_train, omegas, rule_either_end, worst,
+    DamageBoundary, DampingRatio, EquivalentPulse, Frequencies, Limit, Margin, Pulse, Pulses, Quantity, Response, Rule,
+    STANDARD_GRAVITY_M_S2, Shape, ShockTable, Spectrum, Suspension, VelocityShock, VelocityShocks,
+};
+use clatter_studies::suspended::{
+    GainMap, Holders, OMEGAS, ShapeFigures, SuspendedZones, Worst, amplification, half_sine_train, omegas,
+    rule_either_end, worst,
 };
 use serde_json::{Value, json};
 

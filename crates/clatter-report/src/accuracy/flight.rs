@@ -1,6 +1,7 @@
 //! The flight models beside one another, and the contact engine beside itself at a finer precision.
 
-use clatter_flight::{Body, Contact, ContactLaw, Model, Motion, Order, Residue, Scene, orders, residues};
+use clatter_flight::{Body, Contact, ContactLaw, Model, Motion, Scene};
+use clatter_studies::{Order, Residue, orders, residues};
 
 use crate::ReportError;
 

@@ -1,8 +1,8 @@
 //! The same over planes and ranges: gain over (q, e), the impact that holds the peak over (Ω, position), zones over Ω.
 
 use super::{impact_of_peak, omegas, suspended_zone, worst};
-use crate::{DampingRatio, Error, Suspension};
 use clatter::{Bar, Start};
+use clatter_shock::{DampingRatio, Error, Suspension};
 use rayon::prelude::*;
 
 /// `of(0)`, …, `of(n − 1)`, on every core.
@@ -72,7 +72,7 @@ impl Holders {
     /// By [`impact_of_peak`] at each point.
     ///
     /// # Errors
-    /// As [`crate::respond`].
+    /// As [`clatter_shock::respond`].
     pub fn compute(bar: &Bar, damping: DampingRatio, per_octave: u16, rows: usize) -> Result<Self, Error> {
         let omegas = omegas(per_octave);
         let columns = omegas.len();

@@ -6,16 +6,15 @@
 //! position, so that the peak is a convex function of it, largest at one of the ends: what an end survives every part
 //! survives, and the positions that survive are one interval about the center.
 
-use crate::coupling::shocks_at;
 pub use maps::{GainMap, Holders, SuspendedZones};
 
 mod maps;
 
-use crate::{
-    DamageBoundary, DampingRatio, Error, Frequencies, Limit, Pulse, Pulses, Quantity, Rule, RulePoint, Shape,
-    Suspension, three_way_rule,
-};
 use clatter::{Bar, Start};
+use clatter_shock::{
+    DamageBoundary, DampingRatio, Error, Frequencies, ImpulseFactors, Limit, Pulse, Pulses, Quantity, Rule, RulePoint,
+    Shape, Suspension, VelocityShock, respond, shocks_at, three_way_rule,
+};
 use std::f64::consts::TAU;
 
 /// [`three_way_rule`] at a distance of 0 to 1 half-lengths from the center, with the worse end first; the bar falls
@@ -26,7 +25,8 @@ use std::f64::consts::TAU;
 ///
 /// ```
 /// # use clatter::{Bar, Start};
-/// # use clatter_shock::{DampingRatio, rule_either_end, three_way_rule};
+/// # use clatter_shock::{DampingRatio, three_way_rule};
+/// # use clatter_studies::suspended::rule_either_end;
 /// let (bar, damping) = (Bar::new(0.5, 0.3)?, DampingRatio::new(0.05)?);
 /// let either = rule_either_end(&bar, 1.0, damping, &[3.0])?.points[0].acceleration;
 /// let [a, b] = [-1.0, 1.0].map(|s| three_way_rule(&bar, &Start::default(), s, damping, &[3.0]).unwrap());
@@ -44,11 +44,19 @@ pub fn rule_either_end(bar: &Bar, distance: f64, damping: DampingRatio, omegas: 
     };
     Ok(Rule {
         points: a.points.iter().zip(&b.points).map(|(a, b)| larger(a, b)).collect(),
-        soft: a.soft.or_larger(b.soft),
-        stiff: a.stiff.zip(b.stiff).map(|(a, b)| a.or_larger(b)),
+        soft: larger_factors(a.soft, b.soft),
+        stiff: a.stiff.zip(b.stiff).map(|(a, b)| larger_factors(a, b)),
         standard: a.standard,
         omitted: a.omitted.max(b.omitted),
     })
+}
+
+/// The larger of each.
+fn larger_factors(a: ImpulseFactors, b: ImpulseFactors) -> ImpulseFactors {
+    ImpulseFactors {
+        displacement: a.displacement.max(b.displacement),
+        acceleration: a.acceleration.max(b.acceleration),
+    }
 }
 
 /// The worst that a bar does to any part of a damping ratio.
@@ -94,7 +102,8 @@ pub fn omegas(per_octave: u16) -> Vec<f64> {
 ///
 /// ```
 /// # use clatter::Bar;
-/// # use clatter_shock::{DampingRatio, worst};
+/// # use clatter_shock::DampingRatio;
+/// # use clatter_studies::suspended::worst;
 /// // The second design of the paper's table: like one shock of 3.44 v0, where the largest that comes is 2.25 v0.
 /// let worst = worst(&Bar::new(0.73, 0.2)?, DampingRatio::new(0.05)?, 24)?;
 /// assert!((worst.gain - 1.72).abs() < 0.01 && (40.0..45.0).contains(&worst.omega));
@@ -157,11 +166,12 @@ pub fn worst(bar: &Bar, damping: DampingRatio, per_octave: u16) -> Result<Worst,
 /// of velocity is within the threshold.
 ///
 /// # Errors
-/// As [`crate::respond`]; [`Error::Quantity`] for a threshold that is not finite and positive.
+/// As [`respond`]; [`Error::Quantity`] for a threshold that is not finite and positive.
 ///
 /// ```
 /// # use clatter::{Bar, Start};
-/// # use clatter_shock::{DampingRatio, Suspension, suspended_zone};
+/// # use clatter_shock::{DampingRatio, Suspension};
+/// # use clatter_studies::suspended::suspended_zone;
 /// let (bar, damping) = (Bar::new(0.73, 0.2)?, DampingRatio::new(0.05)?);
 /// let zone = |omega| suspended_zone(&bar, &Suspension::new(omega, damping).unwrap(), 0.5).unwrap();
 /// let paper = bar.safe_zone(&Start::default(), 0.5).s;
@@ -170,7 +180,7 @@ pub fn worst(bar: &Bar, damping: DampingRatio, per_octave: u16) -> Result<Worst,
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn suspended_zone(bar: &Bar, suspension: &Suspension, threshold: f64) -> Result<Option<f64>, Error> {
-    let allowed = suspension.damping().impulse_factors().acceleration * crate::error::positive("threshold", threshold)?;
+    let allowed = suspension.damping().impulse_factors().acceleration * positive("threshold", threshold)?;
     let safe = |distance: f64| {
         for position in [-distance, distance] {
             let (shocks, _) = shocks_at(bar, &Start::default(), position, suspension.omega())?;
@@ -200,11 +210,12 @@ pub fn suspended_zone(bar: &Bar, suspension: &Suspension, threshold: f64) -> Res
 /// that strikes first), and how many impacts the train has, as far as it was followed.
 ///
 /// # Errors
-/// As [`crate::respond`].
+/// As [`respond`].
 ///
 /// ```
 /// # use clatter::Bar;
-/// # use clatter_shock::{DampingRatio, Suspension, impact_of_peak};
+/// # use clatter_shock::{DampingRatio, Suspension};
+/// # use clatter_studies::suspended::impact_of_peak;
 /// let bar = Bar::new(0.5, 0.3)?;
 /// let stiff = Suspension::new(1e4, DampingRatio::new(0.05)?)?;
 /// assert_eq!(impact_of_peak(&bar, -1.0, &stiff)?, (1, 4)); // 1.3 v0 at the end that strikes first
@@ -212,7 +223,7 @@ pub fn suspended_zone(bar: &Bar, suspension: &Suspension, threshold: f64) -> Res
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn impact_of_peak(bar: &Bar, position: f64, suspension: &Suspension) -> Result<(usize, usize), Error> {
-    let train = crate::respond(bar, &Start::default(), position, suspension)?;
+    let train = respond(bar, &Start::default(), position, suspension)?;
     Ok((train.response.absolute_acceleration.peak().interval + 1, train.shocks.as_slice().len()))
 }
 
@@ -233,7 +244,8 @@ impl ShapeFigures {
     /// For a damping ratio.
     ///
     /// ```
-    /// # use clatter_shock::{DampingRatio, Shape, ShapeFigures};
+    /// # use clatter_shock::{DampingRatio, Shape};
+    /// # use clatter_studies::suspended::ShapeFigures;
     /// let rectangle = ShapeFigures::new(Shape::Rectangle, DampingRatio::new(0.0)?)?;
     /// assert!((rectangle.amplification - 2.0).abs() < 1e-14 && (rectangle.frequency_duration - 0.5).abs() < 1e-14);
     /// assert!((rectangle.knee - std::f64::consts::FRAC_PI_2).abs() < 1e-14);
@@ -259,7 +271,8 @@ impl ShapeFigures {
 /// As [`Pulses::new`].
 ///
 /// ```
-/// # use clatter_shock::{DampingRatio, Shape, amplification};
+/// # use clatter_shock::{DampingRatio, Shape};
+/// # use clatter_studies::suspended::amplification;
 /// let undamped = DampingRatio::new(0.0)?;
 /// assert!((amplification(Shape::HalfSine, undamped, 0.80994)? - 1.768458).abs() < 1e-6);
 /// # Ok::<(), clatter_shock::Error>(())
@@ -274,11 +287,11 @@ pub fn amplification(shape: Shape, damping: DampingRatio, frequency_duration: f6
 /// shock, beginning at the strike. Speeds and heights are those of `start`, in m/s and m. Longer contacts overlap.
 ///
 /// # Errors
-/// As [`crate::respond`] and [`Pulses::new`].
+/// As [`respond`] and [`Pulses::new`].
 ///
 /// ```
 /// # use clatter::{Bar, Start};
-/// # use clatter_shock::half_sine_train;
+/// # use clatter_studies::suspended::half_sine_train;
 /// let start = Start::new([-4.85, -4.85], 5e-3)?;
 /// let pulses = half_sine_train(&Bar::new(0.5, 0.3)?, &start, 1.0, 4e-4)?;
 /// assert_eq!(pulses.len(), 4);
@@ -286,14 +299,23 @@ pub fn amplification(shape: Shape, damping: DampingRatio, frequency_duration: f6
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn half_sine_train(bar: &Bar, start: &Start, position: f64, contact_s: f64) -> Result<Vec<Pulse>, Error> {
-    crate::error::positive("contact time (s)", contact_s)?;
+    positive("contact time (s)", contact_s)?;
     let (shocks, _) = shocks_at(bar, start, position, contact_s.recip())?;
     let pulse = |delta_v: f64| delta_v / (Shape::HalfSine.area() * contact_s);
-    let of = |s: &crate::VelocityShock| Pulse {
+    let of = |s: &VelocityShock| Pulse {
         shape: Shape::HalfSine,
         amplitude: pulse(s.delta_v),
         duration: contact_s,
         start: s.time,
     };
     Ok(shocks.as_slice().iter().map(of).collect())
+}
+
+/// `value` if it is finite and greater than zero.
+fn positive(name: &'static str, value: f64) -> Result<f64, Error> {
+    if value > 0.0 && value.is_finite() {
+        Ok(value)
+    } else {
+        Err(Error::Quantity { name, value, allowed: "finite and > 0" })
+    }
 }

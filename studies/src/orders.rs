@@ -1,6 +1,6 @@
 //! How the models tend to one another, measured: rows for the accuracy table.
 
-use crate::{Body, Contact, ContactLaw, Error, Model, Motion, Scene, Strike};
+use clatter_flight::{Body, Contact, ContactLaw, Error, Model, Motion, Scene, Strike};
 
 /// One model against the one it tends to, as a parameter goes to zero.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,7 +65,7 @@ fn hysteretic(drop: &Scene, contact_time_s: f64) -> Result<Motion, Error> {
 /// three strikes, the contact on its second strike.
 ///
 /// ```
-/// for order in clatter_flight::orders()? {
+/// for order in clatter_studies::orders()? {
 ///     assert!((order.measured() - order.expected).abs() < 0.05, "{order:?}");
 /// }
 /// # Ok::<(), clatter_flight::Error>(())

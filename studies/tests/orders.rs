@@ -1,6 +1,6 @@
 //! How fast each model tends to the one below it: the rows of the accuracy table.
 
-use clatter_flight::{orders, residues};
+use clatter_studies::{orders, residues};
 
 /// Not only between the last two steps, but all the way.
 #[test]

@@ -1,0 +1,5 @@
+//! Tests of the studies, in one program.
+
+#![cfg(test)]
+
+mod orders;
