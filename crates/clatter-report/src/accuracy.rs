@@ -11,7 +11,7 @@ mod plain;
 mod told;
 mod train;
 
-use clatter_figures::{OrderPanel as Panel, orders as figure};
+use clatter_studies::figures::{OrderPanel as Panel, orders as figure};
 use digits::inputs;
 use flight::Flights;
 use part::Part;

@@ -3,7 +3,8 @@
 use clatter::contour::{self, SafeZone};
 use clatter::paper::{Claim, DESIGNS, Row};
 use clatter::{Axis, Bar, Map, Quantity};
-use clatter_figures::{Impacts, Sheet, Surface, Zones, impacts, scheme, surface, zones};
+use clatter_figures::{Sheet, Surface, surface};
+use clatter_studies::figures::{Impacts, Zones, impacts, scheme, zones};
 use rayon::prelude::*;
 use serde_json::json;
 

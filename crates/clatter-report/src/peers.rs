@@ -3,7 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use clatter_figures::{Dot, FigureError, Tool, tick, tools};
+use clatter_figures::{FigureError, tick};
+use clatter_studies::figures::{Dot, Tool, tools};
 use serde::Deserialize;
 use serde_json::{Value, json};
 

@@ -4,12 +4,13 @@ use std::f64::consts::TAU;
 
 use clatter::paper::DESIGNS;
 use clatter::{Bar, Start};
-use clatter_figures::rules::{self, BarRules};
-use clatter_figures::{RUST, beside, boundary};
+use clatter_figures::draw::RUST;
+use clatter_figures::{beside, boundary};
 use clatter_shock::{
     DamageBoundary, DampingRatio, EquivalentPulse, Frequencies, Limit, Margin, Pulse, Pulses, Quantity, Response, Rule,
     STANDARD_GRAVITY_M_S2, Shape, ShockTable, Spectrum, Suspension, VelocityShock, VelocityShocks,
 };
+use clatter_studies::figures::rules::{self, BarRules};
 use clatter_studies::suspended::{
     GainMap, Holders, OMEGAS, ShapeFigures, SuspendedZones, Worst, amplification, half_sine_train, omegas,
     rule_either_end, worst,

@@ -1,8 +1,7 @@
 //! Fig. 1: the bar, drawn.
 
-use crate::FigureError;
-use crate::paper::Paper;
-use crate::style::{Anchor, GRAY, INK, Ink, LABEL, Label, Pt, RUST};
+use clatter_figures::FigureError;
+use clatter_figures::draw::{Anchor, GRAY, INK, Ink, LABEL, Label, Paper, Pt, RUST};
 
 /// The bar at the moment end a touches, with both centers of percussion; `percussion` is p/L.
 pub fn scheme(percussion: f64) -> Result<String, FigureError> {

@@ -1,10 +1,7 @@
 //! Tools side by side on four bars: what a scene costs, how many impacts they count, how far off the largest shock is.
 
-use crate::FigureError;
-use crate::axis::Axis;
-use crate::chart::Axes;
-use crate::paper::{Paper, SMALL};
-use crate::style::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, RUST};
+use clatter_figures::FigureError;
+use clatter_figures::draw::{Anchor, Axes, Axis, BLUES, GRAY, INK, Ink, LABEL, Label, Paper, RUST, SMALL};
 
 /// How far a count is right.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

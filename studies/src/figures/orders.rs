@@ -1,13 +1,9 @@
 //! How fast the flight models tend to one another: differences over the group that decides.
 
-use clatter_studies::Order;
+use clatter_figures::FigureError;
+use clatter_figures::draw::{Anchor, Axes, Axis, BLUES, GRAY, GUIDE, Ink, Label, Paper, RUST, SMALL};
 
-use crate::FigureError;
-use crate::axis::Axis;
-use crate::chart::Axes;
-use crate::paper::{Paper, SMALL};
-use crate::shock::GUIDE;
-use crate::style::{Anchor, BLUES, GRAY, Ink, Label, RUST};
+use crate::Order;
 
 /// One panel: what goes to zero, the orders that share it, their names.
 #[derive(Debug)]

@@ -1,15 +1,13 @@
 //! Figures of the shock report: what a clatter does to parts of any frequency, anywhere.
 
+use clatter_figures::FigureError;
+use clatter_figures::draw::{
+    Anchor, Axes, Axis, BLUES, GRAY, GUIDE, INK, Ink, LABEL, Label, Paper, Pt, RUST, SAND, SMALL, plane_axes, step_up,
+    width,
+};
 use clatter_shock::Rule;
-use clatter_studies::suspended::{GainMap, Holders, OMEGAS, SuspendedZones};
 
-use crate::FigureError;
-use crate::axis::{Axis, step_up};
-use crate::chart::Axes;
-use crate::paper::{Paper, SMALL};
-use crate::plane::plane_axes;
-use crate::shock::GUIDE;
-use crate::style::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, Pt, RUST, SAND, width};
+use crate::suspended::{GainMap, Holders, OMEGAS, SuspendedZones};
 
 const OMEGA: &str = "*Ω* = *ωh*_0/*v*_0";
 const DOTS: Ink = Ink { dash: "1.2 2", ..GUIDE };
