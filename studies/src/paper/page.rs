@@ -1,14 +1,16 @@
 //! The paper's figures, table and claims: the data, and what is made of them.
 
-use clatter::contour::{self, SafeZone};
-use clatter::paper::{Claim, DESIGNS, Row};
+use clatter::design::DESIGNS;
 use clatter::{Axis, Bar, Map, Quantity};
 use clatter_figures::{Sheet, Surface, surface};
-use clatter_studies::figures::{Impacts, Zones, impacts, scheme, zones};
+use clatter_report::File;
 use rayon::prelude::*;
-use serde_json::json;
 
-use crate::{ReportError, table};
+use super::{Claim, Row, claims, table, table1};
+use crate::Error;
+use crate::contour::{self, SafeZone};
+use crate::figures::{Impacts, Zones, impacts, scheme, zones};
+use crate::files::pretty;
 
 /// Everything the report shows.
 #[derive(Debug)]
@@ -20,9 +22,6 @@ pub(crate) struct Data {
     table1: [Row; 7],
     claims: Vec<Claim>,
 }
-
-/// A file of the report that needs no typst: its name and content.
-pub(crate) type File = (&'static str, String);
 
 /// Chords stay this close to the exact curves, in parts of the unit square: 0.02 pt in print.
 const FLATNESS: f64 = 1e-4;
@@ -55,19 +54,13 @@ fn zones_of(threshold: f64) -> Zones {
     Zones { threshold, levels, designs: DESIGNS }
 }
 
-fn sheet(quantity: Quantity, name: &'static str, at: [f64; 2], fill: [[u8; 3]; 2]) -> Result<Sheet, ReportError> {
+fn sheet(quantity: Quantity, name: &'static str, at: [f64; 2], fill: [[u8; 3]; 2]) -> Result<Sheet, Error> {
     let map = Map::compute(quantity, Axis::q(0.0, 1.0, MESH)?, Axis::e(0.0, 1.0, MESH)?)?;
     Ok(Sheet { map, name, at, fill })
 }
 
 /// The sheet at distance `s` from the center (Eq. 4), from that of the ends.
-fn at_distance(
-    end: &Sheet,
-    s: f64,
-    name: &'static str,
-    at: [f64; 2],
-    fill: [[u8; 3]; 2],
-) -> Result<Sheet, ReportError> {
+fn at_distance(end: &Sheet, s: f64, name: &'static str, at: [f64; 2], fill: [[u8; 3]; 2]) -> Result<Sheet, Error> {
     let mut map = end.map.clone();
     for (i, line) in map.values.chunks_mut(MESH).enumerate() {
         let share = Bar::new(map.q.value(i), 0.0)?.share(s);
@@ -80,8 +73,8 @@ fn at_distance(
 
 impl Data {
     /// Computes everything, in parallel.
-    pub(crate) fn compute() -> Result<Self, ReportError> {
-        let (claims, (zones, rest)) = rayon::join(clatter::paper::claims, || {
+    pub(crate) fn compute() -> Result<Self, Error> {
+        let (claims, (zones, rest)) = rayon::join(claims, || {
             rayon::join(
                 || [zones_of(0.5), zones_of(1.0), zones_of(2.0)],
                 || {
@@ -112,8 +105,8 @@ impl Data {
                             [150.0, 16.0],
                         ),
                     ];
-                    let table1 = clatter::paper::table1()?;
-                    Ok::<_, ReportError>((Impacts { curves, endless: contour::endless(160) }, surfaces, table1))
+                    let table1 = table1()?;
+                    Ok::<_, Error>((Impacts { curves, endless: contour::endless(160) }, surfaces, table1))
                 },
             )
         });
@@ -122,7 +115,7 @@ impl Data {
     }
 
     /// Figures as SVG, tables as JSON and CSV.
-    pub(crate) fn files(&self) -> Result<Vec<File>, ReportError> {
+    pub(crate) fn files(&self) -> Result<Vec<File>, Error> {
         let figures: Vec<File> = vec![
             ("figure-1.svg", scheme(self.percussion)?),
             ("figure-2.svg", impacts(&self.impacts)?),
@@ -143,36 +136,10 @@ impl Data {
     }
 }
 
-pub(crate) fn pretty(value: &impl serde::Serialize) -> Result<String, ReportError> {
-    let text = serde_json::to_string_pretty(value).map_err(|error| ReportError::Data(error.to_string()))?;
-    Ok(text + "\n")
-}
-
-/// What only the page needs.
-pub(crate) fn page() -> String {
-    json!({ "version": env!("CARGO_PKG_VERSION") }).to_string()
-}
-
 #[cfg(test)]
-pub(crate) mod tests {
+mod tests {
     use super::*;
-
-    /// No line of a figure leaves its frame, and every coordinate is a number.
-    pub(crate) fn stay_within_their_frame(files: &[File]) {
-        for (name, svg) in files.iter().filter(|(name, _)| name.ends_with("svg")) {
-            let size = svg.split("viewBox=\"0 0 ").nth(1).and_then(|rest| rest.split('"').next()).unwrap();
-            let size: Vec<f64> = size.split(' ').map(|v| v.parse().unwrap()).collect();
-            assert!(!svg.contains("NaN") && !svg.contains("inf"), "{name}");
-            for d in svg.split(" d=\"M").skip(1).filter_map(|rest| rest.split('"').next()).filter(|d| !d.contains('a'))
-            {
-                for point in d.trim_end_matches('Z').split('L') {
-                    let point: Vec<f64> = point.split(' ').map(|v| v.parse().unwrap()).collect();
-                    let inside = point.iter().zip(&size).all(|(x, w)| (0.0..=*w).contains(x));
-                    assert!(inside, "{name}: {point:?} is outside {size:?}");
-                }
-            }
-        }
-    }
+    use crate::frame::stay_within_their_frame;
 
     #[test]
     fn figures_stay_within_their_frame() {

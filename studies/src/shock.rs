@@ -2,24 +2,25 @@
 
 use std::f64::consts::TAU;
 
-use clatter::paper::DESIGNS;
+use crate::figures::rules::{self, BarRules};
+use crate::suspended::{
+    GainMap, Holders, OMEGAS, ShapeFigures, SuspendedZones, Worst, amplification, half_sine_train, omegas,
+    rule_either_end, worst,
+};
+use clatter::design::DESIGNS;
 use clatter::{Bar, Start};
 use clatter_figures::draw::RUST;
 use clatter_figures::{beside, boundary};
+use clatter_report::File;
 use clatter_shock::{
     DamageBoundary, DampingRatio, EquivalentPulse, Frequencies, Limit, Margin, Pulse, Pulses, Quantity, Response, Rule,
     STANDARD_GRAVITY_M_S2, Shape, ShockTable, Spectrum, Suspension, VelocityShock, VelocityShocks,
 };
-use clatter_studies::figures::rules::{self, BarRules};
-use clatter_studies::suspended::{
-    GainMap, Holders, OMEGAS, ShapeFigures, SuspendedZones, Worst, amplification, half_sine_train, omegas,
-    rule_either_end, worst,
-};
 use serde_json::{Value, json};
 
-use crate::ReportError;
-use crate::paper::{File, pretty};
-use crate::table::decimals;
+use crate::Error;
+use crate::files::decimals;
+use crate::files::pretty;
 
 /// Everything the report shows.
 #[derive(Debug)]
@@ -70,7 +71,7 @@ struct Models {
 }
 
 impl Models {
-    fn new(train: &[Pulse], frequencies: &Frequencies, damping: DampingRatio) -> Result<Self, ReportError> {
+    fn new(train: &[Pulse], frequencies: &Frequencies, damping: DampingRatio) -> Result<Self, Error> {
         let shock = |p: &Pulse| VelocityShock { time: p.start, delta_v: p.velocity_change() };
         let shocks = VelocityShocks::new(train.iter().map(shock).collect())?;
         let one = |delta_v: f64| {
@@ -79,7 +80,7 @@ impl Models {
         };
         let of = |pulses: &[Pulse]| {
             let pulses = Pulses::new(pulses)?;
-            Ok::<_, ReportError>(pulses.spectrum(frequencies, damping, Quantity::AbsoluteAcceleration).maximax)
+            Ok::<_, Error>(pulses.spectrum(frequencies, damping, Quantity::AbsoluteAcceleration).maximax)
         };
         let mut alone = vec![0.0; frequencies.hz().len()];
         for pulse in train {
@@ -112,11 +113,10 @@ struct Board {
 }
 
 impl Board {
-    fn new(hz: f64, damping: DampingRatio, train: &[Pulse], single: Pulse) -> Result<Self, ReportError> {
+    fn new(hz: f64, damping: DampingRatio, train: &[Pulse], single: Pulse) -> Result<Self, Error> {
         let board = Suspension::from_hz(hz, damping)?;
-        let peak = |pulses: &[Pulse]| {
-            Ok::<_, ReportError>(Pulses::new(pulses)?.respond(&board).absolute_acceleration.magnitude())
-        };
+        let peak =
+            |pulses: &[Pulse]| Ok::<_, Error>(Pulses::new(pulses)?.respond(&board).absolute_acceleration.magnitude());
         let mut alone = 0.0_f64;
         for pulse in train {
             alone = alone.max(peak(&[*pulse])?);
@@ -162,7 +162,7 @@ const BOARD_LIMIT_G: f64 = 1600.0;
 const MODES_HZ: [f64; 6] = [50.0, 110.0, 180.0, BOARD_HZ, 440.0, 1000.0];
 
 impl Phone {
-    fn compute(damping: DampingRatio) -> Result<Self, ReportError> {
+    fn compute(damping: DampingRatio) -> Result<Self, Error> {
         let bar = Bar::new(PHONE[0], PHONE[1])?;
         let train = half_sine_train(&bar, &Start::new([-SPEED_M_S, -SPEED_M_S], GAP_M)?, 1.0, CONTACT_S)?;
         let single = Pulse {
@@ -203,13 +203,13 @@ impl Phone {
 ///
 /// # Errors
 /// None in practice: all cases are valid.
-pub fn shock_numbers() -> Result<String, ReportError> {
+pub fn shock_numbers() -> Result<String, Error> {
     pretty(&Data::compute()?.numbers())
 }
 
 impl Data {
     /// Computes everything.
-    pub(crate) fn compute() -> Result<Self, ReportError> {
+    pub(crate) fn compute() -> Result<Self, Error> {
         let damping = DampingRatio::new(ZETA)?;
         let undamped = DampingRatio::new(0.0)?;
         let bar = |[q, e]: [f64; 2]| Bar::new(q, e);
@@ -217,30 +217,30 @@ impl Data {
         let rules = |design| {
             let bar = bar(design)?;
             let [end, quarter, center] = PLACES.map(|s| rule_either_end(&bar, s, damping, &grid));
-            Ok::<_, ReportError>(BarRules { design, rules: [end?, quarter?, center?] })
+            Ok::<_, Error>(BarRules { design, rules: [end?, quarter?, center?] })
         };
         let zones = |design| {
             let bar = bar(design)?;
             let [a, b, c] = THRESHOLDS.map(|x| SuspendedZones::compute(&bar, x, damping, 2 * PLANE));
-            Ok::<_, ReportError>([a?, b?, c?])
+            Ok::<_, Error>([a?, b?, c?])
         };
-        let holders = |design| Ok::<_, ReportError>(Holders::compute(&bar(design)?, damping, 2 * PLANE, ROWS)?);
+        let holders = |design| Ok::<_, Error>(Holders::compute(&bar(design)?, damping, 2 * PLANE, ROWS)?);
         let fine: Vec<f64> = omegas(FINE).into_iter().filter(|omega| *omega <= FINE_TO).collect();
         let of_ratio = |zeta: f64| {
             let rule = rule_either_end(&bar(PHONE)?, 1.0, DampingRatio::new(zeta)?, &fine)?;
-            Ok::<_, ReportError>((zeta, rule))
+            Ok::<_, Error>((zeta, rule))
         };
         let shape = |(name, shape): (&'static str, Shape)| {
             let at = |k: u16| 0.1 * 100f64.powf(f64::from(k) / 400.0);
             let point = |k| Ok((at(k), amplification(shape, undamped, at(k))?));
-            Ok::<_, ReportError>(Figures {
+            Ok::<_, Error>(Figures {
                 name,
                 curve: (0..=400).map(point).collect::<Result<_, clatter_shock::Error>>()?,
                 undamped: ShapeFigures::new(shape, undamped)?,
                 damped: ShapeFigures::new(shape, damping)?,
             })
         };
-        let worst = |design| Ok::<_, ReportError>(worst(&bar(design)?, damping, SEARCH)?);
+        let worst = |design| Ok::<_, Error>(worst(&bar(design)?, damping, SEARCH)?);
         Ok(Self {
             bars: each(rules)?,
             worst: each(worst)?,
@@ -254,7 +254,7 @@ impl Data {
     }
 
     /// Figures as SVG, numbers as JSON.
-    pub(crate) fn files(&self) -> Result<Vec<File>, ReportError> {
+    pub(crate) fn files(&self) -> Result<Vec<File>, Error> {
         let amplifications: Vec<_> = self.shapes.iter().map(|s| (s.name, s.curve.clone())).collect();
         let p = &self.phone;
         let name = "2 *v*_0 at once";
@@ -392,7 +392,7 @@ impl Phone {
 }
 
 /// One for each design of the paper's table.
-fn each<T>(of: impl Fn([f64; 2]) -> Result<T, ReportError>) -> Result<[T; 4], ReportError> {
+fn each<T>(of: impl Fn([f64; 2]) -> Result<T, Error>) -> Result<[T; 4], Error> {
     let [a, b, c, d] = DESIGNS.map(of);
     Ok([a?, b?, c?, d?])
 }
@@ -424,6 +424,6 @@ mod tests {
     #[test]
     fn figures_stay_within_their_frame() {
         let files = Data::compute().unwrap().files().unwrap();
-        crate::paper::tests::stay_within_their_frame(&files);
+        crate::frame::stay_within_their_frame(&files);
     }
 }

@@ -7,7 +7,7 @@ use super::big::Big;
 use super::part::{self, START};
 use super::plain::{closed, recurrence};
 use super::train::{Case, Exact, Found, Given, Row};
-use crate::ReportError;
+use crate::Error;
 
 /// A number or a word.
 #[derive(Debug, Clone)]
@@ -83,7 +83,7 @@ fn told(case: &Case) -> String {
 }
 
 /// The lines about trains.
-fn trains(rows: &[Row]) -> Result<Vec<Line>, ReportError> {
+fn trains(rows: &[Row]) -> Result<Vec<Line>, Error> {
     const RECURRENCE: &str = "aₙ₊₁ = T aₙ − e aₙ₋₁";
     const CLOSED: &str = "⌈(π − φ)/acos(T/2√e)⌉";
     let mut lines = Vec::new();
@@ -154,7 +154,7 @@ fn trains(rows: &[Row]) -> Result<Vec<Line>, ReportError> {
 }
 
 /// The lines about a suspended part.
-fn parts() -> Result<Vec<Line>, ReportError> {
+fn parts() -> Result<Vec<Line>, Error> {
     let mut lines = Vec::new();
     let mut free = |what, zeta: f64, name: &str, (at, omega, t): (&str, f64, f64), formula| {
         let ([x, _], _) = part::free_exact(zeta, omega, t);
@@ -167,7 +167,7 @@ fn parts() -> Result<Vec<Line>, ReportError> {
             ours: number(omega * after.displacement),
             plain: number(part::free_plain(zeta, omega, t)[0]),
         });
-        Ok::<_, ReportError>(())
+        Ok::<_, Error>(())
     };
     free("free motion, ωz", 1.0 + f64::EPSILON, "1 + 2⁻⁵²", ("1", 2.0, 0.5), "A e^(−sτ) + B e^(−rτ)")?;
     free("free motion, ωz", 50.0, "50", ("512", 2.0, 256.0), "s = ζ − √(ζ² − 1)")?;
@@ -196,7 +196,7 @@ fn parts() -> Result<Vec<Line>, ReportError> {
     Ok(lines)
 }
 
-pub(super) fn lines(rows: &[Row]) -> Result<Vec<Line>, ReportError> {
+pub(super) fn lines(rows: &[Row]) -> Result<Vec<Line>, Error> {
     let mut lines = trains(rows)?;
     lines.extend(parts()?);
     Ok(lines)

@@ -9,7 +9,7 @@ use super::digits;
 use super::miscount;
 use super::part::Cell;
 use super::train::{Case, Found, Judged, Way};
-use crate::table::decimals;
+use crate::files::decimals;
 
 /// A number with one digit and its power of ten, rounded by `round`.
 fn one_digit(value: f64, round: impl Fn(f64) -> f64) -> String {

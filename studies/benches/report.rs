@@ -1,9 +1,9 @@
-//! The whole report beside typst alone on the same input, in turns: `cargo bench -p clatter-report --bench report`.
+//! The whole report beside typst alone on the same input, in turns: `cargo bench -p clatter-studies --bench report`.
 //!
 //! Allowed is twice the time of typst. Looks for typst as the report does, but builds none: run the report once before.
 #![expect(clippy::print_stdout, reason = "the times are what is wanted")]
 
-use clatter_report::{Report, write};
+use clatter_studies::{Report, write};
 use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
@@ -16,7 +16,7 @@ fn main() {
     for file in &written.files {
         std::fs::copy(file, input.path().join(file.file_name().expect("a name"))).expect("a copy");
     }
-    let pages = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reports");
+    let pages = Path::new(env!("CARGO_MANIFEST_DIR")).join("../reports");
     for page in ["paper.typ", "style.typ"] {
         std::fs::copy(pages.join(page), input.path().join(page)).expect("a copy");
     }

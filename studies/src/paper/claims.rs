@@ -1,8 +1,9 @@
 //! The statements the paper makes about its results, each measured.
 
-use super::DESIGNS;
+use clatter::design::DESIGNS;
+use clatter::{Axis, Bar, Count, End, Error, Map, Mass, Quantity, Start, Summary};
+
 use crate::contour::{self, SafeZone};
-use crate::{Axis, Bar, Count, End, Error, Map, Mass, Quantity, Start, Summary};
 
 /// Whether a statement is true of the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -82,7 +83,7 @@ fn share(what: &'static str, value: f64, error: f64) -> Measured {
 fn part(what: &'static str, value: f64) -> Measured {
     share(what, value, 0.0)
 }
-fn area(what: &'static str, integral: crate::Integral) -> Measured {
+fn area(what: &'static str, integral: clatter::Integral) -> Measured {
     share(what, integral.value, integral.error)
 }
 
@@ -189,7 +190,7 @@ fn turn(mut a: f64, mut b: f64, holds: impl Fn(f64) -> bool) -> f64 {
 /// step by step on a 401 × 401 grid; there, "share" counts steps.
 ///
 /// ```
-/// use clatter::paper::{Verdict, claims};
+/// use clatter_studies::paper::{Verdict, claims};
 /// let fails: Vec<_> = claims()?.into_iter().filter(|claim| claim.verdict == Verdict::Fails).collect();
 /// assert_eq!(fails[0].place, "Fig. 5"); // three eighths of the plane, not half
 /// # Ok::<(), clatter::Error>(())
@@ -250,7 +251,7 @@ fn counts(plane: &Plane) -> Result<Vec<Claim>, Error> {
             place: "Fig. 2",
             statement: "The region of three impacts dominates.",
             measured: vec![
-                area("three", crate::Integral { value: shares[1], error: contour::area_up_to(3).error }),
+                area("three", clatter::Integral { value: shares[1], error: contour::area_up_to(3).error }),
                 part("two", shares[0]),
                 part("four", shares[2]),
                 part("five", shares[3]),
@@ -459,8 +460,8 @@ fn peaks(plane: &Plane) -> Result<Vec<Claim>, Error> {
 }
 
 /// The rest of the design plane.
-fn complement(integral: crate::Integral) -> crate::Integral {
-    crate::Integral { value: 1.0 - integral.value, ..integral }
+fn complement(integral: clatter::Integral) -> clatter::Integral {
+    clatter::Integral { value: 1.0 - integral.value, ..integral }
 }
 
 /// Lowest q and e from which the zone shrinks with q although it exists.

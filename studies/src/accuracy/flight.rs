@@ -1,9 +1,9 @@
 //! The flight models beside one another, and the contact engine beside itself at a finer precision.
 
+use crate::{Order, Residue, orders, residues};
 use clatter_flight::{Body, Contact, ContactLaw, Model, Motion, Scene};
-use clatter_studies::{Order, Residue, orders, residues};
 
-use crate::ReportError;
+use crate::Error;
 
 /// Drops of (½, 0.3), half-length 70 mm, 4.43 m/s: of the flights at 5°, of the steps in precision at 20°.
 const HALF_M: f64 = 0.07;
@@ -53,20 +53,20 @@ pub(super) struct Flights {
     pub(super) steps: Vec<Step>,
 }
 
-fn scene(tilt_deg: f64) -> Result<Scene, ReportError> {
+fn scene(tilt_deg: f64) -> Result<Scene, Error> {
     let body = Body::new(2.0 * HALF_M, HALF_M / 3f64.sqrt())?;
     Ok(Scene::new(body, RESTITUTION, SPEED_M_S, tilt_deg, 9.81)?)
 }
 
 impl Flights {
-    pub(super) fn compute() -> Result<Self, ReportError> {
+    pub(super) fn compute() -> Result<Self, Error> {
         let drop = scene(TILT_DEG)?;
         let mut models = vec![("map", Model::Map), ("ballistic", Model::Ballistic), ("finite tilt", Model::FiniteTilt)];
         for (_, name, law) in LAWS {
             models.push((name, Model::Contacts(Contact::new(law, RESTITUTION, CONTACT_S)?)));
         }
         let models = models.into_iter().map(|(name, model)| Ok((name, drop.fly(model)?)));
-        let models = models.collect::<Result<_, ReportError>>()?;
+        let models = models.collect::<Result<_, Error>>()?;
         Ok(Self {
             orders: orders()?,
             residues: residues()?,
@@ -79,7 +79,7 @@ impl Flights {
 }
 
 /// Errors of both laws at each precision.
-fn steps() -> Result<Vec<Step>, ReportError> {
+fn steps() -> Result<Vec<Step>, Error> {
     let drop = scene(STEEP_DEG)?;
     let mut steps = Vec::new();
     for (name, _, law) in LAWS {

@@ -15,7 +15,7 @@ use libm::{cos, exp, sin, sqrt};
 use std::f64::consts::{PI, TAU};
 
 use super::big::{Big, exponential, image, off};
-use crate::ReportError;
+use crate::Error;
 
 /// One number at an extreme: what is allowed, what ours is off by, and what a plain formula is.
 #[derive(Debug, Clone)]
@@ -68,7 +68,7 @@ pub(super) const RECORD_ZETAS: [(&str, f64); 3] = [("0", 0.0), ("0.05", 0.05), (
 /// ωz, z′ at the start of free motion, z being the first over ω.
 pub(super) const START: State = State { displacement: 0.3, velocity: -1.7 };
 
-pub(super) fn mount(omega: f64, zeta: f64) -> Result<Suspension, ReportError> {
+pub(super) fn mount(omega: f64, zeta: f64) -> Result<Suspension, Error> {
     Ok(Suspension::new(omega, DampingRatio::new(zeta)?)?)
 }
 
@@ -105,7 +105,7 @@ pub(super) fn free_plain(zeta: f64, omega: f64, t: f64) -> [f64; 2] {
     textbook(zeta, [omega * START.displacement, START.velocity], omega * t)
 }
 
-fn free(zeta: f64, omega: f64, t: f64) -> Result<Option<Cell>, ReportError> {
+fn free(zeta: f64, omega: f64, t: f64) -> Result<Option<Cell>, Error> {
     let ([x, y], decay) = free_exact(zeta, omega, t);
     if decay.to_f64() < 1e-290 {
         return Ok(None);
@@ -157,13 +157,13 @@ pub(super) fn pulse_plain(zeta: f64, omega: f64) -> [f64; 2] {
 }
 
 /// (ωz, z′) at its end by the library.
-pub(super) fn pulse_ours(zeta: f64, omega: f64) -> Result<[f64; 2], ReportError> {
+pub(super) fn pulse_ours(zeta: f64, omega: f64) -> Result<[f64; 2], Error> {
     let half_sine = Pulse { shape: Shape::HalfSine, amplitude: 1.0, duration: 1.0, start: 0.0 };
     let state = Pulses::new(&[half_sine])?.state_at_end(&mount(omega, zeta)?);
     Ok([omega * state.displacement, state.velocity])
 }
 
-fn pulse(zeta: f64, omega: f64) -> Result<Cell, ReportError> {
+fn pulse(zeta: f64, omega: f64) -> Result<Cell, Error> {
     let [x, y] = pulse_exact(zeta, omega);
     let both = (&(&x * &x) + &(&y * &y)).sqrt();
     let of_x = if omega <= 0.01 { x.abs() } else { both.clone() };
@@ -220,14 +220,14 @@ pub(super) fn record_plain(zeta: f64, share: f64, samples: &[f64]) -> f64 {
 }
 
 /// The primary acceleration over ω by the library.
-pub(super) fn record_ours(zeta: f64, share: f64, samples: &[f64]) -> Result<f64, ReportError> {
+pub(super) fn record_ours(zeta: f64, share: f64, samples: &[f64]) -> Result<f64, Error> {
     let frequencies = Frequencies::list(vec![share])?;
     let mut filter = SpectrumFilter::new(frequencies, DampingRatio::new(zeta)?, Quantity::AbsoluteAcceleration, 1.0)?;
     filter.push(samples);
     Ok(filter.finish()?.primary[0] / (TAU * share))
 }
 
-fn sampled(zeta: f64, share: f64, samples: &[f64]) -> Result<Cell, ReportError> {
+fn sampled(zeta: f64, share: f64, samples: &[f64]) -> Result<Cell, Error> {
     let want = record_exact(zeta, share, samples);
     Ok(Cell {
         allowed: RECORD.error,
@@ -237,10 +237,11 @@ fn sampled(zeta: f64, share: f64, samples: &[f64]) -> Result<Cell, ReportError> 
 }
 
 /// The largest error of the peaks of 75 parts in a clatter, against 50 digits.
-fn clatters() -> Result<(f64, usize), ReportError> {
-    let bad = || ReportError::Data("the reference of the clatters".into());
-    let data: serde_json::Value = serde_json::from_str(include_str!("../../../clatter-shock/tests/data/response.json"))
-        .map_err(|error| ReportError::Data(error.to_string()))?;
+fn clatters() -> Result<(f64, usize), Error> {
+    let bad = || Error::Data("the reference of the clatters".into());
+    let data: serde_json::Value =
+        serde_json::from_str(include_str!("../../../crates/clatter-shock/tests/data/response.json"))
+            .map_err(|error| Error::Data(error.to_string()))?;
     let cases = data["cases"].as_array().ok_or_else(bad)?;
     let number =
         |v: &serde_json::Value| v.as_f64().or_else(|| v.as_str().and_then(|text| text.parse().ok())).ok_or_else(bad);
@@ -268,13 +269,13 @@ pub(super) struct Part {
 }
 
 impl Part {
-    pub(super) fn compute() -> Result<Self, ReportError> {
+    pub(super) fn compute() -> Result<Self, Error> {
         let samples = record();
-        let lines = |zetas: &[(&'static str, f64)], of: &dyn Fn(f64) -> Result<Vec<Option<Cell>>, ReportError>| {
+        let lines = |zetas: &[(&'static str, f64)], of: &dyn Fn(f64) -> Result<Vec<Option<Cell>>, Error>| {
             zetas
                 .iter()
                 .map(|&(name, zeta)| Ok(Line { zeta: name, cells: of(zeta)? }))
-                .collect::<Result<Vec<_>, ReportError>>()
+                .collect::<Result<Vec<_>, Error>>()
         };
         let (worst, parts) = clatters()?;
         Ok(Self {
@@ -298,7 +299,7 @@ mod tests {
     #[test]
     fn exact_motions_are_those_of_a_hundred_digits() {
         let data: Value =
-            serde_json::from_str(include_str!("../../../clatter-shock/tests/data/extremes.json")).unwrap();
+            serde_json::from_str(include_str!("../../../crates/clatter-shock/tests/data/extremes.json")).unwrap();
         let number = |v: &Value| v.as_f64().unwrap_or_else(|| v.as_str().unwrap().parse().unwrap());
         let close = |got: &Big, want: &Value, scale: f64| (got.to_f64() - number(want)).abs() <= f64::EPSILON * scale;
         let mut compared = 0;

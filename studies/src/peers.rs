@@ -3,16 +3,17 @@
 
 use std::collections::BTreeMap;
 
+use crate::figures::{Dot, Tool, tools};
 use clatter_figures::{FigureError, tick};
-use clatter_studies::figures::{Dot, Tool, tools};
+use clatter_report::File;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use crate::ReportError;
-use crate::paper::{File, pretty};
+use crate::Error;
+use crate::files::pretty;
 
 /// The last run.
-const RESULTS: &str = include_str!("../../../peers/results.json");
+const RESULTS: &str = include_str!("../../peers/results.json");
 
 #[derive(Debug, Deserialize)]
 struct Results {
@@ -155,8 +156,8 @@ struct MapRow {
 }
 
 impl Results {
-    fn read() -> Result<Self, ReportError> {
-        serde_json::from_str(RESULTS).map_err(|error| ReportError::Data(format!("peers/results.json: {error}")))
+    fn read() -> Result<Self, Error> {
+        serde_json::from_str(RESULTS).map_err(|error| Error::Data(format!("peers/results.json: {error}")))
     }
 
     /// What the page says.
@@ -261,7 +262,7 @@ fn span(values: &[f64; 4]) -> String {
 }
 
 /// `peers.json` and `peers.svg`.
-pub(crate) fn files() -> Result<Vec<File>, ReportError> {
+pub(crate) fn files() -> Result<Vec<File>, Error> {
     let results = Results::read()?;
     Ok(vec![("peers.json", pretty(&results.numbers())?), ("peers.svg", results.figure()?)])
 }
@@ -269,7 +270,7 @@ pub(crate) fn files() -> Result<Vec<File>, ReportError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clatter::paper::DESIGNS;
+    use clatter::design::DESIGNS;
     use clatter::{Bar, Count, Start};
     use clatter_flight::{Body, Model, Scene};
 
@@ -356,7 +357,7 @@ mod tests {
     #[test]
     fn the_figure_stays_within_its_frame_and_shows_every_count() {
         let files = files().unwrap();
-        crate::paper::tests::stay_within_their_frame(&files);
+        crate::frame::stay_within_their_frame(&files);
         let results = Results::read().unwrap();
         for row in &results.bars.rows {
             assert!(files[1].1.contains(&row.tool), "{} is not drawn", row.tool);
@@ -365,12 +366,12 @@ mod tests {
 
     #[test]
     fn the_section_names_every_tool() {
-        let section = ("peers.typ", include_str!("../../../reports/peers.typ").to_owned());
-        let files = || Ok(files()?.into_iter().chain([section.clone()]).collect());
+        let section = ("peers.typ", include_str!("../../reports/peers.typ").to_owned());
+        let files = || Ok::<_, Error>(files()?.into_iter().chain([section.clone()]).collect());
         let source = "#import \"style.typ\": *\n#import \"peers.typ\": peers\n#show: report.with(title: \"Peers\")\n= Peers\n\
                       #peers(json(\"peers.json\"))";
         let dir = tempfile::tempdir().unwrap();
-        crate::page::page("x.pdf", ("x.typ", source), &files, &[], dir.path(), &mut |_| ()).unwrap();
+        clatter_report::write_pages("x.pdf", ("x.typ", source), &files, &[], dir.path(), &mut |_| ()).unwrap();
         let pdf = lopdf::Document::load(dir.path().join("x.pdf")).unwrap();
         let said = pdf.extract_text(&pdf.get_pages().into_keys().collect::<Vec<_>>()).unwrap();
         let plain = |text: &str| text.chars().filter(|c| !c.is_whitespace()).collect::<String>();

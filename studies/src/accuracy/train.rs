@@ -5,7 +5,7 @@ use clatter::{Bar, Count, Start};
 
 use super::big::{Big, off};
 use super::plain::{closed, recurrence};
-use crate::ReportError;
+use crate::Error;
 
 /// A bar is given by one of them.
 #[derive(Debug, Clone, Copy)]
@@ -240,7 +240,7 @@ fn looked_at(count: Found) -> Vec<u64> {
     list
 }
 
-fn ours(case: &Case, list: &[u64]) -> Result<Answer, ReportError> {
+fn ours(case: &Case, list: &[u64]) -> Result<Answer, Error> {
     let bar = match case.given {
         Given::Q(q) => Bar::new(q, case.e)?,
         Given::K(k) => Bar::from_gyration_ratio(k, case.e)?,
@@ -319,7 +319,7 @@ fn judge(case: &Case, exact: &Exact, count: Found, list: &[u64], answer: &Answer
 }
 
 impl Row {
-    pub(super) fn new(case: &Case) -> Result<Self, ReportError> {
+    pub(super) fn new(case: &Case) -> Result<Self, Error> {
         let exact = Exact::new(case);
         let count = exact.count();
         let list = looked_at(count);
@@ -342,7 +342,8 @@ mod tests {
     /// The judge is judged: 512 digits against exact rational arithmetic, 24 digits of it.
     #[test]
     fn exact_values_are_those_of_rational_arithmetic() {
-        let oracle: Value = serde_json::from_str(include_str!("../../../clatter/tests/data/clatter.json")).unwrap();
+        let oracle: Value =
+            serde_json::from_str(include_str!("../../../crates/clatter/tests/data/clatter.json")).unwrap();
         let cases = oracle["cases"].as_array().unwrap();
         assert_eq!(cases.len(), 212, "the oracle is whole");
         for c in cases {

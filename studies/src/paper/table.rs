@@ -1,7 +1,10 @@
 //! Tables: the words and digits of Table 1 and of the claims, as JSON and CSV.
 
-use clatter::paper::{Agreement, Claim, DESIGNS, Kind, Measured, Row, RowKind, Verdict};
+use clatter::design::DESIGNS;
 use serde::Serialize;
+
+use super::{Agreement, Claim, Kind, Measured, Row, RowKind, Verdict};
+use crate::files::{csv, decimals};
 
 /// Table 1 as data.
 #[derive(Debug, Serialize)]
@@ -47,17 +50,6 @@ struct Figure {
     error: f64,
     unit: &'static str,
     shown: String,
-}
-
-/// `value` with `digits` decimals, its zero without a sign, its minus as long as a plus.
-pub(crate) fn decimals(value: f64, digits: usize) -> String {
-    let text = format!("{value:.digits$}");
-    let text = if text.trim_start_matches('-').chars().all(|c| c == '0' || c == '.') {
-        text.trim_start_matches('-').to_owned()
-    } else {
-        text
-    };
-    text.replace('-', "−")
 }
 
 /// The agreement in a word.
@@ -138,15 +130,6 @@ pub(crate) fn claims(claims: &[Claim]) -> Claims {
         remark: c.remark,
     };
     Claims { claims: claims.iter().map(row).collect() }
-}
-
-/// A CSV field, quoted where it must be.
-fn field(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
-}
-
-pub(crate) fn csv(rows: impl IntoIterator<Item = Vec<String>>) -> String {
-    rows.into_iter().map(|row| row.iter().map(|f| field(f)).collect::<Vec<_>>().join(",") + "\n").collect()
 }
 
 impl Table1 {

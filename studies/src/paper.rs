@@ -1,15 +1,16 @@
-//! What the paper prints, beside what this crate computes: Table 1 and every statement about the results.
+//! What the paper prints, beside what clatter computes: Table 1 and every statement about the results.
 //!
 //! Source: "Safe zones for shock-protection of fragile components during impact-induced clatter".
 
 mod claims;
+mod page;
+mod table;
 
 pub use claims::{Claim, Kind, Measured, Verdict, claims};
+pub(crate) use page::Data;
 
-use crate::{Bar, Count, Error, Start, Summary};
-
-/// The (q, e) of Table 1: the reference, then the three suggested designs.
-pub const DESIGNS: [[f64; 2]; 4] = [[0.5, 0.3], [0.73, 0.2], [0.67, 0.15], [0.57, 0.1]];
+use clatter::design::DESIGNS;
+use clatter::{Bar, Count, Error, Start, Summary};
 
 /// A row of Table 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,7 +44,7 @@ impl Agreement {
     /// Compares `printed`, a decimal number with or without a per cent sign, with `value` in the same unit.
     ///
     /// ```
-    /// use clatter::paper::Agreement;
+    /// use clatter_studies::paper::Agreement;
     /// assert_eq!(Agreement::of("28.8%", 28.8267), Agreement::Rounded);
     /// assert_eq!(Agreement::of("90.9%", 90.9868), Agreement::Truncated);
     /// assert_eq!(Agreement::of("100%", 114.97), Agreement::Clipped);
@@ -93,7 +94,7 @@ pub struct Row {
 /// Table 1: what the paper prints, what is computed, and whether they agree.
 ///
 /// ```
-/// use clatter::paper::{Agreement, RowKind, table1};
+/// use clatter_studies::paper::{Agreement, RowKind, table1};
 /// let table = table1()?;
 /// let zone = table.iter().find(|row| row.kind == RowKind::SafeZone(2.0)).unwrap().cells[0];
 /// assert_eq!((zone.printed, zone.agreement), ("90.9%", Agreement::Truncated)); // 2 · 2/2.145 − 0.5 over 1.5 is 0.90987

@@ -11,16 +11,17 @@ mod plain;
 mod told;
 mod train;
 
-use clatter_studies::figures::{OrderPanel as Panel, orders as figure};
+use crate::figures::{OrderPanel as Panel, orders as figure};
+use clatter_report::File;
 use digits::inputs;
 use flight::Flights;
 use part::Part;
 use rayon::prelude::*;
 use train::{Found, Row};
 
-use crate::ReportError;
-use crate::paper::{File, pretty};
-use crate::table::csv;
+use crate::Error;
+use crate::files::csv;
+use crate::files::pretty;
 
 /// Everything the report shows.
 #[derive(Debug)]
@@ -58,22 +59,22 @@ const STRIKES: usize = 5;
 /// Every error that the accuracy report prints, measured anew.
 ///
 /// ```
-/// for row in clatter_report::measured()? {
+/// for row in clatter_studies::measured()? {
 ///     let (Some(allowed), Some(error)) = (row.allowed, row.measured) else { continue };
 ///     assert!(error <= allowed, "{row:?}");
 /// }
-/// # Ok::<(), clatter_report::ReportError>(())
+/// # Ok::<(), clatter_studies::Error>(())
 /// ```
 ///
 /// # Errors
 /// None in practice: all cases are valid.
-pub fn measured() -> Result<Vec<Measured>, ReportError> {
+pub fn measured() -> Result<Vec<Measured>, Error> {
     Ok(Data::compute()?.measured())
 }
 
 impl Data {
     /// Computes everything, in parallel.
-    pub(crate) fn compute() -> Result<Self, ReportError> {
+    pub(crate) fn compute() -> Result<Self, Error> {
         let (flights, (trains, part)) = rayon::join(Flights::compute, || {
             let rows = || train::cases().par_iter().map(Row::new).collect::<Result<Vec<_>, _>>();
             rayon::join(rows, Part::compute)
@@ -84,7 +85,7 @@ impl Data {
     }
 
     /// Figure as SVG, numbers as JSON, errors as CSV.
-    pub(crate) fn files(&self) -> Result<Vec<File>, ReportError> {
+    pub(crate) fn files(&self) -> Result<Vec<File>, Error> {
         let of = |parameter: &str| {
             let chosen = self.flights.orders.iter().filter(|order| order.parameter.starts_with(parameter));
             chosen.map(|order| (order, format!("{} to {}", order.model, order.limit))).collect()
@@ -219,6 +220,6 @@ mod tests {
     #[test]
     fn figures_stay_within_their_frame() {
         let files = Data::compute().unwrap().files().unwrap();
-        crate::paper::tests::stay_within_their_frame(&files);
+        crate::frame::stay_within_their_frame(&files);
     }
 }

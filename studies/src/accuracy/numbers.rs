@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::digits::inputs;
 use super::told::{count, counted, judged, pair, power, start, upper, written};
 use super::{Data, STRIKES, flight, part};
-use crate::table::decimals;
+use crate::files::decimals;
 use part::Cell;
 
 impl Data {
