@@ -2,6 +2,7 @@
 
 use crate::Error;
 
+/// As JSON that people can read.
 pub(crate) fn pretty(value: &impl serde::Serialize) -> Result<String, Error> {
     let text = serde_json::to_string_pretty(value).map_err(|error| Error::Data(error.to_string()))?;
     Ok(text + "\n")
@@ -23,6 +24,7 @@ fn field(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
+/// A line for each row.
 pub(crate) fn csv(rows: impl IntoIterator<Item = Vec<String>>) -> String {
     rows.into_iter().map(|row| row.iter().map(|f| field(f)).collect::<Vec<_>>().join(",") + "\n").collect()
 }

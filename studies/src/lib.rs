@@ -5,7 +5,7 @@
 //! - [`orders`], [`residues`], [`measured`]: how the models of a drop tend to one another, and how exact all of it is;
 //! - [`bars`], [`trade_files`], [`peers`]: what exactness costs, by our models and by other tools.
 //!
-//! [`figures`] draws what they find; [`write`] makes the printed reports, which the command `clatter report` gives.
+//! [`figures`] draws what they find; [`write()`] makes the printed reports, which the command `clatter report` gives.
 
 mod accuracy;
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! The paper's design method: which (q, e) give the wanted safe zones, and the front of the largest zone.
 //!
 //! Everything is about pure translation in the design plane 0 ≤ q ≤ 1, 0 ≤ e ≤ 1. At fixed q the peak at the ends
-//! grows with e (measured in the studies), so that every goal is met up to some e(q) and no
-//! further: what meets all goals lies below one curve, which is solved and not traced on a grid.
+//! grows with e (the claims of `clatter-studies` measure it), so that every goal is met up to some e(q) and no further: what
+//! meets all goals lies below one curve, which is solved and not traced on a grid.
 
 use crate::contour::{Point, falling_root, refine};
 use crate::{Bar, Error, Start};
