@@ -6,7 +6,7 @@ mod common;
 
 use std::fmt::Write as _;
 
-use clatter_flight::orders;
+use clatter_studies::orders;
 use common::{digits, golden, page};
 
 /// The power of ten that an error stays below; what is only rounding is told as such.
@@ -45,7 +45,7 @@ fn the_orders() {
 #[test]
 fn the_errors() {
     let mut text = String::from("allowed  ours      recurrence  plain       quantity at extreme\n");
-    for row in clatter_report::measured().unwrap() {
+    for row in clatter_studies::measured().unwrap() {
         let allowed = row.allowed.map_or("-".into(), |allowed| format!("{allowed:.0e}"));
         let [recurrence, plain] = row.plain.map(|error| ours(row.quantity, error));
         let ours = ours(row.quantity, row.measured);
@@ -61,7 +61,7 @@ fn the_errors() {
 #[test]
 fn the_page() {
     let openings = ["An error is ", "Table 1 ", "Table 2 ", "Table 5 ", "Fig. 1 ", "Table 10 ", "Table 11 ", "Fig. 2 "];
-    if let Some(text) = page(clatter_report::Report::Accuracy, &openings) {
+    if let Some(text) = page(clatter_studies::Report::Accuracy, &openings) {
         golden("accuracy-page", &text);
     }
 }

@@ -5,9 +5,10 @@
 
 use std::fmt::Write as _;
 
-use clatter::paper::DESIGNS;
+use clatter::design::DESIGNS;
 use clatter_assess::ProductFile;
-use clatter_assess::ladder::{Ladder, bars};
+use clatter_assess::ladder::Ladder;
+use clatter_studies::bars;
 
 /// What a model may get wrong; the reference is worked out ten times as exactly.
 const TOLERANCE: f64 = 0.01;

@@ -6,9 +6,9 @@ mod common;
 
 use std::fmt::Write as _;
 
-use clatter::contour::{self, SafeZone};
-use clatter::paper::{Kind, claims, table1};
 use clatter::{Axis, Map, Quantity};
+use clatter_studies::contour::{self, SafeZone};
+use clatter_studies::paper::{Kind, claims, table1};
 use common::{digits, golden, page};
 
 #[test]
@@ -87,7 +87,7 @@ fn coarse_maps() {
 #[test]
 fn the_page() {
     let openings = ["Of its ", "Fig. 2 ", "Fig. 5 ", "Fig. 6 ", "Fig. 7 "];
-    if let Some(text) = page(clatter_report::Report::Paper, &openings) {
+    if let Some(text) = page(clatter_studies::Report::Paper, &openings) {
         golden("page", &text);
     }
 }

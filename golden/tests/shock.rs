@@ -7,8 +7,9 @@ mod common;
 use std::fmt::Write as _;
 
 use clatter::Bar;
-use clatter::paper::DESIGNS;
-use clatter_shock::{DampingRatio, GainMap, Holders, Shape, ShapeFigures, SuspendedZones, rule_either_end, worst};
+use clatter::design::DESIGNS;
+use clatter_shock::{DampingRatio, Shape};
+use clatter_studies::suspended::{GainMap, Holders, ShapeFigures, SuspendedZones, rule_either_end, worst};
 use common::{digits, golden, page};
 use serde_json::Value;
 
@@ -150,7 +151,7 @@ fn rows(path: &str, value: &Value, text: &mut String) {
 }
 
 fn numbers() -> Value {
-    let json = clatter_report::shock_numbers().expect("the numbers of the page");
+    let json = clatter_studies::shock_numbers().expect("the numbers of the page");
     serde_json::from_str(&json).expect("JSON")
 }
 
@@ -173,6 +174,6 @@ fn the_equivalent_pulse() {
 #[test]
 fn the_page() {
     let openings = ["What follows, in short", "Fig. 1 ", "Fig. 3 ", "Fig. 7 ", "Fig. 10 ", "Fig. 12 "];
-    let Some(text) = page(clatter_report::Report::Shock, &openings) else { return };
+    let Some(text) = page(clatter_studies::Report::Shock, &openings) else { return };
     golden("shock-page", &text);
 }

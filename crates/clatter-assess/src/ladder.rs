@@ -7,11 +7,6 @@
 
 mod time;
 
-use std::f64::consts::TAU;
-
-use clatter::paper::DESIGNS;
-use clatter_flight::{Body, ContactLaw};
-use clatter_shock::{DampingRatio, STANDARD_GRAVITY_M_S2, Suspension};
 use serde::Serialize;
 
 pub use time::Machine;
@@ -133,9 +128,21 @@ impl Ladder {
     ///
     /// # Examples
     /// ```
-    /// use clatter_assess::ladder::{Ladder, bars};
-    /// let [(drop, part, limit), ..] = bars()?;
-    /// let ladder = Ladder::measure(&drop, &part, &limit, 0.01)?;
+    /// use clatter_assess::ladder::Ladder;
+    /// use clatter_assess::{Limit, LimitKind, Part, SingleDrop};
+    /// let drop = SingleDrop {
+    ///     body: clatter_flight::Body::new(0.14, 0.04)?,
+    ///     first: clatter::End::A,
+    ///     tilt_rad: 0.09,
+    ///     flat: false,
+    ///     speed_m_s: 4.43,
+    ///     restitution: 0.3,
+    ///     gravity_m_s2: 9.81,
+    ///     contact_time_s: Some(2e-4),
+    ///     contact_law: clatter_flight::ContactLaw::Hysteretic,
+    /// };
+    /// let part = Part { position_m: 0.06, suspension: None };
+    /// let ladder = Ladder::measure(&drop, &part, &Limit::new(LimitKind::VelocityChange, 3.0), 0.01)?;
     /// assert!(ladder.models.last().is_some_and(|fullest| fullest.error < 0.01));
     /// # Ok::<(), clatter_assess::Error>(())
     /// ```
@@ -246,38 +253,4 @@ impl ProductFile {
         let (product, machine) = (assessment.product.clone(), Machine::here());
         Ok(ProductLadder { product, tolerance, machine, limits, left_out })
     }
-}
-
-/// A bar with this inertia ratio and restitution as a drop to compare others with: 140 mm long, 4.43 m/s (from 1 m),
-/// 5°, standard gravity, contacts of 0.2 ms; the acceleration of a board with a mode at 230 Hz, Q = 10, near the end that strikes
-/// second (s = 0.9).
-///
-/// # Errors
-/// [`Error::Bar`] unless q is in (−1, 1] and e in [0, 1].
-pub fn bar(q: f64, e: f64) -> Result<(SingleDrop, Part, Limit), Error> {
-    let part = Suspension::new(TAU * 230.0, DampingRatio::from_quality_factor(10.0)?)?;
-    // q = (L² − ρ²)/(L² + ρ²)
-    let gyration_m = 0.07 * ((1.0 - q) / (1.0 + q)).sqrt();
-    let drop = SingleDrop {
-        body: Body::new(0.14, gyration_m)?,
-        first: clatter::End::A,
-        tilt_rad: 5f64.to_radians(),
-        flat: false,
-        speed_m_s: 4.43,
-        restitution: e,
-        gravity_m_s2: STANDARD_GRAVITY_M_S2,
-        contact_time_s: Some(2e-4),
-        contact_law: ContactLaw::Hysteretic,
-    };
-    let place = Part { position_m: 0.9 * 0.07, suspension: Some(part) };
-    Ok((drop, place, Limit::new(LimitKind::Acceleration, 1.0)))
-}
-
-/// The four bars of the paper's Table 1 ([`DESIGNS`]) as drops, each a [`bar`].
-///
-/// # Errors
-/// None in practice: the numbers are valid.
-pub fn bars() -> Result<[(SingleDrop, Part, Limit); 4], Error> {
-    let [a, b, c, d] = DESIGNS.map(|[q, e]| bar(q, e));
-    Ok([a?, b?, c?, d?])
 }

@@ -64,6 +64,8 @@ pub(crate) enum Failure {
     Figure(#[from] clatter_figures::FigureError),
     #[error(transparent)]
     Report(#[from] ReportError),
+    #[error(transparent)]
+    Study(#[from] clatter_studies::Error),
 }
 
 impl Failure {
@@ -74,7 +76,8 @@ impl Failure {
 
     pub(crate) fn exit(&self) -> Exit {
         match self {
-            Self::Report(ReportError::Typst(_)) => Exit::Outside,
+            Self::Report(ReportError::Typst(_))
+            | Self::Study(clatter_studies::Error::Report(ReportError::Typst(_))) => Exit::Outside,
             _ => Exit::BadInput,
         }
     }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{ValueEnum, ValueHint};
-use clatter_report::Report;
+use clatter_studies::Report;
 use serde::Serialize;
 
 use crate::inputs::Format;
@@ -80,7 +80,7 @@ impl Args {
                     streams.note("clatter", step);
                 }
             };
-            let written = clatter_report::write(report, &self.output, &mut progress)?;
+            let written = clatter_studies::write(report, &self.output, &mut progress)?;
             for warning in &written.warnings {
                 streams.note("warning", warning);
             }

@@ -6,14 +6,17 @@ use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, Value
 
 /// One axis.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Axis<'a> {
-    pub(crate) low: f64,
-    pub(crate) high: f64,
-    pub(crate) log: bool,
+pub struct Axis<'a> {
+    /// Its value at the low end.
+    pub low: f64,
+    /// Its value at the high end.
+    pub high: f64,
+    /// Whether it is logarithmic.
+    pub log: bool,
     /// In figure markup.
-    pub(crate) title: &'a str,
+    pub title: &'a str,
     /// Without ticks and grid.
-    pub(crate) bare: bool,
+    pub bare: bool,
 }
 
 impl Ranged for Axis<'_> {
@@ -40,11 +43,13 @@ impl ValueFormatter<f64> for Axis<'_> {
 
 impl<'a> Axis<'a> {
     /// Logarithmic, as it is.
-    pub(crate) fn log(low: f64, high: f64, title: &'a str) -> Self {
+    #[must_use]
+    pub fn log(low: f64, high: f64, title: &'a str) -> Self {
         Self { low, high, log: true, title, bare: false }
     }
     /// Logarithmic, widened to 1, 2 or 5 times powers of ten; at most `decades` down from the largest value.
-    pub(crate) fn log_over(values: impl Iterator<Item = f64>, decades: f64, title: &'a str) -> Self {
+    #[must_use]
+    pub fn log_over(values: impl Iterator<Item = f64>, decades: f64, title: &'a str) -> Self {
         let (low, high) = values
             .filter(|v| *v > 0.0 && v.is_finite())
             .fold((f64::INFINITY, 0.0_f64), |(a, b), v| (a.min(v), b.max(v)));
@@ -56,7 +61,9 @@ impl<'a> Axis<'a> {
         let (low, high) = if high < 8.0 * low { (step_down(0.4 * low), step_up(2.5 * high)) } else { (low, high) };
         Self::log(low.max(1e-307), high.min(1e307), title)
     }
-    pub(crate) fn linear(low: f64, high: f64, title: &'a str) -> Self {
+    /// In equal steps, as it is.
+    #[must_use]
+    pub fn linear(low: f64, high: f64, title: &'a str) -> Self {
         Self { low, high, log: false, title, bare: false }
     }
     /// 0 at the low end, 1 at the high one; not finite for what a logarithm cannot show.
@@ -131,8 +138,9 @@ fn step_down(v: f64) -> f64 {
     [5.0, 2.0, 1.0].into_iter().map(|k| k * decade).find(|s| *s <= v * (1.0 + 1e-9)).unwrap_or(0.5 * decade)
 }
 
-/// The smallest one at or above `v`.
-pub(crate) fn step_up(v: f64) -> f64 {
+/// The smallest 1, 2 or 5 times a power of ten at or above `v`.
+#[must_use]
+pub fn step_up(v: f64) -> f64 {
     let decade = 10f64.powf(v.log10().floor());
     [1.0, 2.0, 5.0].into_iter().map(|k| k * decade).find(|s| *s >= v * (1.0 - 1e-9)).unwrap_or(10.0 * decade)
 }

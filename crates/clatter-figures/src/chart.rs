@@ -20,20 +20,27 @@ const LABELS: usize = 20;
 
 /// A frame on the page with its two axes.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Axes<'a> {
-    /// Upper left corner and size in pt.
-    pub(crate) corner: Pt,
-    pub(crate) size: Pt,
-    pub(crate) x: Axis<'a>,
-    pub(crate) y: Axis<'a>,
+pub struct Axes<'a> {
+    /// Upper left corner in pt.
+    pub corner: Pt,
+    /// Width and height in pt.
+    pub size: Pt,
+    /// To the right.
+    pub x: Axis<'a>,
+    /// Upward.
+    pub y: Axis<'a>,
 }
 
 /// The same, drawn.
-pub(crate) struct Chart<'a> {
-    pub(crate) corner: Pt,
-    pub(crate) size: Pt,
-    pub(crate) x: Axis<'a>,
-    pub(crate) y: Axis<'a>,
+pub struct Chart<'a> {
+    /// Upper left corner in pt.
+    pub corner: Pt,
+    /// Width and height in pt.
+    pub size: Pt,
+    /// To the right.
+    pub x: Axis<'a>,
+    /// Upward.
+    pub y: Axis<'a>,
     context: Option<ChartContext<'a, Page, Cartesian2d<Axis<'a>, Axis<'a>>>>,
 }
 
@@ -50,13 +57,15 @@ pub(crate) fn units(points: f64) -> i32 {
 
 impl<'a> Axes<'a> {
     /// White ground, grid, ticks and titles. The title of y stands at `off` to the left.
-    pub(crate) fn on(self, paper: &mut Paper, off: f64) -> Chart<'a> {
+    #[must_use]
+    pub fn on(self, paper: &mut Paper, off: f64) -> Chart<'a> {
         paper.rect(self.corner, self.size, Ink::fill("#ffffff"));
         self.built(paper, off, true)
     }
 
-    /// Ticks and titles alone.
-    pub(crate) fn without_grid(self, paper: &mut Paper, off: f64) -> Chart<'a> {
+    /// Ticks and titles alone. The title of y stands at `off` to the left.
+    #[must_use]
+    pub fn without_grid(self, paper: &mut Paper, off: f64) -> Chart<'a> {
         self.built(paper, off, false)
     }
 
@@ -98,9 +107,22 @@ impl<'a> Axes<'a> {
     }
 }
 
+impl std::fmt::Debug for Chart<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { corner, size, x, y, context: _ } = self;
+        f.debug_struct("Chart")
+            .field("corner", corner)
+            .field("size", size)
+            .field("x", x)
+            .field("y", y)
+            .finish_non_exhaustive()
+    }
+}
+
 impl Chart<'_> {
     /// On the page; not finite for what a logarithm cannot show.
-    pub(crate) fn at(&self, x: f64, y: f64) -> Pt {
+    #[must_use]
+    pub fn at(&self, x: f64, y: f64) -> Pt {
         let ([left, top], [w, h]) = (self.corner, self.size);
         [left + w * self.x.unit(x), top + h * (1.0 - self.y.unit(y))]
     }
@@ -112,13 +134,18 @@ impl Chart<'_> {
         }
     }
 
+    /// The area within points (x, y).
+    pub fn area(&self, paper: &mut Paper, points: Vec<(f64, f64)>, fill: &str) {
+        self.draw(paper, vec![points], What::Area(Ink::fill(fill)));
+    }
+
     /// The frame, above the series.
-    pub(crate) fn border(&self, paper: &mut Paper) {
+    pub fn border(&self, paper: &mut Paper) {
         paper.rect(self.corner, self.size, Ink::line(INK, 0.6));
     }
 
     /// A curve through points (x, y), cut at the frame: plotters would hold it at the edge.
-    pub(crate) fn curve(&self, paper: &mut Paper, points: impl Iterator<Item = (f64, f64)>, ink: Ink<'_>) {
+    pub fn curve(&self, paper: &mut Paper, points: impl Iterator<Item = (f64, f64)>, ink: Ink<'_>) {
         let (x, y) = (self.x, self.y);
         let pieces = cut(points.map(|(a, b)| [x.unit(a), y.unit(b)]));
         for piece in pieces {
@@ -128,12 +155,12 @@ impl Chart<'_> {
     }
 
     /// A straight line across the whole frame at one y.
-    pub(crate) fn level(&self, paper: &mut Paper, y: f64, ink: Ink<'_>) {
+    pub fn level(&self, paper: &mut Paper, y: f64, ink: Ink<'_>) {
         self.curve(paper, [(self.x.low, y), (self.x.high, y)].into_iter(), ink);
     }
 
     /// A mark, if it lies in the frame.
-    pub(crate) fn mark(&self, paper: &mut Paper, x: f64, y: f64, fill: &str) {
+    pub fn mark(&self, paper: &mut Paper, x: f64, y: f64, fill: &str) {
         let inside = |axis: &Axis<'_>, v| (-1e-9..=1.0 + 1e-9).contains(&axis.unit(v));
         if inside(&self.x, x) && inside(&self.y, y) {
             self.draw(

@@ -8,7 +8,6 @@
 #![allow(clippy::disallowed_methods, reason = "what is shown has few digits")]
 
 mod axis;
-mod bar;
 mod chart;
 mod component;
 mod design;
@@ -18,34 +17,36 @@ mod grid;
 mod heat;
 mod labels;
 mod ladder;
-mod orders;
 mod page;
 mod paper;
-mod peers;
 mod plane;
 mod product;
 mod record;
-pub mod rules;
 mod shock;
 mod style;
 mod surface;
 
 pub use axis::{raised, three, tick};
-pub use bar::scheme;
 pub use component::{Share, history, is_drawn, over_tilt, shares};
 pub use design::{DesignBorder, DesignFronts, DesignPlane, fronts, plane as design_plane};
 pub use drop::{Drop, drop};
 pub use fit::fit;
 pub use heat::map;
 pub use ladder::{Panel as LadderPanel, panels as ladders, words as model_words};
-pub use orders::{Panel as OrderPanel, orders};
-pub use peers::{Dot, Tool, tools};
-pub use plane::{Impacts, Zones, impacts, zones};
 pub use product::{Place, product};
 pub use record::{Trace, record};
 pub use shock::{Against, Critical, beside, boundary, damage_boundary, rule, spectra, spectrum, two};
-pub use style::RUST;
 pub use surface::{Sheet, Surface, surface};
+
+/// What figures are drawn with: a page in points, charts on it, and how lines and words look.
+pub mod draw {
+    pub use crate::axis::{Axis, step_up};
+    pub use crate::chart::{Axes, Chart};
+    pub use crate::paper::{Paper, SMALL};
+    pub use crate::plane::{percent, plane_axes};
+    pub use crate::shock::GUIDE;
+    pub use crate::style::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, Pt, RUST, SAND, width};
+}
 
 /// Why a figure was not drawn: what plotters says.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -71,7 +71,7 @@ impl<P> Drawable<Page> for Element<'_, P> {
 }
 
 /// A page in points. The first failure of plotters is kept until the end.
-pub(crate) struct Paper {
+pub struct Paper {
     page: Page,
     pub(crate) root: DrawingArea<Page, Shift>,
     points: DrawingArea<Page, Cartesian2d<Axis<'static>, Axis<'static>>>,
@@ -80,8 +80,16 @@ pub(crate) struct Paper {
     error: Option<FigureError>,
 }
 
+impl std::fmt::Debug for Paper {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Paper").field("described", &self.described).field("error", &self.error).finish_non_exhaustive()
+    }
+}
+
 impl Paper {
-    pub(crate) fn new(width: f64, height: f64) -> Self {
+    /// A page of this width and height.
+    #[must_use]
+    pub fn new(width: f64, height: f64) -> Self {
         let page = Page::new([width, height]);
         let root = page.clone().into_drawing_area();
         let (w, h) = root.dim_in_pixel();
@@ -121,24 +129,27 @@ impl Paper {
     }
 
     /// A line through points, or the area within them.
-    pub(crate) fn path(&mut self, points: &[Pt], closed: bool, ink: Ink<'_>) {
+    pub fn path(&mut self, points: &[Pt], closed: bool, ink: Ink<'_>) {
         self.here(points, if closed { What::Area(ink) } else { What::Lines(ink) });
     }
 
-    pub(crate) fn line(&mut self, from: Pt, to: Pt, ink: Ink<'_>) {
+    /// A straight line.
+    pub fn line(&mut self, from: Pt, to: Pt, ink: Ink<'_>) {
         self.path(&[from, to], false, ink);
     }
 
-    pub(crate) fn rect(&mut self, [x, y]: Pt, [w, h]: Pt, ink: Ink<'_>) {
+    /// A rectangle from its upper left corner, with its width and height.
+    pub fn rect(&mut self, [x, y]: Pt, [w, h]: Pt, ink: Ink<'_>) {
         self.path(&[[x, y], [x + w, y], [x + w, y + h], [x, y + h]], true, ink);
     }
 
-    pub(crate) fn circle(&mut self, at: Pt, r: f64, ink: Ink<'_>) {
+    /// A circle of radius r.
+    pub fn circle(&mut self, at: Pt, r: f64, ink: Ink<'_>) {
         self.here(&[at], What::Circles(r, ink));
     }
 
     /// A line with a head at its end.
-    pub(crate) fn arrow(&mut self, from: Pt, to: Pt, color: &str, width: f64) {
+    pub fn arrow(&mut self, from: Pt, to: Pt, color: &str, width: f64) {
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
         let length = dx.hypot(dy).max(1e-9);
         let (ux, uy) = (dx / length, dy / length);
@@ -150,17 +161,17 @@ impl Paper {
     }
 
     /// Words in figure markup.
-    pub(crate) fn text(&mut self, at: Pt, text: &str, label: Label<'_>) {
+    pub fn text(&mut self, at: Pt, text: &str, label: Label<'_>) {
         self.here(&[at], What::Text(text, label));
     }
 
     /// Words as they are.
-    pub(crate) fn plain(&mut self, at: Pt, text: &str, label: Label<'_>) {
+    pub fn plain(&mut self, at: Pt, text: &str, label: Label<'_>) {
         self.here(&[at], What::Plain(text, label));
     }
 
     /// What the lines of a figure mean, one below the other from `at` on. Returns where the next line would stand.
-    pub(crate) fn key(&mut self, [x, mut y]: Pt, lines: &[(Ink<'_>, &str)]) -> f64 {
+    pub fn key(&mut self, [x, mut y]: Pt, lines: &[(Ink<'_>, &str)]) -> f64 {
         for (ink, text) in lines {
             self.describe(&format!("a line: {text}"));
             self.line([x, y - 2.8], [x + 18.0, y - 2.8], *ink);
@@ -171,7 +182,7 @@ impl Paper {
     }
 
     /// A line of words below a key.
-    pub(crate) fn note(&mut self, at: Pt, text: &str) {
+    pub fn note(&mut self, at: Pt, text: &str) {
         self.text(at, text, Label { anchor: Anchor::Start, color: GRAY, ..SMALL });
     }
 
@@ -184,7 +195,7 @@ impl Paper {
     ///
     /// # Errors
     /// The first failure of plotters.
-    pub(crate) fn finish(self, title: &str) -> Result<String, FigureError> {
+    pub fn finish(self, title: &str) -> Result<String, FigureError> {
         match self.error {
             Some(error) => Err(error),
             None => Ok(self.page.finish(title, &self.described.join("; "))),
@@ -193,4 +204,4 @@ impl Paper {
 }
 
 /// Ticks and keys.
-pub(crate) const SMALL: Label<'static> = Label { size: 8.0, ..LABEL };
+pub const SMALL: Label<'static> = Label { size: 8.0, ..LABEL };

@@ -30,7 +30,7 @@ const OTHERS: [Ink; 6] = [
     Ink { dash: "6 2", ..Ink::line(GRAY, 1.2) },
 ];
 /// Asymptotes and other guides.
-pub(crate) const GUIDE: Ink = Ink { dash: "3 2.5", ..Ink::line(GRAY, 0.8) };
+pub const GUIDE: Ink = Ink { dash: "3 2.5", ..Ink::line(GRAY, 0.8) };
 /// Lines of four-coordinate paper that run aslant.
 const SLANT: Ink = Ink::line("#c6ced6", 0.4);
 

@@ -1,17 +1,17 @@
 //! Colors, lines and labels of the figures.
 
 /// A point on the page.
-pub(crate) type Pt = [f64; 2];
+pub type Pt = [f64; 2];
 
 /// One calm palette, light to dark; its steps are told apart in gray as well.
-pub(crate) const BLUES: [&str; 9] =
+pub const BLUES: [&str; 9] =
     ["#f2f6fa", "#e1ebf4", "#cddeed", "#b5cde3", "#98b8d6", "#779fc6", "#5585b3", "#37699a", "#1f4e7c"];
 /// Lines and letters.
-pub(crate) const INK: &str = "#1d2329";
+pub const INK: &str = "#1d2329";
 /// Ticks, rules and second voices.
-pub(crate) const GRAY: &str = "#68717b";
+pub const GRAY: &str = "#68717b";
 /// Regions apart: endless, or no safe zone.
-pub(crate) const SAND: &str = "#efe5d3";
+pub const SAND: &str = "#efe5d3";
 /// What must catch the eye.
 pub const RUST: &str = "#a34a1c";
 /// What is open.
@@ -22,50 +22,60 @@ pub(crate) const FONT: &str = "Libertinus Serif";
 
 /// How a shape is drawn.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Ink<'a> {
+pub struct Ink<'a> {
     /// Fill color or `none`.
-    pub(crate) fill: &'a str,
+    pub fill: &'a str,
     /// Line color or `none`.
-    pub(crate) stroke: &'a str,
+    pub stroke: &'a str,
     /// Line width in pt.
-    pub(crate) width: f64,
+    pub width: f64,
     /// Lengths of dashes and gaps in pt, empty for a whole line.
-    pub(crate) dash: &'static str,
+    pub dash: &'static str,
 }
 
 impl<'a> Ink<'a> {
-    pub(crate) const fn line(stroke: &'a str, width: f64) -> Self {
+    /// A whole line of this color, its width in pt.
+    #[must_use]
+    pub const fn line(stroke: &'a str, width: f64) -> Self {
         Self { fill: "none", stroke, width, dash: "" }
     }
-    pub(crate) const fn fill(fill: &'a str) -> Self {
+    /// An area of this color, without a line around it.
+    #[must_use]
+    pub const fn fill(fill: &'a str) -> Self {
         Self { fill, stroke: "none", width: 0.0, dash: "" }
     }
 }
 
 /// Where a label stands about its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Anchor {
+pub enum Anchor {
+    /// It begins there.
     Start,
+    /// Its middle is there.
     Middle,
+    /// It ends there.
     End,
 }
 
 /// How a label is set.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Label<'a> {
-    pub(crate) anchor: Anchor,
+pub struct Label<'a> {
+    /// What of it lies at its point.
+    pub anchor: Anchor,
     /// Font size in pt.
-    pub(crate) size: f64,
+    pub size: f64,
     /// Degrees, clockwise as seen.
-    pub(crate) turn: f64,
-    pub(crate) color: &'a str,
+    pub turn: f64,
+    /// Of the letters.
+    pub color: &'a str,
 }
 
 /// A label in the middle of its point, at the size of the figures' text.
-pub(crate) const LABEL: Label<'static> = Label { anchor: Anchor::Middle, size: 8.5, turn: 0.0, color: INK };
+pub const LABEL: Label<'static> = Label { anchor: Anchor::Middle, size: 8.5, turn: 0.0, color: INK };
 
 /// About how wide a label is, from the widths of the typeface's letters (± 10 %): to keep labels apart.
-pub(crate) fn width(text: &str, size: f64) -> f64 {
+#[must_use]
+pub fn width(text: &str, size: f64) -> f64 {
     let letter = |c: char| match c {
         '*' | '_' | '{' | '}' => 0.0,
         'i' | 'j' | 'l' | 't' | 'f' | 'r' | '.' | ',' | ' ' | '\'' | '(' | ')' | ':' => 0.28,

@@ -18,7 +18,6 @@ mod ends;
 mod energy;
 mod extremes;
 mod independent;
-mod orders;
 mod plain;
 mod reference;
 mod rest;

@@ -10,8 +10,8 @@ use clatter_assess::{Assessment, Component, ComponentAssessment, LimitKind, Port
 use clatter_figures::{FigureError, Place, Share, history, over_tilt, product, shares};
 use serde_json::{Value, json};
 
+use crate::Pages;
 use crate::words::{customary, hundredths, name, percent, sure_name};
-use crate::{Pages, paper};
 
 /// What the models leave out, in plain words.
 const NOT_COVERED: [[&str; 2]; 10] = [
@@ -114,7 +114,6 @@ pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureEr
         "limits-of-the-model": NOT_COVERED,
     });
     files.push(("assessment.json".into(), data.to_string()));
-    files.push(("page.json".into(), paper::page()));
     Ok(files)
 }
 

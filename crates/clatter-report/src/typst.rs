@@ -6,6 +6,7 @@ mod lock;
 mod run;
 mod wheel;
 
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -28,11 +29,18 @@ const VERSION_LIMIT: Duration = Duration::from_secs(20);
 const LOCK_LIMIT: Duration = Duration::from_secs(45 * 60);
 
 /// A typst to start: its command, or a program that does the same once it is given some arguments before those of typst.
+///
+/// Reports find one by themselves; this is for those who must know which.
 #[derive(Debug)]
-pub(crate) struct Typst {
+pub struct Typst {
     program: PathBuf,
     before: &'static [&'static str],
     limit: Duration,
+}
+
+/// A variable of the environment; what is empty counts as not set.
+fn env(name: &str) -> Option<OsString> {
+    std::env::var_os(name).filter(|value| !value.is_empty())
 }
 
 /// The failure of an outside program; the message may hold what it said.
@@ -49,7 +57,34 @@ impl Typst {
     /// a new one there, unless `CLATTER_NO_INSTALL` is set: the wheel for Python, and where that cannot be had, one built
     /// with cargo. Warnings tell what was passed over and of a version other than the tested one.
     pub(crate) fn find(progress: &mut dyn FnMut(&str)) -> Result<(Self, Vec<String>), ReportError> {
-        Self::find_with(&|name| std::env::var_os(name).filter(|value| !value.is_empty()), progress)
+        Self::find_with(&env, progress)
+    }
+
+    /// The command typst of the version that the pages are tested with, where there is one: named by `CLATTER_TYPST`, on PATH or
+    /// built into the project's cache.
+    ///
+    /// # Errors
+    /// [`ReportError::Typst`] where `CLATTER_TYPST` names no file.
+    pub fn by_command() -> Result<Option<Self>, ReportError> {
+        let all = find::named(&env)?.into_iter().chain(find::on_path(&env, "typst")).map(Self::new);
+        let mut all = all.chain(find::root(&env).ok().map(|root| build::kept(&root)));
+        Ok(all.find(|typst| typst.asked().is_ok_and(|warning| warning.is_none())))
+    }
+
+    /// The wheel of typst in the project's cache, put there if there is none that runs, unless `CLATTER_NO_INSTALL` is set.
+    ///
+    /// # Errors
+    /// [`ReportError`] where it cannot be had.
+    pub fn by_wheel(progress: &mut dyn FnMut(&str)) -> Result<Self, ReportError> {
+        let root = find::root(&env)?;
+        fs::create_dir_all(&root).map_err(|source| ReportError::Io { path: root.clone(), source })?;
+        let _lock = lock::lock(&root.join("lock"), LOCK_LIMIT, progress)?;
+        let kept = wheel::kept(&root);
+        if kept.asked().is_ok() {
+            return Ok(kept);
+        }
+        find::may_install(&env)?;
+        wheel::install(&env, &root, wheel::STEP_LIMIT, progress)
     }
 
     /// Whatever keeps it from being found is one failure, that of the outside program: a full disk and a directory that cannot be
@@ -184,12 +219,13 @@ fn is_pdf(bytes: &[u8]) -> bool {
 
 #[cfg(test)]
 mod both_ways;
+#[cfg(test)]
+mod ways;
 
 #[cfg(test)]
 #[cfg(unix)]
 pub(crate) mod tests {
     use super::*;
-    use std::ffi::OsString;
     use std::os::unix::fs::PermissionsExt as _;
 
     /// A program that stands in for another one.

@@ -51,7 +51,13 @@ pub(crate) fn minus(text: &str) -> String {
 }
 
 /// A reason as the ladder gives it, its numbers without powers of ten and its models without hyphens.
-pub(crate) fn reason(text: &str) -> String {
+///
+/// ```
+/// let told = clatter_report::words::reason("contacts overlap: τ/Δt = 2.60e0; finite-tilt");
+/// assert_eq!(told, "contacts overlap: τ/Δt = 2.6; finite tilt");
+/// ```
+#[must_use]
+pub fn reason(text: &str) -> String {
     let word = |word: &str| {
         let bare = word.trim_end_matches([';', ',']);
         let tidy = match bare.parse::<f64>() {

@@ -177,16 +177,6 @@ impl ImpulseFactors {
     }
 }
 
-impl ImpulseFactors {
-    /// The larger of each.
-    pub(crate) fn or_larger(self, other: Self) -> Self {
-        Self {
-            displacement: self.displacement.max(other.displacement),
-            acceleration: self.acceleration.max(other.acceleration),
-        }
-    }
-}
-
 impl VelocityShocks {
     /// Peaks ωz and A/ω of a component so soft that all shocks fall within a small part of its period (ω times the
     /// length of the train → 0): the net change of velocity times the impulse factors. The acceleration passes through

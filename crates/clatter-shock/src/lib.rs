@@ -68,7 +68,6 @@ mod shocks;
 mod side_by_side;
 mod spectrum;
 mod standard;
-mod study;
 mod suspension;
 mod tolerance;
 mod uneven;
@@ -89,10 +88,6 @@ pub use required::{Deviation, RequiredSpectrum};
 pub use shocks::{MOST_SHOCKS, Search, Shock, Shocks, find_shocks, noise_threshold};
 pub use spectrum::{Frequencies, Quantity, Spectrum, Summary};
 pub use standard::{STANDARD_CURVES, STANDARD_PULSES, StandardCurve, StandardPulse, standard_curve, standard_pulse};
-pub use study::{
-    GainMap, Holders, OMEGAS, ShapeFigures, SuspendedZones, Worst, amplification, half_sine_train, impact_of_peak,
-    omegas, rule_either_end, suspended_zone, worst,
-};
 pub use suspension::{DampingRatio, State, Suspension};
 pub use tolerance::{Distortion, PULSE_TOLERANCES, PulseCheck, PulseTolerance, Within, check_pulse, pulse_tolerance};
 pub use uneven::UnevenFilter;

@@ -1,11 +1,17 @@
 //! The paper's design method: which (q, e) give the wanted safe zones, and the front of the largest zone.
 //!
 //! Everything is about pure translation in the design plane 0 ≤ q ≤ 1, 0 ≤ e ≤ 1. At fixed q the peak at the ends
-//! grows with e (see [`crate::paper::claims`], which measures it), so that every goal is met up to some e(q) and no
-//! further: what meets all goals lies below one curve, which is solved and not traced on a grid.
+//! grows with e (the claims of `clatter-studies` measure it), so that every goal is met up to some e(q) and no further: what
+//! meets all goals lies below one curve, which is solved and not traced on a grid.
 
-use crate::contour::{Point, SCAN, SafeZone, falling_root, refine};
+use crate::contour::{Point, falling_root, refine};
 use crate::{Bar, Error, Start};
+
+/// The (q, e) of the paper's Table 1: the reference, then the three suggested designs.
+pub const DESIGNS: [[f64; 2]; 4] = [[0.5, 0.3], [0.73, 0.2], [0.67, 0.15], [0.57, 0.1]];
+
+/// Steps of the search along q for places where a curve leaves the square; a piece shorter in q is missed.
+const SCAN: u32 = 512;
 
 /// What a design shall reach. Velocities are in v0, angular velocities in v0/L.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,7 +78,7 @@ impl Goal {
     #[must_use]
     pub fn largest_restitution(self, q: f64) -> Option<f64> {
         let wanted = self.needed(q);
-        let excess = |e| SafeZone::inverse_peak(q, e) - wanted;
+        let excess = |e| inverse_peak(q, e) - wanted;
         let (low, high) = (excess(0.0), excess(1.0));
         if high >= 0.0 {
             Some(1.0)
@@ -124,7 +130,7 @@ pub fn region(goals: &[Goal], flatness: f64) -> Vec<Vec<Point>> {
     let piece = |[a, b]: [f64; 2]| {
         let (start, end) = (at(a), at(b));
         let mut piece = vec![start];
-        refine(&at, start, end, flatness, 0, &mut piece);
+        refine(&at, start, end, flatness, &mut piece);
         piece
     };
     pieces.into_iter().map(piece).collect()
@@ -260,10 +266,14 @@ fn intervals(good: impl Fn(f64) -> bool) -> Vec<[f64; 2]> {
     found
 }
 
+/// 1/peak at the ends, which is finite at (1, 1) too.
+fn inverse_peak(q: f64, e: f64) -> f64 {
+    Bar::new(q, e).map_or(f64::NAN, |bar| 1.0 / bar.summary(&Start::default()).peak.end)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::paper::DESIGNS;
     use proptest::prelude::*;
 
     fn paper(level: f64) -> [Goal; 2] {

@@ -31,7 +31,6 @@ mod excitation;
 mod map;
 mod motion;
 mod off_center;
-pub mod paper;
 mod plate;
 pub mod quadrature;
 pub mod reference;

@@ -28,13 +28,13 @@ pub(crate) fn digits(value: f64, digits: u8) -> String {
 
 /// What the page of a report says, where a reader or a screen reader looks for it: with the text that follows each of
 /// the `openings`.
-pub(crate) fn page(report: clatter_report::Report, openings: &[&str]) -> Option<String> {
+pub(crate) fn page(report: clatter_studies::Report, openings: &[&str]) -> Option<String> {
     let dir = tempfile::tempdir().expect("a temporary directory");
     // an opt-out for machines that cannot have typst; it is never set in CI
     if std::env::var_os("CLATTER_SKIP_TYPST").is_some() {
         return None;
     }
-    let written = clatter_report::write(report, dir.path(), &mut |_| ()).expect("the report is written");
+    let written = clatter_studies::write(report, dir.path(), &mut |_| ()).expect("the report is written");
     let pdf = lopdf::Document::load(&written.files[0]).expect("a PDF");
     let mut text = String::new();
     let files: Vec<_> =

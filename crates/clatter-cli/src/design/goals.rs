@@ -3,8 +3,7 @@
 use std::io::{self, Write};
 
 use clatter::contour::Point;
-use clatter::design::{Front, FrontPoint, Goal, front, region};
-use clatter::paper::DESIGNS;
+use clatter::design::{DESIGNS, Front, FrontPoint, Goal, front, region};
 use clatter::{Bar, Start};
 use clatter_figures::{DesignBorder, DesignFronts, DesignPlane};
 use serde::Serialize;

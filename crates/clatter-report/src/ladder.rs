@@ -1,0 +1,74 @@
+//! What every model gets wrong and what it costs, drawn.
+
+use clatter_assess::ladder::{LimitLadder, ProductLadder};
+use clatter_figures::{FigureError, LadderPanel as Panel, ladders as panels, three};
+
+use crate::words;
+
+/// A panel for each limit.
+pub(crate) fn of_product(product: &ProductLadder) -> Result<String, FigureError> {
+    panels(&product.limits.iter().map(|limit| of_limit(limit, product.tolerance)).collect::<Vec<_>>())
+}
+
+fn of_limit(limit: &LimitLadder, tolerance: f64) -> Panel<'_> {
+    let LimitLadder { component, limit: kind, worst_case: worst, ladder } = limit;
+    Panel {
+        title: format!("{}: {}", words::name(component), kind.words()),
+        drop: format!(
+            "end {} first at {} m/s, {}°, e = {}",
+            words::end(worst.drop.first),
+            three(worst.drop.speed_m_s),
+            three(worst.tilt_deg()),
+            three(worst.drop.restitution)
+        ),
+        ladder,
+        reason: words::reason(&ladder.reason),
+        tolerance,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::stay_within_their_frame;
+    use clatter_assess::ladder::Ladder;
+    use clatter_assess::{Limit, LimitKind, Part, SingleDrop};
+    use clatter_flight::{Body, ContactLaw};
+    use clatter_shock::{DampingRatio, Suspension};
+
+    /// A flat drop, a dead one and a lively one: errors beyond all scales, times that differ little.
+    #[test]
+    fn extremes_stay_in_the_frame() {
+        let part = Suspension::from_hz(100.0, DampingRatio::new(0.0).unwrap()).unwrap();
+        for (gyration_m, e, tilt_rad, contact_time_s) in
+            [(0.01, 0.5, 0.1, None), (0.04, 0.0, 0.0, Some(1e-3)), (0.04, 0.6, 0.0, None)]
+        {
+            let drop = SingleDrop {
+                body: Body::new(0.14, gyration_m).unwrap(),
+                first: clatter::End::A,
+                tilt_rad,
+                flat: false,
+                speed_m_s: 1.0,
+                restitution: e,
+                gravity_m_s2: 9.81,
+                contact_time_s,
+                contact_law: ContactLaw::Hysteretic,
+            };
+            for kind in [LimitKind::Acceleration, LimitKind::VelocityChange] {
+                let place = Part { position_m: 0.02, suspension: Some(part) };
+                let mut ladder = Ladder::measure(&drop, &place, &Limit::new(kind, 1.0), 0.01).unwrap();
+                ladder.models[0].error = f64::INFINITY;
+                let of = Panel {
+                    title: "an *extreme* <one>".to_owned(),
+                    drop: String::new(),
+                    ladder: &ladder,
+                    reason: String::new(),
+                    tolerance: 0.01,
+                };
+                let svg = panels(&[of]).unwrap();
+                assert!(svg.contains("off the scale") && svg.contains("&lt;one&gt;"), "{svg}");
+                stay_within_their_frame(&[("extreme.svg", svg)]);
+            }
+        }
+    }
+}

@@ -1,0 +1,14 @@
+//! Figures of the studies as SVG, drawn with what `clatter-figures` draws with.
+
+#![expect(clippy::missing_errors_doc, reason = "of every figure: what plotters says, which no input brings about")]
+
+mod bar;
+mod orders;
+mod peers;
+mod plane;
+pub mod rules;
+
+pub use bar::scheme;
+pub use orders::{Panel as OrderPanel, orders};
+pub use peers::{Dot, Tool, tools};
+pub use plane::{Impacts, Zones, impacts, zones};

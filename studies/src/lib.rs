@@ -1,0 +1,186 @@
+//! Studies with clatter: science about the product, and no part of it.
+//!
+//! - [`paper`]: what the reference paper prints beside what clatter computes, with the curves of its figures ([`contour`]);
+//! - [`suspended`]: what a clatter does to suspended parts of any frequency, anywhere on a bar;
+//! - [`orders`], [`residues`], [`measured`]: how the models of a drop tend to one another, and how exact all of it is;
+//! - [`bars`], [`trade_files`], [`peers`]: what exactness costs, by our models and by other tools.
+//!
+//! [`figures`] draws what they find; [`write()`] makes the printed reports, which the command `clatter report` gives.
+
+#![allow(clippy::disallowed_methods, reason = "what is shown has few digits")]
+
+mod accuracy;
+#[cfg(test)]
+mod both_ways;
+pub mod contour;
+pub mod figures;
+mod files;
+#[cfg(test)]
+#[path = "../../crates/clatter-report/src/frame.rs"]
+mod frame;
+mod orders;
+pub mod paper;
+mod peers;
+mod shock;
+pub mod suspended;
+mod trade;
+
+use std::path::Path;
+
+pub use accuracy::{Measured, measured};
+use clatter_report::{File, ReportError, Written, write_pages};
+pub use orders::{Order, Residue, orders, residues};
+pub use shock::shock_numbers;
+pub use trade::{bars, trade_files};
+
+/// A report that can be written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Report {
+    /// The paper's own figures, table and claims.
+    Paper,
+    /// What the clatter does to a suspended part.
+    Shock,
+    /// How exact all of it is.
+    Accuracy,
+}
+
+/// Why a report was not written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// Its files or its pages could not be written.
+    #[error(transparent)]
+    Report(#[from] ReportError),
+    /// The report's data could not be computed.
+    #[error(transparent)]
+    Model(#[from] clatter::Error),
+    /// The same of a drop in time.
+    #[error(transparent)]
+    Flight(#[from] clatter_flight::Error),
+    /// The same of a component.
+    #[error(transparent)]
+    Shock(#[from] clatter_shock::Error),
+    /// The same of a product.
+    #[error(transparent)]
+    Assess(#[from] clatter_assess::Error),
+    /// A figure could not be drawn.
+    #[error(transparent)]
+    Figure(#[from] clatter_figures::FigureError),
+    /// The report's data could not be written as JSON.
+    #[error("the report's data: {0}")]
+    Data(String),
+}
+
+/// Writes a report into `dir`, which is made if it is missing: the PDF, its figures as SVG, its tables as
+/// JSON and CSV. `progress` gets one line a step.
+///
+/// Each file is written beside its place and renamed, so that none is ever half there. The PDF is the same, byte for
+/// byte, from run to run, but for the times in that of [`Report::Accuracy`]. Another build of the same typst packs the same
+/// content differently.
+///
+/// ```no_run
+/// // typst may have to be installed first
+/// let written = clatter_studies::write(clatter_studies::Report::Paper, "report".as_ref(), &mut |step| eprintln!("{step}"))?;
+/// assert!(written.files[0].ends_with("paper.pdf"));
+/// # Ok::<(), clatter_studies::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error`]; with [`ReportError::Typst`] everything but the PDF has been written.
+pub fn write(report: Report, dir: &Path, progress: &mut dyn FnMut(&str)) -> Result<Written, Error> {
+    match report {
+        Report::Paper => {
+            let source = ("paper.typ", include_str!("../../reports/paper.typ"));
+            write_pages("paper.pdf", source, &|| paper::Data::compute()?.files(), &[], dir, progress)
+        }
+        Report::Shock => {
+            let source = ("shock.typ", include_str!("../../reports/shock.typ"));
+            write_pages("shock.pdf", source, &|| shock::Data::compute()?.files(), &[], dir, progress)
+        }
+        Report::Accuracy => {
+            let source = ("accuracy.typ", include_str!("../../reports/accuracy.typ"));
+            let inputs = [
+                ("trade.typ", include_str!("../../reports/trade.typ")),
+                ("peers.typ", include_str!("../../reports/peers.typ")),
+            ];
+            write_pages("accuracy.pdf", source, &accuracy_files, &inputs, dir, progress)
+        }
+    }
+}
+
+/// Errors, the trade between them and time, and what other tools make of the same scenes.
+fn accuracy_files() -> Result<Vec<File>, Error> {
+    let mut files = accuracy::Data::compute()?.files()?;
+    // After the rest: it takes times.
+    files.extend(trade_files()?);
+    files.extend(peers()?);
+    Ok(files)
+}
+
+/// What other tools make of the same scenes, each at the best setting found, as `peers/run.py` last measured them:
+/// `peers.json` for the page and `peers.svg`, a row a tool with its times, counts and error on the four bars of Table 1.
+///
+/// The times are those of one machine, which is named beside them.
+///
+/// ```
+/// let files = clatter_studies::peers()?;
+/// assert!(files.iter().any(|(name, content)| *name == "peers.svg" && content.contains("MuJoCo")));
+/// # Ok::<(), clatter_studies::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Data`] if the results of the last run are not whole.
+pub fn peers() -> Result<Vec<File>, Error> {
+    peers::files()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+    use std::path::PathBuf;
+
+    fn text(pdf: &Path) -> String {
+        let pdf = lopdf::Document::load(pdf).unwrap();
+        pdf.extract_text(&pdf.get_pages().into_keys().collect::<Vec<_>>()).unwrap()
+    }
+
+    #[test]
+    fn words_that_look_like_markup_print_as_they_are() {
+        let hostile = r#"#eval("x") $ *b* _c_ @d <e> \ `f` // g"#;
+        let quoted = serde_json::to_string(hostile).unwrap();
+        let files = || {
+            let mut files = paper::Data::compute()?.files()?;
+            for (_, content) in files.iter_mut().filter(|(name, _)| *name == "claims.json") {
+                *content = content.replace("\"The region of three impacts dominates.\"", &quoted);
+            }
+            Ok::<_, Error>(files)
+        };
+        let dir = tempfile::tempdir().unwrap();
+        let source = ("paper.typ", include_str!("../../reports/paper.typ"));
+        write_pages("page.pdf", source, &files, &[], dir.path(), &mut |_| ()).unwrap();
+        let plain = |text: &str| text.chars().filter(|c| !c.is_whitespace()).collect::<String>();
+        let said = plain(&text(&dir.path().join("page.pdf")));
+        assert!(said.contains(&plain(hostile)), "{said}");
+    }
+
+    #[test]
+    fn the_page_is_the_same_from_run_to_run() {
+        let run = |report| {
+            let dir = tempfile::tempdir().unwrap();
+            let written = write(report, dir.path(), &mut |_| ()).unwrap();
+            // The times of models are those of the run, on the page too.
+            let timed = |file: &&PathBuf| {
+                let name = file.file_name().unwrap().to_string_lossy();
+                name.starts_with("trade") || name == "accuracy.pdf"
+            };
+            let untimed = written.files.iter().filter(|file| !timed(file));
+            untimed.map(|file| fs::read(file).unwrap()).collect::<Vec<_>>()
+        };
+        for report in [Report::Paper, Report::Shock, Report::Accuracy] {
+            let files = run(report);
+            assert!(files.len() > 3 && files == run(report), "two runs of {report:?} differ");
+        }
+    }
+}
