@@ -15,8 +15,8 @@ use crate::{Component, Drop, Limit, Product};
 /// # Formula
 /// One instant strike of point i approaches with at most √(2E μ_i), μ = 1 + x²/ρ², and gives the place
 /// `(1 + e) u (1 + x_p x_i/ρ²)/μ_i`, largest where the lever arm of the end is that of the place, or that of the level body.
-/// With contacts that take time, a place may change its velocity from one bound to the other, and gains gτ within the contact
-/// time τ. A hysteretic contact holds at most E on its line of first loading: its force is at most √(2E) ω₁/√μ.
+/// Where strikes may be one shock, as those of a flat drop at one instant and contacts that take time, a place may change its velocity
+/// from one bound to the other, and gains gτ within the contact time τ. A hysteretic contact holds at most E on its line of first loading: its force is at most √(2E) ω₁/√μ.
 pub(crate) fn bound(
     product: &Product,
     drop: &Drop,
@@ -43,20 +43,22 @@ pub(crate) fn bound(
     };
     let over = |of: &dyn Fn(f64) -> f64| places.iter().map(|&x| of(x)).fold(0.0, f64::max);
     let contact_s = product.contact_time_s.as_ref().map(|time| [time.lo(), time.hi()]);
+    let strikes_are_apart = contact_s.is_none() && drop.tilt_rad.lo() > 0.0;
     match (limit.kind.source(), contact_s) {
-        (Source::Shock | Source::Boundary, None) => {
+        (Source::Shock | Source::Boundary, _) if strikes_are_apart => {
             let one = |place: f64| ends.iter().map(|&end| share(place, end)).fold(0.0, f64::max);
             Some((1.0 + e) * speed * over(&one))
         }
-        (Source::Shock | Source::Boundary, Some([_, longest])) => {
+        (Source::Shock | Source::Boundary, _) => {
             let fastest = over(&|x| (1.0 + (x / rho).powi(2)).sqrt());
+            let longest = contact_s.map_or(0.0, |[_, longest]| longest);
             Some(2.0 * speed * fastest + drop.gravity_m_s2 * longest)
         }
-        (Source::Turn, None) => {
+        (Source::Turn, _) if strikes_are_apart => {
             let one = ends.iter().map(|end| end.abs() / (rho * (rho * rho + end * end).sqrt())).fold(0.0, f64::max);
             Some((1.0 + e) * speed * one)
         }
-        (Source::Turn, Some(_)) => Some(2.0 * speed / rho),
+        (Source::Turn, _) => Some(2.0 * speed / rho),
         (Source::Response(peak), Some([shortest, _])) if peak.is_acceleration() => {
             let hard = matches!(component.mount, crate::Mount::Hard) && law == ContactLaw::Hysteretic;
             let contact = Contact::new(law, e, shortest).ok().filter(|_| hard)?;

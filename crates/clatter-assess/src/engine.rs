@@ -71,9 +71,9 @@ impl Answer {
 ///
 /// # Errors
 /// [`Error::Tolerance`]; [`Error::Contact`] where the contact time is needed and not known; [`Error::Flight`], [`Error::Bar`] and
-/// [`Error::Shock`] for what a model does not take; [`Error::Data`] for a limit that a part mounted rigidly does not have; [`Error::Setting`] for a place outside of the product, a contact time that is none,
-/// and a limit that is not positive; [`Error::Unfinished`] for a motion that was given up before nothing later
-/// counts.
+/// [`Error::Shock`] for what a model does not take; [`Error::Data`] for a limit that a part mounted rigidly does not have;
+/// [`Error::Setting`] for a place outside of the product, a contact time that is none, and a limit that is not positive;
+/// [`Error::Unfinished`] for a motion that was given up before nothing later counts.
 ///
 /// # Examples
 /// The end of the paper's reference bar (q = ½, e = 0.3) feels 2.145 v₀ at most, by instant impacts without gravity:

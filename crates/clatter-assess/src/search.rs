@@ -3,12 +3,14 @@
 //! Drops all over the ranges are followed, each by the one engine: tilts are so close that the stiffest part turns by less than
 //! a radian between the first two strikes, with the ends of the ranges of speed, restitution and contact time, and in each the
 //! parts at both ends of where they may be, at the end of the range of natural frequencies that asks most as a rule and at
-//! others, from drop to drop at others still. From the highest of them the search climbs in all ranges at once.
+//! others, from drop to drop at others still. Where the order in which ends touch and part changes between two tilts, what stiff parts
+//! feel jumps: drops on both sides of it are followed too. From the highest of all the search climbs in all ranges at once.
 //!
 //! Drops are first followed until the body comes down after its clatter. Where the energy left then may bring a part above the
 //! worst found, they are followed for longer, and so are drops of a sequence that spreads evenly over all ranges.
 
 mod climb;
+mod edges;
 mod grid;
 mod ranges;
 
@@ -186,6 +188,10 @@ impl Ranges<'_> {
         };
         ask(&mut all, &grid, None)?;
         ask(&mut all, &overlaps, Some(&shocks))?;
+        let edged: Vec<bool> = tasks.iter().map(|task| self.has_edges(task)).collect();
+        if edged.contains(&true) {
+            ask(&mut all, &self.edges(&grid, &work), Some(&edged))?;
+        }
         // What rebounds ask is sensitive to every input: where the energy allows them more, drops all over the ranges are
         // followed for longer as well.
         if all.later.iter().any(|most| *most > 0.0) {

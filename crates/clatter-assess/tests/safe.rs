@@ -194,6 +194,34 @@ velocity_change_limit = "100 m/s"
     }
 }
 
+/// Length, radius of gyration and place in mm, restitution, contact time in ms, height in m, least and largest tilt in degrees, natural
+/// frequencies in Hz, damping ratio, and the largest acceleration in m/s² that `clatter-brute hunt` finds of these files.
+const AT_EDGES: [([f64; 3], [f64; 3], [f64; 2], [f64; 3], f64); 2] = [
+    ([94.1, 21.5, 9.19], [0.0606, 1.59, 0.347], [0.614, 12.9], [1920.0, 1920.0, 0.0162], 2246.606),
+    ([79.2, 21.6, 28.7], [0.117, 1.25, 0.6], [0.582, 13.6], [2600.0, 2820.0, 0.0258], 6993.457),
+];
+
+/// Up to some tilt the end that touches first is still down as the other one lifts; a little more tilt and it parts and comes down again.
+/// What a stiff part feels jumps by half there, and the worst drop is the last before.
+#[test]
+fn the_worst_tilt_is_where_the_order_of_touches_changes() {
+    for ([length, gyration, place], [e, contact, height], [least, most], [soft, stiff, damping], brute) in AT_EDGES {
+        let text = format!(
+            r#"
+product = {{ name = "Edge", length = "{length} mm", radius_of_gyration = "{gyration} mm", restitution = {e}, contact_time = "{contact} ms", contact_law = "hysteretic" }}
+drop = {{ height = "{height} m", tilt = ["{least} deg", "{most} deg"], first = "b" }}
+[[component]]
+name = "part"
+position = "{place} mm"
+natural_frequency = ["{soft} Hz", "{stiff} Hz"]
+damping_ratio = {damping}
+acceleration_limit = "1e5 m/s2"
+"#
+        );
+        close(only(&text).demand.expect("a demand"), brute, 2e-3);
+    }
+}
+
 /// Two presses that overlap are one shock where the push stays above a tenth of its peak; by `clatter-brute hunt` 5.926452 m/s.
 #[test]
 fn presses_that_overlap_are_one_shock() {
@@ -368,4 +396,28 @@ component = [{ name = "board", position = "41.4 mm", extent = "40.5 mm", natural
 #[test]
 fn strikes_in_step_with_a_part_are_found() {
     close(only(IN_STEP).demand.expect("a demand"), 6.597_034e-3, 2e-3);
+}
+
+/// Both ends of a flat drop strike at one instant, which is one shock. By hand, with α = L²/ρ² = 0.82190 and q = (α − 1)/(α + 1): the
+/// place gets (1 + e) v₀ (1 + 0.1 α)/(1 + α) of the first end, and (1 + e) (1 + q (1 + e)) v₀ (1 − 0.1 α)/(1 + α) of the second, which
+/// the first has pushed up. One strike alone gives less than 5.312 m/s here by its energy, whichever end it falls on.
+#[test]
+fn two_strikes_at_one_instant_are_within_the_bound() {
+    let text = r#"
+product = { name = "Flat", length = "330 mm", radius_of_gyration = "182 mm", restitution = [0.2, 0.35] }
+drop = { speed = "3.8608 m/s", tilt = ["0 deg", "8 deg"] }
+[[component]]
+name = "part"
+position = "0 mm"
+extent = "33 mm"
+mount = "hard"
+velocity_change_limit = "5.35 m/s"
+"#;
+    let limit = only(text);
+    let alpha = (0.165_f64 / 0.182).powi(2);
+    let q = (alpha - 1.0) / (alpha + 1.0);
+    let both = 1.35 * 3.8608 * (1.0 + 0.1 * alpha + (1.0 + 1.35 * q) * (1.0 - 0.1 * alpha)) / (1.0 + alpha);
+    close(limit.demand.expect("a demand"), both, 1e-6);
+    assert!(limit.bound.is_some_and(|bound| bound >= both), "{:?}", limit.bound);
+    assert_eq!(limit.verdict, Verdict::Unsafe);
 }

@@ -24,8 +24,8 @@ struct Weighed<const N: usize> {
     forces: [f64; N],
     /// Its energy over that at rest there, on the lines on which they are.
     left: f64,
-    /// The same where one of them may leave its line: what parts from its dent loads it further when it comes down again, and what
-    /// bears more than ever before does too.
+    /// The same where one of them may leave its line, as what parts from its dent or bears more than ever before loads it further and
+    /// sinks.
     yielding: f64,
     /// What that is where these points come to press with their weight at once, from no depth and no speed.
     by_weight: f64,
@@ -154,15 +154,18 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         let those = || (0..N).filter(|&i| on[i]);
         let left = self.pose.kinetic() + those().map(|i| over(line(i), height[i], forces[i])).sum::<f64>();
         let by_weight = those().map(|i| 0.5 * forces[i] * forces[i] / self.stiffness(&arms, i)).sum::<f64>();
-        let unloaded = || those().filter(|&i| matches!(self.touches[i].state, State::Elastic | State::Lying));
-        let pressed = |i: usize| 0.5 * forces[i] * forces[i] / self.touches[i].stiffness;
-        let unloading = self.contact.unloading().recip();
-        let stays = |i: usize| left < pressed(i) * unloading && forces[i] <= self.touches[i].limit(self.contact);
-        let yielding = if unloaded().all(stays) {
-            left
-        } else {
-            left + unloaded().map(|i| pressed(i) * (1.0 - unloading)).sum::<f64>()
+        // A dashpot has no dent.
+        let dented = |i: &usize| {
+            self.contact.law() == ContactLaw::Hysteretic
+                && matches!(self.touches[*i].state, State::Elastic | State::Lying)
         };
+        let unloaded = || those().filter(dented);
+        let loading = |i: usize| 0.5 * forces[i] * forces[i] / self.touches[i].stiffness;
+        let softer = self.contact.unloading().recip();
+        // Too slow to part, and pressed before by all that they bear.
+        let stays = |i: usize| left < loading(i) * softer && forces[i] <= self.touches[i].limit(self.contact);
+        let sinking = if unloaded().all(stays) { 0.0 } else { unloaded().map(|i| loading(i) * (1.0 - softer)).sum() };
+        let yielding = left + sinking;
         Some(Weighed { forces, left, yielding, by_weight })
     }
 
