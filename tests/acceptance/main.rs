@@ -33,6 +33,7 @@ mod simulate;
 mod spectrum;
 mod tables;
 mod threads;
+mod torn;
 mod tradeoff;
 mod typed;
 

@@ -233,7 +233,11 @@ impl Seen {
             self.refuse_unclear(time)?;
             let rest: Vec<usize> = rest.into_iter().filter(|column| !self.headings[*column].is_text).collect();
             let skipped = time.filter(|time| *time == 1 && !self.headings[0].is_text).map_or(0, |_| 1);
-            return Ok(rest.into_iter().skip(skipped).collect());
+            let found: Vec<usize> = rest.into_iter().skip(skipped).collect();
+            if found.is_empty() {
+                return Err(Error::Columns(format!("no column is an acceleration: {}", self.all())));
+            }
+            return Ok(found);
         }
         let those = |is: &dyn Fn(&Heading) -> bool| -> Vec<usize> {
             rest.iter().copied().filter(|column| is(&self.headings[*column])).collect()

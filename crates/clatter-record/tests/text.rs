@@ -207,6 +207,8 @@ fn by_place_and_by_the_caller() {
     let one = Options { sample_rate_hz: Some(1e3), ..si() };
     assert_eq!(with("0\n1.5\n-2\n", &one).expect("one column").step_s(), Some(1e-3));
     assert!(with("0\n1.5\n-2\n", &si()).expect_err("no rate").contains("give the sample rate"));
+    let words = with(",0\n:,0.003\n", &si()).expect_err("times alone");
+    assert!(words.contains("no column is an acceleration: the columns are 1, 2"), "{words}");
     let many = "t [s],x [g],y [g],x2 [mV]\n0,1,2,3\n1,4,5,6\n";
     let record = read(many).expect("two channels");
     assert!(matches!(&record.findings(10.0)[0], Finding::LeftOut(columns) if columns[..] == ["4 (x2 [mV])"]));
