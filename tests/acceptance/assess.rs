@@ -119,8 +119,9 @@ pub(crate) fn repeated(limit: &Value) -> f64 {
         ("acceleration", _, true) => of("omega") * of("peak_absolute_acceleration_over_omega"),
         ("rattle-space", _, true) => of("omega_peak_relative_displacement") / of("omega"),
         ("angular-velocity-change", ..) => of("angular_velocity_change_rad_s"),
-        (_, "m/s2", _) => of("acceleration_m_s2"),
-        (_, _, _) => of("velocity_change_m_s"),
+        ("acceleration" | "damage-boundary", "m/s2", _) => of("acceleration_m_s2"),
+        ("velocity-change" | "damage-boundary", "m/s", _) => of("velocity_change_m_s"),
+        other => panic!("{other:?} is not repeated"),
     }
 }
 

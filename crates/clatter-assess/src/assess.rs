@@ -371,7 +371,7 @@ fn verdict(component: &Component, mut limits: Vec<LimitAssessment>) -> Component
     // A part that exceeds its rattle space hits its stop, whatever the linear suspension says of its acceleration.
     let stop = limits.iter().find(|l| l.limit == LimitKind::RattleSpace && l.verdict != Verdict::Safe);
     if let Some(stop) = stop.map(|l| (l.verdict, l.margin)) {
-        for limit in limits.iter_mut().filter(|l| l.limit.is_response() && l.limit != LimitKind::RattleSpace) {
+        for limit in limits.iter_mut().filter(|l| l.limit.is_changed_by_stop()) {
             let margin = stop.1.filter(|margin| margin.is_finite());
             limit.verdict = Verdict::Undecided;
             limit.undecided = vec![Doubt::Stop { hits: stop.0 == Verdict::Unsafe, margin }];

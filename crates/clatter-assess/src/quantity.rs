@@ -1,4 +1,4 @@
-//! What is limited: five quantities, their units, and the limits of a component as numbers.
+//! What is limited: quantities, their units, and the limits of a component as numbers.
 
 use std::f64::consts::TAU;
 
@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::{Component, DataFault, Error, Mount, Product};
 
-/// What is limited.
+/// What is limited. A new kind stands last: which random numbers are drawn for a limit follows from its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LimitKind {
@@ -242,6 +242,10 @@ impl LimitKind {
     /// Whether it is on the response of a suspended part.
     pub(crate) fn is_response(self) -> bool {
         matches!(self.source(), Source::Response(_))
+    }
+    /// Whether a stop changes it that the part hits at the end of its rattle space.
+    pub(crate) fn is_changed_by_stop(self) -> bool {
+        self.is_response() && self != Self::RattleSpace
     }
     /// Whether the worst place of an extended part may lie between its ends.
     pub(crate) fn is_largest_between(self) -> bool {

@@ -225,7 +225,10 @@ fn can_be_specified(text: &Text, change: &Change) {
         Lever::Position => (Some(10.0), 1e3),
         Lever::ContactTime | Lever::Limit(LimitKind::RattleSpace) => (None, 1e3),
         Lever::Limit(LimitKind::Acceleration) => (None, 1.0 / 9.806_65),
-        _ => (None, 1.0),
+        Lever::Limit(LimitKind::VelocityChange | LimitKind::AngularVelocityChange | LimitKind::DamageBoundary)
+        | Lever::Restitution
+        | Lever::Frequency
+        | Lever::Damping => (None, 1.0),
     };
     for to in change.to.map(|x| unit * x).into_iter().filter(|to| *to != 0.0) {
         assert!(is_multiple(to, step(size.unwrap_or(to))), "{change:?}: {to}");

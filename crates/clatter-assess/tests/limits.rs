@@ -27,6 +27,20 @@ component = [{{ name = "part", position = "40 mm", natural_frequency = "200 Hz",
     )
 }
 
+/// A part with a limit of every kind is drawn as well, each counted for itself.
+#[test]
+fn a_part_may_have_every_kind() {
+    let mut file = read(&product(LimitKind::DamageBoundary, 10.0));
+    for kind in LimitKind::ALL {
+        let limits = read(&product(kind, 10.0)).components[0].limits;
+        let all = file.components[0].limits;
+        file.components[0].limits = all.with(kind, *limits.get(kind).expect("its limit"));
+    }
+    let settings = Settings { samples: 200, seed: 1, confidence: 0.95, merge_s: 1e-12 };
+    let scatter = Sampler::new(&file, settings).unwrap().run::<()>(false, &|| true, |_| Ok(())).unwrap();
+    assert_eq!(scatter.components[0].limits, LimitKind::ALL.map(|kind| (kind, 0)));
+}
+
 fn read(text: &str) -> ProductFile {
     ProductFile::read(text, "product.toml").unwrap_or_else(|faults| panic!("{faults}\n{text}"))
 }

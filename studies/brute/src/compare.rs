@@ -159,7 +159,8 @@ fn unit(kind: &str) -> &str {
         "acceleration" => "m/s2",
         "rattle-space" => "m",
         "velocity-change" => "m/s",
-        _ => "rad/s",
+        "angular-velocity-change" => "rad/s",
+        _ => unreachable!("{kind} is no limit of one number"),
     }
 }
 

@@ -165,6 +165,10 @@ fn part(table: &Table, center: f64) -> Result<Part, String> {
         ("velocity_change_limit", Kind::VelocityChange),
         ("angular_velocity_change_limit", Kind::AngularVelocityChange),
     ];
+    let is_known = |key: &String| kinds.iter().any(|(known, _)| key == known) || key == "limit_source";
+    if let Some(key) = table.keys().find(|key| key.contains("limit") && !is_known(key)) {
+        return Err(format!("{key} is a limit that is not followed here"));
+    }
     let mut limits: Vec<Kind> =
         kinds.into_iter().filter(|(key, _)| table.contains_key(*key)).map(|(_, kind)| kind).collect();
     if let Some(boundary) = table.get("damage_boundary").and_then(Value::as_table) {

@@ -34,8 +34,8 @@ impl Lever {
         levers
     }
 
-    /// `inertia-ratio`, `restitution`, `position`, `natural-frequency`, `damping-ratio`, `contact-time`, `acceleration-limit`,
-    /// `rattle-space`, `velocity-change-limit`, `angular-velocity-change-limit`, `damage-boundary`.
+    /// `inertia-ratio`, `restitution`, `position`, `natural-frequency`, `damping-ratio`, `contact-time`; of a limit `acceleration-limit`,
+    /// `rattle-space`, …
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -28,8 +28,7 @@ impl Scale {
         }
         // What a part that hits its stop does besides is undecided by its rattle space.
         let stops = |l: &LimitAssessment| l.limit == LimitKind::RattleSpace && l.verdict != Verdict::Safe;
-        let responds = limit.limit.is_response() && limit.limit != LimitKind::RattleSpace;
-        let by_stop = responds && assessed.limits.iter().any(stops);
+        let by_stop = limit.limit.is_changed_by_stop() && assessed.limits.iter().any(stops);
         // What the verdict says, the picture says as well.
         match limit.verdict {
             Verdict::Safe => scales.iter_mut().for_each(|scale| scale.counted = scale.counted.min(1.0)),

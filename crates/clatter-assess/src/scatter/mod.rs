@@ -200,7 +200,7 @@ struct Asked {
     /// What that is at least and at most, by what it may be off by.
     within: [f64; 2],
     /// Which of its limits do not hold.
-    fails: [bool; 5],
+    fails: [bool; LimitKind::ALL.len()],
 }
 
 impl Asked {
