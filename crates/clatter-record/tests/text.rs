@@ -580,3 +580,23 @@ fn what_is_easily_misread() {
     // A unit that is in brackets itself.
     close(own("Time,Acc\nms,m/(s^2)\n0,0\n1,980\n2,0\n"), &[("Acc", 980.0)]);
 }
+
+/// A file that ends anywhere in its heading, or after it, is read or refused.
+#[test]
+fn files_may_end_anywhere() {
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases");
+    let folders = [cases.join("field"), cases];
+    let files = folders.iter().flat_map(|folder| fs::read_dir(folder).expect("a folder"));
+    let files = files.map(|entry| entry.expect("a file").path()).filter(|path| path.is_file());
+    let (mut refused, mut kept) = (0_u32, 0_u32);
+    for path in files {
+        let whole = fs::read(&path).expect("a file");
+        for end in 0..whole.len().min(1000) {
+            for options in [Options::default(), si()] {
+                *(if with(&whole[..end], &options).is_ok() { &mut kept } else { &mut refused }) += 1;
+            }
+        }
+    }
+    // Both ways were gone.
+    assert!(refused > 10_000 && kept > 1000, "{refused} refused, {kept} read");
+}

@@ -135,7 +135,7 @@ struct Group {
 fn take(rows: &mut Rows, lines: &[&[u8]], first: usize, last: usize) -> Result<(), Error> {
     /// Lines that are handed on at a time.
     const LINES: usize = 1 << 12;
-    let is_whole = last < lines.len() || lines[last - 1].ends_with(b"\n");
+    let is_whole = first == last || last < lines.len() || lines[last - 1].ends_with(b"\n");
     for lines in lines[first..last - usize::from(!is_whole)].chunks(LINES) {
         rows.take(&lines.concat())?;
     }
