@@ -60,7 +60,7 @@ pub(crate) fn bound(
         }
         (Source::Turn, _) => Some(2.0 * speed / rho),
         (Source::Response(peak), Some([shortest, _])) if peak.is_acceleration() => {
-            let hard = matches!(component.mount, crate::Mount::Hard) && law == ContactLaw::Hysteretic;
+            let hard = matches!(component.mount, crate::Mount::Hard) && law.leaves_a_dent();
             let contact = Contact::new(law, e, shortest).ok().filter(|_| hard)?;
             // Both ends at once.
             let one = |place: f64| ends.iter().map(|&end| share(place, end)).sum::<f64>();

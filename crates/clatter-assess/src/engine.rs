@@ -282,7 +282,8 @@ impl<'a> Felt<'a> {
             (Source::Response(_), None) => {
                 let contact_s = self.contact_s()?;
                 let Some((value, time_s)) = self.largest_acceleration(contact_s) else { return Ok(None) };
-                (value, time_s, self.off_by(value * contact_s / FRAC_PI_2) * FRAC_PI_2 / contact_s)
+                let per_change = self.peak_per_change();
+                (value, time_s, self.off_by(value / per_change) * per_change)
             }
             (Source::Shock, _) => {
                 let Shock { change, time_s, .. } = largest(&self.shocks());
@@ -392,9 +393,7 @@ impl<'a> Felt<'a> {
             shock_m_s: center * mass(x),
             turned_m_s: center * mass(x) * turned,
             turn_rad_s: center / rho * turned,
-            acceleration_m_s2: drop
-                .contact_time_s
-                .map_or(f64::INFINITY, |time| center * libm::hypot(both[0], both[1]).max(mass(x)) * FRAC_PI_2 / time),
+            acceleration_m_s2: center * libm::hypot(both[0], both[1]).max(mass(x)) * self.peak_per_change(),
         }
     }
     /// The utilization to which a shock of this size brings a part that still rings as the motion was left; 0 where it was below
@@ -444,9 +443,15 @@ impl<'a> Felt<'a> {
             0.0
         };
         // A part that is fast beside a contact follows its force and not its velocity.
-        let follows = self.followed.drop.contact_time_s.map_or(0.0, |time| omega * time / FRAC_PI_2).max(1.0);
+        let follows = (omega / self.peak_per_change()).max(1.0);
         let off = self.followed.kept_arms() * self.followed.largest_m_s / follows;
         Some((unit * velocity, peak.time, unit * (off + doubt.max(0.0))))
+    }
+
+    /// Largest acceleration in a lone contact over its change of velocity; infinite where no contact time is known.
+    fn peak_per_change(&self) -> f64 {
+        let half_sine = || self.followed.drop.contact_time_s.map_or(f64::INFINITY, |time| FRAC_PI_2 / time);
+        self.followed.motion.contact().map_or_else(half_sine, |contact| contact.peak_per_change())
     }
 
     fn contact_s(&self) -> Result<f64, Error> {
@@ -476,7 +481,7 @@ impl<'a> Felt<'a> {
                 let value = if peak.is_finite() { peak } else { change * FRAC_PI_2 / contact_s };
                 let (unit, allowed) = (Unit::MeterPerSecondSquared, limit.critical_acceleration_m_s2);
                 if value / allowed < answer.utilization() {
-                    answer = Answer { value, allowed, unit, off_by: off_by * FRAC_PI_2 / contact_s, ..answer };
+                    answer = Answer { value, allowed, unit, off_by: off_by * self.peak_per_change(), ..answer };
                 }
             }
             if worst.is_none_or(|worst| answer.utilization() > worst.utilization()) {

@@ -72,8 +72,8 @@ impl WorstCase {
         // The acceleration of a part that is mounted rigidly is that of the contact time, by any model.
         if let Some(time) = drop.contact_time_s.filter(|_| contacts || self.part.suspension.is_none()) {
             add("contact-time-s", time);
-            if contacts && drop.contact_law == ContactLaw::Dashpot {
-                command.push_str(" --contact-law=dashpot");
+            if contacts && drop.contact_law != ContactLaw::default() {
+                command.extend([" --contact-law=", drop.contact_law.name()]);
             }
         }
         command

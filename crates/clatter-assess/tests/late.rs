@@ -75,7 +75,7 @@ fn elastic_products_are_answered() {
     for e in [0.8, 0.9, 0.995, 0.999] {
         let part = soft(60.0, 0.05);
         let instant = displaced(&drop(e, 1.0, 2.0), part, Model::FiniteTilt);
-        for contact_law in [ContactLaw::Hysteretic, ContactLaw::Dashpot] {
+        for contact_law in ContactLaw::ALL {
             let drop = SingleDrop { contact_law, contact_time_s: Some(4e-4), ..drop(e, 1.0, 2.0) };
             let asked = displaced(&drop, part, Model::Compliant);
             close(asked.value, instant.value, 2e-3);

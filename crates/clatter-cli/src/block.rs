@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 use std::io::{self, Write};
 
 use clatter_answer::simulate::block::DropAnswer;
-use clatter_flight::{BlockDrop, BlockFlight, Contact, ContactLaw, LEAST_OF_BLOCKS, Stop};
+use clatter_flight::{BlockDrop, BlockFlight, Contact, LEAST_OF_BLOCKS, Stop};
 use clatter_shock::{DampingRatio, Frequencies, Quantity, Spectrum, UnevenFilter};
 
 use crate::Failure;
@@ -98,7 +98,7 @@ impl Setup {
     /// A restitution that is not followed as it stands.
     pub(crate) fn warning(&self) -> Option<String> {
         let e = self.contact.restitution();
-        (self.contact.law() == ContactLaw::Hysteretic && e < LEAST_OF_BLOCKS).then(|| {
+        (self.contact.law().leaves_a_dent() && e < LEAST_OF_BLOCKS).then(|| {
             format!(
                 "e = {e:?} is followed as {LEAST_OF_BLOCKS}: hysteretic contacts of a box rebound with that at least"
             )

@@ -44,7 +44,7 @@ fn elastic_finite_tilt(bencher: Bencher, strikes: usize) {
 #[divan::bench(args = [4, 100_000], consts = [0, 1])]
 fn contacts<const LAW: usize>(bencher: Bencher, impacts: usize) {
     let scene = scene(0.5, 0.3, impacts);
-    let contact = Contact::new([ContactLaw::Hysteretic, ContactLaw::Dashpot][LAW], 0.3, 3e-4).expect("a contact");
+    let contact = Contact::new(ContactLaw::ALL[LAW], 0.3, 3e-4).expect("a contact");
     let strikes = scene.fly(Model::Contacts(contact)).expect("a flight").strikes.len();
     bencher.counter(ItemsCount::new(strikes)).bench(|| black_box(scene).fly(Model::Contacts(contact)));
 }

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 const TIME: f64 = 1e-3;
 
 fn any_drop() -> impl Strategy<Value = (Scene, Contact)> {
-    let law = prop_oneof![Just(ContactLaw::Hysteretic), Just(ContactLaw::Dashpot)];
+    let law = prop::sample::select(&ContactLaw::ALL[..]);
     let e = prop_oneof![Just(0.0), 0.0..0.95_f64];
     let off = prop_oneof![Just(0.0), -0.3..0.3_f64];
     let tilt = prop_oneof![0.0..60.0_f64, 0.0..2.0_f64];

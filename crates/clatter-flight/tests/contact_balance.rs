@@ -15,7 +15,7 @@ fn drop(q: f64, off: f64, e: f64, tilt: f64, by_gravity: f64, by_speed: f64) -> 
 
 /// Up to the longest contacts and the highest gravity that are taken, and up to 85°.
 fn any_drop() -> impl Strategy<Value = (Scene, Contact)> {
-    let law = prop_oneof![Just(ContactLaw::Hysteretic), Just(ContactLaw::Dashpot)];
+    let law = prop::sample::select(&ContactLaw::ALL[..]);
     let e = prop_oneof![Just(0.0), 0.0..=1.0_f64, 0.0..0.1_f64, 0.99..=1.0_f64];
     let by_gravity = prop_oneof![Just(0.0999), Just(0.0), 0.001..0.1_f64];
     let by_speed = prop_oneof![Just(0.0999), 0.001..0.1_f64];

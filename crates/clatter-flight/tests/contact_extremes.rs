@@ -3,8 +3,6 @@
 use clatter_flight::{Body, Contact, ContactLaw, Error, Model, Motion, Scene, Stop, Strike};
 use proptest::prelude::*;
 
-const LAWS: [ContactLaw; 2] = [ContactLaw::Hysteretic, ContactLaw::Dashpot];
-
 fn body(q: f64) -> Body {
     Body::new(0.14, 0.07 * ((1.0 - q) / (1.0 + q)).sqrt()).expect("a bar")
 }
@@ -45,7 +43,7 @@ fn sane(flight: &Motion) -> Result<(), String> {
 /// In units of the body: contact times from the shortest to the longest, all restitutions, tilts from none to 89.9°,
 /// gravity from none to what the contact time allows.
 fn extreme() -> impl Strategy<Value = (Scene, Contact)> {
-    let law = prop_oneof![Just(ContactLaw::Hysteretic), Just(ContactLaw::Dashpot)];
+    let law = prop::sample::select(&ContactLaw::ALL[..]);
     let e = prop_oneof![
         Just(0.0),
         Just(1.0),
@@ -107,7 +105,7 @@ proptest! {
 #[test]
 fn bad_contacts_are_refused_with_the_value() {
     let scene = Scene::new(body(0.5), 0.5, 4.43, 5.0, 9.81).expect("a drop");
-    for law in LAWS {
+    for law in ContactLaw::ALL {
         for bad in [0.0, -1e-3, 1e-13, f64::NAN, f64::INFINITY, 1e4] {
             let text = Contact::new(law, 0.5, bad).unwrap_err().to_string();
             assert!(text.contains("contact time") && text.contains(&format!("{bad:?}")), "{text}");
@@ -133,7 +131,7 @@ fn bad_contacts_are_refused_with_the_value() {
 /// A body that turns on its contact, against the pivot of instant impacts.
 #[test]
 fn a_drop_comes_to_rest_on_its_contacts() {
-    for law in LAWS {
+    for law in ContactLaw::ALL {
         for e in [0.05, 0.3, 0.6] {
             let scene = Scene::new(body(0.5), e, 1.0, 5.0, 9.81).expect("a drop");
             let flight = scene.fly(Model::Contacts(contact(law, e, 3e-5))).expect("a flight");
@@ -161,7 +159,7 @@ fn a_drop_comes_to_rest_on_its_contacts() {
 fn an_end_that_lies_is_not_struck_again() {
     let body = Body::new(0.3656, 0.2452).expect("a bar");
     let scene = Scene::new(body, 0.1176, 7.473, 0.2666, 9.81).expect("a drop");
-    for law in LAWS {
+    for law in ContactLaw::ALL {
         let flight = scene.fly(Model::Contacts(contact(law, 0.1176, 1.311e-4))).expect("a flight");
         assert_eq!(flight.stop.reason(), "at-rest", "{law:?}: {:?}", flight.stop);
         assert!(flight.strikes.len() < 30, "{law:?}: {}", flight.strikes.len());
@@ -175,7 +173,7 @@ fn ends_that_part_together_do_not_take_turns() {
     let body = Body::new(2.0 * 0.049_063_156_973_264_66, 0.008_898_156_337_023_289).expect("a bar");
     let e = 0.211_645_007_649_507_44;
     let scene = Scene::new(body, e, 1.056_038_848_610_071_6, 8.618_710_303_569_253, 9.81).expect("a drop");
-    for law in LAWS {
+    for law in ContactLaw::ALL {
         let flight = scene.fly(Model::Contacts(contact(law, e, 9.940_110_752_429_448e-4))).expect("a flight");
         assert_eq!(flight.stop.reason(), "at-rest", "{law:?}: {:?}", flight.stop);
         let (phases, strikes) = (flight.phases_s().count(), flight.strikes.len());
@@ -187,7 +185,7 @@ fn ends_that_part_together_do_not_take_turns() {
 /// 3.3 m/s.
 #[test]
 fn all_shocks_together_stop_the_drop() {
-    for law in LAWS {
+    for law in ContactLaw::ALL {
         for (q, e, speed, tilt_deg, time) in
             [(0.09, 0.0114, 3.3, 17.4, 5e-4), (0.5, 0.05, 1.0, 5.0, 3e-5), (0.1, 0.3, 2.8, 25.0, 7e-5)]
         {
@@ -206,7 +204,7 @@ fn all_shocks_together_stop_the_drop() {
 /// The limit of time may fall into a contact: nothing after it counts.
 #[test]
 fn a_limit_within_a_contact_cuts_it() {
-    for law in LAWS {
+    for law in ContactLaw::ALL {
         let scene = Scene::new(body(0.5), 0.4, 4.43, 5.0, 9.81).expect("a drop");
         let (contact, limit) = (contact(law, 0.4, 3e-4), 1e-4);
         let (whole, cut) =

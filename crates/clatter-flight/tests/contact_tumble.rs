@@ -52,7 +52,7 @@ proptest! {
     #[test]
     fn a_block_tumbles_until_it_lies(
         height in 0.3..1.5_f64, gyration in 0.3..0.7_f64, e in prop_oneof![Just(0.0), 0.0..0.7_f64],
-        speed in 0.5..6.0_f64, tilt in 0.0..89.0_f64, law in prop_oneof![Just(ContactLaw::Hysteretic), Just(ContactLaw::Dashpot)],
+        speed in 0.5..6.0_f64, tilt in 0.0..89.0_f64, law in prop::sample::select(&ContactLaw::ALL[..]),
     ) {
         let body = block(0.2, 0.2 * height, 0.1 * gyration * 1.0_f64.hypot(height));
         let flight = fly(body, law, e, speed, tilt);
@@ -125,7 +125,7 @@ fn a_row_of_points_presses_as_the_laws_say() {
 fn a_bar_with_corners_turns_over() {
     let body = Body::new(0.14, 0.04).and_then(|b| b.with_thickness(0.02)).expect("a bar");
     let scene = Scene::new(body, 1.0, 1.0, 60.0, 0.0).and_then(|s| s.with_spin(80.0)).expect("a drop");
-    for law in [ContactLaw::Hysteretic, ContactLaw::Dashpot] {
+    for law in ContactLaw::ALL {
         let flight =
             scene.contacts_until(&Contact::new(law, 1.0, 1e-5).expect("a contact"), 1e-6, |_| false).expect("a flight");
         let Stop::TurnedOver { time_s } = flight.stop else { panic!("{:?}", flight.stop) };

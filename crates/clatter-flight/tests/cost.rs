@@ -27,7 +27,7 @@ fn a_strike_allocates_nothing_but_its_line_in_the_list() {
         assert!(few > 0 && many <= few + 7, "{model:?}: {few} allocations for 10^3 strikes, {many} for 10^5");
     }
     // Strikes, presses and phases are three such lists.
-    for law in [ContactLaw::Hysteretic, ContactLaw::Dashpot] {
+    for law in ContactLaw::ALL {
         let contact = Contact::new(law, 1.0, 1e-5).expect("a contact");
         let [few, many] = [10, 1_000].map(|strikes| {
             let scene = scene(strikes);

@@ -107,7 +107,8 @@ impl Product {
         };
         let law = match product.get("contact_law").and_then(Value::as_str) {
             Some("dashpot") => Law::Dashpot,
-            _ => Law::Hysteretic,
+            None | Some("hysteretic") => Law::Hysteretic,
+            Some(law) => return Err(format!("{law} is a contact law that is not followed here")),
         };
         let first = match drop.get("first").and_then(Value::as_str) {
             Some("a") => vec![false],

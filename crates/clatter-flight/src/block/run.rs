@@ -6,7 +6,7 @@ use super::dormand_prince::{SIZE, Step, Vector};
 use super::system::{Corner, Hold, System, cross, dot, parts};
 use super::{Block, BlockDrop};
 use crate::Error;
-use crate::contact::{Contact, ContactLaw};
+use crate::contact::Contact;
 use crate::flight::Stop;
 
 /// What a step may be wrong by: depths over the deepest, velocities over the fastest. Peaks of parts are then within some 1e−6.
@@ -201,11 +201,11 @@ struct Run<'a> {
 impl<'a> Run<'a> {
     fn new(drop: &'a BlockDrop, contact: &'a Contact) -> Self {
         let block = drop.block;
-        let is_hysteretic = contact.law() == ContactLaw::Hysteretic;
-        let restitution = contact.restitution().max(if is_hysteretic { LEAST_OF_BLOCKS } else { 0.0 });
+        let has_dents = contact.law().leaves_a_dent();
+        let restitution = contact.restitution().max(if has_dents { LEAST_OF_BLOCKS } else { 0.0 });
         let (corners, reach) = (block.corners_m(), block.reach());
         let inertia = block.gyration_m().map(|radius| radius * radius);
-        let loss = if is_hysteretic { restitution * restitution } else { 1.0 };
+        let loss = if has_dents { restitution * restitution } else { 1.0 };
         let delay = 2.0 * contact.damping_ratio() / contact.frequency_rad_s();
         let up = Corner { hold: Hold::Up, ground: 0.0, stiffness: 0.0, strike: 0 };
         let system = System { corners, inertia, gravity: drop.gravity, delay, loss, holds: [up; 8] };

@@ -1,6 +1,5 @@
 //! What lies, what rests, and what may still come.
 
-use super::law::ContactLaw;
 use super::phase::Hold;
 use super::pose::{Borne, Pose, Pushes, solve};
 use super::run::Run;
@@ -62,7 +61,7 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         let mut pressing = (0..N).filter(|&i| self.touches[i].is_pressing());
         let (Some(i), None) = (pressing.next(), pressing.next()) else { return };
         let Hold::On(line) = self.touches[i].hold(self.contact) else { return };
-        let loads = self.touches[i].state == State::Loading && self.contact.law() == ContactLaw::Hysteretic;
+        let loads = self.touches[i].state == State::Loading && self.contact.law().leaves_a_dent();
         let fall = self.pose.fall(i);
         if loads || fall <= 0.0 {
             return;
@@ -71,7 +70,7 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         let rate = (line.stiffness * self.pose.coupled(i, i)).sqrt();
         let rest = line.zero - fall / (rate * rate);
         // Below its rest, where its spring holds no less than its weight: else it would be given what it lacks.
-        let rings_by_weight = self.contact.law() == ContactLaw::Hysteretic && height[i] <= rest;
+        let rings_by_weight = self.contact.law().leaves_a_dent() && height[i] <= rest;
         let by_weight = if rings_by_weight { PARTS * fall / rate } else { 0.0 };
         if libm::hypot(velocity[i], rate * (height[i] - rest)) <= self.slow().max(by_weight) {
             let (contact, told) = (self.contact, SUNK * self.margins.height);
@@ -154,10 +153,8 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
         let those = || (0..N).filter(|&i| on[i]);
         let left = self.pose.kinetic() + those().map(|i| over(line(i), height[i], forces[i])).sum::<f64>();
         let by_weight = those().map(|i| 0.5 * forces[i] * forces[i] / self.stiffness(&arms, i)).sum::<f64>();
-        // A dashpot has no dent.
         let dented = |i: &usize| {
-            self.contact.law() == ContactLaw::Hysteretic
-                && matches!(self.touches[*i].state, State::Elastic | State::Lying)
+            self.contact.law().leaves_a_dent() && matches!(self.touches[*i].state, State::Elastic | State::Lying)
         };
         let unloaded = || those().filter(dented);
         let loading = |i: usize| 0.5 * forces[i] * forces[i] / self.touches[i].stiffness;
@@ -173,10 +170,10 @@ impl<P: Pose<N>, const N: usize> Run<'_, P, N> {
     /// where it is under any weight.
     fn line(&self, arms: &P::Arms, i: usize, height: f64) -> [f64; 2] {
         let touch = &self.touches[i];
-        match (touch.state, self.contact.law()) {
+        match (touch.state, self.contact.law().leaves_a_dent()) {
             (State::Away, _) => [self.stiffness(arms, i), 0.0],
-            (State::Loading, _) | (State::Parted, ContactLaw::Dashpot) => [touch.stiffness, touch.ground],
-            (State::Parted, ContactLaw::Hysteretic) => [self.stiffness(arms, i), touch.zero],
+            (State::Loading, _) | (State::Parted, false) => [touch.stiffness, touch.ground],
+            (State::Parted, true) => [self.stiffness(arms, i), touch.zero],
             (State::Elastic, _) => [touch.stiffness * self.contact.unloading(), touch.zero],
             (State::Lying, _) => [f64::INFINITY, height],
         }

@@ -1,6 +1,6 @@
 //! A flight under way: phases one after the other, and the events between them.
 
-use super::law::{Contact, ContactLaw};
+use super::law::Contact;
 use super::mode::Motion;
 use super::phase::{Hold, Phase};
 use super::pose::{Extent, Pose};
@@ -272,7 +272,7 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
     /// the ground would pull, or push at once.
     fn pressed_off(&self, phase: &Phase<P, N>, dt: f64, event: Option<(f64, Option<(usize, Watch)>)>, end: &P) -> f64 {
         let Some((_, Some((i, watch)))) = event else { return 0.0 };
-        if watch.event != Event::Presses || self.contact.law() == ContactLaw::Hysteretic {
+        if watch.event != Event::Presses || self.contact.law().leaves_a_dent() {
             return 0.0;
         }
         let rate = (self.touches[i].stiffness * self.pose.coupled(i, i)).sqrt();
@@ -432,8 +432,8 @@ impl<'a, P: Pose<N>, const N: usize> Run<'a, P, N> {
             Event::Presses => {
                 let dented = self.touches[i];
                 let goes_on = self.touch(i, h, v);
-                if self.contact.law() == ContactLaw::Dashpot {
-                    // It has no dent: it presses again from the ground, as stiff as before.
+                if !self.contact.law().leaves_a_dent() {
+                    // It presses again from the ground, as stiff as before.
                     let strike = self.touches[i].strike;
                     self.touches[i] = Touch { state: State::Loading, strike, ..dented };
                 }

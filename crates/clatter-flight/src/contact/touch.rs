@@ -105,17 +105,14 @@ impl Touch {
     pub(super) fn is_pressing(&self) -> bool {
         !matches!(self.state, State::Away | State::Parted)
     }
-    /// The force with which it has been at its lowest: more loads it further. A dashpot has none.
+    /// The force with which it has been at its lowest: more loads it further, where a dent is left.
     pub(super) fn limit(&self, contact: &Contact) -> f64 {
-        match contact.law() {
-            ContactLaw::Hysteretic => self.stiffness * (self.ground - self.crest),
-            ContactLaw::Dashpot => f64::INFINITY,
-        }
+        if contact.law().leaves_a_dent() { self.stiffness * (self.ground - self.crest) } else { f64::INFINITY }
     }
     /// What may happen to it next.
     pub(super) fn watches(&self, contact: &Contact, margins: &Margins) -> [Option<Watch>; 2] {
         let watch = |event, offset, of_height, of_velocity| Some(Watch { event, offset, of_height, of_velocity });
-        let dashpot = contact.law() == ContactLaw::Dashpot;
+        let dashpot = !contact.law().leaves_a_dent();
         let (delay, margin) = (contact.delay_s(), margins.height);
         match self.state {
             State::Away => [watch(Event::Touches, 0.0, 1.0, 0.0), None],

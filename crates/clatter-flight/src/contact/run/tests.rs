@@ -2,6 +2,7 @@
 
 use super::super::planar::Planar;
 use super::*;
+use crate::ContactLaw;
 use crate::{Body, Scene};
 
 /// A flight whose end a has just touched, and the phase in which it presses.
