@@ -8,11 +8,16 @@ use std::error::Error;
 use std::io::Write;
 
 use clatter::{Axis, Bar, OffCenterBar, Plate, PlateStart, Quantity, Start};
+use clatter_answer::respond::{self, Excitation};
 use clatter_answer::{atlas, impacts, map, simulate, zone};
+use clatter_assess::PlateDrop;
 use clatter_assess::design::Bounds;
 use clatter_assess::scatter::{Sampler, Settings};
 use clatter_flight::{Block, BlockDrop, Body, Contact, ContactLaw, Model, PlateScene, Scene};
-use clatter_shock::{DampingRatio, Frequencies, Pulse, Pulses, Shape, SpectrumFilter, UnevenFilter};
+use clatter_shock::{
+    DampingRatio, Frequencies, Pulse, Pulses, Shape, ShockTable, SpectrumFilter, Suspension, UnevenFilter,
+    VelocityShock, VelocityShocks,
+};
 
 /// The answers.
 pub(crate) fn answers() -> Result<String, Box<dyn Error>> {
@@ -20,6 +25,7 @@ pub(crate) fn answers() -> Result<String, Box<dyn Error>> {
     without_time(&mut lines)?;
     in_time(&mut lines)?;
     of_parts(&mut lines)?;
+    responses(&mut lines)?;
     Ok(lines.join("\n") + "\n")
 }
 
@@ -90,6 +96,48 @@ fn of_parts(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
     let mut filter = UnevenFilter::new(frequencies, damping, clatter_shock::Quantity::AbsoluteAcceleration);
     filter.push(&times, &values)?;
     lines.push(format!("{:?}", filter.finish()?.maximax));
+    Ok(())
+}
+
+fn responses(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
+    let damping = DampingRatio::new(0.05)?;
+    let (board, soft) = (Suspension::new(1131.0, damping)?, Suspension::new(3.0, damping)?);
+    let table = ShockTable { shortest: 2e-4, longest: 0.02, acceleration: 5e4, velocity_change: 20.0 };
+    let shocks = [(0.0, 2.5), (4e-3, -1.0)].map(|(time, delta_v)| VelocityShock { time, delta_v });
+    let pulses = [(Shape::HalfSine, 5000.0, 5e-4, 0.0), (Shape::Haversine, -2000.0, 1e-3, 4e-3)];
+    let pulses = pulses.map(|(shape, amplitude, duration, start)| Pulse { shape, amplitude, duration, start });
+    let (bar, start) = (Bar::new(0.73, 0.2)?, Start::default());
+    lines.push(serde_json::to_string(&respond::rule::answer(&bar, &start, 1.0, &soft)?)?);
+    for (excitation, part) in [
+        (Excitation::Bar { bar, start, at: 1.0 }, soft),
+        (Excitation::Shocks(VelocityShocks::new(shocks.to_vec())?), board),
+        (Excitation::Pulses(pulses.to_vec()), board),
+    ] {
+        let mut question = respond::Question::new(excitation, part);
+        question.shock_table = Some(table);
+        lines.push(serde_json::to_string(&respond::answer(&question)?)?);
+    }
+    let scene = Scene::new(Body::off_center(0.08, 0.06, 0.041)?, 0.4, 4.43, 4.0, 9.806_65)?;
+    let contact = Contact::new(ContactLaw::Hysteretic, 0.4, 4e-4)?;
+    for (model, suspension) in [
+        (clatter_assess::Model::Map, None),
+        (clatter_assess::Model::FiniteTilt, Some(board)),
+        (clatter_assess::Model::Compliant, Some(board)),
+    ] {
+        let mut question = respond::drop::Question::new(scene, model, 0.6);
+        (question.suspension, question.contact_time_s) = (suspension, Some(contact.time_s()));
+        lines.push(serde_json::to_string(&respond::drop::answer(&question)?)?);
+    }
+    let phone = clatter_flight::Plate::new([0.08, 0.07, 0.035, 0.035], [0.0433, 0.0202])?;
+    let drop = PlateDrop { scene: PlateScene::new(phone, 4.43, [2e-3, 1e-3], 9.806_65)?, contact };
+    let mut question = respond::plate::Question::new(drop, [0.3, 0.2]);
+    question.suspension = Some(board);
+    lines.push(serde_json::to_string(&respond::plate::answer(&question)?)?);
+    let handheld = Block::new([0.15, 0.07, 0.015], [0.002, 0.0, 0.001], [0.0207, 0.0435, 0.0478])?;
+    let drop = BlockDrop::tilted(handheld, 0.7, 0.4, 4.43, 9.806_65)?;
+    let mut question = respond::block::Question::new(drop, contact, [0.01, 0.02, 0.0], respond::block::Axis::Z);
+    question.suspension = Some(board);
+    lines.push(serde_json::to_string(&respond::block::answer(&question)?)?);
     Ok(())
 }
 

@@ -7,19 +7,24 @@
 //! - If you want one quantity over all bars, call [`map::answer`].
 //! - If you have a drop in m and m/s and want its strikes in time, call [`simulate::answer`]; of a plate
 //!   [`simulate::plate::answer`], of a box [`simulate::block::answer`].
+//! - If you have a part and what shakes it, a bar, shocks or pulses, call [`respond::answer`]; of a drop in m and m/s
+//!   [`respond::drop::answer`], of a plate [`respond::plate::answer`], of a box [`respond::block::answer`].
 //! - If you have a plate and ask what every direction of tilt leads to, call [`atlas::answer`].
 //!
 //! Velocities are in v0, the drop speed; times in h0/v0, where h0 is the height of end b when end a touches; positions in
 //! half-lengths from the middle. Numbers are [`Json`], which writes every digit and has a word for infinity.
 
 pub mod atlas;
+mod error;
 pub mod impacts;
 pub mod map;
 mod numbers;
+pub mod respond;
 pub mod simulate;
 pub mod zone;
 
-use clatter::{End, Error};
+use clatter::End;
+pub use error::Error;
 pub use numbers::{Json, JsonCount, JsonWhole, whole};
 
 /// The letter of an end.
@@ -32,22 +37,24 @@ pub fn letter(end: End) -> &'static str {
 }
 
 /// That all positions lie on the body.
-fn on_body(positions: impl IntoIterator<Item = f64>) -> Result<(), Error> {
+fn on_body(positions: impl IntoIterator<Item = f64>) -> Result<(), clatter::Error> {
     match positions.into_iter().find(|s| !(-1.0..=1.0).contains(s)) {
-        Some(value) => Err(Error::Quantity { name: "position", value, allowed: "in [-1, 1]" }),
+        Some(value) => Err(clatter::Error::Quantity { name: "position", value, allowed: "in [-1, 1]" }),
         None => Ok(()),
     }
 }
 
 /// That all places lie on the plate.
-fn on_plate(places: &[[f64; 2]]) -> Result<(), Error> {
+fn on_plate(places: &[[f64; 2]]) -> Result<(), clatter::Error> {
     on_body(places.iter().flatten().copied())
 }
 
 /// That all thresholds are in the bounds of velocities, so that no safe zone overflows.
-fn in_bounds(thresholds: &[f64]) -> Result<(), Error> {
+fn in_bounds(thresholds: &[f64]) -> Result<(), clatter::Error> {
     match thresholds.iter().find(|x| !(1e-150..=1e150).contains(*x)) {
-        Some(value) => Err(Error::Quantity { name: "threshold", value: *value, allowed: "in [1e-150, 1e150], in v0" }),
+        Some(value) => {
+            Err(clatter::Error::Quantity { name: "threshold", value: *value, allowed: "in [1e-150, 1e150], in v0" })
+        }
         None => Ok(()),
     }
 }
