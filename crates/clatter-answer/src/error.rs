@@ -1,5 +1,6 @@
 //! Why a question has no answer.
 
+use clatter_assess::fit::MOST_SAMPLES;
 use clatter_shock::Pulse;
 
 /// A question that nothing answers: the value, and what is allowed.
@@ -24,6 +25,36 @@ pub enum Error {
         /// The highest that is asked for.
         frequency_hz: f64,
     },
+    /// A record without shocks, or with too many for a spectrum of each.
+    #[error("{count} shocks beyond {threshold_m_s2:?} m/s2; spectra are made of 1 to {most}")]
+    Shocks {
+        /// How many there are.
+        count: usize,
+        /// What they pass.
+        threshold_m_s2: f64,
+        /// How many there may be.
+        most: usize,
+    },
+    /// What one of several records does not hold.
+    #[error("{file}: {reason}")]
+    OfRecord {
+        /// Its file.
+        file: String,
+        /// What it is.
+        reason: clatter_record::Error,
+    },
+    /// A record of an acceleration with more channels than the one of its place.
+    #[error("{0} channels; a fit takes the one of its place")]
+    Channels(usize),
+    /// A record that is longer than a fit takes.
+    #[error("{0} samples; a fit takes {MOST_SAMPLES} at most")]
+    Samples(usize),
+    /// A record of bounces beside others.
+    #[error("a record of bounces is of another drop: fit it alone")]
+    Bounces,
+    /// A radius of gyration in m that counts as known, and is a range.
+    #[error("the radius of gyration is to be known, and the product has a range, {} to {} m", .0[0], .0[1])]
+    GyrationRange([f64; 2]),
     /// What the bar or the plate does not accept.
     #[error(transparent)]
     Bar(#[from] clatter::Error),
@@ -36,6 +67,12 @@ pub enum Error {
     /// What the product or its drop does not accept.
     #[error(transparent)]
     Assess(clatter_assess::Error),
+    /// What measured drops do not tell.
+    #[error(transparent)]
+    Fit(#[from] clatter_assess::fit::Error),
+    /// What a record does not hold.
+    #[error(transparent)]
+    Record(#[from] clatter_record::Error),
 }
 
 impl From<clatter_assess::Error> for Error {
@@ -44,7 +81,7 @@ impl From<clatter_assess::Error> for Error {
     }
 }
 
-/// Periods of a part that a pulse may last: each takes work.
+/// Periods of a part that a pulse may last: each of its turning points is found.
 const MOST_PERIODS: f64 = 1e5;
 
 /// Refuses pulses that last too many periods of a part.

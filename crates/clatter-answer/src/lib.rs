@@ -9,23 +9,33 @@
 //!   [`simulate::plate::answer`], of a box [`simulate::block::answer`].
 //! - If you have a part and what shakes it, a bar, shocks or pulses, call [`respond::answer`]; of a drop in m and m/s
 //!   [`respond::drop::answer`], of a plate [`respond::plate::answer`], of a box [`respond::block::answer`].
+//! - If you have a product file, call [`assess::answer`] for verdicts, [`scatter::answer`] for how likely its parts survive; with
+//!   records of a measured drop [`fit::answer`].
+//! - If you have a record of accelerations, call [`record::answer`] for what it holds, [`spectrum::answer`] for what parts make of it.
 //! - If you have a plate and ask what every direction of tilt leads to, call [`atlas::answer`].
 //!
 //! Velocities are in v0, the drop speed; times in h0/v0, where h0 is the height of end b when end a touches; positions in
 //! half-lengths from the middle. Numbers are [`Json`], which writes every digit and has a word for infinity.
 
+pub mod assess;
 pub mod atlas;
 mod error;
+pub mod fit;
 pub mod impacts;
 pub mod map;
 mod numbers;
+pub mod record;
 pub mod respond;
+pub mod scatter;
 pub mod simulate;
+pub mod spectrum;
 pub mod zone;
 
 use clatter::End;
+use clatter_assess::visible;
+use clatter_shock::Shape;
 pub use error::Error;
-pub use numbers::{Json, JsonCount, JsonWhole, whole};
+pub use numbers::{Json, JsonCount, JsonWhole, figures, whole};
 
 /// The letter of an end.
 #[must_use]
@@ -34,6 +44,21 @@ pub fn letter(end: End) -> &'static str {
         End::A => "a",
         End::B => "b",
     }
+}
+
+/// A pulse shape as it is typed.
+#[must_use]
+pub fn shape_name(shape: Shape) -> String {
+    let name = match shape {
+        Shape::HalfSine => "half-sine",
+        Shape::Haversine => "haversine",
+        Shape::Triangle => "triangle",
+        Shape::InitialPeakSawtooth => "initial-peak-sawtooth",
+        Shape::TerminalPeakSawtooth => "terminal-peak-sawtooth",
+        Shape::Rectangle => "rectangle",
+        Shape::Trapezoid { ramp } => return format!("trapezoid:{ramp:?}"),
+    };
+    name.to_owned()
 }
 
 /// That all positions lie on the body.

@@ -2,10 +2,12 @@
 
 use clatter::{Axis, Bar, Plate, PlateStart, Quantity, Start};
 use clatter_answer::respond::{self, Excitation};
-use clatter_answer::{atlas, impacts, map, simulate, zone};
-use clatter_assess::PlateDrop;
+use clatter_answer::{atlas, fit, impacts, map, simulate, spectrum, zone};
+use clatter_assess::fit::Measured;
+use clatter_assess::{PlateDrop, ProductFile};
 use clatter_flight::{Block, BlockDrop, Body, Contact, ContactLaw, Model, PlateScene, Scene};
-use clatter_shock::{DampingRatio, Pulse, Shape, Suspension};
+use clatter_record::{Options, Record};
+use clatter_shock::{DampingRatio, Pulse, Search, Shape, Suspension};
 use serde_json::{Value, json};
 
 #[path = "../examples/answers.rs"]
@@ -90,6 +92,32 @@ fn parts_that_no_drop_answers_are_refused() {
     says(respond::block::answer(&question).expect_err("beyond the box"), "position in m = 0.04");
     (question.at_m, question.suspension) = ([0.0; 3], Some(part(100.0)));
     says(respond::block::answer(&question).expect_err("no axis"), "100.0");
+}
+
+/// Records that no fit takes, and shocks that are too few for spectra, are refused with what there is.
+#[test]
+fn records_that_answer_nothing_are_refused() {
+    let says = |error: clatter_answer::Error, what: &str| assert!(error.to_string().contains(what), "{error}");
+    let text = "time [s],x [m/s2],y [m/s2]\n0,0,0\n0.001,5,1\n0.002,0,0\n0.003,0,0\n";
+    let record = Record::read(text.as_bytes(), &Options::default(), |_| ()).expect("a record");
+    says(fit::Data::acceleration(&record, 0.0).expect_err("two channels"), "2 channels");
+    let whole = spectrum::Measured { file: "x.csv".to_owned(), name: None, record, shock: None };
+    let search = Search { threshold_m_s2: Some(100.0), quiet_s: 0.1 };
+    says(whole.apart(&search).expect_err("no shock"), "0 shocks beyond 100.0 m/s2");
+    let file = ProductFile::read(clatter_assess::EXAMPLE, "example.toml").expect("a product");
+    let one = |data| fit::Record { name: "x.csv".to_owned(), data };
+    let [bounces, strikes] = [
+        fit::Data::Bounces(vec![0.0, 0.4, 0.6]),
+        fit::Data::Measured(Measured::Strikes { strikes: Vec::new(), deviation_s: None }),
+    ]
+    .map(one);
+    let question = fit::Question::new(&file, vec![bounces, strikes]);
+    says(fit::answer(&question).expect_err("two drops"), "of another drop");
+    let mut range = file.clone();
+    range.product.gyration_m = clatter_assess::Spread::new(0.05, 0.06, clatter_assess::Law::Range).expect("a range");
+    let mut question = fit::Question::new(&range, Vec::new());
+    question.gyration_known = true;
+    says(fit::answer(&question).expect_err("not known"), "0.05 to 0.06 m");
 }
 
 /// Seen from the end that strikes second, a drop is the same: places and ends change their names alone.

@@ -188,7 +188,7 @@ impl Args {
             contact_time_s: self.contact_time,
             limit_factor: self.limit_factor,
         };
-        let assessment = assess::watched(file, &Accuracy::default())?;
+        let assessment = assess::watched(file, &Accuracy::default())?.assessment;
         let remedies = {
             let changes = Counted::begin("changing", 0);
             file.remedies_watched(&assessment, &bounds, self.margin, &|done, all| {

@@ -62,9 +62,9 @@ pub(crate) fn measure(
     streams: &mut Streams<'_>,
 ) -> Result<(ProductFile, ProductLadder), Failure> {
     let file = assess::read(path, files, streams)?;
-    let ladders = assess::watched(&file, &Accuracy::default()).and_then(|assessment| {
+    let ladders = assess::watched(&file, &Accuracy::default()).and_then(|answer| {
         let _measuring = Counted::begin("measuring models", 0);
-        file.ladders(&assessment, tolerance)
+        file.ladders(&answer.assessment, tolerance)
     });
     let ladders = ladders.map_err(|error| Failure::Product(format!("error: {}: {error}", text::path(path))))?;
     Ok((file, ladders))
