@@ -25,6 +25,9 @@ pub enum Error {
         /// The highest that is asked for.
         frequency_hz: f64,
     },
+    /// Goals of which the first is no safe zone.
+    #[error("the first goal is a safe zone, whose front is given: a goal of turning needs one beside it")]
+    NoZone,
     /// A record without shocks, or with too many for a spectrum of each.
     #[error("{count} shocks beyond {threshold_m_s2:?} m/s2; spectra are made of 1 to {most}")]
     Shocks {

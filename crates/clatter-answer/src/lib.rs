@@ -9,8 +9,8 @@
 //!   [`simulate::plate::answer`], of a box [`simulate::block::answer`].
 //! - If you have a part and what shakes it, a bar, shocks or pulses, call [`respond::answer`]; of a drop in m and m/s
 //!   [`respond::drop::answer`], of a plate [`respond::plate::answer`], of a box [`respond::block::answer`].
-//! - If you have a product file, call [`assess::answer`] for verdicts, [`scatter::answer`] for how likely its parts survive; with
-//!   records of a measured drop [`fit::answer`].
+//! - If you have a product file, call [`assess::answer`] for verdicts, [`scatter::answer`] for how likely its parts survive,
+//!   [`design::answer`] for what would make them safe; with records of a measured drop [`fit::answer`].
 //! - If you have a record of accelerations, call [`record::answer`] for what it holds, [`spectrum::answer`] for what parts make of it.
 //! - If you have a plate and ask what every direction of tilt leads to, call [`atlas::answer`].
 //!
@@ -19,7 +19,9 @@
 
 pub mod assess;
 pub mod atlas;
+pub mod design;
 mod error;
+pub mod explain;
 pub mod fit;
 pub mod impacts;
 pub mod map;
@@ -35,7 +37,7 @@ use clatter::End;
 use clatter_assess::visible;
 use clatter_shock::Shape;
 pub use error::Error;
-pub use numbers::{Json, JsonCount, JsonWhole, figures, whole};
+pub use numbers::{Json, JsonCount, JsonWhole, figures, neat, whole};
 
 /// The letter of an end.
 #[must_use]

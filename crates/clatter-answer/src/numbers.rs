@@ -37,6 +37,12 @@ pub fn figures(x: f64) -> String {
     }
 }
 
+/// A number without the digits that a conversion adds.
+#[must_use]
+pub fn neat(x: f64) -> f64 {
+    format!("{x:.13e}").parse().unwrap_or(x)
+}
+
 /// A count that is kept as a float, for csv: without a fraction as long as every whole number has its own float.
 #[must_use]
 pub fn whole(x: f64) -> String {

@@ -12,7 +12,7 @@
 //! # Ok::<(), clatter_answer::Error>(())
 //! ```
 //!
-//! The drops of [`drop`], [`plate`] and [`block`] are in SI units; [`rule`] has the same part at all natural frequencies.
+//! The drops of [`mod@drop`], [`plate`] and [`block`] are in SI units; [`rule`] has the same part at all natural frequencies.
 
 pub mod block;
 pub mod drop;
