@@ -12,10 +12,20 @@
 //! - If you have a product file, call [`assess::answer`] for verdicts, [`scatter::answer`] for how likely its parts survive,
 //!   [`design::answer`] for what would make them safe; with records of a measured drop [`fit::answer`].
 //! - If you have a record of accelerations, call [`record::answer`] for what it holds, [`spectrum::answer`] for what parts make of it.
+//! - If you have models that were measured on worst drops, [`explain::Answer`] shows them without their times.
 //! - If you have a plate and ask what every direction of tilt leads to, call [`atlas::answer`].
 //!
-//! Velocities are in v0, the drop speed; times in h0/v0, where h0 is the height of end b when end a touches; positions in
-//! half-lengths from the middle. Numbers are [`Json`], which writes every digit and has a word for infinity.
+//! ```
+//! use clatter_answer::assess;
+//! use clatter_assess::{Accuracy, EXAMPLE, ProductFile};
+//! let file = ProductFile::read(EXAMPLE, "example.toml")?;
+//! let answer = serde_json::to_value(assess::answer(&file, &Accuracy::default())?)?;
+//! assert_eq!(answer["components"][0]["name"], file.components[0].name.as_str());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Where names have no units, velocities are in v0, the drop speed; times in h0/v0, where h0 is the height of end b when end a
+//! touches; positions in half-lengths from the middle. Numbers are [`Json`], which writes every digit and has a word for infinity.
 
 pub mod assess;
 pub mod atlas;
