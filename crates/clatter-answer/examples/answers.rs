@@ -5,14 +5,23 @@
 //! ```
 
 use std::error::Error;
+use std::fmt::Write as _;
 use std::io::Write;
 
 use clatter::{Axis, Bar, OffCenterBar, Plate, PlateStart, Quantity, Start};
-use clatter_answer::{atlas, impacts, map, simulate, zone};
+use clatter_answer::fit::Data;
+use clatter_answer::respond::{self, Excitation};
+use clatter_answer::{assess, atlas, fit, impacts, map, record, scatter, simulate, spectrum, zone};
 use clatter_assess::design::Bounds;
+use clatter_assess::fit::{Known, Measured, MeasuredStrike};
 use clatter_assess::scatter::{Sampler, Settings};
+use clatter_assess::{Accuracy, PlateDrop, ProductFile};
 use clatter_flight::{Block, BlockDrop, Body, Contact, ContactLaw, Model, PlateScene, Scene};
-use clatter_shock::{DampingRatio, Frequencies, Pulse, Pulses, Shape, SpectrumFilter, UnevenFilter};
+use clatter_record::{Options, Record};
+use clatter_shock::{
+    DampingRatio, Frequencies, LimitCurve, Pulse, Pulses, Search, Shape, ShockTable, SpectrumFilter, Suspension,
+    UnevenFilter, VelocityShock, VelocityShocks,
+};
 
 /// The answers.
 pub(crate) fn answers() -> Result<String, Box<dyn Error>> {
@@ -20,6 +29,9 @@ pub(crate) fn answers() -> Result<String, Box<dyn Error>> {
     without_time(&mut lines)?;
     in_time(&mut lines)?;
     of_parts(&mut lines)?;
+    responses(&mut lines)?;
+    of_products(&mut lines)?;
+    of_records(&mut lines)?;
     Ok(lines.join("\n") + "\n")
 }
 
@@ -69,7 +81,7 @@ fn in_time(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
 }
 
 fn of_parts(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
-    let file = clatter_assess::ProductFile::read(clatter_assess::EXAMPLE, "example.toml")?;
+    let file = ProductFile::read(clatter_assess::EXAMPLE, "example.toml")?;
     let assessment = file.assess()?;
     lines.push(serde_json::to_string(&assessment)?);
     lines.push(format!("{:?}", file.remedies(&assessment, &Bounds::default(), 0.1)?));
@@ -90,6 +102,112 @@ fn of_parts(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
     let mut filter = UnevenFilter::new(frequencies, damping, clatter_shock::Quantity::AbsoluteAcceleration);
     filter.push(&times, &values)?;
     lines.push(format!("{:?}", filter.finish()?.maximax));
+    Ok(())
+}
+
+fn responses(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
+    let damping = DampingRatio::new(0.05)?;
+    let (board, soft) = (Suspension::new(1131.0, damping)?, Suspension::new(3.0, damping)?);
+    let table = ShockTable { shortest: 2e-4, longest: 0.02, acceleration: 5e4, velocity_change: 20.0 };
+    let shocks = [(0.0, 2.5), (4e-3, -1.0)].map(|(time, delta_v)| VelocityShock { time, delta_v });
+    let pulses = [(Shape::HalfSine, 5000.0, 5e-4, 0.0), (Shape::Haversine, -2000.0, 1e-3, 4e-3)];
+    let pulses = pulses.map(|(shape, amplitude, duration, start)| Pulse { shape, amplitude, duration, start });
+    let (bar, start) = (Bar::new(0.73, 0.2)?, Start::default());
+    lines.push(serde_json::to_string(&respond::rule::answer(&bar, &start, 1.0, &soft)?)?);
+    for (excitation, part) in [
+        (Excitation::Bar { bar, start, at: 1.0 }, soft),
+        (Excitation::Shocks(VelocityShocks::new(shocks.to_vec())?), board),
+        (Excitation::Pulses(pulses.to_vec()), board),
+    ] {
+        let mut question = respond::Question::new(excitation, part);
+        question.shock_table = Some(table);
+        lines.push(serde_json::to_string(&respond::answer(&question)?)?);
+    }
+    let scene = Scene::new(Body::off_center(0.08, 0.06, 0.041)?, 0.4, 4.43, 4.0, 9.806_65)?;
+    let contact = Contact::new(ContactLaw::Hysteretic, 0.4, 4e-4)?;
+    for (model, suspension) in [
+        (clatter_assess::Model::Map, None),
+        (clatter_assess::Model::FiniteTilt, Some(board)),
+        (clatter_assess::Model::Compliant, Some(board)),
+    ] {
+        let mut question = respond::drop::Question::new(scene, model, 0.6);
+        (question.suspension, question.contact_time_s) = (suspension, Some(contact.time_s()));
+        lines.push(serde_json::to_string(&respond::drop::answer(&question)?)?);
+    }
+    let phone = clatter_flight::Plate::new([0.08, 0.07, 0.035, 0.035], [0.0433, 0.0202])?;
+    let drop = PlateDrop { scene: PlateScene::new(phone, 4.43, [2e-3, 1e-3], 9.806_65)?, contact };
+    let mut question = respond::plate::Question::new(drop, [0.3, 0.2]);
+    question.suspension = Some(board);
+    lines.push(serde_json::to_string(&respond::plate::answer(&question)?)?);
+    let handheld = Block::new([0.15, 0.07, 0.015], [0.002, 0.0, 0.001], [0.0207, 0.0435, 0.0478])?;
+    let drop = BlockDrop::tilted(handheld, 0.7, 0.4, 4.43, 9.806_65)?;
+    let mut question = respond::block::Question::new(drop, contact, [0.01, 0.02, 0.0], respond::block::Axis::Z);
+    question.suspension = Some(board);
+    lines.push(serde_json::to_string(&respond::block::answer(&question)?)?);
+    Ok(())
+}
+
+/// Strikes of the paper's reference bar with e = 0.3 and a gap of 2 ms times the speed, by Eqs. 1 to 3.
+const STRIKES_S: [f64; 4] = [0.25, 0.251_212_121_21, 0.251_682_847_9, 0.284_385_965_91];
+/// That bar.
+const BAR: &str = r#"[product]
+name = "Bar"
+length = "200 mm"
+radius_of_gyration = "57.735 mm"
+restitution = [0.1, 0.9]
+[drop]
+speed = "0.1 m/s"
+tilt = ["0 deg", "1 deg"]
+gravity = "0 gn"
+[[component]]
+name = "part"
+position = "0 mm"
+mount = "hard"
+velocity_change_limit = "1 m/s"
+"#;
+
+fn of_products(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
+    let file = ProductFile::read(BAR, "bar.toml")?;
+    let strikes = STRIKES_S.map(|time_s| MeasuredStrike { time_s, end: None }).to_vec();
+    let strikes = Data::Measured(Measured::Strikes { strikes, deviation_s: Some(1e-6) });
+    for data in [strikes, Data::Bounces(vec![0.0, 0.4, 0.6, 0.7, 0.75])] {
+        let record = fit::Record { name: "drop.csv".to_owned(), data };
+        let mut question = fit::Question::new(&file, vec![record.clone()]);
+        question.gyration_known = true;
+        lines.push(serde_json::to_string(&fit::answer(&question)?)?);
+        let mut answer = assess::answer(&file, &Accuracy::default())?;
+        let drop = fit::DropRecords { name: "a drop".to_owned(), records: vec![record], timing_s: None };
+        answer.measured.push(drop.fitted(&Known::from(&file))?);
+        lines.push(serde_json::to_string(&answer)?);
+    }
+    let settings = Settings { samples: 500, seed: 7, confidence: 0.9, merge_s: 1e-3 };
+    lines.push(serde_json::to_string(&scatter::answer(&file, settings)?)?);
+    Ok(())
+}
+
+fn of_records(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
+    let mut text = "time [ms],ax [g],az [g]\n".to_owned();
+    for i in 0..1500 {
+        let time_ms = 0.02 * f64::from(i);
+        let half_sine = |peak: f64, from_ms: f64, length_ms: f64| {
+            let at = (time_ms - from_ms) / length_ms;
+            if (0.0..=1.0).contains(&at) { peak * libm::sin(std::f64::consts::PI * at) } else { 0.0 }
+        };
+        let [x, z] = [half_sine(50.0, 5.0, 2.0) - half_sine(20.0, 20.0, 1.0), half_sine(80.0, 5.2, 1.5)];
+        writeln!(text, "{time_ms:.3},{x:.6},{:.6}", z + 0.05 * libm::sin(5.0 * time_ms))?;
+    }
+    let record = Record::read(text.as_bytes(), &Options::default(), |_| ())?;
+    let mut question = record::Question::new(&record);
+    question.find = Some(Search { threshold_m_s2: None, quiet_s: 5e-3 });
+    (question.fit_pulse, question.integrate) = (true, true);
+    lines.push(serde_json::to_string(&record::answer(&question)?)?);
+    let measured = spectrum::Measured { file: "drop.csv".to_owned(), name: None, record, shock: None };
+    let mut question = spectrum::Question::new(spectrum::Excitation::Records(vec![measured]), DampingRatio::new(0.05)?);
+    question.frequencies = Some(Frequencies::per_octave(50.0, 1000.0, 1.0)?);
+    question.limit = Some(LimitCurve::constant(900.0)?);
+    question.enveloping = Some(Shape::Haversine);
+    (question.resultant, question.envelope, question.mean_3db) = (true, true, true);
+    lines.push(serde_json::to_string(&spectrum::answer(&question)?)?);
     Ok(())
 }
 

@@ -7,20 +7,47 @@
 //! - If you want one quantity over all bars, call [`map::answer`].
 //! - If you have a drop in m and m/s and want its strikes in time, call [`simulate::answer`]; of a plate
 //!   [`simulate::plate::answer`], of a box [`simulate::block::answer`].
+//! - If you have a part and what shakes it, a bar, shocks or pulses, call [`respond::answer`]; of a drop in m and m/s
+//!   [`respond::drop::answer`], of a plate [`respond::plate::answer`], of a box [`respond::block::answer`].
+//! - If you have a product file, call [`assess::answer`] for verdicts, [`scatter::answer`] for how likely its parts survive,
+//!   [`design::answer`] for what would make them safe; with records of a measured drop [`fit::answer`].
+//! - If you have a record of accelerations, call [`record::answer`] for what it holds, [`spectrum::answer`] for what parts make of it.
+//! - If you have models that were measured on worst drops, [`explain::Answer`] shows them without their times.
 //! - If you have a plate and ask what every direction of tilt leads to, call [`atlas::answer`].
 //!
-//! Velocities are in v0, the drop speed; times in h0/v0, where h0 is the height of end b when end a touches; positions in
-//! half-lengths from the middle. Numbers are [`Json`], which writes every digit and has a word for infinity.
+//! ```
+//! use clatter_answer::assess;
+//! use clatter_assess::{Accuracy, EXAMPLE, ProductFile};
+//! let file = ProductFile::read(EXAMPLE, "example.toml")?;
+//! let answer = serde_json::to_value(assess::answer(&file, &Accuracy::default())?)?;
+//! assert_eq!(answer["components"][0]["name"], file.components[0].name.as_str());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Where names have no units, velocities are in v0, the drop speed; times in h0/v0, where h0 is the height of end b when end a
+//! touches; positions in half-lengths from the middle. Numbers are [`Json`], which writes every digit and has a word for infinity.
 
+pub mod assess;
 pub mod atlas;
+pub mod design;
+mod error;
+pub mod explain;
+pub mod fit;
 pub mod impacts;
 pub mod map;
 mod numbers;
+pub mod record;
+pub mod respond;
+pub mod scatter;
 pub mod simulate;
+pub mod spectrum;
 pub mod zone;
 
-use clatter::{End, Error};
-pub use numbers::{Json, JsonCount, JsonWhole, whole};
+use clatter::End;
+use clatter_assess::visible;
+use clatter_shock::Shape;
+pub use error::Error;
+pub use numbers::{Json, JsonCount, JsonWhole, figures, neat, whole};
 
 /// The letter of an end.
 #[must_use]
@@ -31,23 +58,40 @@ pub fn letter(end: End) -> &'static str {
     }
 }
 
+/// A pulse shape as it is typed.
+#[must_use]
+pub fn shape_name(shape: Shape) -> String {
+    let name = match shape {
+        Shape::HalfSine => "half-sine",
+        Shape::Haversine => "haversine",
+        Shape::Triangle => "triangle",
+        Shape::InitialPeakSawtooth => "initial-peak-sawtooth",
+        Shape::TerminalPeakSawtooth => "terminal-peak-sawtooth",
+        Shape::Rectangle => "rectangle",
+        Shape::Trapezoid { ramp } => return format!("trapezoid:{ramp:?}"),
+    };
+    name.to_owned()
+}
+
 /// That all positions lie on the body.
-fn on_body(positions: impl IntoIterator<Item = f64>) -> Result<(), Error> {
+fn on_body(positions: impl IntoIterator<Item = f64>) -> Result<(), clatter::Error> {
     match positions.into_iter().find(|s| !(-1.0..=1.0).contains(s)) {
-        Some(value) => Err(Error::Quantity { name: "position", value, allowed: "in [-1, 1]" }),
+        Some(value) => Err(clatter::Error::Quantity { name: "position", value, allowed: "in [-1, 1]" }),
         None => Ok(()),
     }
 }
 
 /// That all places lie on the plate.
-fn on_plate(places: &[[f64; 2]]) -> Result<(), Error> {
+fn on_plate(places: &[[f64; 2]]) -> Result<(), clatter::Error> {
     on_body(places.iter().flatten().copied())
 }
 
 /// That all thresholds are in the bounds of velocities, so that no safe zone overflows.
-fn in_bounds(thresholds: &[f64]) -> Result<(), Error> {
+fn in_bounds(thresholds: &[f64]) -> Result<(), clatter::Error> {
     match thresholds.iter().find(|x| !(1e-150..=1e150).contains(*x)) {
-        Some(value) => Err(Error::Quantity { name: "threshold", value: *value, allowed: "in [1e-150, 1e150], in v0" }),
+        Some(value) => {
+            Err(clatter::Error::Quantity { name: "threshold", value: *value, allowed: "in [1e-150, 1e150], in v0" })
+        }
         None => Ok(()),
     }
 }

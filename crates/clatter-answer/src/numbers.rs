@@ -18,6 +18,31 @@ impl Serialize for Json {
     }
 }
 
+/// Six significant digits, so that a column tells at a glance how exact it is; −0 is 0.
+///
+/// From 10⁻³ to 10⁶ without an exponent. A digit more or less is never a matter of the row: each value is
+/// rounded by itself.
+#[must_use]
+pub fn figures(x: f64) -> String {
+    if x == 0.0 {
+        return "0".to_owned();
+    }
+    if x.is_infinite() {
+        return if x > 0.0 { "infinite" } else { "-infinite" }.to_owned();
+    }
+    let scientific = format!("{x:.5e}");
+    match scientific.rsplit('e').next().and_then(|exponent| exponent.parse::<i32>().ok()) {
+        Some(exponent @ -3..=5) => format!("{x:.*}", usize::try_from(5 - exponent).unwrap_or(0)),
+        _ => scientific,
+    }
+}
+
+/// A number without the digits that a conversion adds.
+#[must_use]
+pub fn neat(x: f64) -> f64 {
+    format!("{x:.13e}").parse().unwrap_or(x)
+}
+
 /// A count that is kept as a float, for csv: without a fraction as long as every whole number has its own float.
 #[must_use]
 pub fn whole(x: f64) -> String {
@@ -58,6 +83,28 @@ impl Serialize for JsonCount {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn people_get_six_digits_whatever_the_size() {
+        for (x, shown) in [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (1.0, "1.00000"),
+            (-0.65, "-0.650000"),
+            (17.192_982_456_140_317, "17.1930"),
+            (999_999.4, "999999"),
+            (999_999.5, "1.00000e6"),
+            (0.001, "0.00100000"),
+            (0.000_999_999_6, "0.00100000"),
+            (0.000_999_99, "9.99990e-4"),
+            (-5e-324, "-4.94066e-324"),
+            (1e308, "1.00000e308"),
+            (f64::INFINITY, "infinite"),
+            (f64::NEG_INFINITY, "-infinite"),
+        ] {
+            assert_eq!(figures(x), shown, "{x:?}");
+        }
+    }
 
     #[test]
     fn not_a_number_never_reaches_json() {

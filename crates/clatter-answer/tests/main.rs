@@ -1,8 +1,13 @@
 //! Questions that no drop answers are refused with the value, and answers serialize to what programs read.
 
 use clatter::{Axis, Bar, Plate, PlateStart, Quantity, Start};
-use clatter_answer::{atlas, impacts, map, simulate, zone};
-use clatter_flight::{Body, Contact, ContactLaw, Model, PlateScene, Scene};
+use clatter_answer::respond::{self, Excitation};
+use clatter_answer::{atlas, fit, impacts, map, simulate, spectrum, zone};
+use clatter_assess::fit::Measured;
+use clatter_assess::{PlateDrop, ProductFile};
+use clatter_flight::{Block, BlockDrop, Body, Contact, ContactLaw, Model, PlateScene, Scene};
+use clatter_record::{Options, Record};
+use clatter_shock::{DampingRatio, Pulse, Search, Shape, Suspension};
 use serde_json::{Value, json};
 
 #[path = "../examples/answers.rs"]
@@ -54,6 +59,78 @@ fn places_off_the_body_are_refused() {
         question.at = vec![[s, 0.0]];
         says(simulate::plate::answer(&question).expect_err("off the plate").to_string());
     }
+}
+
+/// What shakes a part, and how fast it may swing, is checked before it is followed.
+#[test]
+fn parts_that_no_drop_answers_are_refused() {
+    let says = |error: clatter_answer::Error, what: &str| assert!(error.to_string().contains(what), "{error}");
+    let part = |omega| Suspension::new(omega, DampingRatio::new(0.1).expect("damping")).expect("a part");
+    let bar = |at| Excitation::Bar { bar: Bar::new(0.5, 0.3).expect("a bar"), start: Start::default(), at };
+    says(respond::answer(&respond::Question::new(bar(1.5), part(1.0))).expect_err("off the bar"), "position = 1.5");
+    let pulse = Pulse { shape: Shape::HalfSine, amplitude: 1.0, duration: 1.0, start: 0.0 };
+    for (omega, what) in [(1e6, "a pulse of 1.0 s"), (1e120, "natural angular frequency in rad/s = 1e120")] {
+        let question = respond::Question::new(Excitation::Pulses(vec![pulse]), part(omega));
+        says(respond::answer(&question).expect_err("too fast"), what);
+    }
+    let flat = Start::new([-1.0; 2], 0.0).expect("a start");
+    let rule = respond::rule::answer(&Bar::new(0.5, 0.3).expect("a bar"), &flat, 1.0, &part(1.0));
+    says(rule.expect_err("no rule"), "height gap = 0.0");
+    let mut question = respond::drop::Question::new(scene(), clatter_assess::Model::FiniteTilt, 0.5);
+    question.suspension = Some(part(1e13));
+    says(respond::drop::answer(&question).expect_err("too fast"), "natural frequency in rad/s = 10000000000000.0");
+    question.at.clear();
+    says(respond::drop::answer(&question).expect_err("no place"), "places is empty");
+    let contact = Contact::new(ContactLaw::Hysteretic, 0.3, 4e-4).expect("a contact");
+    let mut question = respond::plate::Question::new(PlateDrop { scene: plate_scene(), contact }, [0.0, 1.5]);
+    says(respond::plate::answer(&question).expect_err("off the plate"), "position = 1.5");
+    (question.at, question.suspension) = ([0.0; 2], Some(part(1e-13)));
+    says(respond::plate::answer(&question).expect_err("too slow"), "natural frequency in rad/s = 1e-13");
+    let block = Block::new([0.15, 0.07, 0.015], [0.0; 3], [0.0207, 0.0435, 0.0478]).expect("a box");
+    let drop = BlockDrop::tilted(block, 0.5, 0.0, 1.0, 9.806_65).expect("a drop");
+    let mut question = respond::block::Question::new(drop, contact, [0.0, 0.04, 0.0], respond::block::Axis::Any);
+    says(respond::block::answer(&question).expect_err("beyond the box"), "position in m = 0.04");
+    (question.at_m, question.suspension) = ([0.0; 3], Some(part(100.0)));
+    says(respond::block::answer(&question).expect_err("no axis"), "100.0");
+}
+
+/// Records that no fit takes, and shocks that are too few for spectra, are refused with what there is.
+#[test]
+fn records_that_answer_nothing_are_refused() {
+    let says = |error: clatter_answer::Error, what: &str| assert!(error.to_string().contains(what), "{error}");
+    let text = "time [s],x [m/s2],y [m/s2]\n0,0,0\n0.001,5,1\n0.002,0,0\n0.003,0,0\n";
+    let record = Record::read(text.as_bytes(), &Options::default(), |_| ()).expect("a record");
+    says(fit::Data::acceleration(&record, 0.0).expect_err("two channels"), "2 channels");
+    let whole = spectrum::Measured { file: "x.csv".to_owned(), name: None, record, shock: None };
+    let search = Search { threshold_m_s2: Some(100.0), quiet_s: 0.1 };
+    says(whole.apart(&search).expect_err("no shock"), "0 shocks beyond 100.0 m/s2");
+    let file = ProductFile::read(clatter_assess::EXAMPLE, "example.toml").expect("a product");
+    let one = |data| fit::Record { name: "x.csv".to_owned(), data };
+    let [bounces, strikes] = [
+        fit::Data::Bounces(vec![0.0, 0.4, 0.6]),
+        fit::Data::Measured(Measured::Strikes { strikes: Vec::new(), deviation_s: None }),
+    ]
+    .map(one);
+    let question = fit::Question::new(&file, vec![bounces, strikes]);
+    says(fit::answer(&question).expect_err("two drops"), "of another drop");
+    let mut range = file.clone();
+    range.product.gyration_m = clatter_assess::Spread::new(0.05, 0.06, clatter_assess::Law::Range).expect("a range");
+    let mut question = fit::Question::new(&range, Vec::new());
+    question.gyration_known = true;
+    says(fit::answer(&question).expect_err("not known"), "0.05 to 0.06 m");
+}
+
+/// Seen from the end that strikes second, a drop is the same: places and ends change their names alone.
+#[test]
+fn the_end_that_strikes_first_only_names_the_ends() {
+    let of = |first, at| {
+        let mut question = respond::drop::Question::new(scene(), clatter_assess::Model::FiniteTilt, at);
+        question.first = first;
+        let answer = respond::drop::answer(&question).expect("an answer");
+        (answer.first, answer.at.0, answer.velocity_change_m_s.0)
+    };
+    let (a, b) = (of(clatter::End::A, 0.7), of(clatter::End::B, -0.7));
+    assert_eq!((a.0, a.1, b.0, b.1, a.2), ("a", 0.7, "b", -0.7, b.2));
 }
 
 #[test]

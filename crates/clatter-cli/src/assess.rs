@@ -7,9 +7,9 @@ use std::io::{self, IsTerminal, Read};
 use std::path::{Path, PathBuf};
 
 use clap::ValueHint;
-use clatter_assess::fit::MeasuredDrop;
+use clatter_answer::assess::{self, Answer};
 use clatter_assess::units::Quantity;
-use clatter_assess::{Accuracy, Assessment, Component, ComponentAssessment, LARGEST_FILE, Model, ProductFile, Verdict};
+use clatter_assess::{Accuracy, Component, ComponentAssessment, LARGEST_FILE, Model, ProductFile, Verdict};
 use clatter_report::Pages;
 use serde::Serialize;
 
@@ -102,41 +102,34 @@ impl Args {
         let drops = files.iter().zip(&self.products).map(|(file, path)| crate::measured::drops(file, path));
         let drops = drops.collect::<Result<Vec<_>, _>>()?;
         let accuracy = Accuracy { tolerance: self.tolerance, model: self.model, merge_s: self.merge.si };
-        let assessments = files
-            .iter()
-            .zip(&self.products)
-            .map(|(file, path)| {
-                watched(file, &accuracy)
-                    .map_err(|error| Failure::Product(format!("error: {}: {error}", text::path(path))))
-            })
-            .collect::<Result<Vec<_>, _>>()?;
-        // After the assessments: whatever the records are, these come in their time.
-        let fitted = |(file, drops): (&ProductFile, Vec<crate::measured::Drop>)| {
-            drops.into_iter().map(|drop| drop.fitted(file)).collect::<Result<Vec<_>, _>>()
+        let assessed = |(file, path): (_, &PathBuf)| {
+            watched(file, &accuracy).map_err(|error| Failure::Product(format!("error: {}: {error}", text::path(path))))
         };
-        let drops = files.iter().zip(drops).map(fitted).collect::<Result<Vec<_>, _>>()?;
-        let answer =
-            |i: usize, file, assessment| Answer { file, assessment, measured: measured::answers(&files[i], &drops[i]) };
-        let shown = match (self.format, &assessments[..]) {
+        let mut answers = files.iter().zip(&self.products).map(assessed).collect::<Result<Vec<_>, _>>()?;
+        // After the assessments: whatever the records are, these come in their time.
+        for (answer, drops) in answers.iter_mut().zip(drops) {
+            answer.measured = drops.into_iter().map(|drop| drop.fitted(answer.file)).collect::<Result<_, _>>()?;
+        }
+        let shown = match (self.format, &answers[..]) {
             // The report is the answer.
             _ if self.output.as_deref().is_some_and(is_standard) => Ok(()),
-            (Format::Json, [one]) => streams.json(&answer(0, None, one)),
+            (Format::Json, [one]) => streams.json(one),
             (Format::Json, all) => {
-                let named = self.products.iter().zip(all).enumerate();
-                streams.json(&named.map(|(i, (path, one))| answer(i, Some(path), one)).collect::<Vec<_>>())
+                let named = self.products.iter().zip(all).map(|(file, answer)| Named { file, answer });
+                streams.json(&named.collect::<Vec<_>>())
             }
-            (Format::Table, [one]) => {
-                table::of_one((self.products[0].to_str().unwrap_or("-"), &files[0]), one, streams.out)
-                    .and_then(|()| measured::table(&files[0], &drops[0], streams.out))
-                    .map_err(Failure::Answer)
-            }
+            (Format::Table, [one]) => table::of_one(self.products[0].to_str().unwrap_or("-"), one, streams.out)
+                .and_then(|()| measured::table(one, streams.out))
+                .map_err(Failure::Answer),
             (Format::Table, all) => table::side_by_side(&self.products, all, streams.out).map_err(Failure::Answer),
         };
-        files.iter().zip(&drops).for_each(|(file, drops)| measured::warn(file, drops, streams));
+        for answer in &answers {
+            measured::warn(answer, streams);
+        }
         // The answer does not wait for its print, which may take long or fail, nor the print for a reader of the answer.
-        let safe = assessments.iter().all(|a| a.verdict == Verdict::Safe);
+        let safe = answers.iter().all(|answer| answer.assessment.verdict == Verdict::Safe);
         let exit = if safe { Exit::Done } else { Exit::Unsafe };
-        if let (Some(pdf), [file], [assessment]) = (&self.output, &files[..], &assessments[..]) {
+        if let (Some(pdf), [answer]) = (&self.output, &answers[..]) {
             let flushed = streams.out.flush(); // whoever writes next sees the same failure, and tells
             let unwritten = format!("{} is not written", text::path(pdf));
             if !is_standard(pdf) && !budget::go_on() {
@@ -145,7 +138,7 @@ impl Args {
                 if shown.is_ok() && flushed.is_ok() && !is_standard(pdf) {
                     budget::is_told(exit, unwritten);
                 }
-                self.print(file, assessment, &drops[0], pdf, streams)?;
+                self.print(answer, pdf, streams)?;
             }
         }
         shown?;
@@ -153,14 +146,8 @@ impl Args {
     }
 
     /// The printed report.
-    fn print(
-        &self,
-        file: &ProductFile,
-        assessment: &Assessment,
-        measured: &[MeasuredDrop],
-        pdf: &Path,
-        streams: &mut Streams<'_>,
-    ) -> Result<(), Failure> {
+    fn print(&self, answer: &Answer<'_>, pdf: &Path, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        let Answer { file, assessment, measured, .. } = answer;
         let drawing = Counted::begin("drawing", 0);
         let portraits = file.portraits(assessment);
         drop(drawing);
@@ -208,9 +195,9 @@ fn date(text: &str) -> Result<String, &'static str> {
 }
 
 /// The assessment, counted; what it has by the end of its time.
-pub(crate) fn watched(file: &ProductFile, accuracy: &Accuracy) -> Result<Assessment, clatter_assess::Error> {
+pub(crate) fn watched<'a>(file: &'a ProductFile, accuracy: &Accuracy) -> Result<Answer<'a>, clatter_assess::Error> {
     let search = Counted::begin("searching", 0);
-    file.assess_watched(accuracy, &|done, all| {
+    assess::watched(file, accuracy, &|done, all| {
         search.of(done, all);
         budget::go_on()
     })
@@ -229,15 +216,12 @@ pub(crate) fn watched_one(
     })
 }
 
-/// An assessment for programs. Among several, products of one name are told apart by their files.
+/// Among several, products of one name are told apart by their files.
 #[derive(Serialize)]
-struct Answer<'a> {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    file: Option<&'a PathBuf>,
+struct Named<'a> {
+    file: &'a PathBuf,
     #[serde(flatten)]
-    assessment: &'a Assessment,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    measured: Vec<measured::Answer<'a>>,
+    answer: &'a Answer<'a>,
 }
 
 /// A product file, of a size that product files have; what is odd in it is told. No file of the command is to be a record that it names.

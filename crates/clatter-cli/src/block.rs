@@ -1,11 +1,10 @@
-//! One drop of a box in any orientation: its presses, and what a place of it goes through.
+//! One drop of a box in any orientation, as it is told.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 use std::io::{self, Write};
 
-use clatter_answer::simulate::block::DropAnswer;
-use clatter_flight::{BlockDrop, BlockFlight, Contact, LEAST_OF_BLOCKS, Stop};
-use clatter_shock::{DampingRatio, Frequencies, Quantity, Spectrum, UnevenFilter};
+use clatter_answer::respond::block;
+use clatter_flight::{BlockDrop, Contact, LEAST_OF_BLOCKS, Stop};
 
 use crate::Failure;
 use crate::numbers::{figures, given};
@@ -15,20 +14,6 @@ use crate::quantities::neat;
 pub(crate) struct Setup {
     pub(crate) drop: BlockDrop,
     pub(crate) contact: Contact,
-}
-
-/// Samples of a smooth part of a flight, between which lines are straight: of some dozen parts a contact.
-const SAMPLES: u32 = 8;
-/// A part is followed on for so many periods once the box lies still.
-const PERIODS: f64 = 3.0;
-
-/// What a place feels along the axes of the box, over time.
-pub(crate) struct Felt {
-    times_s: Vec<f64>,
-    along_m_s2: [Vec<f64>; 3],
-    /// What it feels once the box lies, its turn about the vertical with it.
-    at_rest_m_s2: [f64; 3],
-    pub(crate) flight: BlockFlight,
 }
 
 /// Along which axis a place is asked.
@@ -41,17 +26,14 @@ pub(crate) enum Axis {
     Any,
 }
 
-impl Axis {
-    pub(crate) fn index(self) -> Option<usize> {
-        match self {
-            Self::X => Some(0),
-            Self::Y => Some(1),
-            Self::Z => Some(2),
-            Self::Any => None,
+impl From<Axis> for block::Axis {
+    fn from(axis: Axis) -> Self {
+        match axis {
+            Axis::X => Self::X,
+            Axis::Y => Self::Y,
+            Axis::Z => Self::Z,
+            Axis::Any => Self::Any,
         }
-    }
-    pub(crate) fn name(self) -> &'static str {
-        ["x", "y", "z", "any"][self.index().unwrap_or(3)]
     }
 }
 
@@ -115,59 +97,6 @@ impl Setup {
             Stop::EnergyLimit { .. } => Some("left where the energy of the box is not what it should be".to_owned()),
             _ => None,
         }
-    }
-
-    pub(crate) fn answer(&self) -> DropAnswer {
-        DropAnswer::new(&self.drop, &self.contact)
-    }
-
-    /// At a place from the middle of the box.
-    pub(crate) fn felt(&self, at_m: [f64; 3]) -> Result<Felt, Failure> {
-        let place = self.drop.block().place(at_m);
-        let (mut times_s, mut along_m_s2) = (Vec::new(), [const { Vec::new() }; 3]);
-        let flight = self.drop.contacts(&self.contact, |step| {
-            for k in 0..=SAMPLES {
-                let share = f64::from(k) / f64::from(SAMPLES);
-                times_s.push(step.from_s + share * step.length_s);
-                for (values, value) in along_m_s2.iter_mut().zip(step.felt_m_s2(place, share)) {
-                    values.push(value);
-                }
-            }
-        })?;
-        let at_rest_m_s2 = flight.at_rest_m_s2(place, self.drop.gravity_m_s2());
-        Ok(Felt { times_s, along_m_s2, at_rest_m_s2, flight })
-    }
-}
-
-impl Felt {
-    /// The largest felt acceleration along an axis, or in magnitude, and when.
-    pub(crate) fn largest(&self, axis: Axis) -> [f64; 2] {
-        let [x, y, z] = &self.along_m_s2;
-        let size = |k: usize| match axis.index() {
-            Some(axis) => self.along_m_s2[axis][k].abs(),
-            None => (x[k] * x[k] + y[k] * y[k] + z[k] * z[k]).sqrt(),
-        };
-        let largest = (0..self.times_s.len()).max_by(|&a, &b| size(a).total_cmp(&size(b)).then(b.cmp(&a)));
-        largest.map_or([0.0; 2], |k| [size(k), self.times_s[k]])
-    }
-
-    /// Largest values of a quantity of a part that moves along an axis, from 0, over the whole flight; at rest the weight is on.
-    pub(crate) fn peak(
-        &self,
-        axis: usize,
-        omega: f64,
-        damping: DampingRatio,
-        quantity: Quantity,
-    ) -> Result<[f64; 2], Failure> {
-        let mut filter = UnevenFilter::new(Frequencies::list(vec![omega / TAU])?, damping, quantity);
-        filter.push(&self.times_s, &self.along_m_s2[axis])?;
-        if let (Stop::AtRest { .. }, Some(end_s)) = (self.flight.stop, self.times_s.last()) {
-            filter.push(&[*end_s, end_s + PERIODS * TAU / omega], &[self.at_rest_m_s2[axis]; 2])?;
-            let Spectrum { primary, time_of_peak_s, .. } = filter.finish()?;
-            return Ok([primary[0], time_of_peak_s[0]]);
-        }
-        let Spectrum { maximax, time_of_peak_s, .. } = filter.finish()?;
-        Ok([maximax[0], time_of_peak_s[0]])
     }
 }
 

@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueHint;
 use clatter::design::Goal;
+use clatter_answer::design::Answer;
 use clatter_assess::design::{Bounds, Plane};
 use clatter_assess::{Accuracy, ProductFile};
 use clatter_figures::FigureError;
@@ -188,7 +189,7 @@ impl Args {
             contact_time_s: self.contact_time,
             limit_factor: self.limit_factor,
         };
-        let assessment = assess::watched(file, &Accuracy::default())?;
+        let assessment = assess::watched(file, &Accuracy::default())?.assessment;
         let remedies = {
             let changes = Counted::begin("changing", 0);
             file.remedies_watched(&assessment, &bounds, self.margin, &|done, all| {
@@ -210,12 +211,13 @@ impl Args {
         if let (Some(path), Some(plane)) = (&self.output, &plane) {
             plane::write(path, plane)?;
         }
-        let (assessment, remedies, plane) = (&assessment, &remedies[..], plane.as_ref());
-        let found = remedies::Found { file, assessment, remedies, plane, margin: self.margin };
+        let mut answer = Answer::new(file, assessment, remedies, self.margin);
+        answer.plane = plane;
+        let found = remedies::Found(&answer);
         match self.format {
             RowFormat::Table => found.table(streams.out).map_err(Failure::Answer),
             RowFormat::Csv => found.csv(streams.out).map_err(Failure::Answer),
-            RowFormat::Json => streams.json(&found.json()),
+            RowFormat::Json => streams.json(&answer),
         }
     }
 }

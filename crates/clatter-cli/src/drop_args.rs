@@ -145,18 +145,6 @@ pub(crate) struct Setup {
     pub(crate) notes: Vec<(&'static str, String)>,
 }
 
-impl Setup {
-    /// The sign that turns a place of the product into one of the scene, or back.
-    pub(crate) fn side(&self) -> f64 {
-        if self.first == End::A { 1.0 } else { -1.0 }
-    }
-    /// Of the ends a and b of the product.
-    pub(crate) fn inertia_ratios(&self) -> [f64; 2] {
-        let [front, back] = self.scene.body().inertia_ratios();
-        if self.first == End::A { [front, back] } else { [back, front] }
-    }
-}
-
 /// A number that was given one way or the other.
 fn either(typed: Option<Quantity>, plain: Option<f64>) -> Option<Quantity> {
     typed.or(plain.map(Quantity::of_si))

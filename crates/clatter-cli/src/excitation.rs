@@ -23,8 +23,6 @@ pub(crate) struct PulseArg {
 
 /// What a pulse and a frequency may be, in their units: far beyond any that there are, and far within the floats.
 const RANGE: std::ops::RangeInclusive<f64> = 1e-12..=1e12;
-/// Periods that a pulse may last: each of its turning points is found.
-const MOST_PERIODS: f64 = 1e5;
 
 /// `value` if it is in [`RANGE`].
 fn within(name: &str, value: f64) -> Result<f64, String> {
@@ -33,16 +31,6 @@ fn within(name: &str, value: f64) -> Result<f64, String> {
         return Ok(value);
     }
     Err(format!("{name} = {value:?} is not in [1e-12, 1e12]"))
-}
-
-/// Refuses pulses that last too many periods of a component.
-pub(crate) fn check_periods(pulses: &[Pulse], frequencies: &Frequencies) -> Result<(), String> {
-    let longest = pulses.iter().fold(0.0_f64, |m, p| m.max(p.duration));
-    let highest = frequencies.hz().iter().fold(0.0_f64, |m, hz| m.max(*hz));
-    if longest * highest <= MOST_PERIODS {
-        return Ok(());
-    }
-    Err(format!("a pulse of {longest:?} s lasts more than 100000 periods of a component of {highest:?} Hz"))
 }
 
 fn message(error: &Error) -> String {
@@ -73,19 +61,6 @@ pub(crate) fn shape(text: &str) -> Result<Shape, String> {
              terminal-peak-sawtooth, rectangle, trapezoid and trapezoid:RAMP",
             visible(text)
         )),
-    }
-}
-
-/// The name of a shape, as it is given.
-pub(crate) fn shape_name(shape: Shape) -> String {
-    match shape {
-        Shape::HalfSine => "half-sine".to_owned(),
-        Shape::Haversine => "haversine".to_owned(),
-        Shape::Triangle => "triangle".to_owned(),
-        Shape::InitialPeakSawtooth => "initial-peak-sawtooth".to_owned(),
-        Shape::TerminalPeakSawtooth => "terminal-peak-sawtooth".to_owned(),
-        Shape::Rectangle => "rectangle".to_owned(),
-        Shape::Trapezoid { ramp } => format!("trapezoid:{ramp:?}"),
     }
 }
 

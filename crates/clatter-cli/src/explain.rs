@@ -4,13 +4,13 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use clap::ValueHint;
-use clatter_assess::ladder::{Groups, LeftOut, LimitLadder, Measured, ProductLadder, Reference};
-use clatter_assess::{Accuracy, LimitKind, Model, ProductFile, Unit, WorstCase, units};
-use serde::Serialize;
+use clatter_answer::explain::Answer;
+use clatter_assess::ladder::{Groups, LeftOut, LimitLadder, Measured, ProductLadder};
+use clatter_assess::{Accuracy, ProductFile, units};
 
 use crate::columns::sentence;
 use crate::inputs::{self, Format};
-use crate::numbers::{Json, figures, given};
+use crate::numbers::{figures, given};
 use crate::output::Files;
 use crate::progress::Counted;
 use crate::text::shown;
@@ -48,7 +48,7 @@ impl Args {
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
         let (file, ladders) = measure(&self.product, self.tolerance, &Files::default(), streams)?;
         match self.format {
-            Format::Json => streams.json(&Answer::new(&ladders)),
+            Format::Json => streams.json(&Answer(&ladders)),
             Format::Table => table(&file, &ladders, streams.out).map_err(Failure::Answer),
         }
     }
@@ -62,9 +62,9 @@ pub(crate) fn measure(
     streams: &mut Streams<'_>,
 ) -> Result<(ProductFile, ProductLadder), Failure> {
     let file = assess::read(path, files, streams)?;
-    let ladders = assess::watched(&file, &Accuracy::default()).and_then(|assessment| {
+    let ladders = assess::watched(&file, &Accuracy::default()).and_then(|answer| {
         let _measuring = Counted::begin("measuring models", 0);
-        file.ladders(&assessment, tolerance)
+        file.ladders(&answer.assessment, tolerance)
     });
     let ladders = ladders.map_err(|error| Failure::Product(format!("error: {}: {error}", text::path(path))))?;
     Ok((file, ladders))
@@ -119,56 +119,4 @@ fn groups(groups: &Groups) -> String {
     ];
     let known = named.into_iter().filter_map(|(name, x)| x.map(|x| format!("{name} = {}", figures(x))));
     known.collect::<Vec<_>>().join(", ")
-}
-
-/// The same without times, which are of the machine.
-#[derive(Serialize)]
-struct Answer<'a> {
-    product: &'a str,
-    tolerance: Json,
-    limits: Vec<LimitJson<'a>>,
-    left_out: &'a [LeftOut],
-}
-
-#[derive(Serialize)]
-struct LimitJson<'a> {
-    component: &'a str,
-    limit: LimitKind,
-    unit: Unit,
-    worst_case: &'a WorstCase,
-    reference: Reference,
-    models: Vec<ModelJson>,
-    cheapest: Model,
-    reason: &'a str,
-    groups: Groups,
-}
-
-#[derive(Serialize)]
-struct ModelJson {
-    model: Model,
-    value: Json,
-    error: Json,
-}
-
-impl<'a> Answer<'a> {
-    fn new(ladders: &'a ProductLadder) -> Self {
-        let model = |m: &Measured| ModelJson { model: m.model, value: Json(m.value), error: Json(m.error) };
-        let limit = |limit: &'a LimitLadder| LimitJson {
-            component: &limit.component,
-            limit: limit.limit,
-            unit: limit.ladder.unit,
-            worst_case: &limit.worst_case,
-            reference: limit.ladder.reference,
-            models: limit.ladder.models.iter().map(model).collect(),
-            cheapest: limit.ladder.cheapest,
-            reason: &limit.ladder.reason,
-            groups: limit.ladder.groups,
-        };
-        Self {
-            product: &ladders.product,
-            tolerance: Json(ladders.tolerance),
-            limits: ladders.limits.iter().map(limit).collect(),
-            left_out: &ladders.left_out,
-        }
-    }
 }

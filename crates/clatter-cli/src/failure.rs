@@ -30,6 +30,8 @@ pub(crate) enum Failure {
     #[error(transparent)]
     Flight(#[from] clatter_flight::Error),
     #[error(transparent)]
+    Question(#[from] clatter_answer::Error),
+    #[error(transparent)]
     Scatter(#[from] clatter_assess::scatter::Error),
     /// Arguments that are right one by one and wrong together.
     #[error("{0}")]

@@ -1,6 +1,5 @@
 //! `clatter fit`: from a measured drop to the data of the product.
 
-mod answer;
 mod table;
 
 use std::fs::File;
@@ -8,14 +7,17 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
 use clap::{ArgAction, ValueHint};
-use clatter_assess::fit::{self, Fit, Known};
+use clatter_answer::Error;
+use clatter_answer::fit::{self, Answer, Question};
+use clatter_assess::fit::written;
 use clatter_assess::units::Quantity;
 use clatter_assess::{LARGEST_FILE, ProductFile};
 
 use crate::inputs::Format;
-use crate::measured::{self, Record};
+use crate::measured;
 use crate::numbers::given;
 use crate::output::{Files, no_kind};
+use crate::progress::Counted;
 use crate::quantities::{self, Place, neat, positions};
 use crate::record_args::RecordArgs;
 use crate::{Failure, Streams, assess, input, output, text};
@@ -104,14 +106,6 @@ fn target(text: &str) -> Result<Target, String> {
     }
 }
 
-/// A fit and what it is of.
-struct Answered<'a> {
-    args: &'a Args,
-    file: ProductFile,
-    records: Vec<Record>,
-    fit: Fit,
-}
-
 impl Args {
     pub(crate) fn files(&self) -> Files<'_> {
         let reads = self.records.iter().chain([&self.product]).map(AsRef::as_ref).collect();
@@ -124,22 +118,26 @@ impl Args {
             return Err(Failure::Usage("a copy of the product file needs it as a file: give its name with --product"));
         }
         let file = assess::read(&self.product, &self.files(), streams)?;
-        let answered = self.answered(file)?;
+        let question = self.question(&file)?;
+        let answer = {
+            let _fitting = Counted::begin("fitting", 0);
+            fit::answer(&question).map_err(|error| self.refused(error))?
+        };
         for target in &self.output {
             if target.is_picture {
-                let picture = clatter_figures::fit(&answered.fit)?;
+                let picture = clatter_figures::fit(&answer.fit)?;
                 output::replace(&target.path, |out| out.write_all(picture.as_bytes()))?;
             } else {
-                answered.copy(&target.path, streams)?;
+                self.copy(&answer, &target.path, streams)?;
             }
         }
         match self.format {
-            Format::Table => table::table(&answered, streams.out).map_err(Failure::Answer),
-            Format::Json => streams.json(&answer::Answer::new(&answered)),
+            Format::Table => table::table(&answer, streams.out).map_err(Failure::Answer),
+            Format::Json => streams.json(&answer),
         }
     }
 
-    fn answered(&self, file: ProductFile) -> Result<Answered<'_>, Failure> {
+    fn question<'a>(&self, file: &'a ProductFile) -> Result<Question<'a>, Failure> {
         let mut places = self.position.iter();
         let half_m = 0.5 * file.product.body.length_m();
         let timing_s = self.timing.map(|timing| timing.si);
@@ -151,35 +149,37 @@ impl Args {
             };
             measured::read(path, position, timing_s, &self.reading)
         };
-        let records = self.records.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+        let mut question = Question::new(file, self.records.iter().map(read).collect::<Result<_, _>>()?);
         if places.next().is_some() {
             return Err(Failure::Usage(
                 "--position goes with a record of an acceleration, one each: there are more of them",
             ));
         }
-        let gyration = &file.product.gyration_m;
-        if self.known_gyration && !gyration.is_value() {
-            let [lo, hi] = [gyration.lo(), gyration.hi()].map(|m| given(neat(1e3 * m)));
-            return Err(Failure::Wrong(format!(
-                "--known-gyration takes the radius of gyration of the file as known, and it gives a range, {lo} to {hi} mm"
-            )));
-        }
-        let known = Known { gyration_known: self.known_gyration, ..Known::from(&file) };
-        let fit = measured::fitted(&known, &records, timing_s)?;
-        let fit = fit.map_err(|error| Failure::Wrong(measured::why(&error, &self.records)))?;
-        Ok(Answered { args: self, file, records, fit })
+        question.timing_s = timing_s;
+        question.gyration_known = self.known_gyration;
+        Ok(question)
     }
-}
 
-impl Answered<'_> {
+    fn refused(&self, error: Error) -> Failure {
+        match error {
+            Error::GyrationRange(range) => {
+                let [lo, hi] = range.map(|m| given(neat(1e3 * m)));
+                Failure::Wrong(format!(
+                    "--known-gyration takes the radius of gyration of the file as known, and it gives a range, {lo} to {hi} mm"
+                ))
+            }
+            error => measured::why(error, &self.records),
+        }
+    }
+
     /// The copy of the product file with what was found.
-    fn copy(&self, path: &Path, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        let source = &self.args.product;
+    fn copy(&self, answer: &Answer<'_>, path: &Path, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        let source = &self.product;
         let unreadable = |reason| Failure::Unreadable { path: source.clone(), reason };
         let mut text = String::new();
         let file = File::open(source).map_err(unreadable)?;
         file.take(LARGEST_FILE as u64).read_to_string(&mut text).map_err(unreadable)?;
-        let written = fit::written(&text, &self.fit)
+        let written = written(&text, &answer.fit)
             .map_err(|error| Failure::Wrong(format!("{} cannot take what was found: {error}", text::path(source))))?;
         output::replace(path, |out| out.write_all(written.text.as_bytes()))?;
         for note in written.notes {

@@ -4,8 +4,10 @@ use std::io::{Cursor, Read};
 use std::path::{Path, PathBuf};
 
 use clatter::End;
+use clatter_answer::Error;
+use clatter_answer::fit::{Data, DropRecords, Record};
 use clatter_assess::fit::{
-    self, Fit, Known, MOST_SAMPLES, MOST_STRIKES, Measured, MeasuredDrop, MeasuredHeights, MeasuredStrike,
+    self, Known, MOST_SAMPLES, MOST_STRIKES, Measured, MeasuredDrop, MeasuredHeights, MeasuredStrike,
 };
 use clatter_assess::{ProductFile, RecordFile};
 use clatter_record::{Cell, names_columns};
@@ -15,13 +17,6 @@ use crate::progress::Counted;
 use crate::record_args::RecordArgs;
 use crate::text::visible;
 use crate::{Failure, budget, input, text};
-
-/// What one file holds.
-#[derive(Debug, Clone)]
-pub(crate) enum Record {
-    Measured(Measured),
-    Bounces(Vec<f64>),
-}
 
 /// Columns of heights: as tables of trackers call them too.
 const HEIGHTS: [[&str; 3]; 2] = [["time_s", "height_a_m", "height_b_m"], ["time_s", "y_a_m", "y_b_m"]];
@@ -35,15 +30,25 @@ pub(crate) fn read(
     timing_s: Option<f64>,
     reading: &RecordArgs,
 ) -> Result<Record, Failure> {
+    let data = data(path, position_m, timing_s, reading)?;
+    Ok(Record { name: path.to_string_lossy().into_owned(), data })
+}
+
+fn data(
+    path: &Path,
+    position_m: impl FnOnce() -> Result<Option<f64>, Failure>,
+    timing_s: Option<f64>,
+    reading: &RecordArgs,
+) -> Result<Data, Failure> {
     let unreadable = |reason| Failure::Unreadable { path: path.to_owned(), reason };
     let (mut file, mut begin) = (input::open(path).map_err(unreadable)?, Vec::new());
     (&mut file).take(HEADER).read_to_end(&mut begin).map_err(unreadable)?;
     let whole = Cursor::new(&begin).chain(file);
     if names_columns(&begin, ["bounce_s"]) {
-        return bounces(path, whole).map(Record::Bounces);
+        return bounces(path, whole).map(Data::Bounces);
     }
     if names_columns(&begin, ["interval_s"]) {
-        return intervals(path, whole).map(Record::Bounces);
+        return intervals(path, whole).map(Data::Bounces);
     }
     let measured = if names_columns(&begin, ["time_s", "end"]) {
         Measured::Strikes { strikes: strikes(path, whole)?, deviation_s: timing_s }
@@ -57,9 +62,17 @@ pub(crate) fn read(
                 text::path(path)
             ))
         })?;
-        acceleration(path, whole, reading, position_m)?
+        let record = reading.read_from(path, whole)?;
+        return Data::acceleration(&record, position_m).map_err(|error| match error {
+            Error::Channels(count) => Failure::Wrong(format!(
+                "{}: {count} channels; --acceleration (of [[record]], acceleration) picks the one of the position",
+                text::path(path)
+            )),
+            Error::Record(reason) => Failure::Record { path: path.to_owned(), reason },
+            error => Failure::Wrong(format!("{}: {error}", text::path(path))),
+        });
     };
-    Ok(Record::Measured(measured))
+    Ok(Data::Measured(measured))
 }
 
 fn strikes(path: &Path, input: impl Read) -> Result<Vec<MeasuredStrike>, Failure> {
@@ -132,75 +145,32 @@ fn below(count: usize, most: usize, name: &str) -> Result<(), String> {
     if count < most { Ok(()) } else { Err(format!("more than {most} {name}")) }
 }
 
-/// An acceleration over even times, of one channel.
-fn acceleration(path: &Path, input: impl Read, reading: &RecordArgs, position_m: f64) -> Result<Measured, Failure> {
-    let bad = |reason| Failure::Record { path: path.to_owned(), reason };
-    let record = reading.read_from(path, input)?;
-    let [channel] = record.channels() else {
-        return Err(Failure::Wrong(format!(
-            "{}: {} channels; --acceleration (of [[record]], acceleration) picks the one of the position",
-            text::path(path),
-            record.channels().len()
-        )));
-    };
-    let times = channel.times();
-    let step_s = times.even("a fit").map_err(bad)?;
-    if channel.values.len() > MOST_SAMPLES {
-        let samples = channel.values.len();
-        return Err(Failure::Wrong(format!(
-            "{}: {samples} samples; a fit takes {MOST_SAMPLES} at most",
-            text::path(path)
-        )));
-    }
-    Ok(Measured::Acceleration { position_m, start_s: times.start_s(), step_s, values_m_s2: channel.values.clone() })
-}
-
-/// The drop that is nearest to records of one drop, or why there is none.
-pub(crate) fn fitted(
-    known: &Known,
-    records: &[Record],
-    timing_s: Option<f64>,
-) -> Result<Result<Fit, fit::Error>, Failure> {
-    if let [Record::Bounces(times_s)] = records {
-        return Ok(fit::bounces(times_s, known.gravity_m_s2, timing_s));
-    }
-    let measured = |record: &Record| match record {
-        Record::Measured(measured) => Ok(measured.clone()),
-        Record::Bounces(_) => Err(Failure::Usage("a record of bounces is of another drop: fit it alone")),
-    };
-    let measured = records.iter().map(measured).collect::<Result<Vec<Measured>, _>>()?;
-    let _shown = Counted::begin("fitting", 0);
-    Ok(fit::fit(known, &measured))
-}
-
 /// Why there is no fit, with the name of the record.
-pub(crate) fn why(error: &fit::Error, files: &[impl AsRef<Path>]) -> String {
+pub(crate) fn why(error: Error, files: &[PathBuf]) -> Failure {
+    let Error::Fit(error) = error else { return error.into() };
     let name = |record: usize| {
-        let path = files.get(record.saturating_sub(1)).map(|path| text::path(path.as_ref()));
+        let path = files.get(record.saturating_sub(1)).map(|path| text::path(path));
         path.unwrap_or_else(|| format!("record {record}"))
     };
-    match error {
+    Failure::Wrong(match error {
         fit::Error::Value { record, name: what, value, allowed } => {
-            format!("{}: {what} = {value:?} is not {allowed}", name(*record))
+            format!("{}: {what} = {value:?} is not {allowed}", name(record))
         }
         fit::Error::Count { record, count, name: what, allowed } => {
-            format!("{}: {count} {what}; allowed: {allowed}", name(*record))
+            format!("{}: {count} {what}; allowed: {allowed}", name(record))
         }
         // The name of the file in place of "record 1".
         fit::Error::Far { record, .. } | fit::Error::Scatter { record, .. } => {
-            error.to_string().replacen(&format!("record {record}"), &name(*record), 1)
+            error.to_string().replacen(&format!("record {record}"), &name(record), 1)
         }
         error => error.to_string(),
-    }
+    })
 }
 
 /// Records of one drop that a product file names.
 pub(crate) struct Drop {
-    name: String,
-    files: Vec<String>,
+    of: DropRecords,
     paths: Vec<PathBuf>,
-    records: Vec<Record>,
-    timing_s: Option<f64>,
 }
 
 /// The file of a record that a product file names, from where that file is.
@@ -221,39 +191,32 @@ pub(crate) fn drops(file: &ProductFile, product: &Path) -> Result<Vec<Drop>, Fai
     let of_one = |records: Vec<&RecordFile>| {
         let paths: Vec<PathBuf> = records.iter().map(|record| path_of(record, product)).collect();
         let read = |(record, path): (&&RecordFile, &PathBuf)| {
-            read(path, || Ok(record.position_m), record.timing_s, &RecordArgs::of(record, path)?)
+            let reading = RecordArgs::of(record, path)?;
+            let data = data(path, || Ok(record.position_m), record.timing_s, &reading)?;
+            Ok(Record { name: record.file.clone(), data })
         };
-        Ok(Drop {
+        let of = DropRecords {
             name: records[0].drop.clone().unwrap_or_else(|| records[0].file.clone()),
-            files: records.iter().map(|record| record.file.clone()).collect(),
-            records: records.iter().zip(&paths).map(read).collect::<Result<_, _>>()?,
-            paths,
+            records: records.iter().zip(&paths).map(read).collect::<Result<_, Failure>>()?,
             timing_s: records[0].timing_s,
-        })
+        };
+        Ok(Drop { of, paths })
     };
     groups.into_iter().map(of_one).collect()
 }
 
-const TOO_LATE: &str = "not fitted, the time was over before";
-
 impl Drop {
     /// The computed drop that is nearest. That none comes near what was measured, or that the time is over, is an answer.
     pub(crate) fn fitted(self, file: &ProductFile) -> Result<MeasuredDrop, Failure> {
-        let found = if budget::go_on() {
-            let (known, records, timing_s) = (Known::from(file), self.records, self.timing_s);
-            let Some(found) = budget::in_time(move || fitted(&known, &records, timing_s)) else {
-                return Ok(MeasuredDrop { name: self.name, files: self.files, found: Err(TOO_LATE.to_owned()) });
-            };
-            match found? {
-                Ok(fit) => Ok(fit),
-                Err(error @ (fit::Error::Far { .. } | fit::Error::Scatter { .. } | fit::Error::NoDrop(_))) => {
-                    Err(error.to_string())
-                }
-                Err(error) => return Err(Failure::Wrong(why(&error, &self.paths))),
-            }
-        } else {
-            Err(TOO_LATE.to_owned())
-        };
-        Ok(MeasuredDrop { name: self.name, files: self.files, found })
+        let too_late = |of: DropRecords| Ok(of.told(Err("not fitted, the time was over before".to_owned())));
+        if !budget::go_on() {
+            return too_late(self.of);
+        }
+        let (known, of) = (Known::from(file), self.of.clone());
+        let _shown = Counted::begin("fitting", 0);
+        match budget::in_time(move || of.fitted(&known)) {
+            Some(fitted) => fitted.map_err(|error| why(error, &self.paths)),
+            None => too_late(self.of),
+        }
     }
 }

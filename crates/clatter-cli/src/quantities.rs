@@ -1,6 +1,7 @@
 //! Quantities of the command line, each read by the table of units of product files, and shown in the unit that was typed.
 
 use clatter::{Mass, Start, center_and_gyration};
+pub(crate) use clatter_answer::neat;
 use clatter_assess::units::{ACCELERATION, ANGLE, Dimension, FREQUENCY, LENGTH, MASS, Quantity, SPEED, TIME, Unit};
 use clatter_assess::{Slip, outside};
 
@@ -289,11 +290,6 @@ pub(crate) fn masses(pieces: &[Piece], half_m: Option<f64>) -> Result<Vec<Mass>,
         ));
     }
     pieces.iter().map(|piece| piece.on(half_m)).collect()
-}
-
-/// A number without the digits that a conversion adds.
-pub(crate) fn neat(x: f64) -> f64 {
-    format!("{x:.13e}").parse().unwrap_or(x)
 }
 
 /// How a kind of quantity is shown: in the unit that was typed, else in SI.

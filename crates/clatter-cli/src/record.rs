@@ -1,18 +1,19 @@
 //! `clatter record`: what a file of measurements holds, and the same written anew.
 
-mod answer;
 mod pulse;
 mod shocks;
 
 use std::borrow::Cow;
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::ValueHint;
+use clatter_answer::record::{self, Answer, Question, extremes, time_s};
 use clatter_assess::units::{ACCELERATION, FREQUENCY, TIME, Unit};
 use clatter_figures::{FigureError, Trace};
-use clatter_record::{Channel, Motion, Record, Series, TimeAxis, integrate, write_parquet};
-use clatter_shock::{Pulse, Shock, Shocks};
+use clatter_record::{Channel, Record, Series, TimeAxis, write_parquet};
+use clatter_shock::{Pulse, Shock};
+use serde::Serialize;
 
 use crate::condition_args::ConditionArgs;
 use crate::excitation;
@@ -81,9 +82,6 @@ fn target(text: &str) -> Result<Target, String> {
     Target::of(text, &[Kind::Csv, Kind::Npy, Kind::Parquet, Kind::Svg])
 }
 
-/// Offsets are judged by what they do to a spectrum from this frequency on, in Hz: where that of `clatter spectrum` begins.
-pub(crate) const LOWEST_HZ: f64 = 10.0;
-
 impl Args {
     pub(crate) fn files(&self) -> Files<'_> {
         Files { reads: vec![&self.file], writes: self.output.iter().map(|target| target.path.as_path()).collect() }
@@ -91,13 +89,11 @@ impl Args {
 
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
         let record = self.condition.apply(self.reading.read(&self.file)?, &self.file)?;
+        let mut question = Question::new(&record);
+        question.find = self.finding.search();
+        (question.fit_pulse, question.nominal, question.integrate) = (self.fit_pulse, self.nominal, self.integrate);
         let bad = |reason| Failure::Record { path: self.file.clone(), reason };
-        let found = Found {
-            shocks: self.finding.search().map(|search| shocks::find(&search, &record)).transpose().map_err(bad)?,
-            fits: if self.fit_pulse { Some(pulse::fit(&record, self.nominal.as_ref()).map_err(bad)?) } else { None },
-            motions: if self.integrate { Some(motions(&record).map_err(bad)?) } else { None },
-        };
-        let whole = Whole { args: self, record, found };
+        let whole = Whole { args: self, record: &record, answer: &record::answer(&question).map_err(bad)? };
         for target in &self.output {
             output::replace(&target.path, |file| match target.kind {
                 Kind::Npy => buffered(file, |out| whole.npy(out)),
@@ -106,44 +102,34 @@ impl Args {
                 _ => buffered(file, |out| whole.csv(out)),
             })?;
         }
-        let findings = whole.record.findings(LOWEST_HZ);
-        match (self.format, &whole.found.shocks) {
+        match (self.format, &whole.answer.shocks) {
             (RowFormat::Table, _) => whole.table(streams.out).map_err(Failure::Answer)?,
-            (RowFormat::Json, _) => streams.json(&answer::Answer::new(&whole, &findings))?,
+            (RowFormat::Json, _) => streams.json(&OfFile { file: &self.file, answer: whole.answer })?,
             (RowFormat::Csv, Some(found)) => {
-                shocks::csv(&whole.record, found, streams.out).map_err(Failure::Answer)?;
+                shocks::csv(&record, found, streams.out).map_err(Failure::Answer)?;
             }
             (RowFormat::Csv, None) => whole.channels_csv(streams.out).map_err(Failure::Answer)?,
         }
-        for finding in &findings {
+        for finding in &whole.answer.findings {
             streams.note("warning", format_args!("{}: {finding}", text::path(&self.file)));
         }
         Ok(())
     }
 }
 
-/// What was asked for beside the record, for each channel.
-struct Found {
-    shocks: Option<Vec<Shocks>>,
-    fits: Option<Vec<pulse::Fitted>>,
-    motions: Option<Vec<Motion>>,
+/// The answer for programs.
+#[derive(Serialize)]
+struct OfFile<'a> {
+    file: &'a Path,
+    #[serde(flatten)]
+    answer: &'a Answer<'a>,
 }
 
 /// A record and all that goes with it.
 struct Whole<'a> {
     args: &'a Args,
-    record: Record,
-    found: Found,
-}
-
-fn motions(record: &Record) -> Result<Vec<Motion>, clatter_record::Error> {
-    let one = |channel: &Channel| integrate(&channel.values, channel.times().even("integration")?);
-    record.channels().iter().map(one).collect()
-}
-
-/// Time of a sample, on the axis of the file.
-fn time_s(channel: &Channel, sample: usize) -> f64 {
-    channel.times().start_s() + channel.times().since_s(sample)
+    record: &'a Record,
+    answer: &'a Answer<'a>,
 }
 
 /// How many samples in what time and from when on.
@@ -177,7 +163,7 @@ impl ColumnOut<'_> {
 
 impl Whole<'_> {
     fn table(&self, out: &mut dyn Write) -> io::Result<()> {
-        let record = &self.record;
+        let record = self.record;
         let times = record.times();
         let longest_s = times.iter().map(|times| times.duration_s()).fold(0.0, f64::max);
         let time = Show { unit: time_unit(longest_s), name: "s" };
@@ -207,14 +193,14 @@ impl Whole<'_> {
         }
         for (k, channel) in record.channels().iter().enumerate() {
             let name = shown(&channel.name, 40);
-            if let Some(motions) = &self.found.motions {
-                let [velocity, displacement] = last(&motions[k]).map(figures);
+            if let Some(motions) = &self.answer.motions {
+                let [velocity, displacement] = record::end(&motions[k]).map(figures);
                 writeln!(out, "\n{name}: at the end {velocity} m/s and {displacement} m, from rest")?;
             }
-            if let Some(found) = &self.found.shocks {
+            if let Some(found) = &self.answer.shocks {
                 shocks::table(channel, &name, &found[k], out)?;
             }
-            if let Some(fits) = &self.found.fits {
+            if let Some(fits) = &self.answer.pulses {
                 pulse::table(channel, &name, &fits[k], out)?;
             }
         }
@@ -254,7 +240,7 @@ impl Whole<'_> {
                 let mut add =
                     |name, unit, values| columns.push(ColumnOut { name, unit, values: Cow::Borrowed(values) });
                 add(channel.name.clone(), "m/s2", &channel.values[..]);
-                if let Some(motions) = &self.found.motions {
+                if let Some(motions) = &self.answer.motions {
                     add(format!("velocity of {}", channel.name), "m/s", &motions[k].velocity_m_s[..]);
                     add(format!("displacement of {}", channel.name), "m", &motions[k].displacement_m[..]);
                 }
@@ -303,7 +289,7 @@ impl Whole<'_> {
 
     /// All channels over time; in g where the file is. With a fitted pulse the part around it, and the pulse beside.
     fn picture(&self) -> Result<String, FigureError> {
-        let record = &self.record;
+        let record = self.record;
         let in_g = record.channels().iter().all(|channel| channel.unit.to_lowercase().contains('g'));
         let unit = if in_g { ACCELERATION.units.iter().find(|unit| unit.name == "g") } else { None };
         let value = Show { unit, name: "m/s²" };
@@ -320,11 +306,11 @@ impl Whole<'_> {
         let mut traces = Vec::new();
         for (k, channel) in record.channels().iter().enumerate() {
             let start_s = channel.times().start_s();
-            let marks = self.found.shocks.as_ref().map_or(Vec::new(), |found| {
+            let marks = self.answer.shocks.as_ref().map_or(Vec::new(), |found| {
                 let mark = |shock: &Shock| (time.value(start_s + shock.peak_time_s), value.value(shock.peak_m_s2));
                 found[k].shocks.iter().map(mark).collect()
             });
-            let beside = self.found.fits.as_ref().map(|fits| {
+            let beside = self.answer.pulses.as_ref().map(|fits| {
                 let curve = pulse::curve(&fits[k]).into_iter();
                 let point = |(since_s, a)| (time.value(start_s + since_s), value.value(a));
                 ("nominal pulse", curve.map(point).collect::<Vec<_>>())
@@ -336,7 +322,7 @@ impl Whole<'_> {
                 marks,
                 beside,
             });
-            if let Some(motions) = &self.found.motions {
+            if let Some(motions) = &self.answer.motions {
                 let plain = |name, title, points| Trace { name, title, points, marks: Vec::new(), beside: None };
                 traces.push(plain("velocity", "m/s", points(channel, &motions[k].velocity_m_s, &velocity)));
                 traces.push(plain("displacement", "m", points(channel, &motions[k].displacement_m, &length)));
@@ -347,7 +333,7 @@ impl Whole<'_> {
 
     /// What is drawn, in seconds on the axis of the file.
     fn span(&self) -> [f64; 2] {
-        match (self.found.fits.as_deref(), self.record.channels()) {
+        match (self.answer.pulses.as_deref(), self.record.channels()) {
             (Some([fitted, ..]), [channel, ..]) => {
                 let Pulse { start, duration, .. } = fitted.nominal;
                 let begin_s = channel.times().start_s() + start;
@@ -356,20 +342,6 @@ impl Whole<'_> {
             _ => [f64::NEG_INFINITY, f64::INFINITY],
         }
     }
-}
-
-/// The last velocity and displacement.
-fn last(motion: &Motion) -> [f64; 2] {
-    [&motion.velocity_m_s, &motion.displacement_m].map(|values| values.last().copied().unwrap_or(0.0))
-}
-
-/// The first samples that hold the largest and the smallest value.
-fn extremes(channel: &Channel) -> [usize; 2] {
-    let values = &channel.values;
-    let first = |beyond: fn(f64, f64) -> bool| {
-        values.iter().enumerate().fold(0, |best, (i, value)| if beyond(*value, values[best]) { i } else { best })
-    };
-    [first(|a, b| a > b), first(|a, b| a < b)]
 }
 
 /// A unit in which a time has a few digits before its point.

@@ -1,6 +1,5 @@
 //! `clatter scatter`: how likely each part of a product survives, and what that hangs on.
 
-mod answer;
 mod table;
 
 use std::convert::Infallible;
@@ -8,6 +7,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::PathBuf;
 
 use clap::ValueHint;
+use clatter_answer::scatter::Answer;
 use clatter_assess::scatter::{Column, Progress, Sampler, Scatter, Settings};
 use clatter_assess::units::Quantity;
 use clatter_assess::{Model, ProductFile};
@@ -115,19 +115,16 @@ impl Args {
     pub(crate) fn run(&self, streams: &mut Streams<'_>) -> Result<Exit, Failure> {
         output::in_place_of_answer(self.output.as_deref(), matches!(self.format, RowFormat::Table))?;
         let file = assess::read(&self.product, &self.files(), streams)?;
-        let scatter = self.draw(&file, streams)?;
-        let target = self.target.map(|share| Target { share });
+        let mut answer = Answer::new(&file, self.draw(&file, streams)?);
+        answer.target = self.target;
         match self.format {
             // The samples are the answer.
             _ if self.output.as_deref().is_some_and(is_standard) => {}
-            RowFormat::Table => {
-                table::table(&file, &scatter, target.as_ref(), streams.out).map_err(Failure::Answer)?;
-            }
-            RowFormat::Csv => table::csv(&scatter, streams.out).map_err(Failure::Answer)?,
-            RowFormat::Json => streams.json(&answer::Answer::new(&file, &scatter, target.as_ref()))?,
+            RowFormat::Table => table::table(&answer, streams.out).map_err(Failure::Answer)?,
+            RowFormat::Csv => table::csv(&answer.scatter, streams.out).map_err(Failure::Answer)?,
+            RowFormat::Json => streams.json(&answer)?,
         }
-        let met = target.is_none_or(|target| target.is_met(&scatter));
-        Ok(if met { Exit::Done } else { Exit::Unsafe })
+        Ok(if answer.is_met() { Exit::Done } else { Exit::Unsafe })
     }
 
     fn draw(&self, file: &ProductFile, streams: &mut Streams<'_>) -> Result<Scatter, Failure> {
@@ -204,18 +201,6 @@ fn rows(sampler: &Sampler, file: &ProductFile, out: &mut impl Write, counted: &C
         counted.at(progress.done);
         Ok::<_, io::Error>(())
     })
-}
-
-/// The share of drops that all parts are to survive.
-struct Target {
-    share: f64,
-}
-
-impl Target {
-    /// Whether the interval of the survival lies above it.
-    fn is_met(&self, scatter: &Scatter) -> bool {
-        scatter.survival.lo >= self.share
-    }
 }
 
 /// The model with the most physics that the file allows.

@@ -1,6 +1,5 @@
 //! `clatter spectrum`: shock response spectra of records, pulses and velocity shocks.
 
-mod answer;
 mod boundary;
 mod history;
 mod records;
@@ -10,13 +9,13 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::{ValueEnum, ValueHint};
+use clatter_answer::Error;
+use clatter_answer::spectrum::{self, Answer, Excitation, Measured, Part, Question, beyond};
 use clatter_assess::units::{ACCELERATION, Dimension, LENGTH, SPEED, Unit};
 use clatter_figures::{Against, Critical, FigureError};
-use clatter_record::{BAND, Between, TimeAxis};
-use clatter_shock::{
-    Deviation, EnvelopingPulse, Frequencies, Margin, Pulse, Pulses, Quantity, RequiredSpectrum, Shape, Spectrum,
-    VelocityShock, VelocityShocks,
-};
+use clatter_record::{BAND, Between};
+use clatter_shock::{Quantity, RequiredSpectrum, Shape, VelocityShock, VelocityShocks};
+use serde::Serialize;
 
 use crate::condition_args::ConditionArgs;
 use crate::excitation::{self, FrequencyArg, LimitArg, PulseArg, Tolerance};
@@ -24,11 +23,11 @@ use crate::find_args::FindArgs;
 use crate::inputs::{DampingListArgs, RowFormat};
 use crate::numbers::figures;
 use crate::output::{Files, Kind, Target, buffered};
+use crate::progress::Counted;
 use crate::quantities::Show;
 use crate::record_args::RecordArgs;
 use crate::{Exit, Failure, Streams, lists, output, text};
-use boundary::Boundary;
-use records::{Measured, Several};
+use records::Several;
 
 /// Compute a shock response spectrum: the peak of a component over its natural frequency
 ///
@@ -90,7 +89,7 @@ seen to be reached all over its range, 2 bad input."
 )]
 pub(crate) struct Args {
     #[command(flatten)]
-    excitation: Excitation,
+    excitation: Excited,
     #[command(flatten)]
     reading: RecordArgs,
     #[command(flatten)]
@@ -156,7 +155,7 @@ pub(crate) struct Args {
 
 #[derive(Debug, clap::Args)]
 #[group(required = true, multiple = false)]
-struct Excitation {
+struct Excited {
     /// Files of measured accelerations, as `clatter record` reads them
     #[arg(value_name = "RECORD", value_hint = ValueHint::FilePath)]
     records: Vec<PathBuf>,
@@ -238,13 +237,7 @@ impl QuantityName {
 
     /// The name, as it is given, and the unit.
     fn name(self) -> [&'static str; 2] {
-        match self {
-            Self::Acceleration => ["acceleration", "m/s2"],
-            Self::RelativeDisplacement => ["relative-displacement", "m"],
-            Self::RelativeVelocity => ["relative-velocity", "m/s"],
-            Self::PseudoVelocity => ["pseudo-velocity", "m/s"],
-            Self::EquivalentStaticAcceleration => ["equivalent-static-acceleration", "m/s2"],
-        }
+        spectrum::name(self.quantity())
     }
 }
 
@@ -256,58 +249,27 @@ fn target(text: &str) -> Result<Target, String> {
     Target::of(text, &[Kind::Csv, Kind::Json, Kind::Svg])
 }
 
-/// The spectra of one excitation and all that goes with them.
+/// The spectra of one excitation and how they are shown.
 struct Computed<'a> {
     args: &'a Args,
-    /// Its frequencies, in the unit that was typed.
-    frequencies: FrequencyArg,
+    answer: Answer<'a>,
+    /// That frequencies were typed in.
+    unit: Option<&'static Unit>,
     limit: Option<LimitArg>,
-    required: Option<RequiredSpectrum>,
-    /// One for each channel and damping ratio, and those made of several; at least one.
-    parts: Vec<Part>,
-    records: Vec<Measured>,
-    boundary: Option<Boundary>,
 }
 
-/// A spectrum and its margins, if there is a limit.
-struct Part {
-    /// Of which record or channel, where there are several.
-    name: Option<String>,
-    spectrum: Spectrum,
-    margins: Option<Vec<Option<Margin>>>,
-    /// From what was to be reached.
-    deviations: Option<Vec<Option<Deviation>>>,
-    enveloping: Option<EnvelopingPulse>,
+/// The answer for programs, before the file that it is written to.
+#[derive(Serialize)]
+struct WithFile<'a> {
+    #[serde(flatten)]
+    answer: &'a Answer<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<&'a Path>,
 }
 
-impl Part {
-    fn exceeds(&self) -> bool {
-        self.margins.iter().flatten().flatten().any(|margin| !margin.is_safe())
-    }
-
-    /// Whether it reaches a required spectrum; not known where a part of that is not judged.
-    fn reaches(&self, required: &RequiredSpectrum) -> Option<bool> {
-        let mut told = self.deviations.iter().flatten().flatten().peekable();
-        told.peek()?;
-        let is_reached = told.all(Deviation::is_reached);
-        if is_reached && beyond(required, &self.spectrum.frequency_hz).is_some() { None } else { Some(is_reached) }
-    }
-}
-
-/// The range of a required spectrum and that of the frequencies, where these do not cover it.
-fn beyond(required: &RequiredSpectrum, hz: &[f64]) -> Option<[f64; 4]> {
-    let [from, to] = required.curve().range_hz()?;
-    let (low, high) = hz.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), hz| (low.min(*hz), high.max(*hz)));
-    (from < low || to > high).then_some([from, to, low, high])
-}
-
-/// Natural frequencies unless others are asked for, in Hz, and how many to the octave.
-const LOWEST_HZ: f64 = crate::record::LOWEST_HZ;
-const HIGHEST_HZ: f64 = 10_000.0;
-const PER_OCTAVE: f64 = 12.0;
 impl Args {
     pub(crate) fn files(&self) -> Files<'_> {
-        let Excitation { records, pulses_file, shocks_file, .. } = &self.excitation;
+        let Excited { records, pulses_file, shocks_file, .. } = &self.excitation;
         let reads = [pulses_file, shocks_file, &self.tests, &self.limit_file, &self.required_file];
         Files {
             reads: records.iter().chain(reads.into_iter().flatten()).map(AsRef::as_ref).collect(),
@@ -338,30 +300,32 @@ impl Args {
         let limit = self.curve("--limit", self.limit.as_ref(), self.limit_file.as_deref())?;
         let required = self.curve("--required", self.required.as_ref(), self.required_file.as_deref())?;
         let required = self.required_within(required)?;
-        let records = records::read(self)?;
-        let frequencies = self.frequencies(&records)?;
-        let boundary = if self.damage_boundary { Some(self.boundary(&records, &frequencies)?) } else { None };
+        let mut question = Question::new(self.excitation()?, self.damping.ratios()?[0]);
+        question.dampings = self.damping.ratios()?;
+        question.frequencies = self.frequency.as_ref().map(|frequency| frequency.list.clone());
+        question.quantity = self.quantity.quantity();
+        question.between = self.interpolation.into();
+        question.limit = limit.as_ref().map(|limit| limit.curve.clone());
+        question.required = required;
+        question.enveloping = self.enveloping_pulse;
+        let Several { resultant, envelope, mean_3db } = self.several;
+        (question.resultant, question.envelope, question.mean_3db) = (resultant, envelope, mean_3db);
+        question.unit = self.written().unit;
+        let frequencies = question.frequencies()?;
+        let boundary =
+            if self.damage_boundary { Some(self.boundary(&question.excitation, &frequencies)?) } else { None };
         if boundary.as_ref().is_some_and(|boundary| boundary.critical_velocity_change.is_none())
             && self.output.as_ref().is_some_and(|target| target.kind == Kind::Svg)
         {
             return Err(Failure::Usage("both directions of the record cancel: there is no damage boundary to draw"));
         }
-        let spectra = self.spectra(&records, &frequencies.list)?;
-        let part = |(name, spectrum): (_, Spectrum)| {
-            let enveloping = self.enveloping_pulse.map(|shape| EnvelopingPulse::of(&spectrum, shape)).transpose()?;
-            Ok::<_, Failure>(Part {
-                name,
-                margins: limit.as_ref().map(|limit| limit.curve.margins(&spectrum)),
-                deviations: required.as_ref().map(|required| required.deviations(&spectrum)),
-                enveloping: enveloping.flatten(),
-                spectrum,
-            })
-        };
-        let parts = spectra.into_iter().map(part).collect::<Result<_, _>>()?;
+        let mut answer = counted(&question)?;
+        answer.boundary = boundary;
         if let Some(target) = &self.history {
-            self.write_history(&records, &frequencies, target)?;
+            self.write_history(question.records(), &frequencies, target)?;
         }
-        let computed = Computed { args: self, frequencies, limit, required, parts, records, boundary };
+        let unit = self.frequency.as_ref().and_then(|frequency| frequency.unit);
+        let computed = Computed { args: self, answer, unit, limit };
         if let Some(target) = &self.output {
             computed.write(target)?;
         }
@@ -374,12 +338,13 @@ impl Args {
         match self.format {
             RowFormat::Table => computed.table(streams.out).map_err(Failure::Answer),
             RowFormat::Csv => computed.csv(streams.out).map_err(Failure::Answer),
-            RowFormat::Json => streams.json(&computed.answer()),
+            RowFormat::Json => streams.json(&computed.json()),
         }?;
-        let damages = computed.boundary.as_ref().is_some_and(|boundary| !boundary.margin.is_safe());
-        let reaches = |part: &Part| computed.required.as_ref().is_none_or(|of| part.reaches(of) == Some(true));
+        let Answer { parts, boundary, .. } = &computed.answer;
+        let damages = boundary.as_ref().is_some_and(|boundary| !boundary.margin.is_safe());
+        let reaches = |part: &Part| question.required.as_ref().is_none_or(|of| part.reaches(of) == Some(true));
         let wants = |part: &Part| part.exceeds() || !reaches(part);
-        Ok(if damages || computed.parts.iter().any(wants) { Exit::Unsafe } else { Exit::Done })
+        Ok(if damages || parts.iter().any(wants) { Exit::Unsafe } else { Exit::Done })
     }
 
     /// A curve as it was typed or from its file; refused in a unit of another quantity.
@@ -425,68 +390,49 @@ impl Args {
         Show { unit, name: self.quantity.name()[1] }
     }
 
-    /// The frequencies asked for; of records else up to a third of the lowest sampling rate.
-    fn frequencies(&self, records: &[Measured]) -> Result<FrequencyArg, Failure> {
-        if let Some(frequency) = &self.frequency {
-            return Ok(frequency.clone());
-        }
-        let times = records.iter().flat_map(|measured| measured.record.times());
-        let third = |times: &TimeAxis| times.step_s().map(|step_s| (3.0 * step_s).recip());
-        let high = times.filter_map(third).fold(HIGHEST_HZ, f64::min);
-        // Three decades, where the samples are few.
-        let low = LOWEST_HZ.min(high * LOWEST_HZ / HIGHEST_HZ);
-        Ok(FrequencyArg { list: Frequencies::per_octave(low, high, PER_OCTAVE)?, unit: None })
-    }
-
-    /// A spectrum for each channel and damping ratio, with its name where there are several channels.
-    fn spectra(&self, records: &[Measured], list: &Frequencies) -> Result<Vec<(Option<String>, Spectrum)>, Failure> {
-        let (dampings, quantity) = (self.damping.ratios()?, self.quantity.quantity());
-        if !records.is_empty() {
-            return records::spectra(self, records, list, &dampings);
-        }
-        let alone = |spectra: Vec<Spectrum>| spectra.into_iter().map(|spectrum| (None, spectrum)).collect();
-        let shocks = match &self.excitation.shocks_file {
-            Some(path) => lists::shocks(path)?,
-            None => self.excitation.shock.clone(),
-        };
-        if !shocks.is_empty() {
-            let shocks = VelocityShocks::new(shocks)?;
-            return Ok(alone(dampings.iter().map(|damping| shocks.spectrum(list, *damping, quantity)).collect()));
-        }
-        let pulses = self.pulses()?;
-        excitation::check_periods(&pulses, list).map_err(Failure::Wrong)?;
-        let pulses = Pulses::new(&pulses)?;
-        Ok(alone(dampings.iter().map(|damping| pulses.spectrum(list, *damping, quantity)).collect()))
-    }
-
-    fn pulses(&self) -> Result<Vec<Pulse>, Failure> {
-        match &self.excitation.pulses_file {
-            Some(path) => lists::pulses(path),
-            None => {
-                Ok(self.excitation.pulse.iter().flat_map(|PulseArg { pulses, .. }| pulses.iter().copied()).collect())
+    fn excitation(&self) -> Result<Excitation, Failure> {
+        let Excited { records, pulse, shock, pulses_file, shocks_file } = &self.excitation;
+        Ok(match (shocks_file, pulses_file) {
+            _ if !records.is_empty() => Excitation::Records(records::read(self)?),
+            (Some(path), _) => Excitation::Shocks(VelocityShocks::new(lists::shocks(path)?)?),
+            (None, Some(path)) => Excitation::Pulses(lists::pulses(path)?),
+            (None, None) if !shock.is_empty() => Excitation::Shocks(VelocityShocks::new(shock.clone())?),
+            (None, None) => {
+                Excitation::Pulses(pulse.iter().flat_map(|PulseArg { pulses, .. }| pulses.clone()).collect())
             }
-        }
+        })
     }
+}
+
+fn counted(question: &Question) -> Result<Answer<'_>, Failure> {
+    let channels = question.records().iter().flat_map(|measured| measured.record.channels());
+    let all: usize = channels.map(|channel| channel.values.len()).sum();
+    let filtering = Counted::begin("filtering", (all * question.dampings.len()) as u64);
+    spectrum::counted(question, |samples| filtering.at(samples)).map_err(|error| match error {
+        Error::OfRecord { file, reason } => Failure::Record { path: file.into(), reason },
+        error => error.into(),
+    })
 }
 
 impl Computed<'_> {
     fn against(&self) -> Against<'_> {
-        Against { limit: self.limit.as_ref().map(|limit| &limit.curve), required: self.required.as_ref() }
+        let Question { limit, required, .. } = self.answer.question;
+        Against { limit: limit.as_ref(), required: required.as_ref() }
     }
 
     /// What is odd about the records, and frequencies that they don't tell of.
     fn warnings(&self) -> Vec<String> {
-        let hz = self.frequencies.list.hz();
+        let hz = self.answer.frequencies.hz();
         let (low, high) = hz.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), hz| (low.min(*hz), high.max(*hz)));
         let mut warnings = Vec::new();
-        if let Some(ranges) = self.required.as_ref().and_then(|required| beyond(required, hz)) {
+        if let Some(ranges) = self.answer.question.required.as_ref().and_then(|required| beyond(required, hz)) {
             let [from, to, low, high] = ranges.map(figures);
             warnings.push(format!(
                 "the required spectrum goes from {from} to {to} Hz, and is judged from {low} to {high} Hz alone: --frequency says where"
             ));
         }
-        for Measured { path, record, .. } in &self.records {
-            let path = text::path(path);
+        for Measured { file, record, .. } in self.answer.question.records() {
+            let path = text::path(file.as_ref());
             warnings.extend(record.findings(low).iter().map(|finding| format!("{path}: {finding}")));
             let slowest_s = record.times().iter().filter_map(|times| times.step_s()).fold(0.0, f64::max);
             let band_hz = BAND / slowest_s;
@@ -500,16 +446,20 @@ impl Computed<'_> {
         warnings
     }
 
+    fn json(&self) -> WithFile<'_> {
+        WithFile { answer: &self.answer, file: self.args.output.as_ref().map(|target| target.path.as_path()) }
+    }
+
     fn write(&self, target: &Target) -> Result<(), Failure> {
         output::replace(&target.path, |file| match target.kind {
             Kind::Csv => buffered(file, |out| self.csv(out)),
             Kind::Svg => file.write_all(self.svg()?.as_bytes()),
-            _ => buffered(file, |out| Ok(serde_json::to_writer(out, &self.answer())?)),
+            _ => buffered(file, |out| Ok(serde_json::to_writer(out, &self.json())?)),
         })
     }
 
     fn svg(&self) -> Result<String, FigureError> {
-        if let Some(b) = &self.boundary {
+        if let Some(b) = &self.answer.boundary {
             let critical = Critical {
                 velocity_change: b.critical_velocity_change.unwrap_or(f64::INFINITY),
                 acceleration: b.critical_acceleration,
@@ -517,17 +467,18 @@ impl Computed<'_> {
             };
             return clatter_figures::damage_boundary(critical, &b.curve, [b.velocity_change, b.acceleration]);
         }
-        if let [part] = &self.parts[..] {
+        if let [part] = &self.answer.parts[..] {
             return clatter_figures::spectrum(&part.spectrum, self.against());
         }
-        let names: Vec<String> = self.parts.iter().map(|part| self.name(part)).collect();
-        let all: Vec<_> = self.parts.iter().zip(&names).map(|(part, name)| (&part.spectrum, name.as_str())).collect();
+        let names: Vec<String> = self.answer.parts.iter().map(|part| self.name(part)).collect();
+        let all: Vec<_> =
+            self.answer.parts.iter().zip(&names).map(|(part, name)| (&part.spectrum, name.as_str())).collect();
         clatter_figures::spectra(&all, self.against())
     }
 
     /// The channel and the quality factor of a part, as far as there are several.
     fn name(&self, part: &Part) -> String {
-        let several = self.parts.iter().any(|other| other.spectrum.damping != part.spectrum.damping);
+        let several = self.answer.parts.iter().any(|other| other.spectrum.damping != part.spectrum.damping);
         let q = several.then(|| format!("Q = {}", figures(0.5 / part.spectrum.damping.get())));
         let names: Vec<_> = part.name.clone().into_iter().chain(q).collect();
         names.join(", ")

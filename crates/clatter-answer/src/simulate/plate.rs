@@ -74,20 +74,19 @@ impl Question {
     /// All told as the scene has it, without a place but the corners.
     #[must_use]
     pub fn new(scene: PlateScene, model: Model) -> Self {
-        let (plate, [hx, hy]) = (scene.plate(), scene.gaps_m());
-        let ([left, right, front, back], [length, width]) = (plate.edges_m(), plate.sides_m());
-        let slopes = [hx / length, hy / width];
-        let tilt = libm::hypot(slopes[0], slopes[1]);
-        Self {
-            scene,
-            model,
-            at: Vec::new(),
-            center_of_mass: [(left - right) / length, (front - back) / width],
-            tilt_deg: libm::asin(tilt).to_degrees(),
-            direction_deg: (tilt > 0.0).then(|| libm::atan2(slopes[1], slopes[0]).to_degrees()),
-            height_m: None,
-        }
+        let (center_of_mass, tilt_deg, direction_deg) = told(&scene);
+        Self { scene, model, at: Vec::new(), center_of_mass, tilt_deg, direction_deg, height_m: None }
     }
+}
+
+/// Center of mass in half-sides, the steepest slope, and in degrees where the plate rises to, which a level one does not.
+pub(crate) fn told(scene: &PlateScene) -> ([f64; 2], f64, Option<f64>) {
+    let (plate, [hx, hy]) = (scene.plate(), scene.gaps_m());
+    let ([left, right, front, back], [length, width]) = (plate.edges_m(), plate.sides_m());
+    let slopes = [hx / length, hy / width];
+    let tilt = libm::hypot(slopes[0], slopes[1]);
+    let direction_deg = (tilt > 0.0).then(|| libm::atan2(slopes[1], slopes[0]).to_degrees());
+    ([(left - right) / length, (front - back) / width], libm::asin(tilt).to_degrees(), direction_deg)
 }
 
 /// A drop of a plate in time.

@@ -2,22 +2,20 @@
 
 use std::io::{self, Write};
 
-use clatter_assess::ProductFile;
-use clatter_assess::fit::{Beside, MeasuredDrop};
-use serde::Serialize;
+use clatter_answer::assess::Answer;
+use clatter_assess::fit::Beside;
 
 use crate::Streams;
-use crate::numbers::Json;
 use crate::text::shown;
 use crate::words::four;
 
 /// Tells where the product that was measured is not that of the file.
-pub(super) fn warn(file: &ProductFile, drops: &[MeasuredDrop], streams: &mut Streams<'_>) {
-    for drop in drops {
+pub(super) fn warn(answer: &Answer<'_>, streams: &mut Streams<'_>) {
+    for drop in &answer.measured {
         let name = shown(&drop.name, 60);
         match &drop.found {
             Ok(fit) => {
-                for beside in fit.differs(file) {
+                for beside in fit.differs(answer.file) {
                     let (what, measured, interval, stated) = said(&beside);
                     let interval = if interval.is_empty() { interval } else { format!(" ({interval})") };
                     let message = format!(
@@ -44,8 +42,8 @@ fn said(beside: &Beside<'_>) -> (&'static str, String, String, String) {
     (what, with(four(factor * beside.estimate.value)), interval, stated)
 }
 
-pub(super) fn table(file: &ProductFile, drops: &[MeasuredDrop], out: &mut dyn Write) -> io::Result<()> {
-    for drop in drops {
+pub(super) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> {
+    for drop in &answer.measured {
         let name = shown(&drop.name, 60);
         let fit = match &drop.found {
             Ok(fit) => fit,
@@ -56,7 +54,7 @@ pub(super) fn table(file: &ProductFile, drops: &[MeasuredDrop], out: &mut dyn Wr
         };
         writeln!(out, "\nMeasured, {name}, by the nearest drop of the model {}", fit.model.name())?;
         writeln!(out, "{:<22} {:>12}  {:<24} {:<24}", "", "measured", "95 %", "stated")?;
-        for beside in fit.beside(file) {
+        for beside in fit.beside(answer.file) {
             let (what, measured, interval, stated) = said(&beside);
             let agrees = match beside.agrees {
                 Some(false) if beside.estimate.quantity.is_of_product() => "differs",
@@ -72,49 +70,4 @@ pub(super) fn table(file: &ProductFile, drops: &[MeasuredDrop], out: &mut dyn Wr
         }
     }
     Ok(())
-}
-
-/// A measured drop for programs.
-#[derive(Serialize)]
-pub(super) struct Answer<'a> {
-    drop: &'a str,
-    files: &'a [String],
-    #[serde(skip_serializing_if = "Option::is_none")]
-    model: Option<&'static str>,
-    /// Why there is no fit.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    reason: Option<&'a str>,
-    estimates: Vec<EstimateJson>,
-}
-
-#[derive(Serialize)]
-struct EstimateJson {
-    quantity: &'static str,
-    unit: &'static str,
-    value: Json,
-    interval: Option<[Json; 2]>,
-    stated: Option<[Json; 2]>,
-    agrees: Option<bool>,
-}
-
-pub(super) fn answers<'a>(file: &ProductFile, drops: &'a [MeasuredDrop]) -> Vec<Answer<'a>> {
-    let estimate = |beside: Beside<'_>| EstimateJson {
-        quantity: beside.estimate.quantity.name(),
-        unit: beside.estimate.quantity.unit(),
-        value: Json(beside.estimate.value),
-        interval: beside.estimate.interval.map(|interval| interval.map(Json)),
-        stated: beside.stated.map(|stated| stated.map(Json)),
-        agrees: beside.agrees,
-    };
-    let answer = |drop: &'a MeasuredDrop| {
-        let fit = drop.found.as_ref().ok();
-        Answer {
-            drop: &drop.name,
-            files: &drop.files,
-            model: fit.map(|fit| fit.model.name()),
-            reason: drop.found.as_ref().err().map(String::as_str),
-            estimates: fit.map(|fit| fit.beside(file).into_iter().map(estimate).collect()).unwrap_or_default(),
-        }
-    };
-    drops.iter().map(answer).collect()
 }

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 use std::path::PathBuf;
 
+use clatter_answer::assess::Answer;
 use clatter_assess::{Accuracy, Assessment, ComponentAssessment, LimitAssessment, ProductFile, Verdict, repeat};
 
 use crate::columns::{Table, sentence};
@@ -21,11 +22,8 @@ fn name(component: &ComponentAssessment) -> String {
     shown(&component.name, 24)
 }
 
-pub(super) fn of_one(
-    (path, file): (&str, &ProductFile),
-    assessment: &Assessment,
-    out: &mut dyn Write,
-) -> io::Result<()> {
+pub(super) fn of_one(path: &str, answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let Answer { file, assessment, .. } = answer;
     let of = (path, &assessment.accuracy);
     headline(assessment, out)?;
     limits(file, assessment, out)?;
@@ -126,9 +124,10 @@ fn worst_drop(
 }
 
 /// Margins of several products, a column each.
-pub(super) fn side_by_side(files: &[PathBuf], assessments: &[Assessment], out: &mut dyn Write) -> io::Result<()> {
+pub(super) fn side_by_side(files: &[PathBuf], answers: &[Answer<'_>], out: &mut dyn Write) -> io::Result<()> {
+    let assessments: Vec<&Assessment> = answers.iter().map(|answer| &answer.assessment).collect();
     let mut rows: Vec<(String, &'static str)> = Vec::new();
-    for assessment in assessments {
+    for assessment in &assessments {
         for component in &assessment.components {
             for limit in &component.limits {
                 let row = (component.name.clone(), limit.limit.name());
@@ -140,13 +139,13 @@ pub(super) fn side_by_side(files: &[PathBuf], assessments: &[Assessment], out: &
     }
     // Products of one name are told apart by their files.
     let alike = |name: &str| assessments.iter().filter(|a| shown(&a.product, 20) == shown(name, 20)).count() > 1;
-    let head = |(a, file): (&Assessment, &PathBuf)| {
+    let head = |(a, file): (&&Assessment, &PathBuf)| {
         if alike(&a.product) { path(file) } else { shown(&a.product, 20) }
     };
     let heads: Vec<_> = assessments.iter().zip(files).map(head).collect();
     let mut table = vec![["component".to_owned(), "margin of".to_owned()].into_iter().chain(heads).collect::<Vec<_>>()];
     for (name, limit) in &rows {
-        let cell = |assessment: &Assessment| {
+        let cell = |assessment: &&Assessment| {
             let component = assessment.components.iter().find(|c| c.name == *name);
             let found = component.and_then(|c| c.limits.iter().find(|l| l.limit.name() == *limit));
             found.map_or("-".to_owned(), |limit| limit.margin.map_or("?".to_owned(), margin))

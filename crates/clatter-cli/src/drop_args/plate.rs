@@ -52,7 +52,6 @@ impl PlateArgs {
 
 /// A drop of a plate with all that it needs.
 pub(crate) struct PlateSetup {
-    pub(crate) model: Model,
     pub(crate) scene: PlateScene,
     pub(crate) e: f64,
     /// Of contacts that take time.
@@ -160,7 +159,6 @@ impl DropArgs {
         let contact = contact_time.filter(|_| model == Model::Compliant);
         let contact = contact.map(|time| Contact::new(law, e, time.si)).transpose()?;
         Ok(PlateSetup {
-            model,
             scene,
             e,
             contact,

@@ -2,18 +2,17 @@
 
 use std::io::{self, Write};
 
+use clatter_answer::fit::{Answer, Question};
 use clatter_assess::fit::Estimate;
 
-use super::{Answered, answer};
 use crate::inputs::letter;
 use crate::text::{self, shown};
 use crate::words::four;
 
-pub(super) fn table(answered: &Answered<'_>, out: &mut dyn Write) -> io::Result<()> {
-    let fit = &answered.fit;
-    let records = answered.args.records.len();
-    let name = shown(&answered.file.product.name, 60);
-    let of = if records == 1 { "1 record".to_owned() } else { format!("{records} records") };
+pub(super) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let Answer { question: Question { file, records, .. }, fit, .. } = answer;
+    let name = shown(&file.product.name, 60);
+    let of = if records.len() == 1 { "1 record".to_owned() } else { format!("{} records", records.len()) };
     writeln!(out, "{name}: fit to {of}, model {}, {} degrees of freedom", fit.model.name(), fit.degrees_of_freedom)?;
     writeln!(out)?;
     writeln!(out, "{:<22}{:>12}  {:<24}unit", "", "estimate", "95 %")?;
@@ -29,8 +28,8 @@ pub(super) fn table(answered: &Answered<'_>, out: &mut dyn Write) -> io::Result<
         writeln!(out, "  {name}, held at {}: {}", held.trim_end(), untold.reason)?;
     }
     writeln!(out)?;
-    for (path, (record, found)) in answered.args.records.iter().zip(answered.records.iter().zip(&fit.records)) {
-        let (kind, factor, unit) = match answer::kind(record) {
+    for (record, found) in records.iter().zip(&fit.records) {
+        let (kind, factor, unit) = match record.data.kind() {
             kind @ ("strikes" | "bounces") => (kind, 1e6, "us"),
             kind @ "heights" => (kind, 1e3, "mm"),
             kind => (kind, 1.0, "m/s2"),
@@ -38,13 +37,13 @@ pub(super) fn table(answered: &Answered<'_>, out: &mut dyn Write) -> io::Result<
         writeln!(
             out,
             "{}: {kind}, {} {unit} off on the mean (root mean square), first touch at {} ms",
-            text::path(path),
+            text::path(record.name.as_ref()),
             four(factor * found.scatter),
             four(1e3 * found.first_touch_s)
         )?;
     }
     if fit.records.iter().any(|record| !record.strikes.is_empty()) {
-        strikes(answered, out)?;
+        strikes(answer, out)?;
     }
     for note in &fit.notes {
         writeln!(out, "\nNote: {note}.")?;
@@ -66,8 +65,8 @@ fn line(estimate: &Estimate, out: &mut dyn Write) -> io::Result<()> {
 const MOST: usize = 40;
 
 /// Measured strikes beside computed ones.
-fn strikes(answered: &Answered<'_>, out: &mut dyn Write) -> io::Result<()> {
-    for record in answered.fit.records.iter().filter(|record| !record.strikes.is_empty()) {
+fn strikes(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> {
+    for record in answer.fit.records.iter().filter(|record| !record.strikes.is_empty()) {
         writeln!(out, "\n{:>7} {:>4} {:>14} {:>14}", "strike", "end", "measured, ms", "less computed")?;
         for strike in record.strikes.iter().take(MOST) {
             let number = strike.number.map_or_else(|| "none".to_owned(), |number| number.to_string());

@@ -2,40 +2,12 @@
 
 use std::io::{self, Write};
 
-use clatter_record::{Channel, Error, Record};
-use clatter_shock::{
-    EffectiveDuration, PULSE_TOLERANCES, Pulse, PulseCheck, PulseFit, Within, check_pulse, effective_duration,
-    fit_pulses, pulse_at,
-};
+use clatter_answer::record::Fitted;
+use clatter_record::Channel;
+use clatter_shock::{EffectiveDuration, Pulse, PulseFit, Within, pulse_at};
 
-use crate::excitation::shape_name;
 use crate::numbers::figures;
-
-/// What was found of a channel.
-pub(super) struct Fitted {
-    /// Best first.
-    pub(super) fits: [PulseFit; 3],
-    pub(super) durations: EffectiveDuration,
-    /// What it is held against, where it fits best.
-    pub(super) nominal: Pulse,
-    /// By the keyword of each standard.
-    pub(super) checks: Vec<(&'static str, PulseCheck)>,
-}
-
-/// That of each channel.
-pub(super) fn fit(record: &Record, nominal: Option<&Pulse>) -> Result<Vec<Fitted>, Error> {
-    let one = |channel: &Channel| {
-        let (values, step_s) = (&channel.values, channel.times().even("a pulse")?);
-        let fits = fit_pulses(values, step_s)?;
-        let against = nominal.copied().unwrap_or(fits[0].pulse);
-        let check = |tolerance| Ok((tolerance, check_pulse(values, step_s, &against, tolerance)?));
-        let checks = PULSE_TOLERANCES.iter().map(check).collect::<Result<Vec<_>, Error>>()?;
-        let nominal = checks.first().map_or(against, |(_, check)| check.nominal);
-        let checks = checks.into_iter().map(|(tolerance, check)| (tolerance.keyword, check)).collect();
-        Ok(Fitted { fits, durations: effective_duration(values, step_s)?, nominal, checks })
-    };
-    record.channels().iter().map(one).collect()
-}
+use clatter_answer::shape_name;
 
 pub(super) fn table(channel: &Channel, name: &str, fitted: &Fitted, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "\n{name}: pulses that fit, best first")?;

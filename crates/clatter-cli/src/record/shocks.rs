@@ -2,18 +2,11 @@
 
 use std::io::{self, Write};
 
-use clatter_record::{Channel, Error, Record};
-use clatter_shock::{Search, Shocks, find_shocks};
+use clatter_record::{Channel, Record};
+use clatter_shock::Shocks;
 
 use crate::numbers::{digits, figures};
 use crate::text;
-
-/// Those of each channel.
-pub(super) fn find(search: &Search, record: &Record) -> Result<Vec<Shocks>, Error> {
-    let one =
-        |channel: &Channel| Ok(find_shocks(&channel.values, channel.times().even("a search for shocks")?, search)?);
-    record.channels().iter().map(one).collect()
-}
 
 pub(super) fn table(channel: &Channel, name: &str, found: &Shocks, out: &mut dyn Write) -> io::Result<()> {
     let (count, beyond) = (found.shocks.len() + found.omitted, figures(found.threshold_m_s2));

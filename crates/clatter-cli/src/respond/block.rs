@@ -2,15 +2,14 @@
 
 use std::io::{self, Write};
 
-use clatter_answer::simulate::block::{DropAnswer, StopAnswer};
-use clatter_shock::{DampingRatio, Quantity};
-use serde::Serialize;
+use clatter_answer::respond::block::{self, Answer, Question};
+use clatter_shock::Suspension;
 
 use super::Args;
-use crate::block::{Axis, Felt, Setup};
+use crate::block::{Axis, Setup};
 use crate::drop_args::BesideBlock;
 use crate::inputs::Format;
-use crate::numbers::{Json, figures, given};
+use crate::numbers::{figures, given};
 use crate::{Failure, Streams};
 
 impl Args {
@@ -46,31 +45,18 @@ impl Args {
         let at_m = self.at_of_block(setup.drop.block().size_m())?;
         setup.within(at_m)?;
         let axis = self.axis.unwrap_or(Axis::Z);
-        let felt = setup.felt(at_m)?;
         let damping = self.damping.ratio()?;
-        let part = match (self.omega(), axis.index()) {
-            (Some(_), None) => {
-                return Err(Failure::Usage(
-                    "a part that swings does so along one axis: --axis=x, y or z, or no --omega",
-                ));
-            }
-            (Some(omega), Some(axis)) => Some(Part::new(&felt, axis, omega, damping)?),
-            (None, _) => None,
-        };
-        let answer = Answer {
-            drop: setup.answer(),
-            contact_law: setup.contact.law().name(),
-            at_m: at_m.map(Json),
-            axis: axis.name(),
-            part,
-            acceleration: felt.largest(axis).into(),
-            stop: StopAnswer::new(&felt.flight.stop),
-        };
+        let mut question = Question::new(setup.drop, setup.contact, at_m, axis.into());
+        question.suspension = self.omega().map(|omega| Suspension::new(omega, damping)).transpose()?;
+        if axis == Axis::Any && question.suspension.is_some() {
+            return Err(Failure::Usage("a part that swings does so along one axis: --axis=x, y or z, or no --omega"));
+        }
+        let answer = block::answer(&question)?;
         match self.format {
-            Format::Table => answer.table(&setup, streams.out).map_err(Failure::Answer)?,
+            Format::Table => table(&answer, &setup, streams.out).map_err(Failure::Answer)?,
             Format::Json => streams.json(&answer)?,
         }
-        for warning in setup.warning().into_iter().chain(setup.left(&felt.flight.stop)) {
+        for warning in setup.warning().into_iter().chain(setup.left(&answer.flight.stop)) {
             streams.note("warning", warning);
         }
         self.warn(std::iter::empty(), streams);
@@ -78,78 +64,24 @@ impl Args {
     }
 }
 
-#[derive(Serialize)]
-struct Answer {
-    #[serde(flatten)]
-    drop: DropAnswer,
-    contact_law: &'static str,
-    at_m: [Json; 3],
-    axis: &'static str,
-    #[serde(flatten)]
-    part: Option<Part>,
-    /// What an accelerometer at the place feels at most along the axis.
-    acceleration: Value,
-    stop: StopAnswer,
-}
-
-#[derive(Serialize)]
-struct Value {
-    value_m_s2: Json,
-    time_s: Json,
-}
-
-impl From<[f64; 2]> for Value {
-    fn from([value, time]: [f64; 2]) -> Self {
-        Self { value_m_s2: Json(value), time_s: Json(time) }
-    }
-}
-
-/// A part on its suspension.
-#[derive(Serialize)]
-struct Part {
-    omega: Json,
-    damping: Json,
-    omega_peak_relative_displacement: Json,
-    time_of_peak_relative_displacement: Json,
-    peak_absolute_acceleration_over_omega: Json,
-    time_of_peak: Json,
-}
-
-impl Part {
-    fn new(felt: &Felt, axis: usize, omega: f64, damping: DampingRatio) -> Result<Self, Failure> {
-        let [displacement, when] = felt.peak(axis, omega, damping, Quantity::PseudoVelocity)?;
-        let [acceleration, time] = felt.peak(axis, omega, damping, Quantity::AbsoluteAcceleration)?;
-        Ok(Self {
-            omega: Json(omega),
-            damping: Json(damping.get()),
-            omega_peak_relative_displacement: Json(displacement),
-            time_of_peak_relative_displacement: Json(when),
-            peak_absolute_acceleration_over_omega: Json(acceleration / omega),
-            time_of_peak: Json(time),
-        })
-    }
-}
-
-impl Answer {
-    fn table(&self, setup: &Setup, out: &mut dyn Write) -> io::Result<()> {
-        setup.heading(out)?;
-        let [x, y, z] = self.at_m.map(|x| given(1e3 * x.0));
-        let axis = if self.axis == "any" { "in magnitude".to_owned() } else { format!("along {}", self.axis) };
-        writeln!(out, "Place at {x}, {y}, {z} mm from the middle, {axis}")?;
-        writeln!(out)?;
-        writeln!(out, "Largest at this place                        when, ms")?;
-        let row = |out: &mut dyn Write, name: &str, value: String, time: f64| {
-            writeln!(out, "  {name:<22}{value:>16}{:>13}", figures(1e3 * time))
-        };
-        let gn = |x: f64| format!("{} gn", figures(x / clatter_assess::STANDARD_GRAVITY_M_S2));
-        row(out, "acceleration", gn(self.acceleration.value_m_s2.0), self.acceleration.time_s.0)?;
-        let Some(part) = &self.part else { return Ok(()) };
-        writeln!(out)?;
-        writeln!(out, "Peak of the part, W = {} rad/s, damping ratio {}", given(part.omega.0), given(part.damping.0))?;
-        let omega = part.omega.0;
-        let acceleration = gn(omega * part.peak_absolute_acceleration_over_omega.0);
-        row(out, "acceleration", acceleration, part.time_of_peak.0)?;
-        let displacement = format!("{} mm", figures(1e3 * part.omega_peak_relative_displacement.0 / omega));
-        row(out, "relative displacement", displacement, part.time_of_peak_relative_displacement.0)
-    }
+fn table(answer: &Answer, setup: &Setup, out: &mut dyn Write) -> io::Result<()> {
+    setup.heading(out)?;
+    let [x, y, z] = answer.at_m.map(|x| given(1e3 * x.0));
+    let axis = if answer.axis == "any" { "in magnitude".to_owned() } else { format!("along {}", answer.axis) };
+    writeln!(out, "Place at {x}, {y}, {z} mm from the middle, {axis}")?;
+    writeln!(out)?;
+    writeln!(out, "Largest at this place                        when, ms")?;
+    let row = |out: &mut dyn Write, name: &str, value: String, time: f64| {
+        writeln!(out, "  {name:<22}{value:>16}{:>13}", figures(1e3 * time))
+    };
+    let gn = |x: f64| format!("{} gn", figures(x / clatter_assess::STANDARD_GRAVITY_M_S2));
+    row(out, "acceleration", gn(answer.acceleration.value_m_s2.0), answer.acceleration.time_s.0)?;
+    let Some(part) = &answer.part else { return Ok(()) };
+    writeln!(out)?;
+    writeln!(out, "Peak of the part, W = {} rad/s, damping ratio {}", given(part.omega.0), given(part.damping.0))?;
+    let omega = part.omega.0;
+    let acceleration = gn(omega * part.peak_absolute_acceleration_over_omega.0);
+    row(out, "acceleration", acceleration, part.time_of_peak.0)?;
+    let displacement = format!("{} mm", figures(1e3 * part.omega_peak_relative_displacement.0 / omega));
+    row(out, "relative displacement", displacement, part.time_of_peak_relative_displacement.0)
 }

@@ -2,10 +2,11 @@
 
 use std::io::{self, Write};
 
+use clatter_answer::scatter::Answer;
 use clatter_assess::ProductFile;
 use clatter_assess::scatter::{ComponentScatter, Driver, Input, Pilot, Probability, Scatter, Settings};
 
-use super::{Target, name_of};
+use super::name_of;
 use crate::columns::Table;
 use crate::numbers::{digits, figures, given};
 use crate::text::{field, shown};
@@ -46,12 +47,8 @@ fn hundredths(p: f64) -> String {
     if p >= 1.0 { "100".to_owned() } else { figures(100.0 * p) }
 }
 
-pub(super) fn table(
-    file: &ProductFile,
-    scatter: &Scatter,
-    target: Option<&Target>,
-    out: &mut dyn Write,
-) -> io::Result<()> {
+pub(super) fn table(answer: &Answer<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let Answer { file, scatter, target, .. } = answer;
     let Settings { samples, seed, confidence, .. } = scatter.settings;
     let (product, sure) = (shown(&file.product.name, 60), given(100.0 * confidence));
     let (drawn, followed) = (scatter.drawn, scatter.followed);
@@ -69,8 +66,8 @@ pub(super) fn table(
         hundredths(at_least)
     )?;
     if let Some(target) = target {
-        let word = if target.is_met(scatter) { "met" } else { "MISSED" };
-        let (wanted, low) = (given(100.0 * target.share), hundredths(lo));
+        let word = if answer.is_met() { "met" } else { "MISSED" };
+        let (wanted, low) = (given(100.0 * target), hundredths(lo));
         writeln!(out, "Target of {wanted} % {word}: the {sure} % interval begins at {low} %")?;
     }
     if let Some(reason) = &scatter.reason {

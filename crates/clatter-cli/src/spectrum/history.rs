@@ -2,12 +2,11 @@
 
 use std::io::Write;
 
+use clatter_answer::spectrum::Measured;
 use clatter_record::Channel;
-use clatter_shock::Suspension;
+use clatter_shock::{Frequencies, Suspension};
 
 use super::Args;
-use super::records::Measured;
-use crate::excitation::FrequencyArg;
 use crate::numbers::digits;
 use crate::output::{self, Target, buffered};
 use crate::{Failure, text};
@@ -23,10 +22,10 @@ impl Args {
     pub(super) fn write_history(
         &self,
         records: &[Measured],
-        frequencies: &FrequencyArg,
+        frequencies: &Frequencies,
         target: &Target,
     ) -> Result<(), Failure> {
-        let &[hz] = frequencies.list.hz() else {
+        let &[hz] = frequencies.hz() else {
             return Err(Failure::Usage("--history is of one component: give one --frequency"));
         };
         let [quantity, _] = self.quantity.name();
@@ -38,14 +37,14 @@ impl Args {
                 writeln!(out, "record,channel,q_factor,time_s,base_acceleration_m_s2,{name}")?;
                 for damping in &dampings {
                     let part = Suspension::from_hz(hz, *damping).map_err(std::io::Error::other)?;
-                    for Measured { path, record, .. } in records {
+                    for Measured { file, record, .. } in records {
                         for channel in record.channels() {
                             let points = self.points(channel, hz);
                             let felt =
                                 part.history(&points, self.quantity.quantity()).map_err(std::io::Error::other)?;
                             let of = format!(
                                 "{},{},{}",
-                                text::field(&text::path(path)),
+                                text::field(&text::path(file.as_ref())),
                                 text::field(&channel.name),
                                 digits(0.5 / damping.get())
                             );

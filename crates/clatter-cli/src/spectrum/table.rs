@@ -2,14 +2,14 @@
 
 use std::io::{self, Write};
 
+use clatter_answer::shape_name;
+use clatter_answer::spectrum::{Measured, Part, largest, outermost};
 use clatter_assess::units::ACCELERATION;
 use clatter_record::Channel;
 use clatter_shock::{Deviation, EnvelopingPulse, LimitCurve, Margin, Spectrum};
 
-use super::records::{Measured, largest};
-use super::{Computed, Part};
+use super::{Computed, boundary};
 use crate::columns::Table;
-use crate::excitation::shape_name;
 use crate::numbers::{digits, figures, given};
 use crate::quantities::Show;
 use crate::text;
@@ -20,7 +20,7 @@ impl Computed<'_> {
     }
 
     pub(super) fn table(&self, out: &mut dyn Write) -> io::Result<()> {
-        for (i, part) in self.parts.iter().enumerate() {
+        for (i, part) in self.answer.parts.iter().enumerate() {
             self.heading(part, out)?;
             if i == 0 {
                 self.about_excitation(out)?;
@@ -34,16 +34,16 @@ impl Computed<'_> {
             if let Some(enveloping) = &part.enveloping {
                 self.enveloped(enveloping, out)?;
             }
-            if self.args.output.is_none() && self.parts.len() == 1 {
+            if self.args.output.is_none() && self.answer.parts.len() == 1 {
                 self.rows(part, out)?;
             }
         }
-        if self.args.output.is_none() && self.parts.len() > 1 {
+        if self.args.output.is_none() && self.answer.parts.len() > 1 {
             self.side_by_side(out)?;
         }
         match &self.args.output {
             Some(target) => {
-                let count: usize = self.parts.iter().map(|part| part.spectrum.frequency_hz.len()).sum();
+                let count: usize = self.answer.parts.iter().map(|part| part.spectrum.frequency_hz.len()).sum();
                 writeln!(out, "{}: {count} frequencies", text::path(&target.path))
             }
             None => Ok(()),
@@ -58,8 +58,9 @@ impl Computed<'_> {
     }
 
     fn about_excitation(&self, out: &mut dyn Write) -> io::Result<()> {
-        for Measured { path, record, .. } in &self.records {
-            let file = if self.records.len() > 1 { format!("{}: ", text::path(path)) } else { String::new() };
+        let records = self.answer.question.records();
+        for Measured { file, record, .. } in records {
+            let file = if records.len() > 1 { format!("{}: ", text::path(file.as_ref())) } else { String::new() };
             let several = record.times().len() > 1;
             // Channels with times of their own have a line each.
             let mut told: Vec<&[Channel]> = if several { record.channels().chunks(1).collect() } else { Vec::new() };
@@ -76,17 +77,17 @@ impl Computed<'_> {
                 writeln!(out, "{file}{name}{n} samples from {from} to {to} s, {steps}; largest {most} m/s2")?;
             }
         }
-        let Some(boundary) = &self.boundary else { return Ok(()) };
+        let Some(boundary) = &self.answer.boundary else { return Ok(()) };
         let acceleration = self.args.quantity.dimension().name == ACCELERATION.name;
         let own = self.show().unit.filter(|_| acceleration);
         let pulse = self.args.excitation.pulse.iter().find_map(|pulse| pulse.unit);
         let unit = if self.args.output_units.is_some() { own } else { own.or(pulse) };
-        boundary.table(Show { unit, name: "m/s2" }, out)
+        boundary::table(boundary, Show { unit, name: "m/s2" }, out)
     }
 
     fn rows(&self, part: &Part, out: &mut dyn Write) -> io::Result<()> {
         let Part { spectrum, margins, deviations, .. } = part;
-        let (show, hz) = (self.show(), Show { unit: self.frequencies.unit, name: "Hz" });
+        let (show, hz) = (self.show(), Show { unit: self.unit, name: "Hz" });
         let unit = show.name();
         let mut heads = vec!["frequency", "primary", "residual", "maximax", "positive", "negative", "time of peak"];
         let mut units = vec![hz.name(), unit, unit, unit, unit, unit, "s"];
@@ -112,15 +113,15 @@ impl Computed<'_> {
 
     /// The maximax of several spectra, a column each.
     fn side_by_side(&self, out: &mut dyn Write) -> io::Result<()> {
-        let (show, hz) = (self.show(), Show { unit: self.frequencies.unit, name: "Hz" });
-        let names = self.parts.iter().map(|part| self.name(part));
-        let units = self.parts.iter().map(|_| show.name().to_owned());
+        let (show, hz) = (self.show(), Show { unit: self.unit, name: "Hz" });
+        let names = self.answer.parts.iter().map(|part| self.name(part));
+        let units = self.answer.parts.iter().map(|_| show.name().to_owned());
         let mut rows: Vec<Vec<String>> = vec![
             std::iter::once("frequency".to_owned()).chain(names).collect(),
             std::iter::once(hz.name().to_owned()).chain(units).collect(),
         ];
-        rows.extend(self.frequencies.list.hz().iter().enumerate().map(|(i, frequency)| {
-            let values = self.parts.iter().map(|part| show.figures(part.spectrum.maximax[i]));
+        rows.extend(self.answer.frequencies.hz().iter().enumerate().map(|(i, frequency)| {
+            let values = self.answer.parts.iter().map(|part| show.figures(part.spectrum.maximax[i]));
             std::iter::once(hz.figures(*frequency)).chain(values).collect()
         }));
         writeln!(out)?;
@@ -145,7 +146,7 @@ impl Computed<'_> {
             return writeln!(out, "The required spectrum covers none of these frequencies");
         };
         let at = |(i, of): (usize, Deviation)| {
-            let hz = Show { unit: self.frequencies.unit, name: "Hz" }.said(part.spectrum.frequency_hz[i]);
+            let hz = Show { unit: self.unit, name: "Hz" }.said(part.spectrum.frequency_hz[i]);
             format!("{} dB at {hz}", figures(of.decibel()))
         };
         let told = deviations.iter().flatten();
@@ -153,7 +154,9 @@ impl Computed<'_> {
             [told.clone().filter(|of| of.is_below).count(), told.clone().filter(|of| of.is_above).count()];
         let all = told.count();
         let word = match (below, above) {
-            (0, 0) if self.required.as_ref().and_then(|required| part.reaches(required)) == Some(true) => {
+            (0, 0)
+                if self.answer.question.required.as_ref().and_then(|required| part.reaches(required)) == Some(true) =>
+            {
                 "is reached".to_owned()
             }
             (0, 0) => "is reached where it is judged, and not judged all over its range".to_owned(),
@@ -168,23 +171,23 @@ impl Computed<'_> {
         let Some((i, margin)) = LimitCurve::worst(margins).and_then(|i| Some((i, margins[i]?))) else {
             return writeln!(out, "The limit covers none of these frequencies");
         };
-        let hz = Show { unit: self.frequencies.unit, name: "Hz" }.said(spectrum.frequency_hz[i]);
+        let hz = Show { unit: self.unit, name: "Hz" }.said(spectrum.frequency_hz[i]);
         let word = if margin.is_safe() { "holds" } else { "is exceeded" };
         writeln!(out, "The limit {word}: least margin {} dB at {hz}", figures(margin.decibel()))
     }
 
     pub(super) fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
-        if let Some(boundary) = &self.boundary {
+        if let Some(boundary) = &self.answer.boundary {
             writeln!(out, "velocity_change_m_s,acceleration_m_s2")?;
             return boundary.curve.iter().try_for_each(|(v, a)| writeln!(out, "{},{}", digits(*v), digits(*a)));
         }
-        let first = &self.parts[0].spectrum;
-        let several = self.parts.iter().any(|part| part.spectrum.damping != first.damping);
-        let named = self.parts.iter().any(|part| part.name.is_some());
+        let first = &self.answer.parts[0].spectrum;
+        let several = self.answer.parts.iter().any(|part| part.spectrum.damping != first.damping);
+        let named = self.answer.parts.iter().any(|part| part.name.is_some());
         let q = if several { "q_factor," } else { "" };
         let of = if named { "of," } else { "" };
         let margin = if self.limit.is_some() { ",margin_db" } else { "" };
-        let deviation = if self.required.is_some() { ",deviation_db" } else { "" };
+        let deviation = if self.answer.question.required.is_some() { ",deviation_db" } else { "" };
         writeln!(
             out,
             "{of}{q}frequency_hz,primary,residual,maximax,positive,negative{margin}{deviation},primary_positive,primary_negative,\
@@ -192,7 +195,7 @@ impl Computed<'_> {
         )?;
         let show = self.args.written();
         let written = |x: f64| digits(show.value(x));
-        for part in &self.parts {
+        for part in &self.answer.parts {
             let s = &part.spectrum;
             for i in 0..s.frequency_hz.len() {
                 if named {
@@ -215,15 +218,6 @@ impl Computed<'_> {
         }
         Ok(())
     }
-}
-
-/// The lowest and the highest of the deviations, with their places.
-pub(super) fn outermost(deviations: &[Option<Deviation>]) -> Option<[(usize, Deviation); 2]> {
-    let told = || deviations.iter().enumerate().filter_map(|(i, of)| Some((i, (*of)?)));
-    let share = |of: &Deviation| of.reached / of.required;
-    let low = told().min_by(|a, b| share(&a.1).total_cmp(&share(&b.1)))?;
-    let high = told().max_by(|a, b| share(&a.1).total_cmp(&share(&b.1)))?;
-    Some([low, high])
 }
 
 fn row(s: &Spectrum, i: usize) -> [f64; 6] {

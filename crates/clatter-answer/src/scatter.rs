@@ -1,14 +1,62 @@
-//! The answer for programs.
+//! How likely each part of a product survives, and what that hangs on.
+//!
+//! ```
+//! use clatter_answer::scatter;
+//! use clatter_assess::scatter::Settings;
+//! let file = clatter_assess::ProductFile::read(clatter_assess::EXAMPLE, "example.toml")?;
+//! let mut answer = scatter::answer(&file, Settings { samples: 200, seed: 1, confidence: 0.95, merge_s: 1e-3 })?;
+//! answer.target = Some(0.999);
+//! // 200 drops cannot show that.
+//! assert!(!answer.is_met());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! To watch the samples, or to keep them, draw with a [`Sampler`] and make the answer of what it gives.
 
-use clatter_assess::scatter::{ComponentScatter, Driver, Input, Pilot, Probability, Scatter, Settings};
+use std::convert::Infallible;
+
+use clatter_assess::scatter::{ComponentScatter, Driver, Error, Input, Pilot, Probability, Sampler, Scatter, Settings};
 use clatter_assess::{Model, ProductFile};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
-use super::Target;
-use crate::numbers::Json;
+use crate::Json;
+
+/// What came of all samples.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Answer<'a> {
+    /// The product.
+    pub file: &'a ProductFile,
+    /// The samples.
+    pub scatter: Scatter,
+    /// The share of drops that all parts are to survive.
+    pub target: Option<f64>,
+}
+
+impl<'a> Answer<'a> {
+    /// Of samples that were drawn of this product, without a target.
+    #[must_use]
+    pub fn new(file: &'a ProductFile, scatter: Scatter) -> Self {
+        Self { file, scatter, target: None }
+    }
+    /// Whether the interval of the survival lies above the target, if there is one.
+    #[must_use]
+    pub fn is_met(&self) -> bool {
+        self.target.is_none_or(|share| self.scatter.survival.lo >= share)
+    }
+}
+
+/// Draws the samples.
+///
+/// # Errors
+/// Those of [`Sampler::new`].
+pub fn answer(file: &ProductFile, settings: Settings) -> Result<Answer<'_>, Error> {
+    let Ok(scatter) = Sampler::new(file, settings)?.run(false, &|| true, |_| Ok::<_, Infallible>(()));
+    Ok(Answer::new(file, scatter))
+}
 
 #[derive(Serialize)]
-pub(super) struct Answer<'a> {
+struct AnswerJson<'a> {
     product: &'a str,
     samples: u64,
     /// More than `samples` where most are answered by the cheap model.
@@ -172,8 +220,9 @@ impl<'a> ComponentJson<'a> {
     }
 }
 
-impl<'a> Answer<'a> {
-    pub(super) fn new(file: &'a ProductFile, scatter: &'a Scatter, target: Option<&Target>) -> Self {
+impl Serialize for Answer<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { file, scatter, target } = self;
         let Settings { samples, seed, confidence, .. } = scatter.settings;
         let input = |input: &Input| InputJson {
             input: input.name(),
@@ -181,7 +230,7 @@ impl<'a> Answer<'a> {
             limit: limit(input),
             assumed_uniform: scatter.assumed_even.contains(input),
         };
-        Self {
+        AnswerJson {
             product: &file.product.name,
             samples,
             drawn: scatter.drawn,
@@ -190,10 +239,11 @@ impl<'a> Answer<'a> {
             model: ModelJson::new(scatter),
             inputs: scatter.inputs.iter().map(input).collect(),
             survival: SurvivalJson::new(scatter.survival),
-            target: target.map(|target| TargetJson { survival: Json(target.share), met: target.is_met(scatter) }),
+            target: target.map(|share| TargetJson { survival: Json(share), met: self.is_met() }),
             unanswered: scatter.unanswered,
             reason: scatter.reason.as_ref().map(ToString::to_string),
             components: scatter.components.iter().map(ComponentJson::new).collect(),
         }
+        .serialize(serializer)
     }
 }

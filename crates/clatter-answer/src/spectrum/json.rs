@@ -1,43 +1,39 @@
-//! A spectrum as JSON.
+//! A spectrum for programs.
 
-use std::path::Path;
-
+use clatter_assess::units::Unit;
 use clatter_record::{Channel, Finding, TimeAxis};
 use clatter_shock::{EnvelopingPulse, LimitCurve, Margin, RequiredSpectrum, Spectrum};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::boundary::Boundary;
-use super::records::{Measured, largest};
-use super::table::outermost;
-use super::{Computed, Part};
-use crate::excitation::shape_name;
-use crate::numbers::Json;
-use crate::quantities::Show;
+use super::{Answer, Excitation, Measured, Part, largest, name, outermost};
+use crate::{Json, shape_name};
 
-impl Computed<'_> {
-    pub(super) fn answer(&self) -> Answer<'_> {
-        let show = self.args.written();
-        let columns = || self.parts.iter().map(|part| ColumnsJson::new(part, self.required.as_ref(), &show));
+impl Serialize for Answer<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { question, frequencies, parts, boundary } = self;
+        let columns = || parts.iter().map(|part| ColumnsJson::new(part, question.required.as_ref(), question.unit));
         // Where there are several channels, none of them is the first.
-        let is_one = self.parts.iter().all(|part| part.name.is_none());
-        let lowest_hz = self.frequencies.list.hz().iter().fold(f64::INFINITY, |least, hz| least.min(*hz));
-        let mut records = self.records.iter().map(|measured| RecordJson::new(measured, lowest_hz));
-        let several_records = self.records.len() > 1;
-        Answer {
-            quantity: self.args.quantity.name()[0],
-            unit: show.name(),
-            records: if several_records { records.by_ref().collect() } else { Vec::new() },
+        let is_one = parts.iter().all(|part| part.name.is_none());
+        let lowest_hz = frequencies.hz().iter().fold(f64::INFINITY, |least, hz| least.min(*hz));
+        let measured: &[Measured] = if let Excitation::Records(all) = &question.excitation { all } else { &[] };
+        let mut records = measured.iter().map(|measured| RecordJson::new(measured, lowest_hz));
+        let [quantity, si] = name(question.quantity);
+        AnswerJson {
+            quantity,
+            unit: question.unit.map_or(si, |unit| unit.name),
+            records: if measured.len() > 1 { records.by_ref().collect() } else { Vec::new() },
             record: records.next(),
             first: columns().next().filter(|_| is_one),
-            spectra: if self.parts.len() > 1 { columns().collect() } else { Vec::new() },
-            damage_boundary: self.boundary.as_ref().map(BoundaryJson::new),
-            file: self.args.output.as_ref().map(|target| target.path.as_path()),
+            spectra: if parts.len() > 1 { columns().collect() } else { Vec::new() },
+            damage_boundary: boundary.as_ref().map(BoundaryJson::new),
         }
+        .serialize(serializer)
     }
 }
 
 #[derive(Serialize)]
-pub(super) struct Answer<'a> {
+struct AnswerJson<'a> {
     quantity: &'static str,
     unit: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -51,8 +47,6 @@ pub(super) struct Answer<'a> {
     spectra: Vec<ColumnsJson<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     damage_boundary: Option<BoundaryJson<'a>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    file: Option<&'a Path>,
 }
 
 /// One spectrum.
@@ -83,10 +77,11 @@ struct ColumnsJson<'a> {
 }
 
 impl<'a> ColumnsJson<'a> {
-    fn new(part: &'a Part, required: Option<&RequiredSpectrum>, show: &Show) -> Self {
+    fn new(part: &'a Part, required: Option<&RequiredSpectrum>, unit: Option<&Unit>) -> Self {
         let s = &part.spectrum;
+        let show = &|x: f64| Json(unit.map_or(x, |unit| unit.of_si(x)));
         let plain = |values: &[f64]| values.iter().copied().map(Json).collect::<Vec<_>>();
-        let all = |values: &[f64]| values.iter().map(|x| Json(show.value(*x))).collect::<Vec<_>>();
+        let all = |values: &[f64]| values.iter().map(|x| show(*x)).collect::<Vec<_>>();
         let time = |time: &f64| Some(Json(*time)).filter(|_| !time.is_nan());
         Self {
             of: part.name.as_deref(),
@@ -112,7 +107,7 @@ impl<'a> ColumnsJson<'a> {
 
 #[derive(Serialize)]
 struct RecordJson<'a> {
-    file: &'a Path,
+    file: &'a str,
     #[serde(flatten)]
     times: TimesJson,
     largest_m_s2: Json,
@@ -151,13 +146,13 @@ impl TimesJson {
 }
 
 impl<'a> RecordJson<'a> {
-    fn new(Measured { path, record, .. }: &'a Measured, lowest_hz: f64) -> Self {
+    fn new(Measured { file, record, .. }: &'a Measured, lowest_hz: f64) -> Self {
         let times = record.times();
         let one = if let [times] = times[..] { Some(times) } else { None };
         let channel =
             |channel: &'a Channel| ChannelJson { name: &channel.name, times: TimesJson::new(Some(channel.times())) };
         Self {
-            file: path,
+            file,
             times: TimesJson::new(one),
             largest_m_s2: Json(record.channels().iter().map(largest).fold(0.0, f64::max)),
             channels: if one.is_none() { record.channels().iter().map(channel).collect() } else { Vec::new() },
@@ -184,15 +179,15 @@ struct WorstJson {
 }
 
 impl LimitJson {
-    fn new(margins: &[Option<Margin>], spectrum: &Spectrum, show: &Show) -> Self {
+    fn new(margins: &[Option<Margin>], spectrum: &Spectrum, show: &impl Fn(f64) -> Json) -> Self {
         let worst = LimitCurve::worst(margins).and_then(|i| Some((spectrum.frequency_hz[i], margins[i]?)));
         Self {
-            allowed: margins.iter().map(|m| m.map(|m| Json(show.value(m.allowed)))).collect(),
+            allowed: margins.iter().map(|m| m.map(|m| show(m.allowed))).collect(),
             margin_db: margins.iter().map(|m| m.map(|m| Json(m.decibel()))).collect(),
             worst: worst.map(|(hz, margin)| WorstJson {
                 frequency_hz: Json(hz),
-                allowed: Json(show.value(margin.allowed)),
-                maximax: Json(show.value(margin.demand)),
+                allowed: show(margin.allowed),
+                maximax: show(margin.demand),
                 margin_db: Json(margin.decibel()),
                 safe: margin.is_safe(),
             }),
@@ -250,20 +245,20 @@ struct DeviationJson {
 }
 
 impl RequiredJson {
-    fn new(part: &Part, required: &RequiredSpectrum, show: &Show) -> Self {
+    fn new(part: &Part, required: &RequiredSpectrum, show: &impl Fn(f64) -> Json) -> Self {
         let deviations = part.deviations.as_deref().unwrap_or_default();
         let ends = outermost(deviations).map(|ends| {
             ends.map(|(i, of)| DeviationJson {
                 frequency_hz: Json(part.spectrum.frequency_hz[i]),
-                level: Json(show.value(of.required)),
-                maximax: Json(show.value(of.reached)),
+                level: show(of.required),
+                maximax: show(of.reached),
                 deviation_db: Json(of.decibel()),
             })
         });
         let (lowest, highest) = ends.map_or((None, None), |[lowest, highest]| (Some(lowest), Some(highest)));
         let told = || deviations.iter().flatten();
         Self {
-            level: deviations.iter().map(|of| of.map(|of| Json(show.value(of.required)))).collect(),
+            level: deviations.iter().map(|of| of.map(|of| show(of.required))).collect(),
             deviation_db: deviations.iter().map(|of| of.map(|of| Json(of.decibel()))).collect(),
             lowest,
             highest,

@@ -1,19 +1,142 @@
-//! A record as JSON.
+//! What a record of accelerations holds: its channels, what is odd, and where they are asked for its shocks, the pulse of the
+//! largest, velocity and displacement.
+//!
+//! ```
+//! use clatter_answer::record;
+//! use clatter_record::{Options, Record};
+//! let text = "time [s],a [m/s2]\n0,0\n0.001,50\n0.002,0\n0.003,0\n";
+//! let record = Record::read(text.as_bytes(), &Options::default(), |_| ())?;
+//! let mut question = record::Question::new(&record);
+//! question.integrate = true;
+//! let answer = record::answer(&question)?;
+//! // The triangle of 50 m/s² over 2 ms.
+//! assert!((record::end(&answer.motions.expect("asked for")[0])[0] - 0.05).abs() < 1e-12);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
-use std::path::Path;
+use clatter_record::{Account, Channel, Error, Finding, Motion, Record, TimeAxis, integrate};
+use clatter_shock::{
+    EffectiveDuration, PULSE_TOLERANCES, Pulse, PulseCheck, PulseFit, Search, Shocks, Within, check_pulse,
+    effective_duration, find_shocks, fit_pulses,
+};
+use serde::{Serialize, Serializer};
 
-use clatter_record::{Account, Channel, Finding, TimeAxis};
-use clatter_shock::{Pulse, PulseCheck, Shocks, Within};
-use serde::Serialize;
+use crate::{Json, shape_name};
 
-use super::pulse::Fitted;
-use super::{Whole, extremes, last, time_s};
-use crate::excitation::shape_name;
-use crate::numbers::Json;
+/// Offsets are judged by what they do to a spectrum from this frequency on: where a spectrum begins unless others are asked for.
+pub const LOWEST_HZ: f64 = 10.0;
+
+/// A record, and what is asked of it.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Question<'a> {
+    /// The record.
+    pub record: &'a Record,
+    /// How its shocks are found, if they are to be.
+    pub find: Option<Search>,
+    /// Whether pulses are fitted to the largest shock, and held against the tolerances of standards.
+    pub fit_pulse: bool,
+    /// The pulse that tolerances are about; else the best that fits.
+    pub nominal: Option<Pulse>,
+    /// Whether velocity and displacement are asked for, from rest.
+    pub integrate: bool,
+}
+
+impl<'a> Question<'a> {
+    /// Its channels alone.
+    #[must_use]
+    pub fn new(record: &'a Record) -> Self {
+        Self { record, find: None, fit_pulse: false, nominal: None, integrate: false }
+    }
+}
+
+/// What a record holds; each list has a place for each channel.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Answer<'a> {
+    /// The record.
+    pub record: &'a Record,
+    /// What is odd about it.
+    pub findings: Vec<Finding>,
+    /// Its shocks.
+    pub shocks: Option<Vec<Shocks>>,
+    /// The pulse of the largest shock.
+    pub pulses: Option<Vec<Fitted>>,
+    /// Velocity and displacement.
+    pub motions: Option<Vec<Motion>>,
+}
+
+/// Pulses that fit the largest shock of a channel.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Fitted {
+    /// Best first.
+    pub fits: [PulseFit; 3],
+    /// How long the shock lasts.
+    pub durations: EffectiveDuration,
+    /// What it is held against, where it fits best.
+    pub nominal: Pulse,
+    /// By the keyword of each standard.
+    pub checks: Vec<(&'static str, PulseCheck)>,
+}
+
+impl Fitted {
+    fn new(channel: &Channel, nominal: Option<&Pulse>) -> Result<Self, Error> {
+        let (values, step_s) = (&channel.values, channel.times().even("a pulse")?);
+        let fits = fit_pulses(values, step_s)?;
+        let against = nominal.copied().unwrap_or(fits[0].pulse);
+        let check = |tolerance| Ok((tolerance, check_pulse(values, step_s, &against, tolerance)?));
+        let checks = PULSE_TOLERANCES.iter().map(check).collect::<Result<Vec<_>, Error>>()?;
+        let nominal = checks.first().map_or(against, |(_, check)| check.nominal);
+        let checks = checks.into_iter().map(|(tolerance, check)| (tolerance.keyword, check)).collect();
+        Ok(Self { fits, durations: effective_duration(values, step_s)?, nominal, checks })
+    }
+}
+
+/// Works out what is asked for.
+///
+/// # Errors
+/// Uneven times, which shocks, pulses and motions need even; a record in which they cannot be.
+pub fn answer<'a>(question: &Question<'a>) -> Result<Answer<'a>, Error> {
+    let Question { record, find, fit_pulse, nominal, integrate: moves } = question;
+    let shocks = |channel: &Channel, search: &Search| {
+        Ok::<_, Error>(find_shocks(&channel.values, channel.times().even("a search for shocks")?, search)?)
+    };
+    let motion = |channel: &Channel| integrate(&channel.values, channel.times().even("integration")?);
+    let all = || record.channels().iter();
+    Ok(Answer {
+        record,
+        findings: record.findings(LOWEST_HZ),
+        shocks: find.as_ref().map(|search| all().map(|channel| shocks(channel, search)).collect()).transpose()?,
+        pulses: fit_pulse.then(|| all().map(|channel| Fitted::new(channel, nominal.as_ref())).collect()).transpose()?,
+        motions: moves.then(|| all().map(motion).collect()).transpose()?,
+    })
+}
+
+/// The first samples that hold the largest and the smallest value.
+#[must_use]
+pub fn extremes(channel: &Channel) -> [usize; 2] {
+    let values = &channel.values;
+    let first = |beyond: fn(f64, f64) -> bool| {
+        values.iter().enumerate().fold(0, |best, (i, value)| if beyond(*value, values[best]) { i } else { best })
+    };
+    [first(|a, b| a > b), first(|a, b| a < b)]
+}
+
+/// Time of a sample, on the axis of the file.
+#[must_use]
+pub fn time_s(channel: &Channel, sample: usize) -> f64 {
+    channel.times().start_s() + channel.times().since_s(sample)
+}
+
+/// The last velocity and displacement, in m/s and m.
+#[must_use]
+pub fn end(motion: &Motion) -> [f64; 2] {
+    [&motion.velocity_m_s, &motion.displacement_m].map(|values| values.last().copied().unwrap_or(0.0))
+}
 
 #[derive(Serialize)]
-pub(super) struct Answer<'a> {
-    file: &'a Path,
+struct AnswerJson<'a> {
     /// Of all channels; null where they differ.
     #[serde(flatten)]
     times: TimesJson,
@@ -60,17 +183,17 @@ impl<'a> AccountJson<'a> {
     }
 }
 
-impl<'a> Answer<'a> {
-    pub(super) fn new(whole: &'a Whole<'_>, findings: &[Finding]) -> Self {
-        let record = &whole.record;
+impl Serialize for Answer<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let record = self.record;
         let one = if let [times] = record.times()[..] { Some(times) } else { None };
-        Self {
-            file: &whole.args.file,
+        AnswerJson {
             times: TimesJson::new(one),
-            channels: (0..record.channels().len()).map(|k| ChannelJson::new(whole, k)).collect(),
-            findings: findings.iter().map(Finding::to_string).collect(),
+            channels: (0..record.channels().len()).map(|k| ChannelJson::new(self, k)).collect(),
+            findings: self.findings.iter().map(Finding::to_string).collect(),
             account: record.account().map(AccountJson::new),
         }
+        .serialize(serializer)
     }
 }
 
@@ -118,11 +241,10 @@ struct ChannelJson<'a> {
 }
 
 impl<'a> ChannelJson<'a> {
-    fn new(whole: &'a Whole<'_>, k: usize) -> Self {
-        let channel: &Channel = &whole.record.channels()[k];
+    fn new(answer: &'a Answer<'_>, k: usize) -> Self {
+        let channel: &Channel = &answer.record.channels()[k];
         let [high, low] = extremes(channel);
-        let found = &whole.found;
-        let ends = found.motions.as_ref().map(|motions| last(&motions[k]).map(Json));
+        let ends = answer.motions.as_ref().map(|motions| end(&motions[k]).map(Json));
         let start_s = channel.times().start_s();
         Self {
             name: &channel.name,
@@ -134,8 +256,8 @@ impl<'a> ChannelJson<'a> {
             smallest_time_s: Json(time_s(channel, low)),
             last_velocity_m_s: ends.map(|[velocity, _]| velocity),
             last_displacement_m: ends.map(|[_, displacement]| displacement),
-            shocks: found.shocks.as_ref().map(|found| ShocksJson::new(start_s, &found[k])),
-            pulse: found.fits.as_ref().map(|fits| PulseJson::new(start_s, &fits[k])),
+            shocks: answer.shocks.as_ref().map(|found| ShocksJson::new(start_s, &found[k])),
+            pulse: answer.pulses.as_ref().map(|fits| PulseJson::new(start_s, &fits[k])),
         }
     }
 }

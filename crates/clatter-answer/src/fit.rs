@@ -1,0 +1,284 @@
+//! From a measured drop to the data of the product.
+//!
+//! ```
+//! use clatter_answer::fit::{self, Data, Record};
+//! use clatter_assess::ProductFile;
+//! use clatter_assess::fit::Quantity;
+//! let file = ProductFile::read(clatter_assess::EXAMPLE, "example.toml")?;
+//! // Each flight of what bounces flat is 0.4 of the one before.
+//! let bounces = Record { name: "bounces.csv".to_owned(), data: Data::Bounces(vec![0.0, 0.5, 0.7, 0.78, 0.812]) };
+//! let question = fit::Question::new(&file, vec![bounces]);
+//! let answer = fit::answer(&question)?;
+//! let e = answer.fit.estimates.iter().find(|estimate| estimate.quantity == Quantity::Restitution);
+//! assert!(e.is_some_and(|e| (e.value - 0.4).abs() < 1e-6));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+use clatter::End;
+use clatter_assess::ProductFile;
+use clatter_assess::fit::{
+    self, Estimate, Explanation, Fit, Known, MOST_SAMPLES, Measured, MeasuredDrop, RecordFit, StrikeFit, Untold,
+};
+use serde::{Serialize, Serializer};
+
+use crate::{Error, Json, letter};
+
+/// A record of a drop.
+#[derive(Debug, Clone)]
+pub struct Record {
+    /// How it is called in the answer: by its file.
+    pub name: String,
+    /// What it holds.
+    pub data: Data,
+}
+
+/// What a record holds.
+#[derive(Debug, Clone)]
+pub enum Data {
+    /// Strikes, heights or an acceleration.
+    Measured(Measured),
+    /// Times at which a flat product, or one point of it, bounces.
+    Bounces(Vec<f64>),
+}
+
+impl Data {
+    /// An acceleration of one channel over even times, measured at a place from the middle of the product towards end b.
+    ///
+    /// # Errors
+    /// More channels than one, uneven times, more samples than a fit takes.
+    pub fn acceleration(record: &clatter_record::Record, position_m: f64) -> Result<Self, Error> {
+        let [channel] = record.channels() else { return Err(Error::Channels(record.channels().len())) };
+        let (times, samples) = (channel.times(), channel.values.len());
+        let step_s = times.even("a fit")?;
+        if samples > MOST_SAMPLES {
+            return Err(Error::Samples(samples));
+        }
+        let values_m_s2 = channel.values.clone();
+        Ok(Self::Measured(Measured::Acceleration { position_m, start_s: times.start_s(), step_s, values_m_s2 }))
+    }
+
+    /// `bounces`, `strikes`, `heights` or `acceleration`.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Bounces(_) => "bounces",
+            Self::Measured(Measured::Strikes { .. }) => "strikes",
+            Self::Measured(Measured::Heights { .. }) => "heights",
+            Self::Measured(Measured::Acceleration { .. }) => "acceleration",
+        }
+    }
+}
+
+/// A product and records of one of its drops.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Question<'a> {
+    /// The product.
+    pub file: &'a ProductFile,
+    /// The records; bounces are of another drop, and stand alone.
+    pub records: Vec<Record>,
+    /// Standard deviation of the times of bounces; unless given, their scatter about the fit tells it.
+    pub timing_s: Option<f64>,
+    /// Whether the radius of gyration of the product is known.
+    pub gyration_known: bool,
+}
+
+impl<'a> Question<'a> {
+    /// With the radius of gyration to be found.
+    #[must_use]
+    pub fn new(file: &'a ProductFile, records: Vec<Record>) -> Self {
+        Self { file, records, timing_s: None, gyration_known: false }
+    }
+}
+
+/// The drop that is nearest to the records.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Answer<'a> {
+    /// What was asked.
+    pub question: &'a Question<'a>,
+    /// The drop.
+    pub fit: Fit,
+}
+
+/// Finds the nearest drop.
+///
+/// # Errors
+/// A radius of gyration that is to be known and has a range; bounces beside other records; those of [`fit::fit`] and [`fit::bounces`].
+pub fn answer<'a>(question: &'a Question<'_>) -> Result<Answer<'a>, Error> {
+    let Question { file, ref records, timing_s, gyration_known } = *question;
+    let gyration = &file.product.gyration_m;
+    if gyration_known && !gyration.is_value() {
+        return Err(Error::GyrationRange([gyration.lo(), gyration.hi()]));
+    }
+    let known = Known { gyration_known, ..Known::from(file) };
+    Ok(Answer { question, fit: nearest(&known, records, timing_s)? })
+}
+
+fn nearest(known: &Known, records: &[Record], timing_s: Option<f64>) -> Result<Fit, Error> {
+    if let [Record { data: Data::Bounces(times_s), .. }] = records {
+        return Ok(fit::bounces(times_s, known.gravity_m_s2, timing_s)?);
+    }
+    let measured = |record: &Record| match &record.data {
+        Data::Measured(measured) => Ok(measured.clone()),
+        Data::Bounces(_) => Err(Error::Bounces),
+    };
+    Ok(fit::fit(known, &records.iter().map(measured).collect::<Result<Vec<_>, _>>()?)?)
+}
+
+/// Records of one drop that stand beside an assessment.
+#[derive(Debug, Clone)]
+pub struct DropRecords {
+    /// What the drop is called.
+    pub name: String,
+    /// Its records.
+    pub records: Vec<Record>,
+    /// Standard deviation of the times of bounces.
+    pub timing_s: Option<f64>,
+}
+
+impl DropRecords {
+    /// The nearest drop. That none comes near what was measured is an answer.
+    ///
+    /// # Errors
+    /// As [`answer`], where a record is not what a fit takes.
+    pub fn fitted(self, known: &Known) -> Result<MeasuredDrop, Error> {
+        let found = match nearest(known, &self.records, self.timing_s) {
+            Ok(fit) => Ok(fit),
+            Err(Error::Fit(error @ (fit::Error::Far { .. } | fit::Error::Scatter { .. } | fit::Error::NoDrop(_)))) => {
+                Err(error.to_string())
+            }
+            Err(error) => return Err(error),
+        };
+        Ok(self.told(found))
+    }
+
+    /// The same with what was found, or why nothing was.
+    #[must_use]
+    pub fn told(self, found: Result<Fit, String>) -> MeasuredDrop {
+        MeasuredDrop { name: self.name, files: self.records.into_iter().map(|record| record.name).collect(), found }
+    }
+}
+
+#[derive(Serialize)]
+struct AnswerJson<'a> {
+    product: &'a str,
+    model: &'static str,
+    first: &'static str,
+    degrees_of_freedom: usize,
+    estimates: Vec<EstimateJson<'a>>,
+    untold: Vec<UntoldJson<'a>>,
+    correlations: Vec<Vec<Json>>,
+    records: Vec<RecordJson<'a>>,
+    others: Vec<OtherJson<'a>>,
+    computed: Vec<ComputedJson>,
+    notes: &'a [String],
+}
+
+#[derive(Serialize)]
+struct EstimateJson<'a> {
+    quantity: &'static str,
+    unit: &'static str,
+    value: Json,
+    interval: Option<[Json; 2]>,
+    note: Option<&'a str>,
+}
+
+#[derive(Serialize)]
+struct UntoldJson<'a> {
+    quantity: &'static str,
+    unit: &'static str,
+    held_at: Json,
+    reason: &'a str,
+}
+
+#[derive(Serialize)]
+struct RecordJson<'a> {
+    file: &'a str,
+    kind: &'static str,
+    first_touch_s: Json,
+    scatter: Json,
+    strikes: Vec<StrikeJson>,
+    missing: &'a [usize],
+}
+
+#[derive(Serialize)]
+struct StrikeJson {
+    time_s: Json,
+    end: Option<&'static str>,
+    number: Option<usize>,
+    residual_s: Option<Json>,
+}
+
+#[derive(Serialize)]
+struct OtherJson<'a> {
+    first: &'static str,
+    missing: &'a [Vec<usize>],
+    left_out_s: Vec<Vec<Json>>,
+    estimates: Vec<EstimateJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct ComputedJson {
+    time_s: Json,
+    end: &'static str,
+}
+
+impl Serialize for Answer<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.json().serialize(serializer)
+    }
+}
+
+impl<'a> Answer<'a> {
+    fn json(&'a self) -> AnswerJson<'a> {
+        let Self { question, fit } = self;
+        let estimate = |estimate: &'a Estimate| EstimateJson {
+            quantity: estimate.quantity.name(),
+            unit: estimate.quantity.unit(),
+            value: Json(estimate.value),
+            interval: estimate.interval.map(|interval| interval.map(Json)),
+            note: estimate.note.as_deref(),
+        };
+        let other = |other: &'a Explanation| OtherJson {
+            first: letter(other.first),
+            missing: &other.missing,
+            left_out_s: other.left_out_s.iter().map(|all| all.iter().copied().map(Json).collect()).collect(),
+            estimates: other.estimates.iter().map(estimate).collect(),
+        };
+        let untold = |untold: &'a Untold| UntoldJson {
+            quantity: untold.quantity.name(),
+            unit: untold.quantity.unit(),
+            held_at: Json(untold.held_at),
+            reason: &untold.reason,
+        };
+        let strike = |strike: &StrikeFit| StrikeJson {
+            time_s: Json(strike.measured.time_s),
+            end: strike.measured.end.map(letter),
+            number: strike.number,
+            residual_s: strike.residual_s.map(Json),
+        };
+        let record = |(record, found): (&'a Record, &'a RecordFit)| RecordJson {
+            file: &record.name,
+            kind: record.data.kind(),
+            first_touch_s: Json(found.first_touch_s),
+            scatter: Json(found.scatter),
+            strikes: found.strikes.iter().map(strike).collect(),
+            missing: &found.missing,
+        };
+        let computed = |&(time_s, end): &(f64, End)| ComputedJson { time_s: Json(time_s), end: letter(end) };
+        AnswerJson {
+            product: &question.file.product.name,
+            model: fit.model.name(),
+            first: letter(fit.first),
+            degrees_of_freedom: fit.degrees_of_freedom,
+            estimates: fit.estimates.iter().map(estimate).collect(),
+            untold: fit.untold.iter().map(untold).collect(),
+            correlations: fit.correlations.iter().map(|row| row.iter().copied().map(Json).collect()).collect(),
+            records: question.records.iter().zip(&fit.records).map(record).collect(),
+            others: fit.others.iter().map(other).collect(),
+            computed: fit.computed.iter().map(computed).collect(),
+            notes: &fit.notes,
+        }
+    }
+}

@@ -1,0 +1,221 @@
+//! What one clatter, or a list of shocks or pulses, does to one part.
+//!
+//! ```
+//! use clatter::{Bar, Start};
+//! use clatter_answer::respond::{self, Excitation};
+//! use clatter_shock::{DampingRatio, Suspension};
+//! // In the middle of a bar with all its mass at the center both ends give the same shocks, which fade by e.
+//! let bar = Excitation::Bar { bar: Bar::new(1.0, 0.2)?, start: Start::default(), at: 0.0 };
+//! let part = Suspension::new(5.0, DampingRatio::new(0.05)?)?;
+//! let answer = respond::answer(&respond::Question::new(bar, part))?;
+//! assert_eq!((answer.part.omega.0, answer.stiff.is_some()), (5.0, true));
+//! # Ok::<(), clatter_answer::Error>(())
+//! ```
+//!
+//! The drops of [`mod@drop`], [`plate`] and [`block`] are in SI units; [`rule`] has the same part at all natural frequencies.
+
+pub mod block;
+pub mod drop;
+mod peaks;
+pub mod plate;
+pub mod rule;
+
+use std::f64::consts::TAU;
+use std::ops::RangeInclusive;
+
+use clatter::{Bar, Start};
+use clatter_shock::{Pulse, Pulses, Response, ShockTable, Suspension, VelocityShock, VelocityShocks};
+use serde::Serialize;
+
+use crate::error::within_periods;
+use crate::{Error, Json, on_body};
+pub use peaks::{AllPeaks, Equivalent, Extreme, Extremes, Factors, HalfSine, Largest, LargestValues, Peaks};
+
+/// What shakes a part.
+#[derive(Debug, Clone)]
+pub enum Excitation {
+    /// The clatter of a bar. In v0 and h0, or all in SI units.
+    Bar {
+        /// The bar.
+        bar: Bar,
+        /// Velocities and height gap at the first touch.
+        start: Start,
+        /// Where the part is, in [−1, 1].
+        at: f64,
+    },
+    /// Velocity shocks.
+    Shocks(VelocityShocks),
+    /// Pulses, in any order.
+    Pulses(Vec<Pulse>),
+}
+
+/// A part and what shakes it.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Question {
+    /// What shakes it.
+    pub excitation: Excitation,
+    /// The part.
+    pub suspension: Suspension,
+    /// A table whose half-sine is to do the same to the part; asked in SI units alone.
+    pub shock_table: Option<ShockTable>,
+}
+
+impl Question {
+    /// Without an equivalent pulse.
+    #[must_use]
+    pub fn new(excitation: Excitation, suspension: Suspension) -> Self {
+        Self { excitation, suspension, shock_table: None }
+    }
+}
+
+/// What a part does, and single shocks beside it.
+#[derive(Debug, Clone, Serialize)]
+#[non_exhaustive]
+pub struct Answer {
+    /// What clatters.
+    #[serde(flatten)]
+    pub bar: Option<BarAnswer>,
+    /// The part and its peaks.
+    #[serde(flatten)]
+    pub part: Peaks,
+    /// The shocks at its place.
+    pub shocks: Shocks,
+    /// What their sum at once would do.
+    pub soft: Factors,
+    /// What the largest alone would do; null without damping, and for pulses.
+    pub stiff: Option<Factors>,
+    /// What (1 + e) v0 at once would do, as without clatter: of clatters alone, as the next two.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clatter_free: Option<Factors>,
+    /// What 2 v0 would do, as standards assume.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub standard: Option<Factors>,
+    /// Peak acceleration over that of the standards' shock.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gain: Option<Json>,
+    /// Where a shock table was given.
+    #[serde(flatten)]
+    pub equivalent: Option<Equivalent>,
+}
+
+/// A bar that clatters.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[non_exhaustive]
+pub struct BarAnswer {
+    /// Inertia ratio.
+    pub q: Json,
+    /// Radius of gyration over half-length.
+    pub gyration_ratio: Json,
+    /// Coefficient of restitution.
+    pub e: Json,
+    /// Of ends a and b at the first touch.
+    pub velocity: [Json; 2],
+    /// Of end b at the first touch.
+    pub height_gap: Json,
+    /// Where the part is.
+    pub at: Json,
+}
+
+/// Shocks at the place of a part.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[non_exhaustive]
+pub struct Shocks {
+    /// How many were followed.
+    pub count: usize,
+    /// Their sum.
+    pub net: Json,
+    /// The largest, in size.
+    pub largest: Json,
+    /// What an endless train leaves out changes W z by at most this.
+    pub omitted: Json,
+    /// As `count`, with what many at one instant do together as one more.
+    #[serde(skip)]
+    pub listed: usize,
+}
+
+/// Angular frequencies whose squares, and times between, are floats beside the pulses', in rad/s.
+const SWINGS: RangeInclusive<f64> = 1e-100..=1e100;
+
+/// Peaks are exact, from turning points and not from samples, the ring-down complete.
+///
+/// # Errors
+/// A place off the bar, or at q = 1 off the middle; pulses that are none, or last too long for the part; a part too slow or too fast
+/// for pulses.
+pub fn answer(question: &Question) -> Result<Answer, Error> {
+    let Question { excitation, suspension, shock_table } = question;
+    let (response, shocks, omitted) = felt(excitation, suspension)?;
+    let is_pulses = matches!(excitation, Excitation::Pulses(_));
+    let damping = suspension.damping();
+    let part = Peaks::new(suspension, &response, |extreme| {
+        // Pulses overlap: an extreme follows the start of one.
+        Some(if is_pulses {
+            shocks.as_slice().partition_point(|shock| shock.time <= extreme.time).max(1)
+        } else {
+            (extreme.interval + 1).min(shocks.single().len())
+        })
+    });
+    let bar = if let Excitation::Bar { bar, start, at } = excitation { Some((bar, start, at)) } else { None };
+    let at_once = bar.map(|(bar, start, _)| Factors::at_once(damping, bar.e(), -start.velocity()[0]));
+    let equivalent = shock_table.map(|table| Equivalent::new(&table, suspension, &response)).transpose()?;
+    Ok(Answer {
+        bar: bar.map(|(bar, start, at)| BarAnswer {
+            q: Json(bar.q()),
+            gyration_ratio: Json(bar.gyration_ratio()),
+            e: Json(bar.e()),
+            velocity: start.velocity().map(Json),
+            height_gap: Json(start.height_gap()),
+            at: Json(*at),
+        }),
+        shocks: Shocks {
+            count: shocks.single().len(),
+            net: Json(shocks.net()),
+            largest: Json(shocks.largest()),
+            omitted: Json(omitted),
+            listed: shocks.as_slice().len(),
+        },
+        soft: Factors::of(shocks.net().abs(), shocks.soft_limit(damping)),
+        stiff: shocks.stiff_limit(damping).filter(|_| !is_pulses).map(|factors| Factors::of(shocks.largest(), factors)),
+        clatter_free: at_once.map(|[flat, _]| flat),
+        standard: at_once.map(|[_, standard]| standard),
+        gain: at_once.map(|[_, standard]| part.gain(&standard)),
+        part,
+        equivalent,
+    })
+}
+
+/// The response, the velocity changes at the place in order of time, and what they leave out.
+fn felt(excitation: &Excitation, suspension: &Suspension) -> Result<(Response, VelocityShocks, f64), Error> {
+    match excitation {
+        Excitation::Bar { bar, start, at } => {
+            on_body([*at])?;
+            let train = clatter_shock::respond(bar, start, *at, suspension)?;
+            Ok((train.response, train.shocks, train.omitted))
+        }
+        Excitation::Shocks(shocks) => Ok((shocks.respond(suspension), shocks.clone(), 0.0)),
+        Excitation::Pulses(pulses) => {
+            let omega = suspension.omega();
+            if !SWINGS.contains(&omega) {
+                let (name, allowed) = ("natural angular frequency in rad/s", "in [1e-100, 1e100], which pulses take");
+                return Err(Error::Quantity { name, value: omega, allowed });
+            }
+            within_periods(pulses, &[omega / TAU])?;
+            let response = Pulses::new(pulses)?.respond(suspension);
+            let mut shocks: Vec<_> = pulses
+                .iter()
+                .map(|pulse| VelocityShock { time: pulse.start, delta_v: pulse.velocity_change() })
+                .collect();
+            shocks.sort_by(|a, b| a.time.total_cmp(&b.time));
+            Ok((response, VelocityShocks::new(shocks)?, 0.0))
+        }
+    }
+}
+
+/// Refuses a part of a drop that is too slow or too fast: beyond, no motion can be told from rounding, and to search it would take
+/// for ever.
+fn swings(suspension: Option<&Suspension>) -> Result<(), Error> {
+    match suspension.map(Suspension::omega).filter(|omega| !(1e-12..=1e12).contains(omega)) {
+        Some(value) => Err(Error::Quantity { name: "natural frequency in rad/s", value, allowed: "in [1e-12, 1e12]" }),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,325 @@
+//! A part in one drop of a bar, answered as an assessment answers it.
+//!
+//! ```
+//! use clatter_answer::respond::drop;
+//! use clatter_assess::Model;
+//! use clatter_flight::{Body, Scene};
+//! // A place at end b of a phone, 140 mm long, that falls at 4.43 m/s and a tilt of 5°.
+//! let scene = Scene::new(Body::new(0.14, 0.0404)?, 0.3, 4.43, 5.0, 9.806_65)?;
+//! let answer = drop::answer(&drop::Question::new(scene, Model::FiniteTilt, 1.0))?;
+//! // Without clatter it would be (1 + e) v, everywhere.
+//! assert!(answer.velocity_change_m_s.0 > 1.3 * 4.43);
+//! # Ok::<(), clatter_answer::Error>(())
+//! ```
+
+use clatter::End;
+use clatter_assess::{LimitKind, Model, Part, SingleDrop, Unit};
+use clatter_flight::{ContactLaw, Scene};
+use clatter_shock::{ShockTable, Suspension};
+use serde::Serialize;
+
+use super::{Equivalent, Factors, Largest, LargestValues, Peaks, swings};
+use crate::{Error, Json, letter, on_body};
+
+/// A drop of a bar and a part of it.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Question {
+    /// The drop, its end a first.
+    pub scene: Scene,
+    /// The physics that is kept of it.
+    pub model: Model,
+    /// The end of the product that is end a of the scene.
+    pub first: End,
+    /// Whether both ends land as one: instant impacts that are closer than any contact lasts.
+    pub flat: bool,
+    /// How long a lone contact takes: for the model with contacts, and for the acceleration of a place by the others.
+    pub contact_time_s: Option<f64>,
+    /// What the ground does meanwhile.
+    pub contact_law: ContactLaw,
+    /// Where on the product the part may be, in [−1, 1]: of several the place is answered that asks most of a limit, else the first.
+    pub at: Vec<f64>,
+    /// The part; none that is mounted rigidly.
+    pub suspension: Option<Suspension>,
+    /// Limits of the part that are held against the drop.
+    pub limits: Option<Vec<clatter_assess::Limit>>,
+    /// How exact the answer is for the model, as a share of it.
+    pub tolerance: f64,
+    /// A table whose half-sine is to do the same to the part.
+    pub shock_table: Option<ShockTable>,
+    /// Center of mass of the scene in [−1, 1], as it is told.
+    pub center_of_mass: f64,
+    /// Tilt at the first touch in degrees, as it is told.
+    pub tilt_deg: f64,
+}
+
+impl Question {
+    /// Of a place on which a part is mounted rigidly, to 1 %, without a contact time; all told as the scene has it.
+    #[must_use]
+    pub fn new(scene: Scene, model: Model, at: f64) -> Self {
+        let [a, b] = scene.body().arms_m();
+        Self {
+            scene,
+            model,
+            first: End::A,
+            flat: false,
+            contact_time_s: None,
+            contact_law: ContactLaw::default(),
+            at: vec![at],
+            suspension: None,
+            limits: None,
+            tolerance: 0.01,
+            shock_table: None,
+            center_of_mass: (a - b) / (a + b),
+            tilt_deg: scene.tilt_rad().to_degrees(),
+        }
+    }
+
+    fn drop(&self) -> SingleDrop {
+        SingleDrop {
+            body: self.scene.body(),
+            first: End::A,
+            tilt_rad: self.scene.tilt_rad(),
+            flat: self.flat,
+            speed_m_s: self.scene.speed_m_s(),
+            restitution: self.scene.e(),
+            gravity_m_s2: self.scene.gravity_m_s2(),
+            contact_time_s: self.contact_time_s,
+            contact_law: self.contact_law,
+        }
+    }
+
+    /// What is asked of a limit at a place of the scene; none where nothing is felt, or where it is not known.
+    fn felt(
+        &self,
+        limit: &clatter_assess::Limit,
+        position_m: f64,
+        part: Option<Suspension>,
+    ) -> Result<Option<clatter_assess::Answer>, Error> {
+        let suspension = part.filter(|_| limit.is_response());
+        match self.asked(limit, &Part { position_m, suspension }) {
+            Err(clatter_assess::Error::Unfinished | clatter_assess::Error::Contact) => Ok(None),
+            answer => Ok(Some(answer?)),
+        }
+    }
+
+    fn asked(
+        &self,
+        limit: &clatter_assess::Limit,
+        part: &Part,
+    ) -> Result<clatter_assess::Answer, clatter_assess::Error> {
+        clatter_assess::answer(&self.drop(), part, limit, self.model, self.tolerance)
+    }
+}
+
+/// What a drop does to a part and at its place.
+#[derive(Debug, Clone, Serialize)]
+#[non_exhaustive]
+pub struct Answer {
+    /// What was kept of the drop.
+    pub model: &'static str,
+    /// The end that touches first.
+    pub first: &'static str,
+    /// From end to end.
+    pub length_m: Json,
+    /// Radius of gyration about the center of mass.
+    pub gyration_m: Json,
+    /// In [−1, 1].
+    pub center_of_mass: Json,
+    /// For strikes at end a and end b.
+    pub inertia_ratios: [Json; 2],
+    /// Coefficient of restitution.
+    pub e: Json,
+    /// At the first touch.
+    pub speed_m_s: Json,
+    /// At the first touch.
+    pub tilt_deg: Json,
+    /// Of the other end at the first touch.
+    pub height_gap_m: Json,
+    /// Of gravity.
+    pub gravity_m_s2: Json,
+    /// Of a lone contact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact_time_s: Option<Json>,
+    /// Where contacts take time.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact_law: Option<&'static str>,
+    /// Asked for.
+    pub tolerance: Json,
+    /// The place that is answered.
+    pub at: Json,
+    /// The limits that were given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limits: Option<Vec<Limit>>,
+    /// The part and its peaks.
+    #[serde(flatten)]
+    pub part: Option<Peaks>,
+    /// Largest change of velocity of one shock at the place.
+    pub velocity_change_m_s: Json,
+    /// Largest felt there; null without a contact time.
+    pub acceleration_m_s2: Option<Json>,
+    /// Largest of one shock.
+    pub angular_velocity_change_rad_s: Json,
+    /// When the largest values come.
+    pub answers: LargestValues,
+    /// What (1 + e) v at once would do to the part, as without clatter.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clatter_free: Option<Factors>,
+    /// What 2 v would do, as standards assume.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub standard: Option<Factors>,
+    /// Peak acceleration over that of the standards' shock.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gain: Option<Json>,
+    /// Where a shock table was given.
+    #[serde(flatten)]
+    pub equivalent: Option<Equivalent>,
+}
+
+/// One limit of a part in one drop; null where nothing is felt, or where it is not known.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[non_exhaustive]
+pub struct Limit {
+    /// What is limited.
+    pub limit: LimitKind,
+    /// SI.
+    pub unit: Unit,
+    /// In the unit.
+    pub allowed: Json,
+    /// In the unit: the demand of an assessment.
+    pub value: Option<Json>,
+    /// Value over allowed.
+    pub share: Option<Json>,
+    /// The place that asks most, from the middle of the product towards end b.
+    pub position_m: Json,
+    /// Number of the impact.
+    pub impact: Option<u64>,
+    /// Since the first touch.
+    pub time_s: Option<Json>,
+    /// As a share of the value.
+    pub error: Option<Json>,
+    /// The place in [−1, 1].
+    #[serde(skip)]
+    pub at: f64,
+}
+
+impl Limit {
+    fn new(limit: &clatter_assess::Limit, at: f64, half_m: f64, answer: Option<clatter_assess::Answer>) -> Self {
+        Self {
+            limit: limit.kind,
+            unit: answer.map_or(limit.kind.unit(), |answer| answer.unit),
+            allowed: Json(answer.map_or(limit.allowed, |answer| answer.allowed)),
+            value: answer.map(|answer| Json(answer.value)),
+            share: answer.map(|answer| Json(answer.utilization())),
+            position_m: Json(at * half_m),
+            impact: answer.map(|answer| answer.impact),
+            time_s: answer.map(|answer| Json(answer.time_s)),
+            error: answer.map(|answer| Json(answer.error())),
+            at,
+        }
+    }
+
+    /// Below every share where nothing is known.
+    fn of_allowed(&self) -> f64 {
+        self.share.map_or(-1.0, |share| share.0)
+    }
+}
+
+/// What is not felt is 0.
+fn value(largest: Option<Largest>) -> Json {
+    largest.map_or(Json(0.0), |largest| largest.value)
+}
+
+/// Follows one drop until nothing later counts.
+///
+/// # Errors
+/// No place or one off the body; a part too slow or too fast; a contact time that is none; those of [`clatter_assess::answer`].
+pub fn answer(question: &Question) -> Result<Answer, Error> {
+    let Question { scene, model, first, ref at, suspension, tolerance, .. } = *question;
+    on_body(at.iter().copied())?;
+    let Some(&at_first) = at.first() else { return Err(clatter_shock::Error::Empty("the list of places").into()) };
+    let (body, side) = (scene.body(), if first == End::A { 1.0 } else { -1.0 });
+    let half_m = 0.5 * body.length_m();
+    // Nothing is allowed or forbidden by these: the value alone counts.
+    let unlimited = |kind| clatter_assess::Limit::new(kind, 1.0);
+    // The end that touches first feels every drop: where not even that is answered, none is.
+    question.asked(&unlimited(LimitKind::VelocityChange), &Part { position_m: -half_m, suspension: None })?;
+    swings(suspension.as_ref())?;
+    let limits = question.limits.as_ref().map(|limits| of_limits(question, limits, half_m, side)).transpose()?;
+    let tightest = limits.iter().flatten().filter(|limit| limit.share.is_some());
+    let tightest = tightest.max_by(|a, b| a.of_allowed().total_cmp(&b.of_allowed()));
+    let at = tightest.map_or(at_first, |limit| limit.at);
+    let position_m = side * at * half_m;
+    let largest = |kind, part| Ok::<_, Error>(question.felt(&unlimited(kind), position_m, part)?.map(Largest::from));
+    let velocity_change = largest(LimitKind::VelocityChange, None)?;
+    let acceleration = question.contact_time_s.map_or(Ok(None), |_| largest(LimitKind::Acceleration, None))?;
+    let angular_velocity_change = largest(LimitKind::AngularVelocityChange, None)?;
+    let of_part = |part: Suspension| {
+        let response = clatter_assess::respond(&question.drop(), position_m, &part, model, tolerance)?;
+        let equivalent = question.shock_table.map(|table| Equivalent::new(&table, &part, &response)).transpose()?;
+        let values = [largest(LimitKind::Acceleration, suspension)?, largest(LimitKind::RattleSpace, suspension)?];
+        let at_once = Factors::at_once(part.damping(), scene.e(), scene.speed_m_s());
+        Ok::<_, Error>((Peaks::new(&part, &response, |_| None), at_once, values, equivalent))
+    };
+    let (part, at_once, [part_acceleration, part_displacement], equivalent) =
+        match suspension.map(of_part).transpose()? {
+            Some((part, at_once, values, equivalent)) => (Some(part), Some(at_once), values, equivalent),
+            None => (None, None, [None; 2], None),
+        };
+    let [clatter_free, standard] = [0, 1].map(|i| at_once.map(|at_once| at_once[i]));
+    let inertia_ratios = body.inertia_ratios().map(Json);
+    Ok(Answer {
+        model: model.name(),
+        first: letter(first),
+        length_m: Json(body.length_m()),
+        gyration_m: Json(body.gyration_m()),
+        center_of_mass: Json(side * question.center_of_mass + 0.0),
+        inertia_ratios: if first == End::A { inertia_ratios } else { [inertia_ratios[1], inertia_ratios[0]] },
+        e: Json(scene.e()),
+        speed_m_s: Json(scene.speed_m_s()),
+        tilt_deg: Json(question.tilt_deg),
+        height_gap_m: Json(scene.height_gap_m()),
+        gravity_m_s2: Json(scene.gravity_m_s2()),
+        contact_time_s: question.contact_time_s.map(Json),
+        contact_law: question.contact_time_s.filter(|_| model == Model::Compliant).map(|_| question.contact_law.name()),
+        tolerance: Json(tolerance),
+        at: Json(at),
+        limits,
+        velocity_change_m_s: value(velocity_change),
+        acceleration_m_s2: question.contact_time_s.map(|_| value(acceleration)),
+        angular_velocity_change_rad_s: value(angular_velocity_change),
+        answers: LargestValues {
+            velocity_change,
+            acceleration,
+            angular_velocity_change,
+            part_acceleration,
+            part_displacement,
+        },
+        clatter_free,
+        standard,
+        gain: part.zip(standard).map(|(part, standard)| part.gain(&standard)),
+        part,
+        equivalent,
+    })
+}
+
+/// Every limit at the worst of the places.
+fn of_limits(
+    question: &Question,
+    limits: &[clatter_assess::Limit],
+    half_m: f64,
+    side: f64,
+) -> Result<Vec<Limit>, Error> {
+    let mut found = Vec::with_capacity(limits.len());
+    for limit in limits {
+        let mut worst: Option<Limit> = None;
+        for &at in &question.at {
+            let one = Limit::new(limit, at, half_m, question.felt(limit, side * at * half_m, question.suspension)?);
+            if worst.is_none_or(|worst| one.of_allowed() > worst.of_allowed()) {
+                worst = Some(one);
+            }
+        }
+        found.extend(worst);
+    }
+    Ok(found)
+}

@@ -1,0 +1,233 @@
+//! What every answer about a part has in common: peaks, single shocks beside them, the equivalent pulse.
+
+use clatter_assess::{Answer, Unit};
+use clatter_shock::{
+    DampingRatio, EquivalentPulse, ImpulseFactors, Response, STANDARD_GRAVITY_M_S2, ShockTable, Suspension,
+};
+use serde::Serialize;
+
+use crate::{Error, Json};
+
+/// A part on its suspension and its peaks, as velocities: W z of the displacement z relative to its base, A/W of the absolute
+/// acceleration A.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[non_exhaustive]
+pub struct Peaks {
+    /// Natural angular frequency W.
+    pub omega: Json,
+    /// Damping ratio.
+    pub damping: Json,
+    /// Largest W z.
+    pub omega_peak_relative_displacement: Json,
+    /// Largest A/W.
+    pub peak_absolute_acceleration_over_omega: Json,
+    /// Of the absolute acceleration; the other times are in `peaks`.
+    pub time_of_peak: Json,
+    /// Of either sign.
+    pub peaks: AllPeaks,
+}
+
+/// The peaks of a part.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[non_exhaustive]
+pub struct AllPeaks {
+    /// W z.
+    pub omega_relative_displacement: Extremes,
+    /// z′.
+    pub relative_velocity: Extremes,
+    /// A/W.
+    pub absolute_acceleration_over_omega: Extremes,
+}
+
+/// The largest values of either sign.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[non_exhaustive]
+pub struct Extremes {
+    /// The largest.
+    pub positive: Extreme,
+    /// The smallest.
+    pub negative: Extreme,
+    /// The larger in size, the earlier where they tie.
+    #[serde(skip)]
+    pub peak: Extreme,
+}
+
+/// A value and when it is reached.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[non_exhaustive]
+pub struct Extreme {
+    /// The value.
+    pub value: Json,
+    /// When.
+    pub time: Json,
+    /// Number of the impact, shock or start of a pulse that it follows, where that is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub after_impact: Option<usize>,
+}
+
+impl Peaks {
+    /// `number` is that of the shock that an extreme follows, where it is known.
+    pub(super) fn new(
+        part: &Suspension,
+        response: &Response,
+        number: impl Fn(clatter_shock::Extreme) -> Option<usize>,
+    ) -> Self {
+        let extreme =
+            |e: clatter_shock::Extreme| Extreme { value: Json(e.value), time: Json(e.time), after_impact: number(e) };
+        let all = |all: clatter_shock::Extremes| {
+            let [positive, negative, peak] = [all.positive, all.negative, all.peak()].map(extreme);
+            Extremes { positive, negative, peak }
+        };
+        let (displacement, acceleration) = (response.pseudo_velocity(), response.acceleration_over_omega());
+        Self {
+            omega: Json(part.omega()),
+            damping: Json(part.damping().get()),
+            omega_peak_relative_displacement: Json(displacement.magnitude()),
+            peak_absolute_acceleration_over_omega: Json(acceleration.magnitude()),
+            time_of_peak: Json(acceleration.peak().time),
+            peaks: AllPeaks {
+                omega_relative_displacement: all(displacement),
+                relative_velocity: all(response.relative_velocity),
+                absolute_acceleration_over_omega: all(acceleration),
+            },
+        }
+    }
+
+    /// Peak acceleration over that of a single shock.
+    pub(super) fn gain(&self, shock: &Factors) -> Json {
+        Json(self.peak_absolute_acceleration_over_omega.0 / shock.peak_absolute_acceleration_over_omega.0)
+    }
+}
+
+/// What one velocity shock does to a part, as velocities.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[non_exhaustive]
+pub struct Factors {
+    /// The shock.
+    #[serde(skip)]
+    pub shock: f64,
+    /// Largest W z.
+    pub omega_peak_relative_displacement: Json,
+    /// Largest A/W.
+    pub peak_absolute_acceleration_over_omega: Json,
+}
+
+impl Factors {
+    /// Of a shock to a part with this damping.
+    #[must_use]
+    pub fn new(damping: DampingRatio, shock: f64) -> Self {
+        Self::of(shock, damping.impulse_factors().times(shock))
+    }
+
+    pub(super) fn of(shock: f64, factors: ImpulseFactors) -> Self {
+        Self {
+            shock,
+            omega_peak_relative_displacement: Json(factors.displacement),
+            peak_absolute_acceleration_over_omega: Json(factors.acceleration),
+        }
+    }
+
+    /// All of a product rebounds at once, without spin, as it would without clatter; and what standards assume.
+    pub(super) fn at_once(damping: DampingRatio, e: f64, speed: f64) -> [Self; 2] {
+        [(1.0 + e) * speed, 2.0 * speed].map(|shock| Self::new(damping, shock))
+    }
+}
+
+/// The half-sine of a shock table that does the same to a part; null, with the reason, where there is none.
+#[derive(Debug, Clone, Serialize)]
+#[non_exhaustive]
+pub struct Equivalent {
+    /// The half-sine.
+    pub equivalent_pulse: Option<HalfSine>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub no_equivalent_pulse: Option<String>,
+}
+
+/// A half-sine that gives a part the same acceleration.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[non_exhaustive]
+pub struct HalfSine {
+    /// `half-sine`.
+    pub shape: &'static str,
+    /// Its peak.
+    pub acceleration_m_s2: Json,
+    /// The same in standard gravities.
+    pub acceleration_g: Json,
+    /// Its length.
+    pub duration_s: Json,
+    /// Its area.
+    pub velocity_change_m_s: Json,
+    /// Its relative displacement over that of the part, less 1.
+    pub displacement_mismatch: Json,
+}
+
+/// Mismatch of the relative displacement that an equivalent pulse may have.
+const EQUIVALENT: f64 = 0.01;
+
+impl Equivalent {
+    pub(super) fn new(table: &ShockTable, suspension: &Suspension, response: &Response) -> Result<Self, Error> {
+        let none = |why: String| Self { equivalent_pulse: None, no_equivalent_pulse: Some(why) };
+        if response.absolute_acceleration.magnitude() <= 0.0 {
+            return Ok(none("nothing is felt here, which no pulse does".to_owned()));
+        }
+        let EquivalentPulse { pulse, displacement_mismatch } =
+            match table.equivalent_half_sine(suspension, response, EQUIVALENT) {
+                Err(error @ clatter_shock::Error::NoEquivalent { .. }) => return Ok(none(error.to_string())),
+                found => found?,
+            };
+        let half_sine = HalfSine {
+            shape: "half-sine",
+            acceleration_m_s2: Json(pulse.amplitude),
+            acceleration_g: Json(pulse.amplitude / STANDARD_GRAVITY_M_S2),
+            duration_s: Json(pulse.duration),
+            velocity_change_m_s: Json(pulse.velocity_change()),
+            displacement_mismatch: Json(displacement_mismatch),
+        };
+        Ok(Self { equivalent_pulse: Some(half_sine), no_equivalent_pulse: None })
+    }
+}
+
+/// The largest values of a drop at a place and of a part there; null where nothing is felt, and of a part that is mounted rigidly.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[non_exhaustive]
+pub struct LargestValues {
+    /// Of the place.
+    pub velocity_change: Option<Largest>,
+    /// Of the place.
+    pub acceleration: Option<Largest>,
+    /// Of the product.
+    pub angular_velocity_change: Option<Largest>,
+    /// Of the part.
+    pub part_acceleration: Option<Largest>,
+    /// Of the part, relative to its place.
+    pub part_displacement: Option<Largest>,
+}
+
+/// A largest value, when it comes and how far off it may be.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[non_exhaustive]
+pub struct Largest {
+    /// In the unit.
+    pub value: Json,
+    /// SI.
+    pub unit: Unit,
+    /// Since the first touch.
+    pub time_s: Json,
+    /// Number of the impact.
+    pub impact: u64,
+    /// As a share of the value.
+    pub error: Json,
+}
+
+impl From<Answer> for Largest {
+    fn from(answer: Answer) -> Self {
+        Self {
+            value: Json(answer.value),
+            unit: answer.unit,
+            time_s: Json(answer.time_s),
+            impact: answer.impact,
+            error: Json(answer.error()),
+        }
+    }
+}
