@@ -115,8 +115,8 @@ impl Goals {
             Ok(Design {
                 q,
                 e,
-                s: bar.safe_zone(&Start::default(), threshold).s,
-                met: all.iter().map(|goal| goal.margin(&bar) >= 0.0).collect(),
+                s: bar.shocks_either(&Start::default()).safe_zone(threshold).s,
+                met: all.iter().map(|goal| goal.margin(q, e) >= 0.0).collect(),
                 largest: front(threshold, &others, e, STEPS)?.largest(),
             })
         };
