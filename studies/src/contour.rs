@@ -283,7 +283,7 @@ mod tests {
             assert!(!pieces.is_empty(), "s({threshold}) = {level}");
             for piece in pieces {
                 for p in &piece {
-                    let s = Bar::new(p.q, p.e).unwrap().safe_zone(&Start::default(), threshold).s;
+                    let s = Bar::new(p.q, p.e).unwrap().shocks_either(&Start::default()).safe_zone(threshold).s;
                     assert!((s - level).abs() < 1e-12, "s({threshold}) = {s} at {p:?}");
                 }
                 for p in [piece[0], piece[piece.len() - 1]] {

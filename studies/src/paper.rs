@@ -129,7 +129,7 @@ pub fn table1() -> Result<[Row; 7], Error> {
 #[expect(clippy::cast_precision_loss, reason = "the table's counts are below 100")]
 fn cell(kind: RowKind, bar: &Bar, summary: &Summary) -> f64 {
     match kind {
-        RowKind::SafeZone(threshold) => 100.0 * bar.safe_zone(&Start::default(), threshold).s,
+        RowKind::SafeZone(threshold) => 100.0 * bar.shocks_either(&Start::default()).safe_zone(threshold).s,
         RowKind::PeakEnd => summary.peak.end,
         RowKind::PeakAngular => summary.peak.angular,
         RowKind::NetCenter => summary.net.map_or(f64::NAN, |net| net.center),

@@ -162,7 +162,7 @@ pub fn worst(bar: &Bar, damping: DampingRatio, per_octave: u16) -> Result<Worst,
 /// acceleration than one velocity shock of `threshold` v0 would give it, whichever end strikes first; `None` if not
 /// even the center is safe. `suspension` has its ω in v0/h0.
 ///
-/// For ζΩ → ∞ this is the safe zone of the paper (Eq. 5, [`Bar::safe_zone`]), for Ω → 0 the positions whose net change
+/// For ζΩ → ∞ this is the safe zone of the paper (Eq. 5, [`clatter::Shocks::safe_zone`]), for Ω → 0 the positions whose net change
 /// of velocity is within the threshold.
 ///
 /// # Errors
@@ -174,7 +174,7 @@ pub fn worst(bar: &Bar, damping: DampingRatio, per_octave: u16) -> Result<Worst,
 /// # use clatter_studies::suspended::suspended_zone;
 /// let (bar, damping) = (Bar::new(0.73, 0.2)?, DampingRatio::new(0.05)?);
 /// let zone = |omega| suspended_zone(&bar, &Suspension::new(omega, damping).unwrap(), 0.5).unwrap();
-/// let paper = bar.safe_zone(&Start::default(), 0.5).s;
+/// let paper = bar.shocks_either(&Start::default()).safe_zone(0.5).s;
 /// assert!((zone(1e4).unwrap() - paper).abs() < 1e-6);
 /// assert_eq!(zone(1e-2), None); // soft: the net change is v0, although no shock in the zone exceeds v0/2
 /// # Ok::<(), Box<dyn std::error::Error>>(())

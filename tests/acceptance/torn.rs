@@ -9,6 +9,7 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 
 #[path = "../../fuzz/src/lib.rs"]
+#[expect(unreachable_pub, reason = "public to the fuzz targets")]
 mod inputs;
 
 /// What has a meaning somewhere in a record, a list or an argument.

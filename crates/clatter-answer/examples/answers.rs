@@ -8,7 +8,7 @@ use std::error::Error;
 use std::fmt::Write as _;
 use std::io::Write;
 
-use clatter::{Axis, Bar, OffCenterBar, Plate, PlateStart, Quantity, Start};
+use clatter::{Axis, Bar, Plate, PlateStart, Quantity, Start};
 use clatter_answer::fit::Data;
 use clatter_answer::respond::{self, Excitation};
 use clatter_answer::{assess, atlas, fit, impacts, map, record, scatter, simulate, spectrum, zone};
@@ -36,7 +36,7 @@ pub(crate) fn answers() -> Result<String, Box<dyn Error>> {
 }
 
 fn without_time(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
-    let (uniform, loaded) = (Bar::new(0.5, 0.3)?.into(), OffCenterBar::from_center_of_mass(0.2, 0.6, 0.95)?);
+    let (uniform, loaded) = (Bar::new(0.5, 0.3)?, Bar::from_center_of_mass(0.2, 0.6, 0.95)?);
     for bar in [uniform, loaded] {
         let mut question = impacts::Question::new(bar, Start::default());
         question.at = vec![0.3];

@@ -3,7 +3,7 @@
 //! ```
 //! use clatter::{Bar, Start};
 //! use clatter_answer::impacts;
-//! let question = impacts::Question::new(Bar::new(0.5, 0.3)?.into(), Start::default());
+//! let question = impacts::Question::new(Bar::new(0.5, 0.3)?, Start::default());
 //! let answer = impacts::answer(&question)?;
 //! // A uniform bar with e = 0.3 strikes the ground four times.
 //! assert_eq!((answer.count.0, answer.impacts.iter().count()), (clatter::Count::Finite(4), 4));
@@ -12,7 +12,7 @@
 
 pub mod plate;
 
-use clatter::{End, Error, OffCenterBar, PeakImpact, Start, Summary};
+use clatter::{Bar, End, Error, PeakImpact, Start, Summary};
 use serde::{Serialize, Serializer};
 
 use crate::{Json, JsonCount, letter, on_body};
@@ -22,7 +22,7 @@ use crate::{Json, JsonCount, letter, on_body};
 #[non_exhaustive]
 pub struct Question {
     /// The bar.
-    pub bar: OffCenterBar,
+    pub bar: Bar,
     /// Velocities and height gap at the first touch.
     pub start: Start,
     /// Positions in [−1, 1] whose velocity shocks are asked for.
@@ -34,7 +34,7 @@ pub struct Question {
 impl Question {
     /// With 1000 impacts listed at most, and no position but the ends.
     #[must_use]
-    pub fn new(bar: OffCenterBar, start: Start) -> Self {
+    pub fn new(bar: Bar, start: Start) -> Self {
         Self { bar, start, at: Vec::new(), limit: 1000 }
     }
 }

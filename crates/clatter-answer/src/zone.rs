@@ -3,7 +3,7 @@
 //! ```
 //! use clatter::Bar;
 //! use clatter_answer::zone;
-//! let question = zone::Question::new(Bar::new(0.5, 0.3)?.into(), vec![0.5, 1.0]);
+//! let question = zone::Question::new(Bar::new(0.5, 0.3)?, vec![0.5, 1.0]);
 //! let answer = zone::answer(&question)?;
 //! // Table 1: none at half the drop speed, the middle 28.8 % of a uniform bar at the drop speed.
 //! assert_eq!(answer.zones[0].extent, clatter::Extent::None);
@@ -13,7 +13,7 @@
 
 pub mod plate;
 
-use clatter::{End, Error, Extent, OffCenterBar, Start};
+use clatter::{Bar, End, Error, Extent, Start};
 use serde::{Serialize, Serializer};
 
 use crate::{Json, in_bounds, letter};
@@ -23,7 +23,7 @@ use crate::{Json, in_bounds, letter};
 #[non_exhaustive]
 pub struct Question {
     /// The bar.
-    pub bar: OffCenterBar,
+    pub bar: Bar,
     /// Velocity shocks that a part survives, in v0.
     pub thresholds: Vec<f64>,
     /// The end that strikes first, where the safe interval of that drop is asked for as well.
@@ -33,7 +33,7 @@ pub struct Question {
 impl Question {
     /// Whichever end strikes first.
     #[must_use]
-    pub fn new(bar: OffCenterBar, thresholds: Vec<f64>) -> Self {
+    pub fn new(bar: Bar, thresholds: Vec<f64>) -> Self {
         Self { bar, thresholds, first: None }
     }
 }

@@ -24,8 +24,8 @@ fn answers_are_the_same_to_the_last_byte() {
     assert_eq!(got.lines().count(), want.lines().count());
 }
 
-fn bar() -> clatter::OffCenterBar {
-    Bar::new(0.5, 0.3).expect("a bar").into()
+fn bar() -> Bar {
+    Bar::new(0.5, 0.3).expect("a bar")
 }
 
 fn plate() -> Plate {

@@ -5,7 +5,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use clatter::{End, EndPeaks, Excitation, OffCenterBar, Start};
+use clatter::{Bar, End, EndPeaks, Excitation, Start};
 use clatter_shock::{Pulses, Response, Suspension};
 
 use crate::drop::{Followed, Model, PRECISION, SingleDrop};
@@ -176,7 +176,7 @@ pub(crate) fn of_followed(followed: &Followed, part: &Part, limit: &Limit) -> Re
 fn closed_form(drop: &SingleDrop, part: &Part, limit: &Limit, model: Model) -> Result<Answer, Error> {
     let [a, b] = drop.body.arms_m();
     let flat_m_s = (1.0 + drop.restitution) * drop.speed_m_s;
-    let bar = OffCenterBar::new([a, b], drop.body.gyration_m(), drop.restitution)?;
+    let bar = Bar::from_arms([a, b], drop.body.gyration_m(), drop.restitution)?;
     let start = Start::new([-drop.speed_m_s; 2], drop.body.length_m() * libm::sin(drop.tilt_rad))?;
     let s = 2.0 * part.position_m / drop.body.length_m();
     let of_turn = 2.0 / drop.body.length_m();

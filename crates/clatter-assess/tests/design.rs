@@ -300,7 +300,7 @@ fn the_smallest_changes_of_a_hard_part_are_those_of_the_closed_form() {
     let v0 = file.drop.speeds_m_s()[1];
     let demand = |q: f64, e: f64, place_mm: f64| {
         let bar = clatter::Bar::new(q, e).expect("a bar");
-        v0 * bar.peak_at(&clatter::Start::default(), ((place_mm.abs() + 10.0) / 150.0).min(1.0))
+        v0 * bar.shocks_either(&clatter::Start::default()).at(((place_mm.abs() + 10.0) / 150.0).min(1.0))
     };
     let assessment = file.assess_to(&accuracy).expect("an assessment");
     let remedies = file.remedies(&assessment, &bounds, 0.0).expect("remedies").remove(0);

@@ -4,7 +4,7 @@
 
 use clap::ValueEnum;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use clatter::{Axis, Bar, End, Error, Mass, OffCenterBar, Plate, PlateStart, Start};
+use clatter::{Axis, Bar, End, Error, Mass, Plate, PlateStart, Start};
 pub(crate) use clatter_answer::letter;
 use clatter_assess::units::{Quantity, SHARE};
 use clatter_assess::{Accuracy, Model, Slip};
@@ -141,7 +141,7 @@ pub(crate) struct OffCenterArgs {
 
 /// What falls.
 pub(crate) enum FallingBody {
-    Bar(OffCenterBar),
+    Bar(Bar),
     Plate(Plate),
 }
 
@@ -156,12 +156,12 @@ impl OffCenterArgs {
             }
             (Some(Values::Bar([k])), _) => match self.center_of_mass.map(|offset| offset.of_bar(center)).transpose()? {
                 Some([c]) => {
-                    OffCenterBar::from_center_of_mass(c, 0.0, *e).map_err(Failure::flag(center))?;
-                    OffCenterBar::from_center_of_mass(c, k, *e).map(bar).map_err(Failure::flag("--gyration-ratio"))
+                    Bar::from_center_of_mass(c, 0.0, *e).map_err(Failure::flag(center))?;
+                    Bar::from_center_of_mass(c, k, *e).map(bar).map_err(Failure::flag("--gyration-ratio"))
                 }
-                None => Ok(bar(Bar::from_gyration_ratio(k, *e)?.into())),
+                None => Ok(bar(Bar::from_gyration_ratio(k, *e)?)),
             },
-            (None, Some(q)) => Ok(bar(Bar::new(q, *e)?.into())),
+            (None, Some(q)) => Ok(bar(Bar::new(q, *e)?)),
             // The group requires one of the three.
             (None, None) => bar_of(&quantities::masses(&inertia.mass, None)?, *e).map(bar),
         }
@@ -176,8 +176,8 @@ impl OffCenterArgs {
 }
 
 /// The bar of masses whose positions are in half-lengths.
-pub(crate) fn bar_of(masses: &[Mass], e: f64) -> Result<OffCenterBar, Failure> {
-    OffCenterBar::from_masses(2.0, masses, e).map_err(Failure::flag("--mass"))
+pub(crate) fn bar_of(masses: &[Mass], e: f64) -> Result<Bar, Failure> {
+    Bar::from_masses(2.0, masses, e).map_err(Failure::flag("--mass"))
 }
 
 /// How fast a component comes to rest.

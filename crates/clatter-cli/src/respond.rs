@@ -242,7 +242,7 @@ impl Inertia {
                     "how the mass lies is missing: --q=Q, --gyration-ratio=K or --mass=M@S; or --model or --product for a drop with gravity",
                 ));
             }
-            (None, None, pieces) => Bar::from_masses(2.0, &quantities::masses(pieces, None)?, e)?,
+            (None, None, pieces) => *Bar::from_masses(2.0, &quantities::masses(pieces, None)?, e)?.symmetric()?,
         })
     }
 }

@@ -4,7 +4,7 @@ mod plate;
 
 use std::io::{self, Write};
 
-use clatter::{End, Extent, OffCenterBar, Start};
+use clatter::{Bar, End, Extent, Start};
 use clatter_answer::zone::{self, Answer, Interval, Question, Zone};
 
 use crate::inputs::{self, EndName, FallingBody, OffCenterArgs, RowFormat, Values};
@@ -72,7 +72,7 @@ impl Args {
     }
 }
 
-fn table(bar: &OffCenterBar, answer: &Answer, out: &mut dyn Write) -> io::Result<()> {
+fn table(bar: &Bar, answer: &Answer, out: &mut dyn Write) -> io::Result<()> {
     let either = bar.shocks_either(&Start::default());
     let e = given(bar.e());
     let [a, b] = [-1.0, 1.0].map(|s| figures(either.at(s)));

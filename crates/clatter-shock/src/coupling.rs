@@ -40,7 +40,7 @@ fn check_position(position: f64) -> Result<(), Error> {
     Err(Error::Quantity { name: "position", value: position, allowed: "in [-1, 1]; -1 is the end that strikes first" })
 }
 
-/// Response of a component at `position` (−1 is the end that strikes first) to the whole clatter.
+/// Response of a component at `position` (−1 is the end that strikes first) to the whole clatter of a symmetric bar.
 ///
 /// Each impact n of [`Bar::train`] is a velocity shock there: the jump of the struck end times ((1−q) ∓ (1+q)s)/2
 /// (Eq. 3 of the paper). `suspension` has its ω in units of v0/h0.
@@ -55,7 +55,7 @@ fn check_position(position: f64) -> Result<(), Error> {
 ///
 /// # Errors
 ///
-/// [`Error::Quantity`] for a position outside [−1, 1]; [`Error::Unsettled`] for an endless train at q = 1 off center.
+/// [`Error::Quantity`] for a position outside [−1, 1]; [`Error::Bar`] for a bar that is not symmetric; [`Error::Unsettled`] for an endless train at q = 1 off center.
 ///
 /// # Examples
 ///
@@ -89,7 +89,7 @@ pub fn respond(bar: &Bar, start: &Start, position: f64, suspension: &Suspension)
 /// As [`respond`].
 pub fn shocks_at(bar: &Bar, start: &Start, position: f64, omega_max: f64) -> Result<(VelocityShocks, f64), Error> {
     check_position(position)?;
-    let (q, e) = (bar.q(), bar.e());
+    let (q, e) = (bar.symmetric()?.q(), bar.e());
     let at_position = |i: &Impact| -(1.0 + e) * i.approach * share(q, position, i.end);
     if q >= 1.0 && position != 0.0 && bar.count(start) == Count::Endless {
         return Err(Error::Unsettled { position });

@@ -90,10 +90,11 @@ impl Goal {
     }
 
     /// How far a bar stays from the goal: what it allows at the ends over what they get, less 1; negative where the bar
-    /// misses it.
+    /// misses it. NaN where q and e are of no bar.
     #[must_use]
-    pub fn margin(self, bar: &Bar) -> f64 {
-        1.0 / (self.needed(bar.q()) * bar.peak(&Start::default()).end) - 1.0
+    pub fn margin(self, q: f64, e: f64) -> f64 {
+        let peak = Bar::new(q, e).map_or(f64::NAN, |bar| bar.peak(&Start::default()).end);
+        1.0 / (self.needed(q) * peak) - 1.0
     }
 }
 
@@ -185,9 +186,8 @@ impl Front {
 pub fn front(threshold: f64, goals: &[Goal], e: f64, steps: u32) -> Result<Front, Error> {
     let here = Goal::zone(threshold, 0.0)?;
     Bar::new(0.0, e)?;
-    let bar = |q: f64| Bar::new(q, e).ok();
-    let good = |q| bar(q).is_some_and(|bar| goals.iter().chain([&here]).all(|goal| goal.margin(&bar) >= 0.0));
-    let zone = |q| bar(q).map_or(f64::NAN, |bar| bar.safe_zone(&Start::default(), threshold).s);
+    let good = |q| goals.iter().chain([&here]).all(|goal| goal.margin(q, e) >= 0.0);
+    let zone = |q| zone(threshold, q, e);
     let mut pieces: Vec<Vec<FrontPoint>> = Vec::new();
     let mut largest = f64::NEG_INFINITY;
     for [a, b] in intervals(good) {
@@ -266,6 +266,12 @@ fn intervals(good: impl Fn(f64) -> bool) -> Vec<[f64; 2]> {
     found
 }
 
+/// Safe zone s of a threshold, whichever end strikes first (Eq. 5).
+fn zone(threshold: f64, q: f64, e: f64) -> f64 {
+    let peak = Bar::new(q, e).map_or(f64::NAN, |bar| bar.peak(&Start::default()).end);
+    (2.0 * threshold / peak - (1.0 - q)) / (1.0 + q)
+}
+
 /// 1/peak at the ends, which is finite at (1, 1) too.
 fn inverse_peak(q: f64, e: f64) -> f64 {
     Bar::new(q, e).map_or(f64::NAN, |bar| 1.0 / bar.summary(&Start::default()).peak.end)
@@ -328,7 +334,7 @@ mod tests {
         let top = |steps| front(0.5, &[], 0.05, steps).unwrap().largest().unwrap();
         let (coarse, fine) = (top(100), top(3700));
         assert!((coarse.s - fine.s).abs() < 1e-12 && fine.q < 1.0, "{coarse:?}, {fine:?}");
-        let zone = |q| Bar::new(q, 0.05).unwrap().safe_zone(&Start::default(), 0.5).s;
+        let zone = |q| zone(0.5, q, 0.05);
         for i in 0..=2000 {
             assert!(zone(0.9 + f64::from(i) / 20_000.0) <= fine.s, "q = {}", 0.9 + f64::from(i) / 20_000.0);
         }
@@ -341,13 +347,12 @@ mod tests {
             let front = front(0.5, &[second], e, 100).unwrap();
             let end = front.largest().unwrap();
             let free = super::front(0.5, &[], e, 100).unwrap().largest().unwrap();
-            let bar = Bar::new(end.q, e).unwrap();
-            if second.margin(&Bar::new(1.0, e).unwrap()) >= 0.0 {
+            if second.margin(1.0, e) >= 0.0 {
                 assert_eq!(end, free, "e = {e}: nothing in the way");
             } else {
-                assert!(second.margin(&bar).abs() < 1e-12 && end.s < free.s, "e = {e}: {end:?}");
+                assert!(second.margin(end.q, e).abs() < 1e-12 && end.s < free.s, "e = {e}: {end:?}");
             }
-            assert!((bar.safe_zone(&Start::default(), 0.5).s - end.s).abs() < 1e-15, "e = {e}");
+            assert!((zone(0.5, end.q, e) - end.s).abs() < 1e-15, "e = {e}");
         }
         assert!(front(0.5, &[second], 0.9, 100).unwrap().largest().is_none(), "a bouncy casing has no such zone");
     }
@@ -358,9 +363,8 @@ mod tests {
         fn nothing_beats_the_front(threshold in 0.3..1.5_f64, level in 0.2..1.0_f64, e in 0.0..0.6_f64, q in 0.0..=1.0_f64) {
             let goal = Goal::zone(2.0, level).unwrap();
             let front = front(threshold, &[goal], e, 2000).unwrap();
-            let bar = Bar::new(q, e).unwrap();
-            let s = bar.safe_zone(&Start::default(), threshold).s;
-            prop_assume!(s >= 0.0 && goal.margin(&bar) >= 0.0);
+            let s = zone(threshold, q, e);
+            prop_assume!(s >= 0.0 && goal.margin(q, e) >= 0.0);
             let best = front.pieces.iter().flatten().filter(|p| p.q <= q).map(|p| p.s).fold(f64::NEG_INFINITY, f64::max);
             // A step of 1/2000 in q changes s by at most 2/2000 on the smooth part; a narrow stretch may be missed.
             prop_assert!(s <= best + 2e-3, "{s} at q = {q} beats {best}");
@@ -370,7 +374,7 @@ mod tests {
         #[test]
         fn a_goal_holds_up_to_its_restitution(q in 0.0..=1.0_f64, size in 0.2..3.0_f64, s in 0.0..=1.0_f64, turn: bool) {
             let goal = if turn { Goal::turn(size) } else { Goal::zone(size, s) }.unwrap();
-            let margin = |e: f64| goal.margin(&Bar::new(q, e.clamp(0.0, 1.0)).unwrap());
+            let margin = |e: f64| goal.margin(q, e.clamp(0.0, 1.0));
             match goal.largest_restitution(q) {
                 Some(e) => {
                     prop_assert!(margin(e) >= -1e-12, "{} at its own restitution", margin(e));

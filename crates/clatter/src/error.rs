@@ -23,7 +23,7 @@ pub enum Error {
     /// End a does not approach the ground, or a velocity is not a number of a usable size.
     #[error("starting velocities [{0:?}, {1:?}]: {2}")]
     Velocity(f64, f64, &'static str),
-    /// A center of mass off the middle of the bar.
+    /// A center of mass off the middle, where only a symmetric bar makes sense.
     #[error("the center of mass lies {offset:?} of a half-length off the middle; this bar must be symmetric")]
     OffCenter {
         /// Offset over half-length.

@@ -29,21 +29,22 @@ mod error;
 mod exact;
 mod excitation;
 mod map;
+mod mass;
 mod motion;
-mod off_center;
 mod plate;
 pub mod quadrature;
 pub mod reference;
 mod start;
 mod summary;
+mod symmetric;
 mod train;
 mod zone;
 
-pub use bar::{Bar, Mass, Restitution};
+pub use bar::{Bar, Restitution};
 pub use error::Error;
 pub use excitation::{Excitation, Section, Sine};
 pub use map::{Axis, Map, Quantity, Variable};
-pub use off_center::{OffCenterBar, OffCenterTrain, Safest, Shocks, center_and_gyration};
+pub use mass::{Mass, center_and_gyration};
 pub use plate::{
     Atlas, AtlasPeak, Corner, Plate, PlateCount, PlateImpact, PlatePeak, PlateShocks, PlateStart, PlateSummary,
     PlateTrain, PlateZone, Word,
@@ -52,4 +53,4 @@ pub use quadrature::Integral;
 pub use start::{End, Start};
 pub use summary::{Count, Net, Peak, PeakImpact, Summary};
 pub use train::{Impact, Train};
-pub use zone::{EndPeaks, Extent, Zone};
+pub use zone::{EndPeaks, Extent, Safest, Shocks, Zone};

@@ -1,5 +1,6 @@
-//! Maps of one quantity over a grid of (q, e), or of gyration ratio and e, for pure translation.
+//! Maps of one quantity over a grid of (q, e), or of gyration ratio and e, for pure translation of symmetric bars.
 
+use crate::symmetric::Symmetric;
 use crate::{Bar, Count, Error, Start};
 use rayon::prelude::*;
 
@@ -202,8 +203,8 @@ impl Map {
 }
 
 /// One row: fixed inertia.
-fn fill(quantity: Quantity, bar: impl Fn(f64) -> Bar, columns: &[f64], row: &mut [f64]) {
-    let Bar { less, more, .. } = bar(0.0);
+fn fill(quantity: Quantity, bar: impl Fn(f64) -> Symmetric, columns: &[f64], row: &mut [f64]) {
+    let Symmetric { less, more, .. } = bar(0.0);
     let spread: &dyn Fn(&mut f64) = match quantity {
         Quantity::PeakEnd => &|_| {},
         Quantity::PeakCenter => &|v| *v = if less == 0.0 { 0.0 } else { 0.5 * less * *v },
@@ -234,9 +235,9 @@ const WIDTH: usize = 16;
 const STEPS: usize = 64;
 
 /// Largest velocity shocks at the ends along a row.
-fn peaks(bar: impl Fn(f64) -> Bar, columns: &[f64], row: &mut [f64]) {
+fn peaks(bar: impl Fn(f64) -> Symmetric, columns: &[f64], row: &mut [f64]) {
     let dead = bar(0.0);
-    let (q, less) = (dead.q(), dead.less);
+    let (q, less) = (dead.q, dead.less);
     // |a_2| ≤ |a_1| for q²(1 + e) ≤ 1, hence at every e.
     if q * q <= 0.499_999 {
         let q = q.max(0.0);
@@ -286,12 +287,12 @@ fn peaks(bar: impl Fn(f64) -> Bar, columns: &[f64], row: &mut [f64]) {
 }
 
 /// A bar from values that the axes have checked.
-fn bar(variable: Variable, inertia: f64, e: f64) -> Bar {
+fn bar(variable: Variable, inertia: f64, e: f64) -> Symmetric {
     let bar = match variable {
         Variable::GyrationRatio => Bar::from_gyration_ratio(inertia, e),
         Variable::InertiaRatio | Variable::Restitution => Bar::new(inertia, e),
     };
-    bar.unwrap_or_else(|error| unreachable!("an axis let it pass: {error}"))
+    bar.unwrap_or_else(|error| unreachable!("an axis let it pass: {error}")).symmetric
 }
 
 /// The count as a float; endless is +∞.
@@ -346,7 +347,7 @@ mod tests {
                         Quantity::PeakAngular => s.peak.angular,
                         Quantity::NetCenter => s.net.map_or(0.0, |net| net.center),
                         Quantity::Duration => s.duration,
-                        Quantity::Zone(x) => bar.safe_zone(&start, x).s,
+                        Quantity::Zone(x) => bar.shocks_either(&start).safe_zone(x).s,
                     };
                     let got = map.values[i * map.e.points() + j];
                     let same =

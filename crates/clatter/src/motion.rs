@@ -20,10 +20,10 @@
 //! σ τ = αβT + β² + α²e. Then f64 suffices, until a quotient lies within its error of an integer.
 
 use crate::accuracy::{self, DURATION_LONG, FINAL, SHORT};
-use crate::bar::Ratio;
 use crate::dd::{self, Dd, ldexp, power_of_two, two_prod, two_sum};
 use crate::exact::{Dyadic, Recurrence, clamp};
-use crate::{Bar, Count, PeakImpact, Start};
+use crate::symmetric::{Ratio, Symmetric};
+use crate::{Count, PeakImpact, Start};
 use libm::{exp, expm1, hypot, log, log1p, sin, sincos};
 use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, LN_2, PI};
@@ -48,7 +48,7 @@ pub(crate) const NORMAL: f64 = 1e-280;
 /// of velocities would leave the range of floats.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Drive {
-    pub(crate) bar: Bar,
+    pub(crate) bar: Symmetric,
     pub(crate) start: Start,
     pub(crate) m: i32,
     unit: i32,
@@ -161,10 +161,10 @@ enum Series {
 impl Drive {
     /// For T > 0 and e > 0.
     #[inline(always)]
-    pub(crate) fn new(bar: &Bar, start: &Start, digits: Digits) -> Self {
+    pub(crate) fn new(bar: &Symmetric, start: &Start, digits: Digits) -> Self {
         let [va, vb] = start.velocity();
         let e = bar.e;
-        let small = bar.q().max(e.sqrt());
+        let small = bar.q.max(e.sqrt());
         let m = if small < 1e-60 { -exponent(small) } else { 0 };
         let (t, scaled_e) = if m == 0 { (bar.t, e) } else { (ldexp(bar.t, m), ldexp(e, 2 * m)) };
         let unit = if m == 0 && (1e-60..1e60).contains(&vb.abs().max(-va)) {
@@ -193,7 +193,7 @@ impl Drive {
     /// D = 4e − T² and a bound on its relative error; its sign is certain.
     #[inline(always)]
     fn discriminant(&self, digits: Digits) -> (Dd, f64) {
-        let Bar { e, less, more, .. } = self.bar;
+        let Symmetric { e, less, more, .. } = self.bar;
         // Of two equal forms the one with the smaller terms, (1 − q²)(1 + e)² − (1 − e)² for all but small e.
         let (first, second) = if e > CORNER {
             (less * more * ((1.0 + e) * (1.0 + e)), (1.0 - e) * (1.0 - e))
@@ -711,7 +711,7 @@ impl Drive {
 
 /// With q = μ/ν: P = μ(1 + e), Q = eν², `c_0` = `v_a`, w = ν `v_b`. For an off-center bar, whose `v_b` is κ times that of
 /// its end and κ = I_a/ν, w is I_a times the velocity of its end: whole again.
-pub(crate) fn exact(bar: &Bar, start: &Start) -> Recurrence {
+pub(crate) fn exact(bar: &Symmetric, start: &Start) -> Recurrence {
     let (Ratio { mu, square, beside, .. }, e) = (bar.exact_q(), Dyadic::from(bar.e));
     Recurrence {
         p: mu.mul(&Dyadic::from(1.0).add(&e)),
@@ -724,7 +724,7 @@ pub(crate) fn exact(bar: &Bar, start: &Start) -> Recurrence {
 impl Recurrence {
     /// The differences a_{n+1} − a_n, times ν^{n+1}: they obey the same recurrence, from
     /// (T − `1)v_a` + `v_b` and −(`v_b` + e `v_a`). Whole but for an off-center bar, whose ν is rounded.
-    fn differences(&self, bar: &Bar) -> Self {
+    fn differences(&self, bar: &Symmetric) -> Self {
         let nu = bar.exact_q().nu;
         let v = self.p.sub(&nu).mul(&self.v).add(&self.w);
         let w = nu.mul(&self.w.add(&Dyadic::from(bar.e).mul(&nu).mul(&self.v))).neg();
@@ -756,7 +756,7 @@ fn expanded(q: f64, restitution: f64, e: f64) -> Dd {
 
 /// Velocities after the last strike: of the end that struck, a for an odd count, and of the other.
 #[inline]
-pub(crate) fn rebound(bar: &Bar, odd: bool, a: f64, next: f64) -> [f64; 2] {
+pub(crate) fn rebound(bar: &Symmetric, odd: bool, a: f64, next: f64) -> [f64; 2] {
     // By bits: a branch on the parity would be mispredicted every other time.
     let (next, struck) = (next.to_bits(), (-bar.e * a).to_bits());
     let swap = (next ^ struck) & u64::from(odd).wrapping_neg();
@@ -765,7 +765,7 @@ pub(crate) fn rebound(bar: &Bar, odd: bool, a: f64, next: f64) -> [f64; 2] {
 
 /// Velocities an endless train tends to: rest, unless the ends have no mass (q = 1), where only a bar that turns about
 /// a still center comes to rest.
-pub(crate) fn rest(bar: &Bar, start: &Start) -> Option<[f64; 2]> {
+pub(crate) fn rest(bar: &Symmetric, start: &Start) -> Option<[f64; 2]> {
     let still = || {
         let va = start.velocity()[0];
         let sum = (start.wide_b() + Dd::from(va)).hi;
@@ -777,11 +777,11 @@ pub(crate) fn rest(bar: &Bar, start: &Start) -> Option<[f64; 2]> {
 }
 
 /// αT + β = −a_1, to a relative 4 ε unless it is subnormal, its sign for certain.
-pub(crate) fn after_first(bar: &Bar, start: &Start) -> f64 {
+pub(crate) fn after_first(bar: &Symmetric, start: &Start) -> f64 {
     let at = bar.wide_q() * two_sum(1.0, bar.e) * -start.velocity()[0];
     let sum = at - start.wide_b();
     // A product below 1e−200 may have lost its low part, or all of it.
-    if sum.hi.abs() > at.hi.abs() * power_of_two(-40) && (at.hi.abs() > 1e-200 || bar.q() == 0.0) {
+    if sum.hi.abs() > at.hi.abs() * power_of_two(-40) && (at.hi.abs() > 1e-200 || bar.q == 0.0) {
         return sum.hi;
     }
     let exact = exact(bar, start);
@@ -796,7 +796,7 @@ pub(crate) fn after_first(bar: &Bar, start: &Start) -> f64 {
 }
 
 /// Whether |a_1| > |a_0|, for certain: α(T − 1) + β > 0.
-pub(crate) fn rises(bar: &Bar, start: &Start) -> bool {
+pub(crate) fn rises(bar: &Symmetric, start: &Start) -> bool {
     let [va, vb] = start.velocity();
     // T − 1 = e − (1 − q)(1 + e), the smaller of two ways to cancel.
     let (rise, size) = (-va * (bar.e - bar.less * (1.0 + bar.e)) - vb, -va * (1.0 + bar.less) + vb.abs());

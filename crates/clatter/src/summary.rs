@@ -1,6 +1,8 @@
 //! What a train amounts to: count, peak, net change, final velocities, duration.
 
 use crate::motion::{Digits, Drive, Ending, Largest, NORMAL, after_first, rebound, rest, rises};
+use crate::symmetric::Symmetric;
+use crate::zone::shock;
 use crate::{Bar, Start};
 
 /// How many impacts the train has.
@@ -25,16 +27,17 @@ pub enum PeakImpact {
     Limit,
 }
 
-/// The largest velocity shocks of the train (Eq. 4 of the paper), all held by the same impact.
+/// The largest velocity shocks of the train (Eq. 4 of the paper), all held by the same impact where the center of mass
+/// is the middle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
     /// Largest velocity shock at a struck end, (1 + e) max |a_n|; may be infinite (q = e = 1).
     pub end: f64,
-    /// The impact that holds it.
+    /// The impact that holds it; where the center of mass is not the middle any of those that are equal but for roundings.
     pub impact: PeakImpact,
-    /// Largest velocity shock of the center, (1 − q)/2 · `end`; 0 at q = 1.
+    /// Largest velocity shock of the center of mass, (1 − q)/2 · `end` where that is the middle; 0 at q = 1.
     pub center: f64,
-    /// Largest change of angular velocity, (1 + q)/2 · `end`, in v0/L.
+    /// Largest change of angular velocity, (1 + q)/2 · `end` where the center of mass is the middle, in v0/L.
     pub angular: f64,
 }
 
@@ -45,7 +48,7 @@ pub struct Net {
     pub a: f64,
     /// At end b.
     pub b: f64,
-    /// At the center.
+    /// At the center of mass.
     pub center: f64,
     /// Of the angular velocity, in v0/L.
     pub angular: f64,
@@ -96,7 +99,7 @@ pub(crate) fn least(x: f64, y: f64) -> f64 {
 }
 
 impl Bar {
-    /// Count, peak, net change, final velocities and duration of the train, in constant time.
+    /// Count, peak, net change, final velocities and duration of the train, end a first, in constant time.
     ///
     /// # Method
     /// Up to 32 plain steps of the recurrence `a_{n+1} = T a_n − e a_{n−1}`, T = q(1 + e), where they leave nothing
@@ -107,9 +110,10 @@ impl Bar {
     /// which also settle exact ties.
     ///
     /// # Accuracy
-    /// The count, the impact that holds the peak and whether the train is endless are exact for every input; beyond
-    /// 2⁶⁴ they are the nearest float. The errors of the rest are at most those of [`crate::accuracy`], as long as no
-    /// velocity is so small (2⁻¹⁰²² and below) that floats have no digits left for it.
+    /// The count and whether the train is endless are exact for every input, as is the impact that holds the peak where
+    /// the center of mass is the middle; beyond 2⁶⁴ they are the nearest float. The errors of the rest are at most those
+    /// of [`crate::accuracy`], as long as no velocity is so small (2⁻¹⁰²² and below) that floats have no digits left for
+    /// it.
     ///
     /// # Cost
     /// Measured beside the plain loop (bench `speed`): 0.9 to 1.3 times its time where it ends, on average over the
@@ -121,6 +125,70 @@ impl Bar {
     #[expect(clippy::inline_always, reason = "a bar that is made on the spot then needs no place in memory")]
     #[inline(always)]
     pub fn summary(&self, start: &Start) -> Summary {
+        if self.is_symmetric() { self.symmetric.summary(start) } else { Self::off_center_summary(*self, *start) }
+    }
+
+    #[inline(never)]
+    fn off_center_summary(self, start: Start) -> Summary {
+        let symmetric = self.symmetric.summary(&self.arrival(&start));
+        let final_velocity = symmetric.final_velocity.map(|[a, b]| [a, b / self.kappa()]);
+        let ([va, vb], [arm_a, arm_b]) = (start.velocity(), self.arms());
+        let net = final_velocity.map(|[a, b]| {
+            let (a, b) = (a - va, b - vb);
+            Net { a, b, center: 0.5 * (arm_b * a + arm_a * b), angular: 0.5 * (b - a) }
+        });
+        Summary { peak: self.off_center_peak(&start), final_velocity, net, ..symmetric }
+    }
+
+    /// Number of impacts alone, as exact as in [`summary`](Self::summary), in a fraction of its time: that of the plain
+    /// loop for a short train, of some 70 impacts of it for a train of any length. Beyond 2⁶⁴ it is a float, off by no
+    /// more than its last digit.
+    ///
+    /// Where the bar is given by masses, [`count_is_exact`](Self::count_is_exact) tells whether it is theirs.
+    ///
+    /// # Examples
+    /// This bar is exactly on the endless curve, T = 1 = 2√e. With the next larger e it is not: D = 4e − T² is then 2.4
+    /// times what e has gained, and the train has some π/√D impacts.
+    /// ```
+    /// use clatter::{Bar, Count, Start};
+    /// let count = |e| Bar::from_arms([2.0, 5.5], 1.0, e).unwrap().count(&Start::default());
+    /// assert_eq!(count(0.25), Count::Endless);
+    /// assert_eq!(count(0.25_f64.next_up()), Count::Finite(272_178_700));
+    /// ```
+    #[must_use]
+    #[inline]
+    pub fn count(&self, start: &Start) -> Count {
+        if self.is_symmetric() { self.symmetric.count(start) } else { self.off_center_count(start) }
+    }
+
+    #[inline(never)]
+    fn off_center_count(&self, start: &Start) -> Count {
+        self.symmetric.count(&self.arrival(start))
+    }
+
+    /// Largest velocity shocks alone, those of [`summary`](Self::summary).
+    ///
+    /// The peak is the largest shock of an end in its own strikes; those of the center of mass and of the angular
+    /// velocity are the largest that any strike gives, not always that same one. The largest shock of every position,
+    /// ends included, is in [`shocks`](Self::shocks).
+    #[must_use]
+    pub fn peak(&self, start: &Start) -> Peak {
+        if self.is_symmetric() { self.symmetric.peak(start) } else { self.off_center_peak(start) }
+    }
+
+    fn off_center_peak(&self, start: &Start) -> Peak {
+        let [(a, at_a), (b, at_b)] = self.symmetric.struck_peaks(&self.arrival(start));
+        let struck = [a, b / self.kappa()];
+        let largest = |shares: [f64; 2]| shock(shares[0], struck[0]).max(shock(shares[1], struck[1]));
+        let impact = if struck[1] > struck[0] { at_b } else { at_a };
+        Peak { end: struck[0].max(struck[1]), impact, center: largest(self.center), angular: largest(self.turn) }
+    }
+}
+
+impl Symmetric {
+    #[expect(clippy::inline_always, reason = "a bar that is made on the spot then needs no place in memory")]
+    #[inline(always)]
+    pub(crate) fn summary(&self, start: &Start) -> Summary {
         if self.may_be_short(start) {
             let Short { end, peak, clear, distinct } = self.steps(start);
             if clear && distinct {
@@ -146,12 +214,9 @@ impl Bar {
         self.put(&start, end, peak)
     }
 
-    /// Number of impacts alone, as exact as in [`summary`](Self::summary), in a fraction of its time: that of the plain
-    /// loop for a short train, of some 70 impacts of it for a train of any length. Beyond 2⁶⁴ it is a float, off by no
-    /// more than its last digit.
-    #[must_use]
-    #[inline]
-    pub fn count(&self, start: &Start) -> Count {
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "as `steps`")]
+    pub(crate) fn count(&self, start: &Start) -> Count {
         if self.may_be_short(start) {
             let Short { end, clear, .. } = self.steps(start);
             if clear {
@@ -172,9 +237,7 @@ impl Bar {
         }
     }
 
-    /// Largest velocity shocks alone, those of [`summary`](Self::summary).
-    #[must_use]
-    pub fn peak(&self, start: &Start) -> Peak {
+    pub(crate) fn peak(&self, start: &Start) -> Peak {
         if self.may_be_short(start) {
             let Short { peak, clear, distinct, .. } = self.steps(start);
             if clear && distinct {

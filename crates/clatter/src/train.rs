@@ -2,6 +2,7 @@
 
 use crate::motion::{Digits, Drive, Fours, Kind, NORMAL, Sweep, Then, after_first};
 use crate::summary::least;
+use crate::symmetric::Symmetric;
 use crate::{Bar, Count, End, Start};
 
 /// One impact of the train.
@@ -15,8 +16,8 @@ pub struct Impact {
     pub time: f64,
     /// Velocity of the striking end just before, negative.
     pub approach: f64,
-    /// Jumps of the velocities of ends a and b: −(1 + e) times the approach velocity at the end that strikes,
-    /// q(1 + e) times it at the other (Eq. 2).
+    /// Jumps of the velocities of ends a and b: −(1 + e) times the approach velocity at the end that strikes, q(1 + e)
+    /// times it at the other (Eq. 2), with q that of the end that strikes ([`Bar::inertia_ratios`]).
     pub delta_v: [f64; 2],
 }
 
@@ -28,7 +29,7 @@ impl Impact {
     /// ```
     /// let bar = clatter::Bar::new(0.5, 0.3)?;
     /// let first = bar.train(&clatter::Start::default()).next().unwrap();
-    /// assert!(first.delta_v_at(bar.percussion()).abs() < 1e-15);
+    /// assert!(first.delta_v_at(bar.percussion(clatter::End::A)).abs() < 1e-15);
     /// # Ok::<(), clatter::Error>(())
     /// ```
     #[must_use]
@@ -42,7 +43,8 @@ impl Impact {
 /// Times never step back. Whole trains are quickest taken from within, by `for_each`, `fold` or `sum`.
 #[derive(Debug, Clone)]
 pub struct Train {
-    bar: Bar,
+    bar: Symmetric,
+    jumps: Jumps,
     start: Start,
     /// Impacts given so far.
     number: u64,
@@ -50,6 +52,41 @@ pub struct Train {
     later: Option<Box<Later>>,
     /// Where in the buffers of `later` the next impact stands.
     at: usize,
+}
+
+/// What the strikes of a bar change, by the approach velocities of the symmetric one.
+#[derive(Debug, Clone, Copy)]
+struct Jumps {
+    e: f64,
+    /// q(1 + e) of strikes at end a: jump of the other end over the approach velocity.
+    far: f64,
+    /// That of strikes at end b, and κ, where the center of mass is not the middle. Symmetric bars pay a branch for it
+    /// every other impact, no more.
+    end_b: Option<[f64; 2]>,
+}
+
+impl Jumps {
+    #[inline]
+    fn symmetric(bar: &Symmetric) -> Self {
+        Self { e: bar.e, far: bar.t, end_b: None }
+    }
+
+    /// An impact of the symmetric bar as one of this bar.
+    #[inline]
+    fn own(&self, Impact { number, end, approach, time, .. }: Impact) -> Impact {
+        self.impact(number, end, approach, time)
+    }
+
+    /// The impact as a whole.
+    #[inline]
+    fn impact(&self, number: u64, end: End, approach: f64, time: f64) -> Impact {
+        let jumps = |approach: f64, far: f64| [(-1.0 - self.e) * approach, far * approach];
+        let (approach, [struck, free]) = match self.end_b {
+            Some([far, kappa]) if end == End::B => (approach / kappa, jumps(approach / kappa, far)),
+            _ => (approach, jumps(approach, self.far)),
+        };
+        Impact { number, end, time, approach, delta_v: if end == End::A { [struck, free] } else { [free, struck] } }
+    }
 }
 
 /// The recurrence as it stands before the next impact.
@@ -91,6 +128,51 @@ impl Steps {
         last: 0,
         ends: false,
     };
+
+    /// Before the first impact.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "as `Bar::train`")]
+    fn new(bar: &Symmetric, start: &Start) -> Self {
+        let ([va, vb], h0, Symmetric { e, t, less, more, .. }) = (start.velocity(), start.height_gap(), *bar);
+        let second = t * va + vb;
+        // D = 4e − T² by the smaller terms.
+        let (small, square) = (e <= 0.5, |x: f64| x * x);
+        let d = if small { 4.0 * e - t * t } else { less * more * square(1.0 + e) - square(1.0 - e) };
+        let last = if !start.plain {
+            0
+        } else if least(t, e) >= LARGE {
+            if d >= 0.0399 * e {
+                PLAIN
+            } else {
+                // θ > π/60, and e^60 is far from where floats end; or θ > π/223.
+                let known = if small { e > 0.01 && d > 0.011 * e } else { d > 0.0008 * e + square(1.0 - e) / 128.0 };
+                if known {
+                    SLOW
+                } else if Sweep::suits(bar) {
+                    0
+                } else {
+                    PLAIN
+                }
+            }
+        } else if t <= -LARGE && second.abs() > -CLEAR * vb {
+            // a_2 = T v_a + v_b does not cancel. There are two impacts at most.
+            1 + u64::from(second < 0.0)
+        } else {
+            0
+        };
+        let turn = [e - d, e * d];
+        let c = e + turn[0];
+        Self {
+            approach: [va, second],
+            growth: [c * va + t * vb, turn[0] * (t * va) + c * vb],
+            turn,
+            gap: h0 * va,
+            time: 0.0,
+            clear: 2.0 * CLEAR,
+            last,
+            ends: matches!(last, 1 | 2),
+        }
+    }
 }
 
 /// What the impacts after the plain steps need to know.
@@ -98,13 +180,13 @@ struct SoFar {
     latest: f64,
     ahead: u64,
     start: Start,
-    bar: Bar,
+    bar: Symmetric,
 }
 
 /// Impacts that are not worked out by plain steps, some at a time.
 #[derive(Debug, Clone)]
 struct Later {
-    bar: Bar,
+    bar: Symmetric,
     start: Start,
     source: Source,
     /// Number of impacts, unless it is endless, beyond 2⁶⁴ or not yet known.
@@ -176,33 +258,16 @@ impl Iterator for Train {
         }
         let (approach, time) = (*later.approach.get(self.at)?, *later.times.get(self.at)?);
         (self.at, self.number) = (self.at + 1, self.number + 1);
-        Some(self.bar.impact(self.number, End::of_impact(self.number), approach, time))
+        Some(self.jumps.impact(self.number, End::of_impact(self.number), approach, time))
     }
 
-    /// Step by step, then buffer by buffer: sums over whole trains need not ask, impact by impact, where it comes from.
     #[inline]
-    fn fold<B, F: FnMut(B, Impact) -> B>(mut self, init: B, mut f: F) -> B {
-        let mut all = init;
-        if self.number % 2 == 1
-            && let Some(impact) = self.step::<1>()
-        {
-            all = f(all, impact);
+    fn fold<B, F: FnMut(B, Impact) -> B>(mut self, init: B, f: F) -> B {
+        if self.jumps.end_b.is_some() {
+            return self.fold_off_center(init, f);
         }
-        // By pairs: nothing need be chosen by the number.
-        if self.number.is_multiple_of(2) {
-            while let Some(impact) = self.step::<0>() {
-                all = f(all, impact);
-                let Some(impact) = self.step::<1>() else { break };
-                all = f(all, impact);
-            }
-        }
-        if self.later.is_none() && self.steps.ends {
-            return all;
-        }
-        match self.later {
-            Some(later) => later.fold(self.at, all, f),
-            None => fold_later(&self.so_far(), all, f),
-        }
+        self.jumps.end_b = None; // for the compiler, which does not ask again
+        self.fold_inline(init, f)
     }
 
     /// Skips in constant time, but for the plain steps at the beginning.
@@ -229,6 +294,42 @@ impl Iterator for Train {
 }
 
 impl Train {
+    /// Step by step, then buffer by buffer: sums over whole trains need not ask, impact by impact, where it comes from.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "as `next`")]
+    fn fold_inline<B, F: FnMut(B, Impact) -> B>(mut self, init: B, mut f: F) -> B {
+        let mut all = init;
+        if self.number % 2 == 1
+            && let Some(impact) = self.step::<1>()
+        {
+            all = f(all, impact);
+        }
+        // By pairs: nothing need be chosen by the number.
+        if self.number.is_multiple_of(2) {
+            while let Some(impact) = self.step::<0>() {
+                all = f(all, impact);
+                let Some(impact) = self.step::<1>() else { break };
+                all = f(all, impact);
+            }
+        }
+        if self.later.is_none() && self.steps.ends {
+            return all;
+        }
+        // What comes later is of the symmetric bar.
+        let jumps = self.jumps;
+        let f = |all, impact| f(all, if jumps.end_b.is_some() { jumps.own(impact) } else { impact });
+        match self.later {
+            Some(later) => later.fold(self.at, all, f),
+            None => fold_later(&self.so_far(), all, f),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn fold_off_center<B, F: FnMut(B, Impact) -> B>(self, init: B, f: F) -> B {
+        self.fold_inline(init, f)
+    }
+
     /// Copies, so that a train that needs no more than plain steps stays in registers.
     #[inline]
     fn so_far(&self) -> SoFar {
@@ -247,7 +348,7 @@ impl Train {
         let held = e * approach;
         let (then, doubt) = (held + steps.growth[I], steps.clear * held);
         self.number += 1;
-        let impact = self.bar.impact(self.number, [End::A, End::B][I], approach, time);
+        let impact = self.jumps.impact(self.number, [End::A, End::B][I], approach, time);
         // At one instant no time passes, also where velocities fade below the floats.
         steps.time -= if steps.gap == 0.0 { 0.0 } else { steps.gap / (approach * steps.approach[1 - I]) };
         if then >= doubt && self.number < steps.last {
@@ -267,7 +368,7 @@ impl Train {
 
 impl Source {
     /// From impact `ahead` + 1 on, and the number of impacts.
-    fn new(bar: &Bar, start: &Start, ahead: u64) -> (Self, Option<u64>) {
+    fn new(bar: &Symmetric, start: &Start, ahead: u64) -> (Self, Option<u64>) {
         if bar.t <= 0.0 || bar.e == 0.0 {
             let first = after_first(bar, start);
             let count = if first <= 0.0 { Some(1) } else { (bar.t <= 0.0).then_some(2) };
@@ -398,10 +499,10 @@ impl Later {
     /// stay in registers.
     #[inline(never)]
     fn fold<B, F: FnMut(B, Impact) -> B>(mut self: Box<Self>, mut at: usize, init: B, mut f: F) -> B {
-        let (mut all, bar) = (init, self.bar);
+        let (mut all, jumps) = (init, Jumps::symmetric(&self.bar));
         loop {
             let number = self.ahead - (BUFFER - at) as u64;
-            all = hand_out(&bar, number, [&self.approach[at..], &self.times[at..]], all, &mut f);
+            all = hand_out(&jumps, number, [&self.approach[at..], &self.times[at..]], all, &mut f);
             at = self.fill();
             if at == BUFFER {
                 return all;
@@ -435,18 +536,18 @@ impl Later {
 #[inline(never)]
 fn fold_later<B, F: FnMut(B, Impact) -> B>(so_far: &SoFar, init: B, mut f: F) -> B {
     let SoFar { bar, start, mut ahead, mut latest } = *so_far;
-    let mut all = init;
+    let (mut all, jumps) = (init, Jumps::symmetric(&bar));
     if ahead == 0
         && let Some(mut sweep) = Sweep::new(&bar, &start)
     {
         loop {
             let ([approach, times], taken, then) = sweep.take();
             if then == Then::On {
-                all = hand_out(&bar, ahead, [&approach, &times], all, &mut f);
+                all = hand_out(&jumps, ahead, [&approach, &times], all, &mut f);
                 ahead += taken as u64;
                 continue;
             }
-            all = hand_out(&bar, ahead, [&approach[..taken], &times[..taken]], all, &mut f);
+            all = hand_out(&jumps, ahead, [&approach[..taken], &times[..taken]], all, &mut f);
             if then == Then::End {
                 return all;
             }
@@ -461,7 +562,7 @@ fn fold_later<B, F: FnMut(B, Impact) -> B>(so_far: &SoFar, init: B, mut f: F) ->
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "four at a time, without a loop")]
 fn hand_out<B, F: FnMut(B, Impact) -> B>(
-    bar: &Bar,
+    jumps: &Jumps,
     mut number: u64,
     [approach, times]: [&[f64]; 2],
     init: B,
@@ -470,12 +571,12 @@ fn hand_out<B, F: FnMut(B, Impact) -> B>(
     let (mut all, first) = (init, End::of_impact(number + 1));
     let ((approach, rest), (times, last)) = (approach.as_chunks::<2>(), times.as_chunks::<2>());
     for (approach, times) in approach.iter().zip(times) {
-        all = f(all, bar.impact(number + 1, first, approach[0], times[0]));
-        all = f(all, bar.impact(number + 2, first.other(), approach[1], times[1]));
+        all = f(all, jumps.impact(number + 1, first, approach[0], times[0]));
+        all = f(all, jumps.impact(number + 2, first.other(), approach[1], times[1]));
         number += 2;
     }
     if let (&[approach], &[time]) = (rest, last) {
-        all = f(all, bar.impact(number + 1, first, approach, time));
+        all = f(all, jumps.impact(number + 1, first, approach, time));
     }
     all
 }
@@ -490,7 +591,7 @@ fn to_the_end(n: usize, buffers: [&mut [f64; BUFFER]; 2]) {
 }
 
 impl Bar {
-    /// The impacts, one by one.
+    /// The impacts, one by one, end a first.
     ///
     /// # Method
     /// The recurrence of every other strike, one for each end, `a_{n+2} = (2e − D) a_n − e² a_{n−2}` in the form of
@@ -503,8 +604,9 @@ impl Bar {
     ///
     /// # Accuracy
     /// [`crate::accuracy::APPROACH`], [`JUMP`](crate::accuracy::JUMP) and [`TIME`](crate::accuracy::TIME), for a train
-    /// of any length. Velocities below the range of floats are 0; where the last plain step or the only terms left are
-    /// subnormal (a bar with massless ends that turns about its center), times have only the digits that these have.
+    /// of any length; where the center of mass is not the middle, relative to the largest of the same end. Velocities
+    /// below the range of floats are 0; where the last plain step or the only terms left are subnormal (a bar with
+    /// massless ends that turns about its center), times have only the digits that these have.
     ///
     /// # Examples
     /// ```
@@ -518,53 +620,22 @@ impl Bar {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a bar that is made on the spot then needs no place in memory")]
     pub fn train(&self, start: &Start) -> Train {
-        let ([va, vb], h0, Self { e, t, less, more, .. }) = (start.velocity(), start.height_gap(), *self);
-        let second = t * va + vb;
-        // D = 4e − T² by the smaller terms.
-        let (small, square) = (e <= 0.5, |x: f64| x * x);
-        let d = if small { 4.0 * e - t * t } else { less * more * square(1.0 + e) - square(1.0 - e) };
-        let last = if !start.plain {
-            0
-        } else if least(t, e) >= LARGE {
-            if d >= 0.0399 * e {
-                PLAIN
-            } else {
-                // θ > π/60, and e^60 is far from where floats end; or θ > π/223.
-                let known = if small { e > 0.01 && d > 0.011 * e } else { d > 0.0008 * e + square(1.0 - e) / 128.0 };
-                if known {
-                    SLOW
-                } else if Sweep::suits(self) {
-                    0
-                } else {
-                    PLAIN
-                }
-            }
-        } else if t <= -LARGE && second.abs() > -CLEAR * vb {
-            // a_2 = T v_a + v_b does not cancel. There are two impacts at most.
-            1 + u64::from(second < 0.0)
-        } else {
-            0
-        };
-        let turn = [e - d, e * d];
-        let c = e + turn[0];
-        let steps = Steps {
-            approach: [va, second],
-            growth: [c * va + t * vb, turn[0] * (t * va) + c * vb],
-            turn,
-            gap: h0 * va,
-            time: 0.0,
-            clear: 2.0 * CLEAR,
-            last,
-            ends: matches!(last, 1 | 2),
-        };
-        Train { bar: *self, start: *start, number: 0, steps, later: None, at: BUFFER }
+        let mut jumps = Jumps::symmetric(&self.symmetric);
+        if !self.is_symmetric() {
+            let [far, far_b] = self.inertia_ratios().map(|q| q + q * self.symmetric.e);
+            jumps = Jumps { far, end_b: Some([far_b, self.kappa()]), ..jumps };
+        }
+        Train { jumps, ..self.symmetric.train(&self.arrival(start)) }
     }
+}
 
-    /// The impact as a whole.
-    #[inline]
-    fn impact(&self, number: u64, end: End, approach: f64, time: f64) -> Impact {
-        let [struck, free] = [(-1.0 - self.e) * approach, self.t * approach];
-        Impact { number, end, time, approach, delta_v: if end == End::A { [struck, free] } else { [free, struck] } }
+impl Symmetric {
+    /// As [`Bar::train`], for a start in the terms of the symmetric bar.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "as `Bar::train`")]
+    pub(crate) fn train(&self, start: &Start) -> Train {
+        let (jumps, steps) = (Jumps::symmetric(self), Steps::new(self, start));
+        Train { bar: *self, jumps, start: *start, number: 0, steps, later: None, at: BUFFER }
     }
 }
 

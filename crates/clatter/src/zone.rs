@@ -1,11 +1,28 @@
-//! Peaks along the bar (Eq. 4) and safe zones (Eq. 5): where a threshold of velocity shock is not exceeded.
+//! The largest shocks at every position (Eq. 4), the safest place and safe zones (Eq. 5): where a threshold of velocity
+//! shock is not exceeded.
+//!
+//! # The safest place
+//! A strike at end a that changes the velocity there by A reaches a point at distance x from the center of mass
+//! (towards b positive) with `A (ρ² − L_a x)/I_a`, one at end b with `B (ρ² + L_b x)/I_b`. With A and B the largest of
+//! each end, the largest shock at x is f(x) = max(|A (ρ² − L_a x)|/I_a, |B (ρ² + L_b x)|/I_b), a convex function.
+//! Between the two centers of percussion, x = −ρ²/L_b and ρ²/L_a, the first falls and the second rises, from 0 to 0 the
+//! other way round, so they meet there, and where a falling and a rising piece of a convex function meet is its least
+//! value:
+//!
+//! ```text
+//! x = ρ² (α − β)/(α L_a + β L_b),   f(x) = α β ρ² (L_a + L_b)/(α L_a + β L_b),   α = A/I_a, β = B/I_b
+//! ```
+//!
+//! If that is beyond an end, the end is the safest place, by convexity. The middle is safest only where α = β and
+//! L_a = L_b: for a symmetric bar of which either end may strike first.
 
+use crate::symmetric::Symmetric;
 use crate::{Bar, End, Peak, PeakImpact, Start};
 
 /// How much of the bar a safe zone covers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
-    /// s < 0: even the center sees more than the threshold.
+    /// s < 0: even the safest place, the center of a symmetric bar, sees more than the threshold.
     None,
     /// 0 ≤ s < 1.
     Part,
@@ -18,7 +35,7 @@ pub enum Extent {
 pub struct Zone {
     /// Threshold of velocity shock, in v0.
     pub threshold: f64,
-    /// Half-width from the center over half-length, as Eq. 5 gives it: not clipped.
+    /// Half-width over half-length, as Eq. 5 gives it: not clipped.
     pub s: f64,
     /// What `s` means for the bar.
     pub extent: Extent,
@@ -33,60 +50,10 @@ pub struct EndPeaks {
     pub b: f64,
 }
 
-impl Bar {
-    /// Largest velocity shock at distance `s` in [0, 1] from the center, whichever end strikes first (Eq. 4):
-    /// `((1 − q) + s (1 + q))/2` of the peak at the ends; 0 for s = 0 at q = 1.
-    ///
-    /// # Accuracy
-    /// [`crate::accuracy::PEAK`].
-    #[must_use]
-    pub fn peak_at(&self, start: &Start, s: f64) -> f64 {
-        shock(self.share(s.abs()), self.peak(start).end)
-    }
-
-    /// Safe zone for `threshold`, whichever end strikes first (Eq. 5):
-    /// `s = (2 threshold/peak + q − 1)/(1 + q)`.
-    ///
-    /// # Validity
-    /// Any threshold ≥ 0; `s` may be negative or exceed 1, which [`Zone::extent`] says. NaN has no zone.
-    ///
-    /// # Accuracy
-    /// 1e−12 of the larger of |s| and 1.
-    ///
-    /// # Examples
-    /// Table 1 prints 28.8 % for the reference bar at v0 and "0 %" at v0/2, where no zone exists:
-    /// ```
-    /// use clatter::{Bar, Extent, Start};
-    /// let bar = Bar::new(0.5, 0.3)?;
-    /// assert!((bar.safe_zone(&Start::default(), 1.0).s - 0.288).abs() < 5e-4);
-    /// assert_eq!(bar.safe_zone(&Start::default(), 0.5).extent, Extent::None);
-    /// # Ok::<(), clatter::Error>(())
-    /// ```
-    #[must_use]
-    pub fn safe_zone(&self, start: &Start, threshold: f64) -> Zone {
-        let s = self.zone_of(threshold, self.peak(start).end);
-        let extent = match s {
-            s if s >= 1.0 => Extent::Whole,
-            s if s >= 0.0 => Extent::Part,
-            _ => Extent::None,
-        };
-        Zone { threshold, s, extent }
-    }
-
-    /// Eq. 5 for a known peak.
-    pub(crate) fn zone_of(&self, threshold: f64, peak: f64) -> f64 {
-        (2.0 * threshold / peak - self.less) / self.more
-    }
-
-    /// Largest velocity shocks of each end in its own strikes, end a striking first. The larger of both is
-    /// [`Peak::end`]; the other is held by a neighboring impact, because |a_n| rises to its peak, then falls.
-    #[must_use]
-    pub fn end_peaks(&self, start: &Start) -> EndPeaks {
-        let [(a, _), (b, _)] = self.struck_peaks(start);
-        EndPeaks { a, b }
-    }
-
-    /// [`end_peaks`](Self::end_peaks) with the impacts that hold them; for an end that never strikes 0 and any impact.
+impl Symmetric {
+    /// Largest velocity shocks of ends a and b in their own strikes, end a striking first, and the impacts that hold them;
+    /// for an end that never strikes 0 and any impact. The larger of both is [`Peak::end`]; the other is held by a
+    /// neighboring impact, because |a_n| rises to its peak, then falls.
     pub(crate) fn struck_peaks(&self, start: &Start) -> [(f64, PeakImpact); 2] {
         let Peak { end, impact, .. } = self.peak(start);
         let PeakImpact::Number(number) = impact else {
@@ -94,15 +61,107 @@ impl Bar {
         };
         let skip = usize::try_from(number.saturating_sub(2)).unwrap_or(usize::MAX);
         let around = self.train(start).skip(skip).take(3).filter(|impact| impact.number != number);
-        let struck = around.map(|impact| (-(1.0 + self.e()) * impact.approach, PeakImpact::Number(impact.number)));
+        let struck = around.map(|impact| (-(1.0 + self.e) * impact.approach, PeakImpact::Number(impact.number)));
         let beside = struck.fold((0.0, impact), |most, next| if next.0 > most.0 { next } else { most });
         if End::of_impact(number) == End::A { [(end, impact), beside] } else { [beside, (end, impact)] }
     }
+}
 
-    /// The interval of signed positions in [−1, 1] where no shock exceeds `threshold` if end `first` strikes first;
-    /// `None` where there is none, as for a threshold of NaN. A strike at end a reaches position s with
-    /// `((1 − q) − (1 + q) s)/2` of its shock (Eq. 3), one at end b with `((1 − q) + (1 + q) s)/2`, so each end bounds
-    /// the interval on both sides.
+impl Bar {
+    /// The largest shocks of one train, everywhere on the bar. The start is that of the end `first` and then of the
+    /// other.
+    #[must_use]
+    pub fn shocks(&self, start: &Start, first: End) -> Shocks {
+        let peaks = match first {
+            End::A => self.struck(start),
+            End::B => {
+                let EndPeaks { a, b } = self.exchanged().struck(start);
+                EndPeaks { a: b, b: a }
+            }
+        };
+        Shocks { bar: *self, peaks }
+    }
+
+    /// The largest shocks whichever end strikes first.
+    #[must_use]
+    pub fn shocks_either(&self, start: &Start) -> Shocks {
+        let first = self.struck(start);
+        // With its ends exchanged a symmetric bar is the same.
+        let second = if self.is_symmetric() { first } else { self.exchanged().struck(start) };
+        Shocks { bar: *self, peaks: EndPeaks { a: first.a.max(second.b), b: first.b.max(second.a) } }
+    }
+
+    fn struck(&self, start: &Start) -> EndPeaks {
+        let [(a, _), (b, _)] = self.symmetric.struck_peaks(&self.arrival(start));
+        EndPeaks { a, b: b / self.kappa() }
+    }
+}
+
+/// The largest shocks on a bar, at every position: of one train, or of the trains after either end has struck first.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shocks {
+    bar: Bar,
+    peaks: EndPeaks,
+}
+
+/// The position where the largest shock is least.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Safest {
+    /// Position in [−1, 1].
+    pub s: f64,
+    /// Largest velocity shock there.
+    pub shock: f64,
+}
+
+impl Shocks {
+    /// Largest shocks of each end in its own strikes.
+    #[must_use]
+    pub fn struck(&self) -> EndPeaks {
+        self.peaks
+    }
+
+    /// Largest velocity shock at position s in [−1, 1]: `((1 − q) + |s| (1 + q))/2` of the peak at the ends for a
+    /// symmetric bar of which either end may strike first (Eq. 4).
+    ///
+    /// # Accuracy
+    /// 1e−12 of the larger of A and B.
+    #[must_use]
+    pub fn at(&self, s: f64) -> f64 {
+        let of = |end: End, peak: f64| shock(self.bar.share(end, s).abs(), peak);
+        of(End::A, self.peaks.a).max(of(End::B, self.peaks.b))
+    }
+
+    /// The position with the least largest shock, and that shock (formula and proof in the module).
+    ///
+    /// # Examples
+    /// For a symmetric bar it is the middle, if either end may strike first; if end a does, it leans away from the end
+    /// that is struck hardest, here b.
+    /// ```
+    /// use clatter::{Bar, End, Start};
+    /// let bar = Bar::new(0.5, 0.3)?;
+    /// let safest = bar.shocks_either(&Start::default()).safest();
+    /// assert_eq!(safest.s, 0.0);
+    /// assert!((safest.shock - 0.53625).abs() < 1e-12);
+    /// assert!(bar.shocks(&Start::default(), End::A).safest().s < 0.0);
+    /// // Bring the center of mass towards b, and the safest place follows it, but not all the way.
+    /// let bar = Bar::from_center_of_mass(0.3, bar.gyration_ratio(), 0.3)?;
+    /// let safest = bar.shocks_either(&Start::default()).safest();
+    /// assert!(safest.s > 0.1 && safest.s < 0.3);
+    /// # Ok::<(), clatter::Error>(())
+    /// ```
+    #[must_use]
+    pub fn safest(&self) -> Safest {
+        let EndPeaks { a, b } = self.peaks;
+        // Two infinite peaks (q = e = 1) grow alike.
+        let (a, b) = if a.is_infinite() || b.is_infinite() { (1.0, 1.0) } else { (a, b) };
+        let Bar { center, turn, .. } = self.bar;
+        let x = (a * center[0] - b * center[1]) / (a * turn[0] + b * turn[1]);
+        let s = (self.bar.center_of_mass() + x).clamp(-1.0, 1.0);
+        Safest { s, shock: self.at(s) }
+    }
+
+    /// The positions in [−1, 1] where no shock exceeds `threshold`: an interval, because the largest shock is a convex
+    /// function of the position; `None` where there are none, as for NaN.
     ///
     /// # Accuracy
     /// 1e−12.
@@ -111,25 +170,50 @@ impl Bar {
     /// The uniform bar's largest strike is the second, at end b, so the safe interval leans towards end a:
     /// ```
     /// use clatter::{Bar, End, Start};
-    /// let [lo, hi] = Bar::new(0.5, 0.3)?.safe_interval(&Start::default(), 1.0, End::A).unwrap();
+    /// let [lo, hi] = Bar::new(0.5, 0.3)?.shocks(&Start::default(), End::A).safe_interval(1.0).unwrap();
     /// assert!(-lo > hi);
     /// # Ok::<(), clatter::Error>(())
     /// ```
     #[must_use]
-    pub fn safe_interval(&self, start: &Start, threshold: f64, first: End) -> Option<[f64; 2]> {
-        if threshold.is_nan() {
-            return None; // max and min would pass over it
-        }
-        let EndPeaks { a, b } = self.end_peaks(start);
-        // |(1 − q) ± (1 + q) s| ≤ 2 threshold/peak.
-        let bounds = |peak: f64| {
-            let reach = 2.0 * threshold / peak;
-            [(-reach - self.less) / self.more, (reach - self.less) / self.more]
+    pub fn safe_interval(&self, threshold: f64) -> Option<[f64; 2]> {
+        let [lo, hi] = self.bounds(threshold);
+        (lo <= hi && lo <= 1.0 && hi >= -1.0).then(|| [lo.max(-1.0), hi.min(1.0)])
+    }
+
+    /// The safe zone as a width: `s` is half that of the interval between its bounds, not clipped at the ends, in
+    /// half-lengths, below 0 where even the safest place sees more. For a symmetric bar of which either end may strike
+    /// first it is `(2 threshold/peak + q − 1)/(1 + q)` (Eq. 5).
+    ///
+    /// # Accuracy
+    /// 1e−12 of the larger of |s| and 1.
+    ///
+    /// # Examples
+    /// Table 1 prints 28.8 % for the reference bar at v0 and "0 %" at v0/2, where no zone exists:
+    /// ```
+    /// use clatter::{Bar, Extent, Start};
+    /// let shocks = Bar::new(0.5, 0.3)?.shocks_either(&Start::default());
+    /// assert!((shocks.safe_zone(1.0).s - 0.288).abs() < 5e-4);
+    /// assert_eq!(shocks.safe_zone(0.5).extent, Extent::None);
+    /// # Ok::<(), clatter::Error>(())
+    /// ```
+    #[must_use]
+    pub fn safe_zone(&self, threshold: f64) -> Zone {
+        let [lo, hi] = self.bounds(threshold);
+        let extent = match self.safe_interval(threshold) {
+            None => Extent::None,
+            Some(_) if lo <= -1.0 && hi >= 1.0 => Extent::Whole,
+            Some(_) => Extent::Part,
         };
-        let ([b_lo, b_hi], [a_hi, a_lo]) = (bounds(b), bounds(a).map(|s| -s));
-        let (lo, hi) = (a_lo.max(b_lo).max(-1.0), a_hi.min(b_hi).min(1.0));
-        let interval = if first == End::A { [lo, hi] } else { [-hi, -lo] };
-        (lo <= hi).then_some(interval)
+        Zone { threshold, s: 0.5 * (hi - lo), extent }
+    }
+
+    /// Where |share · peak| reaches the threshold on either side, for the strikes of both ends.
+    fn bounds(&self, threshold: f64) -> [f64; 2] {
+        let (Bar { center, turn, .. }, c) = (self.bar, self.bar.center_of_mass());
+        let reach = [threshold / self.peaks.a, threshold / self.peaks.b];
+        let lo = ((center[0] - reach[0]) / turn[0]).max((-reach[1] - center[1]) / turn[1]);
+        let hi = ((reach[1] - center[1]) / turn[1]).min((center[0] + reach[0]) / turn[0]);
+        [c + lo, c + hi]
     }
 }
 
@@ -154,14 +238,16 @@ mod tests {
             let either = worst(s).max(worst(-s));
             // Each impact carries a few roundings of its own, relative to the largest shock.
             let budget = 1e-13 * bar.peak(&start).end;
-            let largest = bar.peak_at(&start, s);
+            let shocks = bar.shocks_either(&start);
+            let largest = shocks.at(s);
             // Eq. 4 holds for the distance where the struck side's share is the larger one, always so for s ≥ 0.
             prop_assert!((either - largest).abs() <= budget, "{either} not {largest}");
-            let peaks = bar.end_peaks(&start);
+            let [first, second] = [End::A, End::B].map(|first| bar.shocks(&start, first));
+            let peaks = first.struck();
             prop_assert!((worst(-1.0).max(worst(1.0)) - peaks.a.max(peaks.b)).abs() <= budget, "ends");
-            match bar.safe_interval(&start, threshold, End::A) {
+            match first.safe_interval(threshold) {
                 Some([lo, hi]) => {
-                    prop_assert_eq!(bar.safe_interval(&start, threshold, End::B), Some([-hi, -lo]), "mirror image");
+                    prop_assert_eq!(second.safe_interval(threshold), Some([-hi, -lo]), "mirror image");
                     for safe in [lo, hi, 0.5 * (lo + hi)] {
                         prop_assert!(worst(safe) <= threshold + budget, "{safe} sees {}", worst(safe));
                     }
@@ -177,7 +263,7 @@ mod tests {
     #[test]
     fn an_infinite_peak_leaves_the_center_alone() {
         let (bar, start) = (Bar::new(1.0, 1.0).unwrap(), Start::default());
-        assert!(bar.peak_at(&start, 0.0).abs() < f64::MIN_POSITIVE, "not 0 · ∞");
-        assert_eq!(bar.safe_interval(&start, 1.0, End::A), Some([0.0, 0.0]), "the center alone");
+        assert!(bar.shocks_either(&start).at(0.0).abs() < f64::MIN_POSITIVE, "not 0 · ∞");
+        assert_eq!(bar.shocks(&start, End::A).safe_interval(1.0), Some([0.0, 0.0]), "the center alone");
     }
 }

@@ -1,5 +1,5 @@
 //! The off-center bar against its own matrices, impulses on a rigid body, the symmetric bar, and a search along the bar.
-use clatter::{Bar, Count, End, Error, Extent, Impact, Mass, OffCenterBar, Start};
+use clatter::{Bar, Count, End, Error, Extent, Impact, Mass, Start};
 use nalgebra::{Matrix2, Vector2};
 use proptest::prelude::*;
 
@@ -63,7 +63,7 @@ fn any_bar() -> impl Strategy<Value = ([f64; 2], f64, f64)> {
 proptest! {
     #[test]
     fn impacts_are_those_of_the_matrices((arms, rho, e) in any_bar(), vb in -2.0..1.0_f64, gap in 0.1..3.0_f64) {
-        let bar = OffCenterBar::new(arms, rho, e).unwrap();
+        let bar = Bar::from_arms(arms, rho, e).unwrap();
         let start = Start::new([-1.0, vb], gap).unwrap();
         let want = plain(arms, rho, e, &start, 12);
         // A velocity that nearly cancels may have either sign.
@@ -92,7 +92,7 @@ proptest! {
     fn impacts_are_those_of_impulses((arms, rho, e) in any_bar(), tilt in 0.1..10.0_f64, spin in -0.2..0.3_f64) {
         let [a, b] = arms;
         let gap = (a + b) * tilt.to_radians().sin();
-        let bar = OffCenterBar::new(arms, rho, e).unwrap();
+        let bar = Bar::from_arms(arms, rho, e).unwrap();
         let start = Start::new([-2.0 - a * spin, -2.0 + b * spin], gap).unwrap();
         let want = by_impulses(arms, rho, e, [-2.0, spin], gap, 200);
         let got: Vec<_> = bar.train(&start).take(200).collect();
@@ -110,7 +110,7 @@ proptest! {
 
     #[test]
     fn the_summary_is_what_the_impacts_amount_to((arms, rho, e) in any_bar(), vb in -2.0..1.0_f64) {
-        let bar = OffCenterBar::new(arms, rho, e).unwrap();
+        let bar = Bar::from_arms(arms, rho, e).unwrap();
         let start = Start::new([-1.0, vb], 1.0).unwrap();
         let summary = bar.summary(&start);
         let list: Vec<_> = bar.train(&start).take(2000).collect();
@@ -142,8 +142,8 @@ proptest! {
     #[test]
     fn exchanging_the_ends_is_a_mirror((arms, rho, e) in any_bar(), vb in -2.0..0.5_f64, s in -1.0..1.0_f64) {
         let [a, b] = arms;
-        let (bar, start) = (OffCenterBar::new(arms, rho, e).unwrap(), Start::new([-1.0, vb], 1.0).unwrap());
-        let mirror = OffCenterBar::new([b, a], rho, e).unwrap();
+        let (bar, start) = (Bar::from_arms(arms, rho, e).unwrap(), Start::new([-1.0, vb], 1.0).unwrap());
+        let mirror = Bar::from_arms([b, a], rho, e).unwrap();
         for (first, second) in [(End::A, End::B), (End::B, End::A)] {
             let (here, there) = (bar.shocks(&start, first), mirror.shocks(&start, second));
             let scale = 1e-12 * (here.struck().a + here.struck().b);
@@ -159,22 +159,28 @@ proptest! {
     #[test]
     fn equal_arms_are_the_symmetric_bar(l in 0.1..10.0_f64, rho in 0.0..12.0_f64, e in 0.0..=1.0_f64, vb in -2.0..1.0_f64, x in 0.1..4.0_f64) {
         let (bar, start) = (Bar::from_gyration_radius(l, rho, e).unwrap(), Start::new([-1.0, vb], 1.0).unwrap());
-        let general = OffCenterBar::new([l, l], rho, e).unwrap();
-        prop_assert_eq!(general, OffCenterBar::from(bar));
-        prop_assert_eq!(general.summary(&start), bar.summary(&start));
-        prop_assert!(general.train(&start).take(40).eq(bar.train(&start).take(40)));
-        prop_assert_eq!(general.shocks_either(&start).safe_zone(x), bar.safe_zone(&start, x));
+        prop_assert_eq!(bar, Bar::from_arms([l, l], rho, e).unwrap());
+        // Eq. 5; and the bar with hardly another center of mass, which takes another way through all of it.
+        let (zone, peak) = (bar.shocks_either(&start).safe_zone(x), bar.peak(&start).end);
+        let near = |a: f64, b: f64| (a - b).abs() <= 1e-12 * a.abs().max(1.0);
+        prop_assert!(near(zone.s, (2.0 * x / peak + bar.q() - 1.0) / (1.0 + bar.q())), "{zone:?}");
+        let beside = Bar::from_center_of_mass(1e-17, rho / l, e).unwrap();
+        prop_assert!(!beside.is_symmetric() && near(beside.peak(&start).end, peak), "{beside:?}");
+        prop_assert!(near(beside.shocks_either(&start).safe_zone(x).s, zone.s), "{beside:?}");
+        let edges = |bar: &Bar, first| bar.shocks(&start, first).safe_interval(x);
         for first in [End::A, End::B] {
-            prop_assert_eq!(general.shocks(&start, first).safe_interval(x), bar.safe_interval(&start, x, first));
+            if let (Some(a), Some(b)) = (edges(&bar, first), edges(&beside, first)) {
+                prop_assert!(near(a[0], b[0]) && near(a[1], b[1]), "{a:?} {b:?}");
+            }
         }
     }
 
     /// Against every impact, at any position and on a grid.
     #[test]
     fn shocks_zones_and_the_safest_place_are_those_of_the_impacts((arms, rho, e) in any_bar(), vb in -2.0..0.5_f64, s in -1.0..1.0_f64, threshold in 0.1..4.0_f64) {
-        let bar = OffCenterBar::new(arms, rho, e).unwrap();
+        let bar = Bar::from_arms(arms, rho, e).unwrap();
         let start = Start::new([-1.0, vb], 1.0).unwrap();
-        let list = |bar: &OffCenterBar| bar.train(&start).take(300).collect::<Vec<_>>();
+        let list = |bar: &Bar| bar.train(&start).take(300).collect::<Vec<_>>();
         let (forth, back) = (list(&bar), list(&bar.exchanged()));
         let worst = |list: &[Impact], s: f64| list.iter().map(|i| i.delta_v_at(s).abs()).fold(0.0, f64::max);
         let cases = [
@@ -211,7 +217,7 @@ proptest! {
 fn the_safest_place_moves_with_the_mass() {
     let start = Start::default();
     // α = A/I_a and β = B/I_b by hand: e = 0 and q = 0 (ρ² = L_a L_b) give one strike at each end, of v0 each.
-    let bar = OffCenterBar::new([4.0, 1.0], 2.0, 0.0).unwrap();
+    let bar = Bar::from_arms([4.0, 1.0], 2.0, 0.0).unwrap();
     let shocks = bar.shocks_either(&start);
     assert_eq!((shocks.struck().a, shocks.struck().b), (1.0, 1.0));
     let (alpha, beta) = (1.0 / 20.0, 1.0 / 5.0);
@@ -219,7 +225,7 @@ fn the_safest_place_moves_with_the_mass() {
     assert!((shocks.safest().s - (1.5 + x) / 2.5).abs() < 1e-15, "{:?}: the middle after all", shocks.safest());
     assert!((shocks.safest().shock - alpha * beta * 4.0 * 5.0 / 0.4).abs() < 1e-15);
     // Elsewhere it is neither the middle nor the center of mass.
-    let bar = OffCenterBar::from_center_of_mass(0.4, 0.5, 0.3).unwrap();
+    let bar = Bar::from_center_of_mass(0.4, 0.5, 0.3).unwrap();
     let safest = bar.shocks_either(&start).safest();
     assert!(safest.s > 0.25 && safest.s < 0.35, "{safest:?}");
     // Where end b never strikes, the center of percussion feels nothing at all.
@@ -229,14 +235,14 @@ fn the_safest_place_moves_with_the_mass() {
     assert!(shocks.struck().b <= 0.0, "end b never strikes");
     assert!(shocks.safest().shock < 1e-15);
     // Mass far beyond the ends pushes the crossing off the bar: then an end is safest.
-    let flail = OffCenterBar::from_center_of_mass(-0.5, 2.0, 0.3).unwrap();
+    let flail = Bar::from_center_of_mass(-0.5, 2.0, 0.3).unwrap();
     assert!(flail.shocks(&start, End::A).safest().s.abs() >= 1.0, "the end itself");
 }
 
 #[test]
 fn no_digit_is_lost_where_the_ends_weigh_almost_nothing() {
     for rho in [1e-3, 1e-5, 1e-7, 1e-9] {
-        let bar = OffCenterBar::new([1.3, 0.7], rho, 1.0).unwrap();
+        let bar = Bar::from_arms([1.3, 0.7], rho, 1.0).unwrap();
         // Elastic: q = cos θ with tan(θ/2) = k = ρ ℓ/(√(I_a I_b) + P) = ρ/(L_a L_b) (1 + O(ρ²)), and the last strike is
         // the first at or beyond (π − φ)/θ. With κ = 13/7 φ = atan2(sin θ, cos θ + κ) is θ/(1 + κ) but for O(θ³).
         let theta = 2.0 * rho / 0.91;
@@ -248,7 +254,7 @@ fn no_digit_is_lost_where_the_ends_weigh_almost_nothing() {
         assert!((n - count - 0.5).abs() <= 0.51 + 2.0 * rho * rho * count, "{n} for {count} at {rho:e}");
     }
     // Where q is next to −1 the other way to form it holds.
-    let bar = OffCenterBar::new([1.3, 0.7], 1e5, 0.5).unwrap();
+    let bar = Bar::from_arms([1.3, 0.7], 1e5, 0.5).unwrap();
     let want = (1.69_f64 / 1e10 + 1.0).sqrt() / (0.49_f64 / 1e10 + 1.0).sqrt();
     assert!((bar.kappa() - want).abs() < 4.0 * f64::EPSILON);
     // 1 + q = P/√(I_a I_b) + 1 = ρ²ℓ²/(I_a I_b)/(1 − q) ≈ 2/ρ²; the gyration ratio of the symmetric bar is
@@ -260,25 +266,22 @@ fn no_digit_is_lost_where_the_ends_weigh_almost_nothing() {
 fn any_masses_between_the_ends_make_a_bar() {
     let board = Mass::Slab { mass_kg: 0.1, from_m: -0.07, to_m: 0.07 };
     let battery = |position_m: f64| Mass::Point { mass_kg: 0.05, position_m };
-    assert!(matches!(Bar::from_masses(0.14, &[board, battery(0.035)], 0.3), Err(Error::OffCenter { .. })));
-    let bar = OffCenterBar::from_masses(0.14, &[board, battery(0.035)], 0.3).unwrap();
+    let bar = Bar::from_masses(0.14, &[board, battery(0.035)], 0.3).unwrap();
     // By Steiner, in half-lengths: c = 1/6, ρ² = (2/3)(1/3 + c²) + (1/3)(1/2 − c)².
     let rho2: f64 = 2.0 / 3.0 * (1.0 / 3.0 + 1.0 / 36.0) + 1.0 / 27.0;
     assert!((bar.center_of_mass() - 1.0 / 6.0).abs() < 1e-15);
     assert!((bar.gyration_ratio() - rho2.sqrt()).abs() < 1e-14);
-    let middle = OffCenterBar::from_masses(0.14, &[board, battery(0.0)], 0.3).unwrap();
-    let symmetric = OffCenterBar::from(Bar::from_masses(0.14, &[board, battery(0.0)], 0.3).unwrap());
-    let start = Start::default();
-    assert!(middle.is_symmetric() && middle.train(&start).eq(symmetric.train(&start)));
-    assert_eq!((middle.q(), middle.summary(&start)), (symmetric.q(), symmetric.summary(&start)));
+    let middle = Bar::from_masses(0.14, &[board, battery(0.0)], 0.3).unwrap();
+    // ρ² = (2/3)(1/3), q = 7/11.
+    assert!(middle.is_symmetric() && (middle.q() - 7.0 / 11.0).abs() < 1e-15, "{middle:?}");
     // A single point off the middle: massless ends, and no digits of a spread that is none.
-    let point = OffCenterBar::from_masses(2.0, &[battery(0.3), battery(0.3), battery(0.3)], 0.3).unwrap();
+    let point = Bar::from_masses(2.0, &[battery(0.3), battery(0.3), battery(0.3)], 0.3).unwrap();
     assert_eq!((point.q(), point.gyration_ratio()), (1.0, 0.0));
     for (masses, value) in [(vec![battery(0.07)], 1.0), (vec![battery(-0.2)], -0.2 / 0.07)] {
-        let error = OffCenterBar::from_masses(0.14, &masses, 0.3).unwrap_err();
+        let error = Bar::from_masses(0.14, &masses, 0.3).unwrap_err();
         assert_eq!(error, Error::Quantity { name: "center of mass", value, allowed: "in (-1, 1), between the ends" });
     }
-    assert_eq!(OffCenterBar::from_masses(0.14, &[], 0.3), Err(Error::NoMass));
+    assert_eq!(Bar::from_masses(0.14, &[], 0.3), Err(Error::NoMass));
 }
 
 #[test]
@@ -289,7 +292,7 @@ fn extremes_stay_numbers_and_nonsense_is_refused() {
             for (e, velocity, gap) in
                 [(0.0, [-1.0, -1.0], 0.0), (0.5, [-1e150, 1e150], 1e150), (1.0, [-1e-150, -1e150], 1e-150)]
             {
-                let (bar, start) = (OffCenterBar::new([a, b], rho, e).unwrap(), Start::new(velocity, gap).unwrap());
+                let (bar, start) = (Bar::from_arms([a, b], rho, e).unwrap(), Start::new(velocity, gap).unwrap());
                 let summary = bar.summary(&start);
                 assert!(
                     !summary.duration.is_nan() && !summary.peak.end.is_nan() && !summary.peak.center.is_nan(),
@@ -317,6 +320,6 @@ fn extremes_stay_numbers_and_nonsense_is_refused() {
         ([1.0, 2.0], 1.0, 1.1),
         ([1.0, 2.0], 1.0, f64::NAN),
     ] {
-        assert!(OffCenterBar::new(arms, rho, e).is_err(), "{arms:?} {rho} {e}");
+        assert!(Bar::from_arms(arms, rho, e).is_err(), "{arms:?} {rho} {e}");
     }
 }

@@ -1,6 +1,6 @@
 //! How often an off-center bar strikes, against whole numbers: next to the endless curve and next to ties, where one
 //! rounding of the inertia ratio or of the starting velocity decides.
-use clatter::{Bar, Count, Mass, OffCenterBar, Start};
+use clatter::{Bar, Count, Mass, Start};
 use num_bigint::{BigInt, Sign};
 
 /// The two matrices of a bar (Eqs. 1 and 2 with q_a and q_b), each times a positive integer that makes it whole, and
@@ -141,7 +141,7 @@ struct Wrong {
 }
 
 impl Wrong {
-    fn look(&mut self, bar: &OffCenterBar, start: &Start, whole: &Whole) {
+    fn look(&mut self, bar: &Bar, start: &Start, whole: &Whole) {
         let count = bar.count(start);
         let train = match count {
             Count::Finite(n) if n < 3000 => bar.train(start).take(5000).count() as u64 == n,
@@ -194,7 +194,7 @@ fn counts_next_to_the_endless_curve_are_those_of_whole_numbers() {
         let e = beside(on_the_curve(q), &mut random);
         let velocity = [-1.0, [-1.0, 0.0, -3.0 * random()][wrong.of as usize % 3]];
         let start = Start::new(velocity, 1.0).unwrap();
-        let bar = OffCenterBar::new([a, b], rho, e).unwrap();
+        let bar = Bar::from_arms([a, b], rho, e).unwrap();
         wrong.look(&bar, &start, &Whole::new([[a, 0.0], [b, 0.0]], rho, e, velocity));
     }
     wrong.none();
@@ -214,7 +214,7 @@ fn counts_of_a_bar_with_a_given_center_of_mass_are_those_of_whole_numbers() {
         let e = beside(on_the_curve(q), &mut random);
         let velocity = [-1.0, [-1.0, 0.0, -3.0 * random()][wrong.of as usize % 3]];
         let start = Start::new(velocity, 1.0).unwrap();
-        let bar = OffCenterBar::from_center_of_mass(c, k, e).unwrap();
+        let bar = Bar::from_center_of_mass(c, k, e).unwrap();
         wrong.look(&bar, &start, &Whole::new([[1.0, c], [1.0, -c]], k, e, velocity));
     }
     wrong.none();
@@ -241,7 +241,7 @@ fn counts_at_ties_are_those_of_whole_numbers() {
             continue;
         }
         for vb in [tie, tie.next_up(), tie.next_down()] {
-            let (bar, start) = (OffCenterBar::new([a, b], rho, e).unwrap(), Start::new([va, vb], 1.0).unwrap());
+            let (bar, start) = (Bar::from_arms([a, b], rho, e).unwrap(), Start::new([va, vb], 1.0).unwrap());
             wrong.look(&bar, &start, &Whole::new([[a, 0.0], [b, 0.0]], rho, e, [va, vb]));
         }
     }
@@ -264,7 +264,7 @@ fn counts_of_trains_that_hardly_end_are_those_of_whole_numbers() {
         }
         let vb = 0.5 * (t + (t * t - 4.0 * e).sqrt()) * (b.hypot(rho) / a.hypot(rho));
         let velocity = [-1.0, f64::from_bits(vb.to_bits() + 6) - (12.0 * random()).floor() * vb * 0.5 * f64::EPSILON];
-        let (bar, start) = (OffCenterBar::new([a, b], rho, e).unwrap(), Start::new(velocity, 1.0).unwrap());
+        let (bar, start) = (Bar::from_arms([a, b], rho, e).unwrap(), Start::new(velocity, 1.0).unwrap());
         wrong.look(&bar, &start, &Whole::new([[a, 0.0], [b, 0.0]], rho, e, velocity));
     }
     wrong.none();
@@ -284,7 +284,7 @@ fn a_count_of_masses_says_whether_it_is_exact() {
         let masses = [piece(0.1, 0.0), piece(0.1, 0.5), piece(2.0, 0.1)];
         let list = masses.map(|[mass_kg, from_m, to_m]| Mass::Slab { mass_kg, from_m, to_m });
         let anywhere = case % 3 == 0;
-        let bar = |e| OffCenterBar::from_masses(2.0, &list, e).unwrap();
+        let bar = |e| Bar::from_masses(2.0, &list, e).unwrap();
         let (q, velocity) = (bar(0.0).q(), [-1.0, [-1.0, 0.5 * random(), -2.0 * random()][case % 3]]);
         let e = if anywhere { random() } else { on_the_curve(q.max(1e-3)) };
         let e = if anywhere { e } else { beside(e, &mut random) };
@@ -300,14 +300,14 @@ fn a_count_of_masses_says_whether_it_is_exact() {
     }
     assert!(doubtful > 200 && sure > 450, "{doubtful} doubtful, {sure} sure");
     // A count that is a float is not exact.
-    let huge = OffCenterBar::from(Bar::from_gyration_ratio(1e-25, 1.0).unwrap());
+    let huge = Bar::from_gyration_ratio(1e-25, 1.0).unwrap();
     assert!(!huge.count_is_exact(&Start::default()), "{:?}", huge.count(&Start::default()));
 }
 
 /// D = 0 in whole numbers: I_a I_b = 12.5², q = 10/12.5 and T = 1 = 2√e.
 #[test]
 fn a_bar_on_the_curve_itself_is_endless() {
-    let bar = OffCenterBar::new([2.0, 5.5], 1.0, 0.25).unwrap();
+    let bar = Bar::from_arms([2.0, 5.5], 1.0, 0.25).unwrap();
     let start = Start::default();
     let summary = bar.summary(&start);
     assert!(summary.count == Count::Endless && bar.count(&start) == Count::Endless && bar.count_is_exact(&start));
@@ -321,6 +321,6 @@ fn a_bar_on_the_curve_itself_is_endless() {
     assert!((summary.duration - 0.4 / 0.9).abs() < 1e-15);
     // The second strike is the largest: 1.4/0.4 at end b beside 1 at end a.
     assert!((summary.peak.end - 1.25 * 3.5).abs() < 1e-14, "{:?}", summary.peak);
-    let finite = OffCenterBar::new([2.0, 5.5], 1.0, 0.25_f64.next_up()).unwrap();
+    let finite = Bar::from_arms([2.0, 5.5], 1.0, 0.25_f64.next_up()).unwrap();
     assert!(matches!(finite.count(&start), Count::Finite(_)), "{:?}", finite.count(&start));
 }

@@ -294,10 +294,11 @@ fn a_plate_of_large_inertia_across_is_the_bar() {
             }
         }
         let shocks = plate.shocks(&start, 100);
-        let peaks = bar.end_peaks(&Start::default());
+        let of_bar = bar.shocks(&Start::default(), End::A);
+        let peaks = of_bar.struck();
         let at_end = peaks.a.max(bar.q().abs() * peaks.b);
         assert!((shocks.at([-1.0, 0.0]) - at_end).abs() < 1e-13, "k = {k}, e = {e}: {shocks:?}");
-        let interval = bar.safe_interval(&Start::default(), 1.0, End::A);
+        let interval = of_bar.safe_interval(1.0);
         let share = interval.map_or(0.0, |[lo, hi]| 0.5 * (hi - lo));
         let zone = shocks.safe_zone(1.0);
         assert!((zone.share - share).abs() < 1e-13, "k = {k}, e = {e}: {zone:?}, not {share}");

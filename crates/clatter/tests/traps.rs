@@ -267,7 +267,7 @@ fn massless_elastic_ends_have_an_infinite_peak_about_a_center_at_peace() {
     let s = bar.summary(&Start::default());
     assert_eq!((s.count, s.duration, s.final_velocity), (Count::Endless, 0.5, None));
     assert_eq!((s.peak.end, s.peak.center, s.peak.impact), (f64::INFINITY, 0.0, PeakImpact::Limit));
-    assert_eq!(bar.peak_at(&Start::default(), 0.0), 0.0);
+    assert_eq!(bar.shocks_either(&Start::default()).at(0.0), 0.0);
     for (impact, n) in bar.train(&Start::default()).zip(0..100) {
         // |a_n| = 1 + 2n at time n/(1 + 2n).
         let speed = f64::from(1 + 2 * n);
@@ -478,7 +478,7 @@ fn the_peak_is_at_the_first_impact_or_far_along() {
 /// Eq. 5 below 0 and beyond 1 are answers, not errors: Table 1's first column.
 #[test]
 fn a_safe_zone_may_be_negative_or_beyond_the_bar() {
-    let zone = |q, e, threshold| bar(q, e).safe_zone(&Start::default(), threshold);
+    let zone = |q, e, threshold| bar(q, e).shocks_either(&Start::default()).safe_zone(threshold);
     // Peak (1.3)(1.65) = 2.145: s = (2/2.145 · 0.5 − 0.5)/1.5.
     let none = zone(0.5, 0.3, 0.5);
     assert!((none.s - (1.0 / 2.145 - 0.5) / 1.5).abs() < 1e-12 && none.s < 0.0, "{}", none.s);
@@ -490,13 +490,13 @@ fn a_safe_zone_may_be_negative_or_beyond_the_bar() {
     assert_eq!(zone(0.5, 0.3, 1.0).extent, Extent::Part);
     // No number is no zone.
     assert_eq!(zone(0.5, 0.3, f64::NAN).extent, Extent::None);
-    assert_eq!(bar(0.5, 0.3).safe_interval(&Start::default(), f64::NAN, End::A), None);
+    assert_eq!(bar(0.5, 0.3).shocks(&Start::default(), End::A).safe_interval(f64::NAN), None);
 }
 
 /// Table 1 prints 90.9 % for 90.987 %, 0 % for −2.25 % and 100 % for 114.97 %.
 #[test]
 fn table_1_was_truncated_in_one_cell_and_clipped_in_two() {
-    let percent = |q, e, threshold| 100.0 * bar(q, e).safe_zone(&Start::default(), threshold).s;
+    let percent = |q, e, threshold| 100.0 * bar(q, e).shocks_either(&Start::default()).safe_zone(threshold).s;
     for (got, want, digits) in [
         (percent(0.5, 0.3, 2.0), 90.987, 5e-4),
         (percent(0.5, 0.3, 0.5), -2.25, 5e-3),

@@ -165,7 +165,7 @@ fn summary(q: f64, e: f64) -> Result<Summary, Error> {
 
 fn zone(design: [f64; 2], threshold: f64) -> Result<f64, Error> {
     let [q, e] = design;
-    Ok(Bar::new(q, e)?.safe_zone(&Start::default(), threshold).s)
+    Ok(Bar::new(q, e)?.shocks_either(&Start::default()).safe_zone(threshold).s)
 }
 
 fn smallest(values: impl IntoIterator<Item = f64>) -> f64 {
@@ -312,18 +312,18 @@ fn percussion() -> Result<Vec<Claim>, Error> {
         let bar = Bar::new(q, e)?;
         let start = Start::default();
         let train: Vec<_> = bar.train(&start).collect();
-        let cp = bar.percussion();
+        let cp = bar.percussion(End::A);
         let peak = |end: End, s: f64| largest(train.iter().filter(|i| i.end == end).map(|i| i.delta_v_at(s).abs()));
         still = still.max(peak(End::A, cp));
         moved = moved.max(largest([peak(End::B, cp), peak(End::A, -cp)]) / bar.summary(&start).peak.center);
         for k in 0..=8u8 {
             let s = f64::from(k) / 8.0;
             let either = largest([End::A, End::B].map(|end| peak(end, s).max(peak(end, -s))));
-            linear = linear.max((either - bar.peak_at(&start, s)).abs());
+            linear = linear.max((either - bar.shocks_either(&start).at(s)).abs());
         }
         // both straight lines |Δv| over s, from odd and from even impacts, cross where the larger is least
         let (odd, even) = (peak(End::A, -1.0), peak(End::B, 1.0));
-        safest.push(bar.percussion() * (odd - even) / (odd + even));
+        safest.push(bar.percussion(End::A) * (odd - even) / (odd + even));
     }
     Ok(vec![
         Claim {

@@ -1,7 +1,7 @@
 //! The paper's figures, table and claims: the data, and what is made of them.
 
 use clatter::design::DESIGNS;
-use clatter::{Axis, Bar, Map, Quantity};
+use clatter::{Axis, Bar, End, Map, Quantity};
 use clatter_figures::{Sheet, Surface, surface};
 use clatter_report::File;
 use rayon::prelude::*;
@@ -63,7 +63,7 @@ fn sheet(quantity: Quantity, name: &'static str, at: [f64; 2], fill: [[u8; 3]; 2
 fn at_distance(end: &Sheet, s: f64, name: &'static str, at: [f64; 2], fill: [[u8; 3]; 2]) -> Result<Sheet, Error> {
     let mut map = end.map.clone();
     for (i, line) in map.values.chunks_mut(MESH).enumerate() {
-        let share = Bar::new(map.q.value(i), 0.0)?.share(s);
+        let share = Bar::new(map.q.value(i), 0.0)?.share(End::B, s);
         for value in line {
             *value = if share == 0.0 { 0.0 } else { share * *value };
         }
@@ -111,7 +111,14 @@ impl Data {
             )
         });
         let (impacts, surfaces, table1) = rest?;
-        Ok(Self { percussion: Bar::new(0.5, 0.3)?.percussion(), impacts, zones, surfaces, table1, claims: claims? })
+        Ok(Self {
+            percussion: Bar::new(0.5, 0.3)?.percussion(End::A),
+            impacts,
+            zones,
+            surfaces,
+            table1,
+            claims: claims?,
+        })
     }
 
     /// Figures as SVG, tables as JSON and CSV.

@@ -114,7 +114,7 @@ impl SuspendedZones {
     pub fn compute(bar: &Bar, threshold: f64, damping: DampingRatio, per_octave: u16) -> Result<Self, Error> {
         let omegas = omegas(per_octave);
         let zones = parallel(omegas.len(), |i| suspended_zone(bar, &Suspension::new(omegas[i], damping)?, threshold))?;
-        let s = bar.safe_zone(&Start::default(), threshold).s;
+        let s = bar.shocks_either(&Start::default()).safe_zone(threshold).s;
         let paper = (s >= 0.0).then_some(s.min(1.0));
         // Bisection leaves a zone short by 1e-12, and the stiff limit is only tended to.
         let short = |zone: &&Option<f64>| paper.is_some_and(|s| zone.unwrap_or(-1.0) < s - 1e-3);

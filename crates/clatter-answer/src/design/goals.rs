@@ -101,8 +101,8 @@ pub fn answer(goals: &[Goal]) -> Result<Answer, Error> {
         Ok(Design {
             q,
             e,
-            s: bar.safe_zone(&Start::default(), threshold).s,
-            met: all.iter().map(|goal| goal.margin(&bar) >= 0.0).collect(),
+            s: bar.shocks_either(&Start::default()).safe_zone(threshold).s,
+            met: all.iter().map(|goal| goal.margin(q, e) >= 0.0).collect(),
             largest: front(threshold, &others, e, STEPS)?.largest(),
         })
     };

@@ -1,6 +1,6 @@
 //! Where searches begin: unknowns that explain the data roughly.
 
-use clatter::{End, OffCenterBar, Start};
+use clatter::{Bar, End, Start};
 
 use super::drop::{CONTACT, Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED, SPIN};
 use super::{MeasuredHeights, MeasuredStrike, Set, Which};
@@ -91,7 +91,7 @@ pub(super) fn by_strikes(
     let [a, b] = drop.known.body.arms_m();
     let arms = if drop.first == End::A { [a, b] } else { [b, a] };
     let gyration = 0.5 * (a + b) * libm::exp(x[GYRATION]);
-    let Ok(bar) = OffCenterBar::new(arms, gyration, x[RESTITUTION]) else { return x };
+    let Ok(bar) = Bar::from_arms(arms, gyration, x[RESTITUTION]) else { return x };
     let train: Vec<f64> = bar.train(&Start::default()).take(MOST).map(|impact| impact.time).collect();
     // Without gravity the ends strike in turn.
     let place = |which: Which| match which {

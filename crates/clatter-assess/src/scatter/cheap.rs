@@ -6,7 +6,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use clatter::{End, Impact, OffCenterBar, Start};
+use clatter::{Bar, End, Impact, Start};
 use clatter_shock::{VelocityShock, VelocityShocks};
 
 use super::Asked;
@@ -33,7 +33,7 @@ fn strikes(drop: &SingleDrop) -> Result<Vec<Impact>, Error> {
         let (approach, delta_v) = (-drop.speed_m_s, [(1.0 + drop.restitution) * drop.speed_m_s; 2]);
         return Ok(vec![Impact { number: 1, end: End::A, time: 0.0, approach, delta_v }]);
     }
-    let bar = OffCenterBar::new(drop.body.arms_m(), drop.body.gyration_m(), drop.restitution)?;
+    let bar = Bar::from_arms(drop.body.arms_m(), drop.body.gyration_m(), drop.restitution)?;
     let bar = if drop.first == End::A { bar } else { bar.exchanged() };
     let start = Start::new([-drop.speed_m_s; 2], drop.body.length_m() * libm::sin(drop.tilt_rad))?;
     let counts = |strike: &Impact| -strike.approach > SMALL * drop.speed_m_s;

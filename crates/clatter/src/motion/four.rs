@@ -1,8 +1,9 @@
 //! Neighboring strikes carried on together, from one anchor in the closed form to the next.
 
 use super::{ANGLE, Decay, Drive, Kind, angle, compensated, to_f64};
+use crate::Start;
 use crate::dd::{ldexp, power_of_two};
-use crate::{Bar, Start};
+use crate::symmetric::Symmetric;
 use libm::{exp, expm1, sincos};
 
 /// Neighboring strikes that are carried on together.
@@ -132,13 +133,13 @@ impl Sweep {
     /// Whether a sweep may be the way to go, cos² θ from 0.990025 to 0.99994: π/408 < θ < 0.1. Trains with larger θ
     /// have 31 impacts at most.
     #[inline]
-    pub(crate) fn suits(bar: &Bar) -> bool {
+    pub(crate) fn suits(bar: &Symmetric) -> bool {
         (bar.t * bar.t.abs() - 3.97993 * bar.e).abs() < 0.01983 * bar.e
     }
 
     /// None for other trains than those of a wave of up to some hundred strikes.
     #[inline]
-    pub(crate) fn new(bar: &Bar, start: &Start) -> Option<Self> {
+    pub(crate) fn new(bar: &Symmetric, start: &Start) -> Option<Self> {
         let (e, [va, vb]) = (bar.e, start.velocity());
         // For small e, e^{n/2} may leave the range of floats.
         if e < 0.01 || !Self::suits(bar) || vb > 0.0 {

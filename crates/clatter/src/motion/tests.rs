@@ -3,51 +3,53 @@
 
 use super::*;
 use crate::accuracy;
-use crate::{Count, OffCenterBar, PeakImpact};
+use crate::{Bar, Count, PeakImpact};
 use proptest::prelude::*;
 
 /// Bars on, next to and far from the endless curve q = 2√e/(1 + e), and in the corner (1, 1).
-fn bars() -> impl Strategy<Value = Bar> {
-    let anywhere = (-0.999..1.0_f64, 0.0..1.0_f64).prop_map(|(q, e)| Bar::new(q, e).unwrap());
+fn bars() -> impl Strategy<Value = Symmetric> {
+    let anywhere = (-0.999..1.0_f64, 0.0..1.0_f64).prop_map(|(q, e)| Bar::new(q, e).unwrap().symmetric);
     // A relative distance of 10^-d to either side, down to neighboring floats.
     let beside =
         (prop_oneof![0.0..1.0_f64, (-300.0..0.0_f64).prop_map(|x| 10f64.powf(x))], 1.0..17.0_f64, prop::bool::ANY);
     let beside = beside.prop_map(|(e, d, above)| {
         let q = 2.0 * e.sqrt() / (1.0 + e);
         let q = q * if above { 1.0 + 10f64.powf(-d) } else { 1.0 - 10f64.powf(-d) };
-        Bar::new(q.min(1.0), e).unwrap()
+        Bar::new(q.min(1.0), e).unwrap().symmetric
     });
     let ulps = (0.0..1.0_f64, -3..4_i64).prop_map(|(e, ulps)| {
         let q = 2.0 * e.sqrt() / (1.0 + e);
         let q = f64::from_bits(q.to_bits().wrapping_add_signed(ulps));
-        Bar::new(q.min(1.0), e).unwrap()
+        Bar::new(q.min(1.0), e).unwrap().symmetric
     });
     let corner = (0.0..16.5_f64, 0.0..16.5_f64)
-        .prop_map(|(x, y)| Bar::new(1.0 - 10f64.powf(-x) * 0.5, 1.0 - 10f64.powf(-y)).unwrap());
+        .prop_map(|(x, y)| Bar::new(1.0 - 10f64.powf(-x) * 0.5, 1.0 - 10f64.powf(-y)).unwrap().symmetric);
     let gyration = (-12.0..0.5_f64, 0.0..16.5_f64)
-        .prop_map(|(k, y)| Bar::from_gyration_ratio(10f64.powf(k), 1.0 - 10f64.powf(-y)).unwrap());
+        .prop_map(|(k, y)| Bar::from_gyration_ratio(10f64.powf(k), 1.0 - 10f64.powf(-y)).unwrap().symmetric);
     // e = ((1 − k)/(1 + k))² puts a bar given by k next to the curve.
     let gyration_beside = (-9.0..-0.5_f64, -2..3_i64).prop_map(|(k, ulps)| {
         let k = 10f64.powf(k);
         let root = (1.0 - k) / (1.0 + k);
-        Bar::from_gyration_ratio(k, f64::from_bits((root * root).to_bits().wrapping_add_signed(ulps)).min(1.0)).unwrap()
+        Bar::from_gyration_ratio(k, f64::from_bits((root * root).to_bits().wrapping_add_signed(ulps)).min(1.0))
+            .unwrap()
+            .symmetric
     });
     prop_oneof![anywhere, beside, ulps, corner, gyration, gyration_beside]
 }
 
 /// Starts that translate, spin, or hardly come back down; the last aims at a near tie at strike n.
-fn starts(bar: Bar) -> impl Strategy<Value = Start> {
+fn starts(bar: Symmetric) -> impl Strategy<Value = Start> {
     let translation = Just(Start::default());
     let spin = (-3.0..3.0_f64).prop_map(|vb| Start::new([-1.0, vb], 1.0).unwrap());
     // v_b a relative 10^-d beside λ₊ or T/2, where the train hardly ends.
     let edge = (0.0..17.0_f64, prop::bool::ANY, prop::bool::ANY).prop_map(move |(d, up, half)| {
-        let t = bar.q() * (1.0 + bar.e());
-        let root = 0.5 * (t + if half { 0.0 } else { (t * t - 4.0 * bar.e()).max(0.0).sqrt() });
+        let t = bar.q * (1.0 + bar.e);
+        let root = 0.5 * (t + if half { 0.0 } else { (t * t - 4.0 * bar.e).max(0.0).sqrt() });
         let vb = root * if up { 1.0 + 10f64.powf(-d) } else { 1.0 - 10f64.powf(-d) };
         Start::new([-1.0, vb], 1.0).unwrap()
     });
     let tie = (1..200_u64, 0.5..2.0_f64).prop_map(move |(n, va)| {
-        let (t, e) = (bar.q() * (1.0 + bar.e()), bar.e());
+        let (t, e) = (bar.q * (1.0 + bar.e), bar.e);
         let (mut b, mut next) = (1.0, t);
         for _ in 1..n {
             let size = f64::max(next.abs(), 1e-100);
@@ -60,33 +62,33 @@ fn starts(bar: Bar) -> impl Strategy<Value = Start> {
 }
 
 /// Off-center bars anywhere and next to the endless curve, as symmetric ones, with starts as above.
-fn off_center_drops() -> impl Strategy<Value = (Bar, Start)> {
+fn off_center_drops() -> impl Strategy<Value = (Symmetric, Start)> {
     let bars = (-0.99..0.99_f64, -9.0..0.5_f64, -3..4_i64, prop::option::of(0.0..1.0_f64), prop::bool::ANY);
     let bars = bars.prop_map(|(c, k, ulps, e, arms)| {
         let k = 10f64.powf(k);
         let made = |e| {
-            if arms { OffCenterBar::new([1.0 + c, 1.0 - c], k, e) } else { OffCenterBar::from_center_of_mass(c, k, e) }
+            if arms { Bar::from_arms([1.0 + c, 1.0 - c], k, e) } else { Bar::from_center_of_mass(c, k, e) }
         };
-        let root = (1.0 - made(0.0).unwrap().symmetric(&Start::default()).0.gyration_ratio()).max(0.0);
+        let root = (1.0 - made(0.0).unwrap().symmetric.gyration_ratio()).max(0.0);
         let root = root / (2.0 - root);
         let beside = f64::from_bits((root * root).max(1e-300).to_bits().wrapping_add_signed(ulps)).min(1.0);
         made(e.unwrap_or(beside)).unwrap()
     });
     bars.prop_flat_map(|bar| {
         let kappa = bar.kappa();
-        starts(bar.symmetric(&Start::default()).0).prop_map(move |start| {
+        starts(bar.symmetric).prop_map(move |start| {
             let [va, vb] = start.velocity();
-            bar.symmetric(&Start::new([va, vb / kappa], 1.0).unwrap())
+            (bar.symmetric, bar.arrival(&Start::new([va, vb / kappa], 1.0).unwrap()))
         })
     })
 }
 
-fn drops() -> impl Strategy<Value = (Bar, Start)> {
+fn drops() -> impl Strategy<Value = (Symmetric, Start)> {
     prop_oneof![3 => bars().prop_flat_map(|bar| (Just(bar), starts(bar))), 1 => off_center_drops()]
 }
 
 /// The time of strike n + 1 from integers.
-fn exact_time(bar: &Bar, start: &Start, n: u128) -> f64 {
+fn exact_time(bar: &Symmetric, start: &Start, n: u128) -> f64 {
     let ((c, cx), (u, ux)) = exact(bar, start).values(n);
     let (nu, nx) = bar.exact_q().nu.to_float();
     start.height_gap() * ldexp(u * nu / -c, clamp(ux + nx - cx))
@@ -110,7 +112,7 @@ proptest! {
             }
             Count::Endless => {
                 prop_assert!(exact.discriminant().sign() != Ordering::Greater, "D > 0");
-                let at_once = bar.e() == 0.0 && exact.sign(1) == Ordering::Less;
+                let at_once = bar.e == 0.0 && exact.sign(1) == Ordering::Less;
                 prop_assert!(at_once || exact.endless(), "it ends");
             }
             Count::Huge(n) => prop_assert!(n > 1.8e19, "huge"),
@@ -178,12 +180,12 @@ proptest! {
         let exact = exact(&bar, &start);
         let value = |n: u128| { let (c, x) = exact.values(n).0; ldexp(c, clamp(x)) };
         if let PeakImpact::Number(n) = s.peak.impact {
-            let want = (1.0 + bar.e()) * -value(u128::from(n) - 1);
+            let want = (1.0 + bar.e) * -value(u128::from(n) - 1);
             let error = (s.peak.end - want).abs() / want;
             prop_assert!(error <= accuracy::PEAK.error, "peak {} not {want}: {error:e}", s.peak.end);
         }
         if let (Count::Finite(n), Some([a, b])) = (s.count, s.final_velocity) && n <= SHORT {
-            let (struck, free) = (-bar.e() * value(u128::from(n) - 1), value(u128::from(n)));
+            let (struck, free) = (-bar.e * value(u128::from(n) - 1), value(u128::from(n)));
             let want = if n % 2 == 1 { [struck, free] } else { [free, struck] };
             let size = struck.max(free);
             // Subnormal velocities have fewer digits to be right.
@@ -241,7 +243,7 @@ proptest! {
 /// With e = 1 and T = ½ the companion solution `b_n` has n bits, so that starts in its ratio tie at every n to 50.
 #[test]
 fn exact_ties_end_the_train_with_the_strike_before() {
-    let bar = Bar::new(0.25, 1.0).unwrap();
+    let bar = Bar::new(0.25, 1.0).unwrap().symmetric;
     let (mut b, mut next) = (1.0, 0.5);
     for n in 1..50_u64 {
         // a_n = v_a b_{n+1} + v_b b_n = 0.
@@ -259,7 +261,7 @@ fn exact_ties_end_the_train_with_the_strike_before() {
 /// T = 1 = 2√e: |a_n| = (½ + nσ)/2ⁿ⁻¹ with σ = ½ + β.
 #[test]
 fn a_bar_on_the_endless_curve_has_a_largest_impact() {
-    let bar = Bar::from_gyration_radius(3.0, 1.0, 0.25).unwrap();
+    let bar = Bar::from_gyration_radius(3.0, 1.0, 0.25).unwrap().symmetric;
     for (beta, number, largest) in [(1.0, 2, 2.0), (0.25, 2, 1.25), (0.0, 1, 1.0), (-0.25, 1, 1.0)] {
         let start = Start::new([-1.0, -beta], 1.0).unwrap();
         let summary = bar.summary(&start);
@@ -268,7 +270,7 @@ fn a_bar_on_the_endless_curve_has_a_largest_impact() {
     }
     // λ = 63/64, k = (1 − λ)/(1 + λ): |a_n| = λⁿ⁻¹(λ + nσ) with σ = 1 + λ rises until n ≥ λ/(1 − λ) − λ/σ = 62.5.
     let lambda = 63.0 / 64.0;
-    let summary = Bar::from_gyration_radius(127.0, 1.0, lambda * lambda).unwrap().summary(&Start::default());
+    let summary = Bar::from_gyration_radius(127.0, 1.0, lambda * lambda).unwrap().symmetric.summary(&Start::default());
     assert_eq!((summary.count, summary.peak.impact), (Count::Endless, PeakImpact::Number(64)));
     let largest = (0..62).fold(lambda + 63.0 * (1.0 + lambda), |product, _| product * lambda);
     assert!((summary.peak.end / ((1.0 + lambda * lambda) * largest) - 1.0).abs() < 1e-13, "{}", summary.peak.end);
@@ -278,14 +280,14 @@ fn a_bar_on_the_endless_curve_has_a_largest_impact() {
 #[test]
 fn the_two_ties_of_pure_translation() {
     for (q, e, n) in [(-0.5, 1.0, 1), (0.0, 0.0, 2)] {
-        assert_eq!(Bar::new(q, e).unwrap().count(&Start::default()), Count::Finite(n), "({q}, {e})");
+        assert_eq!(Bar::new(q, e).unwrap().symmetric.count(&Start::default()), Count::Finite(n), "({q}, {e})");
     }
 }
 
 /// e = 4⁻ᵐ and q = 2·2⁻ᵐ/(1 + 4⁻ᵐ) is a float for m ≤ 26: the curve itself but for one rounding, N up to 10¹⁶.
 #[test]
 fn counts_beyond_the_integers_of_f64() {
-    let bar = Bar::new(2.0 * 2f64.powi(-26) / (1.0 + 2f64.powi(-52)), 2f64.powi(-52)).unwrap();
+    let bar = Bar::new(2.0 * 2f64.powi(-26) / (1.0 + 2f64.powi(-52)), 2f64.powi(-52)).unwrap().symmetric;
     let Count::Finite(n) = bar.count(&Start::default()) else { panic!("it ends") };
     assert!(n > 1 << 53, "{n}");
     let exact = exact(&bar, &Start::default());
@@ -296,7 +298,7 @@ fn counts_beyond_the_integers_of_f64() {
 /// Massless ends, almost: more than 2⁶⁴ impacts, said as a float; the duration is as good as ever.
 #[test]
 fn counts_beyond_2_to_the_64_are_floats() {
-    let bar = Bar::from_gyration_ratio(1e-25, 1.0).unwrap();
+    let bar = Bar::from_gyration_ratio(1e-25, 1.0).unwrap().symmetric;
     let s = bar.summary(&Start::default());
     // N = π/θ − …, θ → 2k for k → 0.
     let Count::Huge(n) = s.count else { panic!("{:?}", s.count) };
@@ -305,7 +307,7 @@ fn counts_beyond_2_to_the_64_are_floats() {
 }
 
 /// Waves of 33 to some 400 strikes, of every restitution and spin, some next to a tie.
-fn waves() -> impl Strategy<Value = (Bar, Start)> {
+fn waves() -> impl Strategy<Value = (Symmetric, Start)> {
     let e = prop_oneof![Just(1.0), 0.0001..1.0_f64];
     let wave = (33.0..420.0_f64, e, prop_oneof![Just(1.0), Just(0.0), 0.0..4.0_f64], 0.0..16.0_f64, prop::bool::ANY);
     wave.prop_map(|(x, e, beta, d, tie)| wave_of(if tie { x.floor() + 10f64.powf(-d) } else { x }, e, beta))
@@ -313,7 +315,7 @@ fn waves() -> impl Strategy<Value = (Bar, Start)> {
 
 /// The bar and start for which ψ = nθ: the train ends with strike ⌈n⌉, next to a tie where n is hardly above an
 /// integer.
-fn wave_of(n: f64, e: f64, beta: f64) -> (Bar, Start) {
+fn wave_of(n: f64, e: f64, beta: f64) -> (Symmetric, Start) {
     let (mut low, mut high) = (1e-5_f64, 1.5_f64);
     for _ in 0..80 {
         let theta = 0.5 * (low + high);
@@ -322,11 +324,11 @@ fn wave_of(n: f64, e: f64, beta: f64) -> (Bar, Start) {
         if psi / theta > n { low = theta } else { high = theta }
     }
     let q = 2.0 * e.sqrt() * low.cos() / (1.0 + e);
-    (Bar::new(q.min(1.0), e).unwrap(), Start::new([-1.0, -beta], 1.0).unwrap())
+    (Bar::new(q.min(1.0), e).unwrap().symmetric, Start::new([-1.0, -beta], 1.0).unwrap())
 }
 
 /// Waves of 4 to 226 strikes whose last one is next to where plain steps give way to the closed form, or to a tie.
-fn hardly_clear() -> impl Strategy<Value = (Bar, Start)> {
+fn hardly_clear() -> impl Strategy<Value = (Symmetric, Start)> {
     let e = prop_oneof![Just(1.0), 0.9..1.0_f64, 0.5..1.0_f64, 0.0101..0.5_f64];
     let n = prop_oneof![3..34_u32, 30..62_u32, 60..226_u32].prop_map(f64::from);
     let share = prop_oneof![0.8..1.5_f64, (0.0..12.0_f64).prop_map(|d| 10f64.powf(-d))];
@@ -335,7 +337,7 @@ fn hardly_clear() -> impl Strategy<Value = (Bar, Start)> {
 }
 
 /// Some strike and the first and last ones of a train, within a share of what is allowed.
-fn within(share: f64, bar: &Bar, start: &Start, at: prop::sample::Index) -> Result<(), TestCaseError> {
+fn within(share: f64, bar: &Symmetric, start: &Start, at: prop::sample::Index) -> Result<(), TestCaseError> {
     let (exact, train) = (exact(bar, start), bar.train(start).take(1000).collect::<Vec<_>>());
     let n = train.len();
     prop_assert_eq!(bar.count(start), Count::Finite(n as u64));
@@ -395,7 +397,7 @@ proptest! {
 /// e^(n/2) leaves the range of floats long before the last strike, whose velocity is 0 then; its time is not.
 #[test]
 fn a_strike_slower_than_any_float_has_its_time() {
-    let bar = Bar::new(0.019_997_290_927_626_685, 0.0001).unwrap();
+    let bar = Bar::new(0.019_997_290_927_626_685, 0.0001).unwrap().symmetric;
     let train: Vec<_> = bar.train(&Start::default()).collect();
     for i in [train.len() - 2, train.len() - 1] {
         let time = exact_time(&bar, &Start::default(), i as u128);
@@ -413,7 +415,7 @@ fn a_strike_slower_than_any_float_has_its_time() {
 #[test]
 fn trains_of_some_hundred_impacts_are_swept() {
     for (q, e, swept) in [(0.9978, 1.0, true), (0.999_96, 1.0, true), (0.999_98, 1.0, false), (0.8, 0.25, false)] {
-        let bar = Bar::new(q, e).unwrap();
+        let bar = Bar::new(q, e).unwrap().symmetric;
         assert_eq!(Sweep::new(&bar, &Start::default()).is_some(), swept, "({q}, {e})");
     }
 }
@@ -422,9 +424,9 @@ fn trains_of_some_hundred_impacts_are_swept() {
 /// angle. There, the time of that strike hangs on the last digits of both angles.
 #[test]
 fn the_last_strike_next_to_a_tie_has_its_time() {
-    let wave = |q, e| Bar::new(q, e).unwrap();
+    let wave = |q, e| Bar::new(q, e).unwrap().symmetric;
     let close = wave(0.993_640_960_712_627, 0.807_035_926_931_540_8);
-    let given = Bar::from_gyration_ratio(0.1, 0.9).unwrap();
+    let given = Bar::from_gyration_ratio(0.1, 0.9).unwrap().symmetric;
     for bar in [wave(0.67, 0.15), wave(0.9978, 1.0), close, wave(0.999_999, 1.0), given] {
         let mut latest = 0.0_f64;
         for k in 0..2000_u32 {

@@ -74,7 +74,7 @@ impl PlateShocks {
     /// ```
     /// use clatter::{Bar, Extent, Plate, Start};
     /// let plate = Plate::uniform(0.3)?.worst(40)?;
-    /// assert_eq!(Bar::new(0.5, 0.3)?.safe_zone(&Start::default(), 0.5).extent, Extent::None);
+    /// assert_eq!(Bar::new(0.5, 0.3)?.shocks_either(&Start::default()).safe_zone(0.5).extent, Extent::None);
     /// assert_eq!(plate.safe_zone(0.5).extent, Extent::Part);
     /// # Ok::<(), clatter::Error>(())
     /// ```
