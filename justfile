@@ -14,7 +14,7 @@ wasm:
 
 # Format, lints and docs
 check:
-    cargo fmt --all --check && cargo clippy --workspace --all-targets -- -D warnings && RUSTDOCFLAGS=-Dwarnings cargo doc --workspace --no-deps
+    cargo fmt --all --check && cargo clippy --release --workspace --all-targets -- -D warnings && RUSTDOCFLAGS=-Dwarnings cargo doc --release --workspace --no-deps
 
 # The golden numbers: fails where one moved or is no longer used (then: cargo insta review)
 golden:

@@ -443,7 +443,7 @@ fn bad_plates_are_refused_with_the_value() {
 }
 
 proptest! {
-    #![proptest_config(config(100))]
+    #![proptest_config(config(40))]
 
     /// Without restitution a corner stays where it has loaded, until it is pulled up or pushed on by more than it has borne; three hold
     /// the plate.
@@ -456,7 +456,9 @@ proptest! {
         let run_in_steps = |faster: f64, until_s: f64, fine: f64| {
             let mut plain = PlainPlate::new(&Drop { speed: drop.speed * (1.0 + faster), ..drop });
             plain.fine = fine;
-            prop_assume!(plain.run(until_s, 300_000)); // else it chatters without end
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "100 or 1000")]
+            let steps = fine as usize * 1000;
+            prop_assume!(plain.run(until_s, steps)); // else it chatters without end
             Ok(plain)
         };
         let run = |faster: f64, until_s: f64| run_in_steps(faster, until_s, 100.0);
@@ -466,11 +468,12 @@ proptest! {
         let (plain, shaken) = (run(0.0, until_s)?, run(1e-7, until_s)?);
         let fast = |a: [f64; 4], b: [f64; 4]| (0..4).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max) / drop.speed;
         let times = (fast(plain.velocities(), shaken.velocities()) / 1e-7).max(1.0);
-        // Two corners that let go within a step are one event to the integration: smaller steps tell.
-        let finer = run_in_steps(0.0, until_s, 300.0)?;
-        prop_assume!(fast(plain.velocities(), finer.velocities()) < 1e-7 * times);
-        let moved = until(&drop, until_s).sample(until_s).expect("contacts");
-        let off = fast(moved.velocity_m_s, plain.velocities());
+        // What grazes, or lets go within a step of another, the integration sees in small steps alone.
+        let finer = run_in_steps(0.0, until_s, 1000.0)?;
+        let moved = until(&drop, until_s);
+        prop_assume!(moved.strikes.iter().all(|strike| !grazes(strike.approach_m_s, &drop)));
+        let moved = moved.sample(until_s).expect("contacts");
+        let off = fast(moved.velocity_m_s, finer.velocities());
         prop_assert!(times > 1e3 || off < 1e-6 * times, "{off:e}, {times}-fold of {drop:?}");
     }
 }

@@ -591,10 +591,8 @@ fn files_may_end_anywhere() {
     let (mut refused, mut kept) = (0_u32, 0_u32);
     for path in files {
         let whole = fs::read(&path).expect("a file");
-        for end in 0..whole.len().min(1000) {
-            for options in [Options::default(), si()] {
-                *(if with(&whole[..end], &options).is_ok() { &mut kept } else { &mut refused }) += 1;
-            }
+        for end in 0..whole.len().min(600) {
+            *(if with(&whole[..end], &si()).is_ok() { &mut kept } else { &mut refused }) += 1;
         }
     }
     // Both ways were gone.
