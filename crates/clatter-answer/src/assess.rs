@@ -11,7 +11,7 @@
 //!
 //! Measured drops come from records by [`DropRecords::fitted`](crate::fit::DropRecords::fitted).
 
-use clatter_assess::fit::{Beside, MeasuredDrop};
+use clatter_assess::fit::{Comparison, MeasuredDrop};
 use clatter_assess::{Accuracy, Assessment, Error, ProductFile, Watch};
 use serde::{Serialize, Serializer};
 
@@ -85,7 +85,7 @@ struct EstimateJson {
 
 impl<'a> MeasuredJson<'a> {
     fn new(file: &ProductFile, drop: &'a MeasuredDrop) -> Self {
-        let estimate = |beside: Beside<'_>| EstimateJson {
+        let estimate = |beside: Comparison<'_>| EstimateJson {
             quantity: beside.estimate.quantity.name(),
             unit: beside.estimate.quantity.unit(),
             value: Json(beside.estimate.value),

@@ -17,7 +17,7 @@
 use clatter::End;
 use clatter_assess::ProductFile;
 use clatter_assess::fit::{
-    self, Estimate, Explanation, Fit, Known, MOST_SAMPLES, Measured, MeasuredDrop, RecordFit, StrikeFit, Untold,
+    self, Estimate, Explanation, Fit, Known, MOST_SAMPLES, Measured, MeasuredDrop, RecordFit, StrikeFit, Undetermined,
 };
 use serde::{Serialize, Serializer};
 
@@ -167,7 +167,7 @@ struct AnswerJson<'a> {
     first: &'static str,
     degrees_of_freedom: usize,
     estimates: Vec<EstimateJson<'a>>,
-    untold: Vec<UntoldJson<'a>>,
+    untold: Vec<UndeterminedJson<'a>>,
     correlations: Vec<Vec<Json>>,
     records: Vec<RecordJson<'a>>,
     others: Vec<OtherJson<'a>>,
@@ -185,7 +185,7 @@ struct EstimateJson<'a> {
 }
 
 #[derive(Serialize)]
-struct UntoldJson<'a> {
+struct UndeterminedJson<'a> {
     quantity: &'static str,
     unit: &'static str,
     held_at: Json,
@@ -246,7 +246,7 @@ impl<'a> Answer<'a> {
             left_out_s: other.left_out_s.iter().map(|all| all.iter().copied().map(Json).collect()).collect(),
             estimates: other.estimates.iter().map(estimate).collect(),
         };
-        let untold = |untold: &'a Untold| UntoldJson {
+        let untold = |untold: &'a Undetermined| UndeterminedJson {
             quantity: untold.quantity.name(),
             unit: untold.quantity.unit(),
             held_at: Json(untold.held_at),

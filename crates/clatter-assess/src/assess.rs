@@ -5,7 +5,7 @@ use crate::drop::{Model, SingleDrop};
 use crate::engine::{Part, answer};
 use crate::quantity::Source;
 use crate::reason::{Doubt, Note, Reason};
-use crate::search::{Asked, Place, Ranges, Task, Watch, Worst};
+use crate::search::{Candidate, Place, Ranges, Task, Watch, Worst};
 use crate::{
     Accuracy, Assessment, Component, ComponentAssessment, Error, Limit, LimitAssessment, LimitKind, ModelChoice, Mount,
     ProductFile, Unit, Verdict, WorstCase,
@@ -221,7 +221,7 @@ impl ProductFile {
 
     /// What the worst drop would ask if it landed flat, in the unit of the worst: where no drop of the ranges lands so, one at the same
     /// place of them.
-    fn flat(ranges: &Ranges<'_>, task: &Task<'_>, worst: &Asked) -> Result<Option<Asked>, Error> {
+    fn flat(ranges: &Ranges<'_>, task: &Task<'_>, worst: &Candidate) -> Result<Option<Candidate>, Error> {
         let drop = ranges.single(&worst.place).flattened();
         let part = Part { position_m: worst.place.position_m, suspension: worst.part };
         let limit = in_unit(&task.limit, worst.answer.unit);
@@ -230,7 +230,7 @@ impl ProductFile {
             flat => flat.ok(),
         };
         let place = worst.place.flattened(drop.flat);
-        Ok(flat.map(|answer| Asked { place, part: worst.part, answer, late: false }))
+        Ok(flat.map(|answer| Candidate { place, part: worst.part, answer, late: false }))
     }
 
     /// The limit by its contact laws: its own first, and then the other one where contacts take time.
@@ -245,7 +245,7 @@ impl ProductFile {
             let law = ranges.law.other();
             let decided = |of: Verdict| of != Verdict::Undecided;
             if decided(verdict) && decided(other.verdict) {
-                let share = |asked: Option<Asked>| asked.map(|asked| asked.answer.utilization());
+                let share = |asked: Option<Candidate>| asked.map(|asked| asked.answer.utilization());
                 doubts = vec![Doubt::Laws([(ranges.law, share(asked)), (law, share(other.asked))])];
             } else if decided(verdict) {
                 doubts = vec![Doubt::OtherLaw { law, doubts: other.doubts }];
@@ -285,7 +285,7 @@ fn limits_of(component: &Component) -> impl Iterator<Item = Task<'_>> {
 /// What the search by one contact law says of a limit.
 struct Judged {
     /// The drop that asks most.
-    asked: Option<Asked>,
+    asked: Option<Candidate>,
     verdict: Verdict,
     /// Why it is not safe though nothing exceeds it.
     doubts: Vec<Doubt>,
@@ -316,7 +316,7 @@ impl Judged {
 }
 
 /// What the worst drop by another law asks, in the unit of the demand.
-fn in_unit_of(own: &Asked, other: &Asked) -> f64 {
+fn in_unit_of(own: &Candidate, other: &Candidate) -> f64 {
     if own.answer.unit == other.answer.unit {
         other.answer.value
     } else {
@@ -339,7 +339,7 @@ fn in_unit(limit: &Limit, unit: Unit) -> Limit {
 fn accuracy_reason(ranges: &Ranges<'_>, drop: &SingleDrop) -> Reason {
     match (ranges.model, drop.fullest()) {
         (Model::Compliant, _) => Reason::ContactTime,
-        (model, fullest) if model < fullest => Reason::Asked(model),
+        (model, fullest) if model < fullest => Reason::Candidate(model),
         _ => Reason::NoContactTime,
     }
 }
@@ -355,7 +355,7 @@ fn model(ranges: &Ranges<'_>, task: &Task<'_>, reason: Reason) -> ModelChoice {
     ModelChoice { bar: ranges.model, component, reason }
 }
 
-fn worst_case(asked: &Asked, ranges: &Ranges<'_>) -> WorstCase {
+fn worst_case(asked: &Candidate, ranges: &Ranges<'_>) -> WorstCase {
     WorstCase {
         drop: ranges.single(&asked.place),
         part: Part { position_m: asked.place.position_m, suspension: asked.part },

@@ -3,6 +3,8 @@
 //! [`answer`] follows a drop by a model, takes what the place of the part feels, and gives the largest value of one limited
 //! quantity. Commands that ask for many answers of one drop keep the drop between them; nothing else is different.
 
+mod later;
+
 use std::f64::consts::FRAC_PI_2;
 
 use clatter::{Bar, End, EndPeaks, Excitation, Start};
@@ -13,6 +15,8 @@ use crate::history::{SHORT, pulses};
 use crate::quantity::{ResponsePeak, Source};
 use crate::shock::{Shock, largest, samples};
 use crate::{DataFault, Error, Limit, Unit};
+pub(crate) use later::CHATTER;
+use later::{GivenUp, Later, slowest};
 
 /// A part at one place of the product.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -165,7 +169,7 @@ pub(crate) fn once(
 
 /// The same of a drop that is followed already.
 pub(crate) fn of_followed(followed: &Followed, part: &Part, limit: &Limit) -> Result<Answer, Error> {
-    let felt = Felt::new(followed, part.position_m)?;
+    let felt = PlaceHistory::new(followed, part.position_m)?;
     let asked = felt.answer(limit, part.suspension.as_ref(), 0.0)?;
     let (allowed, unit) = (limit.allowed, limit.kind.unit());
     let nothing = || Answer { value: 0.0, allowed, unit, time_s: 0.0, impact: 1, off_by: felt.later_of(limit) };
@@ -228,22 +232,22 @@ pub fn respond(
 ) -> Result<Response, Error> {
     drop.check(position_m)?;
     let followed = Followed::new(drop, model, tolerance)?;
-    Ok(Felt::new(&followed, position_m)?.pulses.respond(part))
+    Ok(PlaceHistory::new(&followed, position_m)?.pulses.respond(part))
 }
 
 /// What one place of a followed drop feels.
 #[derive(Debug)]
-pub(crate) struct Felt<'a> {
+pub(crate) struct PlaceHistory<'a> {
     followed: &'a Followed,
     history: Excitation,
     pulses: Pulses,
     position_m: f64,
     fastest_rad_s: f64,
     /// The same until earlier, of which all answers are known.
-    known: Option<&'a Felt<'a>>,
+    known: Option<&'a PlaceHistory<'a>>,
 }
 
-impl<'a> Felt<'a> {
+impl<'a> PlaceHistory<'a> {
     pub(crate) fn new(followed: &'a Followed, position_m: f64) -> Result<Self, Error> {
         Self::rough(followed, position_m, f64::INFINITY)
     }
@@ -491,60 +495,6 @@ impl<'a> Felt<'a> {
         worst.filter(|worst| worst.utilization() > above)
     }
 }
-
-/// What strikes may do at a place after a motion was left, by the energy left.
-struct Later {
-    /// Of a motion that was given up, with many strikes to come.
-    given_up: Option<GivenUp>,
-    /// What the place will come to feel for ever.
-    weight_m_s2: f64,
-    /// Of one strike, and of strikes that overlap.
-    shock_m_s: f64,
-    turned_m_s: f64,
-    turn_rad_s: f64,
-    /// All energy in the springs of both ends, or in that of one, at any tilt.
-    acceleration_m_s2: f64,
-}
-
-impl Later {
-    /// The velocity shock that does as much to a part: one that is fast beside a contact feels no more than a pulse twice as high, and a
-    /// weight that comes on at once moves it by no more than twice its static deflection.
-    fn shock_of(&self, part: &Suspension) -> f64 {
-        let one = self.shock_m_s.min(2.0 * self.acceleration_m_s2 / part.omega());
-        let all = self.given_up.as_ref().map_or(0.0, |left| left.shock_of(part, one));
-        all.max(CHATTER * one) + 2.0 * self.weight_m_s2 / part.omega()
-    }
-}
-
-/// What bounds many strikes that are all in step with a part.
-struct GivenUp {
-    /// Ends that bounce one at a time do e times as much at each strike: so many times the first in all, of both.
-    in_turn: f64,
-    /// What an impulse does to the place over what it does to the center of mass, at most.
-    lever: f64,
-    /// Change of velocity of the center of mass, at most.
-    center_m_s: f64,
-    gravity_m_s2: f64,
-}
-
-impl GivenUp {
-    /// Momentum: within a time t the ground gives the center of mass no more than what turns it around and g t. A part forgets at its
-    /// rate of decay, so that of g t the weight over that rate counts.
-    fn shock_of(&self, part: &Suspension, one_m_s: f64) -> f64 {
-        let momentum = self.lever * (self.center_m_s + self.gravity_m_s2 / (slowest(part) * part.omega()));
-        momentum.min(self.in_turn * one_m_s)
-    }
-}
-
-/// Rate at which the free motion of a part decays, over ω.
-fn slowest(part: &Suspension) -> f64 {
-    let zeta = part.damping().get();
-    if zeta < 1.0 { zeta } else { 1.0 / (zeta + (zeta * zeta - 1.0).sqrt()) }
-}
-
-/// Strikes of both ends in step do this many times what one does that has all the energy, at most: of the drops of random
-/// products without damping, one in a thousand exceeds it.
-pub(crate) const CHATTER: f64 = 1.5;
 
 /// What lever arms kept through a phase may get wrong of a shock, in precisions of the flight (clatter-flight).
 const KEPT_ARMS: f64 = 4.0;

@@ -89,7 +89,7 @@ use clatter_flight::{Body, ContactLaw};
 
 use crate::{First, Model, ProductFile};
 
-pub use beside::{Beside, MeasuredDrop};
+pub use beside::{Comparison, MeasuredDrop};
 pub use bounces::bounces;
 pub use explain::fit;
 use set::{Set, Which};
@@ -294,7 +294,7 @@ pub struct Estimate {
 
 /// A quantity that the data do not tell.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Untold {
+pub struct Undetermined {
     /// What it is.
     pub quantity: Quantity,
     /// Its value in the computed drop: that of the product file, or within its range there.
@@ -352,7 +352,7 @@ pub struct Fit {
     /// What the data tell.
     pub estimates: Vec<Estimate>,
     /// What they do not.
-    pub untold: Vec<Untold>,
+    pub untold: Vec<Undetermined>,
     /// Correlations of the estimates, in their order; empty where nothing tells the scatter of the data.
     pub correlations: Vec<Vec<f64>>,
     /// Number of data less that of unknowns.

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 
 use crate::design::{Bounds, Change, Lever};
 use crate::drop::{Followed, Model, SingleDrop, Until};
-use crate::engine::Felt;
+use crate::engine::PlaceHistory;
 use crate::quantity::Source;
 use crate::search::{Ranges, rough_to_rad_s};
 use crate::shock::Shock;
@@ -142,7 +142,7 @@ impl ProductFile {
         let Some(worst) = &limit.worst_case else { return Ok(Default::default()) };
         let WorstCase { drop, part, .. } = worst;
         let followed = Followed::new(drop, ranges.model, ranges.tolerance)?;
-        let felt = Felt::new(&followed, part.position_m)?;
+        let felt = PlaceHistory::new(&followed, part.position_m)?;
         let impacts: Vec<f64> = followed.motion.strikes.iter().map(|s| s.time_s).collect();
         let period = part.suspension.map_or(0.0, |s| std::f64::consts::TAU / s.omega());
         // to the peak and a little on; what comes long after it is far weaker

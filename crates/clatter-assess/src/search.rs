@@ -11,6 +11,7 @@
 
 mod climb;
 mod edges;
+mod found;
 mod grid;
 mod ranges;
 
@@ -21,10 +22,12 @@ use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
 use crate::drop::{Followed, SingleDrop, Until};
-use crate::engine::{Answer, Felt, Part, of_followed, once};
+use crate::engine::{Part, PlaceHistory, of_followed, once};
 use crate::quantity::Source;
 use crate::{Component, Error, Limit, Mount};
 use climb::{CLIMBS, EDGES_REACH, EDGES_TRIES, LATE_REACH, LATE_TRIES, NEAR, starts};
+pub(crate) use found::{Candidate, Worst};
+use found::{Candidates, OfDrop};
 use ranges::{DAMPING, FREQUENCY, RESTITUTION};
 pub(crate) use ranges::{Place, Ranges};
 
@@ -59,81 +62,6 @@ pub(crate) struct Task<'a> {
     pub(crate) limit: Limit,
 }
 
-/// A drop and a part that ask for something.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Asked {
-    pub(crate) place: Place,
-    /// The part, where the limit is on its response.
-    pub(crate) part: Option<Suspension>,
-    pub(crate) answer: Answer,
-    /// Whether it comes after the body has bounced clear once.
-    pub(crate) late: bool,
-}
-
-/// The worst that was found for one limit.
-#[derive(Debug, Clone)]
-pub(crate) struct Worst {
-    /// The drop that asks most; none where no drop of the ranges was answered.
-    pub(crate) asked: Option<Asked>,
-    /// The utilization that strikes after the body has come down once may reach, by the energy left; 0 where that is below the worst.
-    pub(crate) later: f64,
-    /// Drops that the model does not take, and why the first of them.
-    pub(crate) refused: Option<(usize, Error)>,
-    /// Drops that were followed besides climbing.
-    pub(crate) drops: usize,
-    /// Whether the search was told to stop before its end.
-    pub(crate) stopped: bool,
-}
-
-/// What one drop asks.
-#[derive(Default)]
-struct OfDrop {
-    /// Of the tasks of these numbers.
-    asked: Vec<(usize, Asked)>,
-    /// Of tasks of which the energy allows more after the body has come down once, how much.
-    later: Vec<(usize, f64)>,
-}
-
-impl Worst {
-    fn refuse(&mut self, count: usize, error: &Error) {
-        let (own, first) = self.refused.take().unwrap_or_else(|| (0, error.clone()));
-        self.refused = Some((own + count, first));
-    }
-}
-
-/// What all drops ask.
-struct AllAsked {
-    /// Of each task.
-    found: Vec<Vec<Asked>>,
-    /// How many are not answered, and why the first is not.
-    refused: Option<(usize, Error)>,
-    /// Of each task, what rebounds may ask by their energy; 0 where that is less than the worst.
-    later: Vec<f64>,
-    drops: usize,
-}
-
-impl AllAsked {
-    /// The largest utilization of each task so far.
-    fn best(&self) -> Vec<f64> {
-        let most = |found: &Vec<Asked>| found.iter().map(|asked| asked.answer.utilization()).fold(0.0, f64::max);
-        self.found.iter().map(most).collect()
-    }
-    fn take(&mut self, answers: Vec<Result<OfDrop, Error>>) {
-        for answer in answers.into_iter().filter(|answer| !matches!(answer, Err(Error::Stopped))) {
-            self.drops += 1;
-            match answer {
-                Ok(of_drop) => {
-                    of_drop.asked.into_iter().for_each(|(task, asked)| self.found[task].push(asked));
-                    of_drop.later.into_iter().for_each(|(task, most)| self.later[task] = most.max(self.later[task]));
-                }
-                Err(error) => {
-                    self.refused = Some(self.refused.take().map_or((1, error), |(n, first)| (n + 1, first)));
-                }
-            }
-        }
-    }
-}
-
 /// Natural frequencies within a range in one drop, besides the end of it, at least and at most.
 const FREQUENCIES: [f64; 2] = [2.0, 16.0];
 /// The same in drops that are followed for longer, at least.
@@ -166,7 +94,7 @@ impl Ranges<'_> {
     ) -> Result<Vec<Worst>, Place> {
         let steps = self.tilt_steps(all_tasks);
         let mut all =
-            AllAsked { found: vec![Vec::new(); tasks.len()], refused: None, later: vec![0.0; tasks.len()], drops: 0 };
+            Candidates { found: vec![Vec::new(); tasks.len()], refused: None, later: vec![0.0; tasks.len()], drops: 0 };
         let grid: Vec<(u32, Place)> = (0..).zip(self.grid(steps)).collect();
         let shocks: Vec<bool> = tasks.iter().map(|task| !task.limit.is_response()).collect();
         let overlaps = if shocks.contains(&true) { self.overlaps() } else { Vec::new() };
@@ -175,7 +103,7 @@ impl Ranges<'_> {
         let work = Work { watch, done: AtomicUsize::new(0), all: count };
         // What comes near the worst so far is looked at more closely: the worst of the waves before, so that the same drops are on
         // any number of threads.
-        let ask = |all: &mut AllAsked, drops: &[(u32, Place)], only: Option<&[bool]>| {
+        let ask = |all: &mut Candidates, drops: &[(u32, Place)], only: Option<&[bool]>| {
             for wave in drops.chunks(WAVE) {
                 let best = all.best();
                 let of_one = |(k, drop): &(u32, Place)| {
@@ -202,14 +130,14 @@ impl Ranges<'_> {
         if work.go_on(0).is_ok() {
             work.done.fetch_max(count - climbing, Ordering::Relaxed);
         }
-        let AllAsked { mut found, refused, drops, later } = all;
-        let climbs: Vec<(usize, Asked)> = found
+        let Candidates { mut found, refused, drops, later } = all;
+        let climbs: Vec<(usize, Candidate)> = found
             .iter_mut()
             .enumerate()
             .flat_map(|(n, found)| starts(found).into_iter().map(move |s| (n, s)))
             .collect();
         let each_climb = climbing / climbs.len().max(1);
-        let climb = |(n, start): (usize, Asked)| {
+        let climb = |(n, start): (usize, Candidate)| {
             let task = &tasks[n];
             if work.go_on(each_climb).is_err() {
                 return (n, start);
@@ -226,9 +154,10 @@ impl Ranges<'_> {
             };
             (n, reached)
         };
-        let climbed: Vec<(usize, Asked)> = climbs.into_par_iter().map(climb).collect();
+        let climbed: Vec<(usize, Candidate)> = climbs.into_par_iter().map(climb).collect();
         let each = (0..tasks.len()).into_par_iter().map(|n| {
-            let mut reached: Vec<Asked> = climbed.iter().filter(|(of, _)| *of == n).map(|(_, asked)| *asked).collect();
+            let mut reached: Vec<Candidate> =
+                climbed.iter().filter(|(of, _)| *of == n).map(|(_, asked)| *asked).collect();
             reached.extend_from_slice(&found[n]);
             let in_time = work.go_on(0).is_ok();
             let mut worst =
@@ -249,7 +178,7 @@ impl Ranges<'_> {
     }
 
     /// A drop of the last wave that asks for more than `most` of a limit, answered to the tolerance; `best` are those before it.
-    fn passes(&self, tasks: &[Task<'_>], all: &AllAsked, best: &[f64], most: f64) -> Option<Place> {
+    fn passes(&self, tasks: &[Task<'_>], all: &Candidates, best: &[f64], most: f64) -> Option<Place> {
         let of_one = |(n, task): (usize, &Task<'_>)| {
             let highest =
                 all.found[n].iter().max_by(|a, b| a.answer.utilization().total_cmp(&b.answer.utilization()))?;
@@ -286,7 +215,7 @@ impl Ranges<'_> {
                 positions[own..].iter_mut().for_each(|x| *x = -*x);
             }
             for (n, &position_m) in positions.iter().enumerate() {
-                let felt = Felt::rough(&early, position_m, rough_to_rad_s(of_one[0].component))?;
+                let felt = PlaceHistory::rough(&early, position_m, rough_to_rad_s(of_one[0].component))?;
                 for (task, number) in of_one.iter().zip(numbers.clone()) {
                     // Turns are the same everywhere.
                     let again = n > 0 && task.limit.kind.source() == Source::Turn;
@@ -302,14 +231,14 @@ impl Ranges<'_> {
                     let late = frequencies.max(FREQUENCIES_LATE);
                     let mut asked = self.most(task, &place, &felt, k, frequencies, near)?;
                     let reached =
-                        |asked: Option<Asked>| asked.map_or(worst, |asked| worst.max(asked.answer.utilization()));
+                        |asked: Option<Candidate>| asked.map_or(worst, |asked| worst.max(asked.answer.utilization()));
                     let parts = Self::softest_and_stiffest(task, &place)?;
                     let later = felt.later_most(&task.limit, &parts, reached(asked));
                     if later > 0.0 {
                         of_drop.later.push((number, later));
                         let rebounded = self.followed(drop, Until::Rebounded, &mut rebounded)?;
                         let longer = felt.longer(rebounded)?;
-                        let above = |asked: Option<Asked>| asked.map_or(near, |asked| asked.answer.utilization());
+                        let above = |asked: Option<Candidate>| asked.map_or(near, |asked| asked.answer.utilization());
                         asked = self.most(task, &place, &longer, k, late, above(asked))?.or(asked);
                         if longer.later_most(&task.limit, &parts, reached(asked)) > 0.0 {
                             let longest = longer.longer(self.followed(drop, Until::Over, &mut over)?)?;
@@ -368,10 +297,15 @@ impl Ranges<'_> {
     }
 
     /// What a part asks that feels this drop, where it passes `above`.
-    fn in_drop(task: &Task<'_>, place: &Place, felt: &Felt<'_>, above: f64) -> Result<Option<Asked>, Error> {
+    fn in_drop(
+        task: &Task<'_>,
+        place: &Place,
+        felt: &PlaceHistory<'_>,
+        above: f64,
+    ) -> Result<Option<Candidate>, Error> {
         let part = Self::part(task, place)?;
         let answer = felt.answer(&task.limit, part.as_ref(), above)?;
-        Ok(answer.map(|answer| Asked { place: *place, part, answer, late: false }))
+        Ok(answer.map(|answer| Candidate { place: *place, part, answer, late: false }))
     }
 
     /// The most of drop k at the end of the range of frequencies that asks most as a rule, and at `others` in it.
@@ -379,11 +313,11 @@ impl Ranges<'_> {
         &self,
         task: &Task<'_>,
         place: &Place,
-        felt: &Felt<'_>,
+        felt: &PlaceHistory<'_>,
         k: u32,
         others: u32,
         above: f64,
-    ) -> Result<Option<Asked>, Error> {
+    ) -> Result<Option<Candidate>, Error> {
         let free = self.free(task);
         let grows = matches!(task.limit.kind.source(), Source::Response(peak) if peak.grows_with_frequency());
         let end = if grows { 1.0 } else { 0.0 };
@@ -405,7 +339,7 @@ impl Ranges<'_> {
 
     /// The worst of what was reached, answered to the tolerance. What comes after rebounds is so sensitive that it may not come up
     /// again; so the next are tried until none may be worse.
-    fn settle(&self, task: &Task<'_>, mut reached: Vec<Asked>) -> Worst {
+    fn settle(&self, task: &Task<'_>, mut reached: Vec<Candidate>) -> Worst {
         reached.sort_by(|a, b| b.answer.utilization().total_cmp(&a.answer.utilization()));
         let mut worst = Worst { asked: None, later: 0.0, refused: None, drops: 0, stopped: false };
         // A drop that bounces on and on is not followed to its end, nor are those that bounce more.
@@ -414,7 +348,7 @@ impl Ranges<'_> {
             let such = reached.iter().filter(|found| found.late == late);
             let mut tries = 0;
             for found in such {
-                let most = worst.asked.map_or(0.0, |asked: Asked| asked.answer.utilization());
+                let most = worst.asked.map_or(0.0, |asked: Candidate| asked.answer.utilization());
                 if found.answer.utilization() < most || tries == TRIES {
                     break;
                 }
@@ -448,15 +382,15 @@ impl Ranges<'_> {
 
     /// The worst of what was reached as it was found, where the time is over: to the tolerance if it decides, and nobody knows how far
     /// off.
-    fn settle_at_once(&self, task: &Task<'_>, reached: Vec<Asked>) -> Worst {
+    fn settle_at_once(&self, task: &Task<'_>, reached: Vec<Candidate>) -> Worst {
         let mut worst = Worst { asked: None, later: 0.0, refused: None, drops: 0, stopped: true };
         let found = reached.into_iter().max_by(|a, b| a.answer.utilization().total_cmp(&b.answer.utilization()));
         let exact =
-            |found: Asked| if found.answer.utilization() > 1.0 { self.exactly(task, &found) } else { Ok(found) };
+            |found: Candidate| if found.answer.utilization() > 1.0 { self.exactly(task, &found) } else { Ok(found) };
         match found.map(exact) {
             Some(Ok(asked)) => {
                 let answer = Answer { off_by: f64::INFINITY, ..asked.answer };
-                worst.asked = Some(Asked { answer, ..asked });
+                worst.asked = Some(Candidate { answer, ..asked });
             }
             Some(Err(error)) => worst.refuse(1, &error),
             None => {}
@@ -465,12 +399,12 @@ impl Ranges<'_> {
     }
 
     /// What a drop that was found asks to the tolerance, of the part that was found.
-    fn exactly(&self, task: &Task<'_>, found: &Asked) -> Result<Asked, Error> {
+    fn exactly(&self, task: &Task<'_>, found: &Candidate) -> Result<Candidate, Error> {
         let followed = Followed::new(&self.single(&found.place), self.model, self.tolerance)?;
         let at = |position_m: f64| {
             let part = Part { position_m, suspension: found.part };
             let answer = of_followed(&followed, &part, &task.limit)?;
-            Ok::<_, Error>(Asked { answer, place: Place { position_m, ..found.place }, ..*found })
+            Ok::<_, Error>(Candidate { answer, place: Place { position_m, ..found.place }, ..*found })
         };
         let mut worst = at(found.place.position_m)?;
         let places = task.component.places_m();
@@ -505,7 +439,7 @@ impl Ranges<'_> {
     pub(crate) fn in_one(&self, task: &Task<'_>, place: &Place) -> f64 {
         let Ok(followed) = self.follow(place, Until::Lands) else { return 0.0 };
         let of = |position_m: f64| {
-            let felt = Felt::new(&followed, position_m).ok()?;
+            let felt = PlaceHistory::new(&followed, position_m).ok()?;
             Self::in_drop(task, &Place { position_m, ..*place }, &felt, 0.0).ok()?
         };
         let asked = task.component.places_m().into_iter().filter_map(of);
@@ -530,16 +464,4 @@ pub(crate) fn fastest_rad_s(component: &Component) -> f64 {
     let Mount::Suspended { frequency_hz, damping } = component.mount else { return 0.0 };
     let [_, most] = damping.ratios();
     TAU * frequency_hz.hi() * if most > 1.0 { most + (most * most - 1.0).sqrt() } else { 1.0 }
-}
-
-impl Asked {
-    /// Whether it asks for more of the limit than another drop.
-    pub(crate) fn exceeds(&self, other: &Self) -> bool {
-        self.answer.utilization() > other.answer.utilization()
-    }
-    /// The same of the product turned around.
-    fn turned(self) -> Self {
-        let place = Place { first: self.place.first.other(), position_m: -self.place.position_m, ..self.place };
-        Self { place, ..self }
-    }
 }

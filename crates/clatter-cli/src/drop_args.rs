@@ -18,8 +18,8 @@ use crate::output::Files;
 use crate::quantities::{self, PerAxis, Piece, Place, Show, Shown, neat};
 use crate::{Failure, Streams};
 
-pub(crate) use block::Beside as BesideBlock;
 use block::BlockArgs;
+pub(crate) use block::ExtraArgs as BesideBlock;
 use plate::PlateArgs;
 pub(crate) use plate::PlateSetup;
 
@@ -104,7 +104,7 @@ struct Fall {
 }
 
 /// What a command has of a drop beside [`DropArgs`].
-pub(crate) struct Beside<'a> {
+pub(crate) struct ExtraArgs<'a> {
     pub(crate) model: Option<Model>,
     pub(crate) e: Option<f64>,
     pub(crate) gyration: Option<Quantity>,
@@ -196,7 +196,7 @@ impl DropArgs {
     }
 
     /// The drop, over that of the product file where there is one.
-    pub(crate) fn setup(&self, beside: &Beside<'_>, streams: &mut Streams<'_>) -> Result<Setup, Failure> {
+    pub(crate) fn setup(&self, beside: &ExtraArgs<'_>, streams: &mut Streams<'_>) -> Result<Setup, Failure> {
         self.plate.refuse()?;
         let mut file = match &self.product {
             Some(path) => {
@@ -293,7 +293,7 @@ impl DropArgs {
     }
 
     /// Values that no product has.
-    fn slips(&self, beside: &Beside<'_>) -> Vec<(&'static str, String)> {
+    fn slips(&self, beside: &ExtraArgs<'_>) -> Vec<(&'static str, String)> {
         let given = [
             ("length", either(self.length, self.length_m)),
             ("speed", either(self.fall.speed, self.fall.speed_m_s)),
@@ -309,7 +309,7 @@ impl DropArgs {
     fn shown(
         &self,
         length: Option<&'static clatter_assess::units::Unit>,
-        beside: &Beside<'_>,
+        beside: &ExtraArgs<'_>,
         file: Option<&OneDrop>,
     ) -> Shown {
         let of = |quantity: Option<Quantity>| quantity.and_then(|quantity| quantity.unit);
@@ -328,7 +328,7 @@ impl DropArgs {
     fn body(
         &self,
         half: f64,
-        beside: &Beside<'_>,
+        beside: &ExtraArgs<'_>,
         e: f64,
         file: Option<&mut OneDrop>,
         side: f64,

@@ -11,7 +11,7 @@ use clatter_assess::Model;
 use clatter_assess::units::Quantity;
 use clatter_flight::{Contact, Model as Physics, Stop};
 
-use crate::drop_args::{Beside, DropArgs, IN_SI, Setup};
+use crate::drop_args::{DropArgs, ExtraArgs, IN_SI, Setup};
 use crate::inputs::{self, RowFormat};
 use crate::output::{Files, Kind, Target};
 use crate::quantities::{self, PerAxis, Piece, Place};
@@ -196,7 +196,7 @@ impl Args {
 
     fn drop(&self, streams: &mut Streams<'_>) -> Result<Drop<'_>, Failure> {
         let mass = &self.inertia.mass;
-        let beside = Beside {
+        let beside = ExtraArgs {
             flat: false,
             model: self.model,
             e: self.e,

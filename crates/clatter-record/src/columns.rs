@@ -8,7 +8,7 @@ use crate::error::Bad;
 use crate::heading::Heading;
 use crate::raw::{Raw, Untimed};
 use crate::record::{one_scale, period};
-use crate::roles::{Role, Roles, Seen};
+use crate::roles::{Preview, Role, Roles};
 use crate::text::SHOWN;
 use crate::times::Printed;
 use crate::{At, Column, Error, FULL_SCALE, Finding, Options, Pick, Record, Table, Values};
@@ -88,7 +88,7 @@ fn by_number(options: &Options, columns: &[Column]) -> Options {
 }
 
 /// The columns by their names without those of groups, which say nothing of what a column is.
-fn seen(columns: &[Column], options: &Options) -> Seen {
+fn seen(columns: &[Column], options: &Options) -> Preview {
     let heading = |column: &Column| {
         let heading = Heading::of(column.own_name());
         let heading = column.unit.iter().fold(heading, |heading, unit| heading.with_unit(unit));
@@ -102,19 +102,19 @@ fn seen(columns: &[Column], options: &Options) -> Seen {
         Values::Integer(values) => values.get(row).map_or(f64::NAN, |value| *value as f64),
     };
     let headings: Vec<Heading> = columns.iter().map(heading).collect();
-    Seen {
+    Preview {
         named: headings.iter().any(|heading| !heading.name.is_empty()),
         sampled: columns.iter().any(|column| column.sampled_s.is_some()),
         rows: (0..SHOWN).map(|row| columns.iter().map(|column| number(column, row)).collect()).collect(),
         headings,
-        ..Seen::default()
+        ..Preview::default()
     }
 }
 
 /// What the times of a channel are sought in.
 struct Sought<'a> {
     columns: &'a [Column],
-    seen: &'a Seen,
+    seen: &'a Preview,
     options: &'a Options,
     /// The column of times of the whole file, if it has one.
     time: Option<(usize, f64)>,
@@ -127,7 +127,7 @@ struct Sought<'a> {
 impl<'a> Sought<'a> {
     fn new(
         columns: &'a [Column],
-        seen: &'a Seen,
+        seen: &'a Preview,
         options: &'a Options,
         time: Option<(usize, f64)>,
         channels: &[Role],

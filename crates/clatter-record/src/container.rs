@@ -54,7 +54,7 @@ use number::Number;
 /// ```
 pub fn read(kind: Kind, bytes: &[u8], most: usize) -> Result<Table, Error> {
     let room = &mut Room { left: most, most };
-    let mut beside = Beside::default();
+    let mut beside = Metadata::default();
     let columns = match kind {
         Kind::Text => return Err(refuse("a text file is not read as a binary one")),
         Kind::Npy => npy::read(bytes, room)?,
@@ -72,7 +72,7 @@ pub fn read(kind: Kind, bytes: &[u8], most: usize) -> Result<Table, Error> {
         #[cfg(not(all(feature = "hdf5", feature = "parquet")))]
         other => return Err(refuse(format!("this build does not read {other}"))),
     };
-    let Beside { left_out, notes } = beside;
+    let Metadata { left_out, notes } = beside;
     if columns.is_empty() {
         let why =
             left_out.first().map_or_else(|| "no column of numbers".to_owned(), |one| format!("nothing but {one}"));
@@ -87,7 +87,7 @@ fn refuse(message: impl Into<String>) -> Error {
 
 /// What a file holds beside its columns.
 #[derive(Debug, Default)]
-struct Beside {
+struct Metadata {
     left_out: Vec<String>,
     notes: Vec<String>,
 }

@@ -4,14 +4,14 @@ use crate::unit::power_of_ten;
 
 /// What stands beside a unit: the name without a factor, the factor, or what is neither.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Beside<'a> {
+pub(crate) struct Prefixed<'a> {
     pub(crate) name: &'a str,
     pub(crate) factor: f64,
     /// What says something of the unit, and it is not clear what.
     pub(crate) refused: Option<&'a str>,
 }
 
-impl<'a> Beside<'a> {
+impl<'a> Prefixed<'a> {
     /// A name and no factor.
     pub(crate) fn name(text: &'a str) -> Self {
         Self { name: text.trim(), factor: 1.0, refused: None }
@@ -51,16 +51,16 @@ fn number(text: &str) -> Option<f64> {
 }
 
 /// What stands behind a unit in brackets.
-pub(crate) fn after(text: &str) -> Beside<'_> {
+pub(crate) fn after(text: &str) -> Prefixed<'_> {
     let text = text.trim();
-    let refused = Beside { name: "", factor: 1.0, refused: Some(text) };
+    let refused = Prefixed { name: "", factor: 1.0, refused: Some(text) };
     if let Some(factor) = alone(text) {
-        return Beside { name: "", factor, refused: None };
+        return Prefixed { name: "", factor, refused: None };
     }
     if let Some(divisor) = text.strip_prefix(['/', '÷', ':']) {
         // Of a column that was divided to be in g; what else is divided may be the unit or the numbers.
         return match number(divisor.trim()).filter(|divisor| GRAVITY.contains(divisor)) {
-            Some(factor) => Beside { name: "", factor, refused: None },
+            Some(factor) => Prefixed { name: "", factor, refused: None },
             None => refused,
         };
     }
@@ -68,22 +68,22 @@ pub(crate) fn after(text: &str) -> Beside<'_> {
     let begins = text.starts_with(['^', '²', '³', '*', '×', '·', '⋅', '%'])
         || text.starts_with(|c: char| c.is_ascii_digit())
         || power;
-    if begins { refused } else { Beside::name(text) }
+    if begins { refused } else { Prefixed::name(text) }
 }
 
 /// What stands before a unit in brackets: a name, and a factor at its end.
-pub(crate) fn before(text: &str) -> Beside<'_> {
+pub(crate) fn before(text: &str) -> Prefixed<'_> {
     let text = text.trim();
-    let Some(at) = text.rfind(SIGNS) else { return Beside::name(text) };
+    let Some(at) = text.rfind(SIGNS) else { return Prefixed::name(text) };
     let (name, end) = text.split_at(at);
     let Some(factor) = alone(end) else {
         return if end.starts_with(['×', '*', '·', '⋅']) {
-            Beside { name, factor: 1.0, refused: Some(end) }
+            Prefixed { name, factor: 1.0, refused: Some(end) }
         } else {
-            Beside::name(text)
+            Prefixed::name(text)
         };
     };
-    let beside = Beside { name: name.trim(), factor, refused: None };
+    let beside = Prefixed { name: name.trim(), factor, refused: None };
     if !end.starts_with(['x', 'X']) {
         return beside;
     }
@@ -91,9 +91,9 @@ pub(crate) fn before(text: &str) -> Beside<'_> {
     let digits = end[1..].trim();
     let is_word = name.is_empty() || !name.ends_with(' ') || digits.len() == 1;
     match digits {
-        _ if is_word => Beside::name(text),
+        _ if is_word => Prefixed::name(text),
         digits if digits.len() > 2 => beside,
-        _ => Beside { name, factor: 1.0, refused: Some(end) },
+        _ => Prefixed { name, factor: 1.0, refused: Some(end) },
     }
 }
 
@@ -103,7 +103,7 @@ mod tests {
 
     #[test]
     fn factors_beside_units() {
-        let of = |found: Beside<'_>| {
+        let of = |found: Prefixed<'_>| {
             found.refused.map_or(Ok((found.name.to_owned(), found.factor)), |text| Err(text.to_owned()))
         };
         for (text, name, factor) in [

@@ -245,7 +245,7 @@ fn bracketed(cell: &str) -> Option<Heading> {
         } else if before {
             factor::before(name)
         } else {
-            factor::Beside::name(name)
+            factor::Prefixed::name(name)
         };
         size *= found.factor;
         refused = refused.or(found.refused);

@@ -3,15 +3,15 @@
 use std::collections::{HashMap, HashSet};
 
 use crate::heading::Named;
-use crate::roles::{Roles, Seen};
+use crate::roles::{Preview, Roles};
 use crate::unit::Kind;
 use crate::{Error, Options};
 
-impl Seen {
+impl Preview {
     /// The columns by their times: more than one where channels have columns of times of their own.
     ///
     /// # Errors
-    /// Those of [`Seen::roles`], and [`Error::Columns`] for channels of two rates whose times are not told apart.
+    /// Those of [`Preview::roles`], and [`Error::Columns`] for channels of two rates whose times are not told apart.
     pub(crate) fn by_time(&self, options: &Options) -> Result<Vec<Roles>, Error> {
         let mut roles = self.roles(options)?;
         let times: Vec<usize> = (0..self.headings.len()).filter(|column| self.headings[*column].is_time()).collect();

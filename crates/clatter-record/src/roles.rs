@@ -35,7 +35,7 @@ pub(crate) struct Role {
 
 /// The columns as they are known before the numbers are read.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Seen {
+pub(crate) struct Preview {
     pub(crate) headings: Vec<Heading>,
     /// Whether the file names its columns.
     pub(crate) named: bool,
@@ -47,7 +47,7 @@ pub(crate) struct Seen {
     pub(crate) cells: Vec<String>,
 }
 
-impl Seen {
+impl Preview {
     /// What each column is.
     ///
     /// # Errors

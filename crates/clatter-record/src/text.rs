@@ -21,7 +21,7 @@ use encoding_rs::Encoding;
 
 use crate::error::Bad;
 use crate::heading::Heading;
-use crate::roles::{Roles, Seen};
+use crate::roles::{Preview, Roles};
 use crate::{At, Error, Options};
 use layout::Layout;
 pub use list::{Cell, names_columns, read_list};
@@ -211,7 +211,7 @@ fn shape(
     };
     // A rate that is told stands for times that are not there.
     let told_s = layout.told_s.map(|(step_s, _)| [0.0, step_s]);
-    let seen = Seen {
+    let seen = Preview {
         headings: layout.headings,
         named: layout.named,
         sampled: layout.sampled_s.is_some() || told_s.is_some(),

@@ -128,7 +128,7 @@ pub struct PartAnswer {
 }
 
 /// What a place feels along the axes of the box, over time.
-struct Felt {
+struct PlaceHistory {
     times_s: Vec<f64>,
     along_m_s2: [Vec<f64>; 3],
     /// What it feels once the box lies, its turn about the vertical with it.
@@ -136,7 +136,7 @@ struct Felt {
     flight: BlockFlight,
 }
 
-impl Felt {
+impl PlaceHistory {
     fn new(question: &Question) -> Result<Self, Error> {
         let place = question.drop.block().place(question.at_m);
         let (mut times_s, mut along_m_s2) = (Vec::new(), [const { Vec::new() }; 3]);
@@ -205,7 +205,7 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
             return Err(Error::Quantity { name, value, allowed });
         }
     }
-    let felt = Felt::new(question)?;
+    let felt = PlaceHistory::new(question)?;
     let part = match (suspension, axis.index()) {
         (Some(part), Some(axis)) => Some(felt.part(axis, part)?),
         (Some(part), None) => {

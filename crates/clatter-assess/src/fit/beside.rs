@@ -16,7 +16,7 @@ pub struct MeasuredDrop {
 
 /// An estimate beside what the product file states.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Beside<'a> {
+pub struct Comparison<'a> {
     /// What was measured.
     pub estimate: &'a Estimate,
     /// What the file states, as a range; of the drop it is what the worst case is searched over.
@@ -29,7 +29,7 @@ pub struct Beside<'a> {
 impl Fit {
     /// Each estimate beside what a product file states.
     #[must_use]
-    pub fn beside(&self, file: &ProductFile) -> Vec<Beside<'_>> {
+    pub fn beside(&self, file: &ProductFile) -> Vec<Comparison<'_>> {
         let known = Known::from(file);
         let beside = self.estimates.iter().map(|estimate| {
             let stated = match estimate.quantity {
@@ -38,15 +38,15 @@ impl Fit {
                 Quantity::InertiaRatio => Some([1.0, 0.0].map(|share| file.product.inertia_ratio_at(share))),
                 quantity => known.stated(quantity),
             };
-            Beside { estimate, stated, agrees: stated.and_then(|stated| estimate.agrees(stated)) }
+            Comparison { estimate, stated, agrees: stated.and_then(|stated| estimate.agrees(stated)) }
         });
         beside.collect()
     }
 
     /// Where what was measured of the product, not of how it fell, differs from the file: the verdict is for what the file states.
     #[must_use]
-    pub fn differs(&self, file: &ProductFile) -> Vec<Beside<'_>> {
-        let of_product = |beside: &Beside<'_>| beside.estimate.quantity.is_of_product();
+    pub fn differs(&self, file: &ProductFile) -> Vec<Comparison<'_>> {
+        let of_product = |beside: &Comparison<'_>| beside.estimate.quantity.is_of_product();
         self.beside(file).into_iter().filter(|beside| of_product(beside) && beside.agrees == Some(false)).collect()
     }
 }

@@ -6,6 +6,9 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 /// best one or more, 2 ln 20.
 pub(super) const SIMILAR: f64 = 5.991_464_547_107_98;
 
+/// Confidence of the intervals is one less this.
+pub(super) const ALPHA: f64 = 0.05;
+
 /// What an explanation leaves unexplained, and what it pays for its unknowns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Score {

@@ -11,7 +11,7 @@ use super::join::{is_same, join};
 use super::records::records;
 use super::report::report;
 use super::set::{sets, unit_s};
-use super::told::{self, Told};
+use super::told::{self, DeterminedFit};
 use super::{Error, Fit, Known, Measured, RecordFit, Set, matching};
 use crate::First;
 
@@ -96,8 +96,8 @@ pub fn fit(known: &Known, measured: &[Measured]) -> Result<Fit, Error> {
             Err(error) => refused = refused.or(Some(error)),
         }
     }
-    let order = |a: &(Drop<'_>, Told), b: &(Drop<'_>, Told)| {
-        let is_odd = |told: &Told| told.excess.is_some();
+    let order = |a: &(Drop<'_>, DeterminedFit), b: &(Drop<'_>, DeterminedFit)| {
+        let is_odd = |told: &DeterminedFit| told.excess.is_some();
         is_odd(&a.1).cmp(&is_odd(&b.1)).then(a.1.score.above(&b.1.score).total_cmp(&0.0))
     };
     all.sort_by(order);
@@ -147,7 +147,7 @@ fn explanations<'a>(
     drop: &Drop<'a>,
     measured: &[Measured],
     given: bool,
-) -> Result<(Vec<(Drop<'a>, Told)>, bool), Error> {
+) -> Result<(Vec<(Drop<'a>, DeterminedFit)>, bool), Error> {
     let (mut matched, mut is_plain) = (Vec::new(), false);
     for (k, one) in measured.iter().enumerate() {
         if let Measured::Strikes { strikes, deviation_s } = one {

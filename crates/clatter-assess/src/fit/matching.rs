@@ -3,7 +3,7 @@
 //! The plain explanation comes first: every measured strike is a computed one, and none is missing. Only where that is no explanation are
 //! others tried, and these pay for every strike that they drop or invent ([`Score`]).
 
-use super::criterion::{Faults, SIMILAR, Score, chi_square};
+use super::criterion::{ALPHA, Faults, SIMILAR, Score, chi_square};
 use super::drop::{Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED};
 use super::first_strikes::meeting;
 use super::premise::Premise;
@@ -11,7 +11,6 @@ use super::records::missing;
 use super::solve::{Minimum, Problem};
 use super::starts::{TAKEN, misfit, starts};
 use super::student;
-use super::told::ALPHA;
 use super::{Error, MeasuredStrike, Set, Which};
 use std::cmp::Ordering;
 

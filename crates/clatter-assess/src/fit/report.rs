@@ -6,14 +6,14 @@ use super::drop::{CONTACT, DIFFERENCE, Drop, GAP_TIME, GYRATION, OFFSET, RESTITU
 use super::matching::SUSPECT;
 use super::records::{computed, records};
 use super::region::{Function, Region};
-use super::told::Told;
-use super::{Estimate, Fit, Known, Quantity, RecordFit, Untold};
+use super::told::DeterminedFit;
+use super::{Estimate, Fit, Known, Quantity, RecordFit, Undetermined};
 use crate::Model;
 
 const WITH_SPEED: &str = "with the speed of the product file";
 
 /// All that is told.
-pub(super) fn report(drop: &Drop<'_>, told: &Told) -> Fit {
+pub(super) fn report(drop: &Drop<'_>, told: &DeterminedFit) -> Fit {
     let x = &told.minimum.x;
     let is_free = |unknown: usize| told.free.contains(&unknown);
     let mut quantities = Vec::new();
@@ -55,7 +55,7 @@ pub(super) fn report(drop: &Drop<'_>, told: &Told) -> Fit {
             CONTACT => Quantity::ContactTime,
             _ => return None,
         };
-        Some(Untold { quantity, held_at: quantity.of(drop, x), reason: reason.clone() })
+        Some(Undetermined { quantity, held_at: quantity.of(drop, x), reason: reason.clone() })
     });
     let untold = untold.collect();
     let records = records(drop, x);
@@ -169,7 +169,7 @@ fn beyond(known: &Known, estimate: &Estimate) -> Option<String> {
     )
 }
 
-fn notes(drop: &Drop<'_>, told: &Told, records: &[RecordFit]) -> Vec<String> {
+fn notes(drop: &Drop<'_>, told: &DeterminedFit, records: &[RecordFit]) -> Vec<String> {
     let mut notes = Vec::new();
     for (k, record) in records.iter().enumerate() {
         let which = if records.len() > 1 { format!("record {}: ", k + 1) } else { String::new() };

@@ -1,6 +1,6 @@
 //! What the data tell: which unknowns are left free, and how far they may be off.
 
-use super::criterion::{Faults, SIMILAR, Score, chi_square};
+use super::criterion::{ALPHA, Faults, SIMILAR, Score, chi_square};
 use super::drop::{CONTACT, DIFFERENCE, Drop, GAP_TIME, GYRATION, OFFSET, RESTITUTION, SPEED, SPIN};
 use super::matching::CHANCE as ODD;
 use super::region::Region;
@@ -37,8 +37,6 @@ fn name(unknown: usize) -> &'static str {
 
 /// Part of a direction above which an unknown counts as part of it.
 const PART: f64 = 0.3;
-/// Confidence of the intervals is one less this.
-pub(super) const ALPHA: f64 = 0.05;
 /// An unknown is freed, although the data do not tell it well, where they contradict the value at which it is held: chance explains
 /// them less often than this. So many sound records get a restitution for each end. At a tenth of it, of records whose ends differ
 /// by up to 0.1 only 42 of 100 would get two, not 66.
@@ -46,7 +44,7 @@ const CHANCE: f64 = 1e-2;
 
 /// The fit with all that the data tell left free.
 #[derive(Debug, Clone)]
-pub(super) struct Told {
+pub(super) struct DeterminedFit {
     pub(super) minimum: Minimum,
     pub(super) free: Vec<usize>,
     /// Unknowns that are held, or within the range of the product file, and why.
@@ -69,7 +67,7 @@ pub(super) fn find(
     known: bool,
     begin: Option<(Vec<f64>, Option<usize>)>,
     faults: Faults,
-) -> Result<Told, Error> {
+) -> Result<DeterminedFit, Error> {
     let count: usize = drop.sets.iter().map(Set::len).sum();
     let (begins, freed) = match begin {
         Some((x, freed)) => (vec![x], freed),
@@ -152,7 +150,7 @@ struct Search<'s, 'd> {
 
 impl Search<'_, '_> {
     /// From the best of the starts, with the unknowns that such records tell at least.
-    fn base(&mut self, starts: &[Vec<f64>], freed: Option<usize>) -> Result<Told, Error> {
+    fn base(&mut self, starts: &[Vec<f64>], freed: Option<usize>) -> Result<DeterminedFit, Error> {
         let has = |is: fn(&Set<'_>) -> bool| self.drop.sets.iter().any(is);
         let heights = has(|set| matches!(set, Set::Heights { .. }));
         let acceleration = has(|set| matches!(set, Set::Acceleration { .. }));
@@ -187,7 +185,7 @@ impl Search<'_, '_> {
         let minimum = starts.iter().map(staged).min_by(|a, b| a.sum().total_cmp(&b.sum()));
         let minimum = minimum.filter(|minimum| self.drop.path(&minimum.x).is_some()).ok_or(Error::NoDrop("data"))?;
         let score = Score::new(0.0, 1, 0, Faults::default(), true);
-        let mut told = Told {
+        let mut told = DeterminedFit {
             minimum,
             free,
             held: Vec::new(),
@@ -202,7 +200,7 @@ impl Search<'_, '_> {
     }
 
     /// Degrees of freedom, scatter, and what it is worth.
-    fn judge(&self, told: &mut Told) {
+    fn judge(&self, told: &mut DeterminedFit) {
         told.degrees = (self.count + self.drop.ranged.len()).saturating_sub(self.drop.with_ranged(&told.free).len());
         #[expect(clippy::cast_precision_loss, reason = "a count of data")]
         let (degrees, count, sum) = (told.degrees as f64, self.count as f64, told.minimum.sum());
@@ -215,7 +213,7 @@ impl Search<'_, '_> {
     }
 
     /// Leaves unknowns free, one by one, as long as the data tell them.
-    fn free_more(&mut self, told: &mut Told) {
+    fn free_more(&mut self, told: &mut DeterminedFit) {
         for unknown in [RESTITUTION, GYRATION, SPEED, CONTACT, SPIN, DIFFERENCE] {
             let is_held = told.held.iter().any(|(held, _)| *held == unknown);
             if told.free.contains(&unknown) || is_held || unknown == CONTACT && !self.drop.contacts {
@@ -228,7 +226,7 @@ impl Search<'_, '_> {
     }
 
     /// Leaves one more free, or says why not.
-    fn free_one(&mut self, told: &mut Told, unknown: usize) -> Result<(), String> {
+    fn free_one(&mut self, told: &mut DeterminedFit, unknown: usize) -> Result<(), String> {
         if unknown == GYRATION && self.drop.known.gyration_known {
             return Err("it was given as known".to_owned());
         }
@@ -270,7 +268,7 @@ impl Search<'_, '_> {
     }
 
     /// Holds what turns out not to be told after all, unless the data contradict the product file.
-    fn hold_untold(&mut self, told: &mut Told) {
+    fn hold_untold(&mut self, told: &mut DeterminedFit) {
         while let Some((unknown, reason)) = self.untold(&told.minimum, &told.free, None) {
             // The file has no range of the radius of gyration that the others could be widened by: where the intervals can be as
             // wide as the data leave them, it stays free.
@@ -354,7 +352,7 @@ impl Search<'_, '_> {
     }
 }
 
-impl Told {
+impl DeterminedFit {
     /// Whether it is about as good as the best one: by the criterion, or within its interval where the strikes are taken for the same.
     pub(super) fn is_about_as_good(&self, best: &Self) -> bool {
         let (scatter, degrees) = best.scatter.unwrap_or((1.0, None));

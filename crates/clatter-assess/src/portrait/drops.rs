@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use clatter_shock::{DampingRatio, Suspension};
 
 use crate::drop::{Followed, Model, SingleDrop, Until};
-use crate::engine::Felt;
+use crate::engine::PlaceHistory;
 use crate::search::Ranges;
 use crate::{Component, Limit, Mount, Part, WorstCase};
 
@@ -96,12 +96,12 @@ impl Drops {
     }
 
     /// What a place feels in a drop, for parts up to a natural frequency; none where the drop is not answered.
-    fn felt(&self, view: View, position_m: f64, fastest_rad_s: f64) -> Option<Felt<'_>> {
+    fn felt(&self, view: View, position_m: f64, fastest_rad_s: f64) -> Option<PlaceHistory<'_>> {
         let kept = &self.all[view.index];
         let follow = || Followed::until(&kept.drop, self.model, self.tolerance, self.until).ok();
         let followed = kept.followed.get_or_init(follow).as_ref()?;
         let position_m = if view.turned { -position_m } else { position_m };
-        Felt::rough(followed, position_m, fastest_rad_s).ok()
+        PlaceHistory::rough(followed, position_m, fastest_rad_s).ok()
     }
 }
 
@@ -110,7 +110,7 @@ pub(super) struct Places<'d> {
     pub(super) drops: &'d Drops,
     pub(super) positions_m: Vec<f64>,
     fastest_rad_s: f64,
-    cells: Vec<OnceLock<Option<Felt<'d>>>>,
+    cells: Vec<OnceLock<Option<PlaceHistory<'d>>>>,
 }
 
 impl<'d> Places<'d> {

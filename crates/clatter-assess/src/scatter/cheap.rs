@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_PI_2;
 use clatter::{Bar, End, Impact, Start};
 use clatter_shock::{VelocityShock, VelocityShocks};
 
-use super::Asked;
+use super::SampleDemand;
 use super::sample::{PartSample, Sample};
 use crate::quantity::Source;
 use crate::{Error, SingleDrop};
@@ -19,7 +19,7 @@ const SMALL: f64 = 1e-3;
 const MOST_STRIKES: usize = 256;
 
 /// What a sample asks of every part, times a factor for each; nothing where the train has no answer.
-pub(super) fn answer(sample: &Sample, factors: &[f64], asked: &mut Vec<Asked>) {
+pub(super) fn answer(sample: &Sample, factors: &[f64], asked: &mut Vec<SampleDemand>) {
     let drop = &sample.drop;
     let train = strikes(drop).unwrap_or_default();
     let each = sample.parts.iter().zip(factors);
@@ -40,8 +40,8 @@ fn strikes(drop: &SingleDrop) -> Result<Vec<Impact>, Error> {
     Ok(bar.train(&start).take(MOST_STRIKES).take_while(counts).collect())
 }
 
-fn of_part(drop: &SingleDrop, train: &[Impact], part: &PartSample, factor: f64) -> Result<Asked, Error> {
-    let mut asked = Asked::default();
+fn of_part(drop: &SingleDrop, train: &[Impact], part: &PartSample, factor: f64) -> Result<SampleDemand, Error> {
+    let mut asked = SampleDemand::default();
     // Of instant impacts all is linear in the place.
     for place in part.ends() {
         let s = drop.relative(*place);

@@ -5,10 +5,10 @@ use clatter_flight::Body;
 use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
-use super::full::{self, Followings, LEAST};
+use super::full::{self, FollowedDrops, LEAST};
 use super::philox::Stream;
 use super::sample::{PartSample, Sample};
-use super::{Asked, Error, cheap};
+use super::{Error, SampleDemand, cheap};
 use crate::verdict::MERGE_S;
 use crate::{Component, Limit, Model, Mount, ProductFile, SingleDrop, Spread};
 
@@ -87,8 +87,8 @@ pub fn extremes(file: &ProductFile, points: &[(Body, f64)]) -> Result<Extremes, 
 }
 
 /// The largest factor, less 1, between what both models ask of the parts of a drop; infinite where the fuller one has no answer.
-fn error(cheap: &[Asked], full: &[Result<Asked, crate::Error>]) -> f64 {
-    let of = |(cheap, full): (&Asked, &Result<Asked, crate::Error>)| {
+fn error(cheap: &[SampleDemand], full: &[Result<SampleDemand, crate::Error>]) -> f64 {
+    let of = |(cheap, full): (&SampleDemand, &Result<SampleDemand, crate::Error>)| {
         let Ok(full) = full else { return f64::INFINITY };
         let [least, most] = full.within;
         if most <= 0.0 && cheap.utilization <= 0.0 {
@@ -202,7 +202,7 @@ impl Corners {
         let mut worst = Worst::new(&self.counts);
         for drop in &self.drops {
             let drop = SingleDrop { body: *body, restitution: e, ..*drop };
-            let mut followings = Followings::of(&drop);
+            let mut followings = FollowedDrops::of(&drop);
             worst.raise(&self.parts, |part, most| followings.larger(part, most).ok());
         }
         worst.verdicts()

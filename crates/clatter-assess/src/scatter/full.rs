@@ -1,9 +1,9 @@
 //! A sample by the model with the most physics that the data allow.
 
-use super::Asked;
+use super::SampleDemand;
 use super::sample::{PartSample, Sample};
 use crate::drop::{Followed, Until};
-use crate::engine::Felt;
+use crate::engine::PlaceHistory;
 use crate::quantity::Source;
 use crate::{Error, Limit, LimitKind, SingleDrop};
 
@@ -19,23 +19,23 @@ const COARSE: f64 = 0.02;
 /// First until its energy allows no shock as large as the largest, then on where what comes later could still pass what a part was
 /// asked. Where the error told leaves open whether a limit holds, it is followed again, finer.
 #[derive(Debug)]
-pub(super) struct Followings<'a> {
+pub(super) struct FollowedDrops<'a> {
     drop: &'a SingleDrop,
-    early: Following,
-    whole: Following,
-    finer: [Following; 2],
+    early: LazyDrop,
+    whole: LazyDrop,
+    finer: [LazyDrop; 2],
 }
 
 /// A drop that is followed when a part first asks for it.
-type Following = Option<Result<Followed, Error>>;
+type LazyDrop = Option<Result<Followed, Error>>;
 
-impl<'a> Followings<'a> {
+impl<'a> FollowedDrops<'a> {
     pub(super) fn of(drop: &'a SingleDrop) -> Self {
         Self { drop, early: None, whole: None, finer: [None, None] }
     }
 
     /// What the drop asks of a part; why, where it is not answered.
-    pub(super) fn answer(&mut self, part: &PartSample) -> Result<Asked, Error> {
+    pub(super) fn answer(&mut self, part: &PartSample) -> Result<SampleDemand, Error> {
         let mut asked = self.passing(part, TOLERANCE, LEAST)?;
         for (following, tolerance) in self.finer.iter_mut().zip(FINER) {
             if !asked.is_open() {
@@ -56,9 +56,9 @@ impl<'a> Followings<'a> {
     }
 
     /// What the drop asks of a part where that passes a utilization.
-    fn passing(&mut self, part: &PartSample, tolerance: f64, above: f64) -> Result<Asked, Error> {
+    fn passing(&mut self, part: &PartSample, tolerance: f64, above: f64) -> Result<SampleDemand, Error> {
         let (drop, model) = (self.drop, self.drop.fullest());
-        let followed = |following: &mut Following, follow: &dyn Fn() -> Result<Followed, Error>| {
+        let followed = |following: &mut LazyDrop, follow: &dyn Fn() -> Result<Followed, Error>| {
             let followed = following.get_or_insert_with(follow);
             followed.as_ref().map_err(Clone::clone).and_then(|followed| of_part(followed, part, above))
         };
@@ -76,8 +76,8 @@ impl<'a> Followings<'a> {
 }
 
 /// What a sample asks of every part; why, of those that it does not answer.
-pub(super) fn answer(sample: &Sample, asked: &mut Vec<Result<Asked, Error>>) {
-    let mut followings = Followings::of(&sample.drop);
+pub(super) fn answer(sample: &Sample, asked: &mut Vec<Result<SampleDemand, Error>>) {
+    let mut followings = FollowedDrops::of(&sample.drop);
     asked.clear();
     asked.extend(sample.parts.iter().map(|part| followings.answer(part)));
 }
@@ -86,11 +86,11 @@ pub(super) fn answer(sample: &Sample, asked: &mut Vec<Result<Asked, Error>>) {
 pub(super) const LEAST: f64 = -1.0;
 
 /// What a followed drop asks of a part where that passes a utilization, and whether what comes later may ask more.
-fn of_part(followed: &Followed, part: &PartSample, above: f64) -> Result<(Asked, bool), Error> {
-    let mut asked = Asked::default();
+fn of_part(followed: &Followed, part: &PartSample, above: f64) -> Result<(SampleDemand, bool), Error> {
+    let mut asked = SampleDemand::default();
     let mut goes_on = false;
-    let felt: Vec<Felt<'_>> =
-        part.places().into_iter().map(|x| Felt::new(followed, x)).collect::<Result<_, Error>>()?;
+    let felt: Vec<PlaceHistory<'_>> =
+        part.places().into_iter().map(|x| PlaceHistory::new(followed, x)).collect::<Result<_, Error>>()?;
     let each = || felt.iter().flat_map(|felt| part.limits.iter().enumerate().map(move |(k, limit)| (k, felt, limit)));
     for (k, felt, limit) in each() {
         if above >= 0.0 && !may_pass(felt, limit, &followed.drop, above)? {
@@ -118,14 +118,14 @@ fn critical_acceleration(limit: &Limit, drop: &SingleDrop) -> Option<Limit> {
 
 /// Whether a limit may pass a utilization. A damage boundary does not unless the largest velocity change and the largest acceleration
 /// of all shocks both do, which is found sooner than shock by shock.
-fn may_pass(felt: &Felt<'_>, limit: &Limit, drop: &SingleDrop, above: f64) -> Result<bool, Error> {
+fn may_pass(felt: &PlaceHistory<'_>, limit: &Limit, drop: &SingleDrop, above: f64) -> Result<bool, Error> {
     let Some(acceleration) = critical_acceleration(limit, drop) else { return Ok(true) };
     let change = Limit::new(LimitKind::VelocityChange, limit.allowed);
     Ok(felt.answer(&change, None, above)?.is_some() && felt.answer(&acceleration, None, above)?.is_some())
 }
 
 /// Whether what comes later may pass a utilization; a damage boundary only by both of its quantities.
-fn may_pass_later(felt: &Felt<'_>, limit: &Limit, part: &PartSample, drop: &SingleDrop, above: f64) -> bool {
+fn may_pass_later(felt: &PlaceHistory<'_>, limit: &Limit, part: &PartSample, drop: &SingleDrop, above: f64) -> bool {
     let parts = part.suspension.as_slice();
     let acceleration = critical_acceleration(limit, drop);
     let may_pass = |limit: &Limit, parts| felt.later_most(limit, parts, above) > above;

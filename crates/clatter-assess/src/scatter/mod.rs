@@ -194,7 +194,7 @@ pub enum Column {
 
 /// What a sample asks of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct Asked {
+struct SampleDemand {
     /// The largest demand over allowed of its limits.
     utilization: f64,
     /// What that is at least and at most, by what it may be off by.
@@ -203,7 +203,7 @@ struct Asked {
     fails: [bool; LimitKind::ALL.len()],
 }
 
-impl Asked {
+impl SampleDemand {
     /// Takes in what one limit is asked, which may be off by a share.
     fn raise(&mut self, limit: usize, used: f64, error: f64) {
         self.utilization = self.utilization.max(used);
@@ -328,7 +328,7 @@ impl Sampler {
             }
             let (mut sample, mut cheap, mut full) = (self.inputs.blank(), Vec::new(), Vec::new());
             self.answer(BATCH + k, Some(&vec![1.0; parts]), true, &mut sample, &mut cheap, &mut full);
-            let fails = |full: &Result<Asked, _>| full.as_ref().map_or(true, |asked| asked.utilization > 1.0);
+            let fails = |full: &Result<SampleDemand, _>| full.as_ref().map_or(true, |asked| asked.utilization > 1.0);
             cheap.iter().zip(&full).map(|(cheap, full)| (cheap.utilization, fails(full))).collect()
         };
         (samples >= levels::LEAST_SAMPLES).then(|| levels::pilot(samples, confidence, parts, go_on, both))
@@ -338,7 +338,7 @@ impl Sampler {
     fn near(&self) -> Vec<f64> {
         let (mut sample, mut full) = (self.inputs.blank(), Vec::new());
         self.answer(0, None, true, &mut sample, &mut Vec::new(), &mut full);
-        let utilization = |asked: &Result<Asked, _>| asked.as_ref().map_or(0.0, |asked| asked.utilization);
+        let utilization = |asked: &Result<SampleDemand, _>| asked.as_ref().map_or(0.0, |asked| asked.utilization);
         full.iter().map(utilization).map(|used| if used.is_finite() { used } else { 0.0 }).collect()
     }
 
@@ -350,8 +350,8 @@ impl Sampler {
         factors: Option<&[f64]>,
         follow: bool,
         sample: &mut Sample,
-        cheap: &mut Vec<Asked>,
-        full: &mut Vec<Result<Asked, crate::Error>>,
+        cheap: &mut Vec<SampleDemand>,
+        full: &mut Vec<Result<SampleDemand, crate::Error>>,
     ) {
         cheap.clear();
         full.clear();

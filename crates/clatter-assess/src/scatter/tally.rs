@@ -4,14 +4,14 @@
 
 use super::drivers::Sums;
 use super::levels::{Count, float, round};
-use super::{Asked, ComponentScatter, Driver, Inputs, Probability, Settings};
+use super::{ComponentScatter, Driver, Inputs, Probability, SampleDemand, Settings};
 use crate::{Component, Error, Limit};
 
 impl Count {
     /// Takes in a sample by what it asks by the cheap model, where that was asked, and by the full one: none where only the cheap one
     /// was asked, an inner none where it has no answer.
-    pub(super) fn take(&mut self, cheap: Option<&Asked>, full: Option<Option<&Asked>>) {
-        let fails = |asked: &Asked| [asked.utilization, asked.within[0], asked.within[1]].map(|used| used > 1.0);
+    pub(super) fn take(&mut self, cheap: Option<&SampleDemand>, full: Option<Option<&SampleDemand>>) {
+        let fails = |asked: &SampleDemand| [asked.utilization, asked.within[0], asked.within[1]].map(|used| used > 1.0);
         self.add(cheap.is_some_and(|asked| asked.utilization > 1.0), full.map(|full| full.map(fails)));
     }
 
@@ -52,8 +52,8 @@ impl Block {
     pub(super) fn take(
         &mut self,
         k: u64,
-        cheap: &[Asked],
-        full: &[Result<Asked, Error>],
+        cheap: &[SampleDemand],
+        full: &[Result<SampleDemand, Error>],
         inputs: &Inputs,
         uniforms: &[f64],
     ) {
@@ -61,13 +61,13 @@ impl Block {
             let full = full.get(i).map(|full| full.as_ref().ok());
             tally.take(k, cheap.get(i), full, own.iter().map(|input| uniforms[*input]));
         }
-        let largest = |most: Asked, asked: &Asked| Asked {
+        let largest = |most: SampleDemand, asked: &SampleDemand| SampleDemand {
             utilization: most.utilization.max(asked.utilization),
             within: [0, 1].map(|end| most.within[end].max(asked.within[end])),
             ..most
         };
-        let cheap = cheap.iter().fold(Asked::default(), largest);
-        let together: Result<Asked, Error> = full.iter().try_fold(Asked::default(), |most, asked| {
+        let cheap = cheap.iter().fold(SampleDemand::default(), largest);
+        let together: Result<SampleDemand, Error> = full.iter().try_fold(SampleDemand::default(), |most, asked| {
             asked.as_ref().map(|asked| largest(most, asked)).map_err(Clone::clone)
         });
         self.all.take(Some(&cheap), (!full.is_empty()).then_some(together.as_ref().ok()));
@@ -106,8 +106,8 @@ impl Tally {
     pub(super) fn take(
         &mut self,
         sample: u64,
-        cheap: Option<&Asked>,
-        full: Option<Option<&Asked>>,
+        cheap: Option<&SampleDemand>,
+        full: Option<Option<&SampleDemand>>,
         ranks: impl Iterator<Item = f64>,
     ) {
         self.count.take(cheap, full);

@@ -2,9 +2,9 @@
 
 use super::grid::halton;
 use super::ranges::{AXES, DAMPING, FREQUENCY, Ranges, TILT};
-use super::{Asked, Task, Work, fastest_rad_s, rough_to_rad_s};
+use super::{Candidate, Task, Work, fastest_rad_s, rough_to_rad_s};
 use crate::drop::{Followed, Until};
-use crate::engine::Felt;
+use crate::engine::PlaceHistory;
 use crate::{Mount, Spread};
 
 /// Drops within this share of the worst are climbed from, so many at most, and so many of those that rebound.
@@ -30,7 +30,7 @@ impl Ranges<'_> {
     }
 
     /// Climbs from a place in all ranges, one after the other, each step half as long as the last.
-    pub(super) fn climb(&self, task: &Task<'_>, start: Asked, tilt_step: f64, work: &Work<'_>) -> Asked {
+    pub(super) fn climb(&self, task: &Task<'_>, start: Candidate, tilt_step: f64, work: &Work<'_>) -> Candidate {
         let (until, fastest) = (Until::Lands, rough_to_rad_s(task.component));
         let free = self.free_at(task, &start.place);
         let frequency_step = 0.5 / f64::from(Self::frequencies(task, &self.single(&start.place)).max(4));
@@ -57,9 +57,9 @@ impl Ranges<'_> {
                         continue;
                     }
                     let followed = moved.as_ref().unwrap_or(&here);
-                    let Ok(felt) = Felt::rough(followed, place.position_m, fastest) else { continue };
+                    let Ok(felt) = PlaceHistory::rough(followed, place.position_m, fastest) else { continue };
                     if let Ok(Some(next)) = Self::in_drop(task, &place, &felt, best.answer.utilization()) {
-                        best = Asked { late: best.late, ..next };
+                        best = Candidate { late: best.late, ..next };
                         here = moved.unwrap_or(here);
                         break;
                     }
@@ -72,12 +72,12 @@ impl Ranges<'_> {
 
     /// The part at both ends of its natural frequencies in the same drop, where that asks more: strikes that come in step with it have their
     /// crests far from one another, which no step of a climb goes over.
-    fn at_ends_of_frequency(task: &Task<'_>, best: Asked, here: &Followed, fastest_rad_s: f64) -> Asked {
-        let Ok(felt) = Felt::rough(here, best.place.position_m, fastest_rad_s) else { return best };
+    fn at_ends_of_frequency(task: &Task<'_>, best: Candidate, here: &Followed, fastest_rad_s: f64) -> Candidate {
+        let Ok(felt) = PlaceHistory::rough(here, best.place.position_m, fastest_rad_s) else { return best };
         [0.0, 1.0].into_iter().fold(best, |best, share| {
             let place = best.place.with(FREQUENCY, share);
             let next = Self::in_drop(task, &place, &felt, best.answer.utilization());
-            next.ok().flatten().map_or(best, |next| Asked { late: best.late, ..next })
+            next.ok().flatten().map_or(best, |next| Candidate { late: best.late, ..next })
         })
     }
 
@@ -86,10 +86,10 @@ impl Ranges<'_> {
     pub(super) fn climb_around(
         &self,
         task: &Task<'_>,
-        start: Asked,
+        start: Candidate,
         (reach, tries): (f64, u32),
         work: &Work<'_>,
-    ) -> Asked {
+    ) -> Candidate {
         let (free, fastest) = (self.free_at(task, &start.place), rough_to_rad_s(task.component));
         // A climb is after the peak that it began with, not after those that elastic products have for minutes.
         let until = if start.late { Until::Past(LATER * start.answer.time_s) } else { Until::Lands };
@@ -109,9 +109,9 @@ impl Ranges<'_> {
                 *share = (*share + step).clamp(0.0, 1.0);
             }
             let Ok(followed) = self.follow(&place, until) else { continue };
-            let Ok(felt) = Felt::rough(&followed, place.position_m, fastest) else { continue };
+            let Ok(felt) = PlaceHistory::rough(&followed, place.position_m, fastest) else { continue };
             if let Ok(Some(next)) = Self::in_drop(task, &place, &felt, best.answer.utilization()) {
-                best = Asked { late: start.late, ..next };
+                best = Candidate { late: start.late, ..next };
                 again = Some(step);
             }
         }
@@ -120,12 +120,12 @@ impl Ranges<'_> {
 }
 
 /// Where to climb from: the highest, some way from one another.
-pub(super) fn starts(found: &mut [Asked]) -> Vec<Asked> {
+pub(super) fn starts(found: &mut [Candidate]) -> Vec<Candidate> {
     found.sort_by(|a, b| b.answer.utilization().total_cmp(&a.answer.utilization()));
     let most = found.first().map_or(0.0, |asked| asked.answer.utilization());
-    let mut starts: Vec<Asked> = Vec::new();
+    let mut starts: Vec<Candidate> = Vec::new();
     for asked in found.iter().take_while(|asked| asked.answer.utilization() >= NEAR * most) {
-        let next = |other: &Asked| {
+        let next = |other: &Candidate| {
             let close = |axis: usize| {
                 let reach = if axis == TILT { 0.1 } else { 0.3 };
                 (other.place.shares[axis] - asked.place.shares[axis]).abs() < reach

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use clatter::End;
 
 use crate::drop::{Model, SingleDrop};
-use crate::search::{Asked, Task};
+use crate::search::{Candidate, Task};
 use crate::{Component, ContactLaw, Drop, Mount, Product, Spread, WorstCase};
 
 /// Where in the ranges a drop and a part are.
@@ -101,7 +101,7 @@ impl Ranges<'_> {
     }
 
     /// Whether a flat drop is one of the ranges.
-    pub(crate) fn hold(&self, flat: &Asked) -> bool {
+    pub(crate) fn hold(&self, flat: &Candidate) -> bool {
         if flat.place.flat { self.hold_flat() } else { self.drop.tilt_rad.lo() == 0.0 }
     }
 

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use clatter_answer::assess::Answer;
-use clatter_assess::fit::Beside;
+use clatter_assess::fit::Comparison;
 
 use crate::Streams;
 use crate::text::shown;
@@ -30,7 +30,7 @@ pub(super) fn warn(answer: &Answer<'_>, streams: &mut Streams<'_>) {
 }
 
 /// Name, estimate, interval and what is stated, with their unit.
-fn said(beside: &Beside<'_>) -> (&'static str, String, String, String) {
+fn said(beside: &Comparison<'_>) -> (&'static str, String, String, String) {
     let (what, factor, unit) = beside.estimate.quantity.said();
     let with = |text: String| format!("{text} {unit}").trim_end().to_owned();
     let range = |[lo, hi]: [f64; 2]| {

@@ -22,7 +22,7 @@ pub(crate) struct BlockArgs {
 }
 
 /// What a command has of a box beside [`DropArgs`].
-pub(crate) struct Beside {
+pub(crate) struct ExtraArgs {
     pub(crate) model: Option<Model>,
     pub(crate) e: Option<f64>,
     pub(crate) gyration: Option<[Quantity; 3]>,
@@ -40,7 +40,7 @@ impl DropArgs {
     }
 
     /// The drop of a box.
-    pub(crate) fn block(&self, beside: &Beside) -> Result<Setup, Failure> {
+    pub(crate) fn block(&self, beside: &ExtraArgs) -> Result<Setup, Failure> {
         if self.product.is_some() {
             return Err(Failure::Usage("a product file says a bar: the options of a box do not go with --product"));
         }

@@ -11,7 +11,7 @@ use clatter_assess::{Accuracy, LimitKind, Model};
 use super::Args;
 use super::limits;
 use super::peaks::{Shocks, doubts, equivalent_table};
-use crate::drop_args::{Beside, Setup};
+use crate::drop_args::{ExtraArgs, Setup};
 use crate::numbers::{figures, given};
 use crate::quantities::{self, Show, neat};
 use crate::words::in_words;
@@ -30,7 +30,7 @@ pub(super) struct Drop<'a> {
 impl Args {
     pub(super) fn drop_by(&self, streams: &mut Streams<'_>) -> Result<Drop<'_>, Failure> {
         let mass = &self.inertia.mass;
-        let beside = Beside {
+        let beside = ExtraArgs {
             flat: self.flat,
             model: self.model,
             e: self.e,

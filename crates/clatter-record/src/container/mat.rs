@@ -6,7 +6,7 @@ pub(super) mod level4;
 
 use super::bytes::Bytes;
 use super::number::Number;
-use super::{Beside, Matrix, Naming, Room, agreed, codec, interval_s, refuse};
+use super::{Matrix, Metadata, Naming, Room, agreed, codec, interval_s, refuse};
 use crate::{Column, Error, Values};
 
 const PART: &str = "MAT file";
@@ -62,7 +62,7 @@ impl Found {
     }
 
     /// The columns, each with the rate that its structure tells, or one around it.
-    fn columns(mut self, beside: &mut Beside) -> Vec<Column> {
+    fn columns(mut self, beside: &mut Metadata) -> Vec<Column> {
         for column in &mut self.columns {
             let holds = |group: &str| {
                 let rest = column.group.strip_prefix(group);
@@ -76,7 +76,7 @@ impl Found {
     }
 }
 
-pub(super) fn read(bytes: &[u8], room: &mut Room, beside: &mut Beside) -> Result<Vec<Column>, Error> {
+pub(super) fn read(bytes: &[u8], room: &mut Room, beside: &mut Metadata) -> Result<Vec<Column>, Error> {
     let mut bytes = Bytes::new(bytes, PART);
     bytes.take(126)?;
     bytes.big_endian = bytes.take(2)? == b"MI";

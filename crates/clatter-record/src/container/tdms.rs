@@ -7,7 +7,7 @@ mod meta;
 mod scale;
 
 use super::bytes::Bytes;
-use super::{Beside, Room, joined, refuse};
+use super::{Metadata, Room, joined, refuse};
 use crate::unit::{Kind, Unit};
 use crate::{Column, Error, Values};
 use daqmx::Daqmx;
@@ -51,7 +51,7 @@ struct File {
     is_cut: bool,
 }
 
-pub(super) fn read(bytes: &[u8], room: &mut Room, beside: &mut Beside) -> Result<Vec<Column>, Error> {
+pub(super) fn read(bytes: &[u8], room: &mut Room, beside: &mut Metadata) -> Result<Vec<Column>, Error> {
     let mut bytes = Bytes::new(bytes, PART);
     let mut file = File::default();
     // Channels have bytes in each segment, save empty ones: only a made-up file has many more channels than bytes.

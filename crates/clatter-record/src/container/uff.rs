@@ -3,12 +3,12 @@
 //! Source: Universal File Dataset 58, Structural Dynamics Research Laboratory, University of Cincinnati.
 
 use super::number::Number;
-use super::{Beside, Room, column, refuse};
+use super::{Metadata, Room, column, refuse};
 use crate::unit::{Kind, Unit};
 use crate::{Column, Error, Values};
 use std::borrow::Cow;
 
-pub(super) fn read(bytes: &[u8], room: &mut Room, beside: &mut Beside) -> Result<Vec<Column>, Error> {
+pub(super) fn read(bytes: &[u8], room: &mut Room, beside: &mut Metadata) -> Result<Vec<Column>, Error> {
     let mut lines = Lines { bytes, at: 0, line: 0 };
     let mut columns: Vec<Column> = Vec::new();
     // Blocks of one recorder share their times, and lie in a group with them.

@@ -1,9 +1,9 @@
 //! Columns without names, by their places and their first rows.
 
-use super::Seen;
+use super::Preview;
 use crate::Error;
 
-impl Seen {
+impl Preview {
     /// Refuses columns without names that are not sure to be one time and channels.
     pub(super) fn refuse_unclear(&self, time: Option<usize>) -> Result<(), Error> {
         /// Rows that tell a time from a signal that rises.

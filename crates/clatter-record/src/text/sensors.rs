@@ -6,7 +6,7 @@ use super::cells::Form;
 use super::layout::Layout;
 use super::visible;
 use crate::moment::{self, CLOCK, DATED};
-use crate::roles::{Roles, Seen};
+use crate::roles::{Preview, Roles};
 use crate::unit::Unit;
 use crate::{Error, Options};
 
@@ -126,7 +126,7 @@ pub(super) fn units_beside(layout: &mut Layout, words: &[Word]) {
 }
 
 /// The column of dates beside one of times of day.
-pub(super) fn date(seen: &Seen, roles: &Roles, form: Form) -> Option<usize> {
+pub(super) fn date(seen: &Preview, roles: &Roles, form: Form) -> Option<usize> {
     let digits =
         |column: usize| seen.cells.get(column).and_then(|cell| Some(moment::seconds(cell, form.order)?.digits));
     let (time, _) = roles.time?;

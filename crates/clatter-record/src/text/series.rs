@@ -9,7 +9,7 @@ use super::rows::{Rows, Shape};
 use super::{encoding, head};
 use crate::decimal::Decimal;
 use crate::heading::Heading;
-use crate::roles::{Roles, Seen};
+use crate::roles::{Preview, Roles};
 use crate::{Error, Options};
 
 /// Lines of a head that are looked at.
@@ -68,7 +68,7 @@ impl Series {
     /// The values of the channel.
     pub(super) fn read(self, text: &[u8], options: &Options) -> Result<(Rows, Roles), Error> {
         let heading = Heading::named_alone("acceleration").with_unit(self.unit.as_deref().unwrap_or_default());
-        let seen = Seen { headings: vec![heading], named: true, sampled: true, ..Seen::default() };
+        let seen = Preview { headings: vec![heading], named: true, sampled: true, ..Preview::default() };
         let roles = seen.roles(options)?;
         let shape =
             Shape { sampled_s: Some([0.0, self.step_s]), ..Shape::plain(Form::new(None, b'.'), WINDOWS_1252, 1) };

@@ -1,7 +1,7 @@
 //! Measured drops beside the computed ones that are nearest.
 
 use clatter_assess::ProductFile;
-use clatter_assess::fit::{Beside, Estimate, Fit, MeasuredDrop, RecordFit};
+use clatter_assess::fit::{Comparison, Estimate, Fit, MeasuredDrop, RecordFit};
 use clatter_figures::{FigureError, fit, model_words, three, two};
 use clatter_record::{Between, Channel, Record};
 use clatter_shock::{DampingRatio, Frequencies, Quantity, Spectrum};
@@ -88,7 +88,7 @@ fn accelerations(fit: &Fit) -> impl Iterator<Item = (usize, &RecordFit)> {
 }
 
 /// Name, estimate, interval and what is stated; the first two to two digits of the width of the interval.
-fn words(beside: &Beside<'_>) -> [String; 4] {
+fn words(beside: &Comparison<'_>) -> [String; 4] {
     let Estimate { quantity, value, interval, .. } = beside.estimate;
     let (what, factor, unit) = quantity.said();
     let with = |text: String| match unit {
@@ -105,7 +105,7 @@ fn words(beside: &Beside<'_>) -> [String; 4] {
     [what.to_owned(), with(digits(factor * value)), with(format!("{} to {}", digits(from), digits(to))), stated]
 }
 
-fn agreement(beside: &Beside<'_>) -> &'static str {
+fn agreement(beside: &Comparison<'_>) -> &'static str {
     match beside.agrees {
         Some(true) => "agrees",
         Some(false) if beside.estimate.quantity.is_of_product() => "differs",

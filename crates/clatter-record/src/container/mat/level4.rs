@@ -5,7 +5,7 @@
 use super::Found;
 use crate::container::bytes::Bytes;
 use crate::container::number::Number;
-use crate::container::{Beside, Matrix, Room, refuse};
+use crate::container::{Matrix, Metadata, Room, refuse};
 use crate::{Column, Error};
 
 const PART: &str = "MAT file of version 4";
@@ -66,7 +66,7 @@ pub(in crate::container) fn is_level4(beginning: &[u8]) -> bool {
     })
 }
 
-pub(in crate::container) fn read(bytes: &[u8], room: &mut Room, beside: &mut Beside) -> Result<Vec<Column>, Error> {
+pub(in crate::container) fn read(bytes: &[u8], room: &mut Room, beside: &mut Metadata) -> Result<Vec<Column>, Error> {
     let mut bytes = Bytes::new(bytes, PART);
     let mut found = Found::default();
     while bytes.left() > 0 {

@@ -2,7 +2,7 @@
 
 use super::{Channel, Columns, File, Segment, is_comment};
 use crate::heading::Heading;
-use crate::roles::{Roles, Seen};
+use crate::roles::{Preview, Roles};
 use crate::text::rows::{Rows, Shape};
 use crate::text::{cut, few_times};
 use crate::unit::{Kind, Unit};
@@ -33,7 +33,7 @@ impl Segment {
     }
 
     /// Its columns: of times or empty, and of channels.
-    fn columns(&self, file: &File) -> Seen {
+    fn columns(&self, file: &File) -> Preview {
         let heading = |(column, name): (usize, &String)| {
             if let Some(channel) = self.in_column(file, column) {
                 let Channel { unit, .. } = &self.channels[channel];
@@ -50,7 +50,7 @@ impl Segment {
             }
         };
         let headings: Vec<Heading> = self.names.iter().enumerate().map(heading).collect();
-        Seen { headings, named: true, sampled: file.columns == Columns::No, ..Seen::default() }
+        Preview { headings, named: true, sampled: file.columns == Columns::No, ..Preview::default() }
     }
 
     /// The channels by their times.

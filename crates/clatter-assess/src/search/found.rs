@@ -1,0 +1,94 @@
+//! What drops ask: of each, of all, and the worst of them.
+
+use clatter_shock::Suspension;
+
+use super::Place;
+use crate::Error;
+use crate::engine::Answer;
+
+/// A drop and a part that ask for something.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Candidate {
+    pub(crate) place: Place,
+    /// The part, where the limit is on its response.
+    pub(crate) part: Option<Suspension>,
+    pub(crate) answer: Answer,
+    /// Whether it comes after the body has bounced clear once.
+    pub(crate) late: bool,
+}
+
+/// The worst that was found for one limit.
+#[derive(Debug, Clone)]
+pub(crate) struct Worst {
+    /// The drop that asks most; none where no drop of the ranges was answered.
+    pub(crate) asked: Option<Candidate>,
+    /// The utilization that strikes after the body has come down once may reach, by the energy left; 0 where that is below the worst.
+    pub(crate) later: f64,
+    /// Drops that the model does not take, and why the first of them.
+    pub(crate) refused: Option<(usize, Error)>,
+    /// Drops that were followed besides climbing.
+    pub(crate) drops: usize,
+    /// Whether the search was told to stop before its end.
+    pub(crate) stopped: bool,
+}
+
+/// What one drop asks.
+#[derive(Default)]
+pub(super) struct OfDrop {
+    /// Of the tasks of these numbers.
+    pub(super) asked: Vec<(usize, Candidate)>,
+    /// Of tasks of which the energy allows more after the body has come down once, how much.
+    pub(super) later: Vec<(usize, f64)>,
+}
+
+impl Worst {
+    pub(super) fn refuse(&mut self, count: usize, error: &Error) {
+        let (own, first) = self.refused.take().unwrap_or_else(|| (0, error.clone()));
+        self.refused = Some((own + count, first));
+    }
+}
+
+/// What all drops ask.
+pub(super) struct Candidates {
+    /// Of each task.
+    pub(super) found: Vec<Vec<Candidate>>,
+    /// How many are not answered, and why the first is not.
+    pub(super) refused: Option<(usize, Error)>,
+    /// Of each task, what rebounds may ask by their energy; 0 where that is less than the worst.
+    pub(super) later: Vec<f64>,
+    pub(super) drops: usize,
+}
+
+impl Candidates {
+    /// The largest utilization of each task so far.
+    pub(super) fn best(&self) -> Vec<f64> {
+        let most = |found: &Vec<Candidate>| found.iter().map(|asked| asked.answer.utilization()).fold(0.0, f64::max);
+        self.found.iter().map(most).collect()
+    }
+    pub(super) fn take(&mut self, answers: Vec<Result<OfDrop, Error>>) {
+        for answer in answers.into_iter().filter(|answer| !matches!(answer, Err(Error::Stopped))) {
+            self.drops += 1;
+            match answer {
+                Ok(of_drop) => {
+                    of_drop.asked.into_iter().for_each(|(task, asked)| self.found[task].push(asked));
+                    of_drop.later.into_iter().for_each(|(task, most)| self.later[task] = most.max(self.later[task]));
+                }
+                Err(error) => {
+                    self.refused = Some(self.refused.take().map_or((1, error), |(n, first)| (n + 1, first)));
+                }
+            }
+        }
+    }
+}
+
+impl Candidate {
+    /// Whether it asks for more of the limit than another drop.
+    pub(crate) fn exceeds(&self, other: &Self) -> bool {
+        self.answer.utilization() > other.answer.utilization()
+    }
+    /// The same of the product turned around.
+    pub(super) fn turned(self) -> Self {
+        let place = Place { first: self.place.first.other(), position_m: -self.place.position_m, ..self.place };
+        Self { place, ..self }
+    }
+}
