@@ -22,7 +22,7 @@ use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
 use crate::drop::{Followed, SingleDrop, Until};
-use crate::engine::{Part, PlaceHistory, of_followed, once};
+use crate::engine::{Answer, Part, PlaceHistory, of_followed, once};
 use crate::quantity::Source;
 use crate::{Component, Error, Limit, Mount};
 use climb::{CLIMBS, EDGES_REACH, EDGES_TRIES, LATE_REACH, LATE_TRIES, NEAR, starts};
