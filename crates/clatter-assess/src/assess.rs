@@ -339,7 +339,7 @@ fn in_unit(limit: &Limit, unit: Unit) -> Limit {
 fn accuracy_reason(ranges: &Ranges<'_>, drop: &SingleDrop) -> Reason {
     match (ranges.model, drop.fullest()) {
         (Model::Compliant, _) => Reason::ContactTime,
-        (model, fullest) if model < fullest => Reason::Asked(model),
+        (model, fullest) if model < fullest => Reason::ByRequest(model),
         _ => Reason::NoContactTime,
     }
 }

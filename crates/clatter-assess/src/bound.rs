@@ -15,8 +15,9 @@ use crate::{Component, Drop, Limit, Product};
 /// # Formula
 /// One instant strike of point i approaches with at most √(2E μ_i), μ = 1 + x²/ρ², and gives the place
 /// `(1 + e) u (1 + x_p x_i/ρ²)/μ_i`, largest where the lever arm of the end is that of the place, or that of the level body.
-/// Where strikes may be one shock, as those of a flat drop at one instant and contacts that take time, a place may change its velocity
-/// from one bound to the other, and gains gτ within the contact time τ. A hysteretic contact holds at most E on its line of first loading: its force is at most √(2E) ω₁/√μ.
+/// Where strikes may be one shock, as those of a flat drop at one instant and contacts that take time, a place may change its
+/// velocity from one bound to the other, and gains gτ within the contact time τ. A hysteretic contact holds at most E on its line
+/// of first loading: its force is at most √(2E) ω₁/√μ.
 pub(crate) fn bound(
     product: &Product,
     drop: &Drop,

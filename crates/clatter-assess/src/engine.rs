@@ -397,7 +397,12 @@ impl<'a> PlaceHistory<'a> {
             shock_m_s: center * mass(x),
             turned_m_s: center * mass(x) * turned,
             turn_rad_s: center / rho * turned,
-            acceleration_m_s2: center * libm::hypot(both[0], both[1]).max(mass(x)) * self.peak_per_change(),
+            // Nothing where nothing is left, also where a strike has no largest force.
+            acceleration_m_s2: if center > 0.0 {
+                center * libm::hypot(both[0], both[1]).max(mass(x)) * self.peak_per_change()
+            } else {
+                0.0
+            },
         }
     }
     /// The utilization to which a shock of this size brings a part that still rings as the motion was left; 0 where it was below

@@ -149,7 +149,7 @@ pub enum Reason {
     /// Contacts take a time that is known.
     ContactTime,
     /// The model was asked for.
-    Asked(Model),
+    ByRequest(Model),
     /// The contact time is not known.
     NoContactTime,
 }
@@ -158,7 +158,7 @@ impl Display for Reason {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::ContactTime => f.write_str("contacts that take time: how long is known"),
-            Self::Asked(model) => write!(f, "{} was asked for", model.name()),
+            Self::ByRequest(model) => write!(f, "{} was asked for", model.name()),
             Self::NoContactTime => {
                 f.write_str("instant impacts at real tilt, with gravity: the contact time is not known")
             }

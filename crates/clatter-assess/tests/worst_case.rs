@@ -131,13 +131,13 @@ fn single(file: &ProductFile, component: &Component, limit: &Limit, (shares, fir
 }
 
 /// A limit of a random product: how it was told, and by how much the worst of the single drops passes it.
-struct Told {
+struct Claimed {
     limit: LimitAssessment,
     over: f64,
     by: String,
 }
 
-fn told(r: &mut Random, singles: usize) -> (f64, Vec<Told>) {
+fn told(r: &mut Random, singles: usize) -> (f64, Vec<Claimed>) {
     let file = product(r);
     let begun = std::time::Instant::now();
     let assessment = file.assess().expect("an assessment");
@@ -155,7 +155,7 @@ fn told(r: &mut Random, singles: usize) -> (f64, Vec<Told>) {
             let ((most, by), _) =
                 [far, worst(&near)].into_iter().reduce(|a, b| if b.0.0 > a.0.0 { b } else { a }).expect("two");
             let over = most / (assessed.demand.expect("an answer") / assessed.allowed) - 1.0;
-            told.push(Told { limit: assessed, over, by });
+            told.push(Claimed { limit: assessed, over, by });
         }
     }
     (took_s, told)
@@ -176,7 +176,7 @@ fn no_single_drop_is_worse() {
         let mut r = Random(((seed as u64) << 32) + n as u64);
         let (took_s, told) = told(&mut r, singles);
         (slowest, all) = (slowest.max(took_s), all + took_s);
-        for Told { limit, over, by } in told {
+        for Claimed { limit, over, by } in told {
             limits += 1;
             undecided += usize::from(limit.verdict == Verdict::Undecided);
             passed += usize::from(over > 0.02);

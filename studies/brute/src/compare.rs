@@ -32,7 +32,7 @@ struct Counts {
 }
 
 /// One limit as it was told.
-struct Told {
+struct Claimed {
     verdict: String,
     demand: f64,
     allowed: f64,
@@ -110,7 +110,7 @@ fn one(clatter: &Path, kind: &str, seed: u64, text: &str, drops: usize, counts: 
             lines += &format!("{kind} {seed}: {worst}\n  not told\n");
             continue;
         };
-        let Told { verdict, demand, allowed, uncertainty, reason } = told;
+        let Claimed { verdict, demand, allowed, uncertainty, reason } = told;
         if demand.is_nan() {
             lines += &format!("{kind} {seed}: {worst}\n  {verdict}, no drop is answered: {reason}\n");
             counts.unanswered += 1;
@@ -165,7 +165,7 @@ fn unit(kind: &str) -> &str {
 }
 
 /// Every limit by its part and kind.
-fn assess(clatter: &Path, text: &str) -> Result<BTreeMap<(String, String), Told>, String> {
+fn assess(clatter: &Path, text: &str) -> Result<BTreeMap<(String, String), Claimed>, String> {
     let file: PathBuf = std::env::temp_dir().join(format!("clatter-brute-{}.toml", std::process::id()));
     std::fs::write(&file, text).map_err(|error| format!("{}: {error}", file.display()))?;
     let output = Command::new(clatter).arg("assess").arg("--format=json").arg(&file).output();
@@ -184,7 +184,7 @@ fn assess(clatter: &Path, text: &str) -> Result<BTreeMap<(String, String), Told>
                 Value::Object(map) => map.get("reason").unwrap_or(&Value::Null).to_string(),
                 other => other.to_string(),
             };
-            let told = Told {
+            let told = Claimed {
                 verdict: word(&limit, "verdict"),
                 demand: number(&limit, "demand"),
                 allowed: number(&limit, "allowed"),

@@ -30,16 +30,16 @@ struct Drops {
 
 /// Of how many the fit told a quantity, and of how many the interval held the truth.
 #[derive(Debug, Default, Clone, Copy)]
-struct Told {
+struct Count {
     told: usize,
     held: usize,
 }
 
 /// Restitution of end a or of both, of end b where it has its own, gap over speed, inertia ratio. Of a thousand records three may be
 /// refused: a last strike that comes long after the others is too sensitive for the search.
-fn told(drops: &Drops) -> [Told; 4] {
+fn told(drops: &Drops) -> [Count; 4] {
     let mut random = Random(drops.seed);
-    let (mut all, mut refused) = ([Told::default(); 4], 0);
+    let (mut all, mut refused) = ([Count::default(); 4], 0);
     for _ in 0..drops.count {
         let (truth, list) = loop {
             let (q, e) = (random.within(0.4, 0.9), random.within(0.1, 0.8));
@@ -101,7 +101,7 @@ fn radius_fitted(count: usize) {
     for (seed, deviation_s, least) in [(11, 2e-6, 98), (13, 1e-5, 97)] {
         let drops = Drops { seed, count, least: 6, gyration_known: false, deviation_s, is_given: false, apart: 0.0 };
         let [e, _, gap, q] = told(&drops);
-        let enough = |of: Told| 100 * of.told >= least * count;
+        let enough = |of: Count| 100 * of.told >= least * count;
         assert!(enough(e) && enough(q), "{e:?} {q:?} at {deviation_s:e} s");
         assert_covers("restitution", e.held, e.told);
         assert_covers("gap over speed", gap.held, gap.told);
@@ -114,7 +114,7 @@ fn timing_given(count: usize) {
     let drops =
         Drops { seed: 14, count, least: 5, gyration_known: false, deviation_s: 1e-5, is_given: true, apart: 0.0 };
     let [e, _, gap, q] = told(&drops);
-    let enough = |of: Told| 100 * of.told >= 98 * count;
+    let enough = |of: Count| 100 * of.told >= 98 * count;
     assert!(enough(e) && enough(q), "{e:?} {q:?}");
     assert_covers("restitution", e.held, e.told);
     assert_covers("gap over speed", gap.held, gap.told);
