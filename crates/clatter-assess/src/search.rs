@@ -1,7 +1,7 @@
 //! The worst drop over the stated ranges.
 //!
 //! Drops all over the ranges are followed, each by the one engine: tilts are so close that the stiffest part turns by less than
-//! a radian between the first two strikes, with the ends of the ranges of speed, restitution and contact time, and in each the
+//! a radian between the first two strikes, with the ends of the ranges of speed, restitution and contact time and some between, and in each the
 //! parts at both ends of where they may be, at the end of the range of natural frequencies that asks most as a rule and at
 //! others, from drop to drop at others still. Where the order in which ends touch and part changes between two tilts, what stiff parts
 //! feel jumps: drops on both sides of it are followed too. From the highest of all the search climbs in all ranges at once.

@@ -421,3 +421,19 @@ velocity_change_limit = "5.35 m/s"
     assert!(limit.bound.is_some_and(|bound| bound >= both), "{:?}", limit.bound);
     assert_eq!(limit.verdict, Verdict::Unsafe);
 }
+
+/// At which speed the third strike is in step with a soft part: inside of the range of heights; by `clatter-brute hunt` 8.1889 mm.
+#[test]
+fn the_worst_speed_may_lie_between_the_ends() {
+    let text = r#"
+product = { name = "Steep", length = "131 mm", radius_of_gyration = "33 mm", restitution = 0.288, center_of_mass = "-0.813 mm", contact_time = ["0.654 ms", "1.16 ms"], contact_law = "dashpot" }
+drop = { height = ["0.296 m", "0.536 m"], tilt = ["11.3 deg", "28.7 deg"], first = "b" }
+[[component]]
+name = "part"
+position = "38.4 mm"
+natural_frequency = "111 Hz"
+damping_ratio = 0.0227
+rattle_space = "90 mm"
+"#;
+    close(only(text).demand.expect("a demand"), 8.188_931e-3, 2e-3);
+}

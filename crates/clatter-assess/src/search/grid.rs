@@ -12,6 +12,7 @@ const TILTS: [f64; 2] = [12.0, 128.0];
 const PHASE: f64 = 0.8;
 const SQRT_3: f64 = 1.732_050_807_568_877;
 const SQRT_5: f64 = 2.236_067_977_499_79;
+const SQRT_7: f64 = 2.645_751_311_064_59;
 /// Tilts in a contact time, and contact times over which tilts lie so closely: where contacts overlap, velocity shocks change by steps.
 const OVERLAPS: [f64; 2] = [12.0, 4.0];
 /// Where along a range the drops of the grid are.
@@ -81,6 +82,9 @@ impl Ranges<'_> {
                         even(steps, tilted).for_each(|tilt| add(tilt, 1.0));
                         // Slower drops seldom do more; fewer of them are followed.
                         even((steps / 4.0).ceil(), tilted).filter(|_| slow < fast).for_each(|tilt| add(tilt, 0.0));
+                        // In which phase a soft part is struck again depends on the speed: at others too.
+                        let between = even((steps / 4.0).ceil(), tilted).filter(|_| slow < fast);
+                        (1_u32..).zip(between).for_each(|(k, tilt)| add(tilt, (SQRT_7 * f64::from(k)).fract()));
                     }
                 }
             }
