@@ -40,6 +40,7 @@ fn bar(q: f64, e: f64) -> Result<(SingleDrop, Part, Limit), clatter_assess::Erro
     let gyration_m = 0.07 * ((1.0 - q) / (1.0 + q)).sqrt();
     let drop = SingleDrop {
         body: Body::new(0.14, gyration_m)?,
+        across: None,
         first: clatter::End::A,
         tilt_rad: 5f64.to_radians(),
         flat: false,
@@ -49,7 +50,7 @@ fn bar(q: f64, e: f64) -> Result<(SingleDrop, Part, Limit), clatter_assess::Erro
         contact_time_s: Some(2e-4),
         contact_law: ContactLaw::Hysteretic,
     };
-    let place = Part { position_m: 0.9 * 0.07, suspension: Some(part) };
+    let place = Part::new(0.9 * 0.07, Some(part));
     Ok((drop, place, Limit::new(LimitKind::Acceleration, 1.0)))
 }
 

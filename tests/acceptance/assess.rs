@@ -125,6 +125,34 @@ pub(crate) fn repeated(limit: &Value) -> f64 {
     }
 }
 
+/// Of a plate whose masses lie askew.
+#[test]
+fn the_command_below_a_worst_drop_of_a_plate_says_the_same() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("plate.toml").display().to_string();
+    // Beyond 10 degrees the command warns of the plate's small tilt.
+    let text = std::fs::read_to_string(example("handheld-plate.toml")).unwrap().replace("12 deg", "9 deg");
+    std::fs::write(&path, text).unwrap();
+    let outcome = clatter(["assess", &path, "--format=json"]);
+    let json: Value = serde_json::from_str(&outcome.stdout).unwrap();
+    let components = json["components"].as_array().unwrap();
+    assert_eq!(components[2]["position_m"], serde_json::json!([-0.02, -0.025]));
+    let limits: Vec<&Value> = components.iter().flat_map(|c| c["limits"].as_array().unwrap()).collect();
+    assert_eq!(limits.len(), 4);
+    for limit in limits {
+        let (demand, again) = (limit["demand"].as_f64().unwrap(), repeated(limit));
+        assert!((again / demand - 1.0).abs() < 1e-9, "{again}, not {limit}");
+        let worst = &limit["worst_case"];
+        assert!(worst["command"].as_str().unwrap().contains("--product-of-inertia-m2="), "{worst}");
+        assert!((0.0..360.0).contains(&worst["direction_deg"].as_f64().unwrap()), "{worst}");
+        assert!(worst["position_m"].as_array().is_some_and(|at| at.len() == 2), "{worst}");
+        assert!(limit["notes"].to_string().contains("a box 25 mm thick with full rotation"), "{limit}");
+    }
+    let wrong = clatter(["assess", &path, "--model=map"]);
+    assert_eq!(wrong.exit, Exit::BadInput);
+    assert!(wrong.stderr.contains("a plate is followed by the model compliant, not by map"), "{}", wrong.stderr);
+}
+
 #[test]
 fn the_command_below_a_worst_drop_says_the_same() {
     let (_dir, path) = changed(|text| text);

@@ -371,6 +371,7 @@ fn drops_drive_components_as_in_an_assessment() {
     let contact_s = 4e-4;
     let drop = SingleDrop {
         body: Body::off_center(0.07 * 1.2, 0.07 * 0.8, 0.045).unwrap(),
+        across: None,
         first: clatter::End::A,
         tilt_rad: 4_f64.to_radians(),
         flat: false,

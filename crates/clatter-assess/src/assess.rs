@@ -2,17 +2,20 @@
 
 use crate::bound::bound;
 use crate::drop::{Model, SingleDrop};
-use crate::engine::{Part, answer};
+use crate::engine::answer;
 use crate::quantity::Source;
 use crate::reason::{Doubt, Note, Reason};
 use crate::search::{Candidate, Place, Ranges, Task, Watch, Worst};
 use crate::{
     Accuracy, Assessment, Component, ComponentAssessment, Error, Limit, LimitAssessment, LimitKind, ModelChoice, Mount,
-    ProductFile, Unit, Verdict, WorstCase,
+    ProductFile, Sides, Unit, Verdict, WorstCase,
 };
 
 /// What the search may miss of a worst case, as a share of it: tests hold single drops of the same ranges to this.
 pub(crate) const COVERAGE: f64 = 0.02;
+
+/// A plate whose file does not tell its thickness is taken as so thick over its length where real tilt counts.
+const THIN: f64 = 0.05;
 
 /// A drop that asks for more than is of use.
 #[derive(Debug, Clone, Copy)]
@@ -124,6 +127,9 @@ impl ProductFile {
     ) -> Result<Result<Vec<ComponentAssessment>, Breaker>, Error> {
         accuracy.check()?;
         self.check()?;
+        if let Some(model) = accuracy.model.filter(|model| self.product.width.is_some() && *model != Model::Compliant) {
+            return Err(Error::PlateModel(model));
+        }
         if accuracy.model == Some(Model::Compliant) && self.product.contact_time_s.is_none() {
             return Err(Error::Contact);
         }
@@ -150,7 +156,7 @@ impl ProductFile {
             let count = component.limits.kinds().len();
             let one = |(n, task): (usize, &Task<'_>)| Ok(self.limit(&ranges, task, judged(n, task)?));
             let limits: Result<Vec<_>, Error> = all.by_ref().take(count).map(one).collect();
-            components.push(verdict(component, limits?));
+            components.push(verdict(component, self.product.width.is_some(), limits?));
         }
         Ok(Ok(components))
     }
@@ -189,12 +195,22 @@ impl ProductFile {
         }
         let drop = ranges.single(&asked.place);
         if ranges.model < drop.fullest() && !worst.stopped {
-            let place = Part { position_m: asked.place.position_m, suspension: asked.part };
+            let place = asked.part_there();
             let full = answer(&drop, &place, &task.limit, drop.fullest(), ranges.tolerance)?;
             let off = full.utilization() - utilization;
             of.most += off.max(0.0);
             let (asked, fullest) = (ranges.model, drop.fullest());
             of.notes.push(Note::Model { asked, fullest, off: off / utilization });
+        }
+        if let (Some(width), false) = (&self.product.width, worst.stopped) {
+            let thickness_m = width.thickness_m.unwrap_or(THIN * self.product.body.length_m());
+            match ranges.real_tilt(task, &asked, thickness_m) {
+                Ok(off) => {
+                    of.most += utilization * off.max(0.0);
+                    of.notes.push(Note::Tilt { off, thickness_m });
+                }
+                Err(error) => of.notes.push(Note::NoTilt(error)),
+            }
         }
         if let Some((count, error)) = worst.refused.clone() {
             of.doubts.push(Doubt::Refused { count, drops: worst.drops, error });
@@ -223,7 +239,7 @@ impl ProductFile {
     /// place of them.
     fn flat(ranges: &Ranges<'_>, task: &Task<'_>, worst: &Candidate) -> Result<Option<Candidate>, Error> {
         let drop = ranges.single(&worst.place).flattened();
-        let part = Part { position_m: worst.place.position_m, suspension: worst.part };
+        let part = worst.part_there();
         let limit = in_unit(&task.limit, worst.answer.unit);
         let flat = match answer(&drop, &part, &limit, ranges.model, ranges.tolerance) {
             Err(Error::Stopped) => return Err(Error::Stopped),
@@ -358,7 +374,7 @@ fn model(ranges: &Ranges<'_>, task: &Task<'_>, reason: Reason) -> ModelChoice {
 fn worst_case(asked: &Candidate, ranges: &Ranges<'_>) -> WorstCase {
     WorstCase {
         drop: ranges.single(&asked.place),
-        part: Part { position_m: asked.place.position_m, suspension: asked.part },
+        part: asked.part_there(),
         gyration_varies: !ranges.product.gyration_m.is_value(),
         impact: asked.answer.impact,
         time_s: asked.answer.time_s,
@@ -367,7 +383,7 @@ fn worst_case(asked: &Candidate, ranges: &Ranges<'_>) -> WorstCase {
     }
 }
 
-fn verdict(component: &Component, mut limits: Vec<LimitAssessment>) -> ComponentAssessment {
+fn verdict(component: &Component, is_plate: bool, mut limits: Vec<LimitAssessment>) -> ComponentAssessment {
     // A part that exceeds its rattle space hits its stop, whatever the linear suspension says of its acceleration.
     let stop = limits.iter().find(|l| l.limit == LimitKind::RattleSpace && l.verdict != Verdict::Safe);
     if let Some(stop) = stop.map(|l| (l.verdict, l.margin)) {
@@ -382,7 +398,7 @@ fn verdict(component: &Component, mut limits: Vec<LimitAssessment>) -> Component
     let (worst_case, model) = (tightest.worst_case, tightest.model.clone());
     ComponentAssessment {
         name: component.name.clone(),
-        position_m: component.position_m.at(0.5),
+        position_m: Sides::new([component.position_m, component.across_m].map(|place| place.at(0.5)), is_plate),
         verdict: Verdict::of(limits.iter().map(|l| l.verdict)),
         limits,
         worst_case,

@@ -6,8 +6,9 @@
 
 use clatter_flight::{Contact, ContactLaw};
 
+use crate::drop::{Across, SingleDrop};
 use crate::quantity::Source;
-use crate::{Component, Drop, Limit, Product};
+use crate::{Component, Drop, Limit, Mount, Product};
 
 /// The largest value of a limited quantity that the energy of the drops allows; none for the response of a suspended part and for
 /// contacts without a bound.
@@ -25,6 +26,9 @@ pub(crate) fn bound(
     limit: &Limit,
     law: ContactLaw,
 ) -> Option<f64> {
+    if product.width.is_some() {
+        return of_plate(product, drop, component, limit, law);
+    }
     let [a, b] = product.body.arms_m();
     // All that follows grows as the radius of gyration shrinks.
     let rho = product.gyration_m.lo();
@@ -34,7 +38,7 @@ pub(crate) fn bound(
     let e = product.restitution.hi();
     // Places and ends from the center of mass.
     let middle = 0.5 * (b - a);
-    let places: Vec<f64> = component.ends_m().iter().map(|x| x + middle).collect();
+    let places: Vec<f64> = component.ends_m().iter().map(|[x, _]| x + middle).collect();
     let ends = [-a, b];
     // (1 + x l/ρ²)/√(1 + l²/ρ²) of a lever arm l from 0 to that of the level body: largest for l = x, or at its ends.
     let share = |place: f64, end: f64| {
@@ -61,12 +65,54 @@ pub(crate) fn bound(
         }
         (Source::Turn, _) => Some(2.0 * speed / rho),
         (Source::Response(peak), Some([shortest, _])) if peak.is_acceleration() => {
-            let hard = matches!(component.mount, crate::Mount::Hard) && law.leaves_a_dent();
+            let hard = component.mount == Mount::Hard && law.leaves_a_dent();
             let contact = Contact::new(law, e, shortest).ok().filter(|_| hard)?;
             // Both ends at once.
             let one = |place: f64| ends.iter().map(|&end| share(place, end)).sum::<f64>();
             Some(speed * contact.frequency_rad_s() * over(&one))
         }
         (Source::Response(_), _) => None,
+    }
+}
+
+/// The same of a plate, whose contacts take time.
+///
+/// # Formula
+/// With places p and corners q in radii of gyration, an impulse J over the mass at q gives p `J (1 + p·q)`, at real tilt at most
+/// `J (1 + |p||q|)`, and speeds at p are at most √(2E (1 + p²)). Contacts that hold E_i on their lines of first loading press with
+/// √(2E_i) ω₁/√μ_i, μ_i = 1 + q_i²; all of them hold E at most, so that together they do the root of the sum of the squares.
+fn of_plate(product: &Product, drop: &Drop, component: &Component, limit: &Limit, law: ContactLaw) -> Option<f64> {
+    let contact_s = product.contact_time_s.as_ref()?;
+    let [_, fastest] = drop.speeds_m_s();
+    let one = SingleDrop {
+        body: product.body_at(0.0),
+        across: Some(Across { width: product.width?, direction_rad: 0.0 }),
+        first: clatter::End::A,
+        tilt_rad: drop.tilt_rad.hi(),
+        flat: false,
+        speed_m_s: fastest,
+        restitution: product.restitution.hi(),
+        gravity_m_s2: drop.gravity_m_s2,
+        contact_time_s: Some(contact_s.lo()),
+        contact_law: law,
+    };
+    let norm = |[x, y]: [f64; 2]| libm::hypot(x, y);
+    let corners = one.in_radii([0.0; 2]).0;
+    let farthest = component.ends_m().into_iter().map(|at| norm(one.in_radii(at).1)).fold(0.0, f64::max);
+    let ([a, b], [front, back]) = (product.body.arms_m(), product.width?.edges_m);
+    let height = libm::hypot(a.max(b), front.max(back)) * libm::sin(drop.tilt_rad.hi());
+    let speed = (fastest * fastest + 2.0 * drop.gravity_m_s2 * height).sqrt(); // √(2E)
+    match limit.kind.source() {
+        Source::Shock | Source::Boundary => {
+            Some(2.0 * speed * (1.0 + farthest * farthest).sqrt() + drop.gravity_m_s2 * contact_s.hi())
+        }
+        Source::Turn => Some(2.0 * speed / one.least_gyration_m()),
+        Source::Response(peak) if peak.is_acceleration() && component.mount == Mount::Hard && law.leaves_a_dent() => {
+            let contact = Contact::new(law, product.restitution.hi(), contact_s.lo()).ok()?;
+            let of = |q: f64| (1.0 + farthest * q) / (1.0 + q * q).sqrt();
+            let pressed = corners.into_iter().fold(0.0, |all, q| libm::hypot(all, of(norm(q))));
+            Some(speed * contact.frequency_rad_s() * pressed)
+        }
+        Source::Response(_) => None,
     }
 }

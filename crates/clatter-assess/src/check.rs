@@ -8,11 +8,14 @@ use crate::keys::{self, Key, Kind, MOST_COMPONENTS};
 use crate::quantity::Source;
 use crate::quantity::lacks_contact_time;
 use crate::{
-    Component, Damping, DataFault, Drop, Error, Fall, Law, LimitKind, Mount, Product, ProductFile, RecordFile, Spread,
+    Component, Damping, DataFault, Drop, Error, Fall, First, Law, LimitKind, Mount, Product, ProductFile, RecordFile,
+    Spread, Width,
 };
 
 /// How far the center of mass may lie from the middle, over the length.
 const FARTHEST_CENTER: f64 = 0.45;
+/// Product of inertia over the mass, over the product of both radii of gyration: next to 1 all mass is along one line.
+const FARTHEST_LEAN: f64 = 0.99;
 /// Radius of gyration over the length: less mass at the ends no product has, more beyond them neither.
 pub(crate) const GYRATION: [f64; 2] = [0.05, 2.0];
 /// Places are compared to this share of the length, radii of gyration to this share of them.
@@ -37,7 +40,7 @@ impl ProductFile {
     /// ```
     pub fn check(&self) -> Result<(), Error> {
         self.product.check()?;
-        self.drop.check()?;
+        self.drop.check(self.product.width.is_some())?;
         number_of_components(self.components.len())?;
         let mut names = HashSet::new();
         for component in &self.components {
@@ -46,12 +49,22 @@ impl ProductFile {
                 return Err(DataFault::SameName(component.name.clone()).into());
             }
         }
+        if self.product.width.is_some() && !self.records.is_empty() {
+            return Err(DataFault::OfPlate { field: "record" }.into());
+        }
         Ok(self.records.iter().try_for_each(|record| record.check(&self.product))?)
     }
 }
 
+impl ProductFile {
+    /// Refuses a plate where bars alone are taken.
+    pub(crate) fn check_bar(&self, what: &'static str) -> Result<(), Error> {
+        if self.product.width.is_some() { Err(Error::OfBars(what)) } else { Ok(()) }
+    }
+}
+
 impl Product {
-    fn check(&self) -> Result<(), DataFault> {
+    pub(crate) fn check(&self) -> Result<(), DataFault> {
         named(&self.name)?;
         one(keys::PRODUCT, "length", self.body.length_m())?;
         spread(keys::PRODUCT, "restitution", Some(&self.restitution))?;
@@ -69,7 +82,20 @@ impl Product {
         if (gyration_m - middle_m).abs() > ROUNDINGS * middle_m {
             return Err(DataFault::OtherGyration { gyration_m, middle_m });
         }
-        Ok(())
+        self.width.as_ref().map_or(Ok(()), |width| self.check_width(width))
+    }
+
+    fn check_width(&self, width: &Width) -> Result<(), DataFault> {
+        let width_m = width.m();
+        one(keys::PRODUCT, "width", width_m)?;
+        optional(keys::PRODUCT, "thickness", width.thickness_m)?;
+        width_of(width_m, width.center_m(), width.gyration_m)?;
+        let (product_m2, most_m2) =
+            (width.product_of_inertia_m2, FARTHEST_LEAN * self.gyration_m.lo() * width.gyration_m);
+        if product_m2.is_nan() || product_m2.abs() > most_m2 {
+            return Err(DataFault::ProductOfInertia { product_m2, most_m2 });
+        }
+        if self.contact_time_s.is_none() { Err(DataFault::PlateWithoutContactTime) } else { Ok(()) }
     }
 }
 
@@ -93,8 +119,21 @@ pub(crate) fn body_of(length_m: f64, center_m: f64, gyration_m: f64) -> Result<B
     body.ok().filter(|_| within).ok_or(DataFault::Gyration { gyration_m, length_m })
 }
 
+/// The side across a plate with its center of mass so far from the middle.
+pub(crate) fn width_of(width_m: f64, center_m: f64, gyration_m: f64) -> Result<Width, DataFault> {
+    if center_m.is_nan() || center_m.abs() > FARTHEST_CENTER * width_m {
+        return Err(DataFault::CenterAcross { center_m, width_m });
+    }
+    let [least, most] = GYRATION;
+    if !(least..=most).contains(&(gyration_m / width_m)) {
+        return Err(DataFault::GyrationAcross { gyration_m, width_m });
+    }
+    let half = 0.5 * width_m;
+    Ok(Width { edges_m: [half + center_m, half - center_m], gyration_m, product_of_inertia_m2: 0.0, thickness_m: None })
+}
+
 impl Drop {
-    fn check(&self) -> Result<(), DataFault> {
+    fn check(&self, of_plate: bool) -> Result<(), DataFault> {
         match &self.fall {
             Fall::HeightM(height) => spread(keys::DROP, "height", Some(height))?,
             Fall::SpeedMS(speed) => spread(keys::DROP, "speed", Some(speed))?,
@@ -104,7 +143,12 @@ impl Drop {
         if matches!(self.fall, Fall::HeightM(_)) && self.gravity_m_s2 == 0.0 {
             return Err(DataFault::NoGravity);
         }
-        Ok(())
+        spread(keys::DROP, "direction", self.direction_rad.as_ref())?;
+        match (of_plate, self.first, &self.direction_rad) {
+            (true, First::End(_), _) => Err(DataFault::OfPlate { field: "first" }),
+            (false, _, Some(_)) => Err(DataFault::OfBar { field: "direction" }),
+            _ => Ok(()),
+        }
     }
 }
 
@@ -113,7 +157,12 @@ impl Component {
     pub(crate) fn fits(&self, product: &Product) -> Result<(), DataFault> {
         let reach_m = self.position_m.lo().abs().max(self.position_m.hi().abs()) + 0.5 * self.extent_m;
         let half_m = 0.5 * product.body.length_m();
-        if reach_m <= half_m * (1.0 + ROUNDINGS) { Ok(()) } else { Err(DataFault::Reach { reach_m, half_m }) }
+        if reach_m.is_nan() || reach_m > half_m * (1.0 + ROUNDINGS) {
+            return Err(DataFault::Reach { reach_m, half_m });
+        }
+        let reach_m = self.across_m.lo().abs().max(self.across_m.hi().abs()) + 0.5 * self.extent_across_m;
+        let half_m = product.width.map_or(0.0, |width| 0.5 * width.m());
+        if reach_m <= half_m * (1.0 + ROUNDINGS) { Ok(()) } else { Err(DataFault::ReachAcross { reach_m, half_m }) }
     }
 
     /// Everything but whether its name is its own.
@@ -122,7 +171,9 @@ impl Component {
             named(&self.name)?;
             let of = |name, value: Option<&Spread>| spread(keys::COMPONENT, name, value);
             of("position", Some(&self.position_m))?;
+            of("position", Some(&self.across_m))?;
             one(keys::COMPONENT, "extent", self.extent_m)?;
+            one(keys::COMPONENT, "extent", self.extent_across_m)?;
             self.fits(product)?;
             self.check_mount()?;
             if self.limits.kinds().is_empty() {
@@ -211,9 +262,8 @@ fn optional(table: &'static [Key], name: &'static str, value: Option<f64>) -> Re
 
 /// A value in SI within the bounds of its key.
 fn one(table: &'static [Key], name: &'static str, value: f64) -> Result<(), DataFault> {
-    let Some(Key { kind: Kind::Quantity(dimension, bounds) | Kind::Spread(dimension, bounds), .. }) =
-        keys::find(table, name)
-    else {
+    let key = keys::find(table, name).map(|key| key.kind.of_side());
+    let Some(Kind::Quantity(dimension, bounds) | Kind::Spread(dimension, bounds)) = key else {
         unreachable!("{name} is a quantity")
     };
     if keys::within(dimension, *bounds, value) {

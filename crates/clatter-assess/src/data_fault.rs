@@ -32,6 +32,39 @@ pub enum DataFault {
         /// Length of the product.
         length_m: f64,
     },
+    /// The same across a plate.
+    CenterAcross {
+        /// Its place, from the middle.
+        center_m: f64,
+        /// Width of the product.
+        width_m: f64,
+    },
+    /// The same of the mass along the width.
+    GyrationAcross {
+        /// The radius.
+        gyration_m: f64,
+        /// Width of the product.
+        width_m: f64,
+    },
+    /// A product of inertia that leaves all mass on a line, or next to one.
+    ProductOfInertia {
+        /// ∫x y dm over the mass.
+        product_m2: f64,
+        /// At most.
+        most_m2: f64,
+    },
+    /// A plate without contact time.
+    PlateWithoutContactTime,
+    /// What a plate does not have.
+    OfPlate {
+        /// The key.
+        field: &'static str,
+    },
+    /// What a product without width does not have.
+    OfBar {
+        /// The key.
+        field: &'static str,
+    },
     /// A body whose end a is not left of its center of mass and end b right of it, both level with it.
     Ends {
         /// Both ends from the center of mass, \[x, z\].
@@ -57,6 +90,13 @@ pub enum DataFault {
         /// How far it reaches from the middle.
         reach_m: f64,
         /// Half of the length of the product.
+        half_m: f64,
+    },
+    /// The same across a plate.
+    ReachAcross {
+        /// How far it reaches from the middle.
+        reach_m: f64,
+        /// Half of the width of the product.
         half_m: f64,
     },
     /// A component without a limit.
@@ -98,6 +138,37 @@ impl DataFault {
                 format!("the radius of gyration is {} mm in a product of {} mm", mm(*gyration_m), mm(*length_m)),
                 "allowed: from 0.05 to 2 times the length".to_owned(),
             ],
+            Self::CenterAcross { center_m, width_m } => [
+                format!(
+                    "the center of mass is {} mm from the middle of a product {} mm wide",
+                    mm(*center_m),
+                    mm(*width_m)
+                ),
+                "allowed: within 0.45 of the width from the middle".to_owned(),
+            ],
+            Self::GyrationAcross { gyration_m, width_m } => [
+                format!(
+                    "the radius of gyration of the mass along the width is {} mm in a product {} mm wide",
+                    mm(*gyration_m),
+                    mm(*width_m)
+                ),
+                "allowed: from 0.05 to 2 times the width".to_owned(),
+            ],
+            Self::ProductOfInertia { product_m2, most_m2 } => [
+                format!("the product of inertia over the mass is {} mm2: all mass lies along one line", 1e6 * product_m2),
+                format!("allowed: within {} mm2, 0.99 of the product of both radii of gyration", 1e6 * most_m2),
+            ],
+            Self::PlateWithoutContactTime => [
+                "a product with a `width` needs the `contact_time`: corners that land together have no order without it"
+                    .to_owned(),
+                "add contact_time = \"0.4 ms\" or whatever was measured to [product]".to_owned(),
+            ],
+            Self::OfPlate { field } => {
+                [format!("a product with a `width` has no `{field}`"), "leave one of both out".to_owned()]
+            }
+            Self::OfBar { field } => {
+                [format!("a product without `width` has no `{field}`"), "leave it out, or give the width".to_owned()]
+            }
             Self::Ends { points_m } => [
                 format!("the ends of the body are at {points_m:?} m from its center of mass"),
                 "allowed: end a at [-x, 0], end b at [x, 0], x above 0".to_owned(),
@@ -120,6 +191,10 @@ impl DataFault {
             Self::Reach { reach_m, half_m } => [
                 format!("the component reaches {} mm from the middle", mm(*reach_m)),
                 format!("allowed: up to {} mm, half of the product's length; extent counts on both sides", mm(*half_m)),
+            ],
+            Self::ReachAcross { reach_m, half_m } => [
+                format!("the component reaches {} mm from the middle across the product", mm(*reach_m)),
+                format!("allowed: up to {} mm, half of the product's width; extent counts on both sides", mm(*half_m)),
             ],
             Self::NoLimit => {
                 let keys = LimitKind::ALL.map(LimitKind::key).join(", ");

@@ -1,10 +1,15 @@
-//! A single drop, followed by one of four models.
+//! A single drop of a bar, followed by one of four models, or of a plate whose contacts take time.
+
+use std::f64::consts::TAU;
 
 use clatter::End;
-use clatter_flight::{Ahead, Body, Contact, ContactLaw, Model as Physics, Motion, Scene, Stop};
+use clatter_flight::{
+    Ahead, Block, BlockDrop, Body, Contact, ContactLaw, Model as Physics, Plate, PlateScene, Scene, Stop,
+};
 use serde::Serialize;
 
-use crate::Error;
+use crate::course::{BlockMotion, Course};
+use crate::{Error, Width};
 
 /// How a drop is answered: from the least physics to the most.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -62,7 +67,9 @@ impl Model {
 pub struct SingleDrop {
     /// What falls.
     pub body: Body,
-    /// The end that touches first.
+    /// What makes a plate of it; none of a bar.
+    pub across: Option<Across>,
+    /// The end that touches first; of a plate that of its lowest corner.
     pub first: End,
     /// Angle to the ground at the first touch, in rad.
     pub tilt_rad: f64,
@@ -81,6 +88,32 @@ pub struct SingleDrop {
     pub contact_law: ContactLaw,
 }
 
+/// The side of a plate across its length, and how it falls.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Across {
+    /// The side.
+    pub width: Width,
+    /// Where the plate rises to from its lowest corner, in rad from the length, towards end b, towards the width: at 0 and at right
+    /// angles it lands on an edge.
+    pub direction_rad: f64,
+}
+
+impl Across {
+    /// Cosine and sine of the direction.
+    fn upward(&self) -> [f64; 2] {
+        let (sin, cos) = libm::sincos(self.direction_rad);
+        [cos, sin]
+    }
+    /// The end of its lowest corner.
+    pub(crate) fn first(&self) -> End {
+        if self.signs()[0] < 0.0 { End::B } else { End::A }
+    }
+    /// −1 for the sides of the plate that are exchanged, so that its lowest corner is the first.
+    pub(crate) fn signs(&self) -> [f64; 2] {
+        self.upward().map(|rises| if rises < 0.0 { -1.0 } else { 1.0 })
+    }
+}
+
 impl SingleDrop {
     /// The model with the most physics that the data allow: contacts where their time is known, else real tilt.
     #[must_use]
@@ -91,7 +124,7 @@ impl SingleDrop {
     ///
     /// # Errors
     /// [`Error::Setting`].
-    pub(crate) fn check(&self, position_m: f64) -> Result<(), Error> {
+    pub(crate) fn check(&self, [position_m, across_m]: [f64; 2]) -> Result<(), Error> {
         if let Some(value) = self.contact_time_s.filter(|time| !(1e-12..=1e3).contains(time)) {
             return Err(Error::Setting { name: "contact time in s", value, allowed: "in [1e-12, 1000]" });
         }
@@ -101,11 +134,25 @@ impl SingleDrop {
             let (name, allowed) = ("position of the part in m", "up to half of the length on both sides");
             return Err(Error::Setting { name, value: position_m, allowed });
         }
+        let most = self.across.map_or(0.0, |across| 0.5 * across.width.m() * (1.0 + 1e-9));
+        if across_m.is_nan() || across_m.abs() > most {
+            let (name, allowed) =
+                ("place of the part across the product in m", "up to half of the width on both sides");
+            return Err(Error::Setting { name, value: across_m, allowed });
+        }
         Ok(())
+    }
+    /// From the lowest point to the highest, along the body.
+    fn reach_m(&self) -> f64 {
+        let length = self.body.length_m();
+        self.across.map_or(length, |across| {
+            let [cos, sin] = across.upward().map(f64::abs);
+            length * cos + across.width.m() * sin
+        })
     }
     /// How long the clatter takes, about: four times what the raised end needs to come down, and some contacts.
     pub(crate) fn clatter_s(&self) -> f64 {
-        let gap_m = self.body.length_m() * libm::sin(self.tilt_rad);
+        let gap_m = self.reach_m() * libm::sin(self.tilt_rad);
         4.0 * (gap_m / self.speed_m_s + self.contact_time_s.unwrap_or(0.0))
     }
     /// Whether the ends land so close after one another that no contact tells them apart: within this time, where that of a contact
@@ -131,6 +178,67 @@ impl SingleDrop {
         };
         Ok(Scene::new(body, self.restitution, self.speed_m_s, self.tilt_rad.to_degrees(), self.gravity_m_s2)?)
     }
+    /// The same of a plate, corner a the lowest one.
+    pub(crate) fn plate_scene(&self, across: &Across) -> Result<PlateScene, Error> {
+        let ([sx, sy], width) = (across.signs(), &across.width);
+        let ordered = |[lo, hi]: [f64; 2], sign: f64| if sign < 0.0 { [hi, lo] } else { [lo, hi] };
+        let ([left, right], [front, back]) = (ordered(self.body.arms_m(), sx), ordered(width.edges_m, sy));
+        let plate = Plate::new([left, right, front, back], [self.body.gyration_m(), width.gyration_m])?
+            .with_product_of_inertia(sx * sy * width.product_of_inertia_m2)?;
+        Ok(PlateScene::new(plate, self.speed_m_s, self.gaps_m(across), self.gravity_m_s2)?)
+    }
+    /// Heights of the corners next to the lowest one as it touches, along the length and along the width.
+    pub(crate) fn gaps_m(&self, across: &Across) -> [f64; 2] {
+        let (rise, [cos, sin]) = (libm::sin(self.tilt_rad), across.upward().map(f64::abs));
+        [self.body.length_m() * rise * cos, across.width.m() * rise * sin]
+    }
+    /// A place of a plate, from its middle, as its scene has it: from the center of mass.
+    pub(crate) fn place(&self, across: &Across, at_m: [f64; 2]) -> [f64; 2] {
+        let ([sx, sy], [x, y]) = (across.signs(), self.about_center(at_m));
+        [sx * x, sy * y]
+    }
+    /// A place from the center of mass.
+    fn about_center(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let [a, b] = self.body.arms_m();
+        [x - 0.5 * (a - b), y - self.across.map_or(0.0, |across| across.width.center_m())]
+    }
+    /// The same drop of a box of this thickness, its center of mass midway and its axes those of the sides.
+    pub(crate) fn block_drop(&self, across: &Across, thickness_m: f64) -> Result<BlockDrop, Error> {
+        let ([a, b], width) = (self.body.arms_m(), &across.width);
+        let (kx, ky, kz) = (self.body.gyration_m(), width.gyration_m, thickness_m / 12_f64.sqrt());
+        let radii = [libm::hypot(ky, kz), libm::hypot(kx, kz), libm::hypot(kx, ky)];
+        let block = Block::new([a + b, width.m(), thickness_m], [0.5 * (a - b), width.center_m(), 0.0], radii)?;
+        let direction = across.direction_rad % TAU;
+        Ok(BlockDrop::tilted(block, self.tilt_rad, direction, self.speed_m_s, self.gravity_m_s2)?)
+    }
+    /// Points that touch the ground and a place, from the center of mass, in units in which an impulse of 1 over the mass at p does
+    /// 1 + p·q to q: x/ρ of a bar.
+    pub(crate) fn in_radii(&self, [x, y]: [f64; 2]) -> (Vec<[f64; 2]>, [f64; 2]) {
+        let ([a, b], rho) = (self.body.arms_m(), self.body.gyration_m());
+        let Some(Across { width, .. }) = self.across else {
+            return (vec![[-a / rho, 0.0], [b / rho, 0.0]], [(x + 0.5 * (b - a)) / rho, 0.0]);
+        };
+        let lean = width.product_of_inertia_m2 / (rho * rho);
+        let across = (width.gyration_m * width.gyration_m - lean * lean * rho * rho).sqrt();
+        let of = |[x, y]: [f64; 2]| [x / rho, (y - lean * x) / across];
+        let [front, back] = width.edges_m;
+        let corners = [[-a, -front], [b, -front], [b, back], [-a, back]];
+        (corners.map(of).to_vec(), of([x + 0.5 * (b - a), y - width.center_m()]))
+    }
+    /// The smallest radius of gyration.
+    pub(crate) fn least_gyration_m(&self) -> f64 {
+        let across = self.across.map_or(f64::INFINITY, |across| across.width.least_gyration_m(self.body.gyration_m()));
+        self.body.gyration_m().min(across)
+    }
+    /// What a place feels of a motion of this drop.
+    pub(crate) fn felt(&self, motion: &Course, at: [f64; 2]) -> clatter::Excitation {
+        match (motion, &self.across) {
+            (Course::Plate(motion), Some(across)) => motion.felt(self.place(across, at)),
+            (Course::Block(motion), Some(_)) => motion.felt(self.about_center(at)),
+            (Course::Bar(motion), _) => motion.felt(self.relative(at[0])),
+            (Course::Plate(_) | Course::Block(_), None) => unreachable!("they have a width"),
+        }
+    }
     /// Position s in [−1, 1], −1 the end that touches first, of a place in m from the middle.
     pub(crate) fn relative(&self, position_m: f64) -> f64 {
         let s = (2.0 * position_m / self.body.length_m()).clamp(-1.0, 1.0);
@@ -142,7 +250,7 @@ impl SingleDrop {
 #[derive(Debug, Clone)]
 pub(crate) struct Followed {
     pub(crate) drop: SingleDrop,
-    pub(crate) motion: Motion,
+    pub(crate) motion: Course,
     pub(crate) precision: f64,
     /// Whether it was left while shocks that count may come.
     early: bool,
@@ -174,6 +282,20 @@ pub(crate) enum Until {
 }
 
 impl Followed {
+    /// A drop of a plate as one of a box of this thickness, at real tilt, followed until a time.
+    ///
+    /// # Errors
+    /// [`Error::Contact`], and [`Error::Flight`] and [`Error::Bar`] for a box that is not followed so.
+    pub(crate) fn as_block(drop: &SingleDrop, thickness_m: f64, until_s: f64) -> Result<Self, Error> {
+        let (Some(across), Physics::Contacts(contact)) = (&drop.across, Model::Compliant.physics(drop)?) else {
+            return Err(Error::Contact);
+        };
+        let block = drop.block_drop(across, thickness_m)?.with_time_limit_s(until_s)?;
+        let motion = Course::Block(BlockMotion::new(&block, &contact)?);
+        let largest_m_s = motion.largest_m_s();
+        Ok(Self { drop: *drop, motion, precision: 0.0, early: false, largest_m_s })
+    }
+
     /// Follows one drop until nothing later counts: until the energy that is left allows no velocity shock above `tolerance` of the
     /// largest times the restitution.
     ///
@@ -189,7 +311,6 @@ impl Followed {
     /// # Errors
     /// As [`new`](Self::new).
     pub(crate) fn until(drop: &SingleDrop, model: Model, tolerance: f64, until: Until) -> Result<Self, Error> {
-        let scene = drop.scene()?.with_impact_limit(MOST_STRIKES)?;
         let precision = PRECISION * tolerance;
         // Without restitution the strikes of one instant add up, and end by themselves.
         let share = if drop.restitution == 0.0 { 0.0 } else { tolerance * drop.restitution.max(LEAST_SHARE) };
@@ -205,15 +326,24 @@ impl Followed {
                     Until::Over => false,
                 }
         };
-        let (motion, precision) = if drop.flat {
-            (scene.fly_flat(share), 0.0)
+        let (motion, precision) = if let Some(across) = &drop.across {
+            let Physics::Contacts(contact) = model.physics(drop)? else { return Err(Error::PlateModel(model)) };
+            let enough =
+                |ahead: &Ahead<4>| is_over(ahead.time_s, given_back * ahead.most_m_s, ahead.largest_m_s, ahead.lands);
+            let scene = drop.plate_scene(across)?.with_impact_limit(MOST_STRIKES);
+            (Course::Plate(scene.contacts_until(&contact, precision, enough)?), precision)
         } else {
+            let scene = drop.scene()?.with_impact_limit(MOST_STRIKES)?;
             let enough =
                 |ahead: &Ahead| is_over(ahead.time_s, given_back * ahead.most_m_s, ahead.largest_m_s, ahead.lands);
-            (scene.fly_until(model.physics(drop)?, precision, enough)?, precision)
+            if drop.flat {
+                (Course::Bar(scene.fly_flat(share)), 0.0)
+            } else {
+                (Course::Bar(scene.fly_until(model.physics(drop)?, precision, enough)?), precision)
+            }
         };
         let largest_m_s = motion.largest_m_s();
-        let early = motion.later_m_s > share * largest_m_s && !matches!(motion.stop, Stop::AtRest { .. });
+        let early = motion.later_m_s() > share * largest_m_s && !matches!(motion.stop(), Stop::AtRest { .. });
         Ok(Self { drop: *drop, motion, precision, early, largest_m_s })
     }
 
@@ -222,32 +352,32 @@ impl Followed {
     }
     /// Whether what comes after the motion was left is not even bounded.
     pub(crate) fn is_cut(&self) -> bool {
-        self.motion.later_m_s == f64::INFINITY
+        self.motion.later_m_s() == f64::INFINITY
     }
     /// Whether the motion was left at a limit, though strikes that count may follow.
     pub(crate) fn is_given_up(&self) -> bool {
-        let stop = self.motion.stop;
+        let stop = self.motion.stop();
         matches!(stop, Stop::ImpactLimit { .. } | Stop::TimeLimit { .. } | Stop::EnergyLimit { .. })
     }
     /// What a place feels for ever after the motion: its weight where the product lies still, or where nothing that is left counts, which
     /// is a weight as well on the mean over what it still bounces.
     pub(crate) fn carried_m_s2(&self) -> f64 {
-        let lies = matches!(self.motion.stop, Stop::AtRest { .. } | Stop::Enough { .. });
+        let lies = matches!(self.motion.stop(), Stop::AtRest { .. } | Stop::Enough { .. });
         if lies && !self.early { self.motion.gravity_m_s2() } else { 0.0 }
     }
     /// What a place will come to feel for ever, that is not among what it feels yet.
     pub(crate) fn weight_to_come_m_s2(&self) -> f64 {
-        let flies = matches!(self.motion.stop, Stop::BouncedClear { .. });
+        let flies = matches!(self.motion.stop(), Stop::BouncedClear { .. });
         if flies || self.carried_m_s2() > 0.0 { 0.0 } else { self.motion.gravity_m_s2() }
     }
     /// How long nothing has pressed as the motion was left.
     pub(crate) fn quiet_s(&self) -> f64 {
-        (self.motion.stop.time_s() - self.motion.parted_s()).max(0.0)
+        (self.motion.stop().time_s() - self.motion.parted_s()).max(0.0)
     }
     /// Number, from 1, of the last strike that began by a time; contacts do nothing as they begin.
     pub(crate) fn impact_at(&self, time_s: f64) -> u64 {
         let instant = self.motion.contact().is_none();
         let begun = |touch_s: f64| touch_s < time_s || instant && touch_s <= time_s;
-        self.motion.strikes.partition_point(|s| begun(s.time_s)).max(1) as u64
+        self.motion.struck_s().partition_point(|s| begun(*s)).max(1) as u64
     }
 }

@@ -6,6 +6,7 @@
 mod later;
 
 use std::f64::consts::FRAC_PI_2;
+use std::sync::OnceLock;
 
 use clatter::{Bar, End, EndPeaks, Excitation, Start};
 use clatter_shock::{Pulses, Response, Suspension};
@@ -23,8 +24,22 @@ use later::{GivenUp, Later, slowest};
 pub struct Part {
     /// From the middle of the product towards end b.
     pub position_m: f64,
+    /// From the middle across a plate; 0 of a bar.
+    pub across_m: f64,
     /// How it is held; none where it is mounted rigidly.
     pub suspension: Option<Suspension>,
+}
+
+impl Part {
+    /// A part of a bar, so far from its middle towards end b.
+    #[must_use]
+    pub fn new(position_m: f64, suspension: Option<Suspension>) -> Self {
+        Self { position_m, across_m: 0.0, suspension }
+    }
+    /// Where it is, along and across the product.
+    pub(crate) fn at_m(&self) -> [f64; 2] {
+        [self.position_m, self.across_m]
+    }
 }
 
 /// What a drop asks of a part.
@@ -87,6 +102,7 @@ impl Answer {
 /// use clatter_flight::{Body, ContactLaw};
 /// let drop = SingleDrop {
 ///     body: Body::new(0.15, 0.15 / 12_f64.sqrt())?,
+///     across: None,
 ///     first: End::A,
 ///     tilt_rad: 0.05,
 ///     flat: false,
@@ -96,7 +112,7 @@ impl Answer {
 ///     contact_time_s: None,
 ///     contact_law: ContactLaw::Hysteretic,
 /// };
-/// let part = Part { position_m: 0.075, suspension: None };
+/// let part = Part::new(0.075, None);
 /// let asked = answer(&drop, &part, &Limit::new(LimitKind::VelocityChange, 9.0), Model::Map, 0.01)?;
 /// assert!((asked.value - 4.0 * 2.145).abs() < 1e-12 && asked.impact == 2);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -105,10 +121,13 @@ pub fn answer(drop: &SingleDrop, part: &Part, limit: &Limit, model: Model, toler
     if !(1e-6..=0.5).contains(&tolerance) {
         return Err(Error::Tolerance(tolerance));
     }
-    drop.check(part.position_m)?;
+    drop.check(part.at_m())?;
     limit.check()?;
     if part.suspension.is_none() && limit.kind.needs_suspension() {
         return Err(DataFault::Hard { field: limit.kind.key() }.into());
+    }
+    if drop.across.is_some() && model != Model::Compliant {
+        return Err(Error::PlateModel(model));
     }
     if model < Model::Map {
         return closed_form(drop, part, limit, model);
@@ -169,7 +188,7 @@ pub(crate) fn once(
 
 /// The same of a drop that is followed already.
 pub(crate) fn of_followed(followed: &Followed, part: &Part, limit: &Limit) -> Result<Answer, Error> {
-    let felt = PlaceHistory::new(followed, part.position_m)?;
+    let felt = PlaceHistory::new(followed, part.at_m())?;
     let asked = felt.answer(limit, part.suspension.as_ref(), 0.0)?;
     let (allowed, unit) = (limit.allowed, limit.kind.unit());
     let nothing = || Answer { value: 0.0, allowed, unit, time_s: 0.0, impact: 1, off_by: felt.later_of(limit) };
@@ -230,9 +249,10 @@ pub fn respond(
     model: Model,
     tolerance: f64,
 ) -> Result<Response, Error> {
-    drop.check(position_m)?;
+    let at_m = [position_m, 0.0];
+    drop.check(at_m)?;
     let followed = Followed::new(drop, model, tolerance)?;
-    Ok(PlaceHistory::new(&followed, position_m)?.pulses.respond(part))
+    Ok(PlaceHistory::new(&followed, at_m)?.pulses.respond(part))
 }
 
 /// What one place of a followed drop feels.
@@ -241,31 +261,33 @@ pub(crate) struct PlaceHistory<'a> {
     followed: &'a Followed,
     history: Excitation,
     pulses: Pulses,
-    position_m: f64,
+    at_m: [f64; 2],
     fastest_rad_s: f64,
+    /// Its velocity shocks, as they are asked for.
+    shocks: OnceLock<Vec<Shock>>,
     /// The same until earlier, of which all answers are known.
     known: Option<&'a PlaceHistory<'a>>,
 }
 
 impl<'a> PlaceHistory<'a> {
-    pub(crate) fn new(followed: &'a Followed, position_m: f64) -> Result<Self, Error> {
-        Self::rough(followed, position_m, f64::INFINITY)
+    pub(crate) fn new(followed: &'a Followed, at_m: [f64; 2]) -> Result<Self, Error> {
+        Self::rough(followed, at_m, f64::INFINITY)
     }
 
     /// The same for responses of parts up to a natural frequency, to about 1 %: pulses that are short beside the period of
     /// the fastest part are taken as velocity shocks of the same impulse at the mean time.
-    pub(crate) fn rough(followed: &'a Followed, position_m: f64, fastest_rad_s: f64) -> Result<Self, Error> {
+    pub(crate) fn rough(followed: &'a Followed, at_m: [f64; 2], fastest_rad_s: f64) -> Result<Self, Error> {
         if followed.is_cut() {
             return Err(Error::Unfinished);
         }
-        let history = followed.motion.felt(followed.drop.relative(position_m));
+        let history = followed.drop.felt(&followed.motion, at_m);
         let pulses = pulses(&history, SHORT / fastest_rad_s, followed.carried_m_s2())?;
-        Ok(Self { followed, history, pulses, position_m, fastest_rad_s, known: None })
+        Ok(Self { followed, history, pulses, at_m, fastest_rad_s, shocks: OnceLock::new(), known: None })
     }
 
     /// The same place in the same drop, followed for longer.
     pub(crate) fn longer(&'a self, followed: &'a Followed) -> Result<Self, Error> {
-        Ok(Self { known: Some(self), ..Self::rough(followed, self.position_m, self.fastest_rad_s)? })
+        Ok(Self { known: Some(self), ..Self::rough(followed, self.at_m, self.fastest_rad_s)? })
     }
 
     /// The answer for one limit, if its utilization passes `above`.
@@ -290,13 +312,14 @@ impl<'a> PlaceHistory<'a> {
                 (value, time_s, self.off_by(value / per_change) * per_change)
             }
             (Source::Shock, _) => {
-                let Shock { change, time_s, .. } = largest(&self.shocks());
+                let Shock { change, time_s, .. } = largest(self.shocks());
                 (change, time_s, self.off_by(change))
             }
             (Source::Turn, _) => {
                 let Shock { change, time_s, .. } = largest(&self.followed.turns());
-                let half = 0.5 * self.followed.drop.body.length_m();
-                (change, time_s, self.off_by(change * half) / half)
+                let drop = &self.followed.drop;
+                let arm = drop.across.map_or(0.5 * drop.body.length_m(), |_| drop.least_gyration_m());
+                (change, time_s, self.off_by(change * arm) / arm)
             }
             (Source::Boundary, _) => return Ok(self.boundary(limit, above)),
         };
@@ -339,8 +362,8 @@ impl<'a> PlaceHistory<'a> {
         all
     }
     /// The velocity shocks.
-    pub(crate) fn shocks(&self) -> Vec<Shock> {
-        self.followed.shocks(self.position_m, &self.history)
+    pub(crate) fn shocks(&self) -> &[Shock] {
+        self.shocks.get_or_init(|| self.followed.shocks(self.at_m[0], &self.history))
     }
     /// The utilization that strikes after the motion was left may reach, by the energy that is left and what a part still rings
     /// with; 0 where that is not above `above`. Of the parts given, or of a limit that is no response.
@@ -376,30 +399,30 @@ impl<'a> PlaceHistory<'a> {
     /// What strikes may do here after the motion was left.
     fn later(&self) -> Later {
         let drop = &self.followed.drop;
-        let ([a, b], rho) = (drop.body.arms_m(), drop.body.gyration_m());
-        let x = (self.position_m + 0.5 * (b - a)) / rho;
-        let ends = [-a / rho, b / rho];
-        let mass = |x: f64| (1.0 + x * x).sqrt();
-        // All energy in the motion of the center of mass, over all of it in what moves the farther end fastest.
-        let center = self.followed.motion.later_m_s / mass(a.max(b) / rho);
-        let both = ends.map(|end| (1.0 + x * end) / mass(end));
+        let (points, here) = drop.in_radii(self.at_m);
+        let dot = |[x, y]: [f64; 2], [x2, y2]: [f64; 2]| x * x2 + y * y2;
+        let mass = |p: [f64; 2]| (1.0 + dot(p, p)).sqrt();
+        let farthest = points.iter().fold(0.0_f64, |most, &p| most.max(dot(p, p)));
+        // All energy in the motion of the center of mass, over all of it in what moves the farthest point fastest.
+        let center = self.followed.motion.later_m_s() / (1.0 + farthest).sqrt();
+        let pressed = points.iter().fold(0.0, |all, &p| libm::hypot(all, (1.0 + dot(here, p)) / mass(p)));
         // A strike gives back the restitution's share of what it takes; several that overlap may turn all of the motion around.
         let turned = 2.0 / (1.0 + drop.restitution);
         let given_up = self.followed.is_given_up().then(|| GivenUp {
-            in_turn: 2.0 / (1.0 - drop.restitution),
-            lever: 1.0 + x.abs() * ends[0].abs().max(ends[1].abs()),
+            in_turn: drop.across.map_or(2.0, |_| 4.0) / (1.0 - drop.restitution),
+            lever: 1.0 + dot(here, here).sqrt() * farthest.sqrt(),
             center_m_s: center * turned,
             gravity_m_s2: drop.gravity_m_s2,
         });
         Later {
             given_up,
             weight_m_s2: self.followed.weight_to_come_m_s2(),
-            shock_m_s: center * mass(x),
-            turned_m_s: center * mass(x) * turned,
-            turn_rad_s: center / rho * turned,
+            shock_m_s: center * mass(here),
+            turned_m_s: center * mass(here) * turned,
+            turn_rad_s: center / drop.least_gyration_m() * turned,
             // Nothing where nothing is left, also where a strike has no largest force.
             acceleration_m_s2: if center > 0.0 {
-                center * libm::hypot(both[0], both[1]).max(mass(x)) * self.peak_per_change()
+                center * pressed.max(mass(here)) * self.peak_per_change()
             } else {
                 0.0
             },
@@ -419,7 +442,7 @@ impl<'a> PlaceHistory<'a> {
     /// could exceed it by.
     fn off_by(&self, value: f64) -> f64 {
         let Followed { largest_m_s, motion, .. } = self.followed;
-        self.followed.kept_arms() * largest_m_s + (motion.later_m_s - value).max(0.0)
+        self.followed.kept_arms() * largest_m_s + (motion.later_m_s() - value).max(0.0)
     }
     /// What later strikes may ask where none that was followed asks for anything, in the unit of the limit.
     fn later_of(&self, limit: &Limit) -> f64 {
@@ -444,7 +467,7 @@ impl<'a> PlaceHistory<'a> {
         };
         let velocity = peak.value.abs();
         // What rings on as the motion is left, and the later shocks, as if all came at its crest.
-        let doubt = if self.followed.motion.later_m_s > 0.0 || self.followed.weight_to_come_m_s2() > 0.0 {
+        let doubt = if self.followed.motion.later_m_s() > 0.0 || self.followed.weight_to_come_m_s2() > 0.0 {
             let rest = self.pulses.state_at_end(part);
             let most = libm::hypot(omega * rest.displacement, rest.velocity) + self.later().shock_of(part);
             most * libm::hypot(of.of_damper(part.damping()), 1.0) - velocity
@@ -479,7 +502,7 @@ impl<'a> PlaceHistory<'a> {
     fn boundary(&self, limit: &Limit, above: f64) -> Option<Answer> {
         let contact_s = self.followed.drop.contact_time_s;
         let mut worst: Option<Answer> = None;
-        for Shock { change, peak, time_s, .. } in self.shocks() {
+        for &Shock { change, peak, time_s, .. } in self.shocks() {
             if change / limit.allowed <= worst.map_or(above, |worst| worst.utilization()) {
                 continue;
             }

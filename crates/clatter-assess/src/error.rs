@@ -72,6 +72,12 @@ pub enum Error {
     /// A search that was told to stop.
     #[error("the search for the worst drop was stopped before")]
     Stopped,
+    /// A model that does not follow plates.
+    #[error("a plate is followed by the model compliant, not by {}", .0.name())]
+    PlateModel(crate::Model),
+    /// What takes bars alone.
+    #[error("{0} takes a product without `width`")]
+    OfBars(&'static str),
     /// A model of the contact, in a product without contact time.
     #[error("this model needs the contact time, and none is known")]
     Contact,

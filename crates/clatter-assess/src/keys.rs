@@ -22,16 +22,25 @@ pub(crate) enum Kind {
     Quantity(&'static Dimension, [&'static str; 2]),
     /// A value, a range or a distribution, within bounds.
     Spread(&'static Dimension, [&'static str; 2]),
+    /// One of these of a bar; of a plate, a product with a width, two: along the length and across it.
+    Sides(&'static Kind),
     Table(&'static [Key]),
     /// At least one table.
     Tables(&'static [Key]),
+}
+
+impl Kind {
+    /// What stands for one side.
+    pub(crate) fn of_side(&self) -> &Self {
+        if let Self::Sides(side) = self { side } else { self }
+    }
 }
 
 const fn key(name: &'static str, required: bool, kind: Kind, doc: &'static str) -> Key {
     Key { name, kind, required, doc }
 }
 
-use Kind::{Choice, Quantity, Spread, Table, Tables, Text};
+use Kind::{Choice, Quantity, Sides, Spread, Table, Tables, Text};
 
 /// Bounds that several keys share.
 const PLACES: [&str; 2] = ["-100 m", "100 m"];
@@ -49,19 +58,34 @@ pub(crate) static FILE: &[Key] = &[
 pub(crate) static PRODUCT: &[Key] = &[
     key("name", true, Text, "Name of the product."),
     key("length", true, Quantity(&units::LENGTH, ["1 mm", "100 m"]), "Length from end a to end b."),
+    key(
+        "width",
+        false,
+        Quantity(&units::LENGTH, ["1 mm", "100 m"]),
+        "Width across the length: with it the product is a plate that may land on any corner, and places have two values. It needs the \
+         contact time.",
+    ),
+    key(
+        "thickness",
+        false,
+        Quantity(&units::LENGTH, ["0.1 mm", "100 m"]),
+        "Thickness of a plate, where real tilt counts; a twentieth of the length unless given.",
+    ),
     key("mass", false, Quantity(&units::MASS, MASSES), "Mass; needed with moment_of_inertia only."),
     key(
         "radius_of_gyration",
         false,
-        Spread(&units::LENGTH, ["0.01 mm", "100 m"]),
+        Sides(&Spread(&units::LENGTH, ["0.01 mm", "100 m"])),
         "Radius of gyration about the center of mass (length/√12 = 0.289 length for evenly spread mass): a range where it is not \
-         known well. One of three ways to give the inertia.",
+         known well; of a plate two values, of the mass along the length and of that along the width. One of three ways to give the \
+         inertia.",
     ),
     key(
         "moment_of_inertia",
         false,
-        Quantity(&units::MOMENT_OF_INERTIA, ["1e-12 kg m2", "1e7 kg m2"]),
-        "Moment of inertia about the center of mass; needs the mass. One of three ways to give the inertia.",
+        Sides(&Quantity(&units::MOMENT_OF_INERTIA, ["1e-12 kg m2", "1e7 kg m2"])),
+        "Moment of inertia about the center of mass; needs the mass; of a plate two, of the mass along the length and of that along \
+         the width. One of three ways to give the inertia.",
     ),
     key(
         "masses",
@@ -73,8 +97,8 @@ pub(crate) static PRODUCT: &[Key] = &[
     key(
         "center_of_mass",
         false,
-        Quantity(&units::LENGTH, PLACES),
-        "Where the center of mass lies, from the middle towards end b; 0 mm unless given. Not with masses.",
+        Sides(&Quantity(&units::LENGTH, PLACES)),
+        "Where the center of mass lies, from the middle towards end b, of a plate across it too; 0 mm unless given. Not with masses.",
     ),
     key(
         "restitution",
@@ -99,9 +123,14 @@ pub(crate) static PRODUCT: &[Key] = &[
 pub(crate) static MASS: &[Key] = &[
     key("name", false, Text, "What it is."),
     key("mass", true, Quantity(&units::MASS, MASSES), "Its mass."),
-    key("position", false, Quantity(&units::LENGTH, PLACES), "Of a point mass: where, from the middle towards end b."),
-    key("from", false, Quantity(&units::LENGTH, PLACES), "Of a slab: where it begins."),
-    key("to", false, Quantity(&units::LENGTH, PLACES), "Of a slab: where it ends."),
+    key(
+        "position",
+        false,
+        Sides(&Quantity(&units::LENGTH, PLACES)),
+        "Of a point mass: where, from the middle towards end b.",
+    ),
+    key("from", false, Sides(&Quantity(&units::LENGTH, PLACES)), "Of a slab: where it begins."),
+    key("to", false, Sides(&Quantity(&units::LENGTH, PLACES)), "Of a slab: where it ends."),
 ];
 
 pub(crate) static DROP: &[Key] = &[
@@ -118,7 +147,19 @@ pub(crate) static DROP: &[Key] = &[
         "Speed at the first touch. Either this or height.",
     ),
     key("tilt", true, Spread(&units::ANGLE, ["0 deg", "30 deg"]), "Angle to the ground at the first touch."),
-    key("first", false, Choice(&["a", "b", "either"]), "Which end touches first; either unless given."),
+    key(
+        "first",
+        false,
+        Choice(&["a", "b", "either"]),
+        "Which end touches first; either unless given. Of a plate its direction tells it.",
+    ),
+    key(
+        "direction",
+        false,
+        Spread(&units::ANGLE, ["0 deg", "360 deg"]),
+        "Of a plate: where it rises to from its lowest corner, from 0 deg along the length, towards end b, to 90 deg along the width; any \
+         direction unless given.",
+    ),
     key(
         "gravity",
         false,
@@ -132,14 +173,14 @@ pub(crate) static COMPONENT: &[Key] = &[
     key(
         "position",
         true,
-        Spread(&units::LENGTH, PLACES),
-        "Where its middle is, from the middle of the product towards end b.",
+        Sides(&Spread(&units::LENGTH, PLACES)),
+        "Where its middle is, from the middle of the product towards end b; of a plate across it too.",
     ),
     key(
         "extent",
         false,
-        Quantity(&units::LENGTH, ["0 mm", "100 m"]),
-        "How far it extends along the bar; 0 mm unless given.",
+        Sides(&Quantity(&units::LENGTH, ["0 mm", "100 m"])),
+        "How far it extends along the bar; 0 mm unless given; of a plate across it too.",
     ),
     key(
         "mount",

@@ -132,6 +132,7 @@ impl Ladder {
     /// use clatter_assess::{Limit, LimitKind, Part, SingleDrop};
     /// let drop = SingleDrop {
     ///     body: clatter_flight::Body::new(0.14, 0.04)?,
+    ///     across: None,
     ///     first: clatter::End::A,
     ///     tilt_rad: 0.09,
     ///     flat: false,
@@ -141,7 +142,7 @@ impl Ladder {
     ///     contact_time_s: Some(2e-4),
     ///     contact_law: clatter_flight::ContactLaw::Hysteretic,
     /// };
-    /// let part = Part { position_m: 0.06, suspension: None };
+    /// let part = Part::new(0.06, None);
     /// let ladder = Ladder::measure(&drop, &part, &Limit::new(LimitKind::VelocityChange, 3.0), 0.01)?;
     /// assert!(ladder.models.last().is_some_and(|fullest| fullest.error < 0.01));
     /// # Ok::<(), clatter_assess::Error>(())
@@ -155,7 +156,7 @@ impl Ladder {
             // What a model refuses is left out: an endless train has no net change.
             let Ok((found, seconds)) = time::measured(|| answer(drop, part, limit, model, tolerance)) else { continue };
             let strikes =
-                if model < Model::Map { 0 } else { Followed::new(drop, model, tolerance)?.motion.strikes.len() };
+                if model < Model::Map { 0 } else { Followed::new(drop, model, tolerance)?.motion.struck_s().len() };
             let error = (found.utilization() / exact.utilization() - 1.0).abs();
             models.push(Measured { model, value: found.value, error, seconds, strikes });
         }
@@ -172,7 +173,7 @@ impl Groups {
     fn of(drop: &SingleDrop, part: &Part) -> Result<Self, Error> {
         let h0 = drop.body.length_m() * libm::sin(drop.tilt_rad);
         let map = Followed::new(drop, Model::Map, 0.01)?;
-        let times: Vec<f64> = map.motion.strikes.iter().map(|s| s.time_s).collect();
+        let times = map.motion.struck_s();
         let gap = times.get(1).copied().unwrap_or(f64::INFINITY);
         let last = times.last().copied().unwrap_or(0.0);
         let omega = part.suspension.map(|part| part.omega());
@@ -234,6 +235,7 @@ impl ProductFile {
     /// ```
     pub fn ladders(&self, assessment: &Assessment, tolerance: f64) -> Result<ProductLadder, Error> {
         self.check()?;
+        self.check_bar("the ladder of models")?;
         assessment.is_of(self)?;
         let (mut limits, mut left_out) = (Vec::new(), Vec::new());
         for (component, assessed) in self.components.iter().zip(&assessment.components) {

@@ -53,6 +53,7 @@
 mod assess;
 mod bound;
 mod check;
+mod course;
 mod data_fault;
 pub mod design;
 mod drop;
@@ -83,13 +84,13 @@ mod visible;
 pub use clatter_flight::ContactLaw;
 pub use clatter_shock::STANDARD_GRAVITY_M_S2;
 pub use data_fault::DataFault;
-pub use drop::{Model, SingleDrop};
+pub use drop::{Across, Model, SingleDrop};
 pub use engine::{Answer, Part, answer, respond};
 pub use error::Error;
 pub use fault::{Fault, Faults};
 pub use plate::{PlateAnswers, PlateDrop, PlatePart};
 pub use portrait::{Changes, Curve, Point, Portrait};
-pub use product::{Component, Damping, Drop, Fall, First, Limits, Mount, Product, ProductFile, RecordFile};
+pub use product::{Component, Damping, Drop, Fall, First, Limits, Mount, Product, ProductFile, RecordFile, Width};
 pub use quantity::{Limit, LimitKind, Unit};
 pub use read::LARGEST_FILE;
 pub use reason::{Doubt, Note, Reason};
@@ -98,7 +99,7 @@ pub use schema::schema;
 pub use search::Watch;
 pub use slip::{Slip, outside, slip};
 pub use spread::{Law, Spread};
-pub use verdict::{Accuracy, Assessment, ComponentAssessment, LimitAssessment, ModelChoice, Verdict, WorstCase};
+pub use verdict::{Accuracy, Assessment, ComponentAssessment, LimitAssessment, ModelChoice, Sides, Verdict, WorstCase};
 pub use visible::{visible, visible_lines};
 
 /// A commented product file that assesses as it stands.

@@ -3,11 +3,12 @@
 use clatter_flight::{Contact, PlateMotion, PlateScene, Stop};
 use clatter_shock::{Pulses, Response, Suspension};
 
+use crate::course::directions;
 use crate::drop::{LEAST_SHARE, PRECISION};
 use crate::engine::{Answer, CHATTER, FINER, SAFETY};
 use crate::history::pulses;
 use crate::quantity::Source;
-use crate::shock::{largest, shocks};
+use crate::shock::{Shock, largest, shocks};
 use crate::{Error, LimitKind};
 
 /// A drop of a plate.
@@ -26,7 +27,7 @@ pub struct PlateAnswers {
     pub velocity_change: Answer,
     /// Largest felt acceleration.
     pub acceleration: Answer,
-    /// Largest change of angular velocity of one shock, about the axis along x or that along y.
+    /// Largest change of angular velocity of one shock, about any axis in the plane, to half a percent.
     pub angular_velocity_change: Answer,
     /// What a part on a suspension does there.
     pub part: Option<PlatePart>,
@@ -96,11 +97,9 @@ impl PlateDrop {
         // A velocity shock of a lone contact has that acceleration at most.
         let per_shock = self.contact.frequency_rad_s();
         let acceleration = followed.answer(LimitKind::Acceleration, peak, time_s, per_shock);
-        let turns = [[1.0, 0.0], [0.0, 1.0]].map(|along| {
-            let turned = followed.motion.turned(along);
-            largest(&shocks(&turned, 0.0))
-        });
-        let turn = if turns[1].change > turns[0].change { turns[1] } else { turns[0] };
+        let turns = directions().map(|along| largest(&shocks(&followed.motion.turned(along), 0.0)));
+        let most = |most: Shock, turn: Shock| if turn.change > most.change { turn } else { most };
+        let turn = turns.fold(Shock::NONE, most);
         let [kx, ky] = self.scene.plate().gyration_m();
         let angular_velocity_change =
             followed.answer(LimitKind::AngularVelocityChange, turn.change, turn.time_s, 1.0 / kx.min(ky));

@@ -25,7 +25,7 @@ use crate::{
     Verdict, WorstCase,
 };
 use changes::{Failing, Shared};
-use drops::{Drops, Places, corners, parts, tilts};
+use drops::{Drops, Places, along, corners, parts, tilts};
 use scale::Scale;
 
 /// Points (x, y) of a line.
@@ -87,7 +87,7 @@ impl ProductFile {
     /// The curve over the tilt holds besides the drops with the speed, restitution and contact time of the worst case, and the worst
     /// case itself. Safe places and changes are those where no drop asks more than at the part's own place, but for what the
     /// assessment leaves room for there: they are as good as these drops, and an assessment decides.
-    /// What is not answered is not drawn; nothing is of an assessment of another product, or of data that [`check`](Self::check)
+    /// Of a plate the response in the worst drop alone is drawn. What is not answered is not drawn; nothing is of an assessment of another product, or of data that [`check`](Self::check)
     /// refuses.
     #[must_use]
     pub fn portraits(&self, assessment: &Assessment) -> Vec<Portrait> {
@@ -95,6 +95,13 @@ impl ProductFile {
             return Vec::new();
         }
         let ranges = self.ranges(&assessment.accuracy);
+        if self.product.width.is_some() {
+            let history = |assessed: &ComponentAssessment| {
+                let (history, impacts_s) = Self::history(assessed.tightest(), &ranges).unwrap_or_default();
+                Portrait { history, impacts_s, over_tilt: Vec::new(), zone_m: None, changes: None }
+            };
+            return assessment.components.iter().map(history).collect();
+        }
         let (tilts, until) = (tilts(&ranges), Self::until(assessment));
         // Where the file names no contact law a verdict counts with both of them.
         let laws = match (ranges.model, self.product.contact_law) {
@@ -119,7 +126,7 @@ impl ProductFile {
             let (history, impacts_s) = Self::history(tightest, &ranges).unwrap_or_default();
             let over_tilt = curves::over_tilt(&ranges, &drops[0], (component, tightest), tilts, until);
             let fastest = bounds.frequency_factor * rough_to_rad_s(component);
-            let ends: Vec<_> = drops.iter().map(|drops| Places::new(drops, component.places_m(), fastest)).collect();
+            let ends: Vec<_> = drops.iter().map(|drops| Places::new(drops, along(component), fastest)).collect();
             let (mut zone_m, mut changes) = (None, None);
             if let Some(scales) = scales(component, assessed, &ends) {
                 zone_m = zone::zone(grids, component, assessed, &scales, 0.0);
@@ -142,8 +149,8 @@ impl ProductFile {
         let Some(worst) = &limit.worst_case else { return Ok(Default::default()) };
         let WorstCase { drop, part, .. } = worst;
         let followed = Followed::new(drop, ranges.model, ranges.tolerance)?;
-        let felt = PlaceHistory::new(&followed, part.position_m)?;
-        let impacts: Vec<f64> = followed.motion.strikes.iter().map(|s| s.time_s).collect();
+        let felt = PlaceHistory::new(&followed, part.at_m())?;
+        let impacts = followed.motion.struck_s();
         let period = part.suspension.map_or(0.0, |s| std::f64::consts::TAU / s.omega());
         // to the peak and a little on; what comes long after it is far weaker
         let second = impacts.get(1).copied().unwrap_or(0.0);
@@ -157,11 +164,11 @@ impl ProductFile {
                 respond(&suspension, &slices, end, |state| peak.of_state(&suspension, state))
             }
             (Source::Turn, _) => spikes(&followed.turns(), 1.0, end),
-            (Source::Shock, _) => spikes(&felt.shocks(), 1.0, end),
-            (Source::Boundary, _) if limit.unit == Unit::MeterPerSecond => spikes(&felt.shocks(), 1.0, end),
+            (Source::Shock, _) => spikes(felt.shocks(), 1.0, end),
+            (Source::Boundary, _) if limit.unit == Unit::MeterPerSecond => spikes(felt.shocks(), 1.0, end),
             _ if followed.motion.contact().is_none() => {
                 let factor = std::f64::consts::FRAC_PI_2 / drop.contact_time_s.ok_or(Error::Contact)?;
-                spikes(&felt.shocks(), factor, end)
+                spikes(felt.shocks(), factor, end)
             }
             _ => within(felt.acceleration(), end),
         };

@@ -1,6 +1,6 @@
 //! What the product file says: a product, its drop and its fragile parts. All SI.
 //!
-//! Positions run along the bar from its middle, towards end b positive.
+//! Positions run along the bar from its middle, towards end b positive; across a plate from its middle as well.
 
 use clatter::End;
 use clatter_flight::{Body, ContactLaw};
@@ -59,6 +59,8 @@ pub struct Product {
     pub name: String,
     /// Length, center of mass and radius of gyration; where that has a range, of the middle of it.
     pub body: Body,
+    /// What makes a plate of the bar: none of a product that is followed as a bar.
+    pub width: Option<Width>,
     /// Radius of gyration about the center of mass, in m.
     pub gyration_m: Spread,
     /// Mass, where the file gives it: it cancels out of every answer.
@@ -71,6 +73,37 @@ pub struct Product {
     pub contact_law: Option<ContactLaw>,
 }
 
+/// The side of a plate across its length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Width {
+    /// Distances of the long edges from the center of mass, −y and +y.
+    pub edges_m: [f64; 2],
+    /// Radius of gyration of the mass along y, √(∫y² dm/m) about the center of mass.
+    pub gyration_m: f64,
+    /// ∫x y dm/m about the center of mass: 0 where the mass is even about one of the axes.
+    pub product_of_inertia_m2: f64,
+    /// Thickness, where it is known.
+    pub thickness_m: Option<f64>,
+}
+
+impl Width {
+    /// From edge to edge.
+    #[must_use]
+    pub fn m(&self) -> f64 {
+        self.edges_m[0] + self.edges_m[1]
+    }
+    /// The smallest radius of gyration about any axis in the plane, that along the length given: by the smaller principal second moment.
+    pub(crate) fn least_gyration_m(&self, along_m: f64) -> f64 {
+        let ([xx, yy], xy) = ([along_m, self.gyration_m].map(|k| k * k), self.product_of_inertia_m2);
+        (0.5 * (xx + yy) - libm::hypot(0.5 * (xx - yy), xy)).max(0.0).sqrt()
+    }
+    /// Where the center of mass is, from the middle.
+    #[must_use]
+    pub fn center_m(&self) -> f64 {
+        0.5 * (self.edges_m[0] - self.edges_m[1])
+    }
+}
+
 impl Product {
     /// A product with one radius of gyration, that of the body; mass, contact time and contact law are not known.
     #[must_use]
@@ -78,6 +111,7 @@ impl Product {
         Self {
             name: name.into(),
             body,
+            width: None,
             gyration_m: Spread::finite(body.gyration_m()),
             mass_kg: None,
             restitution,
@@ -119,8 +153,10 @@ pub struct Drop {
     pub fall: Fall,
     /// Angle to the ground at the first touch, within [0, π/6] rad.
     pub tilt_rad: Spread,
-    /// Which end touches first.
+    /// Which end touches first; of a plate its direction tells it.
     pub first: First,
+    /// Where a plate rises to from its lowest corner, in rad from the length towards the width; any direction if none is given.
+    pub direction_rad: Option<Spread>,
     /// Gravity after the first touch; 0 switches it off.
     pub gravity_m_s2: f64,
 }
@@ -152,6 +188,10 @@ pub struct Component {
     pub position_m: Spread,
     /// How far it extends along the bar, both sides together; 0 for a point.
     pub extent_m: f64,
+    /// Where its middle is across a plate; 0 of a bar.
+    pub across_m: Spread,
+    /// How far it extends across a plate; 0 for a point.
+    pub extent_across_m: f64,
     /// How it is held.
     pub mount: Mount,
     /// What it stands.
@@ -325,7 +365,8 @@ impl Drop {
     /// A drop on either end, with standard gravity.
     #[must_use]
     pub fn new(fall: Fall, tilt_rad: Spread) -> Self {
-        Self { fall, tilt_rad, first: First::Either, gravity_m_s2: clatter_shock::STANDARD_GRAVITY_M_S2 }
+        let (first, gravity_m_s2) = (First::Either, clatter_shock::STANDARD_GRAVITY_M_S2);
+        Self { fall, tilt_rad, first, direction_rad: None, gravity_m_s2 }
     }
     /// The range of speeds at the first touch, in m/s.
     #[must_use]
@@ -355,45 +396,79 @@ impl Component {
     /// A part without extent, whose limits are from nowhere that is told.
     #[must_use]
     pub fn new(name: impl Into<String>, position_m: Spread, mount: Mount, limits: Limits) -> Self {
-        Self { name: name.into(), position_m, extent_m: 0.0, mount, limits, limit_source: None }
+        let (extent_m, across_m, extent_across_m) = (0.0, Spread::finite(0.0), 0.0);
+        Self { name: name.into(), position_m, extent_m, across_m, extent_across_m, mount, limits, limit_source: None }
     }
-    /// Both ends of where the part may be along the bar; one where it is a point.
+    /// The ends of where the part may be, \[x, y\]: one where it is a point, both ends along a bar, the corners of a rectangle on a
+    /// plate.
     ///
     /// The worst place is one of them for all but changes of velocity, see [`places_m`](Self::places_m): for one drop the motion of the
-    /// bar is linear in the position, so is the response to it, and the largest absolute value of linear functions is convex, which
-    /// has its maximum at an end of the interval.
+    /// body is linear in the position, so is the response to it, and the largest absolute value of linear functions is convex, which
+    /// has its maximum at a corner of the region.
     #[must_use]
-    pub fn ends_m(&self) -> Vec<f64> {
-        let half = 0.5 * self.extent_m;
-        let (lo, hi) = (self.position_m.lo() - half, self.position_m.hi() + half);
-        if lo < hi { vec![lo, hi] } else { vec![lo] }
+    pub fn ends_m(&self) -> Vec<[f64; 2]> {
+        let [along, across] = self.reaches_m();
+        corners(along, across)
     }
-    /// Places at which a drop is answered: both ends first and, where a change of velocity limits the part, some between. Whether contacts
+    /// Places at which a drop is answered: the ends first and, where a change of velocity limits the part, some between. Whether contacts
     /// that overlap are one shock differs from place to place, so that the largest change of velocity may lie between the ends.
     #[must_use]
-    pub fn places_m(&self) -> Vec<f64> {
-        self.with_between(self.ends_m())
+    pub fn places_m(&self) -> Vec<[f64; 2]> {
+        self.with_between(self.position_m)
     }
-    /// The same of a part that is at one place of its range.
+    /// The same of a part that is at one place of its range along the length.
     #[must_use]
-    pub fn places_at_m(&self, position_m: f64) -> Vec<f64> {
-        let half = 0.5 * self.extent_m;
-        self.with_between(if half > 0.0 { vec![position_m - half, position_m + half] } else { vec![position_m] })
+    pub fn places_at_m(&self, position_m: f64) -> Vec<[f64; 2]> {
+        self.with_between(Spread::finite(position_m))
     }
-    fn with_between(&self, ends_m: Vec<f64>) -> Vec<f64> {
-        if self.limits.kinds().into_iter().any(LimitKind::is_largest_between) { with_between(ends_m) } else { ends_m }
+    /// From where to where the part may be along the length and across it.
+    pub(crate) fn reaches_m(&self) -> [[f64; 2]; 2] {
+        self.reaches_from_m(self.position_m)
+    }
+    fn reaches_from_m(&self, position_m: Spread) -> [[f64; 2]; 2] {
+        let reach = |of: Spread, half: f64| [of.lo() - half, of.hi() + half];
+        [reach(position_m, 0.5 * self.extent_m), reach(self.across_m, 0.5 * self.extent_across_m)]
+    }
+    /// How many places lie between its ends along each side.
+    pub(crate) fn between(&self) -> u32 {
+        let is_rectangle = self.reaches_m().iter().all(|[lo, hi]| lo < hi);
+        if is_rectangle { BETWEEN_ON_PLATE } else { BETWEEN }
+    }
+    fn with_between(&self, position_m: Spread) -> Vec<[f64; 2]> {
+        let [along, across] = self.reaches_from_m(position_m);
+        let mut places = corners(along, across);
+        if self.limits.kinds().into_iter().any(LimitKind::is_largest_between) {
+            let count = self.between();
+            let all = [along, across].map(|reach| with_between(reach, count));
+            let rest = all[1].iter().flat_map(|&y| all[0].iter().map(move |&x| [x, y]));
+            let rest: Vec<_> = rest.filter(|place| !places.contains(place)).collect();
+            places.extend(rest);
+        }
+        places
     }
 }
 
-/// Places between both ends.
-const BETWEEN: u32 = 7;
-
-/// Both ends, and places that lie evenly between them.
-pub(crate) fn with_between(mut ends_m: Vec<f64>) -> Vec<f64> {
-    if let [lo, hi] = ends_m[..] {
-        ends_m.extend((1..=BETWEEN).map(|k| lo + (hi - lo) * f64::from(k) / f64::from(BETWEEN + 1)));
+/// The corners of a rectangle, of which a side may be none.
+fn corners([left, right]: [f64; 2], [front, back]: [f64; 2]) -> Vec<[f64; 2]> {
+    let along = if left < right { vec![left, right] } else { vec![left] };
+    let mut all: Vec<_> = along.iter().map(|&x| [x, front]).collect();
+    if front < back {
+        all.extend(along.iter().map(|&x| [x, back]));
     }
-    ends_m
+    all
+}
+
+/// Places between both ends, and between the edges of a part that extends along both sides of a plate.
+pub(crate) const BETWEEN: u32 = 7;
+const BETWEEN_ON_PLATE: u32 = 2;
+
+/// Both ends, and so many places that lie evenly between them; one where both are the same.
+pub(crate) fn with_between([lo, hi]: [f64; 2], count: u32) -> Vec<f64> {
+    if lo >= hi {
+        return vec![lo];
+    }
+    let between = (1..=count).map(|k| lo + (hi - lo) * f64::from(k) / f64::from(count + 1));
+    [lo, hi].into_iter().chain(between).collect()
 }
 
 impl Mount {

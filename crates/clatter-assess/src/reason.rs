@@ -106,6 +106,15 @@ pub enum Note {
     Error(f64),
     /// Rebounds may ask for up to this share, by their energy.
     Rebounds(f64),
+    /// What real tilt adds, by a box with full rotation in drops next to the worst one.
+    Tilt {
+        /// What the box asks for at most, less what the plate of small tilt does, as a share of it; negative where it asks for less.
+        off: f64,
+        /// Its thickness.
+        thickness_m: f64,
+    },
+    /// What real tilt adds is not known: the box is not followed, for this.
+    NoTilt(Error),
     /// The model that was asked for is not the one with the most physics.
     Model {
         /// The one that was asked for.
@@ -135,6 +144,13 @@ impl Display for Note {
                      every input"
                 )
             }
+            Self::Tilt { off, thickness_m } => write!(
+                f,
+                "the plate is of small tilt: a box {} mm thick with full rotation says {:+} % next to this drop",
+                1e3 * thickness_m,
+                percent(*off)
+            ),
+            Self::NoTilt(error) => write!(f, "what real tilt adds is not known: {error}"),
             Self::Model { asked, fullest, off } => {
                 write!(f, "{} was asked for; {} says {:+} % in this drop", asked.name(), fullest.name(), percent(*off))
             }

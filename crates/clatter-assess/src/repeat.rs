@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use clatter::End;
 use clatter_flight::ContactLaw;
 
-use crate::{Accuracy, LimitKind, Model, WorstCase, visible};
+use crate::{Accuracy, Across, LimitKind, Model, WorstCase, visible};
 
 /// `clatter respond --product=… --component=… --worst=…`, which searches the worst drop of a limit again and answers it; with the model
 /// and the tolerance, where they are not those that an assessment has by itself. None where the command line cannot say it: for a file
@@ -42,6 +42,9 @@ impl WorstCase {
     #[must_use]
     pub fn command(&self) -> String {
         let drop = &self.drop;
+        if let Some(across) = &drop.across {
+            return self.command_of_plate(across);
+        }
         let [a, b] = drop.body.arms_m();
         let side = if drop.first == End::A { 1.0 } else { -1.0 };
         let length = a + b;
@@ -63,11 +66,8 @@ impl WorstCase {
         let mut add = |flag: &str, value: f64| command.extend([" --", flag, "=", &format!("{value:?}")]);
         add("gravity-m-s2", drop.gravity_m_s2);
         add("at", drop.relative(self.part.position_m) + 0.0);
-        if let Some((hz, ratio)) = self.part.suspension.map(|part| (part.omega() / TAU, part.damping().get())) {
-            add("omega", TAU * hz);
-            add("damping", ratio);
-        }
-        add("tolerance", self.tolerance);
+        self.of_part(&mut command);
+        let mut add = |flag: &str, value: f64| command.extend([" --", flag, "=", &format!("{value:?}")]);
         let contacts = self.model == Model::Compliant;
         // The acceleration of a part that is mounted rigidly is that of the contact time, by any model.
         if let Some(time) = drop.contact_time_s.filter(|_| contacts || self.part.suspension.is_none()) {
@@ -75,6 +75,51 @@ impl WorstCase {
             if contacts && drop.contact_law != ContactLaw::default() {
                 command.extend([" --contact-law=", drop.contact_law.name()]);
             }
+        }
+        command
+    }
+
+    /// The part and the tolerance.
+    fn of_part(&self, command: &mut String) {
+        let mut add = |flag: &str, value: f64| command.extend([" --", flag, "=", &format!("{value:?}")]);
+        if let Some((hz, ratio)) = self.part.suspension.map(|part| (part.omega() / TAU, part.damping().get())) {
+            add("omega", TAU * hz);
+            add("damping", ratio);
+        }
+        add("tolerance", self.tolerance);
+    }
+
+    /// Of a plate, seen so that its lowest corner is a.
+    fn command_of_plate(&self, across: &Across) -> String {
+        let drop = &self.drop;
+        let ([length, width], [sx, sy]) = ([drop.body.length_m(), across.width.m()], across.signs());
+        let mut command = format!("clatter respond --model={} --length-m={length:?}", self.model.name());
+        let mut add = |flag: &str, values: &[f64]| {
+            let values: Vec<_> = values.iter().map(|value| format!("{:?}", value + 0.0)).collect();
+            command.extend([" --", flag, "=", &values.join(",")]);
+        };
+        add("width-m", &[width]);
+        add("gyration-m", &[drop.body.gyration_m(), across.width.gyration_m]);
+        if across.width.product_of_inertia_m2 != 0.0 {
+            add("product-of-inertia-m2", &[sx * sy * across.width.product_of_inertia_m2]);
+        }
+        let [a, b] = drop.body.arms_m();
+        let center = [sx * (a - b) / length, sy * 2.0 * across.width.center_m() / width];
+        if center.iter().any(|place| *place != 0.0) {
+            add("center-of-mass", &center);
+        }
+        add("e", &[drop.restitution]);
+        add("speed-m-s", &[drop.speed_m_s]);
+        add("gaps-m", &drop.gaps_m(across));
+        add("gravity-m-s2", &[drop.gravity_m_s2]);
+        let [x, y] = self.part.at_m();
+        add("at", &[2.0 * sx * x / length, 2.0 * sy * y / width]);
+        self.of_part(&mut command);
+        if let Some(time) = drop.contact_time_s {
+            command.extend([" --contact-time-s=", &format!("{time:?}")]);
+        }
+        if drop.contact_law != ContactLaw::default() {
+            command.extend([" --contact-law=", drop.contact_law.name()]);
         }
         command
     }

@@ -35,8 +35,8 @@ fn table(keys: &[Key]) -> Value {
     json!({ "type": "object", "properties": properties, "required": required, "additionalProperties": false })
 }
 
-fn kind(kind: &Kind) -> Value {
-    match kind {
+fn kind(of: &Kind) -> Value {
+    match of {
         Kind::Text => json!({ "type": "string" }),
         Kind::Choice(words) => json!({ "enum": words }),
         Kind::Quantity(dimension, bounds) => with_examples(quantity(dimension, *bounds), dimension),
@@ -52,6 +52,11 @@ fn kind(kind: &Kind) -> Value {
             let ways =
                 [one.clone(), list(2), law("uniform", 2, &[]), law("triangular", 3, &[]), law("normal", 2, &["range"])];
             with_examples(json!({ "oneOf": ways }), dimension)
+        }
+        Kind::Sides(side) => {
+            let one = kind(side);
+            let both = json!({ "type": "array", "items": one, "minItems": 2, "maxItems": 2 });
+            json!({ "anyOf": [one, both] })
         }
         Kind::Table(keys) => table(keys),
         Kind::Tables(keys) => json!({ "type": "array", "items": table(keys), "minItems": 1 }),

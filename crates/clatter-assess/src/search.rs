@@ -27,7 +27,7 @@ use crate::quantity::Source;
 use crate::{Component, Error, Limit, Mount};
 use climb::{CLIMBS, EDGES_REACH, EDGES_TRIES, LATE_REACH, LATE_TRIES, NEAR, starts};
 pub(crate) use found::{Candidate, Worst};
-use found::{Candidates, OfDrop};
+use found::{Candidates, OfDrop, image};
 use ranges::{DAMPING, FREQUENCY, RESTITUTION};
 pub(crate) use ranges::{Place, Ranges};
 
@@ -92,10 +92,10 @@ impl Ranges<'_> {
         most: f64,
         watch: Watch<'_>,
     ) -> Result<Vec<Worst>, Place> {
-        let steps = self.tilt_steps(all_tasks);
+        let [steps, turn_steps] = self.steps(all_tasks);
         let mut all =
             Candidates { found: vec![Vec::new(); tasks.len()], refused: None, later: vec![0.0; tasks.len()], drops: 0 };
-        let grid: Vec<(u32, Place)> = (0..).zip(self.grid(steps)).collect();
+        let grid: Vec<(u32, Place)> = (0..).zip(self.grid(steps, turn_steps)).collect();
         let shocks: Vec<bool> = tasks.iter().map(|task| !task.limit.is_response()).collect();
         let overlaps = if shocks.contains(&true) { self.overlaps() } else { Vec::new() };
         let climbing = CLIMB * CLIMBS * tasks.len();
@@ -198,7 +198,7 @@ impl Ranges<'_> {
         mut best: Vec<f64>,
         only: Option<&[bool]>,
     ) -> Result<OfDrop, Error> {
-        let mut of_drop = OfDrop::default();
+        let (mut of_drop, is_plate) = (OfDrop::default(), self.product.width.is_some());
         let early = self.follow(drop, Until::Lands)?;
         let (mut rebounded, mut over) = (None, None);
         let mut first = 0;
@@ -208,28 +208,37 @@ impl Ranges<'_> {
             if only.is_some_and(|only| !only[numbers.clone()].contains(&true)) {
                 continue;
             }
-            let mut positions: Vec<f64> = of_one[0].component.places_m();
-            let (own, ends) = (positions.len(), of_one[0].component.ends_m().len());
-            if self.turns() {
-                positions.extend_from_within(..);
-                positions[own..].iter_mut().for_each(|x| *x = -*x);
-            }
-            for (n, &position_m) in positions.iter().enumerate() {
-                let felt = PlaceHistory::rough(&early, position_m, rough_to_rad_s(of_one[0].component))?;
-                for (task, number) in of_one.iter().zip(numbers.clone()) {
+            let own: Vec<[f64; 2]> = of_one[0].component.places_m();
+            let ends = of_one[0].component.ends_m().len();
+            let images =
+                self.mirrors().iter().flat_map(|&sides| own.iter().map(move |&at_m| (sides, image(at_m, sides))));
+            // Which limits an end of the part comes near in this drop: those of a rectangle are many.
+            let mut near_at_ends = vec![false; of_one.len()];
+            for (n, (sides, at_m)) in images.enumerate() {
+                if n % own.len() == 0 {
+                    near_at_ends.fill(false);
+                }
+                let is_between = n % own.len() >= ends;
+                let mut felt: Option<PlaceHistory<'_>> = None;
+                for (own_number, (task, number)) in of_one.iter().zip(numbers.clone()).enumerate() {
                     // Turns are the same everywhere.
                     let again = n > 0 && task.limit.kind.source() == Source::Turn;
-                    let between = n % own >= ends && !task.limit.kind.is_largest_between();
-                    if again || between || only.is_some_and(|only| !only[number]) {
+                    let not_there =
+                        is_between && (!task.limit.kind.is_largest_between() || is_plate && !near_at_ends[own_number]);
+                    if again || not_there || only.is_some_and(|only| !only[number]) {
                         continue;
                     }
+                    let felt = match &mut felt {
+                        Some(felt) => felt,
+                        none => none.insert(PlaceHistory::rough(&early, at_m, rough_to_rad_s(task.component))?),
+                    };
                     let worst = best[number];
-                    let place = Place { position_m, ..*drop };
+                    let place = Place { at_m, ..*drop };
                     // That nothing is asked is an answer as well.
                     let near = if worst > 0.0 { NEAR * worst } else { -1.0 };
                     let frequencies = Self::frequencies(task, &early.drop);
                     let late = frequencies.max(FREQUENCIES_LATE);
-                    let mut asked = self.most(task, &place, &felt, k, frequencies, near)?;
+                    let mut asked = self.most(task, &place, felt, k, frequencies, near)?;
                     let reached =
                         |asked: Option<Candidate>| asked.map_or(worst, |asked| worst.max(asked.answer.utilization()));
                     let parts = Self::softest_and_stiffest(task, &place)?;
@@ -248,7 +257,8 @@ impl Ranges<'_> {
                     if let Some(mut asked) = asked {
                         asked.late = asked.answer.time_s > early.drop.clear_s();
                         best[number] = worst.max(asked.answer.utilization());
-                        of_drop.asked.push((number, if n < own { asked } else { asked.turned() }));
+                        near_at_ends[own_number] = true;
+                        of_drop.asked.push((number, asked.mirrored(sides, is_plate)));
                     }
                 }
             }
@@ -372,7 +382,7 @@ impl Ranges<'_> {
         }
         // The one that counts, with all that it may be off by.
         if let Some(asked) = &mut worst.asked {
-            let part = Part { position_m: asked.place.position_m, suspension: asked.part };
+            let part = asked.part_there();
             let drop = self.single(&asked.place);
             asked.answer =
                 asked.answer.with_what_strikes_multiply(&drop, &part, &task.limit, self.model, self.tolerance);
@@ -401,35 +411,40 @@ impl Ranges<'_> {
     /// What a drop that was found asks to the tolerance, of the part that was found.
     fn exactly(&self, task: &Task<'_>, found: &Candidate) -> Result<Candidate, Error> {
         let followed = Followed::new(&self.single(&found.place), self.model, self.tolerance)?;
-        let at = |position_m: f64| {
-            let part = Part { position_m, suspension: found.part };
-            let answer = of_followed(&followed, &part, &task.limit)?;
-            Ok::<_, Error>(Candidate { answer, place: Place { position_m, ..found.place }, ..*found })
+        let at = |at_m: [f64; 2]| {
+            let there = Candidate { place: Place { at_m, ..found.place }, ..*found };
+            let answer = of_followed(&followed, &there.part_there(), &task.limit)?;
+            Ok::<_, Error>(Candidate { answer, ..there })
         };
-        let mut worst = at(found.place.position_m)?;
-        let places = task.component.places_m();
-        let ([lo, hi, between @ ..], true) = (&places[..], task.limit.kind.is_largest_between()) else {
+        let mut worst = at(found.place.at_m)?;
+        if !task.limit.kind.is_largest_between() {
             return Ok(worst);
-        };
+        }
         // Where two shocks become one lies anywhere between two places.
-        let mut step = 0.5 * (hi - lo) / f64::from(u32::try_from(between.len()).unwrap_or(0) + 1);
+        let (reaches, between) = (task.component.reaches_m(), f64::from(task.component.between()));
+        let mut steps = reaches.map(|[lo, hi]| 0.5 * (hi - lo) / (between + 1.0));
         for _ in 0..NARROWED {
-            for by in [-step, step] {
-                let next = at((worst.place.position_m + by).clamp(*lo, *hi))?;
-                if next.exceeds(&worst) {
-                    worst = next;
+            for axis in (0..2).filter(|axis| reaches[*axis][0] < reaches[*axis][1]) {
+                for by in [-steps[axis], steps[axis]] {
+                    let mut next = worst.place.at_m;
+                    next[axis] = (next[axis] + by).clamp(reaches[axis][0], reaches[axis][1]);
+                    let next = at(next)?;
+                    if next.exceeds(&worst) {
+                        worst = next;
+                    }
                 }
             }
-            step *= 0.5;
+            steps = steps.map(|step| 0.5 * step);
         }
         Ok(worst)
     }
 
     /// Whether a part at a place of the ranges is asked for more than `most` of a limit there, answered to the tolerance.
     pub(crate) fn asks_more(&self, task: &Task<'_>, place: &Place, most: f64) -> bool {
-        let of = |position_m: f64| {
-            let place = Place { position_m, ..*place };
-            let part = Part { position_m, suspension: Self::part(task, &place)? };
+        let of = |at_m: [f64; 2]| {
+            let place = Place { at_m, ..*place };
+            let [position_m, across_m] = at_m;
+            let part = Part { position_m, across_m, suspension: Self::part(task, &place)? };
             once(&self.single(&place), &part, &task.limit, self.model, self.tolerance)
         };
         task.component.places_m().into_iter().any(|x| of(x).is_ok_and(|answer| answer.utilization() > most))
@@ -438,9 +453,9 @@ impl Ranges<'_> {
     /// What one drop of the ranges asks of a task, as a utilization; 0 where it is not answered.
     pub(crate) fn in_one(&self, task: &Task<'_>, place: &Place) -> f64 {
         let Ok(followed) = self.follow(place, Until::Lands) else { return 0.0 };
-        let of = |position_m: f64| {
-            let felt = PlaceHistory::new(&followed, position_m).ok()?;
-            Self::in_drop(task, &Place { position_m, ..*place }, &felt, 0.0).ok()?
+        let of = |at_m: [f64; 2]| {
+            let felt = PlaceHistory::new(&followed, at_m).ok()?;
+            Self::in_drop(task, &Place { at_m, ..*place }, &felt, 0.0).ok()?
         };
         let asked = task.component.places_m().into_iter().filter_map(of);
         asked.map(|asked| asked.answer.utilization()).fold(0.0, f64::max)

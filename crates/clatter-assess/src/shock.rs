@@ -8,6 +8,7 @@
 
 use clatter::{Excitation, Section};
 
+use crate::course::Course;
 use crate::drop::Followed;
 
 /// One shock.
@@ -29,26 +30,28 @@ const TENTH: f64 = 0.1;
 impl Followed {
     /// The shocks of a place that feels this, in order of time.
     pub(crate) fn shocks(&self, position_m: f64, felt: &Excitation) -> Vec<Shock> {
-        if self.motion.contact().is_some() {
+        let Course::Bar(motion) = &self.motion else { return shocks(felt, self.drop.gravity_m_s2) };
+        if motion.contact().is_some() {
             return shocks(felt, self.drop.gravity_m_s2);
         }
         let s = self.drop.relative(position_m);
-        at_instants(self.motion.strikes.iter().map(|k| (k.time_s, k.delta_v_at(s))))
+        at_instants(motion.strikes.iter().map(|k| (k.time_s, k.delta_v_at(s))))
     }
 
-    /// The same of the turning of the product.
+    /// The same of the turning of the product; of a plate about the axis of the largest.
     pub(crate) fn turns(&self) -> Vec<Shock> {
-        let turned = self.motion.turned();
-        if self.motion.contact().is_some() {
-            return shocks(&turned, 0.0);
-        }
-        at_instants(turned.sections().map(|k| (k.from, k.delta_v)))
+        let contacts = self.motion.contact().is_some();
+        let of = |turned: &Excitation| {
+            if contacts { shocks(turned, 0.0) } else { at_instants(turned.sections().map(|k| (k.from, k.delta_v))) }
+        };
+        let more = |a: Vec<Shock>, b: Vec<Shock>| if largest(&b).change > largest(&a).change { b } else { a };
+        self.motion.turned().iter().map(of).reduce(more).unwrap_or_default()
     }
 }
 
 impl Shock {
     /// That nothing happens.
-    const NONE: Self = Self { span_s: [0.0; 2], change: 0.0, peak: 0.0, time_s: 0.0 };
+    pub(crate) const NONE: Self = Self { span_s: [0.0; 2], change: 0.0, peak: 0.0, time_s: 0.0 };
 }
 
 /// The largest of some shocks; one of 0 where there is none.

@@ -123,7 +123,7 @@ pub struct ComponentAssessment {
     /// Its name.
     pub name: String,
     /// Where its middle is, from the middle of the product towards end b; of a range, its middle.
-    pub position_m: f64,
+    pub position_m: Sides,
     /// That of its limits together.
     pub verdict: Verdict,
     /// One for each limit of the file.
@@ -222,6 +222,11 @@ impl WorstCase {
     pub fn tilt_deg(&self) -> f64 {
         self.drop.tilt_rad.to_degrees()
     }
+    /// Where a plate rises to from its lowest corner, in [0, 360): 0 along the length, towards end b, 90 along the width; none of a bar.
+    #[must_use]
+    pub fn direction_deg(&self) -> Option<f64> {
+        self.drop.across.map(|across| across.direction_rad.to_degrees().rem_euclid(360.0))
+    }
     /// Radius of gyration; none where the file gives one value.
     #[must_use]
     pub fn gyration_m(&self) -> Option<f64> {
@@ -245,6 +250,8 @@ struct WorstCaseRow {
     #[serde(serialize_with = "letter")]
     first: End,
     tilt_deg: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    direction_deg: Option<f64>,
     flat: bool,
     speed_m_s: f64,
     restitution: f64,
@@ -252,7 +259,7 @@ struct WorstCaseRow {
     gyration_m: Option<f64>,
     frequency_hz: Option<f64>,
     damping_ratio: Option<f64>,
-    position_m: f64,
+    position_m: Sides,
     impact: u64,
     time_s: f64,
     command: String,
@@ -264,6 +271,7 @@ impl Serialize for WorstCase {
         let row = WorstCaseRow {
             first,
             tilt_deg: self.tilt_deg(),
+            direction_deg: self.direction_deg(),
             flat,
             speed_m_s,
             restitution,
@@ -271,12 +279,36 @@ impl Serialize for WorstCase {
             gyration_m: self.gyration_m(),
             frequency_hz: self.frequency_hz(),
             damping_ratio: self.damping_ratio(),
-            position_m: self.part.position_m,
+            position_m: Sides::new(self.part.at_m(), self.drop.across.is_some()),
             impact: self.impact,
             time_s: self.time_s,
             command: self.command(),
         };
         row.serialize(serializer)
+    }
+}
+
+/// A place: along a bar, or along and across a plate, whose program-readable form is a list of both.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Sides {
+    /// Along a bar, in m from its middle towards end b.
+    Along(f64),
+    /// Along and across a plate.
+    Both([f64; 2]),
+}
+
+impl Sides {
+    pub(crate) fn new([along, across]: [f64; 2], is_plate: bool) -> Self {
+        if is_plate { Self::Both([along, across]) } else { Self::Along(along) }
+    }
+    /// Along and across; 0 across a bar.
+    #[must_use]
+    pub fn m(&self) -> [f64; 2] {
+        match *self {
+            Self::Along(x) => [x, 0.0],
+            Self::Both(at) => at,
+        }
     }
 }
 

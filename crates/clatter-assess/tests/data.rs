@@ -490,6 +490,7 @@ fn an_assessment_belongs_to_its_product() {
 fn single_drops_are_checked() {
     let sound = SingleDrop {
         body: Body::new(0.15, 0.045).unwrap(),
+        across: None,
         first: End::A,
         tilt_rad: 0.05,
         flat: false,
@@ -499,7 +500,7 @@ fn single_drops_are_checked() {
         contact_time_s: None,
         contact_law: clatter_assess::ContactLaw::Hysteretic,
     };
-    let part = Part { position_m: 0.0, suspension: None };
+    let part = Part::new(0.0, None);
     let limit = Limit::new(LimitKind::VelocityChange, 9.0);
     let suspension = Suspension::from_hz(200.0, DampingRatio::new(0.05).unwrap()).unwrap();
     for model in Model::ALL.into_iter().filter(|model| *model != Model::Compliant) {

@@ -69,6 +69,7 @@ fn drops(file: &ProductFile) -> Vec<SingleDrop> {
             for (speed, e) in [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0), (1.0, 0.5), (0.5, 1.0)] {
                 drops.push(SingleDrop {
                     body: file.product.body,
+                    across: None,
                     first,
                     tilt_rad: file.drop.tilt_rad.at(f64::from(tilt) / f64::from(TILTS)),
                     flat,
@@ -99,7 +100,7 @@ fn utilization(drop: &SingleDrop, component: &Component, limit: &Limit) -> f64 {
     let parts = component
         .ends_m()
         .into_iter()
-        .flat_map(|position_m| suspensions.iter().map(move |&suspension| Part { position_m, suspension }));
+        .flat_map(|[position_m, _]| suspensions.iter().map(move |&suspension| Part::new(position_m, suspension)));
     let asked = parts.map(|part| answer(drop, &part, limit, drop.fullest(), 0.01).expect("an answer").utilization());
     asked.fold(0.0, f64::max)
 }

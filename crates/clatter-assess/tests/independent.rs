@@ -36,6 +36,7 @@ fn any_drop(r: &mut Random, tilt_deg: f64) -> SingleDrop {
     let speed_m_s = r.decades(0.7, 6.0);
     SingleDrop {
         body: body.expect("a body"),
+        across: None,
         first: if r.unit() < 0.5 { End::A } else { End::B },
         tilt_rad: r.even(0.0, tilt_deg).to_radians(),
         flat: false,
@@ -58,7 +59,7 @@ fn any_part(r: &mut Random, drop: &SingleDrop) -> (Part, LimitKind) {
         x if x < 0.9 => (None, LimitKind::VelocityChange),
         _ => (None, LimitKind::AngularVelocityChange),
     };
-    (Part { position_m, suspension }, kind)
+    (Part::new(position_m, suspension), kind)
 }
 
 /// Steps of the plain integration at most: the few drops that take more are left out.

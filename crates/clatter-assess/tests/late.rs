@@ -15,7 +15,7 @@ fn soft(frequency_hz: f64, ratio: f64) -> Suspension {
 
 /// What one drop asks of the rattle space of a part in the middle.
 fn displaced(drop: &SingleDrop, suspension: Suspension, model: Model) -> Answer {
-    let part = Part { position_m: 0.0, suspension: Some(suspension) };
+    let part = Part::new(0.0, Some(suspension));
     answer(drop, &part, &Limit::new(LimitKind::RattleSpace, 1.0), model, 0.01).expect("an answer")
 }
 
@@ -23,6 +23,7 @@ fn displaced(drop: &SingleDrop, suspension: Suspension, model: Model) -> Answer 
 fn drop(restitution: f64, tilt_deg: f64, speed_m_s: f64) -> SingleDrop {
     SingleDrop {
         body: Body::new(0.2, 0.098).expect("a body"),
+        across: None,
         first: End::A,
         tilt_rad: tilt_deg.to_radians(),
         flat: false,
@@ -181,6 +182,7 @@ fn the_weight_of_a_soft_part_counts_after_small_rebounds() {
     for e in [0.2, 0.5, 0.8] {
         let drop = SingleDrop {
             body: Body::new(0.12, 0.035).expect("a body"),
+            across: None,
             contact_time_s: Some(4e-4),
             ..drop(e, 10.0, 1.5)
         };

@@ -228,6 +228,7 @@ fn answers(file: &ProductFile, columns: &[Column], row: &[f64]) -> Vec<(LimitKin
     let value = |column: Column| columns.iter().position(|other| *other == column).map(|i| row[i]);
     let drop = SingleDrop {
         body: file.product.body,
+        across: None,
         first: if row[0] < 0.5 { clatter::End::A } else { clatter::End::B },
         speed_m_s: value(Column::SpeedMS).unwrap(),
         tilt_rad: value(Column::TiltDeg).unwrap().to_radians(),
@@ -250,7 +251,7 @@ fn answers(file: &ProductFile, columns: &[Column], row: &[f64]) -> Vec<(LimitKin
         let critical = &mut limit.critical_acceleration_m_s2;
         *critical = value(Column::CriticalAccelerationMS2(0)).unwrap_or(*critical);
         let half = 0.5 * component.extent_m;
-        let places = [middle - half, middle + half].map(|position_m| Part { position_m, suspension });
+        let places = [middle - half, middle + half].map(|position_m| Part::new(position_m, suspension));
         let most = places.map(|part| answer(&drop, &part, &limit, drop.fullest(), 0.01).unwrap().utilization());
         (limit.kind, most[0].max(most[1]))
     };
@@ -327,14 +328,14 @@ fn a_part_whose_contacts_overlap_fails_as_often_as_single_drops_do() {
     let fails = |drop: &SingleDrop| {
         let suspension = file.components[0].mount.suspension(200.0, 0.05).unwrap();
         let limit = Limit::of(&file.components[0])[0];
-        let asked: Answer =
-            answer(drop, &Part { position_m: 0.06, suspension }, &limit, Model::Compliant, 0.01).unwrap();
+        let asked: Answer = answer(drop, &Part::new(0.06, suspension), &limit, Model::Compliant, 0.01).unwrap();
         asked.utilization() > 1.0
     };
     let drops = 2000;
     let survivors = (0..drops).filter(|_| {
         let drop = SingleDrop {
             body: file.product.body,
+            across: None,
             first: if other.even(0.0, 1.0) < 0.5 { clatter::End::A } else { clatter::End::B },
             tilt_rad: other.even(0.0, 0.5).to_radians(),
             flat: false,

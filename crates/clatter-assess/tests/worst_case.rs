@@ -9,7 +9,9 @@ use std::fmt::Write as _;
 
 use crate::random::Random;
 use clatter::End;
-use clatter_assess::{Component, Limit, LimitAssessment, Model, Mount, Part, ProductFile, SingleDrop, Verdict, answer};
+use clatter_assess::{
+    Across, Component, Limit, LimitAssessment, Model, Mount, Part, ProductFile, SingleDrop, Verdict, answer,
+};
 use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
@@ -21,11 +23,26 @@ fn one_of<T: Copy>(r: &mut Random, list: &[T]) -> T {
 
 /// A bar of 60 to 400 mm, contacts of 0.1 to 1.5 ms, tilts of 0 to 15°; a hard part and two suspended ones, of one natural
 /// frequency or up to a decade, with a damping ratio from 0.003.
-fn product(r: &mut Random) -> ProductFile {
+fn bar(r: &mut Random) -> ProductFile {
+    product(r, false)
+}
+
+/// The same of a plate, from a third as wide as it is long to a square.
+fn plate(r: &mut Random) -> ProductFile {
+    product(r, true)
+}
+
+fn product(r: &mut Random, is_plate: bool) -> ProductFile {
     let length = r.decades(60.0, 400.0);
+    let width = if is_plate { r.even(0.33, 1.0) * length } else { 0.0 };
     let q = r.even(-0.2, 0.8);
     let gyration = 0.5 * length * ((1.0 - q) / (1.0 + q)).sqrt();
     let center = if r.unit() < 0.5 { 0.0 } else { r.even(-0.07, 0.07) * length };
+    let across = is_plate.then(|| {
+        let center = if r.unit() < 0.5 { 0.0 } else { r.even(-0.07, 0.07) * width };
+        let turned = r.unit() < 0.3;
+        (r.even(0.2, 0.4) * width, center, turned.then(|| [r.even(0.0, 360.0), r.even(0.0, 360.0)]))
+    });
     let e = r.even(0.02, 0.7);
     let e = [e, (e + r.even(0.0, 0.25)).min(0.9)];
     let contact = r.decades(0.1, 1.5);
@@ -36,10 +53,22 @@ fn product(r: &mut Random) -> ProductFile {
     let height = [height, height * r.even(1.0, 1.5)];
     let first = one_of(r, &["a", "b", "either"]);
     let list = |[lo, hi]: [f64; 2], unit: &str| format!("[\"{lo:.9} {unit}\", \"{hi:.9} {unit}\"]");
+    let body = match across {
+        Some((gyration_across, center_across, _)) => format!(
+            "width = \"{width:.9} mm\"\nradius_of_gyration = {}\ncenter_of_mass = {}",
+            list([gyration, gyration_across], "mm"),
+            list([center, center_across], "mm")
+        ),
+        None => format!("radius_of_gyration = \"{gyration:.9} mm\"\ncenter_of_mass = \"{center:.9} mm\""),
+    };
+    let start = match across {
+        Some((.., Some([a, b]))) => format!("direction = {}", list([a.min(b), a.max(b)], "deg")),
+        Some((.., None)) => String::new(),
+        None => format!("first = \"{first}\""),
+    };
     let mut text = format!(
-        "[product]\nname = \"random\"\nlength = \"{length:.9} mm\"\nradius_of_gyration = \"{gyration:.9} mm\"\n\
-         center_of_mass = \"{center:.9} mm\"\nrestitution = [{:.9}, {:.9}]\ncontact_time = {}\n\
-         [drop]\nheight = {}\ntilt = {}\nfirst = \"{first}\"\n",
+        "[product]\nname = \"random\"\nlength = \"{length:.9} mm\"\n{body}\nrestitution = [{:.9}, {:.9}]\ncontact_time = {}\n\
+         [drop]\nheight = {}\ntilt = {}\n{start}\n",
         e[0],
         e[1],
         list(contact, "ms"),
@@ -48,11 +77,15 @@ fn product(r: &mut Random) -> ProductFile {
     );
     let speed = (2.0 * 9.8 * height[1]).sqrt();
     let mut part = |r: &mut Random, name: &str, lines: &str| {
-        let (position, extent) = (r.even(-0.45, 0.45) * length, r.even(-0.1, 0.1).max(0.0) * length);
-        let _ = write!(
-            text,
-            "[[component]]\nname = \"{name}\"\nposition = \"{position:.9} mm\"\nextent = \"{extent:.9} mm\"\n{lines}\n"
-        );
+        let mut place = |size: f64| (r.even(-0.45, 0.45) * size, r.even(-0.1, 0.1).max(0.0) * size);
+        let (position, extent) = place(length);
+        let (position, extent) = if is_plate {
+            let (across, extent_across) = place(width);
+            (list([position, across], "mm"), list([extent, extent_across], "mm"))
+        } else {
+            (format!("\"{position:.9} mm\""), format!("\"{extent:.9} mm\""))
+        };
+        let _ = write!(text, "[[component]]\nname = \"{name}\"\nposition = {position}\nextent = {extent}\n{lines}\n");
     };
     let stands = r.decades(0.5, 2.0) * speed;
     let hard = [
@@ -81,8 +114,8 @@ fn product(r: &mut Random) -> ProductFile {
     ProductFile::read(&text, "random").unwrap_or_else(|faults| panic!("{faults}\n{text}"))
 }
 
-/// Shares of the ranges of tilt, speed, restitution, contact time, frequency and position, and the end that is first.
-type Shares = ([f64; 6], f64);
+/// Shares of the ranges of tilt, speed, restitution, contact time, frequency, position and direction, and the end that is first.
+type Shares = ([f64; 7], f64);
 
 /// Anywhere in the ranges, at their ends as often as not; some close to the worst that was found.
 fn shares(r: &mut Random, near: Option<&Shares>) -> Shares {
@@ -93,8 +126,7 @@ fn shares(r: &mut Random, near: Option<&Shares>) -> Shares {
             x if ends && x < 0.5 => 1.0,
             _ => r.unit(),
         };
-        let any = if i == 5 { any.round() } else { any };
-        near.map_or(any, |(near, _)| (near[i] + 0.05 * (any - 0.5)).clamp(0.0, 1.0))
+        near.map_or(any, |(near, _)| if i == 5 { near[i] } else { (near[i] + 0.05 * (any - 0.5)).clamp(0.0, 1.0) })
     });
     (each, near.map_or_else(|| r.unit(), |(_, first)| *first))
 }
@@ -103,8 +135,11 @@ fn shares(r: &mut Random, near: Option<&Shares>) -> Shares {
 fn single(file: &ProductFile, component: &Component, limit: &Limit, (shares, first): &Shares) -> (f64, String) {
     let ends = file.drop.first_ends();
     let [slow, fast] = file.drop.speeds_m_s();
+    let [from, to] = file.drop.direction_rad.map_or([0.0, TAU], |direction| [direction.lo(), direction.hi()]);
+    let direction_rad = from + shares[6] * (to - from);
     let drop = SingleDrop {
         body: file.product.body,
+        across: file.product.width.map(|width| Across { width, direction_rad }),
         first: if ends.len() > 1 && *first < 0.5 { End::B } else { ends[0] },
         tilt_rad: file.drop.tilt_rad.at(shares[0]),
         flat: false,
@@ -122,10 +157,13 @@ fn single(file: &ProductFile, component: &Component, limit: &Limit, (shares, fir
         Mount::Hard => None,
     };
     let places = component.ends_m();
-    let position_m = if shares[5] < 0.5 { places[0] } else { *places.last().expect("a place") };
-    let asked = answer(&drop, &Part { position_m, suspension }, limit, Model::Compliant, 0.01);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "few")]
+    let [position_m, across_m] = places[((shares[5] * places.len() as f64) as usize).min(places.len() - 1)];
+    let asked = answer(&drop, &Part { position_m, across_m, suspension }, limit, Model::Compliant, 0.01);
     match asked {
-        Ok(asked) => (asked.utilization(), format!("{drop:?}, at {position_m} m, {suspension:?}: {asked:?}")),
+        Ok(asked) => {
+            (asked.utilization(), format!("{drop:?}, at {position_m} m, {across_m} m, {suspension:?}: {asked:?}"))
+        }
         Err(_) => (0.0, String::new()),
     }
 }
@@ -137,8 +175,7 @@ struct Claimed {
     by: String,
 }
 
-fn told(r: &mut Random, singles: usize) -> (f64, Vec<Claimed>) {
-    let file = product(r);
+fn told(file: &ProductFile, r: &mut Random, singles: usize) -> (f64, Vec<Claimed>) {
     let begun = std::time::Instant::now();
     let assessment = file.assess().expect("an assessment");
     let took_s = begun.elapsed().as_secs_f64();
@@ -147,7 +184,7 @@ fn told(r: &mut Random, singles: usize) -> (f64, Vec<Claimed>) {
         for (limit, assessed) in Limit::of(component).into_iter().zip(assessed.limits) {
             let list: Vec<Shares> = (0..singles).map(|_| shares(r, None)).collect();
             let worst = |list: &[Shares]| {
-                let all = list.par_iter().map(|at| (single(&file, component, &limit, at), *at));
+                let all = list.par_iter().map(|at| (single(file, component, &limit, at), *at));
                 all.reduce_with(|a, b| if b.0.0 > a.0.0 { b } else { a }).expect("single drops")
             };
             let far = worst(&list);
@@ -169,12 +206,24 @@ fn setting(name: &str, default: usize) -> usize {
 /// may do more. Few limits are undecided.
 #[test]
 fn no_single_drop_is_worse() {
-    let (products, singles, seed) = (setting("PRODUCTS", 10), setting("SINGLES", 400), setting("SEED", 1));
+    none_is_worse(bar, 10, 10);
+}
+
+#[test]
+fn no_single_drop_of_a_plate_is_worse() {
+    // What rebounds may ask by their energy is more: it turns about two axes.
+    none_is_worse(plate, 5, 4);
+}
+
+/// Of so many limits at most one is undecided.
+fn none_is_worse(product: fn(&mut Random) -> ProductFile, products: usize, one_of: usize) {
+    let (products, singles, seed) = (setting("PRODUCTS", products), setting("SINGLES", 400), setting("SEED", 1));
     let (mut limits, mut passed, mut passed_more, mut undecided) = (0, 0, 0, 0);
     let (mut slowest, mut all) = (0.0_f64, 0.0);
     for n in 0..products {
         let mut r = Random(((seed as u64) << 32) + n as u64);
-        let (took_s, told) = told(&mut r, singles);
+        let file = product(&mut r);
+        let (took_s, told) = told(&file, &mut r, singles);
         (slowest, all) = (slowest.max(took_s), all + took_s);
         for Claimed { limit, over, by } in told {
             limits += 1;
@@ -199,5 +248,5 @@ fn no_single_drop_is_worse() {
     );
     assert!(passed_more == 0, "{passed_more} of {limits} passed by more than was told");
     assert!(passed * 20 <= limits, "{passed} of {limits} passed by more than 2 %");
-    assert!(undecided * 10 <= limits, "{undecided} of {limits} undecided");
+    assert!(undecided * one_of <= limits, "{undecided} of {limits} undecided");
 }

@@ -84,6 +84,12 @@ impl OneDrop {
         streams: &mut Streams<'_>,
     ) -> Result<Self, Failure> {
         let file = assess::read(path, files, streams)?;
+        if file.product.width.is_some() {
+            let path = crate::text::path(path);
+            return Err(Failure::Wrong(format!(
+                "{path} is of a plate: give its drop by --width, --gyration=KX,KY and so on, as the command below a worst drop does"
+            )));
+        }
         let found = match component {
             Some(name) => {
                 let found = file
@@ -233,12 +239,12 @@ impl OneDrop {
         let Some(component) = self.component().cloned() else { return Ok(None) };
         let notes = &mut self.notes;
         let (position_m, places_m) = if let Some(worst) = &self.worst {
-            let mut places_m = component.places_m();
+            let mut places_m = along(component.places_m());
             places_m.push(worst.part.position_m);
             (worst.part.position_m, places_m)
         } else {
             let middle = Self::take(notes, "position", &component.position_m, Taken::Middle, "m");
-            (middle, component.places_at_m(middle))
+            (middle, along(component.places_at_m(middle)))
         };
         let side = if self.mirrored { -1.0 } else { 1.0 };
         let length = Quantity { si: side * position_m, unit: component.position_m.unit() };
@@ -296,4 +302,9 @@ impl OneDrop {
         self.component()
             .and_then(|component| component.limits.unit(LimitKind::Acceleration, LimitKind::Acceleration.unit()))
     }
+}
+
+/// Places along a bar.
+fn along(places_m: Vec<[f64; 2]>) -> Vec<f64> {
+    places_m.into_iter().map(|[x, _]| x).collect()
 }

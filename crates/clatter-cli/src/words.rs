@@ -72,13 +72,20 @@ pub(crate) fn drop(worst: &WorstCase) -> String {
     let lands = if worst.drop.flat {
         "flat".to_owned()
     } else {
-        format!("{} first, {} deg", inputs::letter(worst.drop.first), four(worst.tilt_deg()))
+        match worst.direction_deg() {
+            Some(direction) => format!("{} deg, rising to {} deg", four(worst.tilt_deg()), four(direction)),
+            None => format!("{} first, {} deg", inputs::letter(worst.drop.first), four(worst.tilt_deg())),
+        }
+    };
+    let place = if worst.drop.across.is_some() {
+        format!("{}, {}", four(1e3 * worst.part.position_m), four(1e3 * worst.part.across_m))
+    } else {
+        four(1e3 * worst.part.position_m)
     };
     format!(
-        "{lands}, {} m/s, e {}{contact}{gyration}; at {} mm{part}",
+        "{lands}, {} m/s, e {}{contact}{gyration}; at {place} mm{part}",
         four(worst.drop.speed_m_s),
         four(worst.drop.restitution),
-        four(1e3 * worst.part.position_m),
     )
 }
 

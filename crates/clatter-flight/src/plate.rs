@@ -8,7 +8,7 @@ use crate::flight::Log;
 use crate::motion::{Ahead, PlateMotion};
 use crate::scene::within;
 
-/// A rigid rectangular plate, its center of mass anywhere between the edges and its principal axes along them.
+/// A rigid rectangular plate, its center of mass anywhere between the edges.
 ///
 /// Positions x, y are in m from the center of mass. The corners are a (−x, −y), b (+x, −y), c (+x, +y) and d (−x, +y); a is the one
 /// that touches first.
@@ -16,6 +16,9 @@ use crate::scene::within;
 pub struct Plate {
     edges: [f64; 4],
     gyration: [f64; 2],
+    product: f64,
+    /// C⁻¹ of the second moments of the mass: of x, of y and of both.
+    inverse: [f64; 3],
 }
 
 impl Plate {
@@ -42,12 +45,33 @@ impl Plate {
         for ratio in [left / right, front / back] {
             within("ratio of the distances of two edges", ratio, 1e-6, 1e6, "in [1e-6, 1e6]")?;
         }
-        let plate = Self { edges: edges_m, gyration: gyration_m };
+        let plate = Self { edges: edges_m, gyration: gyration_m, product: 0.0, inverse: inverse(gyration_m, 0.0) };
         let names = ["radius of gyration along x in m", "radius of gyration along y in m"];
         for ((name, k), side) in names.into_iter().zip(gyration_m).zip(plate.sides_m()) {
             within(name, k, 1e-12 * side, 1e6 * side, "between 1e-12 and 1e6 times the side along it")?;
         }
         Ok(plate)
+    }
+    /// The same with mass that is not even about the axes: ∫x y dm/m about the center of mass, 0 unless given.
+    ///
+    /// # Errors
+    /// [`Error::Quantity`](clatter::Error::Quantity) unless it is within 0.99 k_x k_y: at k_x k_y all mass lies on one line.
+    pub fn with_product_of_inertia(self, product_m2: f64) -> Result<Self, Given> {
+        let [kx, ky] = self.gyration;
+        let most = 0.99 * kx * ky;
+        within("product of inertia over the mass in m²", product_m2, -most, most, "within 0.99 k_x k_y")?;
+        Ok(Self { product: product_m2 + 0.0, inverse: inverse(self.gyration, product_m2), ..self })
+    }
+    /// ∫x y dm/m about the center of mass.
+    #[must_use]
+    pub fn product_of_inertia_m2(&self) -> f64 {
+        self.product
+    }
+    /// What a force of 1 over the mass at x, y does to the slopes along x and y: C⁻¹ of the second moments
+    /// C = [k_x², ∫xy dm/m; ∫xy dm/m, k_y²].
+    pub(crate) fn turned(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let [xx, yy, xy] = self.inverse;
+        [x * xx + y * xy, y * yy + x * xy]
     }
     /// Distances of the edges from the center of mass, \[−x, +x, −y, +y\].
     #[must_use]
@@ -77,6 +101,13 @@ impl Plate {
         let [left, right, front, back] = self.edges;
         [0.5 * ((1.0 + x) * right - (1.0 - x) * left), 0.5 * ((1.0 + y) * back - (1.0 - y) * front)]
     }
+}
+
+/// C⁻¹ of the second moments of a mass with these radii of gyration and product of inertia.
+fn inverse(gyration: [f64; 2], product: f64) -> [f64; 3] {
+    let [xx, yy] = gyration.map(|k| k * k);
+    let left = 1.0 - product / xx * product / yy;
+    [1.0 / (xx * left), 1.0 / (yy * left), -product / xx / yy / left + 0.0]
 }
 
 /// A drop of a plate at the moment when corner a touches, without turning.

@@ -45,6 +45,7 @@ mod tests {
         {
             let drop = SingleDrop {
                 body: Body::new(0.14, gyration_m).unwrap(),
+                across: None,
                 first: clatter::End::A,
                 tilt_rad,
                 flat: false,
@@ -55,7 +56,7 @@ mod tests {
                 contact_law: ContactLaw::Hysteretic,
             };
             for kind in [LimitKind::Acceleration, LimitKind::VelocityChange] {
-                let place = Part { position_m: 0.02, suspension: Some(part) };
+                let place = Part::new(0.02, Some(part));
                 let mut ladder = Ladder::measure(&drop, &place, &Limit::new(kind, 1.0), 0.01).unwrap();
                 ladder.models[0].error = f64::INFINITY;
                 let of = Panel {

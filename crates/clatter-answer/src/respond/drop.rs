@@ -78,6 +78,7 @@ impl Question {
     fn drop(&self) -> SingleDrop {
         SingleDrop {
             body: self.scene.body(),
+            across: None,
             first: End::A,
             tilt_rad: self.scene.tilt_rad(),
             flat: self.flat,
@@ -97,7 +98,7 @@ impl Question {
         part: Option<Suspension>,
     ) -> Result<Option<clatter_assess::Answer>, Error> {
         let suspension = part.filter(|_| limit.is_response());
-        match self.asked(limit, &Part { position_m, suspension }) {
+        match self.asked(limit, &Part::new(position_m, suspension)) {
             Err(clatter_assess::Error::Unfinished | clatter_assess::Error::Contact) => Ok(None),
             answer => Ok(Some(answer?)),
         }
@@ -243,7 +244,7 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
     // Nothing is allowed or forbidden by these: the value alone counts.
     let unlimited = |kind| clatter_assess::Limit::new(kind, 1.0);
     // The end that touches first feels every drop: where not even that is answered, none is.
-    question.asked(&unlimited(LimitKind::VelocityChange), &Part { position_m: -half_m, suspension: None })?;
+    question.asked(&unlimited(LimitKind::VelocityChange), &Part::new(-half_m, None))?;
     swings(suspension.as_ref())?;
     let limits = question.limits.as_ref().map(|limits| of_limits(question, limits, half_m, side)).transpose()?;
     let tightest = limits.iter().flatten().filter(|limit| limit.share.is_some());

@@ -93,7 +93,7 @@ pub struct Answer {
     pub velocity_change_m_s: Json,
     /// Largest felt there.
     pub acceleration_m_s2: Json,
-    /// Largest of one shock, about the axis along the length or along the width, whichever is more.
+    /// Largest of one shock, about any axis in the plane.
     pub angular_velocity_change_rad_s: Json,
     /// When the largest values come.
     pub answers: LargestValues,

@@ -25,10 +25,13 @@ pub enum Lever {
 }
 
 impl Lever {
-    /// Those of a part: the contact time where the file gives one, and each of its limits.
+    /// Those of a part: the inertia ratio of a bar, the contact time where the file gives one, and each of its limits.
     #[must_use]
     pub fn of(product: &Product, component: &Component) -> Vec<Self> {
-        let mut levers = vec![Self::InertiaRatio, Self::Restitution, Self::Position, Self::Frequency, Self::Damping];
+        let mut levers = vec![Self::Restitution, Self::Position, Self::Frequency, Self::Damping];
+        if product.width.is_none() {
+            levers.insert(0, Self::InertiaRatio);
+        }
         levers.extend(product.contact_time_s.map(|_| Self::ContactTime));
         levers.extend(component.limits.kinds().into_iter().map(Self::Limit));
         levers

@@ -78,6 +78,7 @@ impl Plane {
     /// ```
     pub fn of(file: &ProductFile, bounds: &Bounds) -> Result<Self, Error> {
         file.check()?;
+        file.check_bar("the plane of q and e")?;
         bounds.check()?;
         let side = if file.product.contact_time_s.is_some() { Self::SIDE_OF_CONTACTS } else { Self::SIDE };
         let [qs, es] = [bounds.q, bounds.e].map(|range| within(range, side));
@@ -147,7 +148,7 @@ fn goals(file: &ProductFile, component: &Component) -> Option<Vec<Goal>> {
         return None;
     }
     let [_, fastest] = file.drop.speeds_m_s();
-    let s = component.ends_m().iter().fold(0.0_f64, |most, x| most.max(file.product.relative(*x).abs())).min(1.0);
+    let s = component.ends_m().iter().fold(0.0_f64, |most, [x, _]| most.max(file.product.relative(*x).abs())).min(1.0);
     let goal = |limit: Limit| match limit.kind.source() {
         Source::Shock => Goal::zone(limit.allowed / fastest, s).ok(),
         Source::Turn => Goal::turn(limit.allowed * 0.5 * body.length_m() / fastest).ok(),

@@ -126,7 +126,7 @@ impl Case<'_> {
         }
         // Rounded outward it may reach beyond the ends.
         let most = 0.5 * product.body.length_m() * (1.0 + 1e-9);
-        if component.ends_m().iter().any(|end| end.abs() > most) {
+        if component.ends_m().iter().any(|[end, _]| end.abs() > most) {
             return None;
         }
         Some(ProductFile { product, drop: self.file.drop, components: vec![component], records: Vec::new() })

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-use super::drops::{Drops, Places, Tilt, View, corners, parts};
+use super::drops::{Drops, Places, Tilt, View, along, corners, parts};
 use super::scale::Scale;
 use super::zone::zone;
 use super::{Changes, MARGIN};
@@ -143,7 +143,7 @@ impl Shared<'_> {
             return false;
         };
         let fastest = rough_to_rad_s(of.component);
-        let ends: Vec<_> = drops.iter().map(|drops| Places::new(drops, of.component.places_m(), fastest)).collect();
+        let ends: Vec<_> = drops.iter().map(|drops| Places::new(drops, along(of.component), fastest)).collect();
         let mut views: Vec<_> = drops.iter().map(Drops::counted).collect();
         holds(of, of.component, &ends, &mut views)
     }

@@ -3,7 +3,7 @@
 use clatter::End;
 
 use super::Point;
-use super::drops::{Drops, Inputs, Places, Tilt, corners, parts};
+use super::drops::{Drops, Inputs, Places, Tilt, along, corners, parts};
 use crate::drop::Until;
 use crate::search::Ranges;
 use crate::{Component, Limit, LimitAssessment, WorstCase};
@@ -29,7 +29,7 @@ pub(super) fn over_tilt(
     let parts = parts(component, &asked, Some(worst));
     let mut found: Vec<Point> = Vec::new();
     for drops in [shared, &at_worst, &of_worst] {
-        let places = Places::new(drops, component.places_m(), f64::INFINITY);
+        let places = Places::new(drops, along(component), f64::INFINITY);
         for view in drops.views() {
             let of = |at| places.share(view, at, &asked, &parts, -1.0);
             let most = (0..places.positions_m.len()).filter_map(of).reduce(|a, b| if b.0 > a.0 { b } else { a });

@@ -51,6 +51,7 @@ impl Drops {
                 for &(speed_m_s, restitution, contact_time_s) in inputs {
                     let drop = SingleDrop {
                         body: ranges.product.body,
+                        across: None,
                         first,
                         tilt_rad: tilt.0,
                         flat: false,
@@ -101,7 +102,7 @@ impl Drops {
         let follow = || Followed::until(&kept.drop, self.model, self.tolerance, self.until).ok();
         let followed = kept.followed.get_or_init(follow).as_ref()?;
         let position_m = if view.turned { -position_m } else { position_m };
-        PlaceHistory::rough(followed, position_m, fastest_rad_s).ok()
+        PlaceHistory::rough(followed, [position_m, 0.0], fastest_rad_s).ok()
     }
 }
 
@@ -138,7 +139,7 @@ impl<'d> Places<'d> {
         for &suspension in parts {
             let above = most.map_or(above, |most| most.0);
             let answer = felt.answer(limit, suspension.as_ref(), above).ok().flatten();
-            most = answer.map(|answer| (answer.utilization(), Part { position_m, suspension })).or(most);
+            most = answer.map(|answer| (answer.utilization(), Part::new(position_m, suspension))).or(most);
         }
         most
     }
@@ -198,6 +199,11 @@ pub(super) fn tilts(ranges: &Ranges<'_>) -> Vec<Tilt> {
     let counts =
         |i: usize, tilt: f64| (stated.lo()..=stated.hi()).contains(&tilt) && (stated.is_value() || i.is_multiple_of(2));
     tilts.into_iter().enumerate().map(|(i, tilt)| (tilt, counts(i, tilt))).collect()
+}
+
+/// The places of a part along a bar.
+pub(super) fn along(component: &Component) -> Vec<f64> {
+    component.places_m().into_iter().map(|[x, _]| x).collect()
 }
 
 /// The highest speed with the ends of the ranges of restitution and contact time.

@@ -8,14 +8,23 @@ use crate::{Component, Damping, DataFault, LimitKind, Limits, Mount, Product, Re
 impl Reader {
     pub(super) fn component(&mut self, section: &Section<'_>, product: Option<&Product>) -> Option<Component> {
         let name = self.name(section);
-        let position = self.spread(section, "position");
-        let extent = self.quantity(section, "extent");
+        let position = self.spread_of_sides(section, "position");
+        let extent = self.quantity_of_sides(section, "extent");
         let mount = self.mount(section);
         let limits = self.limits(section);
-        let (position, extent_m) = (position?, extent.map_or(0.0, |e| e.value));
+        let (position, [extent_m, extent_across_m]) = (position?, extent.map_or([0.0; 2], |e| e.value));
+        let [position_m, across_m] = position.value;
         let limit_source = self.text(section, "limit_source").map(|source| source.value);
-        let component =
-            Component { name: name?, position_m: position.value, extent_m, mount: mount?, limits, limit_source };
+        let component = Component {
+            name: name?,
+            position_m,
+            extent_m,
+            across_m,
+            extent_across_m,
+            mount: mount?,
+            limits,
+            limit_source,
+        };
         if let Some(Err(fault)) = product.map(|product| component.fits(product)) {
             self.data(position.span, &fault, "this position");
             return None;

@@ -12,12 +12,50 @@ use crate::{Law, Spread};
 
 impl Reader {
     pub(super) fn quantity(&mut self, section: &Section<'_>, name: &str) -> Option<At<f64>> {
-        let (Key { kind: Kind::Quantity(dimension, bounds), .. }, value) = Self::get(section, name)? else {
+        let (key, value) = Self::get(section, name)?;
+        self.quantity_in(value, key)
+    }
+
+    fn quantity_in(&mut self, value: &Spanned<DeValue<'_>>, key: &Key) -> Option<At<f64>> {
+        let Kind::Quantity(dimension, bounds) = key.kind.of_side() else { return None };
+        let quantity = self.number(value, key.name, dimension, *bounds)?;
+        self.usual(key.name, &quantity, value);
+        Some(At { value: quantity.si, span: value.span() })
+    }
+
+    /// Of a plate the quantities along its length and across it; of a bar none across.
+    pub(super) fn quantity_of_sides(&mut self, section: &Section<'_>, name: &str) -> Option<At<[f64; 2]>> {
+        self.sides(section, name, Self::quantity_in, 0.0)
+    }
+
+    /// The same of ranges and distributions.
+    pub(super) fn spread_of_sides(&mut self, section: &Section<'_>, name: &str) -> Option<At<[Spread; 2]>> {
+        self.sides(section, name, Self::spread_in, Spread::finite(0.0))
+    }
+
+    fn sides<T>(
+        &mut self,
+        section: &Section<'_>,
+        name: &str,
+        read: fn(&mut Self, &Spanned<DeValue<'_>>, &Key) -> Option<At<T>>,
+        nothing: T,
+    ) -> Option<At<[T; 2]>> {
+        let (key, value) = Self::get(section, name)?;
+        let span = value.span();
+        if !self.is_plate {
+            return Some(At { value: [read(self, value, key)?.value, nothing], span });
+        }
+        let (Kind::Quantity(dimension, _) | Kind::Spread(dimension, _)) = key.kind.of_side() else { return None };
+        let items = value.get_ref().as_array().filter(|items| items.len() == 2);
+        let Some(items) = items else {
+            let example = written(dimension);
+            let allowed =
+                format!("[{example}, {example}], along the length and along the width, as the product has a width");
+            self.wrong_type(value, name, &allowed);
             return None;
         };
-        let quantity = self.number(value, name, dimension, *bounds)?;
-        self.usual(name, &quantity, value);
-        Some(At { value: quantity.si, span: value.span() })
+        let [along, across] = [&items[0], &items[1]].map(|item| read(self, item, key));
+        Some(At { value: [along?.value, across?.value], span })
     }
 
     /// One number with its unit, within bounds.
@@ -71,8 +109,13 @@ impl Reader {
 
     /// A value, `[lo, hi]`, or a table with a distribution.
     pub(super) fn spread(&mut self, section: &Section<'_>, name: &str) -> Option<At<Spread>> {
-        let (Key { kind: Kind::Spread(dimension, bounds), .. }, value) = Self::get(section, name)? else { return None };
-        let span = value.span();
+        let (key, value) = Self::get(section, name)?;
+        self.spread_in(value, key)
+    }
+
+    fn spread_in(&mut self, value: &Spanned<DeValue<'_>>, key: &Key) -> Option<At<Spread>> {
+        let Kind::Spread(dimension, bounds) = key.kind.of_side() else { return None };
+        let (span, name) = (value.span(), key.name);
         let (spread, quantity) = match value.get_ref() {
             DeValue::Array(_) => {
                 let [lo, hi] = self.numbers::<2>(value, name, dimension, *bounds)?;

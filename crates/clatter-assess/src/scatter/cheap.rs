@@ -95,6 +95,7 @@ mod tests {
             let body = Body::off_center(0.5 * length * (1.0 + center), 0.5 * length * (1.0 - center), gyration * length).unwrap();
             let drop = SingleDrop {
                 body, first: if first_a { End::A } else { End::B }, tilt_rad, flat: false, speed_m_s: 3.0, restitution: e,
+                across: None,
                 gravity_m_s2: 0.0, contact_time_s: contact, contact_law: ContactLaw::Hysteretic,
             };
             let ends_m = [ends.0, (ends.0 + ends.1).min(0.07)];
@@ -111,7 +112,7 @@ mod tests {
             for limit in limits {
                 let part = PartSample { position_m: ends_m[0], ends_m, suspension, limits: vec![limit] };
                 let known = part.ends().iter().map(|x| {
-                    let part = Part { position_m: *x, suspension };
+                    let part = Part::new(*x, suspension);
                     crate::answer(&drop, &part, &limit, Model::Map, 1e-6).unwrap().utilization()
                 });
                 let known = known.fold(0.0, f64::max);

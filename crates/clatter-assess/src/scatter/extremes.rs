@@ -47,6 +47,7 @@ const LARGEST_ERROR: f64 = 0.05;
 /// [`Error::Product`].
 pub fn extremes(file: &ProductFile, points: &[(Body, f64)]) -> Result<Extremes, Error> {
     file.check()?;
+    file.check_bar("the plane of q and e")?;
     for &(_, e) in points {
         clatter::Restitution::new(e).map_err(crate::Error::from)?;
     }
@@ -131,7 +132,7 @@ fn variants(component: &Component) -> Result<Vec<PartSample>, crate::Error> {
         }
     }
     let ends = component.ends_m();
-    let ends_m = [ends[0], ends[ends.len() - 1]];
+    let ends_m = [ends[0][0], ends[ends.len() - 1][0]];
     let part = |suspension| {
         let limits = Limit::of(component);
         PartSample { position_m: 0.5 * (ends_m[0] + ends_m[1]), ends_m, suspension, limits }
@@ -162,6 +163,7 @@ impl Corners {
                 for &contact_time_s in &times {
                     drops.extend((0..=steps).map(|k| SingleDrop {
                         body: product.body,
+                        across: None,
                         first,
                         tilt_rad: drop.tilt_rad.at(f64::from(k) / f64::from(steps.max(1))),
                         flat: false,

@@ -7,7 +7,7 @@ use clatter_shock::Suspension;
 use super::draw::Quantile;
 use super::philox::Stream;
 use super::{Column, Error};
-use crate::product::with_between;
+use crate::product::{BETWEEN, with_between};
 use crate::quantity::Source;
 use crate::{Component, Damping, Fall, First, Law, Limit, LimitKind, Mount, ProductFile, SingleDrop, Spread};
 
@@ -167,8 +167,7 @@ impl PartSample {
     /// Places at which a drop with contacts is answered, as [`Component::places_m`](crate::Component::places_m).
     pub(super) fn places(&self) -> Vec<f64> {
         let between = self.limits.iter().any(|limit| limit.kind.is_largest_between());
-        let ends_m = self.ends().to_vec();
-        if between { with_between(ends_m) } else { ends_m }
+        if between { with_between(self.ends_m, BETWEEN) } else { self.ends().to_vec() }
     }
 }
 
@@ -226,6 +225,7 @@ impl Inputs {
     /// The inputs of a product, all checked.
     pub(super) fn new(file: &ProductFile, merge_s: f64) -> Result<Self, Error> {
         file.check()?;
+        file.check_bar("scatter")?;
         crate::verdict::merge(merge_s)?;
         let (product, drop) = (&file.product, &file.drop);
         let mut finder = Finder::default();
@@ -252,6 +252,7 @@ impl Inputs {
         }
         let same = SingleDrop {
             body: product.body,
+            across: None,
             first: drop.first_ends()[0],
             tilt_rad: drop.tilt_rad.lo(),
             flat: false,

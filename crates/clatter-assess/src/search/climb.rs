@@ -1,11 +1,13 @@
 //! From drops that ask much to those that ask most.
 
 use super::grid::halton;
-use super::ranges::{AXES, DAMPING, FREQUENCY, Ranges, TILT};
+use super::ranges::{AXES, DAMPING, DIRECTION, FREQUENCY, Place, Ranges, TILT};
+use rayon::prelude::*;
+
 use super::{Candidate, Task, Work, fastest_rad_s, rough_to_rad_s};
 use crate::drop::{Followed, Until};
-use crate::engine::PlaceHistory;
-use crate::{Mount, Spread};
+use crate::engine::{PlaceHistory, of_followed};
+use crate::{Error, Mount, Spread};
 
 /// Drops within this share of the worst are climbed from, so many at most, and so many of those that rebound.
 pub(super) const NEAR: f64 = 0.8;
@@ -19,6 +21,12 @@ pub(super) const EDGES_TRIES: u32 = 96;
 const LATER: f64 = 2.0;
 /// How close the last try of a climb is over the first.
 const CLOSER: f64 = 0.004;
+/// The first step of a climb in the direction, as a share of its range: beyond it another drop of the grid is close.
+const DIRECTION_STEP: f64 = 0.125;
+/// Drops of a box next to a worst drop of a plate, how far from it as a share of the ranges, and until how far beyond its peak.
+const AS_BLOCK: u32 = 24;
+const NEXT: f64 = 0.04;
+const BEYOND_PEAK: f64 = 1.5;
 /// Halvings of the steps of a climb.
 const HALVINGS: u32 = 6;
 
@@ -34,7 +42,7 @@ impl Ranges<'_> {
         let (until, fastest) = (Until::Lands, rough_to_rad_s(task.component));
         let free = self.free_at(task, &start.place);
         let frequency_step = 0.5 / f64::from(Self::frequencies(task, &self.single(&start.place)).max(4));
-        let mut steps = [tilt_step, 0.25, 0.25, 0.25, frequency_step, 0.5, 0.25];
+        let mut steps = [tilt_step, 0.25, 0.25, 0.25, frequency_step, 0.5, 0.25, DIRECTION_STEP];
         let mut best = start;
         let Ok(mut here) = self.follow(&best.place, until) else { return best };
         for _ in 0..HALVINGS {
@@ -57,7 +65,7 @@ impl Ranges<'_> {
                         continue;
                     }
                     let followed = moved.as_ref().unwrap_or(&here);
-                    let Ok(felt) = PlaceHistory::rough(followed, place.position_m, fastest) else { continue };
+                    let Ok(felt) = PlaceHistory::rough(followed, place.at_m, fastest) else { continue };
                     if let Ok(Some(next)) = Self::in_drop(task, &place, &felt, best.answer.utilization()) {
                         best = Candidate { late: best.late, ..next };
                         here = moved.unwrap_or(here);
@@ -73,7 +81,7 @@ impl Ranges<'_> {
     /// The part at both ends of its natural frequencies in the same drop, where that asks more: strikes that come in step with it have their
     /// crests far from one another, which no step of a climb goes over.
     fn at_ends_of_frequency(task: &Task<'_>, best: Candidate, here: &Followed, fastest_rad_s: f64) -> Candidate {
-        let Ok(felt) = PlaceHistory::rough(here, best.place.position_m, fastest_rad_s) else { return best };
+        let Ok(felt) = PlaceHistory::rough(here, best.place.at_m, fastest_rad_s) else { return best };
         [0.0, 1.0].into_iter().fold(best, |best, share| {
             let place = best.place.with(FREQUENCY, share);
             let next = Self::in_drop(task, &place, &felt, best.answer.utilization());
@@ -109,13 +117,53 @@ impl Ranges<'_> {
                 *share = (*share + step).clamp(0.0, 1.0);
             }
             let Ok(followed) = self.follow(&place, until) else { continue };
-            let Ok(felt) = PlaceHistory::rough(&followed, place.position_m, fastest) else { continue };
+            let Ok(felt) = PlaceHistory::rough(&followed, place.at_m, fastest) else { continue };
             if let Ok(Some(next)) = Self::in_drop(task, &place, &felt, best.answer.utilization()) {
                 best = Candidate { late: start.late, ..next };
                 again = Some(step);
             }
         }
         best
+    }
+}
+
+impl Ranges<'_> {
+    /// What a box of this thickness with full rotation asks for over what the plate of small tilt does, less 1: the most of a worst drop
+    /// and of drops next to it, which real tilt shifts. Of masses that lie askew both are followed as if they did not.
+    ///
+    /// # Errors
+    /// That of the drop itself, of a box that is not followed so.
+    pub(crate) fn real_tilt(&self, task: &Task<'_>, worst: &Candidate, thickness_m: f64) -> Result<f64, Error> {
+        let of = |place: &Place, as_block: bool| -> Result<f64, Error> {
+            let mut drop = self.single(place);
+            if let Some(across) = &mut drop.across {
+                across.width.product_of_inertia_m2 = 0.0;
+            }
+            let until_s = (BEYOND_PEAK * worst.answer.time_s).max(drop.clatter_s());
+            let followed = if as_block {
+                Followed::as_block(&drop, thickness_m, until_s)?
+            } else {
+                Followed::until(&drop, self.model, self.tolerance, Until::Past(until_s))?
+            };
+            let part = Candidate { place: *place, ..*worst }.part_there();
+            Ok(of_followed(&followed, &part, &task.limit)?.utilization())
+        };
+        let free = self.free_at(task, &worst.place);
+        let next = |k: u32| {
+            let mut place = worst.place;
+            for axis in [TILT, DIRECTION].into_iter().filter(|axis| free[*axis]) {
+                let step = NEXT * (2.0 * halton(axis.min(1), k) - 1.0);
+                place.shares[axis] = (place.shares[axis] + step).clamp(0.0, 1.0);
+            }
+            place
+        };
+        let most = |as_block: bool| -> Result<f64, Error> {
+            let here = of(&worst.place, as_block)?;
+            Ok((1..=AS_BLOCK).into_par_iter().map(|k| of(&next(k), as_block).unwrap_or(0.0)).reduce(|| here, f64::max))
+        };
+        let is_askew = self.product.width.is_some_and(|width| width.product_of_inertia_m2 != 0.0);
+        let plate = if is_askew { most(false)? } else { worst.answer.utilization() };
+        Ok(most(true)? / plate - 1.0)
     }
 }
 
@@ -133,7 +181,8 @@ pub(super) fn starts(found: &mut [Candidate]) -> Vec<Candidate> {
             other.late == asked.late
                 && other.place.flat == asked.place.flat
                 && other.place.first == asked.place.first
-                && other.place.position_m.to_bits() == asked.place.position_m.to_bits()
+                && other.place.at_m.map(f64::to_bits) == asked.place.at_m.map(f64::to_bits)
+                && other.place.mirrored == asked.place.mirrored
                 && (0..AXES).all(close)
         };
         let such = starts.iter().filter(|other| other.late == asked.late).count();

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::Work;
-use super::ranges::{AXES, Place, Ranges, TILT};
+use super::ranges::{AXES, DIRECTION, Place, Ranges, TILT};
 use crate::drop::{Followed, Until};
 
 /// How often the space between two tilts of the grid is halved about such an edge.
@@ -16,6 +16,7 @@ type Order = Vec<(usize, bool)>;
 
 /// Two neighboring drops between which the order changes, and that of the first.
 struct Edge {
+    axis: usize,
     sides: [Place; 2],
     order: Order,
 }
@@ -28,16 +29,17 @@ impl Ranges<'_> {
         let edges: Vec<Edge> = pairs
             .filter_map(|(places, orders)| {
                 let ([(_, a), (_, b)], [Some(order), Some(other)]) = (places, orders) else { return None };
-                (are_neighbors(a, b) && order != other).then(|| Edge { sides: [*a, *b], order: order.clone() })
+                let axis = differ_by(a, b).filter(|_| order != other)?;
+                Some(Edge { axis, sides: [*a, *b], order: order.clone() })
             })
             .collect();
         let close: Vec<[Place; 2]> = edges.into_par_iter().map(|edge| self.close_in(edge, work)).collect();
         (0..).zip(close.into_iter().flatten()).collect()
     }
 
-    fn close_in(&self, Edge { sides: [mut near, mut far], order }: Edge, work: &Work<'_>) -> [Place; 2] {
+    fn close_in(&self, Edge { axis, sides: [mut near, mut far], order }: Edge, work: &Work<'_>) -> [Place; 2] {
         for _ in 0..HALVINGS {
-            let middle = near.with(TILT, 0.5 * (near.shares[TILT] + far.shares[TILT]));
+            let middle = near.with(axis, 0.5 * (near.shares[axis] + far.shares[axis]));
             let Some(found) = self.order(&middle, work) else { break };
             if found == order { near = middle } else { far = middle }
         }
@@ -48,17 +50,18 @@ impl Ranges<'_> {
     fn order(&self, place: &Place, work: &Work<'_>) -> Option<Order> {
         work.go_on(0).ok()?;
         let Followed { motion, .. } = self.follow(place, Until::Lands).ok()?;
-        let pressed = motion.strikes.iter().zip(&motion.presses);
-        let mut events: Vec<(f64, usize, bool)> = pressed
-            .flat_map(|(strike, press)| [(press.from_s, strike.point, false), (press.until_s, strike.point, true)])
-            .collect();
+        let pressed = motion.presses().into_iter();
+        let mut events: Vec<(f64, usize, bool)> =
+            pressed.flat_map(|(point, [from_s, until_s])| [(from_s, point, false), (until_s, point, true)]).collect();
         events.sort_by(|a, b| a.0.total_cmp(&b.0));
         Some(events.into_iter().take(EVENTS).map(|(_, point, parts)| (point, parts)).collect())
     }
 }
 
-/// Whether two drops of the grid differ by their tilt alone.
-fn are_neighbors(a: &Place, b: &Place) -> bool {
-    let same = |axis: usize| axis == TILT || a.shares[axis].to_bits() == b.shares[axis].to_bits();
-    a.first == b.first && a.flat == b.flat && !a.flat && (0..AXES).all(same)
+/// The axis of two drops of the grid that differ by their tilt or their direction alone.
+fn differ_by(a: &Place, b: &Place) -> Option<usize> {
+    let differs = |axis: &usize| a.shares[*axis].to_bits() != b.shares[*axis].to_bits();
+    let mut axes = (0..AXES).filter(differs);
+    let axis = axes.next().filter(|axis| matches!(*axis, TILT | DIRECTION))?;
+    (a.first == b.first && a.flat == b.flat && !a.flat && axes.next().is_none()).then_some(axis)
 }

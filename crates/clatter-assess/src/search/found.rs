@@ -4,7 +4,7 @@ use clatter_shock::Suspension;
 
 use super::Place;
 use crate::Error;
-use crate::engine::Answer;
+use crate::engine::{Answer, Part};
 
 /// A drop and a part that ask for something.
 #[derive(Debug, Clone, Copy)]
@@ -81,14 +81,29 @@ impl Candidates {
     }
 }
 
+/// A place with sides exchanged.
+pub(super) fn image(at_m: [f64; 2], sides: [bool; 2]) -> [f64; 2] {
+    [0, 1].map(|k| if sides[k] { -at_m[k] } else { at_m[k] })
+}
+
 impl Candidate {
+    /// The part where it is.
+    pub(crate) fn part_there(&self) -> Part {
+        let [position_m, across_m] = self.place.at_m;
+        Part { position_m, across_m, suspension: self.part }
+    }
     /// Whether it asks for more of the limit than another drop.
     pub(crate) fn exceeds(&self, other: &Self) -> bool {
         self.answer.utilization() > other.answer.utilization()
     }
-    /// The same of the product turned around.
-    pub(super) fn turned(self) -> Self {
-        let place = Place { first: self.place.first.other(), position_m: -self.place.position_m, ..self.place };
-        Self { place, ..self }
+    /// The same of the product with sides exchanged.
+    pub(super) fn mirrored(self, sides: [bool; 2], is_plate: bool) -> Self {
+        let Place { first, mirrored, at_m, .. } = self.place;
+        let place = if is_plate {
+            Place { mirrored: [0, 1].map(|k| mirrored[k] ^ sides[k]), ..self.place }
+        } else {
+            Place { first: if sides[0] { first.other() } else { first }, ..self.place }
+        };
+        Self { place: Place { at_m: image(at_m, sides), ..place }, ..self }
     }
 }

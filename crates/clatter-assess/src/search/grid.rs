@@ -1,10 +1,10 @@
 //! Which drops of the ranges are followed.
 
-use std::f64::consts::{SQRT_2, TAU};
+use std::f64::consts::{FRAC_PI_2, SQRT_2, TAU};
 
-use super::Task;
 use super::ranges::{Place, Ranges};
-use crate::{Mount, Spread};
+use super::{GOLDEN, Task};
+use crate::{Mount, Product, Spread};
 
 /// Tilts of the grid at least and at most.
 const TILTS: [f64; 2] = [12.0, 128.0];
@@ -13,9 +13,18 @@ const PHASE: f64 = 0.8;
 const SQRT_3: f64 = 1.732_050_807_568_877;
 const SQRT_5: f64 = 2.236_067_977_499_79;
 const SQRT_7: f64 = 2.645_751_311_064_59;
+const SQRT_11: f64 = 3.316_624_790_355_4;
 /// Tilts in a contact time, and contact times over which tilts lie so closely: where contacts overlap, velocity shocks change by steps.
 const OVERLAPS: [f64; 2] = [12.0, 4.0];
+/// Tilts at which a plate is turned, as shares of the root of the range.
+const TURNED_AT: [f64; 2] = [1.0, 0.6];
+/// Directions of a plate in which they lie so, in each quarter of a turn.
+const OVERLAPS_A_QUARTER: u32 = 4;
+/// Lines of drops over the tilt of a plate besides those that land on an edge, and for each quarter of a turn.
+const LINES: u32 = 6;
+const LINES_A_QUARTER: u32 = 3;
 /// Where along a range the drops of the grid are.
+#[derive(Debug, Clone, Copy, PartialEq)]
 enum Level {
     At(f64),
     /// Evenly all over it, by the multiples of an irrational number.
@@ -33,11 +42,11 @@ impl Level {
 }
 
 impl Ranges<'_> {
-    /// Steps of the tilt: as many as the stiffest of the parts asks.
-    pub(super) fn tilt_steps(&self, tasks: &[Task<'_>]) -> f64 {
+    /// Steps of the tilt, and of the direction of a plate over all of its range: as many as the stiffest of the parts asks.
+    pub(super) fn steps(&self, tasks: &[Task<'_>]) -> [f64; 2] {
         let [_, fast] = self.drop.speeds_m_s();
-        let gap =
-            self.product.body.length_m() * (libm::sin(self.drop.tilt_rad.hi()) - libm::sin(self.drop.tilt_rad.lo()));
+        let [low, high] =
+            [self.drop.tilt_rad.lo(), self.drop.tilt_rad.hi()].map(|tilt| self.reach_m() * libm::sin(tilt));
         let highest = tasks.iter().filter_map(|task| match task.component.mount {
             // Beyond some swings a contact, pulses are felt one by one.
             Mount::Suspended { frequency_hz, .. } => Some(frequency_hz.hi()),
@@ -46,46 +55,59 @@ impl Ranges<'_> {
         });
         let stiff = self.product.contact_time_s.map_or(f64::INFINITY, |time| 1.0 / time.lo());
         let highest = highest.fold(0.0_f64, f64::max).min(stiff);
-        (TAU * highest * gap / fast / PHASE).clamp(TILTS[0], TILTS[1]).ceil()
+        let [least, most] = TILTS;
+        let of = |gap: f64| (TAU * highest * gap / fast / PHASE).clamp(least, most).ceil();
+        [of(high - low), of(high) * f64::from(self.quarters())]
+    }
+
+    /// Quarters of a turn that the directions of a plate take, rounded up; 0 of one direction.
+    fn quarters(&self) -> u32 {
+        let [from, to] = self.directions();
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 4")]
+        let quarters = ((to - from) / FRAC_PI_2).ceil() as u32;
+        quarters
     }
 
     /// The drops of the grid; places of parts are left open.
-    pub(super) fn grid(&self, steps: f64) -> Vec<Place> {
+    pub(super) fn grid(&self, steps: f64, turn_steps: f64) -> Vec<Place> {
         let [slow, fast] = self.drop.speeds_m_s();
-        let is_range = |range: Option<&Spread>| range.is_some_and(|range| !range.is_value());
         let even = |steps: f64, free: bool| {
             let steps = if free { steps } else { 0.0 };
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 128")]
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 512")]
             let count = steps as u32;
             (0..=count).map(move |k| if count == 0 { 0.0 } else { f64::from(k) / f64::from(count) })
         };
         let tilted = !self.drop.tilt_rad.is_value();
-        let levels =
-            |range: Option<&Spread>, levels: &'static [Level]| if is_range(range) { levels } else { &levels[..1] };
         let mut grid = Vec::new();
+        let of = |first, [tilt, speed]: [f64; 2], line: &[Level; 3], direction: f64, k: usize| {
+            let [restitution, contact, gyration] = line.each_ref().map(|level| level.of(k));
+            let shares = [tilt, speed, restitution, contact, 0.0, 0.0, gyration, direction];
+            Place { first, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares }
+        };
         for &first in self.firsts() {
-            for restitution in
-                levels(Some(&self.product.restitution), &[Level::At(1.0), Level::At(0.0), Level::Spread(SQRT_2)])
-            {
-                for contact in levels(
-                    self.product.contact_time_s.as_ref(),
-                    &[Level::At(0.0), Level::At(1.0), Level::Spread(SQRT_3)],
-                ) {
-                    for gyration in
-                        levels(Some(&self.product.gyration_m), &[Level::At(0.0), Level::At(1.0), Level::Spread(SQRT_5)])
-                    {
-                        let mut add = |tilt: f64, speed: f64| {
-                            let k = grid.len();
-                            let shares = [tilt, speed, restitution.of(k), contact.of(k), 0.0, 0.0, gyration.of(k)];
-                            grid.push(Place { first, flat: false, position_m: 0.0, shares });
-                        };
-                        even(steps, tilted).for_each(|tilt| add(tilt, 1.0));
-                        // Slower drops seldom do more; fewer of them are followed.
-                        even((steps / 4.0).ceil(), tilted).filter(|_| slow < fast).for_each(|tilt| add(tilt, 0.0));
-                        // In which phase a soft part is struck again depends on the speed: at others too.
-                        let between = even((steps / 4.0).ceil(), tilted).filter(|_| slow < fast);
-                        (1_u32..).zip(between).for_each(|(k, tilt)| add(tilt, (SQRT_7 * f64::from(k)).fract()));
-                    }
+            for (line, direction) in &self.lines() {
+                let mut add = |tilt: f64, speed: f64| {
+                    let k = grid.len();
+                    grid.push(of(first, [tilt, speed], line, *direction, k));
+                };
+                even(steps, tilted).for_each(|tilt| add(tilt, 1.0));
+                // Slower drops seldom do more; fewer of them are followed.
+                even((steps / 4.0).ceil(), tilted).filter(|_| slow < fast).for_each(|tilt| add(tilt, 0.0));
+                // In which phase a soft part is struck again depends on the speed: at others too.
+                let between = even((steps / 4.0).ceil(), tilted).filter(|_| slow < fast);
+                (1_u32..).zip(between).for_each(|(k, tilt)| add(tilt, (SQRT_7 * f64::from(k)).fract()));
+            }
+            let turned = &TURNED_AT[..if self.quarters() == 0 {
+                0
+            } else if tilted {
+                2
+            } else {
+                1
+            }];
+            for (&tilt, line) in turned.iter().zip(self.levels()) {
+                for direction in even(turn_steps, true) {
+                    let k = grid.len();
+                    grid.push(of(first, [tilt, 1.0], &line, direction, k));
                 }
             }
         }
@@ -94,11 +116,47 @@ impl Ranges<'_> {
             let levels = [Level::At(1.0), Level::At(0.0), Level::Spread(SQRT_2)];
             let speeds = if slow < fast { &[1.0, 0.0, 0.5][..] } else { &[1.0] };
             for (restitution, &speed) in levels.iter().flat_map(|e| speeds.iter().map(move |speed| (e, speed))) {
-                let shares = [0.0, speed, restitution.of(grid.len()), 0.0, 0.0, 0.0, 0.0];
-                grid.push(Place { first, flat: true, position_m: 0.0, shares });
+                let shares = [0.0, speed, restitution.of(grid.len()), 0.0, 0.0, 0.0, 0.0, 0.0];
+                grid.push(Place { first, flat: true, mirrored: [false; 2], at_m: [0.0; 2], shares });
             }
         }
         grid
+    }
+
+    /// Restitution, contact time and radius of gyration of lines of drops: each at both ends of its range and spread over it, each with
+    /// each; those that bounce most and press shortest first.
+    fn levels(&self) -> Vec<[Level; 3]> {
+        let Product { restitution, contact_time_s, gyration_m, .. } = self.product;
+        let of = |range: Option<&Spread>, levels: [Level; 3]| {
+            let free = range.is_some_and(|range| !range.is_value());
+            levels[..if free { 3 } else { 1 }].to_vec()
+        };
+        let restitutions = of(Some(restitution), [Level::At(1.0), Level::At(0.0), Level::Spread(SQRT_2)]);
+        let contacts = of(contact_time_s.as_ref(), [Level::At(0.0), Level::At(1.0), Level::Spread(SQRT_3)]);
+        let gyrations = of(Some(gyration_m), [Level::At(0.0), Level::At(1.0), Level::Spread(SQRT_5)]);
+        let mut all = Vec::with_capacity(restitutions.len() * contacts.len() * gyrations.len());
+        for &e in &restitutions {
+            for &contact in &contacts {
+                all.extend(gyrations.iter().map(|&gyration| [e, contact, gyration]));
+            }
+        }
+        all
+    }
+
+    /// Lines of drops over the tilt: of a bar one at each of these levels; of a plate at directions that spread evenly, its edges among
+    /// them, and at the levels in turn.
+    fn lines(&self) -> Vec<([Level; 3], f64)> {
+        let levels = self.levels();
+        if self.quarters() == 0 {
+            return levels.into_iter().map(|line| (line, 0.0)).collect();
+        }
+        let quarters = self.quarters();
+        let edges = (0..=quarters).map(|k| (f64::from(k) / f64::from(quarters)).min(1.0));
+        let between = (1..=LINES + LINES_A_QUARTER * quarters).map(|k| (GOLDEN * f64::from(k)).fract());
+        // The ends of all ranges, and one that spreads over them.
+        let is_end = |line: &&[Level; 3]| line.iter().all(|level| matches!(level, Level::At(_)));
+        let lines: Vec<_> = levels.iter().filter(is_end).chain(levels.last().filter(|line| !is_end(line))).collect();
+        edges.chain(between).zip(lines.iter().cycle()).map(|(direction, line)| (**line, direction)).collect()
     }
 
     /// Drops whose first two contacts overlap or nearly do.
@@ -109,27 +167,24 @@ impl Ranges<'_> {
         let [lo, hi] = [self.drop.tilt_rad.lo(), self.drop.tilt_rad.hi()];
         let [_, fast] = self.drop.speeds_m_s();
         let [often, far] = OVERLAPS;
-        let of_one = fast * contact.hi() / self.product.body.length_m();
+        let of_one = fast * contact.hi() / self.reach_m();
         let step = of_one / often;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 48")]
         let count = (((far * of_one).min(hi) - lo) / step).clamp(0.0, often * far) as u32;
         let share = |tilt: f64| (tilt.sqrt() - lo.sqrt()) / (hi.sqrt() - lo.sqrt());
         let spread = |k: u32, by: f64| (by * f64::from(k)).fract();
+        let of = |first, k: u32, [restitution, n]: [f64; 2]| {
+            let direction = (spread(k, SQRT_11) + n).fract();
+            let contact = (spread(k, SQRT_3) + GOLDEN * n).fract();
+            let tilt = share(lo + f64::from(k) * step);
+            let shares = [tilt, 1.0, restitution, contact, 0.0, 0.0, spread(k, SQRT_5), direction];
+            (k, Place { first, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares })
+        };
+        let directions = (OVERLAPS_A_QUARTER * self.quarters()).max(1);
         let drops = |k: u32| {
-            self.firsts().iter().flat_map(move |&first| {
-                [1.0, spread(k, SQRT_2)].map(|restitution| {
-                    let shares = [
-                        share(lo + f64::from(k) * step),
-                        1.0,
-                        restitution,
-                        spread(k, SQRT_3),
-                        0.0,
-                        0.0,
-                        spread(k, SQRT_5),
-                    ];
-                    (k, Place { first, flat: false, position_m: 0.0, shares })
-                })
-            })
+            let each = (0..directions).map(|n| f64::from(n) / f64::from(directions));
+            let each: Vec<[f64; 2]> = each.map(|n| [1.0, n]).chain([[spread(k, SQRT_2), 0.0]]).collect();
+            self.firsts().iter().flat_map(move |&first| each.clone().into_iter().map(move |at| of(first, k, at)))
         };
         (0..=count).flat_map(drops).collect()
     }
@@ -138,13 +193,14 @@ impl Ranges<'_> {
     pub(super) fn spread_out(&self, k: u32) -> Place {
         let firsts = self.firsts();
         let first = firsts[k as usize % firsts.len()];
-        Place { first, flat: false, position_m: 0.0, shares: std::array::from_fn(|axis| halton(axis, k)) }
+        let shares = std::array::from_fn(|axis| halton(axis, k));
+        Place { first, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares }
     }
 }
 
 /// Number k of Halton's sequence along an axis.
 pub(super) fn halton(axis: usize, mut k: u32) -> f64 {
-    let base = [2, 3, 5, 7, 11, 13, 17][axis];
+    let base = [2, 3, 5, 7, 11, 13, 17, 19][axis];
     let (mut share, mut digit) = (0.0, 1.0);
     while k > 0 {
         digit /= f64::from(base);

@@ -1,10 +1,10 @@
 //! The ranges of a product's drops, and where in them a drop is.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use clatter::End;
 
-use crate::drop::{Model, SingleDrop};
+use crate::drop::{Across, Model, SingleDrop};
 use crate::search::{Candidate, Task};
 use crate::{Component, ContactLaw, Drop, Mount, Product, Spread, WorstCase};
 
@@ -14,19 +14,22 @@ pub(crate) struct Place {
     pub(crate) first: End,
     /// Whether both ends land as one.
     pub(crate) flat: bool,
-    pub(crate) position_m: f64,
+    /// Sides that are exchanged, of a plate whose drops stand for those of its mirror images.
+    pub(crate) mirrored: [bool; 2],
+    pub(crate) at_m: [f64; 2],
     /// From 0 to 1 along each range: of the [axes](AXES).
     pub(crate) shares: [f64; AXES],
 }
 
-/// Square root of the tilt, speed, restitution, contact time, natural frequency, damping ratio, radius of gyration.
-pub(super) const AXES: usize = 7;
+/// Square root of the tilt, speed, restitution, contact time, natural frequency, damping ratio, radius of gyration, direction.
+pub(super) const AXES: usize = 8;
 pub(super) const TILT: usize = 0;
 pub(super) const RESTITUTION: usize = 2;
 /// Those of the part.
 pub(super) const FREQUENCY: usize = 4;
 pub(super) const DAMPING: usize = 5;
 pub(super) const GYRATION: usize = 6;
+pub(super) const DIRECTION: usize = 7;
 
 /// The ranges of a product's drops, and how they are followed.
 #[derive(Debug, Clone, Copy)]
@@ -48,9 +51,15 @@ impl Ranges<'_> {
         let [lo, hi] = [tilt.lo().sqrt(), tilt.hi().sqrt()];
         let [share, speed, restitution, contact, ..] = place.shares;
         let root = lo + share * (hi - lo);
+        let across = self.product.width.map(|width| {
+            let [from, to] = self.directions();
+            let straight = from + place.shares[DIRECTION] * (to - from);
+            Across { width, direction_rad: image(straight, place.mirrored) }
+        });
         SingleDrop {
             body: self.product.body_at(place.shares[GYRATION]),
-            first: place.first,
+            across,
+            first: across.map_or(place.first, |across| across.first()),
             tilt_rad: if place.flat { 0.0 } else { (root * root).clamp(tilt.lo(), tilt.hi()) },
             flat: place.flat,
             speed_m_s: (slow + speed * (fast - slow)).clamp(slow, fast),
@@ -74,6 +83,15 @@ impl Ranges<'_> {
             }
             _ => [0.0; 2],
         };
+        let images = self.mirrors().iter().filter_map(|&mirrored| {
+            let [lo, hi] = self.directions();
+            let direction = image(drop.across?.direction_rad, mirrored);
+            // The turn that is in the range, or next to it by roundings.
+            let off = |x: f64| (lo - x).max(x - hi).max(0.0);
+            let turned = [direction - TAU, direction, direction + TAU];
+            turned.into_iter().map(|x| (off(x), share([lo, hi], x), mirrored)).min_by(|a, b| a.0.total_cmp(&b.0))
+        });
+        let (_, direction, mirrored) = images.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default();
         let shares = [
             share(tilt, drop.tilt_rad.sqrt()),
             share(self.drop.speeds_m_s(), drop.speed_m_s),
@@ -82,21 +100,23 @@ impl Ranges<'_> {
             part[0],
             part[1],
             worst.gyration_m().map_or(0.0, |rho| of(&self.product.gyration_m, rho)),
+            direction,
         ];
-        Place { first: drop.first, flat: drop.flat, position_m: worst.part.position_m, shares }
+        Place { first: drop.first, flat: drop.flat, mirrored, at_m: worst.part.at_m(), shares }
     }
 
     /// The middle of all ranges.
     pub(crate) fn middle(&self, component: &Component) -> Place {
-        let position_m = 0.5 * (component.position_m.lo() + component.position_m.hi());
-        Place { first: self.drop.first_ends()[0], flat: false, position_m, shares: [0.5; AXES] }
+        let at_m = [component.position_m, component.across_m].map(|place| 0.5 * (place.lo() + place.hi()));
+        let (first, mirrored) = (self.drop.first_ends()[0], [false; 2]);
+        Place { first, flat: false, mirrored, at_m, shares: [0.5; AXES] }
     }
 
     /// Whether the drops with the least tilt land as one: without a contact time, strikes closer than any contact lasts are not
     /// apart.
     pub(crate) fn hold_flat(&self) -> bool {
         let [_, fast] = self.drop.speeds_m_s();
-        let gap_m = self.product.body.length_m() * libm::sin(self.drop.tilt_rad.lo());
+        let gap_m = self.reach_m() * libm::sin(self.drop.tilt_rad.lo());
         self.product.contact_time_s.is_none() && gap_m < self.merge_s * fast
     }
 
@@ -126,18 +146,56 @@ impl Ranges<'_> {
         let varies = |spread: &Spread| !spread.is_value();
         let [tilt, restitution, gyration] =
             [&self.drop.tilt_rad, &self.product.restitution, &self.product.gyration_m].map(varies);
-        [tilt, slow < fast, restitution, contact, frequency, damping, gyration]
+        let [from, to] = self.directions();
+        [tilt, slow < fast, restitution, contact, frequency, damping, gyration, from < to]
     }
 
+    /// The directions that drops are followed in: of a plate that may rise to any, those of which the others are mirror images.
+    pub(super) fn directions(&self) -> [f64; 2] {
+        match (&self.product.width, &self.drop.direction_rad) {
+            (None, _) => [0.0; 2],
+            (_, Some(given)) => [given.lo(), given.hi()],
+            (_, None) => match self.symmetries() {
+                [true, true] => [0.0, FRAC_PI_2],
+                [true, false] => [-FRAC_PI_2, FRAC_PI_2],
+                [false, true] => [0.0, PI],
+                [false, false] => [0.0, TAU],
+            },
+        }
+    }
+    /// Whether exchanging its ends, and its long edges, leaves a plate as it is.
+    fn symmetries(&self) -> [bool; 2] {
+        let Some(width) = &self.product.width else { return [false; 2] };
+        let even = |[lo, hi]: [f64; 2]| lo.to_bits() == hi.to_bits() && width.product_of_inertia_m2 == 0.0;
+        [even(self.product.body.arms_m()), even(width.edges_m)]
+    }
+    /// Images of a drop that are drops of the ranges as well, itself first: which sides are exchanged.
+    pub(super) fn mirrors(&self) -> &'static [[bool; 2]] {
+        if self.product.width.is_none() {
+            return if self.turns() { &[[false, false], [true, false]] } else { &[[false, false]] };
+        }
+        match self.symmetries() {
+            _ if self.drop.direction_rad.is_some() => &[[false, false]],
+            [true, true] => &[[false, false], [true, false], [false, true], [true, true]],
+            [true, false] => &[[false, false], [true, false]],
+            [false, true] => &[[false, false], [false, true]],
+            [false, false] => &[[false, false]],
+        }
+    }
+    /// The longest way from the lowest point to the highest, along the body.
+    pub(super) fn reach_m(&self) -> f64 {
+        let length = self.product.body.length_m();
+        self.product.width.map_or(length, |width| libm::hypot(length, width.m()))
+    }
     /// Of a symmetric product one end first is the other one turned around.
     pub(crate) fn turns(&self) -> bool {
         let [a, b] = self.product.body.arms_m();
-        a.to_bits() == b.to_bits() && self.drop.first_ends().len() > 1
+        a.to_bits() == b.to_bits() && self.drop.first_ends().len() > 1 && self.product.width.is_none()
     }
 
     /// The ends that are let touch first.
     pub(crate) fn firsts(&self) -> &'static [End] {
-        if self.turns() { &self.drop.first_ends()[..1] } else { self.drop.first_ends() }
+        if self.turns() || self.product.width.is_some() { &self.drop.first_ends()[..1] } else { self.drop.first_ends() }
     }
 }
 
@@ -152,4 +210,10 @@ impl Place {
         self.shares[axis] = share;
         self
     }
+}
+
+/// The direction of a mirror image.
+fn image(direction_rad: f64, [along, across]: [bool; 2]) -> f64 {
+    let turned = if along { PI - direction_rad } else { direction_rad };
+    if across { -turned } else { turned }
 }

@@ -34,6 +34,9 @@ pub(crate) struct PlateArgs {
     /// --gaps in m
     #[arg(long, value_name = "HX,HY", allow_hyphen_values = true, value_parser = quantities::gaps_m, conflicts_with_all = ["tilt", "tilt_deg", "direction", "direction_deg"], help_heading = IN_SI, hide_short_help = true)]
     gaps_m: Option<[f64; 2]>,
+    /// Of a plate whose contacts take time: product of inertia over its mass, about the center of mass; 0 unless given
+    #[arg(long, value_name = "M2", allow_hyphen_values = true, value_parser = inputs::number, help_heading = IN_SI, hide_short_help = true)]
+    product_of_inertia_m2: Option<f64>,
 }
 
 impl PlateArgs {
@@ -45,6 +48,9 @@ impl PlateArgs {
         let direction = self.direction.is_some() || self.direction_deg.is_some();
         if direction || self.gaps.is_some() || self.gaps_m.is_some() {
             return Err(Failure::Usage("--direction and --gaps are those of a plate: give its --width"));
+        }
+        if self.product_of_inertia_m2.is_some() {
+            return Err(Failure::Usage("--product-of-inertia-m2 is that of a plate: give its --width"));
         }
         Ok(())
     }
@@ -121,7 +127,13 @@ impl DropArgs {
         let halves = [0.5 * length.si, 0.5 * width.si];
         let center_of_mass = self.center_of_plate(halves)?;
         let gyration_m = gyration.of_plate(gyration_flag)?;
-        let plate = Self::plate_of(halves, center_of_mass, gyration_m, gyration_flag)?;
+        let mut plate = Self::plate_of(halves, center_of_mass, gyration_m, gyration_flag)?;
+        if let Some(product) = self.plate.product_of_inertia_m2 {
+            if model != Model::Compliant {
+                return Err(Failure::Usage("--product-of-inertia-m2 is followed by --model=compliant alone"));
+            }
+            plate = plate.with_product_of_inertia(product).map_err(Failure::flag("--product-of-inertia-m2"))?;
+        }
         let gravity = either(self.gravity, self.gravity_m_s2).map_or(STANDARD_GRAVITY_M_S2, |gravity| gravity.si);
         if height.is_some() && gravity == 0.0 {
             return Err(Failure::Usage(

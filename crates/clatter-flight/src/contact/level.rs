@@ -1,7 +1,7 @@
 //! A plate that is almost level: height of its center of mass and slopes along x and y, with lever arms that do not change.
 //!
 //! With the positions x, y of the corners about the center of mass and the radii of gyration k_x, k_y,
-//! M_ij = 1 + x_i x_j/k_x² + y_i y_j/k_y².
+//! M_ij = 1 + x_i x_j/k_x² + y_i y_j/k_y²; with a product of inertia 1 + r_i·C⁻¹ r_j, C the second moments of the mass.
 
 use super::pose::{Borne, Extent, Pose, Pushes};
 use crate::plate::{Plate, PlateScene};
@@ -37,21 +37,13 @@ impl Level {
     fn along(of: [f64; 2], [x, y]: [f64; 2]) -> f64 {
         x * of[0] + y * of[1]
     }
-    /// What a force of 1 over the mass at one place does to the velocity of another by turning the plate.
-    fn turned(&self, [x, y]: [f64; 2], [x2, y2]: [f64; 2]) -> [f64; 2] {
-        let [kx, ky] = self.plate.gyration_m();
-        [x * x2 / (kx * kx), y * y2 / (ky * ky)]
-    }
+    /// What a force of 1 over the mass at one place does to another.
     fn share(&self, one: [f64; 2], other: [f64; 2]) -> f64 {
-        let [x, y] = self.turned(one, other);
-        1.0 + x + y
+        1.0 + Self::along(self.plate.turned(other), one)
     }
     /// What a force of 1 over the mass at each corner does to the slope along a direction.
     pub(super) fn slope_by(&self, direction: [f64; 2]) -> [f64; 4] {
-        self.plate.corners_m().map(|corner| {
-            let [x, y] = self.turned(direction, corner);
-            x + y
-        })
+        self.plate.corners_m().map(|corner| Self::along(self.plate.turned(corner), direction))
     }
     /// The rate of the slope along a direction.
     pub(super) fn rate_along(&self, direction: [f64; 2]) -> f64 {
@@ -93,7 +85,8 @@ impl Pose<4> for Level {
     fn kinetic(&self) -> f64 {
         let [kx, ky] = self.plate.gyration_m();
         let [x, y] = [kx * self.rates[0], ky * self.rates[1]];
-        0.5 * (self.v * self.v + x * x + y * y)
+        let both = 2.0 * self.plate.product_of_inertia_m2() * self.rates[0] * self.rates[1];
+        0.5 * (self.v * self.v + x * x + y * y + both)
     }
     fn energy(&self) -> f64 {
         self.kinetic() + self.gravity * self.y
@@ -124,10 +117,9 @@ impl Pose<4> for Level {
         [self.gravity; 4]
     }
     fn after(&self, t: f64, (): &(), pushes: &Pushes<4>) -> Self {
-        let [kx, ky] = self.plate.gyration_m();
         let mut pose = self.flown(t);
-        for (i, [x, y]) in self.plate.corners_m().into_iter().enumerate() {
-            let turns = [x / (kx * kx), y / (ky * ky)];
+        for (i, corner) in self.plate.corners_m().into_iter().enumerate() {
+            let turns = self.plate.turned(corner);
             pose.y += pushes.path[i];
             pose.v += pushes.impulse[i];
             pose.slopes = [0, 1].map(|k| pose.slopes[k] + turns[k] * pushes.path[i]);
@@ -169,7 +161,8 @@ impl Pose<4> for Level {
             return None;
         }
         let (even, [length, width], [kx, ky]) = (self.even(), self.plate.sides_m(), self.plate.gyration_m());
-        let moments = [kx * kx * self.rates[0] / (2.0 * length), ky * ky * self.rates[1] / (2.0 * width)];
+        let (c, [x, y]) = (self.plate.product_of_inertia_m2(), self.rates);
+        let moments = [(kx * kx * x + c * y) / (2.0 * length), (ky * ky * y + c * x) / (2.0 * width)];
         let each: [f64; 4] = std::array::from_fn(|i| {
             let [x, y] = self.plate.corners_m()[i];
             -self.v * even[i] - moments[0] * x.signum() - moments[1] * y.signum()

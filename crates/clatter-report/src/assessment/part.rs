@@ -150,7 +150,7 @@ pub(super) fn part(
     json!({
         "name": name(&assessed.name),
         "verdict": assessed.verdict.name(),
-        "position": millimeters(assessed.position_m),
+        "position": millimeters(assessed.position_m.m()[0]),
         "summary": summary(component, tightest, portrait),
         "undecided": undecided.map(|l| json!({ "limit": l.limit.words(), "why": l.why_undecided().as_deref().map(minus) })).collect::<Vec<_>>(),
         "limits": assessed.limits.iter().map(|l| row(pages, &component.name, l)).collect::<Vec<_>>(),

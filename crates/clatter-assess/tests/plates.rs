@@ -1,0 +1,194 @@
+//! Products with a width: plates that land on any corner.
+
+use clatter_assess::{LimitAssessment, Note, ProductFile, Verdict};
+
+/// A handheld terminal with a display, a board and a battery.
+const HANDHELD: &str = r#"
+[product]
+name = "handheld"
+length = "150 mm"
+width = "70 mm"
+radius_of_gyration = ["43 mm", "20 mm"]
+center_of_mass = ["0 mm", "0 mm"]
+restitution = 0.4
+contact_time = "0.4 ms"
+contact_law = "hysteretic"
+
+[drop]
+speed = "3 m/s"
+tilt = ["0.5 deg", "4 deg"]
+
+[[component]]
+name = "display"
+position = ["10 mm", "5 mm"]
+extent = ["20 mm", "10 mm"]
+mount = "hard"
+acceleration_limit = "2000 gn"
+
+[[component]]
+name = "board"
+position = ["-40 mm", "-20 mm"]
+natural_frequency = "120 Hz"
+damping_ratio = 0.1
+rattle_space = "9 mm"
+"#;
+
+fn file(text: &str) -> ProductFile {
+    ProductFile::read(text, "plate.toml").unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+fn limits(text: &str) -> Vec<LimitAssessment> {
+    let assessment = file(text).assess().expect("an assessment");
+    assessment.components.into_iter().flat_map(|component| component.limits).collect()
+}
+
+fn demands(text: &str) -> Vec<f64> {
+    limits(text).into_iter().map(|limit| limit.demand.expect("an answer")).collect()
+}
+
+/// What two searches of one worst case may differ by: each may miss 2 %.
+const SEARCHES: f64 = 0.02;
+
+fn are_close(one: &[f64], other: &[f64], share: f64) {
+    assert_eq!(one.len(), other.len());
+    for (a, b) in one.iter().zip(other) {
+        assert!((a / b - 1.0).abs() < share, "{one:?} beside {other:?}");
+    }
+}
+
+/// Where β = 1 + α, two corners of an edge at once yield as the end of a bar does: μ = 1 + α + β is twice 1 + α. So the plate that
+/// rises along its length alone is that bar, but for cos φ of lever arms, below 1e-5 at a quarter of a degree.
+#[test]
+fn a_plate_that_lands_on_its_edge_is_a_bar() {
+    let (length, gyration, half_width) = (0.15_f64, 0.043_f64, 0.035_f64);
+    let alpha = (0.5 * length / gyration).powi(2);
+    let across = half_width / (1.0 + alpha).sqrt();
+    let drop = "[drop]\nspeed = \"3 m/s\"\ntilt = \"0.25 deg\"\n";
+    let parts = |place: &str, other: &str| {
+        format!(
+            "[[component]]\nname = \"hard\"\nposition = {place}\nmount = \"hard\"\nacceleration_limit = \"2000 gn\"\n\
+             velocity_change_limit = \"5 m/s\"\nangular_velocity_change_limit = \"50 rad/s\"\n\
+             [[component]]\nname = \"soft\"\nposition = {other}\nnatural_frequency = \"300 Hz\"\ndamping_ratio = 0.05\n\
+             acceleration_limit = \"2000 gn\"\nrattle_space = \"9 mm\"\n"
+        )
+    };
+    let common = "name = \"one\"\nlength = \"150 mm\"\nrestitution = 0.4\ncontact_time = \"0.4 ms\"\n";
+    let plate = format!(
+        "[product]\n{common}width = \"70 mm\"\nradius_of_gyration = [\"43 mm\", \"{} mm\"]\n{drop}direction = \"0 deg\"\n{}",
+        1e3 * across,
+        parts("[\"60 mm\", \"0 mm\"]", "[\"-20 mm\", \"10 mm\"]")
+    );
+    let bar = format!(
+        "[product]\n{common}radius_of_gyration = \"43 mm\"\n{drop}first = \"a\"\n{}",
+        parts("\"60 mm\"", "\"-20 mm\"")
+    );
+    are_close(&demands(&plate), &demands(&bar), 1e-4);
+}
+
+/// A plate seen from above or from below, with the ends exchanged, and with length and width exchanged, is the same plate.
+#[test]
+fn a_plate_is_the_same_from_all_sides() {
+    let text = HANDHELD
+        .replace("[\"0 mm\", \"0 mm\"]", "[\"8 mm\", \"-3 mm\"]")
+        .replace("tilt = [\"0.5 deg\", \"4 deg\"]", "tilt = \"2 deg\"\ndirection = [\"20 deg\", \"70 deg\"]");
+    let own = demands(&text);
+    let mirrored = text
+        .replace("[\"8 mm\", \"-3 mm\"]", "[\"-8 mm\", \"-3 mm\"]")
+        .replace("[\"10 mm\", \"5 mm\"]", "[\"-10 mm\", \"5 mm\"]")
+        .replace("[\"-40 mm\", \"-20 mm\"]", "[\"40 mm\", \"-20 mm\"]")
+        .replace("[\"20 deg\", \"70 deg\"]", "[\"110 deg\", \"160 deg\"]");
+    are_close(&demands(&mirrored), &own, SEARCHES);
+    let turned = text
+        .replace("length = \"150 mm\"\nwidth = \"70 mm\"", "length = \"70 mm\"\nwidth = \"150 mm\"")
+        .replace("[\"43 mm\", \"20 mm\"]", "[\"20 mm\", \"43 mm\"]")
+        .replace("[\"8 mm\", \"-3 mm\"]", "[\"-3 mm\", \"8 mm\"]")
+        .replace("[\"10 mm\", \"5 mm\"]", "[\"5 mm\", \"10 mm\"]")
+        .replace("[\"20 mm\", \"10 mm\"]", "[\"10 mm\", \"20 mm\"]")
+        .replace("[\"-40 mm\", \"-20 mm\"]", "[\"-20 mm\", \"-40 mm\"]");
+    are_close(&demands(&turned), &own, SEARCHES);
+}
+
+/// A center of mass off both axes is followed over all directions, one in the middle over a quarter of them for all.
+#[test]
+fn a_symmetric_plate_is_followed_for_its_mirror_images() {
+    let any = demands(HANDHELD);
+    let all = HANDHELD.replace("tilt = [", "direction = [\"0 deg\", \"360 deg\"]\ntilt = [");
+    are_close(&any, &demands(&all), SEARCHES);
+    let worst = limits(HANDHELD)[0].worst_case.expect("a drop");
+    assert!(worst.direction_deg().is_some_and(|direction| (0.0..360.0).contains(&direction)));
+}
+
+/// Masses that lie askew turn the plate about both axes at once.
+#[test]
+fn masses_that_lie_askew_have_a_product_of_inertia() {
+    let masses = r#"masses = [
+    { mass = "100 g", from = ["-75 mm", "-35 mm"], to = ["75 mm", "35 mm"] },
+    { mass = "60 g", position = ["40 mm", "20 mm"] },
+    { mass = "60 g", position = ["-40 mm", "-20 mm"] },
+]"#;
+    let text =
+        HANDHELD.replace("radius_of_gyration = [\"43 mm\", \"20 mm\"]\ncenter_of_mass = [\"0 mm\", \"0 mm\"]", masses);
+    let width = file(&text).product.width.expect("a width");
+    // 2 · 60 g · 40 mm · 20 mm over 220 g; the slab has none of its own.
+    assert!((width.product_of_inertia_m2 - 0.12 * 0.04 * 0.02 / 0.22).abs() < 1e-12);
+    let [x, y] = [0.1 * 0.15 * 0.15 / 12.0 + 0.12 * 0.04 * 0.04, 0.1 * 0.07 * 0.07 / 12.0 + 0.12 * 0.02 * 0.02];
+    assert!((file(&text).product.gyration_m.lo() - (x / 0.22_f64).sqrt()).abs() < 1e-12);
+    assert!((width.gyration_m - (y / 0.22_f64).sqrt()).abs() < 1e-12);
+    // The diagonal with the masses is heavy, the other one light: its mirror image is another plate.
+    let mirrored = text
+        .replace("[\"40 mm\", \"20 mm\"]", "[\"40 mm\", \"-20 mm\"]")
+        .replace("[\"-40 mm\", \"-20 mm\"] },", "[\"-40 mm\", \"20 mm\"] },");
+    let differ = demands(&text).iter().zip(demands(&mirrored)).any(|(a, b)| (a / b - 1.0).abs() > 0.05);
+    assert!(differ, "{:?} beside {:?}", demands(&text), demands(&mirrored));
+}
+
+/// Real tilt, by a box with full rotation and another integration, is told beside each demand: little up to 4 degrees.
+#[test]
+fn a_box_at_real_tilt_says_nearly_the_same() {
+    for limit in limits(HANDHELD) {
+        let tilt =
+            limit.notes.iter().find_map(|note| if let Note::Tilt { off, .. } = note { Some(*off) } else { None });
+        assert!(tilt.is_some_and(|off| off.abs() < 0.03), "{:?}: {tilt:?}", limit.limit);
+    }
+}
+
+#[test]
+fn what_allows_more_is_safe() {
+    let text = HANDHELD.replace("2000 gn", "9000 gn").replace("9 mm\"", "60 mm\"");
+    let assessment = file(&text).assess().expect("an assessment");
+    assert_eq!(assessment.verdict, Verdict::Safe);
+    let unsafe_one = file(&text.replace("9000 gn", "1000 gn")).assess().expect("an assessment");
+    assert_eq!(unsafe_one.verdict, Verdict::Unsafe);
+    for limit in assessment.components.iter().flat_map(|component| &component.limits) {
+        assert!(limit.bound.zip(limit.demand).is_none_or(|(bound, demand)| demand <= bound));
+    }
+}
+
+#[test]
+fn faults_of_plates_are_told() {
+    let cases = [
+        ("contact_time = \"0.4 ms\"\n", "", "needs the `contact_time`"),
+        ("[\"10 mm\", \"5 mm\"]", "\"10 mm\"", "along the length and along the width"),
+        ("[\"10 mm\", \"5 mm\"]", "[\"10 mm\", \"31 mm\"]", "reaches 36 mm from the middle across the product"),
+        (
+            "[\"43 mm\", \"20 mm\"]",
+            "[\"43 mm\", \"2 mm\"]",
+            "of the mass along the width is 2 mm in a product 70 mm wide",
+        ),
+        ("[\"43 mm\", \"20 mm\"]", "[\"43 mm\", [\"19 mm\", \"20 mm\"]]", "of the mass along the width has a range"),
+        ("[\"0 mm\", \"0 mm\"]", "[\"0 mm\", \"34 mm\"]", "34 mm from the middle of a product 70 mm wide"),
+        ("tilt = [", "first = \"a\"\ntilt = [", "a product with a `width` has no `first`"),
+        ("width = \"70 mm\"", "width = \"0 mm\"", "`width` = \"0 mm\" is out of its range"),
+        ("tilt = [", "direction = \"400 deg\"\ntilt = [", "`direction` = \"400 deg\" is out of its range"),
+    ];
+    for (from, to, told) in cases {
+        assert!(HANDHELD.contains(from), "{from}");
+        let said = ProductFile::read(&HANDHELD.replacen(from, to, 1), "plate.toml").expect_err(told).to_string();
+        assert!(said.contains(told), "{said}");
+    }
+    let bar = "product = { name = \"bar\", length = \"150 mm\", radius_of_gyration = \"43 mm\", restitution = 0.4 }\n\
+               drop = { height = \"1 m\", tilt = \"1 deg\", direction = \"10 deg\" }\n\
+               component = [{ name = \"p\", position = \"0 mm\", mount = \"hard\", velocity_change_limit = \"9 m/s\" }]\n";
+    let said = ProductFile::read(bar, "bar.toml").expect_err("a direction").to_string();
+    assert!(said.contains("a product without `width` has no `direction`"), "{said}");
+}
