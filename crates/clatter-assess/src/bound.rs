@@ -6,7 +6,8 @@
 
 use clatter_flight::{Contact, ContactLaw};
 
-use crate::drop::{Across, SingleDrop};
+use crate::drop::{Across, Posture, SingleDrop};
+use crate::engine::Spot;
 use crate::quantity::Source;
 use crate::{Component, Drop, Limit, Mount, Product};
 
@@ -22,12 +23,13 @@ use crate::{Component, Drop, Limit, Mount, Product};
 pub(crate) fn bound(
     product: &Product,
     drop: &Drop,
+    posture: Option<Posture>,
     component: &Component,
     limit: &Limit,
     law: ContactLaw,
 ) -> Option<f64> {
     if product.width.is_some() {
-        return of_plate(product, drop, component, limit, law);
+        return of_plate(product, drop, posture, component, limit, law);
     }
     let [a, b] = product.body.arms_m();
     // All that follows grows as the radius of gyration shrinks.
@@ -81,12 +83,19 @@ pub(crate) fn bound(
 /// With places p and corners q in radii of gyration, an impulse J over the mass at q gives p `J (1 + p·q)`, at real tilt at most
 /// `J (1 + |p||q|)`, and speeds at p are at most √(2E (1 + p²)). Contacts that hold E_i on their lines of first loading press with
 /// √(2E_i) ω₁/√μ_i, μ_i = 1 + q_i²; all of them hold E at most, so that together they do the root of the sum of the squares.
-fn of_plate(product: &Product, drop: &Drop, component: &Component, limit: &Limit, law: ContactLaw) -> Option<f64> {
+fn of_plate(
+    product: &Product,
+    drop: &Drop,
+    posture: Option<Posture>,
+    component: &Component,
+    limit: &Limit,
+    law: ContactLaw,
+) -> Option<f64> {
     let contact_s = product.contact_time_s.as_ref()?;
     let [_, fastest] = drop.speeds_m_s();
     let one = SingleDrop {
         body: product.body_at(0.0),
-        across: Some(Across { width: product.width?, direction_rad: 0.0 }),
+        across: Some(Across { width: product.width?, direction_rad: 0.0, posture }),
         first: clatter::End::A,
         tilt_rad: drop.tilt_rad.hi(),
         flat: false,
@@ -97,10 +106,13 @@ fn of_plate(product: &Product, drop: &Drop, component: &Component, limit: &Limit
         contact_law: law,
     };
     let norm = |[x, y]: [f64; 2]| libm::hypot(x, y);
-    let corners = one.in_radii([0.0; 2]).0;
-    let farthest = component.ends_m().into_iter().map(|at| norm(one.in_radii(at).1)).fold(0.0, f64::max);
+    let spot = |at_m: [f64; 2]| Spot { at_m, inside: component.inside };
+    let corners = one.in_radii(&spot([0.0; 2])).0;
+    let farthest = component.ends_m().into_iter().map(|at| norm(one.in_radii(&spot(at)).1)).fold(0.0, f64::max);
     let ([a, b], [front, back]) = (product.body.arms_m(), product.width?.edges_m);
-    let height = libm::hypot(a.max(b), front.max(back)) * libm::sin(drop.tilt_rad.hi());
+    let reach = libm::hypot(a.max(b), front.max(back));
+    // A box may come to lie on another face.
+    let height = posture.map_or(reach * libm::sin(drop.tilt_rad.hi()), |of| libm::hypot(reach, of.thickness_m));
     let speed = (fastest * fastest + 2.0 * drop.gravity_m_s2 * height).sqrt(); // √(2E)
     match limit.kind.source() {
         Source::Shock | Source::Boundary => {

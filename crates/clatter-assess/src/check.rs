@@ -8,8 +8,8 @@ use crate::keys::{self, Key, Kind, MOST_COMPONENTS};
 use crate::quantity::Source;
 use crate::quantity::lacks_contact_time;
 use crate::{
-    Component, Damping, DataFault, Drop, Error, Fall, First, Law, LimitKind, Mount, Product, ProductFile, RecordFile,
-    Spread, Width,
+    Axis, Component, Damping, DataFault, Drop, Error, Fall, First, Inside, Law, LimitKind, Mount, Product, ProductFile,
+    RecordFile, Spread, Width,
 };
 
 /// How far the center of mass may lie from the middle, over the length.
@@ -41,10 +41,13 @@ impl ProductFile {
     pub fn check(&self) -> Result<(), Error> {
         self.product.check()?;
         self.drop.check(self.product.width.is_some())?;
+        self.check_landings()?;
         number_of_components(self.components.len())?;
         let mut names = HashSet::new();
         for component in &self.components {
             component.check(&self.product)?;
+            let box_or_not = component.check_axis(!self.landings.is_empty());
+            box_or_not.map_err(|fault| Error::Data { component: Some(component.name.clone()), fault })?;
             if !names.insert(told_apart(&component.name)) {
                 return Err(DataFault::SameName(component.name.clone()).into());
             }
@@ -56,7 +59,32 @@ impl ProductFile {
     }
 }
 
+/// Products of inertia up to this share of both radii of gyration are left out of a box.
+const ASKEW: f64 = 0.05;
+
 impl ProductFile {
+    fn check_landings(&self) -> Result<(), DataFault> {
+        if self.landings.is_empty() {
+            return Ok(());
+        }
+        let width = self.product.width.filter(|width| width.thickness_m.is_some());
+        let width = width.ok_or(DataFault::BoxWithoutThickness)?;
+        let share = width.product_of_inertia_m2 / (self.product.gyration_m.lo() * width.gyration_m);
+        if share.abs() > ASKEW {
+            return Err(DataFault::Askew { share });
+        }
+        if self.drop.direction_rad.is_some() {
+            return Err(DataFault::OfPlate { field: "direction" });
+        }
+        for landing in &self.landings {
+            match &landing.fall {
+                Fall::HeightM(height) => spread(keys::DROP, "height", Some(height))?,
+                Fall::SpeedMS(speed) => spread(keys::DROP, "speed", Some(speed))?,
+            }
+            one(keys::DROP, "attitude_tolerance", landing.tolerance_rad)?;
+        }
+        Ok(())
+    }
     /// Refuses a plate where bars alone are taken.
     pub(crate) fn check_bar(&self, what: &'static str) -> Result<(), Error> {
         if self.product.width.is_some() { Err(Error::OfBars(what)) } else { Ok(()) }
@@ -153,6 +181,17 @@ impl Drop {
 }
 
 impl Component {
+    /// Whether it moves along an axis that it has.
+    pub(crate) fn check_axis(&self, of_box: bool) -> Result<(), DataFault> {
+        let Inside { height_m, axis } = self.inside;
+        one(keys::COMPONENT, "height", height_m)?;
+        if !of_box && height_m != 0.0 {
+            return Err(DataFault::OfBar { field: "height" });
+        }
+        let has = of_box && (axis != Axis::Any || self.mount == Mount::Hard) || axis == Axis::Z;
+        if has { Ok(()) } else { Err(DataFault::Axis(axis.name())) }
+    }
+
     /// Whether it is within the product.
     pub(crate) fn fits(&self, product: &Product) -> Result<(), DataFault> {
         let reach_m = self.position_m.lo().abs().max(self.position_m.hi().abs()) + 0.5 * self.extent_m;

@@ -3,6 +3,8 @@
 use clatter::{Excitation, Section};
 use clatter_flight::{BlockDrop, Contact, Error, Motion, PlateMotion, Stop};
 
+use crate::Axis;
+
 /// What became of a drop.
 #[derive(Debug, Clone)]
 pub(crate) enum Course {
@@ -22,7 +24,7 @@ macro_rules! of_each {
     };
 }
 
-/// A motion of a box, followed to a time, as places in it feel it across its length and width.
+/// A motion of a box, followed to a time, as places in it feel it.
 #[derive(Debug, Clone)]
 pub(crate) struct BlockMotion {
     contact: Contact,
@@ -30,9 +32,11 @@ pub(crate) struct BlockMotion {
     stop: Stop,
     presses: Vec<(usize, [f64; 2])>,
     largest_m_s: f64,
+    /// What later strikes may change the velocity of the center of mass by: all of the energy that is left is given back there.
+    pub(crate) center_m_s: f64,
     times_s: Vec<f64>,
-    /// What the center of mass feels, and what a meter along x and along y adds.
-    felt: [Vec<f64>; 3],
+    /// Along each axis of the box, what the center of mass feels, and what a meter along x, y and z adds.
+    felt: Vec<[[f64; 4]; 3]>,
 }
 
 /// Straight lines in a step of a box, which is a small part of a contact.
@@ -40,38 +44,67 @@ const LINES: u32 = 4;
 
 impl BlockMotion {
     pub(crate) fn new(drop: &BlockDrop, contact: &Contact) -> Result<Self, Error> {
-        let (mut times_s, mut felt) = (Vec::new(), [const { Vec::new() }; 3]);
-        let places = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let (mut times_s, mut felt) = (Vec::new(), Vec::new());
+        let places = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let flight = drop.contacts(contact, |step| {
             for k in 0..=LINES {
                 let share = f64::from(k) / f64::from(LINES);
                 times_s.push(step.from_s + share * step.length_s);
-                let [center, x, y] = places.map(|place| step.felt_m_s2(place, share)[2]);
-                for (values, value) in felt.iter_mut().zip([center, x - center, y - center]) {
-                    values.push(value);
-                }
+                let [center, x, y, z] = places.map(|place| step.felt_m_s2(place, share));
+                felt.push([0, 1, 2].map(|i| [center[i], x[i] - center[i], y[i] - center[i], z[i] - center[i]]));
             }
         })?;
-        let largest_m_s = flight.strikes.iter().flat_map(|s| s.delta_v_m_s).fold(0.0_f64, |most, v| most.max(v.abs()));
         let presses = flight.strikes.iter().map(|s| (s.corner, [s.time_s, s.until_s])).collect();
-        let (stop, gravity_m_s2) = (flight.stop, drop.gravity_m_s2());
-        Ok(Self { contact: *contact, gravity_m_s2, stop, presses, largest_m_s, times_s, felt })
+        let (center_m_s, stop) = match flight.stop {
+            Stop::AtRest { shock_bound_m_s, .. } => (shock_bound_m_s, flight.stop),
+            Stop::TimeLimit { time_s } => {
+                ((1.0 + contact.restitution()) * flight.left_m_s(drop), Stop::Enough { time_s })
+            }
+            stop => (if matches!(stop, Stop::BouncedClear { .. }) { 0.0 } else { f64::INFINITY }, stop),
+        };
+        let (gravity_m_s2, largest_m_s) = (drop.gravity_m_s2(), flight.largest_m_s());
+        Ok(Self { contact: *contact, gravity_m_s2, stop, presses, largest_m_s, center_m_s, times_s, felt })
     }
 
-    /// What a sum of these shares of center, x and y feels.
-    fn felt_by(&self, shares: [f64; 3]) -> Excitation {
-        let at = |k: usize| (0..3).map(|i| shares[i] * self.felt[i][k]).sum::<f64>();
-        let mut all = Excitation::with_capacity(self.times_s.len());
-        for (k, times) in self.times_s.windows(2).enumerate().filter(|(_, times)| times[0] < times[1]) {
+    /// A value of every sample as straight lines.
+    fn lines(&self, of: impl Fn(&[[f64; 4]; 3]) -> f64) -> Excitation {
+        let values: Vec<f64> = self.felt.iter().map(of).collect();
+        let mut all = Excitation::with_capacity(values.len());
+        for (times, ends) in self.times_s.windows(2).zip(values.windows(2)).filter(|(times, _)| times[0] < times[1]) {
             let section = Section::shock(times[0], times[1] - times[0], 0.0);
-            all.push(Section { acceleration: [at(k), at(k + 1)], ..section });
+            all.push(Section { acceleration: [ends[0], ends[1]], ..section });
         }
         all
     }
-    /// What a place feels, x, y in m from the center of mass.
-    pub(crate) fn felt(&self, [x, y]: [f64; 2]) -> Excitation {
-        self.felt_by([1.0, x, y])
+    /// What a place feels along an axis, from the center of mass.
+    pub(crate) fn felt(&self, [x, y, z]: [f64; 3], axis: Axis) -> Excitation {
+        let along = |of: &[f64; 4]| of[0] + x * of[1] + y * of[2] + z * of[3];
+        match axis {
+            Axis::X | Axis::Y | Axis::Z => self.lines(|felt| along(&felt[axis as usize])),
+            Axis::Any => self.lines(|felt| {
+                let [x, y, z] = [0, 1, 2].map(|i| along(&felt[i]));
+                libm::hypot(libm::hypot(x, y), z)
+            }),
+        }
     }
+    /// The angular acceleration about an axis: half of what it does to places on both sides, by the curl of what they feel.
+    fn turned_about(&self, about: [f64; 3]) -> Excitation {
+        let curl =
+            |f: &[[f64; 4]; 3]| [f[2][2] - f[1][3], f[0][3] - f[2][1], f[1][1] - f[0][2]].map(|twice| 0.5 * twice);
+        self.lines(|felt| curl(felt).iter().zip(about).map(|(a, b)| a * b).sum())
+    }
+}
+
+/// Axes about which the turning of a box is looked at, all over half of a sphere: one is within 11° of any, 2 %.
+const AXES: u32 = 64;
+
+fn axes() -> impl Iterator<Item = [f64; 3]> {
+    (0..AXES).map(|k| {
+        let z = (f64::from(k) + 0.5) / f64::from(AXES);
+        let (sin, cos) = libm::sincos(std::f64::consts::TAU * (0.618_033_988_749_895 * f64::from(k)).fract());
+        let across = (1.0 - z * z).sqrt();
+        [across * cos, across * sin, z]
+    })
 }
 
 /// Directions along a plate, between which the change of its angular velocity is at most half a percent more than along one of them.
@@ -93,7 +126,7 @@ impl Course {
         of_each!(self, motion => motion.stop, block => block.stop)
     }
     pub(crate) fn later_m_s(&self) -> f64 {
-        of_each!(self, motion => motion.later_m_s, _block => 0.0)
+        of_each!(self, motion => motion.later_m_s, block => block.center_m_s)
     }
     pub(crate) fn largest_m_s(&self) -> f64 {
         of_each!(self, motion => motion.largest_m_s(), block => block.largest_m_s)
@@ -124,7 +157,7 @@ impl Course {
         match self {
             Self::Bar(motion) => vec![motion.turned()],
             Self::Plate(motion) => directions().map(|along| motion.turned(along)).collect(),
-            Self::Block(motion) => directions().map(|[x, y]| motion.felt_by([0.0, x, y])).collect(),
+            Self::Block(motion) => axes().map(|about| motion.turned_about(about)).collect(),
         }
     }
 }

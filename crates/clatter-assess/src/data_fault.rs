@@ -2,6 +2,7 @@
 
 use crate::LimitKind;
 use crate::keys::MOST_COMPONENTS;
+use crate::standard;
 
 /// What is wrong with data of a product.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,6 +66,33 @@ pub enum DataFault {
         /// The key.
         field: &'static str,
     },
+    /// A box without its thickness.
+    BoxWithoutThickness,
+    /// A box whose masses lie askew of its sides.
+    Askew {
+        /// ∫x y dm over the mass, over the product of both radii of gyration.
+        share: f64,
+    },
+    /// What an attitude is not called.
+    Attitude {
+        /// The key.
+        field: &'static str,
+        /// Its value.
+        value: String,
+    },
+    /// A drop standard that is not built in.
+    Standard(String),
+    /// A standard that goes by the mass, of a product without one.
+    StandardNeedsMass,
+    /// A product that is too heavy for a standard.
+    StandardMass {
+        /// Its mass.
+        mass_kg: f64,
+        /// At most.
+        most_kg: f64,
+    },
+    /// An axis of a part that is no box's, or that a part on a suspension does not have.
+    Axis(&'static str),
     /// A body whose end a is not left of its center of mass and end b right of it, both level with it.
     Ends {
         /// Both ends from the center of mass, \[x, z\].
@@ -120,6 +148,7 @@ pub enum DataFault {
 impl DataFault {
     /// What is wrong, with the value, and what is allowed.
     #[must_use]
+    #[expect(clippy::too_many_lines, reason = "a sentence for each")]
     pub fn told(&self) -> [String; 2] {
         match self {
             Self::Value { field, value, unit, allowed } => {
@@ -137,6 +166,43 @@ impl DataFault {
             Self::Gyration { gyration_m, length_m } => [
                 format!("the radius of gyration is {} mm in a product of {} mm", mm(*gyration_m), mm(*length_m)),
                 "allowed: from 0.05 to 2 times the length".to_owned(),
+            ],
+            Self::Ends { points_m } => [
+                format!("the ends of the body are at {points_m:?} m from its center of mass"),
+                "allowed: end a at [-x, 0], end b at [x, 0], x above 0".to_owned(),
+            ],
+            Self::OtherGyration { gyration_m, middle_m } => [
+                format!("the radius of gyration of the body is {} mm", mm(*gyration_m)),
+                format!("allowed: {} mm, the middle of the range that the product gives", mm(*middle_m)),
+            ],
+            Self::NoGravity => [
+                "without gravity nothing falls from a `height`".to_owned(),
+                "give the `speed` at the first touch instead".to_owned(),
+            ],
+            Self::Components(count) => {
+                [format!("`component` has {count} entries"), format!("expected 1 to {MOST_COMPONENTS}")]
+            }
+            Self::NoName => ["`name` is empty".to_owned(), "expected a name".to_owned()],
+            Self::SameName(name) => {
+                [format!("two components are named {name:?}"), "give each component a name of its own".to_owned()]
+            }
+            Self::Reach { reach_m, half_m } => [
+                format!("the component reaches {} mm from the middle", mm(*reach_m)),
+                format!("allowed: up to {} mm, half of the product's length; extent counts on both sides", mm(*half_m)),
+            ],
+            Self::NoLimit => {
+                let keys = LimitKind::ALL.map(LimitKind::key).join(", ");
+                ["it has no limit".to_owned(), format!("give at least one of {keys}")]
+            }
+            Self::NoAcceleration => {
+                ["its damage boundary has a velocity change alone".to_owned(), "give its acceleration too".to_owned()]
+            }
+            Self::Hard { field } => {
+                [format!("a hard-mounted part has no `{field}`"), "leave one of both out".to_owned()]
+            }
+            Self::Sensor { position_m, half_m } => [
+                format!("the acceleration was measured {} mm from the middle", mm(*position_m)),
+                format!("allowed: up to {} mm, half of the product's length", mm(*half_m)),
             ],
             Self::CenterAcross { center_m, width_m } => [
                 format!(
@@ -169,46 +235,46 @@ impl DataFault {
             Self::OfBar { field } => {
                 [format!("a product without `width` has no `{field}`"), "leave it out, or give the width".to_owned()]
             }
-            Self::Ends { points_m } => [
-                format!("the ends of the body are at {points_m:?} m from its center of mass"),
-                "allowed: end a at [-x, 0], end b at [x, 0], x above 0".to_owned(),
+            Self::BoxWithoutThickness => [
+                "a drop on a face, an edge or a corner is that of a box".to_owned(),
+                "add `width` and `thickness` to [product]".to_owned(),
             ],
-            Self::OtherGyration { gyration_m, middle_m } => [
-                format!("the radius of gyration of the body is {} mm", mm(*gyration_m)),
-                format!("allowed: {} mm, the middle of the range that the product gives", mm(*middle_m)),
+            Self::Askew { share } => [
+                format!("the masses of a box lie askew of its sides: their product of inertia is {share:.3} of both radii of gyration"),
+                "allowed: up to 0.05, which is left out".to_owned(),
             ],
-            Self::NoGravity => [
-                "without gravity nothing falls from a `height`".to_owned(),
-                "give the `speed` at the first touch instead".to_owned(),
+            Self::Attitude { field, value } => [
+                format!("`{field}` cannot be {value:?}"),
+                match *field {
+                    "face" => "expected one of end-a, end-b, front, back, bottom, top",
+                    "edge" => "expected two faces that meet, such as \"bottom front\"",
+                    _ => "expected three faces that meet, such as \"bottom front end-a\"",
+                }
+                .to_owned(),
             ],
-            Self::Components(count) => {
-                [format!("`component` has {count} entries"), format!("expected 1 to {MOST_COMPONENTS}")]
-            }
-            Self::NoName => ["`name` is empty".to_owned(), "expected a name".to_owned()],
-            Self::SameName(name) => {
-                [format!("two components are named {name:?}"), "give each component a name of its own".to_owned()]
-            }
-            Self::Reach { reach_m, half_m } => [
-                format!("the component reaches {} mm from the middle", mm(*reach_m)),
-                format!("allowed: up to {} mm, half of the product's length; extent counts on both sides", mm(*half_m)),
+            Self::Standard(keyword) => [
+                format!("the drops of {keyword:?} are not built in"),
+                format!(
+                    "built in: {}; of others give `height`, `face`, `edge` or `corner`, and `attitude_tolerance` by hand",
+                    standard::STANDARDS.iter().map(|standard| standard.keyword).collect::<Vec<_>>().join(", ")
+                ),
+            ],
+            Self::StandardNeedsMass => [
+                "the `standard` goes by the mass of the product".to_owned(),
+                "add mass = \"190 g\" or `masses` to [product]".to_owned(),
+            ],
+            Self::StandardMass { mass_kg, most_kg } => [
+                format!("the product has {mass_kg} kg: the standard lists no drops of it"),
+                format!("allowed: up to {most_kg} kg"),
+            ],
+            Self::Axis(axis) => [
+                format!("`axis` = {axis:?} is not that of this part"),
+                "x and y are axes of parts of a box with drops on its faces, edges or corners; any is for parts mounted rigidly there"
+                    .to_owned(),
             ],
             Self::ReachAcross { reach_m, half_m } => [
                 format!("the component reaches {} mm from the middle across the product", mm(*reach_m)),
                 format!("allowed: up to {} mm, half of the product's width; extent counts on both sides", mm(*half_m)),
-            ],
-            Self::NoLimit => {
-                let keys = LimitKind::ALL.map(LimitKind::key).join(", ");
-                ["it has no limit".to_owned(), format!("give at least one of {keys}")]
-            }
-            Self::NoAcceleration => {
-                ["its damage boundary has a velocity change alone".to_owned(), "give its acceleration too".to_owned()]
-            }
-            Self::Hard { field } => {
-                [format!("a hard-mounted part has no `{field}`"), "leave one of both out".to_owned()]
-            }
-            Self::Sensor { position_m, half_m } => [
-                format!("the acceleration was measured {} mm from the middle", mm(*position_m)),
-                format!("allowed: up to {} mm, half of the product's length", mm(*half_m)),
             ],
         }
     }

@@ -8,8 +8,10 @@ use clatter_flight::{
 };
 use serde::Serialize;
 
+use crate::attitude::turned_off;
 use crate::course::{BlockMotion, Course};
-use crate::{Error, Width};
+use crate::engine::Spot;
+use crate::{Axis, Error, Inside, Width};
 
 /// How a drop is answered: from the least physics to the most.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -96,6 +98,17 @@ pub struct Across {
     /// Where the plate rises to from its lowest corner, in rad from the length, towards end b, towards the width: at 0 and at right
     /// angles it lands on an edge.
     pub direction_rad: f64,
+    /// Of a box that lands on anything: tilt and direction are off this.
+    pub posture: Option<Posture>,
+}
+
+/// How a box lands but for its tolerance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Posture {
+    /// The vertical in axes of the box.
+    pub upward: [f64; 3],
+    /// Its thickness; mass is spread evenly over it.
+    pub thickness_m: f64,
 }
 
 impl Across {
@@ -107,6 +120,10 @@ impl Across {
     /// The end of its lowest corner.
     pub(crate) fn first(&self) -> End {
         if self.signs()[0] < 0.0 { End::B } else { End::A }
+    }
+    /// The vertical in axes of a box at this tilt off its posture.
+    pub(crate) fn upward_of(&self, posture: &Posture, tilt_rad: f64) -> [f64; 3] {
+        turned_off(posture.upward, tilt_rad, self.direction_rad)
     }
     /// −1 for the sides of the plate that are exchanged, so that its lowest corner is the first.
     pub(crate) fn signs(&self) -> [f64; 2] {
@@ -150,9 +167,19 @@ impl SingleDrop {
             length * cos + across.width.m() * sin
         })
     }
+    /// How far the last point of what lands has to come down.
+    fn gap_m(&self) -> f64 {
+        let (Some(across), Some(posture)) = (&self.across, self.across.and_then(|across| across.posture)) else {
+            return self.reach_m() * libm::sin(self.tilt_rad);
+        };
+        let upward = across.upward_of(&posture, self.tilt_rad);
+        let sides = [self.body.length_m(), across.width.m(), posture.thickness_m];
+        let rises = [0, 1, 2].map(|axis| sides[axis] * upward[axis].abs());
+        rises.iter().sum::<f64>() - rises.iter().fold(0.0_f64, |most, rise| most.max(*rise))
+    }
     /// How long the clatter takes, about: four times what the raised end needs to come down, and some contacts.
     pub(crate) fn clatter_s(&self) -> f64 {
-        let gap_m = self.reach_m() * libm::sin(self.tilt_rad);
+        let gap_m = self.gap_m();
         4.0 * (gap_m / self.speed_m_s + self.contact_time_s.unwrap_or(0.0))
     }
     /// Whether the ends land so close after one another that no contact tells them apart: within this time, where that of a contact
@@ -208,16 +235,23 @@ impl SingleDrop {
         let (kx, ky, kz) = (self.body.gyration_m(), width.gyration_m, thickness_m / 12_f64.sqrt());
         let radii = [libm::hypot(ky, kz), libm::hypot(kx, kz), libm::hypot(kx, ky)];
         let block = Block::new([a + b, width.m(), thickness_m], [0.5 * (a - b), width.center_m(), 0.0], radii)?;
-        let direction = across.direction_rad % TAU;
-        Ok(BlockDrop::tilted(block, self.tilt_rad, direction, self.speed_m_s, self.gravity_m_s2)?)
+        let (speed, gravity) = (self.speed_m_s, self.gravity_m_s2);
+        Ok(match &across.posture {
+            Some(posture) => BlockDrop::upright(block, across.upward_of(posture, self.tilt_rad), speed, gravity)?,
+            None => BlockDrop::tilted(block, self.tilt_rad, across.direction_rad % TAU, speed, gravity)?,
+        })
     }
     /// Points that touch the ground and a place, from the center of mass, in units in which an impulse of 1 over the mass at p does
     /// 1 + p·q to q: x/ρ of a bar.
-    pub(crate) fn in_radii(&self, [x, y]: [f64; 2]) -> (Vec<[f64; 2]>, [f64; 2]) {
+    pub(crate) fn in_radii(&self, spot: &Spot) -> (Vec<[f64; 2]>, [f64; 2]) {
+        let Spot { at_m: [x, y], inside } = *spot;
         let ([a, b], rho) = (self.body.arms_m(), self.body.gyration_m());
-        let Some(Across { width, .. }) = self.across else {
+        let Some(Across { width, posture, .. }) = self.across else {
             return (vec![[-a / rho, 0.0], [b / rho, 0.0]], [(x + 0.5 * (b - a)) / rho, 0.0]);
         };
+        if let Some(posture) = posture {
+            return self.in_radii_of_box(&width, &posture, [x, y], inside);
+        }
         let lean = width.product_of_inertia_m2 / (rho * rho);
         let across = (width.gyration_m * width.gyration_m - lean * lean * rho * rho).sqrt();
         let of = |[x, y]: [f64; 2]| [x / rho, (y - lean * x) / across];
@@ -225,16 +259,51 @@ impl SingleDrop {
         let corners = [[-a, -front], [b, -front], [b, back], [-a, back]];
         (corners.map(of).to_vec(), of([x + 0.5 * (b - a), y - width.center_m()]))
     }
+    /// The same of a box that lies on the face across the axis of the part; of any axis, of the one that says most.
+    fn in_radii_of_box(
+        &self,
+        width: &Width,
+        posture: &Posture,
+        at_m: [f64; 2],
+        inside: Inside,
+    ) -> (Vec<[f64; 2]>, [f64; 2]) {
+        let ([a, b], [front, back], half) = (self.body.arms_m(), width.edges_m, 0.5 * posture.thickness_m);
+        let ([x, y], kz) = (self.about_center(at_m), posture.thickness_m / 12_f64.sqrt());
+        let (sides, place) = ([[-a, b], [-front, back], [-half, half]], [x, y, inside.height_m]);
+        let k = [self.body.gyration_m(), width.gyration_m, kz];
+        let of = |axis: usize| {
+            let [i, j] = [(axis + 1) % 3, (axis + 2) % 3];
+            // The mass along one side and that along the axis turn about the other side.
+            let radii = [i, j].map(|side| libm::hypot(k[side], k[axis]));
+            let corner = |p: f64, q: f64| [p / radii[0], q / radii[1]];
+            let corners = sides[i].iter().flat_map(|&p| sides[j].iter().map(move |&q| corner(p, q))).collect();
+            (corners, corner(place[i], place[j]))
+        };
+        let far = |(_, [p, q]): &(Vec<[f64; 2]>, [f64; 2])| p * p + q * q;
+        match inside.axis {
+            Axis::Any => {
+                let all = (0..3).map(of).max_by(|a, b| far(a).total_cmp(&far(b)));
+                all.unwrap_or_else(|| unreachable!("there are three axes"))
+            }
+            axis => of(axis as usize),
+        }
+    }
     /// The smallest radius of gyration.
     pub(crate) fn least_gyration_m(&self) -> f64 {
-        let across = self.across.map_or(f64::INFINITY, |across| across.width.least_gyration_m(self.body.gyration_m()));
-        self.body.gyration_m().min(across)
+        let along = self.body.gyration_m();
+        let Some(Across { width, posture, .. }) = self.across else { return along };
+        let thin = posture.map_or(0.0, |posture| posture.thickness_m / 12_f64.sqrt());
+        libm::hypot(width.least_gyration_m(along), thin)
     }
     /// What a place feels of a motion of this drop.
-    pub(crate) fn felt(&self, motion: &Course, at: [f64; 2]) -> clatter::Excitation {
+    pub(crate) fn felt(&self, motion: &Course, spot: &Spot) -> clatter::Excitation {
+        let at = spot.at_m;
         match (motion, &self.across) {
             (Course::Plate(motion), Some(across)) => motion.felt(self.place(across, at)),
-            (Course::Block(motion), Some(_)) => motion.felt(self.about_center(at)),
+            (Course::Block(motion), Some(_)) => {
+                let [x, y] = self.about_center(at);
+                motion.felt([x, y, spot.inside.height_m], spot.inside.axis)
+            }
             (Course::Bar(motion), _) => motion.felt(self.relative(at[0])),
             (Course::Plate(_) | Course::Block(_), None) => unreachable!("they have a width"),
         }
@@ -265,6 +334,9 @@ pub(crate) const LEAST_SHARE: f64 = 0.02;
 const LATE: f64 = 0.25;
 /// Strikes followed at most.
 const MOST_STRIKES: usize = 1024;
+/// A box is followed for so many times its clatter where rebounds count, and to where little is left.
+const REBOUNDED: f64 = 4.0;
+const OVER: f64 = 8.0;
 
 /// Precision of a flight, as a share of the tolerance of its answer.
 pub(crate) const PRECISION: f64 = 0.1;
@@ -326,7 +398,18 @@ impl Followed {
                     Until::Over => false,
                 }
         };
-        let (motion, precision) = if let Some(across) = &drop.across {
+        let posture = drop.across.and_then(|across| across.posture);
+        let (motion, precision) = if let (Some(across), Some(posture)) = (&drop.across, posture) {
+            let Physics::Contacts(contact) = model.physics(drop)? else { return Err(Error::PlateModel(model)) };
+            let until_s = match until {
+                Until::Lands => clatter_s,
+                Until::Rebounded => REBOUNDED * clatter_s,
+                Until::Past(time_s) => time_s.max(clatter_s),
+                Until::Over => OVER * clatter_s,
+            };
+            let block = drop.block_drop(across, posture.thickness_m)?.with_time_limit_s(until_s)?;
+            (Course::Block(BlockMotion::new(&block, &contact)?), 0.0)
+        } else if let Some(across) = &drop.across {
             let Physics::Contacts(contact) = model.physics(drop)? else { return Err(Error::PlateModel(model)) };
             let enough =
                 |ahead: &Ahead<4>| is_over(ahead.time_s, given_back * ahead.most_m_s, ahead.largest_m_s, ahead.lands);

@@ -5,17 +5,17 @@
 
 mod later;
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, SQRT_2};
 use std::sync::OnceLock;
 
 use clatter::{Bar, End, EndPeaks, Excitation, Start};
 use clatter_shock::{Pulses, Response, Suspension};
 
-use crate::drop::{Followed, Model, PRECISION, SingleDrop};
+use crate::drop::{Followed, Model, PRECISION, SingleDrop, Until};
 use crate::history::{SHORT, pulses};
 use crate::quantity::{ResponsePeak, Source};
 use crate::shock::{Shock, largest, samples};
-use crate::{DataFault, Error, Limit, Unit};
+use crate::{DataFault, Error, Inside, Limit, Unit};
 pub(crate) use later::CHATTER;
 use later::{GivenUp, Later, slowest};
 
@@ -26,6 +26,8 @@ pub struct Part {
     pub position_m: f64,
     /// From the middle across a plate; 0 of a bar.
     pub across_m: f64,
+    /// How it lies in a box.
+    pub inside: Inside,
     /// How it is held; none where it is mounted rigidly.
     pub suspension: Option<Suspension>,
 }
@@ -34,11 +36,28 @@ impl Part {
     /// A part of a bar, so far from its middle towards end b.
     #[must_use]
     pub fn new(position_m: f64, suspension: Option<Suspension>) -> Self {
-        Self { position_m, across_m: 0.0, suspension }
+        Self { position_m, across_m: 0.0, inside: Inside::default(), suspension }
     }
     /// Where it is, along and across the product.
     pub(crate) fn at_m(&self) -> [f64; 2] {
         [self.position_m, self.across_m]
+    }
+    pub(crate) fn spot(&self) -> Spot {
+        Spot { at_m: self.at_m(), inside: self.inside }
+    }
+}
+
+/// A place, and along which axis of a box it is shaken.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Spot {
+    pub(crate) at_m: [f64; 2],
+    pub(crate) inside: Inside,
+}
+
+impl From<[f64; 2]> for Spot {
+    /// Of a bar or of a plate.
+    fn from(at_m: [f64; 2]) -> Self {
+        Self { at_m, inside: Inside::default() }
     }
 }
 
@@ -138,6 +157,8 @@ pub fn answer(drop: &SingleDrop, part: &Part, limit: &Limit, model: Model, toler
 /// Differences are told so many times as large as they are: the factor of the grid convergence index (Roache 1994) for three runs
 /// and more.
 pub(crate) const SAFETY: f64 = 1.25;
+/// A box that differs a little is followed so far past the peak.
+const PAST_PEAK: f64 = 1.25;
 /// A drop is followed again by so much more exactly.
 pub(crate) const FINER: f64 = 0.1;
 /// Tilts are below this.
@@ -159,8 +180,12 @@ impl Answer {
             return self;
         }
         // Where a drop next to this one is not answered, nothing tells how far off this one is.
+        let is_box = drop.across.is_some_and(|across| across.posture.is_some());
         let off = |other: &SingleDrop, tolerance: f64| {
-            let other = once(other, part, limit, model, tolerance);
+            // How a box lands again is another question: the energy that is left answers it.
+            let until = if is_box { Until::Past(PAST_PEAK * self.time_s) } else { Until::Over };
+            let other =
+                Followed::until(other, model, tolerance, until).and_then(|other| of_followed(&other, part, limit));
             other.map_or(f64::INFINITY, |other| (other.value - self.value).abs())
         };
         let mut most = off(drop, FINER * tolerance);
@@ -188,7 +213,7 @@ pub(crate) fn once(
 
 /// The same of a drop that is followed already.
 pub(crate) fn of_followed(followed: &Followed, part: &Part, limit: &Limit) -> Result<Answer, Error> {
-    let felt = PlaceHistory::new(followed, part.at_m())?;
+    let felt = PlaceHistory::new(followed, part.spot())?;
     let asked = felt.answer(limit, part.suspension.as_ref(), 0.0)?;
     let (allowed, unit) = (limit.allowed, limit.kind.unit());
     let nothing = || Answer { value: 0.0, allowed, unit, time_s: 0.0, impact: 1, off_by: felt.later_of(limit) };
@@ -261,7 +286,7 @@ pub(crate) struct PlaceHistory<'a> {
     followed: &'a Followed,
     history: Excitation,
     pulses: Pulses,
-    at_m: [f64; 2],
+    spot: Spot,
     fastest_rad_s: f64,
     /// Its velocity shocks, as they are asked for.
     shocks: OnceLock<Vec<Shock>>,
@@ -270,24 +295,25 @@ pub(crate) struct PlaceHistory<'a> {
 }
 
 impl<'a> PlaceHistory<'a> {
-    pub(crate) fn new(followed: &'a Followed, at_m: [f64; 2]) -> Result<Self, Error> {
-        Self::rough(followed, at_m, f64::INFINITY)
+    pub(crate) fn new(followed: &'a Followed, spot: impl Into<Spot>) -> Result<Self, Error> {
+        Self::rough(followed, spot, f64::INFINITY)
     }
 
     /// The same for responses of parts up to a natural frequency, to about 1 %: pulses that are short beside the period of
     /// the fastest part are taken as velocity shocks of the same impulse at the mean time.
-    pub(crate) fn rough(followed: &'a Followed, at_m: [f64; 2], fastest_rad_s: f64) -> Result<Self, Error> {
+    pub(crate) fn rough(followed: &'a Followed, spot: impl Into<Spot>, fastest_rad_s: f64) -> Result<Self, Error> {
         if followed.is_cut() {
             return Err(Error::Unfinished);
         }
-        let history = followed.drop.felt(&followed.motion, at_m);
+        let spot = spot.into();
+        let history = followed.drop.felt(&followed.motion, &spot);
         let pulses = pulses(&history, SHORT / fastest_rad_s, followed.carried_m_s2())?;
-        Ok(Self { followed, history, pulses, at_m, fastest_rad_s, shocks: OnceLock::new(), known: None })
+        Ok(Self { followed, history, pulses, spot, fastest_rad_s, shocks: OnceLock::new(), known: None })
     }
 
     /// The same place in the same drop, followed for longer.
     pub(crate) fn longer(&'a self, followed: &'a Followed) -> Result<Self, Error> {
-        Ok(Self { known: Some(self), ..Self::rough(followed, self.at_m, self.fastest_rad_s)? })
+        Ok(Self { known: Some(self), ..Self::rough(followed, self.spot, self.fastest_rad_s)? })
     }
 
     /// The answer for one limit, if its utilization passes `above`.
@@ -363,7 +389,7 @@ impl<'a> PlaceHistory<'a> {
     }
     /// The velocity shocks.
     pub(crate) fn shocks(&self) -> &[Shock] {
-        self.shocks.get_or_init(|| self.followed.shocks(self.at_m[0], &self.history))
+        self.shocks.get_or_init(|| self.followed.shocks(self.spot.at_m[0], &self.history))
     }
     /// The utilization that strikes after the motion was left may reach, by the energy that is left and what a part still rings
     /// with; 0 where that is not above `above`. Of the parts given, or of a limit that is no response.
@@ -399,12 +425,14 @@ impl<'a> PlaceHistory<'a> {
     /// What strikes may do here after the motion was left.
     fn later(&self) -> Later {
         let drop = &self.followed.drop;
-        let (points, here) = drop.in_radii(self.at_m);
+        let (points, here) = drop.in_radii(&self.spot);
         let dot = |[x, y]: [f64; 2], [x2, y2]: [f64; 2]| x * x2 + y * y2;
         let mass = |p: [f64; 2]| (1.0 + dot(p, p)).sqrt();
         let farthest = points.iter().fold(0.0_f64, |most, &p| most.max(dot(p, p)));
         // All energy in the motion of the center of mass, over all of it in what moves the farthest point fastest.
-        let center = self.followed.motion.later_m_s() / (1.0 + farthest).sqrt();
+        let is_box = drop.across.is_some_and(|across| across.posture.is_some());
+        let fastest = if is_box { 1.0 } else { (1.0 + farthest).sqrt() };
+        let center = self.followed.motion.later_m_s() / fastest;
         let pressed = points.iter().fold(0.0, |all, &p| libm::hypot(all, (1.0 + dot(here, p)) / mass(p)));
         // A strike gives back the restitution's share of what it takes; several that overlap may turn all of the motion around.
         let turned = 2.0 / (1.0 + drop.restitution);
@@ -422,7 +450,9 @@ impl<'a> PlaceHistory<'a> {
             turn_rad_s: center / drop.least_gyration_m() * turned,
             // Nothing where nothing is left, also where a strike has no largest force.
             acceleration_m_s2: if center > 0.0 {
-                center * pressed.max(mass(here)) * self.peak_per_change()
+                // On an edge of a box two corners press, whatever their lever arms.
+                let pressed = if is_box { pressed.max(SQRT_2 * mass(here)) } else { pressed.max(mass(here)) };
+                center * pressed * self.peak_per_change()
             } else {
                 0.0
             },

@@ -146,7 +146,38 @@ pub(crate) static DROP: &[Key] = &[
         Spread(&units::SPEED, ["1 mm/s", "100 m/s"]),
         "Speed at the first touch. Either this or height.",
     ),
-    key("tilt", true, Spread(&units::ANGLE, ["0 deg", "30 deg"]), "Angle to the ground at the first touch."),
+    key(
+        "tilt",
+        false,
+        Spread(&units::ANGLE, ["0 deg", "30 deg"]),
+        "Angle to the ground at the first touch; needed but for a box that lands on a face, edge or corner.",
+    ),
+    key(
+        "face",
+        false,
+        Text,
+        "Of a box, one with a thickness: the face it lands on: end-a, end-b, front, back, bottom or top.",
+    ),
+    key("edge", false, Text, "Of a box: two faces that meet in the edge it lands on, such as \"bottom front\"."),
+    key(
+        "corner",
+        false,
+        Text,
+        "Of a box: three faces that meet in the corner it lands on, such as \"bottom front end-a\".",
+    ),
+    key(
+        "standard",
+        false,
+        Text,
+        "Of a box: the drops that a standard lists, each from its height, such as \"MIL-STD-810H/516.8-IV\".",
+    ),
+    key(
+        "attitude_tolerance",
+        false,
+        Quantity(&units::ANGLE, ["0 deg", "15 deg"]),
+        "By how much a box may be turned off its face, edge or corner, in any direction; as in ASTM D5276 2 deg of a face and 5 deg of \
+         an edge or a corner unless given.",
+    ),
     key(
         "first",
         false,
@@ -181,6 +212,19 @@ pub(crate) static COMPONENT: &[Key] = &[
         false,
         Sides(&Quantity(&units::LENGTH, ["0 mm", "100 m"])),
         "How far it extends along the bar; 0 mm unless given; of a plate across it too.",
+    ),
+    key(
+        "height",
+        false,
+        Quantity(&units::LENGTH, PLACES),
+        "Where its middle is across the thickness of a box, from the middle towards the top; 0 mm unless given.",
+    ),
+    key(
+        "axis",
+        false,
+        Choice(&["x", "y", "z", "any"]),
+        "Along which axis of a box it moves and is shaken: x along the length, y along the width, z unless given; any, of a part that is \
+         mounted rigidly, is the magnitude.",
     ),
     key(
         "mount",

@@ -51,6 +51,7 @@
 )]
 
 mod assess;
+mod attitude;
 mod bound;
 mod check;
 mod course;
@@ -77,20 +78,25 @@ mod search;
 mod shock;
 mod slip;
 mod spread;
+mod standard;
 pub mod units;
 mod verdict;
 mod visible;
 
+pub use attitude::Attitude;
 pub use clatter_flight::ContactLaw;
 pub use clatter_shock::STANDARD_GRAVITY_M_S2;
 pub use data_fault::DataFault;
-pub use drop::{Across, Model, SingleDrop};
+pub use drop::{Across, Model, Posture, SingleDrop};
 pub use engine::{Answer, Part, answer, respond};
 pub use error::Error;
 pub use fault::{Fault, Faults};
 pub use plate::{PlateAnswers, PlateDrop, PlatePart};
 pub use portrait::{Changes, Curve, Point, Portrait};
-pub use product::{Component, Damping, Drop, Fall, First, Limits, Mount, Product, ProductFile, RecordFile, Width};
+pub use product::{
+    Axis, Component, Damping, Drop, Fall, First, Inside, Landing, Limits, Mount, Product, ProductFile, RecordFile,
+    Width,
+};
 pub use quantity::{Limit, LimitKind, Unit};
 pub use read::LARGEST_FILE;
 pub use reason::{Doubt, Note, Reason};
@@ -99,7 +105,10 @@ pub use schema::schema;
 pub use search::Watch;
 pub use slip::{Slip, outside, slip};
 pub use spread::{Law, Spread};
-pub use verdict::{Accuracy, Assessment, ComponentAssessment, LimitAssessment, ModelChoice, Sides, Verdict, WorstCase};
+pub use verdict::{
+    Accuracy, Assessment, ComponentAssessment, LandingAssessment, LandingLimit, LimitAssessment, ModelChoice, Sides,
+    Verdict, WorstCase,
+};
 pub use visible::{visible, visible_lines};
 
 /// A commented product file that assesses as it stands.

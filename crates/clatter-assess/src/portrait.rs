@@ -149,7 +149,7 @@ impl ProductFile {
         let Some(worst) = &limit.worst_case else { return Ok(Default::default()) };
         let WorstCase { drop, part, .. } = worst;
         let followed = Followed::new(drop, ranges.model, ranges.tolerance)?;
-        let felt = PlaceHistory::new(&followed, part.at_m())?;
+        let felt = PlaceHistory::new(&followed, part.spot())?;
         let impacts = followed.motion.struck_s();
         let period = part.suspension.map_or(0.0, |s| std::f64::consts::TAU / s.omega());
         // to the peak and a little on; what comes long after it is far weaker

@@ -6,7 +6,7 @@ use clatter::End;
 use clatter_flight::{Body, ContactLaw};
 use clatter_shock::{DampingRatio, Suspension};
 
-use crate::{Error, LimitKind, Spread, Unit, units};
+use crate::{Attitude, Error, LimitKind, Spread, Unit, units};
 
 /// A product, its drop and its parts.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,6 +15,8 @@ pub struct ProductFile {
     pub product: Product,
     /// How it falls.
     pub drop: Drop,
+    /// Of a box, what it lands on, one drop after the other; none of a product that lands as its drop says.
+    pub landings: Vec<Landing>,
     /// What must survive; at least one.
     pub components: Vec<Component>,
     /// What was measured; none unless the file names some.
@@ -46,7 +48,7 @@ impl ProductFile {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn new(product: Product, drop: Drop, components: Vec<Component>) -> Result<Self, Error> {
-        let file = Self { product, drop, components, records: Vec::new() };
+        let file = Self { product, drop, landings: Vec::new(), components, records: Vec::new() };
         file.check()?;
         Ok(file)
     }
@@ -131,6 +133,11 @@ impl Product {
     pub fn law(&self) -> ContactLaw {
         self.contact_law.unwrap_or_default()
     }
+    /// Distances of the faces of a box from its center of mass, −x, +x, −y and so on, and its thickness; none without one.
+    pub(crate) fn faces_m(&self) -> Option<([[f64; 2]; 3], f64)> {
+        let thickness_m = self.width?.thickness_m?;
+        Some(([self.body.arms_m(), self.width?.edges_m, [0.5 * thickness_m; 2]], thickness_m))
+    }
     /// The body with this radius of gyration, in m.
     ///
     /// # Errors
@@ -144,6 +151,54 @@ impl Product {
         // Both ends of the range were checked as it was read.
         self.body_with(self.gyration_m.at(share)).unwrap_or(self.body)
     }
+}
+
+/// A drop of a box on a face, an edge or a corner.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Landing {
+    /// What it lands on.
+    pub attitude: Attitude,
+    /// The standard that asks for it, with clause and title; none of one that was given by hand.
+    pub source: Option<&'static str>,
+    /// By how much it may be turned off that, in rad.
+    pub tolerance_rad: f64,
+    /// From where, or how fast.
+    pub fall: Fall,
+}
+
+/// Along which axis of a box a part moves and is shaken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Axis {
+    /// Along the length.
+    X,
+    /// Along the width.
+    Y,
+    /// Along the thickness, as of every bar and plate.
+    #[default]
+    Z,
+    /// The magnitude, of a part that is mounted rigidly.
+    Any,
+}
+
+impl Axis {
+    /// By its name; z of any other word.
+    pub(crate) fn of(name: &str) -> Self {
+        [Self::X, Self::Y, Self::Any].into_iter().find(|axis| axis.name() == name).unwrap_or_default()
+    }
+    /// `x`, `y`, `z` or `any`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        ["x", "y", "z", "any"][self as usize]
+    }
+}
+
+/// How a part lies in the thickness of a box.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Inside {
+    /// Where its middle is across the thickness, from the middle; 0 of every bar and plate.
+    pub height_m: f64,
+    /// Along which axis it moves.
+    pub axis: Axis,
 }
 
 /// How it falls.
@@ -192,6 +247,8 @@ pub struct Component {
     pub across_m: Spread,
     /// How far it extends across a plate; 0 for a point.
     pub extent_across_m: f64,
+    /// How it lies in a box.
+    pub inside: Inside,
     /// How it is held.
     pub mount: Mount,
     /// What it stands.
@@ -397,7 +454,8 @@ impl Component {
     #[must_use]
     pub fn new(name: impl Into<String>, position_m: Spread, mount: Mount, limits: Limits) -> Self {
         let (extent_m, across_m, extent_across_m) = (0.0, Spread::finite(0.0), 0.0);
-        Self { name: name.into(), position_m, extent_m, across_m, extent_across_m, mount, limits, limit_source: None }
+        let (name, inside, limit_source) = (name.into(), Inside::default(), None);
+        Self { name, position_m, extent_m, across_m, extent_across_m, inside, mount, limits, limit_source }
     }
     /// The ends of where the part may be, \[x, y\]: one where it is a point, both ends along a bar, the corners of a rectangle on a
     /// plate.

@@ -15,8 +15,9 @@ use crate::check::{self, body_of, named, told_apart, width_of};
 use crate::fault::{Fault, Faults};
 use crate::keys::{self, Key, Kind, MOST_COMPONENTS};
 use crate::slip;
+use crate::standard;
 use crate::units;
-use crate::{DataFault, Drop, Fall, First, Product, ProductFile, Spread, Width};
+use crate::{Attitude, DataFault, Drop, Fall, First, Landing, Product, ProductFile, Spread, Width};
 use quantities::written;
 
 /// A file of more bytes is refused unread.
@@ -102,6 +103,8 @@ struct Section<'a> {
 struct Reader {
     /// Whether the product has a width.
     is_plate: bool,
+    /// Whether it lands as a box, on faces, edges or corners.
+    is_box: bool,
     faults: Vec<Fault>,
     warnings: Vec<Fault>,
 }
@@ -253,7 +256,14 @@ impl Reader {
         }
         let product = product.and_then(|section| self.product(&section));
         let drop = self.table(root, "drop");
-        let drop = drop.and_then(|section| self.drop(&section));
+        self.is_box = drop.as_ref().is_some_and(|drop| LANDS_ON.iter().any(|key| drop.table.contains_key(*key)));
+        let is_standard = drop.as_ref().is_some_and(|drop| drop.table.contains_key("standard"));
+        let mut landings = drop.as_ref().map(|section| self.landings(section, product.as_ref())).unwrap_or_default();
+        let mut drop = drop.and_then(|section| self.drop(&section));
+        if let (Some(drop), [first, ..]) = (&mut drop, &mut landings[..]) {
+            // A standard has its own height; else the one that it lands on falls as the drop says.
+            if is_standard { drop.fall = first.fall } else { first.fall = drop.fall }
+        }
         let mut components = Vec::new();
         let sections = self.tables(root, "component");
         self.distinct(&sections);
@@ -262,7 +272,7 @@ impl Reader {
         }
         let records = self.tables(root, "record");
         let records = records.iter().filter_map(|section| self.record(section, product.as_ref())).collect();
-        Some(ProductFile { product: product?, drop: drop?, components, records })
+        Some(ProductFile { product: product?, drop: drop?, landings, components, records })
     }
 
     /// Refuses components of one name: answers could not be told apart.
@@ -469,14 +479,56 @@ impl Reader {
         Some([0, 1].map(|side| Mass::Slab { mass_kg, from_m: from.value[side], to_m: to.value[side] }))
     }
 
+    /// What a box lands on; none where a fault was told.
+    fn landings(&mut self, section: &Section<'_>, product: Option<&Product>) -> Vec<Landing> {
+        let tolerance = self.quantity(section, "attitude_tolerance");
+        if let (Some(tolerance), false) = (&tolerance, self.is_box) {
+            let message = "`attitude_tolerance` is that of a box that lands on a face, edge or corner";
+            self.fault(tolerance.span.clone(), message, "here", "add `face`, `edge`, `corner` or `standard`");
+        }
+        let mut landings = Vec::new();
+        for (faces, name) in (1..).zip(&LANDS_ON[..3]) {
+            let Some(text) = self.text(section, name) else { continue };
+            match Attitude::on(&text.value).filter(|attitude| attitude.faces() == faces) {
+                Some(attitude) => landings.push((attitude, 1.0, None)),
+                None => self.data(text.span, &DataFault::Attitude { field: name, value: shown(&text.value) }, "this"),
+            }
+        }
+        if let (Some(keyword), Some(product)) = (self.text(section, "standard"), product) {
+            let sides = [Some(product.body.length_m()), product.width.map(|width| width.m())];
+            let largest_m = sides.into_iter().flatten().fold(0.0, f64::max);
+            match standard::drops(&keyword.value, standard::Item { mass_kg: product.mass_kg, largest_m }) {
+                Ok((drops, source)) => {
+                    landings.extend(drops.into_iter().map(|(attitude, height_m)| (attitude, height_m, Some(source))));
+                }
+                Err(fault) => self.data(keyword.span, &fault, "this"),
+            }
+        }
+        let landing = |(attitude, height_m, source)| Landing {
+            attitude,
+            source,
+            tolerance_rad: tolerance.as_ref().map_or_else(|| standard::tolerance_rad(attitude), |given| given.value),
+            fall: Fall::HeightM(Spread::finite(height_m)),
+        };
+        landings.into_iter().map(landing).collect()
+    }
+
     fn drop(&mut self, section: &Section<'_>) -> Option<Drop> {
         let height = self.spread(section, "height");
         let speed = self.spread(section, "speed");
         let tilt = self.spread(section, "tilt");
         let first = self.choice(section, "first");
         let direction = self.spread(section, "direction");
+        if !(self.is_box || section.table.contains_key("tilt")) {
+            let key = keys::find(keys::DROP, "tilt").map_or("", |key| key.doc);
+            let message = format!("{} has no `tilt`", section.title);
+            self.fault(section.span.clone(), message, "in this table", format!("add tilt = \"5 deg\": {key}"));
+        }
         let gravity = self.quantity(section, "gravity");
-        self.exactly_one(section, &["height", "speed"], true);
+        self.exactly_one(section, &["height", "speed"], !section.table.contains_key("standard"));
+        self.exactly_one(section, &["tilt", "face", "edge", "corner", "standard"], false);
+        self.exactly_one(section, &["standard", "height"], false);
+        self.exactly_one(section, &["standard", "speed"], false);
         let wrong =
             if self.is_plate { DataFault::OfPlate { field: "first" } } else { DataFault::OfBar { field: "direction" } };
         if let DataFault::OfPlate { field } | DataFault::OfBar { field } = wrong
@@ -495,11 +547,17 @@ impl Reader {
         };
         let fall = match (height, speed) {
             (Some(height), _) => Fall::HeightM(height.value),
+            // Each drop of a standard has its own.
+            (None, None) if section.table.contains_key("standard") => Fall::HeightM(Spread::finite(1.0)),
             (None, speed) => Fall::SpeedMS(speed?.value),
         };
-        Some(Drop { fall, tilt_rad: tilt?.value, first, direction_rad: direction.map(|d| d.value), gravity_m_s2 })
+        let tilt_rad = if self.is_box { Spread::finite(0.0) } else { tilt?.value };
+        Some(Drop { fall, tilt_rad, first, direction_rad: direction.map(|d| d.value), gravity_m_s2 })
     }
 }
+
+/// Keys of what a box lands on: by so many faces at once, and by a standard.
+const LANDS_ON: [&str; 4] = ["face", "edge", "corner", "standard"];
 
 /// The beginning of a text that may be of any length.
 fn shown(text: &str) -> String {

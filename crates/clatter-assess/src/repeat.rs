@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use clatter::End;
 use clatter_flight::ContactLaw;
 
-use crate::{Accuracy, Across, LimitKind, Model, WorstCase, visible};
+use crate::{Accuracy, Across, LimitKind, Model, Posture, WorstCase, visible};
 
 /// `clatter respond --product=… --component=… --worst=…`, which searches the worst drop of a limit again and answers it; with the model
 /// and the tolerance, where they are not those that an assessment has by itself. None where the command line cannot say it: for a file
@@ -92,6 +92,9 @@ impl WorstCase {
     /// Of a plate, seen so that its lowest corner is a.
     fn command_of_plate(&self, across: &Across) -> String {
         let drop = &self.drop;
+        if let Some(posture) = &across.posture {
+            return self.command_of_box(across, posture);
+        }
         let ([length, width], [sx, sy]) = ([drop.body.length_m(), across.width.m()], across.signs());
         let mut command = format!("clatter respond --model={} --length-m={length:?}", self.model.name());
         let mut add = |flag: &str, values: &[f64]| {
@@ -121,6 +124,45 @@ impl WorstCase {
         if drop.contact_law != ContactLaw::default() {
             command.extend([" --contact-law=", drop.contact_law.name()]);
         }
+        command
+    }
+}
+
+impl WorstCase {
+    /// Of a box, turned so that its vertical is that of the world.
+    fn command_of_box(&self, across: &Across, posture: &Posture) -> String {
+        let (drop, width) = (&self.drop, &across.width);
+        let [x, y, z] = across.upward_of(posture, drop.tilt_rad);
+        // The rotation about the axis across both verticals; upside down, about x.
+        let turned = (2.0 * (1.0 + z)).max(0.0).sqrt();
+        let quaternion =
+            if turned > 1e-8 { [0.5 * turned, y / turned, -x / turned, 0.0] } else { [0.0, 1.0, 0.0, 0.0] };
+        let [a, b] = drop.body.arms_m();
+        let (kx, ky, kz) = (drop.body.gyration_m(), width.gyration_m, posture.thickness_m / 12_f64.sqrt());
+        let mut command = format!("clatter respond --model={}", self.model.name());
+        let mut add = |flag: &str, values: &[f64]| {
+            let values: Vec<_> = values.iter().map(|value| format!("{:?}", value + 0.0)).collect();
+            command.extend([" --", flag, "=", &values.join(",")]);
+        };
+        add("length-m", &[a + b]);
+        add("width-m", &[width.m()]);
+        add("thickness-m", &[posture.thickness_m]);
+        add("gyration-m", &[libm::hypot(ky, kz), libm::hypot(kx, kz), libm::hypot(kx, ky)]);
+        add("center-of-mass-m", &[0.5 * (a - b), width.center_m(), 0.0]);
+        add("orientation", &quaternion);
+        add("e", &[drop.restitution]);
+        add("speed-m-s", &[drop.speed_m_s]);
+        add("gravity-m-s2", &[drop.gravity_m_s2]);
+        add("at-m", &[self.part.position_m, self.part.across_m, self.part.inside.height_m]);
+        if let Some(part) = self.part.suspension {
+            add("omega", &[part.omega()]);
+            add("damping", &[part.damping().get()]);
+        }
+        command.extend([" --axis=", self.part.inside.axis.name()]);
+        if let Some(time) = drop.contact_time_s {
+            command.extend([" --contact-time-s=", &format!("{time:?}")]);
+        }
+        command.extend([" --contact-law=", drop.contact_law.name()]);
         command
     }
 }

@@ -22,10 +22,10 @@ use clatter_shock::{DampingRatio, Suspension};
 use rayon::prelude::*;
 
 use crate::drop::{Followed, SingleDrop, Until};
-use crate::engine::{Answer, Part, PlaceHistory, of_followed, once};
+use crate::engine::{Answer, Part, PlaceHistory, Spot, of_followed, once};
 use crate::quantity::Source;
 use crate::{Component, Error, Limit, Mount};
-use climb::{CLIMBS, EDGES_REACH, EDGES_TRIES, LATE_REACH, LATE_TRIES, NEAR, starts};
+use climb::{BOX_REACH, BOX_TRIES, CLIMBS, EDGES_REACH, EDGES_TRIES, FACE_TRIES, LATE_REACH, LATE_TRIES, NEAR, starts};
 pub(crate) use found::{Candidate, Worst};
 use found::{Candidates, OfDrop, image};
 use ranges::{DAMPING, FREQUENCY, RESTITUTION};
@@ -60,6 +60,13 @@ impl Work<'_> {
 pub(crate) struct Task<'a> {
     pub(crate) component: &'a Component,
     pub(crate) limit: Limit,
+}
+
+impl Task<'_> {
+    /// A place of the part.
+    fn spot(&self, at_m: [f64; 2]) -> Spot {
+        Spot { at_m, inside: self.component.inside }
+    }
 }
 
 /// Natural frequencies within a range in one drop, besides the end of it, at least and at most.
@@ -124,17 +131,19 @@ impl Ranges<'_> {
         // followed for longer as well.
         if all.later.iter().any(|most| *most > 0.0) {
             let only: Vec<bool> = all.later.iter().map(|most| *most > 0.0).collect();
-            let sample: Vec<(u32, Place)> = (1..=SAMPLE).map(|k| (k, self.spread_out(k))).collect();
+            let sample = if self.posture.is_some() { 0 } else { SAMPLE };
+            let sample: Vec<(u32, Place)> = (1..=sample).map(|k| (k, self.spread_out(k))).collect();
             ask(&mut all, &sample, Some(&only))?;
         }
         if work.go_on(0).is_ok() {
             work.done.fetch_max(count - climbing, Ordering::Relaxed);
         }
         let Candidates { mut found, refused, drops, later } = all;
+        let most_starts = [usize::MAX, 2, 2, 1][self.faces()];
         let climbs: Vec<(usize, Candidate)> = found
             .iter_mut()
             .enumerate()
-            .flat_map(|(n, found)| starts(found).into_iter().map(move |s| (n, s)))
+            .flat_map(|(n, found)| starts(found).into_iter().take(most_starts).map(move |s| (n, s)))
             .collect();
         let each_climb = climbing / climbs.len().max(1);
         let climb = |(n, start): (usize, Candidate)| {
@@ -142,7 +151,10 @@ impl Ranges<'_> {
             if work.go_on(each_climb).is_err() {
                 return (n, start);
             }
-            let reached = if start.late {
+            let reached = if self.posture.is_some() {
+                let tries = if self.faces() < 3 { FACE_TRIES } else { BOX_TRIES };
+                self.climb_around(task, start, (BOX_REACH, tries), &work)
+            } else if start.late {
                 self.climb_around(task, start, (LATE_REACH, LATE_TRIES), &work)
             } else {
                 let climbed = self.climb(task, start, 0.5 / steps, &work);
@@ -230,7 +242,9 @@ impl Ranges<'_> {
                     }
                     let felt = match &mut felt {
                         Some(felt) => felt,
-                        none => none.insert(PlaceHistory::rough(&early, at_m, rough_to_rad_s(task.component))?),
+                        none => {
+                            none.insert(PlaceHistory::rough(&early, task.spot(at_m), rough_to_rad_s(task.component))?)
+                        }
                     };
                     let worst = best[number];
                     let place = Place { at_m, ..*drop };
@@ -382,7 +396,7 @@ impl Ranges<'_> {
         }
         // The one that counts, with all that it may be off by.
         if let Some(asked) = &mut worst.asked {
-            let part = asked.part_there();
+            let part = asked.part_there(task.component);
             let drop = self.single(&asked.place);
             asked.answer =
                 asked.answer.with_what_strikes_multiply(&drop, &part, &task.limit, self.model, self.tolerance);
@@ -413,7 +427,7 @@ impl Ranges<'_> {
         let followed = Followed::new(&self.single(&found.place), self.model, self.tolerance)?;
         let at = |at_m: [f64; 2]| {
             let there = Candidate { place: Place { at_m, ..found.place }, ..*found };
-            let answer = of_followed(&followed, &there.part_there(), &task.limit)?;
+            let answer = of_followed(&followed, &there.part_there(task.component), &task.limit)?;
             Ok::<_, Error>(Candidate { answer, ..there })
         };
         let mut worst = at(found.place.at_m)?;
@@ -444,7 +458,8 @@ impl Ranges<'_> {
         let of = |at_m: [f64; 2]| {
             let place = Place { at_m, ..*place };
             let [position_m, across_m] = at_m;
-            let part = Part { position_m, across_m, suspension: Self::part(task, &place)? };
+            let (inside, suspension) = (task.component.inside, Self::part(task, &place)?);
+            let part = Part { position_m, across_m, inside, suspension };
             once(&self.single(&place), &part, &task.limit, self.model, self.tolerance)
         };
         task.component.places_m().into_iter().any(|x| of(x).is_ok_and(|answer| answer.utilization() > most))
@@ -454,7 +469,7 @@ impl Ranges<'_> {
     pub(crate) fn in_one(&self, task: &Task<'_>, place: &Place) -> f64 {
         let Ok(followed) = self.follow(place, Until::Lands) else { return 0.0 };
         let of = |at_m: [f64; 2]| {
-            let felt = PlaceHistory::new(&followed, at_m).ok()?;
+            let felt = PlaceHistory::new(&followed, task.spot(at_m)).ok()?;
             Self::in_drop(task, &Place { at_m, ..*place }, &felt, 0.0).ok()?
         };
         let asked = task.component.places_m().into_iter().filter_map(of);

@@ -6,7 +6,7 @@ use clatter::End;
 use serde::{Serialize, Serializer};
 
 use crate::reason::{Doubt, Note, Reason, as_sentence, as_text, as_texts, joined};
-use crate::{Component, LimitKind, Model, Part, ProductFile, SingleDrop, Unit};
+use crate::{Attitude, Component, Drop, Landing, LimitKind, Model, Part, ProductFile, SingleDrop, Unit};
 
 /// Whether every limit holds in the worst drop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -45,6 +45,9 @@ pub struct Assessment {
     pub verdict: Verdict,
     /// In the order of the file.
     pub components: Vec<ComponentAssessment>,
+    /// Of a box, what each drop of it says; empty of a product that lands as its file says.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub landings: Vec<LandingAssessment>,
     /// What it was worked out to.
     #[serde(skip)]
     pub accuracy: Accuracy,
@@ -67,6 +70,65 @@ impl Assessment {
         let assessed = self.components.get(k).map(|component| &component.name);
         let name = assessed.or(file.components.get(k).map(|component| &component.name));
         Err(crate::Error::OtherProduct(name.cloned().unwrap_or_default()))
+    }
+}
+
+/// What one drop of a box, on a face, an edge or a corner, says of every limit.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LandingAssessment {
+    /// What it lands on.
+    pub landing: Attitude,
+    /// The standard that asks for it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub source: Option<&'static str>,
+    /// By how much it may be turned off that.
+    pub tolerance_deg: f64,
+    /// The range of speeds at the first touch.
+    pub speed_m_s: [f64; 2],
+    /// Unsafe where a limit is, undecided where one is and none is unsafe.
+    pub verdict: Verdict,
+    /// One for each limit of each component, in the order of the file.
+    pub limits: Vec<LandingLimit>,
+}
+
+/// What one drop of a box says of a limit.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LandingLimit {
+    /// Name of the component.
+    pub component: String,
+    /// Which limit.
+    pub limit: LimitKind,
+    /// As of [`LimitAssessment`].
+    pub demand: Option<f64>,
+    /// As of [`LimitAssessment`].
+    #[serde(serialize_with = "number_or_null")]
+    pub margin: Option<f64>,
+    /// Whether it holds in this drop.
+    pub verdict: Verdict,
+}
+
+impl LandingAssessment {
+    pub(crate) fn new(landing: &Landing, gravity_m_s2: f64) -> Self {
+        let drop = Drop { gravity_m_s2, ..Drop::new(landing.fall, crate::Spread::finite(0.0)) };
+        Self {
+            landing: landing.attitude,
+            source: landing.source,
+            tolerance_deg: landing.tolerance_rad.to_degrees(),
+            speed_m_s: drop.speeds_m_s(),
+            verdict: Verdict::Safe,
+            limits: Vec::new(),
+        }
+    }
+    pub(crate) fn take(&mut self, component: &Component, limit: &LimitAssessment) {
+        let LimitAssessment { limit, demand, margin, verdict, .. } = *limit;
+        self.verdict = self.verdict.max(verdict);
+        self.limits.push(LandingLimit { component: component.name.clone(), limit, demand, margin, verdict });
+    }
+    /// The limit with the smallest margin; none of an assessment of no component.
+    #[must_use]
+    pub fn tightest(&self) -> Option<&LandingLimit> {
+        let room = |limit: &LandingLimit| limit.margin.unwrap_or(f64::INFINITY);
+        self.limits.iter().min_by(|a, b| room(a).total_cmp(&room(b)))
     }
 }
 
@@ -204,6 +266,8 @@ pub struct WorstCase {
     pub drop: SingleDrop,
     /// The place in the component, and the suspension that it has in this drop; none where it does not matter.
     pub part: Part,
+    /// Of a box, what it lands on.
+    pub landing: Option<Attitude>,
     /// Whether the file gives a range of radii of gyration, of which this drop has one.
     pub gyration_varies: bool,
     /// The impact that does it, or that the peak follows; from 1.
@@ -249,6 +313,8 @@ impl WorstCase {
 struct WorstCaseRow {
     #[serde(serialize_with = "letter")]
     first: End,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    landing: Option<Attitude>,
     tilt_deg: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     direction_deg: Option<f64>,
@@ -270,6 +336,7 @@ impl Serialize for WorstCase {
         let SingleDrop { first, flat, speed_m_s, restitution, contact_time_s, .. } = self.drop;
         let row = WorstCaseRow {
             first,
+            landing: self.landing,
             tilt_deg: self.tilt_deg(),
             direction_deg: self.direction_deg(),
             flat,
@@ -279,7 +346,7 @@ impl Serialize for WorstCase {
             gyration_m: self.gyration_m(),
             frequency_hz: self.frequency_hz(),
             damping_ratio: self.damping_ratio(),
-            position_m: Sides::new(self.part.at_m(), self.drop.across.is_some()),
+            position_m: Sides::of(&self.part, &self.drop),
             impact: self.impact,
             time_s: self.time_s,
             command: self.command(),
@@ -296,11 +363,21 @@ pub enum Sides {
     Along(f64),
     /// Along and across a plate.
     Both([f64; 2]),
+    /// Along, across and in the thickness of a box.
+    All([f64; 3]),
 }
 
 impl Sides {
     pub(crate) fn new([along, across]: [f64; 2], is_plate: bool) -> Self {
         if is_plate { Self::Both([along, across]) } else { Self::Along(along) }
+    }
+    fn of(part: &Part, drop: &SingleDrop) -> Self {
+        match drop.across {
+            Some(across) if across.posture.is_some() => {
+                Self::All([part.position_m, part.across_m, part.inside.height_m])
+            }
+            across => Self::new(part.at_m(), across.is_some()),
+        }
     }
     /// Along and across; 0 across a bar.
     #[must_use]
@@ -308,6 +385,7 @@ impl Sides {
         match *self {
             Self::Along(x) => [x, 0.0],
             Self::Both(at) => at,
+            Self::All([x, y, _]) => [x, y],
         }
     }
 }

@@ -139,7 +139,7 @@ fn single(file: &ProductFile, component: &Component, limit: &Limit, (shares, fir
     let direction_rad = from + shares[6] * (to - from);
     let drop = SingleDrop {
         body: file.product.body,
-        across: file.product.width.map(|width| Across { width, direction_rad }),
+        across: file.product.width.map(|width| Across { width, direction_rad, posture: None }),
         first: if ends.len() > 1 && *first < 0.5 { End::B } else { ends[0] },
         tilt_rad: file.drop.tilt_rad.at(shares[0]),
         flat: false,
@@ -159,7 +159,7 @@ fn single(file: &ProductFile, component: &Component, limit: &Limit, (shares, fir
     let places = component.ends_m();
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "few")]
     let [position_m, across_m] = places[((shares[5] * places.len() as f64) as usize).min(places.len() - 1)];
-    let asked = answer(&drop, &Part { position_m, across_m, suspension }, limit, Model::Compliant, 0.01);
+    let asked = answer(&drop, &Part { across_m, ..Part::new(position_m, suspension) }, limit, Model::Compliant, 0.01);
     match asked {
         Ok(asked) => {
             (asked.utilization(), format!("{drop:?}, at {position_m} m, {across_m} m, {suspension:?}: {asked:?}"))

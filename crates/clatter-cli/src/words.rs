@@ -72,7 +72,9 @@ pub(crate) fn drop(worst: &WorstCase) -> String {
     let lands = if worst.drop.flat {
         "flat".to_owned()
     } else {
+        let landing = worst.landing.map(|landing| format!("{landing}, {} deg off", four(worst.tilt_deg())));
         match worst.direction_deg() {
+            _ if landing.is_some() => landing.unwrap_or_default(),
             Some(direction) => format!("{} deg, rising to {} deg", four(worst.tilt_deg()), four(direction)),
             None => format!("{} first, {} deg", inputs::letter(worst.drop.first), four(worst.tilt_deg())),
         }

@@ -58,6 +58,9 @@ impl ProductFile {
             return Err(Error::Number(margin));
         }
         self.check()?;
+        if !self.landings.is_empty() {
+            return Err(Error::OfBoxes("design"));
+        }
         bounds.check()?;
         assessment.accuracy.check()?;
         assessment.is_of(self)?;

@@ -129,7 +129,8 @@ impl Case<'_> {
         if component.ends_m().iter().any(|[end, _]| end.abs() > most) {
             return None;
         }
-        Some(ProductFile { product, drop: self.file.drop, components: vec![component], records: Vec::new() })
+        let (drop, landings) = (self.file.drop, self.file.landings.clone());
+        Some(ProductFile { product, drop, landings, components: vec![component], records: Vec::new() })
     }
 }
 

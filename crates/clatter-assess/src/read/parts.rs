@@ -3,13 +3,15 @@
 use super::{At, Reader, Section};
 use crate::check::sensor;
 use crate::quantity::Source;
-use crate::{Component, Damping, DataFault, LimitKind, Limits, Mount, Product, RecordFile};
+use crate::{Axis, Component, Damping, DataFault, Inside, LimitKind, Limits, Mount, Product, RecordFile};
 
 impl Reader {
     pub(super) fn component(&mut self, section: &Section<'_>, product: Option<&Product>) -> Option<Component> {
         let name = self.name(section);
         let position = self.spread_of_sides(section, "position");
         let extent = self.quantity_of_sides(section, "extent");
+        let height_m = self.quantity(section, "height").map_or(0.0, |height| height.value);
+        let axis = self.choice(section, "axis").map_or(Axis::Z, |axis| Axis::of(axis.value));
         let mount = self.mount(section);
         let limits = self.limits(section);
         let (position, [extent_m, extent_across_m]) = (position?, extent.map_or([0.0; 2], |e| e.value));
@@ -21,6 +23,7 @@ impl Reader {
             extent_m,
             across_m,
             extent_across_m,
+            inside: Inside { height_m, axis },
             mount: mount?,
             limits,
             limit_source,
@@ -28,6 +31,10 @@ impl Reader {
         if let Some(Err(fault)) = product.map(|product| component.fits(product)) {
             self.data(position.span, &fault, "this position");
             return None;
+        }
+        if let Err(fault) = component.check_axis(self.is_box) {
+            let value = section.table.get("axis").or(section.table.get("height"));
+            self.data(value.map_or(section.span.clone(), toml::Spanned::span), &fault, "here");
         }
         let stiff = product.and_then(|product| crate::quantity::lacks_contact_time(product, &component));
         if let Some(reason) = stiff {

@@ -17,6 +17,10 @@ pub(super) const LATE_REACH: f64 = 0.5;
 pub(super) const LATE_TRIES: u32 = 160;
 pub(super) const EDGES_REACH: f64 = 0.1;
 pub(super) const EDGES_TRIES: u32 = 96;
+/// The same of a box.
+pub(super) const BOX_REACH: f64 = 0.3;
+pub(super) const BOX_TRIES: u32 = 16;
+pub(super) const FACE_TRIES: u32 = 32;
 /// How far beyond the time of its first peak a climb after rebounds follows.
 const LATER: f64 = 2.0;
 /// How close the last try of a climb is over the first.
@@ -34,7 +38,8 @@ impl Ranges<'_> {
     /// Whether what is asked changes by edges or steps where contacts meet.
     pub(super) fn has_edges(&self, task: &Task<'_>) -> bool {
         let stiff = |time: &Spread| fastest_rad_s(task.component) * time.hi() > 1.0;
-        self.product.contact_time_s.as_ref().is_some_and(|time| task.component.mount == Mount::Hard || stiff(time))
+        let time = self.product.contact_time_s.as_ref().filter(|_| self.posture.is_none());
+        time.is_some_and(|time| task.component.mount == Mount::Hard || stiff(time))
     }
 
     /// Climbs from a place in all ranges, one after the other, each step half as long as the last.
@@ -65,7 +70,7 @@ impl Ranges<'_> {
                         continue;
                     }
                     let followed = moved.as_ref().unwrap_or(&here);
-                    let Ok(felt) = PlaceHistory::rough(followed, place.at_m, fastest) else { continue };
+                    let Ok(felt) = PlaceHistory::rough(followed, task.spot(place.at_m), fastest) else { continue };
                     if let Ok(Some(next)) = Self::in_drop(task, &place, &felt, best.answer.utilization()) {
                         best = Candidate { late: best.late, ..next };
                         here = moved.unwrap_or(here);
@@ -81,7 +86,7 @@ impl Ranges<'_> {
     /// The part at both ends of its natural frequencies in the same drop, where that asks more: strikes that come in step with it have their
     /// crests far from one another, which no step of a climb goes over.
     fn at_ends_of_frequency(task: &Task<'_>, best: Candidate, here: &Followed, fastest_rad_s: f64) -> Candidate {
-        let Ok(felt) = PlaceHistory::rough(here, best.place.at_m, fastest_rad_s) else { return best };
+        let Ok(felt) = PlaceHistory::rough(here, task.spot(best.place.at_m), fastest_rad_s) else { return best };
         [0.0, 1.0].into_iter().fold(best, |best, share| {
             let place = best.place.with(FREQUENCY, share);
             let next = Self::in_drop(task, &place, &felt, best.answer.utilization());
@@ -117,7 +122,7 @@ impl Ranges<'_> {
                 *share = (*share + step).clamp(0.0, 1.0);
             }
             let Ok(followed) = self.follow(&place, until) else { continue };
-            let Ok(felt) = PlaceHistory::rough(&followed, place.at_m, fastest) else { continue };
+            let Ok(felt) = PlaceHistory::rough(&followed, task.spot(place.at_m), fastest) else { continue };
             if let Ok(Some(next)) = Self::in_drop(task, &place, &felt, best.answer.utilization()) {
                 best = Candidate { late: start.late, ..next };
                 again = Some(step);
@@ -145,7 +150,7 @@ impl Ranges<'_> {
             } else {
                 Followed::until(&drop, self.model, self.tolerance, Until::Past(until_s))?
             };
-            let part = Candidate { place: *place, ..*worst }.part_there();
+            let part = Candidate { place: *place, ..*worst }.part_there(task.component);
             Ok(of_followed(&followed, &part, &task.limit)?.utilization())
         };
         let free = self.free_at(task, &worst.place);

@@ -3,8 +3,8 @@
 use clatter_shock::Suspension;
 
 use super::Place;
-use crate::Error;
 use crate::engine::{Answer, Part};
+use crate::{Component, Error};
 
 /// A drop and a part that ask for something.
 #[derive(Debug, Clone, Copy)]
@@ -88,9 +88,9 @@ pub(super) fn image(at_m: [f64; 2], sides: [bool; 2]) -> [f64; 2] {
 
 impl Candidate {
     /// The part where it is.
-    pub(crate) fn part_there(&self) -> Part {
+    pub(crate) fn part_there(&self, component: &Component) -> Part {
         let [position_m, across_m] = self.place.at_m;
-        Part { position_m, across_m, suspension: self.part }
+        Part { position_m, across_m, inside: component.inside, suspension: self.part }
     }
     /// Whether it asks for more of the limit than another drop.
     pub(crate) fn exceeds(&self, other: &Self) -> bool {

@@ -3,6 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, SQRT_2, TAU};
 
 use super::ranges::{Place, Ranges};
+use clatter::End;
+
 use super::{GOLDEN, Task};
 use crate::{Mount, Product, Spread};
 
@@ -18,6 +20,12 @@ const SQRT_11: f64 = 3.316_624_790_355_4;
 const OVERLAPS: [f64; 2] = [12.0, 4.0];
 /// Tilts at which a plate is turned, as shares of the root of the range.
 const TURNED_AT: [f64; 2] = [1.0, 0.6];
+/// Directions in which a box is turned off its edge or corner, and off its face, which clatters: there at more tilts too, as shares of
+/// the root; and tilts along an edge to either side.
+const AROUND: u32 = 8;
+const AROUND_FACE: u32 = 16;
+const ALONG_EDGE: u32 = 32;
+const TILTS_OF_FACE: [f64; 6] = [1.0, 0.87, 0.72, 0.58, 0.44, 0.3];
 /// Directions of a plate in which they lie so, in each quarter of a turn.
 const OVERLAPS_A_QUARTER: u32 = 4;
 /// Lines of drops over the tilt of a plate besides those that land on an edge, and for each quarter of a turn.
@@ -70,6 +78,9 @@ impl Ranges<'_> {
 
     /// The drops of the grid; places of parts are left open.
     pub(super) fn grid(&self, steps: f64, turn_steps: f64) -> Vec<Place> {
+        if self.posture.is_some() {
+            return self.around();
+        }
         let [slow, fast] = self.drop.speeds_m_s();
         let even = |steps: f64, free: bool| {
             let steps = if free { steps } else { 0.0 };
@@ -123,6 +134,26 @@ impl Ranges<'_> {
         grid
     }
 
+    /// Drops of a box all around its posture: as it should land, and turned off that by all of its tolerance and by less, the ends of the
+    /// other ranges in turn. Off a face they are closer; off an edge along it, where its corners land one after the other.
+    fn around(&self) -> Vec<Place> {
+        let levels = self.levels();
+        let count = self.faces();
+        let (around, tilts) = if count == 1 { (AROUND_FACE, &TILTS_OF_FACE[..]) } else { (AROUND, &[1.0, 0.7][..]) };
+        let share = |k: u32, of: u32| f64::from(k) / f64::from(of);
+        let off = (0..around).flat_map(|k| tilts.iter().map(move |tilt| (*tilt, share(k, around))));
+        let along = if count == 2 { ALONG_EDGE } else { 0 };
+        let off = off.chain((1..=along).flat_map(|k| [0.0, 0.5].map(|direction| (share(k, along), direction))));
+        let all = [(0.0, 0.0)].into_iter().chain(off).enumerate();
+        all.map(|(k, (tilt, direction))| {
+            let [restitution, contact, gyration] = levels[k % levels.len()].map(|level| level.of(k));
+            let speed = if k % 4 == 3 { (SQRT_7 * f64::from(u32::try_from(k).unwrap_or(0))).fract() } else { 1.0 };
+            let shares = [tilt, speed, restitution, contact, 0.0, 0.0, gyration, direction];
+            Place { first: End::A, flat: false, mirrored: [false; 2], at_m: [0.0; 2], shares }
+        })
+        .collect()
+    }
+
     /// Restitution, contact time and radius of gyration of lines of drops: each at both ends of its range and spread over it, each with
     /// each; those that bounce most and press shortest first.
     fn levels(&self) -> Vec<[Level; 3]> {
@@ -161,7 +192,8 @@ impl Ranges<'_> {
 
     /// Drops whose first two contacts overlap or nearly do.
     pub(super) fn overlaps(&self) -> Vec<(u32, Place)> {
-        let Some(contact) = self.product.contact_time_s.filter(|_| !self.drop.tilt_rad.is_value()) else {
+        let is_searched = !self.drop.tilt_rad.is_value() && self.posture.is_none();
+        let Some(contact) = self.product.contact_time_s.filter(|_| is_searched) else {
             return Vec::new();
         };
         let [lo, hi] = [self.drop.tilt_rad.lo(), self.drop.tilt_rad.hi()];

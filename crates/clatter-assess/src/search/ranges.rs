@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use clatter::End;
 
-use crate::drop::{Across, Model, SingleDrop};
+use crate::drop::{Across, Model, Posture, SingleDrop};
 use crate::search::{Candidate, Task};
 use crate::{Component, ContactLaw, Drop, Mount, Product, Spread, WorstCase};
 
@@ -37,6 +37,8 @@ pub(crate) struct Ranges<'a> {
     pub(crate) product: &'a Product,
     pub(crate) drop: &'a Drop,
     pub(crate) model: Model,
+    /// Of a box, how it lands but for its tolerance.
+    pub(crate) posture: Option<Posture>,
     pub(crate) law: ContactLaw,
     pub(crate) tolerance: f64,
     /// Instant impacts closer than this are one.
@@ -54,7 +56,7 @@ impl Ranges<'_> {
         let across = self.product.width.map(|width| {
             let [from, to] = self.directions();
             let straight = from + place.shares[DIRECTION] * (to - from);
-            Across { width, direction_rad: image(straight, place.mirrored) }
+            Across { width, direction_rad: image(straight, place.mirrored), posture: self.posture }
         });
         SingleDrop {
             body: self.product.body_at(place.shares[GYRATION]),
@@ -155,6 +157,7 @@ impl Ranges<'_> {
         match (&self.product.width, &self.drop.direction_rad) {
             (None, _) => [0.0; 2],
             (_, Some(given)) => [given.lo(), given.hi()],
+            (_, None) if self.posture.is_some() => [0.0, TAU],
             (_, None) => match self.symmetries() {
                 [true, true] => [0.0, FRAC_PI_2],
                 [true, false] => [-FRAC_PI_2, FRAC_PI_2],
@@ -175,12 +178,16 @@ impl Ranges<'_> {
             return if self.turns() { &[[false, false], [true, false]] } else { &[[false, false]] };
         }
         match self.symmetries() {
-            _ if self.drop.direction_rad.is_some() => &[[false, false]],
+            _ if self.drop.direction_rad.is_some() || self.posture.is_some() => &[[false, false]],
             [true, true] => &[[false, false], [true, false], [false, true], [true, true]],
             [true, false] => &[[false, false], [true, false]],
             [false, true] => &[[false, false], [false, true]],
             [false, false] => &[[false, false]],
         }
+    }
+    /// On how many faces at once a box lands: 1 a face, 2 an edge, 3 a corner; 0 of a bar or a plate.
+    pub(super) fn faces(&self) -> usize {
+        self.posture.map_or(0, |posture| posture.upward.iter().filter(|side| **side != 0.0).count())
     }
     /// The longest way from the lowest point to the highest, along the body.
     pub(super) fn reach_m(&self) -> f64 {

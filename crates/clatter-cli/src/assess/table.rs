@@ -4,9 +4,12 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use clatter_answer::assess::Answer;
-use clatter_assess::{Accuracy, Assessment, ComponentAssessment, LimitAssessment, ProductFile, Verdict, repeat};
+use clatter_assess::{
+    Accuracy, Assessment, Component, ComponentAssessment, LimitAssessment, ProductFile, Verdict, repeat,
+};
 
 use crate::columns::{Table, sentence};
+use crate::quantities::neat;
 use crate::text::{path, shown};
 use crate::words::{drop, four, in_words, margin, percent};
 
@@ -27,9 +30,22 @@ pub(super) fn of_one(path: &str, answer: &Answer<'_>, out: &mut dyn Write) -> io
     let of = (path, &assessment.accuracy);
     headline(assessment, out)?;
     limits(file, assessment, out)?;
+    if !assessment.landings.is_empty() {
+        landings(file, assessment, out)?;
+    }
     writeln!(out)?;
     writeln!(out, "Bound by energy: no drop of the ranges asks for more; parts on a suspension have none.")?;
-    writeln!(out, "Flat drop: what the worst drop would ask if both ends landed at once, as drop standards assume.")?;
+    if assessment.landings.is_empty() {
+        writeln!(
+            out,
+            "Flat drop: what the worst drop would ask if both ends landed at once, as drop standards assume."
+        )?;
+    } else {
+        writeln!(
+            out,
+            "Flat drop: what the worst drop would ask if the box were not turned off its face, edge or corner."
+        )?;
+    }
     let all = assessment.components.iter().flat_map(|component| &component.limits);
     if all.clone().any(|limit| limit.other_law.is_some()) {
         writeln!(out, "Other law: what the worst drop by the other contact law asks for.")?;
@@ -97,6 +113,33 @@ fn limits(file: &ProductFile, assessment: &Assessment, out: &mut dyn Write) -> i
     }
     writeln!(out)?;
     Table { keys: 2, headings: 1, texts: 3, last_is_text: false, least: 9, rows }.write(out)
+}
+
+/// Of a box, a row for each drop: the limit that it leaves least room.
+fn landings(file: &ProductFile, assessment: &Assessment, out: &mut dyn Write) -> io::Result<()> {
+    let heads = ["drop", "off, deg", "verdict", "tightest", "limit", "demand", "margin"];
+    let mut rows = vec![heads.map(str::to_owned).to_vec()];
+    for landing in &assessment.landings {
+        let Some(tightest) = landing.tightest() else { continue };
+        let name = |component: &&Component| component.name == tightest.component;
+        let Some(component) = file.components.iter().find(name) else { continue };
+        let unit = tightest.limit.unit();
+        let of = |value: f64| in_words(unit, component.limits.unit(tightest.limit, unit), value);
+        rows.push(vec![
+            landing.landing.to_string(),
+            format!("{}", neat(landing.tolerance_deg)),
+            verdict(landing.verdict).to_owned(),
+            shown(&tightest.component, 24),
+            tightest.limit.name().to_owned(),
+            tightest.demand.map_or("-".to_owned(), of),
+            tightest.margin.map_or("-".to_owned(), margin),
+        ]);
+    }
+    writeln!(out)?;
+    if let Some(source) = assessment.landings.iter().find_map(|landing| landing.source) {
+        sentence(out, "Drops of ", source)?;
+    }
+    Table { keys: 1, headings: 1, texts: 5, last_is_text: false, least: 9, rows }.write(out)
 }
 
 /// The drop behind a demand: why the limit is undecided, what else is to be known, and the command that repeats it.

@@ -57,6 +57,16 @@ impl BlockDrop {
         Self::toward(block, upward, speed_m_s, gravity_m_s2)
     }
 
+    /// A box that has this vertical in its axes; of any length.
+    ///
+    /// # Errors
+    /// [`Error::Quantity`] unless it has a direction; else as [`BlockDrop::new`].
+    pub fn upright(block: Block, upward: [f64; 3], speed_m_s: f64, gravity_m_s2: f64) -> Result<Self, Error> {
+        let length = dot(upward, upward).sqrt();
+        within("length of the vertical", length, 1e-9, 1e9, "in [1e-9, 1e9]")?;
+        Self::toward(block, upward.map(|part| part / length), speed_m_s, gravity_m_s2)
+    }
+
     fn toward(block: Block, upward: [f64; 3], speed_m_s: f64, gravity_m_s2: f64) -> Result<Self, Error> {
         within("speed in m/s", speed_m_s, 1e-6, 1e6, "in [1e-6, 1e6]")?;
         if gravity_m_s2 != 0.0 {

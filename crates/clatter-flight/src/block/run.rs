@@ -67,6 +67,21 @@ pub struct BlockFlight {
 }
 
 impl BlockFlight {
+    /// Largest change of velocity of a corner by one press.
+    #[must_use]
+    pub fn largest_m_s(&self) -> f64 {
+        self.strikes.iter().flat_map(|strike| strike.delta_v_m_s).fold(0.0, |most, v| most.max(v.abs()))
+    }
+    /// The speed of the center of mass that all of the energy left would give it, the box at its lowest.
+    #[must_use]
+    pub fn left_m_s(&self, drop: &BlockDrop) -> f64 {
+        let (block, spin) = (&drop.block, self.spin_rad_s);
+        let turning: f64 = spin.iter().zip(block.gyration_m()).map(|(spin, radius)| (spin * radius).powi(2)).sum();
+        let lowest =
+            (0..3).map(|axis| block.face_at(axis, -1.0).min(block.face_at(axis, 1.0))).fold(f64::INFINITY, f64::min);
+        let falls = 2.0 * drop.gravity * (self.center_m - lowest).max(0.0);
+        (self.center_m_s * self.center_m_s + turning + falls).sqrt()
+    }
     /// What a place from the center of mass feels along the axes of a box that lies and turns on about the vertical.
     #[must_use]
     pub fn at_rest_m_s2(&self, place_m: [f64; 3], gravity_m_s2: f64) -> [f64; 3] {
