@@ -3,6 +3,8 @@
 #![allow(clippy::disallowed_methods, reason = "cases and references may differ in the last digit between machines")]
 
 mod common;
+#[path = "common/rows.rs"]
+mod rows;
 
 use std::fmt::Write as _;
 
@@ -11,6 +13,7 @@ use clatter::design::DESIGNS;
 use clatter_shock::{DampingRatio, Shape};
 use clatter_studies::suspended::{GainMap, Holders, ShapeFigures, SuspendedZones, rule_either_end, worst};
 use common::{digits, golden, page};
+use rows::rows;
 use serde_json::Value;
 
 fn bar([q, e]: [f64; 2]) -> Bar {
@@ -127,27 +130,6 @@ fn the_pulse_shapes() {
         }
     }
     golden("shock-shapes", &text);
-}
-
-/// One line for each number, or row of numbers, and the path to it.
-fn rows(path: &str, value: &Value, text: &mut String) {
-    let nested = |value: &Value| value.is_array() || value.is_object();
-    let deep = |value: &Value| match value {
-        Value::Object(map) => map.values().any(nested),
-        Value::Array(list) => list.iter().any(nested),
-        _ => false,
-    };
-    let _ = match value {
-        Value::Object(map) if path.is_empty() || map.values().any(deep) => {
-            map.iter().for_each(|(key, value)| rows(&format!("{path} {key}"), value, text));
-            Ok(())
-        }
-        Value::Array(list) if list.iter().any(nested) => {
-            list.iter().enumerate().for_each(|(i, value)| rows(&format!("{path} {}", i + 1), value, text));
-            Ok(())
-        }
-        value => writeln!(text, "{}: {}", path.trim_start(), value.to_string().replace('"', "")),
-    };
 }
 
 fn numbers() -> Value {

@@ -2,7 +2,7 @@
 
 use clatter_report::Typst;
 
-use crate::{accuracy_files, paper, shock};
+use crate::{accuracy_files, paper, plate, shock};
 use ways::{COMMAND, WHEEL, content};
 
 #[path = "../../crates/clatter-report/src/typst/ways.rs"]
@@ -13,6 +13,7 @@ fn both_ways_set_the_same_reports() {
     let (Some(command), Some(wheel)) = (&*COMMAND, &*WHEEL) else { return };
     let reports = [
         (("paper.typ", include_str!("../../reports/paper.typ")), paper::Data::compute().unwrap().files().unwrap()),
+        (("plate.typ", include_str!("../../reports/plate.typ")), plate::Data::compute().unwrap().files().unwrap()),
         (("shock.typ", include_str!("../../reports/shock.typ")), shock::Data::compute().unwrap().files().unwrap()),
         (("accuracy.typ", include_str!("../../reports/accuracy.typ")), accuracy_files().unwrap()),
     ];

@@ -6,6 +6,7 @@ mod bar;
 mod orders;
 mod peers;
 mod plane;
+pub(crate) mod plates;
 pub mod rules;
 
 pub use bar::scheme;

@@ -1,6 +1,7 @@
 //! Studies with clatter: science about the product, and no part of it.
 //!
 //! - [`paper`]: what the reference paper prints beside what clatter computes, with the curves of its figures ([`contour`]);
+//! - [`plate_claims`], [`plate_numbers`]: what a plate that lands on its corners does beyond a bar;
 //! - [`suspended`]: what a clatter does to suspended parts of any frequency, anywhere on a bar;
 //! - [`orders`], [`residues`], [`measured`]: how the models of a drop tend to one another, and how exact all of it is;
 //! - [`bars`], [`trade_files`], [`peers`]: what exactness costs, by our models and by other tools.
@@ -21,6 +22,7 @@ mod frame;
 mod orders;
 pub mod paper;
 mod peers;
+mod plate;
 mod shock;
 pub mod suspended;
 mod trade;
@@ -30,6 +32,7 @@ use std::path::Path;
 pub use accuracy::{Measured, measured};
 use clatter_report::{File, ReportError, Written, write_pages};
 pub use orders::{Order, Residue, orders, residues};
+pub use plate::{plate_claims, plate_numbers};
 pub use shock::shock_numbers;
 pub use trade::{bars, trade_files};
 
@@ -39,6 +42,8 @@ pub use trade::{bars, trade_files};
 pub enum Report {
     /// The paper's own figures, table and claims.
     Paper,
+    /// What a plate that lands on its corners does beyond a bar.
+    Plate,
     /// What the clatter does to a suspended part.
     Shock,
     /// How exact all of it is.
@@ -93,6 +98,10 @@ pub fn write(report: Report, dir: &Path, progress: &mut dyn FnMut(&str)) -> Resu
         Report::Paper => {
             let source = ("paper.typ", include_str!("../../reports/paper.typ"));
             write_pages("paper.pdf", source, &|| paper::Data::compute()?.files(), &[], dir, progress)
+        }
+        Report::Plate => {
+            let source = ("plate.typ", include_str!("../../reports/plate.typ"));
+            write_pages("plate.pdf", source, &|| plate::Data::compute()?.files(), &[], dir, progress)
         }
         Report::Shock => {
             let source = ("shock.typ", include_str!("../../reports/shock.typ"));
@@ -178,7 +187,7 @@ mod tests {
             let untimed = written.files.iter().filter(|file| !timed(file));
             untimed.map(|file| fs::read(file).unwrap()).collect::<Vec<_>>()
         };
-        for report in [Report::Paper, Report::Shock, Report::Accuracy] {
+        for report in [Report::Paper, Report::Plate, Report::Shock, Report::Accuracy] {
             let files = run(report);
             assert!(files.len() > 3 && files == run(report), "two runs of {report:?} differ");
         }

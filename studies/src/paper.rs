@@ -2,9 +2,9 @@
 //!
 //! Source: "Safe zones for shock-protection of fragile components during impact-induced clatter".
 
-mod claims;
+pub(crate) mod claims;
 mod page;
-mod table;
+pub(crate) mod table;
 
 pub use claims::{Claim, Kind, Measured, Verdict, claims};
 pub(crate) use page::Data;

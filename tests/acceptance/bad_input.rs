@@ -248,7 +248,7 @@ const REFUSED: &[(&[&str], &[&str])] = &[
     (&["scatter", "x.toml", "--target=sure"], &["--target", "'sure' is not a share"]),
     (&["scatter", "x.toml", "-o", "x.json"], &["x.json", ".csv"]),
     // The command itself.
-    (&["report", "novel"], &["novel", "paper, shock, accuracy, all"]),
+    (&["report", "novel"], &["novel", "paper, plate, shock, accuracy, all"]),
     (&["completions", "tcsh"], &["tcsh", "bash"]),
     (&["bounce"], &["bounce"]),
     (&["impacts", "--q=0.5", "--e=0", "--mass=1"], &["--mass"]),

@@ -40,6 +40,8 @@ some 10 seconds, or, where that cannot be done, built with cargo, 7 to 12 minute
 enum Which {
     /// The paper's figures, its table and its claims, computed anew
     Paper,
+    /// What a plate that lands on its corners does beyond a bar
+    Plate,
     /// What the clatter does to a suspended part
     Shock,
     /// How exact all of it is, at every extreme
@@ -52,9 +54,10 @@ impl Which {
     fn reports(self) -> &'static [Report] {
         match self {
             Self::Paper => &[Report::Paper],
+            Self::Plate => &[Report::Plate],
             Self::Shock => &[Report::Shock],
             Self::Accuracy => &[Report::Accuracy],
-            Self::All => &[Report::Paper, Report::Shock, Report::Accuracy],
+            Self::All => &[Report::Paper, Report::Plate, Report::Shock, Report::Accuracy],
         }
     }
 }

@@ -18,7 +18,7 @@ pub enum Verdict {
 
 impl Verdict {
     /// Holds if `all`, else in part if `some`, else fails.
-    fn of(all: bool, some: bool) -> Self {
+    pub(crate) fn of(all: bool, some: bool) -> Self {
         match (all, some) {
             (true, _) => Self::Holds,
             (false, true) => Self::InPart,
@@ -71,16 +71,16 @@ const GRID: usize = 401;
 /// A neighbor that differs by less than this part of itself is level: 1000 times the allowed error of a peak.
 const LEVEL: f64 = 1e-10;
 
-fn number(what: &'static str, value: f64) -> Measured {
+pub(crate) fn number(what: &'static str, value: f64) -> Measured {
     Measured { what, value, kind: Kind::Number, error: 0.0 }
 }
-fn count(what: &'static str, value: f64) -> Measured {
+pub(crate) fn count(what: &'static str, value: f64) -> Measured {
     Measured { what, value, kind: Kind::Count, error: 0.0 }
 }
 fn share(what: &'static str, value: f64, error: f64) -> Measured {
     Measured { what, value, kind: Kind::Share, error }
 }
-fn part(what: &'static str, value: f64) -> Measured {
+pub(crate) fn part(what: &'static str, value: f64) -> Measured {
     share(what, value, 0.0)
 }
 fn area(what: &'static str, integral: clatter::Integral) -> Measured {
@@ -168,15 +168,15 @@ fn zone(design: [f64; 2], threshold: f64) -> Result<f64, Error> {
     Ok(Bar::new(q, e)?.shocks_either(&Start::default()).safe_zone(threshold).s)
 }
 
-fn smallest(values: impl IntoIterator<Item = f64>) -> f64 {
+pub(crate) fn smallest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(f64::INFINITY, f64::min)
 }
-fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+pub(crate) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// Where a condition that is false at `a` and true at `b` turns, to the last bit.
-fn turn(mut a: f64, mut b: f64, holds: impl Fn(f64) -> bool) -> f64 {
+pub(crate) fn turn(mut a: f64, mut b: f64, holds: impl Fn(f64) -> bool) -> f64 {
     while (b - a).abs() > f64::EPSILON * b.abs().max(a.abs()) {
         let middle = 0.5 * (a + b);
         *(if holds(middle) { &mut b } else { &mut a }) = middle;
