@@ -3,12 +3,14 @@
 #![expect(clippy::missing_errors_doc, reason = "of every figure: what plotters says, which no input brings about")]
 
 mod bar;
+mod cube;
 mod orders;
 mod peers;
 mod plane;
 pub mod rules;
 
 pub use bar::scheme;
+pub use cube::{OverTime, tosses};
 pub use orders::{Panel as OrderPanel, orders};
 pub use peers::{Dot, Tool, tools};
 pub use plane::{Impacts, Zones, impacts, zones};
