@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Other tools on the measured tosses of a cube: python3 peers/cube.py (network the first time, some ten minutes)
+"""Other tools on the measured tosses of a cube: python3 peers/cube.py (network the first time, some five minutes)
 
 Every tool gets the cube as it comes to its first touch, as `cargo run --release -p clatter-studies --example cube` tells it, and says
 where it is at each sample after. Its settings are those with the least error on the training half: the mean over the first twelve
@@ -206,8 +206,9 @@ def main():
     path = lambda toss: json.dumps(toss, separators=(",", ":"))
     lines = [json.dumps(dict(row, paths=None))[:-5] + "[\n" + ",\n".join(map(path, row["paths"])) + "]}" for row in rows]
     beside = os.path.join(HERE, "cube.json.part")
+    cube = {name: value for name, value in json.loads(touches).items() if name != "tosses"}
     with open(beside, "w") as file:
-        file.write(f'{{"date": "{run.today()}", "rows": [\n' + ",\n".join(lines) + "\n]}\n")
+        file.write(f'{{"date": "{run.today()}", "cube": {json.dumps(cube)}, "rows": [\n' + ",\n".join(lines) + "\n]}\n")
     os.replace(beside, os.path.join(HERE, "cube.json"))
 
 

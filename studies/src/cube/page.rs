@@ -27,7 +27,7 @@ pub(crate) fn files() -> Result<Vec<File>, Error> {
 /// Every number that the section on tosses says, as it is printed: the file `cube.json`.
 ///
 /// # Errors
-/// [`Error::Data`] if the tosses or what other tools made of them are torn; else as [`files`].
+/// [`Error::Data`] if the tosses or what other tools made of them are torn; others if a model or the figure fails.
 pub fn numbers() -> Result<String, Error> {
     let numbers = files()?.into_iter().find(|(name, _)| *name == "cube.json");
     Ok(numbers.map(|(_, text)| text).unwrap_or_default())
