@@ -58,9 +58,25 @@ fn the_errors() {
     golden("accuracy-errors", &text);
 }
 
+/// Every number of the section on measured tosses, as it is printed.
+#[test]
+fn the_tosses() {
+    golden("accuracy-tosses", &clatter_studies::cube::numbers().expect("the numbers of the section"));
+}
+
 #[test]
 fn the_page() {
-    let openings = ["An error is ", "Table 1 ", "Table 2 ", "Table 5 ", "Fig. 1 ", "Table 10 ", "Table 11 ", "Fig. 2 "];
+    let openings = [
+        "An error is ",
+        "Table 1 ",
+        "Table 2 ",
+        "Table 5 ",
+        "Fig. 1 ",
+        "Table 10 ",
+        "Table 11 ",
+        "Fig. 2 ",
+        "The next touch.",
+    ];
     if let Some(text) = page(clatter_studies::Report::Accuracy, &openings) {
         golden("accuracy-page", &text);
     }

@@ -20,6 +20,7 @@ fn both_ways_set_the_same_reports() {
     let inputs = [
         ("trade.typ", include_str!("../../reports/trade.typ")),
         ("peers.typ", include_str!("../../reports/peers.typ")),
+        ("cube.typ", include_str!("../../reports/cube.typ")),
     ];
     for (source, files) in &reports {
         let files = || inputs.into_iter().chain(files.iter().map(|(name, text)| (*name, text.as_str())));

@@ -3,6 +3,7 @@
 #![expect(clippy::missing_errors_doc, reason = "of every figure: what plotters says, which no input brings about")]
 
 mod bar;
+mod cube;
 mod orders;
 mod peers;
 mod plane;
@@ -10,6 +11,7 @@ pub(crate) mod plates;
 pub mod rules;
 
 pub use bar::scheme;
+pub use cube::{OverTime, tosses};
 pub use orders::{Panel as OrderPanel, orders};
 pub use peers::{Dot, Tool, tools};
 pub use plane::{Impacts, Zones, impacts, zones};

@@ -4,7 +4,8 @@
 //! - [`plate_claims`], [`plate_numbers`]: what a plate that lands on its corners does beyond a bar;
 //! - [`suspended`]: what a clatter does to suspended parts of any frequency, anywhere on a bar;
 //! - [`orders`], [`residues`], [`measured`]: how the models of a drop tend to one another, and how exact all of it is;
-//! - [`bars`], [`trade_files`], [`peers`]: what exactness costs, by our models and by other tools.
+//! - [`bars`], [`trade_files`], [`peers`]: what exactness costs, by our models and by other tools;
+//! - [`cube`]: measured tosses of a cube and of a square beside the box, other tools, and what friction changes.
 //!
 //! [`figures`] draws what they find; [`write()`] makes the printed reports, which the command `clatter report` gives.
 
@@ -14,6 +15,7 @@ mod accuracy;
 #[cfg(test)]
 mod both_ways;
 pub mod contour;
+pub mod cube;
 pub mod figures;
 mod files;
 #[cfg(test)]
@@ -112,18 +114,20 @@ pub fn write(report: Report, dir: &Path, progress: &mut dyn FnMut(&str)) -> Resu
             let inputs = [
                 ("trade.typ", include_str!("../../reports/trade.typ")),
                 ("peers.typ", include_str!("../../reports/peers.typ")),
+                ("cube.typ", include_str!("../../reports/cube.typ")),
             ];
             write_pages("accuracy.pdf", source, &accuracy_files, &inputs, dir, progress)
         }
     }
 }
 
-/// Errors, the trade between them and time, and what other tools make of the same scenes.
+/// Errors, the trade between them and time, what other tools make of the same scenes, and measured tosses.
 fn accuracy_files() -> Result<Vec<File>, Error> {
     let mut files = accuracy::Data::compute()?.files()?;
     // After the rest: it takes times.
     files.extend(trade_files()?);
     files.extend(peers()?);
+    files.extend(cube::files()?);
     Ok(files)
 }
 

@@ -1,0 +1,147 @@
+//! Where the corners are at the samples after the first touch: measured, or as a model foretells it.
+
+use clatter_flight::{Block, BlockDrop, Contact, ContactLaw};
+use nalgebra::Vector3;
+
+use super::body::{Cube, upward};
+use super::flight::State;
+use super::strike::second_flight;
+use super::tosses::Toss;
+use crate::Error;
+
+/// Samples of a path: 162 ms of the cube from the first one to the last, 96 ms of the square.
+pub(super) const SAMPLES: usize = 25;
+
+/// What heights of corners come from. Ground without friction knows no more of a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Pose {
+    /// Of the center over the ground.
+    pub(super) height_m: f64,
+    /// The vertical in axes of the cube.
+    pub(super) upward: Vector3<f64>,
+}
+
+impl Pose {
+    /// Root mean square over the eight corners of how much higher or lower they are.
+    pub(super) fn off_m(&self, other: &Self, cube: &Cube) -> f64 {
+        let turned = cube.half_m * (self.upward - other.upward).norm();
+        libm::hypot(self.height_m - other.height_m, turned)
+    }
+    pub(super) fn heights_m(&self, cube: &Cube) -> [f64; 8] {
+        let corner = |i: usize, axis: usize| if i >> axis & 1 == 1 { self.upward[axis] } else { -self.upward[axis] };
+        std::array::from_fn(|i| self.height_m + cube.half_m * (corner(i, 0) + corner(i, 1) + corner(i, 2)))
+    }
+}
+
+/// A toss from its first touch on: how the cube comes, and where it is at each sample.
+#[derive(Debug, Clone)]
+pub(super) struct Case {
+    pub(super) number: u32,
+    pub(super) training: bool,
+    /// At the first touch, by the flight before it.
+    pub(super) touch: State,
+    /// When the samples were taken, from the first touch; 0 of one that was taken as good as at it.
+    pub(super) times_s: Vec<f64>,
+    pub(super) measured: Vec<Pose>,
+    /// The sample in the middle of the second flight.
+    pub(super) middle: Option<usize>,
+}
+
+impl Case {
+    /// None where the flight does not come down to the ground about when its poses end.
+    pub(super) fn new(toss: &Toss, training: bool, cube: &Cube) -> Option<Self> {
+        let first = toss.first_flight(cube);
+        let end = cube.time_s(first.until);
+        let touch_s = first.touch_s(end - 3.0 / cube.rate_hz, end + 3.0 / cube.rate_hz, cube)?;
+        let middle = second_flight(toss, cube).map(|flight| usize::midpoint(flight.from, flight.until) - first.until);
+        let until = (first.until + SAMPLES).min(toss.poses.len());
+        let seen =
+            |pose: &super::tosses::Pose| Pose { height_m: pose.place.z - cube.ground_m, upward: upward(&pose.turned) };
+        Some(Self {
+            number: toss.number,
+            training,
+            touch: first.at(touch_s, cube),
+            times_s: (first.until..until).map(|sample| (cube.time_s(sample) - touch_s).max(0.0)).collect(),
+            measured: toss.poses[first.until..until].iter().map(seen).collect(),
+            middle: middle.filter(|middle| (1..SAMPLES - 1).contains(middle)),
+        })
+    }
+
+    /// The same up to so many samples.
+    pub(super) fn first(&self, samples: usize) -> Self {
+        let mut case = self.clone();
+        case.times_s.truncate(samples);
+        case.measured.truncate(samples);
+        case
+    }
+
+    /// As it touches.
+    pub(super) fn touch_pose(&self, cube: &Cube) -> Pose {
+        Pose { height_m: self.touch.place.z - cube.ground_m, upward: upward(&self.touch.turned) }
+    }
+
+    /// How far a path is off at each sample.
+    pub(super) fn off_m(&self, path: &[Pose], cube: &Cube) -> Vec<f64> {
+        self.measured.iter().zip(path).map(|(measured, pose)| measured.off_m(pose, cube)).collect()
+    }
+
+    /// The box of the product: contacts that take time, no friction.
+    pub(super) fn of_box(&self, e: f64, contact_s: f64, cube: &Cube) -> Result<Vec<Pose>, Error> {
+        let block = Block::new([2.0 * cube.half_m; 3], [0.0; 3], [cube.gyration_m; 3])?;
+        let [w, i, j, k] = [self.touch.turned.w, self.touch.turned.i, self.touch.turned.j, self.touch.turned.k];
+        let spin = self.touch.turned.inverse() * self.touch.spin;
+        let end = self.times_s.last().copied().unwrap_or(0.0);
+        let drop = BlockDrop::new(block, [w, i, j, k], -self.touch.velocity.z, cube.gravity_m_s2)?
+            .with_spin(spin.into())?
+            .with_time_limit_s(end + 1e-3)?;
+        let contact = Contact::new(ContactLaw::Hysteretic, e, contact_s)?;
+        let mut path = Vec::with_capacity(self.times_s.len());
+        let flight = drop.contacts(&contact, |step| {
+            while let Some(time) = self.times_s.get(path.len())
+                && *time <= step.from_s + step.length_s
+            {
+                let share = (time - step.from_s).max(0.0) / step.length_s;
+                let height_m = step.place_m([0.0; 3], share).0;
+                let along =
+                    |axis: usize| step.place_m(std::array::from_fn(|i| f64::from(u8::from(i == axis))), share).0;
+                path.push(Pose { height_m, upward: Vector3::from_fn(|axis, _| along(axis) - height_m) });
+            }
+        })?;
+        // At rest nothing moves any more.
+        let rest = Pose { height_m: flight.center_m, upward: flight.upward.into() };
+        path.resize(self.times_s.len(), rest);
+        Ok(path)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::cube::TOSSES;
+    use crate::cube::body::CUBE;
+    use crate::cube::rigid::Rigid;
+    use crate::cube::study::Study;
+    use crate::cube::tosses::read;
+
+    /// Two ways that share nothing: the box of the product with short contacts, and impacts at points, as long as the lowest corner rises.
+    #[test]
+    fn short_contacts_without_friction_are_rigid_impacts() {
+        let study = Study::new(read(TOSSES).unwrap(), &CUBE);
+        let lowest = |pose: &super::Pose| pose.heights_m(&study.cube).into_iter().fold(f64::INFINITY, f64::min);
+        let mut compared = 0;
+        for case in &study.cases {
+            let own = case.of_box(0.3, 5e-5, &study.cube).unwrap();
+            let rigid = Rigid { e: 0.3, friction: 0.0 }.path(case, &study.cube);
+            let mut last = 0.0;
+            for (a, b) in own.iter().zip(&rigid) {
+                if lowest(a) < last {
+                    break;
+                }
+                last = lowest(a);
+                compared += 1;
+                // A step of the impacts, at 4 m/s of the fastest corner.
+                assert!(a.off_m(b, &study.cube) < 4e-4, "toss {}: {:e}", case.number, a.off_m(b, &study.cube));
+            }
+        }
+        assert!(compared > 300, "{compared} samples");
+    }
+}
