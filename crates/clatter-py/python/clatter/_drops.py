@@ -1,0 +1,342 @@
+"""Drops in time, in SI units: bars, plates and boxes; and what a part makes of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Literal
+
+from . import _clatter
+from ._answer import Answer, Rows, flat, told
+from ._bars import End, Piece, _pieces
+from ._records import Pulse
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+Model = Literal["map", "ballistic", "finite-tilt", "compliant"]
+Law = Literal["hysteretic", "dashpot"]
+Triple = tuple[float, float, float]
+
+#: Standard gravity, m/s².
+STANDARD_GRAVITY = 9.80665
+
+
+def _impacts(answer: Answer) -> Rows:
+    points = "ab" if "length_m" in answer and "width_m" not in answer else "abcd"
+    return [flat(impact, points) for impact in answer.impacts]
+
+
+def simulate(
+    *,
+    model: Model,
+    length_m: float,
+    gyration_m: float | Sequence[float],
+    e: float,
+    width_m: float | None = None,
+    thickness_m: float | None = None,
+    speed_m_s: float | None = None,
+    height_m: float | None = None,
+    tilt_deg: float | None = None,
+    direction_deg: float | None = None,
+    gaps_m: tuple[float, float] | None = None,
+    orientation: tuple[float, float, float, float] | None = None,
+    center_of_mass: float | tuple[float, float] | None = None,
+    center_of_mass_m: Triple | None = None,
+    spin_rad_s: float | Triple | None = None,
+    gravity_m_s2: float = STANDARD_GRAVITY,
+    contact_time_s: float | None = None,
+    contact_law: Law | None = None,
+    time_limit_s: float | None = None,
+    impact_limit: int | None = None,
+    at: Sequence[float] | Sequence[tuple[float, float]] = (),
+    history: bool = False,
+) -> Answer:
+    """One drop in time: gravity, real tilt, contacts that take time.
+
+    A length makes a bar; with a width it is a plate at small tilt, with a thickness beside it a box in any orientation.
+
+    Parameters
+    ----------
+    model : {'map', 'ballistic', 'finite-tilt', 'compliant'}
+        What is kept of the drop. Plates are followed by map and compliant, boxes by compliant.
+    length_m, width_m, thickness_m : float
+        Size of the body in m. The thickness of a bar is for finite-tilt.
+    gyration_m : float, (float, float) or (float, float, float)
+        Radius of gyration about the center of mass in m; of a plate along both sides, of a box about its axes.
+    e : float
+        Coefficient of restitution, in [0, 1].
+    speed_m_s, height_m : float
+        Speed at the first touch in m/s, or the height of the lower end before the drop in m.
+    tilt_deg, direction_deg : float
+        Tilt at the first touch in degrees; where a plate or box rises from corner a, 0 along its length.
+    gaps_m : (float, float), optional
+        Of a plate, instead of tilt and direction: heights of corners b and d as a touches, in m.
+    orientation : (w, x, y, z), optional
+        Of a box, instead of a tilt: the unit quaternion that turns its axes into those of the world, z upward.
+    center_of_mass : float or (float, float), optional
+        Of a bar or plate, in half-sides from the middle.
+    center_of_mass_m : (float, float, float), optional
+        Of a box, in m from the middle.
+    spin_rad_s : float or (float, float, float), optional
+        At the first touch in rad/s; of a box about its axes.
+    gravity_m_s2 : float
+        In m/s².
+    contact_time_s : float, optional
+        Of a lone contact, in s; for compliant.
+    contact_law : {'hysteretic', 'dashpot'}, optional
+        What the ground does meanwhile; hysteretic unless given.
+    time_limit_s : float, optional
+        Time for which the motion is followed, in s.
+    impact_limit : int
+        Strikes that are followed at most: 100 000, of a plate by map 1000 unless given.
+    at : list of float or of (float, float)
+        Positions in [-1, 1] whose velocity shocks are asked for.
+    history : bool
+        Of a bar, also the rows of its whole motion, as ``history``.
+
+    Returns
+    -------
+    Answer
+        ``impacts`` and ``stop``, times in s and velocities in m/s, as ``clatter simulate`` has it. ``plot()`` of a bar is the
+        picture.
+
+    Examples
+    --------
+    >>> import clatter
+    >>> drop = clatter.simulate(model="finite-tilt", length_m=0.14, gyration_m=0.0404, e=0.3, speed_m_s=4.43, tilt_deg=5)
+    >>> drop.impacts[0].end, drop.impacts[0].approach_m_s, drop.stop.reason
+    ('a', -4.43, 'at-rest')
+    """
+    limit = impact_limit or (1000 if width_m is not None and model == "map" else 100_000)
+    if width_m is not None and (thickness_m is not None or orientation is not None):
+        if model != "compliant" or contact_time_s is None:
+            raise ValueError("a box is followed by model='compliant' alone, with a contact_time_s")
+        if len(at) or history or gaps_m is not None or center_of_mass is not None:
+            raise ValueError("at, history, gaps_m and center_of_mass are not those of a box")
+        if thickness_m is None:
+            raise ValueError("the drop is not whole: give thickness_m")
+        size, radii = (length_m, width_m, thickness_m), _several("gyration_m", gyration_m, 3)
+        center = (0.0, 0.0, 0.0) if center_of_mass_m is None else center_of_mass_m
+        spin = [0.0] * 3 if spin_rad_s is None else _several("spin_rad_s", spin_rad_s, 3)
+        turned = (orientation, tilt_deg, 0.0 if direction_deg is None else direction_deg)
+        contact = (contact_time_s, contact_law)
+        drop = (size, radii, center, e, speed_m_s, height_m, gravity_m_s2, *turned, spin, *contact)
+        return told(_clatter.simulate_box(*drop, time_limit_s, limit), _box_impacts)
+    if center_of_mass_m is not None or orientation is not None:
+        raise ValueError("center_of_mass_m and orientation are those of a box: give width_m and thickness_m")
+    if width_m is not None:
+        if spin_rad_s is not None or history:
+            raise ValueError("spin_rad_s and history are not those of a plate")
+        center_xy = [0.0] * 2 if center_of_mass is None else _several("center_of_mass", center_of_mass, 2)
+        if tilt_deg and direction_deg is None:
+            raise ValueError("the drop is not whole: give direction_deg")
+        plate = ((length_m, width_m), _several("gyration_m", gyration_m, 2), center_xy, e)
+        tilted = (gaps_m, tilt_deg, direction_deg or 0.0)
+        fall = (speed_m_s, height_m, gravity_m_s2, *tilted, model, contact_time_s, contact_law, time_limit_s, limit)
+        return told(_clatter.simulate_plate(*plate, *fall, list(at)), _impacts)  # type: ignore[arg-type]
+    if gaps_m is not None or direction_deg is not None:
+        raise ValueError("gaps_m and direction_deg are those of a plate: give width_m")
+    bar = _fall(length_m, gyration_m, center_of_mass, thickness_m, e, speed_m_s, height_m, tilt_deg, gravity_m_s2)
+    spin_of_bar = 0.0 if spin_rad_s is None else _several("spin_rad_s", spin_rad_s, 1)[0]
+    contact_of_bar = (contact_time_s, contact_law, spin_of_bar, time_limit_s, limit)
+    return told(_clatter.simulate(bar, model, *contact_of_bar, list(at), history), _impacts)  # type: ignore[arg-type]
+
+
+def _box_impacts(answer: Answer) -> Rows:
+    return [flat(impact, "") for impact in answer.impacts]
+
+
+def _several(name: str, value: float | Sequence[float], count: int) -> list[float]:
+    values = [float(value)] if isinstance(value, (int, float)) else [float(one) for one in value]
+    if len(values) != count:
+        raise ValueError(f"{name} takes {count} value{'s' * (count > 1)} here, not {len(values)}")
+    return values
+
+
+def _fall(
+    length_m: float,
+    gyration_m: float | Sequence[float],
+    center_of_mass: float | tuple[float, float] | None,
+    thickness_m: float | None,
+    e: float,
+    speed_m_s: float | None,
+    height_m: float | None,
+    tilt_deg: float | None,
+    gravity_m_s2: float,
+) -> dict[str, float | None]:
+    if tilt_deg is None:
+        raise ValueError("the drop is not whole: give tilt_deg")
+    return {
+        "length_m": length_m,
+        "gyration_m": _several("gyration_m", gyration_m, 1)[0],
+        "center_of_mass": 0.0 if center_of_mass is None else _several("center_of_mass", center_of_mass, 1)[0],
+        "thickness_m": 0.0 if thickness_m is None else thickness_m,
+        "e": e,
+        "speed_m_s": speed_m_s,
+        "height_m": height_m,
+        "tilt_deg": tilt_deg,
+        "gravity_m_s2": gravity_m_s2,
+    }
+
+
+def respond(
+    *,
+    pulses: Pulse | Sequence[Pulse] | None = None,
+    shocks: Sequence[tuple[float, float]] | None = None,
+    e: float | None = None,
+    q: float | None = None,
+    gyration_ratio: float | None = None,
+    center_of_mass: float | None = None,
+    masses: Sequence[Piece] | None = None,
+    velocity: tuple[float, float] | None = None,
+    height_gap: float | None = None,
+    at: float | None = None,
+    omega: float | None = None,
+    frequency_hz: float | None = None,
+    damping: float | None = None,
+    q_factor: float | None = None,
+    model: Model | None = None,
+    length_m: float | None = None,
+    gyration_m: float | None = None,
+    thickness_m: float | None = None,
+    speed_m_s: float | None = None,
+    height_m: float | None = None,
+    tilt_deg: float | None = None,
+    gravity_m_s2: float = STANDARD_GRAVITY,
+    contact_time_s: float | None = None,
+    contact_law: Law | None = None,
+    first: End | None = None,
+    flat: bool = False,
+    tolerance: float = 0.01,
+) -> Answer:
+    """What a part on its mount makes of pulses, velocity shocks, the clatter of a bar, or a drop in time.
+
+    Parameters
+    ----------
+    pulses : Pulse or list of Pulse, optional
+        What shakes the part, in SI.
+    shocks : list of (time_s, delta_v_m_s), optional
+        Velocity shocks in the order of time.
+    e, q, gyration_ratio, center_of_mass, masses, velocity, height_gap
+        Else a bar as in :func:`impacts`, in v0 and h0 or all in SI.
+    at : float
+        Where the part is on the bar, in [-1, 1].
+    omega, frequency_hz : float
+        Natural angular frequency in v0/h0 or rad/s, or natural frequency in Hz.
+    damping, q_factor : float
+        Damping ratio, or 1/(2 damping); Q = 10 unless given.
+    length_m, gyration_m, thickness_m, speed_m_s, height_m, tilt_deg, gravity_m_s2, model, contact_time_s, contact_law
+        Else a drop of a bar as in :func:`simulate`, with e and center_of_mass.
+    first : {'a', 'b'}, optional
+        Of a drop: the end that touches first.
+    flat : bool
+        Of a drop: whether both ends land as one, with instant impacts.
+    tolerance : float
+        Of a drop: how exact the answer is, as a share of it.
+
+    Returns
+    -------
+    Answer
+        Peaks of the part and what single shocks would do, as ``clatter respond`` has it.
+
+    Examples
+    --------
+    >>> import clatter
+    >>> pulse = clatter.Pulse("half-sine", amplitude_m_s2=9806.65, duration_s=1e-3)
+    >>> part = clatter.respond(pulses=pulse, frequency_hz=100, damping=0.05)
+    >>> round(part.peak_absolute_acceleration_over_omega * part.omega / 9.80665)  # gn
+    369
+    """
+    if length_m is not None:
+        if pulses is not None or shocks is not None or q is not None or gyration_ratio is not None or masses:
+            raise ValueError(
+                "length_m makes a drop in SI units: pulses, shocks, q, gyration_ratio and masses do not go with it"
+            )
+        if gyration_m is None or e is None or at is None:
+            raise ValueError("the drop is not whole: give gyration_m, e and at")
+        drop = _fall(length_m, gyration_m, center_of_mass, thickness_m, e, speed_m_s, height_m, tilt_deg, gravity_m_s2)
+        hz = frequency_hz if omega is None else omega / _TAU
+        contact = (contact_time_s, contact_law, first, flat)
+        return told(_clatter.respond_drop(drop, model, *contact, at, hz, damping, q_factor, tolerance))
+    if (omega is None) == (frequency_hz is None):
+        raise ValueError("one of omega and frequency_hz says how the part swings")
+    swing = omega if omega is not None else _TAU * (frequency_hz or 0.0)
+    shaken = list(shocks) if shocks is not None else _pulses(pulses)
+    bar = (e, q, gyration_ratio, center_of_mass, _pieces(masses), velocity, height_gap, at)
+    return told(_clatter.respond(shaken, *bar, swing, damping, q_factor))
+
+
+_TAU = 6.283185307179586
+
+
+def _pulses(pulses: Pulse | Sequence[Pulse] | None) -> list[_clatter.PulseData] | None:
+    if pulses is None:
+        return None
+    return [pulse._data for pulse in ([pulses] if isinstance(pulses, Pulse) else pulses)]
+
+
+def boxes(
+    *,
+    length_m: ArrayLike,
+    width_m: ArrayLike,
+    thickness_m: ArrayLike,
+    gyration_m: tuple[ArrayLike, ArrayLike, ArrayLike],
+    orientation: ArrayLike,
+    e: ArrayLike,
+    speed_m_s: ArrayLike,
+    contact_time_s: ArrayLike,
+    center_of_mass_m: tuple[ArrayLike, ArrayLike, ArrayLike] = (0.0, 0.0, 0.0),
+    spin_rad_s: tuple[ArrayLike, ArrayLike, ArrayLike] = (0.0, 0.0, 0.0),
+    gravity_m_s2: ArrayLike = STANDARD_GRAVITY,
+    contact_law: Law = "hysteretic",
+) -> Answer:
+    """Drops of many boxes, each as :func:`simulate` follows it.
+
+    Parameters
+    ----------
+    length_m, width_m, thickness_m : array_like
+        Size in m.
+    gyration_m, center_of_mass_m, spin_rad_s : three array_like
+        Along or about the three axes of the box; m, m, rad/s.
+    orientation : array_like, shape (..., 4)
+        Unit quaternions w, x, y, z that turn the axes of the box into those of the world, z upward.
+    e, speed_m_s, contact_time_s, gravity_m_s2 : array_like
+        As in :func:`simulate`.
+    contact_law : {'hysteretic', 'dashpot'}
+        Of all.
+
+    Returns
+    -------
+    Answer
+        Arrays of the broadcast shape: ``count`` of presses, ``largest_delta_v_m_s`` of a corner, ``stop_time_s``, ``at_rest``
+        (1, or 0 where a limit or a rebound ended it) and ``energy_error``.
+
+    Examples
+    --------
+    >>> import clatter
+    >>> drops = clatter.boxes(
+    ...     length_m=0.15, width_m=0.07, thickness_m=0.015, gyration_m=(0.0207, 0.0435, 0.0478),
+    ...     orientation=[0.9238795325, 0.3826834324, 0, 0], e=0.3, speed_m_s=[2.0, 4.43], contact_time_s=1e-3,
+    ... )
+    >>> drops.at_rest
+    array([1., 1.])
+    """
+    from ._arrays import Columns, floats
+
+    quaternions = floats("orientation", orientation)
+    if quaternions.ndim == 0 or quaternions.shape[-1] != 4:
+        raise ValueError(f"orientation has shape {quaternions.shape}; its last axis is w, x, y, z")
+    triples = {"gyration_m": gyration_m, "center_of_mass_m": center_of_mass_m, "spin_rad_s": spin_rad_s}
+    for name, triple in triples.items():
+        if len(triple) != 3:
+            raise ValueError(f"{name} takes three arrays, of x, y and z")
+    axes = {f"{name}_{axis}": one for name, triple in triples.items() for axis, one in zip("xyz", triple)}
+    turns = {f"orientation_{part}": quaternions[..., i] for i, part in enumerate("wxyz")}
+    given = Columns({"length_m": length_m, "width_m": width_m, "thickness_m": thickness_m, "e": e, "speed_m_s": speed_m_s,
+        "contact_time_s": contact_time_s, "gravity_m_s2": gravity_m_s2, **axes, **turns,
+    })  # fmt: skip
+    size = [given["length_m"], given["width_m"], given["thickness_m"]]
+    radii, center, spin = ([given[f"{name}_{axis}"] for axis in "xyz"] for name in triples)
+    turned = [given[name] for name in turns]
+    rest = (given["e"], given["speed_m_s"], given["gravity_m_s2"], given["contact_time_s"], contact_law)
+    return given.answer(_clatter.boxes(list(given.shape), size, radii, center, turned, spin, *rest))
