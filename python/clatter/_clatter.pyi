@@ -54,6 +54,7 @@ class Record:
     @staticmethod
     def of_columns(
         columns: Sequence[tuple[str, str | None, NDArray[Any]]],
+        left_out: Sequence[str],
         file: str,
         time: _Which | None,
         acceleration: Sequence[_Which],

@@ -143,9 +143,9 @@ class Record:
         skip_bad: bool = False,
         name: str = "data",
     ) -> None:
-        columns = _columns(data, time_s)
+        columns, left_out = _columns(data, time_s)
         options = (time, _list(acceleration), units, sample_rate_hz, full_scale_m_s2, sensitivity, skip_bad)
-        self._data = _clatter.Record.of_columns(columns, name, *options)
+        self._data = _clatter.Record.of_columns(columns, left_out, name, *options)
 
     @classmethod
     def open(
@@ -269,8 +269,11 @@ def _list(columns: Column | Sequence[Column]) -> list[Column]:
     return [columns] if isinstance(columns, (str, int)) else list(columns)
 
 
-def _columns(data: Any, time_s: ArrayLike | None) -> list[tuple[str, str | None, NDArray[Any]]]:
-    """Columns with their names and units, of a table or of arrays."""
+_Columns = list[tuple[str, "str | None", "NDArray[Any]"]]
+
+
+def _columns(data: Any, time_s: ArrayLike | None) -> tuple[_Columns, list[str]]:
+    """Columns with their names and units, of a table or of arrays; of a table also what is no numbers."""
     import numpy as np
 
     from ._arrays import floats, one_dimensional
@@ -281,17 +284,26 @@ def _columns(data: Any, time_s: ArrayLike | None) -> list[tuple[str, str | None,
     if names is not None:
         if time_s is not None:
             raise ValueError("time_s goes with arrays; a table has a column of time")
-        return [(str(name), *_numbers(str(name), data[name])) for name in [*names]] + _index(data, [*names])
+        texts = [str(name) for name in names if _is_text(data[name])]
+        numbers = [(str(name), *_numbers(str(name), data[name])) for name in names if str(name) not in texts]
+        return numbers + _index(data, [*names]), [f"column {name}, which is text" for name in texts]
     array = floats("data", data)
     if array.ndim not in (1, 2):
         raise ValueError(f"data has shape {array.shape}; it is (samples,) or (samples, channels)")
     channels = array.reshape(len(array), -1).T
     names = ["a"] if len(channels) == 1 else [f"a_{i + 1}" for i in range(len(channels))]
-    columns: list[tuple[str, str | None, NDArray[Any]]] = []
+    columns: _Columns = []
     if time_s is not None:
         columns.append(("time", "s", one_dimensional("time_s", time_s)))
     columns.extend((name, "m/s2", np.ascontiguousarray(channel)) for name, channel in zip(names, channels))
-    return columns
+    return columns, []
+
+
+def _is_text(column: Any) -> bool:
+    import numpy as np
+
+    array = np.asarray(column)
+    return array.dtype.kind in "USb" or (array.dtype.kind == "O" and any(isinstance(one, str) for one in array.flat))
 
 
 def _numbers(name: str, column: Any) -> tuple[str | None, NDArray[Any]]:
@@ -310,7 +322,7 @@ def _numbers(name: str, column: Any) -> tuple[str | None, NDArray[Any]]:
     return None, one_dimensional(name, column)
 
 
-def _index(data: Any, names: list[Any]) -> list[tuple[str, str | None, NDArray[Any]]]:
+def _index(data: Any, names: list[Any]) -> _Columns:
     """The index of a DataFrame of pandas, where it is one of times."""
     import numpy as np
 

@@ -145,6 +145,7 @@ impl Record {
     #[staticmethod]
     fn of_columns(
         columns: Vec<(String, Option<String>, Numbers)>,
+        left_out: Vec<String>,
         file: String,
         time: Option<Which>,
         acceleration: Vec<Which>,
@@ -163,7 +164,7 @@ impl Record {
             sampled_s: None,
             values: numbers.0,
         };
-        let table = Table { columns: columns.into_iter().map(column).collect(), ..Table::default() };
+        let table = Table { columns: columns.into_iter().map(column).collect(), left_out, notes: Vec::new() };
         let record = clatter_record::Record::of_table(table, &options).map_err(refused)?;
         Ok(Self { record, file })
     }
