@@ -16,7 +16,8 @@ if TYPE_CHECKING:
 # Words of users, which no number is written as.
 _NAMES = frozenset(("name", "component", "product", "file", "files", "drop", "reason", "note", "notes"))
 _NUMBERS = {"infinite": float("inf"), "-infinite": float("-inf")}
-_SHOWN = 20
+# Of a table in a notebook: rows, columns and characters of a cell.
+_SHOWN, _WIDE, _LONG = 20, 12, 40
 
 Rows = Sequence[Mapping[str, Any]] | Mapping[str, Any]
 
@@ -159,7 +160,7 @@ class Answer:
     def _repr_html_(self) -> str:
         told = [(name, value) for name, value in self.__dict__.items() if not isinstance(value, list)]
         told = [(name, value) for name, value in told if getattr(value, "ndim", 0) == 0]
-        cells = "".join(f"<tr><th>{escape(name)}</th><td>{escape(_short(value))}</td></tr>" for name, value in told)
+        cells = "".join(f"<tr><th>{escape(name)}</th><td>{_cell(value)}</td></tr>" for name, value in told)
         return f"<table>{cells}</table>{_rows_html(self._table()) if self._rows else ''}"
 
 
@@ -181,6 +182,11 @@ def _short(value: Any) -> str:
     return repr(value) if isinstance(value, (str, Answer)) else str(value)
 
 
+def _cell(value: Any) -> str:
+    text = value if isinstance(value, str) else _short(value)
+    return escape(text if len(text) <= _LONG else f"{text[: _LONG - 1]}…")
+
+
 def _rows_html(rows: Rows) -> str:
     if isinstance(rows, Mapping):
         names, count = list(rows), max((len(column) for column in rows.values()), default=0)
@@ -188,8 +194,9 @@ def _rows_html(rows: Rows) -> str:
     else:
         names, count = list(dict.fromkeys(name for row in rows for name in row)), len(rows)
         cells = [[row.get(name) for name in names] for row in rows[:_SHOWN]]
+    names = names[:_WIDE]
     head = "".join(f"<th>{escape(name)}</th>" for name in names)
-    body = "".join(f"<tr>{''.join(f'<td>{escape(_short(cell))}</td>' for cell in row)}</tr>" for row in cells)
+    body = "".join(f"<tr>{''.join(f'<td>{_cell(cell)}</td>' for cell in row[:_WIDE])}</tr>" for row in cells)
     more = f"<p>{count - _SHOWN} more rows</p>" if count > _SHOWN else ""
     return f"<table><tr>{head}</tr>{body}</table>{more}"
 
