@@ -16,6 +16,9 @@ Piece = tuple[float, float] | tuple[float, float, float]
 Quantity = Literal["impacts", "peak-end", "peak-center", "peak-angular", "net-center", "duration", "zone"]
 End = Literal["a", "b"]
 
+# Impacts that an answer lists: as objects they take a kilobyte each.
+_LISTED = 1_000_000
+
 
 def _impacts(answer: Answer) -> Rows:
     points = "ab" if len(answer.velocity) == 2 else "abcd"
@@ -71,7 +74,7 @@ def impacts(
     at : list of float or of (float, float), optional
         Positions whose velocity shocks are asked for, in [-1, 1].
     limit : int
-        Impacts listed at most.
+        Impacts listed at most, a million; :func:`trains` has arrays.
 
     Returns
     -------
@@ -86,6 +89,8 @@ def impacts(
     >>> answer.count, answer.peak.end, answer.impacts[1].end
     (4, 2.145, 'b')
     """
+    if not 0 <= limit <= _LISTED:
+        raise ValueError(f"limit = {limit} is not in 0 ..= {_LISTED}; trains() has arrays")
     rest = (center_of_mass, _pieces(masses), velocity, height_gap, at, limit)
     return told(_clatter.impacts(e, q, gyration_ratio, *rest), _impacts)
 

@@ -31,6 +31,7 @@ class PulseData:
 
 class ProductText:
     warnings: str
+    names_records: bool
     def __init__(self, text: str, origin: str) -> None: ...
 
 class Record:

@@ -283,7 +283,7 @@ def _limits(answer: Answer) -> Rows:
 def assess(product: Source, *, tolerance: float = 0.01, model: Model | None = None, merge_s: float = 1e-3) -> Answer:
     """Which part of a product fails, in which drop, by how much.
 
-    Records that a product file names are not read: :func:`fit` takes them.
+    Records that a product file names are not read, which is warned of: :func:`fit` takes them.
 
     Parameters
     ----------
@@ -309,7 +309,10 @@ def assess(product: Source, *, tolerance: float = 0.01, model: Model | None = No
     >>> answer.verdict, [part.name for part in answer.components]
     ('safe', ['display', 'camera', 'crystal'])
     """
-    return told(_clatter.assess(_of(product), tolerance, model, merge_s), _limits)
+    file = _of(product)
+    if file.names_records:
+        warnings.warn("the records that the product file names are not read: fit() takes them", stacklevel=2)
+    return told(_clatter.assess(file, tolerance, model, merge_s), _limits)
 
 
 def scatter(

@@ -24,6 +24,11 @@ pub(crate) struct Fall {
     gravity_m_s2: f64,
 }
 
+/// Rows of a motion that an answer has at most.
+const MOST_ROWS: usize = 4_000_000;
+const TOO_LONG: &str =
+    "the motion has more than 4 million rows: time_limit_s or impact_limit says how far it is wanted";
+
 /// A drop of a bar.
 pub(crate) fn scene(fall: &Fall) -> PyResult<Scene> {
     let Fall { length_m, gyration_m, center_of_mass, thickness_m, e, tilt_deg, gravity_m_s2, .. } = *fall;
@@ -71,6 +76,9 @@ pub(crate) fn simulate(
     (question.center_of_mass, question.height_m) = (fall.center_of_mass, fall.height_m);
     let (told, answer) = work::done(py, move |_| {
         let answer = simulate_of::answer(&question).map_err(|error| error.to_string())?;
+        if history && answer.impacts.motion().rows().nth(MOST_ROWS).is_some() {
+            return Err(TOO_LONG.to_owned());
+        }
         let told = if history { json(&answer.with_history()) } else { json(&answer) };
         Ok::<_, String>((told?, answer))
     })?

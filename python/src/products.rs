@@ -26,6 +26,9 @@ pub(crate) struct ProductText {
     text: String,
     #[pyo3(get)]
     warnings: String,
+    /// Whether it names records of measured drops.
+    #[pyo3(get)]
+    names_records: bool,
 }
 
 #[pymethods]
@@ -34,7 +37,7 @@ impl ProductText {
     fn new(text: String, origin: &str) -> PyResult<Self> {
         let (file, odd) = ProductFile::read_warned(&text, origin).map_err(refused)?;
         let warnings = if odd.warnings().is_empty() { String::new() } else { odd.to_string() };
-        Ok(Self { file, text, warnings })
+        Ok(Self { names_records: !file.records.is_empty(), file, text, warnings })
     }
 }
 

@@ -176,6 +176,7 @@ REFUSED = {
     "axis e = 0.5:0.1:3: the first bound must not exceed the last": lambda: clatter.map(
         "impacts", q=(0, 1, 3), e=(0.5, 0.1, 3)
     ),
+    "limit = 1000000000 is not in 0 ..= 1000000; trains() has arrays": lambda: clatter.impacts(q=0.5, e=0.3, limit=10**9),
     "zone needs a threshold, in v0": lambda: clatter.map("zone", q=(0, 1, 3), e=(0, 1, 3)),
 }
 

@@ -53,7 +53,7 @@ def test_types(tmp_path):
         "clatter.impacts(q='a lot', e=0.3)\n"
         "clatter.spectrum(clatter.Record([1.0, 2.0], sample_rate_hz=1e3), quantity='speed')\n"
     )
-    package = Path(clatter.__file__).parent
+    package = ROOT / "python" / "clatter"
     mypy = [sys.executable, "-m", "mypy", "--strict", f"--config-file={ROOT / 'pyproject.toml'}", f"--cache-dir={tmp_path}"]
     own = subprocess.run([*mypy, package], capture_output=True, text=True)
     assert own.returncode == 0, own.stdout

@@ -13,10 +13,13 @@ import numpy as np
 import pytest
 
 
-def stiff():
-    """A product whose search takes long."""
-    text = clatter.Product.example().text.replace('["1 deg", "10 deg"]', '["0.01 deg", "30 deg"]')
-    return clatter.Product.from_text(text.replace('"90 Hz", "110 Hz"', '"5 Hz", "20 kHz"'))
+def crowded():
+    """A product of so many parts that to search it takes some ten seconds."""
+    head, display, camera, *_ = clatter.Product.example().text.split("[[component]]\n")
+    parts = [
+        camera.replace('"camera"', f'"camera {i}"').replace('"90 Hz", "110 Hz"', f'"{90 + i} Hz", "2 kHz"') for i in range(300)
+    ]
+    return clatter.Product.from_text("[[component]]\n".join([head, display, *parts]))
 
 
 def bars():
@@ -37,8 +40,8 @@ def spectra():
 
 LONG = {
     "scatter": lambda: lambda: clatter.scatter(clatter.Product.example(), samples=10**12),
-    "assess": lambda: lambda: clatter.assess(stiff(), tolerance=1e-4),
-    "design": lambda: lambda: clatter.design(stiff(), margin=50),
+    "assess": lambda: lambda: clatter.assess(crowded(), tolerance=1e-4),
+    "design": lambda: lambda: clatter.design(crowded(), margin=50),
     "bars": bars,
     "boxes": boxes,
     "spectra": spectra,
@@ -53,9 +56,11 @@ def test_ctrl_c_ends_long_work(work):
         sent.append(time.monotonic())
         os.kill(os.getpid(), signal.SIGINT)
 
-    threading.Timer(0.3, interrupt).start()
+    timer = threading.Timer(0.3, interrupt)
+    timer.start()
     with pytest.raises(KeyboardInterrupt):
         ask()
+        timer.cancel()
     assert time.monotonic() - sent[0] < 1
     assert clatter.bars(q=0.5, e=0.3).count == 4  # and the next question is answered
 

@@ -101,6 +101,13 @@ def test_slips_are_warned_of(command, tmp_path, monkeypatch):
     assert f"{warned[0].message}\n" == told
 
 
+def test_records_of_a_product_are_not_read_in_silence():
+    text = clatter.Product.example().text + '[[record]]\nfile = "strikes.csv"\n'
+    with pytest.warns(UserWarning, match="the records that the product file names are not read"):
+        answer = clatter.assess(clatter.Product.from_text(text))
+    assert answer == clatter.assess(clatter.Product.example())
+
+
 REFUSED = {
     "tolerance": lambda: clatter.assess(built(), tolerance=0.9),
     "model = 'exact' is none: map, ballistic, finite-tilt, compliant": lambda: clatter.assess(built(), model="exact"),
