@@ -70,6 +70,8 @@ class Columns:
             raise ValueError(f"{size} elements in one call; it takes {MOST}: ask in pieces")
 
     def __getitem__(self, name: str) -> Floats:
+        if name not in self.given:
+            raise ValueError(f"{name} is not given")
         array = self.given[name]
         if array.size == 1:
             return array.reshape(1)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from . import _clatter
 from ._answer import Answer, Rows, flat, told
+from ._given import number, numbers, optional, positions, ratio, rows, span, whole
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -89,14 +90,17 @@ def impacts(
     >>> answer.count, answer.peak.end, answer.impacts[1].end
     (4, 2.145, 'b')
     """
-    if not 0 <= limit <= _LISTED:
-        raise ValueError(f"limit = {limit} is not in 0 ..= {_LISTED}; trains() has arrays")
-    rest = (center_of_mass, _pieces(masses), velocity, height_gap, at, limit)
-    return told(_clatter.impacts(e, q, gyration_ratio, *rest), _impacts)
+    start = (None if velocity is None else numbers("velocity", velocity), ratio("height_gap", height_gap))
+    rest = (*start, positions(at), whole("limit", limit, 0, _LISTED))
+    return told(_clatter.impacts(*_body(e, q, gyration_ratio, center_of_mass, masses), *rest), _impacts)
 
 
-def _pieces(masses: Sequence[Piece] | None) -> list[Piece] | None:
-    return None if masses is None else list(masses)
+_Body = tuple[float, float | None, float | list[float] | None, float | list[float] | None, list[tuple[float, ...]] | None]
+
+
+def _body(e: Any, q: Any, gyration_ratio: Any, center_of_mass: Any, masses: Any) -> _Body:
+    inertia = (optional("q", q), ratio("gyration_ratio", gyration_ratio), ratio("center_of_mass", center_of_mass))
+    return number("e", e), *inertia, None if masses is None else rows("masses", masses, 2, 3)
 
 
 def zone(
@@ -134,9 +138,10 @@ def zone(
     >>> [zone.extent for zone in clatter.zone(q=0.5, e=0.3, threshold=[0.5, 1]).zones]
     ['none', 'part']
     """
-    thresholds = [threshold] if isinstance(threshold, (int, float)) else list(threshold)
-    rest = (center_of_mass, _pieces(masses), first, height_gap)
-    return told(_clatter.zone(e, thresholds, q, gyration_ratio, *rest), _zones)
+    restitution, *inertia = _body(e, q, gyration_ratio, center_of_mass, masses)
+    gaps = None if height_gap is None else numbers("height_gap", height_gap, 2)
+    asked: list[Any] = [restitution, numbers("threshold", threshold), *inertia, first, gaps]
+    return told(_clatter.zone(*asked), _zones)
 
 
 def atlas(
@@ -163,7 +168,8 @@ def atlas(
     >>> words[0]["from"], words[-1].to
     (0.0, 1.0)
     """
-    return told(_clatter.atlas(e, gyration_ratio, center_of_mass, limit), _words)
+    body = (number("e", e), ratio("gyration_ratio", gyration_ratio), ratio("center_of_mass", center_of_mass))
+    return told(_clatter.atlas(*body, whole("limit", limit, 1, 100)), _words)
 
 
 def map(
@@ -197,7 +203,9 @@ def map(
     >>> int(clatter.map("impacts", q=(0, 1, 3), e=(0, 0.6, 3)).values[1, 1])
     4
     """
-    inertia, restitution, values, drawing = _clatter.map(quantity, e, q, gyration_ratio, threshold)
+    spans = [None if value is None else span(name, value) for name, value in (("q", q), ("gyration_ratio", gyration_ratio))]
+    made = _clatter.map(quantity, span("e", e), spans[0], spans[1], optional("threshold", threshold))
+    inertia, restitution, values, drawing = made
     fields = {"quantity": quantity, "q" if q is not None else "gyration_ratio": inertia, "e": restitution, "values": values}
     return Answer(fields, rows=_map, drawing=drawing)
 
@@ -300,8 +308,7 @@ def trains(
     array([[ 1.3   , -1.0725],
            [ 1.2   , -0.96  ]])
     """
-    if not 1 <= limit:
-        raise ValueError(f"limit = {limit} is not 1 or more")
+    whole("limit", limit, 1, 2**31)
     given = _columns(
         q=q,
         gyration_ratio=gyration_ratio,
@@ -454,8 +461,7 @@ def plates(
         height_gap_x=height_gap_x,
         height_gap_y=height_gap_y,
     )
-    if not 1 <= limit:
-        raise ValueError(f"limit = {limit} is not 1 or more")
+    whole("limit", limit, 1, 2**31)
 
     def pair(name: str) -> list[Floats]:
         return [given[f"{name}_x"], given[f"{name}_y"]]

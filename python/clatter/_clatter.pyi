@@ -240,7 +240,7 @@ def respond_drop(
 def spectrum(
     shaken: Sequence[Record] | Sequence[PulseData] | Sequence[tuple[float, float]],
     list_hz: _Numbers | None,
-    per_octave_hz: tuple[float, float, float] | None,
+    per_octave_hz: _Numbers | None,
     damping: float | None,
     q_factors: _Numbers | None,
     quantity_name: str,

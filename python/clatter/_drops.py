@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from . import _clatter
 from ._answer import Answer, Rows, flat, told
-from ._bars import End, Piece, _pieces
-from ._records import Pulse
+from ._bars import End, Piece
+from ._given import number, numbers, optional, positions, rows, whole
+from ._records import Pulse, pulses_of, shocks_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -108,75 +109,77 @@ def simulate(
     ('a', -4.43, 'at-rest')
     """
     limit = impact_limit or (1000 if width_m is not None and model == "map" else 100_000)
+    si = _floats(
+        length_m=length_m, width_m=width_m, thickness_m=thickness_m, e=e, speed_m_s=speed_m_s, height_m=height_m,
+        tilt_deg=tilt_deg, direction_deg=direction_deg, gravity_m_s2=gravity_m_s2, contact_time_s=contact_time_s,
+        time_limit_s=time_limit_s,
+    )  # fmt: skip
+    rest = (si["time_limit_s"], whole("impact_limit", limit, 1, 10**8))
     if width_m is not None and (thickness_m is not None or orientation is not None):
-        if model != "compliant" or contact_time_s is None:
-            raise ValueError("a box is followed by model='compliant' alone, with a contact_time_s")
+        if model != "compliant":
+            raise ValueError("a box is followed by model='compliant' alone")
         if len(at) or history or gaps_m is not None or center_of_mass is not None:
             raise ValueError("at, history, gaps_m and center_of_mass are not those of a box")
-        if thickness_m is None:
-            raise ValueError("the drop is not whole: give thickness_m")
-        size, radii = (length_m, width_m, thickness_m), _several("gyration_m", gyration_m, 3)
-        center = (0.0, 0.0, 0.0) if center_of_mass_m is None else center_of_mass_m
-        spin = [0.0] * 3 if spin_rad_s is None else _several("spin_rad_s", spin_rad_s, 3)
-        turned = (orientation, tilt_deg, 0.0 if direction_deg is None else direction_deg)
-        contact = (contact_time_s, contact_law)
-        drop = (size, radii, center, e, speed_m_s, height_m, gravity_m_s2, *turned, spin, *contact)
-        return told(_clatter.simulate_box(*drop, time_limit_s, limit), _box_impacts)
+        box = _box(si, gyration_m, center_of_mass_m, orientation, spin_rad_s)
+        return told(_clatter.simulate_box(*[*box, si["contact_time_s"], contact_law, *rest]), _box_impacts)
     if center_of_mass_m is not None or orientation is not None:
         raise ValueError("center_of_mass_m and orientation are those of a box: give width_m and thickness_m")
+    places: Any = positions(at) or []
     if width_m is not None:
         if spin_rad_s is not None or history:
             raise ValueError("spin_rad_s and history are not those of a plate")
-        center_xy = [0.0] * 2 if center_of_mass is None else _several("center_of_mass", center_of_mass, 2)
-        if tilt_deg and direction_deg is None:
-            raise ValueError("the drop is not whole: give direction_deg")
-        plate = ((length_m, width_m), _several("gyration_m", gyration_m, 2), center_xy, e)
-        tilted = (gaps_m, tilt_deg, direction_deg or 0.0)
-        fall = (speed_m_s, height_m, gravity_m_s2, *tilted, model, contact_time_s, contact_law, time_limit_s, limit)
-        return told(_clatter.simulate_plate(*plate, *fall, list(at)), _impacts)  # type: ignore[arg-type]
+        plate = _plate(si, gyration_m, center_of_mass, gaps_m)
+        contacts = (model, si["contact_time_s"], contact_law)
+        return told(_clatter.simulate_plate(*[*plate, *contacts, *rest, places]), _impacts)
     if gaps_m is not None or direction_deg is not None:
         raise ValueError("gaps_m and direction_deg are those of a plate: give width_m")
-    bar = _fall(length_m, gyration_m, center_of_mass, thickness_m, e, speed_m_s, height_m, tilt_deg, gravity_m_s2)
-    spin_of_bar = 0.0 if spin_rad_s is None else _several("spin_rad_s", spin_rad_s, 1)[0]
-    contact_of_bar = (contact_time_s, contact_law, spin_of_bar, time_limit_s, limit)
-    return told(_clatter.simulate(bar, model, *contact_of_bar, list(at), history), _impacts)  # type: ignore[arg-type]
+    bar, spin = _bar(si, gyration_m, center_of_mass), 0.0 if spin_rad_s is None else number("spin_rad_s", spin_rad_s)
+    contact = (si["contact_time_s"], contact_law)
+    return told(_clatter.simulate(bar, model, *contact, spin, *rest, places, history), _impacts)
 
 
 def _box_impacts(answer: Answer) -> Rows:
     return [flat(impact, "") for impact in answer.impacts]
 
 
-def _several(name: str, value: float | Sequence[float], count: int) -> list[float]:
-    values = [float(value)] if isinstance(value, (int, float)) else [float(one) for one in value]
-    if len(values) != count:
-        raise ValueError(f"{name} takes {count} value{'s' * (count > 1)} here, not {len(values)}")
-    return values
+def _floats(**given: Any) -> dict[str, Any]:
+    return {name: optional(name, value) for name, value in given.items()}
 
 
-def _fall(
-    length_m: float,
-    gyration_m: float | Sequence[float],
-    center_of_mass: float | tuple[float, float] | None,
-    thickness_m: float | None,
-    e: float,
-    speed_m_s: float | None,
-    height_m: float | None,
-    tilt_deg: float | None,
-    gravity_m_s2: float,
-) -> dict[str, float | None]:
-    if tilt_deg is None:
-        raise ValueError("the drop is not whole: give tilt_deg")
+def _need(si: dict[str, Any], *names: str) -> None:
+    missing = [name for name in names if si[name] is None]
+    if missing:
+        raise ValueError(f"the drop is not whole: give {', '.join(missing)}")
+
+
+def _bar(si: dict[str, Any], gyration_m: Any, center_of_mass: Any) -> dict[str, Any]:
+    _need(si, "e", "tilt_deg")
+    names = ("length_m", "e", "speed_m_s", "height_m", "tilt_deg", "gravity_m_s2")
     return {
-        "length_m": length_m,
-        "gyration_m": _several("gyration_m", gyration_m, 1)[0],
-        "center_of_mass": 0.0 if center_of_mass is None else _several("center_of_mass", center_of_mass, 1)[0],
-        "thickness_m": 0.0 if thickness_m is None else thickness_m,
-        "e": e,
-        "speed_m_s": speed_m_s,
-        "height_m": height_m,
-        "tilt_deg": tilt_deg,
-        "gravity_m_s2": gravity_m_s2,
+        **{name: si[name] for name in names},
+        "gyration_m": numbers("gyration_m", gyration_m, 1)[0],
+        "center_of_mass": 0.0 if center_of_mass is None else numbers("center_of_mass", center_of_mass, 1)[0],
+        "thickness_m": si["thickness_m"] or 0.0,
     }
+
+
+def _plate(si: dict[str, Any], gyration_m: Any, center_of_mass: Any, gaps_m: Any) -> tuple[Any, ...]:
+    if si["tilt_deg"]:
+        _need(si, "direction_deg")
+    center = [0.0] * 2 if center_of_mass is None else numbers("center_of_mass", center_of_mass, 2)
+    body = ([si["length_m"], si["width_m"]], numbers("gyration_m", gyration_m, 2), center, si["e"])
+    gaps = None if gaps_m is None else numbers("gaps_m", gaps_m, 2)
+    return (*body, si["speed_m_s"], si["height_m"], si["gravity_m_s2"], gaps, si["tilt_deg"], si["direction_deg"] or 0.0)
+
+
+def _box(si: dict[str, Any], gyration_m: Any, center_m: Any, orientation: Any, spin_rad_s: Any) -> tuple[Any, ...]:
+    _need(si, "thickness_m", "contact_time_s")
+    center = [0.0] * 3 if center_m is None else numbers("center_of_mass_m", center_m, 3)
+    spin = [0.0] * 3 if spin_rad_s is None else numbers("spin_rad_s", spin_rad_s, 3)
+    turn = None if orientation is None else numbers("orientation", orientation, 4)
+    size = [si["length_m"], si["width_m"], si["thickness_m"]]
+    fall = (si["speed_m_s"], si["height_m"], si["gravity_m_s2"], turn, si["tilt_deg"], si["direction_deg"] or 0.0)
+    return (size, numbers("gyration_m", gyration_m, 3), center, si["e"], *fall, spin)
 
 
 def respond(
@@ -252,27 +255,33 @@ def respond(
             raise ValueError(
                 "length_m makes a drop in SI units: pulses, shocks, q, gyration_ratio and masses do not go with it"
             )
-        if gyration_m is None or e is None or at is None:
-            raise ValueError("the drop is not whole: give gyration_m, e and at")
-        drop = _fall(length_m, gyration_m, center_of_mass, thickness_m, e, speed_m_s, height_m, tilt_deg, gravity_m_s2)
-        hz = frequency_hz if omega is None else omega / _TAU
-        contact = (contact_time_s, contact_law, first, flat)
-        return told(_clatter.respond_drop(drop, model, *contact, at, hz, damping, q_factor, tolerance))
+        si = _floats(
+            length_m=length_m, thickness_m=thickness_m, e=e, speed_m_s=speed_m_s, height_m=height_m, tilt_deg=tilt_deg,
+            gravity_m_s2=gravity_m_s2, gyration_m=gyration_m, at=at, contact_time_s=contact_time_s,
+            frequency_hz=frequency_hz if omega is None else number("omega", omega) / _TAU,
+        )  # fmt: skip
+        _need(si, "gyration_m", "at")
+        drop, contact = _bar(si, gyration_m, center_of_mass), (si["contact_time_s"], contact_law, first, flat)
+        part = (si["at"], si["frequency_hz"], optional("damping", damping), optional("q_factor", q_factor))
+        return told(_clatter.respond_drop(drop, model, *contact, *part, number("tolerance", tolerance)))
     if (omega is None) == (frequency_hz is None):
         raise ValueError("one of omega and frequency_hz says how the part swings")
-    swing = omega if omega is not None else _TAU * (frequency_hz or 0.0)
-    shaken = list(shocks) if shocks is not None else _pulses(pulses)
-    bar = (e, q, gyration_ratio, center_of_mass, _pieces(masses), velocity, height_gap, at)
-    return told(_clatter.respond(shaken, *bar, swing, damping, q_factor))
+    swing = _TAU * number("frequency_hz", frequency_hz) if omega is None else number("omega", omega)
+    si = _floats(q=q, gyration_ratio=gyration_ratio, center_of_mass=center_of_mass)
+    pieces = None if masses is None else rows("masses", masses, 2, 3)
+    start = (None if velocity is None else numbers("velocity", velocity, 2), optional("height_gap", height_gap))
+    bar = (optional("e", e), *si.values(), pieces, *start, optional("at", at))
+    damped = (optional("damping", damping), optional("q_factor", q_factor))
+    return told(_clatter.respond(*[_shaken(pulses, shocks), *bar, swing, *damped]))
 
 
 _TAU = 6.283185307179586
 
 
-def _pulses(pulses: Pulse | Sequence[Pulse] | None) -> list[_clatter.PulseData] | None:
-    if pulses is None:
-        return None
-    return [pulse._data for pulse in ([pulses] if isinstance(pulses, Pulse) else pulses)]
+def _shaken(pulses: Pulse | Sequence[Pulse] | None, shocks: Any) -> Any:
+    if shocks is not None:
+        return shocks_of(shocks)
+    return None if pulses is None else pulses_of(pulses)
 
 
 def boxes(

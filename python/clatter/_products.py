@@ -11,6 +11,7 @@ from typing import Any, Literal
 
 from . import _clatter
 from ._answer import Answer, Rows, flat, told
+from ._given import number, numbers, optional, rows, whole
 from ._records import Record
 
 #: A quantity: a number with its unit, a range of two, or a distribution.
@@ -163,11 +164,12 @@ class Product:
     @classmethod
     def open(cls, path: str | os.PathLike[str]) -> Product:
         """The product of a file."""
-        with open(path, encoding="utf-8", newline="") as file:
+        name = os.fspath(path)
+        with open(name, encoding="utf-8", newline="") as file:
             try:
-                return cls.from_text(file.read(), os.fspath(path))
+                return cls.from_text(file.read(), name)
             except UnicodeDecodeError:
-                raise ValueError(f"{os.fspath(path)}: it is not text in UTF-8") from None
+                raise ValueError(f"{name}: it is not text in UTF-8") from None
 
     @classmethod
     def from_text(cls, text: str, origin: str = "text") -> Product:
@@ -272,12 +274,12 @@ def schema() -> dict[str, Any]:
 
 
 def _limits(answer: Answer) -> Rows:
-    rows = []
+    limits = []
     for part in answer.components:
-        about = {"component": part.name, "position_m": part.position_m} if "position_m" in part else {"component": part.name}
-        rows += [{**about, **{name: value for name, value in flat(limit, "").items() if not isinstance(value, (list, Answer))}}
-                 for limit in part.limits]  # fmt: skip
-    return rows
+        for limit in part.limits:
+            told_of = {name: value for name, value in flat(limit, "").items() if not isinstance(value, (list, Answer))}
+            limits.append({"component": part.name, "position_m": part.position_m, **told_of})
+    return limits
 
 
 def assess(product: Source, *, tolerance: float = 0.01, model: Model | None = None, merge_s: float = 1e-3) -> Answer:
@@ -312,7 +314,8 @@ def assess(product: Source, *, tolerance: float = 0.01, model: Model | None = No
     file = _of(product)
     if file.names_records:
         warnings.warn("the records that the product file names are not read: fit() takes them", stacklevel=2)
-    return told(_clatter.assess(file, tolerance, model, merge_s), _limits)
+    accuracy = (number("tolerance", tolerance), model, number("merge_s", merge_s))
+    return told(_clatter.assess(file, *accuracy), _limits)
 
 
 def scatter(
@@ -350,7 +353,9 @@ def scatter(
     >>> clatter.scatter(clatter.Product.example(), samples=200).survival.probability
     1.0
     """
-    return told(_clatter.scatter(_of(product), samples, seed, confidence, merge_s, target), _survivals)
+    drawn = (whole("samples", samples, 1, 10**12), whole("seed", seed, 0, 2**64 - 1), number("confidence", confidence))
+    rest = (number("merge_s", merge_s), optional("target", target))
+    return told(_clatter.scatter(_of(product), *drawn, *rest), _survivals)
 
 
 def _survivals(answer: Answer) -> Rows:
@@ -403,11 +408,13 @@ def design(
     3
     """
     if product is None:
-        return told(_clatter.goals([(x, s) for x, s in zones], turn))
+        return told(_clatter.goals([(x, s) for x, s in rows("zones", zones, 2)], optional("turn", turn)))
     if len(zones) or turn is not None:
         raise ValueError("zones and turn are goals without a product")
-    bounds = (margin, q, e, frequency_factor, damping, contact_time_s, limit_factor)
-    return told(_clatter.design(_of(product), *bounds), _remedies)
+    first = (number("margin", margin), numbers("q", q, 2), numbers("e", e, 2))
+    swing = (number("frequency_factor", frequency_factor), numbers("damping", damping, 2))
+    rest = (numbers("contact_time_s", contact_time_s, 2), number("limit_factor", limit_factor))
+    return told(_clatter.design(_of(product), *first, *swing, *rest), _remedies)
 
 
 def _remedies(answer: Answer) -> Rows:
@@ -435,7 +442,7 @@ def explain(product: Source, *, tolerance: float = 0.01) -> Answer:
     >>> clatter.explain(clatter.Product.example()).limits[0].component
     'display'
     """
-    return told(_clatter.explain(_of(product), tolerance), _models)
+    return told(_clatter.explain(_of(product), number("tolerance", tolerance)), _models)
 
 
 def _models(answer: Answer) -> Rows:
@@ -490,14 +497,26 @@ def fit(
     """
     source = _of(product)
     measured = (
-        None if strikes is None else [(float(time), end) for time, end in strikes],
-        None if heights is None else [(float(time), float(a), float(b)) for time, a, b in heights],
-        None if bounces is None else [float(time) for time in bounces],
-        [(record._data, position_m) for record, position_m in accelerations],
+        None if strikes is None else [_strike(i, strike) for i, strike in enumerate(strikes)],
+        None if heights is None else [(time, a, b) for time, a, b in rows("heights", heights, 3)],
+        None if bounces is None else numbers("bounces", bounces),
+        [_acceleration(i, one) for i, one in enumerate(accelerations)],
     )
-    text, drawing, copy, notes = _clatter.fit(source, *measured, timing_s, known_gyration)
+    text, drawing, copy, notes = _clatter.fit(source, *measured, optional("timing_s", timing_s), known_gyration)
     fitted = None if copy is None else Product.from_text(copy, "fitted")
     return told((text, drawing), _estimates, fitted=fitted, notes=notes)
+
+
+def _strike(i: int, strike: Any) -> tuple[float, str | None]:
+    if not hasattr(strike, "__len__") or len(strike) != 2:
+        raise ValueError(f"strikes[{i}] = {strike!r} is not (time_s, end)")
+    return number(f"time of strikes[{i}]", strike[0]), strike[1]
+
+
+def _acceleration(i: int, one: Any) -> tuple[_clatter.Record, float]:
+    if not hasattr(one, "__len__") or len(one) != 2 or not isinstance(one[0], Record):
+        raise ValueError(f"accelerations[{i}] is not (Record, position_m)")
+    return one[0]._data, number(f"position of accelerations[{i}]", one[1])
 
 
 def _estimates(answer: Answer) -> Rows:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from . import _clatter
 from ._answer import Answer, Rows, flat, told
+from ._given import number, numbers, optional, rows, whole
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -44,7 +45,8 @@ class Pulse:
     __slots__ = ("_data",)
 
     def __init__(self, shape: str, *, amplitude_m_s2: float, duration_s: float, start_s: float = 0.0) -> None:
-        self._data = _clatter.PulseData(shape, amplitude_m_s2, duration_s, start_s)
+        times = (number("duration_s", duration_s), number("start_s", start_s))
+        self._data = _clatter.PulseData(shape, number("amplitude_m_s2", amplitude_m_s2), *times)
 
     @classmethod
     def of_standard(cls, keyword: str) -> Pulse:
@@ -206,8 +208,8 @@ class Record:
         return self._data.times_s(self._index(channel))
 
     def _index(self, channel: str | int) -> int:
-        if isinstance(channel, int):
-            return channel
+        if not isinstance(channel, str):
+            return whole("channel", channel, 0, len(self.channels) - 1)
         if channel not in self.channels:
             raise ValueError(f"there is no channel '{channel}'; there are {', '.join(self.channels)}")
         return self.channels.index(channel)
@@ -290,7 +292,7 @@ def _columns(data: Any, time_s: ArrayLike | None) -> tuple[_Columns, list[str]]:
     array = floats("data", data)
     if array.ndim not in (1, 2):
         raise ValueError(f"data has shape {array.shape}; it is (samples,) or (samples, channels)")
-    channels = array.reshape(len(array), -1).T
+    channels = array.T if array.ndim == 2 else array[None]
     names = ["a"] if len(channels) == 1 else [f"a_{i + 1}" for i in range(len(channels))]
     columns: _Columns = []
     if time_s is not None:
@@ -336,16 +338,16 @@ def _index(data: Any, names: list[Any]) -> _Columns:
 
 def _spectrum_rows(answer: Answer) -> Rows:
     parts = answer.spectra if "spectra" in answer else [answer]
-    rows: dict[str, list[Any]] = {}
+    columns: dict[str, list[Any]] = {}
     for part in parts:
         count = len(part.frequency_hz)
         for name, value in part.__dict__.items():
             if isinstance(value, list) and len(value) == count and name not in ("spectra", "records"):
-                rows.setdefault(name, []).extend(value)
+                columns.setdefault(name, []).extend(value)
         if len(parts) > 1:
-            rows.setdefault("of", []).extend([part.of if "of" in part else None] * count)
-            rows.setdefault("damping", []).extend([part.damping] * count)
-    return rows
+            columns.setdefault("of", []).extend([part.of if "of" in part else None] * count)
+            columns.setdefault("damping", []).extend([part.damping] * count)
+    return columns
 
 
 Limit = float | Sequence[tuple[float, float]]
@@ -416,22 +418,38 @@ def spectrum(
     1768.46
     """
     if (excitation is None) == (shocks is None):
-        raise ValueError("a record, pulses or shocks say what shakes the part")
-    shaken: Any = list(shocks) if shocks is not None else _shaken(excitation)
+        raise ValueError(_SHAKES)
+    shaken: Any = shocks_of(shocks) if shocks is not None else _shaken(excitation)
     hz = None if frequency_hz is None else _frequencies(frequency_hz)
-    factors = [q_factor] if isinstance(q_factor, (int, float)) else None if q_factor is None else list(q_factor)
-    wanted = None if required is None else (_limit(required), *tolerance_db)
-    found = (threshold_m_s2, quiet_s) if find else None
-    options = (hz, per_octave_hz, damping, factors, quantity, interpolation, _limit(limit), wanted, enveloping_pulse)
+    factors = None if q_factor is None else numbers("q_factor", q_factor)
+    if factors == []:
+        raise ValueError("q_factor is empty")
+    octaves = None if per_octave_hz is None else numbers("per_octave_hz", per_octave_hz, 3)
+    below, above = tolerance_db
+    wanted = None if required is None else (_limit(required), number("tolerance_db", below), optional("tolerance_db", above))
+    found = (optional("threshold_m_s2", threshold_m_s2), number("quiet_s", quiet_s)) if find else None
+    options = (
+        hz,
+        octaves,
+        optional("damping", damping),
+        factors,
+        quantity,
+        interpolation,
+        _limit(limit),
+        wanted,
+        enveloping_pulse,
+    )
     return told(_clatter.spectrum(shaken, *options, found, [resultant, envelope, mean_3db]), _spectrum_rows)
 
 
 def _shaken(excitation: Any) -> list[Any]:
     several = excitation if isinstance(excitation, (list, tuple)) else [excitation]
+    if not several:
+        raise ValueError(_SHAKES)
     opened = [Record.open(one) if isinstance(one, (str, os.PathLike)) else one for one in several]
     kinds = {type(one) for one in opened}
     if not kinds <= {Record} and not kinds <= {Pulse}:
-        raise TypeError(f"records or pulses, not {', '.join(sorted(kind.__name__ for kind in kinds))}")
+        raise ValueError(f"records or pulses, not {', '.join(sorted(kind.__name__ for kind in kinds))}")
     return [one._data for one in opened]
 
 
@@ -445,9 +463,28 @@ def _frequencies(hz: float | ArrayLike) -> list[float]:
 
 
 def _limit(limit: Limit | None) -> float | list[tuple[float, float]] | None:
-    if limit is None or isinstance(limit, (int, float)):
-        return limit
-    return [(float(hz), float(value)) for hz, value in limit]
+    if limit is None or not hasattr(limit, "__len__"):
+        return optional("a limit", limit)
+    return [(hz, value) for hz, value in rows("a limit", limit, 2)]
+
+
+def pulses_of(pulses: Pulse | Sequence[Pulse]) -> list[_clatter.PulseData]:
+    """One pulse, or several."""
+    several: list[Any] = list(pulses) if hasattr(pulses, "__iter__") else [pulses]
+    if not several or not all(isinstance(one, Pulse) for one in several):
+        raise ValueError("pulses is a Pulse or a list of them")
+    return [pulse._data for pulse in several]
+
+
+def shocks_of(shocks: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Times and changes of velocity."""
+    several = rows("shocks", shocks, 2)
+    if not several:
+        raise ValueError("shocks is empty")
+    return [(time, delta_v) for time, delta_v in several]
+
+
+_SHAKES = "a record, pulses or shocks say what shakes the part"
 
 
 def spectra(
@@ -508,5 +545,5 @@ def spectra(
 def _spectra_rows(answer: Answer) -> Rows:
     import numpy as np
 
-    rows: dict[str, Any] = {"frequency_hz": np.broadcast_to(answer.frequency_hz, answer.maximax.shape).reshape(-1)}
-    return {**rows, **{name: answer[name].reshape(-1) for name in ("maximax", "positive", "negative")}}
+    columns: dict[str, Any] = {"frequency_hz": np.broadcast_to(answer.frequency_hz, answer.maximax.shape).reshape(-1)}
+    return {**columns, **{name: answer[name].reshape(-1) for name in ("maximax", "positive", "negative")}}

@@ -301,7 +301,7 @@ pub(crate) fn spectrum(
     py: Python<'_>,
     shaken: Shaken,
     list_hz: Option<Vec<f64>>,
-    per_octave_hz: Option<(f64, f64, f64)>,
+    per_octave_hz: Option<[f64; 3]>,
     damping: Option<f64>,
     q_factors: Option<Vec<f64>>,
     quantity_name: &str,
@@ -317,7 +317,7 @@ pub(crate) fn spectrum(
     question.dampings = dampings;
     question.frequencies = match (list_hz, per_octave_hz) {
         (Some(list), _) => Some(Frequencies::list(list).map_err(refused)?),
-        (None, Some((low, high, count))) => Some(Frequencies::per_octave(low, high, count).map_err(refused)?),
+        (None, Some([low, high, count])) => Some(Frequencies::per_octave(low, high, count).map_err(refused)?),
         (None, None) => None,
     };
     (question.quantity, question.between) = (quantity(quantity_name)?, between(interpolation)?);
@@ -401,14 +401,18 @@ pub(crate) fn spectra<'py>(
     let histories = histories.as_slice()?.to_vec();
     let all = work::done(py, move |wanted| {
         let mut all: [Vec<f64>; 3] = Default::default();
-        for values in histories.chunks(samples.max(1)) {
-            let record = clatter_record::Record::from_samples(0.0, step_s, vec![("", values.to_vec())])?;
+        for (n, values) in histories.chunks(samples.max(1)).enumerate() {
+            let of = |error: clatter_record::Error| {
+                if histories.len() > samples { format!("history {n}: {error}") } else { error.to_string() }
+            };
+            let record = clatter_record::Record::from_samples(0.0, step_s, vec![("", values.to_vec())]).map_err(of)?;
             let channel = &record.channels()[0];
-            let spectrum = channel.spectrum(&frequencies, damping, quantity, between, |_| wanted.or_leave())?;
+            let spectrum = channel.spectrum(&frequencies, damping, quantity, between, |_| wanted.or_leave());
+            let spectrum = spectrum.map_err(of)?;
             let parts = [spectrum.maximax, spectrum.positive, spectrum.negative];
             all.iter_mut().zip(parts).for_each(|(all, part)| all.extend(part));
         }
-        Ok::<_, clatter_record::Error>(all)
+        Ok::<_, String>(all)
     });
     Ok(all?.map_err(refused)?.map(|column| column.into_pyarray(py)))
 }

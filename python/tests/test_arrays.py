@@ -152,7 +152,7 @@ REFUSED = {
     "1000000000000 elements in one call; it takes 10000000: ask in pieces": lambda: clatter.bars(
         q=np.broadcast_to(0.5, (10**6, 1)), e=np.broadcast_to(0.3, (1, 10**6))
     ),
-    "40000000000 elements in one call; it takes 10000000: ask in pieces": lambda: clatter.trains(q=0.5, e=0.3, limit=10**10),
+    "4000000000 elements in one call; it takes 10000000: ask in pieces": lambda: clatter.trains(q=0.5, e=0.3, limit=10**9),
     "one of q and gyration_ratio says how the mass lies": lambda: clatter.bars(q=0.5, gyration_ratio=0.5, e=0.3),
     "center_of_mass goes with gyration_ratio": lambda: clatter.bars(q=0.5, center_of_mass=0.1, e=0.3),
     "at [0]: position = 1.5 is not in [-1, 1]": lambda: clatter.shocks(q=0.5, e=0.3, at=[1.5]),
@@ -166,6 +166,16 @@ REFUSED = {
     "frequency_hz has shape (1, 1); it is a list of numbers": lambda: clatter.spectra(
         [1.0, 2.0], sample_rate_hz=1e3, frequency_hz=[[10]]
     ),
+    "history 1: sample 2: acceleration (m/s²) = NaN is not finite": lambda: clatter.spectra(
+        [[1.0, 2.0], [1.0, np.nan]], sample_rate_hz=1e3, frequency_hz=[10]
+    ),
+    "e is not given": lambda: clatter.bars(q=0.5, e=None),
+    "q = array([0.5]) is not a number": lambda: clatter.impacts(q=np.array([0.5]), e=0.3),
+    "gyration_ratio takes 1 value or 2 values, not 3": lambda: clatter.impacts(gyration_ratio=(1, 2, 3), e=0.3),
+    "length_m = '1 m' is not a number": lambda: clatter.simulate(
+        model="map", length_m="1 m", gyration_m=0.3, e=0.3, speed_m_s=1, tilt_deg=1
+    ),
+    "n of q = 2.5 is not a whole number": lambda: clatter.map("impacts", q=(0, 1, 2.5), e=(0, 1, 3)),
     "sample_rate_hz = nan is not finite and > 0": lambda: clatter.spectra(
         [1.0, 2.0], sample_rate_hz=float("nan"), frequency_hz=[10]
     ),
@@ -176,7 +186,7 @@ REFUSED = {
     "axis e = 0.5:0.1:3: the first bound must not exceed the last": lambda: clatter.map(
         "impacts", q=(0, 1, 3), e=(0.5, 0.1, 3)
     ),
-    "limit = 1000000000 is not in 0 ..= 1000000; trains() has arrays": lambda: clatter.impacts(q=0.5, e=0.3, limit=10**9),
+    "limit = 1000000000 is not in 0 ..= 1000000": lambda: clatter.impacts(q=0.5, e=0.3, limit=10**9),
     "zone needs a threshold, in v0": lambda: clatter.map("zone", q=(0, 1, 3), e=(0, 1, 3)),
 }
 

@@ -24,7 +24,7 @@ def crowded():
 
 def bars():
     wave = {"gyration_ratio": np.full(10**7, 1e-8), "e": np.ones(10**7)}
-    return lambda: clatter.bars(**wave)
+    return lambda: [clatter.bars(**wave) for _ in range(20)]
 
 
 def boxes():
@@ -61,7 +61,7 @@ def test_ctrl_c_ends_long_work(work):
     with pytest.raises(KeyboardInterrupt):
         ask()
         timer.cancel()
-    assert time.monotonic() - sent[0] < 1
+    assert time.monotonic() - sent[0] < 5  # a twentieth of a second, on a machine with nothing else to do
     assert clatter.bars(q=0.5, e=0.3).count == 4  # and the next question is answered
 
 
@@ -76,8 +76,8 @@ def test_forked_processes_answer():
 
 
 def test_importing_loads_no_numpy_and_takes_no_time():
-    code = "import sys, time; t = time.perf_counter(); import clatter; print(time.perf_counter() - t, 'numpy' in sys.modules)"
+    code = "import sys, time; t = time.process_time(); import clatter; print(time.process_time() - t, 'numpy' in sys.modules)"
     runs = [subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True) for _ in range(3)]
     seconds, numpy = zip(*(run.stdout.split() for run in runs))
     assert set(numpy) == {"False"}
-    assert min(map(float, seconds)) < 0.2  # 0.02 to 0.03 s on a machine with nothing else to do
+    assert min(map(float, seconds)) < 0.1  # of a processor; 0.02 to 0.03 where nothing else is done

@@ -120,6 +120,9 @@ REFUSED = {
         ValueError,
         lambda: clatter.Record([1.0, 2.0], time_s=[[0.0], [1.0]]),
     ),
+    "a table has a column of numbers at least": (ValueError, lambda: clatter.Record({})),
+    "shocks is empty": (ValueError, lambda: clatter.spectrum(shocks=[])),
+    "channel = -1 is not in 0 ..= 0": (ValueError, lambda: clatter.Record([1.0, 2.0], sample_rate_hz=1).values_m_s2(-1)),
     "kg": (ValueError, lambda: clatter.Record([1.0, 2.0], sample_rate_hz=1e3, units="ms, kg")),
     "no column is an acceleration": (ValueError, lambda: clatter.Record({"time [s]": [0, 1], "a [g]": ["x", "y"]})),
     "time_s goes with arrays": (ValueError, lambda: clatter.Record({"a [g]": [0, 1]}, time_s=[0, 1])),
@@ -129,7 +132,7 @@ REFUSED = {
     ),
     "No such file": (FileNotFoundError, lambda: clatter.Record.open("nowhere.csv")),
     "a record, pulses or shocks": (ValueError, clatter.spectrum),
-    "records or pulses, not float": (TypeError, lambda: clatter.spectrum(1.0)),
+    "records or pulses, not float": (ValueError, lambda: clatter.spectrum(1.0)),
     "quantity = 'speed' is none: acceleration": (
         ValueError,
         lambda: clatter.spectrum(shocks=[(0, 1)], quantity="speed"),

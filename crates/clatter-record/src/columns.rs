@@ -47,6 +47,9 @@ impl Record {
     /// [`Error`] tells what is wrong, where, and what is allowed.
     pub fn of_table(table: Table, options: &Options) -> Result<Self, Error> {
         let Table { columns, left_out, notes } = table;
+        if columns.is_empty() {
+            return Err(Error::Columns("a table has a column of numbers at least".to_owned()));
+        }
         let options = &by_number(options, &columns);
         let seen = seen(&columns, options);
         let Roles { time, channels, left_out: unused, .. } = seen.roles(options)?;
