@@ -62,6 +62,22 @@ def test_types(tmp_path):
     assert re.findall(r"use\.py:(\d+): error", found) == ["6", "7"], found
 
 
+def test_readme(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    tmp_path.joinpath("handheld.toml").write_text(clatter.Product.example().text)
+    block = re.search(r"```python\n(.*?)```", (ROOT / "README.md").read_text(encoding="utf-8"), re.DOTALL).group(1)
+    names = {"frame": {"time [s]": [0, 1e-4, 2e-4, 3e-4], "a [g]": [0, 100, 0, 0]}}
+    answers = []
+    for line in block.splitlines():
+        if line.startswith("import"):
+            exec(line, names)
+        elif line:
+            answers.append(eval(line, names))
+    peak, counts, verdict, figure = answers
+    assert (peak, counts.shape, verdict) == (2.145, (2, 1000), "safe")
+    assert str(figure).startswith("<svg")
+
+
 def test_notebook(tmp_path):
     notebook = nbformat.read(ROOT / "examples" / "handheld.ipynb", as_version=4)
     assert not any(cell.get("outputs") for cell in notebook.cells), "outputs are not kept"
