@@ -12,6 +12,10 @@ test:
 wasm:
     CARGO_TARGET_WASM32_WASIP1_RUNNER="node --no-warnings $PWD/.ci/wasi.mjs" cargo test --release -p clatter-answer --lib --test all --target wasm32-wasip1
 
+# The wheel in the present environment of Python, and its tests
+wheel:
+    pip install '.[test]' && pytest
+
 # Format, lints and docs
 check:
     cargo fmt --all --check && cargo clippy --release --workspace --all-targets -- -D warnings && RUSTDOCFLAGS=-Dwarnings cargo doc --release --workspace --no-deps

@@ -26,9 +26,30 @@ enum Source {
 }
 
 impl Record {
-    /// Of the columns of a file whose numbers are no text.
-    pub(crate) fn of_table(table: Table, options: &Options) -> Result<Self, Error> {
+    /// A record of the columns of a table, as of a file whose numbers are no text: of time and accelerations by their names and units.
+    ///
+    /// ```
+    /// use clatter_record::{Column, Options, Record, Table, Values};
+    /// let column = |name: &str, values| Column {
+    ///     name: name.to_owned(),
+    ///     group: String::new(),
+    ///     unit: None,
+    ///     sampled_s: None,
+    ///     values: Values::Float(values),
+    /// };
+    /// let columns = vec![column("time [ms]", vec![0.0, 0.1, 0.2]), column("a [g]", vec![0.0, 100.0, 0.0])];
+    /// let record = Record::of_table(Table { columns, ..Table::default() }, &Options::default())?;
+    /// assert_eq!(record.channels()[0].peak(), (1e-4, 980.665));
+    /// # Ok::<(), clatter_record::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error`] tells what is wrong, where, and what is allowed.
+    pub fn of_table(table: Table, options: &Options) -> Result<Self, Error> {
         let Table { columns, left_out, notes } = table;
+        if columns.is_empty() {
+            return Err(Error::Columns("a table has a column of numbers at least".to_owned()));
+        }
         let options = &by_number(options, &columns);
         let seen = seen(&columns, options);
         let Roles { time, channels, left_out: unused, .. } = seen.roles(options)?;

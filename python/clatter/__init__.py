@@ -1,0 +1,52 @@
+"""What a tilted drop does to the parts inside a flat product.
+
+The answers of the command ``clatter``, to the last digit, as Python objects:
+
+- one question: :func:`impacts`, :func:`zone`, :func:`atlas`, :func:`map`, :func:`simulate`, :func:`respond`;
+- arrays of questions: :func:`bars`, :func:`trains`, :func:`zones`, :func:`shocks`, :func:`plates`, :func:`boxes`,
+  :func:`spectra`;
+- measured accelerations: :class:`Record`, :func:`spectrum`, :class:`Pulse`;
+- products: :class:`Product`, :func:`assess`, :func:`scatter`, :func:`design`, :func:`explain`, :func:`fit`.
+
+Where names have no unit, velocities are in v0, the drop speed, upward positive; times in h0/v0, where h0 is the height of end
+b as end a touches; positions in half-lengths from the middle, -1 at end a. Names with a unit are in it.
+
+What is refused is a ValueError in the words of the command. Long work runs without the lock of the interpreter, and Ctrl-C
+ends it.
+"""
+
+from ._answer import Answer, Figure
+from ._bars import atlas, bars, impacts, map, plates, shocks, trains, zone, zones
+from ._clatter import __version__
+from ._drops import boxes, respond, simulate
+from ._products import Product, assess, design, explain, fit, scatter, schema
+from ._records import Pulse, Record, spectra, spectrum
+
+__all__ = [
+    "Answer",
+    "Figure",
+    "Product",
+    "Pulse",
+    "Record",
+    "__version__",
+    "assess",
+    "atlas",
+    "bars",
+    "boxes",
+    "design",
+    "explain",
+    "fit",
+    "impacts",
+    "map",
+    "plates",
+    "respond",
+    "scatter",
+    "schema",
+    "shocks",
+    "simulate",
+    "spectra",
+    "spectrum",
+    "trains",
+    "zone",
+    "zones",
+]

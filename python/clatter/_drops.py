@@ -1,0 +1,351 @@
+"""Drops in time, in SI units: bars, plates and boxes; and what a part makes of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Literal
+
+from . import _clatter
+from ._answer import Answer, Rows, flat, told
+from ._bars import End, Piece
+from ._given import number, numbers, optional, positions, rows, whole
+from ._records import Pulse, pulses_of, shocks_of
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+Model = Literal["map", "ballistic", "finite-tilt", "compliant"]
+Law = Literal["hysteretic", "dashpot"]
+Triple = tuple[float, float, float]
+
+#: Standard gravity, m/s².
+STANDARD_GRAVITY = 9.80665
+
+
+def _impacts(answer: Answer) -> Rows:
+    points = "ab" if "length_m" in answer and "width_m" not in answer else "abcd"
+    return [flat(impact, points) for impact in answer.impacts]
+
+
+def simulate(
+    *,
+    model: Model,
+    length_m: float,
+    gyration_m: float | Sequence[float],
+    e: float,
+    width_m: float | None = None,
+    thickness_m: float | None = None,
+    speed_m_s: float | None = None,
+    height_m: float | None = None,
+    tilt_deg: float | None = None,
+    direction_deg: float | None = None,
+    gaps_m: tuple[float, float] | None = None,
+    orientation: tuple[float, float, float, float] | None = None,
+    center_of_mass: float | tuple[float, float] | None = None,
+    center_of_mass_m: Triple | None = None,
+    spin_rad_s: float | Triple | None = None,
+    gravity_m_s2: float = STANDARD_GRAVITY,
+    contact_time_s: float | None = None,
+    contact_law: Law | None = None,
+    time_limit_s: float | None = None,
+    impact_limit: int | None = None,
+    at: Sequence[float] | Sequence[tuple[float, float]] = (),
+    history: bool = False,
+) -> Answer:
+    """One drop in time: gravity, real tilt, contacts that take time.
+
+    A length makes a bar; with a width it is a plate at small tilt, with a thickness beside it a box in any orientation.
+
+    Parameters
+    ----------
+    model : {'map', 'ballistic', 'finite-tilt', 'compliant'}
+        What is kept of the drop. Plates are followed by map and compliant, boxes by compliant.
+    length_m, width_m, thickness_m : float
+        Size of the body in m. The thickness of a bar is for finite-tilt.
+    gyration_m : float, (float, float) or (float, float, float)
+        Radius of gyration about the center of mass in m; of a plate along both sides, of a box about its axes.
+    e : float
+        Coefficient of restitution, in [0, 1].
+    speed_m_s, height_m : float
+        Speed at the first touch in m/s, or the height of the lower end before the drop in m.
+    tilt_deg, direction_deg : float
+        Tilt at the first touch in degrees; where a plate or box rises from corner a, 0 along its length.
+    gaps_m : (float, float), optional
+        Of a plate, instead of tilt and direction: heights of corners b and d as a touches, in m.
+    orientation : (w, x, y, z), optional
+        Of a box, instead of a tilt: the unit quaternion that turns its axes into those of the world, z upward.
+    center_of_mass : float or (float, float), optional
+        Of a bar or plate, in half-sides from the middle.
+    center_of_mass_m : (float, float, float), optional
+        Of a box, in m from the middle.
+    spin_rad_s : float or (float, float, float), optional
+        At the first touch in rad/s; of a box about its axes.
+    gravity_m_s2 : float
+        In m/s².
+    contact_time_s : float, optional
+        Of a lone contact, in s; for compliant.
+    contact_law : {'hysteretic', 'dashpot'}, optional
+        What the ground does meanwhile; hysteretic unless given.
+    time_limit_s : float, optional
+        Time for which the motion is followed, in s.
+    impact_limit : int
+        Strikes that are followed at most: 100 000, of a plate by map 1000 unless given.
+    at : list of float or of (float, float)
+        Positions in [-1, 1] whose velocity shocks are asked for.
+    history : bool
+        Of a bar, also the rows of its whole motion, as ``history``.
+
+    Returns
+    -------
+    Answer
+        ``impacts`` and ``stop``, times in s and velocities in m/s, as ``clatter simulate`` has it. ``plot()`` of a bar is the
+        picture.
+
+    Examples
+    --------
+    >>> import clatter
+    >>> drop = clatter.simulate(model="finite-tilt", length_m=0.14, gyration_m=0.0404, e=0.3, speed_m_s=4.43, tilt_deg=5)
+    >>> drop.impacts[0].end, drop.impacts[0].approach_m_s, drop.stop.reason
+    ('a', -4.43, 'at-rest')
+    """
+    limit = impact_limit or (1000 if width_m is not None and model == "map" else 100_000)
+    si = _floats(
+        length_m=length_m, width_m=width_m, thickness_m=thickness_m, e=e, speed_m_s=speed_m_s, height_m=height_m,
+        tilt_deg=tilt_deg, direction_deg=direction_deg, gravity_m_s2=gravity_m_s2, contact_time_s=contact_time_s,
+        time_limit_s=time_limit_s,
+    )  # fmt: skip
+    rest = (si["time_limit_s"], whole("impact_limit", limit, 1, 10**8))
+    if width_m is not None and (thickness_m is not None or orientation is not None):
+        if model != "compliant":
+            raise ValueError("a box is followed by model='compliant' alone")
+        if len(at) or history or gaps_m is not None or center_of_mass is not None:
+            raise ValueError("at, history, gaps_m and center_of_mass are not those of a box")
+        box = _box(si, gyration_m, center_of_mass_m, orientation, spin_rad_s)
+        return told(_clatter.simulate_box(*[*box, si["contact_time_s"], contact_law, *rest]), _box_impacts)
+    if center_of_mass_m is not None or orientation is not None:
+        raise ValueError("center_of_mass_m and orientation are those of a box: give width_m and thickness_m")
+    places: Any = positions(at) or []
+    if width_m is not None:
+        if spin_rad_s is not None or history:
+            raise ValueError("spin_rad_s and history are not those of a plate")
+        plate = _plate(si, gyration_m, center_of_mass, gaps_m)
+        contacts = (model, si["contact_time_s"], contact_law)
+        return told(_clatter.simulate_plate(*[*plate, *contacts, *rest, places]), _impacts)
+    if gaps_m is not None or direction_deg is not None:
+        raise ValueError("gaps_m and direction_deg are those of a plate: give width_m")
+    bar, spin = _bar(si, gyration_m, center_of_mass), 0.0 if spin_rad_s is None else number("spin_rad_s", spin_rad_s)
+    contact = (si["contact_time_s"], contact_law)
+    return told(_clatter.simulate(bar, model, *contact, spin, *rest, places, history), _impacts)
+
+
+def _box_impacts(answer: Answer) -> Rows:
+    return [flat(impact, "") for impact in answer.impacts]
+
+
+def _floats(**given: Any) -> dict[str, Any]:
+    return {name: optional(name, value) for name, value in given.items()}
+
+
+def _need(si: dict[str, Any], *names: str) -> None:
+    missing = [name for name in names if si[name] is None]
+    if missing:
+        raise ValueError(f"the drop is not whole: give {', '.join(missing)}")
+
+
+def _bar(si: dict[str, Any], gyration_m: Any, center_of_mass: Any) -> dict[str, Any]:
+    _need(si, "e", "tilt_deg")
+    names = ("length_m", "e", "speed_m_s", "height_m", "tilt_deg", "gravity_m_s2")
+    return {
+        **{name: si[name] for name in names},
+        "gyration_m": numbers("gyration_m", gyration_m, 1)[0],
+        "center_of_mass": 0.0 if center_of_mass is None else numbers("center_of_mass", center_of_mass, 1)[0],
+        "thickness_m": si["thickness_m"] or 0.0,
+    }
+
+
+def _plate(si: dict[str, Any], gyration_m: Any, center_of_mass: Any, gaps_m: Any) -> tuple[Any, ...]:
+    if si["tilt_deg"]:
+        _need(si, "direction_deg")
+    center = [0.0] * 2 if center_of_mass is None else numbers("center_of_mass", center_of_mass, 2)
+    body = ([si["length_m"], si["width_m"]], numbers("gyration_m", gyration_m, 2), center, si["e"])
+    gaps = None if gaps_m is None else numbers("gaps_m", gaps_m, 2)
+    return (*body, si["speed_m_s"], si["height_m"], si["gravity_m_s2"], gaps, si["tilt_deg"], si["direction_deg"] or 0.0)
+
+
+def _box(si: dict[str, Any], gyration_m: Any, center_m: Any, orientation: Any, spin_rad_s: Any) -> tuple[Any, ...]:
+    _need(si, "thickness_m", "contact_time_s")
+    center = [0.0] * 3 if center_m is None else numbers("center_of_mass_m", center_m, 3)
+    spin = [0.0] * 3 if spin_rad_s is None else numbers("spin_rad_s", spin_rad_s, 3)
+    turn = None if orientation is None else numbers("orientation", orientation, 4)
+    size = [si["length_m"], si["width_m"], si["thickness_m"]]
+    fall = (si["speed_m_s"], si["height_m"], si["gravity_m_s2"], turn, si["tilt_deg"], si["direction_deg"] or 0.0)
+    return (size, numbers("gyration_m", gyration_m, 3), center, si["e"], *fall, spin)
+
+
+def respond(
+    *,
+    pulses: Pulse | Sequence[Pulse] | None = None,
+    shocks: Sequence[tuple[float, float]] | None = None,
+    e: float | None = None,
+    q: float | None = None,
+    gyration_ratio: float | None = None,
+    center_of_mass: float | None = None,
+    masses: Sequence[Piece] | None = None,
+    velocity: tuple[float, float] | None = None,
+    height_gap: float | None = None,
+    at: float | None = None,
+    omega: float | None = None,
+    frequency_hz: float | None = None,
+    damping: float | None = None,
+    q_factor: float | None = None,
+    model: Model | None = None,
+    length_m: float | None = None,
+    gyration_m: float | None = None,
+    thickness_m: float | None = None,
+    speed_m_s: float | None = None,
+    height_m: float | None = None,
+    tilt_deg: float | None = None,
+    gravity_m_s2: float = STANDARD_GRAVITY,
+    contact_time_s: float | None = None,
+    contact_law: Law | None = None,
+    first: End | None = None,
+    flat: bool = False,
+    tolerance: float = 0.01,
+) -> Answer:
+    """What a part on its mount makes of pulses, velocity shocks, the clatter of a bar, or a drop in time.
+
+    Parameters
+    ----------
+    pulses : Pulse or list of Pulse, optional
+        What shakes the part, in SI.
+    shocks : list of (time_s, delta_v_m_s), optional
+        Velocity shocks in the order of time.
+    e, q, gyration_ratio, center_of_mass, masses, velocity, height_gap
+        Else a bar as in :func:`impacts`, in v0 and h0 or all in SI.
+    at : float
+        Where the part is on the bar, in [-1, 1].
+    omega, frequency_hz : float
+        Natural angular frequency in v0/h0 or rad/s, or natural frequency in Hz.
+    damping, q_factor : float
+        Damping ratio, or 1/(2 damping); Q = 10 unless given.
+    length_m, gyration_m, thickness_m, speed_m_s, height_m, tilt_deg, gravity_m_s2, model, contact_time_s, contact_law
+        Else a drop of a bar as in :func:`simulate`, with e and center_of_mass.
+    first : {'a', 'b'}, optional
+        Of a drop: the end that touches first.
+    flat : bool
+        Of a drop: whether both ends land as one, with instant impacts.
+    tolerance : float
+        Of a drop: how exact the answer is, as a share of it.
+
+    Returns
+    -------
+    Answer
+        Peaks of the part and what single shocks would do, as ``clatter respond`` has it.
+
+    Examples
+    --------
+    >>> import clatter
+    >>> pulse = clatter.Pulse("half-sine", amplitude_m_s2=9806.65, duration_s=1e-3)
+    >>> part = clatter.respond(pulses=pulse, frequency_hz=100, damping=0.05)
+    >>> round(part.peak_absolute_acceleration_over_omega * part.omega / 9.80665)  # gn
+    369
+    """
+    if length_m is not None:
+        if pulses is not None or shocks is not None or q is not None or gyration_ratio is not None or masses:
+            raise ValueError(
+                "length_m makes a drop in SI units: pulses, shocks, q, gyration_ratio and masses do not go with it"
+            )
+        si = _floats(
+            length_m=length_m, thickness_m=thickness_m, e=e, speed_m_s=speed_m_s, height_m=height_m, tilt_deg=tilt_deg,
+            gravity_m_s2=gravity_m_s2, gyration_m=gyration_m, at=at, contact_time_s=contact_time_s,
+            frequency_hz=frequency_hz if omega is None else number("omega", omega) / _TAU,
+        )  # fmt: skip
+        _need(si, "gyration_m", "at")
+        drop, contact = _bar(si, gyration_m, center_of_mass), (si["contact_time_s"], contact_law, first, flat)
+        part = (si["at"], si["frequency_hz"], optional("damping", damping), optional("q_factor", q_factor))
+        return told(_clatter.respond_drop(drop, model, *contact, *part, number("tolerance", tolerance)))
+    if (omega is None) == (frequency_hz is None):
+        raise ValueError("one of omega and frequency_hz says how the part swings")
+    swing = _TAU * number("frequency_hz", frequency_hz) if omega is None else number("omega", omega)
+    si = _floats(q=q, gyration_ratio=gyration_ratio, center_of_mass=center_of_mass)
+    pieces = None if masses is None else rows("masses", masses, 2, 3)
+    start = (None if velocity is None else numbers("velocity", velocity, 2), optional("height_gap", height_gap))
+    bar = (optional("e", e), *si.values(), pieces, *start, optional("at", at))
+    damped = (optional("damping", damping), optional("q_factor", q_factor))
+    return told(_clatter.respond(*[_shaken(pulses, shocks), *bar, swing, *damped]))
+
+
+_TAU = 6.283185307179586
+
+
+def _shaken(pulses: Pulse | Sequence[Pulse] | None, shocks: Any) -> Any:
+    if shocks is not None:
+        return shocks_of(shocks)
+    return None if pulses is None else pulses_of(pulses)
+
+
+def boxes(
+    *,
+    length_m: ArrayLike,
+    width_m: ArrayLike,
+    thickness_m: ArrayLike,
+    gyration_m: tuple[ArrayLike, ArrayLike, ArrayLike],
+    orientation: ArrayLike,
+    e: ArrayLike,
+    speed_m_s: ArrayLike,
+    contact_time_s: ArrayLike,
+    center_of_mass_m: tuple[ArrayLike, ArrayLike, ArrayLike] = (0.0, 0.0, 0.0),
+    spin_rad_s: tuple[ArrayLike, ArrayLike, ArrayLike] = (0.0, 0.0, 0.0),
+    gravity_m_s2: ArrayLike = STANDARD_GRAVITY,
+    contact_law: Law = "hysteretic",
+) -> Answer:
+    """Drops of many boxes, each as :func:`simulate` follows it.
+
+    Parameters
+    ----------
+    length_m, width_m, thickness_m : array_like
+        Size in m.
+    gyration_m, center_of_mass_m, spin_rad_s : three array_like
+        Along or about the three axes of the box; m, m, rad/s.
+    orientation : array_like, shape (..., 4)
+        Unit quaternions w, x, y, z that turn the axes of the box into those of the world, z upward.
+    e, speed_m_s, contact_time_s, gravity_m_s2 : array_like
+        As in :func:`simulate`.
+    contact_law : {'hysteretic', 'dashpot'}
+        Of all.
+
+    Returns
+    -------
+    Answer
+        Arrays of the broadcast shape: ``count`` of presses, ``largest_delta_v_m_s`` of a corner, ``stop_time_s``, ``at_rest``
+        (1, or 0 where a limit or a rebound ended it) and ``energy_error``.
+
+    Examples
+    --------
+    >>> import clatter
+    >>> drops = clatter.boxes(
+    ...     length_m=0.15, width_m=0.07, thickness_m=0.015, gyration_m=(0.0207, 0.0435, 0.0478),
+    ...     orientation=[0.9238795325, 0.3826834324, 0, 0], e=0.3, speed_m_s=[2.0, 4.43], contact_time_s=1e-3,
+    ... )
+    >>> drops.at_rest
+    array([1., 1.])
+    """
+    from ._arrays import Columns, floats
+
+    quaternions = floats("orientation", orientation)
+    if quaternions.ndim == 0 or quaternions.shape[-1] != 4:
+        raise ValueError(f"orientation has shape {quaternions.shape}; its last axis is w, x, y, z")
+    triples = {"gyration_m": gyration_m, "center_of_mass_m": center_of_mass_m, "spin_rad_s": spin_rad_s}
+    for name, triple in triples.items():
+        if len(triple) != 3:
+            raise ValueError(f"{name} takes three arrays, of x, y and z")
+    axes = {f"{name}_{axis}": one for name, triple in triples.items() for axis, one in zip("xyz", triple)}
+    turns = {f"orientation_{part}": quaternions[..., i] for i, part in enumerate("wxyz")}
+    given = Columns({"length_m": length_m, "width_m": width_m, "thickness_m": thickness_m, "e": e, "speed_m_s": speed_m_s,
+        "contact_time_s": contact_time_s, "gravity_m_s2": gravity_m_s2, **axes, **turns,
+    })  # fmt: skip
+    size = [given["length_m"], given["width_m"], given["thickness_m"]]
+    radii, center, spin = ([given[f"{name}_{axis}"] for axis in "xyz"] for name in triples)
+    turned = [given[name] for name in turns]
+    rest = (given["e"], given["speed_m_s"], given["gravity_m_s2"], given["contact_time_s"], contact_law)
+    return given.answer(_clatter.boxes(list(given.shape), size, radii, center, turned, spin, *rest))

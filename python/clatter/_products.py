@@ -1,0 +1,523 @@
+"""Products, their drops and their fragile parts: verdicts, probabilities, changes, fits."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import warnings
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal
+
+from . import _clatter
+from ._answer import Answer, Rows, flat, told
+from ._given import number, numbers, optional, rows, whole
+from ._records import Record
+
+#: A quantity: a number with its unit, a range of two, or a distribution.
+Quantity = str | float | Sequence[str] | Sequence[float] | Mapping[str, Any]
+Model = Literal["map", "ballistic", "finite-tilt", "compliant"]
+
+
+class Product:
+    """A product, how it falls, and its fragile parts.
+
+    Quantities are as in a product file: a number with its unit (``"140 mm"``), a range (``["1 deg", "10 deg"]``) or a
+    distribution (``{"normal": ["5 deg", "2 deg"], "range": ["0 deg", "10 deg"]}``); shares are numbers. What is wrong is told
+    when it is asked about, all at once and where it stands.
+
+    Parameters
+    ----------
+    name : str
+        Name of the product.
+    length : str
+        From end a to end b.
+    restitution : float or range
+        Rebound over approach speed.
+    radius_of_gyration, moment_of_inertia, mass, masses, center_of_mass, contact_time, contact_law
+        As in a product file, ``clatter init`` explains them.
+    **more
+        Further keys of the table ``[product]``.
+
+    Examples
+    --------
+    >>> import clatter
+    >>> handheld = clatter.Product("handheld", length="150 mm", radius_of_gyration="45 mm", restitution=0.3)
+    >>> _ = handheld.falls(height="1 m", tilt=["1 deg", "6 deg"])
+    >>> _ = handheld.add(
+    ...     "board", position="50 mm", natural_frequency="40 Hz", damping_ratio=0.05, acceleration_limit="30 gn"
+    ... )
+    >>> clatter.assess(handheld).verdict
+    'unsafe'
+    """
+
+    def __init__(
+        self,
+        name: str,
+        *,
+        length: Quantity,
+        restitution: Quantity,
+        radius_of_gyration: Quantity | None = None,
+        moment_of_inertia: Quantity | None = None,
+        mass: Quantity | None = None,
+        masses: Sequence[Mapping[str, Any]] | None = None,
+        center_of_mass: Quantity | None = None,
+        contact_time: Quantity | None = None,
+        contact_law: Literal["hysteretic", "dashpot"] | None = None,
+        **more: Any,
+    ) -> None:
+        keys = {
+            "name": name, "length": length, "restitution": restitution, "radius_of_gyration": radius_of_gyration,
+            "moment_of_inertia": moment_of_inertia, "mass": mass, "masses": masses, "center_of_mass": center_of_mass,
+            "contact_time": contact_time, "contact_law": contact_law, **more,
+        }  # fmt: skip
+        self._text: str | None = None
+        self._origin = name
+        self._tables: dict[str, Any] = {"product": _given(keys)}
+        self._read: tuple[str, _clatter.ProductText] | None = None
+
+    def falls(
+        self,
+        *,
+        tilt: Quantity,
+        height: Quantity | None = None,
+        speed: Quantity | None = None,
+        first: Literal["a", "b", "either"] | None = None,
+        gravity: Quantity | None = None,
+        **more: Any,
+    ) -> Product:
+        """Say how it falls.
+
+        Parameters
+        ----------
+        tilt : quantity
+            Angle to the ground at the first touch.
+        height, speed : quantity
+            Height of the lower end before the drop, or the speed at the first touch.
+        first : {'a', 'b', 'either'}, optional
+            The end that touches first; either unless given.
+        gravity : quantity, optional
+            1 gn unless given.
+
+        Returns
+        -------
+        Product
+            Itself.
+        """
+        keys = {"height": height, "speed": speed, "tilt": tilt, "first": first, "gravity": gravity, **more}
+        self._changed()["drop"] = _given(keys)
+        return self
+
+    def add(
+        self,
+        name: str,
+        *,
+        position: Quantity,
+        extent: Quantity | None = None,
+        mount: Literal["hard", "suspended"] | None = None,
+        natural_frequency: Quantity | None = None,
+        damping_ratio: Quantity | None = None,
+        quality_factor: Quantity | None = None,
+        acceleration_limit: Quantity | None = None,
+        rattle_space: Quantity | None = None,
+        velocity_change_limit: Quantity | None = None,
+        angular_velocity_change_limit: Quantity | None = None,
+        damage_boundary: Mapping[str, Quantity] | None = None,
+        limit_source: str | None = None,
+        **more: Any,
+    ) -> Product:
+        """Add a fragile part.
+
+        Parameters
+        ----------
+        name : str
+            Name of the part.
+        position : quantity
+            Where its middle is, from the middle of the product towards end b.
+        extent : quantity, optional
+            How far it extends along the product.
+        mount : {'hard', 'suspended'}, optional
+            Suspended unless given, with a natural frequency and a damping ratio or quality factor.
+        acceleration_limit, rattle_space, velocity_change_limit, angular_velocity_change_limit, damage_boundary
+            What it stands; the damage boundary has ``velocity_change`` and ``acceleration``.
+
+        Returns
+        -------
+        Product
+            Itself.
+        """
+        keys = {
+            "name": name, "position": position, "extent": extent, "mount": mount, "natural_frequency": natural_frequency,
+            "damping_ratio": damping_ratio, "quality_factor": quality_factor, "acceleration_limit": acceleration_limit,
+            "rattle_space": rattle_space, "velocity_change_limit": velocity_change_limit,
+            "angular_velocity_change_limit": angular_velocity_change_limit, "damage_boundary": damage_boundary,
+            "limit_source": limit_source, **more,
+        }  # fmt: skip
+        self._changed().setdefault("component", []).append(_given(keys))
+        return self
+
+    def _changed(self) -> dict[str, Any]:
+        if self._text is not None:
+            raise ValueError("a product of a text is changed in the text: Product.from_text()")
+        return self._tables
+
+    @classmethod
+    def open(cls, path: str | os.PathLike[str]) -> Product:
+        """The product of a file."""
+        name = os.fspath(path)
+        with open(name, encoding="utf-8", newline="") as file:
+            try:
+                return cls.from_text(file.read(), name)
+            except UnicodeDecodeError:
+                raise ValueError(f"{name}: it is not text in UTF-8") from None
+
+    @classmethod
+    def from_text(cls, text: str, origin: str = "text") -> Product:
+        """The product of the text of a file, which errors call ``origin``."""
+        product = cls.__new__(cls)
+        product._text, product._origin, product._tables, product._read = text, origin, {}, None
+        return product
+
+    @classmethod
+    def from_dict(cls, tables: Mapping[str, Any], origin: str = "dict") -> Product:
+        """The product of a dict with the tables of a file, ``product``, ``drop``, ``component``."""
+        return cls.from_text(_toml(tables), origin)
+
+    @classmethod
+    def example(cls) -> Product:
+        """The product that ``clatter init`` writes."""
+        return cls.from_text(_clatter.example(), "example.toml")
+
+    @property
+    def text(self) -> str:
+        """The product file."""
+        return _toml(self._tables) if self._text is None else self._text
+
+    def check(self) -> Product:
+        """Raise a ValueError that tells all that is wrong; warn of what is likely a slip."""
+        self._file()
+        return self
+
+    def _file(self) -> _clatter.ProductText:
+        text = self.text
+        if self._read is None or self._read[0] != text:
+            read = _clatter.ProductText(text, self._origin)
+            if read.warnings:
+                warnings.warn(read.warnings, stacklevel=3)
+            self._read = (text, read)
+        return self._read[1]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Product.from_text, (self.text, self._origin)
+
+    def __repr__(self) -> str:
+        return f"<Product {self._origin}>"
+
+
+#: A product, its file, or its tables.
+Source = Product | Mapping[str, Any] | str | os.PathLike[str]
+
+
+def _given(keys: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: value for name, value in keys.items() if value is not None}
+
+
+def _toml(tables: Mapping[str, Any]) -> str:
+    """The text of a product file with these tables."""
+    lines: list[str] = []
+    for name, table in tables.items():
+        if isinstance(table, Mapping):
+            lines += ["", f"[{_key(name)}]", *(f"{_key(key)} = {_value(value)}" for key, value in table.items())]
+        elif isinstance(table, (list, tuple)):
+            for one in table:
+                if not isinstance(one, Mapping):
+                    raise ValueError(f"{name} is a list of tables, not of {type(one).__name__}")
+                lines += ["", f"[[{_key(name)}]]", *(f"{_key(key)} = {_value(value)}" for key, value in one.items())]
+        else:
+            lines.insert(0, f"{_key(name)} = {_value(table)}")
+    return "\n".join(lines).lstrip("\n") + "\n"
+
+
+def _key(name: object) -> str:
+    return str(name) if re.fullmatch(r"[A-Za-z0-9_-]+", str(name)) else json.dumps(str(name))
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        # JSON escapes what TOML does, but for DEL.
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{_key(key)} = {_value(one)}" for key, one in value.items()) + " }"
+    if isinstance(value, (list, tuple)) or getattr(value, "ndim", 0) == 1:
+        return "[" + ", ".join(_value(one) for one in value) + "]"
+    if hasattr(value, "item"):
+        return _value(value.item())
+    if isinstance(value, (int, float)):
+        return repr(value)
+    raise ValueError(f"{value!r} is none of what a product file holds: text, numbers, lists and tables")
+
+
+def _of(product: Source) -> _clatter.ProductText:
+    if isinstance(product, Mapping):
+        product = Product.from_dict(product)
+    elif not isinstance(product, Product):
+        product = Product.open(product)
+    return product._file()
+
+
+def schema() -> dict[str, Any]:
+    """The JSON Schema of product files, as ``clatter schema`` prints it."""
+    found: dict[str, Any] = json.loads(_clatter.schema())
+    return found
+
+
+def _limits(answer: Answer) -> Rows:
+    limits = []
+    for part in answer.components:
+        for limit in part.limits:
+            told_of = {name: value for name, value in flat(limit, "").items() if not isinstance(value, (list, Answer))}
+            limits.append({"component": part.name, "position_m": part.position_m, **told_of})
+    return limits
+
+
+def assess(product: Source, *, tolerance: float = 0.01, model: Model | None = None, merge_s: float = 1e-3) -> Answer:
+    """Which part of a product fails, in which drop, by how much.
+
+    Records that a product file names are not read, which is warned of: :func:`fit` takes them.
+
+    Parameters
+    ----------
+    product : Product, path, or dict
+        The product; a text is :meth:`Product.from_text`.
+    tolerance : float
+        How exact the answer to each drop is, as a share of it.
+    model : {'map', 'ballistic', 'finite-tilt', 'compliant'}, optional
+        Follow drops by this model rather than by the one with the most physics.
+    merge_s : float
+        Instant impacts closer than this are one, in s.
+
+    Returns
+    -------
+    Answer
+        ``verdict`` (safe, unsafe or undecided) and ``components`` with their ``limits``: ``allowed``, ``demand``, ``margin`` in
+        SI; as ``clatter assess`` has it.
+
+    Examples
+    --------
+    >>> import clatter
+    >>> answer = clatter.assess(clatter.Product.example())
+    >>> answer.verdict, [part.name for part in answer.components]
+    ('safe', ['display', 'camera', 'crystal'])
+    """
+    file = _of(product)
+    if file.names_records:
+        warnings.warn("the records that the product file names are not read: fit() takes them", stacklevel=2)
+    accuracy = (number("tolerance", tolerance), model, number("merge_s", merge_s))
+    return told(_clatter.assess(file, *accuracy), _limits)
+
+
+def scatter(
+    product: Source,
+    *,
+    samples: int = 100_000,
+    seed: int = 1,
+    confidence: float = 0.95,
+    merge_s: float = 1e-3,
+    target: float | None = None,
+) -> Answer:
+    """How likely each part survives, and what that depends on.
+
+    Parameters
+    ----------
+    product : Product, path, or dict
+        The product, with distributions or ranges.
+    samples, seed : int
+        How many drops, and which.
+    confidence : float
+        Of the intervals, in (0, 1).
+    merge_s : float
+        Instant impacts closer than this are one, in s.
+    target : float, optional
+        Survival of all parts that is to be sure, in (0, 1).
+
+    Returns
+    -------
+    Answer
+        ``survival`` and ``components`` with their ``drivers``, as ``clatter scatter`` has it.
+
+    Examples
+    --------
+    >>> import clatter
+    >>> clatter.scatter(clatter.Product.example(), samples=200).survival.probability
+    1.0
+    """
+    drawn = (whole("samples", samples, 1, 10**12), whole("seed", seed, 0, 2**64 - 1), number("confidence", confidence))
+    rest = (number("merge_s", merge_s), optional("target", target))
+    return told(_clatter.scatter(_of(product), *drawn, *rest), _survivals)
+
+
+def _survivals(answer: Answer) -> Rows:
+    return [
+        {"component": part.name, "failed": part.failed, "survival": part.survival.probability,
+         "from": part.survival.interval[0], "to": part.survival.interval[1]}
+        for part in answer.components
+    ]  # fmt: skip
+
+
+def design(
+    product: Source | None = None,
+    *,
+    margin: float = 0.1,
+    q: tuple[float, float] = (0.0, 0.9),
+    e: tuple[float, float] = (0.05, 0.9),
+    frequency_factor: float = 4.0,
+    damping: tuple[float, float] = (0.0, 0.5),
+    contact_time_s: tuple[float, float] = (0.2e-3, 2e-3),
+    limit_factor: float = 4.0,
+    zones: Sequence[tuple[float, float]] = (),
+    turn: float | None = None,
+) -> Answer:
+    """The smallest change that makes each failing part safe; without a product, which q and e meet goals.
+
+    Parameters
+    ----------
+    product : Product, path, or dict, optional
+        The product.
+    margin : float
+        Margin allowed/demand - 1 that every limit is to have.
+    q, e, damping, contact_time_s : (lo, hi)
+        Inertia ratios, restitutions, damping ratios and contact times [s] that can be had.
+    frequency_factor, limit_factor : float
+        Largest factor on a natural frequency, up or down; on what a part stands, up.
+    zones : list of (threshold, s), optional
+        Without a product: shocks up to a threshold in v0 within s of the bar.
+    turn : float, optional
+        Without a product: changes of angular velocity up to this, in v0/L.
+
+    Returns
+    -------
+    Answer
+        ``components`` with their ``remedies``, or what the goals come to; as ``clatter design`` has it.
+
+    Examples
+    --------
+    >>> import clatter
+    >>> len(clatter.design(clatter.Product.example()).components)
+    3
+    """
+    if product is None:
+        return told(_clatter.goals([(x, s) for x, s in rows("zones", zones, 2)], optional("turn", turn)))
+    if len(zones) or turn is not None:
+        raise ValueError("zones and turn are goals without a product")
+    first = (number("margin", margin), numbers("q", q, 2), numbers("e", e, 2))
+    swing = (number("frequency_factor", frequency_factor), numbers("damping", damping, 2))
+    rest = (numbers("contact_time_s", contact_time_s, 2), number("limit_factor", limit_factor))
+    return told(_clatter.design(_of(product), *first, *swing, *rest), _remedies)
+
+
+def _remedies(answer: Answer) -> Rows:
+    return [{"component": part.name, **flat(remedy, "")} for part in answer.components for remedy in part.remedies]
+
+
+def explain(product: Source, *, tolerance: float = 0.01) -> Answer:
+    """Which model the worst drops of a product need, and why.
+
+    Parameters
+    ----------
+    product : Product, path, or dict
+        The product.
+    tolerance : float
+        What a model may get wrong, as a share of the demand.
+
+    Returns
+    -------
+    Answer
+        ``limits``, each with the value and error of every ``models``; as ``clatter explain`` has it.
+
+    Examples
+    --------
+    >>> import clatter
+    >>> clatter.explain(clatter.Product.example()).limits[0].component
+    'display'
+    """
+    return told(_clatter.explain(_of(product), number("tolerance", tolerance)), _models)
+
+
+def _models(answer: Answer) -> Rows:
+    return [
+        {"component": limit.component, "limit": limit.limit, **flat(model, "")}
+        for limit in answer.limits
+        for model in limit.models
+    ]
+
+
+def fit(
+    product: Source,
+    *,
+    strikes: Sequence[tuple[float, Literal["a", "b"] | None]] | None = None,
+    heights: Sequence[tuple[float, float, float]] | None = None,
+    bounces: Sequence[float] | None = None,
+    accelerations: Sequence[tuple[Record, float]] = (),
+    timing_s: float | None = None,
+    known_gyration: bool = False,
+) -> Answer:
+    """From a measured drop to the data of the product: restitution, radius of gyration, contact time, tilt and speed.
+
+    Parameters
+    ----------
+    product : Product, path, or dict
+        Length, center of mass, gravity, and where the search begins.
+    strikes : list of (time_s, end), optional
+        Times of strikes in s, end a, b or None where it is not known.
+    heights : list of (time_s, height_a_m, height_b_m), optional
+        Heights of both ends over the ground, from a video.
+    bounces : list of float, optional
+        Times in s at which a flat product bounces; alone.
+    accelerations : list of (Record, position_m), optional
+        Accelerations of one channel, and where they were measured from the middle towards end b.
+    timing_s : float, optional
+        Standard deviation of the times of strikes and bounces, in s.
+    known_gyration : bool
+        Take the radius of gyration of the product as known.
+
+    Returns
+    -------
+    Answer
+        ``estimates`` with intervals of 95 %, as ``clatter fit`` has it; ``fitted``, the :class:`Product` with these ranges, and
+        ``notes`` on what that does not hold. ``plot()`` is the picture.
+
+    Examples
+    --------
+    >>> import clatter
+    >>> answer = clatter.fit(clatter.Product.example(), bounces=[0, 0.5, 0.7, 0.78, 0.812])
+    >>> [round(estimate.value, 6) for estimate in answer.estimates if estimate.quantity == "restitution"]
+    [0.4]
+    """
+    source = _of(product)
+    measured = (
+        None if strikes is None else [_strike(i, strike) for i, strike in enumerate(strikes)],
+        None if heights is None else [(time, a, b) for time, a, b in rows("heights", heights, 3)],
+        None if bounces is None else numbers("bounces", bounces),
+        [_acceleration(i, one) for i, one in enumerate(accelerations)],
+    )
+    text, drawing, copy, notes = _clatter.fit(source, *measured, optional("timing_s", timing_s), known_gyration)
+    fitted = None if copy is None else Product.from_text(copy, "fitted")
+    return told((text, drawing), _estimates, fitted=fitted, notes=notes)
+
+
+def _strike(i: int, strike: Any) -> tuple[float, str | None]:
+    if not hasattr(strike, "__len__") or len(strike) != 2:
+        raise ValueError(f"strikes[{i}] = {strike!r} is not (time_s, end)")
+    return number(f"time of strikes[{i}]", strike[0]), strike[1]
+
+
+def _acceleration(i: int, one: Any) -> tuple[_clatter.Record, float]:
+    if not hasattr(one, "__len__") or len(one) != 2 or not isinstance(one[0], Record):
+        raise ValueError(f"accelerations[{i}] is not (Record, position_m)")
+    return one[0]._data, number(f"position of accelerations[{i}]", one[1])
+
+
+def _estimates(answer: Answer) -> Rows:
+    return [flat(estimate, "") for estimate in answer.estimates]

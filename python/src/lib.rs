@@ -1,0 +1,56 @@
+//! The Python package `clatter`: the answers of the command over dicts and arrays.
+//!
+//! What is asked comes as plain values from the modules of `python/clatter`, which name, check and document it; here it becomes the
+//! typed question of `clatter-answer`, and its answer the JSON that the command prints, with how it is drawn. Functions over arrays
+//! call the core for each row. No answer is made in a second way.
+
+#![expect(clippy::too_many_arguments, reason = "Python names them")]
+#![expect(clippy::needless_pass_by_value, reason = "as Python hands them over")]
+
+mod answered;
+mod arrays;
+mod bodies;
+mod drops;
+mod maps;
+mod products;
+mod records;
+mod shocks;
+mod single;
+mod work;
+
+use std::fmt::Display;
+
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+/// What a question is refused for, in the words of the command.
+fn refused(error: impl Display) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}
+
+#[pymodule(gil_used = true)]
+mod _clatter {
+    #[pymodule_export]
+    use crate::answered::Drawing;
+    #[pymodule_export]
+    use crate::arrays::{bars, boxes, plates, shocks, trains, zones};
+    #[pymodule_export]
+    use crate::drops::{simulate, simulate_box, simulate_plate};
+    #[pymodule_export]
+    use crate::maps::map;
+    #[pymodule_export]
+    use crate::products::{ProductText, assess, design, example, explain, fit, goals, scatter, schema};
+    #[pymodule_export]
+    use crate::records::{Record, spectra, spectrum};
+    #[pymodule_export]
+    use crate::shocks::{Pulse, respond, respond_drop};
+    #[pymodule_export]
+    use crate::single::{atlas, impacts, zone};
+
+    use pyo3::prelude::*;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

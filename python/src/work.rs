@@ -1,0 +1,81 @@
+//! Work without the lock of the interpreter, which Ctrl-C ends.
+//!
+//! It is done by the threads of a pool, while the thread of Python that asked for it looks for signals some twenty times a second.
+//! After one the call ends at once; the work is asked to end, and what cannot be asked goes on unheard.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+/// Whether work is still wanted.
+#[derive(Debug, Clone)]
+pub(crate) struct Wanted(Arc<AtomicBool>);
+
+impl Wanted {
+    pub(crate) fn still(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+    /// Leaves work that nobody wants any more, from within what it calls to tell how far it is.
+    pub(crate) fn or_leave(&self) {
+        if !self.still() {
+            resume_unwind(Box::new("not wanted any more"));
+        }
+    }
+}
+
+/// Between two looks for signals.
+const INTERVAL: Duration = Duration::from_millis(50);
+
+/// The threads, and the process whose they are.
+type Own = (u32, Arc<ThreadPool>);
+static POOL: Mutex<Option<Own>> = Mutex::new(None);
+
+/// The threads of this process: those of the process that it was forked from do not go on in it.
+fn pool() -> PyResult<Arc<ThreadPool>> {
+    let mut own = POOL.lock().unwrap_or_else(PoisonError::into_inner);
+    let process = std::process::id();
+    if let Some((of, pool)) = own.as_ref()
+        && *of == process
+    {
+        return Ok(Arc::clone(pool));
+    }
+    let made = ThreadPoolBuilder::new().thread_name(|n| format!("clatter {n}")).build();
+    let pool = Arc::new(made.map_err(|error| PyRuntimeError::new_err(error.to_string()))?);
+    std::mem::forget(own.replace((process, Arc::clone(&pool))));
+    Ok(pool)
+}
+
+/// What `work` gives.
+///
+/// # Errors
+/// A signal whose handler raises, as that of Ctrl-C does.
+pub(crate) fn done<T: Send + 'static>(py: Python<'_>, work: impl FnOnce(&Wanted) -> T + Send + 'static) -> PyResult<T> {
+    let wanted = Wanted(Arc::new(AtomicBool::new(true)));
+    let (sender, receiver) = sync_channel(1);
+    let its = wanted.clone();
+    pool()?.spawn(move || {
+        let given: Result<T, Box<dyn Any + Send>> = catch_unwind(AssertUnwindSafe(|| work(&its)));
+        let _ = sender.send(given); // nobody may be left to hear it
+    });
+    let receiver = Mutex::new(receiver);
+    loop {
+        let heard = py.detach(|| receiver.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(INTERVAL));
+        match heard {
+            Ok(Ok(given)) => return Ok(given),
+            Ok(Err(panic)) => resume_unwind(panic),
+            Err(RecvTimeoutError::Timeout) => py.check_signals().inspect_err(|_| {
+                wanted.0.store(false, Ordering::Relaxed);
+            })?,
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(PyRuntimeError::new_err("the work ended without an answer; please report this"));
+            }
+        }
+    }
+}
