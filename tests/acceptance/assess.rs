@@ -153,6 +153,32 @@ fn the_command_below_a_worst_drop_of_a_plate_says_the_same() {
     assert!(wrong.stderr.contains("a plate is followed by the model compliant, not by map"), "{}", wrong.stderr);
 }
 
+/// Of a box that goes through the drops of a standard; what it feels is joined by straight lines in one of both.
+#[test]
+fn the_command_below_a_worst_drop_of_a_box_says_the_same() {
+    let outcome = clatter(["assess", &example("handheld-transit.toml"), "--format=json"]);
+    let json: Value = serde_json::from_str(&outcome.stdout).unwrap();
+    assert_eq!(json["landings"].as_array().unwrap().len(), 26);
+    for component in json["components"].as_array().unwrap() {
+        let limit = &component["limits"][0];
+        let (worst, demand) = (&limit["worst_case"], limit["demand"].as_f64().unwrap());
+        assert!(worst["landing"].as_str().is_some_and(|on| on.contains(' ')), "{worst}");
+        let again = answer(words(worst["command"].as_str().unwrap()));
+        let again = match again["omega_peak_relative_displacement"].as_f64() {
+            Some(peak) => peak / again["omega"].as_f64().unwrap(),
+            None => again["acceleration"]["value_m_s2"].as_f64().unwrap(),
+        };
+        assert!((again / demand - 1.0).abs() < 3e-4, "{again}, not {limit}");
+        let governs = json["landings"].as_array().unwrap().iter().find(|on| on["landing"] == worst["landing"]).unwrap();
+        let asked = governs["limits"].as_array().unwrap().iter().find(|l| l["component"] == component["name"]).unwrap();
+        assert_eq!(asked["demand"], limit["demand"], "{governs}");
+    }
+    let table = clatter(["assess", &example("handheld-transit.toml")]).stdout;
+    for word in ["table 516.8-IX", "corner top back end-b", "off, deg"] {
+        assert!(table.contains(word), "{word}: {table}");
+    }
+}
+
 #[test]
 fn the_command_below_a_worst_drop_says_the_same() {
     let (_dir, path) = changed(|text| text);

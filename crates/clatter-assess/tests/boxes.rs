@@ -125,6 +125,7 @@ fn no_single_drop_of_a_box_is_worse() {
     for n in 0..boxes {
         let mut r = Random((u64::from(seed) << 32) + u64::from(n));
         let kinds: Vec<Attitude> = [1, 2, 3].into_iter().flat_map(Attitude::all).collect();
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 26")]
         let attitude = kinds[(r.unit() * 25.99) as usize];
         let name = attitude.to_string();
         let (key, faces) = name.split_once(' ').expect("two words");
