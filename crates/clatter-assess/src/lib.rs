@@ -89,7 +89,7 @@ pub use engine::{Answer, Part, answer, respond};
 pub use error::Error;
 pub use fault::{Fault, Faults};
 pub use plate::{PlateAnswers, PlateDrop, PlatePart};
-pub use portrait::{Changes, Curve, Point, Portrait};
+pub use portrait::{Changes, CornerStrike, Curve, PlaceMap, PlatePortrait, Point, Portrait};
 pub use product::{Component, Damping, Drop, Fall, First, Limits, Mount, Product, ProductFile, RecordFile, Width};
 pub use quantity::{Limit, LimitKind, Unit};
 pub use read::LARGEST_FILE;
