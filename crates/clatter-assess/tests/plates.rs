@@ -211,8 +211,7 @@ fn portraits(text: &str) -> Vec<(LimitAssessment, Limit, PlatePortrait)> {
     drawn.collect()
 }
 
-/// The first strike is that of the lowest corner. The curve holds the worst case, and each of its points is what the one engine says,
-/// to the 2 % that they are followed to and what strikes multiply of it.
+/// The first strike is that of the lowest corner. The curve holds the worst case, and each of its points is what the one engine says.
 #[test]
 fn a_plate_is_drawn_as_it_was_followed() {
     let mut count = 0;
@@ -230,21 +229,23 @@ fn a_plate_is_drawn_as_it_was_followed() {
         assert!(drawn.over_direction.iter().any(|point| point.share.to_bits() == demand.to_bits()));
         assert!(drawn.over_direction.len() > 70);
         for point in drawn.over_direction.iter().step_by(9) {
-            let again = answer(&point.drop, &point.part, &limit, worst.model, 0.01).expect("an answer").utilization();
-            assert!((point.share / again - 1.0).abs() < 0.03, "{point:?}: {again}");
+            let again = answer(&point.drop, &point.part, &limit, worst.model, 0.01).expect("an answer");
+            // 2 % of rough histories, and what the answer may be off by itself.
+            let allowed_for = 0.02 + again.error().min(0.1);
+            assert!((point.share / again.utilization() - 1.0).abs() < allowed_for, "{point:?}: {again:?}");
             count += 1;
         }
     }
     assert!(count > 40, "{count} points");
 }
 
-/// A map holds what the one engine says: of the worst drop alone to the last digit, of several drops to the 2 % that they are followed
-/// to and what strikes multiply of it; at the part's own place, at corners and at any other place.
+/// A map holds what the one engine says: of the worst drop alone to the last digit, of several drops as well as rough histories do; at
+/// the part's own place and at others.
 #[test]
 fn a_map_over_the_plate_is_what_drops_ask() {
     let alone = HANDHELD.replace("tilt = [\"0.5 deg\", \"4 deg\"]", "tilt = \"3 deg\"\ndirection = \"291 deg\"");
     let mut own_places = 0;
-    for text in [&alone, HANDHELD, EXAMPLE] {
+    for text in [alone.as_str(), HANDHELD, EXAMPLE] {
         for (tightest, limit, drawn) in portraits(text) {
             let worst = tightest.worst_case.expect("a drop");
             let Some(map) = &drawn.map else {
@@ -258,7 +259,7 @@ fn a_map_over_the_plate_is_what_drops_ask() {
             });
             let mut drops = vec![worst.drop];
             drops.extend(others.filter(|drop| drop.across != worst.drop.across));
-            assert!(map.drops == 25 || map.drops == 1 && text == &alone, "{} drops", map.drops);
+            assert!(map.drops == 25 || map.drops == 1 && text == alone, "{} drops", map.drops);
             let allowed_for = if map.drops == 1 { 1e-12 } else { 0.03 };
             for (row, &across_m) in map.across_m.iter().enumerate() {
                 for (column, &position_m) in map.along_m.iter().enumerate() {

@@ -9,7 +9,7 @@ use crate::course::Course;
 use crate::drop::{Followed, SingleDrop, Until};
 use crate::engine::PlaceHistory;
 use crate::quantity::Source;
-use crate::search::Ranges;
+use crate::search::{Ranges, rough_to_rad_s};
 use crate::{Across, Component, Limit, LimitAssessment, Part, Product, WorstCase};
 
 /// Directions of the curve, and of them one in so many for the map.
@@ -23,8 +23,8 @@ const PLACES: f64 = 72.0;
 pub struct PlatePortrait {
     /// The strikes of the worst drop, in order of time.
     pub strikes: Vec<CornerStrike>,
-    /// What the part of the worst drop is asked where the plate rises to other directions, in order of direction from 0 to 2π: all else is as in the
-    /// worst drop, which is one of the points.
+    /// What the part of the worst drop is asked where the plate rises to other directions, in order of direction from 0 to 2π: all
+    /// else is as in the worst drop, which is one of the points.
     pub over_direction: Vec<Point>,
     /// The directions that the file gives, from and to, in rad; any if none.
     pub given_rad: Option<[f64; 2]>,
@@ -88,14 +88,15 @@ impl Product {
 struct Asked<'a> {
     limit: Limit,
     suspension: Option<Suspension>,
+    /// Up to which natural frequency histories may be rough.
+    rough_to_rad_s: f64,
     worst: &'a WorstCase,
 }
 
 impl Asked<'_> {
     /// The share that a followed drop asks at a place, where it passes `above`.
     fn share(&self, followed: &Followed, at_m: [f64; 2], above: f64) -> Option<f64> {
-        let fastest = self.suspension.map_or(f64::INFINITY, |part| part.omega());
-        let felt = PlaceHistory::rough(followed, at_m, fastest).ok()?;
+        let felt = PlaceHistory::rough(followed, at_m, self.rough_to_rad_s).ok()?;
         felt.answer(&self.limit, self.suspension.as_ref(), above).ok()?.map(|answer| answer.utilization())
     }
     /// The most at some places, and which of them.
@@ -125,7 +126,8 @@ pub(super) fn portrait(
     let worst = limit.worst_case.as_ref()?;
     let across = worst.drop.across?;
     let asked = Limit::of(component).into_iter().find(|asked| asked.kind == limit.limit)?;
-    let asked = Asked { limit: asked, suspension: worst.part.suspension, worst };
+    let asked =
+        Asked { limit: asked, suspension: worst.part.suspension, rough_to_rad_s: rough_to_rad_s(component), worst };
     let own = Followed::new(&worst.drop, worst.model, worst.tolerance).ok()?;
     let given_rad = ranges.drop.direction_rad.map(|given| [given.lo(), given.hi()]);
     let places = component.places_m();
@@ -133,7 +135,7 @@ pub(super) fn portrait(
     for k in 0..=DIRECTIONS {
         let direction = TAU * f64::from(k) / f64::from(DIRECTIONS);
         let drop = asked.rising_to(&across, direction);
-        let Ok(followed) = Followed::until(&drop, worst.model, worst.tolerance.max(0.02), until) else { continue };
+        let Ok(followed) = Followed::until(&drop, worst.model, worst.tolerance, until) else { continue };
         let Some((share, part)) = asked.most(&followed, &places) else { continue };
         points.push(Point { tilt_rad: drop.tilt_rad, drop, part, share });
         if k < DIRECTIONS && (k as usize).is_multiple_of(OF_MAP) && is_given(given_rad, direction) {

@@ -148,10 +148,11 @@ fn on_plate(component: &Component) -> String {
         format!("anywhere within {along} along the length and {across} along the width")
     };
     let extents = [component.extent_m, component.extent_across_m];
-    match extents.map(millimeters) {
-        _ if extents == [0.0; 2] => where_to,
-        [along, across] => format!("{where_to}, and is {along} by {across}"),
+    if extents.iter().all(|extent| *extent == 0.0) {
+        return where_to;
     }
+    let [along, across] = extents.map(millimeters);
+    format!("{where_to}, and is {along} by {across}")
 }
 
 fn mount(component: &Component) -> String {

@@ -184,3 +184,60 @@ pub(super) fn captions(of: &LimitAssessment, worst: &WorstCase, portrait: &Plate
         "map": map,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::files;
+    use super::*;
+    use crate::Pages;
+    use clatter_assess::ProductFile;
+
+    const PLATE: &str = include_str!("../../../../reports/examples/handheld-plate.toml");
+
+    #[test]
+    fn the_lowest_corner_lies_opposite_to_where_the_plate_rises() {
+        let said = [0.0, 25.0, 90.0, 95.0, 180.0, 200.0, 270.0, 291.0, 359.999_999_999_9].map(lowest);
+        let expected = ["edge a–d", "corner a", "edge a–b", "corner b", "edge b–c", "corner c", "edge c–d", "corner d"];
+        assert_eq!(said[..8], expected);
+        assert_eq!(said[8], "edge a–d");
+    }
+
+    /// No word of a bar is left, and every part has its pictures: a change of angular velocity is the same anywhere and has no map.
+    #[test]
+    fn pages_of_a_plate_speak_of_a_plate() {
+        let text =
+            PLATE.replace("tilt = [\"1 deg\", \"12 deg\"]", "tilt = \"3 deg\"\ndirection = [\"20 deg\", \"50 deg\"]");
+        let file = ProductFile::read(&text, "plate.toml").unwrap();
+        let assessment = file.assess().unwrap();
+        let portraits = file.portraits(&assessment);
+        let (file, assessment, portraits) = (&file, &assessment, &portraits[..]);
+        let pages = Pages { file, assessment, portraits, measured: &[], path: "plate.toml", date: None };
+        let files = files(&pages).unwrap();
+        let names = files.iter().map(|(name, _)| name.as_str()).filter(|name| *name != "assessment.json");
+        let names: Vec<&str> = names.collect();
+        let part = |k: usize| ["history", "direction", "landing", "map"].map(|what| format!("{what}-{k}.svg"));
+        let expected =
+            [&["product-1.svg".to_owned()][..], &part(1), &part(2), &part(3)[..3], &["shares.svg".to_owned()]];
+        assert_eq!(names, expected.concat());
+        let json = &files.iter().find(|(name, _)| name == "assessment.json").unwrap().1;
+        let data: Value = serde_json::from_str(json).unwrap();
+        assert_eq!(data["inputs"][5][1], "3° at the first touch, rising to 20 to 50°");
+        let said = data.to_string();
+        for of_bar in
+            [" bar ", "either end", "both ends as", "an end touches", "towards end", "along the product", "end a at"]
+        {
+            assert!(!said.contains(of_bar), "{of_bar}: {said}");
+        }
+        for of_plate in [
+            "length 220 mm, width 85 mm, thickness 25 mm",
+            "0.42 kg, radii of gyration 65.4 mm along the length, 21.8 mm along the width, center of mass at −8.93, −1.55 mm",
+            "product of inertia over the mass 245 mm²",
+            "It sits at 95, 15 mm, and is 20 mm by 30 mm.",
+            "That drop lands on corner a, rising to ",
+            "a box at real tilt",
+            "Dashed: directions that the file does not give.",
+        ] {
+            assert!(said.contains(of_plate), "{of_plate}: {said}");
+        }
+    }
+}
