@@ -315,7 +315,7 @@ fn the_schema_names_every_key_of_the_examples() {
     for table in ["product", "drop"] {
         assert_eq!(schema["properties"][table]["additionalProperties"], false);
     }
-    for name in ["phone.toml", "handheld-terminal.toml", "laptop.toml"] {
+    for name in ["phone.toml", "handheld-terminal.toml", "laptop.toml", "handheld-plate.toml"] {
         let text = fs::read_to_string(example(name)).unwrap();
         for line in text.lines().filter(|line| !line.starts_with(['#', '[', ' ', ']']) && line.contains(" = ")) {
             let key = line.split(" = ").next().unwrap();

@@ -92,7 +92,7 @@ pub use engine::{Answer, Part, answer, respond};
 pub use error::Error;
 pub use fault::{Fault, Faults};
 pub use plate::{PlateAnswers, PlateDrop, PlatePart};
-pub use portrait::{Changes, Curve, Point, Portrait};
+pub use portrait::{Changes, CornerStrike, Curve, PlaceMap, PlatePortrait, Point, Portrait};
 pub use product::{
     Axis, Component, Damping, Drop, Fall, First, Inside, Landing, Limits, Mount, Product, ProductFile, RecordFile,
     Width,

@@ -7,6 +7,7 @@
 mod changes;
 mod curves;
 mod drops;
+mod plate;
 mod scale;
 mod zone;
 
@@ -26,6 +27,7 @@ use crate::{
 };
 use changes::{Failing, Shared};
 use drops::{Drops, Places, along, corners, parts, tilts};
+pub use plate::{CornerStrike, PlaceMap, PlatePortrait};
 use scale::Scale;
 
 /// Points (x, y) of a line.
@@ -58,7 +60,7 @@ pub struct Changes {
 pub struct Portrait {
     /// Time (s) and value (SI) of what the tightest limit is on, in its worst drop. A velocity change is a spike.
     pub history: Curve,
-    /// When the ends strike in that drop, in s.
+    /// When the ends or corners strike in that drop, in s.
     pub impacts_s: Vec<f64>,
     /// By tilt, the drops that ask most of the tightest limit of those followed: a curve for each end that may touch first.
     pub over_tilt: Vec<(End, Vec<Point>)>,
@@ -68,6 +70,8 @@ pub struct Portrait {
     /// Changes within [`Bounds::default`]; none for a part that is safe, and for one of which the assessment does not know how much
     /// may be asked.
     pub changes: Option<Changes>,
+    /// What is drawn of a plate in place of curves over the tilt, of zones and of changes; none of a bar, and where no drop is answered.
+    pub plate: Option<PlatePortrait>,
 }
 
 /// Points of a history between two strikes and after the last, at least; in a period of the part, as far as there are
@@ -87,22 +91,25 @@ impl ProductFile {
     /// The curve over the tilt holds besides the drops with the speed, restitution and contact time of the worst case, and the worst
     /// case itself. Safe places and changes are those where no drop asks more than at the part's own place, but for what the
     /// assessment leaves room for there: they are as good as these drops, and an assessment decides.
-    /// Of a plate the response in the worst drop alone is drawn. What is not answered is not drawn; nothing is of an assessment of another product, or of data that [`check`](Self::check)
-    /// refuses.
+    /// Of a plate that has no contact law of its own the drops are those of the hysteretic one. What is not answered is not drawn;
+    /// nothing is of an assessment of another product, or of data that [`check`](Self::check) refuses.
     #[must_use]
     pub fn portraits(&self, assessment: &Assessment) -> Vec<Portrait> {
         if self.check().and(assessment.accuracy.check()).and(assessment.is_of(self)).is_err() {
             return Vec::new();
         }
         let ranges = self.ranges(&assessment.accuracy);
+        let until = Self::until(assessment);
         if self.product.width.is_some() {
-            let history = |assessed: &ComponentAssessment| {
-                let (history, impacts_s) = Self::history(assessed.tightest(), &ranges).unwrap_or_default();
-                Portrait { history, impacts_s, over_tilt: Vec::new(), zone_m: None, changes: None }
+            let portrait = |(component, assessed): (&Component, &ComponentAssessment)| {
+                let tightest = assessed.tightest();
+                let (history, impacts_s) = Self::history(tightest, &ranges).unwrap_or_default();
+                let plate = plate::portrait(&ranges, component, tightest, until);
+                Portrait { history, impacts_s, plate, over_tilt: Vec::new(), zone_m: None, changes: None }
             };
-            return assessment.components.iter().map(history).collect();
+            return self.components.par_iter().zip(&assessment.components).map(portrait).collect();
         }
-        let (tilts, until) = (tilts(&ranges), Self::until(assessment));
+        let tilts = tilts(&ranges);
         // Where the file names no contact law a verdict counts with both of them.
         let laws = match (ranges.model, self.product.contact_law) {
             (Model::Compliant, None) => vec![ranges.law, ranges.law.other()],
@@ -133,7 +140,7 @@ impl ProductFile {
                 let failing = Failing { component, assessed, scales: &scales, ends: &ends };
                 changes = (assessed.verdict != Verdict::Safe).then(|| shared.changes(&failing));
             }
-            Portrait { history, impacts_s, over_tilt, zone_m, changes }
+            Portrait { history, impacts_s, over_tilt, zone_m, changes, plate: None }
         };
         each.map(portrait).collect()
     }

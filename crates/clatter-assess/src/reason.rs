@@ -147,7 +147,7 @@ impl Display for Note {
             Self::Tilt { off, thickness_m } => write!(
                 f,
                 "the plate is of small tilt: a box {} mm thick with full rotation says {:+} % next to this drop",
-                1e3 * thickness_m,
+                (1e6 * thickness_m).round() / 1e3,
                 percent(*off)
             ),
             Self::NoTilt(error) => write!(f, "what real tilt adds is not known: {error}"),

@@ -1,6 +1,6 @@
 //! Products with a width: plates that land on any corner.
 
-use clatter_assess::{LimitAssessment, Note, ProductFile, Verdict};
+use clatter_assess::{Limit, LimitAssessment, LimitKind, Note, Part, PlatePortrait, ProductFile, Verdict, answer};
 
 /// A handheld terminal with a display, a board and a battery.
 const HANDHELD: &str = r#"
@@ -191,4 +191,93 @@ fn faults_of_plates_are_told() {
                component = [{ name = \"p\", position = \"0 mm\", mount = \"hard\", velocity_change_limit = \"9 m/s\" }]\n";
     let said = ProductFile::read(bar, "bar.toml").expect_err("a direction").to_string();
     assert!(said.contains("a product without `width` has no `direction`"), "{said}");
+}
+
+const EXAMPLE: &str = include_str!("../../../reports/examples/handheld-plate.toml");
+
+/// Each part with its tightest limit, as it is asked, and its portrait.
+fn portraits(text: &str) -> Vec<(LimitAssessment, Limit, PlatePortrait)> {
+    let file = file(text);
+    let assessment = file.assess().expect("an assessment");
+    let portraits = file.portraits(&assessment).into_iter();
+    let drawn =
+        portraits.zip(file.components.iter().zip(&assessment.components)).map(|(portrait, (part, assessed))| {
+            let tightest = assessed.tightest().clone();
+            let limit =
+                Limit::of(part).into_iter().find(|limit| limit.kind == tightest.limit).expect("a limit of the part");
+            assert!(portrait.over_tilt.is_empty() && portrait.zone_m.is_none() && portrait.changes.is_none());
+            (tightest, limit, portrait.plate.expect("a plate"))
+        });
+    drawn.collect()
+}
+
+/// The first strike is that of the lowest corner. The curve holds the worst case, and each of its points is what the one engine says.
+#[test]
+fn a_plate_is_drawn_as_it_was_followed() {
+    let mut count = 0;
+    for (tightest, limit, drawn) in [HANDHELD, EXAMPLE].into_iter().flat_map(portraits) {
+        let worst = tightest.worst_case.expect("a drop");
+        let direction = worst.direction_deg().expect("a plate");
+        let strike = drawn.strikes[0];
+        let (sin, cos) = direction.to_radians().sin_cos();
+        // Of corners a to d those at end a, and those at the front.
+        let (at_a, front) = ([0, 3].contains(&strike.corner), strike.corner < 2);
+        assert!(at_a == (cos > 0.0) || cos.abs() < 1e-9, "{strike:?} rising to {direction}");
+        assert!(front == (sin > 0.0) || sin.abs() < 1e-9, "{strike:?} rising to {direction}");
+        assert!(drawn.strikes.windows(2).all(|pair| pair[0].time_s <= pair[1].time_s) && strike.time_s == 0.0);
+        let demand = tightest.demand.expect("an answer") / tightest.allowed;
+        assert!(drawn.over_direction.iter().any(|point| point.share.to_bits() == demand.to_bits()));
+        assert!(drawn.over_direction.len() > 70);
+        for point in drawn.over_direction.iter().step_by(9) {
+            let again = answer(&point.drop, &point.part, &limit, worst.model, 0.01).expect("an answer");
+            // 2 % of rough histories, and what the answer may be off by itself.
+            let allowed_for = 0.02 + again.error().min(0.1);
+            assert!((point.share / again.utilization() - 1.0).abs() < allowed_for, "{point:?}: {again:?}");
+            count += 1;
+        }
+    }
+    assert!(count > 40, "{count} points");
+}
+
+/// A map holds what the one engine says: of the worst drop alone to the last digit, of several drops as well as rough histories do; at
+/// the part's own place and at others.
+#[test]
+fn a_map_over_the_plate_is_what_drops_ask() {
+    let alone = HANDHELD.replace("tilt = [\"0.5 deg\", \"4 deg\"]", "tilt = \"3 deg\"\ndirection = \"291 deg\"");
+    let mut own_places = 0;
+    for text in [alone.as_str(), HANDHELD, EXAMPLE] {
+        for (tightest, limit, drawn) in portraits(text) {
+            let worst = tightest.worst_case.expect("a drop");
+            let Some(map) = &drawn.map else {
+                assert_eq!(tightest.limit, LimitKind::AngularVelocityChange);
+                continue;
+            };
+            let others = drawn.over_direction.iter().map(|point| point.drop).filter(|drop| {
+                let degrees = drop.across.expect("a plate").direction_rad.to_degrees();
+                let third = (degrees / 15.0 - (degrees / 15.0).round()).abs() < 1e-9 && degrees < 359.0;
+                third && drawn.is_given(degrees.to_radians())
+            });
+            let mut drops = vec![worst.drop];
+            drops.extend(others.filter(|drop| drop.across != worst.drop.across));
+            assert!(map.drops == 25 || map.drops == 1 && text == alone, "{} drops", map.drops);
+            let allowed_for = if map.drops == 1 { 1e-12 } else { 0.03 };
+            for (row, &across_m) in map.across_m.iter().enumerate() {
+                for (column, &position_m) in map.along_m.iter().enumerate() {
+                    let part = Part { across_m, ..Part::new(position_m, worst.part.suspension) };
+                    let is_own = part == worst.part;
+                    own_places += usize::from(is_own);
+                    if !is_own && !(row + 7 * column).is_multiple_of(20) {
+                        continue;
+                    }
+                    let asked = drops.iter().map(|drop| answer(drop, &part, &limit, worst.model, worst.tolerance));
+                    let most = asked.map(|answer| answer.expect("an answer").utilization()).fold(0.0, f64::max);
+                    let share = map.share(column, row);
+                    assert!((share / most - 1.0).abs() < allowed_for, "{position_m}, {across_m}: {share}, not {most}");
+                    let demand = tightest.demand.expect("an answer") / tightest.allowed;
+                    assert!(!is_own || share >= demand, "{share} beside {demand}");
+                }
+            }
+        }
+    }
+    assert_eq!(own_places, 6, "each map has a column and a row through the worst place of its part");
 }

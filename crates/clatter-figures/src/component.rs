@@ -4,11 +4,11 @@ use clatter_assess::Verdict;
 
 use crate::FigureError;
 use crate::axis::Axis;
-use crate::chart::Axes;
+use crate::chart::{Axes, Chart};
 use crate::drop::thinned;
 use crate::paper::{Paper, SMALL};
 use crate::product::{fit, shade};
-use crate::style::{Anchor, BLUES, GRAY, INK, Ink, Label, RUST, width};
+use crate::style::{Anchor, BLUES, GRAY, INK, Ink, LABEL, Label, RUST, width};
 
 /// Frame of both figures of a part: low, so that a page holds two parts. Above it is what its lines mean.
 const FRAME: [f64; 2] = [176.0, 76.0];
@@ -97,19 +97,76 @@ pub fn over_tilt(curves: &[(&str, Vec<(f64, f64)>)], allowed: f64, titles: [&str
     paper.finish("Demand over the tilt")
 }
 
-/// One line: what a part is asked at each tilt, in degrees, as a share of what it stands.
+/// Degrees all around, with a tick at each side of a plate.
+fn around<'a>() -> Axis<'a> {
+    Axis { bare: true, ..Axis::linear(0.0, 360.0, "") }
+}
+
+/// The ticks and title of [`around`], and which corner is the lowest in between.
+fn sides(paper: &mut Paper, chart: &Chart<'_>) {
+    let foot = chart.corner[1] + chart.size[1];
+    for k in 0..=4_u8 {
+        let x = chart.at(90.0 * f64::from(k), 0.0)[0];
+        paper.line([x, foot], [x, foot + 3.0], Ink::line(INK, 0.6));
+        if (1..4).contains(&k) {
+            paper.line([x, chart.corner[1]], [x, foot], Ink { dash: "1.5 1.5", ..Ink::line(GRAY, 0.4) });
+        }
+        paper.text([x, foot + 11.0], &format!("{}", 90 * u16::from(k)), SMALL);
+    }
+    for (k, name) in (0_u8..).zip(["*a* lowest", "*b* lowest", "*c* lowest", "*d* lowest"]) {
+        let x = chart.at(45.0 + 90.0 * f64::from(k), 0.0)[0];
+        // A low frame has room for the letter alone.
+        let name = if chart.size[0] < 200.0 { &name[..3] } else { name };
+        paper.text([x, foot + 11.0], name, Label { color: GRAY, ..SMALL });
+    }
+    paper.text([chart.corner[0] + 0.5 * chart.size[0], foot + 22.0], "direction the plate rises to, degrees", LABEL);
+}
+
+/// The demand over the direction that a plate rises to, in degrees, with the limit; what the file does not give is dashed.
+///
+/// `points` are (direction, value, whether the file gives it).
+pub fn over_direction(points: &[(f64, f64, bool)], allowed: f64, title: &str) -> Result<String, FigureError> {
+    let largest = points.iter().map(|p| p.1).fold(0.0_f64, f64::max);
+    let shown = is_drawn(allowed, largest);
+    let top = 1.12 * if shown { allowed.max(largest) } else { largest.max(f64::MIN_POSITIVE) };
+    let axes = Axes { corner: CORNER, size: FRAME, x: around(), y: Axis::linear(0.0, top, title) };
+    let mut paper = Paper::new(FRAME[0] + 50.0, FRAME[1] + 46.0);
+    let chart = axes.on(&mut paper, 36.0);
+    let mut lines = Vec::new();
+    if shown {
+        chart.level(&mut paper, allowed, LIMIT);
+        lines.push((LIMIT, "limit"));
+    }
+    let inks = [Ink::line(BLUES[8], 1.1), Ink { dash: "3.5 2", ..Ink::line(GRAY, 0.9) }];
+    for ((given, name), ink) in [(true, "demand"), (false, "not given")].into_iter().zip(inks) {
+        // A stretch reaches to its neighbors.
+        let of = |pair: &[(f64, f64, bool)]| (pair[0].2 && pair[1].2) == given;
+        let pieces = points.windows(2).filter(|pair| of(pair));
+        chart.curve(&mut paper, pieces.flat_map(|p| [(p[0].0, p[0].1), (p[1].0, p[1].1), (f64::NAN, 0.0)]), ink);
+        if points.windows(2).any(of) {
+            lines.push((ink, name));
+        }
+    }
+    sides(&mut paper, &chart);
+    key(&mut paper, &lines);
+    chart.border(&mut paper);
+    paper.finish("Demand over the direction of the tilt")
+}
+
+/// One line: what a part is asked at each tilt or direction, in degrees, as a share of what it stands.
 #[derive(Debug)]
 pub struct Share<'a> {
     /// Of the part.
     pub name: &'a str,
     /// Decides its color.
     pub verdict: Verdict,
-    /// Tilt, share.
+    /// Tilt or direction, share.
     pub points: Vec<(f64, f64)>,
 }
 
-/// What each part is asked, as a share of what it stands, over the tilt; each line has its name at its right end.
-pub fn shares(parts: &[Share<'_>]) -> Result<String, FigureError> {
+/// What each part is asked, as a share of what it stands, over the tilt or, of a plate, over the direction; each line has its name at
+/// its right end.
+pub fn shares(parts: &[Share<'_>], by_direction: bool) -> Result<String, FigureError> {
     let all = || parts.iter().flat_map(|p| &p.points).filter(|p| p.1.is_finite());
     let largest = all().map(|p| p.1).fold(1.0_f64, f64::max);
     let (lo, hi) = all().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p.0), b.max(p.0)));
@@ -117,8 +174,8 @@ pub fn shares(parts: &[Share<'_>]) -> Result<String, FigureError> {
     let rows = f64::from(u32::try_from(parts.len()).unwrap_or(u32::MAX));
     let axes = Axes {
         corner: [44.0, 8.0],
-        size: [316.0, 92.0_f64.max(9.5 * rows)],
-        x: Axis::linear(lo, hi, "tilt at the first touch, degrees"),
+        size: [316.0, if by_direction { 84.0_f64 } else { 92.0 }.max(9.5 * rows)],
+        x: if by_direction { around() } else { Axis::linear(lo, hi, "tilt at the first touch, degrees") },
         y: Axis::linear(0.0, 108.0 * largest, "demand, % of the limit"),
     };
     let right = axes.corner[0] + axes.size[0];
@@ -153,8 +210,12 @@ pub fn shares(parts: &[Share<'_>]) -> Result<String, FigureError> {
         let label = Label { anchor: Anchor::Start, color: ink.stroke, ..SMALL };
         paper.text([right + 11.0, at + 2.6], &fit(name, 464.0 - right - 14.0), label);
     }
+    if by_direction {
+        sides(&mut paper, &axes);
+    }
     axes.border(&mut paper);
-    paper.finish("What each part is asked, as a share of what it stands, over the tilt")
+    let over = if by_direction { "direction of the tilt" } else { "tilt" };
+    paper.finish(&format!("What each part is asked, as a share of what it stands, over the {over}"))
 }
 
 #[cfg(test)]
@@ -167,6 +228,19 @@ mod tests {
         let limits = |allowed| history(&points, &[0.5], allowed, ["t", "a"]).unwrap().matches(LIMIT.dash).count();
         // The third is that of the key.
         assert_eq!([limits(100.0), limits(2.5)], [0, 3]);
+    }
+
+    /// What the file does not give is dashed, up to the directions that it gives.
+    #[test]
+    fn directions_that_are_not_given_are_dashed() {
+        let drawn = |given: fn(f64) -> bool| {
+            let points: Vec<_> = (0..=12).map(|k| 30.0 * f64::from(k)).map(|x| (x, 2.0, given(x))).collect();
+            over_direction(&points, 1.5, "demand").unwrap()
+        };
+        let dashes = |drawn: &str| drawn.matches("\"3.5 2\"").count();
+        // One line before 60°, one after 180°, and that of the key.
+        assert_eq!([dashes(&drawn(|_| true)), dashes(&drawn(|x| (60.0..=180.0).contains(&x)))], [0, 2 + 1]);
+        assert!(drawn(|_| true).contains(">d</tspan>"), "the lowest corners");
     }
 
     #[test]

@@ -75,7 +75,7 @@ impl Scale {
 }
 
 /// The palette as plotters mixes it.
-fn palette() -> DerivedColorMap<RGBColor> {
+pub(crate) fn palette() -> DerivedColorMap<RGBColor> {
     let colors = BLUES.map(|color| {
         let [r, g, b] = rgb(color);
         RGBColor(r, g, b)
@@ -85,13 +85,13 @@ fn palette() -> DerivedColorMap<RGBColor> {
 
 /// The color at 0 ≤ x ≤ 1 of the palette.
 #[expect(clippy::cast_possible_truncation, reason = "a share")]
-fn color(palette: &DerivedColorMap<RGBColor>, x: f64) -> [u8; 3] {
+pub(crate) fn color(palette: &DerivedColorMap<RGBColor>, x: f64) -> [u8; 3] {
     let RGBColor(r, g, b) = palette.get_color(x as f32);
     [r, g, b]
 }
 
 /// Pixels as a PNG in base64; empty if there are none.
-fn png(width: usize, height: usize, pixels: &[u8]) -> String {
+pub(crate) fn png(width: usize, height: usize, pixels: &[u8]) -> String {
     let mut bytes = Vec::new();
     let (Ok(w), Ok(h)) = (u32::try_from(width), u32::try_from(height)) else { return String::new() };
     let mut encoder = png::Encoder::new(&mut bytes, w, h);

@@ -4,9 +4,10 @@ mod changes;
 mod inputs;
 mod measured;
 mod part;
+mod plate;
 
 use clatter::End;
-use clatter_assess::{Assessment, Component, ComponentAssessment, LimitKind, Portrait, Verdict};
+use clatter_assess::{Assessment, Component, ComponentAssessment, LimitAssessment, LimitKind, Portrait, Verdict};
 use clatter_figures::{FigureError, Place, Share, history, over_tilt, product, shares};
 use serde_json::{Value, json};
 
@@ -54,6 +55,15 @@ const NOT_COVERED: [[&str; 2]; 10] = [
     ["Damage by repetition", "Each limit is on the worst moment of one drop. Fatigue over many drops is not counted."],
 ];
 
+/// Of a bar or of a plate.
+fn not_covered(is_plate: bool) -> [[&'static str; 2]; 10] {
+    let of_plate = |said: [&'static str; 2]| {
+        let other = plate::NOT_COVERED.into_iter().find(|other| is_plate && other.0 == said[0]);
+        other.map_or(said, |other| other.1)
+    };
+    NOT_COVERED.map(of_plate)
+}
+
 /// Rows of one drawing of the product, and curves of one figure, at most: more are neither read nor hold on a page.
 const ROWS: usize = 32;
 const CURVES: usize = 16;
@@ -80,19 +90,28 @@ pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureEr
         })
         .collect();
     let body = &file.product.body;
+    let of_plate = file.product.plate();
     let mut files = Vec::new();
     let rows: Vec<_> = places.chunks(ROWS).collect();
     for (i, rows) in rows.iter().enumerate() {
-        files.push((format!("product-{}.svg", i + 1), product(body.arms_m(), body.gyration_m(), rows)?));
+        let drawn = match &of_plate {
+            Some(plate) => plate::plan(plate, &file.components, rows, i * ROWS)?,
+            None => product(body.arms_m(), body.gyration_m(), rows)?,
+        };
+        files.push((format!("product-{}.svg", i + 1), drawn));
     }
     for (i, part) in parts.iter().enumerate() {
-        files.extend(figures(i + 1, part)?);
+        files.push(over_time(i + 1, part)?);
+        match &of_plate {
+            Some(plate) => files.extend(plate::figures(i + 1, plate, part)?),
+            None => files.push(tilts(i + 1, part)?),
+        }
     }
     let mut tightest: Vec<_> = parts.iter().zip(&names).collect();
     tightest.sort_by(|a, b| a.0.0.1.tightest().room().total_cmp(&b.0.0.1.tightest().room()));
     tightest.truncate(CURVES);
     let shown: Vec<Share<'_>> = tightest.into_iter().map(|(part, name)| share(part, name)).collect();
-    files.push(("shares.svg".into(), shares(&shown)?));
+    files.push(("shares.svg".into(), shares(&shown, of_plate.is_some())?));
     files.extend(measured::figures(drops)?);
     let said = |p: &Place<'_>| format!("{}: {}, margin {}.", p.name, p.verdict.name(), p.word);
     let drawings = rows.iter().map(|rows| rows.iter().map(said).collect::<Vec<_>>().join(" "));
@@ -111,7 +130,8 @@ pub(crate) fn files(pages: &Pages<'_>) -> Result<Vec<(String, String)>, FigureEr
         "made": inputs::made(pages),
         "drawings": drawings.collect::<Vec<_>>(),
         "curves": shown.len(),
-        "limits-of-the-model": NOT_COVERED,
+        "plate": of_plate.is_some(),
+        "limits-of-the-model": not_covered(of_plate.is_some()),
     });
     files.push(("assessment.json".into(), data.to_string()));
     Ok(files)
@@ -139,36 +159,43 @@ fn hardest(assessment: &Assessment) -> Option<Value> {
     })
 }
 
-/// The response over time of one part, and its demand over the tilt.
-fn figures(number: usize, ((_, assessed), portrait): &Part<'_>) -> Result<[(String, String); 2], FigureError> {
-    let tightest = assessed.tightest();
-    let (factor, unit) = customary(tightest.unit);
-    // The figures are too low for the longest of the words.
-    let what = match tightest.limit {
+/// What the tightest limit is on, as the figures say it: they are too low for the longest of the words.
+fn title(of: &LimitAssessment) -> String {
+    let what = match of.limit {
         LimitKind::AngularVelocityChange => "change of *ω*",
-        kind => kind.measured(tightest.unit),
+        kind => kind.measured(of.unit),
     };
-    let title = format!("{what}, {unit}");
+    format!("{what}, {}", customary(of.unit).1)
+}
+
+/// The response over time of one part.
+fn over_time(number: usize, ((_, assessed), portrait): &Part<'_>) -> Result<(String, String), FigureError> {
+    let tightest = assessed.tightest();
+    let (factor, _) = customary(tightest.unit);
     let points: Vec<(f64, f64)> = portrait.history.iter().map(|p| (1e3 * p.0, p.1 / factor)).collect();
     let impacts: Vec<f64> = portrait.impacts_s.iter().map(|t| 1e3 * t).collect();
-    let allowed = tightest.allowed / factor;
+    let titles = ["time since the first touch, ms", &title(tightest)];
+    Ok((format!("history-{number}.svg"), history(&points, &impacts, tightest.allowed / factor, titles)?))
+}
+
+/// The demand of one part of a bar over the tilt.
+fn tilts(number: usize, ((_, assessed), portrait): &Part<'_>) -> Result<(String, String), FigureError> {
+    let tightest = assessed.tightest();
+    let allowed = tightest.allowed / customary(tightest.unit).0;
     let curves = portrait.over_tilt.iter().map(|(first, curve)| {
         let points: Vec<_> = curve.iter().map(|p| (p.tilt_rad.to_degrees(), allowed * p.share)).collect();
         (if *first == End::A { "end *a* first" } else { "end *b* first" }, points)
     });
     let curves: Vec<(&str, Vec<(f64, f64)>)> = curves.collect();
-    Ok([
-        (
-            format!("history-{number}.svg"),
-            history(&points, &impacts, allowed, ["time since the first touch, ms", &title])?,
-        ),
-        (format!("tilt-{number}.svg"), over_tilt(&curves, allowed, ["tilt at the first touch, degrees", &title])?),
-    ])
+    let titles = ["tilt at the first touch, degrees", &title(tightest)];
+    Ok((format!("tilt-{number}.svg"), over_tilt(&curves, allowed, titles)?))
 }
 
-/// What the tightest limit of a part is asked over the tilt, the worse of both first ends, as a share of what it allows.
+/// What the tightest limit of a part is asked over the tilt, the worse of both first ends, as a share of what it allows; of a plate over
+/// the direction.
 fn share<'a>(((_, assessed), portrait): &Part<'_>, name: &'a str) -> Share<'a> {
-    let mut points: Vec<(f64, f64)> = Vec::new();
+    let around = portrait.plate.iter().flat_map(plate::around);
+    let mut points: Vec<(f64, f64)> = around.map(|(direction, share, _)| (direction, share)).collect();
     for (_, curve) in &portrait.over_tilt {
         let curve = curve.iter().map(|p| (p.tilt_rad.to_degrees(), p.share));
         if points.is_empty() {

@@ -75,6 +75,12 @@ pub(crate) fn millimeters(m: f64) -> String {
     format!("{} mm", three(1e3 * m)).replace('-', "−")
 }
 
+/// A place of a plate, along and across it from the middle.
+pub(crate) fn place(m: [f64; 2]) -> String {
+    let [x, y] = m.map(|m| three(1e3 * m + 0.0).replace('-', "−"));
+    format!("{x}, {y} mm")
+}
+
 /// A name for running text: cut where it is endless, with a box for every character that the pages' typefaces lack.
 pub(crate) fn name(text: &str) -> String {
     let printable = |c: char| {

@@ -1,29 +1,38 @@
 //! What an assessment was made from, in words: the product, its drop, how a part is held.
 
-use clatter_assess::{Assessment, Component, Damping, Fall, First, Mount, ProductFile};
+use clatter_assess::{Assessment, Component, Damping, Fall, First, Mount, ProductFile, Spread, Width};
 use clatter_figures::{model_words as model, three};
 
 use crate::Pages;
-use crate::words::{end, millimeters, range, span, sure_name};
+use crate::words::{end, millimeters, place, range, span, sure_name};
 
 /// Rows of what was given: its name and its value.
 pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 2]> {
     let product = &file.product;
     let mut rows = Vec::new();
     let mut add = |what: &str, value: String| rows.push([what.to_owned(), value]);
-    add("Body", body(file));
+    match &product.width {
+        None => add("Body", body(file)),
+        Some(width) => {
+            add("Body", sides(file, width));
+            add("Mass", inertia(file, width));
+        }
+    }
     add("Restitution", range(&product.restitution, 1.0, ""));
     match product.contact_time_s {
         Some(time) => {
-            add("Contact", format!("an end touches for {}; {}", range(&time, 1e-3, "ms"), product.law().words()));
+            let who = if product.width.is_some() { "a corner" } else { "an end" };
+            add("Contact", format!("{who} touches for {}; {}", range(&time, 1e-3, "ms"), product.law().words()));
         }
         None => add("Contact", "no contact time is given: impacts are instants".to_owned()),
     }
     add("Drop", drop(file));
-    let tilt = range(&file.drop.tilt_rad, 1f64.to_radians(), "°").replace(" °", "°");
-    let first = match file.drop.first {
-        First::End(first) => format!("end {} first", end(first)),
-        First::Either => "either end first".to_owned(),
+    let tilt = degrees(&file.drop.tilt_rad);
+    let first = match (file.drop.first, &file.drop.direction_rad) {
+        (First::End(first), _) => format!("end {} first", end(first)),
+        (First::Either, None) if product.width.is_none() => "either end first".to_owned(),
+        (First::Either, None) => "rising to any direction".to_owned(),
+        (First::Either, Some(given)) => format!("rising to {}", degrees(given)),
     };
     add("Tilt", format!("{tilt} at the first touch, {first}"));
     let gravity = file.drop.gravity_m_s2;
@@ -33,9 +42,14 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 
     );
     // It is the same for all limits.
     if let Some(limit) = assessment.components.iter().flat_map(|c| &c.limits).next() {
-        rows.push(["Model".to_owned(), model(limit.model.bar).to_owned()]);
+        let tilt = if product.width.is_some() { ", lever arms of a level plate" } else { "" };
+        rows.push(["Model".to_owned(), format!("{}{tilt}", model(limit.model.bar))]);
     }
     rows
+}
+
+fn degrees(of: &Spread) -> String {
+    range(of, 1f64.to_radians(), "°").replace(" °", "°")
 }
 
 /// How it was made, for the foot of each page: from which file, how exactly, and on which day where that is to be told.
@@ -64,6 +78,29 @@ fn body(file: &ProductFile) -> String {
     )
 }
 
+/// Sides of a plate.
+fn sides(file: &ProductFile, width: &Width) -> String {
+    let thick = width.thickness_m.map_or(String::new(), |m| format!(", thickness {}", millimeters(m)));
+    format!("length {}, width {}{thick}", millimeters(file.product.body.length_m()), millimeters(width.m()))
+}
+
+/// Mass of a plate, and where it lies.
+fn inertia(file: &ProductFile, width: &Width) -> String {
+    let mut said: Vec<String> = file.product.mass_kg.iter().map(|kg| format!("{} kg", three(*kg))).collect();
+    let along = range(&file.product.gyration_m, 1e-3, "mm");
+    said.push(format!("radii of gyration {along} along the length, {} along the width", millimeters(width.gyration_m)));
+    let ([a, b], [front, back]) = (file.product.body.arms_m(), width.edges_m);
+    let center = [0.5 * (a - b), 0.5 * (front - back)];
+    if center[0].abs() > 1e-9 * (a + b) || center[1].abs() > 1e-9 * width.m() {
+        said.push(format!("center of mass at {}", place(center)));
+    }
+    if width.product_of_inertia_m2 != 0.0 {
+        let of = three(1e6 * width.product_of_inertia_m2).replace('-', "−");
+        said.push(format!("product of inertia over the mass {of} mm²"));
+    }
+    said.join(", ")
+}
+
 /// The inertia ratio, of a range of radii of gyration as a range.
 fn ratio(file: &ProductFile) -> String {
     let [lo, hi] = [1.0, 0.0].map(|share| three(file.product.inertia_ratio_at(share)).replace('-', "−"));
@@ -81,7 +118,10 @@ fn drop(file: &ProductFile) -> String {
 }
 
 /// Where a part sits and how it is held, in a sentence.
-pub(super) fn held(component: &Component) -> String {
+pub(super) fn held(component: &Component, is_plate: bool) -> String {
+    if is_plate {
+        return format!("It sits {}. {}", on_plate(component), mount(component));
+    }
     let [lo, hi] = [component.position_m.lo(), component.position_m.hi()];
     let place = if lo < hi {
         format!("anywhere from {} to {} along the product", millimeters(lo), millimeters(hi))
@@ -95,7 +135,28 @@ pub(super) fn held(component: &Component) -> String {
     } else {
         String::new()
     };
-    let mount = match &component.mount {
+    format!("It sits {place}{extent}. {}", mount(component))
+}
+
+/// Where a part of a plate sits, from the middle of the plate.
+fn on_plate(component: &Component) -> String {
+    let middle = [component.position_m, component.across_m];
+    let where_to = if middle.iter().all(Spread::is_value) {
+        format!("at {}", place(middle.map(|side| side.lo())))
+    } else {
+        let [along, across] = middle.map(|side| range(&side, 1e-3, "mm"));
+        format!("anywhere within {along} along the length and {across} along the width")
+    };
+    let extents = [component.extent_m, component.extent_across_m];
+    if extents.iter().all(|extent| *extent == 0.0) {
+        return where_to;
+    }
+    let [along, across] = extents.map(millimeters);
+    format!("{where_to}, and is {along} by {across}")
+}
+
+fn mount(component: &Component) -> String {
+    match &component.mount {
         Mount::Hard => "It is mounted rigidly.".to_owned(),
         Mount::Suspended { frequency_hz, damping } => {
             let damping = match damping {
@@ -104,8 +165,7 @@ pub(super) fn held(component: &Component) -> String {
             };
             format!("Its natural frequency is {}, with {damping}.", range(frequency_hz, 1.0, "Hz"))
         }
-    };
-    format!("It sits {place}{extent}. {mount}")
+    }
 }
 
 #[cfg(test)]
@@ -141,7 +201,7 @@ mod tests {
         );
         assert_eq!(made(&pages), "assessed on 2026-03-31 from a□.toml, each drop to 1 %,");
         assert_eq!(made(&Pages { date: None, ..pages }), "assessed from a□.toml, each drop to 1 %,");
-        let parts: Vec<String> = file.components.iter().map(held).collect();
+        let parts: Vec<String> = file.components.iter().map(|component| held(component, false)).collect();
         assert!(parts[0].ends_with("and is 80 mm long. Its natural frequency is 220 Hz, with a quality factor of 12."));
         assert_eq!(parts[2], "It sits 20 mm from the middle, towards end a. It is mounted rigidly.");
     }

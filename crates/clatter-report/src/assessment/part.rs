@@ -8,8 +8,9 @@ use serde_json::{Value, json};
 
 use super::changes::{Of, changes};
 use super::inputs::held;
+use super::plate;
 use crate::Pages;
-use crate::words::{end, hundredths, is_sure, millimeters, minus, name, percent, shown, sure_name};
+use crate::words::{end, hundredths, is_sure, millimeters, minus, name, percent, place, shown, sure_name};
 
 /// What else is known of a limit, a sentence each.
 fn said(file: &ProductFile, of: &LimitAssessment) -> Vec<String> {
@@ -37,19 +38,23 @@ fn said(file: &ProductFile, of: &LimitAssessment) -> Vec<String> {
     said
 }
 
-/// The worst drop as columns: first end, tilt, speed, restitution, contact, frequency, damping, place, impact.
+/// The worst drop as columns: first end or direction, tilt, speed, restitution, contact, frequency, damping, place, impact.
 fn columns(of: &LimitAssessment, worst: &WorstCase) -> [String; 9] {
     let or_none = |value: Option<f64>, factor: f64| value.map_or("–".to_owned(), |v| three(factor * v));
     let contact = worst.drop.contact_time_s.filter(|_| of.model.bar == Model::Compliant);
     [
-        end(worst.drop.first).to_owned(),
+        worst.direction_deg().map_or_else(|| end(worst.drop.first).to_owned(), |to| format!("{}°", three(to))),
         if worst.drop.flat { "flat".to_owned() } else { format!("{}°", three(worst.tilt_deg())) },
         format!("{} m/s", three(worst.drop.speed_m_s)),
         three(worst.drop.restitution),
         contact.map_or("–".to_owned(), |time| format!("{} ms", three(1e3 * time))),
         worst.frequency_hz().map_or("–".to_owned(), |hz| format!("{} Hz", three(hz))),
         or_none(worst.damping_ratio(), 1.0),
-        millimeters(worst.part.position_m),
+        if worst.drop.across.is_some() {
+            place([worst.part.position_m, worst.part.across_m])
+        } else {
+            millimeters(worst.part.position_m)
+        },
         worst.impact.to_string(),
     ]
 }
@@ -76,7 +81,7 @@ fn row(pages: &Pages<'_>, part: &str, of: &LimitAssessment) -> Value {
 }
 
 /// The tightest limit and the drop behind it, in a few sentences.
-fn summary(component: &Component, of: &LimitAssessment, portrait: &Portrait) -> String {
+fn summary(component: &Component, of: &LimitAssessment, portrait: &Portrait, is_plate: bool) -> String {
     let what = of.limit.words();
     let tightest = if let (Some(demand), Some(margin), Some(worst)) = (of.demand, of.margin, &of.worst_case) {
         format!(
@@ -99,9 +104,10 @@ fn summary(component: &Component, of: &LimitAssessment, portrait: &Portrait) -> 
             )
         }
         Some(_) => String::new(),
+        None if portrait.plate.is_some() => portrait.plate.iter().map(plate::zone).collect(),
         None => " In the drops of the figures it holds nowhere along the product.".to_owned(),
     };
-    format!("{} {tightest}{zone}", held(component))
+    format!("{} {tightest}{zone}", held(component, is_plate))
 }
 
 fn drop(worst: &WorstCase) -> String {
@@ -111,7 +117,9 @@ fn drop(worst: &WorstCase) -> String {
     } else {
         "the peak comes after the first impact".to_owned()
     };
-    let lands = if worst.drop.flat {
+    let lands = if let Some(direction) = worst.direction_deg() {
+        format!("on {}, rising to {}°,", plate::lowest(direction), three(direction))
+    } else if worst.drop.flat {
         "flat, both ends as one,".to_owned()
     } else {
         format!("on end {}", end(worst.drop.first))
@@ -144,14 +152,15 @@ pub(super) fn part(
             format!(" The limit, {allowed}, lies outside the figure.")
         }
     };
+    let is_plate = pages.file.product.width.is_some();
     let over_time = portrait.history.iter().map(|p| p.1.abs()).fold(0.0, f64::max);
     let over_tilt = portrait.over_tilt.iter().flat_map(|(_, curve)| curve).map(|p| tightest.allowed * p.share);
     let undecided = assessed.limits.iter().filter(|l| l.verdict == Verdict::Undecided);
     json!({
         "name": name(&assessed.name),
         "verdict": assessed.verdict.name(),
-        "position": millimeters(assessed.position_m.m()[0]),
-        "summary": summary(component, tightest, portrait),
+        "position": if is_plate { place(assessed.position_m.m()) } else { millimeters(assessed.position_m.m()[0]) },
+        "summary": summary(component, tightest, portrait, is_plate),
         "undecided": undecided.map(|l| json!({ "limit": l.limit.words(), "why": l.why_undecided().as_deref().map(minus) })).collect::<Vec<_>>(),
         "limits": assessed.limits.iter().map(|l| row(pages, &component.name, l)).collect::<Vec<_>>(),
         "changes": portrait.changes.as_ref().map(|of| changes(Of { product: &pages.file.product, component }, of)),
@@ -163,6 +172,7 @@ pub(super) fn part(
             seen(over_tilt.fold(0.0, f64::max)),
             flat_until(portrait)
         ),
+        "plate": tightest.worst_case.as_ref().zip(portrait.plate.as_ref()).map(|(worst, of)| plate::captions(tightest, worst, of)),
         "source": component.limit_source.as_deref().map(sure_name),
         "tilt-alt": format!("Curve of the worst {what} over the tilt at the first touch."),
     })

@@ -1,0 +1,211 @@
+//! What a page shows of a part of a plate: the corners of its worst drop, what it is asked by direction, and anywhere on the plate.
+
+use std::f64::consts::TAU;
+
+use clatter_shock::Suspension;
+
+use super::Point;
+use crate::course::Course;
+use crate::drop::{Followed, SingleDrop, Until};
+use crate::engine::PlaceHistory;
+use crate::quantity::Source;
+use crate::search::{Ranges, rough_to_rad_s};
+use crate::{Across, Component, Limit, LimitAssessment, Part, Product, WorstCase};
+
+/// Directions of the curve, and of them one in so many for the map.
+const DIRECTIONS: u32 = 72;
+const OF_MAP: usize = 3;
+/// Places of the map, about.
+const PLACES: f64 = 72.0;
+
+/// What is drawn of a part of a plate, of its tightest limit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlatePortrait {
+    /// The strikes of the worst drop, in order of time.
+    pub strikes: Vec<CornerStrike>,
+    /// What the part of the worst drop is asked where the plate rises to other directions, in order of direction from 0 to 2π: all
+    /// else is as in the worst drop, which is one of the points.
+    pub over_direction: Vec<Point>,
+    /// The directions that the file gives, from and to, in rad; any if none.
+    pub given_rad: Option<[f64; 2]>,
+    /// What it would be asked anywhere; none of a limit that asks the same everywhere.
+    pub map: Option<PlaceMap>,
+}
+
+impl PlatePortrait {
+    /// Whether the file gives a direction in rad.
+    #[must_use]
+    pub fn is_given(&self, direction_rad: f64) -> bool {
+        is_given(self.given_rad, direction_rad)
+    }
+}
+
+/// A strike of a corner.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CornerStrike {
+    /// 0 for a (−, −), 1 for b (+, −), 2 for c (+, +), 3 for d (−, +), along and across the product.
+    pub corner: usize,
+    /// When it touches, since the first touch.
+    pub time_s: f64,
+    /// What its force does to the velocity of the corner.
+    pub delta_v_m_s: f64,
+}
+
+/// What one point of a part would be asked over the plan of a plate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlaceMap {
+    /// Columns, from the middle along the product; that of the part's worst place is one of them.
+    pub along_m: Vec<f64>,
+    /// Rows, across it; that of the part's worst place is one of them.
+    pub across_m: Vec<f64>,
+    /// The demand as a share of what is allowed, row by row: the most of the drops.
+    pub shares: Vec<f64>,
+    /// How many drops: the worst one, and those of the curve with every third direction that the file gives.
+    pub drops: usize,
+}
+
+impl PlaceMap {
+    /// The share of a column and a row.
+    #[must_use]
+    pub fn share(&self, column: usize, row: usize) -> f64 {
+        self.shares[row * self.along_m.len() + column]
+    }
+}
+
+impl Product {
+    /// The plate as flights take it, corner a at (−, −); none of a bar.
+    #[must_use]
+    pub fn plate(&self) -> Option<clatter_flight::Plate> {
+        let (width, [left, right]) = (self.width.as_ref()?, self.body.arms_m());
+        let [front, back] = width.edges_m;
+        let gyration = [self.body.gyration_m(), width.gyration_m];
+        let plate = clatter_flight::Plate::new([left, right, front, back], gyration).ok()?;
+        plate.with_product_of_inertia(width.product_of_inertia_m2).ok()
+    }
+}
+
+/// What is asked of one limit of a part in its worst drop.
+struct Asked<'a> {
+    limit: Limit,
+    suspension: Option<Suspension>,
+    /// Up to which natural frequency histories may be rough.
+    rough_to_rad_s: f64,
+    worst: &'a WorstCase,
+}
+
+impl Asked<'_> {
+    /// The share that a followed drop asks at a place, where it passes `above`.
+    fn share(&self, followed: &Followed, at_m: [f64; 2], above: f64) -> Option<f64> {
+        let felt = PlaceHistory::rough(followed, at_m, self.rough_to_rad_s).ok()?;
+        felt.answer(&self.limit, self.suspension.as_ref(), above).ok()?.map(|answer| answer.utilization())
+    }
+    /// The most at some places, and which of them.
+    fn most(&self, followed: &Followed, places: &[[f64; 2]]) -> Option<(f64, Part)> {
+        let mut most: Option<(f64, Part)> = None;
+        for &at_m @ [position_m, across_m] in places {
+            let part = Part { across_m, ..Part::new(position_m, self.suspension) };
+            let more = self.share(followed, at_m, most.map_or(-1.0, |most| most.0));
+            most = more.map(|share| (share, part)).or(most);
+        }
+        most
+    }
+    /// The worst drop with another direction.
+    fn rising_to(&self, across: &Across, direction_rad: f64) -> SingleDrop {
+        let across = Across { direction_rad, ..*across };
+        SingleDrop { first: across.first(), across: Some(across), ..self.worst.drop }
+    }
+}
+
+/// The portrait of a part; none where no drop is answered, and of a box that lands on a face, an edge or a corner.
+pub(super) fn portrait(
+    ranges: &Ranges<'_>,
+    component: &Component,
+    limit: &LimitAssessment,
+    until: Until,
+) -> Option<PlatePortrait> {
+    let worst = limit.worst_case.as_ref()?;
+    // Off an edge or a corner no direction is that of a plan.
+    let across = worst.drop.across.filter(|across| across.posture.is_none())?;
+    let asked = Limit::of(component).into_iter().find(|asked| asked.kind == limit.limit)?;
+    let asked =
+        Asked { limit: asked, suspension: worst.part.suspension, rough_to_rad_s: rough_to_rad_s(component), worst };
+    let own = Followed::new(&worst.drop, worst.model, worst.tolerance).ok()?;
+    let given_rad = ranges.drop.direction_rad.map(|given| [given.lo(), given.hi()]);
+    let places = component.places_m();
+    let (mut points, mut counted) = (Vec::new(), Vec::new());
+    for k in 0..=DIRECTIONS {
+        let direction = TAU * f64::from(k) / f64::from(DIRECTIONS);
+        let drop = asked.rising_to(&across, direction);
+        let Ok(followed) = Followed::until(&drop, worst.model, worst.tolerance, until) else { continue };
+        let Some((share, part)) = asked.most(&followed, &places) else { continue };
+        points.push(Point { tilt_rad: drop.tilt_rad, drop, part, share });
+        if k < DIRECTIONS && (k as usize).is_multiple_of(OF_MAP) && is_given(given_rad, direction) {
+            counted.push((share, followed));
+        }
+    }
+    let share = limit.demand? / limit.allowed;
+    let direction = |drop: &SingleDrop| drop.across.map_or(0.0, |across| across.direction_rad);
+    let here = asked.rising_to(&across, across.direction_rad.rem_euclid(TAU));
+    let after = points.partition_point(|point| direction(&point.drop) < direction(&here));
+    points.insert(after, Point { tilt_rad: here.tilt_rad, drop: here, part: worst.part, share });
+    // The most demanding ones first, so that the others are soon known to ask for less.
+    counted.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let others: Vec<Followed> = counted.into_iter().map(|(_, followed)| followed).collect();
+    let map = (asked.limit.kind.source() != Source::Turn).then(|| map(&asked, &own, &others));
+    Some(PlatePortrait { strikes: strikes(&own, &across), over_direction: points, given_rad, map: map.flatten() })
+}
+
+/// Whether the file gives a direction, in whatever turn; its ends are allowed to be off by roundings.
+fn is_given(given_rad: Option<[f64; 2]>, direction_rad: f64) -> bool {
+    given_rad.is_none_or(|[lo, hi]| (direction_rad - lo + 1e-9).rem_euclid(TAU) <= hi - lo + 2e-9)
+}
+
+fn strikes(own: &Followed, across: &Across) -> Vec<CornerStrike> {
+    let Course::Plate(motion) = &own.motion else { return Vec::new() };
+    let [sx, sy] = across.signs();
+    let corner = |point: usize| {
+        let right = (point == 1 || point == 2) ^ (sx < 0.0);
+        let back = point >= 2;
+        match (right, back ^ (sy < 0.0)) {
+            (false, false) => 0,
+            (true, false) => 1,
+            (true, true) => 2,
+            (false, true) => 3,
+        }
+    };
+    let strike = |strike: &clatter_flight::Strike<4>| CornerStrike {
+        corner: corner(strike.point),
+        time_s: strike.time_s,
+        delta_v_m_s: strike.delta_v_m_s[strike.point],
+    };
+    motion.strikes.iter().map(strike).collect()
+}
+
+/// The map: the worst drop as exactly as it is assessed, others roughly. None where the worst drop is not answered everywhere.
+fn map(asked: &Asked<'_>, own: &Followed, others: &[Followed]) -> Option<PlaceMap> {
+    let (length, width) = (own.drop.body.length_m(), own.drop.across?.width.m());
+    let [x, y] = asked.worst.part.at_m();
+    let columns = (PLACES * length / width).sqrt().clamp(5.0, 16.0).round();
+    let (along_m, across_m) = (lines(length, columns, x), lines(width, (PLACES / columns).max(5.0).round(), y));
+    let mut shares = Vec::with_capacity(along_m.len() * across_m.len());
+    for &y in &across_m {
+        for &x in &along_m {
+            let felt = PlaceHistory::new(own, [x, y]).ok()?;
+            let answer = felt.answer(&asked.limit, asked.suspension.as_ref(), -1.0).ok()?;
+            let own = answer.map_or(0.0, |answer| answer.utilization());
+            shares.push(others.iter().fold(own, |most, other| asked.share(other, [x, y], most).unwrap_or(most)));
+        }
+    }
+    Some(PlaceMap { along_m, across_m, shares, drops: 1 + others.len() })
+}
+
+/// Lines from edge to edge of a side, evenly but for one more through a place.
+fn lines(side_m: f64, count: f64, through_m: f64) -> Vec<f64> {
+    let last = (count - 1.0).max(1.0);
+    let mut lines: Vec<f64> =
+        (0..32).map(f64::from).take_while(|k| *k <= last).map(|k| side_m * (k / last - 0.5)).collect();
+    lines.retain(|line| (line - through_m).abs() > 1e-3 * side_m);
+    lines.push(through_m);
+    lines.sort_by(f64::total_cmp);
+    lines
+}

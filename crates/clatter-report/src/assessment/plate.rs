@@ -1,0 +1,243 @@
+//! What the pages show and say of a plate alone.
+
+use clatter_assess::{Component, CornerStrike, LimitAssessment, PlaceMap, PlatePortrait, WorstCase};
+use clatter_figures::{
+    Area, FigureError, HeatMap, Landing, Place, Strike, heat_map, is_drawn, landing, over_direction, plan as draw,
+    three,
+};
+use serde_json::{Value, json};
+
+use super::{Part, title};
+use crate::words::{customary, shown};
+
+/// What is left out of a plate, each in place of what is said of a bar.
+pub(super) const NOT_COVERED: [(&str, [&str; 2]); 3] = [
+    (
+        "Corners and edges",
+        [
+            "Real tilt",
+            "The plate is followed at small tilt, with the lever arms of a level one. Where the thickness is known, a box at real tilt with full rotation is followed beside it, next to each worst drop, and the notes tell by how much it differs. Corners are points, and the plate does not turn before it lands.",
+        ],
+    ),
+    (
+        "The ground",
+        [
+            "The ground",
+            "It is hard, level and without friction, and the same for all corners: nothing holds a corner or lets it slide. Soft ground lengthens the pulses and lowers e.",
+        ],
+    ),
+    (
+        "Places and changes",
+        [
+            "Places and changes",
+            "Where a part could sit is told of the drops of the figures, for its tightest limit. An assessment of the changed file decides; changes that would make a part safe are not looked for on a plate.",
+        ],
+    ),
+];
+
+/// Where a part may be along the plate and across it.
+fn reach_m(component: &Component) -> [[f64; 2]; 2] {
+    let ends = component.ends_m();
+    let of = |side: usize| {
+        let all = ends.iter().map(|end| end[side]);
+        all.fold([f64::INFINITY, f64::NEG_INFINITY], |[from, to], x| [from.min(x), to.max(x)])
+    };
+    [of(0), of(1)]
+}
+
+/// The plan with some of the parts, after as many others.
+pub(super) fn plan(
+    plate: &clatter_flight::Plate,
+    components: &[Component],
+    places: &[Place<'_>],
+    after: usize,
+) -> Result<String, FigureError> {
+    let with = places.iter().zip(components.iter().enumerate().skip(after));
+    let area = with.map(|(place, (i, component))| Area {
+        number: i + 1,
+        name: place.name,
+        reach_m: reach_m(component),
+        verdict: place.verdict,
+        word: place.word,
+    });
+    draw(plate, &area.collect::<Vec<_>>())
+}
+
+/// Direction in degrees, share, and whether the file gives the direction.
+pub(super) fn around(of: &PlatePortrait) -> impl Iterator<Item = (f64, f64, bool)> {
+    of.over_direction.iter().map(|point| {
+        let direction_rad = point.drop.across.map_or(0.0, |across| across.direction_rad);
+        (direction_rad.to_degrees(), point.share, of.is_given(direction_rad))
+    })
+}
+
+/// The demand over the direction, the landing, and what would be asked anywhere.
+pub(super) fn figures(
+    number: usize,
+    plate: &clatter_flight::Plate,
+    ((component, assessed), portrait): &Part<'_>,
+) -> Result<Vec<(String, String)>, FigureError> {
+    let tightest = assessed.tightest();
+    let (Some(of), Some(worst)) = (&portrait.plate, &tightest.worst_case) else { return Ok(Vec::new()) };
+    let (allowed, title) = (tightest.allowed / customary(tightest.unit).0, title(tightest));
+    let curve: Vec<_> = around(of).map(|(direction, share, given)| (direction, allowed * share, given)).collect();
+    let strike = |strike: &CornerStrike| Strike {
+        corner: strike.corner,
+        time_ms: 1e3 * strike.time_s,
+        shock_m_s: strike.delta_v_m_s,
+    };
+    let strikes: Vec<Strike> = told(of, worst).iter().map(strike).collect();
+    let (reach_m, place_m) = (reach_m(component), [worst.part.position_m, worst.part.across_m]);
+    let lands = Landing {
+        plate,
+        strikes: &strikes,
+        direction_deg: worst.direction_deg().unwrap_or_default(),
+        reach_m,
+        place_m,
+        impact: usize::try_from(worst.impact).unwrap_or(usize::MAX),
+    };
+    let mut files = vec![
+        (format!("direction-{number}.svg"), over_direction(&curve, allowed, &title)?),
+        (format!("landing-{number}.svg"), landing(&lands)?),
+    ];
+    if let Some(map) = &of.map {
+        let heat = HeatMap { plate, map, allowed, title: &title, reach_m, place_m };
+        files.push((format!("map-{number}.svg"), heat_map(&heat)?));
+    }
+    Ok(files)
+}
+
+/// The strikes up to the one of the peak, and until each corner that strikes has struck: others come far later.
+fn told<'a>(of: &'a PlatePortrait, worst: &WorstCase) -> &'a [CornerStrike] {
+    let first = (0..4).filter_map(|corner| of.strikes.iter().position(|strike| strike.corner == corner));
+    let all = usize::try_from(worst.impact).unwrap_or(usize::MAX).max(first.fold(0, |most, i| most.max(i + 1)));
+    &of.strikes[..all.min(of.strikes.len())]
+}
+
+/// The lowest corner of a plate that rises to a direction in degrees, or its lowest edge.
+pub(super) fn lowest(direction_deg: f64) -> String {
+    let (corners, edges) = (["a", "b", "c", "d"], ["a–d", "a–b", "b–c", "c–d"]);
+    let side = direction_deg / 90.0;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a quarter of a turn")]
+    let quarter = |of: f64| of.rem_euclid(4.0) as usize % 4;
+    // Within a millionth of a degree both corners of an edge touch at once.
+    if (side - side.round()).abs() < 1e-8 {
+        format!("edge {}", edges[quarter(side.round())])
+    } else {
+        format!("corner {}", corners[quarter(side.floor())])
+    }
+}
+
+/// Least and most of a map.
+fn span(map: &PlaceMap) -> [f64; 2] {
+    map.shares.iter().fold([f64::INFINITY, 0.0], |[least, most], share| [least.min(*share), most.max(*share)])
+}
+
+/// Where the tightest limit holds, in a sentence.
+pub(super) fn zone(of: &PlatePortrait) -> String {
+    let said = match of.map.as_ref().map(span) {
+        Some([least, _]) if least > 1.0 => "that limit holds nowhere on the plate",
+        Some([_, most]) if most <= 1.0 => "that limit holds anywhere on the plate",
+        Some(_) => "that limit holds where all of the part lies within the border of its map",
+        None => return " That limit is asked for the same anywhere on the plate.".to_owned(),
+    };
+    format!(" In the drops of the figures {said}.")
+}
+
+/// What stands below the figures of a part.
+pub(super) fn captions(of: &LimitAssessment, worst: &WorstCase, portrait: &PlatePortrait) -> Value {
+    let (what, tilt) = (of.limit.measured(of.unit), three(worst.tilt_deg()));
+    let most = portrait.over_direction.iter().map(|point| of.allowed * point.share).fold(0.0, f64::max);
+    let allowed = shown(of.unit, of.allowed);
+    let seen = if is_drawn(of.allowed, most) { "is" } else { "lies outside the figure, at" };
+    let dashed = if portrait.given_rad.is_some() { " Dashed: directions that the file does not give." } else { "" };
+    let part = worst.frequency_hz().map(|hz| format!(" at {} Hz", three(hz))).unwrap_or_default();
+    let map = portrait.map.as_ref().map(|map| {
+        let (drops, others) = (map.drops, map.drops - 1);
+        let holds = match span(map) {
+            [least, _] if least > 1.0 => "It is exceeded everywhere.".to_owned(),
+            [_, most] if most <= 1.0 => "It is exceeded nowhere.".to_owned(),
+            _ => format!("Bold line: the border of where {allowed} is not exceeded, which is in the lighter part."),
+        };
+        let of_drops = if others == 0 {
+            "in the worst drop".to_owned()
+        } else {
+            format!("the most of {drops} drops, the worst one and it with {others} other directions")
+        };
+        json!({
+            "said": format!("The {what} that this part{part} would be asked for anywhere on the plate: {of_drops}. {holds} Dashed: the part."),
+            "alt": format!("Map over the plan of the plate: the {what} that this part would be asked for at each place."),
+        })
+    });
+    let letter = |strike: &CornerStrike| ["a", "b", "c", "d"][strike.corner % 4];
+    let order = told(portrait, worst).iter().map(letter).collect::<Vec<_>>().join(" ");
+    json!({
+        "direction": format!(
+            "The most {what} by the direction that the plate rises to, at the tilt of the worst drop, {tilt}°, and else as there. Letters: the lowest corner. The limit {seen} {allowed}.{dashed}"
+        ),
+        "direction-alt": format!("Curve of the {what} over the direction in which the plate is tilted."),
+        "landing": format!(
+            "The worst drop from above. At each corner its first strikes: number, time, change of velocity; the peak comes after number {}. Arrow: where the plate rises to. Dashed: the part; dot: its place that is asked most.",
+            worst.impact
+        ),
+        "landing-alt": format!("Plan of the plate as it lands, its corners numbered in the order of their strikes: {order}."),
+        "map": map,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::files;
+    use super::*;
+    use crate::Pages;
+    use clatter_assess::ProductFile;
+
+    const PLATE: &str = include_str!("../../../../reports/examples/handheld-plate.toml");
+
+    #[test]
+    fn the_lowest_corner_lies_opposite_to_where_the_plate_rises() {
+        let said = [0.0, 25.0, 90.0, 95.0, 180.0, 200.0, 270.0, 291.0, 359.999_999_999_9].map(lowest);
+        let expected = ["edge a–d", "corner a", "edge a–b", "corner b", "edge b–c", "corner c", "edge c–d", "corner d"];
+        assert_eq!(said[..8], expected);
+        assert_eq!(said[8], "edge a–d");
+    }
+
+    /// No word of a bar is left, and every part has its pictures: a change of angular velocity is the same anywhere and has no map.
+    #[test]
+    fn pages_of_a_plate_speak_of_a_plate() {
+        let text =
+            PLATE.replace("tilt = [\"1 deg\", \"12 deg\"]", "tilt = \"3 deg\"\ndirection = [\"20 deg\", \"50 deg\"]");
+        let file = ProductFile::read(&text, "plate.toml").unwrap();
+        let assessment = file.assess().unwrap();
+        let portraits = file.portraits(&assessment);
+        let (file, assessment, portraits) = (&file, &assessment, &portraits[..]);
+        let pages = Pages { file, assessment, portraits, measured: &[], path: "plate.toml", date: None };
+        let files = files(&pages).unwrap();
+        let names = files.iter().map(|(name, _)| name.as_str()).filter(|name| *name != "assessment.json");
+        let names: Vec<&str> = names.collect();
+        let part = |k: usize| ["history", "direction", "landing", "map"].map(|what| format!("{what}-{k}.svg"));
+        let expected =
+            [&["product-1.svg".to_owned()][..], &part(1), &part(2), &part(3)[..3], &["shares.svg".to_owned()]];
+        assert_eq!(names, expected.concat());
+        let json = &files.iter().find(|(name, _)| name == "assessment.json").unwrap().1;
+        let data: Value = serde_json::from_str(json).unwrap();
+        assert_eq!(data["inputs"][5][1], "3° at the first touch, rising to 20 to 50°");
+        let said = data.to_string();
+        for of_bar in
+            [" bar ", "either end", "both ends as", "an end touches", "towards end", "along the product", "end a at"]
+        {
+            assert!(!said.contains(of_bar), "{of_bar}: {said}");
+        }
+        for of_plate in [
+            "length 220 mm, width 85 mm, thickness 25 mm",
+            "0.42 kg, radii of gyration 65.4 mm along the length, 21.8 mm along the width, center of mass at −8.93, −1.55 mm",
+            "product of inertia over the mass 245 mm²",
+            "It sits at 95, 15 mm, and is 20 mm by 30 mm.",
+            "That drop lands on corner a, rising to ",
+            "a box at real tilt",
+            "Dashed: directions that the file does not give.",
+        ] {
+            assert!(said.contains(of_plate), "{of_plate}: {said}");
+        }
+    }
+}
