@@ -12,6 +12,7 @@ mod independent;
 mod late;
 mod limits;
 mod mutations;
+mod plate_commands;
 mod plates;
 mod portrait;
 mod random;

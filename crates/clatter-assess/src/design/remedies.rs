@@ -237,7 +237,7 @@ impl Case<'_> {
         let responds = kinds.iter().any(|kind| kind.is_response());
         match lever {
             Lever::Frequency | Lever::Damping => suspended && responds,
-            Lever::Position => kinds.iter().any(|kind| kind.source() != Source::Turn),
+            Lever::Position | Lever::Across => kinds.iter().any(|kind| kind.source() != Source::Turn),
             Lever::InertiaRatio | Lever::Restitution | Lever::ContactTime | Lever::Limit(_) => true,
         }
     }
