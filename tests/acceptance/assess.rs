@@ -153,9 +153,11 @@ fn the_command_below_a_worst_drop_of_a_plate_says_the_same() {
     let short: Vec<&str> = table.lines().filter(|line| line.starts_with("  clatter respond --product=")).collect();
     assert_eq!(short.len(), 4, "{table}");
     for (limit, command) in components.iter().flat_map(|c| c["limits"].as_array().unwrap()).zip(short) {
-        let command = command.replace("'scan engine'", "scan\u{a0}engine");
-        let words: Vec<_> = words(&command).into_iter().map(|word| word.replace('\u{a0}', " ")).collect();
-        let got = answer(words.iter().map(String::as_str));
+        let command = command.replace("'scan engine'", "scan~engine");
+        let words: Vec<_> = words(&command).into_iter().map(|word| word.replace('~', " ")).collect();
+        let told = clatter(words.iter().map(String::as_str).chain(["--format=json"]));
+        let got: Value = serde_json::from_str(&told.stdout).unwrap();
+        assert!(told.stderr.contains("the worst drop of its ranges, for the"), "{}", told.stderr);
         let limits = got["limits"].as_array().unwrap();
         let again = limits.iter().find(|other| other["limit"] == limit["limit"]).unwrap();
         let off = again["value"].as_f64().unwrap() / limit["demand"].as_f64().unwrap() - 1.0;

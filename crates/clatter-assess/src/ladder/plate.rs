@@ -80,7 +80,7 @@ fn reason(models: &[Measured], cheapest: Rung, tolerance: f64, groups: &Groups) 
         };
     };
     let lacks = match coarser.model {
-        Rung::Bar => with("it lands on a corner and a bar on an edge", "h_y/h_x", groups.across),
+        Rung::Bar => with("it turns about its length too, as no bar does", "h_y/h_x", groups.across),
         _ => with("real tilt counts", "φ²", Some(groups.geometry)),
     };
     format!("{}; {} is off by {}", lacks, coarser.model.name(), percent(coarser.error))
