@@ -148,6 +148,27 @@ fn the_command_below_a_worst_drop_of_a_plate_says_the_same() {
         assert!(worst["position_m"].as_array().is_some_and(|at| at.len() == 2), "{worst}");
         assert!(limit["notes"].to_string().contains("a box 25 mm thick with full rotation"), "{limit}");
     }
+    // The short command below it searches the same drop, and tells its limit as the assessment does.
+    let table = clatter(["assess", &path]).stdout;
+    let short: Vec<&str> = table.lines().filter(|line| line.starts_with("  clatter respond --product=")).collect();
+    assert_eq!(short.len(), 4, "{table}");
+    for (limit, command) in components.iter().flat_map(|c| c["limits"].as_array().unwrap()).zip(short) {
+        let command = command.replace("'scan engine'", "scan~engine");
+        let words: Vec<_> = words(&command).into_iter().map(|word| word.replace('~', " ")).collect();
+        let told = clatter(words.iter().map(String::as_str).chain(["--format=json"]));
+        let got: Value = serde_json::from_str(&told.stdout).unwrap();
+        assert!(told.stderr.contains("the worst drop of its ranges, for the"), "{}", told.stderr);
+        let limits = got["limits"].as_array().unwrap();
+        let again = limits.iter().find(|other| other["limit"] == limit["limit"]).unwrap();
+        let off = again["value"].as_f64().unwrap() / limit["demand"].as_f64().unwrap() - 1.0;
+        assert!(off.abs() < 1e-6, "{again}, not {limit}");
+        // Of a turn every place says the same.
+        if limit["limit"] != "angular-velocity-change" {
+            let [of, told] =
+                [again, &limit["worst_case"]].map(|of| [0, 1].map(|i| of["position_m"][i].as_f64().unwrap()));
+            assert!((of[0] - told[0]).abs() + (of[1] - told[1]).abs() < 1e-9, "{again}, not {limit}");
+        }
+    }
     let wrong = clatter(["assess", &path, "--model=map"]);
     assert_eq!(wrong.exit, Exit::BadInput);
     assert!(wrong.stderr.contains("a plate is followed by the model compliant, not by map"), "{}", wrong.stderr);

@@ -123,7 +123,7 @@ fn a_part_on_a_plate_is_answered() {
     assert_eq!(
         names(&stiff),
         "acceleration_m_s2 angular_velocity_change_rad_s answers at center_of_mass clatter_free contact_law contact_time_s damping \
-         direction_deg e gaps_m gravity_m_s2 gyration_m length_m model omega omega_peak_relative_displacement \
+         direction_deg e first gaps_m gravity_m_s2 gyration_m length_m model omega omega_peak_relative_displacement \
          peak_absolute_acceleration_over_omega peaks speed_m_s standard tilt_deg time_of_peak tolerance velocity_change_m_s width_m"
     );
     let felt = number(&stiff, "peak_absolute_acceleration_over_omega") * 1e7;
@@ -239,4 +239,59 @@ fn what_a_plate_has_not_is_refused() {
         ["simulate", "--length-m=0.15", "--width-m=0.07", "--gyration-m=0.04,0.003", "--e=0.3", GAPS, "--speed-m-s=3"];
     let thin = clatter(thin.iter().chain(&CONTACTS));
     assert!(thin.stderr.contains("--gyration-m") && thin.stderr.contains("at least 3.5 mm"), "{}", thin.stderr);
+}
+
+/// The middle of the ranges of a product file with a width, and another direction, on whose lowest corner it lands: the same drop as arguments
+/// say it, seen from that corner.
+#[test]
+fn a_product_file_of_a_plate_gives_its_drop() {
+    let path = crate::assess::example("handheld-plate.toml");
+    let product = format!("--product={path}");
+    // What was taken of each range is told beside the answer.
+    let taken = |words: [&str; 5]| -> Value {
+        let outcome = clatter(words.into_iter().chain(["--format=json"]));
+        assert!(outcome.stderr.contains("restitution = 0.25, the largest of 0.15 to 0.25"), "{}", outcome.stderr);
+        serde_json::from_str(&outcome.stdout).unwrap()
+    };
+    let got = taken(["respond", &product, "--component=gyroscope", "--tilt=3deg", "--direction=200deg"]);
+    assert_eq!((got["first"].as_str(), got["direction_deg"].as_f64()), (Some("c"), Some(200.0)));
+    let limit = &got["limits"][0];
+    assert_eq!((limit["limit"].as_str(), limit["unit"].as_str()), (Some("angular-velocity-change"), Some("rad/s")));
+    let [length, width] = [number(&got, "length_m"), number(&got, "width_m")];
+    let [cx, cy] = [0, 1].map(|i| got["center_of_mass"][i].as_f64().unwrap());
+    let [kx, ky] = [0, 1].map(|i| got["gyration_m"][i].as_f64().unwrap());
+    // The masses of the file: battery and scan engine lie askew.
+    let product_m2 = {
+        let masses = [(0.28, 0.0, 0.0), (0.11, -0.06, -0.01), (0.03, 0.095, 0.015)];
+        let all: f64 = masses.iter().map(|m| m.0).sum();
+        let [mx, my] = [0.5 * cx * length, 0.5 * cy * width];
+        masses.iter().map(|(m, x, y)| m / all * (x - mx) * (y - my)).sum::<f64>()
+    };
+    let same = answer([
+        "respond",
+        "--model=compliant",
+        &format!("--length-m={length:?}"),
+        &format!("--width-m={width:?}"),
+        &format!("--gyration-m={kx:?},{ky:?}"),
+        &format!("--center-of-mass={:?},{:?}", -cx, -cy),
+        &format!("--product-of-inertia-m2={product_m2:?}"),
+        "--e=0.25",
+        "--contact-time=1ms",
+        "--height=1.5m",
+        "--tilt=3deg",
+        "--direction=20deg",
+        &format!("--at={:?},{:?}", 0.04 / length, 0.05 / width),
+    ]);
+    assert_eq!(same["first"].as_str(), Some("a"));
+    for value in ["velocity_change_m_s", "acceleration_m_s2", "angular_velocity_change_rad_s"] {
+        assert!((number(&got, value) / number(&same, value) - 1.0).abs() < 1e-6, "{value}: {got} beside {same}");
+    }
+    // The same strikes in `simulate`, called from the lowest corner.
+    let flight = taken(["simulate", &product, "--component=gyroscope", "--tilt=3deg", "--direction=200deg"]);
+    assert_eq!(flight["impacts"][0]["corner"].as_str(), Some("a"));
+    let at = [0, 1].map(|i| flight["at"][0][i].as_f64().unwrap());
+    assert!((at[0] - 0.04 / length).abs() + (at[1] - 0.05 / width).abs() < 1e-9, "{at:?}");
+    let wrong = clatter(["respond", &product, "--component=gyroscope", "--first=b"]);
+    assert_eq!(wrong.exit, Exit::BadInput);
+    assert!(wrong.stderr.contains("--flat and --first are those of a bar"), "{}", wrong.stderr);
 }

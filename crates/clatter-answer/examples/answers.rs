@@ -15,7 +15,7 @@ use clatter_answer::{assess, atlas, fit, impacts, map, record, scatter, simulate
 use clatter_assess::design::Bounds;
 use clatter_assess::fit::{Known, Measured, MeasuredStrike};
 use clatter_assess::scatter::{Sampler, Settings};
-use clatter_assess::{Accuracy, PlateDrop, ProductFile};
+use clatter_assess::{Accuracy, ProductFile};
 use clatter_flight::{Block, BlockDrop, Body, Contact, ContactLaw, Model, PlateScene, Scene};
 use clatter_record::{Options, Record};
 use clatter_shock::{
@@ -135,8 +135,8 @@ fn responses(lines: &mut Vec<String>) -> Result<(), Box<dyn Error>> {
         lines.push(serde_json::to_string(&respond::drop::answer(&question)?)?);
     }
     let phone = clatter_flight::Plate::new([0.08, 0.07, 0.035, 0.035], [0.0433, 0.0202])?;
-    let drop = PlateDrop { scene: PlateScene::new(phone, 4.43, [2e-3, 1e-3], 9.806_65)?, contact };
-    let mut question = respond::plate::Question::new(drop, [0.3, 0.2]);
+    let scene = PlateScene::new(phone, 4.43, [2e-3, 1e-3], 9.806_65)?;
+    let mut question = respond::plate::Question::new(scene, contact, [0.3, 0.2]);
     question.suspension = Some(board);
     lines.push(serde_json::to_string(&respond::plate::answer(&question)?)?);
     let handheld = Block::new([0.15, 0.07, 0.015], [0.002, 0.0, 0.001], [0.0207, 0.0435, 0.0478])?;

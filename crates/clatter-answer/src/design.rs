@@ -71,7 +71,7 @@ impl<'a> Answer<'a> {
         let components = self.assessment.components.iter().enumerate();
         ProductJson {
             product: &product.name,
-            q: Json(product.inertia_ratio()),
+            q: product.width.is_none().then(|| Json(product.inertia_ratio())),
             restitution: [Json(product.restitution.lo()), Json(product.restitution.hi())],
             verdict: self.assessment.verdict,
             margin: Json(self.margin),
@@ -154,7 +154,8 @@ impl Serialize for Answer<'_> {
 #[derive(Serialize)]
 struct ProductJson<'a> {
     product: &'a str,
-    q: Json,
+    /// Null of a plate.
+    q: Option<Json>,
     restitution: [Json; 2],
     verdict: Verdict,
     /// Asked for.

@@ -9,8 +9,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use clatter_assess::ladder::{Groups, LeftOut, LimitLadder, Measured, ProductLadder, Reference};
-use clatter_assess::{LimitKind, Model, Unit, WorstCase};
+use clatter_assess::ladder::{Groups, LeftOut, LimitLadder, Measured, ProductLadder, Reference, Rung};
+use clatter_assess::{LimitKind, Unit, WorstCase};
 use serde::{Serialize, Serializer};
 
 use crate::Json;
@@ -35,14 +35,14 @@ struct LimitJson<'a> {
     worst_case: &'a WorstCase,
     reference: Reference,
     models: Vec<ModelJson>,
-    cheapest: Model,
+    cheapest: Rung,
     reason: &'a str,
     groups: Groups,
 }
 
 #[derive(Serialize)]
 struct ModelJson {
-    model: Model,
+    model: Rung,
     value: Json,
     error: Json,
 }

@@ -16,6 +16,7 @@
 
 pub mod block;
 pub mod drop;
+mod limits;
 mod peaks;
 pub mod plate;
 pub mod rule;
@@ -29,6 +30,7 @@ use serde::Serialize;
 
 use crate::error::within_periods;
 use crate::{Error, Json, on_body};
+pub use limits::{Limit, Position};
 pub use peaks::{AllPeaks, Equivalent, Extreme, Extremes, Factors, HalfSine, Largest, LargestValues, Peaks};
 
 /// What shakes a part.

@@ -3,8 +3,8 @@
 use clatter::{Axis, Bar, Plate, PlateStart, Quantity, Start};
 use clatter_answer::respond::{self, Excitation};
 use clatter_answer::{atlas, fit, impacts, map, simulate, spectrum, zone};
+use clatter_assess::ProductFile;
 use clatter_assess::fit::Measured;
-use clatter_assess::{PlateDrop, ProductFile};
 use clatter_flight::{Block, BlockDrop, Body, Contact, ContactLaw, Model, PlateScene, Scene};
 use clatter_record::{Options, Record};
 use clatter_shock::{DampingRatio, Pulse, Search, Shape, Suspension};
@@ -82,9 +82,9 @@ fn parts_that_no_drop_answers_are_refused() {
     question.at.clear();
     says(respond::drop::answer(&question).expect_err("no place"), "places is empty");
     let contact = Contact::new(ContactLaw::Hysteretic, 0.3, 4e-4).expect("a contact");
-    let mut question = respond::plate::Question::new(PlateDrop { scene: plate_scene(), contact }, [0.0, 1.5]);
+    let mut question = respond::plate::Question::new(plate_scene(), contact, [0.0, 1.5]);
     says(respond::plate::answer(&question).expect_err("off the plate"), "position = 1.5");
-    (question.at, question.suspension) = ([0.0; 2], Some(part(1e-13)));
+    (question.at, question.suspension) = (vec![[0.0; 2]], Some(part(1e-13)));
     says(respond::plate::answer(&question).expect_err("too slow"), "natural frequency in rad/s = 1e-13");
     let block = Block::new([0.15, 0.07, 0.015], [0.0; 3], [0.0207, 0.0435, 0.0478]).expect("a box");
     let drop = BlockDrop::tilted(block, 0.5, 0.0, 1.0, 9.806_65).expect("a drop");

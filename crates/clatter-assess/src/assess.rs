@@ -17,7 +17,7 @@ pub(crate) const COVERAGE: f64 = 0.02;
 const COVERAGE_OF_BOXES: f64 = 0.1;
 
 /// A plate whose file does not tell its thickness is taken as so thick over its length where real tilt counts.
-const THIN: f64 = 0.05;
+pub(crate) const THIN: f64 = 0.05;
 
 /// A drop that asks for more than is of use.
 #[derive(Debug, Clone, Copy)]

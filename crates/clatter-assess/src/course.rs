@@ -111,7 +111,7 @@ fn axes() -> impl Iterator<Item = [f64; 3]> {
 const DIRECTIONS: u32 = 16;
 
 /// Directions all over half a turn.
-pub(crate) fn directions() -> impl Iterator<Item = [f64; 2]> {
+fn directions() -> impl Iterator<Item = [f64; 2]> {
     (0..DIRECTIONS).map(|k| {
         let (sin, cos) = libm::sincos(std::f64::consts::PI * f64::from(k) / f64::from(DIRECTIONS));
         [cos, sin]

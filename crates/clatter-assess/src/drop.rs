@@ -132,6 +132,36 @@ impl Across {
 }
 
 impl SingleDrop {
+    /// The drop that a scene of a plate has, corner a the lowest one, with contacts that take time.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for a plate whose slopes are those of no tilt.
+    pub fn of_plate(scene: &PlateScene, contact: &Contact) -> Result<Self, Error> {
+        let (plate, [hx, hy]) = (scene.plate(), scene.gaps_m());
+        let ([left, right, front, back], [length, width], [kx, ky]) =
+            (plate.edges_m(), plate.sides_m(), plate.gyration_m());
+        let slopes = [hx / length, hy / width];
+        let steepest = libm::hypot(slopes[0], slopes[1]);
+        if steepest >= 1.0 {
+            let (name, allowed) = ("steepest slope of the plate", "below 1");
+            return Err(Error::Setting { name, value: steepest, allowed });
+        }
+        let edges_m = [front, back];
+        let product_of_inertia_m2 = plate.product_of_inertia_m2();
+        let width = Width { edges_m, gyration_m: ky, product_of_inertia_m2, thickness_m: None };
+        Ok(Self {
+            body: Body::off_center(left, right, kx)?,
+            across: Some(Across { width, direction_rad: libm::atan2(slopes[1], slopes[0]), posture: None }),
+            first: End::A,
+            tilt_rad: libm::asin(steepest),
+            flat: false,
+            speed_m_s: scene.speed_m_s(),
+            restitution: contact.restitution(),
+            gravity_m_s2: scene.gravity_m_s2(),
+            contact_time_s: Some(contact.time_s()),
+            contact_law: contact.law(),
+        })
+    }
     /// The model with the most physics that the data allow: contacts where their time is known, else real tilt.
     #[must_use]
     pub fn fullest(&self) -> Model {
@@ -160,7 +190,7 @@ impl SingleDrop {
         Ok(())
     }
     /// From the lowest point to the highest, along the body.
-    fn reach_m(&self) -> f64 {
+    pub(crate) fn reach_m(&self) -> f64 {
         let length = self.body.length_m();
         self.across.map_or(length, |across| {
             let [cos, sin] = across.upward().map(f64::abs);

@@ -16,7 +16,6 @@ use crate::history::{SHORT, pulses};
 use crate::quantity::{ResponsePeak, Source};
 use crate::shock::{Shock, largest, samples};
 use crate::{DataFault, Error, Inside, Limit, Unit};
-pub(crate) use later::CHATTER;
 use later::{GivenUp, Later, slowest};
 
 /// A part at one place of the product.
@@ -156,11 +155,11 @@ pub fn answer(drop: &SingleDrop, part: &Part, limit: &Limit, model: Model, toler
 
 /// Differences are told so many times as large as they are: the factor of the grid convergence index (Roache 1994) for three runs
 /// and more.
-pub(crate) const SAFETY: f64 = 1.25;
+const SAFETY: f64 = 1.25;
 /// A box that differs a little is followed so far past the peak.
 const PAST_PEAK: f64 = 1.25;
 /// A drop is followed again by so much more exactly.
-pub(crate) const FINER: f64 = 0.1;
+const FINER: f64 = 0.1;
 /// Tilts are below this.
 const UPRIGHT: f64 = FRAC_PI_2 * (1.0 - 1e-9);
 
@@ -263,18 +262,17 @@ fn closed_form(drop: &SingleDrop, part: &Part, limit: &Limit, model: Model) -> R
     })
 }
 
-/// The response of a suspended part in one drop, with all its peaks.
+/// The response of a suspended part in one drop, with all its peaks; its place is along the product and, of a plate, across it.
 ///
 /// # Errors
 /// As [`answer`].
 pub fn respond(
     drop: &SingleDrop,
-    position_m: f64,
+    at_m: [f64; 2],
     part: &Suspension,
     model: Model,
     tolerance: f64,
 ) -> Result<Response, Error> {
-    let at_m = [position_m, 0.0];
     drop.check(at_m)?;
     let followed = Followed::new(drop, model, tolerance)?;
     Ok(PlaceHistory::new(&followed, at_m)?.pulses.respond(part))

@@ -1,23 +1,57 @@
 //! Which model a drop needs, measured: every model on the worst drop of each limit, its error and its cost.
 //!
-//! Six models from the least physics to the most ([`Model`]) answer the same drop. Each is held against the one with the most
+//! Six models from the least physics to the most ([`Model`]) answer the same drop of a bar. Each is held against the one with the most
 //! physics that the data allow, worked out more exactly; the cheapest within the tolerance is named, with the dimensionless
-//! group that makes the next cheaper one too coarse. Errors are the same from run to run; times are of the machine that
+//! group that makes the next cheaper one too coarse. A drop of a plate is answered with contacts that take time by three bodies: the bar
+//! along its length, the plate of small tilt, and the box with full rotation, which is what they are held against. Errors are the same from run to run; times are of the machine that
 //! [`Machine`] names.
 
+mod plate;
 mod time;
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 pub use time::Machine;
 
 use crate::drop::{Followed, Model, SingleDrop};
 use crate::engine::{Part, answer};
-use crate::verdict::number;
+use crate::verdict::{number, number_or_null};
 use crate::{Assessment, Error, Limit, LimitKind, ProductFile, Unit, WorstCase};
 
 /// The reference is worked out so much more exactly than the tolerance asks.
 const FINER: f64 = 0.1;
+
+/// What answers a drop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Rung {
+    /// A bar, by a model.
+    Model(Model),
+    /// Of a plate the bar along its length, with contacts that take time: as if it were of no width.
+    Bar,
+    /// The plate of small tilt, with contacts that take time.
+    Plate,
+    /// The same as a box with full rotation.
+    Block,
+}
+
+impl Rung {
+    /// The name of the model; `bar`, `plate` or `box`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Model(model) => model.name(),
+            Self::Bar => "bar",
+            Self::Plate => "plate",
+            Self::Block => "box",
+        }
+    }
+}
+
+impl Serialize for Rung {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
 
 /// All models on the worst drops of a product.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -69,7 +103,7 @@ pub struct Ladder {
     /// From the least physics to the most; those that say something of the limit.
     pub models: Vec<Measured>,
     /// The cheapest one within the tolerance.
-    pub cheapest: Model,
+    pub cheapest: Rung,
     /// Which dimensionless group makes the next cheaper one too coarse, in a sentence.
     pub reason: String,
     /// The dimensionless groups of the drop and the part.
@@ -79,8 +113,8 @@ pub struct Ladder {
 /// What the models are held against.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Reference {
-    /// The model with the most physics that the data allow.
-    pub model: Model,
+    /// The model with the most physics that the data allow; of a plate the box, where it is followed.
+    pub model: Rung,
     /// Its answer.
     pub value: f64,
     /// The tolerance that it was worked out to.
@@ -91,7 +125,7 @@ pub struct Reference {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Measured {
     /// Which one.
-    pub model: Model,
+    pub model: Rung,
     /// Its answer.
     pub value: f64,
     /// |value/reference − 1|.
@@ -118,13 +152,17 @@ pub struct Groups {
     pub train: Option<f64>,
     /// ζωΔt: whether the part has calmed down before the next strike.
     pub damping: Option<f64>,
+    /// h_y/h_x, what a plate rises along its width over what it rises along its length: what a bar lacks; infinite where it rises along
+    /// its width alone. None of a bar.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "number_or_null")]
+    pub across: Option<f64>,
 }
 
 impl Ladder {
     /// Runs and times every model on one drop.
     ///
     /// # Errors
-    /// As [`answer`] of the model with the most physics.
+    /// As [`answer`] of the model with the most physics, of a plate of the plate of small tilt.
     ///
     /// # Examples
     /// ```
@@ -148,6 +186,9 @@ impl Ladder {
     /// # Ok::<(), clatter_assess::Error>(())
     /// ```
     pub fn measure(drop: &SingleDrop, part: &Part, limit: &Limit, tolerance: f64) -> Result<Self, Error> {
+        if let Some(across) = &drop.across {
+            return Self::of_plate(drop, across, part, limit, tolerance);
+        }
         let fullest = drop.fullest();
         let exact = answer(drop, part, limit, fullest, FINER * tolerance)?;
         let says = |model: &Model| *model <= fullest && (*model != Model::NetChange || part.suspension.is_some());
@@ -158,11 +199,11 @@ impl Ladder {
             let strikes =
                 if model < Model::Map { 0 } else { Followed::new(drop, model, tolerance)?.motion.struck_s().len() };
             let error = (found.utilization() / exact.utilization() - 1.0).abs();
-            models.push(Measured { model, value: found.value, error, seconds, strikes });
+            models.push(Measured { model: Rung::Model(model), value: found.value, error, seconds, strikes });
         }
         let groups = Groups::of(drop, part)?;
-        let within = models.iter().filter(|m| m.error <= tolerance);
-        let cheapest = within.min_by(|a, b| a.seconds.total_cmp(&b.seconds)).map_or(fullest, |m| m.model);
+        let fullest = Rung::Model(fullest);
+        let cheapest = cheapest(&models, tolerance).unwrap_or(fullest);
         let reason = reason(&models, cheapest, tolerance, &groups);
         let reference = Reference { model: fullest, value: exact.value, tolerance: FINER * tolerance };
         Ok(Self { unit: exact.unit, reference, models, cheapest, reason, groups })
@@ -171,9 +212,10 @@ impl Ladder {
 
 impl Groups {
     fn of(drop: &SingleDrop, part: &Part) -> Result<Self, Error> {
-        let h0 = drop.body.length_m() * libm::sin(drop.tilt_rad);
-        let map = Followed::new(drop, Model::Map, 0.01)?;
-        let times = map.motion.struck_s();
+        let h0 = drop.reach_m() * libm::sin(drop.tilt_rad);
+        // Contacts of a plate alone are followed.
+        let model = if drop.across.is_some() { Model::Compliant } else { Model::Map };
+        let times = Followed::new(drop, model, 0.01)?.motion.struck_s();
         let gap = times.get(1).copied().unwrap_or(f64::INFINITY);
         let last = times.last().copied().unwrap_or(0.0);
         let omega = part.suspension.map(|part| part.omega());
@@ -184,37 +226,49 @@ impl Groups {
             pulse: omega.zip(drop.contact_time_s).map(|(omega, time)| omega * time),
             train: omega.map(|omega| omega * last),
             damping: part.suspension.map(|part| part.damping().get() * part.omega() * gap),
+            across: drop.across.map(|across| {
+                let [along, across] = drop.gaps_m(&across);
+                across / along
+            }),
         })
     }
 }
 
+/// The one within the tolerance that takes the least time.
+fn cheapest(models: &[Measured], tolerance: f64) -> Option<Rung> {
+    let within = models.iter().filter(|m| m.error <= tolerance);
+    within.min_by(|a, b| a.seconds.total_cmp(&b.seconds)).map(|m| m.model)
+}
+
+/// Words, and the value of a group where it is known.
+fn with(words: &str, group: &str, value: Option<f64>) -> String {
+    value.map_or_else(|| words.to_owned(), |value| format!("{words}: {group} = {value:.2e}"))
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.2} %", 100.0 * share)
+}
+
 /// What makes the next cheaper model too coarse: the physics that it lacks, as a number.
-fn reason(models: &[Measured], cheapest: Model, tolerance: f64, groups: &Groups) -> String {
-    let with = |words: &str, group: &str, value: Option<f64>| match value {
-        Some(value) => format!("{words}: {group} = {value:.2e}"),
-        None => words.to_owned(),
-    };
-    let percent = |share: f64| format!("{:.2} %", 100.0 * share);
+fn reason(models: &[Measured], cheapest: Rung, tolerance: f64, groups: &Groups) -> String {
     let coarser = models.iter().rfind(|m| m.model < cheapest && m.error > tolerance);
     let Some(coarser) = coarser else {
         return match cheapest {
-            Model::NetChange => with("the clatter is short beside the period", "ω t_N", groups.train),
-            Model::LargestShock => with("one shock decides", "ζωΔt", groups.damping),
+            Rung::Model(Model::NetChange) => with("the clatter is short beside the period", "ω t_N", groups.train),
+            Rung::Model(Model::LargestShock) => with("one shock decides", "ζωΔt", groups.damping),
             model => format!("{} is the cheapest here", model.name()),
         };
     };
     let lacks = match coarser.model {
-        Model::NetChange => with("the part feels single strikes", "ω t_N", groups.train),
-        Model::LargestShock => with("shocks add up", "ζωΔt", groups.damping),
-        Model::Map => with("gravity counts", "g h0/v0²", Some(groups.gravity)),
-        Model::Ballistic => with("real tilt counts", "φ²", Some(groups.geometry)),
-        Model::FiniteTilt | Model::Compliant if groups.overlap.is_some_and(|x| x > 1.0) => {
-            with("contacts overlap", "τ/Δt", groups.overlap)
-        }
-        Model::FiniteTilt | Model::Compliant if groups.pulse.is_none() => {
+        Rung::Model(Model::NetChange) => with("the part feels single strikes", "ω t_N", groups.train),
+        Rung::Model(Model::LargestShock) => with("shocks add up", "ζωΔt", groups.damping),
+        Rung::Model(Model::Map) => with("gravity counts", "g h0/v0²", Some(groups.gravity)),
+        Rung::Model(Model::Ballistic) => with("real tilt counts", "φ²", Some(groups.geometry)),
+        _ if groups.overlap.is_some_and(|x| x > 1.0) => with("contacts overlap", "τ/Δt", groups.overlap),
+        _ if groups.pulse.is_none() => {
             with("the force has the shape that the contact gives it", "τ/Δt", groups.overlap)
         }
-        Model::FiniteTilt | Model::Compliant => with("pulses are no velocity shocks", "ωτ", groups.pulse),
+        _ => with("pulses are no velocity shocks", "ωτ", groups.pulse),
     };
     format!("{}; {} is off by {}", lacks, coarser.model.name(), percent(coarser.error))
 }
@@ -235,7 +289,7 @@ impl ProductFile {
     /// ```
     pub fn ladders(&self, assessment: &Assessment, tolerance: f64) -> Result<ProductLadder, Error> {
         self.check()?;
-        self.check_bar("the ladder of models")?;
+        self.check_no_box("the ladder of models")?;
         assessment.is_of(self)?;
         let (mut limits, mut left_out) = (Vec::new(), Vec::new());
         for (component, assessed) in self.components.iter().zip(&assessment.components) {

@@ -65,7 +65,6 @@ pub mod fit;
 mod history;
 mod keys;
 pub mod ladder;
-mod plate;
 mod portrait;
 mod product;
 mod quantity;
@@ -91,7 +90,6 @@ pub use drop::{Across, Model, Posture, SingleDrop};
 pub use engine::{Answer, Part, answer, respond};
 pub use error::Error;
 pub use fault::{Fault, Faults};
-pub use plate::{PlateAnswers, PlateDrop, PlatePart};
 pub use portrait::{Changes, CornerStrike, Curve, PlaceMap, PlatePortrait, Point, Portrait};
 pub use product::{
     Axis, Component, Damping, Drop, Fall, First, Inside, Landing, Limits, Mount, Product, ProductFile, RecordFile,

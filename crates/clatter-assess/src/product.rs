@@ -472,42 +472,49 @@ impl Component {
     /// that overlap are one shock differs from place to place, so that the largest change of velocity may lie between the ends.
     #[must_use]
     pub fn places_m(&self) -> Vec<[f64; 2]> {
-        self.with_between(self.position_m)
+        places(self.reaches_m(), self.limits.kinds())
     }
-    /// The same of a part that is at one place of its range along the length.
+    /// The same of a part whose middle is at one place of its ranges.
     #[must_use]
-    pub fn places_at_m(&self, position_m: f64) -> Vec<[f64; 2]> {
-        self.with_between(Spread::finite(position_m))
+    pub fn places_at_m(&self, at_m: [f64; 2]) -> Vec<[f64; 2]> {
+        places(self.reaches_from_m(at_m.map(Spread::finite)), self.limits.kinds())
     }
     /// From where to where the part may be along the length and across it.
     pub(crate) fn reaches_m(&self) -> [[f64; 2]; 2] {
-        self.reaches_from_m(self.position_m)
+        self.reaches_from_m([self.position_m, self.across_m])
     }
-    fn reaches_from_m(&self, position_m: Spread) -> [[f64; 2]; 2] {
+    fn reaches_from_m(&self, [along, across]: [Spread; 2]) -> [[f64; 2]; 2] {
         let reach = |of: Spread, half: f64| [of.lo() - half, of.hi() + half];
-        [reach(position_m, 0.5 * self.extent_m), reach(self.across_m, 0.5 * self.extent_across_m)]
+        [reach(along, 0.5 * self.extent_m), reach(across, 0.5 * self.extent_across_m)]
     }
     /// How many places lie between its ends along each side.
     pub(crate) fn between(&self) -> u32 {
-        let is_rectangle = self.reaches_m().iter().all(|[lo, hi]| lo < hi);
-        if is_rectangle { BETWEEN_ON_PLATE } else { BETWEEN }
-    }
-    fn with_between(&self, position_m: Spread) -> Vec<[f64; 2]> {
-        let [along, across] = self.reaches_from_m(position_m);
-        let mut places = corners(along, across);
-        if self.limits.kinds().into_iter().any(LimitKind::is_largest_between) {
-            let count = self.between();
-            let all = [along, across].map(|reach| with_between(reach, count));
-            let rest = all[1].iter().flat_map(|&y| all[0].iter().map(move |&x| [x, y]));
-            let rest: Vec<_> = rest.filter(|place| !places.contains(place)).collect();
-            places.extend(rest);
-        }
-        places
+        between(self.reaches_m())
     }
 }
 
+/// The ends of where a part reaches and, where a limit of these kinds asks for it, places between.
+pub(crate) fn places(reaches: [[f64; 2]; 2], kinds: impl IntoIterator<Item = LimitKind>) -> Vec<[f64; 2]> {
+    let [along, across] = reaches;
+    let mut places = corners(along, across);
+    if kinds.into_iter().any(LimitKind::is_largest_between) {
+        let count = between(reaches);
+        let all = [along, across].map(|reach| with_between(reach, count));
+        let rest = all[1].iter().flat_map(|&y| all[0].iter().map(move |&x| [x, y]));
+        let rest: Vec<_> = rest.filter(|place| !places.contains(place)).collect();
+        places.extend(rest);
+    }
+    places
+}
+
+/// How many places lie between the ends along each side.
+fn between(reaches: [[f64; 2]; 2]) -> u32 {
+    let is_rectangle = reaches.iter().all(|[lo, hi]| lo < hi);
+    if is_rectangle { BETWEEN_ON_PLATE } else { BETWEEN }
+}
+
 /// The corners of a rectangle, of which a side may be none.
-fn corners([left, right]: [f64; 2], [front, back]: [f64; 2]) -> Vec<[f64; 2]> {
+pub(crate) fn corners([left, right]: [f64; 2], [front, back]: [f64; 2]) -> Vec<[f64; 2]> {
     let along = if left < right { vec![left, right] } else { vec![left] };
     let mut all: Vec<_> = along.iter().map(|&x| [x, front]).collect();
     if front < back {
@@ -517,11 +524,11 @@ fn corners([left, right]: [f64; 2], [front, back]: [f64; 2]) -> Vec<[f64; 2]> {
 }
 
 /// Places between both ends, and between the edges of a part that extends along both sides of a plate.
-pub(crate) const BETWEEN: u32 = 7;
+const BETWEEN: u32 = 7;
 const BETWEEN_ON_PLATE: u32 = 2;
 
 /// Both ends, and so many places that lie evenly between them; one where both are the same.
-pub(crate) fn with_between([lo, hi]: [f64; 2], count: u32) -> Vec<f64> {
+fn with_between([lo, hi]: [f64; 2], count: u32) -> Vec<f64> {
     if lo >= hi {
         return vec![lo];
     }

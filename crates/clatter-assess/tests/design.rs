@@ -87,7 +87,7 @@ impl Text {
                 let lines: Vec<_> = self.limits.lines().filter(other).map(str::to_owned).collect();
                 text.limits = [lines, vec![format!("{key} = {to}")]].concat().join("\n");
             }
-            (lever, None) => panic!("{lever:?} of a part that is mounted rigidly"),
+            (lever, _) => panic!("{lever:?} of a bar, or of a part that is mounted rigidly"),
         }
         text
     }
@@ -222,7 +222,7 @@ fn can_be_specified(text: &Text, change: &Change) {
             assert!(is_multiple(1e3 * body.gyration_m(), 1.0), "{change:?}: {} m", body.gyration_m());
             return;
         }
-        Lever::Position => (Some(10.0), 1e3),
+        Lever::Position | Lever::Across => (Some(10.0), 1e3),
         Lever::ContactTime | Lever::Limit(LimitKind::RattleSpace) => (None, 1e3),
         Lever::Limit(LimitKind::Acceleration) => (None, 1.0 / 9.806_65),
         Lever::Limit(LimitKind::VelocityChange | LimitKind::AngularVelocityChange | LimitKind::DamageBoundary)

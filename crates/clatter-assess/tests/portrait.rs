@@ -110,6 +110,7 @@ fn changed(file: &ProductFile, component: &Component, lever: Lever, to: [f64; 2]
         Lever::Restitution => product.restitution = spread(to),
         Lever::ContactTime => product.contact_time_s = Some(spread(to)),
         Lever::Position => part.position_m = spread(to),
+        Lever::Across => part.across_m = spread(to),
         Lever::Frequency => {
             let Mount::Suspended { frequency_hz, .. } = &mut part.mount else { return None };
             *frequency_hz = spread(to);

@@ -24,7 +24,8 @@ use crate::{Failure, Streams, assess, budget, output, quantities, text};
 /// Tell which q and e meet the limits, and what would make each failing part safe
 ///
 /// Of a product file: every part that 'clatter assess' does not find safe with the margin, and for each thing that can
-/// be changed alone (the radius of gyration, the restitution e, the part's place, its natural frequency, its damping,
+/// be changed alone (the radius of gyration of a bar, the restitution e, the part's place, of a plate
+/// across it too, its natural frequency, its damping,
 /// the contact time by a bumper, the room that the part has, what it stands) the smallest change that makes it so, or that
 /// none does within the bounds. Values are rounded to what can be specified, two digits (places and the radius of gyration
 /// to 1 mm of 140 mm), and assessed again as they are printed; no mass is put outside of the body. Where no change alone is enough, two together, or how near one gets. Of goals (safe zones, in v0): where

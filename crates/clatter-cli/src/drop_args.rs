@@ -21,7 +21,7 @@ use crate::{Failure, Streams};
 use block::BlockArgs;
 pub(crate) use block::ExtraArgs as BesideBlock;
 use plate::PlateArgs;
-pub(crate) use plate::PlateSetup;
+pub(crate) use plate::{ExtraArgs as BesidePlate, PlateSetup};
 
 /// Largest radius of gyration over the length. A body beyond hardly turns, and clatters for hours.
 const MOST_GYRATION: f64 = 2.0;
@@ -117,9 +117,8 @@ pub(crate) struct ExtraArgs<'a> {
     pub(crate) first: Option<End>,
     /// Whether places that are typed are those of the product, whichever end touches first; else they are seen from the end that does.
     pub(crate) of_product: bool,
-    /// The worst drop of a product file instead of one value of each range.
-    pub(crate) worst: Option<(Worst, Accuracy)>,
-    pub(crate) files: Files<'a>,
+    /// The product file, if there is one.
+    pub(crate) file: Option<OneDrop>,
 }
 
 /// A drop with all that it needs.
@@ -195,19 +194,27 @@ impl DropArgs {
         }
     }
 
+    /// The product file, where there is one, with its drop: that of its ranges that asks most, or one value of each.
+    pub(crate) fn file(
+        &self,
+        first: Option<End>,
+        worst: Option<(Worst, Accuracy)>,
+        files: &Files<'_>,
+        streams: &mut Streams<'_>,
+    ) -> Result<Option<OneDrop>, Failure> {
+        let Some(path) = &self.product else { return Ok(None) };
+        let file = OneDrop::read(path, self.component.as_deref(), first, files, streams)?;
+        Ok(Some(match worst {
+            Some((of, accuracy)) => file.at_worst(of, &accuracy)?,
+            None => file,
+        }))
+    }
+
     /// The drop, over that of the product file where there is one.
-    pub(crate) fn setup(&self, beside: &ExtraArgs<'_>, streams: &mut Streams<'_>) -> Result<Setup, Failure> {
+    pub(crate) fn setup(&self, mut beside: ExtraArgs<'_>) -> Result<Setup, Failure> {
         self.plate.refuse()?;
-        let mut file = match &self.product {
-            Some(path) => {
-                let file = OneDrop::read(path, self.component.as_deref(), beside.first, &beside.files, streams)?;
-                Some(match &beside.worst {
-                    Some((of, accuracy)) => file.at_worst(*of, accuracy)?,
-                    None => file,
-                })
-            }
-            None => None,
-        };
+        let mut file = beside.file.take();
+        let beside = &beside;
         let mut notes = self.slips(beside);
         let mirrored = file.as_ref().map_or(beside.first == Some(End::B), OneDrop::is_mirrored);
         if let Some(file) = file.as_mut().filter(|_| mirrored && !beside.of_product) {
@@ -265,7 +272,7 @@ impl DropArgs {
         let turned = mirrored && beside.of_product;
         let (center_of_mass, body) = self.body(half, beside, e, file.as_mut(), if turned { -1.0 } else { 1.0 })?;
         let scene = self.scene(body, e, [speed, height_m], tilt_deg, gravity)?;
-        let part = file.as_mut().map(|file| file.part(half)).transpose()?.flatten();
+        let part = file.as_mut().map(|file| file.part([half, 0.0])).transpose()?.flatten();
         let shown = self.shown(length.and_then(|length| length.unit), beside, file.as_ref());
         let law = self.contact_law.map(|law| law.0).or(file.as_ref().map(OneDrop::contact_law)).unwrap_or_default();
         if let Some(mut file) = file {

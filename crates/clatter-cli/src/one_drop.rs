@@ -5,7 +5,7 @@ use std::path::Path;
 use clatter::End;
 use clatter_assess::units::{Quantity, Unit};
 use clatter_assess::{
-    Accuracy, Component, Damping, Fall, First, Limit, LimitKind, Limits, Mount, ProductFile, Spread, WorstCase,
+    Accuracy, Component, Damping, Fall, First, Limit, LimitKind, Limits, Mount, ProductFile, Spread, Width, WorstCase,
 };
 use clatter_flight::ContactLaw;
 use clatter_shock::DampingRatio;
@@ -21,10 +21,10 @@ use crate::{Failure, Streams, assess};
 #[derive(Debug, Clone)]
 pub(crate) struct PartSetup {
     pub(crate) name: String,
-    /// Its middle, as the drop is seen.
-    pub(crate) place: Place,
-    /// Where its worst place is one of, in m from the middle of the product towards end b.
-    pub(crate) places_m: Vec<f64>,
+    /// Its middle, of a bar as the drop is seen; along the product and across a plate.
+    pub(crate) place: [Place; 2],
+    /// Where its worst place is one of, in m from the middle of the product.
+    pub(crate) places_m: Vec<[f64; 2]>,
     pub(crate) limits: Limits,
     /// The same as numbers.
     pub(crate) allowed: Vec<Limit>,
@@ -84,10 +84,10 @@ impl OneDrop {
         streams: &mut Streams<'_>,
     ) -> Result<Self, Failure> {
         let file = assess::read(path, files, streams)?;
-        if file.product.width.is_some() {
+        if !file.landings.is_empty() {
             let path = crate::text::path(path);
             return Err(Failure::Wrong(format!(
-                "{path} is of a plate: give its drop by --width, --gyration=KX,KY and so on, as the command below a worst drop does"
+                "{path} lands on a face, an edge or a corner: give the drop by --thickness and --orientation, as the command below a worst drop does"
             )));
         }
         let found = match component {
@@ -110,6 +110,8 @@ impl OneDrop {
         let mut notes = Vec::new();
         let first = first.unwrap_or_else(|| match file.drop.first {
             First::End(end) => end,
+            // Of a plate its direction tells the corner.
+            First::Either if file.product.width.is_some() => End::A,
             First::Either => {
                 notes.push("either end may touch first: taken is end a".to_owned());
                 End::A
@@ -137,7 +139,7 @@ impl OneDrop {
             return Err(Failure::Wrong(format!("no worst drop is known: {why}")));
         };
         let limit = found.limit.name();
-        self.mirrored = worst.drop.first == End::B;
+        self.mirrored = worst.drop.first == End::B && !self.is_plate();
         self.notes = vec![format!("the worst drop of its ranges, for the {limit} limit: {}", drop(worst))];
         self.worst = Some(*worst);
         Ok(self)
@@ -146,6 +148,10 @@ impl OneDrop {
     /// Whether both ends land as one.
     pub(crate) fn is_flat(&self) -> bool {
         self.worst.as_ref().is_some_and(|worst| worst.drop.flat)
+    }
+
+    pub(crate) fn is_plate(&self) -> bool {
+        self.file.product.width.is_some()
     }
 
     pub(crate) fn is_mirrored(&self) -> bool {
@@ -216,6 +222,20 @@ impl OneDrop {
         }
         neat(Self::take(&mut self.notes, "tilt", &self.file.drop.tilt_rad, Taken::Middle, "rad").to_degrees())
     }
+    /// Where a plate rises to.
+    pub(crate) fn direction_deg(&mut self) -> f64 {
+        if let Some(direction) = self.worst.as_ref().and_then(WorstCase::direction_deg) {
+            return direction;
+        }
+        let Some(spread) = &self.file.drop.direction_rad else {
+            self.notes.push("it may rise to any direction: taken is 45 deg, corner a first".to_owned());
+            return 45.0;
+        };
+        neat(Self::take(&mut self.notes, "direction", spread, Taken::Middle, "rad").to_degrees())
+    }
+    pub(crate) fn width(&self) -> Option<Width> {
+        self.file.product.width
+    }
     pub(crate) fn gravity_m_s2(&self) -> f64 {
         self.file.drop.gravity_m_s2
     }
@@ -234,20 +254,21 @@ impl OneDrop {
         self.component.and_then(|i| self.file.components.get(i))
     }
 
-    /// The part on a body of this half-length; none where it is not named.
-    pub(crate) fn part(&mut self, half_m: f64) -> Result<Option<PartSetup>, Failure> {
+    /// The part on a body of these half-sides, across 0 of a bar; none where it is not named.
+    pub(crate) fn part(&mut self, halves_m: [f64; 2]) -> Result<Option<PartSetup>, Failure> {
         let Some(component) = self.component().cloned() else { return Ok(None) };
         let notes = &mut self.notes;
-        let (position_m, places_m) = if let Some(worst) = &self.worst {
-            let mut places_m = along(component.places_m());
-            places_m.push(worst.part.position_m);
-            (worst.part.position_m, places_m)
+        let (at_m, places_m) = if let Some(WorstCase { part, .. }) = &self.worst {
+            let at_m = [part.position_m, part.across_m];
+            (at_m, component.places_m().into_iter().chain([at_m]).collect())
         } else {
-            let middle = Self::take(notes, "position", &component.position_m, Taken::Middle, "m");
-            (middle, along(component.places_at_m(middle)))
+            let along = Self::take(notes, "position", &component.position_m, Taken::Middle, "m");
+            let across = Self::take(notes, "position across", &component.across_m, Taken::Middle, "m");
+            ([along, across], component.places_at_m([along, across]))
         };
         let side = if self.mirrored { -1.0 } else { 1.0 };
-        let length = Quantity { si: side * position_m, unit: component.position_m.unit() };
+        let place = |si, spread: &Spread| Place::Length(Quantity { si, unit: spread.unit() });
+        let place = [place(side * at_m[0], &component.position_m), place(at_m[1], &component.across_m)];
         let suspension = match component.mount {
             Mount::Hard => None,
             Mount::Suspended { frequency_hz, damping } => {
@@ -261,16 +282,18 @@ impl OneDrop {
                 })
             }
         };
-        let farthest = places_m.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        if farthest > half_m * (1.0 + 1e-9) {
-            return Err(Failure::Wrong(format!(
-                "the component is {} m from the middle of a body of {} m: its position is beyond the end",
-                given(neat(farthest)),
-                given(neat(2.0 * half_m))
-            )));
+        for (side, half_m) in halves_m.into_iter().enumerate() {
+            let farthest = places_m.iter().fold(0.0_f64, |most, at| most.max(at[side].abs()));
+            if farthest > half_m * (1.0 + 1e-9) {
+                return Err(Failure::Wrong(format!(
+                    "the component is {} m from the middle of a body of {} m: its position is beyond the end",
+                    given(neat(farthest)),
+                    given(neat(2.0 * half_m))
+                )));
+            }
         }
         Ok(Some(PartSetup {
-            place: Place::Length(length),
+            place,
             places_m,
             suspension,
             allowed: Limit::of(&component),
@@ -302,9 +325,4 @@ impl OneDrop {
         self.component()
             .and_then(|component| component.limits.unit(LimitKind::Acceleration, LimitKind::Acceleration.unit()))
     }
-}
-
-/// Places along a bar.
-fn along(places_m: Vec<[f64; 2]>) -> Vec<f64> {
-    places_m.into_iter().map(|[x, _]| x).collect()
 }

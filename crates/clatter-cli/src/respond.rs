@@ -14,13 +14,13 @@ use std::path::PathBuf;
 use clap::ValueHint;
 use clatter::Bar;
 use clatter_assess::units::Quantity;
-use clatter_assess::{Model, Slip, slip};
+use clatter_assess::{Accuracy, Model, Slip, slip};
 use clatter_shock::{DampingRatio, ShockTable, Suspension};
 
 use crate::block::Axis;
 use crate::drop_args::{DropArgs, IN_SI};
 use crate::inputs::{self, DampingArgs, EndName, Format};
-use crate::one_drop::Worst;
+use crate::one_drop::{OneDrop, Worst};
 use crate::output::{Files, Kind, Target};
 use crate::quantities::{self, PerAxis, Piece, Place};
 use crate::{Failure, Streams, excitation};
@@ -170,7 +170,7 @@ const CLATTER: [&str; 10] =
     ["q", "gyration_ratio", "gyration", "gyration_m", "mass", "e", "at", "velocity", "height_gap", "followed"];
 
 /// What says how a drop is, that of a product file apart.
-const OF_ONE_DROP: [&str; 26] = [
+const OF_ONE_DROP: [&str; 29] = [
     "first",
     "at",
     "e",
@@ -192,6 +192,9 @@ const OF_ONE_DROP: [&str; 26] = [
     "height_m",
     "tilt",
     "tilt_deg",
+    "direction",
+    "direction_deg",
+    "product_of_inertia_m2",
     "gravity",
     "gravity_m_s2",
     "contact_time",
@@ -275,10 +278,16 @@ impl Args {
             ));
         }
         if self.drop.is_plate() {
-            return self.run_plate(streams);
+            return self.run_plate(None, streams);
         }
-        if self.model.is_some() || self.drop.product.is_some() {
-            return self.run_drop(streams);
+        let accuracy = Accuracy { tolerance: self.tolerance, model: self.model, ..Accuracy::default() };
+        let worst = self.worst.map(|of| (of, accuracy));
+        let file = self.drop.file(self.first.map(Into::into), worst, &self.files(), streams)?;
+        if file.as_ref().is_some_and(OneDrop::is_plate) {
+            return self.run_plate(file, streams);
+        }
+        if self.model.is_some() || file.is_some() {
+            return self.run_drop(file, streams);
         }
         let train = self.train()?;
         if let Some(target) = &self.output {
@@ -293,8 +302,8 @@ impl Args {
         Ok(())
     }
 
-    fn run_drop(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        let drop = self.drop_by(streams)?;
+    fn run_drop(&self, file: Option<OneDrop>, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        let drop = self.drop_by(file)?;
         match self.format {
             Format::Table => drop.table(streams.out).map_err(Failure::Answer),
             Format::Json => streams.json(drop.answer()),
@@ -340,6 +349,11 @@ impl Args {
     /// The natural angular frequency that was given.
     fn omega(&self) -> Option<f64> {
         self.omega.or(self.frequency.map(|frequency| TAU * frequency.si))
+    }
+
+    /// An input: what was typed as it was, what a search found to six digits.
+    fn shortly(&self, x: f64) -> f64 {
+        if self.worst.is_some() { format!("{x:.5e}").parse().unwrap_or(x) } else { x }
     }
 
     /// A question that has no answer; of a natural frequency with the option that gives it.

@@ -23,12 +23,12 @@ use crate::{Exit, Failure, Streams, assess, budget, output, quantities};
 /// Tell how likely each part of a product survives, and what that hangs on
 ///
 /// Draws drops and parts of the product from the distributions in its file (a plain range counts as equally likely all
-/// over it; with first = "either" both ends are) and compares what each part goes through with its limits. Drops are
+/// over it; with first = "either" both ends are, and every direction of a plate without one) and compares what each part goes through with its limits. Drops are
 /// answered as 'clatter assess' answers them, by the model with the most physics that the file allows. The probability that
 /// a part survives comes with an interval that holds the truth at least as often as it says, and with what it is at
 /// least; what answers may be off by widens both.
 ///
-/// Where many are asked for, a cheap model answers more drops than that, and the fuller one a share of them as well: the
+/// Where many of a bar are asked for, a cheap model answers more drops than that, and the fuller one a share of them as well: the
 /// mean difference of both verdicts is added (two-level Monte Carlo), so that nothing that the cheap model gets wrong is
 /// left. A first batch chooses the share, so that the interval for all parts is as wide as that of N drops; the interval
 /// of a part that fails less often may be wider. Where that saves nothing, it says so and answers each by the fuller
@@ -158,6 +158,7 @@ impl Args {
 fn title(file: &ProductFile, column: Column) -> String {
     match column {
         Column::First => "first".to_owned(),
+        Column::DirectionDeg => "direction_deg".to_owned(),
         Column::SpeedMS => "speed_m_s".to_owned(),
         Column::TiltDeg => "tilt_deg".to_owned(),
         Column::Restitution => "restitution".to_owned(),
@@ -166,6 +167,7 @@ fn title(file: &ProductFile, column: Column) -> String {
         Column::FrequencyHz(i) => format!("frequency_hz of {}", name_of(file, i)),
         Column::DampingRatio(i) => format!("damping_ratio of {}", name_of(file, i)),
         Column::PositionM(i) => format!("position_m of {}", name_of(file, i)),
+        Column::AcrossM(i) => format!("position_across_m of {}", name_of(file, i)),
         Column::Limit(i, kind) => format!("{} limit of {}", kind.name(), name_of(file, i)),
         Column::CriticalAccelerationMS2(i) => format!("critical_acceleration_m_s2 of {}", name_of(file, i)),
         Column::Model => "model".to_owned(),

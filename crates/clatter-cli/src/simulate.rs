@@ -13,6 +13,7 @@ use clatter_flight::{Contact, Model as Physics, Stop};
 
 use crate::drop_args::{DropArgs, ExtraArgs, IN_SI, Setup};
 use crate::inputs::{self, RowFormat};
+use crate::one_drop::OneDrop;
 use crate::output::{Files, Kind, Target};
 use crate::quantities::{self, PerAxis, Piece, Place};
 use crate::{Failure, Streams};
@@ -34,7 +35,7 @@ use crate::{Failure, Streams};
 ///
 /// With --width the body is a plate, followed by map or compliant at small tilt: corner a touches first, b
 /// is the one along its length, d along its width, c opposite. Its mass, center and places take two values,
-/// along the length and along the width.
+/// along the length and along the width. A product file with a width is such a plate.
 ///
 /// The table lists the strikes that matter, whose largest shock is at least 1 % of the largest of all,
 /// and sums up the others; --all lists every one, as JSON and CSV do.
@@ -170,9 +171,13 @@ impl Args {
             return self.block(streams);
         }
         if self.drop.is_plate() {
-            return self.run_plate(streams);
+            return self.run_plate(None, streams);
         }
-        let drop = self.drop(streams)?;
+        let file = self.drop.file(None, None, &self.files(), streams)?;
+        if file.as_ref().is_some_and(OneDrop::is_plate) {
+            return self.run_plate(file, streams);
+        }
+        let drop = self.drop(file)?;
         if let Some(target) = &self.output {
             drop.write(target)?;
         }
@@ -194,7 +199,7 @@ impl Args {
         self.time_limit_s.or(self.until.map(|until| until.si))
     }
 
-    fn drop(&self, streams: &mut Streams<'_>) -> Result<Drop<'_>, Failure> {
+    fn drop(&self, file: Option<OneDrop>) -> Result<Drop<'_>, Failure> {
         let mass = &self.inertia.mass;
         let beside = ExtraArgs {
             flat: false,
@@ -205,10 +210,9 @@ impl Args {
             instant_contacts: false,
             first: None,
             of_product: false,
-            worst: None,
-            files: self.files(),
+            file,
         };
-        let mut setup = self.drop.setup(&beside, streams)?;
+        let mut setup = self.drop.setup(beside)?;
         let (spin, flag) = match (self.spin, self.spin_rad_s) {
             (Some(spin), _) => (spin.si, "--spin"),
             (None, Some(spin)) => (spin.of_bar("--spin-rad-s")?, "--spin-rad-s"),
@@ -218,7 +222,7 @@ impl Args {
         setup.shown.time.unit = setup.shown.time.unit.or(self.until.and_then(|until| until.unit));
         let scene = setup.scene.with_spin(spin).map_err(Failure::flag(flag))?.with_impact_limit(self.impact_limit)?;
         setup.scene = self.time_limit_s().map_or(Ok(scene), |limit| scene.with_time_limit_s(limit))?;
-        let of_part = setup.part.iter().map(|part| part.place).filter(|_| self.at.is_empty());
+        let of_part = setup.part.iter().map(|part| part.place[0]).filter(|_| self.at.is_empty());
         let at = self.at.iter().map(|place| place.of_bar("--at")).collect::<Result<Vec<_>, _>>()?;
         let places: Vec<Place> = at.into_iter().chain(of_part).collect();
         let at = quantities::positions(&places, "--at", 0.5 * setup.length_m)?;

@@ -1,7 +1,7 @@
 //! Error over cost: what every model gets wrong on one drop and how long it takes, the cheapest within the tolerance ringed.
 
 use clatter_assess::Model;
-use clatter_assess::ladder::{Ladder, Measured};
+use clatter_assess::ladder::{Ladder, Measured, Rung};
 
 use crate::FigureError;
 use crate::axis::{Axis, step_up, tick};
@@ -71,6 +71,16 @@ pub fn words(model: Model) -> &'static str {
     }
 }
 
+/// The same of what answers a drop.
+fn of_rung(rung: Rung) -> &'static str {
+    match rung {
+        Rung::Model(model) => words(model),
+        Rung::Bar => "bar along the length",
+        Rung::Plate => "plate of small tilt",
+        Rung::Block => "box",
+    }
+}
+
 /// The error axis: its low end, where the strip begins, its high end, as shares.
 fn errors(ladder: &Ladder, tolerance: f64) -> [f64; 3] {
     let strip = ladder.reference.tolerance;
@@ -110,7 +120,7 @@ fn panel(paper: &mut Paper, [left, top]: Pt, of: &Panel<'_>) {
     shown.sort_by_key(|m| !is_cheapest(m));
     let wanted: Vec<Wanted<'_>> = shown
         .iter()
-        .map(|m| Wanted { at: place(m), radius: if is_cheapest(m) { RING } else { MARK }, text: words(m.model) })
+        .map(|m| Wanted { at: place(m), radius: if is_cheapest(m) { RING } else { MARK }, text: of_rung(m.model) })
         .collect();
     let lines = [100.0 * of.tolerance, 100.0 * strip].map(|y| {
         let y = axes.at(axes.x.low, y)[1];
@@ -138,8 +148,8 @@ fn panel(paper: &mut Paper, [left, top]: Pt, of: &Panel<'_>) {
 /// What is drawn, in which drop, what is the cheapest, and why no cheaper one.
 fn head(paper: &mut Paper, [left, top]: Pt, of: &Panel<'_>) {
     let room = LEFT + FRAME[0] - 4.0;
-    let cheapest = format!("Cheapest within {} %: {}", tick(100.0 * of.tolerance), words(of.ladder.cheapest));
-    let useless = of.ladder.models.iter().filter(|m| m.error > MOST).map(|m| words(m.model)).collect::<Vec<_>>();
+    let cheapest = format!("Cheapest within {} %: {}", tick(100.0 * of.tolerance), of_rung(of.ladder.cheapest));
+    let useless = of.ladder.models.iter().filter(|m| m.error > MOST).map(|m| of_rung(m.model)).collect::<Vec<_>>();
     let cheapest = match &useless[..] {
         [] => cheapest,
         names => format!("{cheapest}; off the scale: {}", names.join(", ")),
@@ -158,16 +168,16 @@ fn head(paper: &mut Paper, [left, top]: Pt, of: &Panel<'_>) {
 }
 
 /// Square where the answer is a closed form, round where the drop is followed; darker with more physics.
-fn mark(paper: &mut Paper, [x, y]: Pt, model: Model) {
-    let fill = match model {
-        Model::NetChange | Model::LargestShock => "#ffffff",
-        Model::Map => BLUES[2],
-        Model::Ballistic => BLUES[4],
-        Model::FiniteTilt => BLUES[6],
-        Model::Compliant => BLUES[8],
+fn mark(paper: &mut Paper, [x, y]: Pt, rung: Rung) {
+    let fill = match rung {
+        Rung::Model(Model::NetChange | Model::LargestShock) => "#ffffff",
+        Rung::Model(Model::Map) | Rung::Bar => BLUES[2],
+        Rung::Model(Model::Ballistic) => BLUES[4],
+        Rung::Model(Model::FiniteTilt) | Rung::Plate => BLUES[6],
+        Rung::Model(Model::Compliant) | Rung::Block => BLUES[8],
     };
     let ink = Ink { stroke: INK, width: 0.7, ..Ink::fill(fill) };
-    if model < Model::Map {
+    if rung < Rung::Model(Model::Map) {
         paper.rect([x - 0.85 * MARK, y - 0.85 * MARK], [1.7 * MARK, 1.7 * MARK], ink);
     } else {
         paper.circle([x, y], MARK, ink);

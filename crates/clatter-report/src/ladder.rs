@@ -15,8 +15,11 @@ fn of_limit(limit: &LimitLadder, tolerance: f64) -> Panel<'_> {
     Panel {
         title: format!("{}: {}", words::name(component), kind.words()),
         drop: format!(
-            "end {} first at {} m/s, {}°, e = {}",
-            words::end(worst.drop.first),
+            "{} at {} m/s, {}°, e = {}",
+            match worst.direction_deg() {
+                Some(direction) => format!("a plate that rises to {}°", three(direction)),
+                None => format!("end {} first", words::end(worst.drop.first)),
+            },
             three(worst.drop.speed_m_s),
             three(worst.tilt_deg()),
             three(worst.drop.restitution)

@@ -1,7 +1,7 @@
 //! Corners that land at one instant, or nearly: what rigid impacts and contacts that take time make of it.
 
 use clatter::{Bar, Corner, End, Plate, PlateStart, Start};
-use clatter_assess::PlateDrop;
+use clatter_assess::{Limit, LimitKind, Model, Part, SingleDrop, answer};
 use clatter_flight::{Contact, ContactLaw, PlateScene};
 use rayon::prelude::*;
 
@@ -19,15 +19,15 @@ const TOLERANCE: f64 = 1e-3;
 fn felt(law: ContactLaw, gap: f64, r: f64) -> Result<Felt, Error> {
     let plate = clatter_flight::Plate::new([1.0; 4], [(1.0_f64 / 3.0).sqrt(); 2])?;
     let height = gap * CONTACT_S;
-    let drop = PlateDrop {
-        scene: PlateScene::new(plate, 1.0, [height * (1.0 - r), height * r], 0.0)?,
-        contact: Contact::new(law, E, CONTACT_S)?,
-    };
+    let contact = Contact::new(law, E, CONTACT_S)?;
+    let scene = PlateScene::new(plate, 1.0, [height * (1.0 - r), height * r], 0.0)?;
+    let drop = SingleDrop::of_plate(&scene, &contact)?;
     let mut felt = Felt { shocks: [0.0; 4], peak: 0.0 };
-    for (shock, corner) in felt.shocks.iter_mut().zip(plate.corners_m()) {
-        let answers = drop.answers(corner, None, TOLERANCE)?;
-        *shock = answers.velocity_change.value;
-        felt.peak = felt.peak.max(answers.acceleration.value / drop.contact.peak_per_change());
+    for (shock, [x, across_m]) in felt.shocks.iter_mut().zip(plate.corners_m()) {
+        let part = Part { across_m, ..Part::new(x, None) };
+        let asked = |kind| answer(&drop, &part, &Limit::new(kind, 1.0), Model::Compliant, TOLERANCE);
+        *shock = asked(LimitKind::VelocityChange)?.value;
+        felt.peak = felt.peak.max(asked(LimitKind::Acceleration)?.value / contact.peak_per_change());
     }
     Ok(felt)
 }

@@ -13,12 +13,13 @@
 //! ```
 
 use clatter::End;
-use clatter_assess::{LimitKind, Model, Part, SingleDrop, Unit};
+use clatter_assess::{LimitKind, Model, Part, SingleDrop};
 use clatter_flight::{ContactLaw, Scene};
 use clatter_shock::{ShockTable, Suspension};
 use serde::Serialize;
 
-use super::{Equivalent, Factors, Largest, LargestValues, Peaks, swings};
+use super::limits::{Asked, unlimited, value};
+use super::{Equivalent, Factors, LargestValues, Limit, Peaks, Position, swings};
 use crate::{Error, Json, letter, on_body};
 
 /// A drop of a bar and a part of it.
@@ -89,28 +90,6 @@ impl Question {
             contact_law: self.contact_law,
         }
     }
-
-    /// What is asked of a limit at a place of the scene; none where nothing is felt, or where it is not known.
-    fn felt(
-        &self,
-        limit: &clatter_assess::Limit,
-        position_m: f64,
-        part: Option<Suspension>,
-    ) -> Result<Option<clatter_assess::Answer>, Error> {
-        let suspension = part.filter(|_| limit.is_response());
-        match self.asked(limit, &Part::new(position_m, suspension)) {
-            Err(clatter_assess::Error::Unfinished | clatter_assess::Error::Contact) => Ok(None),
-            answer => Ok(Some(answer?)),
-        }
-    }
-
-    fn asked(
-        &self,
-        limit: &clatter_assess::Limit,
-        part: &Part,
-    ) -> Result<clatter_assess::Answer, clatter_assess::Error> {
-        clatter_assess::answer(&self.drop(), part, limit, self.model, self.tolerance)
-    }
 }
 
 /// What a drop does to a part and at its place.
@@ -177,60 +156,6 @@ pub struct Answer {
     pub equivalent: Option<Equivalent>,
 }
 
-/// One limit of a part in one drop; null where nothing is felt, or where it is not known.
-#[derive(Debug, Clone, Copy, Serialize)]
-#[non_exhaustive]
-pub struct Limit {
-    /// What is limited.
-    pub limit: LimitKind,
-    /// SI.
-    pub unit: Unit,
-    /// In the unit.
-    pub allowed: Json,
-    /// In the unit: the demand of an assessment.
-    pub value: Option<Json>,
-    /// Value over allowed.
-    pub share: Option<Json>,
-    /// The place that asks most, from the middle of the product towards end b.
-    pub position_m: Json,
-    /// Number of the impact.
-    pub impact: Option<u64>,
-    /// Since the first touch.
-    pub time_s: Option<Json>,
-    /// As a share of the value.
-    pub error: Option<Json>,
-    /// The place in [−1, 1].
-    #[serde(skip)]
-    pub at: f64,
-}
-
-impl Limit {
-    fn new(limit: &clatter_assess::Limit, at: f64, half_m: f64, answer: Option<clatter_assess::Answer>) -> Self {
-        Self {
-            limit: limit.kind,
-            unit: answer.map_or(limit.kind.unit(), |answer| answer.unit),
-            allowed: Json(answer.map_or(limit.allowed, |answer| answer.allowed)),
-            value: answer.map(|answer| Json(answer.value)),
-            share: answer.map(|answer| Json(answer.utilization())),
-            position_m: Json(at * half_m),
-            impact: answer.map(|answer| answer.impact),
-            time_s: answer.map(|answer| Json(answer.time_s)),
-            error: answer.map(|answer| Json(answer.error())),
-            at,
-        }
-    }
-
-    /// Below every share where nothing is known.
-    fn of_allowed(&self) -> f64 {
-        self.share.map_or(-1.0, |share| share.0)
-    }
-}
-
-/// What is not felt is 0.
-fn value(largest: Option<Largest>) -> Json {
-    largest.map_or(Json(0.0), |largest| largest.value)
-}
-
 /// Follows one drop until nothing later counts.
 ///
 /// # Errors
@@ -241,22 +166,22 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
     let Some(&at_first) = at.first() else { return Err(clatter_shock::Error::Empty("the list of places").into()) };
     let (body, side) = (scene.body(), if first == End::A { 1.0 } else { -1.0 });
     let half_m = 0.5 * body.length_m();
-    // Nothing is allowed or forbidden by these: the value alone counts.
-    let unlimited = |kind| clatter_assess::Limit::new(kind, 1.0);
+    let asked = Asked { drop: question.drop(), model, tolerance };
     // The end that touches first feels every drop: where not even that is answered, none is.
-    question.asked(&unlimited(LimitKind::VelocityChange), &Part::new(-half_m, None))?;
+    asked.answer(&unlimited(LimitKind::VelocityChange), &Part::new(-half_m, None))?;
     swings(suspension.as_ref())?;
-    let limits = question.limits.as_ref().map(|limits| of_limits(question, limits, half_m, side)).transpose()?;
-    let tightest = limits.iter().flatten().filter(|limit| limit.share.is_some());
-    let tightest = tightest.max_by(|a, b| a.of_allowed().total_cmp(&b.of_allowed()));
-    let at = tightest.map_or(at_first, |limit| limit.at);
-    let position_m = side * at * half_m;
-    let largest = |kind, part| Ok::<_, Error>(question.felt(&unlimited(kind), position_m, part)?.map(Largest::from));
+    let place = |at: &f64| ([side * at * half_m, 0.0], Position::Along(Json(at * half_m)));
+    let places: Vec<_> = at.iter().map(place).collect();
+    let limits = question.limits.as_ref().map(|limits| asked.limits(limits, &places, suspension)).transpose()?;
+    let tightest = limits.as_ref().and_then(|limits| Limit::tightest(limits));
+    let at = tightest.map_or(at_first, |limit| at[limit.place]);
+    let at_m = [side * at * half_m, 0.0];
+    let largest = |kind, part| asked.largest(kind, at_m, part);
     let velocity_change = largest(LimitKind::VelocityChange, None)?;
     let acceleration = question.contact_time_s.map_or(Ok(None), |_| largest(LimitKind::Acceleration, None))?;
     let angular_velocity_change = largest(LimitKind::AngularVelocityChange, None)?;
     let of_part = |part: Suspension| {
-        let response = clatter_assess::respond(&question.drop(), position_m, &part, model, tolerance)?;
+        let response = clatter_assess::respond(&asked.drop, at_m, &part, model, tolerance)?;
         let equivalent = question.shock_table.map(|table| Equivalent::new(&table, &part, &response)).transpose()?;
         let values = [largest(LimitKind::Acceleration, suspension)?, largest(LimitKind::RattleSpace, suspension)?];
         let at_once = Factors::at_once(part.damping(), scene.e(), scene.speed_m_s());
@@ -302,25 +227,4 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
         part,
         equivalent,
     })
-}
-
-/// Every limit at the worst of the places.
-fn of_limits(
-    question: &Question,
-    limits: &[clatter_assess::Limit],
-    half_m: f64,
-    side: f64,
-) -> Result<Vec<Limit>, Error> {
-    let mut found = Vec::with_capacity(limits.len());
-    for limit in limits {
-        let mut worst: Option<Limit> = None;
-        for &at in &question.at {
-            let one = Limit::new(limit, at, half_m, question.felt(limit, side * at * half_m, question.suspension)?);
-            if worst.is_none_or(|worst| one.of_allowed() > worst.of_allowed()) {
-                worst = Some(one);
-            }
-        }
-        found.extend(worst);
-    }
-    Ok(found)
 }

@@ -1,54 +1,86 @@
-//! A part on a plate in one drop, with contacts that take time.
+//! A part on a plate in one drop, with contacts that take time, answered as an assessment answers it.
 //!
 //! ```
 //! use clatter_answer::respond::plate;
-//! use clatter_assess::PlateDrop;
 //! use clatter_flight::{Contact, ContactLaw, Plate, PlateScene};
 //! // The middle of a phone of 150 by 70 mm that falls at 4.43 m/s, with b 2 mm and d 1 mm higher as a touches.
 //! let phone = Plate::new([0.075, 0.075, 0.035, 0.035], [0.0433, 0.0202])?;
 //! let scene = PlateScene::new(phone, 4.43, [2e-3, 1e-3], 9.806_65)?;
-//! let drop = PlateDrop { scene, contact: Contact::new(ContactLaw::Hysteretic, 0.3, 4e-4)? };
-//! let answer = plate::answer(&plate::Question::new(drop, [0.0, 0.0]))?;
+//! let contact = Contact::new(ContactLaw::Hysteretic, 0.3, 4e-4)?;
+//! let answer = plate::answer(&plate::Question::new(scene, contact, [0.0, 0.0]))?;
 //! assert!(answer.velocity_change_m_s.0 > 0.0 && answer.acceleration_m_s2.0 > 0.0);
 //! # Ok::<(), clatter_answer::Error>(())
 //! ```
 
-use clatter_assess::PlateDrop;
+use clatter::Corner;
+use clatter_assess::{LimitKind, Model, Part, SingleDrop};
+use clatter_flight::{Contact, PlateScene};
 use clatter_shock::{ShockTable, Suspension};
 use serde::Serialize;
 
-use super::{Equivalent, Factors, LargestValues, Peaks, swings};
+use super::limits::{Asked, unlimited, value};
+use super::{Equivalent, Factors, LargestValues, Limit, Peaks, Position, swings};
 use crate::simulate::plate::told;
 use crate::{Error, Json, on_plate};
 
-/// A drop of a plate, corner a first, and a part of it.
+/// A drop of a plate and a part of it.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Question {
-    /// The drop.
-    pub drop: PlateDrop,
-    /// Where the part is, in half-lengths and half-widths from the middle.
-    pub at: [f64; 2],
+    /// The drop, corner a first.
+    pub scene: PlateScene,
+    /// What the ground does to a corner.
+    pub contact: Contact,
+    /// Whether length and width of the product run the other way than those of the scene, so that another corner of it is a there.
+    pub mirrored: [bool; 2],
+    /// Where on the product the part may be, in half-lengths and half-widths from the middle: of several the place is answered that asks
+    /// most of a limit, else the first.
+    pub at: Vec<[f64; 2]>,
     /// The part; none that is mounted rigidly.
     pub suspension: Option<Suspension>,
+    /// Limits of the part that are held against the drop.
+    pub limits: Option<Vec<clatter_assess::Limit>>,
     /// How exact the answer is for the model, as a share of it.
     pub tolerance: f64,
     /// A table whose half-sine is to do the same to the part.
     pub shock_table: Option<ShockTable>,
-    /// Center of mass in half-lengths and half-widths, as it is told.
+    /// Center of mass of the scene in half-lengths and half-widths, as it is told.
     pub center_of_mass: [f64; 2],
     /// The steepest slope at the first touch in degrees, as it is told.
     pub tilt_deg: f64,
-    /// Where it rises from corner a, from 0° along the length to 90°, as it is told; none of a level plate.
+    /// Where the product rises to from its lowest corner, from 0° along its length to 90° along its width, as it is told; none of a level
+    /// plate.
     pub direction_deg: Option<f64>,
 }
 
 impl Question {
     /// Of a place on which a part is mounted rigidly, to 1 %; all told as the scene has it.
     #[must_use]
-    pub fn new(drop: PlateDrop, at: [f64; 2]) -> Self {
-        let (center_of_mass, tilt_deg, direction_deg) = told(&drop.scene);
-        Self { drop, at, suspension: None, tolerance: 0.01, shock_table: None, center_of_mass, tilt_deg, direction_deg }
+    pub fn new(scene: PlateScene, contact: Contact, at: [f64; 2]) -> Self {
+        let (center_of_mass, tilt_deg, direction_deg) = told(&scene);
+        Self {
+            scene,
+            contact,
+            mirrored: [false; 2],
+            at: vec![at],
+            suspension: None,
+            limits: None,
+            tolerance: 0.01,
+            shock_table: None,
+            center_of_mass,
+            tilt_deg,
+            direction_deg,
+        }
+    }
+
+    /// The corner of the product that touches first.
+    fn first(&self) -> Corner {
+        match self.mirrored {
+            [false, false] => Corner::A,
+            [true, false] => Corner::B,
+            [true, true] => Corner::C,
+            [false, true] => Corner::D,
+        }
     }
 }
 
@@ -58,6 +90,8 @@ impl Question {
 pub struct Answer {
     /// What was kept of the drop: contacts that take time.
     pub model: &'static str,
+    /// The corner that touches first.
+    pub first: char,
     /// From edge to edge.
     pub length_m: Json,
     /// From edge to edge.
@@ -74,7 +108,7 @@ pub struct Answer {
     pub tilt_deg: Json,
     /// None of a plate that falls level.
     pub direction_deg: Option<Json>,
-    /// Heights of b and d as a touches.
+    /// Heights of the corners next to the first one as it touches, along the length and along the width.
     pub gaps_m: [Json; 2],
     /// Of gravity.
     pub gravity_m_s2: Json,
@@ -84,8 +118,11 @@ pub struct Answer {
     pub contact_law: &'static str,
     /// Asked for.
     pub tolerance: Json,
-    /// The place.
+    /// The place that is answered.
     pub at: [Json; 2],
+    /// The limits that were given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limits: Option<Vec<Limit>>,
     /// The part and its peaks.
     #[serde(flatten)]
     pub part: Option<Peaks>,
@@ -111,24 +148,51 @@ pub struct Answer {
 /// Follows one drop until nothing later counts.
 ///
 /// # Errors
-/// A place off the plate; a part too slow or too fast; those of [`PlateDrop::answers`].
+/// No place or one off the plate; a part too slow or too fast; those of [`SingleDrop::of_plate`] and of [`clatter_assess::answer`].
 pub fn answer(question: &Question) -> Result<Answer, Error> {
-    let Question { drop, at, suspension, tolerance, .. } = question;
-    on_plate(&[*at])?;
-    swings(suspension.as_ref())?;
-    let (plate, scene, contact) = (drop.scene.plate(), &drop.scene, &drop.contact);
-    let answers = drop.answers(plate.place(*at), suspension.as_ref(), *tolerance)?;
-    let part = suspension.zip(answers.part.as_ref());
-    let equivalent = part.zip(question.shock_table);
-    let equivalent = equivalent.map(|((part, answer), table)| Equivalent::new(&table, &part, &answer.response));
-    let at_once = suspension.map(|part| Factors::at_once(part.damping(), contact.restitution(), scene.speed_m_s()));
+    let Question { scene, contact, at, suspension, tolerance, .. } = question;
+    on_plate(at)?;
+    let Some(&at_first) = at.first() else { return Err(clatter_shock::Error::Empty("the list of places").into()) };
+    let asked = Asked { drop: SingleDrop::of_plate(scene, contact)?, model: Model::Compliant, tolerance: *tolerance };
+    let (plate, signs) = (scene.plate(), question.mirrored.map(|is| if is { -1.0 } else { 1.0 }));
     let [length, width] = plate.sides_m();
+    // The corner that touches first feels every drop: where not even that is answered, none is.
+    let corner = Part { across_m: -0.5 * width, ..Part::new(-0.5 * length, None) };
+    asked.answer(&unlimited(LimitKind::VelocityChange), &corner)?;
+    swings(suspension.as_ref())?;
+    let on_product = |[x, y]: [f64; 2]| [0.5 * length * x, 0.5 * width * y];
+    let in_scene = |at: [f64; 2]| {
+        let [x, y] = on_product(at);
+        [signs[0] * x, signs[1] * y]
+    };
+    let place = |at: &[f64; 2]| (in_scene(*at), Position::Both(on_product(*at).map(Json)));
+    let places: Vec<_> = at.iter().map(place).collect();
+    let limits = question.limits.as_ref().map(|limits| asked.limits(limits, &places, *suspension)).transpose()?;
+    let tightest = limits.as_ref().and_then(|limits| Limit::tightest(limits));
+    let at = tightest.map_or(at_first, |limit| at[limit.place]);
+    let at_m = in_scene(at);
+    let largest = |kind, part| asked.largest(kind, at_m, part);
+    let answers = LargestValues {
+        velocity_change: largest(LimitKind::VelocityChange, None)?,
+        acceleration: largest(LimitKind::Acceleration, None)?,
+        angular_velocity_change: largest(LimitKind::AngularVelocityChange, None)?,
+        part_acceleration: suspension.map_or(Ok(None), |_| largest(LimitKind::Acceleration, *suspension))?,
+        part_displacement: suspension.map_or(Ok(None), |_| largest(LimitKind::RattleSpace, *suspension))?,
+    };
+    let response = |part| clatter_assess::respond(&asked.drop, at_m, &part, Model::Compliant, *tolerance);
+    let response = suspension.map(response).transpose()?;
+    let part = suspension.as_ref().zip(response.as_ref());
+    let equivalent = part.zip(question.shock_table);
+    let equivalent = equivalent.map(|((part, response), table)| Equivalent::new(&table, part, response));
+    let at_once = suspension.map(|part| Factors::at_once(part.damping(), contact.restitution(), scene.speed_m_s()));
+    let [cx, cy] = question.center_of_mass;
     Ok(Answer {
-        model: "compliant",
+        model: Model::Compliant.name(),
+        first: question.first().letter(),
         length_m: Json(length),
         width_m: Json(width),
         gyration_m: plate.gyration_m().map(Json),
-        center_of_mass: question.center_of_mass.map(Json),
+        center_of_mass: [signs[0] * cx, signs[1] * cy].map(|center| Json(center + 0.0)),
         e: Json(contact.restitution()),
         speed_m_s: Json(scene.speed_m_s()),
         tilt_deg: Json(question.tilt_deg),
@@ -139,17 +203,12 @@ pub fn answer(question: &Question) -> Result<Answer, Error> {
         contact_law: contact.law().name(),
         tolerance: Json(*tolerance),
         at: at.map(Json),
-        part: part.map(|(part, answer)| Peaks::new(&part, &answer.response, |_| None)),
-        velocity_change_m_s: Json(answers.velocity_change.value),
-        acceleration_m_s2: Json(answers.acceleration.value),
-        angular_velocity_change_rad_s: Json(answers.angular_velocity_change.value),
-        answers: LargestValues {
-            velocity_change: Some(answers.velocity_change.into()),
-            acceleration: Some(answers.acceleration.into()),
-            angular_velocity_change: Some(answers.angular_velocity_change.into()),
-            part_acceleration: part.map(|(_, part)| part.acceleration.into()),
-            part_displacement: part.map(|(_, part)| part.displacement.into()),
-        },
+        limits,
+        part: part.map(|(part, response)| Peaks::new(part, response, |_| None)),
+        velocity_change_m_s: value(answers.velocity_change),
+        acceleration_m_s2: value(answers.acceleration),
+        angular_velocity_change_rad_s: value(answers.angular_velocity_change),
+        answers,
         clatter_free: at_once.map(|[flat, _]| flat),
         standard: at_once.map(|[_, standard]| standard),
         equivalent: equivalent.transpose()?,

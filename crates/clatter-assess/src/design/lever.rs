@@ -13,6 +13,8 @@ pub enum Lever {
     Restitution,
     /// Where the part is.
     Position,
+    /// Where the part is across a plate.
+    Across,
     /// The part's natural frequency; a range is multiplied as a whole.
     Frequency,
     /// The part's damping ratio.
@@ -25,19 +27,20 @@ pub enum Lever {
 }
 
 impl Lever {
-    /// Those of a part: the inertia ratio of a bar, the contact time where the file gives one, and each of its limits.
+    /// Those of a part: the inertia ratio of a bar, the place across a plate, the contact time where the file gives one, and each of its limits.
     #[must_use]
     pub fn of(product: &Product, component: &Component) -> Vec<Self> {
-        let mut levers = vec![Self::Restitution, Self::Position, Self::Frequency, Self::Damping];
-        if product.width.is_none() {
-            levers.insert(0, Self::InertiaRatio);
-        }
+        let mut levers = match product.width {
+            None => vec![Self::InertiaRatio, Self::Restitution, Self::Position],
+            Some(_) => vec![Self::Restitution, Self::Position, Self::Across],
+        };
+        levers.extend([Self::Frequency, Self::Damping]);
         levers.extend(product.contact_time_s.map(|_| Self::ContactTime));
         levers.extend(component.limits.kinds().into_iter().map(Self::Limit));
         levers
     }
 
-    /// `inertia-ratio`, `restitution`, `position`, `natural-frequency`, `damping-ratio`, `contact-time`; of a limit `acceleration-limit`,
+    /// `inertia-ratio`, `restitution`, `position`, `position-across`, `natural-frequency`, `damping-ratio`, `contact-time`; of a limit `acceleration-limit`,
     /// `rattle-space`, …
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -45,6 +48,7 @@ impl Lever {
             Self::InertiaRatio => "inertia-ratio",
             Self::Restitution => "restitution",
             Self::Position => "position",
+            Self::Across => "position-across",
             Self::Frequency => "natural-frequency",
             Self::Damping => "damping-ratio",
             Self::ContactTime => "contact-time",
@@ -56,7 +60,7 @@ impl Lever {
     pub fn unit(self) -> &'static str {
         match self {
             Self::InertiaRatio | Self::Restitution | Self::Damping => "",
-            Self::Position => "m",
+            Self::Position | Self::Across => "m",
             Self::Frequency => "Hz",
             Self::ContactTime => "s",
             Self::Limit(kind) => kind.unit().name(),
@@ -67,6 +71,7 @@ impl Lever {
     pub fn written_in(self, product: &Product, component: &Component) -> Option<&'static units::Unit> {
         match (self, &component.mount) {
             (Self::Position, _) => component.position_m.unit(),
+            (Self::Across, _) => component.across_m.unit(),
             (Self::Frequency, Mount::Suspended { frequency_hz, .. }) => frequency_hz.unit(),
             (Self::ContactTime, _) => product.contact_time_s.and_then(|time| time.unit()),
             (Self::Limit(kind), _) => component.limits.unit(kind, kind.unit()),
@@ -147,7 +152,7 @@ pub struct Change {
     /// Before.
     pub from: [f64; 2],
     /// After, as it can be specified: to two significant digits in the unit of the file, ranges outward; places and the radius of
-    /// gyration behind an inertia ratio to a hundredth of the decade of the length, such as 1 mm of 140 mm.
+    /// gyration behind an inertia ratio to a hundredth of the decade of the side along them, such as 1 mm of 140 mm.
     pub to: [f64; 2],
 }
 

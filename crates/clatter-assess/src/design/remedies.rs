@@ -58,9 +58,7 @@ impl ProductFile {
             return Err(Error::Number(margin));
         }
         self.check()?;
-        if !self.landings.is_empty() {
-            return Err(Error::OfBoxes("design"));
-        }
+        self.check_no_box("design")?;
         bounds.check()?;
         assessment.accuracy.check()?;
         assessment.is_of(self)?;
@@ -240,7 +238,7 @@ impl Case<'_> {
         let responds = kinds.iter().any(|kind| kind.is_response());
         match lever {
             Lever::Frequency | Lever::Damping => suspended && responds,
-            Lever::Position => kinds.iter().any(|kind| kind.source() != Source::Turn),
+            Lever::Position | Lever::Across => kinds.iter().any(|kind| kind.source() != Source::Turn),
             Lever::InertiaRatio | Lever::Restitution | Lever::ContactTime | Lever::Limit(_) => true,
         }
     }

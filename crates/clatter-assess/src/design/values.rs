@@ -15,6 +15,7 @@ impl Case<'_> {
             (Lever::InertiaRatio, _) => [product.inertia_ratio(); 2],
             (Lever::Restitution, _) => of(&product.restitution),
             (Lever::Position, _) => of(&component.position_m),
+            (Lever::Across, _) => of(&component.across_m),
             (Lever::Frequency, Mount::Suspended { frequency_hz, .. }) => of(frequency_hz),
             (Lever::Damping, Mount::Suspended { damping, .. }) => damping.ratios(),
             (Lever::Frequency | Lever::Damping, Mount::Hard) => [0.0; 2],
@@ -36,10 +37,8 @@ impl Case<'_> {
             Lever::InertiaRatio => self.bounds.q.map(|q| q.max(0.0)),
             // the range as a whole: until its high end is at the low bound, its low end at the high bound
             Lever::Restitution => [self.bounds.e[0] - (hi - lo), self.bounds.e[1]],
-            Lever::Position => {
-                let most = 0.5 * (self.file.product.body.length_m() - self.component.extent_m).max(0.0);
-                [-most, (most - (hi - lo)).max(-most)]
-            }
+            Lever::Position => within(self.side_m(lever) - self.component.extent_m, hi - lo),
+            Lever::Across => within(self.side_m(lever) - self.component.extent_across_m, hi - lo),
             Lever::Frequency => [-1.0, 1.0].map(|side| side * libm::log(self.bounds.frequency_factor)),
             Lever::Damping => self.bounds.damping,
             Lever::ContactTime => {
@@ -70,7 +69,7 @@ impl Case<'_> {
         let [lo, hi] = match lever {
             Lever::InertiaRatio => return [self.with_ratio(x).map_or(x, |product| product.inertia_ratio()); 2],
             Lever::Restitution => [x, x + (hi - lo)].map(|e| e.clamp(self.bounds.e[0], self.bounds.e[1])),
-            Lever::Position => [x, x + (hi - lo)],
+            Lever::Position | Lever::Across => [x, x + (hi - lo)],
             Lever::Damping => [x; 2],
             _ => [lo, hi].map(|value| value * libm::exp(x)),
         };
@@ -82,11 +81,19 @@ impl Case<'_> {
         if lever == Lever::Restitution { rounded.map(|e| e.clamp(self.bounds.e[0], self.bounds.e[1])) } else { rounded }
     }
 
-    /// To two digits in the unit of the file; a place to a hundredth of the decade of the length.
+    /// The side of the product along which a place is.
+    fn side_m(&self, lever: Lever) -> f64 {
+        let product = &self.file.product;
+        let across = product.width.filter(|_| lever == Lever::Across);
+        across.map_or(product.body.length_m(), |width| width.m())
+    }
+
+    /// To two digits in the unit of the file; a place to a hundredth of the decade of the side along it.
     fn specified(&self, lever: Lever, si: f64, way: fn(f64) -> f64) -> f64 {
         let unit = lever.written_in(&self.file.product, self.component);
         let of_si = |x: f64| unit.map_or(x, |unit| unit.of_si(x));
-        let size = if lever == Lever::Position { 0.1 * self.file.product.body.length_m() } else { si };
+        let is_place = matches!(lever, Lever::Position | Lever::Across);
+        let size = if is_place { 0.1 * self.side_m(lever) } else { si };
         let rounded = to_digits(of_si(si), of_si(size), way);
         unit.map_or(rounded, |unit| unit.to_si(rounded))
     }
@@ -117,6 +124,7 @@ impl Case<'_> {
                 }
                 (Lever::Restitution, _) => product.restitution = range,
                 (Lever::Position, _) => component.position_m = range,
+                (Lever::Across, _) => component.across_m = range,
                 (Lever::Frequency, Mount::Suspended { frequency_hz, .. }) => *frequency_hz = range,
                 (Lever::Damping, Mount::Suspended { damping, .. }) => *damping = Damping::Ratio(range),
                 (Lever::Frequency | Lever::Damping, Mount::Hard) => return None,
@@ -125,13 +133,19 @@ impl Case<'_> {
             }
         }
         // Rounded outward it may reach beyond the ends.
-        let most = 0.5 * product.body.length_m() * (1.0 + 1e-9);
-        if component.ends_m().iter().any(|[end, _]| end.abs() > most) {
+        let most = [Lever::Position, Lever::Across].map(|lever| 0.5 * self.side_m(lever) * (1.0 + 1e-9));
+        if component.ends_m().iter().any(|end| end[0].abs() > most[0] || end[1].abs() > most[1]) {
             return None;
         }
         let (drop, landings) = (self.file.drop, self.file.landings.clone());
         Some(ProductFile { product, drop, landings, components: vec![component], records: Vec::new() })
     }
+}
+
+/// The low ends of a range of places whose part of this room stays within.
+fn within(room_m: f64, range_m: f64) -> [f64; 2] {
+    let most = 0.5 * room_m.max(0.0);
+    [-most, (most - range_m).max(-most)]
 }
 
 /// Whether a lever multiplies what is there.

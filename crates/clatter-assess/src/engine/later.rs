@@ -54,4 +54,4 @@ pub(super) fn slowest(part: &Suspension) -> f64 {
 
 /// Strikes of both ends in step do this many times what one does that has all the energy, at most: of the drops of random
 /// products without damping, one in a thousand exceeds it.
-pub(crate) const CHATTER: f64 = 1.5;
+const CHATTER: f64 = 1.5;

@@ -71,7 +71,9 @@ impl Shared<'_> {
     /// What would make a part hold with the margin, each change alone.
     pub(super) fn changes(&self, of: &Failing<'_>) -> Changes {
         let case = self.case(of.component);
-        let levers = Lever::of(&self.file.product, of.component).into_iter().filter(|lever| case.matters(*lever));
+        let levers = Lever::of(&self.file.product, of.component).into_iter();
+        // Its zone is along the length alone.
+        let levers = levers.filter(|lever| case.matters(*lever) && *lever != Lever::Across);
         let mut changes = Changes::default();
         for lever in levers {
             match self.smallest(&case, of, lever) {
@@ -88,6 +90,7 @@ impl Shared<'_> {
         match lever {
             Lever::Limit(_) => Self::limit(case, of, lever),
             Lever::Position => self.place(case, of),
+            Lever::Across => None,
             Lever::Frequency | Lever::Damping => {
                 let mut views: Vec<_> = of.ends.iter().map(|ends| ends.drops.counted()).collect();
                 let enough = |x: f64| {

@@ -110,7 +110,7 @@ mod tests {
                 limits.push(Limit::new(LimitKind::Acceleration, 3000.0));
             }
             for limit in limits {
-                let part = PartSample { position_m: ends_m[0], ends_m, suspension, limits: vec![limit] };
+                let part = PartSample { at_m: [ends_m[0], 0.0], reaches_m: [ends_m, [0.0; 2]], suspension, limits: vec![limit] };
                 let known = part.ends().iter().map(|x| {
                     let part = Part::new(*x, suspension);
                     crate::answer(&drop, &part, &limit, Model::Map, 1e-6).unwrap().utilization()

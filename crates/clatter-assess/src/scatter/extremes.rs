@@ -131,11 +131,10 @@ fn variants(component: &Component) -> Result<Vec<PartSample>, crate::Error> {
             }
         }
     }
-    let ends = component.ends_m();
-    let ends_m = [ends[0][0], ends[ends.len() - 1][0]];
+    let reaches_m = component.reaches_m();
     let part = |suspension| {
         let limits = Limit::of(component);
-        PartSample { position_m: 0.5 * (ends_m[0] + ends_m[1]), ends_m, suspension, limits }
+        PartSample { at_m: reaches_m.map(|[lo, hi]| 0.5 * (lo + hi)), reaches_m, suspension, limits }
     };
     Ok(suspensions.into_iter().map(part).collect())
 }
@@ -143,7 +142,10 @@ fn variants(component: &Component) -> Result<Vec<PartSample>, crate::Error> {
 impl Corners {
     fn new(file: &ProductFile, parts: &[Vec<PartSample>], turns: bool, tilts: u32, slow: bool) -> Self {
         let (product, drop) = (&file.product, &file.drop);
-        let turned = |part: &PartSample| PartSample { ends_m: [-part.ends_m[1], -part.ends_m[0]], ..part.clone() };
+        let turned = |part: &PartSample| {
+            let [[lo, hi], across] = part.reaches_m;
+            PartSample { reaches_m: [[-hi, -lo], across], ..part.clone() }
+        };
         let each = |of_one: &Vec<PartSample>| {
             let mut of_one = of_one.clone();
             if turns {

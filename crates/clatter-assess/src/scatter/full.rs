@@ -90,7 +90,7 @@ fn of_part(followed: &Followed, part: &PartSample, above: f64) -> Result<(Sample
     let mut asked = SampleDemand::default();
     let mut goes_on = false;
     let felt: Vec<PlaceHistory<'_>> =
-        part.places().into_iter().map(|x| PlaceHistory::new(followed, [x, 0.0])).collect::<Result<_, Error>>()?;
+        part.places().into_iter().map(|at_m| PlaceHistory::new(followed, at_m)).collect::<Result<_, Error>>()?;
     let each = || felt.iter().flat_map(|felt| part.limits.iter().enumerate().map(move |(k, limit)| (k, felt, limit)));
     for (k, felt, limit) in each() {
         if above >= 0.0 && !may_pass(felt, limit, &followed.drop, above)? {

@@ -2,7 +2,7 @@
 //!
 //! # Model
 //! A sample is answered as any other drop is: by the model with the most physics that the data allow, contacts that take time
-//! where their time is known, else instant impacts at real tilt with gravity. Where many samples are drawn, most are answered by a
+//! where their time is known, else instant impacts at real tilt with gravity. Where many samples of a bar are drawn, most are answered by a
 //! cheap model instead, and what that gets wrong is measured on a share of them: a two-level estimate, as wide as the
 //! interval of the samples asked for would be without it. Utilizations and what drives them are those of the samples that the full
 //! model answered.
@@ -97,7 +97,7 @@ pub struct Scatter {
     pub drawn: u64,
     /// Those of them that the full model answered.
     pub followed: u64,
-    /// What the cheap model gets wrong, by a first batch; none where it was not tried, for few samples.
+    /// What the cheap model gets wrong, by a first batch; none where it was not tried: for few samples, and of a plate.
     pub pilot: Option<Pilot>,
     /// The inputs that vary; without any, all samples are one.
     pub inputs: Vec<Input>,
@@ -166,6 +166,8 @@ pub struct Progress<'a> {
 pub enum Column {
     /// 0: end a touches first; 1: end b.
     First,
+    /// Where a plate rises to from its lowest corner, in degrees from its length towards its width.
+    DirectionDeg,
     /// Speed at the first touch, in m/s.
     SpeedMS,
     /// Tilt in degrees.
@@ -182,6 +184,8 @@ pub enum Column {
     DampingRatio(usize),
     /// Where the middle of a part is, in m, where it varies.
     PositionM(usize),
+    /// Where it is across a plate, in m, where it varies.
+    AcrossM(usize),
     /// A limit of a part in the unit of its kind, where it varies.
     Limit(usize, LimitKind),
     /// The critical acceleration of the damage boundary of a part in m/s², where it varies.
@@ -318,7 +322,8 @@ impl Sampler {
         })
     }
 
-    /// The cheap model beside the full one, on samples of its own, and how to go on from there; none where few are asked for.
+    /// The cheap model beside the full one, on samples of its own, and how to go on from there; none where few are asked for, and of a
+    /// plate.
     fn pilot(&self, go_on: &(dyn Fn() -> bool + Sync)) -> Option<(Pilot, Option<Levels>)> {
         let Settings { samples, confidence, .. } = self.settings;
         let parts = self.components.len();
@@ -331,7 +336,8 @@ impl Sampler {
             let fails = |full: &Result<SampleDemand, _>| full.as_ref().map_or(true, |asked| asked.utilization > 1.0);
             cheap.iter().zip(&full).map(|(cheap, full)| (cheap.utilization, fails(full))).collect()
         };
-        (samples >= levels::LEAST_SAMPLES).then(|| levels::pilot(samples, confidence, parts, go_on, both))
+        (samples >= levels::LEAST_SAMPLES && self.inputs.has_cheap())
+            .then(|| levels::pilot(samples, confidence, parts, go_on, both))
     }
 
     /// The utilizations of the first sample: sums count from there.

@@ -1,5 +1,7 @@
 //! What varies from sample to sample, and one sample.
 
+use std::f64::consts::TAU;
+
 use clatter::End;
 use clatter_flight::Body;
 use clatter_shock::Suspension;
@@ -7,7 +9,8 @@ use clatter_shock::Suspension;
 use super::draw::Quantile;
 use super::philox::Stream;
 use super::{Column, Error};
-use crate::product::{BETWEEN, with_between};
+use crate::drop::Across;
+use crate::product::places;
 use crate::quantity::Source;
 use crate::{Component, Damping, Fall, First, Law, Limit, LimitKind, Mount, ProductFile, SingleDrop, Spread};
 
@@ -17,6 +20,8 @@ use crate::{Component, Damping, Fall, First, Law, Limit, LimitKind, Mount, Produ
 pub enum Input {
     /// Which end touches first: either is as likely.
     First,
+    /// Where a plate rises to from its lowest corner: every direction is as likely unless the file has some.
+    Direction,
     /// Height of the drop.
     Height,
     /// Speed at the first touch.
@@ -35,6 +40,8 @@ pub enum Input {
     Damping(usize),
     /// Where a part is.
     Position(usize),
+    /// Where a part is across a plate.
+    Across(usize),
     /// What a part stands; of a damage boundary the critical velocity change.
     Limit(usize, LimitKind),
     /// The critical acceleration of the damage boundary of a part.
@@ -42,12 +49,13 @@ pub enum Input {
 }
 
 impl Input {
-    /// `first`, `height`, `speed`, `tilt`, `restitution`, `contact-time`, `radius-of-gyration`, `natural-frequency`, `damping`, `position`, `limit` or
-    /// `critical-acceleration`.
+    /// `first`, `direction`, `height`, `speed`, `tilt`, `restitution`, `contact-time`, `radius-of-gyration`, `natural-frequency`, `damping`,
+    /// `position`, `position-across`, `limit` or `critical-acceleration`.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
             Self::First => "first",
+            Self::Direction => "direction",
             Self::Height => "height",
             Self::Speed => "speed",
             Self::Tilt => "tilt",
@@ -57,6 +65,7 @@ impl Input {
             Self::Frequency(_) => "natural-frequency",
             Self::Damping(_) => "damping",
             Self::Position(_) => "position",
+            Self::Across(_) => "position-across",
             Self::Limit(..) => "limit",
             Self::CriticalAcceleration(_) => "critical-acceleration",
         }
@@ -68,6 +77,7 @@ impl Input {
             Self::Frequency(i)
             | Self::Damping(i)
             | Self::Position(i)
+            | Self::Across(i)
             | Self::Limit(i, _)
             | Self::CriticalAcceleration(i) => Some(*i),
             _ => None,
@@ -85,10 +95,12 @@ impl Input {
             Self::Restitution => return 3,
             Self::ContactTime => return 4,
             Self::Gyration => return 5,
+            Self::Direction => return 6,
             Self::Frequency(_) => 0,
             Self::Damping(_) => 1,
             Self::Position(_) => 2,
             Self::CriticalAcceleration(_) => 3,
+            Self::Across(_) => 4,
             Self::Limit(_, kind) => 8 + kind as u32,
         };
         #[expect(clippy::cast_possible_truncation, reason = "a file has at most 1000 parts")]
@@ -129,13 +141,16 @@ pub(super) struct Inputs {
     restitution: Drawn,
     contact_time: Option<Drawn>,
     gyration: Option<Drawn>,
+    /// Of a plate.
+    direction: Option<Drawn>,
     parts: Vec<PartInputs>,
 }
 
 #[derive(Debug)]
 struct PartInputs {
-    position: Drawn,
-    extent_m: f64,
+    /// Along the length, and across a plate.
+    position: [Drawn; 2],
+    extent_m: [f64; 2],
     mount: Option<(Drawn, Drawn, Damping)>,
     limits: Vec<(LimitKind, Drawn, Option<Drawn>)>,
 }
@@ -152,22 +167,23 @@ pub(super) struct Sample {
 /// A part in a sample.
 #[derive(Debug, Clone)]
 pub(super) struct PartSample {
-    pub(super) position_m: f64,
-    /// Both ends of the part along the product, the same for a point.
-    pub(super) ends_m: [f64; 2],
+    /// Its middle, along the product and across it.
+    pub(super) at_m: [f64; 2],
+    /// From where to where it reaches along the product and across it, the same for a point.
+    pub(super) reaches_m: [[f64; 2]; 2],
     pub(super) suspension: Option<Suspension>,
     pub(super) limits: Vec<Limit>,
 }
 
 impl PartSample {
-    /// Both ends, or the point.
+    /// Both ends along the product, or the point.
     pub(super) fn ends(&self) -> &[f64] {
-        if self.ends_m[0] < self.ends_m[1] { &self.ends_m } else { &self.ends_m[..1] }
+        let along = &self.reaches_m[0];
+        if along[0] < along[1] { along } else { &along[..1] }
     }
     /// Places at which a drop with contacts is answered, as [`Component::places_m`](crate::Component::places_m).
-    pub(super) fn places(&self) -> Vec<f64> {
-        let between = self.limits.iter().any(|limit| limit.kind.is_largest_between());
-        if between { with_between(self.ends_m, BETWEEN) } else { self.ends().to_vec() }
+    pub(super) fn places(&self) -> Vec<[f64; 2]> {
+        places(self.reaches_m, self.limits.iter().map(|limit| limit.kind))
     }
 }
 
@@ -207,7 +223,8 @@ impl Finder {
                 Some((frequency, self.drawn(Input::Damping(i), damping.spread(), &of)?, damping))
             }
         };
-        let position = self.drawn(Input::Position(i), &component.position_m, &of)?;
+        let along = self.drawn(Input::Position(i), &component.position_m, &of)?;
+        let position = [along, self.drawn(Input::Across(i), &component.across_m, &of)?];
         let mut limits = Vec::new();
         for kind in component.limits.kinds() {
             let Some(spread) = component.limits.get(kind) else { continue };
@@ -217,7 +234,7 @@ impl Finder {
                 critical.map(|spread| self.drawn(Input::CriticalAcceleration(i), spread, &of)).transpose()?;
             limits.push((kind, allowed, critical));
         }
-        Ok(PartInputs { position, extent_m: component.extent_m, mount, limits })
+        Ok(PartInputs { position, extent_m: [component.extent_m, component.extent_across_m], mount, limits })
     }
 }
 
@@ -225,11 +242,12 @@ impl Inputs {
     /// The inputs of a product, all checked.
     pub(super) fn new(file: &ProductFile, merge_s: f64) -> Result<Self, Error> {
         file.check()?;
-        file.check_bar("scatter")?;
+        file.check_no_box("scatter")?;
         crate::verdict::merge(merge_s)?;
         let (product, drop) = (&file.product, &file.drop);
         let mut finder = Finder::default();
-        if drop.first == First::Either {
+        let across = product.width.map(|width| Across { width, direction_rad: 0.0, posture: None });
+        if drop.first == First::Either && across.is_none() {
             finder.varied.push(Input::First);
         }
         let (fall, is_height) = match &drop.fall {
@@ -243,6 +261,10 @@ impl Inputs {
         let gyration = (!product.gyration_m.is_value())
             .then(|| finder.drawn(Input::Gyration, &product.gyration_m, ""))
             .transpose()?;
+        let any = Spread::new(0.0, TAU, Law::Uniform)?;
+        let direction = across
+            .map(|_| finder.drawn(Input::Direction, drop.direction_rad.as_ref().unwrap_or(&any), ""))
+            .transpose()?;
         let shared = finder.varied.len();
         let (mut parts, mut of_part) = (Vec::new(), Vec::new());
         for (i, component) in file.components.iter().enumerate() {
@@ -252,7 +274,7 @@ impl Inputs {
         }
         let same = SingleDrop {
             body: product.body,
-            across: None,
+            across,
             first: drop.first_ends()[0],
             tilt_rad: drop.tilt_rad.lo(),
             flat: false,
@@ -277,6 +299,7 @@ impl Inputs {
             restitution,
             contact_time,
             gyration,
+            direction,
             parts,
         })
     }
@@ -286,7 +309,7 @@ impl Inputs {
         let limit = |(kind, ..): &(LimitKind, _, _)| Limit::new(*kind, f64::INFINITY);
         let part = |part: &PartInputs| {
             let limits = part.limits.iter().map(limit).collect();
-            PartSample { position_m: 0.0, ends_m: [0.0; 2], suspension: None, limits }
+            PartSample { at_m: [0.0; 2], reaches_m: [[0.0; 2]; 2], suspension: None, limits }
         };
         let parts = self.parts.iter().map(part).collect();
         Sample { uniforms: vec![0.0; self.varied.len()], drop: self.drop, parts }
@@ -301,9 +324,11 @@ impl Inputs {
         let Sample { uniforms, drop, parts } = sample;
         self.drop(uniforms, drop)?;
         for (inputs, part) in self.parts.iter().zip(parts) {
-            part.position_m = inputs.position.at(uniforms);
-            let half = 0.5 * inputs.extent_m;
-            part.ends_m = [part.position_m - half, part.position_m + half];
+            part.at_m = inputs.position.map(|position| position.at(uniforms));
+            part.reaches_m = [0, 1].map(|side| {
+                let (middle, half) = (part.at_m[side], 0.5 * inputs.extent_m[side]);
+                [middle - half, middle + half]
+            });
             if let Some((frequency, given, damping)) = &inputs.mount {
                 let ratio = damping.ratio(given.at(uniforms))?;
                 part.suspension = Some(Suspension::from_hz(frequency.at(uniforms), ratio)?);
@@ -316,6 +341,11 @@ impl Inputs {
         Ok(())
     }
 
+    /// Whether the cheap model is one of the product: of a bar.
+    pub(super) fn has_cheap(&self) -> bool {
+        self.drop.across.is_none()
+    }
+
     /// The drop that these uniform numbers give.
     pub(super) fn drop(&self, uniforms: &[f64], drop: &mut SingleDrop) -> Result<(), crate::Error> {
         drop.first = match *self.firsts {
@@ -323,6 +353,10 @@ impl Inputs {
             _ if uniforms[0] < 0.5 => End::A,
             _ => End::B,
         };
+        if let (Some(across), Some(direction)) = (&mut drop.across, &self.direction) {
+            across.direction_rad = direction.at(uniforms);
+            drop.first = across.first();
+        }
         let fall = self.fall.at(uniforms);
         drop.speed_m_s = if self.is_height { (2.0 * drop.gravity_m_s2 * fall).sqrt() } else { fall };
         drop.tilt_rad = self.tilt.at(uniforms);
@@ -338,7 +372,8 @@ impl Inputs {
 
     /// What a row of values holds.
     pub(super) fn columns(&self) -> Vec<Column> {
-        let mut columns = vec![Column::First, Column::SpeedMS, Column::TiltDeg, Column::Restitution];
+        let falls = if self.direction.is_some() { Column::DirectionDeg } else { Column::First };
+        let mut columns = vec![falls, Column::SpeedMS, Column::TiltDeg, Column::Restitution];
         columns.extend(self.contact_time.map(|_| Column::ContactTimeS));
         columns.extend(self.gyration.map(|_| Column::GyrationM));
         for (i, part) in self.parts.iter().enumerate() {
@@ -346,6 +381,7 @@ impl Inputs {
             columns.extend(self.varied.iter().filter_map(|input| match *input {
                 Input::Damping(of) if of == i => Some(Column::DampingRatio(i)),
                 Input::Position(of) if of == i => Some(Column::PositionM(i)),
+                Input::Across(of) if of == i => Some(Column::AcrossM(i)),
                 Input::Limit(of, kind) if of == i => Some(Column::Limit(i, kind)),
                 Input::CriticalAcceleration(of) if of == i => Some(Column::CriticalAccelerationMS2(i)),
                 _ => None,
@@ -364,14 +400,16 @@ impl Sample {
         let limit = |i: usize, kind| self.parts[i].limits.iter().find(|limit| limit.kind == kind);
         let value = match column {
             Column::First => Some(if self.drop.first == End::A { 0.0 } else { 1.0 }),
+            Column::DirectionDeg => self.drop.across.map(|across| across.direction_rad.to_degrees()),
             Column::SpeedMS => Some(self.drop.speed_m_s),
             Column::TiltDeg => Some(self.drop.tilt_rad.to_degrees()),
             Column::Restitution => Some(self.drop.restitution),
             Column::ContactTimeS => self.drop.contact_time_s,
             Column::GyrationM => Some(self.drop.body.gyration_m()),
-            Column::FrequencyHz(i) => suspension(i).map(|part| part.omega() / std::f64::consts::TAU),
+            Column::FrequencyHz(i) => suspension(i).map(|part| part.omega() / TAU),
             Column::DampingRatio(i) => suspension(i).map(|part| part.damping().get()),
-            Column::PositionM(i) => Some(self.parts[i].position_m),
+            Column::PositionM(i) => Some(self.parts[i].at_m[0]),
+            Column::AcrossM(i) => Some(self.parts[i].at_m[1]),
             Column::Limit(i, kind) => limit(i, kind).map(|limit| limit.allowed),
             Column::CriticalAccelerationMS2(i) => {
                 limit(i, LimitKind::DamageBoundary).map(|limit| limit.critical_acceleration_m_s2)

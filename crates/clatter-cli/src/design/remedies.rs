@@ -20,6 +20,7 @@ fn called(lever: Lever) -> &'static str {
         Lever::InertiaRatio => "radius of gyration",
         Lever::Restitution => "restitution e",
         Lever::Position => "place",
+        Lever::Across => "place across",
         Lever::Frequency => "natural frequency",
         Lever::Damping => "damping ratio",
         Lever::ContactTime => "contact time",
@@ -92,8 +93,11 @@ impl Found<'_> {
     pub(super) fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         let product = &self.0.file.product;
         let e = either([product.restitution.lo(), product.restitution.hi()].map(short), "");
-        let q = figures(product.inertia_ratio());
-        writeln!(out, "{}: q = {q}, e = {e}", shown(&product.name, 60))?;
+        let is = match product.width {
+            None => format!("q = {}", figures(product.inertia_ratio())),
+            Some(_) => "a plate".to_owned(),
+        };
+        writeln!(out, "{}: {is}, e = {e}", shown(&product.name, 60))?;
         let (wanted, count) = (given(100.0 * self.0.margin), self.0.assessment.components.len());
         if let Some(plane) = &self.0.plane {
             let (model, side) = (plane.model.name(), plane.side);

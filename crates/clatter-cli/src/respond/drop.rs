@@ -6,16 +6,17 @@ use clatter_answer::respond::drop::{self, Answer, Question};
 use clatter_answer::respond::{Factors, Largest, Peaks};
 use clatter_answer::{Error, Json};
 use clatter_assess::units::Quantity;
-use clatter_assess::{Accuracy, LimitKind, Model};
+use clatter_assess::{LimitKind, Model};
 
 use super::Args;
 use super::limits;
 use super::peaks::{Shocks, doubts, equivalent_table};
+use crate::Failure;
 use crate::drop_args::{ExtraArgs, Setup};
 use crate::numbers::{figures, given};
+use crate::one_drop::OneDrop;
 use crate::quantities::{self, Show, neat};
 use crate::words::in_words;
-use crate::{Failure, Streams};
 
 /// A part in one drop.
 pub(super) struct Drop<'a> {
@@ -28,7 +29,7 @@ pub(super) struct Drop<'a> {
 }
 
 impl Args {
-    pub(super) fn drop_by(&self, streams: &mut Streams<'_>) -> Result<Drop<'_>, Failure> {
+    pub(super) fn drop_by(&self, file: Option<OneDrop>) -> Result<Drop<'_>, Failure> {
         let mass = &self.inertia.mass;
         let beside = ExtraArgs {
             flat: self.flat,
@@ -39,19 +40,16 @@ impl Args {
             instant_contacts: true,
             first: self.first.map(Into::into),
             of_product: true,
-            worst: self
-                .worst
-                .map(|of| (of, Accuracy { tolerance: self.tolerance, model: self.model, ..Accuracy::default() })),
-            files: self.files(),
+            file,
         };
-        let setup = self.drop.setup(&beside, streams)?;
+        let setup = self.drop.setup(beside)?;
         let part = setup.part.as_ref();
         let half_m = 0.5 * setup.scene.body().length_m();
         // Places of the product, from end a at -1 to end b at 1.
         let asked = self.bar_at()?;
         let places = match (asked, part) {
             (Some(place), _) => quantities::positions(&[place], "--at", half_m)?,
-            (None, Some(part)) => part.places_m.iter().map(|x| (x / half_m).clamp(-1.0, 1.0)).collect(),
+            (None, Some(part)) => part.places_m.iter().map(|[x, _]| (x / half_m).clamp(-1.0, 1.0)).collect(),
             (None, None) => {
                 return Err(Failure::Usage("the place is missing: --at=S, or with --product the --component=NAME"));
             }
@@ -90,18 +88,13 @@ impl Drop<'_> {
         &self.setup.notes
     }
 
-    /// An input: what was typed as it was, what a search found to six digits.
-    fn shortly(&self, x: f64) -> f64 {
-        if self.args.worst.is_some() { format!("{x:.5e}").parse().unwrap_or(x) } else { x }
-    }
-
     fn headings(&self, out: &mut dyn Write) -> io::Result<()> {
         let (at, shown) = (&self.called, &self.setup.shown);
         let Answer { model, first, length_m, e, speed_m_s, contact_time_s, contact_law, .. } = &self.answer;
         let (length, e) = (shown.length.given(length_m.0), given(e.0));
         match &self.answer.part {
             Some(Peaks { omega, damping, .. }) => {
-                let zeta = given(self.shortly(neat(damping.0)));
+                let zeta = given(self.args.shortly(neat(damping.0)));
                 let of_file = self.setup.part.as_ref().and_then(|part| part.suspension).map(|(frequency, _)| frequency);
                 let of_file = of_file.filter(|_| self.args.omega.is_none());
                 let frequency = match self.args.frequency.or(of_file) {
@@ -113,7 +106,8 @@ impl Drop<'_> {
             None => writeln!(out, "Place {at} of a body of {length}, e = {e}; a part there is mounted rigidly")?,
         }
         let speed = shown.speed.said(speed_m_s.0);
-        let (tilt, tolerance) = (shown.tilt(self.shortly(self.setup.tilt_deg)), given(100.0 * self.args.tolerance));
+        let (tilt, tolerance) =
+            (shown.tilt(self.args.shortly(self.setup.tilt_deg)), given(100.0 * self.args.tolerance));
         writeln!(out, "Model {model}, to {tolerance} %: end {first} strikes first, at {speed}, tilt {tilt}")?;
         match (contact_time_s, contact_law) {
             (Some(time), Some(law)) => writeln!(out, "Contacts of {}, {law}", shown.time.given(time.0)),

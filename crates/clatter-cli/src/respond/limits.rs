@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use clatter_answer::Json;
-use clatter_answer::respond::drop::Limit;
+use clatter_answer::respond::{Limit, Position};
 use clatter_assess::{LimitKind, Unit};
 
 use crate::columns::Table;
@@ -26,7 +26,11 @@ pub(super) fn table(part: &PartSetup, limits: &[Limit], time: Show, out: &mut dy
         let place = if row.limit == LimitKind::AngularVelocityChange {
             "-".to_owned()
         } else {
-            in_words(Unit::Meter, part.place.unit(), row.position_m.0)
+            let along = |m: Json, side: usize| in_words(Unit::Meter, part.place[side].unit(), m.0);
+            match row.position_m {
+                Position::Along(x) => along(x, 0),
+                Position::Both([x, y]) => format!("{}, {}", along(x, 0), along(y, 1)),
+            }
         };
         let over = if share.0 > 1.0 { ", EXCEEDED" } else { "" };
         let (at, impact) = (time.figures(time_s.0), format!("impact {impact}{over}"));

@@ -2,16 +2,20 @@
 
 use std::io::{self, Write};
 
+use clatter::Corner;
 use clatter_answer::Error;
 use clatter_answer::respond::plate::{self, Answer, Question};
 use clatter_answer::respond::{Factors, Largest};
-use clatter_assess::{Model, PlateDrop};
+use clatter_assess::Model;
+use clatter_assess::units::Quantity;
 
 use super::Args;
+use super::limits;
 use super::peaks::{Shocks, doubts, equivalent_table};
-use crate::drop_args::PlateSetup;
+use crate::drop_args::{BesidePlate, PlateSetup};
 use crate::inputs::Format;
 use crate::numbers::given;
+use crate::one_drop::OneDrop;
 use crate::quantities::{Show, neat};
 use crate::{Failure, Streams};
 
@@ -24,8 +28,8 @@ struct Drop<'a> {
 }
 
 impl Args {
-    pub(super) fn run_plate(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        let drop = self.plate()?;
+    pub(super) fn run_plate(&self, file: Option<OneDrop>, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        let drop = self.plate(file)?;
         match self.format {
             Format::Table => drop.table(streams.out).map_err(Failure::Answer),
             Format::Json => streams.json(&drop.answer),
@@ -37,7 +41,7 @@ impl Args {
         Ok(())
     }
 
-    fn plate(&self) -> Result<Drop<'_>, Failure> {
+    fn plate(&self, file: Option<OneDrop>) -> Result<Drop<'_>, Failure> {
         if !self.inertia.mass.is_empty() {
             return Err(Failure::Usage(
                 "--mass is that of a bar: a plate takes --gyration=KX,KY and --center-of-mass=SX,SY",
@@ -51,19 +55,33 @@ impl Args {
         if matches!(self.model, Some(model) if model != Model::Compliant) {
             return Err(Failure::Usage("a part on a plate is answered by --model=compliant alone"));
         }
-        let flag = self.inertia.flag();
-        let setup = self.drop.plate_setup(self.model, self.e, self.inertia.given(), flag)?;
+        let (gyration, flag) = (self.inertia.given(), self.inertia.flag());
+        let beside = BesidePlate { model: self.model, e: self.e, gyration, gyration_flag: flag, file };
+        let setup = self.drop.plate_setup(beside)?;
         // That there is a contact time was checked before.
         let Some(contact) = setup.contact else {
             return Err(Failure::Usage("--model=compliant needs a --contact-time"));
         };
-        let Some(at) = self.at else { return Err(Failure::Usage("the place is missing: --at=X,Y")) };
-        let at = setup.places(&[at])?[0];
-        let mut question = Question::new(PlateDrop { scene: setup.scene, contact }, at);
-        question.suspension = self.suspension(None)?;
+        let part = setup.part.as_ref();
+        let [half, across] = setup.halves_m();
+        let places: Vec<[f64; 2]> = match (self.at, part) {
+            (Some(at), _) => setup.places(&[at])?,
+            (None, Some(part)) => {
+                part.places_m.iter().map(|[x, y]| [x / half, y / across].map(|s| s.clamp(-1.0, 1.0))).collect()
+            }
+            (None, None) => {
+                return Err(Failure::Usage("the place is missing: --at=X,Y, or with --product the --component=NAME"));
+            }
+        };
+        let mut question = Question::new(setup.scene, contact, places[0]);
+        question.at = places;
+        question.mirrored = setup.mirrored;
+        question.suspension = self.suspension(part.and_then(|part| part.suspension))?;
+        question.limits = part.map(|part| part.allowed.clone());
         question.tolerance = self.tolerance;
         question.shock_table = self.equivalent_pulse.then_some(self.shock_table);
-        question.center_of_mass = setup.center_of_mass;
+        let ([cx, cy], signs) = (setup.center_of_mass, setup.signs());
+        question.center_of_mass = [signs[0] * cx, signs[1] * cy];
         question.tilt_deg = setup.tilt_deg;
         question.direction_deg = setup.direction_deg;
         let answer = plate::answer(&question).map_err(|error| match error {
@@ -79,28 +97,46 @@ impl Drop<'_> {
         let shown = &self.setup.shown;
         let Answer { length_m, width_m, e, at, gaps_m, speed_m_s, contact_time_s, contact_law, .. } = &self.answer;
         let [length, width] = [length_m, width_m].map(|side| shown.length.given(neat(side.0)));
-        let (e, at) = (given(e.0), at.map(|x| given(x.0)).join(","));
+        let halves = self.setup.halves_m();
+        let place = |side: usize| match &self.setup.part {
+            // Of a product file as it has places.
+            Some(part) if self.args.at.is_none() => {
+                let show = Show { unit: part.place[side].unit().or(shown.length.unit), name: "m" };
+                show.given(self.args.shortly(neat(at[side].0 * halves[side])))
+            }
+            _ => given(at[side].0),
+        };
+        let (e, at) = (given(self.args.shortly(e.0)), format!("{},{}", place(0), place(1)));
         let plate = format!("{at} of a plate of {length} by {width}, e = {e}");
         match &self.question.suspension {
             Some(part) => {
-                let frequency = self.args.frequency.map_or_else(
-                    || format!("W = {} rad/s", given(part.omega())),
-                    |frequency| Show { unit: frequency.unit, name: "Hz" }.given(frequency.si),
-                );
-                let zeta = given(neat(part.damping().get()));
+                let of_file = self.setup.part.as_ref().and_then(|part| part.suspension).map(|(frequency, _)| frequency);
+                let of_file = of_file.filter(|_| self.args.omega.is_none());
+                let frequency = match self.args.frequency.or(of_file) {
+                    Some(Quantity { si, unit }) => Show { unit, name: "Hz" }.given(si),
+                    None => format!("W = {} rad/s", given(part.omega())),
+                };
+                let zeta = given(self.args.shortly(neat(part.damping().get())));
                 writeln!(out, "Component at {plate}; {frequency}, damping ratio {zeta}")?;
             }
             None => writeln!(out, "Place {plate}; a part there is mounted rigidly")?,
         }
         let ([hx, hy], speed) = (gaps_m.map(|gap| shown.length.said(gap.0)), shown.speed.said(speed_m_s.0));
         let tolerance = given(100.0 * self.args.tolerance);
-        writeln!(out, "To {tolerance} %: corner a touches at {speed}; b is {hx} higher, d {hy}, c both together")?;
+        let [first, along, opposite, across] = self.setup.corners().map(Corner::letter);
+        writeln!(
+            out,
+            "To {tolerance} %: corner {first} touches at {speed}; {along} is {hx} higher, {across} {hy}, {opposite} both together"
+        )?;
         writeln!(out, "Contacts of {}, {contact_law}", shown.time.given(contact_time_s.0))
     }
 
     fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         self.headings(out)?;
         let (shown, of) = (&self.setup.shown, &self.answer.answers);
+        if let (Some(part), Some(limits)) = (&self.setup.part, &self.answer.limits) {
+            limits::table(part, limits, shown.time, out)?;
+        }
         let when = format!("when, {}", shown.time.name());
         let line = |out: &mut dyn Write, name: &str, show: Show, largest: Option<Largest>| {
             let Some(Largest { value, time_s, impact, .. }) = largest else { return Ok(()) };

@@ -20,6 +20,7 @@ fn called(input: &Input) -> &'static str {
         Input::Frequency(_) => "own frequency",
         Input::Damping(_) => "own damping",
         Input::Position(_) => "own place",
+        Input::Across(_) => "own place across",
         Input::Limit(..) => "own limit",
         Input::CriticalAcceleration(_) => "own critical acceleration",
         Input::First => "first end",

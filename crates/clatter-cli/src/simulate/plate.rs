@@ -8,9 +8,11 @@ use clatter_flight::Stop;
 
 use super::table::of_strike;
 use super::{Args, IMPACTS};
-use crate::drop_args::PlateSetup;
+use crate::drop_args::{BesidePlate, PlateSetup};
 use crate::inputs::RowFormat;
 use crate::numbers::{digits, given};
+use crate::one_drop::OneDrop;
+use crate::quantities::PerAxis;
 use crate::{Failure, Streams, columns};
 
 /// A drop of a plate and what came of it.
@@ -28,8 +30,8 @@ const MATTERS: f64 = 0.01;
 const OF_MAP: usize = 1000;
 
 impl Args {
-    pub(super) fn run_plate(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
-        let drop = self.plate()?;
+    pub(super) fn run_plate(&self, file: Option<OneDrop>, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        let drop = self.plate(file)?;
         match self.format {
             RowFormat::Table => drop.table(streams.out).map_err(Failure::Answer)?,
             RowFormat::Csv => drop.csv(streams.out).map_err(Failure::Answer)?,
@@ -38,13 +40,18 @@ impl Args {
         for (kind, note) in &drop.setup.notes {
             streams.note(kind, note);
         }
+        if drop.setup.mirrored != [false; 2] {
+            let corner = drop.setup.first().letter();
+            streams
+                .note("note", format!("corner {corner} touches first and is called a here: places are turned around"));
+        }
         if let Some(warning) = drop.cut_short() {
             streams.note("warning", warning);
         }
         Ok(())
     }
 
-    fn plate(&self) -> Result<Drop<'_>, Failure> {
+    fn plate(&self, file: Option<OneDrop>) -> Result<Drop<'_>, Failure> {
         if !self.inertia.mass.is_empty() {
             return Err(Failure::Usage(
                 "--mass is that of a bar: a plate takes --gyration=KX,KY and --center-of-mass=SX,SY",
@@ -56,9 +63,13 @@ impl Args {
         if self.output.is_some() {
             return Err(Failure::Usage("-o writes the motion of a bar; the strikes of a plate go to standard output"));
         }
-        let (inertia, flag) = (self.inertia.given(), self.inertia.flag());
-        let setup = self.drop.plate_setup(self.model, self.e, inertia, flag)?;
-        let at = setup.places(&self.at)?;
+        let (gyration, gyration_flag) = (self.inertia.given(), self.inertia.flag());
+        let setup =
+            self.drop.plate_setup(BesidePlate { model: self.model, e: self.e, gyration, gyration_flag, file })?;
+        let of_part = setup.part.iter().map(|part| PerAxis::Plate(part.place)).filter(|_| self.at.is_empty());
+        let at: Vec<_> = self.at.iter().copied().chain(of_part).collect();
+        let signs = setup.signs();
+        let at: Vec<_> = setup.places(&at)?.into_iter().map(|[x, y]| [signs[0] * x, signs[1] * y]).collect();
         let model = setup.contact.map_or(plate::Model::Map { e: setup.e }, plate::Model::Contacts);
         let by_map = setup.contact.is_none() && self.impact_limit == IMPACTS;
         let mut scene = setup.scene.with_impact_limit(if by_map { OF_MAP } else { self.impact_limit });
@@ -67,9 +78,10 @@ impl Args {
         }
         let mut question = Question::new(scene, model);
         question.at.clone_from(&at);
-        question.center_of_mass = setup.center_of_mass;
+        let [cx, cy] = setup.center_of_mass;
+        question.center_of_mass = [signs[0] * cx + 0.0, signs[1] * cy + 0.0];
         question.tilt_deg = setup.tilt_deg;
-        question.direction_deg = setup.direction_deg;
+        question.direction_deg = setup.in_scene_deg();
         question.height_m = setup.height_m;
         let answer = plate::answer(&question).map_err(|error| self.drop.named_plate(error, self.inertia.flag()))?;
         Ok(Drop { args: self, setup, at, answer })

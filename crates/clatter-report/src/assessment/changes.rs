@@ -14,6 +14,7 @@ fn what(lever: Lever) -> &'static str {
         Lever::InertiaRatio => "radius of gyration",
         Lever::Restitution => "restitution",
         Lever::Position => "place of its middle",
+        Lever::Across => "place of its middle across",
         Lever::Frequency => "natural frequency",
         Lever::Damping => "damping ratio",
         Lever::ContactTime => "contact time",

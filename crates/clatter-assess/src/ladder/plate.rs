@@ -1,0 +1,87 @@
+//! The rungs of a plate: the bar along its length, the plate of small tilt, the box with full rotation.
+
+use super::{FINER, Groups, Ladder, Measured, Reference, Rung, cheapest, percent, time, with};
+use crate::assess::THIN;
+use crate::drop::{Across, Followed, Model, SingleDrop, Until};
+use crate::engine::{Part, answer, of_followed};
+use crate::{Error, Limit};
+
+/// Until so long a box is followed, over the time of the peak that the plate of small tilt has.
+const BEYOND_PEAK: f64 = 1.5;
+/// A box is left where later presses do less than this share of the largest.
+const BLOCK: f64 = 1e-3;
+
+impl SingleDrop {
+    /// The same drop without what is across: of the bar along the length, which rises to its other end as the edge does.
+    fn along(&self, across: &Across) -> Self {
+        let rises = self.gaps_m(across)[0] / self.body.length_m();
+        Self { across: None, first: across.first(), tilt_rad: libm::asin(rises), ..*self }
+    }
+}
+
+impl Ladder {
+    pub(super) fn of_plate(
+        drop: &SingleDrop,
+        across: &Across,
+        part: &Part,
+        limit: &Limit,
+        tolerance: f64,
+    ) -> Result<Self, Error> {
+        let bar = (drop.along(across), Part { across_m: 0.0, ..*part });
+        let peak = of_followed(&Followed::new(drop, Model::Compliant, tolerance)?, part, limit)?;
+        let thickness_m = across.width.thickness_m.unwrap_or(THIN * drop.body.length_m());
+        // All are followed as far, and once.
+        let until_s = (BEYOND_PEAK * peak.time_s).max(drop.clatter_s());
+        let as_block = || Followed::as_block(drop, thickness_m, until_s);
+        let until = |drop| Followed::until(drop, Model::Compliant, tolerance, Until::Past(until_s));
+        // The box has its axes along its sides.
+        let is_askew = across.width.product_of_inertia_m2 != 0.0;
+        let block = if is_askew { None } else { as_block().and_then(|block| of_followed(&block, part, limit)).ok() };
+        let (fullest, exact) = match block {
+            Some(block) => (Rung::Block, block),
+            None => (Rung::Plate, answer(drop, part, limit, Model::Compliant, FINER * tolerance)?),
+        };
+        let mut models = Vec::new();
+        let mut measure = |model, part: &Part, follow: &dyn Fn() -> Result<Followed, Error>| -> Result<(), Error> {
+            let (found, seconds) = time::measured(|| of_followed(&follow()?, part, limit))?;
+            let error = (found.utilization() / exact.utilization() - 1.0).abs();
+            let strikes = follow()?.motion.struck_s().len();
+            models.push(Measured { model, value: found.value, error, seconds, strikes });
+            Ok(())
+        };
+        measure(Rung::Bar, &bar.1, &|| until(&bar.0))?;
+        measure(Rung::Plate, part, &|| until(drop))?;
+        if block.is_some() {
+            measure(Rung::Block, part, &as_block)?;
+        }
+        let groups = Groups::of(drop, part)?;
+        let cheapest = cheapest(&models, tolerance).unwrap_or(fullest);
+        let mut reason = reason(&models, cheapest, tolerance, &groups);
+        if is_askew {
+            reason.push_str("; no box is followed whose masses lie askew");
+        }
+        let worked_out = if block.is_some() { BLOCK } else { FINER * tolerance };
+        let reference = Reference { model: fullest, value: exact.value, tolerance: worked_out };
+        Ok(Self { unit: exact.unit, reference, models, cheapest, reason, groups })
+    }
+}
+
+/// What the next cheaper body lacks.
+fn reason(models: &[Measured], cheapest: Rung, tolerance: f64, groups: &Groups) -> String {
+    let Some(coarser) = models.iter().rfind(|m| m.model < cheapest && m.error > tolerance) else {
+        let off = models.iter().find(|m| m.model == cheapest).map_or(f64::INFINITY, |m| m.error);
+        return match cheapest {
+            Rung::Bar => format!(
+                "{}; bar is off by {}",
+                with("its width does nothing here", "h_y/h_x", groups.across),
+                percent(off)
+            ),
+            model => format!("{} is the cheapest here", model.name()),
+        };
+    };
+    let lacks = match coarser.model {
+        Rung::Bar => with("it turns about its length too, as no bar does", "h_y/h_x", groups.across),
+        _ => with("real tilt counts", "φ²", Some(groups.geometry)),
+    };
+    format!("{}; {} is off by {}", lacks, coarser.model.name(), percent(coarser.error))
+}

@@ -1,0 +1,281 @@
+//! What `scatter`, the ladder of models and `design` say of plates.
+
+use clatter_assess::design::{Bounds, Lever, Outcome};
+use clatter_assess::ladder::{Ladder, Rung};
+use clatter_assess::scatter::{Column, Input, Progress, Sampler, Settings};
+use clatter_assess::{Across, Law, Limit, LimitKind, Model, Part, ProductFile, SingleDrop, Spread, Verdict, answer};
+
+/// A board in a terminal whose place across it is not known well.
+const BOARD: &str = r#"
+[product]
+name = "terminal"
+length = "150 mm"
+width = "70 mm"
+radius_of_gyration = ["43 mm", "20 mm"]
+center_of_mass = ["6 mm", "-4 mm"]
+restitution = 0.4
+contact_time = "0.4 ms"
+contact_law = "hysteretic"
+
+[drop]
+speed = "3 m/s"
+tilt = { uniform = ["0.5 deg", "4 deg"] }
+
+[[component]]
+name = "board"
+position = ["-20 mm", { uniform = ["-10 mm", "15 mm"] }]
+extent = ["30 mm", "20 mm"]
+mount = "hard"
+velocity_change_limit = "5.5 m/s"
+acceleration_limit = "1400 gn"
+"#;
+
+fn file(text: &str) -> ProductFile {
+    ProductFile::read(text, "plate.toml").unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+fn settings(samples: u64) -> Settings {
+    Settings { samples, seed: 1, confidence: 0.95, merge_s: 1e-3 }
+}
+
+fn values(file: &ProductFile, samples: u64) -> (Vec<Column>, Vec<Vec<f64>>) {
+    let sampler = Sampler::new(file, settings(samples)).unwrap();
+    let (columns, mut rows) = (sampler.columns(), Vec::new());
+    let keep = |progress: &Progress<'_>| {
+        rows.extend(progress.values.chunks(columns.len()).map(<[f64]>::to_vec));
+        Ok::<_, ()>(())
+    };
+    sampler.run(true, &|| true, keep).unwrap();
+    (columns, rows)
+}
+
+/// A drop of the terminal, and what it asks of its board, by the engine of one drop alone.
+fn asked(file: &ProductFile, direction_deg: f64, tilt_deg: f64, across_m: f64) -> f64 {
+    let across =
+        Across { width: file.product.width.unwrap(), direction_rad: direction_deg.to_radians(), posture: None };
+    let drop = SingleDrop {
+        body: file.product.body,
+        across: Some(across),
+        first: clatter::End::A,
+        tilt_rad: tilt_deg.to_radians(),
+        flat: false,
+        speed_m_s: 3.0,
+        restitution: 0.4,
+        gravity_m_s2: file.drop.gravity_m_s2,
+        contact_time_s: Some(4e-4),
+        contact_law: file.product.law(),
+    };
+    let board = &file.components[0];
+    let corners = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];
+    let part = |[x, y]: [f64; 2]| {
+        let (position_m, across_m) = (-0.02 + x * board.extent_m, across_m + y * board.extent_across_m);
+        Part { across_m, ..Part::new(position_m, None) }
+    };
+    let parts: Vec<_> = if board.extent_m > 0.0 { corners.map(part).into() } else { vec![part([0.0; 2])] };
+    let limits = Limit::of(board);
+    let each = parts.iter().flat_map(|part| limits.iter().map(move |limit| (part, limit)));
+    let used = each.map(|(part, limit)| answer(&drop, part, limit, drop.fullest(), 0.01).unwrap().utilization());
+    used.fold(0.0, f64::max)
+}
+
+/// Every sample of a plate once more, as one drop: direction and place across are those of the row.
+#[test]
+fn samples_of_plates_are_single_drops() {
+    let file = file(BOARD);
+    let (columns, rows) = values(&file, 60);
+    use Column::{AcrossM, ContactTimeS, DirectionDeg, Model, Restitution, SpeedMS, TiltDeg, Utilization};
+    let known = [DirectionDeg, SpeedMS, TiltDeg, Restitution, ContactTimeS, AcrossM(0), Model, Utilization(0)];
+    assert_eq!(columns, known);
+    for row in rows {
+        let one = asked(&file, row[0], row[2], row[5]);
+        // Places between the corners may ask for more of a change of velocity.
+        assert!(row[7] >= one * 0.995 && row[7] <= one * 1.03, "{}, not {one}: {row:?}", row[7]);
+    }
+}
+
+/// As many fail as in plain sampling by a sequence that has nothing in common with the draws.
+#[test]
+fn plates_fail_as_often_as_in_plain_sampling() {
+    let file = file(&BOARD.replace("extent = [\"30 mm\", \"20 mm\"]\n", ""));
+    let (many, drops) = (2000, 300_u32);
+    let run = |samples| Sampler::new(&file, settings(samples)).unwrap().run::<()>(false, &|| true, |_| Ok(())).unwrap();
+    let scatter = run(many);
+    let part = &scatter.components[0];
+    assert_eq!((scatter.drawn, scatter.followed, scatter.pilot, part.unanswered), (many, many, None, 0));
+    assert_eq!(scatter.inputs, [Input::Tilt, Input::Direction, Input::Across(0)]);
+    assert_eq!(scatter.assumed_even, []);
+    // Multiples of the powers of a root of x⁴ = x + 1 fill the cube evenly.
+    let shares = |k: u32| {
+        [0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_3].map(|a| (a * f64::from(k)).fract())
+    };
+    let fails = (1..=drops).filter(|&k| {
+        let [direction, tilt, across] = shares(k);
+        asked(&file, 360.0 * direction, 0.5 + 3.5 * tilt, 0.001 * (-10.0 + 25.0 * across)) > 1.0
+    });
+    #[expect(clippy::cast_precision_loss, reason = "a small count")]
+    let failed = fails.count() as f64 / f64::from(drops);
+    let found = 1.0 - part.survival.estimate;
+    assert!((0.2..0.8).contains(&failed), "{failed}");
+    // Four standard deviations of both.
+    let most = 4.0 * (failed * (1.0 - failed) * (1.0 / 2000.0 + 1.0 / f64::from(drops))).sqrt();
+    assert!((found - failed).abs() < most, "{found} beside {failed}");
+    assert_eq!(part.drivers[0].input, Input::Direction);
+}
+
+/// A direction of the file is drawn by its distribution, and no other.
+#[test]
+fn a_direction_of_the_file_is_drawn() {
+    let text = BOARD.replace("tilt = {", "direction = { uniform = [\"100 deg\", \"120 deg\"] }\ntilt = {");
+    let (columns, rows) = values(&file(&text), 20);
+    assert_eq!(columns[0], Column::DirectionDeg);
+    assert!(rows.iter().all(|row| (100.0..=120.0).contains(&row[0])), "{rows:?}");
+    let fixed = text.replace("{ uniform = [\"100 deg\", \"120 deg\"] }", "\"100 deg\"");
+    let (_, fixed) = values(&file(&fixed), 20);
+    assert!(fixed.iter().all(|row| (row[0] - 100.0).abs() < 1e-12));
+    // What else is drawn is the same.
+    assert!(fixed.iter().zip(&rows).all(|(a, b)| a[2].to_bits() == b[2].to_bits() && a[5].to_bits() == b[5].to_bits()));
+}
+
+/// A drop of the terminal and the middle of its board.
+fn one(file: &ProductFile, tilt_deg: f64, direction_deg: f64) -> (SingleDrop, Part) {
+    let across =
+        Across { width: file.product.width.unwrap(), direction_rad: direction_deg.to_radians(), posture: None };
+    let drop = SingleDrop {
+        body: file.product.body,
+        across: Some(across),
+        first: clatter::End::A,
+        tilt_rad: tilt_deg.to_radians(),
+        flat: false,
+        speed_m_s: 3.0,
+        restitution: 0.4,
+        gravity_m_s2: file.drop.gravity_m_s2,
+        contact_time_s: Some(4e-4),
+        contact_law: file.product.law(),
+    };
+    (drop, Part { across_m: 0.02, ..Part::new(0.05, None) })
+}
+
+/// Where β = 1 + α the plate that lands on its edge is the bar along its length, and the bar is told to be enough; on a corner it is not.
+#[test]
+fn the_bar_is_the_cheapest_where_the_width_does_nothing() {
+    let alpha = (75.0_f64 / 43.0).powi(2);
+    let text = BOARD
+        .replace("\"20 mm\"]\ncenter", &format!("\"{} mm\"]\ncenter", 35.0 / (1.0 + alpha).sqrt()))
+        .replace("[\"6 mm\", \"-4 mm\"]", "[\"0 mm\", \"0 mm\"]");
+    let file = file(&text);
+    let limit = Limit::new(LimitKind::VelocityChange, 5.0);
+    let (drop, part) = one(&file, 0.25, 0.0);
+    let edge = Ladder::measure(&drop, &part, &limit, 0.01).unwrap();
+    let rungs: Vec<_> = edge.models.iter().map(|m| m.model).collect();
+    assert_eq!(rungs, [Rung::Bar, Rung::Plate, Rung::Block]);
+    assert_eq!((edge.cheapest, edge.reference.model), (Rung::Bar, Rung::Block));
+    assert!(edge.models.iter().all(|m| m.error < 0.01 && m.strikes > 1), "{edge:?}");
+    assert!(
+        edge.reason.starts_with("its width does nothing here: h_y/h_x = 0.00e0; bar is off by 0."),
+        "{}",
+        edge.reason
+    );
+
+    let (drop, part) = one(&file, 1.0, 40.0);
+    let corner = Ladder::measure(&drop, &part, &limit, 0.05).unwrap();
+    let [bar, plate, block] = &corner.models[..] else { panic!("{corner:?}") };
+    assert!(bar.error > 0.05 && plate.error < 0.05 && block.error < 1e-12, "{corner:?}");
+    assert_eq!(corner.cheapest, Rung::Plate);
+    assert!(
+        corner.reason.starts_with("it turns about its length too, as no bar does: h_y/h_x = 3.92e-1; bar is off by"),
+        "{}",
+        corner.reason
+    );
+    // The bar has the tilt that the length has.
+    let along = SingleDrop { across: None, tilt_rad: (drop.tilt_rad.sin() * 40_f64.to_radians().cos()).asin(), ..drop };
+    let own = answer(&along, &Part::new(0.05, None), &limit, Model::Compliant, 0.05).unwrap();
+    assert!((bar.value / own.value - 1.0).abs() < 0.01, "{} beside {}", bar.value, own.value);
+    // A plate of steep tilt is not what its box is.
+    let (steep, part) = one(&file, 20.0, 40.0);
+    let steep = Ladder::measure(&steep, &part, &limit, 0.01).unwrap();
+    assert!(
+        steep.cheapest == Rung::Block && steep.reason.starts_with("real tilt counts: φ² = 1.22e-1; plate"),
+        "{steep:?}"
+    );
+}
+
+/// Every limit of a product has its three rungs; where masses lie askew there is no box, which is told.
+#[test]
+fn products_with_a_width_have_ladders() {
+    let text = BOARD.replace("tilt = {", "direction = [\"20 deg\", \"40 deg\"]\ntilt = {");
+    let of = |text: &str| {
+        let file = file(text);
+        file.ladders(&file.assess().unwrap(), 0.05).unwrap()
+    };
+    let ladders = of(&text);
+    assert_eq!((ladders.limits.len(), ladders.left_out.len()), (2, 0));
+    assert!(ladders.limits.iter().all(|limit| limit.ladder.models.len() == 3 && limit.ladder.groups.across.is_some()));
+    let masses = r#"masses = [
+    { mass = "100 g", from = ["-75 mm", "-35 mm"], to = ["75 mm", "35 mm"] },
+    { mass = "60 g", position = ["40 mm", "20 mm"] },
+]"#;
+    let given = "radius_of_gyration = [\"43 mm\", \"20 mm\"]\ncenter_of_mass = [\"6 mm\", \"-4 mm\"]";
+    for limit in of(&text.replace(given, masses)).limits {
+        assert_eq!((limit.ladder.models.len(), limit.ladder.reference.model), (2, Rung::Plate));
+        assert!(
+            limit.ladder.reason.ends_with("; no box is followed whose masses lie askew"),
+            "{}",
+            limit.ladder.reason
+        );
+    }
+}
+
+/// What each lever recommends holds when the product with these values is assessed as a whole; the place across is one of them.
+#[test]
+fn changes_of_plates_hold_when_assessed() {
+    let text = BOARD
+        .replace(
+            "tilt = { uniform = [\"0.5 deg\", \"4 deg\"] }",
+            "direction = [\"30 deg\", \"40 deg\"]\ntilt = [\"1 deg\", \"2 deg\"]",
+        )
+        .replace("[\"-20 mm\", { uniform = [\"-10 mm\", \"15 mm\"] }]", "[\"10 mm\", [\"18 mm\", \"20 mm\"]]")
+        .replace("acceleration_limit = \"1400 gn\"\n", "")
+        .replace("5.5 m/s", "4.5 m/s");
+    let file = file(&text);
+    let before = file.assess().unwrap();
+    assert_eq!(before.verdict, Verdict::Unsafe);
+    let margin = 0.05;
+    let found = file.remedies(&before, &Bounds::default(), margin).unwrap();
+    let levers: Vec<_> = found[0].levers.iter().map(|remedy| remedy.lever).collect();
+    let limit = Lever::Limit(LimitKind::VelocityChange);
+    let known = [
+        Lever::Restitution,
+        Lever::Position,
+        Lever::Across,
+        Lever::Frequency,
+        Lever::Damping,
+        Lever::ContactTime,
+        limit,
+    ];
+    assert_eq!(levers, known);
+    let mut held = Vec::new();
+    for remedy in &found[0].levers {
+        let Outcome::Change { change, .. } = &remedy.outcome else { continue };
+        let [lo, hi] = change.to;
+        let to = Spread::new(lo, hi, if lo < hi { Law::Range } else { Law::Value }).unwrap();
+        let mut changed = file.clone();
+        let part = &mut changed.components[0];
+        match remedy.lever {
+            Lever::Restitution => changed.product.restitution = to,
+            Lever::Position => part.position_m = to,
+            Lever::Across => part.across_m = to,
+            Lever::ContactTime => changed.product.contact_time_s = Some(to),
+            Lever::Limit(kind) => part.limits = part.limits.with(kind, to),
+            other => panic!("{other:?} of a part that is mounted rigidly"),
+        }
+        let after = changed.assess().unwrap();
+        let room = after.components[0].limits[0].margin.unwrap();
+        assert!(after.verdict == Verdict::Safe && room >= margin, "{change:?}: {room}");
+        held.push(remedy.lever);
+    }
+    assert!(held.contains(&Lever::Across) && held.contains(&limit), "{held:?}");
+    // Towards the middle, to a millimeter, and as wide as it was.
+    let across = found[0].levers.iter().find(|remedy| remedy.lever == Lever::Across).unwrap();
+    let Outcome::Change { change, .. } = &across.outcome else { panic!("{across:?}") };
+    assert!(change.to[1] < 0.02 && (change.to[1] - change.to[0] - 0.002).abs() < 1e-9, "{change:?}");
+}
