@@ -131,8 +131,8 @@ fn the_command_below_a_worst_drop_of_a_plate_says_the_same() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("plate.toml").display().to_string();
     // Beyond 10 degrees the command warns of the plate's small tilt.
-    let text = std::fs::read_to_string(example("handheld-plate.toml")).unwrap().replace("12 deg", "9 deg");
-    std::fs::write(&path, text).unwrap();
+    let text = fs::read_to_string(example("handheld-plate.toml")).unwrap().replace("12 deg", "9 deg");
+    fs::write(&path, text).unwrap();
     let outcome = clatter(["assess", &path, "--format=json"]);
     let json: Value = serde_json::from_str(&outcome.stdout).unwrap();
     let components = json["components"].as_array().unwrap();
