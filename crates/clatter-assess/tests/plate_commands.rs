@@ -81,9 +81,9 @@ fn asked(file: &ProductFile, direction_deg: f64, tilt_deg: f64, across_m: f64) -
 /// Every sample of a plate once more, as one drop: direction and place across are those of the row.
 #[test]
 fn samples_of_plates_are_single_drops() {
+    use Column::{AcrossM, ContactTimeS, DirectionDeg, Model, Restitution, SpeedMS, TiltDeg, Utilization};
     let file = file(BOARD);
     let (columns, rows) = values(&file, 60);
-    use Column::{AcrossM, ContactTimeS, DirectionDeg, Model, Restitution, SpeedMS, TiltDeg, Utilization};
     let known = [DirectionDeg, SpeedMS, TiltDeg, Restitution, ContactTimeS, AcrossM(0), Model, Utilization(0)];
     assert_eq!(columns, known);
     for row in rows {
