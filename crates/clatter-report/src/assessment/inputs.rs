@@ -1,6 +1,6 @@
 //! What an assessment was made from, in words: the product, its drop, how a part is held.
 
-use clatter_assess::{Assessment, Component, Damping, Fall, First, Mount, ProductFile, Spread, Width};
+use clatter_assess::{Assessment, Axis, Component, Damping, Fall, First, Mount, ProductFile, Spread, Width};
 use clatter_figures::{model_words as model, three};
 
 use crate::Pages;
@@ -34,7 +34,16 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 
         (First::Either, None) => "rising to any direction".to_owned(),
         (First::Either, Some(given)) => format!("rising to {}", degrees(given)),
     };
-    add("Tilt", format!("{tilt} at the first touch, {first}"));
+    if file.landings.is_empty() {
+        add("Tilt", format!("{tilt} at the first touch, {first}"));
+    } else {
+        let source = file.landings.iter().find_map(|landing| landing.source);
+        let drops = match &file.landings[..] {
+            [one] => one.attitude.to_string(),
+            all => format!("{} of them", all.len()),
+        };
+        add("Lands on", source.map_or(drops.clone(), |source| format!("{drops}: {source}")));
+    }
     let gravity = file.drop.gravity_m_s2;
     add(
         "Gravity",
@@ -42,7 +51,11 @@ pub(super) fn rows(file: &ProductFile, assessment: &Assessment) -> Vec<[String; 
     );
     // It is the same for all limits.
     if let Some(limit) = assessment.components.iter().flat_map(|c| &c.limits).next() {
-        let tilt = if product.width.is_some() { ", lever arms of a level plate" } else { "" };
+        let tilt = match (&product.width, &file.landings[..]) {
+            (None, _) => "",
+            (Some(_), []) => ", lever arms of a level plate",
+            (Some(_), _) => ", a box with full rotation",
+        };
         rows.push(["Model".to_owned(), format!("{}{tilt}", model(limit.model.bar))]);
     }
     rows
@@ -120,7 +133,13 @@ fn drop(file: &ProductFile) -> String {
 /// Where a part sits and how it is held, in a sentence.
 pub(super) fn held(component: &Component, is_plate: bool) -> String {
     if is_plate {
-        return format!("It sits {}. {}", on_plate(component), mount(component));
+        let along = match component.inside.axis {
+            Axis::Z => "",
+            Axis::X => " It moves along the length.",
+            Axis::Y => " It moves along the width.",
+            Axis::Any => " The magnitude of what it feels counts.",
+        };
+        return format!("It sits {}. {}{along}", on_plate(component), mount(component));
     }
     let [lo, hi] = [component.position_m.lo(), component.position_m.hi()];
     let place = if lo < hi {

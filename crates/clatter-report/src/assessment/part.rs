@@ -43,7 +43,11 @@ fn columns(of: &LimitAssessment, worst: &WorstCase) -> [String; 9] {
     let or_none = |value: Option<f64>, factor: f64| value.map_or("–".to_owned(), |v| three(factor * v));
     let contact = worst.drop.contact_time_s.filter(|_| of.model.bar == Model::Compliant);
     [
-        worst.direction_deg().map_or_else(|| end(worst.drop.first).to_owned(), |to| format!("{}°", three(to))),
+        match (worst.landing, worst.direction_deg()) {
+            (Some(landing), _) => landing.to_string(),
+            (None, Some(to)) => format!("{}°", three(to)),
+            (None, None) => end(worst.drop.first).to_owned(),
+        },
         if worst.drop.flat { "flat".to_owned() } else { format!("{}°", three(worst.tilt_deg())) },
         format!("{} m/s", three(worst.drop.speed_m_s)),
         three(worst.drop.restitution),
@@ -64,6 +68,8 @@ fn row(pages: &Pages<'_>, part: &str, of: &LimitAssessment) -> Value {
     let file = pages.file;
     // A name that is drawn as boxes is no name that a command finds.
     let short = repeat(pages.path, part, of.limit, &pages.assessment.accuracy).filter(|said| said.chars().all(is_sure));
+    // What a box lands on is no drop of a file.
+    let short = short.filter(|_| of.worst_case.as_ref().is_none_or(|worst| worst.landing.is_none()));
     let known = |value: Option<f64>| value.map_or("–".to_owned(), |value| shown(of.unit, value));
     json!({
         "name": of.limit.words(),
@@ -104,7 +110,7 @@ fn summary(component: &Component, of: &LimitAssessment, portrait: &Portrait, is_
             )
         }
         Some(_) => String::new(),
-        None if portrait.plate.is_some() => portrait.plate.iter().map(plate::zone).collect(),
+        None if is_plate => portrait.plate.iter().map(plate::zone).collect(),
         None => " In the drops of the figures it holds nowhere along the product.".to_owned(),
     };
     format!("{} {tightest}{zone}", held(component, is_plate))
@@ -117,7 +123,13 @@ fn drop(worst: &WorstCase) -> String {
     } else {
         "the peak comes after the first impact".to_owned()
     };
-    let lands = if let Some(direction) = worst.direction_deg() {
+    let lands = if let Some(landing) = worst.landing {
+        let peak = peak.as_str();
+        let (off, speed, e) = (three(worst.tilt_deg()), three(worst.drop.speed_m_s), three(worst.drop.restitution));
+        return format!(
+            "That drop lands on the {landing}, {off}° off, at {speed} m/s, with e = {e}{frequency}; {peak}."
+        );
+    } else if let Some(direction) = worst.direction_deg() {
         format!("on {}, rising to {}°,", plate::lowest(direction), three(direction))
     } else if worst.drop.flat {
         "flat, both ends as one,".to_owned()
