@@ -152,12 +152,12 @@ impl Course {
             pressed.map(|(strike, press)| (strike.point, [press.from_s, press.until_s])).collect()
         }, block => block.presses.clone())
     }
-    /// The angular acceleration, in rad where what a place feels has m: of a plate about several axes.
-    pub(crate) fn turned(&self) -> Vec<Excitation> {
+    /// The angular acceleration, in rad where what a place feels has m: of a plate and of a box about several axes, one after the other.
+    pub(crate) fn turned(&self) -> Box<dyn Iterator<Item = Excitation> + '_> {
         match self {
-            Self::Bar(motion) => vec![motion.turned()],
-            Self::Plate(motion) => directions().map(|along| motion.turned(along)).collect(),
-            Self::Block(motion) => axes().map(|about| motion.turned_about(about)).collect(),
+            Self::Bar(motion) => Box::new(std::iter::once_with(|| motion.turned())),
+            Self::Plate(motion) => Box::new(directions().map(|along| motion.turned(along))),
+            Self::Block(motion) => Box::new(axes().map(|about| motion.turned_about(about))),
         }
     }
 }

@@ -77,6 +77,8 @@ const FREQUENCIES_LATE: u32 = 4;
 const IN_A_TURN: f64 = 4.0;
 /// The golden ratio: multiples of it spread evenly from 0 to 1.
 const GOLDEN: f64 = 0.618_033_988_749_895;
+/// Where rebounds count a plate is followed to so many times the moment at which it has bounced clear, at first and at last.
+const REBOUNDS: [f64; 2] = [3.0, 6.0];
 /// Drops that are followed besides those of the grid where rebounds count.
 const SAMPLE: u32 = 128;
 /// About as many drops are followed in a climb.
@@ -281,7 +283,14 @@ impl Ranges<'_> {
     }
 
     fn follow(&self, place: &Place, until: Until) -> Result<Followed, Error> {
-        Followed::until(&self.single(place), self.model, self.tolerance.max(0.02), until)
+        let drop = self.single(place);
+        // A plate that loses little goes on and on; what it may do later is bounded by its energy.
+        let until = match until {
+            Until::Rebounded if self.product.width.is_some() => Until::Past(REBOUNDS[0] * drop.clear_s()),
+            Until::Over if self.product.width.is_some() => Until::Past(REBOUNDS[1] * drop.clear_s()),
+            until => until,
+        };
+        Followed::until(&drop, self.model, self.tolerance.max(0.02), until)
     }
 
     /// The same, once.

@@ -45,7 +45,7 @@ impl Followed {
             if contacts { shocks(turned, 0.0) } else { at_instants(turned.sections().map(|k| (k.from, k.delta_v))) }
         };
         let more = |a: Vec<Shock>, b: Vec<Shock>| if largest(&b).change > largest(&a).change { b } else { a };
-        self.motion.turned().iter().map(of).reduce(more).unwrap_or_default()
+        self.motion.turned().map(|turned| of(&turned)).reduce(more).unwrap_or_default()
     }
 }
 
