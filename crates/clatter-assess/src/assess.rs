@@ -13,7 +13,8 @@ use crate::{
 
 /// What the search may miss of a worst case, as a share of it: tests hold single drops of the same ranges to this.
 pub(crate) const COVERAGE: f64 = 0.02;
-/// The same of a box, of which fewer drops are followed: single drops passed 5 % of 200 limits at most.
+/// The same of a box, of which fewer drops are followed: where little energy is left after its landing, single drops of 200 limits passed
+/// what was found by 5 % at most.
 const COVERAGE_OF_BOXES: f64 = 0.1;
 
 /// A plate whose file does not tell its thickness is taken as so thick over its length where real tilt counts.
